@@ -1,0 +1,22 @@
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace palpa {
+
+/// An error somebody can act on: what happened, where (file, field), what to do about it.
+/// Thrown during set-up, file input and output; never inside the haptic tick.
+class Error : public std::runtime_error {
+ public:
+  Error(const std::string& what, const std::string& where, const std::string& remedy)
+      : std::runtime_error(where + ": " + what + ". " + remedy) {}
+};
+
+/// A mistake on the command line or in a configuration file (exit code 2 instead of 1).
+class UsageError : public Error {
+ public:
+  using Error::Error;
+};
+
+}  // namespace palpa

@@ -1,0 +1,67 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "anatomy/geometry/pose.h"
+
+/// What the haptic tick knows of the world: simple shapes that agree with the meshes near the tool.
+/// Made by the geometry activity at 60 Hz or more, read at 1 kHz. Everything is expressed in the
+/// haptic device's base frame D, metres.
+namespace palpa {
+
+/// Anatomical structure, as the score and the report name it.
+enum class Organ : std::uint8_t {
+  none, skin, muscle, clavicle, rib, sternum, lung, vein, artery
+};
+inline constexpr int kOrganCount = 9;
+
+/// Material that the needle tip moves through; mechanical constants are looked up by it.
+enum class Tissue : std::uint8_t {
+  air, skin, fat, muscle, connective, vein_lumen, artery_lumen, lung, bone
+};
+inline constexpr int kTissueCount = 9;
+
+const char* name(Organ organ);
+const char* name(Tissue tissue);
+Organ organFromName(const char* text);  ///< Organ::none when unknown
+
+/// Tangent plane of the skin: `n` outward, unit length.
+struct TangentPlane {
+  Packed3 p{};
+  Packed3 n{0, 0, 1};
+};
+
+/// Bone as a capsule: all points within `radius` of the segment a–b.
+struct Capsule {
+  Packed3 a{}, b{};
+  double radius = 0;
+  Organ organ = Organ::none;
+};
+
+/// A tissue boundary crossed by the (extended) needle axis, as a plane. `n` points back toward the
+/// side the needle comes from. Walls (`wall` != none) must be punctured before the tip is past them.
+struct Boundary {
+  Packed3 p{};
+  Packed3 n{0, 0, 1};
+  Tissue from = Tissue::air;
+  Tissue to = Tissue::air;
+  Organ wall = Organ::none;     ///< organ whose wall this is: vein, artery, lung; none: no wall
+  bool leaving = false;         ///< true for the back wall
+};
+
+struct LocalGeometry {
+  static constexpr int kMaxBones = 8;
+  static constexpr int kMaxBoundaries = 16;
+
+  std::uint64_t number = 0;     ///< 0: nothing has arrived yet
+  std::int64_t t_ns = 0;        ///< when the tool was where this was made for
+  TangentPlane skin;
+  std::int32_t bone_count = 0;
+  std::int32_t boundary_count = 0;
+  Capsule bones[kMaxBones];
+  Boundary boundaries[kMaxBoundaries];   ///< ordered from the skin inward
+};
+static_assert(std::is_trivially_copyable_v<LocalGeometry>);
+
+}  // namespace palpa

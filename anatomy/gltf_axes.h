@@ -1,0 +1,12 @@
+#pragma once
+
+#include "anatomy/geometry/pose.h"
+
+/// The one place where anatomy meets glTF's axes: glTF has +y up and +z toward the viewer of the
+/// model's front, so x_G = x_A, y_G = z_A, z_G = -y_A (a turn, no mirror). Both are in metres.
+namespace palpa::anatomy {
+
+inline Vec3 gltfFromA(const Vec3& v_A) { return {v_A.x(), v_A.z(), -v_A.y()}; }
+inline Vec3 aFromGltf(const Vec3& v_G) { return {v_G.x(), -v_G.z(), v_G.y()}; }
+
+}  // namespace palpa::anatomy

@@ -1,0 +1,200 @@
+#include "anatomy/local_geometry_builder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "anatomy/geometry/error.h"
+#include "anatomy/nearest_on_segment.h"
+
+namespace palpa::anatomy {
+namespace {
+
+constexpr double kBoneReach = 0.040;  // bones further from tip and shaft are left out
+constexpr double kFitReach = 0.020;   // of the bone around the nearest point goes into the capsule
+constexpr double kFlattest = 0.020;   // a "tube" of larger radius is a plate: no capsule fits it
+constexpr double kAhead = 0.060;      // boundaries are looked for this far beyond the tip
+constexpr double kTowardSkin = 0.02;  // sine of the least angle at which the axis counts as inward
+
+bool isBone(Organ organ) {
+  return organ == Organ::clavicle || organ == Organ::rib || organ == Organ::sternum;
+}
+
+Tissue insideOf(Organ organ) {
+  switch (organ) {
+    case Organ::vein:
+      return Tissue::vein_lumen;
+    case Organ::artery:
+      return Tissue::artery_lumen;
+    case Organ::lung:
+      return Tissue::lung;
+    default:
+      return Tissue::bone;
+  }
+}
+
+// The fitted tube, moved so that it touches the surface at its nearest point with its normal.
+Capsule touching(const SurfaceQuery::Tube& tube, const SurfacePoint& nearest, Organ organ) {
+  const Vec3 fitted = (tube.b_A - tube.a_A).normalized();
+  const double along = nearest.n_A.dot(fitted);
+  Vec3 axis = fitted, on_axis = tube.a_A;
+  constexpr double kEndOfBone = 0.7;  // there the normal runs along the tube: keep the fit
+  if (std::abs(along) < kEndOfBone) {
+    axis = (fitted - along * nearest.n_A).normalized();
+    on_axis = nearest.p_A - tube.radius * nearest.n_A;
+  }
+  double low = (tube.a_A - on_axis).dot(axis), high = (tube.b_A - on_axis).dot(axis);
+  // A capsule reaches its radius beyond its ends; the bone's vertices do not.
+  const double shorten = std::min(0.8 * tube.radius, (high - low) / 2);
+  low += shorten;
+  high -= shorten;
+  return {pack(Vec3(on_axis + low * axis)), pack(Vec3(on_axis + high * axis)), tube.radius, organ};
+}
+
+// Walks along the axis and keeps what is on either side consistent.
+class BoundaryList {
+ public:
+  BoundaryList(const Vec3& tip, const Vec3& direction, LocalGeometry* geometry)
+      : tip_(tip), direction_(direction), geometry_(geometry) {}
+
+  void layer(double s, const Vec3& n, Tissue to, Organ wall) {
+    if (inside_ < 0) add(s, n, background_, to, wall, false);
+    background_ = to;
+  }
+
+  void crossing(const RayHit& hit, double s) {
+    const Organ wall = isBone(hit.organ) ? Organ::none : hit.organ;
+    if (hit.entering && inside_ < 0) {
+      add(s, hit.n_A, background_, insideOf(hit.organ), wall, false);
+      inside_ = hit.surface;
+    } else if (!hit.entering && inside_ == hit.surface) {
+      add(s, hit.n_A, insideOf(hit.organ), background_, wall, true);
+      inside_ = -1;
+    }
+  }
+
+ private:
+  void add(double s, Vec3 n, Tissue from, Tissue to, Organ wall, bool leaving) {
+    if (geometry_->boundary_count == LocalGeometry::kMaxBoundaries) return;  // the nearest are in
+    if (n.dot(direction_) > 0) n = -n;
+    geometry_->boundaries[geometry_->boundary_count++] = {
+        pack(Vec3(tip_ + s * direction_)), pack(n), from, to, wall, leaving};
+  }
+
+  Vec3 tip_, direction_;
+  LocalGeometry* geometry_;
+  Tissue background_ = Tissue::air;
+  int inside_ = -1;  // surface whose inside the axis is in
+};
+
+void expressInD(const Pose& X_DA, LocalGeometry* geometry) {
+  const auto point = [&](Packed3* p) { *p = pack(Vec3(X_DA * unpack(*p))); };
+  const auto vector = [&](Packed3* v) { *v = pack(Vec3(X_DA.linear() * unpack(*v))); };
+  point(&geometry->skin.p);
+  vector(&geometry->skin.n);
+  for (int i = 0; i < geometry->bone_count; ++i) {
+    point(&geometry->bones[i].a);
+    point(&geometry->bones[i].b);
+  }
+  for (int i = 0; i < geometry->boundary_count; ++i) {
+    point(&geometry->boundaries[i].p);
+    vector(&geometry->boundaries[i].n);
+  }
+}
+
+}  // namespace
+
+LocalGeometryBuilder::LocalGeometryBuilder(const Patient& patient, const SurfaceQuery& query)
+    : patient_(patient), query_(query), skin_(-1) {
+  patient.organ(Organ::skin);  // throws without a skin
+  for (std::size_t i = 0; i < patient.organs.size(); ++i) {
+    const OrganSurface& surface = patient.organs[i];
+    if (surface.organ == Organ::skin && skin_ < 0) skin_ = static_cast<int>(i);
+    if (!isBone(surface.organ)) continue;
+    Bone bone{static_cast<int>(i), surface.organ, {}};
+    for (const Vec3& p : surface.mesh.points) bone.box.extend(p);
+    bones_.push_back(bone);
+  }
+}
+
+void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis,
+                                    LocalGeometry* geometry) const {
+  const bool inserted = tool.punctured && axis.s_skin < 0;
+  const Vec3 other = inserted ? Vec3(axis.tip + axis.s_skin * axis.direction) : axis.tip;
+  for (const Bone& bone : bones_) {
+    if (geometry->bone_count == LocalGeometry::kMaxBones) return;
+    // From the middle outward no point of the needle can be nearer than this.
+    const Vec3 middle = (axis.tip + other) / 2;
+    const double outer = kBoneReach + (other - axis.tip).norm() / 2;
+    if (bone.box.exteriorDistance(middle) > outer ||
+        query_.closest(bone.surface, middle).distance > outer)
+      continue;
+    const SurfacePoint nearest = nearestToSegment(query_, bone.surface, axis.tip, other);
+    SurfaceQuery::Tube tube;
+    if (nearest.distance > kBoneReach ||
+        !query_.fitTube(bone.surface, nearest.p_A, kFitReach, &tube) || tube.radius > kFlattest)
+      continue;
+    geometry->bones[geometry->bone_count++] = touching(tube, nearest, bone.organ);
+  }
+}
+
+void LocalGeometryBuilder::addBoundaries(const Axis& axis, LocalGeometry* geometry) const {
+  const double inward = -axis.direction.dot(axis.skin_n);
+  if (inward < kTowardSkin || std::abs(axis.s_skin) > 1) return;
+  const SoftLayers& layers = patient_.layers;
+  struct Layer {
+    double depth;
+    Tissue to;
+    Organ wall;
+  };
+  const Layer planes[] = {
+      {0, Tissue::skin, Organ::skin},
+      {layers.skin, Tissue::fat, Organ::none},
+      {layers.skin + layers.fat, Tissue::muscle, Organ::none},
+      {layers.skin + layers.fat + layers.muscle, Tissue::connective, Organ::none}};
+  constexpr std::size_t kConnective = 3;  // the plane under the muscle
+  const double length = std::max(-axis.s_skin, 0.0) + kAhead;
+  const std::vector<RayHit> hits =
+      query_.cast(axis.tip + axis.s_skin * axis.direction, axis.direction, length);
+
+  BoundaryList list(axis.tip, axis.direction, geometry);
+  std::size_t next = 0;
+  const auto layersUpTo = [&](double s) {
+    for (; next < std::size(planes) && planes[next].depth / inward <= s; ++next)
+      list.layer(axis.s_skin + planes[next].depth / inward, axis.skin_n, planes[next].to,
+                 planes[next].wall);
+  };
+  for (const RayHit& hit : hits) {
+    if (hit.organ == Organ::skin) continue;  // the layers stand for it
+    layersUpTo(hit.s);
+    if (hit.organ != Organ::muscle) {
+      list.crossing(hit, axis.s_skin + hit.s);
+    } else if (!hit.entering && next == kConnective) {
+      // The muscle ends at its border before the axis is as deep as it is thick.
+      list.layer(axis.s_skin + hit.s, hit.n_A, Tissue::connective, Organ::none);
+      ++next;
+    }
+  }
+  layersUpTo(length);
+}
+
+LocalGeometry LocalGeometryBuilder::build(std::uint64_t number, std::int64_t t_ns, const Tool& tool,
+                                          const Pose& X_DA) const {
+  LocalGeometry geometry;
+  geometry.number = number;
+  geometry.t_ns = t_ns;
+  const Vec3 tip = tool.X_AT.translation(), direction = tool.X_AT.linear().col(2);
+  const SurfacePoint skin = query_.closest(skin_, tool.punctured ? tool.entry_A : tip);
+  geometry.skin = {pack(skin.p_A), pack(skin.n_A)};
+
+  const double inward = -direction.dot(skin.n_A);
+  const double height = (tip - skin.p_A).dot(skin.n_A);
+  const Axis axis{tip, direction, skin.p_A, skin.n_A,
+                  std::abs(inward) > kTowardSkin ? height / inward : 0};
+  addBones(tool, axis, &geometry);
+  addBoundaries(axis, &geometry);
+  expressInD(X_DA, &geometry);
+  return geometry;
+}
+
+}  // namespace palpa::anatomy

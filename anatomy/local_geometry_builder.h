@@ -1,0 +1,47 @@
+#pragma once
+
+#include "anatomy/geometry/local_geometry.h"
+#include "anatomy/patient.h"
+#include "anatomy/surface_query.h"
+
+namespace palpa::anatomy {
+
+/// Makes the snapshot that the haptic tick reads, around a predicted tool. Pure: same inputs, same
+/// bits. Skin plane at the surface point closest to the tip (before puncture) or to `entry`;
+/// bones within 40 mm of the tip or the inserted shaft as capsules that touch the bone's mesh at
+/// its nearest point, with its normal there; tissue boundaries along the needle axis from the skin
+/// inward to 60 mm beyond the tip (offset planes for skin, fat and muscle, which ends earlier where
+/// the axis leaves its mesh at a border; mesh crossings for vessels, lung and bone). A needle that
+/// points away from the skin has no boundaries.
+class LocalGeometryBuilder {
+ public:
+  LocalGeometryBuilder(const Patient& patient, const SurfaceQuery& query);
+
+  struct Tool {
+    Pose X_AT;  ///< tip at the origin of T, needle along +z of T, which points the way it advances
+    bool punctured = false;
+    Vec3 entry_A = Vec3::Zero();  ///< where the skin was punctured
+  };
+  LocalGeometry build(std::uint64_t number, std::int64_t t_ns, const Tool& tool,
+                      const Pose& X_DA) const;
+
+ private:
+  struct Bone {
+    int surface;
+    Organ organ;
+    Eigen::AlignedBox3d box;
+  };
+  struct Axis {
+    Vec3 tip, direction, skin_p, skin_n;
+    double s_skin;  ///< from the tip to the skin plane along the direction; negative once inside
+  };
+  void addBones(const Tool& tool, const Axis& axis, LocalGeometry* geometry) const;
+  void addBoundaries(const Axis& axis, LocalGeometry* geometry) const;
+
+  const Patient& patient_;
+  const SurfaceQuery& query_;
+  int skin_;
+  std::vector<Bone> bones_;
+};
+
+}  // namespace palpa::anatomy

@@ -1,0 +1,21 @@
+#pragma once
+
+#include "anatomy/parametric/vessels.h"
+#include "anatomy/parametric_patient.h"
+
+namespace palpa::anatomy {
+
+/// Everything that decides whether a draw can be a patient, before any costly mesh is made.
+struct Solution {
+  Clavicle clavicle;
+  BodySurface skin;
+  TaughtLine line;
+  Vessels vessels;
+};
+
+/// Checks the parameters against their documented ranges and places the vein so that the depth of
+/// its front wall at the target, along the skin's normal, is the one asked for (within 0.02 mm of
+/// the fields). Throws Error with the violated constraint.
+Solution solve(const PatientParameters& parameters);
+
+}  // namespace palpa::anatomy

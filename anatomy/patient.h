@@ -1,0 +1,67 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "anatomy/geometry/local_geometry.h"
+#include "anatomy/geometry/pose.h"
+
+/// A patient: closed surfaces with their meaning, and named landmarks. Frame A: +x patient's left,
+/// +y posterior, +z superior, origin at the suprasternal notch (on the skin). Metres.
+namespace palpa::anatomy {
+
+struct TriangleMesh {
+  std::vector<Vec3> points;
+  std::vector<Vec3> normals;                            ///< one a point, outward, unit length
+  std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+};
+
+struct OrganSurface {
+  std::string id;  ///< unique in the patient, e.g. "clavicle_right"
+  Organ organ = Organ::none;
+  TriangleMesh mesh;
+  std::array<float, 4> rgba{1, 1, 1, 1};
+};
+
+enum class Side { right, left };
+inline const char* name(Side side) { return side == Side::right ? "right" : "left"; }
+
+/// Thickness of the layers under the skin's surface, metres, measured along its normal.
+struct SoftLayers {
+  double skin = 0.002;
+  double fat = 0.006;
+  double muscle = 0.008;
+};
+
+/// Names used in `landmarks`; all are points in A.
+namespace landmark {
+inline constexpr const char* kNotch = "suprasternal_notch";
+inline constexpr const char* kSternalEnd = "clavicle_sternal_end";
+inline constexpr const char* kSternalEndPosteriorSuperior =
+    "clavicle_sternal_end_posterior_superior";
+inline constexpr const char* kAcromialEnd = "clavicle_acromial_end";
+inline constexpr const char* kMedialThird =
+    "clavicle_medial_third";  ///< junction of medial and middle thirds
+inline constexpr const char* kLateralThird = "clavicle_lateral_third";
+inline constexpr const char* kEntry =
+    "entry_point";  ///< on the skin, 1 cm below the medial-third junction
+inline constexpr const char* kVeinTarget =
+    "vein_target";  ///< centre of the lumen where the taught line meets it
+}  // namespace landmark
+
+struct Patient {
+  std::string name;
+  Side side = Side::right;  ///< the side that is punctured
+  std::uint64_t seed = 0;
+  SoftLayers layers;
+  std::vector<OrganSurface> organs;
+  std::map<std::string, Vec3> landmarks;  ///< p_A
+
+  const Vec3& landmark(const std::string& landmark_name) const;  ///< throws Error when absent
+  const OrganSurface& organ(Organ kind) const;  ///< the first of its kind; throws Error
+};
+
+}  // namespace palpa::anatomy

@@ -1,0 +1,180 @@
+#include "anatomy/patient_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "anatomy/shapes/mesh_tools.h"
+#include "anatomy/surface_query.h"
+
+namespace palpa::anatomy {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::infinity();
+
+class Checker {
+ public:
+  explicit Checker(const Patient& patient)
+      : patient_(patient),
+        query_(patient),
+        entry_(patient.landmark(landmark::kEntry)),
+        target_(patient.landmark(landmark::kVeinTarget)),
+        skin_(surface(Organ::skin)),
+        vein_(surface(Organ::vein)) {}
+
+  std::vector<Finding> run() {
+    checkLine();
+    checkFirstMet();
+    checkVein();
+    checkGaps();
+    checkMeshes();
+    return std::move(findings_);
+  }
+
+ private:
+  int surface(Organ organ) const {
+    patient_.organ(organ);  // throws when absent
+    for (std::size_t i = 0; i < patient_.organs.size(); ++i)
+      if (patient_.organs[i].organ == organ) return static_cast<int>(i);
+    return -1;
+  }
+
+  void report(const std::string& what, double value, const char* unit, bool ok,
+              const char* wanted) {
+    findings_.push_back({what, value, unit, ok, wanted});
+  }
+
+  double distanceToLine(int index) const {
+    constexpr int kSamples = 240;
+    double least = kNone;
+    for (int i = 0; i <= kSamples; ++i)
+      least = std::min(least,
+                       query_.closest(index, entry_ + (target_ - entry_) * i / kSamples).distance);
+    return least;
+  }
+
+  void checkLine() {
+    const Vec3 way = target_ - entry_, direction = way.normalized();
+    const SurfacePoint skin = query_.closest(skin_, entry_);
+    report("entry point off the skin", 1e3 * std::abs(skin.distance), "mm",
+           std::abs(skin.distance) < 1e-3, "below 1");
+    const double angle = std::asin(-direction.dot(skin.n_A)) * 180 / std::numbers::pi;
+    report("needle to skin", angle, "deg", angle > 10 && angle <= 30, "10 to 30");
+    report("entry to vein target", 1e3 * way.norm(), "mm", way.norm() <= 0.060, "at most 60");
+    const double medial = patient_.side == Side::right ? direction.x() : -direction.x();
+    report("medial part of the direction", medial, "", medial > 0.5, "above 0.5");
+    report("posterior part of the direction", direction.y(), "", direction.y() > 0, "above 0");
+    report("cephalad part of the direction", direction.z(), "", direction.z() > 0, "above 0");
+    const double clearance = 1e3 * distanceToLine(surface(Organ::clavicle));
+    report("needle axis to clavicle", clearance, "mm", clearance >= 1 && clearance <= 4, "1 to 4");
+  }
+
+  // Structures that must not be met before the vein on the line, nor 10 mm along the skin's normal.
+  static bool vital(Organ organ) { return organ != Organ::skin && organ != Organ::muscle; }
+
+  void checkFirstMet() {
+    const Vec3 direction = (target_ - entry_).normalized();
+    const auto hits = query_.cast(entry_ - 5e-3 * direction, direction, 0.070);
+    const auto first =
+        std::find_if(hits.begin(), hits.end(), [](auto& h) { return vital(h.organ); });
+    const bool vein_first = first != hits.end() && first->organ == Organ::vein;
+    report("way to what the needle meets first (the vein)",
+           first == hits.end() ? 0 : 1e3 * (first->s - 5e-3), "mm", vein_first, "the vein");
+    const Vec3 inward = -query_.closest(skin_, entry_).n_A;
+    const auto down = query_.cast(entry_ + 1e-4 * inward, inward, 0.060);
+    const auto deep =
+        std::find_if(down.begin(), down.end(), [](auto& h) { return vital(h.organ); });
+    const double free = deep == down.end() ? 60 : 1e3 * deep->s;
+    report("free depth under the entry along the normal", free, "mm", free > 10, "above 10");
+  }
+
+  void checkVein() {
+    const SurfacePoint skin = query_.closest(skin_, target_);
+    const Vec3 inward = (target_ - skin.p_A).normalized();
+    double depth = 0;
+    for (const RayHit& hit : query_.cast(skin.p_A, inward, 0.080))
+      if (hit.surface == vein_ && hit.entering) {
+        depth = hit.s;
+        break;
+      }
+    report("vein depth under the skin", 1e3 * depth, "mm", depth >= 0.010 && depth <= 0.032,
+           "10 to 32");
+    const double diameter = lumenDiameter();
+    report("vein diameter", 1e3 * diameter, "mm", diameter >= 0.005 && diameter <= 0.014,
+           "5 to 14");
+    report("target inside the vein", -1e3 * query_.closest(vein_, target_).distance, "mm",
+           query_.closest(vein_, target_).distance < 0, "above 0");
+    const double pleura = query_.closest(surface(Organ::lung), target_).distance - diameter / 2;
+    report("vein to pleura", 1e3 * pleura, "mm", pleura >= 0.001 && pleura <= 0.012, "1 to 12");
+  }
+
+  // Mean chord through the target across the vein's axis.
+  double lumenDiameter() const {
+    SurfaceQuery::Tube tube;
+    if (!query_.fitTube(vein_, target_, 0.010, &tube)) return 0;
+    const Mat3 R = rotationWithZ((tube.b_A - tube.a_A).normalized());
+    constexpr int kChords = 12;
+    double sum = 0;
+    for (int i = 0; i < kChords; ++i) {
+      const double angle = std::numbers::pi * i / kChords;
+      const Vec3 across = R * Vec3(std::cos(angle), std::sin(angle), 0);
+      for (const double sign : {-1.0, 1.0})
+        for (const RayHit& hit : query_.cast(target_, sign * across, 0.030))
+          if (hit.surface == vein_) {
+            sum += hit.s;
+            break;
+          }
+    }
+    return sum / kChords;
+  }
+
+  // Least signed distance of one surface's vertices to another: negative where they overlap.
+  double gap(int a, int b) const {
+    double least = kNone;
+    for (const Vec3& p : patient_.organs[a].mesh.points)
+      least = std::min(least, query_.closest(b, p).distance);
+    return least;
+  }
+
+  void checkGaps() {
+    const auto& organs = patient_.organs;
+    for (int a = 0; a < static_cast<int>(organs.size()); ++a)
+      for (int b = 0; b < a; ++b) {
+        if (!vital(organs[a].organ) || !vital(organs[b].organ)) continue;
+        const double found = 1e3 * gap(a, b);
+        report("gap " + organs[b].id + " - " + organs[a].id, found, "mm", found > 0.3, "above 0.3");
+      }
+    for (int a = 0; a < static_cast<int>(organs.size()); ++a) {
+      if (a == skin_) continue;
+      double shallowest = kNone;
+      for (const Vec3& p : organs[a].mesh.points)
+        shallowest = std::min(shallowest, -query_.closest(skin_, p).distance);
+      report("depth of " + organs[a].id, 1e3 * shallowest, "mm", shallowest > 1e-3, "above 1");
+    }
+  }
+
+  void checkMeshes() {
+    std::size_t triangles = 0;
+    int open = 0;
+    for (const OrganSurface& o : patient_.organs) {
+      triangles += o.mesh.triangles.size();
+      if (!isClosed(o.mesh) || signedVolume(o.mesh) <= 0) ++open;
+    }
+    report("surfaces open or inside out", open, "", open == 0, "0");
+    report("triangles", static_cast<double>(triangles), "", triangles <= 2'000'000,
+           "at most 2000000");
+  }
+
+  const Patient& patient_;
+  SurfaceQuery query_;
+  Vec3 entry_, target_;
+  int skin_, vein_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+std::vector<Finding> checkPatient(const Patient& patient) { return Checker(patient).run(); }
+
+}  // namespace palpa::anatomy

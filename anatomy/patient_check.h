@@ -1,0 +1,25 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "anatomy/patient.h"
+
+namespace palpa::anatomy {
+
+/// One measurement on a patient's meshes against what the taught manoeuvre needs.
+struct Finding {
+  std::string name;
+  double value;
+  std::string unit;
+  bool ok;
+  std::string wanted;  ///< in words, e.g. "10 to 30"
+};
+
+/// Measures the patient as it is, however it was made: line from entry to vein target (angle to the
+/// skin, way, clearance from the clavicle, what it crosses first), vein (depth, diameter, distance
+/// to pleura and artery), structures that must not meet, closed surfaces. Needs the landmarks
+/// entry_point and vein_target and the organs of the reference patient; throws Error without.
+std::vector<Finding> checkPatient(const Patient& patient);
+
+}  // namespace palpa::anatomy

@@ -1,0 +1,16 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+/// One function a subcommand of `palpa`: adds it to the program with its options, examples and action.
+/// Actions throw UsageError (exit code 2) or Error (1).
+namespace palpa::cli {
+
+void addParacentesis(CLI::App& program);   ///< paracentesis, train
+void addReplay(CLI::App& program);
+void addCalibrate(CLI::App& program);
+void addPatient(CLI::App& program);
+void addBoard(CLI::App& program);
+void addExport(CLI::App& program);
+
+}  // namespace palpa::cli

@@ -1,0 +1,131 @@
+#include "apps/cli/demonstration.h"
+
+#include <algorithm>
+#include <cstdio>
+
+#include "apps/cli/needle_session.h"
+#include "apps/cli/mouse_hand.h"
+#include "apps/cli/output_folder.h"
+#include "apps/cli/recorded_session.h"
+#include "apps/cli/stage.h"
+#include "apps/runtime/executive.h"
+
+namespace palpa::cli {
+namespace {
+
+constexpr std::uint64_t kDemonstrationSeed = 7001;
+constexpr std::int64_t kPlaybackPeriod = 16'666'667;
+constexpr std::int64_t kLinger = 3 * runtime::kSecond;
+
+/// A recorded trial, told to the scene at the speed at which it happened.
+class Playback final : public runtime::Activity {
+ public:
+  struct Moment {
+    assess::TrialSample sample;
+    runtime::ToolState tool;
+  };
+  Playback(std::vector<Moment> moments, runtime::Bus& bus, task_needle::TaskChannels& channels,
+           runtime::Executive& executive)
+      : moments_(std::move(moments)), bus_(bus), channels_(channels), executive_(executive) {}
+  const char* name() const override { return "playback"; }
+
+  std::int64_t step(std::int64_t now_ns) override {
+    task_needle::UserRequest request;
+    while (channels_.requests_to_task.pop(&request))
+      if (request.command == task_needle::UserCommand::start || request.command == task_needle::UserCommand::quit)
+        executive_.stop();
+    if (start_ns_ < 0) start_ns_ = now_ns;
+    const double t_s = static_cast<double>(now_ns - start_ns_) * 1e-9;
+    while (next_ < moments_.size() && moments_[next_].sample.t_s <= t_s) phases_.add(moments_[next_++].sample);
+    if (next_ == moments_.size() && (end_ns_ = end_ns_ < 0 ? now_ns : end_ns_, now_ns - end_ns_ > kLinger))
+      executive_.stop();
+    if (next_ > 0) publish(moments_[next_ - 1], now_ns);
+    return now_ns + kPlaybackPeriod;
+  }
+
+ private:
+  void publish(const Moment& moment, std::int64_t now_ns) {
+    task_needle::TaskStatus status;
+    status.state = task_needle::TrialState::running;
+    status.trial = status.trials = 1;
+    status.role = "demonstration";
+    status.phase = phases_.phase();
+    status.elapsed_s = moment.sample.t_s;
+    status.plunger = moment.sample.plunger;
+    status.blood_flows = moment.sample.tissue == Tissue::vein_lumen && moment.sample.plunger > 0.25;
+    status.blood = status.blood_flows ? moment.sample.plunger : 0;
+    status.notice = "Demonstration by a simulated expert. Enter: your turn";
+    bus_.haptic_to_scene.publish(moment.tool, now_ns);
+    channels_.status_to_scene.publish(status, now_ns);
+  }
+
+  std::vector<Moment> moments_;
+  runtime::Bus& bus_;
+  task_needle::TaskChannels& channels_;
+  runtime::Executive& executive_;
+  assess::PhaseDetector phases_;
+  std::size_t next_ = 0;
+  std::int64_t start_ns_ = -1, end_ns_ = -1;
+};
+
+std::vector<Playback::Moment> momentsOf(const RecordedSession& session, const NeedleWorld& world) {
+  std::vector<Playback::Moment> moments;
+  assess::TrialSampler sampler(session.X_DA().inverse(), session.reader().info().tick_config.X_ET);
+  sampler.begin(1);
+  session.reader().ticks([&](const haptics::FlightRecord& record) {
+    Playback::Moment moment;
+    if (!sampler.add(record, &moment.sample)) return;
+    const Quat q_DE = unpack(record.reading.q_DE);
+    const Pose X_DE = makePose(q_DE.normalized().toRotationMatrix(), unpack(record.reading.p_DE));
+    moment.tool.X_DT = pack(X_DE * world.station.X_ET);
+    moment.tool.f_contact_D = record.f_contact_D;
+    moment.tool.f_command_D = record.f_command_D;
+    moment.tool.depth = record.depth;
+    moment.tool.plunger = record.reading.plunger;
+    moment.tool.phase = record.phase;
+    moment.tool.tissue = record.tissue;
+    moment.tool.wall = record.wall;
+    moment.tool.bone = record.bone;
+    moments.push_back(moment);
+  });
+  return moments;
+}
+
+}  // namespace
+
+void showDemonstration(const SessionOptions& options, NeedleWorld& world,
+                       const std::filesystem::path& folder) {
+  std::fprintf(stderr, "Preparing the expert's demonstration ...\n");
+  SessionOptions expert = options;
+  expert.command = "demonstration";
+  expert.role = "demonstration";
+  expert.who = OperatorKind::expert;
+  expert.seed = kDemonstrationSeed;
+  expert.trials = 1;
+  expert.trainee = "simulated-expert";
+  expert.fast = expert.no_views = expert.quiet = true;
+  expert.display = scene::Display::offscreen;
+  const std::filesystem::path place = makeOutputFolder((folder / "demonstration").string(), "");
+  runNeedleSession(expert, world, place);
+  const RecordedSession recorded(place / "session.palpa");
+
+  const Stage stage = makeStage(options, world, true);
+  const auto executive = runtime::makeRealExecutive();
+  runtime::Bus bus(executive->mode());
+  task_needle::TaskChannels channels(executive->mode());
+  Playback playback(momentsOf(recorded, world), bus, channels, *executive);
+  task_needle::SceneActivity::Setup setup;
+  setup.views = task_needle::SceneActivity::Views::continuous;
+  setup.view = stage.view.get();
+  setup.camera = world.station.camera;
+  setup.X_WA = world.X_WA;
+  setup.X_WD = world.station.X_WD;
+  setup.mark = "DEMONSTRATION: SIMULATED EXPERT";
+  setup.input = [&](const scene::ViewInput& input, std::int64_t) { handleKeys(input, channels); };
+  task_needle::SceneActivity scene(setup, bus, channels);
+  executive->add(playback, {0, false, false});
+  executive->add(scene, {1, false, true});
+  executive->run();
+}
+
+}  // namespace palpa::cli

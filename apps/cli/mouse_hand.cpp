@@ -1,0 +1,109 @@
+#include "apps/cli/mouse_hand.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpa::cli {
+namespace {
+
+using task_needle::UserCommand;
+constexpr double kMetresPerPixel = 0.00025;
+constexpr double kMetresPerNotch = 0.001;
+constexpr double kTurnPerKey = 0.035;        // rad, 2 degrees
+constexpr double kSteepestTurn = 1.4;        // rad from the skin's normal
+constexpr double kPlungerPerKey = 0.1;
+constexpr double kAboveSkin = 0.015;         // m, where the needle waits
+constexpr double kSmoothing = 0.03;          // s, the mouse's steps become motion
+constexpr std::int64_t kMousePeriod = runtime::kMillisecond;
+
+constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped", "other"};
+
+void request(task_needle::TaskChannels& channels, UserCommand command, const std::string& reason = "") {
+  channels.requests_to_task.push({command, reason});
+}
+
+void approach(double& value, double target, double share) { value += share * (target - value); }
+
+}  // namespace
+
+void handleKeys(const scene::ViewInput& input, task_needle::TaskChannels& channels) {
+  if (input.closed) request(channels, UserCommand::quit);
+  for (const std::string& key : input.keys) {
+    if (key == "Return" || key == "KP_Enter") request(channels, UserCommand::start);
+    else if (key == "p" || key == "P") request(channels, UserCommand::pause);
+    else if (key == "a" || key == "A") request(channels, UserCommand::abort);
+    else if (key == "space") request(channels, UserCommand::emergency_stop);
+    else if (key == "r" || key == "R") request(channels, UserCommand::rearm);
+    else if (key == "Escape") request(channels, UserCommand::quit);
+    else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '1' && key[1] <= '4')
+      request(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);
+  }
+}
+
+MouseHand::MouseHand(const Setup& setup, runtime::ChannelDevice& device,
+                     task_needle::TaskChannels& channels)
+    : setup_(setup), device_(device), channels_(channels) {
+  wish_.tip_A = pack(setup.anatomy.entry_A);
+  wish_.along = -kAboveSkin;
+  now_ = wish_;
+}
+
+void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
+  handleKeys(input, channels_);
+  if (input.left_button && dragging_) {
+    const double right = (input.mouse_x - mouse_x_) * kMetresPerPixel;
+    const double up = -(input.mouse_y - mouse_y_) * kMetresPerPixel;
+    // The screen's right is the patient's left in a supine view from the feet.
+    wish_.tip_A = pack(Vec3(unpack(wish_.tip_A) + right * Vec3::UnitX() + up * Vec3::UnitZ()));
+  }
+  dragging_ = input.left_button;
+  mouse_x_ = input.mouse_x;
+  mouse_y_ = input.mouse_y;
+  wish_.along = std::clamp(wish_.along + kMetresPerNotch * input.wheel, -0.05, 0.07);
+  // The free hand is on the keyboard: Z and X for a right-handed trainee, comma and period for a left.
+  const std::string draw = setup_.left_handed ? "period" : "z";
+  const std::string push = setup_.left_handed ? "comma" : "x";
+  for (const std::string& key : input.keys) {
+    if (key == "Left") wish_.turn_medial -= kTurnPerKey;
+    if (key == "Right") wish_.turn_medial += kTurnPerKey;
+    if (key == "Up") wish_.turn_cephalad += kTurnPerKey;
+    if (key == "Down") wish_.turn_cephalad -= kTurnPerKey;
+    if (key == draw || (key == "Z" && !setup_.left_handed)) wish_.plunger = std::min(1.0, wish_.plunger + kPlungerPerKey);
+    if (key == push || (key == "X" && !setup_.left_handed)) wish_.plunger = std::max(0.0, wish_.plunger - kPlungerPerKey);
+    if ((key == "t" || key == "T") && skin_key_) skin_key_();
+  }
+  wish_.turn_medial = std::clamp(wish_.turn_medial, -kSteepestTurn, kSteepestTurn);
+  wish_.turn_cephalad = std::clamp(wish_.turn_cephalad, -kSteepestTurn, kSteepestTurn);
+  wishes_.publish(wish_, now_ns);
+}
+
+std::int64_t MouseHand::step(std::int64_t now_ns) {
+  if (const Wish* wish = wishes_.read(now_ns)) {
+    const double share = 1e-3 / kSmoothing;
+    for (std::size_t i = 0; i < 3; ++i) approach(now_.tip_A[i], wish->tip_A[i], share);
+    approach(now_.turn_medial, wish->turn_medial, share);
+    approach(now_.turn_cephalad, wish->turn_cephalad, share);
+    approach(now_.along, wish->along, share);
+    approach(now_.plunger, wish->plunger, share);
+  }
+  const twin::VisibleAnatomy& a = setup_.anatomy;
+  // "Right" turns the tip to the right of the screen, whichever side is punctured.
+  const Vec3 screen_right = Vec3::UnitX() - Vec3::UnitX().dot(a.normal_A) * a.normal_A;
+  const Vec3 axis_A = (-a.normal_A + std::tan(now_.turn_medial) * screen_right.normalized() +
+                       std::tan(now_.turn_cephalad) * a.cephalad_A)
+                          .normalized();
+  const Pose X_AT = makePose(rotationWithZ(axis_A), unpack(now_.tip_A) + now_.along * axis_A);
+  const Pose X_DE = setup_.X_DA * X_AT * setup_.X_ET.inverse();
+  haptics::DeviceReading reading;
+  reading.t_ns = now_ns;
+  reading.sequence = ++sequence_;
+  reading.p_DE = pack(Vec3(X_DE.translation()));
+  reading.q_DE = pack(Quat(X_DE.rotation()));
+  reading.plunger = now_.plunger;
+  reading.homed = 1;
+  device_.publish(reading, now_ns);
+  due_ns_ = std::max((due_ns_ < 0 ? now_ns : due_ns_) + kMousePeriod, now_ns);
+  return due_ns_;
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,55 @@
+#pragma once
+
+#include <functional>
+
+#include "apps/runtime/activity.h"
+#include "apps/runtime/clock.h"
+#include "apps/runtime/channel_device.h"
+#include "apps/task_needle/needle_task.h"
+#include "apps/twin/operator.h"
+#include "scene/scene_view.h"
+
+namespace palpa::cli {
+
+/// Keys that every session understands: Enter, P, A, V + 1..4, space, R, Escape.
+void handleKeys(const scene::ViewInput& input, task_needle::TaskChannels& channels);
+
+/// The mouse as a haptic stand-in: it moves the needle; what it would feel is drawn. Moving the mouse with
+/// the left button held shifts the tip along the frontal plane, the wheel moves along the
+/// needle, the arrow keys turn it about its entry, Z and X (left-handed: period and comma) draw and push the plunger, T changes the skin.
+class MouseHand final : public runtime::Activity {
+ public:
+  struct Setup {
+    Pose X_DA, X_ET;
+    twin::VisibleAnatomy anatomy;
+    bool left_handed = false;
+  };
+  MouseHand(const Setup& setup, runtime::ChannelDevice& device, task_needle::TaskChannels& channels);
+
+  const char* name() const override { return "mouse"; }
+  std::int64_t step(std::int64_t now_ns) override;   ///< 1 kHz: publishes the smoothed pose
+  /// Called by the scene's thread with what the window reports.
+  void handle(const scene::ViewInput& input, std::int64_t now_ns);
+  void onSkinKey(std::function<void()> action) { skin_key_ = std::move(action); }
+
+ private:
+  struct Wish {
+    Packed3 tip_A{};
+    double turn_medial = 0, turn_cephalad = 0;   ///< rad, from the skin's normal
+    double along = 0;                            ///< m, from the wheel
+    double plunger = 0;
+  };
+  Setup setup_;
+  runtime::ChannelDevice& device_;
+  task_needle::TaskChannels& channels_;
+  runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
+  Wish wish_;                    // the scene thread's
+  double mouse_x_ = 0, mouse_y_ = 0;
+  bool dragging_ = false;
+  std::function<void()> skin_key_;
+  Wish now_;                     // the mouse thread's, smoothed
+  std::uint64_t sequence_ = 0;
+  std::int64_t due_ns_ = -1;
+};
+
+}  // namespace palpa::cli

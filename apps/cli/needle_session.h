@@ -1,0 +1,39 @@
+#pragma once
+
+#include <filesystem>
+#include <vector>
+
+#include "apps/cli/needle_world.h"
+#include "apps/cli/session_options.h"
+#include "apps/runtime/executive.h"
+#include "apps/task_needle/needle_task.h"
+#include "apps/task_needle/scene_activity.h"
+#include "apps/twin/virtual_bench.h"
+
+namespace palpa::cli {
+
+/// One registered (or not) recorded picture, for registration.csv.
+struct RegistrationRow {
+  std::string source;
+  int points = 0;
+  double rms_px = 0;
+  Pose X_CW = Pose::Identity();
+};
+
+struct SessionResult {
+  std::vector<task_needle::CompletedTrial> trials;
+  std::vector<task_needle::SavedPicture> pictures;
+  std::vector<runtime::Lateness> lateness;
+  std::optional<twin::BenchAccuracy> accuracy;
+  std::vector<RegistrationRow> registration;   ///< recorded pictures only
+  std::uint64_t dropped = 0;                   ///< records lost by the recorder
+  double simulated_s = 0;
+  bool quit = false;
+};
+
+/// Runs the trials: station, bench or person, camera, task, scene, recorder. Leaves session.palpa and
+/// view-*.png in `folder`.
+SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world,
+                               const std::filesystem::path& folder);
+
+}  // namespace palpa::cli

@@ -1,0 +1,85 @@
+#include "apps/cli/needle_world.h"
+
+#include <fstream>
+#include <sstream>
+
+#include "anatomy/parametric_patient.h"
+#include "anatomy/patient_file.h"
+#include "apps/runtime/random.h"
+#include "apps/station/assets.h"
+
+namespace palpa::cli {
+namespace {
+
+anatomy::Patient makePatient(const SessionOptions& options) {
+  if (!options.patient.empty()) return anatomy::readPatient(options.patient);
+  return anatomy::buildPatient(anatomy::drawParameters(
+      station::assetFile("patients/reference.json").string(), options.side, options.patient_seed));
+}
+
+task_needle::TaskSettings makeTask(const SessionOptions& options) {
+  task_needle::TaskSettings task = task_needle::readTask(
+      options.task.empty() ? station::assetFile("tasks/paracentesis.json")
+                           : std::filesystem::path(options.task));
+  if (!options.expert_path.empty()) task.expert_path = options.expert_path;
+  return task;
+}
+
+station::Station makeStation(const SessionOptions& options) {
+  station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/virtual_bench.json")
+                              : std::filesystem::path(options.station));
+  if (!options.intrinsics.empty()) station.camera = calibration::readCameraModel(options.intrinsics);
+  return station;
+}
+
+int surfaceIndex(const anatomy::Patient& patient, Organ organ) {
+  for (std::size_t i = 0; i < patient.organs.size(); ++i)
+    if (patient.organs[i].organ == organ) return static_cast<int>(i);
+  return -1;
+}
+
+}  // namespace
+
+NeedleWorld::NeedleWorld(const SessionOptions& options)
+    : station(makeStation(options)),
+      task(makeTask(options)),
+      needle(station::readNeedleFile(task.materials)),
+      patient(makePatient(options)),
+      query(patient),
+      geometry(patient, query),
+      landmarks(patient) {
+  if (!options.record_only) expert_path = calibration::readExpertPath(task.expert_path);
+  X_WA = options.camera.empty() ? station::placePatient(patient, station.near_edge_W)
+                                : station::placePatientOnBoard(patient);
+  if (!options.camera.empty())  // the bench's device stands where it stood, relative to the patient
+    station.X_WD = X_WA * station::placePatient(patient, station.near_edge_W).inverse() * station.X_WD;
+  X_DA = station.X_WD.inverse() * X_WA;
+}
+
+haptics::TickConfig NeedleWorld::tickConfig() const {
+  haptics::TickConfig config;
+  config.materials = needle.materials;
+  config.coupling = station.coupling;
+  config.safety = station.safety;
+  config.X_ET = pack(station.X_ET);
+  return config;
+}
+
+twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill) const {
+  twin::VisibleAnatomy v;
+  v.entry_A = patient.landmark(anatomy::landmark::kEntry);
+  v.normal_A = query.closest(surfaceIndex(patient, Organ::skin), v.entry_A).n_A;
+  v.aim_A = patient.landmark(anatomy::landmark::kSternalEndPosteriorSuperior) +
+            landmarks.vectorToA(skill.aim_offset_L);
+  v.medial_A = landmarks.vectorToA(Vec3::UnitX());
+  v.posterior_A = landmarks.vectorToA(Vec3::UnitY());
+  v.cephalad_A = landmarks.vectorToA(Vec3::UnitZ());
+  return v;
+}
+
+double NeedleWorld::punctureForce(std::uint64_t seed) const {
+  return runtime::RandomStream(seed, "skin.puncture").uniform(needle.puncture_low_N, needle.puncture_high_N);
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,40 @@
+#pragma once
+
+#include <memory>
+#include <optional>
+
+#include "anatomy/landmark_frame.h"
+#include "anatomy/local_geometry_builder.h"
+#include "anatomy/surface_query.h"
+#include "apps/cli/session_options.h"
+#include "apps/station/needle_file.h"
+#include "apps/station/station_file.h"
+#include "apps/task_needle/task_file.h"
+#include "apps/twin/operator.h"
+#include "calibration/expert_path.h"
+
+namespace palpa::cli {
+
+/// Everything a needle session rests on, read and checked before anything starts. Immovable: parts refer
+/// to each other.
+struct NeedleWorld {
+  explicit NeedleWorld(const SessionOptions& options);   ///< throws UsageError / Error
+  NeedleWorld(const NeedleWorld&) = delete;
+  NeedleWorld& operator=(const NeedleWorld&) = delete;
+
+  station::Station station;
+  task_needle::TaskSettings task;
+  station::NeedleFile needle;
+  anatomy::Patient patient;
+  anatomy::SurfaceQuery query;
+  anatomy::LocalGeometryBuilder geometry;
+  anatomy::LandmarkFrame landmarks;
+  std::optional<calibration::ExpertPath> expert_path;
+  Pose X_WA, X_DA;
+
+  haptics::TickConfig tickConfig() const;
+  twin::VisibleAnatomy visible(const twin::OperatorSkill& skill) const;
+  double punctureForce(std::uint64_t seed) const;   ///< this trial's skin
+};
+
+}  // namespace palpa::cli

@@ -1,0 +1,140 @@
+#include "apps/cli/recorded_session.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <unordered_map>
+
+#include "anatomy/geometry/error.h"
+#include "anatomy/patient_file.h"
+
+namespace palpa::cli {
+namespace {
+
+/// A text or bytes as a temporary file, for readers that take a path; removed at the end of its life.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& bytes, const char* extension) {
+    std::string pattern = (std::filesystem::temp_directory_path() / "palpa-XXXXXX").string() + extension;
+    const int fd = mkstemps(pattern.data(), static_cast<int>(std::strlen(extension)));
+    if (fd < 0) throw Error("cannot be made", pattern, "Is the disk full?");
+    path_ = pattern;
+    std::ofstream(path_, std::ios::binary) << bytes;
+    ::close(fd);
+  }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+Pose poseFrom(const nlohmann::json& json) {
+  return unpack(PackedPose{json.at("p_m").get<Packed3>(), json.at("q_wxyz").get<Packed4>()});
+}
+
+}  // namespace
+
+RecordedSession::RecordedSession(const std::filesystem::path& file)
+    : reader_(std::make_unique<record::SessionReader>(file)) {
+  const record::SessionInfo& info = reader_->info();
+  try {
+    const nlohmann::json session = nlohmann::json::parse(info.session_json);
+    X_DA_ = poseFrom(session.at("X_DA"));
+    simulated_ = session.at("simulated").get<bool>();
+    operator_ = session.at("operator").get<std::string>();
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(std::string("the session's description is damaged (") + e.what() + ")", file.string(),
+                "Restore the file from a backup");
+  }
+  patient_ = anatomy::readPatient(TemporaryFile(info.patient_glb, ".glb").path());
+  query_ = std::make_unique<anatomy::SurfaceQuery>(patient_);
+  rules_ = task_needle::readTask(TemporaryFile(info.task_json, ".json").path()).rules;
+  if (!info.expert_path_json.empty())
+    expert_path_ = std::make_unique<calibration::ExpertPath>(
+        calibration::readExpertPath(TemporaryFile(info.expert_path_json, ".json").path()));
+  trials_ = reader_->trials();
+}
+
+void RecordedSession::eachTrial(
+    const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const {
+  assess::TrialSampler sampler(X_DA_.inverse(), reader_->info().tick_config.X_ET);
+  auto trial = trials_.begin();
+  Samples samples;
+  const auto next = [&] {
+    if (trial == trials_.end()) return;
+    samples.clear();
+    sampler.begin(static_cast<std::uint32_t>(trial->header.trial));
+  };
+  next();
+  reader_->ticks([&](const haptics::FlightRecord& record) {
+    while (trial != trials_.end() &&
+           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial)) {
+      visit(*trial, samples);
+      ++trial;
+      next();
+    }
+    assess::TrialSample sample;
+    if (trial == trials_.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
+    if (sampler.add(record, &sample)) samples.push_back(sample);
+  });
+  for (; trial != trials_.end(); ++trial, next()) visit(*trial, samples);
+}
+
+assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& trial,
+                                                 const Samples& samples) const {
+  if (!expert_path_)
+    throw Error("no optimal path was recorded", "session", "It was made to calibrate experts, not to be scored");
+  const assess::TrialFacts facts{trial.header.trial, trial.header.role, simulated_,
+                                 trial.header.force_feedback, trial.header.seed, trial.end.outcome};
+  return assess::assessTrial(facts, samples, patient_, *query_, *expert_path_, rules_);
+}
+
+namespace {
+
+bool sameForces(const haptics::FlightRecord& a, const haptics::FlightRecord& b) {
+  return a.f_contact_D == b.f_contact_D && a.f_command_D == b.f_command_D &&
+         a.tau_missing_D == b.tau_missing_D && a.depth == b.depth && a.events == b.events &&
+         a.phase == b.phase && a.tissue == b.tissue && a.bone == b.bone && a.wall == b.wall &&
+         a.safety == b.safety;
+}
+
+}  // namespace
+
+ReplayCheck replayTicks(const record::SessionReader& reader) {
+  std::unordered_map<std::uint64_t, LocalGeometry> snapshots;
+  reader.snapshots([&](const LocalGeometry& g) { snapshots[g.number] = g; });
+  std::unordered_map<std::int64_t, haptics::TickState> keyframes;
+  reader.keyframes([&](std::int64_t tick, const haptics::TickState& state) { keyframes[tick] = state; });
+
+  const haptics::TickConfig config = reader.info().tick_config;
+  ReplayCheck check;
+  haptics::TickState state;
+  bool aligned = false;
+  reader.ticks([&](const haptics::FlightRecord& recorded) {
+    if (!aligned || state.tick != recorded.tick) {
+      if (aligned) ++check.gaps;
+      const auto keyframe = keyframes.find(recorded.tick);
+      aligned = keyframe != keyframes.end();
+      if (!aligned) return;  // wait for the next keyframe
+      state = keyframe->second;
+    }
+    const auto snapshot = snapshots.find(recorded.snapshot);
+    const haptics::FlightRecord again =
+        haptics::tick(config, state, recorded.reading,
+                      snapshot == snapshots.end() ? nullptr : &snapshot->second, recorded.commands,
+                      recorded.t_ns);
+    ++check.ticks;
+    if (sameForces(recorded, again)) return;
+    if (check.different++ == 0) check.first_difference = recorded.tick;
+  });
+  return check;
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <vector>
+
+#include "anatomy/surface_query.h"
+#include "apps/assess/assess_trial.h"
+#include "apps/assess/trial_sampler.h"
+#include "apps/record/session_file.h"
+#include "apps/task_needle/task_file.h"
+#include "calibration/expert_path.h"
+
+namespace palpa::cli {
+
+/// A session as its evidence tells it; needs nothing but the file.
+class RecordedSession {
+ public:
+  explicit RecordedSession(const std::filesystem::path& file);   ///< throws Error
+
+  const record::SessionReader& reader() const { return *reader_; }
+  const anatomy::Patient& patient() const { return patient_; }
+  const Pose& X_DA() const { return X_DA_; }
+  bool simulated() const { return simulated_; }
+  const std::string& operatorName() const { return operator_; }
+  const std::vector<record::RecordedTrial>& trials() const { return trials_; }
+  using Samples = std::vector<assess::TrialSample>;
+  /// Calls `visit` with every trial and all its judged ticks, in A: one pass over the record.
+  void eachTrial(const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const;
+  /// The trial scored again, from the evidence alone. Throws Error when no expert path was recorded.
+  assess::TrialAssessment rescore(const record::RecordedTrial& trial, const Samples& samples) const;
+
+ private:
+  std::unique_ptr<record::SessionReader> reader_;
+  anatomy::Patient patient_;
+  std::unique_ptr<anatomy::SurfaceQuery> query_;
+  std::unique_ptr<calibration::ExpertPath> expert_path_;
+  assess::ScoringRules rules_;
+  Pose X_DA_ = Pose::Identity();
+  bool simulated_ = false;
+  std::string operator_;
+  std::vector<record::RecordedTrial> trials_;
+};
+
+/// Outcome of running every recorded tick again.
+struct ReplayCheck {
+  std::int64_t ticks = 0, different = 0, first_difference = -1;
+  std::int64_t gaps = 0;   ///< ticks missing in the record; the state is then taken from a keyframe
+};
+ReplayCheck replayTicks(const record::SessionReader& reader);
+
+}  // namespace palpa::cli

@@ -1,0 +1,73 @@
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/geometry/error.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/recorded_session.h"
+#include "apps/record/tick_export.h"
+
+namespace palpa::cli {
+namespace {
+
+void replay(const std::string& file) {
+  const RecordedSession session(file);
+  const ReplayCheck check = replayTicks(session.reader());
+  std::printf("%lld ticks run again: %lld differ%s\n", static_cast<long long>(check.ticks),
+              static_cast<long long>(check.different), check.gaps ? " (records are missing)" : "");
+  bool same = check.different == 0 && check.ticks > 0;
+  session.eachTrial([&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+    if (!trial.ended) {
+      std::printf("Trial %d was not finished: the program stopped in the middle\n", trial.header.trial);
+      return;
+    }
+    if (trial.end.scores_json.empty()) {
+      std::printf("Trial %d has no score (%s)\n", trial.header.trial, trial.end.outcome.c_str());
+      return;
+    }
+    if (session.reader().info().expert_path_json.empty()) return;
+    const double stored = nlohmann::json::parse(trial.end.scores_json).at("TOTAL").get<double>();
+    const double again = session.rescore(trial, samples).total;
+    std::printf("Trial %d: total penalty %.6f recorded, %.6f scored again%s\n", trial.header.trial, stored,
+                again, stored == again ? "" : "  DIFFERENT");
+    same = same && stored == again;
+  });
+  if (!same)
+    throw Error("the replay differs from the record" +
+                    (check.first_difference >= 0 ? " from tick " + std::to_string(check.first_difference) : ""),
+                file, "It was made by another version or processor, or was changed");
+  std::printf("The replay equals the record: same forces, same score\n");
+}
+
+}  // namespace
+
+void addReplay(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("replay", "Run a recorded session again: same forces, same score");
+  command->footer("Example:\n  palpa replay out/paracentesis-20260301-120000/session.palpa");
+  const auto file = std::make_shared<std::string>();
+  command->add_option("session", *file, "session.palpa")->required()->type_name("FILE");
+  command->callback([file] { replay(*file); });
+}
+
+void addExport(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("export", "Write a session's 1 kHz samples as CSV, with a dictionary");
+  command->footer("Example:\n  palpa export out/A/session.palpa --out ticks.csv");
+  const auto file = std::make_shared<std::string>(), out = std::make_shared<std::string>("ticks.csv");
+  command->add_option("session", *file, "session.palpa")->required()->type_name("FILE");
+  command->add_option("--out", *out, "CSV to write")->type_name("FILE");
+  command->callback([file, out] {
+    const record::SessionReader reader(*file);
+    record::exportTicks(reader, *out);
+    const std::string dictionary = std::filesystem::path(*out).replace_extension("columns.txt").string();
+    std::ofstream words(dictionary);
+    for (const record::TickColumn& column : record::tickColumns())
+      words << column.name << ": " << column.meaning << '\n';
+    words.close();
+    if (!words) throw Error("cannot be written", dictionary, "Choose another place with --out");
+    std::printf("Written: %s, %s\n", out->c_str(), dictionary.c_str());
+  });
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,90 @@
+#include "apps/cli/session_arguments.h"
+
+#include <cstdlib>
+#include <map>
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::cli {
+namespace {
+
+const std::map<std::string, OperatorKind> kOperators{
+    {"auto", OperatorKind::automatic}, {"person", OperatorKind::person},
+    {"expert", OperatorKind::expert}, {"novice", OperatorKind::novice}};
+const std::map<std::string, scene::Display> kDisplays{{"auto", scene::Display::automatic},
+                                                      {"window", scene::Display::window},
+                                                      {"offscreen", scene::Display::offscreen}};
+const std::map<std::string, anatomy::Side> kSides{{"right", anatomy::Side::right},
+                                                  {"left", anatomy::Side::left}};
+const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
+const std::map<std::string, bool> kHands{{"right", false}, {"left", true}};
+
+template <class T>
+CLI::Option* choice(CLI::App& command, const std::string& name, T& value,
+                    const std::map<std::string, T>& choices, const std::string& help) {
+  std::string names;
+  for (const auto& [text, ignored] : choices) names += (names.empty() ? "" : "|") + text;
+  return command
+      .add_option_function<std::string>(
+          name, [&value, &choices](const std::string& text) { value = choices.at(text); }, help)
+      ->check(CLI::IsMember(choices))
+      ->type_name(names);
+}
+
+void addRecordedPictures(CLI::App& command, SessionOptions& o) {
+  command.add_option("--camera", o.camera, "Recorded pictures instead of the station's camera, e.g. 'shots/left*.jpg'")
+      ->type_name("GLOB");
+  command.add_option("--intrinsics", o.intrinsics, "Camera calibration of those pictures (OpenCV's YAML or ours)")
+      ->type_name("FILE");
+  command.add_option("--board", o.board, "Board in the pictures: tags:6x4:0.030:0.0075 or chessboard:9x6:0.025 (metres)")
+      ->type_name("SPEC");
+}
+
+}  // namespace
+
+void addSessionArguments(CLI::App& command, SessionOptions& o) {
+  command.add_option("--station", o.station, "Station file; default: the virtual bench")->type_name("FILE");
+  command.add_option("--patient", o.patient, "Patient file (.glb); default: built from reference figures")->type_name("FILE");
+  command.add_option("--patient-seed", o.patient_seed, "Draw another patient; 0: the reference patient")
+      ->check(CLI::NonNegativeNumber);
+  choice(command, "--side", o.side, kSides, "Side that is punctured");
+  choice(command, "--handedness", o.left_handed, kHands, "The trainee's hand");
+  command.add_option("--seed", o.seed, "Everything random follows from it (default 1)")->check(CLI::NonNegativeNumber);
+  choice(command, "--operator", o.who, kOperators, "Who performs: you, or a simulated expert or novice");
+  choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
+  command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(CLI::Range(1, 1000));
+  command.add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")
+      ->check([](const std::string& id) {
+        return id.empty() || id.size() > 32 || id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") != std::string::npos
+                   ? "a trainee's pseudonym has 1 to 32 letters, digits, - or _" : std::string();
+      });
+  command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can, repeats exactly");
+  command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");
+  command.add_flag_callback("--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
+  command.add_flag_callback("--no-demonstration", [&o] { o.demonstration = false; }, "A person starts without an expert's demonstration");
+  command.add_flag_callback("--no-familiarisation", [&o] { o.familiarisation = false; }, "A person starts without a first unscored trial");
+  choice(command, "--display", o.display, kDisplays, "Where to show it");
+  command.add_option("--expert-path", o.expert_path, "Optimal path; default: the task's")->type_name("FILE");
+  command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")->type_name("DIR");
+  command.add_flag("--quiet", o.quiet, "No progress on standard error");
+  addRecordedPictures(command, o);
+}
+
+void settle(SessionOptions& o) {
+  if (o.display == scene::Display::automatic)
+    o.display = std::getenv("DISPLAY") && !o.fast && !o.no_views ? scene::Display::window : scene::Display::offscreen;
+  if (o.who == OperatorKind::automatic)
+    o.who = o.display == scene::Display::window ? OperatorKind::person : OperatorKind::expert;
+  if (o.who == OperatorKind::person && o.fast)
+    throw UsageError("cannot go with --operator person", "--fast", "A person needs real time");
+  if (o.who == OperatorKind::person && (o.no_views || o.display != scene::Display::window))
+    throw UsageError("needs a window", "--operator person", "Set DISPLAY, or choose --operator expert or novice");
+  if (o.display == scene::Display::window && o.fast)
+    throw UsageError("cannot go with --display window", "--fast", "Leave one of them out");
+  if (!o.camera.empty() && (o.intrinsics.empty() || o.board.empty()))
+    throw UsageError("needs --intrinsics and --board", "--camera", "Say which camera took the pictures and which board they show");
+  if (o.camera.empty() && (!o.intrinsics.empty() || !o.board.empty()))
+    throw UsageError("go with --camera only", "--intrinsics, --board", "The station's camera has its own");
+}
+
+}  // namespace palpa::cli

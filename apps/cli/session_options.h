@@ -1,0 +1,41 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "anatomy/patient.h"
+#include "scene/gl_context.h"
+
+namespace palpa::cli {
+
+enum class OperatorKind { automatic, person, expert, novice };
+
+/// What every session command understands.
+struct SessionOptions {
+  std::string command = "paracentesis";
+  std::string task;               ///< task file; empty: the shipped one
+  std::string station;            ///< station file; empty: the virtual bench
+  std::string patient;            ///< patient file; empty: built from the reference figures
+  std::uint64_t patient_seed = 0; ///< 0: the reference patient
+  anatomy::Side side = anatomy::Side::right;
+  bool left_handed = false;
+  std::uint64_t seed = 1;
+  OperatorKind who = OperatorKind::automatic;
+  bool force_feedback = true;
+  int trials = 1;
+  std::string trainee = "T000";
+  bool fast = false;
+  bool no_views = false;
+  bool navigation = true;         ///< free navigation of the view
+  bool demonstration = true;      ///< a person first watches an expert's recorded trial
+  bool familiarisation = true;    ///< and then tries once, unscored
+  scene::Display display = scene::Display::automatic;
+  std::string camera, intrinsics, board;   ///< recorded pictures instead of the station's camera
+  std::string expert_path;        ///< overrides the task's
+  std::string role = "scored";   ///< of the trials
+  bool record_only = false;       ///< no expert path needed: trials that will make one
+  std::string out;
+  bool quiet = false;
+};
+
+}  // namespace palpa::cli

@@ -1,0 +1,153 @@
+#include "apps/cli/session_outcome.h"
+
+#include <cstdarg>
+#include <cstdio>
+#include <fstream>
+
+#include "anatomy/geometry/error.h"
+#include "apps/report/session_report.h"
+
+namespace palpa::cli {
+namespace {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, pattern);
+  std::vsnprintf(text, sizeof text, pattern, arguments);
+  va_end(arguments);
+  return text;
+}
+
+bool simulated(const SessionOptions& options, const NeedleWorld& world) {
+  return options.who != OperatorKind::person || world.station.simulated;
+}
+
+std::string whoText(const SessionOptions& options) {
+  if (options.who == OperatorKind::person) return options.trainee;
+  return options.who == OperatorKind::novice ? "simulated novice" : "simulated expert";
+}
+
+/// Every tenth tick for the plots; what happened in between is merged into the one kept.
+std::vector<assess::TrialSample> thinned(const std::vector<assess::TrialSample>& samples) {
+  constexpr std::size_t kKeep = 10;
+  std::vector<assess::TrialSample> kept;
+  std::uint32_t events = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    events |= samples[i].events;
+    if (i % kKeep != 0 && i + 1 != samples.size()) continue;
+    kept.push_back(samples[i]);
+    kept.back().events = events;
+    events = 0;
+  }
+  return kept;
+}
+
+std::vector<report::TrialPage> pages(const SessionResult& result) {
+  std::vector<report::TrialPage> all;
+  for (const auto& trial : result.trials) {
+    report::TrialPage page{trial.assessment, thinned(trial.samples), {}};
+    for (const auto& p : result.pictures)
+      if (p.moment.trial == trial.assessment.trial)
+        page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
+    all.push_back(std::move(page));
+  }
+  return all;
+}
+
+std::vector<report::Fact> registrationFacts(const SessionResult& result) {
+  std::vector<report::Fact> facts;
+  if (result.accuracy) {
+    const twin::BenchAccuracy& a = *result.accuracy;
+    facts.push_back({"Registration error at the entry point, median",
+                     format("%.2f mm", a.entry_median_mm),
+                     format("camera at %.2f m; simulated truth against estimate", a.distance_m)});
+    facts.push_back({"The same, 95 % of pictures below", format("%.2f mm", a.entry_p95_mm), "simulated truth"});
+    facts.push_back({"Needle tip's registration at the entry point", format("%.2f mm", a.tool_mm),
+                     "haptic base and tool calibration; simulated truth"});
+    facts.push_back({"Pictures with the board found", format("%zu of %zu", a.registered, a.pictures), ""});
+  }
+  for (const RegistrationRow& row : result.registration)
+    facts.push_back({row.source, row.points ? format("rms %.2f px", row.rms_px) : "no board found",
+                     row.points ? format("%d points, camera at %.2f m", row.points, row.X_CW.translation().norm()) : ""});
+  return facts;
+}
+
+std::vector<report::Fact> stationFacts(const SessionOptions& options, const NeedleWorld& world) {
+  std::vector<report::Fact> facts{
+      {"Station", world.station.title, world.station.id},
+      {"Haptic device", world.station.device.name,
+       format("%.1f N, stable to %.0f N/m", world.station.device.max_force_N, world.station.device.stable_stiffness)},
+      {"Calibration", world.station.calibration_verdict, world.station.calibration_date},
+      {"Patient", world.patient.name, std::string(anatomy::name(world.patient.side)) + " side"},
+      {"Time", options.fast ? "virtual (repeats exactly)" : "real", ""},
+      {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
+  if (world.expert_path)
+    facts.push_back({"Optimal path", format("from %d expert trials", world.expert_path->trials),
+                     world.expert_path->simulated ? "simulated experts" : ""});
+  return facts;
+}
+
+std::vector<report::Fact> notes(const SessionResult& result) {
+  std::vector<report::Fact> facts;
+  for (const runtime::Lateness& late : result.lateness)
+    if (late.name == "haptic")
+      facts.push_back({"Lateness of the haptic loop", format("median %.0f us, 99 %% below %.0f us", late.median_us, late.p99_us),
+                       late.scheduling});
+  if (result.dropped)
+    facts.push_back({"Records lost", format("%llu", static_cast<unsigned long long>(result.dropped)),
+                     "the computer could not keep up: the replay is not exact there"});
+  return facts;
+}
+
+void writeRegistration(const std::vector<RegistrationRow>& rows, const std::filesystem::path& file) {
+  const std::filesystem::path beside = file.string() + ".part";
+  std::ofstream csv(beside);
+  csv << "picture,found,points,rms_px,t_x_m,t_y_m,t_z_m,q_w,q_x,q_y,q_z\n";
+  for (const RegistrationRow& row : rows) {
+    const PackedPose X = pack(row.X_CW);
+    csv << std::filesystem::path(row.source).filename().string() << ',' << (row.points ? 1 : 0) << ',' << row.points
+        << format(",%.4f,%.6f,%.6f,%.6f,%.8f,%.8f,%.8f,%.8f\n", row.rms_px, X.p[0], X.p[1], X.p[2], X.q[0], X.q[1],
+                  X.q[2], X.q[3]);
+  }
+  csv.close();
+  if (!csv) throw Error("cannot be written", file.string(), "Is the disk full?");
+  std::filesystem::rename(beside, file);
+}
+
+void sayResult(const SessionResult& result) {
+  for (const auto& trial : result.trials) {
+    const assess::TrialAssessment& a = trial.assessment;
+    std::printf("Trial %d (%s%s): %s Total penalty %.1f (lower is better)\n", a.trial, a.role.c_str(),
+                a.simulated ? ", simulated" : "", a.summary.empty() ? a.outcome.c_str() : a.summary.c_str(), a.total);
+  }
+}
+
+}  // namespace
+
+void writeOutcome(const SessionOptions& options, const NeedleWorld& world, const SessionResult& result,
+                  const std::filesystem::path& folder) {
+  std::vector<assess::TrialAssessment> scored;
+  for (const auto& trial : result.trials)
+    if (trial.assessment.role == "scored" && trial.assessment.outcome != "void") scored.push_back(trial.assessment);
+  report::writeTrialsCsv(options.trainee, scored, folder / "trials.csv");
+  report::SessionReport page;
+  page.title = world.task.title + ", " + anatomy::name(world.patient.side) + " side";
+  page.trainee = whoText(options);
+  page.simulated = simulated(options, world);
+  page.trials = pages(result);
+  page.station = stationFacts(options, world);
+  page.registration = registrationFacts(result);
+  page.notes = notes(result);
+  report::writeReport(page, folder / "report.html");
+  if (!result.registration.empty()) writeRegistration(result.registration, folder / "registration.csv");
+
+  sayResult(result);
+  std::printf("Written to %s:\n", folder.string().c_str());
+  std::printf("  report.html     what happened, with reasons and pictures: open this first\n");
+  std::printf("  trials.csv      one row a trial\n  session.palpa   the evidence: every tick, for replay\n");
+  if (!result.registration.empty()) std::printf("  registration.csv  how the board was found in each picture\n");
+  if (!result.pictures.empty()) std::printf("  view-*.png      %zu pictures of the marked moments\n", result.pictures.size());
+}
+
+}  // namespace palpa::cli

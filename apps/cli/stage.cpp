@@ -1,0 +1,16 @@
+#include "apps/cli/stage.h"
+
+namespace palpa::cli {
+
+Stage makeStage(const SessionOptions& options, const NeedleWorld& world, bool window) {
+  scene::ViewLayout layout;
+  layout.free_navigation = options.navigation;
+  Stage stage;
+  stage.context =
+      scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
+                           layout.width, layout.height, "Palpa");
+  stage.view = std::make_unique<scene::SceneView>(*stage.context, world.patient, layout);
+  return stage;
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "apps/runtime/flight_sink.h"
+#include "haptics/tick.h"
+
+namespace palpa::record {
+
+/// What a session file says of itself. JSON texts are stored as given.
+struct SessionInfo {
+  std::string uuid;              ///< made by `create` when empty
+  std::string started_utc;       ///< ISO 8601; the one anchor of session time 0
+  std::string software;          ///< version
+  std::string command;           ///< the command line's meaning, no paths
+  std::string session_json;      ///< seed, operator, force feedback, trainee pseudonym, frames, ...
+  std::string station_json;
+  std::string task_json;
+  std::string patient_glb;       ///< the patient file's bytes, so that the evidence stands alone
+  std::string expert_path_json;
+  haptics::TickConfig tick_config;
+};
+
+/// Writes `session.palpa`: SQLite, application_id "palp", user_version 1, WAL, one a session. Ticks and
+/// keyframes in compressed chunks of 200; every snapshot whole. A killed process leaves a file that opens.
+class SessionWriter final : public runtime::FlightSink {
+ public:
+  SessionWriter(const std::filesystem::path& file, const SessionInfo& info);
+  ~SessionWriter() override;   ///< commits and checkpoints
+
+  void beginTrial(const runtime::TrialHeader& header) override;
+  void snapshot(const LocalGeometry& geometry) override;
+  void tick(const haptics::FlightRecord& record) override;
+  void keyframe(std::int64_t tick, const haptics::TickState& state) override;
+  void event(const runtime::Event& event) override;
+  void endTrial(const runtime::TrialEnd& end) override;
+  void commit() override;
+  void close();                ///< throws Error when the last commit fails
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+struct RecordedTrial {
+  runtime::TrialHeader header;
+  runtime::TrialEnd end;
+  bool ended = false;          ///< false: the process stopped in the middle
+};
+
+/// Reads a session file; checks application id, version, chunk sizes. Throws Error.
+class SessionReader {
+ public:
+  explicit SessionReader(const std::filesystem::path& file);
+  ~SessionReader();
+
+  const SessionInfo& info() const;
+  std::vector<RecordedTrial> trials() const;
+  std::vector<runtime::Event> events() const;
+  /// Calls `visit` for every tick, in order.
+  void ticks(const std::function<void(const haptics::FlightRecord&)>& visit) const;
+  void snapshots(const std::function<void(const LocalGeometry&)>& visit) const;
+  void keyframes(const std::function<void(std::int64_t, const haptics::TickState&)>& visit) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace palpa::record

@@ -1,0 +1,189 @@
+#include "apps/record/sqlite.h"
+
+#include <sqlite3.h>
+
+#include <limits>
+
+namespace palpa::record {
+namespace {
+
+/// How long a commit waits for another program that writes to the same file.
+constexpr int kBusy_ms = 500;
+
+std::string remedyFor(int code) {
+  switch (code) {
+    case SQLITE_FULL:
+      return "The disk is full: free some space; what was committed before is safe";
+    case SQLITE_IOERR:
+      return "The disk refused to read or write: check free space, quota and the drive; what was "
+             "committed before is safe";
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+    case SQLITE_AUTH:
+      return "Make the file and its folder writable, or choose another folder with --out";
+    case SQLITE_CANTOPEN:
+      return "Check that the folder exists and may be read and written, or choose another with "
+             "--out";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "Another program holds the file: close it and try again";
+    case SQLITE_NOTADB:
+    case SQLITE_CORRUPT:
+      return "The file is damaged or no session file: restore it from a backup, or save what is "
+             "left with `sqlite3 FILE .recover`";
+    default:
+      return "Check the file and its folder, or choose another folder with --out";
+  }
+}
+
+/// A path as SQLite's URI, so that options can be appended.
+std::string uri(const std::filesystem::path& file, const std::string& options) {
+  static constexpr char kHex[] = "0123456789ABCDEF";
+  std::string result = "file:";
+  for (const char c : std::filesystem::absolute(file).string()) {
+    const auto byte = static_cast<unsigned char>(c);
+    if (c == '%' || c == '?' || c == '#' || byte < 0x20) {
+      result += {'%', kHex[byte >> 4], kHex[byte & 15]};
+    } else {
+      result += c;
+    }
+  }
+  return result + options;
+}
+
+}  // namespace
+
+void Database::Close::operator()(sqlite3* handle) const noexcept { sqlite3_close_v2(handle); }
+
+Database::Database(const std::filesystem::path& file, Mode mode) : file_(file) {
+  const int access = mode == Mode::write ? SQLITE_OPEN_READWRITE : SQLITE_OPEN_READONLY;
+  const std::string name = uri(file, mode == Mode::read_immutable ? "?immutable=1" : "");
+  sqlite3* handle = nullptr;
+  const int code = sqlite3_open_v2(name.c_str(), &handle,
+                                   access | SQLITE_OPEN_URI | SQLITE_OPEN_NOMUTEX, nullptr);
+  handle_.reset(handle);
+  if (code != SQLITE_OK) fail("cannot be opened");
+  sqlite3_busy_timeout(handle, kBusy_ms);
+  // Files come from elsewhere, too: believe nothing that their schema says, and check every cell.
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_DEFENSIVE, 1, nullptr);
+  sqlite3_db_config(handle, SQLITE_DBCONFIG_TRUSTED_SCHEMA, 0, nullptr);
+  if (mode != Mode::write) {
+    // Reading leaves the evidence as it is: a log left by a killed process is read, not merged.
+    sqlite3_db_config(handle, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  }
+  exec("PRAGMA cell_size_check=ON");
+}
+
+void Database::fail(const std::string& doing) const {
+  const int code = handle_ ? sqlite3_errcode(handle_.get()) : SQLITE_NOMEM;
+  const std::string reason = handle_ ? sqlite3_errmsg(handle_.get()) : "out of memory";
+  throw DatabaseError(code & 0xff, doing + " (" + reason + ")", file_.string(),
+                      remedyFor(code & 0xff));
+}
+
+void Database::exec(const std::string& sql) {
+  if (sqlite3_exec(handle_.get(), sql.c_str(), nullptr, nullptr, nullptr) != SQLITE_OK) {
+    fail("cannot be read or written");
+  }
+}
+
+std::int64_t Database::integer(const std::string& sql) {
+  Statement statement(*this, sql);
+  return statement.step() ? statement.integer(0) : 0;
+}
+
+std::string Database::text(const std::string& sql) {
+  Statement statement(*this, sql);
+  return statement.step() ? statement.text(0) : "";
+}
+
+void Statement::Finalize::operator()(sqlite3_stmt* statement) const noexcept {
+  sqlite3_finalize(statement);
+}
+
+Statement::Statement(Database& database, const std::string& sql) : database_(&database) {
+  sqlite3_stmt* statement = nullptr;
+  check(sqlite3_prepare_v2(database.handle(), sql.c_str(), -1, &statement, nullptr));
+  statement_.reset(statement);
+}
+
+void Statement::check(int code) const {
+  if (code != SQLITE_OK) database_->fail("cannot be read or written");
+}
+
+void Statement::rewind() {
+  sqlite3_reset(statement_.get());  // repeats an error already reported by step
+  sqlite3_clear_bindings(statement_.get());
+}
+
+bool Statement::step() {
+  const int code = sqlite3_step(statement_.get());
+  if (code == SQLITE_ROW) return true;
+  if (code == SQLITE_DONE) return false;
+  database_->fail("cannot be read or written");
+}
+
+void Statement::run() {
+  step();
+  sqlite3_reset(statement_.get());
+}
+
+void Statement::bindOne(int index, std::int64_t value) {
+  check(sqlite3_bind_int64(statement_.get(), index, value));
+}
+
+void Statement::bindOne(int index, double value) {
+  check(sqlite3_bind_double(statement_.get(), index, value));
+}
+
+void Statement::bindOne(int index, std::string_view value) {
+  check(sqlite3_bind_text64(statement_.get(), index, value.empty() ? "" : value.data(),
+                            value.size(), SQLITE_TRANSIENT, SQLITE_UTF8));
+}
+
+void Statement::bindOne(int index, ByteView value) {
+  check(value.empty() ? sqlite3_bind_zeroblob(statement_.get(), index, 0)
+                      : sqlite3_bind_blob64(statement_.get(), index, value.data(), value.size(),
+                                            SQLITE_TRANSIENT));
+}
+
+std::int64_t Statement::integer(int column) const {
+  return sqlite3_column_int64(statement_.get(), column);
+}
+
+double Statement::real(int column) const {
+  return isNull(column) ? std::numeric_limits<double>::quiet_NaN()
+                        : sqlite3_column_double(statement_.get(), column);
+}
+
+std::string Statement::text(int column) const {
+  const auto* data = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
+  const int size = sqlite3_column_bytes(statement_.get(), column);
+  return data ? std::string(data, static_cast<std::size_t>(size)) : std::string();
+}
+
+ByteView Statement::blob(int column) const {
+  const auto* data =
+      static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
+  const int size = sqlite3_column_bytes(statement_.get(), column);
+  return data ? ByteView(data, static_cast<std::size_t>(size)) : ByteView();
+}
+
+bool Statement::isNull(int column) const {
+  return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
+}
+
+Transaction::Transaction(Database& database) : database_(database) {
+  database_.exec("BEGIN IMMEDIATE");
+}
+
+Transaction::~Transaction() {
+  if (open_) sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+}
+
+void Transaction::commit() {
+  database_.exec("COMMIT");
+  open_ = false;
+}
+
+}  // namespace palpa::record

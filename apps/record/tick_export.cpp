@@ -1,0 +1,190 @@
+#include "apps/record/tick_export.h"
+
+#include <charconv>
+#include <functional>
+#include <string_view>
+
+#include "apps/record/whole_file.h"
+
+namespace palpa::record {
+namespace {
+
+using haptics::FlightRecord;
+
+std::string shortest(double value) {  // round-trips to the same bits, in any locale
+  char text[32];
+  return {text, std::to_chars(text, text + sizeof(text), value).ptr};
+}
+
+const char* word(haptics::NeedlePhase phase) {
+  static constexpr const char* kWords[] = {"outside", "indenting", "inserted"};
+  const auto index = static_cast<std::size_t>(phase);
+  return index < std::size(kWords) ? kWords[index] : "?";
+}
+
+const char* word(haptics::SafetyCause cause) {
+  static constexpr const char* kWords[haptics::kSafetyCauseCount] = {
+      "none",          "not_finite",     "clamp",          "slew",     "energy",
+      "silent_device", "stale_geometry", "emergency_stop", "watchdog", "not_ready"};
+  const auto index = static_cast<std::size_t>(cause);
+  return index < std::size(kWords) ? kWords[index] : "?";
+}
+
+std::string word(Organ organ) { return static_cast<int>(organ) < kOrganCount ? name(organ) : "?"; }
+std::string word(Tissue tissue) {
+  return static_cast<int>(tissue) < kTissueCount ? name(tissue) : "?";
+}
+
+std::string eventWords(std::uint32_t events) {
+  static constexpr std::pair<std::uint32_t, const char*> kWords[] = {
+      {haptics::kSkinPunctured, "skin_punctured"}, {haptics::kWithdrawn, "withdrawn"},
+      {haptics::kWallPunctured, "wall_punctured"}, {haptics::kBoneTouched, "bone_touched"},
+      {haptics::kBoneLeft, "bone_left"},           {haptics::kSnapshotAdopted, "snapshot_adopted"},
+      {haptics::kSafetyTripped, "safety_tripped"}, {haptics::kSafetyCleared, "safety_cleared"}};
+  std::string words;
+  for (const auto& [bit, text] : kWords) {
+    if (events & bit) words += (words.empty() ? "" : "+") + std::string(text);
+  }
+  return words;
+}
+
+struct Column {
+  TickColumn description;
+  std::function<std::string(const FlightRecord&)> value;
+};
+
+/// Three or four components of a recorded array under one name: name_x_m, name_y_m, ...
+template <typename Array>
+void addVector(std::vector<Column>& columns, const std::string& prefix, const std::string& unit,
+               const std::string& meaning, Array FlightRecord::*member) {
+  for (int i = 0; i < 3; ++i) {
+    columns.push_back({{prefix + '_' + "xyz"[i] + '_' + unit, meaning},
+                       [=](const FlightRecord& r) { return shortest((r.*member)[i]); }});
+  }
+}
+
+void addScalar(std::vector<Column>& columns, const char* name, const char* meaning,
+               double FlightRecord::*member) {
+  columns.push_back({{name, meaning}, [=](const FlightRecord& r) { return shortest(r.*member); }});
+}
+
+void addClock(std::vector<Column>& columns) {
+  columns.push_back({{"tick", "number of the tick in the session"},
+                     [](const FlightRecord& r) { return std::to_string(r.tick); }});
+  columns.push_back({{"t_ns", "session time of the tick"},
+                     [](const FlightRecord& r) { return std::to_string(r.t_ns); }});
+  columns.push_back({{"trial", "number of the trial; 0: none"},
+                     [](const FlightRecord& r) { return std::to_string(r.commands.trial); }});
+}
+
+void addReading(std::vector<Column>& columns) {
+  columns.push_back({{"reading_t_ns", "session time of the device's reading"},
+                     [](const FlightRecord& r) { return std::to_string(r.reading.t_ns); }});
+  columns.push_back(
+      {{"reading_sequence", "number of the reading; stands still when the device is silent"},
+       [](const FlightRecord& r) { return std::to_string(r.reading.sequence); }});
+  for (int i = 0; i < 3; ++i) {
+    columns.push_back({{std::string("p_DE_") + "xyz"[i] + "_m",
+                        "position of the end effector in the device base"},
+                       [=](const FlightRecord& r) { return shortest(r.reading.p_DE[i]); }});
+  }
+  for (int i = 0; i < 4; ++i) {
+    columns.push_back({{std::string("q_DE_") + "wxyz"[i],
+                        "orientation of the end effector in the device base, unit quaternion"},
+                       [=](const FlightRecord& r) { return shortest(r.reading.q_DE[i]); }});
+  }
+  columns.push_back({{"plunger", "drawn fraction of the syringe, 0 to 1"},
+                     [](const FlightRecord& r) { return shortest(r.reading.plunger); }});
+  columns.push_back({{"buttons", "bits of the device's buttons"},
+                     [](const FlightRecord& r) { return std::to_string(r.reading.buttons); }});
+  columns.push_back({{"homed", "1: positions are absolute"},
+                     [](const FlightRecord& r) { return std::to_string(r.reading.homed); }});
+}
+
+void addCommands(std::vector<Column>& columns) {
+  columns.push_back({{"puncture_force_N", "force at which the skin gives way in this trial"},
+                     [](const FlightRecord& r) { return shortest(r.commands.puncture_force_N); }});
+  columns.push_back({{"force_feedback", "1: forces are rendered"}, [](const FlightRecord& r) {
+                       return std::to_string(r.commands.force_feedback);
+                     }});
+  columns.push_back({{"emergency_stop", "1: pressed"}, [](const FlightRecord& r) {
+                       return std::to_string(r.commands.emergency_stop);
+                     }});
+  columns.push_back({{"armed", "0: no force (not homed, between trials)"},
+                     [](const FlightRecord& r) { return std::to_string(r.commands.armed); }});
+  columns.push_back({{"snapshot", "number of the newest geometry snapshot used"},
+                     [](const FlightRecord& r) { return std::to_string(r.snapshot); }});
+}
+
+void addContact(std::vector<Column>& columns) {
+  addVector(columns, "f_contact_D", "N", "computed contact force on the tool, device base",
+            &FlightRecord::f_contact_D);
+  addVector(columns, "f_command_D", "N", "force that left the safety limiter, device base",
+            &FlightRecord::f_command_D);
+  addVector(columns, "tau_missing_D", "Nm", "torque about the end effector the device cannot give",
+            &FlightRecord::tau_missing_D);
+  addScalar(columns, "indentation_m", "of the skin before puncture", &FlightRecord::indentation);
+  addScalar(columns, "depth_m", "of the tip below the skin along the needle", &FlightRecord::depth);
+  addScalar(columns, "v_axial_m_per_s", "of the tip along the needle, inward positive",
+            &FlightRecord::v_axial);
+  addScalar(columns, "skin_force_N", "normal force on the skin before puncture",
+            &FlightRecord::skin_force);
+  addScalar(columns, "bone_force_N", "largest bone contact force", &FlightRecord::bone_force);
+  addScalar(columns, "wall_force_N", "on the wall being deformed", &FlightRecord::wall_force);
+}
+
+void addStates(std::vector<Column>& columns) {
+  columns.push_back({{"events", "what happened in this tick, joined by +"},
+                     [](const FlightRecord& r) { return eventWords(r.events); }});
+  columns.push_back({{"phase", "outside, indenting or inserted"},
+                     [](const FlightRecord& r) { return std::string(word(r.phase)); }});
+  columns.push_back(
+      {{"tissue", "at the tip"}, [](const FlightRecord& r) { return word(r.tissue); }});
+  columns.push_back({{"wall", "organ whose wall the tip deforms or punctured"},
+                     [](const FlightRecord& r) { return word(r.wall); }});
+  columns.push_back({{"wall_leaving", "1: the back wall"},
+                     [](const FlightRecord& r) { return std::to_string(r.wall_leaving); }});
+  columns.push_back(
+      {{"bone", "bone in contact"}, [](const FlightRecord& r) { return word(r.bone); }});
+  columns.push_back({{"safety", "what the safety limiter changed, and why"},
+                     [](const FlightRecord& r) { return std::string(word(r.safety)); }});
+  columns.push_back({{"skin_punctures", "in this trial so far"},
+                     [](const FlightRecord& r) { return std::to_string(r.skin_punctures); }});
+}
+
+std::vector<Column> allColumns() {
+  std::vector<Column> columns;
+  addClock(columns);
+  addReading(columns);
+  addCommands(columns);
+  addContact(columns);
+  addStates(columns);
+  return columns;
+}
+
+}  // namespace
+
+std::vector<TickColumn> tickColumns() {
+  std::vector<TickColumn> descriptions;
+  for (const Column& column : allColumns()) descriptions.push_back(column.description);
+  return descriptions;
+}
+
+void exportTicks(const SessionReader& reader, const std::filesystem::path& file) {
+  const std::vector<Column> columns = allColumns();
+  WholeFile out(file);
+  std::string line;
+  for (const Column& column : columns) line += (line.empty() ? "" : ",") + column.description.name;
+  out.write(line + '\n');
+  reader.ticks([&](const FlightRecord& record) {
+    line.clear();
+    for (const Column& column : columns) {
+      if (!line.empty()) line += ',';
+      line += column.value(record);
+    }
+    out.write(line + '\n');
+  });
+  out.finish();
+}
+
+}  // namespace palpa::record

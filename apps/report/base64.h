@@ -1,0 +1,11 @@
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace palpa::report {
+
+/// RFC 4648 with padding, no line breaks.
+std::string base64(std::string_view bytes);
+
+}  // namespace palpa::report

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace palpa::report {
+
+/// Text made safe for element content and quoted attributes: & < > " ' become entities, control
+/// characters vanish, bytes that are no UTF-8 become U+FFFD.
+std::string escaped(std::string_view text);
+
+using Attributes = std::initializer_list<std::pair<std::string_view, std::string_view>>;
+
+/// Builds HTML and SVG with every text escaped and every element closed.
+class Html {
+ public:
+  /// Opens an element for the life of the returned scope.
+  class Scope {
+   public:
+    explicit Scope(Html& html) : html_(html) {}
+    ~Scope() { html_.close(); }
+    Scope(const Scope&) = delete;
+    Scope& operator=(const Scope&) = delete;
+
+   private:
+    Html& html_;
+  };
+  [[nodiscard]] Scope in(std::string_view tag, Attributes attributes = {}) {
+    open(tag, attributes);
+    return Scope(*this);
+  }
+
+  void element(std::string_view tag, Attributes attributes, std::string_view text);
+  void element(std::string_view tag, std::string_view text) { element(tag, {}, text); }
+  void empty(std::string_view tag, Attributes attributes);  ///< written <tag .../>
+  void text(std::string_view text) { out_ += escaped(text); }
+  void raw(std::string_view markup) { out_ += markup; }  ///< only for markup made here
+  void append(const Html& other) { out_ += other.out_; }
+
+  const std::string& str() const { return out_; }
+
+ private:
+  void open(std::string_view tag, Attributes attributes);
+  void close();
+  void head(std::string_view tag, Attributes attributes);
+
+  std::string out_;
+  std::vector<std::string> open_;
+};
+
+}  // namespace palpa::report

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/assess/trial_assessment.h"
+
+namespace palpa::report {
+
+struct Picture {
+  std::filesystem::path file;  ///< PNG beside the report; embedded into it
+  std::string caption;
+  double t_s = -1;  ///< moment in the trial; < 0: none
+};
+
+struct TrialPage {
+  assess::TrialAssessment assessment;
+  std::vector<assess::TrialSample> samples;  ///< about 100 Hz is plenty for the plots
+  std::vector<Picture> pictures;
+};
+
+/// A figure with its name, for tables of facts ("Registration error at the entry point, median":
+/// "0.4 mm").
+struct Fact {
+  std::string name, value, remark;
+};
+
+struct SessionReport {
+  std::string title;       ///< "Paracentesis of the subclavian vein, right side"
+  std::string trainee;     ///< pseudonym, "simulated expert", ...
+  bool simulated = false;  ///< operator or bench are simulated: said on top and beside results
+  std::string when;        ///< date and time, empty in virtual time
+  std::vector<TrialPage> trials;
+  std::vector<Fact> station;  ///< device, camera, display, rates
+  std::vector<Fact>
+      registration;         ///< registration error and its source, simulated truth named as such
+  std::vector<Fact> notes;  ///< lateness, lost tracking, safety trips
+};
+
+/// Writes one self-contained HTML page (no network, no script needed to read it). Beside, then
+/// renamed.
+void writeReport(const SessionReport& report, const std::filesystem::path& file);
+
+/// trials.csv: header row, then one row a trial: USER_ID FF COL_LUNG COL_RIB COL_ART COL_VEIN
+/// PHASE_1 PHASE_2 ECON_MEAN ECON_VAR TIME SUCCESS TRIAL SEED SIMULATED TOTAL. No date, path or
+/// host timing.
+void writeTrialsCsv(const std::string& user_id, const std::vector<assess::TrialAssessment>& trials,
+                    const std::filesystem::path& file);
+
+}  // namespace palpa::report

@@ -1,0 +1,81 @@
+#pragma once
+
+#include <memory>
+#include <variant>
+#include <vector>
+
+#include "apps/runtime/event_queue.h"
+#include "apps/runtime/flight_sink.h"
+#include "apps/runtime/state_channel.h"
+#include "ar/board_pose.h"
+#include "ar/camera.h"
+#include "haptics/tick.h"
+
+namespace palpa::runtime {
+
+/// The needle as the haptic loop last computed it, for the slower activities.
+struct ToolState {
+  std::int64_t t_ns = 0;
+  PackedPose X_DT;
+  Packed3 v_D{};               ///< of the tip, m/s
+  Packed3 f_contact_D{}, f_command_D{};
+  Packed3 entry_D{};
+  double depth = 0, plunger = 0, bone_force = 0;
+  haptics::NeedlePhase phase = haptics::NeedlePhase::outside;
+  Tissue tissue = Tissue::air;
+  Organ wall = Organ::none, bone = Organ::none;
+  haptics::SafetyCause safety = haptics::SafetyCause::none;
+  bool homed = false;
+};
+
+/// What the camera saw last, as it came (distorted); `pose` is empty when no board is seen.
+struct CameraView {
+  std::int64_t t_exposure_ns = 0;
+  std::uint64_t number = 0;
+  std::string source;
+  std::shared_ptr<const cv::Mat> picture;
+  std::optional<ar::BoardPose> pose;
+  bool ended = false;                     ///< the source has no more pictures
+};
+
+/// What a person at the display sees, as far as a simulated person may know it.
+struct Displayed {
+  std::int64_t t_ns = 0;
+  Pose X_AT = Pose::Identity();   ///< the needle as drawn on the drawn patient
+  int trial = 0;
+  bool running = false;
+  bool blood_flows = false;       ///< blood enters the syringe
+};
+
+struct Keyframe {
+  std::int64_t tick = 0;
+  haptics::TickState state;
+};
+
+using EvidenceMessage = std::variant<Event, TrialHeader, TrialEnd>;
+
+/// Everything that passes between activities: state is latest-wins, events are queued. Each channel
+/// has one writer and one reader, named `<writer>_to_<reader>`.
+struct Bus {
+  explicit Bus(TimeMode mode)
+      : geometry_to_haptic(mode),
+        haptic_to_geometry(mode),
+        haptic_to_scene(mode),
+        task_to_haptic(mode),
+        camera_to_scene(mode),
+        camera_to_task(mode),
+        scene_to_operator(mode) {}
+
+  StateChannel<LocalGeometry> geometry_to_haptic;
+  StateChannel<ToolState> haptic_to_geometry, haptic_to_scene;
+  StateChannel<haptics::TickCommands> task_to_haptic;
+  StateChannel<CameraView> camera_to_scene, camera_to_task;
+  StateChannel<Displayed> scene_to_operator;
+
+  EventQueue<haptics::FlightRecord> haptic_to_recorder{8192}, haptic_to_task{8192};
+  EventQueue<Keyframe> keyframes_to_recorder{128};
+  EventQueue<LocalGeometry> geometry_to_recorder{512};
+  EventQueue<EvidenceMessage> task_to_recorder{1024};
+};
+
+}  // namespace palpa::runtime

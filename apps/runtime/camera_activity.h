@@ -1,0 +1,51 @@
+#pragma once
+
+#include <functional>
+#include <future>
+
+#include "apps/runtime/activity.h"
+#include "apps/runtime/bus.h"
+#include "calibration/camera_model.h"
+
+namespace palpa::runtime {
+
+/// CAMERA: exposes, detects the board, publishes its pose stamped with the time of exposure.
+/// In virtual time the work of one picture runs beside the simulation: its inputs are frozen at the
+/// exposure and it is joined when the result becomes visible, so the outcome does not depend on speed.
+class CameraActivity final : public Activity {
+ public:
+  struct Settings {
+    std::int64_t period_ns = 66'666'667;
+    std::int64_t latency_ns = 50'000'000;   ///< exposure to published pose; at most the period
+    TimeMode mode = TimeMode::virtual_time;
+  };
+  /// Freezes the inputs of a picture exposed now, and returns what takes it (run on any thread).
+  /// The inner function returns nothing when the source has ended.
+  using Exposure = std::function<std::optional<ar::Frame>()>;
+  using Exposer = std::function<Exposure(std::int64_t now_ns, std::uint64_t number)>;
+  using Observer = std::function<void(const CameraView&)>;   ///< called with every result
+
+  CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
+                 const calibration::CameraModel& camera, const Settings& settings,
+                 Observer observer = {});
+  ~CameraActivity() override;
+  const char* name() const override { return "camera"; }
+  std::int64_t step(std::int64_t now_ns) override;
+
+ private:
+  CameraView see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number) const;
+  void publish(const CameraView& view, std::int64_t now_ns);
+
+  Bus& bus_;
+  Exposer expose_;
+  const ar::Board& board_;
+  calibration::CameraModel camera_;
+  Settings settings_;
+  Observer observer_;
+  std::future<CameraView> pending_;
+  std::int64_t exposed_ns_ = 0;
+  std::uint64_t number_ = 0;
+  bool ended_ = false;
+};
+
+}  // namespace palpa::runtime

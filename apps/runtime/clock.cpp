@@ -1,0 +1,26 @@
+#include "apps/runtime/clock.h"
+
+#include <cerrno>
+#include <ctime>
+
+namespace palpa::runtime {
+namespace {
+std::int64_t monotonic() {
+  timespec t{};
+  clock_gettime(CLOCK_MONOTONIC, &t);
+  return t.tv_sec * kSecond + t.tv_nsec;
+}
+}  // namespace
+
+SteadyClock::SteadyClock() : start_ns_(monotonic()) {}
+
+std::int64_t SteadyClock::now() const noexcept { return monotonic() - start_ns_; }
+
+void SteadyClock::sleepUntil(std::int64_t t_ns) const noexcept {
+  const std::int64_t t = start_ns_ + t_ns;
+  const timespec until{static_cast<time_t>(t / kSecond), static_cast<long>(t % kSecond)};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
+  }
+}
+
+}  // namespace palpa::runtime

@@ -1,0 +1,29 @@
+#pragma once
+
+#include <cstdint>
+
+namespace palpa::runtime {
+
+inline constexpr std::int64_t kMillisecond = 1'000'000;
+inline constexpr std::int64_t kSecond = 1'000'000'000;
+
+/// Session time in nanoseconds, 0 at the start. The only source of time in the program.
+class Clock {
+ public:
+  virtual ~Clock() = default;
+  virtual std::int64_t now() const noexcept = 0;
+};
+
+/// CLOCK_MONOTONIC since construction.
+class SteadyClock final : public Clock {
+ public:
+  SteadyClock();
+  std::int64_t now() const noexcept override;
+  /// Sleeps until session time `t_ns` (absolute, so that lateness does not add up).
+  void sleepUntil(std::int64_t t_ns) const noexcept;
+
+ private:
+  std::int64_t start_ns_;
+};
+
+}  // namespace palpa::runtime

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "anatomy/geometry/local_geometry.h"
+#include "haptics/flight_record.h"
+#include "haptics/tick.h"
+
+namespace palpa::runtime {
+
+/// Something worth telling, with the moment.
+struct Event {
+  std::int64_t t_ns = 0;    ///< session time
+  int trial = 0;            ///< 0: outside a trial
+  std::string kind;         ///< stable identifier: "puncture", "vein_entered", "safety", "note", ...
+  std::string text;         ///< clinical words
+  double value = 0;
+};
+
+struct TrialHeader {
+  int trial = 0;            ///< 1, 2, ...; unique in the session
+  std::int64_t t_ns = 0;
+  std::uint64_t seed = 0;
+  std::string role;         ///< "scored", "familiarisation", "demonstration"
+  bool force_feedback = true;
+  double puncture_force_N = 0;
+};
+
+struct TrialEnd {
+  int trial = 0;
+  std::int64_t t_ns = 0;    ///< session time of the last tick that was judged
+  std::string outcome;      ///< "success", "aborted", "time", "void", "not scored"
+  std::string reason;
+  std::string scores_json;  ///< as the assessment wrote them; empty when void
+};
+
+/// Where a session's evidence goes. Called by the recorder activity only (one thread).
+class FlightSink {
+ public:
+  virtual ~FlightSink() = default;
+  virtual void beginTrial(const TrialHeader& header) = 0;
+  virtual void snapshot(const LocalGeometry& geometry) = 0;
+  virtual void tick(const haptics::FlightRecord& record) = 0;
+  virtual void keyframe(std::int64_t tick, const haptics::TickState& state) = 0;
+  virtual void event(const Event& event) = 0;
+  virtual void endTrial(const TrialEnd& end) = 0;
+  virtual void commit() = 0;
+};
+
+}  // namespace palpa::runtime

@@ -1,0 +1,55 @@
+#include "apps/runtime/haptic_activity.h"
+
+#include <algorithm>
+
+namespace palpa::runtime {
+namespace {
+
+PackedPose toolPose(const haptics::TickConfig& config, const haptics::DeviceReading& reading) {
+  const Quat q_DE = unpack(reading.q_DE).normalized();
+  return {pack(Vec3(unpack(reading.p_DE) + q_DE * unpack(config.X_ET.p))),
+          pack(Quat(q_DE * unpack(config.X_ET.q)))};
+}
+
+}  // namespace
+
+std::int64_t HapticActivity::step(std::int64_t now_ns) {
+  const haptics::DeviceReading reading = device_.read(now_ns);
+  const LocalGeometry* latest = bus_.geometry_to_haptic.read(now_ns);
+  const haptics::TickCommands* commands = bus_.task_to_haptic.read(now_ns);
+  if (state_.tick % kKeyframeTicks == 0)
+    bus_.keyframes_to_recorder.push(Keyframe{state_.tick, state_});
+  const haptics::FlightRecord record =
+      haptics::tick(config_, state_, reading, latest, commands ? *commands : haptics::TickCommands{},
+                    now_ns);
+  device_.command(now_ns, record.f_command_D);
+  tell(record, now_ns);
+  // Ticks stay on the grid; a tick that is late by more than a period does not cause a burst.
+  due_ns_ = std::max((due_ns_ < 0 ? now_ns : due_ns_) + config_.period_ns, now_ns);
+  return due_ns_;
+}
+
+void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_ns) {
+  bus_.haptic_to_recorder.push(record);
+  bus_.haptic_to_task.push(record);
+  ToolState tool;
+  tool.t_ns = now_ns;
+  tool.X_DT = toolPose(config_, record.reading);
+  tool.v_D = state_.contact.v_D;
+  tool.f_contact_D = record.f_contact_D;
+  tool.f_command_D = record.f_command_D;
+  tool.entry_D = state_.contact.entry_D;
+  tool.depth = record.depth;
+  tool.plunger = record.reading.plunger;
+  tool.bone_force = record.bone_force;
+  tool.phase = record.phase;
+  tool.tissue = record.tissue;
+  tool.wall = record.wall;
+  tool.bone = record.bone;
+  tool.safety = record.safety;
+  tool.homed = record.reading.homed;
+  bus_.haptic_to_geometry.publish(tool, now_ns);
+  bus_.haptic_to_scene.publish(tool, now_ns);
+}
+
+}  // namespace palpa::runtime

@@ -1,0 +1,43 @@
+#pragma once
+
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "anatomy/geometry/pose.h"
+
+namespace palpa::station {
+
+/// A JSON file whose every access names file and field when something is wrong. All members throw
+/// UsageError: a damaged file is a set-up mistake, told in one line.
+class JsonFile {
+ public:
+  JsonFile() = default;
+  explicit JsonFile(const std::filesystem::path& file);
+  JsonFile(nlohmann::json json, std::string name)
+      : json_(std::move(json)), name_(std::move(name)) {}
+
+  /// `path`: fields separated by '/', e.g. "skin/m_per_mm". A number may also be an object
+  /// {"value": 2, "unit": "1/mm", "source": "...", "range": [1, 4]}; the range is then checked.
+  double number(const std::string& path) const;
+  double number(const std::string& path, double low, double high) const;  ///< checks the range, too
+  int integer(const std::string& path, int low, int high) const;
+  std::string text(const std::string& path) const;
+  Vec3 vector(const std::string& path) const;
+  bool has(const std::string& path) const { return find(path) != nullptr; }
+
+  const nlohmann::json& json() const { return json_; }
+  const std::string& name() const { return name_; }
+  void needVersion(
+      int newest) const;  ///< field "version" is 1 to `newest`: files of later programs are refused
+  [[noreturn]] void refuse(const std::string& path, const std::string& what) const;
+
+ private:
+  const nlohmann::json* find(const std::string& path) const;
+  const nlohmann::json& need(const std::string& path) const;
+
+  nlohmann::json json_;
+  std::string name_;
+};
+
+}  // namespace palpa::station

@@ -1,0 +1,120 @@
+#include "apps/station/station_file.h"
+
+#include <numbers>
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::station {
+namespace {
+
+constexpr double kMm = 1e-3;
+constexpr int kStationVersion = 1;
+
+Pose readPose(const JsonFile& file, const std::string& at) {
+  const Vec3 turn = file.vector(at + "/rotation_vector_deg") * (std::numbers::pi / 180);
+  const double angle = turn.norm();
+  const Mat3 R = angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Mat3::Identity();
+  return makePose(R, kMm * file.vector(at + "/position_mm"));
+}
+
+haptics::DeviceCapabilities readDevice(const JsonFile& file) {
+  haptics::DeviceCapabilities device;
+  device.name = file.text("device/name");
+  device.max_force_N = file.number("device/max_force_N", 0.1, 100);
+  device.stable_stiffness = file.number("device/stable_stiffness_N_per_m", 50, 50'000);
+  device.position_resolution = kMm * file.number("device/position_resolution_mm", 0, 1);
+  device.apparent_mass = file.number("device/apparent_mass_kg", 0, 5);
+  const std::string driver = file.text("device/driver");
+  if (driver != "virtual") file.refuse("device/driver", "is \"" + driver + "\"; known: virtual");
+  device.simulated = true;
+  return device;
+}
+
+calibration::CameraModel readCamera(const JsonFile& file) {
+  calibration::CameraModel camera;
+  camera.width = file.integer("camera/width_px", 64, 8192);
+  camera.height = file.integer("camera/height_px", 64, 8192);
+  camera.fx = file.number("camera/fx_px", 10, 1e5);
+  camera.fy = file.number("camera/fy_px", 10, 1e5);
+  camera.cx = file.number("camera/cx_px", -1e4, 1e4);
+  camera.cy = file.number("camera/cy_px", -1e4, 1e4);
+  static constexpr const char* kTerms[5] = {"k1", "k2", "p1", "p2", "k3"};
+  for (std::size_t i = 0; i < 5; ++i)
+    camera.distortion[i] = file.number(std::string("camera/distortion/") + kTerms[i], -10, 10);
+  return camera;
+}
+
+ar::TagGridSpec readBoard(const JsonFile& file) {
+  ar::TagGridSpec board;
+  board.columns = file.integer("board/columns", 1, 30);
+  board.rows = file.integer("board/rows", 1, 30);
+  board.tag_size = kMm * file.number("board/tag_size_mm", 2, 500);
+  board.spacing = kMm * file.number("board/spacing_mm", 0.5, 500);
+  board.first_id = file.integer("board/first_id", 0, 586);
+  ar::validate(board, file.name() + ", \"board\"");
+  return board;
+}
+
+struct Box {
+  Vec3 low = Vec3::Constant(1e9), high = Vec3::Constant(-1e9);
+};
+
+Box skinBox(const anatomy::Patient& patient) {
+  Box box;
+  for (const Vec3& p : patient.organ(Organ::skin).mesh.points) {
+    box.low = box.low.cwiseMin(p);
+    box.high = box.high.cwiseMax(p);
+  }
+  return box;
+}
+
+/// Supine: left stays left, posterior is down, superior is away from the reader.
+Mat3 supine() {
+  Mat3 R;
+  R.col(0) = Vec3::UnitX();
+  R.col(1) = -Vec3::UnitZ();
+  R.col(2) = Vec3::UnitY();
+  return R;
+}
+
+}  // namespace
+
+Station readStation(const std::filesystem::path& path) {
+  JsonFile file(path);
+  file.needVersion(kStationVersion);
+  Station s;
+  s.file = file;
+  s.id = file.text("id");
+  s.title = file.text("title");
+  s.device = readDevice(file);
+  s.simulated = s.device.simulated;
+  s.camera = readCamera(file);
+  s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
+  s.camera_latency_s = 1e-3 * file.number("camera/latency_ms", 0, 1000 / s.camera_rate_Hz);
+  s.board = readBoard(file);
+  s.decimate = file.number("camera/decimate", 1, 4);
+  s.X_WD = readPose(file, "registration/X_WD");
+  s.X_ET = readPose(file, "tool/X_ET");
+  s.near_edge_W = kMm * file.vector("patient/near_edge_mm");
+  s.safety.max_force_N = file.number("safety/max_force_N", 0.1, s.device.max_force_N);
+  s.safety.max_slew_N_per_s = file.number("safety/max_slew_N_per_s", 10, 1e5);
+  s.safety.max_energy_J = file.number("safety/max_energy_J", 1e-3, 5);
+  s.coupling.stiffness =
+      file.number("coupling/stiffness_N_per_m", 10, s.device.stable_stiffness);
+  s.calibration_verdict = file.text("calibration/verdict");
+  s.calibration_date = file.text("calibration/date");
+  return s;
+}
+
+Pose placePatient(const anatomy::Patient& patient, const Vec3& near_edge_W) {
+  const Box box = skinBox(patient);
+  const Vec3 edge_A(0.5 * (box.low.x() + box.high.x()), box.high.y(), box.low.z());
+  return makePose(supine(), near_edge_W - supine() * edge_A);
+}
+
+Pose placePatientOnBoard(const anatomy::Patient& patient) {
+  const Box box = skinBox(patient);
+  return placePatient(patient, {0, -0.5 * (box.high.z() - box.low.z()), 0});
+}
+
+}  // namespace palpa::station

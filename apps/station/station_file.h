@@ -1,0 +1,46 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "anatomy/patient.h"
+#include "apps/station/json_file.h"
+#include "ar/board.h"
+#include "calibration/camera_model.h"
+#include "haptics/device.h"
+#include "haptics/tick.h"
+
+namespace palpa::station {
+
+/// One training place: its devices and what is believed about them. Relative paths in the file start at
+/// the file. A virtual bench draws its truth around these figures.
+struct Station {
+  std::string id, title;
+  bool simulated = false;
+  haptics::DeviceCapabilities device;
+  calibration::CameraModel camera;
+  ar::TagGridSpec board;
+  double decimate = 2;
+  double camera_rate_Hz = 15;
+  double camera_latency_s = 0.05;
+  Pose X_WD = Pose::Identity();    ///< haptic base on the table: registration
+  Pose X_ET = Pose::Identity();    ///< needle tip in the end effector: tool calibration
+  Vec3 near_edge_W = Vec3::Zero(); ///< middle of the bust's edge nearest to the reader, on the table
+  haptics::SafetyLimits safety;
+  haptics::CouplingLimits coupling;
+  std::string calibration_verdict; ///< "pass", or what is wrong: a session is then "not scored"
+  std::string calibration_date;
+  JsonFile file;                   ///< for parts that only others read (the twin's spreads)
+};
+
+/// Throws UsageError naming file and field.
+Station readStation(const std::filesystem::path& file);
+
+/// Supine on the table beside or on the board: back at z_W = 0, head away from the reader (+y_W), the
+/// middle of the edge nearest to the reader at `near_edge_W`. Right and left side alike.
+Pose placePatient(const anatomy::Patient& patient, const Vec3& near_edge_W);
+
+/// The same, centred on the board.
+Pose placePatientOnBoard(const anatomy::Patient& patient);
+
+}  // namespace palpa::station

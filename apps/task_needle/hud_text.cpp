@@ -1,0 +1,75 @@
+#include "apps/task_needle/hud_text.h"
+
+#include <cstdio>
+
+namespace palpa::task_needle {
+namespace {
+
+template <class... Numbers>
+std::string format(const char* pattern, Numbers... numbers) {
+  char text[96];
+  std::snprintf(text, sizeof text, pattern, numbers...);
+  return text;
+}
+
+std::string depthText(const runtime::ToolState& tool) {
+  switch (tool.phase) {
+    case haptics::NeedlePhase::outside: return "outside the skin";
+    case haptics::NeedlePhase::indenting: return "on the skin";
+    case haptics::NeedlePhase::inserted: break;
+  }
+  return format("%.0f mm under the skin, in ", tool.depth * 1e3) +
+         (tool.tissue == Tissue::vein_lumen ? "the vein" : name(tool.tissue));
+}
+
+std::string touchedText(const runtime::ToolState& tool) {
+  if (tool.tissue == Tissue::lung || tool.wall == Organ::lung) return "LUNG";
+  if (tool.tissue == Tissue::artery_lumen || tool.wall == Organ::artery) return "ARTERY";
+  if (tool.bone == Organ::clavicle) return "clavicle";
+  if (tool.bone != Organ::none) return name(tool.bone);
+  if (tool.wall == Organ::vein || tool.tissue == Tissue::vein_lumen) return "subclavian vein";
+  return "";
+}
+
+bool injury(const runtime::ToolState& tool) {
+  return tool.tissue == Tissue::lung || tool.wall == Organ::lung ||
+         tool.tissue == Tissue::artery_lumen || tool.wall == Organ::artery;
+}
+
+}  // namespace
+
+scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, bool board_seen,
+                   const std::string& mark) {
+  scene::Hud hud;
+  const bool active = status.state == TrialState::running || status.state == TrialState::paused;
+  hud.phase = active ? clinicalName(status.phase) : "";
+  if (status.trials > 1 && status.trial > 0)
+    hud.phase = format("Trial %d of %d  ", status.trial, status.trials) + hud.phase;
+  if (active) {
+    hud.depth = depthText(tool);
+    hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) +
+                (status.force_feedback ? "" : " (force feedback off)");
+    const int seconds = static_cast<int>(status.elapsed_s);
+    hud.time = format("%d:%02d", seconds / 60, seconds % 60);
+    hud.touched = touchedText(tool);
+  }
+  hud.notice = status.notice;
+  hud.alarm = status.alarm;
+  const bool force_taken = tool.safety == haptics::SafetyCause::energy ||
+                           tool.safety == haptics::SafetyCause::silent_device ||
+                           tool.safety == haptics::SafetyCause::stale_geometry;
+  if (hud.notice.empty() && active && force_taken) {
+    hud.notice = std::string("Force is off: ") + haptics::name(tool.safety) + ". R re-arms";
+    hud.alarm = true;
+  }
+  if (hud.notice.empty() && active && injury(tool)) {
+    hud.notice = "The needle touches the " + std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery");
+    hud.alarm = true;
+  }
+  if (hud.notice.empty() && status.blood_flows) hud.notice = "Blood flows into the syringe";
+  if (hud.notice.empty() && !board_seen) hud.notice = "The camera does not see the board: the overlay stands still";
+  hud.mark = mark;
+  return hud;
+}
+
+}  // namespace palpa::task_needle

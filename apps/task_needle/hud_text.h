@@ -1,0 +1,13 @@
+#pragma once
+
+#include "apps/runtime/bus.h"
+#include "apps/task_needle/task_status.h"
+#include "scene/scene_state.h"
+
+namespace palpa::task_needle {
+
+/// The HUD's lines in clinical words.
+scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, bool board_seen,
+                   const std::string& mark);
+
+}  // namespace palpa::task_needle

@@ -1,0 +1,140 @@
+#include "apps/task_needle/scene_activity.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/task_needle/hud_text.h"
+
+namespace palpa::task_needle {
+namespace {
+
+constexpr std::int64_t kFramePeriod = 33'333'333;
+constexpr std::int64_t kSeenRecently = 500'000'000;
+constexpr double kTrailStep = 0.0005;   // m between points of the trail
+constexpr std::size_t kTrailLongest = 4000;
+
+scene::Image toImage(const cv::Mat& picture) {
+  cv::Mat rgb;
+  cv::cvtColor(picture, rgb, picture.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+  scene::Image image{rgb.cols, rgb.rows, 3, {}};
+  image.pixels.assign(rgb.datastart, rgb.dataend);
+  return image;
+}
+
+}  // namespace
+
+SceneActivity::SceneActivity(const Setup& setup, runtime::Bus& bus, TaskChannels& channels)
+    : setup_(setup),
+      bus_(bus),
+      channels_(channels),
+      undistorter_(setup.camera),
+      X_AD_((setup.X_WD.inverse() * setup.X_WA).inverse()) {
+  const calibration::CameraModel& p = undistorter_.pinhole();
+  state_.camera = {p.width, p.height, p.fx, p.fy, p.cx, p.cy};
+}
+
+void SceneActivity::cycleSkin() {
+  state_.skin = state_.skin == scene::SkinStyle::translucent ? scene::SkinStyle::solid
+                : state_.skin == scene::SkinStyle::solid     ? scene::SkinStyle::hidden
+                                                             : scene::SkinStyle::translucent;
+}
+
+std::int64_t SceneActivity::step(std::int64_t now_ns) {
+  now_ns_ = now_ns;
+  follow(now_ns);
+  compose();
+  tellOperator(now_ns);
+  if (setup_.views == Views::continuous) render();
+  if (setup_.views != Views::none) keepPictures();
+  if (setup_.view && setup_.input) setup_.input(setup_.view->poll(), now_ns);
+  return now_ns + kFramePeriod;
+}
+
+void SceneActivity::follow(std::int64_t now_ns) {
+  if (const TaskStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
+  if (const runtime::ToolState* tool = bus_.haptic_to_scene.read(now_ns)) tool_ = *tool;
+  const runtime::CameraView* view = bus_.camera_to_scene.read(now_ns);
+  if (!view || view->number == last_number_ || view->ended) return;
+  last_number_ = view->number;
+  camera_ = *view;
+  fresh_picture_ = true;
+  if (!view->pose) return;
+  // Recorded single pictures are not a motion: each stands for itself.
+  X_CW_ = setup_.every_source_picture ? view->pose->X_CW
+                                      : smoother_.update(view->pose->X_CW, view->t_exposure_ns);
+  registered_ = true;
+  seen_ns_ = view->t_exposure_ns;
+}
+
+void SceneActivity::compose() {
+  const bool seen = registered_ && now_ns_ - seen_ns_ < kSeenRecently;
+  state_.registered = registered_;
+  state_.X_CA = X_CW_ * setup_.X_WA;
+  state_.X_AT = X_AD_ * unpack(tool_.X_DT);
+  state_.plunger = tool_.plunger;
+  state_.blood = status_.blood;
+  state_.hud = hudText(status_, tool_, seen, setup_.mark);
+  state_.forces.clear();
+  const Vec3 f_A = X_AD_.rotation() * unpack(tool_.f_contact_D);
+  if (f_A.norm() > 0.05) {
+    const Vec3 tip = state_.X_AT.translation();
+    state_.forces.push_back({scene::ForceKind::reaction, tip, f_A});
+    const Vec3 felt = X_AD_.rotation() * unpack(tool_.f_command_D);
+    if (felt.norm() > 0.05)
+      state_.forces.push_back({scene::ForceKind::device, (X_AD_ * unpack(tool_.X_DT)) * Vec3(0, 0, -0.11), felt});
+  }
+  if (status_.trial != trail_trial_) {
+    trail_trial_ = status_.trial;
+    state_.trail_A.clear();
+  }
+  const Vec3 tip = state_.X_AT.translation();
+  if (status_.state == TrialState::running && tool_.phase != haptics::NeedlePhase::outside &&
+      state_.trail_A.size() < kTrailLongest &&
+      (state_.trail_A.empty() || (tip - state_.trail_A.back()).norm() > kTrailStep))
+    state_.trail_A.push_back(tip);
+}
+
+void SceneActivity::tellOperator(std::int64_t now_ns) {
+  runtime::Displayed displayed;
+  displayed.t_ns = now_ns;
+  displayed.X_AT = state_.X_AT;
+  displayed.trial = status_.trial;
+  displayed.running = status_.state == TrialState::running;
+  displayed.blood_flows = status_.blood_flows;
+  bus_.scene_to_operator.publish(displayed, now_ns + setup_.display_latency_ns);
+}
+
+void SceneActivity::render() {
+  if (fresh_picture_ && camera_ && camera_->picture) {
+    background_ = toImage(undistorter_.apply(*camera_->picture));
+    fresh_picture_ = false;
+  }
+  state_.picture = background_.pixels.empty() ? nullptr : &background_;
+  setup_.view->show(state_);
+}
+
+void SceneActivity::keepPictures() {
+  PictureRequest moment;
+  while (channels_.pictures_to_scene.pop(&moment)) {
+    char stem[96];
+    std::snprintf(stem, sizeof stem, "view-%02d-%02zu-%s", moment.trial, pictures_.size() + 1,
+                  moment.label.c_str());
+    save(stem, moment);
+  }
+  if (!setup_.every_source_picture || !camera_ || !fresh_picture_) return;
+  const std::string source = std::filesystem::path(camera_->source).stem().string();
+  if (std::find(kept_sources_.begin(), kept_sources_.end(), source) != kept_sources_.end()) return;
+  kept_sources_.push_back(source);
+  save("view-" + source, {status_.trial, status_.elapsed_s, source,
+                          camera_->pose ? "Registered on " + source : "No board found in " + source});
+}
+
+void SceneActivity::save(const std::string& stem, const PictureRequest& moment) {
+  render();
+  const std::filesystem::path file = setup_.folder / (stem + ".png");
+  scene::writePng(setup_.view->capture(), file.string());
+  pictures_.push_back({file, moment});
+}
+
+}  // namespace palpa::task_needle

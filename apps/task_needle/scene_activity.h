@@ -1,0 +1,78 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "apps/runtime/activity.h"
+#include "apps/runtime/bus.h"
+#include "apps/task_needle/needle_task.h"
+#include "apps/task_needle/task_status.h"
+#include "ar/pose_smoother.h"
+#include "ar/undistort.h"
+#include "scene/scene_view.h"
+
+namespace palpa::task_needle {
+
+struct SavedPicture {
+  std::filesystem::path file;
+  PictureRequest moment;
+};
+
+/// SCENE, 30 Hz: puts together what is seen, shows it (or only when a picture is wanted, or never), and
+/// tells a simulated person what is on the screen. Keys and mouse of a window come back through here.
+class SceneActivity final : public runtime::Activity {
+ public:
+  enum class Views { none, pictures, continuous };
+  struct Setup {
+    Views views = Views::none;
+    scene::SceneView* view = nullptr;      ///< null without views
+    calibration::CameraModel camera;
+    Pose X_WA = Pose::Identity(), X_WD = Pose::Identity();
+    std::string mark;                      ///< "SIMULATED OPERATOR", ...
+    std::filesystem::path folder;          ///< where view-*.png go
+    bool every_source_picture = false;     ///< recorded pictures: keep one overlay for each of them
+    std::int64_t display_latency_ns = 33'000'000;
+    /// Keys and mouse of a window, once a frame.
+    std::function<void(const scene::ViewInput&, std::int64_t now_ns)> input;
+  };
+  SceneActivity(const Setup& setup, runtime::Bus& bus, TaskChannels& channels);
+
+  const char* name() const override { return "scene"; }
+  std::int64_t step(std::int64_t now_ns) override;
+  /// After the executive has stopped: pictures still wanted.
+  void finish(std::int64_t now_ns) { step(now_ns); }
+
+  const std::vector<SavedPicture>& pictures() const { return pictures_; }
+  void cycleSkin();
+
+ private:
+  void follow(std::int64_t now_ns);
+  void compose();
+  void render();
+  void keepPictures();
+  void save(const std::string& stem, const PictureRequest& moment);
+  void tellOperator(std::int64_t now_ns);
+
+  Setup setup_;
+  runtime::Bus& bus_;
+  TaskChannels& channels_;
+  ar::Undistorter undistorter_;
+  ar::PoseSmoother smoother_;
+  Pose X_AD_;
+  TaskStatus status_;
+  runtime::ToolState tool_;
+  std::optional<runtime::CameraView> camera_;
+  Pose X_CW_ = Pose::Identity();
+  bool registered_ = false, fresh_picture_ = false;
+  std::int64_t seen_ns_ = 0, now_ns_ = 0;
+  std::uint64_t last_number_ = ~0ull;
+  scene::Image background_;
+  scene::SceneState state_;
+  std::vector<SavedPicture> pictures_;
+  std::vector<std::string> kept_sources_;
+  int trail_trial_ = 0;
+};
+
+}  // namespace palpa::task_needle

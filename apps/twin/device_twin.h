@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cstdint>
+
+#include "apps/runtime/random.h"
+#include "haptics/device.h"
+
+namespace palpa::twin {
+
+/// The mechanical truth of a simulated haptic device. SI units.
+struct DeviceTruth {
+  double apparent_mass = 0.045;     ///< kg at the end effector
+  double coulomb = 0.06;            ///< N, friction of the drives
+  double viscous = 0.2;             ///< N s/m
+  double encoder_step = 23e-6;      ///< m
+  double encoder_angle = 0.0006;    ///< rad
+  double max_force_N = 7.9;         ///< the drives saturate here
+  double actuator_tau = 0.001;      ///< s, first-order lag of the drives
+};
+
+/// How a hand holds the tool: a spring and a damper toward where it wants to be.
+struct HandGrip {
+  double stiffness = 500;           ///< N/m
+  double damping = 6;               ///< N s/m
+  double mass = 0.15;               ///< kg
+};
+
+/// Point mass of device and hand, moved by grip, drives and friction; orientation follows the hand.
+/// m dv/dt = K (p_hand - p) + B (v_hand - v) + f_drive - f_c v/(|v| + v_0) - b v,
+/// integrated semi-implicitly with four substeps a millisecond.
+class DeviceTwin {
+ public:
+  DeviceTwin(const DeviceTruth& truth, const Pose& X_DE_start);
+
+  /// Advances by dt toward the hand's wanted pose; `f_command_D` from the controller.
+  void advance(double dt, const Pose& X_DH, const HandGrip& grip, const Vec3& f_command_D);
+
+  const Pose& truePose() const { return X_DE_; }   ///< for accuracy reports only
+  const Vec3& gripForce() const { return f_grip_D_; }   ///< what the hand feels: force of hand on tool
+  PackedPose encoderPose() const;                  ///< what the device's electronics say
+
+ private:
+  DeviceTruth truth_;
+  Pose X_DE_;
+  Vec3 v_D_ = Vec3::Zero(), p_hand_last_D_, f_drive_D_ = Vec3::Zero(), f_grip_D_ = Vec3::Zero();
+};
+
+}  // namespace palpa::twin

@@ -1,0 +1,311 @@
+#include "apps/twin/operator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace palpa::twin {
+namespace {
+
+constexpr std::int64_t kThoughtPeriod = 10'000'000;  // decisions at 100 Hz
+constexpr double kThought = 0.01;                    // s
+constexpr std::int64_t kLookPeriod = 100'000'000;    // a glance at the needle, 10 Hz
+constexpr double kStillEnough = 0.010;  // m/s: the picture lags, so only a slow hand is compared with it
+constexpr double kTrust = 0.2;          // weight of one look against what is believed
+constexpr double kAbove = 0.020;        // m above the skin, where the approach ends
+constexpr double kHover = 0.002;        // m above the skin, where the push begins
+constexpr double kBackFromBone = 0.006; // m
+constexpr double kPatience = 2.5;       // s of interrupted flow before the needle goes a little deeper
+constexpr double kNudge = 0.001;        // m
+constexpr double kDrawn = 0.4;          // plunger held under suction while advancing
+constexpr double kDeepestPush = 0.020;  // m the hand goes below the skin in search of the puncture
+constexpr double kFirstGrip = 0.4;      // share of peak force below which resistance counts as lost
+
+Vec3 withoutAlong(const Vec3& v, const Vec3& unit) { return v - v.dot(unit) * unit; }
+
+}  // namespace
+
+Operator::Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, const Pose& X_ET,
+                   std::uint64_t seed)
+    : skill_(skill),
+      anatomy_(anatomy),
+      X_ET_(X_ET),
+      X_TE_(X_ET.inverse()),
+      seed_(seed),
+      judgement_(seed, "operator.judgement.0"),
+      noise_(seed, "operator.noise"),
+      tremor_(skill.tremor_rms, runtime::RandomStream(seed, "operator.tremor")),
+      turn_tremor_(skill.turn_tremor_rms, runtime::RandomStream(seed, "operator.turn_tremor")) {}
+
+Pose Operator::needleAt(const Vec3& tip_A, const Vec3& axis_A) const {
+  return makePose(rotationWithZ(axis_A), tip_A);
+}
+
+Vec3 Operator::perpendicular(const Vec3& axis) {
+  const Vec3 draw(noise_.normal(), noise_.normal(), noise_.normal());
+  return withoutAlong(draw, axis).normalized();
+}
+
+double Operator::seenInsertion() const {
+  return (X_AT_seen_.translation() - entry_seen_A_).dot(axis_A_) + depth_error_;
+}
+
+/// Compares the needle on the screen with the own hand: where is the patient for my hand?
+void Operator::look(const Senses& senses) {
+  if (!senses.seen) return;
+  Pose X_AT = senses.seen->X_AT;
+  X_AT.translation() +=
+      skill_.look_sd * Vec3(noise_.normal(), noise_.normal(), noise_.normal());
+  X_AT_seen_ = X_AT;
+  const Pose X_DA = senses.X_DE * X_ET_ * X_AT.inverse();
+  if (!oriented_) {
+    X_DA_ = X_DA;
+    X_DH_ = senses.X_DE;
+    oriented_ = true;
+    tip_A_ = X_AT.translation();
+    axis_A_ = X_AT.rotation() * Vec3::UnitZ();
+  } else if (hand_speed_ < kStillEnough) {
+    const Quat q = Quat(X_DA_.rotation()).slerp(kTrust, Quat(X_DA.rotation()));
+    const Vec3 p = X_DA_.translation() + kTrust * (X_DA.translation() - X_DA_.translation());
+    X_DA_ = makePose(q.normalized().toRotationMatrix(), p);
+  }
+}
+
+void Operator::feel(const Senses& senses) {
+  const Vec3 f_A = X_DA_.rotation().transpose() * senses.f_grip_D;
+  const std::size_t slot = felt_count_ % felt_.size();
+  const std::size_t before = (felt_count_ + felt_.size() - 1) % felt_.size();
+  felt_[slot] = 0.7 * felt_[before] + 0.3 * f_A;  // touch is not sharper than about 25 ms
+  flow_[slot] = senses.seen && senses.seen->blood_flows;
+  ++felt_count_;
+}
+
+void Operator::begin(Step step, double now_s, double pause_s) {
+  step_ = step;
+  ready_s_ = now_s + pause_s;
+  peak_N_ = 0;
+}
+
+void Operator::beginTrial(int trial, double now_s) {
+  trial_ = trial;
+  passes_ = 0;
+  judgement_ = runtime::RandomStream(seed_, "operator.judgement." + std::to_string(trial));
+  auto& j = judgement_;
+  plan_entry_A_ = anatomy_.entry_A + skill_.entry_sd * (j.normal() * anatomy_.medial_A +
+                                                        j.normal() * anatomy_.cephalad_A);
+  plan_normal_A_ = (anatomy_.normal_A + skill_.normal_sd * (j.normal() * anatomy_.medial_A +
+                                                            j.normal() * anatomy_.cephalad_A))
+                       .normalized();
+  depth_error_ = j.normal(0, skill_.depth_sd);
+  entry_seen_A_ = plan_entry_A_;
+  moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s,
+         skill_.travel_speed);
+  plunger_wanted_ = 0;
+  begin(Step::approach, now_s, 0);
+}
+
+void Operator::moveTo(const Pose& X_AT, double now_s, double speed) {
+  const Pose from = needleAt(tip_A_, axis_A_);
+  const double way = (X_AT.translation() - from.translation()).norm();
+  const double turn =
+      std::acos(std::clamp(axis_A_.dot(X_AT.rotation() * Vec3::UnitZ()), -1.0, 1.0));
+  move_ = MinJerk(from, X_AT, now_s, std::max(way / speed, turn / 1.0));  // wrists turn 1 rad/s
+  moving_ = true;
+}
+
+/// By the landmarks, as well as one can judge; experts lean toward the clavicle and let it guide them.
+Vec3 Operator::firstAim() {
+  const Vec3 aim = (anatomy_.aim_A - entry_seen_A_).normalized();
+  const Vec3 to_bone = (anatomy_.cephalad_A - anatomy_.posterior_A).normalized();
+  return (aim + std::tan(skill_.guide) * to_bone +
+          skill_.direction_sd * (judgement_.normal() * anatomy_.posterior_A +
+                                 judgement_.normal() * anatomy_.cephalad_A))
+      .normalized();
+}
+
+/// Turns about the entry, keeping the insertion.
+void Operator::aimAt(const Vec3& axis_A, double now_s, double duration_s) {
+  move_ = MinJerk(needleAt(entry_seen_A_, axis_A_), needleAt(entry_seen_A_, axis_A), now_s,
+                  duration_s);
+  moving_ = true;
+}
+
+void Operator::holdHere() {
+  tip_A_ = X_AT_seen_.translation();
+  insertion_ = (tip_A_ - entry_seen_A_).dot(axis_A_);
+}
+
+/// Along the skin's normal until the resistance is lost, or, without feeling, until it looks deep enough.
+void Operator::pushing(double now_s) {
+  insertion_ += skill_.push_speed * kThought;
+  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
+  const Vec3& felt = felt_[(felt_count_ + felt_.size() - 1 - delay) % felt_.size()];
+  const double resistance = felt.dot(axis_A_);
+  peak_N_ = std::max(peak_N_, resistance);
+  const bool lost = peak_N_ > skill_.notice_puncture_N && resistance < kFirstGrip * peak_N_;
+  const bool deep = seenInsertion() >= skill_.first_depth;
+  if (lost || deep || insertion_ > kDeepestPush) {
+    holdHere();
+    begin(Step::settle, now_s, skill_.pause);
+  }
+}
+
+void Operator::advancing(double now_s) {
+  insertion_ += skill_.advance_speed * kThought;
+  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
+  const std::size_t slot = (felt_count_ + felt_.size() - 1 - delay) % felt_.size();
+  if (flow_[slot]) {
+    holdHere();
+    dwell_since_s_ = dwell_begun_s_ = now_s;
+    return begin(Step::dwell, now_s, 0);
+  }
+  const Vec3 sideways = withoutAlong(felt_[slot], axis_A_);
+  const bool bone = sideways.norm() > skill_.notice_bone_N ||
+                    felt_[slot].dot(axis_A_) > 3 * skill_.notice_bone_N;
+  const bool dry = seenInsertion() > skill_.vein_distance + skill_.search_margin;
+  if (!bone && !dry) return;
+  if (++passes_ > skill_.redirections) {
+    gives_up_ = true;
+    return begin(Step::leave, now_s, skill_.pause);
+  }
+  // The hand pushes against the bone: it yields the other way. After a dry pass: try another side.
+  turn_toward_A_ = bone && sideways.norm() > 1e-6 ? Vec3(-sideways.normalized()) : Vec3::Zero();
+  retreat_to_ = bone ? insertion_ - kBackFromBone : skill_.first_depth;
+  retreat_to_ = std::max(retreat_to_, 0.5 * skill_.first_depth);
+  begin(Step::retreat, now_s, 0);
+}
+
+void Operator::retreating(double now_s) {
+  insertion_ -= skill_.withdraw_speed * kThought;
+  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
+  if (flow_[(felt_count_ + felt_.size() - 1 - delay) % felt_.size()]) {
+    holdHere();
+    dwell_since_s_ = dwell_begun_s_ = now_s;
+    return begin(Step::dwell, now_s, 0);
+  }
+  if (insertion_ <= retreat_to_) turnAway(turn_toward_A_, now_s);
+}
+
+/// Redirects: away from bone, or in turn to the sides, always by a small angle.
+void Operator::turnAway(const Vec3& toward_A, double now_s) {
+  Vec3 toward = toward_A;
+  if (toward.isZero()) {
+    const Vec3 pattern[] = {anatomy_.posterior_A, anatomy_.cephalad_A, -anatomy_.posterior_A,
+                            -anatomy_.cephalad_A};
+    toward = pattern[passes_ % 4];
+  }
+  toward = withoutAlong(toward, axis_A_).normalized();
+  const double angle = skill_.redirect + skill_.redirect_sd * judgement_.normal();
+  aimAt((std::cos(angle) * axis_A_ + std::sin(angle) * toward).normalized(), now_s,
+        0.5 * skill_.turn_time);
+  begin(Step::redirect, now_s, 0);
+}
+
+void Operator::dwelling(double now_s) {
+  plunger_wanted_ = 1;
+  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
+  if (flow_[(felt_count_ + felt_.size() - 1 - delay) % felt_.size()]) {
+    dwell_since_s_ = now_s;
+    if (now_s - dwell_begun_s_ > kPatience) {  // it comes and goes: a little deeper
+      insertion_ += kNudge;
+      dwell_begun_s_ = now_s;
+    }
+  } else if (now_s - dwell_since_s_ > 2 * skill_.reaction) {  // lost it: back a little, slowly
+    retreat_to_ = insertion_ - 0.5 * skill_.search_margin;
+    turn_toward_A_ = Vec3::Zero();
+    begin(Step::retreat, now_s, 0);
+  }
+}
+
+void Operator::think(const Senses& senses) {
+  const double now_s = static_cast<double>(senses.now_ns) * 1e-9;
+  feel(senses);
+  if (!senses.seen || !oriented_) return;
+  running_ = senses.seen->running;
+  if (running_ && senses.seen->trial != trial_) return beginTrial(senses.seen->trial, now_s);
+  if (!running_ && step_ != Step::rest && step_ != Step::leave)
+    return begin(Step::leave, now_s, skill_.pause);
+  if (now_s < ready_s_) return;
+  const bool arrived = !moving_ || move_.done(now_s);
+  switch (step_) {
+    case Step::rest:
+      return;
+    case Step::approach:
+      if (!arrived) return;
+      moveTo(needleAt(plan_entry_A_ + kHover * plan_normal_A_, -plan_normal_A_), now_s,
+             0.25 * skill_.travel_speed);
+      return begin(Step::lower, now_s, 0);
+    case Step::lower:
+      if (!arrived) return;
+      moving_ = false;
+      insertion_ = -kHover;
+      return begin(Step::push, now_s, skill_.pause);
+    case Step::push:
+      return pushing(now_s);
+    case Step::settle:
+      entry_seen_A_ = X_AT_seen_.translation() -
+                      std::max((X_AT_seen_.translation() - plan_entry_A_).dot(axis_A_), 0.0) *
+                          axis_A_;
+      return begin(Step::deepen, now_s, 0);
+    case Step::deepen:
+      if (seenInsertion() < skill_.first_depth) {
+        insertion_ += skill_.push_speed * kThought;
+        return;
+      }
+      holdHere();
+      aimAt(firstAim(), now_s + skill_.pause, skill_.turn_time);
+      return begin(Step::turn, now_s, skill_.pause);
+    case Step::turn:
+    case Step::redirect:
+      if (!arrived) return;
+      moving_ = false;
+      plunger_wanted_ = kDrawn;
+      return begin(Step::advance, now_s, step_ == Step::turn ? skill_.pause : 0.5 * skill_.pause);
+    case Step::advance:
+      return advancing(now_s);
+    case Step::retreat:
+      return retreating(now_s);
+    case Step::dwell:
+      return dwelling(now_s);
+    case Step::leave:
+      insertion_ -= skill_.withdraw_speed * kThought;
+      plunger_wanted_ = 0;
+      if (insertion_ < -kAbove) begin(Step::rest, now_s, 0);
+      return;
+  }
+}
+
+Operator::Action Operator::act(const Senses& senses, double dt) {
+  const double now_s = static_cast<double>(senses.now_ns) * 1e-9;
+  const Vec3 p_D = senses.X_DE.translation();
+  hand_speed_ += ((p_D - p_last_D_).norm() / dt - hand_speed_) * std::min(1.0, dt / 0.05);
+  p_last_D_ = p_D;
+  if (senses.now_ns - last_look_ns_ >= kLookPeriod || !oriented_) {
+    last_look_ns_ = senses.now_ns;
+    look(senses);
+  }
+  if (senses.now_ns >= next_thought_ns_) {
+    next_thought_ns_ = senses.now_ns + kThoughtPeriod;
+    think(senses);
+  }
+  plunger_ += std::clamp(plunger_wanted_ - plunger_, -dt, dt);  // drawn in a second
+  if (!oriented_) return {senses.X_DE, plunger_, false};
+
+  if (moving_) {
+    const Pose X = move_.at(now_s);
+    axis_A_ = X.rotation() * Vec3::UnitZ();
+    const bool turning = step_ == Step::turn || step_ == Step::redirect;
+    tip_A_ = turning ? Vec3(X.translation() + insertion_ * axis_A_) : Vec3(X.translation());
+  } else if (step_ != Step::rest) {
+    tip_A_ = entry_seen_A_ + insertion_ * axis_A_;
+  }
+  const Vec3 turn = turn_tremor_.next(dt);
+  Pose X_AT = needleAt(tip_A_ + tremor_.next(dt), axis_A_);
+  X_AT.linear() = X_AT.linear() * Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
+  X_DH_ = X_DA_ * X_AT * X_TE_;
+  Action action{X_DH_, plunger_, gives_up_};
+  gives_up_ = false;
+  return action;
+}
+
+}  // namespace palpa::twin

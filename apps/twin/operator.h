@@ -1,0 +1,106 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "apps/runtime/bus.h"
+#include "apps/runtime/random.h"
+#include "apps/twin/min_jerk.h"
+#include "apps/twin/operator_skill.h"
+#include "apps/twin/tremor.h"
+
+namespace palpa::twin {
+
+/// What anybody can see or palpate on the displayed patient.
+struct VisibleAnatomy {
+  Vec3 entry_A;             ///< 1 cm below the junction of medial and middle thirds
+  Vec3 normal_A;            ///< of the skin there
+  Vec3 aim_A;               ///< where the needle is pointed: by the landmarks
+  Vec3 medial_A, posterior_A, cephalad_A;   ///< unit directions by the landmarks
+};
+
+/// A simulated person who performs the procedure. Knows what is on the screen (with a delay, with noise)
+/// and what the hand feels; nothing else. Moves a hand; the device's mechanics do the rest.
+class Operator {
+ public:
+  Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, const Pose& X_ET,
+           std::uint64_t seed);
+
+  struct Senses {
+    std::int64_t now_ns = 0;
+    Pose X_DE = Pose::Identity();   ///< where the own hand is (proprioception)
+    Vec3 f_grip_D = Vec3::Zero();   ///< force of the hand on the tool
+    const runtime::Displayed* seen = nullptr;
+  };
+  struct Action {
+    Pose X_DH = Pose::Identity();   ///< where the hand wants the tool
+    double plunger = 0;
+    bool gives_up = false;          ///< says so once: the trial can be aborted
+  };
+  Action act(const Senses& senses, double dt);
+
+  const HandGrip& grip() const { return skill_.grip; }
+
+ private:
+  enum class Step { rest, approach, lower, push, settle, deepen, turn, advance, retreat, redirect,
+                    dwell, leave };
+
+  void look(const Senses& senses);
+  void feel(const Senses& senses);
+  void think(const Senses& senses);
+  void begin(Step step, double now_s, double pause_s);
+  void beginTrial(int trial, double now_s);
+  void moveTo(const Pose& X_AT, double now_s, double speed);
+  void aimAt(const Vec3& axis_A, double now_s, double duration_s);
+  void pushing(double now_s);
+  void advancing(double now_s);
+  void retreating(double now_s);
+  void dwelling(double now_s);
+  void turnAway(const Vec3& toward_A, double now_s);
+  void holdHere();
+  Vec3 firstAim();
+  Pose needleAt(const Vec3& tip_A, const Vec3& axis_A) const;
+  double seenInsertion() const;
+  Vec3 perpendicular(const Vec3& axis);
+
+  OperatorSkill skill_;
+  VisibleAnatomy anatomy_;
+  Pose X_ET_, X_TE_;
+  std::uint64_t seed_;
+  runtime::RandomStream judgement_, noise_;
+  Tremor tremor_, turn_tremor_;
+
+  // What he believes: where the patient on the screen is for his hand, where the needle is.
+  bool oriented_ = false;
+  Pose X_DA_ = Pose::Identity();
+  Pose X_AT_seen_ = Pose::Identity();
+  Vec3 entry_seen_A_ = Vec3::Zero();
+  std::array<Vec3, 64> felt_{};     ///< 100 Hz history of the axial and lateral force on the tool, frame A
+  std::size_t felt_count_ = 0;
+  std::array<bool, 64> flow_{};     ///< 100 Hz history of the blood seen
+  double peak_N_ = 0;
+  double depth_error_ = 0;
+
+  // What he is doing.
+  Step step_ = Step::rest;
+  double ready_s_ = 0;              ///< the current step's pause is over
+  int trial_ = 0;
+  bool running_ = false;
+  int passes_ = 0;
+  bool gives_up_ = false;
+  Vec3 plan_entry_A_ = Vec3::Zero(), plan_normal_A_ = Vec3::UnitZ(), axis_A_ = Vec3::UnitZ();
+  Vec3 tip_A_ = Vec3::Zero();       ///< wanted
+  double insertion_ = 0;            ///< wanted, along axis_A_ from the entry
+  double retreat_to_ = 0;
+  Vec3 turn_toward_A_ = Vec3::Zero();
+  bool moving_ = false;
+  MinJerk move_;
+  double plunger_ = 0, plunger_wanted_ = 0;
+  double dwell_since_s_ = 0, dwell_begun_s_ = 0;
+  std::int64_t next_thought_ns_ = 0, last_look_ns_ = 0;
+  Vec3 p_last_D_ = Vec3::Zero();
+  double hand_speed_ = 0;
+  Pose X_DH_ = Pose::Identity();
+};
+
+}  // namespace palpa::twin

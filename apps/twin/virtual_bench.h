@@ -1,0 +1,50 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "apps/runtime/camera_activity.h"
+#include "apps/runtime/channel_device.h"
+#include "apps/station/station_file.h"
+#include "apps/twin/operator.h"
+#include "apps/twin/virtual_camera.h"
+
+namespace palpa::twin {
+
+/// How far the estimates were from the simulated truth; for reports only.
+struct BenchAccuracy {
+  std::size_t pictures = 0, registered = 0;
+  double entry_median_mm = 0, entry_p95_mm = 0;  ///< where the overlay draws the entry point, in C
+  double tool_mm = 0;      ///< where the needle's tip is thought to be at the entry point, in W
+  double distance_m = 0;   ///< camera to board
+};
+
+/// One seeded world: where the camera, the board and the device really are, a device with mechanics, a
+/// camera that takes pictures, a person at the device. The rest of the program sees only pictures and
+/// readings. Truth is drawn around the station's figures with the spreads in its file.
+class VirtualBench {
+ public:
+  struct Setup {
+    const station::Station& station;
+    Pose X_WA;                    ///< where the software has put the patient
+    OperatorSkill skill;
+    VisibleAnatomy anatomy;
+    std::uint64_t seed = 1;
+    bool left_handed = false;     ///< the needle is picked up on the hand's side
+    std::function<void()> on_giving_up;   ///< the simulated person asks to end the trial
+  };
+  VirtualBench(const Setup& setup, runtime::Bus& bus, runtime::ChannelDevice& device);
+  ~VirtualBench();
+
+  runtime::Activity& activity();                         ///< hand and device mechanics, 1 kHz
+  runtime::CameraActivity::Exposer exposer() const;      ///< pictures
+  void observe(const runtime::CameraView& view);         ///< measures the registration
+  BenchAccuracy accuracy() const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace palpa::twin

@@ -1,0 +1,150 @@
+#include "ar/board_pose.h"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <opencv2/calib3d.hpp>
+
+#include "anatomy/geometry/error.h"
+#include "ar/pose_refinement.h"
+
+namespace palpa::ar {
+namespace {
+
+using calibration::CameraModel;
+
+constexpr double kGrossError_px = 5;  // far beyond corner noise and imperfect intrinsics
+constexpr double kThinnest = 1e-3;    // narrow side to long side; below it points are a line
+constexpr double kSameSolution =
+    1e-4;  // relative; refinement repeats to 1e-9, two solutions differ by degrees
+
+/// Points on the board and on the picture's plane at unit depth, lens distortion taken out.
+struct PlanarPairs {
+  std::vector<cv::Point2d> board, ray;
+};
+
+PlanarPairs planarPairs(const std::vector<BoardPoint>& points, const CameraModel& camera) {
+  PlanarPairs pairs;
+  for (const BoardPoint& point : points) {
+    const Vec3 ray = camera.unproject(point.pixel);
+    pairs.board.emplace_back(point.p_W.x(), point.p_W.y());
+    pairs.ray.emplace_back(ray.x(), ray.y());
+  }
+  return pairs;
+}
+
+/// Finite ones only; throws when one is off the plane, which no picture can cause.
+std::vector<BoardPoint> usable(const std::vector<BoardPoint>& points) {
+  std::vector<BoardPoint> good;
+  for (const BoardPoint& point : points) {
+    if (std::abs(point.p_W.z()) > 1e-9)
+      throw Error("a board point is not on the plane z = 0", "board pose", "Use a flat board.");
+    if (point.pixel.allFinite() && point.p_W.allFinite()) good.push_back(point);
+  }
+  return good;
+}
+
+bool onALine(const std::vector<BoardPoint>& points) {
+  Eigen::Vector2d mean = Eigen::Vector2d::Zero();
+  for (const BoardPoint& point : points) mean += point.p_W.head<2>() / double(points.size());
+  Eigen::Matrix2d scatter = Eigen::Matrix2d::Zero();
+  for (const BoardPoint& point : points) {
+    const Eigen::Vector2d d = point.p_W.head<2>() - mean;
+    scatter += d * d.transpose();
+  }
+  const Eigen::Vector2d spread =
+      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(scatter).eigenvalues();
+  return !(spread[0] > kThinnest * kThinnest * spread[1]);
+}
+
+/// Without those that no homography shared by most of the points explains. OpenCV's RANSAC starts
+/// from a fixed seed, so the choice repeats. When most points disagree, all are kept: the
+/// reprojection error then tells.
+std::vector<BoardPoint> consistent(const std::vector<BoardPoint>& points,
+                                   const CameraModel& camera) {
+  if (points.size() < 6) return points;
+  const PlanarPairs pairs = planarPairs(points, camera);
+  cv::Mat inlier;
+  cv::findHomography(pairs.board, pairs.ray, cv::RANSAC, kGrossError_px / camera.fx, inlier, 500);
+  std::vector<BoardPoint> kept;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (!inlier.empty() && inlier.at<unsigned char>(int(i))) kept.push_back(points[i]);
+  return kept.size() * 2 > points.size() ? kept : points;
+}
+
+Pose fromOpenCv(const cv::Mat& rotation_vector, const cv::Mat& translation) {
+  const Vec3 w(rotation_vector.at<double>(0), rotation_vector.at<double>(1),
+               rotation_vector.at<double>(2));
+  const Vec3 t(translation.at<double>(0), translation.at<double>(1), translation.at<double>(2));
+  const double angle = w.norm();
+  const Mat3 R =
+      angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix() : Mat3(Mat3::Identity());
+  return makePose(R, t);
+}
+
+std::vector<Pose> planarSolutions(const std::vector<BoardPoint>& points,
+                                  const CameraModel& camera) {
+  const PlanarPairs pairs = planarPairs(points, camera);
+  std::vector<cv::Point3d> board;
+  for (const cv::Point2d& p : pairs.board) board.emplace_back(p.x, p.y, 0.0);
+  std::vector<cv::Mat> rotations, translations;
+  cv::solvePnPGeneric(board, pairs.ray, cv::Mat::eye(3, 3, CV_64F), cv::noArray(), rotations,
+                      translations, false, cv::SOLVEPNP_IPPE);
+  std::vector<Pose> solutions;
+  for (std::size_t i = 0; i < rotations.size(); ++i)
+    solutions.push_back(fromOpenCv(rotations[i], translations[i]));
+  return solutions;
+}
+
+/// All points before the camera, and the camera on the printed side.
+bool seesFront(const Pose& X_CW, const std::vector<BoardPoint>& points) {
+  if (!X_CW.matrix().allFinite() || X_CW.inverse().translation().z() <= 0) return false;
+  return std::all_of(points.begin(), points.end(),
+                     [&](const BoardPoint& point) { return (X_CW * point.p_W).z() > 0; });
+}
+
+std::vector<RefinedPose> refinedSolutions(const std::vector<BoardPoint>& points,
+                                          const CameraModel& camera) {
+  std::vector<RefinedPose> solutions;
+  for (const Pose& start : planarSolutions(points, camera)) {
+    if (!seesFront(start, points)) continue;
+    const RefinedPose refined = refinePose(start, points, camera);
+    if (seesFront(refined.X_CW, points)) solutions.push_back(refined);
+  }
+  std::sort(solutions.begin(), solutions.end(),
+            [](const RefinedPose& a, const RefinedPose& b) { return a.rms_px < b.rms_px; });
+  return solutions;
+}
+
+/// Of the best solution that is not the first one over again (both starts often lead to one
+/// minimum).
+double rmsOfOther(const std::vector<RefinedPose>& solutions) {
+  for (const RefinedPose& other : solutions)
+    if (!other.X_CW.isApprox(solutions[0].X_CW, kSameSolution)) return other.rms_px;
+  return std::numeric_limits<double>::infinity();
+}
+
+}  // namespace
+
+std::optional<BoardPose> estimateBoardPose(const std::vector<BoardPoint>& points,
+                                           const calibration::CameraModel& camera,
+                                           double pixel_sigma) try {
+  const std::vector<BoardPoint> given = usable(points);
+  if (given.size() < 4 || onALine(given)) return std::nullopt;
+  const std::vector<BoardPoint> used = consistent(given, camera);
+  const std::vector<RefinedPose> solutions = refinedSolutions(used, camera);
+  if (solutions.empty()) return std::nullopt;
+  BoardPose pose;
+  pose.X_CW = solutions[0].X_CW;
+  pose.covariance = pixel_sigma * pixel_sigma * solutions[0].information.inverse();
+  pose.rms_px = solutions[0].rms_px;
+  pose.rms_other_px = rmsOfOther(solutions);
+  pose.points = int(used.size());
+  pose.rejected = int(points.size() - used.size());
+  return pose;
+} catch (const cv::Exception&) {  // the closed form refuses a degenerate set
+  return std::nullopt;
+}
+
+}  // namespace palpa::ar

@@ -1,0 +1,37 @@
+#pragma once
+
+#include <Eigen/Core>
+#include <optional>
+#include <vector>
+
+#include "ar/board.h"
+#include "calibration/camera_model.h"
+
+namespace palpa::ar {
+
+/// Never a bare pose: what it rests on and how sure it is.
+struct BoardPose {
+  Pose X_CW = Pose::Identity();
+  Eigen::Matrix<double, 6, 6> covariance;  ///< of (rotation vector, translation) in C, rad and m
+  double rms_px = 0;  ///< reprojection error: root of the mean squared distance
+  double rms_other_px =
+      0;             ///< of the second solution of the planar pose; infinite when there is none
+  int points = 0;    ///< used
+  int rejected = 0;  ///< left out because they fit no plane with the others
+};
+
+/// Pose from coplanar points (z_W = 0): both solutions of the planar problem (IPPE, Collins &
+/// Bartoli 2014), each refined over the reprojection error by Levenberg-Marquardt, the better one
+/// kept. Points that miss the plane common to the others by more than 5 px are left out first.
+///
+/// The perturbation is exp([w]) R, t + v: covariance = pixel_sigma^2 (J^T J)^-1 for (w, v), where
+/// `pixel_sigma` is the standard deviation of one pixel coordinate.
+///
+/// Empty when fewer than four points or points on a line are given, or when no solution lies in
+/// front of the camera with its printed side (+z) toward it. Throws Error when a point is not on
+/// z_W = 0.
+std::optional<BoardPose> estimateBoardPose(const std::vector<BoardPoint>& points,
+                                           const calibration::CameraModel& camera,
+                                           double pixel_sigma = 0.2);
+
+}  // namespace palpa::ar

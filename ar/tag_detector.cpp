@@ -1,0 +1,80 @@
+#include "ar/tag_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <mutex>
+#include <tuple>
+
+#include "anatomy/geometry/error.h"
+#include "ar/gray_picture.h"
+
+extern "C" {
+#include <apriltag/apriltag.h>
+#include <apriltag/tag36h11.h>
+}
+
+namespace palpa::ar {
+
+struct TagDetector::Library {
+  Settings settings;
+  std::mutex mutex;
+  std::unique_ptr<apriltag_family_t, decltype(&tag36h11_destroy)> family{tag36h11_create(),
+                                                                         &tag36h11_destroy};
+  std::unique_ptr<apriltag_detector_t, decltype(&apriltag_detector_destroy)> detector{
+      apriltag_detector_create(), &apriltag_detector_destroy};
+};
+
+namespace {
+
+Tag toTag(const apriltag_detection_t& found) {
+  Tag tag{};
+  tag.id = found.id;
+  for (int i = 0; i < 4; ++i) tag.corners[i] = {found.p[i][0] - 0.5, found.p[i][1] - 0.5};
+  return tag;
+}
+
+bool before(const Tag& a, const Tag& b) {
+  const auto key = [](const Tag& t) {
+    return std::make_tuple(t.id, t.corners[0].y(), t.corners[0].x());
+  };
+  return key(a) < key(b);
+}
+
+}  // namespace
+
+TagDetector::TagDetector(const Settings& settings) : library_(std::make_unique<Library>()) {
+  if (!(settings.decimate >= 1 && settings.decimate <= 8))
+    throw UsageError("decimate must be 1 to 8", "tag detector", "Use 1 (exact) or 2 (fast).");
+  library_->settings = settings;
+  apriltag_detector_add_family_bits(library_->detector.get(), library_->family.get(),
+                                    settings.bits_corrected);
+  library_->detector->nthreads = 1;
+  library_->detector->quad_decimate = static_cast<float>(settings.decimate);
+}
+
+TagDetector::~TagDetector() = default;
+
+std::vector<Tag> TagDetector::detect(const cv::Mat& image) const {
+  cv::Mat gray = grayPicture(image);
+  image_u8_t view = {gray.cols, gray.rows, static_cast<int>(gray.step[0]), gray.data};
+  const std::lock_guard lock(library_->mutex);
+  zarray_t* found = apriltag_detector_detect(library_->detector.get(), &view);
+  std::vector<Tag> tags;
+  for (int i = 0; i < zarray_size(found); ++i) {
+    apriltag_detection_t* detection = nullptr;
+    zarray_get(found, i, &detection);
+    if (detection->decision_margin >= library_->settings.min_margin)
+      tags.push_back(toTag(*detection));
+  }
+  apriltag_detections_destroy(found);
+  std::sort(tags.begin(), tags.end(), before);
+  return tags;
+}
+
+std::vector<Tag> detectTags(const cv::Mat& gray, double decimate) {
+  TagDetector::Settings settings;
+  settings.decimate = decimate;
+  return TagDetector(settings).detect(gray);
+}
+
+}  // namespace palpa::ar

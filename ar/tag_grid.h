@@ -1,0 +1,33 @@
+#pragma once
+
+#include "ar/board.h"
+#include "ar/tag_detector.h"
+
+namespace palpa::ar {
+
+/// A grid of tags with known places. Tags with foreign ids are ignored; an id seen twice is left
+/// out altogether, because nothing says which of the two is ours.
+class TagGridBoard : public Board {
+ public:
+  TagGridBoard(const TagGridSpec& spec, double decimate);
+  std::vector<BoardPoint> detect(const cv::Mat& image) const override;
+  std::string describe() const override;
+
+ private:
+  TagGridSpec spec_;
+  TagDetector detector_;
+};
+
+/// Loose tags of one size: W is the centre of the tag seen largest (the lowest id among equals).
+class SingleTagBoard : public Board {
+ public:
+  SingleTagBoard(double tag_size, double decimate);
+  std::vector<BoardPoint> detect(const cv::Mat& image) const override;
+  std::string describe() const override;
+
+ private:
+  double tag_size_;
+  TagDetector detector_;
+};
+
+}  // namespace palpa::ar

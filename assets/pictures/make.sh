@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# Makes every picture of the README with the commands that stand beside it there.
+#   assets/pictures/make.sh                     with the program that ./run has built
+#   PALPA=/path/to/palpa assets/pictures/make.sh
+# Needs ImageMagick (package imagemagick). The picture of the report needs chromium and is left out without it.
+set -euo pipefail
+here=$(cd "$(dirname "$0")" && pwd)
+top=$(cd "$here/../.." && pwd)
+palpa=${PALPA:-$top/build/release/palpa}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+most=200000  # bytes a picture
+
+fail() { printf 'make.sh: %s\n' "$*" >&2; exit 1; }
+[ -x "$palpa" ] || fail "$palpa is not there: ./run builds it, or set PALPA"
+command -v convert >/dev/null || fail "convert is missing: apt-get install imagemagick"
+case $palpa in /*) ;; *) palpa=$PWD/$palpa ;; esac
+
+# small FROM TO [convert options...]: a palette without dithering keeps text sharp and files small
+small() {
+  local from=$1 to=$2 colours size; shift 2
+  for colours in 256 128 64 32; do
+    convert "$from" "$@" -strip +dither -colors "$colours" "PNG8:$work/small.png"
+    size=$(stat -c %s "$work/small.png")
+    [ "$size" -le "$most" ] && break
+  done
+  [ "$size" -le "$most" ] || fail "$to would have $size bytes, more than $most"
+  mv "$work/small.png" "$here/$to"
+  printf '%s: %d bytes, %d colours\n' "$to" "$size" "$colours"
+}
+
+# moment FOLDER LABEL TO: the first picture of a marked moment
+moment() {
+  local found=("$1"/view-*-"$2".png)
+  [ -f "${found[0]}" ] || fail "the session kept no picture of \"$2\""
+  small "${found[0]}" "$3"
+}
+
+cd "$work"
+"$palpa" paracentesis --operator expert --seed 1 --fast --out out/readme
+moment out/readme phase-2 session.png
+moment out/readme vein vein.png
+
+"$palpa" board print --out board.png
+small board.png board.png -resize 700x
+
+if command -v chromium >/dev/null; then
+  root=(); [ "$(id -u)" = 0 ] && root=(--no-sandbox)  # chromium refuses its sandbox to root
+  chromium --headless "${root[@]}" --disable-gpu --no-first-run --hide-scrollbars --user-data-dir="$work/profile" \
+    --window-size=1000,1580 --screenshot="$work/report.png" "file://$work/out/readme/report.html" >/dev/null 2>&1 ||
+    fail "chromium could not draw the report"
+  small report.png report.png
+else
+  echo "report.png is left as it was: chromium is not installed"
+fi

@@ -1,0 +1,230 @@
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <nlohmann/json.hpp>
+#include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
+#include <vector>
+
+#include "anatomy/geometry/error.h"
+#include "calibration/camera_model.h"
+
+namespace palpa::calibration {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+constexpr int kVersion = 1;
+constexpr std::uintmax_t kLargestFile = 4 << 20;  // bytes; a real one has a few thousand
+
+[[noreturn]] void refuse(const fs::path& file, const std::string& what) {
+  throw Error(what, file.string(),
+              "Give a camera calibration: OpenCV's YAML or XML, or our JSON ('palpa calibrate "
+              "camera' writes one).");
+}
+
+std::string slurp(const fs::path& file) {
+  std::error_code code;
+  if (!fs::is_regular_file(file, code)) refuse(file, "no such file");
+  if (fs::file_size(file, code) > kLargestFile || code) refuse(file, "too large for a calibration");
+  std::ifstream in(file, std::ios::binary);
+  std::string text{std::istreambuf_iterator<char>(in), {}};
+  if (!in) refuse(file, "cannot be read");
+  return text;
+}
+
+double number(const cv::FileNode& node, const std::string& field, const fs::path& file) {
+  if (node.empty()) refuse(file, "field '" + field + "' is missing");
+  if (!node.isInt() && !node.isReal()) refuse(file, "field '" + field + "' must be a number");
+  return static_cast<double>(node);
+}
+
+int wholeNumber(const cv::FileNode& node, const std::string& field, const fs::path& file) {
+  if (!node.empty() && !node.isInt()) refuse(file, "field '" + field + "' must be a whole number");
+  return static_cast<int>(number(node, field, file));
+}
+
+struct Matrix {
+  int rows = 0, cols = 0;
+  std::vector<double> data;
+};
+
+/// Element by element, so that a damaged header never makes OpenCV allocate or assert.
+Matrix matrix(const cv::FileNode& node, const std::string& field, const fs::path& file) {
+  if (node.empty()) refuse(file, "field '" + field + "' is missing");
+  if (!node.isMap()) refuse(file, "field '" + field + "' must be an opencv-matrix");
+  Matrix m;
+  m.rows = wholeNumber(node["rows"], field + ".rows", file);
+  m.cols = wholeNumber(node["cols"], field + ".cols", file);
+  for (const cv::FileNode& value : node["data"])
+    m.data.push_back(number(value, field + ".data", file));
+  if (m.rows < 1 || m.cols < 1 || m.data.size() != std::size_t(m.rows) * std::size_t(m.cols))
+    refuse(file, "field '" + field + "' has another shape than its rows and cols say");
+  return m;
+}
+
+void readIntrinsics(const cv::FileNode& node, CameraModel* camera, const fs::path& file) {
+  const Matrix K = matrix(node, "camera_matrix", file);
+  if (K.rows != 3 || K.cols != 3) refuse(file, "field 'camera_matrix' must be 3 x 3");
+  const auto at = [&](int row, int col) { return K.data[std::size_t(3 * row + col)]; };
+  if (at(0, 1) != 0 || at(1, 0) != 0 || at(2, 0) != 0 || at(2, 1) != 0 || at(2, 2) != 1)
+    refuse(file, "field 'camera_matrix' must be [fx 0 cx; 0 fy cy; 0 0 1]; skew is not supported");
+  camera->fx = at(0, 0);
+  camera->fy = at(1, 1);
+  camera->cx = at(0, 2);
+  camera->cy = at(1, 2);
+}
+
+void readDistortion(const std::vector<double>& k, CameraModel* camera, const fs::path& file) {
+  const std::size_t n = k.size();
+  if (n != 4 && n != 5 && n != 8 && n != 12 && n != 14)
+    refuse(file, "field 'distortion_coefficients' must hold 4 or 5 numbers: k1 k2 p1 p2 [k3]");
+  for (std::size_t i = 0; i < n; ++i) {
+    if (i < 5)
+      camera->distortion[i] = k[i];
+    else if (k[i] != 0)
+      refuse(file,
+             "field 'distortion_coefficients' uses the rational, thin-prism or tilted lens model; "
+             "only k1 k2 p1 p2 k3 are supported");
+  }
+}
+
+void refuseFisheye(const cv::FileNode& root, const fs::path& file) {
+  const cv::FileNode fisheye = root["fisheye_model"], model = root["distortion_model"];
+  const bool other = model.isString() && static_cast<std::string>(model) != "plumb_bob";
+  if (other || (fisheye.isInt() && static_cast<int>(fisheye) != 0))
+    refuse(file, "the fisheye and other lens models are not supported, only k1 k2 p1 p2 k3");
+}
+
+CameraModel fromOpenCv(const std::string& text, const fs::path& file) {
+  const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
+  if (!storage.isOpened()) refuse(file, "is neither YAML nor XML of OpenCV");
+  const cv::FileNode root = storage.root();
+  if (!root.isMap()) refuse(file, "holds no fields");
+  CameraModel camera;
+  refuseFisheye(root, file);
+  camera.width = wholeNumber(root["image_width"], "image_width", file);
+  camera.height = wholeNumber(root["image_height"], "image_height", file);
+  readIntrinsics(root["camera_matrix"], &camera, file);
+  const Matrix k = matrix(root["distortion_coefficients"], "distortion_coefficients", file);
+  if (k.rows != 1 && k.cols != 1) refuse(file, "field 'distortion_coefficients' must be a vector");
+  readDistortion(k.data, &camera, file);
+  if (const cv::FileNode rms = root["avg_reprojection_error"]; !rms.empty())
+    camera.rms_px = number(rms, "avg_reprojection_error", file);
+  return camera;
+}
+
+template <typename T>
+T field(const json& object, const char* name, const fs::path& file) {
+  const auto found = object.find(name);
+  if (found == object.end()) refuse(file, std::string("field '") + name + "' is missing");
+  const bool fits = std::is_integral_v<T>       ? found->is_number_integer()
+                    : std::is_same_v<T, double> ? found->is_number()
+                                                : true;
+  if (!fits) refuse(file, std::string("field '") + name + "' must be a number");
+  try {
+    return found->get<T>();
+  } catch (const json::exception&) {
+    refuse(file, std::string("field '") + name + "' has the wrong type");
+  }
+}
+
+/// Through 64 bits, so that an absurd size stays absurd instead of wrapping round.
+int size(const json& object, const char* name, const fs::path& file) {
+  return static_cast<int>(
+      std::clamp<std::int64_t>(field<std::int64_t>(object, name, file), 0, 1 << 30));
+}
+
+CameraModel fromJson(const std::string& text, const fs::path& file) {
+  const json root = json::parse(text, nullptr, false);
+  if (!root.is_object()) refuse(file, "is damaged: not a JSON object");
+  if (field<std::string>(root, "type", file) != "camera_model")
+    refuse(file, "field 'type' must be \"camera_model\"");
+  if (field<std::int64_t>(root, "version", file) != kVersion)
+    refuse(file, "field 'version' is not 1: made by another version of this program");
+  if (field<std::string>(root, "unit", file) != "px") refuse(file, "field 'unit' must be \"px\"");
+  CameraModel camera;
+  camera.width = size(root, "width", file);
+  camera.height = size(root, "height", file);
+  camera.fx = field<double>(root, "fx", file);
+  camera.fy = field<double>(root, "fy", file);
+  camera.cx = field<double>(root, "cx", file);
+  camera.cy = field<double>(root, "cy", file);
+  readDistortion(field<std::vector<double>>(root, "distortion", file), &camera, file);
+  camera.rms_px = field<double>(root, "rms_px", file);
+  return camera;
+}
+
+/// OpenCV logs parse errors to standard error before throwing; ours are clearer.
+class QuietOpenCv {
+ public:
+  QuietOpenCv() : before_(cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT)) {}
+  ~QuietOpenCv() { cv::utils::logging::setLogLevel(before_); }
+  QuietOpenCv(const QuietOpenCv&) = delete;
+  QuietOpenCv& operator=(const QuietOpenCv&) = delete;
+
+ private:
+  cv::utils::logging::LogLevel before_;
+};
+
+CameraModel parse(const std::string& text, const fs::path& file) {
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  if (start == std::string::npos) refuse(file, "is empty");
+  if (text.find('\0') != std::string::npos) refuse(file, "is damaged: binary data inside");
+  if (text[start] == '{') return fromJson(text, file);
+  if (text.compare(start, 5, "%YAML") != 0 && text.compare(start, 5, "<?xml") != 0)
+    refuse(file, "is no calibration: it must start with %YAML, <?xml or {");
+  // OpenCV 4.6 reads past the end of XML that is cut within its first line.
+  if (text[start] == '<' &&
+      (text.find("?>") == std::string::npos || text.find("</opencv_storage>") == std::string::npos))
+    refuse(file, "is cut short: no </opencv_storage> at its end");
+  const QuietOpenCv quiet;
+  try {
+    return fromOpenCv(text, file);
+  } catch (const Error&) {
+    throw;
+  } catch (const std::exception&) {  // cv::Exception, bad_alloc: whatever a damaged file provokes
+    refuse(file, "is damaged or cut short: OpenCV cannot parse it");
+  }
+}
+
+json toJson(const CameraModel& camera) {
+  return {{"type", "camera_model"},
+          {"version", kVersion},
+          {"unit", "px"},
+          {"width", camera.width},
+          {"height", camera.height},
+          {"fx", camera.fx},
+          {"fy", camera.fy},
+          {"cx", camera.cx},
+          {"cy", camera.cy},
+          {"distortion", camera.distortion},
+          {"rms_px", camera.rms_px}};
+}
+
+}  // namespace
+
+CameraModel readCameraModel(const fs::path& file) {
+  const CameraModel camera = parse(slurp(file), file);
+  validate(camera, file.string());
+  return camera;
+}
+
+void writeCameraModel(const CameraModel& model, const fs::path& file) {
+  validate(model, file.string());
+  fs::path beside = file;
+  beside += ".part";
+  std::ofstream out(beside, std::ios::binary | std::ios::trunc);
+  out << toJson(model).dump(2) << '\n';
+  out.close();
+  std::error_code code;
+  if (out) fs::rename(beside, file, code);
+  if (!out || code) {
+    std::error_code ignored;
+    fs::remove(beside, ignored);
+    throw Error("cannot be written", file.string(), "Check that the folder exists and has room.");
+  }
+}
+
+}  // namespace palpa::calibration

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "anatomy/geometry/pose.h"
+
+namespace palpa::calibration {
+
+/// One expert trial, in side-free landmark coordinates (medial, posterior, cephalad), metres.
+struct ExpertTrial {
+  Vec3 entry_L;             ///< where the skin was punctured
+  double depth = 0;         ///< reached in phase 1, before the needle was turned
+  Vec3 direction_L;         ///< unit, when phase 2's advance began
+  std::vector<Vec3> tip_L;  ///< path of the tip in phase 2
+  std::string expert;       ///< pseudonym
+};
+
+/// Mean and acceptable deviation of the taught path (after Tzafestas et al. 2008, section 3.1).
+struct ExpertPath {
+  int version = 1;
+  bool simulated = false;
+  int trials = 0;    ///< used
+  int left_out = 0;  ///< outliers
+  std::vector<std::string> experts;
+  Vec3 entry_L = Vec3::Zero();
+  double entry_sd = 0;             ///< rms distance from the mean / sqrt 2 (in the skin), m
+  double depth = 0, depth_sd = 0;  ///< m
+  Vec3 direction_L = Vec3::UnitX();
+  double direction_sd = 0;          ///< rad, rms angle from the mean / sqrt 2
+  double direction_acceptable = 0;  ///< rad: PHASE_2 is 1000 here
+  Vec3 line_from_L = Vec3::Zero();  ///< optimal line of phase 2: where the tip starts ...
+  Vec3 line_to_L = Vec3::Zero();    ///< ... and where it ends (mean end of the tip)
+  std::string made_by;              ///< the command that remakes the file
+};
+
+/// Fits the taught path. With the component-wise median as centre and r a trial's distance from it,
+/// a trial is left out (and counted) when, in any of entry, direction, start or end of the line,
+///   r > 3 median(r)                      0.2 % of a two-dimensional normal distribution
+/// or in depth |d - median| > 3 x 1.4826 median |d - median|     0.3 % of a normal one;
+/// deviations below 0.5 mm or 0.5 degrees are never outliers. Of the rest: mean, spherical mean of
+/// the directions. Acceptable deviation of direction: 2 sd, at least 2 degrees. Throws Error, with
+/// words, when a trial is not finite or has no path; fewer than `least` trials remain; more than a
+/// fifth, or more than half of one expert's trials, would be left out (a different technique is no
+/// outlier); or the spread is so large that there is no common path: sd of direction above 10
+/// degrees, of entry or depth above 10 mm.
+ExpertPath fitExpertPath(const std::vector<ExpertTrial>& trials, int least = 20);
+
+/// JSON, millimetres and degrees inside, named so. Throws Error naming file and field when one is
+/// missing, not finite or out of range, or when the file is from a newer version.
+ExpertPath readExpertPath(const std::filesystem::path& file);
+
+/// Writes beside the file, then renames: never half a file. Throws Error.
+void writeExpertPath(const ExpertPath& path, const std::filesystem::path& file);
+
+}  // namespace palpa::calibration

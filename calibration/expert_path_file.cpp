@@ -1,0 +1,179 @@
+#include <cmath>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/geometry/error.h"
+#include "calibration/expert_path.h"
+
+namespace palpa::calibration {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int kPathVersion = 1;
+constexpr const char* kFormat = "palpa expert path";
+constexpr double kMm = 1e-3, kDeg = M_PI / 180;
+
+/// Reads fields of one file; every complaint names file and field.
+class FieldReader {
+ public:
+  FieldReader(const std::filesystem::path& file, const Json& root) : file_(file), root_(root) {}
+
+  const Json& field(const std::string& key) const {
+    if (!root_.is_object() || !root_.contains(key)) fail(key, "the field is missing");
+    return root_.at(key);
+  }
+  double number(const std::string& key, double least, double most) const {
+    return checked(field(key), key, least, most);
+  }
+  int count(const std::string& key, int least) const {
+    if (!field(key).is_number_integer() || field(key).get<long long>() < least ||
+        field(key).get<long long>() > 1'000'000)
+      fail(key, "it must be a whole number from " + std::to_string(least));
+    return field(key).get<int>();
+  }
+  Vec3 vector(const std::string& key, double most) const {
+    const Json& value = field(key);
+    if (!value.is_array() || value.size() != 3) fail(key, "it must be three numbers");
+    Vec3 v;
+    for (int i = 0; i < 3; ++i)
+      v[i] = checked(value[static_cast<std::size_t>(i)], key, -most, most);
+    return v;
+  }
+  Vec3 unitVector(const std::string& key) const {
+    const Vec3 v = vector(key, 1.001);
+    if (std::abs(v.norm() - 1) > 1e-3) fail(key, "it must be a unit vector");
+    return v.normalized();
+  }
+  std::string text(const std::string& key) const {
+    if (!field(key).is_string()) fail(key, "it must be a text");
+    return field(key).get<std::string>();
+  }
+  bool flag(const std::string& key) const {
+    if (!field(key).is_boolean()) fail(key, "it must be true or false");
+    return field(key).get<bool>();
+  }
+  std::vector<std::string> texts(const std::string& key) const {
+    const Json& value = field(key);
+    if (!value.is_array()) fail(key, "it must be a list of texts");
+    std::vector<std::string> result;
+    for (const Json& item : value) {
+      if (!item.is_string()) fail(key, "it must be a list of texts");
+      result.push_back(item.get<std::string>());
+    }
+    return result;
+  }
+  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
+    throw Error(what, file_.string() + ", field \"" + key + "\"",
+                "Calibrate the experts' path again");
+  }
+
+ private:
+  double checked(const Json& value, const std::string& key, double least, double most) const {
+    if (!value.is_number() || !std::isfinite(value.get<double>())) fail(key, "it is not a number");
+    const double x = value.get<double>();
+    if (x < least || x > most)
+      fail(key, value.dump() + " is outside " + Json(least).dump() + " to " + Json(most).dump());
+    return x;
+  }
+
+  const std::filesystem::path& file_;
+  const Json& root_;
+};
+
+Json parse(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  if (!stream)
+    throw Error("the file cannot be opened", file.string(), "Check the path, or calibrate first");
+  try {
+    return Json::parse(stream);
+  } catch (const Json::exception&) {
+    throw Error("this is not a JSON file", file.string(), "Calibrate the experts' path again");
+  }
+}
+
+void checkFormat(const FieldReader& reader) {
+  if (reader.text("format") != kFormat) reader.fail("format", "this is not an expert path");
+  const int version = reader.count("version", 1);
+  if (version > kPathVersion)
+    reader.fail("version", "version " + std::to_string(version) +
+                               " is newer than this program knows (" + std::to_string(kPathVersion) +
+                               "); update the program, or");
+}
+
+Json inMm(const Vec3& v) { return {v.x() / kMm, v.y() / kMm, v.z() / kMm}; }
+
+Json toJson(const ExpertPath& path) {
+  return {{"format", kFormat},
+          {"version", kPathVersion},
+          {"simulated", path.simulated},
+          {"made_by", path.made_by},
+          {"frame",
+           "medial, posterior, cephalad; origin: junction of the clavicle's medial and "
+           "middle thirds"},
+          {"trials", path.trials},
+          {"left_out", path.left_out},
+          {"experts", path.experts},
+          {"entry_L_mm", inMm(path.entry_L)},
+          {"entry_sd_mm", path.entry_sd / kMm},
+          {"depth_mm", path.depth / kMm},
+          {"depth_sd_mm", path.depth_sd / kMm},
+          {"direction_L", {path.direction_L.x(), path.direction_L.y(), path.direction_L.z()}},
+          {"direction_sd_deg", path.direction_sd / kDeg},
+          {"direction_acceptable_deg", path.direction_acceptable / kDeg},
+          {"line_from_L_mm", inMm(path.line_from_L)},
+          {"line_to_L_mm", inMm(path.line_to_L)}};
+}
+
+bool allFinite(const ExpertPath& path) {
+  return path.entry_L.allFinite() && path.direction_L.allFinite() &&
+         path.line_from_L.allFinite() && path.line_to_L.allFinite() &&
+         std::isfinite(path.entry_sd + path.depth + path.depth_sd + path.direction_sd +
+                       path.direction_acceptable);
+}
+
+}  // namespace
+
+ExpertPath readExpertPath(const std::filesystem::path& file) {
+  const Json root = parse(file);
+  const FieldReader reader(file, root);
+  checkFormat(reader);
+  constexpr double kFar_mm = 500;  // nothing that is taught lies farther from the clavicle
+  ExpertPath path;
+  path.simulated = reader.flag("simulated");
+  path.made_by = reader.text("made_by");
+  path.trials = reader.count("trials", 1);
+  path.left_out = reader.count("left_out", 0);
+  path.experts = reader.texts("experts");
+  path.entry_L = kMm * reader.vector("entry_L_mm", kFar_mm);
+  path.entry_sd = kMm * reader.number("entry_sd_mm", 0, 10);
+  path.depth = kMm * reader.number("depth_mm", 0, 100);
+  path.depth_sd = kMm * reader.number("depth_sd_mm", 0, 10);
+  path.direction_L = reader.unitVector("direction_L");
+  path.direction_sd = kDeg * reader.number("direction_sd_deg", 0, 10);
+  path.direction_acceptable = kDeg * reader.number("direction_acceptable_deg", 0.1, 45);
+  path.line_from_L = kMm * reader.vector("line_from_L_mm", kFar_mm);
+  path.line_to_L = kMm * reader.vector("line_to_L_mm", kFar_mm);
+  if ((path.line_to_L - path.line_from_L).norm() < 0.001)
+    reader.fail("line_to_L_mm", "the line has no length");
+  return path;
+}
+
+void writeExpertPath(const ExpertPath& path, const std::filesystem::path& file) {
+  if (!allFinite(path))
+    throw Error("the path holds a value that is not a number", file.string(),
+                "Calibrate the experts' path again");
+  std::filesystem::path beside = file;
+  beside += ".part";
+  std::ofstream stream(beside);
+  stream << toJson(path).dump(2) << '\n';
+  stream.close();
+  std::error_code error;
+  if (stream) std::filesystem::rename(beside, file, error);
+  if (stream && !error) return;
+  std::error_code ignored;
+  std::filesystem::remove(beside, ignored);
+  throw Error("the file cannot be written", file.string(), "Check the folder and its free space");
+}
+
+}  // namespace palpa::calibration

@@ -1,0 +1,17 @@
+# Every library comes from a Debian package; `run` and `check` install them.
+find_package(Threads REQUIRED)
+find_package(Eigen3 3.4 REQUIRED NO_MODULE)
+find_package(nlohmann_json 3 REQUIRED)
+find_package(CLI11 REQUIRED)
+find_package(TinyGLTF REQUIRED)
+find_package(ZLIB REQUIRED)
+find_package(Boost 1.70 REQUIRED)  # headers only: Boost.Math
+find_package(apriltag REQUIRED)
+find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
+find_package(VTK 9 REQUIRED COMPONENTS
+  CommonCore CommonDataModel CommonMath CommonTransforms CommonExecutionModel
+  FiltersCore FiltersGeneral FiltersSources FiltersModeling
+  ImagingCore IOImage InteractionStyle
+  RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingUI)

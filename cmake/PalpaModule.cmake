@@ -1,0 +1,17 @@
+# palpa_module(NAME [PUBLIC libs...] [PRIVATE libs...])
+# One folder, one static library named palpa_NAME. Includes start at the top of the tree
+# ("haptics/tick.h"). PUBLIC libraries may appear in the folder's headers, PRIVATE ones only in its
+# sources: that is how the build refuses an arrow that ARCHITECTURE forbids.
+function(palpa_module NAME)
+  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)
+  if(sources)
+    add_library(palpa_${NAME} STATIC ${sources})
+    target_include_directories(palpa_${NAME} PUBLIC ${PROJECT_SOURCE_DIR})
+    target_link_libraries(palpa_${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  else()
+    add_library(palpa_${NAME} INTERFACE)
+    target_include_directories(palpa_${NAME} INTERFACE ${PROJECT_SOURCE_DIR})
+    target_link_libraries(palpa_${NAME} INTERFACE ${ARG_PUBLIC})
+  endif()
+endfunction()

@@ -1,0 +1,35 @@
+# Language, reproducibility, warnings, speed of the build.
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+
+option(PALPA_TESTS "Build the tests" ON)
+option(PALPA_WERROR "Treat warnings as errors" OFF)
+set(PALPA_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
+
+if(NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+
+# Same binary, same seed, same bits: no fused multiply-add behind our back, no fast-math, no -march=native.
+add_compile_options(-ffp-contract=off)
+add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual)
+if(PALPA_WERROR)
+  add_compile_options(-Werror)
+endif()
+if(PALPA_SANITIZE)
+  add_compile_options(-fsanitize=${PALPA_SANITIZE} -fno-omit-frame-pointer -g1)
+  add_link_options(-fsanitize=${PALPA_SANITIZE})
+endif()
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+endif()
+find_program(MOLD_PROGRAM mold)
+if(MOLD_PROGRAM)
+  add_link_options(-fuse-ld=mold)
+endif()

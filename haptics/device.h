@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <type_traits>
+
+#include "anatomy/geometry/pose.h"
+
+namespace palpa::haptics {
+
+/// One reading of a haptic device. D: device base, E: end effector (gimbal centre).
+struct DeviceReading {
+  std::int64_t t_ns = 0;        ///< device clock mapped to the session's
+  std::uint64_t sequence = 0;   ///< grows with every new reading; a silent device stops counting
+  Packed3 p_DE{0, 0, 0};
+  Packed4 q_DE{1, 0, 0, 0};
+  double plunger = 0;           ///< drawn fraction of the syringe, 0..1
+  std::uint32_t buttons = 0;
+  std::uint32_t homed = 0;      ///< 1 once positions are absolute
+};
+static_assert(std::is_trivially_copyable_v<DeviceReading>);
+
+/// What a device can do; the coupling and the safety limits are sized from it. SI units.
+struct DeviceCapabilities {
+  std::string name;
+  double max_force_N = 0;          ///< continuous
+  double stable_stiffness = 0;     ///< N/m, largest wall it renders without oscillating
+  double position_resolution = 0;  ///< m
+  double apparent_mass = 0;        ///< kg
+  int force_axes = 3;
+  bool has_orientation = true;
+  bool simulated = false;
+};
+
+/// A force-feedback device: real driver, virtual twin or replay. `read` and `command` are called
+/// from the haptic thread: they exchange latest values and never block, allocate, lock or throw.
+class HapticDevice {
+ public:
+  virtual ~HapticDevice() = default;
+  virtual const DeviceCapabilities& capabilities() const = 0;
+  virtual DeviceReading read(std::int64_t now_ns) noexcept = 0;
+  virtual void command(std::int64_t now_ns, const Packed3& f_D) noexcept = 0;
+};
+
+}  // namespace palpa::haptics

@@ -1,0 +1,74 @@
+#pragma once
+
+#include <cstdint>
+#include <type_traits>
+
+#include "anatomy/geometry/local_geometry.h"
+#include "haptics/device.h"
+
+namespace palpa::haptics {
+
+/// Where the needle is in the manoeuvre, as the contact model knows it.
+enum class NeedlePhase : std::uint8_t { outside, indenting, inserted };
+
+/// Why the safety limiter took the force away, or what it changed.
+enum class SafetyCause : std::uint8_t {
+  none, not_finite, clamp, slew, energy, silent_device, stale_geometry, emergency_stop, watchdog,
+  not_ready
+};
+inline constexpr int kSafetyCauseCount = 10;
+const char* name(SafetyCause cause);
+
+/// What the tick is told from outside; recorded with every tick, so that it can be run again.
+struct TickCommands {
+  double puncture_force_N = 1.5;       ///< skin gives way here in the current trial
+  std::uint32_t trial = 0;             ///< a change resets the contact
+  std::uint8_t force_feedback = 1;     ///< 0: forces are computed and recorded but not rendered
+  std::uint8_t emergency_stop = 0;
+  std::uint8_t armed = 0;              ///< 0: no force (not homed, between trials)
+  std::uint8_t reserved = 0;
+};
+static_assert(std::is_trivially_copyable_v<TickCommands>);
+
+/// Happened in this tick (bits of FlightRecord::events).
+enum TickEvent : std::uint32_t {
+  kSkinPunctured = 1u << 0,
+  kWithdrawn = 1u << 1,
+  kWallPunctured = 1u << 2,        ///< organ in `wall`; `wall_leaving` tells the back wall
+  kBoneTouched = 1u << 3,          ///< contact begins; organ in `bone`
+  kBoneLeft = 1u << 4,
+  kSnapshotAdopted = 1u << 5,
+  kSafetyTripped = 1u << 6,        ///< cause in `safety`
+  kSafetyCleared = 1u << 7,
+};
+
+/// One tick of the haptic loop: everything that is needed to run it again and to score it.
+/// Forces act on the tool, expressed in D, newtons.
+struct FlightRecord {
+  std::int64_t tick = 0;
+  std::int64_t t_ns = 0;            ///< session time of the tick
+  DeviceReading reading;
+  TickCommands commands;
+  std::uint64_t snapshot = 0;       ///< number of the newest geometry snapshot used
+  Packed3 f_contact_D{};            ///< computed contact force (coupled), independent of `force_feedback`
+  Packed3 f_command_D{};            ///< what left the safety limiter
+  Packed3 tau_missing_D{};          ///< torque about E that a three-axis device cannot give, N m
+  double indentation = 0;           ///< of the skin before puncture, m
+  double depth = 0;                 ///< of the tip below the skin plane along the needle, m
+  double v_axial = 0;               ///< of the tip along the needle, inward positive, m/s
+  double skin_force = 0;            ///< normal force on the skin before puncture, N
+  double bone_force = 0;            ///< largest bone contact force, N
+  double wall_force = 0;            ///< on the wall being deformed, N
+  std::uint32_t events = 0;         ///< TickEvent bits
+  NeedlePhase phase = NeedlePhase::outside;
+  Tissue tissue = Tissue::air;      ///< at the tip; walls not yet punctured keep the tip outside
+  Organ wall = Organ::none;         ///< whose wall the tip deforms, or punctured in this tick
+  Organ bone = Organ::none;         ///< bone in contact
+  std::uint8_t wall_leaving = 0;
+  SafetyCause safety = SafetyCause::none;
+  std::uint8_t skin_punctures = 0;  ///< in this trial
+  std::uint8_t reserved = 0;
+};
+static_assert(std::is_trivially_copyable_v<FlightRecord>);
+
+}  // namespace palpa::haptics

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <type_traits>
+
+#include "anatomy/geometry/local_geometry.h"
+
+namespace palpa::haptics {
+
+/// Skin before puncture, indentation u along the inward normal [m]; point load:
+///     K(u) = K_min                                u <= u_0
+///     K(u) = K_0 (exp(m (u - u_0)) - 1) + K_min   u >  u_0        F = K(u) u
+/// Source: Tzafestas et al., Presence 17(2), 2008.
+struct SkinLaw {
+  double K_min = 0;            ///< N/m
+  double K_0 = 10;             ///< N/m
+  double m = 2000;             ///< 1/m
+  double u_0 = 0.0001;         ///< m
+  double release_tau = 0.010;  ///< s, decay of the stored indentation after the puncture
+  double friction = 0.3;       ///< Coulomb coefficient, needle point sliding on the skin
+  double shear = 300;          ///< N/m, skin dragged sideways by the point before it slides
+
+  double force(double u) const;      ///< F(u), 0 for u <= 0 [N]
+  double stiffness(double u) const;  ///< dF/du [N/m]
+};
+
+/// What the needle feels in one tissue (after Okamura, Simone, O'Leary, IEEE TBME 51(10), 2004).
+struct LayerLaw {
+  double viscosity = 0;   ///< b, N s/m, on the tip's axial velocity
+  double cutting = 0;     ///< N, constant while advancing
+  double friction = 0;    ///< N/m, shaft friction per inserted length
+};
+
+/// Wall that must be punctured: elastic up to `peak`, then it gives way.
+struct WallLaw {
+  double stiffness = 0;   ///< N/m
+  double peak = 0;        ///< N; 0: no wall
+};
+
+struct NeedleMaterials {
+  SkinLaw skin;
+  LayerLaw layers[kTissueCount];
+  WallLaw walls[kOrganCount];
+  double lateral_stiffness = 300;    ///< k_t of the tissue about the entry, N/m
+  double lateral_per_depth = 4000;   ///< more with inserted length, N/m per m
+  double needle_radius = 0.000635;   ///< 18G: outer diameter 1.27 mm
+  double needle_length = 0.070;
+};
+static_assert(std::is_trivially_copyable_v<NeedleMaterials>);
+
+}  // namespace palpa::haptics

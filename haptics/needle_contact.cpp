@@ -1,0 +1,202 @@
+#include "haptics/needle_contact.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/bone_contact.h"
+#include "haptics/tissue_walk.h"
+
+namespace palpa::haptics {
+namespace {
+
+constexpr double kSteepest = 0.1;      // least cosine between needle and skin normal that is believed
+constexpr double kLeftSkin = 0.0005;   // m outside before the needle counts as withdrawn
+constexpr double kLateralRamp = 0.002; // m of insertion over which the lateral hold builds up
+constexpr double kStickShare = 0.8;    // presliding stiffness as a share of the coupling's
+
+/// Indentation u of the skin with F(u) = K_c (x - u), x the tip's depth: the skin's law in series with
+/// the coupling. The left side minus the right is convex and rising, so Newton from u = x descends to
+/// the root.
+double indentationInSeries(const SkinLaw& skin, double K_c, double x) {
+  double u = x;
+  for (int i = 0; i < 60; ++i) {
+    const double residual = skin.force(u) - K_c * (x - u);
+    const double next = std::max(0.0, u - residual / (skin.stiffness(u) + K_c));
+    if (u - next < 1e-12) return next;
+    u = next;
+  }
+  return u;
+}
+
+struct Step {
+  const NeedleMaterials& materials;
+  const CouplingLimits& coupling;
+  const LocalGeometry& geometry;
+  const NeedlePose& pose;
+  double dt;
+  NeedleState& state;
+  NeedleContact out;
+
+  void push(const Vec3& f, const Vec3& p) {
+    out.f_D += f;
+    out.tau_D += (p - pose.p_DE).cross(f);
+  }
+};
+
+void updateVelocity(Step& s) {
+  if (!s.state.started || s.dt <= 0) {
+    s.state.v_D = {0, 0, 0};
+  } else {
+    const Vec3 raw = (s.pose.p_DT - unpack(s.state.p_DT)) / s.dt;
+    const Vec3 v = unpack(s.state.v_D);
+    s.state.v_D = pack(Vec3(v + (raw - v) * (s.dt / (s.coupling.velocity_tau + s.dt))));
+  }
+  s.state.p_DT = pack(s.pose.p_DT);
+  s.state.started = 1;
+  s.out.v_axial = unpack(s.state.v_D).dot(s.pose.a_D);
+}
+
+void decayRelease(Step& s) {
+  const double keep = std::exp(-s.dt / s.materials.skin.release_tau);
+  s.state.release_D = pack(Vec3(keep * unpack(s.state.release_D)));
+  s.push(unpack(s.state.release_D), s.pose.p_DT);
+}
+
+/// Skin as the needle's point drags it sideways: elastic, then sliding.
+Vec3 skinFriction(Step& s, const Vec3& n, double normal_force) {
+  const SkinLaw& skin = s.materials.skin;
+  Vec3 drag = s.pose.p_DT - unpack(s.state.skin_anchor_D);
+  drag -= drag.dot(n) * n;
+  const double largest = skin.friction * normal_force / skin.shear;
+  if (drag.norm() > largest) drag *= largest / drag.norm();
+  s.state.skin_anchor_D = pack(Vec3(s.pose.p_DT - drag));
+  return -skin.shear * drag;
+}
+
+void puncture(Step& s, const Vec3& n, double x) {
+  const double inserted = x / std::max(-s.pose.a_D.dot(n), kSteepest);
+  s.state.phase = NeedlePhase::inserted;
+  s.state.entry_D = pack(Vec3(s.pose.p_DT - inserted * s.pose.a_D));
+  s.state.friction_anchor = inserted;
+  s.state.release_D = pack(s.out.f_D);
+  s.state.walls_front = s.state.walls_back = 0;
+  if (s.state.skin_punctures < 255) ++s.state.skin_punctures;
+  s.out.events |= kSkinPunctured;
+}
+
+void beforePuncture(Step& s, double puncture_force_N) {
+  const Vec3 n = unpack(s.geometry.skin.n);
+  const double x = -(s.pose.p_DT - unpack(s.geometry.skin.p)).dot(n);
+  if (x <= 0) {
+    s.state.phase = NeedlePhase::outside;
+    s.state.skin_anchor_D = pack(s.pose.p_DT);
+    return;
+  }
+  s.state.phase = NeedlePhase::indenting;
+  s.out.indentation = indentationInSeries(s.materials.skin, s.coupling.stiffness, x);
+  s.out.skin_force = s.materials.skin.force(s.out.indentation);
+  s.push(s.out.skin_force * n + skinFriction(s, n, s.out.skin_force), s.pose.p_DT);
+  if (s.out.skin_force >= puncture_force_N) puncture(s, n, x);
+}
+
+/// Stick–slip of cutting and shaft friction: an anchor that yields at the limit of either direction.
+double axialFriction(Step& s, double insertion, double advancing, double retracting) {
+  const double k = kStickShare * s.coupling.stiffness;
+  const double stretch =
+      std::clamp(insertion - s.state.friction_anchor, -retracting / k, advancing / k);
+  s.state.friction_anchor = insertion - stretch;
+  return -k * stretch;
+}
+
+void holdLaterally(Step& s, double insertion) {
+  const Vec3 axis_point = s.pose.p_DT - insertion * s.pose.a_D;
+  const double ramp = std::clamp(insertion / kLateralRamp, 0.0, 1.0);
+  const double k = ramp * (s.materials.lateral_stiffness +
+                           s.materials.lateral_per_depth * std::max(insertion, 0.0));
+  s.push(-std::min(k, s.coupling.stiffness) * (axis_point - unpack(s.state.entry_D)), axis_point);
+}
+
+void pushWall(Step& s, const TissueWalk& walk) {
+  if (walk.wall == Organ::none) return;
+  const WallLaw& law = s.materials.walls[static_cast<int>(walk.wall)];
+  s.out.wall = walk.wall;
+  s.out.wall_leaving = walk.wall_leaving;
+  s.out.wall_force = std::min(law.stiffness, s.coupling.stiffness) * walk.wall_depth;
+  const Vec3 f = -s.out.wall_force * s.pose.a_D;
+  s.push(f, s.pose.p_DT);
+  if (s.out.wall_force < law.peak) return;
+  (walk.wall_leaving ? s.state.walls_back : s.state.walls_front) |= 1u << static_cast<int>(walk.wall);
+  s.state.release_D = pack(Vec3(unpack(s.state.release_D) + f));
+  s.out.events |= kWallPunctured;
+}
+
+void withdraw(Step& s) {
+  s.state.phase = NeedlePhase::outside;
+  s.state.walls_front = s.state.walls_back = 0;
+  s.state.release_D = {0, 0, 0};
+  s.state.skin_anchor_D = pack(s.pose.p_DT);
+  s.out.events |= kWithdrawn;
+}
+
+void afterPuncture(Step& s) {
+  const double insertion = (s.pose.p_DT - unpack(s.state.entry_D)).dot(s.pose.a_D);
+  if (insertion < -kLeftSkin) return withdraw(s);
+  const TissueWalk walk =
+      walkTissues(s.materials, s.geometry, s.pose.p_DT, s.pose.a_D, std::max(insertion, 0.0),
+                  {s.state.walls_front, s.state.walls_back});
+  s.state.walls_front = walk.passed.front;
+  s.state.walls_back = walk.passed.back;
+  s.out.tissue = walk.tissue;
+  s.out.depth = std::max(insertion, 0.0);
+  const LayerLaw& layer = s.materials.layers[static_cast<int>(walk.tissue)];
+  const double friction =
+      axialFriction(s, insertion, layer.cutting + walk.shaft_friction, walk.shaft_friction);
+  s.push((friction - layer.viscosity * s.out.v_axial) * s.pose.a_D, s.pose.p_DT);
+  holdLaterally(s, insertion);
+  pushWall(s, walk);
+}
+
+void touchBones(Step& s) {
+  const Vec3 hub = s.pose.p_DT - s.materials.needle_length * s.pose.a_D;
+  BoneContact deepest[kOrganCount];  // one force a bone, so that a chain's joints do not count twice
+  for (int i = 0; i < s.geometry.bone_count; ++i) {
+    const BoneContact c =
+        bonePenetration(s.geometry.bones[i], hub, s.pose.p_DT, s.materials.needle_radius);
+    BoneContact& best = deepest[static_cast<int>(c.organ)];
+    if (c.penetration > best.penetration) best = c;
+  }
+  Organ strongest = Organ::none;
+  for (const BoneContact& c : deepest) {
+    if (c.penetration <= 0) continue;
+    const double f = s.coupling.stiffness * c.penetration;
+    s.push(f * c.n_D, c.p_D);
+    if (f > s.out.bone_force) {
+      s.out.bone_force = f;
+      strongest = c.organ;
+    }
+  }
+  if (strongest != Organ::none && s.state.bone == Organ::none) s.out.events |= kBoneTouched;
+  if (strongest == Organ::none && s.state.bone != Organ::none) s.out.events |= kBoneLeft;
+  s.state.bone = strongest;
+}
+
+}  // namespace
+
+NeedleContact needleContact(const NeedleMaterials& materials, const CouplingLimits& coupling,
+                            const LocalGeometry& geometry, const NeedlePose& pose,
+                            double puncture_force_N, double dt, NeedleState& state) noexcept {
+  Step step{materials, coupling, geometry, pose, dt, state, {}};
+  updateVelocity(step);
+  if (geometry.number == 0) return step.out;
+  if (state.phase == NeedlePhase::inserted) {
+    decayRelease(step);
+    afterPuncture(step);
+  } else {
+    beforePuncture(step, puncture_force_N);
+  }
+  if (state.phase == NeedlePhase::inserted) touchBones(step);
+  else state.bone = Organ::none;
+  return step.out;
+}
+
+}  // namespace palpa::haptics

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <type_traits>
+
+#include "anatomy/geometry/local_geometry.h"
+#include "haptics/flight_record.h"
+#include "haptics/materials/needle_materials.h"
+
+namespace palpa::haptics {
+
+/// All that the needle's contact remembers from tick to tick. Frame D.
+struct NeedleState {
+  Packed3 entry_D{};              ///< where the skin was punctured
+  Packed3 skin_anchor_D{};        ///< stick point of the needle's point on the skin
+  Packed3 p_DT{};                 ///< tip in the last tick
+  double friction_anchor = 0;     ///< axial stick point, m of insertion
+  Packed3 release_D{};            ///< what is left of the force that a punctured layer had stored, N
+  Packed3 v_D{};                  ///< of the tip, low-passed, m/s
+  std::uint32_t walls_front = 0;  ///< bit per Organ: front wall punctured
+  std::uint32_t walls_back = 0;   ///< bit per Organ: back wall punctured
+  NeedlePhase phase = NeedlePhase::outside;
+  Organ bone = Organ::none;
+  std::uint8_t started = 0;
+  std::uint8_t skin_punctures = 0;
+  std::uint8_t reserved[4]{};
+};
+static_assert(std::is_trivially_copyable_v<NeedleState>);
+
+/// The needle's pose in this tick: tip p_DT, unit axis a_D toward the tip, gimbal p_DE.
+struct NeedlePose {
+  Vec3 p_DT, a_D, p_DE;
+};
+
+struct NeedleContact {
+  Vec3 f_D = Vec3::Zero();      ///< resultant on the tool, N
+  Vec3 tau_D = Vec3::Zero();    ///< moment about E, N m
+  double indentation = 0, depth = 0, v_axial = 0;
+  double skin_force = 0, bone_force = 0, wall_force = 0;
+  std::uint32_t events = 0;
+  Tissue tissue = Tissue::air;
+  Organ wall = Organ::none;
+  bool wall_leaving = false;
+};
+
+struct CouplingLimits {
+  double stiffness = 1000;        ///< K_c, N/m: no slope is steeper than this
+  double velocity_tau = 0.005;    ///< s, low-pass of the tip's velocity (encoder steps)
+};
+
+/// One evaluation of the needle force (Tzafestas et al. 2008, with cutting, shaft friction and wall
+/// punctures after Okamura et al. 2004):
+///   before puncture   n F(u) in series with the coupling, Coulomb friction across
+///   after             axial: -b_layer v - stick-slip(cutting + friction x length) - wall elasticity
+///                     lateral: -k_t x_t about the entry
+///   always            bone: K_c x penetration of tip and shaft into the capsules, along the contact normal
+/// Advances `state`. No allocation, no exception.
+NeedleContact needleContact(const NeedleMaterials& materials, const CouplingLimits& coupling,
+                            const LocalGeometry& geometry, const NeedlePose& pose,
+                            double puncture_force_N, double dt, NeedleState& state) noexcept;
+
+}  // namespace palpa::haptics

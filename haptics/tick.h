@@ -1,0 +1,44 @@
+#pragma once
+
+#include <type_traits>
+
+#include "haptics/needle_contact.h"
+#include "haptics/safety_limiter.h"
+
+namespace palpa::haptics {
+
+/// Constant during a session; stored in its file. Trivially copyable, so that a replay has it whole.
+struct TickConfig {
+  NeedleMaterials materials;
+  CouplingLimits coupling;
+  SafetyLimits safety;
+  PackedPose X_ET;                          ///< tool tip in the end effector; needle along +z of T
+  std::int64_t period_ns = 1'000'000;
+  std::int64_t blend_ns = 10'000'000;       ///< a new snapshot takes over within this time
+  std::int64_t age_limit_ns = 100'000'000;  ///< older snapshots fade out
+  std::int64_t fade_ns = 50'000'000;
+};
+static_assert(std::is_trivially_copyable_v<TickConfig>);
+
+/// Everything that changes: copy it, and the loop can be continued from there.
+struct TickState {
+  std::int64_t tick = 0;
+  std::int64_t t_ns = 0;
+  std::int64_t t_adopted_ns = 0;     ///< when `now` replaced `old`
+  LocalGeometry now, old;
+  NeedleState contact, contact_old;  ///< `contact_old` runs on `old` during the blend
+  SafetyState safety;
+  std::uint32_t trial = 0;
+  std::uint8_t blending = 0;
+  SafetyCause cause = SafetyCause::none;
+  std::uint8_t reserved[2]{};
+};
+static_assert(std::is_trivially_copyable_v<TickState>);
+
+/// One tick: reading -> contact on the snapshot -> blend -> safety limiter -> command. Pure: same
+/// inputs, same bits. `latest` is the newest snapshot or null; it is adopted when the last blend is over. Never allocates, locks, logs or throws.
+FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
+                  const LocalGeometry* latest, const TickCommands& commands,
+                  std::int64_t now_ns) noexcept;
+
+}  // namespace palpa::haptics

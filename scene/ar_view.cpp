@@ -1,0 +1,105 @@
+#include "scene/ar_view.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <numbers>
+
+#include "scene/ar_camera.h"
+#include "scene/renderer_setup.h"
+
+namespace palpa::scene {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180;
+constexpr double kDistance = 0.42;  // metres from the virtual camera to the entry region
+constexpr double kElevation = 28 * kDegree;
+constexpr double kAzimuth = 18 * kDegree;  // toward the punctured side
+constexpr double kToolReach = 0.30;        // metres from the tip: the syringe, an arrow at its end
+constexpr double kShaft_px = 5;            // an arrow's shaft in a window 720 pixels high
+
+OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
+  const double azimuth = patient.side == anatomy::Side::right ? -kAzimuth : kAzimuth;
+  return {region.focus_A, azimuth, kElevation, kDistance};
+}
+
+}  // namespace
+
+ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region)
+    : window_(window),
+      region_(region),
+      orbit_(defaultView(patient, region)),
+      backdrop_(*renderer_, true),
+      organs_(*renderer_, patient),
+      instrument_(*renderer_),
+      arrows_(*above_) {
+  setUpRenderer(*renderer_, colour::kBehindBottom);
+  setUpRenderer(*above_, colour::kBehindBottom);
+  renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
+  above_->SetActiveCamera(renderer_->GetActiveCamera());
+  above_->SetLayer(1);
+  window_.AddRenderer(renderer_);
+  window_.AddRenderer(above_);
+}
+
+ArView::~ArView() {
+  window_.RemoveRenderer(above_);
+  window_.RemoveRenderer(renderer_);
+}
+
+void ArView::addTrail(Trail& trail) { trail_ = trail.addTo(*renderer_, 2.5); }
+
+void ArView::place(const Rect& panel, int window_width, int window_height) {
+  panel_ = panel;
+  window_width_ = window_width;
+  window_height_ = window_height;
+}
+
+void ArView::update(const SceneState& state) {
+  chooseCamera(state);
+  applyCamera(X_CA_ * state.X_AT.translation());
+  if (state.picture)
+    backdrop_.show(*state.picture);
+  else
+    backdrop_.hide();
+  renderer_->SetGradientBackground(state.picture == nullptr);
+  shows_patient_ = state.registered || state.picture == nullptr;
+  showPatient(state, shows_patient_);
+}
+
+void ArView::chooseCamera(const SceneState& state) {
+  virtual_ = !state.registered && state.picture == nullptr;
+  if (virtual_) {
+    picture_ = panel_;
+    pinhole_ = orbit_.pinhole(panel_.width, panel_.height);
+    X_CA_ = orbit_.X_CA();
+    return;
+  }
+  const Pinhole& camera = state.camera;
+  picture_ = letterbox(panel_, camera.width, camera.height);
+  pinhole_ = scaled(camera, picture_.width, picture_.height);
+  if (state.registered) X_CA_ = state.X_CA;
+}
+
+void ArView::applyCamera(const Vec3& tip_C) {
+  setViewport(*renderer_, picture_, window_width_, window_height_);
+  setViewport(*above_, picture_, window_width_, window_height_);
+  const DepthRange range =
+      depthRangeOf({{X_CA_ * region_.whole_centre_A, region_.whole_radius}, {tip_C, kToolReach}});
+  aim(*renderer_->GetActiveCamera(), pinhole_, X_CA_, range);
+}
+
+void ArView::showPatient(const SceneState& state, bool visible) {
+  organs_.setStyle(state.skin);
+  organs_.setVisible(visible);
+  instrument_.update(state.X_AT, state.plunger, state.blood);
+  instrument_.setVisible(visible && state.show_tool);
+  if (trail_) trail_->SetVisibility(visible);
+  const double unit_px = kShaft_px * window_height_ / 720.0;
+  arrows_.update(visible ? state.forces : std::vector<ForceArrow>(), X_CA_, pinhole_.fx, unit_px);
+  above_->SetDraw(arrows_.any());
+}
+
+}  // namespace palpa::scene

@@ -1,0 +1,64 @@
+#pragma once
+
+#include <vtkNew.h>
+
+#include "scene/backdrop.h"
+#include "scene/force_arrows.h"
+#include "scene/instrument.h"
+#include "scene/orbit_camera.h"
+#include "scene/organ_actors.h"
+#include "scene/region.h"
+#include "scene/trail.h"
+#include "scene/view_layout.h"
+
+class vtkRenderer;
+class vtkRenderWindow;
+
+namespace palpa::scene {
+
+/// The camera picture with the registered patient on it. Which camera looks:
+///
+///     registered                the real one: X_CA and its intrinsics, exactly
+///     picture, not registered   none: the picture alone, since a patient drawn anywhere would
+///     mislead neither                   a virtual one near the entry point, which a person may
+///     walk around
+class ArView {
+ public:
+  ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region);
+  ~ArView();
+
+  void addTrail(Trail& trail);
+  void place(const Rect& panel, int window_width, int window_height);
+  void update(const SceneState& state);
+
+  bool isVirtual() const { return virtual_; }
+  bool showsPatient() const { return shows_patient_; }
+  OrbitCamera& orbit() { return orbit_; }
+  const Rect& picture() const { return picture_; }  ///< the part of the panel that is drawn on
+  const Pinhole& pinhole() const { return pinhole_; }
+  const Pose& X_CA() const { return X_CA_; }
+
+ private:
+  void chooseCamera(const SceneState& state);
+  void applyCamera(const Vec3& tip_C);
+  void showPatient(const SceneState& state, bool visible);
+
+  vtkRenderWindow& window_;
+  vtkNew<vtkRenderer> renderer_;  // picture, organs, needle, trail
+  vtkNew<vtkRenderer> above_;     // force arrows: never hidden
+  Region region_;
+  Rect panel_, picture_;
+  int window_width_ = 1, window_height_ = 1;
+  bool virtual_ = true;
+  bool shows_patient_ = true;
+  OrbitCamera orbit_;
+  Pinhole pinhole_;
+  Pose X_CA_ = Pose::Identity();
+  Backdrop backdrop_;
+  OrganActors organs_;
+  Instrument instrument_;
+  vtkSmartPointer<vtkActor> trail_;
+  ForceArrows arrows_;
+};
+
+}  // namespace palpa::scene

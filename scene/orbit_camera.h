@@ -1,0 +1,32 @@
+#pragma once
+
+#include "scene/scene_state.h"
+
+namespace palpa::scene {
+
+/// The virtual camera of the AR view while no registered camera drives it: it looks at a point and
+/// a person can walk it around. Azimuth about the patient's long axis (+z of A), 0 = straight in
+/// front of the chest, positive toward the patient's left; elevation positive toward the head.
+class OrbitCamera {
+ public:
+  OrbitCamera() = default;
+  OrbitCamera(const Vec3& target_A, double azimuth, double elevation, double distance);
+
+  void orbit(double d_azimuth,
+             double d_elevation);       ///< radians; elevation stays short of the poles
+  void zoom(double factor);             ///< distance times factor, 0.1 m to 1.5 m
+  void pan(double right, double down);  ///< fractions of the distance
+  void reset();                         ///< back to where it was made
+
+  Pose X_CA() const;
+  Pinhole pinhole(int width, int height) const;  ///< 30° high (wide, where narrow)
+
+ private:
+  struct View {
+    Vec3 target_A = Vec3::Zero();
+    double azimuth = 0, elevation = 0, distance = 0.5;
+  };
+  View view_, home_;
+};
+
+}  // namespace palpa::scene

@@ -1,0 +1,107 @@
+#include "scene/organ_actors.h"
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkNew.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+
+#include "scene/palette.h"
+
+namespace palpa::scene {
+namespace {
+
+bool covers(Organ organ) { return organ == Organ::skin || organ == Organ::muscle; }
+
+double translucentOpacity(Organ organ) {
+  if (organ == Organ::skin) return 0.28;
+  return organ == Organ::muscle ? 0.24 : 1;
+}
+
+bool isPlainWhite(const std::array<float, 4>& rgba) {
+  return rgba[0] == 1 && rgba[1] == 1 && rgba[2] == 1;
+}
+
+Rgb colourOf(const anatomy::OrganSurface& organ) {
+  if (isPlainWhite(organ.rgba)) return organColour(organ.organ);
+  return {organ.rgba[0], organ.rgba[1], organ.rgba[2]};
+}
+
+vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ) {
+  vtkNew<vtkPolyDataMapper> mapper;
+  mapper->SetInputData(polyDataOf(organ.mesh));
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  Rgb colour = colourOf(organ);
+  vtkProperty* look = actor->GetProperty();
+  look->SetColor(colour.data());
+  look->SetAmbient(0.28);
+  look->SetDiffuse(0.76);
+  look->SetSpecular(organ.organ == Organ::skin ? 0.06 : 0.18);
+  look->SetSpecularPower(24);
+  return actor;
+}
+
+}  // namespace
+
+vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh) {
+  vtkNew<vtkPoints> points;
+  points->Allocate(static_cast<vtkIdType>(mesh.points.size()));
+  for (const Vec3& p : mesh.points) points->InsertNextPoint(p.data());
+  vtkNew<vtkCellArray> triangles;
+  for (const auto& t : mesh.triangles) {
+    const vtkIdType corners[] = {t[0], t[1], t[2]};
+    triangles->InsertNextCell(3, corners);
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  result->SetPolys(triangles);
+  if (mesh.normals.size() == mesh.points.size()) {
+    vtkNew<vtkFloatArray> normals;
+    normals->SetNumberOfComponents(3);
+    for (const Vec3& n : mesh.normals) normals->InsertNextTuple3(n.x(), n.y(), n.z());
+    result->GetPointData()->SetNormals(normals);
+  }
+  return result;
+}
+
+OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient) {
+  for (const anatomy::OrganSurface& organ : patient.organs) {
+    Part part{actorOf(organ), organ.organ};
+    // The far side of a translucent surface would blend a second time.
+    if (covers(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
+    renderer.AddActor(part.actor);
+    parts_.push_back(std::move(part));
+  }
+  apply();
+}
+
+OrganActors::~OrganActors() = default;
+
+void OrganActors::setStyle(SkinStyle style) {
+  if (style == style_) return;
+  style_ = style;
+  apply();
+}
+
+void OrganActors::setVisible(bool visible) {
+  if (visible == visible_) return;
+  visible_ = visible;
+  apply();
+}
+
+void OrganActors::apply() {
+  for (Part& part : parts_) {
+    const bool hidden = covers(part.organ) && style_ == SkinStyle::hidden;
+    part.actor->SetVisibility(visible_ && !hidden);
+    part.actor->GetProperty()->SetOpacity(
+        style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1);
+  }
+}
+
+}  // namespace palpa::scene

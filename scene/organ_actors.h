@@ -1,0 +1,41 @@
+#pragma once
+
+#include <vtkSmartPointer.h>
+
+#include <vector>
+
+#include "anatomy/patient.h"
+#include "scene/scene_state.h"
+
+class vtkActor;
+class vtkPolyData;
+class vtkRenderer;
+
+namespace palpa::scene {
+
+vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh);
+
+/// The patient's surfaces as actors: organs opaque, and what covers them (skin, muscle) in the
+/// chosen style. Only one translucent layer is ever in front of the organs, which the default
+/// order-independent blending draws right and cheaply; peeling would cost several times as much.
+class OrganActors {
+ public:
+  OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient);
+  ~OrganActors();
+
+  void setStyle(SkinStyle style);
+  void setVisible(bool visible);
+
+ private:
+  struct Part {
+    vtkSmartPointer<vtkActor> actor;
+    Organ organ = Organ::none;
+  };
+  void apply();
+
+  std::vector<Part> parts_;
+  SkinStyle style_ = SkinStyle::translucent;
+  bool visible_ = true;
+};
+
+}  // namespace palpa::scene

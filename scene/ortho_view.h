@@ -1,0 +1,65 @@
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <memory>
+#include <vector>
+
+#include "scene/backdrop.h"
+#include "scene/instrument.h"
+#include "scene/label.h"
+#include "scene/organ_actors.h"
+#include "scene/plates.h"
+#include "scene/region.h"
+#include "scene/skin_section.h"
+#include "scene/trail.h"
+#include "scene/view_layout.h"
+
+class vtkRenderer;
+class vtkRenderWindow;
+
+namespace palpa::scene {
+
+enum class Plane { frontal, sagittal, axial };
+
+/// A fixed parallel view. The anatomy in it never moves, so it is drawn once, kept as a picture and
+/// put behind the needle; the needle therefore shows through the organs, as on a radiograph.
+class OrthoView {
+ public:
+  OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
+            Plane plane);
+  ~OrthoView();
+
+  void addTrail(Trail& trail);
+  void place(const Rect& where, int window_width, int window_height);
+
+  /// Painting the still picture: prepare all views, render the window once, keep from what it
+  /// shows.
+  void prepareStill();
+  void keepStill(const Image& window_picture);
+
+  void update(const Pose& X_AT, bool show_tool);
+
+ private:
+  void aimCamera();
+  void layoutWords(int window_height);
+  void putScaleBar(const TextStyle& style);
+  void put(const std::string& words, const TextStyle& style, int x, int y);
+
+  vtkNew<vtkRenderer> renderer_;
+  vtkRenderWindow& window_;
+  Plane plane_;
+  anatomy::Side side_;
+  Region region_;
+  Rect where_;
+  OrganActors organs_;
+  vtkSmartPointer<vtkActor> section_;
+  Backdrop backdrop_;
+  InstrumentSilhouette needle_;
+  Plates plates_;
+  vtkSmartPointer<vtkActor> trail_;
+  std::vector<std::unique_ptr<Label>> words_;
+};
+
+}  // namespace palpa::scene

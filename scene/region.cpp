@@ -1,0 +1,62 @@
+#include "scene/region.h"
+
+#include <algorithm>
+#include <optional>
+
+namespace palpa::scene {
+namespace {
+
+using Box = Eigen::AlignedBox3d;
+
+std::optional<Vec3> find(const anatomy::Patient& patient, const char* name) {
+  const auto found = patient.landmarks.find(name);
+  if (found == patient.landmarks.end()) return std::nullopt;
+  return found->second;
+}
+
+Box boxOf(const anatomy::TriangleMesh& mesh) {
+  Box box;
+  for (const Vec3& p : mesh.points) box.extend(p);
+  return box;
+}
+
+bool onSide(const Box& box, anatomy::Side side) {
+  return (side == anatomy::Side::right) == (box.center().x() < 0);
+}
+
+Box clavicleBox(const anatomy::Patient& patient) {
+  for (const anatomy::OrganSurface& organ : patient.organs) {
+    if (organ.organ != Organ::clavicle) continue;
+    const Box box = boxOf(organ.mesh);
+    if (!box.isEmpty() && onSide(box, patient.side)) return box;
+  }
+  return {};
+}
+
+Box wholeBox(const anatomy::Patient& patient) {
+  Box box;
+  for (const anatomy::OrganSurface& organ : patient.organs) box.extend(boxOf(organ.mesh));
+  for (const auto& [name, p_A] : patient.landmarks) box.extend(p_A);
+  if (box.isEmpty()) box.extend(Box(Vec3::Constant(-0.1), Vec3::Constant(0.1)));
+  return box;
+}
+
+}  // namespace
+
+Region regionOf(const anatomy::Patient& patient) {
+  const Box whole = wholeBox(patient);
+  const auto entry = find(patient, anatomy::landmark::kEntry);
+  const auto vein = find(patient, anatomy::landmark::kVeinTarget);
+  Box near = clavicleBox(patient);
+  if (near.isEmpty()) near = whole;
+  Region region;
+  region.focus_A = near.center();
+  if (entry) region.focus_A = vein ? Vec3(0.5 * (*entry + *vein)) : *entry;
+  region.centre_A = 0.5 * (near.center() + region.focus_A);
+  region.width = std::clamp(1.3 * near.sizes().x(), 0.10, 0.40);
+  region.whole_centre_A = whole.center();
+  region.whole_radius = 0.5 * whole.diagonal().norm() + 0.05;
+  return region;
+}
+
+}  // namespace palpa::scene

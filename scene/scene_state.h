@@ -1,0 +1,62 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "anatomy/geometry/pose.h"
+
+/// Everything the scene needs for one frame: plain numbers and pixels, no devices, no trackers.
+namespace palpa::scene {
+
+struct Image {
+  int width = 0, height = 0, channels = 3;
+  std::vector<std::uint8_t> pixels;  ///< rows top to bottom, RGB
+};
+
+/// Pinhole without distortion; pixel centres at whole numbers (OpenCV).
+struct Pinhole {
+  int width = 640, height = 480;
+  double fx = 600, fy = 600, cx = 319.5, cy = 239.5;
+};
+
+enum class ForceKind { reaction, weight, device };
+
+struct ForceArrow {
+  ForceKind kind = ForceKind::device;
+  Vec3 p_A = Vec3::Zero();
+  Vec3 f_A = Vec3::Zero();  ///< newtons
+};
+
+enum class SkinStyle { solid, translucent, hidden };
+
+/// Words on the picture; empty lines are left out.
+struct Hud {
+  std::string phase;    ///< "Phase 1: puncture the skin"
+  std::string depth;    ///< "12 mm under the skin"
+  std::string force;    ///< "1.2 N"
+  std::string time;     ///< "0:31"
+  std::string touched;  ///< "clavicle (guide)", "pleura!"
+  std::string notice;   ///< one line of advice, loss of tracking, emergency stop
+  std::string mark;     ///< "SIMULATED OPERATOR"
+  bool alarm = false;   ///< notice in alarm style
+
+  bool operator==(const Hud&) const = default;
+};
+
+struct SceneState {
+  const Image* picture = nullptr;  ///< undistorted camera picture; null: plain background
+  Pinhole camera;
+  bool registered = false;  ///< X_CA is valid
+  Pose X_CA = Pose::Identity();
+  Pose X_AT = Pose::Identity();  ///< needle tip at the origin of T, +z the way it advances
+  bool show_tool = true;
+  double plunger = 0;  ///< drawn fraction, 0..1
+  double blood = 0;    ///< fraction of the syringe filled with blood, 0..1
+  SkinStyle skin = SkinStyle::translucent;
+  std::vector<ForceArrow> forces;
+  std::vector<Vec3> trail_A;  ///< path of the tip so far
+  Hud hud;
+};
+
+}  // namespace palpa::scene

@@ -1,0 +1,165 @@
+#include "scene/scene_view.h"
+
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <array>
+
+#include "anatomy/geometry/error.h"
+#include "scene/ar_view.h"
+#include "scene/hud.h"
+#include "scene/image_rows.h"
+#include "scene/navigation.h"
+#include "scene/ortho_view.h"
+#include "scene/plates.h"
+#include "scene/renderer_setup.h"
+#include "scene/window_input.h"
+
+namespace palpa::scene {
+namespace {
+
+Image pixelsOf(vtkRenderWindow& window) {
+  const int* size = window.GetSize();
+  Image image{size[0], size[1], 3, {}};
+  vtkNew<vtkUnsignedCharArray> pixels;
+  if (window.GetPixelData(0, 0, image.width - 1, image.height - 1, 0, pixels, 0) == VTK_ERROR)
+    throw Error("the frame cannot be read back", "scene", "Update the graphics driver");
+  const std::size_t row = static_cast<std::size_t>(image.width) * 3;
+  image.pixels.resize(row * image.height);
+  copyFlipped(pixels->GetPointer(0), image.pixels.data(), row, image.height);
+  return image;
+}
+
+}  // namespace
+
+struct SceneView::Impl {
+  Impl(GlContextProvider& provider, const anatomy::Patient& patient, const ViewLayout& wanted);
+  ~Impl();
+
+  void place();
+  void paintStills();
+  void show(const SceneState& state);
+
+  GlContextProvider& context;
+  vtkRenderWindow& window;
+  ViewLayout layout;
+  Region region;
+  vtkNew<vtkRenderer> frame;  // whole window, behind: borders, and what the picture leaves free
+  Plates margins;
+  vtkNew<vtkRenderer> words;  // whole window, in front
+  Trail trail;
+  ArView ar;
+  std::vector<std::unique_ptr<OrthoView>> fixed;
+  HudPainter hud;
+  Navigation navigation;
+  std::unique_ptr<WindowInput> input;
+  Panels panels;
+  std::array<int, 2> size{0, 0};
+};
+
+SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patient,
+                      const ViewLayout& wanted)
+    : context(provider),
+      window(*provider.window()),
+      layout(wanted),
+      region(regionOf(patient)),
+      margins(*frame),
+      ar((window.AddRenderer(frame), window), patient, region),
+      hud(*words) {
+  window.SetSize(layout.width, layout.height);
+  window.SetNumberOfLayers(3);
+  setUpRenderer(*frame, colour::kBorder);
+  setUpRenderer(*words, colour::kBorder);
+  words->SetLayer(2);
+  ar.addTrail(trail);
+  if (layout.orthographic) {
+    for (Plane plane : {Plane::frontal, Plane::sagittal, Plane::axial}) {
+      fixed.push_back(std::make_unique<OrthoView>(window, patient, region, plane));
+      fixed.back()->addTrail(trail);
+    }
+  }
+  window.AddRenderer(words);
+}
+
+SceneView::Impl::~Impl() {
+  input.reset();
+  window.RemoveRenderer(words);
+  window.RemoveRenderer(frame);
+}
+
+void SceneView::Impl::place() {
+  const int* now = window.GetSize();
+  if (size[0] == now[0] && size[1] == now[1]) return;
+  size = {now[0], now[1]};
+  panels = layoutPanels(size[0], size[1], layout.orthographic);
+  ar.place(panels.ar, size[0], size[1]);
+  const Rgb& dark = colour::kPanel;
+  margins.clear();
+  margins.add(panels.ar, {dark[0], dark[1], dark[2], 1}, 0);
+  const Rect* places[] = {&panels.front, &panels.side, &panels.top};
+  for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i]->place(*places[i], size[0], size[1]);
+  paintStills();
+}
+
+void SceneView::Impl::paintStills() {
+  if (fixed.empty()) return;
+  for (const auto& view : fixed) view->prepareStill();
+  words->DrawOff();
+  window.Render();
+  const Image picture = pixelsOf(window);
+  for (const auto& view : fixed) view->keepStill(picture);
+  words->DrawOn();
+}
+
+void SceneView::Impl::show(const SceneState& state) {
+  place();
+  trail.update(state.trail_A);
+  ar.update(state);
+  for (const auto& view : fixed) view->update(state.X_AT, state.show_tool);
+  hud.update(state.hud, ar.showsPatient() ? state.forces : std::vector<ForceArrow>(), panels.ar,
+             size[1]);
+  window.Render();
+}
+
+SceneView::SceneView(GlContextProvider& context, const anatomy::Patient& patient,
+                     const ViewLayout& layout)
+    : impl_(std::make_unique<Impl>(context, patient, layout)) {
+  SceneState first;  // compiles the shaders, so that the first real frame is not late
+  first.show_tool = false;
+  show(first);
+  if (context.interactive()) impl_->input = std::make_unique<WindowInput>(impl_->window);
+}
+
+SceneView::~SceneView() = default;
+
+void SceneView::show(const SceneState& state) { impl_->show(state); }
+
+Image SceneView::capture() const { return pixelsOf(impl_->window); }
+
+ViewInput SceneView::poll() {
+  if (!impl_->input) return {};
+  const ViewInput input = impl_->input->poll();
+  if (impl_->layout.free_navigation && impl_->ar.isVirtual())
+    impl_->navigation.apply(input, impl_->ar.picture(), impl_->size[1], impl_->ar.orbit());
+  return input;
+}
+
+ArGeometry SceneView::arGeometry() const {
+  const Rect& picture = impl_->ar.picture();
+  const double top = impl_->size[1] - picture.top();
+  Pinhole camera = impl_->ar.pinhole();
+  camera.cx += picture.x;
+  camera.cy += top;
+  return {camera,
+          impl_->ar.X_CA(),
+          static_cast<double>(picture.x),
+          top,
+          static_cast<double>(picture.width),
+          static_cast<double>(picture.height)};
+}
+
+void SceneView::resetNavigation() { impl_->ar.orbit().reset(); }
+
+}  // namespace palpa::scene

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <cmath>
+#include <filesystem>
+#include <string>
+
+#include "anatomy/parametric_patient.h"
+#include "anatomy/random_stream.h"
+#include "anatomy/shapes/surface_nets.h"
+#include "anatomy/shapes/sweep.h"
+
+namespace palpa::anatomy {
+
+inline const char* referenceFile() { return PALPA_SOURCE_DIR "/assets/patients/reference.json"; }
+
+/// Built once a process.
+inline const Patient& referencePatient(Side side = Side::right) {
+  static const Patient right = buildPatient(drawParameters(referenceFile(), Side::right, 0));
+  static const Patient left = buildPatient(drawParameters(referenceFile(), Side::left, 0));
+  return side == Side::right ? right : left;
+}
+
+inline TriangleMesh sphereMesh(double radius, double cell) {
+  const auto field = [radius](const Vec3& p) { return p.norm() - radius; };
+  const Vec3 corner = Vec3::Constant(radius + 2 * cell);
+  return surfaceNets(field, {-corner, corner}, cell);
+}
+
+/// Straight tube with half-sphere ends around the segment a–b.
+inline TriangleMesh capsuleMesh(const Vec3& a, const Vec3& b, double radius, int rings,
+                                int around) {
+  std::vector<Vec3> centres;
+  for (int i = 0; i < rings; ++i) centres.push_back(a + (b - a) * i / (rings - 1));
+  const Vec3 axis = (b - a).normalized();
+  std::vector<Section> sections = sectionsAlong(centres, axis.unitOrthogonal());
+  for (Section& s : sections) s.half_up = s.half_side = radius;
+  return sweep(sections, around, 1.0);
+}
+
+inline Patient patientOf(const TriangleMesh& mesh, Organ organ) {
+  Patient patient;
+  patient.organs.push_back({"only", organ, mesh, {1, 1, 1, 1}});
+  return patient;
+}
+
+inline Vec3 randomIn(RandomStream& random, double half) {
+  const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+  return 2 * half * (Vec3(x, y, z) - Vec3::Constant(0.5));
+}
+
+inline Vec3 randomDirection(RandomStream& random) {
+  const double x = random.normal(), y = random.normal(), z = random.normal();
+  return Vec3(x, y, z).normalized();
+}
+
+/// A folder of its own that disappears with the object.
+class ScratchFolder {
+ public:
+  explicit ScratchFolder(const std::string& name)
+      : path_(std::filesystem::path(PALPA_BUILD_DIR) / "scratch" / name) {
+    std::filesystem::remove_all(path_);
+    std::filesystem::create_directories(path_);
+  }
+  ~ScratchFolder() { std::filesystem::remove_all(path_); }
+  std::filesystem::path operator/(const std::string& file) const { return path_ / file; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace palpa::anatomy

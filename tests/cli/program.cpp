@@ -1,0 +1,99 @@
+#include "program.h"
+
+#include <fcntl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstdlib>
+#include <fstream>
+#include <iterator>
+#include <stdexcept>
+
+namespace palpa::cli_test {
+namespace {
+
+namespace fs = std::filesystem;
+
+void redirect(const fs::path& file, int stream) {
+  const int fd = ::open(file.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
+  if (fd < 0 || ::dup2(fd, stream) < 0) ::_exit(126);
+  ::close(fd);
+}
+
+[[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder,
+                         const fs::path& out, const fs::path& err) {
+  redirect("/dev/null", STDIN_FILENO);
+  redirect(out, STDOUT_FILENO);
+  redirect(err, STDERR_FILENO);
+  if (::chdir(folder.c_str()) != 0) ::_exit(126);
+  ::unsetenv("DISPLAY");
+  arguments.insert(arguments.begin(), PALPA_PROGRAM);
+  std::vector<char*> argv;
+  for (std::string& argument : arguments) argv.push_back(argument.data());
+  argv.push_back(nullptr);
+  ::execv(PALPA_PROGRAM, argv.data());
+  ::_exit(127);
+}
+
+fs::path newFolder() {
+  static std::atomic<int> count{0};
+  return fs::temp_directory_path() /
+         ("palpa-cli-" + std::to_string(::getpid()) + "-" + std::to_string(++count));
+}
+
+}  // namespace
+
+int Outcome::errLines() const {
+  const auto ends = std::count(err.begin(), err.end(), '\n');
+  return static_cast<int>(ends) + (!err.empty() && err.back() != '\n');
+}
+
+Outcome palpa(const std::vector<std::string>& arguments, const fs::path& folder) {
+  const Folder streams;
+  const fs::path out = streams / "out", err = streams / "err";
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) become(arguments, folder, out, err);
+  int status = 0;
+  while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
+  }
+  const int code = WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+  return {code, contentOf(out), contentOf(err)};
+}
+
+Folder::Folder() : path_(newFolder()) { fs::create_directories(path_); }
+
+Folder::~Folder() {
+  std::error_code ignored;
+  fs::remove_all(path_, ignored);
+}
+
+std::string Folder::file(const std::string& name, const std::string& bytes) const {
+  const fs::path file = path_ / name;
+  std::ofstream(file, std::ios::binary) << bytes;
+  return file.string();
+}
+
+std::vector<std::string> Folder::files() const {
+  std::vector<std::string> names;
+  for (const auto& entry : fs::recursive_directory_iterator(path_))
+    if (!entry.is_directory()) names.push_back(fs::relative(entry.path(), path_).generic_string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+std::string contentOf(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
+std::vector<std::string> session(std::vector<std::string> more) {
+  std::vector<std::string> all{"paracentesis", "--operator", "expert",
+                               "--fast",       "--no-views", "--quiet"};
+  for (std::string& argument : more) all.push_back(std::move(argument));
+  return all;
+}
+
+}  // namespace palpa::cli_test

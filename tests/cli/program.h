@@ -1,0 +1,44 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palpa::cli_test {
+
+/// What the program left behind.
+struct Outcome {
+  int exit_code = -1;  ///< 128 + signal when it was killed
+  std::string out, err;
+
+  int errLines() const;  ///< lines on standard error
+};
+
+/// Runs the built `palpa` with these arguments, in `folder`, without a display; waits for its end.
+Outcome palpa(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+
+/// A folder of its own for one test, empty at the start, gone at the end.
+class Folder {
+ public:
+  Folder();
+  ~Folder();
+  Folder(const Folder&) = delete;
+  Folder& operator=(const Folder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  /// Writes a file into it and says its path.
+  std::string file(const std::string& name, const std::string& bytes) const;
+  /// Every file below, relative, sorted.
+  std::vector<std::string> files() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string contentOf(const std::filesystem::path& file);
+
+/// The arguments of a quick session: virtual time, no views, no progress.
+std::vector<std::string> session(std::vector<std::string> more);
+
+}  // namespace palpa::cli_test

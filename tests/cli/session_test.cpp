@@ -1,0 +1,172 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <sstream>
+#include <utility>
+
+#include "program.h"
+
+/// Whole sessions of a simulated expert, from the arguments to the files. Each takes a few seconds.
+namespace palpa::cli_test {
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> all;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) all.push_back(cell);
+  return all;
+}
+
+/// Rows of a CSV without quotes, by column.
+std::vector<Row> rowsOf(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::string line;
+  std::getline(lines, line);
+  const std::vector<std::string> header = cells(line);
+  std::vector<Row> rows;
+  while (std::getline(lines, line)) {
+    const std::vector<std::string> values = cells(line);
+    EXPECT_EQ(values.size(), header.size()) << line;
+    Row row;
+    for (std::size_t i = 0; i < std::min(values.size(), header.size()); ++i)
+      row[header[i]] = values[i];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+/// One session a program run, shared by the tests that only look at it.
+struct Recorded {
+  Folder here;
+  Outcome outcome;
+  explicit Recorded(std::vector<std::string> more) {
+    more.insert(more.end(), {"--out", "A"});
+    outcome = palpa(session(std::move(more)), here.path());
+  }
+  std::string csv() const { return contentOf(here / "A/trials.csv"); }
+  std::string report() const { return contentOf(here / "A/report.html"); }
+};
+
+Recorded& first() {
+  static Recorded recorded({"--seed", "1", "--trainee", "T042"});
+  return recorded;
+}
+
+TEST(Session, LeavesItsFilesAndSaysSo) {
+  const Recorded& s = first();
+  ASSERT_EQ(s.outcome.exit_code, 0) << s.outcome.err;
+  EXPECT_EQ(s.outcome.err, "") << "--quiet";
+  EXPECT_EQ(s.here.files(),
+            (std::vector<std::string>{"A/report.html", "A/session.palpa", "A/trials.csv"}))
+      << "no partial and no temporary file";
+  for (const char* file : {"report.html", "trials.csv", "session.palpa"})
+    EXPECT_NE(s.outcome.out.find(file), std::string::npos) << file;
+}
+
+TEST(Session, TableHasARowATrialAndCallsItSimulated) {
+  const std::vector<Row> rows = rowsOf(first().csv());
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].at("SIMULATED"), "1");
+  EXPECT_EQ(rows[0].at("TRIAL"), "1");
+  EXPECT_EQ(rows[0].at("SEED"), "1");
+  EXPECT_GT(std::stod(rows[0].at("TOTAL")), 0);
+  for (const char* column : {"COL_LUNG", "COL_RIB", "COL_ART", "COL_VEIN", "PHASE_1", "PHASE_2",
+                             "ECON_MEAN", "ECON_VAR", "TIME"})
+    EXPECT_TRUE(rows[0].count(column)) << column;
+}
+
+TEST(Session, ReportSaysSimulatedAndNeedsNoNetwork) {
+  const std::string page = first().report();
+  EXPECT_TRUE(page.find("simulated") != std::string::npos ||
+              page.find("SIMULATED") != std::string::npos);
+  for (const char* outside : {"src=\"http", "href=\"http", "@import", "url(http"})
+    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
+  EXPECT_NE(page.find("</html>"), std::string::npos);
+}
+
+TEST(Session, SameSeedGivesTheSameTableAndTheSameTicks) {
+  const Recorded again({"--seed", "1", "--trainee", "T042"});
+  ASSERT_EQ(again.outcome.exit_code, 0) << again.outcome.err;
+  EXPECT_EQ(again.csv(), first().csv());
+  for (const Folder* here : {&again.here, &std::as_const(first().here)})
+    ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "ticks.csv"}, here->path()).exit_code,
+              0);
+  const std::string ticks = contentOf(first().here / "ticks.csv");
+  EXPECT_GT(std::count(ticks.begin(), ticks.end(), '\n'), 5000) << "more than 5 s at 1 kHz";
+  EXPECT_TRUE(contentOf(again.here / "ticks.csv") == ticks) << "the ticks differ";
+  for (const Folder* here : {&again.here, &std::as_const(first().here)})
+    for (const std::string& file : here->files())
+      if (file.rfind("ticks", 0) == 0) std::filesystem::remove(*here / file);
+}
+
+TEST(Session, ReplayEqualsTheRecord) {
+  const Outcome replay = palpa({"replay", "A/session.palpa"}, first().here.path());
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_NE(replay.out.find(": 0 differ"), std::string::npos) << replay.out;
+  EXPECT_NE(replay.out.find("same score"), std::string::npos) << replay.out;
+}
+
+TEST(Session, ViewsChangeNoScore) {
+  const Folder here;
+  const Outcome outcome = palpa({"paracentesis", "--operator", "expert", "--fast", "--quiet",
+                                 "--seed", "1", "--trainee", "T042", "--out", "A"},
+                                here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(contentOf(here / "A/trials.csv"), first().csv());
+  const std::vector<std::string> files = here.files();
+  EXPECT_TRUE(std::any_of(files.begin(), files.end(), [](const auto& f) {
+    return f.rfind("A/view-", 0) == 0;
+  })) << "pictures of the marked moments";
+}
+
+TEST(Session, AnotherSeedTheLeftSideAndNoForceFeedbackWork) {
+  const Recorded other(
+      {"--seed", "2", "--side", "left", "--handedness", "left", "--force-feedback", "off"});
+  ASSERT_EQ(other.outcome.exit_code, 0) << other.outcome.err;
+  const std::vector<Row> rows = rowsOf(other.csv());
+  ASSERT_EQ(rows.size(), 1u);
+  EXPECT_EQ(rows[0].at("SEED"), "2");
+  EXPECT_EQ(rows[0].at("SIMULATED"), "1");
+  EXPECT_NE(other.csv(), first().csv());
+  EXPECT_NE(other.report().find("left side"), std::string::npos);
+  EXPECT_EQ(palpa({"replay", "A/session.palpa"}, other.here.path()).exit_code, 0);
+}
+
+TEST(Session, TaskFileAndSavedPatientGiveWhatTheShippedOnesGive) {
+  const Folder here;
+  ASSERT_EQ(palpa({"patient", "build", "--out", "p.glb"}, here.path()).exit_code, 0);
+  const Outcome outcome =
+      palpa({"train", "--task", PALPA_SOURCE_DIR "/assets/tasks/paracentesis.json", "--operator",
+             "expert", "--fast", "--no-views", "--quiet", "--patient", "p.glb", "--trials", "2",
+             "--out", "A"},
+            here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const std::vector<Row> rows = rowsOf(contentOf(here / "A/trials.csv"));
+  ASSERT_EQ(rows.size(), 2u);
+  EXPECT_EQ(rows[0].at("SEED"), "1");
+  EXPECT_EQ(rows[1].at("SEED"), "2");
+  EXPECT_EQ(palpa({"replay", "A/session.palpa"}, here.path()).exit_code, 0);
+}
+
+TEST(Session, ChangedRecordIsNotReplayedAsTrue) {
+  const std::string whole = contentOf(first().here / "A/session.palpa");
+  ASSERT_GT(whole.size(), 100'000u);
+  const Folder here;
+  int told = 0;
+  for (int part = 1; part < 8; ++part) {  // one byte in each eighth
+    std::string changed = whole;
+    changed[whole.size() / 8 * static_cast<std::size_t>(part) + 1000] ^= 0x55;
+    const Outcome replay = palpa({"replay", here.file("changed.palpa", changed)}, here.path());
+    EXPECT_TRUE(replay.exit_code == 0 || replay.exit_code == 1 || replay.exit_code == 2)
+        << replay.exit_code;
+    EXPECT_EQ(replay.errLines(), replay.exit_code == 0 ? 0 : 1) << replay.err;
+    told += replay.exit_code != 0;
+  }
+  EXPECT_GE(told, 4) << "free pages apart, a flipped byte is noticed";
+}
+
+}  // namespace
+}  // namespace palpa::cli_test

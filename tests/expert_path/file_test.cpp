@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "anatomy/geometry/error.h"
+#include "tests/expert_path/trials.h"
+
+namespace palpa::calibration::test {
+namespace {
+
+namespace fs = std::filesystem;
+
+class ExpertPathFile : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    folder_ = fs::path(::testing::TempDir()) /
+              (std::string("expert_path_") +
+               ::testing::UnitTest::GetInstance()->current_test_info()->name());
+    fs::remove_all(folder_);
+    fs::create_directories(folder_);
+    file_ = folder_ / "path.json";
+    path_ = fitExpertPath(drawTrials({}));
+    path_.simulated = true;
+    path_.made_by = "palpa calibrate experts --seed 1";
+    writeExpertPath(path_, file_);
+  }
+  void TearDown() override { fs::remove_all(folder_); }
+
+  std::string text() const {
+    std::ostringstream all;
+    all << std::ifstream(file_).rdbuf();
+    return all.str();
+  }
+  /// Puts `now` in place of what stands after `"key": ` up to the end of that line.
+  void setField(const std::string& key, const std::string& now) {
+    std::string all = text();
+    const std::size_t at = all.find("\"" + key + "\": ");
+    ASSERT_NE(at, std::string::npos) << key;
+    const std::size_t from = at + key.size() + 4;
+    std::size_t to = all.find('\n', from);
+    if (all[from] == '[')
+      to = all.find(']', from) + 1;
+    else if (all[to - 1] == ',')
+      --to;
+    all.replace(from, to - from, now);
+    std::ofstream(file_) << all;
+  }
+  std::string complaint() const {
+    try {
+      readExpertPath(file_);
+    } catch (const Error& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+  fs::path folder_, file_;
+  ExpertPath path_;
+};
+
+TEST_F(ExpertPathFile, RoundTrips) {
+  const ExpertPath back = readExpertPath(file_);
+  // Metres to millimetres and back: two roundings of values below 0.1.
+  EXPECT_LT((back.entry_L - path_.entry_L).norm(), 1e-16);
+  EXPECT_LT((back.line_to_L - path_.line_to_L).norm(), 1e-16);
+  EXPECT_LT((back.line_from_L - path_.line_from_L).norm(), 1e-16);
+  EXPECT_LT((back.direction_L - path_.direction_L).norm(), 1e-15);
+  EXPECT_NEAR(back.depth, path_.depth, 1e-17);
+  EXPECT_NEAR(back.direction_acceptable, path_.direction_acceptable, 1e-15);
+  EXPECT_NEAR(back.direction_sd, path_.direction_sd, 1e-15);
+  EXPECT_NEAR(back.entry_sd, path_.entry_sd, 1e-17);
+  EXPECT_NEAR(back.depth_sd, path_.depth_sd, 1e-17);
+  EXPECT_EQ(back.trials, path_.trials);
+  EXPECT_EQ(back.left_out, path_.left_out);
+  EXPECT_EQ(back.experts, path_.experts);
+  EXPECT_EQ(back.made_by, path_.made_by);
+  EXPECT_TRUE(back.simulated);
+}
+
+TEST_F(ExpertPathFile, StatesUnitsInItsNames) {
+  for (const char* key : {"entry_L_mm", "depth_mm", "direction_sd_deg", "line_to_L_mm"})
+    EXPECT_NE(text().find(key), std::string::npos) << key;
+}
+
+TEST_F(ExpertPathFile, LeavesNothingBesideTheFile) {
+  int files = 0;
+  for (const auto& entry : fs::directory_iterator(folder_)) files += entry.exists();
+  EXPECT_EQ(files, 1);
+}
+
+TEST_F(ExpertPathFile, NamesFileAndFieldOfEveryMistake) {
+  const std::pair<const char*, const char*> mistakes[] = {{"entry_L_mm", "[0, 1]"},
+                                                          {"depth_mm", "null"},
+                                                          {"depth_mm", "-1"},
+                                                          {"direction_L", "[0, 0, 0]"},
+                                                          {"direction_acceptable_deg", "0"},
+                                                          {"trials", "2.5"},
+                                                          {"experts", "[1]"},
+                                                          {"simulated", "1"},
+                                                          {"format", "\"something else\""},
+                                                          {"line_to_L_mm", "[\"a\", 0, 0]"}};
+  const std::string good = text();
+  for (const auto& [key, value] : mistakes) {
+    std::ofstream(file_) << good;
+    setField(key, value);
+    EXPECT_NE(complaint().find(file_.string()), std::string::npos) << key << ": " << complaint();
+    EXPECT_NE(complaint().find(key), std::string::npos) << key << ": " << complaint();
+  }
+}
+
+TEST_F(ExpertPathFile, RefusesMissingFieldNewerVersionAndNonsense) {
+  const std::string good = text();
+  std::string without = good;
+  without.replace(without.find("depth_mm"), 8, "depth_xx");
+  std::ofstream(file_) << without;
+  EXPECT_NE(complaint().find("\"depth_mm\": the field is missing"), std::string::npos);
+  std::ofstream(file_) << good;
+  setField("version", "2");
+  EXPECT_NE(complaint().find("newer"), std::string::npos) << complaint();
+  std::ofstream(file_) << good.substr(0, good.size() / 2);
+  EXPECT_NE(complaint().find("not a JSON file"), std::string::npos);
+  fs::remove(file_);
+  EXPECT_NE(complaint().find("cannot be opened"), std::string::npos);
+}
+
+TEST_F(ExpertPathFile, RefusesALineWithoutLength) {
+  std::ostringstream start;
+  start.precision(17);
+  const Vec3 mm = 1000 * path_.line_from_L;
+  start << '[' << mm.x() << ", " << mm.y() << ", " << mm.z() << ']';
+  setField("line_to_L_mm", start.str());
+  EXPECT_NE(complaint().find("no length"), std::string::npos) << complaint();
+}
+
+TEST_F(ExpertPathFile, AFailedWriteLeavesTheOldFile) {
+  const std::string before = text();
+  ExpertPath bad = path_;
+  bad.depth = std::nan("");
+  EXPECT_THROW(writeExpertPath(bad, file_), Error);
+  EXPECT_EQ(text(), before);
+  EXPECT_THROW(writeExpertPath(path_, folder_ / "no such folder" / "path.json"), Error);
+}
+
+}  // namespace
+}  // namespace palpa::calibration::test

@@ -1,0 +1,147 @@
+#include "include_arrows.h"
+
+#include <algorithm>
+#include <sstream>
+#include <utility>
+
+namespace palpa::house {
+namespace {
+
+using Names = std::vector<std::string>;
+
+bool begins(const std::string& text, const std::string& with) { return text.rfind(with, 0) == 0; }
+
+/// `path` lies in `folder`; "apps/task_*" stands for every such folder.
+bool within(const std::string& path, const std::string& folder) {
+  if (folder.back() == '*') return begins(path, folder.substr(0, folder.size() - 1));
+  return begins(path, folder + "/");
+}
+
+bool withinAny(const std::string& path, const Names& folders) {
+  return std::any_of(folders.begin(), folders.end(),
+                     [&](const auto& f) { return within(path, f); });
+}
+
+/// The folder a file lies in: apps/task_needle for apps/task_needle/hud_text.cpp.
+std::string folderOf(const std::string& path) { return path.substr(0, path.rfind('/')); }
+
+std::vector<std::pair<std::string, bool>> includesOf(const std::string& code) {
+  std::vector<std::pair<std::string, bool>> headers;
+  std::istringstream lines(withoutComments(code));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t hash = line.find_first_not_of(" \t");
+    if (hash == std::string::npos || line[hash] != '#') continue;
+    if (line.find("include", hash) == std::string::npos) continue;
+    const std::size_t open = line.find_first_of("<\"", hash);
+    const std::size_t close =
+        open == std::string::npos ? open : line.find_first_of(">\"", open + 1);
+    if (close == std::string::npos) continue;
+    headers.emplace_back(line.substr(open + 1, close - open - 1), line[open] == '"');
+  }
+  return headers;
+}
+
+const Names kLibraries{"anatomy", "haptics", "calibration", "ar", "scene"};
+
+Names librariesAnd(Names more) {
+  more.insert(more.end(), kLibraries.begin(), kLibraries.end());
+  return more;
+}
+
+std::vector<Layer> makeLayers() {
+  const Names app_libraries{"Eigen", "OpenCV", "JSON"};
+  return {
+      {"anatomy/geometry", {}, {}, {"Eigen"}},
+      {"haptics/materials", {"anatomy/geometry"}, {}, {"Eigen"}},
+      {"anatomy", {}, {}, {"Eigen", "JSON", "tinygltf", "GDCM", "VTK data"}},
+      {"haptics", {"anatomy/geometry"}, {}, {"Eigen", "libusb"}},
+      {"calibration",
+       {"anatomy/geometry", "haptics/materials"},
+       {},
+       {"Eigen", "Ceres", "OpenCV", "JSON"}},
+      {"ar",
+       {"anatomy/geometry", "calibration"},
+       {},
+       {"Eigen", "OpenCV", "AprilTag", "OpenXR", "JSON"}},
+      {"scene", {"anatomy"}, {}, {"Eigen", "VTK", "VTK data", "OpenGL"}},
+      {"apps/runtime", kLibraries, {}, app_libraries},
+      {"apps/assess", kLibraries, {}, {"Eigen", "JSON", "Boost"}},
+      {"apps/station", kLibraries, {}, app_libraries},
+      {"apps/record",
+       librariesAnd({"apps/runtime"}),
+       {},
+       {"Eigen", "JSON", "SQLite", "PostgreSQL", "zlib"}},
+      {"apps/report", librariesAnd({"apps/assess"}), {}, {"Eigen", "JSON", "VTK", "VTK data"}},
+      {"apps/twin", librariesAnd({"apps/runtime", "apps/station"}), {}, app_libraries},
+      {"apps/task_*",
+       librariesAnd({"apps/runtime", "apps/assess", "apps/station"}),
+       {},
+       app_libraries},
+      {"apps/cli", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON", "CLI11"}},
+      {"apps/bench", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON"}},
+      {"apps",
+       librariesAnd({"apps"}),
+       {"apps/twin"},
+       {"Eigen", "OpenCV", "JSON", "httplib", "SQLite", "OpenIGTLink"}},
+  };
+}
+
+const Layer* layerOf(const std::string& path) {
+  for (const Layer& layer : layers())
+    if (within(path, layer.folder)) return &layer;
+  return nullptr;
+}
+
+bool allowed(const Layer& layer, const std::string& path, const std::string& header, bool quoted) {
+  const std::string library = libraryOf(header);
+  if (!library.empty())
+    return std::find(layer.libraries.begin(), layer.libraries.end(), library) !=
+           layer.libraries.end();
+  if (!quoted || header.find('/') == std::string::npos) return true;
+  const std::string own = layer.folder.back() == '*' ? folderOf(path) : layer.folder;
+  if (withinAny(header, layer.not_ours)) return false;
+  return within(header, own) || withinAny(header, layer.ours);
+}
+
+}  // namespace
+
+const std::vector<Layer>& layers() {
+  static const std::vector<Layer> all = makeLayers();
+  return all;
+}
+
+std::string libraryOf(const std::string& header) {
+  if (begins(header, "vtk")) {
+    for (const char* data :
+         {"vtkSmartPointer", "vtkNew", "vtkPolyData", "vtkPoints", "vtkCellArray", "vtkImageData",
+          "vtkFloatArray", "vtkDoubleArray", "vtkMatrix4x4"})
+      if (begins(header, data) && header.find("Mapper") == std::string::npos) return "VTK data";
+    return "VTK";
+  }
+  static const std::vector<std::pair<std::string, std::string>> kPrefixes{
+      {"Eigen/", "Eigen"},     {"opencv2/", "OpenCV"},
+      {"nlohmann/", "JSON"},   {"tiny_gltf", "tinygltf"},
+      {"gdcm", "GDCM"},        {"libusb", "libusb"},
+      {"ceres/", "Ceres"},     {"apriltag/", "AprilTag"},
+      {"openxr/", "OpenXR"},   {"GL/", "OpenGL"},
+      {"EGL/", "OpenGL"},      {"X11/", "OpenGL"},
+      {"CLI/", "CLI11"},       {"sqlite3", "SQLite"},
+      {"pqxx/", "PostgreSQL"}, {"zlib", "zlib"},
+      {"httplib", "httplib"},  {"igtl", "OpenIGTLink"},
+      {"boost/", "Boost"},     {"glm/", "GLM"}};
+  for (const auto& [prefix, library] : kPrefixes)
+    if (begins(header, prefix)) return library;
+  return "";
+}
+
+std::vector<std::string> wrongIncludes(const SourceFile& file) {
+  std::vector<std::string> wrong;
+  const Layer* layer = layerOf(file.path);
+  if (!layer) return wrong;
+  for (const auto& [header, quoted] : includesOf(file.text))
+    if (!allowed(*layer, file.path, header, quoted))
+      wrong.push_back(file.path + " includes " + header + ", which " + layer->folder + " may not");
+  return wrong;
+}
+
+}  // namespace palpa::house

@@ -1,0 +1,181 @@
+#include <gtest/gtest.h>
+
+#include "scene/force_arrows.h"
+#include "scene/instrument_shape.h"
+#include "tests/scene/offscreen.h"
+
+namespace palpa::scene {
+namespace {
+
+/// A sheet of skin in front of a ball of artery, seen straight on.
+anatomy::Patient ballBehindSkin(bool with_ball) {
+  anatomy::Patient patient;
+  test::add(patient, "skin", Organ::skin, test::sheet(0.1, [](double, double) { return 0.0; }));
+  if (with_ball)
+    test::add(patient, "ball", Organ::artery, test::sphere({0, 0.04, 0}, Vec3::Constant(0.02)));
+  return patient;
+}
+
+SceneState straightOn(const Image& picture) {
+  SceneState state;
+  state.picture = &picture;
+  state.registered = true;
+  state.camera = {320, 240, 300, 300, 159.5, 119.5};
+  state.X_CA = lookAt({0, -0.4, 0}, {0, 0, 0});
+  state.show_tool = false;
+  return state;
+}
+
+class ArFrame : public testing::Test {
+ protected:
+  Image frameOf(const anatomy::Patient& patient, const SceneState& state) {
+    SceneView view(offscreen(), patient, {320, 240, false, true});
+    view.show(state);
+    return view.capture();
+  }
+  const Image dark_ = plain(320, 240, 20);
+};
+
+TEST_F(ArFrame, SolidSkinHidesTranslucentSkinShowsHiddenSkinIsGone) {
+  SceneState state = straightOn(dark_);
+  const auto centre = [&](bool with_ball, SkinStyle skin) {
+    state.skin = skin;
+    return at(frameOf(ballBehindSkin(with_ball), state), 160, 120);
+  };
+  EXPECT_LE(difference(centre(true, SkinStyle::solid), centre(false, SkinStyle::solid)), 1);
+  const Pixel bare = centre(true, SkinStyle::hidden);
+  EXPECT_GT(bare.r - bare.b, 80);  // the artery's orange
+  const Pixel through = centre(true, SkinStyle::translucent);
+  EXPECT_GT(difference(through, centre(false, SkinStyle::translucent)), 40);
+  EXPECT_GT(difference(through, bare), 10);
+}
+
+class Tool : public ArFrame {
+ protected:
+  SceneState withTool(bool shown) {
+    SceneState state = straightOn(dark_);
+    state.X_AT = X_AT_;
+    state.show_tool = shown;
+    return state;
+  }
+  Eigen::Vector2d onScreen(const Vec3& p_T) {
+    const SceneState state = straightOn(dark_);
+    return project(state.camera, state.X_CA * (X_AT_ * p_T));
+  }
+  bool drawnAt(const Image& with, const Image& without, const Vec3& p_T) {
+    const Eigen::Vector2d p = onScreen(p_T);
+    for (int dv = -1; dv <= 1; ++dv) {
+      for (int du = -1; du <= 1; ++du) {
+        const int u = static_cast<int>(std::lround(p.x())) + du;
+        const int v = static_cast<int>(std::lround(p.y())) + dv;
+        if (difference(at(with, u, v), at(without, u, v)) > 10) return true;
+      }
+    }
+    return false;
+  }
+  // In the plane y = 0, tip right of the middle, pointing right and up.
+  const Pose X_AT_ = makePose(rotationWithZ(Vec3(0.8, 0, 0.6)), {0.03, 0, 0.02});
+  const anatomy::Patient nobody_ = test::spherePatient({0, 0.5, 0}, 0.001);
+};
+
+TEST_F(Tool, NeedleIsDrawnWhereItsPoseSaysAndEndsAtTheTip) {
+  const Image with = frameOf(nobody_, withTool(true)), without = frameOf(nobody_, withTool(false));
+  for (const double z : {-0.005, -0.02, -0.04, -0.065, -0.10, -0.14})
+    EXPECT_TRUE(drawnAt(with, without, {0, 0, z})) << z;
+  for (const double z : {0.004, 0.010, 0.030}) EXPECT_FALSE(drawnAt(with, without, {0, 0, z})) << z;
+  for (const double x : {-0.005, 0.005})  // beside the thin shaft there is nothing
+    EXPECT_FALSE(drawnAt(with, without, {x, 0, -0.03})) << x;
+}
+
+TEST_F(Tool, BloodFillsTheSyringeOnlyAsFarAsThePlungerIsDrawn) {
+  const auto red = [&](double plunger, double blood) {
+    SceneState state = withTool(true);
+    state.plunger = plunger;
+    state.blood = blood;
+    const Image frame = frameOf(nobody_, state);
+    return blobOf(frame,
+                  [&](int u, int v) {
+                    const Pixel p = at(frame, u, v);
+                    return p.r > 1.5 * p.g && p.r > 40 && p.r > 1.5 * p.b;
+                  })
+        .count;
+  };
+  EXPECT_EQ(red(0.5, 0), 0);
+  EXPECT_EQ(red(0, 0.5), 0);
+  const int quarter = red(0.5, 0.25), half = red(0.5, 0.5);
+  EXPECT_GT(quarter, 50);
+  EXPECT_NEAR(half, 2.0 * quarter, 0.25 * half);  // the ends of the column are not to scale
+  EXPECT_EQ(red(0.5, 0.9), half);
+}
+
+TEST_F(Tool, ForceArrowPointsAlongTheForceThirtyMillimetresANewton) {
+  SceneState state = withTool(false);
+  const Image without = frameOf(nobody_, state);
+  const Vec3 f_A = 1.5 * Vec3(-0.6, 0, 0.8);
+  state.forces = {{ForceKind::reaction, Vec3(0.01, 0, -0.02), f_A}};
+  SceneView view(offscreen(), nobody_, {320, 240, false, true});
+  view.show(state);
+  const Image with = view.capture();
+  const Eigen::Vector2d base = project(state.camera, state.X_CA * state.forces[0].p_A);
+  const Eigen::Vector2d head = project(
+      state.camera, state.X_CA * (state.forces[0].p_A + ForceArrows::kMetresPerNewton * f_A));
+  Eigen::Vector2d farthest = base;
+  for (int v = 0; v < 200; ++v) {  // the legend is below
+    for (int u = 0; u < 320; ++u) {
+      const Eigen::Vector2d p(u, v);
+      if (difference(at(with, u, v), at(without, u, v)) > 10 &&
+          (p - base).norm() > (farthest - base).norm())
+        farthest = p;
+    }
+  }
+  EXPECT_NEAR((farthest - head).norm(), 0, 2.5);  // the outline is about 1 px wide; pixel steps
+}
+
+TEST_F(Tool, DarkArrowHasALightOutlineAndALightArrowADarkOne) {
+  const auto extremes = [&](ForceKind kind, std::uint8_t behind) {
+    const Image picture = plain(320, 240, behind);
+    SceneState state = straightOn(picture);
+    state.forces = {{kind, Vec3::Zero(), Vec3(1, 0, 0)}};
+    const Image frame = frameOf(nobody_, state);
+    int low = 255, high = 0;
+    for (const std::uint8_t value : frame.pixels) {
+      low = std::min<int>(low, value);
+      high = std::max<int>(high, value);
+    }
+    return std::pair(low, high);
+  };
+  EXPECT_GT(extremes(ForceKind::reaction, 20).second, 230);
+  EXPECT_LT(extremes(ForceKind::device, 240).first, 40);
+}
+
+TEST_F(Tool, WithoutRegistrationNothingIsDrawnOnThePicture) {
+  SceneState state = withTool(true);
+  state.registered = false;
+  state.forces = {{ForceKind::device, Vec3::Zero(), Vec3(1, 0, 0)}};
+  state.trail_A = {Vec3::Zero(), Vec3(0.01, 0, 0)};
+  EXPECT_EQ(frameOf(ballBehindSkin(true), state).pixels, dark_.pixels);
+}
+
+TEST_F(Tool, TrailIsALineAlongThePath) {
+  SceneState state = withTool(false);
+  const Image without = frameOf(nobody_, state);
+  for (int i = 0; i <= 50; ++i) state.trail_A.push_back(Vec3(-0.05 + 0.002 * i, 0, 0.02));
+  const Blob line = changed(without, frameOf(nobody_, state));
+  const Eigen::Vector2d a = project(state.camera, state.X_CA * state.trail_A.front());
+  const Eigen::Vector2d b = project(state.camera, state.X_CA * state.trail_A.back());
+  EXPECT_NEAR(line.left, a.x(), 1.5);
+  EXPECT_NEAR(line.right, b.x(), 1.5);
+  EXPECT_NEAR(line.v, a.y(), 1.0);
+  EXPECT_LE(line.bottom - line.top, 3);
+}
+
+TEST_F(Tool, WeakAndBrokenForcesAreNotDrawn) {
+  SceneState state = withTool(false);
+  const Image without = frameOf(nobody_, state);
+  state.forces = {{ForceKind::device, Vec3::Zero(), Vec3(0.01, 0, 0)},
+                  {ForceKind::device, Vec3::Zero(), Vec3(std::nan(""), 0, 0)}};
+  EXPECT_EQ(changed(without, frameOf(nobody_, state)).count, 0);
+}
+
+}  // namespace
+}  // namespace palpa::scene

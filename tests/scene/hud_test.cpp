@@ -1,0 +1,96 @@
+#include <gtest/gtest.h>
+
+#include "tests/scene/offscreen.h"
+
+namespace palpa::scene {
+namespace {
+
+class HudFrame : public testing::TestWithParam<std::pair<int, int>> {
+ protected:
+  HudFrame() : view_(offscreen(), patient_, {GetParam().first, GetParam().second, true, true}) {
+    state_.hud.phase = "Phase 1: puncture the skin";
+    state_.hud.force = "1.2 N";
+    state_.hud.time = "0:31";
+  }
+  Image frame() {
+    view_.show(state_);
+    return view_.capture();
+  }
+  double width() const { return GetParam().first; }
+  double height() const { return GetParam().second; }
+
+  const anatomy::Patient patient_ = test::simplePatient();
+  SceneView view_;
+  SceneState state_;
+};
+
+TEST_P(HudFrame, SameWordsSamePicture) {
+  const Image first = frame();
+  EXPECT_EQ(frame().pixels, first.pixels);
+}
+
+TEST_P(HudFrame, ChangedReadingChangesTheTopLeftCornerOnly) {
+  const Image before = frame();
+  state_.hud.force = "2.7 N";
+  const Blob change = changed(before, frame());
+  EXPECT_GT(change.count, 5);
+  EXPECT_LT(change.right, 0.35 * width());
+  EXPECT_LT(change.bottom, 0.30 * height());
+}
+
+TEST_P(HudFrame, AlarmIsARedPlateInTheLowerMiddleOfTheArView) {
+  const Image before = frame();
+  state_.hud.notice = "Emergency stop: release the space bar and start again";
+  state_.hud.alarm = true;
+  const Image after = frame();
+  const Blob red = blobOf(after, [&](int u, int v) {
+    const Pixel p = at(after, u, v);
+    return p.r > 150 && p.g < 50 && p.b < 50;
+  });
+  EXPECT_GT(red.count, 0.01 * width() * height());
+  EXPECT_NEAR(red.u, 0.35 * width(), 0.03 * width());
+  EXPECT_GT(red.top, 0.6 * height());
+  EXPECT_LT(red.right, 0.7 * width());
+  EXPECT_LT(changed(before, after).right, 0.7 * width());
+}
+
+TEST_P(HudFrame, MarkStandsInTheTopRightCornerOfTheArView) {
+  const Image before = frame();
+  state_.hud.mark = "SIMULATED OPERATOR";
+  const Image after = frame();
+  const Blob amber = blobOf(after, [&](int u, int v) {
+    const Pixel p = at(after, u, v);
+    return difference(p, {255, 204, 77}) < 12 && difference(p, at(before, u, v)) > 30;
+  });
+  EXPECT_GT(amber.count, 100);
+  EXPECT_LT(amber.bottom, 0.1 * height());
+  EXPECT_GT(amber.left, 0.4 * width());
+  EXPECT_LT(amber.right, 0.7 * width());
+}
+
+// On white the plate must be what separates the words from the picture.
+TEST_P(HudFrame, WordsStayLegibleOnAWhiteAndOnABlackPicture) {
+  for (const std::uint8_t shade : {0, 255}) {
+    const Image picture = plain(640, 480, shade);
+    state_.picture = &picture;
+    const Image now = frame();
+    int light = 0, dark = 0;  // inside the phase's plate
+    const int top = static_cast<int>(0.02 * height()), bottom = static_cast<int>(0.05 * height());
+    for (int v = top; v < bottom; ++v) {
+      for (int u = static_cast<int>(0.02 * width()); u < 0.18 * width(); ++u) {
+        const Pixel p = at(now, u, v);
+        light += p.g > 220;
+        dark += p.g < 90;  // contrast of 7:1 with white, as for the WCAG's AAA
+      }
+    }
+    EXPECT_GT(light, 40) << int(shade);
+    EXPECT_GT(dark, 3 * light) << int(shade);
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, HudFrame,
+                         testing::Values(std::pair(1280, 720), std::pair(640, 480)),
+                         [](const auto& size) { return "h" + std::to_string(size.param.second); });
+
+}  // namespace
+}  // namespace palpa::scene

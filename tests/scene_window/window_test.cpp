@@ -1,0 +1,169 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <set>
+#include <string>
+
+#include "anatomy/geometry/error.h"
+#include "scene/scene_view.h"
+#include "tests/support/simple_patient.h"
+// X11's headers define macros with everyday names: after all others.
+#include <X11/Xatom.h>
+#include <X11/Xlib.h>
+
+/// A person at the window, played by xdotool (real X events) on a display of our own (Xvfb).
+namespace palpa::scene {
+namespace {
+
+constexpr const char* kTitle = "Palpa window test";
+
+class Window : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (!std::getenv("DISPLAY")) return;
+    context_ = makeGlContext(Display::automatic, 640, 480, kTitle).release();
+  }
+  static void TearDownTestSuite() {
+    delete context_;
+    context_ = nullptr;
+  }
+  void SetUp() override {
+    if (!context_) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
+    if (std::system("xdotool version > /dev/null 2>&1") != 0) GTEST_SKIP() << "no xdotool";
+  }
+  static bool person(const std::string& does) {
+    return std::system(("xdotool " + does).c_str()) == 0;
+  }
+  /// Polls until `enough`, at most some hundred frames: events take their time through the server.
+  template <class Enough>
+  ViewInput pollUntil(SceneView& view, Enough enough) {
+    ViewInput all;
+    for (int i = 0; i < 300; ++i) {
+      const ViewInput now = view.poll();
+      std::vector<std::string> keys = std::move(all.keys);
+      keys.insert(keys.end(), now.keys.begin(), now.keys.end());
+      const double wheel = all.wheel + now.wheel;
+      all = now;
+      all.keys = std::move(keys);
+      all.wheel = wheel;
+      if (enough(all)) break;
+      std::system("sleep 0.01");
+    }
+    return all;
+  }
+
+  static GlContextProvider* context_;
+  const anatomy::Patient patient_ = test::simplePatient();
+};
+GlContextProvider* Window::context_ = nullptr;
+
+TEST_F(Window, OpensAndShowsTheScene) {
+  EXPECT_TRUE(context_->interactive());
+  EXPECT_STREQ(context_->describe(), "X11 window");
+  SceneView view(*context_, patient_, {640, 480, true, true});
+  SceneState state;
+  state.hud.phase = "Phase 1: puncture the skin";
+  view.show(state);
+  const Image frame = view.capture();
+  EXPECT_EQ(frame.width, 640);
+  EXPECT_EQ(frame.height, 480);
+  std::set<int> shades;
+  for (std::size_t i = 0; i + 2 < frame.pixels.size(); i += 3)
+    shades.insert(frame.pixels[i] * 65536 + frame.pixels[i + 1] * 256 + frame.pixels[i + 2]);
+  EXPECT_GT(shades.size(), 500u);
+}
+
+TEST_F(Window, HearsMouseKeysAndWheelAndNoKeyEndsTheProgram) {
+  SceneView view(*context_, patient_, {640, 480, true, true});
+  view.show({});
+  ASSERT_TRUE(person("mousemove 123 45"));
+  const ViewInput moved = pollUntil(view, [](const ViewInput& i) { return i.mouse_x == 123; });
+  EXPECT_EQ(moved.mouse_x, 123);
+  EXPECT_EQ(moved.mouse_y, 45);
+
+  ASSERT_TRUE(person("key e q p space Escape Left"));
+  const std::vector<std::string> typed{"e", "q", "p", "space", "Escape", "Left"};
+  const ViewInput keyed =
+      pollUntil(view, [&](const ViewInput& i) { return i.keys.size() >= typed.size(); });
+  EXPECT_EQ(keyed.keys, typed);
+  EXPECT_FALSE(keyed.closed);
+
+  ASSERT_TRUE(person("click 5 click 4 click 4 click 4"));
+  EXPECT_EQ(pollUntil(view, [](const ViewInput& i) { return i.wheel >= 2; }).wheel, 2);
+
+  ASSERT_TRUE(person("mousedown 1"));
+  const bool down = pollUntil(view, [](const ViewInput& i) { return i.left_button; }).left_button;
+  EXPECT_TRUE(down);
+  ASSERT_TRUE(person("mouseup 1"));
+  EXPECT_FALSE(pollUntil(view, [](const ViewInput& i) { return !i.left_button; }).left_button);
+}
+
+TEST_F(Window, MiddleDragWalksTheVirtualCameraUnlessAProtocolForbidsIt) {
+  for (const bool free : {true, false}) {
+    SceneView view(*context_, patient_, {640, 480, true, free});
+    view.show({});
+    const Pose before = view.arGeometry().X_CA;
+    const auto at = [&](int x, int y) {
+      EXPECT_TRUE(person("mousemove " + std::to_string(x) + " " + std::to_string(y)));
+      pollUntil(view, [x](const ViewInput& i) { return i.mouse_x == x; });
+    };
+    at(150, 200);
+    ASSERT_TRUE(person("mousedown 2"));
+    EXPECT_TRUE(pollUntil(view, [](const ViewInput& i) { return i.middle_button; }).middle_button);
+    at(210, 230);
+    ASSERT_TRUE(person("mouseup 2"));
+    pollUntil(view, [](const ViewInput& i) { return !i.middle_button; });
+    view.show({});
+    EXPECT_EQ(view.arGeometry().X_CA.isApprox(before, 1e-9), !free);
+    view.resetNavigation();
+    view.show({});
+    EXPECT_TRUE(view.arGeometry().X_CA.isApprox(before, 1e-12));
+  }
+}
+
+TEST_F(Window, OffscreenInTheSameProcessStaysWithX11) {
+  const auto other = makeGlContext(Display::offscreen, 320, 240, "");
+  EXPECT_FALSE(other->interactive());
+  EXPECT_STREQ(other->describe(), "offscreen X11");
+  SceneView view(*other, patient_, {320, 240, true, true});
+  view.show({});
+  EXPECT_EQ(view.capture().width, 320);
+}
+
+/// What a window manager sends for the close button.
+void askToClose() {
+  ::Display* display = XOpenDisplay(nullptr);
+  ::Window root = DefaultRootWindow(display), parent = 0, *children = nullptr;
+  unsigned count = 0;
+  XQueryTree(display, root, &root, &parent, &children, &count);
+  for (unsigned i = 0; i < count; ++i) {
+    char* title = nullptr;
+    if (!XFetchName(display, children[i], &title)) continue;
+    if (std::string(title) == kTitle) {
+      XEvent event{};
+      event.xclient.type = ClientMessage;
+      event.xclient.window = children[i];
+      event.xclient.message_type = XInternAtom(display, "WM_PROTOCOLS", False);
+      event.xclient.format = 32;
+      event.xclient.data.l[0] = static_cast<long>(XInternAtom(display, "WM_DELETE_WINDOW", False));
+      XSendEvent(display, children[i], False, NoEventMask, &event);
+    }
+    XFree(title);
+  }
+  XFree(children);
+  XCloseDisplay(display);
+}
+
+TEST_F(Window, CloseButtonIsReportedAndTheSceneCanStillFinish) {
+  SceneView view(*context_, patient_, {640, 480, true, true});
+  view.show({});
+  EXPECT_FALSE(view.poll().closed);
+  askToClose();
+  EXPECT_TRUE(pollUntil(view, [](const ViewInput& i) { return i.closed; }).closed);
+  view.show({});  // the program decides when to end
+  EXPECT_EQ(view.capture().width, 640);
+}
+
+}  // namespace
+}  // namespace palpa::scene

@@ -1,0 +1,60 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "apps/assess/welch.h"
+#include "apps/cli/needle_session.h"
+
+/// Simulated operators on the virtual bench: do the scores tell experts from novices, and does losing the
+/// sense of touch cost? These say something about the program, nothing about people.
+namespace palpa::cli {
+namespace {
+
+struct Cohort {
+  std::vector<double> totals;
+  int successes = 0;
+};
+
+int seeds() { return std::getenv("PALPA_FULL") ? 20 : 8; }
+
+Cohort cohort(OperatorKind who, bool force_feedback) {
+  Cohort result;
+  const std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/cohort";
+  for (int i = 0; i < seeds(); ++i) {
+    SessionOptions options;
+    options.who = who;
+    options.force_feedback = force_feedback;
+    options.seed = 1 + static_cast<std::uint64_t>(i);
+    options.fast = options.no_views = options.quiet = true;
+    options.display = scene::Display::offscreen;
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    NeedleWorld world(options);
+    world.station.camera_rate_Hz = 2;  // pictures change no score; the ready check needs some
+    const SessionResult session = runNeedleSession(options, world, folder);
+    const assess::TrialAssessment& trial = session.trials.at(0).assessment;
+    EXPECT_TRUE(trial.simulated);
+    result.totals.push_back(trial.total);
+    result.successes += trial.values.success;
+  }
+  return result;
+}
+
+TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
+  const Cohort expert = cohort(OperatorKind::expert, true);
+  const Cohort novice = cohort(OperatorKind::novice, true);
+  const Cohort numb = cohort(OperatorKind::expert, false);
+  const assess::WelchTest skill = assess::welch(expert.totals, novice.totals);
+  const assess::WelchTest touch = assess::welch(expert.totals, numb.totals);
+  std::printf("simulated operators, %d seeds: expert %.0f (success %d), novice %.0f (%d), p = %.2g; "
+              "expert without force feedback %.0f (%d), p = %.2g\n",
+              seeds(), skill.mean_a, expert.successes, skill.mean_b, novice.successes, skill.p_two_sided,
+              touch.mean_b, numb.successes, touch.p_two_sided);
+  EXPECT_LT(skill.mean_a, skill.mean_b);
+  EXPECT_LT(skill.p_two_sided, seeds() == 20 ? 0.01 : 0.05);  // 8 seeds have less power
+  EXPECT_TRUE(touch.mean_b > touch.mean_a || numb.successes < expert.successes);
+}
+
+}  // namespace
+}  // namespace palpa::cli
