@@ -13,15 +13,34 @@ double smoothMin(double a, double b, double k) {
 
 double smoothMax(double a, double b, double k) { return -smoothMin(-a, -b, k); }
 
-TubeField::TubeField(std::vector<Station> stations) : stations_(std::move(stations)) {}
+TubeField::TubeField(std::vector<Station> stations) : stations_(std::move(stations)) {
+  constexpr std::size_t kBundle = 8;
+  for (std::size_t i = 0; i + 1 < stations_.size(); ++i) {
+    const Station &a = stations_[i], &b = stations_[i + 1];
+    const Vec3 ab = b.p - a.p;
+    spans_.push_back({a.p, ab / ab.squaredNorm(), ab, a.radius, b.radius - a.radius});
+  }
+  for (std::size_t begin = 0; begin < spans_.size(); begin += kBundle) {
+    const std::size_t end = std::min(begin + kBundle, spans_.size());
+    const Vec3 centre = (stations_[begin].p + stations_[end].p) / 2;
+    double reach = 0;
+    for (std::size_t i = begin; i <= end; ++i)
+      reach = std::max(reach, (stations_[i].p - centre).norm() + stations_[i].radius);
+    bundles_.push_back({centre, reach, begin, end});
+  }
+}
 
 double TubeField::operator()(const Vec3& p) const {
   double best = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i + 1 < stations_.size(); ++i) {
-    const Station &a = stations_[i], &b = stations_[i + 1];
-    const Vec3 ab = b.p - a.p, ap = p - a.p;
-    const double t = std::clamp(ap.dot(ab) / ab.squaredNorm(), 0.0, 1.0);
-    best = std::min(best, (ap - t * ab).norm() - (a.radius + t * (b.radius - a.radius)));
+  for (const Bundle& bundle : bundles_) {
+    const double enough = best + bundle.reach;
+    if (enough <= 0 || (p - bundle.centre).squaredNorm() >= enough * enough) continue;
+    for (std::size_t i = bundle.begin; i < bundle.end; ++i) {
+      const Span& span = spans_[i];
+      const Vec3 ap = p - span.from;
+      const double t = std::clamp(ap.dot(span.along), 0.0, 1.0);
+      best = std::min(best, (ap - t * span.whole).norm() - (span.radius + t * span.growth));
+    }
   }
   return best;
 }

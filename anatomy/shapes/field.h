@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstddef>
 #include <functional>
 #include <vector>
 
@@ -14,7 +15,8 @@ using Field = std::function<double(const Vec3&)>;
 double smoothMin(double a, double b, double k);
 double smoothMax(double a, double b, double k);
 
-/// Tube of varying radius along a chain of points.
+/// Tube of varying radius along a chain of points. Spans are kept in bundles with a sphere around each,
+/// so that most are never looked at.
 class TubeField {
  public:
   struct Station {
@@ -26,7 +28,19 @@ class TubeField {
   const std::vector<Station>& stations() const { return stations_; }
 
  private:
+  struct Span {
+    Vec3 from, along;  ///< along: to the next station, divided by its squared length
+    Vec3 whole;        ///< to the next station
+    double radius, growth;
+  };
+  struct Bundle {
+    Vec3 centre;
+    double reach;  ///< no point of the tube in this bundle lies farther from the centre
+    std::size_t begin, end;
+  };
   std::vector<Station> stations_;
+  std::vector<Span> spans_;
+  std::vector<Bundle> bundles_;
 };
 
 Vec3 gradient(const Field& field, const Vec3& p, double step);

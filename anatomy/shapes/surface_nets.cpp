@@ -170,14 +170,13 @@ void moveOntoSurface(const Field& field, double cell, TriangleMesh* mesh) {
   for (std::size_t i = 0; i < mesh->points.size(); ++i) {
     Vec3& p = mesh->points[i];
     const Vec3 start = p;
-    Vec3 g = gradient(field, p, step);
-    for (int iteration = 0; iteration < 3; ++iteration) {
+    const Vec3 g = gradient(field, p, step);  // a cell is small: one slope serves all steps
+    for (int iteration = 0; iteration < 5; ++iteration) {
       const double value = field(p);
       if (std::abs(value) < 1e-5 * cell) break;
       const Vec3 next = p - value * g / std::max(g.squaredNorm(), 0.05);
       if ((next - start).norm() > cell) break;  // at a crease: leave it where the cells put it
       p = next;
-      g = gradient(field, p, step);
     }
     // Over a third of a cell: detail that the mesh cannot show must not glitter in its shading.
     mesh->normals[i] = gradient(field, p, cell / 3).normalized();

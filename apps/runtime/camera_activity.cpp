@@ -7,8 +7,7 @@ CameraActivity::CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
                                Observer observer)
     : bus_(bus),
       expose_(std::move(expose)),
-      board_(board),
-      camera_(camera),
+      tracker_(board, camera),
       settings_(settings),
       observer_(std::move(observer)) {}
 
@@ -17,7 +16,7 @@ CameraActivity::~CameraActivity() {
 }
 
 CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns,
-                               std::uint64_t number) const {
+                               std::uint64_t number) {
   CameraView view;
   view.t_exposure_ns = t_ns;
   view.number = number;
@@ -28,7 +27,7 @@ CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns,
   }
   view.source = frame->source;
   view.picture = std::make_shared<const cv::Mat>(frame->image);
-  view.pose = ar::estimateBoardPose(board_.detect(frame->image), camera_);
+  view.pose = tracker_.see(frame->image);
   return view;
 }
 

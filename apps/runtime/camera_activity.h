@@ -5,6 +5,7 @@
 
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
+#include "ar/board_tracker.h"
 #include "calibration/camera_model.h"
 
 namespace palpa::runtime {
@@ -33,13 +34,12 @@ class CameraActivity final : public Activity {
   std::int64_t step(std::int64_t now_ns) override;
 
  private:
-  CameraView see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number) const;
+  CameraView see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number);
   void publish(const CameraView& view, std::int64_t now_ns);
 
   Bus& bus_;
   Exposer expose_;
-  const ar::Board& board_;
-  calibration::CameraModel camera_;
+  ar::BoardTracker tracker_;   ///< used by one picture at a time
   Settings settings_;
   Observer observer_;
   std::future<CameraView> pending_;

@@ -22,14 +22,15 @@ constexpr double kTexelsPerPixel = 1.25;  // texture averaging plus interpolatio
 constexpr std::size_t kBank = 1U << 18;
 constexpr int kNoiseUnit = 16;
 
-cv::Mat rays(const CameraModel& camera) {
-  cv::Mat ray(camera.height, camera.width, CV_32FC2);
-  for (int v = 0; v < ray.rows; ++v)
-    for (int u = 0; u < ray.cols; ++u) {
+void castRays(const CameraModel& camera, cv::Mat* x, cv::Mat* y) {
+  x->create(camera.height, camera.width, CV_32F);
+  y->create(camera.height, camera.width, CV_32F);
+  for (int v = 0; v < camera.height; ++v)
+    for (int u = 0; u < camera.width; ++u) {
       const Vec3 p = camera.unproject({double(u), double(v)});
-      ray.at<cv::Vec2f>(v, u) = {float(p.x()), float(p.y())};
+      x->at<float>(v, u) = float(p.x());
+      y->at<float>(v, u) = float(p.y());
     }
-  return ray;
 }
 
 /// A lamp at the upper left, and the lens's fall-off toward the corners: 0.72 to 1.05 of the light.
@@ -57,10 +58,13 @@ Mat3 rayToPlane(const Pose& X_CW) {
   return o.z() > 0 ? Mat3(-H) : Mat3(Mat3::Zero());
 }
 
+/// Texels that the border repeats need no larger numbers.
+float within(float texel) { return std::min(std::max(texel, -100.F), 20000.F); }
+
 void check(const VirtualCameraSettings& s) {
-  const auto within = [](double x, double low, double high) { return x >= low && x <= high; };
-  if (!within(s.blur_sigma_px, 0, 5) || !within(s.noise_sigma, 0, 50) ||
-      !within(s.exposure, 0.05, 10) || s.latency_ns < 0)
+  const auto between = [](double x, double low, double high) { return x >= low && x <= high; };
+  if (!between(s.blur_sigma_px, 0, 5) || !between(s.noise_sigma, 0, 50) ||
+      !between(s.exposure, 0.05, 10) || s.latency_ns < 0)
     throw UsageError(
         "blur must be 0 to 5 px, noise 0 to 50, exposure 0.05 to 10, latency not negative",
         "virtual camera", "Correct the settings of the virtual bench.");
@@ -74,7 +78,7 @@ VirtualCamera::VirtualCamera(const CameraModel& truth, const ar::TagGridSpec& bo
   check(settings);
   calibration::validate(truth, "virtual camera");
   ar::validate(board, "virtual camera");
-  ray_ = rays(truth);
+  castRays(truth, &ray_x_, &ray_y_);
   gain_ = lightFor(truth, settings.exposure);
   noise_ = picture::noiseBank(picture::randomBits(seed, kNoiseStream),
                               settings.noise_sigma * kNoiseUnit, kBank);
@@ -101,20 +105,20 @@ cv::Mat VirtualCamera::lookUp(const Pose& X_CW) const {
   Mat3 to_texel;
   to_texel << 1 / texture.texel, 0, cu, 0, -1 / texture.texel, cv_, 0, 0, 1;
   const Eigen::Matrix3f H = (to_texel * rayToPlane(X_CW)).cast<float>();
-  cv::Mat where(ray_.size(), CV_32FC2);
-  for (int v = 0; v < ray_.rows; ++v) {
-    const float* ray = ray_.ptr<float>(v);
-    float* to = where.ptr<float>(v);
-    for (int u = 0; u < 2 * ray_.cols; u += 2) {
-      const float x = ray[u], y = ray[u + 1];
-      const float w = H(2, 0) * x + H(2, 1) * y + H(2, 2);
-      const float k = w > 1e-6F ? 1 / w : 0;
-      to[u] = std::clamp((H(0, 0) * x + H(0, 1) * y + H(0, 2)) * k, -100.F, 20000.F);
-      to[u + 1] = std::clamp((H(1, 0) * x + H(1, 1) * y + H(1, 2)) * k, -100.F, 20000.F);
+  cv::Mat column(ray_x_.size(), CV_32F), row(ray_x_.size(), CV_32F);
+  for (int v = 0; v < ray_x_.rows; ++v) {
+    const float *x = ray_x_.ptr<float>(v), *y = ray_y_.ptr<float>(v);
+    float *to_column = column.ptr<float>(v), *to_row = row.ptr<float>(v);
+    for (int u = 0; u < ray_x_.cols; ++u) {  // no branch, so that it runs on vectors
+      const float w = H(2, 0) * x[u] + H(2, 1) * y[u] + H(2, 2);
+      const float inverse = 1 / std::max(w, 1e-6F);
+      const float k = w > 1e-6F ? inverse : 0.F;
+      to_column[u] = within((H(0, 0) * x[u] + H(0, 1) * y[u] + H(0, 2)) * k);
+      to_row[u] = within((H(1, 0) * x[u] + H(1, 1) * y[u] + H(1, 2)) * k);
     }
   }
   cv::Mat picture;
-  cv::remap(texture.gray, picture, where, cv::noArray(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
+  cv::remap(texture.gray, picture, column, row, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return picture;
 }
 

@@ -53,7 +53,7 @@ class VirtualCamera {
   calibration::CameraModel truth_;
   VirtualCameraSettings settings_;
   std::uint64_t seed_;
-  cv::Mat ray_;                      ///< x and y at unit depth for every pixel
+  cv::Mat ray_x_, ray_y_;            ///< at unit depth, for every pixel
   cv::Mat gain_;                     ///< light and exposure, 256 = 1
   std::vector<Texture> textures_;    ///< fine to coarse
   std::vector<std::int16_t> noise_;  ///< 1/16 gray levels

@@ -23,12 +23,6 @@ cv::Mat drawChessboard(int columns, int rows) {
   return paper;
 }
 
-calibration::CameraModel pinhole() {
-  auto camera = webcam();
-  camera.distortion = {};
-  return camera;
-}
-
 /// From every side: what the camera's place is must come out, also when the board is upside down.
 TEST(Chessboard, TheColoursTellWhichEndIsWhich) {
   const auto camera = pinhole();

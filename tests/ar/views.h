@@ -15,6 +15,13 @@ inline calibration::CameraModel webcam() {
   return {640, 480, 600, 601, 322.3, 237.6, {-0.21, 0.09, 0.0006, -0.0004, -0.02}, 0};
 }
 
+/// The same without distortion: what `photograph` is seen with.
+inline calibration::CameraModel pinhole() {
+  auto camera = webcam();
+  camera.distortion = {};
+  return camera;
+}
+
 inline double rad(double degrees) { return degrees * std::numbers::pi / 180; }
 
 /// The board as seen from `distance`, `tilt` away from straight above, after walking round it by
