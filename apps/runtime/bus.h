@@ -45,6 +45,7 @@ struct Displayed {
   int trial = 0;
   bool running = false;
   bool blood_flows = false;       ///< blood enters the syringe
+  bool injury = false;            ///< lung or artery: the screen says so
 };
 
 struct Keyframe {

@@ -31,12 +31,12 @@ std::string touchedText(const runtime::ToolState& tool) {
   return "";
 }
 
+}  // namespace
+
 bool injury(const runtime::ToolState& tool) {
   return tool.tissue == Tissue::lung || tool.wall == Organ::lung ||
          tool.tissue == Tissue::artery_lumen || tool.wall == Organ::artery;
 }
-
-}  // namespace
 
 scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, bool board_seen,
                    const std::string& mark) {

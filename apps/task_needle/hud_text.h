@@ -6,6 +6,9 @@
 
 namespace palpa::task_needle {
 
+/// The needle is in the lung or an artery, or in their walls.
+bool injury(const runtime::ToolState& tool);
+
 /// The HUD's lines in clinical words.
 scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, bool board_seen,
                    const std::string& mark);

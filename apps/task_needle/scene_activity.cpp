@@ -102,6 +102,7 @@ void SceneActivity::tellOperator(std::int64_t now_ns) {
   displayed.trial = status_.trial;
   displayed.running = status_.state == TrialState::running;
   displayed.blood_flows = status_.blood_flows;
+  displayed.injury = displayed.running && injury(tool_);
   bus_.scene_to_operator.publish(displayed, now_ns + setup_.display_latency_ns);
 }
 

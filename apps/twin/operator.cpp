@@ -15,8 +15,9 @@ constexpr double kTrust = 0.2;          // weight of one look against what is be
 constexpr double kAbove = 0.020;        // m above the skin, where the approach ends
 constexpr double kHover = 0.002;        // m above the skin, where the push begins
 constexpr double kBackFromBone = 0.006; // m
-constexpr double kPatience = 2.5;       // s of interrupted flow before the needle goes a little deeper
+constexpr double kPatience = 1.5;       // s of interrupted flow before the needle goes a little deeper
 constexpr double kNudge = 0.001;        // m
+constexpr int kNudges = 2;              // then this is the edge of the vein: try elsewhere
 constexpr double kDrawn = 0.4;          // plunger held under suction while advancing
 constexpr double kDeepestPush = 0.020;  // m the hand goes below the skin in search of the puncture
 constexpr double kFirstGrip = 0.4;      // share of peak force below which resistance counts as lost
@@ -77,7 +78,14 @@ void Operator::feel(const Senses& senses) {
   const std::size_t before = (felt_count_ + felt_.size() - 1) % felt_.size();
   felt_[slot] = 0.7 * felt_[before] + 0.3 * f_A;  // touch is not sharper than about 25 ms
   flow_[slot] = senses.seen && senses.seen->blood_flows;
+  injury_[slot] = senses.seen && senses.seen->injury;
   ++felt_count_;
+}
+
+/// What was felt and seen a reaction time ago: only now can the hand answer it.
+std::size_t Operator::remembered() const {
+  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
+  return (felt_count_ + felt_.size() - 1 - delay) % felt_.size();
 }
 
 void Operator::begin(Step step, double now_s, double pause_s) {
@@ -88,7 +96,8 @@ void Operator::begin(Step step, double now_s, double pause_s) {
 
 void Operator::beginTrial(int trial, double now_s) {
   trial_ = trial;
-  passes_ = 0;
+  passes_ = nudges_ = 0;
+  going_back_ = false;
   judgement_ = runtime::RandomStream(seed_, "operator.judgement." + std::to_string(trial));
   auto& j = judgement_;
   plan_entry_A_ = anatomy_.entry_A + skill_.entry_sd * (j.normal() * anatomy_.medial_A +
@@ -138,8 +147,7 @@ void Operator::holdHere() {
 /// Along the skin's normal until the resistance is lost, or, without feeling, until it looks deep enough.
 void Operator::pushing(double now_s) {
   insertion_ += skill_.push_speed * kThought;
-  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
-  const Vec3& felt = felt_[(felt_count_ + felt_.size() - 1 - delay) % felt_.size()];
+  const Vec3& felt = felt_[remembered()];
   const double resistance = felt.dot(axis_A_);
   peak_N_ = std::max(peak_N_, resistance);
   const bool lost = peak_N_ > skill_.notice_puncture_N && resistance < kFirstGrip * peak_N_;
@@ -152,37 +160,34 @@ void Operator::pushing(double now_s) {
 
 void Operator::advancing(double now_s) {
   insertion_ += skill_.advance_speed * kThought;
-  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
-  const std::size_t slot = (felt_count_ + felt_.size() - 1 - delay) % felt_.size();
-  if (flow_[slot]) {
-    holdHere();
-    dwell_since_s_ = dwell_begun_s_ = now_s;
-    return begin(Step::dwell, now_s, 0);
-  }
+  const std::size_t slot = remembered();
+  if (flow_[slot]) return dwell(now_s);
+  if (injury_[slot]) return tryElsewhere(now_s, insertion_ - skill_.first_depth);
   const Vec3 sideways = withoutAlong(felt_[slot], axis_A_);
   const bool bone = sideways.norm() > skill_.notice_bone_N ||
                     felt_[slot].dot(axis_A_) > 3 * skill_.notice_bone_N;
   const bool dry = seenInsertion() > skill_.vein_distance + skill_.search_margin;
   if (!bone && !dry) return;
+  tryElsewhere(now_s, bone ? kBackFromBone : insertion_ - skill_.first_depth);
+  // The hand pushes against the bone: it yields the other way. After a dry pass: try another side.
+  if (bone && sideways.norm() > 1e-6) turn_toward_A_ = -sideways.normalized();
+}
+
+/// Draws the needle back, then redirects it; after too many attempts, gives up.
+void Operator::tryElsewhere(double now_s, double back) {
   if (++passes_ > skill_.redirections) {
     gives_up_ = true;
     return begin(Step::leave, now_s, skill_.pause);
   }
-  // The hand pushes against the bone: it yields the other way. After a dry pass: try another side.
-  turn_toward_A_ = bone && sideways.norm() > 1e-6 ? Vec3(-sideways.normalized()) : Vec3::Zero();
-  retreat_to_ = bone ? insertion_ - kBackFromBone : skill_.first_depth;
-  retreat_to_ = std::max(retreat_to_, 0.5 * skill_.first_depth);
+  going_back_ = true;
+  turn_toward_A_ = Vec3::Zero();
+  retreat_to_ = std::max(insertion_ - back, 0.5 * skill_.first_depth);
   begin(Step::retreat, now_s, 0);
 }
 
 void Operator::retreating(double now_s) {
   insertion_ -= skill_.withdraw_speed * kThought;
-  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
-  if (flow_[(felt_count_ + felt_.size() - 1 - delay) % felt_.size()]) {
-    holdHere();
-    dwell_since_s_ = dwell_begun_s_ = now_s;
-    return begin(Step::dwell, now_s, 0);
-  }
+  if (!going_back_ && flow_[remembered()]) return dwell(now_s);
   if (insertion_ <= retreat_to_) turnAway(turn_toward_A_, now_s);
 }
 
@@ -198,19 +203,28 @@ void Operator::turnAway(const Vec3& toward_A, double now_s) {
   const double angle = skill_.redirect + skill_.redirect_sd * judgement_.normal();
   aimAt((std::cos(angle) * axis_A_ + std::sin(angle) * toward).normalized(), now_s,
         0.5 * skill_.turn_time);
+  nudges_ = 0;
   begin(Step::redirect, now_s, 0);
+}
+
+void Operator::dwell(double now_s) {
+  holdHere();
+  dwell_since_s_ = dwell_begun_s_ = now_s;
+  begin(Step::dwell, now_s, 0);
 }
 
 void Operator::dwelling(double now_s) {
   plunger_wanted_ = 1;
-  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
-  if (flow_[(felt_count_ + felt_.size() - 1 - delay) % felt_.size()]) {
+  if (injury_[remembered()]) return tryElsewhere(now_s, insertion_ - skill_.first_depth);
+  if (flow_[remembered()]) {
     dwell_since_s_ = now_s;
-    if (now_s - dwell_begun_s_ > kPatience) {  // it comes and goes: a little deeper
-      insertion_ += kNudge;
-      dwell_begun_s_ = now_s;
-    }
+    if (now_s - dwell_begun_s_ <= kPatience) return;
+    // It comes and goes: a little deeper; when that does not help, this is only the vein's edge.
+    if (++nudges_ > kNudges) return tryElsewhere(now_s, 2 * skill_.search_margin);
+    insertion_ += kNudge;
+    dwell_begun_s_ = now_s;
   } else if (now_s - dwell_since_s_ > 2 * skill_.reaction) {  // lost it: back a little, slowly
+    going_back_ = false;
     retreat_to_ = insertion_ - 0.5 * skill_.search_margin;
     turn_toward_A_ = Vec3::Zero();
     begin(Step::retreat, now_s, 0);

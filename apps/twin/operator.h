@@ -56,6 +56,9 @@ class Operator {
   void advancing(double now_s);
   void retreating(double now_s);
   void dwelling(double now_s);
+  void tryElsewhere(double now_s, double back);
+  void dwell(double now_s);
+  std::size_t remembered() const;
   void turnAway(const Vec3& toward_A, double now_s);
   void holdHere();
   Vec3 firstAim();
@@ -77,7 +80,7 @@ class Operator {
   Vec3 entry_seen_A_ = Vec3::Zero();
   std::array<Vec3, 64> felt_{};     ///< 100 Hz history of the axial and lateral force on the tool, frame A
   std::size_t felt_count_ = 0;
-  std::array<bool, 64> flow_{};     ///< 100 Hz history of the blood seen
+  std::array<bool, 64> flow_{}, injury_{};   ///< 100 Hz history of the blood, of the alarm seen
   double peak_N_ = 0;
   double depth_error_ = 0;
 
@@ -97,6 +100,8 @@ class Operator {
   MinJerk move_;
   double plunger_ = 0, plunger_wanted_ = 0;
   double dwell_since_s_ = 0, dwell_begun_s_ = 0;
+  int nudges_ = 0;                  ///< since the last redirection
+  bool going_back_ = false;         ///< this place is given up: blood on the way back stops nobody
   std::int64_t next_thought_ns_ = 0, last_look_ns_ = 0;
   Vec3 p_last_D_ = Vec3::Zero();
   double hand_speed_ = 0;
