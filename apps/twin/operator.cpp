@@ -36,7 +36,9 @@ Operator::Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, co
       judgement_(seed, "operator.judgement.0"),
       noise_(seed, "operator.noise"),
       tremor_(skill.tremor_rms, runtime::RandomStream(seed, "operator.tremor")),
-      turn_tremor_(skill.turn_tremor_rms, runtime::RandomStream(seed, "operator.turn_tremor")) {}
+      turn_tremor_(skill.turn_tremor_rms, runtime::RandomStream(seed, "operator.turn_tremor")) {
+  felt_.fill(Vec3::Zero());  // Eigen's own vectors start with anything
+}
 
 Pose Operator::needleAt(const Vec3& tip_A, const Vec3& axis_A) const {
   return makePose(rotationWithZ(axis_A), tip_A);

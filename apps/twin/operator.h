@@ -78,7 +78,7 @@ class Operator {
   Pose X_DA_ = Pose::Identity();
   Pose X_AT_seen_ = Pose::Identity();
   Vec3 entry_seen_A_ = Vec3::Zero();
-  std::array<Vec3, 64> felt_{};     ///< 100 Hz history of the axial and lateral force on the tool, frame A
+  std::array<Vec3, 64> felt_;       ///< 100 Hz history of the axial and lateral force on the tool, frame A
   std::size_t felt_count_ = 0;
   std::array<bool, 64> flow_{}, injury_{};   ///< 100 Hz history of the blood, of the alarm seen
   double peak_N_ = 0;

@@ -37,7 +37,9 @@ Cohort cohort(OperatorKind who, bool force_feedback) {
     EXPECT_TRUE(trial.simulated);
     result.totals.push_back(trial.total);
     result.successes += trial.values.success;
+    std::printf("%s%.0f", i ? ", " : force_feedback ? "totals: " : "without force feedback: ", trial.total);
   }
+  std::printf("\n");
   return result;
 }
 
