@@ -23,7 +23,9 @@ void redirect(const fs::path& file, int stream) {
 }
 
 [[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder,
-                         const fs::path& out, const fs::path& err) {
+                         const fs::path& out, const fs::path& err, int fill) {
+  // Fresh memory holds another byte in every run: what is read before it is written then differs.
+  ::setenv("MALLOC_PERTURB_", std::to_string(fill).c_str(), 1);
   redirect("/dev/null", STDIN_FILENO);
   redirect(out, STDOUT_FILENO);
   redirect(err, STDERR_FILENO);
@@ -53,9 +55,11 @@ int Outcome::errLines() const {
 Outcome palpa(const std::vector<std::string>& arguments, const fs::path& folder) {
   const Folder streams;
   const fs::path out = streams / "out", err = streams / "err";
+  static std::atomic<int> runs{0};
+  const int fill = 1 + 37 * runs++ % 255;
   const pid_t child = ::fork();
   if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) become(arguments, folder, out, err);
+  if (child == 0) become(arguments, folder, out, err, fill);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }
