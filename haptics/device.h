@@ -27,6 +27,8 @@ struct DeviceCapabilities {
   double stable_stiffness = 0;     ///< N/m, largest wall it renders without oscillating
   double position_resolution = 0;  ///< m
   double apparent_mass = 0;        ///< kg
+  double viscous_damping = 0;      ///< N s/m, of the mechanism
+  double coulomb_friction = 0;     ///< N, of the drives; 0: not known
   int force_axes = 3;
   bool has_orientation = true;
   bool simulated = false;
