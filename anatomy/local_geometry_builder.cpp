@@ -6,6 +6,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/nearest_on_segment.h"
+#include "anatomy/surface_patch_fit.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -13,6 +14,7 @@ namespace {
 constexpr double kBoneReach = 0.040;  // bones further from tip and shaft are left out
 constexpr double kFitReach = 0.020;   // of the bone around the nearest point goes into the capsule
 constexpr double kFlattest = 0.020;   // a "tube" of larger radius is a plate: no capsule fits it
+constexpr double kSurfaceReach = 0.008;  // of the skin round the tool: a fast hand's way until the next snapshot
 constexpr double kAhead = 0.060;      // boundaries are looked for this far beyond the tip
 constexpr double kTowardSkin = 0.02;  // sine of the least angle at which the axis counts as inward
 
@@ -92,6 +94,7 @@ void expressInD(const Pose& X_DA, LocalGeometry* geometry) {
   const auto vector = [&](Packed3* v) { *v = pack(Vec3(X_DA.linear() * unpack(*v))); };
   point(&geometry->skin.p);
   vector(&geometry->skin.n);
+  vector(&geometry->skin.x);
   for (int i = 0; i < geometry->bone_count; ++i) {
     point(&geometry->bones[i].a);
     point(&geometry->bones[i].b);
@@ -184,12 +187,12 @@ LocalGeometry LocalGeometryBuilder::build(std::uint64_t number, std::int64_t t_n
   geometry.number = number;
   geometry.t_ns = t_ns;
   const Vec3 tip = tool.X_AT.translation(), direction = tool.X_AT.linear().col(2);
-  const SurfacePoint skin = query_.closest(skin_, tool.punctured ? tool.entry_A : tip);
-  geometry.skin = {pack(skin.p_A), pack(skin.n_A)};
+  geometry.skin = fitSurfacePatch(query_, skin_, tool.punctured ? tool.entry_A : tip, kSurfaceReach);
+  const Vec3 skin_p = unpack(geometry.skin.p), skin_n = unpack(geometry.skin.n);
 
-  const double inward = -direction.dot(skin.n_A);
-  const double height = (tip - skin.p_A).dot(skin.n_A);
-  const Axis axis{tip, direction, skin.p_A, skin.n_A,
+  const double inward = -direction.dot(skin_n);
+  const double height = (tip - skin_p).dot(skin_n);
+  const Axis axis{tip, direction, skin_p, skin_n,
                   std::abs(inward) > kTowardSkin ? height / inward : 0};
   addBones(tool, axis, &geometry);
   addBoundaries(axis, &geometry);

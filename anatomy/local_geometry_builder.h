@@ -7,7 +7,7 @@
 namespace palpa::anatomy {
 
 /// Makes the snapshot that the haptic tick reads, around a predicted tool. Pure: same inputs, same
-/// bits. Skin plane at the surface point closest to the tip (before puncture) or to `entry`;
+/// bits. Skin as a curved patch round the tip (before puncture) or round `entry`;
 /// bones within 40 mm of the tip or the inserted shaft as capsules that touch the bone's mesh at
 /// its nearest point, with its normal there; tissue boundaries along the needle axis from the skin
 /// inward to 60 mm beyond the tip (offset planes for skin, fat and muscle, which ends earlier where

@@ -33,6 +33,11 @@ SurfacePoint SurfaceQuery::closest(int surface, const Vec3& p_A) const {
   return {nearest.p, nearest.normal, nearest.signed_distance};
 }
 
+SurfacePoint SurfaceQuery::rounded(int surface, const Vec3& p_A) const {
+  const TriangleTree::Closest nearest = impl_->trees.at(surface).rounded(p_A);
+  return {nearest.p, nearest.normal, nearest.signed_distance};
+}
+
 std::vector<RayHit> SurfaceQuery::cast(const Vec3& start_A, const Vec3& direction_A,
                                        double length) const {
   std::vector<RayHit> hits;

@@ -32,6 +32,9 @@ class SurfaceQuery {
 
   /// Closest point on the given surface (index into Patient::organs).
   SurfacePoint closest(int surface, const Vec3& p_A) const;
+  /// The same on the surface rounded by its vertices' normals (`roundedPoint`): the foot of `p` on the facet,
+  /// moved onto the curved triangle over it. Near a surface, not a closest point to the last bit.
+  SurfacePoint rounded(int surface, const Vec3& p_A) const;
   /// All crossings of the segment start + s * direction (unit), 0 <= s <= length, in order of s.
   std::vector<RayHit> cast(const Vec3& start_A, const Vec3& direction_A, double length) const;
   /// Cylinder that fits a tube-like surface near a point: axis from the normals' covariance, circle

@@ -17,6 +17,9 @@ constexpr double kOnFeature = 1e-12;
 // Slightly inclusive triangles, so that a ray through a shared edge cannot slip between both.
 constexpr double kEdgeTolerance = 1e-9;
 
+// Cosine between normals of one facet's corners from which on it is not rounded: 60 degrees.
+constexpr double kSmooth = 0.5;
+
 // Seen area below this part of the longest edge squared: nothing to hit.
 constexpr double kFlat = 1e-11;
 
@@ -148,7 +151,7 @@ void TriangleTree::searchLeaf(const Node& node, const Vec3& p, Nearest* best) co
   }
 }
 
-TriangleTree::Closest TriangleTree::closest(const Vec3& p) const {
+TriangleTree::Nearest TriangleTree::search(const Vec3& p) const {
   Nearest best{std::numeric_limits<double>::infinity()};
   std::array<std::pair<double, std::uint32_t>, kMaxDepth> stack;
   int top = 0;
@@ -169,9 +172,42 @@ TriangleTree::Closest TriangleTree::closest(const Vec3& p) const {
     stack[top++] = far;
     stack[top++] = near;
   }
+  return best;
+}
+
+TriangleTree::Closest TriangleTree::closest(const Vec3& p) const {
+  const Nearest best = search(p);
   const double distance = std::sqrt(best.squared);
   const bool inside = pseudonormal(best).dot(p - best.p) < 0;
   return {best.p, interpolated(best.triangle, best.weights), inside ? -distance : distance};
+}
+
+TriangleTree::Closest TriangleTree::rounded(const Vec3& p) const {
+  const Nearest best = search(p);
+  const Corners& t = triangles_[best.triangle];
+  const Vec3 normal = interpolated(best.triangle, best.weights);
+  const std::array<Vec3, 3> n{normals_[t[0]], normals_[t[1]], normals_[t[2]]};
+  Vec3 q = best.p;
+  // Where the normals of the corners stand far apart there is an edge, and it stays one.
+  if (std::min({n[0].dot(n[1]), n[1].dot(n[2]), n[2].dot(n[0])}) > kSmooth)
+    q = roundedPoint({points_[t[0]], points_[t[1]], points_[t[2]]}, n, best.weights);
+  return {q, normal, (p - q).dot(normal)};
+}
+
+Vec3 roundedPoint(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n, const Vec3& w) {
+  // Control point a third of the way from corner i to corner j, moved into i's tangent plane.
+  const auto edge = [&](int i, int j) {
+    return Vec3((2 * p[i] + p[j] - (p[j] - p[i]).dot(n[i]) * n[i]) / 3);
+  };
+  const Vec3 e01 = edge(0, 1), e10 = edge(1, 0), e12 = edge(1, 2), e21 = edge(2, 1),
+             e20 = edge(2, 0), e02 = edge(0, 2);
+  const Vec3 mean = (e01 + e10 + e12 + e21 + e20 + e02) / 6;
+  const Vec3 centre = mean + (mean - (p[0] + p[1] + p[2]) / 3) / 2;
+  const double a = w[0], b = w[1], c = w[2];
+  return a * a * a * p[0] + b * b * b * p[1] + c * c * c * p[2] +
+         3 * (a * a * b * e01 + a * b * b * e10 + b * b * c * e12 + b * c * c * e21 +
+              c * c * a * e20 + c * a * a * e02) +
+         6 * a * b * c * centre;
 }
 
 void TriangleTree::cast(const Vec3& start, const Vec3& direction, double length,

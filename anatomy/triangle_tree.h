@@ -24,6 +24,9 @@ class TriangleTree {
   /// (Baerentzen and Aanaes 2005): right for every closed mesh.
   Closest closest(const Vec3& p) const;
 
+  /// The nearest facet rounded as its vertices' normals ask for: see `roundedPoint`.
+  Closest rounded(const Vec3& p) const;
+
   struct Crossing {
     double s;
     Vec3 normal;
@@ -51,6 +54,7 @@ class TriangleTree {
     Vec3 weights = Vec3::Zero();  ///< barycentric
     Vec3 p = Vec3::Zero();
   };
+  Nearest search(const Vec3& p) const;
   std::uint32_t split(std::uint32_t first, std::uint32_t count, std::vector<Vec3>* centres);
   void makePseudonormals();
   void searchLeaf(const Node& node, const Vec3& p, Nearest* best) const;
@@ -63,6 +67,11 @@ class TriangleTree {
   std::vector<Vec3> face_normals_, vertex_pseudonormals_;
   std::vector<std::array<Vec3, 3>> edge_pseudonormals_;  ///< edge k runs from corner k to k + 1
 };
+
+/// Point of the cubic Bezier triangle over a facet (Vlachos et al. 2001, "curved PN triangles"): it meets
+/// the corners p with the normals n, so that a coarse mesh of a smooth shape errs with the fourth
+/// power of its edges, not the second. `weights` barycentric.
+Vec3 roundedPoint(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n, const Vec3& weights);
 
 /// Closest point of triangle abc to p as barycentric weights (Ericson, Real-Time Collision
 /// Detection, 5.1.5: by Voronoi regions).

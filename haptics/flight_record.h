@@ -51,6 +51,7 @@ struct FlightRecord {
   TickCommands commands;
   std::uint64_t snapshot = 0;       ///< number of the newest geometry snapshot used
   Packed3 f_contact_D{};            ///< computed contact force (coupled), independent of `force_feedback`
+  Packed3 f_wanted_D{};             ///< after fading and passivity control: what entered the safety limiter
   Packed3 f_command_D{};            ///< what left the safety limiter
   Packed3 tau_missing_D{};          ///< torque about E that a three-axis device cannot give, N m
   double indentation = 0;           ///< of the skin before puncture, m
@@ -67,7 +68,7 @@ struct FlightRecord {
   std::uint8_t wall_leaving = 0;
   SafetyCause safety = SafetyCause::none;
   std::uint8_t skin_punctures = 0;  ///< in this trial
-  std::uint8_t reserved = 0;
+  std::uint8_t damped = 0;          ///< passivity control added damping
 };
 static_assert(std::is_trivially_copyable_v<FlightRecord>);
 

@@ -85,8 +85,9 @@ void puncture(Step& s, const Vec3& n, double x) {
 }
 
 void beforePuncture(Step& s, double puncture_force_N) {
-  const Vec3 n = unpack(s.geometry.skin.n);
-  const double x = -(s.pose.p_DT - unpack(s.geometry.skin.p)).dot(n);
+  const PatchContact skin = nearestOn(s.geometry.skin, s.pose.p_DT);
+  const Vec3 n = skin.normal;
+  const double x = -skin.distance;
   if (x <= 0) {
     s.state.phase = NeedlePhase::outside;
     s.state.skin_anchor_D = pack(s.pose.p_DT);

@@ -22,6 +22,8 @@ NeedlePose needlePose(const TickConfig& config, const DeviceReading& reading) {
 void startTrial(TickState& state, std::uint32_t trial) {
   state.trial = trial;
   state.contact = state.contact_old = NeedleState{};
+  state.probe = state.probe_old = ProbeState{};
+  state.passivity = PassivityState{};
   state.blending = 0;
 }
 
@@ -33,29 +35,45 @@ bool adopt(const TickConfig& config, TickState& state, const LocalGeometry* late
   state.blending = state.now.number != 0;
   state.old = state.now;
   state.contact_old = state.contact;
+  state.probe_old = state.probe;
   state.now = *latest;
   state.t_adopted_ns = now_ns;
   return true;
+}
+
+/// One of the two descriptions of the contact: on the newest snapshot, or on the one before it.
+struct View {
+  const LocalGeometry& geometry;
+  NeedleState& needle;
+  ProbeState& probe;
+};
+
+NeedleContact contactOn(const TickConfig& config, const View& view, const NeedlePose& pose,
+                        double puncture_force_N, double dt) {
+  if (config.engine == Engine::probe)
+    return probeContact(config.probe, config.coupling, view.geometry, pose.p_DT, dt, view.probe);
+  return needleContact(config.materials, config.coupling, view.geometry, pose, puncture_force_N, dt,
+                       view.needle);
 }
 
 /// Force on the newest snapshot, faded in from the one before it. The old one only lends its force:
 /// what happened (punctures, contacts) is told by the new one.
 NeedleContact blendedContact(const TickConfig& config, TickState& state, const NeedlePose& pose,
                              double puncture_force_N, double dt, std::int64_t now_ns) {
-  NeedleContact contact = needleContact(config.materials, config.coupling, state.now, pose,
-                                        puncture_force_N, dt, state.contact);
+  NeedleContact contact =
+      contactOn(config, {state.now, state.contact, state.probe}, pose, puncture_force_N, dt);
   if (!state.blending) return contact;
-  const NeedleContact old = needleContact(config.materials, config.coupling, state.old, pose,
-                                          puncture_force_N, dt, state.contact_old);
+  const NeedleContact old =
+      contactOn(config, {state.old, state.contact_old, state.probe_old}, pose, puncture_force_N, dt);
   if (state.contact_old.phase != state.contact.phase) {
     state.blending = 0;  // a puncture in one of them: the two no longer describe the same contact
     return contact;
   }
-  const double w = std::clamp(
+  const double u = std::clamp(
       static_cast<double>(now_ns - state.t_adopted_ns) / static_cast<double>(config.blend_ns), 0.0,
       1.0);
-  contact.f_D = (1 - w) * old.f_D + w * contact.f_D;
-  contact.tau_D = (1 - w) * old.tau_D + w * contact.tau_D;
+  contact.f_D = (1 - u) * old.f_D + u * contact.f_D;
+  contact.tau_D = (1 - u) * old.tau_D + u * contact.tau_D;
   return contact;
 }
 
@@ -66,12 +84,27 @@ double freshness(const TickConfig& config, const TickState& state, std::int64_t 
   return std::clamp(1.0 - static_cast<double>(over) / static_cast<double>(config.fade_ns), 0.0, 1.0);
 }
 
+/// The force that is asked of the limiter. Where nothing will be rendered the observer starts anew.
+Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands& commands,
+                  const Vec3& f_D, const SafetyInput& in) {
+  if (!commands.force_feedback || !commands.armed) {
+    state.passivity = PassivityState{};
+    return commands.force_feedback ? f_D : Vec3::Zero();
+  }
+  PassivityInput port;
+  port.p_DE = in.p_DE;
+  port.f_D = f_D;
+  port.dt = in.dt;
+  return keepPassive(config.passivity, state.passivity, port);
+}
+
 bool isTrip(SafetyCause cause) {
   return cause != SafetyCause::none && cause != SafetyCause::clamp && cause != SafetyCause::slew &&
          cause != SafetyCause::not_ready;
 }
 
-void describe(FlightRecord& record, const NeedleContact& contact, const TickState& state) {
+void describe(const TickConfig& config, FlightRecord& record, const NeedleContact& contact,
+              const TickState& state) {
   record.snapshot = state.now.number;
   record.f_contact_D = pack(contact.f_D);
   record.tau_missing_D = pack(contact.tau_D);
@@ -86,8 +119,9 @@ void describe(FlightRecord& record, const NeedleContact& contact, const TickStat
   record.tissue = contact.tissue;
   record.wall = contact.wall;
   record.wall_leaving = contact.wall_leaving;
-  record.bone = state.contact.bone;
+  record.bone = config.engine == Engine::probe ? state.probe.bone : state.contact.bone;
   record.skin_punctures = state.contact.skin_punctures;
+  record.damped = state.passivity.injecting;
 }
 
 }  // namespace
@@ -111,19 +145,21 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   if (sound)
     contact = blendedContact(config, state, needlePose(config, reading), commands.puncture_force_N,
                              dt, now_ns);
-  describe(record, contact, state);
 
   const double fresh = freshness(config, state, now_ns);
   SafetyInput input;
   input.now_ns = now_ns;
   input.dt = dt;
-  input.f_wanted_D = commands.force_feedback ? Vec3(fresh * contact.f_D) : Vec3::Zero();
   input.p_DE = unpack(reading.p_DE);
+  input.f_wanted_D = passiveForce(config, state, commands, fresh * contact.f_D, input);
   input.sequence = reading.sequence;
   input.armed = commands.armed && reading.homed;
   input.emergency_stop = commands.emergency_stop;
+  record.f_wanted_D = pack(input.f_wanted_D);
+  describe(config, record, contact, state);
   record.f_command_D = pack(limitForce(config.safety, state.safety, input));
   if (!sound) record.f_command_D = state.safety.f_last_D = {0, 0, 0};
+  state.passivity.f_last_D = record.f_command_D;  // what the hand really gets
 
   SafetyCause cause = sound ? state.safety.cause : SafetyCause::not_finite;
   if (!isTrip(cause) && cause != SafetyCause::not_ready && fresh < 1)

@@ -3,14 +3,21 @@
 #include <type_traits>
 
 #include "haptics/needle_contact.h"
+#include "haptics/passivity.h"
+#include "haptics/probe_contact.h"
 #include "haptics/safety_limiter.h"
 
 namespace palpa::haptics {
 
+enum class Engine : std::uint8_t { needle, probe };
+
 /// Constant during a session; stored in its file. Trivially copyable, so that a replay has it whole.
 struct TickConfig {
   NeedleMaterials materials;
+  ProbeMaterials probe;
+  Engine engine = Engine::needle;
   CouplingLimits coupling;
+  PassivityLimits passivity;
   SafetyLimits safety;
   PackedPose X_ET;                          ///< tool tip in the end effector; needle along +z of T
   std::int64_t period_ns = 1'000'000;
@@ -27,6 +34,8 @@ struct TickState {
   std::int64_t t_adopted_ns = 0;     ///< when `now` replaced `old`
   LocalGeometry now, old;
   NeedleState contact, contact_old;  ///< `contact_old` runs on `old` during the blend
+  ProbeState probe, probe_old;
+  PassivityState passivity;
   SafetyState safety;
   std::uint32_t trial = 0;
   std::uint8_t blending = 0;
@@ -35,7 +44,7 @@ struct TickState {
 };
 static_assert(std::is_trivially_copyable_v<TickState>);
 
-/// One tick: reading -> contact on the snapshot -> blend -> safety limiter -> command. Pure: same
+/// One tick: reading -> contact on the snapshot -> blend -> passivity -> safety limiter -> command. Pure: same
 /// inputs, same bits. `latest` is the newest snapshot or null; it is adopted when the last blend is over. Never allocates, locks, logs or throws.
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands,

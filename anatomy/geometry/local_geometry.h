@@ -4,6 +4,7 @@
 #include <type_traits>
 
 #include "anatomy/geometry/pose.h"
+#include "anatomy/geometry/surface_patch.h"
 
 /// What the haptic tick knows of the world: simple shapes that agree with the meshes near the tool.
 /// Made by the geometry activity at 60 Hz or more, read at 1 kHz. Everything is expressed in the
@@ -25,12 +26,6 @@ inline constexpr int kTissueCount = 9;
 const char* name(Organ organ);
 const char* name(Tissue tissue);
 Organ organFromName(const char* text);  ///< Organ::none when unknown
-
-/// Tangent plane of the skin: `n` outward, unit length.
-struct TangentPlane {
-  Packed3 p{};
-  Packed3 n{0, 0, 1};
-};
 
 /// Bone as a capsule: all points within `radius` of the segment a–b.
 struct Capsule {
@@ -56,7 +51,7 @@ struct LocalGeometry {
 
   std::uint64_t number = 0;     ///< 0: nothing has arrived yet
   std::int64_t t_ns = 0;        ///< when the tool was where this was made for
-  TangentPlane skin;
+  SurfacePatch skin;            ///< round the entry once the skin is punctured, else round the tool
   std::int32_t bone_count = 0;
   std::int32_t boundary_count = 0;
   Capsule bones[kMaxBones];

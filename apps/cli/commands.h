@@ -12,5 +12,6 @@ void addCalibrate(CLI::App& program);
 void addPatient(CLI::App& program);
 void addBoard(CLI::App& program);
 void addExport(CLI::App& program);
+void addBench(CLI::App& program);
 
 }  // namespace palpa::cli

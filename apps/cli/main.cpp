@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
   palpa::cli::addPatient(program);
   palpa::cli::addBoard(program);
   palpa::cli::addExport(program);
+  palpa::cli::addBench(program);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

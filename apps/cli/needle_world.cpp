@@ -62,6 +62,7 @@ haptics::TickConfig NeedleWorld::tickConfig() const {
   config.materials = needle.materials;
   config.coupling = station.coupling;
   config.safety = station.safety;
+  config.passivity = station.passivity;
   config.X_ET = pack(station.X_ET);
   return config;
 }

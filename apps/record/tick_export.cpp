@@ -119,6 +119,8 @@ void addCommands(std::vector<Column>& columns) {
 void addContact(std::vector<Column>& columns) {
   addVector(columns, "f_contact_D", "N", "computed contact force on the tool, device base",
             &FlightRecord::f_contact_D);
+  addVector(columns, "f_wanted_D", "N", "force after fading and passivity control, before the safety limiter",
+            &FlightRecord::f_wanted_D);
   addVector(columns, "f_command_D", "N", "force that left the safety limiter, device base",
             &FlightRecord::f_command_D);
   addVector(columns, "tau_missing_D", "Nm", "torque about the end effector the device cannot give",
@@ -148,6 +150,8 @@ void addStates(std::vector<Column>& columns) {
       {{"bone", "bone in contact"}, [](const FlightRecord& r) { return word(r.bone); }});
   columns.push_back({{"safety", "what the safety limiter changed, and why"},
                      [](const FlightRecord& r) { return std::string(word(r.safety)); }});
+  columns.push_back({{"damped", "1: passivity control added damping"},
+                     [](const FlightRecord& r) { return std::to_string(r.damped); }});
   columns.push_back({{"skin_punctures", "in this trial so far"},
                      [](const FlightRecord& r) { return std::to_string(r.skin_punctures); }});
 }

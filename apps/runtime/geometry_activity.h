@@ -9,10 +9,16 @@ namespace palpa::runtime {
 /// GEOMETRY, 60 Hz: exact mesh queries around the predicted tool -> LocalGeometry snapshot.
 class GeometryActivity final : public Activity {
  public:
-  /// `latency_ns`: in virtual time a snapshot becomes visible this long after its step.
+  struct Settings {
+    std::int64_t period_ns = 16'666'667;
+    std::int64_t latency_ns = 2'000'000;   ///< in virtual time a snapshot becomes visible this long after its step
+    std::int64_t blend_ns = 10'000'000;    ///< of the tick that uses it
+  };
+  GeometryActivity(Bus& bus, const anatomy::LocalGeometryBuilder& builder, const Pose& X_DA)
+      : GeometryActivity(bus, builder, X_DA, Settings()) {}
   GeometryActivity(Bus& bus, const anatomy::LocalGeometryBuilder& builder, const Pose& X_DA,
-                   std::int64_t latency_ns = 2'000'000)
-      : bus_(bus), builder_(builder), X_DA_(X_DA), X_AD_(X_DA.inverse()), latency_ns_(latency_ns) {}
+                   const Settings& settings)
+      : bus_(bus), builder_(builder), X_DA_(X_DA), X_AD_(X_DA.inverse()), settings_(settings) {}
   const char* name() const override { return "geometry"; }
   std::int64_t step(std::int64_t now_ns) override;
 
@@ -20,7 +26,7 @@ class GeometryActivity final : public Activity {
   Bus& bus_;
   const anatomy::LocalGeometryBuilder& builder_;
   Pose X_DA_, X_AD_;
-  std::int64_t latency_ns_;
+  Settings settings_;
   std::uint64_t number_ = 0;
 };
 

@@ -35,7 +35,7 @@ void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_
   ToolState tool;
   tool.t_ns = now_ns;
   tool.X_DT = toolPose(config_, record.reading);
-  tool.v_D = state_.contact.v_D;
+  tool.v_D = config_.engine == haptics::Engine::probe ? state_.probe.v_D : state_.contact.v_D;
   tool.f_contact_D = record.f_contact_D;
   tool.f_command_D = record.f_command_D;
   tool.entry_D = state_.contact.entry_D;

@@ -3,12 +3,15 @@
 #include <numbers>
 
 #include "anatomy/geometry/error.h"
+#include "haptics/virtual_coupling.h"
 
 namespace palpa::station {
 namespace {
 
 constexpr double kMm = 1e-3;
 constexpr int kStationVersion = 1;
+constexpr double kLongestPeriod = 1e-3;  // s: the loop runs at 1 kHz or faster
+constexpr double kDampedShare = 0.2;     // of m / T: more would make a sampled damper unstable itself
 
 Pose readPose(const JsonFile& file, const std::string& at) {
   const Vec3 turn = file.vector(at + "/rotation_vector_deg") * (std::numbers::pi / 180);
@@ -24,6 +27,9 @@ haptics::DeviceCapabilities readDevice(const JsonFile& file) {
   device.stable_stiffness = file.number("device/stable_stiffness_N_per_m", 50, 50'000);
   device.position_resolution = kMm * file.number("device/position_resolution_mm", 0, 1);
   device.apparent_mass = file.number("device/apparent_mass_kg", 0, 5);
+  if (file.has("device/viscous_Ns_per_m"))
+    device.viscous_damping = file.number("device/viscous_Ns_per_m", 0, 50);
+  if (file.has("device/coulomb_N")) device.coulomb_friction = file.number("device/coulomb_N", 0, 5);
   const std::string driver = file.text("device/driver");
   if (driver != "virtual") file.refuse("device/driver", "is \"" + driver + "\"; known: virtual");
   device.simulated = true;
@@ -99,8 +105,10 @@ Station readStation(const std::filesystem::path& path) {
   s.safety.max_force_N = file.number("safety/max_force_N", 0.1, s.device.max_force_N);
   s.safety.max_slew_N_per_s = file.number("safety/max_slew_N_per_s", 10, 1e5);
   s.safety.max_energy_J = file.number("safety/max_energy_J", 1e-3, 5);
-  s.coupling.stiffness =
-      file.number("coupling/stiffness_N_per_m", 10, s.device.stable_stiffness);
+  const double stable = haptics::couplingStiffness(s.device, kLongestPeriod);
+  s.coupling.stiffness = file.number("coupling/stiffness_N_per_m", 10, stable);
+  s.passivity.max_damping = kDampedShare * s.device.apparent_mass / kLongestPeriod;
+  s.passivity.coulomb = s.device.coulomb_friction;
   s.calibration_verdict = file.text("calibration/verdict");
   s.calibration_date = file.text("calibration/date");
   return s;

@@ -28,6 +28,7 @@ struct Station {
   Vec3 near_edge_W = Vec3::Zero(); ///< middle of the bust's edge nearest to the reader, on the table
   haptics::SafetyLimits safety;
   haptics::CouplingLimits coupling;
+  haptics::PassivityLimits passivity;   ///< sized from the device's mass and friction
   std::string calibration_verdict; ///< "pass", or what is wrong: a session is then "not scored"
   std::string calibration_date;
   JsonFile file;                   ///< for parts that only others read (the twin's spreads)

@@ -1,0 +1,152 @@
+#include "apps/bench/haptics_bench.h"
+
+#include <chrono>
+#include <cmath>
+
+#include "apps/bench/bumpy_torso.h"
+#include "apps/bench/metric.h"
+#include "apps/bench/tick_timing.h"
+
+namespace palpa::bench {
+namespace {
+
+constexpr double kWarmUp = 0.2;       // s: the first snapshot has to come
+constexpr double kTouching = 0.1;     // N: ratios of smaller forces say nothing
+constexpr double kBoneStiffness = 3000;
+
+struct World {
+  int triangles;
+  anatomy::Patient patient;
+  anatomy::SurfaceQuery query;
+  anatomy::LocalGeometryBuilder builder;
+  explicit World(int n)
+      : triangles(n), patient(torsoPatient(n)), query(patient), builder(patient, query) {}
+};
+
+/// The force that the true surface would give.
+Vec3 trueForce(const StrokeSettings& settings, const Vec3& p) {
+  const TorsoPoint q = nearestOnTorso(p);
+  return settings.stiffness * std::max((q.p - p).dot(q.n), 0.0) * q.n;
+}
+
+/// A frictionless proxy on the whole mesh: slow, exact for the mesh as it is, facets and all.
+Vec3 proxyForce(const StrokeSettings& settings, const anatomy::SurfaceQuery& query, const Vec3& p) {
+  const anatomy::SurfacePoint s = query.closest(0, p);
+  return s.distance < 0 ? Vec3(settings.stiffness * (s.p_A - p)) : Vec3(Vec3::Zero());
+}
+
+struct Error {
+  double rel_rms = 0, ratio_max = 0;
+};
+
+template <class Reference>
+Error compare(const StrokeResult& stroke, Reference reference) {
+  double difference2 = 0, size2 = 0, most = 0;
+  for (const haptics::FlightRecord& r : stroke.records) {
+    if (static_cast<double>(r.t_ns) * 1e-9 < kWarmUp) continue;
+    const Vec3 f = unpack(r.f_contact_D), f_ref = reference(unpack(r.reading.p_DE));
+    difference2 += (f - f_ref).squaredNorm();
+    size2 += f_ref.squaredNorm();
+    if (f_ref.norm() >= kTouching) most = std::max(most, f.norm() / f_ref.norm());
+  }
+  return {std::sqrt(difference2 / size2), most};
+}
+
+struct Jump {
+  double blended = 0, unblended = 0;
+};
+
+/// How much, from tick to tick, the force leaves the one that the old snapshot would have given.
+Jump refreshJump(const StrokeSettings& settings, const StrokeResult& stroke) {
+  const haptics::TickConfig config = strokeConfig(settings);
+  const auto on = [&](std::uint64_t snapshot, const haptics::FlightRecord& r) {
+    haptics::ProbeState fresh;
+    return haptics::probeContact(config.probe, config.coupling, stroke.snapshots[snapshot - 1],
+                                 unpack(r.reading.p_DE), 1e-3, fresh).f_D;
+  };
+  Jump jump;
+  const auto& records = stroke.records;
+  for (std::size_t i = 1; i < records.size(); ++i) {
+    const std::uint64_t old = records[i - 1].snapshot;
+    if (old == 0 || records[i].snapshot == old) continue;
+    jump.unblended = std::max(jump.unblended, (on(records[i].snapshot, records[i]) - on(old, records[i])).norm());
+    Vec3 left = Vec3::Zero();
+    for (std::size_t k = i; k < records.size() && records[k].snapshot == records[i].snapshot; ++k) {
+      const Vec3 now = unpack(records[k].f_contact_D) - on(old, records[k]);
+      jump.blended = std::max(jump.blended, (now - left).norm());
+      left = now;
+      if (records[k].t_ns - records[i].t_ns >= config.blend_ns) break;
+    }
+  }
+  return jump;
+}
+
+double proxyCost(const StrokeSettings& settings, const World& world, const StrokeResult& stroke) {
+  std::vector<double> each;
+  for (std::size_t i = 0; i < stroke.records.size(); i += 7) {
+    const auto start = std::chrono::steady_clock::now();
+    const Vec3 f = proxyForce(settings, world.query, unpack(stroke.records[i].reading.p_DE));
+    const std::chrono::duration<double, std::micro> took = std::chrono::steady_clock::now() - start;
+    if (f.allFinite()) each.push_back(took.count());
+  }
+  return quantile(each, 0.5);
+}
+
+nlohmann::json paramsOf(const World& world, const StrokeSettings& s) {
+  return {{"triangles", world.triangles}, {"stroke_hz", s.stroke_Hz}, {"geometry_hz", s.geometry_Hz},
+          {"stiffness_N_per_m", s.stiffness}, {"noise", "none"}};
+}
+
+void printFidelity(const World& world, const StrokeSettings& s, const StrokeResult& stroke) {
+  nlohmann::json params = paramsOf(world, s);
+  const Error truth = compare(stroke, [&](const Vec3& p) { return trueForce(s, p); });
+  params["reference"] = "analytic surface";
+  print("force_error_rel_rms", truth.rel_rms, "1", params);
+  print("force_ratio_max", truth.ratio_max, "1", params);
+  const Error mesh = compare(stroke, [&](const Vec3& p) { return proxyForce(s, world.query, p); });
+  params["reference"] = "facets of the mesh";
+  print("force_error_rel_rms_to_facets", mesh.rel_rms, "1", params);
+}
+
+void printJumps(const World& world, StrokeSettings s) {
+  s.geometry_Hz = 30;
+  for (const double stiffness : {500.0, kBoneStiffness}) {
+    s.stiffness = s.coupling = stiffness;
+    if (stiffness == 500) s.coupling = 1000;
+    const StrokeResult stroke = runStroke(s, world.builder);
+    const Jump jump = refreshJump(s, stroke);
+    nlohmann::json params = paramsOf(world, s);
+    params["case"] = stiffness == kBoneStiffness ? "bone" : "tissue";
+    print("refresh_jump_max", jump.blended, "N", params);
+    print("refresh_jump_unblended_max", jump.unblended, "N", params);
+  }
+}
+
+void printCost(const World& world, const StrokeSettings& s, const StrokeResult& stroke, bool quick) {
+  const nlohmann::json params = paramsOf(world, s);
+  const TickTiming hot = timeHot(s, stroke, quick ? 40'000 : 400'000);
+  print("tick_hot_median", hot.median_us, "us", params);
+  print("tick_hot_p99", hot.p99_us, "us", params);
+  print("tick_paced_median", timePaced(s, stroke, quick ? 0.5 : 3).median_us, "us", params);
+  print("reference_tick_median", proxyCost(s, world, stroke), "us", params);
+}
+
+}  // namespace
+
+void benchHaptics(const HapticsBenchOptions& options) {
+  for (const int triangles : {1'000, 10'000, 100'000, 1'000'000}) {
+    if (triangles > options.most_triangles || (options.quick && triangles > 10'000)) continue;
+    const World world(triangles);
+    StrokeSettings settings;
+    settings.seconds = options.quick ? 3 : 20;
+    for (const double stroke_Hz : {0.2, 1.0}) {
+      settings.stroke_Hz = stroke_Hz;
+      const StrokeResult stroke = runStroke(settings, world.builder);
+      printFidelity(world, settings, stroke);
+      printJumps(world, settings);
+      if (stroke_Hz == 0.2) printCost(world, settings, stroke, options.quick);
+    }
+  }
+}
+
+}  // namespace palpa::bench

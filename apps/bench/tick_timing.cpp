@@ -1,0 +1,77 @@
+#include "apps/bench/tick_timing.h"
+
+#include <time.h>
+
+#include <chrono>
+
+#include "apps/bench/metric.h"
+
+namespace palpa::bench {
+namespace {
+
+double microseconds() {
+  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+/// Runs the stroke's ticks again, round and round, with its snapshots when they came.
+class Again {
+ public:
+  Again(const StrokeSettings& settings, const StrokeResult& stroke)
+      : config_(strokeConfig(settings)), stroke_(stroke), state_(std::make_unique<haptics::TickState>()) {}
+
+  void step() {
+    const haptics::FlightRecord& was = stroke_.records[at_];
+    const LocalGeometry* latest = was.snapshot > 0 ? &stroke_.snapshots[was.snapshot - 1] : nullptr;
+    now_ns_ += config_.period_ns;
+    haptics::DeviceReading reading = was.reading;
+    reading.sequence = ++sequence_;
+    sink_ = haptics::tick(config_, *state_, reading, latest, was.commands, was.t_ns);
+    if (++at_ == stroke_.records.size()) {
+      at_ = 0;
+      *state_ = haptics::TickState{};
+    }
+  }
+  const haptics::FlightRecord& last() const { return sink_; }
+
+ private:
+  haptics::TickConfig config_;
+  const StrokeResult& stroke_;
+  std::unique_ptr<haptics::TickState> state_;
+  haptics::FlightRecord sink_;
+  std::size_t at_ = 0;
+  std::int64_t now_ns_ = 0;
+  std::uint64_t sequence_ = 0;
+};
+
+}  // namespace
+
+TickTiming timeHot(const StrokeSettings& settings, const StrokeResult& stroke, int ticks) {
+  constexpr int kBatch = 16;
+  Again again(settings, stroke);
+  for (int i = 0; i < 2000; ++i) again.step();
+  std::vector<double> each;
+  for (int i = 0; i < ticks; i += kBatch) {
+    const double start = microseconds();
+    for (int k = 0; k < kBatch; ++k) again.step();
+    each.push_back((microseconds() - start) / kBatch);
+  }
+  return {quantile(each, 0.5), quantile(each, 0.99)};
+}
+
+TickTiming timePaced(const StrokeSettings& settings, const StrokeResult& stroke, double seconds) {
+  Again again(settings, stroke);
+  std::vector<double> each;
+  timespec due;
+  clock_gettime(CLOCK_MONOTONIC, &due);
+  for (int i = 0; i < int(seconds * 1000); ++i) {
+    due.tv_nsec += 1'000'000;
+    if (due.tv_nsec >= 1'000'000'000) due.tv_nsec -= 1'000'000'000, ++due.tv_sec;
+    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
+    const double start = microseconds();
+    again.step();
+    each.push_back(microseconds() - start);
+  }
+  return {quantile(each, 0.5), quantile(each, 0.99)};
+}
+
+}  // namespace palpa::bench
