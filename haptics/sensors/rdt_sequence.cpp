@@ -14,9 +14,10 @@ RdtStep advance(RdtSequence& state, const RdtRecord& record) noexcept {
   RdtStep step;
   if (state.known) {
     const std::int32_t by = ahead(record.rdt_sequence, state.rdt);
-    const bool new_stream = by <= 0 && ahead(record.ft_sequence, state.ft) > 0;
-    if (by <= 0 && !new_stream)
-      return {by == 0 ? RdtVerdict::duplicate : RdtVerdict::late, 0};
+    const std::int32_t ft_by = ahead(record.ft_sequence, state.ft);
+    if (by == 0 && ft_by == 0) return {RdtVerdict::duplicate, 0};
+    const bool new_stream = by <= 0 && ft_by > 0;
+    if (!new_stream && (by <= 0 || ft_by < 0)) return {RdtVerdict::late, 0};
     if (!new_stream) step.missing = static_cast<std::uint32_t>(by - 1);
   }
   state = {record.rdt_sequence, record.ft_sequence, true};

@@ -25,17 +25,20 @@ std::array<double, 6> contactUnfiltered(const WrenchFilter& filter, const Wrench
 
 ContactWrench step(const WrenchFilter& filter, WrenchFilterState& state, const WrenchSample& sample,
                    const PackedPose& X_WS, std::int64_t t_ns) noexcept {
-  if ((sample.flags & kUnusable) || !finite(sample.f_S) || !finite(sample.tau_S) ||
-      !finite(X_WS.p) || !finite(X_WS.q)) {
+  if (!finite(X_WS.p) || !finite(X_WS.q)) {
     state = {};
     return {};
   }
   const SensorMotion& motion = observe(filter.motion, state.motion, X_WS, t_ns);
-  const Wrench now{sample.f_S, sample.tau_S};
-  const auto raw = contactUnfiltered(filter, state.started ? state.before : now, motion);
-  if (!state.started) settle(filter.low_pass, state.low_pass, raw);
-  state.before = now;
-  state.started = 1;
+  const bool usable =
+      !(sample.flags & kUnusable) && finite(sample.f_S) && finite(sample.tau_S);
+  const bool ready = usable && state.held && state.motion.poses == 3;
+  const auto raw = contactUnfiltered(filter, state.before, motion);
+  state.before = {sample.f_S, sample.tau_S};
+  state.held = usable;
+  if (ready && !state.settled) settle(filter.low_pass, state.low_pass, raw);
+  state.settled = ready;
+  if (!ready) return {};
   const auto y = apply(filter.low_pass, state.low_pass, raw);
   return {{{y[0], y[1], y[2]}, {y[3], y[4], y[5]}}, true};
 }

@@ -26,23 +26,24 @@ struct WrenchFilter {
 struct WrenchFilterState {
   MotionState motion;
   LowPassState<6> low_pass;
-  Wrench before;             ///< measured one call ago
-  std::uint32_t started = 0;
-  std::uint32_t reserved = 0;
+  Wrench before;              ///< measured one call ago
+  std::uint32_t held = 0;     ///< `before` is there
+  std::uint32_t settled = 0;  ///< the low-pass has begun
 };
 static_assert(std::is_trivially_copyable_v<WrenchFilterState>);
 
 /// Reaction of the world on the tool: force and torque about the origin of S, in S.
 struct ContactWrench {
   Wrench contact;
-  bool valid = false;  ///< false: no usable sample; zero
+  bool valid = false;  ///< false: sample unusable, or motion not known yet; zero
 };
 
 /// Flags of samples that are not used. An overload is used: it is large, if not exact.
 inline constexpr std::uint32_t kUnusable = kNothingYet | kSilent | kFault | kSaturated;
 
-/// One tick: `sample` and the pose of S in W, both of time `t_ns`. After an unusable or not finite
-/// input it begins anew at the next good sample. No allocation, no exception.
+/// One tick: `sample` and the pose of S in W, both of time `t_ns`. It takes three poses and two samples
+/// to begin; after an unusable or not finite input, or a gap, it begins anew. No allocation, no
+/// exception.
 ContactWrench step(const WrenchFilter& filter, WrenchFilterState& state, const WrenchSample& sample,
                    const PackedPose& X_WS, std::int64_t t_ns) noexcept;
 
