@@ -34,11 +34,11 @@ static_assert(std::is_trivially_copyable_v<WrenchSample>);
 /// What a force sensor can do. SI units; a range of 0 is unknown and raises no overload.
 struct ForceSensorCapabilities {
   std::string name;
-  Packed3 max_force_N{0, 0, 0};     ///< x, y, z of S
+  Packed3 max_force_N{0, 0, 0};  ///< x, y, z of S
   Packed3 max_torque_Nm{0, 0, 0};
-  double force_resolution = 0;      ///< N
-  double torque_resolution = 0;     ///< N m
-  double rate_Hz = 0;               ///< samples a second
+  double force_resolution = 0;   ///< N
+  double torque_resolution = 0;  ///< N m
+  double rate_Hz = 0;            ///< samples a second
   bool simulated = false;
 };
 

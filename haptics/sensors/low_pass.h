@@ -12,7 +12,8 @@ namespace palpa::haptics {
 ///   y = b0 x + b1 x z^-1 + b2 x z^-2 - a1 y z^-1 - a2 y z^-2
 ///
 /// Gain 1 at rest, 1/sqrt(2) at f_c, 0 at f_s/2. Delay of slow signals sqrt(2)/(2 pi f_c).
-/// Source: Oppenheim, Schafer, Discrete-Time Signal Processing, ch. 7 (bilinear transform, Butterworth).
+/// Source: Oppenheim, Schafer, Discrete-Time Signal Processing, ch. 7 (bilinear transform,
+/// Butterworth).
 struct LowPass {
   double b0 = 1, b1 = 0, b2 = 0, a1 = 0, a2 = 0;
 };
@@ -28,7 +29,8 @@ struct LowPassState {
 
 /// As if `x` had been the input for ever.
 template <std::size_t N>
-void settle(const LowPass& filter, LowPassState<N>& state, const std::array<double, N>& x) noexcept {
+void settle(const LowPass& filter, LowPassState<N>& state,
+            const std::array<double, N>& x) noexcept {
   for (std::size_t i = 0; i < N; ++i) {
     state.z1[i] = (1 - filter.b0) * x[i];
     state.z2[i] = (filter.b2 - filter.a2) * x[i];

@@ -14,17 +14,19 @@
 namespace palpa::haptics {
 
 struct NetFtSettings {
-  std::string address;                   ///< in figures, as 192.168.1.1
+  std::string address;  ///< in figures, as 192.168.1.1
   std::uint16_t port = kRdtPort;
-  std::uint16_t local_port = 0;          ///< 0: any; a firewall may want a fixed one
+  std::uint16_t local_port = 0;  ///< 0: any; a firewall may want a fixed one
   std::uint16_t start_code = kRdtStart;
   RdtScale scale;
-  std::uint32_t saturation_bits = 0;     ///< bits of the status word that mean saturated; models differ
-  int wait_ms = 20;                      ///< longest wait of a step
-  int answer_tries = 5;                  ///< starts sent before `start` gives up
-  int answer_wait_ms = 200;              ///< wait for an answer to each
-  std::int64_t silent_ns = 10'000'000;   ///< older than this: kSilent. As the tick's silent device
-  std::int64_t restart_ns = 200'000'000; ///< nothing new for this long: start again, and again after it
+  std::uint32_t saturation_bits =
+      0;                     ///< bits of the status word that mean saturated; models differ
+  int wait_ms = 20;          ///< longest wait of a step
+  int answer_tries = 5;      ///< starts sent before `start` gives up
+  int answer_wait_ms = 200;  ///< wait for an answer to each
+  std::int64_t silent_ns = 10'000'000;  ///< older than this: kSilent. As the tick's silent device
+  std::int64_t restart_ns =
+      200'000'000;  ///< nothing new for this long: start again, and again after it
   ForceSensorCapabilities capabilities;
 };
 
@@ -41,9 +43,9 @@ enum class NetFtCount : std::uint8_t {
 };
 inline constexpr std::size_t kNetFtCounts = 8;
 
-/// ATI Net F/T or Ethernet Axia over UDP. Three threads at most: `step` again and again in one of the
-/// sensor's own, `read` in the haptic thread, `requestBias` and `count` in any.
-/// Stops the stream when destroyed; end the thread that steps before.
+/// ATI Net F/T or Ethernet Axia over UDP. Three threads at most: `step` again and again in one of
+/// the sensor's own, `read` in the haptic thread, `requestBias` and `count` in any. Stops the
+/// stream when destroyed; end the thread that steps before.
 class NetFtSensor final : public ForceSensor {
  public:
   using Now = std::function<std::int64_t()>;  ///< session time, ns; must not throw
@@ -55,12 +57,13 @@ class NetFtSensor final : public ForceSensor {
   /// Asks for the stream and waits for its first record. Throws Error when none comes.
   void start();
 
-  /// Waits for one datagram, at most `wait_ms`, and takes it. Starts the stream again after silence.
-  /// No allocation, lock or exception.
+  /// Waits for one datagram, at most `wait_ms`, and takes it. Starts the stream again after
+  /// silence. No allocation, lock or exception.
   void step() noexcept;
 
-  /// The sensor makes its present load its zero: sent by the next step. Also takes the tool's weight
-  /// away in its present orientation; a bias kept by the program is the better one where the tool turns.
+  /// The sensor makes its present load its zero: sent by the next step. Also takes the tool's
+  /// weight away in its present orientation; a bias kept by the program is the better one where the
+  /// tool turns.
   void requestBias() noexcept { bias_wanted_.store(true, std::memory_order_relaxed); }
 
   std::uint64_t count(NetFtCount what) const noexcept {

@@ -6,7 +6,8 @@ namespace {
 constexpr std::uint16_t kRdtHeader = 0x1234;
 
 std::uint32_t bigEndian32(const std::uint8_t* at) noexcept {
-  return std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 | at[3];
+  return std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 |
+         at[3];
 }
 
 }  // namespace

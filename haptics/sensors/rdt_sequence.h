@@ -26,8 +26,8 @@ struct RdtStep {
 
 /// Judges a record by its numbers (both wrap at 2^32) and advances the state when it is fresh.
 /// A request to start makes rdt_sequence begin again while ft_sequence runs on: a record with an
-/// older rdt_sequence but a newer ft_sequence therefore belongs to a new stream, and is fresh. One with
-/// an older ft_sequence is late in any case.
+/// older rdt_sequence but a newer ft_sequence therefore belongs to a new stream, and is fresh. One
+/// with an older ft_sequence is late in any case.
 RdtStep advance(RdtSequence& state, const RdtRecord& record) noexcept;
 
 }  // namespace palpa::haptics

@@ -9,12 +9,13 @@ namespace palpa::haptics {
 
 ReplaySensor::ReplaySensor(ForceSensorCapabilities capabilities, std::vector<WrenchSample> samples)
     : capabilities_(std::move(capabilities)), samples_(std::move(samples)) {
-  const auto back = std::is_sorted_until(samples_.begin(), samples_.end(),
-                                         [](const auto& a, const auto& b) { return a.t_ns < b.t_ns; });
+  const auto back =
+      std::is_sorted_until(samples_.begin(), samples_.end(),
+                           [](const auto& a, const auto& b) { return a.t_ns < b.t_ns; });
   if (back != samples_.end())
-    throw UsageError("sample " + std::to_string(back - samples_.begin()) +
-                         " is older than the one before it",
-                     "force sensor replay", "Sort the samples by time.");
+    throw UsageError(
+        "sample " + std::to_string(back - samples_.begin()) + " is older than the one before it",
+        "force sensor replay", "Sort the samples by time.");
 }
 
 WrenchSample ReplaySensor::read(std::int64_t now_ns) noexcept {

@@ -43,8 +43,8 @@ const SensorMotion& observe(const MotionSettings& settings, MotionState& state,
   const double periods = static_cast<double>(t_ns - state.t_1_ns) * 1e-9 * settings.rate_Hz;
   if (std::abs(periods) > 4) state.poses = 0;
   if (state.poses > 0 && periods < 0.5) return state.motion;
-  state.motion = state.poses >= 2 ? differences(settings, state, X_WS, t_ns)
-                                  : atRest(settings, X_WS);
+  state.motion =
+      state.poses >= 2 ? differences(settings, state, X_WS, t_ns) : atRest(settings, X_WS);
   state.X_WS_0 = state.X_WS_1;
   state.t_0_ns = state.t_1_ns;
   state.X_WS_1 = X_WS;

@@ -14,9 +14,9 @@ struct Wrench {
 
 /// The rigid body that the sensor carries: all that moves beyond its measuring element.
 struct ToolLoad {
-  double mass = 0;                   ///< kg
-  Packed3 p_SM{0, 0, 0};             ///< centre of mass M in S, m
-  std::array<double, 6> inertia{};   ///< about M, axes of S: xx yy zz xy xz yz, kg m^2; 0: a point
+  double mass = 0;                  ///< kg
+  Packed3 p_SM{0, 0, 0};            ///< centre of mass M in S, m
+  std::array<double, 6> inertia{};  ///< about M, axes of S: xx yy zz xy xz yz, kg m^2; 0: a point
 };
 
 /// How S moves, seen in S itself; g is gravity, downwards.
@@ -40,8 +40,9 @@ struct SensorMotion {
 ///   f_tool   = m (g - a_M)                                    at rest: the weight, downwards
 ///   tau_tool = r x f_tool - J alpha - omega x J omega
 ///
-/// and the reaction of the world on the tool is f_contact = f_meas - bias - f_tool, torque likewise.
-/// Source: any text on rigid bodies, e.g. Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 2.
+/// and the reaction of the world on the tool is f_contact = f_meas - bias - f_tool, torque
+/// likewise. Source: any text on rigid bodies, e.g. Featherstone, Rigid Body Dynamics Algorithms,
+/// 2008, ch. 2.
 Wrench toolWrench(const ToolLoad& tool, const SensorMotion& motion) noexcept;
 
 }  // namespace palpa::haptics

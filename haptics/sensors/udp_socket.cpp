@@ -42,9 +42,10 @@ Error networkError(int error_number, const std::string& where) {
   switch (error_number) {
     case ENETUNREACH:
     case EHOSTUNREACH:
-      return {"no route to the sensor", where,
-              "Check that the network cable is in, that the network card is on, and that this computer "
-              "has an address in the sensor's network."};
+      return {
+          "no route to the sensor", where,
+          "Check that the network cable is in, that the network card is on, and that this computer "
+          "has an address in the sensor's network."};
     case EADDRINUSE:
       return {"the local port is taken by another program", where,
               "End the other program (a second session?), or set the local port to 0."};
@@ -52,17 +53,19 @@ Error networkError(int error_number, const std::string& where) {
       return {"the computer at this address does not listen on this port", where,
               "Check that it is the sensor's address, and that RDT is enabled on its web page."};
     case EAGAIN:
-      return {"nothing answers", where,
-              "Check that the sensor has power and a link light, that its address is right, that no "
-              "firewall holds back UDP, that no other program reads it (it serves one at a time), and "
-              "that the start code fits the model."};
+      return {
+          "nothing answers", where,
+          "Check that the sensor has power and a link light, that its address is right, that no "
+          "firewall holds back UDP, that no other program reads it (it serves one at a time), and "
+          "that the start code fits the model."};
     case EPROTO:
       return {"what answers does not speak RDT", where,
               "Check the address and the port (49152), and that the start code fits the model."};
     case EACCES:
     case EPERM:
-      return {"this computer does not allow the connection", where,
-              "Check the address, the firewall's rules, and that the local port is 0 or above 1023."};
+      return {
+          "this computer does not allow the connection", where,
+          "Check the address, the firewall's rules, and that the local port is 0 or above 1023."};
     default:
       return {std::string("the network fails: ") + std::strerror(error_number), where,
               "Check the network card and the cable."};

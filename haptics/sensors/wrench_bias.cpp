@@ -32,8 +32,7 @@ BiasEstimate wrenchBias(std::span<const WrenchSample> samples, const ToolLoad& t
   const double n = static_cast<double>(samples.size());
   const Six mean = sum / n;
   Six squares = Six::Zero();
-  for (const WrenchSample& s : samples)
-    squares += (stacked(s.f_S, s.tau_S) - mean).cwiseAbs2();
+  for (const WrenchSample& s : samples) squares += (stacked(s.f_S, s.tau_S) - mean).cwiseAbs2();
   SensorMotion rest;
   rest.g_S = g_S;
   const Wrench weight = toolWrench(tool, rest);

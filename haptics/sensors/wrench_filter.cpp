@@ -30,8 +30,7 @@ ContactWrench step(const WrenchFilter& filter, WrenchFilterState& state, const W
     return {};
   }
   const SensorMotion& motion = observe(filter.motion, state.motion, X_WS, t_ns);
-  const bool usable =
-      !(sample.flags & kUnusable) && finite(sample.f_S) && finite(sample.tau_S);
+  const bool usable = !(sample.flags & kUnusable) && finite(sample.f_S) && finite(sample.tau_S);
   const bool ready = usable && state.held && state.motion.poses == 3;
   const auto raw = contactUnfiltered(filter, state.before, motion);
   state.before = {sample.f_S, sample.tau_S};

@@ -13,8 +13,8 @@ namespace palpa::haptics {
 ///
 ///   (f, tau)_contact = L[ (f, tau)_meas - bias - (f, tau)_tool ]        signs: tool_load.h
 ///
-/// (f, tau)_tool from the motion of S one call ago, so the measurement of one call ago is taken; L is
-/// one low-pass over the difference, so that what is measured and what is computed are delayed
+/// (f, tau)_tool from the motion of S one call ago, so the measurement of one call ago is taken; L
+/// is one low-pass over the difference, so that what is measured and what is computed are delayed
 /// alike. Delay of the whole: one call + sqrt(2)/(2 pi f_c).
 struct WrenchFilter {
   LowPass low_pass;
@@ -41,9 +41,9 @@ struct ContactWrench {
 /// Flags of samples that are not used. An overload is used: it is large, if not exact.
 inline constexpr std::uint32_t kUnusable = kNothingYet | kSilent | kFault | kSaturated;
 
-/// One tick: `sample` and the pose of S in W, both of time `t_ns`. It takes three poses and two samples
-/// to begin; after an unusable or not finite input, or a gap, it begins anew. No allocation, no
-/// exception.
+/// One tick: `sample` and the pose of S in W, both of time `t_ns`. It takes three poses and two
+/// samples to begin; after an unusable or not finite input, or a gap, it begins anew. No
+/// allocation, no exception.
 ContactWrench step(const WrenchFilter& filter, WrenchFilterState& state, const WrenchSample& sample,
                    const PackedPose& X_WS, std::int64_t t_ns) noexcept;
 

@@ -42,9 +42,7 @@ TEST(NetFtErrors, NothingAnswers) {
 
 TEST(NetFtErrors, NobodyListens) {
   std::uint16_t port = 0;
-  {
-    port = FakeNetFt().port();
-  }
+  { port = FakeNetFt().port(); }
   const std::string message = failure(at(port));
   EXPECT_TRUE(says(message, "does not listen")) << message;
 }
@@ -83,7 +81,9 @@ TEST(NetFtErrors, SettingsThatCannotBeAreUsage) {
 
 TEST(NetFtErrors, OpenedButNotStartedSendsNothing) {
   FakeNetFt server;
-  { NetFtSensor sensor(at(server.port()), [] { return 0; }); }
+  {
+    NetFtSensor sensor(at(server.port()), [] { return 0; });
+  }
   NetFtSensor marker(at(server.port()), [] { return 0; });
   marker.start();
   EXPECT_EQ(server.requests(), std::vector<Bytes>{kStartBytes})

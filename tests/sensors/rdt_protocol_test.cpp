@@ -31,9 +31,10 @@ TEST(RdtRequest, BytesAreThoseOfTheManual) {
 }
 
 TEST(RdtRecord, IsReadBigEndianAndSigned) {
-  const Bytes bytes{0, 0, 0, 7,    1, 2, 3, 4,          0x80, 0, 0, 1,         // numbers, status
-                    0, 0, 0, 1,    0xff, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff,  // force
-                    0, 0, 0x27, 0x10, 0x80, 0, 0, 0,     0xff, 0xff, 0xff, 0};       // torque
+  const Bytes bytes{
+      0, 0, 0,    7,    1,    2,    3,    4,    0x80, 0,    0,    1,     // numbers, status
+      0, 0, 0,    1,    0xff, 0xff, 0xff, 0xff, 0x7f, 0xff, 0xff, 0xff,  // force
+      0, 0, 0x27, 0x10, 0x80, 0,    0,    0,    0xff, 0xff, 0xff, 0};    // torque
   const RdtRecord record = parsed(bytes);
   EXPECT_EQ(record.rdt_sequence, 7u);
   EXPECT_EQ(record.ft_sequence, 0x01020304u);
@@ -43,7 +44,8 @@ TEST(RdtRecord, IsReadBigEndianAndSigned) {
 }
 
 TEST(RdtRecord, CountsBecomeNewtonsByTheSensorsScale) {
-  const RdtRecord record = parsed(recordBytes(1, 55, 0, {1'500'000, -250'000, 3, 80'000, 4, -16'000}));
+  const RdtRecord record =
+      parsed(recordBytes(1, 55, 0, {1'500'000, -250'000, 3, 80'000, 4, -16'000}));
   const WrenchSample sample = rdtWrench(record, {1e6, 1.6e4});
   EXPECT_EQ(sample.f_S, (Packed3{1.5, -0.25, 3e-6}));
   EXPECT_EQ(sample.tau_S, (Packed3{5, 2.5e-4, -1}));

@@ -3,8 +3,8 @@
 #include <cstdlib>
 #include <new>
 
-/// Counts allocations by operator new in the calling thread while a NoAllocation lives. Replaces the
-/// program's operator new: include it in one source file of a test program.
+/// Counts allocations by operator new in the calling thread while a NoAllocation lives. Replaces
+/// the program's operator new: include it in one source file of a test program.
 namespace palpa {
 
 class NoAllocation {
