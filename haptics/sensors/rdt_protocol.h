@@ -21,8 +21,8 @@ inline constexpr std::uint16_t kRdtStop = 0;
 inline constexpr std::uint16_t kRdtStart = 2;  ///< Net F/T; models differ, so it is a setting
 inline constexpr std::uint16_t kRdtSoftwareBias = 0x42;
 inline constexpr std::size_t kRdtRecordBytes = 36;
-inline constexpr std::size_t kRdtDatagramBytes =
-    40 * kRdtRecordBytes;  ///< most in one Ethernet frame
+/// Most in one Ethernet frame (1500 bytes with 28 of headers).
+inline constexpr std::size_t kRdtDatagramBytes = 40 * kRdtRecordBytes;
 
 using RdtRequest = std::array<std::uint8_t, 8>;
 RdtRequest rdtRequest(std::uint16_t command, std::uint32_t samples = 0) noexcept;

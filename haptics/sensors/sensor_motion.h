@@ -23,9 +23,10 @@ struct MotionState {
 static_assert(std::is_trivially_copyable_v<MotionState>);
 
 /// Motion of S at the pose before the newest one, by central differences over three poses 0, 1, 2,
-/// h = (t_2 - t_0)/2, v the velocity of a step, phi its rotation vector in S over its time:
+/// h = (t_2 - t_0)/2, v the displacement in a step over its time, w the rotation vector in a
+/// step over its time:
 ///
-///   a = (v_12 - v_01)/h,   alpha = (phi_12 - phi_01)/h,   omega = (phi_01 + phi_12)/2
+///   a = (v_12 - v_01)/h,   alpha = (w_12 - w_01)/h,   omega = (w_01 + w_12)/2
 ///
 /// Relative error (2 pi f h)^2 / 12 for a motion at f: 8e-5 at 5 Hz. A step shorter than half a
 /// period (the same reading twice) keeps the last motion; one longer than four, or back in time,

@@ -41,8 +41,7 @@ struct SensorMotion {
 ///   tau_tool = r x f_tool - J alpha - omega x J omega
 ///
 /// and the reaction of the world on the tool is f_contact = f_meas - bias - f_tool, torque
-/// likewise. Source: any text on rigid bodies, e.g. Featherstone, Rigid Body Dynamics Algorithms,
-/// 2008, ch. 2.
+/// likewise. Source: Featherstone, Rigid Body Dynamics Algorithms, 2008, ch. 2.
 Wrench toolWrench(const ToolLoad& tool, const SensorMotion& motion) noexcept;
 
 }  // namespace palpa::haptics
