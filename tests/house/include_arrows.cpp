@@ -53,8 +53,9 @@ std::vector<Layer> makeLayers() {
   return {
       {"anatomy/geometry", {}, {}, {"Eigen"}},
       {"haptics/materials", {"anatomy/geometry"}, {}, {"Eigen"}},
+      {"haptics/sensors", {"haptics", "anatomy/geometry"}, {}, {"Eigen"}},
       {"anatomy", {}, {}, {"Eigen", "JSON", "tinygltf", "GDCM", "VTK data"}},
-      {"haptics", {"anatomy/geometry"}, {}, {"Eigen", "libusb"}},
+      {"haptics", {"anatomy/geometry"}, {"haptics/sensors"}, {"Eigen", "libusb"}},
       {"calibration",
        {"anatomy/geometry", "haptics/materials"},
        {},

@@ -1,0 +1,45 @@
+#include "haptics/sensors/wrench_filter.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpa::haptics {
+namespace {
+
+bool finite(const auto& values) noexcept {
+  return std::all_of(values.begin(), values.end(), [](double v) { return std::isfinite(v); });
+}
+
+std::array<double, 6> contactUnfiltered(const WrenchFilter& filter, const Wrench& measured,
+                                        const SensorMotion& motion) noexcept {
+  const Wrench tool = toolWrench(filter.tool, motion);
+  std::array<double, 6> contact;
+  for (std::size_t i = 0; i < 3; ++i) {
+    contact[i] = measured.f_S[i] - filter.bias.f_S[i] - tool.f_S[i];
+    contact[3 + i] = measured.tau_S[i] - filter.bias.tau_S[i] - tool.tau_S[i];
+  }
+  return contact;
+}
+
+}  // namespace
+
+ContactWrench step(const WrenchFilter& filter, WrenchFilterState& state, const WrenchSample& sample,
+                   const PackedPose& X_WS, std::int64_t t_ns) noexcept {
+  if (!finite(X_WS.p) || !finite(X_WS.q)) {
+    state = {};
+    return {};
+  }
+  const SensorMotion& motion = observe(filter.motion, state.motion, X_WS, t_ns);
+  const bool usable = !(sample.flags & kUnusable) && finite(sample.f_S) && finite(sample.tau_S);
+  const bool ready = usable && state.held && state.motion.poses == 3;
+  const auto raw = contactUnfiltered(filter, state.before, motion);
+  state.before = {sample.f_S, sample.tau_S};
+  state.held = usable;
+  if (ready && !state.settled) settle(filter.low_pass, state.low_pass, raw);
+  state.settled = ready;
+  if (!ready) return {};
+  const auto y = apply(filter.low_pass, state.low_pass, raw);
+  return {{{y[0], y[1], y[2]}, {y[3], y[4], y[5]}}, true};
+}
+
+}  // namespace palpa::haptics
