@@ -1,17 +1,12 @@
 #include "apps/bench/tick_timing.h"
 
-#include <time.h>
-
-#include <chrono>
+#include <memory>
 
 #include "apps/bench/metric.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::bench {
 namespace {
-
-double microseconds() {
-  return std::chrono::duration<double, std::micro>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
 
 /// Runs the stroke's ticks again, round and round, with its snapshots when they came.
 class Again {
@@ -49,27 +44,26 @@ TickTiming timeHot(const StrokeSettings& settings, const StrokeResult& stroke, i
   constexpr int kBatch = 16;
   Again again(settings, stroke);
   for (int i = 0; i < 2000; ++i) again.step();
+  const runtime::SteadyClock clock;
   std::vector<double> each;
   for (int i = 0; i < ticks; i += kBatch) {
-    const double start = microseconds();
+    const std::int64_t start = clock.now();
     for (int k = 0; k < kBatch; ++k) again.step();
-    each.push_back((microseconds() - start) / kBatch);
+    each.push_back(1e-3 * double(clock.now() - start) / kBatch);
   }
   return {quantile(each, 0.5), quantile(each, 0.99)};
 }
 
 TickTiming timePaced(const StrokeSettings& settings, const StrokeResult& stroke, double seconds) {
   Again again(settings, stroke);
+  runtime::SteadyClock clock;
   std::vector<double> each;
-  timespec due;
-  clock_gettime(CLOCK_MONOTONIC, &due);
+  std::int64_t due = clock.now();
   for (int i = 0; i < int(seconds * 1000); ++i) {
-    due.tv_nsec += 1'000'000;
-    if (due.tv_nsec >= 1'000'000'000) due.tv_nsec -= 1'000'000'000, ++due.tv_sec;
-    clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &due, nullptr);
-    const double start = microseconds();
+    clock.sleepUntil(due += 1'000'000);
+    const std::int64_t start = clock.now();
     again.step();
-    each.push_back(microseconds() - start);
+    each.push_back(1e-3 * double(clock.now() - start));
   }
   return {quantile(each, 0.5), quantile(each, 0.99)};
 }

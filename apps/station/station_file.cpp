@@ -27,9 +27,8 @@ haptics::DeviceCapabilities readDevice(const JsonFile& file) {
   device.stable_stiffness = file.number("device/stable_stiffness_N_per_m", 50, 50'000);
   device.position_resolution = kMm * file.number("device/position_resolution_mm", 0, 1);
   device.apparent_mass = file.number("device/apparent_mass_kg", 0, 5);
-  if (file.has("device/viscous_Ns_per_m"))
-    device.viscous_damping = file.number("device/viscous_Ns_per_m", 0, 50);
-  if (file.has("device/coulomb_N")) device.coulomb_friction = file.number("device/coulomb_N", 0, 5);
+  device.viscous_damping = file.number("device/viscous_Ns_per_m", 0, 50);
+  device.coulomb_friction = file.number("device/coulomb_N", 0, 5);
   const std::string driver = file.text("device/driver");
   if (driver != "virtual") file.refuse("device/driver", "is \"" + driver + "\"; known: virtual");
   device.simulated = true;
