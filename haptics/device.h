@@ -29,6 +29,8 @@ struct DeviceCapabilities {
   double apparent_mass = 0;        ///< kg
   int force_axes = 3;
   bool has_orientation = true;
+  Packed3 workspace_centre{0, 0, 0};     ///< in D, m
+  Packed3 workspace_half_size{0, 0, 0};  ///< m; the box about the centre is reached; zero: unknown
   bool simulated = false;
 };
 
