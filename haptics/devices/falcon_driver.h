@@ -10,7 +10,8 @@
 
 namespace palpa::haptics {
 
-/// 8 N and 3000 N/m as in CHAI3D's device table; resolution from falconResolution(); the mass at the grip
+/// 8 N and 3000 N/m as in CHAI3D's device table (the counts may end at 6.2 N across the axis, see README);
+/// resolution from falconResolution(); the mass at the grip
 /// is not known (0). Workspace: the cube of 8 cm about the centre, every corner of which is reached.
 DeviceCapabilities falconCapabilities();
 

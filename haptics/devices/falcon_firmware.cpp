@@ -81,8 +81,9 @@ FalconUploadResult failed(FalconUpload why, UsbStatus status) {
 }  // namespace
 
 std::vector<std::uint8_t> readFalconFirmware(const std::filesystem::path& path) {
+  std::error_code nothing;
   std::ifstream file(path, std::ios::binary);
-  if (!file)
+  if (!file || !std::filesystem::is_regular_file(path, nothing))
     throw Error("cannot be read", "the Falcon's firmware " + path.string(),
                 "Give the path of a firmware file; it comes with Novint's drivers "
                 "(nvent_firmware.bin) and is not part of Palpa.");
