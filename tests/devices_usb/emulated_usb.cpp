@@ -104,9 +104,10 @@ void EmulatedUsb::answer(UMockdevIoctlClient* client) {
     case USBDEVFS_DISCARDURB: error = discard(argument); break;
     case USBDEVFS_CLEAR_HALT: ++cleared_halts; break;
     case USBDEVFS_CLAIMINTERFACE:
-      error = held ? EBUSY : 0;
-      claims += !held;
+      error = held || kernel_driver ? EBUSY : 0;
+      claims += error == 0;
       break;
+    case USBDEVFS_IOCTL: error = bindKernelDriver(argument); break;
     case USBDEVFS_RELEASEINTERFACE: ++releases; break;
     case USBDEVFS_GETDRIVER: error = ENODATA; break;
     case USBDEVFS_GET_CAPABILITIES:
@@ -115,6 +116,15 @@ void EmulatedUsb::answer(UMockdevIoctlClient* client) {
     default: error = ENOTTY;
   }
   umockdev_ioctl_client_complete(client, error ? -1 : 0, error);
+}
+
+int EmulatedUsb::bindKernelDriver(UMockdevIoctlData* argument) {
+  UMockdevIoctlData* data =
+      umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_ioctl), nullptr);
+  const int code = reinterpret_cast<const usbdevfs_ioctl*>(data->data)->ioctl_code;
+  umockdev_ioctl_data_unref(data);
+  const bool bind = code == static_cast<int>(USBDEVFS_CONNECT);
+  return kernel_driver.exchange(bind) == bind ? ENODATA : 0;
 }
 
 int EmulatedUsb::submit(UMockdevIoctlData* argument) {

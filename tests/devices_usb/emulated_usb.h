@@ -29,6 +29,7 @@ class EmulatedUsb {
   std::atomic<int> stalls{0};          ///< so many of the next reads stall
   std::atomic<int> silences{0};        ///< so many of the next reads are not answered at all
   std::atomic<bool> held{false};       ///< another program has the interface
+  std::atomic<bool> kernel_driver{true};  ///< the kernel's serial driver has it
   std::atomic<int> cleared_halts{0};
   std::atomic<int> claims{0}, releases{0};
 
@@ -42,6 +43,7 @@ class EmulatedUsb {
   };
   static gboolean handle(UMockdevIoctlBase*, UMockdevIoctlClient* client, EmulatedUsb* self);
   void answer(UMockdevIoctlClient* client);
+  int bindKernelDriver(UMockdevIoctlData* argument);
   int submit(UMockdevIoctlData* argument);
   int reap(UMockdevIoctlData* argument);
   int discard(UMockdevIoctlData* argument);

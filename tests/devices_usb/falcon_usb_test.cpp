@@ -46,13 +46,15 @@ TEST_F(FalconOnUsb, UploadsHomesAndRunsFiveThousandCycles) {
   EXPECT_EQ(rig->driver.status().missed, 0u);
 }
 
-TEST_F(FalconOnUsb, TheLastPacketIsZeroAndTheInterfaceIsLetGo) {
+TEST_F(FalconOnUsb, TheLastPacketIsZeroAndTheKernelsDriverComesBack) {
   start();
+  EXPECT_FALSE(usb->kernel_driver);
   rig->driver.close();
   EXPECT_FALSE(rig->lastCommand().pushes());
   EXPECT_EQ(rig->lastCommand().flags, 0);
   EXPECT_EQ(usb->claims, 1);
   EXPECT_EQ(usb->releases, 1);
+  EXPECT_TRUE(usb->kernel_driver);
 }
 
 TEST_F(FalconOnUsb, AStallIsClearedAndCostsOnePacket) {
