@@ -10,18 +10,18 @@
 
 namespace palpa::haptics {
 
-/// 8 N and 3000 N/m as in CHAI3D's device table (the counts may end at 6.2 N across the axis, see README);
-/// resolution from falconResolution(); the mass at the grip
-/// is not known (0). Workspace: the cube of 8 cm about the centre, every corner of which is reached.
+/// 8 N and 3000 N/m as in CHAI3D's device table (the counts may end at 6.2 N across the axis, see
+/// README); resolution from falconResolution(); the mass at the grip is not known (0). Workspace:
+/// the cube of 8 cm about the centre, every corner of which is reached.
 DeviceCapabilities falconCapabilities();
 
 /// A Novint Falcon as the haptic loop sees it. Three threads may hold it:
 ///   haptic   read() and command() exchange latest values; they never wait, allocate or throw
 ///   device   open(), then step() whenever it is due, then close()
 ///   watcher  status(), one thread
-/// All of them count the same time. A reading is stamped with the beginning of its exchange, when the
-/// device looks at its encoders; its sequence grows only with a position that is known, or before homing
-/// with each answer. A force is rendered while the command is younger than 20 ms.
+/// All of them count the same time. A reading is stamped with the beginning of its exchange, when
+/// the device looks at its encoders; its sequence grows only with a position that is known, or
+/// before homing with each answer. A force is rendered while the command is younger than 20 ms.
 class FalconDriver final : public HapticDevice {
  public:
   /// `firmware` from readFalconFirmware(), or empty.
@@ -32,7 +32,8 @@ class FalconDriver final : public HapticDevice {
   void command(std::int64_t now_ns, const Packed3& f_D) noexcept override;
 
   void open() noexcept { link_.open(); }
-  /// One exchange, or whatever else is due; returns when the next is due (FalconLink::kNever: closed).
+  /// One exchange, or whatever else is due; returns when the next is due (FalconLink::kNever:
+  /// closed).
   std::int64_t step(std::int64_t now_ns) noexcept;
   void close() noexcept;
 

@@ -13,7 +13,8 @@ namespace {
 constexpr std::size_t kSmallestImage = 6'000, kLargestImage = 12'000;  // known ones: 7,324 to 8,492
 constexpr std::size_t kChunk = 62;  // fits one USB packet beside the two status bytes
 constexpr std::uint16_t kBaud9600 = 0x4138, kBaudUpload = 0x0015, kBaudNormal = 0x0002;
-constexpr int kGreetings = 100, kGreetingPatience = 3, kEchoPatience = 6;  // empty packets, 16 ms each
+constexpr int kGreetings = 100, kGreetingPatience = 3,
+              kEchoPatience = 6;  // empty packets, 16 ms each
 constexpr std::array<std::uint8_t, 3> kGreeting{0x0A, 0x43, 0x0D};
 constexpr std::array<std::uint8_t, 4> kGreetingReply{0x0A, 0x44, 0x2C, 0x0D};
 constexpr std::array<std::uint8_t, 1> kBegin{0x41};
@@ -48,7 +49,8 @@ UsbStatus setLoaderMode(FtdiSerial& serial) {
 
 enum class Before { nothing, zeros };  // what may come before an answer
 
-/// Sends and waits for `wanted` to come back. ok: it came; timeout: something else came, or not enough.
+/// Sends and waits for `wanted` to come back. ok: it came; timeout: something else came, or not
+/// enough.
 UsbStatus ask(FtdiSerial& serial, UploadBytes sent, UploadBytes wanted, int patience,
               Before before = Before::nothing) {
   if (const UsbStatus status = serial.write(sent); status != UsbStatus::ok) return status;

@@ -7,9 +7,9 @@
 
 #include "haptics/devices/ftdi_serial.h"
 
-/// The Falcon's firmware lives in memory that forgets: it is uploaded once after each power-up. The image
-/// belongs to Novint and is not free: it is never part of this project, the user gives a file (it comes
-/// with Novint's drivers; the one in common use, nvent_firmware.bin, has 8,492 bytes).
+/// The Falcon's firmware lives in memory that forgets: it is uploaded once after each power-up. The
+/// image belongs to Novint and is not free: it is never part of this project, the user gives a file
+/// (it comes with Novint's drivers; the one in common use, nvent_firmware.bin, has 8,492 bytes).
 namespace palpa::haptics {
 
 /// Reads an image. Throws palpa::Error when it is missing or no firmware by its size.
@@ -27,8 +27,9 @@ struct FalconUploadResult {
   UsbStatus usb = UsbStatus::ok;
 };
 
-/// One try: resets the microcontroller into its loader, greets it, sends the image in chunks of at most
-/// 62 bytes each of which must come back as it went (the only check there is). Blocks for seconds.
+/// One try: resets the microcontroller into its loader, greets it, sends the image in chunks of at
+/// most 62 bytes each of which must come back as it went (the only check there is). Blocks for
+/// seconds.
 FalconUploadResult uploadFalconFirmware(FtdiSerial& serial,
                                         std::span<const std::uint8_t> image) noexcept;
 

@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kDegree = std::numbers::pi / 180;
 
-// Lengths in metres, as in Stamper's thesis; the Falcon's figures are libnifalcon's (FalconGeometry).
+// Lengths in metres, as in Stamper's thesis; the Falcon's figures are libnifalcon's
+// (FalconGeometry).
 constexpr double kThigh = 0.060;         // a
 constexpr double kShank = 0.1025;        // b, long side of the parallelogram
 constexpr double kGripToKnee = 0.01443;  // c
@@ -85,7 +86,8 @@ Mat3 falconJacobian(const FalconLegs& legs) noexcept {
     const double out = std::cos(legs.theta2[i]) * std::sin(legs.theta3[i]);
     const double side = std::cos(legs.theta3[i]);
     const double up = std::sin(legs.theta2[i]) * std::sin(legs.theta3[i]);
-    const double den = kThigh * std::sin(legs.theta3[i]) * std::sin(legs.theta2[i] - legs.theta1[i]);
+    const double den =
+        kThigh * std::sin(legs.theta3[i]) * std::sin(legs.theta2[i] - legs.theta1[i]);
     J.row(i) << (std::cos(azimuth) * out - std::sin(azimuth) * side) / den,
         (std::sin(azimuth) * out + std::cos(azimuth) * side) / den, up / den;
   }
@@ -106,7 +108,8 @@ std::optional<FalconPose> falconForward(const Vec3& theta1, const Vec3& p_start_
 
 Vec3 falconTorque(const FalconLegs& legs, const Vec3& f_D) noexcept {
   const auto flat = [&](int i) {
-    return std::abs(std::sin(legs.theta3[i]) * std::sin(legs.theta2[i] - legs.theta1[i])) < kSingular;
+    return std::abs(std::sin(legs.theta3[i]) * std::sin(legs.theta2[i] - legs.theta1[i])) <
+           kSingular;
   };
   if (flat(0) || flat(1) || flat(2)) return Vec3::Zero();
   const Vec3 torque = falconJacobian(legs).inverse().transpose() * f_D;

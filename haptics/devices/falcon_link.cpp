@@ -33,9 +33,14 @@ std::int64_t FalconLink::step(std::int64_t now_ns,
   if (now_ns < due_ns_) return due_ns_;
   switch (status_.state) {
     case FalconState::opening:
-    case FalconState::lost: connect(now_ns); break;
-    case FalconState::uploading: upload(now_ns); break;
-    default: exchange(now_ns, motor);
+    case FalconState::lost:
+      connect(now_ns);
+      break;
+    case FalconState::uploading:
+      upload(now_ns);
+      break;
+    default:
+      exchange(now_ns, motor);
   }
   status_.skipped_bytes = parser_.skipped();
   return due_ns_;
@@ -137,8 +142,8 @@ void FalconLink::miss(std::int64_t now_ns, UsbStatus status) noexcept {
 
 void FalconLink::giveUp(std::int64_t now_ns, FalconProblem problem) noexcept {
   usb_.close();
-  status_.state = talking() || status_.state == FalconState::lost ? FalconState::lost
-                                                                  : FalconState::opening;
+  status_.state =
+      talking() || status_.state == FalconState::lost ? FalconState::lost : FalconState::opening;
   status_.problem = problem;
   due_ns_ = now_ns + pause_ns_;
   pause_ns_ = std::min(2 * pause_ns_, kLongestPause_ns);

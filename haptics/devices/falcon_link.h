@@ -17,8 +17,8 @@ inline constexpr UsbAddress kFalconUsb{0x0403, 0xCB48, 0x02, 0x81};
 struct FalconStatus {
   FalconState state = FalconState::closed;
   FalconProblem problem = FalconProblem::none;
-  std::uint64_t exchanges = 0;      ///< answered
-  std::uint64_t missed = 0;         ///< packets without an answer, whatever the reason
+  std::uint64_t exchanges = 0;  ///< answered
+  std::uint64_t missed = 0;     ///< packets without an answer, whatever the reason
   std::uint64_t stalls = 0, timeouts = 0;
   std::uint64_t skipped_bytes = 0;  ///< received, part of no report
   std::uint64_t opened = 0, uploads = 0;
@@ -30,9 +30,9 @@ struct FalconStatus {
 ///                ^                        |         |
 ///               lost <------ unplugged or silent ---'   (opened again, ever more seldom to 2 s)
 ///
-/// Every packet is one step: motor counts out, a report in. The motors get zero unless the last packet
-/// was answered and all three legs are homed; the last packet before close() is zero. Until homed every
-/// packet asks for homing and lights the red LED, then the green one.
+/// Every packet is one step: motor counts out, a report in. The motors get zero unless the last
+/// packet was answered and all three legs are homed; the last packet before close() is zero. Until
+/// homed every packet asks for homing and lights the red LED, then the green one.
 ///
 /// Belongs to one thread, which may block in it: milliseconds an exchange, seconds an upload.
 class FalconLink {

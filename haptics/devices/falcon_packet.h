@@ -5,10 +5,10 @@
 #include <cstdint>
 #include <optional>
 
-/// The packets of a Novint Falcon with running firmware: the host sends one, the device answers with
-/// one, 16 bytes each way. Byte 0 is '<', byte 15 is '>'; bytes 1..14 carry 0x41 + value. Three signed
-/// 16-bit numbers stand in bytes 1..12, a nibble a byte, the low nibble first.
-/// Source of the layout: libnifalcon (BSD-3), FalconFirmwareNovintSDK.
+/// The packets of a Novint Falcon with running firmware: the host sends one, the device answers
+/// with one, 16 bytes each way. Byte 0 is '<', byte 15 is '>'; bytes 1..14 carry 0x41 + value.
+/// Three signed 16-bit numbers stand in bytes 1..12, a nibble a byte, the low nibble first. Source
+/// of the layout: libnifalcon (BSD-3), FalconFirmwareNovintSDK.
 namespace palpa::haptics {
 
 inline constexpr std::size_t kFalconPacketSize = 16;
@@ -38,8 +38,9 @@ struct FalconReport {
 
 FalconPacket encode(const FalconCommand& command) noexcept;
 
-/// Finds reports in a stream of bytes that may be split, torn or mixed with others. Any bytes do: what
-/// does not belong to a report is skipped and counted. None of the values of a packet looks like '<' or
+/// Finds reports in a stream of bytes that may be split, torn or mixed with others. Any bytes do:
+/// what does not belong to a report is skipped and counted. None of the values of a packet looks
+/// like '<' or
 /// '>', therefore the first whole packet after garbage is found.
 class FalconParser {
  public:

@@ -10,13 +10,15 @@ struct FalconWords {
 
 FalconWords wordsFor(FalconProblem problem) {
   switch (problem) {
-    case FalconProblem::none: return {"nothing is wrong", "Nothing needs to be done"};
+    case FalconProblem::none:
+      return {"nothing is wrong", "Nothing needs to be done"};
     case FalconProblem::absent:
       return {"is not there", "Plug in its USB cable and its power supply."};
     case FalconProblem::denied:
-      return {"may not be used by this user",
-              "As root copy assets/udev/60-palpa-falcon.rules into /etc/udev/rules.d, run \"udevadm "
-              "control --reload\", and plug the Falcon in again."};
+      return {
+          "may not be used by this user",
+          "As root copy assets/udev/60-palpa-falcon.rules into /etc/udev/rules.d, run \"udevadm "
+          "control --reload\", and plug the Falcon in again."};
     case FalconProblem::busy:
       return {"is in use by another program", "Close that program."};
     case FalconProblem::needs_firmware:
@@ -30,7 +32,8 @@ FalconWords wordsFor(FalconProblem problem) {
     case FalconProblem::silent:
       return {"stopped answering",
               "It is opened again. If that lasts: unplug its power supply and plug it in again."};
-    case FalconProblem::usb: break;
+    case FalconProblem::usb:
+      break;
   }
   return {"does not work on this USB port",
           "It is tried again. If that lasts: use another cable or another USB port."};
@@ -40,13 +43,18 @@ FalconWords wordsFor(FalconProblem problem) {
 
 FalconProblem problemOf(UsbStatus status) {
   switch (status) {
-    case UsbStatus::ok: return FalconProblem::none;
-    case UsbStatus::gone: return FalconProblem::absent;
-    case UsbStatus::denied: return FalconProblem::denied;
-    case UsbStatus::busy: return FalconProblem::busy;
+    case UsbStatus::ok:
+      return FalconProblem::none;
+    case UsbStatus::gone:
+      return FalconProblem::absent;
+    case UsbStatus::denied:
+      return FalconProblem::denied;
+    case UsbStatus::busy:
+      return FalconProblem::busy;
     case UsbStatus::timeout:
     case UsbStatus::stall:
-    case UsbStatus::other: break;
+    case UsbStatus::other:
+      break;
   }
   return FalconProblem::usb;
 }
@@ -59,11 +67,15 @@ Error falconError(FalconProblem problem) {
 const char* falconInstruction(FalconState state) {
   switch (state) {
     case FalconState::opening:
-    case FalconState::lost: return "Plug in the Falcon's USB cable and power supply.";
-    case FalconState::uploading: return "Wait: the Falcon receives its firmware.";
-    case FalconState::homing: return "Pull the grip fully out, then push it fully in.";
+    case FalconState::lost:
+      return "Plug in the Falcon's USB cable and power supply.";
+    case FalconState::uploading:
+      return "Wait: the Falcon receives its firmware.";
+    case FalconState::homing:
+      return "Pull the grip fully out, then push it fully in.";
     case FalconState::closed:
-    case FalconState::ready: break;
+    case FalconState::ready:
+      break;
   }
   return "";
 }

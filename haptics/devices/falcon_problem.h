@@ -25,7 +25,7 @@ enum class FalconProblem : std::uint8_t {
   busy,
   needs_firmware,  ///< it does not answer, and no firmware was given
   upload_failed,
-  silent,          ///< it is plugged in and stopped answering
+  silent,  ///< it is plugged in and stopped answering
   usb,
 };
 

@@ -14,9 +14,10 @@ struct FtdiPayload {
   std::span<const std::uint8_t> view() const { return {bytes.data(), size}; }
 };
 
-/// The FTDI USB-serial chip in front of a microcontroller: vendor requests, and the two status bytes
-/// (modem, line) that lead every IN packet of at most 64 bytes, which are taken off here. With nothing
-/// to say the chip sends the status alone each time its latency timer ends: an empty payload.
+/// The FTDI USB-serial chip in front of a microcontroller: vendor requests, and the two status
+/// bytes (modem, line) that lead every IN packet of at most 64 bytes, which are taken off here.
+/// With nothing to say the chip sends the status alone each time its latency timer ends: an empty
+/// payload.
 class FtdiSerial {
  public:
   explicit FtdiSerial(UsbTransport& usb) : usb_(usb) {}

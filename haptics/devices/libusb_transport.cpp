@@ -10,14 +10,21 @@ constexpr std::uint8_t kVendorOut = 0x40;
 
 UsbStatus statusOf(int libusb_error) {
   switch (libusb_error) {
-    case LIBUSB_SUCCESS: return UsbStatus::ok;
-    case LIBUSB_ERROR_TIMEOUT: return UsbStatus::timeout;
-    case LIBUSB_ERROR_PIPE: return UsbStatus::stall;
+    case LIBUSB_SUCCESS:
+      return UsbStatus::ok;
+    case LIBUSB_ERROR_TIMEOUT:
+      return UsbStatus::timeout;
+    case LIBUSB_ERROR_PIPE:
+      return UsbStatus::stall;
     case LIBUSB_ERROR_NO_DEVICE:
-    case LIBUSB_ERROR_NOT_FOUND: return UsbStatus::gone;
-    case LIBUSB_ERROR_ACCESS: return UsbStatus::denied;
-    case LIBUSB_ERROR_BUSY: return UsbStatus::busy;
-    default: return UsbStatus::other;
+    case LIBUSB_ERROR_NOT_FOUND:
+      return UsbStatus::gone;
+    case LIBUSB_ERROR_ACCESS:
+      return UsbStatus::denied;
+    case LIBUSB_ERROR_BUSY:
+      return UsbStatus::busy;
+    default:
+      return UsbStatus::other;
   }
 }
 
@@ -95,8 +102,8 @@ UsbStatus LibusbTransport::bulk(std::uint8_t endpoint, std::uint8_t* bytes, std:
   done = 0;
   if (!handle_) return UsbStatus::gone;
   int moved = 0;
-  const int error = libusb_bulk_transfer(handle_, endpoint, bytes, static_cast<int>(size), &moved,
-                                         timeout_ms);
+  const int error =
+      libusb_bulk_transfer(handle_, endpoint, bytes, static_cast<int>(size), &moved, timeout_ms);
   if (error == LIBUSB_ERROR_PIPE) libusb_clear_halt(handle_, endpoint);
   done = static_cast<std::size_t>(moved);
   return statusOf(error);

@@ -23,8 +23,8 @@ struct UsbControl {
   std::uint16_t value = 0;
 };
 
-/// One USB device with one interface. Calls block up to their time-out and belong into a driver's own
-/// thread; nothing throws. Real: LibusbTransport. Tests put a scripted device here.
+/// One USB device with one interface. Calls block up to their time-out and belong into a driver's
+/// own thread; nothing throws. Real: LibusbTransport. Tests put a scripted device here.
 class UsbTransport {
  public:
   virtual ~UsbTransport() = default;

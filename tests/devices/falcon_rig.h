@@ -61,8 +61,8 @@ struct FalconRig {
   }
 };
 
-/// How far the force that these counts give at `p` is from `f`, by virtual work on differences of the
-/// inverse kinematics; in units of what half a count on every leg makes.
+/// How far the force that these counts give at `p` is from `f`, by virtual work on differences of
+/// the inverse kinematics; in units of what half a count on every leg makes.
 inline double forceError(const TwinCommand& command, const Vec3& p, const Vec3& f) {
   Mat3 J;
   for (int axis = 0; axis < 3; ++axis) {
@@ -74,8 +74,8 @@ inline double forceError(const TwinCommand& command, const Vec3& p, const Vec3& 
   return (J.transpose() * tau - f).norm() / (0.5e-4 * J.rowwise().norm().sum());
 }
 
-/// The grip on a path through the workspace while the loop commands a turning force: in every cycle the
-/// position must be right, and every byte of the packet the one that this force needs.
+/// The grip on a path through the workspace while the loop commands a turning force: in every cycle
+/// the position must be right, and every byte of the packet the one that this force needs.
 inline void cycleAndCheck(FalconRig& rig, int cycles) {
   ASSERT_TRUE(rig.reach(haptics::FalconState::ready));
   rig.holdGripAt(haptics::kFalconCentre);
@@ -84,7 +84,8 @@ inline void cycleAndCheck(FalconRig& rig, int cycles) {
   const double resolution = rig.driver.capabilities().position_resolution;
   for (int i = 0; i < cycles; ++i) {
     const double s = i / 400.0;
-    const Vec3 p = haptics::kFalconCentre + 0.038 * Vec3(std::sin(3 * s), std::sin(4 * s), std::sin(5 * s));
+    const Vec3 p =
+        haptics::kFalconCentre + 0.038 * Vec3(std::sin(3 * s), std::sin(4 * s), std::sin(5 * s));
     rig.holdGripAt(p);
     rig.twin.mutex.lock();
     rig.twin.reply.buttons = static_cast<std::uint8_t>(i & 15);

@@ -9,8 +9,8 @@
 #include <span>
 #include <vector>
 
-/// A Falcon as it looks from the USB cable: chip, loader, firmware. Written from the device's side, with
-/// its own reading and writing of bytes, so that it can judge the driver's.
+/// A Falcon as it looks from the USB cable: chip, loader, firmware. Written from the device's side,
+/// with its own reading and writing of bytes, so that it can judge the driver's.
 namespace palpa::test {
 
 using Bytes = std::vector<std::uint8_t>;
@@ -28,7 +28,8 @@ struct TwinReply {
 
 inline void putWord(Bytes& bytes, std::int16_t word) {
   for (int shift = 0; shift < 16; shift += 4)
-    bytes.push_back(static_cast<std::uint8_t>('A' + ((static_cast<std::uint16_t>(word) >> shift) & 15)));
+    bytes.push_back(
+        static_cast<std::uint8_t>('A' + ((static_cast<std::uint16_t>(word) >> shift) & 15)));
 }
 
 inline Bytes frame(const std::array<std::int16_t, 3>& words, int flags) {
@@ -42,7 +43,9 @@ inline Bytes frame(const std::array<std::int16_t, 3>& words, int flags) {
 inline Bytes writeReply(const TwinReply& reply) {
   return frame(reply.encoder, reply.buttons + 16 * reply.homed);
 }
-inline Bytes writeCommand(const TwinCommand& command) { return frame(command.motor, command.flags); }
+inline Bytes writeCommand(const TwinCommand& command) {
+  return frame(command.motor, command.flags);
+}
 
 /// None unless every byte is as it must be.
 inline std::optional<TwinCommand> readCommand(std::span<const std::uint8_t> bytes) {
@@ -68,18 +71,18 @@ class FalconTwin {
   std::mutex mutex;
 
   // How it behaves.
-  TwinReply reply;                       ///< what it answers; the homed bits are its own
-  int homing_packets = 30;               ///< with the homing bit, until the legs are homed
-  int deaf_greetings = 2;                ///< the first ones after a reset are not heard
+  TwinReply reply;          ///< what it answers; the homed bits are its own
+  int homing_packets = 30;  ///< with the homing bit, until the legs are homed
+  int deaf_greetings = 2;   ///< the first ones after a reset are not heard
   bool zero_before_greeting = false;
-  int corrupt_chunk = -1;                ///< echo of this chunk of the next upload is wrong
-  std::size_t cut_reply_at = 16;         ///< a reply goes out in two USB packets
-  bool mute = false;                     ///< the firmware does not answer
+  int corrupt_chunk = -1;         ///< echo of this chunk of the next upload is wrong
+  std::size_t cut_reply_at = 16;  ///< a reply goes out in two USB packets
+  bool mute = false;              ///< the firmware does not answer
 
   // What it has seen.
-  std::vector<TwinCommand> commands;     ///< with running firmware
-  int malformed = 0;                     ///< packets that no firmware would take
-  Bytes image;                           ///< of the last upload
+  std::vector<TwinCommand> commands;  ///< with running firmware
+  int malformed = 0;                  ///< packets that no firmware would take
+  Bytes image;                        ///< of the last upload
   int resets = 0, chunks = 0;
   std::size_t largest_chunk = 0;
   int latency_ms = 0;

@@ -52,9 +52,11 @@ TEST(FalconKinematics, AnglesCloseEveryLeg) {
       const Vec3 q = Eigen::AngleAxisd(-azimuth[i], Vec3::UnitZ()) * p - Vec3(0.040, -0.02309, 0);
       const double reach = 2 * 0.01125 + 0.1025 * std::sin(legs->theta3[i]);
       EXPECT_NEAR(q.y() - 0.025, 0.1025 * std::cos(legs->theta3[i]), 1e-15);
-      EXPECT_NEAR(q.x(), 0.060 * std::cos(legs->theta1[i]) - 0.01443 + reach * std::cos(legs->theta2[i]),
+      EXPECT_NEAR(q.x(),
+                  0.060 * std::cos(legs->theta1[i]) - 0.01443 + reach * std::cos(legs->theta2[i]),
                   1e-15);
-      EXPECT_NEAR(q.z(), 0.060 * std::sin(legs->theta1[i]) + reach * std::sin(legs->theta2[i]), 1e-15);
+      EXPECT_NEAR(q.z(), 0.060 * std::sin(legs->theta1[i]) + reach * std::sin(legs->theta2[i]),
+                  1e-15);
     }
   }
 }
@@ -71,20 +73,21 @@ TEST(FalconKinematics, ForwardUndoesInverseOverTheWorkspace) {
 
 TEST(FalconKinematics, ForwardRefusesAnglesThatNoPositionHas) {
   EXPECT_FALSE(falconForward({-3, 3, 0}, kFalconCentre));
-  EXPECT_FALSE(falconForward(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), kFalconCentre));
+  EXPECT_FALSE(
+      falconForward(Vec3::Constant(std::numeric_limits<double>::quiet_NaN()), kFalconCentre));
   EXPECT_FALSE(falconInverse({0.5, 0, 0.1}));
   EXPECT_FALSE(falconInverse(Vec3::Constant(std::numeric_limits<double>::infinity())));
 }
 
 TEST(FalconKinematics, JacobianIsTheDerivativeOfTheInverse) {
-  // Central differences, extrapolated once: their error goes with the fourth power of the step and is
-  // lost in the rounding of angles, 1e-16 rad / 1e-5 m against slopes of 10 rad/m.
+  // Central differences, extrapolated once: their error goes with the fourth power of the step and
+  // is lost in the rounding of angles, 1e-16 rad / 1e-5 m against slopes of 10 rad/m.
   constexpr double kStep = 1e-5;
   runtime::RandomStream random(7, "falcon poses");
   double worst = 0;
   for (int pose = 0; pose < 300; ++pose) {
-    const Vec3 p = kFalconCentre + 0.04 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1),
-                                               random.uniform(-1, 1));
+    const Vec3 p = kFalconCentre +
+                   0.04 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const Mat3 J = falconJacobian(*falconInverse(p));
     for (int axis = 0; axis < 3; ++axis) {
       const auto slope = [&](double h) -> Vec3 {
@@ -103,12 +106,13 @@ TEST(FalconKinematics, TorquesDoTheWorkOfTheForce) {
   runtime::RandomStream random(8, "falcon work");
   const auto direction = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
   for (int i = 0; i < 200; ++i) {
-    const Vec3 p = kFalconCentre + 0.04 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1),
-                                               random.uniform(-1, 1));
+    const Vec3 p = kFalconCentre +
+                   0.04 * Vec3(random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 1));
     const Vec3 f = direction(), dp = 1e-6 * direction().normalized();
     const Vec3 tau = falconTorque(*falconInverse(p), f);
     const Vec3 dtheta = falconInverse(p + dp / 2)->theta1 - falconInverse(p - dp / 2)->theta1;
-    // Both sides are |f| |dp| in size; the angles' rounding, 1e-16 of 1e-5 rad, is far below 1e-7 of it.
+    // Both sides are |f| |dp| in size; the angles' rounding, 1e-16 of 1e-5 rad, is far below 1e-7
+    // of it.
     EXPECT_NEAR(tau.dot(dtheta), f.dot(dp), 1e-7 * f.norm() * dp.norm());
   }
 }
@@ -138,7 +142,8 @@ TEST(FalconKinematics, TheMotorsGiveTheStatedForceAlongTheAxisAndLessAcross) {
   EXPECT_LT(largestCount({0, 0, falconCapabilities().max_force_N}), 4096);
   double weakest = 1e9;
   for (int leg = 0; leg < 3; ++leg) {
-    const Vec3 tau_per_N(falconTorque(legs, Vec3::UnitX())[leg], falconTorque(legs, Vec3::UnitY())[leg],
+    const Vec3 tau_per_N(falconTorque(legs, Vec3::UnitX())[leg],
+                         falconTorque(legs, Vec3::UnitY())[leg],
                          falconTorque(legs, Vec3::UnitZ())[leg]);
     weakest = std::min(weakest, 0.4096 / tau_per_N.norm());
   }

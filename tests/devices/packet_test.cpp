@@ -23,7 +23,8 @@ std::vector<FalconReport> reports(FalconParser& parser, const Bytes& stream) {
 test::TwinReply randomReply(runtime::RandomStream& random) {
   const std::uint64_t bits = random.bits();
   const auto number = [&](int shift) { return static_cast<std::int16_t>(bits >> shift); };
-  return {{number(0), number(16), number(32)}, static_cast<std::uint8_t>(bits >> 48 & 0xF),
+  return {{number(0), number(16), number(32)},
+          static_cast<std::uint8_t>(bits >> 48 & 0xF),
           static_cast<std::uint8_t>(bits >> 52 & 7)};
 }
 

@@ -21,8 +21,12 @@ constexpr const char* kSysPath = "/sys/devices/falcon/usb1/1-1";
 
 // Device 0403:cb48; one configuration, one interface, bulk endpoints 0x81 and 0x02 of 64 bytes.
 const std::string kDescriptors =
-    "12010002000000400304" "48CB" "00060102" "0001"
-    "0902200001010080" "2D"
+    "12010002000000400304"
+    "48CB"
+    "00060102"
+    "0001"
+    "0902200001010080"
+    "2D"
     "0904000002FFFFFF00"
     "07058102400000"
     "07050202400000";
@@ -38,7 +42,8 @@ const std::string kDevice = std::string("P: /devices/falcon/usb1/1-1\n") +
                             "A: busnum=1\\n\n"
                             "A: devnum=2\\n\n"
                             "A: speed=12\\n\n"
-                            "H: descriptors=" + kDescriptors + "\n";
+                            "H: descriptors=" +
+                            kDescriptors + "\n";
 
 void need(bool done, GError* error) {
   if (!done) throw std::runtime_error(error ? error->message : "umockdev refused");
@@ -98,22 +103,38 @@ void EmulatedUsb::answer(UMockdevIoctlClient* client) {
     return;
   }
   switch (request) {
-    case USBDEVFS_SUBMITURB: error = submit(argument); break;
+    case USBDEVFS_SUBMITURB:
+      error = submit(argument);
+      break;
     case USBDEVFS_REAPURB:
-    case USBDEVFS_REAPURBNDELAY: error = reap(argument); break;
-    case USBDEVFS_DISCARDURB: error = discard(argument); break;
-    case USBDEVFS_CLEAR_HALT: ++cleared_halts; break;
+    case USBDEVFS_REAPURBNDELAY:
+      error = reap(argument);
+      break;
+    case USBDEVFS_DISCARDURB:
+      error = discard(argument);
+      break;
+    case USBDEVFS_CLEAR_HALT:
+      ++cleared_halts;
+      break;
     case USBDEVFS_CLAIMINTERFACE:
       error = held || kernel_driver ? EBUSY : 0;
       claims += error == 0;
       break;
-    case USBDEVFS_IOCTL: error = bindKernelDriver(argument); break;
-    case USBDEVFS_RELEASEINTERFACE: ++releases; break;
-    case USBDEVFS_GETDRIVER: error = ENODATA; break;
+    case USBDEVFS_IOCTL:
+      error = bindKernelDriver(argument);
+      break;
+    case USBDEVFS_RELEASEINTERFACE:
+      ++releases;
+      break;
+    case USBDEVFS_GETDRIVER:
+      error = ENODATA;
+      break;
     case USBDEVFS_GET_CAPABILITIES:
     case USBDEVFS_SETINTERFACE:
-    case USBDEVFS_RESET: break;
-    default: error = ENOTTY;
+    case USBDEVFS_RESET:
+      break;
+    default:
+      error = ENOTTY;
   }
   umockdev_ioctl_client_complete(client, error ? -1 : 0, error);
 }
@@ -130,9 +151,9 @@ int EmulatedUsb::bindKernelDriver(UMockdevIoctlData* argument) {
 int EmulatedUsb::submit(UMockdevIoctlData* argument) {
   Request request;
   request.urb = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
-  request.bytes = umockdev_ioctl_data_resolve(
-      request.urb, offsetof(usbdevfs_urb, buffer),
-      static_cast<gsize>(request.header().buffer_length), nullptr);
+  request.bytes =
+      umockdev_ioctl_data_resolve(request.urb, offsetof(usbdevfs_urb, buffer),
+                                  static_cast<gsize>(request.header().buffer_length), nullptr);
   carryOut(request);
   requests_.push_back(request);
   return 0;
@@ -165,7 +186,8 @@ void EmulatedUsb::carryOut(Request& request) {
 }
 
 int EmulatedUsb::reap(UMockdevIoctlData* argument) {
-  const auto found = std::find_if(requests_.begin(), requests_.end(), [](auto& r) { return r.done; });
+  const auto found =
+      std::find_if(requests_.begin(), requests_.end(), [](auto& r) { return r.done; });
   if (found == requests_.end()) return plugged_ ? EAGAIN : ENODEV;
   UMockdevIoctlData* pointer = umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr);
   umockdev_ioctl_data_set_ptr(pointer, 0, found->urb);

@@ -11,8 +11,8 @@ struct usbdevfs_urb;
 
 namespace palpa::test {
 
-/// The twin as a device of an emulated kernel: what libusb asks of /dev/bus/usb is answered here, in
-/// umockdev's thread. Make it before anything of libusb.
+/// The twin as a device of an emulated kernel: what libusb asks of /dev/bus/usb is answered here,
+/// in umockdev's thread. Make it before anything of libusb.
 class EmulatedUsb {
  public:
   /// Why it cannot work in this process; empty: it can.
@@ -26,9 +26,9 @@ class EmulatedUsb {
   void plugIn();
   void unplug();
 
-  std::atomic<int> stalls{0};          ///< so many of the next reads stall
-  std::atomic<int> silences{0};        ///< so many of the next reads are not answered at all
-  std::atomic<bool> held{false};       ///< another program has the interface
+  std::atomic<int> stalls{0};             ///< so many of the next reads stall
+  std::atomic<int> silences{0};           ///< so many of the next reads are not answered at all
+  std::atomic<bool> held{false};          ///< another program has the interface
   std::atomic<bool> kernel_driver{true};  ///< the kernel's serial driver has it
   std::atomic<int> cleared_halts{0};
   std::atomic<int> claims{0}, releases{0};

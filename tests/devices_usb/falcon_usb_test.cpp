@@ -4,10 +4,30 @@
 #include "haptics/devices/libusb_transport.h"
 #include "tests/devices/falcon_rig.h"
 
-/// The driver, unchanged, on the real libusb and an emulated kernel: requests, states and faults. How
-/// long anything takes says nothing here.
+/// The driver, unchanged, on the real libusb and an emulated kernel: requests, states and faults.
+/// How long anything takes says nothing here.
 namespace palpa::haptics {
 namespace {
+
+/// A busy machine must not look like a silent device: every time-out twenty times as long.
+class PatientUsb final : public UsbTransport {
+ public:
+  UsbStatus open() noexcept override { return usb_.open(); }
+  void close() noexcept override { usb_.close(); }
+  UsbStatus control(const UsbControl& request, unsigned timeout_ms) noexcept override {
+    return usb_.control(request, 20 * timeout_ms);
+  }
+  UsbStatus bulkOut(std::span<const std::uint8_t> bytes, unsigned timeout_ms) noexcept override {
+    return usb_.bulkOut(bytes, 20 * timeout_ms);
+  }
+  UsbStatus bulkIn(std::span<std::uint8_t> into, std::size_t& got,
+                   unsigned timeout_ms) noexcept override {
+    return usb_.bulkIn(into, got, 20 * timeout_ms);
+  }
+
+ private:
+  LibusbTransport usb_{kFalconUsb};
+};
 
 class FalconOnUsb : public testing::Test {
  protected:
@@ -15,8 +35,8 @@ class FalconOnUsb : public testing::Test {
     if (*test::EmulatedUsb::missing()) GTEST_SKIP() << test::EmulatedUsb::missing();
     usb = std::make_unique<test::EmulatedUsb>(twin);
     ASSERT_TRUE(umockdev_in_mock_environment());
-    rig = std::make_unique<test::FalconRig>(std::make_unique<LibusbTransport>(kFalconUsb), twin,
-                                            test::someImage());
+    rig =
+        std::make_unique<test::FalconRig>(std::make_unique<PatientUsb>(), twin, test::someImage());
   }
   void TearDown() override {
     rig.reset();
