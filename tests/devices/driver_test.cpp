@@ -2,8 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
 #include <cstdlib>
 #include <new>
+#include <thread>
 
 #include "scripted_station.h"
 
@@ -56,6 +58,7 @@ TEST(FalconDriver, AWrongEchoStartsTheUploadAnew) {
     s.rig.step();
     EXPECT_EQ(s.rig.driver.status().problem, FalconProblem::upload_failed);
     EXPECT_EQ(s.rig.state(), FalconState::opening);
+    EXPECT_EQ(s.twin.chunks, chunk + 1) << "nothing is sent after it";
     ASSERT_TRUE(s.rig.reach(FalconState::ready)) << chunk;
     EXPECT_EQ(s.twin.resets, 2);
     EXPECT_EQ(s.twin.image, test::someImage());
@@ -128,6 +131,36 @@ TEST(FalconDriver, TheLastPacketIsZeroAlsoWhenItIsDestroyed) {
     ASSERT_TRUE(rig.lastCommand().pushes());
   }
   EXPECT_FALSE(twin.commands.back().pushes());
+}
+
+TEST(FalconDriver, LoopAndDeviceThreadExchangeWholeValues) {
+  ReadyStation s;
+  std::atomic<bool> done{false};
+  std::atomic<std::int64_t> now_ns{s.rig.now_ns};
+  std::thread device([&] {
+    for (int i = 0; i < 3000; ++i) {
+      // On the axis the height tells the three encoders' count: a torn position would leave the
+      // axis.
+      s.twin.reply.encoder.fill(static_cast<std::int16_t>(i % 500));
+      s.rig.driver.step(now_ns += 1'000'000);
+    }
+    done = true;
+  });
+  std::uint64_t last = 0, back = 0, torn = 0, seen = 0;
+  while (!done) {
+    const std::int64_t t_ns = now_ns;
+    s.rig.driver.command(t_ns, {0, 0, 1});
+    const DeviceReading reading = s.rig.driver.read(t_ns);
+    seen += reading.sequence > last;
+    back += reading.sequence < last;
+    torn += std::abs(reading.p_DE[0]) > 1e-6 || std::abs(reading.p_DE[1]) > 1e-6;
+    last = reading.sequence;
+  }
+  device.join();
+  EXPECT_EQ(back, 0u);
+  EXPECT_EQ(torn, 0u);
+  EXPECT_GT(seen, 0u);
+  EXPECT_EQ(s.rig.driver.status().missed, 0u);
 }
 
 TEST(FalconDriver, ReadAndCommandNeverAllocate) {

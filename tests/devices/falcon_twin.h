@@ -155,11 +155,11 @@ class FalconTwin {
       loading_ = true;
     } else {
       largest_chunk = std::max(largest_chunk, bytes.size());
+      image.insert(image.end(), bytes.begin(), bytes.end());
       if (chunks++ == corrupt_chunk) {
         echo[echo.size() / 2] ^= 0x10;
         corrupt_chunk = -1;
       }
-      image.insert(image.end(), echo.begin(), echo.end());
     }
     queue_.push_back(echo);
   }
