@@ -62,7 +62,7 @@ void FalconLink::connect(std::int64_t now_ns) noexcept {
   if (status == UsbStatus::ok) status = setFalconNormalMode(serial_);
   if (status != UsbStatus::ok) return giveUp(now_ns, problemOf(status));
   ++status_.opened;
-  if (answers()) {
+  if (!half_uploaded_ && answers()) {
     status_.state = FalconState::homing;
   } else if (firmware_.empty()) {
     giveUp(now_ns, FalconProblem::needs_firmware);
@@ -72,8 +72,10 @@ void FalconLink::connect(std::int64_t now_ns) noexcept {
 }
 
 void FalconLink::upload(std::int64_t now_ns) noexcept {
+  half_uploaded_ = true;
   FalconUploadResult result = uploadFalconFirmware(serial_, firmware_);
   if (result.outcome == FalconUpload::done) {
+    half_uploaded_ = false;
     ++status_.uploads;
     result.usb = setFalconNormalMode(serial_);
     if (result.usb == UsbStatus::ok && answers()) {

@@ -73,6 +73,7 @@ class FalconLink {
   std::optional<FalconReport> report_;
   std::int64_t due_ns_ = 0, pause_ns_ = 0;
   int missed_in_a_row_ = 0;
+  bool half_uploaded_ = false;  // what runs after a wrong echo is not trusted, even if it answers
 };
 
 }  // namespace palpa::haptics
