@@ -10,6 +10,7 @@ find_package(apriltag REQUIRED)
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
+pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
 find_package(VTK 9 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonMath CommonTransforms CommonExecutionModel
   FiltersCore FiltersGeneral FiltersSources FiltersModeling

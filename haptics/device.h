@@ -31,6 +31,8 @@ struct DeviceCapabilities {
   double coulomb_friction = 0;     ///< N, of the drives; 0: not known
   int force_axes = 3;
   bool has_orientation = true;
+  Packed3 workspace_centre{0, 0, 0};     ///< in D, m
+  Packed3 workspace_half_size{0, 0, 0};  ///< m; the box about the centre is reached; zero: unknown
   bool simulated = false;
 };
 

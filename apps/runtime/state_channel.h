@@ -1,9 +1,9 @@
 #pragma once
 
-#include <array>
-#include <atomic>
 #include <cstdint>
 #include <deque>
+
+#include "haptics/latest_value.h"
 
 namespace palpa::runtime {
 
@@ -19,42 +19,30 @@ class StateChannel {
   explicit StateChannel(TimeMode mode) : mode_(mode) {}
 
   void publish(const T& value, std::int64_t visible_ns) {
-    if (mode_ == TimeMode::virtual_time) {
-      pending_.push_back({visible_ns, value});
-      return;
-    }
-    slots_[back_] = value;
-    back_ = middle_.exchange(back_ | kFresh, std::memory_order_acq_rel) & kIndex;
+    if (mode_ == TimeMode::real) latest_.write({true, value});
+    else pending_.push_back({visible_ns, value});
   }
 
   /// The newest visible value, or null before the first.
   const T* read(std::int64_t now_ns) {
-    if (mode_ == TimeMode::virtual_time) {
-      while (!pending_.empty() && pending_.front().visible_ns <= now_ns) {
-        slots_[front_] = pending_.front().value;
-        seen_ = true;
-        pending_.pop_front();
-      }
-    } else if (middle_.load(std::memory_order_relaxed) & kFresh) {
-      front_ = middle_.exchange(front_, std::memory_order_acq_rel) & kIndex;
-      seen_ = true;
-    }
-    return seen_ ? &slots_[front_] : nullptr;
+    for (; !pending_.empty() && pending_.front().visible_ns <= now_ns; pending_.pop_front())
+      latest_.write({true, pending_.front().value});
+    const Slot& slot = latest_.read();
+    return slot.there ? &slot.value : nullptr;
   }
 
  private:
-  static constexpr std::uint8_t kFresh = 4, kIndex = 3;
+  struct Slot {
+    bool there = false;
+    T value{};
+  };
   struct Pending {
     std::int64_t visible_ns;
     T value;
   };
   TimeMode mode_;
-  std::array<T, 3> slots_{};
-  std::atomic<std::uint8_t> middle_{1};
-  std::uint8_t back_ = 0;    // writer's
-  std::uint8_t front_ = 2;   // reader's
-  bool seen_ = false;        // reader's
-  std::deque<Pending> pending_;
+  haptics::LatestValue<Slot> latest_;
+  std::deque<Pending> pending_;   ///< virtual time only
 };
 
 }  // namespace palpa::runtime

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "haptics/sensors/force_sensor.h"
-#include "haptics/sensors/latest_value.h"
+#include "haptics/latest_value.h"
 #include "haptics/sensors/rdt_protocol.h"
 #include "haptics/sensors/rdt_sequence.h"
 #include "haptics/sensors/udp_socket.h"

@@ -39,6 +39,7 @@ TEST(IncludeArrows, PlantedLibraryIsCaught) {
   EXPECT_EQ(wrong("haptics/tick.h", "<vtkPolyData.h>"), 1u);
   EXPECT_EQ(wrong("haptics/tick.cpp", "<opencv2/core.hpp>"), 1u);
   EXPECT_EQ(wrong("haptics/materials/skin_law.h", "<nlohmann/json.hpp>"), 1u);
+  EXPECT_EQ(wrong("haptics/tick.cpp", "<libusb.h>"), 1u);
   EXPECT_EQ(wrong("scene/hud.cpp", "<opencv2/imgproc.hpp>"), 1u);
   EXPECT_EQ(wrong("ar/board.cpp", "<vtkImageData.h>"), 1u);
   EXPECT_EQ(wrong("apps/assess/passes.h", "<opencv2/core.hpp>"), 1u);
@@ -54,6 +55,7 @@ TEST(IncludeArrows, PlantedFolderIsCaught) {
   EXPECT_EQ(wrong("haptics/materials/skin_law.cpp", "\"haptics/tick.h\""), 1u);
   EXPECT_EQ(wrong("haptics/tick.cpp", "\"haptics/sensors/force_sensor.h\""), 1u);
   EXPECT_EQ(wrong("haptics/sensors/net_ft_sensor.cpp", "\"apps/runtime/clock.h\""), 1u);
+  EXPECT_EQ(wrong("haptics/tick.cpp", "\"haptics/devices/falcon_driver.h\""), 1u);
   EXPECT_EQ(wrong("calibration/camera_model.cpp", "\"ar/board.h\""), 1u);
   EXPECT_EQ(wrong("ar/board.cpp", "\"scene/hud.h\""), 1u);
   EXPECT_EQ(wrong("ar/board.cpp", "\"haptics/materials/skin_law.h\""), 1u);
@@ -81,6 +83,8 @@ TEST(IncludeArrows, WhatIsAllowedPasses) {
   EXPECT_EQ(wrong("haptics/tick.h", "\"anatomy/geometry/pose.h\""), 0u);
   EXPECT_EQ(wrong("haptics/tick.h", "<cstdint>"), 0u);
   EXPECT_EQ(wrong("haptics/sensors/wrench_filter.h", "\"haptics/device.h\""), 0u);
+  EXPECT_EQ(wrong("haptics/devices/falcon_driver.h", "\"haptics/device.h\""), 0u);
+  EXPECT_EQ(wrong("haptics/devices/libusb_transport.cpp", "<libusb.h>"), 0u);
   EXPECT_EQ(wrong("anatomy/patient.cpp", "<vtkPolyData.h>"), 0u);
   EXPECT_EQ(wrong("apps/task_needle/task_file.h", "\"apps/task_needle/task_status.h\""), 0u);
   EXPECT_EQ(wrong("tests/haptics/tick_test.cpp", "\"apps/twin/operator.h\""), 0u);

@@ -3,16 +3,13 @@
 #include <array>
 #include <atomic>
 #include <cstdint>
-#include <type_traits>
 
 namespace palpa::haptics {
 
 /// The latest value, from one writing thread to one reading thread: a triple buffer. Neither side
-/// waits or allocates; a value is never torn.
+/// waits, nor allocates unless copying T does; a value is never torn.
 template <class T>
 class LatestValue {
-  static_assert(std::is_trivially_copyable_v<T>);
-
  public:
   void write(const T& value) noexcept {
     slots_[back_] = value;

@@ -1,0 +1,217 @@
+#include "emulated_usb.h"
+
+// First: the next one needs its macros.
+#include <sys/ioctl.h>
+
+#include <linux/usbdevice_fs.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstdlib>
+#include <cstring>
+#include <stdexcept>
+#include <string>
+
+namespace palpa::test {
+namespace {
+
+constexpr const char* kNode = "/dev/bus/usb/001/002";
+constexpr const char* kSysPath = "/sys/devices/falcon/usb1/1-1";
+
+// Device 0403:cb48; one configuration, one interface, bulk endpoints 0x81 and 0x02 of 64 bytes.
+const std::string kDescriptors =
+    "12010002000000400304"
+    "48CB"
+    "00060102"
+    "0001"
+    "0902200001010080"
+    "2D"
+    "0904000002FFFFFF00"
+    "07058102400000"
+    "07050202400000";
+
+const std::string kDevice = std::string("P: /devices/falcon/usb1/1-1\n") +
+                            "N: bus/usb/001/002=" + kDescriptors + "\n" +
+                            "E: DEVNAME=/dev/bus/usb/001/002\n"
+                            "E: DEVTYPE=usb_device\n"
+                            "E: SUBSYSTEM=usb\n"
+                            "E: BUSNUM=001\n"
+                            "E: DEVNUM=002\n"
+                            "A: bConfigurationValue=1\\n\n"
+                            "A: busnum=1\\n\n"
+                            "A: devnum=2\\n\n"
+                            "A: speed=12\\n\n"
+                            "H: descriptors=" +
+                            kDescriptors + "\n";
+
+void need(bool done, GError* error) {
+  if (!done) throw std::runtime_error(error ? error->message : "umockdev refused");
+}
+
+}  // namespace
+
+const char* EmulatedUsb::missing() {
+  const char* preloaded = std::getenv("LD_PRELOAD");
+  return preloaded && std::strstr(preloaded, "umockdev") ? "" : "umockdev-wrapper is missing";
+}
+
+usbdevfs_urb& EmulatedUsb::Request::header() const {
+  return *reinterpret_cast<usbdevfs_urb*>(urb->data);
+}
+
+EmulatedUsb::EmulatedUsb(FalconTwin& twin)
+    : twin_(twin), testbed_(umockdev_testbed_new()), ioctls_(umockdev_ioctl_base_new()) {
+  g_signal_connect(ioctls_, "handle-ioctl", G_CALLBACK(&EmulatedUsb::handle), this);
+  plugIn();
+}
+
+EmulatedUsb::~EmulatedUsb() {
+  if (plugged_) unplug();
+  g_object_unref(testbed_);
+  while (!requests_.empty()) giveBack(requests_.begin());
+  g_object_unref(ioctls_);
+}
+
+void EmulatedUsb::plugIn() {
+  GError* error = nullptr;
+  need(umockdev_testbed_add_from_string(testbed_, kDevice.c_str(), &error), error);
+  need(umockdev_testbed_attach_ioctl(testbed_, kNode, ioctls_, &error), error);
+  plugged_ = true;
+  umockdev_testbed_uevent(testbed_, kSysPath, "add");
+}
+
+void EmulatedUsb::unplug() {
+  plugged_ = false;
+  GError* error = nullptr;
+  need(umockdev_testbed_detach_ioctl(testbed_, kNode, &error), error);
+  umockdev_testbed_uevent(testbed_, kSysPath, "remove");
+  umockdev_testbed_remove_device(testbed_, kSysPath);
+}
+
+gboolean EmulatedUsb::handle(UMockdevIoctlBase*, UMockdevIoctlClient* client, EmulatedUsb* self) {
+  self->answer(client);
+  return TRUE;
+}
+
+void EmulatedUsb::answer(UMockdevIoctlClient* client) {
+  UMockdevIoctlData* argument = umockdev_ioctl_client_get_arg(client);
+  int error = 0;
+  const auto request = umockdev_ioctl_client_get_request(client);
+  if (!plugged_ && request != USBDEVFS_REAPURBNDELAY && request != USBDEVFS_DISCARDURB) {
+    umockdev_ioctl_client_complete(client, -1, ENODEV);
+    return;
+  }
+  switch (request) {
+    case USBDEVFS_SUBMITURB:
+      error = submit(argument);
+      break;
+    case USBDEVFS_REAPURB:
+    case USBDEVFS_REAPURBNDELAY:
+      error = reap(argument);
+      break;
+    case USBDEVFS_DISCARDURB:
+      error = discard(argument);
+      break;
+    case USBDEVFS_CLEAR_HALT:
+      ++cleared_halts;
+      break;
+    case USBDEVFS_CLAIMINTERFACE:
+      error = held || kernel_driver ? EBUSY : 0;
+      claims += error == 0;
+      break;
+    case USBDEVFS_IOCTL:
+      error = bindKernelDriver(argument);
+      break;
+    case USBDEVFS_RELEASEINTERFACE:
+      ++releases;
+      break;
+    case USBDEVFS_GETDRIVER:
+      error = ENODATA;
+      break;
+    case USBDEVFS_GET_CAPABILITIES:
+    case USBDEVFS_SETINTERFACE:
+    case USBDEVFS_RESET:
+      break;
+    default:
+      error = ENOTTY;
+  }
+  umockdev_ioctl_client_complete(client, error ? -1 : 0, error);
+}
+
+int EmulatedUsb::bindKernelDriver(UMockdevIoctlData* argument) {
+  UMockdevIoctlData* data =
+      umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_ioctl), nullptr);
+  const int code = reinterpret_cast<const usbdevfs_ioctl*>(data->data)->ioctl_code;
+  umockdev_ioctl_data_unref(data);
+  const bool bind = code == static_cast<int>(USBDEVFS_CONNECT);
+  return kernel_driver.exchange(bind) == bind ? ENODATA : 0;
+}
+
+int EmulatedUsb::submit(UMockdevIoctlData* argument) {
+  Request request;
+  request.urb = umockdev_ioctl_data_resolve(argument, 0, sizeof(usbdevfs_urb), nullptr);
+  request.bytes =
+      umockdev_ioctl_data_resolve(request.urb, offsetof(usbdevfs_urb, buffer),
+                                  static_cast<gsize>(request.header().buffer_length), nullptr);
+  carryOut(request);
+  requests_.push_back(request);
+  return 0;
+}
+
+void EmulatedUsb::carryOut(Request& request) {
+  usbdevfs_urb& urb = request.header();
+  std::uint8_t* bytes = request.bytes->data;
+  const auto size = static_cast<std::size_t>(urb.buffer_length);
+  urb.status = 0;
+  request.done = true;
+  const std::scoped_lock lock(twin_.mutex);
+  if (urb.type == USBDEVFS_URB_TYPE_CONTROL) {
+    twin_.control(bytes[1], bytes[2] + 256 * bytes[3]);
+    urb.actual_length = 0;
+  } else if (!(urb.endpoint & 0x80)) {
+    twin_.out({bytes, size});
+    urb.actual_length = urb.buffer_length;
+  } else if (silences > 0) {
+    --silences;
+    request.done = false;
+  } else if (stalls > 0) {
+    --stalls;
+    urb.status = -EPIPE;
+  } else {
+    const Bytes packet = twin_.in();
+    std::copy(packet.begin(), packet.end(), bytes);
+    urb.actual_length = static_cast<int>(packet.size());
+  }
+}
+
+int EmulatedUsb::reap(UMockdevIoctlData* argument) {
+  const auto found =
+      std::find_if(requests_.begin(), requests_.end(), [](auto& r) { return r.done; });
+  if (found == requests_.end()) return plugged_ ? EAGAIN : ENODEV;
+  UMockdevIoctlData* pointer = umockdev_ioctl_data_resolve(argument, 0, sizeof(void*), nullptr);
+  umockdev_ioctl_data_set_ptr(pointer, 0, found->urb);
+  umockdev_ioctl_data_unref(pointer);
+  giveBack(found);
+  return 0;
+}
+
+int EmulatedUsb::discard(UMockdevIoctlData* argument) {
+  gulong address = 0;
+  std::memcpy(&address, argument->data, sizeof address);
+  for (Request& request : requests_)
+    if (request.urb->client_addr == address) {
+      request.header().status = -ENOENT;
+      request.done = true;
+      return 0;
+    }
+  return EINVAL;
+}
+
+void EmulatedUsb::giveBack(std::deque<Request>::iterator request) {
+  umockdev_ioctl_data_unref(request->bytes);
+  umockdev_ioctl_data_unref(request->urb);
+  requests_.erase(request);
+}
+
+}  // namespace palpa::test

@@ -1,0 +1,132 @@
+#include <gtest/gtest.h>
+
+#include "emulated_usb.h"
+#include "haptics/devices/libusb_transport.h"
+#include "tests/devices/falcon_rig.h"
+
+/// The driver, unchanged, on the real libusb and an emulated kernel: requests, states and faults.
+/// How long anything takes says nothing here.
+namespace palpa::haptics {
+namespace {
+
+/// A busy machine must not look like a silent device: every time-out twenty times as long.
+class PatientUsb final : public UsbTransport {
+ public:
+  UsbStatus open() noexcept override { return usb_.open(); }
+  void close() noexcept override { usb_.close(); }
+  UsbStatus control(const UsbControl& request, unsigned timeout_ms) noexcept override {
+    return usb_.control(request, 20 * timeout_ms);
+  }
+  UsbStatus bulkOut(std::span<const std::uint8_t> bytes, unsigned timeout_ms) noexcept override {
+    return usb_.bulkOut(bytes, 20 * timeout_ms);
+  }
+  UsbStatus bulkIn(std::span<std::uint8_t> into, std::size_t& got,
+                   unsigned timeout_ms) noexcept override {
+    return usb_.bulkIn(into, got, 20 * timeout_ms);
+  }
+
+ private:
+  LibusbTransport usb_{kFalconUsb};
+};
+
+class FalconOnUsb : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (*test::EmulatedUsb::missing()) GTEST_SKIP() << test::EmulatedUsb::missing();
+    usb = std::make_unique<test::EmulatedUsb>(twin);
+    ASSERT_TRUE(umockdev_in_mock_environment());
+    rig =
+        std::make_unique<test::FalconRig>(std::make_unique<PatientUsb>(), twin, test::someImage());
+  }
+  void TearDown() override {
+    rig.reset();
+    usb.reset();
+  }
+  void start() {
+    twin.startFirmware();
+    ASSERT_TRUE(rig->reach(FalconState::ready));
+    rig->f_D = {0, 0, 2};
+    for (int i = 0; i < 3; ++i) rig->step();
+    ASSERT_TRUE(rig->lastCommand().pushes());
+  }
+  test::FalconTwin twin{test::someImage()};
+  std::unique_ptr<test::EmulatedUsb> usb;
+  std::unique_ptr<test::FalconRig> rig;
+};
+
+TEST_F(FalconOnUsb, UploadsHomesAndRunsFiveThousandCycles) {
+  twin.corrupt_chunk = 40;
+  ASSERT_TRUE(rig->reach(FalconState::homing));
+  EXPECT_EQ(twin.image, test::someImage());
+  EXPECT_EQ(twin.resets, 2) << "once more after the wrong echo";
+  EXPECT_EQ(rig->driver.status().uploads, 1u);
+  ASSERT_TRUE(rig->reach(FalconState::ready));
+  for (const test::TwinCommand& command : twin.commands) EXPECT_FALSE(command.pushes());
+  test::cycleAndCheck(*rig, 5000);
+  EXPECT_EQ(rig->driver.status().missed, 0u);
+}
+
+TEST_F(FalconOnUsb, TheLastPacketIsZeroAndTheKernelsDriverComesBack) {
+  start();
+  EXPECT_FALSE(usb->kernel_driver);
+  rig->driver.close();
+  EXPECT_FALSE(rig->lastCommand().pushes());
+  EXPECT_EQ(rig->lastCommand().flags, 0);
+  EXPECT_EQ(usb->claims, 1);
+  EXPECT_EQ(usb->releases, 1);
+  EXPECT_TRUE(usb->kernel_driver);
+}
+
+TEST_F(FalconOnUsb, AStallIsClearedAndCostsOnePacket) {
+  start();
+  usb->stalls = 1;
+  rig->step();
+  EXPECT_EQ(usb->cleared_halts, 1);
+  EXPECT_EQ(rig->driver.status().stalls, 1u);
+  test::cycleAndCheck(*rig, 100);
+  EXPECT_EQ(rig->driver.status().missed, 1u);
+}
+
+TEST_F(FalconOnUsb, ATimeOutCostsOnePacket) {
+  start();
+  usb->silences = 1;
+  rig->step();
+  EXPECT_EQ(rig->driver.status().timeouts, 1u);
+  rig->step();
+  EXPECT_FALSE(rig->lastCommand().pushes());
+  test::cycleAndCheck(*rig, 100);
+  EXPECT_EQ(rig->driver.status().missed, 1u);
+}
+
+TEST_F(FalconOnUsb, UnpluggedAndPluggedInAgainItGoesOn) {
+  start();
+  usb->unplug();
+  for (int i = 0; i < 4; ++i) rig->step();
+  EXPECT_EQ(rig->state(), FalconState::lost);
+  EXPECT_EQ(rig->driver.status().problem, FalconProblem::absent);
+  EXPECT_EQ(rig->driver.read(0).homed, 0u);
+  twin.powerOff();
+  usb->plugIn();
+  ASSERT_TRUE(rig->reach(FalconState::ready));
+  EXPECT_EQ(rig->driver.status().uploads, 1u);
+  test::cycleAndCheck(*rig, 500);
+}
+
+TEST_F(FalconOnUsb, AnotherProgramHoldsIt) {
+  usb->held = true;
+  twin.startFirmware();
+  rig->step();
+  EXPECT_EQ(rig->driver.status().problem, FalconProblem::busy);
+  usb->held = false;
+  EXPECT_TRUE(rig->reach(FalconState::ready));
+}
+
+TEST_F(FalconOnUsb, NoDevice) {
+  usb->unplug();
+  rig->step();
+  EXPECT_EQ(rig->driver.status().problem, FalconProblem::absent);
+  usb->plugIn();
+}
+
+}  // namespace
+}  // namespace palpa::haptics
