@@ -91,11 +91,13 @@ void beforePuncture(Step& s, double puncture_force_N) {
   if (x <= 0) {
     s.state.phase = NeedlePhase::outside;
     s.state.skin_anchor_D = pack(s.pose.p_DT);
+    s.state.relaxation = RelaxationState{};
     return;
   }
   s.state.phase = NeedlePhase::indenting;
   s.out.indentation = indentationInSeries(s.materials.skin, s.coupling.stiffness, x);
-  s.out.skin_force = s.materials.skin.force(s.out.indentation);
+  s.out.skin_force = relaxed(s.materials.skin.relaxation, s.state.relaxation,
+                             s.materials.skin.force(s.out.indentation), s.dt);
   s.push(s.out.skin_force * n + skinFriction(s, n, s.out.skin_force), s.pose.p_DT);
   if (s.out.skin_force >= puncture_force_N) puncture(s, n, x);
 }

@@ -15,6 +15,7 @@ struct NeedleState {
   Packed3 p_DT{};                 ///< tip in the last tick
   double friction_anchor = 0;     ///< axial stick point, m of insertion
   Packed3 release_D{};            ///< what is left of the force that a punctured layer had stored, N
+  RelaxationState relaxation;     ///< of the skin before the puncture
   Packed3 v_D{};                  ///< of the tip, low-passed, m/s
   std::uint32_t walls_front = 0;  ///< bit per Organ: front wall punctured
   std::uint32_t walls_back = 0;   ///< bit per Organ: back wall punctured
@@ -49,7 +50,7 @@ struct CouplingLimits {
 
 /// One evaluation of the needle force (Tzafestas et al. 2008, with cutting, shaft friction and wall
 /// punctures after Okamura et al. 2004):
-///   before puncture   n F(u) in series with the coupling, Coulomb friction across
+///   before puncture   n F(u), relaxing, in series with the coupling; Coulomb friction across
 ///   after             axial: -b_layer v - stick-slip(cutting + friction x length) - wall elasticity
 ///                     lateral: -k_t x_t about the entry
 ///   always            bone: K_c x penetration of tip and shaft into the capsules, along the contact normal

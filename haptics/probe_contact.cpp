@@ -43,10 +43,12 @@ NeedleContact probeContact(const ProbeMaterials& materials, const CouplingLimits
     const double k = std::min(materials.stiffness, coupling.stiffness);
     const double v = unpack(state.v_D).dot(skin.normal);
     out.indentation = x;
-    out.skin_force = std::max(k * x - materials.damping * v, 0.0);
+    const double elastic = relaxed(materials.relaxation, state.relaxation, k * x, dt);
+    out.skin_force = std::max(elastic - materials.damping * v, 0.0);
     out.f_D = out.skin_force * skin.normal + slide(materials, p_DT, skin.normal, out.skin_force, state);
     out.tissue = Tissue::skin;
   }
+  if (x <= 0) state.relaxation = RelaxationState{};
   state.touching = x > 0;
   BoneContact deepest;
   for (int i = 0; i < geometry.bone_count; ++i) {

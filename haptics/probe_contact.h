@@ -11,6 +11,7 @@ namespace palpa::haptics {
 struct ProbeState {
   Packed3 p_DT{};              ///< centre of the tip in the last tick
   Packed3 v_D{};               ///< low-passed, m/s
+  RelaxationState relaxation;
   Packed3 anchor_D{};          ///< stick point of the tip on the surface
   Organ bone = Organ::none;
   std::uint8_t started = 0;
@@ -20,7 +21,7 @@ struct ProbeState {
 static_assert(std::is_trivially_copyable_v<ProbeState>);
 
 /// One evaluation of a ball (centre p_DT, radius of the materials) against the curved skin and the bones under it:
-///   skin   (k x - b v_n) n, never pulling; across it stick-slip friction with the limit mu f_n
+///   skin   (k x - b v_n) n, the first part relaxing, never pulling; across it stick-slip friction with the limit mu f_n
 ///   bone   K_c x along the normal between ball and capsule
 /// x: penetration, m; v_n: velocity along the outward normal. k and b in series with the coupling:
 /// k <= K_c. Advances `state`. No allocation, no exception.

@@ -22,6 +22,11 @@ void readSkin(const JsonFile& file, haptics::SkinLaw& skin) {
   skin.m = kPerMm * file.number("skin/m_per_mm", 0, 10);
   skin.u_0 = 1e-3 * file.number("skin/u_0_mm", 0, 10);
   skin.release_tau = 1e-3 * file.number("skin/release_tau_ms", 1, 1000);
+  for (int i = 0; i < haptics::Relaxation::kTerms; ++i) {
+    const std::string term = std::to_string(i + 1);
+    skin.relaxation.g[i] = file.number("skin/relaxation_share_" + term, 0, 0.5);
+    skin.relaxation.tau[i] = 1e-3 * file.number("skin/relaxation_tau_" + term + "_ms", 1, 60'000);
+  }
   skin.friction = file.number("skin/friction", 0, 2);
   skin.shear = kPerMm * file.number("skin/shear_N_per_mm", 0, 10);
 }

@@ -3,6 +3,7 @@
 #include <type_traits>
 
 #include "anatomy/geometry/local_geometry.h"
+#include "haptics/materials/relaxation.h"
 
 namespace palpa::haptics {
 
@@ -18,6 +19,7 @@ struct SkinLaw {
   double release_tau = 0.010;  ///< s, decay of the stored indentation after the puncture
   double friction = 0.3;       ///< Coulomb coefficient, needle point sliding on the skin
   double shear = 300;          ///< N/m, skin dragged sideways by the point before it slides
+  Relaxation relaxation;       ///< of the indented skin
 
   double force(double u) const;      ///< F(u), 0 for u <= 0 [N]
   double stiffness(double u) const;  ///< dF/du [N/m]

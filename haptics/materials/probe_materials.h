@@ -2,6 +2,8 @@
 
 #include <type_traits>
 
+#include "haptics/materials/relaxation.h"
+
 namespace palpa::haptics {
 
 /// A palpation probe on soft tissue. The tip is a ball; radius 0: a point.
@@ -11,6 +13,7 @@ struct ProbeMaterials {
   double damping = 0;       ///< b, N s/m
   double friction = 0;      ///< mu, Coulomb
   double shear = 300;       ///< N/m, before the tip slides
+  Relaxation relaxation;    ///< of the elastic part
 };
 static_assert(std::is_trivially_copyable_v<ProbeMaterials>);
 
