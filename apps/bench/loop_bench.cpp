@@ -89,7 +89,7 @@ void benchLoop(const LoopBenchOptions& options) {
   std::string drawn;
   try {
     scene = std::make_unique<SceneLoad>();
-    drawn = "30 Hz, " + scene->drawnOn();
+    drawn = "up to 30 Hz, " + scene->drawnOn();
   } catch (const palpa::Error& e) {
     drawn = std::string("none: ") + e.what();
   }
