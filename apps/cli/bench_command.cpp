@@ -1,17 +1,36 @@
 #include "apps/bench/haptics_bench.h"
+#include "apps/bench/loop_bench.h"
 #include "apps/cli/commands.h"
 
 namespace palpa::cli {
+namespace {
 
-void addBench(CLI::App& program) {
-  CLI::App* bench = program.add_subcommand("bench", "Measurements, one JSON object a line");
-  bench->require_subcommand(1);
-  CLI::App* haptics = bench->add_subcommand("haptics", "Cost of the tick, fidelity and smoothness of its force");
+void addHaptics(CLI::App& bench) {
+  CLI::App* haptics = bench.add_subcommand("haptics", "Cost of the tick, fidelity and smoothness of its force");
   haptics->footer("Example:\n  palpa bench haptics > haptics.jsonl\n  palpa bench haptics --quick");
   const auto options = std::make_shared<bench::HapticsBenchOptions>();
   haptics->add_flag("--quick", options->quick, "Small meshes and short strokes");
   haptics->add_option("--most-triangles", options->most_triangles, "Leave out larger meshes")->check(CLI::Range(1000, 1'000'000));
   haptics->callback([options] { bench::benchHaptics(*options); });
+}
+
+void addLoop(CLI::App& bench) {
+  CLI::App* loop = bench.add_subcommand("loop", "Lateness of the haptic loop beside a bare timer loop, under load");
+  loop->footer("Example:\n  palpa bench loop > loop.jsonl\n  palpa bench loop --rate 4000 --cpu 1");
+  const auto options = std::make_shared<bench::LoopBenchOptions>();
+  loop->add_option("--seconds", options->seconds, "Of measurement, in 40 segments")->check(CLI::Range(1.0, 3600.0));
+  loop->add_option("--rate", options->rate_Hz, "Ticks a second")->check(CLI::Range(1000.0, 4000.0));
+  loop->add_option("--cpu", options->cpu, "Keep the measured thread on this processor")->check(CLI::Range(0, 1023));
+  loop->callback([options] { bench::benchLoop(*options); });
+}
+
+}  // namespace
+
+void addBench(CLI::App& program) {
+  CLI::App* bench = program.add_subcommand("bench", "Measurements, one JSON object a line");
+  bench->require_subcommand(1);
+  addHaptics(*bench);
+  addLoop(*bench);
 }
 
 }  // namespace palpa::cli

@@ -8,15 +8,19 @@
 #include "apps/runtime/activity.h"
 #include "apps/runtime/clock.h"
 #include "apps/runtime/state_channel.h"
+#include "apps/runtime/time_histogram.h"
 
 namespace palpa::runtime {
 
-/// Lateness of an activity's steps behind their due times, real time only.
+/// Lateness of an activity's steps behind their due times, and what a step cost; real time only.
 struct Lateness {
   std::string name;
   std::uint64_t steps = 0;
-  double median_us = 0, p99_us = 0, max_us = 0;
-  std::string scheduling;    ///< "SCHED_FIFO", or why not
+  double median_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
+  Spread cost;                      ///< from the step's beginning to its end, wherever the thread was meanwhile
+  std::uint64_t missed_ticks = 0;   ///< later than one period; 0 for an activity without a steady period
+  std::string scheduling;           ///< "SCHED_FIFO; memory locked", or why not
+  TimeHistogram late;               ///< the lateness itself
 };
 
 /// Runs activities until one of them finishes `run` by stop(), or all are done.

@@ -2,7 +2,7 @@
 
 namespace palpa::runtime {
 namespace {
-constexpr std::int64_t kDrainPeriod = 100'000'000;  // 100 ticks at 1 kHz
+constexpr std::int64_t kDrainPeriod = 100'000'000;  // 100 ticks at 1 kHz, 400 at 4 kHz: the queue holds 8192
 }
 
 std::int64_t RecorderActivity::step(std::int64_t now_ns) {

@@ -5,8 +5,8 @@
 
 namespace palpa::runtime {
 
-/// RECORDER: drains what the others queued into the session's evidence and commits at least every 200
-/// ticks.
+/// RECORDER: drains what the others queued into the session's evidence and commits ten times a
+/// second.
 class RecorderActivity final : public Activity {
  public:
   RecorderActivity(Bus& bus, FlightSink& sink) : bus_(bus), sink_(sink) {}

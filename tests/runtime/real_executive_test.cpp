@@ -40,18 +40,76 @@ TEST(RealExecutive, RunsEveryActivityToItsEndAndCountsTheSteps) {
   EXPECT_EQ(late[1].steps, 7u);
   EXPECT_EQ(late[0].name, "counter");
   EXPECT_LE(late[0].median_us, late[0].p99_us);
+  EXPECT_LE(late[0].p99_us, late[0].p999_us);
+  EXPECT_LE(late[0].p999_us, late[0].max_us);
+  EXPECT_LE(late[0].cost.median_us, late[0].cost.max_us);
+  EXPECT_EQ(late[0].late.count(), 50u);
+  EXPECT_EQ(late[0].missed_ticks, 0u) << "without a period none can be missed";
   EXPECT_EQ(executive->mode(), TimeMode::real);
 }
 
+bool saysGrantedOrWhyNot(const std::string& words, const std::string& granted, const std::string& refused) {
+  const std::size_t at = words.find(refused);
+  return at == std::string::npos ? words.find(granted) != std::string::npos
+                                 : words.find('(', at) != std::string::npos;
+}
+
 TEST(RealExecutive, RealTimePolicyIsGrantedOrTheReasonIsTold) {
+  int steps = 0, plain_steps = 0;
+  Doing a = counter(steps, 3), plain = counter(plain_steps, 3);
+  const auto executive = makeRealExecutive();
+  executive->add(a, {0, true, false});
+  executive->add(plain, {1, false, false});
+  executive->run();
+  const std::string words = executive->lateness().at(0).scheduling;
+  EXPECT_TRUE(saysGrantedOrWhyNot(words, "SCHED_FIFO", "SCHED_FIFO refused")) << words;
+  EXPECT_TRUE(saysGrantedOrWhyNot(words, "; memory", "not locked: refused")) << words;
+  EXPECT_EQ(words.find("CPU"), std::string::npos) << "none was asked for";
+  EXPECT_EQ(executive->lateness().at(1).scheduling, "normal priority");
+}
+
+TEST(RealExecutive, CpuThatIsNotThereIsRefusedAndTheStepsRunAllTheSame) {
   int steps = 0;
   Doing a = counter(steps, 3);
   const auto executive = makeRealExecutive();
-  executive->add(a, {0, true, false});
+  executive->add(a, {0, true, false, 1 << 20});
   executive->run();
-  const std::string scheduling = executive->lateness().at(0).scheduling;
-  EXPECT_TRUE(scheduling == "SCHED_FIFO" || scheduling.find("refused (") != std::string::npos)
-      << scheduling;
+  EXPECT_EQ(steps, 3);
+  const std::string words = executive->lateness().at(0).scheduling;
+  EXPECT_NE(words.find("CPU 1048576 refused (Invalid argument)"), std::string::npos) << words;
+}
+
+/// Falls a whole number of periods behind once, by waiting on the session's own clock.
+class Stumbling final : public Activity {
+ public:
+  explicit Stumbling(const Clock& clock) : clock_(clock) {}
+  const char* name() const override { return "stumbling"; }
+  std::int64_t period_ns() const override { return kMillisecond; }
+  std::int64_t step(std::int64_t now) override {
+    if (due_ < 0) due_ = now;
+    if (++steps_ == 4)
+      while (clock_.now() < due_ + 3 * kMillisecond) {
+      }
+    if (steps_ == 8) return kNever;
+    return due_ += kMillisecond;
+  }
+
+ private:
+  const Clock& clock_;
+  std::int64_t due_ = -1;
+  int steps_ = 0;
+};
+
+TEST(RealExecutive, StepsLaterThanAPeriodCountAsMissed) {
+  const auto executive = makeRealExecutive();
+  Stumbling a(executive->clock());
+  executive->add(a, {});
+  executive->run();
+  const Lateness late = executive->lateness().at(0);
+  EXPECT_EQ(late.steps, 8u);
+  EXPECT_GE(late.missed_ticks, 1u) << "the fifth was due two periods before the fourth ended";
+  EXPECT_LE(late.missed_ticks, 8u);
+  EXPECT_GE(late.max_us, 1000) << "it waited until then";
 }
 
 TEST(RealExecutive, OnlyWhoAsksRunsOnTheCallersThread) {

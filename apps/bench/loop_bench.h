@@ -1,0 +1,16 @@
+#pragma once
+
+namespace palpa::bench {
+
+struct LoopBenchOptions {
+  double seconds = 20;    ///< of measurement, in 40 segments
+  double rate_Hz = 1000;
+  int cpu = -1;           ///< of the measured thread; -1: any
+};
+
+/// How late the haptic loop's ticks are, and how late a bare timer loop of the same priority is with the same beside
+/// it, in turn in 10 blocks A B B A: one JSON object a line on standard output. What the ratio of the two 99 %
+/// quantiles has above 1 is ours; the rest is the machine's.
+void benchLoop(const LoopBenchOptions& options);
+
+}  // namespace palpa::bench
