@@ -138,8 +138,9 @@ bool believable(SafetyCause fault) {
 
 /// The force that is asked of the limiter. Where nothing will be rendered the observer starts anew.
 Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands& commands,
-                  const Vec3& f_D, const SafetyInput& in) {
-  if (!commands.force_feedback || !commands.armed) {
+                  double fresh, const Vec3& f_contact_D, const SafetyInput& in) {
+  const Vec3 f_D = fresh * f_contact_D;
+  if (!commands.force_feedback || !commands.armed || fresh == 0) {
     state.passivity = PassivityState{};
     return commands.force_feedback ? f_D : Vec3::Zero();
   }
@@ -227,7 +228,7 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   NeedleContact contact;
   if (believable(fault)) {
     contact = feel(config, state, pose, commands.puncture_force_N, dt, now_ns);
-    input.f_wanted_D = passiveForce(config, state, commands, fresh * contact.f_D, input);
+    input.f_wanted_D = passiveForce(config, state, commands, fresh, contact.f_D, input);
   } else {
     forgetMotion(state);
   }
