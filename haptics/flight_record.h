@@ -14,9 +14,13 @@ enum class NeedlePhase : std::uint8_t { outside, indenting, inserted };
 /// Why the safety limiter took the force away, or what it changed.
 enum class SafetyCause : std::uint8_t {
   none, not_finite, clamp, slew, energy, silent_device, stale_geometry, emergency_stop, watchdog,
-  not_ready
+  not_ready,
+  jump,              ///< the position moved faster than a hand can
+  clock,             ///< session time stood still or went back
+  corrupt_geometry,  ///< stale, because the snapshots that came were refused
+  deadman            ///< the button that must be held is not
 };
-inline constexpr int kSafetyCauseCount = 10;
+inline constexpr int kSafetyCauseCount = 14;
 const char* name(SafetyCause cause);
 
 /// What the tick is told from outside; recorded with every tick, so that it can be run again.
@@ -40,6 +44,7 @@ enum TickEvent : std::uint32_t {
   kSnapshotAdopted = 1u << 5,
   kSafetyTripped = 1u << 6,        ///< cause in `safety`
   kSafetyCleared = 1u << 7,
+  kSnapshotRefused = 1u << 8,      ///< damaged; `snapshot` is its number in this tick
 };
 
 /// One tick of the haptic loop: everything that is needed to run it again and to score it.
@@ -49,7 +54,7 @@ struct FlightRecord {
   std::int64_t t_ns = 0;            ///< session time of the tick
   DeviceReading reading;
   TickCommands commands;
-  std::uint64_t snapshot = 0;       ///< number of the newest geometry snapshot used
+  std::uint64_t snapshot = 0;       ///< number of the newest geometry snapshot used, or refused in this tick
   Packed3 f_contact_D{};            ///< computed contact force (coupled), independent of `force_feedback`
   Packed3 f_wanted_D{};             ///< after fading and passivity control: what entered the safety limiter
   Packed3 f_command_D{};            ///< what left the safety limiter

@@ -18,12 +18,16 @@ Vec3 limitRise(const Vec3& f, const Vec3& last, double largest_step, bool* limit
   return *limited ? Vec3(base + rise * (largest_step / size)) : f;
 }
 
+/// Time that goes back neither makes a device heard nor silent.
 bool heard(const SafetyLimits& limits, SafetyState& state, const SafetyInput& in) {
+  const double elapsed = static_cast<double>(in.now_ns) - static_cast<double>(state.t_ns);
+  state.silence_ns += std::max(elapsed, 0.0);
+  state.t_ns = in.now_ns;
   if (!state.started || in.sequence != state.sequence) {
     state.sequence = in.sequence;
-    state.t_heard_ns = in.now_ns;
+    state.silence_ns = 0;
   }
-  return in.now_ns - state.t_heard_ns < limits.silent_ns;
+  return state.silence_ns < static_cast<double>(limits.silent_ns);
 }
 
 /// Work done on the hand since the force was last zero.
@@ -36,14 +40,26 @@ void accountEnergy(SafetyState& state, const Vec3& p_DE) {
   }
 }
 
+SafetyCause stop(SafetyState& state, SafetyCause cause) {
+  state.stopped = 1;
+  return state.stop_cause = cause;
+}
+
+bool believed(const SafetyInput& in) {
+  return in.fault == SafetyCause::none && in.p_DE.allFinite() && in.f_wanted_D.allFinite();
+}
+
 SafetyCause reasonForZero(const SafetyLimits& limits, SafetyState& state, const SafetyInput& in) {
   const bool device_heard = heard(limits, state, in);
-  if (!in.p_DE.allFinite() || !in.f_wanted_D.allFinite()) return SafetyCause::not_finite;
+  if (in.emergency_stop) return stop(state, SafetyCause::emergency_stop);
+  if (!in.armed) state.stopped = 0;
+  if (in.fault != SafetyCause::none) return in.fault;
+  if (!believed(in)) return SafetyCause::not_finite;
   if (state.started) accountEnergy(state, in.p_DE);
-  if (in.emergency_stop) return SafetyCause::emergency_stop;
-  if (state.stopped && in.armed) return state.cause;  // only disarming clears a stop
-  if (!in.armed) return SafetyCause::not_ready;
-  if (state.energy_J > limits.max_energy_J) return SafetyCause::energy;
+  if (state.stopped) return state.stop_cause;
+  if (!in.armed || !in.homed) return SafetyCause::not_ready;
+  if (state.energy_J > limits.max_energy_J) return stop(state, SafetyCause::energy);
+  if (limits.deadman_button && !(in.buttons & limits.deadman_button)) return SafetyCause::deadman;
   return device_heard ? SafetyCause::none : SafetyCause::silent_device;
 }
 
@@ -52,15 +68,15 @@ SafetyCause reasonForZero(const SafetyLimits& limits, SafetyState& state, const 
 const char* name(SafetyCause cause) {
   static constexpr const char* kNames[kSafetyCauseCount] = {
       "none",          "not finite",     "clamp",          "slew",     "energy",
-      "silent device", "stale geometry", "emergency stop", "watchdog", "not ready"};
+      "silent device", "stale geometry", "emergency stop", "watchdog", "not ready",
+      "position jump", "clock fault", "damaged geometry", "button not held"};
   return kNames[static_cast<int>(cause)];
 }
 
 Vec3 limitForce(const SafetyLimits& limits, SafetyState& state, const SafetyInput& in) noexcept {
   const SafetyCause zero = reasonForZero(limits, state, in);
   state.started = 1;
-  if (in.p_DE.allFinite()) state.p_last_D = pack(in.p_DE);
-  state.stopped = zero == SafetyCause::emergency_stop || zero == SafetyCause::energy;
+  if (believed(in)) state.p_last_D = pack(in.p_DE);
   state.cause = zero;
   if (zero != SafetyCause::none) {
     state.f_last_D = {0, 0, 0};

@@ -12,18 +12,27 @@ struct SafetyLimits {
   double max_slew_N_per_s = 2000;      ///< on rises of any component's magnitude; falls are free
   double max_energy_J = 0.25;          ///< net energy given to the hand since the last rest
   std::int64_t silent_ns = 10'000'000; ///< no new reading for this long: zero force
+  std::int64_t watchdog_ns = 10'000'000;   ///< the loop stood still for longer: zero force in its next tick
+  /// m/s. A movement of 10 cm from rest to rest peaks at 1.875 x 0.1 m / T (minimum jerk, Flash and Hogan
+  /// 1985): 5 m/s would be T = 38 ms, less than a reflex takes. Faster is a fault of the device.
+  double max_speed = 5;
+  std::int64_t jump_hold_ns = 10'000'000;  ///< steady for this long after a jump before force returns
+  std::uint32_t deadman_button = 0;        ///< bits of DeviceReading::buttons, one of them held or no force; 0: off
+  std::uint32_t reserved = 0;
 };
 
 struct SafetyState {
   Packed3 f_last_D{};
   Packed3 p_last_D{};
   std::uint64_t sequence = 0;
-  std::int64_t t_heard_ns = 0;      ///< when `sequence` last grew
+  std::int64_t t_ns = 0;            ///< of the last call
+  double silence_ns = 0;            ///< since `sequence` last changed
   double energy_J = 0;
   std::uint8_t started = 0;
   std::uint8_t stopped = 0;         ///< emergency stop or energy trip, until re-armed deliberately
+  SafetyCause stop_cause = SafetyCause::none;
   SafetyCause cause = SafetyCause::none;
-  std::uint8_t reserved[5]{};
+  std::uint8_t reserved[4]{};
 };
 static_assert(std::is_trivially_copyable_v<SafetyState>);
 
@@ -33,12 +42,16 @@ struct SafetyInput {
   Vec3 f_wanted_D = Vec3::Zero();
   Vec3 p_DE = Vec3::Zero();
   std::uint64_t sequence = 0;
-  bool armed = false;
+  std::uint32_t buttons = 0;
+  SafetyCause fault = SafetyCause::none;  ///< found before: zero force for this reason
+  bool armed = false;                     ///< taking this away, and only this, clears a stop
+  bool homed = true;
   bool emergency_stop = false;
 };
 
-/// Finite check (zero at once), silent device, emergency stop, energy bound, force clamp, slew limit on
-/// rises. Returns the force to command; `state.cause` says what was done about it (none: nothing).
+/// Emergency stop, finite check, faults found before (zero at once), silent device, dead man's button, energy
+/// bound, force clamp, slew limit on rises. Returns the force to command; `state.cause` says what was done
+/// about it (none: nothing). A stop outlasts any other fault.
 Vec3 limitForce(const SafetyLimits& limits, SafetyState& state, const SafetyInput& input) noexcept;
 
 }  // namespace palpa::haptics

@@ -1,15 +1,18 @@
 #include "haptics/tick.h"
 
 #include <algorithm>
+#include <cmath>
+
+#include "haptics/geometry_check.h"
 
 namespace palpa::haptics {
 namespace {
 
 constexpr double kLongestStep = 0.005;  // s: a late tick is not integrated over more than this
 
-bool finite(const DeviceReading& reading) {
-  const Quat q = unpack(reading.q_DE);
-  return unpack(reading.p_DE).allFinite() && q.coeffs().allFinite() && q.norm() > 0.5;
+/// From one time to another, ns. In floating point: a clock that leaps must not overflow.
+double between(std::int64_t from_ns, std::int64_t to_ns) {
+  return static_cast<double>(to_ns) - static_cast<double>(from_ns);
 }
 
 NeedlePose needlePose(const TickConfig& config, const DeviceReading& reading) {
@@ -27,18 +30,28 @@ void startTrial(TickState& state, std::uint32_t trial) {
   state.blending = 0;
 }
 
-/// A snapshot that arrives during a blend waits until it is over, so that the force never jumps.
-bool adopt(const TickConfig& config, TickState& state, const LocalGeometry* latest,
-           std::int64_t now_ns) {
-  if (state.blending && now_ns - state.t_adopted_ns >= config.blend_ns) state.blending = 0;
-  if (!latest || latest->number == state.now.number || state.blending) return false;
+/// A snapshot that arrives during a blend waits until it is over, so that the force never jumps. A damaged one
+/// is refused: the one before it stays, grows stale and fades. Returns the TickEvent.
+std::uint32_t adopt(const TickConfig& config, TickState& state, const LocalGeometry* latest,
+                    std::int64_t now_ns) {
+  state.t_adopted_ns = std::min(state.t_adopted_ns, now_ns);  // where the clock went back
+  if (state.blending &&
+      between(state.t_adopted_ns, now_ns) >= static_cast<double>(config.blend_ns))
+    state.blending = 0;
+  if (!latest || latest->number == 0 || state.blending) return 0;
+  if (latest->number == state.now.number || latest->number == state.refused) return 0;
+  if (!plausible(*latest)) {
+    state.refused = latest->number;
+    return kSnapshotRefused;
+  }
+  state.refused = 0;
   state.blending = state.now.number != 0;
   state.old = state.now;
   state.contact_old = state.contact;
   state.probe_old = state.probe;
   state.now = *latest;
   state.t_adopted_ns = now_ns;
-  return true;
+  return kSnapshotAdopted;
 }
 
 /// One of the two descriptions of the contact: on the newest snapshot, or on the one before it.
@@ -70,24 +83,64 @@ NeedleContact blendedContact(const TickConfig& config, TickState& state, const N
     return contact;
   }
   const double u = std::clamp(
-      static_cast<double>(now_ns - state.t_adopted_ns) / static_cast<double>(config.blend_ns), 0.0,
-      1.0);
+      between(state.t_adopted_ns, now_ns) / static_cast<double>(config.blend_ns), 0.0, 1.0);
   contact.f_D = (1 - u) * old.f_D + u * contact.f_D;
   contact.tau_D = (1 - u) * old.tau_D + u * contact.tau_D;
   return contact;
 }
 
-/// 1 while the snapshot is young, then falling to 0 within the fade.
+/// The contact in this tick. What cannot be computed is not remembered: the next tick goes on from before.
+NeedleContact feel(const TickConfig& config, TickState& state, const NeedlePose& pose,
+                   double puncture_force_N, double dt, std::int64_t now_ns) {
+  const NeedleState needle = state.contact, needle_old = state.contact_old;
+  const ProbeState probe = state.probe, probe_old = state.probe_old;
+  const NeedleContact contact = blendedContact(config, state, pose, puncture_force_N, dt, now_ns);
+  if (contact.f_D.allFinite() && contact.tau_D.allFinite()) return contact;
+  state.contact = needle;
+  state.contact_old = needle_old;
+  state.probe = probe;
+  state.probe_old = probe_old;
+  return contact;
+}
+
+/// After readings that were not believed the velocity is measured anew.
+void forgetMotion(TickState& state) {
+  state.contact.started = state.contact_old.started = 0;
+  state.probe.started = state.probe_old.started = 0;
+  state.probe.v_D = state.probe_old.v_D = {0, 0, 0};
+  state.passivity = PassivityState{};
+}
+
+/// 1 while the snapshot is young, then falling to 0 within the fade. One from the future is as bad as an
+/// old one: the clock went back, or its time is wrong.
 double freshness(const TickConfig& config, const TickState& state, std::int64_t now_ns) {
   if (state.now.number == 0) return 0;
-  const std::int64_t over = now_ns - state.now.t_ns - config.age_limit_ns;
-  return std::clamp(1.0 - static_cast<double>(over) / static_cast<double>(config.fade_ns), 0.0, 1.0);
+  const double over =
+      std::abs(between(state.now.t_ns, now_ns)) - static_cast<double>(config.age_limit_ns);
+  return std::clamp(1.0 - over / static_cast<double>(config.fade_ns), 0.0, 1.0);
+}
+
+/// What is wrong with this tick before any force is computed.
+SafetyCause faultOf(const TickConfig& config, TickState& state, const DeviceReading& reading,
+                    const NeedlePose& pose, double elapsed_ns) {
+  if (!possible(reading)) return SafetyCause::not_finite;
+  const bool still = steady(config.safety, config.period_ns, pose, reading.sequence, elapsed_ns,
+                            state.reading);
+  if (!still) return SafetyCause::jump;
+  if (elapsed_ns <= 0) return SafetyCause::clock;
+  return elapsed_ns > static_cast<double>(config.safety.watchdog_ns) ? SafetyCause::watchdog
+                                                                     : SafetyCause::none;
+}
+
+bool believable(SafetyCause fault) {
+  return fault != SafetyCause::not_finite && fault != SafetyCause::jump;
 }
 
 /// The force that is asked of the limiter. Where nothing will be rendered the observer starts anew.
 Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands& commands,
-                  const Vec3& f_D, const SafetyInput& in) {
-  if (!commands.force_feedback || !commands.armed) {
+                  double fresh, const Vec3& f_contact_D, const SafetyInput& in) {
+  const Vec3 f_D = fresh * f_contact_D;
+  if (!commands.force_feedback || !commands.armed || fresh == 0) {
     state.passivity = PassivityState{};
     return commands.force_feedback ? f_D : Vec3::Zero();
   }
@@ -100,12 +153,12 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands
 
 bool isTrip(SafetyCause cause) {
   return cause != SafetyCause::none && cause != SafetyCause::clamp && cause != SafetyCause::slew &&
-         cause != SafetyCause::not_ready;
+         cause != SafetyCause::not_ready && cause != SafetyCause::deadman;
 }
 
 void describe(const TickConfig& config, FlightRecord& record, const NeedleContact& contact,
               const TickState& state) {
-  record.snapshot = state.now.number;
+  record.snapshot = record.events & kSnapshotRefused ? state.refused : state.now.number;
   record.f_contact_D = pack(contact.f_D);
   record.tau_missing_D = pack(contact.tau_D);
   record.indentation = contact.indentation;
@@ -124,50 +177,66 @@ void describe(const TickConfig& config, FlightRecord& record, const NeedleContac
   record.damped = state.passivity.injecting;
 }
 
+SafetyInput safetyInput(const DeviceReading& reading, const TickCommands& commands,
+                        SafetyCause fault, std::int64_t now_ns, double dt) {
+  SafetyInput input;
+  input.now_ns = now_ns;
+  input.dt = dt;
+  input.p_DE = unpack(reading.p_DE);
+  input.sequence = reading.sequence;
+  input.buttons = reading.buttons;
+  input.fault = fault;
+  input.armed = commands.armed;
+  input.homed = reading.homed;
+  input.emergency_stop = commands.emergency_stop;
+  return input;
+}
+
+/// The limiter's cause, or that the geometry has faded; and the events when it changes.
+void tellCause(FlightRecord& record, TickState& state, double fresh) {
+  SafetyCause cause = state.safety.cause;
+  const bool rendered = cause == SafetyCause::none || cause == SafetyCause::clamp ||
+                        cause == SafetyCause::slew;
+  if (rendered && fresh < 1)
+    cause = state.refused ? SafetyCause::corrupt_geometry : SafetyCause::stale_geometry;
+  record.safety = cause;
+  if (isTrip(cause) && cause != state.cause) record.events |= kSafetyTripped;
+  if (!isTrip(cause) && isTrip(state.cause)) record.events |= kSafetyCleared;
+  state.cause = cause;
+}
+
 }  // namespace
 
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands,
                   std::int64_t now_ns) noexcept {
-  const double elapsed = static_cast<double>(now_ns - state.t_ns) * 1e-9;
-  const double dt = state.tick == 0 ? static_cast<double>(config.period_ns) * 1e-9
-                                    : std::clamp(elapsed, 0.0, kLongestStep);
+  const double period = static_cast<double>(config.period_ns);
+  const double elapsed = state.tick == 0 ? period : between(state.t_ns, now_ns);
+  const double dt = std::clamp(elapsed * 1e-9, 0.0, kLongestStep);
   FlightRecord record;
   record.tick = state.tick++;
   record.t_ns = state.t_ns = now_ns;
   record.reading = reading;
   record.commands = commands;
   if (commands.trial != state.trial) startTrial(state, commands.trial);
-  if (adopt(config, state, latest, now_ns)) record.events |= kSnapshotAdopted;
+  record.events |= adopt(config, state, latest, now_ns);
 
-  NeedleContact contact;
-  const bool sound = finite(reading);
-  if (sound)
-    contact = blendedContact(config, state, needlePose(config, reading), commands.puncture_force_N,
-                             dt, now_ns);
-
+  const NeedlePose pose = needlePose(config, reading);
+  const SafetyCause fault = faultOf(config, state, reading, pose, elapsed);
+  SafetyInput input = safetyInput(reading, commands, fault, now_ns, dt);
   const double fresh = freshness(config, state, now_ns);
-  SafetyInput input;
-  input.now_ns = now_ns;
-  input.dt = dt;
-  input.p_DE = unpack(reading.p_DE);
-  input.f_wanted_D = passiveForce(config, state, commands, fresh * contact.f_D, input);
-  input.sequence = reading.sequence;
-  input.armed = commands.armed && reading.homed;
-  input.emergency_stop = commands.emergency_stop;
+  NeedleContact contact;
+  if (believable(fault)) {
+    contact = feel(config, state, pose, commands.puncture_force_N, dt, now_ns);
+    input.f_wanted_D = passiveForce(config, state, commands, fresh, contact.f_D, input);
+  } else {
+    forgetMotion(state);
+  }
   record.f_wanted_D = pack(input.f_wanted_D);
   describe(config, record, contact, state);
   record.f_command_D = pack(limitForce(config.safety, state.safety, input));
-  if (!sound) record.f_command_D = state.safety.f_last_D = {0, 0, 0};
   state.passivity.f_last_D = record.f_command_D;  // what the hand really gets
-
-  SafetyCause cause = sound ? state.safety.cause : SafetyCause::not_finite;
-  if (!isTrip(cause) && cause != SafetyCause::not_ready && fresh < 1)
-    cause = SafetyCause::stale_geometry;
-  record.safety = cause;
-  if (isTrip(cause) && !isTrip(state.cause)) record.events |= kSafetyTripped;
-  if (!isTrip(cause) && isTrip(state.cause)) record.events |= kSafetyCleared;
-  state.cause = cause;
+  tellCause(record, state, fresh);
   return record;
 }
 

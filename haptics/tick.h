@@ -5,6 +5,7 @@
 #include "haptics/needle_contact.h"
 #include "haptics/passivity.h"
 #include "haptics/probe_contact.h"
+#include "haptics/reading_check.h"
 #include "haptics/safety_limiter.h"
 
 namespace palpa::haptics {
@@ -37,6 +38,8 @@ struct TickState {
   ProbeState probe, probe_old;
   PassivityState passivity;
   SafetyState safety;
+  ReadingState reading;
+  std::uint64_t refused = 0;         ///< number of the last snapshot, when it was damaged
   std::uint32_t trial = 0;
   std::uint8_t blending = 0;
   SafetyCause cause = SafetyCause::none;
@@ -45,7 +48,10 @@ struct TickState {
 static_assert(std::is_trivially_copyable_v<TickState>);
 
 /// One tick: reading -> contact on the snapshot -> blend -> passivity -> safety limiter -> command. Pure: same
-/// inputs, same bits. `latest` is the newest snapshot or null; it is adopted when the last blend is over. Never allocates, locks, logs or throws.
+/// inputs, same bits. `latest` is the newest snapshot or null; it is adopted when the last blend is over, unless
+/// it is damaged. Whatever comes in, the command is finite and within the limits. Never allocates, locks, logs or
+/// throws. Zero force in the same tick for readings that cannot be, jumps, a clock that stood still or went
+/// back, and after a pause of the loop (watchdog).
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands,
                   std::int64_t now_ns) noexcept;

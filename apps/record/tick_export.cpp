@@ -25,7 +25,8 @@ const char* word(haptics::NeedlePhase phase) {
 const char* word(haptics::SafetyCause cause) {
   static constexpr const char* kWords[haptics::kSafetyCauseCount] = {
       "none",          "not_finite",     "clamp",          "slew",     "energy",
-      "silent_device", "stale_geometry", "emergency_stop", "watchdog", "not_ready"};
+      "silent_device", "stale_geometry", "emergency_stop", "watchdog", "not_ready",
+      "jump",          "clock",          "corrupt_geometry", "deadman"};
   const auto index = static_cast<std::size_t>(cause);
   return index < std::size(kWords) ? kWords[index] : "?";
 }
@@ -40,7 +41,8 @@ std::string eventWords(std::uint32_t events) {
       {haptics::kSkinPunctured, "skin_punctured"}, {haptics::kWithdrawn, "withdrawn"},
       {haptics::kWallPunctured, "wall_punctured"}, {haptics::kBoneTouched, "bone_touched"},
       {haptics::kBoneLeft, "bone_left"},           {haptics::kSnapshotAdopted, "snapshot_adopted"},
-      {haptics::kSafetyTripped, "safety_tripped"}, {haptics::kSafetyCleared, "safety_cleared"}};
+      {haptics::kSafetyTripped, "safety_tripped"}, {haptics::kSafetyCleared, "safety_cleared"},
+      {haptics::kSnapshotRefused, "snapshot_refused"}};
   std::string words;
   for (const auto& [bit, text] : kWords) {
     if (events & bit) words += (words.empty() ? "" : "+") + std::string(text);
@@ -112,7 +114,7 @@ void addCommands(std::vector<Column>& columns) {
                      }});
   columns.push_back({{"armed", "0: no force (not homed, between trials)"},
                      [](const FlightRecord& r) { return std::to_string(r.commands.armed); }});
-  columns.push_back({{"snapshot", "number of the newest geometry snapshot used"},
+  columns.push_back({{"snapshot", "number of the newest geometry snapshot used, or refused in this tick"},
                      [](const FlightRecord& r) { return std::to_string(r.snapshot); }});
 }
 

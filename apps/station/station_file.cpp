@@ -104,6 +104,8 @@ Station readStation(const std::filesystem::path& path) {
   s.safety.max_force_N = file.number("safety/max_force_N", 0.1, s.device.max_force_N);
   s.safety.max_slew_N_per_s = file.number("safety/max_slew_N_per_s", 10, 1e5);
   s.safety.max_energy_J = file.number("safety/max_energy_J", 1e-3, 5);
+  if (file.has("safety/deadman_button"))  // number of the button, from 0
+    s.safety.deadman_button = 1u << file.integer("safety/deadman_button", 0, 31);
   const double stable = haptics::couplingStiffness(s.device, kLongestPeriod);
   s.coupling.stiffness = file.number("coupling/stiffness_N_per_m", 10, stable);
   s.passivity.max_damping = kDampedShare * s.device.apparent_mass / kLongestPeriod;

@@ -57,11 +57,14 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, boo
   hud.alarm = status.alarm;
   const bool force_taken = tool.safety == haptics::SafetyCause::energy ||
                            tool.safety == haptics::SafetyCause::silent_device ||
-                           tool.safety == haptics::SafetyCause::stale_geometry;
+                           tool.safety == haptics::SafetyCause::stale_geometry ||
+                           tool.safety == haptics::SafetyCause::corrupt_geometry;
   if (hud.notice.empty() && active && force_taken) {
     hud.notice = std::string("Force is off: ") + haptics::name(tool.safety) + ". R re-arms";
     hud.alarm = true;
   }
+  if (hud.notice.empty() && active && tool.safety == haptics::SafetyCause::deadman)
+    hud.notice = "Force is off: hold the button of the device";
   if (hud.notice.empty() && active && injury(tool)) {
     hud.notice = "The needle touches the " + std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery");
     hud.alarm = true;

@@ -157,6 +157,8 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   last_ = record;
   if (record.events & haptics::kSafetyTripped)
     tell(record.t_ns, "safety", std::string("Force taken away: ") + haptics::name(record.safety));
+  if (record.events & haptics::kSnapshotRefused)
+    tell(record.t_ns, "safety", "Damaged geometry was refused");
   if (status_.state != TrialState::running && status_.state != TrialState::paused) return;
   assess::TrialSample sample;
   if (!sampler_.add(record, &sample)) return;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <atomic>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
@@ -45,6 +46,17 @@ fs::path newFolder() {
          ("palpa-cli-" + std::to_string(::getpid()) + "-" + std::to_string(++count));
 }
 
+/// Starts the program; every run is filled with another byte.
+pid_t start(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& out,
+            const fs::path& err) {
+  static std::atomic<int> runs{0};
+  const int fill = 1 + 37 * runs++ % 255;
+  const pid_t child = ::fork();
+  if (child < 0) throw std::runtime_error("fork failed");
+  if (child == 0) become(arguments, folder, out, err, fill);
+  return child;
+}
+
 }  // namespace
 
 int Outcome::errLines() const {
@@ -52,14 +64,28 @@ int Outcome::errLines() const {
   return static_cast<int>(ends) + (!err.empty() && err.back() != '\n');
 }
 
+Running::Running(const std::vector<std::string>& arguments, const fs::path& folder)
+    : child_(start(arguments, folder, "/dev/null", "/dev/null")) {}
+
+Running::~Running() { kill(); }
+
+bool Running::ended() {
+  if (child_ > 0 && ::waitpid(child_, nullptr, WNOHANG) == child_) child_ = -1;
+  return child_ < 0;
+}
+
+void Running::kill() {
+  if (child_ < 0) return;
+  ::kill(child_, SIGKILL);
+  while (::waitpid(child_, nullptr, 0) < 0 && errno == EINTR) {
+  }
+  child_ = -1;
+}
+
 Outcome palpa(const std::vector<std::string>& arguments, const fs::path& folder) {
   const Folder streams;
   const fs::path out = streams / "out", err = streams / "err";
-  static std::atomic<int> runs{0};
-  const int fill = 1 + 37 * runs++ % 255;
-  const pid_t child = ::fork();
-  if (child < 0) throw std::runtime_error("fork failed");
-  if (child == 0) become(arguments, folder, out, err, fill);
+  const pid_t child = start(arguments, folder, out, err);
   int status = 0;
   while (::waitpid(child, &status, 0) < 0 && errno == EINTR) {
   }

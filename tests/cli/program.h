@@ -17,6 +17,21 @@ struct Outcome {
 /// Runs the built `palpa` with these arguments, in `folder`, without a display; waits for its end.
 Outcome palpa(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
+/// A run of `palpa` that goes on while the test does; killed at the end of its life, if it still runs.
+class Running {
+ public:
+  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+  ~Running();
+  Running(const Running&) = delete;
+  Running& operator=(const Running&) = delete;
+
+  bool ended();  ///< by itself
+  void kill();   ///< with SIGKILL, and waits until it is gone
+
+ private:
+  int child_ = -1;
+};
+
 /// A folder of its own for one test, empty at the start, gone at the end.
 class Folder {
  public:

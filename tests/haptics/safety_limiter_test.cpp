@@ -82,6 +82,39 @@ TEST(SafetyLimiter, EmergencyStopHoldsUntilDisarmedAndArmedAgain) {
   EXPECT_GT(bench.step({1, 0, 0}).norm(), 0);
 }
 
+TEST(SafetyLimiter, NoOtherFaultClearsAStop) {
+  Bench bench;
+  bench.input.emergency_stop = true;
+  bench.step({1, 0, 0});
+  bench.input.emergency_stop = false;
+  bench.input.p_DE.x() = std::numeric_limits<double>::quiet_NaN();
+  bench.step({1, 0, 0});
+  bench.input.p_DE.x() = 0;
+  EXPECT_EQ(bench.step({1, 0, 0}), Vec3::Zero());
+  bench.input.homed = false;
+  bench.step({1, 0, 0});
+  bench.input.homed = true;
+  EXPECT_EQ(bench.step({1, 0, 0}), Vec3::Zero()) << "losing the homing is not disarming";
+  EXPECT_EQ(bench.state.cause, SafetyCause::emergency_stop);
+}
+
+TEST(SafetyLimiter, TheDeadMansButtonGivesForceOnlyWhileItIsHeld) {
+  Bench bench;
+  bench.limits.deadman_button = 1u << 2;
+  const double step = bench.limits.max_slew_N_per_s * bench.input.dt;
+  EXPECT_EQ(bench.step({5, 0, 0}), Vec3::Zero());
+  EXPECT_EQ(bench.state.cause, SafetyCause::deadman);
+  bench.input.buttons = 1u << 1;
+  EXPECT_EQ(bench.step({5, 0, 0}), Vec3::Zero()) << "another button";
+  bench.input.buttons = 1u << 2 | 1u;
+  EXPECT_NEAR(bench.step({5, 0, 0}).norm(), step, 1e-12) << "back within the slew limit";
+  EXPECT_NEAR(bench.step({5, 0, 0}).norm(), 2 * step, 1e-12);
+  bench.input.buttons = 1;
+  EXPECT_EQ(bench.step({5, 0, 0}), Vec3::Zero()) << "let go: at once";
+  bench.limits.deadman_button = 0;
+  EXPECT_GT(bench.step({5, 0, 0}).norm(), 0) << "0: off";
+}
+
 TEST(SafetyLimiter, EnergyGivenToTheHandIsBounded) {
   Bench bench;
   double given = 0;

@@ -134,6 +134,49 @@ TEST(Tick, ANotFiniteReadingGivesZeroAndDoesNotPoisonTheState) {
   EXPECT_GT(unpack(r.f_command_D).norm(), 0.2);
 }
 
+TEST(Tick, APauseOfTheLoopIsRecordedAsWatchdogAndTakesTheForceOnce) {
+  Loop loop;
+  loop.go(0, 0.0022);
+  ASSERT_GT(unpack(loop.step(0.0022).f_command_D).norm(), 0.2);
+  loop.now += 9'000'000;  // and 1 ms more in step(): the limit itself
+  FlightRecord r = loop.step(0.0022);
+  EXPECT_NE(r.safety, SafetyCause::watchdog);
+  EXPECT_GT(unpack(r.f_command_D).norm(), 0.2);
+  loop.now += 9'000'001;
+  r = loop.step(0.0022);
+  EXPECT_EQ(r.safety, SafetyCause::watchdog);
+  EXPECT_TRUE(r.events & kSafetyTripped);
+  EXPECT_EQ(r.f_command_D, (Packed3{0, 0, 0}));
+  r = loop.step(0.0022);
+  EXPECT_TRUE(r.events & kSafetyCleared);
+  EXPECT_GT(unpack(r.f_command_D).norm(), 0.2);
+}
+
+TEST(Tick, ADamagedSnapshotIsRefusedOnceAndTheLastSoundOneFades) {
+  Loop loop;
+  loop.go(0, 0.0022);
+  loop.refresh = false;
+  for (int i = 0; i < 30; ++i) loop.step(0.0022);
+  const std::uint64_t sound = loop.state.now.number;
+  loop.geometry.number = sound + 1;
+  loop.geometry.boundary_count = 1000;
+  FlightRecord r = loop.step(0.0022);
+  EXPECT_TRUE(r.events & kSnapshotRefused);
+  EXPECT_EQ(r.snapshot, sound + 1) << "so that it can be run again";
+  EXPECT_GT(unpack(r.f_command_D).norm(), 0.2);
+  for (int i = 0; i < 150; ++i) {
+    r = loop.step(0.0022);
+    ASSERT_FALSE(r.events & kSnapshotRefused);
+    ASSERT_EQ(r.snapshot, sound);
+  }
+  EXPECT_EQ(r.f_command_D, (Packed3{0, 0, 0}));
+  EXPECT_EQ(r.safety, SafetyCause::corrupt_geometry);
+  loop.geometry.boundary_count = 5;
+  ++loop.geometry.number;
+  loop.step(0.0022);
+  EXPECT_EQ(loop.state.now.number, sound + 2);
+}
+
 TEST(Tick, SameInputsSameBitsAlsoFromAKeyframe) {
   Loop a;
   a.go(0, 0.004);

@@ -220,6 +220,28 @@ TEST(HapticActivity, WithoutAReadingOrCommandsThereIsNoForce) {
   }
 }
 
+void endsWithTheLoop(TimeMode mode) {
+  ChannelDevice device({}, mode);
+  const Packed3 f{0, 0, 2}, zero{0, 0, 0};
+  EXPECT_EQ(device.commanded(0), zero);
+  EXPECT_EQ(device.timeouts(), 0u) << "nothing was commanded yet";
+  device.command(5 * kMillisecond, f);
+  EXPECT_EQ(device.commanded(6 * kMillisecond), f);
+  EXPECT_EQ(device.commanded(15 * kMillisecond), f);
+  EXPECT_EQ(device.commanded(15 * kMillisecond + 1), zero) << "10 ms without a command";
+  EXPECT_EQ(device.commanded(30 * kMillisecond), zero);
+  EXPECT_EQ(device.timeouts(), 1u) << "once for the whole pause";
+  device.command(31 * kMillisecond, f);
+  EXPECT_EQ(device.commanded(31 * kMillisecond), f) << "the loop is back";
+  EXPECT_EQ(device.commanded(60 * kMillisecond), zero);
+  EXPECT_EQ(device.timeouts(), 2u);
+}
+
+TEST(ChannelDevice, TheForceEndsWhenTheLoopStopsCommanding) {
+  endsWithTheLoop(TimeMode::real);
+  endsWithTheLoop(TimeMode::virtual_time);
+}
+
 TEST(RecorderActivity, DrainsInOrderCommitsAndCountsWhatWasLost) {
   Bus bus(TimeMode::real);
   Memory sink;

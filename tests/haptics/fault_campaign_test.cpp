@@ -1,0 +1,91 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <memory>
+#include <string>
+
+#include "fault_judge.h"
+
+/// Random faults on the whole tick, one after the other and one into the other, while a tool is pushed into
+/// tissue and bone. A judge that sees only the inputs says when there must be no force.
+namespace palpa::haptics {
+namespace {
+
+constexpr int kFaultsInEpisode = 20;
+
+struct Episode {
+  FaultyWorld world;
+  TickState state;
+  FaultJudge& judge;
+  FlightRecord last;
+
+  void step(Fault fault) {
+    world.advance(fault);
+    last = tick(world.config, state, world.reading, world.offers ? &world.offered : nullptr,
+                world.commands, world.now);
+    judge.judge(world, state, last);
+  }
+  void steps(Fault fault, int count) {
+    for (int i = 0; i < count; ++i) step(fault);
+  }
+  /// Nothing that was sent may stay in the state: a sound world gives a sound force again.
+  void recover() {
+    world.target = -0.001;
+    steps(Fault::none, 1000);
+    step(Fault::disarmed);
+    step(Fault::trial_changes);
+    world.target = 0.0022;
+    steps(Fault::none, 400);
+    EXPECT_GT(unpack(last.f_command_D).norm(), 0.03) << "after the faults; cause " << name(last.safety);
+  }
+};
+
+int lengthOf(Fault fault, Dice& dice) {
+  if (fault == Fault::no_snapshots || fault == Fault::snapshot_damaged) return 1 + dice.below(dice.chance(0.1) ? 800 : 40);
+  return 1 + dice.below(dice.chance(0.1) ? 100 : 12);
+}
+
+void runEpisode(Dice& dice, Engine engine, FaultJudge& sum) {
+  FaultJudge judge;
+  auto e = std::make_unique<Episode>(Episode{FaultyWorld(dice, engine), {}, judge, {}});
+  e->steps(Fault::none, 100);
+  for (int k = 0; k < kFaultsInEpisode; ++k) {
+    const auto fault = static_cast<Fault>(1 + dice.below(kFaultCount - 1));
+    e->world.target = dice.uniform(-0.001, 0.012);
+    e->world.begin(fault);
+    e->steps(fault, lengthOf(fault, dice));
+    e->world.end();
+    e->steps(Fault::none, dice.below(60));
+    if (dice.chance(0.5)) e->step(Fault::disarmed);  // a stop would else last to the end
+  }
+  e->recover();
+  for (int c = 0; c < kSafetyCauseCount; ++c) sum.seen[c] += judge.seen[c];
+  sum.taken_away += judge.taken_away;
+  sum.pushed += judge.pushed;
+}
+
+void campaign(Engine engine, std::uint64_t seed) {
+  const char* full = std::getenv("PALPA_FULL");
+  const int faults = (full && std::string(full) == "1" ? 100'000 : 20'000) / 2;  // half for each engine
+  Dice dice(seed);
+  FaultJudge sum;
+  for (int i = 0; i < faults / kFaultsInEpisode; ++i) {
+    runEpisode(dice, engine, sum);
+    if (testing::Test::HasFailure()) FAIL() << "in episode " << i;
+  }
+  EXPECT_GT(sum.pushed, 5 * faults) << "a campaign without force proves nothing";
+  EXPECT_GT(sum.taken_away, faults / 10);
+  for (int c = 0; c < kSafetyCauseCount; ++c)
+    EXPECT_GT(sum.seen[c], 20) << name(static_cast<SafetyCause>(c)) << " hardly ever happened";
+}
+
+TEST(FaultCampaign, TheNeedlesForceStaysWithinItsLimitsWhateverComesIn) {
+  campaign(Engine::needle, 20'260'101);
+}
+
+TEST(FaultCampaign, TheProbesForceStaysWithinItsLimitsWhateverComesIn) {
+  campaign(Engine::probe, 20'260'102);
+}
+
+}  // namespace
+}  // namespace palpa::haptics

@@ -1,0 +1,183 @@
+#pragma once
+
+#include <cstring>
+#include <limits>
+#include <random>
+
+#include "haptics/tick.h"
+#include "needle_bench.h"
+
+namespace palpa::haptics {
+
+/// Seeded, the same on every machine: the distributions of the standard library are not.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : bits_(seed) {}
+  double uniform(double a, double b) { return a + (b - a) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  int below(int n) { return static_cast<int>(bits_() % static_cast<std::uint64_t>(n)); }
+  std::uint64_t bits() { return bits_(); }
+  bool chance(double p) { return uniform(0, 1) < p; }
+  /// A number that no sound sender sends.
+  double absurd() {
+    constexpr double kInf = std::numeric_limits<double>::infinity();
+    const double all[] = {std::numeric_limits<double>::quiet_NaN(), kInf, -kInf, 1e300, -1e300, 1e154, -50};
+    return all[below(7)];
+  }
+
+ private:
+  std::mt19937_64 bits_;
+};
+
+enum class Fault {
+  none, position_absurd, orientation_absurd, position_jump, orientation_jump, clock_still, clock_back,
+  clock_leap, packets_dropped, no_snapshots, snapshot_damaged, snapshot_random_bytes, emergency_stop,
+  not_homed, disarmed, button_released, commands_absurd, trial_changes
+};
+inline constexpr int kFaultCount = 18;
+
+/// A hand that pushes a tool in and out of tissue with a bone, and a world that can be told to fail.
+/// Knows nothing of the tick: it only makes its inputs.
+struct FaultyWorld {
+  Dice& dice;
+  TickConfig config;
+  TickCommands commands;
+  DeviceReading reading;
+  LocalGeometry sound = NeedleBench{}.geometry, offered;
+  bool offers = false;
+  bool damaged = false;          ///< `offered` must not be adopted
+  bool reading_absurd = false;   ///< must not be believed
+  std::int64_t now = 0;
+  std::uint64_t numbers = 0;
+  int ticks = 0;
+  double depth = -0.001, target = 0.002;
+  Vec3 shift = Vec3::Zero();     ///< where a jump put the device
+  Quat turn = Quat::Identity();
+
+  FaultyWorld(Dice& dice_in, Engine engine) : dice(dice_in) {
+    config.materials = NeedleBench{}.materials;
+    config.engine = engine;
+    config.X_ET.p = {0, 0, 0.11};
+    config.period_ns = dice.chance(0.5) ? 1'000'000 : 250'000;
+    config.blend_ns = 1'000'000 * (1 + dice.below(20));
+    config.safety.max_force_N = dice.uniform(0.1, 10);
+    config.safety.max_slew_N_per_s = dice.chance(0.5) ? 2000 : dice.uniform(10, 1e5);
+    config.safety.max_energy_J = dice.uniform(1e-3, dice.chance(0.5) ? 5 : 3e-3);
+    config.safety.deadman_button = dice.chance(0.3) ? 4 : 0;
+    config.coupling.stiffness = dice.uniform(200, 3000);
+    config.passivity.max_damping = dice.chance(0.5) ? 0 : dice.uniform(1, 10);
+    sound.bone_count = 1;
+    sound.bones[0] = {{-0.02, 0, -0.012}, {0.02, 0, -0.012}, 0.004, Organ::rib};
+    commands.armed = 1;
+    commands.trial = 1;
+    reading.homed = 1;
+  }
+
+  /// The inputs of the next tick, with this fault.
+  void advance(Fault fault) {
+    moveHand();
+    ++ticks;
+    commands = {1.5, commands.trial, 1, 0, 1, 0};
+    reading.homed = 1;
+    reading.buttons = 7;
+    moveClock(fault);
+    read(fault);
+    offer(fault);
+    command(fault);
+  }
+
+  /// Begins a fault that has a place of its own.
+  void begin(Fault fault) {
+    if (fault == Fault::position_jump)
+      shift = Vec3(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)).normalized() *
+              dice.uniform(0.1, 3);
+    if (fault == Fault::orientation_jump)
+      turn = Quat(Eigen::AngleAxisd(dice.uniform(1.2, 3), Vec3(dice.uniform(-1, 1), 1, 0).normalized()));
+  }
+  void end() {
+    shift = Vec3::Zero();
+    turn = Quat::Identity();
+  }
+
+ private:
+  void moveHand() {
+    const double step = 0.05 * 1e-9 * static_cast<double>(config.period_ns);  // 5 cm/s
+    depth += std::clamp(target - depth, -step, step);
+  }
+
+  void moveClock(Fault fault) {
+    if (fault == Fault::clock_still) return;
+    if (fault == Fault::clock_back) {
+      now -= static_cast<std::int64_t>(dice.uniform(1, dice.chance(0.5) ? 1e6 : 2e9));
+    } else if (fault == Fault::clock_leap) {
+      now = dice.chance(0.02) ? static_cast<std::int64_t>(dice.uniform(-1e15, 1e15))
+                              : now + static_cast<std::int64_t>(dice.uniform(1e6, dice.chance(0.5) ? 3e7 : 1e10));
+    } else {
+      now += config.period_ns;
+    }
+  }
+
+  void read(Fault fault) {
+    if (fault == Fault::packets_dropped) return;
+    ++reading.sequence;
+    reading.t_ns = now;
+    reading.p_DE = pack(Vec3(Vec3(0, 0, 0.11 - depth) + shift));
+    reading.q_DE = pack(Quat(turn * Quat(0, 1, 0, 0)));  // tool down
+    reading_absurd = fault == Fault::position_absurd || fault == Fault::orientation_absurd;
+    if (fault == Fault::position_absurd)
+      reading.p_DE[static_cast<std::size_t>(dice.below(3))] = dice.absurd();
+    if (fault == Fault::orientation_absurd) {
+      if (dice.chance(0.2)) reading.q_DE = {0, 0, 0, 0};
+      else reading.q_DE[static_cast<std::size_t>(dice.below(4))] = dice.absurd();
+    }
+  }
+
+  void offer(Fault fault) {
+    const bool harmed = fault == Fault::snapshot_damaged || fault == Fault::snapshot_random_bytes;
+    if (fault == Fault::no_snapshots || (!harmed && offers && ticks % 8 != 0)) return;
+    offered = sound;
+    offered.number = ++numbers;
+    offered.t_ns = now;
+    offers = true;
+    damaged = fault == Fault::snapshot_damaged;
+    if (damaged) damage(offered);
+    if (fault == Fault::snapshot_random_bytes) scribble(offered);
+  }
+
+  void damage(LocalGeometry& g) {
+    const auto axis = static_cast<std::size_t>(dice.below(3));
+    Boundary& boundary = g.boundaries[dice.below(g.boundary_count)];
+    switch (dice.below(11)) {
+      case 0: g.boundary_count = static_cast<std::int32_t>(17 + dice.below(1'000'000)); break;
+      case 1: g.boundary_count = -1 - dice.below(1'000'000); break;
+      case 2: g.bone_count = dice.chance(0.5) ? 9 : std::numeric_limits<std::int32_t>::min(); break;
+      case 3: g.skin.p[axis] = dice.absurd(); break;
+      case 4: g.skin.n[axis] = dice.absurd(); break;
+      case 5: g.skin.c[dice.below(SurfacePatch::kTerms)] = dice.chance(0.5) ? 1e12 : std::nan(""); break;
+      case 6: boundary.p[axis] = dice.absurd(); break;
+      case 7: boundary.n[axis] = dice.absurd(); break;
+      case 8: boundary.to = static_cast<Tissue>(kTissueCount + dice.below(200)); break;
+      case 9: g.bones[0].a[axis] = dice.absurd(); break;
+      default: g.bones[0].organ = static_cast<Organ>(kOrganCount + dice.below(200)); break;
+    }
+  }
+
+  void scribble(LocalGeometry& g) {
+    unsigned char bytes[sizeof(LocalGeometry)];
+    std::memcpy(bytes, &g, sizeof bytes);
+    const int count = 1 + dice.below(dice.chance(0.5) ? 16 : static_cast<int>(sizeof bytes));
+    for (int i = 0; i < count; ++i)
+      bytes[dice.below(static_cast<int>(sizeof bytes))] = static_cast<unsigned char>(dice.bits());
+    std::memcpy(static_cast<void*>(&g), bytes, sizeof bytes);
+  }
+
+  void command(Fault fault) {
+    if (fault == Fault::emergency_stop) commands.emergency_stop = static_cast<std::uint8_t>(1 + dice.below(255));
+    if (fault == Fault::not_homed) reading.homed = 0;
+    if (fault == Fault::disarmed) commands.armed = 0;
+    if (fault == Fault::button_released) reading.buttons = 3;
+    if (fault == Fault::commands_absurd) commands.puncture_force_N = dice.absurd();
+    if (fault == Fault::trial_changes) ++commands.trial;
+  }
+};
+
+}  // namespace palpa::haptics
