@@ -89,20 +89,6 @@ NeedleContact blendedContact(const TickConfig& config, TickState& state, const N
   return contact;
 }
 
-/// The contact in this tick. What cannot be computed is not remembered: the next tick goes on from before.
-NeedleContact feel(const TickConfig& config, TickState& state, const NeedlePose& pose,
-                   double puncture_force_N, double dt, std::int64_t now_ns) {
-  const NeedleState needle = state.contact, needle_old = state.contact_old;
-  const ProbeState probe = state.probe, probe_old = state.probe_old;
-  const NeedleContact contact = blendedContact(config, state, pose, puncture_force_N, dt, now_ns);
-  if (contact.f_D.allFinite() && contact.tau_D.allFinite()) return contact;
-  state.contact = needle;
-  state.contact_old = needle_old;
-  state.probe = probe;
-  state.probe_old = probe_old;
-  return contact;
-}
-
 /// After readings that were not believed the velocity is measured anew.
 void forgetMotion(TickState& state) {
   state.contact.started = state.contact_old.started = 0;
@@ -227,7 +213,8 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   const double fresh = freshness(config, state, now_ns);
   NeedleContact contact;
   if (believable(fault)) {
-    contact = feel(config, state, pose, commands.puncture_force_N, dt, now_ns);
+    contact =
+        blendedContact(config, state, pose, commands.puncture_force_N, dt, now_ns);
     input.f_wanted_D = passiveForce(config, state, commands, fresh, contact.f_D, input);
   } else {
     forgetMotion(state);

@@ -1,13 +1,12 @@
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdlib>
 #include <optional>
 #include <random>
-#include <thread>
 
 #include "anatomy/geometry/error.h"
 #include "apps/record/session_file.h"
+#include "apps/runtime/clock.h"
 #include "program.h"
 
 /// The whole program is killed (SIGKILL) at random moments of a session. What is proven, without a hook in it:
@@ -61,9 +60,10 @@ void isPrefix(const std::vector<FlightRecord>& left, const std::vector<FlightRec
 
 TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
   const Folder reference;
-  const auto began = std::chrono::steady_clock::now();
+  const runtime::SteadyClock clock;
+  const std::int64_t began = clock.now();
   ASSERT_EQ(palpa(arguments(), reference.path()).exit_code, 0);
-  const std::chrono::duration<double> run = std::chrono::steady_clock::now() - began;
+  const auto run = static_cast<double>(clock.now() - began);
   const std::vector<FlightRecord> whole = ticksOf(reference / "A/session.palpa");
   ASSERT_GT(whole.size(), 1000u);
 
@@ -78,7 +78,7 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
     const Folder here;
     const fs::path file = here / "A/session.palpa";
     Running program(arguments(), here.path());
-    std::this_thread::sleep_for(run * part);
+    clock.sleepUntil(clock.now() + static_cast<std::int64_t>(run * part));
     const auto before = committed(file);
     program.kill();
     const auto after = committed(file);
