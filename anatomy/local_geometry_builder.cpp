@@ -187,7 +187,9 @@ LocalGeometry LocalGeometryBuilder::build(std::uint64_t number, std::int64_t t_n
   geometry.number = number;
   geometry.t_ns = t_ns;
   const Vec3 tip = tool.X_AT.translation(), direction = tool.X_AT.linear().col(2);
-  geometry.skin = fitSurfacePatch(query_, skin_, tool.punctured ? tool.entry_A : tip, kSurfaceReach);
+  // A needle in the tissue meets layers, no longer the skin's surface: its plane at the entry will do.
+  geometry.skin = tool.punctured ? fitSurfacePatch(query_, skin_, tool.entry_A, 0)
+                                 : fitSurfacePatch(query_, skin_, tip, kSurfaceReach);
   const Vec3 skin_p = unpack(geometry.skin.p), skin_n = unpack(geometry.skin.n);
 
   const double inward = -direction.dot(skin_n);

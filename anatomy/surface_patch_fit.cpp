@@ -7,7 +7,7 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr int kRings = 4, kPerRing = 6;  // ring r has 6 r points
+constexpr int kRings = 3, kPerRing = 6;  // ring r has 6 r points
 constexpr int kSamples = 1 + kPerRing * kRings * (kRings + 1) / 2;
 constexpr int kEnough = 20;
 constexpr double kSameSide = 0.3;  // cosine: a sample whose normal turns away more lies on another sheet
@@ -62,6 +62,7 @@ SurfacePatch fitSurfacePatch(const SurfaceQuery& query, int surface, const Vec3&
   patch.n = pack(n);
   patch.x = pack(x);
   patch.reach = reach;
+  if (reach <= 0) return patch;
   Samples samples(centre.p_A, x, n, reach);
   samples.add(centre);
   for (int ring = 1; ring <= kRings; ++ring)
