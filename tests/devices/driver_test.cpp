@@ -3,25 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <cstdlib>
-#include <new>
 #include <thread>
 
 #include "scripted_station.h"
-
-namespace {
-thread_local bool allocation_forbidden = false;
-thread_local int allocations = 0;
-}  // namespace
-
-// Not inlined: the compiler would otherwise pair our free() with its own idea of new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (allocation_forbidden) ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#include "tests/support/allocation_guard.h"
 
 namespace palpa::haptics {
 namespace {
@@ -167,11 +152,13 @@ TEST(FalconDriver, ReadAndCommandNeverAllocate) {
   ReadyStation s;
   double sum = 0;
   for (int i = 0; i < 1000; ++i) {
-    allocations = 0;
-    allocation_forbidden = true;
-    s.rig.driver.command(s.rig.now_ns, {0, 0, 1e-3 * i});
-    sum += s.rig.driver.read(s.rig.now_ns).p_DE[2];
-    allocation_forbidden = false;
+    int allocations = 0;
+    {
+      const NoAllocation guard;
+      s.rig.driver.command(s.rig.now_ns, {0, 0, 1e-3 * i});
+      sum += s.rig.driver.read(s.rig.now_ns).p_DE[2];
+      allocations = guard.allocations();
+    }
     ASSERT_EQ(allocations, 0);
     s.rig.step();
   }

@@ -2,25 +2,10 @@
 
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <cstring>
-#include <new>
 
 #include "needle_bench.h"
-
-namespace {
-thread_local bool allocation_forbidden = false;
-thread_local int allocations = 0;
-}  // namespace
-
-// Not inlined: the compiler would otherwise pair our free() with its own idea of new.
-[[gnu::noinline]] void* operator new(std::size_t size) {
-  if (allocation_forbidden) ++allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-[[gnu::noinline]] void operator delete(void* p) noexcept { std::free(p); }
-[[gnu::noinline]] void operator delete(void* p, std::size_t) noexcept { std::free(p); }
+#include "tests/support/allocation_guard.h"
 
 namespace palpa::haptics {
 namespace {
@@ -60,15 +45,13 @@ struct Loop {
 TEST(Tick, NeverAllocates) {
   Loop loop;
   loop.step(0);
-  allocations = 0;
-  allocation_forbidden = true;
+  const NoAllocation guard;
   loop.refresh = false;
   for (double d = 0; d < 0.03; d += 2e-5) {
     loop.geometry.number += static_cast<std::uint64_t>(static_cast<int>(d * 1e5) % 17 == 0);
     loop.step(d);
   }
-  allocation_forbidden = false;
-  EXPECT_EQ(allocations, 0);
+  EXPECT_EQ(guard.allocations(), 0);
 }
 
 TEST(Tick, ForceFeedbackOffComputesTheSameForce) {
