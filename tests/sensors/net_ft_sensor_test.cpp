@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <memory>
 
 #include "apps/runtime/random.h"
@@ -196,9 +197,10 @@ TEST(NetFtSensor, AReaderInAnotherThreadSeesWholeSamplesInOrder) {
     while (seen < kLast) {
       const WrenchSample s = b.sensor.read(b.now);
       back += s.sequence < seen;
-      torn += s.sequence > 1 && (s.f_S[0] * 1000 != static_cast<double>(s.sequence) ||
-                                 s.tau_S[2] * 2000 != -static_cast<double>(s.sequence) ||
-                                 s.ft_sequence != 100 + s.sequence);
+      const auto sequence = static_cast<std::int64_t>(s.sequence);
+      torn += sequence > 1 && (std::llround(s.f_S[0] * 1000) != sequence ||
+                               std::llround(s.tau_S[2] * 2000) != -sequence ||
+                               s.ft_sequence != 100 + s.sequence);
       seen = s.sequence;
     }
   });
