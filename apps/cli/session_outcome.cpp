@@ -92,7 +92,11 @@ std::vector<report::Fact> notes(const SessionResult& result) {
   std::vector<report::Fact> facts;
   for (const runtime::Lateness& late : result.lateness)
     if (late.name == "haptic")
-      facts.push_back({"Lateness of the haptic loop", format("median %.0f us, 99 %% below %.0f us", late.median_us, late.p99_us),
+      facts.push_back({"Lateness of the haptic loop",
+                       format("median %.0f us, 99 %% below %.0f us, 99.9 %% below %.0f us; %llu of %llu ticks missed; a step costs %.1f us",
+                              late.median_us, late.p99_us, late.p999_us,
+                              static_cast<unsigned long long>(late.missed_ticks),
+                              static_cast<unsigned long long>(late.steps), late.cost.median_us),
                        late.scheduling});
   if (result.dropped)
     facts.push_back({"Records lost", format("%llu", static_cast<unsigned long long>(result.dropped)),

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/runtime/random.h"
+#include "tests/support/allocation_guard.h"
 
 namespace palpa::runtime {
 namespace {
@@ -65,6 +66,14 @@ TEST(TimeHistogram, TheSumOfTwoIsTheHistogramOfAll) {
   EXPECT_EQ(a.count(), both.count());
   EXPECT_EQ(a.max_ns(), both.max_ns());
   for (double q = 0; q <= 1; q += 0.05) EXPECT_EQ(a.quantile(q), both.quantile(q));
+}
+
+TEST(TimeHistogram, CountsWithoutAllocation) {
+  TimeHistogram h;
+  const NoAllocation guard;
+  for (std::int64_t t = 1; t < std::int64_t{1} << 42; t *= 2) h.add(t);
+  EXPECT_GT(spreadOf(h).max_us, 0);
+  EXPECT_EQ(guard.allocations(), 0);
 }
 
 TEST(TimeHistogram, OfNothingIsZero) {
