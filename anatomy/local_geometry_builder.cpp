@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "anatomy/capsule_chain.h"
 #include "anatomy/geometry/error.h"
 #include "anatomy/nearest_on_segment.h"
 #include "anatomy/surface_patch_fit.h"
@@ -12,8 +13,6 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr double kBoneReach = 0.040;  // bones further from tip and shaft are left out
-constexpr double kFitReach = 0.020;   // of the bone around the nearest point goes into the capsule
-constexpr double kFlattest = 0.020;   // a "tube" of larger radius is a plate: no capsule fits it
 constexpr double kSurfaceReach = 0.008;  // of the skin round the tool: a fast hand's way until the next snapshot
 constexpr double kAhead = 0.060;      // boundaries are looked for this far beyond the tip
 constexpr double kTowardSkin = 0.02;  // sine of the least angle at which the axis counts as inward
@@ -33,24 +32,6 @@ Tissue insideOf(Organ organ) {
     default:
       return Tissue::bone;
   }
-}
-
-// The fitted tube, moved so that it touches the surface at its nearest point with its normal.
-Capsule touching(const SurfaceQuery::Tube& tube, const SurfacePoint& nearest, Organ organ) {
-  const Vec3 fitted = (tube.b_A - tube.a_A).normalized();
-  const double along = nearest.n_A.dot(fitted);
-  Vec3 axis = fitted, on_axis = tube.a_A;
-  constexpr double kEndOfBone = 0.7;  // there the normal runs along the tube: keep the fit
-  if (std::abs(along) < kEndOfBone) {
-    axis = (fitted - along * nearest.n_A).normalized();
-    on_axis = nearest.p_A - tube.radius * nearest.n_A;
-  }
-  double low = (tube.a_A - on_axis).dot(axis), high = (tube.b_A - on_axis).dot(axis);
-  // A capsule reaches its radius beyond its ends; the bone's vertices do not.
-  const double shorten = std::min(0.8 * tube.radius, (high - low) / 2);
-  low += shorten;
-  high -= shorten;
-  return {pack(Vec3(on_axis + low * axis)), pack(Vec3(on_axis + high * axis)), tube.radius, organ};
 }
 
 // Walks along the axis and keeps what is on either side consistent.
@@ -133,11 +114,13 @@ void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis,
         query_.closest(bone.surface, middle).distance > outer)
       continue;
     const SurfacePoint nearest = nearestToSegment(query_, bone.surface, axis.tip, other);
-    SurfaceQuery::Tube tube;
-    if (nearest.distance > kBoneReach ||
-        !query_.fitTube(bone.surface, nearest.p_A, kFitReach, &tube) || tube.radius > kFlattest)
-      continue;
-    geometry->bones[geometry->bone_count++] = touching(tube, nearest, bone.organ);
+    if (nearest.distance > kBoneReach) continue;
+    for (Capsule capsule : capsuleChain(query_, bone.surface, nearest)) {
+      if (geometry->bone_count == LocalGeometry::kMaxBones) return;
+      capsule.organ = bone.organ;
+      capsule.bone = static_cast<std::uint8_t>(bone.surface);
+      geometry->bones[geometry->bone_count++] = capsule;
+    }
   }
 }
 
@@ -153,7 +136,7 @@ void LocalGeometryBuilder::addBoundaries(const Axis& axis, LocalGeometry* geomet
   const Layer planes[] = {
       {0, Tissue::skin, Organ::skin},
       {layers.skin, Tissue::fat, Organ::none},
-      {layers.skin + layers.fat, Tissue::muscle, Organ::none},
+      {layers.skin + layers.fat, Tissue::muscle, Organ::fascia},
       {layers.skin + layers.fat + layers.muscle, Tissue::connective, Organ::none}};
   constexpr std::size_t kConnective = 3;  // the plane under the muscle
   const double length = std::max(-axis.s_skin, 0.0) + kAhead;

@@ -8,8 +8,8 @@ namespace palpa::anatomy {
 
 /// Makes the snapshot that the haptic tick reads, around a predicted tool. Pure: same inputs, same
 /// bits. Skin as a curved patch round the tip (before puncture) or round `entry`;
-/// bones within 40 mm of the tip or the inserted shaft as capsules that touch the bone's mesh at
-/// its nearest point, with its normal there; tissue boundaries along the needle axis from the skin
+/// bones within 40 mm of the tip or the inserted shaft as short chains of capsules that touch the bone's mesh at
+/// its nearest point, with its normal there, and follow its bend to either side (capsule_chain.h); tissue boundaries along the needle axis from the skin
 /// inward to 60 mm beyond the tip (offset planes for skin, fat and muscle, which ends earlier where
 /// the axis leaves its mesh at a border; mesh crossings for vessels, lung and bone). A needle that
 /// points away from the skin has no boundaries.

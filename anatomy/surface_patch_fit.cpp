@@ -16,11 +16,6 @@ using Design = Eigen::Matrix<double, Eigen::Dynamic, SurfacePatch::kTerms, 0, kS
 using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSamples>;
 using Terms = Eigen::Matrix<double, SurfacePatch::kTerms, 1>;
 
-Vec3 anyTangent(const Vec3& n) {
-  const Vec3 least = std::abs(n.x()) < 0.6 ? Vec3::UnitX() : Vec3::UnitY();
-  return (least - least.dot(n) * n).normalized();
-}
-
 Terms terms(double a, double b) {
   Terms t;
   t << 1, a, b, a * a, a * b, b * b, a * a * a, a * a * b, a * b * b, b * b * b;
@@ -56,7 +51,7 @@ class Samples {
 
 SurfacePatch fitSurfacePatch(const SurfaceQuery& query, int surface, const Vec3& near_A, double reach) {
   const SurfacePoint centre = query.rounded(surface, near_A);
-  const Vec3 n = centre.n_A, x = anyTangent(n), y = n.cross(x);
+  const Vec3 n = centre.n_A, x = rotationWithZ(n).col(0), y = n.cross(x);
   SurfacePatch patch;
   patch.p = pack(centre.p_A);
   patch.n = pack(n);

@@ -9,7 +9,8 @@
 namespace palpa::ar {
 
 /// Finds one board in picture after picture: first around where it was, and in the whole picture
-/// whenever that shows fewer points than before. Not for several threads at once.
+/// whenever that shows fewer points than before. A board of a single tag is therefore the one that was found
+/// first for as long as it is seen, also beside a larger one. Not for several threads at once.
 class BoardTracker {
  public:
   BoardTracker(const Board& board, const calibration::CameraModel& camera);

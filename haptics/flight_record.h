@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <type_traits>
 
@@ -18,10 +19,14 @@ enum class SafetyCause : std::uint8_t {
   jump,              ///< the position moved faster than a hand can
   clock,             ///< session time stood still or went back
   corrupt_geometry,  ///< stale, because the snapshots that came were refused
-  deadman            ///< the button that must be held is not
+  deadman,           ///< the button that must be held is not
+  duty               ///< the drives have had more than they can bear for long: less force
 };
-inline constexpr int kSafetyCauseCount = 14;
+inline constexpr int kSafetyCauseCount = 15;
 const char* name(SafetyCause cause);
+
+/// Whether there is a force sensor, and whether its word counts in this tick.
+enum class SensorState : std::uint8_t { none, valid, unusable };
 
 /// What the tick is told from outside; recorded with every tick, so that it can be run again.
 struct TickCommands {
@@ -30,9 +35,23 @@ struct TickCommands {
   std::uint8_t force_feedback = 1;     ///< 0: forces are computed and recorded but not rendered
   std::uint8_t emergency_stop = 0;
   std::uint8_t armed = 0;              ///< 0: no force (not homed, between trials)
-  std::uint8_t reserved = 0;
+  std::uint8_t subtask = 0;            ///< number of the part of the task that is on, as the task counts them
+  /// By Organ: a wall's peak in this trial, in its median peak.
+  std::array<float, kOrganCount> wall_scale = [] {
+    std::array<float, kOrganCount> one;
+    one.fill(1);
+    return one;
+  }();
 };
 static_assert(std::is_trivially_copyable_v<TickCommands>);
+
+/// What a force sensor says of a real object that the tool touches, cleared of tool, bias and noise.
+struct SensedForce {
+  Packed3 f_D{};                       ///< of the object on the tool, N
+  SensorState state = SensorState::none;
+  std::uint8_t reserved[7]{};
+};
+static_assert(std::is_trivially_copyable_v<SensedForce>);
 
 /// Happened in this tick (bits of FlightRecord::events).
 enum TickEvent : std::uint32_t {
@@ -54,6 +73,8 @@ struct FlightRecord {
   std::int64_t t_ns = 0;            ///< session time of the tick
   DeviceReading reading;
   TickCommands commands;
+  SensedForce sensed;
+  std::int64_t late_ns = 0;         ///< of the tick behind its due time; 0 in virtual time
   std::uint64_t snapshot = 0;       ///< number of the newest geometry snapshot used, or refused in this tick
   Packed3 f_contact_D{};            ///< computed contact force (coupled), independent of `force_feedback`
   Packed3 f_wanted_D{};             ///< after fading and passivity control: what entered the safety limiter

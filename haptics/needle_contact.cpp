@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "haptics/bone_contact.h"
 #include "haptics/tissue_walk.h"
 
 namespace palpa::haptics {
@@ -33,6 +32,7 @@ struct Step {
   const CouplingLimits& coupling;
   const LocalGeometry& geometry;
   const NeedlePose& pose;
+  const TickCommands& commands;
   double dt;
   NeedleState& state;
   NeedleContact out;
@@ -43,34 +43,10 @@ struct Step {
   }
 };
 
-void updateVelocity(Step& s) {
-  if (!s.state.started || s.dt <= 0) {
-    s.state.v_D = {0, 0, 0};
-  } else {
-    const Vec3 raw = (s.pose.p_DT - unpack(s.state.p_DT)) / s.dt;
-    const Vec3 v = unpack(s.state.v_D);
-    s.state.v_D = pack(Vec3(v + (raw - v) * (s.dt / (s.coupling.velocity_tau + s.dt))));
-  }
-  s.state.p_DT = pack(s.pose.p_DT);
-  s.state.started = 1;
-  s.out.v_axial = unpack(s.state.v_D).dot(s.pose.a_D);
-}
-
 void decayRelease(Step& s) {
   const double keep = std::exp(-s.dt / s.materials.skin.release_tau);
   s.state.release_D = pack(Vec3(keep * unpack(s.state.release_D)));
   s.push(unpack(s.state.release_D), s.pose.p_DT);
-}
-
-/// Skin as the needle's point drags it sideways: elastic, then sliding.
-Vec3 skinFriction(Step& s, const Vec3& n, double normal_force) {
-  const SkinLaw& skin = s.materials.skin;
-  Vec3 drag = s.pose.p_DT - unpack(s.state.skin_anchor_D);
-  drag -= drag.dot(n) * n;
-  const double largest = skin.friction * normal_force / skin.shear;
-  if (drag.norm() > largest) drag *= largest / drag.norm();
-  s.state.skin_anchor_D = pack(Vec3(s.pose.p_DT - drag));
-  return -skin.shear * drag;
 }
 
 void puncture(Step& s, const Vec3& n, double x) {
@@ -84,7 +60,7 @@ void puncture(Step& s, const Vec3& n, double x) {
   s.out.events |= kSkinPunctured;
 }
 
-void beforePuncture(Step& s, double puncture_force_N) {
+void beforePuncture(Step& s) {
   const PatchContact skin = nearestOn(s.geometry.skin, s.pose.p_DT);
   const Vec3 n = skin.normal;
   const double x = -skin.distance;
@@ -98,8 +74,11 @@ void beforePuncture(Step& s, double puncture_force_N) {
   s.out.indentation = indentationInSeries(s.materials.skin, s.coupling.stiffness, x);
   s.out.skin_force = relaxed(s.materials.skin.relaxation, s.state.relaxation,
                              s.materials.skin.force(s.out.indentation), s.dt);
-  s.push(s.out.skin_force * n + skinFriction(s, n, s.out.skin_force), s.pose.p_DT);
-  if (s.out.skin_force >= puncture_force_N) puncture(s, n, x);
+  const SkinLaw& law = s.materials.skin;
+  s.push(s.out.skin_force * n + dragAcross(s.state.skin_anchor_D, s.pose.p_DT, n, law.shear,
+                                           law.friction * s.out.skin_force),
+         s.pose.p_DT);
+  if (s.out.skin_force >= s.commands.puncture_force_N) puncture(s, n, x);
 }
 
 /// Stick–slip of cutting and shaft friction: an anchor that yields at the limit of either direction.
@@ -119,17 +98,31 @@ void holdLaterally(Step& s, double insertion) {
   s.push(-std::min(k, s.coupling.stiffness) * (axis_point - unpack(s.state.entry_D)), axis_point);
 }
 
+/// What a wall had stored and now lets go; never more than was felt before it gave way.
+void letGo(Step& s, const Vec3& f) {
+  const Vec3 released = unpack(s.state.release_D) + f;
+  const double size = released.norm(), felt = s.out.f_D.norm();
+  s.state.release_D = pack(size > felt ? Vec3(released * (felt / size)) : released);
+}
+
 void pushWall(Step& s, const TissueWalk& walk) {
+  if (walk.wall != s.state.pushed || walk.wall_leaving != bool(s.state.pushed_leaving)) {
+    s.state.wall_relaxation = RelaxationState{};
+    s.state.pushed = walk.wall;
+    s.state.pushed_leaving = walk.wall_leaving;
+  }
   if (walk.wall == Organ::none) return;
-  const WallLaw& law = s.materials.walls[static_cast<int>(walk.wall)];
+  const auto index = static_cast<std::size_t>(walk.wall);
+  const WallLaw& law = s.materials.walls[index];
   s.out.wall = walk.wall;
   s.out.wall_leaving = walk.wall_leaving;
-  s.out.wall_force = std::min(law.stiffness, s.coupling.stiffness) * walk.wall_depth;
+  s.out.wall_force = relaxed(law.relaxation, s.state.wall_relaxation,
+                             std::min(law.stiffness, s.coupling.stiffness) * walk.wall_depth, s.dt);
   const Vec3 f = -s.out.wall_force * s.pose.a_D;
   s.push(f, s.pose.p_DT);
-  if (s.out.wall_force < law.peak) return;
-  (walk.wall_leaving ? s.state.walls_back : s.state.walls_front) |= 1u << static_cast<int>(walk.wall);
-  s.state.release_D = pack(Vec3(unpack(s.state.release_D) + f));
+  if (s.out.wall_force < law.peak * static_cast<double>(s.commands.wall_scale[index])) return;
+  (walk.wall_leaving ? s.state.walls_back : s.state.walls_front) |= 1u << index;
+  letGo(s, f);
   s.out.events |= kWallPunctured;
 }
 
@@ -159,45 +152,32 @@ void afterPuncture(Step& s) {
   pushWall(s, walk);
 }
 
-void touchBones(Step& s) {
+void pushBones(Step& s) {
   const Vec3 hub = s.pose.p_DT - s.materials.needle_length * s.pose.a_D;
-  BoneContact deepest[kOrganCount];  // one force a bone, so that a chain's joints do not count twice
-  for (int i = 0; i < s.geometry.bone_count; ++i) {
-    const BoneContact c =
-        bonePenetration(s.geometry.bones[i], hub, s.pose.p_DT, s.materials.needle_radius);
-    BoneContact& best = deepest[static_cast<int>(c.organ)];
-    if (c.penetration > best.penetration) best = c;
-  }
-  Organ strongest = Organ::none;
-  for (const BoneContact& c : deepest) {
-    if (c.penetration <= 0) continue;
-    const double f = s.coupling.stiffness * c.penetration;
-    s.push(f * c.n_D, c.p_D);
-    if (f > s.out.bone_force) {
-      s.out.bone_force = f;
-      strongest = c.organ;
-    }
-  }
-  if (strongest != Organ::none && s.state.bone == Organ::none) s.out.events |= kBoneTouched;
-  if (strongest == Organ::none && s.state.bone != Organ::none) s.out.events |= kBoneLeft;
-  s.state.bone = strongest;
+  const BoneTouch touch = touchBones(s.geometry, hub, s.pose.p_DT, s.materials.needle_radius,
+                                     s.coupling.stiffness, s.state.bone);
+  for (int i = 0; i < touch.count; ++i) s.push(touch.each[i].f_D, touch.each[i].p_D);
+  s.out.bone_force = touch.largest;
+  s.out.events |= touch.events;
+  s.state.bone = touch.organ;
 }
 
 }  // namespace
 
 NeedleContact needleContact(const NeedleMaterials& materials, const CouplingLimits& coupling,
                             const LocalGeometry& geometry, const NeedlePose& pose,
-                            double puncture_force_N, double dt, NeedleState& state) noexcept {
-  Step step{materials, coupling, geometry, pose, dt, state, {}};
-  updateVelocity(step);
+                            const TickCommands& commands, double dt, NeedleState& state) noexcept {
+  Step step{materials, coupling, geometry, pose, commands, dt, state, {}};
+  follow(state.motion, pose.p_DT, coupling.velocity_tau, dt);
+  step.out.v_axial = unpack(state.motion.v_D).dot(pose.a_D);
   if (geometry.number == 0) return step.out;
   if (state.phase == NeedlePhase::inserted) {
     decayRelease(step);
     afterPuncture(step);
   } else {
-    beforePuncture(step, puncture_force_N);
+    beforePuncture(step);
   }
-  if (state.phase == NeedlePhase::inserted) touchBones(step);
+  if (state.phase == NeedlePhase::inserted) pushBones(step);
   else state.bone = Organ::none;
   return step.out;
 }

@@ -2,8 +2,7 @@
 
 #include <type_traits>
 
-#include "anatomy/geometry/local_geometry.h"
-#include "haptics/flight_record.h"
+#include "haptics/contact_parts.h"
 #include "haptics/materials/needle_materials.h"
 
 namespace palpa::haptics {
@@ -12,18 +11,19 @@ namespace palpa::haptics {
 struct NeedleState {
   Packed3 entry_D{};              ///< where the skin was punctured
   Packed3 skin_anchor_D{};        ///< stick point of the needle's point on the skin
-  Packed3 p_DT{};                 ///< tip in the last tick
   double friction_anchor = 0;     ///< axial stick point, m of insertion
   Packed3 release_D{};            ///< what is left of the force that a punctured layer had stored, N
   RelaxationState relaxation;     ///< of the skin before the puncture
-  Packed3 v_D{};                  ///< of the tip, low-passed, m/s
+  RelaxationState wall_relaxation;///< of the wall that is being pushed
+  PointMotion motion;             ///< of the tip
   std::uint32_t walls_front = 0;  ///< bit per Organ: front wall punctured
   std::uint32_t walls_back = 0;   ///< bit per Organ: back wall punctured
   NeedlePhase phase = NeedlePhase::outside;
   Organ bone = Organ::none;
-  std::uint8_t started = 0;
+  Organ pushed = Organ::none;     ///< the wall that is being pushed
+  std::uint8_t pushed_leaving = 0;
   std::uint8_t skin_punctures = 0;
-  std::uint8_t reserved[4]{};
+  std::uint8_t reserved[3]{};
 };
 static_assert(std::is_trivially_copyable_v<NeedleState>);
 
@@ -43,20 +43,17 @@ struct NeedleContact {
   bool wall_leaving = false;
 };
 
-struct CouplingLimits {
-  double stiffness = 1000;        ///< K_c, N/m: no slope is steeper than this
-  double velocity_tau = 0.005;    ///< s, low-pass of the tip's velocity (encoder steps)
-};
-
 /// One evaluation of the needle force (Tzafestas et al. 2008, with cutting, shaft friction and wall
 /// punctures after Okamura et al. 2004):
 ///   before puncture   n F(u), relaxing, in series with the coupling; Coulomb friction across
-///   after             axial: -b_layer v - stick-slip(cutting + friction x length) - wall elasticity
+///   after             axial: -b_layer v - stick-slip(cutting + friction x length)
 ///                     lateral: -k_t x_t about the entry
+///   walls             K_w x, relaxing, at most K_c x; gives way at peak x wall_scale; what it had stored is let go
+///                     within `release_tau`, never more than was felt
 ///   always            bone: K_c x penetration of tip and shaft into the capsules, along the contact normal
 /// Advances `state`. No allocation, no exception.
 NeedleContact needleContact(const NeedleMaterials& materials, const CouplingLimits& coupling,
                             const LocalGeometry& geometry, const NeedlePose& pose,
-                            double puncture_force_N, double dt, NeedleState& state) noexcept;
+                            const TickCommands& commands, double dt, NeedleState& state) noexcept;
 
 }  // namespace palpa::haptics

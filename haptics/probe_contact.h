@@ -2,21 +2,18 @@
 
 #include <type_traits>
 
-#include "anatomy/geometry/local_geometry.h"
 #include "haptics/materials/probe_materials.h"
 #include "haptics/needle_contact.h"
 
 namespace palpa::haptics {
 
 struct ProbeState {
-  Packed3 p_DT{};              ///< centre of the tip in the last tick
-  Packed3 v_D{};               ///< low-passed, m/s
+  PointMotion motion;          ///< of the tip's centre
   RelaxationState relaxation;
   Packed3 anchor_D{};          ///< stick point of the tip on the surface
   Organ bone = Organ::none;
-  std::uint8_t started = 0;
   std::uint8_t touching = 0;
-  std::uint8_t reserved[5]{};
+  std::uint8_t reserved[6]{};
 };
 static_assert(std::is_trivially_copyable_v<ProbeState>);
 

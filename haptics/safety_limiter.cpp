@@ -40,6 +40,22 @@ void accountEnergy(SafetyState& state, const Vec3& p_DE) {
   }
 }
 
+/// The drives warm and cool whatever is asked of them.
+void warm(const SafetyLimits& limits, SafetyState& state, double dt) {
+  const double f2 = unpack(state.f_last_D).squaredNorm();
+  state.heat_N2 += (f2 - state.heat_N2) * std::min(1.0, dt / limits.thermal_tau);
+}
+
+constexpr double kWarm = 0.8;  // of the heat that may last: from here on less force
+
+double bearable(const SafetyLimits& limits, const SafetyState& state) {
+  if (limits.continuous_force_N <= 0 || limits.continuous_force_N >= limits.max_force_N)
+    return limits.max_force_N;
+  const double heat = state.heat_N2 / (limits.continuous_force_N * limits.continuous_force_N);
+  const double share = std::clamp((heat - kWarm) / (1 - kWarm), 0.0, 1.0);
+  return limits.max_force_N + share * (limits.continuous_force_N - limits.max_force_N);
+}
+
 SafetyCause stop(SafetyState& state, SafetyCause cause) {
   state.stopped = 1;
   return state.stop_cause = cause;
@@ -69,12 +85,13 @@ const char* name(SafetyCause cause) {
   static constexpr const char* kNames[kSafetyCauseCount] = {
       "none",          "not finite",     "clamp",          "slew",     "energy",
       "silent device", "stale geometry", "emergency stop", "watchdog", "not ready",
-      "position jump", "clock fault", "damaged geometry", "button not held"};
+      "position jump", "clock fault",   "damaged geometry", "button not held", "warm drives"};
   return kNames[static_cast<int>(cause)];
 }
 
 Vec3 limitForce(const SafetyLimits& limits, SafetyState& state, const SafetyInput& in) noexcept {
   const SafetyCause zero = reasonForZero(limits, state, in);
+  warm(limits, state, in.dt);
   state.started = 1;
   if (believed(in)) state.p_last_D = pack(in.p_DE);
   state.cause = zero;
@@ -84,9 +101,10 @@ Vec3 limitForce(const SafetyLimits& limits, SafetyState& state, const SafetyInpu
   }
   Vec3 f = in.f_wanted_D;
   const double size = f.norm();
-  if (size > limits.max_force_N) {
-    f *= limits.max_force_N / size;
-    state.cause = SafetyCause::clamp;
+  const double most = bearable(limits, state);
+  if (size > most) {
+    f *= most / size;
+    state.cause = size > limits.max_force_N ? SafetyCause::clamp : SafetyCause::duty;
   }
   bool limited = false;
   f = limitRise(f, unpack(state.f_last_D), limits.max_slew_N_per_s * in.dt, &limited);

@@ -10,6 +10,11 @@ namespace palpa::haptics {
 struct SafetyLimits {
   double max_force_N = 7.9;
   double max_slew_N_per_s = 2000;      ///< on rises of any component's magnitude; falls are free
+  /// What the drives bear for long, N rms over `thermal_tau`; 0: no such limit. Heat h follows |f|^2 as
+  ///   dh/dt = (|f|^2 - h) / tau
+  /// and from h = 80 % of continuous^2 on, the largest force goes down evenly to `continuous` at 100 %.
+  double continuous_force_N = 0;
+  double thermal_tau = 60;             ///< s
   double max_energy_J = 0.25;          ///< net energy given to the hand since the last rest
   std::int64_t silent_ns = 10'000'000; ///< no new reading for this long: zero force
   std::int64_t watchdog_ns = 10'000'000;   ///< the loop stood still for longer: zero force in its next tick
@@ -28,6 +33,7 @@ struct SafetyState {
   std::int64_t t_ns = 0;            ///< of the last call
   double silence_ns = 0;            ///< since `sequence` last changed
   double energy_J = 0;
+  double heat_N2 = 0;               ///< h
   std::uint8_t started = 0;
   std::uint8_t stopped = 0;         ///< emergency stop or energy trip, until re-armed deliberately
   SafetyCause stop_cause = SafetyCause::none;
@@ -50,7 +56,7 @@ struct SafetyInput {
 };
 
 /// Emergency stop, finite check, faults found before (zero at once), silent device, dead man's button, energy
-/// bound, force clamp, slew limit on rises. Returns the force to command; `state.cause` says what was done
+/// bound, force clamp, duty, slew limit on rises. Returns the force to command; `state.cause` says what was done
 /// about it (none: nothing). A stop outlasts any other fault.
 Vec3 limitForce(const SafetyLimits& limits, SafetyState& state, const SafetyInput& input) noexcept;
 

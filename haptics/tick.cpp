@@ -8,6 +8,7 @@
 namespace palpa::haptics {
 namespace {
 
+constexpr double kStrongestObject = 1000;  // N; a comparison with a NaN is false
 constexpr double kLongestStep = 0.005;  // s: a late tick is not integrated over more than this
 
 /// From one time to another, ns. In floating point: a clock that leaps must not overflow.
@@ -45,7 +46,7 @@ std::uint32_t adopt(const TickConfig& config, TickState& state, const LocalGeome
     return kSnapshotRefused;
   }
   state.refused = 0;
-  state.blending = state.now.number != 0;
+  state.blending = state.now.number != 0 && config.blend_ns > 0;
   state.old = state.now;
   state.contact_old = state.contact;
   state.probe_old = state.probe;
@@ -62,22 +63,22 @@ struct View {
 };
 
 NeedleContact contactOn(const TickConfig& config, const View& view, const NeedlePose& pose,
-                        double puncture_force_N, double dt) {
+                        const TickCommands& commands, double dt) {
   if (config.engine == Engine::probe)
     return probeContact(config.probe, config.coupling, view.geometry, pose.p_DT, dt, view.probe);
-  return needleContact(config.materials, config.coupling, view.geometry, pose, puncture_force_N, dt,
+  return needleContact(config.materials, config.coupling, view.geometry, pose, commands, dt,
                        view.needle);
 }
 
 /// Force on the newest snapshot, faded in from the one before it. The old one only lends its force:
 /// what happened (punctures, contacts) is told by the new one.
 NeedleContact blendedContact(const TickConfig& config, TickState& state, const NeedlePose& pose,
-                             double puncture_force_N, double dt, std::int64_t now_ns) {
+                             const TickCommands& commands, double dt, std::int64_t now_ns) {
   NeedleContact contact =
-      contactOn(config, {state.now, state.contact, state.probe}, pose, puncture_force_N, dt);
+      contactOn(config, {state.now, state.contact, state.probe}, pose, commands, dt);
   if (!state.blending) return contact;
   const NeedleContact old =
-      contactOn(config, {state.old, state.contact_old, state.probe_old}, pose, puncture_force_N, dt);
+      contactOn(config, {state.old, state.contact_old, state.probe_old}, pose, commands, dt);
   if (state.contact_old.phase != state.contact.phase) {
     state.blending = 0;  // a puncture in one of them: the two no longer describe the same contact
     return contact;
@@ -91,9 +92,9 @@ NeedleContact blendedContact(const TickConfig& config, TickState& state, const N
 
 /// After readings that were not believed the velocity is measured anew.
 void forgetMotion(TickState& state) {
-  state.contact.started = state.contact_old.started = 0;
-  state.probe.started = state.probe_old.started = 0;
-  state.probe.v_D = state.probe_old.v_D = {0, 0, 0};
+  for (PointMotion* motion : {&state.contact.motion, &state.contact_old.motion, &state.probe.motion,
+                              &state.probe_old.motion})
+    motion->started = 0;
   state.passivity = PassivityState{};
 }
 
@@ -122,9 +123,16 @@ bool believable(SafetyCause fault) {
   return fault != SafetyCause::not_finite && fault != SafetyCause::jump;
 }
 
+/// Of a real object on the tool; none where the sensor's word does not count or cannot be meant.
+Vec3 objectForce(const SensedForce& sensed) {
+  const Vec3 f = unpack(sensed.f_D);
+  const bool believed = sensed.state == SensorState::valid && f.cwiseAbs().maxCoeff() <= kStrongestObject;
+  return believed ? f : Vec3(Vec3::Zero());
+}
+
 /// The force that is asked of the limiter. Where nothing will be rendered the observer starts anew.
 Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands& commands,
-                  double fresh, const Vec3& f_contact_D, const SafetyInput& in) {
+                  const SensedForce& sensed, double fresh, const Vec3& f_contact_D, const SafetyInput& in) {
   const Vec3 f_D = fresh * f_contact_D;
   if (!commands.force_feedback || !commands.armed || fresh == 0) {
     state.passivity = PassivityState{};
@@ -133,13 +141,14 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands
   PassivityInput port;
   port.p_DE = in.p_DE;
   port.f_D = f_D;
+  port.f_object_D = objectForce(sensed);
   port.dt = in.dt;
   return keepPassive(config.passivity, state.passivity, port);
 }
 
 bool isTrip(SafetyCause cause) {
   return cause != SafetyCause::none && cause != SafetyCause::clamp && cause != SafetyCause::slew &&
-         cause != SafetyCause::not_ready && cause != SafetyCause::deadman;
+         cause != SafetyCause::not_ready && cause != SafetyCause::deadman && cause != SafetyCause::duty;
 }
 
 void describe(const TickConfig& config, FlightRecord& record, const NeedleContact& contact,
@@ -182,7 +191,7 @@ SafetyInput safetyInput(const DeviceReading& reading, const TickCommands& comman
 void tellCause(FlightRecord& record, TickState& state, double fresh) {
   SafetyCause cause = state.safety.cause;
   const bool rendered = cause == SafetyCause::none || cause == SafetyCause::clamp ||
-                        cause == SafetyCause::slew;
+                        cause == SafetyCause::slew || cause == SafetyCause::duty;
   if (rendered && fresh < 1)
     cause = state.refused ? SafetyCause::corrupt_geometry : SafetyCause::stale_geometry;
   record.safety = cause;
@@ -194,8 +203,8 @@ void tellCause(FlightRecord& record, TickState& state, double fresh) {
 }  // namespace
 
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
-                  const LocalGeometry* latest, const TickCommands& commands,
-                  std::int64_t now_ns) noexcept {
+                  const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
+                  const SensedForce& sensed) noexcept {
   const double period = static_cast<double>(config.period_ns);
   const double elapsed = state.tick == 0 ? period : between(state.t_ns, now_ns);
   const double dt = std::clamp(elapsed * 1e-9, 0.0, kLongestStep);
@@ -204,6 +213,7 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   record.t_ns = state.t_ns = now_ns;
   record.reading = reading;
   record.commands = commands;
+  record.sensed = sensed;
   if (commands.trial != state.trial) startTrial(state, commands.trial);
   record.events |= adopt(config, state, latest, now_ns);
 
@@ -214,15 +224,16 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   NeedleContact contact;
   if (believable(fault)) {
     contact =
-        blendedContact(config, state, pose, commands.puncture_force_N, dt, now_ns);
-    input.f_wanted_D = passiveForce(config, state, commands, fresh, contact.f_D, input);
+        blendedContact(config, state, pose, commands, dt, now_ns);
+    input.f_wanted_D = passiveForce(config, state, commands, sensed, fresh, contact.f_D, input);
   } else {
     forgetMotion(state);
   }
   record.f_wanted_D = pack(input.f_wanted_D);
   describe(config, record, contact, state);
   record.f_command_D = pack(limitForce(config.safety, state.safety, input));
-  state.passivity.f_last_D = record.f_command_D;  // what the hand really gets
+  state.passivity.f_last_D =  // what the hand really gets
+      pack(Vec3(unpack(record.f_command_D) + objectForce(sensed)));
   tellCause(record, state, fresh);
   return record;
 }

@@ -39,6 +39,7 @@ inline constexpr Rgb organColour(Organ organ) {
   switch (organ) {
     case Organ::skin:
       return {0.87, 0.70, 0.60};
+    case Organ::fascia:
     case Organ::muscle:
       return {0.62, 0.28, 0.26};
     case Organ::clavicle:

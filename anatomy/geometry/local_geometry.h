@@ -13,9 +13,10 @@ namespace palpa {
 
 /// Anatomical structure, as the score and the report name it.
 enum class Organ : std::uint8_t {
-  none, skin, muscle, clavicle, rib, sternum, lung, vein, artery
+  none, skin, muscle, clavicle, rib, sternum, lung, vein, artery,
+  fascia   ///< of the muscle: a wall between fat and muscle, no mesh of its own
 };
-inline constexpr int kOrganCount = 9;
+inline constexpr int kOrganCount = 10;
 
 /// Material that the needle tip moves through; mechanical constants are looked up by it.
 enum class Tissue : std::uint8_t {
@@ -27,11 +28,14 @@ const char* name(Organ organ);
 const char* name(Tissue tissue);
 Organ organFromName(const char* text);  ///< Organ::none when unknown
 
-/// Bone as a capsule: all points within `radius` of the segment a–b.
+/// Bone as capsules: all points within `radius` of a segment a–b (a = b: a sphere). Capsules with the same
+/// `bone` are a chain that stands for one bone.
 struct Capsule {
   Packed3 a{}, b{};
   double radius = 0;
   Organ organ = Organ::none;
+  std::uint8_t bone = 0;
+  std::uint8_t reserved[6]{};
 };
 
 /// A tissue boundary crossed by the (extended) needle axis, as a plane. `n` points back toward the
@@ -41,12 +45,12 @@ struct Boundary {
   Packed3 n{0, 0, 1};
   Tissue from = Tissue::air;
   Tissue to = Tissue::air;
-  Organ wall = Organ::none;     ///< organ whose wall this is: vein, artery, lung; none: no wall
+  Organ wall = Organ::none;     ///< organ whose wall this is: fascia, vein, artery, lung; none: no wall
   bool leaving = false;         ///< true for the back wall
 };
 
 struct LocalGeometry {
-  static constexpr int kMaxBones = 8;
+  static constexpr int kMaxBones = 16;
   static constexpr int kMaxBoundaries = 16;
 
   std::uint64_t number = 0;     ///< 0: nothing has arrived yet
@@ -54,7 +58,7 @@ struct LocalGeometry {
   SurfacePatch skin;            ///< round the entry once the skin is punctured, else round the tool
   std::int32_t bone_count = 0;
   std::int32_t boundary_count = 0;
-  Capsule bones[kMaxBones];
+  Capsule bones[kMaxBones];              ///< a bone's chain lies together
   Boundary boundaries[kMaxBoundaries];   ///< ordered from the skin inward
 };
 static_assert(std::is_trivially_copyable_v<LocalGeometry>);

@@ -5,6 +5,7 @@
 #include "apps/bench/bumpy_torso.h"
 #include "apps/bench/metric.h"
 #include "apps/bench/tick_timing.h"
+#include "apps/runtime/quantile.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::bench {
@@ -90,7 +91,7 @@ double proxyCost(const StrokeSettings& settings, const World& world, const Strok
     const double took_us = 1e-3 * double(clock.now() - start);
     if (f.allFinite()) each.push_back(took_us);
   }
-  return quantile(each, 0.5);
+  return runtime::quantile(each, 0.5);
 }
 
 nlohmann::json paramsOf(const World& world, const StrokeSettings& s) {
@@ -111,13 +112,17 @@ void printFidelity(const World& world, const StrokeSettings& s, const StrokeResu
 
 void printJumps(const World& world, StrokeSettings s) {
   s.geometry_Hz = 30;
-  for (const double stiffness : {500.0, kBoneStiffness}) {
-    s.stiffness = s.coupling = stiffness;
-    if (stiffness == 500) s.coupling = 1000;
+  struct Case {
+    const char* name;
+    double stiffness, coupling;   // N/m
+  };
+  for (const Case& c : {Case{"tissue", s.stiffness, s.coupling}, Case{"bone", kBoneStiffness, kBoneStiffness}}) {
+    s.stiffness = c.stiffness;
+    s.coupling = c.coupling;
     const StrokeResult stroke = runStroke(s, world.builder);
     const Jump jump = refreshJump(s, stroke);
     nlohmann::json params = paramsOf(world, s);
-    params["case"] = stiffness == kBoneStiffness ? "bone" : "tissue";
+    params["case"] = c.name;
     print("refresh_jump_max", jump.blended, "N", params);
     print("refresh_jump_unblended_max", jump.unblended, "N", params);
   }

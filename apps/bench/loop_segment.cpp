@@ -2,7 +2,7 @@
 
 #include <thread>
 
-#include "apps/runtime/channel_device.h"
+#include "apps/bench/led_device.h"
 #include "apps/runtime/executive.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/haptic_activity.h"
@@ -14,55 +14,34 @@ using runtime::kMillisecond;
 using runtime::TimeMode;
 
 /// Moves the device; without a haptic loop it also tells geometry where the tool is.
-class LedDevice final : public runtime::Activity {
+class Leader final : public runtime::Activity {
  public:
-  LedDevice(const StrokeSettings& stroke, runtime::Bus& bus, runtime::ChannelDevice& device, bool tells_geometry)
-      : stroke_(stroke), bus_(bus), device_(device), tells_geometry_(tells_geometry) {}
+  Leader(const StrokeSettings& stroke, runtime::Bus& bus, runtime::ChannelDevice& device, bool tells_geometry)
+      : led_(stroke, device), bus_(bus), tells_geometry_(tells_geometry) {
+    arm(bus);
+  }
   const char* name() const override { return "device"; }
   std::int64_t step(std::int64_t now_ns) override {
-    haptics::DeviceReading reading;
-    reading.t_ns = now_ns;
-    reading.sequence = ++sequence_;
-    reading.homed = 1;
-    reading.p_DE = pack(strokePoint(stroke_, 1e-9 * static_cast<double>(now_ns)));
-    device_.publish(reading, now_ns);
-    if (tells_geometry_) {
-      runtime::ToolState tool;
-      tool.t_ns = now_ns;
-      tool.X_DT.p = reading.p_DE;
-      bus_.haptic_to_geometry.publish(tool, now_ns);
-    }
+    runtime::ToolState tool;
+    tool.t_ns = now_ns;
+    tool.X_DT.p = led_.lead(now_ns).p_DE;
+    if (tells_geometry_) bus_.haptic_to_geometry.publish(tool, now_ns);
     return now_ns + kMillisecond;
   }
 
  private:
-  StrokeSettings stroke_;
+  LedDevice led_;
   runtime::Bus& bus_;
-  runtime::ChannelDevice& device_;
   bool tells_geometry_;
-  std::uint64_t sequence_ = 0;
 };
 
 /// Takes off what the recorder and the task would.
 class Drain final : public runtime::Activity {
  public:
-  explicit Drain(runtime::Bus& bus) : bus_(bus) {
-    haptics::TickCommands commands;
-    commands.armed = 1;
-    bus_.task_to_haptic.publish(commands, 0);
-  }
+  explicit Drain(runtime::Bus& bus) : bus_(bus) {}
   const char* name() const override { return "drain"; }
   std::int64_t step(std::int64_t now_ns) override {
-    haptics::FlightRecord record;
-    while (bus_.haptic_to_recorder.pop(&record)) contacts_ += unpack(record.f_contact_D).norm() > 0;
-    while (bus_.haptic_to_task.pop(&record)) {
-    }
-    runtime::Keyframe keyframe;
-    while (bus_.keyframes_to_recorder.pop(&keyframe)) {
-    }
-    LocalGeometry geometry;
-    while (bus_.geometry_to_recorder.pop(&geometry)) {
-    }
+    contacts_ += drain(bus_, nullptr);
     return now_ns + 100 * kMillisecond;
   }
   std::uint64_t contacts() const { return contacts_; }
@@ -104,7 +83,7 @@ struct Rig {
   std::unique_ptr<runtime::Executive> executive = runtime::makeRealExecutive();
   runtime::Bus bus;
   runtime::ChannelDevice device;
-  LedDevice hand;
+  Leader hand;
   runtime::GeometryActivity geometry;
   Drain drain;
   Curfew curfew;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <limits>
 
-#include "apps/bench/metric.h"
+#include "apps/runtime/quantile.h"
 #include "apps/runtime/random.h"
 
 namespace palpa::bench {
@@ -30,7 +30,7 @@ Interval bootstrapMedian(const std::vector<double>& values, int resamples, std::
       value = values[static_cast<std::size_t>(random.uniform() * static_cast<double>(values.size()))];
     medians.push_back(median(drawn));
   }
-  return {quantile(medians, 0.025), quantile(medians, 0.975)};
+  return {runtime::quantile(medians, 0.025), runtime::quantile(medians, 0.975)};
 }
 
 }  // namespace palpa::bench

@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "apps/bench/bumpy_torso.h"
-#include "apps/runtime/channel_device.h"
+#include "apps/bench/led_device.h"
 #include "apps/runtime/executive.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/haptic_activity.h"
@@ -19,40 +19,21 @@ constexpr std::int64_t kTick = 1'000'000;
 class Hand final : public runtime::Activity {
  public:
   Hand(const StrokeSettings& settings, runtime::Bus& bus, runtime::ChannelDevice& device, StrokeResult& result)
-      : settings_(settings), bus_(bus), device_(device), result_(result) {
-    haptics::TickCommands commands;
-    commands.armed = 1;
-    bus.task_to_haptic.publish(commands, 0);
+      : end_s_(settings.seconds), led_(settings, device), bus_(bus), result_(result) {
+    arm(bus);
   }
   const char* name() const override { return "hand"; }
   std::int64_t step(std::int64_t now_ns) override {
-    haptics::DeviceReading reading;
-    reading.t_ns = now_ns;
-    reading.sequence = ++sequence_;
-    reading.homed = 1;
-    reading.p_DE = pack(strokePoint(settings_, static_cast<double>(now_ns) * 1e-9));
-    device_.publish(reading, now_ns);
-    drain();
-    return static_cast<double>(now_ns) * 1e-9 < settings_.seconds ? now_ns + kTick : runtime::kNever;
-  }
-  void drain() {
-    haptics::FlightRecord record;
-    while (bus_.haptic_to_task.pop(&record)) result_.records.push_back(record);
-    while (bus_.haptic_to_recorder.pop(&record)) {
-    }
-    runtime::Keyframe keyframe;
-    while (bus_.keyframes_to_recorder.pop(&keyframe)) {
-    }
-    LocalGeometry geometry;
-    while (bus_.geometry_to_recorder.pop(&geometry)) result_.snapshots.push_back(geometry);
+    led_.lead(now_ns);
+    drain(bus_, &result_);
+    return static_cast<double>(now_ns) * 1e-9 < end_s_ ? now_ns + kTick : runtime::kNever;
   }
 
  private:
-  StrokeSettings settings_;
+  double end_s_;
+  LedDevice led_;
   runtime::Bus& bus_;
-  runtime::ChannelDevice& device_;
   StrokeResult& result_;
-  std::uint64_t sequence_ = 0;
 };
 
 /// Stops everything when the stroke is over.
@@ -107,7 +88,7 @@ StrokeResult runStroke(const StrokeSettings& settings, const anatomy::LocalGeome
   executive->add(geometry, {2, false, false});
   executive->add(end, {3, false, false});
   executive->run();
-  hand.drain();
+  drain(bus, &result);
   return result;
 }
 

@@ -3,6 +3,7 @@
 #include <memory>
 
 #include "apps/bench/metric.h"
+#include "apps/runtime/quantile.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::bench {
@@ -17,7 +18,6 @@ class Again {
   void step() {
     const haptics::FlightRecord& was = stroke_.records[at_];
     const LocalGeometry* latest = was.snapshot > 0 ? &stroke_.snapshots[was.snapshot - 1] : nullptr;
-    now_ns_ += config_.period_ns;
     haptics::DeviceReading reading = was.reading;
     reading.sequence = ++sequence_;
     sink_ = haptics::tick(config_, *state_, reading, latest, was.commands, was.t_ns);
@@ -26,7 +26,6 @@ class Again {
       *state_ = haptics::TickState{};
     }
   }
-  const haptics::FlightRecord& last() const { return sink_; }
 
  private:
   haptics::TickConfig config_;
@@ -34,7 +33,6 @@ class Again {
   std::unique_ptr<haptics::TickState> state_;
   haptics::FlightRecord sink_;
   std::size_t at_ = 0;
-  std::int64_t now_ns_ = 0;
   std::uint64_t sequence_ = 0;
 };
 
@@ -51,7 +49,7 @@ TickTiming timeHot(const StrokeSettings& settings, const StrokeResult& stroke, i
     for (int k = 0; k < kBatch; ++k) again.step();
     each.push_back(1e-3 * double(clock.now() - start) / kBatch);
   }
-  return {quantile(each, 0.5), quantile(each, 0.99)};
+  return {runtime::quantile(each, 0.5), runtime::quantile(each, 0.99)};
 }
 
 TickTiming timePaced(const StrokeSettings& settings, const StrokeResult& stroke, double seconds) {
@@ -65,7 +63,7 @@ TickTiming timePaced(const StrokeSettings& settings, const StrokeResult& stroke,
     again.step();
     each.push_back(1e-3 * double(clock.now() - start));
   }
-  return {quantile(each, 0.5), quantile(each, 0.99)};
+  return {runtime::quantile(each, 0.5), runtime::quantile(each, 0.99)};
 }
 
 }  // namespace palpa::bench

@@ -71,11 +71,10 @@ std::vector<task_needle::TrialPlan> plan(const SessionOptions& options, const Ne
   const bool calibrated = world.station.calibration_verdict == "pass";
   std::vector<task_needle::TrialPlan> trials;
   if (person && options.familiarisation)
-    trials.push_back({"familiarisation", options.seed + kFamiliarisationSeed, options.force_feedback,
-                      world.punctureForce(options.seed + kFamiliarisationSeed)});
+    trials.push_back(world.trial("familiarisation", options.seed + kFamiliarisationSeed, options.force_feedback));
   for (int i = 0; i < options.trials; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    trials.push_back({calibrated ? options.role : "not scored", seed, options.force_feedback, world.punctureForce(seed)});
+    trials.push_back(world.trial(calibrated ? options.role : "not scored", seed, options.force_feedback));
   }
   return trials;
 }

@@ -1,5 +1,7 @@
 #include "apps/cli/needle_world.h"
 
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <sstream>
 
@@ -32,6 +34,8 @@ station::Station makeStation(const SessionOptions& options) {
   if (!options.intrinsics.empty()) station.camera = calibration::readCameraModel(options.intrinsics);
   return station;
 }
+
+constexpr double kFarthestWall = 2;  // standard deviations: no wall that no needle passes
 
 int surfaceIndex(const anatomy::Patient& patient, Organ organ) {
   for (std::size_t i = 0; i < patient.organs.size(); ++i)
@@ -79,8 +83,16 @@ twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill) cons
   return v;
 }
 
-double NeedleWorld::punctureForce(std::uint64_t seed) const {
-  return runtime::RandomStream(seed, "skin.puncture").uniform(needle.puncture_low_N, needle.puncture_high_N);
+task_needle::TrialPlan NeedleWorld::trial(const std::string& role, std::uint64_t seed, bool force_feedback) const {
+  task_needle::TrialPlan plan{role, seed, force_feedback, 0, {}};
+  plan.puncture_force_N =
+      runtime::RandomStream(seed, "skin.puncture").uniform(needle.puncture_low_N, needle.puncture_high_N);
+  runtime::RandomStream walls(seed, "walls.puncture");
+  for (std::size_t i = 0; i < plan.wall_scale.size(); ++i) {
+    const double z = std::clamp(walls.normal(), -kFarthestWall, kFarthestWall);
+    plan.wall_scale[i] = static_cast<float>(std::exp(needle.materials.walls[i].spread * z));
+  }
+  return plan;
 }
 
 }  // namespace palpa::cli

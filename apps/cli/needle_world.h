@@ -9,6 +9,7 @@
 #include "apps/cli/session_options.h"
 #include "apps/station/needle_file.h"
 #include "apps/station/station_file.h"
+#include "apps/task_needle/needle_task.h"
 #include "apps/task_needle/task_file.h"
 #include "apps/twin/operator.h"
 #include "calibration/expert_path.h"
@@ -34,7 +35,8 @@ struct NeedleWorld {
 
   haptics::TickConfig tickConfig() const;
   twin::VisibleAnatomy visible(const twin::OperatorSkill& skill) const;
-  double punctureForce(std::uint64_t seed) const;   ///< this trial's skin
+  /// A trial with this seed's skin and walls.
+  task_needle::TrialPlan trial(const std::string& role, std::uint64_t seed, bool force_feedback) const;
 };
 
 }  // namespace palpa::cli

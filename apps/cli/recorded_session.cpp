@@ -129,7 +129,7 @@ ReplayCheck replayTicks(const record::SessionReader& reader) {
     const haptics::FlightRecord again =
         haptics::tick(config, state, recorded.reading,
                       snapshot == snapshots.end() ? nullptr : &snapshot->second, recorded.commands,
-                      recorded.t_ns);
+                      recorded.t_ns, recorded.sensed);
     ++check.ticks;
     if (sameForces(recorded, again)) return;
     if (check.different++ == 0) check.first_difference = recorded.tick;

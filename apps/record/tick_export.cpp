@@ -26,7 +26,7 @@ const char* word(haptics::SafetyCause cause) {
   static constexpr const char* kWords[haptics::kSafetyCauseCount] = {
       "none",          "not_finite",     "clamp",          "slew",     "energy",
       "silent_device", "stale_geometry", "emergency_stop", "watchdog", "not_ready",
-      "jump",          "clock",          "corrupt_geometry", "deadman"};
+      "jump",          "clock",          "corrupt_geometry", "deadman", "duty"};
   const auto index = static_cast<std::size_t>(cause);
   return index < std::size(kWords) ? kWords[index] : "?";
 }
@@ -75,6 +75,8 @@ void addClock(std::vector<Column>& columns) {
                      [](const FlightRecord& r) { return std::to_string(r.tick); }});
   columns.push_back({{"t_ns", "session time of the tick"},
                      [](const FlightRecord& r) { return std::to_string(r.t_ns); }});
+  columns.push_back({{"late_ns", "of the tick behind its due time; 0 in virtual time"},
+                     [](const FlightRecord& r) { return std::to_string(r.late_ns); }});
   columns.push_back({{"trial", "number of the trial; 0: none"},
                      [](const FlightRecord& r) { return std::to_string(r.commands.trial); }});
 }
@@ -114,8 +116,41 @@ void addCommands(std::vector<Column>& columns) {
                      }});
   columns.push_back({{"armed", "0: no force (not homed, between trials)"},
                      [](const FlightRecord& r) { return std::to_string(r.commands.armed); }});
+  columns.push_back({{"subtask", "part of the task that was on, as the task counts them"},
+                     [](const FlightRecord& r) { return std::to_string(r.commands.subtask); }});
   columns.push_back({{"snapshot", "number of the newest geometry snapshot used, or refused in this tick"},
                      [](const FlightRecord& r) { return std::to_string(r.snapshot); }});
+}
+
+Vec3 tip(const PackedPose& X_ET, const FlightRecord& r) {
+  return unpack(r.reading.p_DE) + unpack(r.reading.q_DE).normalized() * unpack(X_ET.p);
+}
+
+/// Tip and proxy: where the tip is, and where it would be on what cannot be entered, f = K_c (proxy - tip).
+void addTip(std::vector<Column>& columns, const haptics::TickConfig& config) {
+  const PackedPose X_ET = config.X_ET;
+  const double K_c = config.coupling.stiffness;
+  for (int i = 0; i < 3; ++i)
+    columns.push_back({{std::string("p_DT_") + "xyz"[i] + "_m", "position of the tip in the device base"},
+                       [=](const FlightRecord& r) { return shortest(tip(X_ET, r)[i]); }});
+  for (int i = 0; i < 3; ++i)
+    columns.push_back({{std::string("proxy_D_") + "xyz"[i] + "_m",
+                        "tip + contact force / coupling stiffness: where the coupling would have the tip"},
+                       [=](const FlightRecord& r) {
+                         return shortest(tip(X_ET, r)[i] + r.f_contact_D[static_cast<std::size_t>(i)] / K_c);
+                       }});
+}
+
+void addSensed(std::vector<Column>& columns) {
+  for (int i = 0; i < 3; ++i)
+    columns.push_back({{std::string("f_sensed_D_") + "xyz"[i] + "_N",
+                        "force sensor: of a real object on the tool, device base"},
+                       [=](const FlightRecord& r) { return shortest(r.sensed.f_D[static_cast<std::size_t>(i)]); }});
+  columns.push_back({{"sensor", "none, valid or unusable"}, [](const FlightRecord& r) {
+                       static constexpr const char* kWords[] = {"none", "valid", "unusable"};
+                       const auto index = static_cast<std::size_t>(r.sensed.state);
+                       return std::string(index < std::size(kWords) ? kWords[index] : "?");
+                     }});
 }
 
 void addContact(std::vector<Column>& columns) {
@@ -158,12 +193,14 @@ void addStates(std::vector<Column>& columns) {
                      [](const FlightRecord& r) { return std::to_string(r.skin_punctures); }});
 }
 
-std::vector<Column> allColumns() {
+std::vector<Column> allColumns(const haptics::TickConfig& config) {
   std::vector<Column> columns;
   addClock(columns);
   addReading(columns);
+  addTip(columns, config);
   addCommands(columns);
   addContact(columns);
+  addSensed(columns);
   addStates(columns);
   return columns;
 }
@@ -172,12 +209,12 @@ std::vector<Column> allColumns() {
 
 std::vector<TickColumn> tickColumns() {
   std::vector<TickColumn> descriptions;
-  for (const Column& column : allColumns()) descriptions.push_back(column.description);
+  for (const Column& column : allColumns({})) descriptions.push_back(column.description);
   return descriptions;
 }
 
 void exportTicks(const SessionReader& reader, const std::filesystem::path& file) {
-  const std::vector<Column> columns = allColumns();
+  const std::vector<Column> columns = allColumns(reader.info().tick_config);
   WholeFile out(file);
   std::string line;
   for (const Column& column : columns) line += (line.empty() ? "" : ",") + column.description.name;

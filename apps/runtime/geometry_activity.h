@@ -12,7 +12,7 @@ class GeometryActivity final : public Activity {
   struct Settings {
     std::int64_t period_ns = 16'666'667;
     std::int64_t latency_ns = 2'000'000;   ///< in virtual time a snapshot becomes visible this long after its step
-    std::int64_t blend_ns = 10'000'000;    ///< of the tick that uses it
+    std::int64_t blend_ns = haptics::TickConfig{}.blend_ns;   ///< of the tick that uses it
   };
   GeometryActivity(Bus& bus, const anatomy::LocalGeometryBuilder& builder, const Pose& X_DA)
       : GeometryActivity(bus, builder, X_DA, Settings()) {}

@@ -19,10 +19,11 @@ std::int64_t HapticActivity::step(std::int64_t now_ns) {
   const haptics::TickCommands* commands = bus_.task_to_haptic.read(now_ns);
   if (state_.tick % kKeyframeTicks == 0)
     bus_.keyframes_to_recorder.push(Keyframe{state_.tick, state_});
-  const haptics::FlightRecord record =
+  haptics::FlightRecord record =
       haptics::tick(config_, state_, reading, latest, commands ? *commands : haptics::TickCommands{},
                     now_ns);
   device_.command(now_ns, record.f_command_D);
+  record.late_ns = due_ns_ < 0 ? 0 : now_ns - due_ns_;
   tell(record, now_ns);
   // Ticks stay on the grid; a tick that is late by more than a period does not cause a burst.
   due_ns_ = std::max((due_ns_ < 0 ? now_ns : due_ns_) + config_.period_ns, now_ns);
@@ -35,7 +36,8 @@ void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_
   ToolState tool;
   tool.t_ns = now_ns;
   tool.X_DT = toolPose(config_, record.reading);
-  tool.v_D = config_.engine == haptics::Engine::probe ? state_.probe.v_D : state_.contact.v_D;
+  tool.v_D = config_.engine == haptics::Engine::probe ? state_.probe.motion.v_D
+                                                           : state_.contact.motion.v_D;
   tool.f_contact_D = record.f_contact_D;
   tool.f_command_D = record.f_command_D;
   tool.entry_D = state_.contact.entry_D;

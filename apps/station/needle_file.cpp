@@ -16,17 +16,23 @@ Tissue tissueFromName(const JsonFile& file, const std::string& text) {
   file.refuse("layers/" + text, "is not a tissue that is known");
 }
 
+haptics::Relaxation readRelaxation(const JsonFile& file, const std::string& at) {
+  haptics::Relaxation relaxation;
+  for (std::size_t i = 0; i < haptics::Relaxation::kTerms; ++i) {
+    const std::string term = std::to_string(i + 1);
+    relaxation.g[i] = file.number(at + "/relaxation_share_" + term, 0, 0.5);
+    relaxation.tau[i] = 1e-3 * file.number(at + "/relaxation_tau_" + term + "_ms", 1, 60'000);
+  }
+  return relaxation;
+}
+
 void readSkin(const JsonFile& file, haptics::SkinLaw& skin) {
   skin.K_min = kPerMm * file.number("skin/K_min_N_per_mm", 0, 10);
   skin.K_0 = kPerMm * file.number("skin/K_0_N_per_mm", 0, 10);
   skin.m = kPerMm * file.number("skin/m_per_mm", 0, 10);
   skin.u_0 = 1e-3 * file.number("skin/u_0_mm", 0, 10);
   skin.release_tau = 1e-3 * file.number("skin/release_tau_ms", 1, 1000);
-  for (int i = 0; i < haptics::Relaxation::kTerms; ++i) {
-    const std::string term = std::to_string(i + 1);
-    skin.relaxation.g[i] = file.number("skin/relaxation_share_" + term, 0, 0.5);
-    skin.relaxation.tau[i] = 1e-3 * file.number("skin/relaxation_tau_" + term + "_ms", 1, 60'000);
-  }
+  skin.relaxation = readRelaxation(file, "skin");
   skin.friction = file.number("skin/friction", 0, 2);
   skin.shear = kPerMm * file.number("skin/shear_N_per_mm", 0, 10);
 }
@@ -55,10 +61,11 @@ void readWalls(const JsonFile& file, haptics::NeedleMaterials& m) {
   for (const std::string& part : partsOf(file, "walls"))
     if (organFromName(part.c_str()) == Organ::none)
       file.refuse("walls/" + part, "is not an organ that is known");
-  for (const Organ organ : {Organ::vein, Organ::artery, Organ::lung}) {
-    const std::string at = std::string("walls/") + name(organ) + "/";
-    m.walls[static_cast<int>(organ)] = {kPerMm * file.number(at + "stiffness_N_per_mm", 0.001, 100),
-                                        file.number(at + "peak_N", 0, 20)};
+  for (const Organ organ : {Organ::fascia, Organ::vein, Organ::artery, Organ::lung}) {
+    const std::string at = std::string("walls/") + name(organ);
+    m.walls[static_cast<int>(organ)] = {kPerMm * file.number(at + "/stiffness_N_per_mm", 0.001, 100),
+                                        file.number(at + "/peak_N", 0, 20),
+                                        file.number(at + "/peak_spread", 0, 1), readRelaxation(file, at)};
   }
 }
 

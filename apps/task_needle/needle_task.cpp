@@ -275,6 +275,8 @@ void NeedleTask::publish(std::int64_t now_ns) {
   if (status_.trial > 0) {
     commands.force_feedback = plan().force_feedback;
     commands.puncture_force_N = plan().puncture_force_N;
+    commands.wall_scale = plan().wall_scale;
+    commands.subtask = static_cast<std::uint8_t>(status_.phase);
   }
   bus_.task_to_haptic.publish(commands, now_ns);
   channels_.status_to_scene.publish(status_, now_ns);

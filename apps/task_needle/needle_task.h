@@ -18,7 +18,8 @@ struct TrialPlan {
   std::string role = "scored";
   std::uint64_t seed = 1;
   bool force_feedback = true;
-  double puncture_force_N = 1.5;
+  double puncture_force_N = 1.5;                       ///< of the skin
+  std::array<float, kOrganCount> wall_scale = haptics::TickCommands{}.wall_scale;   ///< of the walls' median peaks
 };
 
 struct CompletedTrial {

@@ -8,7 +8,7 @@ namespace palpa::twin {
 namespace {
 
 constexpr std::int64_t kThoughtPeriod = 10'000'000;  // decisions at 100 Hz
-constexpr double kThought = 0.01;                    // s
+constexpr double kThought = Reaction::kStep;         // s
 constexpr std::int64_t kLookPeriod = 100'000'000;    // a glance at the needle, 10 Hz
 constexpr double kStillEnough = 0.010;  // m/s: the picture lags, so only a slow hand is compared with it
 constexpr double kTrust = 0.2;          // weight of one look against what is believed
@@ -36,9 +36,8 @@ Operator::Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, co
       judgement_(seed, "operator.judgement.0"),
       noise_(seed, "operator.noise"),
       tremor_(skill.tremor_rms, runtime::RandomStream(seed, "operator.tremor")),
-      turn_tremor_(skill.turn_tremor_rms, runtime::RandomStream(seed, "operator.turn_tremor")) {
-  felt_.fill(Vec3::Zero());  // Eigen's own vectors start with anything
-}
+      turn_tremor_(skill.turn_tremor_rms, runtime::RandomStream(seed, "operator.turn_tremor")),
+      reaction_(skill.reaction) {}
 
 Pose Operator::needleAt(const Vec3& tip_A, const Vec3& axis_A) const {
   return makePose(rotationWithZ(axis_A), tip_A);
@@ -75,19 +74,8 @@ void Operator::look(const Senses& senses) {
 }
 
 void Operator::feel(const Senses& senses) {
-  const Vec3 f_A = X_DA_.rotation().transpose() * senses.f_grip_D;
-  const std::size_t slot = felt_count_ % felt_.size();
-  const std::size_t before = (felt_count_ + felt_.size() - 1) % felt_.size();
-  felt_[slot] = 0.7 * felt_[before] + 0.3 * f_A;  // touch is not sharper than about 25 ms
-  flow_[slot] = senses.seen && senses.seen->blood_flows;
-  injury_[slot] = senses.seen && senses.seen->injury;
-  ++felt_count_;
-}
-
-/// What was felt and seen a reaction time ago: only now can the hand answer it.
-std::size_t Operator::remembered() const {
-  const std::size_t delay = static_cast<std::size_t>(skill_.reaction / kThought);
-  return (felt_count_ + felt_.size() - 1 - delay) % felt_.size();
+  reaction_.perceive(X_DA_.rotation().transpose() * senses.f_grip_D, senses.seen && senses.seen->blood_flows,
+                     senses.seen && senses.seen->injury);
 }
 
 void Operator::begin(Step step, double now_s, double pause_s) {
@@ -149,7 +137,7 @@ void Operator::holdHere() {
 /// Along the skin's normal until the resistance is lost, or, without feeling, until it looks deep enough.
 void Operator::pushing(double now_s) {
   insertion_ += skill_.push_speed * kThought;
-  const Vec3& felt = felt_[remembered()];
+  const Vec3& felt = reaction_.felt();
   const double resistance = felt.dot(axis_A_);
   peak_N_ = std::max(peak_N_, resistance);
   const bool lost = peak_N_ > skill_.notice_puncture_N && resistance < kFirstGrip * peak_N_;
@@ -162,12 +150,11 @@ void Operator::pushing(double now_s) {
 
 void Operator::advancing(double now_s) {
   insertion_ += skill_.advance_speed * kThought;
-  const std::size_t slot = remembered();
-  if (flow_[slot]) return dwell(now_s);
-  if (injury_[slot]) return tryElsewhere(now_s, insertion_ - skill_.first_depth);
-  const Vec3 sideways = withoutAlong(felt_[slot], axis_A_);
+  if (reaction_.bloodFlows()) return dwell(now_s);
+  if (reaction_.injury()) return tryElsewhere(now_s, insertion_ - skill_.first_depth);
+  const Vec3 sideways = withoutAlong(reaction_.felt(), axis_A_);
   const bool bone = sideways.norm() > skill_.notice_bone_N ||
-                    felt_[slot].dot(axis_A_) > 3 * skill_.notice_bone_N;
+                    reaction_.felt().dot(axis_A_) > 3 * skill_.notice_bone_N;
   const bool dry = seenInsertion() > skill_.vein_distance + skill_.search_margin;
   if (!bone && !dry) return;
   tryElsewhere(now_s, bone ? kBackFromBone : insertion_ - skill_.first_depth);
@@ -189,7 +176,7 @@ void Operator::tryElsewhere(double now_s, double back) {
 
 void Operator::retreating(double now_s) {
   insertion_ -= skill_.withdraw_speed * kThought;
-  if (!going_back_ && flow_[remembered()]) return dwell(now_s);
+  if (!going_back_ && reaction_.bloodFlows()) return dwell(now_s);
   if (insertion_ <= retreat_to_) turnAway(turn_toward_A_, now_s);
 }
 
@@ -217,8 +204,8 @@ void Operator::dwell(double now_s) {
 
 void Operator::dwelling(double now_s) {
   plunger_wanted_ = 1;
-  if (injury_[remembered()]) return tryElsewhere(now_s, insertion_ - skill_.first_depth);
-  if (flow_[remembered()]) {
+  if (reaction_.injury()) return tryElsewhere(now_s, insertion_ - skill_.first_depth);
+  if (reaction_.bloodFlows()) {
     dwell_since_s_ = now_s;
     if (now_s - dwell_begun_s_ <= kPatience) return;
     // It comes and goes: a little deeper; when that does not help, this is only the vein's edge.

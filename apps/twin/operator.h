@@ -1,12 +1,12 @@
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include "apps/runtime/bus.h"
 #include "apps/runtime/random.h"
 #include "apps/twin/min_jerk.h"
 #include "apps/twin/operator_skill.h"
+#include "apps/twin/reaction.h"
 #include "apps/twin/tremor.h"
 
 namespace palpa::twin {
@@ -58,7 +58,6 @@ class Operator {
   void dwelling(double now_s);
   void tryElsewhere(double now_s, double back);
   void dwell(double now_s);
-  std::size_t remembered() const;
   void turnAway(const Vec3& toward_A, double now_s);
   void holdHere();
   Vec3 firstAim();
@@ -78,9 +77,7 @@ class Operator {
   Pose X_DA_ = Pose::Identity();
   Pose X_AT_seen_ = Pose::Identity();
   Vec3 entry_seen_A_ = Vec3::Zero();
-  std::array<Vec3, 64> felt_;       ///< 100 Hz history of the axial and lateral force on the tool, frame A
-  std::size_t felt_count_ = 0;
-  std::array<bool, 64> flow_{}, injury_{};   ///< 100 Hz history of the blood, of the alarm seen
+  Reaction reaction_;
   double peak_N_ = 0;
   double depth_error_ = 0;
 

@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "apps/runtime/clock.h"
+#include "apps/runtime/quantile.h"
 #include "apps/runtime/random.h"
 
 namespace palpa::twin {
@@ -75,12 +76,6 @@ Pose restPose(const station::Station& station, const Pose& X_WA, const Vec3& ent
   const Vec3 tip_W = X_WA * entry_A + Vec3(left_handed ? -0.02 : 0.02, -0.05, 0.07);
   const Vec3 axis_W = Vec3(0, 0.35, -1).normalized();
   return station.X_WD.inverse() * makePose(rotationWithZ(axis_W), tip_W) * station.X_ET.inverse();
-}
-
-double quantile(std::vector<double> values, double q) {
-  if (values.empty()) return 0;
-  std::sort(values.begin(), values.end());
-  return values[static_cast<std::size_t>(q * static_cast<double>(values.size() - 1) + 0.5)];
 }
 
 }  // namespace
@@ -189,8 +184,8 @@ BenchAccuracy VirtualBench::accuracy() const {
   BenchAccuracy a;
   a.pictures = impl_->pictures;
   a.registered = impl_->errors_mm.size();
-  a.entry_median_mm = quantile(impl_->errors_mm, 0.5);
-  a.entry_p95_mm = quantile(impl_->errors_mm, 0.95);
+  a.entry_median_mm = runtime::quantile(impl_->errors_mm, 0.5);
+  a.entry_p95_mm = runtime::quantile(impl_->errors_mm, 0.95);
   a.distance_m = impl_->X_CW_boom.translation().norm();
   // The reading that puts the believed tip on the entry point, needle along the skin's normal.
   const Pose X_WT = makePose(rotationWithZ(-impl_->normal_W), impl_->entry_W);

@@ -1,11 +1,6 @@
 #include "haptics/devices/falcon_driver.h"
 
 namespace palpa::haptics {
-namespace {
-
-constexpr std::int64_t kCommandAge_ns = 20'000'000;  // twenty ticks: the haptic loop has stopped
-
-}  // namespace
 
 DeviceCapabilities falconCapabilities() {
   DeviceCapabilities falcon;
@@ -20,8 +15,9 @@ DeviceCapabilities falconCapabilities() {
   return falcon;
 }
 
-FalconDriver::FalconDriver(std::unique_ptr<UsbTransport> usb, std::vector<std::uint8_t> firmware)
-    : usb_(std::move(usb)), link_(*usb_, std::move(firmware)) {}
+FalconDriver::FalconDriver(std::unique_ptr<UsbTransport> usb, std::vector<std::uint8_t> firmware,
+                           std::int64_t command_life_ns)
+    : command_life_ns_(command_life_ns), usb_(std::move(usb)), link_(*usb_, std::move(firmware)) {}
 
 DeviceReading FalconDriver::read(std::int64_t) noexcept { return readings_.read(); }
 
@@ -45,7 +41,7 @@ void FalconDriver::close() noexcept {
 
 std::array<std::int16_t, 3> FalconDriver::motorCounts(std::int64_t now_ns) noexcept {
   const ForceCommand& command = commands_.read();
-  if (!pose_ || now_ns - command.t_ns > kCommandAge_ns) return {};
+  if (!pose_ || now_ns - command.t_ns > command_life_ns_) return {};
   return falconCounts(falconTorque(pose_->legs, unpack(command.f_D)));
 }
 

@@ -7,6 +7,7 @@
 #include "haptics/devices/falcon_kinematics.h"
 #include "haptics/devices/falcon_link.h"
 #include "haptics/latest_value.h"
+#include "haptics/safety_limiter.h"
 
 namespace palpa::haptics {
 
@@ -21,11 +22,12 @@ DeviceCapabilities falconCapabilities();
 ///   watcher  status(), one thread
 /// All of them count the same time. A reading is stamped with the beginning of its exchange, when
 /// the device looks at its encoders; its sequence grows only with a position that is known, or
-/// before homing with each answer. A force is rendered while the command is younger than 20 ms.
+/// before homing with each answer. A force is rendered while the command is younger than `command_life_ns`.
 class FalconDriver final : public HapticDevice {
  public:
   /// `firmware` from readFalconFirmware(), or empty.
-  FalconDriver(std::unique_ptr<UsbTransport> usb, std::vector<std::uint8_t> firmware);
+  FalconDriver(std::unique_ptr<UsbTransport> usb, std::vector<std::uint8_t> firmware,
+               std::int64_t command_life_ns = SafetyLimits{}.watchdog_ns);
 
   const DeviceCapabilities& capabilities() const override { return capabilities_; }
   DeviceReading read(std::int64_t now_ns) noexcept override;
@@ -49,6 +51,7 @@ class FalconDriver final : public HapticDevice {
   void publish() noexcept;
 
   DeviceCapabilities capabilities_ = falconCapabilities();
+  const std::int64_t command_life_ns_;
   std::unique_ptr<UsbTransport> usb_;
   FalconLink link_;
   std::optional<FalconPose> pose_;  // of the last exchange; none: no force

@@ -32,10 +32,12 @@ struct LayerLaw {
   double friction = 0;    ///< N/m, shaft friction per inserted length
 };
 
-/// Wall that must be punctured: elastic up to `peak`, then it gives way.
+/// Wall that must be punctured: elastic and relaxing, up to `peak`, then it gives way.
 struct WallLaw {
-  double stiffness = 0;   ///< N/m
-  double peak = 0;        ///< N; 0: no wall
+  double stiffness = 0;    ///< N/m
+  double peak = 0;         ///< N, median over patients and places; 0: no wall
+  double spread = 0;       ///< of ln(peak) from trial to trial, standard deviation
+  Relaxation relaxation;
 };
 
 struct NeedleMaterials {

@@ -7,13 +7,13 @@
 
 #include "ar/board.h"
 #include "ar/board_pose.h"
+#include "tests/support/camera_views.h"
 
 /// Known truth for the tests of ar/: a camera, where it stands, and what it then sees.
 namespace palpa::ar {
 
-inline calibration::CameraModel webcam() {
-  return {640, 480, 600, 601, 322.3, 237.6, {-0.21, 0.09, 0.0006, -0.0004, -0.02}, 0};
-}
+using test::rad;
+using test::webcam;
 
 /// The same without distortion: what `photograph` is seen with.
 inline calibration::CameraModel pinhole() {
@@ -22,19 +22,11 @@ inline calibration::CameraModel pinhole() {
   return camera;
 }
 
-inline double rad(double degrees) { return degrees * std::numbers::pi / 180; }
-
 /// The board as seen from `distance`, `tilt` away from straight above, after walking round it by
 /// `azimuth` and turning the camera by `roll`; the middle of the board in the middle of the
 /// picture.
 inline Pose viewOf(double distance, double tilt, double azimuth, double roll = 0) {
-  const Mat3 down = Vec3(1, -1, -1).asDiagonal();
-  const Mat3 R_WC =
-      (Eigen::AngleAxisd(azimuth, Vec3::UnitZ()) * Eigen::AngleAxisd(tilt, Vec3::UnitX()) *
-       Eigen::AngleAxisd(roll, Vec3::UnitZ()))
-          .toRotationMatrix() *
-      down;
-  return makePose(R_WC, -distance * R_WC.col(2)).inverse();
+  return test::lookAt(Vec3::Zero(), distance, tilt, azimuth, roll);
 }
 
 /// [0, 1), the same in every standard library.

@@ -102,9 +102,9 @@ TEST(FalconFaults, LostHomingTakesTheForceAway) {
 TEST(FalconFaults, AnOldCommandIsNotRendered) {
   ReadyStation s;
   const std::int64_t last = s.rig.now_ns;  // the loop stops here
-  s.rig.driver.step(last + 20'000'000);
+  s.rig.driver.step(last + 10'000'000);
   EXPECT_TRUE(s.rig.lastCommand().pushes());
-  s.rig.driver.step(last + 21'000'001);
+  s.rig.driver.step(last + 11'000'001);
   EXPECT_FALSE(s.rig.lastCommand().pushes());
 }
 

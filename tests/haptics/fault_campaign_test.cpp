@@ -22,7 +22,7 @@ struct Episode {
   void step(Fault fault) {
     world.advance(fault);
     last = tick(world.config, state, world.reading, world.offers ? &world.offered : nullptr,
-                world.commands, world.now);
+                world.commands, world.now, world.sensed);
     judge.judge(world, state, last);
   }
   void steps(Fault fault, int count) {

@@ -44,7 +44,9 @@ class FaultJudge {
  private:
   /// 0: the force is rendered; 1: no force, as it should be; 2: no force because something failed.
   static int rank(SafetyCause cause) {
-    if (cause == SafetyCause::none || cause == SafetyCause::clamp || cause == SafetyCause::slew) return 0;
+    if (cause == SafetyCause::none || cause == SafetyCause::clamp || cause == SafetyCause::slew ||
+        cause == SafetyCause::duty)
+      return 0;
     return cause == SafetyCause::not_ready || cause == SafetyCause::deadman ? 1 : 2;
   }
 
@@ -64,9 +66,16 @@ class FaultJudge {
     else if (!w.commands.armed) stopped_ = false;
   }
 
-  void withinLimits(const SafetyLimits& limits, const Vec3& f) const {
+  void withinLimits(const SafetyLimits& limits, const Vec3& f) {
     ASSERT_TRUE(f.allFinite());
     EXPECT_LE(f.norm(), limits.max_force_N * (1 + 1e-12));
+    // Heat, reckoned anew: at or over what may last there is no more than what may last.
+    const double lasting = limits.continuous_force_N;
+    const double step = std::clamp(static_cast<double>(elapsed_) * 1e-9, 0.0, 0.005) / limits.thermal_tau;
+    heat_ += ((first_ ? 0 : unpack(last_.f_command_D).squaredNorm()) - heat_) * std::min(1.0, step);
+    if (lasting > 0 && heat_ >= lasting * lasting) {
+      EXPECT_LE(f.norm(), std::max(lasting, 0.0) * (1 + 1e-9)) << "too warm";
+    }
     const Vec3 last = first_ ? Vec3(Vec3::Zero()) : unpack(last_.f_command_D);
     const double last2 = last.squaredNorm();
     const double kept = last2 > 0 ? std::clamp(f.dot(last) / last2, 0.0, 1.0) : 0;
@@ -108,6 +117,7 @@ class FaultJudge {
       case SafetyCause::jump: return steady_ < 10'000'000 || state.reading.hold_ns > 0;
       case SafetyCause::clock: return elapsed_ <= 0;
       case SafetyCause::deadman: return w.config.safety.deadman_button && !(w.reading.buttons & 4);
+      case SafetyCause::duty: return w.config.safety.continuous_force_N > 0;
       case SafetyCause::energy: return state.safety.stopped;
       default: return true;
     }
@@ -116,6 +126,7 @@ class FaultJudge {
   bool first_ = true, placed_ = false, stopped_ = false, wanted_absurd_ = false;
   std::int64_t elapsed_ = 0, silent_ = 0, steady_ = 1'000'000'000;
   Vec3 p_ = Vec3::Zero(), tip_ = Vec3::Zero();
+  double heat_ = 0;
   FlightRecord last_;
 };
 

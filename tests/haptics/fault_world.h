@@ -31,9 +31,9 @@ class Dice {
 enum class Fault {
   none, position_absurd, orientation_absurd, position_jump, orientation_jump, clock_still, clock_back,
   clock_leap, packets_dropped, no_snapshots, snapshot_damaged, snapshot_random_bytes, emergency_stop,
-  not_homed, disarmed, button_released, commands_absurd, trial_changes
+  not_homed, disarmed, button_released, commands_absurd, sensor_absurd, trial_changes
 };
-inline constexpr int kFaultCount = 18;
+inline constexpr int kFaultCount = 19;
 
 /// A hand that pushes a tool in and out of tissue with a bone, and a world that can be told to fail.
 /// Knows nothing of the tick: it only makes its inputs.
@@ -42,6 +42,7 @@ struct FaultyWorld {
   TickConfig config;
   TickCommands commands;
   DeviceReading reading;
+  SensedForce sensed;
   LocalGeometry sound = NeedleBench{}.geometry, offered;
   bool offers = false;
   bool damaged = false;          ///< `offered` must not be adopted
@@ -62,6 +63,8 @@ struct FaultyWorld {
     config.safety.max_force_N = dice.uniform(0.1, 10);
     config.safety.max_slew_N_per_s = dice.chance(0.5) ? 2000 : dice.uniform(10, 1e5);
     config.safety.max_energy_J = dice.uniform(1e-3, dice.chance(0.5) ? 5 : 3e-3);
+    config.safety.continuous_force_N = dice.chance(0.5) ? 0 : dice.uniform(0.05, 1);
+    config.safety.thermal_tau = dice.uniform(0.05, 1);
     config.safety.deadman_button = dice.chance(0.3) ? 4 : 0;
     config.coupling.stiffness = dice.uniform(200, 3000);
     config.passivity.max_damping = dice.chance(0.5) ? 0 : dice.uniform(1, 10);
@@ -76,7 +79,11 @@ struct FaultyWorld {
   void advance(Fault fault) {
     moveHand();
     ++ticks;
-    commands = {1.5, commands.trial, 1, 0, 1, 0};
+    const std::uint32_t trial = commands.trial;
+    commands = TickCommands{};
+    commands.trial = trial;
+    commands.armed = 1;
+    sensed = {{0, 0, 0.1}, SensorState::valid, {}};
     reading.homed = 1;
     reading.buttons = 7;
     moveClock(fault);
@@ -149,7 +156,7 @@ struct FaultyWorld {
     switch (dice.below(11)) {
       case 0: g.boundary_count = static_cast<std::int32_t>(17 + dice.below(1'000'000)); break;
       case 1: g.boundary_count = -1 - dice.below(1'000'000); break;
-      case 2: g.bone_count = dice.chance(0.5) ? 9 : std::numeric_limits<std::int32_t>::min(); break;
+      case 2: g.bone_count = dice.chance(0.5) ? LocalGeometry::kMaxBones + 1 + dice.below(100) : std::numeric_limits<std::int32_t>::min(); break;
       case 3: g.skin.p[axis] = dice.absurd(); break;
       case 4: g.skin.n[axis] = dice.absurd(); break;
       case 5: g.skin.c[dice.below(SurfacePatch::kTerms)] = dice.chance(0.5) ? 1e12 : std::nan(""); break;
@@ -175,7 +182,11 @@ struct FaultyWorld {
     if (fault == Fault::not_homed) reading.homed = 0;
     if (fault == Fault::disarmed) commands.armed = 0;
     if (fault == Fault::button_released) reading.buttons = 3;
-    if (fault == Fault::commands_absurd) commands.puncture_force_N = dice.absurd();
+    if (fault == Fault::commands_absurd) {
+      commands.puncture_force_N = dice.absurd();
+      for (float& scale : commands.wall_scale) scale = static_cast<float>(dice.absurd());
+    }
+    if (fault == Fault::sensor_absurd) sensed.f_D[static_cast<std::size_t>(dice.below(3))] = dice.absurd();
     if (fault == Fault::trial_changes) ++commands.trial;
   }
 };

@@ -11,7 +11,7 @@ struct NeedleBench {
   LocalGeometry geometry;
   NeedleState state;
   Vec3 axis = -Vec3::UnitZ();
-  double puncture_N = 1.5;
+  TickCommands commands;
   static constexpr double kDt = 0.001;
 
   NeedleBench() {
@@ -20,7 +20,7 @@ struct NeedleBench {
     layers[static_cast<int>(Tissue::skin)] = {2, 0.3, 20};
     layers[static_cast<int>(Tissue::fat)] = {1, 0.1, 5};
     layers[static_cast<int>(Tissue::muscle)] = {3, 0.3, 10};
-    materials.walls[static_cast<int>(Organ::vein)] = {400, 0.4};
+    materials.walls[static_cast<int>(Organ::vein)] = {400, 0.4, 0, {}};
     addPlane(0, Tissue::air, Tissue::skin, Organ::skin, false);
     addPlane(0.002, Tissue::skin, Tissue::fat, Organ::none, false);
     addPlane(0.008, Tissue::fat, Tissue::muscle, Organ::none, false);
@@ -31,7 +31,7 @@ struct NeedleBench {
     geometry.boundaries[geometry.boundary_count++] = {{0, 0, -depth}, {0, 0, 1}, from, to, wall, leaving};
   }
   NeedleContact at(const Vec3& tip) {
-    return needleContact(materials, coupling, geometry, {tip, axis, tip - 0.11 * axis}, puncture_N, kDt, state);
+    return needleContact(materials, coupling, geometry, {tip, axis, tip - 0.11 * axis}, commands, kDt, state);
   }
   NeedleContact atDepth(double depth) { return at({0, 0, -depth}); }
   /// Moves the tip straight from one depth to another at `speed`; returns the last contact.

@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <vector>
+
 #include "needle_bench.h"
 
 namespace palpa::haptics {
@@ -24,7 +26,7 @@ TEST(NeedleContact, SkinAndCouplingAreInSeries) {
 
 TEST(NeedleContact, NoSlopeIsSteeperThanTheCoupling) {
   NeedleBench bench;
-  bench.puncture_N = 100;
+  bench.commands.puncture_force_N = 100;
   double last = 0;
   for (double x = 0; x < 0.006; x += 1e-5) {
     const double f = bench.atDepth(x).f_D.z();
@@ -45,7 +47,7 @@ TEST(NeedleContact, SkinGivesWayAtItsThresholdAndReleasesWithoutAStep) {
     before = c.f_D.z();
   }
   ASSERT_TRUE(punctured);
-  EXPECT_NEAR(before, bench.puncture_N, 0.02);  // N: one 10 um step of the steepest slope, 1000 N/m, twice
+  EXPECT_NEAR(before, bench.commands.puncture_force_N, 0.02);  // N: one 10 um step of the steepest slope, 1000 N/m, twice
   after = bench.atDepth(x).f_D.z();
   // The first tick after keeps exp(-1 ms / 10 ms) of the stored force; tissue adds a little.
   EXPECT_NEAR(after, before * std::exp(-0.1), 0.1);
@@ -129,6 +131,100 @@ TEST(NeedleContact, BonePushesTheShaftAwayAlongTheNormal) {
   EXPECT_LT(c.f_D.x(), 0);
   EXPECT_TRUE(c.events & kBoneTouched);
   EXPECT_EQ(bench.state.bone, Organ::clavicle);
+}
+
+TEST(NeedleContact, ACapsuleWithoutLengthIsASphere) {
+  const Vec3 centre(0.001, 0.002, 0.003);
+  const Capsule sphere{pack(centre), pack(centre), 0.006, Organ::rib, 0, {}};
+  for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, -1, 0), Vec3(0.6, 0, -0.8)}) {
+    const Vec3 p = centre + 0.0055 * way;
+    const BoneContact c = bonePenetration(sphere, p, p, 0.001);
+    EXPECT_NEAR(c.penetration, 0.0015, 1e-12);
+    EXPECT_LT((c.n_D - way).norm(), 1e-12);
+  }
+}
+
+TEST(NeedleContact, AChainPushesOnceTwoBonesPushTwice) {
+  NeedleBench bench;
+  bench.move(0, 0.012);
+  bench.settle(0.012);
+  // Two links of one bone that overlap at their joint, right where the shaft touches.
+  bench.geometry.bones[0] = {{0.0065, -0.05, -0.008}, {0.0065, 0.001, -0.008}, 0.006, Organ::rib, 4, {}};
+  bench.geometry.bones[1] = {{0.0065, -0.001, -0.008}, {0.0065, 0.05, -0.008}, 0.006, Organ::rib, 4, {}};
+  bench.geometry.bone_count = 2;
+  NeedleBench two = bench;
+  two.geometry.bones[1].bone = 5;
+  NeedleBench none = bench;
+  none.geometry.bone_count = 0;
+  const double without = none.atDepth(0.012).f_D.x();
+  const double once = bench.atDepth(0.012).f_D.x() - without;
+  EXPECT_LT(once, -0.1);
+  EXPECT_NEAR(two.atDepth(0.012).f_D.x() - without, 2 * once, 1e-12);
+}
+
+/// The bench with a fascia before the muscle, as strong as the wall of the vein.
+NeedleBench withFascia() {
+  NeedleBench bench;
+  bench.materials.walls[static_cast<int>(Organ::fascia)] = {500, 0.6, 0, {}};
+  bench.geometry.boundaries[2].wall = Organ::fascia;
+  return bench;
+}
+
+TEST(NeedleContact, WallsArePuncturedOneAfterTheOtherEachAtItsOwnForce) {
+  NeedleBench bench = withFascia();
+  std::vector<Organ> order;
+  std::vector<double> peaks;
+  for (double d = 0; d < 0.035; d += 1e-5) {
+    const NeedleContact c = bench.atDepth(d);
+    if (!(c.events & kWallPunctured)) continue;
+    order.push_back(c.wall);
+    peaks.push_back(c.wall_force);
+  }
+  EXPECT_EQ(order, (std::vector<Organ>{Organ::fascia, Organ::vein, Organ::vein}));
+  ASSERT_EQ(peaks.size(), 3u);
+  EXPECT_NEAR(peaks[0], 0.6, 0.006);  // one 10 um step on 500 N/m
+  EXPECT_NEAR(peaks[1], 0.4, 0.005);
+  EXPECT_NEAR(peaks[2], 0.4, 0.005);
+}
+
+TEST(NeedleContact, AWallsPeakIsTheTrialsOwn) {
+  for (const float scale : {0.5F, 1.5F}) {
+    NeedleBench bench = withFascia();
+    bench.commands.wall_scale[static_cast<int>(Organ::fascia)] = scale;
+    double peak = 0;
+    for (double d = 0; d < 0.014 && !(bench.state.walls_front); d += 1e-5) peak = bench.atDepth(d).wall_force;
+    EXPECT_NEAR(peak, 0.6 * static_cast<double>(scale), 0.006);
+  }
+}
+
+TEST(NeedleContact, AHeldWallRelaxes) {
+  NeedleBench bench = withFascia();
+  bench.materials.walls[static_cast<int>(Organ::fascia)].relaxation = {{0.2, 0.3}, {0.05, 0.5}};
+  bench.move(0, 0.0085);
+  const double pushed = bench.atDepth(0.0085).wall_force;
+  bench.settle(0.0085, 5000);
+  const double held = bench.atDepth(0.0085).wall_force;
+  const double elastic = 500 * 0.0005;
+  EXPECT_GT(pushed, 0.75 * elastic);           // 50 ms of pushing: the fast fifth is mostly gone
+  EXPECT_NEAR(held, 0.5 * elastic, 0.002);     // what is left of 1 - 0.2 - 0.3
+}
+
+TEST(NeedleContact, WhatAWallLetsGoIsBoundedByWhatWasFelt) {
+  NeedleBench bench = withFascia();
+  // A second wall right behind the first: both give way within the first one's release.
+  bench.geometry.boundaries[3].p = {0, 0, -0.0081};
+  double felt = 0;
+  for (double d = 0; d < 0.014; d += 2e-4) {
+    const NeedleContact c = bench.atDepth(d);
+    felt = std::max(felt, c.f_D.norm());
+    if (c.events & kWallPunctured) {
+      EXPECT_LE(unpack(bench.state.release_D).norm(), c.f_D.norm() * (1 + 1e-12));
+    }
+  }
+  const double sum = 0.6 + 0.4 + 0.3 + 0.2;  // peaks, cutting, friction
+  EXPECT_LT(felt, bench.commands.puncture_force_N + sum);
+  bench.settle(0.014);
+  EXPECT_LT(unpack(bench.state.release_D).norm(), 1e-6);
 }
 
 TEST(NeedleContact, TheMissingTorqueIsAboutTheGimbal) {

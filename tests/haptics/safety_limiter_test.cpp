@@ -43,6 +43,37 @@ TEST(SafetyLimiter, RisesAreSlewedFallsAreImmediate) {
   EXPECT_NEAR(bench.step({-5, 0, 0}).x(), -step, 1e-12);  // reversal: falls at once, then rises
 }
 
+TEST(SafetyLimiter, WarmDrivesGiveWhatTheyCanBearForLong) {
+  Bench bench;
+  bench.limits.continuous_force_N = 2;
+  bench.limits.thermal_tau = 5;
+  bench.limits.max_energy_J = 1e9;
+  double first_duty_s = 0, heat = 0;
+  Vec3 f;
+  for (int i = 0; i < 60'000; ++i) {
+    f = bench.step({6, 0, 0});
+    heat += (f.squaredNorm() - heat) * 1e-3 / 5;  // the same equation, on what came out
+    if (bench.state.cause == SafetyCause::duty && first_duty_s == 0) first_duty_s = 1e-3 * i;
+  }
+  // 6 N are too much from a heat of 4 (0.8 + 0.2 (7.9 - 6) / (7.9 - 2)) = 3.458 on: 36 (1 - exp(-t/5)) at t = 0.505 s.
+  EXPECT_NEAR(first_duty_s, 0.505, 0.01);
+  EXPECT_EQ(bench.state.cause, SafetyCause::duty);
+  EXPECT_GE(f.norm(), 2 - 1e-9);  // never less than what may last
+  EXPECT_LT(heat, 4.01);
+  EXPECT_NEAR(f.norm(), 2, 0.05);
+  for (int i = 0; i < 20'000; ++i) bench.step({0.5, 0, 0});
+  EXPECT_EQ(bench.state.cause, SafetyCause::none) << "small forces are never cut";
+  for (int i = 0; i < 50; ++i) f = bench.step({6, 0, 0});
+  EXPECT_NEAR(f.norm(), 6, 1e-9) << "cool again";
+}
+
+TEST(SafetyLimiter, WithoutAnyDataOfItsDrivesADeviceIsNotCut) {
+  Bench bench;
+  Vec3 f;
+  for (int i = 0; i < 100'000; ++i) f = bench.step({6, 0, 0});
+  EXPECT_NEAR(f.norm(), 6, 1e-12);
+}
+
 TEST(SafetyLimiter, NotFiniteGivesZeroAtOnce) {
   Bench bench;
   bench.step({1, 0, 0});

@@ -3,14 +3,12 @@
 #include <cmath>
 #include <cstdint>
 #include <cstring>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
 #include "anatomy/geometry/error.h"
 #include "apps/record/session_file.h"
+#include "tests/support/files.h"
 
 /// Sessions that look like real ones, for the tests of the record: smooth motion with sensor noise
 /// in the last bits, forces, events. Everything follows from the tick number.
@@ -88,7 +86,7 @@ inline haptics::TickState syntheticState(std::int64_t tick) {
   state.tick = tick;
   state.now = syntheticSnapshot(static_cast<std::uint64_t>(tick / 16 + 1));
   state.old = syntheticSnapshot(static_cast<std::uint64_t>(tick / 16));
-  state.contact.p_DT = {0.1, noise(static_cast<std::uint64_t>(tick)), 0.3};
+  state.contact.motion.p_D = {0.1, noise(static_cast<std::uint64_t>(tick)), 0.3};
   return state;
 }
 
@@ -128,17 +126,9 @@ inline void writeTrial(SessionWriter& writer, std::int64_t tick_count) {
   writer.endTrial({1, tick_count * 1'000'000, "success", "", R"({"TOTAL": 12.5})"});
 }
 
-/// A folder of its own in the build folder, empty at the start of the test.
+using palpa::test::slurp;
 inline std::filesystem::path freshFolder(const std::string& name) {
-  const auto folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests" / "record" / "tmp" / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
-inline std::string slurp(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return palpa::test::freshFolder("record", name);
 }
 
 template <typename Record>

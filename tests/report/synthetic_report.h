@@ -2,26 +2,17 @@
 
 #include <algorithm>
 #include <cmath>
-#include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "apps/report/session_report.h"
+#include "tests/support/files.h"
 
 /// A made-up but plausible session for the tests and for looking at the page.
 namespace palpa::report::test {
 
+using palpa::test::slurp;
 inline std::filesystem::path freshFolder(const std::string& name) {
-  const auto folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests" / "report" / "tmp" / name;
-  std::filesystem::remove_all(folder);
-  std::filesystem::create_directories(folder);
-  return folder;
-}
-
-inline std::string slurp(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(stream), {}};
+  return palpa::test::freshFolder("report", name);
 }
 
 /// Skin touched at 5 s, punctured at 6.1 s, turned at 9 s, clavicle felt at 13 s, lung grazed

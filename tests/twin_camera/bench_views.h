@@ -1,32 +1,18 @@
 #pragma once
 
 #include <algorithm>
-#include <numbers>
 #include <vector>
 
 #include "apps/twin/virtual_camera.h"
 #include "apps/twin/virtual_camera_noise.h"
+#include "tests/support/camera_views.h"
 
 /// Where the bench's camera stands in these tests.
 namespace palpa::twin {
 
-inline calibration::CameraModel benchLens() {
-  return {640, 480, 600, 601, 322.3, 237.6, {-0.21, 0.09, 0.0006, -0.0004, -0.02}, 0};
-}
-
-inline double rad(double degrees) { return degrees * std::numbers::pi / 180; }
-
-/// Looking at `target` on the board from `distance`, `tilt` away from straight above, from the side
-/// `azimuth` (0: the reader's), turned by `roll` about the line of sight.
-inline Pose lookAt(const Vec3& target, double distance, double tilt, double azimuth, double roll) {
-  const Mat3 down = Vec3(1, -1, -1).asDiagonal();
-  const Mat3 R_WC =
-      (Eigen::AngleAxisd(azimuth, Vec3::UnitZ()) * Eigen::AngleAxisd(tilt, Vec3::UnitX()) *
-       Eigen::AngleAxisd(roll, Vec3::UnitZ()))
-          .toRotationMatrix() *
-      down;
-  return makePose(R_WC, target - distance * R_WC.col(2)).inverse();
-}
+using test::lookAt;
+using test::rad;
+inline calibration::CameraModel benchLens() { return test::webcam(); }
 
 /// View `i` of a seeded series: tilt 30 to 45 degrees, any side, target within 10 mm of the centre.
 inline Pose benchView(std::uint64_t i, double distance) {

@@ -1,0 +1,17 @@
+#include "apps/runtime/force_sensing.h"
+
+namespace palpa::runtime {
+
+haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading, std::int64_t now_ns) noexcept {
+  const haptics::WrenchSample sample = sensor_.read(now_ns);
+  const Quat q_DE = unpack(reading.q_DE).normalized();
+  const Pose X_DS = makePose(q_DE.toRotationMatrix(), unpack(reading.p_DE)) * setup_.X_ES;
+  const haptics::ContactWrench contact =
+      haptics::step(setup_.filter, state_, sample, pack(Pose(setup_.X_WD * X_DS)), now_ns);
+  haptics::SensedForce sensed;
+  sensed.state = contact.valid ? haptics::SensorState::valid : haptics::SensorState::unusable;
+  if (contact.valid) sensed.f_D = pack(Vec3(X_DS.linear() * unpack(contact.contact.f_S)));
+  return sensed;
+}
+
+}  // namespace palpa::runtime

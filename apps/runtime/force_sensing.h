@@ -1,0 +1,27 @@
+#pragma once
+
+#include "haptics/flight_record.h"
+#include "haptics/sensors/wrench_filter.h"
+
+namespace palpa::runtime {
+
+/// A force sensor on the tool, read in the haptic thread: its newest sample, cleared of bias, tool and noise
+/// (WrenchFilter), as the force of a real object on the tool, in D. Never allocates, never throws.
+class ForceSensing {
+ public:
+  struct Setup {
+    haptics::WrenchFilter filter;
+    Pose X_WD = Pose::Identity();   ///< which way is down
+    Pose X_ES = Pose::Identity();   ///< the sensor on the end effector
+  };
+  ForceSensing(haptics::ForceSensor& sensor, const Setup& setup) : sensor_(sensor), setup_(setup) {}
+
+  haptics::SensedForce sense(const haptics::DeviceReading& reading, std::int64_t now_ns) noexcept;
+
+ private:
+  haptics::ForceSensor& sensor_;
+  Setup setup_;
+  haptics::WrenchFilterState state_;
+};
+
+}  // namespace palpa::runtime
