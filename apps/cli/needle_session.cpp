@@ -1,14 +1,15 @@
 #include "apps/cli/needle_session.h"
 
+#include <cmath>
 #include <fstream>
 #include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/patient_file.h"
-#include "apps/cli/mouse_hand.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/session_devices.h"
 #include "apps/cli/stage.h"
 #include "apps/record/session_file.h"
 #include "apps/runtime/geometry_activity.h"
@@ -34,6 +35,13 @@ std::string bytesOf(const anatomy::Patient& patient, const std::filesystem::path
 nlohmann::json json(const Pose& X) {
   const PackedPose p = pack(X);
   return {{"p_m", p.p}, {"q_wxyz", p.q}};
+}
+
+haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld& world) {
+  haptics::TickConfig config = world.tickConfig();
+  config.period_ns = std::llround(1e9 / options.rate_Hz);
+  if (options.exact_geometry) config.blend_ns = 0;  // every tick has its own
+  return config;
 }
 
 record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world,
@@ -62,19 +70,27 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
     std::ifstream stream(world.task.expert_path);
     info.expert_path_json.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
   }
-  info.tick_config = world.tickConfig();
+  info.tick_config = tickConfig(options, world);
   return info;
+}
+
+/// Empty: trials count.
+std::string whyNotScored(const NeedleWorld& world) {
+  if (world.station.calibration_verdict != "pass") return world.station.calibration_verdict;
+  if (!world.station.device.capabilities.has_orientation)
+    return "the device does not measure how the needle is held";
+  return "";
 }
 
 std::vector<task_needle::TrialPlan> plan(const SessionOptions& options, const NeedleWorld& world,
                                          bool person) {
-  const bool calibrated = world.station.calibration_verdict == "pass";
+  const bool scored = whyNotScored(world).empty();
   std::vector<task_needle::TrialPlan> trials;
   if (person && options.familiarisation)
     trials.push_back(world.trial("familiarisation", options.seed + kFamiliarisationSeed, options.force_feedback));
   for (int i = 0; i < options.trials; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    trials.push_back(world.trial(calibrated ? options.role : "not scored", seed, options.force_feedback));
+    trials.push_back(world.trial(scored ? options.role : "not scored", seed, options.force_feedback));
   }
   return trials;
 }
@@ -111,9 +127,22 @@ calibration::CameraModel checkedCamera(const NeedleWorld& world, PictureLoop* pi
   return camera;
 }
 
+std::string nameOf(OperatorKind who) {
+  switch (who) {
+    case OperatorKind::person: return "person";
+    case OperatorKind::recorded: return "recorded";
+    case OperatorKind::novice: return "novice";
+    default: return "expert";
+  }
+}
+
+bool simulatedOperator(OperatorKind who) { return who == OperatorKind::expert || who == OperatorKind::novice; }
+
 std::string markFor(OperatorKind who, const station::Station& station) {
-  if (who != OperatorKind::person) return "SIMULATED OPERATOR";
-  return station.simulated ? "VIRTUAL BENCH" : "";
+  if (simulatedOperator(who)) return "SIMULATED OPERATOR";
+  if (who == OperatorKind::recorded) return "RECORDED HAND";
+  if (!station.simulated) return "";
+  return station.device.driver == station::DeviceDriver::bench ? "VIRTUAL BENCH" : "VIRTUAL CAMERA";
 }
 
 }  // namespace
@@ -122,7 +151,8 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
                                const std::filesystem::path& folder) {
   const bool person = options.who == OperatorKind::person;
   const bool window = options.display == scene::Display::window && !options.no_views;
-  const std::string who = person ? "person" : options.who == OperatorKind::novice ? "novice" : "expert";
+  const std::string who = nameOf(options.who);
+  const bool simulated = simulatedOperator(options.who) || world.station.simulated;
   std::unique_ptr<PictureLoop> recorded;
   if (!options.camera.empty()) recorded = std::make_unique<PictureLoop>(options.camera, world.station.camera_rate_Hz);
   const calibration::CameraModel camera = checkedCamera(world, recorded.get());
@@ -140,23 +170,7 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
   const runtime::TimeMode mode = executive->mode();
   runtime::Bus bus(mode);
   task_needle::TaskChannels channels(mode);
-  runtime::ChannelDevice device(world.station.device, mode);
-
-  const twin::OperatorSkill skill = twin::readOperatorSkill(
-      station::assetFile(who == "novice" ? "operators/novice.json" : "operators/expert.json"));
-  std::unique_ptr<twin::VirtualBench> bench;
-  if (!person || !recorded)
-    bench = std::make_unique<twin::VirtualBench>(
-        twin::VirtualBench::Setup{world.station, world.X_WA, skill, world.visible(skill), options.seed, options.left_handed,
-                                  [&channels] {
-                                    channels.operator_to_task.push(
-                                        {task_needle::UserCommand::abort, "The simulated operator gave up"});
-                                  }},
-        bus, device);
-  std::unique_ptr<MouseHand> mouse;
-  if (person)
-    mouse = std::make_unique<MouseHand>(
-        MouseHand::Setup{world.X_DA, world.station.X_ET, world.visible(skill), options.left_handed}, device, channels);
+  SessionDevices devices(options, world, bus, channels, executive->clock(), mode);
 
   SessionResult result;
   runtime::CameraActivity::Exposer expose;
@@ -169,10 +183,10 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
       };
     };
   } else {
-    expose = bench->exposer();
+    expose = devices.bench().exposer();
   }
   const auto observe = [&](const runtime::CameraView& view) {
-    if (!recorded) return bench->observe(view);
+    if (!recorded) return devices.bench().observe(view);
     if (result.registration.size() >= recorded->count() || view.ended) return;
     RegistrationRow row{view.source, 0, 0, Pose::Identity()};
     if (view.pose) row = {view.source, view.pose->points, view.pose->rms_px, view.pose->X_CW};
@@ -184,13 +198,14 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
   camera_settings.mode = mode;
   runtime::CameraActivity camera_activity(bus, expose, *board, camera, camera_settings, observe);
 
-  runtime::HapticActivity haptic(bus, device, world.tickConfig());
+  const haptics::TickConfig tick = tickConfig(options, world);
   runtime::GeometryActivity geometry(bus, world.geometry, world.X_DA);
+  runtime::HapticActivity haptic(bus, devices.device(), tick, devices.sensing(),
+                                 options.exact_geometry ? &geometry : nullptr);
   task_needle::NeedleTask::Setup task_setup{
       world.patient, world.query, world.task,
       world.expert_path ? &*world.expert_path : nullptr,
-      world.X_DA.inverse(), pack(world.station.X_ET), !person || world.station.simulated, !person,
-      world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict,
+      world.X_DA.inverse(), pack(world.station.X_ET), simulated, !person, whyNotScored(world),
       plan(options, world, person)};
   task_needle::NeedleTask task(task_setup, bus, channels, *executive);
 
@@ -206,21 +221,20 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
   scene_setup.every_source_picture = static_cast<bool>(recorded);
   if (window) {
     scene_setup.input = [&](const scene::ViewInput& input, std::int64_t now_ns) {
-      if (mouse) mouse->handle(input, now_ns);
+      if (devices.mouse()) devices.mouse()->handle(input, now_ns);
       else handleKeys(input, channels);
     };
   }
   task_needle::SceneActivity scene(scene_setup, bus, channels);
-  if (mouse) mouse->onSkinKey([&] { scene.cycleSkin(); });
+  if (devices.mouse()) devices.mouse()->onSkinKey([&] { scene.cycleSkin(); });
 
   // The evidence file is opened last: a mistake in the set-up leaves none behind.
-  record::SessionWriter writer(folder / "session.palpa", sessionInfo(options, world, who, !person || world.station.simulated, folder));
-  runtime::RecorderActivity recorder(bus, writer);
+  record::SessionWriter writer(folder / "session.palpa", sessionInfo(options, world, who, simulated, folder));
+  runtime::RecorderActivity recorder(bus, writer, tick.period_ns);
   Progress progress(options.quiet);
-  if (mouse) executive->add(*mouse, {0, false, false});
-  else executive->add(bench->activity(), {0, false, false});
-  executive->add(haptic, {1, true, false});
-  executive->add(geometry, {2, false, false});
+  devices.addTo(*executive);
+  executive->add(haptic, {1, true, false, options.cpu});
+  if (!options.exact_geometry) executive->add(geometry, {2, false, false});
   executive->add(camera_activity, {3, false, false});
   executive->add(task, {4, false, false});
   executive->add(scene, {5, false, true});
@@ -228,13 +242,15 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
   executive->add(progress, {7, false, false});
   executive->run();
 
+  devices.finish();
   scene.finish(executive->clock().now());
   recorder.finish();
   writer.close();
   result.trials = task.completed();
   result.pictures = scene.pictures();
   result.lateness = executive->lateness();
-  if (bench && !recorded) result.accuracy = bench->accuracy();
+  if (!recorded) result.accuracy = devices.bench().accuracy();
+  result.devices = devices.facts();
   result.dropped = recorder.dropped() + task.lostTicks();
   result.simulated_s = static_cast<double>(executive->clock().now()) * 1e-9;
   result.quit = task.quit();

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/cli/needle_world.h"
+#include "apps/cli/session_devices.h"
 #include "apps/cli/session_options.h"
 #include "apps/runtime/executive.h"
 #include "apps/task_needle/needle_task.h"
@@ -26,6 +27,7 @@ struct SessionResult {
   std::vector<runtime::Lateness> lateness;
   std::optional<twin::BenchAccuracy> accuracy;
   std::vector<RegistrationRow> registration;   ///< recorded pictures only
+  std::vector<SessionDevices::Fact> devices;   ///< what their drivers counted
   std::uint64_t dropped = 0;                   ///< records lost by the recorder
   double simulated_s = 0;
   bool quit = false;

@@ -26,6 +26,7 @@ trainee stopped, other), space emergency stop, R re-arm, Escape leave.)";
 void run(SessionOptions options) {
   settle(options);
   NeedleWorld world(options);
+  settleOperator(options, world.station);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
   if (options.who == OperatorKind::person && options.demonstration) showDemonstration(options, world, folder);
   const SessionResult result = runNeedleSession(options, world, folder);

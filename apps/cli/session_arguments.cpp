@@ -17,6 +17,7 @@ const std::map<std::string, scene::Display> kDisplays{{"auto", scene::Display::a
 const std::map<std::string, anatomy::Side> kSides{{"right", anatomy::Side::right},
                                                   {"left", anatomy::Side::left}};
 const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
+const std::map<std::string, bool> kGeometries{{"local", false}, {"exact", true}};
 const std::map<std::string, bool> kHands{{"right", false}, {"left", true}};
 
 template <class T>
@@ -66,19 +67,43 @@ void addSessionArguments(CLI::App& command, SessionOptions& o) {
   choice(command, "--display", o.display, kDisplays, "Where to show it");
   command.add_option("--expert-path", o.expert_path, "Optimal path; default: the task's")->type_name("FILE");
   command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")->type_name("DIR");
+  command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop a second (default 1000)")->check(CLI::Range(1000.0, 4000.0));
+  command.add_option("--cpu", o.cpu, "Keep the haptic thread on this processor")->check(CLI::Range(0, 1023));
+  choice(command, "--geometry", o.exact_geometry, kGeometries,
+         "What the tick knows of the shape: snapshots at 60 Hz, or the full mesh in every tick (slow; with --fast)");
   command.add_flag("--quiet", o.quiet, "No progress on standard error");
   addRecordedPictures(command, o);
+}
+
+void settleOperator(SessionOptions& o, const station::Station& station) {
+  const station::DeviceDriver driver = station.device.driver;
+  const bool simulated = o.who == OperatorKind::expert || o.who == OperatorKind::novice;
+  const std::string where = station.file.name() + ", device/driver";
+  if (driver == station::DeviceDriver::replay) {
+    if (o.who != OperatorKind::automatic)
+      throw UsageError("is \"replay\": the recorded hand performs", where, "Leave out --operator");
+    o.who = OperatorKind::recorded;
+    return;
+  }
+  if (driver != station::DeviceDriver::bench && simulated)
+    throw UsageError("is a real device, which a simulated operator cannot hold", where,
+                     "Leave out --operator, or use the virtual bench");
+  if (o.who == OperatorKind::automatic) {
+    const bool person = driver != station::DeviceDriver::bench || o.display == scene::Display::window;
+    o.who = person ? OperatorKind::person : OperatorKind::expert;
+  }
+  if (o.who != OperatorKind::person) return;
+  if (o.fast) throw UsageError("cannot go with a person who performs", "--fast", "A person needs real time");
+  if (o.no_views || o.display != scene::Display::window)
+    throw UsageError("needs a window", "a person who performs",
+                     "Set DISPLAY, or choose --operator expert or novice on the virtual bench");
 }
 
 void settle(SessionOptions& o) {
   if (o.display == scene::Display::automatic)
     o.display = std::getenv("DISPLAY") && !o.fast && !o.no_views ? scene::Display::window : scene::Display::offscreen;
-  if (o.who == OperatorKind::automatic)
-    o.who = o.display == scene::Display::window ? OperatorKind::person : OperatorKind::expert;
-  if (o.who == OperatorKind::person && o.fast)
-    throw UsageError("cannot go with --operator person", "--fast", "A person needs real time");
-  if (o.who == OperatorKind::person && (o.no_views || o.display != scene::Display::window))
-    throw UsageError("needs a window", "--operator person", "Set DISPLAY, or choose --operator expert or novice");
+  if (o.exact_geometry && !o.fast)
+    throw UsageError("needs virtual time", "--geometry exact", "Add --fast: the full mesh takes longer than a tick");
   if (o.display == scene::Display::window && o.fast)
     throw UsageError("cannot go with --display window", "--fast", "Leave one of them out");
   if (!o.camera.empty() && (o.intrinsics.empty() || o.board.empty()))

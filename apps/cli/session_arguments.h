@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 
 #include "apps/cli/session_options.h"
+#include "apps/station/station_file.h"
 
 namespace palpa::cli {
 
@@ -11,5 +12,8 @@ void addSessionArguments(CLI::App& command, SessionOptions& options);
 
 /// After parsing: what "auto" means here, and contradictions (UsageError).
 void settle(SessionOptions& options);
+
+/// With the station read: who can hold its device. Throws UsageError.
+void settleOperator(SessionOptions& options, const station::Station& station);
 
 }  // namespace palpa::cli

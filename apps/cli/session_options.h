@@ -8,7 +8,7 @@
 
 namespace palpa::cli {
 
-enum class OperatorKind { automatic, person, expert, novice };
+enum class OperatorKind { automatic, person, expert, novice, recorded };   // recorded: a replayed hand
 
 /// What every session command understands.
 struct SessionOptions {
@@ -35,6 +35,9 @@ struct SessionOptions {
   std::string role = "scored";   ///< of the trials
   bool record_only = false;       ///< no expert path needed: trials that will make one
   std::string out;
+  double rate_Hz = 1000;         ///< ticks a second
+  int cpu = -1;                  ///< of the haptic thread; -1: any
+  bool exact_geometry = false;   ///< from the full mesh in every tick
   bool quiet = false;
 };
 

@@ -20,11 +20,12 @@ namespace {
 }
 
 bool simulated(const SessionOptions& options, const NeedleWorld& world) {
-  return options.who != OperatorKind::person || world.station.simulated;
+  return options.who == OperatorKind::expert || options.who == OperatorKind::novice || world.station.simulated;
 }
 
 std::string whoText(const SessionOptions& options) {
   if (options.who == OperatorKind::person) return options.trainee;
+  if (options.who == OperatorKind::recorded) return "recorded hand";
   return options.who == OperatorKind::novice ? "simulated novice" : "simulated expert";
 }
 
@@ -76,8 +77,9 @@ std::vector<report::Fact> registrationFacts(const SessionResult& result) {
 std::vector<report::Fact> stationFacts(const SessionOptions& options, const NeedleWorld& world) {
   std::vector<report::Fact> facts{
       {"Station", world.station.title, world.station.id},
-      {"Haptic device", world.station.device.name,
-       format("%.1f N, stable to %.0f N/m", world.station.device.max_force_N, world.station.device.stable_stiffness)},
+      {"Haptic device", world.station.device.capabilities.name,
+       format("%.1f N, stable to %.0f N/m", world.station.device.capabilities.max_force_N,
+              world.station.device.capabilities.stable_stiffness)},
       {"Calibration", world.station.calibration_verdict, world.station.calibration_date},
       {"Patient", world.patient.name, std::string(anatomy::name(world.patient.side)) + " side"},
       {"Time", options.fast ? "virtual (repeats exactly)" : "real", ""},
@@ -98,6 +100,7 @@ std::vector<report::Fact> notes(const SessionResult& result) {
                               static_cast<unsigned long long>(late.missed_ticks),
                               static_cast<unsigned long long>(late.steps), late.cost.median_us),
                        late.scheduling});
+  for (const SessionDevices::Fact& fact : result.devices) facts.push_back({fact.name, fact.value, fact.remark});
   if (result.dropped)
     facts.push_back({"Records lost", format("%llu", static_cast<unsigned long long>(result.dropped)),
                      "the computer could not keep up: the replay is not exact there"});

@@ -77,6 +77,7 @@ struct Bus {
   EventQueue<Keyframe> keyframes_to_recorder{128};
   EventQueue<LocalGeometry> geometry_to_recorder{512};
   EventQueue<EvidenceMessage> task_to_recorder{1024};
+  EventQueue<Event> device_to_task{64};   ///< what a driver has to tell
 };
 
 }  // namespace palpa::runtime

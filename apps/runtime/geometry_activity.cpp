@@ -16,17 +16,21 @@ std::int64_t GeometryActivity::step(std::int64_t now_ns) {
   Vec3 ahead = lookAhead(settings_) * unpack(tool->v_D);
   if (!ahead.allFinite()) ahead.setZero();
   if (ahead.norm() > kLargestLookAhead) ahead *= kLargestLookAhead / ahead.norm();
-  Pose X_DT = unpack(tool->X_DT);
-  if (!X_DT.matrix().allFinite()) return now_ns + settings_.period_ns;  // the old snapshot grows stale and fades
-  X_DT.translation() += ahead;
-  anatomy::LocalGeometryBuilder::Tool near;
-  near.X_AT = X_AD_ * X_DT;
-  near.punctured = tool->phase == haptics::NeedlePhase::inserted;
-  near.entry_A = X_AD_ * unpack(tool->entry_D);
-  const LocalGeometry geometry = builder_.build(++number_, now_ns, near, X_DA_);
-  bus_.geometry_to_haptic.publish(geometry, now_ns + settings_.latency_ns);
-  bus_.geometry_to_recorder.push(geometry);
+  ToolState near = *tool;
+  near.X_DT.p = pack(Vec3(unpack(tool->X_DT.p) + ahead));
+  if (!unpack(near.X_DT).matrix().allFinite()) return now_ns + settings_.period_ns;  // the old one grows stale and fades
+  bus_.geometry_to_haptic.publish(make(near, now_ns), now_ns + settings_.latency_ns);
   return now_ns + settings_.period_ns;
+}
+
+LocalGeometry GeometryActivity::make(const ToolState& tool, std::int64_t now_ns) {
+  anatomy::LocalGeometryBuilder::Tool near;
+  near.X_AT = X_AD_ * unpack(tool.X_DT);
+  near.punctured = tool.phase == haptics::NeedlePhase::inserted;
+  near.entry_A = X_AD_ * unpack(tool.entry_D);
+  const LocalGeometry geometry = builder_.build(++number_, now_ns, near, X_DA_);
+  bus_.geometry_to_recorder.push(geometry);
+  return geometry;
 }
 
 }  // namespace palpa::runtime

@@ -21,6 +21,8 @@ class GeometryActivity final : public Activity {
       : bus_(bus), builder_(builder), X_DA_(X_DA), X_AD_(X_DA.inverse()), settings_(settings) {}
   const char* name() const override { return "geometry"; }
   std::int64_t step(std::int64_t now_ns) override;
+  /// The snapshot for this tool, told to the recorder. `step` publishes the one for where the tool will be.
+  LocalGeometry make(const ToolState& tool, std::int64_t now_ns);
 
  private:
   Bus& bus_;

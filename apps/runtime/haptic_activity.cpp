@@ -15,13 +15,14 @@ PackedPose toolPose(const haptics::TickConfig& config, const haptics::DeviceRead
 
 std::int64_t HapticActivity::step(std::int64_t now_ns) {
   const haptics::DeviceReading reading = device_.read(now_ns);
-  const LocalGeometry* latest = bus_.geometry_to_haptic.read(now_ns);
+  const LocalGeometry* latest = geometryFor(reading, now_ns);
+  const haptics::SensedForce sensed = sensing_ ? sensing_->sense(reading, now_ns) : haptics::SensedForce{};
   const haptics::TickCommands* commands = bus_.task_to_haptic.read(now_ns);
   if (state_.tick % kKeyframeTicks == 0)
     bus_.keyframes_to_recorder.push(Keyframe{state_.tick, state_});
   haptics::FlightRecord record =
       haptics::tick(config_, state_, reading, latest, commands ? *commands : haptics::TickCommands{},
-                    now_ns);
+                    now_ns, sensed);
   device_.command(now_ns, record.f_command_D);
   record.late_ns = due_ns_ < 0 ? 0 : now_ns - due_ns_;
   tell(record, now_ns);
@@ -30,9 +31,18 @@ std::int64_t HapticActivity::step(std::int64_t now_ns) {
   return due_ns_;
 }
 
-void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_ns) {
-  bus_.haptic_to_recorder.push(record);
-  bus_.haptic_to_task.push(record);
+const LocalGeometry* HapticActivity::geometryFor(const haptics::DeviceReading& reading, std::int64_t now_ns) {
+  if (!exact_) return bus_.geometry_to_haptic.read(now_ns);
+  haptics::FlightRecord record;
+  record.reading = reading;
+  record.phase = state_.contact.phase;
+  ToolState tool = toolNow(record, now_ns);
+  tool.v_D = {0, 0, 0};
+  if (unpack(tool.X_DT).matrix().allFinite()) made_ = exact_->make(tool, now_ns);
+  return &made_;
+}
+
+ToolState HapticActivity::toolNow(const haptics::FlightRecord& record, std::int64_t now_ns) const {
   ToolState tool;
   tool.t_ns = now_ns;
   tool.X_DT = toolPose(config_, record.reading);
@@ -50,6 +60,13 @@ void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_
   tool.bone = record.bone;
   tool.safety = record.safety;
   tool.homed = record.reading.homed;
+  return tool;
+}
+
+void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_ns) {
+  bus_.haptic_to_recorder.push(record);
+  bus_.haptic_to_task.push(record);
+  const ToolState tool = toolNow(record, now_ns);
   bus_.haptic_to_geometry.publish(tool, now_ns);
   bus_.haptic_to_scene.publish(tool, now_ns);
 }

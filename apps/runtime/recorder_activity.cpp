@@ -1,13 +1,10 @@
 #include "apps/runtime/recorder_activity.h"
 
 namespace palpa::runtime {
-namespace {
-constexpr std::int64_t kDrainPeriod = 100'000'000;  // 100 ticks at 1 kHz, 400 at 4 kHz: the queue holds 8192
-}
 
 std::int64_t RecorderActivity::step(std::int64_t now_ns) {
   drain();
-  return now_ns + kDrainPeriod;
+  return now_ns + period_ns_;
 }
 
 void RecorderActivity::drain() {

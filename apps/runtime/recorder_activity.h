@@ -5,11 +5,11 @@
 
 namespace palpa::runtime {
 
-/// RECORDER: drains what the others queued into the session's evidence and commits ten times a
-/// second.
+/// RECORDER: drains what the others queued into the session's evidence and commits it every 100 ticks.
 class RecorderActivity final : public Activity {
  public:
-  RecorderActivity(Bus& bus, FlightSink& sink) : bus_(bus), sink_(sink) {}
+  RecorderActivity(Bus& bus, FlightSink& sink, std::int64_t tick_period_ns = haptics::TickConfig{}.period_ns)
+      : bus_(bus), sink_(sink), period_ns_(kTicks * tick_period_ns) {}
   const char* name() const override { return "recorder"; }
   std::int64_t step(std::int64_t now_ns) override;
   /// After the executive has stopped: the rest.
@@ -22,9 +22,11 @@ class RecorderActivity final : public Activity {
   }
 
  private:
+  static constexpr std::int64_t kTicks = 100;   ///< half of what a killed process may lose; the queue holds 8192
   void drain();
   Bus& bus_;
   FlightSink& sink_;
+  const std::int64_t period_ns_;
 };
 
 }  // namespace palpa::runtime

@@ -1,7 +1,5 @@
 #include "apps/station/station_file.h"
 
-#include <numbers>
-
 #include "anatomy/geometry/error.h"
 #include "haptics/virtual_coupling.h"
 
@@ -12,28 +10,6 @@ constexpr double kMm = 1e-3;
 constexpr int kStationVersion = 1;
 constexpr double kLongestPeriod = 1e-3;  // s: the loop runs at 1 kHz or faster
 constexpr double kDampedShare = 0.2;     // of m / T: more would make a sampled damper unstable itself
-
-Pose readPose(const JsonFile& file, const std::string& at) {
-  const Vec3 turn = file.vector(at + "/rotation_vector_deg") * (std::numbers::pi / 180);
-  const double angle = turn.norm();
-  const Mat3 R = angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Mat3::Identity();
-  return makePose(R, kMm * file.vector(at + "/position_mm"));
-}
-
-haptics::DeviceCapabilities readDevice(const JsonFile& file) {
-  haptics::DeviceCapabilities device;
-  device.name = file.text("device/name");
-  device.max_force_N = file.number("device/max_force_N", 0.1, 100);
-  device.stable_stiffness = file.number("device/stable_stiffness_N_per_m", 50, 50'000);
-  device.position_resolution = kMm * file.number("device/position_resolution_mm", 0, 1);
-  device.apparent_mass = file.number("device/apparent_mass_kg", 0, 5);
-  device.viscous_damping = file.number("device/viscous_Ns_per_m", 0, 50);
-  device.coulomb_friction = file.number("device/coulomb_N", 0, 5);
-  const std::string driver = file.text("device/driver");
-  if (driver != "virtual") file.refuse("device/driver", "is \"" + driver + "\"; known: virtual");
-  device.simulated = true;
-  return device;
-}
 
 calibration::CameraModel readCamera(const JsonFile& file) {
   calibration::CameraModel camera;
@@ -91,8 +67,8 @@ Station readStation(const std::filesystem::path& path) {
   s.file = file;
   s.id = file.text("id");
   s.title = file.text("title");
-  s.device = readDevice(file);
-  s.simulated = s.device.simulated;
+  s.device = readDevice(file, path.parent_path());
+  s.force_sensor = readForceSensor(file);
   s.camera = readCamera(file);
   s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
   s.camera_latency_s = 1e-3 * file.number("camera/latency_ms", 0, 1000 / s.camera_rate_Hz);
@@ -101,15 +77,18 @@ Station readStation(const std::filesystem::path& path) {
   s.X_WD = readPose(file, "registration/X_WD");
   s.X_ET = readPose(file, "tool/X_ET");
   s.near_edge_W = kMm * file.vector("patient/near_edge_mm");
-  s.safety.max_force_N = file.number("safety/max_force_N", 0.1, s.device.max_force_N);
+  const haptics::DeviceCapabilities& can = s.device.capabilities;
+  s.safety.max_force_N = file.number("safety/max_force_N", 0.1, can.max_force_N);
   s.safety.max_slew_N_per_s = file.number("safety/max_slew_N_per_s", 10, 1e5);
   s.safety.max_energy_J = file.number("safety/max_energy_J", 1e-3, 5);
   if (file.has("safety/deadman_button"))  // number of the button, from 0
     s.safety.deadman_button = 1u << file.integer("safety/deadman_button", 0, 31);
-  const double stable = haptics::couplingStiffness(s.device, kLongestPeriod);
+  s.safety.continuous_force_N = s.device.continuous_force_N;
+  s.safety.thermal_tau = s.device.thermal_tau;
+  const double stable = haptics::couplingStiffness(can, kLongestPeriod);
   s.coupling.stiffness = file.number("coupling/stiffness_N_per_m", 10, stable);
-  s.passivity.max_damping = kDampedShare * s.device.apparent_mass / kLongestPeriod;
-  s.passivity.coulomb = s.device.coulomb_friction;
+  s.passivity.max_damping = kDampedShare * can.apparent_mass / kLongestPeriod;
+  s.passivity.coulomb = can.coulomb_friction;
   s.calibration_verdict = file.text("calibration/verdict");
   s.calibration_date = file.text("calibration/date");
   return s;

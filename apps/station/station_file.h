@@ -1,13 +1,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "anatomy/patient.h"
-#include "apps/station/json_file.h"
+#include "apps/station/device_setup.h"
 #include "ar/board.h"
 #include "calibration/camera_model.h"
-#include "haptics/device.h"
 #include "haptics/tick.h"
 
 namespace palpa::station {
@@ -16,8 +16,9 @@ namespace palpa::station {
 /// the file. A virtual bench draws its truth around these figures.
 struct Station {
   std::string id, title;
-  bool simulated = false;
-  haptics::DeviceCapabilities device;
+  bool simulated = true;           ///< something that is seen or felt is the bench's: so far always the camera
+  DeviceSetup device;
+  std::optional<ForceSensorSetup> force_sensor;
   calibration::CameraModel camera;
   ar::TagGridSpec board;
   double decimate = 2;

@@ -31,6 +31,28 @@ std::string touchedText(const runtime::ToolState& tool) {
   return "";
 }
 
+/// What a trip means for whoever holds the tool; empty: nothing to say.
+std::string forceText(haptics::SafetyCause cause) {
+  using haptics::SafetyCause;
+  switch (cause) {
+    case SafetyCause::energy: return "Force is off: the device gave too much energy. R re-arms";
+    case SafetyCause::silent_device: return "Force is off: the device is silent. Look at its cable";
+    case SafetyCause::stale_geometry:
+    case SafetyCause::watchdog: return "Force is off: the computer cannot keep up";
+    case SafetyCause::corrupt_geometry: return "Force is off: damaged geometry was refused";
+    case SafetyCause::not_finite:
+    case SafetyCause::jump:
+    case SafetyCause::clock: return std::string("Force is off: the device's readings cannot be believed (") + haptics::name(cause) + ")";
+    default: return "";
+  }
+}
+
+std::string hint(haptics::SafetyCause cause) {
+  if (cause == haptics::SafetyCause::deadman) return "Force is off: hold the button of the device";
+  if (cause == haptics::SafetyCause::duty) return "The device is warm: forces are reduced";
+  return "";
+}
+
 }  // namespace
 
 bool injury(const runtime::ToolState& tool) {
@@ -55,16 +77,15 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, boo
   }
   hud.notice = status.notice;
   hud.alarm = status.alarm;
-  const bool force_taken = tool.safety == haptics::SafetyCause::energy ||
-                           tool.safety == haptics::SafetyCause::silent_device ||
-                           tool.safety == haptics::SafetyCause::stale_geometry ||
-                           tool.safety == haptics::SafetyCause::corrupt_geometry;
-  if (hud.notice.empty() && active && force_taken) {
-    hud.notice = std::string("Force is off: ") + haptics::name(tool.safety) + ". R re-arms";
+  if (hud.notice.empty() && active && !status.device.empty()) {
+    hud.notice = "Force is off: " + status.device;
     hud.alarm = true;
   }
-  if (hud.notice.empty() && active && tool.safety == haptics::SafetyCause::deadman)
-    hud.notice = "Force is off: hold the button of the device";
+  if (hud.notice.empty() && active) {
+    hud.notice = forceText(tool.safety);
+    hud.alarm = hud.alarm || !hud.notice.empty();
+  }
+  if (hud.notice.empty() && active) hud.notice = hint(tool.safety);
   if (hud.notice.empty() && active && injury(tool)) {
     hud.notice = "The needle touches the " + std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery");
     hud.alarm = true;

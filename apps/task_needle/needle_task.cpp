@@ -47,6 +47,7 @@ NeedleTask::NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& chan
 
 std::int64_t NeedleTask::step(std::int64_t now_ns) {
   obey(now_ns);
+  hearDevice();
   listen(now_ns);
   switch (status_.state) {
     case TrialState::checking:
@@ -81,7 +82,7 @@ void NeedleTask::checkReady(std::int64_t now_ns) {
   if (status_.emergency_stop) return;
   const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
   std::string missing;
-  if (!last_.reading.homed) missing = "the haptic device is not homed";
+  if (!last_.reading.homed) missing = status_.device.empty() ? "the haptic device is not homed" : status_.device;
   else if (!view || !view->pose || now_ns - view->t_exposure_ns > kPictureAge) missing = "the camera does not see the board";
   status_.notice = missing.empty() ? "" : "Not ready: " + missing;
   if (missing.empty()) {
@@ -153,10 +154,20 @@ void NeedleTask::listen(std::int64_t now_ns) {
   while (bus_.haptic_to_task.pop(&record)) judge(record, now_ns);
 }
 
+/// What a driver has to say stays on the screen until it is over.
+void NeedleTask::hearDevice() {
+  runtime::Event event;
+  while (bus_.device_to_task.pop(&event)) {
+    status_.device = event.text;
+    tell(event.t_ns, event.kind, event.text.empty() ? "The haptic device is ready" : event.text);
+  }
+}
+
 void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
   last_ = record;
   if (record.events & haptics::kSafetyTripped)
     tell(record.t_ns, "safety", std::string("Force taken away: ") + haptics::name(record.safety));
+  if (record.events & haptics::kSafetyCleared) tell(record.t_ns, "safety", "Force is back");
   if (record.events & haptics::kSnapshotRefused)
     tell(record.t_ns, "safety", "Damaged geometry was refused");
   if (status_.state != TrialState::running && status_.state != TrialState::paused) return;

@@ -67,6 +67,7 @@ class NeedleTask final : public runtime::Activity {
   void obey(std::int64_t now_ns);
   void obey(const UserRequest& request, std::int64_t now_ns);
   void listen(std::int64_t now_ns);
+  void hearDevice();
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns);
   void checkReady(std::int64_t now_ns);
   void startTrial(std::int64_t now_ns);

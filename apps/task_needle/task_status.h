@@ -21,6 +21,7 @@ struct TaskStatus {
   double plunger = 0, blood = 0;       ///< drawn, filled; fractions of the syringe
   bool blood_flows = false;
   bool emergency_stop = false;
+  std::string device;               ///< what the device's driver has to say; empty: nothing
   std::string notice;                  ///< one line for the person
   bool alarm = false;
 };

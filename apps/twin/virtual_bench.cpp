@@ -7,6 +7,7 @@
 #include "apps/runtime/clock.h"
 #include "apps/runtime/quantile.h"
 #include "apps/runtime/random.h"
+#include "apps/twin/sensor_twin.h"
 
 namespace palpa::twin {
 namespace {
@@ -46,13 +47,32 @@ calibration::CameraModel trueCamera(const station::Station& station, std::uint64
 DeviceTruth trueDevice(const station::Station& station) {
   const station::JsonFile& file = station.file;
   DeviceTruth truth;
-  truth.apparent_mass = station.device.apparent_mass;
-  truth.max_force_N = station.device.max_force_N;
+  truth.apparent_mass = station.device.capabilities.apparent_mass;
+  truth.max_force_N = station.device.capabilities.max_force_N;
   truth.coulomb = file.number("twin/device/coulomb_N", 0, 10);
   truth.viscous = file.number("twin/device/viscous_Ns_per_m", 0, 100);
   truth.encoder_step = kMm * file.number("twin/device/encoder_step_mm", 1e-6, 1);
   truth.encoder_angle = kDeg * file.number("twin/device/encoder_angle_deg", 1e-6, 5);
   truth.actuator_tau = 1e-3 * file.number("twin/device/actuator_tau_ms", 0, 100);
+  return truth;
+}
+
+SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
+  RandomStream random(seed, "bench.force_sensor.truth");
+  const station::JsonFile& file = station.file;
+  const station::ForceSensorSetup& believed = *station.force_sensor;
+  SensorTruth truth;
+  const double mass = 0.01 * file.number("twin/force_sensor/tool_mass_spread_percent", 0, 50);
+  const double centre = kMm * file.number("twin/force_sensor/centre_spread_mm", 0, 50);
+  const double bias = file.number("twin/force_sensor/bias_spread_N", 0, 5);
+  const double bias_Nm = file.number("twin/force_sensor/bias_spread_Nm", 0, 1);
+  truth.tool_mass = believed.filter.tool.mass * (1 + mass * random.normal());
+  truth.p_SM = pack(Vec3(unpack(believed.filter.tool.p_SM) + centre * normal3(random)));
+  truth.bias_N = pack(Vec3(unpack(believed.filter.bias.f_S) + bias * normal3(random)));
+  truth.bias_Nm = pack(Vec3(unpack(believed.filter.bias.tau_S) + bias_Nm * normal3(random)));
+  truth.noise_N = file.number("twin/force_sensor/noise_N", 0, 1);
+  truth.noise_Nm = file.number("twin/force_sensor/noise_Nm", 0, 1);
+  truth.max_force_N = believed.net_ft.capabilities.max_force_N;
   return truth;
 }
 
@@ -103,6 +123,11 @@ struct VirtualBench::Impl final : public runtime::Activity {
     camera.emplace(trueCamera(setup.station, setup.seed), setup.station.board, settings, setup.seed);
     errors_mm.reserve(4096);
     on_giving_up = setup.on_giving_up;
+    sensor = setup.sensor;
+    if (sensor) {
+      X_ES = setup.station.force_sensor->X_ES;
+      felt.emplace(trueSensor(setup.station, setup.seed), setup.seed);
+    }
   }
 
   const char* name() const override { return "bench"; }
@@ -128,6 +153,10 @@ struct VirtualBench::Impl final : public runtime::Activity {
     reading.plunger = action.plunger;
     reading.homed = 1;
     device.publish(reading, now_ns);
+    if (sensor) {  // nothing real is touched on the bench: its patient is virtual
+      const Pose X_WS = X_WD_true * mechanics.truePose() * X_ES;
+      sensor->publish(felt->measure(X_WS, Vec3::Zero(), X_WS.translation(), dt, now_ns), now_ns);
+    }
     due_ns = std::max((due_ns < 0 ? now_ns : due_ns) + kBenchPeriod, now_ns);
     return due_ns;
   }
@@ -150,6 +179,9 @@ struct VirtualBench::Impl final : public runtime::Activity {
   DeviceTwin mechanics;
   Operator hand;
   std::optional<VirtualCamera> camera;
+  runtime::ChannelSensor* sensor = nullptr;
+  std::optional<SensorTwin> felt;
+  Pose X_ES = Pose::Identity();
   std::function<void()> on_giving_up;
   std::uint64_t sequence = 0;
   std::int64_t last_ns = -1, due_ns = -1;

@@ -6,6 +6,7 @@
 
 #include "apps/runtime/camera_activity.h"
 #include "apps/runtime/channel_device.h"
+#include "apps/runtime/channel_sensor.h"
 #include "apps/station/station_file.h"
 #include "apps/twin/operator.h"
 #include "apps/twin/virtual_camera.h"
@@ -33,6 +34,7 @@ class VirtualBench {
     std::uint64_t seed = 1;
     bool left_handed = false;     ///< the needle is picked up on the hand's side
     std::function<void()> on_giving_up;   ///< the simulated person asks to end the trial
+    runtime::ChannelSensor* sensor = nullptr;   ///< where the station has a virtual force sensor
   };
   VirtualBench(const Setup& setup, runtime::Bus& bus, runtime::ChannelDevice& device);
   ~VirtualBench();

@@ -1,0 +1,61 @@
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "apps/cli/mouse_hand.h"
+#include "apps/cli/needle_world.h"
+#include "apps/runtime/button_plunger.h"
+#include "apps/runtime/channel_sensor.h"
+#include "apps/runtime/executive.h"
+#include "apps/runtime/falcon_activity.h"
+#include "apps/runtime/force_sensing.h"
+#include "apps/runtime/net_ft_activity.h"
+#include "apps/twin/virtual_bench.h"
+#include "haptics/devices/replay_device.h"
+
+namespace palpa::cli {
+
+/// Who or what holds the tool, behind HapticDevice, and what measures the force on it: the bench's twins, a
+/// person's mouse, a Falcon, a recorded hand; the station file and the operator decide. Their threads are its own.
+/// Throws UsageError / Error when something that the station names is not there.
+class SessionDevices {
+ public:
+  SessionDevices(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
+                 task_needle::TaskChannels& channels, const runtime::Clock& clock, runtime::TimeMode mode);
+  ~SessionDevices();
+
+  haptics::HapticDevice& device() { return *plunger_; }
+  runtime::ForceSensing* sensing() { return sensing_ ? &*sensing_ : nullptr; }
+  twin::VirtualBench& bench() { return *bench_; }       ///< its camera; its device where the bench's is used
+  MouseHand* mouse() { return mouse_.get(); }           ///< null: nobody leads with the mouse
+
+  void addTo(runtime::Executive& executive);            ///< what has to run beside the loop
+  void finish() noexcept;                               ///< zero force, sensors stopped
+
+  struct Fact {
+    std::string name, value, remark;
+  };
+  std::vector<Fact> facts() const;                      ///< what a driver has counted, for the report
+
+ private:
+  void openDevice(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
+                  task_needle::TaskChannels& channels);
+  void openSensor(const NeedleWorld& world, const SessionOptions& options, const runtime::Clock& clock,
+                  runtime::TimeMode mode);
+
+  runtime::ChannelDevice channel_;
+  std::unique_ptr<runtime::ChannelSensor> bench_sensor_;
+  std::unique_ptr<haptics::NetFtSensor> net_ft_;
+  std::unique_ptr<runtime::NetFtActivity> net_ft_activity_;
+  std::optional<runtime::ForceSensing> sensing_;
+  std::unique_ptr<twin::VirtualBench> bench_;
+  bool bench_moves_ = false;                            // the bench's device is the one that is held
+  std::unique_ptr<MouseHand> mouse_;
+  std::unique_ptr<haptics::FalconDriver> falcon_;
+  std::unique_ptr<runtime::FalconActivity> falcon_activity_;
+  std::unique_ptr<haptics::ReplayDevice> replay_;
+  std::optional<runtime::ButtonPlunger> plunger_;       // around whichever it is
+};
+
+}  // namespace palpa::cli
