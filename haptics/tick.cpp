@@ -123,6 +123,15 @@ bool believable(SafetyCause fault) {
   return fault != SafetyCause::not_finite && fault != SafetyCause::jump;
 }
 
+/// A device that is not homed does not know where it is: nothing is touched, and what was touched is over.
+void forgetContact(TickState& state) {
+  const std::uint8_t punctures = state.contact.skin_punctures;
+  state.contact = state.contact_old = NeedleState{};
+  state.contact.skin_punctures = state.contact_old.skin_punctures = punctures;
+  state.probe = state.probe_old = ProbeState{};
+  state.passivity = PassivityState{};
+}
+
 /// Of a real object on the tool; none where the sensor's word does not count or cannot be meant.
 Vec3 objectForce(const SensedForce& sensed) {
   const Vec3 f = unpack(sensed.f_D);
@@ -222,7 +231,9 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   SafetyInput input = safetyInput(reading, commands, fault, now_ns, dt);
   const double fresh = freshness(config, state, now_ns);
   NeedleContact contact;
-  if (believable(fault)) {
+  if (!reading.homed) {
+    forgetContact(state);
+  } else if (believable(fault)) {
     contact =
         blendedContact(config, state, pose, commands, dt, now_ns);
     input.f_wanted_D = passiveForce(config, state, commands, sensed, fresh, contact.f_D, input);

@@ -51,7 +51,7 @@ static_assert(std::is_trivially_copyable_v<TickState>);
 /// inputs, same bits. `latest` is the newest snapshot or null; it is adopted when the last blend is over, unless
 /// it is damaged. Whatever comes in, the command is finite and within the limits. Never allocates, locks, logs or
 /// throws. `sensed` is what a force sensor says of a real object at the tool: it counts at the hand's port. Zero force in the same tick for readings that cannot be, jumps, a clock that stood still or went
-/// back, and after a pause of the loop (watchdog).
+/// back, and after a pause of the loop (watchdog). A device that is not homed touches nothing.
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
                   const SensedForce& sensed = {}) noexcept;

@@ -251,6 +251,7 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
   result.lateness = executive->lateness();
   if (!recorded) result.accuracy = devices.bench().accuracy();
   result.devices = devices.facts();
+  result.safety_events = task.safetyEvents();
   result.dropped = recorder.dropped() + task.lostTicks();
   result.simulated_s = static_cast<double>(executive->clock().now()) * 1e-9;
   result.quit = task.quit();

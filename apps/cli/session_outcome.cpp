@@ -3,6 +3,7 @@
 #include <cstdarg>
 #include <cstdio>
 #include <fstream>
+#include <map>
 
 #include "anatomy/geometry/error.h"
 #include "apps/report/session_report.h"
@@ -90,6 +91,23 @@ std::vector<report::Fact> stationFacts(const SessionOptions& options, const Need
   return facts;
 }
 
+/// Every trip with its cause: how often, and when first.
+std::vector<report::Fact> safetyFacts(const std::vector<runtime::Event>& events) {
+  std::vector<report::Fact> facts;
+  std::map<std::string, std::pair<int, const runtime::Event*>> by_text;
+  for (const runtime::Event& event : events) {
+    auto& [count, first] = by_text[event.text];
+    if (++count == 1) first = &event;
+  }
+  for (const auto& [text, times] : by_text) {
+    const auto& [count, first] = times;
+    facts.push_back({text, count == 1 ? "once" : format("%d times", count),
+                     format("first %.1f s after the session's start", 1e-9 * static_cast<double>(first->t_ns)) +
+                         (first->trial > 0 ? format(", in trial %d", first->trial) : "")});
+  }
+  return facts;
+}
+
 std::vector<report::Fact> notes(const SessionResult& result) {
   std::vector<report::Fact> facts;
   for (const runtime::Lateness& late : result.lateness)
@@ -100,6 +118,7 @@ std::vector<report::Fact> notes(const SessionResult& result) {
                               static_cast<unsigned long long>(late.missed_ticks),
                               static_cast<unsigned long long>(late.steps), late.cost.median_us),
                        late.scheduling});
+  for (report::Fact& fact : safetyFacts(result.safety_events)) facts.push_back(std::move(fact));
   for (const SessionDevices::Fact& fact : result.devices) facts.push_back({fact.name, fact.value, fact.remark});
   if (result.dropped)
     facts.push_back({"Records lost", format("%llu", static_cast<unsigned long long>(result.dropped)),

@@ -271,7 +271,9 @@ void NeedleTask::obey(const UserRequest& request, std::int64_t now_ns) {
 
 void NeedleTask::tell(std::int64_t now_ns, const std::string& kind, const std::string& text,
                       double value) {
-  bus_.task_to_recorder.push(runtime::Event{now_ns, status_.trial, kind, text, value});
+  const runtime::Event event{now_ns, status_.trial, kind, text, value};
+  if (kind == "safety" || kind == "device") safety_events_.push_back(event);
+  bus_.task_to_recorder.push(event);
 }
 
 void NeedleTask::picture(const std::string& label, const std::string& caption) {

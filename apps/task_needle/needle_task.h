@@ -61,6 +61,8 @@ class NeedleTask final : public runtime::Activity {
 
   const std::vector<CompletedTrial>& completed() const { return completed_; }
   bool quit() const { return quit_; }
+  /// Every "safety" and "device" event, in order.
+  const std::vector<runtime::Event>& safetyEvents() const { return safety_events_; }
   std::uint64_t lostTicks() const { return bus_.haptic_to_task.overflows(); }
 
  private:
@@ -87,6 +89,7 @@ class NeedleTask final : public runtime::Activity {
   TaskStatus status_;
   std::vector<assess::TrialSample> samples_;
   std::vector<CompletedTrial> completed_;
+  std::vector<runtime::Event> safety_events_;
   haptics::FlightRecord last_;         ///< newest tick seen
   std::int64_t since_ns_ = 0;          ///< the current state began
   double in_lumen_s_ = 0;              ///< dwell with the plunger drawn

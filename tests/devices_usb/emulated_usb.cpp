@@ -16,9 +16,6 @@
 namespace palpa::test {
 namespace {
 
-constexpr const char* kNode = "/dev/bus/usb/001/002";
-constexpr const char* kSysPath = "/sys/devices/falcon/usb1/1-1";
-
 // Device 0403:cb48; one configuration, one interface, bulk endpoints 0x81 and 0x02 of 64 bytes.
 const std::string kDescriptors =
     "12010002000000400304"
@@ -31,19 +28,23 @@ const std::string kDescriptors =
     "07058102400000"
     "07050202400000";
 
-const std::string kDevice = std::string("P: /devices/falcon/usb1/1-1\n") +
-                            "N: bus/usb/001/002=" + kDescriptors + "\n" +
-                            "E: DEVNAME=/dev/bus/usb/001/002\n"
-                            "E: DEVTYPE=usb_device\n"
-                            "E: SUBSYSTEM=usb\n"
-                            "E: BUSNUM=001\n"
-                            "E: DEVNUM=002\n"
-                            "A: bConfigurationValue=1\\n\n"
-                            "A: busnum=1\\n\n"
-                            "A: devnum=2\\n\n"
-                            "A: speed=12\\n\n"
-                            "H: descriptors=" +
-                            kDescriptors + "\n";
+std::string describe(const std::string& node, const std::string& sys_path, int number) {
+  return "P: " + sys_path.substr(4) + "\nN: " + node.substr(5) + "=" + kDescriptors + "\nE: DEVNAME=" + node +
+         "\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\nE: BUSNUM=001\nE: DEVNUM=00" + std::to_string(number) +
+         "\nA: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=" + std::to_string(number) +
+         "\\n\nA: speed=12\\n\nH: descriptors=" + kDescriptors + "\n";
+}
+
+/// One for all devices that are plugged in at a time.
+std::shared_ptr<UMockdevTestbed> sharedTestbed() {
+  static std::weak_ptr<UMockdevTestbed> shared;
+  std::shared_ptr<UMockdevTestbed> testbed = shared.lock();
+  if (!testbed) {
+    testbed.reset(umockdev_testbed_new(), [](UMockdevTestbed* t) { g_object_unref(t); });
+    shared = testbed;
+  }
+  return testbed;
+}
 
 void need(bool done, GError* error) {
   if (!done) throw std::runtime_error(error ? error->message : "umockdev refused");
@@ -60,33 +61,38 @@ usbdevfs_urb& EmulatedUsb::Request::header() const {
   return *reinterpret_cast<usbdevfs_urb*>(urb->data);
 }
 
-EmulatedUsb::EmulatedUsb(FalconTwin& twin)
-    : twin_(twin), testbed_(umockdev_testbed_new()), ioctls_(umockdev_ioctl_base_new()) {
+EmulatedUsb::EmulatedUsb(FalconTwin& twin, int place)
+    : twin_(twin),
+      node_("/dev/bus/usb/001/00" + std::to_string(1 + place)),
+      sys_path_("/sys/devices/falcon/usb1/1-" + std::to_string(place)),
+      description_(describe(node_, sys_path_, 1 + place)),
+      testbed_(sharedTestbed()),
+      ioctls_(umockdev_ioctl_base_new()) {
   g_signal_connect(ioctls_, "handle-ioctl", G_CALLBACK(&EmulatedUsb::handle), this);
   plugIn();
 }
 
 EmulatedUsb::~EmulatedUsb() {
   if (plugged_) unplug();
-  g_object_unref(testbed_);
+  testbed_.reset();
   while (!requests_.empty()) giveBack(requests_.begin());
   g_object_unref(ioctls_);
 }
 
 void EmulatedUsb::plugIn() {
   GError* error = nullptr;
-  need(umockdev_testbed_add_from_string(testbed_, kDevice.c_str(), &error), error);
-  need(umockdev_testbed_attach_ioctl(testbed_, kNode, ioctls_, &error), error);
+  need(umockdev_testbed_add_from_string(testbed_.get(), description_.c_str(), &error), error);
+  need(umockdev_testbed_attach_ioctl(testbed_.get(), node_.c_str(), ioctls_, &error), error);
   plugged_ = true;
-  umockdev_testbed_uevent(testbed_, kSysPath, "add");
+  umockdev_testbed_uevent(testbed_.get(), sys_path_.c_str(), "add");
 }
 
 void EmulatedUsb::unplug() {
-  plugged_ = false;
+  plugged_ = claimed_ = false;
   GError* error = nullptr;
-  need(umockdev_testbed_detach_ioctl(testbed_, kNode, &error), error);
-  umockdev_testbed_uevent(testbed_, kSysPath, "remove");
-  umockdev_testbed_remove_device(testbed_, kSysPath);
+  need(umockdev_testbed_detach_ioctl(testbed_.get(), node_.c_str(), &error), error);
+  umockdev_testbed_uevent(testbed_.get(), sys_path_.c_str(), "remove");
+  umockdev_testbed_remove_device(testbed_.get(), sys_path_.c_str());
 }
 
 gboolean EmulatedUsb::handle(UMockdevIoctlBase*, UMockdevIoctlClient* client, EmulatedUsb* self) {
@@ -117,13 +123,14 @@ void EmulatedUsb::answer(UMockdevIoctlClient* client) {
       ++cleared_halts;
       break;
     case USBDEVFS_CLAIMINTERFACE:
-      error = held || kernel_driver ? EBUSY : 0;
+      error = held || kernel_driver || claimed_.exchange(true) ? EBUSY : 0;
       claims += error == 0;
       break;
     case USBDEVFS_IOCTL:
       error = bindKernelDriver(argument);
       break;
     case USBDEVFS_RELEASEINTERFACE:
+      claimed_ = false;
       ++releases;
       break;
     case USBDEVFS_GETDRIVER:

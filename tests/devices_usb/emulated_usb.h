@@ -4,6 +4,8 @@
 
 #include <atomic>
 #include <deque>
+#include <memory>
+#include <string>
 
 #include "tests/devices/falcon_twin.h"
 
@@ -18,7 +20,8 @@ class EmulatedUsb {
   /// Why it cannot work in this process; empty: it can.
   static const char* missing();
 
-  explicit EmulatedUsb(FalconTwin& twin);
+  /// `place`: 1, 2, ...: which port it is plugged into.
+  explicit EmulatedUsb(FalconTwin& twin, int place = 1);
   ~EmulatedUsb();
   EmulatedUsb(const EmulatedUsb&) = delete;
   EmulatedUsb& operator=(const EmulatedUsb&) = delete;
@@ -51,7 +54,9 @@ class EmulatedUsb {
   void giveBack(std::deque<Request>::iterator request);
 
   FalconTwin& twin_;
-  UMockdevTestbed* testbed_;
+  std::string node_, sys_path_, description_;
+  std::shared_ptr<UMockdevTestbed> testbed_;
+  std::atomic<bool> claimed_{false};
   UMockdevIoctlBase* ioctls_;
   std::atomic<bool> plugged_{false};
   std::deque<Request> requests_;  // umockdev's thread only

@@ -51,6 +51,7 @@ inline std::vector<AssetFile> assetFiles() {
       {"patients/reference.json",
        [](const auto& file) { anatomy::drawParameters(file.string(), anatomy::Side::right, 0); },
        false},
+      {"stations/falcon.json", [](const auto& file) { readStation(file); }},
   };
 }
 

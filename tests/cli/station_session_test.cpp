@@ -1,0 +1,124 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+/// Sessions on other stations than the virtual bench as it is shipped, and on other loops.
+namespace palpa::cli_test {
+namespace {
+
+nlohmann::json benchStation() {
+  return nlohmann::json::parse(contentOf(PALPA_SOURCE_DIR "/assets/stations/virtual_bench.json"));
+}
+
+/// A quick session of whoever the station is for.
+std::vector<std::string> ofTheStation(std::vector<std::string> more) {
+  std::vector<std::string> all{"paracentesis", "--fast", "--no-views", "--quiet"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::string totalOf(const std::filesystem::path& csv) {
+  const std::string text = contentOf(csv);
+  const std::size_t comma = text.rfind(',');
+  return text.substr(comma + 1);
+}
+
+/// One ordinary session that the others are compared with.
+struct Ordinary {
+  Folder here;
+  Ordinary() { outcome = palpa(session({"--seed", "3", "--out", "A"}), here.path()); }
+  Outcome outcome;
+};
+Ordinary& ordinary() {
+  static Ordinary one;
+  return one;
+}
+
+TEST(StationSession, ARecordedHandScoresWhatItScored) {
+  ASSERT_EQ(ordinary().outcome.exit_code, 0) << ordinary().outcome.err;
+  nlohmann::json station = benchStation();
+  station["device"]["driver"] = "replay";
+  station["device"]["recording"] = (ordinary().here / "A/session.palpa").string();
+  Folder here;
+  const std::string file = here.file("replay.json", station.dump());
+  const Outcome again = palpa(ofTheStation({"--station", file, "--seed", "3", "--out", "B"}), here.path());
+  ASSERT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_EQ(totalOf(here / "B/trials.csv"), totalOf(ordinary().here / "A/trials.csv"));
+  EXPECT_NE(contentOf(here / "B/report.html").find("recorded hand"), std::string::npos);
+  const Outcome refused = palpa(session({"--station", file, "--out", "C"}), here.path());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_NE(refused.err.find("device/driver"), std::string::npos);
+  EXPECT_EQ(refused.errLines(), 1);
+}
+
+TEST(StationSession, RealDevicesAreForPersons) {
+  nlohmann::json mouse = benchStation();
+  mouse["device"]["driver"] = "mouse";
+  Folder here;
+  for (const std::string& file :
+       {here.file("mouse.json", mouse.dump()), std::string(PALPA_SOURCE_DIR "/assets/stations/falcon.json")}) {
+    const Outcome o = palpa(session({"--station", file}), here.path());
+    EXPECT_EQ(o.exit_code, 2) << file;
+    EXPECT_NE(o.err.find("simulated operator cannot hold"), std::string::npos) << o.err;
+    const Outcome alone = palpa(ofTheStation({"--station", file}), here.path());
+    EXPECT_EQ(alone.exit_code, 2) << file << " is held by a person, who needs time and a window";
+    EXPECT_EQ(alone.errLines(), 1);
+  }
+}
+
+TEST(StationSession, AFasterLoopAndTheFullMeshComeToTheSameVerdict) {
+  ASSERT_EQ(ordinary().outcome.exit_code, 0) << ordinary().outcome.err;
+  const double total = std::stod(totalOf(ordinary().here / "A/trials.csv"));
+  for (const std::vector<std::string>& how :
+       {std::vector<std::string>{"--rate", "4000"}, std::vector<std::string>{"--geometry", "exact"}}) {
+    Folder here;
+    std::vector<std::string> arguments{"--seed", "3", "--out", "A"};
+    arguments.insert(arguments.end(), how.begin(), how.end());
+    const Outcome o = palpa(session(arguments), here.path());
+    ASSERT_EQ(o.exit_code, 0) << o.err;
+    // The operator answers what he feels, so small differences of force lead to small ones of the score.
+    EXPECT_NEAR(std::stod(totalOf(here / "A/trials.csv")), total, 0.05 * total) << how[0];
+    EXPECT_EQ(palpa({"replay", "A/session.palpa"}, here.path()).exit_code, 0) << how[0];
+  }
+  Folder here;
+  EXPECT_EQ(palpa({"paracentesis", "--geometry", "exact", "--operator", "expert", "--no-views"}, here.path()).exit_code, 2)
+      << "the full mesh takes longer than a tick: virtual time only";
+}
+
+TEST(StationSession, AForceSensorIsRecordedWithEveryTick) {
+  nlohmann::json station = benchStation();
+  station["force_sensor"] = {{"driver", "virtual"}, {"name", "six axes"}, {"max_force_N", {40, 40, 120}},
+      {"X_ES", {{"position_mm", {0, 0, 30}}, {"rotation_vector_deg", {0, 0, 0}}}}, {"cutoff_Hz", 30},
+      {"tool", {{"mass_g", 30}, {"centre_mm", {0, 0, 40}}}},
+      {"bias", {{"force_N", {0.2, -0.1, 0.4}}, {"torque_Nm", {0, 0, 0}}}}};
+  station["twin"]["force_sensor"] = {{"tool_mass_spread_percent", 2}, {"centre_spread_mm", 0.5},
+      {"bias_spread_N", 0.01}, {"bias_spread_Nm", 0.0005}, {"noise_N", 0.01}, {"noise_Nm", 0.0003}};
+  Folder here;
+  const std::string file = here.file("station.json", station.dump());
+  const Outcome o = palpa(session({"--station", file, "--seed", "3", "--out", "A"}), here.path());
+  ASSERT_EQ(o.exit_code, 0) << o.err;
+  ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "t.csv"}, here.path()).exit_code, 0);
+  const std::string csv = contentOf(here / "t.csv");
+  EXPECT_NE(csv.find("f_sensed_D_x_N"), std::string::npos);
+  EXPECT_NE(csv.find(",valid"), std::string::npos);
+  EXPECT_EQ(palpa({"replay", "A/session.palpa"}, here.path()).exit_code, 0);
+}
+
+TEST(StationSession, WhatADeviceLacksIsSaidInOneLine) {
+  const std::pair<const char*, nlohmann::json> wrong[] = {
+      {"device/driver", "gamepad"}, {"device/max_force_N", "much"}, {"device/continuous_force_N", 50}};
+  for (const auto& [field, value] : wrong) {
+    nlohmann::json station = benchStation();
+    station[nlohmann::json::json_pointer("/" + std::string(field))] = value;
+    Folder here;
+    const Outcome o = palpa(session({"--station", here.file("s.json", station.dump())}), here.path());
+    EXPECT_EQ(o.exit_code, 2) << field;
+    EXPECT_EQ(o.errLines(), 1) << o.err;
+    EXPECT_NE(o.err.find(field), std::string::npos) << o.err;
+  }
+}
+
+}  // namespace
+}  // namespace palpa::cli_test

@@ -1,0 +1,51 @@
+#include "apps/task_needle/hud_text.h"
+
+#include <gtest/gtest.h>
+
+namespace palpa::task_needle {
+namespace {
+
+using haptics::SafetyCause;
+
+scene::Hud shown(SafetyCause cause, const std::string& device = "") {
+  TaskStatus status;
+  status.state = TrialState::running;
+  status.trial = status.trials = 1;
+  status.device = device;
+  runtime::ToolState tool;
+  tool.safety = cause;
+  return hudText(status, tool, true, "");
+}
+
+TEST(HudText, SaysWhyTheForceIsGone) {
+  for (int i = 0; i < haptics::kSafetyCauseCount; ++i) {
+    const auto cause = static_cast<SafetyCause>(i);
+    const scene::Hud hud = shown(cause);
+    switch (cause) {
+      case SafetyCause::none:
+      case SafetyCause::clamp:
+      case SafetyCause::slew:
+      case SafetyCause::not_ready:       // between trials: the notice says what to do
+      case SafetyCause::emergency_stop:  // the task's own notice
+        EXPECT_EQ(hud.notice, "") << haptics::name(cause);
+        break;
+      case SafetyCause::deadman:
+      case SafetyCause::duty:
+        EXPECT_NE(hud.notice, "");
+        EXPECT_FALSE(hud.alarm);
+        break;
+      default:
+        EXPECT_EQ(hud.notice.rfind("Force is off: ", 0), 0u) << haptics::name(cause);
+        EXPECT_TRUE(hud.alarm) << haptics::name(cause);
+    }
+  }
+}
+
+TEST(HudText, WhatTheDriverSaysComesFirst) {
+  const scene::Hud hud = shown(SafetyCause::not_ready, "Pull the grip fully out, then push it fully in.");
+  EXPECT_EQ(hud.notice, "Force is off: Pull the grip fully out, then push it fully in.");
+  EXPECT_TRUE(hud.alarm);
+}
+
+}  // namespace
+}  // namespace palpa::task_needle
