@@ -41,6 +41,13 @@ void addRecordedPictures(CLI::App& command, SessionOptions& o) {
       ->type_name("SPEC");
 }
 
+void checkPerson(const SessionOptions& o) {
+  if (o.fast) throw UsageError("cannot go with --operator person", "--fast", "A person needs real time");
+  if (o.no_views || o.display != scene::Display::window)
+    throw UsageError("needs a window", "--operator person",
+                     "Set DISPLAY, or choose --operator expert or novice on the virtual bench");
+}
+
 }  // namespace
 
 void addSessionArguments(CLI::App& command, SessionOptions& o) {
@@ -92,16 +99,13 @@ void settleOperator(SessionOptions& o, const station::Station& station) {
     const bool person = driver != station::DeviceDriver::bench || o.display == scene::Display::window;
     o.who = person ? OperatorKind::person : OperatorKind::expert;
   }
-  if (o.who != OperatorKind::person) return;
-  if (o.fast) throw UsageError("cannot go with a person who performs", "--fast", "A person needs real time");
-  if (o.no_views || o.display != scene::Display::window)
-    throw UsageError("needs a window", "a person who performs",
-                     "Set DISPLAY, or choose --operator expert or novice on the virtual bench");
+  if (o.who == OperatorKind::person) checkPerson(o);
 }
 
 void settle(SessionOptions& o) {
   if (o.display == scene::Display::automatic)
     o.display = std::getenv("DISPLAY") && !o.fast && !o.no_views ? scene::Display::window : scene::Display::offscreen;
+  if (o.who == OperatorKind::person) checkPerson(o);
   if (o.exact_geometry && !o.fast)
     throw UsageError("needs virtual time", "--geometry exact", "Add --fast: the full mesh takes longer than a tick");
   if (o.display == scene::Display::window && o.fast)
