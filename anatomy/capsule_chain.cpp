@@ -29,6 +29,7 @@ Link cut(const SurfaceQuery::Tube& tube, const Vec3& on_axis, const Vec3& axis, 
   const double shorten = std::min(kRounded * tube.radius, (high - low) / 2);
   low += shorten;
   high -= shorten;
+  if (low > high) low = high = (low + high) / 2;  // by rounding
   const double centre = std::clamp((middle - on_axis).dot(axis), low, high);
   Link link;
   link.radius = tube.radius;

@@ -29,6 +29,7 @@ struct DeviceCapabilities {
   double apparent_mass = 0;        ///< kg
   double viscous_damping = 0;      ///< N s/m, of the mechanism
   double coulomb_friction = 0;     ///< N, of the drives; 0: not known
+  double delay = 0;                ///< s, from a reading to the force that answers it, beyond the loop's period
   int force_axes = 3;
   bool has_orientation = true;
   Packed3 workspace_centre{0, 0, 0};     ///< in D, m

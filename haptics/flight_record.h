@@ -81,7 +81,7 @@ struct FlightRecord {
   Packed3 f_command_D{};            ///< what left the safety limiter
   Packed3 tau_missing_D{};          ///< torque about E that a three-axis device cannot give, N m
   double indentation = 0;           ///< of the skin before puncture, m
-  double depth = 0;                 ///< of the tip below the skin plane along the needle, m
+  double depth = 0;                 ///< of the tip below the skin plane along the needle, m; along its normal while the needle has never been outside
   double v_axial = 0;               ///< of the tip along the needle, inward positive, m/s
   double skin_force = 0;            ///< normal force on the skin before puncture, N
   double bone_force = 0;            ///< largest bone contact force, N

@@ -13,11 +13,19 @@ constexpr double kLeftSkin = 0.0005;   // m outside before the needle counts as 
 constexpr double kLateralRamp = 0.002; // m of insertion over which the lateral hold builds up
 constexpr double kStickShare = 0.8;    // presliding stiffness as a share of the coupling's
 
+/// Right of the root below, however deep the tip is: for u >= u_f = max(u_0, 10 um),
+/// F(u) >= K_0 (exp(m (u - u_0)) - 1) u_f, which reaches K_c x at the returned u.
+double firstIndentation(const SkinLaw& skin, double K_c, double x) {
+  const double floor = std::max(skin.u_0, 1e-5), slope = skin.K_0 * floor;
+  if (!(slope > 0 && skin.m > 0)) return x;
+  return std::min(x, std::max(floor, skin.u_0 + std::log1p(K_c * x / slope) / skin.m));
+}
+
 /// Indentation u of the skin with F(u) = K_c (x - u), x the tip's depth: the skin's law in series with
-/// the coupling. The left side minus the right is convex and rising, so Newton from u = x descends to
+/// the coupling. The left side minus the right is convex and rising, so Newton from the right descends to
 /// the root.
 double indentationInSeries(const SkinLaw& skin, double K_c, double x) {
-  double u = x;
+  double u = firstIndentation(skin, K_c, x);
   for (int i = 0; i < 60; ++i) {
     const double residual = skin.force(u) - K_c * (x - u);
     const double next = std::max(0.0, u - residual / (skin.stiffness(u) + K_c));
@@ -64,7 +72,9 @@ void beforePuncture(Step& s) {
   const PatchContact skin = nearestOn(s.geometry.skin, s.pose.p_DT);
   const Vec3 n = skin.normal;
   const double x = -skin.distance;
-  if (x <= 0) {
+  s.state.was_outside |= x <= 0;
+  if (!s.state.was_outside || x <= 0) {
+    s.out.depth = std::max(x, 0.0);
     s.state.phase = NeedlePhase::outside;
     s.state.skin_anchor_D = pack(s.pose.p_DT);
     s.state.relaxation = RelaxationState{};
@@ -74,11 +84,13 @@ void beforePuncture(Step& s) {
   s.out.indentation = indentationInSeries(s.materials.skin, s.coupling.stiffness, x);
   s.out.skin_force = relaxed(s.materials.skin.relaxation, s.state.relaxation,
                              s.materials.skin.force(s.out.indentation), s.dt);
+  const bool gives = s.out.skin_force >= s.commands.puncture_force_N;
+  if (gives) s.out.skin_force = std::max(s.commands.puncture_force_N, 0.0);
   const SkinLaw& law = s.materials.skin;
   s.push(s.out.skin_force * n + dragAcross(s.state.skin_anchor_D, s.pose.p_DT, n, law.shear,
                                            law.friction * s.out.skin_force),
          s.pose.p_DT);
-  if (s.out.skin_force >= s.commands.puncture_force_N) puncture(s, n, x);
+  if (gives) puncture(s, n, x);
 }
 
 /// Stick–slip of cutting and shaft friction: an anchor that yields at the limit of either direction.
@@ -118,9 +130,12 @@ void pushWall(Step& s, const TissueWalk& walk) {
   s.out.wall_leaving = walk.wall_leaving;
   s.out.wall_force = relaxed(law.relaxation, s.state.wall_relaxation,
                              std::min(law.stiffness, s.coupling.stiffness) * walk.wall_depth, s.dt);
+  const double peak = law.peak * static_cast<double>(s.commands.wall_scale[index]);
+  const bool gives = s.out.wall_force >= peak;
+  if (gives) s.out.wall_force = std::max(peak, 0.0);
   const Vec3 f = -s.out.wall_force * s.pose.a_D;
   s.push(f, s.pose.p_DT);
-  if (s.out.wall_force < law.peak * static_cast<double>(s.commands.wall_scale[index])) return;
+  if (!gives) return;
   (walk.wall_leaving ? s.state.walls_back : s.state.walls_front) |= 1u << index;
   letGo(s, f);
   s.out.events |= kWallPunctured;

@@ -21,20 +21,29 @@ Vec3 keepPassive(const PassivityLimits& limits, PassivityState& state,
     state = PassivityState{};
     return in.f_D;
   }
+  state.since_s += in.dt;
+  state.declared_J += in.declared_J;
+  if (state.started && !in.fresh) {
+    state.injecting = unpack(state.added_D).squaredNorm() > 0;
+    return in.f_D + unpack(state.added_D);
+  }
+  const double dt = state.since_s;
+  state.since_s = 0;
   const Vec3 f_port = in.f_D + in.f_object_D;
   const Vec3 dx = state.started ? Vec3(in.p_DE - unpack(state.p_last_D)) : Vec3::Zero();
   const double slip = limits.coulomb * dx.norm();
   state.energy_J += -unpack(state.f_last_D).dot(dx) + slip;
-  state.declared_J += in.declared_J;
-  Vec3 f = in.f_D;
+  Vec3 added = Vec3::Zero();
   const double expected = state.energy_J + state.declared_J - f_port.dot(dx) + slip;
   const double debt = -expected - limits.unfelt_J, moved2 = dx.squaredNorm();
-  if (debt > 0 && moved2 > 0 && limits.max_damping > 0 && in.dt > 0) {
-    const double damping = std::min(debt * in.dt / moved2, limits.max_damping);
-    f -= damping * dx / in.dt;
+  if (debt > 0 && moved2 > 0 && limits.max_damping > 0 && dt > 0) {
+    const double damping = std::min(debt * dt / moved2, limits.max_damping);
+    added = -damping * dx / dt;
     state.injecting = 1;
   }
-  settle(limits, state, f_port.norm(), in.dt);
+  settle(limits, state, f_port.norm(), dt);
+  const Vec3 f = in.f_D + added;
+  state.added_D = pack(added);
   state.f_last_D = pack(Vec3(f + in.f_object_D));
   state.p_last_D = pack(in.p_DE);
   state.started = 1;

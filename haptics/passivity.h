@@ -13,7 +13,9 @@ namespace palpa::haptics {
 ///   controller   E' < -e:  f -= a v,  a = min((-E' - e) / (T |v|^2), a_max)     e: nobody feels it
 ///   bounds       E <= |f| reach: more than a spring with this force can hold was dissipated, and is no
 ///                credit for later; a debt is forgotten slowly
-/// `f` is the force on the hand at the port that must not make energy. Where a real object is felt as well,
+/// `f` is the force on the hand at the port that must not make energy.
+/// Without a new reading the hand has not been seen to move: what was added stays added, and the time goes to the next
+/// reading's step, so that a loop faster than its device is as safe as one in step with it. Where a real object is felt,
 /// that is the hand's port (object and device together), so that taking stiffness or friction
 /// away from the object is not mistaken for instability.
 struct PassivityLimits {
@@ -29,6 +31,9 @@ struct PassivityState {
   Packed3 p_last_D{};
   double energy_J = 0;          ///< negative: made by us
   double declared_J = 0;        ///< what open-loop cues may still give away
+  Packed3 added_D{};            ///< damping force, held until the next reading
+  double since_s = 0;           ///< since the last new reading
+  std::uint64_t sequence = 0;   ///< of that reading, as the tick counts them
   std::uint8_t started = 0;
   std::uint8_t injecting = 0;   ///< damping was added in this tick
   std::uint8_t reserved[6]{};
@@ -41,6 +46,7 @@ struct PassivityInput {
   Vec3 f_object_D = Vec3::Zero();    ///< of a real object on the hand; zero where nothing real is touched
   double declared_J = 0;             ///< work that a cue asks leave for in this tick
   double dt = 0.001;
+  bool fresh = true;                 ///< p_DE is a new reading
 };
 
 /// Returns the force with the damping that keeps the port passive. Never allocates, never throws.

@@ -104,7 +104,7 @@ Vec3 limitForce(const SafetyLimits& limits, SafetyState& state, const SafetyInpu
   const double most = bearable(limits, state);
   if (size > most) {
     f *= most / size;
-    state.cause = size > limits.max_force_N ? SafetyCause::clamp : SafetyCause::duty;
+    state.cause = most < limits.max_force_N ? SafetyCause::duty : SafetyCause::clamp;
   }
   bool limited = false;
   f = limitRise(f, unpack(state.f_last_D), limits.max_slew_N_per_s * in.dt, &limited);

@@ -8,7 +8,7 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr double kStrongestObject = 1000;  // N; a comparison with a NaN is false
+constexpr double kStrongestObject = 1000;  // N
 constexpr double kLongestStep = 0.005;  // s: a late tick is not integrated over more than this
 
 /// From one time to another, ns. In floating point: a clock that leaps must not overflow.
@@ -16,11 +16,25 @@ double between(std::int64_t from_ns, std::int64_t to_ns) {
   return static_cast<double>(to_ns) - static_cast<double>(from_ns);
 }
 
-NeedlePose needlePose(const TickConfig& config, const DeviceReading& reading) {
+/// A device that does not turn holds the needle as its tool says; once inserted the needle points from the entry to the
+/// tip, taking over between 3 and 6 mm.
+Vec3 alongEntry(const NeedleState& needle, const Vec3& p_DT, const Vec3& held_D) {
+  constexpr double kFrom = 0.003, kTo = 0.006;
+  const Vec3 way = p_DT - unpack(needle.entry_D);
+  const double length = way.norm();
+  if (needle.phase != NeedlePhase::inserted || length <= kFrom) return held_D;
+  const double share = std::min((length - kFrom) / (kTo - kFrom), 1.0);
+  const Vec3 axis = (1 - share) * held_D + share * way / length;
+  return axis.norm() > 0.1 ? axis.normalized() : held_D;
+}
+
+NeedlePose needlePose(const TickConfig& config, const NeedleState& needle, const DeviceReading& reading) {
   const Quat q_DE = unpack(reading.q_DE).normalized();
   const Vec3 p_DE = unpack(reading.p_DE);
   const Quat q_ET = unpack(config.X_ET.q);
-  return {p_DE + q_DE * unpack(config.X_ET.p), q_DE * (q_ET * Vec3::UnitZ()), p_DE};
+  NeedlePose pose{p_DE + q_DE * unpack(config.X_ET.p), q_DE * (q_ET * Vec3::UnitZ()), p_DE};
+  if (!config.device_turns) pose.a_D = alongEntry(needle, pose.p_DT, pose.a_D);
+  return pose;
 }
 
 void startTrial(TickState& state, std::uint32_t trial) {
@@ -111,16 +125,24 @@ double freshness(const TickConfig& config, const TickState& state, std::int64_t 
 SafetyCause faultOf(const TickConfig& config, TickState& state, const DeviceReading& reading,
                     const NeedlePose& pose, double elapsed_ns) {
   if (!possible(reading)) return SafetyCause::not_finite;
+  // Where it will be once homed is no jump from where it seemed to be, but has to be steady as after one.
+  if (!reading.homed) {
+    state.reading = ReadingState{};
+    state.homing_ns = static_cast<double>(config.safety.jump_hold_ns);
+    return SafetyCause::none;
+  }
+  state.homing_ns = std::max(state.homing_ns - std::max(elapsed_ns, 0.0), 0.0);
   const bool still = steady(config.safety, config.period_ns, pose, reading.sequence, elapsed_ns,
                             state.reading);
   if (!still) return SafetyCause::jump;
+  if (state.homing_ns > 0) return SafetyCause::not_ready;
   if (elapsed_ns <= 0) return SafetyCause::clock;
   return elapsed_ns > static_cast<double>(config.safety.watchdog_ns) ? SafetyCause::watchdog
                                                                      : SafetyCause::none;
 }
 
 bool believable(SafetyCause fault) {
-  return fault != SafetyCause::not_finite && fault != SafetyCause::jump;
+  return fault != SafetyCause::not_finite && fault != SafetyCause::jump && fault != SafetyCause::not_ready;
 }
 
 /// A device that is not homed does not know where it is: nothing is touched, and what was touched is over.
@@ -133,9 +155,10 @@ void forgetContact(TickState& state) {
 }
 
 /// Of a real object on the tool; none where the sensor's word does not count or cannot be meant.
-Vec3 objectForce(const SensedForce& sensed) {
+Vec3 objectForce(const TickConfig& config, const SensedForce& sensed) {
   const Vec3 f = unpack(sensed.f_D);
-  const bool believed = sensed.state == SensorState::valid && f.cwiseAbs().maxCoeff() <= kStrongestObject;
+  const bool believed = config.object_at_port && sensed.state == SensorState::valid && f.allFinite() &&
+                        f.norm() <= kStrongestObject;
   return believed ? f : Vec3(Vec3::Zero());
 }
 
@@ -150,9 +173,12 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands
   PassivityInput port;
   port.p_DE = in.p_DE;
   port.f_D = f_D;
-  port.f_object_D = objectForce(sensed);
+  port.f_object_D = objectForce(config, sensed);
+  port.fresh = in.sequence != state.passivity.sequence;
   port.dt = in.dt;
-  return keepPassive(config.passivity, state.passivity, port);
+  const Vec3 f_passive_D = keepPassive(config.passivity, state.passivity, port);
+  state.passivity.sequence = in.sequence;
+  return f_passive_D;
 }
 
 bool isTrip(SafetyCause cause) {
@@ -205,11 +231,24 @@ void tellCause(FlightRecord& record, TickState& state, double fresh) {
     cause = state.refused ? SafetyCause::corrupt_geometry : SafetyCause::stale_geometry;
   record.safety = cause;
   if (isTrip(cause) && cause != state.cause) record.events |= kSafetyTripped;
-  if (!isTrip(cause) && isTrip(state.cause)) record.events |= kSafetyCleared;
+  state.tripped |= isTrip(cause);
+  const bool again = cause == SafetyCause::none || cause == SafetyCause::clamp || cause == SafetyCause::slew ||
+                     cause == SafetyCause::duty;
+  if (state.tripped && again) {
+    record.events |= kSafetyCleared;
+    state.tripped = 0;
+  }
   state.cause = cause;
 }
 
 }  // namespace
+
+PackedPose toolPose(const TickConfig& config, const TickState& state, const DeviceReading& reading) noexcept {
+  const NeedlePose pose = needlePose(config, state.contact, reading);
+  const Quat q_DT = (unpack(reading.q_DE).normalized() * unpack(config.X_ET.q)).normalized();
+  const Quat turn = Quat::FromTwoVectors(q_DT * Vec3::UnitZ(), pose.a_D);  // none where the device turns
+  return {pack(pose.p_DT), pack(config.device_turns ? q_DT : Quat(turn * q_DT))};
+}
 
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
@@ -226,7 +265,7 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   if (commands.trial != state.trial) startTrial(state, commands.trial);
   record.events |= adopt(config, state, latest, now_ns);
 
-  const NeedlePose pose = needlePose(config, reading);
+  const NeedlePose pose = needlePose(config, state.contact, reading);
   const SafetyCause fault = faultOf(config, state, reading, pose, elapsed);
   SafetyInput input = safetyInput(reading, commands, fault, now_ns, dt);
   const double fresh = freshness(config, state, now_ns);
@@ -244,7 +283,7 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   describe(config, record, contact, state);
   record.f_command_D = pack(limitForce(config.safety, state.safety, input));
   state.passivity.f_last_D =  // what the hand really gets
-      pack(Vec3(unpack(record.f_command_D) + objectForce(sensed)));
+      pack(Vec3(unpack(record.f_command_D) + objectForce(config, sensed)));
   tellCause(record, state, fresh);
   return record;
 }

@@ -17,6 +17,11 @@ struct TickConfig {
   NeedleMaterials materials;
   ProbeMaterials probe;
   Engine engine = Engine::needle;
+  /// 1: a real object is touched beyond the force sensor, the hand holds the tool before it: passivity is kept at the
+  /// hand's port, device and object together. 0: what is sensed is only recorded.
+  std::uint8_t object_at_port = 0;
+  std::uint8_t device_turns = 1;            ///< 0: no orientation is read; see toolPose
+  std::uint8_t reserved[2]{};
   CouplingLimits coupling;
   PassivityLimits passivity;
   SafetyLimits safety;
@@ -39,13 +44,19 @@ struct TickState {
   PassivityState passivity;
   SafetyState safety;
   ReadingState reading;
+  double homing_ns = 0;              ///< still to be steady after homing
   std::uint64_t refused = 0;         ///< number of the last snapshot, when it was damaged
   std::uint32_t trial = 0;
   std::uint8_t blending = 0;
   SafetyCause cause = SafetyCause::none;
-  std::uint8_t reserved[2]{};
+  std::uint8_t tripped = 0;          ///< force was taken away and has not come back
+  std::uint8_t reserved[1]{};
 };
 static_assert(std::is_trivially_copyable_v<TickState>);
+
+/// X_DT, the needle along its +z: as the device holds it; where the device does not turn, along entry to tip once it is
+/// some millimetres in the tissue: the entry is its pivot.
+PackedPose toolPose(const TickConfig& config, const TickState& state, const DeviceReading& reading) noexcept;
 
 /// One tick: reading -> contact on the snapshot -> blend -> passivity -> safety limiter -> command. Pure: same
 /// inputs, same bits. `latest` is the newest snapshot or null; it is adopted when the last blend is over, unless

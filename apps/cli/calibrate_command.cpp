@@ -41,7 +41,8 @@ std::vector<std::string> simulateExperts(const ExpertOptions& o) {
     world.station.camera_rate_Hz = 2;  // pictures serve the ready check only: fewer save time
     const std::filesystem::path place = makeOutputFolder((folder / session.trainee).string(), "");
     std::fprintf(stderr, "%s: %d trials\n", session.trainee.c_str(), o.simulate);
-    runNeedleSession(session, world, place);
+    if (runNeedleSession(session, world, place).quit)
+      throw Error("was interrupted", "palpa calibrate experts", "Start it again");
     files.push_back((place / "session.palpa").string());
   }
   return files;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "anatomy/geometry/error.h"
 #include "apps/cli/needle_session.h"
 #include "apps/cli/mouse_hand.h"
 #include "apps/cli/output_folder.h"
@@ -106,7 +107,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   expert.fast = expert.no_views = expert.quiet = true;
   expert.display = scene::Display::offscreen;
   const std::filesystem::path place = makeOutputFolder((folder / "demonstration").string(), "");
-  runNeedleSession(expert, world, place);
+  if (runNeedleSession(expert, world, place).quit) throw Error("was interrupted", "the demonstration", "Start again");
   const RecordedSession recorded(place / "session.palpa");
 
   const Stage stage = makeStage(options, world, true);

@@ -7,6 +7,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/patient_file.h"
+#include "apps/cli/interrupt.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/session_devices.h"
@@ -41,6 +42,10 @@ haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld&
   haptics::TickConfig config = world.tickConfig();
   config.period_ns = std::llround(1e9 / options.rate_Hz);
   if (options.exact_geometry) config.blend_ns = 0;  // every tick has its own
+  const station::DeviceSetup& device = world.station.device;
+  const bool has_buttons = !isSimulated(options.who) && device.driver != station::DeviceDriver::mouse;
+  if (!has_buttons) config.safety.deadman_button = 0;  // nobody could hold it
+  config.device_turns = isSimulated(options.who) || device.capabilities.has_orientation;
   return config;
 }
 
@@ -136,10 +141,8 @@ std::string nameOf(OperatorKind who) {
   }
 }
 
-bool simulatedOperator(OperatorKind who) { return who == OperatorKind::expert || who == OperatorKind::novice; }
-
 std::string markFor(OperatorKind who, const station::Station& station) {
-  if (simulatedOperator(who)) return "SIMULATED OPERATOR";
+  if (isSimulated(who)) return "SIMULATED OPERATOR";
   if (who == OperatorKind::recorded) return "RECORDED HAND";
   if (!station.simulated) return "";
   return station.device.driver == station::DeviceDriver::bench ? "VIRTUAL BENCH" : "VIRTUAL CAMERA";
@@ -152,7 +155,7 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
   const bool person = options.who == OperatorKind::person;
   const bool window = options.display == scene::Display::window && !options.no_views;
   const std::string who = nameOf(options.who);
-  const bool simulated = simulatedOperator(options.who) || world.station.simulated;
+  const bool simulated = isSimulated(options.who) || world.station.simulated;
   std::unique_ptr<PictureLoop> recorded;
   if (!options.camera.empty()) recorded = std::make_unique<PictureLoop>(options.camera, world.station.camera_rate_Hz);
   const calibration::CameraModel camera = checkedCamera(world, recorded.get());
@@ -232,6 +235,7 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
   record::SessionWriter writer(folder / "session.palpa", sessionInfo(options, world, who, simulated, folder));
   runtime::RecorderActivity recorder(bus, writer, tick.period_ns);
   Progress progress(options.quiet);
+  Interrupt interrupt(channels);
   devices.addTo(*executive);
   executive->add(haptic, {1, true, false, options.cpu});
   if (!options.exact_geometry) executive->add(geometry, {2, false, false});
@@ -240,9 +244,9 @@ SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world
   executive->add(scene, {5, false, true});
   executive->add(recorder, {6, false, false});
   executive->add(progress, {7, false, false});
+  executive->add(interrupt, {8, false, false});
   executive->run();
 
-  devices.finish();
   scene.finish(executive->clock().now());
   recorder.finish();
   writer.close();

@@ -84,7 +84,6 @@ void addSessionArguments(CLI::App& command, SessionOptions& o) {
 
 void settleOperator(SessionOptions& o, const station::Station& station) {
   const station::DeviceDriver driver = station.device.driver;
-  const bool simulated = o.who == OperatorKind::expert || o.who == OperatorKind::novice;
   const std::string where = station.file.name() + ", device/driver";
   if (driver == station::DeviceDriver::replay) {
     if (o.who != OperatorKind::automatic)
@@ -92,7 +91,7 @@ void settleOperator(SessionOptions& o, const station::Station& station) {
     o.who = OperatorKind::recorded;
     return;
   }
-  if (driver != station::DeviceDriver::bench && simulated)
+  if (driver != station::DeviceDriver::bench && isSimulated(o.who))
     throw UsageError("is a real device, which a simulated operator cannot hold", where,
                      "Leave out --operator, or use the virtual bench");
   if (o.who == OperatorKind::automatic) {

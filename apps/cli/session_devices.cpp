@@ -34,27 +34,29 @@ std::unique_ptr<runtime::ChannelSensor> benchSensor(const station::Station& stat
 SessionDevices::SessionDevices(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
                                task_needle::TaskChannels& channels, const runtime::Clock& clock,
                                runtime::TimeMode mode)
-    : channel_(world.station.device.capabilities, mode), bench_sensor_(benchSensor(world.station, mode)) {
+    : bench_moves_(isSimulated(options.who)), channel_(world.station.device.capabilities, mode) {
+  if (bench_moves_) bench_sensor_ = benchSensor(world.station, mode);
   const twin::OperatorSkill skill = skillOf(options.who);
   const auto give_up = [&channels] {
     channels.operator_to_task.push({task_needle::UserCommand::abort, "The simulated operator gave up"});
   };
-  bench_ = std::make_unique<twin::VirtualBench>(
-      twin::VirtualBench::Setup{world.station, world.X_WA, skill, world.visible(skill), options.seed,
-                                options.left_handed, give_up, bench_sensor_.get()},
-      bus, channel_);
+  if (bench_moves_ || options.camera.empty())
+    bench_ = std::make_unique<twin::VirtualBench>(
+        twin::VirtualBench::Setup{world.station, world.X_WA, skill, world.visible(skill), options.seed,
+                                  options.left_handed, give_up, bench_sensor_.get()},
+        bus, channel_);
   openDevice(options, world, bus, channels);
   openSensor(world, options, clock, mode);
 }
 
-SessionDevices::~SessionDevices() { finish(); }
+SessionDevices::~SessionDevices() = default;
 
 void SessionDevices::openDevice(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
                                 task_needle::TaskChannels& channels) {
   const station::DeviceSetup& setup = world.station.device;
   haptics::HapticDevice* device = &channel_;
-  if (options.who == OperatorKind::expert || options.who == OperatorKind::novice) {
-    bench_moves_ = true;
+  if (bench_moves_) {
+    // the bench's own
   } else if (setup.driver == DeviceDriver::falcon) {
     falcon_ = std::make_unique<haptics::FalconDriver>(
         std::make_unique<haptics::LibusbTransport>(haptics::kFalconUsb),
@@ -70,12 +72,14 @@ void SessionDevices::openDevice(const SessionOptions& options, const NeedleWorld
                          options.left_handed},
         channel_, channels);
   }
-  plunger_.emplace(*device, setup.plunger_button);
+  plunger_.emplace(*device, falcon_ ? setup.plunger_button : 0);
 }
 
 void SessionDevices::openSensor(const NeedleWorld& world, const SessionOptions& options,
                                 const runtime::Clock& clock, runtime::TimeMode mode) {
   if (!world.station.force_sensor) return;
+  // A simulated operator has no part in what a real sensor measures, nor a real hand in what the bench's does.
+  if (bench_moves_ == (world.station.force_sensor->driver == ForceSensorSetup::Driver::net_ft)) return;
   const ForceSensorSetup& setup = *world.station.force_sensor;
   haptics::ForceSensor* sensor = bench_sensor_.get();
   if (setup.driver == ForceSensorSetup::Driver::net_ft) {
@@ -87,7 +91,6 @@ void SessionDevices::openSensor(const NeedleWorld& world, const SessionOptions& 
     sensor = net_ft_.get();
   }
   runtime::ForceSensing::Setup sensing{setup.filter, world.station.X_WD, setup.X_ES};
-  sensing.filter.motion.rate_Hz = options.rate_Hz;
   sensing.filter.low_pass = haptics::butterworth(setup.cutoff_Hz, options.rate_Hz);
   sensing_.emplace(*sensor, sensing);
 }
@@ -95,12 +98,8 @@ void SessionDevices::openSensor(const NeedleWorld& world, const SessionOptions& 
 void SessionDevices::addTo(runtime::Executive& executive) {
   if (bench_moves_) executive.add(bench_->activity(), {0, false, false});
   if (mouse_) executive.add(*mouse_, {0, false, false});
-  if (falcon_activity_) executive.add(*falcon_activity_, {0, false, false});
+  if (falcon_activity_) executive.add(*falcon_activity_, {0, true, false});
   if (net_ft_activity_) executive.add(*net_ft_activity_, {0, false, false});
-}
-
-void SessionDevices::finish() noexcept {
-  if (falcon_activity_) falcon_activity_->close();
 }
 
 std::vector<SessionDevices::Fact> SessionDevices::facts() const {

@@ -27,11 +27,10 @@ class SessionDevices {
 
   haptics::HapticDevice& device() { return *plunger_; }
   runtime::ForceSensing* sensing() { return sensing_ ? &*sensing_ : nullptr; }
-  twin::VirtualBench& bench() { return *bench_; }       ///< its camera; its device where the bench's is used
+  twin::VirtualBench& bench() { return *bench_; }       ///< its camera, where no recorded pictures stand for it
   MouseHand* mouse() { return mouse_.get(); }           ///< null: nobody leads with the mouse
 
   void addTo(runtime::Executive& executive);            ///< what has to run beside the loop
-  void finish() noexcept;                               ///< zero force, sensors stopped
 
   struct Fact {
     std::string name, value, remark;
@@ -44,13 +43,13 @@ class SessionDevices {
   void openSensor(const NeedleWorld& world, const SessionOptions& options, const runtime::Clock& clock,
                   runtime::TimeMode mode);
 
+  const bool bench_moves_;                              // the bench's device is the one that is held
   runtime::ChannelDevice channel_;
   std::unique_ptr<runtime::ChannelSensor> bench_sensor_;
   std::unique_ptr<haptics::NetFtSensor> net_ft_;
   std::unique_ptr<runtime::NetFtActivity> net_ft_activity_;
   std::optional<runtime::ForceSensing> sensing_;
   std::unique_ptr<twin::VirtualBench> bench_;
-  bool bench_moves_ = false;                            // the bench's device is the one that is held
   std::unique_ptr<MouseHand> mouse_;
   std::unique_ptr<haptics::FalconDriver> falcon_;
   std::unique_ptr<runtime::FalconActivity> falcon_activity_;

@@ -10,6 +10,8 @@ namespace palpa::cli {
 
 enum class OperatorKind { automatic, person, expert, novice, recorded };   // recorded: a replayed hand
 
+inline bool isSimulated(OperatorKind who) { return who == OperatorKind::expert || who == OperatorKind::novice; }
+
 /// What every session command understands.
 struct SessionOptions {
   std::string command = "paracentesis";

@@ -21,7 +21,7 @@ namespace {
 }
 
 bool simulated(const SessionOptions& options, const NeedleWorld& world) {
-  return options.who == OperatorKind::expert || options.who == OperatorKind::novice || world.station.simulated;
+  return isSimulated(options.who) || world.station.simulated;
 }
 
 std::string whoText(const SessionOptions& options) {

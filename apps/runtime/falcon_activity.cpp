@@ -30,4 +30,9 @@ std::int64_t FalconActivity::step(std::int64_t now_ns) {
   return due_ns;
 }
 
+void FalconActivity::end() noexcept {
+  driver_.close();
+  opened_ = false;
+}
+
 }  // namespace palpa::runtime

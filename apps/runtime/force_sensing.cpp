@@ -3,14 +3,20 @@
 namespace palpa::runtime {
 
 haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading, std::int64_t now_ns) noexcept {
+  haptics::SensedForce sensed;
+  sensed.state = haptics::SensorState::unusable;
   const haptics::WrenchSample sample = sensor_.read(now_ns);
+  if (!reading.homed) {  // nobody knows which way is down
+    state_ = {};
+    return sensed;
+  }
   const Quat q_DE = unpack(reading.q_DE).normalized();
   const Pose X_DS = makePose(q_DE.toRotationMatrix(), unpack(reading.p_DE)) * setup_.X_ES;
   const haptics::ContactWrench contact =
-      haptics::step(setup_.filter, state_, sample, pack(Pose(setup_.X_WD * X_DS)), now_ns);
-  haptics::SensedForce sensed;
-  sensed.state = contact.valid ? haptics::SensorState::valid : haptics::SensorState::unusable;
-  if (contact.valid) sensed.f_D = pack(Vec3(X_DS.linear() * unpack(contact.contact.f_S)));
+      haptics::step(setup_.filter, state_, sample, pack(Pose(setup_.X_WD * X_DS)), reading.t_ns);
+  if (!contact.valid) return sensed;
+  sensed.state = haptics::SensorState::valid;
+  sensed.f_D = pack(Vec3(X_DS.linear() * unpack(contact.contact.f_S)));
   return sensed;
 }
 

@@ -6,11 +6,12 @@
 namespace palpa::runtime {
 
 /// A force sensor on the tool, read in the haptic thread: its newest sample, cleared of bias, tool and noise
-/// (WrenchFilter), as the force of a real object on the tool, in D. Never allocates, never throws.
+/// (WrenchFilter), as the force of a real object on the tool, in D. The tool's motion is that of the device's readings at
+/// their own times, however often the loop asks; unusable until the device is homed. Never allocates, never throws.
 class ForceSensing {
  public:
   struct Setup {
-    haptics::WrenchFilter filter;
+    haptics::WrenchFilter filter;   ///< its motion at the device's rate, its low-pass at the loop's
     Pose X_WD = Pose::Identity();   ///< which way is down
     Pose X_ES = Pose::Identity();   ///< the sensor on the end effector
   };

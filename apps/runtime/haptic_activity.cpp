@@ -3,16 +3,6 @@
 #include <algorithm>
 
 namespace palpa::runtime {
-namespace {
-
-PackedPose toolPose(const haptics::TickConfig& config, const haptics::DeviceReading& reading) {
-  const Quat q_DE = unpack(reading.q_DE).normalized();
-  return {pack(Vec3(unpack(reading.p_DE) + q_DE * unpack(config.X_ET.p))),
-          pack(Quat(q_DE * unpack(config.X_ET.q)))};
-}
-
-}  // namespace
-
 std::int64_t HapticActivity::step(std::int64_t now_ns) {
   const haptics::DeviceReading reading = device_.read(now_ns);
   const LocalGeometry* latest = geometryFor(reading, now_ns);
@@ -45,7 +35,7 @@ const LocalGeometry* HapticActivity::geometryFor(const haptics::DeviceReading& r
 ToolState HapticActivity::toolNow(const haptics::FlightRecord& record, std::int64_t now_ns) const {
   ToolState tool;
   tool.t_ns = now_ns;
-  tool.X_DT = toolPose(config_, record.reading);
+  tool.X_DT = haptics::toolPose(config_, state_, record.reading);
   tool.v_D = config_.engine == haptics::Engine::probe ? state_.probe.motion.v_D
                                                            : state_.contact.motion.v_D;
   tool.f_contact_D = record.f_contact_D;
@@ -67,7 +57,7 @@ void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_
   bus_.haptic_to_recorder.push(record);
   bus_.haptic_to_task.push(record);
   const ToolState tool = toolNow(record, now_ns);
-  bus_.haptic_to_geometry.publish(tool, now_ns);
+  if (!exact_) bus_.haptic_to_geometry.publish(tool, now_ns);
   bus_.haptic_to_scene.publish(tool, now_ns);
 }
 

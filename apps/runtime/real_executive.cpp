@@ -69,7 +69,7 @@ class RealExecutive final : public Executive {
         entry.cost.add(clock_.now() - now);
         entry.late.add(now - due);
         entry.missed += period > 0 && now - due > period;
-        if (next == kNever) return;
+        if (next == kNever) break;
         due = next;
       }
     } catch (...) {
@@ -77,6 +77,7 @@ class RealExecutive final : public Executive {
       if (!failure_) failure_ = std::current_exception();
       stop();
     }
+    entry.activity->end();
   }
 
   SteadyClock clock_;

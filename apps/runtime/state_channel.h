@@ -19,8 +19,11 @@ class StateChannel {
   explicit StateChannel(TimeMode mode) : mode_(mode) {}
 
   void publish(const T& value, std::int64_t visible_ns) {
-    if (mode_ == TimeMode::real) latest_.write({true, value});
-    else pending_.push_back({visible_ns, value});
+    if (mode_ == TimeMode::real) return latest_.write({true, value});
+    pending_.push_back({visible_ns, value});
+    if (pending_.size() <= kMostPending) return;
+    latest_.write({true, pending_.front().value});  // nobody has read for long: it has been visible long since
+    pending_.pop_front();
   }
 
   /// The newest visible value, or null before the first.
@@ -40,6 +43,7 @@ class StateChannel {
     std::int64_t visible_ns;
     T value;
   };
+  static constexpr std::size_t kMostPending = 1024;   ///< more than a second of ticks: beyond every latency
   TimeMode mode_;
   haptics::LatestValue<Slot> latest_;
   std::deque<Pending> pending_;   ///< virtual time only

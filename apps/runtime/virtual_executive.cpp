@@ -21,6 +21,21 @@ class VirtualExecutive final : public Executive {
   void stop() noexcept override { stopped_ = true; }
 
   void run() override {
+    try {
+      steps();
+    } catch (...) {
+      endAll();
+      throw;
+    }
+    endAll();
+  }
+
+ private:
+  void endAll() noexcept {
+    for (const Entry& entry : entries_) entry.activity->end();
+  }
+
+  void steps() {
     stopped_ = false;
     while (!stopped_) {
       // A handful of activities: a scan is simpler than a heap, and the order is plain to see.
@@ -35,7 +50,6 @@ class VirtualExecutive final : public Executive {
     }
   }
 
- private:
   struct Entry {
     std::int64_t due_ns;
     int priority;

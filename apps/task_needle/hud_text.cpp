@@ -83,6 +83,8 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, boo
   }
   if (hud.notice.empty() && active) {
     hud.notice = forceText(tool.safety);
+    if (hud.notice.empty() && !forceText(status.trip).empty())
+      hud.notice = std::string("Force was off for a moment: ") + haptics::name(status.trip);
     hud.alarm = hud.alarm || !hud.notice.empty();
   }
   if (hud.notice.empty() && active) hud.notice = hint(tool.safety);

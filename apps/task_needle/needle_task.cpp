@@ -14,6 +14,7 @@ constexpr std::int64_t kTaskPeriod = 16'666'667;
 constexpr std::int64_t kBetweenTrials = 3 * kSecond;   // the trainee takes the needle back
 constexpr std::int64_t kReadyPatience = 15 * kSecond;
 constexpr std::int64_t kPictureAge = kSecond;          // an older picture of the board is no proof
+constexpr std::int64_t kTripShown = 2 * kSecond;
 constexpr double kContactPause = 0.5;   // s without contact before the next one is news
 constexpr double kFillRate = 0.25;                     // syringes a second through a freely bleeding needle
 
@@ -83,6 +84,7 @@ void NeedleTask::checkReady(std::int64_t now_ns) {
   const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
   std::string missing;
   if (!last_.reading.homed) missing = status_.device.empty() ? "the haptic device is not homed" : status_.device;
+  else if (last_.phase != haptics::NeedlePhase::outside || last_.depth > 0) missing = "the needle is in the skin: take it out";
   else if (!view || !view->pose || now_ns - view->t_exposure_ns > kPictureAge) missing = "the camera does not see the board";
   status_.notice = missing.empty() ? "" : "Not ready: " + missing;
   if (missing.empty()) {
@@ -154,6 +156,30 @@ void NeedleTask::listen(std::int64_t now_ns) {
   while (bus_.haptic_to_task.pop(&record)) judge(record, now_ns);
 }
 
+/// Trips and what limits the force become events, and stay on the screen long enough to be read. A device that has lost
+/// its position pauses the trial: force comes back when somebody asks for it.
+void NeedleTask::watchSafety(const haptics::FlightRecord& record) {
+  using haptics::SafetyCause;
+  if (record.events & haptics::kSafetyTripped) {
+    tell(record.t_ns, "safety", std::string("Force taken away: ") + haptics::name(record.safety));
+    status_.trip = record.safety;
+    trip_ns_ = record.t_ns;
+  }
+  if (record.events & haptics::kSafetyCleared) tell(record.t_ns, "safety", "Force is back");
+  if (record.events & haptics::kSnapshotRefused) tell(record.t_ns, "safety", "Damaged geometry was refused");
+  if (record.t_ns - trip_ns_ > kTripShown) status_.trip = SafetyCause::none;
+  if (record.safety == SafetyCause::duty) {
+    if (warm_ns_ < 0 || record.t_ns - warm_ns_ > kTripShown)
+      tell(record.t_ns, "safety", "The drives are warm: forces are reduced");
+    warm_ns_ = record.t_ns;
+  }
+  if (status_.state == TrialState::running && last_.reading.homed && !record.reading.homed) {
+    status_.state = TrialState::paused;
+    status_.notice = "Paused: the device has lost its position. When it is back, Enter goes on";
+    tell(record.t_ns, "pause", "The trial is paused: the device has lost its position");
+  }
+}
+
 /// What a driver has to say stays on the screen until it is over.
 void NeedleTask::hearDevice() {
   runtime::Event event;
@@ -164,12 +190,8 @@ void NeedleTask::hearDevice() {
 }
 
 void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
+  watchSafety(record);
   last_ = record;
-  if (record.events & haptics::kSafetyTripped)
-    tell(record.t_ns, "safety", std::string("Force taken away: ") + haptics::name(record.safety));
-  if (record.events & haptics::kSafetyCleared) tell(record.t_ns, "safety", "Force is back");
-  if (record.events & haptics::kSnapshotRefused)
-    tell(record.t_ns, "safety", "Damaged geometry was refused");
   if (status_.state != TrialState::running && status_.state != TrialState::paused) return;
   assess::TrialSample sample;
   if (!sampler_.add(record, &sample)) return;
@@ -222,7 +244,8 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
 
 void NeedleTask::obey(std::int64_t now_ns) {
   UserRequest request;
-  while (channels_.requests_to_task.pop(&request) || channels_.operator_to_task.pop(&request))
+  while (channels_.requests_to_task.pop(&request) || channels_.operator_to_task.pop(&request) ||
+         channels_.signals_to_task.pop(&request))
     obey(request, now_ns);
 }
 
@@ -262,7 +285,7 @@ void NeedleTask::obey(const UserRequest& request, std::int64_t now_ns) {
                            ? "Re-armed: Enter goes on" : "";
       return tell(now_ns, "rearm", "Re-armed");
     case UserCommand::quit:
-      if (in_trial) endTrial("aborted", "The session was closed", now_ns);
+      if (in_trial) endTrial("aborted", request.reason.empty() ? "The session was closed" : request.reason, now_ns);
       quit_ = true;
       executive_.stop();
       return;

@@ -34,6 +34,7 @@ struct TaskChannels {
   runtime::StateChannel<TaskStatus> status_to_scene;
   runtime::EventQueue<PictureRequest> pictures_to_scene{64};
   runtime::EventQueue<UserRequest> requests_to_task{64};   ///< from the scene: keys
+  runtime::EventQueue<UserRequest> signals_to_task{4};     ///< from the system: the session shall end
   runtime::EventQueue<UserRequest> operator_to_task{8};    ///< from a simulated operator who gives up
 };
 
@@ -70,6 +71,7 @@ class NeedleTask final : public runtime::Activity {
   void obey(const UserRequest& request, std::int64_t now_ns);
   void listen(std::int64_t now_ns);
   void hearDevice();
+  void watchSafety(const haptics::FlightRecord& record);
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns);
   void checkReady(std::int64_t now_ns);
   void startTrial(std::int64_t now_ns);
@@ -91,6 +93,7 @@ class NeedleTask final : public runtime::Activity {
   std::vector<CompletedTrial> completed_;
   std::vector<runtime::Event> safety_events_;
   haptics::FlightRecord last_;         ///< newest tick seen
+  std::int64_t trip_ns_ = 0, warm_ns_ = -1;   ///< of the last trip, of the last tick with warm drives
   std::int64_t since_ns_ = 0;          ///< the current state began
   double in_lumen_s_ = 0;              ///< dwell with the plunger drawn
   std::array<double, kOrganCount> touched_s_{};   ///< trial time of the last contact, by Organ

@@ -22,6 +22,7 @@ struct TaskStatus {
   bool blood_flows = false;
   bool emergency_stop = false;
   std::string device;               ///< what the device's driver has to say; empty: nothing
+  haptics::SafetyCause trip = haptics::SafetyCause::none;   ///< the last one, for some seconds: many last a tick only
   std::string notice;                  ///< one line for the person
   bool alarm = false;
 };

@@ -25,7 +25,7 @@ haptics::WrenchSample SensorTwin::measure(const Pose& X_WS, const Vec3& f_contac
   for (std::size_t i = 0; i < kPoints; ++i) {
     const Vec3 p = X_WS * p_S_[i];
     Vec3 a_W = Vec3::Zero();
-    if (seen_ >= 2) a_W = (p - 2 * p_W_1_[i] + p_W_0_[i]) / (dt * dt);
+    if (seen_ >= 2) a_W = ((p - p_W_1_[i]) / dt - (p_W_1_[i] - p_W_0_[i]) / dt_last_) / (0.5 * (dt + dt_last_));
     p_W_0_[i] = p_W_1_[i];
     p_W_1_[i] = p;
     const Vec3 share = truth_.tool_mass / kPoints * (R_SW * (kGravity_W - a_W));
@@ -33,6 +33,7 @@ haptics::WrenchSample SensorTwin::measure(const Pose& X_WS, const Vec3& f_contac
     tau += p_S_[i].cross(share);
   }
   seen_ = std::min(seen_ + 1, 2);
+  dt_last_ = dt;
   haptics::WrenchSample sample;
   sample.t_ns = t_ns;
   sample.sequence = ++sequence_;

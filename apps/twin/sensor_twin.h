@@ -35,6 +35,7 @@ class SensorTwin {
   SensorTruth truth_;
   runtime::RandomStream noise_;
   std::array<Vec3, kPoints> p_S_, p_W_0_, p_W_1_;   // in the tool; one and two steps ago
+  double dt_last_ = 0;
   int seen_ = 0;
   std::uint64_t sequence_ = 0;
 };

@@ -8,6 +8,7 @@ DeviceCapabilities falconCapabilities() {
   falcon.max_force_N = 6.2;  // in every direction at the centre; the published 8 N and more along the axis only
   falcon.stable_stiffness = 3000;
   falcon.position_resolution = falconResolution();
+  falcon.delay = 1e-3;  // one exchange on the cable
   falcon.force_axes = 3;
   falcon.has_orientation = false;
   falcon.workspace_centre = pack(kFalconCentre);

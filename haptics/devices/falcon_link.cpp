@@ -22,7 +22,7 @@ void FalconLink::open() noexcept {
   if (status_.state != FalconState::closed) return;
   status_.state = FalconState::opening;
   status_.problem = FalconProblem::none;
-  due_ns_ = std::numeric_limits<std::int64_t>::min();
+  due_ns_ = 0;
   pause_ns_ = kFirstPause_ns;
 }
 
@@ -62,6 +62,7 @@ void FalconLink::connect(std::int64_t now_ns) noexcept {
   if (status == UsbStatus::ok) status = setFalconNormalMode(serial_);
   if (status != UsbStatus::ok) return giveUp(now_ns, problemOf(status));
   ++status_.opened;
+  due_ns_ = now_ns;  // go on at once
   if (!half_uploaded_ && answers()) {
     status_.state = FalconState::homing;
   } else if (firmware_.empty()) {
@@ -80,6 +81,7 @@ void FalconLink::upload(std::int64_t now_ns) noexcept {
     result.usb = setFalconNormalMode(serial_);
     if (result.usb == UsbStatus::ok && answers()) {
       status_.state = FalconState::homing;
+      due_ns_ = now_ns;
       return;
     }
   }

@@ -1,6 +1,9 @@
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <nlohmann/json.hpp>
+#include <sstream>
 
 #include "program.h"
 
@@ -17,6 +20,13 @@ std::vector<std::string> ofTheStation(std::vector<std::string> more) {
   std::vector<std::string> all{"paracentesis", "--fast", "--no-views", "--quiet"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
+}
+
+std::vector<std::string> cellsOf(const std::string& line) {
+  std::vector<std::string> cells;
+  std::stringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) cells.push_back(cell);
+  return cells;
 }
 
 std::string totalOf(const std::filesystem::path& csv) {
@@ -47,6 +57,12 @@ TEST(StationSession, ARecordedHandScoresWhatItScored) {
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(totalOf(here / "B/trials.csv"), totalOf(ordinary().here / "A/trials.csv"));
   EXPECT_NE(contentOf(here / "B/report.html").find("recorded hand"), std::string::npos);
+  const std::string recorded = (ordinary().here / "A/session.palpa").string();
+  ASSERT_EQ(palpa({"export", recorded, "--out", "a.csv"}, here.path()).exit_code, 0);
+  ASSERT_EQ(palpa({"export", "B/session.palpa", "--out", "b.csv"}, here.path()).exit_code, 0);
+  const std::string felt = contentOf(here / "a.csv"), again_felt = contentOf(here / "b.csv");
+  EXPECT_GT(felt.size(), 1'000'000u);
+  EXPECT_EQ(felt, again_felt) << "every tick: the same force";
   const Outcome refused = palpa(session({"--station", file, "--out", "C"}), here.path());
   EXPECT_EQ(refused.exit_code, 2);
   EXPECT_NE(refused.err.find("device/driver"), std::string::npos);
@@ -100,9 +116,24 @@ TEST(StationSession, AForceSensorIsRecordedWithEveryTick) {
   const Outcome o = palpa(session({"--station", file, "--seed", "3", "--out", "A"}), here.path());
   ASSERT_EQ(o.exit_code, 0) << o.err;
   ASSERT_EQ(palpa({"export", "A/session.palpa", "--out", "t.csv"}, here.path()).exit_code, 0);
-  const std::string csv = contentOf(here / "t.csv");
-  EXPECT_NE(csv.find("f_sensed_D_x_N"), std::string::npos);
-  EXPECT_NE(csv.find(",valid"), std::string::npos);
+  std::istringstream csv(contentOf(here / "t.csv"));
+  std::string line;
+  std::getline(csv, line);
+  const std::vector<std::string> header = cellsOf(line);
+  const auto at = [&](const char* name) { return std::find(header.begin(), header.end(), name) - header.begin(); };
+  int valid = 0, ticks = 0;
+  double squares = 0;
+  for (; std::getline(csv, line); ++ticks) {
+    const std::vector<std::string> row = cellsOf(line);
+    if (row.at(static_cast<std::size_t>(at("sensor"))) != "valid") continue;
+    ++valid;
+    for (const char* axis : {"f_sensed_D_x_N", "f_sensed_D_y_N", "f_sensed_D_z_N"})
+      squares += std::pow(std::stod(row.at(static_cast<std::size_t>(at(axis)))), 2);
+  }
+  EXPECT_GT(ticks, 5000);
+  EXPECT_GT(valid, ticks - 20);
+  // Nothing real is touched: what is left of a 30 g tool (0.3 N) is calibration, noise and the encoders' steps.
+  EXPECT_LT(std::sqrt(squares / valid), 0.06);
   EXPECT_EQ(palpa({"replay", "A/session.palpa"}, here.path()).exit_code, 0);
 }
 

@@ -1,5 +1,8 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+#include <numbers>
+
 #include "apps/runtime/falcon_activity.h"
 #include "apps/runtime/haptic_activity.h"
 #include "scripted_station.h"
@@ -20,7 +23,7 @@ struct Session {
     config.X_ET.q = {0, 1, 0, 0};  // the needle points down; the device does not turn
     haptic = std::make_unique<HapticActivity>(bus, station.rig.driver, config);
     geometry_now.number = 0;
-    station.rig.holdGripAt(haptics::kFalconCentre);
+    station.rig.holdGripAt(haptics::kFalconCentre + Vec3(0, 0, 0.004));
     executive->add(falcon, {0, false, false});
     executive->add(*haptic, {1, true, false});
     executive->add(world, {2, false, false});
@@ -29,10 +32,16 @@ struct Session {
     end_ns = t_ns;
     executive->run();
   }
-  /// The last tick that the loop has told.
+  /// The last tick that the loop has told; `pushed`: of all since the last call.
   const haptics::FlightRecord& tick() {
     haptics::FlightRecord record;
-    while (bus.haptic_to_task.pop(&record)) last = record;
+    pushed = jumps = 0;
+    while (bus.haptic_to_task.pop(&record)) {
+      last = record;
+      pushed += record.f_command_D[2] > 0.02;
+      jumps += record.safety == haptics::SafetyCause::jump;
+      most = std::max(most, unpack(record.f_command_D).norm());
+    }
     return last;
   }
   std::vector<std::string> notices() {
@@ -56,6 +65,9 @@ struct Session {
                 geometry_now.number += 1;
                 geometry_now.t_ns = now;
                 geometry_now.skin.p = {0, 0, haptics::kFalconCentre.z() + 0.001};
+                // The grip goes in and out once a second: 3 mm above the skin to 1 mm under it.
+                const double turn = 2 * std::numbers::pi * 1e-9 * static_cast<double>(now);
+                station.rig.holdGripAt(haptics::kFalconCentre + Vec3(0, 0, 0.002 + 0.002 * std::cos(turn)));
                 bus.geometry_to_haptic.publish(geometry_now, now);
                 haptics::FlightRecord record;
                 while (bus.haptic_to_recorder.pop(&record)) {
@@ -66,7 +78,8 @@ struct Session {
                 if (now >= end_ns) executive->stop();
                 return now + 5 * kMs;
               }};
-  int pushed_unhomed = 0;
+  int pushed_unhomed = 0, pushed = 0, jumps = 0;
+  double most = 0;
 };
 
 TEST(FalconLoop, NoForceUntilHomedThenTheTissuesForce) {
@@ -75,14 +88,14 @@ TEST(FalconLoop, NoForceUntilHomedThenTheTissuesForce) {
   EXPECT_EQ(s.tick().f_command_D, (Packed3{0, 0, 0}));
   EXPECT_EQ(s.last.safety, haptics::SafetyCause::not_ready);
   s.station.twin.startFirmware();
-  s.runUntil(20'000 * kMs);
-  ASSERT_EQ(s.station.rig.state(), haptics::FalconState::ready);
+  s.runUntil(5'500 * kMs);  // deepest
   EXPECT_EQ(s.last.reading.homed, 0u);
   s.tick();
+  ASSERT_EQ(s.last.reading.homed, 1u);
   EXPECT_NEAR(s.last.f_command_D[2], s.last.skin_force, 1e-12);
   EXPECT_GT(s.last.skin_force, 0.02);
   EXPECT_EQ(s.pushed_unhomed, 0);
-  EXPECT_TRUE(s.station.rig.lastCommand().pushes());
+  EXPECT_EQ(s.jumps, 0) << "homing is no jump";
   const std::vector<std::string> told = s.notices();
   ASSERT_FALSE(told.empty());
   EXPECT_NE(told.front().find("Falcon"), std::string::npos) << "what to do";
@@ -92,28 +105,33 @@ TEST(FalconLoop, NoForceUntilHomedThenTheTissuesForce) {
 TEST(FalconLoop, UnpluggedInMidSessionTheForceGoesAndComesBack) {
   Session s;
   s.station.twin.startFirmware();
-  s.runUntil(5'000 * kMs);
-  ASSERT_GT(s.tick().f_command_D[2], 0);
+  s.runUntil(4'500 * kMs);
+  s.tick();
+  ASSERT_GT(s.pushed, 0);
   s.notices();
   s.station.usb.unplug();
   const std::int64_t pulled = s.end_ns;
   s.runUntil(pulled + 30 * kMs);
   EXPECT_EQ(s.tick().f_command_D, (Packed3{0, 0, 0}));
+  EXPECT_EQ(s.last.safety, haptics::SafetyCause::not_ready);
   ASSERT_FALSE(s.notices().empty());
   s.station.twin.powerOff();  // it forgets firmware and homing
   s.station.usb.plugged = true;
   s.runUntil(pulled + 20'000 * kMs);
-  EXPECT_GT(s.tick().f_command_D[2], 0) << haptics::name(s.last.safety);
+  s.most = 0;
+  s.tick();
+  EXPECT_GT(s.pushed, 0) << haptics::name(s.last.safety);
+  EXPECT_LT(s.most, 0.5) << "no kick when it comes back, deep or not";
   EXPECT_EQ(s.pushed_unhomed, 0);
 }
 
 TEST(FalconLoop, AfterTheSessionTheLastPacketIsZero) {
   Session s;
   s.station.twin.startFirmware();
-  s.runUntil(5'000 * kMs);
-  ASSERT_TRUE(s.station.rig.lastCommand().pushes());
-  s.falcon.close();
+  s.runUntil(4'500 * kMs);  // deepest: it ends in contact
+  ASSERT_GT(s.tick().f_command_D[2], 0.02);
   EXPECT_FALSE(s.station.rig.lastCommand().pushes());
+  EXPECT_EQ(s.station.rig.state(), haptics::FalconState::closed);
 }
 
 }  // namespace

@@ -15,6 +15,9 @@ class FaultJudge {
     watch(world);
     wanted_absurd_ = !unpack(record.f_wanted_D).allFinite();
     withinLimits(world.config.safety, unpack(record.f_command_D));
+    EXPECT_TRUE(std::isfinite(state.passivity.energy_J) && unpack(state.passivity.f_last_D).allFinite() &&
+                unpack(state.passivity.added_D).allFinite())
+        << "what is not a number stays in the state";
     if (world.damaged) {
       EXPECT_NE(state.now.number, world.offered.number) << "a damaged snapshot was adopted";
     }
@@ -53,6 +56,11 @@ class FaultJudge {
   void watch(const FaultyWorld& w) {
     silent_ = first_ || w.reading.sequence != last_.reading.sequence ? 0 : silent_ + std::max<std::int64_t>(elapsed_, 0);
     steady_ += std::max<std::int64_t>(elapsed_, 0);
+    homed_ += std::max<std::int64_t>(elapsed_, 0);
+    if (!w.reading.homed) {
+      placed_ = false;
+      homed_ = 0;
+    }
     if (!w.reading_absurd) {
       const Vec3 p = unpack(w.reading.p_DE);
       const Vec3 tip = p + unpack(w.reading.q_DE) * unpack(w.config.X_ET.p);
@@ -91,6 +99,7 @@ class FaultJudge {
     if (w.commands.emergency_stop) return "emergency stop";
     if (stopped_) return "stopped, not re-armed";
     if (w.reading_absurd) return "absurd reading";
+    if (homed_ < 10'000'000) return "not homed, or only just";
     if (steady_ < 10'000'000) return "jump";
     if (elapsed_ <= 0) return "clock";
     if (elapsed_ > 10'000'000) return "late loop";
@@ -113,7 +122,7 @@ class FaultJudge {
       case SafetyCause::corrupt_geometry: return stale && state.refused != 0;
       case SafetyCause::emergency_stop: return stopped_;
       case SafetyCause::watchdog: return elapsed_ > 10'000'000;
-      case SafetyCause::not_ready: return !w.commands.armed || !w.reading.homed;
+      case SafetyCause::not_ready: return !w.commands.armed || !w.reading.homed || homed_ < 10'000'000 || state.homing_ns > 0;
       case SafetyCause::jump: return steady_ < 10'000'000 || state.reading.hold_ns > 0;
       case SafetyCause::clock: return elapsed_ <= 0;
       case SafetyCause::deadman: return w.config.safety.deadman_button && !(w.reading.buttons & 4);
@@ -124,7 +133,7 @@ class FaultJudge {
   }
 
   bool first_ = true, placed_ = false, stopped_ = false, wanted_absurd_ = false;
-  std::int64_t elapsed_ = 0, silent_ = 0, steady_ = 1'000'000'000;
+  std::int64_t elapsed_ = 0, silent_ = 0, steady_ = 1'000'000'000, homed_ = 1'000'000'000;
   Vec3 p_ = Vec3::Zero(), tip_ = Vec3::Zero();
   double heat_ = 0;
   FlightRecord last_;

@@ -65,6 +65,7 @@ struct FaultyWorld {
     config.safety.max_energy_J = dice.uniform(1e-3, dice.chance(0.5) ? 5 : 3e-3);
     config.safety.continuous_force_N = dice.chance(0.5) ? 0 : dice.uniform(0.05, 1);
     config.safety.thermal_tau = dice.uniform(0.05, 1);
+    config.object_at_port = dice.chance(0.5);
     config.safety.deadman_button = dice.chance(0.3) ? 4 : 0;
     config.coupling.stiffness = dice.uniform(200, 3000);
     config.passivity.max_damping = dice.chance(0.5) ? 0 : dice.uniform(1, 10);

@@ -17,6 +17,8 @@ TEST(NeedleContact, OutsideThereIsNoForce) {
 TEST(NeedleContact, SkinAndCouplingAreInSeries) {
   NeedleBench bench;
   const double x = 0.0025;
+  bench.commands.puncture_force_N = 100;
+  bench.atDepth(0);
   const NeedleContact c = bench.atDepth(x);
   const double F = bench.materials.skin.force(c.indentation);
   EXPECT_NEAR(F, bench.coupling.stiffness * (x - c.indentation), 1e-6);  // N; Newton stops at 1e-12 m
@@ -131,6 +133,39 @@ TEST(NeedleContact, BonePushesTheShaftAwayAlongTheNormal) {
   EXPECT_LT(c.f_D.x(), 0);
   EXPECT_TRUE(c.events & kBoneTouched);
   EXPECT_EQ(bench.state.bone, Organ::clavicle);
+}
+
+TEST(NeedleContact, ANeedleThatBeginsInTheTissueFeelsNothingUntilItHasBeenOutside) {
+  for (const double depth : {0.001, 0.010, 0.060}) {
+    NeedleBench bench;
+    for (int i = 0; i < 50; ++i) {
+      const NeedleContact c = bench.atDepth(depth);
+      EXPECT_EQ(c.f_D.norm(), 0);
+      EXPECT_EQ(c.events, 0u);
+      EXPECT_NEAR(c.depth, depth, 1e-12) << "told, so that somebody takes it out";
+    }
+    bench.atDepth(-0.001);
+    EXPECT_GT(bench.move(0, 0.001).skin_force, 0.01) << "from now on as ever";
+  }
+}
+
+TEST(NeedleContact, NeitherSkinNorWallEverGivesMoreThanWhatBreaksIt) {
+  for (const double depth : {0.002, 0.010, 0.030, 0.060, 0.2}) {
+    NeedleBench bench;
+    bench.materials.walls[static_cast<int>(Organ::fascia)] = {500, 0.6, 0, {}};
+    bench.geometry.boundaries[2].wall = Organ::fascia;
+    bench.atDepth(-0.001);
+    double most = 0;
+    for (int i = 0; i < 100; ++i) {  // there in one step, then held
+      const NeedleContact c = bench.atDepth(depth);
+      most = std::max(most, c.f_D.norm());
+      EXPECT_LE(c.skin_force, bench.commands.puncture_force_N + 1e-12);
+      EXPECT_LE(c.wall_force, 0.6 + 1e-12);
+    }
+    const double friction = 0.3 + 0.2 * 0.1 + 20 * 0.002 + 5 * 0.006 + 10 * depth;  // cutting and shaft, at most
+    const double viscous = 3 * depth / 0.005;                                       // the step itself
+    EXPECT_LT(most, bench.commands.puncture_force_N + 0.6 + 0.4 + friction + viscous + 1) << depth;
+  }
 }
 
 TEST(NeedleContact, ACapsuleWithoutLengthIsASphere) {

@@ -57,6 +57,7 @@ TEST(ForceSensing, IsTheTouchAloneInTheDevicesFrame) {
   setup.X_ES = makePose(Eigen::AngleAxisd(-0.4, Vec3::UnitY()).toRotationMatrix(), {0, 0, 0.03});
   ForceSensing sensing(sensor, setup);
   haptics::DeviceReading reading;
+  reading.homed = 1;
   reading.q_DE = pack(Quat(Eigen::AngleAxisd(0.8, Vec3(3, -1, 1).normalized())));
   const Mat3 R_DS = unpack(reading.q_DE).toRotationMatrix() * setup.X_ES.linear();
   const Vec3 touch_D(0.5, -1, 2), weight_W(0, 0, -0.05 * 9.80665);
@@ -67,6 +68,7 @@ TEST(ForceSensing, IsTheTouchAloneInTheDevicesFrame) {
     sample.sequence = static_cast<std::uint64_t>(i + 1);
     sample.f_S = pack(Vec3(R_DS.transpose() * (touch_D + setup.X_WD.linear().transpose() * weight_W) + Vec3(0.1, 0.2, 0.3)));
     sensor.publish(sample, sample.t_ns);
+    reading.t_ns = sample.t_ns;
     sensed = sensing.sense(reading, sample.t_ns);
     if (i == 0) {
       EXPECT_EQ(sensed.state, haptics::SensorState::unusable);

@@ -43,6 +43,25 @@ Cohort cohort(OperatorKind who, bool force_feedback) {
   return result;
 }
 
+/// What a person on a Falcon is shown first: an expert on the same station, held by the bench.
+TEST(Cohort, TheExpertOfTheDemonstrationSucceedsOnTheFalconsStation) {
+  const std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/falcon";
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  SessionOptions options;
+  options.who = OperatorKind::expert;
+  options.station = PALPA_SOURCE_DIR "/assets/stations/falcon.json";
+  options.seed = 7001;
+  options.role = "demonstration";
+  options.fast = options.no_views = options.quiet = true;
+  options.display = scene::Display::offscreen;
+  NeedleWorld world(options);
+  world.station.camera_rate_Hz = 2;
+  world.station.safety.deadman_button = 1;  // nobody holds it: it must not count here
+  const SessionResult session = runNeedleSession(options, world, folder);
+  EXPECT_TRUE(session.trials.at(0).assessment.values.success) << session.trials.at(0).assessment.summary;
+}
+
 TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
   const Cohort expert = cohort(OperatorKind::expert, true);
   const Cohort novice = cohort(OperatorKind::novice, true);

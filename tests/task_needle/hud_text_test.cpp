@@ -41,6 +41,15 @@ TEST(HudText, SaysWhyTheForceIsGone) {
   }
 }
 
+TEST(HudText, ATripOfOneTickIsShownLongEnoughToBeRead) {
+  TaskStatus status;
+  status.state = TrialState::running;
+  status.trip = SafetyCause::watchdog;
+  const scene::Hud hud = hudText(status, {}, true, "");
+  EXPECT_NE(hud.notice.find("watchdog"), std::string::npos);
+  EXPECT_TRUE(hud.alarm);
+}
+
 TEST(HudText, WhatTheDriverSaysComesFirst) {
   const scene::Hud hud = shown(SafetyCause::not_ready, "Pull the grip fully out, then push it fully in.");
   EXPECT_EQ(hud.notice, "Force is off: Pull the grip fully out, then push it fully in.");

@@ -1,0 +1,37 @@
+#include "apps/cli/interrupt.h"
+
+#include <csignal>
+
+#include "apps/runtime/clock.h"
+
+namespace palpa::cli {
+namespace {
+
+constexpr std::int64_t kLookPeriod = 50 * runtime::kMillisecond;
+constexpr int kSignals[] = {SIGINT, SIGTERM};
+volatile std::sig_atomic_t interrupted = 0;
+struct sigaction old_actions[std::size(kSignals)];
+
+void note(int) { interrupted = 1; }
+
+}  // namespace
+
+Interrupt::Interrupt(task_needle::TaskChannels& channels) : channels_(channels) {
+  interrupted = 0;
+  struct sigaction action {};
+  action.sa_handler = note;
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &action, &old_actions[i]);
+}
+
+Interrupt::~Interrupt() {
+  for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &old_actions[i], nullptr);
+}
+
+std::int64_t Interrupt::step(std::int64_t now_ns) {
+  if (!interrupted) return now_ns + kLookPeriod;
+  channels_.signals_to_task.push({task_needle::UserCommand::quit, "Interrupted"});
+  return runtime::kNever;
+}
+
+}  // namespace palpa::cli
