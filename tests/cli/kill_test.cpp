@@ -92,5 +92,26 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
   EXPECT_GT(in_the_middle, 0) << "no kill fell into the recording";
 }
 
+TEST(Interrupt, ClosesASessionAsEscapeDoes) {
+  Folder here;
+  const runtime::SteadyClock clock;
+  Running running({"paracentesis", "--operator", "expert", "--no-views", "--quiet", "--out", "A"}, here.path());  // real time
+  const fs::path file = here / "A/session.palpa";
+  bool begun = false;
+  while (!begun && !running.ended()) {
+    clock.sleepUntil(clock.now() + 100 * runtime::kMillisecond);
+    begun = committed(file).value_or(0) > 0 && !record::SessionReader(file).trials().empty();
+  }
+  ASSERT_TRUE(begun);
+  EXPECT_EQ(running.interrupt(), 0);
+  const record::SessionReader session(file);
+  ASSERT_EQ(session.trials().size(), 1u);
+  EXPECT_TRUE(session.trials()[0].ended);
+  EXPECT_EQ(session.trials()[0].end.outcome, "aborted");
+  EXPECT_EQ(session.trials()[0].end.reason, "Interrupted");
+  EXPECT_TRUE(fs::exists(here / "A/report.html"));
+  EXPECT_TRUE(fs::exists(here / "A/trials.csv"));
+}
+
 }  // namespace
 }  // namespace palpa::cli_test

@@ -74,6 +74,15 @@ bool Running::ended() {
   return child_ < 0;
 }
 
+int Running::interrupt() {
+  if (child_ < 0) return -1;
+  ::kill(child_, SIGINT);
+  int status = 0;
+  while (::waitpid(child_, &status, 0) < 0 && errno == EINTR) {
+  }
+  child_ = -1;
+  return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
+}
 void Running::kill() {
   if (child_ < 0) return;
   ::kill(child_, SIGKILL);

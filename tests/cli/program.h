@@ -27,6 +27,7 @@ class Running {
 
   bool ended();  ///< by itself
   void kill();   ///< with SIGKILL, and waits until it is gone
+  int interrupt();   ///< as Ctrl-C does, and waits for its end; its exit code, 128 + signal when that killed it
 
  private:
   int child_ = -1;
