@@ -79,6 +79,10 @@ void Operator::feel(const Senses& senses) {
 }
 
 void Operator::begin(Step step, double now_s, double pause_s) {
+  if (step == Step::leave && moving_) {  // a turn that is broken off: out along the needle from where it is
+    insertion_ = (tip_A_ - entry_seen_A_).dot(axis_A_);
+    moving_ = false;
+  }
   step_ = step;
   ready_s_ = now_s + pause_s;
   peak_N_ = 0;
@@ -273,7 +277,10 @@ void Operator::think(const Senses& senses) {
     case Step::leave:
       insertion_ -= skill_.withdraw_speed * kThought;
       plunger_wanted_ = 0;
-      if (insertion_ < -kAbove) begin(Step::rest, now_s, 0);
+      if (insertion_ > -kHover) return;
+      // Out of the skin: up and away from it, since behind a flat needle the chest may bulge.
+      moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s, skill_.travel_speed);
+      begin(Step::rest, now_s, 0);
       return;
   }
 }

@@ -62,6 +62,25 @@ TEST(Cohort, TheExpertOfTheDemonstrationSucceedsOnTheFalconsStation) {
   EXPECT_TRUE(session.trials.at(0).assessment.values.success) << session.trials.at(0).assessment.summary;
 }
 
+/// Whatever he is doing when a trial ends, the simulated operator takes the needle out for the next one.
+TEST(Cohort, TheNeedleIsOutAgainWheneverATrialEnds) {
+  const std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/broken_off";
+  SessionOptions options;
+  options.who = OperatorKind::expert;
+  options.seed = 1;
+  options.trials = 2;
+  options.fast = options.no_views = options.quiet = true;
+  options.display = scene::Display::offscreen;
+  NeedleWorld world(options);
+  world.station.camera_rate_Hz = 2;
+  for (double limit_s = 2; limit_s < 12; limit_s += 1) {
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    world.task.time_limit_s = limit_s;
+    EXPECT_EQ(runNeedleSession(options, world, folder).trials.size(), 2u) << limit_s;  // else the ready check throws
+  }
+}
+
 TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
   const Cohort expert = cohort(OperatorKind::expert, true);
   const Cohort novice = cohort(OperatorKind::novice, true);
