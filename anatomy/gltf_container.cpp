@@ -84,10 +84,7 @@ tinygltf::FsCallbacks closedDoors() {
   return closed;
 }
 
-}  // namespace
-
-tinygltf::Model readGltfBinary(const std::string& file) {
-  const Bytes bytes = load(file);
+tinygltf::Model parse(const Bytes& bytes, const std::string& file) {
   checkContainer(bytes, file);
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(closedDoors());
@@ -106,6 +103,14 @@ tinygltf::Model readGltfBinary(const std::string& file) {
   while (!error.empty() && (error.back() == '\n' || error.back() == '.')) error.pop_back();
   if (!good) fail("the glTF is damaged (" + error + ")", file);
   return model;
+}
+
+}  // namespace
+
+tinygltf::Model readGltfBinary(const std::string& file) { return parse(load(file), file); }
+
+tinygltf::Model parseGltfBinary(const std::string& bytes, const std::string& where) {
+  return parse(Bytes(bytes.begin(), bytes.end()), where);
 }
 
 }  // namespace palpa::anatomy

@@ -13,4 +13,7 @@ void writePatient(const Patient& patient, const std::filesystem::path& file);
 /// Reads and checks: indices in range, finite vertices, known organs, needed landmarks.
 Patient readPatient(const std::filesystem::path& file);
 
+/// Whether a glTF binary file says that it holds a patient of this program. Throws Error when it is no glTF at all.
+bool isPatientFile(const std::filesystem::path& file);
+
 }  // namespace palpa::anatomy

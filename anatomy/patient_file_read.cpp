@@ -231,4 +231,11 @@ class PatientReader {
 
 Patient readPatient(const std::filesystem::path& file) { return PatientReader(file).read(); }
 
+bool isPatientFile(const std::filesystem::path& file) {
+  const tinygltf::Model model = readGltfBinary(file.string());
+  if (!model.extras.IsObject() || !model.extras.Has("format")) return false;
+  const tinygltf::Value& format = model.extras.Get("format");
+  return format.IsString() && format.Get<std::string>() == "palpa-patient";
+}
+
 }  // namespace palpa::anatomy

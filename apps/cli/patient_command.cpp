@@ -1,6 +1,9 @@
 #include <cstdio>
 #include <memory>
 
+#include "anatomy/geometry/error.h"
+#include "anatomy/import/surface_check.h"
+#include "anatomy/import/unit.h"
 #include "anatomy/parametric_patient.h"
 #include "anatomy/patient_check.h"
 #include "anatomy/patient_file.h"
@@ -11,7 +14,7 @@ namespace palpa::cli {
 namespace {
 
 struct PatientOptions {
-  std::string file, side = "right", out = "patient.glb";
+  std::string file, side = "right", out = "patient.glb", unit, organ;
   std::uint64_t seed = 0;
 };
 
@@ -36,6 +39,57 @@ void tell(const anatomy::Patient& patient) {
     std::printf("  %-4s %-52s %8.2f %s\n", finding.ok ? "ok" : "BAD", finding.name.c_str(), finding.value, finding.unit.c_str());
 }
 
+double metresOf(const PatientOptions& o) {
+  if (o.unit.empty()) return 1;
+  const std::optional<anatomy::Unit> unit = anatomy::unitNamed(o.unit);
+  if (!unit) throw UsageError("is \"" + o.unit + "\"", "--unit", "Known: " + anatomy::knownUnits());
+  return unit->metres;
+}
+
+/// Refuses a length that the named organ cannot have.
+void checkLength(const anatomy::RawMesh& mesh, const PatientOptions& o, Organ organ) {
+  const anatomy::SurfaceCheck check = anatomy::checkSurface(mesh);
+  const double in_file = (check.high - check.low).maxCoeff(), longest = metresOf(o) * in_file;
+  if (anatomy::plausibleLength(organ, longest)) return;
+  const auto likely = anatomy::likelyUnit(organ, in_file);
+  throw UsageError("would be a " + std::string(name(organ)) + " of " + anatomy::lengthText(longest),
+                   o.file + ", \"" + mesh.name + "\"",
+                   likely ? "It was probably written in " + std::string(likely->words) + ": add --unit " + likely->name
+                          : "In no unit that is known would it be one");
+}
+
+/// What a surface is worth, in plain words.
+void tellSurface(const anatomy::RawMesh& mesh, const PatientOptions& o) {
+  const anatomy::SurfaceCheck check = anatomy::checkSurface(mesh);
+  const Vec3 size = metresOf(o) * (check.high - check.low);
+  std::printf("  %-40s %8zu triangles  %s x %s x %s  %s\n", mesh.name.c_str(), check.triangles,
+              anatomy::lengthText(size.x()).c_str(), anatomy::lengthText(size.y()).c_str(),
+              anatomy::lengthText(size.z()).c_str(), check.sound() ? "sound" : "see below");
+  if (check.pieces > 1) std::printf("      in %zu pieces\n", check.pieces);
+  for (const std::string& finding : anatomy::findings(check)) std::printf("      %s\n", finding.c_str());
+}
+
+/// Surfaces of a file that is no patient of ours (yet).
+void tellSurfaces(const PatientOptions& o) {
+  const Organ organ = o.organ.empty() ? Organ::none : organFromName(o.organ.c_str());
+  if (!o.organ.empty() && organ == Organ::none)
+    throw UsageError("is \"" + o.organ + "\"", "--organ", "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery");
+  const std::vector<anatomy::RawMesh> meshes = anatomy::readMeshFile(o.file);
+  if (organ != Organ::none)
+    for (const anatomy::RawMesh& mesh : meshes) checkLength(mesh, o, organ);
+  std::printf("%zu surface%s, lengths read as %s\n", meshes.size(), meshes.size() == 1 ? "" : "s",
+              o.unit.empty() ? "metres (say --unit mm and the like where they are not)" : anatomy::unitNamed(o.unit)->words);
+  for (const anatomy::RawMesh& mesh : meshes) tellSurface(mesh, o);
+}
+
+/// A patient of ours says so in its file; anything else is a set of surfaces.
+void info(const PatientOptions& o) {
+  if (o.file.empty()) return tell(build(o));
+  const bool other = anatomy::meshFormat(o.file) != anatomy::MeshFormat::gltf || !o.unit.empty() || !o.organ.empty();
+  if (other || !anatomy::isPatientFile(o.file)) return tellSurfaces(o);
+  tell(anatomy::readPatient(o.file));
+}
+
 }  // namespace
 
 void addPatient(CLI::App& program) {
@@ -52,10 +106,15 @@ void addPatient(CLI::App& program) {
     anatomy::writePatient(build(*o), o->out);
     std::printf("Written: %s\n", o->out.c_str());
   });
-  CLI::App* info = patient->add_subcommand("info", "Organs, sizes, landmarks, checks");
-  info->footer("Example:\n  palpa patient info p.glb      (without a file: the reference patient)");
-  info->add_option("file", o->file, "Patient file (.glb)")->type_name("FILE");
-  info->callback([o] { tell(o->file.empty() ? build(*o) : anatomy::readPatient(o->file)); });
+  CLI::App* tells = patient->add_subcommand("info", "Organs, sizes, landmarks, checks; or what a file of surfaces is worth");
+  tells->footer(
+      "Examples:\n  palpa patient info p.glb      (without a file: the reference patient)\n"
+      "  palpa patient info clavicle.stl --unit mm --organ clavicle\n"
+      "      size, holes, triangles that look to different sides; a length that no clavicle has is refused");
+  tells->add_option("file", o->file, "Patient file (.glb), or surfaces (.glb, .obj, .stl, .ply)")->type_name("FILE");
+  tells->add_option("--unit", o->unit, "Of a file of surfaces: " + anatomy::knownUnits())->type_name("UNIT");
+  tells->add_option("--organ", o->organ, "What the surfaces are, to check their size")->type_name("ORGAN");
+  tells->callback([o] { info(*o); });
 }
 
 }  // namespace palpa::cli
