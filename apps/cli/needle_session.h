@@ -5,6 +5,7 @@
 
 #include "apps/cli/needle_world.h"
 #include "apps/cli/session_devices.h"
+#include "apps/cli/session_pictures.h"
 #include "apps/cli/session_options.h"
 #include "apps/runtime/executive.h"
 #include "apps/task_needle/needle_task.h"
@@ -12,14 +13,6 @@
 #include "apps/twin/virtual_bench.h"
 
 namespace palpa::cli {
-
-/// One registered (or not) recorded picture, for registration.csv.
-struct RegistrationRow {
-  std::string source;
-  int points = 0;
-  double rms_px = 0;
-  Pose X_CW = Pose::Identity();
-};
 
 struct SessionResult {
   std::vector<task_needle::CompletedTrial> trials;

@@ -27,7 +27,7 @@ class SessionDevices {
 
   haptics::HapticDevice& device() { return *plunger_; }
   runtime::ForceSensing* sensing() { return sensing_ ? &*sensing_ : nullptr; }
-  twin::VirtualBench& bench() { return *bench_; }       ///< its camera, where no recorded pictures stand for it
+  twin::VirtualBench* bench() { return bench_.get(); }  ///< for its camera; null where recorded pictures stand for it
   MouseHand* mouse() { return mouse_.get(); }           ///< null: nobody leads with the mouse
 
   void addTo(runtime::Executive& executive);            ///< what has to run beside the loop

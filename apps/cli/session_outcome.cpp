@@ -6,6 +6,7 @@
 #include <map>
 
 #include "anatomy/geometry/error.h"
+#include "apps/cli/session_info.h"
 #include "apps/report/session_report.h"
 
 namespace palpa::cli {
@@ -18,10 +19,6 @@ namespace {
   std::vsnprintf(text, sizeof text, pattern, arguments);
   va_end(arguments);
   return text;
-}
-
-bool simulated(const SessionOptions& options, const NeedleWorld& world) {
-  return isSimulated(options.who) || world.station.simulated;
 }
 
 std::string whoText(const SessionOptions& options) {
@@ -160,7 +157,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world, const
   report::SessionReport page;
   page.title = world.task.title + ", " + anatomy::name(world.patient.side) + " side";
   page.trainee = whoText(options);
-  page.simulated = simulated(options, world);
+  page.simulated = isSimulated(options, world);
   page.trials = pages(result);
   page.station = stationFacts(options, world);
   page.registration = registrationFacts(result);
