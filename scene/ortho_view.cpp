@@ -15,28 +15,6 @@
 namespace palpa::scene {
 namespace {
 
-/// Directions of the eye, and the letters at the edges (patient's Right, Left, Superior, Inferior,
-/// Anterior, Posterior).
-struct Aspect {
-  const char* caption;
-  Vec3 ahead_A, up_A;
-  const char *left, *right, *top, *bottom;
-};
-
-Aspect aspectOf(Plane plane, anatomy::Side side) {
-  switch (plane) {
-    case Plane::frontal:
-      return {"FRONT", Vec3::UnitY(), Vec3::UnitZ(), "R", "L", "S", "I"};
-    case Plane::axial:
-      return {"TOP", -Vec3::UnitZ(), Vec3::UnitY(), "R", "L", "P", "A"};
-    case Plane::sagittal:
-      break;
-  }
-  if (side == anatomy::Side::right)
-    return {"SIDE", Vec3::UnitX(), Vec3::UnitZ(), "P", "A", "S", "I"};
-  return {"SIDE", -Vec3::UnitX(), Vec3::UnitZ(), "A", "P", "S", "I"};
-}
-
 constexpr double kScaleBar = 0.020;  // metres
 constexpr double kAway = 1.0;        // metres from the region to the eye; any will do in parallel
 

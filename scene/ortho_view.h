@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "scene/aspect.h"
 #include "scene/backdrop.h"
 #include "scene/instrument.h"
 #include "scene/label.h"
@@ -20,8 +21,6 @@ class vtkRenderer;
 class vtkRenderWindow;
 
 namespace palpa::scene {
-
-enum class Plane { frontal, sagittal, axial };
 
 /// A fixed parallel view. The anatomy in it never moves, so it is drawn once, kept as a picture and
 /// put behind the needle; the needle therefore shows through the organs, as on a radiograph.

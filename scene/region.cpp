@@ -56,6 +56,7 @@ Region regionOf(const anatomy::Patient& patient) {
   region.width = std::clamp(1.3 * near.sizes().x(), 0.10, 0.40);
   region.whole_centre_A = whole.center();
   region.whole_radius = 0.5 * whole.diagonal().norm() + 0.05;
+  region.whole_half = 0.5 * whole.sizes().maxCoeff();
   return region;
 }
 

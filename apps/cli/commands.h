@@ -10,6 +10,7 @@ void addParacentesis(CLI::App& program);   ///< paracentesis, train
 void addReplay(CLI::App& program);
 void addCalibrate(CLI::App& program);
 void addPatient(CLI::App& program);
+void addRender(CLI::App& program);
 void addBoard(CLI::App& program);
 void addExport(CLI::App& program);
 void addBench(CLI::App& program);

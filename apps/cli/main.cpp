@@ -41,6 +41,7 @@ int run(int argc, char** argv) {
   palpa::cli::addReplay(program);
   palpa::cli::addCalibrate(program);
   palpa::cli::addPatient(program);
+  palpa::cli::addRender(program);
   palpa::cli::addBoard(program);
   palpa::cli::addExport(program);
   palpa::cli::addBench(program);

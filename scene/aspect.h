@@ -1,0 +1,18 @@
+#pragma once
+
+#include "anatomy/patient.h"
+
+namespace palpa::scene {
+
+enum class Plane { frontal, sagittal, axial };
+
+/// How a parallel view looks at the patient: directions of the eye, and the letters at the edges (patient's Right, Left,
+/// Superior, Inferior, Anterior, Posterior). The side view looks from the side that is punctured.
+struct Aspect {
+  const char* caption;
+  Vec3 ahead_A, up_A;
+  const char *left, *right, *top, *bottom;
+};
+Aspect aspectOf(Plane plane, anatomy::Side side);
+
+}  // namespace palpa::scene

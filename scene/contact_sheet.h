@@ -1,0 +1,14 @@
+#pragma once
+
+#include "anatomy/patient.h"
+#include "scene/gl_context.h"
+#include "scene/scene_state.h"
+
+namespace palpa::scene {
+
+/// A patient on one page: solid, translucent, and bones and vessels alone (rows), each from the front, the side and above
+/// (columns), parallel, all in the same scale, with a scale bar. RGB, top row first. Throws Error for a page smaller than
+/// 300 x 300 or larger than 8192 x 8192 pixels.
+Image contactSheet(GlContextProvider& context, const anatomy::Patient& patient, int width, int height);
+
+}  // namespace palpa::scene
