@@ -14,5 +14,5 @@ pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
 find_package(VTK 9 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonMath CommonTransforms CommonExecutionModel
   FiltersCore FiltersGeneral FiltersSources FiltersModeling
-  ImagingCore IOImage InteractionStyle
+  ImagingCore IOGeometry IOImage InteractionStyle
   RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingUI)
