@@ -1,77 +1,11 @@
 #include "anatomy/import/surface_check.h"
 
-#include <algorithm>
-#include <cstring>
-#include <map>
-#include <numeric>
 #include <set>
-#include <unordered_map>
+
+#include "anatomy/import/surface_topology.h"
 
 namespace palpa::anatomy {
 namespace {
-
-using Corner = std::uint32_t;
-using Triangle = std::array<Corner, 3>;
-
-struct PlaceHash {
-  std::size_t operator()(const Packed3& p) const {
-    std::uint64_t h = 0xcbf29ce484222325u;
-    for (const double x : p) {
-      std::uint64_t bits = 0;
-      const double plain = x == 0 ? 0 : x;  // one zero
-      std::memcpy(&bits, &plain, sizeof bits);
-      h = (h ^ bits) * 0x100000001b3u;
-      h ^= h >> 29;
-    }
-    return h;
-  }
-};
-
-/// Points at one place get one number.
-std::vector<Corner> numbered(const RawMesh& mesh, std::size_t* different) {
-  std::unordered_map<Packed3, Corner, PlaceHash> numbers;
-  numbers.reserve(mesh.points.size());
-  std::vector<Corner> of;
-  of.reserve(mesh.points.size());
-  for (const Vec3& p : mesh.points)
-    of.push_back(numbers.emplace(pack(p), static_cast<Corner>(numbers.size())).first->second);
-  *different = numbers.size();
-  return of;
-}
-
-/// Smallest union-find.
-class Pieces {
- public:
-  explicit Pieces(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
-  Corner root(Corner i) {
-    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
-    return i;
-  }
-  void join(Corner a, Corner b) { parent_[root(a)] = root(b); }
-
- private:
-  std::vector<Corner> parent_;
-};
-
-/// How often an edge is used in either direction.
-struct Uses {
-  int forth = 0, back = 0;
-};
-using Edges = std::unordered_map<std::uint64_t, Uses>;
-
-std::uint64_t key(Corner a, Corner b) { return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b); }
-
-Edges edgesOf(const std::vector<Triangle>& triangles) {
-  Edges edges;
-  edges.reserve(2 * triangles.size());
-  for (const Triangle& t : triangles)
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Corner a = t[k], b = t[(k + 1) % 3];
-      Uses& uses = edges[key(a, b)];
-      ++(a < b ? uses.forth : uses.back);
-    }
-  return edges;
-}
 
 void countEdges(const Edges& edges, std::size_t points, SurfaceCheck* check) {
   Pieces rings(points);
@@ -102,22 +36,12 @@ std::size_t piecesOf(const std::vector<Triangle>& triangles, std::size_t points)
   return roots.size();
 }
 
-/// By the divergence theorem, about the box's middle.
-double enclosed(const RawMesh& mesh, const Vec3& middle) {
-  double sum = 0;
-  for (const Triangle& t : mesh.triangles) {
-    const Vec3 a = mesh.points[t[0]] - middle, b = mesh.points[t[1]] - middle, c = mesh.points[t[2]] - middle;
-    sum += a.dot(b.cross(c));
-  }
-  return sum / 6;
-}
-
 }  // namespace
 
 SurfaceCheck checkSurface(const RawMesh& mesh) {
   SurfaceCheck check;
   std::size_t different = 0;
-  const std::vector<Corner> number = numbered(mesh, &different);
+  const std::vector<Corner> number = numberedPlaces(mesh.points, &different);
   check.points = mesh.points.size();
   check.triangles = mesh.triangles.size();
   check.repeated_points = mesh.points.size() - different;
@@ -125,8 +49,7 @@ SurfaceCheck checkSurface(const RawMesh& mesh) {
   std::vector<Triangle> kept;
   for (const Triangle& t : mesh.triangles) {
     const Triangle n{number[t[0]], number[t[1]], number[t[2]]};
-    Triangle sorted = n;
-    std::sort(sorted.begin(), sorted.end());
+    const Triangle sorted = sortedCorners(n);
     if (sorted[0] == sorted[1] || sorted[1] == sorted[2]) ++check.degenerate;
     else if (!seen.insert(sorted).second) ++check.repeated_triangles;
     else kept.push_back(n);
@@ -140,7 +63,7 @@ SurfaceCheck checkSurface(const RawMesh& mesh) {
       check.high = check.high.cwiseMax(mesh.points[c]);
     }
   if (check.closed() && check.turned_edges == 0) {
-    check.volume = enclosed(mesh, (check.low + check.high) / 2);
+    check.volume = enclosedVolume(mesh.points, mesh.triangles, (check.low + check.high) / 2);
     check.inside_out = check.volume < 0;
   }
   return check;

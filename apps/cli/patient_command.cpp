@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/import/repair.h"
 #include "anatomy/import/surface_check.h"
 #include "anatomy/import/unit.h"
 #include "anatomy/parametric_patient.h"
@@ -58,6 +59,15 @@ void checkLength(const anatomy::RawMesh& mesh, const PatientOptions& o, Organ or
                           : "In no unit that is known would it be one");
 }
 
+/// Whether it can be mended, and what would be done.
+void tellRepair(const anatomy::RawMesh& mesh) {
+  anatomy::RepairReport report;
+  const bool sound = anatomy::checkSurface(anatomy::repaired(mesh, &report)).sound();
+  std::string done;
+  for (const std::string& word : anatomy::words(report)) done += (done.empty() ? "" : ", ") + word;
+  std::printf("      %s: %s\n", sound ? "can be mended" : "cannot be mended wholly", done.empty() ? "nothing helps" : done.c_str());
+}
+
 /// What a surface is worth, in plain words.
 void tellSurface(const anatomy::RawMesh& mesh, const PatientOptions& o) {
   const anatomy::SurfaceCheck check = anatomy::checkSurface(mesh);
@@ -67,6 +77,7 @@ void tellSurface(const anatomy::RawMesh& mesh, const PatientOptions& o) {
               anatomy::lengthText(size.z()).c_str(), check.sound() ? "sound" : "see below");
   if (check.pieces > 1) std::printf("      in %zu pieces\n", check.pieces);
   for (const std::string& finding : anatomy::findings(check)) std::printf("      %s\n", finding.c_str());
+  if (!check.sound()) tellRepair(mesh);
 }
 
 /// Surfaces of a file that is no patient of ours (yet).

@@ -4,6 +4,7 @@
 #include <random>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/import/repair.h"
 #include "anatomy/import/surface_check.h"
 #include "sample_meshes.h"
 
@@ -71,6 +72,9 @@ TEST(MeshFuzz, DamageGivesASurfaceOrAClearWord) {
           ASSERT_GT(check.triangles, 0u);
           ASSERT_TRUE(check.low.allFinite() && check.high.allFinite());
           findings(check);
+          RepairReport report;
+          const SurfaceCheck after = checkSurface(repaired(found, &report));
+          ASSERT_EQ(after.degenerate + after.repeated_triangles + after.repeated_points, 0u);
         }
         ++read;
       } catch (const Error& error) {

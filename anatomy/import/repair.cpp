@@ -1,0 +1,179 @@
+#include "anatomy/import/repair.h"
+
+#include <map>
+#include <set>
+
+#include "anatomy/import/surface_topology.h"
+
+namespace palpa::anatomy {
+namespace {
+
+/// Every place once; triangles that are something, each once.
+RawMesh joined(const RawMesh& mesh, RepairReport* report) {
+  RawMesh result;
+  result.name = mesh.name;
+  std::size_t different = 0;
+  const std::vector<Corner> number = numberedPlaces(mesh.points, &different);
+  result.points.resize(different);
+  for (std::size_t i = 0; i < mesh.points.size(); ++i) result.points[number[i]] = mesh.points[i];
+  report->joined_points = mesh.points.size() - different;
+  std::set<Triangle> seen;
+  for (const Triangle& t : mesh.triangles) {
+    const Triangle n{number[t[0]], number[t[1]], number[t[2]]};
+    const Triangle sorted = sortedCorners(n);
+    if (sorted[0] == sorted[1] || sorted[1] == sorted[2] || !seen.insert(sorted).second) ++report->dropped_triangles;
+    else result.triangles.push_back(n);
+  }
+  return result;
+}
+
+void turn(Triangle& t) { std::swap(t[1], t[2]); }
+
+/// Whether the triangle goes along its edge from the smaller number to the larger.
+bool forth(const Triangle& t, std::uint64_t key) {
+  for (std::size_t k = 0; k < 3; ++k)
+    if (edgeKey(t[k], t[(k + 1) % 3]) == key) return t[k] < t[(k + 1) % 3];
+  return false;
+}
+
+/// Within each piece all triangles look to the side of its first one; across edges of two triangles only.
+void orient(RawMesh* mesh, std::vector<bool>* turned) {
+  std::unordered_map<std::uint64_t, std::vector<Corner>> at_edge;
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k)
+      at_edge[edgeKey(mesh->triangles[i][k], mesh->triangles[i][(k + 1) % 3])].push_back(static_cast<Corner>(i));
+  turned->assign(mesh->triangles.size(), false);
+  std::vector<bool> done(mesh->triangles.size(), false);
+  std::vector<Corner> open;
+  for (std::size_t first = 0; first < mesh->triangles.size(); ++first) {
+    if (done[first]) continue;
+    done[first] = true;
+    open.assign(1, static_cast<Corner>(first));
+    while (!open.empty()) {
+      const Triangle here = mesh->triangles[open.back()];
+      open.pop_back();
+      for (std::size_t k = 0; k < 3; ++k) {
+        const std::uint64_t key = edgeKey(here[k], here[(k + 1) % 3]);
+        const std::vector<Corner>& two = at_edge[key];
+        if (two.size() != 2) continue;
+        for (const Corner other : two) {
+          if (done[other]) continue;
+          done[other] = true;
+          if (forth(mesh->triangles[other], key) == forth(here, key)) {
+            turn(mesh->triangles[other]);
+            (*turned)[other] = true;
+          }
+          open.push_back(other);
+        }
+      }
+    }
+  }
+}
+
+/// Rings of open edges, each from corner to corner as the missing triangles would go.
+std::vector<std::vector<Corner>> ringsOf(const RawMesh& mesh, std::size_t* pinched) {
+  std::map<Corner, Corner> next;
+  std::set<Corner> twice;
+  for (const auto& [key, uses] : edgesOf(mesh.triangles)) {
+    if (uses.forth + uses.back != 1) continue;
+    auto a = static_cast<Corner>(key >> 32), b = static_cast<Corner>(key & 0xffffffffu);
+    if (uses.forth) std::swap(a, b);  // the missing triangle goes the other way
+    if (!next.emplace(a, b).second) twice.insert(a);
+  }
+  std::vector<std::vector<Corner>> rings;
+  while (!next.empty()) {
+    std::vector<Corner> ring;
+    bool closed = false, clean = true;
+    for (auto at = next.begin(); at != next.end(); at = next.find(ring.empty() ? at->first : ring.back())) {
+      const auto [from, to] = *at;
+      if (ring.empty()) ring.push_back(from);
+      clean = clean && !twice.count(from);
+      next.erase(at);
+      closed = to == ring.front();
+      if (closed) break;
+      ring.push_back(to);
+    }
+    if (closed && clean && ring.size() >= 3) rings.push_back(std::move(ring));
+    else ++*pinched;
+  }
+  return rings;
+}
+
+void closeHoles(RawMesh* mesh, RepairReport* report) {
+  std::set<Triangle> there;
+  for (const Triangle& t : mesh->triangles) there.insert(sortedCorners(t));
+  for (const std::vector<Corner>& ring : ringsOf(*mesh, &report->left_holes)) {
+    // The border of a single sheet of one triangle is no hole: what would close it is the sheet itself.
+    const bool itself = ring.size() == 3 && there.count(sortedCorners({ring[0], ring[1], ring[2]}));
+    if (itself || ring.size() > kLargestHole) {
+      ++report->left_holes;
+      continue;
+    }
+    ++report->closed_holes;
+    if (ring.size() == 3) {
+      mesh->triangles.push_back({ring[0], ring[1], ring[2]});
+      ++report->added_triangles;
+      continue;
+    }
+    Vec3 middle = Vec3::Zero();
+    for (const Corner c : ring) middle += mesh->points[c] / static_cast<double>(ring.size());
+    const auto centre = static_cast<Corner>(mesh->points.size());
+    mesh->points.push_back(middle);
+    for (std::size_t i = 0; i < ring.size(); ++i)
+      mesh->triangles.push_back({ring[i], ring[(i + 1) % ring.size()], centre});
+    report->added_triangles += ring.size();
+  }
+}
+
+/// Closed pieces of negative volume look outward afterwards.
+void lookOutward(RawMesh* mesh, std::vector<bool>* turned) {
+  Pieces pieces(mesh->points.size());
+  for (const Triangle& t : mesh->triangles) {
+    pieces.join(t[0], t[1]);
+    pieces.join(t[1], t[2]);
+  }
+  std::map<Corner, std::vector<std::size_t>> of_piece;
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) of_piece[pieces.root(mesh->triangles[i][0])].push_back(i);
+  for (const auto& [root, indices] : of_piece) {
+    std::vector<Triangle> piece;
+    for (const std::size_t i : indices) piece.push_back(mesh->triangles[i]);
+    bool closed = true;
+    for (const auto& [key, uses] : edgesOf(piece)) closed = closed && uses.forth == 1 && uses.back == 1;
+    if (!closed || enclosedVolume(mesh->points, piece, mesh->points[root]) >= 0) continue;
+    for (const std::size_t i : indices) {
+      turn(mesh->triangles[i]);
+      if (i < turned->size()) (*turned)[i] = !(*turned)[i];
+    }
+  }
+}
+
+}  // namespace
+
+RawMesh repaired(const RawMesh& mesh, RepairReport* report) {
+  *report = {};
+  RawMesh result = joined(mesh, report);
+  std::vector<bool> turned;
+  orient(&result, &turned);
+  closeHoles(&result, report);
+  RepairReport again;  // a hole's middle may be a place that was there
+  if (report->closed_holes > 0) result = joined(result, &again);
+  if (again.changed()) orient(&result, &turned);
+  lookOutward(&result, &turned);
+  for (const bool was : turned) report->turned_triangles += was;
+  return result;
+}
+
+std::vector<std::string> words(const RepairReport& report) {
+  std::vector<std::string> all;
+  const auto tell = [&](std::size_t count, const char* one, const char* many) {
+    if (count > 0) all.push_back(count == 1 ? std::string(one) : std::to_string(count) + " " + many);
+  };
+  tell(report.joined_points, "one repeated point joined", "repeated points joined");
+  tell(report.dropped_triangles, "one triangle dropped that was nothing or there twice", "triangles dropped that were nothing or there twice");
+  tell(report.turned_triangles, "one triangle turned", "triangles turned");
+  tell(report.closed_holes, "one hole closed", "holes closed");
+  tell(report.left_holes, "one opening left", "openings left");
+  return all;
+}
+
+}  // namespace palpa::anatomy
