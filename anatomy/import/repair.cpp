@@ -127,11 +127,7 @@ void closeHoles(RawMesh* mesh, RepairReport* report) {
 
 /// Closed pieces of negative volume look outward afterwards.
 void lookOutward(RawMesh* mesh, std::vector<bool>* turned) {
-  Pieces pieces(mesh->points.size());
-  for (const Triangle& t : mesh->triangles) {
-    pieces.join(t[0], t[1]);
-    pieces.join(t[1], t[2]);
-  }
+  Pieces pieces = piecesOf(mesh->triangles, mesh->points.size());
   std::map<Corner, std::vector<std::size_t>> of_piece;
   for (std::size_t i = 0; i < mesh->triangles.size(); ++i) of_piece[pieces.root(mesh->triangles[i][0])].push_back(i);
   for (const auto& [root, indices] : of_piece) {

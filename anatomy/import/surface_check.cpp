@@ -25,12 +25,8 @@ void countEdges(const Edges& edges, std::size_t points, SurfaceCheck* check) {
   check->holes = roots.size();
 }
 
-std::size_t piecesOf(const std::vector<Triangle>& triangles, std::size_t points) {
-  Pieces pieces(points);
-  for (const Triangle& t : triangles) {
-    pieces.join(t[0], t[1]);
-    pieces.join(t[1], t[2]);
-  }
+std::size_t countPieces(const std::vector<Triangle>& triangles, std::size_t points) {
+  Pieces pieces = piecesOf(triangles, points);
   std::set<Corner> roots;
   for (const Triangle& t : triangles) roots.insert(pieces.root(t[0]));
   return roots.size();
@@ -55,7 +51,7 @@ SurfaceCheck checkSurface(const RawMesh& mesh) {
     else kept.push_back(n);
   }
   countEdges(edgesOf(kept), different, &check);
-  check.pieces = piecesOf(kept, different);
+  check.pieces = countPieces(kept, different);
   if (!mesh.triangles.empty()) check.low = check.high = mesh.points[mesh.triangles[0][0]];
   for (const Triangle& t : mesh.triangles)
     for (const Corner c : t) {

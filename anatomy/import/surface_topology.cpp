@@ -62,4 +62,13 @@ double enclosedVolume(const std::vector<Vec3>& points, const std::vector<Triangl
   return sum / 6;
 }
 
+Pieces piecesOf(const std::vector<Triangle>& triangles, std::size_t points) {
+  Pieces pieces(points);
+  for (const Triangle& t : triangles) {
+    pieces.join(t[0], t[1]);
+    pieces.join(t[1], t[2]);
+  }
+  return pieces;
+}
+
 }  // namespace palpa::anatomy

@@ -43,5 +43,7 @@ class Pieces {
  private:
   std::vector<Corner> parent_;
 };
+/// Corners of triangles that hang together have one root.
+Pieces piecesOf(const std::vector<Triangle>& triangles, std::size_t points);
 
 }  // namespace palpa::anatomy
