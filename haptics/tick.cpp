@@ -181,11 +181,6 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands
   return f_passive_D;
 }
 
-bool isTrip(SafetyCause cause) {
-  return cause != SafetyCause::none && cause != SafetyCause::clamp && cause != SafetyCause::slew &&
-         cause != SafetyCause::not_ready && cause != SafetyCause::deadman && cause != SafetyCause::duty;
-}
-
 void describe(const TickConfig& config, FlightRecord& record, const NeedleContact& contact,
               const TickState& state) {
   record.snapshot = record.events & kSnapshotRefused ? state.refused : state.now.number;
@@ -222,19 +217,25 @@ SafetyInput safetyInput(const DeviceReading& reading, const TickCommands& comman
   return input;
 }
 
+/// Whether force goes out, if perhaps less than was asked for.
+bool rendered(SafetyCause cause) {
+  return cause == SafetyCause::none || cause == SafetyCause::clamp || cause == SafetyCause::slew ||
+         cause == SafetyCause::duty;
+}
+
+bool isTrip(SafetyCause cause) {
+  return !rendered(cause) && cause != SafetyCause::not_ready && cause != SafetyCause::deadman;
+}
+
 /// The limiter's cause, or that the geometry has faded; and the events when it changes.
 void tellCause(FlightRecord& record, TickState& state, double fresh) {
   SafetyCause cause = state.safety.cause;
-  const bool rendered = cause == SafetyCause::none || cause == SafetyCause::clamp ||
-                        cause == SafetyCause::slew || cause == SafetyCause::duty;
-  if (rendered && fresh < 1)
+  if (rendered(cause) && fresh < 1)
     cause = state.refused ? SafetyCause::corrupt_geometry : SafetyCause::stale_geometry;
   record.safety = cause;
   if (isTrip(cause) && cause != state.cause) record.events |= kSafetyTripped;
   state.tripped |= isTrip(cause);
-  const bool again = cause == SafetyCause::none || cause == SafetyCause::clamp || cause == SafetyCause::slew ||
-                     cause == SafetyCause::duty;
-  if (state.tripped && again) {
+  if (state.tripped && rendered(cause)) {
     record.events |= kSafetyCleared;
     state.tripped = 0;
   }

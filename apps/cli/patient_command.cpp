@@ -40,17 +40,22 @@ void tell(const anatomy::Patient& patient) {
     std::printf("  %-4s %-52s %8.2f %s\n", finding.ok ? "ok" : "BAD", finding.name.c_str(), finding.value, finding.unit.c_str());
 }
 
-double metresOf(const PatientOptions& o) {
-  if (o.unit.empty()) return 1;
-  const std::optional<anatomy::Unit> unit = anatomy::unitNamed(o.unit);
+/// Throws UsageError for a unit that nobody knows.
+anatomy::Unit unitOf(const PatientOptions& o) {
+  const std::optional<anatomy::Unit> unit = anatomy::unitNamed(o.unit.empty() ? "m" : o.unit);
   if (!unit) throw UsageError("is \"" + o.unit + "\"", "--unit", "Known: " + anatomy::knownUnits());
-  return unit->metres;
+  return *unit;
 }
 
+struct CheckedSurface {
+  anatomy::RawMesh mesh;
+  anatomy::SurfaceCheck check;
+};
+
 /// Refuses a length that the named organ cannot have.
-void checkLength(const anatomy::RawMesh& mesh, const PatientOptions& o, Organ organ) {
-  const anatomy::SurfaceCheck check = anatomy::checkSurface(mesh);
-  const double in_file = (check.high - check.low).maxCoeff(), longest = metresOf(o) * in_file;
+void checkLength(const CheckedSurface& surface, const PatientOptions& o, Organ organ) {
+  const auto& [mesh, check] = surface;
+  const double in_file = (check.high - check.low).maxCoeff(), longest = unitOf(o).metres * in_file;
   if (anatomy::plausibleLength(organ, longest)) return;
   const auto likely = anatomy::likelyUnit(organ, in_file);
   throw UsageError("would be a " + std::string(name(organ)) + " of " + anatomy::lengthText(longest),
@@ -69,9 +74,9 @@ void tellRepair(const anatomy::RawMesh& mesh) {
 }
 
 /// What a surface is worth, in plain words.
-void tellSurface(const anatomy::RawMesh& mesh, const PatientOptions& o) {
-  const anatomy::SurfaceCheck check = anatomy::checkSurface(mesh);
-  const Vec3 size = metresOf(o) * (check.high - check.low);
+void tellSurface(const CheckedSurface& surface, const PatientOptions& o) {
+  const auto& [mesh, check] = surface;
+  const Vec3 size = unitOf(o).metres * (check.high - check.low);
   std::printf("  %-40s %8zu triangles  %s x %s x %s  %s\n", mesh.name.c_str(), check.triangles,
               anatomy::lengthText(size.x()).c_str(), anatomy::lengthText(size.y()).c_str(),
               anatomy::lengthText(size.z()).c_str(), check.sound() ? "sound" : "see below");
@@ -85,12 +90,16 @@ void tellSurfaces(const PatientOptions& o) {
   const Organ organ = o.organ.empty() ? Organ::none : organFromName(o.organ.c_str());
   if (!o.organ.empty() && organ == Organ::none)
     throw UsageError("is \"" + o.organ + "\"", "--organ", "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery");
-  const std::vector<anatomy::RawMesh> meshes = anatomy::readMeshFile(o.file);
-  if (organ != Organ::none)
-    for (const anatomy::RawMesh& mesh : meshes) checkLength(mesh, o, organ);
-  std::printf("%zu surface%s, lengths read as %s\n", meshes.size(), meshes.size() == 1 ? "" : "s",
-              o.unit.empty() ? "metres (say --unit mm and the like where they are not)" : anatomy::unitNamed(o.unit)->words);
-  for (const anatomy::RawMesh& mesh : meshes) tellSurface(mesh, o);
+  const anatomy::Unit unit = unitOf(o);
+  std::vector<CheckedSurface> surfaces;
+  for (anatomy::RawMesh& mesh : anatomy::readMeshFile(o.file)) {
+    const anatomy::SurfaceCheck check = anatomy::checkSurface(mesh);
+    surfaces.push_back({std::move(mesh), check});
+    if (organ != Organ::none) checkLength(surfaces.back(), o, organ);
+  }
+  std::printf("%zu surface%s, lengths read as %s%s\n", surfaces.size(), surfaces.size() == 1 ? "" : "s", unit.words,
+              o.unit.empty() ? " (say --unit mm and the like where they are not)" : "");
+  for (const CheckedSurface& surface : surfaces) tellSurface(surface, o);
 }
 
 /// A patient of ours says so in its file; anything else is a set of surfaces.

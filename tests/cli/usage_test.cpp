@@ -134,6 +134,10 @@ TEST(Usage, ASurfaceInTheWrongUnitIsRefusedWithTheLikelyOne) {
   EXPECT_EQ(wrong.out, "");
   EXPECT_NE(wrong.err.find("a clavicle of 149 m"), std::string::npos) << wrong.err;
   EXPECT_NE(wrong.err.find("--unit mm"), std::string::npos) << wrong.err;
+  const Outcome unknown = palpa({"patient", "info", file, "--unit", "furlong"}, here.path());
+  EXPECT_EQ(unknown.exit_code, 2);
+  EXPECT_EQ(unknown.errLines(), 1) << unknown.err;
+  EXPECT_NE(unknown.err.find("furlong"), std::string::npos);
   const Outcome right = palpa({"patient", "info", file, "--organ", "clavicle", "--unit", "mm"}, here.path());
   EXPECT_EQ(right.exit_code, 0) << right.err;
   EXPECT_NE(right.out.find("149 mm x 12 mm x 12 mm  sound"), std::string::npos) << right.out;
