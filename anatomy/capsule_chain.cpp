@@ -69,11 +69,12 @@ bool next(const SurfaceQuery& query, int surface, const Vec3& joint, const Vec3&
 
 }  // namespace
 
-std::vector<Capsule> capsuleChain(const SurfaceQuery& query, int surface, const SurfacePoint& nearest) {
+std::vector<Capsule> capsuleChain(const SurfaceQuery& query, int surface, const SurfacePoint& nearest, int links) {
   SurfaceQuery::Tube tube;
   if (!fit(query, surface, nearest.p_A, &tube)) return {};
   const Link middle = touching(tube, nearest);
   std::vector<Capsule> chain{middle.capsule()};
+  if (links < 3) return chain;
   Link side;
   if (!middle.ends_a && next(query, surface, middle.a, -middle.along(), &side)) chain.push_back(side.capsule());
   if (!middle.ends_b && next(query, surface, middle.b, middle.along(), &side)) chain.push_back(side.capsule());

@@ -12,6 +12,7 @@ namespace palpa::anatomy {
 /// 34 mm: a single capsule of 48 mm would miss it by 8 mm at its ends). Where the bone ends the chain ends; what is
 /// no longer than thick becomes a sphere or nearly one. Empty for a plate, which no capsule fits. Frame A, metres;
 /// `organ` and `bone` are the caller's.
-std::vector<Capsule> capsuleChain(const SurfaceQuery& query, int surface, const SurfacePoint& nearest);
+/// `links`: 3, or 1 for the middle one alone.
+std::vector<Capsule> capsuleChain(const SurfaceQuery& query, int surface, const SurfacePoint& nearest, int links = 3);
 
 }  // namespace palpa::anatomy

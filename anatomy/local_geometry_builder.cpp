@@ -12,6 +12,7 @@
 namespace palpa::anatomy {
 namespace {
 
+constexpr double kBendReach = 0.015;  // a bone so near may be touched before the next snapshot (0.25 m/s: 4 mm): its bend counts
 constexpr double kBoneReach = 0.040;  // bones further from tip and shaft are left out
 constexpr double kSurfaceReach = 0.008;  // of the skin round the tool: a fast hand's way until the next snapshot
 constexpr double kAhead = 0.060;      // boundaries are looked for this far beyond the tip
@@ -115,7 +116,8 @@ void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis,
       continue;
     const SurfacePoint nearest = nearestToSegment(query_, bone.surface, axis.tip, other);
     if (nearest.distance > kBoneReach) continue;
-    for (Capsule capsule : capsuleChain(query_, bone.surface, nearest)) {
+    const int links = nearest.distance <= kBendReach ? 3 : 1;
+    for (Capsule capsule : capsuleChain(query_, bone.surface, nearest, links)) {
       if (geometry->bone_count == LocalGeometry::kMaxBones) return;
       capsule.organ = bone.organ;
       capsule.bone = static_cast<std::uint8_t>(bone.surface);
