@@ -18,10 +18,6 @@ constexpr double kSurfaceReach = 0.008;  // of the skin round the tool: a fast h
 constexpr double kAhead = 0.060;      // boundaries are looked for this far beyond the tip
 constexpr double kTowardSkin = 0.02;  // sine of the least angle at which the axis counts as inward
 
-bool isBone(Organ organ) {
-  return organ == Organ::clavicle || organ == Organ::rib || organ == Organ::sternum;
-}
-
 Tissue insideOf(Organ organ) {
   switch (organ) {
     case Organ::vein:
@@ -153,7 +149,7 @@ void LocalGeometryBuilder::addBoundaries(const Axis& axis, LocalGeometry* geomet
                  planes[next].wall);
   };
   for (const RayHit& hit : hits) {
-    if (hit.organ == Organ::skin) continue;  // the layers stand for it
+    if (hit.organ == Organ::skin || hit.organ == Organ::airway) continue;  // layers stand for the skin; no needle here has a law for the airway
     layersUpTo(hit.s);
     if (hit.organ != Organ::muscle) {
       list.crossing(hit, axis.s_skin + hit.s);

@@ -45,7 +45,12 @@ inline constexpr Rgb organColour(Organ organ) {
     case Organ::clavicle:
     case Organ::rib:
     case Organ::sternum:
+    case Organ::scapula:
       return {0.93, 0.89, 0.78};
+    case Organ::cartilage:
+      return {0.76, 0.82, 0.84};
+    case Organ::airway:
+      return {0.80, 0.84, 0.72};
     case Organ::lung:
       return {0.88, 0.62, 0.66};
     case Organ::vein:

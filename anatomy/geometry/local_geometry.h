@@ -14,9 +14,16 @@ namespace palpa {
 /// Anatomical structure, as the score and the report name it.
 enum class Organ : std::uint8_t {
   none, skin, muscle, clavicle, rib, sternum, lung, vein, artery,
-  fascia   ///< of the muscle: a wall between fat and muscle, no mesh of its own
+  fascia,   ///< of the muscle: a wall between fat and muscle, no mesh of its own
+  scapula, cartilage, airway
 };
-inline constexpr int kOrganCount = 10;
+inline constexpr int kOrganCount = 13;
+
+/// Hard to the needle. Cartilage of the ribs in an adult is firm enough to stop it.
+constexpr bool isBone(Organ organ) {
+  return organ == Organ::clavicle || organ == Organ::rib || organ == Organ::sternum || organ == Organ::scapula ||
+         organ == Organ::cartilage;
+}
 
 /// Material that the needle tip moves through; mechanical constants are looked up by it.
 enum class Tissue : std::uint8_t {

@@ -19,7 +19,7 @@ bool touchesBackWall(const TrialSample& s) {
 }
 
 bool touchesRibcage(const TrialSample& s) {
-  return s.bone == Organ::rib || s.bone == Organ::sternum;
+  return isBone(s.bone) && s.bone != Organ::clavicle;
 }
 bool touchesClavicle(const TrialSample& s) { return s.bone == Organ::clavicle; }
 bool strikesClavicle(const TrialSample& s, const ScoringRules& rules) {

@@ -44,11 +44,18 @@ std::string upTo(const TrialReview& r, const std::vector<Interval>& stretches) {
   return " (up to " + newtons(peakBoneForce(r.samples, stretches)) + ").";
 }
 
+std::string struckBone(Organ organ) {
+  switch (organ) {
+    case Organ::rib: return "A rib";
+    case Organ::cartilage: return "The cartilage of a rib";
+    default: return std::string("The ") + name(organ);
+  }
+}
+
 Penalty bone(const TrialReview& r, const ScoringRules& rules) {
   std::string sentence;
   if (!r.ribcage.empty()) {
-    const bool rib = r.samples[r.ribcage.front().first].bone == Organ::rib;
-    sentence = std::string(rib ? "A rib" : "The sternum") + " was struck " + duration(r.ribcage) +
+    sentence = struckBone(r.samples[r.ribcage.front().first].bone) + " was struck " + duration(r.ribcage) +
                upTo(r, r.ribcage);
   }
   if (!r.clavicle_struck.empty())

@@ -70,6 +70,8 @@ std::vector<Moment> timelineMoments(const TrialFacts& facts, const TrialReview& 
   addPasses(r, &moments);
   addFirstBone(r.samples, Organ::clavicle, "First contact with the clavicle", &moments);
   addFirstBone(r.samples, Organ::rib, "First contact with a rib", &moments);
+  addFirstBone(r.samples, Organ::cartilage, "First contact with the cartilage of a rib", &moments);
+  addFirstBone(r.samples, Organ::scapula, "First contact with the scapula", &moments);
   addFirstBone(r.samples, Organ::sternum, "First contact with the sternum", &moments);
   addStarts(r.vein_lumen, "vein", "Vein entered", &moments);
   addStarts(r.back_wall, "back_wall", "Needle at the back wall of the vein", &moments);

@@ -238,7 +238,7 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
   last_s = sample.t_s;
   if (again) return;
   tell(now_ns, "touched", std::string("Touched: ") + palpa::name(touching));
-  if (touching == Organ::lung || touching == Organ::artery || touching == Organ::rib)
+  if (touching == Organ::lung || touching == Organ::artery || (isBone(touching) && touching != Organ::clavicle))
     picture(palpa::name(touching), std::string("Error: the needle touches the ") + palpa::name(touching));
 }
 
