@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <fstream>
 #include <nlohmann/json.hpp>
 
@@ -12,7 +14,7 @@ namespace {
 constexpr int kMostTries = 200;
 
 struct Spread {
-  double mean, sd, low, high;  // metres
+  double mean, sd, low, high;  // metres, or the file's unit
 };
 
 class Reference {
@@ -27,16 +29,25 @@ class Reference {
     }
   }
 
-  Spread spread(const char* key) const {
+  double correlation(const char* key) const {
+    const auto entry = json_.is_object() ? json_.find(key) : json_.end();
+    if (entry == json_.end() || !entry->is_object()) fail("the entry is missing", key);
+    const double r = value(*entry, "r", key);
+    if (!(r > -1 && r < 1)) fail("r is not between -1 and 1", key);
+    return r;
+  }
+
+  /// `wanted_unit`: as the file must state it; `si`: what one of it is.
+  Spread spread(const char* key, const char* wanted_unit = "mm", double si = 1e-3) const {
     const auto entry = json_.is_object() ? json_.find(key) : json_.end();
     if (entry == json_.end() || !entry->is_object()) fail("the entry is missing", key);
     const auto unit = entry->find("unit");
-    if (unit == entry->end() || *unit != "mm") fail("the unit is not \"mm\"", key);
+    if (unit == entry->end() || *unit != wanted_unit) fail(std::string("the unit is not \"") + wanted_unit + "\"", key);
     const auto range = entry->find("range");
     if (range == entry->end() || !range->is_array() || range->size() != 2)
       fail("the range is not two numbers", key);
-    const Spread s{value(*entry, "mean", key), value(*entry, "sd", key),
-                   millimetres((*range)[0], key), millimetres((*range)[1], key)};
+    const Spread s{si * value(*entry, "mean", key), si * value(*entry, "sd", key), si * number((*range)[0], key),
+                   si * number((*range)[1], key)};
     if (!(s.low <= s.mean && s.mean <= s.high && s.sd >= 0))
       fail("mean, sd and range contradict each other", key);
     return s;
@@ -47,50 +58,109 @@ class Reference {
     throw Error(what, key.empty() ? file_ : file_ + ", \"" + key + "\"",
                 "Compare with assets/patients/reference.json");
   }
-  double millimetres(const nlohmann::json& number, const char* key) const {
-    if (!number.is_number()) fail("a value is not a number", key);
-    return 1e-3 * number.get<double>();
+  double number(const nlohmann::json& json, const char* key) const {
+    if (!json.is_number()) fail("a value is not a number", key);
+    return json.get<double>();
   }
   double value(const nlohmann::json& entry, const char* field, const char* key) const {
     if (!entry.contains(field)) fail(std::string("\"") + field + "\" is missing", key);
-    return millimetres(entry[field], key);
+    return number(entry[field], key);
   }
 
   std::string file_;
   nlohmann::json json_;
 };
 
-// Normal within the range: drawn again outside it, so that the shape inside stays normal.
-double draw(const Spread& s, RandomStream* random) {
+// Normal deviate; 0 for the means.
+class Dice {
+ public:
+  explicit Dice(std::uint64_t seed) : still_(seed == 0), random_(seed) {}
+  double normal() { return still_ ? 0 : random_.normal(); }
+  bool still() const { return still_; }
+  bool heads() { return !still_ && random_.uniform() < 0.5; }
+
+ private:
+  bool still_;
+  RandomStream random_;
+};
+
+// Normal within the range: drawn again outside it, so that the shape inside stays normal. `known`: how many
+// deviations a quantity that goes together with this one (correlation r) is off its mean.
+double draw(const Spread& s, Dice* dice, double r = 0, double known = 0) {
+  double x = s.mean;
   for (int i = 0; i < 1000; ++i) {
-    const double x = s.mean + s.sd * random->normal();
+    x = s.mean + s.sd * (r * known + std::sqrt(1 - r * r) * dice->normal());
     if (x >= s.low && x <= s.high) return x;
   }
-  return s.mean;
+  return std::clamp(x, s.low, s.high);
+}
+
+double stated(double value, const Spread& s, const char* what, const char* unit) {
+  if (value >= s.low && value <= s.high) return value;
+  throw Error(std::string(what) + " is " + std::to_string(value) + " " + unit + ", outside " + std::to_string(s.low) + " to " +
+                  std::to_string(s.high) + " " + unit,
+              "parametric patient", "Give a value inside the range");
+}
+
+// Height and body mass index with how many deviations of the whole population they are off its means.
+struct Body {
+  Sex sex;
+  double height, bmi, taller, heavier;
+};
+
+Body drawBody(const Reference& reference, const Person& person, Dice* dice) {
+  const Spread women = reference.spread("height_women", "m", 1), men = reference.spread("height_men", "m", 1);
+  const Spread bmi = reference.spread("bmi", "kg/m2", 1);
+  // Of women and men in equal numbers.
+  const double mean = (women.mean + men.mean) / 2, apart = (men.mean - women.mean) / 2;
+  const double sd = std::sqrt((women.sd * women.sd + men.sd * men.sd) / 2 + apart * apart);
+  Body body;
+  const bool female = dice->heads();
+  body.sex = person.sex.value_or(female ? Sex::female : Sex::male);
+  const Spread& height = body.sex == Sex::female ? women : men;
+  const double drawn_height = draw(height, dice), drawn_bmi = draw(bmi, dice);
+  body.height = person.height ? stated(*person.height, height, "height", "m") : drawn_height;
+  if (dice->still() && !person.sex && !person.height) body.height = mean;
+  body.bmi = person.bmi ? stated(*person.bmi, bmi, "bmi", "kg/m2") : drawn_bmi;
+  body.taller = (body.height - mean) / sd;
+  body.heavier = (body.bmi - bmi.mean) / bmi.sd;
+  return body;
+}
+
+// Skin, fat and muscle at the entry for the depth at the window: there the layers are thinner than they vary.
+SoftLayers layersFor(const Reference& reference, double vein_depth, const Body& body, Dice* dice) {
+  const double at_window = 0.92 * vein_depth - 0.002;
+  const double all = 0.0065 + 0.58 * at_window;
+  SoftLayers layers;
+  layers.skin = draw(reference.spread("skin_thickness"), dice);
+  const Spread share = reference.spread("fat_share", "percent", 0.01);
+  const double fat = draw({share.mean - (body.sex == Sex::male ? 0.05 : 0), share.sd, share.low, share.high}, dice,
+                          reference.correlation("fat_share_with_bmi"), body.heavier);
+  layers.fat = fat * (all - layers.skin);
+  layers.muscle = all - layers.skin - layers.fat;
+  return layers;
 }
 
 }  // namespace
 
-PatientParameters drawParameters(const std::string& reference_json, Side side, std::uint64_t seed) {
+PatientParameters drawParameters(const std::string& reference_json, Side side, std::uint64_t seed, const Person& person) {
   const Reference reference(reference_json);
-  PatientParameters p;
-  p.side = side;
-  p.seed = seed;
-  const std::pair<const char*, double*> fields[] = {{"vein_depth", &p.vein_depth},
-                                                    {"vein_diameter", &p.vein_diameter},
-                                                    {"pleura_distance", &p.pleura_distance},
-                                                    {"clavicle_length", &p.clavicle_length},
-                                                    {"clavicle_thickness", &p.clavicle_thickness},
-                                                    {"skin_thickness", &p.layers.skin},
-                                                    {"fat_thickness", &p.layers.fat},
-                                                    {"muscle_thickness", &p.layers.muscle}};
-  for (const auto& [key, field] : fields) *field = reference.spread(key).mean;
-  if (seed == 0) return p;
-
-  RandomStream random(seed);
+  Dice dice(seed);
   std::string last;
-  for (int tries = 0; tries < kMostTries; ++tries) {
-    for (const auto& [key, field] : fields) *field = draw(reference.spread(key), &random);
+  for (int tries = 0; tries < (seed == 0 ? 1 : kMostTries); ++tries) {
+    const Body body = drawBody(reference, person, &dice);
+    PatientParameters p;
+    p.side = side;
+    p.seed = seed;
+    p.sex = body.sex;
+    p.height = body.height;
+    p.bmi = body.bmi;
+    p.vein_depth = draw(reference.spread("vein_depth"), &dice, reference.correlation("vein_depth_with_bmi"), body.heavier);
+    p.vein_diameter = draw(reference.spread("vein_diameter"), &dice);
+    p.pleura_distance = draw(reference.spread("pleura_distance"), &dice);
+    p.clavicle_length = draw(reference.spread("clavicle_length"), &dice, reference.correlation("clavicle_length_with_height"), body.taller);
+    p.clavicle_thickness = draw(reference.spread("clavicle_thickness"), &dice);
+    p.layers = layersFor(reference, p.vein_depth, body, &dice);
     try {
       solve(p);
       return p;

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/parametric/feasibility.h"
 #include "anatomy/parametric/frame.h"
-#include "anatomy/parametric/pectoralis.h"
+#include "anatomy/parametric/muscles.h"
 #include "anatomy/parametric/thorax.h"
+#include "anatomy/shapes/mesh_tools.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -15,19 +17,28 @@ namespace {
 using Colour = std::array<float, 4>;
 constexpr Colour kSkinColour{0.87f, 0.70f, 0.60f, 0.45f};
 constexpr Colour kBoneColour{0.93f, 0.89f, 0.78f, 1};
+constexpr Colour kCartilageColour{0.74f, 0.80f, 0.82f, 1};
+constexpr Colour kAirwayColour{0.82f, 0.85f, 0.74f, 1};
 constexpr Colour kLungColour{0.86f, 0.62f, 0.66f, 1};
 constexpr Colour kVeinColour{0.20f, 0.36f, 0.70f, 1};
 constexpr Colour kArteryColour{0.80f, 0.16f, 0.14f, 1};
 constexpr Colour kMuscleColour{0.66f, 0.27f, 0.24f, 0.8f};
 
+// Puts organs together: those of the punctured side come first of their kind.
 class Assembly {
  public:
   Assembly(const PatientParameters& parameters, Patient* patient)
       : side_(parameters.side), patient_(patient) {}
 
   void add(const std::string& id, Organ organ, const TriangleMesh& mesh_B_mm, const Colour& rgba) {
-    patient_->organs.push_back({id + "_" + name(side_), organ, fromB(mesh_B_mm, side_), rgba});
+    patient_->organs.push_back({id, organ, fromB(mesh_B_mm, side_), rgba});
   }
+  void addBoth(const std::string& id, Organ organ, const TriangleMesh& mesh_B_mm, const Colour& rgba) {
+    add(id + "_" + name(side_), organ, mesh_B_mm, rgba);
+    add(otherId(id), organ, mirroredMesh(mesh_B_mm), rgba);
+  }
+  std::string otherId(const std::string& id) const { return id + "_" + name(side_ == Side::right ? Side::left : Side::right); }
+  std::string sideId(const std::string& id) const { return id + "_" + name(side_); }
   void mark(const char* landmark_name, const Vec3& p_B_mm) {
     patient_->landmarks[landmark_name] = fromB(p_B_mm, side_);
   }
@@ -37,18 +48,22 @@ class Assembly {
   Patient* patient_;
 };
 
+struct Lungs {
+  TriangleMesh near, other;
+};
+
 // The lung's groove for the vein is deepened until the nearest pleura is as far as asked for.
-TriangleMesh lungAtDistance(const Vessels& vessels, const std::vector<Rib>& ribs,
-                            const Vec3& target, double radius, double distance) {
+Lungs lungsAtDistance(const Solution& s, const std::vector<Rib>& ribs, double radius, double distance) {
   constexpr double kGoodEnough = 0.25;  // mm; the mesh cannot show less
+  const Vec3& target = s.line.target;
   // The dome stands where it just reaches into the groove.
   double shift_y = target.y() + distance - 29.2;
   double groove = distance;
-  TriangleMesh lung;
   for (int i = 0; i < 8; ++i) {
-    lung = makeLung(vessels, ribs, shift_y, groove);
+    TriangleMesh lung = makeLung(s.vessels, ribs, s.build, 1, shift_y, groove);
     const double found = TriangleTree(lung).closest(target).signed_distance - radius;
-    if (std::abs(found - distance) < kGoodEnough) return lung;
+    if (std::abs(found - distance) < kGoodEnough)
+      return {std::move(lung), makeLung(s.vessels, ribs, s.build, -1, shift_y, groove)};
     groove += 0.6 * (distance - found);
     if (found > distance) shift_y += 0.7 * (distance - found);  // the dome did not reach so far
   }
@@ -56,7 +71,9 @@ TriangleMesh lungAtDistance(const Vessels& vessels, const std::vector<Rib>& ribs
               "parametric patient", "Choose a pleura distance nearer to its mean");
 }
 
-void markLandmarks(const Clavicle& clavicle, const TaughtLine& line, Assembly* assembly) {
+void markLandmarks(const Solution& solved, Assembly* assembly) {
+  const Clavicle& clavicle = solved.clavicle;
+  const TaughtLine& line = solved.line;
   assembly->mark(landmark::kNotch, Vec3::Zero());
   assembly->mark(landmark::kSternalEnd, clavicle.sternal_end);
   assembly->mark(landmark::kSternalEndPosteriorSuperior, clavicle.sternal_end_posterior_superior);
@@ -65,6 +82,14 @@ void markLandmarks(const Clavicle& clavicle, const TaughtLine& line, Assembly* a
   assembly->mark(landmark::kLateralThird, clavicle.lateral_third);
   assembly->mark(landmark::kEntry, line.entry);
   assembly->mark(landmark::kVeinTarget, line.target);
+  assembly->mark(landmark::kWindow, solved.window);
+  assembly->mark(landmark::kWindowSkin, solved.window_skin);
+}
+
+std::string nameOf(const PatientParameters& p) {
+  char person[96];
+  std::snprintf(person, sizeof person, "%s, %.2f m, BMI %.1f, ", p.sex == Sex::female ? "woman" : "man", p.height, p.bmi);
+  return person + (p.seed == 0 ? std::string("reference") : "seed " + std::to_string(p.seed));
 }
 
 }  // namespace
@@ -72,28 +97,33 @@ void markLandmarks(const Clavicle& clavicle, const TaughtLine& line, Assembly* a
 Patient buildPatient(const PatientParameters& parameters) {
   const Solution solved = solve(parameters);
   const double radius = 500 * parameters.vein_diameter;
-  const std::vector<Rib> ribs = makeRibs(radius);
+  const std::vector<Rib> ribs = makeRibs(solved.build, radius);
 
   Patient patient;
-  patient.name = parameters.seed == 0 ? "reference" : "seed " + std::to_string(parameters.seed);
+  patient.name = nameOf(parameters);
   patient.side = parameters.side;
   patient.seed = parameters.seed;
   patient.layers = parameters.layers;
   Assembly assembly(parameters, &patient);
   assembly.add("skin", Organ::skin, solved.skin.mesh(), kSkinColour);
-  assembly.add("clavicle", Organ::clavicle, solved.clavicle.mesh, kBoneColour);
-  assembly.add("sternum", Organ::sternum, makeSternum(solved.clavicle), kBoneColour);
-  for (std::size_t i = 0; i < ribs.size(); ++i)
-    assembly.add("rib_" + std::to_string(i + 1), Organ::rib, ribs[i].mesh, kBoneColour);
-  assembly.add("lung", Organ::lung,
-               lungAtDistance(solved.vessels, ribs, solved.line.target, radius,
-                              1e3 * parameters.pleura_distance),
-               kLungColour);
-  assembly.add("vein", Organ::vein, solved.vessels.veinMesh(), kVeinColour);
-  assembly.add("artery", Organ::artery, solved.vessels.arteryMesh(), kArteryColour);
-  assembly.add("pectoralis_major", Organ::muscle, makePectoralis(solved.skin, solved.clavicle),
-               kMuscleColour);
-  markLandmarks(solved.clavicle, solved.line, &assembly);
+  assembly.addBoth("clavicle", Organ::clavicle, solved.clavicle.mesh, kBoneColour);
+  assembly.add("sternum", Organ::sternum, makeSternum(solved.clavicle, solved.build), kBoneColour);
+  for (std::size_t i = 0; i < ribs.size(); ++i) {
+    assembly.addBoth("rib_" + std::to_string(i + 1), Organ::rib, ribs[i].bone, kBoneColour);
+    assembly.addBoth("costal_cartilage_" + std::to_string(i + 1), Organ::cartilage, ribs[i].cartilage, kCartilageColour);
+  }
+  assembly.addBoth("scapula", Organ::scapula, makeScapula(solved.clavicle, solved.build), kBoneColour);
+  assembly.add("spine", Organ::spine, makeSpine(solved.build), kBoneColour);
+  const Lungs lungs = lungsAtDistance(solved, ribs, radius, 1e3 * parameters.pleura_distance);
+  assembly.add(assembly.sideId("lung"), Organ::lung, lungs.near, kLungColour);
+  assembly.add(assembly.otherId("lung"), Organ::lung, lungs.other, kLungColour);
+  assembly.add("airway", Organ::airway, makeAirway(solved.vessels.handed), kAirwayColour);
+  assembly.add("veins", Organ::vein, solved.vessels.veinMesh(), kVeinColour);
+  assembly.add("arteries", Organ::artery, solved.vessels.arteryMesh(), kArteryColour);
+  assembly.addBoth("pectoralis_major", Organ::muscle, makePectoralisMajor(solved.skin, solved.clavicle), kMuscleColour);
+  assembly.addBoth("pectoralis_minor", Organ::muscle, makePectoralisMinor(solved.clavicle, solved.build), kMuscleColour);
+  assembly.addBoth("subclavius", Organ::muscle, makeSubclavius(solved.clavicle), kMuscleColour);
+  markLandmarks(solved, &assembly);
   // From the field's surface onto the mesh's, some hundredths of a millimetre away.
   Vec3& entry = patient.landmarks[landmark::kEntry];
   entry = TriangleTree(patient.organs.front().mesh).closest(entry).p;

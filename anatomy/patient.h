@@ -50,6 +50,8 @@ inline constexpr const char* kEntry =
     "entry_point";  ///< on the skin, 1 cm below the medial-third junction
 inline constexpr const char* kVeinTarget =
     "vein_target";  ///< centre of the lumen where the taught line meets it
+inline constexpr const char* kWindow = "infraclavicular_window";      ///< centre of the vein's lumen below the middle of the clavicle
+inline constexpr const char* kWindowSkin = "infraclavicular_window_skin";   ///< on the skin over it
 }  // namespace landmark
 
 struct Patient {

@@ -46,6 +46,7 @@ inline constexpr Rgb organColour(Organ organ) {
     case Organ::rib:
     case Organ::sternum:
     case Organ::scapula:
+    case Organ::spine:
       return {0.93, 0.89, 0.78};
     case Organ::cartilage:
       return {0.76, 0.82, 0.84};

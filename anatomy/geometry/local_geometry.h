@@ -15,14 +15,14 @@ namespace palpa {
 enum class Organ : std::uint8_t {
   none, skin, muscle, clavicle, rib, sternum, lung, vein, artery,
   fascia,   ///< of the muscle: a wall between fat and muscle, no mesh of its own
-  scapula, cartilage, airway
+  scapula, cartilage, airway, spine
 };
-inline constexpr int kOrganCount = 13;
+inline constexpr int kOrganCount = 14;
 
 /// Hard to the needle. Cartilage of the ribs in an adult is firm enough to stop it.
 constexpr bool isBone(Organ organ) {
   return organ == Organ::clavicle || organ == Organ::rib || organ == Organ::sternum || organ == Organ::scapula ||
-         organ == Organ::cartilage;
+         organ == Organ::cartilage || organ == Organ::spine;
 }
 
 /// Material that the needle tip moves through; mechanical constants are looked up by it.

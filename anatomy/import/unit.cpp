@@ -24,6 +24,7 @@ Span spanOf(Organ organ) {
     case Organ::rib: return {0.05, 0.45};
     case Organ::sternum: return {0.04, 0.27};
     case Organ::scapula: return {0.09, 0.24};
+    case Organ::spine: return {0.01, 0.80};
     case Organ::cartilage: return {0.01, 0.30};
     case Organ::airway: return {0.05, 0.40};
     case Organ::lung: return {0.12, 0.40};

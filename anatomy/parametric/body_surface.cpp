@@ -4,13 +4,14 @@
 #include <cmath>
 
 #include "anatomy/shapes/root.h"
+#include "anatomy/shapes/spline.h"
 #include "anatomy/shapes/surface_nets.h"
 
 namespace palpa::anatomy {
 namespace {
 
-// Cuts of the bust: medial, lateral, lower, upper (neck), back.
-constexpr double kMedial = -58, kLateral = 202, kLower = -140, kUpper = 84, kBack = 104;
+constexpr double kFarFront = -150, kFarBack = 240;   // y that no body reaches
+constexpr double kPlainSoft = 16;                    // mm of skin, fat and muscle that chest() is written for
 
 double hill(double x, double z, double x0, double z0, double wide, double high) {
   const double a = (x - x0) / wide, b = (z - z0) / high;
@@ -23,14 +24,15 @@ double segmentDistance(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - t * ab).norm();
 }
 
+double ellipsoid(const Vec3& p, const Vec3& centre, const Vec3& radii) {
+  const Vec3 q = (p - centre).cwiseQuotient(radii);
+  return (q.norm() - 1) * radii.minCoeff();
+}
+
 // Both sides look alike; smooth at the midline.
 double mirrored(double l) { return std::sqrt(l * l + 16) - 4; }
 
 double softStep(double x, double width) { return 0.5 * (1 + std::tanh(x / width)); }
-
-}  // namespace
-
-namespace {
 
 // Soft tissue evens out the bone's quick changes of thickness.
 TubeField draped(const std::vector<Section>& sections) {
@@ -40,79 +42,162 @@ TubeField draped(const std::vector<Section>& sections) {
   for (int i = 0; i < count; i += 2) {
     double sum = 0;
     for (int k = -kWindow; k <= kWindow; ++k) {
-      const Section& s = sections[std::clamp(i + k, 0, count - 1)];
+      const Section& s = sections[static_cast<std::size_t>(std::clamp(i + k, 0, count - 1))];
       sum += (s.half_up + s.half_side) / 2;
     }
-    stations.push_back({sections[i].centre, sum / (2 * kWindow + 1)});
+    stations.push_back({sections[static_cast<std::size_t>(i)].centre, sum / (2 * kWindow + 1)});
   }
   return TubeField(std::move(stations));
 }
 
+TubeField armOf(const Vec3& acromion, const Build& build) {
+  const double bulk = build.female ? 0 : 5, fat = 0.7 * build.softness;
+  return TubeField({{acromion + Vec3(2, 3, -34), 36 + bulk + fat},
+                    {acromion + Vec3(20, 8, -66 * build.tall), 37 + bulk + fat},
+                    {acromion + Vec3(34, 12, -104 * build.tall), 35 + bulk + fat}});
+}
+
+TubeField scapulaOf(const Vec3& acromion, const Build& build) {
+  return TubeField({{build.place({86, 137, -8}), 6}, {acromion + Vec3(-14, 34, -2), 7}, {acromion + Vec3(6, 8, -1), 8}});
+}
+
 }  // namespace
 
-BodySurface::BodySurface(const Clavicle& clavicle, const SoftLayers& layers)
+BodySurface::BodySurface(const Clavicle& clavicle, const Build& build, const SoftLayers& layers, double at_window)
     : clavicle_(draped(clavicle.sections)),
+      scapula_(scapulaOf(clavicle.acromial_end, build)),
+      arm_(armOf(clavicle.acromial_end, build)),
+      build_(build),
       skin_(1e3 * layers.skin),
       fat_(1e3 * layers.fat),
-      muscle_(1e3 * layers.muscle) {
+      muscle_(1e3 * layers.muscle),
+      at_window_(at_window),
+      window_a_(clavicle.middle.x()),
+      acromion_(clavicle.acromial_end),
+      lower_(build.place({0, 0, -232}).z()),
+      upper_(build.place({0, 0, 128}).z()) {
   notch_ = living(Vec3::Zero());
+}
+
+// What the layers are at the entry, and from there to the window what the depth asked for there needs.
+double BodySurface::soft(double a) const {
+  const double entry = skin_ + fat_ + muscle_;
+  const double from = 0.72 * window_a_;
+  return entry + (at_window_ - entry) * std::clamp((a - from) / (window_a_ - from), 0.0, 1.0);
 }
 
 // The front of the trunk as a height y(l, z): smaller is further forward.
 double BodySurface::chest(double l, double z) const {
   const double a = mirrored(l);
-  const double sagittal = 15 * std::tanh(z / 60) + 0.10 * z;
-  const double across = a / 66;
+  const double low = build_.unplace({0, 0, z}).z();
+  const double sagittal = 15 * std::tanh(low / 60) + 0.10 * low;
+  const double across = a / 66 / (0.5 + 0.5 * build_.wide);
   const double rounding =
-      (1.2 + 2.2 * softStep(z + 25, 30) + 6 * softStep(z - 30, 20)) * across * across +
-      1.0 * std::pow(across, 4);
-  const double pectoral = -8 * hill(a, z, 78, -62, 42, 36);
+      (1.2 + 2.2 * softStep(z + 25, 30) + 6 * softStep(z - 30, 20)) * across * across + 1.0 * std::pow(across, 4);
+  const double pectoral = -(build_.female ? 6 : 9) * hill(a, low, 78, -66, 42, 34);
+  const double fold = build_.female ? 0 : 4 * hill(a, low, 70, -132, 46, 16);   // under the pectoral muscle
   const double sternal_groove = 3.5 * hill(a, 0, 0, 0, 15, 1) * softStep(-z - 22, 10);
   const double deltopectoral = 6 * hill(a, z, 116, -8, 15, 22);
   const double infraclavicular = 7.5 * hill(a, z, 59, -9, 15, 14);
   const double supraclavicular = 9 * hill(a, z, 66, 38, 24, 12);
-  const double soft = (skin_ + fat_ + muscle_ - 16) * (1 - hill(a, 0, 0, 0, 20, 1));
-  return sagittal + rounding + pectoral + sternal_groove + deltopectoral + infraclavicular +
-         supraclavicular - soft;
+  const double beside = 1 - hill(a, 0, 0, 0, 20, 1);
+  const double belly = build_.softness * 0.8 * softStep(-low - 110, 40);
+  return sagittal + rounding + pectoral + fold + sternal_groove + deltopectoral + infraclavicular + supraclavicular -
+         (soft(a) - kPlainSoft) * beside - belly;
 }
 
-double BodySurface::living(const Vec3& p) const {
+// Sides and back: an oval whose back follows the spine's curve, with a furrow over the spine.
+double BodySurface::back(const Vec3& q) const {
+  static const Spline wide{{-232, 134}, {-150, 137}, {-90, 141}, {-40, 145}, {10, 142}, {60, 120}, {90, 90}};
+  static const Spline deep{{-232, 152}, {-170, 160}, {-110, 160}, {-50, 148}, {0, 132}, {50, 118}, {100, 112}};
+  const double z = build_.unplace(q).z();
+  const double half = wide(z) * build_.wide + 0.8 * build_.softness, middle = 66;
+  const double furrow = 5 * hill(q.x(), 0, 0, 0, 11, 1) * softStep(-z + 20, 20);
+  const double half_deep = deep(z) + 0.8 * build_.softness - furrow - middle;
+  const double u = std::abs(q.x()) / half, v = std::abs(q.y() - middle) / (q.y() > middle ? half_deep : 160.0);
+  return 0.85 * (std::pow(std::pow(u, 2.7) + std::pow(v, 2.7), 1 / 2.7) - 1) * half_deep;
+}
+
+double BodySurface::neckAndJaw(const Vec3& q) const {
+  const double thick = build_.female ? 0 : 3.5;
+  const double fat = 0.45 * build_.softness;
+  const double z = build_.unplace(q).z();
+  const double centre = 66 - 0.10 * std::max(z, 0.0);
+  const double neck = std::hypot(q.x(), (q.y() - centre) * 0.95) - 54 - thick - fat + 0.05 * (84 - z);
+  // Chin, the jaw's body up to the ear, skull base.
+  const Vec3 p = build_.unplace(q);
+  const double chin = ellipsoid(p, {0, -2, 124}, {20, 17, 16});
+  const double jaw = segmentDistance(p, {14, 4, 122}, {50, 62, 150}) - 13 - fat;
+  const double mouth = ellipsoid(p, {0, 34, 150}, {50, 50, 36});
+  const double skull = ellipsoid(p, {0, 76, 172}, {70, 84, 66});
+  const double larynx = ellipsoid(p, {0, 16.5, 70}, {9, 10, 16});
+  double head = smoothMin(smoothMin(chin, jaw, 18), smoothMin(mouth, skull, 20), 16);
+  head = smoothMin(head, neck, 24);
+  head = build_.female ? head : smoothMin(head, larynx, 12);
+  const double sternomastoid = segmentDistance(q, {13, 11, 2}, build_.place({54, 62, 118})) - 9;
+  return smoothMin(head, sternomastoid, 12);
+}
+
+double BodySurface::shoulder(const Vec3& q) const {
+  const double bulk = build_.female ? 0 : 4;
+  const double deltoid = ellipsoid(q, acromion_ + Vec3(10, 5, -48), Vec3(35 + bulk, 41 + bulk, 60) + Vec3::Constant(0.7 * build_.softness));
+  return smoothMin(deltoid, arm_(q), 26);
+}
+
+double BodySurface::breast(const Vec3& q) const {
+  // Lying on the back: flattened and a little to the side.
+  const double full = std::sqrt(1 + std::max(build_.softness, -6.0) / 14);
+  const Vec3 centre = build_.place({88, 0, -136});
+  const double y = chest(centre.x(), centre.z()) + 6;
+  return ellipsoid(q, {centre.x(), y, centre.z()}, {57 * full, 34 * full, 52 * full});
+}
+
+double BodySurface::bare(const Vec3& p) const {
   const Vec3 q(mirrored(p.x()), p.y(), p.z());
   // The height's slope makes it steeper than a distance; 0.8 brings both together.
   const double front = 0.8 * (chest(p.x(), p.z()) - p.y());
   // Trapezius: the shoulder's top falls from the neck to the acromion.
-  const double top = 0.95 * (p.z() - 74 + 0.20 * q.x() + 0.0005 * q.x() * q.x());
-  const double trunk = smoothMax(front, top, 46);
-  const double neck = std::hypot(q.x(), (q.y() - 72) * 0.95) - 57 + 0.06 * (84 - q.z());
-  const double deltoid = (q - Vec3(160, 64, -26)).cwiseQuotient(Vec3(1, 1.05, 1.45)).norm() - 40;
-  double shape = smoothMin(trunk, neck, 34);
-  shape = smoothMin(shape, deltoid, 30);
-  const double sternomastoid = segmentDistance(q, {13, 11, 2}, {50, 52, 92}) - 9;
-  shape = smoothMin(shape, sternomastoid, 12);
+  const double acromion = acromion_.x(), top_there = acromion_.z() + 13;
+  const double u = q.x() / acromion;
+  const double top = 0.95 * (p.z() - (top_there + (76 - top_there) * (1 - u) * (1 - 0.45 * u)) - (build_.female ? 0 : 5 * (1 - u)));
+  double shape = smoothMax(smoothMax(front, top, 46), back(q), 30);
+  shape = smoothMin(shape, neckAndJaw(q), 30);
+  shape = smoothMin(shape, shoulder(q), 30);
+  shape = smoothMin(shape, scapula_(q) - skin_ - 0.6 * fat_, 26);
   const double gap = skin_ + fat_ - 3.2;  // over the clavicle the fat is thin
-  shape = smoothMin(shape, clavicle_(q) - gap, 9);
+  shape = smoothMin(shape, clavicle_(q) - std::min(gap, 5 + 0.15 * gap), 9);
   return shape - notch_ * std::exp(-0.5 * p.squaredNorm() / (11 * 11));
 }
 
-double BodySurface::operator()(const Vec3& p) const {
-  double f = living(p);
-  f = smoothMax(f, p.x() - kLateral, 30);
-  for (const double cut : {kMedial - p.x(), kLower - p.z(), p.z() - kUpper, p.y() - kBack})
-    f = smoothMax(f, cut, 7);
+double BodySurface::living(const Vec3& p) const {
+  const double f = bare(p);
+  if (!build_.female || p.z() > -40) return f;
+  return smoothMin(f, breast({mirrored(p.x()), p.y(), p.z()}), 26);
+}
+
+double BodySurface::cut(double f, const Vec3& p) const {
+  for (const double plane : {lower_ - p.z(), p.z() - upper_}) f = smoothMax(f, plane, 9);
   return f;
 }
 
-double BodySurface::front(double l, double z) const {
+double BodySurface::operator()(const Vec3& p) const { return cut(living(p), p); }
+
+double BodySurface::front(double l, double z, bool under_breast) const {
+  const auto field = [&](double y) { return under_breast ? bare({l, y, z}) : living({l, y, z}); };
   // From before the chest inward; no tangent of the field is steeper than the step allows.
-  double outside = -55;
-  while (outside < kBack && (*this)({l, outside + 5, z}) > 0) outside += 5;
-  return findRoot([&](double y) { return (*this)({l, y, z}); }, outside, outside + 5, 1e-7);
+  double outside = kFarFront;
+  while (outside < kFarBack && field(outside + 5) > 0) outside += 5;
+  return findRoot(field, outside, outside + 5, 1e-7);
+}
+
+Vec3 BodySurface::frontNormal(double l, double z) const {
+  return gradient([this](const Vec3& p) { return bare(p); }, {l, front(l, z, true), z}, 2.0).normalized();
 }
 
 TriangleMesh BodySurface::mesh() const {
-  const Eigen::AlignedBox3d box(Vec3(kMedial - 8, -60, kLower - 8),
-                                Vec3(kLateral + 8, kBack + 8, kUpper + 8));
-  return surfaceNets(*this, box, 3.2, 2.5);
+  const double half = acromion_.x() + 110;
+  const Eigen::AlignedBox3d box(Vec3(-half, kFarFront, lower_ - 10), Vec3(half, kFarBack, upper_ + 10));
+  return surfaceNets(*this, box, 3.6, 2.5);
 }
 
 }  // namespace palpa::anatomy

@@ -1,32 +1,50 @@
 #pragma once
 
+#include "anatomy/parametric/build.h"
 #include "anatomy/parametric/clavicle.h"
 
 namespace palpa::anatomy {
 
-/// The skin of the upper chest as a field in frame B, mm: trunk, neck, shoulder, the clavicle
-/// standing out under the skin, the hollows above and below it; flat back, cut at the neck, the
-/// arm, the ribs and just past the midline, so that it stands and lies like a training phantom.
+/// The skin of head-less trunk as a field in frame B, mm: chest with its pectoral relief or breasts, hollows above and
+/// below the clavicle, which stands out under the skin, neck with the sternomastoids, chin and jaw, shoulders, upper
+/// arms, back with the shoulder blades. Alike on both sides; cut through the mouth, the upper arms and below the
+/// seventh rib, as training phantoms are.
 class BodySurface {
  public:
-  BodySurface(const Clavicle& clavicle, const SoftLayers& layers);
+  /// `at_window`: skin, fat and muscle together at the infraclavicular window, mm (PatientParameters::vein_depth).
+  BodySurface(const Clavicle& clavicle, const Build& build, const SoftLayers& layers, double at_window);
 
   double operator()(const Vec3& p) const;
-  /// y of the skin's front at (l, z).
-  double front(double l, double z) const;
+  /// y of the skin's front at (l, z); `under_breast`: of the body without its breasts.
+  double front(double l, double z, bool under_breast = false) const;
+  /// Unit, outward, of the body without its breasts.
+  Vec3 frontNormal(double l, double z) const;
   TriangleMesh mesh() const;
-  /// Skin, fat and muscle together, mm.
-  double layersDepth() const { return skin_ + fat_ + muscle_; }
+
+  /// Depth of the muscle's front under the (breastless) skin at distance a from the midline, mm.
+  double muscleDepth(double a) const { return soft(a) - muscle_; }
+  double soft(double a) const;   ///< skin, fat and muscle together, mm
   double skin() const { return skin_; }
-  double fat() const { return fat_; }
   double muscle() const { return muscle_; }
+  double lower() const { return lower_; }   ///< z of the lower cut
+  double upper() const { return upper_; }
 
  private:
-  double living(const Vec3& p) const;  ///< before the cuts
+  double bare(const Vec3& p) const;     ///< before the cuts, without breasts
+  double living(const Vec3& p) const;   ///< before the cuts
+  double cut(double f, const Vec3& p) const;
   double chest(double l, double z) const;
+  double back(const Vec3& q) const;
+  double neckAndJaw(const Vec3& q) const;
+  double shoulder(const Vec3& q) const;
+  double breast(const Vec3& q) const;
 
-  TubeField clavicle_;
+  TubeField clavicle_, scapula_, arm_;
+  Build build_;
   double skin_, fat_, muscle_;  ///< mm
+  double at_window_, window_a_;
+  Vec3 acromion_;
+  double lower_, upper_;
   double notch_ = 0;            ///< lifts the skin at the notch so that the origin lies on it
 };
 

@@ -97,6 +97,7 @@ Clavicle makeClavicle(double chord_mm, double thickness_mm) {
       first.centre + (first.half_up * first.up + first.half_side * back) / std::numbers::sqrt2;
   const Vec3 sternal = end(first, -1), acromial = end(sections.back(), 1);
   const Vec3 medial = sections[(kSections - 1) / 3].centre;
+  const Vec3 middle = sections[(kSections - 1) / 2].centre;
   const Vec3 lateral = sections[2 * (kSections - 1) / 3].centre;
   return {std::move(sections),
           std::move(mesh),
@@ -105,6 +106,7 @@ Clavicle makeClavicle(double chord_mm, double thickness_mm) {
           corner,
           acromial,
           medial,
+          middle,
           lateral};
 }
 

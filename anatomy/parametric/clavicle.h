@@ -14,7 +14,7 @@ struct Clavicle {
   TriangleMesh mesh;
   TubeField tube;  ///< round stand-in of the bone, for shapes that follow it
   Vec3 sternal_end, sternal_end_posterior_superior, acromial_end;
-  Vec3 medial_third, lateral_third;  ///< on the centre line, at thirds of the arc
+  Vec3 medial_third, middle, lateral_third;  ///< on the centre line, at thirds and half of the arc
 
   double lowerBorder(double fraction) const;  ///< z of the lower border there
 };

@@ -1,5 +1,6 @@
 #include "anatomy/parametric/feasibility.h"
 
+#include <algorithm>
 #include <cmath>
 #include <optional>
 
@@ -9,36 +10,57 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr double kDepthError = 0.02;  // mm, of the fields
+constexpr double kUnderBone = 3.5;    // mm between the clavicle's lower border and the vein at the window
 
 // l of the target, mm from the midline, by preference: behind the medial end of the clavicle.
-constexpr double kMedially[] = {31, 32, 30, 33, 29, 34, 28, 35, 27, 36, 26, 37, 25, 38, 24};
+constexpr double kMedially[] = {31, 33, 29, 35, 27, 25, 23};
+// Depth of the target's centre, mm from the usual one, by preference.
+constexpr double kDeeper[] = {0, 2, -2, 4, -4, 6, -6, 8, -8};
 
 struct Range {
   const char* what;
-  double value_mm, low_mm, high_mm;
+  double value, low, high;
+  const char* unit;
 };
 
 void requireRanges(const PatientParameters& p) {
-  for (const Range& r : {Range{"vein_depth", 1e3 * p.vein_depth, 14, 28},
-                         Range{"vein_diameter", 1e3 * p.vein_diameter, 5, 13},
-                         Range{"pleura_distance", 1e3 * p.pleura_distance, 2, 11},
-                         Range{"clavicle_length", 1e3 * p.clavicle_length, 120, 172},
-                         Range{"clavicle_thickness", 1e3 * p.clavicle_thickness, 9, 15},
-                         Range{"layers.skin", 1e3 * p.layers.skin, 1, 4},
-                         Range{"layers.fat", 1e3 * p.layers.fat, 2, 12},
-                         Range{"layers.muscle", 1e3 * p.layers.muscle, 4, 14}})
-    if (!(r.value_mm >= r.low_mm && r.value_mm <= r.high_mm))
-      throw Error(std::string(r.what) + " is " + std::to_string(r.value_mm) + " mm, outside " +
-                      std::to_string(r.low_mm) + " to " + std::to_string(r.high_mm) + " mm",
+  for (const Range& r : {Range{"height", p.height, 1.40, 2.10, "m"},
+                         Range{"bmi", p.bmi, 15, 50, "kg/m2"},
+                         Range{"vein_depth", 1e3 * p.vein_depth, 6, 34, "mm"},
+                         Range{"vein_diameter", 1e3 * p.vein_diameter, 4, 14, "mm"},
+                         Range{"pleura_distance", 1e3 * p.pleura_distance, 1, 11, "mm"},
+                         Range{"clavicle_length", 1e3 * p.clavicle_length, 120, 178, "mm"},
+                         Range{"clavicle_thickness", 1e3 * p.clavicle_thickness, 9, 15, "mm"},
+                         Range{"layers.skin", 1e3 * p.layers.skin, 1, 4, "mm"},
+                         Range{"layers.fat", 1e3 * p.layers.fat, 1, 20, "mm"},
+                         Range{"layers.muscle", 1e3 * p.layers.muscle, 2.5, 16, "mm"}})
+    if (!(r.value >= r.low && r.value <= r.high))
+      throw Error(std::string(r.what) + " is " + std::to_string(r.value) + " " + r.unit + ", outside " +
+                      std::to_string(r.low) + " to " + std::to_string(r.high) + " " + r.unit,
                   "parametric patient", "Give a value inside the range");
 }
 
-// Depth at which the line from the skin to the target meets the vein's front wall: sphere tracing.
-double frontWallDepth(const Vessels& vessels, const TaughtLine& line) {
-  const Vec3 inward = (line.target - line.target_skin).normalized();
+// The layers at the window: what is over the vein but for some loose tissue.
+double softAtWindow(double depth_mm) { return depth_mm - 2 - 0.08 * depth_mm; }
+
+TaughtLine findLine(const TaughtLineSearch& search, double usual_depth, double radius) {
+  std::optional<Error> first;
+  for (const double deeper : kDeeper)
+    for (const double l : kMedially) {
+      try {
+        return search.find(l, usual_depth + deeper, radius);
+      } catch (const Error& error) {
+        if (!first) first = error;
+      }
+    }
+  throw *first;
+}
+
+// Depth at which the line from the skin inward meets the vein's front wall: sphere tracing.
+double frontWallDepth(const Vessels& vessels, const Vec3& skin, const Vec3& inward) {
   double depth = 0;
   for (int i = 0; i < 200; ++i) {
-    const double distance = vessels.veinField(line.target_skin + depth * inward);
+    const double distance = vessels.veinField(skin + depth * inward);
     depth += distance;
     if (std::abs(distance) < 1e-4) break;
   }
@@ -47,31 +69,31 @@ double frontWallDepth(const Vessels& vessels, const TaughtLine& line) {
 
 }  // namespace
 
-Solution solve(const PatientParameters& parameters) {
-  requireRanges(parameters);
-  const double depth = 1e3 * parameters.vein_depth, radius = 500 * parameters.vein_diameter;
-  const Clavicle clavicle =
-      makeClavicle(1e3 * parameters.clavicle_length, 1e3 * parameters.clavicle_thickness);
-  const BodySurface skin(clavicle, parameters.layers);
-  const TaughtLineSearch search(skin, clavicle);
-  std::optional<Error> first;
-  for (const double l : kMedially) {
-    try {
-      double aim = depth + radius;
-      for (int i = 0; i < 6; ++i) {
-        const TaughtLine line = search.find(l, aim, radius);
-        Vessels vessels = makeVessels(line.target, radius);
-        const double error = depth - frontWallDepth(vessels, line);
-        if (std::abs(error) < kDepthError) return {clavicle, skin, line, std::move(vessels)};
-        aim += error;
-      }
-    } catch (const Error& error) {
-      if (!first) first = error;
-    }
+Build buildOf(const PatientParameters& p) {
+  constexpr double kClavicle = 0.1494, kHeight = 1.70, kPlainBmi = 23;
+  return {p.clavicle_length / kClavicle, p.height / kHeight, std::clamp(1.0 * (p.bmi - kPlainBmi), -5.0, 24.0), p.sex == Sex::female};
+}
+
+Solution solve(const PatientParameters& p) {
+  requireRanges(p);
+  const double depth = 1e3 * p.vein_depth, radius = 500 * p.vein_diameter;
+  const Build build = buildOf(p);
+  const Clavicle clavicle = makeClavicle(1e3 * p.clavicle_length, 1e3 * p.clavicle_thickness);
+  const BodySurface skin(clavicle, build, p.layers, softAtWindow(depth));
+  const double layers = 1e3 * (p.layers.skin + p.layers.fat + p.layers.muscle);
+  const TaughtLine line = findLine(TaughtLineSearch(skin, clavicle), 20 + 0.85 * (layers - 16) + radius, radius);
+
+  const double l = clavicle.middle.x(), z = clavicle.lowerBorder(0.5) - kUnderBone - radius;
+  const Vec3 over(l, skin.front(l, z, true), z), inward = -skin.frontNormal(l, z);
+  double aim = depth + 1.12 * radius;   // the vein is wider there
+  for (int i = 0; i < 8; ++i) {
+    const Vec3 window = over + aim * inward;
+    Vessels vessels = makeVessels(line.target, window, radius, p.side);
+    const double error = depth - frontWallDepth(vessels, over, inward);
+    if (std::abs(error) < kDepthError) return {build, clavicle, skin, line, window, over, std::move(vessels)};
+    aim += error;
   }
-  if (first) throw *first;
-  throw Error("the vein cannot be brought to its depth", "parametric patient",
-              "Choose a vein depth nearer to its mean");
+  throw Error("the vein cannot be brought to its depth", "parametric patient", "Choose a vein depth nearer to its mean");
 }
 
 }  // namespace palpa::anatomy

@@ -6,11 +6,8 @@ namespace palpa::anatomy {
 
 TriangleMesh fromB(const TriangleMesh& mesh_B_mm, Side side) {
   TriangleMesh mesh = mesh_B_mm;
-  for (Vec3& p : mesh.points) p = fromB(p, side);
-  if (side == Side::left) return mesh;
-  for (Vec3& n : mesh.normals) n.x() = -n.x();
-  flip(&mesh);
-  return mesh;
+  for (Vec3& p : mesh.points) p = fromB(p, Side::left);
+  return side == Side::left ? mesh : mirroredMesh(std::move(mesh));
 }
 
 }  // namespace palpa::anatomy

@@ -3,59 +3,76 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/shapes/mesh_tools.h"
 #include "anatomy/shapes/spline.h"
 #include "anatomy/shapes/surface_nets.h"
 
 namespace palpa::anatomy {
 namespace {
 
-Rib makeRib(const std::vector<Vec3>& guides, const Vec3& broad, double half_broad,
-            double half_thick) {
-  const Curve curve(guides);
-  std::vector<Section> sections = sectionsAlong(curve.sample(72), broad);
-  // Round cartilage at the sternum, a slight waist at the joint with the bone, then a flat bar.
-  const Spline broadness{{0, 0.82}, {0.12, 0.90}, {0.24, 0.94}, {0.30, 1.06}, {0.4, 1}, {1, 0.9}};
-  const Spline thickness{{0, 1.40}, {0.12, 1.35}, {0.24, 1.22}, {0.30, 1.24}, {0.4, 1}, {1, 1}};
-  std::vector<TubeField::Station> stations;
-  for (std::size_t i = 0; i < sections.size(); ++i) {
-    const double u = double(i) / (sections.size() - 1);
-    sections[i].half_up = half_broad * broadness(u);
-    sections[i].half_side = half_thick * thickness(u);
-    if (i % 3 == 0 || i + 1 == sections.size())
-      stations.push_back(
-          {sections[i].centre, std::max(sections[i].half_up, sections[i].half_side)});
-  }
-  return {TubeField(std::move(stations)), sweep(sections, 24, 0.7)};
-}
+// y of the sternum's middle: its plane leans backward upward and bends at the sternal angle.
+double sternumMiddle(double z) { return 8.5 + 0.20 * z + (z < -48 ? 0.06 * (-48 - z) : 0.0); }
 
-// Rounded box |p| <= half.
-double roundedBox(const Vec3& p, const Vec3& half, double radius) {
-  const Vec3 q = p.cwiseAbs() - half + Vec3::Constant(radius);
-  return q.cwiseMax(0.0).norm() + std::min(q.maxCoeff(), 0.0) - radius;
-}
-
-double sternumField(const Vec3& p, const Clavicle& clavicle) {
-  const double l = std::abs(p.x()), z = p.z();
-  // Broad above, narrow at the sternal angle, the body below; the plane leans backward upward.
-  const double half = z > -48 ? 15.5 + 13.5 * std::pow((z + 48) / 40, 1.2)
-                              : 16.5 - 1.5 * std::exp((z + 48) / 6) + 0.045 * (-48 - z);
-  const double middle = 8.5 + 0.20 * z + (z < -48 ? 0.06 * (-48 - z) : 0.0);
-  const double plate = roundedBox({0, p.y() - middle, z + 66}, {1, 5.5, 62}, 4);
-  double f = smoothMax(plate, 0.85 * (l - half), 5);
+double sternumField(const Vec3& p, const Clavicle& clavicle, const Build& build) {
+  const double l = std::abs(p.x()), z = p.z(), low = build.unplace(p).z();
+  // Broad above, narrow at the sternal angle, the body below, the xiphoid's tongue at its end.
+  const double body = 16.5 - 1.5 * std::exp(std::min((low + 48) / 6, 0.0)) + 0.045 * (-48 - low);
+  double half = low > -48 ? 15.5 + 13.5 * std::pow((low + 48) / 40, 1.2) : body;
+  if (low < -138) half = std::max(body - 0.85 * (-138 - low), 4.2);
+  // Notches for the cartilages of the ribs.
+  for (const double rib : {-50.0, -82.0, -106.0, -126.0, -141.0}) half -= 2.2 * std::exp(-0.5 * std::pow((low - rib) / 5, 2));
+  const double middle = sternumMiddle(z);
+  const double end = build.place({0, 0, -180}).z();
+  const double thick = low < -150 ? 3.6 : 5.5;
+  double f = smoothMax(std::abs(p.y() - middle) - thick, 0.85 * (l - half), 6);
+  f = smoothMax(smoothMax(f, p.z() + 4, 5), end - p.z(), 6);
   const double notch = 16 - std::hypot(p.x(), z - 9);  // jugular notch
-  const double angle_groove = 1.6 - std::hypot(p.y() - (middle - 6.4), z + 48);
+  const double angle_groove = 1.6 - std::hypot(p.y() - (middle - 6.4), low + 48);
   f = smoothMax(f, notch, 8);
   f = smoothMax(f, angle_groove, 3);
   const double facet = 0.5 - clavicle.tube({l, p.y(), z});  // clavicular notch with its disc
   return smoothMax(f, facet, 8);
 }
 
-// The lung without its neighbours: sections that grow downward from the apex.
-double bareLung(const Vec3& p, double shift_y) {
-  static const Spline half_width{{0, 6},   {5, 12},  {14, 18.5}, {28, 23},
-                                 {45, 28}, {65, 36}, {95, 43},   {165, 48}};
-  static const Spline half_depth{{0, 6},   {5, 11},  {14, 17.5}, {22, 22.5}, {29, 26.5},
-                                 {45, 31}, {65, 33}, {95, 34},   {165, 35}};
+// The middle of the vertebral bodies: T1 to T8, kyphotic.
+Vec3 spineMiddle(const Build& build, double low) {
+  static const Spline y{{-170, 122}, {-120, 118}, {-70, 108}, {-20, 95}, {20, 84}, {50, 76}};
+  return build.place({0, y(low), low});
+}
+
+double spineField(const Vec3& p, const Build& build) {
+  constexpr double kHeight = 21.5, kTop = 34;   // of a vertebra with its disc; upper end of the first
+  const double low = build.unplace(p).z();
+  const Vec3 middle = spineMiddle(build, low);
+  const double phase = 2 * M_PI * (kTop - low) / kHeight;
+  const double waist = 1.1 * std::cos(2 * phase) + 0.9 * std::cos(phase);
+  const double body = 0.9 * (std::hypot(p.x() / 1.15, p.y() - middle.y()) - 13 - 0.9 * waist);
+  // Processes: one backward and down from each vertebra, two to the sides.
+  const double nearest = kTop - kHeight * (std::floor((kTop - low) / kHeight) + 0.5);
+  double processes = 40;
+  for (const double shift : {-kHeight, 0.0, kHeight}) {
+    const double at = nearest + shift;
+    if (at > kTop || at < -160) continue;
+    const Vec3 m = spineMiddle(build, at);
+    const auto bar = [&](const Vec3& a, const Vec3& b, double ra, double rb) {
+      const Vec3 ab = b - a;
+      const double t = std::clamp((p - a).dot(ab) / ab.squaredNorm(), 0.0, 1.0);
+      return (p - a - t * ab).norm() - (ra + t * (rb - ra));
+    };
+    processes = std::min(processes, bar(m + Vec3(0, 16, 0), m + Vec3(0, 40, -17), 5.5, 3));
+    for (const double side : {-1.0, 1.0})
+      processes = std::min(processes, bar(m + Vec3(side * 9, 18, 0), m + Vec3(side * 25, 31, 4), 5, 3.5));
+  }
+  const double arch = std::hypot(p.x(), p.y() - middle.y() - 19) - 9.5;
+  double f = smoothMin(smoothMin(body, arch, 5), processes, 5);
+  f = smoothMax(f, p.z() - build.place({0, 0, kTop}).z(), 4);
+  return smoothMax(f, build.place({0, 0, -160}).z() - p.z(), 4);
+}
+
+// The lung's dome in the root of the neck: sections that grow downward from the apex.
+double dome(const Vec3& p, double shift_y) {
+  static const Spline half_width{{0, 6}, {5, 12}, {14, 18.5}, {28, 23}, {45, 28}, {65, 36}, {95, 43}, {165, 48}};
+  static const Spline half_depth{{0, 6}, {5, 11}, {14, 17.5}, {22, 22.5}, {29, 26.5}, {45, 31}, {65, 33}, {95, 34}, {165, 35}};
   static const Spline centre{{0, 35}, {14, 34}, {28, 33}, {45, 37}, {65, 45}, {95, 54}, {165, 60}};
   constexpr double kApex = 30;
   const double below = kApex - p.z();
@@ -64,62 +81,71 @@ double bareLung(const Vec3& p, double shift_y) {
   const double back = 57.5 - std::min(0.06 * h, 6.0) + shift_y;
   const double u = std::abs((p.x() - centre(h)) / a), v = std::abs((p.y() - back) / b);
   const double power = 2.2 + 0.6 * std::min(h / 100, 1.0);
-  const double side =
-      (std::pow(std::pow(u, power) + std::pow(v, power), 1 / power) - 1) * std::min(a, b);
-  double f = smoothMax(0.8 * side, -below, 12);
-  return smoothMax(f, -132 - p.z(), 10);
+  const double side = (std::pow(std::pow(u, power) + std::pow(v, power), 1 / power) - 1) * std::min(a, b);
+  return smoothMax(smoothMax(0.8 * side, -below, 12), -90 - p.z(), 10);
+}
+
+// What the ribs enclose beside the mediastinum, from the second rib down to the diaphragm's dome.
+double cageSide(const Vec3& p, const Build& build, bool heart) {
+  static const Spline wide{{-215, 122}, {-170, 122}, {-130, 115}, {-95, 104}, {-60, 88}, {-40, 76}, {-20, 60}, {0, 46}, {20, 34}};
+  static const Spline front{{-215, -2}, {-150, -3}, {-110, 2}, {-80, 8}, {-50, 15}, {-20, 27}, {0, 38}, {20, 46}};
+  static const Spline behind{{-215, 136}, {-150, 135}, {-110, 128}, {-70, 116}, {-40, 105}, {-10, 94}, {20, 82}};
+  const Vec3 t = build.unplace(p);
+  const double a = wide(t.z()), yf = front(t.z()), yb = behind(t.z());
+  const double yc = (yf + yb) / 2, b = (yb - yf) / 2;
+  const double u = std::abs(t.x()) / a, v = std::abs(t.y() - yc) / b;
+  double f = 0.8 * (std::pow(std::pow(u, 2.3) + std::pow(v, 2.3), 1 / 2.3) - 1) * std::min(a, b);
+  // Mediastinum: wider for the heart on its side; in front the lungs nearly meet.
+  const double heart_bulge = (heart ? 26 : 10) * std::exp(-0.5 * (std::pow((t.z() + 130) / 42, 2) + std::pow((t.y() - 35) / 32, 2)));
+  const double medial = 15 + 14 * std::exp(-0.5 * std::pow((t.y() - 95) / 26, 2)) + 6 * std::exp(-0.5 * std::pow((t.y() - 50) / 22, 2)) + heart_bulge;
+  f = smoothMax(f, medial - t.x(), 14);
+  f = smoothMax(f, p.z() - build.place({0, 0, 12}).z(), 30);
+  // Diaphragm: a dome higher in the middle of the lung's base.
+  const double r2 = std::pow((t.x() - 72) / 62, 2) + std::pow((t.y() - 62) / 70, 2);
+  const double floor = -190 + 34 * std::max(0.0, 1 - r2);
+  return smoothMax(f, 0.8 * (build.place({0, 0, floor}).z() - p.z()), 9);
 }
 
 }  // namespace
 
-std::vector<Rib> makeRibs(double vein_radius_mm) {
-  const double drop = 1.4 * std::max(0.0, vein_radius_mm - 4.5);
-  std::vector<Rib> ribs;
-  ribs.push_back(makeRib({{25.5, 12, -19},
-                          {40, 21, -20 - drop},
-                          {52, 32, -17.5 - drop},
-                          {59.5, 47, -10 - drop},
-                          {60, 62, -1},
-                          {53, 78, 9},
-                          {40, 90, 16},
-                          {27, 95, 19}},
-                         Vec3(0.35, -0.55, 0.1), 6.5, 3.0));
-  ribs.push_back(makeRib({{19, 2.2, -50},
-                          {40, 6.5, -51},
-                          {64, 15, -50},
-                          {84, 31, -45},
-                          {92, 52, -34},
-                          {86, 74, -19},
-                          {68, 90, -5},
-                          {50, 96, 2}},
-                         Vec3(0.15, -0.25, 1), 6.5, 3.0));
-  ribs.push_back(makeRib({{21, -2.2, -82},
-                          {44, 0.5, -86},
-                          {72, 9, -87},
-                          {96, 27, -83},
-                          {106, 50, -71},
-                          {101, 73, -55},
-                          {84, 90, -40},
-                          {64, 96, -30}},
-                         Vec3(0.05, -0.1, 1), 6.8, 3.2));
-  return ribs;
+TriangleMesh makeSternum(const Clavicle& clavicle, const Build& build) {
+  const auto field = [&](const Vec3& p) { return sternumField(p, clavicle, build); };
+  return surfaceNets(field, {Vec3(-36, -34, build.place({0, 0, -186}).z()), Vec3(36, 26, 6)}, 1.9);
 }
 
-TriangleMesh makeSternum(const Clavicle& clavicle) {
-  const auto field = [&](const Vec3& p) { return sternumField(p, clavicle); };
-  return surfaceNets(field, {Vec3(-36, -26, -134), Vec3(36, 26, 4)}, 1.8);
+TriangleMesh makeSpine(const Build& build) {
+  const auto field = [&](const Vec3& p) { return spineField(p, build); };
+  return surfaceNets(field, {Vec3(-36, 50, build.place({0, 0, -170}).z()), Vec3(36, 176, build.place({0, 0, 42}).z())}, 2.6);
 }
 
-TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, double shift_y,
+std::vector<TubeField> airwayTubes(double handed) {
+  return {TubeField({{{0, 28, 66}, 9}, {{0, 32, 20}, 9}, {{0, 39, 2}, 8.7}, {{-1 * handed, 55, -22}, 8.7}, {{-1 * handed, 69, -48}, 8.7}, {{handed, 76, -62}, 9}}),
+          TubeField({{{handed, 76, -62}, 7.5}, {{handed * 24, 82, -84}, 7}}),
+          TubeField({{{handed, 76, -62}, 6.5}, {{-handed * 24, 84, -86}, 6}})};
+}
+
+TriangleMesh makeAirway(double handed) {
+  const std::vector<TubeField> tubes = airwayTubes(handed);
+  const auto rings = [](double z) { return 0.35 * std::cos(2 * M_PI * z / 5.2); };   // the cartilages show
+  const auto field = [&](const Vec3& p) { return smoothMin(smoothMin(tubes[0](p), tubes[1](p), 5), tubes[2](p), 5) - rings(p.z()); };
+  return surfaceNets(field, {Vec3(-42, 12, -100), Vec3(42, 98, 82)}, 2.0);
+}
+
+TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, const Build& build, double sign, double shift_y,
                       double groove_mm) {
+  const bool heart = sign * vessels.handed < 0;   // on the patient's left
+  const std::vector<TubeField> airway = airwayTubes(vessels.handed);
   const auto field = [&](const Vec3& p) {
-    double f = bareLung(p, shift_y);
+    double f = smoothMin(dome(p, shift_y), cageSide(p, build, heart), 16);
     if (f > 12) return f;
+    const Vec3 there(sign * p.x(), p.y(), p.z());
     for (const Rib& rib : ribs) f = smoothMax(f, 1.5 - rib.tube(p), 8);
-    f = smoothMax(f, 2.5 - vessels.artery(p), 7);
-    return smoothMax(f, groove_mm - vessels.veinField(p), 4);
+    for (const TubeField& tube : airway) f = smoothMax(f, 3 - tube(there), 7);
+    f = smoothMax(f, 2.5 - vessels.arteryField(there), 7);
+    return smoothMax(f, groove_mm - vessels.veinField(there), 4);
   };
-  return surfaceNets(field, {Vec3(-20, 5, -142), Vec3(125, 110, 42)}, 2.8, 2.5);
+  TriangleMesh mesh = surfaceNets(field, {Vec3(-4, -30, build.place({0, 0, -205}).z()), Vec3(build.place({140, 0, 0}).x(), 152, 42)}, 3.2, 2.5);
+  return sign > 0 ? mesh : mirroredMesh(mesh);
 }
 
 }  // namespace palpa::anatomy

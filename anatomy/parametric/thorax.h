@@ -1,23 +1,29 @@
 #pragma once
 
+#include "anatomy/parametric/ribs.h"
 #include "anatomy/parametric/vessels.h"
 
 namespace palpa::anatomy {
 
-/// Bones and pleura of the upper thorax (frame B, mm).
-struct Rib {
-  TubeField tube;     ///< round stand-in, for shapes that keep away from it
-  TriangleMesh mesh;  ///< flat bar, its cartilage thicker at the sternum
-};
-/// The first three ribs; the first lies lower under a wide vein.
-std::vector<Rib> makeRibs(double vein_radius_mm);
+/// What the chest wall holds together (frame B, mm); whole bones, both sides of the midline.
 
-/// Manubrium with notch and clavicular facets, and the upper body of the sternum.
-TriangleMesh makeSternum(const Clavicle& clavicle);
+/// Manubrium with notch and clavicular facets, body, xiphoid.
+TriangleMesh makeSternum(const Clavicle& clavicle, const Build& build);
 
-/// The lung with its dome in the root of the neck, moved back by `shift_y`. It keeps `groove` from
-/// the vein's wall (which presses a groove into it), and clear of artery and ribs.
-TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, double shift_y,
+/// The upper eight thoracic vertebrae in one: bodies, discs, spinous processes.
+TriangleMesh makeSpine(const Build& build);
+
+/// Trachea from the larynx to its fork, and the main bronchi up to the lungs. `handed`: see vessels.h.
+std::vector<TubeField> airwayTubes(double handed);
+TriangleMesh makeAirway(double handed);
+
+/// The shoulder blade of the +l side: blade, spine with acromion behind the clavicle's end, coracoid, socket.
+TriangleMesh makeScapula(const Clavicle& clavicle, const Build& build);
+Vec3 coracoid(const Clavicle& clavicle);   ///< its tip
+
+/// The lung of the +l side (`sign` 1) or of the other with its dome in the root of the neck, moved back by `shift_y`.
+/// It keeps `groove` from the veins' walls (which press grooves into it), and clear of arteries, airway and ribs.
+TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, const Build& build, double sign, double shift_y,
                       double groove_mm);
 
 }  // namespace palpa::anatomy

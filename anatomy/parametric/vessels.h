@@ -4,17 +4,21 @@
 
 namespace palpa::anatomy {
 
-/// The great vessels of the root of the neck (frame B, mm). The vein runs from the axilla under the
-/// clavicle through the taught line's target to the confluence with the internal jugular vein and
-/// on as brachiocephalic vein; the artery runs behind and above it over the first rib.
+/// The great vessels of both sides (frame B, mm). On either side the vein runs from the axilla past the
+/// infraclavicular window and under the clavicle through the taught line's target to the confluence with the internal
+/// jugular vein; the brachiocephalic veins join in the superior vena cava on the patient's right. The arteries run
+/// behind and above the veins; they come from the aortic arch, on the right by way of the brachiocephalic trunk.
 struct Vessels {
-  TubeField vein, jugular, artery;
-  double veinField(const Vec3& p) const;  ///< both veins, joined smoothly
+  double handed = 1;   ///< 1: the patient's right is at +l, -1: his left
+  std::vector<TubeField> veins, arteries;
 
+  double veinField(const Vec3& p) const;     ///< joined smoothly
+  double arteryField(const Vec3& p) const;
   TriangleMesh veinMesh() const;
   TriangleMesh arteryMesh() const;
 };
 
-Vessels makeVessels(const Vec3& vein_target, double vein_radius_mm);
+/// `window`: the vein's centre at the infraclavicular window; `target`: on the taught line.
+Vessels makeVessels(const Vec3& target, const Vec3& window, double vein_radius_mm, Side side);
 
 }  // namespace palpa::anatomy

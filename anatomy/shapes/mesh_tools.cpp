@@ -18,6 +18,13 @@ void flip(TriangleMesh* mesh) {
   for (auto& t : mesh->triangles) std::swap(t[1], t[2]);
 }
 
+TriangleMesh mirroredMesh(TriangleMesh mesh) {
+  for (Vec3& p : mesh.points) p.x() = -p.x();
+  for (Vec3& n : mesh.normals) n.x() = -n.x();
+  flip(&mesh);
+  return mesh;
+}
+
 double signedVolume(const TriangleMesh& mesh) {
   double six = 0;
   for (const auto& t : mesh.triangles)

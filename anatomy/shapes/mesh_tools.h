@@ -10,6 +10,9 @@ void computeNormals(TriangleMesh* mesh);
 /// Turns every triangle round.
 void flip(TriangleMesh* mesh);
 
+/// The mirror image across x = 0, still facing outward.
+TriangleMesh mirroredMesh(TriangleMesh mesh);
+
 /// Volume enclosed by a closed mesh; positive when the triangles face outward.
 double signedVolume(const TriangleMesh& mesh);
 

@@ -16,13 +16,23 @@ namespace {
 
 struct PatientOptions {
   std::string file, side = "right", out = "patient.glb", unit, organ;
+  std::string sex;
+  double height = 0, bmi = 0;   ///< 0: not stated
   std::uint64_t seed = 0;
 };
+
+anatomy::Person personOf(const PatientOptions& o) {
+  anatomy::Person person;
+  if (!o.sex.empty()) person.sex = o.sex == "f" ? anatomy::Sex::female : anatomy::Sex::male;
+  if (o.height != 0) person.height = o.height;
+  if (o.bmi != 0) person.bmi = o.bmi;
+  return person;
+}
 
 anatomy::Patient build(const PatientOptions& o) {
   return anatomy::buildPatient(anatomy::drawParameters(
       station::assetFile("patients/reference.json").string(),
-      o.side == "left" ? anatomy::Side::left : anatomy::Side::right, o.seed));
+      o.side == "left" ? anatomy::Side::left : anatomy::Side::right, o.seed, personOf(o)));
 }
 
 void tell(const anatomy::Patient& patient) {
@@ -117,9 +127,12 @@ void addPatient(CLI::App& program) {
   patient->require_subcommand(1);
   const auto o = std::make_shared<PatientOptions>();
   CLI::App* make = patient->add_subcommand("build", "Build a patient from the reference figures");
-  make->footer("Example:\n  palpa patient build --side left --seed 3 --out p.glb");
+  make->footer("Examples:\n  palpa patient build --sex f --height 1.68 --bmi 24 --side right --seed 3 --out p.glb\n  palpa patient build --bmi 38 --seed 4 --out heavy.glb      (what is not stated is drawn, too)");
   make->add_option("--side", o->side, "Side that is punctured")->check(CLI::IsMember({"right", "left"}));
-  make->add_option("--seed", o->seed, "0: the reference patient; others are drawn from the spreads")
+  make->add_option("--sex", o->sex, "f or m (default: drawn)")->check(CLI::IsMember({"f", "m"}));
+  make->add_option("--height", o->height, "Metres (default: drawn)");
+  make->add_option("--bmi", o->bmi, "Body mass index, kg/m2 (default: drawn)");
+  make->add_option("--seed", o->seed, "0: the means of such a person; others are drawn from the spreads")
       ->check(CLI::NonNegativeNumber);
   make->add_option("--out", o->out, "File to write (.glb)")->type_name("FILE");
   make->callback([o] {

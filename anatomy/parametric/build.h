@@ -1,0 +1,31 @@
+#pragma once
+
+#include "anatomy/parametric_patient.h"
+
+namespace palpa::anatomy {
+
+/// How this body differs in size from the one that the shapes are written for (1.70 m, clavicle 149.4 mm). Around
+/// the sternoclavicular joint nothing is scaled: what decides the manoeuvre there is solved for.
+struct Build {
+  double wide = 1;   ///< of what lies more than 20 mm from the midline
+  double tall = 1;   ///< of what lies more than 30 mm above or below the notch
+  double softness = 0;  ///< mm of fat beyond the body's that the shapes are written for
+  bool female = true;
+
+  /// A point of the shapes' body (B, mm) in this one; either side.
+  Vec3 place(const Vec3& p) const {
+    const double a = std::abs(p.x()), z = p.z();
+    const double x = std::copysign(a <= 20 ? a : 20 + (a - 20) * wide, p.x());
+    return {x, p.y(), std::abs(z) <= 30 ? z : std::copysign(30 + (std::abs(z) - 30) * tall, z)};
+  }
+  /// The other way.
+  Vec3 unplace(const Vec3& p) const {
+    const double a = std::abs(p.x()), z = p.z();
+    const double x = std::copysign(a <= 20 ? a : 20 + (a - 20) / wide, p.x());
+    return {x, p.y(), std::abs(z) <= 30 ? z : std::copysign(30 + (std::abs(z) - 30) / tall, z)};
+  }
+};
+
+Build buildOf(const PatientParameters& parameters);
+
+}  // namespace palpa::anatomy
