@@ -59,11 +59,13 @@ Lungs lungsAtDistance(const Solution& s, const std::vector<Rib>& ribs, double ra
   // The dome stands where it just reaches into the groove.
   double shift_y = target.y() + distance - 29.2;
   double groove = distance;
+  const double reach = radius + distance + 12;
+  const Eigen::AlignedBox3d near_target(Vec3(target.array() - reach), Vec3(target.array() + reach));
   for (int i = 0; i < 8; ++i) {
-    TriangleMesh lung = makeLung(s.vessels, ribs, s.build, 1, shift_y, groove);
-    const double found = TriangleTree(lung).closest(target).signed_distance - radius;
+    const TriangleMesh pleura = makeLung(s.vessels, ribs, s.build, 1, shift_y, groove, near_target);
+    const double found = pleura.triangles.empty() ? 2 * distance : (TriangleTree(pleura).closest(target).p - target).norm() - radius;
     if (std::abs(found - distance) < kGoodEnough)
-      return {std::move(lung), makeLung(s.vessels, ribs, s.build, -1, shift_y, groove)};
+      return {makeLung(s.vessels, ribs, s.build, 1, shift_y, groove), makeLung(s.vessels, ribs, s.build, -1, shift_y, groove)};
     groove += 0.6 * (distance - found);
     if (found > distance) shift_y += 0.7 * (distance - found);  // the dome did not reach so far
   }

@@ -50,15 +50,24 @@ TubeField draped(const std::vector<Section>& sections) {
   return TubeField(std::move(stations));
 }
 
+// Held a little away from the body; cut 15 cm below the acromion.
+struct Arm {
+  Vec3 top, end;
+};
+Arm armAxis(const Vec3& acromion, const Build& build) {
+  const Vec3 top = acromion + Vec3(4, 4, -36);
+  return {top, top + 118 * build.tall * Vec3(0.36, 0.06, -0.93).normalized()};
+}
+
 TubeField armOf(const Vec3& acromion, const Build& build) {
-  const double bulk = build.female ? 0 : 5, fat = 0.7 * build.softness;
-  return TubeField({{acromion + Vec3(2, 3, -34), 36 + bulk + fat},
-                    {acromion + Vec3(20, 8, -66 * build.tall), 37 + bulk + fat},
-                    {acromion + Vec3(34, 12, -104 * build.tall), 35 + bulk + fat}});
+  const double bulk = build.female ? 0 : 4, fat = 0.7 * build.softness;
+  const auto [top, end] = armAxis(acromion, build);
+  const Vec3 beyond = end + 60 * (end - top).normalized();
+  return TubeField({{top, 31 + bulk + fat}, {(top + end) / 2, 34 + bulk + fat}, {end, 33 + bulk + fat}, {beyond, 31 + bulk + fat}});
 }
 
 TubeField scapulaOf(const Vec3& acromion, const Build& build) {
-  return TubeField({{build.place({86, 137, -8}), 6}, {acromion + Vec3(-14, 34, -2), 7}, {acromion + Vec3(6, 8, -1), 8}});
+  return TubeField({{build.place({90, 152, -118}), 4}, {build.place({78, 137, -14}), 5}, {acromion + Vec3(-14, 34, -2), 7}, {acromion + Vec3(6, 8, -1), 8}});
 }
 
 }  // namespace
@@ -75,7 +84,7 @@ BodySurface::BodySurface(const Clavicle& clavicle, const Build& build, const Sof
       window_a_(clavicle.middle.x()),
       acromion_(clavicle.acromial_end),
       lower_(build.place({0, 0, -232}).z()),
-      upper_(build.place({0, 0, 128}).z()) {
+      upper_(build.place({0, 0, 340}).z()) {
   notch_ = living(Vec3::Zero());
 }
 
@@ -88,32 +97,33 @@ double BodySurface::soft(double a) const {
 
 // The front of the trunk as a height y(l, z): smaller is further forward.
 double BodySurface::chest(double l, double z) const {
-  const double a = mirrored(l);
-  const double low = build_.unplace({0, 0, z}).z();
+  const Vec3 there = build_.unplace({l, 0, z});
+  const double a = mirrored(there.x()), low = there.z();
   const double sagittal = 15 * std::tanh(low / 60) + 0.10 * low;
-  const double across = a / 66 / (0.5 + 0.5 * build_.wide);
+  const double across = a / 66;
   const double rounding =
       (1.2 + 2.2 * softStep(z + 25, 30) + 6 * softStep(z - 30, 20)) * across * across + 1.0 * std::pow(across, 4);
-  const double pectoral = -(build_.female ? 6 : 9) * hill(a, low, 78, -66, 42, 34);
-  const double fold = build_.female ? 0 : 4 * hill(a, low, 70, -132, 46, 16);   // under the pectoral muscle
+  const double pectoral = -(build_.female ? 6 : 13) * hill(a, low, 76, -72, 40, 34);
+  const double fold = build_.female ? 0 : 5 * hill(a, low, 72, -128, 44, 15);   // under the pectoral muscle
   const double sternal_groove = 3.5 * hill(a, 0, 0, 0, 15, 1) * softStep(-z - 22, 10);
   const double deltopectoral = 6 * hill(a, z, 116, -8, 15, 22);
-  const double infraclavicular = 7.5 * hill(a, z, 59, -9, 15, 14);
+  const double infraclavicular = (7.5 + 0.8 * std::max(0.0, kPlainSoft - skin_ - fat_ - muscle_)) * hill(a, z, 59, -9, 15, 14);   // deeper in the lean
   const double supraclavicular = 9 * hill(a, z, 66, 38, 24, 12);
   const double beside = 1 - hill(a, 0, 0, 0, 20, 1);
   const double belly = build_.softness * 0.8 * softStep(-low - 110, 40);
   return sagittal + rounding + pectoral + fold + sternal_groove + deltopectoral + infraclavicular + supraclavicular -
-         (soft(a) - kPlainSoft) * beside - belly;
+         (soft(std::abs(l)) - kPlainSoft) * beside - belly;
 }
 
 // Sides and back: an oval whose back follows the spine's curve, with a furrow over the spine.
 double BodySurface::back(const Vec3& q) const {
   static const Spline wide{{-232, 134}, {-150, 137}, {-90, 141}, {-40, 145}, {10, 142}, {60, 120}, {90, 90}};
-  static const Spline deep{{-232, 152}, {-170, 160}, {-110, 160}, {-50, 148}, {0, 132}, {50, 118}, {100, 112}};
+  static const Spline deep{{-232, 166}, {-170, 176}, {-110, 178}, {-50, 168}, {0, 150}, {50, 128}, {100, 116}};
   const double z = build_.unplace(q).z();
-  const double half = wide(z) * build_.wide + 0.8 * build_.softness, middle = 66;
+  const double fat = std::max(0.8 * build_.softness, -1.5);
+  const double half = wide(z) * build_.wide + fat, middle = 66;
   const double furrow = 5 * hill(q.x(), 0, 0, 0, 11, 1) * softStep(-z + 20, 20);
-  const double half_deep = deep(z) + 0.8 * build_.softness - furrow - middle;
+  const double half_deep = deep(z) + fat - furrow - middle;
   const double u = std::abs(q.x()) / half, v = std::abs(q.y() - middle) / (q.y() > middle ? half_deep : 160.0);
   return 0.85 * (std::pow(std::pow(u, 2.7) + std::pow(v, 2.7), 1 / 2.7) - 1) * half_deep;
 }
@@ -123,16 +133,22 @@ double BodySurface::neckAndJaw(const Vec3& q) const {
   const double fat = 0.45 * build_.softness;
   const double z = build_.unplace(q).z();
   const double centre = 66 - 0.10 * std::max(z, 0.0);
-  const double neck = std::hypot(q.x(), (q.y() - centre) * 0.95) - 54 - thick - fat + 0.05 * (84 - z);
-  // Chin, the jaw's body up to the ear, skull base.
+  const double round = std::hypot(q.x(), (q.y() - centre) * 0.95) - 54 - thick - fat + 0.05 * (84 - z);
+  const double neck = smoothMax(round, z - 150, 30);
+  // A mannequin's head: skull, jaw, chin, nose, brow, sockets, no more.
   const Vec3 p = build_.unplace(q);
-  const double chin = ellipsoid(p, {0, -2, 124}, {20, 17, 16});
-  const double jaw = segmentDistance(p, {14, 4, 122}, {50, 62, 150}) - 13 - fat;
-  const double mouth = ellipsoid(p, {0, 34, 150}, {50, 50, 36});
-  const double skull = ellipsoid(p, {0, 76, 172}, {70, 84, 66});
+  const double skull = ellipsoid(p, {0, 74, 236}, {73, 92, 84});
+  const double face = ellipsoid(p, {0, 26, 190}, {57, 47, 70});
+  const double chin = ellipsoid(p, {0, -6, 132}, {20, 15, 15});
+  const double jaw = segmentDistance(p, {16, 2, 130}, {54, 58, 168}) - 12 - fat;
+  const double cheek = ellipsoid(p, {38, 10, 196}, {21, 24, 20});
+  const double nose = segmentDistance(p, {0, -16, 218}, {0, -31, 188}) - 8.5;
+  const double lips = ellipsoid(p, {0, -15, 160}, {20, 9, 8});
+  const double socket = 9 - (p - Vec3(31, -23, 218)).norm();
   const double larynx = ellipsoid(p, {0, 16.5, 70}, {9, 10, 16});
-  double head = smoothMin(smoothMin(chin, jaw, 18), smoothMin(mouth, skull, 20), 16);
-  head = smoothMin(head, neck, 24);
+  double head = smoothMin(smoothMin(chin, jaw, 18), smoothMin(face, skull, 26), 16);
+  head = smoothMax(smoothMin(smoothMin(head, cheek, 16), lips, 10), socket, 22);
+  head = smoothMin(smoothMin(head, nose, 10), neck, 24);
   head = build_.female ? head : smoothMin(head, larynx, 12);
   const double sternomastoid = segmentDistance(q, {13, 11, 2}, build_.place({54, 62, 118})) - 9;
   return smoothMin(head, sternomastoid, 12);
@@ -140,16 +156,17 @@ double BodySurface::neckAndJaw(const Vec3& q) const {
 
 double BodySurface::shoulder(const Vec3& q) const {
   const double bulk = build_.female ? 0 : 4;
-  const double deltoid = ellipsoid(q, acromion_ + Vec3(10, 5, -48), Vec3(35 + bulk, 41 + bulk, 60) + Vec3::Constant(0.7 * build_.softness));
-  return smoothMin(deltoid, arm_(q), 26);
+  const double deltoid = ellipsoid(q, acromion_ + Vec3(9, 5, -44), Vec3(31 + bulk, 38 + bulk, 54) + Vec3::Constant(0.7 * build_.softness));
+  const auto [top, end] = armAxis(acromion_, build_);
+  return smoothMin(deltoid, smoothMax(arm_(q), (q - end).dot((end - top).normalized()), 9), 26);
 }
 
 double BodySurface::breast(const Vec3& q) const {
   // Lying on the back: flattened and a little to the side.
-  const double full = std::sqrt(1 + std::max(build_.softness, -6.0) / 14);
-  const Vec3 centre = build_.place({88, 0, -136});
-  const double y = chest(centre.x(), centre.z()) + 6;
-  return ellipsoid(q, {centre.x(), y, centre.z()}, {57 * full, 34 * full, 52 * full});
+  const double full = std::sqrt(1 + std::max(build_.softness, -6.0) / 26);
+  const Vec3 centre = build_.place({90, 0, -134});
+  const double y = chest(centre.x(), centre.z()) + 9;
+  return ellipsoid(q, {centre.x(), y, centre.z()}, {58 * full, 29 * full, 55 * full});
 }
 
 double BodySurface::bare(const Vec3& p) const {
@@ -165,14 +182,14 @@ double BodySurface::bare(const Vec3& p) const {
   shape = smoothMin(shape, shoulder(q), 30);
   shape = smoothMin(shape, scapula_(q) - skin_ - 0.6 * fat_, 26);
   const double gap = skin_ + fat_ - 3.2;  // over the clavicle the fat is thin
-  shape = smoothMin(shape, clavicle_(q) - std::min(gap, 5 + 0.15 * gap), 9);
+  shape = smoothMin(shape, clavicle_(q) - std::min(gap, 5 + 0.15 * gap), 8);
   return shape - notch_ * std::exp(-0.5 * p.squaredNorm() / (11 * 11));
 }
 
 double BodySurface::living(const Vec3& p) const {
   const double f = bare(p);
   if (!build_.female || p.z() > -40) return f;
-  return smoothMin(f, breast({mirrored(p.x()), p.y(), p.z()}), 26);
+  return smoothMin(f, breast({mirrored(p.x()), p.y(), p.z()}), 34);
 }
 
 double BodySurface::cut(double f, const Vec3& p) const {
@@ -197,7 +214,8 @@ Vec3 BodySurface::frontNormal(double l, double z) const {
 TriangleMesh BodySurface::mesh() const {
   const double half = acromion_.x() + 110;
   const Eigen::AlignedBox3d box(Vec3(-half, kFarFront, lower_ - 10), Vec3(half, kFarBack, upper_ + 10));
-  return surfaceNets(*this, box, 3.6, 2.5);
+  const double size = 0.5 * build_.wide + 0.5 * build_.tall + 0.01 * std::max(build_.softness, 0.0);
+  return surfaceNets(*this, box, 4.35 * size, 2.5);
 }
 
 }  // namespace palpa::anatomy

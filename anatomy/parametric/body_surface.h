@@ -5,9 +5,9 @@
 
 namespace palpa::anatomy {
 
-/// The skin of head-less trunk as a field in frame B, mm: chest with its pectoral relief or breasts, hollows above and
-/// below the clavicle, which stands out under the skin, neck with the sternomastoids, chin and jaw, shoulders, upper
-/// arms, back with the shoulder blades. Alike on both sides; cut through the mouth, the upper arms and below the
+/// The skin of head and trunk as a field in frame B, mm: chest with its pectoral relief or breasts, hollows above and
+/// below the clavicle, which stands out under the skin, neck with the sternomastoids, a mannequin's head, shoulders, upper
+/// arms, back with the shoulder blades. Alike on both sides; cut through the upper arms and below the
 /// seventh rib, as training phantoms are.
 class BodySurface {
  public:

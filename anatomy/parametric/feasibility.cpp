@@ -13,7 +13,7 @@ constexpr double kDepthError = 0.02;  // mm, of the fields
 constexpr double kUnderBone = 3.5;    // mm between the clavicle's lower border and the vein at the window
 
 // l of the target, mm from the midline, by preference: behind the medial end of the clavicle.
-constexpr double kMedially[] = {31, 33, 29, 35, 27, 25, 23};
+constexpr double kMedially[] = {31, 33, 29, 35, 27, 25, 23, 21, 19};
 // Depth of the target's centre, mm from the usual one, by preference.
 constexpr double kDeeper[] = {0, 2, -2, 4, -4, 6, -6, 8, -8};
 
@@ -26,8 +26,8 @@ struct Range {
 void requireRanges(const PatientParameters& p) {
   for (const Range& r : {Range{"height", p.height, 1.40, 2.10, "m"},
                          Range{"bmi", p.bmi, 15, 50, "kg/m2"},
-                         Range{"vein_depth", 1e3 * p.vein_depth, 6, 34, "mm"},
-                         Range{"vein_diameter", 1e3 * p.vein_diameter, 4, 14, "mm"},
+                         Range{"vein_depth", 1e3 * p.vein_depth, 4.9, 35.1, "mm"},
+                         Range{"vein_diameter", 1e3 * p.vein_diameter, 3.9, 14.1, "mm"},
                          Range{"pleura_distance", 1e3 * p.pleura_distance, 1, 11, "mm"},
                          Range{"clavicle_length", 1e3 * p.clavicle_length, 120, 178, "mm"},
                          Range{"clavicle_thickness", 1e3 * p.clavicle_thickness, 9, 15, "mm"},
@@ -43,16 +43,21 @@ void requireRanges(const PatientParameters& p) {
 // The layers at the window: what is over the vein but for some loose tissue.
 double softAtWindow(double depth_mm) { return depth_mm - 2 - 0.08 * depth_mm; }
 
+// In a lean person with a short clavicle a wide vein keeps the line farther from the bone: better that than no line.
 TaughtLine findLine(const TaughtLineSearch& search, double usual_depth, double radius) {
+  const TaughtLimits usual;
+  TaughtLimits wide;
+  wide.highest_clearance = std::max(usual.highest_clearance, radius + usual.vein_to_bone + 0.2);
   std::optional<Error> first;
-  for (const double deeper : kDeeper)
-    for (const double l : kMedially) {
-      try {
-        return search.find(l, usual_depth + deeper, radius);
-      } catch (const Error& error) {
-        if (!first) first = error;
+  for (const TaughtLimits& limits : {usual, wide})
+    for (const double deeper : kDeeper)
+      for (const double l : kMedially) {
+        try {
+          return search.find(l, usual_depth + deeper, radius, limits);
+        } catch (const Error& error) {
+          if (!first) first = error;
+        }
       }
-    }
   throw *first;
 }
 

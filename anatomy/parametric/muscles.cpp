@@ -58,7 +58,7 @@ TriangleMesh makePectoralisMajor(const BodySurface& skin, const Clavicle& clavic
     const double half = skin.muscle() / 2 * rounded(u, 0.10) * rounded(v, 0.07);
     return SheetPoint{on_skin - n * (skin.muscleDepth(std::abs(f.x())) + skin.muscle() / 2), n, half - fibres(u, v, 13), half};
   };
-  return sheet(at, 36, 84);
+  return sheet(at, 30, 66);
 }
 
 TriangleMesh makePectoralisMinor(const Clavicle& clavicle, const Build& build) {

@@ -18,7 +18,7 @@ Vec3 coracoid(const Clavicle& clavicle) { return clavicle.acromial_end + Vec3(-2
 
 TriangleMesh makeScapula(const Clavicle& clavicle, const Build& build) {
   const Vec3 acromion = clavicle.acromial_end;
-  const Vec3 superior = build.place({72, 124, 16}), inferior = build.place({88, 158, -122});
+  const Vec3 superior = build.place({72, 122, 14}), inferior = build.place({90, 156, -122});
   const Vec3 root = build.place({76, 140, -14}), socket = acromion + Vec3(-6, 30, -42);
   const Vec3 neck = socket + Vec3(-14, 8, 2), tip = acromion + Vec3(10, 7, -3);
   // The spine of the scapula rises from the blade and ends as the acromion behind and beside the clavicle's end.
@@ -37,7 +37,7 @@ TriangleMesh makeScapula(const Clavicle& clavicle, const Build& build) {
     box.extend(Vec3(p.array() - 26));
     box.extend(Vec3(p.array() + 26));
   }
-  return surfaceNets(field, box, 2.1);
+  return surfaceNets(field, box, 2.8);
 }
 
 }  // namespace palpa::anatomy

@@ -19,13 +19,13 @@ constexpr double kNormalStep = 1.6;  // half a cell of the skin's mesh, which sh
 // The skin's front from the midline to beyond the entry as a fine mesh: its nearest point is the
 // nearest of all, where a descent on the field could stop at another side of the clavicle's ridge.
 TriangleTree frontOf(const BodySurface& skin, double lateral) {
-  constexpr double kMedial = 2, kLower = -42, kUpper = 38, kCell = 1.6;
-  const int columns = static_cast<int>((lateral - kMedial) / kCell);
-  const int rows = static_cast<int>((kUpper - kLower) / kCell);
+  constexpr double kFirst = 2, kLowest = -42, kHighest = 38, kCell = 1.6;
+  const int columns = static_cast<int>((lateral - kFirst) / kCell);
+  const int rows = static_cast<int>((kHighest - kLowest) / kCell);
   TriangleMesh patch;
   for (int r = 0; r < rows; ++r)
     for (int c = 0; c < columns; ++c) {
-      const double l = kMedial + kCell * c, z = kLower + kCell * r;
+      const double l = kFirst + kCell * c, z = kLowest + kCell * r;
       patch.points.emplace_back(l, skin.front(l, z), z);
       if (r == 0 || c == 0) continue;
       const auto here = static_cast<std::uint32_t>(patch.points.size() - 1);

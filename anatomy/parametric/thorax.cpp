@@ -87,7 +87,7 @@ double dome(const Vec3& p, double shift_y) {
 
 // What the ribs enclose beside the mediastinum, from the second rib down to the diaphragm's dome.
 double cageSide(const Vec3& p, const Build& build, bool heart) {
-  static const Spline wide{{-215, 122}, {-170, 122}, {-130, 115}, {-95, 104}, {-60, 88}, {-40, 76}, {-20, 60}, {0, 46}, {20, 34}};
+  static const Spline wide{{-215, 124}, {-170, 124}, {-130, 119}, {-95, 108}, {-60, 91}, {-40, 78}, {-20, 60}, {0, 46}, {20, 34}};
   static const Spline front{{-215, -2}, {-150, -3}, {-110, 2}, {-80, 8}, {-50, 15}, {-20, 27}, {0, 38}, {20, 46}};
   static const Spline behind{{-215, 136}, {-150, 135}, {-110, 128}, {-70, 116}, {-40, 105}, {-10, 94}, {20, 82}};
   const Vec3 t = build.unplace(p);
@@ -115,13 +115,13 @@ TriangleMesh makeSternum(const Clavicle& clavicle, const Build& build) {
 
 TriangleMesh makeSpine(const Build& build) {
   const auto field = [&](const Vec3& p) { return spineField(p, build); };
-  return surfaceNets(field, {Vec3(-36, 50, build.place({0, 0, -170}).z()), Vec3(36, 176, build.place({0, 0, 42}).z())}, 2.6);
+  return surfaceNets(field, {Vec3(-36, 50, build.place({0, 0, -170}).z()), Vec3(36, 176, build.place({0, 0, 42}).z())}, 3.2);
 }
 
 std::vector<TubeField> airwayTubes(double handed) {
-  return {TubeField({{{0, 28, 66}, 9}, {{0, 32, 20}, 9}, {{0, 39, 2}, 8.7}, {{-1 * handed, 55, -22}, 8.7}, {{-1 * handed, 69, -48}, 8.7}, {{handed, 76, -62}, 9}}),
+  return {TubeField({{{0, 28, 66}, 9}, {{0, 32, 20}, 9}, {{-1 * handed, 42, 2}, 8.5}, {{-2 * handed, 59.5, -22}, 8.5}, {{-1 * handed, 70, -48}, 8.6}, {{handed, 76, -62}, 9}}),
           TubeField({{{handed, 76, -62}, 7.5}, {{handed * 24, 82, -84}, 7}}),
-          TubeField({{{handed, 76, -62}, 6.5}, {{-handed * 24, 84, -86}, 6}})};
+          TubeField({{{handed, 76, -62}, 6.5}, {{-handed * 24, 66, -90}, 6}})};
 }
 
 TriangleMesh makeAirway(double handed) {
@@ -132,7 +132,7 @@ TriangleMesh makeAirway(double handed) {
 }
 
 TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, const Build& build, double sign, double shift_y,
-                      double groove_mm) {
+                      double groove_mm, const Eigen::AlignedBox3d& part) {
   const bool heart = sign * vessels.handed < 0;   // on the patient's left
   const std::vector<TubeField> airway = airwayTubes(vessels.handed);
   const auto field = [&](const Vec3& p) {
@@ -144,7 +144,9 @@ TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, cons
     f = smoothMax(f, 2.5 - vessels.arteryField(there), 7);
     return smoothMax(f, groove_mm - vessels.veinField(there), 4);
   };
-  TriangleMesh mesh = surfaceNets(field, {Vec3(-4, -30, build.place({0, 0, -205}).z()), Vec3(build.place({140, 0, 0}).x(), 152, 42)}, 3.2, 2.5);
+  Eigen::AlignedBox3d box(Vec3(-4, -30, build.place({0, 0, -205}).z()), Vec3(build.place({140, 0, 0}).x(), 152, 42));
+  if (!part.isEmpty()) box = box.intersection(part);
+  TriangleMesh mesh = surfaceNets(field, box, 3.5, 2.5);
   return sign > 0 ? mesh : mirroredMesh(mesh);
 }
 

@@ -23,7 +23,8 @@ Vec3 coracoid(const Clavicle& clavicle);   ///< its tip
 
 /// The lung of the +l side (`sign` 1) or of the other with its dome in the root of the neck, moved back by `shift_y`.
 /// It keeps `groove` from the veins' walls (which press grooves into it), and clear of arteries, airway and ribs.
+/// `part`: of it alone (an open surface), where that is all one needs.
 TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, const Build& build, double sign, double shift_y,
-                      double groove_mm);
+                      double groove_mm, const Eigen::AlignedBox3d& part = {});
 
 }  // namespace palpa::anatomy

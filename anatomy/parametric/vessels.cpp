@@ -109,11 +109,11 @@ double Vessels::veinField(const Vec3& p) const { return joined(veins, p, 5); }
 double Vessels::arteryField(const Vec3& p) const { return joined(arteries, p, 4); }
 
 TriangleMesh Vessels::veinMesh() const {
-  return tubesMesh([this](const Vec3& p) { return veinField(p); }, veins, 1.5);
+  return tubesMesh([this](const Vec3& p) { return veinField(p); }, veins, 1.6);
 }
 
 TriangleMesh Vessels::arteryMesh() const {
-  return tubesMesh([this](const Vec3& p) { return arteryField(p); }, arteries, 1.7);
+  return tubesMesh([this](const Vec3& p) { return arteryField(p); }, arteries, 2.0);
 }
 
 Vessels makeVessels(const Vec3& target, const Vec3& window, double vein_radius_mm, Side side) {
@@ -130,8 +130,8 @@ Vessels makeVessels(const Vec3& target, const Vec3& window, double vein_radius_m
   }
   v.veins.push_back(through({{{20, 38, -42}, 0, 0, 8.2}, {{23, 43, -64}, 0, 0, 9.2}, {{24, 50, -100}, 0, 0, 9.6}}, none, 1, r));
   // Ascending aorta, arch, descending aorta; brachiocephalic trunk; the two common carotids.
-  v.arteries.push_back(through({{{-2, 46, -112}, 0, 0, 13.5}, {{0, 46, -80}, 0, 0, 13.2}, {{-6, 50, -60}, 0, 0, 12.6}, {{-18, 60, -54}, 0, 0, 12}, {{-27, 76, -62}, 0, 0, 11.6}, {{-30, 92, -86}, 0, 0, 11.4}, {{-28, 102, -130}, 0, 0, 11}, {{-24, 106, -165}, 0, 0, 10.6}}, none, 1, r));
-  v.arteries.push_back(through({{{-3, 50, -55}, 0, 0, 6.6}, {{6, 46.5 + wide, -32}, 0, 0, 6.2}, {{13, 46 + wide, -14}, 0, 0, 5.9}, {{16, 47 + wide, -4}, 0, 0, 5.4}}, none, 1, r));
+  v.arteries.push_back(through({{{-2, 46, -112}, 0, 0, 13.5}, {{0, 46, -80}, 0, 0, 13.2}, {{-6, 50, -60}, 0, 0, 12.6}, {{-20, 58, -53}, 0, 0, 12}, {{-27, 76, -62}, 0, 0, 11.6}, {{-30, 92, -86}, 0, 0, 11.4}, {{-28, 102, -130}, 0, 0, 11}, {{-24, 106, -165}, 0, 0, 10.6}}, none, 1, r));
+  v.arteries.push_back(through({{{-3, 50, -55}, 0, 0, 6.6}, {{8, 47.5 + wide, -32}, 0, 0, 6.0}, {{15.5, 47 + wide, -14}, 0, 0, 5.6}, {{16, 47 + wide, -4}, 0, 0, 5.4}}, none, 1, r));
   v.arteries.push_back(through({{{16, 47 + wide, -4}, 0, 0, 3.8}, {{20, 51 + wide, 20}, 0, 0, 3.5}, {{25, 52, 58}, 0, 0, 3.4}, {{29, 54, 92}, 0, 0, 3.4}}, none, 1, r));
   v.arteries.push_back(through({{{-12, 56, -54}, 0, 0, 4.4}, {{-14, 55 + wide, -26}, 0, 0, 4.1}, {{-18, 53 + wide, 4}, 0, 0, 3.7}, {{-22, 52 + wide, 26}, 0, 0, 3.5}, {{-26, 52, 58}, 0, 0, 3.4}, {{-29, 54, 92}, 0, 0, 3.4}}, none, 1, r));
   return v;
