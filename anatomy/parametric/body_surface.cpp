@@ -188,7 +188,7 @@ double BodySurface::bare(const Vec3& p) const {
 
 double BodySurface::living(const Vec3& p) const {
   const double f = bare(p);
-  if (!build_.female || p.z() > -40) return f;
+  if (!build_.female) return f;
   return smoothMin(f, breast({mirrored(p.x()), p.y(), p.z()}), 34);
 }
 
