@@ -80,7 +80,7 @@ std::vector<Layer> makeLayers() {
        {},
        app_libraries},
       {"apps/cli", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON", "CLI11"}},
-      {"apps/bench", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON"}},
+      {"apps/bench", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON", "VTK", "VTK data", "Embree"}},
       {"apps",
        librariesAnd({"apps"}),
        {"apps/twin"},
@@ -130,7 +130,8 @@ std::string libraryOf(const std::string& header) {
       {"CLI/", "CLI11"},       {"sqlite3", "SQLite"},
       {"pqxx/", "PostgreSQL"}, {"zlib", "zlib"},
       {"httplib", "httplib"},  {"igtl", "OpenIGTLink"},
-      {"boost/", "Boost"},     {"glm/", "GLM"}};
+      {"boost/", "Boost"},     {"glm/", "GLM"},
+      {"embree3/", "Embree"}};
   for (const auto& [prefix, library] : kPrefixes)
     if (begins(header, prefix)) return library;
   return "";
