@@ -10,6 +10,8 @@ namespace {
 // Single precision rounds a box's distance from the segment by less than this part of the coordinates.
 constexpr float kSlack = 1e-6f;
 
+float limitAbove(double squared) { return static_cast<float>(squared * (1 + 1e-5)); }
+
 }  // namespace
 
 TriangleTree::SegmentDistance TriangleTree::nearSegment(const Vec3& a, const Vec3& b) const {
@@ -37,8 +39,10 @@ TriangleTree::SegmentDistance TriangleTree::nearSegment(const Vec3& a, const Vec
       if (!(node.low[0][lane] <= node.high[0][lane])) least[lane] = std::numeric_limits<float>::infinity();
     return least;
   };
-  SegmentToTriangle best{std::numeric_limits<double>::infinity(), 0, Vec3::Zero()};
-  std::uint32_t nearest = 0;
+  // No farther than its beginning: what is farther than that need not be looked at.
+  const Nearest at_a = search(a);
+  SegmentToTriangle best{at_a.squared, 0, at_a.weights};
+  std::uint32_t nearest = at_a.triangle;
   const auto leaf = [&](std::uint32_t child, float) {
     for (std::uint32_t i = leafBegin(child); i < leafEnd(child); ++i) {
       const SegmentToTriangle found = segmentToTriangle(a, b, corners_[i]);
@@ -46,9 +50,9 @@ TriangleTree::SegmentDistance TriangleTree::nearSegment(const Vec3& a, const Vec
       best = found;
       nearest = i;
     }
-    return static_cast<float>(best.squared * (1 + 1e-5));
+    return limitAbove(best.squared);
   };
-  descend(bound, leaf, std::numeric_limits<float>::infinity());
+  descend(bound, leaf, limitAbove(best.squared));
   const auto& t = corners_[nearest];
   const Vec3 p = best.weights[0] * t[0] + best.weights[1] * t[1] + best.weights[2] * t[2];
   const Vec3 on = a + best.s * (b - a);

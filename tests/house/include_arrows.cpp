@@ -52,6 +52,7 @@ std::vector<Layer> makeLayers() {
   const Names app_libraries{"Eigen", "OpenCV", "JSON"};
   return {
       {"anatomy/geometry", {}, {}, {"Eigen"}},
+      {"anatomy/deflection", {"anatomy/geometry"}, {}, {"Eigen"}},
       {"haptics/materials", {"anatomy/geometry"}, {}, {"Eigen"}},
       {"haptics/sensors", {"haptics", "anatomy/geometry"}, {}, {"Eigen"}},
       {"anatomy", {}, {}, {"Eigen", "JSON", "tinygltf", "GDCM", "VTK data"}},
