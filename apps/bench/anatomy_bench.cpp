@@ -5,11 +5,13 @@
 #include <cmath>
 
 #include "anatomy/parametric_patient.h"
+#include "anatomy/skin_dimple.h"
 #include "anatomy/surface_query.h"
 #include "apps/bench/bumpy_torso.h"
 #include "apps/bench/metric.h"
 #include "apps/bench/point_locators.h"
 #include "apps/bench/query_timing.h"
+#include "apps/runtime/clock.h"
 #include "apps/runtime/random.h"
 #include "apps/station/assets.h"
 
@@ -112,9 +114,7 @@ std::vector<NeedlePlace> needles(const anatomy::Patient& patient, int count) {
   return places;
 }
 
-void benchNeedle(bool quick) {
-  const anatomy::Patient patient = anatomy::buildPatient(anatomy::drawParameters(
-      station::assetFile("patients/reference.json").string(), anatomy::Side::right, 0));
+void benchNeedle(const anatomy::Patient& patient, bool quick) {
   const anatomy::SurfaceQuery query(patient);
   std::size_t triangles = 0;
   for (const auto& organ : patient.organs) triangles += organ.mesh.triangles.size();
@@ -135,11 +135,43 @@ void benchNeedle(bool quick) {
   print("near_miss_all_organs_cold_median", timeCold(cold, near).median_us, "us", params);
 }
 
+/// A contact that moves over the skin, deeper and shallower, and leans: every update is another load.
+void benchSkin(const anatomy::Patient& patient, bool quick) {
+  anatomy::SkinDeflection::Settings settings;
+  settings.per_ring = 84;
+  const runtime::SteadyClock clock;
+  const std::int64_t start = clock.now();
+  anatomy::SkinDeflection skin(settings);
+  const double factorised_us = 1e-3 * static_cast<double>(clock.now() - start);
+  const int count = quick ? 160 : 1600;
+  const auto update = [&](int i) { skin.update(0.003 * std::sin(0.1 * i), {0.9 * std::cos(0.07 * i), 0.3}); };
+  const nlohmann::json params{{"nodes", skin.disc().nodes.size()}, {"noise", "none"}};
+  const QueryTiming timing = timeQueries(count, update);
+  print("skin_deflection_set_up", factorised_us, "us", params);
+  print("skin_deflection_update", timing.median_us, "us", params);
+  print("skin_deflection_update_p99", timing.p99_us, "us", params);
+
+  const anatomy::TriangleMesh& mesh = patient.organ(Organ::skin).mesh;
+  anatomy::SkinDimple dimple(mesh, settings);
+  const Vec3 entry = patient.landmark(anatomy::landmark::kEntry);
+  std::size_t moved = 0;
+  const auto press = [&](int i) {
+    const Vec3 p = entry + 0.005 * Vec3(std::sin(0.01 * i), 0, std::cos(0.013 * i));
+    moved = dimple.press({p, -Vec3::UnitY(), 0.003, Vec3::UnitX()}).size();
+  };
+  const QueryTiming whole = timeQueries(count, press);
+  print("skin_deflection_frame", whole.median_us, "us",
+        {{"nodes", skin.disc().nodes.size()}, {"vertices", mesh.points.size()}, {"vertices_moved", moved}, {"noise", "none"}});
+}
+
 }  // namespace
 
 void benchAnatomy(const AnatomyBenchOptions& options) {
   benchClosest(options.quick);
-  benchNeedle(options.quick);
+  const anatomy::Patient patient = anatomy::buildPatient(anatomy::drawParameters(
+      station::assetFile("patients/reference.json").string(), anatomy::Side::right, 0));
+  benchNeedle(patient, options.quick);
+  benchSkin(patient, options.quick);
 }
 
 }  // namespace palpa::bench

@@ -8,15 +8,15 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kCell = 0.002;
+constexpr double kOnionCell = 0.002;
 /// A chord of an edge e sags by e^2 / 8 R, an edge is at most 2.5 cells.
-double sag(double radius) { return 6.25 * kCell * kCell / (8 * radius); }
+double onionSag(double radius) { return 6.25 * kOnionCell * kOnionCell / (8 * radius); }
 
 /// Spheres about the origin, one in the other: skin 50 mm, muscle 40 mm, lung 30 mm.
 Patient onion() {
   Patient patient;
   for (const auto& [organ, radius] : {std::pair(Organ::muscle, 0.04), {Organ::skin, 0.05}, {Organ::lung, 0.03}})
-    patient.organs.push_back({name(organ), organ, sphereMesh(radius, kCell), {1, 1, 1, 1}});
+    patient.organs.push_back({name(organ), organ, sphereMesh(radius, kOnionCell), {1, 1, 1, 1}});
   return patient;
 }
 
@@ -31,11 +31,11 @@ TEST(Needle, MeetsTheLayersFromOutsideIn) {
     const NeedlePass& pass = passes.pass[i];
     const double radius = 0.05 - 0.01 * i;
     EXPECT_EQ(pass.organ, order[i]);
-    EXPECT_NEAR(pass.enter, 0.08 - radius, sag(radius));
+    EXPECT_NEAR(pass.enter, 0.08 - radius, onionSag(radius));
     EXPECT_DOUBLE_EQ(pass.leave, 0.09);
     EXPECT_TRUE(pass.ends_inside && !pass.starts_inside);
     EXPECT_LT(pass.n_enter_A.x(), -0.99);
-    EXPECT_NEAR(passes.depth(order[i]), 0.01 + radius, sag(radius));
+    EXPECT_NEAR(passes.depth(order[i]), 0.01 + radius, onionSag(radius));
   }
   EXPECT_EQ(passes.depth(Organ::vein), 0);
 }
@@ -47,7 +47,7 @@ TEST(Needle, ThatGoesThroughLeavesInTheOppositeOrder) {
   ASSERT_EQ(passes.count, 3);
   for (int i = 0; i < 3; ++i) {
     const double radius = 0.05 - 0.01 * i;
-    EXPECT_NEAR(passes.pass[i].length(), 2 * radius, 2 * sag(radius));
+    EXPECT_NEAR(passes.pass[i].length(), 2 * radius, 2 * onionSag(radius));
     EXPECT_GT(passes.pass[i].n_leave_A.x(), 0.99);
     EXPECT_FALSE(passes.pass[i].ends_inside);
   }

@@ -87,8 +87,8 @@ TEST(SegmentDistance, OfAMeshIsThatOfEveryTriangleTried) {
 }
 
 TEST(SegmentDistance, OfASphereIsTheClosedForm) {
-  constexpr double kRadius = 0.05, kCell = 0.002, kSag = 6.25 * kCell * kCell / (8 * kRadius);
-  const SurfaceQuery query(patientOf(sphereMesh(kRadius, kCell), Organ::lung));
+  constexpr double kBall = 0.05, kBallCell = 0.002, kBallSag = 6.25 * kBallCell * kBallCell / (8 * kBall);
+  const SurfaceQuery query(patientOf(sphereMesh(kBall, kBallCell), Organ::lung));
   RandomStream random(13);
   int outside = 0, through = 0, within = 0;
   for (int i = 0; i < 1500; ++i) {
@@ -97,15 +97,15 @@ TEST(SegmentDistance, OfASphereIsTheClosedForm) {
     const double near = (a + t * (b - a)).norm(), far = std::max(a.norm(), b.norm());
     double s = -1;
     const SurfacePoint found = query.nearSegment(0, a, b, &s);
-    if (near > kRadius + kSag) {
-      EXPECT_NEAR(found.distance, near - kRadius, kSag);
+    if (near > kBall + kBallSag) {
+      EXPECT_NEAR(found.distance, near - kBall, kBallSag);
       ++outside;
-    } else if (far < kRadius - kSag) {
-      EXPECT_NEAR(found.distance, far - kRadius, kSag);
+    } else if (far < kBall - kBallSag) {
+      EXPECT_NEAR(found.distance, far - kBall, kBallSag);
       ++within;
-    } else if (near < kRadius - kSag && far > kRadius + kSag) {
+    } else if (near < kBall - kBallSag && far > kBall + kBallSag) {
       EXPECT_EQ(found.distance, 0);
-      EXPECT_NEAR(found.p_A.norm(), kRadius, kSag);
+      EXPECT_NEAR(found.p_A.norm(), kBall, kBallSag);
       ++through;
     }
     EXPECT_NEAR((a + s * (b - a) - found.p_A).norm(), std::abs(found.distance), 1e-12);

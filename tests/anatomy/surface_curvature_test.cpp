@@ -9,7 +9,7 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kBig = 0.05, kSmall = 0.02;   // of the torus
+constexpr double kTorusBig = 0.05, kTorusSmall = 0.02;   // of the torus
 
 /// A closed grid over two angles, its points pushed about by `uneven` of a cell so that no triangle is regular.
 template <class Point, class Normal>
@@ -34,7 +34,7 @@ TriangleMesh grid(int rows, int columns, double uneven, Point point, Normal norm
 
 Vec3 torusNormal(double u, double v) { return {std::cos(u) * std::cos(v), std::sin(u) * std::cos(v), std::sin(v)}; }
 Vec3 torusPoint(double u, double v) {
-  return Vec3(kBig * std::cos(u), kBig * std::sin(u), 0) + kSmall * torusNormal(u, v);
+  return Vec3(kTorusBig * std::cos(u), kTorusBig * std::sin(u), 0) + kTorusSmall * torusNormal(u, v);
 }
 TriangleMesh torus(int rows, double uneven) { return grid(rows, rows / 2, uneven, torusPoint, torusNormal); }
 
@@ -46,10 +46,10 @@ double torusError(const TriangleMesh& mesh) {
   for (int i = 0; i < 1000; ++i) {
     const double u = 2 * M_PI * random.uniform(), v = 2 * M_PI * random.uniform();
     const CurvedPoint at = query.curved(0, torusPoint(u, v));
-    const double across = std::cos(v) / (kBig + kSmall * std::cos(v));
-    worst = std::max({worst, std::abs(at.curvature.k1 - 1 / kSmall), std::abs(at.curvature.k2 - across)});
+    const double across = std::cos(v) / (kTorusBig + kTorusSmall * std::cos(v));
+    worst = std::max({worst, std::abs(at.curvature.k1 - 1 / kTorusSmall), std::abs(at.curvature.k2 - across)});
   }
-  return worst * kSmall;
+  return worst * kTorusSmall;
 }
 
 TEST(Curvature, OfASphereIsOneOverItsRadius) {
@@ -68,6 +68,7 @@ TEST(Curvature, OfASphereIsOneOverItsRadius) {
     RecordProperty("as_meshed_percent", std::to_string(100 * worst()));
     EXPECT_LT(worst(), 0.03);
     for (std::size_t i = 0; i < mesh.points.size(); ++i) mesh.normals[i] = mesh.points[i].normalized();
+    RecordProperty("with_exact_normals_percent", std::to_string(100 * worst()));
     EXPECT_LT(worst(), 0.01);
   }
 }
@@ -77,25 +78,30 @@ TEST(Curvature, OfATubeIsOneOverItsRadiusAndNothingAlongIt) {
   const TriangleMesh mesh = capsuleMesh({-0.03, 0, 0}, {0.03, 0, 0}, radius, 60, 64);
   const SurfaceQuery query(patientOf(mesh, Organ::vein));
   RandomStream random(8);
+  double worst = 0;
   for (int i = 0; i < 500; ++i) {
     const double turn = 2 * M_PI * random.uniform(), x = 0.04 * (random.uniform() - 0.5);
     const CurvedPoint at = query.curved(0, {x, radius * std::cos(turn), radius * std::sin(turn)});
-    EXPECT_NEAR(at.curvature.k1 * radius, 1, 0.01);
-    EXPECT_NEAR(at.curvature.k2 * radius, 0, 0.01);
+    worst = std::max({worst, std::abs(at.curvature.k1 * radius - 1), std::abs(at.curvature.k2 * radius)});
     EXPECT_GT(std::abs(at.curvature.d2.x()), 0.999);
     EXPECT_NEAR(at.curvature.d1.dot(at.n_A), 0, 1e-12);
     EXPECT_NEAR(at.curvature.d1.cross(at.curvature.d2).dot(at.n_A), 1, 1e-12);
   }
+  RecordProperty("percent", std::to_string(100 * worst));
+  EXPECT_LT(worst, 0.01);
 }
 
 TEST(Curvature, OfATorusFallsWithTheSquareOfTheEdge) {
   const double coarse = torusError(torus(60, 0)), fine = torusError(torus(120, 0));
+  RecordProperty("percent", std::to_string(100 * coarse));
   EXPECT_LT(coarse, 0.02);
   EXPECT_NEAR(std::log2(coarse / fine), 2, 0.4);
 }
 
 TEST(Curvature, OfATorusOfUnevenTrianglesStaysNear) {
   const double coarse = torusError(torus(80, 0.5)), fine = torusError(torus(240, 0.5));
+  RecordProperty("coarse_percent", std::to_string(100 * coarse));
+  RecordProperty("fine_percent", std::to_string(100 * fine));
   EXPECT_LT(coarse, 0.10);
   EXPECT_LT(fine, 0.5 * coarse);
 }
