@@ -46,14 +46,7 @@ class Checker {
     findings_.push_back({what, value, unit, ok, wanted});
   }
 
-  double distanceToLine(int index) const {
-    constexpr int kSamples = 240;
-    double least = kNone;
-    for (int i = 0; i <= kSamples; ++i)
-      least = std::min(least,
-                       query_.closest(index, entry_ + (target_ - entry_) * i / kSamples).distance);
-    return least;
-  }
+  double distanceToLine(int index) const { return query_.nearSegment(index, entry_, target_).distance; }
 
   void checkLine() {
     const Vec3 way = target_ - entry_, direction = way.normalized();

@@ -3,13 +3,21 @@
 #include <algorithm>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/needle_passes.h"
+#include "anatomy/plane_fit.h"
 #include "anatomy/triangle_tree.h"
 #include "anatomy/tube_fit.h"
 
 namespace palpa::anatomy {
+namespace {
+
+constexpr int kCrossingsAtOnce = 128;  // with one surface
+
+}  // namespace
 
 struct SurfaceQuery::Impl {
   std::vector<TriangleTree> trees;
+  std::vector<std::vector<ShapeOperator>> shapes;
   std::vector<Organ> organs;
 };
 
@@ -20,6 +28,7 @@ SurfaceQuery::SurfaceQuery(const Patient& patient) : impl_(std::make_unique<Impl
       throw Error("the surface \"" + surface.id + "\" has no triangles", "patient " + patient.name,
                   "Leave the surface out or give it a mesh");
     impl_->trees.emplace_back(surface.mesh);
+    impl_->shapes.push_back(vertexShapeOperators(surface.mesh));
     impl_->organs.push_back(surface.organ);
   }
 }
@@ -28,9 +37,19 @@ SurfaceQuery::~SurfaceQuery() = default;
 SurfaceQuery::SurfaceQuery(SurfaceQuery&&) noexcept = default;
 SurfaceQuery& SurfaceQuery::operator=(SurfaceQuery&&) noexcept = default;
 
+int SurfaceQuery::surfaces() const { return static_cast<int>(impl_->trees.size()); }
+
 SurfacePoint SurfaceQuery::closest(int surface, const Vec3& p_A) const {
   const TriangleTree::Closest nearest = impl_->trees.at(surface).closest(p_A);
   return {nearest.p, nearest.normal, nearest.signed_distance};
+}
+
+CurvedPoint SurfaceQuery::curved(int surface, const Vec3& p_A) const {
+  const TriangleTree::Closest nearest = impl_->trees.at(surface).closest(p_A);
+  const std::vector<ShapeOperator>& shapes = impl_->shapes[surface];
+  ShapeOperator S = ShapeOperator::Zero();
+  for (int k = 0; k < 3; ++k) S += nearest.weights[k] * shapes[nearest.corners[k]];
+  return {{nearest.p, nearest.normal, nearest.signed_distance}, principalCurvatures(S, nearest.normal)};
 }
 
 SurfacePoint SurfaceQuery::rounded(int surface, const Vec3& p_A) const {
@@ -41,12 +60,20 @@ SurfacePoint SurfaceQuery::rounded(int surface, const Vec3& p_A) const {
 std::vector<RayHit> SurfaceQuery::cast(const Vec3& start_A, const Vec3& direction_A,
                                        double length) const {
   std::vector<RayHit> hits;
-  std::vector<TriangleTree::Crossing> crossings;
+  std::vector<TriangleTree::Crossing> crossings(kCrossingsAtOnce);
   for (std::size_t i = 0; i < impl_->trees.size(); ++i) {
-    crossings.clear();
-    impl_->trees[i].cast(start_A, direction_A, length, &crossings);
-    for (const auto& c : crossings)
+    bool lost = true;
+    int count = 0;
+    while (true) {
+      count = impl_->trees[i].cast(start_A, direction_A, length, crossings.data(),
+                                   static_cast<int>(crossings.size()), &lost);
+      if (!lost) break;
+      crossings.resize(2 * crossings.size());
+    }
+    for (int k = 0; k < count; ++k) {
+      const auto& c = crossings[k];
       hits.push_back({c.s, c.normal, impl_->organs[i], static_cast<int>(i), c.entering});
+    }
   }
   std::stable_sort(hits.begin(), hits.end(), [](const RayHit& a, const RayHit& b) {
     return a.s < b.s || (a.s == b.s && a.surface < b.surface);
@@ -54,10 +81,59 @@ std::vector<RayHit> SurfaceQuery::cast(const Vec3& start_A, const Vec3& directio
   return hits;
 }
 
+void SurfaceQuery::needle(const Vec3& start_A, const Vec3& tip_A, NeedlePasses* passes) const {
+  const Vec3 way = tip_A - start_A;
+  passes->count = 0;
+  passes->lost = false;
+  passes->length = way.norm();
+  if (!(passes->length > 0)) return;
+  std::array<TriangleTree::Crossing, kCrossingsAtOnce> crossings;
+  for (int i = 0; i < surfaces(); ++i) {
+    const TriangleTree& tree = impl_->trees[i];
+    bool lost = false;
+    const int count = tree.cast(start_A, way / passes->length, passes->length, crossings.data(),
+                                kCrossingsAtOnce, &lost);
+    passes->lost |= lost;
+    if (count > 0) {
+      addPasses({crossings.data(), static_cast<std::size_t>(count)}, impl_->organs[i], i, passes);
+    } else if (tree.bounds().contains(tip_A) && inside(i, tip_A)) {
+      addWhole(impl_->organs[i], i, passes);
+    }
+  }
+}
+
+SurfacePoint SurfaceQuery::nearSegment(int surface, const Vec3& a_A, const Vec3& b_A, double* s) const {
+  const TriangleTree::SegmentDistance near = impl_->trees.at(surface).nearSegment(a_A, b_A);
+  if (s) *s = near.s;
+  return {near.p, near.normal, near.signed_distance};
+}
+
+int SurfaceQuery::nearMisses(const Vec3& tip_A, const Vec3& back_A, std::span<NearMiss> misses) const {
+  const int count = std::min(surfaces(), static_cast<int>(misses.size()));
+  for (int i = 0; i < count; ++i) {
+    const SurfacePoint tip = closest(i, tip_A);
+    NearMiss& miss = misses[i];
+    const SurfacePoint shaft = nearSegment(i, tip_A, back_A, &miss.shaft_s);
+    miss.organ = impl_->organs[i];
+    miss.surface = i;
+    miss.tip = tip.distance;
+    miss.shaft = shaft.distance;
+    miss.tip_A = tip.p_A;
+    miss.shaft_A = shaft.p_A;
+  }
+  return count;
+}
+
+SurfaceQuery::TangentPlane SurfaceQuery::tangentPlane(int surface, const Vec3& p_A, double reach) const {
+  const SurfacePoint near = closest(surface, p_A);
+  const PlaneFit fit = fitPlaneTo(impl_->trees[surface], near.p_A, near.n_A, reach);
+  return {near.p_A, fit.n, fit.rms};
+}
+
 bool SurfaceQuery::fitTube(int surface, const Vec3& p_A, double reach, Tube* tube) const {
   const TriangleTree& tree = impl_->trees.at(surface);
   if (tree.bounds().squaredExteriorDistance(p_A) > reach * reach) return false;
-  const TubeFit fit = fitTubeTo(tree.points(), tree.normals(), p_A, reach);
+  const TubeFit fit = fitTubeTo(tree, p_A, reach);
   if (!fit.ok) return false;
   *tube = {fit.a, fit.b, fit.radius, fit.rms};
   return true;

@@ -8,9 +8,11 @@
 
 namespace palpa::anatomy {
 
-/// Bounding volume hierarchy over one mesh: exact closest point and all ray crossings, in the
-/// mesh's unit. Flat array, median split of the longest axis, four triangles a leaf. Immutable;
-/// queries use only the stack, so threads may share it.
+/// Bounding volume hierarchy over one mesh: exact closest point to a point or a segment and all ray
+/// crossings, in the mesh's unit. Nodes of four boxes in single precision, widened so that nothing is
+/// missed; split by the surface-area heuristic (Wald 2007); the triangles' corners lie beside each other in leaf
+/// order, in double precision, and every answer is computed from them. Immutable; queries use only
+/// the stack, so threads may share it.
 class TriangleTree {
  public:
   explicit TriangleTree(const TriangleMesh& mesh);
@@ -19,6 +21,8 @@ class TriangleTree {
     Vec3 p;       ///< on the surface
     Vec3 normal;  ///< interpolated from the vertices, unit
     double signed_distance;
+    std::array<std::uint32_t, 3> corners;  ///< vertices of the nearest triangle, as in the mesh
+    Vec3 weights;                          ///< barycentric, of `p`
   };
   /// The sign is that of the angle-weighted pseudonormal of the nearest face, edge or vertex
   /// (Baerentzen and Aanaes 2005): right for every closed mesh.
@@ -27,43 +31,70 @@ class TriangleTree {
   /// The nearest facet rounded as its vertices' normals ask for: see `roundedPoint`.
   Closest rounded(const Vec3& p) const;
 
+  struct SegmentDistance {
+    double signed_distance;  ///< 0 where the segment meets the surface; negative where all of it is inside
+    double s;                ///< 0..1: the segment's nearest point a + s (b - a)
+    Vec3 p;                  ///< the surface's
+    Vec3 normal;             ///< interpolated there, unit
+  };
+  /// Least distance between the segment a-b and the surface, exact: not sampled.
+  SegmentDistance nearSegment(const Vec3& a, const Vec3& b) const;
+
   struct Crossing {
     double s;
     Vec3 normal;
     bool entering;
   };
-  /// Appends the crossings of start + s * direction (unit), 0 <= s <= length, unordered; one that
-  /// runs through an edge or a vertex shared by several triangles counts once.
-  void cast(const Vec3& start, const Vec3& direction, double length,
-            std::vector<Crossing>* crossings) const;
+  /// The crossings of start + s * direction (unit), 0 <= s <= length, unordered; one that runs through an edge
+  /// or a vertex shared by several triangles counts once. Writes at most `room` of them and returns how many it
+  /// wrote; `*lost` is set when there were more.
+  int cast(const Vec3& start, const Vec3& direction, double length, Crossing* crossings, int room, bool* lost) const;
+
+  /// Calls f(vertex) for every vertex of a triangle within `reach` of `centre`, each once, always in the same order.
+  template <class F>
+  void forVerticesWithin(const Vec3& centre, double reach, F f) const;
 
   const std::vector<Vec3>& points() const { return points_; }
   const std::vector<Vec3>& normals() const { return normals_; }
-  Eigen::AlignedBox3d bounds() const { return nodes_.front().box; }
+  const Eigen::AlignedBox3d& bounds() const { return bounds_; }
 
  private:
+  friend class TriangleTreeBuilder;
   using Corners = std::array<std::uint32_t, 3>;
-  struct Node {
-    Eigen::AlignedBox3d box;
-    std::uint32_t first = 0, count = 0;  ///< leaf: triangles first .. first + count
-    std::uint32_t right = 0;             ///< inner: left child is the next node
+  using Lanes = Eigen::Array4f;
+  /// Four children; boxes about `centre_`. A lane without a child has an empty box at infinity.
+  struct alignas(64) Node {
+    Lanes low[3], high[3];
+    std::array<std::uint32_t, 4> child;
   };
+  // A child is a node's index, or a leaf: a flag, how many triangles it has, and the first one's index.
+  static constexpr std::uint32_t kLeaf = 1u << 31, kFirst = (1u << 28) - 1;
+  static constexpr int kCountShift = 28;
+  static std::uint32_t leafBegin(std::uint32_t child) { return child & kFirst; }
+  static std::uint32_t leafEnd(std::uint32_t child) {
+    return (child & kFirst) + ((child & ~kLeaf) >> kCountShift);
+  }
   struct Nearest {
     double squared;
     std::uint32_t triangle = 0;
     Vec3 weights = Vec3::Zero();  ///< barycentric
     Vec3 p = Vec3::Zero();
   };
+  template <class Bound, class Leaf>
+  void descend(Bound bound, Leaf leaf, float limit) const;
   Nearest search(const Vec3& p) const;
-  std::uint32_t split(std::uint32_t first, std::uint32_t count, std::vector<Vec3>* centres);
+  void searchLeaf(std::uint32_t child, const Vec3& p, Nearest* best) const;
   void makePseudonormals();
-  void searchLeaf(const Node& node, const Vec3& p, Nearest* best) const;
   Vec3 pseudonormal(const Nearest& nearest) const;
   Vec3 interpolated(std::uint32_t triangle, const Vec3& weights) const;
 
   std::vector<Vec3> points_, normals_;
-  std::vector<Corners> triangles_;  ///< in leaf order
+  std::vector<Corners> triangles_;              ///< in leaf order
+  std::vector<std::array<Vec3, 3>> corners_;    ///< their points
+  std::vector<std::uint8_t> first_use_;         ///< bit k: no earlier triangle has corner k
   std::vector<Node> nodes_;
+  Eigen::AlignedBox3d bounds_;
+  Vec3 centre_ = Vec3::Zero();
   std::vector<Vec3> face_normals_, vertex_pseudonormals_;
   std::vector<std::array<Vec3, 3>> edge_pseudonormals_;  ///< edge k runs from corner k to k + 1
 };
@@ -73,8 +104,6 @@ class TriangleTree {
 /// power of its edges, not the second. `weights` barycentric.
 Vec3 roundedPoint(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n, const Vec3& weights);
 
-/// Closest point of triangle abc to p as barycentric weights (Ericson, Real-Time Collision
-/// Detection, 5.1.5: by Voronoi regions).
-Vec3 closestWeights(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c);
-
 }  // namespace palpa::anatomy
+
+#include "anatomy/triangle_tree_walk.h"

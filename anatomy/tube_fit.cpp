@@ -14,20 +14,6 @@ double weight(double squared_distance, double reach) {
   return w > 0 ? w * w : 0;
 }
 
-struct Weighted {
-  std::uint32_t vertex;
-  double weight;
-};
-
-std::vector<Weighted> near(const std::vector<Vec3>& points, const Vec3& centre, double reach) {
-  std::vector<Weighted> found;
-  for (std::size_t i = 0; i < points.size(); ++i) {
-    const double w = weight((points[i] - centre).squaredNorm(), reach);
-    if (w > 0) found.push_back({static_cast<std::uint32_t>(i), w});
-  }
-  return found;
-}
-
 struct Circle {
   bool ok;
   Eigen::Vector2d centre;
@@ -46,41 +32,49 @@ Circle kasaCircle(const Mat3& sums, const Vec3& right) {
 
 }  // namespace
 
-TubeFit fitTubeTo(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
-                  const Vec3& centre, double reach) {
+TubeFit fitTubeTo(const TriangleTree& tree, const Vec3& centre, double reach) {
   TubeFit fit;
-  const std::vector<Weighted> used = near(points, centre, reach);
-  if (used.size() < 8) return fit;
+  const auto& points = tree.points();
+  const auto& normals = tree.normals();
+  const auto each = [&](auto f) {
+    tree.forVerticesWithin(centre, reach, [&](std::uint32_t i) {
+      const double w = weight((points[i] - centre).squaredNorm(), reach);
+      if (w > 0) f(i, w);
+    });
+  };
+  int used = 0;
   Mat3 covariance = Mat3::Zero();
-  for (const auto& [i, w] : used) covariance += w * normals[i] * normals[i].transpose();
+  each([&](std::uint32_t i, double w) {
+    covariance += w * normals[i] * normals[i].transpose();
+    ++used;
+  });
+  if (used < 8) return fit;
   const Eigen::SelfAdjointEigenSolver<Mat3> eigen(covariance);
   Mat3 R;  // third column: the axis
   R << eigen.eigenvectors().col(1), eigen.eigenvectors().col(2), eigen.eigenvectors().col(0);
   if (R(0, 2) < 0) R.col(2) = -R.col(2);
+  const auto local = [&](std::uint32_t i) { return Vec3(R.transpose() * (points[i] - centre) / reach); };
 
   Mat3 sums = Mat3::Zero();
   Vec3 right = Vec3::Zero();
   double low = std::numeric_limits<double>::infinity(), high = -low;
-  std::vector<Vec3> local;
-  local.reserve(used.size());
-  for (const auto& [i, w] : used) {
-    const Vec3 q = R.transpose() * (points[i] - centre) / reach;
+  each([&](std::uint32_t i, double w) {
+    const Vec3 q = local(i);
     const Vec3 row(q.x(), q.y(), 1);
     sums += w * row * row.transpose();
     right += w * q.head<2>().squaredNorm() * row;
     low = std::min(low, q.z());
     high = std::max(high, q.z());
-    local.push_back(q);
-  }
+  });
   const Circle circle = kasaCircle(sums, right);
   if (!circle.ok) return fit;
 
   double squares = 0, weights = 0;
-  for (std::size_t k = 0; k < used.size(); ++k) {
-    const double residual = (local[k].head<2>() - circle.centre).norm() - circle.radius;
-    squares += used[k].weight * residual * residual;
-    weights += used[k].weight;
-  }
+  each([&](std::uint32_t i, double w) {
+    const double residual = (local(i).head<2>() - circle.centre).norm() - circle.radius;
+    squares += w * residual * residual;
+    weights += w;
+  });
   const auto back = [&](double z) {
     return Vec3(centre + reach * (R * Vec3(circle.centre.x(), circle.centre.y(), z)));
   };

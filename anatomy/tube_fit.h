@@ -1,8 +1,6 @@
 #pragma once
 
-#include <vector>
-
-#include "anatomy/geometry/pose.h"
+#include "anatomy/triangle_tree.h"
 
 namespace palpa::anatomy {
 
@@ -18,7 +16,7 @@ struct TubeFit {
 /// normals (those of a tube are perpendicular to it); the circle solves |q|^2 = 2 c.q + e in the
 /// plane across, by linear least squares (Kasa 1976), radius^2 = e + |c|^2. The ends are the
 /// outermost of the vertices used. Not ok with fewer than 8 vertices or where no circle fits.
-TubeFit fitTubeTo(const std::vector<Vec3>& points, const std::vector<Vec3>& normals,
-                  const Vec3& centre, double reach);
+/// Three walks over those vertices, nothing kept: no allocation, and the cost knows only how many are near.
+TubeFit fitTubeTo(const TriangleTree& tree, const Vec3& centre, double reach);
 
 }  // namespace palpa::anatomy

@@ -16,3 +16,5 @@ find_package(VTK 9 REQUIRED COMPONENTS
   FiltersCore FiltersGeneral FiltersSources FiltersModeling
   ImagingCore IOGeometry IOImage InteractionStyle
   RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingUI)
+# Only compared with, in `palpa bench anatomy`.
+find_package(embree 3 QUIET)

@@ -27,7 +27,8 @@ OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
 
 }  // namespace
 
-ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region)
+ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
+               bool skin_deflection)
     : window_(window),
       region_(region),
       orbit_(defaultView(patient, region)),
@@ -35,6 +36,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       organs_(*renderer_, patient),
       instrument_(*renderer_),
       arrows_(*above_) {
+  if (skin_deflection && organs_.skin()) skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
   setUpRenderer(*renderer_, colour::kBehindBottom);
   setUpRenderer(*above_, colour::kBehindBottom);
   renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
@@ -92,6 +94,7 @@ void ArView::applyCamera(const Vec3& tip_C) {
 }
 
 void ArView::showPatient(const SceneState& state, bool visible) {
+  if (skin_) skin_->update(state.skin_push);
   organs_.setStyle(state.skin);
   organs_.setVisible(visible);
   instrument_.update(state.X_AT, state.plunger, state.blood);

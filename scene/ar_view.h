@@ -2,7 +2,10 @@
 
 #include <vtkNew.h>
 
+#include <memory>
+
 #include "scene/backdrop.h"
+#include "scene/deflected_skin.h"
 #include "scene/force_arrows.h"
 #include "scene/instrument.h"
 #include "scene/orbit_camera.h"
@@ -24,7 +27,8 @@ namespace palpa::scene {
 ///     walk around
 class ArView {
  public:
-  ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region);
+  ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
+         bool skin_deflection = false);
   ~ArView();
 
   void addTrail(Trail& trail);
@@ -56,6 +60,7 @@ class ArView {
   Pose X_CA_ = Pose::Identity();
   Backdrop backdrop_;
   OrganActors organs_;
+  std::unique_ptr<DeflectedSkin> skin_;  // null: it does not give way
   Instrument instrument_;
   vtkSmartPointer<vtkActor> trail_;
   ForceArrows arrows_;

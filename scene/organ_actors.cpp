@@ -32,9 +32,9 @@ Rgb colourOf(const anatomy::OrganSurface& organ) {
   return {organ.rgba[0], organ.rgba[1], organ.rgba[2]};
 }
 
-vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ) {
+vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ, vtkPolyData* surface) {
   vtkNew<vtkPolyDataMapper> mapper;
-  mapper->SetInputData(polyDataOf(organ.mesh));
+  mapper->SetInputData(surface);
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
   Rgb colour = colourOf(organ);
@@ -72,7 +72,9 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh) {
 
 OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient) {
   for (const anatomy::OrganSurface& organ : patient.organs) {
-    Part part{actorOf(organ), organ.organ};
+    const vtkSmartPointer<vtkPolyData> surface = polyDataOf(organ.mesh);
+    if (!skin_ && organ.organ == Organ::skin) skin_ = surface;
+    Part part{actorOf(organ, surface), organ.organ};
     // The far side of a translucent surface would blend a second time.
     if (covers(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
     renderer.AddActor(part.actor);

@@ -25,6 +25,7 @@ class OrganActors {
 
   void setStyle(SkinStyle style);
   void setVisible(bool visible);
+  vtkPolyData* skin() const { return skin_; }  ///< the first skin's points as they are drawn; null without one
 
  private:
   struct Part {
@@ -34,6 +35,7 @@ class OrganActors {
   void apply();
 
   std::vector<Part> parts_;
+  vtkSmartPointer<vtkPolyData> skin_;
   SkinStyle style_ = SkinStyle::translucent;
   bool visible_ = true;
 };

@@ -1,10 +1,12 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
+#include "anatomy/skin_dimple.h"
 
 /// Everything the scene needs for one frame: plain numbers and pixels, no devices, no trackers.
 namespace palpa::scene {
@@ -54,6 +56,8 @@ struct SceneState {
   double plunger = 0;  ///< drawn fraction, 0..1
   double blood = 0;    ///< fraction of the syringe filled with blood, 0..1
   SkinStyle skin = SkinStyle::translucent;
+  /// How a tool presses the skin in or draws it out; shown by views with `ViewLayout::skin_deflection`.
+  std::optional<anatomy::SkinPush> skin_push;
   std::vector<ForceArrow> forces;
   std::vector<Vec3> trail_A;  ///< path of the tip so far
   Hud hud;

@@ -49,7 +49,7 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
       layout(wanted),
       region(regionOf(patient)),
       margins(*frame),
-      ar((window.AddRenderer(frame), window), patient, region),
+      ar((window.AddRenderer(frame), window), patient, region, layout.skin_deflection),
       hud(*words) {
   window.SetSize(layout.width, layout.height);
   window.SetNumberOfLayers(3);

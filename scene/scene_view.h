@@ -25,6 +25,8 @@ struct ViewLayout {
   int width = 1280, height = 720;
   bool orthographic = true;     ///< three fixed views (front, side, top) beside the AR view
   bool free_navigation = true;  ///< drag the virtual camera; a protocol can switch it off
+  /// The skin gives way where it is touched (AR view). Off where people are assessed: seeing must not replace feeling.
+  bool skin_deflection = false;
 };
 
 /// How the AR view looks right now, in window pixels from the top left: the pixel (u, v) under the

@@ -1,3 +1,4 @@
+#include "apps/bench/anatomy_bench.h"
 #include "apps/bench/haptics_bench.h"
 #include "apps/bench/loop_bench.h"
 #include "apps/cli/commands.h"
@@ -24,11 +25,20 @@ void addLoop(CLI::App& bench) {
   loop->callback([options] { bench::benchLoop(*options); });
 }
 
+void addAnatomy(CLI::App& bench) {
+  CLI::App* anatomy = bench.add_subcommand("anatomy", "Cost of the geometric questions and of the skin's deflection, beside other libraries'");
+  anatomy->footer("Example:\n  palpa bench anatomy > anatomy.jsonl\n  palpa bench anatomy --quick");
+  const auto options = std::make_shared<bench::AnatomyBenchOptions>();
+  anatomy->add_flag("--quick", options->quick, "A smaller mesh and few queries");
+  anatomy->callback([options] { bench::benchAnatomy(*options); });
+}
+
 }  // namespace
 
 void addBench(CLI::App& program) {
   CLI::App* bench = program.add_subcommand("bench", "Measurements, one JSON object a line");
   bench->require_subcommand(1);
+  addAnatomy(*bench);
   addHaptics(*bench);
   addLoop(*bench);
 }

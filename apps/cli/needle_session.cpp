@@ -43,6 +43,11 @@ std::string markFor(OperatorKind who, const station::Station& station) {
   return station.device.driver == station::DeviceDriver::bench ? "VIRTUAL BENCH" : "VIRTUAL CAMERA";
 }
 
+int skinOf(const anatomy::Patient& patient) {
+  const anatomy::OrganSurface& skin = patient.organ(Organ::skin);
+  return static_cast<int>(&skin - patient.organs.data());
+}
+
 /// Every part of a session, made in the order in which one needs the other; the evidence file last: a mistake in the
 /// set-up leaves none behind.
 class NeedleSession {
@@ -99,6 +104,8 @@ class NeedleSession {
     setup.mark = markFor(options_.who, world_.station);
     setup.folder = folder_;
     setup.every_source_picture = pictures_.recorded();
+    setup.giving_way = options_.skin_deflection ? &world_.query : nullptr;
+    setup.skin = skinOf(world_.patient);
     if (window_) {
       setup.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
         if (devices_.mouse()) devices_.mouse()->handle(input, now_ns);

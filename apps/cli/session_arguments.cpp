@@ -69,6 +69,8 @@ void addSessionArguments(CLI::App& command, SessionOptions& o) {
   command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can, repeats exactly");
   command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");
   command.add_flag_callback("--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
+  choice(command, "--skin-deflection", o.skin_deflection, kOnOff,
+         "Show the skin giving way under the needle (default off: seeing must not replace feeling)");
   command.add_flag_callback("--no-demonstration", [&o] { o.demonstration = false; }, "A person starts without an expert's demonstration");
   command.add_flag_callback("--no-familiarisation", [&o] { o.familiarisation = false; }, "A person starts without a first unscored trial");
   choice(command, "--display", o.display, kDisplays, "Where to show it");

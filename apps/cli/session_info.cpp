@@ -63,6 +63,7 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
                                      {"trainee", options.trainee},
                                      {"force_feedback", options.force_feedback},
                                      {"side", anatomy::name(world.patient.side)},
+                                     {"skin_deflection", options.skin_deflection},
                                      {"handedness", options.left_handed ? "left" : "right"},
                                      {"virtual_time", options.fast},
                                      {"X_DA", json(world.X_DA)},

@@ -29,6 +29,7 @@ struct SessionOptions {
   bool fast = false;
   bool no_views = false;
   bool navigation = true;         ///< free navigation of the view
+  bool skin_deflection = false;   ///< the skin is shown to give way
   bool demonstration = true;      ///< a person first watches an expert's recorded trial
   bool familiarisation = true;    ///< and then tries once, unscored
   scene::Display display = scene::Display::automatic;

@@ -5,6 +5,7 @@ namespace palpa::cli {
 Stage makeStage(const SessionOptions& options, const NeedleWorld& world, bool window) {
   scene::ViewLayout layout;
   layout.free_navigation = options.navigation;
+  layout.skin_deflection = options.skin_deflection;
   Stage stage;
   stage.context =
       scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,

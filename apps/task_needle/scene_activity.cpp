@@ -32,6 +32,7 @@ SceneActivity::SceneActivity(const Setup& setup, runtime::Bus& bus, TaskChannels
       X_AD_((setup.X_WD.inverse() * setup.X_WA).inverse()) {
   const calibration::CameraModel& p = undistorter_.pinhole();
   state_.camera = {p.width, p.height, p.fx, p.fy, p.cx, p.cy};
+  if (setup.giving_way) skin_.emplace(*setup.giving_way, setup.skin);
 }
 
 void SceneActivity::cycleSkin() {
@@ -72,6 +73,7 @@ void SceneActivity::compose() {
   state_.registered = registered_;
   state_.X_CA = X_CW_ * setup_.X_WA;
   state_.X_AT = X_AD_ * unpack(tool_.X_DT);
+  if (skin_) state_.skin_push = skin_->follow(tool_, X_AD_, now_ns_);
   state_.plunger = tool_.plunger;
   state_.blood = status_.blood;
   state_.hud = hudText(status_, tool_, seen, setup_.mark);

@@ -8,6 +8,7 @@
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
 #include "apps/task_needle/needle_task.h"
+#include "apps/task_needle/skin_follower.h"
 #include "apps/task_needle/task_status.h"
 #include "ar/pose_smoother.h"
 #include "ar/undistort.h"
@@ -34,6 +35,9 @@ class SceneActivity final : public runtime::Activity {
     std::filesystem::path folder;          ///< where view-*.png go
     bool every_source_picture = false;     ///< recorded pictures: keep one overlay for each of them
     std::int64_t display_latency_ns = 33'000'000;
+    /// The skin is shown to give way (surface `skin` of this patient); null: it is not.
+    const anatomy::SurfaceQuery* giving_way = nullptr;
+    int skin = 0;
     /// Keys and mouse of a window, once a frame.
     std::function<void(const scene::ViewInput&, std::int64_t now_ns)> input;
   };
@@ -70,6 +74,7 @@ class SceneActivity final : public runtime::Activity {
   std::uint64_t last_number_ = ~0ull;
   scene::Image background_;
   scene::SceneState state_;
+  std::optional<SkinFollower> skin_;
   std::vector<SavedPicture> pictures_;
   std::vector<std::string> kept_sources_;
   int trail_trial_ = 0;

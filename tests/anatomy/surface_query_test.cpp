@@ -7,6 +7,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/shapes/mesh_tools.h"
+#include "anatomy/triangle_distance.h"
 #include "anatomy/triangle_tree.h"
 #include "test_shapes.h"
 

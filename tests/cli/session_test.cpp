@@ -66,6 +66,12 @@ TEST(Session, LeavesItsFilesAndSaysSo) {
     EXPECT_NE(s.outcome.out.find(file), std::string::npos) << file;
 }
 
+TEST(Session, SkinThatIsShownToGiveWayChangesNoScore) {
+  const Recorded shown({"--seed", "1", "--trainee", "T042", "--skin-deflection", "on"});
+  ASSERT_EQ(shown.outcome.exit_code, 0) << shown.outcome.err;
+  EXPECT_EQ(shown.csv(), first().csv());
+}
+
 TEST(Session, TableHasARowATrialAndCallsItSimulated) {
   const std::vector<Row> rows = rowsOf(first().csv());
   ASSERT_EQ(rows.size(), 1u);

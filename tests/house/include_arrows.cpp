@@ -52,6 +52,7 @@ std::vector<Layer> makeLayers() {
   const Names app_libraries{"Eigen", "OpenCV", "JSON"};
   return {
       {"anatomy/geometry", {}, {}, {"Eigen"}},
+      {"anatomy/deflection", {"anatomy/geometry"}, {}, {"Eigen"}},
       {"haptics/materials", {"anatomy/geometry"}, {}, {"Eigen"}},
       {"haptics/sensors", {"haptics", "anatomy/geometry"}, {}, {"Eigen"}},
       {"anatomy", {}, {}, {"Eigen", "JSON", "tinygltf", "GDCM", "VTK data"}},
@@ -80,7 +81,7 @@ std::vector<Layer> makeLayers() {
        {},
        app_libraries},
       {"apps/cli", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON", "CLI11"}},
-      {"apps/bench", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON"}},
+      {"apps/bench", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON", "VTK", "VTK data", "Embree"}},
       {"apps",
        librariesAnd({"apps"}),
        {"apps/twin"},
@@ -130,7 +131,8 @@ std::string libraryOf(const std::string& header) {
       {"CLI/", "CLI11"},       {"sqlite3", "SQLite"},
       {"pqxx/", "PostgreSQL"}, {"zlib", "zlib"},
       {"httplib", "httplib"},  {"igtl", "OpenIGTLink"},
-      {"boost/", "Boost"},     {"glm/", "GLM"}};
+      {"boost/", "Boost"},     {"glm/", "GLM"},
+      {"embree3/", "Embree"}};
   for (const auto& [prefix, library] : kPrefixes)
     if (begins(header, prefix)) return library;
   return "";
