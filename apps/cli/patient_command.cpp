@@ -65,11 +65,11 @@ void checkLength(const CheckedSurface& surface, const PatientOptions& o, Organ o
 }
 
 /// Whether it can be mended, and what would be done.
-void tellRepair(const anatomy::RawMesh& mesh) {
+void tellRepair(const anatomy::RawMesh& mesh, double metres) {
   anatomy::RepairReport report;
-  const bool sound = anatomy::checkSurface(anatomy::repaired(mesh, &report)).sound();
+  const bool sound = anatomy::checkSurface(anatomy::repaired(mesh, &report, anatomy::kWeldTolerance / metres)).sound();
   std::string done;
-  for (const std::string& word : anatomy::words(report)) done += (done.empty() ? "" : ", ") + word;
+  for (const std::string& word : anatomy::words(report, metres)) done += (done.empty() ? "" : ", ") + word;
   std::printf("      %s: %s\n", sound ? "can be mended" : "cannot be mended wholly", done.empty() ? "nothing helps" : done.c_str());
 }
 
@@ -82,7 +82,7 @@ void tellSurface(const CheckedSurface& surface, const PatientOptions& o) {
               anatomy::lengthText(size.z()).c_str(), check.sound() ? "sound" : "see below");
   if (check.pieces > 1) std::printf("      in %zu pieces\n", check.pieces);
   for (const std::string& finding : anatomy::findings(check)) std::printf("      %s\n", finding.c_str());
-  if (!check.sound()) tellRepair(mesh);
+  if (!check.sound()) tellRepair(mesh, unitOf(o).metres);
 }
 
 /// Surfaces of a file that is no patient of ours (yet).
