@@ -11,6 +11,8 @@
 namespace palpa::anatomy {
 namespace {
 
+constexpr std::size_t kLeastSolid = 4;   // triangles of the smallest solid
+
 /// Every place once; triangles that are something, each once.
 RawMesh joined(const RawMesh& mesh, RepairReport* report) {
   RawMesh result;
@@ -28,6 +30,26 @@ RawMesh joined(const RawMesh& mesh, RepairReport* report) {
     else result.triangles.push_back(n);
   }
   return result;
+}
+
+/// Without scraps: parts that hang together by edges and have fewer than four triangles enclose nothing. They stay
+/// where there is nothing else.
+void dropScraps(RawMesh* mesh, RepairReport* report) {
+  std::unordered_map<std::uint64_t, Corner> first_at;
+  Pieces parts(mesh->triangles.size());
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Triangle& t = mesh->triangles[i];
+      parts.join(first_at.emplace(edgeKey(t[k], t[(k + 1) % 3]), static_cast<Corner>(i)).first->second, static_cast<Corner>(i));
+    }
+  std::map<Corner, std::size_t> size;
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) ++size[parts.root(static_cast<Corner>(i))];
+  std::vector<Triangle> kept;
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+    if (size[parts.root(static_cast<Corner>(i))] >= kLeastSolid) kept.push_back(mesh->triangles[i]);
+  if (kept.empty()) return;
+  report->scraps += mesh->triangles.size() - kept.size();
+  mesh->triangles = std::move(kept);
 }
 
 void turn(Triangle& t) { std::swap(t[1], t[2]); }
@@ -175,6 +197,7 @@ RawMesh repaired(const RawMesh& mesh, RepairReport* report, double tolerance) {
   report->welded_points = weld.joined_points;
   report->farthest_weld = weld.farthest;
   report->dropped_triangles += seams.dropped_triangles;
+  dropScraps(&result, report);
   std::vector<bool> turned;
   orient(&result, &turned);
   closeHoles(&result, report);
@@ -193,9 +216,10 @@ std::vector<std::string> words(const RepairReport& report, double metres) {
   };
   tell(report.joined_points, "one repeated point joined", "repeated points joined");
   if (report.welded_points > 0)
-    all.push_back(std::to_string(report.welded_points) + " points of seams joined, none moved by more than " +
+    all.push_back(std::to_string(report.welded_points) + (report.welded_points == 1 ? " point" : " points") + " of seams joined, none moved by more than " +
                   lengthText(metres * report.farthest_weld));
   tell(report.dropped_triangles, "one triangle dropped that was nothing or there twice", "triangles dropped that were nothing or there twice");
+  tell(report.scraps, "one loose triangle dropped", "loose triangles dropped");
   tell(report.turned_triangles, "one triangle turned", "triangles turned");
   tell(report.closed_holes, "one hole closed", "holes closed");
   tell(report.left_holes, "one opening left", "openings left");
