@@ -9,12 +9,16 @@
 
 #include <cmath>
 
+#include "anatomy/import/repair.h"
+#include "anatomy/import/surface_check.h"
+#include "anatomy/import/surface_topology.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "anatomy/triangle_tree.h"
 
 namespace palpa::anatomy {
 namespace {
 
+constexpr int kMendingRounds = 4;
 constexpr double kVtkScale = 1e3;   // millimetres: VTK's thresholds are made for numbers about one
 
 vtkSmartPointer<vtkPolyData> toVtk(const TriangleMesh& mesh) {
@@ -64,6 +68,32 @@ TriangleMesh byQuadrics(const TriangleMesh& mesh, double reduction) {
   return fromVtk(*filter->GetOutput());
 }
 
+/// Without the triangles of edges that have more than two.
+void clearCrowdedEdges(RawMesh* mesh) {
+  const Edges edges = edgesOf(mesh->triangles);
+  std::erase_if(mesh->triangles, [&](const Triangle& t) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const EdgeUses& uses = edges.at(edgeKey(t[k], t[(k + 1) % 3]));
+      if (uses.forth + uses.back > 2) return true;
+    }
+    return false;
+  });
+}
+
+/// Quadrics may fold a thin sheet onto itself: what is folded is taken out and the hole closed.
+TriangleMesh byQuadricsMended(const TriangleMesh& mesh, double reduction) {
+  TriangleMesh coarse = byQuadrics(mesh, reduction);
+  RawMesh raw{"", coarse.points, coarse.triangles};
+  for (int round = 0; round < kMendingRounds && !checkSurface(raw).sound(); ++round) {
+    clearCrowdedEdges(&raw);
+    RepairReport report;
+    raw = repaired(raw, &report);
+  }
+  coarse.points = raw.points;
+  coarse.triangles = raw.triangles;
+  return coarse;
+}
+
 TriangleMesh byTopology(const TriangleMesh& mesh, double reduction) {
   vtkNew<vtkDecimatePro> filter;
   filter->SetInputData(toVtk(mesh));
@@ -108,7 +138,7 @@ TriangleMesh decimated(const TriangleMesh& mesh, std::size_t triangles, Decimati
   if (mesh.triangles.size() > triangles) {
     const double reduction = 1 - static_cast<double>(triangles) / static_cast<double>(mesh.triangles.size());
     const std::pair<const char*, TriangleMesh (*)(const TriangleMesh&, double)> ways[] = {
-        {"quadrics", byQuadrics}, {"edges kept manifold", byTopology}};
+        {"quadrics", byQuadrics}, {"quadrics, mended", byQuadricsMended}, {"edges kept manifold", byTopology}};
     for (const auto& [name, way] : ways) {
       TriangleMesh found = way(mesh, reduction);
       if (!asGoodAs(mesh, found)) continue;
