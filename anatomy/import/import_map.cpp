@@ -127,8 +127,8 @@ void readPoints(JsonFields& fields, const Inherited& inherited, ImportMap* map) 
   if (const nlohmann::json* landmarks = fields.find("landmarks")) {
     if (!landmarks->is_object()) fields.refuse("landmarks", "is not an object { }");
     for (const auto& [key, value] : landmarks->items()) {
-      const std::string printable = nlohmann::json(key).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
-      map->landmarks[key] = pointFrom(JsonFields(value, fields.file(), "landmarks." + printable), inherited);
+      if (key.empty() || key.size() > 100) fields.refuse("landmarks", "has a name that is empty or longer than 100 letters");
+      map->landmarks[key] = pointFrom(JsonFields(value, fields.file(), "landmarks." + printable(key)), inherited);
     }
   }
   if (const nlohmann::json* origin = fields.find("origin"))

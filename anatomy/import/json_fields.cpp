@@ -1,5 +1,6 @@
 #include "anatomy/import/json_fields.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace palpa::anatomy {
@@ -10,6 +11,11 @@ constexpr int kDeepest = 16;
 constexpr std::size_t kLongestText = 2000;
 
 }  // namespace
+
+std::string printable(const std::string& key) {
+  const std::string quoted = nlohmann::json(key).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  return quoted.substr(1, std::min<std::size_t>(quoted.size() - 2, 60));
+}
 
 nlohmann::json parseJson(const std::string& text, const std::string& file) {
   if (text.size() > kLargestText) throw UsageError("is larger than 4 MiB", file, "Check the name");
@@ -97,9 +103,7 @@ void JsonFields::done() const {
     if (!asked_.count(key)) {
       std::string known;
       for (const std::string& name : asked_) known += (known.empty() ? "" : ", ") + name;
-      throw UsageError("field \"" + pathOf(nlohmann::json(key).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace)) +
-                           "\" is unknown",
-                       file_, "Known here: " + known);
+      throw UsageError("field \"" + pathOf(printable(key)) + "\" is unknown", file_, "Known here: " + known);
     }
 }
 

@@ -34,6 +34,9 @@ class JsonFields {
   std::set<std::string> asked_;
 };
 
+/// A key as a message can hold it: control characters and what is no UTF-8 escaped.
+std::string printable(const std::string& key);
+
 /// Parses text of at most 4 MiB that is not nested deeper than 16. Throws UsageError.
 nlohmann::json parseJson(const std::string& text, const std::string& file);
 
