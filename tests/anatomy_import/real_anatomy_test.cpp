@@ -98,6 +98,26 @@ TEST(RealAnatomy, AChainOfCapsulesFitsTheClavicleWhereItMayBeTouched) {
   EXPECT_LT(meanMisfit(patient, 0.006), 1e-3);
 }
 
+TEST(RealAnatomy, TheShippedMapsMakeAClosedSkeletonInsideItsSkin) {
+  const auto folder = testData("anatomy");
+  PALPA_NEED_DATA(folder / "hra_glb/VH_M_Skin.glb");
+  const std::filesystem::path assets = std::filesystem::path(PALPA_SOURCE_DIR) / "assets/patients";
+  ImportReport report;
+  const Patient bones = importPatient(readImportMap(assets / "bodyparts3d_hra.json"), folder, {0, kWeldTolerance}, &report);
+  EXPECT_EQ(bones.organs.size(), 53u);
+  for (const OrganSurface& organ : bones.organs) EXPECT_TRUE(isClosed(organ.mesh) && signedVolume(organ.mesh) > 0) << organ.id;
+  const Patient whole = importPatient(readImportMap(assets / "bodyparts3d_hra_skin.json"), folder, {0, kWeldTolerance}, &report);
+  const SurfaceQuery query(whole);
+  const int skin = static_cast<int>(whole.organs.size()) - 1;
+  ASSERT_EQ(whole.organs.back().organ, Organ::skin);
+  double shallowest = 1;
+  for (const OrganSurface& organ : whole.organs)
+    if (isBone(organ.organ))
+      for (const Vec3& p : organ.mesh.points) shallowest = std::min(shallowest, -query.closest(skin, p).distance);
+  RecordProperty("shallowest_bone_um", static_cast<int>(1e6 * shallowest));
+  EXPECT_GT(shallowest, 5e-3);
+}
+
 /// Over the upper chest in front, where a needle goes in.
 bool infraclavicular(const Vec3& p, const Vec3& n, double height) {
   return p.z() < height && p.z() > height - 0.12 && std::abs(p.x()) < 0.12 && std::abs(p.x()) > 0.02 && n.y() < -0.3;
