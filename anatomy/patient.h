@@ -24,7 +24,12 @@ struct OrganSurface {
   Organ organ = Organ::none;
   TriangleMesh mesh;
   std::array<float, 4> rgba{1, 1, 1, 1};
+  std::string licence{};   ///< of this surface, where it is not the patient's
+  std::string source{};    ///< who made it, as its licence asks to be named
 };
+
+/// What a surface encloses; air where it says nothing of it.
+Tissue tissueInside(Organ organ);
 
 enum class Side { right, left };
 inline const char* name(Side side) { return side == Side::right ? "right" : "left"; }
@@ -61,6 +66,8 @@ struct Patient {
   SoftLayers layers;
   std::vector<OrganSurface> organs;
   std::map<std::string, Vec3> landmarks;  ///< p_A
+  std::string licence = "CC0-1.0";        ///< of the whole
+  std::string source{};
 
   const Vec3& landmark(const std::string& landmark_name) const;  ///< throws Error when absent
   const OrganSurface& organ(Organ kind) const;  ///< the first of its kind; throws Error

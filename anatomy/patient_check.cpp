@@ -5,6 +5,7 @@
 #include <limits>
 #include <numbers>
 
+#include "anatomy/geometry/error.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "anatomy/surface_query.h"
 
@@ -190,6 +191,25 @@ class Checker {
 };
 
 }  // namespace
+
+std::vector<std::string> missingForNeedle(const Patient& patient) {
+  std::vector<std::string> missing;
+  for (const Organ needed : {Organ::skin, Organ::clavicle, Organ::vein, Organ::lung})
+    if (std::none_of(patient.organs.begin(), patient.organs.end(), [&](const auto& o) { return o.organ == needed; }))
+      missing.push_back(std::string("the organ ") + palpa::name(needed));
+  for (const char* needed : {landmark::kNotch, landmark::kSternalEnd, landmark::kAcromialEnd, landmark::kMedialThird,
+                             landmark::kEntry, landmark::kSternalEndPosteriorSuperior, landmark::kVeinTarget})
+    if (!patient.landmarks.count(needed)) missing.push_back(std::string("the landmark ") + needed);
+  return missing;
+}
+
+void requireForNeedle(const Patient& patient, const std::string& where) {
+  std::string list;
+  for (const std::string& one : missingForNeedle(patient)) list += (list.empty() ? "" : ", ") + one;
+  if (!list.empty())
+    throw Error("this patient is to be looked at, not to be punctured: it lacks " + list, where,
+                "Add what is missing, or take another patient (palpa patient build)");
+}
 
 std::vector<Finding> checkPatient(const Patient& patient) { return Checker(patient).run(); }
 

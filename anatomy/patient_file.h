@@ -6,11 +6,12 @@
 
 namespace palpa::anatomy {
 
-/// glTF binary (Y up, metres). `extras` of the root carry unit, side, layers, landmarks, licence,
-/// those of each node its organ. Written beside the target, then renamed. Throws Error.
+/// glTF binary (Y up, metres). `extras` of the root carry unit, side, layers, landmarks, licence, source,
+/// those of each node its organ, tissue, licence and source. Written beside the target, then renamed. Throws Error.
 void writePatient(const Patient& patient, const std::filesystem::path& file);
 
-/// Reads and checks: indices in range, finite vertices, known organs, needed landmarks.
+/// Reads and checks: indices in range, finite vertices, known organs. What a task needs besides is asked by
+/// `requireForNeedle` (patient_check.h): a patient may be there to be looked at.
 Patient readPatient(const std::filesystem::path& file);
 
 /// Whether a glTF binary file says that it holds a patient of this program. Throws Error when it is no glTF at all.

@@ -11,9 +11,6 @@ namespace {
 
 constexpr double kLargestCoordinate = 3.0;  // metres: beyond this the unit is wrong
 
-constexpr const char* kNeeded[] = {landmark::kNotch, landmark::kMedialThird, landmark::kEntry,
-                                   landmark::kSternalEndPosteriorSuperior, landmark::kVeinTarget};
-
 class PatientReader {
  public:
   explicit PatientReader(const std::filesystem::path& file) : file_(file.string()) {}
@@ -45,6 +42,11 @@ class PatientReader {
     return object.Get(key).Get<std::string>();
   }
 
+  // Empty where there is none.
+  std::string optionalText(const tinygltf::Value& object, const char* key) const {
+    return object.Has(key) ? textOf(object, key) : std::string();
+  }
+
   const tinygltf::Value& objectOf(const tinygltf::Value& object, const char* key) const {
     if (!object.Has(key) || !object.Get(key).IsObject())
       fail(std::string("extras lack the object \"") + key + "\"");
@@ -62,6 +64,8 @@ class PatientReader {
     if (side != "right" && side != "left")
       fail("the side is \"" + side + "\" instead of right or left");
     patient_.side = side == "right" ? Side::right : Side::left;
+    patient_.licence = optionalText(extras, "licence");
+    patient_.source = optionalText(extras, "source");
     patient_.seed = readSeed(textOf(extras, "seed"));
     readLayers(objectOf(extras, "layers"));
     readLandmarks(objectOf(extras, "landmarks"));
@@ -100,9 +104,6 @@ class PatientReader {
         fail("the landmark \"" + key + "\" is metres away");
       patient_.landmarks[key] = p;
     }
-    for (const char* needed : kNeeded)
-      if (!patient_.landmarks.count(needed))
-        fail(std::string("the landmark \"") + needed + "\" is missing");
   }
 
   // Start of an accessor's data, after checking that all of it lies inside its buffer.
@@ -191,6 +192,11 @@ class PatientReader {
     surface.organ = organFromName(textOf(node.extras, "organ").c_str());
     if (surface.organ == Organ::none)
       fail("the surface \"" + node.name + "\" is of an unknown organ");
+    if (const std::string tissue = optionalText(node.extras, "tissue");
+        !tissue.empty() && tissue != palpa::name(tissueInside(surface.organ)))
+      fail("the surface \"" + node.name + "\" is of the tissue \"" + tissue + "\", which its organ does not enclose");
+    surface.licence = optionalText(node.extras, "licence");
+    surface.source = optionalText(node.extras, "source");
     surface.mesh.points = vectors(primitives[0], "POSITION");
     surface.mesh.normals = vectors(primitives[0], "NORMAL");
     checkNormals(&surface);

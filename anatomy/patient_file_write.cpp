@@ -38,7 +38,7 @@ class ModelWriter {
     Value::Object layers{{"skin", Value(patient.layers.skin)},
                          {"fat", Value(patient.layers.fat)},
                          {"muscle", Value(patient.layers.muscle)}};
-    return Value(Value::Object{
+    Value::Object extras{
         {"format", Value(std::string("palpa-patient"))},
         {"version", Value(1)},
         {"unit", Value(std::string("m"))},
@@ -49,7 +49,17 @@ class ModelWriter {
         {"seed", Value(std::to_string(patient.seed))},
         {"layers", Value(layers)},
         {"landmarks", Value(landmarks)},
-        {"licence", Value(std::string("CC0-1.0"))}});
+        {"licence", Value(patient.licence)}};
+    if (!patient.source.empty()) extras["source"] = Value(patient.source);
+    return Value(extras);
+  }
+
+  static Value surfaceExtras(const OrganSurface& surface) {
+    Value::Object extras{{"organ", Value(std::string(palpa::name(surface.organ)))},
+                         {"tissue", Value(std::string(palpa::name(tissueInside(surface.organ))))}};
+    if (!surface.licence.empty()) extras["licence"] = Value(surface.licence);
+    if (!surface.source.empty()) extras["source"] = Value(surface.source);
+    return Value(extras);
   }
 
   // Appends to the one buffer and returns the view's index.
@@ -127,7 +137,7 @@ class ModelWriter {
     tinygltf::Node node;
     node.name = surface.id;
     node.mesh = static_cast<int>(model_.meshes.size()) - 1;
-    node.extras = Value(Value::Object{{"organ", Value(std::string(palpa::name(surface.organ)))}});
+    node.extras = surfaceExtras(surface);
     model_.nodes.push_back(node);
     model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()) - 1);
   }

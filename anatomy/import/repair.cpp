@@ -3,10 +3,15 @@
 #include <map>
 #include <set>
 
+#include "anatomy/import/close_ring.h"
 #include "anatomy/import/surface_topology.h"
+#include "anatomy/import/unit.h"
+#include "anatomy/import/weld.h"
 
 namespace palpa::anatomy {
 namespace {
+
+constexpr std::size_t kLeastSolid = 4;   // triangles of the smallest solid
 
 /// Every place once; triangles that are something, each once.
 RawMesh joined(const RawMesh& mesh, RepairReport* report) {
@@ -25,6 +30,26 @@ RawMesh joined(const RawMesh& mesh, RepairReport* report) {
     else result.triangles.push_back(n);
   }
   return result;
+}
+
+/// Without scraps: parts that hang together by edges and have fewer than four triangles enclose nothing. They stay
+/// where there is nothing else.
+void dropScraps(RawMesh* mesh, RepairReport* report) {
+  std::unordered_map<std::uint64_t, Corner> first_at;
+  Pieces parts(mesh->triangles.size());
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Triangle& t = mesh->triangles[i];
+      parts.join(first_at.emplace(edgeKey(t[k], t[(k + 1) % 3]), static_cast<Corner>(i)).first->second, static_cast<Corner>(i));
+    }
+  std::map<Corner, std::size_t> size;
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) ++size[parts.root(static_cast<Corner>(i))];
+  std::vector<Triangle> kept;
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+    if (size[parts.root(static_cast<Corner>(i))] >= kLeastSolid) kept.push_back(mesh->triangles[i]);
+  if (kept.empty()) return;
+  report->scraps += mesh->triangles.size() - kept.size();
+  mesh->triangles = std::move(kept);
 }
 
 void turn(Triangle& t) { std::swap(t[1], t[2]); }
@@ -70,58 +95,76 @@ void orient(RawMesh* mesh, std::vector<bool>* turned) {
   }
 }
 
-/// Rings of open edges, each from corner to corner as the missing triangles would go.
-std::vector<std::vector<Corner>> ringsOf(const RawMesh& mesh, std::size_t* pinched) {
-  std::map<Corner, Corner> next;
-  std::set<Corner> twice;
-  for (const auto& [key, uses] : edgesOf(mesh.triangles)) {
-    if (uses.forth + uses.back != 1) continue;
-    auto a = static_cast<Corner>(key >> 32), b = static_cast<Corner>(key & 0xffffffffu);
-    if (uses.forth) std::swap(a, b);  // the missing triangle goes the other way
-    if (!next.emplace(a, b).second) twice.insert(a);
-  }
+/// Rings of open edges, each from corner to corner as the missing triangles would go. Where rings meet in a point they
+/// are parted there: a ring passes no point twice. `left`: edges that lie on no ring.
+std::vector<std::vector<Corner>> ringsOf(const RawMesh& mesh, std::size_t* left) {
+  std::map<Corner, std::vector<Corner>> next;
+  const Edges edges = edgesOf(mesh.triangles);
+  for (const Triangle& t : mesh.triangles)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const Corner a = t[k], b = t[(k + 1) % 3];
+      const EdgeUses& uses = edges.at(edgeKey(a, b));
+      if (uses.forth + uses.back == 1) next[b].push_back(a);  // the missing triangle goes the other way
+    }
   std::vector<std::vector<Corner>> rings;
   while (!next.empty()) {
-    std::vector<Corner> ring;
-    bool closed = false, clean = true;
-    for (auto at = next.begin(); at != next.end(); at = next.find(ring.empty() ? at->first : ring.back())) {
-      const auto [from, to] = *at;
-      if (ring.empty()) ring.push_back(from);
-      clean = clean && !twice.count(from);
-      next.erase(at);
-      closed = to == ring.front();
-      if (closed) break;
-      ring.push_back(to);
+    std::vector<Corner> way{next.begin()->first};
+    std::map<Corner, std::size_t> on_way{{way[0], 0}};
+    for (auto at = next.find(way.back()); at != next.end(); at = next.find(way.back())) {
+      const Corner to = at->second.back();
+      at->second.pop_back();
+      if (at->second.empty()) next.erase(at);
+      const auto met = on_way.find(to);
+      if (met == on_way.end()) {
+        on_way[to] = way.size();
+        way.push_back(to);
+        continue;
+      }
+      const auto begin = way.begin() + static_cast<std::ptrdiff_t>(met->second);
+      rings.emplace_back(begin, way.end());
+      for (auto i = begin + 1; i != way.end(); ++i) on_way.erase(*i);
+      way.erase(begin + 1, way.end());
     }
-    if (closed && clean && ring.size() >= 3) rings.push_back(std::move(ring));
-    else ++*pinched;
+    *left += way.size() - 1;
   }
   return rings;
 }
 
+/// By a fan about the ring's middle: where no triangles between its own points fit.
+std::vector<Triangle> fanOver(const std::vector<Corner>& ring, std::vector<Vec3>* points) {
+  Vec3 middle = Vec3::Zero();
+  for (const Corner c : ring) middle += (*points)[c] / static_cast<double>(ring.size());
+  const auto centre = static_cast<Corner>(points->size());
+  points->push_back(middle);
+  std::vector<Triangle> fan;
+  for (std::size_t i = 0; i < ring.size(); ++i) fan.push_back({ring[i], ring[(i + 1) % ring.size()], centre});
+  return fan;
+}
+
 void closeHoles(RawMesh* mesh, RepairReport* report) {
   std::set<Triangle> there;
-  for (const Triangle& t : mesh->triangles) there.insert(sortedCorners(t));
+  std::set<std::uint64_t> edges;
+  for (const Triangle& t : mesh->triangles) {
+    there.insert(sortedCorners(t));
+    for (std::size_t k = 0; k < 3; ++k) edges.insert(edgeKey(t[k], t[(k + 1) % 3]));
+  }
+  const auto taken = [&](Corner a, Corner b) { return edges.count(edgeKey(a, b)) > 0; };
   for (const std::vector<Corner>& ring : ringsOf(*mesh, &report->left_holes)) {
     // The border of a single sheet of one triangle is no hole: what would close it is the sheet itself.
     const bool itself = ring.size() == 3 && there.count(sortedCorners({ring[0], ring[1], ring[2]}));
-    if (itself || ring.size() > kLargestHole) {
+    if (ring.size() < 3 || itself || ring.size() > kLargestHole) {
       ++report->left_holes;
       continue;
     }
-    ++report->closed_holes;
-    if (ring.size() == 3) {
-      mesh->triangles.push_back({ring[0], ring[1], ring[2]});
-      ++report->added_triangles;
-      continue;
+    std::vector<Triangle> patch = closeRing(mesh->points, ring, taken);
+    if (patch.empty()) patch = fanOver(ring, &mesh->points);
+    for (const Triangle& t : patch) {
+      mesh->triangles.push_back(t);
+      there.insert(sortedCorners(t));
+      for (std::size_t k = 0; k < 3; ++k) edges.insert(edgeKey(t[k], t[(k + 1) % 3]));
     }
-    Vec3 middle = Vec3::Zero();
-    for (const Corner c : ring) middle += mesh->points[c] / static_cast<double>(ring.size());
-    const auto centre = static_cast<Corner>(mesh->points.size());
-    mesh->points.push_back(middle);
-    for (std::size_t i = 0; i < ring.size(); ++i)
-      mesh->triangles.push_back({ring[i], ring[(i + 1) % ring.size()], centre});
-    report->added_triangles += ring.size();
+    ++report->closed_holes;
+    report->added_triangles += patch.size();
   }
 }
 
@@ -145,9 +188,16 @@ void lookOutward(RawMesh* mesh, std::vector<bool>* turned) {
 
 }  // namespace
 
-RawMesh repaired(const RawMesh& mesh, RepairReport* report) {
+RawMesh repaired(const RawMesh& mesh, RepairReport* report, double tolerance) {
   *report = {};
   RawMesh result = joined(mesh, report);
+  WeldReport weld;
+  RepairReport seams;  // triangles that a weld has made equal
+  result = joined(welded(result, tolerance, &weld), &seams);
+  report->welded_points = weld.joined_points;
+  report->farthest_weld = weld.farthest;
+  report->dropped_triangles += seams.dropped_triangles;
+  dropScraps(&result, report);
   std::vector<bool> turned;
   orient(&result, &turned);
   closeHoles(&result, report);
@@ -159,13 +209,17 @@ RawMesh repaired(const RawMesh& mesh, RepairReport* report) {
   return result;
 }
 
-std::vector<std::string> words(const RepairReport& report) {
+std::vector<std::string> words(const RepairReport& report, double metres) {
   std::vector<std::string> all;
   const auto tell = [&](std::size_t count, const char* one, const char* many) {
     if (count > 0) all.push_back(count == 1 ? std::string(one) : std::to_string(count) + " " + many);
   };
   tell(report.joined_points, "one repeated point joined", "repeated points joined");
+  if (report.welded_points > 0)
+    all.push_back(std::to_string(report.welded_points) + (report.welded_points == 1 ? " point" : " points") + " of seams joined, none moved by more than " +
+                  lengthText(metres * report.farthest_weld));
   tell(report.dropped_triangles, "one triangle dropped that was nothing or there twice", "triangles dropped that were nothing or there twice");
+  tell(report.scraps, "one loose triangle dropped", "loose triangles dropped");
   tell(report.turned_triangles, "one triangle turned", "triangles turned");
   tell(report.closed_holes, "one hole closed", "holes closed");
   tell(report.left_holes, "one opening left", "openings left");

@@ -6,6 +6,7 @@
 #include <sstream>
 
 #include "anatomy/parametric_patient.h"
+#include "anatomy/patient_check.h"
 #include "anatomy/patient_file.h"
 #include "apps/runtime/random.h"
 #include "apps/station/assets.h"
@@ -14,7 +15,11 @@ namespace palpa::cli {
 namespace {
 
 anatomy::Patient makePatient(const SessionOptions& options) {
-  if (!options.patient.empty()) return anatomy::readPatient(options.patient);
+  if (!options.patient.empty()) {
+    anatomy::Patient patient = anatomy::readPatient(options.patient);
+    anatomy::requireForNeedle(patient, options.patient);
+    return patient;
+  }
   return anatomy::buildPatient(anatomy::drawParameters(
       station::assetFile("patients/reference.json").string(), options.side, options.patient_seed));
 }

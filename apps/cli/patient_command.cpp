@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/import/import_patient.h"
 #include "anatomy/import/repair.h"
 #include "anatomy/import/surface_check.h"
 #include "anatomy/import/unit.h"
@@ -29,6 +30,12 @@ anatomy::Person personOf(const PatientOptions& o) {
   return person;
 }
 
+struct ImportCommand {
+  std::string folder, map, out = "patient.glb", unit, axes;
+  int triangles = 300'000;
+  double weld_mm = 1e3 * anatomy::kWeldTolerance;
+};
+
 anatomy::Patient build(const PatientOptions& o) {
   return anatomy::buildPatient(anatomy::drawParameters(
       station::assetFile("patients/reference.json").string(),
@@ -45,6 +52,10 @@ void tell(const anatomy::Patient& patient) {
   std::printf("  %zu triangles in all\nLandmarks (mm: left, posterior, superior of the suprasternal notch)\n", triangles);
   for (const auto& [landmark, p] : patient.landmarks)
     std::printf("  %-44s %7.1f %7.1f %7.1f\n", landmark.c_str(), 1e3 * p.x(), 1e3 * p.y(), 1e3 * p.z());
+  const std::vector<std::string> missing = anatomy::missingForNeedle(patient);
+  if (!missing.empty()) std::printf("To be looked at, not to be punctured: it lacks\n");
+  for (const std::string& one : missing) std::printf("  %s\n", one.c_str());
+  if (!missing.empty()) return;
   std::printf("Checks\n");
   for (const auto& finding : anatomy::checkPatient(patient))
     std::printf("  %-4s %-52s %8.2f %s\n", finding.ok ? "ok" : "BAD", finding.name.c_str(), finding.value, finding.unit.c_str());
@@ -75,11 +86,11 @@ void checkLength(const CheckedSurface& surface, const PatientOptions& o, Organ o
 }
 
 /// Whether it can be mended, and what would be done.
-void tellRepair(const anatomy::RawMesh& mesh) {
+void tellRepair(const anatomy::RawMesh& mesh, double metres) {
   anatomy::RepairReport report;
-  const bool sound = anatomy::checkSurface(anatomy::repaired(mesh, &report)).sound();
+  const bool sound = anatomy::checkSurface(anatomy::repaired(mesh, &report, anatomy::kWeldTolerance / metres)).sound();
   std::string done;
-  for (const std::string& word : anatomy::words(report)) done += (done.empty() ? "" : ", ") + word;
+  for (const std::string& word : anatomy::words(report, metres)) done += (done.empty() ? "" : ", ") + word;
   std::printf("      %s: %s\n", sound ? "can be mended" : "cannot be mended wholly", done.empty() ? "nothing helps" : done.c_str());
 }
 
@@ -92,14 +103,14 @@ void tellSurface(const CheckedSurface& surface, const PatientOptions& o) {
               anatomy::lengthText(size.z()).c_str(), check.sound() ? "sound" : "see below");
   if (check.pieces > 1) std::printf("      in %zu pieces\n", check.pieces);
   for (const std::string& finding : anatomy::findings(check)) std::printf("      %s\n", finding.c_str());
-  if (!check.sound()) tellRepair(mesh);
+  if (!check.sound()) tellRepair(mesh, unitOf(o).metres);
 }
 
 /// Surfaces of a file that is no patient of ours (yet).
 void tellSurfaces(const PatientOptions& o) {
   const Organ organ = o.organ.empty() ? Organ::none : organFromName(o.organ.c_str());
   if (!o.organ.empty() && organ == Organ::none)
-    throw UsageError("is \"" + o.organ + "\"", "--organ", "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery");
+    throw UsageError("is \"" + o.organ + "\"", "--organ", "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery, scapula, cartilage, airway");
   const anatomy::Unit unit = unitOf(o);
   std::vector<CheckedSurface> surfaces;
   for (anatomy::RawMesh& mesh : anatomy::readMeshFile(o.file)) {
@@ -118,6 +129,35 @@ void info(const PatientOptions& o) {
   const bool other = anatomy::meshFormat(o.file) != anatomy::MeshFormat::gltf || !o.unit.empty() || !o.organ.empty();
   if (other || !anatomy::isPatientFile(o.file)) return tellSurfaces(o);
   tell(anatomy::readPatient(o.file));
+}
+
+/// A patient of many files, told file by file.
+void import(const ImportCommand& o) {
+  const anatomy::ImportMap map = anatomy::readImportMap(o.map, {o.unit, o.axes});
+  if (std::filesystem::path(o.out).extension() != ".glb") throw UsageError("is \"" + o.out + "\"", "--out", "A patient file ends in .glb");
+  anatomy::ImportReport report;
+  const anatomy::Patient patient =
+      anatomy::importPatient(map, o.folder, {static_cast<std::size_t>(o.triangles), 1e-3 * o.weld_mm}, &report);
+  for (const std::string& line : anatomy::words(report)) std::printf("%s\n", line.c_str());
+  anatomy::writePatient(patient, o.out);
+  std::printf("Written: %s (%s; licence: %s)\n", o.out.c_str(), patient.name.c_str(), patient.licence.c_str());
+}
+
+void addImport(CLI::App& patient) {
+  const auto o = std::make_shared<ImportCommand>();
+  CLI::App* command = patient.add_subcommand("import", "A patient from many mesh files, as a map file says");
+  command->footer(
+      "Example:\n  palpa patient import --map assets/patients/bodyparts3d_hra.json DATA --out p.glb\n"
+      "The map (JSON): name, side, unit, axes, licence, source, entries of file, id, organ; more in anatomy/import/README.md.\n"
+      "Axes: where +x, +y, +z of a file point, L/R, A/P, S/I of the patient.");
+  command->add_option("folder", o->folder, "Folder of the mesh files")->required()->type_name("DIR");
+  command->add_option("--map", o->map, "What the files are (.json)")->required()->type_name("FILE");
+  command->add_option("--out", o->out, "File to write (.glb)")->type_name("FILE");
+  command->add_option("--unit", o->unit, "Instead of the map's default: " + anatomy::knownUnits())->type_name("UNIT");
+  command->add_option("--axes", o->axes, "Instead of the map's default, for example LSA")->type_name("AXES");
+  command->add_option("--triangles", o->triangles, "Of the whole patient at most; 0: all")->check(CLI::Range(0, 20'000'000));
+  command->add_option("--weld", o->weld_mm, "Seams so wide are joined, mm")->check(CLI::Range(0.0, 1.0));
+  command->callback([o] { import(*o); });
 }
 
 }  // namespace
@@ -139,6 +179,7 @@ void addPatient(CLI::App& program) {
     anatomy::writePatient(build(*o), o->out);
     std::printf("Written: %s\n", o->out.c_str());
   });
+  addImport(*patient);
   CLI::App* tells = patient->add_subcommand("info", "Organs, sizes, landmarks, checks; or what a file of surfaces is worth");
   tells->footer(
       "Examples:\n  palpa patient info p.glb      (without a file: the reference patient)\n"

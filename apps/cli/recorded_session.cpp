@@ -9,6 +9,7 @@
 #include <unordered_map>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/patient_check.h"
 #include "anatomy/patient_file.h"
 
 namespace palpa::cli {
@@ -54,6 +55,7 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
                 "Restore the file from a backup");
   }
   patient_ = anatomy::readPatient(TemporaryFile(info.patient_glb, ".glb").path());
+  anatomy::requireForNeedle(patient_, file.string() + ", its patient");
   query_ = std::make_unique<anatomy::SurfaceQuery>(patient_);
   rules_ = task_needle::readTask(TemporaryFile(info.task_json, ".json").path()).rules;
   if (!info.expert_path_json.empty())

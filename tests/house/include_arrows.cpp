@@ -117,7 +117,7 @@ std::string libraryOf(const std::string& header) {
   if (begins(header, "vtk")) {
     for (const char* data :
          {"vtkSmartPointer", "vtkNew", "vtkPolyData", "vtkPoints", "vtkCellArray", "vtkImageData",
-          "vtkFloatArray", "vtkDoubleArray", "vtkMatrix4x4"})
+          "vtkFloatArray", "vtkDoubleArray", "vtkMatrix4x4", "vtkQuadricDecimation", "vtkDecimatePro"})
       if (begins(header, data) && header.find("Mapper") == std::string::npos) return "VTK data";
     return "VTK";
   }
