@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <fstream>
+#include <numbers>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/geometry/error.h"
@@ -84,12 +85,30 @@ class Dice {
   RandomStream random_;
 };
 
+// The spread before the ends are cut off at which the one that is left is the published one (moments of the truncated
+// normal; a range of a few spreads to either side).
+double uncut(const Spread& s) {
+  if (s.sd <= 0) return 0;
+  double sd = s.sd;
+  for (int i = 0; i < 30; ++i) {
+    const double a = (s.low - s.mean) / sd, b = (s.high - s.mean) / sd;
+    const auto density = [](double x) { return std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi); };
+    const double inside = 0.5 * (std::erf(b / std::numbers::sqrt2) - std::erf(a / std::numbers::sqrt2));
+    const double shift = (density(a) - density(b)) / inside;
+    const double left = sd * std::sqrt(1 + (a * density(a) - b * density(b)) / inside - shift * shift);
+    sd *= std::min(s.sd / left, 1.1);
+    if (sd > 1.5 * s.sd) return 1.5 * s.sd;   // too narrow a range for such a spread
+  }
+  return sd;
+}
+
 // Normal within the range: drawn again outside it, so that the shape inside stays normal. `known`: how many
 // deviations a quantity that goes together with this one (correlation r) is off its mean.
 double draw(const Spread& s, Dice* dice, double r = 0, double known = 0) {
   double x = s.mean;
+  const double sd = uncut(s);
   for (int i = 0; i < 1000; ++i) {
-    x = s.mean + s.sd * (r * known + std::sqrt(1 - r * r) * dice->normal());
+    x = s.mean + sd * (r * known + std::sqrt(1 - r * r) * dice->normal());
     if (x >= s.low && x <= s.high) return x;
   }
   return std::clamp(x, s.low, s.high);

@@ -17,6 +17,13 @@ struct TriangleMesh {
   std::vector<Vec3> points;
   std::vector<Vec3> normals;                            ///< one a point, outward, unit length
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
+  std::vector<std::array<float, 2>> uvs;                ///< one a point, v down the picture (glTF); or none
+};
+
+/// A picture to be laid over a surface by its `uvs`; rows from the top, sRGB.
+struct Texture {
+  int width = 0, height = 0;
+  std::vector<std::uint8_t> rgb;   ///< 3 a pixel; empty: none
 };
 
 struct OrganSurface {
@@ -24,6 +31,7 @@ struct OrganSurface {
   Organ organ = Organ::none;
   TriangleMesh mesh;
   std::array<float, 4> rgba{1, 1, 1, 1};
+  Texture texture{};   ///< multiplied by rgba
   std::string licence{};   ///< of this surface, where it is not the patient's
   std::string source{};    ///< who made it, as its licence asks to be named
 };

@@ -2,7 +2,7 @@
 
 #include "anatomy/parametric/thorax.h"
 #include "anatomy/shapes/surface_nets.h"
-#include "anatomy/triangle_tree.h"
+#include "anatomy/triangle_distance.h"
 
 namespace palpa::anatomy {
 namespace {
