@@ -32,8 +32,6 @@ double ellipsoid(const Vec3& p, const Vec3& centre, const Vec3& radii) {
 // Both sides look alike; smooth at the midline.
 double mirrored(double l) { return std::sqrt(l * l + 16) - 4; }
 
-double softStep(double x, double width) { return 0.5 * (1 + std::tanh(x / width)); }
-
 // Soft tissue evens out the bone's quick changes of thickness.
 TubeField draped(const std::vector<Section>& sections) {
   constexpr int kWindow = 9;

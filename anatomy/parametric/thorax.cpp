@@ -140,8 +140,10 @@ TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, cons
     if (f > 12) return f;
     const Vec3 there(sign * p.x(), p.y(), p.z());
     for (const Rib& rib : ribs) f = smoothMax(f, 1.5 - rib.tube(p), 8);
+    // No fins between the vessels at the root of the neck.
+    f = smoothMax(f, 13 + 8 * softStep(p.z() + 22, 8) - p.x(), 8);
     for (const TubeField& tube : airway) f = smoothMax(f, 3 - tube(there), 7);
-    f = smoothMax(f, 2.5 - vessels.arteryField(there), 7);
+    f = smoothMax(f, 2.5 - vessels.arteryField(there), 9);
     return smoothMax(f, groove_mm - vessels.veinField(there), 4);
   };
   Eigen::AlignedBox3d box(Vec3(-4, -30, build.place({0, 0, -205}).z()), Vec3(build.place({140, 0, 0}).x(), 152, 42));

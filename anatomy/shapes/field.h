@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <functional>
 #include <vector>
@@ -14,6 +15,9 @@ using Field = std::function<double(const Vec3&)>;
 /// Union and intersection with a fillet about `k` wide (polynomial, Quilez 2013); k > 0.
 double smoothMin(double a, double b, double k);
 double smoothMax(double a, double b, double k);
+
+/// From 0 to 1 about x = 0, half of it within 0.55 `width`.
+inline double softStep(double x, double width) { return 0.5 * (1 + std::tanh(x / width)); }
 
 /// Tube of varying radius along a chain of points. Spans are kept in bundles with a sphere around each,
 /// so that most are never looked at.
