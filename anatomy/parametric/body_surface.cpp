@@ -115,7 +115,7 @@ double BodySurface::chest(double l, double z) const {
 
 // Sides and back: an oval whose back follows the spine's curve, with a furrow over the spine.
 double BodySurface::back(const Vec3& q) const {
-  static const Spline wide{{-232, 134}, {-150, 137}, {-90, 141}, {-40, 145}, {10, 142}, {60, 120}, {90, 90}};
+  static const Spline wide{{-232, 138}, {-150, 139}, {-90, 141}, {-40, 145}, {10, 142}, {60, 120}, {90, 90}};
   static const Spline deep{{-232, 166}, {-170, 176}, {-110, 178}, {-50, 168}, {0, 150}, {50, 128}, {100, 116}};
   const double z = build_.unplace(q).z();
   const double fat = std::max(0.8 * build_.softness, -1.5);
