@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kThresholds = 8;
 constexpr double kHighest = 2.2;          // times the bone level above the soft tissue's
-constexpr double kSeedReach = 8e-3, kWatershed = 4e-3, kMarrow = 6e-3, kThread = 3e-3;
+constexpr double kSeedReach = 8e-3, kWatershed = 4e-3, kMarrow = 6e-3, kThread = 4e-3;
 constexpr double kRival = 3e-6;           // m^3
 constexpr double kPerStep = 4e-3;         // a lower threshold is worth so much height
 
@@ -162,11 +162,11 @@ class Search {
     return clavicle;
   }
 
-  /// Without the vessels that hang on it: what no ball of 3 mm fits into, except within 3 mm of what one does.
+  /// Without the vessels that hang on it: what no ball of 4 mm fits into, except within 2 mm of what one does.
   Mask withoutThreads(const Mask& whole) const {
     const Mask core = largestPiece(scan_.grid, opened(scan_.grid, whole, kThread));
     std::vector<std::int32_t> marked(core.begin(), core.end());
-    marked = grown(scan_.grid, std::move(marked), whole, kThread);
+    marked = grown(scan_.grid, std::move(marked), whole, kThread / 2);
     return Mask(marked.begin(), marked.end());
   }
 

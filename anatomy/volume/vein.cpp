@@ -15,6 +15,7 @@ constexpr double kCavaOff = 0.05;                            // the vena cava li
 constexpr double kNearest = 0.055, kFarthest = 0.115;        // of the armpit's seed from the midline
 constexpr double kThinnestLumen = 2.5e-3, kWidestLumen = 7.5e-3;
 constexpr double kOverRadius = 1.3, kSlack = 1.0e-3;         // growth about the line
+constexpr double kBlooming = 5e-3;
 constexpr double kSnap = 6e-3;
 constexpr double kLineSmoothing = 8e-3;
 
@@ -38,6 +39,9 @@ class VeinSearch {
     for (const Vec3& p : vein.line_S) vein.radius.push_back(ballNear(p));
     evenOut(&vein.radius);
     vein.mask = lumen(vein);
+    Mask cores(dense_.size());
+    for (std::size_t n = 0; n < cores.size(); ++n) cores[n] = cores_.label[n] != 0;
+    vein.contrast = dilated(scan_.grid, cores, kBlooming);
     vein.side = points.front().x() < scan_.midline_x ? Side::right : Side::left;
     vein.seeds = {{"vein_svc", scan_.place(cava)}, {"vein_axilla", scan_.place(axilla)}};
     return vein;

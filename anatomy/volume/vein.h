@@ -14,6 +14,7 @@ struct Vein {
   std::vector<Vec3> line_S;       ///< axilla to superior vena cava
   std::vector<double> radius;     ///< of the largest ball in the lumen there, metres
   Mask mask;
+  Mask contrast;                  ///< all dense voxels that are too thick for cortex, with 5 mm about them: no bone
   Seeds seeds;                    ///< the two that were used
 };
 
