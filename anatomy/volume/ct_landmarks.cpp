@@ -14,7 +14,7 @@ namespace {
 
 constexpr double kMeanLength = 0.1494, kShortestWhole = 0.130;  // clavicle, model sheet 5: 149.4 +- 10.3 mm
 constexpr double kBelow = 0.010, kSternalRegion = 0.012;
-constexpr double kSteepest = 30 * std::numbers::pi / 180, kLeastClearance = 1e-3, kNeedle = 0.060;
+constexpr double kSteepest = 30 * std::numbers::pi / 180, kLeastClearance = 1e-3, kNeedle = 0.060, kLeastMedial = 0.15;
 
 Vec3 along(const std::vector<Vec3>& line, double s) {
   for (std::size_t i = 1; i < line.size(); ++i) {
@@ -99,7 +99,7 @@ class Marker {
     const Vec3 third = patient_.landmarks.at(landmark::kMedialThird);
     double lower = third.z();
     for (const Vec3& p : patient_.organs[static_cast<std::size_t>(surface(Organ::clavicle))].mesh.points)
-      if (std::abs(p.x() - third.x()) < 3e-3) lower = std::min(lower, p.z());
+      if (std::abs(p.x() - third.x()) < 3e-3 && p.y() < third.y()) lower = std::min(lower, p.z());
     return skinInFrontOf({third.x(), third.y(), lower - kBelow});
   }
 
@@ -117,19 +117,29 @@ class Marker {
     return true;
   }
 
+  /// The vein's line, and places half a radius off it.
+  std::vector<Vec3> candidates() const {
+    std::vector<Vec3> places;
+    for (std::size_t i = 0; i < vein_.line_S.size(); ++i)
+      for (const Vec3& off : {Vec3(0, 0, 0), Vec3(0, 0, 0.5), Vec3(0, -0.5, 0), Vec3(0, -0.35, 0.35)}) places.push_back(vein_.line_S[i] + vein_.radius[i] * off);
+    return places;
+  }
+
   Vec3 target() {
     const Vec3 entry = patient_.landmarks.at(landmark::kEntry), normal = query_.closest(surface(Organ::skin), entry).n_A;
+    const double medially = patient_.side == Side::right ? 1 : -1;
     const Vec3 aim = (patient_.landmarks.at(landmark::kSternalEndPosteriorSuperior) - entry).normalized();
     const int bone = surface(Organ::clavicle);
     double best = 1e9;
     Vec3 found = vein_.line_S[vein_.line_S.size() / 2];
     bool free = false, shallow = false;
-    for (const Vec3& p : vein_.line_S) {
+    for (const Vec3& p : candidates()) {
       const Vec3 way = p - entry;
       const double angle = std::asin(std::clamp(-way.normalized().dot(normal), -1.0, 1.0));
       const bool clear = clearance(bone, entry, p) >= kLeastClearance && meetsVeinFirst(entry, p);
       const double worth = std::acos(std::clamp(way.normalized().dot(aim), -1.0, 1.0)) + 4 * std::max(0.0, angle - kSteepest) + (clear ? 0 : 3) +
-                           20 * std::max(0.0, way.norm() - kNeedle) + (way.z() < 0 ? 0.2 : 0);
+                           20 * std::max(0.0, way.norm() - kNeedle) + (way.z() < 0 ? 0.2 : 0) +
+                           (medially * way.x() < kLeastMedial * way.norm() ? 2 : 0);
       if (worth < best) best = worth, found = p, free = clear, shallow = angle <= kSteepest;
     }
     if (!free) remark("No straight way from the entry to the vein is free of bone and lung: move entry_point or vein_target by --seed-point");

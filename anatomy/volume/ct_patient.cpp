@@ -38,6 +38,7 @@ class Builder {
     mesh();
     tell("landmarks", 0.9);
     remarkOnData();
+    ct_.patient.side = vein_.side;
     markLandmarks(*(vein_.side == Side::right ? clavicles_.right : clavicles_.left), vein_, options_.seeds, &ct_);
     intoA();
     return std::move(ct_);
@@ -143,7 +144,6 @@ class Builder {
 
   void intoA() {
     Patient& patient = ct_.patient;
-    patient.side = vein_.side;
     patient.layers = options_.layers;
     for (const char* key : {landmark::kNotch, landmark::kEntry, landmark::kVeinTarget}) ct_.seeds[key] = patient.landmarks.at(key);
     ct_.origin_S = patient.landmarks.at(landmark::kNotch);

@@ -6,7 +6,7 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kClearOff = 0.012, kClearRatio = 1.6, kSpineHalf = 0.035, kBeside = 0.06;
+constexpr double kClearOff = 0.003, kClearRatio = 1.6, kSpineHalf = 0.035, kBeside = 0.06;
 constexpr double kEnds = 0.3;  // of the height
 
 char turned(char letter) {

@@ -12,7 +12,7 @@ constexpr double kLeastLung = 100e-6;                      // m^3
 constexpr double kMediastinum = 40e-3;                     // lungs closed by this hold heart and great vessels
 constexpr double kMidline = 6e-3;                          // half of what parts estimated lungs
 constexpr double kIndent = 9e-3;                           // ribs press no deeper into the closed lungs
-constexpr double kUnderSkin = 20e-3, kDeepestRib = 45e-3;  // sternum, ribs, from the body's surface
+constexpr double kUnderSkin = 20e-3, kFrontRib = 28e-3, kBackRib = 60e-3;  // depth of sternum and ribs
 constexpr double kWall = 14e-3;                            // ribs lie within this of the lung
 constexpr double kSternumStrip = 12e-3, kRibsFrom = 38e-3; // half widths from the midline
 constexpr double kSpine = 40e-3;
@@ -37,7 +37,8 @@ Mask wallBone(const Scan& scan, const Mask& lungs, const Mask& taken, double mid
     const double off = std::abs(p.x() - midline_x);
     const bool spine = off < kSpine && p.y() > front_y + 0.07;
     const bool at_front = off < kRibsFrom && p.y() < front_y + 0.025 && p.z() < top_z + 0.01 && under[n] < kUnderSkin;
-    bone[n] = !taken[n] && !spine && (at_front || (off > kSternumStrip && to_lung[n] <= kWall && inside[n] <= kIndent && under[n] <= kDeepestRib));
+    const double deepest = p.y() < front_y + 0.06 ? kFrontRib : kBackRib;
+    bone[n] = !taken[n] && !spine && (at_front || (off > kRibsFrom && to_lung[n] <= kWall && inside[n] <= kIndent && under[n] <= deepest));
   }
   return bone;
 }
