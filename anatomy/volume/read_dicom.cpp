@@ -1,6 +1,7 @@
 #include <gdcmAttribute.h>
 #include <gdcmImageReader.h>
 #include <gdcmReader.h>
+#include <gdcmTrace.h>
 
 #include <algorithm>
 #include <cmath>
@@ -133,6 +134,7 @@ std::vector<float> valuesOf(const Slice& slice, const std::string& where) {
 }  // namespace
 
 Volume readDicomSeries(const std::filesystem::path& path, const std::string& series) {
+  gdcm::Trace::SetDebug(false), gdcm::Trace::SetWarning(false), gdcm::Trace::SetError(false);  // it is said in our words
   const bool folder = std::filesystem::is_directory(path);
   std::map<std::string, std::vector<Slice>> all;
   for (const std::filesystem::path& file : filesOf(folder ? path : path.parent_path().empty() ? "." : path.parent_path()))
