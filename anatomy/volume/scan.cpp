@@ -14,7 +14,7 @@ constexpr double kAboveShoulders = 0.12, kBelowShoulders = 0.20;
 constexpr double kShoulderWidth = 0.8;           // of the widest slice
 constexpr double kThinnest = 3e-3;               // table, clothes, tubes are thinner than twice this
 constexpr double kSpeck = 1e-6;                  // m^3
-constexpr double kEnvelope = 10e-3;              // fat between muscles is narrower than twice this
+constexpr double kEnvelope = 18e-3;              // fat between muscles is narrower than twice this
 
 /// Means over blocks.
 Volume reduced(const Volume& v, const Index3& by) {
