@@ -3,7 +3,11 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cstdlib>
 #include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/volume/readers.h"
@@ -100,6 +104,31 @@ TEST_F(DicomSeries, TwoSeriesAreNamedAndOneCanBeChosen) {
   EXPECT_EQ(readVolume(folder_, "2").at(0, 0, 0), -1000.f + 2 * 35);
   EXPECT_EQ(readVolume(folder_, "1.2.3.4").at(0, 0, 0), -1000.f);
   EXPECT_NE(complaint("3").find("has no series \"3\""), std::string::npos);
+}
+
+TEST_F(DicomSeries, DamageGivesAVolumeOrAClearWord) {
+  for (int n = 0; n < 3; ++n) write(n, "1.2.3.4", std::to_string(n) + ".dcm");
+  std::ifstream stream(folder_ / "1.dcm", std::ios::binary);
+  const std::string sound((std::istreambuf_iterator<char>(stream)), {});
+  std::mt19937_64 bits(7);
+  const char* full = std::getenv("PALPA_FULL");
+  const int cases = full && std::string(full) == "1" ? 2000 : 200;
+  int read = 0, refused = 0;
+  for (int i = 0; i < cases; ++i) {
+    std::string bytes = sound;
+    if (i % 5 == 0) bytes.resize(bits() % bytes.size());
+    for (std::uint64_t n = 0, flips = 1 + bits() % 4; i % 5 && n < flips; ++n) bytes[bits() % bytes.size()] ^= static_cast<char>(1 << bits() % 8);
+    std::ofstream(folder_ / "1.dcm", std::ios::binary) << bytes;
+    try {
+      const Volume v = readVolume(folder_);
+      ASSERT_EQ(v.values.size(), static_cast<std::size_t>(v.size[0]) * static_cast<std::size_t>(v.size[1]) * static_cast<std::size_t>(v.size[2]));
+      ++read;
+    } catch (const Error&) {
+      ++refused;
+    }
+  }
+  EXPECT_GT(read, 0);
+  EXPECT_GT(refused, 0);
 }
 
 TEST_F(DicomSeries, AFolderWithoutSlicesIsSaid) { EXPECT_NE(complaint().find("holds no DICOM slices"), std::string::npos); }
