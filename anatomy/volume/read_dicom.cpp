@@ -73,13 +73,15 @@ bool soundElements(const std::filesystem::path& file) {
       if (kinds.substr(i, 2) == kind) return true;
     return false;
   };
-  std::uint32_t last = 0;
+  std::uint32_t last = 0, meta = 0;
   for (std::size_t at = 132; at < bytes.size();) {
     if (bytes.size() - at < 8) return false;
     std::uint16_t half[2];
     std::memcpy(half, &bytes[at], 4);
     const std::uint32_t tag = static_cast<std::uint32_t>(half[0]) << 16 | half[1];
     const std::string_view kind(&bytes[at + 4], 2);
+    if (tag >= 0x00080000 && last < 0x00080000 && at != 144 + static_cast<std::size_t>(meta)) return false;
+    if (tag < 0x00080000 && (tag >> 16 != 2 || !among("ULOBUISHAE", kind))) return false;
     if (tag <= last || (tag >> 16) == 0xfffe || (last < 0x00080000 && tag >= 0x00030000 && tag < 0x00080000)) return false;
     std::uint32_t length = 0;
     if (among(kShort, kind)) {
@@ -94,12 +96,13 @@ bool soundElements(const std::filesystem::path& file) {
     }
     if (length == 0xffffffff) return kind == "SQ" || kind == "OB" || kind == "OW" || kind == "UN";  // nested: left to GDCM
     if (length > bytes.size() - at) return false;
-    if (tag == 0x00020000 && length != 4) return false;
+    if (tag == 0x00020000 && (length != 4 || kind != "UL")) return false;
+    if (tag == 0x00020000) std::memcpy(&meta, &bytes[at], 4);
     if (kind == "US" && !sensible(tag, std::string_view(bytes).substr(at, length))) return false;
     last = tag;
     at += length;
   }
-  return true;
+  return last >= 0x7fe00010;
 }
 
 /// Whether the file is a slice with a place; anything else in a folder is left alone.
