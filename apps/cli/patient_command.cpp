@@ -10,6 +10,7 @@
 #include "anatomy/patient_check.h"
 #include "anatomy/patient_file.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/ct_patient.h"
 #include "apps/station/assets.h"
 
 namespace palpa::cli {
@@ -166,17 +167,18 @@ void addPatient(CLI::App& program) {
   CLI::App* patient = program.add_subcommand("patient", "Build a patient, or see what one holds");
   patient->require_subcommand(1);
   const auto o = std::make_shared<PatientOptions>();
-  CLI::App* make = patient->add_subcommand("build", "Build a patient from the reference figures");
-  make->footer("Examples:\n  palpa patient build --sex f --height 1.68 --bmi 24 --side right --seed 3 --out p.glb\n  palpa patient build --bmi 38 --seed 4 --out heavy.glb      (what is not stated is drawn, too)");
-  make->add_option("--side", o->side, "Side that is punctured")->check(CLI::IsMember({"right", "left"}));
+  CLI::App* make = patient->add_subcommand("build", "Build a patient from the reference figures or a CT volume");
+  make->footer("Examples:\n  palpa patient build --sex f --height 1.68 --bmi 24 --side right --seed 3 --out p.glb\n  palpa patient build --bmi 38 --seed 4 --out heavy.glb      (what is not stated is drawn, too)\n  palpa patient build --ct chest.mha --previews look --out p.glb");
+  const CLI::Option* side = make->add_option("--side", o->side, "Side that is punctured (CT: by default that of the contrast)")->check(CLI::IsMember({"right", "left"}));
   make->add_option("--sex", o->sex, "f or m (default: drawn)")->check(CLI::IsMember({"f", "m"}));
   make->add_option("--height", o->height, "Metres (default: drawn)");
   make->add_option("--bmi", o->bmi, "Body mass index, kg/m2 (default: drawn)");
   make->add_option("--seed", o->seed, "0: the means of such a person; others are drawn from the spreads")
       ->check(CLI::NonNegativeNumber);
   make->add_option("--out", o->out, "File to write (.glb)")->type_name("FILE");
-  make->callback([o] {
-    anatomy::writePatient(build(*o), o->out);
+  const auto ct = addCtOptions(*make);
+  make->callback([o, ct, side] {
+    anatomy::writePatient(ct->ct.empty() ? build(*o) : buildFromCt(*ct, side->count() ? o->side : ""), o->out);
     std::printf("Written: %s\n", o->out.c_str());
   });
   addImport(*patient);

@@ -55,6 +55,7 @@ std::vector<Layer> makeLayers() {
       {"anatomy/deflection", {"anatomy/geometry"}, {}, {"Eigen"}},
       {"haptics/materials", {"anatomy/geometry"}, {}, {"Eigen"}},
       {"haptics/sensors", {"haptics", "anatomy/geometry"}, {}, {"Eigen"}},
+      {"anatomy/volume", {"anatomy"}, {}, {"Eigen", "JSON", "GDCM", "VTK data", "zlib"}},
       {"anatomy", {}, {}, {"Eigen", "JSON", "tinygltf", "GDCM", "VTK data"}},
       {"haptics/devices", {"haptics", "anatomy/geometry"}, {}, {"Eigen", "libusb"}},
       {"haptics", {"anatomy/geometry"}, {"haptics/devices", "haptics/sensors"}, {"Eigen"}},

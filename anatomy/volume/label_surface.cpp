@@ -1,0 +1,107 @@
+#include "anatomy/volume/label_surface.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anatomy/shapes/mesh_tools.h"
+#include "anatomy/shapes/surface_nets.h"
+
+namespace palpa::anatomy {
+namespace {
+
+constexpr double kGap = 0.5e-3;
+constexpr double kMargin = 12e-3;    // about the mask: the field is known so far
+
+/// A box of the scan's voxels with values between them by three linear steps.
+struct Patch {
+  VoxelGrid grid;
+  Index3 low{};
+  Values values;
+
+  double at(const Vec3& c) const {  // c: in voxels of the patch, inside it
+    Index3 base{};
+    Vec3 f;
+    for (std::size_t a = 0; a < 3; ++a) {
+      const double x = std::clamp(c[static_cast<int>(a)], 0.0, grid.size[a] - 1.0);
+      base[a] = std::min(static_cast<int>(x), std::max(0, grid.size[a] - 2));
+      f[static_cast<int>(a)] = x - base[a];
+    }
+    double sum = 0;
+    for (int corner = 0; corner < 8; ++corner) {
+      double weight = 1;
+      Index3 n{};
+      for (std::size_t a = 0; a < 3; ++a) {
+        const bool up = corner >> a & 1;
+        n[a] = std::min(base[a] + up, grid.size[a] - 1);
+        weight *= up ? f[static_cast<int>(a)] : 1 - f[static_cast<int>(a)];
+      }
+      if (weight > 0) sum += weight * values[grid.index(n)];
+    }
+    return sum;
+  }
+};
+
+Patch patchAbout(const Scan& scan, const Mask& mask, double margin) {
+  Index3 low = scan.grid.size, high{-1, -1, -1};
+  for (std::size_t n = 0; n < mask.size(); ++n) {
+    if (!mask[n]) continue;
+    const Index3 c = scan.grid.cell(n);
+    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], c[a]), high[a] = std::max(high[a], c[a]);
+  }
+  Patch patch;
+  patch.grid.spacing = scan.grid.spacing;
+  for (std::size_t a = 0; a < 3; ++a) {
+    const int more = static_cast<int>(std::ceil(margin / scan.grid.spacing[static_cast<int>(a)]));
+    patch.low[a] = std::max(0, low[a] - more);
+    patch.grid.size[a] = std::min(scan.grid.size[a], high[a] + more + 1) - patch.low[a];
+  }
+  return patch;
+}
+
+Mask cut(const Scan& scan, const Patch& patch, const Mask& mask) {
+  Mask out(patch.grid.count());
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    const Index3 c = patch.grid.cell(n);
+    out[n] = mask[scan.grid.index({c[0] + patch.low[0], c[1] + patch.low[1], c[2] + patch.low[2]})];
+  }
+  return out;
+}
+
+/// How far a place (in voxels of the scan) is outside of the outermost voxels' centres, metres.
+double outsideOf(const VoxelGrid& grid, const Vec3& c) {
+  double most = -1;
+  for (int a = 0; a < 3; ++a)
+    most = std::max(most, grid.spacing[a] * std::max(-c[a], c[a] - (grid.size[static_cast<std::size_t>(a)] - 1)));
+  return most;
+}
+
+}  // namespace
+
+TriangleMesh labelSurface(const Scan& scan, const Mask& mask, const Mask& others, double smoothing, double cell, double outward, double beyond) {
+  if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return {};
+  Patch patch = patchAbout(scan, mask, kMargin + outward);
+  patch.values = blurred(patch.grid, signedDistance(patch.grid, largestPiece(patch.grid, cut(scan, patch, mask))), smoothing);
+  if (!others.empty()) {
+    const Mask near = cut(scan, patch, others);
+    const Values away = blurred(patch.grid, signedDistance(patch.grid, near), smoothing);
+    for (std::size_t n = 0; n < away.size(); ++n) patch.values[n] = std::max(patch.values[n], static_cast<float>(kGap) - away[n]);
+  }
+  const Mat3 to_index = scan.volume.steps_S.inverse();
+  const Vec3 low(patch.low[0], patch.low[1], patch.low[2]);
+  const auto field = [&](const Vec3& p_S) {
+    const Vec3 c = to_index * (p_S - scan.volume.origin_S);
+    return std::max(patch.at(c - low) - outward, outsideOf(scan.grid, c) - beyond);
+  };
+  Eigen::AlignedBox3d box;
+  for (int corner = 0; corner < 8; ++corner) {
+    const Vec3 c(corner & 1 ? patch.grid.size[0] : -1, corner & 2 ? patch.grid.size[1] : -1, corner & 4 ? patch.grid.size[2] : -1);
+    box.extend(scan.volume.pointToS(low + c));
+  }
+  const Vec3 more = Vec3::Constant(beyond + 3 * cell);
+  TriangleMesh mesh = surfaceNets(field, {box.min() - more, box.max() + more}, cell);
+  if (signedVolume(mesh) < 0) flip(&mesh);
+  computeNormals(&mesh);
+  return mesh;
+}
+
+}  // namespace palpa::anatomy

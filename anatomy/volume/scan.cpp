@@ -1,0 +1,139 @@
+#include "anatomy/volume/scan.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::anatomy {
+namespace {
+
+constexpr double kAir = -300;                    // HU
+constexpr double kWorkingStep = 1.5e-3;          // m: reduced while a step stays below this
+constexpr double kAboveShoulders = 0.12, kBelowShoulders = 0.20;
+constexpr double kShoulderWidth = 0.8;           // of the widest slice
+constexpr double kThinnest = 3e-3;               // table, clothes, tubes are thinner than twice this
+constexpr double kSpeck = 1e-6;                  // m^3
+constexpr double kEnvelope = 18e-3;              // fat between muscles is narrower than twice this
+
+/// Means over blocks.
+Volume reduced(const Volume& v, const Index3& by) {
+  Volume out;
+  for (std::size_t a = 0; a < 3; ++a) {
+    out.size[a] = std::max(1, v.size[a] / by[a]);
+    out.steps_S.col(static_cast<int>(a)) = by[a] * v.steps_S.col(static_cast<int>(a));
+  }
+  out.origin_S = v.pointToS(Vec3(by[0] - 1, by[1] - 1, by[2] - 1) / 2);
+  out.values.reserve(static_cast<std::size_t>(out.size[0]) * static_cast<std::size_t>(out.size[1]) * static_cast<std::size_t>(out.size[2]));
+  for (int k = 0; k < out.size[2]; ++k)
+    for (int j = 0; j < out.size[1]; ++j)
+      for (int i = 0; i < out.size[0]; ++i) {
+        double sum = 0;
+        for (int c = 0; c < by[2]; ++c)
+          for (int b = 0; b < by[1]; ++b)
+            for (int a = 0; a < by[0]; ++a) sum += v.at(i * by[0] + a, j * by[1] + b, k * by[2] + c);
+        out.values.push_back(static_cast<float>(sum / (by[0] * by[1] * by[2])));
+      }
+  return out;
+}
+
+Volume slices(const Volume& v, int low, int high) {
+  Volume out = v;
+  out.size[2] = high - low;
+  out.origin_S = v.pointToS(Vec3(0, 0, low));
+  out.values.assign(v.values.begin() + static_cast<std::ptrdiff_t>(v.index(0, 0, low)),
+                    v.values.begin() + static_cast<std::ptrdiff_t>(v.index(0, 0, high - 1) + v.index(0, 1, 0) * static_cast<std::size_t>(v.size[1])));
+  return out;
+}
+
+/// The highest slice in which the soft tissue is nearly as wide as anywhere.
+int shoulderSlice(const Volume& v, double level) {
+  std::vector<int> width(static_cast<std::size_t>(v.size[2]), 0);
+  for (int k = 0; k < v.size[2]; ++k) {
+    int columns = 0;
+    for (int i = 0; i < v.size[0]; ++i) {
+      int filled = 0;
+      for (int j = 0; j < v.size[1]; ++j) filled += v.at(i, j, k) > level;
+      columns += filled * v.spacing()[1] > 0.03;  // more than a table's thickness
+    }
+    width[static_cast<std::size_t>(k)] = columns;
+  }
+  const int widest = *std::max_element(width.begin(), width.end());
+  for (int k = v.size[2] - 1; k >= 0; --k)
+    if (width[static_cast<std::size_t>(k)] >= kShoulderWidth * widest) return k;
+  return v.size[2] - 1;
+}
+
+/// Pieces of at least a cubic centimetre.
+Mask withoutSpecks(const VoxelGrid& grid, const Mask& mask) {
+  const Pieces pieces = piecesOf(grid, mask);
+  Mask out(mask.size());
+  for (std::size_t n = 0; n < mask.size(); ++n)
+    out[n] = mask[n] && static_cast<double>(pieces.voxels[static_cast<std::size_t>(pieces.label[n])]) * grid.spacing.prod() > kSpeck;
+  return out;
+}
+
+Mask bodyOf(const VoxelGrid& grid, const Volume& v, const Levels& levels) {
+  Mask soft(v.values.size());
+  for (std::size_t n = 0; n < soft.size(); ++n) soft[n] = v.values[n] > levels.soft;
+  const Mask solid = filled(grid, soft, true);  // lungs, marrow: what is left is thin or body
+  Mask body = opened(grid, solid, kThinnest);
+  if (!levels.clipped) return filled(grid, largestPiece(grid, body), true);
+  // What was lost to the window parts muscles, shoulders and clavicles from each other.
+  return filled(grid, largestPiece(grid, closed(grid, withoutSpecks(grid, body), kEnvelope)), true);
+}
+
+double meanBone(const Scan& scan) {
+  double sum = 0, count = 0;
+  for (std::size_t n = 0; n < scan.body.size(); ++n)
+    if (scan.body[n] && scan.volume.values[n] >= scan.levels.bone) sum += scan.place(n).x(), ++count;
+  if (count == 0) throw Error("no bone is as bright as " + std::to_string(scan.levels.bone), "CT volume", "Give --bone-level, or take a CT volume");
+  return sum / count;
+}
+
+}  // namespace
+
+Levels levelsOf(const Volume& volume) {
+  const auto [low, high] = std::minmax_element(volume.values.begin(), volume.values.end());
+  Levels levels;
+  levels.clipped = *low > kAir;
+  if (!levels.clipped) return levels;
+  const double range = *high - *low;
+  levels.soft = *low + 0.02 * range;
+  levels.bone = *low + 0.31 * range;
+  levels.dense = *low + 0.85 * range;
+  return levels;
+}
+
+Index3 Scan::cellAt(const Vec3& p_S) const {
+  const Vec3 c = volume.pointToIndex(p_S);
+  Index3 cell{};
+  for (std::size_t a = 0; a < 3; ++a) cell[a] = std::clamp(static_cast<int>(std::lround(std::clamp(c[static_cast<int>(a)], -1e6, 1e6))), 0, grid.size[a] - 1);
+  return cell;
+}
+
+Mask Scan::above(double level) const {
+  Mask out(body.size());
+  for (std::size_t n = 0; n < out.size(); ++n) out[n] = body[n] && volume.values[n] >= level;
+  return out;
+}
+
+Scan prepareScan(const Volume& given, const Levels& levels) {
+  Volume v = alongBody(given);
+  Index3 by{1, 1, 1};
+  for (std::size_t a = 0; a < 3; ++a) by[a] = std::clamp(static_cast<int>(kWorkingStep / v.spacing()[static_cast<int>(a)]), 1, std::max(1, v.size[a] / 8));
+  if (by != Index3{1, 1, 1}) v = reduced(v, by);
+  const int shoulders = shoulderSlice(v, levels.soft);
+  const double step = v.spacing()[2];
+  const int low = std::max(0, shoulders - static_cast<int>(kBelowShoulders / step));
+  const int high = std::min(v.size[2], shoulders + static_cast<int>(kAboveShoulders / step) + 1);
+  Scan scan;
+  scan.volume = slices(v, low, high);
+  scan.grid = gridOf(scan.volume);
+  scan.levels = levels;
+  scan.body = bodyOf(scan.grid, scan.volume, levels);
+  scan.midline_x = meanBone(scan);
+  return scan;
+}
+
+}  // namespace palpa::anatomy

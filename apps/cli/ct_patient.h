@@ -1,0 +1,25 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <memory>
+
+#include "anatomy/patient.h"
+
+namespace palpa::cli {
+
+/// Options of `patient build` for a patient from a CT volume.
+struct CtArguments {
+  std::string ct, axes, series, seeds, previews;
+  std::vector<std::string> points;
+  double bone = 0, dense = 0;
+  bool mirrored = false;
+  const CLI::Option* bone_given = nullptr;
+  const CLI::Option* dense_given = nullptr;
+};
+
+std::shared_ptr<CtArguments> addCtOptions(CLI::App& command);
+
+/// Reads, segments, says what was found and what is not known, writes previews and seeds. `side`: empty for the side of the contrast.
+anatomy::Patient buildFromCt(const CtArguments& arguments, const std::string& side);
+
+}  // namespace palpa::cli
