@@ -119,9 +119,9 @@ Patient buildPatient(const PatientParameters& parameters) {
   const Lungs lungs = lungsAtDistance(solved, ribs, radius, 1e3 * parameters.pleura_distance);
   assembly.add(assembly.sideId("lung"), Organ::lung, lungs.near, kLungColour);
   assembly.add(assembly.otherId("lung"), Organ::lung, lungs.other, kLungColour);
-  assembly.add("airway", Organ::airway, makeAirway(solved.vessels.handed), kAirwayColour);
+  assembly.add("airway", Organ::airway, makeAirway(solved.vessels), kAirwayColour);
   assembly.add("veins", Organ::vein, solved.vessels.veinMesh(), kVeinColour);
-  assembly.add("arteries", Organ::artery, solved.vessels.arteryMesh(), kArteryColour);
+  assembly.add("arteries", Organ::artery, solved.vessels.arteryMesh(solved.build.floor(9)), kArteryColour);
   assembly.addBoth("pectoralis_major", Organ::muscle, makePectoralisMajor(solved.skin, solved.clavicle), kMuscleColour);
   assembly.addBoth("pectoralis_minor", Organ::muscle, makePectoralisMinor(solved.clavicle, solved.build), kMuscleColour);
   assembly.addBoth("subclavius", Organ::muscle, makeSubclavius(solved.clavicle), kMuscleColour);

@@ -8,11 +8,15 @@ namespace palpa::anatomy {
 
 enum class Sex { female, male };
 
+/// How much of the body: head and trunk to below the seventh rib, or what a training phantom is: neck to the fourth rib.
+enum class Extent { torso, bust };
+
 /// A person's upper body, drawn from the reference figures in assets/patients/reference.json.
 /// Every length is metres. Defaults are the means; the file states source and range.
 struct PatientParameters {
   Side side = Side::right;
   std::uint64_t seed = 0;  ///< 0: the means of such a person exactly; others draw from the spreads
+  Extent extent = Extent::torso;
   Sex sex = Sex::male;
   double height = 1.70;
   double bmi = 25;             ///< kg/m^2

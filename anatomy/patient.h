@@ -31,9 +31,9 @@ struct OrganSurface {
   Organ organ = Organ::none;
   TriangleMesh mesh;
   std::array<float, 4> rgba{1, 1, 1, 1};
-  Texture texture{};   ///< multiplied by rgba
   std::string licence{};   ///< of this surface, where it is not the patient's
   std::string source{};    ///< who made it, as its licence asks to be named
+  Texture texture{};       ///< multiplied by rgba
 };
 
 /// What a surface encloses; air where it says nothing of it.

@@ -81,8 +81,8 @@ BodySurface::BodySurface(const Clavicle& clavicle, const Build& build, const Sof
       at_window_(at_window),
       window_a_(clavicle.middle.x()),
       acromion_(clavicle.acromial_end),
-      lower_(build.place({0, 0, -232}).z()),
-      upper_(build.place({0, 0, 340}).z()) {
+      lower_(build.lower()),
+      upper_(build.upper()) {
   notch_ = living(Vec3::Zero());
 }
 
@@ -178,9 +178,9 @@ double BodySurface::bare(const Vec3& p) const {
   double shape = smoothMax(smoothMax(front, top, 46), back(q), 30);
   shape = smoothMin(shape, neckAndJaw(q), 30);
   shape = smoothMin(shape, shoulder(q), 30);
-  shape = smoothMin(shape, scapula_(q) - skin_ - 0.6 * fat_, 26);
+  shape = addTube(shape, scapula_, q, skin_ + 0.6 * fat_, 26);
   const double gap = skin_ + fat_ - 3.2;  // over the clavicle the fat is thin
-  shape = smoothMin(shape, clavicle_(q) - std::min(gap, 5 + 0.15 * gap), 8);
+  shape = addTube(shape, clavicle_, q, std::min(gap, 5 + 0.15 * gap), 8);
   return shape - notch_ * std::exp(-0.5 * p.squaredNorm() / (11 * 11));
 }
 

@@ -11,6 +11,13 @@ struct Build {
   double tall = 1;   ///< of what lies more than 30 mm above or below the notch
   double softness = 0;  ///< mm of fat beyond the body's that the shapes are written for
   bool female = true;
+  Extent extent = Extent::torso;
+
+  bool bust() const { return extent == Extent::bust; }
+  /// z of the cuts through the body, and of the lowest that organs reach above the lower one.
+  double lower() const { return place({0, 0, bust() ? -140.0 : -232.0}).z(); }
+  double upper() const { return place({0, 0, bust() ? 112.0 : 340.0}).z(); }
+  double floor(double margin) const { return lower() + margin; }
 
   /// A point of the shapes' body (B, mm) in this one; either side.
   Vec3 place(const Vec3& p) const {

@@ -13,7 +13,7 @@ constexpr double kDepthError = 0.02;  // mm, of the fields
 constexpr double kUnderBone = 3.5;    // mm between the clavicle's lower border and the vein at the window
 
 // l of the target, mm from the midline, by preference: behind the medial end of the clavicle.
-constexpr double kMedially[] = {31, 33, 29, 35, 27, 25, 23, 21, 19};
+constexpr double kMedially[] = {31, 33, 29, 35, 27, 25, 23};
 // Depth of the target's centre, mm from the usual one, by preference.
 constexpr double kDeeper[] = {0, 2, -2, 4, -4, 6, -6, 8, -8};
 
@@ -76,7 +76,7 @@ double frontWallDepth(const Vessels& vessels, const Vec3& skin, const Vec3& inwa
 
 Build buildOf(const PatientParameters& p) {
   constexpr double kClavicle = 0.1494, kHeight = 1.70, kPlainBmi = 23;
-  return {p.clavicle_length / kClavicle, p.height / kHeight, std::clamp(1.0 * (p.bmi - kPlainBmi), -5.0, 24.0), p.sex == Sex::female};
+  return {p.clavicle_length / kClavicle, p.height / kHeight, std::clamp(1.0 * (p.bmi - kPlainBmi), -5.0, 24.0), p.sex == Sex::female, p.extent};
 }
 
 Solution solve(const PatientParameters& p) {

@@ -48,7 +48,7 @@ double fibres(double u, double v, double bundles) {
 }  // namespace
 
 TriangleMesh makePectoralisMajor(const BodySurface& skin, const Clavicle& clavicle) {
-  const double lowest = 0.64 * skin.lower();
+  const double lowest = std::min(0.64 * skin.lower(), -112.0);
   const auto at = [&](double u, double v) {
     const double sag = 9 * v * v * std::sin(std::numbers::pi * u);  // the lower border hangs
     const Flat a = origin(clavicle, lowest, v), b = insertion(clavicle, v);
@@ -62,7 +62,7 @@ TriangleMesh makePectoralisMajor(const BodySurface& skin, const Clavicle& clavic
 }
 
 TriangleMesh makePectoralisMinor(const Clavicle& clavicle, const Build& build) {
-  const Vec3 top = build.place({74, 2, -90}), bottom = build.place({84, -10, -147}), tip = coracoid(clavicle);
+  const Vec3 top = build.place({74, 2, -90}), bottom = build.bust() ? build.place({82, -5, -116}) : build.place({84, -10, -147}), tip = coracoid(clavicle);
   const auto middle = [&](double u, double v) {
     const Vec3 from = top + v * (bottom - top) + Vec3(0, -2.5 * std::sin(std::numbers::pi * v), 0);
     const Vec3 to = tip + Vec3(-3 * v, -5, -6 + 5 * (1 - 2 * v));

@@ -13,7 +13,7 @@ struct Rib {
   TriangleMesh bone, cartilage;
 };
 
-/// The first seven ribs, from the sternum's border round to the spine; the first lies lower under a wide vein.
+/// The first seven ribs (four of a bust), from the sternum's border round to the spine; the first lies lower under a wide vein.
 std::vector<Rib> makeRibs(const Build& build, double vein_radius_mm);
 
 }  // namespace palpa::anatomy

@@ -22,7 +22,7 @@ double sternumField(const Vec3& p, const Clavicle& clavicle, const Build& build)
   // Notches for the cartilages of the ribs.
   for (const double rib : {-50.0, -82.0, -106.0, -126.0, -141.0}) half -= 2.2 * std::exp(-0.5 * std::pow((low - rib) / 5, 2));
   const double middle = sternumMiddle(z);
-  const double end = build.place({0, 0, -180}).z();
+  const double end = std::max(build.place({0, 0, -180}).z(), build.floor(9));
   const double thick = low < -150 ? 3.6 : 5.5;
   double f = smoothMax(std::abs(p.y() - middle) - thick, 0.85 * (l - half), 6);
   f = smoothMax(smoothMax(f, p.z() + 4, 5), end - p.z(), 6);
@@ -66,7 +66,7 @@ double spineField(const Vec3& p, const Build& build) {
   const double arch = std::hypot(p.x(), p.y() - middle.y() - 19) - 9.5;
   double f = smoothMin(smoothMin(body, arch, 5), processes, 5);
   f = smoothMax(f, p.z() - build.place({0, 0, kTop}).z(), 4);
-  return smoothMax(f, build.place({0, 0, -160}).z() - p.z(), 4);
+  return smoothMax(f, std::max(build.place({0, 0, -160}).z(), build.floor(9)) - p.z(), 4);
 }
 
 // The lung's dome in the root of the neck: sections that grow downward from the apex.
@@ -103,7 +103,7 @@ double cageSide(const Vec3& p, const Build& build, bool heart) {
   // Diaphragm: a dome higher in the middle of the lung's base.
   const double r2 = std::pow((t.x() - 72) / 62, 2) + std::pow((t.y() - 62) / 70, 2);
   const double floor = -190 + 34 * std::max(0.0, 1 - r2);
-  return smoothMax(f, 0.8 * (build.place({0, 0, floor}).z() - p.z()), 9);
+  return smoothMax(f, 0.8 * (std::max(build.place({0, 0, floor}).z(), build.floor(9)) - p.z()), 9);
 }
 
 }  // namespace
@@ -124,10 +124,15 @@ std::vector<TubeField> airwayTubes(double handed) {
           TubeField({{{handed, 76, -62}, 6.5}, {{-handed * 24, 66, -90}, 6}})};
 }
 
-TriangleMesh makeAirway(double handed) {
-  const std::vector<TubeField> tubes = airwayTubes(handed);
+TriangleMesh makeAirway(const Vessels& vessels) {
+  const std::vector<TubeField> tubes = airwayTubes(vessels.handed);
   const auto rings = [](double z) { return 0.35 * std::cos(2 * M_PI * z / 5.2); };   // the cartilages show
-  const auto field = [&](const Vec3& p) { return smoothMin(smoothMin(tubes[0](p), tubes[1](p), 5), tubes[2](p), 5) - rings(p.z()); };
+  const auto field = [&](const Vec3& p) {
+    double f = smoothMin(smoothMin(tubes[0](p), tubes[1](p), 5), tubes[2](p), 5) - rings(p.z());
+    if (f > 8) return f;
+    f = smoothMax(f, 1.2 - vessels.arteryField(p), 4);
+    return smoothMax(f, 1.2 - vessels.veinField(p), 4);
+  };
   return surfaceNets(field, {Vec3(-42, 12, -100), Vec3(42, 98, 82)}, 2.0);
 }
 
@@ -139,11 +144,12 @@ TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, cons
     double f = smoothMin(dome(p, shift_y), cageSide(p, build, heart), 16);
     if (f > 12) return f;
     const Vec3 there(sign * p.x(), p.y(), p.z());
-    for (const Rib& rib : ribs) f = smoothMax(f, 1.5 - rib.tube(p), 8);
+    for (const Rib& rib : ribs) f = carveTube(f, rib.tube, p, 1.5, 8);
     // No fins between the vessels at the root of the neck.
     f = smoothMax(f, 13 + 8 * softStep(p.z() + 22, 8) - p.x(), 8);
-    for (const TubeField& tube : airway) f = smoothMax(f, 3 - tube(there), 7);
-    f = smoothMax(f, 2.5 - vessels.arteryField(there), 9);
+    for (const TubeField& tube : airway) f = carveTube(f, tube, there, 3, 7);
+    for (const TubeField& tube : vessels.arteries) f = carveTube(f, tube, there, 2.5, 9);
+    if (groove_mm - vessels.veinsAtLeast(there) <= f - 4) return f;
     return smoothMax(f, groove_mm - vessels.veinField(there), 4);
   };
   Eigen::AlignedBox3d box(Vec3(-4, -30, build.place({0, 0, -205}).z()), Vec3(build.place({140, 0, 0}).x(), 152, 42));

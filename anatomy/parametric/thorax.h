@@ -15,7 +15,8 @@ TriangleMesh makeSpine(const Build& build);
 
 /// Trachea from the larynx to its fork, and the main bronchi up to the lungs. `handed`: see vessels.h.
 std::vector<TubeField> airwayTubes(double handed);
-TriangleMesh makeAirway(double handed);
+/// It gives way where a wide vessel presses on it.
+TriangleMesh makeAirway(const Vessels& vessels);
 
 /// The shoulder blade of the +l side: blade, spine with acromion behind the clavicle's end, coracoid, socket.
 TriangleMesh makeScapula(const Clavicle& clavicle, const Build& build);

@@ -18,6 +18,8 @@ struct Guide {
 
 const Vec3 kTemplateTarget(33, 22.7, 1.5), kTemplateWindow(84, 37.5, -8.5);
 
+constexpr double kMedialGive = 0.6;   // what lies medial of a target near the midline has the airway beside it
+
 struct Shifts {
   Vec3 target, window;
 };
@@ -25,7 +27,9 @@ struct Shifts {
 TubeField through(const std::vector<Guide>& guides, const Shifts& shifts, double radius_unit, double sign = 1) {
   std::vector<Vec3> points;
   for (const Guide& g : guides) {
-    const Vec3 p = g.p + g.with_target * shifts.target + g.with_window * shifts.window;
+    Vec3 with_target = g.with_target * shifts.target;
+    if (g.p.x() < kTemplateTarget.x() - 3) with_target.x() *= with_target.x() < 0 ? kMedialGive : 1;
+    const Vec3 p = g.p + with_target + g.with_window * shifts.window;
     points.push_back({sign * p.x(), p.y(), p.z()});
   }
   const Curve curve(points);
@@ -47,7 +51,7 @@ TubeField through(const std::vector<Guide>& guides, const Shifts& shifts, double
 
 double joined(const std::vector<TubeField>& tubes, const Vec3& p, double fillet) {
   double f = tubes.front()(p);
-  for (std::size_t i = 1; i < tubes.size(); ++i) f = smoothMin(f, tubes[i](p), fillet);
+  for (std::size_t i = 1; i < tubes.size(); ++i) f = addTube(f, tubes[i], p, 0, fillet);
   return f;
 }
 
@@ -106,14 +110,25 @@ TubeField subclavianArtery(bool right, double unit, const Shifts& shifts, double
 }  // namespace
 
 double Vessels::veinField(const Vec3& p) const { return joined(veins, p, 5); }
+double Vessels::veinsAtLeast(const Vec3& p) const {
+  double least = veins.front().atLeast(p);
+  for (const TubeField& tube : veins) least = std::min(least, tube.atLeast(p));
+  return least - 3;   // the fillets reach a little farther
+}
+
 double Vessels::arteryField(const Vec3& p) const { return joined(arteries, p, 4); }
 
 TriangleMesh Vessels::veinMesh() const {
   return tubesMesh([this](const Vec3& p) { return veinField(p); }, veins, 1.6);
 }
 
-TriangleMesh Vessels::arteryMesh() const {
-  return tubesMesh([this](const Vec3& p) { return arteryField(p); }, arteries, 2.0);
+TriangleMesh Vessels::arteryMesh(double lowest) const {
+  // Where a wide vein lies against an artery, the artery gives way.
+  const auto field = [&](const Vec3& p) {
+    const double f = smoothMax(arteryField(p), lowest - p.z(), 4);
+    return f > 8 ? f : smoothMax(f, 1.0 - veinField(p), 3);
+  };
+  return tubesMesh(field, arteries, 2.0);
 }
 
 Vessels makeVessels(const Vec3& target, const Vec3& window, double vein_radius_mm, Side side) {

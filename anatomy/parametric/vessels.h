@@ -14,8 +14,9 @@ struct Vessels {
 
   double veinField(const Vec3& p) const;     ///< joined smoothly
   double arteryField(const Vec3& p) const;
+  double veinsAtLeast(const Vec3& p) const;  ///< no more than veinField there
   TriangleMesh veinMesh() const;
-  TriangleMesh arteryMesh() const;
+  TriangleMesh arteryMesh(double lowest) const;   ///< cut there
 };
 
 /// `window`: the vein's centre at the infraclavicular window; `target`: on the taught line.

@@ -15,6 +15,10 @@ double smoothMax(double a, double b, double k) { return -smoothMin(-a, -b, k); }
 
 TubeField::TubeField(std::vector<Station> stations) : stations_(std::move(stations)) {
   constexpr std::size_t kBundle = 8;
+  for (const Station& s : stations_) {
+    box_.extend(Vec3(s.p.array() - s.radius));
+    box_.extend(Vec3(s.p.array() + s.radius));
+  }
   for (std::size_t i = 0; i + 1 < stations_.size(); ++i) {
     const Station &a = stations_[i], &b = stations_[i + 1];
     const Vec3 ab = b.p - a.p;
@@ -43,6 +47,14 @@ double TubeField::operator()(const Vec3& p) const {
     }
   }
   return best;
+}
+
+double addTube(double f, const TubeField& tube, const Vec3& p, double grow, double k) {
+  return tube.atLeast(p) - grow >= f + k ? f : smoothMin(f, tube(p) - grow, k);
+}
+
+double carveTube(double f, const TubeField& tube, const Vec3& p, double gap, double k) {
+  return gap - tube.atLeast(p) <= f - k ? f : smoothMax(f, gap - tube(p), k);
 }
 
 Vec3 gradient(const Field& field, const Vec3& p, double step) {

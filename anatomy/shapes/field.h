@@ -29,6 +29,8 @@ class TubeField {
   };
   explicit TubeField(std::vector<Station> stations);
   double operator()(const Vec3& p) const;
+  /// No more than the distance there; cheap.
+  double atLeast(const Vec3& p) const { return box_.exteriorDistance(p); }
   const std::vector<Station>& stations() const { return stations_; }
 
  private:
@@ -45,7 +47,12 @@ class TubeField {
   std::vector<Station> stations_;
   std::vector<Span> spans_;
   std::vector<Bundle> bundles_;
+  Eigen::AlignedBox3d box_;
 };
+
+/// smoothMin(f, tube(p) - grow, k) and smoothMax(f, gap - tube(p), k), asking the tube only where it counts.
+double addTube(double f, const TubeField& tube, const Vec3& p, double grow, double k);
+double carveTube(double f, const TubeField& tube, const Vec3& p, double gap, double k);
 
 Vec3 gradient(const Field& field, const Vec3& p, double step);
 

@@ -23,11 +23,17 @@ void paint(scene::Image& image, int frame) {
     image.pixels[i] = static_cast<std::uint8_t>(i / 96 + static_cast<std::size_t>(frame));
 }
 
+anatomy::Patient phantom() {
+  anatomy::PatientParameters parameters =
+      anatomy::drawParameters(station::assetFile("patients/reference.json").string(), anatomy::Side::right, 0);
+  parameters.extent = anatomy::Extent::bust;   // as in a session
+  return anatomy::buildPatient(parameters);
+}
+
 }  // namespace
 
 struct SceneLoad::Impl {
-  anatomy::Patient patient = anatomy::buildPatient(anatomy::drawParameters(
-      station::assetFile("patients/reference.json").string(), anatomy::Side::right, 0));
+  anatomy::Patient patient = phantom();
   scene::ViewLayout layout;
   std::unique_ptr<scene::GlContextProvider> context =
       scene::makeGlContext(scene::Display::offscreen, layout.width, layout.height, "Palpa");

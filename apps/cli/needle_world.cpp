@@ -20,8 +20,10 @@ anatomy::Patient makePatient(const SessionOptions& options) {
     anatomy::requireForNeedle(patient, options.patient);
     return patient;
   }
-  return anatomy::buildPatient(anatomy::drawParameters(
-      station::assetFile("patients/reference.json").string(), options.side, options.patient_seed));
+  anatomy::PatientParameters parameters = anatomy::drawParameters(
+      station::assetFile("patients/reference.json").string(), options.side, options.patient_seed);
+  parameters.extent = anatomy::Extent::bust;   // as the phantom that lies behind the board
+  return anatomy::buildPatient(parameters);
 }
 
 task_needle::TaskSettings makeTask(const SessionOptions& options) {
@@ -59,10 +61,10 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
       geometry(patient, query),
       landmarks(patient) {
   if (!options.record_only) expert_path = calibration::readExpertPath(task.expert_path);
-  X_WA = options.camera.empty() ? station::placePatient(patient, station.near_edge_W)
+  X_WA = options.camera.empty() ? station::placePatient(patient, station.entry_W)
                                 : station::placePatientOnBoard(patient);
   if (!options.camera.empty())  // the bench's device stands where it stood, relative to the patient
-    station.X_WD = X_WA * station::placePatient(patient, station.near_edge_W).inverse() * station.X_WD;
+    station.X_WD = X_WA * station::placePatient(patient, station.entry_W).inverse() * station.X_WD;
   X_DA = station.X_WD.inverse() * X_WA;
 }
 

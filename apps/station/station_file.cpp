@@ -76,7 +76,7 @@ Station readStation(const std::filesystem::path& path) {
   s.decimate = file.number("camera/decimate", 1, 4);
   s.X_WD = readPose(file, "registration/X_WD");
   s.X_ET = readPose(file, "tool/X_ET");
-  s.near_edge_W = kMm * file.vector("patient/near_edge_mm");
+  s.entry_W = kMm * file.vector("patient/entry_mm");
   const haptics::DeviceCapabilities& can = s.device.capabilities;
   s.safety.max_force_N = file.number("safety/max_force_N", 0.1, can.max_force_N);
   s.safety.max_slew_N_per_s = file.number("safety/max_slew_N_per_s", 10, 1e5);
@@ -94,15 +94,16 @@ Station readStation(const std::filesystem::path& path) {
   return s;
 }
 
-Pose placePatient(const anatomy::Patient& patient, const Vec3& near_edge_W) {
-  const Box box = skinBox(patient);
-  const Vec3 edge_A(0.5 * (box.low.x() + box.high.x()), box.high.y(), box.low.z());
-  return makePose(supine(), near_edge_W - supine() * edge_A);
+Pose placePatient(const anatomy::Patient& patient, const Vec3& entry_W) {
+  const double sign = patient.side == anatomy::Side::right ? 1 : -1;
+  const Vec3 there(sign * entry_W.x(), entry_W.y(), entry_W.z());
+  return makePose(supine(), there - supine() * patient.landmark(anatomy::landmark::kEntry));
 }
 
 Pose placePatientOnBoard(const anatomy::Patient& patient) {
   const Box box = skinBox(patient);
-  return placePatient(patient, {0, -0.5 * (box.high.z() - box.low.z()), 0});
+  const Vec3 middle = 0.5 * (box.low + box.high);
+  return makePose(supine(), -(supine() * Vec3(middle.x(), box.high.y(), middle.z())));
 }
 
 }  // namespace palpa::station

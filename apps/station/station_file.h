@@ -26,7 +26,7 @@ struct Station {
   double camera_latency_s = 0.05;
   Pose X_WD = Pose::Identity();    ///< haptic base on the table: registration
   Pose X_ET = Pose::Identity();    ///< needle tip in the end effector: tool calibration
-  Vec3 near_edge_W = Vec3::Zero(); ///< middle of the bust's edge nearest to the reader, on the table
+  Vec3 entry_W = Vec3::Zero();     ///< where the patient's entry point lies: within the hand's reach, whoever the patient is
   haptics::SafetyLimits safety;
   haptics::CouplingLimits coupling;
   haptics::PassivityLimits passivity;   ///< sized from the device's mass and friction
@@ -38,11 +38,11 @@ struct Station {
 /// Throws UsageError naming file and field.
 Station readStation(const std::filesystem::path& file);
 
-/// Supine on the table beside or on the board: back at z_W = 0, head away from the reader (+y_W), the
-/// middle of the edge nearest to the reader at `near_edge_W`. Right and left side alike.
-Pose placePatient(const anatomy::Patient& patient, const Vec3& near_edge_W);
+/// Supine, head away from the reader (+y_W), the entry point at `entry_W` (its mirror image across x = 0 for the left
+/// side): a device that stands still reaches it in every patient. Throws Error when the patient has none.
+Pose placePatient(const anatomy::Patient& patient, const Vec3& entry_W);
 
-/// The same, centred on the board.
+/// Supine on the board, back at z_W = 0, centred.
 Pose placePatientOnBoard(const anatomy::Patient& patient);
 
 }  // namespace palpa::station

@@ -13,11 +13,20 @@ namespace palpa::anatomy {
 
 inline const char* referenceFile() { return PALPA_SOURCE_DIR "/assets/patients/reference.json"; }
 
-/// Built once a process.
+inline Patient referenceBust(Side side) {
+  PatientParameters parameters = drawParameters(referenceFile(), side, 0);
+  parameters.extent = Extent::bust;
+  return buildPatient(parameters);
+}
+
+/// The mean patient as a phantom; a side is built once a process, when it is asked for.
 inline const Patient& referencePatient(Side side = Side::right) {
-  static const Patient right = buildPatient(drawParameters(referenceFile(), Side::right, 0));
-  static const Patient left = buildPatient(drawParameters(referenceFile(), Side::left, 0));
-  return side == Side::right ? right : left;
+  if (side == Side::left) {
+    static const Patient left = referenceBust(Side::left);
+    return left;
+  }
+  static const Patient right = referenceBust(Side::right);
+  return right;
 }
 
 inline TriangleMesh sphereMesh(double radius, double cell) {
