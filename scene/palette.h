@@ -58,6 +58,8 @@ inline constexpr Rgb organColour(Organ organ) {
       return {0.20, 0.38, 0.80};
     case Organ::artery:
       return {0.93, 0.36, 0.16};
+    case Organ::inclusion:
+      return {0.90, 0.62, 0.20};
     case Organ::none:
       break;
   }
