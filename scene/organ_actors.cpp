@@ -50,7 +50,7 @@ vtkSmartPointer<vtkTexture> textureOf(const anatomy::Texture& picture) {
   auto texture = vtkSmartPointer<vtkTexture>::New();
   texture->SetInputData(image);
   texture->InterpolateOn();
-  texture->MipmapOn();
+  texture->MipmapOff();
   texture->RepeatOff();
   texture->EdgeClampOn();
   return texture;

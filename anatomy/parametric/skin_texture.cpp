@@ -43,7 +43,7 @@ class SkinPainter {
     const float blotch = 0.6f * wide_(p) + 0.4f * middle_(p), small = fine_(p);
     Tone tone = tone_;
     tint(&tone, kFlush, 0.10f + 0.16f * blotch + 0.08f * small);
-    const float shade = 1 + 0.020f * blotch + 0.012f * small + 0.022f * pores_(p);
+    const float shade = 1 + 0.022f * blotch + 0.018f * small + 0.035f * pores_(p);
     for (float& c : tone) c *= shade;
     if (y < kNotAt && z > 110) face(&tone, x, y, z, p, small);
     if (y < kNotAt && z < -60) areola(&tone, x, z, p, small);
@@ -52,7 +52,7 @@ class SkinPainter {
 
  private:
   void face(Tone* tone, float x, float y, float z, const std::array<float, 3>& p, float small) const {
-    tint(tone, kFlush, 0.62f * hill((x - 36) * (x - 36) + (z - 186) * (z - 186) * 1.4f, 14) + 0.35f * hill(x * x + (z - 188) * (z - 188), 9));
+    tint(tone, kFlush, 0.42f * hill((x - 41) * (x - 41) + (z - 196) * (z - 196) * 1.4f, 15) + 0.25f * hill(x * x + (z - 188) * (z - 188), 9));
     if (x < 24 && y < 12) lips(tone, x, z, small);
     // Brow: an arc over the socket, thinning outward.
     const float along = (x - 13) / 36, middle = 233.5f + 4.5f * std::sin(2.2f * along), half = 3.3f - 1.6f * along;
@@ -79,8 +79,8 @@ class SkinPainter {
     const float distance = std::hypot(dx, dz);
     if (distance > 2 * radius) return;
     const float edge = radius * (1 + 0.06f * middle_(p) + 0.05f * small);
-    tint(tone, kAreola, (0.72f + 0.14f * pores_(p)) * ramp(edge + 2.2f, edge - 2.2f, distance));
-    tint(tone, kAreola, 0.60f * ramp(nipple + 1.0f, nipple - 1.0f, distance));
+    tint(tone, kAreola, (0.60f + 0.14f * pores_(p)) * ramp(edge + 2.6f, edge - 2.6f, distance));
+    tint(tone, kAreola, 0.50f * ramp(nipple + 1.0f, nipple - 1.0f, distance));
   }
 
   const Build& build_;
