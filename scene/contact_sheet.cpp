@@ -49,6 +49,10 @@ Frame frameOf(const anatomy::Patient& patient, const Region& region, SkinStyle s
   return {box.center(), 0.5 * box.sizes().maxCoeff()};
 }
 
+bool hasBones(const anatomy::Patient& patient) {
+  return std::any_of(patient.organs.begin(), patient.organs.end(), [](const auto& organ) { return isBone(organ.organ); });
+}
+
 /// One picture of the page.
 class Tile {
  public:
@@ -72,17 +76,18 @@ class Tile {
     camera->SetParallelScale(where.width < where.height ? half * where.height / where.width : half);
     setViewport(*renderer_, where, window.GetSize()[0], window.GetSize()[1]);
     window_.AddRenderer(renderer_);
-    write(row, aspect, where, 2 * camera->GetParallelScale() / where.height);
+    const bool inside = row.style == SkinStyle::hidden && !hasBones(patient);
+    write(inside ? "INSIDE" : row.caption, aspect, where, 2 * camera->GetParallelScale() / where.height);
   }
   ~Tile() { window_.RemoveRenderer(renderer_); }
   Tile(const Tile&) = delete;
   Tile& operator=(const Tile&) = delete;
 
  private:
-  void write(const Row& row, const Aspect& aspect, const Rect& where, double metres_a_pixel) {
+  void write(const std::string& caption, const Aspect& aspect, const Rect& where, double metres_a_pixel) {
     const TextStyle style{std::max(10, where.height / 26), true, colour::kText};
     const int line = lineHeight(style), margin = style.size_px / 2;
-    put(std::string(aspect.caption) + "  " + row.caption, style, margin, where.height - margin - line / 2, Align::left);
+    put(std::string(aspect.caption) + "  " + caption, style, margin, where.height - margin - line / 2, Align::left);
     put(aspect.left, style, margin, where.height / 2, Align::left);
     put(aspect.right, style, where.width - margin, where.height / 2, Align::right);
     const auto pixels = [&](int mm) { return static_cast<int>(std::lround(1e-3 * mm / metres_a_pixel)); };
