@@ -79,24 +79,23 @@ OrganSurface sphereIn(const PhantomInclusion& inclusion, const PlaceUnderSkin& p
   return {"inclusion", Organ::inclusion, phantomMesh(field, place.centre - reach, place.centre + reach, radius / 12), kInclusionColour};
 }
 
-// The rounded edge follows the skin; what lies above it is thicker and deeper.
+// z of the liver's lower edge: lowest toward the patient's right, up to the costal margin beyond the midline.
+double liverEdge(double x) { return 0.024 + 8 * (x + 0.06) * (x + 0.06); }
+
+// A wedge: its front keeps its depth under the skin, its back falls away above the rounded edge. Depths count along y, which
+// the gentle dome's normal leaves by a few degrees.
 OrganSurface liverIn(const PhantomBody& body, const PhantomInclusion& inclusion, PlaceUnderSkin* middle) {
-  constexpr double kThicker = 0.006, kDeeper = 0.009, kHigher = 0.026, kTop = 0.092;
-  const double radius = inclusion.diameter / 2;
-  std::vector<TubeField::Station> edge, above;
-  for (const auto& [x, z] : {std::pair{-0.098, 0.034}, {-0.080, 0.026}, {-0.060, 0.023}, {-0.040, 0.025}, {-0.018, 0.033}, {0.006, 0.048}, {0.026, 0.064}}) {
-    const PlaceUnderSkin place = placeUnder(body, x, z, inclusion.depth + radius);
-    if (x == -0.040) *middle = place;
-    edge.push_back({place.centre, radius});
-    const double up = std::min(z + kHigher, 0.070);
-    above.push_back({placeUnder(body, x, up, inclusion.depth + radius + kDeeper).centre, radius + kThicker});
-  }
-  const TubeField lower(edge), upper(above);
-  const auto field = [&](const Vec3& p) { return smoothMax(smoothMin(lower(p), upper(p), 0.010), p.z() - kTop, 0.006); };
-  Eigen::AlignedBox3d box;
-  for (const auto& stations : {edge, above})
-    for (const auto& s : stations) box.extend(Eigen::AlignedBox3d(s.p.array() - s.radius - 0.003, s.p.array() + s.radius + 0.003));
-  return {"liver", Organ::inclusion, phantomMesh(field, box.min(), box.max(), std::clamp(radius / 5, 0.0008, 0.0025)), kInclusionColour};
+  constexpr double kRight = -0.098, kTop = 0.092, kMiddle = -0.045, kWedge = 0.35;
+  const double thick = inclusion.diameter, depth = inclusion.depth;
+  const auto field = [=](const Vec3& p) {
+    const double under = bellyHeight(p.x(), p.z()) + p.y(), above = p.z() - liverEdge(p.x());
+    const double front = depth - under, back = 0.94 * (under - depth - thick - kWedge * std::max(above, 0.0));
+    const double ends = smoothMax(smoothMax(kRight - p.x(), p.z() - kTop, 0.020), -0.6 * above, 0.010);
+    return smoothMax(smoothMax(front, back, 0.2 * thick), ends, 0.9 * thick);
+  };
+  *middle = placeUnder(body, kMiddle, liverEdge(kMiddle) + thick, depth + 0.5 * thick);
+  const double cell = std::clamp(thick / 8, 0.0010, 0.0025);
+  return {"liver", Organ::inclusion, phantomMesh(field, {kRight, -0.082, 0.020}, {0.040, 0, kTop}, cell), kInclusionColour};
 }
 
 void requireRoom(const Patient& patient, const PhantomInclusion& inclusion) {
