@@ -50,7 +50,7 @@ TEST_F(ArFrame, SolidSkinHidesTranslucentSkinShowsHiddenSkinIsGone) {
   EXPECT_GT(difference(through, bare), 10);
 }
 
-class Tool : public ArFrame {
+class HeldTool : public ArFrame {
  protected:
   SceneState withTool(bool shown) {
     SceneState state = straightOn(dark_);
@@ -78,7 +78,7 @@ class Tool : public ArFrame {
   const anatomy::Patient nobody_ = test::spherePatient({0, 0.5, 0}, 0.001);
 };
 
-TEST_F(Tool, NeedleIsDrawnWhereItsPoseSaysAndEndsAtTheTip) {
+TEST_F(HeldTool, NeedleIsDrawnWhereItsPoseSaysAndEndsAtTheTip) {
   const Image with = frameOf(nobody_, withTool(true)), without = frameOf(nobody_, withTool(false));
   for (const double z : {-0.005, -0.02, -0.04, -0.065, -0.10, -0.14})
     EXPECT_TRUE(drawnAt(with, without, {0, 0, z})) << z;
@@ -87,9 +87,9 @@ TEST_F(Tool, NeedleIsDrawnWhereItsPoseSaysAndEndsAtTheTip) {
     EXPECT_FALSE(drawnAt(with, without, {x, 0, -0.03})) << x;
 }
 
-TEST_F(Tool, ProbeIsAsWideAsAFingertipAndReplacesTheNeedle) {
+TEST_F(HeldTool, ProbeIsAsWideAsAFingertipAndReplacesTheNeedle) {
   SceneState state = withTool(true);
-  state.tool = scene::Tool::probe;
+  state.tool = Tool::probe;
   state.plunger = state.blood = 0.5;
   const Image with = frameOf(nobody_, state), without = frameOf(nobody_, withTool(false));
   for (const double z : {-0.002, -0.008, -0.05, -0.10}) EXPECT_TRUE(drawnAt(with, without, {0, 0, z})) << z;
@@ -127,7 +127,7 @@ TEST_F(ArFrame, PictureOnTheSkinIsDrawnByItsCoordinatesInItsOwnColours) {
   EXPECT_LE(std::max({std::abs(gray.r - gray.g), std::abs(gray.g - gray.b)}), 2) << "white skin must not tint its picture";
 }
 
-TEST_F(Tool, BloodFillsTheSyringeOnlyAsFarAsThePlungerIsDrawn) {
+TEST_F(HeldTool, BloodFillsTheSyringeOnlyAsFarAsThePlungerIsDrawn) {
   const auto red = [&](double plunger, double blood) {
     SceneState state = withTool(true);
     state.plunger = plunger;
@@ -148,7 +148,7 @@ TEST_F(Tool, BloodFillsTheSyringeOnlyAsFarAsThePlungerIsDrawn) {
   EXPECT_EQ(red(0.5, 0.9), half);
 }
 
-TEST_F(Tool, ForceArrowPointsAlongTheForceThirtyMillimetresANewton) {
+TEST_F(HeldTool, ForceArrowPointsAlongTheForceThirtyMillimetresANewton) {
   SceneState state = withTool(false);
   const Image without = frameOf(nobody_, state);
   const Vec3 f_A = 1.5 * Vec3(-0.6, 0, 0.8);
@@ -171,7 +171,7 @@ TEST_F(Tool, ForceArrowPointsAlongTheForceThirtyMillimetresANewton) {
   EXPECT_NEAR((farthest - head).norm(), 0, 2.5);  // the outline is about 1 px wide; pixel steps
 }
 
-TEST_F(Tool, DarkArrowHasALightOutlineAndALightArrowADarkOne) {
+TEST_F(HeldTool, DarkArrowHasALightOutlineAndALightArrowADarkOne) {
   const auto extremes = [&](ForceKind kind, std::uint8_t behind) {
     const Image picture = plain(320, 240, behind);
     SceneState state = straightOn(picture);
@@ -188,7 +188,7 @@ TEST_F(Tool, DarkArrowHasALightOutlineAndALightArrowADarkOne) {
   EXPECT_LT(extremes(ForceKind::device, 240).first, 40);
 }
 
-TEST_F(Tool, WithoutRegistrationNothingIsDrawnOnThePicture) {
+TEST_F(HeldTool, WithoutRegistrationNothingIsDrawnOnThePicture) {
   SceneState state = withTool(true);
   state.registered = false;
   state.forces = {{ForceKind::device, Vec3::Zero(), Vec3(1, 0, 0)}};
@@ -196,7 +196,7 @@ TEST_F(Tool, WithoutRegistrationNothingIsDrawnOnThePicture) {
   EXPECT_EQ(frameOf(ballBehindSkin(true), state).pixels, dark_.pixels);
 }
 
-TEST_F(Tool, TrailIsALineAlongThePath) {
+TEST_F(HeldTool, TrailIsALineAlongThePath) {
   SceneState state = withTool(false);
   const Image without = frameOf(nobody_, state);
   for (int i = 0; i <= 50; ++i) state.trail_A.push_back(Vec3(-0.05 + 0.002 * i, 0, 0.02));
@@ -209,7 +209,7 @@ TEST_F(Tool, TrailIsALineAlongThePath) {
   EXPECT_LE(line.bottom - line.top, 3);
 }
 
-TEST_F(Tool, WeakAndBrokenForcesAreNotDrawn) {
+TEST_F(HeldTool, WeakAndBrokenForcesAreNotDrawn) {
   SceneState state = withTool(false);
   const Image without = frameOf(nobody_, state);
   state.forces = {{ForceKind::device, Vec3::Zero(), Vec3(0.01, 0, 0)},
