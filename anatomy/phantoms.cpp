@@ -65,7 +65,7 @@ struct PlaceUnderSkin {
 PlaceUnderSkin placeUnder(const PhantomBody& body, double x, double z, double depth) {
   const auto front = [&](double y) { return body.field({x, y, z}); };
   const double outside = body.low.y() - 0.010;
-  if (front(outside) <= 0 || front(-0.005) >= 0)
+  if (!(front(outside) > 0 && front(-0.005) < 0))
     throw Error("there is no skin " + std::to_string(1e3 * x) + " mm to the left and " + std::to_string(1e3 * z) + " mm up", "phantom",
                 "Put the inclusion nearer to the middle");
   const Vec3 skin(x, findRoot(front, outside, -0.005, 1e-9), z);

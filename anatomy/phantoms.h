@@ -13,7 +13,7 @@ inline constexpr double kInclusionModulus = 180e3;  ///< Pa, of its 20 mm inclus
 
 enum class PhantomKind { breast, abdomen };
 
-/// Breast: a sphere. Abdomen: an enlarged liver below the right costal margin, whose rounded edge is so thick.
+/// Breast: a sphere. Abdomen: an enlarged liver below the right costal margin, so thick a diameter above its rounded edge (within 20 %).
 struct PhantomInclusion {
   double diameter = 0.020;
   double depth = 0.015;       ///< of silicone over it, along the skin's normal

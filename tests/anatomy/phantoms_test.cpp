@@ -17,10 +17,16 @@ Eigen::AlignedBox3d boxOf(const TriangleMesh& mesh) {
   return box;
 }
 
+/// Over the inclusion, toward the front; the base does not count.
 double thinnestSilicone(const Patient& patient) {
   const SurfaceQuery query(patient);
   double least = 1;
-  for (const Vec3& p : patient.organs.at(1).mesh.points) least = std::min(least, -query.closest(0, p).distance);
+  for (const Vec3& p : patient.organs.at(1).mesh.points) {
+    const SurfacePoint skin = query.closest(0, p);
+    EXPECT_LT(skin.distance, 0);
+    const bool front = skin.p_A.y() < -0.055 || patient.name == "breast phantom";   // of the slab, not its sides
+    if (skin.p_A.y() < -0.001 && front) least = std::min(least, -skin.distance);
+  }
   return least;
 }
 
@@ -88,14 +94,14 @@ TEST(AbdomenPhantom, LiverEdgeLiesAtItsDepth) {
     const Patient patient = buildPhantom({PhantomKind::abdomen, inclusion});
     expectSound(patient);
     EXPECT_EQ(patient.organs.at(1).organ, Organ::inclusion);
-    // From the skin inward: the liver begins at its depth; so far above its edge it is a third thicker than the edge.
+    // From the skin inward: the liver begins at its depth; a diameter above its edge it is about that thick.
     const Vec3 skin = patient.landmark(landmark::kInclusionSkin), inward = (patient.landmark(landmark::kInclusion) - skin).normalized();
     std::vector<double> liver;
     for (const RayHit& hit : SurfaceQuery(patient).cast(skin - 0.01 * inward, inward, 0.1))
       if (hit.surface == 1) liver.push_back(hit.s - 0.01);
     ASSERT_EQ(liver.size(), 2u);
     EXPECT_NEAR(liver[0], inclusion.depth, 1e-3);
-    EXPECT_NEAR(liver[1] - liver[0], 1.35 * inclusion.diameter, 0.15 * inclusion.diameter);
+    EXPECT_NEAR(liver[1] - liver[0], inclusion.diameter, 0.2 * inclusion.diameter);
     EXPECT_NEAR(thinnestSilicone(patient), inclusion.depth, 0.15 * inclusion.depth);
   }
   EXPECT_THROW(buildPhantom({PhantomKind::abdomen, PhantomInclusion{0.06, 0.03}}), Error);
