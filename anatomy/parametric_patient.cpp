@@ -8,6 +8,8 @@
 #include "anatomy/parametric/feasibility.h"
 #include "anatomy/parametric/frame.h"
 #include "anatomy/parametric/muscles.h"
+#include "anatomy/parametric/skin_map.h"
+#include "anatomy/parametric/skin_texture.h"
 #include "anatomy/parametric/thorax.h"
 #include "anatomy/shapes/mesh_tools.h"
 
@@ -15,7 +17,7 @@ namespace palpa::anatomy {
 namespace {
 
 using Colour = std::array<float, 4>;
-constexpr Colour kSkinColour{0.87f, 0.70f, 0.60f, 0.45f};
+constexpr Colour kSkinColour{1, 1, 1, 0.45f};   // the tone comes from the texture
 constexpr Colour kBoneColour{0.93f, 0.89f, 0.78f, 1};
 constexpr Colour kCartilageColour{0.74f, 0.80f, 0.82f, 1};
 constexpr Colour kAirwayColour{0.82f, 0.85f, 0.74f, 1};
@@ -47,6 +49,13 @@ class Assembly {
   Side side_;
   Patient* patient_;
 };
+
+void addSkin(const Solution& solved, std::uint64_t seed, Assembly* assembly, Patient* patient) {
+  TriangleMesh skin_B_mm = solved.skin.mesh();
+  layPicture(&skin_B_mm);
+  assembly->add("skin", Organ::skin, skin_B_mm, kSkinColour);
+  patient->organs.back().texture = paintSkin(skin_B_mm, solved.build, seed);
+}
 
 struct Lungs {
   TriangleMesh near, other;
@@ -107,7 +116,7 @@ Patient buildPatient(const PatientParameters& parameters) {
   patient.seed = parameters.seed;
   patient.layers = parameters.layers;
   Assembly assembly(parameters, &patient);
-  assembly.add("skin", Organ::skin, solved.skin.mesh(), kSkinColour);
+  addSkin(solved, parameters.seed, &assembly, &patient);
   assembly.addBoth("clavicle", Organ::clavicle, solved.clavicle.mesh, kBoneColour);
   assembly.add("sternum", Organ::sternum, makeSternum(solved.clavicle, solved.build), kBoneColour);
   for (std::size_t i = 0; i < ribs.size(); ++i) {

@@ -4,12 +4,14 @@
 #include "anatomy/geometry/error.h"
 #include "anatomy/gltf_axes.h"
 #include "anatomy/gltf_container.h"
+#include "anatomy/gltf_picture.h"
 #include "anatomy/patient_file.h"
 
 namespace palpa::anatomy {
 namespace {
 
 constexpr double kLargestCoordinate = 3.0;  // metres: beyond this the unit is wrong
+constexpr float kLargestRepeat = 100;       // of a picture over a surface
 
 class PatientReader {
  public:
@@ -106,6 +108,16 @@ class PatientReader {
     }
   }
 
+  // A view that lies inside its buffer.
+  const tinygltf::BufferView& viewOf(int index) const {
+    if (index < 0 || index >= static_cast<int>(model_.bufferViews.size())) fail("a buffer view is missing");
+    const tinygltf::BufferView& view = model_.bufferViews[index];
+    if (view.buffer < 0 || view.buffer >= static_cast<int>(model_.buffers.size())) fail("a buffer is missing");
+    const std::size_t size = model_.buffers[view.buffer].data.size();
+    if (view.byteOffset > size || view.byteLength > size - view.byteOffset) fail("a buffer view reaches beyond its buffer");
+    return view;
+  }
+
   // Start of an accessor's data, after checking that all of it lies inside its buffer.
   const unsigned char* data(int index, int type, std::size_t element, std::size_t* count,
                             int* component) const {
@@ -113,19 +125,12 @@ class PatientReader {
       fail("an accessor is missing");
     const tinygltf::Accessor& accessor = model_.accessors[index];
     if (accessor.type != type || accessor.sparse.isSparse) fail("an accessor has the wrong type");
-    if (accessor.bufferView < 0 ||
-        accessor.bufferView >= static_cast<int>(model_.bufferViews.size()))
-      fail("a buffer view is missing");
-    const tinygltf::BufferView& view = model_.bufferViews[accessor.bufferView];
-    if (view.buffer < 0 || view.buffer >= static_cast<int>(model_.buffers.size()))
-      fail("a buffer is missing");
-    const std::size_t size = model_.buffers[view.buffer].data.size();
+    const tinygltf::BufferView& view = viewOf(accessor.bufferView);
     if (element == 0)
       element = accessor.componentType == TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT ? 2 : 4;
     if (view.byteStride != 0 && view.byteStride != element)
       fail("interleaved data are not supported");
-    const bool inside = view.byteOffset <= size && view.byteLength <= size - view.byteOffset &&
-                        accessor.byteOffset <= view.byteLength &&
+    const bool inside = accessor.byteOffset <= view.byteLength &&
                         accessor.count <= (view.byteLength - accessor.byteOffset) / element;
     if (!inside) fail("an accessor reaches beyond its buffer");
     *count = accessor.count;
@@ -202,6 +207,7 @@ class PatientReader {
     checkNormals(&surface);
     surface.mesh.triangles = triangles(primitives[0], surface.mesh.points.size());
     readColour(primitives[0], &surface);
+    readPicture(primitives[0], &surface);
     patient_.organs.push_back(std::move(surface));
   }
 
@@ -226,6 +232,35 @@ class PatientReader {
       if (!(factor[i] >= 0 && factor[i] <= 1)) fail("a colour is not between 0 and 1");
       surface->rgba[i] = static_cast<float>(factor[i]);
     }
+  }
+
+  std::vector<std::array<float, 2>> coordinates(const tinygltf::Primitive& primitive, std::size_t points) const {
+    const auto found = primitive.attributes.find("TEXCOORD_0");
+    if (found == primitive.attributes.end()) return {};
+    std::size_t count = 0;
+    int component = 0;
+    const unsigned char* at = data(found->second, TINYGLTF_TYPE_VEC2, 2 * sizeof(float), &count, &component);
+    if (component != TINYGLTF_COMPONENT_TYPE_FLOAT) fail("TEXCOORD_0 are not floats");
+    if (count != points) fail("a surface has not one TEXCOORD_0 a vertex");
+    std::vector<std::array<float, 2>> result(count);
+    std::memcpy(result.data(), at, count * sizeof result[0]);
+    for (const auto& [u, v] : result)
+      if (!(std::abs(u) <= kLargestRepeat && std::abs(v) <= kLargestRepeat)) fail("a TEXCOORD_0 is not a sensible number");
+    return result;
+  }
+
+  // Absent in most surfaces; what is there must be whole.
+  void readPicture(const tinygltf::Primitive& primitive, OrganSurface* surface) const {
+    surface->mesh.uvs = coordinates(primitive, surface->mesh.points.size());
+    if (primitive.material < 0) return;
+    const auto& info = model_.materials[primitive.material].pbrMetallicRoughness.baseColorTexture;
+    if (info.index == -1) return;
+    if (info.index < 0 || info.index >= static_cast<int>(model_.textures.size())) fail("a texture is missing");
+    const int source = model_.textures[info.index].source;
+    if (source < 0 || source >= static_cast<int>(model_.images.size())) fail("a picture is missing");
+    if (info.texCoord != 0 || surface->mesh.uvs.empty()) fail("the surface \"" + surface->id + "\" has a picture but no TEXCOORD_0");
+    const tinygltf::BufferView& view = viewOf(model_.images[source].bufferView);
+    surface->texture = textureOfPng(model_.buffers[view.buffer].data.data() + view.byteOffset, view.byteLength, file_);
   }
 
   std::string file_;

@@ -6,6 +6,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/gltf_axes.h"
+#include "anatomy/gltf_picture.h"
 #include "anatomy/patient_file.h"
 
 namespace palpa::anatomy {
@@ -19,6 +20,8 @@ Value triple(const Vec3& v) {
 
 class ModelWriter {
  public:
+  explicit ModelWriter(std::string file) : file_(std::move(file)) {}
+
   tinygltf::Model write(const Patient& patient) {
     model_.asset.version = "2.0";
     model_.asset.generator = "palpa";
@@ -62,9 +65,10 @@ class ModelWriter {
     return Value(extras);
   }
 
-  // Appends to the one buffer and returns the view's index.
+  // Appends to the one buffer, where a float may begin, and returns the view's index.
   int addView(const void* data, std::size_t bytes, int target) {
     auto& buffer = model_.buffers[0].data;
+    buffer.resize((buffer.size() + 3) / 4 * 4);
     tinygltf::BufferView view;
     view.buffer = 0;
     view.byteOffset = buffer.size();
@@ -98,6 +102,36 @@ class ModelWriter {
     return static_cast<int>(model_.accessors.size()) - 1;
   }
 
+  int addCoordinates(const std::vector<std::array<float, 2>>& uvs) {
+    tinygltf::Accessor accessor;
+    accessor.bufferView = addView(uvs.data(), uvs.size() * sizeof uvs[0], TINYGLTF_TARGET_ARRAY_BUFFER);
+    accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
+    accessor.type = TINYGLTF_TYPE_VEC2;
+    accessor.count = uvs.size();
+    model_.accessors.push_back(accessor);
+    return static_cast<int>(model_.accessors.size()) - 1;
+  }
+
+  // The picture stays in the one buffer, packed, so that the patient is one file.
+  int addPicture(const OrganSurface& surface) {
+    const std::vector<unsigned char> png = pngOf(surface.texture, file_);
+    tinygltf::Image image;
+    image.name = surface.id;
+    image.mimeType = "image/png";
+    image.bufferView = addView(png.data(), png.size(), 0);
+    tinygltf::Sampler sampler;
+    sampler.minFilter = TINYGLTF_TEXTURE_FILTER_LINEAR_MIPMAP_LINEAR;
+    sampler.magFilter = TINYGLTF_TEXTURE_FILTER_LINEAR;
+    sampler.wrapS = sampler.wrapT = TINYGLTF_TEXTURE_WRAP_CLAMP_TO_EDGE;
+    tinygltf::Texture texture;
+    texture.source = static_cast<int>(model_.images.size());
+    texture.sampler = static_cast<int>(model_.samplers.size());
+    model_.images.push_back(image);
+    model_.samplers.push_back(sampler);
+    model_.textures.push_back(texture);
+    return static_cast<int>(model_.textures.size()) - 1;
+  }
+
   int addIndices(const TriangleMesh& mesh) {
     tinygltf::Accessor accessor;
     accessor.bufferView =
@@ -117,6 +151,7 @@ class ModelWriter {
     pbr.baseColorFactor.assign(surface.rgba.begin(), surface.rgba.end());
     pbr.metallicFactor = 0;
     pbr.roughnessFactor = 0.6;
+    if (!surface.texture.rgb.empty()) pbr.baseColorTexture.index = addPicture(surface);
     if (surface.rgba[3] < 1) material.alphaMode = "BLEND";
     model_.materials.push_back(material);
     return static_cast<int>(model_.materials.size()) - 1;
@@ -127,6 +162,7 @@ class ModelWriter {
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = addVectors(surface.mesh.points, true);
     primitive.attributes["NORMAL"] = addVectors(surface.mesh.normals, false);
+    if (!surface.mesh.uvs.empty()) primitive.attributes["TEXCOORD_0"] = addCoordinates(surface.mesh.uvs);
     primitive.indices = addIndices(surface.mesh);
     primitive.material = addMaterial(surface);
     tinygltf::Mesh mesh;
@@ -142,13 +178,14 @@ class ModelWriter {
     model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()) - 1);
   }
 
+  std::string file_;
   tinygltf::Model model_;
 };
 
 }  // namespace
 
 void writePatient(const Patient& patient, const std::filesystem::path& file) {
-  const tinygltf::Model model = ModelWriter().write(patient);
+  const tinygltf::Model model = ModelWriter(file.string()).write(patient);
   std::ostringstream bytes;
   if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, bytes, false, true))
     throw Error("the patient cannot be written as glTF", file.string(), "Check its surfaces");

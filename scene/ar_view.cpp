@@ -98,7 +98,10 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   organs_.setStyle(state.skin);
   organs_.setVisible(visible);
   instrument_.update(state.X_AT, state.plunger, state.blood);
-  instrument_.setVisible(visible && state.show_tool);
+  if (visible && state.show_tool)
+    instrument_.show(state.tool);
+  else
+    instrument_.hide();
   if (trail_) trail_->SetVisibility(visible);
   const double unit_px = kShaft_px * window_height_ / 720.0;
   arrows_.update(visible ? state.forces : std::vector<ForceArrow>(), X_CA_, pinhole_.fx, unit_px);

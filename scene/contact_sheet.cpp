@@ -5,6 +5,7 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -22,8 +23,9 @@ namespace palpa::scene {
 namespace {
 
 constexpr int kLeast_px = 300, kMost_px = 8192, kGap_px = 2;
-constexpr double kScaleBar = 0.050;   // m
-constexpr double kRoom = 1.25;        // of the patient's longest side a tile shows
+constexpr std::array<int, 4> kScaleBars_mm{100, 50, 20, 10};   // the longest that takes no more than kBarShare is drawn
+constexpr double kBarShare = 0.35;    // of a tile
+constexpr double kRoom = 1.25;        // of the longest side a tile shows
 
 struct Row {
   SkinStyle style;
@@ -32,6 +34,24 @@ struct Row {
 constexpr std::array<Row, 3> kRows{{{SkinStyle::solid, "SOLID"}, {SkinStyle::translucent, "TRANSLUCENT"},
                                     {SkinStyle::hidden, "BONES AND VESSELS"}}};
 constexpr std::array<Plane, 3> kColumns{Plane::frontal, Plane::sagittal, Plane::axial};
+
+/// What a row is framed on: all that it shows.
+struct Frame {
+  Vec3 centre_A;
+  double half;
+};
+Frame frameOf(const anatomy::Patient& patient, const Region& region, SkinStyle style) {
+  Eigen::AlignedBox3d box;
+  for (const anatomy::OrganSurface& organ : patient.organs)
+    if (!coversOrgans(organ.organ))
+      for (const Vec3& p : organ.mesh.points) box.extend(p);
+  if (style != SkinStyle::hidden || box.isEmpty()) return {region.whole_centre_A, region.whole_half};
+  return {box.center(), 0.5 * box.sizes().maxCoeff()};
+}
+
+bool hasBones(const anatomy::Patient& patient) {
+  return std::any_of(patient.organs.begin(), patient.organs.end(), [](const auto& organ) { return isBone(organ.organ); });
+}
 
 /// One picture of the page.
 class Tile {
@@ -44,34 +64,40 @@ class Tile {
     const Aspect aspect = aspectOf(plane, patient.side);
     const double radius = region.whole_radius;
     vtkCamera* camera = renderer_->GetActiveCamera();
-    const Vec3 eye = region.whole_centre_A - 2 * radius * aspect.ahead_A;
+    const Frame frame = frameOf(patient, region, row.style);
+    const Vec3 eye = frame.centre_A - 2 * radius * aspect.ahead_A;
     camera->ParallelProjectionOn();
     camera->SetPosition(eye.data());
-    camera->SetFocalPoint(region.whole_centre_A.data());
+    camera->SetFocalPoint(frame.centre_A.data());
     camera->SetViewUp(aspect.up_A.data());
     camera->SetClippingRange(0.01 * radius, 4 * radius);
-    // The smaller side of the tile shows the patient whole, with room for the words.
-    const double half = kRoom * region.whole_half;
+    // The smaller side of the tile shows all of it, with room for the words.
+    const double half = kRoom * frame.half;
     camera->SetParallelScale(where.width < where.height ? half * where.height / where.width : half);
     setViewport(*renderer_, where, window.GetSize()[0], window.GetSize()[1]);
     window_.AddRenderer(renderer_);
-    write(row, aspect, where, 2 * camera->GetParallelScale() / where.height);
+    const bool inside = row.style == SkinStyle::hidden && !hasBones(patient);
+    write(inside ? "INSIDE" : row.caption, aspect, where, 2 * camera->GetParallelScale() / where.height);
   }
   ~Tile() { window_.RemoveRenderer(renderer_); }
   Tile(const Tile&) = delete;
   Tile& operator=(const Tile&) = delete;
 
  private:
-  void write(const Row& row, const Aspect& aspect, const Rect& where, double metres_a_pixel) {
+  void write(const std::string& caption, const Aspect& aspect, const Rect& where, double metres_a_pixel) {
     const TextStyle style{std::max(10, where.height / 26), true, colour::kText};
     const int line = lineHeight(style), margin = style.size_px / 2;
-    put(std::string(aspect.caption) + "  " + row.caption, style, margin, where.height - margin - line / 2, Align::left);
+    put(std::string(aspect.caption) + "  " + caption, style, margin, where.height - margin - line / 2, Align::left);
     put(aspect.left, style, margin, where.height / 2, Align::left);
     put(aspect.right, style, where.width - margin, where.height / 2, Align::right);
-    const int bar = static_cast<int>(std::lround(kScaleBar / metres_a_pixel));
+    const auto pixels = [&](int mm) { return static_cast<int>(std::lround(1e-3 * mm / metres_a_pixel)); };
+    const auto fits = [&](int mm) { return pixels(mm) <= kBarShare * where.width; };
+    const auto found = std::find_if(kScaleBars_mm.begin(), kScaleBars_mm.end(), fits);
+    if (found == kScaleBars_mm.end()) return;
+    const int bar = pixels(*found);
     const Rgb& ink = colour::kText;
     plates_.add({where.width - margin - bar, margin, bar, 3}, {ink[0], ink[1], ink[2], 1}, 0);
-    put("50 mm", style, where.width - margin, margin + 6 + line / 2, Align::right);
+    put(std::to_string(*found) + " mm", style, where.width - margin, margin + 6 + line / 2, Align::right);
   }
   void put(const std::string& words, const TextStyle& style, int x, int y, Align align) {
     labels_.push_back(std::make_unique<Label>(*renderer_));

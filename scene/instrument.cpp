@@ -36,13 +36,15 @@ Instrument::Instrument(vtkRenderer& renderer) {
   dress(*barrel_, barrelShape(size_), 0.6);
   dress(*plunger_, plungerShape(size_), 0.2);
   dress(*blood_, bloodShape(size_), 0.3);
+  dress(*probe_, probeShape({}), 0.35);
   barrel_->GetProperty()->SetOpacity(0.28);
   needle_->GetProperty()->SetLineWidth(1.5);
   needle_->SetUserMatrix(X_AT_);
   barrel_->SetUserMatrix(X_AT_);
+  probe_->SetUserMatrix(X_AT_);
   plunger_->SetUserMatrix(X_A_plunger_);
   blood_->SetUserMatrix(X_A_blood_);
-  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), blood_.Get(), barrel_.Get()})
+  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), blood_.Get(), probe_.Get(), barrel_.Get()})
     renderer.AddActor(actor);
 }
 
@@ -59,23 +61,41 @@ void Instrument::update(const Pose& X_AT, double plunger, double blood) {
     X_A_blood_->SetElement(row, 2, column * X_A_blood_->GetElement(row, 2));
 }
 
-void Instrument::setVisible(bool visible) {
-  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), barrel_.Get()})
-    actor->SetVisibility(visible);
-  blood_->SetVisibility(visible && has_blood_);
+void Instrument::show(Tool tool) {
+  const bool needle = tool == Tool::needle;
+  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), barrel_.Get()}) actor->SetVisibility(needle);
+  blood_->SetVisibility(needle && has_blood_);
+  probe_->SetVisibility(tool == Tool::probe);
+}
+
+void Instrument::hide() {
+  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), barrel_.Get(), blood_.Get(), probe_.Get()}) actor->VisibilityOff();
 }
 
 InstrumentSilhouette::InstrumentSilhouette(vtkRenderer& renderer) {
-  dress(*actor_, silhouetteShape({}), 0.1);
-  actor_->GetProperty()->SetAmbient(0.5);
-  actor_->GetProperty()->SetDiffuse(0.5);
-  actor_->SetUserMatrix(X_AT_);
-  renderer.AddActor(actor_);
+  dress(*needle_, silhouetteShape({}), 0.1);
+  dress(*probe_, probeShape({}), 0.1);
+  for (vtkActor* actor : {needle_.Get(), probe_.Get()}) {
+    actor->GetProperty()->SetAmbient(0.5);
+    actor->GetProperty()->SetDiffuse(0.5);
+    actor->SetUserMatrix(X_AT_);
+    renderer.AddActor(actor);
+  }
+  show(Tool::needle);
 }
 
 InstrumentSilhouette::~InstrumentSilhouette() = default;
 
 void InstrumentSilhouette::update(const Pose& X_AT) { copy(X_AT, *X_AT_); }
-void InstrumentSilhouette::setVisible(bool visible) { actor_->SetVisibility(visible); }
+
+void InstrumentSilhouette::show(Tool tool) {
+  needle_->SetVisibility(tool == Tool::needle);
+  probe_->SetVisibility(tool == Tool::probe);
+}
+
+void InstrumentSilhouette::hide() {
+  needle_->VisibilityOff();
+  probe_->VisibilityOff();
+}
 
 }  // namespace palpa::scene

@@ -4,6 +4,7 @@
 
 #include "anatomy/geometry/pose.h"
 #include "scene/instrument_shape.h"
+#include "scene/scene_state.h"
 
 class vtkActor;
 class vtkMatrix4x4;
@@ -13,7 +14,7 @@ namespace palpa::scene {
 
 void copy(const Pose& X, vtkMatrix4x4& matrix);
 
-/// The needle with its syringe in the AR view: clear graduated barrel, plunger, blood.
+/// What is held in the AR view: the needle with its syringe (clear graduated barrel, plunger, blood), or the probe.
 class Instrument {
  public:
   explicit Instrument(vtkRenderer& renderer);
@@ -22,11 +23,12 @@ class Instrument {
   /// `plunger` and `blood` are fractions of the stroke, held to 0..1; blood cannot be more than the
   /// plunger has drawn.
   void update(const Pose& X_AT, double plunger, double blood);
-  void setVisible(bool visible);
+  void show(Tool tool);
+  void hide();
 
  private:
   InstrumentSize size_;
-  vtkNew<vtkActor> needle_, barrel_, plunger_, blood_;
+  vtkNew<vtkActor> needle_, barrel_, plunger_, blood_, probe_;
   vtkNew<vtkMatrix4x4> X_AT_, X_A_plunger_, X_A_blood_;
   bool has_blood_ = false;
 };
@@ -37,10 +39,11 @@ class InstrumentSilhouette {
   explicit InstrumentSilhouette(vtkRenderer& renderer);
   ~InstrumentSilhouette();
   void update(const Pose& X_AT);
-  void setVisible(bool visible);
+  void show(Tool tool);
+  void hide();
 
  private:
-  vtkNew<vtkActor> actor_;
+  vtkNew<vtkActor> needle_, probe_;
   vtkNew<vtkMatrix4x4> X_AT_;
 };
 

@@ -65,6 +65,23 @@ void MeshBuilder::band(const ProfilePoint& a, const ProfilePoint& b, const Rgb& 
   }
 }
 
+void MeshBuilder::dome(double radius, double z, const Rgb& colour, int sides) {
+  const int rings = sides / 3;
+  for (int i = 0; i <= rings; ++i) {
+    const double from_pole = std::numbers::pi / 2 * i / rings;
+    for (int j = 0; j <= sides; ++j) {
+      const double angle = 2 * std::numbers::pi * j / sides;
+      const Vec3 n(std::sin(from_pole) * std::cos(angle), std::sin(from_pole) * std::sin(angle), std::cos(from_pole));
+      const long at = addPoint(Vec3(0, 0, z - radius) + radius * n, n, colour);
+      if (i == 0 || j == 0) continue;
+      const vtkIdType above = at - sides - 1;
+      const vtkIdType one[] = {above - 1, at - 1, at}, other[] = {above - 1, at, above};
+      data_->triangles->InsertNextCell(3, one);
+      data_->triangles->InsertNextCell(3, other);
+    }
+  }
+}
+
 void MeshBuilder::arc(double r, double z, double middle, double half_angle, const Rgb& colour) {
   constexpr int kSteps = 10;
   data_->lines->InsertNextCell(kSteps + 1);

@@ -27,6 +27,8 @@ class MeshBuilder {
   /// Turns the profile about the z axis. Profiles that run toward -z have their outside away from
   /// the axis.
   void turn(std::initializer_list<ProfilePoint> profile, const Rgb& colour, int sides = 24);
+  /// A half-sphere about the z axis, its foremost point at (0, 0, z), opening toward -z; smooth.
+  void dome(double radius, double z, const Rgb& colour, int sides = 24);
   /// An arc about the z axis, in front (centred on angle `middle`).
   void arc(double r, double z, double middle, double half_angle, const Rgb& colour);
   void triangle(const Vec3& a, const Vec3& b, const Vec3& c, const Rgb& colour);

@@ -3,6 +3,7 @@
 #include <vtkActor.h>
 #include <vtkCellArray.h>
 #include <vtkFloatArray.h>
+#include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPointData.h>
 #include <vtkPoints.h>
@@ -10,13 +11,14 @@
 #include <vtkPolyDataMapper.h>
 #include <vtkProperty.h>
 #include <vtkRenderer.h>
+#include <vtkTexture.h>
+
+#include <cstring>
 
 #include "scene/palette.h"
 
 namespace palpa::scene {
 namespace {
-
-bool covers(Organ organ) { return organ == Organ::skin || organ == Organ::muscle; }
 
 double translucentOpacity(Organ organ) {
   if (organ == Organ::skin) return 0.28;
@@ -27,9 +29,31 @@ bool isPlainWhite(const std::array<float, 4>& rgba) {
   return rgba[0] == 1 && rgba[1] == 1 && rgba[2] == 1;
 }
 
+bool hasPicture(const anatomy::OrganSurface& organ) {
+  const anatomy::Texture& texture = organ.texture;
+  return texture.width > 0 && texture.height > 0 && organ.mesh.uvs.size() == organ.mesh.points.size() &&
+         texture.rgb.size() == std::size_t{3} * texture.width * texture.height;
+}
+
+// White under a picture means the picture's own colours.
 Rgb colourOf(const anatomy::OrganSurface& organ) {
-  if (isPlainWhite(organ.rgba)) return organColour(organ.organ);
+  if (isPlainWhite(organ.rgba) && !hasPicture(organ)) return organColour(organ.organ);
   return {organ.rgba[0], organ.rgba[1], organ.rgba[2]};
+}
+
+// Both count rows in the direction of v, so that the first row lies at v = 0.
+vtkSmartPointer<vtkTexture> textureOf(const anatomy::Texture& picture) {
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(picture.width, picture.height, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  std::memcpy(image->GetScalarPointer(), picture.rgb.data(), picture.rgb.size());
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(image);
+  texture->InterpolateOn();
+  texture->MipmapOff();
+  texture->RepeatOff();
+  texture->EdgeClampOn();
+  return texture;
 }
 
 vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ, vtkPolyData* surface) {
@@ -37,6 +61,7 @@ vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ, vtkPolyDat
   mapper->SetInputData(surface);
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);
+  if (hasPicture(organ)) actor->SetTexture(textureOf(organ.texture));
   Rgb colour = colourOf(organ);
   vtkProperty* look = actor->GetProperty();
   look->SetColor(colour.data());
@@ -48,6 +73,8 @@ vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ, vtkPolyDat
 }
 
 }  // namespace
+
+bool coversOrgans(Organ organ) { return organ == Organ::skin || organ == Organ::muscle; }
 
 vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh) {
   vtkNew<vtkPoints> points;
@@ -67,6 +94,13 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh) {
     for (const Vec3& n : mesh.normals) normals->InsertNextTuple3(n.x(), n.y(), n.z());
     result->GetPointData()->SetNormals(normals);
   }
+  if (!mesh.uvs.empty() && mesh.uvs.size() == mesh.points.size()) {
+    vtkNew<vtkFloatArray> coordinates;
+    coordinates->SetNumberOfComponents(2);
+    coordinates->SetName("TextureCoordinates");
+    for (const auto& [u, v] : mesh.uvs) coordinates->InsertNextTuple2(u, v);
+    result->GetPointData()->SetTCoords(coordinates);
+  }
   return result;
 }
 
@@ -76,7 +110,7 @@ OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient)
     if (!skin_ && organ.organ == Organ::skin) skin_ = surface;
     Part part{actorOf(organ, surface), organ.organ};
     // The far side of a translucent surface would blend a second time.
-    if (covers(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
+    if (coversOrgans(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
     renderer.AddActor(part.actor);
     parts_.push_back(std::move(part));
   }
@@ -99,7 +133,7 @@ void OrganActors::setVisible(bool visible) {
 
 void OrganActors::apply() {
   for (Part& part : parts_) {
-    const bool hidden = covers(part.organ) && style_ == SkinStyle::hidden;
+    const bool hidden = coversOrgans(part.organ) && style_ == SkinStyle::hidden;
     part.actor->SetVisibility(visible_ && !hidden);
     part.actor->GetProperty()->SetOpacity(
         style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1);

@@ -13,10 +13,14 @@ class vtkRenderer;
 
 namespace palpa::scene {
 
+/// With normals and texture coordinates where the mesh has them.
 vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh);
 
+/// Lies over the organs and hides them: skin, muscle.
+bool coversOrgans(Organ organ);
+
 /// The patient's surfaces as actors: organs opaque, and what covers them (skin, muscle) in the
-/// chosen style. Only one translucent layer is ever in front of the organs, which the default
+/// chosen style. A surface with a picture shows that, multiplied by its colour. Only one translucent layer is ever in front of the organs, which the default
 /// order-independent blending draws right and cheaply; peeling would cost several times as much.
 class OrganActors {
  public:

@@ -29,7 +29,7 @@ OrthoView::OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, c
       organs_(*renderer_, patient),
       section_(skinSection(patient, region.focus_A, aspectOf(plane, patient.side).ahead_A)),
       backdrop_(*renderer_, false),
-      needle_(*renderer_),
+      tool_(*renderer_),
       plates_(*renderer_) {
   setUpRenderer(*renderer_, colour::kPanel);
   organs_.setStyle(SkinStyle::hidden);
@@ -106,7 +106,7 @@ void OrthoView::prepareStill() {
   backdrop_.hide();
   organs_.setVisible(true);
   if (section_) section_->VisibilityOn();
-  needle_.setVisible(false);
+  tool_.hide();
   if (trail_) trail_->VisibilityOff();
   plates_.setVisible(true);
   for (const auto& words : words_) words->show();
@@ -130,9 +130,12 @@ void OrthoView::keepStill(const Image& window_picture) {
   for (const auto& words : words_) words->hide();
 }
 
-void OrthoView::update(const Pose& X_AT, bool show_tool) {
-  needle_.update(X_AT);
-  needle_.setVisible(show_tool);
+void OrthoView::update(const SceneState& state) {
+  tool_.update(state.X_AT);
+  if (state.show_tool)
+    tool_.show(state.tool);
+  else
+    tool_.hide();
 }
 
 }  // namespace palpa::scene

@@ -23,7 +23,7 @@ class vtkRenderWindow;
 namespace palpa::scene {
 
 /// A fixed parallel view. The anatomy in it never moves, so it is drawn once, kept as a picture and
-/// put behind the needle; the needle therefore shows through the organs, as on a radiograph.
+/// put behind the tool; the tool therefore shows through the organs, as on a radiograph.
 class OrthoView {
  public:
   OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
@@ -38,7 +38,7 @@ class OrthoView {
   void prepareStill();
   void keepStill(const Image& window_picture);
 
-  void update(const Pose& X_AT, bool show_tool);
+  void update(const SceneState& state);
 
  private:
   void aimCamera();
@@ -55,7 +55,7 @@ class OrthoView {
   OrganActors organs_;
   vtkSmartPointer<vtkActor> section_;
   Backdrop backdrop_;
-  InstrumentSilhouette needle_;
+  InstrumentSilhouette tool_;
   Plates plates_;
   vtkSmartPointer<vtkActor> trail_;
   std::vector<std::unique_ptr<Label>> words_;

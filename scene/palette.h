@@ -28,6 +28,7 @@ inline constexpr Rgb kHub{0.88, 0.52, 0.66};  ///< 18G is pink (ISO 6009)
 inline constexpr Rgb kGlass{0.80, 0.90, 0.97};
 inline constexpr Rgb kRubber{0.13, 0.14, 0.16};
 inline constexpr Rgb kPlastic{0.90, 0.92, 0.94};
+inline constexpr Rgb kTip{0.93, 0.93, 0.88};   ///< of the palpation probe
 inline constexpr Rgb kInk{0.10, 0.14, 0.20};
 inline constexpr Rgb kBlood{0.50, 0.02, 0.03};
 inline constexpr Rgb kTrail{0.99, 0.82, 0.26};
@@ -58,6 +59,8 @@ inline constexpr Rgb organColour(Organ organ) {
       return {0.20, 0.38, 0.80};
     case Organ::artery:
       return {0.93, 0.36, 0.16};
+    case Organ::inclusion:
+      return {0.90, 0.62, 0.20};
     case Organ::none:
       break;
   }

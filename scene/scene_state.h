@@ -30,6 +30,9 @@ struct ForceArrow {
   Vec3 f_A = Vec3::Zero();  ///< newtons
 };
 
+/// What is held in the hand, as the tool frame T carries it (scene/instrument_shape.h).
+enum class Tool { needle, probe };
+
 enum class SkinStyle { solid, translucent, hidden };
 
 /// Words on the picture; empty lines are left out.
@@ -51,7 +54,8 @@ struct SceneState {
   Pinhole camera;
   bool registered = false;  ///< X_CA is valid
   Pose X_CA = Pose::Identity();
-  Pose X_AT = Pose::Identity();  ///< needle tip at the origin of T, +z the way it advances
+  Pose X_AT = Pose::Identity();  ///< tip of needle or probe at the origin of T, +z the way it advances
+  Tool tool = Tool::needle;
   bool show_tool = true;
   double plunger = 0;  ///< drawn fraction, 0..1
   double blood = 0;    ///< fraction of the syringe filled with blood, 0..1

@@ -100,7 +100,7 @@ void SceneView::Impl::show(const SceneState& state) {
   place();
   trail.update(state.trail_A);
   ar.update(state);
-  for (const auto& view : fixed) view->update(state.X_AT, state.show_tool);
+  for (const auto& view : fixed) view->update(state);
   hud.update(state.hud, ar.showsPatient() ? state.forces : std::vector<ForceArrow>(), panels.ar,
              size[1]);
   window.Render();

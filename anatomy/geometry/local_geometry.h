@@ -15,9 +15,10 @@ namespace palpa {
 enum class Organ : std::uint8_t {
   none, skin, muscle, clavicle, rib, sternum, lung, vein, artery,
   fascia,   ///< of the muscle: a wall between fat and muscle, no mesh of its own
-  scapula, cartilage, airway, spine
+  scapula, cartilage, airway, spine,
+  inclusion   ///< what a phantom hides in its silicone, to be felt
 };
-inline constexpr int kOrganCount = 14;
+inline constexpr int kOrganCount = 15;
 
 /// Hard to the needle. Cartilage of the ribs in an adult is firm enough to stop it.
 constexpr bool isBone(Organ organ) {

@@ -31,6 +31,7 @@ Span spanOf(Organ organ) {
     case Organ::muscle: return {0.03, 0.50};
     case Organ::vein:
     case Organ::artery: return {0.02, 1.20};
+    case Organ::inclusion: return {0.002, 0.20};
     default: return {0.10, 2.40};  // skin: a piece of chest to a whole body
   }
 }

@@ -11,6 +11,7 @@
 #include "anatomy/patient_file.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/ct_patient.h"
+#include "apps/cli/phantom_options.h"
 #include "apps/station/assets.h"
 
 namespace palpa::cli {
@@ -20,6 +21,7 @@ struct PatientOptions {
   std::string file, side = "right", out = "patient.glb", unit, organ;
   std::string sex;
   double height = 0, bmi = 0;   ///< 0: not stated
+  PhantomOptions phantom;
   std::uint64_t seed = 0;
 };
 
@@ -38,6 +40,7 @@ struct ImportCommand {
 };
 
 anatomy::Patient build(const PatientOptions& o) {
+  if (!o.phantom.kind.empty()) return buildPhantom(o.phantom);
   return anatomy::buildPatient(anatomy::drawParameters(
       station::assetFile("patients/reference.json").string(),
       o.side == "left" ? anatomy::Side::left : anatomy::Side::right, o.seed, personOf(o)));
@@ -111,7 +114,7 @@ void tellSurface(const CheckedSurface& surface, const PatientOptions& o) {
 void tellSurfaces(const PatientOptions& o) {
   const Organ organ = o.organ.empty() ? Organ::none : organFromName(o.organ.c_str());
   if (!o.organ.empty() && organ == Organ::none)
-    throw UsageError("is \"" + o.organ + "\"", "--organ", "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery, scapula, cartilage, airway");
+    throw UsageError("is \"" + o.organ + "\"", "--organ", "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery, scapula, cartilage, airway, spine, inclusion");
   const anatomy::Unit unit = unitOf(o);
   std::vector<CheckedSurface> surfaces;
   for (anatomy::RawMesh& mesh : anatomy::readMeshFile(o.file)) {
@@ -168,7 +171,7 @@ void addPatient(CLI::App& program) {
   patient->require_subcommand(1);
   const auto o = std::make_shared<PatientOptions>();
   CLI::App* make = patient->add_subcommand("build", "Build a patient from the reference figures or a CT volume");
-  make->footer("Examples:\n  palpa patient build --sex f --height 1.68 --bmi 24 --side right --seed 3 --out p.glb\n  palpa patient build --bmi 38 --seed 4 --out heavy.glb      (what is not stated is drawn, too)\n  palpa patient build --ct chest.mha --previews look --out p.glb");
+  make->footer("Examples:\n  palpa patient build --sex f --height 1.68 --bmi 24 --side right --seed 3 --out p.glb\n  palpa patient build --bmi 38 --seed 4 --out heavy.glb      (what is not stated is drawn, too)\n  palpa patient build --ct chest.mha --previews look --out p.glb\n  palpa patient build --phantom breast --inclusion-mm 20 --depth-mm 15 --out b.glb");
   const CLI::Option* side = make->add_option("--side", o->side, "Side that is punctured (CT: by default that of the contrast)")->check(CLI::IsMember({"right", "left"}));
   make->add_option("--sex", o->sex, "f or m (default: drawn)")->check(CLI::IsMember({"f", "m"}));
   make->add_option("--height", o->height, "Metres (default: drawn)");
@@ -177,6 +180,9 @@ void addPatient(CLI::App& program) {
       ->check(CLI::NonNegativeNumber);
   make->add_option("--out", o->out, "File to write (.glb)")->type_name("FILE");
   const auto ct = addCtOptions(*make);
+  addPhantomOptions(*make, &o->phantom);
+  for (const char* of_person : {"--side", "--sex", "--height", "--bmi", "--seed"}) make->get_option("--phantom")->excludes(make->get_option(of_person));
+  make->get_option("--phantom")->excludes(make->get_option("--ct"));
   make->callback([o, ct, side] {
     anatomy::writePatient(ct->ct.empty() ? build(*o) : buildFromCt(*ct, side->count() ? o->side : ""), o->out);
     std::printf("Written: %s\n", o->out.c_str());

@@ -14,6 +14,9 @@ namespace {
 /// Small, so that hundreds of damaged copies are quick to try.
 Patient smallPatient() {
   Patient patient = patientOf(sphereMesh(0.05, 0.02), Organ::skin);
+  OrganSurface& skin = patient.organs.front();
+  for (std::size_t i = 0; i < skin.mesh.points.size(); ++i) skin.mesh.uvs.push_back({0.01f * static_cast<float>(i), 0.25f});
+  skin.texture = {6, 4, std::vector<std::uint8_t>(72, 130)};
   patient.organs.push_back({"bone",
                             Organ::clavicle,
                             capsuleMesh({0, 0, 0}, {0.1, 0, 0}, 0.006, 5, 8),
@@ -42,6 +45,8 @@ void expectSensible(const Patient& patient) {
   EXPECT_FALSE(patient.organs.empty());
   for (const OrganSurface& o : patient.organs) {
     ASSERT_EQ(o.mesh.points.size(), o.mesh.normals.size());
+    ASSERT_TRUE(o.mesh.uvs.empty() || o.mesh.uvs.size() == o.mesh.points.size());
+    ASSERT_EQ(o.texture.rgb.size(), std::size_t{3} * o.texture.width * o.texture.height);
     for (const Vec3& p : o.mesh.points) ASSERT_TRUE(p.allFinite());
     for (const auto& t : o.mesh.triangles)
       for (const auto index : t) ASSERT_LT(index, o.mesh.points.size());
@@ -78,6 +83,10 @@ TEST(PatientFile, RoundTripKeepsEverything) {
     EXPECT_EQ(a.id, b.id);
     EXPECT_EQ(a.organ, b.organ);
     EXPECT_EQ(a.rgba, b.rgba);
+    EXPECT_EQ(a.mesh.uvs, b.mesh.uvs);
+    EXPECT_EQ(a.texture.width, b.texture.width);
+    EXPECT_EQ(a.texture.height, b.texture.height);
+    EXPECT_EQ(a.texture.rgb, b.texture.rgb);
     EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
     ASSERT_EQ(a.mesh.points.size(), b.mesh.points.size());
     for (std::size_t k = 0; k < a.mesh.points.size(); ++k) {
@@ -179,6 +188,10 @@ TEST(PatientFile, NamesWhatIsWrong) {
   EXPECT_EQ(renamed("entry_point", "entry_poinx"), "no error") << "a patient may be there to be looked at";
   EXPECT_NE(renamed("tissue\":\"bone", "tissue\":\"bome").find("tissue"), std::string::npos);
   EXPECT_NE(renamed("NORMAL", "NORMAX").find("NORMAL"), std::string::npos);
+  EXPECT_NE(renamed("TEXCOORD_0", "TEXCOORD_7").find("TEXCOORD_0"), std::string::npos) << "a picture needs coordinates";
+  std::string no_png = whole;
+  no_png.replace(no_png.find("\x89PNG") + 1, 3, "PNX");
+  EXPECT_NE(message(no_png).find("not a PNG"), std::string::npos);
   EXPECT_NE(renamed("left", "lefd").find("right or left"), std::string::npos);
 }
 

@@ -1,8 +1,11 @@
 #include <gtest/gtest.h>
 #include <vtkCompositeDataIterator.h>
+#include <vtkDataArray.h>
 #include <vtkGLTFReader.h>
+#include <vtkImageData.h>
 #include <vtkMultiBlockDataSet.h>
 #include <vtkNew.h>
+#include <vtkPointData.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
@@ -49,6 +52,29 @@ TEST(PatientElsewhere, VtkSeesTheSamePointsInMetresWithYUp) {
       EXPECT_NEAR(bounds[2 * k + 1], box.max()[k], 1e-6) << patient.organs[i].id;
     }
   }
+}
+
+TEST(PatientElsewhere, VtkFindsThePictureOnTheSkin) {
+  const Patient patient = reference();
+  const std::string file = (test::freshFolder("patient_exchange", "vtk_picture") / "p.glb").string();
+  writePatient(patient, file);
+  vtkNew<vtkGLTFReader> reader;
+  reader->SetFileName(file.c_str());
+  reader->Update();
+  ASSERT_EQ(reader->GetNumberOfTextures(), 1);
+  const auto picture = reader->GetGLTFTexture(0);
+  ASSERT_TRUE(picture.Image);
+  int size[3];
+  picture.Image->GetDimensions(size);
+  const Texture& written = patient.organ(Organ::skin).texture;
+  EXPECT_EQ(size[0], written.width);
+  EXPECT_EQ(size[1], written.height);
+  const auto surfaces = surfacesOf(file);
+  vtkDataArray* coordinates = surfaces.at(0)->GetPointData()->GetTCoords();
+  ASSERT_TRUE(coordinates);
+  const auto& uvs = patient.organs[0].mesh.uvs;
+  ASSERT_EQ(coordinates->GetNumberOfTuples(), static_cast<vtkIdType>(uvs.size()));
+  for (std::size_t i = 0; i < uvs.size(); i += 100) EXPECT_EQ(static_cast<float>(coordinates->GetComponent(static_cast<vtkIdType>(i), 0)), uvs[i][0]);
 }
 
 }  // namespace

@@ -50,7 +50,7 @@ TEST_F(ArFrame, SolidSkinHidesTranslucentSkinShowsHiddenSkinIsGone) {
   EXPECT_GT(difference(through, bare), 10);
 }
 
-class Tool : public ArFrame {
+class HeldTool : public ArFrame {
  protected:
   SceneState withTool(bool shown) {
     SceneState state = straightOn(dark_);
@@ -78,7 +78,7 @@ class Tool : public ArFrame {
   const anatomy::Patient nobody_ = test::spherePatient({0, 0.5, 0}, 0.001);
 };
 
-TEST_F(Tool, NeedleIsDrawnWhereItsPoseSaysAndEndsAtTheTip) {
+TEST_F(HeldTool, NeedleIsDrawnWhereItsPoseSaysAndEndsAtTheTip) {
   const Image with = frameOf(nobody_, withTool(true)), without = frameOf(nobody_, withTool(false));
   for (const double z : {-0.005, -0.02, -0.04, -0.065, -0.10, -0.14})
     EXPECT_TRUE(drawnAt(with, without, {0, 0, z})) << z;
@@ -87,7 +87,47 @@ TEST_F(Tool, NeedleIsDrawnWhereItsPoseSaysAndEndsAtTheTip) {
     EXPECT_FALSE(drawnAt(with, without, {x, 0, -0.03})) << x;
 }
 
-TEST_F(Tool, BloodFillsTheSyringeOnlyAsFarAsThePlungerIsDrawn) {
+TEST_F(HeldTool, ProbeIsAsWideAsAFingertipAndReplacesTheNeedle) {
+  SceneState state = withTool(true);
+  state.tool = Tool::probe;
+  state.plunger = state.blood = 0.5;
+  const Image with = frameOf(nobody_, state), without = frameOf(nobody_, withTool(false));
+  for (const double z : {-0.002, -0.008, -0.05, -0.10}) EXPECT_TRUE(drawnAt(with, without, {0, 0, z})) << z;
+  EXPECT_FALSE(drawnAt(with, without, {0, 0, 0.005}));
+  for (const double x : {-0.0065, 0.0065}) {
+    EXPECT_TRUE(drawnAt(with, without, {x, 0, -0.008})) << "the half-sphere is 16 mm wide";
+    EXPECT_FALSE(drawnAt(with, without, {1.7 * x, 0, -0.008})) << "and no wider";
+    EXPECT_FALSE(drawnAt(with, without, {1.4 * x, 0, -0.05})) << "the shaft is thin";
+  }
+  const Blob red = blobOf(with, [&](int u, int v) {
+    const Pixel p = at(with, u, v);
+    return p.r > 1.5 * p.g && p.r > 40;
+  });
+  EXPECT_EQ(red.count, 0) << "a probe draws no blood";
+}
+
+TEST_F(ArFrame, PictureOnTheSkinIsDrawnByItsCoordinatesInItsOwnColours) {
+  anatomy::Patient patient = ballBehindSkin(false);
+  anatomy::OrganSurface& skin = patient.organs.front();
+  for (const Vec3& p : skin.mesh.points)
+    skin.mesh.uvs.push_back({static_cast<float>(0.5 + p.x() / 0.2), static_cast<float>(0.5 - p.z() / 0.2)});
+  // Rows from the top: red, green; blue, gray.
+  skin.texture = {2, 2, {200, 20, 20, 20, 200, 20, 20, 20, 200, 120, 120, 120}};
+  SceneState state = straightOn(dark_);
+  state.skin = SkinStyle::solid;
+  const Image frame = frameOf(patient, state);
+  const auto seen = [&](double x, double z) {
+    const Eigen::Vector2d p = project(state.camera, state.X_CA * Vec3(x, 0, z));
+    return at(frame, static_cast<int>(p.x()), static_cast<int>(p.y()));
+  };
+  const Pixel red = seen(-0.08, 0.08), green = seen(0.08, 0.08), blue = seen(-0.08, -0.08), gray = seen(0.08, -0.08);
+  EXPECT_GT(red.r, 4 * std::max(red.g, red.b));
+  EXPECT_GT(green.g, 4 * std::max(green.r, green.b));
+  EXPECT_GT(blue.b, 4 * std::max(blue.r, blue.g));
+  EXPECT_LE(std::max({std::abs(gray.r - gray.g), std::abs(gray.g - gray.b)}), 2) << "white skin must not tint its picture";
+}
+
+TEST_F(HeldTool, BloodFillsTheSyringeOnlyAsFarAsThePlungerIsDrawn) {
   const auto red = [&](double plunger, double blood) {
     SceneState state = withTool(true);
     state.plunger = plunger;
@@ -108,7 +148,7 @@ TEST_F(Tool, BloodFillsTheSyringeOnlyAsFarAsThePlungerIsDrawn) {
   EXPECT_EQ(red(0.5, 0.9), half);
 }
 
-TEST_F(Tool, ForceArrowPointsAlongTheForceThirtyMillimetresANewton) {
+TEST_F(HeldTool, ForceArrowPointsAlongTheForceThirtyMillimetresANewton) {
   SceneState state = withTool(false);
   const Image without = frameOf(nobody_, state);
   const Vec3 f_A = 1.5 * Vec3(-0.6, 0, 0.8);
@@ -131,7 +171,7 @@ TEST_F(Tool, ForceArrowPointsAlongTheForceThirtyMillimetresANewton) {
   EXPECT_NEAR((farthest - head).norm(), 0, 2.5);  // the outline is about 1 px wide; pixel steps
 }
 
-TEST_F(Tool, DarkArrowHasALightOutlineAndALightArrowADarkOne) {
+TEST_F(HeldTool, DarkArrowHasALightOutlineAndALightArrowADarkOne) {
   const auto extremes = [&](ForceKind kind, std::uint8_t behind) {
     const Image picture = plain(320, 240, behind);
     SceneState state = straightOn(picture);
@@ -148,7 +188,7 @@ TEST_F(Tool, DarkArrowHasALightOutlineAndALightArrowADarkOne) {
   EXPECT_LT(extremes(ForceKind::device, 240).first, 40);
 }
 
-TEST_F(Tool, WithoutRegistrationNothingIsDrawnOnThePicture) {
+TEST_F(HeldTool, WithoutRegistrationNothingIsDrawnOnThePicture) {
   SceneState state = withTool(true);
   state.registered = false;
   state.forces = {{ForceKind::device, Vec3::Zero(), Vec3(1, 0, 0)}};
@@ -156,7 +196,7 @@ TEST_F(Tool, WithoutRegistrationNothingIsDrawnOnThePicture) {
   EXPECT_EQ(frameOf(ballBehindSkin(true), state).pixels, dark_.pixels);
 }
 
-TEST_F(Tool, TrailIsALineAlongThePath) {
+TEST_F(HeldTool, TrailIsALineAlongThePath) {
   SceneState state = withTool(false);
   const Image without = frameOf(nobody_, state);
   for (int i = 0; i <= 50; ++i) state.trail_A.push_back(Vec3(-0.05 + 0.002 * i, 0, 0.02));
@@ -169,7 +209,7 @@ TEST_F(Tool, TrailIsALineAlongThePath) {
   EXPECT_LE(line.bottom - line.top, 3);
 }
 
-TEST_F(Tool, WeakAndBrokenForcesAreNotDrawn) {
+TEST_F(HeldTool, WeakAndBrokenForcesAreNotDrawn) {
   SceneState state = withTool(false);
   const Image without = frameOf(nobody_, state);
   state.forces = {{ForceKind::device, Vec3::Zero(), Vec3(0.01, 0, 0)},
