@@ -41,7 +41,7 @@ TEST(BoneCapsules, FitTheWholeOfEveryClavicleAndRib) {
     const BoneCapsules capsules(bone.mesh);
     ASSERT_FALSE(capsules.rods().empty());
     EXPECT_LE(capsules.rods().size(), 48u);
-    const double off = test::misfit(bone.mesh, test::capsulesOf(capsules.rods()));
+    const double off = measure::misfit(bone.mesh, measure::capsulesOf(capsules.rods()));
     EXPECT_LT(off, 1e-3) << bone.id;
     if (bone.organ == Organ::clavicle) {
       ++clavicles;
@@ -68,11 +68,11 @@ TEST(BoneCapsules, FitRoundEveryTouchedPlace) {
       const std::vector<Capsule> chain = bone.near(at, kMost);
       ASSERT_FALSE(chain.empty());
       ASSERT_LE(chain.size(), static_cast<std::size_t>(kMost));
-      const double off = test::misfit(mesh, chain, at.p_A, 0.024);
+      const double off = measure::misfit(mesh, chain, at.p_A, 0.024);
       EXPECT_LT(off, 1e-3);
       worst = std::max(worst, off);
       chains += off;
-      singles += test::misfit(mesh, {test::lengthened(chain[0], 0.016)}, at.p_A, 0.024);
+      singles += measure::misfit(mesh, {measure::lengthened(chain[0], 0.016)}, at.p_A, 0.024);
     }
     RecordProperty(std::string(name(organ)) + "_worst_um", static_cast<int>(1e6 * worst));
     EXPECT_LT(chains, 0.7 * singles);
@@ -88,12 +88,12 @@ TEST(BoneCapsules, TouchTheMeshWhereItIsTouched) {
   for (const SurfacePoint& at : places(query, patient, surface, 60)) {
     const std::vector<Capsule> chain = bone.near(at, kMost);
     Vec3 n = Vec3::Zero();
-    EXPECT_NEAR(test::distanceTo(chain[0], at.p_A, &n), 0, 1e-9);
+    EXPECT_NEAR(measure::distanceTo(chain[0], at.p_A, &n), 0, 1e-9);
     EXPECT_LT((n - at.n_A).norm(), 1e-6);
-    EXPECT_NEAR(test::distanceTo(chain, at.p_A), 0, 1e-9);
+    EXPECT_NEAR(measure::distanceTo(chain, at.p_A), 0, 1e-9);
     // Pressed in, it is still the deepest.
     const Vec3 pressed = at.p_A - 1e-3 * at.n_A;
-    EXPECT_NEAR(test::distanceTo(chain, pressed), -1e-3, 1e-9);
+    EXPECT_NEAR(measure::distanceTo(chain, pressed), -1e-3, 1e-9);
   }
 }
 
@@ -114,8 +114,8 @@ TEST(BoneCapsules, ANewSnapshotHardlyMovesTheForce) {
       const SurfacePoint next = query.closest(surface, moved);
       const Vec3 tool = next.p_A - kDeep * next.n_A;
       Vec3 n_old = Vec3::Zero(), n_new = Vec3::Zero();
-      const double d_old = test::distanceTo(old, tool, &n_old);
-      const double d_new = test::distanceTo(bone.near(next, kMost), tool, &n_new);
+      const double d_old = measure::distanceTo(old, tool, &n_old);
+      const double d_new = measure::distanceTo(bone.near(next, kMost), tool, &n_new);
       const double jump = kStiffness / kBlend * (std::min(d_old, 0.0) * n_old - std::min(d_new, 0.0) * n_new).norm();
       squares += jump * jump;
       most = std::max(most, jump);
@@ -142,7 +142,7 @@ TEST(BoneCapsules, AreOneStraightRowOnAStraightTube) {
     }
   EXPECT_LT(low, at.p_A.x() - 0.024);
   EXPECT_GT(high, at.p_A.x() + 0.024);
-  EXPECT_LT(test::misfit(patient.organs[0].mesh, row, at.p_A, 0.024), 2e-4);
+  EXPECT_LT(measure::misfit(patient.organs[0].mesh, row, at.p_A, 0.024), 2e-4);
 }
 
 TEST(BoneCapsules, EndWhereTheBoneEnds) {
@@ -163,7 +163,7 @@ TEST(BoneCapsules, ARoundBoneIsTouchedFromEverySide) {
   for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.6, 0, 0.8)}) {
     const std::vector<Capsule> chain = bone.near(query.closest(0, middle + 0.01 * way), kMost);
     ASSERT_FALSE(chain.empty());
-    EXPECT_NEAR(test::distanceTo(chain, middle + 0.01 * way), 0.004, 2e-4);
+    EXPECT_NEAR(measure::distanceTo(chain, middle + 0.01 * way), 0.004, 2e-4);
   }
 }
 

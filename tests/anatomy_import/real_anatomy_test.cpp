@@ -70,11 +70,11 @@ Misfits misfitsOf(const Patient& patient, const BoneCapsules& bone, std::size_t 
     const SurfacePoint near = query.closest(0, at[i]);
     const std::vector<Capsule> chain = bone.near(near, LocalGeometry::kMaxBones);
     EXPECT_FALSE(chain.empty());
-    EXPECT_NEAR(test::distanceTo(chain, near.p_A), 0, 1e-9);
-    const double along = test::misfit(mesh, chain, near.p_A, 0.024);
+    EXPECT_NEAR(measure::distanceTo(chain, near.p_A), 0, 1e-9);
+    const double along = measure::misfit(mesh, chain, near.p_A, 0.024);
     misfits.worst_48_mm = std::max(misfits.worst_48_mm, along);
     misfits.sum_48_mm += along;
-    misfits.sum_6_mm += test::misfit(mesh, chain, near.p_A, 0.006);
+    misfits.sum_6_mm += measure::misfit(mesh, chain, near.p_A, 0.006);
     ++misfits.places;
   }
   return misfits;
@@ -87,7 +87,7 @@ TEST(RealAnatomy, CapsulesFitTheClavicleAndWhatIsNearAnyTouchedPlace) {
   const Patient patient = realClavicle(folder, &report);
   const TriangleMesh& mesh = patient.organs[0].mesh;
   const BoneCapsules bone(mesh);
-  const double whole = test::misfit(mesh, test::capsulesOf(bone.rods()));
+  const double whole = measure::misfit(mesh, measure::capsulesOf(bone.rods()));
   RecordProperty("whole_um", static_cast<int>(1e6 * whole));
   RecordProperty("rods", static_cast<int>(bone.rods().size()));
   EXPECT_LT(whole, 1e-3);

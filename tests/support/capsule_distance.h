@@ -7,7 +7,7 @@
 #include "anatomy/bone_capsules.h"
 
 /// What capsules say of a surface, worked out beside the program's own.
-namespace palpa::test {
+namespace palpa::measure {
 
 /// Of p from the capsule's surface, negative inside; `n`, if asked for: away from it.
 inline double distanceTo(const Capsule& capsule, const Vec3& p, Vec3* n = nullptr) {
@@ -58,4 +58,4 @@ inline Capsule lengthened(Capsule capsule, double by) {
   return capsule;
 }
 
-}  // namespace palpa::test
+}  // namespace palpa::measure
