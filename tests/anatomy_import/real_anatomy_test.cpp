@@ -56,7 +56,7 @@ TEST(RealAnatomy, TheClavicleIsAsLongAsItsPointsSay) {
 
 struct Misfits {
   double sum_6_mm = 0, worst_48_mm = 0, sum_48_mm = 0;   // rms at a place: within 6 mm, along 48 mm of the bone
-  int places = 0;
+  int places = 0, vertices = 0;                          // the vertices are some of the places
 };
 
 /// At the bone's vertices and the middles of its facets, every `step`-th.
@@ -74,8 +74,10 @@ Misfits misfitsOf(const Patient& patient, const BoneCapsules& bone, std::size_t 
     const double along = measure::misfit(mesh, chain, near.p_A, 0.024);
     misfits.worst_48_mm = std::max(misfits.worst_48_mm, along);
     misfits.sum_48_mm += along;
-    misfits.sum_6_mm += measure::misfit(mesh, chain, near.p_A, 0.006);
     ++misfits.places;
+    if (i >= mesh.points.size()) continue;  // a large facet has no vertex within 6 mm of its middle
+    misfits.sum_6_mm += measure::misfit(mesh, chain, near.p_A, 0.006);
+    ++misfits.vertices;
   }
   return misfits;
 }
@@ -93,11 +95,12 @@ TEST(RealAnatomy, CapsulesFitTheClavicleAndWhatIsNearAnyTouchedPlace) {
   EXPECT_LT(whole, 1e-3);
   const Misfits misfits = misfitsOf(patient, bone, std::getenv("PALPA_FULL") ? 1 : 8);
   ASSERT_GT(misfits.places, 200);
+  ASSERT_GT(misfits.vertices, 50);
   RecordProperty("along_48_mm_mean_um", static_cast<int>(1e6 * misfits.sum_48_mm / misfits.places));
   RecordProperty("along_48_mm_worst_um", static_cast<int>(1e6 * misfits.worst_48_mm));
-  RecordProperty("within_6_mm_mean_um", static_cast<int>(1e6 * misfits.sum_6_mm / misfits.places));
+  RecordProperty("within_6_mm_mean_um", static_cast<int>(1e6 * misfits.sum_6_mm / misfits.vertices));
   EXPECT_LT(misfits.worst_48_mm, 1e-3);
-  EXPECT_LT(misfits.sum_6_mm / misfits.places, 1e-3);
+  EXPECT_LT(misfits.sum_6_mm / misfits.vertices, 1e-3);
 }
 
 TEST(RealAnatomy, TheShippedMapsMakeAClosedSkeletonInsideItsSkin) {
