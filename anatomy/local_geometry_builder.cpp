@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
-#include "anatomy/capsule_chain.h"
 #include "anatomy/geometry/error.h"
 #include "anatomy/nearest_on_segment.h"
 #include "anatomy/surface_patch_fit.h"
@@ -13,6 +13,7 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr double kBendReach = 0.015;  // a bone so near may be touched before the next snapshot (0.25 m/s: 4 mm): its bend counts
+constexpr double kFitAhead = 0.060;   // bones so near to the entry are fitted at once, others when the tool comes near them
 constexpr double kBoneReach = 0.040;  // bones further from tip and shaft are left out
 constexpr double kSurfaceReach = 0.008;  // of the skin round the tool: a fast hand's way until the next snapshot
 constexpr double kAhead = 0.060;      // boundaries are looked for this far beyond the tip
@@ -92,18 +93,21 @@ LocalGeometryBuilder::LocalGeometryBuilder(const Patient& patient, const Surface
     const OrganSurface& surface = patient.organs[i];
     if (surface.organ == Organ::skin && skin_ < 0) skin_ = static_cast<int>(i);
     if (!isBone(surface.organ)) continue;
-    Bone bone{static_cast<int>(i), surface.organ, {}};
+    Bone bone{static_cast<int>(i), surface.organ, {}, std::make_unique<BoneCapsulesOnDemand>(surface.mesh)};
     for (const Vec3& p : surface.mesh.points) bone.box.extend(p);
-    bones_.push_back(bone);
+    bones_.push_back(std::move(bone));
   }
+  const auto entry = patient.landmarks.find(landmark::kEntry);
+  if (entry == patient.landmarks.end()) return;
+  for (const Bone& bone : bones_)
+    if (bone.box.exteriorDistance(entry->second) <= kFitAhead) bone.capsules->get();
 }
 
-void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis,
-                                    LocalGeometry* geometry) const {
+std::vector<LocalGeometryBuilder::NearBone> LocalGeometryBuilder::bonesNear(const Tool& tool, const Axis& axis) const {
   const bool inserted = tool.punctured && axis.s_skin < 0;
   const Vec3 other = inserted ? Vec3(axis.tip + axis.s_skin * axis.direction) : axis.tip;
+  std::vector<NearBone> near;
   for (const Bone& bone : bones_) {
-    if (geometry->bone_count == LocalGeometry::kMaxBones) return;
     // From the middle outward no point of the needle can be nearer than this.
     const Vec3 middle = (axis.tip + other) / 2;
     const double outer = kBoneReach + (other - axis.tip).norm() / 2;
@@ -112,14 +116,34 @@ void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis,
       continue;
     const SurfacePoint nearest = nearestToSegment(query_, bone.surface, axis.tip, other);
     if (nearest.distance > kBoneReach) continue;
-    const int links = nearest.distance <= kBendReach ? 3 : 1;
-    for (Capsule capsule : capsuleChain(query_, bone.surface, nearest, links)) {
-      if (geometry->bone_count == LocalGeometry::kMaxBones) return;
-      capsule.organ = bone.organ;
-      capsule.bone = static_cast<std::uint8_t>(bone.surface);
-      geometry->bones[geometry->bone_count++] = capsule;
+    const int most = nearest.distance <= kBendReach ? LocalGeometry::kMaxBones : 1;
+    std::vector<Capsule> capsules = bone.capsules->get().near(nearest, most);
+    if (!capsules.empty()) near.push_back({&bone, nearest.distance, std::move(capsules), 0});
+  }
+  std::stable_sort(near.begin(), near.end(),
+                   [](const NearBone& a, const NearBone& b) { return a.distance < b.distance; });
+  return near;
+}
+
+void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis, LocalGeometry* geometry) const {
+  std::vector<NearBone> near = bonesNear(tool, axis);
+  int places = LocalGeometry::kMaxBones;
+  for (bool any = true; any && places > 0;) {
+    any = false;
+    for (NearBone& n : near) {
+      if (places == 0 || n.taken == n.capsules.size()) continue;
+      ++n.taken;
+      --places;
+      any = true;
     }
   }
+  for (const NearBone& n : near)
+    for (std::size_t k = 0; k < n.taken; ++k) {
+      Capsule capsule = n.capsules[k];
+      capsule.organ = n.bone->organ;
+      capsule.bone = static_cast<std::uint8_t>(n.bone->surface);
+      geometry->bones[geometry->bone_count++] = capsule;
+    }
 }
 
 void LocalGeometryBuilder::addBoundaries(const Axis& axis, LocalGeometry* geometry) const {

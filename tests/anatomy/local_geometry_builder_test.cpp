@@ -114,6 +114,35 @@ TEST(LocalGeometryBuilder, BonesTouchTheirMeshesNearTheNeedle) {
   }
 }
 
+TEST(LocalGeometryBuilder, EveryBoneInReachHasAPlaceTheNearestFirst) {
+  const Scene scene(Side::right);
+  int shared = 0;
+  for (double depth = -0.02; depth < 0.06; depth += 0.002) {
+    const LocalGeometry g = scene.build(depth);
+    ASSERT_LE(g.bone_count, LocalGeometry::kMaxBones);
+    const auto start = scene.tool(depth);
+    std::vector<int> bones;
+    double before = 0;
+    for (int i = 0; i < g.bone_count; ++i) {
+      if (!bones.empty() && bones.back() == g.bones[i].bone) continue;
+      EXPECT_EQ(std::count(bones.begin(), bones.end(), g.bones[i].bone), 0);  // a bone's capsules lie together
+      bones.push_back(g.bones[i].bone);
+      const Vec3 tip = start.X_AT.translation(), back = depth > 0 ? scene.entry : tip;
+      const double distance = scene.query.nearSegment(g.bones[i].bone, tip, back).distance;
+      EXPECT_GT(distance, before - 5e-4);  // the shaft ends on the skin rounded, not at the entry
+      before = distance;
+    }
+    for (std::size_t i = 0; i < scene.patient.organs.size(); ++i) {
+      const Organ organ = scene.patient.organs[i].organ;
+      if (organ != Organ::clavicle && organ != Organ::rib) continue;
+      if (scene.query.closest(static_cast<int>(i), start.X_AT.translation()).distance > 0.039) continue;
+      EXPECT_EQ(std::count(bones.begin(), bones.end(), static_cast<int>(i)), 1) << scene.patient.organs[i].id;
+    }
+    shared += bones.size() > 1 && g.bone_count > static_cast<int>(bones.size());
+  }
+  EXPECT_GT(shared, 0);
+}
+
 TEST(LocalGeometryBuilder, TheClavicleIsTheGuideOnTheTaughtLine) {
   const Scene scene(Side::right);
   const LocalGeometry g = scene.build(0.037);
