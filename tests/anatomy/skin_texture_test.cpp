@@ -63,7 +63,7 @@ TEST(SkinTexture, LiesOnAClosedMeshWithOneCoordinateAVertexAlikeOnBothSides) {
 }
 
 TEST(SkinTexture, MapFindsTheVerticesAgain) {
-  TriangleMesh skin = referencePatient(Side::left).organ(Organ::skin).mesh;
+  TriangleMesh skin = buildPatient(drawParameters(referenceFile(), Side::left, 0)).organ(Organ::skin).mesh;
   for (Vec3& p : skin.points) p *= 1000;
   const SkinMap map = mapOfSkin(skin, 512, 512);
   int good = 0, all = 0;
