@@ -5,11 +5,12 @@
 
 #include "anatomy/shapes/mesh_tools.h"
 #include "anatomy/shapes/surface_nets.h"
+#include "anatomy/volume/mesh_cleanup.h"
 
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kGap = 0.5e-3;
+constexpr double kGap = 0.8e-3;       // a mesh strays from its field by less than 0.3 mm
 constexpr double kMargin = 12e-3;    // about the mask: the field is known so far
 
 /// A box of the scan's voxels with values between them by three linear steps.
@@ -67,6 +68,17 @@ Mask cut(const Scan& scan, const Patch& patch, const Mask& mask) {
   return out;
 }
 
+/// Keeps the patch's field off what is occupied, then adds it there.
+void occupy(const Scan& scan, Patch* patch, Values* occupied) {
+  for (std::size_t n = 0; n < patch->values.size(); ++n) {
+    const Index3 c = patch->grid.cell(n);
+    float& there = (*occupied)[scan.grid.index({c[0] + patch->low[0], c[1] + patch->low[1], c[2] + patch->low[2]})];
+    float& here = patch->values[n];
+    here = std::max(here, static_cast<float>(kGap) - there);
+    there = std::min(there, here);
+  }
+}
+
 /// How far a place (in voxels of the scan) is outside of the outermost voxels' centres, metres.
 double outsideOf(const VoxelGrid& grid, const Vec3& c) {
   double most = -1;
@@ -77,15 +89,13 @@ double outsideOf(const VoxelGrid& grid, const Vec3& c) {
 
 }  // namespace
 
-TriangleMesh labelSurface(const Scan& scan, const Mask& mask, const Mask& others, double smoothing, double cell, double outward, double beyond) {
+Values nothingOccupied(const Scan& scan) { return Values(scan.grid.count(), 1.f); }
+
+TriangleMesh labelSurface(const Scan& scan, const Mask& mask, Values* occupied, double smoothing, double cell, double outward, double beyond) {
   if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return {};
   Patch patch = patchAbout(scan, mask, kMargin + outward);
   patch.values = blurred(patch.grid, signedDistance(patch.grid, largestPiece(patch.grid, cut(scan, patch, mask))), smoothing);
-  if (!others.empty()) {
-    const Mask near = cut(scan, patch, others);
-    const Values away = blurred(patch.grid, signedDistance(patch.grid, near), smoothing);
-    for (std::size_t n = 0; n < away.size(); ++n) patch.values[n] = std::max(patch.values[n], static_cast<float>(kGap) - away[n]);
-  }
+  if (occupied) occupy(scan, &patch, occupied);
   const Mat3 to_index = scan.volume.steps_S.inverse();
   const Vec3 low(patch.low[0], patch.low[1], patch.low[2]);
   const auto field = [&](const Vec3& p_S) {
@@ -100,6 +110,8 @@ TriangleMesh labelSurface(const Scan& scan, const Mask& mask, const Mask& others
   const Vec3 more = Vec3::Constant(beyond + 3 * cell);
   TriangleMesh mesh = surfaceNets(field, {box.min() - more, box.max() + more}, cell);
   if (signedVolume(mesh) < 0) flip(&mesh);
+  keepLargestPiece(&mesh);
+  unfold(&mesh);
   computeNormals(&mesh);
   return mesh;
 }
