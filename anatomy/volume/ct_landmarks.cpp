@@ -8,11 +8,13 @@
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/surface_query.h"
+#include "anatomy/volume/seed_file.h"
 
 namespace palpa::anatomy {
 namespace {
 
 constexpr double kMeanLength = 0.1494, kShortestWhole = 0.130;  // clavicle, model sheet 5: 149.4 +- 10.3 mm
+constexpr double kSuggestStep = 0.008;
 constexpr double kBelow = 0.010, kSternalRegion = 0.012;
 constexpr double kSteepest = 30 * std::numbers::pi / 180, kLeastClearance = 1e-3, kNeedle = 0.060, kLeastMedial = 0.15;
 
@@ -60,10 +62,8 @@ class Marker {
     if (clavicle_.leaves_volume) {
       std::snprintf(words, sizeof words, "The clavicle's acromial end leaves the volume: %.0f mm of it are inside", 1e3 * clavicle_.length);
       remark(words);
-      if (whole < kShortestWhole) {
-        whole = kMeanLength;
-        remark("Its thirds are estimated for a bone of 149 mm, the adult mean");
-      }
+      if (whole < kShortestWhole) whole = kMeanLength, remark("Its thirds are estimated for a bone of 149 mm, the adult mean");
+      else remark("Its thirds are taken of what is inside");
     }
     patient_.landmarks[landmark::kSternalEnd] = clavicle_.axis_S.front();
     patient_.landmarks[landmark::kAcromialEnd] = clavicle_.axis_S.back();
@@ -103,9 +103,14 @@ class Marker {
     return skinInFrontOf({third.x(), third.y(), lower - kBelow});
   }
 
-  double clearance(int bone, const Vec3& from, const Vec3& to) const {
+  /// Least distance from the way to bone, exact.
+  double clearance(const Vec3& from, const Vec3& to) const {
     double least = std::numeric_limits<double>::infinity();
-    for (int i = 0; i <= 60; ++i) least = std::min(least, query_.closest(bone, from + (to - from) * i / 60).distance);
+    for (std::size_t i = 0; i < patient_.organs.size(); ++i) {
+      const Organ organ = patient_.organs[i].organ;
+      if (organ == Organ::clavicle || organ == Organ::rib || organ == Organ::sternum)
+        least = std::min(least, query_.nearSegment(static_cast<int>(i), from, to).distance);
+    }
     return least;
   }
 
@@ -117,34 +122,75 @@ class Marker {
     return true;
   }
 
-  /// The vein's line, and places half a radius off it.
-  std::vector<Vec3> candidates() const {
-    std::vector<Vec3> places;
-    for (std::size_t i = 0; i < vein_.line_S.size(); ++i)
-      for (const Vec3& off : {Vec3(0, 0, 0), Vec3(0, 0, 0.5), Vec3(0, -0.5, 0), Vec3(0, -0.35, 0.35)}) places.push_back(vein_.line_S[i] + vein_.radius[i] * off);
-    return places;
+  /// A straight way from the entry to a place in the vein.
+  struct Way {
+    Vec3 to = Vec3::Zero();
+    double angle = 0, clearance = 0, length = 0;   // rad to the skin's tangent plane, m
+    bool free = false, taught = false;             // of bone and lung; medially, cephalad, within the needle's reach
+    bool usable() const { return free && taught; }
+  };
+
+  Way wayTo(const Vec3& p, const Vec3& entry, const Vec3& normal) const {
+    const Vec3 d = (p - entry).normalized();
+    const double medially = patient_.side == Side::right ? d.x() : -d.x();
+    Way way{p, std::asin(std::clamp(-d.dot(normal), -1.0, 1.0)), clearance(entry, p), (p - entry).norm()};
+    way.free = way.clearance >= kLeastClearance && meetsVeinFirst(entry, p);
+    way.taught = way.length <= kNeedle && medially > kLeastMedial && d.z() > 0;
+    return way;
+  }
+
+  /// Along the vein's line from lateral to medial: of the ways that are free of bone the one that lies flattest on the skin.
+  Way flattest(const Vec3& entry) const {
+    const Vec3 normal = query_.closest(surface(Organ::skin), entry).n_A;
+    Way best;
+    double least = std::numeric_limits<double>::infinity();
+    for (const Vec3& p : vein_.line_S) {
+      const Way way = wayTo(p, entry, normal);
+      const double worth = way.angle + (way.free ? 0 : 3 + std::max(0.0, kLeastClearance - way.clearance) / 1e-3) +
+                           (way.taught ? 0 : 1 + std::max(0.0, way.length - kNeedle) / 1e-3);
+      if (worth < least) least = worth, best = way;
+    }
+    return best;
   }
 
   Vec3 target() {
-    const Vec3 entry = patient_.landmarks.at(landmark::kEntry), normal = query_.closest(surface(Organ::skin), entry).n_A;
-    const double medially = patient_.side == Side::right ? 1 : -1;
-    const Vec3 aim = (patient_.landmarks.at(landmark::kSternalEndPosteriorSuperior) - entry).normalized();
-    const int bone = surface(Organ::clavicle);
-    double best = 1e9;
-    Vec3 found = vein_.line_S[vein_.line_S.size() / 2];
-    bool free = false, shallow = false;
-    for (const Vec3& p : candidates()) {
-      const Vec3 way = p - entry;
-      const double angle = std::asin(std::clamp(-way.normalized().dot(normal), -1.0, 1.0));
-      const bool clear = clearance(bone, entry, p) >= kLeastClearance && meetsVeinFirst(entry, p);
-      const double worth = std::acos(std::clamp(way.normalized().dot(aim), -1.0, 1.0)) + 4 * std::max(0.0, angle - kSteepest) + (clear ? 0 : 3) +
-                           20 * std::max(0.0, way.norm() - kNeedle) + (way.z() < 0 ? 0.2 : 0) +
-                           (medially * way.x() < kLeastMedial * way.norm() ? 2 : 0);
-      if (worth < best) best = worth, found = p, free = clear, shallow = angle <= kSteepest;
-    }
-    if (!free) remark("No straight way from the entry to the vein is free of bone and lung: move entry_point or vein_target by --seed-point");
-    if (!shallow) remark("The line to the vein meets the skin at more than 30 degrees");
-    return found;
+    const Vec3 entry = patient_.landmarks.at(landmark::kEntry);
+    const Way way = flattest(entry);
+    tell(way);
+    if (way.angle > kSteepest || !way.usable()) suggest(entry);
+    return way.to;
+  }
+
+  /// An entry more lateral or lower from which the way lies flatter, the nearest that is flat enough.
+  void suggest(const Vec3& entry) {
+    const double laterally = patient_.side == Side::right ? -1 : 1;
+    Way best;
+    Vec3 from = entry;
+    double least = std::numeric_limits<double>::infinity();
+    for (int row = -1; row <= 4; ++row)
+      for (int column = 0; column <= 8; ++column) {
+        const Vec3 p = skinInFrontOf(entry + Vec3(laterally * kSuggestStep * column, 0, -kSuggestStep * row));
+        const Way way = flattest(p);
+        const double worth = std::max(way.angle, kSteepest) + (p - entry).norm();
+        if (way.usable() && worth < least) least = worth, best = way, from = p;
+      }
+    if (!std::isfinite(least) || from == entry) return;
+    char words[200];
+    std::snprintf(words, sizeof words, "From an entry %.0f mm away the way would meet the skin at %.0f degrees: %s", 1e3 * (from - entry).norm(),
+                  best.angle * 180 / std::numbers::pi, seedOption(landmark::kEntry, from).c_str());
+    remark(words);
+  }
+
+  void tell(const Way& way) {
+    char words[260];
+    const double degrees = way.angle * 180 / std::numbers::pi;
+    std::snprintf(words, sizeof words, "The way from the entry to the vein is %.0f mm long, passes bone at %.1f mm and meets the skin at %.0f degrees; the vein lies %.0f mm deep there",
+                  1e3 * way.length, 1e3 * way.clearance, degrees, -1e3 * query_.closest(surface(Organ::skin), way.to).distance);
+    remark(words);
+    if (!way.usable()) return remark("No straight way from the entry to the vein is free of bone and lung: move entry_point or vein_target by --seed-point");
+    if (way.angle <= kSteepest) return;
+    std::snprintf(words, sizeof words, "At most 30 degrees are taught: from this entry no way to the vein that is free of bone lies flatter than %.0f", degrees);
+    remark(words);
   }
 
   const Clavicle3& clavicle_;

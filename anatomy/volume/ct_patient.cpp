@@ -6,6 +6,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/volume/ct_landmarks.h"
+#include "anatomy/volume/envelope.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -84,7 +85,7 @@ class Builder {
 
   void ownSideFirst(std::vector<LabelledOrgan>* organs) const {
     const std::string other = vein_.side == Side::right ? "_left" : "_right";
-    std::stable_partition(organs->begin(), organs->end(), [&](const LabelledOrgan& organ) { return !organ.id.ends_with(other); });
+    std::stable_partition(organs->begin(), organs->end(), [&](const LabelledOrgan& organ) { return organ.id.find(other) == std::string::npos; });
   }
 
   double midline() {
@@ -117,18 +118,15 @@ class Builder {
     const Scan& scan = ct_.scan;
     const bool guessed = scan.levels.clipped;
     const double over = guessed ? options_.layers.skin + options_.layers.fat : 0;
-    ct_.labels.push_back({guessed ? "skin_estimated" : "skin", Organ::skin, scan.body, guessed, kSkinSmoothing, kSkinCell});
-    add(ct_.labels.back(), {}, over, kSkinBeyond);
-    Mask before(scan.body.size(), 0);
-    for (const LabelledOrgan& organ : ct_.labels) {
-      if (organ.organ == Organ::skin) continue;
-      add(organ, before, 0, 0);
-      for (std::size_t n = 0; n < before.size(); ++n) before[n] |= organ.mask[n];
-    }
+    ct_.labels.push_back({guessed ? "skin_estimated" : "skin", Organ::skin, skinMask(scan, ct_.labels), guessed, kSkinSmoothing, kSkinCell});
+    add(ct_.labels.back(), nullptr, over, kSkinBeyond);
+    Values occupied = nothingOccupied(scan);
+    for (const LabelledOrgan& organ : ct_.labels)
+      if (organ.organ != Organ::skin) add(organ, &occupied, 0, 0);
   }
 
-  void add(const LabelledOrgan& label, const Mask& others, double outward, double beyond) {
-    OrganSurface surface{label.id, label.organ, labelSurface(ct_.scan, label.mask, others, label.smoothing, label.cell, outward, beyond), colourOf(label.organ)};
+  void add(const LabelledOrgan& label, Values* occupied, double outward, double beyond) {
+    OrganSurface surface{label.id, label.organ, labelSurface(ct_.scan, label.mask, occupied, label.smoothing, label.cell, outward, beyond), colourOf(label.organ)};
     if (!surface.mesh.triangles.empty()) ct_.patient.organs.push_back(std::move(surface));
   }
 

@@ -5,11 +5,14 @@
 
 #include "anatomy/shapes/mesh_tools.h"
 #include "anatomy/shapes/surface_nets.h"
+#include "anatomy/volume/mesh_cleanup.h"
 
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kGap = 0.5e-3;
+constexpr double kGap = 1.1e-3;       // a mesh strays from its field by up to 0.6 mm
+constexpr int kAttempts = 4;
+constexpr double kSmoother = 1.4;    // when a surface stays folded: more smoothing, so often
 constexpr double kMargin = 12e-3;    // about the mask: the field is known so far
 
 /// A box of the scan's voxels with values between them by three linear steps.
@@ -67,6 +70,15 @@ Mask cut(const Scan& scan, const Patch& patch, const Mask& mask) {
   return out;
 }
 
+/// Calls visit(patch's voxel, scan's voxel).
+template <class Visit>
+void forPatch(const Scan& scan, const Patch& patch, Visit visit) {
+  for (std::size_t n = 0; n < patch.values.size(); ++n) {
+    const Index3 c = patch.grid.cell(n);
+    visit(n, scan.grid.index({c[0] + patch.low[0], c[1] + patch.low[1], c[2] + patch.low[2]}));
+  }
+}
+
 /// How far a place (in voxels of the scan) is outside of the outermost voxels' centres, metres.
 double outsideOf(const VoxelGrid& grid, const Vec3& c) {
   double most = -1;
@@ -75,17 +87,8 @@ double outsideOf(const VoxelGrid& grid, const Vec3& c) {
   return most;
 }
 
-}  // namespace
-
-TriangleMesh labelSurface(const Scan& scan, const Mask& mask, const Mask& others, double smoothing, double cell, double outward, double beyond) {
-  if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return {};
-  Patch patch = patchAbout(scan, mask, kMargin + outward);
-  patch.values = blurred(patch.grid, signedDistance(patch.grid, largestPiece(patch.grid, cut(scan, patch, mask))), smoothing);
-  if (!others.empty()) {
-    const Mask near = cut(scan, patch, others);
-    const Values away = blurred(patch.grid, signedDistance(patch.grid, near), smoothing);
-    for (std::size_t n = 0; n < away.size(); ++n) patch.values[n] = std::max(patch.values[n], static_cast<float>(kGap) - away[n]);
-  }
+/// One piece, facing outward; `*folded`: edges that stay folded.
+TriangleMesh meshed(const Scan& scan, const Patch& patch, double cell, double outward, double beyond, int* folded) {
   const Mat3 to_index = scan.volume.steps_S.inverse();
   const Vec3 low(patch.low[0], patch.low[1], patch.low[2]);
   const auto field = [&](const Vec3& p_S) {
@@ -100,7 +103,30 @@ TriangleMesh labelSurface(const Scan& scan, const Mask& mask, const Mask& others
   const Vec3 more = Vec3::Constant(beyond + 3 * cell);
   TriangleMesh mesh = surfaceNets(field, {box.min() - more, box.max() + more}, cell);
   if (signedVolume(mesh) < 0) flip(&mesh);
+  keepLargestPiece(&mesh);
+  *folded = unfold(&mesh);
   computeNormals(&mesh);
+  return mesh;
+}
+
+}  // namespace
+
+Values nothingOccupied(const Scan& scan) { return Values(scan.grid.count(), 1.f); }
+
+TriangleMesh labelSurface(const Scan& scan, const Mask& mask, Values* occupied, double smoothing, double cell, double outward, double beyond) {
+  if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return {};
+  Patch patch = patchAbout(scan, mask, kMargin + outward);
+  const Values raw = signedDistance(patch.grid, largestPiece(patch.grid, cut(scan, patch, mask)));
+  TriangleMesh mesh;
+  int folded = 1;
+  for (int attempt = 0; folded > 0 && attempt < kAttempts; ++attempt, smoothing *= kSmoother) {
+    patch.values = blurred(patch.grid, raw, smoothing);
+    if (occupied)
+      forPatch(scan, patch, [&](std::size_t n, std::size_t there) { patch.values[n] = std::max(patch.values[n], static_cast<float>(kGap) - (*occupied)[there]); });
+    mesh = meshed(scan, patch, cell, outward, beyond, &folded);
+  }
+  if (occupied)
+    forPatch(scan, patch, [&](std::size_t n, std::size_t there) { (*occupied)[there] = std::min((*occupied)[there], patch.values[n]); });
   return mesh;
 }
 

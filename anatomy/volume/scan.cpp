@@ -13,6 +13,8 @@ constexpr double kWorkingStep = 1.5e-3;          // m: reduced while a step stay
 constexpr double kAboveShoulders = 0.12, kBelowShoulders = 0.20;
 constexpr double kShoulderWidth = 0.8;           // of the widest slice
 constexpr double kThinnest = 3e-3;               // table, clothes, tubes are thinner than twice this
+constexpr double kThinWall = 15e-3;              // m, on from what is thicker
+constexpr double kBeside = 40e-3;                // of air kept about the body
 constexpr double kSpeck = 1e-6;                  // m^3
 constexpr double kEnvelope = 18e-3;              // fat between muscles is narrower than twice this
 
@@ -73,14 +75,59 @@ Mask withoutSpecks(const VoxelGrid& grid, const Mask& mask) {
   return out;
 }
 
-Mask bodyOf(const VoxelGrid& grid, const Volume& v, const Levels& levels) {
-  Mask soft(v.values.size());
-  for (std::size_t n = 0; n < soft.size(); ++n) soft[n] = v.values[n] > levels.soft;
+/// Soft tissue without table, clothes and specks: what is thick, and thin walls (between ribs) that go on from it.
+Mask tissueOf(const VoxelGrid& grid, const Mask& soft) {
   const Mask solid = filled(grid, soft, true);  // lungs, marrow: what is left is thin or body
-  Mask body = opened(grid, solid, kThinnest);
-  if (!levels.clipped) return filled(grid, largestPiece(grid, body), true);
-  // What was lost to the window parts muscles, shoulders and clavicles from each other.
-  return filled(grid, largestPiece(grid, closed(grid, withoutSpecks(grid, body), kEnvelope)), true);
+  const Mask thick = withoutSpecks(grid, opened(grid, solid, kThinnest));
+  std::vector<std::int32_t> markers(soft.size());
+  for (std::size_t n = 0; n < soft.size(); ++n) markers[n] = soft[n] && thick[n];
+  const std::vector<std::int32_t> reached = grown(grid, std::move(markers), soft, kThinWall);
+  return Mask(reached.begin(), reached.end());
+}
+
+void findBody(Scan* scan) {
+  const VoxelGrid& grid = scan->grid;
+  Mask soft(scan->volume.values.size());
+  for (std::size_t n = 0; n < soft.size(); ++n) soft[n] = scan->volume.values[n] > scan->levels.soft;
+  if (scan->levels.clipped) {
+    // What was lost to the window parts muscles, shoulders and clavicles from each other.
+    scan->tissue = tissueOf(grid, soft);
+    scan->body = filled(grid, largestPiece(grid, closed(grid, scan->tissue, kEnvelope)), true);
+  } else {
+    scan->body = filled(grid, largestPiece(grid, opened(grid, filled(grid, soft, true), kThinnest)), true);
+    scan->tissue = std::move(soft);
+  }
+  for (std::size_t n = 0; n < scan->body.size(); ++n) scan->tissue[n] = scan->tissue[n] && scan->body[n];
+}
+
+/// Without the air, table and shelf beside the body.
+void cropToBody(Scan* scan) {
+  const VoxelGrid whole = scan->grid;
+  Index3 low = whole.size, high{0, 0, 0};
+  for (std::size_t n = 0; n < scan->body.size(); ++n) {
+    if (!scan->body[n]) continue;
+    const Index3 c = whole.cell(n);
+    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], c[a]), high[a] = std::max(high[a], c[a] + 1);
+  }
+  Index3 size = whole.size;
+  for (std::size_t a = 0; a < 2; ++a) {
+    const int more = static_cast<int>(kBeside / whole.spacing[static_cast<int>(a)]);
+    low[a] = std::max(0, low[a] - more), high[a] = std::min(whole.size[a], high[a] + more);
+    size[a] = high[a] - low[a];
+  }
+  low[2] = 0;
+  if (size[0] < 2 || size[1] < 2) return;
+  Scan out = *scan;
+  out.volume.size = out.grid.size = size;
+  out.volume.origin_S = scan->volume.pointToS(Vec3(low[0], low[1], 0));
+  const std::size_t count = out.grid.count();
+  out.volume.values.resize(count), out.body.resize(count), out.tissue.resize(count);
+  for (std::size_t n = 0; n < count; ++n) {
+    const Index3 c = out.grid.cell(n);
+    const std::size_t from = whole.index({c[0] + low[0], c[1] + low[1], c[2]});
+    out.volume.values[n] = scan->volume.values[from], out.body[n] = scan->body[from], out.tissue[n] = scan->tissue[from];
+  }
+  *scan = std::move(out);
 }
 
 double meanBone(const Scan& scan) {
@@ -131,7 +178,8 @@ Scan prepareScan(const Volume& given, const Levels& levels) {
   scan.volume = slices(v, low, high);
   scan.grid = gridOf(scan.volume);
   scan.levels = levels;
-  scan.body = bodyOf(scan.grid, scan.volume, levels);
+  findBody(&scan);
+  cropToBody(&scan);
   scan.midline_x = meanBone(scan);
   return scan;
 }

@@ -190,6 +190,12 @@ Mask largestPiece(const VoxelGrid& grid, const Mask& mask) {
   return out;
 }
 
+Mask filledAcross(const VoxelGrid& grid, const Mask& mask, std::size_t axis) {
+  Mask out = mask;
+  for (int slice = 0; slice < grid.size[axis]; ++slice) fillSlice(grid, mask, axis, slice, &out);
+  return out;
+}
+
 Mask filled(const VoxelGrid& grid, const Mask& mask, bool by_slices) {
   Mask out = mask;
   if (by_slices) {

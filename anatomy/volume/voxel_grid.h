@@ -66,6 +66,9 @@ Mask largestPiece(const VoxelGrid& grid, const Mask& mask);
 /// The mask with what it encloses; `by_slices`: what it encloses in any slice across any of the three axes.
 Mask filled(const VoxelGrid& grid, const Mask& mask, bool by_slices);
 
+/// The mask with what it encloses in each slice across `axis`.
+Mask filledAcross(const VoxelGrid& grid, const Mask& mask, std::size_t axis);
+
 /// Markers (> 0) grow inside `within` up to `reach` metres of way, each voxel going to the marker whose way to it
 /// is shortest: touching bones part half way between what is surely theirs.
 std::vector<std::int32_t> grown(const VoxelGrid& grid, std::vector<std::int32_t> markers, const Mask& within, double reach);

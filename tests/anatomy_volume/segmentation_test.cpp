@@ -92,7 +92,7 @@ TEST(LabelSurface, VolumeAndPlaceOfAnObliqueEllipsoid) {
   scan.grid = gridOf(scan.volume);
   Mask mask(scan.volume.values.size());
   for (std::size_t n = 0; n < mask.size(); ++n) mask[n] = ((scan.place(n) - centre).array() / half.array()).matrix().norm() < 1;
-  const TriangleMesh mesh = labelSurface(scan, mask, {}, 1.2e-3, 1.5e-3);
+  const TriangleMesh mesh = labelSurface(scan, mask, nullptr, 1.2e-3, 1.5e-3);
   EXPECT_TRUE(isClosed(mesh));
   const double wanted = 4.0 / 3 * std::numbers::pi * half.prod();
   EXPECT_NEAR(signedVolume(mesh), wanted, 0.04 * wanted);  // a blur of 1.2 mm takes s^2/r of the radius
