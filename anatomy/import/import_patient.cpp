@@ -122,7 +122,7 @@ class Importer {
     done.after = checkSurface(mended);
     done.longest = done.metres * (done.after.high - done.after.low).maxCoeff();
     refuseImplausible(done, entry, where);
-    patient_.organs.push_back({entry.id, entry.organ, placed(mended, entry, where), entry.rgba, {}, entry.licence, entry.source});
+    patient_.organs.push_back({entry.id, entry.organ, placed(mended, entry, where), entry.rgba, entry.licence, entry.source});
     report_.surfaces.push_back(std::move(done));
   }
 
