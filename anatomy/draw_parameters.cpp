@@ -1,11 +1,10 @@
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
-#include <nlohmann/json.hpp>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/parametric/feasibility.h"
+#include "anatomy/parametric/soft_tissue.h"
 #include "anatomy/parametric_patient.h"
 #include "anatomy/random_stream.h"
 
@@ -13,64 +12,6 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr int kMostTries = 200;
-
-struct Spread {
-  double mean, sd, low, high;  // metres, or the file's unit
-};
-
-class Reference {
- public:
-  explicit Reference(const std::string& file) : file_(file) {
-    std::ifstream in(file);
-    if (!in) fail("the file cannot be opened", "");
-    try {
-      json_ = nlohmann::json::parse(in);
-    } catch (const nlohmann::json::exception& e) {
-      fail(std::string("this is not JSON (") + e.what() + ")", "");
-    }
-  }
-
-  double correlation(const char* key) const {
-    const auto entry = json_.is_object() ? json_.find(key) : json_.end();
-    if (entry == json_.end() || !entry->is_object()) fail("the entry is missing", key);
-    const double r = value(*entry, "r", key);
-    if (!(r > -1 && r < 1)) fail("r is not between -1 and 1", key);
-    return r;
-  }
-
-  /// `wanted_unit`: as the file must state it; `si`: what one of it is.
-  Spread spread(const char* key, const char* wanted_unit = "mm", double si = 1e-3) const {
-    const auto entry = json_.is_object() ? json_.find(key) : json_.end();
-    if (entry == json_.end() || !entry->is_object()) fail("the entry is missing", key);
-    const auto unit = entry->find("unit");
-    if (unit == entry->end() || *unit != wanted_unit) fail(std::string("the unit is not \"") + wanted_unit + "\"", key);
-    const auto range = entry->find("range");
-    if (range == entry->end() || !range->is_array() || range->size() != 2)
-      fail("the range is not two numbers", key);
-    const Spread s{si * value(*entry, "mean", key), si * value(*entry, "sd", key), si * number((*range)[0], key),
-                   si * number((*range)[1], key)};
-    if (!(s.low <= s.mean && s.mean <= s.high && s.sd >= 0))
-      fail("mean, sd and range contradict each other", key);
-    return s;
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& what, const std::string& key) const {
-    throw Error(what, key.empty() ? file_ : file_ + ", \"" + key + "\"",
-                "Compare with assets/patients/reference.json");
-  }
-  double number(const nlohmann::json& json, const char* key) const {
-    if (!json.is_number()) fail("a value is not a number", key);
-    return json.get<double>();
-  }
-  double value(const nlohmann::json& entry, const char* field, const char* key) const {
-    if (!entry.contains(field)) fail(std::string("\"") + field + "\" is missing", key);
-    return number(entry[field], key);
-  }
-
-  std::string file_;
-  nlohmann::json json_;
-};
 
 // Normal deviate; 0 for the means.
 class Dice {
@@ -127,9 +68,8 @@ struct Body {
   double height, bmi, taller, heavier;
 };
 
-Body drawBody(const Reference& reference, const Person& person, Dice* dice) {
-  const Spread women = reference.spread("height_women", "m", 1), men = reference.spread("height_men", "m", 1);
-  const Spread bmi = reference.spread("bmi", "kg/m2", 1);
+Body drawBody(const Population& population, const Person& person, Dice* dice) {
+  const Spread &women = population.height_women, &men = population.height_men, &bmi = population.bmi;
   // Of women and men in equal numbers.
   const double mean = (women.mean + men.mean) / 2, apart = (men.mean - women.mean) / 2;
   const double sd = std::sqrt((women.sd * women.sd + men.sd * men.sd) / 2 + apart * apart);
@@ -146,40 +86,35 @@ Body drawBody(const Reference& reference, const Person& person, Dice* dice) {
   return body;
 }
 
-// Skin, fat and muscle at the entry for the depth at the window: there the layers are thinner than they vary.
-SoftLayers layersFor(const Reference& reference, double vein_depth, const Body& body, Dice* dice) {
-  const double at_window = 0.92 * vein_depth - 0.002;
-  const double all = 0.0065 + 0.58 * at_window;
+SoftLayers layersFor(const Population& population, double vein_depth, const Body& body, Dice* dice) {
+  const double all = 1e-3 * softAtEntry(softAtWindow(1e3 * vein_depth));
   SoftLayers layers;
-  layers.skin = draw(reference.spread("skin_thickness"), dice);
-  const Spread share = reference.spread("fat_share", "percent", 0.01);
-  const double fat = draw({share.mean - (body.sex == Sex::male ? 0.05 : 0), share.sd, share.low, share.high}, dice,
-                          reference.correlation("fat_share_with_bmi"), body.heavier);
-  layers.fat = fat * (all - layers.skin);
+  layers.skin = draw(population.skin_thickness, dice);
+  const Spread& share = body.sex == Sex::male ? population.fat_share_men : population.fat_share_women;
+  layers.fat = draw(share, dice, population.fat_share_with_bmi, body.heavier) * (all - layers.skin);
   layers.muscle = all - layers.skin - layers.fat;
   return layers;
 }
 
 }  // namespace
 
-PatientParameters drawParameters(const std::string& reference_json, Side side, std::uint64_t seed, const Person& person) {
-  const Reference reference(reference_json);
+PatientParameters drawParameters(const Population& population, Side side, std::uint64_t seed, const Person& person) {
   Dice dice(seed);
   std::string last;
   for (int tries = 0; tries < (seed == 0 ? 1 : kMostTries); ++tries) {
-    const Body body = drawBody(reference, person, &dice);
+    const Body body = drawBody(population, person, &dice);
     PatientParameters p;
     p.side = side;
     p.seed = seed;
     p.sex = body.sex;
     p.height = body.height;
     p.bmi = body.bmi;
-    p.vein_depth = draw(reference.spread("vein_depth"), &dice, reference.correlation("vein_depth_with_bmi"), body.heavier);
-    p.vein_diameter = draw(reference.spread("vein_diameter"), &dice);
-    p.pleura_distance = draw(reference.spread("pleura_distance"), &dice);
-    p.clavicle_length = draw(reference.spread("clavicle_length"), &dice, reference.correlation("clavicle_length_with_height"), body.taller);
-    p.clavicle_thickness = draw(reference.spread("clavicle_thickness"), &dice);
-    p.layers = layersFor(reference, p.vein_depth, body, &dice);
+    p.vein_depth = draw(population.vein_depth, &dice, population.vein_depth_with_bmi, body.heavier);
+    p.vein_diameter = draw(population.vein_diameter, &dice);
+    p.pleura_distance = draw(population.pleura_distance, &dice);
+    p.clavicle_length = draw(population.clavicle_length, &dice, population.clavicle_length_with_height, body.taller);
+    p.clavicle_thickness = draw(population.clavicle_thickness, &dice);
+    p.layers = layersFor(population, p.vein_depth, body, &dice);
     try {
       solve(p);
       return p;
@@ -189,7 +124,7 @@ PatientParameters drawParameters(const std::string& reference_json, Side side, s
   }
   throw Error("seed " + std::to_string(seed) + " gave no patient in " + std::to_string(kMostTries) +
                   " draws; the last: " + last,
-              reference_json, "Narrow the ranges");
+              "population", "Narrow the ranges");
 }
 
 }  // namespace palpa::anatomy

@@ -19,19 +19,6 @@ constexpr double kSurfaceReach = 0.008;  // of the skin round the tool: a fast h
 constexpr double kAhead = 0.060;      // boundaries are looked for this far beyond the tip
 constexpr double kTowardSkin = 0.02;  // sine of the least angle at which the axis counts as inward
 
-Tissue insideOf(Organ organ) {
-  switch (organ) {
-    case Organ::vein:
-      return Tissue::vein_lumen;
-    case Organ::artery:
-      return Tissue::artery_lumen;
-    case Organ::lung:
-      return Tissue::lung;
-    default:
-      return Tissue::bone;
-  }
-}
-
 // Walks along the axis and keeps what is on either side consistent.
 class BoundaryList {
  public:
@@ -46,10 +33,10 @@ class BoundaryList {
   void crossing(const RayHit& hit, double s) {
     const Organ wall = isBone(hit.organ) ? Organ::none : hit.organ;
     if (hit.entering && inside_ < 0) {
-      add(s, hit.n_A, background_, insideOf(hit.organ), wall, false);
+      add(s, hit.n_A, background_, tissueInside(hit.organ), wall, false);
       inside_ = hit.surface;
     } else if (!hit.entering && inside_ == hit.surface) {
-      add(s, hit.n_A, insideOf(hit.organ), background_, wall, true);
+      add(s, hit.n_A, tissueInside(hit.organ), background_, wall, true);
       inside_ = -1;
     }
   }

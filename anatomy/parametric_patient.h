@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "anatomy/patient.h"
+#include "anatomy/population.h"
 
 namespace palpa::anatomy {
 
@@ -40,11 +41,9 @@ struct Person {
   std::optional<double> bmi;      ///< kg/m^2
 };
 
-/// Reads means, spreads, ranges from a reference file and draws with `seed`. Seed 0: the means of such a person, and
-/// of the population where the person is not stated. Clavicle and height, vein depth and body mass go together as the
-/// file's correlations say, so that a population drawn without statements has the file's means and spreads. Throws
-/// Error for a bad file or a person outside its ranges.
-PatientParameters drawParameters(const std::string& reference_json, Side side, std::uint64_t seed,
-                                 const Person& person = {});
+/// Draws with `seed`. Seed 0: the means of such a person, and of the population where the person is not stated. Clavicle
+/// and height, vein depth and body mass go together as the population's correlations say, so that many drawn without
+/// statements have its means and spreads. Throws Error for a person outside the ranges.
+PatientParameters drawParameters(const Population& population, Side side, std::uint64_t seed, const Person& person = {});
 
 }  // namespace palpa::anatomy

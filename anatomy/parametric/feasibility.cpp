@@ -5,6 +5,7 @@
 #include <optional>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/parametric/soft_tissue.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -39,9 +40,6 @@ void requireRanges(const PatientParameters& p) {
                       std::to_string(r.low) + " to " + std::to_string(r.high) + " " + r.unit,
                   "parametric patient", "Give a value inside the range");
 }
-
-// The layers at the window: what is over the vein but for some loose tissue.
-double softAtWindow(double depth_mm) { return depth_mm - 2 - 0.08 * depth_mm; }
 
 // In a lean person with a short clavicle a wide vein keeps the line farther from the bone: better that than no line.
 TaughtLine findLine(const TaughtLineSearch& search, double usual_depth, double radius) {

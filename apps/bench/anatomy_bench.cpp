@@ -169,7 +169,7 @@ void benchSkin(const anatomy::Patient& patient, bool quick) {
 void benchAnatomy(const AnatomyBenchOptions& options) {
   benchClosest(options.quick);
   const anatomy::Patient patient = anatomy::buildPatient(anatomy::drawParameters(
-      station::assetFile("patients/reference.json").string(), anatomy::Side::right, 0));
+      anatomy::readPopulation(station::assetFile("patients/reference.json").string()), anatomy::Side::right, 0));
   benchNeedle(patient, options.quick);
   benchSkin(patient, options.quick);
 }

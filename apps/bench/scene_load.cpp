@@ -25,7 +25,8 @@ void paint(scene::Image& image, int frame) {
 
 anatomy::Patient phantom() {
   anatomy::PatientParameters parameters =
-      anatomy::drawParameters(station::assetFile("patients/reference.json").string(), anatomy::Side::right, 0);
+      anatomy::drawParameters(
+          anatomy::readPopulation(station::assetFile("patients/reference.json").string()), anatomy::Side::right, 0);
   parameters.extent = anatomy::Extent::bust;   // as in a session
   return anatomy::buildPatient(parameters);
 }

@@ -21,7 +21,7 @@ anatomy::Patient makePatient(const SessionOptions& options) {
     return patient;
   }
   anatomy::PatientParameters parameters = anatomy::drawParameters(
-      station::assetFile("patients/reference.json").string(), options.side, options.patient_seed);
+      anatomy::readPopulation(station::assetFile("patients/reference.json").string()), options.side, options.patient_seed);
   parameters.extent = anatomy::Extent::bust;   // as the phantom that lies behind the board
   return anatomy::buildPatient(parameters);
 }

@@ -42,7 +42,7 @@ struct ImportCommand {
 anatomy::Patient build(const PatientOptions& o) {
   if (!o.phantom.kind.empty()) return buildPhantom(o.phantom);
   return anatomy::buildPatient(anatomy::drawParameters(
-      station::assetFile("patients/reference.json").string(),
+      anatomy::readPopulation(station::assetFile("patients/reference.json").string()),
       o.side == "left" ? anatomy::Side::left : anatomy::Side::right, o.seed, personOf(o)));
 }
 

@@ -19,7 +19,7 @@ struct RenderOptions {
 void render(const RenderOptions& o) {
   const anatomy::Patient patient =
       o.patient.empty() ? anatomy::buildPatient(anatomy::drawParameters(
-                              station::assetFile("patients/reference.json").string(), anatomy::Side::right, 0))
+                              anatomy::readPopulation(station::assetFile("patients/reference.json").string()), anatomy::Side::right, 0))
                         : anatomy::readPatient(o.patient);
   const auto context = scene::makeGlContext(scene::Display::offscreen, o.size, o.size, "Palpa");
   scene::writePng(scene::contactSheet(*context, patient, o.size, o.size), o.out);

@@ -3,13 +3,13 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/patient_check.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "test_shapes.h"
+#include "tests/support/counts.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -38,11 +38,11 @@ void expectTeachable(const PatientParameters& p) {
   EXPECT_LE(value(findings, "triangles"), 300'000) << patient.name;
 }
 
-bool full() { return std::getenv("PALPA_FULL") != nullptr; }
+using test::fullCounts;
 
 TEST(ParametricPatient, ReferenceIsTeachableOnBothSides) {
-  expectTeachable(drawParameters(referenceFile(), Side::right, 0));
-  expectTeachable(drawParameters(referenceFile(), Side::left, 0));
+  expectTeachable(drawParameters(reference(), Side::right, 0));
+  expectTeachable(drawParameters(reference(), Side::left, 0));
 }
 
 /// Women and men, short to tall, lean to obese, either side.
@@ -57,9 +57,9 @@ Person personNumber(int i) {
 class Drawn : public testing::TestWithParam<int> {};
 TEST_P(Drawn, IsTeachable) {
   constexpr int kAll = 200, kSome = 8;
-  const int chunk = (full() ? kAll : kSome) / 4;
+  const int chunk = (fullCounts() ? kAll : kSome) / 4;
   for (int i = GetParam() * chunk + 1; i <= (GetParam() + 1) * chunk; ++i) {
-    PatientParameters p = drawParameters(referenceFile(), i % 3 ? Side::right : Side::left, static_cast<std::uint64_t>(i), personNumber(i));
+    PatientParameters p = drawParameters(reference(), i % 3 ? Side::right : Side::left, static_cast<std::uint64_t>(i), personNumber(i));
     p.extent = i % 4 == 1 ? Extent::bust : Extent::torso;
     expectTeachable(p);
   }
@@ -129,8 +129,8 @@ TEST(ParametricPatient, NormalsAreUnitAndFaceOutward) {
 }
 
 TEST(ParametricPatient, SameSeedSameBits) {
-  const PatientParameters a = drawParameters(referenceFile(), Side::left, 5);
-  const PatientParameters b = drawParameters(referenceFile(), Side::left, 5);
+  const PatientParameters a = drawParameters(reference(), Side::left, 5);
+  const PatientParameters b = drawParameters(reference(), Side::left, 5);
   EXPECT_EQ(a.vein_depth, b.vein_depth);
   const Patient p = buildPatient(a), q = buildPatient(b);
   for (std::size_t i = 0; i < p.organs.size(); ++i)
@@ -160,7 +160,7 @@ TEST(ParametricPatient, ImpossibleParametersNameTheConstraint) {
 }
 
 TEST(DrawParameters, SeedZeroIsTheMeansAndOthersSpread) {
-  const PatientParameters mean = drawParameters(referenceFile(), Side::right, 0);
+  const PatientParameters mean = drawParameters(reference(), Side::right, 0);
   EXPECT_DOUBLE_EQ(mean.vein_depth, 0.020);
   EXPECT_DOUBLE_EQ(mean.vein_diameter, 0.009);
   EXPECT_DOUBLE_EQ(mean.pleura_distance, 0.006);
@@ -171,7 +171,7 @@ TEST(DrawParameters, SeedZeroIsTheMeansAndOthersSpread) {
 
 // The published means within 5 % and spreads within 10 %, of women and men drawn without statements.
 TEST(DrawParameters, PopulationHasThePublishedMeansAndSpreads) {
-  const int draws = full() ? 1000 : 120;
+  const int draws = fullCounts() ? 1000 : 120;
   struct Figure {
     const char* what;
     double mean, sd, PatientParameters::*field;
@@ -182,7 +182,7 @@ TEST(DrawParameters, PopulationHasThePublishedMeansAndSpreads) {
                       {"pleura distance", 0.006, 0.002, &PatientParameters::pleura_distance},
                       {"clavicle length", 0.1494, 0.0103, &PatientParameters::clavicle_length}};
   for (int seed = 1; seed <= draws; ++seed) {
-    const PatientParameters p = drawParameters(referenceFile(), Side::right, static_cast<std::uint64_t>(seed));
+    const PatientParameters p = drawParameters(reference(), Side::right, static_cast<std::uint64_t>(seed));
     for (Figure& f : figures) {
       f.sum += p.*f.field;
       f.squares += (p.*f.field) * (p.*f.field);
@@ -191,7 +191,7 @@ TEST(DrawParameters, PopulationHasThePublishedMeansAndSpreads) {
   for (const Figure& f : figures) {
     const double mean = f.sum / draws, sd = std::sqrt(f.squares / draws - mean * mean);
     // The stated bounds; of fewer draws three standard errors more.
-    const double slack = full() ? 0 : 3 / std::sqrt(draws);
+    const double slack = fullCounts() ? 0 : 3 / std::sqrt(draws);
     EXPECT_NEAR(mean, f.mean, 0.05 * f.mean + slack * f.sd) << f.what;
     EXPECT_NEAR(sd, f.sd, (0.10 + slack / std::sqrt(2.0)) * f.sd) << f.what;
   }
@@ -203,7 +203,7 @@ TEST(DrawParameters, WhatIsStatedOfAPersonShiftsWhatGoesWithIt) {
     person.sex = Sex::female;
     person.height = height;
     person.bmi = bmi;
-    return drawParameters(referenceFile(), Side::right, 0, person);
+    return drawParameters(reference(), Side::right, 0, person);
   };
   EXPECT_GT(of(1.80, 25).clavicle_length, of(1.50, 25).clavicle_length + 0.01);
   EXPECT_GT(of(1.65, 35).vein_depth, of(1.65, 20).vein_depth + 0.005);
@@ -212,12 +212,12 @@ TEST(DrawParameters, WhatIsStatedOfAPersonShiftsWhatGoesWithIt) {
   EXPECT_THROW(of(1.65, 90), Error);
 }
 
-TEST(DrawParameters, BadReferenceFilesAreRefused) {
+TEST(Population, BadFilesAreRefused) {
   const ScratchFolder folder("reference");
-  EXPECT_THROW(drawParameters((folder / "absent.json").string(), Side::right, 1), Error);
+  EXPECT_THROW(readPopulation((folder / "absent.json").string()), Error);
   const auto refused = [&](const std::string& text) {
     std::ofstream(folder / "r.json") << text;
-    EXPECT_THROW(drawParameters((folder / "r.json").string(), Side::right, 0), Error) << text;
+    EXPECT_THROW(readPopulation((folder / "r.json").string()), Error) << text;
   };
   refused("{");
   refused("[]");

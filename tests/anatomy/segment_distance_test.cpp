@@ -1,17 +1,15 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <limits>
 
 #include "anatomy/surface_query.h"
 #include "anatomy/triangle_distance.h"
 #include "anatomy/triangle_tree.h"
 #include "test_shapes.h"
+#include "tests/support/counts.h"
 
 namespace palpa::anatomy {
 namespace {
-
-int rounds(int few, int full) { return std::getenv("PALPA_FULL") ? full : few; }
 
 /// Unconnected triangles of every size and shape, thin ones too, about a point away from the origin.
 TriangleMesh triangleSoup(RandomStream& random, int count) {
@@ -51,7 +49,7 @@ double searched(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t) {
 
 TEST(SegmentDistance, ToATriangleIsTheLeastOverTheSegment) {
   RandomStream random(11);
-  for (int i = 0; i < rounds(3000, 100'000); ++i) {
+  for (int i = 0; i < test::counted(3000, 100'000); ++i) {
     const std::array<Vec3, 3> t{randomIn(random, 1), randomIn(random, 1), randomIn(random, 1)};
     const Vec3 a = randomIn(random, 2), b = i % 10 == 0 ? a : randomIn(random, 2);
     const SegmentToTriangle found = segmentToTriangle(a, b, t);
@@ -65,7 +63,7 @@ TEST(SegmentDistance, ToATriangleIsTheLeastOverTheSegment) {
 
 TEST(SegmentDistance, OfAMeshIsThatOfEveryTriangleTried) {
   RandomStream random(12);
-  for (int round = 0; round < rounds(8, 200); ++round) {
+  for (int round = 0; round < test::counted(8, 200); ++round) {
     const TriangleMesh mesh = triangleSoup(random, 1 + 90 * round);
     const TriangleTree tree(mesh);
     for (int i = 0; i < 60; ++i) {

@@ -63,7 +63,7 @@ TEST(SkinTexture, LiesOnAClosedMeshWithOneCoordinateAVertexAlikeOnBothSides) {
 }
 
 TEST(SkinTexture, MapFindsTheVerticesAgain) {
-  TriangleMesh skin = buildPatient(drawParameters(referenceFile(), Side::left, 0)).organ(Organ::skin).mesh;
+  TriangleMesh skin = buildPatient(drawParameters(reference(), Side::left, 0)).organ(Organ::skin).mesh;
   for (Vec3& p : skin.points) p *= 1000;
   const SkinMap map = mapOfSkin(skin, 512, 512);
   int good = 0, all = 0;
@@ -100,7 +100,7 @@ TEST(SkinTexture, AreolaeAreDarkerThanTheSkinRoundThemAndLipsAreRedder) {
   for (const Sex sex : {Sex::female, Sex::male}) {
     Person person;
     person.sex = sex;
-    PatientParameters p = drawParameters(referenceFile(), Side::right, 0, person);
+    PatientParameters p = drawParameters(reference(), Side::right, 0, person);
     const Patient patient = buildPatient(p);
     const Build build = buildOf(p);
     const OrganSurface& skin = patient.organ(Organ::skin);

@@ -8,13 +8,17 @@
 #include "anatomy/random_stream.h"
 #include "anatomy/shapes/surface_nets.h"
 #include "anatomy/shapes/sweep.h"
+#include "tests/support/scratch_folder.h"
 
 namespace palpa::anatomy {
 
-inline const char* referenceFile() { return PALPA_SOURCE_DIR "/assets/patients/reference.json"; }
+inline const Population& reference() {
+  static const Population population = readPopulation(PALPA_SOURCE_DIR "/assets/patients/reference.json");
+  return population;
+}
 
 inline Patient referenceBust(Side side) {
-  PatientParameters parameters = drawParameters(referenceFile(), side, 0);
+  PatientParameters parameters = drawParameters(reference(), side, 0);
   parameters.extent = Extent::bust;
   return buildPatient(parameters);
 }
@@ -62,20 +66,6 @@ inline Vec3 randomDirection(RandomStream& random) {
   return Vec3(x, y, z).normalized();
 }
 
-/// A folder of its own that disappears with the object.
-class ScratchFolder {
- public:
-  explicit ScratchFolder(const std::string& name)
-      : path_(std::filesystem::path(PALPA_BUILD_DIR) / "scratch" / name) {
-    std::filesystem::remove_all(path_);
-    std::filesystem::create_directories(path_);
-  }
-  ~ScratchFolder() { std::filesystem::remove_all(path_); }
-  std::filesystem::path operator/(const std::string& file) const { return path_ / file; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
+using test::ScratchFolder;
 
 }  // namespace palpa::anatomy

@@ -12,12 +12,13 @@
 #include "anatomy/shapes/mesh_tools.h"
 #include "round_meshes.h"
 #include "sample_meshes.h"
-#include "scratch_folder.h"
+#include "tests/support/scratch_folder.h"
 
 namespace palpa::anatomy {
 namespace {
 
 using namespace test;
+using namespace palpa::test;
 namespace fs = std::filesystem;
 
 void put(const fs::path& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }

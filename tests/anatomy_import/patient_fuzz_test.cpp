@@ -1,10 +1,8 @@
 #include <gtest/gtest.h>
 #include <sys/resource.h>
 
-#include <cstdlib>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <random>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/import/import_map.h"
@@ -12,7 +10,9 @@
 #include "anatomy/shapes/mesh_tools.h"
 #include "round_meshes.h"
 #include "sample_meshes.h"
-#include "scratch_folder.h"
+#include "tests/support/counts.h"
+#include "tests/support/damage.h"
+#include "tests/support/scratch_folder.h"
 
 /// Patient files and import maps that nobody vouches for: bits flipped, ends cut off, values of their JSON swapped for
 /// absurd counts, numbers that are none, rings of nodes, nests of brackets. Each is read or refused in one line, and no
@@ -22,6 +22,7 @@ namespace palpa::anatomy {
 namespace {
 
 using namespace test;
+using namespace palpa::test;
 using Json = nlohmann::json;
 
 constexpr rlim_t kMemory = 256u << 20;   // beyond what the process has already
@@ -49,34 +50,22 @@ class LittleMemory {
   bool limited_ = false;
 };
 
-class Chance {
- public:
-  explicit Chance(std::uint64_t seed) : bits_(seed) {}
-  std::size_t below(std::size_t n) { return n ? static_cast<std::size_t>(bits_() % n) : 0; }
-
- private:
-  std::mt19937_64 bits_;
-};
-
-int cases() {
-  const char* full = std::getenv("PALPA_FULL");
-  return full && std::string(full) == "1" ? 2500 : 250;
-}
+int cases() { return palpa::test::counted(250, 2500); }
 
 std::string nest(std::size_t depth) { return std::string(depth, '[') + std::string(depth, ']'); }
 
 /// JSON text in which one value, wherever it stands, has become something else.
-std::string absurd(const Json& sound, Chance& chance) {
+std::string absurd(const Json& sound, DamageDice& dice) {
   static const std::string kInstead[] = {
       "4294967295", "18446744073709551615", "-1", "1e308", "1e999", "NaN", "null", "true", "\"\"", "\"\\u0000\\n\"", "[]", "{}", "0.5", "\"nan\"",
       "[0,0,0,0]", "[1e39,0,0]", "{\"a\":{\"a\":{}}}", nest(20), nest(3000), "\"" + std::string(5000, 'x') + "\"", "[0,1,2,3]", "7", "5126"};
   Json changed = sound;
   const Json flat = sound.flatten();
   auto at = flat.begin();
-  std::advance(at, static_cast<std::ptrdiff_t>(chance.below(flat.size())));
+  std::advance(at, static_cast<std::ptrdiff_t>(dice.below(flat.size())));
   Json::json_pointer where(at.key());
-  for (std::size_t up = chance.below(3); up > 0 && !where.parent_pointer().empty(); --up) where = where.parent_pointer();
-  const std::size_t way = chance.below(8);
+  for (std::size_t up = dice.below(3); up > 0 && !where.parent_pointer().empty(); --up) where = where.parent_pointer();
+  const std::size_t way = dice.below(8);
   if (way == 0) {
     Json& parent = changed[where.parent_pointer()];
     if (parent.is_object()) parent.erase(where.back());
@@ -90,14 +79,14 @@ std::string absurd(const Json& sound, Chance& chance) {
   changed[where] = "@here@";
   std::string text = changed.dump();
   const std::string mark = "\"@here@\"";
-  text.replace(text.find(mark), mark.size(), kInstead[chance.below(std::size(kInstead))]);
+  text.replace(text.find(mark), mark.size(), kInstead[dice.below(std::size(kInstead))]);
   return text;
 }
 
-std::string flipped(std::string bytes, Chance& chance, std::size_t range) {
-  if (chance.below(4) == 0) bytes.resize(chance.below(bytes.size()));
-  for (std::size_t i = 0, n = 1 + chance.below(6); i < n && !bytes.empty(); ++i)
-    bytes[chance.below(std::min(range, bytes.size()))] ^= static_cast<char>(1 << chance.below(8));
+std::string flipped(std::string bytes, DamageDice& dice, std::size_t range) {
+  if (dice.below(4) == 0) bytes.resize(dice.below(bytes.size()));
+  for (std::size_t i = 0, n = 1 + dice.below(6); i < n && !bytes.empty(); ++i)
+    bytes[dice.below(std::min(range, bytes.size()))] ^= static_cast<char>(1 << dice.below(8));
   return bytes;
 }
 
@@ -177,11 +166,11 @@ TEST(PatientFuzz, HarmedPatientsAreReadOrRefused) {
   const std::size_t json_end = 20 + wordAt(whole, 12);
   const Json sound = Json::parse(whole.substr(20, json_end - 20));
   ASSERT_TRUE(patientReads(folder, withJson(whole, sound.dump())));
-  Chance chance(77);
+  DamageDice dice(77);
   int read = 0, refused = 0;
   for (int i = 0; i < cases(); ++i) {
-    const std::string harmed = i % 2 ? withJson(whole, absurd(sound, chance))
-                                     : flipped(whole, chance, i % 4 ? json_end : whole.size());
+    const std::string harmed = i % 2 ? withJson(whole, absurd(sound, dice))
+                                     : flipped(whole, dice, i % 4 ? json_end : whole.size());
     ++(patientReads(folder, harmed) ? read : refused);
     if (HasFatalFailure()) return;
   }
@@ -213,10 +202,10 @@ TEST(MapFuzz, HarmedMapsAreReadOrRefused) {
       R"("translate_mm":[1,2,3],"colour":[0.5,0.25,1],"licence":"x","pieces":"largest"}],"landmarks":{"entry_point":{"at":[1,2,3],"unit":"cm"}},)"
       R"("origin":{"at":[10,20,30]}})";
   const Json sound = Json::parse(whole);
-  Chance chance(78);
+  DamageDice dice(78);
   int read = 0, refused = 0;
   for (int i = 0; i < cases(); ++i) {
-    const std::string harmed = i % 2 ? absurd(sound, chance) : flipped(whole, chance, whole.size());
+    const std::string harmed = i % 2 ? absurd(sound, dice) : flipped(whole, dice, whole.size());
     ++(readOrRefused("map: ", [&] {
       for (const MapEntry& entry : parseImportMap(harmed, "map").entries) ASSERT_TRUE(entry.place(Vec3::Ones()).allFinite());
     }) ? read : refused);

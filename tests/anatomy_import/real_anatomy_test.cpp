@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 
 #include "anatomy/bone_capsules.h"
 #include "anatomy/import/import_patient.h"
@@ -10,6 +9,7 @@
 #include "anatomy/surface_patch_fit.h"
 #include "tests/support/capsule_distance.h"
 #include "tests/support/test_data.h"
+#include "tests/support/counts.h"
 
 /// Bones and skins that were not made here: what the program says of them against what is measured on their points.
 namespace palpa::anatomy {
@@ -93,7 +93,7 @@ TEST(RealAnatomy, CapsulesFitTheClavicleAndWhatIsNearAnyTouchedPlace) {
   RecordProperty("whole_um", static_cast<int>(1e6 * whole));
   RecordProperty("rods", static_cast<int>(bone.rods().size()));
   EXPECT_LT(whole, 1e-3);
-  const Misfits misfits = misfitsOf(patient, bone, std::getenv("PALPA_FULL") ? 1 : 8);
+  const Misfits misfits = misfitsOf(patient, bone, palpa::test::counted(8, 1));
   ASSERT_GT(misfits.places, 200);
   ASSERT_GT(misfits.vertices, 50);
   RecordProperty("along_48_mm_mean_um", static_cast<int>(1e6 * misfits.sum_48_mm / misfits.places));

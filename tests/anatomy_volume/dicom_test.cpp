@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -11,6 +10,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/volume/readers.h"
+#include "tests/support/counts.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -111,8 +111,7 @@ TEST_F(DicomSeries, DamageGivesAVolumeOrAClearWord) {
   std::ifstream stream(folder_ / "1.dcm", std::ios::binary);
   const std::string sound((std::istreambuf_iterator<char>(stream)), {});
   std::mt19937_64 bits(7);
-  const char* full = std::getenv("PALPA_FULL");
-  const int cases = full && std::string(full) == "1" ? 2000 : 200;
+  const int cases = palpa::test::counted(200, 2000);
   int read = 0, refused = 0;
   for (int i = 0; i < cases; ++i) {
     std::string bytes = sound;

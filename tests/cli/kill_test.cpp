@@ -1,6 +1,5 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <optional>
 #include <random>
 
@@ -8,6 +7,7 @@
 #include "apps/record/session_file.h"
 #include "apps/runtime/clock.h"
 #include "program.h"
+#include "tests/support/counts.h"
 
 /// The whole program is killed (SIGKILL) at random moments of a session. What is proven, without a hook in it:
 ///   1. what was committed before the kill is there after it: the file is read while the program writes it;
@@ -67,8 +67,7 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
   const std::vector<FlightRecord> whole = ticksOf(reference / "A/session.palpa");
   ASSERT_GT(whole.size(), 1000u);
 
-  const char* full = std::getenv("PALPA_FULL");
-  const int kills = full && std::string(full) == "1" ? 50 : 6;
+  const int kills = palpa::test::counted(6, 50);
   std::mt19937_64 bits(11);
   int in_the_middle = 0;
   for (int k = 0; k < kills; ++k) {

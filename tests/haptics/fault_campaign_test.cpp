@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <memory>
 #include <string>
 
 #include "fault_judge.h"
+#include "tests/support/counts.h"
 
 /// Random faults on the whole tick, one after the other and one into the other, while a tool is pushed into
 /// tissue and bone. A judge that sees only the inputs says when there must be no force.
@@ -65,8 +65,7 @@ void runEpisode(Dice& dice, Engine engine, FaultJudge& sum) {
 }
 
 void campaign(Engine engine, std::uint64_t seed) {
-  const char* full = std::getenv("PALPA_FULL");
-  const int faults = (full && std::string(full) == "1" ? 100'000 : 20'000) / 2;  // half for each engine
+  const int faults = test::counted(20'000, 100'000) / 2;  // half for each engine
   Dice dice(seed);
   FaultJudge sum;
   for (int i = 0; i < faults / kFaultsInEpisode; ++i) {

@@ -18,7 +18,7 @@ namespace palpa::anatomy {
 namespace {
 
 Patient reference() {
-  return buildPatient(drawParameters(PALPA_SOURCE_DIR "/assets/patients/reference.json", Side::right, 0));
+  return buildPatient(drawParameters(readPopulation(PALPA_SOURCE_DIR "/assets/patients/reference.json"), Side::right, 0));
 }
 
 std::vector<vtkSmartPointer<vtkPolyData>> surfacesOf(const std::string& file) {

@@ -5,9 +5,9 @@
 
 #include <atomic>
 #include <csignal>
-#include <cstdlib>
 
 #include "synthetic_session.h"
+#include "tests/support/counts.h"
 
 namespace palpa::record {
 namespace {
@@ -54,8 +54,7 @@ TEST(Kill, LosesAtMostTwoHundredTicks) {
       mmap(nullptr, sizeof(Progress), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
   ASSERT_NE(shared, MAP_FAILED);
   auto& progress = *new (shared) Progress;
-  const char* full = std::getenv("PALPA_FULL");
-  const int kills = full && std::string(full) == "1" ? 50 : 10;
+  const int kills = palpa::test::counted(10, 50);
   for (int k = 0; k < kills; ++k) {
     const fs::path file = folder / ("session" + std::to_string(k) + ".palpa");
     const auto target = static_cast<std::int64_t>(1 + mix(static_cast<std::uint64_t>(k)) % 6000);

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
-#include <cstdlib>
 #include <filesystem>
 
 #include "apps/assess/welch.h"
 #include "apps/cli/needle_session.h"
+#include "tests/support/counts.h"
 
 /// Simulated operators on the virtual bench: do the scores tell experts from novices, and does losing the
 /// sense of touch cost? These say something about the program, nothing about people.
@@ -16,7 +16,7 @@ struct Cohort {
   int successes = 0;
 };
 
-int seeds() { return std::getenv("PALPA_FULL") ? 20 : 12; }
+int seeds() { return palpa::test::counted(8, 20); }
 
 Cohort cohort(OperatorKind who, bool force_feedback) {
   Cohort result;

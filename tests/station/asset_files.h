@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "anatomy/geometry/error.h"
-#include "anatomy/parametric_patient.h"
+#include "anatomy/population.h"
 #include "apps/station/needle_file.h"
 #include "apps/station/station_file.h"
 #include "apps/task_needle/task_file.h"
@@ -49,7 +49,7 @@ inline std::vector<AssetFile> assetFiles() {
       {"operators/novice.json", skill},
       {"boards/table.json", [](const auto& file) { ar::readTagGrid(file); }, false},
       {"patients/reference.json",
-       [](const auto& file) { anatomy::drawParameters(file.string(), anatomy::Side::right, 0); },
+       [](const auto& file) { anatomy::readPopulation(file.string()); },
        false},
       {"stations/falcon.json", [](const auto& file) { readStation(file); }},
   };

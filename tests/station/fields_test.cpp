@@ -91,7 +91,6 @@ TEST_P(Fields, TakenAwayIsToldOrWasNotNeeded) {
   for (const std::string& field : not_needed)
     EXPECT_TRUE(explains(field) || field.rfind("/twin", 0) == 0 ||
                 field.find("/range") != std::string::npos ||
-                field.rfind("/needle_to_skin", 0) == 0 ||
                 field == "/device/continuous_force_N" || field == "/device/plunger_button" || !asset().is_json_file)
         << field << " is not needed?";
 }
@@ -100,7 +99,6 @@ TEST_P(Fields, NumberAsTextOrNullIsRefused) {
   for (const Pointer& leaf : leaves(asset().json())) {
     const std::string field = leaf.to_string();
     if (!asset().json().at(leaf).is_number() || field.rfind("/twin", 0) == 0) continue;
-    if (field.rfind("/needle_to_skin", 0) == 0) continue;  // for the feasibility check's readers
     for (const json& wrong : {json("much"), json(nullptr), json::array(), json(true)})
       if (asset().is_json_file || wrong.is_string())
         expectRefused(with(leaf, wrong), leaf, "as " + wrong.dump());

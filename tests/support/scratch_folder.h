@@ -5,13 +5,13 @@
 #include <filesystem>
 #include <string>
 
-namespace palpa::anatomy::test {
+namespace palpa::test {
 
-/// A folder of its own for one test, gone at the end.
+/// A folder of its own for one test in one process, gone at the end.
 class ScratchFolder {
  public:
   explicit ScratchFolder(const std::string& name)
-      : path_(std::filesystem::temp_directory_path() / ("palpa-" + name + "-" + std::to_string(getpid()))) {
+      : path_(std::filesystem::path(PALPA_BUILD_DIR) / "scratch" / (name + "-" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }
@@ -28,4 +28,4 @@ class ScratchFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace palpa::anatomy::test
+}  // namespace palpa::test
