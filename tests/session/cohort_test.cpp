@@ -16,7 +16,7 @@ struct Cohort {
   int successes = 0;
 };
 
-int seeds() { return palpa::test::counted(8, 20); }
+int seeds() { return palpa::test::counted(12, 20); }
 
 Cohort cohort(OperatorKind who, bool force_feedback) {
   Cohort result;
@@ -92,7 +92,7 @@ TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
               seeds(), skill.mean_a, expert.successes, skill.mean_b, novice.successes, skill.p_two_sided,
               touch.mean_b, numb.successes, touch.p_two_sided);
   EXPECT_LT(skill.mean_a, skill.mean_b);
-  EXPECT_LT(skill.p_two_sided, seeds() == 20 ? 0.01 : 0.05);  // 12 seeds have less power
+  EXPECT_LT(skill.p_two_sided, seeds() == 20 ? 0.01 : 0.05);  // fewer seeds have less power
   EXPECT_TRUE(touch.mean_b > touch.mean_a || numb.successes < expert.successes);
 }
 
