@@ -101,6 +101,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   expert.command = "demonstration";
   expert.role = "demonstration";
   expert.who = OperatorKind::expert;
+  expert.knows_patient = !options.patient.empty();   // one shows what one has prepared
   expert.seed = kDemonstrationSeed;
   expert.trials = 1;
   expert.trainee = "simulated-expert";

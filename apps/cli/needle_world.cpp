@@ -78,12 +78,14 @@ haptics::TickConfig NeedleWorld::tickConfig() const {
   return config;
 }
 
-twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill) const {
+twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill, bool knows_patient) const {
   twin::VisibleAnatomy v;
   v.entry_A = patient.landmark(anatomy::landmark::kEntry);
   v.normal_A = query.closest(surfaceIndex(patient, Organ::skin), v.entry_A).n_A;
-  v.aim_A = patient.landmark(anatomy::landmark::kSternalEndPosteriorSuperior) +
-            landmarks.vectorToA(skill.aim_offset_L);
+  v.aim_A = knows_patient ? patient.landmark(anatomy::landmark::kVeinTarget)
+                          : Vec3(patient.landmark(anatomy::landmark::kSternalEndPosteriorSuperior) +
+                                 landmarks.vectorToA(skill.aim_offset_L));
+  v.vein_distance = knows_patient ? (v.aim_A - v.entry_A).norm() : skill.vein_distance;
   v.medial_A = landmarks.vectorToA(Vec3::UnitX());
   v.posterior_A = landmarks.vectorToA(Vec3::UnitY());
   v.cephalad_A = landmarks.vectorToA(Vec3::UnitZ());

@@ -34,7 +34,9 @@ struct NeedleWorld {
   Pose X_WA, X_DA;
 
   haptics::TickConfig tickConfig() const;
-  twin::VisibleAnatomy visible(const twin::OperatorSkill& skill) const;
+  /// What a simulated operator knows: the landmarks, and where the vein lies in the mean anatomy or, where he has
+  /// studied this patient's images, in the patient as he is shown.
+  twin::VisibleAnatomy visible(const twin::OperatorSkill& skill, bool knows_patient) const;
   /// A trial with this seed's skin and walls.
   task_needle::TrialPlan trial(const std::string& role, std::uint64_t seed, bool force_feedback) const;
 };

@@ -18,6 +18,7 @@ const std::map<std::string, anatomy::Side> kSides{{"right", anatomy::Side::right
                                                   {"left", anatomy::Side::left}};
 const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
 const std::map<std::string, bool> kGeometries{{"local", false}, {"exact", true}};
+const std::map<std::string, bool> kKnowledge{{"mean", false}, {"patient", true}};
 const std::map<std::string, bool> kHands{{"right", false}, {"left", true}};
 
 template <class T>
@@ -59,6 +60,8 @@ void addSessionArguments(CLI::App& command, SessionOptions& o) {
   choice(command, "--handedness", o.left_handed, kHands, "The trainee's hand");
   command.add_option("--seed", o.seed, "Everything random follows from it (default 1)")->check(CLI::NonNegativeNumber);
   choice(command, "--operator", o.who, kOperators, "Who performs: you, or a simulated expert or novice");
+  choice(command, "--operator-knows", o.knows_patient, kKnowledge,
+         "Where a simulated one expects the vein: as in most people (mean, the default), or as in this patient's images");
   choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
   command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(CLI::Range(1, 1000));
   command.add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")

@@ -42,7 +42,7 @@ SessionDevices::SessionDevices(const SessionOptions& options, const NeedleWorld&
   };
   if (bench_moves_ || options.camera.empty())
     bench_ = std::make_unique<twin::VirtualBench>(
-        twin::VirtualBench::Setup{world.station, world.X_WA, skill, world.visible(skill), options.seed,
+        twin::VirtualBench::Setup{world.station, world.X_WA, skill, world.visible(skill, options.knows_patient), options.seed,
                                   options.left_handed, give_up, bench_sensor_.get()},
         bus, channel_);
   openDevice(options, world, bus, channels);
@@ -68,7 +68,7 @@ void SessionDevices::openDevice(const SessionOptions& options, const NeedleWorld
     device = replay_.get();
   } else {
     mouse_ = std::make_unique<MouseHand>(
-        MouseHand::Setup{world.X_DA, world.station.X_ET, world.visible(skillOf(OperatorKind::expert)),
+        MouseHand::Setup{world.X_DA, world.station.X_ET, world.visible(skillOf(OperatorKind::expert), false),
                          options.left_handed},
         channel_, channels);
   }

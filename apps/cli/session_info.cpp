@@ -59,6 +59,7 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
   info.command = options.command;
   info.session_json = nlohmann::json{{"seed", options.seed},
                                      {"operator", nameOf(options.who)},
+                                     {"operator_knows", options.knows_patient ? "patient" : "mean anatomy"},
                                      {"simulated", isSimulated(options, world)},
                                      {"trainee", options.trainee},
                                      {"force_feedback", options.force_feedback},

@@ -23,6 +23,7 @@ struct SessionOptions {
   bool left_handed = false;
   std::uint64_t seed = 1;
   OperatorKind who = OperatorKind::automatic;
+  bool knows_patient = false;     ///< a simulated operator aims by this patient's images, not by the mean anatomy
   bool force_feedback = true;
   int trials = 1;
   std::string trainee = "T000";

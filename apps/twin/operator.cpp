@@ -159,7 +159,7 @@ void Operator::advancing(double now_s) {
   const Vec3 sideways = withoutAlong(reaction_.felt(), axis_A_);
   const bool bone = sideways.norm() > skill_.notice_bone_N ||
                     reaction_.felt().dot(axis_A_) > 3 * skill_.notice_bone_N;
-  const bool dry = seenInsertion() > skill_.vein_distance + skill_.search_margin;
+  const bool dry = seenInsertion() > anatomy_.vein_distance + skill_.search_margin;
   if (!bone && !dry) return;
   tryElsewhere(now_s, bone ? kBackFromBone : insertion_ - skill_.first_depth);
   // The hand pushes against the bone: it yields the other way. After a dry pass: try another side.

@@ -16,6 +16,7 @@ struct VisibleAnatomy {
   Vec3 entry_A;             ///< 1 cm below the junction of medial and middle thirds
   Vec3 normal_A;            ///< of the skin there
   Vec3 aim_A;               ///< where the needle is pointed: by the landmarks
+  double vein_distance;     ///< m, entry to vein along the needle, as far as he knows
   Vec3 medial_A, posterior_A, cephalad_A;   ///< unit directions by the landmarks
 };
 
