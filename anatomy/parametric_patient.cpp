@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/parametric/feasibility.h"
@@ -63,7 +64,7 @@ struct Lungs {
 
 // The lung's groove for the vein is deepened until the nearest pleura is as far as asked for.
 Lungs lungsAtDistance(const Solution& s, const std::vector<Rib>& ribs, double radius, double distance) {
-  constexpr double kGoodEnough = 0.25;  // mm; the mesh cannot show less
+  constexpr double kGoodEnough = 0.12;  // mm
   const Vec3& target = s.line.target;
   // The dome stands where it just reaches into the groove.
   double shift_y = target.y() + distance - 29.2;
@@ -80,6 +81,17 @@ Lungs lungsAtDistance(const Solution& s, const std::vector<Rib>& ribs, double ra
   }
   throw Error("the pleura cannot be brought to " + std::to_string(distance) + " mm from the vein",
               "parametric patient", "Choose a pleura distance nearer to its mean");
+}
+
+// Signed distance to the bones of both sides; far away (kFar of the round stand-in) only about.
+Field clavicles(const Clavicle& clavicle) {
+  constexpr double kFar = 8;
+  const auto tree = std::make_shared<TriangleTree>(clavicle.mesh);
+  return [tree, tube = clavicle.tube](const Vec3& p) {
+    const Vec3 there(std::abs(p.x()), p.y(), p.z());
+    const double about = tube(there);
+    return about > kFar ? about : tree->closest(there).signed_distance;
+  };
 }
 
 void markLandmarks(const Solution& solved, Assembly* assembly) {
@@ -129,11 +141,12 @@ Patient buildPatient(const PatientParameters& parameters) {
   assembly.add(assembly.sideId("lung"), Organ::lung, lungs.near, kLungColour);
   assembly.add(assembly.otherId("lung"), Organ::lung, lungs.other, kLungColour);
   assembly.add("airway", Organ::airway, makeAirway(solved.vessels), kAirwayColour);
-  assembly.add("veins", Organ::vein, solved.vessels.veinMesh(), kVeinColour);
-  assembly.add("arteries", Organ::artery, solved.vessels.arteryMesh(solved.build.floor(9)), kArteryColour);
+  const Field bones = clavicles(solved.clavicle);
+  assembly.add("veins", Organ::vein, solved.vessels.veinMesh(bones), kVeinColour);
+  assembly.add("arteries", Organ::artery, solved.vessels.arteryMesh(bones, solved.build.floor(9)), kArteryColour);
   assembly.addBoth("pectoralis_major", Organ::muscle, makePectoralisMajor(solved.skin, solved.clavicle), kMuscleColour);
-  assembly.addBoth("pectoralis_minor", Organ::muscle, makePectoralisMinor(solved.clavicle, solved.build), kMuscleColour);
-  assembly.addBoth("subclavius", Organ::muscle, makeSubclavius(solved.clavicle), kMuscleColour);
+  assembly.addBoth("pectoralis_minor", Organ::muscle, makePectoralisMinor(solved.skin, solved.clavicle, solved.build), kMuscleColour);
+  assembly.addBoth("subclavius", Organ::muscle, makeSubclavius(solved.skin, solved.clavicle), kMuscleColour);
   markLandmarks(solved, &assembly);
   // From the field's surface onto the mesh's, some hundredths of a millimetre away.
   Vec3& entry = patient.landmarks[landmark::kEntry];

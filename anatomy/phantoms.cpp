@@ -82,14 +82,13 @@ OrganSurface sphereIn(const PhantomInclusion& inclusion, const PlaceUnderSkin& p
 // z of the liver's lower edge: lowest toward the patient's right, up to the costal margin beyond the midline.
 double liverEdge(double x) { return 0.024 + 8 * (x + 0.06) * (x + 0.06); }
 
-// A wedge: its front keeps its depth under the skin, its back falls away above the rounded edge. Depths count along y, which
-// the gentle dome's normal leaves by a few degrees.
-OrganSurface liverIn(const PhantomBody& body, const PhantomInclusion& inclusion, PlaceUnderSkin* middle) {
+// A wedge: its front keeps its depth under the nearest skin, its back falls away above the rounded edge.
+OrganSurface liverIn(const PhantomBody& body, const TriangleTree& skin, const PhantomInclusion& inclusion, PlaceUnderSkin* middle) {
   constexpr double kRight = -0.098, kTop = 0.092, kMiddle = -0.045, kWedge = 0.35;
   const double thick = inclusion.diameter, depth = inclusion.depth;
-  const auto field = [=](const Vec3& p) {
+  const auto field = [=, &skin](const Vec3& p) {
     const double under = bellyHeight(p.x(), p.z()) + p.y(), above = p.z() - liverEdge(p.x());
-    const double front = depth - under, back = 0.94 * (under - depth - thick - kWedge * std::max(above, 0.0));
+    const double front = depth + skin.closest(p).signed_distance, back = 0.94 * (under - depth - thick - kWedge * std::max(above, 0.0));
     const double ends = smoothMax(smoothMax(kRight - p.x(), p.z() - kTop, 0.020), -0.6 * above, 0.010);
     return smoothMax(smoothMax(front, back, 0.2 * thick), ends, 0.9 * thick);
   };
@@ -117,7 +116,7 @@ void addInclusion(const PhantomBody& body, PhantomKind kind, const PhantomInclus
     place = placeUnder(body, inclusion.left, inclusion.up, inclusion.depth + inclusion.diameter / 2);
     patient->organs.push_back(sphereIn(inclusion, place));
   } else {
-    patient->organs.push_back(liverIn(body, inclusion, &place));
+    patient->organs.push_back(liverIn(body, TriangleTree(patient->organs.front().mesh), inclusion, &place));
   }
   patient->landmarks[landmark::kInclusion] = place.centre;
   patient->landmarks[landmark::kInclusionSkin] = place.skin;

@@ -61,12 +61,7 @@ void TriangleTree::searchLeaf(std::uint32_t child, const Vec3& p, Nearest* best)
 TriangleTree::Nearest TriangleTree::search(const Vec3& p) const {
   Nearest best{std::numeric_limits<double>::infinity()};
   const Eigen::Vector3f q = (p - centre_).cast<float>();
-  const auto bound = [&q](const Node& node) {
-    Lanes sum = Lanes::Zero();
-    for (int axis = 0; axis < 3; ++axis)
-      sum += (node.low[axis] - q[axis]).max(q[axis] - node.high[axis]).max(Lanes::Zero()).square();
-    return sum;
-  };
+  const auto bound = [&q](const Node& node) { return node.squaredFrom(q); };
   const auto leaf = [&](std::uint32_t child, float) {
     searchLeaf(child, p, &best);
     return limitOf(best.squared);

@@ -66,6 +66,13 @@ class TriangleTree {
   struct alignas(64) Node {
     Lanes low[3], high[3];
     std::array<std::uint32_t, 4> child;
+    /// Of each box from q (about `centre_`), 0 inside.
+    Lanes squaredFrom(const Eigen::Vector3f& q) const {
+      Lanes sum = Lanes::Zero();
+      for (int axis = 0; axis < 3; ++axis)
+        sum += (low[axis] - q[axis]).max(q[axis] - high[axis]).max(Lanes::Zero()).square();
+      return sum;
+    }
   };
   // A child is a node's index, or a leaf: a flag, how many triangles it has, and the first one's index.
   static constexpr std::uint32_t kLeaf = 1u << 31, kFirst = (1u << 28) - 1;

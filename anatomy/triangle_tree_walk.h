@@ -44,12 +44,7 @@ void TriangleTree::descend(Bound bound, Leaf leaf, float limit) const {
 template <class F>
 void TriangleTree::forVerticesWithin(const Vec3& centre, double reach, F f) const {
   const Eigen::Vector3f q = (centre - centre_).cast<float>();
-  const auto bound = [&q](const Node& node) {
-    Lanes sum = Lanes::Zero();
-    for (int axis = 0; axis < 3; ++axis)
-      sum += (node.low[axis] - q[axis]).max(q[axis] - node.high[axis]).max(Lanes::Zero()).square();
-    return sum;
-  };
+  const auto bound = [&q](const Node& node) { return node.squaredFrom(q); };
   const double reach2 = reach * reach;
   const auto leaf = [&](std::uint32_t child, float limit) {
     for (std::uint32_t i = leafBegin(child); i < leafEnd(child); ++i)

@@ -59,13 +59,18 @@ TriangleMesh fromVtk(vtkPolyData& data) {
   return mesh;
 }
 
+template <class Filter>
+TriangleMesh through(Filter& filter, const TriangleMesh& mesh, double reduction) {
+  filter.SetInputData(toVtk(mesh));
+  filter.SetTargetReduction(reduction);
+  filter.Update();
+  return fromVtk(*filter.GetOutput());
+}
+
 TriangleMesh byQuadrics(const TriangleMesh& mesh, double reduction) {
   vtkNew<vtkQuadricDecimation> filter;
-  filter->SetInputData(toVtk(mesh));
-  filter->SetTargetReduction(reduction);
   filter->VolumePreservationOn();
-  filter->Update();
-  return fromVtk(*filter->GetOutput());
+  return through(*filter, mesh, reduction);
 }
 
 /// Without the triangles of edges that have more than two.
@@ -96,13 +101,10 @@ TriangleMesh byQuadricsMended(const TriangleMesh& mesh, double reduction) {
 
 TriangleMesh byTopology(const TriangleMesh& mesh, double reduction) {
   vtkNew<vtkDecimatePro> filter;
-  filter->SetInputData(toVtk(mesh));
-  filter->SetTargetReduction(reduction);
   filter->PreserveTopologyOn();
   filter->SplittingOff();
   filter->BoundaryVertexDeletionOff();
-  filter->Update();
-  return fromVtk(*filter->GetOutput());
+  return through(*filter, mesh, reduction);
 }
 
 bool asGoodAs(const TriangleMesh& original, const TriangleMesh& result) {

@@ -93,6 +93,11 @@ double BodySurface::soft(double a) const {
   return entry + (at_window_ - entry) * std::clamp((a - from) / (window_a_ - from), 0.0, 1.0);
 }
 
+double BodySurface::muscle(double a) const {
+  constexpr double kOver = 1.8, kThinnest = 0.6;   // mm
+  return std::min(muscle_, std::max(soft(a) - kOver, kThinnest));
+}
+
 // The front of the trunk as a height y(l, z): smaller is further forward.
 double BodySurface::chest(double l, double z) const {
   const Vec3 there = build_.unplace({l, 0, z});

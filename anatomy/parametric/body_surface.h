@@ -21,11 +21,9 @@ class BodySurface {
   Vec3 frontNormal(double l, double z) const;
   TriangleMesh mesh() const;
 
-  /// Depth of the muscle's front under the (breastless) skin at distance a from the midline, mm.
-  double muscleDepth(double a) const { return soft(a) - muscle_; }
-  double soft(double a) const;   ///< skin, fat and muscle together, mm
+  double soft(double a) const;     ///< skin, fat and muscle together at distance a from the midline, mm
+  double muscle(double a) const;   ///< of it muscle: as stated, or what shallow layers leave for it
   double skin() const { return skin_; }
-  double muscle() const { return muscle_; }
   double lower() const { return lower_; }   ///< z of the lower cut
   double upper() const { return upper_; }
 

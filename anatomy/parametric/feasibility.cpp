@@ -14,7 +14,7 @@ constexpr double kDepthError = 0.02;  // mm, of the fields
 constexpr double kUnderBone = 3.5;    // mm between the clavicle's lower border and the vein at the window
 
 // l of the target, mm from the midline, by preference: behind the medial end of the clavicle.
-constexpr double kMedially[] = {31, 33, 29, 35, 27, 25, 23};
+constexpr double kMedially[] = {31, 33, 29, 35, 27, 25};   // nearer to the midline the jugular vein joins
 // Depth of the target's centre, mm from the usual one, by preference.
 constexpr double kDeeper[] = {0, 2, -2, 4, -4, 6, -6, 8, -8};
 

@@ -45,6 +45,13 @@ double fibres(double u, double v, double bundles) {
   return kDepth * fade * std::pow(0.5 + 0.5 * wave, 2);
 }
 
+// Where there is little over it, a muscle (half as thick as `half`) lies deeper: 2 mm stay over it.
+Vec3 under(const BodySurface& skin, const Vec3& p, double half) {
+  constexpr double kOver = 2.0;
+  const double facing = std::max(-skin.frontNormal(p.x(), p.z()).y(), 0.5);
+  return {p.x(), std::max(p.y(), skin.front(p.x(), p.z(), true) + (half + kOver) / facing), p.z()};
+}
+
 }  // namespace
 
 TriangleMesh makePectoralisMajor(const BodySurface& skin, const Clavicle& clavicle) {
@@ -55,13 +62,13 @@ TriangleMesh makePectoralisMajor(const BodySurface& skin, const Clavicle& clavic
     const Flat f = a + u * (b - a) - Flat(0, sag);
     const Vec3 on_skin(f.x(), skin.front(f.x(), f.y(), true), f.y());
     const Vec3 n = skin.frontNormal(f.x(), f.y());
-    const double half = skin.muscle() / 2 * rounded(u, 0.10) * rounded(v, 0.07);
-    return SheetPoint{on_skin - n * (skin.muscleDepth(std::abs(f.x())) + skin.muscle() / 2), n, half - fibres(u, v, 13), half};
+    const double off = std::abs(f.x()), thick = skin.muscle(off), half = thick / 2 * rounded(u, 0.10) * rounded(v, 0.07);
+    return SheetPoint{on_skin - n * (skin.soft(off) - thick / 2), n, half - std::min(fibres(u, v, 13), 0.3 * half), half};
   };
   return sheet(at, 30, 66);
 }
 
-TriangleMesh makePectoralisMinor(const Clavicle& clavicle, const Build& build) {
+TriangleMesh makePectoralisMinor(const BodySurface& skin, const Clavicle& clavicle, const Build& build) {
   const Vec3 top = build.place({74, 2, -90}), bottom = build.bust() ? build.place({82, -5, -116}) : build.place({84, -10, -147}), tip = coracoid(clavicle);
   const auto middle = [&](double u, double v) {
     const Vec3 from = top + v * (bottom - top) + Vec3(0, -2.5 * std::sin(std::numbers::pi * v), 0);
@@ -74,17 +81,17 @@ TriangleMesh makePectoralisMinor(const Clavicle& clavicle, const Build& build) {
     Vec3 n = du.cross(dv).normalized();
     if (n.y() > 0) n = -n;
     const double half = 3.2 * rounded(u, 0.08) * rounded(v, 0.12);
-    return SheetPoint{middle(u, v), n, half - 0.6 * fibres(u, v, 7), half};
+    return SheetPoint{under(skin, middle(u, v), half), n, half - 0.6 * fibres(u, v, 7), half};
   };
   return sheet(at, 26, 36);
 }
 
-TriangleMesh makeSubclavius(const Clavicle& clavicle) {
-  const auto under = [&](double fraction) {
+TriangleMesh makeSubclavius(const BodySurface& skin, const Clavicle& clavicle) {
+  const auto below = [&](double fraction) {
     const Section& s = clavicle.sections[static_cast<std::size_t>(fraction * 96)];
-    return Vec3(s.centre + Vec3(0, 4.0, -s.half_up - 2.6));
+    return under(skin, s.centre + Vec3(0, 4.0, -s.half_up - 2.6), 3.6);
   };
-  const Curve curve({{34, 15.5, -12}, {43, 16.5, -7}, under(0.34), under(0.46), under(0.58)});
+  const Curve curve({under(skin, {34, 15.5, -12}, 2.6), under(skin, {43, 16.5, -7}, 3.6), below(0.34), below(0.46), below(0.58)});
   std::vector<Section> sections = sectionsAlong(curve.sample(30), Vec3::UnitZ());
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const double u = static_cast<double>(i) / static_cast<double>(sections.size() - 1);

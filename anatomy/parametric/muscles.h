@@ -11,9 +11,9 @@ namespace palpa::anatomy {
 TriangleMesh makePectoralisMajor(const BodySurface& skin, const Clavicle& clavicle);
 
 /// From the third to fifth rib near their cartilages to the coracoid.
-TriangleMesh makePectoralisMinor(const Clavicle& clavicle, const Build& build);
+TriangleMesh makePectoralisMinor(const BodySurface& skin, const Clavicle& clavicle, const Build& build);
 
 /// From the first rib's cartilage to the clavicle's lower side.
-TriangleMesh makeSubclavius(const Clavicle& clavicle);
+TriangleMesh makeSubclavius(const BodySurface& skin, const Clavicle& clavicle);
 
 }  // namespace palpa::anatomy

@@ -10,8 +10,8 @@
 namespace palpa::anatomy {
 namespace {
 
-// y of the sternum's middle: its plane leans backward upward and bends at the sternal angle.
-double sternumMiddle(double z) { return 8.5 + 0.20 * z + (z < -48 ? 0.06 * (-48 - z) : 0.0); }
+// y of the sternum's middle: its plane leans backward upward and bends at the sternal angle. `low`: z in the shapes' body.
+double sternumMiddle(double low) { return 8.5 + 0.20 * low + (low < -48 ? 0.06 * (-48 - low) : 0.0); }
 
 double sternumField(const Vec3& p, const Clavicle& clavicle, const Build& build) {
   const double l = std::abs(p.x()), z = p.z(), low = build.unplace(p).z();
@@ -21,7 +21,7 @@ double sternumField(const Vec3& p, const Clavicle& clavicle, const Build& build)
   if (low < -138) half = std::max(body - 0.85 * (-138 - low), 4.2);
   // Notches for the cartilages of the ribs.
   for (const double rib : {-50.0, -82.0, -106.0, -126.0, -141.0}) half -= 2.2 * std::exp(-0.5 * std::pow((low - rib) / 5, 2));
-  const double middle = sternumMiddle(z);
+  const double middle = sternumMiddle(low);
   const double end = std::max(build.place({0, 0, -180}).z(), build.floor(9));
   const double thick = low < -150 ? 3.6 : 5.5;
   double f = smoothMax(std::abs(p.y() - middle) - thick, 0.85 * (l - half), 6);
@@ -106,6 +106,14 @@ double cageSide(const Vec3& p, const Build& build, bool heart) {
   return smoothMax(f, 0.8 * (std::max(build.place({0, 0, floor}).z(), build.floor(9)) - p.z()), 9);
 }
 
+constexpr double kLungCell = 3.5;
+
+// The box grown to cells counted from `origin`, so that a part is meshed as the whole is.
+Eigen::AlignedBox3d onGrid(const Eigen::AlignedBox3d& box, const Vec3& origin, double cell) {
+  const Vec3 low = (box.min() - origin).array() / cell;
+  return {Vec3(origin.array() + cell * low.array().floor()), box.max()};
+}
+
 }  // namespace
 
 TriangleMesh makeSternum(const Clavicle& clavicle, const Build& build) {
@@ -153,8 +161,8 @@ TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, cons
     return smoothMax(f, groove_mm - vessels.veinField(there), 4);
   };
   Eigen::AlignedBox3d box(Vec3(-4, -30, build.place({0, 0, -205}).z()), Vec3(build.place({140, 0, 0}).x(), 152, 42));
-  if (!part.isEmpty()) box = box.intersection(part);
-  TriangleMesh mesh = surfaceNets(field, box, 3.5, 2.5);
+  if (!part.isEmpty()) box = onGrid(part.intersection(box), box.min(), kLungCell);
+  TriangleMesh mesh = surfaceNets(field, box, kLungCell, 2.5);
   return sign > 0 ? mesh : mirroredMesh(mesh);
 }
 

@@ -65,6 +65,12 @@ TriangleMesh tubesMesh(const Field& field, const std::vector<TubeField>& tubes, 
   return surfaceNets(field, box, cell);
 }
 
+// Pressed flat where less than `gap` would be left: hardly rounded, so that nothing changes where there is room.
+double besideBone(double f, const Field& bones, const Vec3& p, double gap) {
+  constexpr double kRounding = 0.4;
+  return f > 8 ? f : smoothMax(f, gap - bones(p), kRounding);
+}
+
 // From the axilla to the confluence, then to the superior vena cava: short and steep on the patient's right, long and
 // across the midline on his left. `unit`: radius at the target.
 TubeField veinOf(bool right, double unit, const Shifts& shifts, double sign) {
@@ -118,15 +124,16 @@ double Vessels::veinsAtLeast(const Vec3& p) const {
 
 double Vessels::arteryField(const Vec3& p) const { return joined(arteries, p, 4); }
 
-TriangleMesh Vessels::veinMesh() const {
-  return tubesMesh([this](const Vec3& p) { return veinField(p); }, veins, 1.6);
+TriangleMesh Vessels::veinMesh(const Field& bones) const {
+  return tubesMesh([&](const Vec3& p) { return besideBone(veinField(p), bones, p, 0.7); }, veins,
+                   std::clamp(0.5 * vein_radius, 1.1, 1.6));
 }
 
-TriangleMesh Vessels::arteryMesh(double lowest) const {
+TriangleMesh Vessels::arteryMesh(const Field& bones, double lowest) const {
   // Where a wide vein lies against an artery, the artery gives way.
   const auto field = [&](const Vec3& p) {
     const double f = smoothMax(arteryField(p), lowest - p.z(), 4);
-    return f > 8 ? f : smoothMax(f, 1.0 - veinField(p), 3);
+    return f > 8 ? f : besideBone(smoothMax(f, 1.0 - veinField(p), 3), bones, p, 0.8);
   };
   return tubesMesh(field, arteries, 2.0);
 }
@@ -136,6 +143,7 @@ Vessels makeVessels(const Vec3& target, const Vec3& window, double vein_radius_m
   const Shifts none{Vec3::Zero(), Vec3::Zero()};
   Vessels v;
   v.handed = side == Side::right ? 1 : -1;
+  v.vein_radius = vein_radius_mm;
   const double wide = std::max(0.0, 1.5 * (vein_radius_mm - 4.5)), r = v.handed;
   for (const double sign : {1.0, -1.0}) {
     const bool right = sign == v.handed;

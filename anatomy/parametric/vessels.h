@@ -11,12 +11,14 @@ namespace palpa::anatomy {
 struct Vessels {
   double handed = 1;   ///< 1: the patient's right is at +l, -1: his left
   std::vector<TubeField> veins, arteries;
+  double vein_radius = 4.5;   ///< at the target, mm
 
   double veinField(const Vec3& p) const;     ///< joined smoothly
   double arteryField(const Vec3& p) const;
   double veinsAtLeast(const Vec3& p) const;  ///< no more than veinField there
-  TriangleMesh veinMesh() const;
-  TriangleMesh arteryMesh(double lowest) const;   ///< cut there
+  /// Where they would touch a bone (signed distance to it), they give way.
+  TriangleMesh veinMesh(const Field& bones) const;
+  TriangleMesh arteryMesh(const Field& bones, double lowest) const;   ///< cut there
 };
 
 /// `window`: the vein's centre at the infraclavicular window; `target`: on the taught line.
