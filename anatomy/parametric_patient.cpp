@@ -64,23 +64,29 @@ struct Lungs {
 
 // The lung's groove for the vein is deepened until the nearest pleura is as far as asked for.
 Lungs lungsAtDistance(const Solution& s, const std::vector<Rib>& ribs, double radius, double distance) {
-  constexpr double kGoodEnough = 0.12;  // mm
+  constexpr double kGood = 0.12, kGoodEnough = 0.25;  // mm
+  constexpr int kTries = 12;
   const Vec3& target = s.line.target;
-  // The dome stands where it just reaches into the groove.
-  double shift_y = target.y() + distance - 29.2;
-  double groove = distance;
   const double reach = radius + distance + 12;
   const Eigen::AlignedBox3d near_target(Vec3(target.array() - reach), Vec3(target.array() + reach));
-  for (int i = 0; i < 8; ++i) {
-    const TriangleMesh pleura = makeLung(s.vessels, ribs, s.build, 1, shift_y, groove, near_target);
-    const double found = pleura.triangles.empty() ? 2 * distance : (TriangleTree(pleura).closest(target).p - target).norm() - radius;
-    if (std::abs(found - distance) < kGoodEnough)
-      return {makeLung(s.vessels, ribs, s.build, 1, shift_y, groove), makeLung(s.vessels, ribs, s.build, -1, shift_y, groove)};
-    groove += 0.6 * (distance - found);
-    if (found > distance) shift_y += 0.7 * (distance - found);  // the dome did not reach so far
+  struct Try {
+    double shift_y, groove, error;
+  };
+  // The dome stands where it just reaches into the groove.
+  Try now{target.y() + distance - 29.2, distance, 0}, best{0, 0, 2 * kGoodEnough};
+  for (int i = 0; i < kTries && std::abs(best.error) > kGood; ++i) {
+    const TriangleMesh pleura = makeLung(s.vessels, ribs, s.build, 1, now.shift_y, now.groove, near_target);
+    now.error = distance - (pleura.triangles.empty() ? 2 * distance : (TriangleTree(pleura).closest(target).p - target).norm() - radius);
+    if (std::abs(now.error) < std::abs(best.error)) best = now;
+    const double step = i < kTries / 2 ? 0.6 : 0.25;   // what the mesh makes of a small step is no smooth function
+    now.groove += step * now.error;
+    if (now.error < 0) now.shift_y += 1.2 * step * now.error;  // the dome did not reach so far
   }
-  throw Error("the pleura cannot be brought to " + std::to_string(distance) + " mm from the vein",
-              "parametric patient", "Choose a pleura distance nearer to its mean");
+  if (std::abs(best.error) > kGoodEnough)
+    throw Error("the pleura cannot be brought to " + std::to_string(distance) + " mm from the vein",
+                "parametric patient", "Choose a pleura distance nearer to its mean");
+  const auto lung = [&](double sign) { return makeLung(s.vessels, ribs, s.build, sign, best.shift_y, best.groove); };
+  return {lung(1), lung(-1)};
 }
 
 // Signed distance to the bones of both sides; far away (kFar of the round stand-in) only about.

@@ -176,6 +176,7 @@ TEST(PatientFuzz, HarmedPatientsAreReadOrRefused) {
   }
   EXPECT_GT(read, cases() / 20) << "some damage does no harm";
   EXPECT_GT(refused, cases() / 3);
+  expectLessThan2GiB();
 }
 
 TEST(PatientFuzz, RingsOfNodesAndAbsurdCountsAreRefused) {
@@ -213,6 +214,7 @@ TEST(MapFuzz, HarmedMapsAreReadOrRefused) {
   }
   EXPECT_GT(read, 0);
   EXPECT_GT(refused, cases() / 2);
+  expectLessThan2GiB();
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 #include "anatomy/geometry/error.h"
 #include "anatomy/volume/readers.h"
 #include "tests/support/counts.h"
+#include "tests/support/damage.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -128,6 +129,7 @@ TEST_F(DicomSeries, DamageGivesAVolumeOrAClearWord) {
   }
   EXPECT_GT(read, 0);
   EXPECT_GT(refused, 0);
+  palpa::test::expectLessThan2GiB();
 }
 
 TEST_F(DicomSeries, AFolderWithoutSlicesIsSaid) { EXPECT_NE(complaint().find("holds no DICOM slices"), std::string::npos); }

@@ -58,6 +58,7 @@ TEST(VolumeFuzz, DamageGivesAVolumeOrAClearWord) {
     }
   EXPECT_GT(read, casesAFile() / 4);
   EXPECT_GT(refused, casesAFile());
+  expectLessThan2GiB();
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <gtest/gtest.h>
+#include <sys/resource.h>
 
 #include <cstdint>
 #include <random>
@@ -23,6 +24,13 @@ inline void expectClearWord(const std::exception& error, const std::string& wher
   const std::string words = error.what();
   ASSERT_EQ(words.find('\n'), std::string::npos) << words;
   ASSERT_EQ(words.rfind(where + ": ", 0), 0u) << words;
+}
+
+/// Of the whole process so far, sanitizer and all: what damaged files may cost at most.
+inline void expectLessThan2GiB() {
+  rusage used{};
+  ASSERT_EQ(getrusage(RUSAGE_SELF, &used), 0);
+  EXPECT_LT(used.ru_maxrss, 2L << 20) << "KiB";
 }
 
 }  // namespace palpa::test
