@@ -8,7 +8,7 @@ namespace {
 
 using Box = Eigen::AlignedBox3d;
 
-constexpr std::uint32_t kLeafSize = 2;
+constexpr std::uint32_t kLeafSize = 6;
 constexpr int kBins = 16;
 constexpr int kUneven = 24;  // levels; below, ranges are halved: at most 15 levels more
 
