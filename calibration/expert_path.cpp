@@ -5,11 +5,11 @@
 #include <map>
 
 #include "anatomy/geometry/error.h"
+#include "calibration/rotation.h"
 
 namespace palpa::calibration {
 namespace {
 
-constexpr double kDegree = M_PI / 180;
 constexpr double kNeverOut_m = 0.0005, kNeverOut_rad = 0.5 * kDegree;
 constexpr double kNormal = 1.4826;  // sd / median absolute deviation, normal distribution
 constexpr double kLargestShareOut = 0.2;

@@ -1,4 +1,5 @@
 #include "apps/bench/anatomy_bench.h"
+#include "apps/bench/calibration_bench.h"
 #include "apps/bench/haptics_bench.h"
 #include "apps/bench/loop_bench.h"
 #include "apps/cli/commands.h"
@@ -33,12 +34,21 @@ void addAnatomy(CLI::App& bench) {
   anatomy->callback([options] { bench::benchAnatomy(*options); });
 }
 
+void addCalibration(CLI::App& bench) {
+  CLI::App* calibration = bench.add_subcommand("calibration", "How near the estimators come to what the data permit (simulated data)");
+  calibration->footer("Example:\n  palpa bench calibration > calibration.jsonl\n  palpa bench calibration --sets 50");
+  const auto options = std::make_shared<bench::CalibrationBenchOptions>();
+  calibration->add_option("--sets", options->sets, "Synthetic sets for each estimator (default 500)")->check(CLI::Range(10, 100'000));
+  calibration->callback([options] { bench::benchCalibration(*options); });
+}
+
 }  // namespace
 
 void addBench(CLI::App& program) {
   CLI::App* bench = program.add_subcommand("bench", "Measurements, one JSON object a line");
   bench->require_subcommand(1);
   addAnatomy(*bench);
+  addCalibration(*bench);
   addHaptics(*bench);
   addLoop(*bench);
 }

@@ -1,0 +1,197 @@
+#include "calibration/robust_fit.h"
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <boost/math/distributions/chi_squared.hpp>
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+#include <limits>
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::calibration {
+namespace {
+
+constexpr double kGoodQuantile = 0.999;
+constexpr int kLeastNormSteps = 40, kSquareSteps = 30, kSelections = 20;
+constexpr double kStill = 1e-10;   // relative change of the cost below which a fit has ended
+constexpr double kRounding = 1e-9; // no block is an outlier for less: data without noise have none
+
+using ChiSquared = boost::math::chi_squared;
+
+class RobustFitter {
+ public:
+  RobustFitter(const FitProblem& problem, const std::string& where, double step)
+      : problem_(problem), where_(where), step_(step), good_(static_cast<std::size_t>(problem.blocks), true) {}
+
+  Fit run(double most_outliers) {
+    requireEnough(problem_.blocks);
+    at(VectorX::Zero(problem_.parameters));
+    leastNorms();
+    for (int i = 0; i < kSelections; ++i) {
+      const bool changed = select();
+      leastSquares();
+      if (!changed && i > 0) break;
+    }
+    const auto out = static_cast<double>(std::count(good_.begin(), good_.end(), false));
+    if (out > most_outliers * problem_.blocks)
+      throw Error(std::to_string(static_cast<int>(out)) + " of " + std::to_string(problem_.blocks) + " measurements do not fit the others",
+                  where_, "Look for a loose part, a slipped marker or mixed-up files, and measure again");
+    return result();
+  }
+
+ private:
+  void requireEnough(int blocks) const {
+    if (blocks * problem_.size <= problem_.parameters)
+      throw Error(std::to_string(blocks) + " measurements are too few", where_, "Measure more");
+  }
+
+  void at(const VectorX& dx) {
+    r_ = problem_.residuals(dx);
+    if (!r_.allFinite()) throw Error("a measurement is not a number", where_, "Remove it");
+  }
+
+  double norm(int block) const { return r_.segment(block * problem_.size, problem_.size).norm(); }
+
+  MatrixX jacobian() const {
+    MatrixX J(r_.size(), problem_.parameters);
+    VectorX dx = VectorX::Zero(problem_.parameters);
+    for (int k = 0; k < problem_.parameters; ++k) {
+      dx[k] = step_;
+      J.col(k) = problem_.residuals(dx);
+      dx[k] = -step_;
+      J.col(k) = (J.col(k) - problem_.residuals(dx)) / (2 * step_);
+      dx[k] = 0;
+    }
+    return J;
+  }
+
+  double cost(const VectorX& r, const VectorX& weights) const {
+    double sum = 0;
+    for (int b = 0; b < problem_.blocks; ++b) sum += weights[b] * r.segment(b * problem_.size, problem_.size).squaredNorm();
+    return sum;
+  }
+
+  /// One damped step of the weighted squares; the relative gain, 0 when none was found.
+  double improve(const VectorX& weights) {
+    const MatrixX J = jacobian();
+    MatrixX A = MatrixX::Zero(J.cols(), J.cols());
+    VectorX g = VectorX::Zero(J.cols());
+    for (int b = 0; b < problem_.blocks; ++b) {
+      const auto rows = J.middleRows(b * problem_.size, problem_.size);
+      A += weights[b] * rows.transpose() * rows;
+      g += weights[b] * rows.transpose() * r_.segment(b * problem_.size, problem_.size);
+    }
+    const double before = cost(r_, weights);
+    const VectorX diagonal = A.diagonal().cwiseMax(1e-12 * A.diagonal().maxCoeff());
+    for (; damping_ < 1e12; damping_ *= 10) {
+      MatrixX damped = A;
+      damped.diagonal() += damping_ * diagonal;
+      const VectorX dx = damped.ldlt().solve(-g);
+      if (!dx.allFinite()) continue;
+      const VectorX r = problem_.residuals(dx);
+      const double after = r.allFinite() ? cost(r, weights) : std::numeric_limits<double>::infinity();
+      if (!(after < before)) continue;
+      problem_.move(dx);
+      r_ = problem_.residuals(VectorX::Zero(problem_.parameters));
+      damping_ = std::max(damping_ / 10, 1e-12);
+      return (before - after) / before;
+    }
+    damping_ = 1e-6;
+    return 0;
+  }
+
+  /// Weiszfeld's iteration: each block weighs the inverse of its norm.
+  void leastNorms() {
+    VectorX weights(problem_.blocks);
+    for (int i = 0; i < kLeastNormSteps; ++i) {
+      const double floor = 0.01 * medianNorm() + std::numeric_limits<double>::min();
+      for (int b = 0; b < problem_.blocks; ++b) weights[b] = 1 / std::max(norm(b), floor);
+      if (improve(weights) < 1e-6) break;
+    }
+  }
+
+  double medianNorm() const {
+    std::vector<double> norms;
+    for (int b = 0; b < problem_.blocks; ++b) norms.push_back(norm(b));
+    std::nth_element(norms.begin(), norms.begin() + problem_.blocks / 2, norms.end());
+    return norms[static_cast<std::size_t>(problem_.blocks / 2)];
+  }
+
+  /// Which blocks are good; whether that changed.
+  bool select() {
+    const ChiSquared chi2(problem_.size);
+    // The median sees the fit's own freedom: few measurements leave residuals smaller than the noise.
+    const double freedom = std::sqrt(1 - static_cast<double>(problem_.parameters) / (problem_.blocks * problem_.size));
+    const double scale = medianNorm() / std::sqrt(boost::math::quantile(chi2, 0.5)) / freedom;
+    const double limit = std::max(scale * std::sqrt(boost::math::quantile(chi2, kGoodQuantile)), kRounding);
+    const std::vector<bool> before = good_;
+    for (int b = 0; b < problem_.blocks; ++b) good_[static_cast<std::size_t>(b)] = !(norm(b) > limit);
+    requireEnough(static_cast<int>(std::count(good_.begin(), good_.end(), true)));
+    return good_ != before;
+  }
+
+  VectorX goodWeights() const {
+    VectorX weights(problem_.blocks);
+    for (int b = 0; b < problem_.blocks; ++b) weights[b] = good_[static_cast<std::size_t>(b)] ? 1 : 0;
+    return weights;
+  }
+
+  void leastSquares() {
+    const VectorX weights = goodWeights();
+    for (int i = 0; i < kSquareSteps; ++i)
+      if (improve(weights) < kStill) break;
+  }
+
+  Fit result() const {
+    Fit fit;
+    fit.r = r_;
+    fit.good = good_;
+    const MatrixX J = jacobian();
+    fit.information = MatrixX::Zero(J.cols(), J.cols());
+    double squares = 0;
+    int blocks = 0;
+    for (int b = 0; b < problem_.blocks; ++b) {
+      if (!good_[static_cast<std::size_t>(b)]) continue;
+      const auto rows = J.middleRows(b * problem_.size, problem_.size);
+      fit.information += rows.transpose() * rows;
+      squares += norm(b) * norm(b);
+      ++blocks;
+    }
+    fit.dof = blocks * problem_.size - problem_.parameters;
+    const double m = problem_.size, q = boost::math::quantile(ChiSquared(m), kGoodQuantile);
+    const double kept = boost::math::cdf(ChiSquared(m + 2), q) / kGoodQuantile;   // of the variance, inside the cut
+    fit.sigma = std::sqrt(squares / fit.dof / kept);
+    fit.rms = std::sqrt(squares / blocks);
+    fit.covariance = fit.sigma * fit.sigma * fit.information.completeOrthogonalDecomposition().pseudoInverse();
+    return fit;
+  }
+
+  const FitProblem& problem_;
+  const std::string& where_;
+  double step_, damping_ = 1e-6;
+  VectorX r_;
+  std::vector<bool> good_;
+};
+
+}  // namespace
+
+int Fit::outliers() const { return static_cast<int>(std::count(good.begin(), good.end(), false)); }
+
+double Fit::halfWidth95(int i) const {
+  return boost::math::quantile(boost::math::students_t(dof), 0.975) * std::sqrt(covariance(i, i));
+}
+
+Fit robustFit(const FitProblem& problem, const std::string& where, double most_outliers, double step) {
+  return RobustFitter(problem, where, step).run(most_outliers);
+}
+
+Weakest weakest(const MatrixX& information, const VectorX& scales) {
+  const MatrixX scaled = scales.asDiagonal() * information * scales.asDiagonal();
+  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(scaled);
+  const double least = solver.eigenvalues()[0], most = solver.eigenvalues()[scaled.rows() - 1];
+  return {least > 0 ? std::sqrt(most / least) : std::numeric_limits<double>::infinity(), solver.eigenvectors().col(0)};
+}
+
+}  // namespace palpa::calibration

@@ -1,0 +1,48 @@
+#pragma once
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "anatomy/geometry/pose.h"
+
+namespace palpa::calibration {
+
+inline constexpr double kDegree = std::numbers::pi / 180;   ///< rad
+
+inline Mat3 crossMatrix(const Vec3& v) {
+  Mat3 m;
+  m << 0, -v.z(), v.y(), v.z(), 0, -v.x(), -v.y(), v.x(), 0;
+  return m;
+}
+
+/// Rotation by |w| about w.
+inline Mat3 rotationOf(const Vec3& w) {
+  const double angle = w.norm();
+  return angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix() : Mat3(Mat3::Identity());
+}
+
+/// The other way; 0 to pi.
+inline Vec3 rotationVector(const Mat3& R) {
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
+/// The pose moved by dx: turned by the first three in its own frame, shifted by the last three in the outer one.
+template <class Vector6>
+Pose moved(const Pose& X, const Vector6& dx) {
+  return makePose(X.rotation() * rotationOf(Vec3(dx[0], dx[1], dx[2])), X.translation() + Vec3(dx[3], dx[4], dx[5]));
+}
+
+/// How far each direction of the rotations' inner frame was tilted: the mean of |(R_i - mean R) u|^2 is 1 - |mean R u|^2,
+/// which for a tilt by a about an axis across u is a^2. The direction that kept best where it was, and its rms tilt, rad.
+struct LeastTilted {
+  Vec3 axis;
+  double spread;
+};
+LeastTilted leastTilted(const std::vector<Pose>& poses);
+
+/// The rotation nearest to m (least squares of the entries), never a mirror.
+Mat3 nearestRotation(const Mat3& m);
+
+}  // namespace palpa::calibration

@@ -1,0 +1,26 @@
+#pragma once
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::calibration::test {
+
+/// What an estimator says of data that cannot tell the answer; empty when it gave one.
+template <class F>
+std::string complaint(F f) {
+  try {
+    f();
+  } catch (const Error& error) {
+    const std::string words = error.what();
+    EXPECT_EQ(words.find('\n'), std::string::npos) << words;
+    return words;
+  }
+  return "";
+}
+
+inline bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+}  // namespace palpa::calibration::test
