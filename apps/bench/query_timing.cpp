@@ -10,7 +10,7 @@ namespace palpa::bench {
 namespace {
 
 constexpr int kTogether = 16;
-constexpr int kResamples = 2000;
+constexpr int kTimingResamples = 2000;
 
 QueryTiming timingOf(const std::vector<double>& each_us) {
   return {runtime::quantile(each_us, 0.5), runtime::quantile(each_us, 0.99)};
@@ -65,7 +65,7 @@ Ratio compareQueries(int blocks, int count, const std::function<void(int)>& a, c
     ratios.push_back(took_b / took_a);
     took_a = took_b = 0;
   }
-  return {median(ratios), bootstrapMedian(ratios, kResamples, 1)};
+  return {median(ratios), bootstrapMedian(ratios, kTimingResamples, 1)};
 }
 
 }  // namespace palpa::bench
