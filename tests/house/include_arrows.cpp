@@ -62,7 +62,7 @@ std::vector<Layer> makeLayers() {
       {"calibration",
        {"anatomy/geometry", "haptics/materials"},
        {},
-       {"Eigen", "Ceres", "OpenCV", "JSON"}},
+       {"Eigen", "Ceres", "Boost", "OpenCV", "JSON"}},
       {"ar",
        {"anatomy/geometry", "calibration"},
        {},
