@@ -181,12 +181,8 @@ void requireSamples(const std::vector<HandEyeSample>& samples) {
   if (samples.size() < kLeastSamples) throw Error(std::to_string(samples.size()) + " samples are too few", kHandEye, "Take 15 or more, with the hand turned to every side");
   std::vector<Pose> hand, tag;
   for (const HandEyeSample& s : samples) {
-    for (const Pose* X : {&s.X_DE, &s.X_CM}) {
-      if (!X->matrix().allFinite()) throw Error("a pose is not a number", kHandEye, "Take it again");
-      const Mat3 R = X->linear();
-      if ((R.transpose() * R - Mat3::Identity()).norm() > 1e-3 || R.determinant() < 0)
-        throw Error("a pose's rotation is none (its columns are no right-handed unit vectors)", kHandEye, "Look whether the file holds quaternions or another order of its numbers");
-    }
+    requirePose(s.X_DE, kHandEye);
+    requirePose(s.X_CM, kHandEye);
     hand.push_back(s.X_DE);
     tag.push_back(s.X_CM);
   }

@@ -1,7 +1,7 @@
 #include "calibration/robust_fit.h"
 
 #include <Eigen/Cholesky>
-#include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
@@ -149,13 +149,13 @@ class RobustFitter {
     fit.r = r_;
     fit.good = good_;
     const MatrixX J = jacobian();
-    fit.information = MatrixX::Zero(J.cols(), J.cols());
+    MatrixX information = MatrixX::Zero(J.cols(), J.cols());
     double squares = 0;
     int blocks = 0;
     for (int b = 0; b < problem_.blocks; ++b) {
       if (!good_[static_cast<std::size_t>(b)]) continue;
       const auto rows = J.middleRows(b * problem_.size, problem_.size);
-      fit.information += rows.transpose() * rows;
+      information += rows.transpose() * rows;
       squares += norm(b) * norm(b);
       ++blocks;
     }
@@ -164,7 +164,7 @@ class RobustFitter {
     const double kept = boost::math::cdf(ChiSquared(m + 2), q) / kGoodQuantile;   // of the variance, inside the cut
     fit.sigma = std::sqrt(squares / fit.dof / kept);
     fit.rms = std::sqrt(squares / blocks);
-    fit.covariance = fit.sigma * fit.sigma * fit.information.completeOrthogonalDecomposition().pseudoInverse();
+    fit.covariance = fit.sigma * fit.sigma * information.completeOrthogonalDecomposition().pseudoInverse();
     return fit;
   }
 
@@ -185,13 +185,6 @@ double Fit::halfWidth95(int i) const {
 
 Fit robustFit(const FitProblem& problem, const std::string& where, double most_outliers, double step) {
   return RobustFitter(problem, where, step).run(most_outliers);
-}
-
-Weakest weakest(const MatrixX& information, const VectorX& scales) {
-  const MatrixX scaled = scales.asDiagonal() * information * scales.asDiagonal();
-  const Eigen::SelfAdjointEigenSolver<MatrixX> solver(scaled);
-  const double least = solver.eigenvalues()[0], most = solver.eigenvalues()[scaled.rows() - 1];
-  return {least > 0 ? std::sqrt(most / least) : std::numeric_limits<double>::infinity(), solver.eigenvectors().col(0)};
 }
 
 }  // namespace palpa::calibration

@@ -22,7 +22,6 @@ struct FitProblem {
 struct Fit {
   VectorX r;                  ///< residuals at the end, all blocks
   MatrixX covariance;         ///< of dx at the end: sigma^2 (J' J)^-1 over the good blocks
-  MatrixX information;        ///< J' J of the good blocks, not scaled by sigma
   double sigma = 0;           ///< standard deviation of one residual, from the good blocks
   double rms = 0;             ///< of the norms of the good blocks
   int dof = 0;                ///< residuals of the good blocks less parameters
@@ -39,13 +38,5 @@ struct Fit {
 /// outliers: 99 % and more. Throws Error (in `where`) when residuals are not finite, there are too few blocks, or more than
 /// `most_outliers` of the blocks do not fit the rest.
 Fit robustFit(const FitProblem& problem, const std::string& where, double most_outliers = 0.3, double step = 1e-6);
-
-/// Standard deviations and the weakest direction of an information matrix: parameters are first divided by `scales`, what
-/// each of them might be at most. `condition`: largest over least singular value; infinite where a direction is not seen.
-struct Weakest {
-  double condition = 0;
-  VectorX direction;   ///< in scaled parameters, unit
-};
-Weakest weakest(const MatrixX& information, const VectorX& scales);
 
 }  // namespace palpa::calibration

@@ -4,12 +4,22 @@
 #include <Eigen/SVD>
 #include <algorithm>
 
+#include "anatomy/geometry/error.h"
+
 namespace palpa::calibration {
 
 Mat3 nearestRotation(const Mat3& m) {
   const Eigen::JacobiSVD<Mat3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const double mirror = (svd.matrixU() * svd.matrixV().transpose()).determinant();
   return svd.matrixU() * Vec3(1, 1, mirror).asDiagonal() * svd.matrixV().transpose();
+}
+
+void requirePose(const Pose& X, const std::string& where) {
+  if (!X.matrix().allFinite()) throw Error("a pose is not a number", where, "Record again");
+  const Mat3 R = X.linear();
+  if ((R.transpose() * R - Mat3::Identity()).norm() > 1e-3 || R.determinant() < 0)
+    throw Error("a pose's rotation is none (its columns are no right-handed unit vectors)", where,
+                "Look whether the file holds quaternions, angles or another order of its numbers");
 }
 
 LeastTilted leastTilted(const std::vector<Pose>& poses) {

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <string>
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
@@ -41,6 +42,9 @@ struct LeastTilted {
   double spread;
 };
 LeastTilted leastTilted(const std::vector<Pose>& poses);
+
+/// Throws Error for a pose that is not a number, or whose rotation is none.
+void requirePose(const Pose& X, const std::string& where);
 
 /// The rotation nearest to m (least squares of the entries), never a mirror.
 Mat3 nearestRotation(const Mat3& m);

@@ -23,13 +23,7 @@ std::string text(const char* format, double value) {
 void requirePoses(const std::vector<Pose>& poses, std::size_t least, const char* where) {
   if (poses.size() < least)
     throw Error(std::to_string(poses.size()) + " samples are too few, " + std::to_string(least) + " are needed", where, "Record longer");
-  for (const Pose& X : poses) {
-    if (!X.matrix().allFinite()) throw Error("a pose is not a number", where, "Record again");
-    const Mat3 R = X.linear();
-    if ((R.transpose() * R - Mat3::Identity()).norm() > 1e-3 || R.determinant() < 0)
-      throw Error("a pose's rotation is none (its columns are no right-handed unit vectors)", where,
-                  "Look whether the file holds quaternions, angles or another order of its numbers");
-  }
+  for (const Pose& X : poses) requirePose(X, where);
 }
 
 using Vec6 = Eigen::Matrix<double, 6, 1>;
