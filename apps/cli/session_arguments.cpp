@@ -103,6 +103,8 @@ void settleOperator(SessionOptions& o, const station::Station& station) {
     const bool person = driver != station::DeviceDriver::bench || o.display == scene::Display::window;
     o.who = person ? OperatorKind::person : OperatorKind::expert;
   }
+  if (o.knows_patient && !isSimulated(o.who))
+    throw UsageError("is for a simulated operator", "--operator-knows", "Add --operator expert or novice, or leave it out");
   if (o.who == OperatorKind::person) checkPerson(o);
 }
 

@@ -59,7 +59,7 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
   info.command = options.command;
   info.session_json = nlohmann::json{{"seed", options.seed},
                                      {"operator", nameOf(options.who)},
-                                     {"operator_knows", options.knows_patient ? "patient" : "mean anatomy"},
+                                     {"knows_patient", options.knows_patient},
                                      {"simulated", isSimulated(options, world)},
                                      {"trainee", options.trainee},
                                      {"force_feedback", options.force_feedback},

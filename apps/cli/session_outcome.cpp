@@ -24,7 +24,8 @@ namespace {
 std::string whoText(const SessionOptions& options) {
   if (options.who == OperatorKind::person) return options.trainee;
   if (options.who == OperatorKind::recorded) return "recorded hand";
-  return options.who == OperatorKind::novice ? "simulated novice" : "simulated expert";
+  const std::string who = options.who == OperatorKind::novice ? "simulated novice" : "simulated expert";
+  return options.knows_patient ? who + " who has studied this patient" : who;
 }
 
 /// Every tenth tick for the plots; what happened in between is merged into the one kept.

@@ -16,6 +16,7 @@ struct Cohort {
   int successes = 0;
 };
 
+/// Twelve: with the twenty seeds' own scatter the test of 5 % then tells the groups in nine of ten draws (in three of four with eight).
 int seeds() { return palpa::test::counted(12, 20); }
 
 Cohort cohort(OperatorKind who, bool force_feedback) {
