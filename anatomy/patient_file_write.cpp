@@ -5,6 +5,7 @@
 #include <sstream>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/geometry/whole_file.h"
 #include "anatomy/gltf_axes.h"
 #include "anatomy/gltf_picture.h"
 #include "anatomy/patient_file.h"
@@ -190,20 +191,7 @@ void writePatient(const Patient& patient, const std::filesystem::path& file) {
   if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, bytes, false, true))
     throw Error("the patient cannot be written as glTF", file.string(), "Check its surfaces");
 
-  std::filesystem::path beside = file;
-  beside += ".part";
-  const std::string data = bytes.str();
-  std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-  out.write(data.data(), static_cast<std::streamsize>(data.size()));
-  out.close();
-  std::error_code failure;
-  if (out) std::filesystem::rename(beside, file, failure);
-  if (out && !failure) return;
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  throw Error(
-      "the file cannot be written" + (failure ? " (" + failure.message() + ")" : std::string()),
-      file.string(), "Check that the folder exists, may be written to, and has room");
+  writeWhole(file, bytes.str());
 }
 
 }  // namespace palpa::anatomy

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/geometry/whole_file.h"
 #include "calibration/camera_model.h"
 
 namespace palpa::calibration {
@@ -213,18 +214,7 @@ CameraModel readCameraModel(const fs::path& file) {
 
 void writeCameraModel(const CameraModel& model, const fs::path& file) {
   validate(model, file.string());
-  fs::path beside = file;
-  beside += ".part";
-  std::ofstream out(beside, std::ios::binary | std::ios::trunc);
-  out << toJson(model).dump(2) << '\n';
-  out.close();
-  std::error_code code;
-  if (out) fs::rename(beside, file, code);
-  if (!out || code) {
-    std::error_code ignored;
-    fs::remove(beside, ignored);
-    throw Error("cannot be written", file.string(), "Check that the folder exists and has room.");
-  }
+  writeWhole(file, toJson(model).dump(2) + "\n");
 }
 
 }  // namespace palpa::calibration

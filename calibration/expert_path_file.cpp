@@ -3,6 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/geometry/whole_file.h"
 #include "calibration/expert_path.h"
 
 namespace palpa::calibration {
@@ -163,17 +164,7 @@ void writeExpertPath(const ExpertPath& path, const std::filesystem::path& file) 
   if (!allFinite(path))
     throw Error("the path holds a value that is not a number", file.string(),
                 "Calibrate the experts' path again");
-  std::filesystem::path beside = file;
-  beside += ".part";
-  std::ofstream stream(beside);
-  stream << toJson(path).dump(2) << '\n';
-  stream.close();
-  std::error_code error;
-  if (stream) std::filesystem::rename(beside, file, error);
-  if (stream && !error) return;
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
-  throw Error("the file cannot be written", file.string(), "Check the folder and its free space");
+  writeWhole(file, toJson(path).dump(2) + "\n");
 }
 
 }  // namespace palpa::calibration

@@ -7,6 +7,7 @@
 #include <sstream>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/geometry/whole_file.h"
 #include "anatomy/import/byte_reader.h"
 
 namespace palpa::anatomy {
@@ -48,14 +49,7 @@ Seeds readSeeds(const std::filesystem::path& file) {
 void writeSeeds(const Seeds& seeds, const std::filesystem::path& file) {
   nlohmann::json json{{"format", "palpa-seeds"}, {"unit", "mm"}, {"frame", "the volume's: x left, y posterior, z superior"}};
   for (const auto& [name, p] : seeds) json["points"][name] = {std::round(1e4 * p.x()) / 10, std::round(1e4 * p.y()) / 10, std::round(1e4 * p.z()) / 10};
-  std::filesystem::path beside = file;
-  beside += ".part";
-  std::ofstream out(beside, std::ios::trunc);
-  out << json.dump(2) << "\n";
-  out.close();
-  std::error_code failure;
-  if (out) std::filesystem::rename(beside, file, failure);
-  if (!out || failure) throw Error("the file cannot be written", file.string(), "Check that the folder exists and may be written to");
+  writeWhole(file, json.dump(2) + "\n");
 }
 
 void addSeed(const std::string& text, Seeds* seeds) {

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/geometry/whole_file.h"
 #include "apps/cli/session_info.h"
 #include "apps/report/session_report.h"
 
@@ -125,8 +126,7 @@ std::vector<report::Fact> notes(const SessionResult& result) {
 }
 
 void writeRegistration(const std::vector<RegistrationRow>& rows, const std::filesystem::path& file) {
-  const std::filesystem::path beside = file.string() + ".part";
-  std::ofstream csv(beside);
+  std::ostringstream csv;
   csv << "picture,found,points,rms_px,t_x_m,t_y_m,t_z_m,q_w,q_x,q_y,q_z\n";
   for (const RegistrationRow& row : rows) {
     const PackedPose X = pack(row.X_CW);
@@ -134,9 +134,7 @@ void writeRegistration(const std::vector<RegistrationRow>& rows, const std::file
         << format(",%.4f,%.6f,%.6f,%.6f,%.8f,%.8f,%.8f,%.8f\n", row.rms_px, X.p[0], X.p[1], X.p[2], X.q[0], X.q[1],
                   X.q[2], X.q[3]);
   }
-  csv.close();
-  if (!csv) throw Error("cannot be written", file.string(), "Is the disk full?");
-  std::filesystem::rename(beside, file);
+  writeWhole(file, csv.str());
 }
 
 void sayResult(const SessionResult& result) {

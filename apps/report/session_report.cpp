@@ -9,7 +9,7 @@
 #include "apps/report/style.h"
 #include "apps/report/trial_section.h"
 #include "apps/report/verdict.h"
-#include "apps/report/whole_file.h"
+#include "anatomy/geometry/whole_file.h"
 
 namespace palpa::report {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "apps/report/numbers.h"
 #include "apps/report/session_report.h"
-#include "apps/report/whole_file.h"
+#include "anatomy/geometry/whole_file.h"
 
 namespace palpa::report {
 namespace {

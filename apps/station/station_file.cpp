@@ -25,15 +25,26 @@ calibration::CameraModel readCamera(const JsonFile& file) {
   return camera;
 }
 
-ar::TagGridSpec readBoard(const JsonFile& file) {
+ar::TagGridSpec readBoard(const JsonFile& file, const std::string& at) {
   ar::TagGridSpec board;
-  board.columns = file.integer("board/columns", 1, 30);
-  board.rows = file.integer("board/rows", 1, 30);
-  board.tag_size = kMm * file.number("board/tag_size_mm", 2, 500);
-  board.spacing = kMm * file.number("board/spacing_mm", 0.5, 500);
-  board.first_id = file.integer("board/first_id", 0, 586);
-  ar::validate(board, file.name() + ", \"board\"");
+  board.columns = file.integer(at + "/columns", 1, 30);
+  board.rows = file.integer(at + "/rows", 1, 30);
+  board.tag_size = kMm * file.number(at + "/tag_size_mm", 2, 500);
+  board.spacing = kMm * file.number(at + "/spacing_mm", 0.5, 500);
+  board.first_id = file.integer(at + "/first_id", 0, 586);
+  ar::validate(board, file.name() + ", \"" + at + "\"");
   return board;
+}
+
+std::vector<Landmark> readLandmarks(const JsonFile& file) {
+  std::vector<Landmark> landmarks;
+  if (!file.has("landmarks")) return landmarks;
+  if (!file.json().at("landmarks").is_array()) file.refuse("landmarks", "must be a list");
+  for (const nlohmann::json& item : file.json().at("landmarks")) {
+    const JsonFile landmark(item, file.name() + ", \"landmarks\"");
+    landmarks.push_back({landmark.text("name"), kMm * landmark.vector("p_W_mm"), landmark.has("for") && landmark.text("for") == "check"});
+  }
+  return landmarks;
 }
 
 struct Box {
@@ -72,7 +83,9 @@ Station readStation(const std::filesystem::path& path) {
   s.camera = readCamera(file);
   s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
   s.camera_latency_s = 1e-3 * file.number("camera/latency_ms", 0, 1000 / s.camera_rate_Hz);
-  s.board = readBoard(file);
+  s.board = readBoard(file, "board");
+  if (file.has("marker")) s.marker = readBoard(file, "marker");
+  s.landmarks = readLandmarks(file);
   s.decimate = file.number("camera/decimate", 1, 4);
   s.X_WD = readPose(file, "registration/X_WD");
   s.X_ET = readPose(file, "tool/X_ET");
@@ -91,6 +104,9 @@ Station readStation(const std::filesystem::path& path) {
   s.passivity.coulomb = can.coulomb_friction;
   s.calibration_verdict = file.text("calibration/verdict");
   s.calibration_date = file.text("calibration/date");
+  s.design = {s.camera, s.X_WD, s.X_ET, s.camera_latency_s};
+  s.calibrations = readCalibrations(file, path.parent_path());
+  applyCalibrations(s);
   return s;
 }
 

@@ -5,12 +5,27 @@
 #include <string>
 
 #include "anatomy/patient.h"
+#include "apps/station/calibrations.h"
 #include "apps/station/device_setup.h"
 #include "ar/board.h"
 #include "calibration/camera_model.h"
 #include "haptics/tick.h"
 
 namespace palpa::station {
+
+/// A point that a tip can be put on, and whether it serves to fit or, untouched by the fit, to judge it.
+struct Landmark {
+  std::string name;
+  Vec3 p_W = Vec3::Zero();
+  bool for_check = false;
+};
+
+/// What a station's file says of its geometry before anything was calibrated. The virtual bench draws its truth around these.
+struct Design {
+  calibration::CameraModel camera;
+  Pose X_WD = Pose::Identity(), X_ET = Pose::Identity();
+  double camera_latency_s = 0.05;
+};
 
 /// One training place: its devices and what is believed about them. Relative paths in the file start at
 /// the file. A virtual bench draws its truth around these figures.
@@ -24,6 +39,8 @@ struct Station {
   double decimate = 2;
   double camera_rate_Hz = 15;
   double camera_latency_s = 0.05;
+  std::optional<ar::TagGridSpec> marker;   ///< a small grid of tags on the end effector, for registration and latency
+  std::vector<Landmark> landmarks;         ///< known points that a tip can be put on
   Pose X_WD = Pose::Identity();    ///< haptic base on the table: registration
   Pose X_ET = Pose::Identity();    ///< needle tip in the end effector: tool calibration
   Vec3 entry_W = Vec3::Zero();     ///< where the patient's entry point lies: within the hand's reach, whoever the patient is
@@ -31,12 +48,21 @@ struct Station {
   haptics::CouplingLimits coupling;
   haptics::PassivityLimits passivity;   ///< sized from the device's mass and friction
   std::string calibration_verdict; ///< "pass", or what is wrong: a session is then "not scored"
-  std::string calibration_date;
+  std::string calibration_date;    ///< of the oldest
+  std::vector<AppliedCalibration> calibrations;   ///< in the order of the file; what they found stands in the figures above
+  Design design;
   JsonFile file;                   ///< for parts that only others read (the twin's spreads)
 };
 
 /// Throws UsageError naming file and field.
 Station readStation(const std::filesystem::path& file);
+
+/// Puts what the station's calibrations found into its figures, and their verdict into `calibration_verdict`: the first that failed, belongs to
+/// another station, was replaced since the station's file was written, or rests on another calibration than the station's.
+void applyCalibrations(Station& station);
+
+/// Finds the first calibration that is older than it is good for on `date` (UTC, as in a calibration file).
+void judgeAge(Station& station, const std::string& date);
 
 /// Supine, head away from the reader (+y_W), the entry point at `entry_W` (its mirror image across x = 0 for the left
 /// side): a device that stands still reaches it in every patient. Throws Error when the patient has none.

@@ -70,7 +70,7 @@ std::vector<Layer> makeLayers() {
       {"scene", {"anatomy"}, {}, {"Eigen", "VTK", "VTK data", "OpenGL"}},
       {"apps/runtime", kLibraries, {}, app_libraries},
       {"apps/assess", kLibraries, {}, {"Eigen", "JSON", "Boost"}},
-      {"apps/station", kLibraries, {}, app_libraries},
+      {"apps/station", kLibraries, {}, {"Eigen", "OpenCV", "JSON", "OpenSSL"}},
       {"apps/record",
        librariesAnd({"apps/runtime"}),
        {},
@@ -133,7 +133,7 @@ std::string libraryOf(const std::string& header) {
       {"pqxx/", "PostgreSQL"}, {"zlib", "zlib"},
       {"httplib", "httplib"},  {"igtl", "OpenIGTLink"},
       {"boost/", "Boost"},     {"glm/", "GLM"},
-      {"embree3/", "Embree"}};
+      {"embree3/", "Embree"},  {"openssl/", "OpenSSL"}};
   for (const auto& [prefix, library] : kPrefixes)
     if (begins(header, prefix)) return library;
   return "";

@@ -1,4 +1,4 @@
-#include "apps/report/whole_file.h"
+#include "anatomy/geometry/whole_file.h"
 
 #include <cerrno>
 #include <cstring>
@@ -7,7 +7,7 @@
 
 #include "anatomy/geometry/error.h"
 
-namespace palpa::report {
+namespace palpa {
 
 void writeWhole(const std::filesystem::path& file, std::string_view content) {
   const std::filesystem::path beside = file.string() + ".part";
@@ -25,4 +25,4 @@ void writeWhole(const std::filesystem::path& file, std::string_view content) {
               "Check that the folder exists, may be written to and has free space");
 }
 
-}  // namespace palpa::report
+}  // namespace palpa

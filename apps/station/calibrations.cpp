@@ -1,0 +1,105 @@
+#include "apps/station/calibrations.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+#include <optional>
+
+#include "apps/station/sha256.h"
+#include "apps/station/station_file.h"
+
+namespace palpa::station {
+namespace {
+
+std::optional<std::chrono::sys_days> dayOf(const std::string& utc) {
+  int year = 0;
+  unsigned month = 0, day = 0;
+  if (std::sscanf(utc.c_str(), "%4d-%2u-%2u", &year, &month, &day) != 3) return std::nullopt;
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)};
+  if (!date.ok()) return std::nullopt;
+  return std::chrono::sys_days(date);
+}
+
+std::string nameOf(const AppliedCalibration& c) { return "the " + c.file.kind + " calibration"; }
+
+}  // namespace
+
+std::vector<AppliedCalibration> readCalibrations(const JsonFile& file, const std::filesystem::path& folder) {
+  std::vector<AppliedCalibration> calibrations;
+  if (!file.has("calibrations")) return calibrations;
+  if (!file.json().at("calibrations").is_array()) file.refuse("calibrations", "must be a list");
+  for (const nlohmann::json& item : file.json().at("calibrations")) {
+    const JsonFile entry(item, file.name() + ", \"calibrations\"");
+    AppliedCalibration c;
+    c.path = folder / entry.text("path");
+    c.sha256_wanted = entry.text("sha256");
+    c.file = readCalibration(c.path);
+    c.sha256 = sha256OfFile(c.path);
+    if (c.file.kind != entry.text("kind")) entry.refuse("kind", "is \"" + entry.text("kind") + "\", but the file is a " + c.file.kind + " calibration");
+    if (calibrationOf(calibrations, c.file.kind)) entry.refuse("kind", "stands twice");
+    calibrations.push_back(std::move(c));
+  }
+  return calibrations;
+}
+
+const AppliedCalibration* calibrationOf(const std::vector<AppliedCalibration>& calibrations, const std::string& kind) {
+  for (const AppliedCalibration& c : calibrations)
+    if (c.file.kind == kind) return &c;
+  return nullptr;
+}
+
+nlohmann::json toJson(const std::vector<AppliedCalibration>& calibrations, const std::filesystem::path& folder) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const AppliedCalibration& c : calibrations)
+    list.push_back({{"kind", c.file.kind},
+                    {"path", c.path.lexically_proximate(folder).string()},
+                    {"sha256", c.sha256},
+                    {"date", c.file.date},
+                    {"verdict", c.file.verdict}});
+  return list;
+}
+
+std::string faultOf(const std::vector<AppliedCalibration>& calibrations, const std::string& station) {
+  for (const AppliedCalibration& c : calibrations) {
+    if (!c.file.passed()) return nameOf(c) + " failed: " + c.file.verdict;
+    if (c.file.station != station) return nameOf(c) + " belongs to station \"" + c.file.station + "\"";
+    if (c.sha256 != c.sha256_wanted) return nameOf(c) + " was replaced after the station's file was written";
+    for (const CalibrationFile::Rest& rest : c.file.rests_on) {
+      const AppliedCalibration* other = calibrationOf(calibrations, rest.kind);
+      if (!other || other->sha256 != rest.sha256) return nameOf(c) + " is outdated: it was made with another " + rest.kind + " calibration";
+    }
+  }
+  return "";
+}
+
+std::string outdatedOn(const std::vector<AppliedCalibration>& calibrations, const std::string& date) {
+  const auto today = dayOf(date);
+  for (const AppliedCalibration& c : calibrations) {
+    const auto made = dayOf(c.file.date);
+    if (!made) return nameOf(c) + " has no date";
+    if (today && (*today - *made).count() > c.file.valid_days)
+      return nameOf(c) + " is outdated: made on " + c.file.date.substr(0, 10) + ", good for " + std::to_string(c.file.valid_days) + " days";
+  }
+  return "";
+}
+
+void applyCalibrations(Station& s) {
+  if (s.calibrations.empty()) return;
+  s.calibration_date.clear();
+  for (const AppliedCalibration& c : s.calibrations) {
+    if (s.calibration_date.empty() || c.file.date < s.calibration_date) s.calibration_date = c.file.date;
+    if (c.file.kind == "camera") s.camera = cameraAt(c.file);
+    if (c.file.kind == "tool") s.X_ET = poseAt(c.file, "X_ET");
+    if (c.file.kind == "registration") s.X_WD = poseAt(c.file, "X_WD");
+    if (c.file.kind == "latency") s.camera_latency_s = c.file.at("camera_latency_s", 1)[0];
+  }
+  const std::string fault = faultOf(s.calibrations, s.id);
+  s.calibration_verdict = fault.empty() ? "pass" : fault;
+}
+
+void judgeAge(Station& s, const std::string& date) {
+  const std::string old = outdatedOn(s.calibrations, date);
+  if (!old.empty() && s.calibration_verdict == "pass") s.calibration_verdict = old;
+}
+
+}  // namespace palpa::station
