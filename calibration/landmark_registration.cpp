@@ -65,9 +65,7 @@ void requireLikeness(const Spread& s, double scale) {
 }  // namespace
 
 Mat3 LandmarkRegistration::covarianceAt(const Vec3& p_A) const {
-  Eigen::Matrix<double, 3, 6> J;
-  J << -X_BA.linear() * crossMatrix(p_A), Mat3::Identity();
-  return J * covariance * J.transpose();
+  return pointCovariance(X_BA, covariance, p_A);
 }
 
 double LandmarkRegistration::tre(const Vec3& p_A) const { return std::sqrt(covarianceAt(p_A).trace()); }

@@ -29,4 +29,18 @@ LeastTilted leastTilted(const std::vector<Pose>& poses) {
   return {solver.eigenvectors().col(0), std::sqrt(std::max(solver.eigenvalues()[0], 0.0))};
 }
 
+Mat3 pointCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance, const Vec3& p) {
+  Eigen::Matrix<double, 3, 6> J;
+  J << -X.linear() * crossMatrix(p), Mat3::Identity();
+  return J * covariance * J.transpose();
+}
+
+Eigen::Matrix<double, 6, 6> inverseCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance) {
+  Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
+  J.topLeftCorner<3, 3>() = -X.linear();
+  J.bottomLeftCorner<3, 3>() = crossMatrix(X.inverse().translation());
+  J.bottomRightCorner<3, 3>() = -X.linear().transpose();
+  return J * covariance * J.transpose();
+}
+
 }  // namespace palpa::calibration

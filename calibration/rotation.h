@@ -35,6 +35,12 @@ Pose moved(const Pose& X, const Vector6& dx) {
   return makePose(X.rotation() * rotationOf(Vec3(dx[0], dx[1], dx[2])), X.translation() + Vec3(dx[3], dx[4], dx[5]));
 }
 
+/// Covariance of X p by that of X (turn in its own frame, shift in the outer one): J = [-R [p]x, I].
+Mat3 pointCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance, const Vec3& p);
+
+/// Covariance of the inverse pose: turn' = -R turn, shift' = [X^-1 0]x turn - R' shift.
+Eigen::Matrix<double, 6, 6> inverseCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance);
+
 /// How far each direction of the rotations' inner frame was tilted: the mean of |(R_i - mean R) u|^2 is 1 - |mean R u|^2,
 /// which for a tilt by a about an axis across u is a^2. The direction that kept best where it was, and its rms tilt, rad.
 struct LeastTilted {

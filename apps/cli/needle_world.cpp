@@ -8,6 +8,7 @@
 #include "anatomy/parametric_patient.h"
 #include "anatomy/patient_check.h"
 #include "anatomy/patient_file.h"
+#include "apps/cli/output_folder.h"
 #include "apps/runtime/random.h"
 #include "apps/station/assets.h"
 
@@ -38,7 +39,8 @@ station::Station makeStation(const SessionOptions& options) {
   station::Station station = station::readStation(
       options.station.empty() ? station::assetFile("stations/virtual_bench.json")
                               : std::filesystem::path(options.station));
-  if (!options.intrinsics.empty()) station.camera = calibration::readCameraModel(options.intrinsics);
+  station::judgeAge(station, utcNow());
+  if (!options.intrinsics.empty()) station.camera = station.design.camera = calibration::readCameraModel(options.intrinsics);
   return station;
 }
 
@@ -64,7 +66,8 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
   X_WA = options.camera.empty() ? station::placePatient(patient, station.entry_W)
                                 : station::placePatientOnBoard(patient);
   if (!options.camera.empty())  // the bench's device stands where it stood, relative to the patient
-    station.X_WD = X_WA * station::placePatient(patient, station.entry_W).inverse() * station.X_WD;
+    for (Pose* X_WD : {&station.X_WD, &station.design.X_WD})
+      *X_WD = X_WA * station::placePatient(patient, station.entry_W).inverse() * *X_WD;
   X_DA = station.X_WD.inverse() * X_WA;
 }
 

@@ -104,7 +104,7 @@ Station readStation(const std::filesystem::path& path) {
   s.passivity.coulomb = can.coulomb_friction;
   s.calibration_verdict = file.text("calibration/verdict");
   s.calibration_date = file.text("calibration/date");
-  s.design = {s.camera, s.X_WD, s.X_ET, s.camera_latency_s};
+  s.design = {s.camera, s.X_WD, s.X_ET, s.camera_latency_s, s.force_sensor};
   s.calibrations = readCalibrations(file, path.parent_path());
   applyCalibrations(s);
   return s;

@@ -25,6 +25,7 @@ struct Design {
   calibration::CameraModel camera;
   Pose X_WD = Pose::Identity(), X_ET = Pose::Identity();
   double camera_latency_s = 0.05;
+  std::optional<ForceSensorSetup> force_sensor;
 };
 
 /// One training place: its devices and what is believed about them. Relative paths in the file start at

@@ -40,13 +40,13 @@ void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
   X_DE_ = makePose(q.normalized().toRotationMatrix(), p);
 }
 
-PackedPose DeviceTwin::encoderPose() const {
-  Vec3 p = X_DE_.translation();
-  Eigen::AngleAxisd turn(X_DE_.rotation());
+PackedPose encoderReading(const DeviceTruth& truth, const Pose& X_DE) {
+  Vec3 p = X_DE.translation();
+  Eigen::AngleAxisd turn(X_DE.rotation());
   Vec3 r = turn.angle() * turn.axis();
   for (int i = 0; i < 3; ++i) {
-    p[i] = quantised(p[i], truth_.encoder_step);
-    r[i] = quantised(r[i], truth_.encoder_angle);
+    p[i] = quantised(p[i], truth.encoder_step);
+    r[i] = quantised(r[i], truth.encoder_angle);
   }
   const double angle = r.norm();
   const Quat q = angle > 0 ? Quat(Eigen::AngleAxisd(angle, r / angle)) : Quat::Identity();

@@ -25,6 +25,9 @@ struct HandGrip {
   double mass = 0.15;               ///< kg
 };
 
+/// What the electronics of a device show whose end effector truly is at X_DE: every coordinate in whole encoder steps.
+PackedPose encoderReading(const DeviceTruth& truth, const Pose& X_DE);
+
 /// Point mass of device and hand, moved by grip, drives and friction; orientation follows the hand.
 /// m dv/dt = K (p_hand - p) + B (v_hand - v) + f_drive - f_c v/(|v| + v_0) - b v,
 /// integrated semi-implicitly with four substeps a millisecond.
@@ -37,7 +40,7 @@ class DeviceTwin {
 
   const Pose& truePose() const { return X_DE_; }   ///< for accuracy reports only
   const Vec3& gripForce() const { return f_grip_D_; }   ///< what the hand feels: force of hand on tool
-  PackedPose encoderPose() const;                  ///< what the device's electronics say
+  PackedPose encoderPose() const { return encoderReading(truth_, X_DE_); }   ///< what the device's electronics say
 
  private:
   DeviceTruth truth_;

@@ -6,89 +6,15 @@
 
 #include "apps/runtime/clock.h"
 #include "apps/runtime/quantile.h"
-#include "apps/runtime/random.h"
+#include "apps/twin/bench_truth.h"
 #include "apps/twin/sensor_twin.h"
 
 namespace palpa::twin {
 namespace {
 
-using runtime::RandomStream;
 constexpr double kMm = 1e-3;
-constexpr double kDeg = std::numbers::pi / 180;
 constexpr std::int64_t kBenchPeriod = runtime::kMillisecond;
 constexpr double kLongestBenchStep = 0.005;  // s, a late step is not integrated over more
-
-Vec3 normal3(RandomStream& random) { return {random.normal(), random.normal(), random.normal()}; }
-
-Pose perturbed(const Pose& X, double sd_m, double sd_rad, RandomStream& random) {
-  const Vec3 turn = sd_rad * normal3(random);
-  const double angle = turn.norm();
-  Pose nudge = Pose::Identity();
-  if (angle > 0) nudge.linear() = Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix();
-  nudge.translation() = sd_m * normal3(random);
-  return X * nudge;
-}
-
-calibration::CameraModel trueCamera(const station::Station& station, std::uint64_t seed) {
-  RandomStream random(seed, "bench.camera");
-  const station::JsonFile& file = station.file;
-  const double focal = 0.01 * file.number("twin/focal_spread_percent", 0, 10);
-  const double centre = file.number("twin/centre_spread_px", 0, 50);
-  const double bend = 0.01 * file.number("twin/distortion_spread_percent", 0, 50);
-  calibration::CameraModel truth = station.camera;
-  truth.fx *= 1 + focal * random.normal();
-  truth.fy *= 1 + focal * random.normal();
-  truth.cx += centre * random.normal();
-  truth.cy += centre * random.normal();
-  for (double& k : truth.distortion) k *= 1 + bend * random.normal();
-  return truth;
-}
-
-DeviceTruth trueDevice(const station::Station& station) {
-  const station::JsonFile& file = station.file;
-  DeviceTruth truth;
-  truth.apparent_mass = station.device.capabilities.apparent_mass;
-  truth.max_force_N = station.device.capabilities.max_force_N;
-  truth.coulomb = file.number("twin/device/coulomb_N", 0, 10);
-  truth.viscous = file.number("twin/device/viscous_Ns_per_m", 0, 100);
-  truth.encoder_step = kMm * file.number("twin/device/encoder_step_mm", 1e-6, 1);
-  truth.encoder_angle = kDeg * file.number("twin/device/encoder_angle_deg", 1e-6, 5);
-  truth.actuator_tau = 1e-3 * file.number("twin/device/actuator_tau_ms", 0, 100);
-  return truth;
-}
-
-SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
-  RandomStream random(seed, "bench.force_sensor.truth");
-  const station::JsonFile& file = station.file;
-  const station::ForceSensorSetup& believed = *station.force_sensor;
-  SensorTruth truth;
-  const double mass = 0.01 * file.number("twin/force_sensor/tool_mass_spread_percent", 0, 50);
-  const double centre = kMm * file.number("twin/force_sensor/centre_spread_mm", 0, 50);
-  const double bias = file.number("twin/force_sensor/bias_spread_N", 0, 5);
-  const double bias_Nm = file.number("twin/force_sensor/bias_spread_Nm", 0, 1);
-  truth.tool_mass = believed.filter.tool.mass * (1 + mass * random.normal());
-  truth.p_SM = pack(Vec3(unpack(believed.filter.tool.p_SM) + centre * normal3(random)));
-  truth.bias_N = pack(Vec3(unpack(believed.filter.bias.f_S) + bias * normal3(random)));
-  truth.bias_Nm = pack(Vec3(unpack(believed.filter.bias.tau_S) + bias_Nm * normal3(random)));
-  truth.noise_N = file.number("twin/force_sensor/noise_N", 0, 1);
-  truth.noise_Nm = file.number("twin/force_sensor/noise_Nm", 0, 1);
-  truth.max_force_N = believed.net_ft.capabilities.max_force_N;
-  return truth;
-}
-
-/// A camera on a boom on the trainee's side, looking between board and patient.
-Pose cameraOnBoom(const station::Station& station, std::uint64_t seed) {
-  RandomStream random(seed, "bench.boom");
-  const double distance = kMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
-                                 station.file.number("twin/camera_distance_spread_mm", 0, 500) *
-                                     random.normal());
-  const Vec3 p_WC = distance * Vec3(0.04 * random.normal(), -0.48, 0.877).normalized();
-  const Vec3 forward = (Vec3(0, 0.125, 0.02) - p_WC).normalized();
-  const Vec3 right = forward.cross(Vec3::UnitZ()).normalized();
-  Mat3 R_WC;
-  R_WC << right, forward.cross(right), forward;
-  return makePose(R_WC, p_WC).inverse();
-}
 
 /// The needle above the entry, pointing down and a little ahead: where a trainee picks it up.
 Pose restPose(const station::Station& station, const Pose& X_WA, const Vec3& entry_A,
@@ -113,11 +39,8 @@ struct VirtualBench::Impl final : public runtime::Activity {
         mechanics(trueDevice(setup.station), restPose(setup.station, setup.X_WA, setup.anatomy.entry_A,
                            setup.left_handed)),
         hand(setup.skill, setup.anatomy, setup.station.X_ET, setup.seed) {
-    RandomStream random(setup.seed, "bench.registration");
-    const station::JsonFile& file = setup.station.file;
-    X_WD_true = perturbed(X_WD_believed, kMm * file.number("twin/registration_spread_mm", 0, 50),
-                          kDeg * file.number("twin/registration_spread_deg", 0, 10), random);
-    X_ET_true = perturbed(X_ET_believed, kMm * file.number("twin/tool_spread_mm", 0, 50), 0, random);
+    X_WD_true = drawWorld(setup.station, setup.seed).X_WD;
+    X_ET_true = drawWorld(setup.station, setup.seed).X_ET;
     VirtualCameraSettings settings;
     settings.latency_ns = static_cast<std::int64_t>(setup.station.camera_latency_s * 1e9);
     camera.emplace(trueCamera(setup.station, setup.seed), setup.station.board, settings, setup.seed);

@@ -1,0 +1,60 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/calibrate/results.h"
+#include "apps/runtime/rig.h"
+#include "apps/station/station_file.h"
+#include "ar/board_pose.h"
+#include "calibration/board_view.h"
+
+/// Collects what a calibration needs from a station: asks, watches, takes what is good, asks again for what is not.
+namespace palpa::calibrate {
+
+/// Tells a person how it goes.
+class Guide {
+ public:
+  virtual ~Guide() = default;
+  virtual void ask(const std::string& words) = 0;
+  /// `live`: what is known so far, in words.
+  virtual void progress(const std::string& what, int done, int of, const std::string& live) = 0;
+};
+
+/// Where a collector works.
+struct Scene {
+  const station::Station& station;
+  runtime::Rig& rig;
+  Guide& guide;
+};
+
+/// The station's board, held before the camera in views that together tell the lens.
+std::vector<calibration::BoardView> collectViews(const Scene& scene, int views = 20);
+
+/// Poses of the end effector while the tip is in the hole at `p_W`.
+std::vector<Pose> collectPivot(const Scene& scene, const Vec3& p_W, double seconds = 12);
+std::vector<Pose> collectSpin(const Scene& scene, const Vec3& p_W, double seconds = 6);
+
+/// The station's landmarks touched one after the other: mean pose of the end effector at each.
+struct TouchedPose {
+  std::string name;
+  Vec3 p_W = Vec3::Zero();
+  Pose X_DE = Pose::Identity();
+  bool for_check = false;
+};
+std::vector<TouchedPose> collectTouches(const Scene& scene);
+/// With the tool that was found.
+std::vector<Touch> touchesOf(const std::vector<TouchedPose>& poses, const Vec3& tip_E);
+
+/// The tool held still in `poses` places where the camera sees its marker: X_DE, the marker's pose in W, and what the force sensor showed.
+struct HeldPose {
+  Pose X_DE = Pose::Identity(), X_WM = Pose::Identity();
+  bool seen = false;
+  Vec3 f_S = Vec3::Zero(), m_S = Vec3::Zero();
+};
+std::vector<HeldPose> collectHeld(const Scene& scene, const calibration::CameraModel& camera, int poses = 20);
+
+/// The tool waved before the camera: the marker in the camera's frame by the camera's clock, p_DE + R_DE p_EM by the device's.
+LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& camera, const Vec3& p_EM, double seconds = 12);
+
+}  // namespace palpa::calibrate

@@ -1,0 +1,52 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/station/calibration_file.h"
+
+namespace palpa::calibrate {
+
+/// Points to look at: what was measured, over what it was measured at.
+struct Plot {
+  std::string title, x, y;   ///< axes with units
+  struct Dot {
+    double x = 0, y = 0;
+    bool left_out = false;
+  };
+  std::vector<Dot> dots;
+  double limit = 0;          ///< drawn as a line; 0: none
+};
+
+/// How many times something was seen in each part of the picture, row by row from the top.
+struct Coverage {
+  int columns = 0, rows = 0;
+  std::vector<int> counts;
+};
+
+/// What a routine found: the file to keep, and the same in words and pictures.
+struct Result {
+  station::CalibrationFile file;
+  std::string title;                    ///< "Needle tip"
+  std::vector<std::string> sentences;   ///< what was found, for an educator
+  std::vector<std::string> advice;      ///< what could be better, when to redo it
+  std::vector<Plot> plots;
+  Coverage coverage;
+};
+
+/// Where the data come from and who asks.
+struct Origin {
+  std::string station, command, source, date;
+  bool simulated = false;
+};
+
+/// A file begun with `origin`, of a kind, good for so many days.
+station::CalibrationFile begun(const Origin& origin, const std::string& kind, int valid_days);
+
+/// "pass", or the checks that did not hold, in words.
+std::string verdictOf(const std::vector<station::CalibrationFile::Check>& checks);
+
+/// "0.12 mm" and the like: the number with as many digits as it deserves.
+std::string quantity(double value, const std::string& unit);
+
+}  // namespace palpa::calibrate

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "anatomy/geometry/pose.h"
+#include "apps/calibrate/result.h"
+#include "calibration/clock_offset.h"
+#include "calibration/force_sensor.h"
+#include "calibration/hand_eye.h"
+#include "calibration/workspace_map.h"
+
+/// From samples to what a station keeps, with a verdict from samples that the fit has not seen. All throw Error, in plain words, for data that
+/// cannot tell the answer.
+namespace palpa::calibrate {
+
+/// Poses of the end effector while the tip rested in a hole, and (or none) while the needle was spun about itself.
+struct ToolSamples {
+  std::vector<Pose> pivot, spin;
+};
+/// X_ET: origin at the tip, z along the needle; how the tool is rolled about the needle stays as in `X_ET_design`.
+Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Origin& origin);
+
+/// A known point of W, touched: where the device said the tip was.
+struct Touch {
+  std::string name;
+  Vec3 p_W = Vec3::Zero(), p_D = Vec3::Zero();
+  bool for_check = false;   ///< not used to fit
+};
+/// X_WD from touched landmarks, from a tag on the end effector (`tag`: X_DE with X_WM in place of X_CM), or from both: two answers that do not know
+/// of each other, so that their disagreement tells of errors that neither could see; joined by their covariances where they agree.
+/// `tip_W`: where it matters, for the predicted error.
+Result registrationResult(const std::vector<Touch>& touches, const std::vector<calibration::HandEyeSample>& tag, const Vec3& tip_W, const Origin& origin);
+
+/// Where the marker was seen, stamped with the believed time of exposure, and where the device had it. `camera_latency_s`: as believed so far.
+struct LatencySamples {
+  std::vector<calibration::TimedPoint> camera, device;
+};
+Result latencyResult(const LatencySamples& samples, double camera_latency_s, const Origin& origin);
+
+Result forceSensorResult(const std::vector<calibration::StaticReading>& readings, const Vec3& down_D, const Origin& origin);
+
+Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin);
+
+}  // namespace palpa::calibrate

@@ -1,0 +1,85 @@
+#include <cmath>
+
+#include "apps/calibrate/results.h"
+#include "calibration/rotation.h"
+#include "calibration/tool_tip.h"
+
+namespace palpa::calibrate {
+namespace {
+
+constexpr double kTipSpread_mm = 0.25, kTipLeftOut_mm = 0.5, kNeedleSpread_deg = 0.5;
+constexpr double kUnknownDirection = 2 * calibration::kDegree;
+constexpr int kToolGoodFor_days = 90;
+constexpr std::size_t kParts = 20;   // stretches of the recording; every fifth judges the fit
+
+bool judges(std::size_t i, std::size_t n) { return (i * kParts / n) % 5 == 2; }
+
+/// Rotation that takes z of `R` to `axis` by the shortest way.
+Mat3 pointedAlong(const Mat3& R, const Vec3& axis) {
+  return Eigen::Quaterniond::FromTwoVectors(Vec3(R.col(2)), axis).toRotationMatrix() * R;
+}
+
+/// Where samples that the fit has not seen have their tip, against the hole.
+double leftOutRms(const std::vector<Pose>& left_out, const calibration::TipCalibration& tip) {
+  double squares = 0;
+  for (const Pose& X : left_out) squares += (X * tip.tip_E - tip.pivot_D).squaredNorm();
+  return left_out.empty() ? 0 : std::sqrt(squares / static_cast<double>(left_out.size()));
+}
+
+}  // namespace
+
+Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Origin& origin) {
+  std::vector<Pose> fitted, left_out;
+  std::vector<std::size_t> place;
+  for (std::size_t i = 0; i < samples.pivot.size(); ++i) {
+    const bool judge = samples.pivot.size() >= 50 && judges(i, samples.pivot.size());
+    (judge ? left_out : fitted).push_back(samples.pivot[i]);
+    if (!judge) place.push_back(i);
+  }
+  const calibration::TipCalibration tip = calibration::calibrateTip(fitted);
+  Result r;
+  r.title = "Needle tip";
+  r.file = begun(origin, "tool", kToolGoodFor_days);
+  Mat3 R = X_ET_design.rotation();
+  Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
+  covariance.bottomRightCorner<3, 3>() = tip.covariance;
+  const double tip_sd = std::sqrt(tip.covariance.trace());
+  r.file.checks = {{"the tip's uncertainty", 1e3 * tip_sd, kTipSpread_mm, "mm"}};
+  r.sentences = {"The tip lies " + quantity(1e3 * tip.tip_E.norm(), "mm") + " from the handle's centre, known to " + quantity(1e3 * tip_sd, "mm") + "."};
+  if (!left_out.empty()) r.file.checks.push_back({"the tip's distance from its hole in samples not used", 1e3 * leftOutRms(left_out, tip), kTipLeftOut_mm, "mm"});
+  if (!samples.spin.empty()) {
+    const calibration::AxisCalibration axis = calibration::calibrateAxis(samples.spin, R.col(2));
+    R = pointedAlong(R, axis.axis_E);
+    const Eigen::Matrix<double, 3, 2> across_T = R.transpose() * axis.across_E;
+    Eigen::Matrix<double, 3, 2> turn = Eigen::Matrix<double, 3, 2>::Zero();
+    turn.row(0) = -across_T.row(1);
+    turn.row(1) = across_T.row(0);
+    covariance.topLeftCorner<3, 3>() = turn * axis.covariance * turn.transpose();
+    const double axis_sd = std::sqrt(axis.covariance.trace()) / calibration::kDegree;
+    r.file.checks.push_back({"the uncertainty of the needle's direction", axis_sd, kNeedleSpread_deg, "degrees"});
+    r.sentences.push_back("The needle's direction is known to " + quantity(axis_sd, "degrees") + ".");
+  } else {
+    covariance(0, 0) = covariance(1, 1) = kUnknownDirection * kUnknownDirection;
+    r.advice.push_back("The needle's direction was not calibrated: it is taken from the station's file. Spin the needle in a hole to calibrate it.");
+  }
+  addPose(r.file, "X_ET", makePose(R, tip.tip_E));
+  r.file.coordinates = {"turn_x_rad", "turn_y_rad", "turn_z_rad", "shift_x_m", "shift_y_m", "shift_z_m"};
+  r.file.covariance = covariance;
+  r.file.residuals.unit = "m";
+  r.file.residuals.rms = tip.rms;
+  Plot plot{"Distance of the tip from its hole", "sample", "mm", {}, 0};
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    const double off = (fitted[i] * tip.tip_E - tip.pivot_D).norm();
+    r.file.residuals.values.push_back(off);
+    if (!tip.fit.good[i]) r.file.residuals.left_out.push_back(static_cast<int>(i));
+    plot.dots.push_back({static_cast<double>(place[i]), 1e3 * off, !tip.fit.good[i]});
+  }
+  r.plots.push_back(plot);
+  r.file.data.samples = static_cast<int>(samples.pivot.size() + samples.spin.size());
+  r.file.data.used = static_cast<int>(fitted.size() + samples.spin.size()) - tip.fit.outliers();
+  r.file.verdict = verdictOf(r.file.checks);
+  r.advice.push_back("Redo it when the needle was changed, bent or dropped.");
+  return r;
+}
+
+}  // namespace palpa::calibrate

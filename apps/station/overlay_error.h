@@ -1,0 +1,23 @@
+#pragma once
+
+#include <optional>
+
+#include "apps/station/station_file.h"
+#include "ar/board_pose.h"
+
+namespace palpa::station {
+
+/// How far off the overlay is expected to be at the needle's tip: root mean square, by the covariances of the station's calibrations.
+struct OverlayError {
+  double mm = 0;   ///< where the tip is thought to be in W against where it is
+  double px = 0;   ///< where it is drawn in the picture against where it is seen
+};
+
+/// At a pose of the end effector and of the board in the camera:
+///   S_W = J_reg S_reg J_reg' + R_WE S_tip R_WE'                                   mm: sqrt(trace S_W)
+///   S_px = J_p R_CW S_W R_CW' J_p' + J_b S_b J_b' + J_c S_c J_c'                  px: sqrt(trace S_px)
+/// S_b: of the board's pose; J_c: how the pixel of the tip moves with the lens when the board's pose, found with that lens, moves along.
+/// Nothing for a station without calibrated tool and registration; without a camera calibration the lens counts as exact.
+std::optional<OverlayError> predictOverlayError(const Station& station, const Pose& X_DE, const ar::BoardPose& board);
+
+}  // namespace palpa::station

@@ -1,0 +1,180 @@
+#include "apps/twin/setup_bench.h"
+
+#include <cmath>
+#include <deque>
+
+#include "apps/runtime/random.h"
+#include "apps/twin/setup_motion.h"
+#include "apps/twin/virtual_camera.h"
+#include "calibration/rotation.h"
+
+namespace palpa::twin {
+namespace {
+
+using runtime::Request;
+constexpr double kStep = 0.001;          // s
+constexpr int kStepsAReading = 10;       // 100 Hz
+constexpr double kSameLandmark = 1e-4;   // m
+constexpr double kSetupMm = 1e-3;
+constexpr double kBoardTravel = 0.7;     // s from one view to the next
+const Vec3 kRestTip_W(0.03, 0.2, 0.12);
+
+double spread(const station::JsonFile& file, const std::string& at, double otherwise, double most) {
+  return file.has(at) ? file.number(at, 0, most) : otherwise;
+}
+
+/// The board's middle at a depth at which it takes its share of the picture's width.
+Pose boardPose(const runtime::BoardView& view, const calibration::CameraModel& camera, const ar::TagGridSpec& board, const SetupHandTruth& hand,
+               runtime::RandomStream& random) {
+  const double depth = camera.fx * sheetSize(board).x() / (view.share * camera.width) * (1 + 0.03 * random.normal());
+  const Vec3 p_CB(view.across * camera.width / 2 / camera.fx * depth + hand.aim * random.normal(),
+                  view.down * camera.height / 2 / camera.fy * depth + hand.aim * random.normal(), depth);
+  const Vec3 lean(view.lean + hand.lean * random.normal(), view.turn + hand.lean * random.normal(), hand.lean * random.normal());
+  Mat3 facing;
+  facing << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  return makePose(calibration::rotationOf(lean) * facing, p_CB);
+}
+
+}  // namespace
+
+struct SetupBench::Impl {
+  Impl(const station::Station& s, std::uint64_t seed)
+      : station(s),
+        world(drawWorld(s, seed)),
+        device(trueDevice(s)),
+        X_CW_boom(cameraOnBoom(s, seed)),
+        motion(hand, seed),
+        views(seed, "setup.views"),
+        holes(seed, "setup.landmarks") {
+    const std::vector<ar::TagGridSpec> free = s.marker ? std::vector<ar::TagGridSpec>{s.board, *s.marker} : std::vector<ar::TagGridSpec>{s.board};
+    camera.emplace(twin::trueCamera(s, seed), s.board, free, VirtualCameraSettings{}, seed);
+    const double off = kSetupMm * spread(s.file, "twin/landmark_spread_mm", 0.1, 10);
+    for (const station::Landmark& landmark : s.landmarks) {
+      const double x = holes.normal(), y = holes.normal(), z = holes.normal();
+      holes_W.push_back(landmark.p_W + off * Vec3(x, y, z));
+    }
+    if (s.marker) X_EM = station::readPose(s.file, "twin/X_EM");
+    if (s.design.force_sensor && s.design.force_sensor->driver == station::ForceSensorSetup::Driver::bench)
+      felt.emplace(trueSensor(s, seed), seed);
+    Mat3 down;
+    down << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+    X_WT = makePose(down, kRestTip_W);
+    X_CB = X_CB_from = X_CB_to = makePose(down, Vec3(0, 0, 0.5));
+  }
+
+  Vec3 hole(const Vec3& p_W) const {
+    for (std::size_t i = 0; i < station.landmarks.size(); ++i)
+      if ((station.landmarks[i].p_W - p_W).norm() < kSameLandmark) return holes_W[i];
+    return p_W;
+  }
+
+  Pose X_WE() const { return X_WT * world.X_ET.inverse(); }
+
+  void advance() {
+    t += kStep;
+    X_WT = motion.step(t, kStep);
+    if (showing) X_CB = board_way.at(t);
+  }
+
+  haptics::DeviceReading reading() {
+    haptics::DeviceReading r;
+    const PackedPose X_DE = encoderReading(device, world.X_WD.inverse() * X_WE());
+    r.t_ns = std::llround(1e9 * t * (1 + world.clock_drift));
+    r.sequence = ++sequence;
+    r.p_DE = X_DE.p;
+    r.q_DE = X_DE.q;
+    r.homed = 1;
+    r.buttons = motion.pressing(t) ? runtime::kMarkButton : 0;
+    return r;
+  }
+
+  runtime::Moment readingMoment() {
+    runtime::Moment moment;
+    moment.t = t;
+    moment.reading = reading();
+    if (felt) {
+      const Pose X_WS = X_WE() * station.design.force_sensor->X_ES;
+      moment.wrench = felt->measure(X_WS, Vec3::Zero(), X_WS.translation(), kStepsAReading * kStep, moment.reading->t_ns);
+    }
+    return moment;
+  }
+
+  /// What was before the camera when the shutter opened.
+  struct Exposure {
+    double t = 0;
+    std::uint64_t number = 0;
+    bool board_held = false;
+    Pose X_CB = Pose::Identity(), X_CM = Pose::Identity();
+  };
+
+  void expose() {
+    exposures.push_back({t, ++pictures, showing, X_CB, X_CW_boom * X_WE() * X_EM});
+    next_exposure += 1 / station.camera_rate_Hz;
+  }
+
+  ar::Frame take(const Exposure& e) const {
+    std::vector<PlatePose> plates;
+    if (e.board_held) plates.push_back({0, e.X_CB});
+    else if (station.marker) plates.push_back({1, e.X_CM});
+    ar::Frame frame;
+    frame.number = e.number;
+    frame.t_exposure_ns = std::llround(1e9 * (e.t + world.camera_latency_s - station.camera_latency_s));
+    frame.image = e.board_held ? camera->renderWithoutTable(plates, e.number) : camera->render(X_CW_boom, plates, e.number);
+    frame.source = "virtual camera";
+    return frame;
+  }
+
+  std::optional<runtime::Moment> next() {
+    for (;;) {
+      if (!exposures.empty() && exposures.front().t + world.camera_latency_s <= t) {
+        runtime::Moment moment;
+        moment.t = t;
+        moment.picture = [this, e = exposures.front()]() -> std::optional<ar::Frame> { return take(e); };
+        exposures.pop_front();
+        return moment;
+      }
+      advance();
+      if (t >= next_exposure) expose();
+      if (++steps % kStepsAReading == 0) return readingMoment();
+    }
+  }
+
+  const station::Station& station;
+  WorldTruth world;
+  DeviceTruth device;
+  Pose X_CW_boom, X_EM = Pose::Identity();
+  SetupHandTruth hand;
+  SetupMotion motion;
+  runtime::RandomStream views, holes;
+  std::vector<Vec3> holes_W;
+  std::optional<VirtualCamera> camera;
+  std::optional<SensorTwin> felt;
+  Pose X_WT = Pose::Identity(), X_CB = Pose::Identity(), X_CB_from = Pose::Identity(), X_CB_to = Pose::Identity();
+  MinJerk board_way;
+  bool showing = false;
+  double t = 0, next_exposure = 0;
+  std::int64_t steps = 0;
+  std::uint64_t sequence = 0, pictures = 0;
+  std::deque<Exposure> exposures;
+};
+
+SetupBench::SetupBench(const station::Station& station, std::uint64_t seed) : impl_(std::make_unique<Impl>(station, seed)) {}
+SetupBench::~SetupBench() = default;
+
+void SetupBench::ask(const Request& request) {
+  Impl& b = *impl_;
+  b.showing = request.what == Request::What::show_board;
+  if (b.showing) {
+    b.X_CB_from = b.X_CB;
+    b.X_CB_to = boardPose(request.view, b.camera->truth(), b.station.board, b.hand, b.views);
+    b.board_way = MinJerk(b.X_CB_from, b.X_CB_to, b.t, kBoardTravel);
+  }
+  b.motion.begin(request, b.X_WT, b.hole(request.p_W), b.t);
+}
+
+std::optional<runtime::Moment> SetupBench::next() { return impl_->next(); }
+const WorldTruth& SetupBench::truth() const { return impl_->world; }
+const calibration::CameraModel& SetupBench::trueCamera() const { return impl_->camera->truth(); }
+Pose SetupBench::X_CW() const { return impl_->X_CW_boom; }
+
+}  // namespace palpa::twin

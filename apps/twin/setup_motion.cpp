@@ -1,0 +1,101 @@
+#include "apps/twin/setup_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "calibration/rotation.h"
+
+namespace palpa::twin {
+namespace {
+
+using What = runtime::Request::What;
+constexpr double kTravelSpeed = 0.15;   // m/s
+constexpr double kShortestWay = 0.5;    // s
+constexpr double kSettles = 0.25;       // s before "now" is said
+constexpr double kPressFor = 0.4;       // s
+constexpr double kFullTurn = 2 * std::numbers::pi;
+
+Vec3 drawn3(runtime::RandomStream& random) {
+  const double x = random.normal(), y = random.normal(), z = random.normal();
+  return {x, y, z};
+}
+
+/// Needle down, x to the right.
+Mat3 upright() {
+  Mat3 R;
+  R << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  return R;
+}
+
+bool inHole(What what) { return what == What::touch || what == What::pivot || what == What::spin; }
+
+}  // namespace
+
+SetupMotion::SetupMotion(const SetupHandTruth& hand, std::uint64_t seed)
+    : hand_(hand),
+      choices_(seed, "setup.hand"),
+      jitter_(seed, "setup.jitter"),
+      tremor_(hand.tremor, runtime::RandomStream(seed, "setup.tremor")),
+      turn_tremor_(hand.turn_tremor, runtime::RandomStream(seed, "setup.turn_tremor")) {}
+
+void SetupMotion::begin(const runtime::Request& request, const Pose& X_WT, const Vec3& p_W, double t) {
+  request_ = request;
+  if (request.what == What::show_board) {   // the other hand's work: the tool is put down where it is
+    X_WT_ = X_WT;
+    arrives_ = t;
+    approach_ = MinJerk(X_WT, X_WT, t, 0);
+    return;
+  }
+  const Vec3 lean = request.lean + hand_.lean * drawn3(choices_);
+  const double off = inHole(request.what) ? hand_.seat : hand_.aim;
+  X_WT_ = makePose(calibration::rotationOf(lean) * upright(), p_W + off * drawn3(choices_));
+  const double way = (X_WT_.translation() - X_WT.translation()).norm();
+  const double takes = std::max(way / kTravelSpeed, kShortestWay);
+  approach_ = MinJerk(X_WT, X_WT_, t, takes);
+  arrives_ = t + takes;
+  wave_phase_ = kFullTurn * Vec3(choices_.uniform(), choices_.uniform(), choices_.uniform());
+}
+
+Pose SetupMotion::during(double t) const {
+  const double u = t - arrives_;
+  const double ease = std::min(u / 0.5, 1.0);   // begins gently
+  Pose X = X_WT_;
+  if (request_.what == What::pivot) {
+    const double tilt = 0.55 * ease * (0.55 + 0.45 * std::sin(kFullTurn * 0.11 * u)), round = kFullTurn * 0.45 * u;
+    const Vec3 axis(std::cos(round), std::sin(round), 0);
+    X.linear() = calibration::rotationOf(tilt * axis) * X.linear() * calibration::rotationOf(0.6 * std::sin(kFullTurn * 0.17 * u) * Vec3::UnitZ());
+  } else if (request_.what == What::spin) {
+    X.linear() = X.linear() * calibration::rotationOf(ease * 1.9 * std::sin(kFullTurn * 0.2 * u) * Vec3::UnitZ());
+  } else if (request_.what == What::wave) {
+    // Incommensurate sines: no lag but the right one makes two such motions alike.
+    const Vec3& f = wave_phase_;
+    X.translation() += ease * 0.035 * Vec3(std::sin(kFullTurn * 0.61 * u + f.x()) + 0.4 * std::sin(kFullTurn * 1.37 * u + f.y()),
+                                           std::sin(kFullTurn * 0.47 * u + f.y()) + 0.3 * std::sin(kFullTurn * 1.09 * u + f.z()),
+                                           0.6 * std::sin(kFullTurn * 0.83 * u + f.z()));
+    X.linear() = calibration::rotationOf(ease * 0.15 * Vec3(std::sin(kFullTurn * 0.31 * u), std::sin(kFullTurn * 0.43 * u), 0)) * X.linear();
+  }
+  return X;
+}
+
+Pose SetupMotion::step(double t, double dt) {
+  const Vec3 shake = tremor_.next(dt), turn = turn_tremor_.next(dt);
+  if (t < arrives_) {
+    Pose X = approach_.at(t);
+    X.translation() += shake;
+    return X;
+  }
+  Pose X = during(t);
+  X.translation() += inHole(request_.what) ? Vec3(hand_.jitter * drawn3(jitter_)) : shake;
+  // A needle in a drill guide does not tilt; elsewhere the wrist trembles.
+  if (request_.what != What::spin) X.linear() = X.linear() * calibration::rotationOf(turn);
+  return X;
+}
+
+bool SetupMotion::pressing(double t) const {
+  if (request_.what == What::show_board) return false;
+  const double since = t - arrives_ - kSettles;
+  return since >= 0 && (request_.seconds > 0 || since < kPressFor);
+}
+
+}  // namespace palpa::twin
