@@ -14,13 +14,12 @@ namespace {
 using calibration::CameraModel;
 
 // One stream a purpose, so that the table does not change with the noise.
-constexpr std::uint64_t kTableStream = 1, kNoiseStream = 2, kRowStream = 3;
+constexpr std::uint64_t kTableStream = 1, kNoiseStream = 2, kRowStream = 3, kWallStream = 4;
 
-constexpr double kFinestTexel = 0.00025;  // metres: a pixel at 0.15 m with a focal length of 600 px
-constexpr int kTextures = 10;             // sqrt(2) apart: the coarsest is 5.7 mm, a pixel at 3.4 m
-constexpr double kTexelsPerPixel = 1.25;  // texture averaging plus interpolation then match a pixel
 constexpr std::size_t kBank = 1U << 18;
 constexpr int kNoiseUnit = 16;
+constexpr double kBareTexel = 0.002;  // metres: the grain is smooth
+constexpr double kWallDepth = 1;      // metres
 
 void castRays(const CameraModel& camera, cv::Mat* x, cv::Mat* y) {
   x->create(camera.height, camera.width, CV_32F);
@@ -45,19 +44,6 @@ cv::Mat lightFor(const CameraModel& camera, double exposure) {
   return gain;
 }
 
-/// Takes (x, y, 1) on a pixel's ray to (X w, Y w, w) on the plane z_W = 0; w > 0 where the ray
-/// meets it in front of the camera.
-Mat3 rayToPlane(const Pose& X_CW) {
-  const Pose X_WC = X_CW.inverse();
-  const Vec3 o = X_WC.translation();
-  const Mat3 R = X_WC.rotation();
-  Mat3 H;
-  H.row(0) = o.x() * R.row(2) - o.z() * R.row(0);
-  H.row(1) = o.y() * R.row(2) - o.z() * R.row(1);
-  H.row(2) = R.row(2);
-  return o.z() > 0 ? Mat3(-H) : Mat3(Mat3::Zero());
-}
-
 /// Texels that the border repeats need no larger numbers.
 float within(float texel) { return std::min(std::max(texel, -100.F), 20000.F); }
 
@@ -73,7 +59,8 @@ void check(const VirtualCameraSettings& s) {
 }  // namespace
 
 VirtualCamera::VirtualCamera(const CameraModel& truth, const ar::TagGridSpec& board,
-                             const VirtualCameraSettings& settings, std::uint64_t seed)
+                             const VirtualCameraSettings& settings, std::uint64_t seed,
+                             const VirtualScene& scene)
     : truth_(truth), settings_(settings), seed_(seed) {
   check(settings);
   calibration::validate(truth, "virtual camera");
@@ -82,34 +69,31 @@ VirtualCamera::VirtualCamera(const CameraModel& truth, const ar::TagGridSpec& bo
   gain_ = lightFor(truth, settings.exposure);
   noise_ = picture::noiseBank(picture::randomBits(seed, kNoiseStream),
                               settings.noise_sigma * kNoiseUnit, kBank);
-  for (int i = 0; i < kTextures; ++i) {
-    const double texel = kFinestTexel * std::pow(2.0, i / 2.0);
-    if (board.tag_size / texel < 8) break;  // a cell is less than a texel: no tag left to see
-    textures_.push_back(
-        {picture::drawTable(board, texel, picture::randomBits(seed, kTableStream)), texel});
+  const std::uint64_t table = picture::randomBits(seed, kTableStream);
+  if (scene.ground == VirtualScene::Ground::kTableWithBoard)
+    textures_ = picture::textureSeries(
+        board.tag_size, [&](double texel) { return picture::drawTable(board, texel, table); });
+  else if (scene.ground == VirtualScene::Ground::kBareTable)
+    textures_ = {{picture::drawBareTable(board, kBareTexel, table), kBareTexel}};
+  else
+    wall_ = picture::drawWall(ray_x_, ray_y_, kWallDepth, picture::randomBits(seed, kWallStream));
+  if (!scene.plates.empty()) blocks_ = picture::rayBlocks(ray_x_, ray_y_);
+  for (const ar::TagGridSpec& plate : scene.plates) {
+    ar::validate(plate, "plate of the virtual camera");
+    const auto draw = [&](double texel) { return picture::drawSheet(plate, texel); };
+    plates_.push_back({ar::sheetSize(plate), picture::textureSeries(plate.tag_size, draw)});
   }
 }
 
-const VirtualCamera::Texture& VirtualCamera::textureFor(const Pose& X_CW) const {
-  const double distance = std::max(X_CW.translation().norm(), 1e-3);
-  const double wanted = distance / truth_.fx / kTexelsPerPixel;
-  const auto worse = [&](const Texture& a, const Texture& b) {
-    return std::abs(std::log(a.texel / wanted)) < std::abs(std::log(b.texel / wanted));
-  };
-  return *std::min_element(textures_.begin(), textures_.end(), worse);
-}
-
-cv::Mat VirtualCamera::lookUp(const Pose& X_CW) const {
-  const Texture& texture = textureFor(X_CW);
-  const double cu = (texture.gray.cols - 1) / 2.0, cv_ = (texture.gray.rows - 1) / 2.0;
-  Mat3 to_texel;
-  to_texel << 1 / texture.texel, 0, cu, 0, -1 / texture.texel, cv_, 0, 0, 1;
-  const Eigen::Matrix3f H = (to_texel * rayToPlane(X_CW)).cast<float>();
-  cv::Mat column(ray_x_.size(), CV_32F), row(ray_x_.size(), CV_32F);
-  for (int v = 0; v < ray_x_.rows; ++v) {
-    const float *x = ray_x_.ptr<float>(v), *y = ray_y_.ptr<float>(v);
+cv::Mat VirtualCamera::lookUp(const picture::Texture& texture, const Mat3& ray_to_plane,
+                              const cv::Rect& region) const {
+  const Eigen::Matrix3f H = (picture::toTexel(texture) * ray_to_plane).cast<float>();
+  cv::Mat column(region.size(), CV_32F), row(region.size(), CV_32F);
+  for (int v = 0; v < region.height; ++v) {
+    const float* x = ray_x_.ptr<float>(region.y + v) + region.x;
+    const float* y = ray_y_.ptr<float>(region.y + v) + region.x;
     float *to_column = column.ptr<float>(v), *to_row = row.ptr<float>(v);
-    for (int u = 0; u < ray_x_.cols; ++u) {  // no branch, so that it runs on vectors
+    for (int u = 0; u < region.width; ++u) {  // no branch, so that it runs on vectors
       const float w = H(2, 0) * x[u] + H(2, 1) * y[u] + H(2, 2);
       const float inverse = 1 / std::max(w, 1e-6F);
       const float k = w > 1e-6F ? inverse : 0.F;
@@ -120,6 +104,14 @@ cv::Mat VirtualCamera::lookUp(const Pose& X_CW) const {
   cv::Mat picture;
   cv::remap(texture.gray, picture, column, row, cv::INTER_LINEAR, cv::BORDER_REPLICATE);
   return picture;
+}
+
+cv::Mat VirtualCamera::background(const Pose& X_CW) const {
+  if (!wall_.empty()) return wall_.clone();
+  const picture::RayToPlane table = picture::rayToPlane(X_CW);
+  const Mat3 H = table.height > 0 ? table.H : Mat3(Mat3::Zero());
+  return lookUp(picture::nearestTexture(textures_, X_CW, truth_.fx), H,
+                {0, 0, ray_x_.cols, ray_x_.rows});
 }
 
 /// Light, then noise: each row of each frame reads the bank from its own place, one of two signs.
@@ -140,11 +132,16 @@ void VirtualCamera::expose(std::uint64_t frame_number, cv::Mat* picture) const {
   }
 }
 
-cv::Mat VirtualCamera::render(const Pose& X_CW_true, std::uint64_t frame_number) const {
-  cv::Mat picture = lookUp(X_CW_true);
+/// What lens and sensor make of a perfect picture.
+void VirtualCamera::take(std::uint64_t frame_number, cv::Mat* picture) const {
   if (settings_.blur_sigma_px > 0)
-    cv::GaussianBlur(picture, picture, {0, 0}, settings_.blur_sigma_px);
-  expose(frame_number, &picture);
+    cv::GaussianBlur(*picture, *picture, {0, 0}, settings_.blur_sigma_px);
+  expose(frame_number, picture);
+}
+
+cv::Mat VirtualCamera::render(const Pose& X_CW_true, std::uint64_t frame_number) const {
+  cv::Mat picture = background(X_CW_true);
+  take(frame_number, &picture);
   return picture;
 }
 

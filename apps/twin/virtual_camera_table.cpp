@@ -10,8 +10,8 @@
 namespace palpa::twin::picture {
 namespace {
 
-// Gray levels of a matt laser print under even light, and of a beech table.
-constexpr double kInk = 28, kPaper = 222, kTable = 105;
+// Gray levels, as kPaper: a matt laser print under even light, and a beech table.
+constexpr double kInk = 28, kTable = 105;
 constexpr double kStructure = 10;  // gray levels, amplitude of the table's grain
 constexpr int kWaves = 12;
 
@@ -66,8 +66,14 @@ Eigen::Vector2d tableSize(const ar::TagGridSpec& board) {
   return 2.5 * ar::sheetSize(board).maxCoeff() * Eigen::Vector2d(1.2, 1);
 }
 
+cv::Mat drawSheet(const ar::TagGridSpec& board, double texel) {
+  cv::Mat sheet;
+  ar::drawTagGrid(board, 1 / texel).convertTo(sheet, CV_8U, (kPaper - kInk) / 255, kInk);
+  return sheet;
+}
+
 cv::Mat drawTable(const ar::TagGridSpec& board, double texel, std::uint64_t seed) {
-  const cv::Mat sheet = ar::drawTagGrid(board, 1 / texel);
+  const cv::Mat sheet = drawSheet(board, texel);
   const Eigen::Vector2d size = tableSize(board);
   const cv::Size pixels(sameParity(int(size.x() / texel), sheet.cols),
                         sameParity(int(size.y() / texel), sheet.rows));
@@ -75,8 +81,27 @@ cv::Mat drawTable(const ar::TagGridSpec& board, double texel, std::uint64_t seed
   drawGrain(size, pixels, seed).convertTo(table, CV_8U);
   const cv::Rect place((pixels.width - sheet.cols) / 2, (pixels.height - sheet.rows) / 2,
                        sheet.cols, sheet.rows);
-  sheet.convertTo(table(place), CV_8U, (kPaper - kInk) / 255, kInk);
+  sheet.copyTo(table(place));
   return table;
+}
+
+cv::Mat drawBareTable(const ar::TagGridSpec& board, double texel, std::uint64_t seed) {
+  const Eigen::Vector2d size = tableSize(board);
+  const cv::Size pixels(std::max(1, int(size.x() / texel)), std::max(1, int(size.y() / texel)));
+  cv::Mat table;
+  drawGrain(size, pixels, seed).convertTo(table, CV_8U);
+  return table;
+}
+
+cv::Mat drawWall(const cv::Mat& ray_x, const cv::Mat& ray_y, double depth, std::uint64_t seed) {
+  const std::vector<Wave> waves = grain(seed);
+  cv::Mat wall(ray_x.size(), CV_8U);
+  for (int v = 0; v < wall.rows; ++v)
+    for (int u = 0; u < wall.cols; ++u)
+      wall.at<unsigned char>(v, u) = cv::saturate_cast<unsigned char>(
+          float(kTable) +
+          tone(waves, depth * ray_x.at<float>(v, u), depth * ray_y.at<float>(v, u)));
+  return wall;
 }
 
 }  // namespace palpa::twin::picture
