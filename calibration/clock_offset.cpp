@@ -16,6 +16,7 @@ constexpr std::size_t kLeastCamera = 60, kLeastDevice = 60;
 constexpr double kLagStep = 0.005, kSpeedOver = 0.066;   // s: of the search; over which a speed is taken
 constexpr double kLeastCorrelation = 0.4, kRival = 0.95;
 constexpr double kLeastMotion = 0.01;                    // m rms
+constexpr double kRoom = 0.05;                           // s: so far the fit may move from the start
 
 /// A path through samples.
 class Path {
@@ -122,6 +123,67 @@ Lag bestLag(const std::vector<TimedPoint>& camera, const Path& device, double mo
   return best;
 }
 
+/// The camera's samples that the device's path covers at the lag, with room for the fit to move.
+std::vector<TimedPoint> sharedSamples(const std::vector<TimedPoint>& camera, const Path& device, double lag) {
+  std::vector<TimedPoint> shared;
+  for (const TimedPoint& s : camera)
+    if (device.covers(s.t + lag - kRoom) && device.covers(s.t + lag + kRoom)) shared.push_back(s);
+  return shared;
+}
+
+/// Offset, drift, R and c; c is where the path's middle is seen, so that turn and shift are nearly independent.
+class ClockFit {
+ public:
+  ClockFit(const std::vector<TimedPoint>& seen, const Path& path, double lag) : seen_(seen), path_(path), t_middle_((seen.front().t + seen.back().t) / 2), offset_(lag) {
+    overlay();
+  }
+
+  Fit run() {
+    return robustFit({static_cast<int>(seen_.size()), 3, 8, [this](const VectorX& dx) { return residuals(dx); }, [this](const VectorX& dx) { move(dx); }}, kClock);
+  }
+
+  double tMiddle() const { return t_middle_; }
+  double offset() const { return offset_; }
+  double drift() const { return drift_; }
+  Pose X_CD() const { return makePose(R_, c_ - R_ * mean_D_); }
+
+ private:
+  Vec3 deviceAt(const TimedPoint& s, double offset, double drift) const { return path_.at(s.t + offset + drift * (s.t - t_middle_)); }
+
+  /// The device's path onto the camera's at the start's offset: least squares of both.
+  void overlay() {
+    const auto n = static_cast<double>(seen_.size());
+    for (const TimedPoint& s : seen_) {
+      c_ += s.p / n;
+      mean_D_ += deviceAt(s, offset_, 0) / n;
+    }
+    Mat3 cross = Mat3::Zero();
+    for (const TimedPoint& s : seen_) cross += (s.p - c_) * (deviceAt(s, offset_, 0) - mean_D_).transpose();
+    R_ = nearestRotation(cross);
+  }
+
+  VectorX residuals(const VectorX& dx) const {
+    const Mat3 turned = R_ * rotationOf(dx.segment<3>(2));
+    VectorX r(3 * seen_.size());
+    for (std::size_t i = 0; i < seen_.size(); ++i)
+      r.segment<3>(static_cast<Eigen::Index>(3 * i)) = turned * (deviceAt(seen_[i], offset_ + dx[0], drift_ + dx[1]) - mean_D_) + c_ + dx.tail<3>() - seen_[i].p;
+    return r;
+  }
+
+  void move(const VectorX& dx) {
+    offset_ += dx[0];
+    drift_ += dx[1];
+    R_ = R_ * rotationOf(dx.segment<3>(2));
+    c_ += dx.tail<3>();
+  }
+
+  const std::vector<TimedPoint>& seen_;
+  const Path& path_;
+  double t_middle_, offset_, drift_ = 0;
+  Vec3 c_ = Vec3::Zero(), mean_D_ = Vec3::Zero();
+  Mat3 R_ = Mat3::Identity();
+};
+
 }  // namespace
 
 ClockOffset estimateClockOffset(const std::vector<TimedPoint>& camera, const std::vector<TimedPoint>& device, double most) {
@@ -129,49 +191,20 @@ ClockOffset estimateClockOffset(const std::vector<TimedPoint>& camera, const std
   requireSamples(device, kLeastDevice, "device");
   const Path path(device);
   const Lag start = bestLag(camera, path, most);
-  constexpr double kRoom = 0.05;   // s: so far the fit may move from the start
-  std::vector<TimedPoint> seen;
-  for (const TimedPoint& s : camera)
-    if (path.covers(s.t + start.lag - kRoom) && path.covers(s.t + start.lag + kRoom)) seen.push_back(s);
+  const std::vector<TimedPoint> seen = sharedSamples(camera, path, start.lag);
+  ClockFit clocks(seen, path, start.lag);
   ClockOffset result;
+  result.fit = clocks.run();
+  if (std::abs(clocks.offset() - start.lag) > 2 * kRoom) throw Error("the offset cannot be found", kClock, "Move faster, and record again");
+  result.offset = clocks.offset();
+  result.drift = clocks.drift();
+  result.t_middle = clocks.tMiddle();
   result.correlation = start.correlation;
-  result.t_middle = (seen.front().t + seen.back().t) / 2;
-
-  double offset = start.lag, drift = 0;
-  const auto deviceAt = [&](const TimedPoint& s, double o, double d) { return path.at(s.t + o + d * (s.t - result.t_middle)); };
-  Vec3 mean_C = Vec3::Zero(), mean_D = Vec3::Zero();
-  const auto n = static_cast<double>(seen.size());
-  for (const TimedPoint& s : seen) {
-    mean_C += s.p / n;
-    mean_D += deviceAt(s, offset, 0) / n;
-  }
-  Mat3 cross = Mat3::Zero();
-  for (const TimedPoint& s : seen) cross += (s.p - mean_C) * (deviceAt(s, offset, 0) - mean_D).transpose();
-  Mat3 R = nearestRotation(cross);
-  Vec3 c = mean_C;   // of the path's middle
-
-  const auto residuals = [&](const VectorX& dx) {
-    const Mat3 turned = R * rotationOf(dx.segment<3>(2));
-    VectorX r(3 * seen.size());
-    for (std::size_t i = 0; i < seen.size(); ++i)
-      r.segment<3>(static_cast<Eigen::Index>(3 * i)) = turned * (deviceAt(seen[i], offset + dx[0], drift + dx[1]) - mean_D) + c + dx.tail<3>() - seen[i].p;
-    return r;
-  };
-  const auto move = [&](const VectorX& dx) {
-    offset += dx[0];
-    drift += dx[1];
-    R = R * rotationOf(dx.segment<3>(2));
-    c += dx.tail<3>();
-  };
-  result.fit = robustFit({static_cast<int>(seen.size()), 3, 8, residuals, move}, kClock);
-  if (std::abs(offset - start.lag) > 2 * kRoom) throw Error("the offset cannot be found", kClock, "Move faster, and record again");
-  result.offset = offset;
-  result.drift = drift;
   result.offset_sd = std::sqrt(result.fit.covariance(0, 0));
   result.drift_sd = std::sqrt(result.fit.covariance(1, 1));
   result.offset_half95 = result.fit.halfWidth95(0);
   result.rms = result.fit.rms;
-  result.X_CD = makePose(R, c - R * mean_D);
+  result.X_CD = clocks.X_CD();
   return result;
 }
 

@@ -55,6 +55,7 @@ class RobustFitter {
   double norm(int block) const { return r_.segment(block * problem_.size, problem_.size).norm(); }
 
   MatrixX jacobian() const {
+    if (problem_.jacobian) return problem_.jacobian();
     MatrixX J(r_.size(), problem_.parameters);
     VectorX dx = VectorX::Zero(problem_.parameters);
     for (int k = 0; k < problem_.parameters; ++k) {
@@ -67,28 +68,45 @@ class RobustFitter {
     return J;
   }
 
+  /// J' W J and J' W r.
+  struct Normal {
+    MatrixX A;
+    VectorX g;
+  };
+  Normal normalOf(const VectorX& weights) const {
+    MatrixX J = jacobian();
+    VectorX r = r_;
+    for (int b = 0; b < problem_.blocks; ++b) {
+      J.middleRows(b * problem_.size, problem_.size) *= std::sqrt(weights[b]);
+      r.segment(b * problem_.size, problem_.size) *= std::sqrt(weights[b]);
+    }
+    MatrixX lower = MatrixX::Zero(J.cols(), J.cols());
+    lower.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
+    return {lower.selfadjointView<Eigen::Lower>(), J.transpose() * r};
+  }
+
   double cost(const VectorX& r, const VectorX& weights) const {
     double sum = 0;
     for (int b = 0; b < problem_.blocks; ++b) sum += weights[b] * r.segment(b * problem_.size, problem_.size).squaredNorm();
     return sum;
   }
 
+  /// Units in which every parameter counts alike (Jacobi's), so that pixels and radians may stand side by side.
+  static VectorX unitsOf(const MatrixX& A) {
+    const double least = 1e-24 * A.diagonal().maxCoeff() + std::numeric_limits<double>::min();
+    return A.diagonal().cwiseMax(least).cwiseSqrt().cwiseInverse();
+  }
+
   /// One damped step of the weighted squares; the relative gain, 0 when none was found.
   double improve(const VectorX& weights) {
-    const MatrixX J = jacobian();
-    MatrixX A = MatrixX::Zero(J.cols(), J.cols());
-    VectorX g = VectorX::Zero(J.cols());
-    for (int b = 0; b < problem_.blocks; ++b) {
-      const auto rows = J.middleRows(b * problem_.size, problem_.size);
-      A += weights[b] * rows.transpose() * rows;
-      g += weights[b] * rows.transpose() * r_.segment(b * problem_.size, problem_.size);
-    }
+    const Normal normal = normalOf(weights);
     const double before = cost(r_, weights);
-    const VectorX diagonal = A.diagonal().cwiseMax(1e-12 * A.diagonal().maxCoeff());
+    const VectorX unit = unitsOf(normal.A);
+    const MatrixX scaled = unit.asDiagonal() * normal.A * unit.asDiagonal();
     for (; damping_ < 1e12; damping_ *= 10) {
-      MatrixX damped = A;
-      damped.diagonal() += damping_ * diagonal;
-      const VectorX dx = damped.ldlt().solve(-g);
+      MatrixX damped = scaled;
+      damped.diagonal().array() += damping_;
+      const VectorX dx = unit.cwiseProduct(damped.ldlt().solve(-unit.cwiseProduct(normal.g)));
       if (!dx.allFinite()) continue;
       const VectorX r = problem_.residuals(dx);
       const double after = r.allFinite() ? cost(r, weights) : std::numeric_limits<double>::infinity();
@@ -121,6 +139,7 @@ class RobustFitter {
 
   /// Which blocks are good; whether that changed.
   bool select() {
+    if (problem_.keep_all) return false;
     const ChiSquared chi2(problem_.size);
     // The median sees the fit's own freedom: few measurements leave residuals smaller than the noise.
     const double freedom = std::sqrt(1 - static_cast<double>(problem_.parameters) / (problem_.blocks * problem_.size));
@@ -148,23 +167,22 @@ class RobustFitter {
     Fit fit;
     fit.r = r_;
     fit.good = good_;
-    const MatrixX J = jacobian();
-    MatrixX information = MatrixX::Zero(J.cols(), J.cols());
     double squares = 0;
     int blocks = 0;
     for (int b = 0; b < problem_.blocks; ++b) {
       if (!good_[static_cast<std::size_t>(b)]) continue;
-      const auto rows = J.middleRows(b * problem_.size, problem_.size);
-      information += rows.transpose() * rows;
       squares += norm(b) * norm(b);
       ++blocks;
     }
     fit.dof = blocks * problem_.size - problem_.parameters;
     const double m = problem_.size, q = boost::math::quantile(ChiSquared(m), kGoodQuantile);
-    const double kept = boost::math::cdf(ChiSquared(m + 2), q) / kGoodQuantile;   // of the variance, inside the cut
+    const double kept = problem_.keep_all ? 1 : boost::math::cdf(ChiSquared(m + 2), q) / kGoodQuantile;   // of the variance, inside the cut
     fit.sigma = std::sqrt(squares / fit.dof / kept);
     fit.rms = std::sqrt(squares / blocks);
-    fit.covariance = fit.sigma * fit.sigma * information.completeOrthogonalDecomposition().pseudoInverse();
+    const MatrixX information = normalOf(goodWeights()).A;
+    const VectorX unit = unitsOf(information);
+    const MatrixX scaled = unit.asDiagonal() * information * unit.asDiagonal();
+    fit.covariance = fit.sigma * fit.sigma * unit.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse() * unit.asDiagonal();
     return fit;
   }
 

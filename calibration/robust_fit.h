@@ -17,6 +17,9 @@ struct FitProblem {
   /// All residuals at x moved by dx, block after block, scaled so that the noise of each is equally large.
   std::function<VectorX(const VectorX& dx)> residuals;
   std::function<void(const VectorX& dx)> move;   ///< x becomes x moved by dx
+  /// Derivatives of the residuals by dx at x, for problems of many parameters; where there is none, differences are taken.
+  std::function<MatrixX()> jacobian = nullptr;
+  bool keep_all = false;   ///< plain least squares: no block is taken for an outlier
 };
 
 struct Fit {
@@ -32,7 +35,7 @@ struct Fit {
 };
 
 /// Fits from where the state is, in three stages that share one damped Gauss-Newton step (Levenberg 1944, Marquardt 1963;
-/// derivatives by central differences of `step`): least sum of norms, whose minimum a few gross errors do not move; then
+/// derivatives by central differences of `step` unless given): least sum of norms, whose minimum a few gross errors do not move; then
 /// least squares of the blocks whose norm is below the 99.9 % quantile of the chi distribution at the scale that the median
 /// norm tells, decided anew until nothing changes. Sigma is corrected for what that cut takes off. Efficiency without
 /// outliers: 99 % and more. Throws Error (in `where`) when residuals are not finite, there are too few blocks, or more than
