@@ -1,4 +1,5 @@
 #include <Eigen/Dense>
+#include <algorithm>
 #include <cmath>
 
 #include "anatomy/geometry/error.h"
@@ -84,8 +85,32 @@ Answer byLandmarks(const std::vector<Touch>& touches, Result& r) {
   return {fit.X_BA, fit.covariance};
 }
 
+/// How large the seen motions of the marker are against the device's: the median over pairs of poses that are well apart.
+double seenScale(const std::vector<calibration::HandEyeSample>& tag, const Vec3& p_EM) {
+  constexpr double kApart = 0.03;   // m
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < tag.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const double device = (tag[i].X_DE * p_EM - tag[j].X_DE * p_EM).norm();
+      if (device > kApart) ratios.push_back((tag[i].X_CM.translation() - tag[j].X_CM.translation()).norm() / device);
+    }
+  if (ratios.empty()) return 1;
+  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2), ratios.end());
+  return ratios[ratios.size() / 2];
+}
+
+/// A board or tag that is not as large as stated makes every distance wrong alike.
+void requireScale(const std::vector<calibration::HandEyeSample>& tag, const Vec3& p_EM) {
+  constexpr double kScaleOff = 0.02;
+  const double scale = seenScale(tag, p_EM);
+  if (std::abs(scale - 1) > kScaleOff)
+    throw Error("the camera sees the tool move " + quantity(100 * (scale - 1), "%") + " further than the device says", "registration by a tag",
+                "Measure the printed squares or tags of board and marker, and correct their size in the station's file");
+}
+
 Answer byTag(const std::vector<calibration::HandEyeSample>& tag, Result& r) {
   const calibration::HandEye fit = calibration::calibrateHandEye(tag);
+  requireScale(tag, fit.X_EM.translation());
   addPose(r.file, "X_EM", fit.X_EM);
   r.file.data.samples += static_cast<int>(tag.size());
   r.file.data.used += static_cast<int>(tag.size()) - fit.fit.outliers();
@@ -96,7 +121,7 @@ Answer byTag(const std::vector<calibration::HandEyeSample>& tag, Result& r) {
     r.file.residuals.rms = fit.rms_shift;
     Plot plot{"How well each pose fits", "pose", "mm", {}, 0};
     for (std::size_t i = 0; i < tag.size(); ++i) {
-      const double off = (fit.X_DC.inverse() * tag[i].X_DE * fit.X_EM).translation().matrix().operator-(tag[i].X_CM.translation()).norm();
+      const double off = (fit.X_DC.inverse() * (tag[i].X_DE * fit.X_EM.translation()) - tag[i].X_CM.translation()).norm();
       plot.dots.push_back({static_cast<double>(i + 1), 1e3 * off, !fit.fit.good[i]});
       r.file.residuals.values.push_back(off);
       if (!fit.fit.good[i]) r.file.residuals.left_out.push_back(static_cast<int>(i));

@@ -39,51 +39,69 @@ std::vector<calibration::StaticReading> forceReadings(const std::vector<HeldPose
 
 }  // namespace
 
-station::AppliedCalibration keep(const Result& result, const std::filesystem::path& folder) {
+station::AppliedCalibration asFile(const Result& result) {
   station::AppliedCalibration kept;
-  kept.path = folder / (result.file.kind + ".json");
+  kept.path = result.file.kind + ".json";
   kept.file = result.file;
-  station::writeCalibration(result.file, kept.path);
-  kept.sha256 = kept.sha256_wanted = station::sha256OfFile(kept.path);
+  kept.sha256 = kept.sha256_wanted = station::sha256(station::textOf(result.file));
   return kept;
 }
 
-void writeStation(const station::Station& station, const std::vector<station::AppliedCalibration>& calibrations, const std::filesystem::path& file) {
-  std::vector<station::AppliedCalibration> all = calibrations;
+void writeCalibrations(const station::Station& station, const std::vector<station::AppliedCalibration>& calibrations, const std::filesystem::path& folder) {
+  std::vector<station::AppliedCalibration> all;
+  for (station::AppliedCalibration c : calibrations) {
+    station::writeCalibration(c.file, folder / c.path);
+    c.path = folder / c.path;
+    all.push_back(std::move(c));
+  }
   for (const station::AppliedCalibration& before : station.calibrations)
     if (!station::calibrationOf(calibrations, before.file.kind)) all.push_back(before);
   nlohmann::json json = station.file.json();
-  json["calibrations"] = station::toJson(all, file.parent_path());
-  writeWhole(file, json.dump(2) + "\n");
+  json["calibrations"] = station::toJson(all, folder);
+  writeWhole(folder / "station.json", json.dump(2) + "\n");
 }
 
-SetupResult setUp(const Scene& scene, Origin origin, const std::filesystem::path& folder) {
+Result collectedTool(const Scene& scene, const Origin& origin) {
+  const Vec3 hole_W = holeOf(scene.station);
+  ToolSamples samples;
+  samples.pivot = collectPivot(scene, hole_W);
+  samples.spin = collectSpin(scene, hole_W);
+  return toolResult(samples, scene.station.design.X_ET, origin);
+}
+
+Result collectedRegistration(const Scene& scene, const std::vector<HeldPose>& held, const Vec3& tip_E, const Origin& origin) {
+  holeOf(scene.station);
+  return registrationResult(touchesOf(collectTouches(scene), tip_E), tagSamples(held), scene.station.entry_W, origin);
+}
+
+Result collectedLatency(const Scene& scene, const calibration::CameraModel& camera, const Vec3& p_EM, const Origin& origin) {
+  return latencyResult(collectWave(scene, camera, p_EM), scene.station.camera_latency_s, origin);
+}
+
+Result forceSensorOf(const Scene& scene, const std::vector<HeldPose>& held, const Pose& X_WD, const Origin& origin) {
+  if (!scene.station.force_sensor) throw UsageError("has no \"force_sensor\"", scene.station.file.name(), "Describe the sensor in the station's file");
+  return forceSensorResult(forceReadings(held, *scene.station.force_sensor), X_WD.rotation().transpose() * -Vec3::UnitZ(), origin);
+}
+
+Vec3 markerOf(const std::vector<HeldPose>& held) { return calibration::calibrateHandEye(tagSamples(held)).X_EM.translation(); }
+
+SetupResult setUp(const Scene& scene, const Origin& origin) {
   const station::Station& station = scene.station;
   SetupResult setup;
   const auto add = [&](Result result, const std::vector<std::string>& rests_on) {
     restOn(result, setup, rests_on);
-    setup.calibrations.push_back(keep(result, folder));
+    setup.calibrations.push_back(asFile(result));
     setup.results.push_back(std::move(result));
   };
   calibration::CameraModel camera;
   add(cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin, &camera), {});
-  const Vec3 hole_W = holeOf(station);
-  ToolSamples tool;
-  tool.pivot = collectPivot(scene, hole_W);
-  tool.spin = collectSpin(scene, hole_W);
-  add(toolResult(tool, station.design.X_ET, origin), {});
+  add(collectedTool(scene, origin), {});
   const Vec3 tip_E = tipOf(setup.results.back());
-  const std::vector<TouchedPose> touched = collectTouches(scene);
-  std::vector<HeldPose> held;
-  if (station.marker) held = collectHeld(scene, camera);
-  add(registrationResult(touchesOf(touched, tip_E), tagSamples(held), station.entry_W, origin), {"camera", "tool"});
-  const Result& registration = setup.results.back();
-  if (station.marker) {
-    const Vec3 p_EM = station::poseAt(registration.file, "X_EM").translation();
-    const Vec3 down_D = station::poseAt(registration.file, "X_WD").rotation().transpose() * -Vec3::UnitZ();
-    add(latencyResult(collectWave(scene, camera, p_EM), station.camera_latency_s, origin), {"camera"});
-    if (station.force_sensor) add(forceSensorResult(forceReadings(held, *station.force_sensor), down_D, origin), {});
-  }
+  const std::vector<HeldPose> held = station.marker ? collectHeld(scene, camera) : std::vector<HeldPose>{};
+  add(collectedRegistration(scene, held, tip_E, origin), {"camera", "tool"});
+  const station::CalibrationFile registration = setup.results.back().file;
+  if (station.marker) add(collectedLatency(scene, camera, station::poseAt(registration, "X_EM").translation(), origin), {"camera"});
+  if (station.marker && station.force_sensor) add(forceSensorOf(scene, held, station::poseAt(registration, "X_WD"), origin), {});
   if (const std::optional<runtime::Moment> last = scene.rig.next()) setup.seconds = last->t;
   return setup;
 }

@@ -12,18 +12,29 @@ namespace palpa::calibrate {
 /// What a whole set-up found.
 struct SetupResult {
   std::vector<Result> results;                                ///< in the order of their making
-  std::vector<station::AppliedCalibration> calibrations;      ///< the files written
+  std::vector<station::AppliedCalibration> calibrations;      ///< the same as files, not yet written
   double seconds = 0;                                         ///< of the program's clock
 };
 
+/// One routine each: asks, collects, estimates.
+Result collectedTool(const Scene& scene, const Origin& origin);
+/// `held`: poses of the tool with its marker, of which those seen join in; none: landmarks alone.
+Result collectedRegistration(const Scene& scene, const std::vector<HeldPose>& held, const Vec3& tip_E, const Origin& origin);
+/// `p_EM`: the marker on the end effector.
+Result collectedLatency(const Scene& scene, const calibration::CameraModel& camera, const Vec3& p_EM, const Origin& origin);
+/// Throws UsageError for a station without a force sensor.
+Result forceSensorOf(const Scene& scene, const std::vector<HeldPose>& held, const Pose& X_WD, const Origin& origin);
+/// The marker on the end effector by `held`.
+Vec3 markerOf(const std::vector<HeldPose>& held);
+
 /// Camera, tool, registration (landmarks and tag), time and, where there is one, force sensor: one after the other, each with what the former
-/// ones found; every result is written to `folder` as it is made. Throws Error for data that cannot tell an answer: nothing is written of it.
-SetupResult setUp(const Scene& scene, Origin origin, const std::filesystem::path& folder);
+/// ones found. Writes nothing. Throws Error for data that cannot tell an answer.
+SetupResult setUp(const Scene& scene, const Origin& origin);
 
-/// A result as the calibration that a station refers to: written to `folder` as "<kind>.json".
-station::AppliedCalibration keep(const Result& result, const std::filesystem::path& folder);
+/// A result as the calibration "<kind>.json" that a station refers to; not yet written.
+station::AppliedCalibration asFile(const Result& result);
 
-/// The station's file with these calibrations in place of those of the same kind, its paths relative to `file`'s folder. Written whole.
-void writeStation(const station::Station& station, const std::vector<station::AppliedCalibration>& calibrations, const std::filesystem::path& file);
+/// The files into `folder`, and with them "station.json": the station's file that refers to them in place of those of the same kind. Throws Error.
+void writeCalibrations(const station::Station& station, const std::vector<station::AppliedCalibration>& calibrations, const std::filesystem::path& folder);
 
 }  // namespace palpa::calibrate

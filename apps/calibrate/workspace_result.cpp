@@ -21,7 +21,6 @@ Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin) 
   for (Eigen::Index i = 0; i < map.coefficients.rows(); ++i)
     for (Eigen::Index j = 0; j < 3; ++j) coefficients.push_back(map.coefficients(i, j));
   r.file.parameters.push_back({"coefficients_m", coefficients});
-  const Pose X_DG = map.X_GD.inverse();
   Plot before{"Error at each point, before", "point", "mm", {}, 0}, after{"Error at each point, corrected", "point", "mm", {}, 0};
   const calibration::WorkspaceMap rigid = calibration::mapWorkspace(points, 0);
   for (std::size_t i = 0; i < points.size(); ++i) {

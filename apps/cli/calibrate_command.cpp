@@ -2,6 +2,7 @@
 #include <memory>
 
 #include "anatomy/geometry/error.h"
+#include "apps/cli/calibrate_station.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/needle_session.h"
 #include "apps/cli/output_folder.h"
@@ -90,6 +91,7 @@ void calibrateExperts(ExpertOptions o) {
 void addCalibrate(CLI::App& program) {
   CLI::App* calibrate = program.add_subcommand("calibrate", "Calibration routines");
   calibrate->require_subcommand(1);
+  addStationCalibrations(*calibrate);
   CLI::App* experts = calibrate->add_subcommand("experts", "The optimal path from experts' recorded trials");
   experts->footer(kExpertExamples);
   const auto o = std::make_shared<ExpertOptions>();

@@ -97,6 +97,19 @@ void applyCalibrations(Station& s) {
   s.calibration_verdict = fault.empty() ? "pass" : fault;
 }
 
+Station withCalibrations(const Station& station, const std::vector<AppliedCalibration>& calibrations) {
+  Station s = station;
+  s.camera = s.design.camera;
+  s.X_WD = s.design.X_WD;
+  s.X_ET = s.design.X_ET;
+  s.camera_latency_s = s.design.camera_latency_s;
+  s.calibrations = calibrations;
+  for (const AppliedCalibration& before : station.calibrations)
+    if (!calibrationOf(calibrations, before.file.kind)) s.calibrations.push_back(before);
+  applyCalibrations(s);
+  return s;
+}
+
 void judgeAge(Station& s, const std::string& date) {
   const std::string old = outdatedOn(s.calibrations, date);
   if (!old.empty() && s.calibration_verdict == "pass") s.calibration_verdict = old;

@@ -62,6 +62,9 @@ Station readStation(const std::filesystem::path& file);
 /// another station, was replaced since the station's file was written, or rests on another calibration than the station's.
 void applyCalibrations(Station& station);
 
+/// The station with these in place of its calibrations of the same kind.
+Station withCalibrations(const Station& station, const std::vector<AppliedCalibration>& calibrations);
+
 /// Finds the first calibration that is older than it is good for on `date` (UTC, as in a calibration file).
 void judgeAge(Station& station, const std::string& date);
 

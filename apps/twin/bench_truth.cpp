@@ -9,8 +9,8 @@ namespace palpa::twin {
 namespace {
 
 using runtime::RandomStream;
-constexpr double kMm = 1e-3;
-constexpr double kDeg = std::numbers::pi / 180;
+constexpr double kTruthMm = 1e-3;
+constexpr double kTruthDeg = std::numbers::pi / 180;
 
 Vec3 normal3(RandomStream& random) { return {random.normal(), random.normal(), random.normal()}; }
 
@@ -32,10 +32,10 @@ WorldTruth drawWorld(const station::Station& station, std::uint64_t seed) {
   const station::JsonFile& file = station.file;
   RandomStream random(seed, "bench.registration"), clocks(seed, "bench.clocks"), needle(seed, "bench.needle");
   WorldTruth truth;
-  truth.X_WD = perturbed(station.design.X_WD, kMm * file.number("twin/registration_spread_mm", 0, 50),
-                         kDeg * file.number("twin/registration_spread_deg", 0, 10), random);
-  truth.X_ET = perturbed(station.design.X_ET, kMm * file.number("twin/tool_spread_mm", 0, 50), 0, random);
-  truth.X_ET = perturbed(truth.X_ET, 0, kDeg * spreadOr0(file, "twin/tool_spread_deg", 10), needle);
+  truth.X_WD = perturbed(station.design.X_WD, kTruthMm * file.number("twin/registration_spread_mm", 0, 50),
+                         kTruthDeg * file.number("twin/registration_spread_deg", 0, 10), random);
+  truth.X_ET = perturbed(station.design.X_ET, kTruthMm * file.number("twin/tool_spread_mm", 0, 50), 0, random);
+  truth.X_ET = perturbed(truth.X_ET, 0, kTruthDeg * spreadOr0(file, "twin/tool_spread_deg", 10), needle);
   const double latency = 1e-3 * spreadOr0(file, "twin/camera_latency_spread_ms", 50);
   truth.camera_latency_s = std::max(station.design.camera_latency_s + latency * clocks.normal(), 0.001);
   truth.clock_drift = 1e-6 * spreadOr0(file, "twin/clock_drift_ppm", 1000) * clocks.normal();
@@ -64,8 +64,8 @@ DeviceTruth trueDevice(const station::Station& station) {
   truth.max_force_N = station.device.capabilities.max_force_N;
   truth.coulomb = file.number("twin/device/coulomb_N", 0, 10);
   truth.viscous = file.number("twin/device/viscous_Ns_per_m", 0, 100);
-  truth.encoder_step = kMm * file.number("twin/device/encoder_step_mm", 1e-6, 1);
-  truth.encoder_angle = kDeg * file.number("twin/device/encoder_angle_deg", 1e-6, 5);
+  truth.encoder_step = kTruthMm * file.number("twin/device/encoder_step_mm", 1e-6, 1);
+  truth.encoder_angle = kTruthDeg * file.number("twin/device/encoder_angle_deg", 1e-6, 5);
   truth.actuator_tau = 1e-3 * file.number("twin/device/actuator_tau_ms", 0, 100);
   return truth;
 }
@@ -76,7 +76,7 @@ SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
   const station::ForceSensorSetup& believed = *station.design.force_sensor;
   SensorTruth truth;
   const double mass = 0.01 * file.number("twin/force_sensor/tool_mass_spread_percent", 0, 50);
-  const double centre = kMm * file.number("twin/force_sensor/centre_spread_mm", 0, 50);
+  const double centre = kTruthMm * file.number("twin/force_sensor/centre_spread_mm", 0, 50);
   const double bias = file.number("twin/force_sensor/bias_spread_N", 0, 5);
   const double bias_Nm = file.number("twin/force_sensor/bias_spread_Nm", 0, 1);
   truth.tool_mass = believed.filter.tool.mass * (1 + mass * random.normal());
@@ -92,7 +92,7 @@ SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
 /// A camera on a boom on the trainee's side, looking between board and patient.
 Pose cameraOnBoom(const station::Station& station, std::uint64_t seed) {
   RandomStream random(seed, "bench.boom");
-  const double distance = kMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
+  const double distance = kTruthMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
                                  station.file.number("twin/camera_distance_spread_mm", 0, 500) *
                                      random.normal());
   const Vec3 p_WC = distance * Vec3(0.04 * random.normal(), -0.48, 0.877).normalized();

@@ -46,8 +46,11 @@ struct SetupBench::Impl {
         motion(hand, seed),
         views(seed, "setup.views"),
         holes(seed, "setup.landmarks") {
-    const std::vector<ar::TagGridSpec> free = s.marker ? std::vector<ar::TagGridSpec>{s.board, *s.marker} : std::vector<ar::TagGridSpec>{s.board};
-    camera.emplace(twin::trueCamera(s, seed), s.board, free, VirtualCameraSettings{}, seed);
+    const calibration::CameraModel lens = twin::trueCamera(s, seed);
+    VirtualScene at_table;
+    if (s.marker) at_table.plates = {*s.marker};
+    over_table.emplace(lens, s.board, VirtualCameraSettings{}, seed, at_table);
+    at_wall.emplace(lens, s.board, VirtualCameraSettings{}, seed, VirtualScene{VirtualScene::Ground::kWall, {s.board}});
     const double off = kSetupMm * spread(s.file, "twin/landmark_spread_mm", 0.1, 10);
     for (const station::Landmark& landmark : s.landmarks) {
       const double x = holes.normal(), y = holes.normal(), z = holes.normal();
@@ -114,12 +117,11 @@ struct SetupBench::Impl {
 
   ar::Frame take(const Exposure& e) const {
     std::vector<PlatePose> plates;
-    if (e.board_held) plates.push_back({0, e.X_CB});
-    else if (station.marker) plates.push_back({1, e.X_CM});
+    if (e.board_held || station.marker) plates.push_back({0, e.board_held ? e.X_CB : e.X_CM});
     ar::Frame frame;
     frame.number = e.number;
     frame.t_exposure_ns = std::llround(1e9 * (e.t + world.camera_latency_s - station.camera_latency_s));
-    frame.image = e.board_held ? camera->renderWithoutTable(plates, e.number) : camera->render(X_CW_boom, plates, e.number);
+    frame.image = (e.board_held ? *at_wall : *over_table).render(X_CW_boom, plates, e.number);
     frame.source = "virtual camera";
     return frame;
   }
@@ -147,7 +149,7 @@ struct SetupBench::Impl {
   SetupMotion motion;
   runtime::RandomStream views, holes;
   std::vector<Vec3> holes_W;
-  std::optional<VirtualCamera> camera;
+  std::optional<VirtualCamera> over_table, at_wall;
   std::optional<SensorTwin> felt;
   Pose X_WT = Pose::Identity(), X_CB = Pose::Identity(), X_CB_from = Pose::Identity(), X_CB_to = Pose::Identity();
   MinJerk board_way;
@@ -166,7 +168,7 @@ void SetupBench::ask(const Request& request) {
   b.showing = request.what == Request::What::show_board;
   if (b.showing) {
     b.X_CB_from = b.X_CB;
-    b.X_CB_to = boardPose(request.view, b.camera->truth(), b.station.board, b.hand, b.views);
+    b.X_CB_to = boardPose(request.view, b.over_table->truth(), b.station.board, b.hand, b.views);
     b.board_way = MinJerk(b.X_CB_from, b.X_CB_to, b.t, kBoardTravel);
   }
   b.motion.begin(request, b.X_WT, b.hole(request.p_W), b.t);
@@ -174,7 +176,7 @@ void SetupBench::ask(const Request& request) {
 
 std::optional<runtime::Moment> SetupBench::next() { return impl_->next(); }
 const WorldTruth& SetupBench::truth() const { return impl_->world; }
-const calibration::CameraModel& SetupBench::trueCamera() const { return impl_->camera->truth(); }
+const calibration::CameraModel& SetupBench::trueCamera() const { return impl_->over_table->truth(); }
 Pose SetupBench::X_CW() const { return impl_->X_CW_boom; }
 
 }  // namespace palpa::twin

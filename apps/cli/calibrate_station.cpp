@@ -1,0 +1,229 @@
+#include "apps/cli/calibrate_station.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <memory>
+
+#include "anatomy/geometry/error.h"
+#include "anatomy/geometry/whole_file.h"
+#include "apps/calibrate/camera_result.h"
+#include "apps/calibrate/page.h"
+#include "apps/calibrate/recorded.h"
+#include "apps/calibrate/sequence.h"
+#include "apps/cli/output_folder.h"
+#include "apps/cli/setup_accuracy.h"
+#include "apps/station/assets.h"
+
+namespace palpa::cli {
+namespace {
+
+using namespace calibrate;
+
+struct CalibrateOptions {
+  std::string kind, station, out;
+  std::uint64_t seed = 1;
+  bool quiet = false;
+  std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings, touches;
+  std::vector<double> down{0, 0, -1};
+
+  bool recorded() const {
+    for (const std::string* file : {&images, &pivot, &spin, &landmarks, &pairs, &camera_track, &device_track, &readings, &touches})
+      if (!file->empty()) return true;
+    return false;
+  }
+};
+
+/// On a terminal a line that renews itself, otherwise one line a step.
+class TerminalGuide final : public Guide {
+ public:
+  TerminalGuide(bool quiet, bool person) : quiet_(quiet), person_(person), terminal_(isatty(STDERR_FILENO)) {}
+  ~TerminalGuide() override {
+    if (open_) std::fputs("\n", stderr);
+  }
+  void ask(const std::string& words) override {
+    if (person_) std::fprintf(stderr, "%s\n", words.c_str());
+  }
+  void progress(const std::string& what, int done, int of, const std::string& live) override {
+    if (quiet_) return;
+    const bool last = done >= of;
+    if (terminal_) {
+      std::fprintf(stderr, "\r\033[K%s: %d of %d  %s%s", what.c_str(), done, of, live.c_str(), last ? "\n" : "");
+      open_ = !last;
+    } else if (last || done == 1) {
+      std::fprintf(stderr, "%s: %d of %d  %s\n", what.c_str(), done, of, live.c_str());
+    }
+  }
+
+ private:
+  bool quiet_, person_, terminal_, open_ = false;
+};
+
+station::Station stationOf(const CalibrateOptions& o) {
+  return station::readStation(o.station.empty() ? station::assetFile("stations/virtual_bench.json") : std::filesystem::path(o.station));
+}
+
+Origin originOf(const CalibrateOptions& o, const station::Station& station) {
+  Origin origin;
+  origin.station = station.id;
+  origin.command = "palpa calibrate " + o.kind + (o.recorded() ? "" : " --seed " + std::to_string(o.seed));
+  origin.source = o.recorded() ? "recorded files" : "virtual bench, seed " + std::to_string(o.seed);
+  origin.simulated = !o.recorded();
+  origin.date = utcNow();
+  return origin;
+}
+
+/// What was found, on standard output and as a page.
+void leave(const CalibrateOptions& o, const station::Station& station, const SetupResult& setup, std::vector<std::string> remarks, const std::string& accuracy) {
+  const std::filesystem::path folder = makeOutputFolder(o.out, "calibrate-" + o.kind);
+  writeCalibrations(station, setup.calibrations, folder);
+  PageHead head{station.title, setup.results.front().file.date, setup.results.front().file.simulated, setup.seconds, std::move(remarks)};
+  writePage(head, setup.results, folder / "calibration.html");
+  if (!accuracy.empty()) writeWhole(folder / "accuracy.json", accuracy + "\n");
+  std::string failed;
+  for (const Result& r : setup.results) {
+    std::printf("%s: %s\n", r.title.c_str(), r.file.verdict.c_str());
+    for (const std::string& sentence : r.sentences) std::printf("  %s\n", sentence.c_str());
+    if (!r.file.passed()) failed += (failed.empty() ? "" : ", ") + r.title;
+  }
+  for (const std::string& remark : head.remarks) std::printf("Simulated truth: %s\n", remark.c_str());
+  std::printf("Written: %s\nUse it: --station %s\n", (folder / "calibration.html").c_str(), (folder / "station.json").c_str());
+  if (!failed.empty()) throw Error("did not pass: " + failed, "calibration", "Read why in " + (folder / "calibration.html").string() + "; sessions on this station are not scored");
+}
+
+Result fromCameraPictures(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
+  const std::unique_ptr<ar::Board> board = o.board.empty() ? ar::makeBoard(station.board, 1.0) : ar::makeBoard(o.board, 1.0);
+  RecordedViews recorded = readViews(o.images, *board);
+  if (recorded.views.empty()) throw Error("the board (" + board->describe() + ") is in none of the pictures", o.images, "Is it the board that --board says?");
+  calibration::CameraModel camera;
+  Result result = cameraResult(recorded.views, recorded.width, recorded.height, origin, &camera);
+  for (const std::string& name : recorded.unseen) result.advice.push_back("The board was not found in " + name + ".");
+  return result;
+}
+
+ToolSamples toolSamples(const CalibrateOptions& o) {
+  ToolSamples samples;
+  if (o.pivot.empty()) throw UsageError("is missing", "--pivot", "Give the poses recorded while the tip rested in a hole");
+  samples.pivot = readPoses(o.pivot);
+  if (!o.spin.empty()) samples.spin = readPoses(o.spin);
+  return samples;
+}
+
+Result fromFiles(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
+  if (o.kind == "camera") return fromCameraPictures(o, station, origin);
+  if (o.kind == "tool") return toolResult(toolSamples(o), station.design.X_ET, origin);
+  if (o.kind == "workspace") return workspaceResult(readTouches(o.touches), origin);
+  if (o.kind == "registration")
+    return registrationResult(o.landmarks.empty() ? std::vector<Touch>{} : readTouches(o.landmarks),
+                              o.pairs.empty() ? std::vector<calibration::HandEyeSample>{} : readPosePairs(o.pairs), station.entry_W, origin);
+  if (o.kind == "latency") {
+    if (o.camera_track.empty() || o.device_track.empty()) throw UsageError("needs both", "--camera-track and --device-track", "Give the same motion as both saw it");
+    return latencyResult({readTrack(o.camera_track), readTrack(o.device_track)}, station.camera_latency_s, origin);
+  }
+  return forceSensorResult(readStaticReadings(o.readings), Vec3(o.down[0], o.down[1], o.down[2]).normalized(), origin);
+}
+
+/// One routine on the bench: what it needs of the others is taken from the station.
+Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& origin) {
+  const station::Station& station = scene.station;
+  if (o.kind == "camera") {
+    calibration::CameraModel camera;
+    return cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin, &camera);
+  }
+  if (o.kind == "tool") return collectedTool(scene, origin);
+  if (o.kind == "registration")
+    return collectedRegistration(scene, station.marker ? collectHeld(scene, station.camera) : std::vector<HeldPose>{}, station.X_ET.translation(), origin);
+  if (o.kind == "latency") return collectedLatency(scene, station.camera, markerOf(collectHeld(scene, station.camera)), origin);
+  if (o.kind == "force-sensor") return forceSensorOf(scene, collectHeld(scene, station.camera), station.X_WD, origin);
+  throw Error("needs a grid of touched points", "palpa calibrate " + o.kind, "Give them with --touches FILE");
+}
+
+void calibrateStation(const CalibrateOptions& o) {
+  const station::Station station = stationOf(o);
+  const Origin origin = originOf(o, station);
+  SetupResult setup;
+  if (o.recorded()) {
+    setup.results.push_back(fromFiles(o, station, origin));
+    setup.calibrations.push_back(asFile(setup.results.back()));
+    return leave(o, station, setup, {}, "");
+  }
+  if (station.device.driver != station::DeviceDriver::bench)
+    throw Error("cannot be led through a calibration yet: its camera is simulated", "station \"" + station.id + "\"", "Give recorded samples; see --help");
+  twin::SetupBench bench(station, o.seed);
+  TerminalGuide guide(o.quiet, false);
+  const Scene scene{station, bench, guide};
+  if (o.kind != "all") {
+    setup.results.push_back(onBench(o, scene, origin));
+    setup.calibrations.push_back(asFile(setup.results.back()));
+    return leave(o, station, setup, {}, "");
+  }
+  setup = setUp(scene, origin);
+  const SetupAccuracy accuracy = measureAccuracy(station, station::withCalibrations(station, setup.calibrations), setup, bench);
+  leave(o, station, setup, inWords(accuracy), inJson(accuracy));
+}
+
+struct Routine {
+  const char *name, *about, *examples;
+};
+constexpr Routine kRoutines[] = {
+    {"camera", "The lens: from pictures of a board",
+     "Examples:\n  palpa calibrate camera\n      on the virtual bench: a simulated hand holds the board\n"
+     "  palpa calibrate camera --images 'shots/left*.jpg' --board chessboard:9x6:0.025\n      from your own pictures"},
+    {"tool", "The needle's tip and direction: pivot and spin",
+     "Examples:\n  palpa calibrate tool\n  palpa calibrate tool --pivot pivot.csv --spin spin.csv\n"
+     "Tables have a header row: x_mm (or x_m), y_, z_, q_w, q_x, q_y, q_z: the end effector in the device's base."},
+    {"workspace", "The device's systematic position error, from a touched grid",
+     "Examples:\n  palpa calibrate workspace --touches grid.csv\nColumns: known_x_mm, ..., touched_x_mm, ..."},
+    {"registration", "Where the device stands: from touched landmarks, from a tag on the tool, or both",
+     "Examples:\n  palpa calibrate registration --landmarks touched.csv\n      columns: name, known_x_mm, ..., touched_x_mm, ..., for (\"check\": not used to fit)\n"
+     "  palpa calibrate registration --pairs samples.json\n      a list of [end effector in base, tag in camera], 4x4, metres; or a table: device_x_m, ..., tag_x_m, ..."},
+    {"latency", "The time between camera and device, from one motion that both saw",
+     "Examples:\n  palpa calibrate latency --camera-track camera.csv --device-track device.csv\nColumns: t_s, x_mm (or x_m), y_, z_"},
+    {"force-sensor", "Bias and tool weight, from readings in different orientations",
+     "Examples:\n  palpa calibrate force-sensor --readings readings.csv\nColumns: q_w, ..., force_x_N, ..., torque_x_Nm, ..."},
+    {"all", "Everything, one after the other, with a page that says whether the station is ready",
+     "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: palpa paracentesis --station station3/station.json --seed 3"}};
+
+void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
+  const auto file = [&](const char* name, std::string* where, const char* about) { command->add_option(name, *where, about)->type_name("FILE"); };
+  if (kind == "camera") {
+    command->add_option("--images", o->images, "Recorded pictures: a shell pattern, quoted")->type_name("GLOB");
+    command->add_option("--board", o->board, "The board in them; otherwise the station's")->type_name("SPEC");
+  }
+  if (kind == "tool") {
+    file("--pivot", &o->pivot, "Recorded poses, the tip in a hole");
+    file("--spin", &o->spin, "Recorded poses, the needle spun about itself");
+  }
+  if (kind == "workspace") file("--touches", &o->touches, "Recorded touches of a grid");
+  if (kind == "registration") {
+    file("--landmarks", &o->landmarks, "Recorded touches of landmarks");
+    file("--pairs", &o->pairs, "Recorded poses of end effector and tag");
+  }
+  if (kind == "latency") {
+    file("--camera-track", &o->camera_track, "A point's way as the camera saw it");
+    file("--device-track", &o->device_track, "The same as the device saw it");
+  }
+  if (kind == "force-sensor") {
+    file("--readings", &o->readings, "Recorded static readings");
+    command->add_option("--down", o->down, "Where weight pulls, in the device's base")->expected(3)->type_name("X Y Z");
+  }
+}
+
+}  // namespace
+
+void addStationCalibrations(CLI::App& calibrate) {
+  for (const Routine& routine : kRoutines) {
+    CLI::App* command = calibrate.add_subcommand(routine.name, routine.about);
+    command->footer(routine.examples);
+    const auto o = std::make_shared<CalibrateOptions>();
+    o->kind = routine.name;
+    command->add_option("--station", o->station, "Station file; otherwise the virtual bench")->type_name("FILE");
+    command->add_option("--seed", o->seed, "Seed of the virtual bench")->check(CLI::NonNegativeNumber);
+    command->add_option("--out", o->out, "Folder for the results")->type_name("DIR");
+    command->add_flag("--quiet", o->quiet, "No progress");
+    addFiles(command, routine.name, o.get());
+    command->callback([o] { calibrateStation(*o); });
+  }
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,10 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+
+namespace palpa::cli {
+
+/// camera, tool, workspace, registration, latency, force-sensor, all.
+void addStationCalibrations(CLI::App& calibrate);
+
+}  // namespace palpa::cli
