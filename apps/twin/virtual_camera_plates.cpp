@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <string>
 
 #include "anatomy/geometry/error.h"
 #include "apps/twin/virtual_camera.h"
