@@ -50,7 +50,7 @@ double movedSince(const std::vector<ar::BoardPoint>& before, const std::vector<a
 }
 
 /// The next picture in which the board is seen well and stands still.
-std::vector<ar::BoardPoint> stillView(const Scene& scene, const ar::Board& board, const std::string& words) {
+std::vector<ar::BoardPoint> stillView(const Scene& scene, const ar::Board& board) {
   std::vector<ar::BoardPoint> before;
   for (double begun = -1;;) {
     const std::optional<runtime::Moment> moment = scene.rig.next();
@@ -78,7 +78,7 @@ std::vector<calibration::BoardView> collectViews(const Scene& scene, int views) 
     request.words = wordsFor(request.view);
     scene.guide.ask(request.words);
     scene.rig.ask(request);
-    const std::vector<ar::BoardPoint> points = stillView(scene, *board, request.words);
+    const std::vector<ar::BoardPoint> points = stillView(scene, *board);
     if (points.empty()) continue;   // not seen there: another view may serve
     calibration::BoardView view;
     view.name = "view " + std::to_string(i + 1);
