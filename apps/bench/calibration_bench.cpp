@@ -2,6 +2,7 @@
 
 #include "apps/bench/estimator_studies.h"
 #include "apps/bench/metric.h"
+#include "apps/bench/study_figures.h"
 
 namespace palpa::bench {
 

@@ -1,12 +1,10 @@
 #include "apps/bench/estimator_studies.h"
 
-#include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
-#include "apps/runtime/random.h"
+#include "apps/bench/camera_study.h"
+#include "apps/bench/study_draws.h"
 #include "calibration/clock_offset.h"
 #include "calibration/force_sensor.h"
 #include "calibration/hand_eye.h"
@@ -19,39 +17,7 @@ namespace palpa::bench {
 namespace {
 
 using namespace calibration;
-using Random = runtime::RandomStream;
-
-Vec3 normal3(Random& random) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {x, y, z};
-}
-Vec3 inBall(Random& random) {
-  for (;;) {
-    const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);
-    if (x * x + y * y + z * z <= 1) return {x, y, z};
-  }
-}
-Vec3 direction(Random& random) { return normal3(random).normalized(); }
-Mat3 anyRotation(Random& random) { return rotationOf(std::numbers::pi * inBall(random)); }
-
-/// Which of n measurements are gross errors: that share of them, drawn.
-std::vector<bool> grossErrors(Random& random, std::size_t n, double share) {
-  std::vector<bool> gross(n);
-  for (auto left = static_cast<int>(std::lround(share * static_cast<double>(n))); left > 0;) {
-    const std::size_t i = random.bits() % n;
-    if (gross[i]) continue;
-    gross[i] = true;
-    --left;
-  }
-  return gross;
-}
-
-VectorX halves(const Fit& fit) {
-  VectorX h(fit.covariance.rows());
-  for (Eigen::Index i = 0; i < h.size(); ++i) h[i] = fit.halfWidth95(static_cast<int>(i));
-  return h;
-}
-VectorX sds(const MatrixX& covariance) { return covariance.diagonal().cwiseSqrt(); }
+using namespace study;
 
 /// The six of a pose's noise: turned in its own frame, shifted.
 Pose noisy(const Pose& X, const VectorX& e) { return moved(X, e); }
@@ -281,35 +247,8 @@ EstimateCheck workspace(std::uint64_t seed, double outliers) {
 
 std::vector<EstimatorStudy> estimatorStudies() {
   return {{"tool tip (pivot)", pivot},       {"needle axis (spin)", spin},  {"landmark registration", landmarks}, {"hand-eye", handEye},
-          {"clock offset and drift", clocks}, {"force sensor", forceSensor}, {"workspace map", workspace}};
-}
-
-StudyFigures figuresOf(const EstimatorStudy& study, int sets, double outliers) {
-  VectorX errors, bounds;
-  double inside = 0, all = 0;
-  StudyFigures figures;
-  for (int seed = 1; seed <= sets; ++seed) {
-    try {
-      const EstimateCheck check = study.run(static_cast<std::uint64_t>(seed), outliers);
-      if (errors.size() == 0) errors = bounds = VectorX::Zero(check.error.size());
-      errors += check.error.cwiseAbs2();
-      bounds += check.bound.cwiseAbs2();
-      inside += (check.error.cwiseAbs().array() <= check.half95.array()).count();
-      all += static_cast<double>(check.error.size());
-    } catch (const Error& error) {
-      std::fprintf(stderr, "%s, set %d: %s\n", study.name.c_str(), seed, error.what());
-      ++figures.refused;
-    }
-  }
-  std::vector<double> ratios;
-  for (Eigen::Index k = 0; k < errors.size(); ++k) ratios.push_back(std::sqrt(errors[k] / bounds[k]));
-  std::sort(ratios.begin(), ratios.end());
-  if (ratios.empty()) return figures;
-  const std::size_t n = ratios.size();
-  figures.ratio = (ratios[n / 2] + ratios[(n - 1) / 2]) / 2;
-  figures.worst_ratio = ratios.back();
-  figures.coverage = inside / all;
-  return figures;
+          {"clock offset and drift", clocks}, {"force sensor", forceSensor}, {"workspace map", workspace},
+          {"camera", cameraStudy}};
 }
 
 }  // namespace palpa::bench

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cmath>
+#include <numbers>
 #include <opencv2/calib3d.hpp>
 #include <random>
 #include <string>
@@ -26,6 +27,7 @@ struct ViewSetting {
   double noise = 0;        ///< px, each coordinate
   double tilt = 0.3;       ///< rad, about; 0: all from the front
   double distance = 0.36;  ///< m, about
+  double wander = 0.25;    ///< how far the board leaves the middle, of the distance
   int count = 12;
   unsigned seed = 1;
 };
@@ -38,7 +40,8 @@ inline std::vector<BoardView> boardViews(const ViewSetting& setting) {
   for (int i = 0; i < setting.count; ++i) {
     const double around = 2.4 * i, tilt = setting.tilt * (1 + 0.7 * std::sin(1.0 * i));
     const Mat3 R = rotationOf(tilt * Vec3(std::cos(around), std::sin(around), 0)) * rotationOf(0.2 * std::sin(2.0 * i) * Vec3::UnitZ());
-    const Pose X_CW = makePose(R, Vec3(-0.1 + 0.04 * std::sin(1.7 * i), -0.06 + 0.03 * std::cos(2.9 * i), setting.distance + 0.08 * std::sin(0.8 * i)));
+    const double far = setting.distance + 0.08 * std::sin(0.8 * i), aside = setting.wander * far;
+    const Pose X_CW = makePose(R, Vec3(aside * std::sin(1.7 * i), 0.8 * aside * std::cos(2.9 * i), far) - R * Vec3(0.1, 0.0625, 0));
     BoardView view{"view " + std::to_string(i + 1), chessboardCorners(), {}};
     for (const Vec3& p : view.p_W) {
       const double du = normal(bits), dv = normal(bits);

@@ -88,14 +88,20 @@ double rmsOfUnseen(const BoardView& view, const CameraModel& m) {
   return std::sqrt(squares / static_cast<double>(seen.size()));
 }
 
-/// Each view judged by the camera of the others. `judge`: the same views' corners that count as seen.
-double leftOutRms(const Estimator& estimate, const std::vector<BoardView>& views, const std::vector<BoardView>& judge) {
-  double squares = 0;
+/// For each view the camera of the others.
+std::vector<CameraModel> camerasOfOthers(const Estimator& estimate, const std::vector<BoardView>& views) {
+  std::vector<CameraModel> cameras;
   for (std::size_t v = 0; v < views.size(); ++v) {
     std::vector<BoardView> others = views;
     others.erase(others.begin() + static_cast<std::ptrdiff_t>(v));
-    squares += std::pow(rmsOfUnseen(judge[v], estimate(others)), 2) / static_cast<double>(views.size());
+    cameras.push_back(estimate(others));
   }
+  return cameras;
+}
+
+double leftOutRms(const std::vector<CameraModel>& cameras, const std::vector<BoardView>& views) {
+  double squares = 0;
+  for (std::size_t v = 0; v < views.size(); ++v) squares += std::pow(rmsOfUnseen(views[v], cameras[v]), 2) / static_cast<double>(views.size());
   return std::sqrt(squares);
 }
 
@@ -119,10 +125,11 @@ TEST(CameraBesideOpenCv, OfRealPicturesWithEveryCornerMeetsThePublishedFigures) 
   EXPECT_NEAR(found.rms_all_px, theirs.rms_px, 1e-3);
 }
 
-// Those published figures are those of a few corners that were not found well: in the narrow squares of left02.jpg a window of 23 px reaches past
-// the neighbours. With windows of 11 px OpenCV itself says f 532.8 and rms 0.196 px. Ours, which leaves such corners out, comes within a pixel of that from either
-// corners; OpenCV's from the bad ones does not.
-TEST(CameraBesideOpenCv, OfRealPicturesPredictsUnseenViewsBetter) {
+// Those published figures come from some corners that were not found well: among the narrow squares of left02.jpg a window of 23 px reaches past the
+// neighbours. With windows of 11 px OpenCV itself says f 532.8 and rms 0.196 px. Ours leaves such corners out and is within a pixel of that from either
+// corners. Which is better, by rms of views left out: from badly found corners ours (0.205 px against 0.213 px; on the bad corners themselves both alike); from well
+// found ones OpenCV's by 2 %, nearly all of it in left06.jpg, without which ours leaves out one more corner.
+TEST(CameraBesideOpenCv, OfRealPicturesIsNotMisledByBadlyFoundCorners) {
   PALPA_NEED_DATA(testData("chessboard/left01.jpg"));
   const std::vector<BoardView> wide = pictures(11), narrow = pictures(5);
   ASSERT_EQ(wide.size(), 13u);
@@ -135,13 +142,12 @@ TEST(CameraBesideOpenCv, OfRealPicturesPredictsUnseenViewsBetter) {
   EXPECT_LT(std::abs(found.model.fx - byOpenCv(narrow).fx), 1);
   EXPECT_GT(std::abs(byOpenCv(wide).fx - byOpenCv(narrow).fx), 2);
   EXPECT_NEAR(byUs(narrow).fx, byOpenCv(narrow).fx, 0.3);
-  const double ours_wide = leftOutRms(byUs, wide, narrow), theirs_wide = leftOutRms(byOpenCv, wide, narrow);
-  const double ours_same = leftOutRms(byUs, wide, wide), theirs_same = leftOutRms(byOpenCv, wide, wide);
-  const double ours_narrow = leftOutRms(byUs, narrow, narrow), theirs_narrow = leftOutRms(byOpenCv, narrow, narrow);
-  std::printf("real pictures, rms of views left out: wide windows ours %.4f OpenCV %.4f px (judged by narrow ones' corners), %.4f %.4f px (judged by their own); narrow windows %.4f %.4f px\n",
-              ours_wide, theirs_wide, ours_same, theirs_same, ours_narrow, theirs_narrow);
-  EXPECT_LT(ours_wide, theirs_wide);
-  EXPECT_LT(ours_narrow, 1.01 * theirs_narrow);
+  const auto ours_wide = camerasOfOthers(byUs, wide), theirs_wide = camerasOfOthers(byOpenCv, wide);
+  const auto ours_narrow = camerasOfOthers(byUs, narrow), theirs_narrow = camerasOfOthers(byOpenCv, narrow);
+  std::printf("rms of left-out views, ours and OpenCV's: wide windows %.4f %.4f px on well found corners, %.4f %.4f px on their own; narrow windows %.4f %.4f px\n", leftOutRms(ours_wide, narrow),
+              leftOutRms(theirs_wide, narrow), leftOutRms(ours_wide, wide), leftOutRms(theirs_wide, wide), leftOutRms(ours_narrow, narrow), leftOutRms(theirs_narrow, narrow));
+  EXPECT_LT(leftOutRms(ours_wide, narrow), leftOutRms(theirs_wide, narrow));
+  EXPECT_NEAR(leftOutRms(ours_narrow, narrow), leftOutRms(theirs_narrow, narrow), 0.01);
 }
 
 }  // namespace
