@@ -47,6 +47,9 @@ void requireSpread(const Spread& s) {
     throw Error("the landmarks lie within " + std::to_string(static_cast<int>(std::ceil(1e3 * sizes[2]))) + " mm", kLandmarks,
                 "Choose landmarks all over the phantom; lengths are metres");
   if (sizes[1] < kFlat * sizes[2]) throw Error("the landmarks lie on one line: nothing tells how the phantom is turned about it", kLandmarks, "Touch one beside that line");
+  if (sizes[0] < kFlat * sizes[2])
+    throw Error("the landmarks lie in one plane: a mirrored list or a swapped axis would fit as well, with the anatomy upside down", kLandmarks,
+                "Touch one well above or below that plane");
 }
 
 // Sizes may differ by a unit; a mirrored set fits only mirrored.
@@ -71,7 +74,7 @@ Mat3 LandmarkRegistration::covarianceAt(const Vec3& p_A) const {
 double LandmarkRegistration::tre(const Vec3& p_A) const { return std::sqrt(covarianceAt(p_A).trace()); }
 
 LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landmarks, double largest_fre) {
-  if (landmarks.size() < 3) throw Error(std::to_string(landmarks.size()) + " landmarks are too few", kLandmarks, "Touch three at least, better six");
+  if (landmarks.size() < 4) throw Error(std::to_string(landmarks.size()) + " landmarks are too few", kLandmarks, "Touch four at least, better eight, not all in one plane");
   for (const TouchedLandmark& l : landmarks)
     if (!l.p_A.allFinite() || !l.p_B.allFinite() || !(l.sd > 0)) throw Error("a landmark is not a number", kLandmarks, "Touch it again");
   const Spread spread = spreadOf(landmarks);

@@ -29,8 +29,8 @@ struct LandmarkRegistration {
   Mat3 covarianceAt(const Vec3& p_A) const;
 };
 
-/// Throws Error for fewer than 3 landmarks (4 to be told an outlier), landmarks on one line or in one place, landmarks whose distances differ
-/// as units or mirrored coordinates do, and landmarks that fit badly (`largest_fre`).
+/// Throws Error for fewer than 4 landmarks, landmarks in one place, on one line or in one plane (three tell a rigid motion, but not that a list is
+/// mirrored), landmarks whose distances differ as units or mirrored coordinates do, and landmarks that fit badly (`largest_fre`).
 LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landmarks, double largest_fre = 0.005);
 
 }  // namespace palpa::calibration

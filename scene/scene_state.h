@@ -42,6 +42,7 @@ struct Hud {
   std::string force;    ///< "1.2 N"
   std::string time;     ///< "0:31"
   std::string touched;  ///< "clavicle (guide)", "pleura!"
+  std::string overlay;  ///< how far off the overlay may be at the needle's tip: "within 0.4 mm"
   std::string notice;   ///< one line of advice, loss of tracking, emergency stop
   std::string mark;     ///< "SIMULATED OPERATOR"
   bool alarm = false;   ///< notice in alarm style

@@ -1,5 +1,7 @@
 #include "apps/cli/needle_session.h"
 
+#include <algorithm>
+#include <cstdio>
 #include <memory>
 
 #include "apps/cli/interrupt.h"
@@ -9,6 +11,7 @@
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/haptic_activity.h"
 #include "apps/runtime/recorder_activity.h"
+#include "apps/station/overlay_error.h"
 
 namespace palpa::cli {
 namespace {
@@ -77,6 +80,7 @@ class NeedleSession {
     result.lateness = executive_->lateness();
     if (!pictures_.recorded()) result.accuracy = devices_.bench()->accuracy();
     result.registration = pictures_.registration();
+    result.board = scene_.board();
     result.devices = devices_.facts();
     result.safety_events = task_.safetyEvents();
     result.dropped = recorder_.dropped() + task_.lostTicks();
@@ -104,6 +108,8 @@ class NeedleSession {
     setup.mark = markFor(options_.who, world_.station);
     setup.folder = folder_;
     setup.every_source_picture = pictures_.recorded();
+    if (station::calibrationOf(world_.station.calibrations, "registration"))
+      setup.overlay_error = [this](const Pose& X_DT, const ar::BoardPose& board) { return overlayWords(X_DT, board); };
     setup.giving_way = options_.skin_deflection ? &world_.query : nullptr;
     setup.skin = skinOf(world_.patient);
     if (window_) {
@@ -113,6 +119,15 @@ class NeedleSession {
       };
     }
     return setup;
+  }
+
+  /// 95 % of a normal error in three dimensions lie within 1.6 times its root mean square.
+  std::string overlayWords(const Pose& X_DT, const ar::BoardPose& board) const {
+    constexpr double kOf95 = 1.6;
+    const auto error = station::predictOverlayError(world_.station, X_DT * world_.station.X_ET.inverse(), board);
+    char words[48] = "";
+    if (error) std::snprintf(words, sizeof words, "within %.1f mm", std::max(kOf95 * error->mm, 0.1));
+    return words;
   }
 
   const SessionOptions& options_;

@@ -20,6 +20,7 @@ struct SessionResult {
   std::vector<runtime::Lateness> lateness;
   std::optional<twin::BenchAccuracy> accuracy;
   std::vector<RegistrationRow> registration;   ///< recorded pictures only
+  std::optional<ar::BoardPose> board;          ///< as it was seen last
   std::vector<runtime::Event> safety_events;   ///< what took the force away, what a driver had to say
   std::vector<SessionDevices::Fact> devices;   ///< what their drivers counted
   std::uint64_t dropped = 0;                   ///< records lost by the recorder

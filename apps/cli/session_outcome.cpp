@@ -2,13 +2,14 @@
 
 #include <cstdarg>
 #include <cstdio>
-#include <fstream>
+#include <sstream>
 #include <map>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
 #include "apps/cli/session_info.h"
 #include "apps/report/session_report.h"
+#include "apps/station/overlay_error.h"
 
 namespace palpa::cli {
 namespace {
@@ -56,8 +57,19 @@ std::vector<report::TrialPage> pages(const SessionResult& result) {
   return all;
 }
 
-std::vector<report::Fact> registrationFacts(const SessionResult& result) {
-  std::vector<report::Fact> facts;
+/// With the needle's tip at the entry point, upright.
+report::Fact predictedOverlay(const SessionResult& result, const NeedleWorld& world) {
+  const char* const name = "Overlay at the needle's tip, predicted error";
+  if (!result.board || world.station.calibrations.empty())
+    return {name, "not known", "the station was not calibrated by this program: palpa calibrate all"};
+  const Pose X_WT = makePose(rotationWithZ(-Vec3::UnitZ()), world.X_WA * world.patient.landmark(anatomy::landmark::kEntry));
+  const auto error = station::predictOverlayError(world.station, world.station.X_WD.inverse() * X_WT * world.station.X_ET.inverse(), *result.board);
+  if (!error) return {name, "not known", "tool or registration is not calibrated"};
+  return {name, format("%.2f mm, %.2f px", error->mm, error->px), "root mean square, at the entry point, by the calibrations' spreads"};
+}
+
+std::vector<report::Fact> registrationFacts(const SessionResult& result, const NeedleWorld& world) {
+  std::vector<report::Fact> facts{predictedOverlay(result, world)};
   if (result.accuracy) {
     const twin::BenchAccuracy& a = *result.accuracy;
     facts.push_back({"Registration error at the entry point, median",
@@ -159,7 +171,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world, const
   page.simulated = isSimulated(options, world);
   page.trials = pages(result);
   page.station = stationFacts(options, world);
-  page.registration = registrationFacts(result);
+  page.registration = registrationFacts(result, world);
   page.notes = notes(result);
   report::writeReport(page, folder / "report.html");
   if (!result.registration.empty()) writeRegistration(result.registration, folder / "registration.csv");

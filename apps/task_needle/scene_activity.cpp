@@ -61,6 +61,8 @@ void SceneActivity::follow(std::int64_t now_ns) {
   camera_ = *view;
   fresh_picture_ = true;
   if (!view->pose) return;
+  board_ = view->pose;
+  if (setup_.overlay_error && setup_.view) overlay_ = setup_.overlay_error(unpack(tool_.X_DT), *board_);
   // Recorded single pictures are not a motion: each stands for itself.
   X_CW_ = setup_.every_source_picture ? view->pose->X_CW
                                       : smoother_.update(view->pose->X_CW, view->t_exposure_ns);
@@ -77,6 +79,7 @@ void SceneActivity::compose() {
   state_.plunger = tool_.plunger;
   state_.blood = status_.blood;
   state_.hud = hudText(status_, tool_, seen, setup_.mark);
+  state_.hud.overlay = seen ? overlay_ : "";
   state_.forces.clear();
   const Vec3 f_A = X_AD_.rotation() * unpack(tool_.f_contact_D);
   if (f_A.norm() > 0.05) {

@@ -38,6 +38,8 @@ class SceneActivity final : public runtime::Activity {
     /// The skin is shown to give way (surface `skin` of this patient); null: it is not.
     const anatomy::SurfaceQuery* giving_way = nullptr;
     int skin = 0;
+    /// In words, how far off the overlay may be at the tip: X_DT and the board as it is seen; empty: nothing is said.
+    std::function<std::string(const Pose& X_DT, const ar::BoardPose& board)> overlay_error;
     /// Keys and mouse of a window, once a frame.
     std::function<void(const scene::ViewInput&, std::int64_t now_ns)> input;
   };
@@ -49,6 +51,8 @@ class SceneActivity final : public runtime::Activity {
   void finish(std::int64_t now_ns) { step(now_ns); }
 
   const std::vector<SavedPicture>& pictures() const { return pictures_; }
+  /// The board as it was seen last.
+  const std::optional<ar::BoardPose>& board() const { return board_; }
   void cycleSkin();
 
  private:
@@ -68,6 +72,8 @@ class SceneActivity final : public runtime::Activity {
   TaskStatus status_;
   runtime::ToolState tool_;
   std::optional<runtime::CameraView> camera_;
+  std::optional<ar::BoardPose> board_;
+  std::string overlay_;
   Pose X_CW_ = Pose::Identity();
   bool registered_ = false, fresh_picture_ = false;
   std::int64_t seen_ns_ = 0, now_ns_ = 0;

@@ -12,8 +12,6 @@
 namespace palpa::cli_test {
 namespace {
 
-bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
-
 /// A closed spindle along x, as long as `length` in the file's unit.
 std::string spindleObj(double length) {
   constexpr int kRings = 12, kSides = 16;

@@ -52,6 +52,8 @@ class Folder {
   std::filesystem::path path_;
 };
 
+inline bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
 std::string contentOf(const std::filesystem::path& file);
 
 /// The arguments of a quick session: virtual time, no views, no progress.

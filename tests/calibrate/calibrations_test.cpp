@@ -1,0 +1,77 @@
+#include "apps/station/calibrations.h"
+
+#include <gtest/gtest.h>
+
+#include "a_calibration.h"
+#include "apps/station/assets.h"
+#include "apps/station/sha256.h"
+#include "apps/station/station_file.h"
+
+namespace palpa::station {
+namespace {
+
+using test::says;
+
+AppliedCalibration applied(CalibrationFile file, const std::string& sha) {
+  AppliedCalibration c;
+  c.file = std::move(file);
+  c.sha256 = c.sha256_wanted = sha;
+  return c;
+}
+
+std::vector<AppliedCalibration> goodSet() {
+  CalibrationFile camera = test::aCalibration();
+  camera.kind = "camera";
+  camera.rests_on.clear();
+  return {applied(camera, "abc"), applied(test::aCalibration(), "def")};
+}
+
+TEST(Sha256, OfTheStandardsExample) {
+  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
+  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+}
+
+TEST(Calibrations, AreFaultlessWhenAllFits) {
+  EXPECT_EQ(faultOf(goodSet(), "virtual-bench"), "");
+  EXPECT_EQ(outdatedOn(goodSet(), "2026-03-02T00:00:00Z"), "");
+}
+
+TEST(Calibrations, TellWhatIsWrong) {
+  std::vector<AppliedCalibration> set = goodSet();
+  set[1].file.verdict = "the tip's uncertainty is 2 mm, at most 0.25 mm is good";
+  EXPECT_TRUE(says(faultOf(set, "virtual-bench"), "tool calibration failed"));
+  EXPECT_TRUE(says(faultOf(goodSet(), "another"), "belongs to station \"virtual-bench\""));
+  set = goodSet();
+  set[1].sha256 = "replaced";
+  EXPECT_TRUE(says(faultOf(set, "virtual-bench"), "was replaced"));
+  set = goodSet();
+  set[0].sha256 = set[0].sha256_wanted = "a newer camera";
+  EXPECT_TRUE(says(faultOf(set, "virtual-bench"), "made with another camera calibration"));
+  set = {goodSet()[1]};
+  EXPECT_TRUE(says(faultOf(set, "virtual-bench"), "made with another camera calibration"));
+}
+
+TEST(Calibrations, GrowOld) {
+  EXPECT_EQ(outdatedOn(goodSet(), "2026-05-30T00:00:00Z"), "");
+  EXPECT_TRUE(says(outdatedOn(goodSet(), "2026-05-31T00:00:00Z"), "is outdated: made on 2026-03-01, good for 90 days"));
+  std::vector<AppliedCalibration> set = goodSet();
+  set[0].file.date = "yesterday";
+  EXPECT_TRUE(says(outdatedOn(set, "2026-03-02T00:00:00Z"), "has no date"));
+}
+
+TEST(Calibrations, ChangeWhatTheStationBelievesButNotItsDesign) {
+  const Station station = readStation(assetFile("stations/virtual_bench.json"));
+  CalibrationFile tool = test::aCalibration();
+  tool.rests_on.clear();
+  const Station calibrated = withCalibrations(station, {applied(tool, "def")});
+  EXPECT_EQ(calibrated.calibration_verdict, "pass");
+  EXPECT_LT((calibrated.X_ET.matrix() - poseAt(tool, "X_ET").matrix()).norm(), 1e-12);
+  EXPECT_EQ(calibrated.design.X_ET.matrix(), station.X_ET.matrix());
+  EXPECT_EQ(calibrated.X_WD.matrix(), station.X_WD.matrix());
+  Station old = calibrated;
+  judgeAge(old, "2027-01-01T00:00:00Z");
+  EXPECT_TRUE(says(old.calibration_verdict, "outdated"));
+}
+
+}  // namespace
+}  // namespace palpa::station

@@ -1,0 +1,220 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <random>
+#include <sstream>
+
+#include "program.h"
+#include "tests/support/counts.h"
+#include "tests/support/test_data.h"
+
+/// Calibrations as an educator makes them: what they find, what they refuse, what a session makes of them.
+namespace palpa::cli_test {
+namespace {
+
+using nlohmann::json;
+
+/// Refused in one line on standard error, with exit code 1, and nothing written.
+void expectRefused(const std::vector<std::string>& arguments, const std::string& words, const Folder& here) {
+  const std::vector<std::string> before = here.files();
+  std::vector<std::string> all{"calibrate"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  all.insert(all.end(), {"--out", "result", "--quiet"});
+  const Outcome outcome = palpa(all, here.path());
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, words)) << outcome.err;
+  EXPECT_EQ(here.files(), before) << outcome.err;
+}
+
+struct V {
+  double x = 0, y = 0, z = 0;
+};
+
+/// A tool of 110 mm whose tip stays at a point while it is turned by `turn(i)`; noise as an encoder's.
+std::string pivotTable(int n, const std::function<V(int)>& rotation_vector, double unit = 1, double wander = 0) {
+  std::mt19937_64 bits(5);
+  const auto noise = [&] { return 1e-5 * (static_cast<double>(bits() % 2001) - 1000) / 1000; };
+  std::ostringstream csv;
+  csv << "x_m,y_m,z_m,q_w,q_x,q_y,q_z\n";
+  for (int i = 0; i < n; ++i) {
+    const V w = rotation_vector(i);
+    const double angle = std::sqrt(w.x * w.x + w.y * w.y + w.z * w.z), s = angle > 0 ? std::sin(angle / 2) / angle : 0;
+    const double qw = std::cos(angle / 2), qx = s * w.x, qy = s * w.y, qz = s * w.z;
+    // R (0, 0, L): the third column times the tool's length.
+    const double length = 0.11;
+    const double rx = 2 * (qx * qz + qw * qy) * length, ry = 2 * (qy * qz - qw * qx) * length, rz = (1 - 2 * (qx * qx + qy * qy)) * length;
+    csv << unit * (0.02 - rx + noise() + wander * i) << ',' << unit * (0.03 - ry + noise()) << ',' << unit * (0.04 - rz + noise()) << ',' << qw << ',' << qx << ',' << qy << ',' << qz << '\n';
+  }
+  return csv.str();
+}
+
+V everyWay(int i) { return {0.4 * std::cos(0.9 * i), 0.4 * std::sin(0.9 * i), 0.2 * std::sin(0.37 * i)}; }
+
+std::string replaceLine(std::string table, int line, const std::string& text) {
+  std::istringstream in(table);
+  std::ostringstream out;
+  int n = 0;
+  for (std::string row; std::getline(in, row); ++n) out << (n == line ? text : row) << '\n';
+  return out.str();
+}
+
+/// Landmarks seen from a device that is shifted and turned by 90 degrees about z.
+std::string landmarkTable(const std::vector<V>& known_mm, const std::function<V(V, std::size_t)>& spoil = {}) {
+  std::ostringstream csv;
+  csv << "known_x_mm,known_y_mm,known_z_mm,touched_x_mm,touched_y_mm,touched_z_mm\n";
+  for (std::size_t i = 0; i < known_mm.size(); ++i) {
+    const V& k = known_mm[i];
+    V t{-k.y + 30 + 0.1 * std::sin(7.0 * static_cast<double>(i)), k.x - 20 + 0.1 * std::cos(5.0 * static_cast<double>(i)), k.z + 10};
+    if (spoil) t = spoil(t, i);
+    csv << k.x << ',' << k.y << ',' << k.z << ',' << t.x << ',' << t.y << ',' << t.z << '\n';
+  }
+  return csv.str();
+}
+const std::vector<V> kLandmarks{{0, 0, 0}, {100, 0, 10}, {0, 100, 60}, {100, 100, 30}, {50, 20, 80}, {20, 70, 20}, {80, 60, 50}, {40, 40, 5}, {10, 30, 70}, {90, 10, 40}};
+
+TEST(Calibrate, ToolFromRecordedPoses) {
+  const Folder here;
+  here.file("pivot.csv", pivotTable(200, everyWay));
+  const Outcome outcome = palpa({"calibrate", "tool", "--pivot", "pivot.csv", "--out", "tool"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json file = json::parse(contentOf(here / "tool/tool.json"));
+  EXPECT_NEAR(file["parameters"]["X_ET_position_m"][2].get<double>(), 0.11, 1e-5);
+  EXPECT_EQ(file["verdict"], "pass");
+  EXPECT_TRUE(says(contentOf(here / "tool/calibration.html"), "The tip lies 110 mm"));
+}
+
+TEST(Calibrate, ToolRefusesWhatCannotTellATip) {
+  const Folder here;
+  const auto refused = [&](const std::string& table, const std::string& words) {
+    here.file("pivot.csv", table);
+    expectRefused({"tool", "--pivot", "pivot.csv"}, words, here);
+  };
+  refused(pivotTable(10, everyWay), "few");
+  refused(pivotTable(200, [](int i) { return V{0.5 * std::sin(0.3 * i), 0, 0}; }), "about one axis");
+  refused(pivotTable(200, [](int) { return V{0.1, 0.2, 0}; }), "axis");
+  refused(pivotTable(200, everyWay, 1000), "m");
+  refused(pivotTable(200, everyWay, 1, 0.002), "hole");
+  refused(replaceLine(pivotTable(200, everyWay), 7, "nan,0,0,1,0,0,0"), "line 8");
+}
+
+TEST(Calibrate, LandmarksTellWhereTheDeviceStands) {
+  const Folder here;
+  here.file("touched.csv", landmarkTable(kLandmarks));
+  const Outcome outcome = palpa({"calibrate", "registration", "--landmarks", "touched.csv", "--out", "reg"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const json p = json::parse(contentOf(here / "reg/registration.json"))["parameters"];
+  // touched = Rz(90) known + (30, -20, 10): X_WD has the device's origin at (20, 30, -10).
+  EXPECT_NEAR(p["X_WD_position_m"][0].get<double>(), 0.020, 3e-4);
+  EXPECT_NEAR(p["X_WD_position_m"][1].get<double>(), 0.030, 3e-4);
+  EXPECT_NEAR(p["X_WD_position_m"][2].get<double>(), -0.010, 3e-4);
+}
+
+TEST(Calibrate, RegistrationRefusesWhatCannotTellAPlace) {
+  const Folder here;
+  const auto refused = [&](const std::string& table, const std::string& words) {
+    here.file("touched.csv", table);
+    expectRefused({"registration", "--landmarks", "touched.csv"}, words, here);
+  };
+  std::vector<V> line, plane;
+  for (const V& v : kLandmarks) {
+    line.push_back({v.x + v.y, 2 * (v.x + v.y), 0});
+    plane.push_back({v.x, v.y, 0.2 * v.x});
+  }
+  refused(landmarkTable({kLandmarks.begin(), kLandmarks.begin() + 3}), "too few");
+  refused(landmarkTable(line), "one line");
+  refused(landmarkTable(plane), "one plane");
+  refused(landmarkTable(kLandmarks, [](V t, std::size_t) { return V{1e3 * t.x, 1e3 * t.y, 1e3 * t.z}; }), "unit");
+  refused(landmarkTable(kLandmarks, [](V t, std::size_t) { return V{t.x, t.y, -t.z}; }), "mirror");
+  refused(landmarkTable(kLandmarks, [](V t, std::size_t i) { return i % 5 < 2 ? V{t.x + 40 * std::sin(3.0 * static_cast<double>(i) + 1), t.y + 35, t.z - 30} : t; }), "");
+}
+
+/// One motion as both saw it, the device 35 ms behind.
+std::string track(double rate, double shift, double amplitude) {
+  std::ostringstream csv;
+  csv.precision(12);
+  csv << "t_s,x_m,y_m,z_m\n";
+  for (int i = 0; i < static_cast<int>(12 * rate); ++i) {
+    const double t = i / rate, u = t + shift;
+    csv << t << ',' << amplitude * (std::sin(3.9 * u) + 0.4 * std::sin(8.6 * u)) << ',' << amplitude * std::sin(2.9 * u + 1) << ',' << 0.6 * amplitude * std::sin(5.2 * u + 2) << '\n';
+  }
+  return csv.str();
+}
+
+TEST(Calibrate, TimeFromOneMotionAndNotFromNone) {
+  const Folder here;
+  here.file("camera.csv", track(15, 0, 0.04));
+  here.file("device.csv", track(100, -0.035, 0.04));
+  const Outcome outcome = palpa({"calibrate", "latency", "--camera-track", "camera.csv", "--device-track", "device.csv", "--out", "time"}, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_NEAR(json::parse(contentOf(here / "time/latency.json"))["parameters"]["offset_s"][0].get<double>(), 0.035, 5e-4);
+  here.file("device.csv", track(100, 0, 0));
+  expectRefused({"latency", "--camera-track", "camera.csv", "--device-track", "device.csv"}, "", here);
+}
+
+TEST(Calibrate, RealChessboardAndRealRobot) {
+  const Folder here;
+  const std::string pictures = testData("chessboard").string();
+  PALPA_NEED_DATA(pictures);
+  const Outcome camera = palpa({"calibrate", "camera", "--images", pictures + "/left*.jpg", "--board", "chessboard:9x6:0.025", "--out", "camera"}, here.path());
+  ASSERT_EQ(camera.exit_code, 0) << camera.err;
+  const json p = json::parse(contentOf(here / "camera/camera.json"));
+  EXPECT_NEAR(p["parameters"]["centre_px"][0].get<double>(), 342.283, 2);
+  EXPECT_NEAR(p["parameters"]["centre_px"][1].get<double>(), 235.571, 2);
+  EXPECT_LE(p["residuals"]["rms"].get<double>(), 0.42);
+  expectRefused({"camera", "--images", pictures + "/left0[12].jpg", "--board", "chessboard:9x6:0.025"}, "few", here);
+  expectRefused({"camera", "--images", pictures + "/left*.jpg", "--board", "chessboard:8x7:0.025"}, "is in none of the pictures", here);
+}
+
+/// What `all` says of itself against the bench's truth, at the limits that the product promises.
+TEST(Calibrate, AllOnTheVirtualBench) {
+  double true_mm = 0, predicted_mm = 0, true_px = 0, predicted_px = 0;
+  const int seeds = test::counted(3, 20);
+  for (int seed = 1; seed <= seeds; ++seed) {
+    const Folder here;
+    const Outcome outcome = palpa({"calibrate", "all", "--seed", std::to_string(seed), "--quiet", "--out", "all"}, here.path());
+    ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+    const json a = json::parse(contentOf(here / "all/accuracy.json"));
+    EXPECT_LE(a["tip_mm"].get<double>(), 0.25) << "seed " << seed;
+    EXPECT_LE(a["target_mm"].get<double>(), 0.8) << "seed " << seed;
+    EXPECT_LE(a["target_px"].get<double>(), 1.5) << "seed " << seed;
+    EXPECT_LE(std::abs(a["offset_ms"].get<double>()), 1) << "seed " << seed;
+    EXPECT_LT(a["seconds"].get<double>(), 180) << "seed " << seed;
+    true_mm += std::pow(a["target_mm"].get<double>(), 2);
+    true_px += std::pow(a["target_px"].get<double>(), 2);
+    predicted_mm += std::pow(a["predicted_mm"].get<double>(), 2);
+    predicted_px += std::pow(a["predicted_px"].get<double>(), 2);
+  }
+  if (!test::fullCounts()) return;   // the root mean square of three says nothing
+  EXPECT_LT(std::abs(std::log(true_mm / predicted_mm)), 2 * std::log(1.5)) << std::sqrt(true_mm / predicted_mm);
+  EXPECT_LT(std::abs(std::log(true_px / predicted_px)), 2 * std::log(1.5)) << std::sqrt(true_px / predicted_px);
+}
+
+TEST(Calibrate, ASessionUsesItAndIsNotScoredOnABadOne) {
+  const Folder here;
+  ASSERT_EQ(palpa({"calibrate", "all", "--seed", "3", "--quiet", "--out", "all"}, here.path()).exit_code, 0);
+  const auto run = [&](const std::string& out) { return palpa(session({"--station", "all/station.json", "--seed", "3", "--operator", "expert", "--out", out}), here.path()); };
+  Outcome outcome = run("good");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "scored")) << outcome.out;
+  EXPECT_FALSE(says(outcome.out, "not scored")) << outcome.out;
+  EXPECT_TRUE(says(contentOf(here / "good/report.html"), "by the calibrations"));
+  // Another tool calibration of the same station: the registration was made with the former.
+  ASSERT_EQ(palpa({"calibrate", "tool", "--seed", "4", "--quiet", "--station", "all/station.json", "--out", "tool"}, here.path()).exit_code, 0);
+  outcome = palpa(session({"--station", "tool/station.json", "--seed", "3", "--operator", "expert", "--out", "outdated"}), here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "not scored")) << outcome.out;
+  EXPECT_TRUE(says(contentOf(here / "outdated/report.html"), "made with another tool calibration"));
+  // Damaged: no session at all.
+  std::string text = contentOf(here / "all/camera.json");
+  text[text.size() / 2] = text[text.size() / 2] == '1' ? '2' : '1';
+  here.file("all/camera.json", text);
+  outcome = run("damaged");
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "camera.json")) << outcome.err;
+}
+
+}  // namespace
+}  // namespace palpa::cli_test
