@@ -13,10 +13,11 @@
 namespace palpa::ar {
 namespace {
 
-constexpr int kSmallestLevel = 640;   // pixels along the longer side of a halved picture
+constexpr int kSmallestLevel = 640;  // pixels along the longer side of a halved picture
 
-/// Width of the narrower of border and gap, as a share of the tag: what lies beside a corner. Across
-/// a gap stands the next crossing, which a turned window must not reach with its corner either.
+/// Width of the narrower of border and gap, as a share of the tag: what lies beside a corner.
+/// Across a gap stands the next crossing, which a turned window must not reach with its corner
+/// either.
 double band(const TagGridSpec& spec) {
   return std::min(spec.border_bits / (6.0 + 2 * spec.border_bits),
                   std::sqrt(0.5) * spec.spacing / spec.tag_size);
@@ -92,12 +93,13 @@ void appendCorners(const cv::Mat& gray, PlacedTag placed, double width,
                    std::vector<BoardPoint>* points) {
   const double room = width * outlineHeight(outline(placed.tag));
   std::array<bool, 4> good{};
-  for (std::size_t i = 0; i < 4; ++i)
-    good[i] = refineSaddle(gray, room, &placed.tag.corners[i]);
+  for (std::size_t i = 0; i < 4; ++i) good[i] = refineSaddle(gray, room, &placed.tag.corners[i]);
   const cv::Matx33d H = unitTagToPicture(placed.tag);
   for (std::size_t i = 0; i < 4; ++i) {
-    const Eigen::Vector2d unit(i == 1 || i == 2 ? 0.5 : -0.5, i >= 2 ? 0.5 : -0.5);
-    if (good[i] && isCrossing(gray, H, unit, width / 2, unit.x() == unit.y()))
+    const double sx = i == 1 || i == 2 ? 1 : -1, sy = i >= 2 ? 1 : -1;
+    const Eigen::Vector2d corner(sx / 2, sy / 2), x(sx * width / 2, 0), y(0, sy * width / 2);
+    if (good[i] && isCrossing(gray, placed.tag.corners[i], stepInPicture(H, corner, x),
+                              stepInPicture(H, corner, y)))
       points->push_back({placed.corners_W[i], placed.tag.corners[i]});
   }
 }

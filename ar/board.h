@@ -47,8 +47,8 @@ inline constexpr int kTagFamilySize = 587;  ///< tag36h11 has the ids 0 to 586
 /// the detector needs round each tag; an AprilGrid of fewer than two tags (see TagGridBoard).
 void validate(const TagGridSpec& spec, const std::string& where);
 
-/// Width and height of the printed sheet, metres: the grid, its outer corner squares if it has them,
-/// and a white margin of one spacing.
+/// Width and height of the printed sheet, metres: the grid, its outer corner squares if it has
+/// them, and a white margin of one spacing.
 Eigen::Vector2d sheetSize(const TagGridSpec& spec);
 
 /// Corners of one tag of the grid in W, in the detector's order: as the reader sees the upright
@@ -63,8 +63,9 @@ TagGridSpec readTagGrid(const std::filesystem::path& file);
 std::unique_ptr<Board> makeBoard(const TagGridSpec& spec, double decimate = 2.0);
 
 /// `spec`, lengths in metres:
-///   "tags:6x4:0.030:0.0075"         tag grid, columns x rows : size : gap, then an id to start from
-///   "aprilgrid:6x6:0.088:0.3"       as Kalibr prints it, columns x rows : size : gap / size, borders
+///   "tags:6x4:0.030:0.0075"         tag grid, columns x rows : size : gap, then an id to start
+///   from "aprilgrid:6x6:0.088:0.3"       as Kalibr prints it, columns x rows : size : gap / size,
+///   borders
 ///                                   two cells wide; ":1" for borders of one cell may follow
 ///   "chessboard:9x6:0.025"          inner corners : square
 ///   "charuco:7x5:0.030:0.022"       squares : square : marker, then OpenCV's dictionary
@@ -87,8 +88,8 @@ std::vector<Tag> detectTags(const cv::Mat& gray, double decimate = 1.0);
 /// where cells fall on whole pixels, and true to the geometry where they do not.
 cv::Mat drawTagGrid(const TagGridSpec& spec, double px_per_m);
 
-/// Any board that makeBoard knows, drawn the same way with a white margin; for "tag36h11:..." the tag
-/// with id 0.
+/// Any board that makeBoard knows, drawn the same way with a white margin; for "tag36h11:..." the
+/// tag with id 0.
 cv::Mat drawBoard(const std::string& spec, double px_per_m);
 
 }  // namespace palpa::ar

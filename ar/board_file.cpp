@@ -68,9 +68,12 @@ TagGridSpec parseJson(const std::string& text, const fs::path& file) {
   if (!root.isMap()) refuse(file, "is not a JSON object");
   if (wholeNumber(root, "version", file) != 1) refuse(file, "field 'version' is not 1");
   if (word(root, "family", file) != "tag36h11") refuse(file, "field 'family' must be tag36h11");
-  return {wholeNumber(root, "columns", file), wholeNumber(root, "rows", file),
-          number(root, "tag_size_m", file), number(root, "spacing_m", file),
-          wholeNumber(root, "first_id", file), wholeNumberOr(1, root, "border_bits", file),
+  return {wholeNumber(root, "columns", file),
+          wholeNumber(root, "rows", file),
+          number(root, "tag_size_m", file),
+          number(root, "spacing_m", file),
+          wholeNumber(root, "first_id", file),
+          wholeNumberOr(1, root, "border_bits", file),
           wholeNumberOr(0, root, "corner_squares", file) != 0};
 }
 

@@ -12,6 +12,7 @@ namespace palpa::ar {
 
 struct CharucoBoard::Layout {
   cv::Ptr<cv::aruco::CharucoBoard> board;
+  std::vector<cv::Point2d> middles, middles_before_46;  ///< of the markers, metres, OpenCV's frame
   cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
 };
 
@@ -42,8 +43,8 @@ cv::Matx33d markerToPicture(const std::vector<cv::Point3f>& marker,
 }
 
 /// Moves a corner, as foretold by the markers, to the saddle point; false where there is none with
-/// the colours of this board round it, which also tells the two layouts of an even number of rows
-/// apart. OpenCV 4.6 has refined its corners already, but leaves them half a pixel off both ways.
+/// the colours of this board round it. OpenCV 4.6 has refined its corners already, but leaves them
+/// half a pixel off both ways.
 bool refineCharuco(const cv::Mat& gray, const cv::aruco::CharucoBoard& board,
                    const Markers& markers, int id, Eigen::Vector2d* pixel) {
   const std::size_t corner = std::size_t(id);
@@ -55,9 +56,36 @@ bool refineCharuco(const cv::Mat& gray, const cv::aruco::CharucoBoard& board,
   const double margin = (double(board.getSquareLength()) - side) / 2;
   if (!refineSaddle(gray, margin / side * outlineHeight(marker), pixel)) return false;
   const cv::Matx33d H = markerToPicture(board.objPoints[nearest], marker);
-  const cv::Point3f p = board.chessboardCorners[corner];
+  const Eigen::Vector2d p(board.chessboardCorners[corner].x, board.chessboardCorners[corner].y);
   const int columns = board.getChessboardSize().width - 1;
-  return isCrossing(gray, H, {p.x, p.y}, margin / 2, (id / columns + id % columns) % 2 == 0);
+  const double sign = (id / columns + id % columns) % 2 == 0 ? 1 : -1;
+  return isCrossing(gray, *pixel, stepInPicture(H, p, {sign * margin / 2, 0}),
+                    stepInPicture(H, p, {0, margin / 2}));
+}
+
+cv::Point2d middleOf(const std::vector<cv::Point2f>& corners) {
+  return cv::Point2d(corners[0] + corners[1] + corners[2] + corners[3]) / 4;
+}
+
+/// How many pairs of markers stand to each other as a layout has them: one foretells the other's
+/// middle to within half their distance.
+int agreeingPairs(const Markers& markers, double side, const std::vector<cv::Point2d>& middles) {
+  const float h = float(side) / 2;
+  const std::vector<cv::Point3f> marker = {{-h, -h, 0}, {h, -h, 0}, {h, h, 0}, {-h, h, 0}};
+  int count = 0;
+  for (std::size_t i = 0; i < markers.ids.size(); ++i) {
+    const cv::Matx33d H = markerToPicture(marker, markers.corners[i]);
+    const cv::Point2d here = middleOf(markers.corners[i]);
+    for (std::size_t j = 0; j < markers.ids.size(); ++j) {
+      const cv::Point2d step =
+          middles[std::size_t(markers.ids[j])] - middles[std::size_t(markers.ids[i])];
+      const Eigen::Vector2d foretold = stepInPicture(H, {0, 0}, {step.x, step.y});
+      const cv::Point2d seen = middleOf(markers.corners[j]) - here;
+      const double distance = cv::norm(seen);
+      count += cv::norm(cv::Point2d(foretold.x(), foretold.y()) - seen) < 0.5 * distance;
+    }
+  }
+  return count;
 }
 
 /// Points that span a plane: no line goes through all of them.
@@ -76,6 +104,11 @@ bool spread(const std::vector<BoardPoint>& points) {
 CharucoBoard::CharucoBoard(const CharucoSpec& spec)
     : spec_(spec), layout_(std::make_unique<Layout>()) {
   layout_->board = charucoLayout(spec);
+  for (const auto& marker : layout_->board->objPoints) {
+    const cv::Point3d middle = cv::Point3d(marker[0] + marker[2]) / 2;
+    layout_->middles.emplace_back(middle.x, middle.y);
+  }
+  layout_->middles_before_46 = charucoMarkersBefore46(spec);
 }
 
 CharucoBoard::~CharucoBoard() = default;
@@ -88,6 +121,9 @@ std::vector<BoardPoint> CharucoBoard::detect(const cv::Mat& image) const {
                            layout_->parameters);
   const Markers markers = once(all, int(layout_->board->ids.size()));
   if (markers.ids.size() < 2) return {};
+  if (agreeingPairs(markers, spec_.marker, layout_->middles) <
+      agreeingPairs(markers, spec_.marker, layout_->middles_before_46))
+    return {};
   std::vector<cv::Point2f> pixels;
   std::vector<int> ids;
   cv::aruco::interpolateCornersCharuco(markers.corners, markers.ids, gray, layout_->board, pixels,

@@ -9,10 +9,10 @@ namespace palpa::ar {
 namespace {
 
 constexpr std::array<const char*, 21> kDictionaries = {  // in the order of OpenCV's enumeration
-    "DICT_4X4_50",        "DICT_4X4_100",       "DICT_4X4_250",        "DICT_4X4_1000",
-    "DICT_5X5_50",        "DICT_5X5_100",       "DICT_5X5_250",        "DICT_5X5_1000",
-    "DICT_6X6_50",        "DICT_6X6_100",       "DICT_6X6_250",        "DICT_6X6_1000",
-    "DICT_7X7_50",        "DICT_7X7_100",       "DICT_7X7_250",        "DICT_7X7_1000",
+    "DICT_4X4_50",         "DICT_4X4_100",       "DICT_4X4_250",       "DICT_4X4_1000",
+    "DICT_5X5_50",         "DICT_5X5_100",       "DICT_5X5_250",       "DICT_5X5_1000",
+    "DICT_6X6_50",         "DICT_6X6_100",       "DICT_6X6_250",       "DICT_6X6_1000",
+    "DICT_7X7_50",         "DICT_7X7_100",       "DICT_7X7_250",       "DICT_7X7_1000",
     "DICT_ARUCO_ORIGINAL", "DICT_APRILTAG_16h5", "DICT_APRILTAG_25h9", "DICT_APRILTAG_36h10",
     "DICT_APRILTAG_36h11"};
 
@@ -50,6 +50,15 @@ cv::Ptr<cv::aruco::CharucoBoard> charucoLayout(const CharucoSpec& spec) {
   return cv::aruco::CharucoBoard::create(spec.columns, spec.rows, float(spec.square),
                                          float(spec.marker),
                                          dictionaryNamed(spec.dictionary, "ChArUco board"));
+}
+
+std::vector<cv::Point2d> charucoMarkersBefore46(const CharucoSpec& spec) {
+  std::vector<cv::Point2d> middles;
+  for (int row = 0; row < spec.rows; ++row)
+    for (int col = 0; col < spec.columns; ++col)
+      if ((spec.rows - 1 - row + col) % 2 == 1)
+        middles.emplace_back((col + 0.5) * spec.square, (row + 0.5) * spec.square);
+  return middles;
 }
 
 }  // namespace palpa::ar

@@ -8,30 +8,36 @@ namespace palpa::ar {
 namespace {
 
 constexpr double kMinContrast = 15;  // gray levels
-constexpr double kEvenness = 0.6;    // a point beside the crossing sees its quarters unevenly
+constexpr double kEvenness = 0.5;    // a point beside the crossing sees its quarters unevenly
 constexpr double kWindowShare = 0.9;
 
-double brightnessAt(const cv::Mat& gray, const cv::Matx33d& H, double x, double y) {
-  const cv::Vec3d p = H * cv::Vec3d(x, y, 1);
+double brightnessAt(const cv::Mat& gray, const Eigen::Vector2d& p) {
   cv::Mat patch;
-  cv::getRectSubPix(gray, {1, 1}, cv::Point2f(cv::Point2d(p[0] / p[2], p[1] / p[2])), patch);
+  cv::getRectSubPix(gray, {1, 1}, cv::Point2f(cv::Point2d(p.x(), p.y())), patch);
   return patch.at<uchar>(0, 0);
+}
+
+Eigen::Vector2d toPicture(const cv::Matx33d& H, const Eigen::Vector2d& p) {
+  const cv::Vec3d q = H * cv::Vec3d(p.x(), p.y(), 1);
+  return {q[0] / q[2], q[1] / q[2]};
 }
 
 }  // namespace
 
-bool isCrossing(const cv::Mat& gray, const cv::Matx33d& H, const Eigen::Vector2d& p, double reach,
-                bool rising) {
-  const auto along = [&](double x, double y) {
-    return std::pair(brightnessAt(gray, H, p.x() - x * reach, p.y() - y * reach),
-                     brightnessAt(gray, H, p.x() + x * reach, p.y() + y * reach));
+bool isCrossing(const cv::Mat& gray, const Eigen::Vector2d& pixel, const Eigen::Vector2d& x,
+                const Eigen::Vector2d& y) {
+  const auto opposite = [&](const Eigen::Vector2d& d) {
+    return std::pair(brightnessAt(gray, pixel - d), brightnessAt(gray, pixel + d));
   };
-  const auto up = along(1, 1), down = along(1, -1);
-  const auto& black = rising ? up : down;
-  const auto& white = rising ? down : up;
+  const auto black = opposite(x + y), white = opposite(x - y);
   const double least = std::min(white.first, white.second) - std::max(black.first, black.second);
   const double most = std::max(white.first, white.second) - std::min(black.first, black.second);
   return least > kMinContrast && least > kEvenness * most;
+}
+
+Eigen::Vector2d stepInPicture(const cv::Matx33d& H, const Eigen::Vector2d& p,
+                              const Eigen::Vector2d& step) {
+  return toPicture(H, p + step) - toPicture(H, p);
 }
 
 bool refineSaddle(const cv::Mat& gray, double room, Eigen::Vector2d* pixel) {

@@ -71,7 +71,12 @@ TagGridSpec parseKalibrTarget(const std::string& text, const std::string& where)
   const double size = numberOf<double>(fields, "tagSize", where);
   const double ratio = numberOf<double>(fields, "tagSpacing", where);
   const TagGridSpec spec{numberOf<int>(fields, "tagCols", where),
-                         numberOf<int>(fields, "tagRows", where), size, ratio * size, 0, 2, true};
+                         numberOf<int>(fields, "tagRows", where),
+                         size,
+                         ratio * size,
+                         0,
+                         2,
+                         true};
   validate(spec, where);
   return spec;
 }

@@ -58,8 +58,8 @@ void addBoard(CLI::App& program) {
                   "  palpa board print --board charuco:7x5:0.030:0.022 --out charuco.png");
   const auto o = std::make_shared<BoardOptions>();
   CLI::Option* file = command->add_option("--station", o->station, "Station file")->type_name("FILE");
-  CLI::Option* word = command->add_option("--board", o->board, "Another board than the station's: tags:, aprilgrid:, chessboard:, charuco:, or a board file");
-  word->excludes(file);
+  command->add_option("--board", o->board, "Instead of the station's: tags:, aprilgrid:, chessboard: or charuco:, or a board file")
+      ->excludes(file);
   command->add_option("--out", o->out, "PNG to write")->type_name("FILE");
   command->add_option("--dpi", o->dpi, "Dots an inch")->check(CLI::Range(72, 1200));
   command->callback([o] { print(*o); });
