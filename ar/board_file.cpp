@@ -5,8 +5,9 @@
 
 #include "anatomy/geometry/error.h"
 #include "ar/board.h"
+#include "ar/kalibr_target.h"
 
-/// Board files are JSON; OpenCV's reader is used because this library links no other.
+/// Our board files are JSON; OpenCV's reader is used because this library links no other.
 namespace palpa::ar {
 namespace {
 
@@ -41,37 +42,49 @@ std::string word(const cv::FileNode& root, const char* name, const fs::path& fil
   return static_cast<std::string>(node);
 }
 
+int wholeNumberOr(int otherwise, const cv::FileNode& root, const char* name, const fs::path& file) {
+  return root[name].empty() ? otherwise : wholeNumber(root, name, file);
+}
+
 std::string slurp(const fs::path& file) {
   std::error_code code;
   if (!fs::is_regular_file(file, code)) refuse(file, "no such file");
   if (fs::file_size(file, code) > (1U << 20) || code) refuse(file, "too large for a board");
   std::ifstream in(file, std::ios::binary);
   std::string text{std::istreambuf_iterator<char>(in), {}};
-  const std::size_t start = text.find_first_not_of(" \t\r\n");
-  if (!in || start == std::string::npos || text[start] != '{' ||
-      text.find('\0') != std::string::npos)
-    refuse(file, "is not a JSON object");
+  if (!in || text.find('\0') != std::string::npos) refuse(file, "is not text");
   return text;
 }
 
-TagGridSpec parse(const std::string& text, const fs::path& file) {
+bool isYaml(const fs::path& file) {
+  return file.extension() == ".yaml" || file.extension() == ".yml";
+}
+
+TagGridSpec parseJson(const std::string& text, const fs::path& file) {
+  const std::size_t start = text.find_first_not_of(" \t\r\n");
+  if (start == std::string::npos || text[start] != '{') refuse(file, "is not a JSON object");
   const cv::FileStorage storage(text, cv::FileStorage::READ | cv::FileStorage::MEMORY);
   const cv::FileNode root = storage.root();
   if (!root.isMap()) refuse(file, "is not a JSON object");
   if (wholeNumber(root, "version", file) != 1) refuse(file, "field 'version' is not 1");
   if (word(root, "family", file) != "tag36h11") refuse(file, "field 'family' must be tag36h11");
-  return {wholeNumber(root, "columns", file), wholeNumber(root, "rows", file),
-          number(root, "tag_size_m", file), number(root, "spacing_m", file),
-          wholeNumber(root, "first_id", file)};
+  return {wholeNumber(root, "columns", file),
+          wholeNumber(root, "rows", file),
+          number(root, "tag_size_m", file),
+          number(root, "spacing_m", file),
+          wholeNumber(root, "first_id", file),
+          wholeNumberOr(1, root, "border_bits", file),
+          wholeNumberOr(0, root, "corner_squares", file) != 0};
 }
 
 }  // namespace
 
 TagGridSpec readTagGrid(const fs::path& file) {
   const std::string text = slurp(file);
+  if (isYaml(file)) return parseKalibrTarget(text, file.string());
   const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {
-    const TagGridSpec spec = parse(text, file);
+    const TagGridSpec spec = parseJson(text, file);
     cv::utils::logging::setLogLevel(level);
     validate(spec, file.string());
     return spec;

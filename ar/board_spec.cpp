@@ -1,10 +1,9 @@
+#include "ar/board_spec.h"
+
 #include <charconv>
 #include <sstream>
 
 #include "anatomy/geometry/error.h"
-#include "ar/board.h"
-#include "ar/chessboard.h"
-#include "ar/tag_grid.h"
 
 namespace palpa::ar {
 namespace {
@@ -12,8 +11,11 @@ namespace {
 [[noreturn]] void refuse(const std::string& spec, const std::string& what) {
   throw UsageError(what, "board '" + spec + "'",
                    "Known are tags:COLUMNSxROWS:SIZE:GAP[:FIRST_ID] (tags:6x4:0.030:0.0075), "
-                   "chessboard:COLUMNSxROWS:SQUARE counting inner corners (chessboard:9x6:0.025) "
-                   "and tag36h11:SIZE (tag36h11:0.05); lengths in metres.");
+                   "aprilgrid:COLUMNSxROWS:SIZE:GAP/SIZE[:BORDER_BITS] (aprilgrid:6x6:0.088:0.3), "
+                   "chessboard:COLUMNSxROWS:SQUARE counting inner corners (chessboard:9x6:0.025), "
+                   "charuco:COLUMNSxROWS:SQUARE:MARKER[:DICTIONARY] counting squares "
+                   "(charuco:7x5:0.030:0.022:DICT_5X5_100), tag36h11:SIZE (tag36h11:0.05), and "
+                   "files FILE.json (ours) and FILE.yaml (Kalibr's); lengths in metres.");
 }
 
 std::vector<std::string> split(const std::string& text, char separator) {
@@ -54,24 +56,43 @@ TagGridSpec gridSpec(const std::vector<std::string>& parts, const std::string& s
   return grid;
 }
 
-}  // namespace
-
-std::unique_ptr<Board> makeBoard(const TagGridSpec& spec, double decimate) {
-  return std::make_unique<TagGridBoard>(spec, decimate);
+TagGridSpec aprilGridSpec(const std::vector<std::string>& parts, const std::string& spec) {
+  const cv::Size size = counts(parts[1], spec);
+  TagGridSpec grid{size.width, size.height, length(parts[2], spec), 0, 0, 2, true};
+  grid.spacing = grid.tag_size * parse<double>(parts[3], spec);
+  if (parts.size() == 5) grid.border_bits = parse<int>(parts[4], spec);
+  validate(grid, "board '" + spec + "'");
+  return grid;
 }
 
-std::unique_ptr<Board> makeBoard(const std::string& spec, double decimate) {
-  const std::vector<std::string> parts = split(spec, ':');
+CharucoSpec charucoSpec(const std::vector<std::string>& parts, const std::string& spec) {
+  const cv::Size size = counts(parts[1], spec);
+  CharucoSpec charuco{size.width, size.height, length(parts[2], spec), length(parts[3], spec)};
+  if (parts.size() == 5) charuco.dictionary = parts[4];
+  validate(charuco, "board '" + spec + "'");
+  return charuco;
+}
+
+bool isFile(const std::string& spec) {
+  return spec.ends_with(".json") || spec.ends_with(".yaml") || spec.ends_with(".yml");
+}
+
+}  // namespace
+
+BoardSpec parseBoardSpec(const std::string& word) {
+  if (isFile(word)) return readTagGrid(word);
+  const std::vector<std::string> parts = split(word, ':');
   const std::string kind = parts.empty() ? "" : parts[0];
-  if (kind == "tags" && (parts.size() == 4 || parts.size() == 5))
-    return makeBoard(gridSpec(parts, spec), decimate);
-  if (kind == "chessboard" && parts.size() == 3)
-    return std::make_unique<Chessboard>(counts(parts[1], spec), length(parts[2], spec));
-  if (kind == "tag36h11" && parts.size() == 2)
-    return std::make_unique<SingleTagBoard>(length(parts[1], spec), decimate);
-  refuse(spec, kind == "tags" || kind == "chessboard" || kind == "tag36h11"
-                   ? "has too few or too many parts"
-                   : "unknown kind '" + kind + "'");
+  const bool four_or_five = parts.size() == 4 || parts.size() == 5, three = parts.size() == 3;
+  if (kind == "tags" && four_or_five) return gridSpec(parts, word);
+  if (kind == "aprilgrid" && four_or_five) return aprilGridSpec(parts, word);
+  if (kind == "charuco" && four_or_five) return charucoSpec(parts, word);
+  if (kind == "chessboard" && three)
+    return ChessboardSpec{counts(parts[1], word), length(parts[2], word)};
+  if (kind == "tag36h11" && parts.size() == 2) return SingleTagSpec{length(parts[1], word)};
+  for (const char* known : {"tags", "aprilgrid", "charuco", "chessboard", "tag36h11"})
+    if (kind == known) refuse(word, "has too few or too many parts");
+  refuse(word, "unknown kind '" + kind + "'");
 }
 
 }  // namespace palpa::ar

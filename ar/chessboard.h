@@ -25,4 +25,8 @@ class Chessboard : public Board {
   double square_;
 };
 
+/// The board on white paper with a margin of one square, as drawTagGrid draws; the square at the
+/// lower left is black.
+cv::Mat drawChessboard(cv::Size inner_corners, double square, double px_per_m);
+
 }  // namespace palpa::ar

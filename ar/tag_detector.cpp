@@ -7,19 +7,16 @@
 
 #include "anatomy/geometry/error.h"
 #include "ar/gray_picture.h"
-
-extern "C" {
-#include <apriltag/apriltag.h>
-#include <apriltag/tag36h11.h>
-}
+#include "ar/tag_family.h"
 
 namespace palpa::ar {
 
 struct TagDetector::Library {
+  explicit Library(const Settings& s) : settings(s), family(makeTagFamily(s.border_bits)) {}
+
   Settings settings;
   std::mutex mutex;
-  std::unique_ptr<apriltag_family_t, decltype(&tag36h11_destroy)> family{tag36h11_create(),
-                                                                         &tag36h11_destroy};
+  TagFamily family;
   std::unique_ptr<apriltag_detector_t, decltype(&apriltag_detector_destroy)> detector{
       apriltag_detector_create(), &apriltag_detector_destroy};
 };
@@ -42,10 +39,9 @@ bool before(const Tag& a, const Tag& b) {
 
 }  // namespace
 
-TagDetector::TagDetector(const Settings& settings) : library_(std::make_unique<Library>()) {
+TagDetector::TagDetector(const Settings& settings) : library_(std::make_unique<Library>(settings)) {
   if (!(settings.decimate >= 1 && settings.decimate <= 8))
     throw UsageError("decimate must be 1 to 8", "tag detector", "Use 1 (exact) or 2 (fast).");
-  library_->settings = settings;
   apriltag_detector_add_family_bits(library_->detector.get(), library_->family.get(),
                                     settings.bits_corrected);
   library_->detector->nthreads = 1;
@@ -69,6 +65,10 @@ std::vector<Tag> TagDetector::detect(const cv::Mat& image) const {
   apriltag_detections_destroy(found);
   std::sort(tags.begin(), tags.end(), before);
   return tags;
+}
+
+TagDetector::Settings boardTagSettings(double decimate, int border_bits) {
+  return {decimate, 1, 10, border_bits};
 }
 
 std::vector<Tag> detectTags(const cv::Mat& gray, double decimate) {

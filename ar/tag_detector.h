@@ -20,6 +20,7 @@ class TagDetector {
     double decimate = 2.0;   ///< quads are found in a picture smaller by this, corners in full
     int bits_corrected = 2;  ///< 0 to 2; more corrections find more tags that are not there
     double min_margin = 0;   ///< gray levels between bits and their threshold, mean over the tag
+    int border_bits = 1;     ///< width of the tags' black border in cells, 1 or 2
   };
   explicit TagDetector(const Settings& settings);
   ~TagDetector();
@@ -31,5 +32,10 @@ class TagDetector {
   struct Library;
   std::unique_ptr<Library> library_;
 };
+
+/// How boards look for tags. Their corners feed calibrations: one corrected bit and a margin of ten
+/// gray levels keep out the chance decodings that the library's own limits (two bits, none) let
+/// through.
+TagDetector::Settings boardTagSettings(double decimate, int border_bits);
 
 }  // namespace palpa::ar

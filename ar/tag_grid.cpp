@@ -9,15 +9,6 @@
 namespace palpa::ar {
 namespace {
 
-// A board's corners feed calibrations: one corrected bit and a margin of ten gray levels keep out
-// the chance decodings that the library's own limits (two bits, none) let through.
-constexpr int kBitsCorrected = 1;
-constexpr double kMinMargin = 10;
-
-TagDetector::Settings boardSettings(double decimate) {
-  return {decimate, kBitsCorrected, kMinMargin};
-}
-
 double pitch(const TagGridSpec& spec) { return spec.tag_size + spec.spacing; }
 
 std::array<Vec3, 4> cornersAround(double x, double y, double tag_size) {
@@ -47,15 +38,19 @@ void validate(const TagGridSpec& spec, const std::string& where) {
   const auto count = [](int n) { return n >= 1 && n <= kTagFamilySize; };
   require(count(spec.columns) && count(spec.rows), "columns and rows must be at least 1", where);
   require(spec.tag_size >= 0.002 && spec.tag_size <= 2.0, "tag_size must be 0.002 to 2 m", where);
-  require(spec.spacing >= spec.tag_size / 8 * (1 - 1e-9) && spec.spacing <= 2.0,
-          "spacing must be at least an eighth of the tag: the white cell round each tag", where);
+  require(spec.border_bits == 1 || spec.border_bits == 2, "border_bits must be 1 or 2", where);
+  const double cell = spec.tag_size / (6 + 2 * spec.border_bits);  // 6 x 6 bits and the border
+  require(spec.spacing >= cell * (1 - 1e-9) && spec.spacing <= 2.0,
+          "spacing must be at least a cell of the tag: the white round each tag", where);
   require(spec.first_id >= 0 && spec.first_id + spec.columns * spec.rows <= kTagFamilySize,
           "ids must lie within tag36h11, 0 to 586", where);
+  require(!spec.corner_squares || spec.columns * spec.rows >= 2,
+          "an AprilGrid must have at least two tags", where);
 }
 
 Eigen::Vector2d sheetSize(const TagGridSpec& spec) {
   return Eigen::Vector2d(spec.columns, spec.rows) * pitch(spec) +
-         Eigen::Vector2d::Constant(spec.spacing);
+         Eigen::Vector2d::Constant(spec.corner_squares ? 3 * spec.spacing : spec.spacing);
 }
 
 std::array<Vec3, 4> tagCorners(const TagGridSpec& spec, int id) {
@@ -65,7 +60,7 @@ std::array<Vec3, 4> tagCorners(const TagGridSpec& spec, int id) {
 }
 
 TagGridBoard::TagGridBoard(const TagGridSpec& spec, double decimate)
-    : spec_(spec), detector_(boardSettings(decimate)) {
+    : spec_(spec), detector_(boardTagSettings(decimate, spec.border_bits)) {
   validate(spec, "tag grid");
 }
 
@@ -88,11 +83,12 @@ std::string TagGridBoard::describe() const {
   std::ostringstream text;
   text << spec_.columns << " x " << spec_.rows << " tag36h11 of " << spec_.tag_size * 1000
        << " mm, " << spec_.spacing * 1000 << " mm apart, ids from " << spec_.first_id;
+  if (spec_.border_bits != 1) text << ", border of " << spec_.border_bits << " cells";
   return text.str();
 }
 
 SingleTagBoard::SingleTagBoard(double tag_size, double decimate)
-    : tag_size_(tag_size), detector_(boardSettings(decimate)) {
+    : tag_size_(tag_size), detector_(boardTagSettings(decimate, 1)) {
   require(tag_size >= 0.002 && tag_size <= 2.0, "tag_size must be 0.002 to 2 m", "single tag");
 }
 

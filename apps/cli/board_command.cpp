@@ -13,7 +13,7 @@ namespace palpa::cli {
 namespace {
 
 struct BoardOptions {
-  std::string station, out = "board.png";
+  std::string station, board, out = "board.png";
   int dpi = 300;
 };
 
@@ -27,11 +27,16 @@ void addScaleBar(cv::Mat& page, double px_per_m) {
               cv::FONT_HERSHEY_SIMPLEX, px_per_m * 0.00012, 0, std::max(1, static_cast<int>(px_per_m * 0.0003)), cv::LINE_AA);
 }
 
-void print(const BoardOptions& o) {
+cv::Mat drawn(const BoardOptions& o, double px_per_m) {
+  if (!o.board.empty()) return ar::drawBoard(o.board, px_per_m);
   const station::Station station = station::readStation(
       o.station.empty() ? station::assetFile("stations/virtual_bench.json") : std::filesystem::path(o.station));
+  return ar::drawTagGrid(station.board, px_per_m);
+}
+
+void print(const BoardOptions& o) {
   const double px_per_m = o.dpi / 0.0254;
-  cv::Mat page = ar::drawTagGrid(station.board, px_per_m).clone();
+  cv::Mat page = drawn(o, px_per_m);
   addScaleBar(page, px_per_m);
   bool written = false;
   try {
@@ -48,10 +53,13 @@ void print(const BoardOptions& o) {
 void addBoard(CLI::App& program) {
   CLI::App* board = program.add_subcommand("board", "The board that the camera looks for");
   board->require_subcommand(1);
-  CLI::App* command = board->add_subcommand("print", "Draw the station's board for printing, with a scale bar");
-  command->footer("Example:\n  palpa board print --out board.png --dpi 300");
+  CLI::App* command = board->add_subcommand("print", "Draw a board for printing, with a scale bar");
+  command->footer("Examples:\n  palpa board print --out board.png --dpi 300\n"
+                  "  palpa board print --board charuco:7x5:0.030:0.022 --out charuco.png");
   const auto o = std::make_shared<BoardOptions>();
-  command->add_option("--station", o->station, "Station file")->type_name("FILE");
+  CLI::Option* file = command->add_option("--station", o->station, "Station file")->type_name("FILE");
+  command->add_option("--board", o->board, "Instead of the station's: tags:, aprilgrid:, chessboard: or charuco:, or a board file")
+      ->excludes(file);
   command->add_option("--out", o->out, "PNG to write")->type_name("FILE");
   command->add_option("--dpi", o->dpi, "Dots an inch")->check(CLI::Range(72, 1200));
   command->callback([o] { print(*o); });
