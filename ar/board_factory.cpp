@@ -15,7 +15,7 @@ struct Maker {
     return std::make_unique<TagGridBoard>(spec, decimate);
   }
   std::unique_ptr<Board> operator()(const ChessboardSpec& spec) const {
-    return std::make_unique<Chessboard>(spec.inner_corners, spec.square);
+    return std::make_unique<Chessboard>(spec.inner_corners, spec.square, spec.half_window_px);
   }
   std::unique_ptr<Board> operator()(const SingleTagSpec& spec) const {
     return std::make_unique<SingleTagBoard>(spec.tag_size, decimate);

@@ -35,9 +35,10 @@ int halfWindow(const Corners& corners, cv::Size size) {
   return std::clamp(int(0.3 * smallest), 2, 15);
 }
 
-void refine(const cv::Mat& gray, cv::Size size, Corners* corners) {
+/// `half`: 0 for what suits the board.
+void refine(const cv::Mat& gray, cv::Size size, int half, Corners* corners) {
   const cv::TermCriteria enough(cv::TermCriteria::COUNT + cv::TermCriteria::EPS, 50, 1e-3);
-  const int half = halfWindow(*corners, size);
+  if (half == 0) half = halfWindow(*corners, size);
   cv::cornerSubPix(gray, *corners, {half, half}, {-1, -1}, enough);
 }
 
@@ -98,13 +99,15 @@ void orient(const cv::Mat& gray, cv::Size size, Lattice* lattice) {
 
 }  // namespace
 
-Chessboard::Chessboard(cv::Size inner_corners, double square)
-    : size_(inner_corners), square_(square) {
+Chessboard::Chessboard(cv::Size inner_corners, double square, int half_window_px)
+    : size_(inner_corners), square_(square), half_window_px_(half_window_px) {
   const auto good = [](int n) { return n >= 3 && n <= 100; };
   if (!good(size_.width) || !good(size_.height) || size_.width == size_.height)
     throw UsageError(
         "a chessboard needs 3 to 100 inner corners each way, not as many columns as rows",
         "chessboard", "Count the corners where four squares meet, as in 9x6.");
+  if (half_window_px < 0 || half_window_px > 50)
+    throw UsageError("the window must be 0 to 50 px", "chessboard", "Leave it out: it is then fitted to the board.");
   if (!(square >= 0.0005 && square <= 2))
     throw UsageError("the square must be 0.0005 to 2 m", "chessboard", "Give metres, as in 0.025.");
 }
@@ -113,7 +116,7 @@ std::vector<BoardPoint> Chessboard::detect(const cv::Mat& image) const {
   const cv::Mat gray = grayPicture(image);
   Corners corners;
   if (std::min(gray.cols, gray.rows) < 32 || !find(gray, size_, &corners)) return {};
-  refine(gray, size_, &corners);
+  refine(gray, size_, half_window_px_, &corners);
   Lattice lattice(std::move(corners), size_);
   orient(gray, size_, &lattice);
   std::vector<BoardPoint> points;

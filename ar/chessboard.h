@@ -16,13 +16,16 @@ namespace palpa::ar {
 /// after a quarter turn.
 class Chessboard : public Board {
  public:
-  Chessboard(cv::Size inner_corners, double square);
+  /// `half_window_px`: half the side of the square in which a corner is located, as other programs let it be given; 0: three
+  /// tenths of the smallest distance between corners, so that it never reaches past a neighbouring edge.
+  Chessboard(cv::Size inner_corners, double square, int half_window_px = 0);
   std::vector<BoardPoint> detect(const cv::Mat& image) const override;
   std::string describe() const override;
 
  private:
   cv::Size size_;
   double square_;
+  int half_window_px_;
 };
 
 /// The board on white paper with a margin of one square, as drawTagGrid draws; the square at the

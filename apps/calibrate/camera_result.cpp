@@ -1,6 +1,8 @@
 #include "apps/calibrate/camera_result.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "ar/board_pose.h"
 #include "calibration/camera_calibration.h"
@@ -26,22 +28,30 @@ void judge(const calibration::BoardView& view, const calibration::CameraModel& c
 }
 
 /// Root of the mean squared error of corners in views that the lens has not seen; negative: too few views to tell.
-double leftOutRms_px(const std::vector<calibration::BoardView>& views, int width, int height) {
+double leftOutRms_px(const std::vector<calibration::BoardView>& views, int width, int height, bool keep_all) {
   if (views.size() < kViewsToJudge) return -1;
   std::vector<calibration::BoardView> fitted;
   for (std::size_t i = 0; i < views.size(); ++i)
     if (i % 5 != 4) fitted.push_back(views[i]);
-  const calibration::CameraModel camera = calibration::calibrateCamera(fitted, width, height).model;
+  const calibration::CameraModel camera = calibration::calibrateCamera(fitted, width, height, {keep_all}).model;
   double squares = 0;
   int n = 0;
   for (std::size_t i = 4; i < views.size(); i += 5) judge(views[i], camera, &squares, &n);
   return n ? std::sqrt(squares / n) : -1;
 }
 
+/// "533.21 ± 0.40 px"
+std::string withSpread(double value, double sd) {
+  char text[64];
+  std::snprintf(text, sizeof text, "%.2f ± %.2f px", value, sd);
+  return text;
+}
+
 }  // namespace
 
-Result cameraResult(const std::vector<calibration::BoardView>& views, int width, int height, const Origin& origin, calibration::CameraModel* found) {
-  const calibration::CameraCalibration c = calibration::calibrateCamera(views, width, height);
+Result cameraResult(const std::vector<calibration::BoardView>& views, int width, int height, const Origin& origin, calibration::CameraModel* found,
+                    bool keep_all) {
+  const calibration::CameraCalibration c = calibration::calibrateCamera(views, width, height, {keep_all});
   Result r;
   r.title = "Camera";
   r.file = begun(origin, "camera", kCameraGoodFor_days);
@@ -63,14 +73,14 @@ Result cameraResult(const std::vector<calibration::BoardView>& views, int width,
   for (const auto& row : c.coverage) r.coverage.counts.insert(r.coverage.counts.end(), row.begin(), row.end());
   const double focal_percent = 100 * std::max(c.sd[0] / c.model.fx, c.sd[1] / c.model.fy);
   r.file.checks = {{"the focal length's uncertainty", focal_percent, kFocalSpread_percent, "%"}, {"the corners' error", c.model.rms_px, kRms_px, "px"}};
-  if (const double left_out = leftOutRms_px(views, width, height); left_out >= 0)
+  if (const double left_out = leftOutRms_px(views, width, height, keep_all); left_out >= 0)
     r.file.checks.push_back({"the corners' error in views not used", left_out, kLeftOut_px, "px"});
   else
     r.advice.push_back("With fewer than eight views nothing is left to judge by: take more.");
   r.sentences = {std::to_string(views.size()) + " views of the board; corners fit to " + quantity(c.model.rms_px, "px") + ", seen in " +
                      quantity(100 * c.covered, "%") + " of the picture.",
-                 "Focal length " + quantity(c.model.fx, "px") + " +- " + quantity(c.sd[0], "") + " across, " + quantity(c.model.fy, "px") + " +- " + quantity(c.sd[1], "") +
-                     " down; centre " + quantity(c.model.cx, "") + ", " + quantity(c.model.cy, "px") + " +- " + quantity(std::max(c.sd[2], c.sd[3]), "") + "."};
+                 "Focal length " + withSpread(c.model.fx, c.sd[0]) + " across, " + withSpread(c.model.fy, c.sd[1]) + " down; centre " +
+                     withSpread(c.model.cx, c.sd[2]) + ", " + withSpread(c.model.cy, c.sd[3]) + "."};
   for (const std::string& warning : c.warnings) r.advice.push_back(warning);
   r.file.verdict = verdictOf(r.file.checks);
   r.advice.push_back("Redo it when the lens was turned, refocused or knocked.");

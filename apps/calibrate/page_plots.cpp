@@ -22,25 +22,25 @@ void drawDots(Html& svg, const Plot& plot, const Axis& x, const Axis& y) {
   }
 }
 
-void drawFramed(Html& html, const ChartFrame& frame, const Plot& plot, double last, double most) {
+void drawFramed(Html& html, const ChartFrame& frame, const Plot& plot, double first, double last, double most) {
   const auto svg = openSvg(html, frame, kPlotTop + kPlotHeight + 46, plot.title);
-  ChartFrame narrow_left = frame;
-  narrow_left.left = 56;
-  const Axis x = narrow_left.across(0, last), y{0, most, kPlotTop + kPlotHeight, kPlotTop};
+  ChartFrame roomy = frame;
+  roomy.left = 84;
+  const Axis x = roomy.across(first, last), y{0, most, kPlotTop + kPlotHeight, kPlotTop};
   const Ticks ticks = niceTicks(0, most, 5);
   for (const double value : ticks.values) {
     svgLine(html, "grid", x.from_px, y.at(value), x.to_px, y.at(value));
     svgText(html, "tick end", x.from_px - 8, y.at(value) + 4, ticks.label(value) + " " + plot.y);
   }
   drawDots(html, plot, x, y);
-  drawTimeAxis(html, frame.wide ? narrow_left : frame, x, kPlotTop + kPlotHeight, plot.x);
+  drawTimeAxis(html, roomy, x, kPlotTop + kPlotHeight, plot.x);
 }
 
 }  // namespace
 
 void drawPlot(Html& html, const Plot& plot) {
   if (plot.dots.empty()) return;
-  double last = 1, most = 1e-9;
+  double first = plot.dots.front().x > 10 ? plot.dots.front().x : 0, last = first + 1, most = 1e-9;
   bool any_out = false;
   for (const Plot::Dot& dot : plot.dots) {
     last = std::max(last, dot.x);
@@ -49,7 +49,7 @@ void drawPlot(Html& html, const Plot& plot) {
   }
   const auto figure = html.in("figure");
   html.element("h3", plot.title);
-  for (const ChartFrame& frame : {kWide, kNarrow}) drawFramed(html, frame, plot, last, niceCeiling(most));
+  for (const ChartFrame& frame : {kWide, kNarrow}) drawFramed(html, frame, plot, first, last, niceCeiling(most));
   if (any_out) html.element("figcaption", "Crosses: left out, because they do not fit the others.");
 }
 

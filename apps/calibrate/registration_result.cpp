@@ -1,6 +1,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "anatomy/geometry/error.h"
 #include "apps/calibrate/results.h"
@@ -131,6 +132,15 @@ Answer byTag(const std::vector<calibration::HandEyeSample>& tag, Result& r) {
   return {fit.X_DC, fit.covariance.bottomRightCorner<6, 6>()};
 }
 
+/// Where the board, or whatever the tag was seen from, stands in the device's base.
+std::string inDevice(const Pose& X_DW, bool by_tag_alone) {
+  const Vec3 p = X_DW.translation(), euler = X_DW.rotation().eulerAngles(0, 1, 2);
+  char words[200];
+  std::snprintf(words, sizeof words, "In the device's base %s stands at %.4f, %.4f, %.4f m, turned by the Euler angles x, y, z: %.4f, %.4f, %.4f rad.",
+                by_tag_alone ? "what the tag was seen from" : "the board", p.x(), p.y(), p.z(), euler.x(), euler.y(), euler.z());
+  return words;
+}
+
 }  // namespace
 
 Result registrationResult(const std::vector<Touch>& touches, const std::vector<calibration::HandEyeSample>& tag, const Vec3& tip_W, const Origin& origin) {
@@ -151,6 +161,7 @@ Result registrationResult(const std::vector<Touch>& touches, const std::vector<c
     answer = touches.empty() ? byTag(tag, r) : byLandmarks(touches, r);
   }
   const Pose X_WD = answer.X_DW.inverse();
+  r.sentences.push_back(inDevice(answer.X_DW, touches.empty()));
   addPose(r.file, "X_WD", X_WD);
   r.file.coordinates = {"turn_x_rad", "turn_y_rad", "turn_z_rad", "shift_x_m", "shift_y_m", "shift_z_m"};
   r.file.covariance = calibration::inverseCovariance(answer.X_DW, answer.covariance);

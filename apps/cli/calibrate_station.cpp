@@ -23,7 +23,7 @@ using namespace calibrate;
 struct CalibrateOptions {
   std::string kind, station, out;
   std::uint64_t seed = 1;
-  bool quiet = false;
+  bool quiet = false, all_corners = false;
   std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings, touches;
   std::vector<double> down{0, 0, -1};
 
@@ -94,9 +94,11 @@ void leave(const CalibrateOptions& o, const station::Station& station, const Set
 Result fromCameraPictures(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
   const std::unique_ptr<ar::Board> board = o.board.empty() ? ar::makeBoard(station.board, 1.0) : ar::makeBoard(o.board, 1.0);
   RecordedViews recorded = readViews(o.images, *board);
-  if (recorded.views.empty()) throw Error("the board (" + board->describe() + ") is in none of the pictures", o.images, "Is it the board that --board says?");
+  if (recorded.views.size() < 4 && recorded.unseen.size() > recorded.views.size())
+    throw Error("the board (" + board->describe() + ") was found in " + std::to_string(recorded.views.size()) + " of " +
+                    std::to_string(recorded.views.size() + recorded.unseen.size()) + " pictures", o.images, "Is it the board that --board says?");
   calibration::CameraModel camera;
-  Result result = cameraResult(recorded.views, recorded.width, recorded.height, origin, &camera);
+  Result result = cameraResult(recorded.views, recorded.width, recorded.height, origin, &camera, o.all_corners);
   for (const std::string& name : recorded.unseen) result.advice.push_back("The board was not found in " + name + ".");
   return result;
 }
@@ -109,13 +111,24 @@ ToolSamples toolSamples(const CalibrateOptions& o) {
   return samples;
 }
 
+/// The error is predicted where the station has its patient; without a station in the middle of what was touched or seen.
+Result fromTouchesAndPairs(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
+  std::vector<Touch> touches;
+  std::vector<calibration::HandEyeSample> pairs;
+  if (!o.landmarks.empty()) touches = readTouches(o.landmarks);
+  if (!o.pairs.empty()) pairs = readPosePairs(o.pairs);
+  Vec3 middle = Vec3::Zero();
+  for (const Touch& t : touches) middle += t.p_W / static_cast<double>(touches.size());
+  if (touches.empty())
+    for (const calibration::HandEyeSample& pair : pairs) middle += pair.X_CM.translation() / static_cast<double>(pairs.size());
+  return registrationResult(touches, pairs, o.station.empty() ? middle : station.entry_W, origin);
+}
+
 Result fromFiles(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
   if (o.kind == "camera") return fromCameraPictures(o, station, origin);
   if (o.kind == "tool") return toolResult(toolSamples(o), station.design.X_ET, origin);
   if (o.kind == "workspace") return workspaceResult(readTouches(o.touches), origin);
-  if (o.kind == "registration")
-    return registrationResult(o.landmarks.empty() ? std::vector<Touch>{} : readTouches(o.landmarks),
-                              o.pairs.empty() ? std::vector<calibration::HandEyeSample>{} : readPosePairs(o.pairs), station.entry_W, origin);
+  if (o.kind == "registration") return fromTouchesAndPairs(o, station, origin);
   if (o.kind == "latency") {
     if (o.camera_track.empty() || o.device_track.empty()) throw UsageError("needs both", "--camera-track and --device-track", "Give the same motion as both saw it");
     return latencyResult({readTrack(o.camera_track), readTrack(o.device_track)}, station.camera_latency_s, origin);
@@ -168,6 +181,8 @@ struct Routine {
 constexpr Routine kRoutines[] = {
     {"camera", "The lens: from pictures of a board",
      "Examples:\n  palpa calibrate camera\n      on the virtual bench: a simulated hand holds the board\n"
+     "  palpa calibrate camera --images 'shots/*.png' --board chessboard:9x6:0.025:11 --all-corners\n"
+     "      as other programs do it (corners in squares of 23 px, none left out): to compare with their figures\n"
      "  palpa calibrate camera --images 'shots/left*.jpg' --board chessboard:9x6:0.025\n      from your own pictures"},
     {"tool", "The needle's tip and direction: pivot and spin",
      "Examples:\n  palpa calibrate tool\n  palpa calibrate tool --pivot pivot.csv --spin spin.csv\n"
@@ -189,6 +204,7 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
   if (kind == "camera") {
     command->add_option("--images", o->images, "Recorded pictures: a shell pattern, quoted")->type_name("GLOB");
     command->add_option("--board", o->board, "The board in them; otherwise the station's")->type_name("SPEC");
+    command->add_flag("--all-corners", o->all_corners, "Plain least squares: no corner is left out");
   }
   if (kind == "tool") {
     file("--pivot", &o->pivot, "Recorded poses, the tip in a hole");

@@ -87,8 +87,8 @@ Pose SetupMotion::step(double t, double dt) {
   }
   Pose X = during(t);
   X.translation() += inHole(request_.what) ? Vec3(hand_.jitter * drawn3(jitter_)) : shake;
-  // A needle in a drill guide does not tilt; elsewhere the wrist trembles.
-  if (request_.what != What::spin) X.linear() = X.linear() * calibration::rotationOf(turn);
+  // A needle in a drill guide has a little play; elsewhere the wrist trembles freely.
+  X.linear() = X.linear() * calibration::rotationOf(request_.what == What::spin ? Vec3(0.5 * turn) : turn);
   return X;
 }
 
