@@ -32,7 +32,7 @@ Vec3 scaled(const WorkspaceMap& map, const Vec3& p_D) { return (p_D - map.centre
 
 void measureBox(const std::vector<TouchedPoint>& points, WorkspaceMap* map) {
   Eigen::AlignedBox3d box;
-  for (const TouchedPoint& p : points) box.extend(p.p_D);
+  for (const TouchedPoint& p : points) box.extend(Vec3(p.p_D - p.lever_D));
   map->centre_D = box.center();
   map->half_D = (box.sizes() / 2).cwiseMax(1e-3);
 }
@@ -47,7 +47,7 @@ LandmarkRegistration rigid(const std::vector<TouchedPoint>& points) {
 void fitPolynomial(const std::vector<TouchedPoint>& points, const Pose& X_GD, WorkspaceMap* map) {
   const int terms = monomials(map->order), parameters = 3 * terms;
   std::vector<VectorX> values;
-  for (const TouchedPoint& p : points) values.push_back(phi(scaled(*map, p.p_D), map->order));
+  for (const TouchedPoint& p : points) values.push_back(phi(scaled(*map, p.p_D - p.lever_D), map->order));
   VectorX x = VectorX::Zero(parameters);   // term by term, of what is beside the rigid motion, in G
   const auto residuals = [&](const VectorX& dx) {
     const VectorX y = x + dx;
@@ -68,7 +68,8 @@ double rmsOf(const std::vector<TouchedPoint>& points, const WorkspaceMap& map, b
   double squares = 0, count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!which[i]) continue;
-    squares += (map.X_GD * (corrected ? map.corrected(points[i].p_D) : points[i].p_D) - points[i].p_G).squaredNorm();
+    const Vec3 off = corrected ? map.correction(points[i].p_D - points[i].lever_D) : Vec3(Vec3::Zero());
+    squares += (map.X_GD * Vec3(points[i].p_D + off) - points[i].p_G).squaredNorm();
     ++count;
   }
   return std::sqrt(squares / count);
@@ -125,7 +126,7 @@ void requirePoints(const std::vector<TouchedPoint>& points) {
 
 }  // namespace
 
-Vec3 WorkspaceMap::corrected(const Vec3& p_D) const { return p_D + coefficients.transpose() * phi(scaled(*this, p_D), order); }
+Vec3 WorkspaceMap::correction(const Vec3& p_D) const { return coefficients.transpose() * phi(scaled(*this, p_D), order); }
 
 Mat3 WorkspaceMap::covarianceAt(const Vec3& p_D) const {
   if (order == 0) {

@@ -8,9 +8,10 @@
 
 namespace palpa::calibration {
 
-/// A point of a grid that was touched: where it is on the grid (frame G), where the device said its tip was (D); metres.
+/// A point of a grid that was touched: where it is on the grid (frame G), where the device said its tip was (D); metres. `lever_D`: the tip less
+/// the end effector, for it is the end effector's place that a device has wrong; zero: the map is of the tip's own places.
 struct TouchedPoint {
-  Vec3 p_G = Vec3::Zero(), p_D = Vec3::Zero();
+  Vec3 p_G = Vec3::Zero(), p_D = Vec3::Zero(), lever_D = Vec3::Zero();
 };
 
 /// The device's systematic position error as a smooth map (after Harders et al. 2009: rigid + distortion): where the device says p_D the
@@ -26,7 +27,8 @@ struct WorkspaceMap {
   double left_out_before = 0, left_out_after = 0;    ///< rms of points that the fit had not seen, m
   Fit fit;
 
-  Vec3 corrected(const Vec3& p_D) const;
+  Vec3 corrected(const Vec3& p_D) const { return p_D + correction(p_D); }
+  Vec3 correction(const Vec3& p_D) const;
   /// Covariance of the corrected point against the grid, m^2; grows outside what was touched.
   Mat3 covarianceAt(const Vec3& p_D) const;
 };

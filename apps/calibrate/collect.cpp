@@ -139,24 +139,24 @@ std::vector<Pose> collectSpin(const Scene& scene, const Vec3& p_W, double second
   return collectMotion(scene, Request::What::spin, "Put the needle into the guide, press the button, and spin it about itself, to and fro", p_W, seconds);
 }
 
-std::vector<TouchedPose> collectTouches(const Scene& scene) {
+std::vector<TouchedPose> collectTouches(const Scene& scene, const std::vector<station::Landmark>& landmarks) {
   std::vector<TouchedPose> touched;
-  const auto count = static_cast<int>(scene.station.landmarks.size());
-  for (const station::Landmark& landmark : scene.station.landmarks) {
+  const auto count = static_cast<int>(landmarks.size());
+  for (const station::Landmark& landmark : landmarks) {
     Request request;
     request.what = Request::What::touch;
     request.p_W = landmark.p_W;
-    request.words = "Put the tip into landmark " + landmark.name + " and press the button";
+    request.words = "Put the tip into hole " + landmark.name + " and press the button";
     const Stretch stretch = whileStill(scene, request, kMostTremor, 0);
     touched.push_back({landmark.name, landmark.p_W, meanPose(stretch.X_DE), landmark.for_check});
-    scene.guide.progress("Landmarks", static_cast<int>(touched.size()), count, "");
+    scene.guide.progress("Holes touched", static_cast<int>(touched.size()), count, "");
   }
   return touched;
 }
 
 std::vector<Touch> touchesOf(const std::vector<TouchedPose>& poses, const Vec3& tip_E) {
   std::vector<Touch> touches;
-  for (const TouchedPose& t : poses) touches.push_back({t.name, t.p_W, t.X_DE * tip_E, t.for_check});
+  for (const TouchedPose& t : poses) touches.push_back({t.name, t.p_W, t.X_DE * tip_E, t.for_check, t.X_DE.rotation() * tip_E});
   return touches;
 }
 

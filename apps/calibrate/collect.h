@@ -42,7 +42,7 @@ struct TouchedPose {
   Pose X_DE = Pose::Identity();
   bool for_check = false;
 };
-std::vector<TouchedPose> collectTouches(const Scene& scene);
+std::vector<TouchedPose> collectTouches(const Scene& scene, const std::vector<station::Landmark>& landmarks);
 /// With the tool that was found.
 std::vector<Touch> touchesOf(const std::vector<TouchedPose>& poses, const Vec3& tip_E);
 

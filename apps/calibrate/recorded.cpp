@@ -84,6 +84,7 @@ std::vector<Touch> readTouches(const std::filesystem::path& file) {
   for (std::size_t i = 0; i < table.rows(); ++i) {
     Touch touch{table.has("name") ? table.text(i, "name") : std::to_string(i + 1), table.place(i, "known_"), table.place(i, "touched_"), false};
     touch.for_check = table.has("for") && table.text(i, "for") == "check";
+    if (table.has("end_x_mm") || table.has("end_x_m")) touch.lever_D = touch.p_D - table.place(i, "end_");
     touches.push_back(touch);
   }
   return touches;

@@ -17,7 +17,8 @@ std::vector<Pose> readPoses(const std::filesystem::path& file);
 /// device_x, ... device_q_z: X_DE; tag_x, ... tag_q_z: the tag in the camera or, better, in the board. Or JSON: a list of pairs of 4x4 matrices, m.
 std::vector<calibration::HandEyeSample> readPosePairs(const std::filesystem::path& file);
 
-/// known_x, ...: in W; touched_x, ...: in D; optional "name" and "for" ("check": not used to fit).
+/// known_x, ...: in W; touched_x, ...: in D; optional "name", "for" ("check": not used to fit) and end_x, ...:
+/// the end effector's place in D, which a map of the workspace is made of.
 std::vector<Touch> readTouches(const std::filesystem::path& file);
 
 /// t_s; x, y, z.

@@ -27,6 +27,7 @@ struct Touch {
   std::string name;
   Vec3 p_W = Vec3::Zero(), p_D = Vec3::Zero();
   bool for_check = false;   ///< not used to fit
+  Vec3 lever_D = Vec3::Zero();   ///< the tip less the end effector; zero: not known
 };
 /// X_WD from touched landmarks, from a tag on the end effector (`tag`: X_DE with X_WM in place of X_CM), or from both: two answers that do not know
 /// of each other, so that their disagreement tells of errors that neither could see; joined by their covariances where they agree.
@@ -41,6 +42,7 @@ Result latencyResult(const LatencySamples& samples, double camera_latency_s, con
 
 Result forceSensorResult(const std::vector<calibration::StaticReading>& readings, const Vec3& down_D, const Origin& origin);
 
-Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin);
+/// The map is of the end effector's places where the touches know their lever. `found`: where it goes; may be null.
+Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin, calibration::WorkspaceMap* found = nullptr);
 
 }  // namespace palpa::calibrate

@@ -5,6 +5,7 @@
 #include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
 #include "apps/calibrate/camera_result.h"
+#include "apps/calibrate/corrected_rig.h"
 #include "apps/station/sha256.h"
 
 namespace palpa::calibrate {
@@ -61,17 +62,28 @@ void writeCalibrations(const station::Station& station, const std::vector<statio
   writeWhole(folder / "station.json", json.dump(2) + "\n");
 }
 
-Result collectedTool(const Scene& scene, const Origin& origin) {
+ToolSamples collectTool(const Scene& scene) {
   const Vec3 hole_W = holeOf(scene.station);
   ToolSamples samples;
   samples.pivot = collectPivot(scene, hole_W);
   samples.spin = collectSpin(scene, hole_W);
-  return toolResult(samples, scene.station.design.X_ET, origin);
+  return samples;
+}
+
+Result collectedWorkspace(const Scene& scene, const Vec3& tip_E, const Origin& origin, calibration::WorkspaceMap* found) {
+  if (scene.station.grid.empty()) throw Error("has no \"grid\"", scene.station.file.name(), "Describe the grid of holes: origin_W_mm, spacing_mm, counts");
+  return workspaceResult(touchesOf(collectTouches(scene, scene.station.grid), tip_E), origin, found);
+}
+
+ToolSamples corrected(ToolSamples samples, const calibration::WorkspaceMap& map) {
+  for (std::vector<Pose>* poses : {&samples.pivot, &samples.spin})
+    for (Pose& X : *poses) X.translation() = map.corrected(X.translation());
+  return samples;
 }
 
 Result collectedRegistration(const Scene& scene, const std::vector<HeldPose>& held, const Vec3& tip_E, const Origin& origin) {
   holeOf(scene.station);
-  return registrationResult(touchesOf(collectTouches(scene), tip_E), tagSamples(held), scene.station.entry_W, origin);
+  return registrationResult(touchesOf(collectTouches(scene, scene.station.landmarks), tip_E), tagSamples(held), scene.station.entry_W, origin);
 }
 
 Result collectedLatency(const Scene& scene, const calibration::CameraModel& camera, const Vec3& p_EM, const Origin& origin) {
@@ -85,8 +97,10 @@ Result forceSensorOf(const Scene& scene, const std::vector<HeldPose>& held, cons
 
 Vec3 markerOf(const std::vector<HeldPose>& held) { return calibration::calibrateHandEye(tagSamples(held)).X_EM.translation(); }
 
-SetupResult setUp(const Scene& scene, const Origin& origin) {
-  const station::Station& station = scene.station;
+SetupResult setUp(const Scene& raw, const Origin& origin) {
+  const station::Station& station = raw.station;
+  CorrectedRig corrected_rig(raw.rig);
+  const Scene scene{station, corrected_rig, raw.guide};
   SetupResult setup;
   const auto add = [&](Result result, const std::vector<std::string>& rests_on) {
     restOn(result, setup, rests_on);
@@ -95,10 +109,17 @@ SetupResult setUp(const Scene& scene, const Origin& origin) {
   };
   calibration::CameraModel camera;
   add(cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin, &camera), {});
-  add(collectedTool(scene, origin), {});
+  ToolSamples tool = collectTool(scene);
+  if (!station.grid.empty()) {
+    calibration::WorkspaceMap map;
+    add(collectedWorkspace(scene, tipOf(toolResult(tool, station.design.X_ET, origin)), origin, &map), {});
+    tool = corrected(tool, map);
+    corrected_rig.correctBy(map);
+  }
+  add(toolResult(tool, station.design.X_ET, origin), {"workspace"});
   const Vec3 tip_E = tipOf(setup.results.back());
   const std::vector<HeldPose> held = station.marker ? collectHeld(scene, camera) : std::vector<HeldPose>{};
-  add(collectedRegistration(scene, held, tip_E, origin), {"camera", "tool"});
+  add(collectedRegistration(scene, held, tip_E, origin), {"camera", "workspace", "tool"});
   const station::CalibrationFile registration = setup.results.back().file;
   if (station.marker) add(collectedLatency(scene, camera, station::poseAt(registration, "X_EM").translation(), origin), {"camera"});
   if (station.marker && station.force_sensor) add(forceSensorOf(scene, held, station::poseAt(registration, "X_WD"), origin), {});

@@ -17,7 +17,9 @@ struct SetupResult {
 };
 
 /// One routine each: asks, collects, estimates.
-Result collectedTool(const Scene& scene, const Origin& origin);
+ToolSamples collectTool(const Scene& scene);
+/// Throws Error for a station without a grid. `found`: where the map goes; may be null.
+Result collectedWorkspace(const Scene& scene, const Vec3& tip_E, const Origin& origin, calibration::WorkspaceMap* found = nullptr);
 /// `held`: poses of the tool with its marker, of which those seen join in; none: landmarks alone.
 Result collectedRegistration(const Scene& scene, const std::vector<HeldPose>& held, const Vec3& tip_E, const Origin& origin);
 /// `p_EM`: the marker on the end effector.
@@ -27,7 +29,7 @@ Result forceSensorOf(const Scene& scene, const std::vector<HeldPose>& held, cons
 /// The marker on the end effector by `held`.
 Vec3 markerOf(const std::vector<HeldPose>& held);
 
-/// Camera, tool, registration (landmarks and tag), time and, where there is one, force sensor: one after the other, each with what the former
+/// Camera, workspace (for a station with a grid), tool, registration (landmarks and tag), time and, where there is one, force sensor: one after the other, each with what the former
 /// ones found. Writes nothing. Throws Error for data that cannot tell an answer.
 SetupResult setUp(const Scene& scene, const Origin& origin);
 

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 
 #include "apps/calibrate/results.h"
@@ -26,6 +27,23 @@ double leftOutRms(const std::vector<Pose>& left_out, const calibration::TipCalib
   return left_out.empty() ? 0 : std::sqrt(squares / static_cast<double>(left_out.size()));
 }
 
+/// How much less a recording tells than as many independent samples would: neighbours share what is wrong with the device. With r the correlation of
+/// neighbouring residuals the variance of a mean is (1 + r) / (1 - r) times as large (first-order autoregression; Bartlett 1935).
+double inflation(const std::vector<Pose>& samples, const calibration::TipCalibration& tip) {
+  constexpr double kMostCorrelated = 0.99;
+  double products = 0, squares = 0;
+  Vec3 before = Vec3::Zero();
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    if (!tip.fit.good[i]) continue;
+    const Vec3 off = samples[i] * tip.tip_E - tip.pivot_D;
+    products += off.dot(before);
+    squares += off.squaredNorm();
+    before = off;
+  }
+  const double r = squares > 0 ? std::clamp(products / squares, 0.0, kMostCorrelated) : 0;
+  return (1 + r) / (1 - r);
+}
+
 }  // namespace
 
 Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Origin& origin) {
@@ -42,8 +60,8 @@ Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Ori
   r.file = begun(origin, "tool", kToolGoodFor_days);
   Mat3 R = X_ET_design.rotation();
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
-  covariance.bottomRightCorner<3, 3>() = tip.covariance;
-  const double tip_sd = std::sqrt(tip.covariance.trace());
+  covariance.bottomRightCorner<3, 3>() = inflation(fitted, tip) * tip.covariance;
+  const double tip_sd = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
   r.file.checks = {{"the tip's uncertainty", 1e3 * tip_sd, kTipSpread_mm, "mm"}};
   r.sentences = {"The tip lies " + quantity(1e3 * tip.tip_E.norm(), "mm") + " from the handle's centre, known to " + quantity(1e3 * tip_sd, "mm") + "."};
   if (!left_out.empty()) r.file.checks.push_back({"the tip's distance from its hole in samples not used", 1e3 * leftOutRms(left_out, tip), kTipLeftOut_mm, "mm"});

@@ -8,9 +8,9 @@ constexpr int kWorkspaceGoodFor_days = 180;
 
 }  // namespace
 
-Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin) {
+Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin, calibration::WorkspaceMap* found) {
   std::vector<calibration::TouchedPoint> points;
-  for (const Touch& t : touches) points.push_back({t.p_W, t.p_D});
+  for (const Touch& t : touches) points.push_back({t.p_W, t.p_D, t.lever_D});
   const calibration::WorkspaceMap map = calibration::mapWorkspace(points);
   Result r;
   r.title = "The device's workspace";
@@ -24,7 +24,7 @@ Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin) 
   Plot before{"Error at each point, before", "point", "mm", {}, 0}, after{"Error at each point, corrected", "point", "mm", {}, 0};
   const calibration::WorkspaceMap rigid = calibration::mapWorkspace(points, 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
-    const double off = (map.X_GD * map.corrected(points[i].p_D) - points[i].p_G).norm();
+    const double off = (map.X_GD * Vec3(points[i].p_D + map.correction(points[i].p_D - points[i].lever_D)) - points[i].p_G).norm();
     before.dots.push_back({static_cast<double>(i + 1), 1e3 * (rigid.X_GD * points[i].p_D - points[i].p_G).norm(), false});
     after.dots.push_back({static_cast<double>(i + 1), 1e3 * off, !map.fit.good[i]});
     r.file.residuals.values.push_back(off);
@@ -42,6 +42,7 @@ Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin) 
   r.file.data.used = static_cast<int>(points.size()) - map.fit.outliers();
   r.file.verdict = verdictOf(r.file.checks);
   r.advice.push_back("Redo it when the device was repaired or its homing changed.");
+  if (found) *found = map;
   return r;
 }
 

@@ -8,6 +8,7 @@
 #include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
 #include "apps/calibrate/camera_result.h"
+#include "apps/calibrate/corrected_rig.h"
 #include "apps/calibrate/page.h"
 #include "apps/calibrate/recorded.h"
 #include "apps/calibrate/sequence.h"
@@ -143,12 +144,13 @@ Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& orig
     calibration::CameraModel camera;
     return cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin, &camera);
   }
-  if (o.kind == "tool") return collectedTool(scene, origin);
+  if (o.kind == "tool") return toolResult(collectTool(scene), station.design.X_ET, origin);
+  if (o.kind == "workspace") return collectedWorkspace(scene, station.X_ET.translation(), origin);
   if (o.kind == "registration")
     return collectedRegistration(scene, station.marker ? collectHeld(scene, station.camera) : std::vector<HeldPose>{}, station.X_ET.translation(), origin);
   if (o.kind == "latency") return collectedLatency(scene, station.camera, markerOf(collectHeld(scene, station.camera)), origin);
   if (o.kind == "force-sensor") return forceSensorOf(scene, collectHeld(scene, station.camera), station.X_WD, origin);
-  throw Error("needs a grid of touched points", "palpa calibrate " + o.kind, "Give them with --touches FILE");
+  throw UsageError("is no routine", "palpa calibrate " + o.kind, "See palpa calibrate --help");
 }
 
 void calibrateStation(const CalibrateOptions& o) {
@@ -164,7 +166,9 @@ void calibrateStation(const CalibrateOptions& o) {
     throw Error("cannot be led through a calibration yet: its camera is simulated", "station \"" + station.id + "\"", "Give recorded samples; see --help");
   twin::SetupBench bench(station, o.seed);
   TerminalGuide guide(o.quiet, false);
-  const Scene scene{station, bench, guide};
+  CorrectedRig rig(bench);   // by the station's own calibration, where it has one
+  if (o.kind != "all" && o.kind != "workspace") rig.correctBy(station.workspace);
+  const Scene scene{station, rig, guide};
   if (o.kind != "all") {
     setup.results.push_back(onBench(o, scene, origin));
     setup.calibrations.push_back(asFile(setup.results.back()));
@@ -188,7 +192,7 @@ constexpr Routine kRoutines[] = {
      "Examples:\n  palpa calibrate tool\n  palpa calibrate tool --pivot pivot.csv --spin spin.csv\n"
      "Tables have a header row: x_mm (or x_m), y_, z_, q_w, q_x, q_y, q_z: the end effector in the device's base."},
     {"workspace", "The device's systematic position error, from a touched grid",
-     "Examples:\n  palpa calibrate workspace --touches grid.csv\nColumns: known_x_mm, ..., touched_x_mm, ..."},
+     "Examples:\n  palpa calibrate workspace --touches grid.csv\nColumns: known_x_mm, ..., touched_x_mm, ..., end_x_mm, ... (the end effector, where it is known)"},
     {"registration", "Where the device stands: from touched landmarks, from a tag on the tool, or both",
      "Examples:\n  palpa calibrate registration --landmarks touched.csv\n      columns: name, known_x_mm, ..., touched_x_mm, ..., for (\"check\": not used to fit)\n"
      "  palpa calibrate registration --pairs samples.json\n      a list of [end effector in base, tag in camera], 4x4, metres; or a table: device_x_m, ..., tag_x_m, ..."},

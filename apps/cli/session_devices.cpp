@@ -72,6 +72,10 @@ void SessionDevices::openDevice(const SessionOptions& options, const NeedleWorld
                          options.left_handed},
         channel_, channels);
   }
+  if (world.station.workspace.order > 0) {
+    corrected_.emplace(*device, world.station.workspace);
+    device = &*corrected_;
+  }
   plunger_.emplace(*device, falcon_ ? setup.plunger_button : 0);
 }
 

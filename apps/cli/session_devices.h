@@ -6,6 +6,7 @@
 #include "apps/cli/mouse_hand.h"
 #include "apps/cli/needle_world.h"
 #include "apps/runtime/button_plunger.h"
+#include "apps/runtime/corrected_device.h"
 #include "apps/runtime/channel_sensor.h"
 #include "apps/runtime/executive.h"
 #include "apps/runtime/falcon_activity.h"
@@ -54,6 +55,7 @@ class SessionDevices {
   std::unique_ptr<haptics::FalconDriver> falcon_;
   std::unique_ptr<runtime::FalconActivity> falcon_activity_;
   std::unique_ptr<haptics::ReplayDevice> replay_;
+  std::optional<runtime::CorrectedDevice> corrected_;   ///< where the workspace was calibrated
   std::optional<runtime::ButtonPlunger> plunger_;       // around whichever it is
 };
 

@@ -20,6 +20,15 @@ ar::BoardPose seenBoard(const station::Station& station, twin::SetupBench& bench
   }
 }
 
+/// Where the end effector truly is when the calibrated station believes it at p_DE.
+Vec3 truePlace(const Vec3& p_DE, const station::Station& station, const twin::DeviceTruth& device) {
+  constexpr int kRounds = 20;   // each a hundredth of the former's error
+  Vec3 said = p_DE, truth = p_DE;
+  for (int i = 0; i < kRounds; ++i) said -= unpack(haptics::corrected(station.workspace, pack(said))) - p_DE;
+  for (int i = 0; i < kRounds; ++i) truth = said - device.position_error.at(truth);
+  return truth;
+}
+
 }  // namespace
 
 SetupAccuracy measureAccuracy(const station::Station& before, const station::Station& calibrated, const calibrate::SetupResult& setup, twin::SetupBench& bench) {
@@ -30,7 +39,8 @@ SetupAccuracy measureAccuracy(const station::Station& before, const station::Sta
   Mat3 down;
   down << 1, 0, 0, 0, -1, 0, 0, 0, -1;
   const Pose X_DE = calibrated.X_WD.inverse() * makePose(down, calibrated.entry_W) * calibrated.X_ET.inverse();
-  const Vec3 thought_W = (calibrated.X_WD * X_DE * calibrated.X_ET).translation(), true_W = (truth.X_WD * X_DE * truth.X_ET).translation();
+  const Pose X_DE_true = makePose(X_DE.rotation(), truePlace(X_DE.translation(), calibrated, bench.device()));
+  const Vec3 thought_W = (calibrated.X_WD * X_DE * calibrated.X_ET).translation(), true_W = (truth.X_WD * X_DE_true * truth.X_ET).translation();
   a.target_mm = 1e3 * (thought_W - true_W).norm();
   const ar::BoardPose board = seenBoard(calibrated, bench);
   a.target_px = (calibrated.camera.project(board.X_CW * thought_W) - bench.trueCamera().project(bench.X_CW() * true_W)).norm();

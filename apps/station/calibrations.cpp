@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <optional>
 
+#include "anatomy/geometry/error.h"
 #include "apps/station/sha256.h"
 #include "apps/station/station_file.h"
 
@@ -21,6 +22,22 @@ std::optional<std::chrono::sys_days> dayOf(const std::string& utc) {
 }
 
 std::string nameOf(const AppliedCalibration& c) { return "the " + c.file.kind + " calibration"; }
+
+haptics::WorkspaceCorrection correctionIn(const CalibrationFile& file) {
+  haptics::WorkspaceCorrection correction;
+  const double order = file.at("order", 1)[0];
+  if (!(order >= 0 && order <= haptics::WorkspaceCorrection::kHighestOrder)) throw Error("is of an order that is not known", "workspace calibration", "Calibrate again");
+  correction.order = static_cast<int>(order);
+  const int terms = (correction.order + 1) * (correction.order + 2) * (correction.order + 3) / 6;
+  const auto packed = [&](const std::string& name) { const auto& v = file.at(name, 3); return Packed3{v[0], v[1], v[2]}; };
+  correction.centre = packed("centre_m");
+  correction.half = packed("half_m");
+  for (const double half : correction.half)
+    if (!(half > 0)) throw Error("has no size", "workspace calibration", "Calibrate again");
+  const std::vector<double>& c = file.at("coefficients_m", static_cast<std::size_t>(3 * terms));
+  for (std::size_t k = 0; k < static_cast<std::size_t>(terms); ++k) correction.coefficients[k] = {c[3 * k], c[3 * k + 1], c[3 * k + 2]};
+  return correction;
+}
 
 }  // namespace
 
@@ -89,6 +106,7 @@ void applyCalibrations(Station& s) {
   for (const AppliedCalibration& c : s.calibrations) {
     if (s.calibration_date.empty() || c.file.date < s.calibration_date) s.calibration_date = c.file.date;
     if (c.file.kind == "camera") s.camera = cameraAt(c.file);
+    if (c.file.kind == "workspace") s.workspace = correctionIn(c.file);
     if (c.file.kind == "tool") s.X_ET = poseAt(c.file, "X_ET");
     if (c.file.kind == "registration") s.X_WD = poseAt(c.file, "X_WD");
     if (c.file.kind == "latency") s.camera_latency_s = c.file.at("camera_latency_s", 1)[0];
@@ -103,6 +121,7 @@ Station withCalibrations(const Station& station, const std::vector<AppliedCalibr
   s.X_WD = s.design.X_WD;
   s.X_ET = s.design.X_ET;
   s.camera_latency_s = s.design.camera_latency_s;
+  s.workspace = {};
   s.calibrations = calibrations;
   for (const AppliedCalibration& before : station.calibrations)
     if (!calibrationOf(calibrations, before.file.kind)) s.calibrations.push_back(before);

@@ -47,6 +47,19 @@ std::vector<Landmark> readLandmarks(const JsonFile& file) {
   return landmarks;
 }
 
+/// {"origin_W_mm", "spacing_mm", "counts"}: points named by their place along x, y, z.
+std::vector<Landmark> readGrid(const JsonFile& file) {
+  std::vector<Landmark> grid;
+  if (!file.has("grid")) return grid;
+  const Vec3 origin = kMm * file.vector("grid/origin_W_mm"), spacing = kMm * file.vector("grid/spacing_mm"), counts = file.vector("grid/counts");
+  if ((counts.array() < 1).any() || (counts.array() > 10).any()) file.refuse("grid/counts", "must be 1 to 10 each way");
+  for (int k = 0; k < static_cast<int>(counts.z()); ++k)
+    for (int j = 0; j < static_cast<int>(counts.y()); ++j)
+      for (int i = 0; i < static_cast<int>(counts.x()); ++i)
+        grid.push_back({std::to_string(i + 1) + "-" + std::to_string(j + 1) + "-" + std::to_string(k + 1), origin + spacing.cwiseProduct(Vec3(i, j, k)), false});
+  return grid;
+}
+
 struct Box {
   Vec3 low = Vec3::Constant(1e9), high = Vec3::Constant(-1e9);
 };
@@ -86,6 +99,7 @@ Station readStation(const std::filesystem::path& path) {
   s.board = readBoard(file, "board");
   if (file.has("marker")) s.marker = readBoard(file, "marker");
   s.landmarks = readLandmarks(file);
+  s.grid = readGrid(file);
   s.decimate = file.number("camera/decimate", 1, 4);
   s.X_WD = readPose(file, "registration/X_WD");
   s.X_ET = readPose(file, "tool/X_ET");

@@ -10,6 +10,7 @@
 #include "ar/board.h"
 #include "calibration/camera_model.h"
 #include "haptics/tick.h"
+#include "haptics/workspace_correction.h"
 
 namespace palpa::station {
 
@@ -42,6 +43,8 @@ struct Station {
   double camera_latency_s = 0.05;
   std::optional<ar::TagGridSpec> marker;   ///< a small grid of tags on the end effector, for registration and latency
   std::vector<Landmark> landmarks;         ///< known points that a tip can be put on
+  std::vector<Landmark> grid;              ///< more of them, evenly through the workspace: for the device's position error
+  haptics::WorkspaceCorrection workspace;  ///< of the device's readings
   Pose X_WD = Pose::Identity();    ///< haptic base on the table: registration
   Pose X_ET = Pose::Identity();    ///< needle tip in the end effector: tool calibration
   Vec3 entry_W = Vec3::Zero();     ///< where the patient's entry point lies: within the hand's reach, whoever the patient is

@@ -57,7 +57,7 @@ calibration::CameraModel trueCamera(const station::Station& station, std::uint64
   return truth;
 }
 
-DeviceTruth trueDevice(const station::Station& station) {
+DeviceTruth trueDevice(const station::Station& station, std::uint64_t seed) {
   const station::JsonFile& file = station.file;
   DeviceTruth truth;
   truth.apparent_mass = station.device.capabilities.apparent_mass;
@@ -67,6 +67,15 @@ DeviceTruth trueDevice(const station::Station& station) {
   truth.encoder_step = kTruthMm * file.number("twin/device/encoder_step_mm", 1e-6, 1);
   truth.encoder_angle = kTruthDeg * file.number("twin/device/encoder_angle_deg", 1e-6, 5);
   truth.actuator_tau = 1e-3 * file.number("twin/device/actuator_tau_ms", 0, 100);
+  if (const double error = kTruthMm * spreadOr0(file, "twin/device/position_error_mm", 10); error > 0) {
+    constexpr double kLongestWave = 0.5, kShortestWave = 0.3;   // m
+    RandomStream random(seed, "bench.position_error");
+    for (int i = 0; i < 3; ++i) {
+      truth.position_error.amplitude[i] = error * (random.uniform() < 0.5 ? -1 : 1) * random.uniform(0.7, 1.3);
+      truth.position_error.wave.row(i) = 2 * std::numbers::pi / random.uniform(kShortestWave, kLongestWave) * normal3(random).normalized().transpose();
+      truth.position_error.phase[i] = random.uniform(0, 2 * std::numbers::pi);
+    }
+  }
   return truth;
 }
 

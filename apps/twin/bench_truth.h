@@ -19,7 +19,7 @@ struct WorldTruth {
 WorldTruth drawWorld(const station::Station& station, std::uint64_t seed);
 
 calibration::CameraModel trueCamera(const station::Station& station, std::uint64_t seed);
-DeviceTruth trueDevice(const station::Station& station);
+DeviceTruth trueDevice(const station::Station& station, std::uint64_t seed);
 /// For a station with a force sensor.
 SensorTruth trueSensor(const station::Station& station, std::uint64_t seed);
 

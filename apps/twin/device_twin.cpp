@@ -41,7 +41,7 @@ void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
 }
 
 PackedPose encoderReading(const DeviceTruth& truth, const Pose& X_DE) {
-  Vec3 p = X_DE.translation();
+  Vec3 p = X_DE.translation() + truth.position_error.at(X_DE.translation());
   Eigen::AngleAxisd turn(X_DE.rotation());
   Vec3 r = turn.angle() * turn.axis();
   for (int i = 0; i < 3; ++i) {

@@ -7,6 +7,14 @@
 
 namespace palpa::twin {
 
+/// A mechanism that is not as its maker's equations have it: a smooth error of position, waves as long as the workspace. Not a polynomial, for
+/// what corrects it is one.
+struct PositionError {
+  Vec3 amplitude = Vec3::Zero(), phase = Vec3::Zero();   ///< m, rad; of each coordinate
+  Mat3 wave = Mat3::Zero();                              ///< rad/m; rows: of each coordinate
+  Vec3 at(const Vec3& p_D) const { return amplitude.cwiseProduct((wave * p_D + phase).array().sin().matrix()); }
+};
+
 /// The mechanical truth of a simulated haptic device. SI units.
 struct DeviceTruth {
   double apparent_mass = 0.045;     ///< kg at the end effector
@@ -16,6 +24,7 @@ struct DeviceTruth {
   double encoder_angle = 0.0006;    ///< rad
   double max_force_N = 7.9;         ///< the drives saturate here
   double actuator_tau = 0.001;      ///< s, first-order lag of the drives
+  PositionError position_error;     ///< what it says less what is
 };
 
 /// How a hand holds the tool: a spring and a damper toward where it wants to be.

@@ -41,7 +41,7 @@ struct SetupBench::Impl {
   Impl(const station::Station& s, std::uint64_t seed)
       : station(s),
         world(drawWorld(s, seed)),
-        device(trueDevice(s)),
+        device(trueDevice(s, seed)),
         X_CW_boom(cameraOnBoom(s, seed)),
         motion(hand, seed),
         views(seed, "setup.views"),
@@ -52,10 +52,11 @@ struct SetupBench::Impl {
     over_table.emplace(lens, s.board, VirtualCameraSettings{}, seed, at_table);
     at_wall.emplace(lens, s.board, VirtualCameraSettings{}, seed, VirtualScene{VirtualScene::Ground::kWall, {s.board}});
     const double off = kSetupMm * spread(s.file, "twin/landmark_spread_mm", 0.1, 10);
-    for (const station::Landmark& landmark : s.landmarks) {
-      const double x = holes.normal(), y = holes.normal(), z = holes.normal();
-      holes_W.push_back(landmark.p_W + off * Vec3(x, y, z));
-    }
+    for (const auto* list : {&s.landmarks, &s.grid})
+      for (const station::Landmark& landmark : *list) {
+        const double x = holes.normal(), y = holes.normal(), z = holes.normal();
+        holes_W.push_back({landmark.p_W, landmark.p_W + off * Vec3(x, y, z)});
+      }
     if (s.marker) X_EM = station::readPose(s.file, "twin/X_EM");
     if (s.design.force_sensor && s.design.force_sensor->driver == station::ForceSensorSetup::Driver::bench)
       felt.emplace(trueSensor(s, seed), seed);
@@ -66,8 +67,8 @@ struct SetupBench::Impl {
   }
 
   Vec3 hole(const Vec3& p_W) const {
-    for (std::size_t i = 0; i < station.landmarks.size(); ++i)
-      if ((station.landmarks[i].p_W - p_W).norm() < kSameLandmark) return holes_W[i];
+    for (const auto& [said, truth] : holes_W)
+      if ((said - p_W).norm() < kSameLandmark) return truth;
     return p_W;
   }
 
@@ -148,7 +149,7 @@ struct SetupBench::Impl {
   SetupHandTruth hand;
   SetupMotion motion;
   runtime::RandomStream views, holes;
-  std::vector<Vec3> holes_W;
+  std::vector<std::pair<Vec3, Vec3>> holes_W;   ///< where they are said to be, where they are
   std::optional<VirtualCamera> over_table, at_wall;
   std::optional<SensorTwin> felt;
   Pose X_WT = Pose::Identity(), X_CB = Pose::Identity(), X_CB_from = Pose::Identity(), X_CB_to = Pose::Identity();
@@ -175,6 +176,7 @@ void SetupBench::ask(const Request& request) {
 }
 
 std::optional<runtime::Moment> SetupBench::next() { return impl_->next(); }
+const DeviceTruth& SetupBench::device() const { return impl_->device; }
 const WorldTruth& SetupBench::truth() const { return impl_->world; }
 const calibration::CameraModel& SetupBench::trueCamera() const { return impl_->over_table->truth(); }
 Pose SetupBench::X_CW() const { return impl_->X_CW_boom; }

@@ -20,6 +20,7 @@ class SetupBench final : public runtime::Rig {
 
   const WorldTruth& truth() const;                    ///< for reports on accuracy only
   const calibration::CameraModel& trueCamera() const;
+  const DeviceTruth& device() const;
   Pose X_CW() const;                                  ///< of the boom
 
  private:

@@ -36,7 +36,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
         normal_W(setup.X_WA.rotation() * setup.anatomy.normal_A),
         sway(kMm * setup.station.file.number("twin/camera_sway_mm", 0, 100)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
-        mechanics(trueDevice(setup.station), restPose(setup.station, setup.X_WA, setup.anatomy.entry_A,
+        mechanics(trueDevice(setup.station, setup.seed), restPose(setup.station, setup.X_WA, setup.anatomy.entry_A,
                            setup.left_handed)),
         hand(setup.skill, setup.anatomy, setup.station.X_ET, setup.seed) {
     X_WD_true = drawWorld(setup.station, setup.seed).X_WD;
