@@ -232,9 +232,7 @@ Rms leftOut(const std::vector<HandEyeSample>& samples, const std::vector<bool>& 
 }  // namespace
 
 Mat3 HandEye::covarianceAt(const Vec3& p_C) const {
-  Eigen::Matrix<double, 3, 6> J;
-  J << -X_DC.linear() * crossMatrix(p_C), Mat3::Identity();
-  return J * covariance.bottomRightCorner<6, 6>() * J.transpose();
+  return pointCovariance(X_DC, covariance.bottomRightCorner<6, 6>(), p_C);
 }
 
 HandEye calibrateHandEye(const std::vector<HandEyeSample>& samples) {

@@ -18,6 +18,7 @@ Nothing is connected? Everything runs on the virtual bench. What you can do now:
   palpa paracentesis --trials 10 --fast    ten trials, as fast as this computer can
   palpa replay out/.../session.palpa       run a recorded session again: same forces, same score
   palpa patient info                       what the patient holds
+  palpa calibrate all                      set the station up; a page says whether it is ready
   palpa board print --out board.png        the board that the camera looks for
 
 A session leaves its results in out/<command>-<time>/: open report.html first.

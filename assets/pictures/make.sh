@@ -50,6 +50,11 @@ if command -v chromium >/dev/null; then
     --window-size=1000,1580 --screenshot="$work/report.png" "file://$work/out/readme/report.html" >/dev/null 2>&1 ||
     fail "chromium could not draw the report"
   small report.png report.png
+  "$palpa" calibrate all --seed 3 --quiet --out station3 >/dev/null
+  chromium --headless "${root[@]}" --disable-gpu --no-first-run --hide-scrollbars --user-data-dir="$work/profile" \
+    --window-size=1000,1480 --screenshot="$work/calibration.png" "file://$work/station3/calibration.html" >/dev/null 2>&1 ||
+    fail "chromium could not draw the calibration's page"
+  small calibration.png calibration.png
 else
-  echo "report.png is left as it was: chromium is not installed"
+  echo "report.png and calibration.png are left as they were: chromium is not installed"
 fi

@@ -194,6 +194,33 @@ TEST(Calibrate, RealRobotWithATagOnItsHand) {
   const double zero[3] = {};
   EXPECT_LT(apart(t, expected_t), 0.01 * apart(expected_t, zero)) << outcome.out;
   EXPECT_LT(apart(euler, expected_euler), 0.01 * apart(expected_euler, zero)) << outcome.out;
+
+  // Squares of another size than stated, one list the other way round, a hand that never moved.
+  const auto spoilt = [&](const std::function<json(const json&)>& device, const std::function<json(const json&)>& tag, const std::string& words) {
+    json list = json::parse(contentOf(pairs));
+    for (json& pair : list) pair = {device(pair[0]), tag(pair[1])};
+    here.file("spoilt.json", list.dump());
+    expectRefused({"registration", "--pairs", "spoilt.json"}, words, here);
+  };
+  const auto same = [](const json& m) { return m; };
+  const auto larger = [](json m) {
+    for (std::size_t i = 0; i < 3; ++i) m[i][3] = 1.1 * m[i][3].get<double>();
+    return m;
+  };
+  const auto inverse = [](const json& m) {
+    json r = json::parse("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]");
+    for (std::size_t i = 0; i < 3; ++i)
+      for (std::size_t j = 0; j < 3; ++j) {
+        r[i][j] = m[j][i];
+        r[i][3] = r[i][3].get<double>() - m[j][i].get<double>() * m[j][3].get<double>();
+      }
+    return r;
+  };
+  const auto still = [](const json&) { return json::parse("[[1,0,0,0],[0,1,0,0],[0,0,1,0],[0,0,0,1]]"); };
+  spoilt(same, larger, "Measure the printed");
+  spoilt(inverse, same, "inverse");
+  spoilt(still, still, "");
+  spoilt([](json m) { m[0][3] = nullptr; return m; }, same, "no 4x4 matrix");
 }
 
 /// What `all` says of itself against the bench's truth, at the limits that the product promises.
@@ -218,6 +245,19 @@ TEST(Calibrate, AllOnTheVirtualBench) {
   if (!test::fullCounts()) return;   // the root mean square of three says nothing
   EXPECT_LT(std::abs(std::log(true_mm / predicted_mm)), 2 * std::log(1.5)) << std::sqrt(true_mm / predicted_mm);
   EXPECT_LT(std::abs(std::log(true_px / predicted_px)), 2 * std::log(1.5)) << std::sqrt(true_px / predicted_px);
+}
+
+/// A device whose mechanism is bent by 0.8 mm: touching a grid makes the overlay better, and what is predicted stays true.
+TEST(Calibrate, ABentDeviceIsPutRight) {
+  const Folder here;
+  json station = json::parse(contentOf(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/stations/virtual_bench.json"));
+  station["twin"]["device"]["position_error_mm"] = 0.8;
+  here.file("bent.json", station.dump());
+  const Outcome outcome = palpa({"calibrate", "all", "--seed", "4", "--quiet", "--station", "bent.json", "--out", "bent"}, here.path());
+  EXPECT_TRUE(says(outcome.out, "A correction of order")) << outcome.out << outcome.err;
+  const json a = json::parse(contentOf(here / "bent/accuracy.json"));
+  EXPECT_LT(a["target_mm"].get<double>(), 0.4);
+  EXPECT_LT(a["target_mm"].get<double>(), 3 * a["predicted_mm"].get<double>());
 }
 
 TEST(Calibrate, ASessionUsesItAndIsNotScoredOnABadOne) {
