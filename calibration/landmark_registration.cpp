@@ -73,7 +73,7 @@ Mat3 LandmarkRegistration::covarianceAt(const Vec3& p_A) const {
 
 double LandmarkRegistration::tre(const Vec3& p_A) const { return std::sqrt(covarianceAt(p_A).trace()); }
 
-LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landmarks, double largest_fre) {
+LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landmarks, double largest_fre, double most_outliers) {
   if (landmarks.size() < 4) throw Error(std::to_string(landmarks.size()) + " landmarks are too few", kLandmarks, "Touch four at least, better eight, not all in one plane");
   for (const TouchedLandmark& l : landmarks)
     if (!l.p_A.allFinite() || !l.p_B.allFinite() || !(l.sd > 0)) throw Error("a landmark is not a number", kLandmarks, "Touch it again");
@@ -98,7 +98,7 @@ LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landm
   };
   LandmarkRegistration result;
   result.scale = std::sqrt(spread.of_B.trace() / spread.of_A.trace());
-  result.fit = robustFit({static_cast<int>(landmarks.size()), 3, 6, residuals, move}, kLandmarks);
+  result.fit = robustFit({static_cast<int>(landmarks.size()), 3, 6, residuals, move}, kLandmarks, most_outliers);
   R = nearestRotation(R);
   result.X_BA = makePose(R, middle_B - R * middle_A);
   // (turn, shift of the middle) -> (turn, shift of A's origin): shift = shift of the middle + R [middle]x turn.

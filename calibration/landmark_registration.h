@@ -30,7 +30,8 @@ struct LandmarkRegistration {
 };
 
 /// Throws Error for fewer than 4 landmarks, landmarks in one place, on one line or in one plane (three tell a rigid motion, but not that a list is
-/// mirrored), landmarks whose distances differ as units or mirrored coordinates do, and landmarks that fit badly (`largest_fre`).
-LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landmarks, double largest_fre = 0.005);
+/// mirrored), landmarks whose distances differ as units or mirrored coordinates do, and landmarks that fit badly (`largest_fre`, m) or of which
+/// more than `most_outliers` (a share) do not fit the others.
+LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landmarks, double largest_fre = 0.005, double most_outliers = 0.3);
 
 }  // namespace palpa::calibration

@@ -3,6 +3,7 @@
 #include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "anatomy/geometry/error.h"
 #include "calibration/landmark_registration.h"
@@ -14,6 +15,7 @@ namespace {
 const char kWorkspace[] = "workspace calibration";
 constexpr int kHighestOrder = 3;
 constexpr double kBetter = 0.95;
+constexpr double kMostOutliers = 0.3, kMostBeforeCorrection = 0.9;
 constexpr std::size_t kLeastPoints = 12;
 
 int monomials(int order) { return (order + 1) * (order + 2) * (order + 3) / 6; }
@@ -37,10 +39,11 @@ void measureBox(const std::vector<TouchedPoint>& points, WorkspaceMap* map) {
   map->half_D = (box.sizes() / 2).cwiseMax(1e-3);
 }
 
-LandmarkRegistration rigid(const std::vector<TouchedPoint>& points) {
+/// Of a device that is to be put right many points may miss a rigid motion: no reason to refuse yet.
+LandmarkRegistration rigid(const std::vector<TouchedPoint>& points, double most_outliers) {
   std::vector<TouchedLandmark> landmarks;
   for (const TouchedPoint& p : points) landmarks.push_back({p.p_D, p.p_G, 1e-3});
-  return registerLandmarks(landmarks, 0.02);
+  return registerLandmarks(landmarks, 0.02, most_outliers);
 }
 
 /// The map from D to the grid: G = coefficients' phi, linear; robust. The rigid motion nearest to it becomes X_GD.
@@ -59,7 +62,7 @@ void fitPolynomial(const std::vector<TouchedPoint>& points, const Pose& X_GD, Wo
     }
     return r;
   };
-  map->fit = robustFit({static_cast<int>(points.size()), 3, parameters, residuals, [&](const VectorX& dx) { x += dx; }}, kWorkspace, 0.3, 1e-4);
+  map->fit = robustFit({static_cast<int>(points.size()), 3, parameters, residuals, [&](const VectorX& dx) { x += dx; }}, kWorkspace, kMostOutliers, 1e-4);
   map->coefficients.resize(terms, 3);
   for (int k = 0; k < terms; ++k) map->coefficients.row(k) = (X_GD.linear().transpose() * x.segment<3>(3 * k)).transpose();
 }
@@ -79,7 +82,7 @@ WorkspaceMap fitted(const std::vector<TouchedPoint>& points, int order) {
   WorkspaceMap map;
   map.order = order;
   measureBox(points, &map);
-  const LandmarkRegistration registration = rigid(points);
+  const LandmarkRegistration registration = rigid(points, order == 0 ? kMostOutliers : kMostBeforeCorrection);
   map.X_GD = registration.X_BA;
   if (order == 0) {
     map.fit = registration.fit;
@@ -87,7 +90,7 @@ WorkspaceMap fitted(const std::vector<TouchedPoint>& points, int order) {
   } else {
     fitPolynomial(points, map.X_GD, &map);
   }
-  map.rms_before = rmsOf(points, map, false, registration.fit.good);
+  map.rms_before = rmsOf(points, map, false, map.fit.good);
   map.rms_after = rmsOf(points, map, true, map.fit.good);
   return map;
 }
@@ -148,13 +151,18 @@ WorkspaceMap mapWorkspace(const std::vector<TouchedPoint>& points, int order) {
 }
 
 WorkspaceMap mapWorkspace(const std::vector<TouchedPoint>& points) {
-  WorkspaceMap best = mapWorkspace(points, 0);
-  for (int order = 1; order <= kHighestOrder; ++order) {
-    if (static_cast<std::size_t>(monomials(order)) * 3 / 2 > points.size()) break;   // enough to spare
-    WorkspaceMap map = mapWorkspace(points, order);
-    if (map.left_out_after < kBetter * best.left_out_after) best = std::move(map);
+  requirePoints(points);
+  std::optional<WorkspaceMap> best;
+  for (int order = 0; order <= kHighestOrder; ++order) {
+    if (order > 0 && static_cast<std::size_t>(monomials(order)) * 3 / 2 > points.size()) break;   // enough to spare
+    try {
+      WorkspaceMap map = mapWorkspace(points, order);
+      if (!best || map.left_out_after < kBetter * best->left_out_after) best = std::move(map);
+    } catch (const Error&) {
+      continue;   // a low order may miss too many points of a device that a higher one puts right
+    }
   }
-  return best;
+  return best ? *best : mapWorkspace(points, 0);   // which says why not
 }
 
 }  // namespace palpa::calibration

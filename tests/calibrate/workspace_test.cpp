@@ -26,7 +26,12 @@ std::vector<calibration::TouchedPoint> touchedGrid() {
 
 TEST(WorkspaceCorrection, InTheLoopIsTheMapThatWasFitted) {
   for (int order = 1; order <= 3; ++order) {
-    const calibration::WorkspaceMap map = calibration::mapWorkspace(touchedGrid(), order);
+    calibration::WorkspaceMap map;
+    map.order = order;
+    map.centre_D = Vec3(0.01, -0.02, 0.03);
+    map.half_D = Vec3(0.06, 0.07, 0.05);
+    map.coefficients.resize((order + 1) * (order + 2) * (order + 3) / 6, 3);
+    for (Eigen::Index k = 0; k < map.coefficients.rows(); ++k) map.coefficients.row(k) = 1e-3 * Vec3(std::sin(1.0 + 3.0 * static_cast<double>(k)), std::cos(2.0 * static_cast<double>(k)), 0.3).transpose();
     const haptics::WorkspaceCorrection correction = CorrectedRig::asCorrection(map);
     for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0.03, -0.05, 0.02), Vec3(-0.08, 0.01, 0.06)})
       EXPECT_LT((unpack(haptics::corrected(correction, pack(p))) - map.corrected(p)).norm(), 1e-15) << order;
