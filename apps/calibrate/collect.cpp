@@ -1,6 +1,7 @@
 #include "apps/calibrate/collect.h"
 
 #include <cmath>
+#include <map>
 
 #include "anatomy/geometry/error.h"
 #include "calibration/rotation.h"
@@ -99,10 +100,26 @@ std::vector<Pose> collectMotion(const Scene& scene, Request::What what, const st
   return thinned(whilePressed(scene, request, static_cast<std::size_t>(100 * seconds), 0).X_DE);
 }
 
-/// Both boards in one picture.
+/// Both boards.
 struct Seen {
+  std::vector<ar::BoardPoint> marker_points;
   std::optional<ar::BoardPose> board, marker;
 };
+
+/// Points that all pictures show, at their mean place: a hand held still trembles about it.
+std::vector<ar::BoardPoint> meanPoints(const std::vector<std::vector<ar::BoardPoint>>& pictures) {
+  std::map<std::pair<double, double>, std::pair<ar::BoardPoint, std::size_t>> sums;
+  for (const auto& points : pictures)
+    for (const ar::BoardPoint& point : points) {
+      auto& [sum, count] = sums.try_emplace({point.p_W.x(), point.p_W.y()}, ar::BoardPoint{point.p_W, Eigen::Vector2d::Zero()}, 0).first->second;
+      sum.pixel += point.pixel;
+      ++count;
+    }
+  std::vector<ar::BoardPoint> means;
+  for (auto& [place, entry] : sums)
+    if (entry.second == pictures.size()) means.push_back({entry.first.p_W, entry.first.pixel / static_cast<double>(pictures.size())});
+  return means;
+}
 
 class TwoBoards {
  public:
@@ -110,7 +127,19 @@ class TwoBoards {
     if (!station.marker) throw Error("has no \"marker\" on the tool", station.file.name(), "Add one, or register by landmarks alone");
     marker_ = ar::makeBoard(*station.marker, 1.0);
   }
-  Seen see(const cv::Mat& image) const { return {ar::estimateBoardPose(board_->detect(image), camera_), ar::estimateBoardPose(marker_->detect(image), camera_)}; }
+  /// In one picture, or in several of the same pose.
+  Seen see(const std::vector<cv::Mat>& images) const {
+    std::vector<std::vector<ar::BoardPoint>> board, marker;
+    for (const cv::Mat& image : images) {
+      board.push_back(board_->detect(image));
+      marker.push_back(marker_->detect(image));
+    }
+    Seen seen;
+    seen.marker_points = meanPoints(marker);
+    seen.board = ar::estimateBoardPose(meanPoints(board), camera_);
+    seen.marker = ar::estimateBoardPose(seen.marker_points, camera_);
+    return seen;
+  }
 
  private:
   calibration::CameraModel camera_;
@@ -168,11 +197,19 @@ std::vector<HeldPose> collectHeld(const Scene& scene, const calibration::CameraM
     const Stretch stretch = whileStill(scene, heldRequest(i), kMostTremorHeld, 3);
     HeldPose pose;
     pose.X_DE = meanPose(stretch.X_DE);
-    std::vector<Pose> X_WM;
-    for (const ar::Frame& picture : stretch.pictures)
-      if (const Seen s = boards.see(picture.image); s.board && s.marker) X_WM.push_back(s.board->X_CW.inverse() * s.marker->X_CW);
-    pose.seen = !X_WM.empty();
-    if (pose.seen) pose.X_WM = meanPose(X_WM);
+    std::vector<cv::Mat> images;
+    for (const ar::Frame& picture : stretch.pictures) images.push_back(picture.image);
+    const Seen s = boards.see(images);
+    pose.seen = s.board && s.marker;
+    if (pose.seen) {
+      pose.X_WM = s.board->X_CW.inverse() * s.marker->X_CW;
+      pose.view.X_DE = pose.X_DE;
+      pose.view.X_CW = s.board->X_CW;
+    }
+    for (const ar::BoardPoint& point : s.marker_points) {
+      pose.view.p_M.push_back(point.p_W);
+      pose.view.pixels.push_back(point.pixel);
+    }
     for (const haptics::WrenchSample& w : stretch.wrenches) {
       pose.f_S += unpack(w.f_S) / static_cast<double>(stretch.wrenches.size());
       pose.m_S += unpack(w.tau_S) / static_cast<double>(stretch.wrenches.size());
@@ -207,7 +244,7 @@ LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& c
     } else if (begun >= 0) {
       const std::optional<ar::Frame> frame = moment.picture();
       if (!frame) continue;
-      const Seen s = boards.see(frame->image);
+      const Seen s = boards.see({frame->image});
       if (!s.board || !s.marker) continue;
       samples.camera.push_back({1e-9 * static_cast<double>(frame->t_exposure_ns), s.board->X_CW.inverse() * s.marker->X_CW.translation()});
       if (samples.camera.size() % 15 == 0)

@@ -8,6 +8,7 @@
 #include "apps/station/station_file.h"
 #include "ar/board_pose.h"
 #include "calibration/board_view.h"
+#include "calibration/hand_eye_refinement.h"
 
 /// Collects what a calibration needs from a station: asks, watches, takes what is good, asks again for what is not.
 namespace palpa::calibrate {
@@ -46,10 +47,12 @@ std::vector<TouchedPose> collectTouches(const Scene& scene, const std::vector<st
 /// With the tool that was found.
 std::vector<Touch> touchesOf(const std::vector<TouchedPose>& poses, const Vec3& tip_E);
 
-/// The tool held still in `poses` places where the camera sees its marker: X_DE, the marker's pose in W, and what the force sensor showed.
+/// The tool held still in `poses` places where the camera sees its marker: X_DE, the marker's pose in W, its corners (means of up to three pictures),
+/// and what the force sensor showed.
 struct HeldPose {
   Pose X_DE = Pose::Identity(), X_WM = Pose::Identity();
   bool seen = false;
+  calibration::TagView view;
   Vec3 f_S = Vec3::Zero(), m_S = Vec3::Zero();
 };
 std::vector<HeldPose> collectHeld(const Scene& scene, const calibration::CameraModel& camera, int poses = 20);

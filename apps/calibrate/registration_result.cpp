@@ -13,7 +13,7 @@ namespace {
 
 using Matrix6 = Eigen::Matrix<double, 6, 6>;
 using Vector6 = Eigen::Matrix<double, 6, 1>;
-constexpr double kTargetError_mm = 0.8, kDisagreement_mm = 1.5;
+constexpr double kTargetError_mm = 0.8, kDisagreement_mm = 1.5, kTagLeftOut_px = 1.5;
 constexpr double kChi2_6_999 = 22.46;   // 99.9 % quantile, six degrees of freedom
 constexpr int kRegistrationGoodFor_days = 30;
 constexpr double kTouchSpread = 5e-4;   // m; only its ratio between landmarks matters
@@ -109,27 +109,37 @@ void requireScale(const std::vector<calibration::HandEyeSample>& tag, const Vec3
                 "Measure the printed squares or tags of board and marker, and correct their size in the station's file");
 }
 
-Answer byTag(const std::vector<calibration::HandEyeSample>& tag, Result& r) {
-  const calibration::HandEye fit = calibration::calibrateHandEye(tag);
-  requireScale(tag, fit.X_EM.translation());
-  addPose(r.file, "X_EM", fit.X_EM);
-  r.file.data.samples += static_cast<int>(tag.size());
-  r.file.data.used += static_cast<int>(tag.size()) - fit.fit.outliers();
-  r.sentences.push_back("The tag on the tool was seen in " + std::to_string(tag.size()) + " poses; in poses not used it is predicted to " +
-                        quantity(1e3 * fit.left_out_shift, "mm") + ".");
-  if (r.file.residuals.values.empty()) {
-    r.file.residuals.unit = "m";
-    r.file.residuals.rms = fit.rms_shift;
-    Plot plot{"How well each pose fits", "pose", "mm", {}, 0};
-    for (std::size_t i = 0; i < tag.size(); ++i) {
-      const double off = (fit.X_DC.inverse() * (tag[i].X_DE * fit.X_EM.translation()) - tag[i].X_CM.translation()).norm();
-      plot.dots.push_back({static_cast<double>(i + 1), 1e3 * off, !fit.fit.good[i]});
-      r.file.residuals.values.push_back(off);
-      if (!fit.fit.good[i]) r.file.residuals.left_out.push_back(static_cast<int>(i));
-    }
-    r.plots.push_back(plot);
+void addPosePlot(const std::vector<calibration::HandEyeSample>& tag, const calibration::HandEye& fit, Result& r) {
+  r.file.residuals.unit = "m";
+  r.file.residuals.rms = fit.rms_shift;
+  Plot plot{"How well each pose fits", "pose", "mm", {}, 0};
+  for (std::size_t i = 0; i < tag.size(); ++i) {
+    const double off = (fit.X_DC.inverse() * (tag[i].X_DE * fit.X_EM.translation()) - tag[i].X_CM.translation()).norm();
+    plot.dots.push_back({static_cast<double>(i + 1), 1e3 * off, !fit.fit.good[i]});
+    r.file.residuals.values.push_back(off);
+    if (!fit.fit.good[i]) r.file.residuals.left_out.push_back(static_cast<int>(i));
   }
-  return {fit.X_DC, fit.covariance.bottomRightCorner<6, 6>()};
+  r.plots.push_back(plot);
+}
+
+Answer byTag(const TagSamples& tag, Result& r) {
+  const calibration::HandEye fit = calibration::calibrateHandEye(tag.poses);
+  requireScale(tag.poses, fit.X_EM.translation());
+  r.file.data.samples += static_cast<int>(tag.poses.size());
+  r.file.data.used += static_cast<int>(tag.poses.size()) - fit.fit.outliers();
+  r.sentences.push_back("The tag on the tool was seen in " + std::to_string(tag.poses.size()) + " poses; in poses not used it is predicted to " +
+                        quantity(1e3 * fit.left_out_shift, "mm") + ".");
+  if (r.file.residuals.values.empty()) addPosePlot(tag.poses, fit, r);
+  if (tag.views.empty()) {
+    addPose(r.file, "X_EM", fit.X_EM);
+    return {fit.X_DC, fit.covariance.bottomRightCorner<6, 6>()};
+  }
+  const calibration::RefinedHandEye refined = calibration::refineHandEye(tag.views, tag.poses, tag.camera);
+  addPose(r.file, "X_EM", refined.X_EM);
+  r.file.checks.push_back({"the error of the tag's corners in poses not used", refined.left_out_px, kTagLeftOut_px, "px"});
+  r.sentences.push_back("Fitted to the tag's corners in the pictures they are predicted, in poses not used, to " + quantity(refined.left_out_px, "px") + " (by the poses alone: " +
+                        quantity(refined.left_out_start_px, "px") + ").");
+  return {refined.X_DW, refined.covariance.bottomRightCorner<6, 6>()};
 }
 
 /// Where the board, or whatever the tag was seen from, stands in the device's base.
@@ -143,12 +153,12 @@ std::string inDevice(const Pose& X_DW, bool by_tag_alone) {
 
 }  // namespace
 
-Result registrationResult(const std::vector<Touch>& touches, const std::vector<calibration::HandEyeSample>& tag, const Vec3& tip_W, const Origin& origin) {
+Result registrationResult(const std::vector<Touch>& touches, const TagSamples& tag, const Vec3& tip_W, const Origin& origin) {
   Result r;
   r.title = "Device and board (registration)";
   r.file = begun(origin, "registration", kRegistrationGoodFor_days);
   Answer answer;
-  if (!touches.empty() && !tag.empty()) {
+  if (!touches.empty() && !tag.poses.empty()) {
     const Answer by_landmarks = byLandmarks(touches, r), by_tag = byTag(tag, r);
     const Vec3 apart = by_landmarks.X_DW * tip_W - by_tag.X_DW * tip_W;
     const double chi = chi2(by_landmarks, by_tag);

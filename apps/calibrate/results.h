@@ -9,6 +9,7 @@
 #include "calibration/clock_offset.h"
 #include "calibration/force_sensor.h"
 #include "calibration/hand_eye.h"
+#include "calibration/hand_eye_refinement.h"
 #include "calibration/workspace_map.h"
 
 /// From samples to what a station keeps, with a verdict from samples that the fit has not seen. All throw Error, in plain words, for data that
@@ -29,10 +30,17 @@ struct Touch {
   bool for_check = false;   ///< not used to fit
   Vec3 lever_D = Vec3::Zero();   ///< the tip less the end effector; zero: not known
 };
-/// X_WD from touched landmarks, from a tag on the end effector (`tag`: X_DE with X_WM in place of X_CM), or from both: two answers that do not know
+/// A tag on the end effector: X_DE with X_WM in place of X_CM; and, where pictures are at hand, its corners in them, for the same poses.
+struct TagSamples {
+  std::vector<calibration::HandEyeSample> poses;
+  std::vector<calibration::TagView> views;   ///< none: poses alone
+  calibration::CameraModel camera;
+};
+
+/// X_WD from touched landmarks, from a tag on the end effector (`tag`), or from both: two answers that do not know
 /// of each other, so that their disagreement tells of errors that neither could see; joined by their covariances where they agree.
 /// `tip_W`: where it matters, for the predicted error.
-Result registrationResult(const std::vector<Touch>& touches, const std::vector<calibration::HandEyeSample>& tag, const Vec3& tip_W, const Origin& origin);
+Result registrationResult(const std::vector<Touch>& touches, const TagSamples& tag, const Vec3& tip_W, const Origin& origin);
 
 /// Where the marker was seen, stamped with the believed time of exposure, and where the device had it. `camera_latency_s`: as believed so far.
 struct LatencySamples {

@@ -25,10 +25,14 @@ Vec3 holeOf(const station::Station& station) {
   return station.landmarks.front().p_W;
 }
 
-std::vector<calibration::HandEyeSample> tagSamples(const std::vector<HeldPose>& held) {
-  std::vector<calibration::HandEyeSample> samples;
-  for (const HeldPose& pose : held)
-    if (pose.seen) samples.push_back({pose.X_DE, pose.X_WM});
+TagSamples tagSamples(const std::vector<HeldPose>& held, const calibration::CameraModel& camera) {
+  TagSamples samples;
+  samples.camera = camera;
+  for (const HeldPose& pose : held) {
+    if (!pose.seen) continue;
+    samples.poses.push_back({pose.X_DE, pose.X_WM});
+    samples.views.push_back(pose.view);
+  }
   return samples;
 }
 
@@ -81,9 +85,9 @@ ToolSamples corrected(ToolSamples samples, const calibration::WorkspaceMap& map)
   return samples;
 }
 
-Result collectedRegistration(const Scene& scene, const std::vector<HeldPose>& held, const Vec3& tip_E, const Origin& origin) {
+Result collectedRegistration(const Scene& scene, const std::vector<HeldPose>& held, const calibration::CameraModel& camera, const Vec3& tip_E, const Origin& origin) {
   holeOf(scene.station);
-  return registrationResult(touchesOf(collectTouches(scene, scene.station.landmarks), tip_E), tagSamples(held), scene.station.entry_W, origin);
+  return registrationResult(touchesOf(collectTouches(scene, scene.station.landmarks), tip_E), tagSamples(held, camera), scene.station.entry_W, origin);
 }
 
 Result collectedLatency(const Scene& scene, const calibration::CameraModel& camera, const Vec3& p_EM, const Origin& origin) {
@@ -95,7 +99,7 @@ Result forceSensorOf(const Scene& scene, const std::vector<HeldPose>& held, cons
   return forceSensorResult(forceReadings(held, *scene.station.force_sensor), X_WD.rotation().transpose() * -Vec3::UnitZ(), origin);
 }
 
-Vec3 markerOf(const std::vector<HeldPose>& held) { return calibration::calibrateHandEye(tagSamples(held)).X_EM.translation(); }
+Vec3 markerOf(const std::vector<HeldPose>& held) { return calibration::calibrateHandEye(tagSamples(held, {}).poses).X_EM.translation(); }
 
 SetupResult setUp(const Scene& raw, const Origin& origin) {
   const station::Station& station = raw.station;
@@ -119,7 +123,7 @@ SetupResult setUp(const Scene& raw, const Origin& origin) {
   add(toolResult(tool, station.design.X_ET, origin), {"workspace"});
   const Vec3 tip_E = tipOf(setup.results.back());
   const std::vector<HeldPose> held = station.marker ? collectHeld(scene, camera) : std::vector<HeldPose>{};
-  add(collectedRegistration(scene, held, tip_E, origin), {"camera", "workspace", "tool"});
+  add(collectedRegistration(scene, held, camera, tip_E, origin), {"camera", "workspace", "tool"});
   const station::CalibrationFile registration = setup.results.back().file;
   if (station.marker) add(collectedLatency(scene, camera, station::poseAt(registration, "X_EM").translation(), origin), {"camera"});
   if (station.marker && station.force_sensor) add(forceSensorOf(scene, held, station::poseAt(registration, "X_WD"), origin), {});

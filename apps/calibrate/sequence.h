@@ -21,7 +21,9 @@ ToolSamples collectTool(const Scene& scene);
 /// Throws Error for a station without a grid. `found`: where the map goes; may be null.
 Result collectedWorkspace(const Scene& scene, const Vec3& tip_E, const Origin& origin, calibration::WorkspaceMap* found = nullptr);
 /// `held`: poses of the tool with its marker, of which those seen join in; none: landmarks alone.
-Result collectedRegistration(const Scene& scene, const std::vector<HeldPose>& held, const Vec3& tip_E, const Origin& origin);
+/// `camera`: that the marker was seen with.
+Result collectedRegistration(const Scene& scene, const std::vector<HeldPose>& held, const calibration::CameraModel& camera, const Vec3& tip_E,
+                             const Origin& origin);
 /// `p_EM`: the marker on the end effector.
 Result collectedLatency(const Scene& scene, const calibration::CameraModel& camera, const Vec3& p_EM, const Origin& origin);
 /// Throws UsageError for a station without a force sensor.

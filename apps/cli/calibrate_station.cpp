@@ -115,14 +115,15 @@ ToolSamples toolSamples(const CalibrateOptions& o) {
 /// The error is predicted where the station has its patient; without a station in the middle of what was touched or seen.
 Result fromTouchesAndPairs(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
   std::vector<Touch> touches;
-  std::vector<calibration::HandEyeSample> pairs;
+  TagSamples tag;
+  std::vector<calibration::HandEyeSample>& pairs = tag.poses;
   if (!o.landmarks.empty()) touches = readTouches(o.landmarks);
   if (!o.pairs.empty()) pairs = readPosePairs(o.pairs);
   Vec3 middle = Vec3::Zero();
   for (const Touch& t : touches) middle += t.p_W / static_cast<double>(touches.size());
   if (touches.empty())
     for (const calibration::HandEyeSample& pair : pairs) middle += pair.X_CM.translation() / static_cast<double>(pairs.size());
-  return registrationResult(touches, pairs, o.station.empty() ? middle : station.entry_W, origin);
+  return registrationResult(touches, tag, o.station.empty() ? middle : station.entry_W, origin);
 }
 
 Result fromFiles(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
@@ -147,7 +148,8 @@ Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& orig
   if (o.kind == "tool") return toolResult(collectTool(scene), station.design.X_ET, origin);
   if (o.kind == "workspace") return collectedWorkspace(scene, station.X_ET.translation(), origin);
   if (o.kind == "registration")
-    return collectedRegistration(scene, station.marker ? collectHeld(scene, station.camera) : std::vector<HeldPose>{}, station.X_ET.translation(), origin);
+    return collectedRegistration(scene, station.marker ? collectHeld(scene, station.camera) : std::vector<HeldPose>{}, station.camera,
+                                 station.X_ET.translation(), origin);
   if (o.kind == "latency") return collectedLatency(scene, station.camera, markerOf(collectHeld(scene, station.camera)), origin);
   if (o.kind == "force-sensor") return forceSensorOf(scene, collectHeld(scene, station.camera), station.X_WD, origin);
   throw UsageError("is no routine", "palpa calibrate " + o.kind, "See palpa calibrate --help");
