@@ -13,6 +13,7 @@ namespace {
 const char kRefinement[] = "registration by a tag";
 constexpr std::size_t kLeastViews = 8;
 constexpr int kUnknowns = 12;
+constexpr int kOwnErrors = 2;   // of a pose that make most of its corners' errors: the hand's tremble across the view
 constexpr double kDerivativeStep = 1e-6;
 
 struct Unknowns {
@@ -62,7 +63,9 @@ Fit adjust(const std::vector<TagView>& views, const CameraModel& camera, Unknown
     for (std::size_t i = 0; i < views.size(); ++i) r.segment(size * static_cast<Eigen::Index>(i), size) = residualsOf(views[i], y, camera);
     return r;
   };
-  return robustFit({static_cast<int>(views.size()), static_cast<int>(size), kUnknowns, residuals, [&](const VectorX& dx) { *x = x->by(dx); }}, kRefinement);
+  FitProblem problem{static_cast<int>(views.size()), static_cast<int>(size), kUnknowns, residuals, [&](const VectorX& dx) { *x = x->by(dx); }};
+  problem.freedom = kOwnErrors;
+  return robustFit(problem, kRefinement);
 }
 
 /// Those with as many corners as most, and their poses.

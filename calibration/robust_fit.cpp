@@ -140,7 +140,8 @@ class RobustFitter {
   /// Which blocks are good; whether that changed.
   bool select() {
     if (problem_.keep_all) return false;
-    const ChiSquared chi2(problem_.size);
+    const int independent = problem_.freedom ? problem_.freedom : problem_.size;
+    const ChiSquared chi2(independent);
     // The median sees the fit's own freedom: few measurements leave residuals smaller than the noise.
     const double freedom = std::sqrt(1 - static_cast<double>(problem_.parameters) / (problem_.blocks * problem_.size));
     const double scale = medianNorm() / std::sqrt(boost::math::quantile(chi2, 0.5)) / freedom;

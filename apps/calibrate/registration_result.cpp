@@ -135,11 +135,15 @@ Answer byTag(const TagSamples& tag, Result& r) {
     return {fit.X_DC, fit.covariance.bottomRightCorner<6, 6>()};
   }
   const calibration::RefinedHandEye refined = calibration::refineHandEye(tag.views, tag.poses, tag.camera);
-  addPose(r.file, "X_EM", refined.X_EM);
-  r.file.checks.push_back({"the error of the tag's corners in poses not used", refined.left_out_px, kTagLeftOut_px, "px"});
-  r.sentences.push_back("Fitted to the tag's corners in the pictures they are predicted, in poses not used, to " + quantity(refined.left_out_px, "px") + " (by the poses alone: " +
-                        quantity(refined.left_out_start_px, "px") + ").");
-  return {refined.X_DW, refined.covariance.bottomRightCorner<6, 6>()};
+  // Corners tell more where the picture's noise is the larger part, poses where the hand's tremble is: poses that neither has seen decide.
+  const bool corners = refined.left_out_px < refined.left_out_start_px;
+  addPose(r.file, "X_EM", corners ? refined.X_EM : fit.X_EM);
+  const double left_out = std::min(refined.left_out_px, refined.left_out_start_px);
+  r.file.checks.push_back({"the error of the tag's corners in poses not used", left_out, kTagLeftOut_px, "px"});
+  r.sentences.push_back("In poses not used the tag's corners are predicted to " + quantity(left_out, "px") +
+                        (corners ? ", fitted to the corners themselves (by the poses: " : ", fitted to the tag's poses (by the corners: ") +
+                        quantity(std::max(refined.left_out_px, refined.left_out_start_px), "px") + ").");
+  return corners ? Answer{refined.X_DW, refined.covariance.bottomRightCorner<6, 6>()} : Answer{fit.X_DC, fit.covariance.bottomRightCorner<6, 6>()};
 }
 
 /// Where the board, or whatever the tag was seen from, stands in the device's base.
