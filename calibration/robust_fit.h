@@ -19,8 +19,8 @@ struct FitProblem {
   std::function<void(const VectorX& dx)> move;   ///< x becomes x moved by dx
   /// Derivatives of the residuals by dx at x, for problems of many parameters; where there is none, differences are taken.
   std::function<MatrixX()> jacobian = nullptr;
-  int freedom = 0;         ///< independent errors of a block, where its residuals share causes (one pose seen in many corners); 0: all are independent
   bool keep_all = false;   ///< plain least squares: no block is taken for an outlier
+  int freedom = 0;         ///< independent errors of a block, where its residuals share causes (one pose seen in many corners); 0: all are independent
 };
 
 struct Fit {

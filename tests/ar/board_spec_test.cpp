@@ -52,7 +52,7 @@ TEST(BoardSpec, SaysWhatIsKnownWhenItDoesNotUnderstand) {
                            "tags:6x4:0.03:0,01",
                            "chessboard:9x6",
                            "chessboard:9x6:0",
-                           "chessboard:9x6:0.025:1",
+                           "chessboard:9x6:0.025:-1", "chessboard:9x6:0.025:5:1",
                            "tag36h11",
                            "tag36h11:",
                            "tag36h11:0.05:3",
