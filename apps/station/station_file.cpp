@@ -36,13 +36,23 @@ ar::TagGridSpec readBoard(const JsonFile& file, const std::string& at) {
   return board;
 }
 
+/// A place that an arm may reach, metres.
+Vec3 placeIn(const JsonFile& file, const std::string& at) {
+  constexpr double kFarthest_mm = 5000;
+  const Vec3 p_mm = file.vector(at);
+  if (p_mm.cwiseAbs().maxCoeff() > kFarthest_mm) file.refuse(at, "is more than 5 m away");
+  return kMm * p_mm;
+}
+
 std::vector<Landmark> readLandmarks(const JsonFile& file) {
   std::vector<Landmark> landmarks;
   if (!file.has("landmarks")) return landmarks;
   if (!file.json().at("landmarks").is_array()) file.refuse("landmarks", "must be a list");
   for (const nlohmann::json& item : file.json().at("landmarks")) {
     const JsonFile landmark(item, file.name() + ", \"landmarks\"");
-    landmarks.push_back({landmark.text("name"), kMm * landmark.vector("p_W_mm"), landmark.has("for") && landmark.text("for") == "check"});
+    const std::string use = landmark.text("for");
+    if (use != "fit" && use != "check") landmark.refuse("for", "must be \"fit\" or \"check\"");
+    landmarks.push_back({landmark.text("name"), placeIn(landmark, "p_W_mm"), use == "check"});
   }
   return landmarks;
 }
@@ -51,8 +61,9 @@ std::vector<Landmark> readLandmarks(const JsonFile& file) {
 std::vector<Landmark> readGrid(const JsonFile& file) {
   std::vector<Landmark> grid;
   if (!file.has("grid")) return grid;
-  const Vec3 origin = kMm * file.vector("grid/origin_W_mm"), spacing = kMm * file.vector("grid/spacing_mm"), counts = file.vector("grid/counts");
-  if ((counts.array() < 1).any() || (counts.array() > 10).any()) file.refuse("grid/counts", "must be 1 to 10 each way");
+  const Vec3 origin = placeIn(file, "grid/origin_W_mm"), spacing = placeIn(file, "grid/spacing_mm"), counts = file.vector("grid/counts");
+  if ((spacing.array() < 1e-3).any()) file.refuse("grid/spacing_mm", "must be 1 mm or more each way");
+  if ((counts.array() < 1).any() || (counts.array() > 10).any() || counts != Vec3(counts.array().round())) file.refuse("grid/counts", "must be whole numbers from 1 to 10");
   for (int k = 0; k < static_cast<int>(counts.z()); ++k)
     for (int j = 0; j < static_cast<int>(counts.y()); ++j)
       for (int i = 0; i < static_cast<int>(counts.x()); ++i)
