@@ -23,15 +23,26 @@ std::optional<std::chrono::sys_days> dayOf(const std::string& utc) {
 
 std::string nameOf(const AppliedCalibration& c) { return "the " + c.file.kind + " calibration"; }
 
+Packed3 packedAt(const CalibrationFile& file, const std::string& name) {
+  const std::vector<double>& v = file.at(name, 3);
+  return {v[0], v[1], v[2]};
+}
+
+void applyTo(haptics::WrenchFilter& filter, const CalibrationFile& file) {
+  filter.bias.f_S = packedAt(file, "bias_force_N");
+  filter.bias.tau_S = packedAt(file, "bias_torque_Nm");
+  filter.tool.mass = file.at("tool_mass_kg", 1)[0];
+  filter.tool.p_SM = packedAt(file, "tool_centre_m");
+}
+
 haptics::WorkspaceCorrection correctionIn(const CalibrationFile& file) {
   haptics::WorkspaceCorrection correction;
   const double order = file.at("order", 1)[0];
   if (!(order >= 0 && order <= haptics::WorkspaceCorrection::kHighestOrder)) throw Error("is of an order that is not known", "workspace calibration", "Calibrate again");
   correction.order = static_cast<int>(order);
   const int terms = (correction.order + 1) * (correction.order + 2) * (correction.order + 3) / 6;
-  const auto packed = [&](const std::string& name) { const auto& v = file.at(name, 3); return Packed3{v[0], v[1], v[2]}; };
-  correction.centre = packed("centre_m");
-  correction.half = packed("half_m");
+  correction.centre = packedAt(file, "centre_m");
+  correction.half = packedAt(file, "half_m");
   for (const double half : correction.half)
     if (!(half > 0)) throw Error("has no size", "workspace calibration", "Calibrate again");
   const std::vector<double>& c = file.at("coefficients_m", static_cast<std::size_t>(3 * terms));
@@ -109,6 +120,7 @@ void applyCalibrations(Station& s) {
     if (c.file.kind == "workspace") s.workspace = correctionIn(c.file);
     if (c.file.kind == "tool") s.X_ET = poseAt(c.file, "X_ET");
     if (c.file.kind == "registration") s.X_WD = poseAt(c.file, "X_WD");
+    if (c.file.kind == "force-sensor" && s.force_sensor) applyTo(s.force_sensor->filter, c.file);
     if (c.file.kind == "latency") s.camera_latency_s = c.file.at("camera_latency_s", 1)[0];
   }
   const std::string fault = faultOf(s.calibrations, s.id);
@@ -122,6 +134,7 @@ Station withCalibrations(const Station& station, const std::vector<AppliedCalibr
   s.X_ET = s.design.X_ET;
   s.camera_latency_s = s.design.camera_latency_s;
   s.workspace = {};
+  s.force_sensor = s.design.force_sensor;
   s.calibrations = calibrations;
   for (const AppliedCalibration& before : station.calibrations)
     if (!calibrationOf(calibrations, before.file.kind)) s.calibrations.push_back(before);

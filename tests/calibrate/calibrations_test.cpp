@@ -73,5 +73,20 @@ TEST(Calibrations, ChangeWhatTheStationBelievesButNotItsDesign) {
   EXPECT_TRUE(says(old.calibration_verdict, "outdated"));
 }
 
+TEST(Calibrations, OfAForceSensorSetItsFilter) {
+  Station station = readStation(assetFile("stations/virtual_bench.json"));
+  station.force_sensor = station.design.force_sensor = ForceSensorSetup{};
+  CalibrationFile sensor = test::aCalibration();
+  sensor.kind = "force-sensor";
+  sensor.rests_on.clear();
+  sensor.parameters = {{"bias_force_N", {0.1, -0.2, 0.3}}, {"bias_torque_Nm", {0.01, 0.02, 0.03}}, {"tool_mass_kg", {0.031}}, {"tool_centre_m", {0, 0.001, 0.05}}};
+  const Station calibrated = withCalibrations(station, {applied(sensor, "abc")});
+  EXPECT_EQ(calibrated.force_sensor->filter.bias.f_S, (Packed3{0.1, -0.2, 0.3}));
+  EXPECT_EQ(calibrated.force_sensor->filter.bias.tau_S, (Packed3{0.01, 0.02, 0.03}));
+  EXPECT_EQ(calibrated.force_sensor->filter.tool.mass, 0.031);
+  EXPECT_EQ(calibrated.force_sensor->filter.tool.p_SM, (Packed3{0, 0.001, 0.05}));
+  EXPECT_EQ(calibrated.design.force_sensor->filter.tool.mass, station.force_sensor->filter.tool.mass);
+}
+
 }  // namespace
 }  // namespace palpa::station
