@@ -60,24 +60,6 @@ Pose poseOf(const Mat3& H, const CameraModel& m) {
   return makePose(nearestRotation(R), B.col(2));
 }
 
-using LensDerivative = Eigen::Matrix<double, 2, kLensNumbers>;
-
-/// Of `pixel`, the projection of p_C, by the lens's numbers (the equation of camera_model.h).
-LensDerivative byLens(const CameraModel& m, const Vec3& p_C, const Eigen::Vector2d& pixel) {
-  const double x = p_C.x() / p_C.z(), y = p_C.y() / p_C.z(), r2 = x * x + y * y;
-  const Eigen::Vector2d ray(m.fx * x, m.fy * y);
-  LensDerivative J = LensDerivative::Zero();
-  J(0, 0) = (pixel.x() - m.cx) / m.fx;
-  J(1, 1) = (pixel.y() - m.cy) / m.fy;
-  J(0, 2) = J(1, 3) = 1;
-  J.col(4) = r2 * ray;
-  J.col(5) = r2 * r2 * ray;
-  J.col(6) << m.fx * 2 * x * y, m.fy * (r2 + 2 * y * y);
-  J.col(7) << m.fx * (r2 + 2 * x * x), m.fy * 2 * x * y;
-  J.col(8) = r2 * r2 * r2 * ray;
-  return J;
-}
-
 class BundleFit {
  public:
   BundleFit(const std::vector<BoardView>& views, int lens_numbers, CameraBundle* bundle) : views_(views), lens_(lens_numbers), bundle_(*bundle) {
@@ -119,8 +101,8 @@ class BundleFit {
       for (const Vec3& p_W : views_[v].p_W) {
         const Vec3 p_C = X_CW * p_W;
         Eigen::Matrix<double, 2, 3> by_point;
-        const Eigen::Vector2d pixel = bundle_.model.project(p_C, &by_point);
-        J.block(row, 0, 2, lens_) = byLens(bundle_.model, p_C, pixel).leftCols(lens_);
+        bundle_.model.project(p_C, &by_point);
+        J.block(row, 0, 2, lens_) = bundle_.model.byLens(p_C).leftCols(lens_);
         J.block<2, 3>(row, pose) = -by_point * X_CW.linear() * crossMatrix(p_W);
         J.block<2, 3>(row, pose + 3) = by_point;
         row += 2;

@@ -8,9 +8,6 @@
 
 namespace palpa::calibration {
 
-/// The numbers of a lens, in this order: fx fy cx cy k1 k2 p1 p2 k3.
-inline constexpr int kLensNumbers = 9;
-
 /// A camera, and where the board W was in each of its views.
 struct CameraBundle {
   CameraModel model;

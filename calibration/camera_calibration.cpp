@@ -137,16 +137,11 @@ class CameraEstimate {
   }
 
   void countCoverage() {
-    const double w = result_.model.width, h = result_.model.height;
     forUsed([&](std::size_t v) {
-      for (std::size_t i = 0; i < views_[v].pixels.size(); ++i) {
-        const double x = (views_[v].pixels[i].x() + 0.5) / w, y = (views_[v].pixels[i].y() + 0.5) / h;
-        if (good_[v][i] && x >= 0 && y >= 0 && x < 1 && y < 1) ++result_.coverage[static_cast<std::size_t>(y * kCoverageRows)][static_cast<std::size_t>(x * kCoverageColumns)];
-      }
+      for (std::size_t i = 0; i < views_[v].pixels.size(); ++i)
+        if (int* cell = cellAt(result_.coverage, views_[v].pixels[i], result_.model.width, result_.model.height); cell && good_[v][i]) ++*cell;
     });
-    double cells = 0;
-    for (const auto& row : result_.coverage) cells += static_cast<double>(std::count_if(row.begin(), row.end(), [](int n) { return n > 0; }));
-    result_.covered = cells / (kCoverageRows * kCoverageColumns);
+    result_.covered = coveredShare(result_.coverage);
   }
 
   void describeLens() {
@@ -183,8 +178,7 @@ void requireKnown(const CameraCalibration& found) {
 
 std::vector<std::string> warningsOf(const CameraCalibration& found) {
   std::vector<std::string> warnings;
-  for (const ViewResult& view : found.views)
-    if (!view.used) warnings.push_back("the view " + view.name + " does not fit the others and was left out");
+  for (const std::string& name : found.leftOut()) warnings.push_back("the view " + name + " does not fit the others and was left out");
   char words[200];
   if (found.covered < kLeastCovered) {
     std::snprintf(words, sizeof words, "corners were seen in %.0f %% of the picture only: where there was none, the lens's distortion is a guess; take views that reach into the corners", 100 * found.covered);
@@ -198,6 +192,18 @@ std::vector<std::string> warningsOf(const CameraCalibration& found) {
 }
 
 }  // namespace
+
+int* cellAt(CoverageMap& map, const Eigen::Vector2d& pixel, int width, int height) {
+  const double x = (pixel.x() + 0.5) / width, y = (pixel.y() + 0.5) / height;
+  if (!(x >= 0 && y >= 0 && x < 1 && y < 1)) return nullptr;
+  return &map[static_cast<std::size_t>(y * kCoverageRows)][static_cast<std::size_t>(x * kCoverageColumns)];
+}
+
+double coveredShare(const CoverageMap& map) {
+  double cells = 0;
+  for (const auto& row : map) cells += static_cast<double>(std::count_if(row.begin(), row.end(), [](int n) { return n > 0; }));
+  return cells / (kCoverageRows * kCoverageColumns);
+}
 
 std::vector<std::string> CameraCalibration::leftOut() const {
   std::vector<std::string> names;

@@ -24,6 +24,10 @@ struct ViewResult {
 /// Corners that counted, by the cell of the picture in which they were seen: [row from the top][column from the left].
 inline constexpr std::size_t kCoverageRows = 6, kCoverageColumns = 8;
 using CoverageMap = std::array<std::array<int, kCoverageColumns>, kCoverageRows>;
+/// The cell's count; nullptr for a pixel outside the picture.
+int* cellAt(CoverageMap& map, const Eigen::Vector2d& pixel, int width, int height);
+/// Share of the cells with a corner.
+double coveredShare(const CoverageMap& map);
 
 /// What a camera's pictures of a board say of it. Numbers of the lens stand in the order fx fy cx cy k1 k2 p1 p2 k3, in px and plain numbers.
 struct CameraCalibration {

@@ -98,6 +98,21 @@ Eigen::Vector2d CameraModel::project(const Vec3& p_C,
   return {fx * bent.x() + cx, fy * bent.y() + cy};
 }
 
+Eigen::Matrix<double, 2, kLensNumbers> CameraModel::byLens(const Vec3& p_C) const {
+  const Vec2 p = p_C.head<2>() / p_C.z(), ray(fx * p.x(), fy * p.y()), bent = distort(distortion, p);
+  const double r2 = p.squaredNorm(), xy = p.x() * p.y();
+  Eigen::Matrix<double, 2, kLensNumbers> J = decltype(J)::Zero();
+  J(0, 0) = bent.x();
+  J(1, 1) = bent.y();
+  J(0, 2) = J(1, 3) = 1;
+  J.col(4) = r2 * ray;
+  J.col(5) = r2 * r2 * ray;
+  J.col(6) << fx * 2 * xy, fy * (r2 + 2 * p.y() * p.y());
+  J.col(7) << fx * (r2 + 2 * p.x() * p.x()), fy * 2 * xy;
+  J.col(8) = r2 * r2 * r2 * ray;
+  return J;
+}
+
 Vec3 CameraModel::unproject(const Eigen::Vector2d& pixel) const {
   const Vec2 target((pixel.x() - cx) / fx, (pixel.y() - cy) / fy);
   const Vec2 p = newton(distortion, target, fixedPoint(distortion, target));

@@ -9,6 +9,9 @@
 
 namespace palpa::calibration {
 
+/// The numbers of a lens, in this order: fx fy cx cy k1 k2 p1 p2 k3.
+inline constexpr int kLensNumbers = 9;
+
 /// Pinhole camera with the distortion of Brown (1971) as OpenCV writes it, in the order k1 k2 p1 p2
 /// k3. Frame C: +x right, +y down, +z forward, metres. Pixel centres at whole numbers.
 ///
@@ -25,6 +28,8 @@ struct CameraModel {
   Eigen::Vector2d project(const Vec3& p_C) const;
   /// The same with the derivative of the pixel by the point, pixels a metre.
   Eigen::Vector2d project(const Vec3& p_C, Eigen::Matrix<double, 2, 3>* d_pixel_d_p) const;
+  /// Derivative of the pixel by the lens's numbers, for a point in front of the camera.
+  Eigen::Matrix<double, 2, kLensNumbers> byLens(const Vec3& p_C) const;
   /// Unit-depth point on the ray through a pixel: inverse of `project` by fixed-point iteration,
   /// finished by Newton's method; its projection meets the pixel to 1e-10 px inside the picture.
   Vec3 unproject(const Eigen::Vector2d& pixel) const;

@@ -189,9 +189,8 @@ void requireSamples(const std::vector<HandEyeSample>& samples) {
   for (const auto* poses : {&hand, &tag}) {
     const LeastTilted tilts = leastTilted(*poses);
     if (tilts.spread >= kLeastSpread) continue;
-    const bool still = std::all_of(poses->begin(), poses->end(), [&](const Pose& X) { return rotationVector(poses->front().linear().transpose() * X.linear()).norm() < kLeastSpread; });
     char words[200];
-    std::snprintf(words, sizeof words, still ? "the %s did not turn" : "the %s turned about one axis only: the tag's place along it cannot be known (it tilted by %.1f degrees rms)",
+    std::snprintf(words, sizeof words, tilts.most < kLeastSpread ? "the %s did not turn" : "the %s turned about one axis only: the tag's place along it cannot be known (it tilted by %.1f degrees rms)",
                   poses == &hand ? "hand" : "tag", tilts.spread / kDegree);
     throw Error(words, kHandEye, "Turn the hand about two other axes as well, by 20 degrees and more");
   }

@@ -52,6 +52,8 @@ class RobustFitter {
     if (!r_.allFinite()) throw Error("a measurement is not a number", where_, "Remove it");
   }
 
+  int independent() const { return problem_.freedom ? problem_.freedom : problem_.size; }
+
   double norm(int block) const { return r_.segment(block * problem_.size, problem_.size).norm(); }
 
   MatrixX jacobian() const {
@@ -140,8 +142,7 @@ class RobustFitter {
   /// Which blocks are good; whether that changed.
   bool select() {
     if (problem_.keep_all) return false;
-    const int independent = problem_.freedom ? problem_.freedom : problem_.size;
-    const ChiSquared chi2(independent);
+    const ChiSquared chi2(independent());
     // The median sees the fit's own freedom: few measurements leave residuals smaller than the noise.
     const double freedom = std::sqrt(1 - static_cast<double>(problem_.parameters) / (problem_.blocks * problem_.size));
     const double scale = medianNorm() / std::sqrt(boost::math::quantile(chi2, 0.5)) / freedom;
@@ -176,7 +177,7 @@ class RobustFitter {
       ++blocks;
     }
     fit.dof = blocks * problem_.size - problem_.parameters;
-    const double m = problem_.size, q = boost::math::quantile(ChiSquared(m), kGoodQuantile);
+    const double m = independent(), q = boost::math::quantile(ChiSquared(m), kGoodQuantile);
     const double kept = problem_.keep_all ? 1 : boost::math::cdf(ChiSquared(m + 2), q) / kGoodQuantile;   // of the variance, inside the cut
     fit.sigma = std::sqrt(squares / fit.dof / kept);
     fit.rms = std::sqrt(squares / blocks);

@@ -23,7 +23,10 @@ inline Mat3 rotationOf(const Vec3& w) {
   return angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix() : Mat3(Mat3::Identity());
 }
 
-/// The other way; 0 to pi.
+/// What points up points down after it, x stays: a needle upright, a board that faces a camera.
+inline Mat3 halfTurnAboutX() { return Vec3(1, -1, -1).asDiagonal(); }
+
+/// w of a rotation; |w| is 0 to pi.
 inline Vec3 rotationVector(const Mat3& R) {
   const Eigen::AngleAxisd turn(R);
   return turn.angle() * turn.axis();
@@ -42,10 +45,11 @@ Mat3 pointCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covarianc
 Eigen::Matrix<double, 6, 6> inverseCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance);
 
 /// How far each direction of the rotations' inner frame was tilted: the mean of |(R_i - mean R) u|^2 is 1 - |mean R u|^2,
-/// which for a tilt by a about an axis across u is a^2. The direction that kept best where it was, and its rms tilt, rad.
+/// which for a tilt by a about an axis across u is a^2. The direction that kept best where it was, and its rms tilt, rad;
+/// `most`: that of the direction that was tilted most.
 struct LeastTilted {
   Vec3 axis;
-  double spread;
+  double spread, most;
 };
 LeastTilted leastTilted(const std::vector<Pose>& poses);
 

@@ -112,6 +112,8 @@ TipCalibration calibrateTip(const std::vector<Pose>& X_DE, const TipLimits& limi
   const LeastTilted tilts = leastTilted(X_DE);
   tip.least_spread = tilts.spread;
   PivotFit pivot(X_DE, algebraicPivot(X_DE));
+  if (tilts.most < limits.least_spread)
+    throw Error(text("the tool was hardly turned: by %.1f degrees rms", tilts.most / kDegree), kPivot, "Tilt it to every side by 20 degrees and more, the tip in its hole");
   if (tilts.spread < limits.least_spread) {
     char where[120];
     std::snprintf(where, sizeof where, "(%.2f, %.2f, %.2f)", tilts.axis.x(), tilts.axis.y(), tilts.axis.z());

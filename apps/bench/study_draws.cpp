@@ -7,11 +7,6 @@
 
 namespace palpa::bench::study {
 
-Vec3 normal3(Random& random) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {x, y, z};
-}
-
 Vec3 inBall(Random& random) {
   for (;;) {
     const double x = random.uniform(-1, 1), y = random.uniform(-1, 1), z = random.uniform(-1, 1);

@@ -5,7 +5,7 @@
 
 #include "anatomy/geometry/pose.h"
 #include "apps/bench/cramer_rao.h"
-#include "apps/runtime/random.h"
+#include "apps/runtime/random_vector.h"
 #include "calibration/robust_fit.h"
 
 /// What the studies of estimators draw, and how they read a fit.
@@ -13,7 +13,7 @@ namespace palpa::bench::study {
 
 using Random = runtime::RandomStream;
 
-Vec3 normal3(Random& random);
+using runtime::normal3;
 Vec3 inBall(Random& random);   ///< of radius 1, evenly
 Vec3 direction(Random& random);
 Mat3 anyRotation(Random& random);

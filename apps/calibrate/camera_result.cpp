@@ -59,7 +59,7 @@ Result cameraResult(const std::vector<calibration::BoardView>& views, int width,
   r.file.coordinates.assign(std::begin(kLensNames), std::end(kLensNames));
   r.file.covariance = c.covariance;
   r.file.residuals = {"px", c.model.rms_px, {}, {}};
-  Plot plot{"How well each view fits", "view", "px", {}, 0};
+  Plot plot{"How well each view fits", "view", "px", {}};
   for (std::size_t i = 0; i < c.views.size(); ++i) {
     plot.dots.push_back({static_cast<double>(i + 1), c.views[i].rms_px, !c.views[i].used});
     r.file.residuals.values.push_back(c.views[i].rms_px);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <map>
+#include <utility>
 
 #include "anatomy/geometry/error.h"
 #include "calibration/rotation.h"
@@ -40,19 +41,21 @@ Stretch whilePressed(const Scene& scene, const Request& request, std::size_t rea
   scene.guide.ask(request.words);
   scene.rig.ask(request);
   Stretch stretch;
-  double begun = -1;
+  double begun = -1, down_since = 0;
   bool down = false;
   while (stretch.X_DE.size() < readings) {
     const Moment moment = need(scene.rig, "calibration");
     if (begun < 0) begun = moment.t;
     if (moment.t - begun > kPatience) throw Error("nobody pressed the button for a minute", request.words, "Begin again when somebody is at the device");
     if (moment.reading) {
-      down = pressed(*moment.reading);
+      const bool was_down = std::exchange(down, pressed(*moment.reading));
       if (!down) continue;
+      if (!was_down) down_since = moment.t;
       stretch.X_DE.push_back(poseOf(*moment.reading));
       if (moment.wrench && !(moment.wrench->flags & haptics::kFault)) stretch.wrenches.push_back(*moment.wrench);
-    } else if (down && stretch.pictures.size() < most_pictures && stretch.X_DE.size() > 10) {  // exposed after the button went down
-      if (std::optional<ar::Frame> frame = moment.picture()) stretch.pictures.push_back(std::move(*frame));
+    } else if (down && stretch.pictures.size() < most_pictures) {
+      std::optional<ar::Frame> frame = moment.picture();
+      if (frame && 1e-9 * static_cast<double>(frame->t_exposure_ns) >= down_since) stretch.pictures.push_back(std::move(*frame));
     }
   }
   return stretch;

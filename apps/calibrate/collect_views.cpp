@@ -1,6 +1,5 @@
 #include <cmath>
 #include <map>
-#include <set>
 
 #include "anatomy/geometry/error.h"
 #include "apps/calibrate/collect.h"
@@ -51,22 +50,6 @@ double movedSince(const std::vector<ar::BoardPoint>& before, const std::vector<a
   return n ? sum / n : 1e9;
 }
 
-/// Which cells of the picture have had a corner so far.
-class Covered {
- public:
-  Covered(int width, int height) : width_(width), height_(height) {}
-  void add(const Eigen::Vector2d& pixel) {
-    const int column = static_cast<int>(pixel.x() * kColumns / width_), row = static_cast<int>(pixel.y() * kRows / height_);
-    if (column >= 0 && column < kColumns && row >= 0 && row < kRows) cells_.insert(row * kColumns + column);
-  }
-  std::size_t percent() const { return 100 * cells_.size() / (kColumns * kRows); }
-
- private:
-  static constexpr int kColumns = calibration::kCoverageColumns, kRows = calibration::kCoverageRows;
-  int width_, height_;
-  std::set<int> cells_;
-};
-
 /// The next picture in which the board is seen well and stands still.
 std::vector<ar::BoardPoint> stillView(const Scene& scene, const ar::Board& board) {
   std::vector<ar::BoardPoint> before;
@@ -89,7 +72,7 @@ std::vector<ar::BoardPoint> stillView(const Scene& scene, const ar::Board& board
 std::vector<calibration::BoardView> collectViews(const Scene& scene, int views) {
   const std::unique_ptr<ar::Board> board = ar::makeBoard(scene.station.board, 1.0);
   std::vector<calibration::BoardView> taken;
-  Covered covered(scene.station.camera.width, scene.station.camera.height);
+  calibration::CoverageMap coverage{};
   for (int i = 0; i < views; ++i) {
     Request request;
     request.what = Request::What::show_board;
@@ -106,8 +89,10 @@ std::vector<calibration::BoardView> collectViews(const Scene& scene, int views) 
       view.pixels.push_back(point.pixel);
     }
     taken.push_back(std::move(view));
-    for (const ar::BoardPoint& point : points) covered.add(point.pixel);
-    scene.guide.progress("Views of the board", i + 1, views, std::to_string(points.size()) + " corners; " + std::to_string(covered.percent()) + " % of the picture covered so far");
+    for (const ar::BoardPoint& point : points)
+      if (int* cell = calibration::cellAt(coverage, point.pixel, scene.station.camera.width, scene.station.camera.height)) ++*cell;
+    scene.guide.progress("Views of the board", i + 1, views,
+                         std::to_string(points.size()) + " corners; " + std::to_string(std::lround(100 * calibration::coveredShare(coverage))) + " % of the picture covered so far");
   }
   return taken;
 }

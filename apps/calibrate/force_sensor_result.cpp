@@ -30,7 +30,7 @@ Result forceSensorResult(const std::vector<calibration::StaticReading>& readings
   r.file.coordinates = {"bias_x_N", "bias_y_N", "bias_z_N", "bias_x_Nm", "bias_y_Nm", "bias_z_Nm", "tool_mass_kg", "centre_x_m", "centre_y_m", "centre_z_m"};
   r.file.covariance = c.covariance;
   r.file.residuals = {"N", c.rms_f, {}, {}};
-  Plot plot{"What bias and weight do not explain", "reading", "N", {}, 0};
+  Plot plot{"What bias and weight do not explain", "reading", "N", {}};
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const double off = leftOver(c, {fitted[i]}, down_D);
     r.file.residuals.values.push_back(off);

@@ -35,7 +35,7 @@ Result latencyResult(const LatencySamples& samples, double camera_latency_s, con
   }
   r.sentences = {"The camera's pictures are " + quantity(1e3 * (camera_latency_s - fit.offset), "ms") + " old when they arrive, known to " + quantity(1e3 * fit.offset_sd, "ms") + ".",
                  "The clocks drift apart by " + quantity(1e6 * fit.drift, "microseconds a second") + " (known to " + quantity(1e6 * fit.drift_sd, "") + ")."};
-  Plot plot{"Camera against device, after the shift in time", "s", "mm", {}, 0};
+  Plot plot{"Camera against device, after the shift in time", "s", "mm", {}};
   const int size = static_cast<int>(fit.fit.r.size() / static_cast<Eigen::Index>(std::max<std::size_t>(n, 1)));
   for (std::size_t i = 0; i < fit.fit.good.size() && i < n && size > 0; ++i) {
     const double off = fit.fit.r.segment(static_cast<Eigen::Index>(i) * size, size).norm();

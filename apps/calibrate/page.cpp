@@ -52,6 +52,14 @@ void writeChecks(Html& html, const Result& r) {
   }
 }
 
+/// "recorded files: pivot.csv, spin.csv"
+std::string sourceOf(const station::CalibrationFile::Data& data) {
+  constexpr std::size_t kNamed = 3;
+  std::string words = data.source;
+  for (std::size_t i = 0; i < std::min(kNamed, data.files.size()); ++i) words += (i ? ", " : ": ") + data.files[i].name;
+  return data.files.size() > kNamed ? words + " and " + std::to_string(data.files.size() - kNamed) + " more" : words;
+}
+
 void writeResult(Html& html, const Result& r) {
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", r.title);
@@ -59,7 +67,7 @@ void writeResult(Html& html, const Result& r) {
   writeChecks(html, r);
   for (const std::string& advice : r.advice) html.element("p", {{"class", "muted"}}, advice);
   html.element("p", {{"class", "muted small"}}, "Good for " + std::to_string(r.file.valid_days) + " days. " + std::to_string(r.file.data.used) + " of " +
-                                                     std::to_string(r.file.data.samples) + " samples used, from: " + r.file.data.source + ".");
+                                                     std::to_string(r.file.data.samples) + " samples used, from: " + sourceOf(r.file.data) + ".");
   if (!r.coverage.counts.empty()) drawCoverage(html, r.coverage);
   for (const Plot& plot : r.plots) drawPlot(html, plot);
 }

@@ -14,6 +14,7 @@ station::CalibrationFile begun(const Origin& origin, const std::string& kind, in
   file.simulated = origin.simulated;
   file.valid_days = valid_days;
   file.data.source = origin.source;
+  file.data.files = origin.files;
   return file;
 }
 

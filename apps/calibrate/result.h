@@ -15,7 +15,6 @@ struct Plot {
     bool left_out = false;
   };
   std::vector<Dot> dots;
-  double limit = 0;          ///< drawn as a line; 0: none
 };
 
 /// How many times something was seen in each part of the picture, row by row from the top.
@@ -38,6 +37,7 @@ struct Result {
 struct Origin {
   std::string station, command, source, date;
   bool simulated = false;
+  std::vector<station::CalibrationFile::Data::File> files = {};
 };
 
 /// A file begun with `origin`, of a kind, good for so many days.

@@ -1,6 +1,7 @@
 #include "apps/calibrate/sequence.h"
 
 #include <algorithm>
+#include <map>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
@@ -11,15 +12,9 @@
 namespace palpa::calibrate {
 namespace {
 
-/// Begins a result's list of what it rests on.
-void restOn(Result& result, const SetupResult& setup, const std::vector<std::string>& kinds) {
-  for (const std::string& kind : kinds)
-    if (const station::AppliedCalibration* other = station::calibrationOf(setup.calibrations, kind)) result.file.rests_on.push_back({kind, other->sha256});
-}
-
 Vec3 tipOf(const Result& tool) { return station::poseAt(tool.file, "X_ET").translation(); }
 
-/// The hole for the tip: the middle landmark, where the tool can lean every way.
+/// The hole for the tip: the first landmark.
 Vec3 holeOf(const station::Station& station) {
   if (station.landmarks.empty()) throw Error("has no \"landmarks\"", station.file.name(), "List the points that a tip can be put on: name and p_W_mm");
   return station.landmarks.front().p_W;
@@ -43,6 +38,14 @@ std::vector<calibration::StaticReading> forceReadings(const std::vector<HeldPose
 }
 
 }  // namespace
+
+void restOn(Result& result, const std::vector<station::AppliedCalibration>& calibrations) {
+  static const std::map<std::string, std::vector<std::string>> kNeeds{{"tool", {"workspace"}}, {"registration", {"camera", "workspace", "tool"}}, {"latency", {"camera"}}};
+  const auto needs = kNeeds.find(result.file.kind);
+  if (needs == kNeeds.end()) return;
+  for (const std::string& kind : needs->second)
+    if (const station::AppliedCalibration* other = station::calibrationOf(calibrations, kind)) result.file.rests_on.push_back({kind, other->sha256});
+}
 
 station::AppliedCalibration asFile(const Result& result) {
   station::AppliedCalibration kept;
@@ -106,27 +109,27 @@ SetupResult setUp(const Scene& raw, const Origin& origin) {
   CorrectedRig corrected_rig(raw.rig);
   const Scene scene{station, corrected_rig, raw.guide};
   SetupResult setup;
-  const auto add = [&](Result result, const std::vector<std::string>& rests_on) {
-    restOn(result, setup, rests_on);
+  const auto add = [&](Result result) {
+    restOn(result, setup.calibrations);
     setup.calibrations.push_back(asFile(result));
     setup.results.push_back(std::move(result));
   };
   calibration::CameraModel camera;
-  add(cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin, &camera), {});
+  add(cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin, &camera));
   ToolSamples tool = collectTool(scene);
   if (!station.grid.empty()) {
     calibration::WorkspaceMap map;
-    add(collectedWorkspace(scene, tipOf(toolResult(tool, station.design.X_ET, origin)), origin, &map), {});
+    add(collectedWorkspace(scene, tipOf(toolResult(tool, station.design.X_ET, origin)), origin, &map));
     tool = corrected(tool, map);
     corrected_rig.correctBy(map);
   }
-  add(toolResult(tool, station.design.X_ET, origin), {"workspace"});
+  add(toolResult(tool, station.design.X_ET, origin));
   const Vec3 tip_E = tipOf(setup.results.back());
   const std::vector<HeldPose> held = station.marker ? collectHeld(scene, camera) : std::vector<HeldPose>{};
-  add(collectedRegistration(scene, held, camera, tip_E, origin), {"camera", "workspace", "tool"});
+  add(collectedRegistration(scene, held, camera, tip_E, origin));
   const station::CalibrationFile registration = setup.results.back().file;
-  if (station.marker) add(collectedLatency(scene, camera, station::poseAt(registration, "X_EM").translation(), origin), {"camera"});
-  if (station.marker && station.force_sensor) add(forceSensorOf(scene, held, station::poseAt(registration, "X_WD"), origin), {});
+  if (station.marker) add(collectedLatency(scene, camera, station::poseAt(registration, "X_EM").translation(), origin));
+  if (station.marker && station.force_sensor) add(forceSensorOf(scene, held, station::poseAt(registration, "X_WD"), origin));
   if (const std::optional<runtime::Moment> last = scene.rig.next()) setup.seconds = last->t;
   return setup;
 }

@@ -35,6 +35,10 @@ Vec3 markerOf(const std::vector<HeldPose>& held);
 /// ones found. Writes nothing. Throws Error for data that cannot tell an answer.
 SetupResult setUp(const Scene& scene, const Origin& origin);
 
+/// Notes in a result which of `calibrations` it was computed with: the tool with the workspace's map; the registration with that map, camera and
+/// tool; the latency with the camera. The force sensor needs of a registration only which way is down, which a new one does not move by what matters.
+void restOn(Result& result, const std::vector<station::AppliedCalibration>& calibrations);
+
 /// A result as the calibration "<kind>.json" that a station refers to; not yet written.
 station::AppliedCalibration asFile(const Result& result);
 

@@ -85,7 +85,7 @@ Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Ori
   r.file.covariance = covariance;
   r.file.residuals.unit = "m";
   r.file.residuals.rms = tip.rms;
-  Plot plot{"Distance of the tip from its hole", "sample", "mm", {}, 0};
+  Plot plot{"Distance of the tip from its hole", "sample", "mm", {}};
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const double off = (fitted[i] * tip.tip_E - tip.pivot_D).norm();
     r.file.residuals.values.push_back(off);

@@ -21,7 +21,7 @@ Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin, 
   for (Eigen::Index i = 0; i < map.coefficients.rows(); ++i)
     for (Eigen::Index j = 0; j < 3; ++j) coefficients.push_back(map.coefficients(i, j));
   r.file.parameters.push_back({"coefficients_m", coefficients});
-  Plot before{"Error at each point, before", "point", "mm", {}, 0}, after{"Error at each point, corrected", "point", "mm", {}, 0};
+  Plot before{"Error at each point, before", "point", "mm", {}}, after{"Error at each point, corrected", "point", "mm", {}};
   const calibration::WorkspaceMap rigid = calibration::mapWorkspace(points, 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
     const double off = (map.X_GD * Vec3(points[i].p_D + map.correction(points[i].p_D - points[i].lever_D)) - points[i].p_G).norm();

@@ -15,6 +15,8 @@
 #include "apps/cli/output_folder.h"
 #include "apps/cli/setup_accuracy.h"
 #include "apps/station/assets.h"
+#include "apps/station/sha256.h"
+#include "ar/image_sequence.h"
 
 namespace palpa::cli {
 namespace {
@@ -28,10 +30,12 @@ struct CalibrateOptions {
   std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings, touches;
   std::vector<double> down{0, 0, -1};
 
-  bool recorded() const {
-    for (const std::string* file : {&images, &pivot, &spin, &landmarks, &pairs, &camera_track, &device_track, &readings, &touches})
-      if (!file->empty()) return true;
-    return false;
+  bool recorded() const { return !images.empty() || !tables().empty(); }
+  std::vector<std::filesystem::path> tables() const {
+    std::vector<std::filesystem::path> given;
+    for (const std::string* file : {&pivot, &spin, &landmarks, &pairs, &camera_track, &device_track, &readings, &touches})
+      if (!file->empty()) given.emplace_back(*file);
+    return given;
   }
 };
 
@@ -71,6 +75,9 @@ Origin originOf(const CalibrateOptions& o, const station::Station& station) {
   origin.source = o.recorded() ? "recorded files" : "virtual bench, seed " + std::to_string(o.seed);
   origin.simulated = !o.recorded();
   origin.date = utcNow();
+  std::vector<std::filesystem::path> files = o.tables();
+  if (!o.images.empty()) files = ar::ImageSequence(o.images, 1).files();
+  for (const std::filesystem::path& file : files) origin.files.push_back({file.filename().string(), station::sha256OfFile(file)});
   return origin;
 }
 
@@ -83,7 +90,7 @@ void leave(const CalibrateOptions& o, const station::Station& station, const Set
   if (!accuracy.empty()) writeWhole(folder / "accuracy.json", accuracy + "\n");
   std::string failed;
   for (const Result& r : setup.results) {
-    std::printf("%s: %s\n", r.title.c_str(), r.file.verdict.c_str());
+    std::printf("%s%s: %s\n", r.title.c_str(), r.file.simulated ? " (simulated)" : "", r.file.verdict.c_str());
     for (const std::string& sentence : r.sentences) std::printf("  %s\n", sentence.c_str());
     if (!r.file.passed()) failed += (failed.empty() ? "" : ", ") + r.title;
   }
@@ -173,6 +180,7 @@ void calibrateStation(const CalibrateOptions& o) {
   const Scene scene{station, rig, guide};
   if (o.kind != "all") {
     setup.results.push_back(onBench(o, scene, origin));
+    restOn(setup.results.back(), station.calibrations);
     setup.calibrations.push_back(asFile(setup.results.back()));
     return leave(o, station, setup, {}, "");
   }

@@ -109,7 +109,7 @@ class NeedleSession {
     setup.folder = folder_;
     setup.every_source_picture = pictures_.recorded();
     if (station::calibrationOf(world_.station.calibrations, "registration"))
-      setup.overlay_error = [this](const Pose& X_DT, const ar::BoardPose& board) { return overlayWords(X_DT, board); };
+      setup.overlay_error = [this](const Pose& X_DT) { return overlayWords(X_DT); };
     setup.giving_way = options_.skin_deflection ? &world_.query : nullptr;
     setup.skin = skinOf(world_.patient);
     if (window_) {
@@ -122,11 +122,11 @@ class NeedleSession {
   }
 
   /// 95 % of a normal error in three dimensions lie within 1.6 times its root mean square.
-  std::string overlayWords(const Pose& X_DT, const ar::BoardPose& board) const {
+  std::string overlayWords(const Pose& X_DT) const {
     constexpr double kOf95 = 1.6;
-    const auto error = station::predictOverlayError(world_.station, X_DT * world_.station.X_ET.inverse(), board);
+    const auto error_mm = station::predictTipError_mm(world_.station, X_DT * world_.station.X_ET.inverse());
     char words[48] = "";
-    if (error) std::snprintf(words, sizeof words, "within %.1f mm", std::max(kOf95 * error->mm, 0.1));
+    if (error_mm) std::snprintf(words, sizeof words, "within %.1f mm", std::max(kOf95 * *error_mm, 0.1));
     return words;
   }
 

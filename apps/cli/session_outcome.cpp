@@ -1,5 +1,6 @@
 #include "apps/cli/session_outcome.h"
 
+#include <algorithm>
 #include <cstdarg>
 #include <cstdio>
 #include <sstream>
@@ -65,7 +66,9 @@ report::Fact predictedOverlay(const SessionResult& result, const NeedleWorld& wo
   const Pose X_WT = makePose(rotationWithZ(-Vec3::UnitZ()), world.X_WA * world.patient.landmark(anatomy::landmark::kEntry));
   const auto error = station::predictOverlayError(world.station, world.station.X_WD.inverse() * X_WT * world.station.X_ET.inverse(), *result.board);
   if (!error) return {name, "not known", "tool or registration is not calibrated"};
-  return {name, format("%.2f mm, %.2f px", error->mm, error->px), "root mean square, at the entry point, by the calibrations' spreads"};
+  const auto& all = world.station.calibrations;
+  const bool simulated = std::any_of(all.begin(), all.end(), [](const auto& c) { return c.file.simulated; });
+  return {name, format("%.2f mm, %.2f px", error->mm, error->px), std::string("root mean square, at the entry point, by the spreads of the calibrations") + (simulated ? " (simulated)" : "")};
 }
 
 std::vector<report::Fact> registrationFacts(const SessionResult& result, const NeedleWorld& world) {

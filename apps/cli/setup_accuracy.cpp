@@ -5,6 +5,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/station/overlay_error.h"
+#include "calibration/rotation.h"
 
 namespace palpa::cli {
 namespace {
@@ -36,9 +37,7 @@ SetupAccuracy measureAccuracy(const station::Station& before, const station::Sta
   a.seconds = setup.seconds;
   const twin::WorldTruth& truth = bench.truth();
   a.tip_mm = 1e3 * (calibrated.X_ET.translation() - truth.X_ET.translation()).norm();
-  Mat3 down;
-  down << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  const Pose X_DE = calibrated.X_WD.inverse() * makePose(down, calibrated.entry_W) * calibrated.X_ET.inverse();
+  const Pose X_DE = calibrated.X_WD.inverse() * makePose(calibration::halfTurnAboutX(), calibrated.entry_W) * calibrated.X_ET.inverse();
   const Pose X_DE_true = makePose(X_DE.rotation(), truePlace(X_DE.translation(), calibrated, bench.device()));
   const Vec3 thought_W = (calibrated.X_WD * X_DE * calibrated.X_ET).translation(), true_W = (truth.X_WD * X_DE_true * truth.X_ET).translation();
   a.target_mm = 1e3 * (thought_W - true_W).norm();

@@ -29,8 +29,9 @@ std::vector<double> numbersOf(const JsonFile& file, const json& list, const std:
 }
 
 const json& listAt(const JsonFile& file, const std::string& at) {
-  if (!file.json().contains(at) || !file.json().at(at).is_array()) file.refuse(at, "must be a list");
-  return file.json().at(at);
+  const json::json_pointer place("/" + at);
+  if (!file.json().contains(place) || !file.json().at(place).is_array()) file.refuse(at, "must be a list");
+  return file.json().at(place);
 }
 
 /// Symmetric, nothing below zero beyond rounding.
@@ -54,9 +55,10 @@ json bodyOf(const CalibrationFile& c) {
     for (Eigen::Index j = 0; j < c.covariance.cols(); ++j) row.push_back(c.covariance(i, j));
     matrix.push_back(row);
   }
-  json checks = json::array(), rests = json::array();
+  json checks = json::array(), rests = json::array(), files = json::array();
   for (const auto& k : c.checks) checks.push_back({{"name", k.name}, {"value", k.value}, {"limit", k.limit}, {"unit", k.unit}, {"passed", k.passed()}});
   for (const auto& r : c.rests_on) rests.push_back({{"kind", r.kind}, {"sha256", r.sha256}});
+  for (const auto& f : c.data.files) files.push_back({{"name", f.name}, {"sha256", f.sha256}});
   return {{"format", kCalibrationFormat},
           {"version", kCalibrationVersion},
           {"kind", c.kind},
@@ -68,7 +70,7 @@ json bodyOf(const CalibrationFile& c) {
           {"parameters", parameters},
           {"covariance", {{"coordinates", c.coordinates}, {"matrix", matrix}}},
           {"residuals", {{"unit", c.residuals.unit}, {"rms", c.residuals.rms}, {"values", c.residuals.values}, {"left_out", c.residuals.left_out}}},
-          {"data", {{"samples", c.data.samples}, {"used", c.data.used}, {"source", c.data.source}, {"sha256", c.data.sha256}}},
+          {"data", {{"samples", c.data.samples}, {"used", c.data.used}, {"source", c.data.source}, {"files", files}}},
           {"checks", checks},
           {"rests_on", rests},
           {"verdict", c.verdict}};
@@ -156,7 +158,10 @@ CalibrationFile read(const JsonFile& file) {
   c.data.samples = file.integer("data/samples", 0, 100'000'000);
   c.data.used = file.integer("data/used", 0, c.data.samples);
   c.data.source = file.text("data/source");
-  c.data.sha256 = file.text("data/sha256");
+  for (const json& item : listAt(file, "data/files")) {
+    const JsonFile recorded(item, file.name() + ", \"data/files\"");
+    c.data.files.push_back({recorded.text("name"), recorded.text("sha256")});
+  }
   c.verdict = file.text("verdict");
   return c;
 }

@@ -26,8 +26,11 @@ struct CalibrationFile {
   };
   struct Data {
     int samples = 0, used = 0;
-    std::string source;           ///< "virtual bench, seed 5", a file
-    std::string sha256;           ///< of the recorded samples
+    std::string source;           ///< "virtual bench, seed 5", "recorded files"
+    struct File {
+      std::string name, sha256;
+    };
+    std::vector<File> files;      ///< that the samples were recorded in
   };
   struct Check {
     std::string name;             ///< in words: "tip at points not used"

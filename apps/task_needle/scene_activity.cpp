@@ -62,7 +62,7 @@ void SceneActivity::follow(std::int64_t now_ns) {
   fresh_picture_ = true;
   if (!view->pose) return;
   board_ = view->pose;
-  if (setup_.overlay_error && setup_.view) overlay_ = setup_.overlay_error(unpack(tool_.X_DT), *board_);
+  if (setup_.overlay_error && setup_.view) overlay_ = setup_.overlay_error(unpack(tool_.X_DT));
   // Recorded single pictures are not a motion: each stands for itself.
   X_CW_ = setup_.every_source_picture ? view->pose->X_CW
                                       : smoother_.update(view->pose->X_CW, view->t_exposure_ns);

@@ -39,7 +39,7 @@ class SceneActivity final : public runtime::Activity {
     const anatomy::SurfaceQuery* giving_way = nullptr;
     int skin = 0;
     /// In words, how far off the overlay may be at the tip: X_DT and the board as it is seen; empty: nothing is said.
-    std::function<std::string(const Pose& X_DT, const ar::BoardPose& board)> overlay_error;
+    std::function<std::string(const Pose& X_DT)> overlay_error;
     /// Keys and mouse of a window, once a frame.
     std::function<void(const scene::ViewInput&, std::int64_t now_ns)> input;
   };

@@ -3,16 +3,15 @@
 #include <algorithm>
 #include <numbers>
 
-#include "apps/runtime/random.h"
+#include "apps/runtime/random_vector.h"
 
 namespace palpa::twin {
 namespace {
 
+using runtime::normal3;
 using runtime::RandomStream;
 constexpr double kTruthMm = 1e-3;
 constexpr double kTruthDeg = std::numbers::pi / 180;
-
-Vec3 normal3(RandomStream& random) { return {random.normal(), random.normal(), random.normal()}; }
 
 Pose perturbed(const Pose& X, double sd_m, double sd_rad, RandomStream& random) {
   const Vec3 turn = sd_rad * normal3(random);

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <deque>
 
-#include "apps/runtime/random.h"
+#include "apps/runtime/random_vector.h"
 #include "apps/twin/setup_motion.h"
 #include "apps/twin/virtual_camera.h"
 #include "calibration/rotation.h"
@@ -30,9 +30,7 @@ Pose boardPose(const runtime::BoardView& view, const calibration::CameraModel& c
   const Vec3 p_CB(view.across * camera.width / 2 / camera.fx * depth + hand.aim * random.normal(),
                   view.down * camera.height / 2 / camera.fy * depth + hand.aim * random.normal(), depth);
   const Vec3 lean(view.lean + hand.lean * random.normal(), view.turn + hand.lean * random.normal(), hand.lean * random.normal());
-  Mat3 facing;
-  facing << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  return makePose(calibration::rotationOf(lean) * facing, p_CB);
+  return makePose(calibration::rotationOf(lean) * calibration::halfTurnAboutX(), p_CB);
 }
 
 }  // namespace
@@ -53,17 +51,12 @@ struct SetupBench::Impl {
     at_wall.emplace(lens, s.board, VirtualCameraSettings{}, seed, VirtualScene{VirtualScene::Ground::kWall, {s.board}});
     const double off = kSetupMm * spread(s.file, "twin/landmark_spread_mm", 0.1, 10);
     for (const auto* list : {&s.landmarks, &s.grid})
-      for (const station::Landmark& landmark : *list) {
-        const double x = holes.normal(), y = holes.normal(), z = holes.normal();
-        holes_W.push_back({landmark.p_W, landmark.p_W + off * Vec3(x, y, z)});
-      }
+      for (const station::Landmark& landmark : *list) holes_W.push_back({landmark.p_W, landmark.p_W + off * runtime::normal3(holes)});
     if (s.marker) X_EM = station::readPose(s.file, "twin/X_EM");
     if (s.design.force_sensor && s.design.force_sensor->driver == station::ForceSensorSetup::Driver::bench)
       felt.emplace(trueSensor(s, seed), seed);
-    Mat3 down;
-    down << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-    X_WT = makePose(down, kRestTip_W);
-    X_CB = X_CB_from = X_CB_to = makePose(down, Vec3(0, 0, 0.5));
+    X_WT = makePose(calibration::halfTurnAboutX(), kRestTip_W);
+    X_CB = makePose(calibration::halfTurnAboutX(), Vec3(0, 0, 0.5));
   }
 
   Vec3 hole(const Vec3& p_W) const {
@@ -152,7 +145,7 @@ struct SetupBench::Impl {
   std::vector<std::pair<Vec3, Vec3>> holes_W;   ///< where they are said to be, where they are
   std::optional<VirtualCamera> over_table, at_wall;
   std::optional<SensorTwin> felt;
-  Pose X_WT = Pose::Identity(), X_CB = Pose::Identity(), X_CB_from = Pose::Identity(), X_CB_to = Pose::Identity();
+  Pose X_WT = Pose::Identity(), X_CB = Pose::Identity();
   MinJerk board_way;
   bool showing = false;
   double t = 0, next_exposure = 0;
@@ -168,9 +161,7 @@ void SetupBench::ask(const Request& request) {
   Impl& b = *impl_;
   b.showing = request.what == Request::What::show_board;
   if (b.showing) {
-    b.X_CB_from = b.X_CB;
-    b.X_CB_to = boardPose(request.view, b.over_table->truth(), b.station.board, b.hand, b.views);
-    b.board_way = MinJerk(b.X_CB_from, b.X_CB_to, b.t, kBoardTravel);
+    b.board_way = MinJerk(b.X_CB, boardPose(request.view, b.over_table->truth(), b.station.board, b.hand, b.views), b.t, kBoardTravel);
   }
   b.motion.begin(request, b.X_WT, b.hole(request.p_W), b.t);
 }

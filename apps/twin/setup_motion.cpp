@@ -4,29 +4,19 @@
 #include <cmath>
 #include <numbers>
 
+#include "apps/runtime/random_vector.h"
 #include "calibration/rotation.h"
 
 namespace palpa::twin {
 namespace {
 
+using runtime::normal3;
 using What = runtime::Request::What;
 constexpr double kTravelSpeed = 0.15;   // m/s
 constexpr double kShortestWay = 0.5;    // s
 constexpr double kSettles = 0.25;       // s before "now" is said
 constexpr double kPressFor = 0.4;       // s
 constexpr double kFullTurn = 2 * std::numbers::pi;
-
-Vec3 drawn3(runtime::RandomStream& random) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
-  return {x, y, z};
-}
-
-/// Needle down, x to the right.
-Mat3 upright() {
-  Mat3 R;
-  R << 1, 0, 0, 0, -1, 0, 0, 0, -1;
-  return R;
-}
 
 bool inHole(What what) { return what == What::touch || what == What::pivot || what == What::spin; }
 
@@ -47,9 +37,9 @@ void SetupMotion::begin(const runtime::Request& request, const Pose& X_WT, const
     approach_ = MinJerk(X_WT, X_WT, t, 0);
     return;
   }
-  const Vec3 lean = request.lean + hand_.lean * drawn3(choices_);
+  const Vec3 lean = request.lean + hand_.lean * normal3(choices_);
   const double off = inHole(request.what) ? hand_.seat : hand_.aim;
-  X_WT_ = makePose(calibration::rotationOf(lean) * upright(), p_W + off * drawn3(choices_));
+  X_WT_ = makePose(calibration::rotationOf(lean) * calibration::halfTurnAboutX(), p_W + off * normal3(choices_));
   const double way = (X_WT_.translation() - X_WT.translation()).norm();
   const double takes = std::max(way / kTravelSpeed, kShortestWay);
   approach_ = MinJerk(X_WT, X_WT_, t, takes);
@@ -86,7 +76,7 @@ Pose SetupMotion::step(double t, double dt) {
     return X;
   }
   Pose X = during(t);
-  X.translation() += inHole(request_.what) ? Vec3(hand_.jitter * drawn3(jitter_)) : shake;
+  X.translation() += inHole(request_.what) ? Vec3(hand_.jitter * normal3(jitter_)) : shake;
   // A needle in a drill guide has a little play; elsewhere the wrist trembles freely.
   X.linear() = X.linear() * calibration::rotationOf(request_.what == What::spin ? Vec3(0.5 * turn) : turn);
   return X;

@@ -20,7 +20,7 @@ inline station::CalibrationFile aCalibration() {
   c.covariance = 1e-9 * Eigen::MatrixXd::Identity(6, 6);
   c.covariance(0, 3) = c.covariance(3, 0) = 2e-10;
   c.residuals = {"m", 1.5e-4, {1e-4, 2e-4, 0.1 / 3}, {2}};
-  c.data = {300, 299, "virtual bench, seed 5", ""};
+  c.data = {300, 299, "recorded files", {{"pivot.csv", "12ab"}}};
   c.checks = {{"the tip's uncertainty", 0.01, 0.25, "mm"}};
   c.rests_on = {{"camera", "abc"}};
   c.verdict = "pass";

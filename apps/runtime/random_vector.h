@@ -1,0 +1,14 @@
+#pragma once
+
+#include "anatomy/geometry/pose.h"
+#include "apps/runtime/random.h"
+
+namespace palpa::runtime {
+
+/// Three independent standard normals.
+inline Vec3 normal3(RandomStream& random) {
+  const double x = random.normal(), y = random.normal(), z = random.normal();   // in this order
+  return {x, y, z};
+}
+
+}  // namespace palpa::runtime
