@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <optional>
 
 #include "anatomy/geometry/error.h"
 #include "calibration/rotation.h"
@@ -17,6 +18,8 @@ constexpr double kLagStep = 0.005, kSpeedOver = 0.066;   // s: of the search; ov
 constexpr double kLeastCorrelation = 0.4, kRival = 0.95;
 constexpr double kLeastMotion = 0.01;                    // m rms
 constexpr double kRoom = 0.05;                           // s: so far the fit may move from the start
+constexpr double kApart = 0.1;                           // s: from one stroke of a motion to another
+constexpr double kTells = 2;                             // how much worse paths must fit at a rival lag
 
 /// A path through samples.
 class Path {
@@ -102,7 +105,8 @@ struct Lag {
   double lag, correlation;
 };
 
-Lag bestLag(const std::vector<TimedPoint>& camera, const Path& device, double most) {
+/// The best, and hills that are nearly as high: a to and fro fits at other strokes too, as far as speeds tell.
+std::vector<Lag> likelyLags(const std::vector<TimedPoint>& camera, const Path& device, double most) {
   const Speeds speeds = cameraSpeeds(camera);
   std::vector<Lag> lags;
   for (double lag = -most; lag <= most + 1e-9; lag += kLagStep) lags.push_back({lag, correlationAt(speeds, device, lag)});
@@ -114,13 +118,12 @@ Lag bestLag(const std::vector<TimedPoint>& camera, const Path& device, double mo
     std::snprintf(words, sizeof words, "camera and device did not see the same motion (their speeds correlate by %.2f at best)", best.correlation);
     throw Error(words, kClock, "See that the tag sits on the moving part, and move unsteadily for ten seconds");
   }
-  // Another hill as high as the highest: a steady to and fro fits at every stroke.
+  std::vector<Lag> likely{best};
   for (std::size_t i = 1; i + 1 < lags.size(); ++i) {
     const bool hill = lags[i].correlation >= lags[i - 1].correlation && lags[i].correlation >= lags[i + 1].correlation;
-    if (hill && std::abs(lags[i].lag - best.lag) > 0.1 && lags[i].correlation > kRival * best.correlation)
-      throw Error("the motion repeats itself, so that several offsets fit alike", kClock, "Move unsteadily: faster, slower, with stops");
+    if (hill && std::abs(lags[i].lag - best.lag) > kApart && lags[i].correlation > kRival * best.correlation) likely.push_back(lags[i]);
   }
-  return best;
+  return likely;
 }
 
 /// The camera's samples that the device's path covers at the lag, with room for the fit to move.
@@ -184,13 +187,7 @@ class ClockFit {
   Mat3 R_ = Mat3::Identity();
 };
 
-}  // namespace
-
-ClockOffset estimateClockOffset(const std::vector<TimedPoint>& camera, const std::vector<TimedPoint>& device, double most) {
-  requireSamples(camera, kLeastCamera, "camera");
-  requireSamples(device, kLeastDevice, "device");
-  const Path path(device);
-  const Lag start = bestLag(camera, path, most);
+ClockOffset fittedAt(const Lag& start, const std::vector<TimedPoint>& camera, const Path& path) {
   const std::vector<TimedPoint> seen = sharedSamples(camera, path, start.lag);
   ClockFit clocks(seen, path, start.lag);
   ClockOffset result;
@@ -206,6 +203,35 @@ ClockOffset estimateClockOffset(const std::vector<TimedPoint>& camera, const std
   result.rms = result.fit.rms;
   result.X_CD = clocks.X_CD();
   return result;
+}
+
+/// Nothing where the paths do not fit at all.
+std::optional<ClockOffset> rivalAt(const Lag& start, const std::vector<TimedPoint>& camera, const Path& path) {
+  try {
+    return fittedAt(start, camera, path);
+  } catch (const Error&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
+ClockOffset estimateClockOffset(const std::vector<TimedPoint>& camera, const std::vector<TimedPoint>& device, double most) {
+  requireSamples(camera, kLeastCamera, "camera");
+  requireSamples(device, kLeastDevice, "device");
+  const Path path(device);
+  const std::vector<Lag> likely = likelyLags(camera, path, most);
+  if (likely.size() == 1) return fittedAt(likely.front(), camera, path);
+  // Speeds say that several would do; the paths in space, which know directions too, decide.
+  std::vector<ClockOffset> fits;
+  for (const Lag& lag : likely)
+    if (const auto fit = rivalAt(lag, camera, path)) fits.push_back(*fit);
+  if (fits.empty()) return fittedAt(likely.front(), camera, path);   // says why
+  std::sort(fits.begin(), fits.end(), [](const ClockOffset& a, const ClockOffset& b) { return a.fit.sigma < b.fit.sigma; });
+  for (std::size_t i = 1; i < fits.size(); ++i)
+    if (std::abs(fits[i].offset - fits[0].offset) > kApart / 2 && fits[i].fit.sigma < kTells * fits[0].fit.sigma)
+      throw Error("the motion repeats itself, so that several offsets fit alike", kClock, "Move unsteadily: faster, slower, with stops");
+  return fits.front();
 }
 
 }  // namespace palpa::calibration
