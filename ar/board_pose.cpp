@@ -117,34 +117,44 @@ std::vector<RefinedPose> refinedSolutions(const std::vector<BoardPoint>& points,
   return solutions;
 }
 
-/// Of the best solution that is not the first one over again (both starts often lead to one
-/// minimum).
-double rmsOfOther(const std::vector<RefinedPose>& solutions) {
-  for (const RefinedPose& other : solutions)
-    if (!other.X_CW.isApprox(solutions[0].X_CW, kSameSolution)) return other.rms_px;
-  return std::numeric_limits<double>::infinity();
+/// Without what is the first one over again: both starts often lead to one minimum.
+std::vector<RefinedPose> differentOnes(const std::vector<RefinedPose>& solutions) {
+  std::vector<RefinedPose> different;
+  for (const RefinedPose& one : solutions)
+    if (different.empty() || (different.size() == 1 && !one.X_CW.isApprox(different[0].X_CW, kSameSolution))) different.push_back(one);
+  return different;
 }
 
 }  // namespace
 
+std::vector<BoardPose> estimateBoardPoses(const std::vector<BoardPoint>& points,
+                                          const calibration::CameraModel& camera,
+                                          double pixel_sigma) try {
+  const std::vector<BoardPoint> given = usable(points);
+  if (given.size() < 4 || onALine(given)) return {};
+  const std::vector<BoardPoint> used = consistent(given, camera);
+  const std::vector<RefinedPose> solutions = differentOnes(refinedSolutions(used, camera));
+  std::vector<BoardPose> poses;
+  for (std::size_t i = 0; i < solutions.size(); ++i) {
+    BoardPose pose;
+    pose.X_CW = solutions[i].X_CW;
+    pose.covariance = pixel_sigma * pixel_sigma * solutions[i].information.inverse();
+    pose.rms_px = solutions[i].rms_px;
+    pose.rms_other_px = solutions.size() > 1 ? solutions[1 - i].rms_px : std::numeric_limits<double>::infinity();
+    pose.points = int(used.size());
+    pose.rejected = int(points.size() - used.size());
+    poses.push_back(pose);
+  }
+  return poses;
+} catch (const cv::Exception&) {  // the closed form refuses a degenerate set
+  return {};
+}
+
 std::optional<BoardPose> estimateBoardPose(const std::vector<BoardPoint>& points,
                                            const calibration::CameraModel& camera,
-                                           double pixel_sigma) try {
-  const std::vector<BoardPoint> given = usable(points);
-  if (given.size() < 4 || onALine(given)) return std::nullopt;
-  const std::vector<BoardPoint> used = consistent(given, camera);
-  const std::vector<RefinedPose> solutions = refinedSolutions(used, camera);
-  if (solutions.empty()) return std::nullopt;
-  BoardPose pose;
-  pose.X_CW = solutions[0].X_CW;
-  pose.covariance = pixel_sigma * pixel_sigma * solutions[0].information.inverse();
-  pose.rms_px = solutions[0].rms_px;
-  pose.rms_other_px = rmsOfOther(solutions);
-  pose.points = int(used.size());
-  pose.rejected = int(points.size() - used.size());
-  return pose;
-} catch (const cv::Exception&) {  // the closed form refuses a degenerate set
-  return std::nullopt;
+                                           double pixel_sigma) {
+  const std::vector<BoardPose> poses = estimateBoardPoses(points, camera, pixel_sigma);
+  return poses.empty() ? std::nullopt : std::optional(poses.front());
 }
 
 }  // namespace palpa::ar

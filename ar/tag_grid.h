@@ -12,6 +12,7 @@ class TagGridBoard : public Board {
   TagGridBoard(const TagGridSpec& spec, double decimate);
   std::vector<BoardPoint> detect(const cv::Mat& image) const override;
   std::string describe() const override;
+  int leastPoints() const override { return spec_.columns * spec_.rows > 1 ? 8 : 4; }
 
  private:
   TagGridSpec spec_;
@@ -24,6 +25,7 @@ class SingleTagBoard : public Board {
   SingleTagBoard(double tag_size, double decimate);
   std::vector<BoardPoint> detect(const cv::Mat& image) const override;
   std::string describe() const override;
+  int leastPoints() const override { return 4; }
 
  private:
   double tag_size_;

@@ -2,6 +2,7 @@
 #include "apps/bench/calibration_bench.h"
 #include "apps/bench/haptics_bench.h"
 #include "apps/bench/loop_bench.h"
+#include "apps/bench/tracking_bench.h"
 #include "apps/cli/commands.h"
 
 namespace palpa::cli {
@@ -42,6 +43,21 @@ void addCalibration(CLI::App& bench) {
   calibration->callback([options] { bench::benchCalibration(*options); });
 }
 
+void addTracking(CLI::App& bench) {
+  CLI::App* tracking = bench.add_subcommand("tracking", "How true, still and quick the board's tracking is (simulated pictures)");
+  tracking->footer("Example:\n  palpa bench tracking > tracking.jsonl\n  palpa bench tracking --distance 1 --speed 0.1 --quick");
+  const auto options = std::make_shared<bench::TrackingBenchOptions>();
+  tracking->add_option("--distance", options->distance, "From camera to board, m")->check(CLI::Range(0.2, 3.0));
+  tracking->add_option("--speed", options->speed, "Peak speed of the motion, m/s")->check(CLI::Range(0.01, 2.0));
+  tracking->add_option("--horizon", options->horizon_ms, "From an exposure to when its pose is drawn, ms")->check(CLI::Range(0.0, 200.0));
+  tracking->add_option("--width", options->width, "Of the picture, px")->check(CLI::Range(320, 4096));
+  tracking->add_option("--height", options->height, "Of the picture, px")->check(CLI::Range(240, 4096));
+  tracking->add_option("--rate", options->rate_Hz, "Pictures a second")->check(CLI::Range(5.0, 240.0));
+  tracking->add_option("--seed", options->seed, "Of the simulated noise");
+  tracking->add_flag("--quick", options->quick, "A tenth of the pictures");
+  tracking->callback([options] { bench::benchTracking(*options); });
+}
+
 }  // namespace
 
 void addBench(CLI::App& program) {
@@ -51,6 +67,7 @@ void addBench(CLI::App& program) {
   addCalibration(*bench);
   addHaptics(*bench);
   addLoop(*bench);
+  addTracking(*bench);
 }
 
 }  // namespace palpa::cli

@@ -49,8 +49,7 @@ SessionPictures::SessionPictures(const SessionOptions& options, const NeedleWorl
 SessionPictures::~SessionPictures() = default;
 
 runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mode) const {
-  return {static_cast<std::int64_t>(1e9 / station_.camera_rate_Hz),
-          static_cast<std::int64_t>(1e9 * station_.camera_latency_s), mode};
+  return {static_cast<std::int64_t>(1e9 / station_.camera_rate_Hz), static_cast<std::int64_t>(1e9 * station_.camera_latency_s), mode, recorded()};
 }
 
 runtime::CameraActivity::Exposer SessionPictures::exposer(twin::VirtualBench* bench) {
@@ -70,7 +69,7 @@ runtime::CameraActivity::Observer SessionPictures::observer(twin::VirtualBench* 
 }
 
 void SessionPictures::note(const runtime::CameraView& view) {
-  if (registration_.size() >= recorded_->count() || view.ended) return;
+  if (registration_.size() >= recorded_->count() || view.fault == ar::PictureFault::ended) return;
   RegistrationRow row{view.source, 0, 0, Pose::Identity()};
   if (view.pose) row = {view.source, view.pose->points, view.pose->rms_px, view.pose->X_CW};
   registration_.push_back(row);

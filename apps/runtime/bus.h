@@ -7,8 +7,9 @@
 #include "apps/runtime/event_queue.h"
 #include "apps/runtime/flight_sink.h"
 #include "apps/runtime/state_channel.h"
-#include "ar/board_pose.h"
+#include "ar/board_tracker.h"
 #include "ar/camera.h"
+#include "ar/picture_health.h"
 #include "haptics/tick.h"
 
 namespace palpa::runtime {
@@ -28,14 +29,16 @@ struct ToolState {
   bool homed = false;
 };
 
-/// What the camera saw last, as it came (distorted); `pose` is empty when no board is seen.
+/// What the camera saw last, as it came (distorted).
 struct CameraView {
   std::int64_t t_exposure_ns = 0;
   std::uint64_t number = 0;
   std::string source;
   std::shared_ptr<const cv::Mat> picture;
-  std::optional<ar::BoardPose> pose;
-  bool ended = false;                     ///< the source has no more pictures
+  std::optional<ar::BoardPose> pose;      ///< as measured in this picture; empty when the board is not seen in it
+  std::optional<Pose> X_CW;               ///< of the board at the exposure: filtered over the pictures, or foretold where it is hidden for a moment
+  ar::TrackState tracking = ar::TrackState::searching;
+  ar::PictureFault fault = ar::PictureFault::none;   ///< gone: `source` says why
 };
 
 /// What a person at the display sees, as far as a simulated person may know it.

@@ -1,53 +1,75 @@
 #include "apps/runtime/camera_activity.h"
 
+#include "apps/runtime/clock.h"
+
 namespace palpa::runtime {
+namespace {
+
+constexpr std::int64_t kAskAgain = kSecond;   // after a source has failed
+
+}  // namespace
 
 CameraActivity::CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
                                const calibration::CameraModel& camera, const Settings& settings,
                                Observer observer)
     : bus_(bus),
       expose_(std::move(expose)),
-      tracker_(board, camera),
+      tracker_(board, camera, {{}, !settings.photographs}),
       settings_(settings),
+      health_({camera.width, camera.height}),
       observer_(std::move(observer)) {}
 
 CameraActivity::~CameraActivity() {
   if (pending_.valid()) pending_.wait();
 }
 
-CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns,
-                               std::uint64_t number) {
+CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number) {
   CameraView view;
   view.t_exposure_ns = t_ns;
   view.number = number;
-  std::optional<ar::Frame> frame = exposure();
-  if (!frame) {
-    view.ended = true;
-    return view;
+  view.tracking = tracker_.state();
+  try {
+    const std::optional<ar::Frame> frame = exposure();
+    if (frame) {
+      view.source = frame->source;
+      view.picture = std::make_shared<const cv::Mat>(frame->image);
+      track(frame->image, &view);
+    } else {
+      view.fault = ar::PictureFault::ended;
+    }
+  } catch (const std::exception& e) {
+    view.fault = ar::PictureFault::gone;
+    view.source = e.what();
   }
-  view.source = frame->source;
-  view.picture = std::make_shared<const cv::Mat>(frame->image);
-  view.pose = tracker_.see(frame->image);
   return view;
 }
 
-void CameraActivity::publish(const CameraView& view, std::int64_t now_ns) {
-  ended_ = view.ended;
+void CameraActivity::track(const cv::Mat& image, CameraView* view) {
+  if (!settings_.photographs) view->fault = health_.judge(image, view->t_exposure_ns);
+  if (view->fault == ar::PictureFault::wrong_size) return;
+  // A frozen picture shows where the board was.
+  if (view->fault != ar::PictureFault::frozen) view->pose = tracker_.see(image, view->t_exposure_ns);
+  const ar::PoseTrack::Answer there = tracker_.track().at(view->t_exposure_ns);
+  if (there.how != ar::PoseTrack::Lookup::none) view->X_CW = there.X;
+  view->tracking = tracker_.state();
+}
+
+/// When the next picture is due.
+std::int64_t CameraActivity::publish(const CameraView& view, std::int64_t exposed_ns, std::int64_t now_ns) {
   bus_.camera_to_scene.publish(view, now_ns);
   bus_.camera_to_task.publish(view, now_ns);
   if (observer_) observer_(view);
+  if (view.fault == ar::PictureFault::ended) return kNever;
+  return view.fault == ar::PictureFault::gone ? now_ns + kAskAgain : exposed_ns + settings_.period_ns;
 }
 
 std::int64_t CameraActivity::step(std::int64_t now_ns) {
   if (settings_.mode == TimeMode::real) {
-    publish(see(expose_(now_ns, number_), now_ns, number_), now_ns);
+    const CameraView view = see(expose_(now_ns, number_), now_ns, number_);
     ++number_;
-    return ended_ ? kNever : now_ns + settings_.period_ns;
+    return publish(view, now_ns, now_ns);
   }
-  if (pending_.valid()) {  // time to show what was exposed `latency_ns` ago
-    publish(pending_.get(), now_ns);
-    return ended_ ? kNever : exposed_ns_ + settings_.period_ns;
-  }
+  if (pending_.valid()) return publish(pending_.get(), exposed_ns_, now_ns);   // time to show what was exposed `latency_ns` ago
   exposed_ns_ = now_ns;
   pending_ = std::async(std::launch::async,
                         [this, exposure = expose_(now_ns, number_), now_ns, number = number_] {

@@ -5,12 +5,12 @@
 
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
-#include "ar/board_tracker.h"
 #include "calibration/camera_model.h"
 
 namespace palpa::runtime {
 
-/// CAMERA: exposes, detects the board, publishes its pose stamped with the time of exposure.
+/// CAMERA: exposes, tracks the board, publishes its pose stamped with the time of exposure. A source that fails is asked again once a second; whatever
+/// happens to it is told (`CameraView::fault`) and stops nobody.
 /// In virtual time the work of one picture runs beside the simulation: its inputs are frozen at the
 /// exposure and it is joined when the result becomes visible, so the outcome does not depend on speed.
 class CameraActivity final : public Activity {
@@ -19,6 +19,7 @@ class CameraActivity final : public Activity {
     std::int64_t period_ns = 66'666'667;
     std::int64_t latency_ns = 50'000'000;   ///< exposure to published pose; at most the period
     TimeMode mode = TimeMode::virtual_time;
+    bool photographs = false;               ///< each picture stands for itself: no motion between them
   };
   /// Freezes the inputs of a picture exposed now, and returns what takes it (run on any thread).
   /// The inner function returns nothing when the source has ended.
@@ -35,17 +36,18 @@ class CameraActivity final : public Activity {
 
  private:
   CameraView see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number);
-  void publish(const CameraView& view, std::int64_t now_ns);
+  void track(const cv::Mat& image, CameraView* view);
+  std::int64_t publish(const CameraView& view, std::int64_t exposed_ns, std::int64_t now_ns);
 
   Bus& bus_;
   Exposer expose_;
   ar::BoardTracker tracker_;   ///< used by one picture at a time
   Settings settings_;
+  ar::PictureHealth health_;
   Observer observer_;
   std::future<CameraView> pending_;
   std::int64_t exposed_ns_ = 0;
   std::uint64_t number_ = 0;
-  bool ended_ = false;
 };
 
 }  // namespace palpa::runtime

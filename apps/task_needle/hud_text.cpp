@@ -1,5 +1,7 @@
 #include "apps/task_needle/hud_text.h"
 
+#include <cctype>
+
 #include <cstdio>
 
 namespace palpa::task_needle {
@@ -60,7 +62,7 @@ bool injury(const runtime::ToolState& tool) {
          tool.tissue == Tissue::artery_lumen || tool.wall == Organ::artery;
 }
 
-scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, bool board_seen,
+scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, const std::string& camera,
                    const std::string& mark) {
   scene::Hud hud;
   const bool active = status.state == TrialState::running || status.state == TrialState::paused;
@@ -93,7 +95,10 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, boo
     hud.alarm = true;
   }
   if (hud.notice.empty() && status.blood_flows) hud.notice = "Blood flows into the syringe";
-  if (hud.notice.empty() && !board_seen) hud.notice = "The camera does not see the board: the overlay stands still";
+  if (hud.notice.empty() && !camera.empty()) {
+    hud.notice = camera;
+    hud.notice.front() = static_cast<char>(std::toupper(static_cast<unsigned char>(hud.notice.front())));
+  }
   hud.mark = mark;
   return hud;
 }

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/geometry/error.h"
+#include "apps/runtime/camera_words.h"
 
 namespace palpa::task_needle {
 namespace {
@@ -13,7 +14,6 @@ using runtime::kSecond;
 constexpr std::int64_t kTaskPeriod = 16'666'667;
 constexpr std::int64_t kBetweenTrials = 3 * kSecond;   // the trainee takes the needle back
 constexpr std::int64_t kReadyPatience = 15 * kSecond;
-constexpr std::int64_t kPictureAge = kSecond;          // an older picture of the board is no proof
 constexpr std::int64_t kTripShown = 2 * kSecond;
 constexpr double kContactPause = 0.5;   // s without contact before the next one is news
 constexpr double kFillRate = 0.25;                     // syringes a second through a freely bleeding needle
@@ -49,6 +49,7 @@ NeedleTask::NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& chan
 std::int64_t NeedleTask::step(std::int64_t now_ns) {
   obey(now_ns);
   hearDevice();
+  watchCamera(now_ns);
   listen(now_ns);
   switch (status_.state) {
     case TrialState::checking:
@@ -79,13 +80,25 @@ std::int64_t NeedleTask::step(std::int64_t now_ns) {
   return now_ns + kTaskPeriod;
 }
 
+/// The record marks when the camera or the board was lost, and when it was back.
+void NeedleTask::watchCamera(std::int64_t now_ns) {
+  const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
+  if (!view) return;
+  const std::string trouble = runtime::cameraTrouble(view, now_ns);
+  if (trouble == camera_) return;
+  if (!trouble.empty()) tell(now_ns, "camera", trouble, 1);
+  else tell(now_ns, "camera", "the camera sees the board again", 0);
+  camera_ = trouble;
+}
+
 void NeedleTask::checkReady(std::int64_t now_ns) {
   if (status_.emergency_stop) return;
   const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
   std::string missing;
   if (!last_.reading.homed) missing = status_.device.empty() ? "the haptic device is not homed" : status_.device;
   else if (last_.phase != haptics::NeedlePhase::outside || last_.depth > 0) missing = "the needle is in the skin: take it out";
-  else if (!view || !view->pose || now_ns - view->t_exposure_ns > kPictureAge) missing = "the camera does not see the board";
+  else if (const std::string trouble = runtime::cameraTrouble(view, now_ns); !trouble.empty()) missing = trouble;
+  else if (!view->X_CW) missing = "the camera does not see the board";
   status_.notice = missing.empty() ? "" : "Not ready: " + missing;
   if (missing.empty()) {
     tell(now_ns, "ready", setup_.calibration_problem.empty()

@@ -71,6 +71,7 @@ class NeedleTask final : public runtime::Activity {
   void obey(const UserRequest& request, std::int64_t now_ns);
   void listen(std::int64_t now_ns);
   void hearDevice();
+  void watchCamera(std::int64_t now_ns);
   void watchSafety(const haptics::FlightRecord& record);
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns);
   void checkReady(std::int64_t now_ns);
@@ -93,6 +94,7 @@ class NeedleTask final : public runtime::Activity {
   std::vector<CompletedTrial> completed_;
   std::vector<runtime::Event> safety_events_;
   haptics::FlightRecord last_;         ///< newest tick seen
+  std::string camera_ = "no picture from the camera yet";   ///< what was last said of it
   std::int64_t trip_ns_ = 0, warm_ns_ = -1;   ///< of the last trip, of the last tick with warm drives
   std::int64_t since_ns_ = 0;          ///< the current state began
   double in_lumen_s_ = 0;              ///< dwell with the plunger drawn

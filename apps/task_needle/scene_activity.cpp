@@ -4,13 +4,13 @@
 #include <cstdio>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/runtime/camera_words.h"
 #include "apps/task_needle/hud_text.h"
 
 namespace palpa::task_needle {
 namespace {
 
 constexpr std::int64_t kFramePeriod = 33'333'333;
-constexpr std::int64_t kSeenRecently = 500'000'000;
 constexpr double kTrailStep = 0.0005;   // m between points of the trail
 constexpr std::size_t kTrailLongest = 4000;
 
@@ -56,30 +56,27 @@ void SceneActivity::follow(std::int64_t now_ns) {
   if (const TaskStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
   if (const runtime::ToolState* tool = bus_.haptic_to_scene.read(now_ns)) tool_ = *tool;
   const runtime::CameraView* view = bus_.camera_to_scene.read(now_ns);
-  if (!view || view->number == last_number_ || view->ended) return;
+  if (!view || view->number == last_number_) return;
   last_number_ = view->number;
   camera_ = *view;
-  fresh_picture_ = true;
-  if (!view->pose) return;
-  board_ = view->pose;
+  fresh_picture_ = view->picture && view->fault != ar::PictureFault::wrong_size;
+  if (view->pose) board_ = view->pose;
+  if (!view->X_CW) return;
   if (setup_.overlay_error && setup_.view) overlay_ = setup_.overlay_error(unpack(tool_.X_DT));
-  // Recorded single pictures are not a motion: each stands for itself.
-  X_CW_ = setup_.every_source_picture ? view->pose->X_CW
-                                      : smoother_.update(view->pose->X_CW, view->t_exposure_ns);
+  X_CW_ = *view->X_CW;
   registered_ = true;
-  seen_ns_ = view->t_exposure_ns;
 }
 
 void SceneActivity::compose() {
-  const bool seen = registered_ && now_ns_ - seen_ns_ < kSeenRecently;
+  const std::string trouble = runtime::cameraTrouble(camera_ ? &*camera_ : nullptr, now_ns_);
   state_.registered = registered_;
   state_.X_CA = X_CW_ * setup_.X_WA;
   state_.X_AT = X_AD_ * unpack(tool_.X_DT);
   if (skin_) state_.skin_push = skin_->follow(tool_, X_AD_, now_ns_);
   state_.plunger = tool_.plunger;
   state_.blood = status_.blood;
-  state_.hud = hudText(status_, tool_, seen, setup_.mark);
-  state_.hud.overlay = seen ? overlay_ : "";
+  state_.hud = hudText(status_, tool_, trouble, setup_.mark);
+  state_.hud.overlay = trouble.empty() ? overlay_ : "";
   state_.forces.clear();
   const Vec3 f_A = X_AD_.rotation() * unpack(tool_.f_contact_D);
   if (f_A.norm() > 0.05) {

@@ -10,7 +10,6 @@
 #include "apps/task_needle/needle_task.h"
 #include "apps/task_needle/skin_follower.h"
 #include "apps/task_needle/task_status.h"
-#include "ar/pose_smoother.h"
 #include "ar/undistort.h"
 #include "scene/scene_view.h"
 
@@ -67,7 +66,6 @@ class SceneActivity final : public runtime::Activity {
   runtime::Bus& bus_;
   TaskChannels& channels_;
   ar::Undistorter undistorter_;
-  ar::PoseSmoother smoother_;
   Pose X_AD_;
   TaskStatus status_;
   runtime::ToolState tool_;
@@ -76,7 +74,7 @@ class SceneActivity final : public runtime::Activity {
   std::string overlay_;
   Pose X_CW_ = Pose::Identity();
   bool registered_ = false, fresh_picture_ = false;
-  std::int64_t seen_ns_ = 0, now_ns_ = 0;
+  std::int64_t now_ns_ = 0;
   std::uint64_t last_number_ = ~0ull;
   scene::Image background_;
   scene::SceneState state_;

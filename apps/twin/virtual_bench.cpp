@@ -129,8 +129,8 @@ runtime::CameraActivity::Exposer VirtualBench::exposer() const {
 
 void VirtualBench::observe(const runtime::CameraView& view) {
   ++impl_->pictures;
-  if (!view.pose) return;
-  const Vec3 drawn_C = view.pose->X_CW * impl_->entry_W;
+  if (!view.X_CW) return;
+  const Vec3 drawn_C = *view.X_CW * impl_->entry_W;
   const Vec3 true_C = impl_->X_CW(view.t_exposure_ns) * impl_->entry_W;
   impl_->errors_mm.push_back((drawn_C - true_C).norm() / kMm);
 }

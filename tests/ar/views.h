@@ -7,6 +7,7 @@
 
 #include "ar/board.h"
 #include "ar/board_pose.h"
+#include "ar/pose_motion.h"
 #include "tests/support/camera_views.h"
 
 /// Known truth for the tests of ar/: a camera, where it stands, and what it then sees.
@@ -54,14 +55,6 @@ inline std::vector<BoardPoint> gridPoints(const Pose& X_CW, const calibration::C
       points.push_back({p_W, pixel});
     }
   return points;
-}
-
-/// Rotation vector and translation from `b` to `a`, as BoardPose::covariance has them.
-inline Eigen::Matrix<double, 6, 1> difference(const Pose& a, const Pose& b) {
-  const Eigen::AngleAxisd turn(Mat3(a.linear() * b.linear().transpose()));
-  Eigen::Matrix<double, 6, 1> d;
-  d << turn.angle() * turn.axis(), a.translation() - b.translation();
-  return d;
 }
 
 /// A flat picture lying on the board, as a pinhole without distortion sees it, four samples a pixel

@@ -1,4 +1,5 @@
 #include "apps/runtime/camera_activity.h"
+#include "apps/runtime/camera_words.h"
 
 #include <gtest/gtest.h>
 
@@ -63,8 +64,8 @@ std::vector<Seen> run(bool slow) {
     virtual_now = now;
     virtual_now.notify_all();
     const CameraView* view = bus.camera_to_scene.read(now);
-    if (view && view->ended) ended = true;
-    if (view && !view->ended && (log.empty() || log.back().number != view->number))
+    if (view && view->fault == ar::PictureFault::ended) ended = true;
+    if (view && view->picture && (log.empty() || log.back().number != view->number))
       log.push_back({now, view->t_exposure_ns, view->number, view->source,
                      view->picture->at<std::uint8_t>(0, 0)});
     return ended ? kNever : now + kMillisecond;
@@ -121,17 +122,74 @@ TEST(CameraActivity, PictureWithoutABoardHasNoPoseAndOneWithItHas) {
   EXPECT_EQ(observed, 2);
 }
 
-TEST(CameraActivity, FaultOfTheSourceReachesTheExecutive) {
-  Bus bus(TimeMode::virtual_time);
+/// What a source does to the pictures; what is told of it; and that it goes on.
+struct Told {
+  std::vector<ar::PictureFault> faults;
+  std::vector<std::string> words;
+};
+
+Told tellOf(const std::function<std::optional<ar::Frame>(std::int64_t, std::uint64_t)>& source, int steps) {
+  Bus bus(TimeMode::real);
   const auto board = ar::makeBoard("tags:2x2:0.030:0.0075");
-  const auto expose = [](std::int64_t, std::uint64_t) -> CameraActivity::Exposure {
-    return []() -> std::optional<ar::Frame> { throw std::runtime_error("lens cap"); };
-  };
-  CameraActivity activity(bus, expose, *board, {64, 64, 60, 60, 31.5, 31.5, {}, 0},
-                          {kPeriod, kLatency, TimeMode::virtual_time});
-  const auto executive = makeVirtualExecutive();
-  executive->add(activity, {});
-  EXPECT_THROW(executive->run(), std::runtime_error);
+  CameraActivity activity(bus, [&](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure { return [&source, now, number] { return source(now, number); }; }, *board,
+                          {64, 64, 60, 60, 31.5, 31.5, {}, 0}, {kPeriod, kLatency, TimeMode::real});
+  Told told;
+  std::int64_t now = 0;
+  for (int i = 0; i < steps && now != kNever; ++i) {
+    const std::int64_t t = now;
+    now = activity.step(t);
+    const CameraView* view = bus.camera_to_task.read(t);
+    told.faults.push_back(view->fault);
+    told.words.push_back(cameraTrouble(view, t));
+  }
+  return told;
+}
+
+ar::Frame noisy(std::int64_t t, std::uint64_t number) {
+  ar::Frame frame = blank(t, number);
+  cv::RNG random(number + 1);
+  random.fill(frame.image, cv::RNG::UNIFORM, 60, 90);
+  return frame;
+}
+
+TEST(CameraActivity, ASourceThatFailsIsToldAndAskedAgain) {
+  const Told told = tellOf([](std::int64_t t, std::uint64_t n) -> std::optional<ar::Frame> {
+    if (n == 1 || n == 2) throw std::runtime_error("lens cap");
+    return noisy(t, n);
+  }, 4);
+  using F = ar::PictureFault;
+  EXPECT_EQ(told.faults, (std::vector<F>{F::none, F::gone, F::gone, F::none}));
+  EXPECT_NE(told.words[1].find("lens cap"), std::string::npos);
+}
+
+TEST(CameraActivity, BlackFrozenAndForeignPicturesAreTold) {
+  using F = ar::PictureFault;
+  const auto black = tellOf([](std::int64_t t, std::uint64_t n) {
+    ar::Frame frame = noisy(t, n);
+    if (n > 0) frame.image /= 20;
+    return frame;
+  }, 2);
+  EXPECT_EQ(black.faults, (std::vector<F>{F::none, F::black}));
+  const auto frozen = tellOf([](std::int64_t t, std::uint64_t n) { return noisy(t, std::min<std::uint64_t>(n, 3)); }, 20);
+  EXPECT_EQ(frozen.faults[3], F::none);
+  EXPECT_EQ(frozen.faults.back(), F::frozen);
+  const auto foreign = tellOf([](std::int64_t t, std::uint64_t n) {
+    ar::Frame frame = noisy(t, n);
+    if (n > 0) frame.image = frame.image(cv::Rect(0, 0, 32, 32)).clone();
+    return frame;
+  }, 2);
+  EXPECT_EQ(foreign.faults[1], F::wrong_size);
+  const auto ended = tellOf([](std::int64_t t, std::uint64_t n) -> std::optional<ar::Frame> { return n == 2 ? std::nullopt : std::optional(noisy(t, n)); }, 10);
+  EXPECT_EQ(ended.faults, (std::vector<F>{F::none, F::none, F::ended}));
+  for (const auto* told : {&black, &frozen, &foreign, &ended}) EXPECT_NE(told->words.back(), "");
+}
+
+TEST(CameraWords, SilenceIsTold) {
+  EXPECT_NE(cameraTrouble(nullptr, 0), "");
+  CameraView view;
+  view.tracking = ar::TrackState::tracked;
+  EXPECT_EQ(cameraTrouble(&view, kSecond), "");
+  EXPECT_NE(cameraTrouble(&view, 2 * kSecond), "");
 }
 
 }  // namespace

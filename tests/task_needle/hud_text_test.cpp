@@ -14,7 +14,7 @@ scene::Hud shown(SafetyCause cause, const std::string& device = "") {
   status.device = device;
   runtime::ToolState tool;
   tool.safety = cause;
-  return hudText(status, tool, true, "");
+  return hudText(status, tool, "", "");
 }
 
 TEST(HudText, SaysWhyTheForceIsGone) {
@@ -45,9 +45,18 @@ TEST(HudText, ATripOfOneTickIsShownLongEnoughToBeRead) {
   TaskStatus status;
   status.state = TrialState::running;
   status.trip = SafetyCause::watchdog;
-  const scene::Hud hud = hudText(status, {}, true, "");
+  const scene::Hud hud = hudText(status, {}, "", "");
   EXPECT_NE(hud.notice.find("watchdog"), std::string::npos);
   EXPECT_TRUE(hud.alarm);
+}
+
+TEST(HudText, SaysWhatIsWrongWithTheCameraWhereNothingWorseIs) {
+  EXPECT_EQ(hudText({}, {}, "the camera is gone", "").notice, "The camera is gone");
+  TaskStatus status;
+  status.state = TrialState::running;
+  runtime::ToolState tool;
+  tool.safety = SafetyCause::silent_device;
+  EXPECT_EQ(hudText(status, tool, "the camera is gone", "").notice.rfind("Force is off", 0), 0u);
 }
 
 TEST(HudText, WhatTheDriverSaysComesFirst) {

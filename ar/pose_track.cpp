@@ -1,0 +1,51 @@
+#include "ar/pose_track.h"
+
+#include <algorithm>
+
+namespace palpa::ar {
+namespace {
+
+double since(std::int64_t from_ns, std::int64_t to_ns) { return 1e-9 * static_cast<double>(to_ns - from_ns); }
+
+/// `s` of the way from a to b, `dt` apart.
+Pose between(const PoseMotion& a, const PoseMotion& b, double s, double dt) {
+  const Vector6 whole = difference(b.X, a.X);
+  const double s2 = s * s, s3 = s2 * s;
+  return stepped(a.X, (s3 - 2 * s2 + s) * dt * a.rate + (-2 * s3 + 3 * s2) * whole + (s3 - s2) * dt * b.rate);
+}
+
+}  // namespace
+
+bool PoseTrack::add(const Pose& X, const Matrix6& covariance, std::int64_t t_ns) {
+  const std::int64_t before = filter_.time_ns();
+  const bool jumped = filter_.isForeign(X, covariance, t_ns);
+  if (!filter_.update(X, covariance, t_ns)) return false;
+  // What is on the other side of a gap or a jump is no way that was gone.
+  if (jumped || (!past_.empty() && since(before, t_ns) > settings_.filter.longest_gap)) past_.clear();
+  past_.push_back({t_ns, filter_.now()});
+  while (since(past_.front().t_ns, t_ns) > settings_.remembers) past_.pop_front();
+  return true;
+}
+
+PoseTrack::Answer PoseTrack::at(std::int64_t t_ns) const {
+  if (past_.empty() || t_ns < past_.front().t_ns) return {};
+  const auto after = std::upper_bound(past_.begin(), past_.end(), t_ns, [](std::int64_t t, const Entry& e) { return t < e.t_ns; });
+  const Entry& a = *std::prev(after);
+  if (a.t_ns == t_ns) return {Lookup::exact, a.motion.X, a.motion.covariance.topLeftCorner<6, 6>()};
+  if (after == past_.end()) {
+    if (since(a.t_ns, t_ns) > settings_.longest_prediction) return {};
+    const PoseMotion there = filter_.at(t_ns);
+    return {Lookup::predicted, there.X, there.covariance.topLeftCorner<6, 6>()};
+  }
+  const Entry& b = *after;
+  const double dt = since(a.t_ns, b.t_ns), s = since(a.t_ns, t_ns) / dt;
+  return {Lookup::interpolated, between(a.motion, b.motion, s, dt),
+          (1 - s) * a.motion.covariance.topLeftCorner<6, 6>() + s * b.motion.covariance.topLeftCorner<6, 6>()};
+}
+
+void PoseTrack::forget() {
+  filter_.reset();
+  past_.clear();
+}
+
+}  // namespace palpa::ar

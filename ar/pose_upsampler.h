@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+
+#include "ar/pose_motion.h"
+
+namespace palpa::ar {
+
+/// From poses that come now and then a pose for every tick of the haptic loop: each is carried on by its rate and dying acceleration, and where a new one
+/// contradicts what was said before, the difference fades (smoothstep, no step of the pose or of its speed) within `blend`. Never further than
+/// `longest` ahead: then it stands. Allocates nothing.
+class PoseUpsampler {
+ public:
+  struct Settings {
+    double blend = 0.033, longest = 0.1, memory = 0.3;   ///< s
+  };
+  PoseUpsampler() : PoseUpsampler(Settings{}) {}
+  explicit PoseUpsampler(const Settings& settings) : settings_(settings) {}
+
+  /// A newer estimate, of time `t_ns`, known since `now_ns`.
+  void take(const PoseMotion& motion, std::int64_t t_ns, std::int64_t now_ns);
+  /// Identity before the first estimate.
+  Pose at(std::int64_t now_ns) const;
+  bool started() const { return started_; }
+
+ private:
+  Pose carriedTo(std::int64_t now_ns) const;
+
+  Settings settings_;
+  bool started_ = false;
+  Pose X_ = Pose::Identity();
+  Vector6 rate_ = Vector6::Zero(), acceleration_ = Vector6::Zero();
+  Vector6 contradiction_ = Vector6::Zero();   ///< what was said less the new estimate, when it came
+  std::int64_t t_ns_ = 0, taken_ns_ = 0;
+};
+
+}  // namespace palpa::ar
