@@ -87,7 +87,7 @@ void NeedleTask::watchCamera(std::int64_t now_ns) {
   const std::string trouble = runtime::cameraTrouble(view, now_ns);
   if (trouble == camera_) return;
   if (!trouble.empty()) tell(now_ns, "camera", trouble, 1);
-  else tell(now_ns, "camera", "the camera sees the board again", 0);
+  else tell(now_ns, "camera", "the camera sees the board", 0);
   camera_ = trouble;
 }
 
@@ -308,7 +308,7 @@ void NeedleTask::obey(const UserRequest& request, std::int64_t now_ns) {
 void NeedleTask::tell(std::int64_t now_ns, const std::string& kind, const std::string& text,
                       double value) {
   const runtime::Event event{now_ns, status_.trial, kind, text, value};
-  if (kind == "safety" || kind == "device") safety_events_.push_back(event);
+  if (kind == "safety" || kind == "device" || (kind == "camera" && value > 0)) safety_events_.push_back(event);
   bus_.task_to_recorder.push(event);
 }
 

@@ -62,7 +62,7 @@ class NeedleTask final : public runtime::Activity {
 
   const std::vector<CompletedTrial>& completed() const { return completed_; }
   bool quit() const { return quit_; }
-  /// Every "safety" and "device" event, in order.
+  /// Every "safety" and "device" event and every loss of the camera, in order.
   const std::vector<runtime::Event>& safetyEvents() const { return safety_events_; }
   std::uint64_t lostTicks() const { return bus_.haptic_to_task.overflows(); }
 

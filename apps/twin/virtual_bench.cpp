@@ -1,12 +1,14 @@
 #include "apps/twin/virtual_bench.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
 #include <optional>
 
 #include "apps/runtime/clock.h"
 #include "apps/runtime/quantile.h"
 #include "apps/twin/bench_truth.h"
+#include "apps/twin/camera_faults.h"
 #include "apps/twin/sensor_twin.h"
 
 namespace palpa::twin {
@@ -34,6 +36,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
         X_ET_believed(setup.station.X_ET),
         entry_W(setup.X_WA * setup.anatomy.entry_A),
         normal_W(setup.X_WA.rotation() * setup.anatomy.normal_A),
+        camera_faults(readCameraFaults(setup.station.file)),
         sway(kMm * setup.station.file.number("twin/camera_sway_mm", 0, 100)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
         mechanics(trueDevice(setup.station, setup.seed), restPose(setup.station, setup.X_WA, setup.anatomy.entry_A,
@@ -97,6 +100,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
   runtime::ChannelDevice& device;
   Pose X_WD_believed, X_ET_believed, X_WD_true, X_ET_true;
   Vec3 entry_W, normal_W;
+  std::vector<CameraFault> camera_faults;
   double sway;
   Pose X_CW_boom;
   DeviceTwin mechanics;
@@ -120,9 +124,12 @@ runtime::Activity& VirtualBench::activity() { return *impl_; }
 
 runtime::CameraActivity::Exposer VirtualBench::exposer() const {
   return [impl = impl_.get()](std::int64_t now_ns, std::uint64_t number) {
-    const Pose X_CW = impl->X_CW(now_ns);
-    return [impl, X_CW, now_ns, number]() -> std::optional<ar::Frame> {
-      return ar::Frame{number, now_ns, impl->camera->render(X_CW, number), "virtual camera"};
+    const CameraFault* fault = faultAt(impl->camera_faults, 1e-9 * static_cast<double>(now_ns));
+    const bool frozen = fault && fault->kind == CameraFault::Kind::frozen;
+    const Pose X_CW = impl->X_CW(frozen ? std::llround(1e9 * fault->from) : now_ns);
+    return [impl, X_CW, now_ns, number, fault, frozen]() -> std::optional<ar::Frame> {
+      ar::Frame frame{number, now_ns, impl->camera->render(X_CW, frozen ? 0 : number), "virtual camera"};
+      return fault ? spoilt(std::move(frame), *fault) : std::optional(std::move(frame));
     };
   };
 }

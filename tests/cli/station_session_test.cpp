@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "apps/record/session_file.h"
 #include "program.h"
 
 /// Sessions on other stations than the virtual bench as it is shipped, and on other loops.
@@ -44,6 +45,53 @@ struct Ordinary {
 Ordinary& ordinary() {
   static Ordinary one;
   return one;
+}
+
+/// Whatever becomes of the camera: the hand feels the same, the session ends as it would have, and the record says what was lost from when to when.
+TEST(StationSession, NothingThatBefallsTheCameraStopsASession) {
+  nlohmann::json station = benchStation();
+  nlohmann::json& faults = station["twin"]["camera_faults"];
+  const std::vector<std::pair<std::string, std::string>> kinds{{"hidden", "lost the board"}, {"black", "is black"}, {"frozen", "stands still: look"},
+                                                               {"wrong_size", "another size"}, {"gone", "is gone"}};
+  double t = 0.8;
+  for (const auto& [kind, words] : kinds) {
+    faults.push_back({{"kind", kind}, {"from_s", t}, {"to_s", t + 1}});
+    t += 1.4;
+  }
+  faults.push_back({{"kind", "ended"}, {"from_s", t}, {"to_s", t + 1}});
+  Folder here;
+  const std::string file = here.file("faulty.json", station.dump());
+  const Outcome outcome = palpa(session({"--station", file, "--seed", "5", "--out", "A"}), here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(ordinary().here / "A/trials.csv"));
+  const std::string report = contentOf(here / "A/report.html");
+  std::vector<runtime::Event> events;
+  for (const runtime::Event& event : record::SessionReader(here / "A/session.palpa").events())
+    if (event.kind == "camera") events.push_back(event);
+  std::size_t at = 0;
+  double begins = 0.8;
+  for (const auto& [kind, words] : kinds) {
+    while (at < events.size() && !says(events[at].text, words)) ++at;
+    ASSERT_LT(at, events.size()) << kind;
+    EXPECT_NEAR(1e-9 * static_cast<double>(events[at].t_ns), begins + 0.4, 0.4) << kind;   // a frozen picture is one after half a second
+    EXPECT_TRUE(says(report, words)) << kind;
+    while (at < events.size() && events[at].value > 0) ++at;
+    ASSERT_LT(at, events.size()) << kind;
+    EXPECT_NEAR(1e-9 * static_cast<double>(events[at].t_ns), begins + 1 + 0.6, 0.6) << kind;   // one that failed is asked again once a second
+    begins += 1.4;
+  }
+  EXPECT_TRUE(says(events.back().text, "have ended")) << events.back().text;
+}
+
+TEST(StationSession, ACameraFaultThatIsNoneIsRefused) {
+  for (const char* fault : {R"({"kind": "tired", "from_s": 1, "to_s": 2})", R"({"kind": "black", "from_s": 3, "to_s": 2})", R"({"kind": "black", "from_s": -1, "to_s": 2})"}) {
+    nlohmann::json station = benchStation();
+    station["twin"]["camera_faults"].push_back(nlohmann::json::parse(fault));
+    Folder here;
+    const Outcome outcome = palpa(session({"--station", here.file("faulty.json", station.dump()), "--out", "A"}), here.path());
+    EXPECT_EQ(outcome.exit_code, 2) << fault;
+    EXPECT_TRUE(says(outcome.err, "camera_faults")) << outcome.err;
+  }
 }
 
 TEST(StationSession, ARecordedHandScoresWhatItScored) {

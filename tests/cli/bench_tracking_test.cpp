@@ -1,0 +1,40 @@
+#include <gtest/gtest.h>
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.h"
+#include "tests/support/counts.h"
+
+/// What the tracker promises, measured as anyone can. Costs are no promises: they are not looked at here.
+namespace palpa::cli_test {
+namespace {
+
+TEST(BenchTracking, HoldsWhatIsPromised) {
+  const Folder here;
+  std::vector<std::string> arguments{"bench", "tracking"};
+  if (!test::fullCounts()) arguments.push_back("--quick");
+  const Outcome outcome = palpa(arguments, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::map<std::string, double> value;
+  std::istringstream lines(outcome.out);
+  for (std::string line; std::getline(lines, line);) {
+    const auto metric = nlohmann::json::parse(line);
+    value[metric["metric"]] = metric["value"];
+    EXPECT_EQ(metric["params"]["data"], "simulated");
+    EXPECT_TRUE(metric["params"].contains("resolution"));
+  }
+  EXPECT_LE(value.at("pose_rmse_over_crlb"), 1.2);
+  EXPECT_LE(value.at("still_jitter_mm"), 0.05);
+  EXPECT_LE(std::abs(value.at("motion_lag_ms")), 8);
+  EXPECT_LE(value.at("overlay_error_px"), 1.0);
+  EXPECT_LE(value.at("overlay_error_mm"), 0.5);
+  EXPECT_LE(value.at("recovery_frames"), 2);
+  EXPECT_EQ(value.at("false_poses"), 0);
+  EXPECT_EQ(value.at("flip_rate"), 0);
+  EXPECT_GT(value.at("roi_speedup"), 0);
+}
+
+}  // namespace
+}  // namespace palpa::cli_test
