@@ -25,17 +25,11 @@ struct Maker {
   }
 };
 
-struct Drawer {
-  double px_per_m;
-
-  cv::Mat operator()(const TagGridSpec& spec) const { return drawTagGrid(spec, px_per_m); }
-  cv::Mat operator()(const ChessboardSpec& spec) const {
-    return drawChessboard(spec.inner_corners, spec.square, px_per_m);
-  }
-  cv::Mat operator()(const SingleTagSpec& spec) const {
-    return drawTagGrid({1, 1, spec.tag_size, spec.tag_size / 4, 0}, px_per_m);
-  }
-  cv::Mat operator()(const CharucoSpec& spec) const { return drawCharuco(spec, px_per_m); }
+struct SheetMaker {
+  Sheet operator()(const TagGridSpec& spec) const { return sheetOf(spec); }
+  Sheet operator()(const ChessboardSpec& spec) const { return chessboardSheet(spec.inner_corners, spec.square); }
+  Sheet operator()(const SingleTagSpec& spec) const { return sheetOf(TagGridSpec{1, 1, spec.tag_size, spec.tag_size / 4, 0}); }
+  Sheet operator()(const CharucoSpec& spec) const { return sheetOf(spec); }
 };
 
 }  // namespace
@@ -48,8 +42,8 @@ std::unique_ptr<Board> makeBoard(const std::string& spec, double decimate) {
   return std::visit(Maker{decimate}, parseBoardSpec(spec));
 }
 
-cv::Mat drawBoard(const std::string& spec, double px_per_m) {
-  return std::visit(Drawer{px_per_m}, parseBoardSpec(spec));
-}
+Sheet sheetOf(const std::string& spec) { return std::visit(SheetMaker{}, parseBoardSpec(spec)); }
+
+cv::Mat drawBoard(const std::string& spec, double px_per_m) { return pictureOf(sheetOf(spec), px_per_m); }
 
 }  // namespace palpa::ar

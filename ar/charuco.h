@@ -1,6 +1,7 @@
 #pragma once
 
 #include "ar/board.h"
+#include "ar/sheet.h"
 
 namespace palpa::ar {
 
@@ -16,6 +17,7 @@ struct CharucoSpec {
 /// less than a twentieth of the square white on each side, too few markers in the dictionary.
 void validate(const CharucoSpec& spec, const std::string& where);
 
+Sheet sheetOf(const CharucoSpec& spec);
 /// The board on white paper with a margin of one square, as drawTagGrid draws.
 cv::Mat drawCharuco(const CharucoSpec& spec, double px_per_m);
 

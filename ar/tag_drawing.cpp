@@ -1,6 +1,6 @@
 #include "anatomy/geometry/error.h"
 #include "ar/board.h"
-#include "ar/paper.h"
+#include "ar/sheet.h"
 #include "ar/tag_family.h"
 
 namespace palpa::ar {
@@ -18,7 +18,7 @@ std::vector<bool> blackCells(const apriltag_family_t& family, int id) {
   return black;
 }
 
-void drawTag(const apriltag_family_t& family, int id, const TagGridSpec& spec, Paper* paper) {
+void drawTag(const apriltag_family_t& family, int id, const TagGridSpec& spec, Sheet* sheet) {
   const std::vector<bool> black = blackCells(family, id);
   const int n = family.width_at_border;
   const double cell = spec.tag_size / n;
@@ -26,30 +26,30 @@ void drawTag(const apriltag_family_t& family, int id, const TagGridSpec& spec, P
   for (int row = 0; row < n; ++row)
     for (int col = 0; col < n; ++col)
       if (black[std::size_t(row * n + col)])
-        paper->blacken(upper_left.x() + col * cell, upper_left.y() - (row + 1) * cell, cell, cell);
+        sheet->black.push_back({upper_left.x() + col * cell, upper_left.y() - (row + 1) * cell, cell, cell});
 }
 
 /// One at every crossing of two gaps, the gap round the grid included: each touches the corners of
 /// up to four tags.
-void drawCornerSquares(const TagGridSpec& spec, Paper* paper) {
+void drawCornerSquares(const TagGridSpec& spec, Sheet* sheet) {
   const double pitch = spec.tag_size + spec.spacing;
   for (int row = 0; row <= spec.rows; ++row)
     for (int col = 0; col <= spec.columns; ++col)
-      paper->blacken((col - spec.columns / 2.0) * pitch - spec.spacing / 2,
-                     (row - spec.rows / 2.0) * pitch - spec.spacing / 2, spec.spacing,
-                     spec.spacing);
+      sheet->black.push_back({(col - spec.columns / 2.0) * pitch - spec.spacing / 2, (row - spec.rows / 2.0) * pitch - spec.spacing / 2, spec.spacing,
+                              spec.spacing});
 }
 
 }  // namespace
 
-cv::Mat drawTagGrid(const TagGridSpec& spec, double px_per_m) {
+Sheet sheetOf(const TagGridSpec& spec) {
   validate(spec, "tag grid");
   const TagFamily family = makeTagFamily(spec.border_bits);
-  Paper paper(sheetSize(spec), px_per_m, spec.tag_size / family->width_at_border, "tag grid");
-  for (int id = spec.first_id; id < spec.first_id + spec.columns * spec.rows; ++id)
-    drawTag(*family, id, spec, &paper);
-  if (spec.corner_squares) drawCornerSquares(spec, &paper);
-  return paper.picture();
+  Sheet sheet{"tag grid", sheetSize(spec), spec.tag_size / family->width_at_border, {}};
+  for (int id = spec.first_id; id < spec.first_id + spec.columns * spec.rows; ++id) drawTag(*family, id, spec, &sheet);
+  if (spec.corner_squares) drawCornerSquares(spec, &sheet);
+  return sheet;
 }
+
+cv::Mat drawTagGrid(const TagGridSpec& spec, double px_per_m) { return pictureOf(sheetOf(spec), px_per_m); }
 
 }  // namespace palpa::ar

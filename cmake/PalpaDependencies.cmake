@@ -8,8 +8,9 @@ find_package(ZLIB REQUIRED)
 find_package(OpenSSL REQUIRED)  # SHA-256
 find_package(Boost 1.70 REQUIRED)  # headers only: Boost.Math
 find_package(apriltag REQUIRED)
-find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d aruco)
+find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d aruco videoio)
 find_package(PkgConfig REQUIRED)
+pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
 find_package(VTK 9 REQUIRED COMPONENTS

@@ -28,21 +28,24 @@ OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
 }  // namespace
 
 ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
-               bool skin_deflection)
+               const ViewLayout& layout)
     : window_(window),
       region_(region),
       orbit_(defaultView(patient, region)),
       backdrop_(*renderer_, true),
-      organs_(*renderer_, patient),
+      glass_((window.AddRenderer(renderer_), window), *renderer_),
+      organs_(*renderer_, patient, &glass_),
       instrument_(*renderer_),
-      arrows_(*above_) {
-  if (skin_deflection && organs_.skin()) skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
+      arrows_(*above_, layout.force_colours),
+      guide_(*renderer_, colour::kAdvice, 2.5),
+      ellipse_(*above_, colour::kAdvice, 1.8),
+      occluders_(*renderer_) {
+  if (layout.skin_deflection && organs_.skin()) skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
   setUpRenderer(*renderer_, colour::kBehindBottom);
   setUpRenderer(*above_, colour::kBehindBottom);
   renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
   above_->SetActiveCamera(renderer_->GetActiveCamera());
   above_->SetLayer(1);
-  window_.AddRenderer(renderer_);
   window_.AddRenderer(above_);
 }
 
@@ -88,9 +91,24 @@ void ArView::chooseCamera(const SceneState& state) {
 void ArView::applyCamera(const Vec3& tip_C) {
   setViewport(*renderer_, picture_, window_width_, window_height_);
   setViewport(*above_, picture_, window_width_, window_height_);
+  setViewport(glass_.renderer(), picture_, window_width_, window_height_);
+  glass_.look(X_CA_.inverse().translation());
   const DepthRange range =
       depthRangeOf({{X_CA_ * region_.whole_centre_A, region_.whole_radius}, {tip_C, kToolReach}});
   aim(*renderer_->GetActiveCamera(), pinhole_, X_CA_, range);
+}
+
+void ArView::showLines(const SceneState& state, bool visible) {
+  if (visible && state.guide)
+    guide_.show(dashes(state.guide->from_A, state.guide->to_A));
+  else
+    guide_.hide();
+  std::vector<Vec3> ellipse;
+  if (visible && state.tip_covariance_A && !virtual_) ellipse = uncertaintyEllipse(*state.tip_covariance_A, state.X_AT.translation(), X_CA_, pinhole_);
+  if (ellipse.empty())
+    ellipse_.hide();
+  else
+    ellipse_.show({ellipse});
 }
 
 void ArView::showPatient(const SceneState& state, bool visible) {
@@ -105,7 +123,9 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   if (trail_) trail_->SetVisibility(visible);
   const double unit_px = kShaft_px * window_height_ / 720.0;
   arrows_.update(visible ? state.forces : std::vector<ForceArrow>(), X_CA_, pinhole_.fx, unit_px);
-  above_->SetDraw(arrows_.any());
+  showLines(state, visible);
+  occluders_.update(state.occluders, visible && state.picture != nullptr);
+  above_->SetDraw(arrows_.any() || ellipse_.visible());
 }
 
 }  // namespace palpa::scene

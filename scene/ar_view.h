@@ -8,9 +8,12 @@
 #include "scene/deflected_skin.h"
 #include "scene/force_arrows.h"
 #include "scene/instrument.h"
+#include "scene/lines.h"
+#include "scene/occluders.h"
 #include "scene/orbit_camera.h"
 #include "scene/organ_actors.h"
 #include "scene/region.h"
+#include "scene/scene_view.h"
 #include "scene/trail.h"
 #include "scene/view_layout.h"
 
@@ -28,7 +31,7 @@ namespace palpa::scene {
 class ArView {
  public:
   ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
-         bool skin_deflection = false);
+         const ViewLayout& layout);
   ~ArView();
 
   void addTrail(Trail& trail);
@@ -45,11 +48,12 @@ class ArView {
  private:
   void chooseCamera(const SceneState& state);
   void applyCamera(const Vec3& tip_C);
+  void showLines(const SceneState& state, bool visible);
   void showPatient(const SceneState& state, bool visible);
 
   vtkRenderWindow& window_;
   vtkNew<vtkRenderer> renderer_;  // picture, organs, needle, trail
-  vtkNew<vtkRenderer> above_;     // force arrows: never hidden
+  vtkNew<vtkRenderer> above_;     // force arrows, the tip's ellipse: never hidden
   Region region_;
   Rect panel_, picture_;
   int window_width_ = 1, window_height_ = 1;
@@ -59,11 +63,14 @@ class ArView {
   Pinhole pinhole_;
   Pose X_CA_ = Pose::Identity();
   Backdrop backdrop_;
+  Glass glass_;
   OrganActors organs_;
   std::unique_ptr<DeflectedSkin> skin_;  // null: it does not give way
   Instrument instrument_;
   vtkSmartPointer<vtkActor> trail_;
   ForceArrows arrows_;
+  EdgedLines guide_, ellipse_;
+  Occluders occluders_;
 };
 
 }  // namespace palpa::scene

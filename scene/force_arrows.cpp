@@ -51,7 +51,7 @@ struct ForceArrows::Arrow {
   vtkNew<vtkMatrix4x4> X_A_arrow;
 };
 
-ForceArrows::ForceArrows(vtkRenderer& renderer) : renderer_(renderer) {}
+ForceArrows::ForceArrows(vtkRenderer& renderer, ForceColours colours) : renderer_(renderer), colours_(colours) {}
 ForceArrows::~ForceArrows() = default;
 
 void ForceArrows::update(const std::vector<ForceArrow>& forces, const Pose& X_CA, double focal_px,
@@ -65,7 +65,7 @@ void ForceArrows::update(const std::vector<ForceArrow>& forces, const Pose& X_CA
     const double depth = std::max(0.05, (X_CA * force.p_A).z());
     const double unit = unit_px * depth / focal_px, rim = 0.30 * unit;
     const double length = kMetresPerNewton * std::min(newtons, kLongest);
-    arrow.body->SetInputData(arrowShape(length, unit, 0, arrowColour(force.kind)));
+    arrow.body->SetInputData(arrowShape(length, unit, 0, arrowColour(force.kind, colours_)));
     arrow.rim->SetInputData(arrowShape(length, unit, rim, arrowOutline(force.kind)));
     copy(makePose(rotationWithZ(force.f_A / newtons), force.p_A), *arrow.X_A_arrow);
     arrow.show(true);
@@ -75,16 +75,17 @@ void ForceArrows::update(const std::vector<ForceArrow>& forces, const Pose& X_CA
 
 bool ForceArrows::any() const { return shown_ > 0; }
 
-Rgb arrowColour(ForceKind kind) {
+Rgb arrowColour(ForceKind kind, ForceColours colours) {
+  const bool safe = colours == ForceColours::safe;
   switch (kind) {
     case ForceKind::reaction:
-      return {0.22, 0.22, 0.22};
+      return safe ? Rgb{0.835, 0.369, 0.000} : Rgb{0.22, 0.22, 0.22};   // vermilion
     case ForceKind::weight:
-      return {0.50, 0.50, 0.50};
+      return safe ? Rgb{0.337, 0.706, 0.914} : Rgb{0.50, 0.50, 0.50};   // sky blue
     case ForceKind::device:
       break;
   }
-  return {0.86, 0.86, 0.86};
+  return safe ? Rgb{0.941, 0.894, 0.259} : Rgb{0.86, 0.86, 0.86};       // yellow
 }
 
 Rgb arrowOutline(ForceKind kind) {

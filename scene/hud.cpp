@@ -49,7 +49,7 @@ struct HudPainter::Content {
   bool operator==(const Content&) const = default;
 };
 
-HudPainter::HudPainter(vtkRenderer& renderer) : plates_(renderer), renderer_(renderer) {}
+HudPainter::HudPainter(vtkRenderer& renderer, ForceColours colours) : plates_(renderer), renderer_(renderer), colours_(colours) {}
 HudPainter::~HudPainter() = default;
 
 void HudPainter::update(const Hud& text, const std::vector<ForceArrow>& forces, const Rect& panel,
@@ -165,7 +165,7 @@ void HudPainter::buildLegend() {
   const int y = frame.y + height / 2;
   for (ForceKind kind : content_->kinds) {
     plates_.add({x, y - bar / 2 - 1, swatch, bar + 2}, opaque(arrowOutline(kind)), 2);
-    plates_.add({x + 1, y - bar / 2, swatch - 2, bar}, opaque(arrowColour(kind)), 1);
+    plates_.add({x + 1, y - bar / 2, swatch - 2, bar}, opaque(arrowColour(kind, colours_)), 1);
     x += swatch + pad;
     write(name(kind), bright, x, y, Align::left);
     x += textWidth(name(kind), bright) + 2 * pad;

@@ -20,7 +20,7 @@ int textSize_px(int window_height);
 /// legend of the force arrows at the bottom left, the notice at the bottom centre.
 class HudPainter {
  public:
-  explicit HudPainter(vtkRenderer& renderer);  ///< the renderer covers the whole window
+  explicit HudPainter(vtkRenderer& renderer, ForceColours colours = ForceColours::paper);  ///< the renderer covers the whole window
   ~HudPainter();
 
   /// Lays everything out again, only when something changed.
@@ -45,6 +45,7 @@ class HudPainter {
 
   Plates plates_;
   vtkRenderer& renderer_;
+  ForceColours colours_;
   std::vector<std::unique_ptr<Label>> labels_;
   std::size_t used_ = 0;
   std::unique_ptr<Content> content_;

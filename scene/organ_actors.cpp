@@ -104,11 +104,11 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh) {
   return result;
 }
 
-OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient) {
+OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass) : renderer_(renderer), glass_(glass) {
   for (const anatomy::OrganSurface& organ : patient.organs) {
     const vtkSmartPointer<vtkPolyData> surface = polyDataOf(organ.mesh);
     if (!skin_ && organ.organ == Organ::skin) skin_ = surface;
-    Part part{actorOf(organ, surface), organ.organ};
+    Part part{actorOf(organ, surface), surface, organ.organ, false};
     // The far side of a translucent surface would blend a second time.
     if (coversOrgans(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
     renderer.AddActor(part.actor);
@@ -131,12 +131,25 @@ void OrganActors::setVisible(bool visible) {
   apply();
 }
 
+void OrganActors::moveTo(bool glass, Part& part) {
+  if (!glass_ || glass == part.in_glass) return;
+  part.in_glass = glass;
+  if (glass) {
+    renderer_.RemoveActor(part.actor);
+    glass_->add(part.actor, part.surface);
+  } else {
+    glass_->remove(part.actor);
+    renderer_.AddActor(part.actor);
+  }
+}
+
 void OrganActors::apply() {
   for (Part& part : parts_) {
     const bool hidden = coversOrgans(part.organ) && style_ == SkinStyle::hidden;
     part.actor->SetVisibility(visible_ && !hidden);
-    part.actor->GetProperty()->SetOpacity(
-        style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1);
+    const double opacity = style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1;
+    part.actor->GetProperty()->SetOpacity(opacity);
+    moveTo(opacity < 1, part);
   }
 }
 

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "anatomy/patient.h"
+#include "scene/glass.h"
 #include "scene/scene_state.h"
 
 class vtkActor;
@@ -20,11 +21,11 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh);
 bool coversOrgans(Organ organ);
 
 /// The patient's surfaces as actors: organs opaque, and what covers them (skin, muscle) in the
-/// chosen style. A surface with a picture shows that, multiplied by its colour. Only one translucent layer is ever in front of the organs, which the default
-/// order-independent blending draws right and cheaply; peeling would cost several times as much.
+/// chosen style. A surface with a picture shows that, multiplied by its colour. What is translucent goes into `glass`, where there is one; without, VTK's
+/// order-independent blending draws it, which is right for a single layer.
 class OrganActors {
  public:
-  OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient);
+  OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass = nullptr);
   ~OrganActors();
 
   void setStyle(SkinStyle style);
@@ -34,10 +35,15 @@ class OrganActors {
  private:
   struct Part {
     vtkSmartPointer<vtkActor> actor;
+    vtkSmartPointer<vtkPolyData> surface;
     Organ organ = Organ::none;
+    bool in_glass = false;
   };
   void apply();
+  void moveTo(bool glass, Part& part);
 
+  vtkRenderer& renderer_;
+  Glass* glass_;
   std::vector<Part> parts_;
   vtkSmartPointer<vtkPolyData> skin_;
   SkinStyle style_ = SkinStyle::translucent;

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
+#include "anatomy/patient.h"
 #include "anatomy/skin_dimple.h"
 
 /// Everything the scene needs for one frame: plain numbers and pixels, no devices, no trackers.
@@ -23,6 +24,8 @@ struct Pinhole {
 };
 
 enum class ForceKind { reaction, weight, device };
+/// paper: grays, as Jeon, Choi and Harders (2015) have them. safe: colours of Okabe and Ito (2008), told apart by colour-blind eyes and by brightness.
+enum class ForceColours { paper, safe };
 
 struct ForceArrow {
   ForceKind kind = ForceKind::device;
@@ -32,6 +35,17 @@ struct ForceArrow {
 
 /// What is held in the hand, as the tool frame T carries it (scene/instrument_shape.h).
 enum class Tool { needle, probe };
+
+/// A real thing in the picture, at a place in A. The mesh outlives the view that shows it and does not change.
+struct Occluder {
+  const anatomy::TriangleMesh* mesh = nullptr;
+  Pose X_A = Pose::Identity();
+};
+
+/// A line to follow: from where the needle enters to what it shall reach.
+struct Guide {
+  Vec3 from_A = Vec3::Zero(), to_A = Vec3::Zero();
+};
 
 enum class SkinStyle { solid, translucent, hidden };
 
@@ -65,6 +79,9 @@ struct SceneState {
   std::optional<anatomy::SkinPush> skin_push;
   std::vector<ForceArrow> forces;
   std::vector<Vec3> trail_A;  ///< path of the tip so far
+  std::optional<Guide> guide;
+  std::optional<Mat3> tip_covariance_A;   ///< of the drawn tip against the real one, m^2: shown as an ellipse
+  std::vector<Occluder> occluders;        ///< hide what is behind them while there is a picture
   Hud hud;
 };
 

@@ -49,8 +49,8 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
       layout(wanted),
       region(regionOf(patient)),
       margins(*frame),
-      ar((window.AddRenderer(frame), window), patient, region, layout.skin_deflection),
-      hud(*words) {
+      ar((window.AddRenderer(frame), window), patient, region, layout),
+      hud(*words, layout.force_colours) {
   window.SetSize(layout.width, layout.height);
   window.SetNumberOfLayers(3);
   setUpRenderer(*frame, colour::kBorder);

@@ -27,6 +27,7 @@ struct ViewLayout {
   bool free_navigation = true;  ///< drag the virtual camera; a protocol can switch it off
   /// The skin gives way where it is touched (AR view). Off where people are assessed: seeing must not replace feeling.
   bool skin_deflection = false;
+  ForceColours force_colours = ForceColours::paper;
 };
 
 /// How the AR view looks right now, in window pixels from the top left: the pixel (u, v) under the

@@ -2,6 +2,7 @@
 #include "apps/bench/calibration_bench.h"
 #include "apps/bench/haptics_bench.h"
 #include "apps/bench/loop_bench.h"
+#include "apps/bench/render_bench.h"
 #include "apps/bench/tracking_bench.h"
 #include "apps/cli/commands.h"
 
@@ -43,6 +44,16 @@ void addCalibration(CLI::App& bench) {
   calibration->callback([options] { bench::benchCalibration(*options); });
 }
 
+void addRender(CLI::App& bench) {
+  CLI::App* render = bench.add_subcommand("render", "Cost of a frame beside VTK's own, and of translucent surfaces beside depth peeling");
+  render->footer("Example:\n  palpa bench render > render.jsonl\n  palpa bench render --width 1920 --height 1080");
+  const auto options = std::make_shared<bench::RenderBenchOptions>();
+  render->add_option("--width", options->width, "Of the window, px")->check(CLI::Range(320, 4096));
+  render->add_option("--height", options->height, "Of the window, px")->check(CLI::Range(240, 4096));
+  render->add_flag("--quick", options->quick, "Fewer repetitions");
+  render->callback([options] { bench::benchRender(*options); });
+}
+
 void addTracking(CLI::App& bench) {
   CLI::App* tracking = bench.add_subcommand("tracking", "How true, still and quick the board's tracking is (simulated pictures)");
   tracking->footer("Example:\n  palpa bench tracking > tracking.jsonl\n  palpa bench tracking --distance 1 --speed 0.1 --quick");
@@ -67,6 +78,7 @@ void addBench(CLI::App& program) {
   addCalibration(*bench);
   addHaptics(*bench);
   addLoop(*bench);
+  addRender(*bench);
   addTracking(*bench);
 }
 

@@ -11,6 +11,7 @@
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/haptic_activity.h"
 #include "apps/runtime/recorder_activity.h"
+#include "apps/runtime/video_recorder.h"
 #include "apps/station/overlay_error.h"
 
 namespace palpa::cli {
@@ -19,16 +20,17 @@ namespace {
 constexpr std::uint64_t kFamiliarisationSeed = 1'000'000;  // another skin than the scored trials
 
 /// Empty: trials count.
-std::string whyNotScored(const NeedleWorld& world) {
+std::string whyNotScored(const SessionOptions& options, const NeedleWorld& world) {
   if (world.station.calibration_verdict != "pass") return world.station.calibration_verdict;
   if (!world.station.device.capabilities.has_orientation)
     return "the device does not measure how the needle is held";
+  if (options.guide) return "the guide line to the vein was shown";
   return "";
 }
 
 std::vector<task_needle::TrialPlan> plan(const SessionOptions& options, const NeedleWorld& world,
                                          bool person) {
-  const bool scored = whyNotScored(world).empty();
+  const bool scored = whyNotScored(options, world).empty();
   std::vector<task_needle::TrialPlan> trials;
   if (person && options.familiarisation)
     trials.push_back(world.trial("familiarisation", options.seed + kFamiliarisationSeed, options.force_feedback));
@@ -57,6 +59,7 @@ class NeedleSession {
  public:
   NeedleSession(const SessionOptions& options, NeedleWorld& world, const std::filesystem::path& folder)
       : options_(options), world_(world), folder_(folder) {
+    if (options.record_video) video_.emplace(folder);
     if (devices_.mouse()) devices_.mouse()->onSkinKey([this] { scene_.cycleSkin(); });
     devices_.addTo(*executive_);
     executive_->add(haptic_, {1, true, false, options.cpu});
@@ -78,7 +81,8 @@ class NeedleSession {
     result.trials = task_.completed();
     result.pictures = scene_.pictures();
     result.lateness = executive_->lateness();
-    if (!pictures_.recorded()) result.accuracy = devices_.bench()->accuracy();
+    if (pictures_.fromBench()) result.accuracy = devices_.bench()->accuracy();
+    if (video_) result.video = {video_->pictures(), video_->trouble()};
     result.registration = pictures_.registration();
     result.board = scene_.board();
     result.devices = devices_.facts();
@@ -107,9 +111,11 @@ class NeedleSession {
     setup.X_WD = world_.station.X_WD;
     setup.mark = markFor(options_.who, world_.station);
     setup.folder = folder_;
-    setup.every_source_picture = pictures_.recorded();
+    setup.every_source_picture = pictures_.photographs();
     if (station::calibrationOf(world_.station.calibrations, "registration"))
-      setup.overlay_error = [this](const Pose& X_DT) { return overlayWords(X_DT); };
+      setup.tip_covariance_A = [this](const Pose& X_DT) { return tipCovariance(X_DT); };
+    if (options_.guide)
+      setup.guide = scene::Guide{world_.patient.landmark(anatomy::landmark::kEntry), world_.patient.landmark(anatomy::landmark::kVeinTarget)};
     setup.giving_way = options_.skin_deflection ? &world_.query : nullptr;
     setup.skin = skinOf(world_.patient);
     if (window_) {
@@ -121,13 +127,11 @@ class NeedleSession {
     return setup;
   }
 
-  /// 95 % of a normal error in three dimensions lie within 1.6 times its root mean square.
-  std::string overlayWords(const Pose& X_DT) const {
-    constexpr double kOf95 = 1.6;
-    const auto error_mm = station::predictTipError_mm(world_.station, X_DT * world_.station.X_ET.inverse());
-    char words[48] = "";
-    if (error_mm) std::snprintf(words, sizeof words, "within %.1f mm", std::max(kOf95 * *error_mm, 0.1));
-    return words;
+  /// Of the drawn tip against the real one, in A.
+  std::optional<Mat3> tipCovariance(const Pose& X_DT) const {
+    const auto S_W = station::predictTipCovariance(world_.station, X_DT * world_.station.X_ET.inverse());
+    const Mat3 R_AW = world_.X_WA.rotation().transpose();
+    return S_W ? std::optional<Mat3>(R_AW * *S_W * R_AW.transpose()) : std::nullopt;
   }
 
   const SessionOptions& options_;
@@ -146,12 +150,16 @@ class NeedleSession {
   runtime::GeometryActivity geometry_{bus_, world_.geometry, world_.X_DA};
   runtime::HapticActivity haptic_{bus_, devices_.device(), tick_, devices_.sensing(),
                                   options_.exact_geometry ? &geometry_ : nullptr};
+  std::optional<runtime::VideoRecorder> video_;
   runtime::CameraActivity camera_{bus_,
-                                  pictures_.exposer(devices_.bench()),
+                                  pictures_.exposer(devices_.bench(), executive_->clock()),
                                   pictures_.board(),
                                   pictures_.camera(),
                                   pictures_.settings(mode_),
-                                  pictures_.observer(devices_.bench())};
+                                  [this, look = pictures_.observer(devices_.bench())](const runtime::CameraView& view) {
+                                    look(view);
+                                    if (video_) video_->add(view);
+                                  }};
   task_needle::NeedleTask task_{taskSetup(), bus_, channels_, *executive_};
   task_needle::SceneActivity scene_{sceneSetup(), bus_, channels_};
   record::SessionWriter writer_{folder_ / "session.palpa", sessionInfo(options_, world_, folder_)};

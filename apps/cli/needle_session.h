@@ -20,6 +20,11 @@ struct SessionResult {
   std::vector<runtime::Lateness> lateness;
   std::optional<twin::BenchAccuracy> accuracy;
   std::vector<RegistrationRow> registration;   ///< recorded pictures only
+  struct Video {
+    std::uint64_t pictures = 0;
+    std::string trouble;             ///< empty: everything was kept
+  };
+  std::optional<Video> video;        ///< where one was recorded
   std::optional<ar::BoardPose> board;          ///< as it was seen last
   std::vector<runtime::Event> safety_events;   ///< what took the force away, what a driver had to say
   std::vector<SessionDevices::Fact> devices;   ///< what their drivers counted

@@ -16,6 +16,7 @@ const std::map<std::string, scene::Display> kDisplays{{"auto", scene::Display::a
                                                       {"offscreen", scene::Display::offscreen}};
 const std::map<std::string, anatomy::Side> kSides{{"right", anatomy::Side::right},
                                                   {"left", anatomy::Side::left}};
+const std::map<std::string, scene::ForceColours> kForceColours{{"paper", scene::ForceColours::paper}, {"safe", scene::ForceColours::safe}};
 const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
 const std::map<std::string, bool> kGeometries{{"local", false}, {"exact", true}};
 const std::map<std::string, bool> kKnowledge{{"mean", false}, {"patient", true}};
@@ -34,8 +35,8 @@ CLI::Option* choice(CLI::App& command, const std::string& name, T& value,
 }
 
 void addRecordedPictures(CLI::App& command, SessionOptions& o) {
-  command.add_option("--camera", o.camera, "Recorded pictures instead of the station's camera, e.g. 'shots/left*.jpg'")
-      ->type_name("GLOB");
+  command.add_option("--camera", o.camera, "Recorded pictures or a film instead of the station's camera, e.g. 'shots/left*.jpg', camera.mjpeg")
+      ->type_name("GLOB|FILM");
   command.add_option("--intrinsics", o.intrinsics, "Camera calibration of those pictures (OpenCV's YAML or ours)")
       ->type_name("FILE");
   command.add_option("--board", o.board, "Board in the pictures: tags:6x4:0.030:0.0075 or chessboard:9x6:0.025 (metres)")
@@ -70,10 +71,13 @@ void addSessionArguments(CLI::App& command, SessionOptions& o) {
                    ? "a trainee's pseudonym has 1 to 32 letters, digits, - or _" : std::string();
       });
   command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can, repeats exactly");
+  command.add_flag("--record-video", o.record_video, "Keep the camera's pictures beside their poses: camera.mjpeg and a table");
   command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");
   command.add_flag_callback("--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
   choice(command, "--skin-deflection", o.skin_deflection, kOnOff,
          "Show the skin giving way under the needle (default off: seeing must not replace feeling)");
+  choice(command, "--guide", o.guide, kOnOff, "Show a line from the entry point to the vein (default off); such trials are not scored");
+  choice(command, "--force-colours", o.force_colours, kForceColours, "Of the force arrows: grays (paper, the default), or told apart by colour-blind eyes (safe)");
   command.add_flag_callback("--no-demonstration", [&o] { o.demonstration = false; }, "A person starts without an expert's demonstration");
   command.add_flag_callback("--no-familiarisation", [&o] { o.familiarisation = false; }, "A person starts without a first unscored trial");
   choice(command, "--display", o.display, kDisplays, "Where to show it");

@@ -40,7 +40,7 @@ SessionDevices::SessionDevices(const SessionOptions& options, const NeedleWorld&
   const auto give_up = [&channels] {
     channels.operator_to_task.push({task_needle::UserCommand::abort, "The simulated operator gave up"});
   };
-  if (bench_moves_ || options.camera.empty())
+  if (bench_moves_ || (options.camera.empty() && world.station.camera_setup.driver == station::CameraSetup::Driver::bench))
     bench_ = std::make_unique<twin::VirtualBench>(
         twin::VirtualBench::Setup{world.station, world.X_WA, skill, world.visible(skill, options.knows_patient), options.seed,
                                   options.left_handed, give_up, bench_sensor_.get()},

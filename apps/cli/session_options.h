@@ -5,6 +5,7 @@
 
 #include "anatomy/patient.h"
 #include "scene/gl_context.h"
+#include "scene/scene_state.h"
 
 namespace palpa::cli {
 
@@ -29,8 +30,11 @@ struct SessionOptions {
   std::string trainee = "T000";
   bool fast = false;
   bool no_views = false;
+  bool record_video = false;      ///< keep the camera's pictures
   bool navigation = true;         ///< free navigation of the view
   bool skin_deflection = false;   ///< the skin is shown to give way
+  bool guide = false;             ///< a line from the entry point to the vein: not scored
+  scene::ForceColours force_colours = scene::ForceColours::paper;
   bool demonstration = true;      ///< a person first watches an expert's recorded trial
   bool familiarisation = true;    ///< and then tries once, unscored
   scene::Display display = scene::Display::automatic;

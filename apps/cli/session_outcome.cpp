@@ -134,6 +134,7 @@ std::vector<report::Fact> notes(const SessionResult& result) {
                        late.scheduling});
   for (report::Fact& fact : safetyFacts(result.safety_events)) facts.push_back(std::move(fact));
   for (const SessionDevices::Fact& fact : result.devices) facts.push_back({fact.name, fact.value, fact.remark});
+  if (result.video && !result.video->trouble.empty()) facts.push_back({"Video", result.video->trouble, format("%llu pictures were kept", static_cast<unsigned long long>(result.video->pictures))});
   if (result.dropped)
     facts.push_back({"Records lost", format("%llu", static_cast<unsigned long long>(result.dropped)),
                      "the computer could not keep up: the replay is not exact there"});
@@ -184,6 +185,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world, const
   std::printf("  report.html     what happened, with reasons and pictures: open this first\n");
   std::printf("  trials.csv      one row a trial\n  session.palpa   the evidence: every tick, for replay\n");
   if (!result.registration.empty()) std::printf("  registration.csv  how the board was found in each picture\n");
+  if (result.video) std::printf("  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, and where the board was\n", static_cast<unsigned long long>(result.video->pictures));
   if (!result.pictures.empty()) std::printf("  view-*.png      %zu pictures of the marked moments\n", result.pictures.size());
 }
 

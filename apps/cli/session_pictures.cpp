@@ -1,29 +1,13 @@
 #include "apps/cli/session_pictures.h"
 
+#include <algorithm>
+#include <cmath>
+
 #include "anatomy/geometry/error.h"
 #include "ar/image_sequence.h"
+#include "ar/video_file.h"
 
 namespace palpa::cli {
-
-class SessionPictures::Loop {
- public:
-  Loop(const std::string& glob, double fps) : glob_(glob), fps_(fps), source_(glob, fps) {}
-  std::size_t count() const { return source_.files().size(); }
-  std::optional<ar::Frame> next() {
-    std::optional<ar::Frame> frame = source_.grab();
-    if (!frame) {
-      source_ = ar::ImageSequence(glob_, fps_);
-      frame = source_.grab();
-    }
-    return frame;
-  }
-
- private:
-  std::string glob_;
-  double fps_;
-  ar::ImageSequence source_;
-};
-
 namespace {
 
 void checkSize(const ar::Frame& picture, const calibration::CameraModel& camera) {
@@ -34,42 +18,89 @@ void checkSize(const ar::Frame& picture, const calibration::CameraModel& camera)
                    picture.source, "Give the --intrinsics of this camera");
 }
 
+ar::WebcamSettings webcamOf(const station::Station& station) {
+  const station::CameraSetup& setup = station.camera_setup;
+  return {setup.device, station.camera.width, station.camera.height, station.camera_rate_Hz, setup.exposure_ms, setup.gain, setup.focus};
+}
+
 }  // namespace
 
 SessionPictures::SessionPictures(const SessionOptions& options, const NeedleWorld& world)
-    : station_(world.station), camera_(world.station.camera) {
-  if (!options.camera.empty()) {
-    if (const auto first = Loop(options.camera, station_.camera_rate_Hz).next()) checkSize(*first, camera_);
-    recorded_ = std::make_unique<Loop>(options.camera, station_.camera_rate_Hz);
+    : station_(world.station), file_(options.camera), camera_(world.station.camera), rate_Hz_(world.station.camera_rate_Hz) {
+  if (!file_.empty()) source_ = ar::isVideoFile(file_) ? Source::film : Source::photographs;
+  else if (station_.camera_setup.driver == station::CameraSetup::Driver::webcam) source_ = Source::webcam;
+  if (source_ == Source::webcam && options.fast) throw UsageError("needs real time", "the station's webcam", "Leave out --fast");
+  pictures_ = opened();
+  if (!file_.empty()) {
+    if (const auto first = opened()->grab()) checkSize(*first, camera_);
+    if (const auto* film = dynamic_cast<const ar::VideoFile*>(pictures_.get())) rate_Hz_ = film->rate_Hz();
+    if (const auto* sequence = dynamic_cast<const ar::ImageSequence*>(pictures_.get())) photographs_ = sequence->files().size();
   }
   board_ = options.board.empty() ? ar::makeBoard(station_.board, station_.decimate)
-                                 : ar::makeBoard(options.board, recorded_ ? 1.0 : station_.decimate);
+                                 : ar::makeBoard(options.board, file_.empty() ? station_.decimate : 1.0);
 }
 
 SessionPictures::~SessionPictures() = default;
 
-runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mode) const {
-  return {static_cast<std::int64_t>(1e9 / station_.camera_rate_Hz), static_cast<std::int64_t>(1e9 * station_.camera_latency_s), mode, recorded()};
+std::unique_ptr<ar::Camera> SessionPictures::opened() const {
+  switch (source_) {
+    case Source::webcam: return std::make_unique<ar::Webcam>(webcamOf(station_));
+    case Source::film: return std::make_unique<ar::VideoFile>(file_);
+    case Source::photographs: return std::make_unique<ar::ImageSequence>(file_, rate_Hz_);
+    case Source::bench: break;
+  }
+  return nullptr;
 }
 
-runtime::CameraActivity::Exposer SessionPictures::exposer(twin::VirtualBench* bench) {
-  if (!recorded_) return bench->exposer();
-  return [this](std::int64_t now_ns, std::uint64_t number) {
-    return [this, now_ns, number]() {
-      auto frame = recorded_->next();
-      if (frame) frame->t_exposure_ns = now_ns, frame->number = number;
-      return frame;
-    };
+runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mode) const {
+  constexpr double kDeviceWaits_Hz = 1000;   // a webcam's own pace: asking it waits
+  runtime::CameraActivity::Settings settings;
+  settings.period_ns = static_cast<std::int64_t>(1e9 / (source_ == Source::webcam ? kDeviceWaits_Hz : rate_Hz_));
+  settings.latency_ns = static_cast<std::int64_t>(1e9 * std::min(station_.camera_latency_s, 1 / rate_Hz_));
+  settings.mode = mode;
+  settings.photographs = photographs();
+  return settings;
+}
+
+/// When a webcam's picture was exposed. A stamp that cannot be (none, of another clock) gives way to the time of arrival.
+std::int64_t exposureOf(const ar::Frame& frame, double latency_s, const runtime::Clock& clock) {
+  constexpr std::int64_t kOldest = 2 * runtime::kSecond;
+  const std::int64_t now = clock.now(), stamped = clock.ofMonotonic(frame.t_exposure_ns);
+  return (stamped <= now && stamped > now - kOldest ? stamped : now) - std::llround(1e9 * latency_s);
+}
+
+std::optional<ar::Frame> SessionPictures::take(std::int64_t now_ns, std::uint64_t number, const runtime::Clock& clock) {
+  try {
+    if (!pictures_) pictures_ = opened();
+    std::optional<ar::Frame> frame = pictures_->grab();
+    if (!frame && photographs()) {   // over again
+      pictures_ = opened();
+      frame = pictures_->grab();
+    }
+    if (!frame) return frame;
+    frame->number = number;
+    frame->t_exposure_ns = source_ == Source::webcam ? exposureOf(*frame, station_.camera_latency_s, clock) : now_ns;
+    return frame;
+  } catch (...) {
+    if (source_ == Source::webcam) pictures_.reset();   // to be opened anew
+    throw;
+  }
+}
+
+runtime::CameraActivity::Exposer SessionPictures::exposer(twin::VirtualBench* bench, const runtime::Clock& clock) {
+  if (fromBench()) return bench->exposer();
+  return [this, &clock](std::int64_t now_ns, std::uint64_t number) {
+    return [this, &clock, now_ns, number]() { return take(now_ns, number, clock); };
   };
 }
 
 runtime::CameraActivity::Observer SessionPictures::observer(twin::VirtualBench* bench) {
-  if (!recorded_) return [bench](const runtime::CameraView& view) { bench->observe(view); };
+  if (fromBench()) return [bench](const runtime::CameraView& view) { bench->observe(view); };
   return [this](const runtime::CameraView& view) { note(view); };
 }
 
 void SessionPictures::note(const runtime::CameraView& view) {
-  if (registration_.size() >= recorded_->count() || view.fault == ar::PictureFault::ended) return;
+  if (registration_.size() >= photographs_ || view.fault == ar::PictureFault::ended) return;
   RegistrationRow row{view.source, 0, 0, Pose::Identity()};
   if (view.pose) row = {view.source, view.pose->points, view.pose->rms_px, view.pose->X_CW};
   registration_.push_back(row);

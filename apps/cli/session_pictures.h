@@ -6,7 +6,9 @@
 
 #include "apps/cli/needle_world.h"
 #include "apps/runtime/camera_activity.h"
+#include "apps/runtime/clock.h"
 #include "apps/twin/virtual_bench.h"
+#include "ar/webcam.h"
 
 namespace palpa::cli {
 
@@ -18,29 +20,36 @@ struct RegistrationRow {
   Pose X_CW = Pose::Identity();
 };
 
-/// Where a session's pictures come from, and what board is looked for in them: the bench's camera, or recorded files,
-/// one after the other, over and over. Throws UsageError when pictures and intrinsics do not fit.
+/// Where a session's pictures come from, and what board is looked for in them: the bench's camera, the station's webcam, a film, or photographs one
+/// after the other, over and over. Throws UsageError when pictures and intrinsics do not fit, or a webcam is to be watched in virtual time.
 class SessionPictures {
  public:
   SessionPictures(const SessionOptions& options, const NeedleWorld& world);
   ~SessionPictures();
 
-  bool recorded() const { return recorded_ != nullptr; }
+  bool fromBench() const { return source_ == Source::bench; }
+  bool photographs() const { return source_ == Source::photographs; }
   const calibration::CameraModel& camera() const { return camera_; }
   const ar::Board& board() const { return *board_; }
   runtime::CameraActivity::Settings settings(runtime::TimeMode mode) const;
-  /// `bench` is asked only where nothing is recorded.
-  runtime::CameraActivity::Exposer exposer(twin::VirtualBench* bench);
+  /// `bench` is asked only where its camera is watched; `clock`: the session's.
+  runtime::CameraActivity::Exposer exposer(twin::VirtualBench* bench, const runtime::Clock& clock);
   runtime::CameraActivity::Observer observer(twin::VirtualBench* bench);
-  const std::vector<RegistrationRow>& registration() const { return registration_; }   ///< of recorded pictures
+  const std::vector<RegistrationRow>& registration() const { return registration_; }   ///< of photographs
 
  private:
-  class Loop;
+  enum class Source { bench, webcam, film, photographs };
+  std::optional<ar::Frame> take(std::int64_t now_ns, std::uint64_t number, const runtime::Clock& clock);
+  std::unique_ptr<ar::Camera> opened() const;
   void note(const runtime::CameraView& view);
 
   const station::Station& station_;
+  std::string file_;                     ///< pattern or film
+  Source source_ = Source::bench;
   calibration::CameraModel camera_;
-  std::unique_ptr<Loop> recorded_;
+  double rate_Hz_;
+  std::unique_ptr<ar::Camera> pictures_; ///< null: the bench's, or a webcam that is not open
+  std::size_t photographs_ = 0;
   std::unique_ptr<ar::Board> board_;
   std::vector<RegistrationRow> registration_;
 };

@@ -6,6 +6,7 @@ Stage makeStage(const SessionOptions& options, const NeedleWorld& world, bool wi
   scene::ViewLayout layout;
   layout.free_navigation = options.navigation;
   layout.skin_deflection = options.skin_deflection;
+  layout.force_colours = options.force_colours;
   Stage stage;
   stage.context =
       scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,

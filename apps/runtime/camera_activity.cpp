@@ -32,6 +32,7 @@ CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std:
     const std::optional<ar::Frame> frame = exposure();
     if (frame) {
       view.source = frame->source;
+      view.t_exposure_ns = frame->t_exposure_ns;
       view.picture = std::make_shared<const cv::Mat>(frame->image);
       track(frame->image, &view);
     } else {

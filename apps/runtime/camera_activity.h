@@ -22,7 +22,7 @@ class CameraActivity final : public Activity {
     bool photographs = false;               ///< each picture stands for itself: no motion between them
   };
   /// Freezes the inputs of a picture exposed now, and returns what takes it (run on any thread).
-  /// The inner function returns nothing when the source has ended.
+  /// The inner function returns nothing when the source has ended; the frame's time of exposure is session time.
   using Exposure = std::function<std::optional<ar::Frame>()>;
   using Exposer = std::function<Exposure(std::int64_t now_ns, std::uint64_t number)>;
   using Observer = std::function<void(const CameraView&)>;   ///< called with every result

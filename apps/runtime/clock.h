@@ -12,6 +12,8 @@ class Clock {
  public:
   virtual ~Clock() = default;
   virtual std::int64_t now() const noexcept = 0;
+  /// Session time of a stamp of CLOCK_MONOTONIC, as drivers give them; in virtual time nothing real has one: now.
+  virtual std::int64_t ofMonotonic(std::int64_t) const noexcept { return now(); }
 };
 
 /// CLOCK_MONOTONIC since construction.
@@ -19,6 +21,7 @@ class SteadyClock final : public Clock {
  public:
   SteadyClock();
   std::int64_t now() const noexcept override;
+  std::int64_t ofMonotonic(std::int64_t t_ns) const noexcept override { return t_ns - start_ns_; }
   /// Sleeps until session time `t_ns` (absolute, so that lateness does not add up).
   void sleepUntil(std::int64_t t_ns) const noexcept;
 

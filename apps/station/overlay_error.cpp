@@ -33,8 +33,9 @@ Eigen::Matrix<double, 6, kLensNumbers> poseByLens(const Station& station, const 
   return -A.ldlt().solve(B);
 }
 
-/// S_W.
-std::optional<Mat3> tipCovariance(const Station& station, const Pose& X_DE) {
+}  // namespace
+
+std::optional<Mat3> predictTipCovariance(const Station& station, const Pose& X_DE) {
   const AppliedCalibration* tool = calibrationOf(station.calibrations, "tool");
   const AppliedCalibration* registration = calibrationOf(station.calibrations, "registration");
   if (!tool || !registration || tool->file.covariance.rows() != 6 || registration->file.covariance.rows() != 6) return std::nullopt;
@@ -43,17 +44,8 @@ std::optional<Mat3> tipCovariance(const Station& station, const Pose& X_DE) {
          R_WE * tool->file.covariance.bottomRightCorner<3, 3>() * R_WE.transpose();
 }
 
-double mmOf(const Mat3& S_W) { return 1e3 * std::sqrt(S_W.trace()); }
-
-}  // namespace
-
-std::optional<double> predictTipError_mm(const Station& station, const Pose& X_DE) {
-  const auto S_W = tipCovariance(station, X_DE);
-  return S_W ? std::optional(mmOf(*S_W)) : std::nullopt;
-}
-
 std::optional<OverlayError> predictOverlayError(const Station& station, const Pose& X_DE, const ar::BoardPose& board) {
-  const auto S_W = tipCovariance(station, X_DE);
+  const auto S_W = predictTipCovariance(station, X_DE);
   if (!S_W) return std::nullopt;
   const Vec3 tip_W = (station.X_WD * X_DE * station.X_ET).translation(), tip_C = board.X_CW * tip_W;
   Eigen::Matrix<double, 2, 3> J_p;
@@ -66,7 +58,7 @@ std::optional<OverlayError> predictOverlayError(const Station& station, const Po
     const Eigen::Matrix<double, 2, kLensNumbers> J_c = station.camera.byLens(tip_C) + J_b * poseByLens(station, board.X_CW);
     S_px += J_c * camera->file.covariance * J_c.transpose();
   }
-  return OverlayError{mmOf(*S_W), std::sqrt(S_px.trace())};
+  return OverlayError{1e3 * std::sqrt(S_W->trace()), std::sqrt(S_px.trace())};
 }
 
 }  // namespace palpa::station

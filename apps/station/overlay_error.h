@@ -9,12 +9,12 @@
 /// Nothing for a station without calibrated tool and registration.
 namespace palpa::station {
 
-/// Where the tip is thought to be in W against where it is, at a pose of the end effector:
-///   S_W = J_reg S_reg J_reg' + R_WE S_tip R_WE',   mm = 1e3 sqrt(trace S_W)
-std::optional<double> predictTipError_mm(const Station& station, const Pose& X_DE);
+/// Covariance (m^2) of where the tip is thought to be in W against where it is, at a pose of the end effector:
+///   S_W = J_reg S_reg J_reg' + R_WE S_tip R_WE'
+std::optional<Mat3> predictTipCovariance(const Station& station, const Pose& X_DE);
 
 struct OverlayError {
-  double mm = 0;   ///< as above
+  double mm = 0;   ///< sqrt(trace S_W)
   double px = 0;   ///< where the tip is drawn in the picture against where it is seen
 };
 

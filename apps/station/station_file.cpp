@@ -25,6 +25,21 @@ calibration::CameraModel readCamera(const JsonFile& file) {
   return camera;
 }
 
+/// What is not there is the bench's.
+CameraSetup readCameraSetup(const JsonFile& file) {
+  CameraSetup setup;
+  if (!file.has("camera/driver")) return setup;
+  const std::string driver = file.text("camera/driver");
+  if (driver == "bench") return setup;
+  if (driver != "webcam") file.refuse("camera/driver", "is \"" + driver + "\"; known are bench and webcam");
+  setup.driver = CameraSetup::Driver::webcam;
+  setup.device = file.text("camera/device");
+  setup.exposure_ms = file.number("camera/exposure_ms", 0.1, 1000);
+  if (file.has("camera/gain")) setup.gain = file.number("camera/gain", 0, 1e6);
+  if (file.has("camera/focus")) setup.focus = file.number("camera/focus", 0, 1e6);
+  return setup;
+}
+
 ar::TagGridSpec readBoard(const JsonFile& file, const std::string& at) {
   ar::TagGridSpec board;
   board.columns = file.integer(at + "/columns", 1, 30);
@@ -105,8 +120,11 @@ Station readStation(const std::filesystem::path& path) {
   s.device = readDevice(file, path.parent_path());
   s.force_sensor = readForceSensor(file);
   s.camera = readCamera(file);
+  s.camera_setup = readCameraSetup(file);
   s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
-  s.camera_latency_s = 1e-3 * file.number("camera/latency_ms", 0, 1000 / s.camera_rate_Hz);
+  const bool on_bench = s.camera_setup.driver == CameraSetup::Driver::bench;   // where a picture is seen before the next is taken
+  s.camera_latency_s = 1e-3 * file.number("camera/latency_ms", 0, on_bench ? 1000 / s.camera_rate_Hz : 1000);
+  s.simulated = on_bench || s.device.driver == DeviceDriver::bench;
   s.board = readBoard(file, "board");
   if (file.has("marker")) s.marker = readBoard(file, "marker");
   s.landmarks = readLandmarks(file);

@@ -21,6 +21,15 @@ struct Landmark {
   bool for_check = false;
 };
 
+/// Whose pictures the station watches.
+struct CameraSetup {
+  enum class Driver { bench, webcam };
+  Driver driver = Driver::bench;
+  std::string device = "/dev/video0";
+  double exposure_ms = 10;
+  double gain = -1, focus = -1;    ///< the driver's units; negative: as it is
+};
+
 /// What a station's file says of its geometry before anything was calibrated. The virtual bench draws its truth around these.
 struct Design {
   calibration::CameraModel camera;
@@ -33,10 +42,11 @@ struct Design {
 /// the file. A virtual bench draws its truth around these figures.
 struct Station {
   std::string id, title;
-  bool simulated = true;           ///< something that is seen or felt is the bench's: so far always the camera
+  bool simulated = true;           ///< something that is seen or felt is the bench's
   DeviceSetup device;
   std::optional<ForceSensorSetup> force_sensor;
   calibration::CameraModel camera;
+  CameraSetup camera_setup;
   ar::TagGridSpec board;
   double decimate = 2;
   double camera_rate_Hz = 15;

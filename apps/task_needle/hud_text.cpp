@@ -1,7 +1,8 @@
 #include "apps/task_needle/hud_text.h"
 
+#include <algorithm>
 #include <cctype>
-
+#include <cmath>
 #include <cstdio>
 
 namespace palpa::task_needle {
@@ -60,6 +61,11 @@ std::string hint(haptics::SafetyCause cause) {
 bool injury(const runtime::ToolState& tool) {
   return tool.tissue == Tissue::lung || tool.wall == Organ::lung ||
          tool.tissue == Tissue::artery_lumen || tool.wall == Organ::artery;
+}
+
+std::string overlayText(const Mat3& covariance) {
+  constexpr double kOf95 = 1.6;   // 95 % of a normal error in three dimensions lie within 1.6 times its root mean square
+  return format("within %.1f mm", std::max(kOf95 * 1e3 * std::sqrt(covariance.trace()), 0.1));
 }
 
 scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, const std::string& camera,

@@ -32,6 +32,7 @@ SceneActivity::SceneActivity(const Setup& setup, runtime::Bus& bus, TaskChannels
       X_AD_((setup.X_WD.inverse() * setup.X_WA).inverse()) {
   const calibration::CameraModel& p = undistorter_.pinhole();
   state_.camera = {p.width, p.height, p.fx, p.fy, p.cx, p.cy};
+  state_.guide = setup.guide;
   if (setup.giving_way) skin_.emplace(*setup.giving_way, setup.skin);
 }
 
@@ -62,7 +63,6 @@ void SceneActivity::follow(std::int64_t now_ns) {
   fresh_picture_ = view->picture && view->fault != ar::PictureFault::wrong_size;
   if (view->pose) board_ = view->pose;
   if (!view->X_CW) return;
-  if (setup_.overlay_error && setup_.view) overlay_ = setup_.overlay_error(unpack(tool_.X_DT));
   X_CW_ = *view->X_CW;
   registered_ = true;
 }
@@ -76,7 +76,8 @@ void SceneActivity::compose() {
   state_.plunger = tool_.plunger;
   state_.blood = status_.blood;
   state_.hud = hudText(status_, tool_, trouble, setup_.mark);
-  state_.hud.overlay = trouble.empty() ? overlay_ : "";
+  state_.tip_covariance_A = setup_.tip_covariance_A && setup_.view && trouble.empty() ? setup_.tip_covariance_A(unpack(tool_.X_DT)) : std::nullopt;
+  state_.hud.overlay = state_.tip_covariance_A ? overlayText(*state_.tip_covariance_A) : "";
   state_.forces.clear();
   const Vec3 f_A = X_AD_.rotation() * unpack(tool_.f_contact_D);
   if (f_A.norm() > 0.05) {

@@ -37,8 +37,9 @@ class SceneActivity final : public runtime::Activity {
     /// The skin is shown to give way (surface `skin` of this patient); null: it is not.
     const anatomy::SurfaceQuery* giving_way = nullptr;
     int skin = 0;
-    /// In words, how far off the overlay may be at the tip: X_DT and the board as it is seen; empty: nothing is said.
-    std::function<std::string(const Pose& X_DT)> overlay_error;
+    /// Covariance in A of the drawn tip against the real one, at X_DT: shown as an ellipse, and told; empty, or nothing: it is not known.
+    std::function<std::optional<Mat3>(const Pose& X_DT)> tip_covariance_A;
+    std::optional<scene::Guide> guide;
     /// Keys and mouse of a window, once a frame.
     std::function<void(const scene::ViewInput&, std::int64_t now_ns)> input;
   };
@@ -71,7 +72,6 @@ class SceneActivity final : public runtime::Activity {
   runtime::ToolState tool_;
   std::optional<runtime::CameraView> camera_;
   std::optional<ar::BoardPose> board_;
-  std::string overlay_;
   Pose X_CW_ = Pose::Identity();
   bool registered_ = false, fresh_picture_ = false;
   std::int64_t now_ns_ = 0;

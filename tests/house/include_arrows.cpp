@@ -75,7 +75,7 @@ std::vector<Layer> makeLayers() {
        librariesAnd({"apps/runtime"}),
        {},
        {"Eigen", "JSON", "SQLite", "PostgreSQL", "zlib"}},
-      {"apps/report", librariesAnd({"apps/assess"}), {}, {"Eigen", "JSON", "VTK", "VTK data"}},
+      {"apps/report", librariesAnd({"apps/assess"}), {}, {"Eigen", "JSON", "VTK", "VTK data", "Cairo"}},
       {"apps/twin", librariesAnd({"apps/runtime", "apps/station"}), {}, app_libraries},
       {"apps/task_*",
        librariesAnd({"apps/runtime", "apps/assess", "apps/station"}),
@@ -124,7 +124,7 @@ std::string libraryOf(const std::string& header) {
   }
   static const std::vector<std::pair<std::string, std::string>> kPrefixes{
       {"Eigen/", "Eigen"},     {"opencv2/", "OpenCV"},
-      {"nlohmann/", "JSON"},   {"tiny_gltf", "tinygltf"},
+      {"nlohmann/", "JSON"},   {"cairo/", "Cairo"},   {"tiny_gltf", "tinygltf"},
       {"gdcm", "GDCM"},        {"libusb", "libusb"},
       {"ceres/", "Ceres"},     {"apriltag/", "AprilTag"},
       {"openxr/", "OpenXR"},   {"GL/", "OpenGL"},

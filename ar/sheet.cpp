@@ -1,4 +1,4 @@
-#include "ar/paper.h"
+#include "ar/sheet.h"
 
 #include <algorithm>
 #include <cmath>
@@ -26,23 +26,15 @@ void cover(double x0, double x1, double y0, double y1, cv::Mat* share) {
 
 }  // namespace
 
-Paper::Paper(const Eigen::Vector2d& size, double px_per_m, double smallest, const char* what)
-    : px_per_m_(px_per_m) {
-  if (!(smallest * px_per_m >= 1 && size.maxCoeff() * px_per_m <= 30000))
-    throw UsageError("a cell needs at least a pixel and the sheet at most 30000", what,
-                     "Choose another resolution.");
-  share_ = cv::Mat(roundUp(size.y() * px_per_m), roundUp(size.x() * px_per_m), CV_32F, 0.0);
-}
-
-void Paper::blacken(double left, double bottom, double width, double height) {
-  const double x = share_.cols / 2.0 + left * px_per_m_;
-  const double y = share_.rows / 2.0 - bottom * px_per_m_;
-  cover(x, x + width * px_per_m_, y - height * px_per_m_, y, &share_);
-}
-
-cv::Mat Paper::picture() const {
-  cv::Mat picture;
-  share_.convertTo(picture, CV_8U, -255, 255);
+cv::Mat pictureOf(const Sheet& sheet, double px_per_m) {
+  if (!(sheet.smallest * px_per_m >= 1 && sheet.size.maxCoeff() * px_per_m <= 30000))
+    throw UsageError("a cell needs at least a pixel and the sheet at most 30000", sheet.what, "Choose another resolution.");
+  cv::Mat share(roundUp(sheet.size.y() * px_per_m), roundUp(sheet.size.x() * px_per_m), CV_32F, 0.0), picture;
+  for (const Sheet::Black& b : sheet.black) {
+    const double x = share.cols / 2.0 + b.left * px_per_m, y = share.rows / 2.0 - b.bottom * px_per_m;
+    cover(x, x + b.width * px_per_m, y - b.height * px_per_m, y, &share);
+  }
+  share.convertTo(picture, CV_8U, -255, 255);
   return picture;
 }
 

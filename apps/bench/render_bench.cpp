@@ -1,0 +1,221 @@
+#include "apps/bench/render_bench.h"
+
+#include <vtkCamera.h>
+#include <vtkImageData.h>
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
+#include <vtkTexture.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/parametric_patient.h"
+#include "apps/bench/metric.h"
+#include "apps/bench/query_timing.h"
+#include "apps/bench/tracking_scene.h"
+#include "apps/station/assets.h"
+#include "ar/board_tracker.h"
+#include "scene/ar_camera.h"
+#include "scene/organ_actors.h"
+#include "scene/renderer_setup.h"
+#include "scene/scene_view.h"
+#include "scene/window_pixels.h"
+
+namespace palpa::bench {
+namespace {
+
+using nlohmann::json;
+constexpr int kPictureWidth = 640, kPictureHeight = 480;
+
+Pose lookAt(const Vec3& eye_A, const Vec3& target_A) {
+  const Vec3 z = (target_A - eye_A).normalized(), x = z.cross(Vec3::UnitZ()).normalized();
+  Mat3 R_AC;
+  R_AC << x, z.cross(x), z;
+  return makePose(R_AC, eye_A).inverse();
+}
+
+anatomy::Patient bust() {
+  anatomy::PatientParameters parameters = anatomy::drawParameters(anatomy::readPopulation(station::assetFile("patients/reference.json").string()), anatomy::Side::right, 0);
+  parameters.extent = anatomy::Extent::bust;
+  return anatomy::buildPatient(parameters);
+}
+
+std::size_t trianglesOf(const anatomy::Patient& patient) {
+  std::size_t all = 0;
+  for (const anatomy::OrganSurface& organ : patient.organs) all += organ.mesh.triangles.size();
+  return all;
+}
+
+/// A session's frame: picture, translucent skin, needle, arrows, words, three fixed views.
+class Frame {
+ public:
+  Frame(scene::GlContextProvider& context, const anatomy::Patient& patient, const RenderBenchOptions& o)
+      : layout_{o.width, o.height}, window_(*context.window()), view_(context, patient, layout_) {
+    entry_A_ = patient.landmark(anatomy::landmark::kEntry);
+    state_.picture = &picture_;
+    state_.registered = true;
+    state_.camera = {kPictureWidth, kPictureHeight, 600, 600, 319.5, 239.5};
+  }
+
+  /// Number i of a slow sway, all of it by our own ways.
+  void ours(int i) {
+    move(i);
+    view_.show(state_);
+  }
+  /// The same actors and passes, moved as a program of VTK alone would: camera, one matrix, one texture; then Render.
+  void bare(int i) {
+    move(i);
+    vtkRenderer& large = *renderer(1);
+    scene::aim(*large.GetActiveCamera(), view_.arGeometry().camera, state_.X_CA, {0.2, 1.5});
+    large.GetActiveCamera()->Modified();
+    if (vtkTexture* texture = large.GetBackgroundTexture()) modified(texture);
+    window_.Render();
+  }
+  void capture() const { view_.capture(); }
+
+ private:
+  static void modified(vtkTexture* texture) {
+    texture->GetInput()->Modified();
+    texture->Modified();
+  }
+  vtkRenderer* renderer(int i) { return static_cast<vtkRenderer*>(window_.GetRenderers()->GetItemAsObject(i)); }
+  void move(int i) {
+    const double sway = std::sin(0.1 * i);
+    for (std::size_t k = 0; k < picture_.pixels.size(); k += 97) picture_.pixels[k] = static_cast<std::uint8_t>(i);
+    state_.X_CA = lookAt(entry_A_ + Vec3(0.002 * sway, -0.45, 0.10), entry_A_);
+    state_.X_AT = makePose(Quat(Eigen::AngleAxisd(-1.2, Vec3::UnitX())).toRotationMatrix(), entry_A_ + Vec3(0, 0.01 * sway, 0));
+    state_.forces = {{scene::ForceKind::reaction, state_.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
+    state_.hud.phase = "phase 2: advance to the vein";
+    char force[16];
+    std::snprintf(force, sizeof force, "%.1f N", 1 + 0.01 * (i / 6 % 10));   // words change a few times a second
+    state_.hud.force = force;
+  }
+
+  scene::ViewLayout layout_;
+  vtkRenderWindow& window_;
+  scene::SceneView view_;
+  scene::Image picture_{kPictureWidth, kPictureHeight, 3, std::vector<std::uint8_t>(std::size_t{3} * kPictureWidth * kPictureHeight, 120)};
+  scene::SceneState state_;
+  Vec3 entry_A_;
+};
+
+/// The patient alone in one renderer, translucent our way or by peeling.
+class Translucent {
+ public:
+  Translucent(vtkRenderWindow& window, const anatomy::Patient& patient, bool peeling) : window_(window) {
+    scene::setUpRenderer(*behind_, {0.3, 0.3, 0.3});
+    window_.AddRenderer(behind_);
+    if (!peeling) glass_ = std::make_unique<scene::Glass>(window_, *behind_);
+    organs_ = std::make_unique<scene::OrganActors>(*behind_, patient, glass_.get());
+    if (peeling) {
+      behind_->UseDepthPeelingOn();
+      behind_->SetMaximumNumberOfPeels(100);
+      behind_->SetOcclusionRatio(0);
+    }
+    show(false);
+  }
+  ~Translucent() {
+    organs_.reset();
+    glass_.reset();
+    window_.RemoveRenderer(behind_);
+  }
+  void show(bool shown) {
+    behind_->SetDraw(shown);
+    if (glass_) glass_->renderer().SetDraw(shown);
+  }
+  void render(const scene::Pinhole& camera, const Pose& X_CA) {
+    scene::aim(*behind_->GetActiveCamera(), camera, X_CA, {0.1, 1.5});
+    if (glass_) glass_->look(X_CA.inverse().translation());
+    show(true);
+    window_.Render();
+    show(false);
+  }
+
+ private:
+  vtkRenderWindow& window_;
+  vtkNew<vtkRenderer> behind_;
+  std::unique_ptr<scene::Glass> glass_;
+  std::unique_ptr<scene::OrganActors> organs_;
+};
+
+double rmsDifference(const scene::Image& a, const scene::Image& b) {
+  double squares = 0;
+  std::size_t n = 0;
+  for (std::size_t i = 0; i < a.pixels.size(); i += 3) {
+    double here = 0;
+    bool drawn = false;
+    for (std::size_t k = 0; k < 3; ++k) {
+      here += std::pow(static_cast<double>(a.pixels[i + k]) - b.pixels[i + k], 2);
+      drawn = drawn || a.pixels[i + k] != a.pixels[k] || b.pixels[i + k] != b.pixels[k];
+    }
+    if (!drawn) continue;
+    squares += here / 3;
+    ++n;
+  }
+  return std::sqrt(squares / static_cast<double>(n)) / 255;
+}
+
+void benchTranslucency(vtkRenderWindow& window, const anatomy::Patient& patient, int blocks, json params) {
+  const int* size = window.GetSize();
+  const double f = 0.9 * size[1];
+  const scene::Pinhole camera{size[0], size[1], f, f, size[0] / 2.0, size[1] / 2.0};
+  const Vec3 entry_A = patient.landmark(anatomy::landmark::kEntry);
+  Translucent ours(window, patient, false), peeled(window, patient, true);
+  double worst = 0;
+  for (int side = 0; side < 5; ++side) {
+    const double round = 0.5 * (side - 2);
+    const Pose X_CA = lookAt(entry_A + 0.5 * Vec3(std::sin(round), -std::cos(round), 0.2), entry_A);
+    ours.render(camera, X_CA);
+    const scene::Image a = scene::pixelsOf(window);
+    peeled.render(camera, X_CA);
+    worst = std::max(worst, rmsDifference(a, scene::pixelsOf(window)));
+  }
+  params["views"] = 5;
+  print("translucency_rms_to_peeling", worst, "1", params);
+  // The eye moves from frame to frame, so that ours sorts anew in each.
+  int frame = 0;
+  const auto eye = [&] { return lookAt(entry_A + Vec3(0.05 * std::sin(0.3 * frame), -0.45, 0.1), entry_A); };
+  const Ratio ratio = compareQueries(blocks, 4, [&](int) { ++frame; peeled.render(camera, eye()); }, [&](int) { ++frame; ours.render(camera, eye()); });
+  print("translucency_cost_over_peeling", ratio.median, "1", params);
+  print("translucency_cost_over_peeling_low", ratio.interval.low, "1", params);
+  print("translucency_cost_over_peeling_high", ratio.interval.high, "1", params);
+}
+
+void benchFrame(scene::GlContextProvider& context, const anatomy::Patient& patient, const RenderBenchOptions& options, int blocks, const json& params) {
+  Frame frame(context, patient, options);
+  const Ratio ratio = compareQueries(blocks, 4, [&](int i) { frame.bare(i); }, [&](int i) { frame.ours(i); });
+  print("frame_over_bare_vtk", ratio.median, "1", params);
+  print("frame_over_bare_vtk_low", ratio.interval.low, "1", params);
+  print("frame_over_bare_vtk_high", ratio.interval.high, "1", params);
+  const double ours = timeQueries(16 * blocks, [&](int i) { frame.ours(i); }).median_us, bare = timeQueries(16 * blocks, [&](int i) { frame.bare(i); }).median_us;
+  const double capture = timeQueries(16, [&](int) { frame.capture(); }).median_us;
+  TrackingBenchOptions tracking;
+  tracking.width = kPictureWidth;
+  tracking.height = kPictureHeight;
+  const TrackingScene pictures(tracking);
+  const cv::Mat picture = pictures.still(TrackingScene::view(0.5, 0.6, 0.4, 0), 0);
+  ar::BoardTracker tracker(pictures.board(), pictures.camera());
+  std::int64_t t = 0;
+  for (int i = 0; i < 10; ++i) tracker.see(picture, t += 33'333'333);
+  const double track = timeQueries(16, [&](int) { tracker.see(picture, t += 33'333'333); }).median_us;
+  print("frame", 1e-3 * ours, "ms", params);
+  print("overlay_update_share", (ours - bare) / ours, "1", params);
+  print("capture_share", capture / (ours + capture), "1", params);
+  print("tracking_share", track / (ours + track), "1", params);
+}
+
+}  // namespace
+
+void benchRender(const RenderBenchOptions& options) {
+  const anatomy::Patient patient = bust();
+  const auto context = scene::makeGlContext(scene::Display::offscreen, options.width, options.height, "Palpa");
+  const json params{{"resolution", std::to_string(options.width) + "x" + std::to_string(options.height)}, {"triangles", trianglesOf(patient)}, {"drawn_on", context->describe()}};
+  const int blocks = options.quick ? 3 : 11;
+  benchFrame(*context, patient, options, blocks, params);
+  benchTranslucency(*context->window(), patient, blocks, params);
+}
+
+}  // namespace palpa::bench

@@ -1,0 +1,57 @@
+#pragma once
+
+#include <vtkNew.h>
+#include <vtkSmartPointer.h>
+
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "anatomy/geometry/pose.h"
+
+class vtkActor;
+class vtkPolyData;
+class vtkRenderer;
+class vtkRenderWindow;
+
+namespace palpa::scene {
+
+/// Translucent surfaces over what a renderer has drawn, blended from the far to the near, in a pass of its own that keeps colours and depths. Within a
+/// surface the triangles go by the distance of their middles from the eye (Newell, Newell, Sancha 1972, without splitting), surfaces by the nearest corner of
+/// their boxes, so that one around another comes after it. Only faces that look at the eye are drawn. Exact where surfaces do not pass through each other and triangles are
+/// small; depth peeling, which is exact always, draws everything once more for every layer.
+///
+/// Sorted anew when the eye has moved by a two-hundredth of its distance.
+class Glass {
+ public:
+  /// Joins the window after `behind`, whose camera it shares.
+  Glass(vtkRenderWindow& window, vtkRenderer& behind);
+  ~Glass();
+
+  /// `surface` is what the actor shows; it has triangles only.
+  void add(vtkActor* actor, vtkPolyData* surface);
+  void remove(vtkActor* actor);
+  /// Before a frame: the eye in the surfaces' frame.
+  void look(const Vec3& eye);
+
+  vtkRenderer& renderer() { return *renderer_; }
+
+ private:
+  struct Surface {
+    vtkSmartPointer<vtkActor> actor;
+    vtkSmartPointer<vtkPolyData> polys;
+    std::vector<std::array<long long, 3>> triangles;
+    std::vector<Eigen::Vector3f> middles;
+    Vec3 low, high;
+  };
+  void sort(Surface& surface, const Vec3& eye);
+  void order(const Vec3& eye);
+
+  vtkRenderWindow& window_;
+  vtkNew<vtkRenderer> renderer_;
+  std::vector<Surface> surfaces_;
+  Vec3 sorted_for_;
+  bool sorted_ = false;
+};
+
+}  // namespace palpa::scene

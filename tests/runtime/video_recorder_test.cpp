@@ -1,0 +1,99 @@
+#include "apps/runtime/video_recorder.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <opencv2/imgproc.hpp>
+
+#include "anatomy/geometry/error.h"
+#include "apps/runtime/clock.h"
+#include "ar/board.h"
+#include "ar/video_file.h"
+#include "ar/webcam.h"
+#include "tests/support/scratch_folder.h"
+
+namespace palpa::runtime {
+namespace {
+
+CameraView viewOf(int i) {
+  static const cv::Mat board = ar::drawTagGrid({3, 2, 0.030, 0.0075, 0}, 3000);
+  CameraView view;
+  view.number = static_cast<std::uint64_t>(i);
+  view.t_exposure_ns = 1'000'000'000 + 40'000'000LL * i;
+  cv::Mat picture;
+  cv::GaussianBlur(board, picture, {0, 0}, 1 + 0.1 * i);
+  view.picture = std::make_shared<const cv::Mat>(picture);
+  return view;
+}
+
+TEST(VideoRecorder, WhatIsKeptComesBackWithItsTimesAndItsCorners) {
+  const test::ScratchFolder folder("video");
+  constexpr int kPictures = 6;
+  {
+    VideoRecorder recorder(folder.path());
+    for (int i = 0; i < kPictures; ++i) {
+      CameraView view = viewOf(i);
+      if (i == 4) view.pose.emplace().points = 24;
+      if (i == 5) view.fault = ar::PictureFault::frozen;
+      recorder.add(view);
+    }
+    CameraView gone;
+    gone.fault = ar::PictureFault::gone;
+    recorder.add(gone);   // no picture: nothing to keep
+    EXPECT_EQ(recorder.pictures(), static_cast<std::uint64_t>(kPictures));
+    EXPECT_EQ(recorder.trouble(), "");
+  }
+  const auto board = ar::makeBoard("tags:3x2:0.030:0.0075", 1.0);
+  ar::VideoFile film(folder / "camera.mjpeg");
+  int seen = 0;
+  while (const auto frame = film.grab()) {
+    const CameraView view = viewOf(seen++);
+    EXPECT_EQ(frame->t_exposure_ns, view.t_exposure_ns);
+    const auto was = board->detect(*view.picture), is = board->detect(frame->image);
+    ASSERT_EQ(was.size(), 24u);
+    ASSERT_EQ(is.size(), was.size());
+    for (std::size_t k = 0; k < was.size(); ++k) EXPECT_LT((is[k].pixel - was[k].pixel).norm(), 0.1);
+  }
+  EXPECT_EQ(seen, kPictures);
+  std::ifstream table(folder / "camera.mjpeg.csv");
+  std::string line, text;
+  while (std::getline(table, line)) text += line + "\n";
+  EXPECT_NE(text.find("4,1160000000,,searching,24,"), std::string::npos) << text;
+  EXPECT_NE(text.find("5,1200000000,frozen,searching,0,"), std::string::npos) << text;
+}
+
+TEST(VideoRecorder, AFullDiskEndsTheRecordingOnly) {
+  const test::ScratchFolder folder("video_full");
+  std::filesystem::create_symlink("/dev/full", folder / "camera.mjpeg");
+  VideoRecorder recorder(folder.path());
+  for (int i = 0; i < 3; ++i) EXPECT_NO_THROW(recorder.add(viewOf(i)));
+  EXPECT_NE(recorder.trouble(), "");
+  EXPECT_EQ(recorder.pictures(), 0u);
+}
+
+TEST(VideoFile, WhatIsNoFilmIsTold) {
+  const test::ScratchFolder folder("video_none");
+  EXPECT_THROW(ar::VideoFile(folder / "nowhere.mp4"), Error);
+  std::ofstream(folder / "words.avi") << "these are words";
+  EXPECT_THROW(ar::VideoFile(folder / "words.avi"), Error);
+}
+
+TEST(Webcam, ACameraThatIsNotThereIsTold) {
+  ar::WebcamSettings settings;
+  settings.device = "/dev/video99";
+  EXPECT_THROW(ar::Webcam{settings}, Error);
+  settings.device = "/dev/null";   // no camera
+  EXPECT_THROW(ar::Webcam{settings}, Error);
+}
+
+TEST(Clock, StampsOfDriversAreSessionTime) {
+  const SteadyClock first;
+  first.sleepUntil(first.now() + 5 * kMillisecond);
+  const SteadyClock second;
+  const std::int64_t apart_at_least = first.now() - second.now();   // read one after the other: a little less than they are apart
+  EXPECT_GE(first.ofMonotonic(0) - second.ofMonotonic(0), apart_at_least);
+  EXPECT_GE(apart_at_least, 4 * kMillisecond);
+}
+
+}  // namespace
+}  // namespace palpa::runtime
