@@ -5,6 +5,7 @@
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "scene/ar_camera.h"
@@ -18,6 +19,8 @@ constexpr double kDistance = 0.42;  // metres from the virtual camera to the ent
 constexpr double kElevation = 28 * kDegree;
 constexpr double kAzimuth = 18 * kDegree;  // toward the punctured side
 constexpr double kToolReach = 0.30;        // metres from the tip: the syringe, an arrow at its end
+constexpr double kEyesApart = 0.063;       // metres, the mean of adults (Dodgson 2004)
+constexpr double kNearestFocus = 0.1;
 constexpr double kShaft_px = 5;            // an arrow's shaft in a window 720 pixels high
 
 OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
@@ -31,13 +34,14 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
                const ViewLayout& layout)
     : window_(window),
       region_(region),
+      stereo_(layout.stereo),
       orbit_(defaultView(patient, region)),
       backdrop_(*renderer_, true),
       glass_((window.AddRenderer(renderer_), window), *renderer_),
       organs_(*renderer_, patient, &glass_),
       instrument_(*renderer_),
       arrows_(*above_, layout.force_colours),
-      guide_(*renderer_, colour::kAdvice, 2.5),
+      guide_(*above_, colour::kAdvice, 2.5),
       ellipse_(*above_, colour::kAdvice, 1.8),
       occluders_(*renderer_) {
   if (layout.skin_deflection && organs_.skin()) skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
@@ -47,6 +51,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
   above_->SetActiveCamera(renderer_->GetActiveCamera());
   above_->SetLayer(1);
   window_.AddRenderer(above_);
+  if (stereo_ == Stereo::side_by_side || stereo_ == Stereo::top_bottom) second_ = std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *above_);
 }
 
 ArView::~ArView() {
@@ -64,7 +69,7 @@ void ArView::place(const Rect& panel, int window_width, int window_height) {
 
 void ArView::update(const SceneState& state) {
   chooseCamera(state);
-  applyCamera(X_CA_ * state.X_AT.translation());
+  applyCameras(state);
   if (state.picture)
     backdrop_.show(*state.picture);
   else
@@ -72,6 +77,7 @@ void ArView::update(const SceneState& state) {
   renderer_->SetGradientBackground(state.picture == nullptr);
   shows_patient_ = state.registered || state.picture == nullptr;
   showPatient(state, shows_patient_);
+  if (second_) second_->mirror();
 }
 
 void ArView::chooseCamera(const SceneState& state) {
@@ -88,15 +94,32 @@ void ArView::chooseCamera(const SceneState& state) {
   if (state.registered) X_CA_ = state.X_CA;
 }
 
-void ArView::applyCamera(const Vec3& tip_C) {
-  setViewport(*renderer_, picture_, window_width_, window_height_);
-  setViewport(*above_, picture_, window_width_, window_height_);
-  setViewport(glass_.renderer(), picture_, window_width_, window_height_);
+/// One camera, or two that belong to it.
+void ArView::applyCameras(const SceneState& state) {
+  tip_A_ = state.X_AT.translation();
   glass_.look(X_CA_.inverse().translation());
-  const DepthRange range =
-      depthRangeOf({{X_CA_ * region_.whole_centre_A, region_.whole_radius}, {tip_C, kToolReach}});
-  aim(*renderer_->GetActiveCamera(), pinhole_, X_CA_, range);
+  if (stereo_ == Stereo::none) return lookThrough({pinhole_, X_CA_}, picture_, *renderer_);
+  const Pinhole whole = virtual_ ? pinhole_ : state.camera;
+  eyes_ = state.eyes ? *state.eyes : stereoPair(whole, X_CA_, kEyesApart, std::max((X_CA_ * region_.focus_A).z(), kNearestFocus));
+  eye_panels_ = eyePanels(panel_, stereo_);
+  for (std::size_t i = 0; i < 2; ++i) {
+    eye_panels_[i] = letterbox(eye_panels_[i], eyes_[i].camera.width, eyes_[i].camera.height);
+    eyes_[i].camera = scaled(eyes_[i].camera, eye_panels_[i].width, eye_panels_[i].height);
+  }
+  lookThrough(eyes_[0], eye_panels_[0], *renderer_);
+  if (!second_) return;
+  second_->forAll([&](vtkRenderer& renderer) { setViewport(renderer, eye_panels_[1], window_width_, window_height_); });
+  lookThrough(eyes_[1], eye_panels_[1], second_->behind());
 }
+
+void ArView::lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind) {
+  if (&behind == renderer_.Get())
+    for (vtkRenderer* renderer : {renderer_.Get(), above_.Get(), &glass_.renderer()}) setViewport(*renderer, where, window_width_, window_height_);
+  const DepthRange range = depthRangeOf({{eye.X_CA * region_.whole_centre_A, region_.whole_radius}, {eye.X_CA * tip_A_, kToolReach}});
+  aim(*behind.GetActiveCamera(), eye.camera, eye.X_CA, range);
+}
+
+void ArView::showEye(std::size_t eye) { lookThrough(eyes_[eye], eye_panels_[eye], *renderer_); }
 
 void ArView::showLines(const SceneState& state, bool visible) {
   if (visible && state.guide)
@@ -125,7 +148,7 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   arrows_.update(visible ? state.forces : std::vector<ForceArrow>(), X_CA_, pinhole_.fx, unit_px);
   showLines(state, visible);
   occluders_.update(state.occluders, visible && state.picture != nullptr);
-  above_->SetDraw(arrows_.any() || ellipse_.visible());
+  above_->SetDraw(arrows_.any() || ellipse_.visible() || guide_.visible());
 }
 
 }  // namespace palpa::scene

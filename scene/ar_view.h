@@ -14,6 +14,8 @@
 #include "scene/organ_actors.h"
 #include "scene/region.h"
 #include "scene/scene_view.h"
+#include "scene/second_eye.h"
+#include "scene/stereo.h"
 #include "scene/trail.h"
 #include "scene/view_layout.h"
 
@@ -37,6 +39,8 @@ class ArView {
   void addTrail(Trail& trail);
   void place(const Rect& panel, int window_width, int window_height);
   void update(const SceneState& state);
+  /// Of an anaglyph's two eyes the one that is drawn next, 0 or 1.
+  void showEye(std::size_t eye);
 
   bool isVirtual() const { return virtual_; }
   bool showsPatient() const { return shows_patient_; }
@@ -47,16 +51,21 @@ class ArView {
 
  private:
   void chooseCamera(const SceneState& state);
-  void applyCamera(const Vec3& tip_C);
+  void applyCameras(const SceneState& state);
+  void lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind);
   void showLines(const SceneState& state, bool visible);
   void showPatient(const SceneState& state, bool visible);
 
   vtkRenderWindow& window_;
   vtkNew<vtkRenderer> renderer_;  // picture, organs, needle, trail
-  vtkNew<vtkRenderer> above_;     // force arrows, the tip's ellipse: never hidden
+  vtkNew<vtkRenderer> above_;     // force arrows, guide, the tip's ellipse: never hidden
   Region region_;
   Rect panel_, picture_;
   int window_width_ = 1, window_height_ = 1;
+  Stereo stereo_;
+  std::array<EyeCamera, 2> eyes_;
+  std::array<Rect, 2> eye_panels_;
+  Vec3 tip_A_ = Vec3::Zero();
   bool virtual_ = true;
   bool shows_patient_ = true;
   OrbitCamera orbit_;
@@ -71,6 +80,7 @@ class ArView {
   ForceArrows arrows_;
   EdgedLines guide_, ellipse_;
   Occluders occluders_;
+  std::unique_ptr<SecondEye> second_;    // null: one camera, or an anaglyph's eyes one after the other
 };
 
 }  // namespace palpa::scene

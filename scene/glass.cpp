@@ -2,7 +2,7 @@
 
 #include <vtkActor.h>
 #include <vtkCellArray.h>
-#include <vtkIdTypeArray.h>
+#include <vtkMapper.h>
 #include <vtkPolyData.h>
 #include <vtkProperty.h>
 #include <vtkRenderWindow.h>
@@ -12,6 +12,7 @@
 #include <numeric>
 
 #include "scene/palette.h"
+#include "scene/pass_mapper.h"
 #include "scene/renderer_setup.h"
 
 namespace palpa::scene {
@@ -69,6 +70,7 @@ void Glass::add(vtkActor* actor, vtkPolyData* surface) {
   added.high = {b[1], b[3], b[5]};
   // VTK's own translucent pass knows no order; its opaque pass draws one actor after the other, and blends.
   actor->ForceOpaqueOn();
+  setWrites(*actor->GetMapper(), true, false);   // what is nearer by a hair must not wipe out what comes next
   actor->GetProperty()->BackfaceCullingOn();
   surfaces_.push_back(std::move(added));
   sorted_ = false;
@@ -77,6 +79,7 @@ void Glass::add(vtkActor* actor, vtkPolyData* surface) {
 void Glass::remove(vtkActor* actor) {
   std::erase_if(surfaces_, [&](const Surface& s) { return s.actor == actor; });
   actor->ForceOpaqueOff();
+  setWrites(*actor->GetMapper(), true, true);
   renderer_->RemoveActor(actor);
 }
 

@@ -28,7 +28,7 @@ class Glass {
   Glass(vtkRenderWindow& window, vtkRenderer& behind);
   ~Glass();
 
-  /// `surface` is what the actor shows; it has triangles only.
+  /// `surface` is what the actor shows, by a mapper of `makePassMapper`; it has triangles only.
   void add(vtkActor* actor, vtkPolyData* surface);
   void remove(vtkActor* actor);
   /// Before a frame: the eye in the surfaces' frame.

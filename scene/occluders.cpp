@@ -3,41 +3,22 @@
 #include <vtkActor.h>
 #include <vtkMatrix4x4.h>
 #include <vtkNew.h>
-#include <vtkObjectFactory.h>
-#include <vtkOpenGLPolyDataMapper.h>
-#include <vtkOpenGLRenderWindow.h>
-#include <vtkOpenGLState.h>
 #include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
 #include <vtkProp.h>
 #include <vtkPropCollection.h>
 #include <vtkRenderer.h>
+#include <vtkSmartPointer.h>
 
 #include "scene/instrument.h"
 #include "scene/organ_actors.h"
+#include "scene/pass_mapper.h"
 
 namespace palpa::scene {
-namespace {
-
-/// Draws depths only.
-class DepthMapper : public vtkOpenGLPolyDataMapper {
- public:
-  static DepthMapper* New();
-  vtkTypeMacro(DepthMapper, vtkOpenGLPolyDataMapper);
-  void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override {
-    vtkOpenGLState* state = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())->GetState();
-    state->vtkglColorMask(0, 0, 0, 0);
-    Superclass::RenderPiece(renderer, actor);
-    state->vtkglColorMask(1, 1, 1, 1);
-  }
-};
-vtkStandardNewMacro(DepthMapper);
-
-}  // namespace
-
 struct Occluders::Thing {
   const anatomy::TriangleMesh* mesh = nullptr;
   vtkNew<vtkActor> actor;
-  vtkNew<DepthMapper> mapper;
+  vtkSmartPointer<vtkPolyDataMapper> mapper = makePassMapper();
   vtkNew<vtkMatrix4x4> X_A;
 };
 
@@ -48,6 +29,7 @@ void Occluders::update(const std::vector<Occluder>& things, bool picture) {
   while (things_.size() < things.size()) {
     things_.push_back(std::make_unique<Thing>());
     Thing& thing = *things_.back();
+    setWrites(*thing.mapper, false, true);
     thing.actor->SetMapper(thing.mapper);
     thing.actor->SetUserMatrix(thing.X_A);
     // In front of all others, which VTK draws in the order in which they came.

@@ -16,6 +16,7 @@
 #include <cstring>
 
 #include "scene/palette.h"
+#include "scene/pass_mapper.h"
 
 namespace palpa::scene {
 namespace {
@@ -57,7 +58,7 @@ vtkSmartPointer<vtkTexture> textureOf(const anatomy::Texture& picture) {
 }
 
 vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ, vtkPolyData* surface) {
-  vtkNew<vtkPolyDataMapper> mapper;
+  const vtkSmartPointer<vtkPolyDataMapper> mapper = makePassMapper();
   mapper->SetInputData(surface);
   auto actor = vtkSmartPointer<vtkActor>::New();
   actor->SetMapper(mapper);

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -21,6 +22,12 @@ struct Image {
 struct Pinhole {
   int width = 640, height = 480;
   double fx = 600, fy = 600, cx = 319.5, cy = 239.5;
+};
+
+/// A camera of one eye.
+struct EyeCamera {
+  Pinhole camera;
+  Pose X_CA = Pose::Identity();
 };
 
 enum class ForceKind { reaction, weight, device };
@@ -47,6 +54,9 @@ struct Guide {
   Vec3 from_A = Vec3::Zero(), to_A = Vec3::Zero();
 };
 
+/// How a view for two eyes is laid out. anaglyph: for red and cyan glasses.
+enum class Stereo { none, side_by_side, top_bottom, anaglyph };
+
 enum class SkinStyle { solid, translucent, hidden };
 
 /// Words on the picture; empty lines are left out.
@@ -69,6 +79,7 @@ struct SceneState {
   Pinhole camera;
   bool registered = false;  ///< X_CA is valid
   Pose X_CA = Pose::Identity();
+  std::optional<std::array<EyeCamera, 2>> eyes;  ///< left and right, for a stereo view; empty: derived from the one camera
   Pose X_AT = Pose::Identity();  ///< tip of needle or probe at the origin of T, +z the way it advances
   Tool tool = Tool::needle;
   bool show_tool = true;

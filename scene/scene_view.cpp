@@ -3,11 +3,14 @@
 #include <vtkNew.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
 
 #include <array>
+#include <vector>
 
 #include "anatomy/geometry/error.h"
 #include "scene/ar_view.h"
+#include "scene/backdrop.h"
 #include "scene/hud.h"
 #include "scene/navigation.h"
 #include "scene/ortho_view.h"
@@ -24,6 +27,7 @@ struct SceneView::Impl {
   void place();
   void paintStills();
   void show(const SceneState& state);
+  void mergeEyes();
 
   GlContextProvider& context;
   vtkRenderWindow& window;
@@ -32,6 +36,9 @@ struct SceneView::Impl {
   vtkNew<vtkRenderer> frame;  // whole window, behind: borders, and what the picture leaves free
   Plates margins;
   vtkNew<vtkRenderer> words;  // whole window, in front
+  vtkNew<vtkRenderer> merged; // alone: an anaglyph
+  Backdrop merged_backdrop{*merged, false};
+  Image anaglyph_picture;
   Trail trail;
   ArView ar;
   std::vector<std::unique_ptr<OrthoView>> fixed;
@@ -64,10 +71,14 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
     }
   }
   window.AddRenderer(words);
+  setUpRenderer(*merged, colour::kBorder);
+  merged->DrawOff();
+  if (layout.stereo == Stereo::anaglyph) window.AddRenderer(merged);
 }
 
 SceneView::Impl::~Impl() {
   input.reset();
+  if (layout.stereo == Stereo::anaglyph) window.RemoveRenderer(merged);
   window.RemoveRenderer(words);
   window.RemoveRenderer(frame);
 }
@@ -104,6 +115,27 @@ void SceneView::Impl::show(const SceneState& state) {
   hud.update(state.hud, ar.showsPatient() ? state.forces : std::vector<ForceArrow>(), panels.ar,
              size[1]);
   window.Render();
+  if (layout.stereo == Stereo::anaglyph) mergeEyes();
+}
+
+/// Both eyes one after the other, and then their one picture over the whole window.
+void SceneView::Impl::mergeEyes() {
+  const Image left = pixelsOf(window);
+  ar.showEye(1);
+  window.Render();
+  anaglyph_picture = anaglyph(left, pixelsOf(window));
+  merged_backdrop.show(anaglyph_picture);
+  std::vector<vtkRenderer*> others;
+  for (int i = 0; i < window.GetRenderers()->GetNumberOfItems(); ++i) {
+    auto* renderer = static_cast<vtkRenderer*>(window.GetRenderers()->GetItemAsObject(i));
+    if (!renderer->GetDraw() || renderer == merged.Get()) continue;
+    renderer->DrawOff();
+    others.push_back(renderer);
+  }
+  merged->DrawOn();
+  window.Render();
+  merged->DrawOff();
+  for (vtkRenderer* renderer : others) renderer->DrawOn();
 }
 
 SceneView::SceneView(GlContextProvider& context, const anatomy::Patient& patient,

@@ -28,6 +28,7 @@ struct ViewLayout {
   /// The skin gives way where it is touched (AR view). Off where people are assessed: seeing must not replace feeling.
   bool skin_deflection = false;
   ForceColours force_colours = ForceColours::paper;
+  Stereo stereo = Stereo::none;   ///< of the AR view
 };
 
 /// How the AR view looks right now, in window pixels from the top left: the pixel (u, v) under the

@@ -2,8 +2,7 @@
 
 #include <cmath>
 
-#include "anatomy/parametric_patient.h"
-#include "apps/station/assets.h"
+#include "apps/bench/reference_bust.h"
 #include "scene/scene_view.h"
 
 namespace palpa::bench {
@@ -11,30 +10,15 @@ namespace {
 
 constexpr std::int64_t kFrame = 33'333'333;
 
-Pose lookAt(const Vec3& eye_A, const Vec3& target_A) {
-  const Vec3 z = (target_A - eye_A).normalized(), x = z.cross(Vec3::UnitZ()).normalized();
-  Mat3 R_AC;
-  R_AC << x, z.cross(x), z;
-  return makePose(R_AC, eye_A).inverse();
-}
-
 void paint(scene::Image& image, int frame) {
   for (std::size_t i = 0; i < image.pixels.size(); ++i)
     image.pixels[i] = static_cast<std::uint8_t>(i / 96 + static_cast<std::size_t>(frame));
 }
 
-anatomy::Patient phantom() {
-  anatomy::PatientParameters parameters =
-      anatomy::drawParameters(
-          anatomy::readPopulation(station::assetFile("patients/reference.json").string()), anatomy::Side::right, 0);
-  parameters.extent = anatomy::Extent::bust;   // as in a session
-  return anatomy::buildPatient(parameters);
-}
-
 }  // namespace
 
 struct SceneLoad::Impl {
-  anatomy::Patient patient = phantom();
+  anatomy::Patient patient = referenceBust();
   scene::ViewLayout layout;
   std::unique_ptr<scene::GlContextProvider> context =
       scene::makeGlContext(scene::Display::offscreen, layout.width, layout.height, "Palpa");

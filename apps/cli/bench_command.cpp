@@ -44,7 +44,7 @@ void addCalibration(CLI::App& bench) {
   calibration->callback([options] { bench::benchCalibration(*options); });
 }
 
-void addRender(CLI::App& bench) {
+void addRenderBench(CLI::App& bench) {
   CLI::App* render = bench.add_subcommand("render", "Cost of a frame beside VTK's own, and of translucent surfaces beside depth peeling");
   render->footer("Example:\n  palpa bench render > render.jsonl\n  palpa bench render --width 1920 --height 1080");
   const auto options = std::make_shared<bench::RenderBenchOptions>();
@@ -78,7 +78,7 @@ void addBench(CLI::App& program) {
   addCalibration(*bench);
   addHaptics(*bench);
   addLoop(*bench);
-  addRender(*bench);
+  addRenderBench(*bench);
   addTracking(*bench);
 }
 

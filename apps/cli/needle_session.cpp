@@ -98,7 +98,7 @@ class NeedleSession {
     const bool person = options_.who == OperatorKind::person;
     return {world_.patient, world_.query, world_.task, world_.expert_path ? &*world_.expert_path : nullptr,
             world_.X_DA.inverse(), pack(world_.station.X_ET), isSimulated(options_, world_), !person,
-            whyNotScored(world_), plan(options_, world_, person)};
+            whyNotScored(options_, world_), plan(options_, world_, person)};
   }
 
   task_needle::SceneActivity::Setup sceneSetup() {

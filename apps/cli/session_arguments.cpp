@@ -17,6 +17,8 @@ const std::map<std::string, scene::Display> kDisplays{{"auto", scene::Display::a
 const std::map<std::string, anatomy::Side> kSides{{"right", anatomy::Side::right},
                                                   {"left", anatomy::Side::left}};
 const std::map<std::string, scene::ForceColours> kForceColours{{"paper", scene::ForceColours::paper}, {"safe", scene::ForceColours::safe}};
+const std::map<std::string, scene::Stereo> kStereos{{"none", scene::Stereo::none}, {"side-by-side", scene::Stereo::side_by_side},
+                                                    {"top-bottom", scene::Stereo::top_bottom}, {"anaglyph", scene::Stereo::anaglyph}};
 const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
 const std::map<std::string, bool> kGeometries{{"local", false}, {"exact", true}};
 const std::map<std::string, bool> kKnowledge{{"mean", false}, {"patient", true}};
@@ -78,6 +80,7 @@ void addSessionArguments(CLI::App& command, SessionOptions& o) {
          "Show the skin giving way under the needle (default off: seeing must not replace feeling)");
   choice(command, "--guide", o.guide, kOnOff, "Show a line from the entry point to the vein (default off); such trials are not scored");
   choice(command, "--force-colours", o.force_colours, kForceColours, "Of the force arrows: grays (paper, the default), or told apart by colour-blind eyes (safe)");
+  choice(command, "--stereo", o.stereo, kStereos, "The large view for two eyes (default none); anaglyph: for red and cyan glasses");
   command.add_flag_callback("--no-demonstration", [&o] { o.demonstration = false; }, "A person starts without an expert's demonstration");
   command.add_flag_callback("--no-familiarisation", [&o] { o.familiarisation = false; }, "A person starts without a first unscored trial");
   choice(command, "--display", o.display, kDisplays, "Where to show it");

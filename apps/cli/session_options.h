@@ -35,6 +35,7 @@ struct SessionOptions {
   bool skin_deflection = false;   ///< the skin is shown to give way
   bool guide = false;             ///< a line from the entry point to the vein: not scored
   scene::ForceColours force_colours = scene::ForceColours::paper;
+  scene::Stereo stereo = scene::Stereo::none;
   bool demonstration = true;      ///< a person first watches an expert's recorded trial
   bool familiarisation = true;    ///< and then tries once, unscored
   scene::Display display = scene::Display::automatic;

@@ -7,6 +7,7 @@ Stage makeStage(const SessionOptions& options, const NeedleWorld& world, bool wi
   layout.free_navigation = options.navigation;
   layout.skin_deflection = options.skin_deflection;
   layout.force_colours = options.force_colours;
+  layout.stereo = options.stereo;
   Stage stage;
   stage.context =
       scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,

@@ -9,7 +9,7 @@
 namespace palpa::runtime {
 namespace {
 
-constexpr int kQuality = 95;   // corners found again in such pictures are where they were to some hundredths of a pixel
+constexpr int kQuality = 95;   // corners found again in such pictures are where they were to a twentieth of a pixel
 
 const char* nameOf(ar::PictureFault fault) {
   switch (fault) {

@@ -66,7 +66,7 @@ TEST_P(Printed, BoardsAreTrueToSizeAndSoAreTheBars) {
   expectTrue(printed("charuco:7x5:0.030:0.022", "fit", ending, folder), "charuco:7x5:0.030:0.022", 24, 0.7);
 }
 
-INSTANTIATE_TEST_SUITE_P(As, Printed, testing::Values("png", "pdf"), [](const auto& info) { return std::string(info.param); });
+INSTANTIATE_TEST_SUITE_P(As, Printed, testing::Values("png", "pdf"), [](const auto& one) { return std::string(one.param); });
 
 TEST(BoardPage, WhatDoesNotFitIsRefused) {
   const test::ScratchFolder folder("board_page");

@@ -10,7 +10,7 @@
 namespace palpa::scene {
 namespace {
 
-constexpr int kSide = 300;
+constexpr int kLook_px = 300;
 
 const anatomy::Patient& patientOf(anatomy::Side side) {
   const auto make = [](anatomy::Side s) {
@@ -25,9 +25,9 @@ const anatomy::Patient& patientOf(anatomy::Side side) {
 /// A picture of a table, lighter to the right, with a dark sheet on it.
 const Image& table() {
   static const Image picture = [] {
-    Image image{kSide, kSide, 3, {}};
-    for (int v = 0; v < kSide; ++v)
-      for (int u = 0; u < kSide; ++u) {
+    Image image{kLook_px, kLook_px, 3, {}};
+    for (int v = 0; v < kLook_px; ++v)
+      for (int u = 0; u < kLook_px; ++u) {
         const bool sheet = u > 60 && u < 150 && v > 190 && v < 270;
         const auto level = static_cast<std::uint8_t>(sheet ? 40 : 90 + u / 4);
         for (int k = 0; k < 3; ++k) image.pixels.push_back(level);
@@ -41,7 +41,7 @@ struct Look {
   const char* name;
   SceneState state;
   anatomy::Side side = anatomy::Side::right;
-  ViewLayout layout{kSide, kSide, false, true};
+  ViewLayout layout{kLook_px, kLook_px, false, true};
   double threshold = 0.97;
 };
 
@@ -51,7 +51,7 @@ SceneState registered(anatomy::Side side = anatomy::Side::right) {
   SceneState state;
   state.picture = &table();
   state.registered = true;
-  state.camera = {kSide, kSide, 380, 370, 152, 144};
+  state.camera = {kLook_px, kLook_px, 380, 370, 152, 144};
   state.X_CA = lookAt(entry_A + Vec3(0.1 * outward, -0.42, 0.2), entry_A + Vec3(-0.03 * outward, 0, 0));
   state.X_AT = makePose(rotationWithZ(Vec3(-0.7 * outward, 0.45, 0.35).normalized()), entry_A);
   return state;
@@ -71,7 +71,7 @@ std::vector<Look> looks() {
     const Vec3 tip = s.X_AT.translation();
     s.forces = {{ForceKind::reaction, tip, {0.3, -1.2, -0.4}}, {ForceKind::weight, tip + Vec3(0, 0, 0.06), {0, 0, -0.8}}, {ForceKind::device, tip + Vec3(-0.07, 0, 0), {-0.2, 1.4, 0.2}}};
   };
-  ViewLayout safe{kSide, kSide, false, true}, all{3 * kSide, 2 * kSide, true, true};
+  ViewLayout safe{kLook_px, kLook_px, false, true}, all{3 * kLook_px, 2 * kLook_px, true, true};
   safe.force_colours = ForceColours::safe;
   return {
       {"skin-translucent", registered()},
@@ -107,9 +107,9 @@ TEST_P(Looks, LikeItsBaseline) {
   test::expectLooksLike(toBgr(view.capture()), GetParam().name, GetParam().threshold);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Looks, testing::ValuesIn(looks()), [](const auto& info) {
+INSTANTIATE_TEST_SUITE_P(Every, Looks, testing::ValuesIn(looks()), [](const auto& one) {
   std::string name;
-  for (const char c : std::string(info.param.name)) name += c == '-' ? '_' : c;
+  for (const char c : std::string(one.param.name)) name += c == '-' ? '_' : c;
   return name;
 });
 
@@ -117,7 +117,7 @@ TEST(Looks, ContactSheetLikeItsBaseline) { test::expectLooksLike(toBgr(contactSh
 
 /// The comparison sees what a person would see.
 TEST(PictureMatch, AMissingNeedleIsSeenANoisyPixelIsNot) {
-  SceneView view(offscreen(), patientOf(anatomy::Side::right), {kSide, kSide, false, true});
+  SceneView view(offscreen(), patientOf(anatomy::Side::right), {kLook_px, kLook_px, false, true});
   SceneState state = registered();
   view.show(state);
   const cv::Mat whole = toBgr(view.capture());

@@ -42,8 +42,11 @@ TEST(Occluders, ARealThingInFrontHidesAndShowsThePicture) {
   state.occluders = {{&thing, makePose(Mat3::Identity(), Vec3(0, -0.1, 0))}};
   const Image hidden = frameOf(aBall(), state);
   EXPECT_LE(difference(at(hidden, 160, 120), {90, 90, 90}), 1);
-  EXPECT_LE(difference(at(hidden, 178, 120), bare), 60);   // beside it the ball is there
-  EXPECT_GT(difference(at(hidden, 178, 120), {90, 90, 90}), 40);
+  state.occluders.clear();
+  const Pixel beside = at(frameOf(aBall(), state), 178, 120);
+  EXPECT_GT(difference(beside, {90, 90, 90}), 40);
+  EXPECT_LE(difference(at(hidden, 178, 120), beside), 1);   // there the ball is seen as before
+  state.occluders = {{&thing, makePose(Mat3::Identity(), Vec3(0, -0.1, 0))}};
   state.occluders[0].X_A = makePose(Mat3::Identity(), Vec3(0, 0.1, 0));   // behind
   EXPECT_LE(difference(at(frameOf(aBall(), state), 160, 120), bare), 1);
   state.occluders[0].X_A = makePose(Mat3::Identity(), Vec3(0, -0.1, 0));
@@ -100,7 +103,7 @@ TEST(Ellipse, IsDrawnAboutTheTipAndOnlyWhereTheCameraIsReal) {
   EXPECT_EQ(changed(virtual_view, frameOf(aBall(), state)).count, 0);
 }
 
-TEST(Guide, RunsInDashesFromTheEntryToTheTargetAndIsHiddenByWhatIsInFront) {
+TEST(Guide, RunsInDashesFromTheEntryToTheTargetAndIsNeverHidden) {
   const auto lines = dashes({0, 0, 0}, {0, 0, 0.05});
   EXPECT_EQ(lines.size(), 7u);
   double drawn = 0;
@@ -111,11 +114,13 @@ TEST(Guide, RunsInDashesFromTheEntryToTheTargetAndIsHiddenByWhatIsInFront) {
   SceneState state = before(picture);
   const Image without = frameOf(aBall(), state);
   state.guide = Guide{{-0.08, 0, 0}, {0.08, 0, 0}};
-  const Blob line = changed(frameOf(aBall(), state), without);
+  const Image with = frameOf(aBall(), state);
+  const Blob line = changed(with, without);
   EXPECT_NEAR(line.left, project(state.camera, state.X_CA * Vec3(-0.08, 0, 0)).x(), 3);
   EXPECT_NEAR(line.right, project(state.camera, state.X_CA * Vec3(0.08, 0, 0)).x(), 3);
   EXPECT_LT(std::abs(line.v - 119.5), 2);
-  EXPECT_LE(difference(at(frameOf(aBall(), state), 160, 120), at(without, 160, 120)), 1) << "inside the opaque ball";
+  const Blob inside = blobOf(with, [&](int u, int v) { return u > 145 && u < 175 && difference(at(with, u, v), at(without, u, v)) > 2; });
+  EXPECT_GT(inside.count, 10) << "it leads through what is opaque";
 }
 
 double luminance(const Rgb& c) { return 0.2126 * c[0] * c[0] + 0.7152 * c[1] * c[1] + 0.0722 * c[2] * c[2]; }

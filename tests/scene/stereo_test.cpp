@@ -1,0 +1,113 @@
+#include "scene/stereo.h"
+
+#include <gtest/gtest.h>
+
+#include "scene/ar_camera.h"
+#include "tests/scene/offscreen.h"
+
+/// Two eyes, each with a projection of its own.
+namespace palpa::scene {
+namespace {
+
+constexpr double kApart = 0.063, kFocus = 0.4;
+
+TEST(Stereo, DisparityIsThatOfTwoParallelCamerasFocusedAhead) {
+  const Pose X_CA = lookAt({0.1, -0.5, 0.2}, {0, 0, 0});
+  const auto eyes = stereoPair(crookedCamera(), X_CA, kApart, kFocus);
+  for (const double depth : {0.2, 0.4, 0.8}) {
+    const Vec3 p_A = X_CA.inverse() * Vec3(0.03, -0.02, depth);
+    const Eigen::Vector2d left = project(eyes[0].camera, eyes[0].X_CA * p_A), right = project(eyes[1].camera, eyes[1].X_CA * p_A);
+    EXPECT_NEAR(left.x() - right.x(), crookedCamera().fx * kApart * (1 / depth - 1 / kFocus), 1e-9) << depth;
+    EXPECT_NEAR(left.y(), right.y(), 1e-9);
+  }
+  // The eyes stand beside each other, the left one on the left.
+  const Vec3 between_C = X_CA * eyes[1].X_CA.inverse().translation() - X_CA * eyes[0].X_CA.inverse().translation();
+  EXPECT_LT((between_C - Vec3(kApart, 0, 0)).norm(), 1e-12);
+}
+
+/// Where the centre of a small sphere is drawn in each half, against the projection of that eye; nine shifts by thirds of a pixel, as for one camera.
+void expectTrueEyes(Stereo layout_of_eyes) {
+  const double radius = 0.012;
+  const Vec3 p_A(0.03, 0.02, -0.03);
+  const auto patient = test::spherePatient(p_A, radius);
+  ViewLayout layout{640, 480, false, true};
+  layout.stereo = layout_of_eyes;
+  if (layout_of_eyes == Stereo::side_by_side) layout.width *= 2;
+  if (layout_of_eyes == Stereo::top_bottom) layout.height *= 2;
+  SceneView view(offscreen(), patient, layout);
+  const Image dark = plain(640, 480, 0);
+  SceneState state;
+  state.picture = &dark;
+  state.registered = true;
+  state.show_tool = false;
+  state.camera = crookedCamera();
+  state.X_CA = lookAt({-0.10, -0.35, 0.12}, {0.01, 0.02, -0.01});
+  std::array<Eigen::Vector2d, 2> error{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
+  for (int i = 0; i < 9; ++i) {
+    state.eyes = stereoPair(crookedCamera(), state.X_CA, kApart, kFocus);
+    (*state.eyes)[1].camera.fx = 560;   // eyes need not be alike
+    for (EyeCamera& eye : *state.eyes) {
+      eye.camera.cx += i % 3 / 3.0;
+      eye.camera.cy += i / 3 % 3 / 3.0;
+    }
+    view.show(state);
+    const Image frame = view.capture();
+    const auto panels = eyePanels({0, 0, layout.width, layout.height}, layout_of_eyes);
+    for (std::size_t e = 0; e < 2; ++e) {
+      const int top = layout.height - panels[e].top();
+      const Blob disc = blobOf(frame, [&](int u, int v) { return panels[e].contains(u, layout.height - 1 - v) && at(frame, u, v).b > 40; });
+      ASSERT_GT(disc.count, 300);
+      const EyeCamera& eye = (*state.eyes)[e];
+      const Vec3 c = eye.X_CA * p_A;
+      const double k = c.z() / (c.z() * c.z() - radius * radius);   // the ellipse's centre
+      const Eigen::Vector2d expected(eye.camera.fx * c.x() * k + eye.camera.cx + panels[e].x, eye.camera.fy * c.y() * k + eye.camera.cy + top);
+      error[e] += (Eigen::Vector2d(disc.u, disc.v) - expected) / 9;
+    }
+  }
+  EXPECT_LT(error[0].norm(), 0.1);
+  EXPECT_LT(error[1].norm(), 0.1);
+}
+
+TEST(Stereo, EachEyeSeesATenthOfAPixelTrueSideBySide) { expectTrueEyes(Stereo::side_by_side); }
+TEST(Stereo, EachEyeSeesATenthOfAPixelTrueOneAboveTheOther) { expectTrueEyes(Stereo::top_bottom); }
+
+TEST(Stereo, AnAnaglyphHasTheLeftEyeInRedAndTheRightInCyan) {
+  const Vec3 p_A(0, -0.05, 0);
+  const auto patient = test::spherePatient(p_A, 0.02);
+  ViewLayout layout{640, 480, false, true};
+  layout.stereo = Stereo::anaglyph;
+  SceneView view(offscreen(), patient, layout);
+  const Image dark = plain(640, 480, 0);
+  SceneState state;
+  state.picture = &dark;
+  state.registered = true;
+  state.show_tool = false;
+  state.camera = crookedCamera();
+  state.X_CA = lookAt({0, -0.4, 0}, {0, 0, 0});
+  state.eyes = stereoPair(crookedCamera(), state.X_CA, kApart, kFocus);
+  view.show(state);
+  const Image frame = view.capture();
+  const Blob red = blobOf(frame, [&](int u, int v) { return at(frame, u, v).r > 25; }), cyan = blobOf(frame, [&](int u, int v) { return at(frame, u, v).b > 40; });
+  ASSERT_GT(red.count, 300);
+  const double expected = project((*state.eyes)[0].camera, (*state.eyes)[0].X_CA * p_A).x() - project((*state.eyes)[1].camera, (*state.eyes)[1].X_CA * p_A).x();
+  EXPECT_GT(expected, 5);
+  EXPECT_NEAR((red.left + red.right - cyan.left - cyan.right) / 2.0, expected, 1.5);
+}
+
+TEST(Stereo, WithoutARealCameraTheVirtualOneHasTwoEyes) {
+  const auto patient = test::simplePatient();
+  ViewLayout layout{640, 240, false, true};
+  layout.stereo = Stereo::side_by_side;
+  SceneView view(offscreen(), patient, layout);
+  SceneState state;
+  state.show_tool = false;
+  view.show(state);
+  const Image frame = view.capture();
+  int unlike = 0;
+  for (int v = 0; v < 240; ++v)
+    for (int u = 0; u < 320; ++u) unlike += difference(at(frame, u, v), at(frame, u + 320, v)) > 8;
+  EXPECT_GT(unlike, 200);
+}
+
+}  // namespace
+}  // namespace palpa::scene
