@@ -83,6 +83,37 @@ TEST(StationSession, NothingThatBefallsTheCameraStopsASession) {
   EXPECT_TRUE(says(events.back().text, "have ended")) << events.back().text;
 }
 
+/// What a session kept is a film that a session can be held on: the board is where it was.
+TEST(StationSession, ARecordedVideoIsACameraAgain) {
+  Folder here;
+  Outcome outcome = palpa(session({"--seed", "5", "--record-video", "--out", "A"}), here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(ordinary().here / "A/trials.csv"));
+  const nlohmann::json camera = benchStation()["camera"];
+  const auto number = [&](const char* name) { return std::to_string(camera[name].get<double>()); };
+  const nlohmann::json& k = camera["distortion"];
+  here.file("lens.yml", "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n  data: [" + number("fx_px") + ", 0., " + number("cx_px") +
+                            ", 0., " + number("fy_px") + ", " + number("cy_px") + ", 0., 0., 1.]\ndistortion_coefficients: !!opencv-matrix\n  rows: 5\n  cols: 1\n  dt: d\n  data: [" +
+                            k["k1"].dump() + ", " + k["k2"].dump() + ", " + k["p1"].dump() + ", " + k["p2"].dump() + ", " + k["k3"].dump() + "]\n");
+  outcome = palpa(session({"--seed", "5", "--camera", "A/camera.mjpeg", "--intrinsics", "lens.yml", "--board", "tags:6x4:0.030:0.0075", "--out", "B"}), here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  std::size_t lost = 0;
+  for (const runtime::Event& event : record::SessionReader(here / "B/session.palpa").events())
+    if (event.kind == "camera" && event.value > 0) {
+      ++lost;
+      EXPECT_TRUE(says(event.text, "ended") || says(event.text, "does not see")) << event.text;
+    }
+  EXPECT_LE(lost, 2u);   // before the first picture, and where the film ends
+}
+
+TEST(StationSession, AGuidedTrialIsNotScored) {
+  Folder here;
+  const Outcome outcome = palpa(session({"--seed", "5", "--guide", "on", "--out", "A"}), here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "not scored")) << outcome.out;
+  EXPECT_EQ(contentOf(here / "A/trials.csv").find("T000"), std::string::npos);
+}
+
 TEST(StationSession, ACameraFaultThatIsNoneIsRefused) {
   for (const char* fault : {R"({"kind": "tired", "from_s": 1, "to_s": 2})", R"({"kind": "black", "from_s": 3, "to_s": 2})", R"({"kind": "black", "from_s": -1, "to_s": 2})"}) {
     nlohmann::json station = benchStation();
