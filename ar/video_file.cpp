@@ -32,7 +32,7 @@ std::vector<std::int64_t> timesBeside(const std::filesystem::path& film) {
 }  // namespace
 
 struct VideoFile::Impl {
-  explicit Impl(const std::filesystem::path& file) : path(file), film(file.string(), cv::CAP_ANY), times(timesBeside(file)) {}
+  explicit Impl(const std::filesystem::path& file) : path(file), film(file.string(), cv::CAP_FFMPEG), times(timesBeside(file)) {}
   std::filesystem::path path;
   cv::VideoCapture film;
   std::vector<std::int64_t> times;

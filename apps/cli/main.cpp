@@ -1,6 +1,8 @@
 #include <cstdio>
+#include <cstdlib>
 #include <exception>
 #include <opencv2/core.hpp>
+#include <opencv2/core/utils/logger.hpp>
 #include <string>
 
 #include "anatomy/geometry/error.h"
@@ -60,6 +62,8 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);  // results must not depend on the number of cores
+  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);   // what went wrong is told once, in our words
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);   // the same of the library that reads films: AV_LOG_QUIET
   try {
     return run(argc, argv);
   } catch (const palpa::UsageError& e) {

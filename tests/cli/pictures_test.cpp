@@ -75,6 +75,16 @@ TEST_F(Pictures, NoneMatchesOrOneIsTruncated) {
   expectRefused(with("text-*.png", "camera.yml", board), "text-1.png");
 }
 
+TEST_F(Pictures, FilmsThatAreNone) {
+  expectRefused(with("nowhere.mp4", "camera.yml", board), "nowhere.mp4");
+  for (const char* name : {"words.avi", "words.mp4", "words.mjpeg"}) {
+    here.file(name, "these are words");
+    expectRefused(with(name, "camera.yml", board), name);
+  }
+  here.file("cut.mjpeg", contentOf(here / "a.jpg").substr(0, 200));
+  expectRefused(with("cut.mjpeg", "camera.yml", board), "cut.mjpeg");
+}
+
 TEST_F(Pictures, OfAnotherSizeThanTheIntrinsics) {
   ASSERT_TRUE(
       cv::imwrite((here / "small-1.png").string(), cv::Mat(240, 320, CV_8UC1, cv::Scalar(128))));
