@@ -34,7 +34,6 @@ class BoardTracker {
   const PoseTrack& track() const { return track_; }
   /// Where the board was looked for in the last picture, pixels; empty: everywhere.
   const cv::Rect& region() const { return region_; }
-  double pixelSigma() const { return sigma_px_; }   ///< of one coordinate of a point
 
  private:
   cv::Rect expected(const cv::Size& size, std::int64_t t_ns) const;

@@ -18,8 +18,6 @@ struct CharucoSpec {
 void validate(const CharucoSpec& spec, const std::string& where);
 
 Sheet sheetOf(const CharucoSpec& spec);
-/// The board on white paper with a margin of one square, as drawTagGrid draws.
-cv::Mat drawCharuco(const CharucoSpec& spec, double px_per_m);
 
 /// W: origin in the middle of the pattern, +x along the rows, +y away from the reader, +z up.
 ///

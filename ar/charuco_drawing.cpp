@@ -41,6 +41,4 @@ Sheet sheetOf(const CharucoSpec& spec) {
   return sheet;
 }
 
-cv::Mat drawCharuco(const CharucoSpec& spec, double px_per_m) { return pictureOf(sheetOf(spec), px_per_m); }
-
 }  // namespace palpa::ar

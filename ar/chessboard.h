@@ -29,9 +29,7 @@ class Chessboard : public Board {
   int half_window_px_;
 };
 
+/// With a margin of one square; the square at the lower left is black.
 Sheet chessboardSheet(cv::Size inner_corners, double square);
-/// The board on white paper with a margin of one square, as drawTagGrid draws; the square at the
-/// lower left is black.
-cv::Mat drawChessboard(cv::Size inner_corners, double square, double px_per_m);
 
 }  // namespace palpa::ar

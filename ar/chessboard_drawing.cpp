@@ -12,6 +12,5 @@ Sheet chessboardSheet(cv::Size inner_corners, double square) {
   return sheet;
 }
 
-cv::Mat drawChessboard(cv::Size inner_corners, double square, double px_per_m) { return pictureOf(chessboardSheet(inner_corners, square), px_per_m); }
 
 }  // namespace palpa::ar

@@ -7,7 +7,7 @@ namespace palpa::ar {
 namespace {
 
 constexpr double kForeign = 38.26;             // chi-squared, six degrees of freedom: 1 in a million
-constexpr double kFirstSpeed_rad = 2, kFirstSpeed_m = 0.5;   // 1/s: how fast it may move when it is first seen
+constexpr double kFirstSpeed_rad = 2, kFirstSpeed_m = 0.5;   // rad/s, m/s: how fast it may move when it is first seen
 constexpr double kJumpSpeed = 1.0;             // m/s: two outliers nearer to each other than this takes are one thing
 
 using Motions = std::array<PoseMotion, PoseFilter::kModels>;
@@ -75,21 +75,21 @@ bool PoseFilter::isForeign(const Pose& X, const Matrix6& covariance, std::int64_
   return surprise(predicted(motion_.back(), settings_.models.back(), seconds(std::max(t_ns - t_ns_, std::int64_t{0}))), X, covariance) > kForeign;
 }
 
-bool PoseFilter::update(const Pose& X, const Matrix6& covariance, std::int64_t t_ns) {
-  if (started_ && t_ns <= t_ns_) return false;
+PoseFilter::Taken PoseFilter::update(const Pose& X, const Matrix6& covariance, std::int64_t t_ns) {
+  if (started_ && t_ns <= t_ns_) return Taken::left_out;
   const double dt = seconds(t_ns - t_ns_);
   if (!started_ || dt > settings_.longest_gap) {
     start(X, covariance, t_ns);
-    return true;
+    return Taken::started_anew;
   }
   if (isForeign(X, covariance, t_ns)) {
     const bool jumped = outlier_ && (outlier_->X.translation() - X.translation()).norm() < kJumpSpeed * seconds(t_ns - outlier_->t_ns);
     if (jumped) {
       start(X, covariance, t_ns);
-      return true;
+      return Taken::started_anew;
     }
     outlier_ = Outlier{X, t_ns};
-    return false;
+    return Taken::left_out;
   }
   outlier_.reset();
   mix(dt);
@@ -101,7 +101,7 @@ bool PoseFilter::update(const Pose& X, const Matrix6& covariance, std::int64_t t
   for (double& b : belief_) b /= sum;
   mixed_ = mixture(motion_, belief_);
   t_ns_ = t_ns;
-  return true;
+  return Taken::taken;
 }
 
 PoseMotion PoseFilter::at(std::int64_t t_ns) const {

@@ -18,22 +18,22 @@ class PoseFilter {
  public:
   static constexpr std::size_t kModels = 3;
   struct Settings {
+    // [chosen] by `palpa bench tracking`: accelerations of a hand that reaches (Flash & Hogan 1985: 4 m/s^2 over 0.3 m in 0.6 s) and of one that carries.
     std::array<MotionModel, kModels> models{{{true, 2e-4, 5e-5, 0, 0, 0}, {false, 0, 0, 1, 0.3, 0.5}, {false, 0, 0, 12, 4, 0.2}}};
-    double stays = 1;                               ///< s for which one model typically holds
-    double longest_gap = 0.5;                       ///< s; after a longer one the filter starts anew
+    double stays = 1;                               ///< [chosen] s for which one model typically holds
+    double longest_gap = 0.5;                       ///< [chosen] s; after a longer one the filter starts anew
   };
 
   PoseFilter() : PoseFilter(Settings{}) {}
   explicit PoseFilter(const Settings& settings) : settings_(settings) {}
 
-  /// Takes the pose of time `t_ns` in; false where it was left out. A time that does not advance is left out too.
-  bool update(const Pose& X, const Matrix6& covariance, std::int64_t t_ns);
+  enum class Taken { left_out, taken, started_anew };   ///< started_anew: the first pose, one after a long gap, one that jumped
+  /// Takes the pose of time `t_ns` in, or leaves it out: where it is foreign, or its time does not advance.
+  Taken update(const Pose& X, const Matrix6& covariance, std::int64_t t_ns);
 
   /// Whether the filter, at that time, would take this pose for a gross error.
   bool isForeign(const Pose& X, const Matrix6& covariance, std::int64_t t_ns) const;
 
-  bool started() const { return started_; }
-  std::int64_t time_ns() const { return t_ns_; }        ///< of the last pose taken in
   double moving() const { return 1 - belief_[0]; }      ///< how likely it moves, 0 to 1
   const PoseMotion& now() const { return mixed_; }      ///< at that time
   /// At a time not before it.

@@ -2,16 +2,16 @@
 
 #include <cmath>
 
+#include "ar/pose_motion.h"
+
 namespace palpa::ar {
 namespace {
 
 using calibration::CameraModel;
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
 
 struct Normal {
-  Mat6 A = Mat6::Zero();  ///< J^T J
-  Vec6 b = Vec6::Zero();  ///< J^T residual
+  Matrix6 A = Matrix6::Zero();  ///< J^T J
+  Vector6 b = Vector6::Zero();  ///< J^T residual
   double cost = 0;        ///< sum of squares; not a number when a point is behind the camera
 };
 
@@ -34,15 +34,6 @@ Normal linearise(const Pose& X_CW, const std::vector<BoardPoint>& points,
   return normal;
 }
 
-Pose moved(const Pose& X, const Vec6& step) {
-  const Vec3 w = step.head<3>();
-  const double angle = w.norm();
-  const Mat3 turn =
-      angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix() : Mat3(Mat3::Identity());
-  const Mat3 R = Quat(turn * X.linear()).normalized().toRotationMatrix();
-  return makePose(R, X.translation() + step.tail<3>());
-}
-
 }  // namespace
 
 RefinedPose refinePose(const Pose& start, const std::vector<BoardPoint>& points,
@@ -52,10 +43,10 @@ RefinedPose refinePose(const Pose& start, const std::vector<BoardPoint>& points,
   double damping = 1e-4;
   int iterations = 0;
   for (; iterations < 50 && damping < 1e12; ++iterations) {
-    Mat6 A = normal.A;
+    Matrix6 A = normal.A;
     A.diagonal() *= 1 + damping;
-    const Vec6 step = A.ldlt().solve(normal.b);
-    const Pose next = moved(X, step);
+    const Vector6 step = A.ldlt().solve(normal.b);
+    const Pose next = stepped(X, step);
     const Normal there = linearise(next, points, camera);
     const bool better = there.cost <= normal.cost;  // false when not a number
     damping *= better ? 0.1 : 10;

@@ -17,11 +17,9 @@ Pose between(const PoseMotion& a, const PoseMotion& b, double s, double dt) {
 }  // namespace
 
 bool PoseTrack::add(const Pose& X, const Matrix6& covariance, std::int64_t t_ns) {
-  const std::int64_t before = filter_.time_ns();
-  const bool jumped = filter_.isForeign(X, covariance, t_ns);
-  if (!filter_.update(X, covariance, t_ns)) return false;
-  // What is on the other side of a gap or a jump is no way that was gone.
-  if (jumped || (!past_.empty() && since(before, t_ns) > settings_.filter.longest_gap)) past_.clear();
+  const PoseFilter::Taken taken = filter_.update(X, covariance, t_ns);
+  if (taken == PoseFilter::Taken::left_out) return false;
+  if (taken == PoseFilter::Taken::started_anew) past_.clear();   // between the other side of a gap or a jump and here no way was gone
   past_.push_back({t_ns, filter_.now()});
   while (since(past_.front().t_ns, t_ns) > settings_.remembers) past_.pop_front();
   return true;

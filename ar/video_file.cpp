@@ -51,7 +51,10 @@ VideoFile::VideoFile(const std::filesystem::path& file) try : impl_(std::make_un
 
 VideoFile::~VideoFile() = default;
 
-double VideoFile::rate_Hz() const { return impl_->rate; }
+double VideoFile::rate_Hz() const {
+  const std::vector<std::int64_t>& times = impl_->times;
+  return times.size() < 2 ? impl_->rate : 1e9 * static_cast<double>(times.size() - 1) / static_cast<double>(times.back() - times.front());
+}
 
 std::optional<Frame> VideoFile::grab() {
   Frame frame;

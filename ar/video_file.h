@@ -15,7 +15,7 @@ class VideoFile : public Camera {
   explicit VideoFile(const std::filesystem::path& file);
   ~VideoFile() override;
   std::optional<Frame> grab() override;
-  double rate_Hz() const;   ///< pictures a second, as the film says; 30 where it does not
+  double rate_Hz() const;   ///< pictures a second: by the times beside it, otherwise as the film says; 30 where neither does
 
  private:
   struct Impl;

@@ -1,5 +1,6 @@
 #include "ar/webcam.h"
 
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <opencv2/videoio.hpp>

@@ -9,6 +9,8 @@ find_package(OpenSSL REQUIRED)  # SHA-256
 find_package(Boost 1.70 REQUIRED)  # headers only: Boost.Math
 find_package(apriltag REQUIRED)
 find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d aruco videoio)
+find_package(OpenXR 1.0 REQUIRED)
+find_package(glm REQUIRED)
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(CAIRO REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
@@ -17,6 +19,6 @@ find_package(VTK 9 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonMath CommonTransforms CommonExecutionModel
   FiltersCore FiltersGeneral FiltersSources FiltersModeling
   ImagingCore IOGeometry IOImage InteractionStyle
-  RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingUI)
+  RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingUI glew)
 # Only compared with, in `palpa bench anatomy`.
 find_package(embree 3 QUIET)

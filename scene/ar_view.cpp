@@ -21,6 +21,7 @@ constexpr double kAzimuth = 18 * kDegree;  // toward the punctured side
 constexpr double kToolReach = 0.30;        // metres from the tip: the syringe, an arrow at its end
 constexpr double kEyesApart = 0.063;       // metres, the mean of adults (Dodgson 2004)
 constexpr double kNearestFocus = 0.1;
+constexpr double kNearestThing = 0.05;     // m from the camera, of what is real
 constexpr double kShaft_px = 5;            // an arrow's shaft in a window 720 pixels high
 
 OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
@@ -35,6 +36,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
     : window_(window),
       region_(region),
       stereo_(layout.stereo),
+      see_through_(layout.see_through),
       orbit_(defaultView(patient, region)),
       backdrop_(*renderer_, true),
       glass_((window.AddRenderer(renderer_), window), *renderer_),
@@ -45,13 +47,14 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       ellipse_(*above_, colour::kAdvice, 1.8),
       occluders_(*renderer_) {
   if (layout.skin_deflection && organs_.skin()) skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
-  setUpRenderer(*renderer_, colour::kBehindBottom);
+  setUpRenderer(*renderer_, see_through_ ? colour::kClear : colour::kBehindBottom);
+  if (see_through_) renderer_->SetBackgroundAlpha(0);
   setUpRenderer(*above_, colour::kBehindBottom);
   renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
   above_->SetActiveCamera(renderer_->GetActiveCamera());
   above_->SetLayer(1);
   window_.AddRenderer(above_);
-  if (stereo_ == Stereo::side_by_side || stereo_ == Stereo::top_bottom) second_ = std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *above_);
+  if (stereo_ != Stereo::none && stereo_ != Stereo::anaglyph) second_ = std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *above_);
 }
 
 ArView::~ArView() {
@@ -74,7 +77,7 @@ void ArView::update(const SceneState& state) {
     backdrop_.show(*state.picture);
   else
     backdrop_.hide();
-  renderer_->SetGradientBackground(state.picture == nullptr);
+  renderer_->SetGradientBackground(state.picture == nullptr && !see_through_);
   shows_patient_ = state.registered || state.picture == nullptr;
   showPatient(state, shows_patient_);
   if (second_) second_->mirror();
@@ -97,6 +100,7 @@ void ArView::chooseCamera(const SceneState& state) {
 /// One camera, or two that belong to it.
 void ArView::applyCameras(const SceneState& state) {
   tip_A_ = state.X_AT.translation();
+  real_things_ = !state.occluders.empty();
   glass_.look(X_CA_.inverse().translation());
   if (stereo_ == Stereo::none) return lookThrough({pinhole_, X_CA_}, picture_, *renderer_);
   const Pinhole whole = virtual_ ? pinhole_ : state.camera;
@@ -115,7 +119,8 @@ void ArView::applyCameras(const SceneState& state) {
 void ArView::lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind) {
   if (&behind == renderer_.Get())
     for (vtkRenderer* renderer : {renderer_.Get(), above_.Get(), &glass_.renderer()}) setViewport(*renderer, where, window_width_, window_height_);
-  const DepthRange range = depthRangeOf({{eye.X_CA * region_.whole_centre_A, region_.whole_radius}, {eye.X_CA * tip_A_, kToolReach}});
+  DepthRange range = depthRangeOf({{eye.X_CA * region_.whole_centre_A, region_.whole_radius}, {eye.X_CA * tip_A_, kToolReach}});
+  if (real_things_) range.near = std::min(range.near, kNearestThing);   // they stand anywhere before the patient
   aim(*behind.GetActiveCamera(), eye.camera, eye.X_CA, range);
 }
 

@@ -46,8 +46,11 @@ class ArView {
   bool showsPatient() const { return shows_patient_; }
   OrbitCamera& orbit() { return orbit_; }
   const Rect& picture() const { return picture_; }  ///< the part of the panel that is drawn on
-  const Pinhole& pinhole() const { return pinhole_; }
-  const Pose& X_CA() const { return X_CA_; }
+  const std::array<EyeCamera, 2>& eyes() const { return eyes_; }      ///< of a stereo view; as large as their panels
+  const std::array<Rect, 2>& panelsOfEyes() const { return eye_panels_; }
+  /// What is seen where: the camera, or the left one of two eyes, and the part of the window that it fills.
+  EyeCamera eye() const { return stereo_ == Stereo::none ? EyeCamera{pinhole_, X_CA_} : eyes_[0]; }
+  const Rect& eyePanel() const { return stereo_ == Stereo::none ? picture_ : eye_panels_[0]; }
 
  private:
   void chooseCamera(const SceneState& state);
@@ -63,10 +66,12 @@ class ArView {
   Rect panel_, picture_;
   int window_width_ = 1, window_height_ = 1;
   Stereo stereo_;
+  bool see_through_;
   std::array<EyeCamera, 2> eyes_;
   std::array<Rect, 2> eye_panels_;
   Vec3 tip_A_ = Vec3::Zero();
   bool virtual_ = true;
+  bool real_things_ = false;
   bool shows_patient_ = true;
   OrbitCamera orbit_;
   Pinhole pinhole_;

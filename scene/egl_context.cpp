@@ -62,7 +62,7 @@ std::vector<Candidate> candidates() {
   return result;
 }
 
-EGLContext createContext(EGLDisplay display) {
+EGLContext createContext(EGLDisplay display, void** config_out) {
   // The default EGL_SURFACE_TYPE asks for windows, which these platforms do not have.
   const EGLint config_wish[] = {EGL_SURFACE_TYPE, EGL_DONT_CARE, EGL_RENDERABLE_TYPE,
                                 EGL_OPENGL_BIT, EGL_NONE};
@@ -77,6 +77,7 @@ EGLContext createContext(EGLDisplay display) {
   EGLint count = 0;
   if (!eglChooseConfig(display, config_wish, &config, 1, &count) || count == 0)
     return EGL_NO_CONTEXT;
+  *config_out = config;
   return eglCreateContext(display, config, EGL_NO_CONTEXT, context_wish);
 }
 
@@ -93,7 +94,7 @@ EglContext::EglContext() {
 bool EglContext::open(void* display, const char* name) {
   if (display == EGL_NO_DISPLAY || !eglInitialize(display, nullptr, nullptr)) return false;
   if (!eglBindAPI(EGL_OPENGL_API)) return false;
-  const EGLContext context = createContext(display);
+  const EGLContext context = createContext(display, &config_);
   if (context == EGL_NO_CONTEXT) return false;
   if (!eglMakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
     eglDestroyContext(display, context);
@@ -118,5 +119,14 @@ void EglContext::makeCurrent() const {
 }
 
 bool EglContext::isCurrent() const { return eglGetCurrentContext() == context_; }
+
+NativeContext EglContext::native() const {
+  NativeContext native;
+  native.display = display_;
+  native.config = config_;
+  native.context = context_;
+  native.address = eglGetProcAddress;
+  return native;
+}
 
 }  // namespace palpa::scene

@@ -2,6 +2,8 @@
 
 #include <string>
 
+#include "scene/gl_context.h"
+
 namespace palpa::scene {
 
 /// A desktop OpenGL (core, 3.2 or later) context without any surface or window system. Looks in
@@ -16,13 +18,14 @@ class EglContext {
 
   void makeCurrent() const;  ///< in the calling thread; throws Error
   bool isCurrent() const;
+  NativeContext native() const;
   const std::string& name() const { return name_; }  ///< "surfaceless EGL" or "EGL device"
 
  private:
   bool open(void* display, const char* name);
 
   void* display_ = nullptr;  // EGLDisplay; stays initialised: others in the process may share it
-  void* context_ = nullptr;  // EGLContext
+  void *config_ = nullptr, *context_ = nullptr;  // EGLConfig, EGLContext
   std::string name_;
 };
 

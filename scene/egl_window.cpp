@@ -60,6 +60,10 @@ class EglProvider : public GlContextProvider {
   vtkRenderWindow* window() override { return window_; }
   bool interactive() const override { return false; }
   const char* describe() const override { return context_.name().c_str(); }
+  NativeContext native() override {
+    makeCurrent();
+    return context_.native();
+  }
 
  private:
   EglContext context_;

@@ -1,5 +1,7 @@
 #include "scene/gl_context.h"
 
+#include <vtkOpenGLRenderWindow.h>
+
 #include "anatomy/geometry/error.h"
 #include "scene/egl_window.h"
 #include "scene/x11_window.h"
@@ -35,6 +37,10 @@ std::unique_ptr<GlContextProvider> offscreen(int width, int height, const char* 
 }
 
 }  // namespace
+
+void GlContextProvider::makeCurrent() { window()->MakeCurrent(); }
+
+void GlContextProvider::neverWait() { static_cast<vtkOpenGLRenderWindow*>(window())->SetSwapControl(0); }
 
 std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int height,
                                                  const char* title) {

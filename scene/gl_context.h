@@ -6,6 +6,15 @@ class vtkRenderWindow;
 
 namespace palpa::scene {
 
+/// A context as GLX or EGL have it, for what else wants to draw in it.
+struct NativeContext {
+  bool glx = false;                ///< otherwise EGL
+  void *display = nullptr, *config = nullptr, *context = nullptr;
+  unsigned long drawable = 0;      ///< GLX
+  unsigned visual = 0;             ///< GLX
+  void (*(*address)(const char*))() = nullptr;   ///< of OpenGL's functions (EGL)
+};
+
 enum class Display { automatic, window, offscreen };
 
 /// Owns the one OpenGL context kind of the process (GLX or surfaceless EGL; never both) and makes
@@ -16,6 +25,9 @@ class GlContextProvider {
   virtual vtkRenderWindow* window() = 0;     ///< owned by the provider
   virtual bool interactive() const = 0;      ///< a window a person can see
   virtual const char* describe() const = 0;  ///< "X11 window", "surfaceless EGL", ...
+  virtual NativeContext native() = 0;        ///< and makes it current
+  void makeCurrent();                        ///< on the calling thread
+  void neverWait();                          ///< frames do not wait for the monitor's
 };
 std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int height,
                                                  const char* title);

@@ -9,7 +9,6 @@
 #include <vtkRenderer.h>
 
 #include <algorithm>
-#include <numeric>
 
 #include "scene/palette.h"
 #include "scene/pass_mapper.h"

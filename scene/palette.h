@@ -13,6 +13,7 @@ using Rgba = std::array<double, 4>;
 
 namespace colour {
 inline constexpr Rgb kBorder{0.20, 0.22, 0.25};
+inline constexpr Rgb kClear{0, 0, 0};  ///< where a display is looked through
 inline constexpr Rgb kPanel{0.075, 0.085, 0.100};
 inline constexpr Rgb kBehindBottom{0.085, 0.100, 0.120};  ///< AR view without a picture
 inline constexpr Rgb kBehindTop{0.190, 0.220, 0.255};

@@ -21,8 +21,8 @@ class PassMapper : public vtkOpenGLPolyDataMapper {
     if (!colours) state->vtkglColorMask(0, 0, 0, 0);
     if (!depths) state->vtkglDepthMask(0);
     Superclass::RenderPiece(renderer, actor);
-    state->vtkglColorMask(1, 1, 1, 1);
-    state->vtkglDepthMask(1);
+    if (!colours) state->vtkglColorMask(1, 1, 1, 1);
+    if (!depths) state->vtkglDepthMask(1);
   }
 };
 vtkStandardNewMacro(PassMapper);

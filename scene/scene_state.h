@@ -54,8 +54,11 @@ struct Guide {
   Vec3 from_A = Vec3::Zero(), to_A = Vec3::Zero();
 };
 
-/// How a view for two eyes is laid out. anaglyph: for red and cyan glasses.
-enum class Stereo { none, side_by_side, top_bottom, anaglyph };
+/// How a view for two eyes is laid out. anaglyph: for red and cyan glasses. headset: side by side, words before each eye.
+enum class Stereo { none, side_by_side, top_bottom, anaglyph, headset };
+
+/// A small picture in the corner of the large view. camera: what the camera sees, without the overlay.
+enum class Inset { none, camera };
 
 enum class SkinStyle { solid, translucent, hidden };
 

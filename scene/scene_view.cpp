@@ -12,6 +12,7 @@
 #include "scene/ar_view.h"
 #include "scene/backdrop.h"
 #include "scene/hud.h"
+#include "scene/inset.h"
 #include "scene/navigation.h"
 #include "scene/ortho_view.h"
 #include "scene/plates.h"
@@ -27,6 +28,7 @@ struct SceneView::Impl {
   void place();
   void paintStills();
   void show(const SceneState& state);
+  void writeWords(const SceneState& state);
   void mergeEyes();
 
   GlContextProvider& context;
@@ -42,9 +44,12 @@ struct SceneView::Impl {
   Trail trail;
   ArView ar;
   std::vector<std::unique_ptr<OrthoView>> fixed;
+  std::unique_ptr<CameraInset> inset;   // null: none
   HudPainter hud;
+  std::unique_ptr<HudPainter> other_hud;   // before the right eye of a headset
   Navigation navigation;
   std::unique_ptr<WindowInput> input;
+  EyeCopier copier{window};
   Panels panels;
   std::array<int, 2> size{0, 0};
 };
@@ -60,8 +65,11 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
       hud(*words, layout.force_colours) {
   window.SetSize(layout.width, layout.height);
   window.SetNumberOfLayers(3);
-  setUpRenderer(*frame, colour::kBorder);
+  if (layout.see_through) window.SetAlphaBitPlanes(1);
+  setUpRenderer(*frame, layout.see_through ? colour::kClear : colour::kBorder);
+  if (layout.see_through) frame->SetBackgroundAlpha(0);
   setUpRenderer(*words, colour::kBorder);
+  if (layout.stereo == Stereo::headset) other_hud = std::make_unique<HudPainter>(*words, layout.force_colours);
   words->SetLayer(2);
   ar.addTrail(trail);
   if (layout.orthographic) {
@@ -70,6 +78,7 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
       fixed.back()->addTrail(trail);
     }
   }
+  if (layout.inset == Inset::camera) inset = std::make_unique<CameraInset>(window);
   window.AddRenderer(words);
   setUpRenderer(*merged, colour::kBorder);
   merged->DrawOff();
@@ -91,7 +100,7 @@ void SceneView::Impl::place() {
   ar.place(panels.ar, size[0], size[1]);
   const Rgb& dark = colour::kPanel;
   margins.clear();
-  margins.add(panels.ar, {dark[0], dark[1], dark[2], 1}, 0);
+  if (layout.stereo != Stereo::headset) margins.add(panels.ar, {dark[0], dark[1], dark[2], 1}, 0);
   const Rect* places[] = {&panels.front, &panels.side, &panels.top};
   for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i]->place(*places[i], size[0], size[1]);
   paintStills();
@@ -112,10 +121,18 @@ void SceneView::Impl::show(const SceneState& state) {
   trail.update(state.trail_A);
   ar.update(state);
   for (const auto& view : fixed) view->update(state);
-  hud.update(state.hud, ar.showsPatient() ? state.forces : std::vector<ForceArrow>(), panels.ar,
-             size[1]);
+  if (inset) inset->show(state.picture, panels.ar, size[0], size[1]);
+  writeWords(state);
   window.Render();
   if (layout.stereo == Stereo::anaglyph) mergeEyes();
+}
+
+void SceneView::Impl::writeWords(const SceneState& state) {
+  const std::vector<ForceArrow> forces = ar.showsPatient() ? state.forces : std::vector<ForceArrow>();
+  if (!other_hud) return hud.update(state.hud, forces, panels.ar, size[1]);
+  const std::array<Rect, 2> where = wordPanels(ar.eyes(), ar.panelsOfEyes());
+  hud.update(state.hud, forces, where[0], 2 * where[0].height);
+  other_hud->update(state.hud, forces, where[1], 2 * where[1].height);
 }
 
 /// Both eyes one after the other, and then their one picture over the whole window.
@@ -153,6 +170,10 @@ void SceneView::show(const SceneState& state) { impl_->show(state); }
 
 Image SceneView::capture() const { return pixelsOf(impl_->window); }
 
+void SceneView::copyEye(std::size_t eye, const TextureTarget& target) const {
+  impl_->copier.copy(impl_->ar.panelsOfEyes().at(eye), target);
+}
+
 ViewInput SceneView::poll() {
   if (!impl_->input) return {};
   const ViewInput input = impl_->input->poll();
@@ -162,13 +183,13 @@ ViewInput SceneView::poll() {
 }
 
 ArGeometry SceneView::arGeometry() const {
-  const Rect& picture = impl_->ar.picture();
+  const Rect& picture = impl_->ar.eyePanel();
   const double top = impl_->size[1] - picture.top();
-  Pinhole camera = impl_->ar.pinhole();
-  camera.cx += picture.x;
-  camera.cy += top;
-  return {camera,
-          impl_->ar.X_CA(),
+  EyeCamera eye = impl_->ar.eye();
+  eye.camera.cx += picture.x;
+  eye.camera.cy += top;
+  return {eye.camera,
+          eye.X_CA,
           static_cast<double>(picture.x),
           top,
           static_cast<double>(picture.width),

@@ -6,6 +6,7 @@
 
 #include "anatomy/patient.h"
 #include "scene/gl_context.h"
+#include "scene/eye_copy.h"
 #include "scene/scene_state.h"
 
 namespace palpa::scene {
@@ -29,9 +30,11 @@ struct ViewLayout {
   bool skin_deflection = false;
   ForceColours force_colours = ForceColours::paper;
   Stereo stereo = Stereo::none;   ///< of the AR view
+  Inset inset = Inset::none;
+  bool see_through = false;       ///< what is not drawn is black and clear (alpha 0): for displays that one looks through
 };
 
-/// How the AR view looks right now, in window pixels from the top left: the pixel (u, v) under the
+/// How the AR view (its left eye, in stereo) looks right now, in window pixels from the top left: the pixel (u, v) under the
 /// mouse sees the ray ((u - cx) / fx, (v - cy) / fy, 1) of C.
 struct ArGeometry {
   Pinhole camera;  ///< cx, cy count from the window's corner
@@ -48,6 +51,8 @@ class SceneView {
 
   void show(const SceneState& state);  ///< updates the graph and renders one frame
   Image capture() const;               ///< the last frame, RGB, top row first
+  /// The last frame of one eye (0 left, 1 right; a stereo view) into a texture of the same context.
+  void copyEye(std::size_t eye, const TextureTarget& target) const;
   ViewInput poll();                    ///< events of an interactive window; empty otherwise
 
   ArGeometry arGeometry() const;

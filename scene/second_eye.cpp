@@ -34,6 +34,8 @@ SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& 
     renderer.SetActiveCamera(behind_->GetActiveCamera());
     window_.AddRenderer(&renderer);
   });
+  behind_->SetBackground(first_behind_.GetBackground());
+  behind_->SetBackgroundAlpha(first_behind_.GetBackgroundAlpha());
   behind_->SetBackground2(first_behind_.GetBackground2());
   glass_->EraseOff();
   above_->SetLayer(first_above_.GetLayer());

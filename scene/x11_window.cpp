@@ -26,11 +26,40 @@ class X11Provider : public GlContextProvider {
   vtkRenderWindow* window() override { return window_; }
   bool interactive() const override { return visible_; }
   const char* describe() const override { return visible_ ? "X11 window" : "offscreen X11"; }
+  NativeContext native() override;
 
  private:
   bool visible_;
   vtkSmartPointer<vtkRenderWindow> window_ = vtkSmartPointer<vtkRenderWindow>::New();
 };
+
+/// The GLXFBConfig of this number; VTK keeps it to itself.
+GLXFBConfig configOf(::Display* display, int id) {
+  const int wish[] = {GLX_FBCONFIG_ID, id, 0};
+  int count = 0;
+  GLXFBConfig* const found = glXChooseFBConfig(display, DefaultScreen(display), wish, &count);
+  const GLXFBConfig config = count > 0 ? found[0] : nullptr;
+  if (found) XFree(found);
+  return config;
+}
+
+NativeContext X11Provider::native() {
+  window_->Start();   // makes the context where there is none
+  makeCurrent();
+  NativeContext native;
+  native.glx = true;
+  native.display = glXGetCurrentDisplay();
+  native.context = glXGetCurrentContext();
+  native.drawable = glXGetCurrentDrawable();
+  if (native.display == nullptr || native.context == nullptr) throw Error("has no OpenGL context", "X11 window", "Update the graphics driver");
+  auto* const display = static_cast<::Display*>(native.display);
+  int id = 0, visual = 0;
+  glXQueryContext(display, static_cast<GLXContext>(native.context), GLX_FBCONFIG_ID, &id);
+  native.config = configOf(display, id);
+  if (native.config) glXGetFBConfigAttrib(display, static_cast<GLXFBConfig>(native.config), GLX_VISUAL_ID, &visual);
+  native.visual = static_cast<unsigned>(visual);
+  return native;
+}
 
 }  // namespace
 

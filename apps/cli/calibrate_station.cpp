@@ -171,8 +171,10 @@ void calibrateStation(const CalibrateOptions& o) {
     setup.calibrations.push_back(asFile(setup.results.back()));
     return leave(o, station, setup, {}, "");
   }
-  if (station.device.driver != station::DeviceDriver::bench)
-    throw Error("cannot be led through a calibration yet: its camera is simulated", "station \"" + station.id + "\"", "Give recorded samples; see --help");
+  const bool real_camera = station.camera_setup.driver != station::CameraSetup::Driver::bench;
+  if (real_camera || station.device.driver != station::DeviceDriver::bench)
+    throw Error(std::string("cannot be led through a calibration yet: its ") + (real_camera ? "camera" : "device") + " is real, and the guided calibration knows only simulated ones",
+                "station \"" + station.id + "\"", "Record samples, and give them; see --help");
   twin::SetupBench bench(station, o.seed);
   TerminalGuide guide(o.quiet, false);
   CorrectedRig rig(bench);   // by the station's own calibration, where it has one

@@ -107,6 +107,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   expert.trainee = "simulated-expert";
   expert.fast = expert.no_views = expert.quiet = true;
   expert.display = scene::Display::offscreen;
+  expert.headset = false;
   const std::filesystem::path place = makeOutputFolder((folder / "demonstration").string(), "");
   if (runNeedleSession(expert, world, place).quit) throw Error("was interrupted", "the demonstration", "Start again");
   const RecordedSession recorded(place / "session.palpa");

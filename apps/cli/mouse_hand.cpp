@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace palpa::cli {
 namespace {
@@ -14,6 +15,7 @@ constexpr double kSteepestTurn = 1.4;        // rad from the skin's normal
 constexpr double kPlungerPerKey = 0.1;
 constexpr double kAboveSkin = 0.015;         // m, where the needle waits
 constexpr double kSmoothing = 0.03;          // s, the mouse's steps become motion
+constexpr std::int64_t kControllerGone = 300 * runtime::kMillisecond;
 constexpr std::int64_t kMousePeriod = runtime::kMillisecond;
 
 constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped", "other"};
@@ -21,8 +23,6 @@ constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "train
 void request(task_needle::TaskChannels& channels, UserCommand command, const std::string& reason = "") {
   channels.requests_to_task.push({command, reason});
 }
-
-void approach(double& value, double target, double share) { value += share * (target - value); }
 
 }  // namespace
 
@@ -45,11 +45,14 @@ MouseHand::MouseHand(const Setup& setup, runtime::ChannelDevice& device,
     : setup_(setup), device_(device), channels_(channels) {
   wish_.tip_A = pack(setup.anatomy.entry_A);
   wish_.along = -kAboveSkin;
-  now_ = wish_;
+  X_AT_ = pointedByMouse(wish_);
 }
 
 void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
   handleKeys(input, channels_);
+  const auto leads = [](const std::string& key) { return key == "Left" || key == "Right" || key == "Up" || key == "Down"; };
+  const bool moved = (input.left_button && dragging_) || input.wheel != 0 || std::any_of(input.keys.begin(), input.keys.end(), leads);
+  if (moved && now_ns - seen_ns_ > kControllerGone) letGo(now_ns);
   if (input.left_button && dragging_) {
     const double right = (input.mouse_x - mouse_x_) * kMetresPerPixel;
     const double up = -(input.mouse_y - mouse_y_) * kMetresPerPixel;
@@ -77,29 +80,48 @@ void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
   wishes_.publish(wish_, now_ns);
 }
 
-std::int64_t MouseHand::step(std::int64_t now_ns) {
-  if (const Wish* wish = wishes_.read(now_ns)) {
-    const double share = 1e-3 / kSmoothing;
-    for (std::size_t i = 0; i < 3; ++i) approach(now_.tip_A[i], wish->tip_A[i], share);
-    approach(now_.turn_medial, wish->turn_medial, share);
-    approach(now_.turn_cephalad, wish->turn_cephalad, share);
-    approach(now_.along, wish->along, share);
-    approach(now_.plunger, wish->plunger, share);
+void MouseHand::hold(const headset::HeldTool& held, std::int64_t now_ns) {
+  if (held.start) request(channels_, UserCommand::start);
+  if (held.tracked) {
+    seen_ns_ = now_ns;
+    wish_.held = true;
+    wish_.plunger = held.plunger;
+    wish_.X_AT = pack(held.X_AT);
   }
+  wishes_.publish(wish_, now_ns);
+}
+
+void MouseHand::letGo(std::int64_t now_ns) {
+  if (!std::exchange(wish_.held, false)) return;
+  wish_.off = pack(Pose(unpack(wish_.X_AT) * pointedByMouse(wish_).inverse()));
+  wishes_.publish(wish_, now_ns);
+}
+
+Pose MouseHand::pointedByMouse(const Wish& wish) const {
   const twin::VisibleAnatomy& a = setup_.anatomy;
   // "Right" turns the tip to the right of the screen, whichever side is punctured.
   const Vec3 screen_right = Vec3::UnitX() - Vec3::UnitX().dot(a.normal_A) * a.normal_A;
-  const Vec3 axis_A = (-a.normal_A + std::tan(now_.turn_medial) * screen_right.normalized() +
-                       std::tan(now_.turn_cephalad) * a.cephalad_A)
+  const Vec3 axis_A = (-a.normal_A + std::tan(wish.turn_medial) * screen_right.normalized() +
+                       std::tan(wish.turn_cephalad) * a.cephalad_A)
                           .normalized();
-  const Pose X_AT = makePose(rotationWithZ(axis_A), unpack(now_.tip_A) + now_.along * axis_A);
-  const Pose X_DE = setup_.X_DA * X_AT * setup_.X_ET.inverse();
+  return makePose(rotationWithZ(axis_A), unpack(wish.tip_A) + wish.along * axis_A);
+}
+
+std::int64_t MouseHand::step(std::int64_t now_ns) {
+  if (const Wish* wish = wishes_.read(now_ns)) {
+    const double share = 1e-3 / kSmoothing;
+    const Pose wanted = wish->held ? unpack(wish->X_AT) : unpack(wish->off) * pointedByMouse(*wish);
+    const Quat turned = Quat(X_AT_.rotation()).slerp(share, Quat(wanted.rotation())).normalized();
+    X_AT_ = makePose(turned.toRotationMatrix(), X_AT_.translation() + share * (wanted.translation() - X_AT_.translation()));
+    plunger_ += share * (wish->plunger - plunger_);
+  }
+  const Pose X_DE = setup_.X_DA * X_AT_ * setup_.X_ET.inverse();
   haptics::DeviceReading reading;
   reading.t_ns = now_ns;
   reading.sequence = ++sequence_;
   reading.p_DE = pack(Vec3(X_DE.translation()));
   reading.q_DE = pack(Quat(X_DE.rotation()));
-  reading.plunger = now_.plunger;
+  reading.plunger = plunger_;
   reading.homed = 1;
   device_.publish(reading, now_ns);
   due_ns_ = std::max((due_ns_ < 0 ? now_ns : due_ns_) + kMousePeriod, now_ns);

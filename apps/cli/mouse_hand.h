@@ -2,6 +2,7 @@
 
 #include <functional>
 
+#include "apps/headset/headset_view.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/clock.h"
 #include "apps/runtime/channel_device.h"
@@ -14,7 +15,7 @@ namespace palpa::cli {
 /// Keys that every session understands: Enter, P, A, V + 1..4, space, R, Escape.
 void handleKeys(const scene::ViewInput& input, task_needle::TaskChannels& channels);
 
-/// The mouse as a haptic stand-in: it moves the needle; what it would feel is drawn. Moving the mouse with
+/// A person's hand without a haptic device: the mouse, or the controller of a headset, moves the needle; what it would feel is drawn. Moving the mouse with
 /// the left button held shifts the tip along the frontal plane, the wheel moves along the
 /// needle, the arrow keys turn it about its entry, Z and X (left-handed: period and comma) draw and push the plunger, T changes the skin.
 class MouseHand final : public runtime::Activity {
@@ -30,6 +31,10 @@ class MouseHand final : public runtime::Activity {
   std::int64_t step(std::int64_t now_ns) override;   ///< 1 kHz: publishes the smoothed pose
   /// Called by the scene's thread with what the window reports.
   void handle(const scene::ViewInput& input, std::int64_t now_ns);
+  /// Called by the scene's thread once a frame of a headset: its controller leads while it is tracked. One that is not seen any more holds the needle where it was,
+  /// until the mouse is moved: from there the mouse leads on.
+  void hold(const headset::HeldTool& held, std::int64_t now_ns);
+  void letGo(std::int64_t now_ns);                   ///< the mouse leads again
   void onSkinKey(std::function<void()> action) { skin_key_ = std::move(action); }
 
  private:
@@ -38,7 +43,11 @@ class MouseHand final : public runtime::Activity {
     double turn_medial = 0, turn_cephalad = 0;   ///< rad, from the skin's normal
     double along = 0;                            ///< m, from the wheel
     double plunger = 0;
+    bool held = false;                           ///< by a controller: X_AT instead of what the mouse says
+    PackedPose X_AT;
+    PackedPose off = pack(Pose(Pose::Identity()));   ///< of the mouse's needle, since it took over from a controller
   };
+  Pose pointedByMouse(const Wish& wish) const;
   Setup setup_;
   runtime::ChannelDevice& device_;
   task_needle::TaskChannels& channels_;
@@ -46,8 +55,11 @@ class MouseHand final : public runtime::Activity {
   Wish wish_;                    // the scene thread's
   double mouse_x_ = 0, mouse_y_ = 0;
   bool dragging_ = false;
+  std::int64_t seen_ns_ = 0;     // the controller
   std::function<void()> skin_key_;
-  Wish now_;                     // the mouse thread's, smoothed
+  // The mouse thread's, smoothed.
+  Pose X_AT_;
+  double plunger_ = 0;
   std::uint64_t sequence_ = 0;
   std::int64_t due_ns_ = -1;
 };

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "apps/cli/head_stage.h"
 #include "apps/cli/interrupt.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/session_info.h"
@@ -61,6 +62,7 @@ class NeedleSession {
       : options_(options), world_(world), folder_(folder) {
     if (options.record_video) video_.emplace(folder);
     if (devices_.mouse()) devices_.mouse()->onSkinKey([this] { scene_.cycleSkin(); });
+    if (devices_.mouse() && head_.view) head_.view->onHeld([this](const headset::HeldTool& held) { devices_.mouse()->hold(held, executive_->clock().now()); });
     devices_.addTo(*executive_);
     executive_->add(haptic_, {1, true, false, options.cpu});
     if (!options.exact_geometry) executive_->add(geometry_, {2, false, false});
@@ -84,8 +86,10 @@ class NeedleSession {
     if (pictures_.fromBench()) result.accuracy = devices_.bench()->accuracy();
     if (video_) result.video = {video_->pictures(), video_->trouble()};
     result.registration = pictures_.registration();
+    result.camera_remarks = pictures_.remarks();
     result.board = scene_.board();
     result.devices = devices_.facts();
+    if (options_.headset) result.devices.push_back(head_.fact());
     result.safety_events = task_.safetyEvents();
     result.dropped = recorder_.dropped() + task_.lostTicks();
     result.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;
@@ -98,7 +102,7 @@ class NeedleSession {
     const bool person = options_.who == OperatorKind::person;
     return {world_.patient, world_.query, world_.task, world_.expert_path ? &*world_.expert_path : nullptr,
             world_.X_DA.inverse(), pack(world_.station.X_ET), isSimulated(options_, world_), !person,
-            whyNotScored(options_, world_), plan(options_, world_, person)};
+            whyNotScored(options_, world_), plan(options_, world_, person), places()};
   }
 
   task_needle::SceneActivity::Setup sceneSetup() {
@@ -106,12 +110,15 @@ class NeedleSession {
     task_needle::SceneActivity::Setup setup;
     setup.views = !stage_.view ? Views::none : options_.fast ? Views::pictures : Views::continuous;
     setup.view = stage_.view.get();
+    setup.head = head_.view.get();
     setup.camera = pictures_.camera();
     setup.X_WA = world_.X_WA;
     setup.X_WD = world_.station.X_WD;
     setup.mark = markFor(options_.who, world_.station);
     setup.folder = folder_;
     setup.every_source_picture = pictures_.photographs();
+    setup.places = places();
+    for (std::size_t i = 0; i < world_.real_things.size(); ++i) setup.things.push_back({&world_.real_things[i], &world_.station.things[i]});
     if (station::calibrationOf(world_.station.calibrations, "registration"))
       setup.tip_covariance_A = [this](const Pose& X_DT) { return tipCovariance(X_DT); };
     if (options_.guide)
@@ -120,11 +127,18 @@ class NeedleSession {
     setup.skin = skinOf(world_.patient);
     if (window_) {
       setup.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
+        if (devices_.mouse() && head_.view && !head_.view->trouble().empty()) devices_.mouse()->letGo(now_ns);
         if (devices_.mouse()) devices_.mouse()->handle(input, now_ns);
         else handleKeys(input, channels_);
       };
     }
     return setup;
+  }
+
+  std::vector<runtime::BoardPlace> places() const {
+    std::vector<runtime::BoardPlace> all;
+    for (const station::OtherBoard& board : world_.station.boards) all.push_back({board.name, board.X_WB, board.tolerance});
+    return all;
   }
 
   /// Of the drawn tip against the real one, in A.
@@ -140,6 +154,7 @@ class NeedleSession {
   const bool window_ = options_.display == scene::Display::window && !options_.no_views;
   SessionPictures pictures_{options_, world_};
   const Stage stage_ = options_.no_views ? Stage{} : makeStage(options_, world_, window_);
+  const HeadStage head_ = makeHeadStage(options_, world_, stage_);
   const std::unique_ptr<runtime::Executive> executive_ =
       options_.fast ? runtime::makeVirtualExecutive() : runtime::makeRealExecutive();
   const runtime::TimeMode mode_ = executive_->mode();

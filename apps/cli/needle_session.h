@@ -20,6 +20,7 @@ struct SessionResult {
   std::vector<runtime::Lateness> lateness;
   std::optional<twin::BenchAccuracy> accuracy;
   std::vector<RegistrationRow> registration;   ///< recorded pictures only
+  std::vector<std::string> camera_remarks;   ///< settings that it did not accept
   struct Video {
     std::uint64_t pictures = 0;
     std::string trouble;             ///< empty: everything was kept

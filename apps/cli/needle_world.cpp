@@ -5,6 +5,8 @@
 #include <fstream>
 #include <sstream>
 
+#include "anatomy/import/decimate.h"
+#include "anatomy/import/mesh_file.h"
 #include "anatomy/parametric_patient.h"
 #include "anatomy/patient_check.h"
 #include "anatomy/patient_file.h"
@@ -52,6 +54,18 @@ int surfaceIndex(const anatomy::Patient& patient, Organ organ) {
   return -1;
 }
 
+/// All surfaces of the file as one.
+anatomy::TriangleMesh meshOf(const station::RealThing& thing) {
+  anatomy::TriangleMesh mesh;
+  for (const anatomy::RawMesh& part : anatomy::readMeshFile(thing.mesh)) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const Vec3& p : part.points) mesh.points.push_back(thing.metres * p);
+    for (auto t : part.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  anatomy::computeUnitNormals(&mesh);
+  return mesh;
+}
+
 }  // namespace
 
 NeedleWorld::NeedleWorld(const SessionOptions& options)
@@ -62,6 +76,7 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
       query(patient),
       geometry(patient, query),
       landmarks(patient) {
+  for (const station::RealThing& thing : station.things) real_things.push_back(meshOf(thing));
   if (!options.record_only) expert_path = calibration::readExpertPath(task.expert_path);
   X_WA = options.camera.empty() ? station::placePatient(patient, station.entry_W)
                                 : station::placePatientOnBoard(patient);

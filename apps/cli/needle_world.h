@@ -31,6 +31,7 @@ struct NeedleWorld {
   anatomy::LocalGeometryBuilder geometry;
   anatomy::LandmarkFrame landmarks;
   std::optional<calibration::ExpertPath> expert_path;
+  std::vector<anatomy::TriangleMesh> real_things;   ///< the station's, in its order; metres
   Pose X_WA, X_DA;
 
   haptics::TickConfig tickConfig() const;

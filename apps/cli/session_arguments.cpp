@@ -14,11 +14,13 @@ const std::map<std::string, OperatorKind> kOperators{
 const std::map<std::string, scene::Display> kDisplays{{"auto", scene::Display::automatic},
                                                       {"window", scene::Display::window},
                                                       {"offscreen", scene::Display::offscreen}};
+constexpr const char* kHeadset = "openxr";
 const std::map<std::string, anatomy::Side> kSides{{"right", anatomy::Side::right},
                                                   {"left", anatomy::Side::left}};
 const std::map<std::string, scene::ForceColours> kForceColours{{"paper", scene::ForceColours::paper}, {"safe", scene::ForceColours::safe}};
 const std::map<std::string, scene::Stereo> kStereos{{"none", scene::Stereo::none}, {"side-by-side", scene::Stereo::side_by_side},
                                                     {"top-bottom", scene::Stereo::top_bottom}, {"anaglyph", scene::Stereo::anaglyph}};
+const std::map<std::string, scene::Inset> kInsets{{"none", scene::Inset::none}, {"camera", scene::Inset::camera}};
 const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
 const std::map<std::string, bool> kGeometries{{"local", false}, {"exact", true}};
 const std::map<std::string, bool> kKnowledge{{"mean", false}, {"patient", true}};
@@ -47,7 +49,7 @@ void addRecordedPictures(CLI::App& command, SessionOptions& o) {
 
 void checkPerson(const SessionOptions& o) {
   if (o.fast) throw UsageError("cannot go with --operator person", "--fast", "A person needs real time");
-  if (o.no_views || o.display != scene::Display::window)
+  if (o.no_views || (o.display != scene::Display::window && !o.headset))
     throw UsageError("needs a window", "--operator person",
                      "Set DISPLAY, or choose --operator expert or novice on the virtual bench");
 }
@@ -81,9 +83,15 @@ void addSessionArguments(CLI::App& command, SessionOptions& o) {
   choice(command, "--guide", o.guide, kOnOff, "Show a line from the entry point to the vein (default off); such trials are not scored");
   choice(command, "--force-colours", o.force_colours, kForceColours, "Of the force arrows: grays (paper, the default), or told apart by colour-blind eyes (safe)");
   choice(command, "--stereo", o.stereo, kStereos, "The large view for two eyes (default none); anaglyph: for red and cyan glasses");
+  choice(command, "--inset", o.inset, kInsets, "A small picture in the corner (default none); camera: what it sees, without the overlay");
   command.add_flag_callback("--no-demonstration", [&o] { o.demonstration = false; }, "A person starts without an expert's demonstration");
   command.add_flag_callback("--no-familiarisation", [&o] { o.familiarisation = false; }, "A person starts without a first unscored trial");
-  choice(command, "--display", o.display, kDisplays, "Where to show it");
+  command
+      .add_option_function<std::string>(
+          "--display", [&o](const std::string& text) { o.headset = text == kHeadset, o.display = o.headset ? scene::Display::automatic : kDisplays.at(text); },
+          "Where to show it; openxr: on a headset, and on the desktop beside it")
+      ->check(CLI::IsMember({"auto", "window", "offscreen", kHeadset}))
+      ->type_name("auto|offscreen|openxr|window");
   command.add_option("--expert-path", o.expert_path, "Optimal path; default: the task's")->type_name("FILE");
   command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")->type_name("DIR");
   command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop a second (default 1000)")->check(CLI::Range(1000.0, 4000.0));
@@ -107,18 +115,23 @@ void settleOperator(SessionOptions& o, const station::Station& station) {
     throw UsageError("is a real device, which a simulated operator cannot hold", where,
                      "Leave out --operator, or use the virtual bench");
   if (o.who == OperatorKind::automatic) {
-    const bool person = driver != station::DeviceDriver::bench || o.display == scene::Display::window;
+    const bool person = driver != station::DeviceDriver::bench || o.display == scene::Display::window || o.headset;
     o.who = person ? OperatorKind::person : OperatorKind::expert;
   }
   if (o.knows_patient && !isSimulated(o.who))
     throw UsageError("is for a simulated operator", "--operator-knows", "Add --operator expert or novice, or leave it out");
   if (o.who == OperatorKind::person) checkPerson(o);
+  if (o.display != scene::Display::window) o.demonstration = false;   // it is shown in a window
 }
 
 void settle(SessionOptions& o) {
   if (o.display == scene::Display::automatic)
     o.display = std::getenv("DISPLAY") && !o.fast && !o.no_views ? scene::Display::window : scene::Display::offscreen;
   if (o.who == OperatorKind::person) checkPerson(o);
+  if (o.headset && (o.fast || o.no_views))
+    throw UsageError("cannot go with --display openxr", o.fast ? "--fast" : "--no-views", "Leave one of them out: a headset shows what is now");
+  if (o.inset != scene::Inset::none && (o.stereo == scene::Stereo::side_by_side || o.stereo == scene::Stereo::top_bottom))
+    throw UsageError("would be seen by one eye only", "--inset with --stereo", "Leave one of them out");
   if (o.exact_geometry && !o.fast)
     throw UsageError("needs virtual time", "--geometry exact", "Add --fast: the full mesh takes longer than a tick");
   if (o.display == scene::Display::window && o.fast)

@@ -36,9 +36,11 @@ struct SessionOptions {
   bool guide = false;             ///< a line from the entry point to the vein: not scored
   scene::ForceColours force_colours = scene::ForceColours::paper;
   scene::Stereo stereo = scene::Stereo::none;
+  scene::Inset inset = scene::Inset::none;
   bool demonstration = true;      ///< a person first watches an expert's recorded trial
   bool familiarisation = true;    ///< and then tries once, unscored
   scene::Display display = scene::Display::automatic;
+  bool headset = false;           ///< beside the desktop's view
   std::string camera, intrinsics, board;   ///< recorded pictures instead of the station's camera
   std::string expert_path;        ///< overrides the task's
   std::string role = "scored";   ///< of the trials

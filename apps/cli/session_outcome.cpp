@@ -134,6 +134,7 @@ std::vector<report::Fact> notes(const SessionResult& result) {
                        late.scheduling});
   for (report::Fact& fact : safetyFacts(result.safety_events)) facts.push_back(std::move(fact));
   for (const SessionDevices::Fact& fact : result.devices) facts.push_back({fact.name, fact.value, fact.remark});
+  for (const std::string& remark : result.camera_remarks) facts.push_back({"Camera", remark, "the overlay may shift under a calibration"});
   if (result.video && !result.video->trouble.empty()) facts.push_back({"Video", result.video->trouble, format("%llu pictures were kept", static_cast<unsigned long long>(result.video->pictures))});
   if (result.dropped)
     facts.push_back({"Records lost", format("%llu", static_cast<unsigned long long>(result.dropped)),

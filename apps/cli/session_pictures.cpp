@@ -59,6 +59,8 @@ runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mo
   settings.latency_ns = static_cast<std::int64_t>(1e9 * std::min(station_.camera_latency_s, 1 / rate_Hz_));
   settings.mode = mode;
   settings.photographs = photographs();
+  if (file_.empty())
+    for (const station::OtherBoard& other : station_.boards) settings.others.push_back(ar::makeBoard(other.grid, station_.decimate));
   return settings;
 }
 
@@ -97,6 +99,11 @@ runtime::CameraActivity::Exposer SessionPictures::exposer(twin::VirtualBench* be
 runtime::CameraActivity::Observer SessionPictures::observer(twin::VirtualBench* bench) {
   if (fromBench()) return [bench](const runtime::CameraView& view) { bench->observe(view); };
   return [this](const runtime::CameraView& view) { note(view); };
+}
+
+std::vector<std::string> SessionPictures::remarks() const {
+  const auto* webcam = dynamic_cast<const ar::Webcam*>(pictures_.get());
+  return webcam ? webcam->remarks() : std::vector<std::string>();
 }
 
 void SessionPictures::note(const runtime::CameraView& view) {

@@ -36,6 +36,7 @@ class SessionPictures {
   runtime::CameraActivity::Exposer exposer(twin::VirtualBench* bench, const runtime::Clock& clock);
   runtime::CameraActivity::Observer observer(twin::VirtualBench* bench);
   const std::vector<RegistrationRow>& registration() const { return registration_; }   ///< of photographs
+  std::vector<std::string> remarks() const;   ///< what a webcam's driver did not accept, in words
 
  private:
   enum class Source { bench, webcam, film, photographs };

@@ -8,6 +8,7 @@ Stage makeStage(const SessionOptions& options, const NeedleWorld& world, bool wi
   layout.skin_deflection = options.skin_deflection;
   layout.force_colours = options.force_colours;
   layout.stereo = options.stereo;
+  layout.inset = options.inset;
   Stage stage;
   stage.context =
       scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,

@@ -39,6 +39,7 @@ struct CameraView {
   std::optional<Pose> X_CW;               ///< of the board at the exposure: filtered over the pictures, or foretold where it is hidden for a moment
   ar::TrackState tracking = ar::TrackState::searching;
   ar::PictureFault fault = ar::PictureFault::none;   ///< gone: `source` says why
+  std::vector<std::optional<Pose>> others;   ///< X_CB of the boards besides the table's, as `X_CW`, in the order of the camera's settings; empty: not seen
 };
 
 /// What a person at the display sees, as far as a simulated person may know it.

@@ -7,6 +7,11 @@ namespace {
 
 constexpr std::int64_t kAskAgain = kSecond;   // after a source has failed
 
+std::optional<Pose> poseAt(const ar::BoardTracker& tracker, std::int64_t t_ns) {
+  const ar::PoseTrack::Answer there = tracker.track().at(t_ns);
+  return there.how == ar::PoseTrack::Lookup::none ? std::nullopt : std::optional(there.X);
+}
+
 }  // namespace
 
 CameraActivity::CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
@@ -17,7 +22,9 @@ CameraActivity::CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
       tracker_(board, camera, {{}, !settings.photographs}),
       settings_(settings),
       health_({camera.width, camera.height}),
-      observer_(std::move(observer)) {}
+      observer_(std::move(observer)) {
+  for (const auto& other : settings_.others) other_trackers_.emplace_back(*other, camera, ar::BoardTracker::Settings{{}, !settings_.photographs});
+}
 
 CameraActivity::~CameraActivity() {
   if (pending_.valid()) pending_.wait();
@@ -28,30 +35,36 @@ CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std:
   view.t_exposure_ns = t_ns;
   view.number = number;
   view.tracking = tracker_.state();
+  std::optional<ar::Frame> frame;
   try {
-    const std::optional<ar::Frame> frame = exposure();
-    if (frame) {
-      view.source = frame->source;
-      view.t_exposure_ns = frame->t_exposure_ns;
-      view.picture = std::make_shared<const cv::Mat>(frame->image);
-      track(frame->image, &view);
-    } else {
-      view.fault = ar::PictureFault::ended;
-    }
-  } catch (const std::exception& e) {
+    frame = exposure();
+  } catch (const std::exception& e) {   // of the source alone: what goes wrong in the tracking is told to the executive
     view.fault = ar::PictureFault::gone;
     view.source = e.what();
+    return view;
   }
+  if (!frame) {
+    view.fault = ar::PictureFault::ended;
+    return view;
+  }
+  view.source = frame->source;
+  view.t_exposure_ns = frame->t_exposure_ns;
+  view.picture = std::make_shared<const cv::Mat>(frame->image);
+  track(frame->image, &view);
   return view;
 }
 
 void CameraActivity::track(const cv::Mat& image, CameraView* view) {
   if (!settings_.photographs) view->fault = health_.judge(image, view->t_exposure_ns);
   if (view->fault == ar::PictureFault::wrong_size) return;
-  // A frozen picture shows where the board was.
-  if (view->fault != ar::PictureFault::frozen) view->pose = tracker_.see(image, view->t_exposure_ns);
-  const ar::PoseTrack::Answer there = tracker_.track().at(view->t_exposure_ns);
-  if (there.how != ar::PoseTrack::Lookup::none) view->X_CW = there.X;
+  // A frozen picture shows where the boards were.
+  const bool fresh = view->fault != ar::PictureFault::frozen;
+  if (fresh) view->pose = tracker_.see(image, view->t_exposure_ns);
+  view->X_CW = poseAt(tracker_, view->t_exposure_ns);
+  for (ar::BoardTracker& other : other_trackers_) {
+    if (fresh) other.see(image, view->t_exposure_ns);
+    view->others.push_back(poseAt(other, view->t_exposure_ns));
+  }
   view->tracking = tracker_.state();
 }
 

@@ -2,6 +2,8 @@
 
 #include <functional>
 #include <future>
+#include <memory>
+#include <vector>
 
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
@@ -20,6 +22,7 @@ class CameraActivity final : public Activity {
     std::int64_t latency_ns = 50'000'000;   ///< exposure to published pose; at most the period
     TimeMode mode = TimeMode::virtual_time;
     bool photographs = false;               ///< each picture stands for itself: no motion between them
+    std::vector<std::shared_ptr<const ar::Board>> others{};   ///< looked for besides the table's, each with a motion of its own
   };
   /// Freezes the inputs of a picture exposed now, and returns what takes it (run on any thread).
   /// The inner function returns nothing when the source has ended; the frame's time of exposure is session time.
@@ -42,6 +45,7 @@ class CameraActivity final : public Activity {
   Bus& bus_;
   Exposer expose_;
   ar::BoardTracker tracker_;   ///< used by one picture at a time
+  std::vector<ar::BoardTracker> other_trackers_;
   Settings settings_;
   ar::PictureHealth health_;
   Observer observer_;

@@ -13,7 +13,7 @@ std::string cameraTrouble(const CameraView* view, std::int64_t now_ns) {
     case ar::PictureFault::black: return "the camera's picture is black: is the lens covered?";
     case ar::PictureFault::frozen: return "the camera's picture stands still: look at its cable";
     case ar::PictureFault::wrong_size: return "the camera's pictures are of another size than it was calibrated for";
-    case ar::PictureFault::gone: return "the camera is gone: look at its cable" + (view->source.empty() ? "" : " (" + view->source + ")");
+    case ar::PictureFault::gone: return "the camera is gone: " + (view->source.empty() ? "look at its cable" : view->source);
     case ar::PictureFault::ended: return "the camera's pictures have ended";
     case ar::PictureFault::none: break;
   }

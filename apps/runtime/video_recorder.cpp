@@ -38,7 +38,7 @@ const char* nameOf(ar::TrackState state) {
 VideoRecorder::VideoRecorder(const std::filesystem::path& folder)
     : film_(folder / "camera.mjpeg"), pictures_file_(film_, std::ios::binary), table_(film_.string() + ".csv") {
   if (!pictures_file_ || !table_) throw Error("cannot be written", film_.string(), "Choose another --out");
-  table_ << "number,t_exposure_ns,fault,tracking,points,rms_px,t_x_m,t_y_m,t_z_m,q_w,q_x,q_y,q_z\n";
+  table_ << "number,t_exposure_ns,source,fault,tracking,points,rms_px,t_x_m,t_y_m,t_z_m,q_w,q_x,q_y,q_z\n";
 }
 
 void VideoRecorder::add(const CameraView& view) {
@@ -46,7 +46,7 @@ void VideoRecorder::add(const CameraView& view) {
   std::vector<unsigned char> jpeg;
   cv::imencode(".jpg", *view.picture, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   pictures_file_.write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
-  table_ << pictures_ << ',' << view.t_exposure_ns << ',' << nameOf(view.fault) << ',' << nameOf(view.tracking);
+  table_ << pictures_ << ',' << view.t_exposure_ns << ",\"" << view.source << "\"," << nameOf(view.fault) << ',' << nameOf(view.tracking);
   if (view.pose) {
     const PackedPose X = pack(view.pose->X_CW);
     char pose[200];

@@ -40,17 +40,6 @@ CameraSetup readCameraSetup(const JsonFile& file) {
   return setup;
 }
 
-ar::TagGridSpec readBoard(const JsonFile& file, const std::string& at) {
-  ar::TagGridSpec board;
-  board.columns = file.integer(at + "/columns", 1, 30);
-  board.rows = file.integer(at + "/rows", 1, 30);
-  board.tag_size = kMm * file.number(at + "/tag_size_mm", 2, 500);
-  board.spacing = kMm * file.number(at + "/spacing_mm", 0.5, 500);
-  board.first_id = file.integer(at + "/first_id", 0, 586);
-  ar::validate(board, file.name() + ", \"" + at + "\"");
-  return board;
-}
-
 /// A place that an arm may reach, metres.
 Vec3 placeIn(const JsonFile& file, const std::string& at) {
   constexpr double kFarthest_mm = 5000;
@@ -127,6 +116,10 @@ Station readStation(const std::filesystem::path& path) {
   s.simulated = on_bench || s.device.driver == DeviceDriver::bench;
   s.board = readBoard(file, "board");
   if (file.has("marker")) s.marker = readBoard(file, "marker");
+  std::vector<ar::TagGridSpec> grids{s.board};
+  if (s.marker) grids.push_back(*s.marker);
+  s.boards = readOtherBoards(file, grids);
+  s.things = readRealThings(file, path.parent_path(), s.boards);
   s.landmarks = readLandmarks(file);
   s.grid = readGrid(file);
   s.decimate = file.number("camera/decimate", 1, 4);

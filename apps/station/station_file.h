@@ -7,6 +7,7 @@
 #include "anatomy/patient.h"
 #include "apps/station/calibrations.h"
 #include "apps/station/device_setup.h"
+#include "apps/station/real_things.h"
 #include "ar/board.h"
 #include "calibration/camera_model.h"
 #include "haptics/tick.h"
@@ -51,6 +52,8 @@ struct Station {
   double decimate = 2;
   double camera_rate_Hz = 15;
   double camera_latency_s = 0.05;
+  std::vector<OtherBoard> boards;          ///< besides the table's
+  std::vector<RealThing> things;           ///< that hide virtual ones in the picture
   std::optional<ar::TagGridSpec> marker;   ///< a small grid of tags on the end effector, for registration and latency
   std::vector<Landmark> landmarks;         ///< known points that a tip can be put on
   std::vector<Landmark> grid;              ///< more of them, evenly through the workspace: for the device's position error

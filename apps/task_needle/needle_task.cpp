@@ -80,11 +80,24 @@ std::int64_t NeedleTask::step(std::int64_t now_ns) {
   return now_ns + kTaskPeriod;
 }
 
+/// What is wrong with what the camera sees; of a board that is displaced the words stay the same while it moves on.
+std::string NeedleTask::sightTrouble(const runtime::CameraView* view, std::int64_t now_ns) {
+  const std::string trouble = runtime::cameraTrouble(view, now_ns);
+  if (!trouble.empty()) {
+    displaced_.reset();
+    return trouble;
+  }
+  const auto was = displaced_ ? std::optional(displaced_->board) : std::nullopt;
+  auto displaced = runtime::displacedBoard(*view, setup_.places, was);
+  if (!displaced || was != displaced->board) displaced_ = std::move(displaced);
+  return displaced_ ? displaced_->words : "";
+}
+
 /// The record marks when the camera or the board was lost, and when it was back.
 void NeedleTask::watchCamera(std::int64_t now_ns) {
   const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
   if (!view) return;
-  const std::string trouble = runtime::cameraTrouble(view, now_ns);
+  const std::string trouble = sightTrouble(view, now_ns);
   if (trouble == camera_) return;
   if (!trouble.empty()) tell(now_ns, "camera", trouble, 1);
   else tell(now_ns, "camera", "the camera sees the board", 0);
@@ -97,8 +110,7 @@ void NeedleTask::checkReady(std::int64_t now_ns) {
   std::string missing;
   if (!last_.reading.homed) missing = status_.device.empty() ? "the haptic device is not homed" : status_.device;
   else if (last_.phase != haptics::NeedlePhase::outside || last_.depth > 0) missing = "the needle is in the skin: take it out";
-  else if (const std::string trouble = runtime::cameraTrouble(view, now_ns); !trouble.empty()) missing = trouble;
-  else if (!view->X_CW) missing = "the camera does not see the board";
+  else if (const std::string trouble = sightTrouble(view, now_ns); !trouble.empty()) missing = trouble;
   status_.notice = missing.empty() ? "" : "Not ready: " + missing;
   if (missing.empty()) {
     tell(now_ns, "ready", setup_.calibration_problem.empty()

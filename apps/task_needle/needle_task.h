@@ -6,7 +6,9 @@
 #include "anatomy/surface_query.h"
 #include "apps/assess/trial_sampler.h"
 #include "apps/runtime/activity.h"
+#include "apps/runtime/board_places.h"
 #include "apps/runtime/bus.h"
+#include "apps/runtime/camera_words.h"
 #include "apps/runtime/executive.h"
 #include "apps/task_needle/task_file.h"
 #include "apps/task_needle/task_status.h"
@@ -53,6 +55,7 @@ class NeedleTask final : public runtime::Activity {
     bool automatic = true;            ///< starts trials by itself
     std::string calibration_problem;  ///< not empty: sessions are "not scored"
     std::vector<TrialPlan> plan;
+    std::vector<runtime::BoardPlace> places;   ///< of the boards besides the table's
   };
   NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& channels,
              runtime::Executive& executive);
@@ -72,6 +75,7 @@ class NeedleTask final : public runtime::Activity {
   void listen(std::int64_t now_ns);
   void hearDevice();
   void watchCamera(std::int64_t now_ns);
+  std::string sightTrouble(const runtime::CameraView* view, std::int64_t now_ns);
   void watchSafety(const haptics::FlightRecord& record);
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns);
   void checkReady(std::int64_t now_ns);
@@ -94,7 +98,8 @@ class NeedleTask final : public runtime::Activity {
   std::vector<CompletedTrial> completed_;
   std::vector<runtime::Event> safety_events_;
   haptics::FlightRecord last_;         ///< newest tick seen
-  std::string camera_ = "no picture from the camera yet";   ///< what was last said of it
+  std::string camera_ = runtime::cameraTrouble(nullptr, 0);   ///< what was last said of it
+  std::optional<runtime::Displaced> displaced_;   ///< as it was last said
   std::int64_t trip_ns_ = 0, warm_ns_ = -1;   ///< of the last trip, of the last tick with warm drives
   std::int64_t since_ns_ = 0;          ///< the current state began
   double in_lumen_s_ = 0;              ///< dwell with the plunger drawn

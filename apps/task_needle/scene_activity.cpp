@@ -10,7 +10,9 @@
 namespace palpa::task_needle {
 namespace {
 
-constexpr std::int64_t kFramePeriod = 33'333'333;
+constexpr std::int64_t kFramePeriod = 33'333'333, kBesideHeadset = 100'000'000;   // ns, of the desktop's view: beside a headset it is for whoever looks on
+constexpr double kBoneFelt = 0.1;                                             // N
+constexpr double kBonePulse = 0.08, kPuncturePulse = 0.03, kPunctureStrength = 0.6;   // s; [chosen] to be told apart
 constexpr double kTrailStep = 0.0005;   // m between points of the trail
 constexpr std::size_t kTrailLongest = 4000;
 
@@ -44,13 +46,34 @@ void SceneActivity::cycleSkin() {
 
 std::int64_t SceneActivity::step(std::int64_t now_ns) {
   now_ns_ = now_ns;
+  if (setup_.view && setup_.input) setup_.input(setup_.view->poll(), now_ns);   // before whatever makes it wait
+  const bool worn = setup_.head && setup_.head->wait(tool_.phase == haptics::NeedlePhase::outside);
   follow(now_ns);
   compose();
   tellOperator(now_ns);
+  if (worn) showOnHead();
+  if (worn && now_ns < next_frame_ns_) return now_ns;
+  next_frame_ns_ = now_ns + (worn ? kBesideHeadset : kFramePeriod);
   if (setup_.views == Views::continuous) render();
   if (setup_.views != Views::none) keepPictures();
-  if (setup_.view && setup_.input) setup_.input(setup_.view->poll(), now_ns);
-  return now_ns + kFramePeriod;
+  return worn ? now_ns : next_frame_ns_;
+}
+
+void SceneActivity::finish(std::int64_t now_ns) {
+  now_ns_ = now_ns;
+  follow(now_ns);
+  compose();
+  if (setup_.views != Views::none) keepPictures();
+}
+
+/// And tells the hand what a controller can: a layer punctured, bone.
+void SceneActivity::showOnHead() {
+  setup_.head->show(state_);
+  const bool inserted = tool_.phase == haptics::NeedlePhase::inserted;
+  const bool punctured = inserted && (felt_.phase != haptics::NeedlePhase::inserted || (felt_.tissue != tool_.tissue && tool_.depth > felt_.depth));
+  if (tool_.bone_force > kBoneFelt && felt_.bone_force <= kBoneFelt) setup_.head->pulse(kBonePulse, 1);
+  else if (punctured) setup_.head->pulse(kPuncturePulse, kPunctureStrength);
+  felt_ = tool_;
 }
 
 void SceneActivity::follow(std::int64_t now_ns) {
@@ -68,16 +91,23 @@ void SceneActivity::follow(std::int64_t now_ns) {
 }
 
 void SceneActivity::compose() {
-  const std::string trouble = runtime::cameraTrouble(camera_ ? &*camera_ : nullptr, now_ns_);
+  std::string trouble = runtime::cameraTrouble(camera_ ? &*camera_ : nullptr, now_ns_);
+  if (trouble.empty()) {
+    const auto displaced = runtime::displacedBoard(*camera_, setup_.places, displaced_);
+    displaced_ = displaced ? std::optional(displaced->board) : std::nullopt;
+    if (displaced) trouble = displaced->words;
+  }
   state_.registered = registered_;
   state_.X_CA = X_CW_ * setup_.X_WA;
   state_.X_AT = X_AD_ * unpack(tool_.X_DT);
   if (skin_) state_.skin_push = skin_->follow(tool_, X_AD_, now_ns_);
   state_.plunger = tool_.plunger;
   state_.blood = status_.blood;
-  state_.hud = hudText(status_, tool_, trouble, setup_.mark);
+  const std::string head = setup_.head ? setup_.head->trouble() : "";
+  state_.hud = hudText(status_, tool_, trouble.empty() ? head : trouble, setup_.mark);
   state_.tip_covariance_A = setup_.tip_covariance_A && setup_.view && trouble.empty() ? setup_.tip_covariance_A(unpack(tool_.X_DT)) : std::nullopt;
   state_.hud.overlay = state_.tip_covariance_A ? overlayText(*state_.tip_covariance_A) : "";
+  hideBehindRealThings();
   state_.forces.clear();
   const Vec3 f_A = X_AD_.rotation() * unpack(tool_.f_contact_D);
   if (f_A.norm() > 0.05) {
@@ -96,6 +126,22 @@ void SceneActivity::compose() {
       state_.trail_A.size() < kTrailLongest &&
       (state_.trail_A.empty() || (tip - state_.trail_A.back()).norm() > kTrailStep))
     state_.trail_A.push_back(tip);
+}
+
+/// Those on a board that is not seen hide nothing.
+void SceneActivity::hideBehindRealThings() {
+  state_.occluders.clear();
+  for (const RealThing& thing : setup_.things) {
+    const station::RealThing& place = *thing.place;
+    if (place.on == station::RealThing::On::table) {
+      state_.occluders.push_back({thing.mesh, setup_.X_WA.inverse() * place.X});
+    } else if (place.on == station::RealThing::On::tool) {
+      state_.occluders.push_back({thing.mesh, state_.X_AT * place.X});
+    } else {
+      const bool seen = camera_ && place.board < camera_->others.size() && camera_->others[place.board];
+      state_.occluders.push_back({seen ? thing.mesh : nullptr, seen ? state_.X_CA.inverse() * *camera_->others[place.board] * place.X : Pose::Identity()});
+    }
+  }
 }
 
 void SceneActivity::tellOperator(std::int64_t now_ns) {

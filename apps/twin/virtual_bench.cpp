@@ -8,6 +8,7 @@
 #include "apps/runtime/clock.h"
 #include "apps/runtime/quantile.h"
 #include "apps/twin/bench_truth.h"
+#include "apps/twin/board_moves.h"
 #include "apps/twin/camera_faults.h"
 #include "apps/twin/sensor_twin.h"
 
@@ -36,7 +37,9 @@ struct VirtualBench::Impl final : public runtime::Activity {
         X_ET_believed(setup.station.X_ET),
         entry_W(setup.X_WA * setup.anatomy.entry_A),
         normal_W(setup.X_WA.rotation() * setup.anatomy.normal_A),
+        station(setup.station),
         camera_faults(readCameraFaults(setup.station.file)),
+        board_moves(readBoardMoves(setup.station)),
         sway(kMm * setup.station.file.number("twin/camera_sway_mm", 0, 100)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
         mechanics(trueDevice(setup.station, setup.seed), restPose(setup.station, setup.X_WA, setup.anatomy.entry_A,
@@ -46,7 +49,9 @@ struct VirtualBench::Impl final : public runtime::Activity {
     X_ET_true = drawWorld(setup.station, setup.seed).X_ET;
     VirtualCameraSettings settings;
     settings.latency_ns = static_cast<std::int64_t>(setup.station.camera_latency_s * 1e9);
-    camera.emplace(trueCamera(setup.station, setup.seed), setup.station.board, settings, setup.seed);
+    VirtualScene scene;
+    for (const station::OtherBoard& board : setup.station.boards) scene.plates.push_back(board.grid);
+    camera.emplace(trueCamera(setup.station, setup.seed), setup.station.board, settings, setup.seed, scene);
     errors_mm.reserve(4096);
     on_giving_up = setup.on_giving_up;
     sensor = setup.sensor;
@@ -100,7 +105,9 @@ struct VirtualBench::Impl final : public runtime::Activity {
   runtime::ChannelDevice& device;
   Pose X_WD_believed, X_ET_believed, X_WD_true, X_ET_true;
   Vec3 entry_W, normal_W;
+  const station::Station& station;
   std::vector<CameraFault> camera_faults;
+  std::vector<BoardMove> board_moves;
   double sway;
   Pose X_CW_boom;
   DeviceTwin mechanics;
@@ -126,9 +133,12 @@ runtime::CameraActivity::Exposer VirtualBench::exposer() const {
   return [impl = impl_.get()](std::int64_t now_ns, std::uint64_t number) {
     const CameraFault* fault = faultAt(impl->camera_faults, 1e-9 * static_cast<double>(now_ns));
     const bool frozen = fault && fault->kind == CameraFault::Kind::frozen;
-    const Pose X_CW = impl->X_CW(frozen ? std::llround(1e9 * fault->from) : now_ns);
-    return [impl, X_CW, now_ns, number, fault, frozen]() -> std::optional<ar::Frame> {
-      ar::Frame frame{number, now_ns, impl->camera->render(X_CW, frozen ? 0 : number), "virtual camera"};
+    const std::int64_t seen_ns = frozen ? std::llround(1e9 * fault->from) : now_ns;
+    const Pose X_CW = impl->X_CW(seen_ns);
+    std::vector<PlatePose> plates;
+    for (const auto& [i, X_WB] : boardsAt(impl->station, impl->board_moves, 1e-9 * static_cast<double>(seen_ns))) plates.push_back({i, X_CW * X_WB});
+    return [impl, X_CW, plates, now_ns, number, fault, frozen]() -> std::optional<ar::Frame> {
+      ar::Frame frame{number, now_ns, impl->camera->render(X_CW, plates, frozen ? 0 : number), "virtual camera"};
       return fault ? spoilt(std::move(frame), *fault) : std::optional(std::move(frame));
     };
   };

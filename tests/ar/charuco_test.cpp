@@ -16,7 +16,7 @@ const char* const kCharuco = "charuco:7x5:0.030:0.022:DICT_5X5_100";
 TEST(Charuco, IsDrawnAsOpenCVDrawsIt) {
   for (const CharucoSpec& spec :
        {CharucoSpec{7, 5, 0.030, 0.021, "DICT_5X5_100"}, CharucoSpec{6, 8, 0.030, 0.018}}) {
-    const cv::Mat ours = drawCharuco(spec, 1000);  // 3 px a cell, 30 px a square
+    const cv::Mat ours = pictureOf(sheetOf(spec), 1000);  // 3 px a cell, 30 px a square
     cv::Mat theirs;
     charucoLayout(spec)->draw(ours.size(), theirs, 30);
     ASSERT_EQ(ours.size(), theirs.size());
@@ -107,7 +107,7 @@ TEST(Charuco, TheLayoutBeforeOpenCV46IsNotTakenForOurs) {
     const CharucoBoard board(spec);
     const Pose X_CW = viewOf(0.4, rad(15), rad(30));
     const cv::Mat older = snapshot(drawnBefore46(spec, 2000), 2000, X_CW);
-    const cv::Mat ours = snapshot(drawCharuco(spec, 2000), 2000, X_CW);
+    const cv::Mat ours = snapshot(pictureOf(sheetOf(spec), 2000), 2000, X_CW);
     EXPECT_TRUE(board.detect(older).empty()) << spec.columns;
     EXPECT_EQ(board.detect(ours).size(), std::size_t((spec.columns - 1) * (spec.rows - 1)));
   }

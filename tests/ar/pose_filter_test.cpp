@@ -10,6 +10,8 @@
 namespace palpa::ar {
 namespace {
 
+using Taken = PoseFilter::Taken;
+
 constexpr double kPeriod = 1.0 / 30;
 constexpr double kNoise_m = 1e-4, kNoise_rad = 4e-4;
 
@@ -58,8 +60,13 @@ TEST(PoseFilter, JitterOfAStillPoseIsAsSmallAsItsCovarianceSays) {
     squares += difference(filter.now().X, X).tail<3>().squaredNorm() / (3 * count);
     said += filter.now().covariance.block<3, 3>(3, 3).trace() / (3 * count);
   }
-  EXPECT_LT(std::sqrt(squares), 0.4 * kNoise_m);
+  // A random walk of q in white noise: the gain settles at k with k^2 / (1 - k) = q^2 dt / sigma^2, and leaves k / (2 - k) of the variance where nothing walks.
+  const PoseFilter::Settings settings;
+  const double ratio = std::pow(settings.models[0].walk_m / kNoise_m, 2) * kPeriod;
+  const double gain = 0.5 * (-ratio + std::sqrt(ratio * ratio + 4 * ratio));
+  EXPECT_LT(std::sqrt(squares), 1.3 * std::sqrt(gain / (2 - gain)) * kNoise_m);   // 0.28 of the noise; the other models are never quite disbelieved
   EXPECT_LT(squares, 1.5 * said);
+  EXPECT_GT(squares, 0.25 * said);   // it allows for a walk and for motions that are not there: too careful by less than two in the deviation
 }
 
 TEST(PoseFilter, ASteadyMotionHasNoLag) {
@@ -97,22 +104,22 @@ TEST(PoseFilter, FollowsAndForetellsAHand) {
 TEST(PoseFilter, OneWildPoseIsLeftOutTwoAlikeAreAJump) {
   PoseFilter filter;
   const Pose X = placeAt({0, 0, 0.5}), away = placeAt({0.2, 0, 0.5}, 0.4);
-  for (int i = 0; i < 30; ++i) ASSERT_TRUE(filter.update(X, noiseCovariance(), ns(kPeriod * i)));
-  EXPECT_FALSE(filter.update(away, noiseCovariance(), ns(kPeriod * 30)));
+  for (int i = 0; i < 30; ++i) ASSERT_NE(filter.update(X, noiseCovariance(), ns(kPeriod * i)), Taken::left_out);
+  EXPECT_EQ(filter.update(away, noiseCovariance(), ns(kPeriod * 30)), Taken::left_out);
   EXPECT_LT(difference(filter.now().X, X).norm(), 1e-9);
-  EXPECT_TRUE(filter.update(X, noiseCovariance(), ns(kPeriod * 31)));
-  EXPECT_FALSE(filter.update(away, noiseCovariance(), ns(kPeriod * 32)));
-  EXPECT_TRUE(filter.update(away, noiseCovariance(), ns(kPeriod * 33)));
+  EXPECT_EQ(filter.update(X, noiseCovariance(), ns(kPeriod * 31)), Taken::taken);
+  EXPECT_EQ(filter.update(away, noiseCovariance(), ns(kPeriod * 32)), Taken::left_out);
+  EXPECT_EQ(filter.update(away, noiseCovariance(), ns(kPeriod * 33)), Taken::started_anew);
   EXPECT_EQ(filter.now().X.matrix(), away.matrix());
 }
 
 TEST(PoseFilter, StartsAnewAfterAGapAndIgnoresTimeThatStandsStill) {
   PoseFilter filter;
   const Pose a = placeAt({0, 0, 0.5}), b = placeAt({0.3, 0.1, 0.6}, 1);
-  EXPECT_TRUE(filter.update(a, noiseCovariance(), 0));
-  EXPECT_FALSE(filter.update(b, noiseCovariance(), 0));
-  EXPECT_FALSE(filter.update(b, noiseCovariance(), -5));
-  EXPECT_TRUE(filter.update(b, noiseCovariance(), ns(1)));
+  EXPECT_EQ(filter.update(a, noiseCovariance(), 0), Taken::started_anew);
+  EXPECT_EQ(filter.update(b, noiseCovariance(), 0), Taken::left_out);
+  EXPECT_EQ(filter.update(b, noiseCovariance(), -5), Taken::left_out);
+  EXPECT_EQ(filter.update(b, noiseCovariance(), ns(1)), Taken::started_anew);
   EXPECT_EQ(filter.now().X.matrix(), b.matrix());
 }
 
@@ -186,8 +193,8 @@ TEST(PoseUpsampler, IsSmoothAndNear) {
     }
     before = X;
   }
-  EXPECT_LT(worst_step, 3e-4);   // at 0.2 m/s a tick is 0.21 mm
-  EXPECT_LT(std::sqrt(squares / n), 7e-4);
+  EXPECT_LT(worst_step, 3e-4);   // at 0.2 m/s a tick is 0.21 mm; a jump to each new pose would be up to 0.8 mm
+  EXPECT_LT(std::sqrt(squares / n), 7e-4);   // foretold over 30 to 63 ms: as FollowsAndForetellsAHand has it at 50 ms, and smoothing on top
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
 #include <sstream>
 
 #include "apps/record/session_file.h"
@@ -81,6 +82,85 @@ TEST(StationSession, NothingThatBefallsTheCameraStopsASession) {
     begins += 1.4;
   }
   EXPECT_TRUE(says(events.back().text, "have ended")) << events.back().text;
+}
+
+nlohmann::json withPhantomBoard() {
+  nlohmann::json station = benchStation();
+  station["boards"] = {{{"name", "phantom"}, {"columns", 2}, {"rows", 2}, {"tag_size_mm", 25}, {"spacing_mm", 6}, {"first_id", 200},
+                        {"X_WB", {{"position_mm", {160, 10, 0}}, {"rotation_vector_deg", {0, 0, 20}}}}}};
+  return station;
+}
+
+/// A phantom that is pushed is told, on the screen and in the record; what is drawn and felt stays, and so does the score.
+TEST(StationSession, APhantomThatMovesIsTold) {
+  Folder here;
+  nlohmann::json station = withPhantomBoard();
+  station["twin"]["board_moves"] = {{{"board", "phantom"}, {"from_s", 4}, {"by_mm", {8, 6, 0}}}};
+  here.file("station.json", station.dump());
+  const Outcome outcome = palpa(session({"--seed", "5", "--station", "station.json", "--out", "A"}), here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(ordinary().here / "A/trials.csv"));
+  std::vector<runtime::Event> told;
+  for (const runtime::Event& event : record::SessionReader(here / "A/session.palpa").events())
+    if (event.kind == "camera" && event.value > 0) told.push_back(event);
+  ASSERT_EQ(told.size(), 1u);
+  EXPECT_TRUE(says(told[0].text, "the phantom has moved by 10 mm")) << told[0].text;
+  EXPECT_GE(told[0].t_ns, 4'000'000'000);
+  EXPECT_LT(told[0].t_ns, 4'500'000'000);
+}
+
+/// A real thing in front hides what is drawn behind it: there the camera's picture is seen.
+TEST(StationSession, RealThingsHideWhatIsDrawnBehindThem) {
+  Folder here;
+  const auto picture = [&](const std::string& name, const nlohmann::json& things) {
+    nlohmann::json station = withPhantomBoard();
+    station["real_things"] = things;
+    here.file(name + ".json", station.dump());
+    const Outcome outcome = palpa({"paracentesis", "--fast", "--quiet", "--operator", "expert", "--seed", "5", "--station", name + ".json", "--out", name}, here.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return cv::imread((here / (name + "/view-01-01-start.png")).string());
+  };
+  here.file("plate.obj", "v -450 -450 0\nv 450 -450 0\nv 450 450 0\nv -450 450 0\nf 1 2 3 4\n");
+  const nlohmann::json over_patient{{"mesh", "plate.obj"}, {"unit", "mm"}, {"on", "table"}, {"X", {{"position_mm", {0, 260, 200}}, {"rotation_vector_deg", {0, 0, 0}}}}};
+  nlohmann::json under_board = over_patient;
+  under_board["on"] = "phantom";
+  under_board["X"]["position_mm"] = {0, 0, -20};
+  const cv::Mat bare = picture("bare", nlohmann::json::array()), hidden = picture("hidden", {over_patient, under_board});
+  ASSERT_EQ(bare.size(), hidden.size());
+  const auto coloured = [](const cv::Mat& view) {   // the camera's picture is gray
+    const cv::Rect large(0, 60, view.cols * 65 / 100, view.rows / 2);
+    std::vector<cv::Mat> bgr;
+    cv::split(view(large), bgr);
+    return cv::countNonZero(bgr[2] - bgr[0] > 25);
+  };
+  EXPECT_GT(coloured(bare), 40'000);
+  EXPECT_LT(coloured(hidden), coloured(bare) / 3);
+}
+
+TEST(StationSession, BoardsAndThingsThatCannotBeAreRefused) {
+  Folder here;
+  const auto refused = [&](const std::string& words, const auto& spoil) {
+    nlohmann::json station = withPhantomBoard();
+    station["real_things"] = {{{"mesh", "plate.obj"}, {"unit", "mm"}, {"on", "phantom"}, {"X", {{"position_mm", {0, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}}}}};
+    spoil(station);
+    here.file("station.json", station.dump());
+    const Outcome outcome = palpa(session({"--station", "station.json", "--out", "A"}), here.path());
+    EXPECT_NE(outcome.exit_code, 0) << words;
+    EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
+    EXPECT_TRUE(says(outcome.err, words)) << outcome.err;
+  };
+  using nlohmann::json;
+  refused("plate.obj", [](json&) {});   // is not there
+  refused("another board has", [](json& s) { s["boards"][0]["first_id"] = 20; });
+  refused("another's name", [](json& s) { s["boards"][0]["name"] = "table"; });
+  refused("known are table, tool", [](json& s) { s["real_things"][0]["on"] = "shelf"; });
+  refused("known are m, cm, mm", [](json& s) { s["real_things"][0]["unit"] = "inch"; });
+  refused("must be a list", [](json& s) { s["boards"] = 3; });
+  refused("tolerance_mm", [](json& s) { s["boards"][0]["tolerance_mm"] = 0; });
+  refused("is no board with an X_WB", [](json& s) {
+    s["real_things"] = json::array();
+    s["twin"]["board_moves"] = {{{"board", "lid"}, {"from_s", 1}, {"by_mm", {1, 0, 0}}}};
+  });
 }
 
 /// What a session kept is a film that a session can be held on: the board is where it was.

@@ -16,16 +16,6 @@ anatomy::Patient ballBehindSkin(bool with_ball) {
   return patient;
 }
 
-SceneState straightOn(const Image& picture) {
-  SceneState state;
-  state.picture = &picture;
-  state.registered = true;
-  state.camera = {320, 240, 300, 300, 159.5, 119.5};
-  state.X_CA = lookAt({0, -0.4, 0}, {0, 0, 0});
-  state.show_tool = false;
-  return state;
-}
-
 class ArFrame : public testing::Test {
  protected:
   Image frameOf(const anatomy::Patient& patient, const SceneState& state) {

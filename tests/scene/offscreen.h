@@ -77,6 +77,17 @@ inline Pose lookAt(const Vec3& eye_A, const Vec3& target_A) {
   return makePose(R_AC, eye_A).inverse();
 }
 
+/// A registered picture of 320 x 240 in which the origin is seen straight on from 0.4 m; no tool.
+inline SceneState straightOn(const Image& picture) {
+  SceneState state;
+  state.picture = &picture;
+  state.registered = true;
+  state.camera = {320, 240, 300, 300, 159.5, 119.5};
+  state.X_CA = lookAt({0, -0.4, 0}, {0, 0, 0});
+  state.show_tool = false;
+  return state;
+}
+
 /// A camera that no symmetry can hide a mistake of: off-centre, fx != fy.
 inline Pinhole crookedCamera() { return {640, 480, 610, 570, 300.3, 260.7}; }
 

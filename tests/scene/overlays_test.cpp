@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "scene/force_arrows.h"
+#include "scene/inset.h"
 #include "scene/lines.h"
 #include "tests/scene/offscreen.h"
 
@@ -9,12 +10,7 @@ namespace palpa::scene {
 namespace {
 
 SceneState before(const Image& picture) {
-  SceneState state;
-  state.picture = &picture;
-  state.registered = true;
-  state.camera = {320, 240, 300, 300, 159.5, 119.5};
-  state.X_CA = lookAt({0, -0.4, 0}, {0, 0, 0});
-  state.show_tool = false;
+  SceneState state = straightOn(picture);
   state.skin = SkinStyle::hidden;
   return state;
 }
@@ -52,6 +48,34 @@ TEST(Occluders, ARealThingInFrontHidesAndShowsThePicture) {
   state.occluders[0].X_A = makePose(Mat3::Identity(), Vec3(0, -0.1, 0));
   state.picture = nullptr;   // nothing real is seen
   EXPECT_GT(difference(at(frameOf(aBall(), state), 160, 120), {90, 90, 90}), 40);
+}
+
+/// In the corner the camera's picture as it is, in the large view the same under the patient; without a picture nothing.
+TEST(Inset, ShowsThePictureWithoutTheOverlay) {
+  Image picture = plain(320, 240, 60);
+  for (int v = 0; v < 240; ++v)
+    for (int u = 160; u < 320; ++u) picture.pixels[3 * (static_cast<std::size_t>(v) * 320 + u)] = 200;   // its right half is red
+  const auto shown = [&](Inset inset, const Image* seen) {
+    ViewLayout layout{640, 480, false, true};
+    layout.inset = inset;
+    SceneState state = before(picture);
+    state.picture = seen;
+    SceneView view(offscreen(), aBall(), layout);
+    view.show(state);
+    return view.capture();
+  };
+  const Image with = shown(Inset::camera, &picture), without = shown(Inset::none, &picture);
+  const Rect where = insetRect({0, 0, 640, 480}, 320, 240);
+  const int middle = 480 - 1 - (where.y + where.height / 2);
+  for (const double across : {0.1, 0.45, 0.55, 0.9}) {
+    const Pixel p = at(with, where.x + static_cast<int>(across * where.width), middle);
+    EXPECT_LE(difference(p, across < 0.5 ? Pixel{60, 60, 60} : Pixel{200, 60, 60}), 2) << across;
+  }
+  const Blob apart = changed(with, without);
+  EXPECT_GE(apart.left, where.x);
+  EXPECT_GE(apart.top, 480 - where.top());
+  EXPECT_GT(apart.count, where.width * where.height / 3);
+  EXPECT_EQ(changed(shown(Inset::camera, nullptr), shown(Inset::none, nullptr)).count, 0);
 }
 
 TEST(Ellipse, IsWhere95PercentOfThePixelsLie) {

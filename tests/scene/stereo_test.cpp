@@ -11,6 +11,13 @@ namespace {
 
 constexpr double kApart = 0.063, kFocus = 0.4;
 
+SceneState through(const Image& picture, const Pose& X_CA) {
+  SceneState state = straightOn(picture);
+  state.camera = crookedCamera();
+  state.X_CA = X_CA;
+  return state;
+}
+
 TEST(Stereo, DisparityIsThatOfTwoParallelCamerasFocusedAhead) {
   const Pose X_CA = lookAt({0.1, -0.5, 0.2}, {0, 0, 0});
   const auto eyes = stereoPair(crookedCamera(), X_CA, kApart, kFocus);
@@ -32,16 +39,11 @@ void expectTrueEyes(Stereo layout_of_eyes) {
   const auto patient = test::spherePatient(p_A, radius);
   ViewLayout layout{640, 480, false, true};
   layout.stereo = layout_of_eyes;
-  if (layout_of_eyes == Stereo::side_by_side) layout.width *= 2;
+  if (layout_of_eyes != Stereo::top_bottom) layout.width *= 2;
   if (layout_of_eyes == Stereo::top_bottom) layout.height *= 2;
   SceneView view(offscreen(), patient, layout);
   const Image dark = plain(640, 480, 0);
-  SceneState state;
-  state.picture = &dark;
-  state.registered = true;
-  state.show_tool = false;
-  state.camera = crookedCamera();
-  state.X_CA = lookAt({-0.10, -0.35, 0.12}, {0.01, 0.02, -0.01});
+  SceneState state = through(dark, lookAt({-0.10, -0.35, 0.12}, {0.01, 0.02, -0.01}));
   std::array<Eigen::Vector2d, 2> error{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   for (int i = 0; i < 9; ++i) {
     state.eyes = stereoPair(crookedCamera(), state.X_CA, kApart, kFocus);
@@ -51,6 +53,10 @@ void expectTrueEyes(Stereo layout_of_eyes) {
       eye.camera.cy += i / 3 % 3 / 3.0;
     }
     view.show(state);
+    const ArGeometry left = view.arGeometry();   // what the mouse meets
+    EXPECT_EQ(left.X_CA.matrix(), (*state.eyes)[0].X_CA.matrix());
+    EXPECT_NEAR(left.camera.cx, (*state.eyes)[0].camera.cx, 1e-9);
+    EXPECT_EQ(left.width, 640);
     const Image frame = view.capture();
     const auto panels = eyePanels({0, 0, layout.width, layout.height}, layout_of_eyes);
     for (std::size_t e = 0; e < 2; ++e) {
@@ -71,6 +77,8 @@ void expectTrueEyes(Stereo layout_of_eyes) {
 TEST(Stereo, EachEyeSeesATenthOfAPixelTrueSideBySide) { expectTrueEyes(Stereo::side_by_side); }
 TEST(Stereo, EachEyeSeesATenthOfAPixelTrueOneAboveTheOther) { expectTrueEyes(Stereo::top_bottom); }
 
+TEST(Stereo, EachEyeSeesATenthOfAPixelTrueOnTheHead) { expectTrueEyes(Stereo::headset); }
+
 TEST(Stereo, AnAnaglyphHasTheLeftEyeInRedAndTheRightInCyan) {
   const Vec3 p_A(0, -0.05, 0);
   const auto patient = test::spherePatient(p_A, 0.02);
@@ -78,12 +86,7 @@ TEST(Stereo, AnAnaglyphHasTheLeftEyeInRedAndTheRightInCyan) {
   layout.stereo = Stereo::anaglyph;
   SceneView view(offscreen(), patient, layout);
   const Image dark = plain(640, 480, 0);
-  SceneState state;
-  state.picture = &dark;
-  state.registered = true;
-  state.show_tool = false;
-  state.camera = crookedCamera();
-  state.X_CA = lookAt({0, -0.4, 0}, {0, 0, 0});
+  SceneState state = through(dark, lookAt({0, -0.4, 0}, {0, 0, 0}));
   state.eyes = stereoPair(crookedCamera(), state.X_CA, kApart, kFocus);
   view.show(state);
   const Image frame = view.capture();

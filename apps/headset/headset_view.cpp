@@ -1,0 +1,104 @@
+#include "apps/headset/headset_view.h"
+
+#include <algorithm>
+
+#include "apps/headset/placement.h"
+
+namespace palpa::headset {
+namespace {
+
+constexpr double kReach = 0.10;   // m from the hand to the tool's tip
+
+ar::GlBinding bindingOf(const scene::NativeContext& native) {
+  ar::GlBinding gl;
+  gl.kind = native.glx ? ar::GlBinding::Kind::glx : ar::GlBinding::Kind::egl;
+  gl.display = native.display;
+  gl.config = native.config;
+  gl.context = native.context;
+  gl.drawable = native.drawable;
+  gl.visual = native.visual;
+  gl.address = native.address;
+  return gl;
+}
+
+}  // namespace
+
+HeadsetView::HeadsetView(const anatomy::Patient& patient, Setup setup)
+    : setup_(std::move(setup)), context_(scene::makeGlContext(scene::Display::offscreen, 64, 64, "Palpa, headset")) {
+  headset_ = ar::openHeadset(bindingOf(context_->native()));
+  addView(patient);
+}
+
+/// Both eyes side by side in one window, as large as the larger of them.
+void HeadsetView::addView(const anatomy::Patient& patient) {
+  for (const ar::EyeView& eye : headset_->eyes()) {
+    width_ = std::max(width_, eye.width);
+    height_ = std::max(height_, eye.height);
+  }
+  scene::ViewLayout layout;
+  layout.width = 2 * width_;
+  layout.height = height_;
+  layout.orthographic = layout.free_navigation = false;
+  layout.stereo = scene::Stereo::headset;
+  layout.see_through = headset_->blend() != ar::Blend::opaque;
+  layout.force_colours = setup_.force_colours;
+  layout.skin_deflection = setup_.skin_deflection;
+  view_ = std::make_unique<scene::SceneView>(*context_, patient, layout);
+}
+
+HeadsetView::~HeadsetView() {
+  context_->makeCurrent();
+  headset_.reset();
+}
+
+bool HeadsetView::wait(bool may_place) {
+  if (headset_->state() == ar::Headset::State::lost) return false;
+  context_->makeCurrent();
+  const std::optional<ar::HeadsetFrame> frame = headset_->begin();
+  if (!frame) return false;
+  frame_ = *frame;
+  asked_ |= frame_.recentred;
+  if (frame_.head_known && (!placed_ || (asked_ && may_place))) {
+    X_LA_ = placeBefore(frame_.eyes, setup_.X_WA * setup_.focus_A) * setup_.X_WA;
+    placed_ = true;
+    asked_ = false;
+  }
+  tellHeld();
+  return true;
+}
+
+void HeadsetView::tellHeld() const {
+  if (!held_ || !placed_) return;
+  const ar::HandInput& hand_now = frame_.hands[hand()];
+  const Pose X_GT = makePose(Mat3::Identity(), Vec3(0, 0, kReach));
+  held_({hand_now.tracked, X_LA_.inverse() * hand_now.X_LG * X_GT, hand_now.trigger, frame_.start});
+}
+
+void HeadsetView::show(const scene::SceneState& state) {
+  const bool draw = frame_.draw && placed_;
+  if (draw) {
+    scene::SceneState seen = state;
+    std::array<scene::EyeCamera, 2> eyes;
+    for (std::size_t i = 0; i < 2; ++i) eyes[i] = {pinholeOf(frame_.eyes[i], width_, height_), frame_.eyes[i].X_LE.inverse() * X_LA_};
+    seen.picture = nullptr;
+    seen.registered = true;
+    seen.camera = eyes[0].camera;
+    seen.X_CA = eyes[0].X_CA;
+    seen.eyes = eyes;
+    seen.tip_covariance_A.reset();   // of the camera's overlay
+    seen.hud.overlay.clear();
+    view_->show(seen);
+  }
+  context_->makeCurrent();
+  const ar::Headset::Draw copy = [&](std::size_t eye, const ar::EyeTexture& picture) { view_->copyEye(eye, {picture.texture, picture.format, picture.width, picture.height}); };
+  headset_->end(draw ? copy : ar::Headset::Draw());
+  frames_ += draw;
+}
+
+void HeadsetView::pulse(double seconds, double strength) { headset_->vibrate(hand(), seconds, strength); }
+
+std::string HeadsetView::trouble() const { return headset_->trouble(); }
+
+std::string HeadsetView::describe() const { return headset_->describe(); }
+
+}  // namespace palpa::headset

@@ -1,0 +1,244 @@
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "anatomy/geometry/error.h"
+#include "ar/headset/xr_controls.h"
+#include "ar/headset/xr_eye.h"
+#include "ar/headset/xr_frame_wait.h"
+#include "ar/headset/xr_frames.h"
+#include "ar/headset/xr_graphics.h"
+#include "ar/headset/xr_runtime.h"
+
+namespace palpa::ar {
+namespace {
+
+constexpr XrViewStateFlags kTurned = XR_VIEW_STATE_ORIENTATION_VALID_BIT, kPlaced = XR_VIEW_STATE_POSITION_VALID_BIT;
+
+XrOwnedSpace localSpace(XrSession session) {
+  const XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, XR_REFERENCE_SPACE_TYPE_LOCAL, identityXr()};
+  XrSpace space = XR_NULL_HANDLE;
+  xrCheck(xrCreateReferenceSpace(session, &info, &space), "xrCreateReferenceSpace");
+  return XrOwnedSpace(space);
+}
+
+class XrHeadset final : public Headset {
+ public:
+  explicit XrHeadset(const GlBinding& gl) : runtime_(openRuntime(gl.kind)), session_(makeSession(runtime_.instance.get(), runtime_.system, gl)) {
+    const std::int64_t format = formatFor(session_.get(), blendOf(runtime_.blend));
+    for (std::size_t i = 0; i < 2; ++i) {
+      pictures_[i].emplace(session_.get(), runtime_.views[i], format);
+      frame_.eyes[i].width = pictures_[i]->width();
+      frame_.eyes[i].height = pictures_[i]->height();
+    }
+    local_ = localSpace(session_.get());
+    wait_.emplace(session_.get());
+    controls_.emplace(runtime_.instance.get(), session_.get());
+  }
+
+  ~XrHeadset() override {
+    if (running_ && state_ != State::lost) endSession();
+    if (!wait_->settled()) leaveAll();
+  }
+
+  std::optional<HeadsetFrame> begin() override {
+    return guarded([&]() -> std::optional<HeadsetFrame> {
+      followEvents();
+      if (!running_ || state_ == State::lost) return std::nullopt;
+      const std::optional<XrFrameState> waited = wait_->next();
+      if (!waited) {
+        if (++unanswered_ >= kMostUnanswered) lose("the headset does not answer");
+        return std::nullopt;
+      }
+      unanswered_ = 0;
+      const XrFrameState& timing = *waited;
+      xrCheck(xrBeginFrame(session_.get(), nullptr), "xrBeginFrame");
+      time_ = timing.predictedDisplayTime;
+      frame_.draw = timing.shouldRender == XR_TRUE;
+      locateEyes();
+      const Asked asked = controls_->read(session_.get(), local_.get(), time_, &frame_.hands);
+      const bool moved = moves_at_ && *moves_at_ <= time_;
+      if (moved) moves_at_.reset();
+      frame_.recentred = moved || first_place_ || asked.recentre;
+      frame_.start = asked.start;
+      return frame_;
+    });
+  }
+
+  void end(const Draw& draw) override {
+    guarded([&]() -> std::optional<HeadsetFrame> {
+      if (state_ == State::lost) return std::nullopt;
+      const bool shown = draw && frame_.draw && ever_located_;
+      std::array<XrCompositionLayerProjectionView, 2> seen;
+      for (std::size_t i = 0; i < 2 && shown; ++i) {
+        pictures_[i]->draw([&](const EyeTexture& picture) { draw(i, picture); });
+        seen[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, nullptr, views_[i].pose, views_[i].fov, pictures_[i]->shown()};
+      }
+      const XrCompositionLayerFlags alpha = runtime_.blend == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT : 0;
+      const XrCompositionLayerProjection layer{XR_TYPE_COMPOSITION_LAYER_PROJECTION, nullptr, alpha, local_.get(), 2, seen.data()};
+      const auto* const layers = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
+      const XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO, nullptr, time_, runtime_.blend, shown ? 1u : 0u, shown ? &layers : nullptr};
+      xrCheck(xrEndFrame(session_.get(), &info), "xrEndFrame");
+      return std::nullopt;
+    });
+  }
+
+  void vibrate(std::size_t hand, double seconds, double strength) override {
+    guarded([&]() -> std::optional<HeadsetFrame> {
+      if (running_ && state_ != State::lost) controls_->vibrate(session_.get(), hand, seconds, strength);
+      return std::nullopt;
+    });
+  }
+
+  State state() const override { return state_; }
+  Blend blend() const override { return blendOf(runtime_.blend); }
+  const std::array<EyeView, 2>& eyes() const override { return frame_.eyes; }
+  std::string describe() const override { return runtime_.name; }
+  std::string trouble() const override { return trouble_; }
+
+ private:
+  /// A runtime that fails in use ends the headset, not the program.
+  template <class Do>
+  std::optional<HeadsetFrame> guarded(Do act) {
+    try {
+      return act();
+    } catch (const XrFailure& failure) {
+      lose(inWords(failure).what);
+    } catch (const std::exception& failure) {   // of whoever draws
+      lose(failure.what());
+    }
+    return std::nullopt;
+  }
+
+  void lose(const std::string& why) {
+    state_ = State::lost;
+    trouble_ = why;
+  }
+
+  void followEvents() {
+    XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER, nullptr, {}};
+    while (state_ != State::lost && xrCheck(xrPollEvent(runtime_.instance.get(), &event), "xrPollEvent") == XR_SUCCESS) {
+      const auto* const base = reinterpret_cast<const XrEventDataBaseHeader*>(&event);
+      if (base->type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) lose("the headset's runtime is being closed");
+      if (base->type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) follow(*reinterpret_cast<const XrEventDataReferenceSpaceChangePending*>(&event));
+      if (base->type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) follow(reinterpret_cast<const XrEventDataSessionStateChanged*>(&event)->state);
+      event = {XR_TYPE_EVENT_DATA_BUFFER, nullptr, {}};
+    }
+  }
+
+  void follow(const XrEventDataReferenceSpaceChangePending& change) {
+    if (change.referenceSpaceType == XR_REFERENCE_SPACE_TYPE_LOCAL) moves_at_ = std::min(moves_at_.value_or(change.changeTime), change.changeTime);
+  }
+
+  void follow(XrSessionState next) {
+    switch (next) {
+      case XR_SESSION_STATE_READY: {
+        const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, kTwoEyes};
+        xrCheck(xrBeginSession(session_.get(), &info), "xrBeginSession");
+        running_ = true;
+        state_ = State::running;
+        break;
+      }
+      case XR_SESSION_STATE_STOPPING:
+        running_ = false;
+        state_ = State::waiting;
+        xrCheck(xrEndSession(session_.get()), "xrEndSession");
+        wait_->forget();   // it may still have been waited for
+        break;
+      case XR_SESSION_STATE_EXITING: return lose("the headset's session was ended there");
+      case XR_SESSION_STATE_LOSS_PENDING: return lose("the headset was lost");
+      default: break;
+    }
+  }
+
+  void locateEyes() {
+    const XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO, nullptr, kTwoEyes, time_, local_.get()};
+    XrViewState flags{XR_TYPE_VIEW_STATE, nullptr, 0};
+    std::uint32_t count = 0;
+    std::array<XrView, 2> views;
+    views.fill({XR_TYPE_VIEW, nullptr, identityXr(), {}});
+    xrCheck(xrLocateViews(session_.get(), &info, &flags, 2, &count, views.data()), "xrLocateViews");
+    frame_.head_known = (flags.viewStateFlags & kTurned) != 0 && count == 2;
+    if (!frame_.head_known) return;
+    const bool placed = (flags.viewStateFlags & kPlaced) != 0;
+    if (!placed) stayInPlace(&views);
+    first_place_ = placed && !std::exchange(ever_placed_, placed || ever_placed_);
+    ever_located_ = true;
+    views_ = views;
+    for (std::size_t i = 0; i < 2; ++i) {
+      EyeView& eye = frame_.eyes[i];
+      eye.left = std::tan(views[i].fov.angleLeft);
+      eye.right = std::tan(views[i].fov.angleRight);
+      eye.up = std::tan(views[i].fov.angleUp);
+      eye.down = std::tan(views[i].fov.angleDown);
+      eye.X_LE = poseFromXr(views[i].pose);
+    }
+  }
+
+  /// Where a runtime knows how the head is turned but not where it is: it stays where it was, and the eyes turn about its middle.
+  void stayInPlace(std::array<XrView, 2>* views) const {
+    const Pose before[] = {poseFromXr(views_[0].pose), poseFromXr(views_[1].pose)};
+    const Vec3 middle = ever_located_ ? Vec3(0.5 * (before[0].translation() + before[1].translation())) : Vec3(Vec3::Zero());
+    const double half = ever_located_ ? 0.5 * (before[1].translation() - before[0].translation()).norm() : kHalfApart;
+    for (std::size_t i = 0; i < 2; ++i) {
+      (*views)[i].pose.position = {0, 0, 0};
+      const Vec3 p = middle + poseFromXr((*views)[i].pose).linear() * Vec3(i == 0 ? -half : half, 0, 0);
+      (*views)[i].pose.position = positionToXr(p);
+    }
+  }
+
+  /// A session must be ended before it goes: asked to stop, told that it stops, ended.
+  void endSession() {
+    guarded([&]() -> std::optional<HeadsetFrame> {
+      xrCheck(xrRequestExitSession(session_.get()), "xrRequestExitSession");
+      for (int i = 0; i < kPollsAtEnd && running_ && state_ != State::lost; ++i) {
+        followEvents();
+        if (!running_) break;
+        if (const auto frame = begin()) {   // a runtime may wait for frames before it stops
+          frame_.draw = false;
+          end({});
+        }
+      }
+      return std::nullopt;
+    });
+  }
+
+  /// What a hanging runtime holds cannot be given back.
+  void leaveAll() {
+    controls_->leave();
+    local_.leave();
+    for (std::optional<XrEye>& pictures : pictures_) pictures->leave();
+    session_.leave();
+    runtime_.instance.leave();
+  }
+
+  static constexpr double kHalfApart = 0.0315;   // m, half the mean distance of adults' eyes (Dodgson 2004)
+  static constexpr int kMostUnanswered = 20;   // of XrFrameWait's patience
+  static constexpr int kPollsAtEnd = 30;
+
+  XrRuntime runtime_;
+  XrOwnedSession session_;
+  std::array<std::optional<XrEye>, 2> pictures_;
+  XrOwnedSpace local_;
+  std::optional<XrFrameWait> wait_;
+  int unanswered_ = 0;
+  std::optional<XrControls> controls_;
+  State state_ = State::waiting;
+  bool running_ = false, ever_located_ = false, ever_placed_ = false, first_place_ = false;
+  XrTime time_ = 0;
+  std::optional<XrTime> moves_at_;   // when L will be somewhere else
+  std::array<XrView, 2> views_{};
+  HeadsetFrame frame_;
+  std::string trouble_;
+};
+
+}  // namespace
+
+std::unique_ptr<Headset> openHeadset(const GlBinding& gl) try {
+  return std::make_unique<XrHeadset>(gl);
+} catch (const XrFailure& failure) {
+  const XrWords words = inWords(failure);
+  throw Error(words.what, "headset", words.advice);
+}
+
+}  // namespace palpa::ar

@@ -1,0 +1,32 @@
+#include "haptics/stiffness_modulation.h"
+
+namespace palpa::haptics {
+
+Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, const Vec3& dp, double dt, StiffnessModulationState* state) noexcept {
+  if (!f_r.allFinite() || !dp.allFinite() || !(dt > 0) || f_r.norm() < law.least_contact) {
+    *state = {};
+    return {};
+  }
+  // At first touch the reaction itself is the best normal there is; from then on the last one.
+  const Vec3 u_before = state->f_n > 0 ? unpack(state->u_n) : Vec3(f_r.normalized());
+  const double f_before = state->f_n > 0 ? state->f_n : f_r.norm();
+  const Vec3 drag = dragOf(law.friction, dp, u_before, f_before, dt, &state->friction);
+  const Vec3 f_rn = f_r + drag;
+  Modulated now;
+  now.f_n = f_rn.norm();
+  if (now.f_n < law.least_contact) {   // all of it is friction: no normal can be told
+    *state = {};
+    return {};
+  }
+  now.contact = true;
+  now.u_n = f_rn / now.f_n;
+  const double rate = -dp.dot(now.u_n) / dt;
+  now.x = depthOf(law.real, now.f_n, rate);
+  const double wanted = law.target.constant > 0 ? law.target.constant * now.x : law.target.factor * now.f_n;
+  now.f_d = (wanted - now.f_n) * now.u_n;
+  state->u_n = pack(now.u_n);
+  state->f_n = now.f_n;
+  return now;
+}
+
+}  // namespace palpa::haptics

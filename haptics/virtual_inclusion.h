@@ -1,0 +1,51 @@
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "anatomy/geometry/pose.h"
+#include "haptics/materials/hunt_crossley.h"
+
+/// A lump that is not there, felt inside a real object (Jeon, Choi & Harders 2015, their section 5): by one tool or two.
+namespace palpa::haptics {
+
+struct VirtualInclusion {
+  Vec3 p_T0 = Vec3::Zero();                 ///< where it rests, m
+  double l0 = 0;                            ///< m, from its place to the surface where it was identified
+  HuntCrossley H_T;                         ///< what it adds, against how much the way between tool and lump is shortened
+  std::array<HuntCrossley, 3> G;            ///< its bed along x, y, z: what it takes to push it so far
+};
+
+struct InclusionState {
+  Packed3 d{};                              ///< m, how far it is pushed from its place
+  std::array<double, 2> l{};                ///< m, of the last tick
+};
+static_assert(std::is_trivially_copyable_v<InclusionState>);
+
+/// One tool on the object: its tip, the outward normal and the depth there as estimated without the inclusion.
+struct InclusionContact {
+  bool touching = false;
+  Vec3 p_H = Vec3::Zero(), u_n = Vec3::UnitZ();
+  double x = 0;
+};
+
+struct InclusionAnswer {
+  std::array<Vec3, 2> f_T{Vec3::Zero(), Vec3::Zero()};   ///< N, on the tools: what the devices add
+  Vec3 d = Vec3::Zero();                    ///< m
+  double unbalanced = 0;                    ///< N that the solver left between tools and bed
+  int iterations = 0;                       ///< at most kMostInclusionIterations
+};
+inline constexpr int kMostInclusionIterations = 24;
+
+/// For every tool that touches:
+///     p_Hs = p_H + x u_n,   l0* = |p_Hs - p_T0|                            where the undeformed surface was, updated every tick
+///     l = (l0 / l0*) (l0* - |p_H - p_T|),   p_T = p_T0 + d                 (10.19)
+///     f_T = H_T(l, l') (p_H - p_T) / |p_H - p_T|,  zero for l <= 0         (10.18)
+/// and for the lump, i = x, y, z:
+///     sgn(d_i) G_i(|d_i|, sgn(d_i) d_i') = - sum f_T,i                     (10.20)
+/// Rates are backward differences over dt, so all is solved together in every tick: an explicit rate is unstable from b d / (m k dt) = 0.67 on. Newton's method on
+/// the balance of the lump, its matrix kept positive definite (the turn of the line of force is left out of it), steps halved until they help, bounded. Starts from the
+/// last tick. Figures that are none give zero and forget. No allocation, no exception.
+InclusionAnswer feelInclusion(const VirtualInclusion& lump, const std::array<InclusionContact, 2>& tools, double dt, InclusionState* state) noexcept;
+
+}  // namespace palpa::haptics

@@ -1,0 +1,100 @@
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <algorithm>
+
+#include "apps/record/session_file.h"
+#include "program.h"
+#include "tests/support/test_xr.h"
+
+/// Sessions with a headset, and with one that is not there or does not stay: in real time, by a simulated expert.
+namespace palpa::cli_test {
+namespace {
+
+std::vector<std::string> onHeadset(std::vector<std::string> more) {
+  std::vector<std::string> all{"paracentesis", "--display", "openxr", "--quiet", "--seed", "3", "--out", "A"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+int rowsOf(const std::filesystem::path& csv) {
+  const std::string text = contentOf(csv);
+  return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - 1;
+}
+
+TEST(HeadsetSession, OneThatIsLostEndsInTheDesktopViewAndTheTrialGoesOn) {
+  const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=96x80,96x80;fault=session_lost@30");
+  const Folder here;
+  const Outcome outcome = palpa(onHeadset({"--operator", "expert"}), here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(rowsOf(here / "A/trials.csv"), 1);
+  const std::string page = contentOf(here / "A/report.html");
+  EXPECT_TRUE(says(page, "Headset"));
+  EXPECT_TRUE(says(page, "then the headset was lost"));
+  const test::XrReport report = xr.report();
+  EXPECT_TRUE(report.written);
+  EXPECT_EQ(report.complaints, std::vector<std::string>{});
+  EXPECT_EQ(report.open, std::vector<std::string>{});
+}
+
+TEST(HeadsetSession, WithoutARuntimeTheDesktopViewGoesOnAndOneLineSaysSo) {
+  const test::TestXr none("/nowhere/runtime.json", "");
+  const Folder here;
+  const Outcome outcome = palpa(onHeadset({"--operator", "expert"}), here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "no OpenXR runtime is there")) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "goes on on the desktop")) << outcome.err;
+  EXPECT_EQ(rowsOf(here / "A/trials.csv"), 1);
+}
+
+/// A person without a window and without a headset has nothing to look at.
+TEST(HeadsetSession, APersonNeedsOneOfThem) {
+  const test::TestXr none(PALPA_TEST_XR_JSON, "fault=no_headset");
+  const Folder here;
+  const Outcome outcome = palpa(onHeadset({"--operator", "person"}), here.path());
+  EXPECT_EQ(outcome.exit_code, 1) << outcome.err;
+  EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "no headset is connected")) << outcome.err;
+}
+
+TEST(HeadsetSession, IsNowOrNotAtAll) {
+  const Folder here;
+  for (const char* option : {"--fast", "--no-views"}) {
+    const Outcome outcome = palpa(onHeadset({"--operator", "expert", option}), here.path());
+    EXPECT_EQ(outcome.exit_code, 2) << option;
+    EXPECT_TRUE(says(outcome.err, option)) << outcome.err;
+  }
+}
+
+/// The farthest that two of these points are apart, the first third left out: there the tool comes to the hand.
+double widthOf(std::vector<Vec3> path) {
+  path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 3));
+  double width = 0;
+  for (std::size_t i = 0; i < path.size(); i += 1 + path.size() / 200)
+    for (std::size_t j = 0; j < i; j += 1 + path.size() / 200) width = std::max(width, (path[i] - path[j]).norm());
+  return width;
+}
+
+/// A person's needle goes as far as the controller goes, which does not turn. (To a millimetre: test_headset, Controller.)
+TEST(HeadsetSession, TheControllerHoldsTheNeedle) {
+  const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64;rate=200;stands=1000000");
+  const Folder here;
+  Running running(onHeadset({"--operator", "person", "--no-familiarisation"}), here.path());
+  for (int i = 0; i < 1200 && !running.ended() && !std::filesystem::exists(xr.folder() / "eye1.pam"); ++i) usleep(50'000);
+  usleep(8'000'000);
+  EXPECT_EQ(running.interrupt(), 0);
+  const test::XrReport report = xr.report();
+  EXPECT_EQ(report.complaints, std::vector<std::string>{});
+  std::vector<Vec3> hand, tool;
+  for (const test::XrReport::Hand& h : report.hands) hand.push_back(h.p);
+  record::SessionReader(here / "A/session.palpa").ticks([&](const haptics::FlightRecord& tick) { tool.push_back(unpack(tick.reading.p_DE)); });
+  ASSERT_GT(hand.size(), 20u);
+  ASSERT_GT(tool.size(), 1000u);
+  EXPECT_GT(widthOf(hand), 0.005);
+  EXPECT_NEAR(widthOf(tool), widthOf(hand), 0.003);   // both have lost about the same third
+}
+
+}  // namespace
+}  // namespace palpa::cli_test

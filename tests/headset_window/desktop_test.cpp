@@ -1,0 +1,48 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+
+#include "tests/headset/worn.h"
+
+/// The program on a desktop: a person, a window, a headset beside it.
+namespace palpa::headset {
+namespace {
+
+/// Runs until it is interrupted, as by Ctrl-C; its exit code, and what it said on standard error.
+struct Ended {
+  int code = -1;
+  std::string said;
+};
+Ended interruptedAfter(int seconds, const std::string& arguments, const test::TestXr& xr) {
+  const std::string folder = xr.folder().string();
+  const std::string command = "timeout --foreground --preserve-status -s INT " + std::to_string(seconds) + " " + PALPA_PROGRAM + " paracentesis --display openxr --operator person --quiet --out " + folder + "/out " + arguments + " >/dev/null 2>" +
+                              folder + "/said.txt";
+  Ended run;
+  run.code = std::system(command.c_str());
+  std::ifstream file(folder + "/said.txt");
+  for (std::string line; std::getline(file, line);) run.said += line + "\n";
+  return run;
+}
+
+TEST(HeadsetDesktop, APersonHasAWindowAndAHeadset) {
+  if (!std::getenv("DISPLAY")) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
+  const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64");
+  const Ended run = interruptedAfter(15, "--no-demonstration --no-familiarisation", xr);
+  EXPECT_EQ(run.code, 0) << run.said;
+  EXPECT_EQ(run.said, "");
+  const test::XrReport report = xr.report();
+  expectClean(report, "desktop");
+  EXPECT_GT(calls(report, "layers"), 5);
+}
+
+/// The demonstration is made without display, and must not decide the kind of context for the window after it.
+TEST(HeadsetDesktop, TheDemonstrationComesBefore) {
+  if (!std::getenv("DISPLAY")) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
+  const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64");
+  const Ended run = interruptedAfter(20, "", xr);
+  EXPECT_EQ(run.said.find("headset"), std::string::npos) << run.said;
+  EXPECT_EQ(run.said.find("EGL"), std::string::npos) << run.said;
+}
+
+}  // namespace
+}  // namespace palpa::headset
