@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "anatomy/geometry/error.h"
+#include "ar/headset/keep_loaded.h"
 #include "ar/headset/xr_controls.h"
 #include "ar/headset/xr_eye.h"
 #include "ar/headset/xr_frame_wait.h"
@@ -205,6 +206,7 @@ class XrHeadset final : public Headset {
 
   /// What a hanging runtime holds cannot be given back.
   void leaveAll() {
+    keepLibrariesLoaded();
     controls_->leave();
     local_.leave();
     for (std::optional<XrEye>& pictures : pictures_) pictures->leave();

@@ -120,7 +120,7 @@ XRAPI_ATTR XrResult XRAPI_CALL GetInstanceProcAddr(XrInstance, const char* name,
 }  // namespace
 
 World& world() {
-  static World the_world;
+  static World& the_world = *new World;   // outlives everybody: a thread may hang in it when the program ends
   return the_world;
 }
 
