@@ -12,11 +12,11 @@ Squeezed modulateSqueeze(const SqueezeModulation& law, const std::array<Vec3, 2>
     *state = {};
     return {};
   }
-  if (state->d0 == 0) state->d0 = apart;
   Squeezed now;
   now.contact = true;
   now.l = (p[0] - p[1]) / apart;
   now.F = std::max(0.5 * (f_r[0] - f_r[1]).dot(now.l), 0.0);
+  if (state->d0 == 0) state->d0 = apart + (law.real.k > 0 ? 2 * depthOf(law.real, now.F, 0) : 0);
   now.x = std::max(0.5 * (state->d0 - apart), 0.0);
   const double wanted = law.target.constant > 0 ? law.target.constant * now.x : law.target.factor * now.F;
   for (std::size_t i = 0; i < 2; ++i) {

@@ -10,13 +10,14 @@
 namespace palpa::haptics {
 
 struct SqueezeModulation {
+  HuntCrossley real;              ///< each side as identified; k = 0: not known
   TargetStiffness target;         ///< per contact; a factor is of the real squeezing force
   double weight_factor = 1;       ///< of the real weight
   double least_contact = 0.1;     ///< N, of either reaction
 };
 
 struct SqueezeState {
-  double d0 = 0;                  ///< m between the tips when both came to touch; 0: they do not
+  double d0 = 0;                  ///< m between the tips where both begin to touch; 0: they do not
 };
 static_assert(std::is_trivially_copyable_v<SqueezeModulation> && std::is_trivially_copyable_v<SqueezeState>);
 
@@ -32,6 +33,7 @@ struct Squeezed {
 ///     l = (p1 - p2) / |p1 - p2|,   u_1 = l,   u_2 = -l                        outward
 ///     F = (f_r1 - f_r2) . l / 2                                               (10.12-10.14: equal shares of the weight along l cancel)
 ///     x = (d0 - |p1 - p2|) / 2                                                (10.15)
+///     d0 = |p1 - p2| + 2 H^-1(F, 0)   at the first tick beyond `least_contact`: a soft thing is some millimetres deep by then
 ///     f_w* = f_r* - F u_*
 ///     f_d* = (k~ x - F) u_* + (weight factor - 1) f_w*                        (10.11)
 /// Which tool is the first does not matter. Zero where one of them does not touch, or for figures that are none. No allocation, no exception.

@@ -1,5 +1,7 @@
 #include "haptics/stiffness_modulation.h"
 
+#include <algorithm>
+
 namespace palpa::haptics {
 
 Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, const Vec3& dp, double dt, StiffnessModulationState* state) noexcept {
@@ -21,7 +23,7 @@ Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, con
   now.contact = true;
   now.u_n = f_rn / now.f_n;
   const double rate = -dp.dot(now.u_n) / dt;
-  now.x = depthOf(law.real, now.f_n, rate);
+  now.x = std::max(0.0, law.x0 + depthOf(law.real, now.f_n, rate));
   const double wanted = law.target.constant > 0 ? law.target.constant * now.x : law.target.factor * now.f_n;
   now.f_d = (wanted - now.f_n) * now.u_n;
   state->u_n = pack(now.u_n);

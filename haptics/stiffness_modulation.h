@@ -17,6 +17,7 @@ struct TargetStiffness {
 
 struct StiffnessModulation {
   HuntCrossley real;              ///< as identified on the object
+  double x0 = 0;                  ///< m, how far below the surface its contact begins, as identified with it
   Dahl friction;                  ///< as identified on its surface
   TargetStiffness target;
   double least_contact = 0.1;     ///< N: a smaller reaction is no contact [chosen: several times a sensor's noise after its filter]
@@ -41,7 +42,7 @@ struct Modulated {
 /// Without a model of the object's shape, from the reaction f_r on the tool (N; tool weight and dynamics taken off) and the tip's motion dp in this tick (m):
 ///     f_r^t = -drag (Dahl, in the plane across the last normal)
 ///     u_n = (f_r - f_r^t) / |f_r - f_r^t|,   f_n = |f_r - f_r^t|           (10.6)
-///     x = H^-1(f_n, x'),   x' = -dp.u_n / dt
+///     x = x0 + H^-1(f_n, x'),   x' = -dp.u_n / dt
 ///     f_d = (k~ x - f_n) u_n                                                (10.4)
 /// Friction stays the real one. Zero where the reaction is below `least_contact` or no number. Advances `state`. No allocation, no exception.
 Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, const Vec3& dp, double dt, StiffnessModulationState* state) noexcept;

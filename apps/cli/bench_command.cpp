@@ -2,6 +2,7 @@
 #include "apps/bench/calibration_bench.h"
 #include "apps/bench/haptics_bench.h"
 #include "apps/bench/loop_bench.h"
+#include "apps/bench/material_bench.h"
 #include "apps/bench/render_bench.h"
 #include "apps/bench/tracking_bench.h"
 #include "apps/cli/commands.h"
@@ -44,6 +45,14 @@ void addCalibration(CLI::App& bench) {
   calibration->callback([options] { bench::benchCalibration(*options); });
 }
 
+void addMaterial(CLI::App& bench) {
+  CLI::App* material = bench.add_subcommand("material", "How true stiffness, friction, squeezing and lumps are that are not there (simulated phantoms)");
+  material->footer("Example:\n  palpa bench material > material.jsonl\n  palpa bench material --quick");
+  const auto options = std::make_shared<bench::MaterialBenchOptions>();
+  material->add_flag("--quick", options->quick, "Without noise only, and three of the mock-ups");
+  material->callback([options] { bench::benchMaterial(*options); });
+}
+
 void addRenderBench(CLI::App& bench) {
   CLI::App* render = bench.add_subcommand("render", "Cost of a frame beside VTK's own, and of translucent surfaces beside depth peeling");
   render->footer("Example:\n  palpa bench render > render.jsonl\n  palpa bench render --width 1920 --height 1080");
@@ -78,6 +87,7 @@ void addBench(CLI::App& program) {
   addCalibration(*bench);
   addHaptics(*bench);
   addLoop(*bench);
+  addMaterial(*bench);
   addRenderBench(*bench);
   addTracking(*bench);
 }

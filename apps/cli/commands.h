@@ -12,6 +12,7 @@ void addCalibrate(CLI::App& program);
 void addPatient(CLI::App& program);
 void addRender(CLI::App& program);
 void addBoard(CLI::App& program);
+void addPhantom(CLI::App& program);
 void addExport(CLI::App& program);
 void addBench(CLI::App& program);
 

@@ -46,6 +46,7 @@ int run(int argc, char** argv) {
   palpa::cli::addPatient(program);
   palpa::cli::addRender(program);
   palpa::cli::addBoard(program);
+  palpa::cli::addPhantom(program);
   palpa::cli::addExport(program);
   palpa::cli::addBench(program);
   try {

@@ -39,7 +39,7 @@ struct Stroke {
   double f_n() const { return f_r.dot(kTilted); }
 };
 
-StiffnessModulation lawFor(const TargetStiffness& target) { return {kSilicone, kSkinned, target, 0.1}; }
+StiffnessModulation lawFor(const TargetStiffness& target) { return {kSilicone, 0, kSkinned, target, 0.1}; }
 
 TEST(StiffnessModulation, WhereTheTargetIsTheTruthTheDeviceStaysQuiet) {
   StiffnessModulationState state;

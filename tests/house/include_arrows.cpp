@@ -74,6 +74,7 @@ std::vector<Layer> makeLayers() {
        {},
        {"Eigen", "JSON", "SQLite", "PostgreSQL", "zlib"}},
       {"apps/report", librariesAnd({"apps/assess"}), {}, {"Eigen", "JSON", "VTK", "VTK data", "Cairo"}},
+      {"apps/twin/phantom", {"anatomy/geometry", "apps/station"}, {}, {"Eigen", "JSON"}},
       {"apps/twin", librariesAnd({"apps/runtime", "apps/station"}), {}, app_libraries},
       {"apps/task_*",
        librariesAnd({"apps/runtime", "apps/assess", "apps/station"}),

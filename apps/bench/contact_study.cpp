@@ -1,0 +1,150 @@
+#include "apps/bench/contact_study.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "haptics/friction_modulation.h"
+
+namespace palpa::bench {
+namespace {
+
+constexpr double kDeep = 7e-3, kReach = 0.02;   // m
+constexpr double kLeastFelt = 0.1;              // N, of the modulation; also what the judge leaves out
+const haptics::Dahl kOtherSurface{0.7, 900, 1.0};
+constexpr std::uint64_t kSeen = 1, kFresh = 101;   // seeds
+
+std::vector<calibration::PressSample> pressSamples(const std::vector<PhantomTick>& ticks) {
+  std::vector<calibration::PressSample> samples;
+  for (const PhantomTick& tick : ticks) samples.push_back({-tick.tip.z(), -tick.dp.z() / kPhantomTick, tick.f_r.z()});
+  return samples;
+}
+
+std::vector<calibration::SlideSample> slideSamples(const std::vector<PhantomTick>& ticks) {
+  std::vector<calibration::SlideSample> samples;
+  for (const PhantomTick& tick : ticks) samples.push_back({tick.tip, Vec3::UnitZ(), tick.f_r.z(), -Vec3(tick.f_r.x(), tick.f_r.y(), 0)});
+  return samples;
+}
+
+/// What drags the other surface: Dahl's equation in small parts, by the true motion, normal and force.
+class OtherSurface {
+ public:
+  Vec3 drag(const PhantomTick& tick, const Vec3& dp) {
+    constexpr int kParts = 40;
+    const twin::PhantomTwin::Touch& truth = tick.truth;
+    if (!truth.contact) return F_.setZero();
+    const Vec3 along = dp - dp.dot(truth.n) * truth.n;
+    const double most = kOtherSurface.mu * truth.f_n;
+    F_ -= F_.dot(truth.n) * truth.n;
+    for (int i = 0; i < kParts; ++i) {
+      F_ += kOtherSurface.sigma * (along / kParts - F_ * (along.norm() / kParts / most));
+      if (F_.norm() > most) F_ *= most / F_.norm();
+    }
+    return F_ + kOtherSurface.B * along / kPhantomTick;
+  }
+
+ private:
+  Vec3 F_ = Vec3::Zero();
+};
+
+bool judged(const PhantomTick& tick) { return tick.truth.contact && tick.truth.f_n > 2 * kLeastFelt; }
+
+Vec3 trueStep(const std::vector<PhantomTick>& ticks, std::size_t i) { return i > 0 ? Vec3(ticks[i].true_tip - ticks[i - 1].true_tip) : Vec3(Vec3::Zero()); }
+
+}  // namespace
+
+double RelativeRms::value() const { return of2_ > 0 ? std::sqrt(off2_ / of2_) : 0; }
+
+KnownPhantom identifyPhantom(const twin::PhantomTwin& phantom, Noise noise) {
+  std::vector<calibration::PressSample> presses = pressSamples(recordTouch(phantom, pressing(Vec3::Zero(), kDeep, kSeen), noise, kSeen));
+  const std::vector<calibration::PressSample> taps = pressSamples(recordTouch(phantom, tapping(Vec3::Zero(), kDeep, kSeen + 1), noise, kSeen + 1));
+  presses.insert(presses.end(), taps.begin(), taps.end());
+  const std::vector<PhantomTick> strokes = recordTouch(phantom, stroking(Vec3::Zero(), kDeep, kReach, Vec3::UnitX(), kSeen + 2), noise, kSeen + 2);
+  return {calibration::identifySoftContact(presses), calibration::identifySurfaceFriction(slideSamples(strokes), kPhantomTick)};
+}
+
+haptics::StiffnessModulation feelingOf(const KnownPhantom& known, double least_contact) {
+  return {known.contact.law, known.contact.x0, known.friction.law, {}, least_contact};
+}
+
+std::vector<TouchRun> freshTouches(const twin::PhantomTwin& phantom, Noise noise) {
+  const Vec3 way = Vec3(1, 0.4, 0).normalized();
+  return {{"pressing", recordTouch(phantom, pressing(Vec3::Zero(), kDeep, kFresh), noise, kFresh)},
+          {"tapping", recordTouch(phantom, tapping(Vec3::Zero(), kDeep, kFresh + 1), noise, kFresh + 1)},
+          {"stroking", recordTouch(phantom, stroking(Vec3::Zero(), kDeep, kReach, way, kFresh + 2), noise, kFresh + 2)}};
+}
+
+double contactForceError(const KnownPhantom& known, const std::vector<TouchRun>& runs) {
+  RelativeRms error;
+  for (const TouchRun& run : runs) {
+    for (std::size_t i = 1; i < run.ticks.size(); ++i) {
+      const twin::PhantomTwin::Touch& truth = run.ticks[i].truth;
+      if (!truth.contact) continue;
+      const double rate = -trueStep(run.ticks, i).z() / kPhantomTick;
+      error.add((haptics::forceOf(known.contact.law, truth.x - known.contact.x0, rate) - truth.f_n) * truth.n, truth.f_n * truth.n);
+    }
+  }
+  return error.value();
+}
+
+double frictionForceError(const KnownPhantom& known, const std::vector<TouchRun>& runs) {
+  RelativeRms error;
+  for (const TouchRun& run : runs) {
+    haptics::DahlState state;
+    for (std::size_t i = 1; i < run.ticks.size(); ++i) {
+      const twin::PhantomTwin::Touch& truth = run.ticks[i].truth;
+      const Vec3 drag = haptics::dragOf(known.friction.law, trueStep(run.ticks, i), truth.n, truth.contact ? truth.f_n : 0, kPhantomTick, &state), f_t = truth.f - truth.f_n * truth.n;
+      if (truth.contact) error.add(drag + f_t, f_t);
+    }
+  }
+  return error.value();
+}
+
+double lawError() {
+  const haptics::HuntCrossley truth{900, 600, 1.35};
+  std::vector<calibration::PressSample> samples;
+  for (const LedTip& tip : {pressing(Vec3::Zero(), kDeep, kSeen), tapping(Vec3::Zero(), kDeep, kSeen + 1)}) {
+    for (double t = kPhantomTick; t < tip.duration(); t += kPhantomTick) {
+      const double x = -tip.at(t).z(), rate = (x + tip.at(t - kPhantomTick).z()) / kPhantomTick;
+      samples.push_back({x, rate, haptics::forceOf(truth, x, rate)});
+    }
+  }
+  const haptics::HuntCrossley found = calibration::identifySoftContact(samples).law;
+  return std::max({std::abs(found.k / truth.k - 1), std::abs(found.b / truth.b - 1), std::abs(found.m / truth.m - 1)});
+}
+
+StiffnessFigures stiffnessFigures(const KnownPhantom& known, const TouchRun& run, double factor) {
+  StiffnessFigures figures;
+  RelativeRms error;
+  haptics::StiffnessModulationState state;
+  for (const PhantomTick& tick : run.ticks) {
+    const double true_stiffness = tick.truth.x > 0 ? tick.truth.f_n / tick.truth.x : 0;
+    haptics::StiffnessModulation law = feelingOf(known, kLeastFelt);
+    law.target.constant = factor * true_stiffness;   // a field over the surface and the depth
+    const haptics::Modulated now = haptics::modulateStiffness(law, tick.f_r, tick.dp, kPhantomTick, &state);
+    if (!judged(tick)) continue;
+    const Vec3 f_t = tick.truth.f - tick.truth.f_n * tick.truth.n, wanted = -(factor * tick.truth.f_n * tick.truth.n + f_t), hand = -(tick.truth.f + now.f_d);
+    error.add(hand - wanted, wanted);
+    figures.largest_N = std::max(figures.largest_N, now.f_d.norm());
+    figures.largest_share = std::max(figures.largest_share, now.f_d.norm() / tick.truth.f.norm());
+  }
+  figures.error = error.value();
+  return figures;
+}
+
+double frictionModulationError(const KnownPhantom& known, const std::vector<TouchRun>& runs) {
+  RelativeRms error;
+  for (const TouchRun& run : runs) {
+    haptics::FrictionModulationState state;
+    OtherSurface other;
+    for (std::size_t i = 0; i < run.ticks.size(); ++i) {
+      const PhantomTick& tick = run.ticks[i];
+      const haptics::FrictionModulation law{feelingOf(known, kLeastFelt), kOtherSurface};
+      const haptics::Modulated now = haptics::modulateFriction(law, tick.f_r, tick.dp, kPhantomTick, &state);
+      const Vec3 wanted = -other.drag(tick, trueStep(run.ticks, i)), f = tick.truth.f + now.f_d, felt = f - f.dot(tick.truth.n) * tick.truth.n;
+      if (judged(tick)) error.add(felt - wanted, wanted);
+    }
+  }
+  return error.value();
+}
+
+}  // namespace palpa::bench

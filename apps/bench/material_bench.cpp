@@ -1,0 +1,78 @@
+#include "apps/bench/material_bench.h"
+
+#include <algorithm>
+#include <numbers>
+#include <string>
+
+#include "apps/bench/lump_study.h"
+#include "apps/bench/metric.h"
+#include "apps/bench/squeeze_study.h"
+#include "apps/station/assets.h"
+
+namespace palpa::bench {
+namespace {
+
+nlohmann::json paramsOf(Noise noise) { return {{"noise", nameOf(noise)}, {"data", "simulated"}}; }
+
+void benchContact(const twin::PhantomTwin& plain, const KnownPhantom& known, Noise noise) {
+  const std::vector<TouchRun> runs = freshTouches(plain, noise);
+  print("hc_force_rel_rms", contactForceError(known, {runs[0], runs[1]}), "1", paramsOf(noise));
+  print("dahl_force_rel_rms", frictionForceError(known, {runs[2]}), "1", paramsOf(noise));
+  for (const TouchRun& run : runs) {
+    nlohmann::json params = paramsOf(noise);
+    params["motion"] = run.motion;
+    const StiffnessFigures null = stiffnessFigures(known, run, 1);
+    print("null_modulation_n", null.largest_N, "N", params);
+    print("null_modulation_share", null.largest_share, "1", params);
+    for (const double factor : {0.5, 0.75, 1.5, 2.0}) {
+      params["factor"] = factor;
+      print("stiffness_rel_error", stiffnessFigures(known, run, factor).error, "1", params);
+    }
+  }
+  print("friction_rel_error", frictionModulationError(known, {runs[2]}), "1", paramsOf(noise));
+}
+
+void benchSqueeze(const twin::PhantomTable& side, const haptics::HuntCrossley& known) {
+  for (const double mass : {0.0, 0.05}) {
+    for (const double tilt_deg : {0.0, 30.0, 60.0}) {
+      double worst = 0;
+      for (const double factor : {0.5, 2.0}) {
+        for (const bool swapped : {false, true}) worst = std::max(worst, squeezeError(side, known, {mass, tilt_deg * std::numbers::pi / 180, factor, swapped}));
+      }
+      nlohmann::json params = paramsOf(Noise::none);
+      params["mass_kg"] = mass;
+      params["tilt_deg"] = tilt_deg;
+      print("squeeze_rel_error", worst, "1", params);
+    }
+  }
+}
+
+void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& known, Noise noise, std::size_t most) {
+  for (std::size_t i = 1; i < phantoms.size() && i <= most; ++i) {
+    nlohmann::json params = paramsOf(noise);
+    params["mockup"] = phantoms[i].name;
+    params["contacts"] = 1;
+    const LumpFigures figures = lumpFigures(phantoms.front(), phantoms[i], known, noise);
+    print("inclusion_force_rel_rms", figures.error, "1", params);
+    print("inclusion_none_rel_rms", figures.unrendered, "1", params);
+    print("inclusion_position_error_mm", figures.position_mm, "mm", params);
+    print("solver_iterations_max", figures.iterations, "1", params);
+  }
+}
+
+}  // namespace
+
+void benchMaterial(const MaterialBenchOptions& options) {
+  const std::vector<twin::Phantom> phantoms = twin::readSolved(station::assetFile("phantoms/mockups.json"), station::assetFile("phantoms/mockups.tables.json"));
+  const twin::PhantomTwin plain(phantoms.front().table, {});
+  print("hc_param_error", lawError(), "1", paramsOf(Noise::none));
+  for (const Noise noise : {Noise::none, Noise::realistic}) {
+    if (options.quick && noise == Noise::realistic) break;
+    const KnownPhantom known = identifyPhantom(plain, noise);
+    benchContact(plain, known, noise);
+    if (noise == Noise::none) benchSqueeze(phantoms.front().table, known.contact.law);
+    benchLumps(phantoms, known, noise, options.quick ? 3 : phantoms.size());
+  }
+}
+
+}  // namespace palpa::bench

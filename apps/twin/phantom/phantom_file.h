@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/twin/phantom/phantom_table.h"
+
+namespace palpa::twin {
+
+/// A simulated phantom: what it is, and what pressing it takes.
+struct Phantom {
+  std::string name;
+  SoftBlock block;
+  PhantomTable table;
+};
+
+/// Phantoms of one kind of silicone, in millimetres and kilopascal (see assets/phantoms/mockups.json).
+struct PhantomFile {
+  PhantomTable shape;             ///< of the tables; no cells
+  Fineness fineness;
+  std::vector<Phantom> phantoms;  ///< without their tables
+};
+/// Throws UsageError for fields that are missing or out of range.
+PhantomFile readPhantoms(const std::filesystem::path& file);
+
+/// Solves every phantom of a file and writes the tables, with the description they were made of. Takes minutes for each. Throws Error.
+void solvePhantoms(const std::filesystem::path& file, const std::filesystem::path& out, const std::function<void(const std::string& name, int done, int of)>& progress);
+
+/// A file's phantoms with their tables from `tables`. Throws UsageError where these were made of another description.
+std::vector<Phantom> readSolved(const std::filesystem::path& file, const std::filesystem::path& tables);
+
+}  // namespace palpa::twin
