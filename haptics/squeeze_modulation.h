@@ -10,10 +10,10 @@
 namespace palpa::haptics {
 
 struct SqueezeModulation {
-  HuntCrossley real;              ///< each side as identified; k = 0: not known
   TargetStiffness target;         ///< per contact; a factor is of the real squeezing force
   double weight_factor = 1;       ///< of the real weight
   double least_contact = 0.1;     ///< N, of either reaction
+  HuntCrossley real = {};         ///< each side as identified; k = 0: not known
 };
 
 struct SqueezeState {

@@ -63,6 +63,21 @@ TEST(SqueezeModulation, AConstantStiffnessIsASpringAtEachSide) {
   }
 }
 
+/// A soft thing is deep when it is felt first: where it begins is told by its law, or everything is felt too soft.
+TEST(SqueezeModulation, BeginsWhereTheSurfacesAreNotWhereTheyAreFelt) {
+  SqueezeModulation law;
+  law.real = kFoam;
+  law.target.constant = 400;
+  SqueezeState state;
+  Squeezed now;
+  for (double depth = 0; depth < 0.006; depth += 1e-5) {
+    const Held h = held(depth, 0, 0);
+    now = modulateSqueeze(law, h.f_r, h.p, &state);
+  }
+  EXPECT_NEAR(now.x, 0.006, 2e-5);
+  EXPECT_NEAR(state.d0, kWidth, 2e-5);
+}
+
 TEST(SqueezeModulation, HeavierAndLighter) {
   for (const double factor : {0.0, 2.0, 3.0}) {
     SqueezeState state = touched();

@@ -1,0 +1,59 @@
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.h"
+#include "tests/support/counts.h"
+
+/// What haptic augmented reality promises without noise, measured as anyone can.
+namespace palpa::cli_test {
+namespace {
+
+using Lines = std::vector<nlohmann::json>;
+
+Lines noiseless(const Outcome& outcome) {
+  Lines lines;
+  std::istringstream text(outcome.out);
+  for (std::string line; std::getline(text, line);) {
+    lines.push_back(nlohmann::json::parse(line));
+    EXPECT_EQ(lines.back()["params"]["data"], "simulated");
+    if (lines.back()["params"]["noise"] != "none") lines.pop_back();
+  }
+  return lines;
+}
+
+std::vector<double> valuesOf(const Lines& lines, const std::string& metric) {
+  std::vector<double> values;
+  for (const auto& line : lines)
+    if (line["metric"] == metric) values.push_back(line["value"]);
+  return values;
+}
+
+double worst(const Lines& lines, const std::string& metric) {
+  const std::vector<double> values = valuesOf(lines, metric);
+  return values.empty() ? 1e9 : *std::max_element(values.begin(), values.end());
+}
+
+TEST(BenchMaterial, HoldsWhatIsPromised) {
+  const Folder here;
+  std::vector<std::string> arguments{"bench", "material"};
+  if (!test::fullCounts()) arguments.push_back("--quick");
+  const Outcome outcome = palpa(arguments, here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  const Lines lines = noiseless(outcome);
+  EXPECT_LE(worst(lines, "hc_param_error"), 0.01);
+  EXPECT_LE(worst(lines, "hc_force_rel_rms"), 0.07);
+  EXPECT_LE(worst(lines, "dahl_force_rel_rms"), 0.07);
+  EXPECT_LE(worst(lines, "null_modulation_n"), 0.05);
+  EXPECT_EQ(valuesOf(lines, "stiffness_rel_error").size(), 12u);
+  EXPECT_LE(worst(lines, "stiffness_rel_error"), 0.06);
+  EXPECT_EQ(valuesOf(lines, "squeeze_rel_error").size(), 6u);
+  EXPECT_LE(worst(lines, "squeeze_rel_error"), 0.06);
+  EXPECT_LE(worst(lines, "friction_rel_error"), 0.07);
+}
+
+}  // namespace
+}  // namespace palpa::cli_test
