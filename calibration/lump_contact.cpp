@@ -34,7 +34,9 @@ class LawFit {
     p_[2] = 0;
   }
   haptics::HuntCrossley run() {
-    robustFit({static_cast<int>(samples_.size()), 1, 3, [this](const VectorX& dp) { return residuals(dp); }, [this](const VectorX& dp) { p_ += dp; }}, kLumpWhere);
+    double squares = 0;
+    for (const PressSample& s : samples_) squares += s.f * s.f / static_cast<double>(samples_.size());
+    nearFit({static_cast<int>(samples_.size()), 1, 3, [this](const VectorX& dp) { return residuals(dp); }, [this](const VectorX& dp) { p_ += dp; }}, std::sqrt(squares), kLumpWhere);
     return {std::exp(p_[0]), std::max(0.0, std::exp(p_[0]) * p_[2]), p_[1]};
   }
 

@@ -207,4 +207,13 @@ Fit robustFit(const FitProblem& problem, const std::string& where, double most_o
   return RobustFitter(problem, where, step).run(most_outliers);
 }
 
+Fit nearFit(FitProblem problem, double signal_rms, const std::string& where) {
+  constexpr double kNear = 0.1;
+  problem.keep_all = true;
+  Fit fit = robustFit(problem, where);
+  if (fit.sigma < kNear * signal_rms) return fit;
+  problem.keep_all = false;
+  return robustFit(problem, where);
+}
+
 }  // namespace palpa::calibration

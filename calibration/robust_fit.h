@@ -43,4 +43,8 @@ struct Fit {
 /// `most_outliers` of the blocks do not fit the rest.
 Fit robustFit(const FitProblem& problem, const std::string& where, double most_outliers = 0.3, double step = 1e-6);
 
+/// For laws that are true only nearly (real friction is nearly Dahl's): what is left then is the law's fault, not a sample's. Plain least squares of everything where that leaves less than a tenth of
+/// the signal's rms in each residual; robustFit from there where it leaves more.
+Fit nearFit(FitProblem problem, double signal_rms, const std::string& where);
+
 }  // namespace palpa::calibration

@@ -14,7 +14,6 @@ constexpr char kFrictionWhere[] = "friction identification";
 constexpr std::size_t kLeastSlides = 200, kLeastStrokes = 4;
 constexpr double kSameWay = 0.5;            // cosine: a stroke goes on while its motion turns by less than 60 degrees
 constexpr double kSlidFar = 3;              // in units of F_c / sigma: 95 % of Coulomb's friction
-constexpr double kLawIsNear = 0.1;            // of the drag: real friction is Dahl's only nearly, and what is left then is the law's fault, not a sample's
 constexpr double kNoStep = 1e-9;
 
 /// A sample in its stroke: the way since the stroke began, and what is dragged along it.
@@ -88,14 +87,8 @@ class SlideFit {
  public:
   SlideFit(const std::vector<SlideSample>& samples, double dt, const Dahl& start)
       : samples_(samples), dt_(dt), p_(std::log(start.mu), std::log(start.sigma), start.B), scale_(1, 1, std::max(start.mu, 0.1)) {}
-  /// Where the law fits nearly there is no outlier to look for.
   Fit run(double drag_rms) {
-    FitProblem problem{static_cast<int>(samples_.size()) - 1, 2, 3, [this](const VectorX& dp) { return residuals(dp); }, [this](const VectorX& dp) { p_ += dp.cwiseProduct(scale_); }};
-    problem.keep_all = true;
-    Fit fit = robustFit(problem, kFrictionWhere);
-    if (fit.sigma < kLawIsNear * drag_rms) return fit;
-    problem.keep_all = false;
-    return robustFit(problem, kFrictionWhere);
+    return nearFit({static_cast<int>(samples_.size()) - 1, 2, 3, [this](const VectorX& dp) { return residuals(dp); }, [this](const VectorX& dp) { p_ += dp.cwiseProduct(scale_); }}, drag_rms, kFrictionWhere);
   }
   Dahl law() const { return lawAt(p_); }
   Mat3 covariance(const Fit& fit) const {

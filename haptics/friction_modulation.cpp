@@ -9,7 +9,7 @@ Modulated modulateFriction(const FrictionModulation& law, const Vec3& f_r, const
     return now;
   }
   const Vec3 f_real = f_r - f_r.dot(now.u_n) * now.u_n;
-  now.f_d -= dragOf(law.wanted, dp, now.u_n, now.f_n, dt, &state->wanted) + f_real;
+  now.f_d -= dragOf(law.wanted, now.slid, now.u_n, now.f_n, dt, &state->wanted) + f_real;
   return now;
 }
 

@@ -1,13 +1,13 @@
 #include "haptics/virtual_inclusion.h"
 
-#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
 namespace palpa::haptics {
 namespace {
 
-constexpr double kLumpBalanced = 1e-7;      // N
+constexpr double kLumpBalanced = 1e-6;      // N
 constexpr double kNearestToLump = 1e-4;       // m between tool and lump: nearer there is no line between them
 constexpr double kBedFloor = 1e-5;         // m: below, a bed's stiffness is taken from there, for at rest it may be zero
 constexpr int kMostHalvings = 8;
@@ -62,10 +62,12 @@ class Lump {
     b->l[t] = std::max(scale * (from_surface_[t] - apart), 0.0);
     if (b->l[t] <= 0) return;
     const Implicit felt = implicitly(lump_.H_T, b->l[t], l_before_[t], dt_);
-    const Vec3 n = line / apart;
+    const Vec3 to_middle = line + tools_[t].radius * tools_[t].u_n;
+    const double from_middle = std::max(to_middle.norm(), kNearestToLump);
+    const Vec3 n = to_middle / from_middle;
     b->f_T[t] = felt.f * n;
     b->left += b->f_T[t];
-    b->slope += scale * felt.slope * n * n.transpose();
+    b->slope += scale * felt.slope * n * (line / apart).transpose() - felt.f / from_middle * (Mat3::Identity() - n * n.transpose());
   }
 
   const VirtualInclusion& lump_;
@@ -95,7 +97,7 @@ InclusionAnswer feelInclusion(const VirtualInclusion& lump, const std::array<Inc
   Balance now = problem.at(d);
   while (now.left.norm() > kLumpBalanced && answer.iterations < kMostInclusionIterations) {
     ++answer.iterations;
-    Vec3 step = -now.slope.llt().solve(now.left);
+    Vec3 step = -now.slope.partialPivLu().solve(now.left);
     if (!step.allFinite()) break;
     Balance next = problem.at(d + step);
     for (int i = 0; i < kMostHalvings && !(next.left.norm() < now.left.norm()); ++i) {
@@ -112,6 +114,12 @@ InclusionAnswer feelInclusion(const VirtualInclusion& lump, const std::array<Inc
   state->d = pack(d);
   state->l = now.l;
   return answer;
+}
+
+Vec3 rubbedByLump(const Vec3& f_T, const Vec3& f_t, double f_n, const Vec3& u_n) noexcept {
+  const double share = f_n > 0 ? f_T.dot(u_n) / f_n : 0;
+  const Vec3 f = share * f_t;
+  return f.allFinite() ? f : Vec3(Vec3::Zero());
 }
 
 }  // namespace palpa::haptics

@@ -32,9 +32,8 @@ class OtherSurface {
     constexpr int kParts = 40;
     const twin::PhantomTwin::Touch& truth = tick.truth;
     if (!truth.contact) return F_.setZero();
-    const Vec3 along = dp - dp.dot(truth.n) * truth.n;
+    const Vec3 along(dp.x(), dp.y(), 0);
     const double most = kOtherSurface.mu * truth.f_n;
-    F_ -= F_.dot(truth.n) * truth.n;
     for (int i = 0; i < kParts; ++i) {
       F_ += kOtherSurface.sigma * (along / kParts - F_ * (along.norm() / kParts / most));
       if (F_.norm() > most) F_ *= most / F_.norm();

@@ -52,12 +52,13 @@ LumpFigures lumpFigures(const twin::Phantom& plain, const twin::Phantom& lumped,
     haptics::InclusionState state;
     for (const PhantomTick& tick : real) {
       const haptics::Modulated felt = haptics::modulateStiffness(feel, tick.f_r, tick.dp, kPhantomTick, &contact);
-      const std::array<haptics::InclusionContact, 2> tools{{{felt.contact, tick.tip, felt.u_n, felt.x}, {}}};
+      const std::array<haptics::InclusionContact, 2> tools{{{felt.contact, tick.tip, felt.u_n, felt.x, lumped.table.tool_radius}, {}}};
       const haptics::InclusionAnswer answer = haptics::feelInclusion(lump, tools, kPhantomTick, &state);
+      const Vec3 f_d = answer.f_T[0] + haptics::rubbedByLump(answer.f_T[0], tick.f_r - felt.f_n * felt.u_n, felt.f_n, felt.u_n);
       const twin::PhantomTwin::Touch truth = judge.step(tick.true_tip, kPhantomTick);
       figures.iterations = std::max(figures.iterations, answer.iterations);
       if (!truth.contact) continue;
-      error.add(tick.truth.f + answer.f_T[0] - truth.f, truth.f);
+      error.add(tick.truth.f + f_d - truth.f, truth.f);
       unrendered.add(tick.truth.f - truth.f, truth.f);
       figures.position_mm = std::max(figures.position_mm, 1e3 * (answer.d - truth.lump).norm());
     }

@@ -37,6 +37,19 @@ double worst(const Lines& lines, const std::string& metric) {
   return values.empty() ? 1e9 : *std::max_element(values.begin(), values.end());
 }
 
+/// One tool over every mock-up: of eight at most two err by more than 0.07.
+void expectLumps(const Lines& lines) {
+  const std::vector<double> errors = valuesOf(lines, "inclusion_force_rel_rms"), unrendered = valuesOf(lines, "inclusion_none_rel_rms");
+  ASSERT_EQ(errors.size(), test::counted<std::size_t>(3, 8));
+  EXPECT_LE(std::count_if(errors.begin(), errors.end(), [](double e) { return e > 0.07; }), 2);
+  for (std::size_t i = 0; i < errors.size(); ++i) {
+    EXPECT_GE(unrendered[i], 0.15) << i;
+    EXPECT_LE(errors[i], std::min(0.12, unrendered[i] / 3)) << i;
+  }
+  EXPECT_LE(worst(lines, "inclusion_position_error_mm"), 1);
+  EXPECT_LE(worst(lines, "solver_iterations_max"), 24);
+}
+
 TEST(BenchMaterial, HoldsWhatIsPromised) {
   const Folder here;
   std::vector<std::string> arguments{"bench", "material"};
@@ -53,6 +66,7 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_EQ(valuesOf(lines, "squeeze_rel_error").size(), 6u);
   EXPECT_LE(worst(lines, "squeeze_rel_error"), 0.06);
   EXPECT_LE(worst(lines, "friction_rel_error"), 0.07);
+  expectLumps(lines);
 }
 
 }  // namespace

@@ -50,6 +50,18 @@ TEST(StiffnessModulation, WhereTheTargetIsTheTruthTheDeviceStaysQuiet) {
   }
 }
 
+/// Pressing straight down is no stroke, even where the reaction at first touch was askew: the normal does not run off to the side.
+TEST(StiffnessModulation, PressingMakesNoFriction) {
+  StiffnessModulationState state;
+  const HuntCrossley soft{150, 0, 1};
+  Modulated now;
+  for (double x = 1e-5; x < 0.007; x += 1e-5) {
+    const double f_n = forceOf(soft, x, 0);
+    now = modulateStiffness({soft, 0, {0.35, 1500, 0.4}, {}, 0.1}, Vec3(0.02 * f_n, 0, f_n), Vec3(0, 0, -1e-5), kModulationTick, &state);
+  }
+  EXPECT_NEAR(std::atan2(now.u_n.x(), now.u_n.z()), 0.02, 0.005);
+}
+
 /// Pressing and stroking at once: the normal is found though friction pulls aside by up to 31 degrees, and the hand feels the factor.
 TEST(StiffnessModulation, HarderAndSofterWhilePressingAndStroking) {
   for (const double factor : {0.5, 0.75, 1.5, 2.0}) {

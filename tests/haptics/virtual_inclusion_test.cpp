@@ -114,5 +114,13 @@ TEST(VirtualInclusion, NothingWithoutTouchNonsenseForgotten) {
   EXPECT_EQ(unpack(state.d), Vec3(Vec3::Zero()));
 }
 
+/// What a surface rubs with grows as it is pressed.
+TEST(VirtualInclusion, RubsAsMuchMoreAsItPresses) {
+  const Vec3 f = rubbedByLump(Vec3(0.05, 0, 0.5), Vec3(-0.3, 0.1, 0), 1.0, Vec3::UnitZ());
+  EXPECT_LT((f - 0.5 * Vec3(-0.3, 0.1, 0)).norm(), 1e-12);
+  EXPECT_EQ(rubbedByLump(Vec3(0, 0, 1), Vec3(1, 0, 0), 0, Vec3::UnitZ()), Vec3(Vec3::Zero()));
+  EXPECT_EQ(rubbedByLump(Vec3(0, 0, NAN), Vec3(1, 0, 0), 1, Vec3::UnitZ()), Vec3(Vec3::Zero()));
+}
+
 }  // namespace
 }  // namespace palpa::haptics

@@ -54,7 +54,6 @@ PhantomFile readPhantoms(const std::filesystem::path& name) {
     const station::JsonFile one(file.json()["phantoms"][i], file.name() + ", phantom " + std::to_string(i + 1));
     Phantom phantom{one.text("name"), block, all.shape};
     if (one.has("lump")) phantom.block.lump = lumpOf(one, block);
-    if (!phantom.block.lump) phantom.table.aways = 1;   // the same everywhere
     all.phantoms.push_back(phantom);
   }
   return all;

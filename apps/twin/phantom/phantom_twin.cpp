@@ -34,13 +34,13 @@ PhantomTwin::Touch PhantomTwin::step(const Vec3& tip, double dt) {
   return touch;
 }
 
-/// dF = sigma (dp - F |dp| / F_c), within F_c; F_c falls with speed and grows a little less than the load, which no law that is identified knows.
+/// dF = sigma (dp - F |dp| / F_c), within F_c; F_c falls with speed and grows a little less than the load, which no law that is identified knows. Along the undeformed surface:
+/// what is pressed straight down takes the rubber below along and does not rub.
 Vec3 PhantomTwin::drag(const Touch& touch, const Vec3& dp, double dt) {
   constexpr int kParts = 40;
-  const Vec3 along = dp - dp.dot(touch.n) * touch.n, part = along / kParts;
+  const Vec3 along(dp.x(), dp.y(), 0), part = along / kParts;
   const double speed = along.norm() / dt / law_.sticks_below;
   const double most = law_.mu * (1 + law_.sticks * std::exp(-speed * speed)) * std::pow(touch.f_n, 1 + law_.load_power);
-  drag_ -= drag_.dot(touch.n) * touch.n;
   for (int i = 0; i < kParts; ++i) {
     drag_ += law_.sigma * (part - drag_ * (part.norm() / most));
     if (drag_.norm() > most) drag_ *= most / drag_.norm();
