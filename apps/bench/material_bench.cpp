@@ -1,9 +1,11 @@
 #include "apps/bench/material_bench.h"
 
 #include <algorithm>
+#include <map>
 #include <numbers>
 #include <string>
 
+#include "apps/bench/hand_study.h"
 #include "apps/bench/lump_study.h"
 #include "apps/bench/metric.h"
 #include "apps/bench/squeeze_study.h"
@@ -60,6 +62,25 @@ void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
   }
 }
 
+/// The worst hand for every device and modulation.
+void benchHands(const twin::PhantomTwin& plain, const KnownPhantom& known) {
+  std::map<std::pair<std::string, std::string>, HandFigures> worst;
+  for (const HandCase& one : handCases(known)) {
+    const HandFigures figures = handFigures(plain, one);
+    HandFigures& w = worst[{one.device, one.modulation}];
+    w = {std::max(w.still_mm_s, figures.still_mm_s), std::max(w.gained_mJ, figures.gained_mJ), std::max(w.largest_N, figures.largest_N)};
+  }
+  for (const auto& [which, figures] : worst) {
+    nlohmann::json params = paramsOf(Noise::realistic);
+    params["device"] = which.first;
+    params["modulation"] = which.second;
+    params["hands"] = 8;
+    print("hand_still_mm_s", figures.still_mm_s, "mm/s", params);
+    print("hand_gained_mJ", figures.gained_mJ, "mJ", params);
+    print("hand_largest_force", figures.largest_N, "N", params);
+  }
+}
+
 }  // namespace
 
 void benchMaterial(const MaterialBenchOptions& options) {
@@ -71,6 +92,7 @@ void benchMaterial(const MaterialBenchOptions& options) {
     const KnownPhantom known = identifyPhantom(plain, noise);
     benchContact(plain, known, noise);
     if (noise == Noise::none) benchSqueeze(phantoms.front().table, known.contact.law);
+    if (noise == Noise::none) benchHands(plain, known);
     benchLumps(phantoms, known, noise, options.quick ? 3 : phantoms.size());
   }
 }

@@ -17,7 +17,7 @@ DeviceTwin::DeviceTwin(const DeviceTruth& truth, const Pose& X_DE_start)
     : truth_(truth), X_DE_(X_DE_start), p_hand_last_D_(X_DE_start.translation()) {}
 
 void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
-                         const Vec3& f_command_D) {
+                         const Vec3& f_command_D, const Vec3& f_touch_D) {
   const double h = dt / kSubsteps;
   const double mass = truth_.apparent_mass + grip.mass;
   const double size = f_command_D.norm();
@@ -32,7 +32,7 @@ void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
     f_grip_D_ = grip.stiffness * (p_now - p) + grip.damping * (v_hand - v_D_);
     const Vec3 friction =
         -v_D_ * (truth_.coulomb / (v_D_.norm() + kSlidingSpeed) + truth_.viscous);
-    v_D_ += (f_grip_D_ + f_drive_D_ + friction) * (h / mass);
+    v_D_ += (f_grip_D_ + f_drive_D_ + f_touch_D + friction) * (h / mass);
     p += v_D_ * h;
   }
   p_hand_last_D_ = p_hand;

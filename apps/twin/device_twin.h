@@ -38,15 +38,16 @@ struct HandGrip {
 PackedPose encoderReading(const DeviceTruth& truth, const Pose& X_DE);
 
 /// Point mass of device and hand, moved by grip, drives and friction; orientation follows the hand.
-/// m dv/dt = K (p_hand - p) + B (v_hand - v) + f_drive - f_c v/(|v| + v_0) - b v,
+/// m dv/dt = K (p_hand - p) + B (v_hand - v) + f_drive + f_touch - f_c v/(|v| + v_0) - b v,
 /// integrated semi-implicitly with four substeps a millisecond.
 class DeviceTwin {
  public:
   DeviceTwin(const DeviceTruth& truth, const Pose& X_DE_start);
 
-  /// Advances by dt toward the hand's wanted pose; `f_command_D` from the controller.
-  void advance(double dt, const Pose& X_DH, const HandGrip& grip, const Vec3& f_command_D);
+  /// Advances by dt toward the hand's wanted pose; `f_command_D` from the controller, `f_touch_D` of a real object on the tool.
+  void advance(double dt, const Pose& X_DH, const HandGrip& grip, const Vec3& f_command_D, const Vec3& f_touch_D = Vec3::Zero());
 
+  const Vec3& trueVelocity() const { return v_D_; }        ///< m/s, for accuracy reports only
   const Pose& truePose() const { return X_DE_; }   ///< for accuracy reports only
   const Vec3& gripForce() const { return f_grip_D_; }   ///< what the hand feels: force of hand on tool
   PackedPose encoderPose() const { return encoderReading(truth_, X_DE_); }   ///< what the device's electronics say
