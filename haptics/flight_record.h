@@ -6,6 +6,7 @@
 
 #include "anatomy/geometry/local_geometry.h"
 #include "haptics/device.h"
+#include "haptics/placed_lumps.h"
 
 namespace palpa::haptics {
 
@@ -20,9 +21,10 @@ enum class SafetyCause : std::uint8_t {
   clock,             ///< session time stood still or went back
   corrupt_geometry,  ///< stale, because the snapshots that came were refused
   deadman,           ///< the button that must be held is not
-  duty               ///< the drives have had more than they can bear for long: less force
+  duty,              ///< the drives have had more than they can bear for long: less force
+  no_sensor          ///< what is felt rests on a force sensor, and that says nothing that could be believed
 };
-inline constexpr int kSafetyCauseCount = 15;
+inline constexpr int kSafetyCauseCount = 16;
 const char* name(SafetyCause cause);
 
 /// Whether there is a force sensor, and whether its word counts in this tick.
@@ -42,12 +44,14 @@ struct TickCommands {
     one.fill(1);
     return one;
   }();
+  PlacedLumps lumps{};                 ///< in P, of this trial
 };
 static_assert(std::is_trivially_copyable_v<TickCommands>);
 
 /// What a force sensor says of a real object that the tool touches, cleared of tool, bias and noise.
 struct SensedForce {
   Packed3 f_D{};                       ///< of the object on the tool, N
+  Packed3 p_DT{};                      ///< m, where the tip was, as late as the force is
   SensorState state = SensorState::none;
   std::uint8_t reserved[7]{};
 };

@@ -85,7 +85,7 @@ const char* name(SafetyCause cause) {
   static constexpr const char* kNames[kSafetyCauseCount] = {
       "none",          "not finite",     "clamp",          "slew",     "energy",
       "silent device", "stale geometry", "emergency stop", "watchdog", "not ready",
-      "position jump", "clock fault",   "damaged geometry", "button not held", "warm drives"};
+      "position jump", "clock fault",   "damaged geometry", "button not held", "warm drives", "no force sensor"};
   return kNames[static_cast<int>(cause)];
 }
 

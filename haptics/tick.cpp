@@ -41,6 +41,7 @@ void startTrial(TickState& state, std::uint32_t trial) {
   state.trial = trial;
   state.contact = state.contact_old = NeedleState{};
   state.probe = state.probe_old = ProbeState{};
+  state.touch = TouchAugmentationState{};
   state.passivity = PassivityState{};
   state.blending = 0;
 }
@@ -104,17 +105,31 @@ NeedleContact blendedContact(const TickConfig& config, TickState& state, const N
   return contact;
 }
 
+/// What is added to a real thing, in P where its lumps lie. Position and force are of one time, a filter's delay ago.
+NeedleContact touchedContact(const TickConfig& config, TickState& state, const TickCommands& commands, const SensedForce& sensed, double dt) {
+  const Quat q_DP = unpack(config.X_DP.q).normalized(), q_PD = q_DP.conjugate();
+  const ToolTouch tool{true, q_PD * (unpack(sensed.p_DT) - unpack(config.X_DP.p)), q_PD * unpack(sensed.f_D)};
+  const AugmentedTouch now = augmentTouch(config.touch, commands.lumps, {tool, {}}, dt, &state.touch);
+  NeedleContact contact;
+  contact.f_D = q_DP * now.f_d[0];
+  contact.indentation = now.touch[0].x;
+  contact.skin_force = now.touch[0].f_n;
+  return contact;
+}
+
 /// After readings that were not believed the velocity is measured anew.
 void forgetMotion(TickState& state) {
   for (PointMotion* motion : {&state.contact.motion, &state.contact_old.motion, &state.probe.motion,
                               &state.probe_old.motion})
     motion->started = 0;
+  state.touch = TouchAugmentationState{};
   state.passivity = PassivityState{};
 }
 
 /// 1 while the snapshot is young, then falling to 0 within the fade. One from the future is as bad as an
 /// old one: the clock went back, or its time is wrong.
 double freshness(const TickConfig& config, const TickState& state, std::int64_t now_ns) {
+  if (config.engine == Engine::touch) return 1;   // a real thing is always where it is
   if (state.now.number == 0) return 0;
   const double over =
       std::abs(between(state.now.t_ns, now_ns)) - static_cast<double>(config.age_limit_ns);
@@ -141,8 +156,13 @@ SafetyCause faultOf(const TickConfig& config, TickState& state, const DeviceRead
                                                                      : SafetyCause::none;
 }
 
+bool sensorBelieved(const SensedForce& sensed) {
+  const Vec3 f = unpack(sensed.f_D);
+  return sensed.state == SensorState::valid && f.allFinite() && f.norm() <= kStrongestObject && unpack(sensed.p_DT).allFinite();
+}
+
 bool believable(SafetyCause fault) {
-  return fault != SafetyCause::not_finite && fault != SafetyCause::jump && fault != SafetyCause::not_ready;
+  return fault != SafetyCause::not_finite && fault != SafetyCause::jump && fault != SafetyCause::not_ready && fault != SafetyCause::no_sensor;
 }
 
 /// A device that is not homed does not know where it is: nothing is touched, and what was touched is over.
@@ -151,15 +171,13 @@ void forgetContact(TickState& state) {
   state.contact = state.contact_old = NeedleState{};
   state.contact.skin_punctures = state.contact_old.skin_punctures = punctures;
   state.probe = state.probe_old = ProbeState{};
+  state.touch = TouchAugmentationState{};
   state.passivity = PassivityState{};
 }
 
 /// Of a real object on the tool; none where the sensor's word does not count or cannot be meant.
 Vec3 objectForce(const TickConfig& config, const SensedForce& sensed) {
-  const Vec3 f = unpack(sensed.f_D);
-  const bool believed = config.object_at_port && sensed.state == SensorState::valid && f.allFinite() &&
-                        f.norm() <= kStrongestObject;
-  return believed ? f : Vec3(Vec3::Zero());
+  return config.object_at_port && sensorBelieved(sensed) ? unpack(sensed.f_D) : Vec3(Vec3::Zero());
 }
 
 /// The force that is asked of the limiter. Where nothing will be rendered the observer starts anew.
@@ -267,15 +285,16 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   record.events |= adopt(config, state, latest, now_ns);
 
   const NeedlePose pose = needlePose(config, state.contact, reading);
-  const SafetyCause fault = faultOf(config, state, reading, pose, elapsed);
+  SafetyCause fault = faultOf(config, state, reading, pose, elapsed);
+  if (fault == SafetyCause::none && config.engine == Engine::touch && reading.homed && !sensorBelieved(sensed)) fault = SafetyCause::no_sensor;
   SafetyInput input = safetyInput(reading, commands, fault, now_ns, dt);
   const double fresh = freshness(config, state, now_ns);
   NeedleContact contact;
   if (!reading.homed) {
     forgetContact(state);
   } else if (believable(fault)) {
-    contact =
-        blendedContact(config, state, pose, commands, dt, now_ns);
+    contact = config.engine == Engine::touch ? touchedContact(config, state, commands, sensed, dt)
+                                             : blendedContact(config, state, pose, commands, dt, now_ns);
     input.f_wanted_D = passiveForce(config, state, commands, sensed, fresh, contact.f_D, input);
   } else {
     forgetMotion(state);

@@ -7,10 +7,12 @@
 #include "haptics/probe_contact.h"
 #include "haptics/reading_check.h"
 #include "haptics/safety_limiter.h"
+#include "haptics/touch_augmentation.h"
 
 namespace palpa::haptics {
 
-enum class Engine : std::uint8_t { needle, probe };
+/// What the tool is for: a needle or a probe on a virtual patient, or a tool with a force sensor on a real thing whose feel is changed.
+enum class Engine : std::uint8_t { needle, probe, touch };
 
 /// Constant during a session; stored in its file. Trivially copyable, so that a replay has it whole.
 struct TickConfig {
@@ -30,6 +32,8 @@ struct TickConfig {
   std::int64_t blend_ns = 10'000'000;       ///< a new snapshot takes over within this time
   std::int64_t age_limit_ns = 100'000'000;  ///< older snapshots fade out
   std::int64_t fade_ns = 50'000'000;
+  TouchAugmentation touch;
+  PackedPose X_DP;                          ///< the real thing, in whose frame its lumps lie
 };
 static_assert(std::is_trivially_copyable_v<TickConfig>);
 
@@ -41,6 +45,7 @@ struct TickState {
   LocalGeometry now, old;
   NeedleState contact, contact_old;  ///< `contact_old` runs on `old` during the blend
   ProbeState probe, probe_old;
+  TouchAugmentationState touch;
   PassivityState passivity;
   SafetyState safety;
   ReadingState reading;
@@ -61,7 +66,8 @@ PackedPose toolPose(const TickConfig& config, const TickState& state, const Devi
 /// One tick: reading -> contact on the snapshot -> blend -> passivity -> safety limiter -> command. Pure: same
 /// inputs, same bits. `latest` is the newest snapshot or null; it is adopted when the last blend is over, unless
 /// it is damaged. Whatever comes in, the command is finite and within the limits. Never allocates, locks, logs or
-/// throws. `sensed` is what a force sensor says of a real object at the tool: it counts at the hand's port. Zero force in the same tick for readings that cannot be, jumps, a clock that stood still or went
+/// throws. `sensed` is what a force sensor says of a real object at the tool: it counts at the hand's port. Engine::touch asks for no snapshots, and gives no force while the sensor is
+/// not valid. Zero force in the same tick for readings that cannot be, jumps, a clock that stood still or went
 /// back, and after a pause of the loop (watchdog). A device that is not homed touches nothing.
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,

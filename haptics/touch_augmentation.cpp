@@ -1,7 +1,5 @@
 #include "haptics/touch_augmentation.h"
 
-#include <algorithm>
-
 namespace palpa::haptics {
 namespace {
 
@@ -21,7 +19,7 @@ Modulated feel(const TouchAugmentation& law, const ToolTouch& tool, double dt, s
 
 }  // namespace
 
-AugmentedTouch augmentTouch(const TouchAugmentation& law, const std::array<ToolTouch, 2>& tools, double dt, TouchAugmentationState* state) noexcept {
+AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps, const std::array<ToolTouch, 2>& tools, double dt, TouchAugmentationState* state) noexcept {
   AugmentedTouch now;
   std::array<InclusionContact, 2> contacts;
   for (std::size_t t = 0; t < 2; ++t) {
@@ -29,9 +27,12 @@ AugmentedTouch augmentTouch(const TouchAugmentation& law, const std::array<ToolT
     now.f_d[t] = now.touch[t].f_d;
     contacts[t] = {now.touch[t].contact, tools[t].p, now.touch[t].u_n, now.touch[t].x, law.tip_radius};
   }
-  const int lumps = std::clamp(law.lump_count, 0, kMostLumps);
-  for (std::size_t i = 0; i < static_cast<std::size_t>(lumps); ++i) {
-    const InclusionAnswer lump = feelInclusion(law.lumps[i], contacts, dt, &state->lumps[i]);
+  for (std::size_t i = 0; i < lumps.size(); ++i) {
+    if (lumps[i].kind == 0 || lumps[i].kind > law.kinds.size()) {
+      state->lumps[i] = {};
+      continue;
+    }
+    const InclusionAnswer lump = feelInclusion(law.kinds[lumps[i].kind - 1], unpack(lumps[i].p_T0), contacts, dt, &state->lumps[i]);
     now.d[i] = lump.d;
     now.iterations += lump.iterations;
     for (std::size_t t = 0; t < 2; ++t) {

@@ -5,20 +5,20 @@
 #include <type_traits>
 
 #include "haptics/friction_modulation.h"
+#include "haptics/placed_lumps.h"
 #include "haptics/virtual_inclusion.h"
 
 /// What haptic augmented reality adds to a real object under one tool or two, in one tick: another stiffness and friction, lumps that are not there.
 namespace palpa::haptics {
 
-inline constexpr int kMostLumps = 2;
-
 struct TouchAugmentation {
   FrictionModulation surface;                    ///< of the whole object; the real friction for the wanted one leaves it as it is
-  bool other_friction = false;                   ///< else friction stays the real one, and nothing is done for it
-  std::array<VirtualInclusion, kMostLumps> lumps;
-  int lump_count = 0;
+  std::array<VirtualInclusion, kMostLumpKinds> kinds;
   double tip_radius = 0;                         ///< m, of both tools
+  std::uint8_t other_friction = 0;               ///< 0: friction stays the real one, and nothing is done for it
+  std::uint8_t reserved[7]{};
 };
+static_assert(std::is_trivially_copyable_v<TouchAugmentation>);
 
 /// One tool: its tip, m, and the real object's reaction on it, N (tool weight and dynamics taken off), in one frame with the lumps.
 struct ToolTouch {
@@ -37,12 +37,12 @@ static_assert(std::is_trivially_copyable_v<TouchAugmentationState>);
 struct AugmentedTouch {
   std::array<Modulated, 2> touch;                ///< what was felt of the real object, and what is changed of it
   std::array<Vec3, 2> f_d{Vec3::Zero(), Vec3::Zero()};   ///< N, of the devices on the tools, all together
-  std::array<Vec3, kMostLumps> d{Vec3::Zero(), Vec3::Zero()};   ///< m, how far the lumps are pushed
-  int iterations = 0;                            ///< of both lumps' solvers; at most kMostLumps kMostInclusionIterations
+  std::array<Vec3, kMostLumps> d{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};   ///< m, how far the lumps are pushed
+  int iterations = 0;                            ///< of all lumps' solvers; at most kMostLumps kMostInclusionIterations
 };
 
 ///     f_d* = (k~ x* - f_n*) u_n*  [+ f_targ* - f_real*]  +  sum over lumps (f_T* + f_t* (f_T* . u_n*) / f_n*)
 /// Each lump feels both tools, and no other lump. Where there is no contact there is no force. No allocation, no exception.
-AugmentedTouch augmentTouch(const TouchAugmentation& law, const std::array<ToolTouch, 2>& tools, double dt, TouchAugmentationState* state) noexcept;
+AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps, const std::array<ToolTouch, 2>& tools, double dt, TouchAugmentationState* state) noexcept;
 
 }  // namespace palpa::haptics

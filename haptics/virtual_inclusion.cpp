@@ -36,9 +36,9 @@ struct Balance {
 
 class Lump {
  public:
-  Lump(const VirtualInclusion& lump, const std::array<InclusionContact, 2>& tools, double dt, const InclusionState& before) noexcept
-      : lump_(lump), tools_(tools), dt_(dt), d_before_(unpack(before.d)), l_before_(before.l) {
-    for (std::size_t t = 0; t < 2; ++t) from_surface_[t] = (tools[t].p_H + tools[t].x * tools[t].u_n - lump.p_T0).norm();
+  Lump(const VirtualInclusion& lump, const Vec3& p_T0, const std::array<InclusionContact, 2>& tools, double dt, const InclusionState& before) noexcept
+      : lump_(lump), p_T0_(p_T0), tools_(tools), dt_(dt), d_before_(unpack(before.d)), l_before_(before.l) {
+    for (std::size_t t = 0; t < 2; ++t) from_surface_[t] = (tools[t].p_H + tools[t].x * tools[t].u_n - p_T0).norm();
   }
 
   Balance at(const Vec3& d) const noexcept {
@@ -55,7 +55,7 @@ class Lump {
 
  private:
   void addTool(std::size_t t, const Vec3& d, Balance* b) const noexcept {
-    const Vec3 line = tools_[t].p_H - (lump_.p_T0 + d);
+    const Vec3 line = tools_[t].p_H - (p_T0_ + d);
     const double apart = line.norm();
     if (!tools_[t].touching || apart < kNearestToLump || from_surface_[t] < kNearestToLump) return;
     const double scale = lump_.l0 / from_surface_[t];
@@ -71,6 +71,7 @@ class Lump {
   }
 
   const VirtualInclusion& lump_;
+  Vec3 p_T0_;
   const std::array<InclusionContact, 2>& tools_;
   double dt_;
   Vec3 d_before_;
@@ -78,21 +79,21 @@ class Lump {
   std::array<double, 2> from_surface_{};
 };
 
-bool usable(const std::array<InclusionContact, 2>& tools, double dt, const InclusionState& state) noexcept {
-  bool good = dt > 0 && unpack(state.d).allFinite();
+bool usable(const Vec3& p_T0, const std::array<InclusionContact, 2>& tools, double dt, const InclusionState& state) noexcept {
+  bool good = dt > 0 && p_T0.allFinite() && unpack(state.d).allFinite();
   for (const InclusionContact& tool : tools) good = good && (!tool.touching || (tool.p_H.allFinite() && tool.u_n.allFinite() && std::isfinite(tool.x)));
   return good;
 }
 
 }  // namespace
 
-InclusionAnswer feelInclusion(const VirtualInclusion& lump, const std::array<InclusionContact, 2>& tools, double dt, InclusionState* state) noexcept {
+InclusionAnswer feelInclusion(const VirtualInclusion& lump, const Vec3& p_T0, const std::array<InclusionContact, 2>& tools, double dt, InclusionState* state) noexcept {
   InclusionAnswer answer;
-  if (!usable(tools, dt, *state)) {
+  if (!usable(p_T0, tools, dt, *state)) {
     *state = {};
     return answer;
   }
-  const Lump problem(lump, tools, dt, *state);
+  const Lump problem(lump, p_T0, tools, dt, *state);
   Vec3 d = unpack(state->d);
   Balance now = problem.at(d);
   while (now.left.norm() > kLumpBalanced && answer.iterations < kMostInclusionIterations) {

@@ -9,12 +9,13 @@
 /// A lump that is not there, felt inside a real object (Jeon, Choi & Harders 2015, their section 5): by one tool or two.
 namespace palpa::haptics {
 
+/// What a lump is, wherever it lies.
 struct VirtualInclusion {
-  Vec3 p_T0 = Vec3::Zero();                 ///< where it rests, m
   double l0 = 0;                            ///< m, from its place to the surface where it was identified
   HuntCrossley H_T;                         ///< what it adds, against how much the way between tool and lump is shortened
   std::array<HuntCrossley, 3> G;            ///< its bed along x, y, z: what it takes to push it so far
 };
+static_assert(std::is_trivially_copyable_v<VirtualInclusion>);
 
 struct InclusionState {
   Packed3 d{};                              ///< m, how far it is pushed from its place
@@ -38,7 +39,7 @@ struct InclusionAnswer {
 };
 inline constexpr int kMostInclusionIterations = 24;
 
-/// For every tool that touches:
+/// With the lump resting at p_T0, m; for every tool that touches:
 ///     p_Hs = p_H + x u_n,   l0* = |p_Hs - p_T0|                            where the undeformed surface was, updated every tick
 ///     l = (l0 / l0*) (l0* - |p_H - p_T|),   p_T = p_T0 + d                 (10.19)
 ///     f_T = H_T(l, l') (p_C - p_T) / |p_C - p_T|,  zero for l <= 0         (10.18; p_C = p_H + radius u_n, where the source has p_H: its tip was small)
@@ -47,7 +48,7 @@ inline constexpr int kMostInclusionIterations = 24;
 /// Rates are backward differences over dt, so all is solved together in every tick: an explicit rate is unstable from b d / (m k dt) = 0.67 on. Newton's method on
 /// the balance of the lump, steps halved until they help, bounded. Starts from the
 /// last tick. Figures that are none give zero and forget. No allocation, no exception.
-InclusionAnswer feelInclusion(const VirtualInclusion& lump, const std::array<InclusionContact, 2>& tools, double dt, InclusionState* state) noexcept;
+InclusionAnswer feelInclusion(const VirtualInclusion& lump, const Vec3& p_T0, const std::array<InclusionContact, 2>& tools, double dt, InclusionState* state) noexcept;
 
 /// What the lump adds to the friction, N on the tool: it makes the surface press harder, and a surface rubs as it is pressed. `f_t`: the real friction on the tool, `f_n` the real normal
 /// force, `u_n` its way; the sensed friction grows as the normal force does (the source leaves this out, which errs by mu times what the lump adds).

@@ -2,27 +2,44 @@
 
 #include <cerrno>
 #include <cstring>
-#include <fstream>
 #include <string>
+#include <system_error>
 
 #include "anatomy/geometry/error.h"
 
 namespace palpa {
 
-void writeWhole(const std::filesystem::path& file, std::string_view content) {
-  const std::filesystem::path beside = file.string() + ".part";
+WholeFile::WholeFile(const std::filesystem::path& file) : file_(file), beside_(file.string() + ".part"), stream_(beside_, std::ios::binary) {
+  if (!stream_) fail(errno);
+}
+
+WholeFile::~WholeFile() {
+  std::error_code ignored;
+  if (!finished_) std::filesystem::remove(beside_, ignored);
+}
+
+void WholeFile::write(std::string_view text) {
+  stream_.write(text.data(), static_cast<std::streamsize>(text.size()));
+  if (!stream_) fail(errno);
+}
+
+void WholeFile::finish() {
+  stream_.close();
+  if (!stream_) fail(errno);
   std::error_code problem;
-  std::ofstream stream(beside, std::ios::binary);
-  stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-  stream.close();
-  if (stream) {
-    std::filesystem::rename(beside, file, problem);
-    if (!problem) return;
-  }
-  const std::string reason = problem ? problem.message() : std::strerror(errno);
-  std::filesystem::remove(beside, problem);
-  throw Error("cannot be written (" + reason + ")", file.string(),
-              "Check that the folder exists, may be written to and has free space");
+  std::filesystem::rename(beside_, file_, problem);
+  if (problem) fail(problem.value());
+  finished_ = true;
+}
+
+void WholeFile::fail(int reason) const {
+  throw Error(std::string("cannot be written (") + std::strerror(reason) + ")", file_.string(), "Check that the folder exists, may be written to and has free space");
+}
+
+void writeWhole(const std::filesystem::path& file, std::string_view content) {
+  WholeFile whole(file);
+  whole.write(content);
+  whole.finish();
 }
 
 }  // namespace palpa

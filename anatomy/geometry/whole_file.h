@@ -1,12 +1,29 @@
 #pragma once
 
 #include <filesystem>
+#include <fstream>
 #include <string_view>
 
 namespace palpa {
 
-/// The file is there whole or not at all: written beside under another name, then renamed.
-/// Throws Error.
+/// A file that is there whole or not at all: written beside under another name, renamed by finish(). All throw Error.
+class WholeFile {
+ public:
+  explicit WholeFile(const std::filesystem::path& file);
+  ~WholeFile();
+  WholeFile(const WholeFile&) = delete;
+  WholeFile& operator=(const WholeFile&) = delete;
+
+  void write(std::string_view text);
+  void finish();
+
+ private:
+  [[noreturn]] void fail(int reason) const;
+  std::filesystem::path file_, beside_;
+  std::ofstream stream_;
+  bool finished_ = false;
+};
+
 void writeWhole(const std::filesystem::path& file, std::string_view content);
 
 }  // namespace palpa

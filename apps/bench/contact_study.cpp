@@ -9,7 +9,8 @@ namespace palpa::bench {
 namespace {
 
 constexpr double kDeep = 7e-3, kReach = 0.02;   // m
-constexpr double kLeastFelt = 0.1;              // N, of the modulation; also what the judge leaves out
+constexpr double kLeastFelt = 0.1;              // N, of the modulation
+constexpr double kLeastJudged = 0.2;            // N: lighter touches come and go with the sensor's noise
 const haptics::Dahl kOtherSurface{0.7, 900, 1.0};
 constexpr std::uint64_t kSeen = 1, kFresh = 101;   // seeds
 
@@ -25,27 +26,19 @@ std::vector<calibration::SlideSample> slideSamples(const std::vector<PhantomTick
   return samples;
 }
 
-/// What drags the other surface: Dahl's equation in small parts, by the true motion, normal and force.
-class OtherSurface {
- public:
-  Vec3 drag(const PhantomTick& tick, const Vec3& dp) {
-    constexpr int kParts = 40;
-    const twin::PhantomTwin::Touch& truth = tick.truth;
-    if (!truth.contact) return F_.setZero();
-    const Vec3 along(dp.x(), dp.y(), 0);
-    const double most = kOtherSurface.mu * truth.f_n;
-    for (int i = 0; i < kParts; ++i) {
-      F_ += kOtherSurface.sigma * (along / kParts - F_ * (along.norm() / kParts / most));
-      if (F_.norm() > most) F_ *= most / F_.norm();
-    }
-    return F_ + kOtherSurface.B * along / kPhantomTick;
-  }
+/// The same silicone with the other surface: what truly drags there.
+twin::SiliconeLaw otherSilicone() {
+  twin::SiliconeLaw law;
+  law.mu = kOtherSurface.mu;
+  law.sigma = kOtherSurface.sigma;
+  law.B = kOtherSurface.B;
+  law.sticks = law.load_power = 0;
+  return law;
+}
 
- private:
-  Vec3 F_ = Vec3::Zero();
-};
+Vec3 frictionOf(const twin::PhantomTouch& truth) { return truth.f - truth.f_n * truth.n; }
 
-bool judged(const PhantomTick& tick) { return tick.truth.contact && tick.truth.f_n > 2 * kLeastFelt; }
+bool judged(const PhantomTick& tick) { return tick.truth.contact && tick.truth.f_n > kLeastJudged; }
 
 Vec3 trueStep(const std::vector<PhantomTick>& ticks, std::size_t i) { return i > 0 ? Vec3(ticks[i].true_tip - ticks[i - 1].true_tip) : Vec3(Vec3::Zero()); }
 
@@ -76,7 +69,7 @@ double contactForceError(const KnownPhantom& known, const std::vector<TouchRun>&
   RelativeRms error;
   for (const TouchRun& run : runs) {
     for (std::size_t i = 1; i < run.ticks.size(); ++i) {
-      const twin::PhantomTwin::Touch& truth = run.ticks[i].truth;
+      const twin::PhantomTouch& truth = run.ticks[i].truth;
       if (!truth.contact) continue;
       const double rate = -trueStep(run.ticks, i).z() / kPhantomTick;
       error.add((haptics::forceOf(known.contact.law, truth.x - known.contact.x0, rate) - truth.f_n) * truth.n, truth.f_n * truth.n);
@@ -90,8 +83,8 @@ double frictionForceError(const KnownPhantom& known, const std::vector<TouchRun>
   for (const TouchRun& run : runs) {
     haptics::DahlState state;
     for (std::size_t i = 1; i < run.ticks.size(); ++i) {
-      const twin::PhantomTwin::Touch& truth = run.ticks[i].truth;
-      const Vec3 drag = haptics::dragOf(known.friction.law, trueStep(run.ticks, i), truth.n, truth.contact ? truth.f_n : 0, kPhantomTick, &state), f_t = truth.f - truth.f_n * truth.n;
+      const twin::PhantomTouch& truth = run.ticks[i].truth;
+      const Vec3 drag = haptics::dragOf(known.friction.law, trueStep(run.ticks, i), truth.n, truth.contact ? truth.f_n : 0, kPhantomTick, &state), f_t = frictionOf(truth);
       if (truth.contact) error.add(drag + f_t, f_t);
     }
   }
@@ -121,7 +114,7 @@ StiffnessFigures stiffnessFigures(const KnownPhantom& known, const TouchRun& run
     law.target.constant = factor * true_stiffness;   // a field over the surface and the depth
     const haptics::Modulated now = haptics::modulateStiffness(law, tick.f_r, tick.dp, kPhantomTick, &state);
     if (!judged(tick)) continue;
-    const Vec3 f_t = tick.truth.f - tick.truth.f_n * tick.truth.n, wanted = -(factor * tick.truth.f_n * tick.truth.n + f_t), hand = -(tick.truth.f + now.f_d);
+    const Vec3 wanted = -(factor * tick.truth.f_n * tick.truth.n + frictionOf(tick.truth)), hand = -(tick.truth.f + now.f_d);
     error.add(hand - wanted, wanted);
     figures.largest_N = std::max(figures.largest_N, now.f_d.norm());
     figures.largest_share = std::max(figures.largest_share, now.f_d.norm() / tick.truth.f.norm());
@@ -130,16 +123,15 @@ StiffnessFigures stiffnessFigures(const KnownPhantom& known, const TouchRun& run
   return figures;
 }
 
-double frictionModulationError(const KnownPhantom& known, const std::vector<TouchRun>& runs) {
+double frictionModulationError(const KnownPhantom& known, const twin::PhantomTable& phantom, const std::vector<TouchRun>& runs) {
+  const haptics::FrictionModulation law{feelingOf(known, kLeastFelt), kOtherSurface};
   RelativeRms error;
   for (const TouchRun& run : runs) {
     haptics::FrictionModulationState state;
-    OtherSurface other;
-    for (std::size_t i = 0; i < run.ticks.size(); ++i) {
-      const PhantomTick& tick = run.ticks[i];
-      const haptics::FrictionModulation law{feelingOf(known, kLeastFelt), kOtherSurface};
+    twin::PhantomTwin other(phantom, otherSilicone());
+    for (const PhantomTick& tick : run.ticks) {
       const haptics::Modulated now = haptics::modulateFriction(law, tick.f_r, tick.dp, kPhantomTick, &state);
-      const Vec3 wanted = -other.drag(tick, trueStep(run.ticks, i)), f = tick.truth.f + now.f_d, felt = f - f.dot(tick.truth.n) * tick.truth.n;
+      const Vec3 wanted = frictionOf(other.step(tick.true_tip, kPhantomTick)), f = tick.truth.f + now.f_d, felt = f - f.dot(tick.truth.n) * tick.truth.n;
       if (judged(tick)) error.add(felt - wanted, wanted);
     }
   }

@@ -54,7 +54,7 @@ struct StiffnessFigures {
 };
 StiffnessFigures stiffnessFigures(const KnownPhantom& known, const TouchRun& run, double factor);
 
-/// The hand's force where another surface's friction is to be felt, against that friction by its differential equation.
-double frictionModulationError(const KnownPhantom& known, const std::vector<TouchRun>& runs);
+/// The hand's force where another surface's friction is to be felt, against a simulated phantom that has it.
+double frictionModulationError(const KnownPhantom& known, const twin::PhantomTable& phantom, const std::vector<TouchRun>& runs);
 
 }  // namespace palpa::bench

@@ -9,7 +9,7 @@ namespace palpa::bench {
 namespace {
 
 constexpr double kPressDeep = 7e-3, kHold = 3.0, kCalmAfter = 2.5;   // m; s of holding, and from when on it must be calm: a light grip rings for two seconds by itself
-constexpr int kPartsOfTick = 8;                                         // of a tick
+constexpr int kStepsPerTick = 8;                                        // phantom, hand and mechanics do not wait for the loop
 constexpr std::uint64_t kHandSeed = 31;
 
 /// Down, hold, across, hold, up; three times, deeper each time.
@@ -42,10 +42,9 @@ HandFigures handFigures(const twin::PhantomTwin& start, const HandCase& one) {
     const auto [tip, f_r] = sensed.feel(true_tip, f_touch, kPhantomTick);
     const haptics::Modulated now = haptics::modulateFriction(one.law, f_r, tip - tip_last, kPhantomTick, &state);
     tip_last = tip;
-    Vec3 f_d = one.modulated ? now.f_d : Vec3(Vec3::Zero());
-    if (f_d.norm() > one.truth.max_force_N) f_d *= one.truth.max_force_N / f_d.norm();
-    for (int i = 1; i <= kPartsOfTick; ++i) {   // phantom, hand and mechanics do not wait for the loop
-      const double part = kPhantomTick / kPartsOfTick;
+    const Vec3 f_d = one.modulated ? now.f_d : Vec3(Vec3::Zero());
+    for (int i = 1; i <= kStepsPerTick; ++i) {
+      const double part = kPhantomTick / kStepsPerTick;
       device.advance(part, makePose(Mat3::Identity(), way.at(t - kPhantomTick + i * part)), one.grip, f_d, f_touch);
       given += device.gripForce().dot(device.trueVelocity()) * part;
       f_touch = phantom.step(device.truePose().translation(), part).f;

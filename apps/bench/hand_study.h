@@ -13,7 +13,7 @@ namespace palpa::bench {
 struct HandFigures {
   double still_mm_s = 0;          ///< rms of the tool's speed at the ends of holds, the worst hold: where it swings, it does not die
   double gained_mJ = 0;           ///< most that the hand has got back beyond what it had put in, at any time
-  double largest_N = 0;           ///< of the device
+  double largest_N = 0;           ///< that the modulation asks of the device
 };
 struct HandCase {
   std::string device, modulation;

@@ -1,15 +1,14 @@
 #include "apps/bench/lump_study.h"
 
 #include <algorithm>
-#include <array>
 
 #include "calibration/lump_contact.h"
-#include "haptics/virtual_inclusion.h"
 
 namespace palpa::bench {
 namespace {
 
 constexpr double kLumpDeep = 7e-3, kBeside = 8e-3, kOver = 0.012;   // m
+constexpr double kPairDeep = 6e-3, kPairLight = 1.5e-3, kAbovePlain = 2e-3;   // m
 constexpr double kLeastPressed = 0.1;   // N
 constexpr std::uint64_t kLumpSeen = 11, kLumpFresh = 111;   // seeds
 
@@ -31,41 +30,101 @@ calibration::LumpContact identify(const twin::Phantom& lumped, const KnownPhanto
   return calibration::identifyLump(samples, known.contact, lumped.block.lump->centre, kPhantomTick);
 }
 
-std::vector<LedTip> freshTips() {
+std::vector<LedTip> oneTool() {
   return {pressing(Vec3(0.003, 0.002, 0), kLumpDeep, kLumpFresh), pressing(Vec3(-0.005, 0.001, 0), kLumpDeep, kLumpFresh + 1), tapping(Vec3(0.001, -0.002, 0), kLumpDeep, kLumpFresh + 2),
           stroking(Vec3::Zero(), kLumpDeep, kOver, Vec3(0.8, 0.6, 0), kLumpFresh + 3)};
 }
 
+/// Two fingers: together, in turn, and over the lump and back; the shift is of the middle between them.
+std::vector<LedPair> twoTools(double apart) {
+  LedPair together(0.009, apart), in_turn(0.007, apart), stroke(-0.01, apart);
+  for (const double depth : {0.5 * kPairDeep, 0.8 * kPairDeep, kPairDeep}) together.go(0.009, {depth, depth}, 0.5, 0.3).go(0.009, {-kAbovePlain, -kAbovePlain}, 0.4);
+  in_turn.go(0.007, {kPairLight, kPairLight}, 0.3);
+  for (int i = 0; i < 3; ++i) in_turn.go(0.007, {kPairDeep, kPairLight}, 0.35, 0.1).go(0.007, {kPairLight, kPairDeep}, 0.35, 0.1);
+  in_turn.go(0.007, {-kAbovePlain, -kAbovePlain}, 0.3);
+  for (const double depth : {0.6 * kPairDeep, 0.9 * kPairDeep}) stroke.go(-0.01, {depth, depth}, 0.4).go(0.01, {depth, depth}, 0.9).go(-0.01, {depth, depth}, 0.8);
+  stroke.go(-0.01, {-kAbovePlain, -kAbovePlain}, 0.4);
+  return {together, in_turn, stroke};
+}
+
+/// What the tools would feel on a phantom.
+class Judge {
+ public:
+  Judge(const twin::Phantom& phantom, int tools) : tools_(tools), one_(phantom.table, {}), both_(phantom.table, phantom.both, {}) {}
+  std::array<twin::PhantomTouch, 2> step(const std::array<PhantomTick, 2>& ticks) {
+    if (tools_ == 1) return {one_.step(ticks[0].true_tip, kPhantomTick), {}};
+    return both_.step({ticks[0].true_tip, ticks[1].true_tip}, kPhantomTick);
+  }
+
+ private:
+  int tools_;
+  twin::PhantomTwin one_;
+  twin::PhantomPairTwin both_;
+};
+
 }  // namespace
 
-LumpFigures lumpFigures(const twin::Phantom& plain, const twin::Phantom& lumped, const KnownPhantom& known, Noise noise) {
+std::vector<PlainTouches> touchPlain(const twin::Phantom& plain, int tools, Noise noise) {
+  std::vector<PlainTouches> all;
+  std::uint64_t seed = kLumpFresh;
+  if (tools == 1) {
+    for (const LedTip& tip : oneTool()) {
+      PlainTouches& touches = all.emplace_back(PlainTouches{1, {}});
+      for (const PhantomTick& tick : recordTouch(twin::PhantomTwin(plain.table, {}), tip, noise, seed++)) touches.ticks.push_back({tick, {}});
+    }
+  } else {
+    for (const LedPair& pair : twoTools(plain.both.apart)) all.push_back({2, recordTouches(twin::PhantomPairTwin(plain.table, plain.both, {}), pair, noise, seed++)});
+  }
+  return all;
+}
+
+haptics::TouchAugmentation lumpOver(const twin::Phantom& lumped, const KnownPhantom& known, Noise noise) {
   const calibration::LumpContact found = identify(lumped, known, noise);
-  const haptics::VirtualInclusion lump{lumped.block.lump->centre, found.l0, found.H_T, found.G};
-  const haptics::StiffnessModulation feel = feelingOf(known, kLeastPressed);
+  haptics::TouchAugmentation law;
+  law.surface.contact = feelingOf(known, kLeastPressed);
+  law.kinds[0] = {found.l0, found.H_T, found.G};
+  law.tip_radius = lumped.table.tool_radius;
+  return law;
+}
+
+LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phantom& lumped, const haptics::TouchAugmentation& law) {
   LumpFigures figures;
   RelativeRms error, unrendered;
-  std::uint64_t seed = kLumpFresh;
-  for (const LedTip& tip : freshTips()) {
-    const std::vector<PhantomTick> real = recordTouch(twin::PhantomTwin(plain.table, {}), tip, noise, seed++);
-    twin::PhantomTwin judge(lumped.table, {});
-    haptics::StiffnessModulationState contact;
-    haptics::InclusionState state;
-    for (const PhantomTick& tick : real) {
-      const haptics::Modulated felt = haptics::modulateStiffness(feel, tick.f_r, tick.dp, kPhantomTick, &contact);
-      const std::array<haptics::InclusionContact, 2> tools{{{felt.contact, tick.tip, felt.u_n, felt.x, lumped.table.tool_radius}, {}}};
-      const haptics::InclusionAnswer answer = haptics::feelInclusion(lump, tools, kPhantomTick, &state);
-      const Vec3 f_d = answer.f_T[0] + haptics::rubbedByLump(answer.f_T[0], tick.f_r - felt.f_n * felt.u_n, felt.f_n, felt.u_n);
-      const twin::PhantomTwin::Touch truth = judge.step(tick.true_tip, kPhantomTick);
-      figures.iterations = std::max(figures.iterations, answer.iterations);
-      if (!truth.contact) continue;
-      error.add(tick.truth.f + f_d - truth.f, truth.f);
-      unrendered.add(tick.truth.f - truth.f, truth.f);
-      figures.position_mm = std::max(figures.position_mm, 1e3 * (answer.d - truth.lump).norm());
+  for (const PlainTouches& touches : plain) {
+    Judge judge(lumped, touches.tools);
+    haptics::TouchAugmentationState state;
+    const haptics::PlacedLumps lumps{{{pack(lumped.block.lump->centre), 1}}};
+    for (const std::array<PhantomTick, 2>& ticks : touches.ticks) {
+      const std::array<haptics::ToolTouch, 2> tools{{{true, ticks[0].tip, ticks[0].f_r}, {touches.tools == 2, ticks[1].tip, ticks[1].f_r}}};
+      const haptics::AugmentedTouch now = haptics::augmentTouch(law, lumps, tools, kPhantomTick, &state);
+      figures.iterations = std::max(figures.iterations, now.iterations);
+      const std::array<twin::PhantomTouch, 2> truth = judge.step(ticks);
+      for (std::size_t t = 0; t < 2; ++t) {
+        if (!truth[t].contact) continue;
+        error.add(ticks[t].truth.f + now.f_d[t] - truth[t].f, truth[t].f);
+        unrendered.add(ticks[t].truth.f - truth[t].f, truth[t].f);
+        figures.position_mm = std::max(figures.position_mm, 1e3 * (now.d[0] - truth[t].lump).norm());
+      }
     }
   }
   figures.error = error.value();
   figures.unrendered = unrendered.value();
   return figures;
+}
+
+QueryTiming augmentationTiming(const std::vector<PlainTouches>& plain, const haptics::TouchAugmentation& one) {
+  haptics::TouchAugmentation law = one;
+  law.surface.contact.target.factor = 1.3;
+  law.surface.wanted = law.surface.contact.friction;
+  law.surface.wanted.mu *= 0.5;
+  law.other_friction = 1;
+  const haptics::PlacedLumps lumps{{{{0, 0, -law.kinds[0].l0}, 1}, {{-kOver, 0, -law.kinds[0].l0}, 1}}};
+  std::vector<std::array<haptics::ToolTouch, 2>> tools;
+  for (const std::array<PhantomTick, 2>& ticks : plain.back().ticks) {
+    if (ticks[0].truth.contact && ticks[1].truth.contact) tools.push_back({{{true, ticks[0].tip, ticks[0].f_r}, {true, ticks[1].tip, ticks[1].f_r}}});
+  }
+  haptics::TouchAugmentationState state;
+  return timeQueries(static_cast<int>(tools.size()), [&](int i) { haptics::augmentTouch(law, lumps, tools[static_cast<std::size_t>(i)], kPhantomTick, &state); });
 }
 
 }  // namespace palpa::bench

@@ -1,19 +1,33 @@
 #pragma once
 
-#include <string>
-
 #include "apps/bench/contact_study.h"
+#include "apps/bench/query_timing.h"
 #include "apps/twin/phantom/phantom_file.h"
+#include "haptics/touch_augmentation.h"
 
 namespace palpa::bench {
 
-/// A lump rendered over the plain phantom, against the phantom that has it: one round tool, fresh motions above the lump and beside it.
+/// Tools led over the plain phantom: what is felt there, onto which lumps are rendered. Fresh motions above the lump's place and beside it.
+struct PlainTouches {
+  int tools = 1;
+  std::vector<std::array<PhantomTick, 2>> ticks;   ///< the second of one tool is nowhere
+};
+/// With one tool, or with two side by side that press together, in turn, and stroke.
+std::vector<PlainTouches> touchPlain(const twin::Phantom& plain, int tools, Noise noise);
+
+/// A lump as it was identified on a phantom that has it, with one tool, to be rendered over the plain phantom.
+haptics::TouchAugmentation lumpOver(const twin::Phantom& lumped, const KnownPhantom& known, Noise noise);
+
+/// A lump rendered over the plain phantom, against the phantom that has it.
 struct LumpFigures {
-  double error = 0;               ///< rms of the combined force's error over rms of the combined force
+  double error = 0;               ///< rms of the combined force's error over rms of the combined force, over all tools that touch
   double unrendered = 0;          ///< the same with nothing rendered
   double position_mm = 0;         ///< largest error of where the lump is
   int iterations = 0;             ///< most of the solver
 };
-LumpFigures lumpFigures(const twin::Phantom& plain, const twin::Phantom& lumped, const KnownPhantom& known, Noise noise);
+LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phantom& lumped, const haptics::TouchAugmentation& law);
+
+/// What one tick of all of it costs with two tools on the plain phantom: another stiffness, another friction, two lumps; the readings of the stroke of two fingers over the first.
+QueryTiming augmentationTiming(const std::vector<PlainTouches>& plain, const haptics::TouchAugmentation& law);
 
 }  // namespace palpa::bench

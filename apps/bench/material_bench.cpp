@@ -16,8 +16,8 @@ namespace {
 
 nlohmann::json paramsOf(Noise noise) { return {{"noise", nameOf(noise)}, {"data", "simulated"}}; }
 
-void benchContact(const twin::PhantomTwin& plain, const KnownPhantom& known, Noise noise) {
-  const std::vector<TouchRun> runs = freshTouches(plain, noise);
+void benchContact(const twin::Phantom& phantom, const KnownPhantom& known, Noise noise) {
+  const std::vector<TouchRun> runs = freshTouches(twin::PhantomTwin(phantom.table, {}), noise);
   print("hc_force_rel_rms", contactForceError(known, {runs[0], runs[1]}), "1", paramsOf(noise));
   print("dahl_force_rel_rms", frictionForceError(known, {runs[2]}), "1", paramsOf(noise));
   for (const TouchRun& run : runs) {
@@ -31,7 +31,7 @@ void benchContact(const twin::PhantomTwin& plain, const KnownPhantom& known, Noi
       print("stiffness_rel_error", stiffnessFigures(known, run, factor).error, "1", params);
     }
   }
-  print("friction_rel_error", frictionModulationError(known, {runs[2]}), "1", paramsOf(noise));
+  print("friction_rel_error", frictionModulationError(known, phantom.table, {runs[2]}), "1", paramsOf(noise));
 }
 
 void benchSqueeze(const twin::PhantomTable& side, const haptics::HuntCrossley& known) {
@@ -50,15 +50,26 @@ void benchSqueeze(const twin::PhantomTable& side, const haptics::HuntCrossley& k
 }
 
 void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& known, Noise noise, std::size_t most) {
+  const std::array<std::vector<PlainTouches>, 2> plain{touchPlain(phantoms.front(), 1, noise), touchPlain(phantoms.front(), 2, noise)};
   for (std::size_t i = 1; i < phantoms.size() && i <= most; ++i) {
-    nlohmann::json params = paramsOf(noise);
-    params["mockup"] = phantoms[i].name;
-    params["contacts"] = 1;
-    const LumpFigures figures = lumpFigures(phantoms.front(), phantoms[i], known, noise);
-    print("inclusion_force_rel_rms", figures.error, "1", params);
-    print("inclusion_none_rel_rms", figures.unrendered, "1", params);
-    print("inclusion_position_error_mm", figures.position_mm, "mm", params);
-    print("solver_iterations_max", figures.iterations, "1", params);
+    const haptics::TouchAugmentation law = lumpOver(phantoms[i], known, noise);
+    if (i == 1 && noise == Noise::none) {
+      const QueryTiming timing = augmentationTiming(plain[1], law);
+      nlohmann::json params = paramsOf(noise);
+      params["contacts"] = params["lumps"] = 2;
+      print("har_tick_hot_median", timing.median_us, "us", params);
+      print("har_tick_hot_p99", timing.p99_us, "us", params);
+    }
+    for (const std::size_t tools : {1, 2}) {
+      nlohmann::json params = paramsOf(noise);
+      params["mockup"] = phantoms[i].name;
+      params["contacts"] = tools;
+      const LumpFigures figures = lumpFigures(plain[tools - 1], phantoms[i], law);
+      print("inclusion_force_rel_rms", figures.error, "1", params);
+      print("inclusion_none_rel_rms", figures.unrendered, "1", params);
+      print("inclusion_position_error_mm", figures.position_mm, "mm", params);
+      print("solver_iterations_max", figures.iterations, "1", params);
+    }
   }
 }
 
@@ -90,7 +101,7 @@ void benchMaterial(const MaterialBenchOptions& options) {
   for (const Noise noise : {Noise::none, Noise::realistic}) {
     if (options.quick && noise == Noise::realistic) break;
     const KnownPhantom known = identifyPhantom(plain, noise);
-    benchContact(plain, known, noise);
+    benchContact(phantoms.front(), known, noise);
     if (noise == Noise::none) benchSqueeze(phantoms.front().table, known.contact.law);
     if (noise == Noise::none) benchHands(plain, known);
     benchLumps(phantoms, known, noise, options.quick ? 3 : phantoms.size());

@@ -19,14 +19,13 @@ twin::SensorTruth biased(std::uint64_t seed) {
   return truth;
 }
 
-std::array<double, 3> axes(const Vec3& p) { return {p.x(), p.y(), p.z()}; }
-
 }  // namespace
 
 SensedTouch::SensedTouch(std::uint64_t seed, const twin::DeviceTruth& device) : device_(device), sensor_(biased(seed), seed) {
   filter_.low_pass = haptics::butterworth(kCutOff_Hz, kRate_Hz);
   filter_.tool.mass = kMassKnown * twin::SensorTruth{}.tool_mass;
   filter_.tool.p_SM = twin::SensorTruth{}.p_SM;
+  filter_.p_SK = {0, 0, kSensorAbove};
 }
 
 std::pair<Vec3, Vec3> SensedTouch::feel(const Vec3& true_tip, const Vec3& f_touch, double dt) {
@@ -35,15 +34,8 @@ std::pair<Vec3, Vec3> SensedTouch::feel(const Vec3& true_tip, const Vec3& f_touc
   const haptics::WrenchSample sample = sensor_.measure(X_PS, f_touch, true_tip, dt, t_ns_);
   const haptics::ContactWrench felt = haptics::step(filter_, state_, sample, shown, t_ns_);
   t_ns_ += std::llround(1e9 * dt);
-  if (!started_) {
-    before_ = unpack(shown).translation();
-    haptics::settle(filter_.low_pass, place_, axes(before_));
-  }
-  const auto smooth = haptics::apply(filter_.low_pass, place_, axes(before_));
-  before_ = unpack(shown).translation();
-  started_ = true;
   const Vec3 f_r = felt.valid ? Vec3(kDown * unpack(felt.contact.f_S)) : Vec3(Vec3::Zero());
-  return {Vec3(smooth[0], smooth[1], smooth[2] - kSensorAbove), f_r};
+  return {unpack(felt.p_WK), f_r};
 }
 
 }  // namespace palpa::bench

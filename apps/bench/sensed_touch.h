@@ -22,10 +22,7 @@ class SensedTouch {
   twin::SensorTwin sensor_;
   haptics::WrenchFilter filter_;
   haptics::WrenchFilterState state_;
-  haptics::LowPassState<3> place_;
-  Vec3 before_ = Vec3::Zero();   // the wrench is that of one call ago
   std::int64_t t_ns_ = 0;
-  bool started_ = false;
 };
 
 }  // namespace palpa::bench

@@ -96,6 +96,7 @@ void SessionDevices::openSensor(const NeedleWorld& world, const SessionOptions& 
   }
   runtime::ForceSensing::Setup sensing{setup.filter, world.station.X_WD, setup.X_ES};
   sensing.filter.low_pass = haptics::butterworth(setup.cutoff_Hz, options.rate_Hz);
+  sensing.filter.p_SK = pack(Vec3((setup.X_ES.inverse() * world.station.X_ET).translation()));
   sensing_.emplace(*sensor, sensing);
 }
 

@@ -1,10 +1,11 @@
 #include "apps/record/tick_export.h"
 
+#include <algorithm>
 #include <charconv>
 #include <functional>
 #include <string_view>
 
-#include "apps/record/whole_file.h"
+#include "anatomy/geometry/whole_file.h"
 
 namespace palpa::record {
 namespace {
@@ -26,7 +27,7 @@ const char* word(haptics::SafetyCause cause) {
   static constexpr const char* kWords[haptics::kSafetyCauseCount] = {
       "none",          "not_finite",     "clamp",          "slew",     "energy",
       "silent_device", "stale_geometry", "emergency_stop", "watchdog", "not_ready",
-      "jump",          "clock",          "corrupt_geometry", "deadman", "duty"};
+      "jump",          "clock",          "corrupt_geometry", "deadman", "duty", "no_sensor"};
   const auto index = static_cast<std::size_t>(cause);
   return index < std::size(kWords) ? kWords[index] : "?";
 }
@@ -118,6 +119,9 @@ void addCommands(std::vector<Column>& columns) {
                      [](const FlightRecord& r) { return std::to_string(r.commands.armed); }});
   columns.push_back({{"subtask", "part of the task that was on, as the task counts them"},
                      [](const FlightRecord& r) { return std::to_string(r.commands.subtask); }});
+  columns.push_back({{"lumps", "virtual lumps in this trial"}, [](const FlightRecord& r) {
+                       return std::to_string(std::count_if(r.commands.lumps.begin(), r.commands.lumps.end(), [](const auto& lump) { return lump.kind > 0; }));
+                     }});
   columns.push_back({{"snapshot", "number of the newest geometry snapshot used, or refused in this tick"},
                      [](const FlightRecord& r) { return std::to_string(r.snapshot); }});
 }
@@ -146,6 +150,9 @@ void addSensed(std::vector<Column>& columns) {
     columns.push_back({{std::string("f_sensed_D_") + "xyz"[i] + "_N",
                         "force sensor: of a real object on the tool, device base"},
                        [=](const FlightRecord& r) { return shortest(r.sensed.f_D[static_cast<std::size_t>(i)]); }});
+  for (int i = 0; i < 3; ++i)
+    columns.push_back({{std::string("p_sensed_D_") + "xyz"[i] + "_m", "where the tip was, as late as the force sensor's word"},
+                       [=](const FlightRecord& r) { return shortest(r.sensed.p_DT[static_cast<std::size_t>(i)]); }});
   columns.push_back({{"sensor", "none, valid or unusable"}, [](const FlightRecord& r) {
                        static constexpr const char* kWords[] = {"none", "valid", "unusable"};
                        const auto index = static_cast<std::size_t>(r.sensed.state);

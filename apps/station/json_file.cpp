@@ -1,5 +1,6 @@
 #include "apps/station/json_file.h"
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <sstream>
@@ -37,13 +38,14 @@ nlohmann::json parse(const std::filesystem::path& file) {
 JsonFile::JsonFile(const std::filesystem::path& file) : json_(parse(file)), name_(file.string()) {}
 
 void JsonFile::refuse(const std::string& path, const std::string& what) const {
-  throw UsageError("field \"" + path + "\" " + what, name_, "Correct the file");
+  throw UsageError("field \"" + path.substr(std::min(path.size(), path.find_first_not_of('/'))) + "\" " + what, name_, "Correct the file");
 }
 
 const nlohmann::json* JsonFile::find(const std::string& path) const {
   const nlohmann::json* here = &json_;
   std::stringstream parts(path);
   for (std::string part; std::getline(parts, part, '/');) {
+    if (part.empty()) continue;   // "/columns" is "columns": of an entry itself
     if (!here->is_object() || !here->contains(part)) return nullptr;
     here = &(*here)[part];
   }
@@ -54,6 +56,15 @@ const nlohmann::json& JsonFile::need(const std::string& path) const {
   const nlohmann::json* found = find(path);
   if (!found) refuse(path, "is missing");
   return *found;
+}
+
+std::vector<JsonFile> JsonFile::entries(const std::string& list) const {
+  const nlohmann::json* items = find(list);
+  if (!items) return {};
+  if (!items->is_array()) refuse(list, "must be a list");
+  std::vector<JsonFile> each;
+  for (const nlohmann::json& item : *items) each.emplace_back(item, name_ + ", \"" + list + "\", entry " + std::to_string(each.size() + 1));
+  return each;
 }
 
 double JsonFile::number(const std::string& path) const {

@@ -9,25 +9,16 @@ namespace {
 
 constexpr double kMillimetre = 1e-3;
 
-/// The entries of a list, each named for what is wrong in it.
-std::vector<JsonFile> entriesOf(const JsonFile& file, const std::string& list) {
-  std::vector<JsonFile> entries;
-  if (!file.has(list)) return entries;
-  if (!file.json().at(list).is_array()) file.refuse(list, "must be a list");
-  for (const nlohmann::json& item : file.json().at(list)) entries.emplace_back(nlohmann::json{{"entry", item}}, file.name() + ", \"" + list + "\"");
-  return entries;
-}
-
 bool shareTags(const ar::TagGridSpec& a, const ar::TagGridSpec& b) {
   return a.first_id < b.first_id + b.columns * b.rows && b.first_id < a.first_id + a.columns * a.rows;
 }
 
 double unitOf(const JsonFile& entry) {
-  const std::string unit = entry.text("entry/unit");
+  const std::string unit = entry.text("unit");
   if (unit == "m") return 1;
   if (unit == "cm") return 1e-2;
   if (unit == "mm") return kMillimetre;
-  entry.refuse("entry/unit", "is \"" + unit + "\"; known are m, cm, mm");
+  entry.refuse("unit", "is \"" + unit + "\"; known are m, cm, mm");
 }
 
 }  // namespace
@@ -46,16 +37,16 @@ ar::TagGridSpec readBoard(const JsonFile& file, const std::string& at) {
 std::vector<OtherBoard> readOtherBoards(const JsonFile& file, const std::vector<ar::TagGridSpec>& others) {
   std::vector<OtherBoard> boards;
   std::vector<ar::TagGridSpec> known = others;
-  for (const JsonFile& entry : entriesOf(file, "boards")) {
+  for (const JsonFile& entry : file.entries("boards")) {
     OtherBoard board;
-    board.name = entry.text("entry/name");
-    board.grid = readBoard(entry, "entry");
-    if (entry.has("entry/X_WB")) board.X_WB = readPose(entry, "entry/X_WB");
-    if (entry.has("entry/tolerance_mm")) board.tolerance = kMillimetre * entry.number("entry/tolerance_mm", 1, 100);
+    board.name = entry.text("name");
+    board.grid = readBoard(entry, "");
+    if (entry.has("X_WB")) board.X_WB = readPose(entry, "X_WB");
+    if (entry.has("tolerance_mm")) board.tolerance = kMillimetre * entry.number("tolerance_mm", 1, 100);
     const bool taken = board.name == "table" || board.name == "tool" || std::any_of(boards.begin(), boards.end(), [&](const OtherBoard& b) { return b.name == board.name; });
-    if (taken) entry.refuse("entry/name", "is \"" + board.name + "\", which is another's name");
+    if (taken) entry.refuse("name", "is \"" + board.name + "\", which is another's name");
     if (std::any_of(known.begin(), known.end(), [&](const ar::TagGridSpec& grid) { return shareTags(grid, board.grid); }))
-      entry.refuse("entry/first_id", "makes tags that another board has, too");
+      entry.refuse("first_id", "makes tags that another board has, too");
     known.push_back(board.grid);
     boards.push_back(std::move(board));
   }
@@ -64,16 +55,16 @@ std::vector<OtherBoard> readOtherBoards(const JsonFile& file, const std::vector<
 
 std::vector<RealThing> readRealThings(const JsonFile& file, const std::filesystem::path& base, const std::vector<OtherBoard>& boards) {
   std::vector<RealThing> things;
-  for (const JsonFile& entry : entriesOf(file, "real_things")) {
+  for (const JsonFile& entry : file.entries("real_things")) {
     RealThing thing;
-    thing.mesh = base / entry.text("entry/mesh");
+    thing.mesh = base / entry.text("mesh");
     thing.metres = unitOf(entry);
-    thing.X = readPose(entry, "entry/X");
-    const std::string on = entry.text("entry/on");
+    thing.X = readPose(entry, "X");
+    const std::string on = entry.text("on");
     const auto board = std::find_if(boards.begin(), boards.end(), [&](const OtherBoard& b) { return b.name == on; });
     if (on == "table") thing.on = RealThing::On::table;
     else if (on == "tool") thing.on = RealThing::On::tool;
-    else if (board == boards.end()) entry.refuse("entry/on", "is \"" + on + "\"; known are table, tool, and the names of \"boards\"");
+    else if (board == boards.end()) entry.refuse("on", "is \"" + on + "\"; known are table, tool, and the names of \"boards\"");
     else thing.on = RealThing::On::board;
     thing.board = static_cast<std::size_t>(board - boards.begin());
     things.push_back(std::move(thing));

@@ -43,6 +43,7 @@ std::string forceText(haptics::SafetyCause cause) {
     case SafetyCause::stale_geometry:
     case SafetyCause::watchdog: return "Force is off: the computer cannot keep up";
     case SafetyCause::corrupt_geometry: return "Force is off: damaged geometry was refused";
+    case SafetyCause::no_sensor: return "Force is off: the force sensor is silent, overloaded or broken. Look at its cable";
     case SafetyCause::not_finite:
     case SafetyCause::jump:
     case SafetyCause::clock: return std::string("Force is off: the device's readings cannot be believed (") + haptics::name(cause) + ")";

@@ -38,14 +38,14 @@ class XrHeadset final : public Headset {
   }
 
   ~XrHeadset() override {
-    if (running_ && state_ != State::lost) endSession();
+    if (state_ == State::running) endSession();
     if (!wait_->settled()) leaveAll();
   }
 
   std::optional<HeadsetFrame> begin() override {
     return guarded([&]() -> std::optional<HeadsetFrame> {
       followEvents();
-      if (!running_ || state_ == State::lost) return std::nullopt;
+      if (state_ != State::running) return std::nullopt;
       const std::optional<XrFrameState> waited = wait_->next();
       if (!waited) {
         if (++unanswered_ >= kMostUnanswered) lose("the headset does not answer");
@@ -86,7 +86,7 @@ class XrHeadset final : public Headset {
 
   void vibrate(std::size_t hand, double seconds, double strength) override {
     guarded([&]() -> std::optional<HeadsetFrame> {
-      if (running_ && state_ != State::lost) controls_->vibrate(session_.get(), hand, seconds, strength);
+      if (state_ == State::running) controls_->vibrate(session_.get(), hand, seconds, strength);
       return std::nullopt;
     });
   }
@@ -136,12 +136,10 @@ class XrHeadset final : public Headset {
       case XR_SESSION_STATE_READY: {
         const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, kTwoEyes};
         xrCheck(xrBeginSession(session_.get(), &info), "xrBeginSession");
-        running_ = true;
         state_ = State::running;
         break;
       }
       case XR_SESSION_STATE_STOPPING:
-        running_ = false;
         state_ = State::waiting;
         xrCheck(xrEndSession(session_.get()), "xrEndSession");
         wait_->forget();   // it may still have been waited for
@@ -192,9 +190,9 @@ class XrHeadset final : public Headset {
   void endSession() {
     guarded([&]() -> std::optional<HeadsetFrame> {
       xrCheck(xrRequestExitSession(session_.get()), "xrRequestExitSession");
-      for (int i = 0; i < kPollsAtEnd && running_ && state_ != State::lost; ++i) {
+      for (int i = 0; i < kPollsAtEnd && state_ == State::running; ++i) {
         followEvents();
-        if (!running_) break;
+        if (state_ != State::running) break;
         if (const auto frame = begin()) {   // a runtime may wait for frames before it stops
           frame_.draw = false;
           end({});
@@ -226,7 +224,7 @@ class XrHeadset final : public Headset {
   int unanswered_ = 0;
   std::optional<XrControls> controls_;
   State state_ = State::waiting;
-  bool running_ = false, ever_located_ = false, ever_placed_ = false, first_place_ = false;
+  bool ever_located_ = false, ever_placed_ = false, first_place_ = false;
   XrTime time_ = 0;
   std::optional<XrTime> moves_at_;   // when L will be somewhere else
   std::array<XrView, 2> views_{};

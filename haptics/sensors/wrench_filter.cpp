@@ -29,17 +29,23 @@ ContactWrench step(const WrenchFilter& filter, WrenchFilterState& state, const W
     state = {};
     return {};
   }
+  const Vec3 place = unpack(X_WS.p) + unpack(X_WS.q).normalized() * unpack(filter.p_SK);
+  const Packed3 place_before = state.place_before;
+  state.place_before = pack(place);
   const SensorMotion& motion = observe(filter.motion, state.motion, X_WS, t_ns);
   const bool usable = !(sample.flags & kUnusable) && finite(sample.f_S) && finite(sample.tau_S);
   const bool ready = usable && state.held && state.motion.poses == 3;
   const auto raw = contactUnfiltered(filter, state.before, motion);
   state.before = {sample.f_S, sample.tau_S};
   state.held = usable;
-  if (ready && !state.settled) settle(filter.low_pass, state.low_pass, raw);
+  if (ready && !state.settled) {
+    settle(filter.low_pass, state.low_pass, raw);
+    settle(filter.low_pass, state.place, place_before);
+  }
   state.settled = ready;
-  if (!ready) return {};
+  if (!ready) return {{}, false, pack(place)};
   const auto y = apply(filter.low_pass, state.low_pass, raw);
-  return {{{y[0], y[1], y[2]}, {y[3], y[4], y[5]}}, true};
+  return {{{y[0], y[1], y[2]}, {y[3], y[4], y[5]}}, true, apply(filter.low_pass, state.place, place_before)};
 }
 
 }  // namespace palpa::haptics

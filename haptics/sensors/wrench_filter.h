@@ -15,12 +15,13 @@ namespace palpa::haptics {
 ///
 /// (f, tau)_tool from the motion of S one call ago, so the measurement of one call ago is taken; L
 /// is one low-pass over the difference, so that what is measured and what is computed are delayed
-/// alike. Delay of the whole: one call + sqrt(2)/(2 pi f_c).
+/// alike, and so is the place where it touches: who sets force against depth must take both of one time. Delay of the whole: one call + sqrt(2)/(2 pi f_c).
 struct WrenchFilter {
   LowPass low_pass;
   MotionSettings motion;
   ToolLoad tool;
   Wrench bias;
+  Packed3 p_SK{};             ///< m: the point that touches things
 };
 
 struct WrenchFilterState {
@@ -29,6 +30,8 @@ struct WrenchFilterState {
   Wrench before;              ///< measured one call ago
   std::uint32_t held = 0;     ///< `before` is there
   std::uint32_t settled = 0;  ///< the low-pass has begun
+  LowPassState<3> place;
+  Packed3 place_before{};     ///< of K one call ago, m
 };
 static_assert(std::is_trivially_copyable_v<WrenchFilterState>);
 
@@ -36,6 +39,7 @@ static_assert(std::is_trivially_copyable_v<WrenchFilterState>);
 struct ContactWrench {
   Wrench contact;
   bool valid = false;  ///< false: sample unusable, or motion not known yet; zero
+  Packed3 p_WK{};      ///< m, where K was, as late as the wrench is; while that is not valid, where it is
 };
 
 /// Flags of samples that are not used. An overload is used: it is large, if not exact.

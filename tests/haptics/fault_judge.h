@@ -106,10 +106,13 @@ class FaultJudge {
     if (silent_ >= 10'000'000) return "silent device";
     if (!w.commands.armed || !w.reading.homed) return "not ready";
     if (w.config.safety.deadman_button && !(w.reading.buttons & 4)) return "button released";
+    if (w.config.engine == Engine::touch) return sensorLost(w) ? "no force sensor" : "";
     const double limit = static_cast<double>(w.config.age_limit_ns + w.config.fade_ns);
     if (state.now.number == 0 || std::abs(age(w, state)) >= limit) return "stale geometry";
     return "";
   }
+
+  static bool sensorLost(const FaultyWorld& w) { return w.sensor_absurd || w.sensed.state != SensorState::valid; }
 
   /// Whether what the record claims is the case.
   bool isSo(SafetyCause cause, const FaultyWorld& w, const TickState& state) const {
@@ -127,6 +130,7 @@ class FaultJudge {
       case SafetyCause::clock: return elapsed_ <= 0;
       case SafetyCause::deadman: return w.config.safety.deadman_button && !(w.reading.buttons & 4);
       case SafetyCause::duty: return w.config.safety.continuous_force_N > 0;
+      case SafetyCause::no_sensor: return w.config.engine == Engine::touch && sensorLost(w);
       case SafetyCause::energy: return state.safety.stopped;
       default: return true;
     }

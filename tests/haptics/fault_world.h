@@ -31,9 +31,11 @@ class Dice {
 enum class Fault {
   none, position_absurd, orientation_absurd, position_jump, orientation_jump, clock_still, clock_back,
   clock_leap, packets_dropped, no_snapshots, snapshot_damaged, snapshot_random_bytes, emergency_stop,
-  not_homed, disarmed, button_released, commands_absurd, sensor_absurd, trial_changes
+  not_homed, disarmed, button_released, commands_absurd, sensor_absurd, trial_changes, sensor_silent
 };
-inline constexpr int kFaultCount = 19;
+inline constexpr int kFaultCount = 20;
+
+inline constexpr HuntCrossley kSoftThing{900, 300, 1.4};
 
 /// A hand that pushes a tool in and out of tissue with a bone, and a world that can be told to fail.
 /// Knows nothing of the tick: it only makes its inputs.
@@ -47,6 +49,7 @@ struct FaultyWorld {
   bool offers = false;
   bool damaged = false;          ///< `offered` must not be adopted
   bool reading_absurd = false;   ///< must not be believed
+  bool sensor_absurd = false;    ///< nor must that
   std::int64_t now = 0;
   std::uint64_t numbers = 0;
   int ticks = 0;
@@ -74,6 +77,11 @@ struct FaultyWorld {
     commands.armed = 1;
     commands.trial = 1;
     reading.homed = 1;
+    config.touch.surface.contact = {kSoftThing, 0, {0.3, 1000, 0.5}, {0, 2}, 0.1};
+    config.touch.surface.wanted = {0.5, 1000, 0.5};
+    config.touch.other_friction = dice.chance(0.5);
+    config.touch.kinds[0] = {0.014, {8000, 0, 1.9}, {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
+    config.touch.tip_radius = 0.008;
   }
 
   /// The inputs of the next tick, with this fault.
@@ -84,7 +92,9 @@ struct FaultyWorld {
     commands = TickCommands{};
     commands.trial = trial;
     commands.armed = 1;
-    sensed = {{0, 0, 0.1}, SensorState::valid, {}};
+    commands.lumps[0] = {{0.002, 0, -0.014}, 1};
+    commands.lumps[3] = {{-0.01, 0.004, -0.014}, 1};
+    sense();
     reading.homed = 1;
     reading.buttons = 7;
     moveClock(fault);
@@ -110,6 +120,13 @@ struct FaultyWorld {
   void moveHand() {
     const double step = 0.05 * 1e-9 * static_cast<double>(config.period_ns);  // 5 cm/s
     depth += std::clamp(target - depth, -step, step);
+  }
+
+  /// A soft thing at z < 0, wherever a jump says that the device is.
+  void sense() {
+    const Vec3 f(0, 0, config.engine == Engine::touch ? forceOf(kSoftThing, std::max(depth, 0.0), 0) : 0.1);
+    sensed = {pack(f), pack(Vec3(Vec3(0, 0, -depth) + shift)), SensorState::valid, {}};
+    sensor_absurd = false;
   }
 
   void moveClock(Fault fault) {
@@ -178,6 +195,13 @@ struct FaultyWorld {
     std::memcpy(static_cast<void*>(&g), bytes, sizeof bytes);
   }
 
+  /// 50 N are absurd, yet a sensor may say so.
+  void harmSensor() {
+    const double value = dice.absurd();
+    (dice.chance(0.5) ? sensed.f_D : sensed.p_DT)[static_cast<std::size_t>(dice.below(3))] = value;
+    sensor_absurd = !std::isfinite(value) || unpack(sensed.f_D).norm() > 1000;
+  }
+
   void command(Fault fault) {
     if (fault == Fault::emergency_stop) commands.emergency_stop = static_cast<std::uint8_t>(1 + dice.below(255));
     if (fault == Fault::not_homed) reading.homed = 0;
@@ -186,8 +210,11 @@ struct FaultyWorld {
     if (fault == Fault::commands_absurd) {
       commands.puncture_force_N = dice.absurd();
       for (float& scale : commands.wall_scale) scale = static_cast<float>(dice.absurd());
+      commands.lumps[0].p_T0[static_cast<std::size_t>(dice.below(3))] = dice.absurd();
+      commands.lumps[3].kind = static_cast<std::uint32_t>(dice.bits());
     }
-    if (fault == Fault::sensor_absurd) sensed.f_D[static_cast<std::size_t>(dice.below(3))] = dice.absurd();
+    if (fault == Fault::sensor_absurd) harmSensor();
+    if (fault == Fault::sensor_silent) sensed.state = dice.chance(0.5) ? SensorState::unusable : SensorState::none;
     if (fault == Fault::trial_changes) ++commands.trial;
   }
 };

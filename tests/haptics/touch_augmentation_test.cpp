@@ -11,42 +11,47 @@ constexpr double kTouchTick = 1e-3;
 const HuntCrossley kTouched{900, 300, 1.4};
 const Dahl kTouchedSurface{0.35, 1500, 0.4};
 
-VirtualInclusion lumpAt(const Vec3& p) { return {p, 0.014, {8000, 0, 1.9}, {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}}; }
+const VirtualInclusion kLumpOf{0.014, {8000, 0, 1.9}, {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
 
-TouchAugmentation lumpy(int lumps) {
+TouchAugmentation lumpy() {
   TouchAugmentation law;
   law.surface.contact = {kTouched, 0, kTouchedSurface, {}, 0.1};
   law.surface.wanted = kTouchedSurface;
-  law.lumps = {lumpAt(Vec3(0, 0, -0.014)), lumpAt(Vec3(0.03, 0, -0.014))};
-  law.lump_count = lumps;
+  law.kinds[2] = kLumpOf;
   law.tip_radius = 0.008;
   return law;
+}
+
+PlacedLumps placed(int count) {
+  PlacedLumps lumps;
+  for (int i = 0; i < count; ++i) lumps[static_cast<std::size_t>(i)] = {{0.03 * i, 0, -0.014}, 3};
+  return lumps;
 }
 
 /// A tool pressed straight down at `x`, as deep as `depth`.
 ToolTouch pressed(double x, double depth, double rate = 0) { return {true, Vec3(x, 0, -depth), Vec3(0, 0, forceOf(kTouched, depth, rate))}; }
 
 /// Pressed slowly to `depth` at `places`; the last answer.
-AugmentedTouch pressedTo(const TouchAugmentation& law, double depth, const std::array<double, 2>& places, bool second) {
+AugmentedTouch pressedTo(const TouchAugmentation& law, int lumps, double depth, const std::array<double, 2>& places, bool second) {
   TouchAugmentationState state;
   AugmentedTouch now;
   for (double x = 0; x < depth; x += 1e-5) {
     std::array<ToolTouch, 2> tools{pressed(places[0], x, 0.01), pressed(places[1], x, 0.01)};
     tools[1].present = second;
-    now = augmentTouch(law, tools, kTouchTick, &state);
+    now = augmentTouch(law, placed(lumps), tools, kTouchTick, &state);
   }
   return now;
 }
 
 TEST(TouchAugmentation, WithoutLumpsAndChangesTheDevicesStayQuiet) {
-  const AugmentedTouch now = pressedTo(lumpy(0), 0.006, {0, 0.02}, true);
+  const AugmentedTouch now = pressedTo(lumpy(), 0, 0.006, {0, 0.02}, true);
   EXPECT_TRUE(now.touch[0].contact && now.touch[1].contact);
   EXPECT_LT(now.f_d[0].norm() + now.f_d[1].norm(), 1e-9);
 }
 
 /// A tool feels the lump below it as the lump's own law has it; a second lump that is far away adds little, a second tool on it feels the same mirrored.
 TEST(TouchAugmentation, EveryToolFeelsItsLump) {
-  const AugmentedTouch one = pressedTo(lumpy(1), 0.006, {0, 0.03}, false), both = pressedTo(lumpy(2), 0.006, {0, 0.03}, true);
+  const AugmentedTouch one = pressedTo(lumpy(), 1, 0.006, {0, 0.03}, false), both = pressedTo(lumpy(), 2, 0.006, {0, 0.03}, true);
   EXPECT_GT(one.f_d[0].z(), 0.1);
   EXPECT_LT(one.d[0].z(), -0.5e-3);
   EXPECT_EQ(one.f_d[1], Vec3(Vec3::Zero()));
@@ -58,9 +63,9 @@ TEST(TouchAugmentation, EveryToolFeelsItsLump) {
 
 /// Stiffness and lump are added, not multiplied.
 TEST(TouchAugmentation, StiffnessAndLumpAddUp) {
-  TouchAugmentation hard = lumpy(1);
+  TouchAugmentation hard = lumpy();
   hard.surface.contact.target.factor = 2;
-  const AugmentedTouch soft = pressedTo(lumpy(1), 0.006, {0, 0.03}, false), harder = pressedTo(hard, 0.006, {0, 0.03}, false);
+  const AugmentedTouch soft = pressedTo(lumpy(), 1, 0.006, {0, 0.03}, false), harder = pressedTo(hard, 1, 0.006, {0, 0.03}, false);
   EXPECT_NEAR(harder.f_d[0].z() - soft.f_d[0].z(), soft.touch[0].f_n, 1e-6);
 }
 
@@ -68,16 +73,20 @@ TEST(TouchAugmentation, AToolThatIsNotThereOrTellsNonsenseIsForgotten) {
   const NoAllocation none;
   TouchAugmentationState state;
   AugmentedTouch now;
-  for (int i = 0; i < 200; ++i) now = augmentTouch(lumpy(2), {pressed(0, 0.006), pressed(0.03, 0.006)}, kTouchTick, &state);
+  for (int i = 0; i < 200; ++i) now = augmentTouch(lumpy(), placed(2), {pressed(0, 0.006), pressed(0.03, 0.006)}, kTouchTick, &state);
   ToolTouch lost = pressed(0, 0.006);
   lost.p.x() = NAN;
-  now = augmentTouch(lumpy(2), {lost, pressed(0.03, 0.006)}, kTouchTick, &state);
+  now = augmentTouch(lumpy(), placed(2), {lost, pressed(0.03, 0.006)}, kTouchTick, &state);
   EXPECT_EQ(now.f_d[0], Vec3(Vec3::Zero()));
   EXPECT_GT(now.f_d[1].z(), 0.1);
   EXPECT_EQ(state.held[0], 0u);
   lost = pressed(0, 0.006);
   lost.f_r.z() = INFINITY;
-  now = augmentTouch(lumpy(7), {lost, {}}, kTouchTick, &state);   // and more lumps than there can be
+  PlacedLumps nonsense = placed(2);
+  nonsense[0].p_T0[1] = NAN;
+  nonsense[1].kind = 77;
+  now = augmentTouch(lumpy(), nonsense, {lost, pressed(0.03, 0.006)}, kTouchTick, &state);
+  EXPECT_EQ(now.f_d[1], now.touch[1].f_d);
   EXPECT_EQ(now.f_d[0], Vec3(Vec3::Zero()));
   EXPECT_EQ(none.allocations(), 0);
 }

@@ -11,15 +11,15 @@ namespace {
 
 constexpr double kInclusionTick = 1e-3;
 
-/// A lump 15 mm under a flat surface z = 0.
-VirtualInclusion lumpWith(const HuntCrossley& adds, const HuntCrossley& bed) { return {{0, 0, -0.015}, 0.015, adds, {bed, bed, bed}}; }
+VirtualInclusion lumpWith(const HuntCrossley& adds, const HuntCrossley& bed) { return {0.015, adds, {bed, bed, bed}}; }
+const Vec3 kBelow(0, 0, -0.015);   // 15 mm under a flat surface z = 0
 
 InclusionContact pressedAt(double across, double depth) { return {true, {across, 0, -depth}, Vec3::UnitZ(), depth}; }
 
-InclusionAnswer heldFor(const VirtualInclusion& lump, const std::array<InclusionContact, 2>& tools, int ticks = 400) {
+InclusionAnswer heldFor(const VirtualInclusion& lump, const std::array<InclusionContact, 2>& tools, int ticks = 400, const Vec3& place = kBelow) {
   InclusionState state;
   InclusionAnswer answer;
-  for (int i = 0; i < ticks; ++i) answer = feelInclusion(lump, tools, kInclusionTick, &state);
+  for (int i = 0; i < ticks; ++i) answer = feelInclusion(lump, place, tools, kInclusionTick, &state);
   return answer;
 }
 
@@ -56,10 +56,9 @@ TEST(VirtualInclusion, BedAndToolsBalance) {
 
 TEST(VirtualInclusion, BetweenTwoToolsItStaysInTheMiddle) {
   VirtualInclusion lump = lumpWith({900, 0, 1.2}, {300, 0, 1});
-  lump.p_T0 = Vec3::Zero();
   lump.l0 = 0.02;
   const InclusionContact left{true, {-0.014, 0, 0}, -Vec3::UnitX(), 0.006}, right{true, {0.014, 0, 0}, Vec3::UnitX(), 0.006};
-  const InclusionAnswer answer = heldFor(lump, {left, right});
+  const InclusionAnswer answer = heldFor(lump, {left, right}, 400, Vec3::Zero());
   EXPECT_LT(answer.d.norm(), 1e-9);
   EXPECT_NEAR(answer.f_T[1].x(), 900 * std::pow(0.006, 1.2), 1e-6);
   EXPECT_LT((answer.f_T[0] + answer.f_T[1]).norm(), 1e-9);
@@ -73,7 +72,7 @@ TEST(VirtualInclusion, IsSmoothWhereAnExplicitRateWouldSwing) {
   int turns = 0, most = 0;
   for (int i = 0; i < 1500; ++i) {
     const double depth = 0.008 * std::min(1.0, i / 1000.0);
-    const InclusionAnswer answer = feelInclusion(lump, {pressedAt(0.003, depth), {}}, kInclusionTick, &state);
+    const InclusionAnswer answer = feelInclusion(lump, kBelow, {pressedAt(0.003, depth), {}}, kInclusionTick, &state);
     const double f = answer.f_T[0].norm(), slope = f - before;
     turns += i > 10 && slope * slope_before < 0 && std::abs(slope - slope_before) > 1e-6;
     slope_before = slope;
@@ -102,12 +101,12 @@ TEST(VirtualInclusion, AStrokeFindsItUnderTheSurface) {
 TEST(VirtualInclusion, NothingWithoutTouchNonsenseForgotten) {
   const VirtualInclusion lump = lumpWith({900, 1, 1.2}, {300, 1, 1});
   InclusionState state;
-  feelInclusion(lump, {pressedAt(0, 0.005), {}}, kInclusionTick, &state);
+  feelInclusion(lump, kBelow, {pressedAt(0, 0.005), {}}, kInclusionTick, &state);
   EXPECT_GT(unpack(state.d).norm(), 0);
   InclusionContact wrong = pressedAt(0, 0.005);
   wrong.p_H.y() = std::nan("");
   const NoAllocation guard;
-  const InclusionAnswer from_wrong = feelInclusion(lump, {wrong, {}}, kInclusionTick, &state), untouched = feelInclusion(lump, {}, kInclusionTick, &state);
+  const InclusionAnswer from_wrong = feelInclusion(lump, kBelow, {wrong, {}}, kInclusionTick, &state), untouched = feelInclusion(lump, kBelow, {}, kInclusionTick, &state);
   EXPECT_EQ(guard.allocations(), 0);
   EXPECT_EQ(from_wrong.f_T[0], Vec3(Vec3::Zero()));
   EXPECT_EQ(untouched.f_T[0], Vec3(Vec3::Zero()));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr char kSmall[] = R"({"version": 1, "tool_radius_mm": 8,
   "block": {"length_mm": 60, "width_mm": 60, "height_mm": 40, "shear_kPa": 2.4, "bulk_over_shear": 50},
-  "table": {"away_step_mm": 6, "depth_step_mm": 2, "aways": 2, "depths": 2, "finest_mm": 5, "growth": 1},
+  "table": {"away_step_mm": 6, "depth_step_mm": 2, "aways": 2, "depths": 2, "finest_mm": 5, "growth": 1}, "pairs": {"apart_mm": 18, "shift_step_mm": 5, "shifts": 1, "depth_step_mm": 2, "depths": 1},
   "phantoms": [{"name": "plain"}, {"name": "one", "lump": {"depth_mm": 14, "diameter_mm": 16, "times_stiffer": 10}}]})";
 
 struct Written {
@@ -40,7 +40,7 @@ TEST(PhantomFile, SolvedAndReadAgain) {
   const Written written;
   int steps = 0;
   solvePhantoms(written.file, written.tables, [&](const std::string&, int, int) { ++steps; });
-  EXPECT_EQ(steps, 4 + 4);
+  EXPECT_EQ(steps, 2 * (4 + 1));
   const std::vector<Phantom> phantoms = readSolved(written.file, written.tables);
   ASSERT_EQ(phantoms.size(), 2u);
   EXPECT_EQ(phantoms[1].name, "one");
@@ -60,7 +60,7 @@ TEST(PhantomFile, DamageIsNamed) {
   EXPECT_NE(refusal(replaced(kSmall, "\"depth_mm\": 14", "\"depth_mm\": 3")).find("outside the block"), std::string::npos);
   EXPECT_NE(refusal(replaced(kSmall, "\"shear_kPa\": 2.4", "\"shear_kPa\": -1")).find("shear_kPa"), std::string::npos);
   EXPECT_NE(refusal(replaced(kSmall, "\"aways\": 2", "\"aways\": 9")).find("off the block"), std::string::npos);
-  EXPECT_NE(refusal(replaced(kSmall, "\"times_stiffer\": 10", "\"times\": 10")).find("phantom 2"), std::string::npos);
+  EXPECT_NE(refusal(replaced(kSmall, "\"times_stiffer\": 10", "\"times\": 10")).find("entry 2"), std::string::npos);
 }
 
 /// Bytes lost or changed: read or refused, nothing else.
@@ -96,6 +96,10 @@ TEST(PhantomFile, ShippedTablesAreThoseOfTheShippedPhantoms) {
     const PhantomTable::Cell cell = table.at(away, 3 * table.depth_step);
     EXPECT_NEAR(cell.f_up, f.z(), 1e-4) << phantoms[i].name;
     EXPECT_NEAR(cell.f_out, f.x(), 1e-4) << phantoms[i].name;
+    FiniteBlock pressed_twice(phantoms[i].block, {-0.005, 0.015}, table.tool_radius, fineness);
+    const auto both = pressed_twice.press({Vec3(0.015, 0, -4e-3), Vec3(-0.005, 0, -2e-3)}).f;
+    const PairCell pair = phantoms[i].both.at(table, 0.005, {4e-3, 2e-3});
+    for (std::size_t t = 0; t < 2; ++t) EXPECT_NEAR(pair.f[t].y(), both[t].z(), 1e-4) << phantoms[i].name;
   }
 }
 

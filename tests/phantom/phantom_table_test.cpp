@@ -61,7 +61,7 @@ TEST(PhantomTwin, RelaxesToItsElasticForce) {
   twin.step(Vec3(0, 0, 1e-3), 1e-3);
   const double elastic = table.at(0, 5e-3).f_up, at_once = twin.step(Vec3(0, 0, -5e-3), 1e-6).f_n;
   EXPECT_NEAR(at_once, elastic * (1 + law.relaxes[0] + law.relaxes[1]), 1e-4 * elastic);
-  PhantomTwin::Touch touch;
+  PhantomTouch touch;
   for (int i = 0; i < 12000; ++i) touch = twin.step(Vec3(0, 0, -5e-3), 1e-3);
   EXPECT_NEAR(touch.f_n, elastic, 1e-3 * elastic);
   EXPECT_FALSE(twin.step(Vec3(0, 0, 1e-3), 1e-3).contact);
@@ -75,7 +75,7 @@ TEST(PhantomTwin, DragsAgainstTheMotion) {
   PhantomTable table = tableOfLaw();
   for (PhantomTable::Cell& cell : table.cells) cell.f_out = 0;   // a plain phantom
   PhantomTwin twin(table, law);
-  PhantomTwin::Touch touch;
+  PhantomTouch touch;
   for (int i = 0; i < 400; ++i) touch = twin.step(Vec3(-0.03 + 1e-4 * i, 0, -4e-3), 1e-3);
   const Vec3 drag = touch.f - touch.f_n * touch.n;
   EXPECT_NEAR(drag.x(), -(law.mu * touch.f_n + law.B * 0.1), 0.01 * law.mu * touch.f_n);

@@ -35,7 +35,6 @@ double shareInLump(const SoftBlock& block, const Brick::Point& point, const std:
 }  // namespace
 
 struct FiniteBlock::Model {
-  SoftBlock block;
   BlockMesh mesh;
   double tool_radius, cover;
   std::vector<Brick> bricks;
@@ -198,7 +197,6 @@ FiniteBlock::Answer FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
 
 FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius, const Fineness& fineness) : model_(std::make_unique<Model>()) {
   Model& m = *model_;
-  m.block = block;
   m.mesh = meshOf(block, tool_x, tool_radius, fineness);
   m.tool_radius = tool_radius;
   m.cover = kTipStiffness * 3 * block.shear / fineness.finest;
@@ -250,7 +248,5 @@ void FiniteBlock::release() {
   model_->u.setZero();
   model_->tips.clear();
 }
-
-int FiniteBlock::unknowns() const { return model_->count; }
 
 }  // namespace palpa::twin

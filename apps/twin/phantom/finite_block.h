@@ -43,7 +43,6 @@ class FiniteBlock {
   /// At rest with the tools' lowest points at `tips`; starts from the last answer. Throws Error where it finds no equilibrium.
   Answer press(const std::vector<Vec3>& tips);
   void release();               ///< as it was made
-  int unknowns() const;
 
  private:
   struct Model;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/twin/phantom/phantom_table.h"
+#include "apps/twin/phantom/pair_table.h"
 
 namespace palpa::twin {
 
@@ -13,11 +13,13 @@ struct Phantom {
   std::string name;
   SoftBlock block;
   PhantomTable table;
+  PairTable both;
 };
 
 /// Phantoms of one kind of silicone, in millimetres and kilopascal (see assets/phantoms/mockups.json).
 struct PhantomFile {
   PhantomTable shape;             ///< of the tables; no cells
+  PairTable both;
   Fineness fineness;
   std::vector<Phantom> phantoms;  ///< without their tables
 };

@@ -1,51 +1,32 @@
 #include "apps/twin/phantom/phantom_twin.h"
 
 #include <algorithm>
-#include <cmath>
+
+#include "anatomy/geometry/error.h"
 
 namespace palpa::twin {
 
-PhantomTwin::Touch PhantomTwin::step(const Vec3& tip, double dt) {
-  const Vec3 dp = started_ ? Vec3(tip - last_) : Vec3(Vec3::Zero());
-  last_ = tip;
-  started_ = true;
-  Touch touch;
-  touch.x = std::max(0.0, -tip.z());
+PhantomTouch PhantomTwin::step(const Vec3& tip, double dt) {
   const double away = tip.head<2>().norm();
   const Vec3 out = away > 0 ? Vec3(tip.x() / away, tip.y() / away, 0) : Vec3(Vec3::UnitX());
-  const PhantomTable::Cell cell = table_.at(away, touch.x);
-  const Vec3 elastic = cell.f_out * out + cell.f_up * Vec3::UnitZ();
+  const PhantomTable::Cell cell = table_.at(away, std::max(0.0, -tip.z()));
+  PhantomTouch touch = contact_.step(cell.f_out * out + cell.f_up * Vec3::UnitZ(), tip, dt);
   touch.lump = cell.lump_out * out + cell.lump_up * Vec3::UnitZ();
-  const double f = elastic.norm();
-  double now = f;
-  for (std::size_t i = 0; i < extra_.size(); ++i) {
-    extra_[i] = (extra_[i] + law_.relaxes[i] * (f - elastic_)) * std::exp(-dt / law_.relaxation_time[i]);
-    now += extra_[i];
-  }
-  elastic_ = f;
-  touch.contact = f > 0 && now > 0;
-  if (!touch.contact) {
-    drag_.setZero();
-    return touch;
-  }
-  touch.n = elastic / f;
-  touch.f_n = now;
-  touch.f = now * touch.n - drag(touch, dp, dt);
   return touch;
 }
 
-/// dF = sigma (dp - F |dp| / F_c), within F_c; F_c falls with speed and grows a little less than the load, which no law that is identified knows. Along the undeformed surface:
-/// what is pressed straight down takes the rubber below along and does not rub.
-Vec3 PhantomTwin::drag(const Touch& touch, const Vec3& dp, double dt) {
-  constexpr int kParts = 40;
-  const Vec3 along(dp.x(), dp.y(), 0), part = along / kParts;
-  const double speed = along.norm() / dt / law_.sticks_below;
-  const double most = law_.mu * (1 + law_.sticks * std::exp(-speed * speed)) * std::pow(touch.f_n, 1 + law_.load_power);
-  for (int i = 0; i < kParts; ++i) {
-    drag_ += law_.sigma * (part - drag_ * (part.norm() / most));
-    if (drag_.norm() > most) drag_ *= most / drag_.norm();
+std::array<PhantomTouch, 2> PhantomPairTwin::step(const std::array<Vec3, 2>& tips, double dt) {
+  constexpr double kLevel = 1e-6;   // m
+  const Vec3 between = tips[0] - tips[1];
+  if (std::abs(between.x() - both_.apart) > kLevel || std::abs(between.y()) > kLevel || std::abs(tips[0].y()) > kLevel)
+    throw Error("two tools on a simulated phantom must stay side by side over its middle", "phantom", "lead them so");
+  const PairCell cell = both_.at(one_, 0.5 * (tips[0].x() + tips[1].x()), {std::max(0.0, -tips[0].z()), std::max(0.0, -tips[1].z())});
+  std::array<PhantomTouch, 2> touches;
+  for (std::size_t t = 0; t < 2; ++t) {
+    touches[t] = contacts_[t].step(Vec3(cell.f[t].x(), 0, cell.f[t].y()), tips[t], dt);
+    touches[t].lump = Vec3(cell.lump.x(), 0, cell.lump.y());
   }
-  return drag_ + law_.B * along / dt;
+  return touches;
 }
 
 }  // namespace palpa::twin

@@ -1,0 +1,119 @@
+#include <gtest/gtest.h>
+
+#include <memory>
+
+#include "haptics/tick.h"
+#include "tests/support/allocation_count.h"
+
+/// Haptic augmented reality in the loop: a real soft thing with a flat top, a tool with a force sensor on it.
+namespace palpa::haptics {
+namespace {
+
+const HuntCrossley kRealThing{900, 200, 1.4};
+const Dahl kRealSurface{0.35, 1500, 0.4};
+
+struct TouchLoop {
+  TickConfig config;
+  TickCommands commands;
+  TickState state;
+  std::int64_t now = 0;
+  std::uint64_t readings = 0;
+  Pose X_DP = Pose::Identity();
+  SensorState sensor = SensorState::valid;
+
+  TouchLoop() {
+    config.engine = Engine::touch;
+    config.object_at_port = 1;
+    config.touch.surface.contact = {kRealThing, 0, kRealSurface, {}, 0.1};
+    config.touch.surface.wanted = kRealSurface;
+    config.touch.kinds[0] = {0.014, {8000, 0, 1.9}, {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
+    config.touch.tip_radius = 0.008;
+    config.safety.max_slew_N_per_s = 1e5;
+    commands.armed = 1;
+  }
+  void turnThing(const Pose& X) {
+    X_DP = X;
+    config.X_DP = pack(X);
+  }
+  FlightRecord step(const Vec3& tip_P, const Vec3& f_P) {
+    DeviceReading reading;
+    reading.t_ns = now += 1'000'000;
+    reading.sequence = ++readings;
+    reading.homed = 1;
+    reading.p_DE = pack(Vec3(X_DP * tip_P));
+    const SensedForce sensed{pack(Vec3(X_DP.linear() * f_P)), reading.p_DE, sensor, {}};
+    return tick(config, state, reading, nullptr, commands, now, sensed);
+  }
+  /// Pressed straight down at `x` to `depth`, at 2 cm/s, and held there.
+  FlightRecord press(double x, double depth) {
+    FlightRecord last;
+    for (double d = -1e-3; d < depth; d += 2e-5) last = step({x, 0, -d}, {0, 0, forceOf(kRealThing, std::max(d, 0.0), d > 0 ? 0.02 : 0)});
+    for (int i = 0; i < 30; ++i) last = step({x, 0, -depth}, {0, 0, forceOf(kRealThing, depth, 0)});
+    return last;
+  }
+};
+
+TEST(TouchTick, TheRealThingAsItIsTakesNoForce) {
+  TouchLoop loop;
+  const FlightRecord last = loop.press(0, 0.006);
+  EXPECT_LT(unpack(last.f_command_D).norm(), 1e-9);
+  EXPECT_EQ(last.safety, SafetyCause::none);   // without any snapshot
+  EXPECT_NEAR(last.indentation, 0.006, 1e-5);
+  EXPECT_NEAR(last.skin_force, forceOf(kRealThing, 0.006, 0), 1e-6);
+}
+
+TEST(TouchTick, TwiceAsHardIsAsMuchAgain) {
+  TouchLoop loop;
+  loop.config.touch.surface.contact.target.factor = 2;
+  const FlightRecord last = loop.press(0, 0.006);
+  EXPECT_NEAR(last.f_command_D[2], forceOf(kRealThing, 0.006, 0), 0.01);
+}
+
+/// Where the trial has put it, and nowhere else; in whatever frame the device is.
+TEST(TouchTick, ALumpIsFeltWhereItLies) {
+  const auto at = [](double x, const Pose& X_DP) {
+    TouchLoop loop;
+    loop.turnThing(X_DP);
+    loop.commands.lumps[2] = {{0.02, 0, -0.014}, 1};
+    return Vec3(X_DP.linear().transpose() * unpack(loop.press(x, 0.006).f_command_D));
+  };
+  const Pose turned = makePose(Eigen::AngleAxisd(1.1, Vec3(1, 2, -1).normalized()).toRotationMatrix(), Vec3(0.1, -0.2, 0.05));
+  const Vec3 above = at(0.02, Pose::Identity());
+  EXPECT_GT(above.z(), 0.15);
+  EXPECT_LT(at(-0.02, Pose::Identity()).norm(), 0.2 * above.norm());
+  EXPECT_LT((at(0.02, turned) - above).norm(), 1e-9);
+}
+
+TEST(TouchTick, WithoutItsSensorThereIsNoForceAndTheRecordSaysWhy) {
+  TouchLoop loop;
+  loop.config.touch.surface.contact.target.factor = 2;
+  loop.press(0, 0.006);
+  const Vec3 f(0, 0, forceOf(kRealThing, 0.006, 0));
+  loop.sensor = SensorState::unusable;
+  const NoAllocation none;
+  const FlightRecord lost = loop.step({0, 0, -0.006}, f);
+  EXPECT_EQ(lost.f_command_D, (Packed3{0, 0, 0}));
+  EXPECT_EQ(lost.safety, SafetyCause::no_sensor);
+  EXPECT_TRUE(lost.events & kSafetyTripped);
+  loop.sensor = SensorState::valid;
+  FlightRecord back = loop.step({0, 0, -0.006}, f);
+  EXPECT_TRUE(back.events & kSafetyCleared);
+  for (int i = 0; i < 30; ++i) back = loop.step({0, 0, -0.006}, f);
+  EXPECT_GT(back.f_command_D[2], 0.5 * f.z());
+  EXPECT_EQ(none.allocations(), 0);
+}
+
+/// A copy of the state goes on with the same bits: a session can be replayed from any keyframe.
+TEST(TouchTick, GoesOnFromAnyKeyframe) {
+  auto loop = std::make_unique<TouchLoop>();
+  loop->commands.lumps[0] = {{0.002, 0, -0.014}, 1};
+  loop->press(0, 0.004);
+  auto copy = std::make_unique<TouchLoop>(*loop);
+  for (int i = 0; i < 50; ++i) {
+    const Vec3 tip(1e-4 * i, 0, -0.004), f(-0.05, 0, 0.5);
+    EXPECT_EQ(loop->step(tip, f).f_command_D, copy->step(tip, f).f_command_D);
+  }
+}
+
+}  // namespace
+}  // namespace palpa::haptics
