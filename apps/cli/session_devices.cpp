@@ -2,6 +2,7 @@
 
 #include "apps/record/session_file.h"
 #include "apps/station/assets.h"
+#include "apps/twin/operator.h"
 #include "haptics/devices/falcon_firmware.h"
 #include "haptics/devices/libusb_transport.h"
 
@@ -36,20 +37,31 @@ SessionDevices::SessionDevices(const SessionOptions& options, const NeedleWorld&
                                runtime::TimeMode mode)
     : bench_moves_(isSimulated(options.who)), channel_(world.station.device.capabilities, mode) {
   if (bench_moves_) bench_sensor_ = benchSensor(world.station, mode);
-  const twin::OperatorSkill skill = skillOf(options.who);
   const auto give_up = [&channels] {
     channels.operator_to_task.push({task_needle::UserCommand::abort, "The simulated operator gave up"});
   };
   if (bench_moves_ || (options.camera.empty() && world.station.camera_setup.driver == station::CameraSetup::Driver::bench))
-    bench_ = std::make_unique<twin::VirtualBench>(
-        twin::VirtualBench::Setup{world.station, world.X_WA, skill, world.visible(skill, options.knows_patient), options.seed,
-                                  options.left_handed, give_up, bench_sensor_.get()},
-        bus, channel_);
+    bench_ = makeBench(options, world, give_up, bus);
   openDevice(options, world, bus, channels);
   openSensor(world, options, clock, mode);
 }
 
 SessionDevices::~SessionDevices() = default;
+
+std::unique_ptr<twin::VirtualBench> SessionDevices::makeBench(const SessionOptions& options, const NeedleWorld& world, const std::function<void()>& give_up, runtime::Bus& bus) {
+  const twin::OperatorSkill skill = skillOf(options.who);
+  const twin::VisibleAnatomy anatomy = world.visible(skill, options.knows_patient);
+  twin::VirtualBench::Setup setup{world.station,
+                                  std::make_unique<twin::Operator>(skill, anatomy, world.station.X_ET, options.seed),
+                                  twin::needlePickedUp(world.station, world.X_WA, anatomy.entry_A, options.left_handed),
+                                  world.X_WA * anatomy.entry_A,
+                                  world.X_WA.rotation() * anatomy.normal_A,
+                                  options.seed,
+                                  give_up,
+                                  bench_sensor_.get(),
+                                  {}};
+  return std::make_unique<twin::VirtualBench>(std::move(setup), bus, channel_);
+}
 
 void SessionDevices::openDevice(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
                                 task_needle::TaskChannels& channels) {

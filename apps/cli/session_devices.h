@@ -1,5 +1,6 @@
 #pragma once
 
+#include <functional>
 #include <memory>
 #include <vector>
 
@@ -39,6 +40,7 @@ class SessionDevices {
   std::vector<Fact> facts() const;                      ///< what a driver has counted, for the report
 
  private:
+  std::unique_ptr<twin::VirtualBench> makeBench(const SessionOptions& options, const NeedleWorld& world, const std::function<void()>& give_up, runtime::Bus& bus);
   void openDevice(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
                   task_needle::TaskChannels& channels);
   void openSensor(const NeedleWorld& world, const SessionOptions& options, const runtime::Clock& clock,

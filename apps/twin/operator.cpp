@@ -26,6 +26,12 @@ Vec3 withoutAlong(const Vec3& v, const Vec3& unit) { return v - v.dot(unit) * un
 
 }  // namespace
 
+Pose needlePickedUp(const station::Station& station, const Pose& X_WA, const Vec3& entry_A, bool left_handed) {
+  const Vec3 tip_W = X_WA * entry_A + Vec3(left_handed ? -0.02 : 0.02, -0.05, 0.07);
+  const Vec3 axis_W = Vec3(0, 0.35, -1).normalized();
+  return station.X_WD.inverse() * makePose(rotationWithZ(axis_W), tip_W) * station.X_ET.inverse();
+}
+
 Operator::Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, const Pose& X_ET,
                    std::uint64_t seed)
     : skill_(skill),
@@ -299,7 +305,7 @@ Operator::Action Operator::act(const Senses& senses, double dt) {
     think(senses);
   }
   plunger_ += std::clamp(plunger_wanted_ - plunger_, -dt, dt);  // drawn in a second
-  if (!oriented_) return {senses.X_DE, plunger_, false};
+  if (!oriented_) return {senses.X_DE, plunger_, false, 0};
 
   if (moving_) {
     const Pose X = move_.at(now_s);
@@ -313,7 +319,7 @@ Operator::Action Operator::act(const Senses& senses, double dt) {
   Pose X_AT = needleAt(tip_A_ + tremor_.next(dt), axis_A_);
   X_AT.linear() = X_AT.linear() * Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
   X_DH_ = X_DA_ * X_AT * X_TE_;
-  Action action{X_DH_, plunger_, gives_up_};
+  Action action{X_DH_, plunger_, gives_up_, 0};
   gives_up_ = false;
   return action;
 }

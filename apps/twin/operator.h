@@ -2,8 +2,9 @@
 
 #include <cstdint>
 
-#include "apps/runtime/bus.h"
 #include "apps/runtime/random.h"
+#include "apps/station/station_file.h"
+#include "apps/twin/hand.h"
 #include "apps/twin/min_jerk.h"
 #include "apps/twin/operator_skill.h"
 #include "apps/twin/reaction.h"
@@ -20,27 +21,18 @@ struct VisibleAnatomy {
   Vec3 medial_A, posterior_A, cephalad_A;   ///< unit directions by the landmarks
 };
 
+/// E above the entry, the needle pointing down and a little ahead: where a trainee picks it up, on the side of the hand.
+Pose needlePickedUp(const station::Station& station, const Pose& X_WA, const Vec3& entry_A, bool left_handed);
+
 /// A simulated person who performs the procedure. Knows what is on the screen (with a delay, with noise)
 /// and what the hand feels; nothing else. Moves a hand; the device's mechanics do the rest.
-class Operator {
+class Operator final : public Hand {
  public:
   Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, const Pose& X_ET,
            std::uint64_t seed);
 
-  struct Senses {
-    std::int64_t now_ns = 0;
-    Pose X_DE = Pose::Identity();   ///< where the own hand is (proprioception)
-    Vec3 f_grip_D = Vec3::Zero();   ///< force of the hand on the tool
-    const runtime::Displayed* seen = nullptr;
-  };
-  struct Action {
-    Pose X_DH = Pose::Identity();   ///< where the hand wants the tool
-    double plunger = 0;
-    bool gives_up = false;          ///< says so once: the trial can be aborted
-  };
-  Action act(const Senses& senses, double dt);
-
-  const HandGrip& grip() const { return skill_.grip; }
+  Action act(const Senses& senses, double dt) override;
+  const HandGrip& grip() const override { return skill_.grip; }
 
  private:
   enum class Step { rest, approach, lower, push, settle, deepen, turn, advance, retreat, redirect,

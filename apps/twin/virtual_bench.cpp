@@ -19,32 +19,24 @@ constexpr double kMm = 1e-3;
 constexpr std::int64_t kBenchPeriod = runtime::kMillisecond;
 constexpr double kLongestBenchStep = 0.005;  // s, a late step is not integrated over more
 
-/// The needle above the entry, pointing down and a little ahead: where a trainee picks it up.
-Pose restPose(const station::Station& station, const Pose& X_WA, const Vec3& entry_A,
-              bool left_handed) {
-  const Vec3 tip_W = X_WA * entry_A + Vec3(left_handed ? -0.02 : 0.02, -0.05, 0.07);
-  const Vec3 axis_W = Vec3(0, 0.35, -1).normalized();
-  return station.X_WD.inverse() * makePose(rotationWithZ(axis_W), tip_W) * station.X_ET.inverse();
-}
-
 }  // namespace
 
 struct VirtualBench::Impl final : public runtime::Activity {
-  Impl(const Setup& setup, runtime::Bus& bus_in, runtime::ChannelDevice& device_in)
+  Impl(Setup setup, runtime::Bus& bus_in, runtime::ChannelDevice& device_in)
       : bus(bus_in),
         device(device_in),
         X_WD_believed(setup.station.X_WD),
         X_ET_believed(setup.station.X_ET),
-        entry_W(setup.X_WA * setup.anatomy.entry_A),
-        normal_W(setup.X_WA.rotation() * setup.anatomy.normal_A),
+        watched_W(setup.watched_W),
+        normal_W(setup.normal_W),
         station(setup.station),
         camera_faults(readCameraFaults(setup.station.file)),
         board_moves(readBoardMoves(setup.station)),
         sway(kMm * setup.station.file.number("twin/camera_sway_mm", 0, 100)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
-        mechanics(trueDevice(setup.station, setup.seed), restPose(setup.station, setup.X_WA, setup.anatomy.entry_A,
-                           setup.left_handed)),
-        hand(setup.skill, setup.anatomy, setup.station.X_ET, setup.seed) {
+        mechanics(trueDevice(setup.station, setup.seed), setup.X_DE_start),
+        hand(std::move(setup.hand)),
+        real_thing(std::move(setup.real_thing)) {
     X_WD_true = drawWorld(setup.station, setup.seed).X_WD;
     X_ET_true = drawWorld(setup.station, setup.seed).X_ET;
     VirtualCameraSettings settings;
@@ -67,14 +59,14 @@ struct VirtualBench::Impl final : public runtime::Activity {
     const double dt =
         last_ns < 0 ? 1e-3 : std::clamp(static_cast<double>(now_ns - last_ns) * 1e-9, 1e-4, kLongestBenchStep);
     last_ns = now_ns;
-    Operator::Senses senses;
+    Hand::Senses senses;
     senses.now_ns = now_ns;
     senses.X_DE = mechanics.truePose();
     senses.f_grip_D = mechanics.gripForce();
     senses.seen = bus.scene_to_operator.read(now_ns);
-    const Operator::Action action = hand.act(senses, dt);
+    const Hand::Action action = hand->act(senses, dt);
     if (action.gives_up && on_giving_up) on_giving_up();
-    mechanics.advance(dt, action.X_DH, hand.grip(), unpack(device.commanded(now_ns)));
+    move(action, unpack(device.commanded(now_ns)), dt);
     haptics::DeviceReading reading;
     const PackedPose X_DE = mechanics.encoderPose();
     reading.t_ns = now_ns;
@@ -82,14 +74,25 @@ struct VirtualBench::Impl final : public runtime::Activity {
     reading.p_DE = X_DE.p;
     reading.q_DE = X_DE.q;
     reading.plunger = action.plunger;
+    reading.buttons = action.buttons;
     reading.homed = 1;
     device.publish(reading, now_ns);
-    if (sensor) {  // nothing real is touched on the bench: its patient is virtual
-      const Pose X_WS = X_WD_true * mechanics.truePose() * X_ES;
-      sensor->publish(felt->measure(X_WS, Vec3::Zero(), X_WS.translation(), dt, now_ns), now_ns);
+    if (sensor) {
+      const Pose X_WE = X_WD_true * mechanics.truePose();
+      sensor->publish(felt->measure(X_WE * X_ES, f_touch_W, (X_WE * X_ET_true).translation(), dt, now_ns), now_ns);
     }
     due_ns = std::max((due_ns < 0 ? now_ns : due_ns) + kBenchPeriod, now_ns);
     return due_ns;
+  }
+
+  /// Hand, drives and mechanics; a real thing is touched more often than the loop ticks.
+  void move(const Hand::Action& action, const Vec3& f_command_D, double dt) {
+    constexpr int kTouches = 4;
+    const int parts = real_thing ? kTouches : 1;
+    for (int i = 0; i < parts; ++i) {
+      mechanics.advance(dt / parts, action.X_DH, hand->grip(), f_command_D, X_WD_true.linear().transpose() * f_touch_W);
+      if (real_thing) f_touch_W = real_thing((X_WD_true * mechanics.truePose() * X_ET_true).translation(), dt / parts);
+    }
   }
 
   /// The boom sways a little: two slow sines.
@@ -104,14 +107,15 @@ struct VirtualBench::Impl final : public runtime::Activity {
   runtime::Bus& bus;
   runtime::ChannelDevice& device;
   Pose X_WD_believed, X_ET_believed, X_WD_true, X_ET_true;
-  Vec3 entry_W, normal_W;
+  Vec3 watched_W, normal_W, f_touch_W = Vec3::Zero();
   const station::Station& station;
   std::vector<CameraFault> camera_faults;
   std::vector<BoardMove> board_moves;
   double sway;
   Pose X_CW_boom;
   DeviceTwin mechanics;
-  Operator hand;
+  std::unique_ptr<Hand> hand;
+  RealThing real_thing;
   std::optional<VirtualCamera> camera;
   runtime::ChannelSensor* sensor = nullptr;
   std::optional<SensorTwin> felt;
@@ -123,8 +127,8 @@ struct VirtualBench::Impl final : public runtime::Activity {
   std::vector<double> errors_mm;
 };
 
-VirtualBench::VirtualBench(const Setup& setup, runtime::Bus& bus, runtime::ChannelDevice& device)
-    : impl_(std::make_unique<Impl>(setup, bus, device)) {}
+VirtualBench::VirtualBench(Setup setup, runtime::Bus& bus, runtime::ChannelDevice& device)
+    : impl_(std::make_unique<Impl>(std::move(setup), bus, device)) {}
 VirtualBench::~VirtualBench() = default;
 
 runtime::Activity& VirtualBench::activity() { return *impl_; }
@@ -147,8 +151,8 @@ runtime::CameraActivity::Exposer VirtualBench::exposer() const {
 void VirtualBench::observe(const runtime::CameraView& view) {
   ++impl_->pictures;
   if (!view.X_CW) return;
-  const Vec3 drawn_C = *view.X_CW * impl_->entry_W;
-  const Vec3 true_C = impl_->X_CW(view.t_exposure_ns) * impl_->entry_W;
+  const Vec3 drawn_C = *view.X_CW * impl_->watched_W;
+  const Vec3 true_C = impl_->X_CW(view.t_exposure_ns) * impl_->watched_W;
   impl_->errors_mm.push_back((drawn_C - true_C).norm() / kMm);
 }
 
@@ -160,10 +164,10 @@ BenchAccuracy VirtualBench::accuracy() const {
   a.entry_p95_mm = runtime::quantile(impl_->errors_mm, 0.95);
   a.distance_m = impl_->X_CW_boom.translation().norm();
   // The reading that puts the believed tip on the entry point, needle along the skin's normal.
-  const Pose X_WT = makePose(rotationWithZ(-impl_->normal_W), impl_->entry_W);
+  const Pose X_WT = makePose(rotationWithZ(-impl_->normal_W), impl_->watched_W);
   const Pose X_DE = impl_->X_WD_believed.inverse() * X_WT * impl_->X_ET_believed.inverse();
   const Vec3 true_tip_W = (impl_->X_WD_true * X_DE * impl_->X_ET_true).translation();
-  a.tool_mm = (true_tip_W - impl_->entry_W).norm() / kMm;
+  a.tool_mm = (true_tip_W - impl_->watched_W).norm() / kMm;
   return a;
 }
 

@@ -8,7 +8,7 @@
 #include "apps/runtime/channel_device.h"
 #include "apps/runtime/channel_sensor.h"
 #include "apps/station/station_file.h"
-#include "apps/twin/operator.h"
+#include "apps/twin/hand.h"
 #include "apps/twin/virtual_camera.h"
 
 namespace palpa::twin {
@@ -16,8 +16,8 @@ namespace palpa::twin {
 /// How far the estimates were from the simulated truth; for reports only.
 struct BenchAccuracy {
   std::size_t pictures = 0, registered = 0;
-  double entry_median_mm = 0, entry_p95_mm = 0;  ///< where the overlay draws the entry point, in C
-  double tool_mm = 0;      ///< where the needle's tip is thought to be at the entry point, in W
+  double entry_median_mm = 0, entry_p95_mm = 0;  ///< where the overlay draws the watched point, in C
+  double tool_mm = 0;      ///< where the tool's tip is thought to be at the watched point, in W
   double distance_m = 0;   ///< camera to board
 };
 
@@ -26,17 +26,19 @@ struct BenchAccuracy {
 /// readings. Truth is drawn around the station's figures with the spreads in its file.
 class VirtualBench {
  public:
+  /// Of something real under the tool's tip, where it truly is, m: its force on the tool after another `dt`, N. All in W.
+  using RealThing = std::function<Vec3(const Vec3& tip_W, double dt)>;
   struct Setup {
     const station::Station& station;
-    Pose X_WA;                    ///< where the software has put the patient
-    OperatorSkill skill;
-    VisibleAnatomy anatomy;
+    std::unique_ptr<Hand> hand;
+    Pose X_DE_start;              ///< where the tool is picked up
+    Vec3 watched_W, normal_W;     ///< where the overlay's accuracy is measured: a point, the surface's outward normal
     std::uint64_t seed = 1;
-    bool left_handed = false;     ///< the needle is picked up on the hand's side
     std::function<void()> on_giving_up;   ///< the simulated person asks to end the trial
     runtime::ChannelSensor* sensor = nullptr;   ///< where the station has a virtual force sensor
+    RealThing real_thing;         ///< none: a virtual patient alone
   };
-  VirtualBench(const Setup& setup, runtime::Bus& bus, runtime::ChannelDevice& device);
+  VirtualBench(Setup setup, runtime::Bus& bus, runtime::ChannelDevice& device);
   ~VirtualBench();
 
   runtime::Activity& activity();                         ///< hand and device mechanics, 1 kHz
