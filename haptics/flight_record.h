@@ -51,7 +51,7 @@ static_assert(std::is_trivially_copyable_v<TickCommands>);
 /// What a force sensor says of a real object that the tool touches, cleared of tool, bias and noise.
 struct SensedForce {
   Packed3 f_D{};                       ///< of the object on the tool, N
-  Packed3 p_DT{};                      ///< m, where the tip was, as late as the force is
+  Packed3 p_DK{};                      ///< m, where the point that touches was (a round tip's middle), as late as the force is
   SensorState state = SensorState::none;
   std::uint8_t reserved[7]{};
 };

@@ -108,7 +108,7 @@ NeedleContact blendedContact(const TickConfig& config, TickState& state, const N
 /// What is added to a real thing, in P where its lumps lie. Position and force are of one time, a filter's delay ago.
 NeedleContact touchedContact(const TickConfig& config, TickState& state, const TickCommands& commands, const SensedForce& sensed, double dt) {
   const Quat q_DP = unpack(config.X_DP.q).normalized(), q_PD = q_DP.conjugate();
-  const ToolTouch tool{true, q_PD * (unpack(sensed.p_DT) - unpack(config.X_DP.p)), q_PD * unpack(sensed.f_D)};
+  const ToolTouch tool{true, q_PD * (unpack(sensed.p_DK) - unpack(config.X_DP.p)), q_PD * unpack(sensed.f_D)};
   const AugmentedTouch now = augmentTouch(config.touch, commands.lumps, {tool, {}}, dt, &state.touch);
   NeedleContact contact;
   contact.f_D = q_DP * now.f_d[0];
@@ -158,7 +158,7 @@ SafetyCause faultOf(const TickConfig& config, TickState& state, const DeviceRead
 
 bool sensorBelieved(const SensedForce& sensed) {
   const Vec3 f = unpack(sensed.f_D);
-  return sensed.state == SensorState::valid && f.allFinite() && f.norm() <= kStrongestObject && unpack(sensed.p_DT).allFinite();
+  return sensed.state == SensorState::valid && f.allFinite() && f.norm() <= kStrongestObject && unpack(sensed.p_DK).allFinite();
 }
 
 bool believable(SafetyCause fault) {

@@ -14,16 +14,16 @@ namespace palpa::haptics {
 struct TouchAugmentation {
   FrictionModulation surface;                    ///< of the whole object; the real friction for the wanted one leaves it as it is
   std::array<VirtualInclusion, kMostLumpKinds> kinds;
-  double tip_radius = 0;                         ///< m, of both tools
+  double tip_radius = 0;                         ///< m, of both tools: each touches at p_M - tip_radius u_n
   std::uint8_t other_friction = 0;               ///< 0: friction stays the real one, and nothing is done for it
   std::uint8_t reserved[7]{};
 };
 static_assert(std::is_trivially_copyable_v<TouchAugmentation>);
 
-/// One tool: its tip, m, and the real object's reaction on it, N (tool weight and dynamics taken off), in one frame with the lumps.
+/// One tool: the middle of its round tip, m, and the real object's reaction on it, N (tool weight and dynamics taken off), in one frame with the lumps.
 struct ToolTouch {
   bool present = false;                          ///< there is such a tool, and its readings are good
-  Vec3 p = Vec3::Zero(), f_r = Vec3::Zero();
+  Vec3 p_M = Vec3::Zero(), f_r = Vec3::Zero();
 };
 
 struct TouchAugmentationState {

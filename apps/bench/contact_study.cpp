@@ -8,6 +8,8 @@
 namespace palpa::bench {
 namespace {
 
+using twin::LedTip;
+
 constexpr double kDeep = 7e-3, kReach = 0.02;   // m
 constexpr double kLeastFelt = 0.1;              // N, of the modulation
 constexpr double kLeastJudged = 0.2;            // N: lighter touches come and go with the sensor's noise
@@ -47,10 +49,10 @@ Vec3 trueStep(const std::vector<PhantomTick>& ticks, std::size_t i) { return i >
 double RelativeRms::value() const { return of2_ > 0 ? std::sqrt(off2_ / of2_) : 0; }
 
 KnownPhantom identifyPhantom(const twin::PhantomTwin& phantom, Noise noise) {
-  std::vector<calibration::PressSample> presses = pressSamples(recordTouch(phantom, pressing(Vec3::Zero(), kDeep, kSeen), noise, kSeen));
-  const std::vector<calibration::PressSample> taps = pressSamples(recordTouch(phantom, tapping(Vec3::Zero(), kDeep, kSeen + 1), noise, kSeen + 1));
+  std::vector<calibration::PressSample> presses = pressSamples(recordTouch(phantom, twin::pressing(Vec3::Zero(), kDeep, kSeen), noise, kSeen));
+  const std::vector<calibration::PressSample> taps = pressSamples(recordTouch(phantom, twin::tapping(Vec3::Zero(), kDeep, kSeen + 1), noise, kSeen + 1));
   presses.insert(presses.end(), taps.begin(), taps.end());
-  const std::vector<PhantomTick> strokes = recordTouch(phantom, stroking(Vec3::Zero(), kDeep, kReach, Vec3::UnitX(), kSeen + 2), noise, kSeen + 2);
+  const std::vector<PhantomTick> strokes = recordTouch(phantom, twin::stroking(Vec3::Zero(), kDeep, kReach, Vec3::UnitX(), kSeen + 2), noise, kSeen + 2);
   return {calibration::identifySoftContact(presses), calibration::identifySurfaceFriction(slideSamples(strokes), kPhantomTick)};
 }
 
@@ -60,9 +62,9 @@ haptics::StiffnessModulation feelingOf(const KnownPhantom& known, double least_c
 
 std::vector<TouchRun> freshTouches(const twin::PhantomTwin& phantom, Noise noise) {
   const Vec3 way = Vec3(1, 0.4, 0).normalized();
-  return {{"pressing", recordTouch(phantom, pressing(Vec3::Zero(), kDeep, kFresh), noise, kFresh)},
-          {"tapping", recordTouch(phantom, tapping(Vec3::Zero(), kDeep, kFresh + 1), noise, kFresh + 1)},
-          {"stroking", recordTouch(phantom, stroking(Vec3::Zero(), kDeep, kReach, way, kFresh + 2), noise, kFresh + 2)}};
+  return {{"pressing", recordTouch(phantom, twin::pressing(Vec3::Zero(), kDeep, kFresh), noise, kFresh)},
+          {"tapping", recordTouch(phantom, twin::tapping(Vec3::Zero(), kDeep, kFresh + 1), noise, kFresh + 1)},
+          {"stroking", recordTouch(phantom, twin::stroking(Vec3::Zero(), kDeep, kReach, way, kFresh + 2), noise, kFresh + 2)}};
 }
 
 double contactForceError(const KnownPhantom& known, const std::vector<TouchRun>& runs) {
@@ -94,7 +96,7 @@ double frictionForceError(const KnownPhantom& known, const std::vector<TouchRun>
 double lawError() {
   const haptics::HuntCrossley truth{900, 600, 1.35};
   std::vector<calibration::PressSample> samples;
-  for (const LedTip& tip : {pressing(Vec3::Zero(), kDeep, kSeen), tapping(Vec3::Zero(), kDeep, kSeen + 1)}) {
+  for (const LedTip& tip : {twin::pressing(Vec3::Zero(), kDeep, kSeen), twin::tapping(Vec3::Zero(), kDeep, kSeen + 1)}) {
     for (double t = kPhantomTick; t < tip.duration(); t += kPhantomTick) {
       const double x = -tip.at(t).z(), rate = (x + tip.at(t - kPhantomTick).z()) / kPhantomTick;
       samples.push_back({x, rate, haptics::forceOf(truth, x, rate)});

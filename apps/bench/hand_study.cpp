@@ -8,6 +8,8 @@
 namespace palpa::bench {
 namespace {
 
+using twin::LedTip;
+
 constexpr double kPressDeep = 7e-3, kHold = 3.0, kCalmAfter = 2.5;   // m; s of holding, and from when on it must be calm: a light grip rings for two seconds by itself
 constexpr int kStepsPerTick = 8;                                        // phantom, hand and mechanics do not wait for the loop
 constexpr std::uint64_t kHandSeed = 31;

@@ -2,7 +2,7 @@
 
 #include <array>
 
-#include "apps/bench/led_tip.h"
+#include "apps/twin/led_tip.h"
 
 namespace palpa::bench {
 
@@ -17,7 +17,7 @@ class LedPair {
 
  private:
   double half_;
-  std::array<LedTip, 2> tips_;
+  std::array<twin::LedTip, 2> tips_;
 };
 
 }  // namespace palpa::bench

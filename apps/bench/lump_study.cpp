@@ -7,6 +7,8 @@
 namespace palpa::bench {
 namespace {
 
+using twin::LedTip;
+
 constexpr double kLumpDeep = 7e-3, kBeside = 8e-3, kOver = 0.012;   // m
 constexpr double kPairDeep = 6e-3, kPairLight = 1.5e-3, kAbovePlain = 2e-3;   // m
 constexpr double kLeastPressed = 0.1;   // N
@@ -20,19 +22,19 @@ calibration::LumpContact identify(const twin::Phantom& lumped, const KnownPhanto
     for (const PhantomTick& tick : recordTouch(twin, tip, noise, seed))
       samples.push_back({tick.tip, Vec3::UnitZ(), tick.f_r, -tick.tip.z(), -tick.dp.z() / kPhantomTick, tick.truth.lump});
   };
-  record(pressing(Vec3::Zero(), kLumpDeep, kLumpSeen), kLumpSeen);
-  record(tapping(Vec3::Zero(), kLumpDeep, kLumpSeen + 1), kLumpSeen + 1);
+  record(twin::pressing(Vec3::Zero(), kLumpDeep, kLumpSeen), kLumpSeen);
+  record(twin::tapping(Vec3::Zero(), kLumpDeep, kLumpSeen + 1), kLumpSeen + 1);
   std::uint64_t seed = kLumpSeen + 2;
   for (const Vec3& side : {Vec3(kBeside, 0, 0), Vec3(0, kBeside, 0), Vec3(-kBeside, 0, 0), Vec3(0, -kBeside, 0)}) {
-    record(pressing(side, kLumpDeep, seed), seed);
+    record(twin::pressing(side, kLumpDeep, seed), seed);
     ++seed;
   }
   return calibration::identifyLump(samples, known.contact, lumped.block.lump->centre, kPhantomTick);
 }
 
 std::vector<LedTip> oneTool() {
-  return {pressing(Vec3(0.003, 0.002, 0), kLumpDeep, kLumpFresh), pressing(Vec3(-0.005, 0.001, 0), kLumpDeep, kLumpFresh + 1), tapping(Vec3(0.001, -0.002, 0), kLumpDeep, kLumpFresh + 2),
-          stroking(Vec3::Zero(), kLumpDeep, kOver, Vec3(0.8, 0.6, 0), kLumpFresh + 3)};
+  return {twin::pressing(Vec3(0.003, 0.002, 0), kLumpDeep, kLumpFresh), twin::pressing(Vec3(-0.005, 0.001, 0), kLumpDeep, kLumpFresh + 1), twin::tapping(Vec3(0.001, -0.002, 0), kLumpDeep, kLumpFresh + 2),
+          twin::stroking(Vec3::Zero(), kLumpDeep, kOver, Vec3(0.8, 0.6, 0), kLumpFresh + 3)};
 }
 
 /// Two fingers: together, in turn, and over the lump and back; the shift is of the middle between them.
@@ -46,6 +48,9 @@ std::vector<LedPair> twoTools(double apart) {
   stroke.go(-0.01, {-kAbovePlain, -kAbovePlain}, 0.4);
   return {together, in_turn, stroke};
 }
+
+/// The led tip is the lowest point of an upright tool.
+haptics::ToolTouch toolOf(const PhantomTick& tick, const haptics::TouchAugmentation& law) { return {true, tick.tip + law.tip_radius * Vec3::UnitZ(), tick.f_r}; }
 
 /// What the tools would feel on a phantom.
 class Judge {
@@ -95,7 +100,7 @@ LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phan
     haptics::TouchAugmentationState state;
     const haptics::PlacedLumps lumps{{{pack(lumped.block.lump->centre), 1}}};
     for (const std::array<PhantomTick, 2>& ticks : touches.ticks) {
-      const std::array<haptics::ToolTouch, 2> tools{{{true, ticks[0].tip, ticks[0].f_r}, {touches.tools == 2, ticks[1].tip, ticks[1].f_r}}};
+      const std::array<haptics::ToolTouch, 2> tools{{toolOf(ticks[0], law), touches.tools == 2 ? toolOf(ticks[1], law) : haptics::ToolTouch{}}};
       const haptics::AugmentedTouch now = haptics::augmentTouch(law, lumps, tools, kPhantomTick, &state);
       figures.iterations = std::max(figures.iterations, now.iterations);
       const std::array<twin::PhantomTouch, 2> truth = judge.step(ticks);
@@ -121,7 +126,7 @@ QueryTiming augmentationTiming(const std::vector<PlainTouches>& plain, const hap
   const haptics::PlacedLumps lumps{{{{0, 0, -law.kinds[0].l0}, 1}, {{-kOver, 0, -law.kinds[0].l0}, 1}}};
   std::vector<std::array<haptics::ToolTouch, 2>> tools;
   for (const std::array<PhantomTick, 2>& ticks : plain.back().ticks) {
-    if (ticks[0].truth.contact && ticks[1].truth.contact) tools.push_back({{{true, ticks[0].tip, ticks[0].f_r}, {true, ticks[1].tip, ticks[1].f_r}}});
+    if (ticks[0].truth.contact && ticks[1].truth.contact) tools.push_back({toolOf(ticks[0], law), toolOf(ticks[1], law)});
   }
   haptics::TouchAugmentationState state;
   return timeQueries(static_cast<int>(tools.size()), [&](int i) { haptics::augmentTouch(law, lumps, tools[static_cast<std::size_t>(i)], kPhantomTick, &state); });

@@ -35,7 +35,7 @@ std::size_t ticksOf(double duration) { return static_cast<std::size_t>(duration 
 
 const char* nameOf(Noise noise) { return noise == Noise::none ? "none" : "realistic"; }
 
-std::vector<PhantomTick> recordTouch(twin::PhantomTwin phantom, const LedTip& tip, Noise noise, std::uint64_t seed) {
+std::vector<PhantomTick> recordTouch(twin::PhantomTwin phantom, const twin::LedTip& tip, Noise noise, std::uint64_t seed) {
   TouchRecorder recorder(noise, seed);
   std::vector<PhantomTick> ticks;
   for (std::size_t i = 0; i < ticksOf(tip.duration()); ++i) {

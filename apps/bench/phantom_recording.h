@@ -24,7 +24,7 @@ struct PhantomTick {
 inline constexpr double kPhantomTick = 1e-3;    ///< s
 
 /// The tip led over a phantom. Position and force pass the same low-pass where there is noise, and are late by the same.
-std::vector<PhantomTick> recordTouch(twin::PhantomTwin phantom, const LedTip& tip, Noise noise, std::uint64_t seed);
+std::vector<PhantomTick> recordTouch(twin::PhantomTwin phantom, const twin::LedTip& tip, Noise noise, std::uint64_t seed);
 std::vector<std::array<PhantomTick, 2>> recordTouches(twin::PhantomPairTwin phantom, const LedPair& tips, Noise noise, std::uint64_t seed);
 
 }  // namespace palpa::bench

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "anatomy/geometry/error.h"
+#include "apps/calibrate/watch.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibrate {
@@ -12,22 +13,11 @@ namespace {
 
 using runtime::Moment;
 using runtime::Request;
-constexpr double kPatience = 60;          // s without an answer: the person has left
 constexpr std::size_t kTouchReadings = 25;
 constexpr double kMostTremor = 4e-4;      // m rms while a tip rests in its hole
 constexpr double kMostTremorHeld = 1e-3;  // m rms, in the air
 constexpr int kTries = 3;
 constexpr std::size_t kEveryPivotReading = 4;   // 25 Hz: neighbours tell nothing new
-
-Moment need(runtime::Rig& rig, const char* what) {
-  std::optional<Moment> moment = rig.next();
-  if (!moment) throw Error("the station ended while it was set up", what, "Begin again");
-  return *moment;
-}
-
-Pose poseOf(const haptics::DeviceReading& reading) { return unpack(PackedPose{reading.p_DE, reading.q_DE}); }
-
-bool pressed(const haptics::DeviceReading& reading) { return (reading.buttons & runtime::kMarkButton) != 0; }
 
 /// A stretch of readings with the button down, and the pictures that came meanwhile.
 struct Stretch {

@@ -32,6 +32,11 @@ void drawFramed(Html& html, const ChartFrame& frame, const Plot& plot, double fi
     svgLine(html, "grid", x.from_px, y.at(value), x.to_px, y.at(value));
     svgText(html, "tick end", x.from_px - 8, y.at(value) + 4, ticks.label(value) + " " + plot.y);
   }
+  if (!plot.foretold.empty()) {
+    std::string way;
+    for (const Plot::Dot& dot : plot.foretold) way += (way.empty() ? "M" : " L") + coordinate(x.at(dot.x)) + " " + coordinate(y.at(dot.y));
+    svgPath(html, "foretold", way);
+  }
   drawDots(html, plot, x, y);
   drawTimeAxis(html, roomy, x, kPlotTop + kPlotHeight, plot.x);
 }
@@ -50,6 +55,7 @@ void drawPlot(Html& html, const Plot& plot) {
   const auto figure = html.in("figure");
   html.element("h3", plot.title);
   for (const ChartFrame& frame : {kWide, kNarrow}) drawFramed(html, frame, plot, first, last, niceCeiling(most));
+  if (!plot.foretold.empty()) html.element("figcaption", "Dots: measured. Line: what the result foretells.");
   if (any_out) html.element("figcaption", "Crosses: left out, because they do not fit the others.");
 }
 
@@ -75,7 +81,7 @@ void drawCoverage(Html& html, const Coverage& coverage) {
 }
 
 std::string plotStyle() {
-  return ".seen{fill:var(--blue)}.out{stroke:var(--bad);stroke-width:2;fill:none}.end{text-anchor:end}"
+  return ".seen{fill:var(--blue)}.foretold{stroke:var(--ink,currentColor);stroke-width:1.5;fill:none}.out{stroke:var(--bad);stroke-width:2;fill:none}.end{text-anchor:end}"
          ".cell{fill:var(--blue)}.cell.none{fill:none;stroke:var(--muted);stroke-dasharray:3 3}.coverage{max-width:100%;height:auto}"
          "header .verdict{margin-top:1.1rem}\n";
 }

@@ -6,6 +6,7 @@
 
 #include "anatomy/geometry/pose.h"
 #include "apps/calibrate/result.h"
+#include "apps/calibrate/felt_samples.h"
 #include "calibration/clock_offset.h"
 #include "calibration/force_sensor.h"
 #include "calibration/hand_eye.h"
@@ -49,6 +50,19 @@ struct LatencySamples {
 Result latencyResult(const LatencySamples& samples, double camera_latency_s, const Origin& origin);
 
 Result forceSensorResult(const std::vector<calibration::StaticReading>& readings, const Vec3& down_D, const Origin& origin);
+
+/// What a soft sample is made of, from presses along its normal: H(x, x'); judged by the last quarter of them.
+Result materialResult(const FeltSamples& presses, const Origin& origin);
+/// What its surface rubs with, from strokes; judged by the last quarter of them.
+Result frictionResult(const FeltSamples& strokes, const Origin& origin);
+/// What a lump adds to it. `without`: presses of a sample without one; `above`, `beside`: of one with a lump `depth` below the middle of its top; judged by `check`, presses at a place not used.
+struct LumpSamples {
+  FeltSamples without, above;
+  std::vector<FeltSamples> beside;
+  FeltSamples check;
+  double depth = 0;   ///< m
+};
+Result inclusionResult(const LumpSamples& samples, double tip_radius, const Origin& origin);
 
 /// The map is of the end effector's places where the touches know their lever. `found`: where it goes; may be null.
 Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin, calibration::WorkspaceMap* found = nullptr);

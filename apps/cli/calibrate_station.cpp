@@ -8,6 +8,7 @@
 #include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
 #include "apps/calibrate/camera_result.h"
+#include "apps/calibrate/collect_feel.h"
 #include "apps/calibrate/corrected_rig.h"
 #include "apps/calibrate/page.h"
 #include "apps/calibrate/recorded.h"
@@ -16,6 +17,7 @@
 #include "apps/cli/setup_accuracy.h"
 #include "apps/station/assets.h"
 #include "apps/station/sha256.h"
+#include "apps/twin/phantom/phantom_file.h"
 #include "ar/image_sequence.h"
 
 namespace palpa::cli {
@@ -28,12 +30,14 @@ struct CalibrateOptions {
   std::uint64_t seed = 1;
   bool quiet = false, all_corners = false;
   std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings, touches;
+  std::string presses, strokes, without, above, beside, check, mockup = "middle";
+  double depth_mm = 0;
   std::vector<double> down{0, 0, -1};
 
   bool recorded() const { return !images.empty() || !tables().empty(); }
   std::vector<std::filesystem::path> tables() const {
     std::vector<std::filesystem::path> given;
-    for (const std::string* file : {&pivot, &spin, &landmarks, &pairs, &camera_track, &device_track, &readings, &touches})
+    for (const std::string* file : {&pivot, &spin, &landmarks, &pairs, &camera_track, &device_track, &readings, &touches, &presses, &strokes, &without, &above, &beside, &check})
       if (!file->empty()) given.emplace_back(*file);
     return given;
   }
@@ -65,7 +69,8 @@ class TerminalGuide final : public Guide {
 };
 
 station::Station stationOf(const CalibrateOptions& o) {
-  return station::readStation(o.station.empty() ? station::assetFile("stations/virtual_bench.json") : std::filesystem::path(o.station));
+  const bool of_sample = o.kind == "material" || o.kind == "friction" || o.kind == "inclusion";
+  return station::readStation(o.station.empty() ? station::assetFile(of_sample ? "stations/palpation_bench.json" : "stations/virtual_bench.json") : std::filesystem::path(o.station));
 }
 
 Origin originOf(const CalibrateOptions& o, const station::Station& station) {
@@ -133,6 +138,19 @@ Result fromTouchesAndPairs(const CalibrateOptions& o, const station::Station& st
   return registrationResult(touches, tag, o.station.empty() ? middle : station.entry_W, origin);
 }
 
+LumpSamples lumpSamples(const CalibrateOptions& o) {
+  for (const auto& [name, file] : {std::pair("--without", &o.without), std::pair("--above", &o.above), std::pair("--check", &o.check)})
+    if (file->empty()) throw UsageError("is missing", name, "An inclusion needs presses without the lump, above it, and at a place to judge by; see --help");
+  if (o.depth_mm <= 0) throw UsageError("is missing", "--depth-mm", "Say how deep the middle of the lump lies below the top");
+  LumpSamples samples;
+  samples.without = readFelt(o.without);
+  samples.above = readFelt(o.above);
+  if (!o.beside.empty()) samples.beside.push_back(readFelt(o.beside));
+  samples.check = readFelt(o.check);
+  samples.depth = 1e-3 * o.depth_mm;
+  return samples;
+}
+
 Result fromFiles(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
   if (o.kind == "camera") return fromCameraPictures(o, station, origin);
   if (o.kind == "tool") return toolResult(toolSamples(o), station.design.X_ET, origin);
@@ -142,7 +160,32 @@ Result fromFiles(const CalibrateOptions& o, const station::Station& station, con
     if (o.camera_track.empty() || o.device_track.empty()) throw UsageError("needs both", "--camera-track and --device-track", "Give the same motion as both saw it");
     return latencyResult({readTrack(o.camera_track), readTrack(o.device_track)}, station.camera_latency_s, origin);
   }
+  if (o.kind == "material") return materialResult(readFelt(o.presses), origin);
+  if (o.kind == "friction") return frictionResult(readFelt(o.strokes), origin);
+  if (o.kind == "inclusion") return inclusionResult(lumpSamples(o), station.sample ? station.sample->tip_radius : station::Sample{}.tip_radius, origin);
   return forceSensorResult(readStaticReadings(o.readings), Vec3(o.down[0], o.down[1], o.down[2]).normalized(), origin);
+}
+
+constexpr double kPressFor_s = 20, kStrokeFor_s = 25, kPressLumpFor_s = 8;
+
+/// Where the simulated sample's lump lies: known to whoever cast it.
+double lumpDepthOf(const station::Station& station, const std::string& mockup) {
+  const twin::PhantomFile file = twin::readPhantoms(station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json"));
+  for (const twin::Phantom& phantom : file.phantoms)
+    if (phantom.name == mockup && phantom.block.lump) return -phantom.block.lump->centre.z();
+  throw UsageError("is no simulated sample with a lump", "\"" + mockup + "\"", "See " + station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json").string());
+}
+
+/// Without the lump, above it, on four sides of it, and beside it once more to judge by.
+LumpSamples collectLump(const Scene& scene, const std::string& mockup) {
+  constexpr double kBeside = 8e-3, kJudgedAt = 5e-3;   // m
+  LumpSamples samples;
+  samples.depth = lumpDepthOf(scene.station, mockup);
+  samples.without = collectPresses(scene, "", {}, kPressLumpFor_s);
+  samples.above = collectPresses(scene, mockup, {}, kPressLumpFor_s);
+  for (const FeltPlace& place : {FeltPlace{kBeside, 0}, FeltPlace{0, kBeside}, FeltPlace{-kBeside, 0}, FeltPlace{0, -kBeside}}) samples.beside.push_back(collectPresses(scene, mockup, place, kPressLumpFor_s));
+  samples.check = collectPresses(scene, mockup, {kJudgedAt * 0.8, kJudgedAt * 0.6}, kPressLumpFor_s);
+  return samples;
 }
 
 /// One routine on the bench: what it needs of the others is taken from the station.
@@ -159,6 +202,9 @@ Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& orig
                                  station.X_ET.translation(), origin);
   if (o.kind == "latency") return collectedLatency(scene, station.camera, markerOf(collectHeld(scene, station.camera)), origin);
   if (o.kind == "force-sensor") return forceSensorOf(scene, collectHeld(scene, station.camera), station.X_WD, origin);
+  if (o.kind == "material") return materialResult(collectPresses(scene, "", {}, kPressFor_s), origin);
+  if (o.kind == "friction") return frictionResult(collectStrokes(scene, "", kStrokeFor_s), origin);
+  if (o.kind == "inclusion") return inclusionResult(collectLump(scene, o.mockup), station.sample->tip_radius, origin);
   throw UsageError("is no routine", "palpa calibrate " + o.kind, "See palpa calibrate --help");
 }
 
@@ -212,6 +258,15 @@ constexpr Routine kRoutines[] = {
      "Examples:\n  palpa calibrate latency --camera-track camera.csv --device-track device.csv\nColumns: t_s, x_mm (or x_m), y_, z_"},
     {"force-sensor", "Bias and tool weight, from readings in different orientations",
      "Examples:\n  palpa calibrate force-sensor --readings readings.csv\nColumns: q_w, ..., force_x_N, ..., torque_x_Nm, ..."},
+    {"material", "How soft a sample is: from presses",
+     "Examples:\n  palpa calibrate material\n      on the virtual palpation bench: a simulated hand presses the silicone\n  palpa calibrate material --presses presses.csv\n"
+     "Columns: t_s; x_mm (or x_m), y_, z_ of the tip's lowest point, z up from the sample's top; force_x_N, ..."},
+    {"friction", "What a sample's surface rubs with: from strokes",
+     "Examples:\n  palpa calibrate friction\n  palpa calibrate friction --strokes strokes.csv\nColumns as of material"},
+    {"inclusion", "What a lump adds to a sample: from presses of one that has it and one that has not",
+     "Examples:\n  palpa calibrate inclusion --mockup hard\n"
+     "  palpa calibrate inclusion --without plain.csv --above above.csv --beside beside.csv --check check.csv --depth-mm 15\n"
+     "Columns as of material, and lump_x_mm, ...: how far the lump has moved"},
     {"all", "Everything, one after the other, with a page that says whether the station is ready",
      "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: palpa paracentesis --station station3/station.json --seed 3"}};
 
@@ -234,6 +289,16 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
   if (kind == "latency") {
     file("--camera-track", &o->camera_track, "A point's way as the camera saw it");
     file("--device-track", &o->device_track, "The same as the device saw it");
+  }
+  if (kind == "material") file("--presses", &o->presses, "Recorded presses");
+  if (kind == "friction") file("--strokes", &o->strokes, "Recorded strokes, to and fro");
+  if (kind == "inclusion") {
+    file("--without", &o->without, "Recorded presses of the sample without the lump");
+    file("--above", &o->above, "Recorded presses above the lump");
+    file("--beside", &o->beside, "Recorded presses beside it");
+    file("--check", &o->check, "Recorded presses at a place to judge by");
+    command->add_option("--depth-mm", o->depth_mm, "How deep the lump's middle lies")->check(CLI::Range(1.0, 200.0));
+    command->add_option("--mockup", o->mockup, "Simulated sample on the virtual bench")->type_name("NAME");
   }
   if (kind == "force-sensor") {
     file("--readings", &o->readings, "Recorded static readings");

@@ -151,8 +151,8 @@ void addSensed(std::vector<Column>& columns) {
                         "force sensor: of a real object on the tool, device base"},
                        [=](const FlightRecord& r) { return shortest(r.sensed.f_D[static_cast<std::size_t>(i)]); }});
   for (int i = 0; i < 3; ++i)
-    columns.push_back({{std::string("p_sensed_D_") + "xyz"[i] + "_m", "where the tip was, as late as the force sensor's word"},
-                       [=](const FlightRecord& r) { return shortest(r.sensed.p_DT[static_cast<std::size_t>(i)]); }});
+    columns.push_back({{std::string("p_sensed_D_") + "xyz"[i] + "_m", "where the tip (a round one's middle) was, as late as the force sensor's word"},
+                       [=](const FlightRecord& r) { return shortest(r.sensed.p_DK[static_cast<std::size_t>(i)]); }});
   columns.push_back({{"sensor", "none, valid or unusable"}, [](const FlightRecord& r) {
                        static constexpr const char* kWords[] = {"none", "valid", "unusable"};
                        const auto index = static_cast<std::size_t>(r.sensed.state);

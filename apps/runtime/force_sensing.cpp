@@ -17,7 +17,7 @@ haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading, 
   if (!contact.valid) return sensed;
   sensed.state = haptics::SensorState::valid;
   sensed.f_D = pack(Vec3(X_DS.linear() * unpack(contact.contact.f_S)));
-  sensed.p_DT = pack(Vec3(setup_.X_WD.inverse() * unpack(contact.p_WK)));
+  sensed.p_DK = pack(Vec3(setup_.X_WD.inverse() * unpack(contact.p_WK)));
   return sensed;
 }
 

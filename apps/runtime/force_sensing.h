@@ -11,7 +11,7 @@ namespace palpa::runtime {
 class ForceSensing {
  public:
   struct Setup {
-    haptics::WrenchFilter filter;   ///< its motion at the device's rate, its low-pass at the loop's; K: the tool's tip
+    haptics::WrenchFilter filter;   ///< its motion at the device's rate, its low-pass at the loop's; K: the tool's tip, or a round tip's middle
     Pose X_WD = Pose::Identity();   ///< which way is down
     Pose X_ES = Pose::Identity();   ///< the sensor on the end effector
   };

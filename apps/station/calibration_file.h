@@ -42,7 +42,7 @@ struct CalibrationFile {
     std::string kind, sha256;     ///< another calibration that this one was computed with
   };
 
-  std::string kind;               ///< camera, tool, workspace, registration, latency, force-sensor
+  std::string kind;               ///< one of kCalibrationKinds
   std::string station;            ///< its id
   std::string date;               ///< UTC, "2026-03-01T12:30:00Z"
   std::string made_by;            ///< the command
@@ -62,7 +62,7 @@ struct CalibrationFile {
   const std::vector<double>& at(const std::string& name, std::size_t size) const;
 };
 
-inline const std::vector<std::string> kCalibrationKinds{"camera", "tool", "workspace", "registration", "latency", "force-sensor"};
+inline const std::vector<std::string> kCalibrationKinds{"camera", "tool", "workspace", "registration", "latency", "force-sensor", "material", "friction", "inclusion"};
 
 /// Throws Error naming file and field: foreign, newer, damaged, changed by hand, or with figures that are none.
 CalibrationFile readCalibration(const std::filesystem::path& file);

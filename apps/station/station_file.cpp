@@ -121,6 +121,7 @@ Station readStation(const std::filesystem::path& path) {
   s.boards = readOtherBoards(file, grids);
   s.things = readRealThings(file, path.parent_path(), s.boards);
   s.landmarks = readLandmarks(file);
+  if (file.has("sample")) s.sample = Sample{readPose(file, "sample/X_WP"), 1e-3 * file.number("sample/tip_radius_mm", 1, 30)};
   s.grid = readGrid(file);
   s.decimate = file.number("camera/decimate", 1, 4);
   s.X_WD = readPose(file, "registration/X_WD");

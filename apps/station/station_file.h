@@ -22,6 +22,12 @@ struct Landmark {
   bool for_check = false;
 };
 
+/// A soft sample on the table, and the round tip that feels it. P: origin in the middle of its top, z up.
+struct Sample {
+  Pose X_WP = Pose::Identity();
+  double tip_radius = 0.008;       ///< m
+};
+
 /// Whose pictures the station watches.
 struct CameraSetup {
   enum class Driver { bench, webcam };
@@ -55,6 +61,7 @@ struct Station {
   std::vector<OtherBoard> boards;          ///< besides the table's
   std::vector<RealThing> things;           ///< that hide virtual ones in the picture
   std::optional<ar::TagGridSpec> marker;   ///< a small grid of tags on the end effector, for registration and latency
+  std::optional<Sample> sample;            ///< what palpation, squeezing and their calibrations touch
   std::vector<Landmark> landmarks;         ///< known points that a tip can be put on
   std::vector<Landmark> grid;              ///< more of them, evenly through the workspace: for the device's position error
   haptics::WorkspaceCorrection workspace;  ///< of the device's readings

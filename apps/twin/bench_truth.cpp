@@ -97,6 +97,13 @@ SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
   return truth;
 }
 
+Pose trueSample(const station::Station& station, std::uint64_t seed) {
+  RandomStream random(seed, "bench.sample");
+  Pose X = station.sample->X_WP;
+  X.translation() += kTruthMm * spreadOr0(station.file, "twin/sample_spread_mm", 10) * normal3(random);
+  return X;
+}
+
 /// A camera on a boom on the trainee's side, looking between board and patient.
 Pose cameraOnBoom(const station::Station& station, std::uint64_t seed) {
   RandomStream random(seed, "bench.boom");

@@ -23,6 +23,9 @@ DeviceTruth trueDevice(const station::Station& station, std::uint64_t seed);
 /// For a station with a force sensor.
 SensorTruth trueSensor(const station::Station& station, std::uint64_t seed);
 
+/// For a station with a sample: where it truly lies.
+Pose trueSample(const station::Station& station, std::uint64_t seed);
+
 /// X_CW of a camera on a boom on the trainee's side, looking between board and patient.
 Pose cameraOnBoom(const station::Station& station, std::uint64_t seed);
 

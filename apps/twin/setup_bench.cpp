@@ -4,6 +4,7 @@
 #include <deque>
 
 #include "apps/runtime/random_vector.h"
+#include "apps/twin/sample_twin.h"
 #include "apps/twin/setup_motion.h"
 #include "apps/twin/virtual_camera.h"
 #include "calibration/rotation.h"
@@ -14,6 +15,7 @@ namespace {
 using runtime::Request;
 constexpr double kStep = 0.001;          // s
 constexpr int kStepsAReading = 10;       // 100 Hz
+constexpr double kSeenLump = 2e-5;       // m, how well a camera tells where a lump is in a clear sample: a tenth of a pixel of 0.2 mm [chosen]
 constexpr double kSameLandmark = 1e-4;   // m
 constexpr double kSetupMm = 1e-3;
 constexpr double kBoardTravel = 0.7;     // s from one view to the next
@@ -36,14 +38,16 @@ Pose boardPose(const runtime::BoardView& view, const calibration::CameraModel& c
 }  // namespace
 
 struct SetupBench::Impl {
-  Impl(const station::Station& s, std::uint64_t seed)
+  Impl(const station::Station& s, std::uint64_t seed_in)
       : station(s),
+        seed(seed_in),
         world(drawWorld(s, seed)),
         device(trueDevice(s, seed)),
         X_CW_boom(cameraOnBoom(s, seed)),
         motion(hand, seed),
         views(seed, "setup.views"),
-        holes(seed, "setup.landmarks") {
+        holes(seed, "setup.landmarks"),
+        imaging(seed, "setup.imaging") {
     const calibration::CameraModel lens = twin::trueCamera(s, seed);
     VirtualScene at_table;
     if (s.marker) at_table.plates = {*s.marker};
@@ -70,6 +74,7 @@ struct SetupBench::Impl {
   void advance() {
     t += kStep;
     X_WT = motion.step(t, kStep);
+    if (sample) touched = sample->step(X_WT, kStep);
     if (showing) X_CB = board_way.at(t);
   }
 
@@ -91,10 +96,13 @@ struct SetupBench::Impl {
     moment.reading = reading();
     if (felt) {
       const Pose X_WS = X_WE() * station.design.force_sensor->X_ES;
-      moment.wrench = felt->measure(X_WS, Vec3::Zero(), X_WS.translation(), kStepsAReading * kStep, moment.reading->t_ns);
+      moment.wrench = felt->measure(X_WS, touched.f_W, touched.p_W, stepsAReading() * kStep, moment.reading->t_ns);
     }
+    if (touched.lump_W) moment.lump_W = *touched.lump_W + kSeenLump * runtime::normal3(imaging);
     return moment;
   }
+
+  int stepsAReading() const { return sample ? static_cast<int>(1 / (kStep * runtime::kFeltRate_Hz)) : kStepsAReading; }
 
   /// What was before the camera when the shutter opened.
   struct Exposure {
@@ -131,11 +139,12 @@ struct SetupBench::Impl {
       }
       advance();
       if (t >= next_exposure) expose();
-      if (++steps % kStepsAReading == 0) return readingMoment();
+      if (++steps % stepsAReading() == 0) return readingMoment();
     }
   }
 
   const station::Station& station;
+  std::uint64_t seed;
   WorldTruth world;
   DeviceTruth device;
   Pose X_CW_boom, X_EM = Pose::Identity();
@@ -145,6 +154,9 @@ struct SetupBench::Impl {
   std::vector<std::pair<Vec3, Vec3>> holes_W;   ///< where they are said to be, where they are
   std::optional<VirtualCamera> over_table, at_wall;
   std::optional<SensorTwin> felt;
+  std::optional<SampleTwin> sample;   // while one is felt
+  SampleTwin::Touch touched;
+  runtime::RandomStream imaging;
   Pose X_WT = Pose::Identity(), X_CB = Pose::Identity();
   MinJerk board_way;
   bool showing = false;
@@ -163,7 +175,10 @@ void SetupBench::ask(const Request& request) {
   if (b.showing) {
     b.board_way = MinJerk(b.X_CB, boardPose(request.view, b.over_table->truth(), b.station.board, b.hand, b.views), b.t, kBoardTravel);
   }
-  b.motion.begin(request, b.X_WT, b.hole(request.p_W), b.t);
+  b.sample.reset();
+  b.touched = {};
+  if (request.what == Request::What::press || request.what == Request::What::stroke) b.sample.emplace(b.station, request.sample, b.seed);
+  b.motion.begin(request, b.X_WT, b.hole(request.p_W), b.t, b.station.sample ? b.station.sample->X_WP : Pose::Identity());
 }
 
 std::optional<runtime::Moment> SetupBench::next() { return impl_->next(); }

@@ -18,6 +18,10 @@ constexpr double kSettles = 0.25;       // s before "now" is said
 constexpr double kPressFor = 0.4;       // s
 constexpr double kFullTurn = 2 * std::numbers::pi;
 
+constexpr double kOverSample = 2e-3;    // m
+constexpr double kSlowOnes = 0.6;       // share of presses; the others are taps
+
+bool feels(What what) { return what == What::press || what == What::stroke; }
 bool inHole(What what) { return what == What::touch || what == What::pivot || what == What::spin; }
 
 }  // namespace
@@ -29,7 +33,29 @@ SetupMotion::SetupMotion(const SetupHandTruth& hand, std::uint64_t seed)
       tremor_(hand.tremor, runtime::RandomStream(seed, "setup.tremor")),
       turn_tremor_(hand.turn_tremor, runtime::RandomStream(seed, "setup.turn_tremor")) {}
 
-void SetupMotion::begin(const runtime::Request& request, const Pose& X_WT, const Vec3& p_W, double t) {
+/// What a person does who is asked to press, or to stroke, for so long: never twice the same.
+LedTip SetupMotion::wayOver(const Vec3& p_P) {
+  const Vec3 place(p_P.x(), p_P.y(), 0);
+  if (request_.what == What::press) {
+    LedTip tip(place + kOverSample * Vec3::UnitZ());
+    while (tip.duration() < request_.seconds) {
+      if (choices_.uniform() < kSlowOnes) tip.press(place, request_.depth * choices_.uniform(0.5, 1.0), choices_.uniform(0.15, 0.8), choices_.uniform(0.0, 0.3));
+      else tip.press(place, request_.depth * choices_.uniform(0.4, 0.8), choices_.uniform(0.08, 0.14));
+    }
+    return tip;
+  }
+  const Vec3 before = place - request_.reach * Vec3::UnitX(), beyond = place + request_.reach * Vec3::UnitX();
+  LedTip tip(before + kOverSample * Vec3::UnitZ());
+  while (tip.duration() < request_.seconds) {
+    const Vec3 below(0, 0, -request_.depth * choices_.uniform(0.5, 1.0));
+    tip.go(before + below, 0.4);
+    for (int i = 0; i < 2; ++i) tip.go(beyond + below, choices_.uniform(0.4, 1.2)).go(before + below, choices_.uniform(0.4, 1.2));
+    tip.go(before + kOverSample * Vec3::UnitZ(), 0.4);
+  }
+  return tip;
+}
+
+void SetupMotion::begin(const runtime::Request& request, const Pose& X_WT, const Vec3& p_W, double t, const Pose& X_WP) {
   request_ = request;
   if (request.what == What::show_board) {   // the other hand's work: the tool is put down where it is
     X_WT_ = X_WT;
@@ -40,6 +66,11 @@ void SetupMotion::begin(const runtime::Request& request, const Pose& X_WT, const
   const Vec3 lean = request.lean + hand_.lean * normal3(choices_);
   const double off = inHole(request.what) ? hand_.seat : hand_.aim;
   X_WT_ = makePose(calibration::rotationOf(lean) * calibration::halfTurnAboutX(), p_W + off * normal3(choices_));
+  if (feels(request.what)) {   // upright on the sample, as well as a person can
+    X_WP_ = X_WP;
+    felt_ = wayOver(X_WP.inverse() * p_W);
+    X_WT_ = makePose(calibration::rotationOf(lean) * X_WP.rotation() * calibration::halfTurnAboutX(), X_WP * felt_.at(0));
+  }
   const double way = (X_WT_.translation() - X_WT.translation()).norm();
   const double takes = std::max(way / kTravelSpeed, kShortestWay);
   approach_ = MinJerk(X_WT, X_WT_, t, takes);
@@ -57,6 +88,8 @@ Pose SetupMotion::during(double t) const {
     X.linear() = calibration::rotationOf(tilt * axis) * X.linear() * calibration::rotationOf(0.6 * std::sin(kFullTurn * 0.17 * u) * Vec3::UnitZ());
   } else if (request_.what == What::spin) {
     X.linear() = X.linear() * calibration::rotationOf(ease * 1.9 * std::sin(kFullTurn * 0.2 * u) * Vec3::UnitZ());
+  } else if (feels(request_.what)) {
+    X.translation() = X_WP_ * felt_.at(u - kSettles);
   } else if (request_.what == What::wave) {
     // Incommensurate sines: no lag but the right one makes two such motions alike.
     const Vec3& f = wave_phase_;

@@ -4,6 +4,7 @@
 
 #include "apps/runtime/random.h"
 #include "apps/runtime/rig.h"
+#include "apps/twin/led_tip.h"
 #include "apps/twin/min_jerk.h"
 #include "apps/twin/tremor.h"
 
@@ -27,7 +28,8 @@ class SetupMotion {
   SetupMotion(const SetupHandTruth& hand, std::uint64_t seed);
 
   /// Begins at `t`: `X_WT` is the tool (z along the needle) now, `p_W` where the hole truly is.
-  void begin(const runtime::Request& request, const Pose& X_WT, const Vec3& p_W, double t);
+  /// `p_W` of a sample: on its top, `X_WP` its frame.
+  void begin(const runtime::Request& request, const Pose& X_WT, const Vec3& p_W, double t, const Pose& X_WP = Pose::Identity());
   /// The tool `dt` after the last call.
   Pose step(double t, double dt);
   /// The person says "now".
@@ -35,6 +37,7 @@ class SetupMotion {
 
  private:
   Pose during(double t) const;
+  LedTip wayOver(const Vec3& p_P);
 
   SetupHandTruth hand_;
   runtime::RandomStream choices_, jitter_;
@@ -44,6 +47,8 @@ class SetupMotion {
   Pose X_WT_ = Pose::Identity();   ///< asked for, as it is met
   double arrives_ = 0;
   Vec3 wave_phase_ = Vec3::Zero();
+  Pose X_WP_ = Pose::Identity();
+  LedTip felt_{Vec3::Zero()};      ///< over a sample, in P
 };
 
 }  // namespace palpa::twin

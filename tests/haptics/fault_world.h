@@ -198,7 +198,7 @@ struct FaultyWorld {
   /// 50 N are absurd, yet a sensor may say so.
   void harmSensor() {
     const double value = dice.absurd();
-    (dice.chance(0.5) ? sensed.f_D : sensed.p_DT)[static_cast<std::size_t>(dice.below(3))] = value;
+    (dice.chance(0.5) ? sensed.f_D : sensed.p_DK)[static_cast<std::size_t>(dice.below(3))] = value;
     sensor_absurd = !std::isfinite(value) || unpack(sensed.f_D).norm() > 1000;
   }
 

@@ -29,7 +29,7 @@ PlacedLumps placed(int count) {
 }
 
 /// A tool pressed straight down at `x`, as deep as `depth`.
-ToolTouch pressed(double x, double depth, double rate = 0) { return {true, Vec3(x, 0, -depth), Vec3(0, 0, forceOf(kTouched, depth, rate))}; }
+ToolTouch pressed(double x, double depth, double rate = 0) { return {true, Vec3(x, 0, 0.008 - depth), Vec3(0, 0, forceOf(kTouched, depth, rate))}; }
 
 /// Pressed slowly to `depth` at `places`; the last answer.
 AugmentedTouch pressedTo(const TouchAugmentation& law, int lumps, double depth, const std::array<double, 2>& places, bool second) {
@@ -75,7 +75,7 @@ TEST(TouchAugmentation, AToolThatIsNotThereOrTellsNonsenseIsForgotten) {
   AugmentedTouch now;
   for (int i = 0; i < 200; ++i) now = augmentTouch(lumpy(), placed(2), {pressed(0, 0.006), pressed(0.03, 0.006)}, kTouchTick, &state);
   ToolTouch lost = pressed(0, 0.006);
-  lost.p.x() = NAN;
+  lost.p_M.x() = NAN;
   now = augmentTouch(lumpy(), placed(2), {lost, pressed(0.03, 0.006)}, kTouchTick, &state);
   EXPECT_EQ(now.f_d[0], Vec3(Vec3::Zero()));
   EXPECT_GT(now.f_d[1].z(), 0.1);

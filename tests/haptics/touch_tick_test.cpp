@@ -41,7 +41,7 @@ struct TouchLoop {
     reading.sequence = ++readings;
     reading.homed = 1;
     reading.p_DE = pack(Vec3(X_DP * tip_P));
-    const SensedForce sensed{pack(Vec3(X_DP.linear() * f_P)), reading.p_DE, sensor, {}};
+    const SensedForce sensed{pack(Vec3(X_DP.linear() * f_P)), pack(Vec3(X_DP * (tip_P + 0.008 * Vec3::UnitZ()))), sensor, {}};
     return tick(config, state, reading, nullptr, commands, now, sensed);
   }
   /// Pressed straight down at `x` to `depth`, at 2 cm/s, and held there.

@@ -4,7 +4,7 @@
 
 #include "anatomy/geometry/pose.h"
 
-namespace palpa::bench {
+namespace palpa::twin {
 
 /// A tool's tip that is led from place to place, each time with minimum jerk, and held there. Frame P of twin::SoftBlock.
 class LedTip {
@@ -31,4 +31,4 @@ LedTip tapping(const Vec3& place, double deep, std::uint64_t seed);
 /// Down beside `place`, over it back and forth as far as `reach`, along the direction `way`.
 LedTip stroking(const Vec3& place, double deep, double reach, const Vec3& way, std::uint64_t seed);
 
-}  // namespace palpa::bench
+}  // namespace palpa::twin

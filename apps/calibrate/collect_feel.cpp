@@ -1,0 +1,179 @@
+#include "apps/calibrate/collect_feel.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anatomy/geometry/error.h"
+#include "apps/calibrate/sample_table.h"
+#include "apps/calibrate/watch.h"
+#include "calibration/soft_contact.h"
+#include "haptics/sensors/wrench_filter.h"
+
+namespace palpa::calibrate {
+namespace {
+
+using runtime::Moment;
+using runtime::Request;
+constexpr double kCutOff_Hz = 60, kFeltDeep = 7e-3, kStrokeReach = 0.02;   // m
+constexpr std::size_t kShownEvery = 250;   // readings
+constexpr std::size_t kShownColumns = 24;
+constexpr double kEvenWithin = 0.1;        // of dt
+
+void requireSample(const station::Station& station) {
+  if (!station.force_sensor) throw UsageError("has no \"force_sensor\"", station.file.name(), "What a sample is made of is told by force: describe the sensor");
+  if (!station.sample) throw UsageError("has no \"sample\"", station.file.name(), "Say where it lies: sample/X_WP, sample/tip_radius_mm");
+}
+
+/// A small picture of a stretch of figures, in a line of text.
+std::string sparks(const std::vector<double>& values, double most) {
+  static const char* const kHeights[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
+  std::string line;
+  for (const double v : values) line += kHeights[std::clamp(static_cast<int>(8 * v / std::max(most, 1e-9)), 0, 7)];
+  return line;
+}
+
+/// Live: what was felt in the last second or so above what the law so far foretells.
+class LivePlot {
+ public:
+  void add(const FeltSample& sample, double dt) {
+    const double x = -sample.p_P.z(), rate = before_ ? (x - *before_) / dt : 0;
+    before_ = x;
+    estimator_.add({x, rate, sample.f_P.z()});
+    if (++count_ % 40 != 0) return;
+    felt_.push_back(std::max(sample.f_P.z(), 0.0));
+    foretold_.push_back(haptics::forceOf(estimator_.law(), x, rate));
+    if (felt_.size() > kShownColumns) {
+      felt_.erase(felt_.begin());
+      foretold_.erase(foretold_.begin());
+    }
+  }
+  std::string words() const {
+    if (felt_.empty()) return "";
+    const double most = std::max(*std::max_element(felt_.begin(), felt_.end()), *std::max_element(foretold_.begin(), foretold_.end()));
+    return "felt " + sparks(felt_, most) + " foretold " + sparks(foretold_, most);
+  }
+
+ private:
+  calibration::PressEstimator estimator_;
+  std::optional<double> before_;
+  std::size_t count_ = 0;
+  std::vector<double> felt_, foretold_;
+};
+
+/// Reading and wrench as a touch of the sample.
+class Feeling {
+ public:
+  explicit Feeling(const station::Station& station) : station_(station), filter_(station.force_sensor->filter), radius_(station.sample->tip_radius), X_PW_(station.sample->X_WP.inverse()) {
+    filter_.motion.rate_Hz = runtime::kFeltRate_Hz;
+    filter_.low_pass = haptics::butterworth(kCutOff_Hz, runtime::kFeltRate_Hz);
+    filter_.p_SK = pack(Vec3(station.force_sensor->X_ES.inverse() * (station.X_ET * Vec3(0, 0, -radius_))));
+  }
+  std::optional<FeltSample> feel(const Moment& moment) {
+    const Pose X_WS = station_.X_WD * poseOf(*moment.reading) * station_.force_sensor->X_ES;
+    haptics::WrenchSample silent;
+    silent.flags = haptics::kNothingYet;
+    const haptics::ContactWrench told = haptics::step(filter_, state_, moment.wrench ? *moment.wrench : silent, pack(X_WS), moment.reading->t_ns);
+    if (!told.valid) return std::nullopt;
+    FeltSample sample;
+    sample.p_P = X_PW_ * unpack(told.p_WK) - radius_ * Vec3::UnitZ();
+    sample.f_P = X_PW_.linear() * (X_WS.linear() * unpack(told.contact.f_S));
+    if (moment.lump_W) sample.lump_P = late(X_PW_.linear() * *moment.lump_W);
+    return sample;
+  }
+
+ private:
+  /// As late as force and place are.
+  Vec3 late(const Vec3& d) {
+    const Packed3 before = lump_before_ ? *lump_before_ : pack(d);
+    if (!lump_before_) haptics::settle(filter_.low_pass, lump_, before);
+    lump_before_ = pack(d);
+    return unpack(haptics::apply(filter_.low_pass, lump_, before));
+  }
+
+  const station::Station& station_;
+  haptics::WrenchFilter filter_;
+  haptics::WrenchFilterState state_;
+  haptics::LowPassState<3> lump_;
+  std::optional<Packed3> lump_before_;
+  double radius_;
+  Pose X_PW_;
+};
+
+/// While the button is held, from where the sensor's word can be used.
+FeltSamples collectFelt(const Scene& scene, const Request& request) {
+  scene.guide.ask(request.words);
+  scene.rig.ask(request);
+  const auto wanted = static_cast<std::size_t>(request.seconds * runtime::kFeltRate_Hz);
+  Feeling feeling(scene.station);
+  LivePlot live;
+  FeltSamples felt;
+  double begun = -1, silent_since = -1;
+  while (felt.samples.size() < wanted) {
+    const Moment moment = need(scene.rig, "calibration of a sample");
+    if (begun < 0) begun = moment.t;
+    if (!moment.reading) continue;
+    const std::optional<FeltSample> sample = feeling.feel(moment);
+    if (!pressed(*moment.reading)) {
+      if (moment.t - begun > kPatience && felt.samples.empty()) throw Error("nobody pressed the button for a minute", request.words, "Begin again when somebody is at the device");
+      if (!felt.samples.empty()) break;
+      continue;
+    }
+    if (!sample) {
+      if (silent_since < 0) silent_since = moment.t;
+      if (moment.t - silent_since > 1) throw Error("says nothing that can be used", "force sensor", "Look at its cable; is it overloaded?");
+      continue;
+    }
+    silent_since = -1;
+    felt.samples.push_back(*sample);
+    live.add(*sample, felt.dt);
+    if (felt.samples.size() % kShownEvery == 0 || felt.samples.size() == wanted)
+      scene.guide.progress("Samples", static_cast<int>(felt.samples.size()), static_cast<int>(wanted), live.words());
+  }
+  return felt;
+}
+
+}  // namespace
+
+FeltSamples collectPresses(const Scene& scene, const std::string& sample, const FeltPlace& place, double seconds) {
+  requireSample(scene.station);
+  Request request;
+  request.what = Request::What::press;
+  request.sample = sample;
+  request.depth = kFeltDeep;
+  request.p_W = scene.station.sample->X_WP * Vec3(place.across, place.along, 0);
+  request.seconds = seconds;
+  request.words = "Hold the button and press the sample with the upright tip, 7 mm deep at most, and let go: slowly and quickly, for " + std::to_string(static_cast<int>(seconds)) + " s";
+  return collectFelt(scene, request);
+}
+
+FeltSamples collectStrokes(const Scene& scene, const std::string& sample, double seconds) {
+  requireSample(scene.station);
+  Request request;
+  request.what = Request::What::stroke;
+  request.sample = sample;
+  request.depth = kFeltDeep;
+  request.reach = kStrokeReach;
+  request.p_W = scene.station.sample->X_WP.translation();
+  request.seconds = seconds;
+  request.words = "Hold the button and stroke over the sample, to and fro, lightly and firmly, slowly and fast, for " + std::to_string(static_cast<int>(seconds)) + " s";
+  return collectFelt(scene, request);
+}
+
+FeltSamples readFelt(const std::filesystem::path& file) {
+  const SampleTable table(file);
+  if (table.rows() < 2) throw Error("holds fewer than two samples", file.string(), "Record for longer");
+  FeltSamples felt;
+  felt.dt = (table.number(table.rows() - 1, "t_s") - table.number(0, "t_s")) / static_cast<double>(table.rows() - 1);
+  if (!(felt.dt > 1e-5 && felt.dt < 0.1)) throw Error("has times that do not rise by 0.01 to 100 ms", file.string(), "Give t_s in seconds");
+  const bool lump = table.has("lump_x_mm") || table.has("lump_x_m");
+  for (std::size_t i = 0; i < table.rows(); ++i) {
+    const double due = table.number(0, "t_s") + felt.dt * static_cast<double>(i);
+    if (std::abs(table.number(i, "t_s") - due) > kEvenWithin * felt.dt * static_cast<double>(table.rows())) throw Error("has times that are not even", file.string(), "Record at an even rate");
+    FeltSample sample{table.place(i, ""), Vec3(table.number(i, "force_x_N"), table.number(i, "force_y_N"), table.number(i, "force_z_N")), std::nullopt};
+    if (lump) sample.lump_P = table.place(i, "lump_");
+    felt.samples.push_back(sample);
+  }
+  return felt;
+}
+
+}  // namespace palpa::calibrate
