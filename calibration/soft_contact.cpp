@@ -32,11 +32,13 @@ std::vector<PressSample> inContact(const std::vector<PressSample>& samples, cons
 }
 
 double largestForce(const std::vector<PressSample>& samples) {
-  double largest = 0;
+  double largest = 0, least = 0;
   for (const PressSample& s : samples) {
     if (!std::isfinite(s.x) || !std::isfinite(s.rate) || !std::isfinite(s.f)) throw Error("a sample is no number", kPressWhere, "Record anew");
     largest = std::max(largest, s.f);
+    least = std::min(least, s.f);
   }
+  if (-least > largest) throw Error("what is pressed pulls: the force's sign is turned round", kPressWhere, "Look at how the sensor is mounted, and which way the depth is counted");
   return largest;
 }
 

@@ -46,7 +46,7 @@ struct SoftContact {
 };
 
 /// Robust least squares of f = (x - x0)^m (k + b x') on all samples in contact, from where PressEstimator ends. Throws Error, in plain words, for too few samples, one speed
-/// only, one depth only, a force that is cut off (saturated sensor), figures that are none, and a law outside 0.5 <= m <= 4, k > 0, b >= 0.
+/// only, one depth only, a force that is cut off (saturated sensor) or of the wrong sign, figures that are none, and a law outside 0.5 <= m <= 4, k > 0, b >= 0.
 SoftContact identifySoftContact(const std::vector<PressSample>& samples);
 
 }  // namespace palpa::calibration
