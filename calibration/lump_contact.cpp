@@ -69,35 +69,42 @@ haptics::HuntCrossley lawOf(std::vector<PressSample> samples, const std::string&
 struct Added {
   Vec3 f_T = Vec3::Zero(), line = Vec3::Zero();   ///< N; m, from lump to tip
   double sine = 0;                                ///< of the angle between line and normal
+  Vec3 along = Vec3::Zero();                      ///< N, f_T by its part along n, where a round tip's force must point
 };
 
-Added addedBy(const LumpSample& s, const SoftContact& without, const Vec3& p_T0) {
+Added addedBy(const LumpSample& s, const SoftContact& without, const Vec3& drag, const Vec3& p_T0, double tip_radius) {
   Added a;
-  a.f_T = s.f_r - haptics::forceOf(without.law, s.x - without.x0, s.rate) * s.n;
+  a.f_T = s.f_r + drag - haptics::forceOf(without.law, s.x - without.x0, s.rate) * s.n;
   a.line = s.p - p_T0 - s.d;
+  const Vec3 to_middle = a.line + tip_radius * s.n;
+  if (const double up = to_middle.dot(s.n); up > 0) a.along = a.f_T.dot(s.n) / up * to_middle;
   a.sine = a.line.normalized().cross(s.n).norm();
   return a;
 }
 
 /// Along one axis: how far the lump was pushed, by what.
-std::vector<PressSample> pushes(const std::vector<LumpSample>& samples, const std::vector<Added>& added, int axis, double dt) {
+std::vector<PressSample> pushes(const std::vector<LumpSample>& samples, const std::vector<Added>& added, Vec3 Added::*force, int axis, double dt) {
   std::vector<PressSample> pushed;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const bool tells = axis == 2 ? added[i].sine < kAboveLump : added[i].sine > kBesideLump;
     const double side = samples[i].d[axis] < 0 ? -1 : 1;   // the tool's force on the lump is -f_T
-    if (tells) pushed.push_back({side * samples[i].d[axis], side * (samples[i].d[axis] - samples[i - 1].d[axis]) / dt, -side * added[i].f_T[axis]});
+    if (tells) pushed.push_back({side * samples[i].d[axis], side * (samples[i].d[axis] - samples[i - 1].d[axis]) / dt, -side * (added[i].*force)[axis]});
   }
   return pushed;
 }
 
 }  // namespace
 
-LumpContact identifyLump(const std::vector<LumpSample>& samples, const SoftContact& without, const Vec3& p_T0, double dt) {
+LumpContact identifyLump(const std::vector<LumpSample>& samples, const SoftContact& without, const haptics::Dahl& friction, const Vec3& p_T0, double tip_radius, double dt) {
   LumpContact found;
   std::vector<Added> added;
+  haptics::DahlState rubs;
+  const LumpSample* before_it = nullptr;
   for (const LumpSample& s : samples) {
     if (!s.p.allFinite() || !s.f_r.allFinite() || !s.d.allFinite() || !std::isfinite(s.x) || !std::isfinite(s.rate)) throw Error("a sample is no number", kLumpWhere, "Record anew");
-    added.push_back(addedBy(s, without, p_T0));
+    const Vec3 dp = before_it ? Vec3(s.p - before_it->p) : Vec3(Vec3::Zero());
+    before_it = &s;
+    added.push_back(addedBy(s, without, haptics::dragOf(friction, dp, s.n, std::max(s.f_r.dot(s.n), 0.0), dt, &rubs), p_T0, tip_radius));
   }
   std::vector<PressSample> felt;
   for (std::size_t i = 1; i < samples.size(); ++i) {
@@ -114,10 +121,16 @@ LumpContact identifyLump(const std::vector<LumpSample>& samples, const SoftConta
     all += s.f * s.f;
   }
   found.relative_rms = std::sqrt(off / all);
-  found.G[2] = lawOf(pushes(samples, added, 2, dt), "how the lump gives downwards");
+  found.G[2] = lawOf(pushes(samples, added, &Added::f_T, 2, dt), "how the lump gives downwards");
   const auto beside = [&](int axis, const char* what) {
-    const std::vector<PressSample> pushed = pushes(samples, added, axis, dt);
-    if (static_cast<int>(pushed.size()) >= kLeastTouches) return lawOf(pushed, what);
+    const std::vector<PressSample> pushed = pushes(samples, added, &Added::f_T, axis, dt);
+    if (static_cast<int>(pushed.size()) >= kLeastTouches) {
+      try {
+        return lawOf(pushed, what);
+      } catch (const Error&) {   // a trembling hand rubs more than the lump pushes aside
+        return lawOf(pushes(samples, added, &Added::along, axis, dt), what);
+      }
+    }
     found.advice = "Press beside the lump, too: how it gives sideways is taken from how it gives downwards.";
     return found.G[2];
   };

@@ -29,7 +29,7 @@ calibration::LumpContact identify(const twin::Phantom& lumped, const KnownPhanto
     record(twin::pressing(side, kLumpDeep, seed), seed);
     ++seed;
   }
-  return calibration::identifyLump(samples, known.contact, lumped.block.lump->centre, kPhantomTick);
+  return calibration::identifyLump(samples, known.contact, known.friction.law, lumped.block.lump->centre, lumped.table.tool_radius, kPhantomTick);
 }
 
 std::vector<LedTip> oneTool() {

@@ -14,7 +14,7 @@ namespace {
 
 using runtime::Moment;
 using runtime::Request;
-constexpr double kCutOff_Hz = 60, kFeltDeep = 7e-3, kStrokeReach = 0.02;   // m
+constexpr double kCutOff_Hz = 30, kFeltDeep = 7e-3, kStrokeReach = 0.02;   // m
 constexpr std::size_t kShownEvery = 250;   // readings
 constexpr std::size_t kShownColumns = 24;
 constexpr double kEvenWithin = 0.1;        // of dt

@@ -7,26 +7,42 @@ namespace palpa::calibrate {
 namespace {
 
 constexpr int kFrictionGoodFor_days = 90;
-constexpr double kRubbedOff_percent = 7;
+constexpr double kRubbedOff_percent = 7, kLeastRubbed_N = 0.1, kNotTouched_N = 0.02;
+constexpr int kLeastUntouched = 100;
 constexpr std::size_t kShownSlides = 500;
 
-/// The law run over the strokes: what it foretells along x, and how much it errs, in percent of the rms drag.
+/// Mean square of what the sensor shows across the normal where nothing is touched, N^2: hands tremble, encoders step.
+double noiseOf(const std::vector<calibration::SlideSample>& slides) {
+  double squares = 0;
+  int untouched = 0;
+  for (const calibration::SlideSample& s : slides) {
+    if (s.f_n > kNotTouched_N) continue;
+    squares += s.drag.squaredNorm();
+    ++untouched;
+  }
+  return untouched > kLeastUntouched ? squares / untouched : 0;
+}
+
+/// The law run over the whole recording, for what drags now depends on the way before; what it foretells along x from `from` on, and how much it errs there beyond the noise, in percent of the rms drag.
 struct Foretold {
   std::vector<double> drag;
   double off_percent = 0;
 };
-Foretold foretell(const haptics::Dahl& law, const std::vector<calibration::SlideSample>& slides, double dt) {
+Foretold foretell(const haptics::Dahl& law, const std::vector<calibration::SlideSample>& slides, std::size_t from, double dt) {
   Foretold told;
   haptics::DahlState state;
+  const double noise = noiseOf(slides);
   double off = 0, all = 0;
   for (std::size_t i = 0; i < slides.size(); ++i) {
     const Vec3 dp = i > 0 ? Vec3(slides[i].p - slides[i - 1].p) : Vec3(Vec3::Zero());
     const Vec3 drag = haptics::dragOf(law, dp, slides[i].n, std::max(slides[i].f_n, 0.0), dt, &state);
+    if (i < from) continue;
     told.drag.push_back(drag.x());
-    off += (drag - slides[i].drag).squaredNorm();
+    if (slides[i].f_n < kLeastRubbed_N) continue;
+    off += (drag - slides[i].drag).squaredNorm() - noise;
     all += slides[i].drag.squaredNorm();
   }
-  told.off_percent = all > 0 ? 100 * std::sqrt(off / all) : 100;
+  told.off_percent = all > 0 ? 100 * std::sqrt(std::max(off, 0.0) / all) : 100;
   return told;
 }
 
@@ -47,7 +63,7 @@ Plot dragOverTime(const std::vector<calibration::SlideSample>& slides, const For
 Result frictionResult(const FeltSamples& felt, const Origin& origin) {
   const std::vector<calibration::SlideSample> fitted = slidesOf(toFit(felt)), judged = slidesOf(toJudge(felt));
   const calibration::SurfaceFriction found = calibration::identifySurfaceFriction(fitted, felt.dt);
-  const Foretold told = foretell(found.law, judged, felt.dt);
+  const Foretold told = foretell(found.law, slidesOf(felt), fitted.size(), felt.dt);
   Result r;
   r.title = "Friction of the sample";
   r.file = begun(origin, "friction", kFrictionGoodFor_days);

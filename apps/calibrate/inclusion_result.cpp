@@ -53,12 +53,13 @@ void addLaw(station::CalibrationFile& file, const std::string& name, const hapti
 
 Result inclusionResult(const LumpSamples& samples, double tip_radius, const Origin& origin) {
   const calibration::SoftContact without = calibration::identifySoftContact(pressesOf(samples.without));
+  const haptics::Dahl friction = samples.strokes.samples.empty() ? haptics::Dahl{} : calibration::identifySurfaceFriction(slidesOf(samples.strokes), samples.strokes.dt).law;
   std::vector<calibration::LumpSample> touches = lumpTouchesOf(samples.above);
   for (const FeltSamples& felt : samples.beside) {
     const std::vector<calibration::LumpSample> more = lumpTouchesOf(felt);
     touches.insert(touches.end(), more.begin(), more.end());
   }
-  const calibration::LumpContact found = calibration::identifyLump(touches, without, Vec3(0, 0, -samples.depth), samples.above.dt);
+  const calibration::LumpContact found = calibration::identifyLump(touches, without, friction, Vec3(0, 0, -samples.depth), tip_radius, samples.above.dt);
   const haptics::VirtualInclusion lump{found.l0, found.H_T, found.G};
   Rendered judged = render(lump, without, samples, tip_radius);
   Result r;

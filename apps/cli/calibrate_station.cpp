@@ -144,6 +144,7 @@ LumpSamples lumpSamples(const CalibrateOptions& o) {
   if (o.depth_mm <= 0) throw UsageError("is missing", "--depth-mm", "Say how deep the middle of the lump lies below the top");
   LumpSamples samples;
   samples.without = readFelt(o.without);
+  if (!o.strokes.empty()) samples.strokes = readFelt(o.strokes);
   samples.above = readFelt(o.above);
   if (!o.beside.empty()) samples.beside.push_back(readFelt(o.beside));
   samples.check = readFelt(o.check);
@@ -166,7 +167,7 @@ Result fromFiles(const CalibrateOptions& o, const station::Station& station, con
   return forceSensorResult(readStaticReadings(o.readings), Vec3(o.down[0], o.down[1], o.down[2]).normalized(), origin);
 }
 
-constexpr double kPressFor_s = 20, kStrokeFor_s = 25, kPressLumpFor_s = 8;
+constexpr double kPressFor_s = 20, kStrokeFor_s = 25, kPressLumpFor_s = 6, kStrokeLumpFor_s = 12;
 
 /// Where the simulated sample's lump lies: known to whoever cast it.
 double lumpDepthOf(const station::Station& station, const std::string& mockup) {
@@ -182,6 +183,7 @@ LumpSamples collectLump(const Scene& scene, const std::string& mockup) {
   LumpSamples samples;
   samples.depth = lumpDepthOf(scene.station, mockup);
   samples.without = collectPresses(scene, "", {}, kPressLumpFor_s);
+  samples.strokes = collectStrokes(scene, "", kStrokeLumpFor_s);
   samples.above = collectPresses(scene, mockup, {}, kPressLumpFor_s);
   for (const FeltPlace& place : {FeltPlace{kBeside, 0}, FeltPlace{0, kBeside}, FeltPlace{-kBeside, 0}, FeltPlace{0, -kBeside}}) samples.beside.push_back(collectPresses(scene, mockup, place, kPressLumpFor_s));
   samples.check = collectPresses(scene, mockup, {kJudgedAt * 0.8, kJudgedAt * 0.6}, kPressLumpFor_s);
@@ -265,7 +267,7 @@ constexpr Routine kRoutines[] = {
      "Examples:\n  palpa calibrate friction\n  palpa calibrate friction --strokes strokes.csv\nColumns as of material"},
     {"inclusion", "What a lump adds to a sample: from presses of one that has it and one that has not",
      "Examples:\n  palpa calibrate inclusion --mockup hard\n"
-     "  palpa calibrate inclusion --without plain.csv --above above.csv --beside beside.csv --check check.csv --depth-mm 15\n"
+     "  palpa calibrate inclusion --without plain.csv --strokes strokes.csv --above above.csv --beside beside.csv --check check.csv --depth-mm 15\n"
      "Columns as of material, and lump_x_mm, ...: how far the lump has moved"},
     {"all", "Everything, one after the other, with a page that says whether the station is ready",
      "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: palpa paracentesis --station station3/station.json --seed 3"}};
@@ -294,6 +296,7 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
   if (kind == "friction") file("--strokes", &o->strokes, "Recorded strokes, to and fro");
   if (kind == "inclusion") {
     file("--without", &o->without, "Recorded presses of the sample without the lump");
+    file("--strokes", &o->strokes, "Recorded strokes of it: for a hand that is not quite still");
     file("--above", &o->above, "Recorded presses above the lump");
     file("--beside", &o->beside, "Recorded presses beside it");
     file("--check", &o->check, "Recorded presses at a place to judge by");

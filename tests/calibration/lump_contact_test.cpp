@@ -13,7 +13,10 @@ namespace {
 constexpr double kLumpTick = 1e-3;
 const haptics::HuntCrossley kBedOfLump{900, 200, 1.4}, kLumpAdds{4000, 900, 1.7}, kGivesDown{700, 300, 1.1}, kGivesAside{400, 200, 1.05};
 
-haptics::VirtualInclusion trueLump() { return {Vec3(0, 0, -0.014), 0.014, kLumpAdds, {kGivesAside, kGivesAside, kGivesDown}}; }
+const Vec3 kLumpRests(0, 0, -0.014);
+constexpr double kLumpTip = 0.008;   // m
+
+haptics::VirtualInclusion trueLump() { return {0.014, kLumpAdds, {kGivesAside, kGivesAside, kGivesDown}}; }
 
 SoftContact withoutLump() {
   SoftContact plain;
@@ -29,8 +32,8 @@ void press(const Vec3& place, std::vector<LumpSample>* samples) {
     const double t = i * kLumpTick, rhythm = t < 3 ? 0.5 : 1.5, x = 0.0035 * (1 - std::cos(2 * M_PI * rhythm * t)), rate = (x - before) / kLumpTick;
     before = x;
     const Vec3 p = place - x * Vec3::UnitZ();
-    const std::array<haptics::InclusionContact, 2> tools{{{x > 0, p, Vec3::UnitZ(), x}, {}}};
-    const haptics::InclusionAnswer answer = haptics::feelInclusion(trueLump(), tools, kLumpTick, &state);
+    const std::array<haptics::InclusionContact, 2> tools{{{x > 0, p, Vec3::UnitZ(), x, kLumpTip}, {}}};
+    const haptics::InclusionAnswer answer = haptics::feelInclusion(trueLump(), kLumpRests, tools, kLumpTick, &state);
     samples->push_back({p, Vec3::UnitZ(), haptics::forceOf(kBedOfLump, x, rate) * Vec3::UnitZ() + answer.f_T[0], x, rate, answer.d});
   }
 }
@@ -47,7 +50,7 @@ void expectLaw(const haptics::HuntCrossley& found, const haptics::HuntCrossley& 
 }
 
 TEST(LumpContact, FindsTheLumpAndItsBed) {
-  const LumpContact found = identifyLump(recorded(), withoutLump(), trueLump().p_T0, kLumpTick);
+  const LumpContact found = identifyLump(recorded(), withoutLump(), {}, kLumpRests, kLumpTip, kLumpTick);
   EXPECT_NEAR(found.l0, 0.014, 1e-6);
   expectLaw(found.H_T, kLumpAdds);
   expectLaw(found.G[2], kGivesDown);
@@ -60,14 +63,14 @@ TEST(LumpContact, FindsTheLumpAndItsBed) {
 TEST(LumpContact, PressedFromAboveOnlySaysSo) {
   std::vector<LumpSample> samples;
   press(Vec3::Zero(), &samples);
-  const LumpContact found = identifyLump(samples, withoutLump(), trueLump().p_T0, kLumpTick);
+  const LumpContact found = identifyLump(samples, withoutLump(), {}, kLumpRests, kLumpTip, kLumpTick);
   EXPECT_NE(found.advice.find("beside"), std::string::npos);
   EXPECT_EQ(found.G[0].k, found.G[2].k);
 }
 
 std::string lumpRefusal(const std::vector<LumpSample>& samples) {
   try {
-    identifyLump(samples, withoutLump(), trueLump().p_T0, kLumpTick);
+    identifyLump(samples, withoutLump(), {}, kLumpRests, kLumpTip, kLumpTick);
   } catch (const Error& e) {
     return e.what();
   }
