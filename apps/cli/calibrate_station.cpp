@@ -146,6 +146,7 @@ LumpSamples lumpSamples(const CalibrateOptions& o) {
   samples.without = readFelt(o.without);
   if (!o.strokes.empty()) samples.strokes = readFelt(o.strokes);
   samples.above = readFelt(o.above);
+  if (!samples.above.samples.front().lump_P) throw Error("has no columns lump_x_mm, ...", o.above, "How far the lump moved must be recorded, too: by ultrasound, or by a camera through a clear sample");
   if (!o.beside.empty()) samples.beside.push_back(readFelt(o.beside));
   samples.check = readFelt(o.check);
   samples.depth = 1e-3 * o.depth_mm;

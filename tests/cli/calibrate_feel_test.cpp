@@ -109,7 +109,19 @@ TEST(CalibrateFeel, RefusesWhatCannotTellALaw) {
   refused(saturated.table(), "saturated");
   refused(flipped.table(), "sign");
   refused("t_s,x_mm,y_mm,z_mm,force_x_N,force_y_N,force_z_N\n0,0,0,0,0,0,0\n", "fewer than two");
+  refused("t_s,x_mm,y_mm,z_mm,force_x_N,force_y_N,force_z_N\n0,0,0,0,0,0,0\n0.001,0,0,0,0,0,0\n0.010,0,0,0,0,0,0\n", "not even");
   refused("t_s,x,y,z,force_x_N,force_y_N,force_z_N\n0,0,0,0,0,0,0\n0.001,0,0,0,0,0,0\n", "x_m");
+}
+
+TEST(CalibrateFeel, ALumpThatNobodySawMoveIsRefused) {
+  const Folder here;
+  const std::string table = Presses{}.table();
+  for (const char* name : {"without.csv", "above.csv", "check.csv"}) here.file(name, table);
+  const std::vector<std::string> arguments{"calibrate", "inclusion", "--without", "without.csv", "--above", "above.csv", "--check", "check.csv", "--depth-mm", "14", "--out", "A", "--quiet"};
+  const Outcome outcome = palpa(arguments, here.path());
+  EXPECT_EQ(outcome.exit_code, 1);
+  EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "lump_x_mm")) << outcome.err;
 }
 
 }  // namespace
