@@ -31,9 +31,9 @@ class Playback final : public runtime::Activity {
   const char* name() const override { return "playback"; }
 
   std::int64_t step(std::int64_t now_ns) override {
-    task_needle::UserRequest request;
+    trial::UserRequest request;
     while (channels_.requests_to_task.pop(&request))
-      if (request.command == task_needle::UserCommand::start || request.command == task_needle::UserCommand::quit)
+      if (request.command == trial::UserCommand::start || request.command == trial::UserCommand::quit)
         executive_.stop();
     if (start_ns_ < 0) start_ns_ = now_ns;
     const double t_s = static_cast<double>(now_ns - start_ns_) * 1e-9;
@@ -47,7 +47,7 @@ class Playback final : public runtime::Activity {
  private:
   void publish(const Moment& moment, std::int64_t now_ns) {
     task_needle::TaskStatus status;
-    status.state = task_needle::TrialState::running;
+    status.state = trial::TrialState::running;
     status.trial = status.trials = 1;
     status.role = "demonstration";
     status.phase = phases_.phase();
@@ -112,20 +112,21 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   if (runNeedleSession(expert, world, place).quit) throw Error("was interrupted", "the demonstration", "Start again");
   const RecordedSession recorded(place / "session.palpa");
 
-  const Stage stage = makeStage(options, world, true);
+  const Stage stage = makeStage(options, world.patient, true);
   const auto executive = runtime::makeRealExecutive();
   runtime::Bus bus(executive->mode());
   task_needle::TaskChannels channels(executive->mode());
   Playback playback(momentsOf(recorded, world), bus, channels, *executive);
-  task_needle::SceneActivity::Setup setup;
-  setup.views = task_needle::SceneActivity::Views::continuous;
+  task_needle::SceneActivity::Setup shown;
+  trial::TrialScene::Stage& setup = shown.stage;
+  setup.views = trial::TrialScene::Views::continuous;
   setup.view = stage.view.get();
   setup.camera = world.station.camera;
   setup.X_WA = world.X_WA;
   setup.X_WD = world.station.X_WD;
   setup.mark = "DEMONSTRATION: SIMULATED EXPERT";
   setup.input = [&](const scene::ViewInput& input, std::int64_t) { handleKeys(input, channels); };
-  task_needle::SceneActivity scene(setup, bus, channels);
+  task_needle::SceneActivity scene(shown, bus, channels);
   executive->add(playback, {0, false, false});
   executive->add(scene, {1, false, true});
   executive->run();

@@ -16,7 +16,7 @@ void note(int) { interrupted = 1; }
 
 }  // namespace
 
-Interrupt::Interrupt(task_needle::TaskChannels& channels) : channels_(channels) {
+Interrupt::Interrupt(trial::Channels& channels) : channels_(channels) {
   interrupted = 0;
   struct sigaction action {};
   action.sa_handler = note;
@@ -30,7 +30,7 @@ Interrupt::~Interrupt() {
 
 std::int64_t Interrupt::step(std::int64_t now_ns) {
   if (!interrupted) return now_ns + kLookPeriod;
-  channels_.signals_to_task.push({task_needle::UserCommand::quit, "Interrupted"});
+  channels_.signals_to_task.push({trial::UserCommand::quit, "Interrupted"});
   return runtime::kNever;
 }
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/runtime/activity.h"
-#include "apps/task_needle/needle_task.h"
+#include "apps/trial/trial_status.h"
 
 namespace palpa::cli {
 
@@ -9,13 +9,13 @@ namespace palpa::cli {
 /// second one kills. One at a time; the old handlers come back at its end.
 class Interrupt final : public runtime::Activity {
  public:
-  explicit Interrupt(task_needle::TaskChannels& channels);
+  explicit Interrupt(trial::Channels& channels);
   ~Interrupt() override;
   const char* name() const override { return "interrupt"; }
   std::int64_t step(std::int64_t now_ns) override;
 
  private:
-  task_needle::TaskChannels& channels_;
+  trial::Channels& channels_;
 };
 
 }  // namespace palpa::cli

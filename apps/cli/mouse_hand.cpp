@@ -7,7 +7,7 @@
 namespace palpa::cli {
 namespace {
 
-using task_needle::UserCommand;
+using trial::UserCommand;
 constexpr double kMetresPerPixel = 0.00025;
 constexpr double kMetresPerNotch = 0.001;
 constexpr double kTurnPerKey = 0.035;        // rad, 2 degrees
@@ -20,13 +20,13 @@ constexpr std::int64_t kMousePeriod = runtime::kMillisecond;
 
 constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped", "other"};
 
-void request(task_needle::TaskChannels& channels, UserCommand command, const std::string& reason = "") {
+void request(trial::Channels& channels, UserCommand command, const std::string& reason = "") {
   channels.requests_to_task.push({command, reason});
 }
 
 }  // namespace
 
-void handleKeys(const scene::ViewInput& input, task_needle::TaskChannels& channels) {
+void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
   if (input.closed) request(channels, UserCommand::quit);
   for (const std::string& key : input.keys) {
     if (key == "Return" || key == "KP_Enter") request(channels, UserCommand::start);
@@ -41,7 +41,7 @@ void handleKeys(const scene::ViewInput& input, task_needle::TaskChannels& channe
 }
 
 MouseHand::MouseHand(const Setup& setup, runtime::ChannelDevice& device,
-                     task_needle::TaskChannels& channels)
+                     trial::Channels& channels)
     : setup_(setup), device_(device), channels_(channels) {
   wish_.tip_A = pack(setup.anatomy.entry_A);
   wish_.along = -kAboveSkin;

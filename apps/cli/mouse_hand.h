@@ -6,14 +6,14 @@
 #include "apps/runtime/activity.h"
 #include "apps/runtime/clock.h"
 #include "apps/runtime/channel_device.h"
-#include "apps/task_needle/needle_task.h"
+#include "apps/trial/trial_status.h"
 #include "apps/twin/operator.h"
 #include "scene/scene_view.h"
 
 namespace palpa::cli {
 
 /// Keys that every session understands: Enter, P, A, V + 1..4, space, R, Escape.
-void handleKeys(const scene::ViewInput& input, task_needle::TaskChannels& channels);
+void handleKeys(const scene::ViewInput& input, trial::Channels& channels);
 
 /// A person's hand without a haptic device: the mouse, or the controller of a headset, moves the needle; what it would feel is drawn. Moving the mouse with
 /// the left button held shifts the tip along the frontal plane, the wheel moves along the
@@ -25,7 +25,7 @@ class MouseHand final : public runtime::Activity {
     twin::VisibleAnatomy anatomy;
     bool left_handed = false;
   };
-  MouseHand(const Setup& setup, runtime::ChannelDevice& device, task_needle::TaskChannels& channels);
+  MouseHand(const Setup& setup, runtime::ChannelDevice& device, trial::Channels& channels);
 
   const char* name() const override { return "mouse"; }
   std::int64_t step(std::int64_t now_ns) override;   ///< 1 kHz: publishes the smoothed pose
@@ -50,7 +50,7 @@ class MouseHand final : public runtime::Activity {
   Pose pointedByMouse(const Wish& wish) const;
   Setup setup_;
   runtime::ChannelDevice& device_;
-  task_needle::TaskChannels& channels_;
+  trial::Channels& channels_;
   runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
   Wish wish_;                    // the scene thread's
   double mouse_x_ = 0, mouse_y_ = 0;

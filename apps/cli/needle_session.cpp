@@ -6,6 +6,7 @@
 
 #include "apps/cli/head_stage.h"
 #include "apps/cli/interrupt.h"
+#include "apps/cli/needle_hands.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/session_info.h"
 #include "apps/cli/stage.h"
@@ -106,8 +107,14 @@ class NeedleSession {
   }
 
   task_needle::SceneActivity::Setup sceneSetup() {
-    using Views = task_needle::SceneActivity::Views;
-    task_needle::SceneActivity::Setup setup;
+    task_needle::SceneActivity::Setup setup{stageSetup(), options_.skin_deflection ? &world_.query : nullptr, skinOf(world_.patient), {}};
+    if (options_.guide) setup.guide = scene::Guide{world_.patient.landmark(anatomy::landmark::kEntry), world_.patient.landmark(anatomy::landmark::kVeinTarget)};
+    return setup;
+  }
+
+  trial::TrialScene::Stage stageSetup() {
+    using Views = trial::TrialScene::Views;
+    trial::TrialScene::Stage setup;
     setup.views = !stage_.view ? Views::none : options_.fast ? Views::pictures : Views::continuous;
     setup.view = stage_.view.get();
     setup.head = head_.view.get();
@@ -121,10 +128,6 @@ class NeedleSession {
     for (std::size_t i = 0; i < world_.real_things.size(); ++i) setup.things.push_back({&world_.real_things[i], &world_.station.things[i]});
     if (station::calibrationOf(world_.station.calibrations, "registration"))
       setup.tip_covariance_A = [this](const Pose& X_DT) { return tipCovariance(X_DT); };
-    if (options_.guide)
-      setup.guide = scene::Guide{world_.patient.landmark(anatomy::landmark::kEntry), world_.patient.landmark(anatomy::landmark::kVeinTarget)};
-    setup.giving_way = options_.skin_deflection ? &world_.query : nullptr;
-    setup.skin = skinOf(world_.patient);
     if (window_) {
       setup.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
         if (devices_.mouse() && head_.view && !head_.view->trouble().empty()) devices_.mouse()->letGo(now_ns);
@@ -152,15 +155,15 @@ class NeedleSession {
   NeedleWorld& world_;
   const std::filesystem::path folder_;
   const bool window_ = options_.display == scene::Display::window && !options_.no_views;
-  SessionPictures pictures_{options_, world_};
-  const Stage stage_ = options_.no_views ? Stage{} : makeStage(options_, world_, window_);
+  SessionPictures pictures_{options_, world_.station};
+  const Stage stage_ = options_.no_views ? Stage{} : makeStage(options_, world_.patient, window_);
   const HeadStage head_ = makeHeadStage(options_, world_, stage_);
   const std::unique_ptr<runtime::Executive> executive_ =
       options_.fast ? runtime::makeVirtualExecutive() : runtime::makeRealExecutive();
   const runtime::TimeMode mode_ = executive_->mode();
   runtime::Bus bus_{mode_};
   task_needle::TaskChannels channels_{mode_};
-  SessionDevices devices_{options_, world_, bus_, channels_, executive_->clock(), mode_};
+  SessionDevices devices_{options_, world_.station, needleHands(options_, world_), bus_, channels_, executive_->clock(), mode_};
   const haptics::TickConfig tick_ = tickConfig(options_, world_);
   runtime::GeometryActivity geometry_{bus_, world_.geometry, world_.X_DA};
   runtime::HapticActivity haptic_{bus_, devices_.device(), tick_, devices_.sensing(),

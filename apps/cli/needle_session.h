@@ -16,7 +16,7 @@ namespace palpa::cli {
 
 struct SessionResult {
   std::vector<task_needle::CompletedTrial> trials;
-  std::vector<task_needle::SavedPicture> pictures;
+  std::vector<trial::SavedPicture> pictures;
   std::vector<runtime::Lateness> lateness;
   std::optional<twin::BenchAccuracy> accuracy;
   std::vector<RegistrationRow> registration;   ///< recorded pictures only

@@ -1,8 +1,6 @@
 #include "apps/cli/session_devices.h"
 
 #include "apps/record/session_file.h"
-#include "apps/station/assets.h"
-#include "apps/twin/operator.h"
 #include "haptics/devices/falcon_firmware.h"
 #include "haptics/devices/libusb_transport.h"
 
@@ -19,11 +17,6 @@ std::vector<haptics::RecordedReading> readingsOf(const std::filesystem::path& se
   return readings;
 }
 
-twin::OperatorSkill skillOf(OperatorKind who) {
-  return twin::readOperatorSkill(
-      station::assetFile(who == OperatorKind::novice ? "operators/novice.json" : "operators/expert.json"));
-}
-
 /// The bench's sensor, where the station has one and it is not a real one.
 std::unique_ptr<runtime::ChannelSensor> benchSensor(const station::Station& station, runtime::TimeMode mode) {
   if (!station.force_sensor || station.force_sensor->driver != ForceSensorSetup::Driver::bench) return nullptr;
@@ -32,40 +25,24 @@ std::unique_ptr<runtime::ChannelSensor> benchSensor(const station::Station& stat
 
 }  // namespace
 
-SessionDevices::SessionDevices(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
-                               task_needle::TaskChannels& channels, const runtime::Clock& clock,
-                               runtime::TimeMode mode)
-    : bench_moves_(isSimulated(options.who)), channel_(world.station.device.capabilities, mode) {
-  if (bench_moves_) bench_sensor_ = benchSensor(world.station, mode);
-  const auto give_up = [&channels] {
-    channels.operator_to_task.push({task_needle::UserCommand::abort, "The simulated operator gave up"});
-  };
-  if (bench_moves_ || (options.camera.empty() && world.station.camera_setup.driver == station::CameraSetup::Driver::bench))
-    bench_ = makeBench(options, world, give_up, bus);
-  openDevice(options, world, bus, channels);
-  openSensor(world, options, clock, mode);
+SessionDevices::SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands, runtime::Bus& bus, trial::Channels& channels, const runtime::Clock& clock, runtime::TimeMode mode)
+    : station_(station), bench_moves_(isSimulated(options.who)), channel_(station.device.capabilities, mode) {
+  if (bench_moves_) bench_sensor_ = benchSensor(station, mode);
+  if (bench_moves_ || (options.camera.empty() && station.camera_setup.driver == station::CameraSetup::Driver::bench)) makeBench(std::move(hands.bench), bus, channels);
+  openDevice(hands.mouse, bus, channels);
+  openSensor(options, clock, mode);
 }
 
 SessionDevices::~SessionDevices() = default;
 
-std::unique_ptr<twin::VirtualBench> SessionDevices::makeBench(const SessionOptions& options, const NeedleWorld& world, const std::function<void()>& give_up, runtime::Bus& bus) {
-  const twin::OperatorSkill skill = skillOf(options.who);
-  const twin::VisibleAnatomy anatomy = world.visible(skill, options.knows_patient);
-  twin::VirtualBench::Setup setup{world.station,
-                                  std::make_unique<twin::Operator>(skill, anatomy, world.station.X_ET, options.seed),
-                                  twin::needlePickedUp(world.station, world.X_WA, anatomy.entry_A, options.left_handed),
-                                  world.X_WA * anatomy.entry_A,
-                                  world.X_WA.rotation() * anatomy.normal_A,
-                                  options.seed,
-                                  give_up,
-                                  bench_sensor_.get(),
-                                  {}};
-  return std::make_unique<twin::VirtualBench>(std::move(setup), bus, channel_);
+void SessionDevices::makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bus, trial::Channels& channels) {
+  setup.sensor = bench_sensor_.get();
+  setup.on_giving_up = [&channels] { channels.operator_to_task.push({trial::UserCommand::abort, "The simulated operator gave up"}); };
+  bench_ = std::make_unique<twin::VirtualBench>(std::move(setup), bus, channel_);
 }
 
-void SessionDevices::openDevice(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
-                                task_needle::TaskChannels& channels) {
-  const station::DeviceSetup& setup = world.station.device;
+void SessionDevices::openDevice(const std::optional<MouseHand::Setup>& mouse, runtime::Bus& bus, trial::Channels& channels) {
+  const station::DeviceSetup& setup = station_.device;
   haptics::HapticDevice* device = &channel_;
   if (bench_moves_) {
     // the bench's own
@@ -78,25 +55,23 @@ void SessionDevices::openDevice(const SessionOptions& options, const NeedleWorld
   } else if (setup.driver == DeviceDriver::replay) {
     replay_ = std::make_unique<haptics::ReplayDevice>(setup.capabilities, readingsOf(setup.recording));
     device = replay_.get();
+  } else if (mouse) {
+    mouse_ = std::make_unique<MouseHand>(*mouse, channel_, channels);
   } else {
-    mouse_ = std::make_unique<MouseHand>(
-        MouseHand::Setup{world.X_DA, world.station.X_ET, world.visible(skillOf(OperatorKind::expert), false),
-                         options.left_handed},
-        channel_, channels);
+    throw UsageError("is simulated, and nobody could feel with it", station_.file.name() + ", device", "Give a station with a haptic device, or --operator expert or novice");
   }
-  if (world.station.workspace.order > 0) {
-    corrected_.emplace(*device, world.station.workspace);
+  if (station_.workspace.order > 0) {
+    corrected_.emplace(*device, station_.workspace);
     device = &*corrected_;
   }
   plunger_.emplace(*device, falcon_ ? setup.plunger_button : 0);
 }
 
-void SessionDevices::openSensor(const NeedleWorld& world, const SessionOptions& options,
-                                const runtime::Clock& clock, runtime::TimeMode mode) {
-  if (!world.station.force_sensor) return;
+void SessionDevices::openSensor(const SessionOptions& options, const runtime::Clock& clock, runtime::TimeMode mode) {
+  if (!station_.force_sensor) return;
   // A simulated operator has no part in what a real sensor measures, nor a real hand in what the bench's does.
-  if (bench_moves_ == (world.station.force_sensor->driver == ForceSensorSetup::Driver::net_ft)) return;
-  const ForceSensorSetup& setup = *world.station.force_sensor;
+  if (bench_moves_ == (station_.force_sensor->driver == ForceSensorSetup::Driver::net_ft)) return;
+  const ForceSensorSetup& setup = *station_.force_sensor;
   haptics::ForceSensor* sensor = bench_sensor_.get();
   if (setup.driver == ForceSensorSetup::Driver::net_ft) {
     if (mode == runtime::TimeMode::virtual_time)
@@ -106,9 +81,9 @@ void SessionDevices::openSensor(const NeedleWorld& world, const SessionOptions& 
     net_ft_activity_ = std::make_unique<runtime::NetFtActivity>(*net_ft_);
     sensor = net_ft_.get();
   }
-  runtime::ForceSensing::Setup sensing{setup.filter, world.station.X_WD, setup.X_ES};
+  runtime::ForceSensing::Setup sensing{setup.filter, station_.X_WD, setup.X_ES};
   sensing.filter.low_pass = haptics::butterworth(setup.cutoff_Hz, options.rate_Hz);
-  sensing.filter.p_SK = pack(Vec3((setup.X_ES.inverse() * world.station.X_ET).translation()));
+  sensing.filter.p_SK = pack(Vec3((setup.X_ES.inverse() * station_.X_ET).translation()));
   sensing_.emplace(*sensor, sensing);
 }
 

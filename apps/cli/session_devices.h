@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "apps/cli/mouse_hand.h"
-#include "apps/cli/needle_world.h"
+#include "apps/cli/session_options.h"
 #include "apps/runtime/button_plunger.h"
 #include "apps/runtime/corrected_device.h"
 #include "apps/runtime/channel_sensor.h"
@@ -23,8 +23,12 @@ namespace palpa::cli {
 /// Throws UsageError / Error when something that the station names is not there.
 class SessionDevices {
  public:
-  SessionDevices(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
-                 task_needle::TaskChannels& channels, const runtime::Clock& clock, runtime::TimeMode mode);
+  /// Who may hold the tool: a simulated person on the bench, and somebody with a mouse (none: a task that must be felt).
+  struct Hands {
+    twin::VirtualBench::Setup bench;             ///< what is simulated; sensor and how one gives up are put in here
+    std::optional<MouseHand::Setup> mouse;
+  };
+  SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands, runtime::Bus& bus, trial::Channels& channels, const runtime::Clock& clock, runtime::TimeMode mode);
   ~SessionDevices();
 
   haptics::HapticDevice& device() { return *plunger_; }
@@ -40,12 +44,11 @@ class SessionDevices {
   std::vector<Fact> facts() const;                      ///< what a driver has counted, for the report
 
  private:
-  std::unique_ptr<twin::VirtualBench> makeBench(const SessionOptions& options, const NeedleWorld& world, const std::function<void()>& give_up, runtime::Bus& bus);
-  void openDevice(const SessionOptions& options, const NeedleWorld& world, runtime::Bus& bus,
-                  task_needle::TaskChannels& channels);
-  void openSensor(const NeedleWorld& world, const SessionOptions& options, const runtime::Clock& clock,
-                  runtime::TimeMode mode);
+  void makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bus, trial::Channels& channels);
+  void openDevice(const std::optional<MouseHand::Setup>& mouse, runtime::Bus& bus, trial::Channels& channels);
+  void openSensor(const SessionOptions& options, const runtime::Clock& clock, runtime::TimeMode mode);
 
+  const station::Station& station_;
   const bool bench_moves_;                              // the bench's device is the one that is held
   runtime::ChannelDevice channel_;
   std::unique_ptr<runtime::ChannelSensor> bench_sensor_;

@@ -25,8 +25,8 @@ ar::WebcamSettings webcamOf(const station::Station& station) {
 
 }  // namespace
 
-SessionPictures::SessionPictures(const SessionOptions& options, const NeedleWorld& world)
-    : station_(world.station), file_(options.camera), camera_(world.station.camera), rate_Hz_(world.station.camera_rate_Hz) {
+SessionPictures::SessionPictures(const SessionOptions& options, const station::Station& station)
+    : station_(station), file_(options.camera), camera_(station.camera), rate_Hz_(station.camera_rate_Hz) {
   if (!file_.empty()) source_ = ar::isVideoFile(file_) ? Source::film : Source::photographs;
   else if (station_.camera_setup.driver == station::CameraSetup::Driver::webcam) source_ = Source::webcam;
   if (source_ == Source::webcam && options.fast) throw UsageError("needs real time", "the station's webcam", "Leave out --fast");

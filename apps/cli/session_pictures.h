@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/cli/needle_world.h"
+#include "apps/cli/session_options.h"
 #include "apps/runtime/camera_activity.h"
 #include "apps/runtime/clock.h"
 #include "apps/twin/virtual_bench.h"
@@ -24,7 +24,7 @@ struct RegistrationRow {
 /// after the other, over and over. Throws UsageError when pictures and intrinsics do not fit, or a webcam is to be watched in virtual time.
 class SessionPictures {
  public:
-  SessionPictures(const SessionOptions& options, const NeedleWorld& world);
+  SessionPictures(const SessionOptions& options, const station::Station& station);
   ~SessionPictures();
 
   bool fromBench() const { return source_ == Source::bench; }

@@ -2,7 +2,7 @@
 
 namespace palpa::cli {
 
-Stage makeStage(const SessionOptions& options, const NeedleWorld& world, bool window) {
+Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window) {
   scene::ViewLayout layout;
   layout.free_navigation = options.navigation;
   layout.skin_deflection = options.skin_deflection;
@@ -13,7 +13,7 @@ Stage makeStage(const SessionOptions& options, const NeedleWorld& world, bool wi
   stage.context =
       scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
                            layout.width, layout.height, "Palpa");
-  stage.view = std::make_unique<scene::SceneView>(*stage.context, world.patient, layout);
+  stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
   return stage;
 }
 

@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "apps/cli/needle_world.h"
+#include "apps/cli/session_options.h"
 #include "scene/scene_view.h"
 
 namespace palpa::cli {
@@ -13,6 +13,6 @@ struct Stage {
   std::unique_ptr<scene::SceneView> view;
 };
 
-Stage makeStage(const SessionOptions& options, const NeedleWorld& world, bool window);
+Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window);
 
 }  // namespace palpa::cli

@@ -13,7 +13,4 @@ bool injury(const runtime::ToolState& tool);
 scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, const std::string& camera,
                    const std::string& mark);
 
-/// "within 0.4 mm": 95 % of the errors of this covariance (m^2), never less than 0.1 mm.
-std::string overlayText(const Mat3& covariance);
-
 }  // namespace palpa::task_needle

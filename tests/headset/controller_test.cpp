@@ -15,7 +15,7 @@ Vec3 inPatient(const Vec3& p_xr) { return Vec3(p_xr.x(), -p_xr.z(), p_xr.y()) - 
 TEST(Controller, MovesTheToolToAMillimetre) {
   Worn worn("eyes=64x64,64x64;rate=300");
   runtime::ChannelDevice device(haptics::DeviceCapabilities{}, runtime::TimeMode::real);
-  task_needle::TaskChannels channels(runtime::TimeMode::real);
+  trial::Channels channels;
   cli::MouseHand::Setup setup;
   setup.X_DA = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), {0.1, 0.2, -0.3});
   setup.X_ET = makePose(Eigen::AngleAxisd(-0.4, Vec3::UnitY()).toRotationMatrix(), {0.01, 0, 0.12});
@@ -129,7 +129,7 @@ TEST(Controller, TheStartButtonStarts) {
 /// A hand that takes over from a controller takes over where the needle is.
 TEST(Controller, TheMouseTakesOverWhereItWas) {
   runtime::ChannelDevice device(haptics::DeviceCapabilities{}, runtime::TimeMode::real);
-  task_needle::TaskChannels channels(runtime::TimeMode::real);
+  trial::Channels channels;
   cli::MouseHand::Setup setup;
   setup.X_DA = setup.X_ET = Pose::Identity();
   setup.anatomy = {Vec3::Zero(), -Vec3::UnitY(), Vec3(0, 0.03, 0), 0.03, Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};

@@ -9,7 +9,7 @@ using haptics::SafetyCause;
 
 scene::Hud shown(SafetyCause cause, const std::string& device = "") {
   TaskStatus status;
-  status.state = TrialState::running;
+  status.state = trial::TrialState::running;
   status.trial = status.trials = 1;
   status.device = device;
   runtime::ToolState tool;
@@ -43,7 +43,7 @@ TEST(HudText, SaysWhyTheForceIsGone) {
 
 TEST(HudText, ATripOfOneTickIsShownLongEnoughToBeRead) {
   TaskStatus status;
-  status.state = TrialState::running;
+  status.state = trial::TrialState::running;
   status.trip = SafetyCause::watchdog;
   const scene::Hud hud = hudText(status, {}, "", "");
   EXPECT_NE(hud.notice.find("watchdog"), std::string::npos);
@@ -53,7 +53,7 @@ TEST(HudText, ATripOfOneTickIsShownLongEnoughToBeRead) {
 TEST(HudText, SaysWhatIsWrongWithTheCameraWhereNothingWorseIs) {
   EXPECT_EQ(hudText({}, {}, "the camera is gone", "").notice, "The camera is gone");
   TaskStatus status;
-  status.state = TrialState::running;
+  status.state = trial::TrialState::running;
   runtime::ToolState tool;
   tool.safety = SafetyCause::silent_device;
   EXPECT_EQ(hudText(status, tool, "the camera is gone", "").notice.rfind("Force is off", 0), 0u);

@@ -1,0 +1,31 @@
+#include "apps/cli/needle_hands.h"
+
+#include "apps/station/assets.h"
+#include "apps/twin/operator.h"
+
+namespace palpa::cli {
+namespace {
+
+twin::OperatorSkill skillOf(OperatorKind who) {
+  return twin::readOperatorSkill(station::assetFile(who == OperatorKind::novice ? "operators/novice.json" : "operators/expert.json"));
+}
+
+}  // namespace
+
+SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWorld& world) {
+  const twin::OperatorSkill skill = skillOf(options.who);
+  const twin::VisibleAnatomy anatomy = world.visible(skill, options.knows_patient);
+  twin::VirtualBench::Setup bench{world.station,
+                                  std::make_unique<twin::Operator>(skill, anatomy, world.station.X_ET, options.seed),
+                                  twin::needlePickedUp(world.station, world.X_WA, anatomy.entry_A, options.left_handed),
+                                  world.X_WA * anatomy.entry_A,
+                                  world.X_WA.rotation() * anatomy.normal_A,
+                                  options.seed,
+                                  {},
+                                  nullptr,
+                                  {}};
+  const MouseHand::Setup mouse{world.X_DA, world.station.X_ET, world.visible(skillOf(OperatorKind::expert), false), options.left_handed};
+  return {std::move(bench), mouse};
+}
+
+}  // namespace palpa::cli

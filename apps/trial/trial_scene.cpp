@@ -1,0 +1,157 @@
+#include "apps/trial/trial_scene.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/runtime/camera_words.h"
+
+namespace palpa::trial {
+namespace {
+
+constexpr std::int64_t kFramePeriod = 33'333'333, kBesideHeadset = 100'000'000;   // ns, of the desktop's view: beside a headset it is for whoever looks on
+
+scene::Image toImage(const cv::Mat& picture) {
+  cv::Mat rgb;
+  cv::cvtColor(picture, rgb, picture.channels() == 1 ? cv::COLOR_GRAY2RGB : cv::COLOR_BGR2RGB);
+  scene::Image image{rgb.cols, rgb.rows, 3, {}};
+  image.pixels.assign(rgb.datastart, rgb.dataend);
+  return image;
+}
+
+}  // namespace
+
+TrialScene::TrialScene(const Stage& stage, runtime::Bus& bus, Channels& channels)
+    : stage_(stage), bus_(bus), channels_(channels), undistorter_(stage.camera), X_AD_((stage.X_WD.inverse() * stage.X_WA).inverse()) {
+  const calibration::CameraModel& p = undistorter_.pinhole();
+  state_.camera = {p.width, p.height, p.fx, p.fy, p.cx, p.cy};
+}
+
+void TrialScene::cycleSkin() {
+  state_.skin = state_.skin == scene::SkinStyle::translucent ? scene::SkinStyle::solid
+                : state_.skin == scene::SkinStyle::solid     ? scene::SkinStyle::hidden
+                                                             : scene::SkinStyle::translucent;
+}
+
+std::int64_t TrialScene::step(std::int64_t now_ns) {
+  now_ns_ = now_ns;
+  if (stage_.view && stage_.input) stage_.input(stage_.view->poll(), now_ns);   // before whatever makes it wait
+  const bool worn = stage_.head && stage_.head->wait(mayWait(tool_));
+  follow(now_ns);
+  composeAll();
+  tellOperator(now_ns);
+  if (worn) {
+    stage_.head->show(state_);
+    pulse(*stage_.head, tool_);
+  }
+  if (worn && now_ns < next_frame_ns_) return now_ns;
+  next_frame_ns_ = now_ns + (worn ? kBesideHeadset : kFramePeriod);
+  if (stage_.views == Views::continuous) render();
+  if (stage_.views != Views::none) keepPictures();
+  return worn ? now_ns : next_frame_ns_;
+}
+
+void TrialScene::finish(std::int64_t now_ns) {
+  now_ns_ = now_ns;
+  follow(now_ns);
+  composeAll();
+  if (stage_.views != Views::none) keepPictures();
+}
+
+void TrialScene::follow(std::int64_t now_ns) {
+  status_ = &readStatus(now_ns);
+  if (const runtime::ToolState* tool = bus_.haptic_to_scene.read(now_ns)) tool_ = *tool;
+  const runtime::CameraView* view = bus_.camera_to_scene.read(now_ns);
+  if (!view || view->number == last_number_) return;
+  last_number_ = view->number;
+  camera_ = *view;
+  fresh_picture_ = view->picture && view->fault != ar::PictureFault::wrong_size;
+  if (view->pose) board_ = view->pose;
+  if (!view->X_CW) return;
+  X_CW_ = *view->X_CW;
+  registered_ = true;
+}
+
+/// Of the camera or of a board that is displaced.
+std::string TrialScene::trouble() {
+  const std::string words = runtime::cameraTrouble(camera_ ? &*camera_ : nullptr, now_ns_);
+  if (!words.empty()) return words;
+  const auto displaced = runtime::displacedBoard(*camera_, stage_.places, displaced_);
+  displaced_ = displaced ? std::optional(displaced->board) : std::nullopt;
+  return displaced ? displaced->words : "";
+}
+
+void TrialScene::composeAll() {
+  const std::string camera = trouble();
+  state_.registered = registered_;
+  state_.X_CA = X_CW_ * stage_.X_WA;
+  state_.X_AT = X_AD_ * unpack(tool_.X_DT);
+  compose(state_, tool_, camera.empty() && stage_.head ? stage_.head->trouble() : camera);
+  showEllipse(camera.empty());
+  hideBehindRealThings();
+}
+
+void TrialScene::showEllipse(bool camera_good) {
+  state_.tip_covariance_A = stage_.tip_covariance_A && stage_.view && camera_good ? stage_.tip_covariance_A(unpack(tool_.X_DT)) : std::nullopt;
+  state_.hud.overlay = state_.tip_covariance_A ? overlayText(*state_.tip_covariance_A) : "";
+}
+
+/// Those on a board that is not seen hide nothing.
+void TrialScene::hideBehindRealThings() {
+  state_.occluders.clear();
+  for (const RealThing& thing : stage_.things) {
+    const station::RealThing& place = *thing.place;
+    if (place.on == station::RealThing::On::table) {
+      state_.occluders.push_back({thing.mesh, stage_.X_WA.inverse() * place.X});
+    } else if (place.on == station::RealThing::On::tool) {
+      state_.occluders.push_back({thing.mesh, state_.X_AT * place.X});
+    } else {
+      const bool seen = camera_ && place.board < camera_->others.size() && camera_->others[place.board];
+      state_.occluders.push_back({seen ? thing.mesh : nullptr, seen ? state_.X_CA.inverse() * *camera_->others[place.board] * place.X : Pose::Identity()});
+    }
+  }
+}
+
+void TrialScene::tellOperator(std::int64_t now_ns) {
+  runtime::Displayed displayed;
+  displayed.t_ns = now_ns;
+  displayed.X_AT = state_.X_AT;
+  displayed.trial = status_->trial;
+  displayed.running = status_->state == TrialState::running;
+  tell(displayed, tool_);
+  bus_.scene_to_operator.publish(displayed, now_ns + stage_.display_latency_ns);
+}
+
+void TrialScene::render() {
+  if (fresh_picture_ && camera_ && camera_->picture) {
+    background_ = toImage(undistorter_.apply(*camera_->picture));
+    fresh_picture_ = false;
+  }
+  state_.picture = background_.pixels.empty() ? nullptr : &background_;
+  stage_.view->show(state_);
+}
+
+void TrialScene::keepPictures() {
+  PictureRequest moment;
+  while (channels_.pictures_to_scene.pop(&moment)) {
+    char stem[96];
+    std::snprintf(stem, sizeof stem, "view-%02d-%02zu-%s", moment.trial, pictures_.size() + 1,
+                  moment.label.c_str());
+    save(stem, moment);
+  }
+  if (!stage_.every_source_picture || !camera_ || !fresh_picture_) return;
+  const std::string source = std::filesystem::path(camera_->source).stem().string();
+  if (std::find(kept_sources_.begin(), kept_sources_.end(), source) != kept_sources_.end()) return;
+  kept_sources_.push_back(source);
+  save("view-" + source, {status_->trial, status_->elapsed_s, source,
+                          camera_->pose ? "Registered on " + source : "No board found in " + source});
+}
+
+void TrialScene::save(const std::string& stem, const PictureRequest& moment) {
+  render();
+  const std::filesystem::path file = stage_.folder / (stem + ".png");
+  scene::writePng(stage_.view->capture(), file.string());
+  pictures_.push_back({file, moment});
+}
+
+}  // namespace palpa::trial

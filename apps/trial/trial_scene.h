@@ -1,0 +1,119 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+
+#include "apps/runtime/activity.h"
+#include "apps/runtime/board_places.h"
+#include "apps/runtime/bus.h"
+#include "apps/runtime/head_display.h"
+#include "apps/station/real_things.h"
+#include "apps/trial/trial_status.h"
+#include "ar/undistort.h"
+#include "scene/scene_view.h"
+
+namespace palpa::trial {
+
+/// A real thing in the camera's picture; both outlive the session. Boards: of the camera's other boards.
+struct RealThing {
+  const anatomy::TriangleMesh* mesh = nullptr;
+  const station::RealThing* place = nullptr;
+};
+
+struct SavedPicture {
+  std::filesystem::path file;
+  PictureRequest moment;
+};
+
+/// SCENE, 30 Hz (as often as a headset asks): puts together what is seen, shows it (or only when a picture is wanted, or never), and
+/// tells a simulated person what is on the screen. Keys and mouse of a window come back through here. What is particular to a task adds whoever derives from this.
+class TrialScene : public runtime::Activity {
+ public:
+  enum class Views { none, pictures, continuous };
+  struct Stage {
+    Views views = Views::none;
+    scene::SceneView* view = nullptr;      ///< null without views
+    runtime::HeadDisplay* head = nullptr;  ///< null without one; while it shows, its frames set the pace
+    calibration::CameraModel camera;
+    Pose X_WA = Pose::Identity(), X_WD = Pose::Identity();
+    std::string mark;                      ///< "SIMULATED OPERATOR", ...
+    std::filesystem::path folder;          ///< where view-*.png go
+    bool every_source_picture = false;     ///< recorded pictures: keep one overlay for each of them
+    std::int64_t display_latency_ns = 33'000'000;
+    /// Covariance in A of the drawn tip against the real one, at X_DT: shown as an ellipse, and told; empty, or nothing: it is not known.
+    std::function<std::optional<Mat3>(const Pose& X_DT)> tip_covariance_A;
+    std::vector<RealThing> things;
+    std::vector<runtime::BoardPlace> places;   ///< of the boards besides the table's
+    /// Keys and mouse of a window, once a frame.
+    std::function<void(const scene::ViewInput&, std::int64_t now_ns)> input;
+  };
+  TrialScene(const Stage& stage, runtime::Bus& bus, Channels& channels);
+
+  const char* name() const override { return "scene"; }
+  std::int64_t step(std::int64_t now_ns) override;
+  /// After the executive has stopped: pictures still wanted.
+  void finish(std::int64_t now_ns);
+
+  const std::vector<SavedPicture>& pictures() const { return pictures_; }
+  /// The board as it was seen last.
+  const std::optional<ar::BoardPose>& board() const { return board_; }
+  void cycleSkin();
+
+ protected:
+  /// Reads the task's status; told before anything is composed.
+  virtual const TrialStatus& readStatus(std::int64_t now_ns) = 0;
+  /// Adds to the state what only this task shows; camera, tool, real things and the tip's ellipse are in it. `trouble`: of camera or headset, in words.
+  virtual void compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) = 0;
+  /// Adds to what a simulated person sees.
+  virtual void tell(runtime::Displayed&, const runtime::ToolState&) {}
+  /// What a controller of a headset can make felt.
+  virtual void pulse(runtime::HeadDisplay&, const runtime::ToolState&) {}
+  /// A headset's frame may be waited for.
+  virtual bool mayWait(const runtime::ToolState&) const { return true; }
+
+  std::int64_t now_ns() const { return now_ns_; }
+  const Pose& X_AD() const { return X_AD_; }
+  const std::string& mark() const { return stage_.mark; }
+  bool hasView() const { return stage_.view != nullptr; }
+
+ private:
+  void follow(std::int64_t now_ns);
+  std::string trouble();
+  void composeAll();
+  void showEllipse(bool camera_good);
+  void hideBehindRealThings();
+  void render();
+  void keepPictures();
+  void save(const std::string& stem, const PictureRequest& moment);
+  void tellOperator(std::int64_t now_ns);
+
+  Stage stage_;
+  runtime::Bus& bus_;
+  Channels& channels_;
+  ar::Undistorter undistorter_;
+  Pose X_AD_;
+  const TrialStatus* status_ = nullptr;
+  runtime::ToolState tool_;
+  std::optional<runtime::CameraView> camera_;
+  std::optional<ar::BoardPose> board_;
+  Pose X_CW_ = Pose::Identity();
+  bool registered_ = false, fresh_picture_ = false;
+  std::int64_t now_ns_ = 0, next_frame_ns_ = 0;
+  std::uint64_t last_number_ = ~0ull;
+  scene::Image background_;
+  scene::SceneState state_;
+  std::vector<SavedPicture> pictures_;
+  std::vector<std::string> kept_sources_;
+  std::optional<std::size_t> displaced_;   ///< the board that is told to be
+};
+
+/// "within 0.4 mm": how far off the overlay may be, for 95 of 100 moments.
+std::string overlayText(const Mat3& covariance);
+/// What a trip means for whoever holds the tool; empty: nothing to say.
+std::string forceText(haptics::SafetyCause cause);
+/// The line of advice that every task has: its own, trouble with force, device, camera; in this order. Sets the alarm.
+void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std::string& own, const std::string& camera, scene::Hud* hud);
+
+}  // namespace palpa::trial

@@ -1,0 +1,54 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/runtime/event_queue.h"
+#include "haptics/flight_record.h"
+
+namespace palpa::trial {
+
+enum class TrialState { checking, waiting, running, paused, ended, finished };
+
+/// What every task tells the scene of where its trials stand.
+struct TrialStatus {
+  TrialState state = TrialState::checking;
+  int trial = 0;
+  int trials = 0;
+  std::string role;                    ///< "scored", "familiarisation", "demonstration"
+  bool force_feedback = true;
+  double elapsed_s = 0;
+  bool emergency_stop = false;
+  std::string device;                  ///< what the device's driver has to say; empty: nothing
+  haptics::SafetyCause trip = haptics::SafetyCause::none;   ///< the last one, for some seconds: many last a tick only
+  std::string notice;                  ///< one line for the person
+  bool alarm = false;
+  bool active() const { return state == TrialState::running || state == TrialState::paused; }
+};
+
+/// The scene shall keep a picture of this moment.
+struct PictureRequest {
+  int trial = 0;
+  double t_s = 0;
+  std::string label;     ///< part of the file name
+  std::string caption;
+};
+
+/// What the person in charge wants (keys, console), or whoever is being trained.
+enum class UserCommand : std::uint8_t {
+  start, pause, abort, void_trial, emergency_stop, rearm, quit, done, grade
+};
+struct UserRequest {
+  UserCommand command = UserCommand::start;
+  std::string reason;    ///< of a void; of a grade: what was said, as the task writes it down
+};
+
+/// Between task, scene and whoever asks for something: one writer, one reader each.
+struct Channels {
+  runtime::EventQueue<PictureRequest> pictures_to_scene{64};
+  runtime::EventQueue<UserRequest> requests_to_task{64};   ///< from the scene: keys
+  runtime::EventQueue<UserRequest> signals_to_task{4};     ///< from the system: the session shall end
+  runtime::EventQueue<UserRequest> operator_to_task{8};    ///< from a simulated operator
+};
+
+}  // namespace palpa::trial

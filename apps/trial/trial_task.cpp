@@ -1,0 +1,243 @@
+#include "apps/trial/trial_task.h"
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::trial {
+namespace {
+
+using runtime::kMillisecond;
+using runtime::kSecond;
+constexpr std::int64_t kTaskPeriod = 16'666'667;
+constexpr std::int64_t kBetweenTrials = 3 * kSecond;   // the trainee takes the tool back
+constexpr std::int64_t kReadyPatience = 15 * kSecond;
+constexpr std::int64_t kTripShown = 2 * kSecond;
+
+}  // namespace
+
+TrialTask::TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels, runtime::Executive& executive) : lead_(lead), bus_(bus), channels_(channels), executive_(executive) {
+  status_.trials = lead.trials;
+}
+
+std::int64_t TrialTask::step(std::int64_t now_ns) {
+  obey(now_ns);
+  hearDevice();
+  watchCamera(now_ns);
+  listen(now_ns);
+  switch (status_.state) {
+    case TrialState::checking:
+      checkReady(now_ns);
+      break;
+    case TrialState::waiting:
+      if (lead_.automatic) startTrial(now_ns);
+      break;
+    case TrialState::ended:
+      if (now_ns - since_ns_ >= kBetweenTrials) {
+        status_.state = status_.trial >= status_.trials ? TrialState::finished : TrialState::checking;
+        since_ns_ = now_ns;
+      }
+      break;
+    case TrialState::finished:
+      if (now_ns - since_ns_ >= 200 * kMillisecond) executive_.stop();
+      break;
+    case TrialState::running:
+    case TrialState::paused:
+      break;
+  }
+  publish(now_ns);
+  return now_ns + kTaskPeriod;
+}
+
+/// What is wrong with what the camera sees; of a board that is displaced the words stay the same while it moves on.
+std::string TrialTask::sightTrouble(const runtime::CameraView* view, std::int64_t now_ns) {
+  const std::string trouble = runtime::cameraTrouble(view, now_ns);
+  if (!trouble.empty()) {
+    displaced_.reset();
+    return trouble;
+  }
+  const auto was = displaced_ ? std::optional(displaced_->board) : std::nullopt;
+  auto displaced = runtime::displacedBoard(*view, lead_.places, was);
+  if (!displaced || was != displaced->board) displaced_ = std::move(displaced);
+  return displaced_ ? displaced_->words : "";
+}
+
+/// The record marks when the camera or the board was lost, and when it was back.
+void TrialTask::watchCamera(std::int64_t now_ns) {
+  const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
+  if (!view) return;
+  const std::string trouble = sightTrouble(view, now_ns);
+  if (trouble == camera_) return;
+  if (!trouble.empty()) tell(now_ns, "camera", trouble, 1);
+  else tell(now_ns, "camera", "the camera sees the board", 0);
+  camera_ = trouble;
+}
+
+void TrialTask::checkReady(std::int64_t now_ns) {
+  if (status_.emergency_stop) return;
+  const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
+  std::string missing;
+  if (!last_.reading.homed) missing = status_.device.empty() ? "the haptic device is not homed" : status_.device;
+  else if (const std::string tool = notReady(last_); !tool.empty()) missing = tool;
+  else if (const std::string trouble = sightTrouble(view, now_ns); !trouble.empty()) missing = trouble;
+  status_.notice = missing.empty() ? "" : "Not ready: " + missing;
+  if (missing.empty()) {
+    tell(now_ns, "ready", lead_.calibration_problem.empty()
+                              ? "Ready: device homed, board seen, calibration valid"
+                              : "Ready, but not scored: " + lead_.calibration_problem);
+    status_.state = TrialState::waiting;
+    since_ns_ = now_ns;
+    if (!lead_.automatic) status_.notice = "Press Enter to start";
+  } else if (lead_.automatic && now_ns - since_ns_ > kReadyPatience) {
+    throw Error(missing, "ready check", "Look at the station: device, camera, board");
+  }
+}
+
+void TrialTask::startTrial(std::int64_t now_ns) {
+  ++status_.trial;
+  status_.state = TrialState::running;
+  status_.elapsed_s = 0;
+  status_.notice.clear();
+  since_ns_ = now_ns;
+  const runtime::TrialHeader header = begin(now_ns);
+  status_.role = header.role;
+  status_.force_feedback = header.force_feedback;
+  bus_.task_to_recorder.push(header);
+  tell(now_ns, "start", "Trial " + std::to_string(status_.trial) + " starts");
+}
+
+void TrialTask::endTrial(const std::string& outcome, const std::string& reason, std::int64_t now_ns) {
+  const Conclusion end = conclude(outcome, reason);
+  tell(now_ns, outcome, reason.empty() ? end.sentence : reason);
+  bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, last_.t_ns, outcome, reason, outcome == "void" ? "" : end.scores_json});
+  picture("end", end.caption);
+  status_.state = TrialState::ended;
+  status_.notice = end.notice;
+  since_ns_ = now_ns;
+}
+
+void TrialTask::listen(std::int64_t now_ns) {
+  haptics::FlightRecord record;
+  while (bus_.haptic_to_task.pop(&record)) {
+    watchSafety(record);
+    last_ = record;
+    if (status_.active()) judge(record, now_ns);
+  }
+}
+
+/// Trips and what limits the force become events, and stay on the screen long enough to be read. A device that has lost
+/// its position pauses the trial: force comes back when somebody asks for it.
+void TrialTask::watchSafety(const haptics::FlightRecord& record) {
+  using haptics::SafetyCause;
+  if (record.events & haptics::kSafetyTripped) {
+    tell(record.t_ns, "safety", std::string("Force taken away: ") + haptics::name(record.safety));
+    status_.trip = record.safety;
+    trip_ns_ = record.t_ns;
+  }
+  if (record.events & haptics::kSafetyCleared) tell(record.t_ns, "safety", "Force is back");
+  if (record.events & haptics::kSnapshotRefused) tell(record.t_ns, "safety", "Damaged geometry was refused");
+  if (record.t_ns - trip_ns_ > kTripShown) status_.trip = SafetyCause::none;
+  if (record.safety == SafetyCause::duty) {
+    if (warm_ns_ < 0 || record.t_ns - warm_ns_ > kTripShown)
+      tell(record.t_ns, "safety", "The drives are warm: forces are reduced");
+    warm_ns_ = record.t_ns;
+  }
+  if (status_.state == TrialState::running && last_.reading.homed && !record.reading.homed) {
+    status_.state = TrialState::paused;
+    status_.notice = "Paused: the device has lost its position. When it is back, Enter goes on";
+    tell(record.t_ns, "pause", "The trial is paused: the device has lost its position");
+  }
+}
+
+/// What a driver has to say stays on the screen until it is over.
+void TrialTask::hearDevice() {
+  runtime::Event event;
+  while (bus_.device_to_task.pop(&event)) {
+    status_.device = event.text;
+    tell(event.t_ns, event.kind, event.text.empty() ? "The haptic device is ready" : event.text);
+  }
+}
+
+void TrialTask::obey(std::int64_t now_ns) {
+  UserRequest request;
+  while (channels_.requests_to_task.pop(&request) || channels_.operator_to_task.pop(&request) || channels_.signals_to_task.pop(&request)) obey(request, now_ns);
+}
+
+void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
+  const std::string& reason = request.reason;
+  switch (request.command) {
+    case UserCommand::start:
+      return goOn(now_ns);
+    case UserCommand::pause:
+      if (status_.state != TrialState::running) return;
+      status_.state = TrialState::paused;
+      status_.notice = "Paused: Enter goes on";
+      return tell(now_ns, "pause", "The trial is paused");
+    case UserCommand::abort:
+      if (status_.active()) endTrial("aborted", reason.empty() ? "Aborted by the person in charge" : reason, now_ns);
+      return;
+    case UserCommand::void_trial:
+      if (status_.active()) endTrial("void", reason, now_ns);
+      return;
+    case UserCommand::emergency_stop:
+      return stopAll(now_ns);
+    case UserCommand::rearm:
+      return rearm(now_ns);
+    case UserCommand::quit:
+      if (status_.active()) endTrial("aborted", reason.empty() ? "The session was closed" : reason, now_ns);
+      quit_ = true;
+      executive_.stop();
+      return;
+    case UserCommand::done:
+    case UserCommand::grade:
+      if (status_.active()) hear(request, now_ns);
+      return;
+  }
+}
+
+void TrialTask::goOn(std::int64_t now_ns) {
+  if (status_.emergency_stop) return;  // only re-arming goes on from here
+  if (status_.state == TrialState::waiting) return startTrial(now_ns);
+  if (status_.state != TrialState::paused) return;
+  status_.state = TrialState::running;
+  status_.notice.clear();
+  tell(now_ns, "resume", "The trial goes on");
+}
+
+void TrialTask::stopAll(std::int64_t now_ns) {
+  status_.emergency_stop = true;
+  status_.alarm = true;
+  status_.notice = "EMERGENCY STOP: forces are off. R re-arms, then Enter goes on";
+  if (status_.state == TrialState::running) status_.state = TrialState::paused;
+  tell(now_ns, "emergency_stop", "Emergency stop");
+}
+
+void TrialTask::rearm(std::int64_t now_ns) {
+  status_.emergency_stop = status_.alarm = false;
+  if (status_.state == TrialState::running) status_.state = TrialState::paused;  // disarms: clears a trip
+  status_.notice = status_.state == TrialState::paused || status_.state == TrialState::waiting ? "Re-armed: Enter goes on" : "";
+  tell(now_ns, "rearm", "Re-armed");
+}
+
+void TrialTask::tell(std::int64_t now_ns, const std::string& kind, const std::string& text, double value) {
+  const runtime::Event event{now_ns, status_.trial, kind, text, value};
+  if (kind == "safety" || kind == "device" || (kind == "camera" && value > 0)) safety_events_.push_back(event);
+  bus_.task_to_recorder.push(event);
+}
+
+void TrialTask::picture(const std::string& label, const std::string& caption) {
+  channels_.pictures_to_scene.push({status_.trial, status_.elapsed_s, label, caption});
+}
+
+void TrialTask::publish(std::int64_t now_ns) {
+  haptics::TickCommands commands;
+  commands.trial = static_cast<std::uint32_t>(status_.trial);
+  commands.armed = status_.state == TrialState::running;
+  commands.emergency_stop = status_.emergency_stop;
+  if (status_.trial > 0) {
+    commands.force_feedback = status_.force_feedback;
+    command(commands);
+  }
+  bus_.task_to_haptic.publish(commands, now_ns);
+  publishStatus(now_ns);
+}
+
+}  // namespace palpa::trial

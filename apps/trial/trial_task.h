@@ -1,0 +1,88 @@
+#pragma once
+
+#include <optional>
+#include <vector>
+
+#include "apps/runtime/activity.h"
+#include "apps/runtime/board_places.h"
+#include "apps/runtime/bus.h"
+#include "apps/runtime/camera_words.h"
+#include "apps/runtime/executive.h"
+#include "apps/trial/trial_status.h"
+
+namespace palpa::trial {
+
+/// TASK, 60 Hz: leads through trials, whatever is trained in them: ready check, start, pause, limits, end; what safety, device and camera have to say. What a trial is about says the task
+/// that derives from this; it judges by the recorded ticks alone, so that a replay comes to the same verdict.
+class TrialTask : public runtime::Activity {
+ public:
+  struct Lead {
+    int trials = 1;
+    bool automatic = true;            ///< starts trials by itself
+    std::string calibration_problem;  ///< not empty: sessions are "not scored"
+    std::vector<runtime::BoardPlace> places;   ///< of the boards besides the table's
+  };
+  TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels, runtime::Executive& executive);
+
+  const char* name() const override { return "task"; }
+  std::int64_t step(std::int64_t now_ns) override;
+
+  bool quit() const { return quit_; }
+  /// Every "safety" and "device" event and every loss of the camera, in order.
+  const std::vector<runtime::Event>& safetyEvents() const { return safety_events_; }
+  std::uint64_t lostTicks() const { return bus_.haptic_to_task.overflows(); }
+
+ protected:
+  /// Why the next trial cannot begin, by the newest tick; empty: it can.
+  virtual std::string notReady(const haptics::FlightRecord& last) const = 0;
+  /// The trial `status().trial` begins.
+  virtual runtime::TrialHeader begin(std::int64_t now_ns) = 0;
+  /// It ends; what is recorded of that: `scores_json` and, where there is no reason, what is said.
+  struct Conclusion {
+    std::string scores_json, sentence, notice, caption;
+  };
+  virtual Conclusion conclude(const std::string& outcome, const std::string& reason) = 0;
+  /// A tick while a trial runs or is paused.
+  virtual void judge(const haptics::FlightRecord& record, std::int64_t now_ns) = 0;
+  /// Of the trial that is on: what the loop must be told beside armed, stop and number.
+  virtual void command(haptics::TickCommands& commands) const = 0;
+  virtual void publishStatus(std::int64_t now_ns) = 0;
+  /// A request that only the task understands.
+  virtual void hear(const UserRequest&, std::int64_t) {}
+
+  void endTrial(const std::string& outcome, const std::string& reason, std::int64_t now_ns);
+  void tell(std::int64_t now_ns, const std::string& kind, const std::string& text, double value = 0);
+  void picture(const std::string& label, const std::string& caption);
+  TrialStatus& status() { return status_; }
+  const TrialStatus& status() const { return status_; }
+
+ private:
+  void obey(std::int64_t now_ns);
+  void obey(const UserRequest& request, std::int64_t now_ns);
+  void stopAll(std::int64_t now_ns);
+  void rearm(std::int64_t now_ns);
+  void goOn(std::int64_t now_ns);
+  void listen(std::int64_t now_ns);
+  void hearDevice();
+  void watchCamera(std::int64_t now_ns);
+  std::string sightTrouble(const runtime::CameraView* view, std::int64_t now_ns);
+  void watchSafety(const haptics::FlightRecord& record);
+  void checkReady(std::int64_t now_ns);
+  void startTrial(std::int64_t now_ns);
+  void publish(std::int64_t now_ns);
+
+  Lead lead_;
+  runtime::Bus& bus_;
+  Channels& channels_;
+  runtime::Executive& executive_;
+  TrialStatus status_;
+  std::vector<runtime::Event> safety_events_;
+  haptics::FlightRecord last_;         ///< newest tick seen
+  std::string camera_ = runtime::cameraTrouble(nullptr, 0);   ///< what was last said of it
+  std::optional<runtime::Displaced> displaced_;   ///< as it was last said
+  std::int64_t trip_ns_ = 0, warm_ns_ = -1;   ///< of the last trip, of the last tick with warm drives
+  std::int64_t since_ns_ = 0;          ///< the current state began
+  bool quit_ = false;
+};
+
+}  // namespace palpa::trial
