@@ -16,4 +16,16 @@ Aspect aspectOf(Plane plane, anatomy::Side side) {
   return {"SIDE", -Vec3::UnitX(), Vec3::UnitZ(), "A", "P", "S", "I"};
 }
 
+Aspect aspectOnTable(Plane plane) {
+  switch (plane) {
+    case Plane::frontal:
+      return {"FROM ABOVE", Vec3::UnitY(), Vec3::UnitZ(), "left", "right", "far", "near"};
+    case Plane::axial:
+      return {"FRONT", Vec3::UnitZ(), -Vec3::UnitY(), "left", "right", "", ""};
+    case Plane::sagittal:
+      break;
+  }
+  return {"SIDE", -Vec3::UnitX(), -Vec3::UnitY(), "near", "far", "", ""};
+}
+
 }  // namespace palpa::scene

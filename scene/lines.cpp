@@ -51,6 +51,11 @@ void EdgedLines::hide() {
   line_->VisibilityOff();
 }
 
+void EdgedLines::setVisible(bool visible) {
+  edge_->SetVisibility(visible);
+  line_->SetVisibility(visible);
+}
+
 bool EdgedLines::visible() const { return line_->GetVisibility() != 0; }
 
 std::vector<Vec3> uncertaintyEllipse(const Mat3& covariance_A, const Vec3& p_A, const Pose& X_CA, const Pinhole& camera, double least_px) {

@@ -21,6 +21,7 @@ class EdgedLines {
   /// Each entry a line through its points.
   void show(const std::vector<std::vector<Vec3>>& lines_A);
   void hide();
+  void setVisible(bool visible);   ///< what was shown last
   bool visible() const;
 
  private:

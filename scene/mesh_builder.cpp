@@ -65,14 +65,14 @@ void MeshBuilder::band(const ProfilePoint& a, const ProfilePoint& b, const Rgb& 
   }
 }
 
-void MeshBuilder::dome(double radius, double z, const Rgb& colour, int sides) {
-  const int rings = sides / 3;
+/// The part of a sphere that lies within an angle of its pole, which is toward +z.
+void MeshBuilder::cap(double radius, const Vec3& centre, double to_pole_angle, const Rgb& colour, int sides, int rings) {
   for (int i = 0; i <= rings; ++i) {
-    const double from_pole = std::numbers::pi / 2 * i / rings;
+    const double from_pole = to_pole_angle * i / rings;
     for (int j = 0; j <= sides; ++j) {
       const double angle = 2 * std::numbers::pi * j / sides;
       const Vec3 n(std::sin(from_pole) * std::cos(angle), std::sin(from_pole) * std::sin(angle), std::cos(from_pole));
-      const long at = addPoint(Vec3(0, 0, z - radius) + radius * n, n, colour);
+      const long at = addPoint(centre + radius * n, n, colour);
       if (i == 0 || j == 0) continue;
       const vtkIdType above = at - sides - 1;
       const vtkIdType one[] = {above - 1, at - 1, at}, other[] = {above - 1, at, above};
@@ -80,6 +80,14 @@ void MeshBuilder::dome(double radius, double z, const Rgb& colour, int sides) {
       data_->triangles->InsertNextCell(3, other);
     }
   }
+}
+
+void MeshBuilder::dome(double radius, double z, const Rgb& colour, int sides) {
+  cap(radius, Vec3(0, 0, z - radius), std::numbers::pi / 2, colour, sides, sides / 3);
+}
+
+void MeshBuilder::ball(double radius, const Rgb& colour, int sides) {
+  cap(radius, Vec3::Zero(), std::numbers::pi, colour, sides, sides / 2);
 }
 
 void MeshBuilder::arc(double r, double z, double middle, double half_angle, const Rgb& colour) {

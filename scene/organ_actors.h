@@ -1,5 +1,6 @@
 #pragma once
 
+#include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
 #include <vector>
@@ -9,7 +10,6 @@
 #include "scene/scene_state.h"
 
 class vtkActor;
-class vtkPolyData;
 class vtkRenderer;
 
 namespace palpa::scene {

@@ -17,6 +17,8 @@ namespace {
 
 constexpr double kScaleBar = 0.020;  // metres
 constexpr double kAway = 1.0;        // metres from the region to the eye; any will do in parallel
+constexpr double kFarAway = 100;     // metres: from there a view is as good as parallel
+constexpr double kPinSmall_px = 6;   // a pin's head in a window 720 pixels high
 
 }  // namespace
 
@@ -24,16 +26,17 @@ OrthoView::OrthoView(vtkRenderWindow& window, const anatomy::Patient& patient, c
                      Plane plane)
     : window_(window),
       plane_(plane),
-      side_(patient.side),
       region_(region),
+      aspect_(region.on_table ? aspectOnTable(plane) : aspectOf(plane, patient.side)),
       organs_(*renderer_, patient),
-      section_(skinSection(patient, region.focus_A, aspectOf(plane, patient.side).ahead_A)),
+      section_(sectionOf(patient)),
       backdrop_(*renderer_, false),
+      search_(*renderer_, *renderer_, 1.6),
       tool_(*renderer_),
       plates_(*renderer_) {
   setUpRenderer(*renderer_, colour::kPanel);
-  organs_.setStyle(SkinStyle::hidden);
-  if (section_ && plane_ != Plane::frontal) renderer_->AddActor(section_);
+  organs_.setStyle(region_.only_skin ? SkinStyle::translucent : SkinStyle::hidden);
+  if (section_) renderer_->AddActor(section_);
   aimCamera();
   window_.AddRenderer(renderer_);
 }
@@ -42,26 +45,34 @@ OrthoView::~OrthoView() { window_.RemoveRenderer(renderer_); }
 
 void OrthoView::addTrail(Trail& trail) { trail_ = trail.addTo(*renderer_, 1.5); }
 
+/// From the front a section tells nothing of depth; a skin alone gets its outline.
+vtkSmartPointer<vtkActor> OrthoView::sectionOf(const anatomy::Patient& patient) const {
+  if (region_.only_skin) return skinSection(patient, region_.whole_centre_A, aspect_.ahead_A);
+  return plane_ == Plane::frontal ? nullptr : skinSection(patient, region_.focus_A, aspect_.ahead_A);
+}
+
+double OrthoView::metresAcross() const { return std::max(region_.width, region_.height * where_.width / where_.height); }
+
 void OrthoView::aimCamera() {
-  const Aspect aspect = aspectOf(plane_, side_);
   vtkCamera* camera = renderer_->GetActiveCamera();
-  const Vec3 eye = region_.centre_A - kAway * aspect.ahead_A;
+  const Vec3 eye = region_.centre_A - kAway * aspect_.ahead_A;
   camera->ParallelProjectionOn();
   camera->SetPosition(eye.data());
   camera->SetFocalPoint(region_.centre_A.data());
-  camera->SetViewUp(aspect.up_A.data());
+  camera->SetViewUp(aspect_.up_A.data());
   camera->SetClippingRange(0.01, 2 * kAway);
 }
 
 void OrthoView::place(const Rect& where, int window_width, int window_height) {
   where_ = where;
   setViewport(*renderer_, where, window_width, window_height);
-  const double aspect = static_cast<double>(where.width) / where.height;
-  renderer_->GetActiveCamera()->SetParallelScale(0.5 * region_.width / aspect);
+  window_height_ = window_height;
+  renderer_->GetActiveCamera()->SetParallelScale(0.5 * metresAcross() * where.height / where.width);
   layoutWords(window_height);
 }
 
 void OrthoView::put(const std::string& words, const TextStyle& style, int x, int y) {
+  if (words.empty()) return;
   const int width = textWidth(words, style) + style.size_px * 2 / 3;
   const int height = lineHeight(style);
   const int margin = style.size_px / 3;
@@ -73,24 +84,23 @@ void OrthoView::put(const std::string& words, const TextStyle& style, int x, int
 }
 
 void OrthoView::layoutWords(int window_height) {
-  const Aspect aspect = aspectOf(plane_, side_);
   const int text = textSize_px(window_height);
   const TextStyle caption{std::max(10, text * 4 / 5), true, colour::kText};
   const TextStyle letter{std::max(9, text * 3 / 4), false, colour::kText};
   const int w = where_.width, h = where_.height;
   words_.clear();
   plates_.clear();
-  put(aspect.caption, caption, 0, h);  // held inside by put
-  put(aspect.left, letter, 0, h / 2);
-  put(aspect.right, letter, w, h / 2);
-  put(aspect.top, letter, w / 2, h);
-  put(aspect.bottom, letter, w / 2, 0);
+  put(aspect_.caption, caption, 0, h);  // held inside by put
+  put(aspect_.left, letter, 0, h / 2);
+  put(aspect_.right, letter, w, h / 2);
+  put(aspect_.top, letter, w / 2, h);
+  put(aspect_.bottom, letter, w / 2, 0);
   putScaleBar(letter);
 }
 
 void OrthoView::putScaleBar(const TextStyle& style) {
   const std::string words = "20 mm";
-  const int bar = static_cast<int>(std::lround(kScaleBar / region_.width * where_.width));
+  const int bar = static_cast<int>(std::lround(kScaleBar / metresAcross() * where_.width));
   const int margin = style.size_px / 3, line = lineHeight(style);
   const int width = std::max(bar, textWidth(words, style)) + 2 * margin;
   const Rect plate{where_.width - width - margin, margin, width, line + margin + 2};
@@ -107,6 +117,7 @@ void OrthoView::prepareStill() {
   organs_.setVisible(true);
   if (section_) section_->VisibilityOn();
   tool_.hide();
+  search_.update({}, false, {}, 1);
   if (trail_) trail_->VisibilityOff();
   plates_.setVisible(true);
   for (const auto& words : words_) words->show();
@@ -130,7 +141,14 @@ void OrthoView::keepStill(const Image& window_picture) {
   for (const auto& words : words_) words->hide();
 }
 
+Sight OrthoView::sight() const {
+  Mat3 R_AC;
+  R_AC << aspect_.ahead_A.cross(aspect_.up_A), -aspect_.up_A, aspect_.ahead_A;
+  return {makePose(R_AC, region_.centre_A - kFarAway * aspect_.ahead_A).inverse(), kFarAway * where_.width / metresAcross(), 0.5 * kAway};
+}
+
 void OrthoView::update(const SceneState& state) {
+  search_.update(state, true, sight(), kPinSmall_px * window_height_ / 720.0);
   tool_.update(state.X_AT);
   if (state.show_tool)
     tool_.show(state.tool);

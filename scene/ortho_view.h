@@ -13,6 +13,7 @@
 #include "scene/organ_actors.h"
 #include "scene/plates.h"
 #include "scene/region.h"
+#include "scene/search_overlay.h"
 #include "scene/skin_section.h"
 #include "scene/trail.h"
 #include "scene/view_layout.h"
@@ -42,6 +43,9 @@ class OrthoView {
 
  private:
   void aimCamera();
+  vtkSmartPointer<vtkActor> sectionOf(const anatomy::Patient& patient) const;
+  Sight sight() const;
+  double metresAcross() const;   ///< at the panel's width
   void layoutWords(int window_height);
   void putScaleBar(const TextStyle& style);
   void put(const std::string& words, const TextStyle& style, int x, int y);
@@ -49,12 +53,14 @@ class OrthoView {
   vtkNew<vtkRenderer> renderer_;
   vtkRenderWindow& window_;
   Plane plane_;
-  anatomy::Side side_;
   Region region_;
+  Aspect aspect_;
   Rect where_;
+  int window_height_ = 1;
   OrganActors organs_;
   vtkSmartPointer<vtkActor> section_;
   Backdrop backdrop_;
+  SearchOverlay search_;
   InstrumentSilhouette tool_;
   Plates plates_;
   vtkSmartPointer<vtkActor> trail_;

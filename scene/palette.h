@@ -33,6 +33,12 @@ inline constexpr Rgb kTip{0.93, 0.93, 0.88};   ///< of the palpation probe
 inline constexpr Rgb kInk{0.10, 0.14, 0.20};
 inline constexpr Rgb kBlood{0.50, 0.02, 0.03};
 inline constexpr Rgb kTrail{0.99, 0.82, 0.26};
+// Felt lightly, firmly, deeply: as maps show the sea, paler where it is shallow. Each has its brightness, whatever lies below.
+inline constexpr Rgba kFeltLight{0.66, 0.92, 1.00, 0.44};
+inline constexpr Rgba kFeltMedium{0.18, 0.62, 0.88, 0.48};
+inline constexpr Rgba kFeltDeep{0.01, 0.20, 0.58, 0.55};
+inline constexpr Rgb kFound{0.98, 0.86, 0.30};     ///< a lump; yellow and vermilion differ for colour-blind eyes, by hue and by brightness
+inline constexpr Rgb kMissed{0.90, 0.40, 0.10};
 inline constexpr Rgb kSection{0.86, 0.72, 0.62};  ///< the skin's outline in fixed views
 }  // namespace colour
 

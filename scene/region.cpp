@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <optional>
 
+#include "anatomy/phantom_block.h"
+
 namespace palpa::scene {
 namespace {
 
@@ -41,6 +43,10 @@ Box wholeBox(const anatomy::Patient& patient) {
   return box;
 }
 
+bool hasOnlySkin(const anatomy::Patient& patient) {
+  return !patient.organs.empty() && std::all_of(patient.organs.begin(), patient.organs.end(), [](const auto& organ) { return organ.organ == Organ::skin; });
+}
+
 }  // namespace
 
 Region regionOf(const anatomy::Patient& patient) {
@@ -57,6 +63,14 @@ Region regionOf(const anatomy::Patient& patient) {
   region.whole_centre_A = whole.center();
   region.whole_radius = 0.5 * whole.diagonal().norm() + 0.05;
   region.whole_half = 0.5 * whole.sizes().maxCoeff();
+  region.only_skin = hasOnlySkin(patient);
+  if (region.only_skin) {
+    region.centre_A = whole.center();
+    region.width = std::clamp(1.15 * whole.sizes().x(), 0.05, 0.60);
+    region.height = 1.25 * std::max(whole.sizes().y(), whole.sizes().z());
+  }
+  const auto near_edge = find(patient, anatomy::landmark::kNearEdge);
+  region.on_table = entry && near_edge && near_edge->z() < entry->z();
   return region;
 }
 

@@ -12,10 +12,13 @@ struct Region {
   Vec3 whole_centre_A = Vec3::Zero();  ///< sphere about the whole patient
   double whole_radius = 0.3;
   double whole_half = 0.3;             ///< half of the patient's longest side
+  double height = 0;                   ///< metres down the fixed views that are to be seen as well; 0: as it comes
+  bool only_skin = false;              ///< nothing lies under it: the skin itself is to be seen
+  bool on_table = false;             ///< a thing on a table, looked at from its near edge
 };
 
 /// From the landmarks and the clavicle of the punctured side; a patient without them is framed
-/// whole.
+/// whole. Where there is no bone but a skin alone, all of it is framed, down as well as across.
 Region regionOf(const anatomy::Patient& patient);
 
 }  // namespace palpa::scene

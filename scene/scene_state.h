@@ -54,6 +54,21 @@ struct Guide {
   Vec3 from_A = Vec3::Zero(), to_A = Vec3::Zero();
 };
 
+/// What of an area has been felt, and how firmly: a grid in the plane z = 0 of G, centred on G's origin, columns along x, rows along y.
+struct CoverageGrid {
+  Pose X_AG = Pose::Identity();
+  double cell_x = 0.004, cell_y = 0.004;   ///< metres
+  int columns = 0, rows = 0;
+  std::vector<std::uint8_t> levels;        ///< row by row from the lowest y; 0: not felt, 1 light, 2 medium, 3 deep
+};
+
+/// Something that lies inside, seen through the surface.
+struct Lump {
+  Vec3 p_A = Vec3::Zero();   ///< its middle
+  double radius = 0.005;     ///< metres
+  bool found = false;
+};
+
 /// How a view for two eyes is laid out. anaglyph: for red and cyan glasses. headset: side by side, words before each eye.
 enum class Stereo { none, side_by_side, top_bottom, anaglyph, headset };
 
@@ -97,6 +112,10 @@ struct SceneState {
   std::optional<Mat3> tip_covariance_A;   ///< of the drawn tip against the real one, m^2: shown as an ellipse
   std::vector<Occluder> occluders;        ///< hide what is behind them while there is a picture
   Hud hud;
+  std::optional<CoverageGrid> coverage;   ///< a carpet on the surface; its outline shows what is to be searched
+  std::vector<Lump> lumps;
+  std::vector<Vec3> marks_A;              ///< where the trainee said "here is one": pins, numbered from 1 in this order
+  std::optional<Vec3> lead_A;             ///< where guidance asks the hand to go next: a ring on the surface
 };
 
 }  // namespace palpa::scene

@@ -27,8 +27,8 @@ void copyProps(vtkRenderer& from, vtkRenderer& to) {
 
 }  // namespace
 
-SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass, vtkRenderer& above)
-    : window_(window), first_behind_(behind), first_glass_(glass), first_above_(above) {
+SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass, vtkRenderer& on_skin, vtkRenderer& above)
+    : window_(window), first_behind_(behind), first_glass_(glass), first_on_skin_(on_skin), first_above_(above) {
   forAll([&](vtkRenderer& renderer) {
     setUpRenderer(renderer, colour::kBehindBottom);
     renderer.SetActiveCamera(behind_->GetActiveCamera());
@@ -38,6 +38,7 @@ SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& 
   behind_->SetBackgroundAlpha(first_behind_.GetBackgroundAlpha());
   behind_->SetBackground2(first_behind_.GetBackground2());
   glass_->EraseOff();
+  on_skin_->EraseOff();
   above_->SetLayer(first_above_.GetLayer());
 }
 
@@ -48,10 +49,12 @@ SecondEye::~SecondEye() {
 void SecondEye::mirror() {
   copyProps(first_behind_, *behind_);
   copyProps(first_glass_, *glass_);
+  copyProps(first_on_skin_, *on_skin_);
   copyProps(first_above_, *above_);
   behind_->SetBackgroundTexture(first_behind_.GetBackgroundTexture());
   behind_->SetTexturedBackground(first_behind_.GetTexturedBackground());
   behind_->SetGradientBackground(first_behind_.GetGradientBackground());
+  on_skin_->SetDraw(first_on_skin_.GetDraw());
   above_->SetDraw(first_above_.GetDraw());
 }
 

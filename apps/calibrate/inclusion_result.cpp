@@ -71,6 +71,7 @@ Result inclusionResult(const LumpSamples& samples, double tip_radius, const Orig
   addLaw(r.file, "G_z", found.G[2]);
   r.file.parameters.push_back({"l0_m", {found.l0}});
   r.file.parameters.push_back({"depth_m", {samples.depth}});
+  r.file.parameters.push_back({"contrast_percent", {judged.unrendered_percent}});
   r.file.covariance.resize(0, 0);
   r.file.residuals = {"1", found.relative_rms, {}, {}};
   r.file.checks = {{"force not explained in presses at a place not used", judged.off_percent, kLumpOff_percent, "%"}};

@@ -7,6 +7,7 @@
 namespace palpa::cli {
 
 void addParacentesis(CLI::App& program);   ///< paracentesis, train
+void addPalpation(CLI::App& program);
 void addReplay(CLI::App& program);
 void addCalibrate(CLI::App& program);
 void addPatient(CLI::App& program);

@@ -18,6 +18,7 @@ Nothing is connected? Everything runs on the virtual bench. What you can do now:
                                            without one a simulated expert performs it
   palpa paracentesis --operator novice     watch a simulated novice; read the report's reasons
   palpa paracentesis --trials 10 --fast    ten trials, as fast as this computer can
+  palpa palpation --operator expert --fast search silicone for lumps that are not there
   palpa replay out/.../session.palpa       run a recorded session again: same forces, same score
   palpa patient info                       what the patient holds
   palpa calibrate all                      set the station up; a page says whether it is ready
@@ -41,6 +42,7 @@ int run(int argc, char** argv) {
                  "  palpa paracentesis --help");
   program.require_subcommand(0, 1);
   palpa::cli::addParacentesis(program);
+  palpa::cli::addPalpation(program);
   palpa::cli::addReplay(program);
   palpa::cli::addCalibrate(program);
   palpa::cli::addPatient(program);

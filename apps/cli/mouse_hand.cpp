@@ -18,6 +18,7 @@ constexpr double kSmoothing = 0.03;          // s, the mouse's steps become moti
 constexpr std::int64_t kControllerGone = 300 * runtime::kMillisecond;
 constexpr std::int64_t kMousePeriod = runtime::kMillisecond;
 
+constexpr const char* kGrades[] = {"soft", "hard", "fixed", "mobile", "diameter 10 mm", "diameter 15 mm", "diameter 20 mm", "diameter 25 mm"};   // keys 1 to 8
 constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped", "other"};
 
 void request(trial::Channels& channels, UserCommand command, const std::string& reason = "") {
@@ -35,6 +36,8 @@ void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
     else if (key == "space") request(channels, UserCommand::emergency_stop);
     else if (key == "r" || key == "R") request(channels, UserCommand::rearm);
     else if (key == "Escape") request(channels, UserCommand::quit);
+    else if (key == "d" || key == "D") request(channels, UserCommand::done);
+    else if (key.size() == 1 && key[0] >= '1' && key[0] <= '8') request(channels, UserCommand::grade, kGrades[key[0] - '1']);
     else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '1' && key[1] <= '4')
       request(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);
   }

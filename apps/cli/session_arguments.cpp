@@ -56,17 +56,10 @@ void checkPerson(const SessionOptions& o) {
 
 }  // namespace
 
-void addSessionArguments(CLI::App& command, SessionOptions& o) {
+void addRunArguments(CLI::App& command, SessionOptions& o) {
   command.add_option("--station", o.station, "Station file; default: the virtual bench")->type_name("FILE");
-  command.add_option("--patient", o.patient, "Patient file (.glb); default: built from reference figures")->type_name("FILE");
-  command.add_option("--patient-seed", o.patient_seed, "Draw another patient; 0: the reference patient")
-      ->check(CLI::NonNegativeNumber);
-  choice(command, "--side", o.side, kSides, "Side that is punctured");
-  choice(command, "--handedness", o.left_handed, kHands, "The trainee's hand");
   command.add_option("--seed", o.seed, "Everything random follows from it (default 1)")->check(CLI::NonNegativeNumber);
   choice(command, "--operator", o.who, kOperators, "Who performs: you, or a simulated expert or novice");
-  choice(command, "--operator-knows", o.knows_patient, kKnowledge,
-         "Where a simulated one expects the vein: as in most people (mean, the default), or as in this patient's images");
   choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
   command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(CLI::Range(1, 1000));
   command.add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")
@@ -78,27 +71,38 @@ void addSessionArguments(CLI::App& command, SessionOptions& o) {
   command.add_flag("--record-video", o.record_video, "Keep the camera's pictures beside their poses: camera.mjpeg and a table");
   command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");
   command.add_flag_callback("--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
-  choice(command, "--skin-deflection", o.skin_deflection, kOnOff,
-         "Show the skin giving way under the needle (default off: seeing must not replace feeling)");
-  choice(command, "--guide", o.guide, kOnOff, "Show a line from the entry point to the vein (default off); such trials are not scored");
   choice(command, "--force-colours", o.force_colours, kForceColours, "Of the force arrows: grays (paper, the default), or told apart by colour-blind eyes (safe)");
   choice(command, "--stereo", o.stereo, kStereos, "The large view for two eyes (default none); anaglyph: for red and cyan glasses");
   choice(command, "--inset", o.inset, kInsets, "A small picture in the corner (default none); camera: what it sees, without the overlay");
-  command.add_flag_callback("--no-demonstration", [&o] { o.demonstration = false; }, "A person starts without an expert's demonstration");
-  command.add_flag_callback("--no-familiarisation", [&o] { o.familiarisation = false; }, "A person starts without a first unscored trial");
   command
       .add_option_function<std::string>(
           "--display", [&o](const std::string& text) { o.headset = text == kHeadset, o.display = o.headset ? scene::Display::automatic : kDisplays.at(text); },
           "Where to show it; openxr: on a headset, and on the desktop beside it")
       ->check(CLI::IsMember({"auto", "window", "offscreen", kHeadset}))
       ->type_name("auto|offscreen|openxr|window");
-  command.add_option("--expert-path", o.expert_path, "Optimal path; default: the task's")->type_name("FILE");
   command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")->type_name("DIR");
   command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop a second (default 1000)")->check(CLI::Range(1000.0, 4000.0));
   command.add_option("--cpu", o.cpu, "Keep the haptic thread on this processor")->check(CLI::Range(0, 1023));
+  command.add_flag("--quiet", o.quiet, "No progress on standard error");
+}
+
+void addSessionArguments(CLI::App& command, SessionOptions& o) {
+  addRunArguments(command, o);
+  command.add_option("--patient", o.patient, "Patient file (.glb); default: built from reference figures")->type_name("FILE");
+  command.add_option("--patient-seed", o.patient_seed, "Draw another patient; 0: the reference patient")
+      ->check(CLI::NonNegativeNumber);
+  choice(command, "--side", o.side, kSides, "Side that is punctured");
+  choice(command, "--handedness", o.left_handed, kHands, "The trainee's hand");
+  choice(command, "--operator-knows", o.knows_patient, kKnowledge,
+         "Where a simulated one expects the vein: as in most people (mean, the default), or as in this patient's images");
+  choice(command, "--skin-deflection", o.skin_deflection, kOnOff,
+         "Show the skin giving way under the needle (default off: seeing must not replace feeling)");
+  choice(command, "--guide", o.guide, kOnOff, "Show a line from the entry point to the vein (default off); such trials are not scored");
+  command.add_flag_callback("--no-demonstration", [&o] { o.demonstration = false; }, "A person starts without an expert's demonstration");
+  command.add_flag_callback("--no-familiarisation", [&o] { o.familiarisation = false; }, "A person starts without a first unscored trial");
+  command.add_option("--expert-path", o.expert_path, "Optimal path; default: the task's")->type_name("FILE");
   choice(command, "--geometry", o.exact_geometry, kGeometries,
          "What the tick knows of the shape: snapshots at 60 Hz, or the full mesh in every tick (slow; with --fast)");
-  command.add_flag("--quiet", o.quiet, "No progress on standard error");
   addRecordedPictures(command, o);
 }
 

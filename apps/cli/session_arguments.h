@@ -8,6 +8,8 @@
 namespace palpa::cli {
 
 /// Adds the options that every session command has.
+void addRunArguments(CLI::App& command, SessionOptions& options);
+/// These, and those of a needle's session.
 void addSessionArguments(CLI::App& command, SessionOptions& options);
 
 /// After parsing: what "auto" means here, and contradictions (UsageError).

@@ -1,6 +1,7 @@
 #include "apps/cli/session_devices.h"
 
 #include "apps/record/session_file.h"
+#include "apps/task_palpation/palpation_listener.h"
 #include "haptics/devices/falcon_firmware.h"
 #include "haptics/devices/libusb_transport.h"
 
@@ -23,6 +24,13 @@ std::unique_ptr<runtime::ChannelSensor> benchSensor(const station::Station& stat
   return std::make_unique<runtime::ChannelSensor>(station.force_sensor->net_ft.capabilities, mode);
 }
 
+trial::UserRequest requestOf(const twin::Hand::Word& word) {
+  using Kind = twin::Hand::Word::Kind;
+  if (word.kind == Kind::grade) return {trial::UserCommand::grade, task_palpation::gradeText(word.diameter, word.hardness, word.mobility)};
+  if (word.kind == Kind::done) return {trial::UserCommand::done, ""};
+  return {trial::UserCommand::abort, "The simulated operator gave up"};
+}
+
 }  // namespace
 
 SessionDevices::SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands, runtime::Bus& bus, trial::Channels& channels, const runtime::Clock& clock, runtime::TimeMode mode)
@@ -30,14 +38,14 @@ SessionDevices::SessionDevices(const SessionOptions& options, const station::Sta
   if (bench_moves_) bench_sensor_ = benchSensor(station, mode);
   if (bench_moves_ || (options.camera.empty() && station.camera_setup.driver == station::CameraSetup::Driver::bench)) makeBench(std::move(hands.bench), bus, channels);
   openDevice(hands.mouse, bus, channels);
-  openSensor(options, clock, mode);
+  openSensor(options, hands.tip_radius, clock, mode);
 }
 
 SessionDevices::~SessionDevices() = default;
 
 void SessionDevices::makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bus, trial::Channels& channels) {
   setup.sensor = bench_sensor_.get();
-  setup.on_giving_up = [&channels] { channels.operator_to_task.push({trial::UserCommand::abort, "The simulated operator gave up"}); };
+  setup.on_word = [&channels](const twin::Hand::Word& word) { channels.operator_to_task.push(requestOf(word)); };
   bench_ = std::make_unique<twin::VirtualBench>(std::move(setup), bus, channel_);
 }
 
@@ -67,7 +75,7 @@ void SessionDevices::openDevice(const std::optional<MouseHand::Setup>& mouse, ru
   plunger_.emplace(*device, falcon_ ? setup.plunger_button : 0);
 }
 
-void SessionDevices::openSensor(const SessionOptions& options, const runtime::Clock& clock, runtime::TimeMode mode) {
+void SessionDevices::openSensor(const SessionOptions& options, double tip_radius, const runtime::Clock& clock, runtime::TimeMode mode) {
   if (!station_.force_sensor) return;
   // A simulated operator has no part in what a real sensor measures, nor a real hand in what the bench's does.
   if (bench_moves_ == (station_.force_sensor->driver == ForceSensorSetup::Driver::net_ft)) return;
@@ -83,7 +91,7 @@ void SessionDevices::openSensor(const SessionOptions& options, const runtime::Cl
   }
   runtime::ForceSensing::Setup sensing{setup.filter, station_.X_WD, setup.X_ES};
   sensing.filter.low_pass = haptics::butterworth(setup.cutoff_Hz, options.rate_Hz);
-  sensing.filter.p_SK = pack(Vec3((setup.X_ES.inverse() * station_.X_ET).translation()));
+  sensing.filter.p_SK = pack(Vec3(setup.X_ES.inverse() * (station_.X_ET * Vec3(0, 0, -tip_radius))));
   sensing_.emplace(*sensor, sensing);
 }
 

@@ -27,6 +27,7 @@ class SessionDevices {
   struct Hands {
     twin::VirtualBench::Setup bench;             ///< what is simulated; sensor and how one gives up are put in here
     std::optional<MouseHand::Setup> mouse;
+    double tip_radius = 0;                       ///< m: the point whose place goes with the sensed force lies so far behind the tip
   };
   SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands, runtime::Bus& bus, trial::Channels& channels, const runtime::Clock& clock, runtime::TimeMode mode);
   ~SessionDevices();
@@ -46,7 +47,7 @@ class SessionDevices {
  private:
   void makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bus, trial::Channels& channels);
   void openDevice(const std::optional<MouseHand::Setup>& mouse, runtime::Bus& bus, trial::Channels& channels);
-  void openSensor(const SessionOptions& options, const runtime::Clock& clock, runtime::TimeMode mode);
+  void openSensor(const SessionOptions& options, double tip_radius, const runtime::Clock& clock, runtime::TimeMode mode);
 
   const station::Station& station_;
   const bool bench_moves_;                              // the bench's device is the one that is held

@@ -50,6 +50,8 @@ struct SessionOptions {
   int cpu = -1;                  ///< of the haptic thread; -1: any
   bool exact_geometry = false;   ///< from the full mesh in every tick
   bool quiet = false;
+  bool guidance = false;         ///< palpation: help that fades, in every other trial
+  bool see_through = false;      ///< palpation: the lumps are shown; not scored
 };
 
 }  // namespace palpa::cli

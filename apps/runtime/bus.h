@@ -27,6 +27,7 @@ struct ToolState {
   Organ wall = Organ::none, bone = Organ::none;
   haptics::SafetyCause safety = haptics::SafetyCause::none;
   bool homed = false;
+  Packed3 f_sensed_D{};        ///< of a real object on the tool, N; zero where no sensor can say
 };
 
 /// What the camera saw last, as it came (distorted).

@@ -50,6 +50,7 @@ ToolState HapticActivity::toolNow(const haptics::FlightRecord& record, std::int6
   tool.bone = record.bone;
   tool.safety = record.safety;
   tool.homed = record.reading.homed;
+  if (record.sensed.state == haptics::SensorState::valid) tool.f_sensed_D = record.sensed.f_D;
   return tool;
 }
 

@@ -16,11 +16,18 @@ class Hand {
     Vec3 f_grip_D = Vec3::Zero();   ///< force of the hand on the tool
     const runtime::Displayed* seen = nullptr;
   };
+  /// What whoever leads the hand says, once.
+  struct Word {
+    enum class Kind { none, gives_up, done, grade };
+    Kind kind = Kind::none;
+    double diameter = 0;            ///< m; of a grade: of the lump marked last
+    int hardness = 0, mobility = 0; ///< 1 soft, 2 hard; 1 fixed, 2 mobile; 0: not said
+  };
   struct Action {
     Pose X_DH = Pose::Identity();   ///< where the hand wants the tool
     double plunger = 0;
-    bool gives_up = false;          ///< says so once: the trial can be aborted
     std::uint32_t buttons = 0;
+    Word says;
   };
   virtual ~Hand() = default;
   virtual Action act(const Senses& senses, double dt) = 0;

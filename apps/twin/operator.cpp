@@ -10,8 +10,6 @@ namespace {
 constexpr std::int64_t kThoughtPeriod = 10'000'000;  // decisions at 100 Hz
 constexpr double kThought = Reaction::kStep;         // s
 constexpr std::int64_t kLookPeriod = 100'000'000;    // a glance at the needle, 10 Hz
-constexpr double kStillEnough = 0.010;  // m/s: the picture lags, so only a slow hand is compared with it
-constexpr double kTrust = 0.2;          // weight of one look against what is believed
 constexpr double kAbove = 0.020;        // m above the skin, where the approach ends
 constexpr double kHover = 0.002;        // m above the skin, where the push begins
 constexpr double kBackFromBone = 0.006; // m
@@ -55,32 +53,22 @@ Vec3 Operator::perpendicular(const Vec3& axis) {
 }
 
 double Operator::seenInsertion() const {
-  return (X_AT_seen_.translation() - entry_seen_A_).dot(axis_A_) + depth_error_;
+  return (bearings_.X_AT().translation() - entry_seen_A_).dot(axis_A_) + depth_error_;
 }
 
 /// Compares the needle on the screen with the own hand: where is the patient for my hand?
 void Operator::look(const Senses& senses) {
   if (!senses.seen) return;
-  Pose X_AT = senses.seen->X_AT;
-  X_AT.translation() +=
-      skill_.look_sd * Vec3(noise_.normal(), noise_.normal(), noise_.normal());
-  X_AT_seen_ = X_AT;
-  const Pose X_DA = senses.X_DE * X_ET_ * X_AT.inverse();
-  if (!oriented_) {
-    X_DA_ = X_DA;
-    X_DH_ = senses.X_DE;
-    oriented_ = true;
-    tip_A_ = X_AT.translation();
-    axis_A_ = X_AT.rotation() * Vec3::UnitZ();
-  } else if (hand_speed_ < kStillEnough) {
-    const Quat q = Quat(X_DA_.rotation()).slerp(kTrust, Quat(X_DA.rotation()));
-    const Vec3 p = X_DA_.translation() + kTrust * (X_DA.translation() - X_DA_.translation());
-    X_DA_ = makePose(q.normalized().toRotationMatrix(), p);
-  }
+  const bool first = !bearings_.taken();
+  bearings_.look(senses.seen->X_AT, senses.X_DE * X_ET_, skill_.look_sd, hand_speed_, noise_);
+  if (!first) return;
+  X_DH_ = senses.X_DE;
+  tip_A_ = bearings_.X_AT().translation();
+  axis_A_ = bearings_.X_AT().rotation() * Vec3::UnitZ();
 }
 
 void Operator::feel(const Senses& senses) {
-  reaction_.perceive(X_DA_.rotation().transpose() * senses.f_grip_D, senses.seen && senses.seen->blood_flows,
+  reaction_.perceive(bearings_.X_DA().rotation().transpose() * senses.f_grip_D, senses.seen && senses.seen->blood_flows,
                      senses.seen && senses.seen->injury);
 }
 
@@ -140,7 +128,7 @@ void Operator::aimAt(const Vec3& axis_A, double now_s, double duration_s) {
 }
 
 void Operator::holdHere() {
-  tip_A_ = X_AT_seen_.translation();
+  tip_A_ = bearings_.X_AT().translation();
   insertion_ = (tip_A_ - entry_seen_A_).dot(axis_A_);
 }
 
@@ -233,7 +221,7 @@ void Operator::dwelling(double now_s) {
 void Operator::think(const Senses& senses) {
   const double now_s = static_cast<double>(senses.now_ns) * 1e-9;
   feel(senses);
-  if (!senses.seen || !oriented_) return;
+  if (!senses.seen || !bearings_.taken()) return;
   running_ = senses.seen->running;
   if (running_ && senses.seen->trial != trial_) return beginTrial(senses.seen->trial, now_s);
   if (!running_ && step_ != Step::rest && step_ != Step::leave)
@@ -256,8 +244,8 @@ void Operator::think(const Senses& senses) {
     case Step::push:
       return pushing(now_s);
     case Step::settle:
-      entry_seen_A_ = X_AT_seen_.translation() -
-                      std::max((X_AT_seen_.translation() - plan_entry_A_).dot(axis_A_), 0.0) *
+      entry_seen_A_ = bearings_.X_AT().translation() -
+                      std::max((bearings_.X_AT().translation() - plan_entry_A_).dot(axis_A_), 0.0) *
                           axis_A_;
       return begin(Step::deepen, now_s, 0);
     case Step::deepen:
@@ -296,7 +284,7 @@ Operator::Action Operator::act(const Senses& senses, double dt) {
   const Vec3 p_D = senses.X_DE.translation();
   hand_speed_ += ((p_D - p_last_D_).norm() / dt - hand_speed_) * std::min(1.0, dt / 0.05);
   p_last_D_ = p_D;
-  if (senses.now_ns - last_look_ns_ >= kLookPeriod || !oriented_) {
+  if (senses.now_ns - last_look_ns_ >= kLookPeriod || !bearings_.taken()) {
     last_look_ns_ = senses.now_ns;
     look(senses);
   }
@@ -305,7 +293,7 @@ Operator::Action Operator::act(const Senses& senses, double dt) {
     think(senses);
   }
   plunger_ += std::clamp(plunger_wanted_ - plunger_, -dt, dt);  // drawn in a second
-  if (!oriented_) return {senses.X_DE, plunger_, false, 0};
+  if (!bearings_.taken()) return {senses.X_DE, plunger_, 0, {}};
 
   if (moving_) {
     const Pose X = move_.at(now_s);
@@ -318,8 +306,9 @@ Operator::Action Operator::act(const Senses& senses, double dt) {
   const Vec3 turn = turn_tremor_.next(dt);
   Pose X_AT = needleAt(tip_A_ + tremor_.next(dt), axis_A_);
   X_AT.linear() = X_AT.linear() * Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
-  X_DH_ = X_DA_ * X_AT * X_TE_;
-  Action action{X_DH_, plunger_, gives_up_, 0};
+  X_DH_ = bearings_.X_DA() * X_AT * X_TE_;
+  Action action{X_DH_, plunger_, 0, {}};
+  if (gives_up_) action.says.kind = Word::Kind::gives_up;
   gives_up_ = false;
   return action;
 }

@@ -4,6 +4,7 @@
 
 #include "apps/runtime/random.h"
 #include "apps/station/station_file.h"
+#include "apps/twin/bearings.h"
 #include "apps/twin/hand.h"
 #include "apps/twin/min_jerk.h"
 #include "apps/twin/operator_skill.h"
@@ -66,9 +67,7 @@ class Operator final : public Hand {
   Tremor tremor_, turn_tremor_;
 
   // What he believes: where the patient on the screen is for his hand, where the needle is.
-  bool oriented_ = false;
-  Pose X_DA_ = Pose::Identity();
-  Pose X_AT_seen_ = Pose::Identity();
+  Bearings bearings_;
   Vec3 entry_seen_A_ = Vec3::Zero();
   Reaction reaction_;
   double peak_N_ = 0;

@@ -45,7 +45,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
     for (const station::OtherBoard& board : setup.station.boards) scene.plates.push_back(board.grid);
     camera.emplace(trueCamera(setup.station, setup.seed), setup.station.board, settings, setup.seed, scene);
     errors_mm.reserve(4096);
-    on_giving_up = setup.on_giving_up;
+    on_word = setup.on_word;
     sensor = setup.sensor;
     if (sensor) {
       X_ES = setup.station.force_sensor->X_ES;
@@ -65,7 +65,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
     senses.f_grip_D = mechanics.gripForce();
     senses.seen = bus.scene_to_operator.read(now_ns);
     const Hand::Action action = hand->act(senses, dt);
-    if (action.gives_up && on_giving_up) on_giving_up();
+    if (action.says.kind != Hand::Word::Kind::none && on_word) on_word(action.says);
     move(action, unpack(device.commanded(now_ns)), dt);
     haptics::DeviceReading reading;
     const PackedPose X_DE = mechanics.encoderPose();
@@ -79,7 +79,8 @@ struct VirtualBench::Impl final : public runtime::Activity {
     device.publish(reading, now_ns);
     if (sensor) {
       const Pose X_WE = X_WD_true * mechanics.truePose();
-      sensor->publish(felt->measure(X_WE * X_ES, f_touch_W, (X_WE * X_ET_true).translation(), dt, now_ns), now_ns);
+      if (!real_thing) touch.p_W = (X_WE * X_ET_true).translation();
+      sensor->publish(felt->measure(X_WE * X_ES, touch.f_W, touch.p_W, dt, now_ns), now_ns);
     }
     due_ns = std::max((due_ns < 0 ? now_ns : due_ns) + kBenchPeriod, now_ns);
     return due_ns;
@@ -90,8 +91,8 @@ struct VirtualBench::Impl final : public runtime::Activity {
     constexpr int kTouches = 4;
     const int parts = real_thing ? kTouches : 1;
     for (int i = 0; i < parts; ++i) {
-      mechanics.advance(dt / parts, action.X_DH, hand->grip(), f_command_D, X_WD_true.linear().transpose() * f_touch_W);
-      if (real_thing) f_touch_W = real_thing((X_WD_true * mechanics.truePose() * X_ET_true).translation(), dt / parts);
+      mechanics.advance(dt / parts, action.X_DH, hand->grip(), f_command_D, X_WD_true.linear().transpose() * touch.f_W);
+      if (real_thing) touch = real_thing(X_WD_true * mechanics.truePose() * X_ET_true, dt / parts);
     }
   }
 
@@ -107,7 +108,8 @@ struct VirtualBench::Impl final : public runtime::Activity {
   runtime::Bus& bus;
   runtime::ChannelDevice& device;
   Pose X_WD_believed, X_ET_believed, X_WD_true, X_ET_true;
-  Vec3 watched_W, normal_W, f_touch_W = Vec3::Zero();
+  Vec3 watched_W, normal_W;
+  Touch touch;
   const station::Station& station;
   std::vector<CameraFault> camera_faults;
   std::vector<BoardMove> board_moves;
@@ -120,7 +122,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
   runtime::ChannelSensor* sensor = nullptr;
   std::optional<SensorTwin> felt;
   Pose X_ES = Pose::Identity();
-  std::function<void()> on_giving_up;
+  std::function<void(const Hand::Word&)> on_word;
   std::uint64_t sequence = 0;
   std::int64_t last_ns = -1, due_ns = -1;
   std::size_t pictures = 0;

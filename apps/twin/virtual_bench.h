@@ -26,15 +26,18 @@ struct BenchAccuracy {
 /// readings. Truth is drawn around the station's figures with the spreads in its file.
 class VirtualBench {
  public:
-  /// Of something real under the tool's tip, where it truly is, m: its force on the tool after another `dt`, N. All in W.
-  using RealThing = std::function<Vec3(const Vec3& tip_W, double dt)>;
+  /// Of something real under the tool, which truly is at X_WT: its force on it after another `dt`, N, and where that acts. All in W.
+  struct Touch {
+    Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
+  };
+  using RealThing = std::function<Touch(const Pose& X_WT, double dt)>;
   struct Setup {
     const station::Station& station;
     std::unique_ptr<Hand> hand;
     Pose X_DE_start;              ///< where the tool is picked up
     Vec3 watched_W, normal_W;     ///< where the overlay's accuracy is measured: a point, the surface's outward normal
     std::uint64_t seed = 1;
-    std::function<void()> on_giving_up;   ///< the simulated person asks to end the trial
+    std::function<void(const Hand::Word&)> on_word;   ///< the simulated person says something
     runtime::ChannelSensor* sensor = nullptr;   ///< where the station has a virtual force sensor
     RealThing real_thing;         ///< none: a virtual patient alone
   };

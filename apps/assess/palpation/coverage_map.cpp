@@ -23,7 +23,7 @@ void CoverageMap::add(const PalpationSample& sample) {
   if (level == 0) return;
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      if ((middle(column, row) - sample.p_P).head<2>().norm() > reach_) continue;
+      if (!((middle(column, row) - sample.p_P).head<2>().norm() <= reach_)) continue;   // a place that is none was not felt
       Cell& cell = cells_[index(column, row)];
       cell.visits = static_cast<std::int16_t>(cell.visits + (sample.t_s - cell.last_s > kAnew_s));
       cell.last_s = sample.t_s;

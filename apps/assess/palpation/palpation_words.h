@@ -1,0 +1,23 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/assess/palpation/palpation_assessment.h"
+
+namespace palpa::assess {
+
+/// "Found 2 of 3 lumps, one false alarm; 91 % of the area was felt."
+std::string palpationSummary(const PalpationFacts& facts, const PalpationScore& score);
+
+/// Sentences for the trainee, the most important first; empty when there is nothing to improve.
+std::vector<std::string> palpationAdvice(const PalpationAssessment& assessment, const PalpationRules& rules, const PalpationStandard& standard, PalpationSamples samples);
+
+/// Numbers as text, the same in every locale: "91 %" (rounded down, so that no share is said to reach a standard that it misses), "1.20 N" as "1.2 N".
+std::string percentWords(double share);
+std::string newtonWords(double newtons);
+
+/// "a", "a and b", "a, b and c".
+std::string joinedWords(const std::vector<std::string>& parts);
+
+}  // namespace palpa::assess

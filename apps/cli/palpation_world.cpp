@@ -1,0 +1,105 @@
+#include "apps/cli/palpation_world.h"
+
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "apps/cli/output_folder.h"
+#include "apps/cli/session_info.h"
+#include "apps/station/assets.h"
+#include "apps/twin/palpating_hand.h"
+#include "apps/twin/sample_twin.h"
+
+namespace palpa::cli {
+namespace {
+
+constexpr double kPickedUp = 0.05;   // m above the phantom
+
+station::Station palpationStation(const SessionOptions& options) {
+  station::Station station = station::readStation(options.station.empty() ? station::assetFile("stations/palpation_bench.json") : std::filesystem::path(options.station));
+  station::judgeAge(station, utcNow());
+  if (!station.sample) throw UsageError("has no \"sample\"", station.file.name(), "Say where the phantom lies: sample/X_WP, sample/tip_radius_mm");
+  if (!station.force_sensor) throw UsageError("has no \"force_sensor\"", station.file.name(), "Lumps are added to what is felt of the phantom: that must be measured. Describe the sensor");
+  return station;
+}
+
+}  // namespace
+
+PalpationWorld::PalpationWorld(const SessionOptions& options)
+    : station(palpationStation(options)),
+      task(task_palpation::readPalpation(options.task.empty() ? station::assetFile("tasks/palpation_breast.json") : std::filesystem::path(options.task))),
+      phantom(anatomy::phantomBlock(task.size, task.title)),
+      X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
+  if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
+    station.file.refuse("sample/tip_radius_mm", "is not that of the tip with which the task's lumps were identified");
+}
+
+haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) const {
+  haptics::TickConfig config;
+  config.engine = haptics::Engine::touch;
+  config.object_at_port = 1;
+  config.coupling = station.coupling;
+  config.safety = station.safety;
+  config.passivity = station.passivity;
+  config.X_ET = pack(station.X_ET);
+  config.touch = station::touchOf(task.library);
+  config.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
+  config.period_ns = std::llround(1e9 / options.rate_Hz);
+  if (isSimulated(options.who)) config.safety.deadman_button = 0;  // nobody could hold it
+  config.device_turns = isSimulated(options.who) || station.device.capabilities.has_orientation;
+  return config;
+}
+
+SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const {
+  const twin::PalpatingSkill skill = twin::readPalpatingSkill(station::assetFile(options.who == OperatorKind::novice ? "operators/palpation_novice.json" : "operators/palpation_expert.json"));
+  const twin::VisiblePhantom seen{anatomy::X_AP(), task.rules.area.half_x, task.rules.area.half_y};
+  const Pose& X_WP = station.sample->X_WP;
+  const Pose X_WT = X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(), Vec3(0, -task.rules.area.half_y, kPickedUp));
+  twin::VirtualBench::Setup bench{station,
+                                  std::make_unique<twin::PalpatingHand>(skill, seen, station.X_ET, options.seed),
+                                  station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
+                                  X_WP.translation(),
+                                  X_WP.linear() * Vec3::UnitZ(),
+                                  options.seed,
+                                  {},
+                                  nullptr,
+                                  {}};
+  if (isSimulated(options.who)) {
+    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.seed);
+    bench.real_thing = [sample](const Pose& X_WT_true, double dt) {
+      const twin::SampleTwin::Touch touch = sample->step(X_WT_true, dt);
+      return twin::VirtualBench::Touch{touch.f_W, touch.p_W};
+    };
+  }
+  return {std::move(bench), std::nullopt, task.library.tip_radius};
+}
+
+record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
+  record::SessionInfo info;
+  info.started_utc = utcNow();
+  info.software = std::string("palpa ") + PALPA_VERSION;
+  info.command = options.command;
+  info.session_json = nlohmann::json{{"seed", options.seed},
+                                     {"operator", nameOf(options.who)},
+                                     {"simulated", simulated(options)},
+                                     {"trainee", options.trainee},
+                                     {"force_feedback", options.force_feedback},
+                                     {"guidance", options.guidance},
+                                     {"see_through", options.see_through},
+                                     {"virtual_time", options.fast}}
+                          .dump();
+  info.station_json = station.file.json().dump();
+  info.task_json = task.source;
+  info.tick_config = tickConfig(options);
+  return info;
+}
+
+std::string PalpationWorld::forceNote() const {
+  if (station.safety.max_force_N >= task.clinical_force_N && task.rules.levels[2] >= task.clinical_force_N) return "";
+  char text[128];
+  std::snprintf(text, sizeof text, "Scaled force: deep is %.1f N here, about %.0f N on a patient", task.rules.levels[2], task.clinical_force_N);
+  return text;
+}
+
+}  // namespace palpa::cli

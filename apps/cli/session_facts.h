@@ -1,0 +1,21 @@
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "apps/cli/session_frame.h"
+#include "apps/report/session_report.h"
+
+/// What a report says of any session besides its trials.
+namespace palpa::cli {
+
+[[gnu::format(printf, 1, 2)]] std::string format(const char* pattern, ...);   ///< printf's, up to 255 characters
+
+/// A pseudonym, "simulated expert", "recorded hand".
+std::string whoPerformed(const SessionOptions& options);
+/// Station, device, calibration, time, software: in this order.
+std::vector<report::Fact> stationFactsOf(const SessionOptions& options, const station::Station& station);
+/// Lateness, trips with their causes, what drivers and camera had to say, records lost.
+std::vector<report::Fact> runNotes(const SessionRun& run);
+
+}  // namespace palpa::cli

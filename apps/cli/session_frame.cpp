@@ -1,0 +1,95 @@
+#include "apps/cli/session_frame.h"
+
+#include "apps/cli/interrupt.h"
+#include "apps/cli/progress.h"
+#include "apps/runtime/geometry_activity.h"
+#include "apps/runtime/recorder_activity.h"
+
+namespace palpa::cli {
+
+std::string markFor(OperatorKind who, const station::Station& station) {
+  if (isSimulated(who)) return "SIMULATED OPERATOR";
+  if (who == OperatorKind::recorded) return "RECORDED HAND";
+  if (!station.simulated) return "";
+  return station.device.driver == station::DeviceDriver::bench ? "VIRTUAL BENCH" : "VIRTUAL CAMERA";
+}
+
+SessionFrame::SessionFrame(const SessionOptions& options, const World& world, SessionDevices::Hands hands, trial::Channels& channels, const std::filesystem::path& folder)
+    : options_(options),
+      world_(world),
+      channels_(channels),
+      folder_(folder),
+      window_(options.display == scene::Display::window && !options.no_views),
+      pictures_(options, world.station),
+      stage_(options.no_views ? Stage{} : makeStage(options, world.patient, window_)),
+      executive_(options.fast ? runtime::makeVirtualExecutive() : runtime::makeRealExecutive()),
+      mode_(executive_->mode()),
+      bus_(mode_),
+      devices_(options, world.station, std::move(hands), bus_, channels, executive_->clock(), mode_) {
+  if (options.record_video) video_.emplace(folder);
+}
+
+std::vector<runtime::BoardPlace> SessionFrame::places() const {
+  std::vector<runtime::BoardPlace> all;
+  for (const station::OtherBoard& board : world_.station.boards) all.push_back({board.name, board.X_WB, board.tolerance});
+  return all;
+}
+
+trial::TrialScene::Stage SessionFrame::stage(runtime::HeadDisplay* head) {
+  using Views = trial::TrialScene::Views;
+  trial::TrialScene::Stage stage;
+  stage.views = !stage_.view ? Views::none : options_.fast ? Views::pictures : Views::continuous;
+  stage.view = stage_.view.get();
+  stage.head = head;
+  stage.camera = pictures_.camera();
+  stage.X_WA = world_.X_WA;
+  stage.X_WD = world_.station.X_WD;
+  stage.mark = markFor(options_.who, world_.station);
+  stage.folder = folder_;
+  stage.every_source_picture = pictures_.photographs();
+  stage.places = places();
+  if (window_) stage.input = [this](const scene::ViewInput& input, std::int64_t) { handleKeys(input, channels_); };
+  return stage;
+}
+
+SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, const record::SessionInfo& info, runtime::GeometryActivity* geometry) {
+  runtime::HapticActivity haptic(bus_, devices_.device(), world_.tick, devices_.sensing(), options_.exact_geometry ? geometry : nullptr);
+  runtime::CameraActivity camera(bus_, pictures_.exposer(devices_.bench(), executive_->clock()), pictures_.board(), pictures_.camera(), pictures_.settings(mode_),
+                                 [this, look = pictures_.observer(devices_.bench())](const runtime::CameraView& view) {
+                                   look(view);
+                                   if (video_) video_->add(view);
+                                 });
+  record::SessionWriter writer(folder_ / "session.palpa", info);
+  runtime::RecorderActivity recorder(bus_, writer, world_.tick.period_ns);
+  Progress progress(options_.quiet);
+  Interrupt interrupt(channels_);
+  devices_.addTo(*executive_);
+  executive_->add(haptic, {1, true, false, options_.cpu});
+  if (geometry && !options_.exact_geometry) executive_->add(*geometry, {2, false, false});
+  executive_->add(camera, {3, false, false});
+  executive_->add(task, {4, false, false});
+  executive_->add(scene, {5, false, true});
+  executive_->add(recorder, {6, false, false});
+  executive_->add(progress, {7, false, false});
+  executive_->add(interrupt, {8, false, false});
+  executive_->run();
+  scene.finish(executive_->clock().now());
+  recorder.finish();
+  writer.close();
+  SessionRun run;
+  run.pictures = scene.pictures();
+  run.lateness = executive_->lateness();
+  if (pictures_.fromBench()) run.accuracy = devices_.bench()->accuracy();
+  if (video_) run.video = {video_->pictures(), video_->trouble()};
+  run.registration = pictures_.registration();
+  run.camera_remarks = pictures_.remarks();
+  run.board = scene.board();
+  run.devices = devices_.facts();
+  run.safety_events = task.safetyEvents();
+  run.dropped = recorder.dropped() + task.lostTicks();
+  run.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;
+  run.quit = task.quit();
+  return run;
+}
+
+}  // namespace palpa::cli

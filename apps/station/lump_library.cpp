@@ -1,0 +1,91 @@
+#include "apps/station/lump_library.h"
+
+#include <algorithm>
+
+#include "anatomy/geometry/error.h"
+#include "apps/station/calibration_file.h"
+
+namespace palpa::station {
+namespace {
+
+struct PowerRange {
+  double least, most;
+};
+constexpr PowerRange kSurfacePower{1, 2}, kBedPower{0.5, 3};
+
+/// A calibration that passed.
+CalibrationFile calibrationAt(const JsonFile& list, const std::string& field, const std::string& kind, const std::filesystem::path& folder) {
+  const std::filesystem::path path = folder / list.text(field);
+  CalibrationFile file = readCalibration(path);
+  if (file.kind != kind) throw Error("is a calibration of \"" + file.kind + "\", not of \"" + kind + "\"", path.string(), "See " + list.name() + ", " + field);
+  if (!file.passed()) throw Error("did not pass: " + file.verdict, path.string(), "Identify it again: palpa calibrate " + kind);
+  return file;
+}
+
+/// `name` "" or "H_T_".
+haptics::HuntCrossley lawAt(const CalibrationFile& file, const std::string& name, const PowerRange& power, const std::string& path) {
+  const haptics::HuntCrossley law{file.at(name + "k_N_per_m_to_the_m", 1)[0], file.at(name + "b_Ns_per_m_to_the_m_plus_1", 1)[0], file.at(name + "m", 1)[0]};
+  const auto refuse = [&](const std::string& what, double value) {
+    throw Error("has " + name + what + " = " + std::to_string(value), path, "No soft thing is like that: identify it again");
+  };
+  if (law.k < 0) refuse("k below zero,", law.k);
+  if (law.b < 0) refuse("b below zero,", law.b);
+  if (law.m < power.least || law.m > power.most) refuse("m that is not within " + std::to_string(power.least).substr(0, 3) + " to " + std::to_string(power.most).substr(0, 3) + ",", law.m);
+  return law;
+}
+
+/// A word for one of two grades, from 1.
+int gradeAt(const JsonFile& kind, const std::string& field, const std::string& one, const std::string& two) {
+  const std::string word = kind.text(field);
+  if (word != one && word != two) kind.refuse(field, "is \"" + word + "\"; known: " + one + ", " + two);
+  return word == one ? 1 : 2;
+}
+
+LumpKind kindAt(const JsonFile& entry, const std::filesystem::path& folder, bool* simulated) {
+  const CalibrationFile file = calibrationAt(entry, "identified", "inclusion", folder);
+  const std::string path = (folder / entry.text("identified")).string();
+  *simulated = *simulated || file.simulated;
+  LumpKind kind;
+  kind.name = entry.text("name");
+  kind.law.H_T = lawAt(file, "H_T_", kSurfacePower, path);
+  kind.law.G = {lawAt(file, "G_x_", kBedPower, path), lawAt(file, "G_y_", kBedPower, path), lawAt(file, "G_z_", kBedPower, path)};
+  kind.law.l0 = file.at("l0_m", 1)[0];
+  kind.depth = file.at("depth_m", 1)[0];
+  kind.contrast = 0.01 * file.at("contrast_percent", 1)[0];
+  kind.diameter = 1e-3 * entry.number("diameter_mm", 1, 100);
+  kind.hardness = gradeAt(entry, "hardness", "soft", "hard");
+  kind.mobility = gradeAt(entry, "mobility", "fixed", "mobile");
+  if (kind.law.l0 <= 0 || kind.depth <= 0) throw Error("has no depth", path, "Identify it again");
+  return kind;
+}
+
+}  // namespace
+
+LumpLibrary readLumps(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  file.needVersion(1);
+  const std::filesystem::path folder = path.parent_path();
+  LumpLibrary library;
+  const CalibrationFile surface = calibrationAt(file, "surface", "material", folder), friction = calibrationAt(file, "friction", "friction", folder);
+  library.surface = lawAt(surface, "", kSurfacePower, (folder / file.text("surface")).string());
+  library.x0 = surface.at("x0_m", 1)[0];
+  library.friction = {friction.at("mu", 1)[0], friction.at("sigma_N_per_m", 1)[0], friction.at("B_Ns_per_m", 1)[0]};
+  library.tip_radius = 1e-3 * file.number("tip_radius_mm", 1, 30);
+  library.simulated = surface.simulated || friction.simulated;
+  for (const JsonFile& entry : file.entries("kinds")) library.kinds.push_back(kindAt(entry, folder, &library.simulated));
+  if (library.kinds.empty() || library.kinds.size() > haptics::kMostLumpKinds) file.refuse("kinds", "must hold 1 to " + std::to_string(haptics::kMostLumpKinds) + " lumps");
+  return library;
+}
+
+haptics::TouchAugmentation touchOf(const LumpLibrary& library) {
+  haptics::TouchAugmentation touch;
+  touch.surface.contact.real = library.surface;
+  touch.surface.contact.x0 = library.x0;
+  touch.surface.contact.friction = library.friction;
+  touch.surface.wanted = library.friction;
+  touch.tip_radius = library.tip_radius;
+  for (std::size_t i = 0; i < library.kinds.size(); ++i) touch.kinds[i] = library.kinds[i].law;
+  return touch;
+}
+
+}  // namespace palpa::station

@@ -1,0 +1,86 @@
+#include "apps/task_palpation/palpation_file.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpa::task_palpation {
+namespace {
+
+constexpr double kFileMm = 1e-3;
+
+assess::PalpationRules rulesOf(const station::JsonFile& file) {
+  assess::PalpationRules rules;
+  rules.area = {kFileMm * file.number("area/half_across_mm", 5, 200), kFileMm * file.number("area/half_away_mm", 5, 200)};
+  rules.levels = {file.number("pressure/light_N", 0.05, 20), file.number("pressure/medium_N", 0.05, 20), file.number("pressure/deep_N", 0.05, 20)};
+  if (!(rules.levels[0] < rules.levels[1] && rules.levels[1] < rules.levels[2])) file.refuse("pressure", "must rise from light to deep");
+  rules.too_hard = file.number("pressure/too_hard_N", 0.1, 50);
+  rules.reach = kFileMm * file.number("scoring/reach_mm", 1, 30);
+  rules.touch = file.number("scoring/touch_N", 0.02, 5);
+  rules.found_within = kFileMm * file.number("scoring/found_within_mm", 1, 50);
+  return rules;
+}
+
+std::vector<std::size_t> kindsOf(const station::JsonFile& file, const station::LumpLibrary& library) {
+  std::vector<std::size_t> kinds;
+  for (const nlohmann::json& name : file.json().at("cases").value("kinds", nlohmann::json::array())) {
+    const auto one = std::find_if(library.kinds.begin(), library.kinds.end(), [&](const station::LumpKind& kind) { return name.is_string() && kind.name == name.get<std::string>(); });
+    if (one == library.kinds.end()) file.refuse("cases/kinds", "names " + name.dump() + ", which the library of lumps does not hold");
+    kinds.push_back(static_cast<std::size_t>(one - library.kinds.begin()));
+  }
+  if (kinds.empty()) file.refuse("cases/kinds", "must name one lump at least");
+  return kinds;
+}
+
+std::vector<double> sharesOf(const station::JsonFile& file) {
+  std::vector<double> shares;
+  double all = 0;
+  for (const nlohmann::json& share : file.json().at("cases").value("lumps", nlohmann::json::array())) {
+    if (!share.is_number() || share.get<double>() < 0) file.refuse("cases/lumps", "must hold probabilities");
+    shares.push_back(share.get<double>());
+    all += shares.back();
+  }
+  if (std::abs(all - 1) > 1e-6) file.refuse("cases/lumps", "must add up to 1");
+  if (shares.size() > haptics::kMostLumps + 1) file.refuse("cases/lumps", "allows more than " + std::to_string(haptics::kMostLumps) + " lumps");
+  return shares;
+}
+
+/// Lumps lie wholly inside.
+void requireInside(const station::JsonFile& file, const PalpationSettings& settings) {
+  for (const std::size_t k : settings.cases.kinds) {
+    const station::LumpKind& kind = settings.library.kinds[k];
+    if (kind.depth - kind.diameter / 2 < 0 || kind.depth + kind.diameter / 2 > settings.size.z())
+      file.refuse("cases/kinds", "holds \"" + kind.name + "\", which would stick out of the phantom: its middle lies " + std::to_string(std::lround(1e3 * kind.depth)) + " mm deep, it measures " +
+                                     std::to_string(std::lround(1e3 * kind.diameter)) + " mm");
+  }
+  const assess::SearchArea& area = settings.rules.area;
+  if (2 * area.half_x > settings.size.x() || 2 * area.half_y > settings.size.y()) file.refuse("area", "is larger than the phantom");
+  const double free_x = area.half_x - settings.cases.margin, free_y = area.half_y - settings.cases.margin;
+  if (free_x <= 0 || free_y <= 0) file.refuse("cases/margin_mm", "leaves no room");
+  const double rooms = (1 + std::floor(2 * free_x / settings.cases.apart)) * (1 + std::floor(2 * free_y / settings.cases.apart));
+  if (rooms < static_cast<double>(settings.cases.lumps.size()) - 1) file.refuse("cases/apart_mm", "leaves no room for so many lumps");
+}
+
+}  // namespace
+
+PalpationSettings readPalpation(const std::filesystem::path& path) {
+  const station::JsonFile file(path);
+  file.needVersion(1);
+  if (const std::string engine = file.text("engine"); engine != "palpation") file.refuse("engine", "is \"" + engine + "\"; here it must be palpation");
+  PalpationSettings settings;
+  settings.id = file.text("id");
+  settings.title = file.text("title");
+  settings.size = kFileMm * Vec3(file.number("phantom/across_mm", 10, 500), file.number("phantom/away_mm", 10, 500), file.number("phantom/high_mm", 5, 300));
+  settings.library = station::readLumps(path.parent_path() / file.text("lumps"));
+  settings.rules = rulesOf(file);
+  if (!file.has("cases/lumps") || !file.has("cases/kinds")) file.refuse("cases", "must hold \"lumps\" and \"kinds\"");
+  settings.cases = {sharesOf(file), kindsOf(file, settings.library), kFileMm * file.number("cases/apart_mm", 5, 200), kFileMm * file.number("cases/margin_mm", 0, 200)};
+  settings.standard = {file.number("scoring/pass_sensitivity", 0, 1), file.number("scoring/pass_coverage", 0, 1)};
+  settings.clinical_force_N = file.number("pressure/clinical_deep_N", 0, 50);
+  settings.time_limit_s = file.number("end/time_limit_s", 10, 3600);
+  settings.taxonomy = {file.text("taxonomy/visual"), file.text("taxonomy/haptic"), file.text("taxonomy/purpose"), file.text("taxonomy/property")};
+  requireInside(file, settings);
+  settings.source = file.json().dump();
+  return settings;
+}
+
+}  // namespace palpa::task_palpation

@@ -1,0 +1,53 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/assess/palpation/palpation_assessment.h"
+#include "apps/station/lump_library.h"
+
+namespace palpa::task_palpation {
+
+/// How cases are drawn: how many lumps, where, of which kinds.
+struct CaseRules {
+  std::vector<double> lumps;           ///< probability of 0, 1, 2, ... lumps
+  std::vector<std::size_t> kinds;      ///< of the library, from 0; each equally likely
+  double apart = 0, margin = 0;        ///< m, between lumps' middles; from the area's edge
+};
+
+/// Where the task stands among haptic and visual augmented realities, in words (Jeon, Choi & Harders 2015, their section 2).
+struct Taxonomy {
+  std::string visual, haptic, purpose, property;
+};
+
+/// A palpation task as its file says it (assets/tasks/palpation_*.json). Another phantom, other lumps, other rules need a file, not code.
+struct PalpationSettings {
+  std::string id, title;
+  Vec3 size = Vec3(0.1, 0.1, 0.05);    ///< m, of the phantom: across, away from the trainee, high
+  station::LumpLibrary library;
+  CaseRules cases;
+  assess::PalpationRules rules;
+  assess::PalpationStandard standard;
+  double clinical_force_N = 0;         ///< that deep palpation takes on a patient; where the device gives less, the screen says "scaled force"
+  double time_limit_s = 300;
+  Taxonomy taxonomy;
+  std::string source;                  ///< the file's text, for the evidence
+};
+
+/// Throws UsageError naming file and field, Error for a library that cannot be used or a lump that would stick out of the phantom.
+PalpationSettings readPalpation(const std::filesystem::path& file);
+
+/// A lump at a place: P, m.
+struct LumpInCase {
+  std::size_t kind = 0;                ///< of the library, from 0
+  Vec3 p_P = Vec3::Zero();
+};
+using Case = std::vector<LumpInCase>;
+
+/// The same for the same seed.
+Case drawCase(const PalpationSettings& settings, std::uint64_t seed);
+std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLibrary& library);
+haptics::PlacedLumps placed(const Case& in_case);
+
+}  // namespace palpa::task_palpation

@@ -1,0 +1,78 @@
+#include "apps/task_palpation/palpation_scene.h"
+
+#include <cstdio>
+
+namespace palpa::task_palpation {
+namespace {
+
+constexpr double kShownForce_N = 0.05;
+constexpr const char* kPressures[] = {"", "light", "medium", "deep"};
+
+template <class... Numbers>
+std::string lineOf(const char* pattern, Numbers... numbers) {
+  char text[96];
+  std::snprintf(text, sizeof text, pattern, numbers...);
+  return text;
+}
+
+}  // namespace
+
+PalpationScene::PalpationScene(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels) : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {}
+
+const trial::TrialStatus& PalpationScene::readStatus(std::int64_t now_ns) {
+  if (const PalpationStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
+  return status_;
+}
+
+void PalpationScene::compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) {
+  state.tool = scene::Tool::probe;
+  state.hud = words(tool, trouble);
+  showFelt(state);
+  showForces(state, tool);
+}
+
+/// The area is outlined from the start: it is known what is to be searched.
+void PalpationScene::showFelt(scene::SceneState& state) const {
+  scene::CoverageGrid grid;
+  grid.X_AG = setup_.X_AP;
+  grid.columns = status_.columns;
+  grid.rows = status_.rows;
+  if (grid.columns > 0 && grid.rows > 0) {
+    grid.cell_x = 2 * setup_.area.half_x / grid.columns;
+    grid.cell_y = 2 * setup_.area.half_y / grid.rows;
+    grid.levels = status_.levels;
+    grid.levels.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), 0);
+    state.coverage = grid;
+  }
+  state.lumps.clear();
+  for (const PalpationStatus::Shown& lump : status_.lumps) state.lumps.push_back({setup_.X_AP * lump.p_P, lump.radius, lump.found});
+  state.marks_A.clear();
+  for (const Vec3& p_P : status_.marks_P) state.marks_A.push_back(setup_.X_AP * p_P);
+  state.lead_A = status_.lead_P ? std::optional<Vec3>(setup_.X_AP * *status_.lead_P) : std::nullopt;
+}
+
+/// What the real thing gives back at the tip, what the device adds at the handle.
+void PalpationScene::showForces(scene::SceneState& state, const runtime::ToolState& tool) const {
+  state.forces.clear();
+  const Vec3 f_real_A = X_AD().rotation() * unpack(tool.f_sensed_D), f_device_A = X_AD().rotation() * unpack(tool.f_command_D);
+  if (f_real_A.norm() > kShownForce_N) state.forces.push_back({scene::ForceKind::reaction, state.X_AT.translation(), f_real_A});
+  if (f_device_A.norm() > kShownForce_N) state.forces.push_back({scene::ForceKind::device, state.X_AT * Vec3(0, 0, -0.11), f_device_A});
+}
+
+scene::Hud PalpationScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
+  scene::Hud hud;
+  if (status_.trials > 1 && status_.trial > 0) hud.phase = lineOf("Trial %d of %d  ", status_.trial, status_.trials);
+  if (status_.active()) {
+    hud.phase += "Search for lumps";
+    hud.force = lineOf("%.1f N ", status_.pressed_N) + kPressures[status_.level] + (status_.force_feedback ? "" : " (force feedback off)");
+    const int seconds = static_cast<int>(status_.elapsed_s);
+    hud.time = lineOf("%d:%02d", seconds / 60, seconds % 60);
+    hud.touched = setup_.force_note;
+    if (!status_.marks_P.empty()) hud.depth = lineOf("%d marked", static_cast<int>(status_.marks_P.size()));
+  }
+  trial::noticeOf(status_, tool.safety, "", trouble, &hud);
+  hud.mark = mark();
+  return hud;
+}
+
+}  // namespace palpa::task_palpation

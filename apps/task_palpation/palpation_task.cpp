@@ -1,0 +1,145 @@
+#include "apps/task_palpation/palpation_task.h"
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::task_palpation {
+namespace {
+
+std::string scoreJson(const assess::PalpationAssessment& a) {
+  return nlohmann::json{{"FOUND", a.score.found},
+                        {"MISSED", a.score.missed},
+                        {"FALSE_ALARMS", a.score.false_alarms},
+                        {"COVERAGE", a.score.coverage[0]},
+                        {"PEAK_N", a.score.peak},
+                        {"TIME_S", a.score.seconds},
+                        {"GUIDED", a.facts.guided},
+                        {"PASSED", a.passed ? 1 : 0}}
+      .dump();
+}
+
+int levelOf(const assess::PressureLevels& levels, double f) {
+  int level = 0;
+  for (const double from : levels) level += f >= from;
+  return level;
+}
+
+std::vector<std::uint8_t> levelsOf(const assess::CoverageMap& map) {
+  std::vector<std::uint8_t> levels;
+  for (int row = 0; row < map.rows(); ++row)
+    for (int column = 0; column < map.columns(); ++column) levels.push_back(static_cast<std::uint8_t>(map.level(column, row)));
+  return levels;
+}
+
+}  // namespace
+
+std::string caseText(const std::vector<assess::CaseLump>& lumps) {
+  nlohmann::json list = nlohmann::json::array();
+  for (const assess::CaseLump& lump : lumps)
+    list.push_back({{"p_P_m", pack(lump.p_P)}, {"diameter_m", lump.diameter}, {"hardness", lump.hardness}, {"mobility", lump.mobility}});
+  return list.dump();
+}
+
+std::vector<assess::CaseLump> caseOf(const std::string& text) {
+  try {
+    std::vector<assess::CaseLump> lumps;
+    for (const nlohmann::json& lump : nlohmann::json::parse(text))
+      lumps.push_back({unpack(lump.at("p_P_m").get<Packed3>()), lump.at("diameter_m").get<double>(), lump.at("hardness").get<int>(), lump.at("mobility").get<int>()});
+    return lumps;
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(std::string("does not describe lumps (") + e.what() + ")", "event \"case\"", "Restore the file from a backup");
+  }
+}
+
+PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels, runtime::Executive& executive)
+    : TrialTask({static_cast<int>(setup.plan.size()), setup.automatic, setup.not_scored, setup.places}, bus, channels, executive),
+      setup_(setup),
+      channels_(channels),
+      listener_(setup.tick),
+      map_(setup.settings.rules.area, setup.settings.rules.levels, setup.settings.rules.reach),
+      guidance_(setup.guided) {
+  completed_.reserve(setup.plan.size());
+  shown_.columns = map_.columns();
+  shown_.rows = map_.rows();
+}
+
+std::string PalpationTask::notReady(const haptics::FlightRecord& last) const {
+  if (last.sensed.state != haptics::SensorState::valid) return "the force sensor says nothing that could be used";
+  return unpack(last.sensed.f_D).norm() >= setup_.settings.rules.touch ? "the tool touches something: lift it" : "";
+}
+
+runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
+  case_ = drawCase(setup_.settings, plan().seed);
+  placed_ = placed(case_);
+  listener_.begin(static_cast<std::uint32_t>(status().trial));
+  map_ = assess::CoverageMap(setup_.settings.rules.area, setup_.settings.rules.levels, setup_.settings.rules.reach);
+  guidance_.begin(status().trial);
+  shown_.levels.clear();
+  shown_.marks_P.clear();
+  showLumps(nullptr);
+  tell(now_ns, "case", caseText(lumpsOf(case_, setup_.settings.library)));
+  picture("start", "Before anything was felt");
+  return {status().trial, now_ns, plan().seed, plan().role, plan().force_feedback, 0};
+}
+
+/// While a trial runs only where they may be seen; after it all, found or missed.
+void PalpationTask::showLumps(const assess::PalpationAssessment* judged) {
+  shown_.lumps.clear();
+  if (!judged && !setup_.see_through) return;
+  const std::vector<assess::CaseLump> lumps = lumpsOf(case_, setup_.settings.library);
+  for (std::size_t i = 0; i < lumps.size(); ++i) shown_.lumps.push_back({lumps[i].p_P, lumps[i].diameter / 2, judged && judged->score.lumps[i].mark >= 0});
+}
+
+trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome, const std::string& reason) {
+  CompletedPalpation trial;
+  trial.reason = reason;
+  const double seconds = listener_.seconds();
+  const assess::PalpationFacts facts{status().trial, plan().role, setup_.simulated, plan().force_feedback, plan().seed, outcome, seconds > 0 ? guidance_.shown_s() / seconds : 0};
+  trial.assessment = assess::assessPalpation(facts, setup_.settings.rules, setup_.settings.standard, lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
+  trial.samples = listener_.samples();
+  guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.standard.coverage);
+  showLumps(&trial.assessment);
+  shown_.levels = levelsOf(map_);
+  shown_.lead_P.reset();
+  completed_.push_back(std::move(trial));
+  const assess::PalpationAssessment& judged = completed_.back().assessment;
+  return {scoreJson(judged), judged.summary, outcome == "done" ? judged.summary : "Trial ended: " + outcome, "What was felt and marked, and what lies inside"};
+}
+
+void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
+  const std::size_t marks = listener_.marks().size();
+  const bool kept = listener_.add(record);
+  if (listener_.marks().size() > marks) {
+    shown_.marks_P.push_back(listener_.marks().back().p_P);
+    tell(record.t_ns, "mark", "The trainee marks a lump");
+    picture("mark", "Marked: here is one");
+  }
+  if (!kept) return;
+  map_.add(listener_.samples().back());
+  shown_.pressed_N = listener_.samples().back().f_n;
+  shown_.level = levelOf(setup_.settings.rules.levels, shown_.pressed_N);
+  status().elapsed_s = listener_.seconds();
+  if (status().elapsed_s >= setup_.settings.time_limit_s) endTrial("time", "The time limit was reached", now_ns);
+}
+
+void PalpationTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
+  if (request.command == trial::UserCommand::done) return endTrial("done", "", now_ns);
+  if (request.command != trial::UserCommand::grade || listener_.marks().empty()) return;
+  const Grade grade = gradeOf(request.reason);
+  listener_.grade(grade.diameter, grade.hardness, grade.mobility);
+  tell(now_ns, "grade", gradeText(grade.diameter, grade.hardness, grade.mobility), static_cast<double>(listener_.marks().size()));
+}
+
+void PalpationTask::command(haptics::TickCommands& commands) const { commands.lumps = placed_; }
+
+void PalpationTask::publishStatus(std::int64_t now_ns) {
+  if (status().state == trial::TrialState::running) {
+    shown_.lead_P = guidance_.lead(map_, listener_.seconds());
+    if (guidance_.helps(status().trial)) shown_.levels = levelsOf(map_);
+  }
+  static_cast<trial::TrialStatus&>(shown_) = status();
+  channels_.status_to_scene.publish(shown_, now_ns);
+}
+
+}  // namespace palpa::task_palpation

@@ -1,0 +1,265 @@
+#include "apps/twin/palpating_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace palpa::twin {
+namespace {
+
+constexpr std::int64_t kThink_ns = 10'000'000, kGlance_ns = 100'000'000;   // 100 Hz, 10 Hz
+constexpr double kThink_s = 0.01;
+constexpr double kSharp = 0.3;          // touch is not sharper than about 25 ms
+constexpr double kOverTop = 0.003;      // m, from where a press begins
+constexpr double kInAir = 0.001;        // m of the way down in which the hand learns what moving takes
+constexpr double kTouch_N = 0.06, kDeepest = 0.009;   // N above the air's, m below the top: a hand that feels nothing stops there
+constexpr double kLift = 0.05;          // m/s
+constexpr double kCross = 0.005;        // m, of a closer look
+constexpr double kKnown = 0.015;        // m: nobody looks twice at the same lump
+constexpr double kSame = 0.006;         // m
+constexpr std::size_t kRemembered = 20; // presses
+constexpr std::size_t kFewest = 5;
+constexpr double kMarkFor_s = 0.3;
+constexpr double kHome = 0.04;          // m above the top
+
+double median(std::vector<double> values) {
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  return values[values.size() / 2];
+}
+
+double across(const Vec3& a, const Vec3& b) { return (a - b).head<2>().norm(); }
+
+}  // namespace
+
+PalpatingHand::PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& phantom, const Pose& X_ET, std::uint64_t seed)
+    : skill_(skill),
+      phantom_(phantom),
+      X_ET_(X_ET),
+      X_TE_(X_ET.inverse()),
+      seed_(seed),
+      judgement_(seed, "palpating.judgement.0"),
+      noise_(seed, "palpating.noise"),
+      tremor_(skill.tremor_rms, runtime::RandomStream(seed, "palpating.tremor")) {}
+
+void PalpatingHand::planStrips() {
+  places_.clear();
+  const int strips = std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_x / skill_.strip - 1e-9)));
+  const int steps = std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_y / skill_.step - 1e-9)));
+  for (int i = 0; i < strips; ++i) {
+    for (int k = 0; k < steps; ++k) {
+      const int j = i % 2 == 0 ? k : steps - 1 - k;
+      const Vec3 planned(phantom_.half_x * ((2 * i + 1.0) / strips - 1), phantom_.half_y * ((2 * j + 1.0) / steps - 1), 0);
+      if (judgement_.uniform() < skill_.skip) continue;
+      places_.push_back(planned + skill_.wander * Vec3(judgement_.normal(), judgement_.normal(), 0));
+    }
+  }
+  std::reverse(places_.begin(), places_.end());
+}
+
+void PalpatingHand::beginTrial(int trial, double now_s) {
+  trial_ = trial;
+  judgement_ = runtime::RandomStream(seed_, "palpating.judgement." + std::to_string(trial));
+  memory_.clear();
+  closer_.clear();
+  suspect_P_.reset();
+  marked_P_.clear();
+  dismissed_P_.clear();
+  done_ = false;
+  planStrips();
+  next(now_s);
+}
+
+void PalpatingHand::goTo(const Vec3& p_P, double now_s, Step next) {
+  const Vec3 over(p_P.x(), p_P.y(), p_P.z() + kOverTop);
+  move_ = MinJerk(makePose(Mat3::Identity(), tip_P_), makePose(Mat3::Identity(), over), now_s, std::max(0.15, (over - tip_P_).norm() / skill_.travel_speed));
+  step_ = Step::travel;
+  after_travel_ = next;
+}
+
+/// Down evenly; what it takes to move in the air is no resistance of the phantom.
+void PalpatingHand::pressing(double now_s) {
+  tip_P_.z() -= skill_.press_speed * kThink_s;
+  if (tip_now_P_.z() > kOverTop - kInAir) air_N_ = felt_N_;
+  const double resistance = felt_N_ - air_N_;
+  if (!touched_ && resistance > kTouch_N) {
+    touched_ = true;
+    touched_z_ = tip_now_P_.z();
+  }
+  while (touched_ && depths_.size() < skill_.pressures.size() && resistance >= skill_.pressures[depths_.size()]) depths_.push_back(touched_z_ - tip_now_P_.z());
+  if (depths_.size() < skill_.pressures.size() && tip_now_P_.z() > -kDeepest) return;
+  since_s_ = now_s;
+  step_ = Step::overshoot;   // it goes on for as long as it takes to react
+}
+
+/// How much less it gave way than the places before it: ln, mean over the pressures.
+double PalpatingHand::firmness(const Felt& felt) const {
+  double sum = 0;
+  int count = 0;
+  for (std::size_t l = 0; l < felt.depths.size(); ++l) {
+    std::vector<double> around;
+    for (std::size_t i = memory_.size(); i-- > 0 && around.size() < kRemembered;)
+      if (memory_[i].depths.size() > l) around.push_back(memory_[i].depths[l]);
+    if (around.size() < kFewest) continue;
+    sum += std::log(median(around) / std::max(felt.depths[l], 1e-4));
+    ++count;
+  }
+  return count > 0 ? sum / count : 0;
+}
+
+bool PalpatingHand::known(const Vec3& p_P) const {
+  const auto near = [&](const Vec3& other) { return across(other, p_P) < kKnown; };
+  const auto same = [&](const Vec3& other) { return across(other, p_P) < kSame; };
+  return std::any_of(marked_P_.begin(), marked_P_.end(), near) || std::any_of(dismissed_P_.begin(), dismissed_P_.end(), same);
+}
+
+void PalpatingHand::judge(double now_s) {
+  Felt felt{tip_now_P_, depths_};
+  for (double& depth : felt.depths) depth *= std::exp(skill_.weber * judgement_.normal());
+  if (suspect_P_) {
+    closer_.push_back(felt);
+  } else {
+    memory_.push_back(felt);
+    if (firmness(felt) > skill_.looks_closer && !known(felt.p_P)) {
+      suspect_P_ = felt.p_P;
+      rounds_left_ = skill_.rounds;
+      closer_.assign(1, felt);
+    }
+  }
+  next(now_s);
+}
+
+void PalpatingHand::planCross(const Vec3& p_P) {
+  for (const Vec3& off : {Vec3(0, -kCross, 0), Vec3(0, kCross, 0), Vec3(kCross, 0, 0), Vec3(-kCross, 0, 0), Vec3(0, 0, 0)}) places_.push_back(Vec3(p_P.x(), p_P.y(), 0) + off);
+}
+
+/// The firmest place of those looked at closer: their middle, each as much as it is firm.
+void PalpatingHand::decide(double now_s) {
+  Vec3 middle = Vec3::Zero();
+  double weight = 0, firmest = 0;
+  for (const Felt& felt : closer_) {
+    const double w = std::pow(std::max(firmness(felt), 0.0), 2);
+    middle += w * felt.p_P;
+    weight += w;
+  }
+  if (weight > 0) middle /= weight;
+  else middle = *suspect_P_;
+  if (rounds_left_-- > 0) {
+    suspect_P_ = middle;
+    planCross(middle);
+    return next(now_s);
+  }
+  int count = 0;
+  for (const Felt& felt : closer_) {
+    if (across(felt.p_P, middle) > kSame) continue;
+    firmest += firmness(felt);
+    ++count;
+  }
+  firmest = count > 0 ? firmest / count : 0;
+  const Vec3 looked = *suspect_P_;
+  suspect_P_.reset();
+  if (firmest < skill_.marks_from || known(middle)) {
+    dismissed_P_.push_back(looked);
+    return next(now_s);
+  }
+  marked_P_.push_back(middle);
+  word_ = grade(middle, firmest);
+  goTo(Vec3(middle.x(), middle.y(), 0), now_s, Step::mark);
+}
+
+/// As wide as where it was felt to be firm.
+Hand::Word PalpatingHand::grade(const Vec3& p_P, double firmest) {
+  double sum = 0, weight = 0;
+  const auto add = [&](const Felt& felt) {
+    const double r = across(felt.p_P, p_P), w = std::max(firmness(felt), 0.0);
+    if (r > kKnown) return;
+    sum += w * r * r;
+    weight += w;
+  };
+  std::for_each(memory_.begin(), memory_.end(), add);
+  std::for_each(closer_.begin(), closer_.end(), add);
+  Word word;
+  word.kind = Word::Kind::grade;
+  const double spread = weight > 0 ? std::sqrt(sum / weight) : kCross;
+  word.diameter = std::clamp(3 * spread * (1 + skill_.size_sd * judgement_.normal()), 0.006, 0.035);
+  word.hardness = firmest >= skill_.hard_from ? 2 : 1;
+  return word;
+}
+
+void PalpatingHand::next(double now_s) {
+  const auto cross_left = [&] { return suspect_P_ && !places_.empty() && across(places_.back(), *suspect_P_) < kCross + 1e-6; };
+  if (suspect_P_ && !cross_left()) return decide(now_s);
+  if (!places_.empty()) {
+    const Vec3 place = places_.back();
+    places_.pop_back();
+    return goTo(place, now_s, Step::press);
+  }
+  done_ = true;
+  word_ = Word{Word::Kind::done, 0, 0, 0};
+  goTo(Vec3(0, 0, kHome), now_s, Step::rest);
+}
+
+void PalpatingHand::think(const Senses& senses) {
+  const double now_s = static_cast<double>(senses.now_ns) * 1e-9;
+  const Pose X_PD = phantom_.X_AP.inverse() * bearings_.X_DA().inverse();
+  tip_now_P_ = X_PD * (senses.X_DE * X_ET_).translation();
+  felt_N_ += kSharp * (-(X_PD.linear() * senses.f_grip_D).z() - felt_N_);
+  if (!senses.seen) return;
+  if (senses.seen->running && senses.seen->trial != trial_) return beginTrial(senses.seen->trial, now_s);
+  if (!senses.seen->running && step_ != Step::rest && step_ != Step::travel) {   // paused or over: away from it
+    done_ = true;
+    return goTo(Vec3(tip_P_.x(), tip_P_.y(), kHome), now_s, Step::rest);
+  }
+  switch (step_) {
+    case Step::rest: return;
+    case Step::travel:
+      tip_P_ = move_.at(now_s).translation();
+      if (!move_.done(now_s)) return;
+      step_ = after_travel_;
+      since_s_ = now_s;
+      touched_ = false;
+      air_N_ = felt_N_;
+      depths_.clear();
+      return;
+    case Step::press: return pressing(now_s);
+    case Step::overshoot:
+      tip_P_.z() -= skill_.press_speed * kThink_s;
+      if (now_s - since_s_ >= skill_.reaction) step_ = Step::lift;
+      return;
+    case Step::lift:
+      tip_P_.z() += kLift * kThink_s;
+      if (tip_P_.z() >= kOverTop) judge(now_s);
+      return;
+    case Step::mark:
+      if (now_s - since_s_ >= kMarkFor_s) step_ = Step::release, since_s_ = now_s;
+      return;
+    case Step::release:
+      if (now_s - since_s_ >= kMarkFor_s) next(now_s);
+      return;
+  }
+}
+
+Hand::Action PalpatingHand::act(const Senses& senses, double dt) {
+  const Vec3 p_D = senses.X_DE.translation();
+  hand_speed_ += ((p_D - p_last_D_).norm() / dt - hand_speed_) * std::min(1.0, dt / 0.05);
+  p_last_D_ = p_D;
+  if (senses.seen && (senses.now_ns - last_look_ns_ >= kGlance_ns || !bearings_.taken())) {
+    last_look_ns_ = senses.now_ns;
+    const bool first = !bearings_.taken();
+    bearings_.look(senses.seen->X_AT, senses.X_DE * X_ET_, skill_.look_sd, hand_speed_, noise_);
+    if (first) tip_P_ = phantom_.X_AP.inverse() * bearings_.X_AT().translation();
+  }
+  if (!bearings_.taken()) return {senses.X_DE, 0, 0, {}};
+  if (senses.now_ns >= next_thought_ns_) {
+    next_thought_ns_ = senses.now_ns + kThink_ns;
+    think(senses);
+  }
+  const Vec3 tip_P = tip_P_ + tremor_.next(dt);
+  Action action;
+  action.X_DH = bearings_.X_DA() * phantom_.X_AP * makePose(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix(), tip_P) * X_TE_;
+  action.buttons = step_ == Step::mark ? 1u : 0u;
+  const bool says_now = word_.kind == Word::Kind::done ? step_ == Step::travel : step_ == Step::release;
+  if (says_now && word_.kind != Word::Kind::none) std::swap(action.says, word_);
+  return action;
+}
+
+}  // namespace palpa::twin

@@ -1,0 +1,99 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/runtime/random.h"
+#include "apps/twin/bearings.h"
+#include "apps/twin/hand.h"
+#include "apps/twin/min_jerk.h"
+#include "apps/twin/tremor.h"
+
+namespace palpa::twin {
+
+/// How a simulated person palpates; fixed beforehand in assets/operators/palpation_*.json, each figure with unit and source. SI units here.
+struct PalpatingSkill {
+  std::string name;
+  HandGrip grip;
+  double tremor_rms = 0, look_sd = 0;   ///< m
+  double strip = 0, step = 0;           ///< m, between vertical strips, between presses along one
+  double wander = 0;                    ///< m, how far from the planned place a press is
+  double skip = 0;                      ///< share of places that are left out
+  double travel_speed = 0, press_speed = 0;   ///< m/s
+  std::vector<double> pressures;        ///< N, rising, at each of which it is judged how far the surface gave way
+  double reaction = 0;                  ///< s
+  double weber = 0;                     ///< standard deviation of ln of a judged depth
+  double looks_closer = 0, marks_from = 0;    ///< ln of how much less it gives way than around
+  int rounds = 0;                       ///< of five presses in a closer look
+  double size_sd = 0;                   ///< share
+  double hard_from = 0;                 ///< ln, as `marks_from`: from here on a lump is called hard
+};
+PalpatingSkill readPalpatingSkill(const std::filesystem::path& file);
+
+/// What anybody sees of the phantom: where it lies on the screen, and the area that is to be searched. P: origin in the middle of the top, z up.
+struct VisiblePhantom {
+  Pose X_AP = Pose::Identity();
+  double half_x = 0, half_y = 0;        ///< m
+};
+
+/// A simulated person who searches a soft thing for lumps, in vertical strips: presses, judges how far it gave way at each pressure against what the last places gave, looks closer where it
+/// gave less, marks by holding still with the button, grades. Knows what is on the screen and what the hand feels; nothing else.
+class PalpatingHand final : public Hand {
+ public:
+  PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& phantom, const Pose& X_ET, std::uint64_t seed);
+
+  Action act(const Senses& senses, double dt) override;
+  const HandGrip& grip() const override { return skill_.grip; }
+
+ private:
+  enum class Step { rest, travel, press, overshoot, lift, mark, release };
+  /// A press as it is remembered.
+  struct Felt {
+    Vec3 p_P;
+    std::vector<double> depths;         ///< m, judged, at each pressure
+  };
+
+  void think(const Senses& senses);
+  void beginTrial(int trial, double now_s);
+  void planStrips();
+  void goTo(const Vec3& p_P, double now_s, Step next);
+  void pressing(double now_s);
+  void judge(double now_s);
+  void next(double now_s);
+  void planCross(const Vec3& p_P);
+  void decide(double now_s);
+  double firmness(const Felt& felt) const;
+  bool known(const Vec3& p_P) const;
+  Word grade(const Vec3& p_P, double firmest);
+
+  PalpatingSkill skill_;
+  VisiblePhantom phantom_;
+  Pose X_ET_, X_TE_;
+  std::uint64_t seed_;
+  runtime::RandomStream judgement_, noise_;
+  Tremor tremor_;
+  Bearings bearings_;
+  double hand_speed_ = 0;
+  Vec3 p_last_D_ = Vec3::Zero();
+  std::int64_t next_thought_ns_ = 0, last_look_ns_ = 0;
+
+  Step step_ = Step::rest, after_travel_ = Step::rest;
+  int trial_ = 0;
+  Vec3 tip_P_ = Vec3::Zero(), tip_now_P_ = Vec3::Zero();   ///< wanted, and where it is
+  MinJerk move_;
+  double since_s_ = 0;
+  double felt_N_ = 0, air_N_ = 0, touched_z_ = 0;
+  bool touched_ = false;
+  std::vector<double> depths_;           ///< of this press so far
+  std::vector<Vec3> places_;             ///< still to be pressed, the next one last
+  std::vector<Felt> memory_, closer_;
+  std::optional<Vec3> suspect_P_;        ///< a closer look is on
+  int rounds_left_ = 0;
+  std::vector<Vec3> marked_P_, dismissed_P_;
+  Word word_;
+  bool done_ = false;
+};
+
+}  // namespace palpa::twin
