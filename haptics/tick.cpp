@@ -286,7 +286,7 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
 
   const NeedlePose pose = needlePose(config, state.contact, reading);
   SafetyCause fault = faultOf(config, state, reading, pose, elapsed);
-  if (fault == SafetyCause::none && config.engine == Engine::touch && reading.homed && !sensorBelieved(sensed)) fault = SafetyCause::no_sensor;
+  if (fault == SafetyCause::none && config.engine == Engine::touch && reading.homed && !sensorBelieved(sensed)) fault = commands.armed ? SafetyCause::no_sensor : SafetyCause::not_ready;
   SafetyInput input = safetyInput(reading, commands, fault, now_ns, dt);
   const double fresh = freshness(config, state, now_ns);
   NeedleContact contact;

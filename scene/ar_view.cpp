@@ -17,15 +17,18 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kDistance = 0.42;  // metres from the virtual camera to the entry region
 constexpr double kElevation = 28 * kDegree;
+constexpr double kOnTable = -38 * kDegree;  // somebody who sits before it
 constexpr double kAzimuth = 18 * kDegree;  // toward the punctured side
 constexpr double kToolReach = 0.30;        // metres from the tip: the syringe, an arrow at its end
 constexpr double kEyesApart = 0.063;       // metres, the mean of adults (Dodgson 2004)
 constexpr double kNearestFocus = 0.1;
 constexpr double kNearestThing = 0.05;     // m from the camera, of what is real
 constexpr double kShaft_px = 5;            // an arrow's shaft in a window 720 pixels high
+constexpr double kPin_px = 11;             // a pin's head, likewise
 
 OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
   const double azimuth = patient.side == anatomy::Side::right ? -kAzimuth : kAzimuth;
+  if (region.on_table) return {region.focus_A, 0, kOnTable, kDistance};
   return {region.focus_A, azimuth, kElevation, kDistance};
 }
 
@@ -45,20 +48,29 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       arrows_(*above_, layout.force_colours),
       guide_(*above_, colour::kAdvice, 2.5),
       ellipse_(*above_, colour::kAdvice, 1.8),
+      search_(*on_skin_, *above_, 2.5),
       occluders_(*renderer_) {
   if (layout.skin_deflection && organs_.skin()) skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
+  setUpRenderers();
+  if (stereo_ != Stereo::none && stereo_ != Stereo::anaglyph) second_ = std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *on_skin_, *above_);
+}
+
+void ArView::setUpRenderers() {
   setUpRenderer(*renderer_, see_through_ ? colour::kClear : colour::kBehindBottom);
   if (see_through_) renderer_->SetBackgroundAlpha(0);
-  setUpRenderer(*above_, colour::kBehindBottom);
-  renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
-  above_->SetActiveCamera(renderer_->GetActiveCamera());
+  for (vtkRenderer* renderer : {on_skin_.Get(), above_.Get()}) {
+    setUpRenderer(*renderer, colour::kBehindBottom);
+    renderer->SetActiveCamera(renderer_->GetActiveCamera());
+    window_.AddRenderer(renderer);
+  }
+  on_skin_->EraseOff();   // over the colours and depths so far
   above_->SetLayer(1);
-  window_.AddRenderer(above_);
-  if (stereo_ != Stereo::none && stereo_ != Stereo::anaglyph) second_ = std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *above_);
+  renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
 }
 
 ArView::~ArView() {
   window_.RemoveRenderer(above_);
+  window_.RemoveRenderer(on_skin_);
   window_.RemoveRenderer(renderer_);
 }
 
@@ -118,7 +130,7 @@ void ArView::applyCameras(const SceneState& state) {
 
 void ArView::lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind) {
   if (&behind == renderer_.Get())
-    for (vtkRenderer* renderer : {renderer_.Get(), above_.Get(), &glass_.renderer()}) setViewport(*renderer, where, window_width_, window_height_);
+    for (vtkRenderer* renderer : {renderer_.Get(), on_skin_.Get(), above_.Get(), &glass_.renderer()}) setViewport(*renderer, where, window_width_, window_height_);
   DepthRange range = depthRangeOf({{eye.X_CA * region_.whole_centre_A, region_.whole_radius}, {eye.X_CA * tip_A_, kToolReach}});
   if (real_things_) range.near = std::min(range.near, kNearestThing);   // they stand anywhere before the patient
   aim(*behind.GetActiveCamera(), eye.camera, eye.X_CA, range);
@@ -153,7 +165,9 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   arrows_.update(visible ? state.forces : std::vector<ForceArrow>(), X_CA_, pinhole_.fx, unit_px);
   showLines(state, visible);
   occluders_.update(state.occluders, visible && state.picture != nullptr);
-  above_->SetDraw(arrows_.any() || ellipse_.visible() || guide_.visible());
+  search_.update(state, visible, {X_CA_, pinhole_.fx}, kPin_px * window_height_ / 720.0);
+  on_skin_->SetDraw(search_.anyOnSkin());
+  above_->SetDraw(search_.anyAbove() || arrows_.any() || ellipse_.visible() || guide_.visible());
 }
 
 }  // namespace palpa::scene

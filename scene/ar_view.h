@@ -14,6 +14,7 @@
 #include "scene/organ_actors.h"
 #include "scene/region.h"
 #include "scene/scene_view.h"
+#include "scene/search_overlay.h"
 #include "scene/second_eye.h"
 #include "scene/stereo.h"
 #include "scene/trail.h"
@@ -56,12 +57,14 @@ class ArView {
   void chooseCamera(const SceneState& state);
   void applyCameras(const SceneState& state);
   void lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind);
+  void setUpRenderers();
   void showLines(const SceneState& state, bool visible);
   void showPatient(const SceneState& state, bool visible);
 
   vtkRenderWindow& window_;
   vtkNew<vtkRenderer> renderer_;  // picture, organs, needle, trail
-  vtkNew<vtkRenderer> above_;     // force arrows, guide, the tip's ellipse: never hidden
+  vtkNew<vtkRenderer> on_skin_;   // after the translucent skin: what a search has felt
+  vtkNew<vtkRenderer> above_;     // force arrows, guide, the tip's ellipse, pins: never hidden
   Region region_;
   Rect panel_, picture_;
   int window_width_ = 1, window_height_ = 1;
@@ -84,6 +87,7 @@ class ArView {
   vtkSmartPointer<vtkActor> trail_;
   ForceArrows arrows_;
   EdgedLines guide_, ellipse_;
+  SearchOverlay search_;
   Occluders occluders_;
   std::unique_ptr<SecondEye> second_;    // null: one camera, or an anaglyph's eyes one after the other
 };

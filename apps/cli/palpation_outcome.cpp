@@ -10,7 +10,7 @@ namespace {
 std::vector<report::PalpationPage> pagesOf(const PalpationWorld& world, const PalpationRun& run) {
   std::vector<report::PalpationPage> pages;
   for (const auto& trial : run.trials) {
-    report::PalpationPage page{trial.assessment, trial.samples, world.task.rules, {}};
+    report::PalpationPage page{trial.assessment, trial.samples, world.task.scoring.rules, {}};
     for (const trial::SavedPicture& p : run.pictures)
       if (p.moment.trial == trial.assessment.facts.trial) page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
     pages.push_back(std::move(page));

@@ -33,7 +33,7 @@ PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& w
   task_palpation::PalpationTask task({world.task, tick, world.simulated(options), options.who != OperatorKind::person, options.see_through, options.guidance,
                                       whyUnscored(options, world), planOf(options, world), frame.places()},
                                      frame.bus(), channels, frame.executive());
-  task_palpation::PalpationScene scene({frame.stage(), anatomy::X_AP(), world.task.rules.area, world.task.library.tip_radius, world.forceNote()}, frame.bus(), channels);
+  task_palpation::PalpationScene scene({frame.stage(), anatomy::X_AP(), world.task.scoring.rules.area, world.task.library.tip_radius, world.forceNote()}, frame.bus(), channels);
   PalpationRun run;
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
   run.trials = task.completed();

@@ -53,9 +53,9 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
 
 SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const {
   const twin::PalpatingSkill skill = twin::readPalpatingSkill(station::assetFile(options.who == OperatorKind::novice ? "operators/palpation_novice.json" : "operators/palpation_expert.json"));
-  const twin::VisiblePhantom seen{anatomy::X_AP(), task.rules.area.half_x, task.rules.area.half_y};
+  const twin::VisiblePhantom seen{anatomy::X_AP(), task.scoring.rules.area.half_x, task.scoring.rules.area.half_y};
   const Pose& X_WP = station.sample->X_WP;
-  const Pose X_WT = X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(), Vec3(0, -task.rules.area.half_y, kPickedUp));
+  const Pose X_WT = X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(), Vec3(0, -task.scoring.rules.area.half_y, kPickedUp));
   twin::VirtualBench::Setup bench{station,
                                   std::make_unique<twin::PalpatingHand>(skill, seen, station.X_ET, options.seed),
                                   station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
@@ -96,9 +96,9 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
 }
 
 std::string PalpationWorld::forceNote() const {
-  if (station.safety.max_force_N >= task.clinical_force_N && task.rules.levels[2] >= task.clinical_force_N) return "";
+  if (station.safety.max_force_N >= task.clinical_force_N && task.scoring.rules.levels[2] >= task.clinical_force_N) return "";
   char text[128];
-  std::snprintf(text, sizeof text, "Scaled force: deep is %.1f N here, about %.0f N on a patient", task.rules.levels[2], task.clinical_force_N);
+  std::snprintf(text, sizeof text, "Scaled force: deep is %.1f N here, about %.0f N on a patient", task.scoring.rules.levels[2], task.clinical_force_N);
   return text;
 }
 

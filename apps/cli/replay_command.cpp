@@ -6,27 +6,25 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/recorded_palpation.h"
 #include "apps/cli/recorded_session.h"
 #include "apps/record/tick_export.h"
 
 namespace palpa::cli {
 namespace {
 
-void replay(const std::string& file) {
+/// Trials without a score are named and left out.
+bool hasScore(const record::RecordedTrial& trial) {
+  if (!trial.ended) std::printf("Trial %d was not finished: the program stopped in the middle\n", trial.header.trial);
+  else if (trial.end.scores_json.empty()) std::printf("Trial %d has no score (%s)\n", trial.header.trial, trial.end.outcome.c_str());
+  return trial.ended && !trial.end.scores_json.empty();
+}
+
+bool sameNeedleScores(const std::string& file) {
   const RecordedSession session(file);
-  const ReplayCheck check = replayTicks(session.reader());
-  std::printf("%lld ticks run again: %lld differ%s\n", static_cast<long long>(check.ticks),
-              static_cast<long long>(check.different), check.gaps ? " (records are missing)" : "");
-  bool same = check.different == 0 && check.ticks > 0;
+  bool same = true;
   session.eachTrial([&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
-    if (!trial.ended) {
-      std::printf("Trial %d was not finished: the program stopped in the middle\n", trial.header.trial);
-      return;
-    }
-    if (trial.end.scores_json.empty()) {
-      std::printf("Trial %d has no score (%s)\n", trial.header.trial, trial.end.outcome.c_str());
-      return;
-    }
+    if (!hasScore(trial)) return;
     if (session.reader().info().expert_path_json.empty()) return;
     const double stored = nlohmann::json::parse(trial.end.scores_json).at("TOTAL").get<double>();
     const double again = session.rescore(trial, samples).total;
@@ -34,6 +32,27 @@ void replay(const std::string& file) {
                 again, stored == again ? "" : "  DIFFERENT");
     same = same && stored == again;
   });
+  return same;
+}
+
+bool samePalpationScores(const record::SessionReader& reader) {
+  bool same = true;
+  for (const RecordedPalpation& trial : recordedPalpations(reader)) {
+    if (!hasScore(trial.recorded)) continue;
+    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) == nlohmann::json::parse(task_palpation::scoreJson(trial.assessment));
+    std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, trial.assessment.summary.c_str(), equal ? "" : "  DIFFERENT from the recorded score");
+    same = same && equal;
+  }
+  return same;
+}
+
+void replay(const std::string& file) {
+  const record::SessionReader reader(file);
+  const ReplayCheck check = replayTicks(reader);
+  std::printf("%lld ticks run again: %lld differ%s\n", static_cast<long long>(check.ticks),
+              static_cast<long long>(check.different), check.gaps ? " (records are missing)" : "");
+  bool same = check.different == 0 && check.ticks > 0;
+  same = (engineOf(reader) == "palpation" ? samePalpationScores(reader) : sameNeedleScores(file)) && same;
   if (!same)
     throw Error("the replay differs from the record" +
                     (check.first_difference >= 0 ? " from tick " + std::to_string(check.first_difference) : ""),

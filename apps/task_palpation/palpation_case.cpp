@@ -23,7 +23,7 @@ bool farFromAll(const Case& others, const Vec3& p_P, double apart) {
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed) {
   runtime::RandomStream random(seed, "palpation.case");
   const CaseRules& rules = settings.cases;
-  const double x = settings.rules.area.half_x - rules.margin, y = settings.rules.area.half_y - rules.margin;
+  const double x = settings.scoring.rules.area.half_x - rules.margin, y = settings.scoring.rules.area.half_y - rules.margin;
   const std::size_t count = countOf(rules.lumps, random.uniform());
   Case drawn;
   for (int tried = 0; drawn.size() < count; ++tried) {

@@ -8,8 +8,11 @@ namespace {
 
 constexpr double kFileMm = 1e-3;
 
-assess::PalpationRules rulesOf(const station::JsonFile& file) {
-  assess::PalpationRules rules;
+}  // namespace
+
+Scoring scoringOf(const station::JsonFile& file) {
+  Scoring scoring;
+  assess::PalpationRules& rules = scoring.rules;
   rules.area = {kFileMm * file.number("area/half_across_mm", 5, 200), kFileMm * file.number("area/half_away_mm", 5, 200)};
   rules.levels = {file.number("pressure/light_N", 0.05, 20), file.number("pressure/medium_N", 0.05, 20), file.number("pressure/deep_N", 0.05, 20)};
   if (!(rules.levels[0] < rules.levels[1] && rules.levels[1] < rules.levels[2])) file.refuse("pressure", "must rise from light to deep");
@@ -17,8 +20,11 @@ assess::PalpationRules rulesOf(const station::JsonFile& file) {
   rules.reach = kFileMm * file.number("scoring/reach_mm", 1, 30);
   rules.touch = file.number("scoring/touch_N", 0.02, 5);
   rules.found_within = kFileMm * file.number("scoring/found_within_mm", 1, 50);
-  return rules;
+  scoring.standard = {file.number("scoring/pass_sensitivity", 0, 1), file.number("scoring/pass_coverage", 0, 1)};
+  return scoring;
 }
+
+namespace {
 
 std::vector<std::size_t> kindsOf(const station::JsonFile& file, const station::LumpLibrary& library) {
   std::vector<std::size_t> kinds;
@@ -52,7 +58,7 @@ void requireInside(const station::JsonFile& file, const PalpationSettings& setti
       file.refuse("cases/kinds", "holds \"" + kind.name + "\", which would stick out of the phantom: its middle lies " + std::to_string(std::lround(1e3 * kind.depth)) + " mm deep, it measures " +
                                      std::to_string(std::lround(1e3 * kind.diameter)) + " mm");
   }
-  const assess::SearchArea& area = settings.rules.area;
+  const assess::SearchArea& area = settings.scoring.rules.area;
   if (2 * area.half_x > settings.size.x() || 2 * area.half_y > settings.size.y()) file.refuse("area", "is larger than the phantom");
   const double free_x = area.half_x - settings.cases.margin, free_y = area.half_y - settings.cases.margin;
   if (free_x <= 0 || free_y <= 0) file.refuse("cases/margin_mm", "leaves no room");
@@ -71,10 +77,9 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   settings.title = file.text("title");
   settings.size = kFileMm * Vec3(file.number("phantom/across_mm", 10, 500), file.number("phantom/away_mm", 10, 500), file.number("phantom/high_mm", 5, 300));
   settings.library = station::readLumps(path.parent_path() / file.text("lumps"));
-  settings.rules = rulesOf(file);
+  settings.scoring = scoringOf(file);
   if (!file.has("cases/lumps") || !file.has("cases/kinds")) file.refuse("cases", "must hold \"lumps\" and \"kinds\"");
   settings.cases = {sharesOf(file), kindsOf(file, settings.library), kFileMm * file.number("cases/apart_mm", 5, 200), kFileMm * file.number("cases/margin_mm", 0, 200)};
-  settings.standard = {file.number("scoring/pass_sensitivity", 0, 1), file.number("scoring/pass_coverage", 0, 1)};
   settings.clinical_force_N = file.number("pressure/clinical_deep_N", 0, 50);
   settings.time_limit_s = file.number("end/time_limit_s", 10, 3600);
   settings.taxonomy = {file.text("taxonomy/visual"), file.text("taxonomy/haptic"), file.text("taxonomy/purpose"), file.text("taxonomy/property")};

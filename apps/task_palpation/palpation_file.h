@@ -21,14 +21,21 @@ struct Taxonomy {
   std::string visual, haptic, purpose, property;
 };
 
+/// How a search is judged.
+struct Scoring {
+  assess::PalpationRules rules;
+  assess::PalpationStandard standard;
+};
+/// Of a task's text alone, without its lumps. Throws UsageError naming the field.
+Scoring scoringOf(const station::JsonFile& task);
+
 /// A palpation task as its file says it (assets/tasks/palpation_*.json). Another phantom, other lumps, other rules need a file, not code.
 struct PalpationSettings {
   std::string id, title;
   Vec3 size = Vec3(0.1, 0.1, 0.05);    ///< m, of the phantom: across, away from the trainee, high
   station::LumpLibrary library;
   CaseRules cases;
-  assess::PalpationRules rules;
-  assess::PalpationStandard standard;
+  Scoring scoring;
   double clinical_force_N = 0;         ///< that deep palpation takes on a patient; where the device gives less, the screen says "scaled force"
   double time_limit_s = 300;
   Taxonomy taxonomy;

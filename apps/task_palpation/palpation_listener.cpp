@@ -40,11 +40,12 @@ bool PalpationListener::add(const haptics::FlightRecord& record) {
   return true;
 }
 
-void PalpationListener::grade(double diameter, int hardness, int mobility) {
-  if (marks_.empty()) return;
-  if (diameter > 0) marks_.back().diameter = diameter;
-  if (hardness > 0) marks_.back().hardness = hardness;
-  if (mobility > 0) marks_.back().mobility = mobility;
+void PalpationListener::grade(double diameter, int hardness, int mobility, std::size_t mark) {
+  if (marks_.empty() || mark > marks_.size()) return;
+  assess::LumpMark& graded = marks_[(mark > 0 ? mark : marks_.size()) - 1];
+  if (diameter > 0) graded.diameter = diameter;
+  if (hardness > 0) graded.hardness = hardness;
+  if (mobility > 0) graded.mobility = mobility;
 }
 
 std::string gradeText(double diameter, int hardness, int mobility) {

@@ -19,8 +19,8 @@ class PalpationListener {
   void begin(std::uint32_t trial);                   ///< everything so far is forgotten
   /// Counts while the trial is on and the force may be rendered. True for a sample that was kept (one in 10 ms).
   bool add(const haptics::FlightRecord& record);
-  /// What was said of the mark that was made last; 0: of that nothing.
-  void grade(double diameter, int hardness, int mobility);
+  /// What was said of the mark with this number, from 1; 0: the last one. Figures of 0: of that nothing was said.
+  void grade(double diameter, int hardness, int mobility, std::size_t mark = 0);
 
   double seconds() const { return seconds_; }        ///< of the trial, pauses left out
   const std::vector<assess::PalpationSample>& samples() const { return samples_; }

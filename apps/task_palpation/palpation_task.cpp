@@ -7,18 +7,6 @@
 namespace palpa::task_palpation {
 namespace {
 
-std::string scoreJson(const assess::PalpationAssessment& a) {
-  return nlohmann::json{{"FOUND", a.score.found},
-                        {"MISSED", a.score.missed},
-                        {"FALSE_ALARMS", a.score.false_alarms},
-                        {"COVERAGE", a.score.coverage[0]},
-                        {"PEAK_N", a.score.peak},
-                        {"TIME_S", a.score.seconds},
-                        {"GUIDED", a.facts.guided},
-                        {"PASSED", a.passed ? 1 : 0}}
-      .dump();
-}
-
 int levelOf(const assess::PressureLevels& levels, double f) {
   int level = 0;
   for (const double from : levels) level += f >= from;
@@ -33,6 +21,18 @@ std::vector<std::uint8_t> levelsOf(const assess::CoverageMap& map) {
 }
 
 }  // namespace
+
+std::string scoreJson(const assess::PalpationAssessment& a) {
+  return nlohmann::json{{"FOUND", a.score.found},
+                        {"MISSED", a.score.missed},
+                        {"FALSE_ALARMS", a.score.false_alarms},
+                        {"COVERAGE", a.score.coverage[0]},
+                        {"PEAK_N", a.score.peak},
+                        {"TIME_S", a.score.seconds},
+                        {"GUIDED", a.facts.guided},
+                        {"PASSED", a.passed ? 1 : 0}}
+      .dump();
+}
 
 std::string caseText(const std::vector<assess::CaseLump>& lumps) {
   nlohmann::json list = nlohmann::json::array();
@@ -57,7 +57,7 @@ PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationCha
       setup_(setup),
       channels_(channels),
       listener_(setup.tick),
-      map_(setup.settings.rules.area, setup.settings.rules.levels, setup.settings.rules.reach),
+      map_(setup.settings.scoring.rules.area, setup.settings.scoring.rules.levels, setup.settings.scoring.rules.reach),
       guidance_(setup.guided) {
   completed_.reserve(setup.plan.size());
   shown_.columns = map_.columns();
@@ -66,14 +66,14 @@ PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationCha
 
 std::string PalpationTask::notReady(const haptics::FlightRecord& last) const {
   if (last.sensed.state != haptics::SensorState::valid) return "the force sensor says nothing that could be used";
-  return unpack(last.sensed.f_D).norm() >= setup_.settings.rules.touch ? "the tool touches something: lift it" : "";
+  return unpack(last.sensed.f_D).norm() >= setup_.settings.scoring.rules.touch ? "the tool touches something: lift it" : "";
 }
 
 runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   case_ = drawCase(setup_.settings, plan().seed);
   placed_ = placed(case_);
   listener_.begin(static_cast<std::uint32_t>(status().trial));
-  map_ = assess::CoverageMap(setup_.settings.rules.area, setup_.settings.rules.levels, setup_.settings.rules.reach);
+  map_ = assess::CoverageMap(setup_.settings.scoring.rules.area, setup_.settings.scoring.rules.levels, setup_.settings.scoring.rules.reach);
   guidance_.begin(status().trial);
   shown_.levels.clear();
   shown_.marks_P.clear();
@@ -96,9 +96,9 @@ trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome,
   trial.reason = reason;
   const double seconds = listener_.seconds();
   const assess::PalpationFacts facts{status().trial, plan().role, setup_.simulated, plan().force_feedback, plan().seed, outcome, seconds > 0 ? guidance_.shown_s() / seconds : 0};
-  trial.assessment = assess::assessPalpation(facts, setup_.settings.rules, setup_.settings.standard, lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
+  trial.assessment = assess::assessPalpation(facts, setup_.settings.scoring.rules, setup_.settings.scoring.standard, lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
   trial.samples = listener_.samples();
-  guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.standard.coverage);
+  guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
   showLumps(&trial.assessment);
   shown_.levels = levelsOf(map_);
   shown_.lead_P.reset();
@@ -118,7 +118,7 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
   if (!kept) return;
   map_.add(listener_.samples().back());
   shown_.pressed_N = listener_.samples().back().f_n;
-  shown_.level = levelOf(setup_.settings.rules.levels, shown_.pressed_N);
+  shown_.level = levelOf(setup_.settings.scoring.rules.levels, shown_.pressed_N);
   status().elapsed_s = listener_.seconds();
   if (status().elapsed_s >= setup_.settings.time_limit_s) endTrial("time", "The time limit was reached", now_ns);
 }

@@ -82,6 +82,9 @@ class PalpationTask final : public trial::TrialTask {
   std::vector<CompletedPalpation> completed_;
 };
 
+/// What is recorded of a score.
+std::string scoreJson(const assess::PalpationAssessment& assessment);
+
 /// The lumps of a case as its event in the record says them, and read again; the replay's truth. Throws Error for words that are none.
 std::string caseText(const std::vector<assess::CaseLump>& lumps);
 std::vector<assess::CaseLump> caseOf(const std::string& text);

@@ -32,7 +32,9 @@ void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
     f_grip_D_ = grip.stiffness * (p_now - p) + grip.damping * (v_hand - v_D_);
     const Vec3 friction =
         -v_D_ * (truth_.coulomb / (v_D_.norm() + kSlidingSpeed) + truth_.viscous);
-    v_D_ += (f_grip_D_ + f_drive_D_ + f_touch_D + friction) * (h / mass);
+    const Vec3 a_D = (f_grip_D_ + f_drive_D_ + f_touch_D + friction) / mass;
+    f_fingers_D_ = truth_.apparent_mass * a_D - (f_drive_D_ + f_touch_D + friction);
+    v_D_ += a_D * h;
     p += v_D_ * h;
   }
   p_hand_last_D_ = p_hand;

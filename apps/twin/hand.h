@@ -15,6 +15,7 @@ class Hand {
     Pose X_DE = Pose::Identity();   ///< where the own hand is (proprioception)
     Vec3 f_grip_D = Vec3::Zero();   ///< force of the hand on the tool
     const runtime::Displayed* seen = nullptr;
+    Vec3 f_fingers_D = Vec3::Zero();   ///< of the fingers on the tool: without what moves the hand itself
   };
   /// What whoever leads the hand says, once.
   struct Word {

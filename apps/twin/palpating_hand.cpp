@@ -10,15 +10,15 @@ namespace {
 constexpr std::int64_t kThink_ns = 10'000'000, kGlance_ns = 100'000'000;   // 100 Hz, 10 Hz
 constexpr double kThink_s = 0.01;
 constexpr double kSharp = 0.3;          // touch is not sharper than about 25 ms
-constexpr double kOverTop = 0.003;      // m, from where a press begins
-constexpr double kInAir = 0.001;        // m of the way down in which the hand learns what moving takes
+constexpr double kOverTop = 0.005;      // m, from where a press begins
+constexpr double kMoves = 0.003, kNear = 0.0008;   // m above the top: between them the hand learns what moving takes
 constexpr double kTouch_N = 0.06, kDeepest = 0.009;   // N above the air's, m below the top: a hand that feels nothing stops there
 constexpr double kLift = 0.05;          // m/s
 constexpr double kCross = 0.005;        // m, of a closer look
 constexpr double kKnown = 0.015;        // m: nobody looks twice at the same lump
 constexpr double kSame = 0.006;         // m
-constexpr std::size_t kRemembered = 20; // presses
-constexpr std::size_t kFewest = 5;
+constexpr std::size_t kCompared = 12;   // presses
+constexpr std::size_t kFewest = 8;
 constexpr double kMarkFor_s = 0.3;
 constexpr double kHome = 0.04;          // m above the top
 
@@ -79,31 +79,44 @@ void PalpatingHand::goTo(const Vec3& p_P, double now_s, Step next) {
 /// Down evenly; what it takes to move in the air is no resistance of the phantom.
 void PalpatingHand::pressing(double now_s) {
   tip_P_.z() -= skill_.press_speed * kThink_s;
-  if (tip_now_P_.z() > kOverTop - kInAir) air_N_ = felt_N_;
+  if (tip_now_P_.z() > kMoves) air_N_ = felt_N_;
+  else if (tip_now_P_.z() > kNear) air_N_ += kSharp * (felt_N_ - air_N_);
   const double resistance = felt_N_ - air_N_;
   if (!touched_ && resistance > kTouch_N) {
     touched_ = true;
     touched_z_ = tip_now_P_.z();
   }
-  while (touched_ && depths_.size() < skill_.pressures.size() && resistance >= skill_.pressures[depths_.size()]) depths_.push_back(touched_z_ - tip_now_P_.z());
+  while (touched_ && depths_.size() < skill_.pressures.size() && resistance >= skill_.pressures[depths_.size()]) {
+    if (depths_.empty()) light_z_ = tip_now_P_.z();
+    depths_.push_back((depths_.empty() ? touched_z_ : light_z_) - tip_now_P_.z());
+  }
   if (depths_.size() < skill_.pressures.size() && tip_now_P_.z() > -kDeepest) return;
   since_s_ = now_s;
   step_ = Step::overshoot;   // it goes on for as long as it takes to react
 }
 
-/// How much less it gave way than the places before it: ln, mean over the pressures.
+/// How much less it gave way than the places about it that seemed ordinary: ln, mean over the pressures. With several the first one only says where the surface is: when it was touched is told badly.
 double PalpatingHand::firmness(const Felt& felt) const {
   double sum = 0;
   int count = 0;
-  for (std::size_t l = 0; l < felt.depths.size(); ++l) {
-    std::vector<double> around;
-    for (std::size_t i = memory_.size(); i-- > 0 && around.size() < kRemembered;)
-      if (memory_[i].depths.size() > l) around.push_back(memory_[i].depths[l]);
+  for (std::size_t l = skill_.pressures.size() > 1 ? 1 : 0; l < felt.depths.size(); ++l) {
+    std::vector<double> around = ordinaryAbout(felt.p_P, l);
     if (around.size() < kFewest) continue;
     sum += std::log(median(around) / std::max(felt.depths[l], 1e-4));
     ++count;
   }
   return count > 0 ? sum / count : 0;
+}
+
+/// What the nearest ordinary places gave; a hand compares side by side.
+std::vector<double> PalpatingHand::ordinaryAbout(const Vec3& p_P, std::size_t pressure) const {
+  std::vector<std::pair<double, double>> near;
+  for (const Felt& felt : memory_)
+    if (!felt.firm && felt.depths.size() > pressure && across(felt.p_P, p_P) > kCross) near.emplace_back(across(felt.p_P, p_P), felt.depths[pressure]);
+  std::sort(near.begin(), near.end());
+  std::vector<double> depths;
+  for (std::size_t i = 0; i < std::min(near.size(), kCompared); ++i) depths.push_back(near[i].second);
+  return depths;
 }
 
 bool PalpatingHand::known(const Vec3& p_P) const {
@@ -113,16 +126,18 @@ bool PalpatingHand::known(const Vec3& p_P) const {
 }
 
 void PalpatingHand::judge(double now_s) {
-  Felt felt{tip_now_P_, depths_};
+  Felt felt{tip_now_P_, depths_, false};
   for (double& depth : felt.depths) depth *= std::exp(skill_.weber * judgement_.normal());
   if (suspect_P_) {
-    closer_.push_back(felt);
+    (confirming_ ? confirmed_ : closer_).push_back(felt);
   } else {
+    felt.firm = firmness(felt) > skill_.looks_closer;
     memory_.push_back(felt);
-    if (firmness(felt) > skill_.looks_closer && !known(felt.p_P)) {
+    if (felt.firm && !known(felt.p_P)) {
       suspect_P_ = felt.p_P;
       rounds_left_ = skill_.rounds;
       closer_.assign(1, felt);
+      confirming_ = false;
     }
   }
   next(now_s);
@@ -148,15 +163,18 @@ void PalpatingHand::decide(double now_s) {
     planCross(middle);
     return next(now_s);
   }
-  int count = 0;
-  for (const Felt& felt : closer_) {
-    if (across(felt.p_P, middle) > kSame) continue;
-    firmest += firmness(felt);
-    ++count;
+  if (!confirming_ && skill_.confirms > 0) {   // what led here was chosen for being firm: only fresh presses tell
+    confirming_ = true;
+    confirmed_.clear();
+    suspect_P_ = middle;
+    places_.insert(places_.end(), static_cast<std::size_t>(skill_.confirms), Vec3(middle.x(), middle.y(), 0));
+    return next(now_s);
   }
-  firmest = count > 0 ? firmest / count : 0;
+  const std::vector<Felt>& telling = confirming_ ? confirmed_ : closer_;
+  for (const Felt& felt : telling) firmest += firmness(felt) / static_cast<double>(telling.size());
   const Vec3 looked = *suspect_P_;
   suspect_P_.reset();
+  confirming_ = false;
   if (firmest < skill_.marks_from || known(middle)) {
     dismissed_P_.push_back(looked);
     return next(now_s);
@@ -202,7 +220,7 @@ void PalpatingHand::think(const Senses& senses) {
   const double now_s = static_cast<double>(senses.now_ns) * 1e-9;
   const Pose X_PD = phantom_.X_AP.inverse() * bearings_.X_DA().inverse();
   tip_now_P_ = X_PD * (senses.X_DE * X_ET_).translation();
-  felt_N_ += kSharp * (-(X_PD.linear() * senses.f_grip_D).z() - felt_N_);
+  felt_N_ += kSharp * (-(X_PD.linear() * senses.f_fingers_D).z() - felt_N_);
   if (!senses.seen) return;
   if (senses.seen->running && senses.seen->trial != trial_) return beginTrial(senses.seen->trial, now_s);
   if (!senses.seen->running && step_ != Step::rest && step_ != Step::travel) {   // paused or over: away from it

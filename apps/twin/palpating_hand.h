@@ -26,7 +26,7 @@ struct PalpatingSkill {
   double reaction = 0;                  ///< s
   double weber = 0;                     ///< standard deviation of ln of a judged depth
   double looks_closer = 0, marks_from = 0;    ///< ln of how much less it gives way than around
-  int rounds = 0;                       ///< of five presses in a closer look
+  int rounds = 0, confirms = 0;         ///< of five presses about the place in a closer look; presses at the firmest place by which it is decided, 0: by those that led there
   double size_sd = 0;                   ///< share
   double hard_from = 0;                 ///< ln, as `marks_from`: from here on a lump is called hard
 };
@@ -52,7 +52,8 @@ class PalpatingHand final : public Hand {
   /// A press as it is remembered.
   struct Felt {
     Vec3 p_P;
-    std::vector<double> depths;         ///< m, judged, at each pressure
+    std::vector<double> depths;         ///< m, judged: how far it gave way to the first pressure, and from there to each of the others
+    bool firm = false;                  ///< it seemed to be when it was pressed
   };
 
   void think(const Senses& senses);
@@ -65,6 +66,7 @@ class PalpatingHand final : public Hand {
   void planCross(const Vec3& p_P);
   void decide(double now_s);
   double firmness(const Felt& felt) const;
+  std::vector<double> ordinaryAbout(const Vec3& p_P, std::size_t pressure) const;
   bool known(const Vec3& p_P) const;
   Word grade(const Vec3& p_P, double firmest);
 
@@ -84,13 +86,14 @@ class PalpatingHand final : public Hand {
   Vec3 tip_P_ = Vec3::Zero(), tip_now_P_ = Vec3::Zero();   ///< wanted, and where it is
   MinJerk move_;
   double since_s_ = 0;
-  double felt_N_ = 0, air_N_ = 0, touched_z_ = 0;
+  double felt_N_ = 0, air_N_ = 0, touched_z_ = 0, light_z_ = 0;
   bool touched_ = false;
   std::vector<double> depths_;           ///< of this press so far
   std::vector<Vec3> places_;             ///< still to be pressed, the next one last
-  std::vector<Felt> memory_, closer_;
+  std::vector<Felt> memory_, closer_, confirmed_;
   std::optional<Vec3> suspect_P_;        ///< a closer look is on
   int rounds_left_ = 0;
+  bool confirming_ = false;
   std::vector<Vec3> marked_P_, dismissed_P_;
   Word word_;
   bool done_ = false;

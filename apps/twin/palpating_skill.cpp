@@ -31,6 +31,7 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   s.looks_closer = file.number("looks_closer", 0, 2);
   s.marks_from = file.number("marks_from", 0, 2);
   s.rounds = file.integer("rounds", 0, 10);
+  s.confirms = file.integer("confirms", 0, 10);
   s.size_sd = file.number("size_sd", 0, 1);
   s.hard_from = file.number("hard_from", 0, 2);
   return s;

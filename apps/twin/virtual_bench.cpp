@@ -63,6 +63,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
     senses.now_ns = now_ns;
     senses.X_DE = mechanics.truePose();
     senses.f_grip_D = mechanics.gripForce();
+    senses.f_fingers_D = mechanics.fingerForce();
     senses.seen = bus.scene_to_operator.read(now_ns);
     const Hand::Action action = hand->act(senses, dt);
     if (action.says.kind != Hand::Word::Kind::none && on_word) on_word(action.says);
