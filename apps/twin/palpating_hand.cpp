@@ -14,7 +14,7 @@ constexpr double kOverTop = 0.005;      // m, from where a press begins
 constexpr double kMoves = 0.003, kNear = 0.0008;   // m above the top: between them the hand learns what moving takes
 constexpr double kTouch_N = 0.06, kDeepest = 0.009;   // N above the air's, m below the top: a hand that feels nothing stops there
 constexpr double kLift = 0.05;          // m/s
-constexpr double kCross = 0.005;        // m, of a closer look
+constexpr double kCross = 0.004;        // m, of a closer look
 constexpr double kKnown = 0.015;        // m: nobody looks twice at the same lump
 constexpr double kSame = 0.006;         // m
 constexpr std::size_t kCompared = 12;   // presses
@@ -90,7 +90,8 @@ void PalpatingHand::pressing(double now_s) {
     if (depths_.empty()) light_z_ = tip_now_P_.z();
     depths_.push_back((depths_.empty() ? touched_z_ : light_z_) - tip_now_P_.z());
   }
-  if (depths_.size() < skill_.pressures.size() && tip_now_P_.z() > -kDeepest) return;
+  const double enough = skill_.pressures.back() * (suspect_P_ ? skill_.closer_force : 1);
+  if (resistance < enough && tip_now_P_.z() > -kDeepest) return;
   since_s_ = now_s;
   step_ = Step::overshoot;   // it goes on for as long as it takes to react
 }
@@ -147,22 +148,49 @@ void PalpatingHand::planCross(const Vec3& p_P) {
   for (const Vec3& off : {Vec3(0, -kCross, 0), Vec3(0, kCross, 0), Vec3(kCross, 0, 0), Vec3(-kCross, 0, 0), Vec3(0, 0, 0)}) places_.push_back(Vec3(p_P.x(), p_P.y(), 0) + off);
 }
 
-/// The firmest place of those looked at closer: their middle, each as much as it is firm.
-void PalpatingHand::decide(double now_s) {
+/// From the last five presses toward where it is firmer, twice as far as their middle lies; the way of one who feels for the top of a hill. Nothing where they are on top.
+std::optional<Vec3> PalpatingHand::uphill() const {
+  constexpr std::size_t kPresses = 5;
+  constexpr double kOnTop = 1.2e-3, kFarthest = 8e-3;   // m
+  if (closer_.size() < kPresses) return std::nullopt;
+  const std::vector<Felt> last(closer_.end() - kPresses, closer_.end());
+  double least = 1e9, weight = 0;
+  for (const Felt& felt : last) least = std::min(least, firmness(felt));
+  Vec3 shift = Vec3::Zero();
+  for (const Felt& felt : last) {
+    const double w = std::pow(firmness(felt) - least, 2);
+    shift += w * (felt.p_P - *suspect_P_);
+    weight += w;
+  }
+  shift.z() = 0;
+  if (weight > 0) shift *= 2 / weight;
+  if (shift.norm() < 2 * kOnTop) return std::nullopt;
+  return *suspect_P_ + shift * std::min(1.0, kFarthest / shift.norm());
+}
+
+/// The middle of the places looked at closer about the last one, each as much as it is firm.
+Vec3 PalpatingHand::firmestPlace() const {
   Vec3 middle = Vec3::Zero();
-  double weight = 0, firmest = 0;
+  double weight = 0;
   for (const Felt& felt : closer_) {
+    if (across(felt.p_P, *suspect_P_) > kSame) continue;
     const double w = std::pow(std::max(firmness(felt), 0.0), 2);
     middle += w * felt.p_P;
     weight += w;
   }
-  if (weight > 0) middle /= weight;
-  else middle = *suspect_P_;
-  if (rounds_left_-- > 0) {
-    suspect_P_ = middle;
-    planCross(middle);
+  return weight > 0 ? Vec3(middle / weight) : *suspect_P_;
+}
+
+void PalpatingHand::decide(double now_s) {
+  const bool first = closer_.size() == 1;
+  const std::optional<Vec3> up = first ? suspect_P_ : uphill();
+  if (!confirming_ && up && rounds_left_-- > 0) {
+    suspect_P_ = up;
+    planCross(*up);
     return next(now_s);
   }
+  const Vec3 middle = confirming_ ? *suspect_P_ : firmestPlace();
+  double firmest = 0;
   if (!confirming_ && skill_.confirms > 0) {   // what led here was chosen for being firm: only fresh presses tell
     confirming_ = true;
     confirmed_.clear();

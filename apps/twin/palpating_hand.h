@@ -26,7 +26,8 @@ struct PalpatingSkill {
   double reaction = 0;                  ///< s
   double weber = 0;                     ///< standard deviation of ln of a judged depth
   double looks_closer = 0, marks_from = 0;    ///< ln of how much less it gives way than around
-  int rounds = 0, confirms = 0;         ///< of five presses about the place in a closer look; presses at the firmest place by which it is decided, 0: by those that led there
+  int rounds = 0, confirms = 0;         ///< of five presses about the place, at most, in a closer look that follows what is firmer; presses at the firmest place by which it is decided, 0: by those that led there
+  double closer_force = 1;              ///< how much harder a closer look presses
   double size_sd = 0;                   ///< share
   double hard_from = 0;                 ///< ln, as `marks_from`: from here on a lump is called hard
 };
@@ -65,6 +66,8 @@ class PalpatingHand final : public Hand {
   void next(double now_s);
   void planCross(const Vec3& p_P);
   void decide(double now_s);
+  std::optional<Vec3> uphill() const;
+  Vec3 firmestPlace() const;
   double firmness(const Felt& felt) const;
   std::vector<double> ordinaryAbout(const Vec3& p_P, std::size_t pressure) const;
   bool known(const Vec3& p_P) const;

@@ -32,6 +32,7 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   s.marks_from = file.number("marks_from", 0, 2);
   s.rounds = file.integer("rounds", 0, 10);
   s.confirms = file.integer("confirms", 0, 10);
+  s.closer_force = file.number("closer_force", 1, 2);
   s.size_sd = file.number("size_sd", 0, 1);
   s.hard_from = file.number("hard_from", 0, 2);
   return s;

@@ -1,0 +1,123 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "program.h"
+#include "tests/support/counts.h"
+
+/// A palpation session, as an educator runs it.
+namespace palpa::cli_test {
+namespace {
+
+using Row = std::map<std::string, std::string>;
+
+std::vector<Row> rowsOf(const std::string& csv) {
+  std::istringstream lines(csv);
+  std::vector<Row> rows;
+  std::vector<std::string> names;
+  for (std::string line; std::getline(lines, line);) {
+    std::istringstream cells(line);
+    std::vector<std::string> values;
+    for (std::string cell; std::getline(cells, cell, ',');) values.push_back(cell);
+    if (names.empty()) {
+      names = values;
+      continue;
+    }
+    Row row;
+    for (std::size_t i = 0; i < std::min(names.size(), values.size()); ++i) row[names[i]] = values[i];
+    rows.push_back(row);
+  }
+  return rows;
+}
+
+double sum(const std::vector<Row>& rows, const char* name) {
+  double all = 0;
+  for (const Row& row : rows) all += std::stod(row.at(name));
+  return all;
+}
+
+std::vector<std::string> palpation(std::vector<std::string> more) {
+  std::vector<std::string> all{"palpation", "--fast", "--no-views", "--quiet"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::vector<Row> searched(const std::string& who, int trials, const Folder& here) {
+  const Outcome outcome = palpa(palpation({"--operator", who, "--seed", "1", "--trials", std::to_string(trials), "--out", who}), here.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  return outcome.exit_code == 0 ? rowsOf(contentOf(here / (who + "/trials.csv"))) : std::vector<Row>{};
+}
+
+double wilsonLower(double hits, double of) {
+  constexpr double z = 1.96;
+  const double p = hits / of;
+  return (p + z * z / (2 * of) - z * std::sqrt(p * (1 - p) / of + z * z / (4 * of * of))) / (1 + z * z / of);
+}
+
+/// Experts find what is there and little else; novices do clearly worse. Few cases bound less, so they are bound less tightly.
+TEST(Palpation, ExpertsFindLumpsAndNovicesMissThem) {
+  const Folder here;
+  const int trials = test::counted(6, 80);
+  const std::vector<Row> expert = searched("expert", trials, here), novice = searched("novice", trials, here);
+  ASSERT_EQ(expert.size(), static_cast<std::size_t>(trials));
+  const double lumps = sum(expert, "LUMPS"), found = sum(expert, "FOUND"), clear = sum(expert, "CLEAR_QUADRANTS"), wrong = sum(expert, "WRONG_QUADRANTS");
+  EXPECT_EQ(lumps, sum(novice, "LUMPS")) << "the same cases";
+  if (test::fullCounts()) {
+    EXPECT_GE(lumps, 100);
+    EXPECT_GE(found / lumps, 0.9);
+    EXPECT_GE(wilsonLower(found, lumps), 0.8);
+    EXPECT_LT(sum(novice, "FOUND") / lumps, found / lumps - 0.15);
+  }
+  EXPECT_GE(found / lumps, 0.7);
+  EXPECT_GT(1 - wrong / clear, 0.8);
+  EXPECT_LT(sum(novice, "COVERAGE_LIGHT"), 0.8 * sum(expert, "COVERAGE_LIGHT"));
+  for (const Row& row : expert) {
+    EXPECT_EQ(row.at("SIMULATED"), "1");
+    EXPECT_EQ(row.at("PATTERN"), "vertical strips");
+    EXPECT_EQ(row.at("OUTCOME"), "done");
+  }
+}
+
+TEST(Palpation, ReplayJudgesItAgain) {
+  const Folder here;
+  ASSERT_EQ(palpa(palpation({"--operator", "expert", "--preset", "prostate", "--seed", "3", "--out", "A"}), here.path()).exit_code, 0);
+  const Outcome outcome = palpa({"replay", "A/session.palpa"}, here.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "The replay equals the record"));
+  EXPECT_TRUE(says(outcome.out, ": 0 differ"));
+}
+
+TEST(Palpation, TheSameSeedGivesTheSameNumbersAndViewsChangeNone) {
+  const Folder here;
+  ASSERT_EQ(palpa(palpation({"--operator", "novice", "--preset", "prostate", "--seed", "5", "--out", "A"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa({"palpation", "--fast", "--quiet", "--operator", "novice", "--preset", "prostate", "--seed", "5", "--out", "B"}, here.path()).exit_code, 0);
+  EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
+  const std::string page = contentOf(here / "B/report.html");
+  for (const char* words : {"SIMULATED", "Scaled force", "Where this task stands", "real silicone, a virtual lump"}) EXPECT_TRUE(says(page, words)) << words;
+  bool pictures = false;
+  for (const std::string& file : here.files()) pictures = pictures || says(file, "-end.png");
+  EXPECT_TRUE(pictures);
+}
+
+TEST(Palpation, SeeingTheLumpsDoesNotCount) {
+  const Folder here;
+  ASSERT_EQ(palpa(palpation({"--operator", "novice", "--preset", "prostate", "--see-through", "on", "--out", "A"}), here.path()).exit_code, 0);
+  EXPECT_TRUE(says(contentOf(here / "A/report.html"), "not scored"));
+}
+
+TEST(Palpation, WrongUsageIsNamed) {
+  const Folder here;
+  const Outcome station = palpa(palpation({"--station", std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json", "--operator", "expert"}), here.path());
+  EXPECT_EQ(station.exit_code, 2);
+  EXPECT_TRUE(says(station.err, "\"sample\"")) << station.err;
+  const Outcome needle = palpa(palpation({"--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/paracentesis.json", "--operator", "expert"}), here.path());
+  EXPECT_EQ(needle.exit_code, 2);
+  EXPECT_TRUE(says(needle.err, "engine")) << needle.err;
+  EXPECT_EQ(palpa({"palpation", "--display", "openxr"}, here.path()).exit_code, 2);
+}
+
+}  // namespace
+}  // namespace palpa::cli_test

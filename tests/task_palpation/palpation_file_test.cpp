@@ -1,0 +1,168 @@
+#include "apps/task_palpation/palpation_file.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "anatomy/geometry/error.h"
+#include "tests/support/scratch_folder.h"
+
+namespace palpa::task_palpation {
+namespace {
+
+const std::filesystem::path kAssets = std::filesystem::path(PALPA_SOURCE_DIR) / "assets";
+
+nlohmann::json jsonOf(const std::filesystem::path& file) {
+  std::ifstream stream(file);
+  return nlohmann::json::parse(stream);
+}
+
+/// A copy of the shipped task with its lumps, to be spoilt.
+class Copy {
+ public:
+  Copy() : folder_("palpation_file") {
+    std::filesystem::create_directories(folder_ / "tasks");
+    std::filesystem::copy(kAssets / "materials", folder_ / "materials", std::filesystem::copy_options::recursive);
+    task = jsonOf(kAssets / "tasks/palpation_breast.json");
+  }
+  nlohmann::json task;
+  std::filesystem::path lumps() const { return folder_ / "materials/lumps.json"; }
+  void write(const std::filesystem::path& file, const nlohmann::json& json) { std::ofstream(file) << json.dump(); }
+  /// What is said of it; empty: it is taken.
+  std::string refusal() {
+    write(folder_ / "tasks/task.json", task);
+    try {
+      readPalpation(folder_ / "tasks/task.json");
+    } catch (const Error& error) {
+      return error.what();
+    } catch (const UsageError& error) {
+      return error.what();
+    }
+    return "";
+  }
+
+ private:
+  test::ScratchFolder folder_;
+};
+
+bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+TEST(PalpationFile, TheShippedOnesAreTaken) {
+  for (const char* name : {"palpation_breast.json", "palpation_prostate.json"}) {
+    const PalpationSettings settings = readPalpation(kAssets / "tasks" / name);
+    EXPECT_FALSE(settings.title.empty());
+    EXPECT_EQ(settings.library.kinds.size(), 8u);
+    EXPECT_TRUE(settings.library.simulated);
+    EXPECT_FALSE(settings.taxonomy.haptic.empty());
+  }
+  EXPECT_EQ(Copy().refusal(), "");
+}
+
+TEST(PalpationFile, EveryShippedLumpIsWorthFinding) {
+  for (const station::LumpKind& kind : station::readLumps(kAssets / "materials/lumps.json").kinds) EXPECT_GE(kind.contrast, 0.15) << kind.name;
+}
+
+TEST(PalpationFile, NamesWhatIsWrong) {
+  {
+    Copy copy;
+    copy.task["phantom"]["high_mm"] = 25;
+    EXPECT_TRUE(has(copy.refusal(), "stick out of the phantom"));
+  }
+  {
+    Copy copy;
+    copy.task["area"]["half_across_mm"] = 60;
+    EXPECT_TRUE(has(copy.refusal(), "larger than the phantom"));
+  }
+  {
+    Copy copy;
+    copy.task["cases"]["lumps"] = {0.5, 0.2};
+    EXPECT_TRUE(has(copy.refusal(), "add up to 1"));
+  }
+  {
+    Copy copy;
+    copy.task["cases"]["apart_mm"] = 60;
+    EXPECT_TRUE(has(copy.refusal(), "no room"));
+  }
+  {
+    Copy copy;
+    copy.task["cases"]["kinds"] = {"a pea"};
+    EXPECT_TRUE(has(copy.refusal(), "a pea"));
+  }
+  {
+    Copy copy;
+    copy.task["pressure"]["medium_N"] = 0.9;
+    EXPECT_TRUE(has(copy.refusal(), "must rise"));
+  }
+  {
+    Copy copy;
+    copy.task["engine"] = "needle";
+    EXPECT_TRUE(has(copy.refusal(), "palpation"));
+  }
+}
+
+/// A changed calibration is told by its checksum; so these are written anew.
+void spoil(const Copy& copy, const std::string& file, const std::string& parameter, double value) {
+  const std::filesystem::path path = copy.lumps().parent_path() / "lumps" / file;
+  station::CalibrationFile calibration = station::readCalibration(path);
+  for (auto& numbers : calibration.parameters)
+    if (numbers.name == parameter) numbers.values = {value};
+  station::writeCalibration(calibration, path);
+}
+
+TEST(LumpLibrary, RefusesLawsThatNoSoftThingHas) {
+  const struct {
+    const char *file, *parameter;
+    double value;
+    const char* words;
+  } cases[] = {{"material.json", "k_N_per_m_to_the_m", -1, "k below zero"},
+               {"material.json", "m", 0.8, "within 1.0 to 2.0"},
+               {"material.json", "m", 2.3, "within 1.0 to 2.0"},
+               {"hard.json", "H_T_k_N_per_m_to_the_m", -5, "H_T_k below zero"},
+               {"hard.json", "H_T_m", 2.5, "within 1.0 to 2.0"},
+               {"hard.json", "G_z_m", 4, "within 0.5 to 3.0"},
+               {"hard.json", "l0_m", 0, "has no depth"}};
+  for (const auto& c : cases) {
+    Copy copy;
+    spoil(copy, c.file, c.parameter, c.value);
+    const std::string said = copy.refusal();
+    EXPECT_TRUE(has(said, c.words)) << said;
+    EXPECT_TRUE(has(said, c.file)) << said;
+  }
+}
+
+TEST(LumpLibrary, RefusesAnotherCalibrationAndOneThatFailed) {
+  Copy copy;
+  nlohmann::json lumps = jsonOf(copy.lumps());
+  lumps["surface"] = "lumps/friction.json";
+  copy.write(copy.lumps(), lumps);
+  EXPECT_TRUE(has(copy.refusal(), "not of \"material\""));
+}
+
+TEST(PalpationCase, TheSameForASeedAndWithinTheArea) {
+  const PalpationSettings settings = readPalpation(kAssets / "tasks/palpation_breast.json");
+  const assess::SearchArea& area = settings.scoring.rules.area;
+  std::array<int, 5> counts{};
+  for (std::uint64_t seed = 1; seed <= 400; ++seed) {
+    const Case one = drawCase(settings, seed), again = drawCase(settings, seed);
+    ASSERT_EQ(one.size(), again.size());
+    ++counts.at(one.size());
+    for (std::size_t i = 0; i < one.size(); ++i) {
+      EXPECT_EQ(one[i].p_P, again[i].p_P);
+      EXPECT_LE(std::abs(one[i].p_P.x()), area.half_x - settings.cases.margin);
+      EXPECT_LE(std::abs(one[i].p_P.y()), area.half_y - settings.cases.margin);
+      EXPECT_EQ(-one[i].p_P.z(), settings.library.kinds[one[i].kind].depth);
+      for (std::size_t j = 0; j < i; ++j) EXPECT_GE((one[i].p_P - one[j].p_P).head<2>().norm(), settings.cases.apart);
+    }
+  }
+  for (std::size_t n = 0; n < settings.cases.lumps.size(); ++n) EXPECT_NEAR(counts[n] / 400.0, settings.cases.lumps[n], 4 * std::sqrt(0.25 / 400)) << n;   // four standard deviations of a share
+}
+
+TEST(PalpationCase, IsPlacedForTheLoop) {
+  const haptics::PlacedLumps lumps = placed({{2, {0.01, 0.02, -0.018}}});
+  EXPECT_EQ(lumps[0].kind, 3u);
+  EXPECT_EQ(lumps[0].p_T0, (Packed3{0.01, 0.02, -0.018}));
+  EXPECT_EQ(lumps[1].kind, 0u);
+}
+
+}  // namespace
+}  // namespace palpa::task_palpation
