@@ -65,7 +65,7 @@ TEST(PalpationListener, KeepsOneSampleInTenMillisecondsAndNoPauses) {
 TEST(PalpationListener, AMarkIsAButtonThatGoesDownOverThePhantom) {
   PalpationListener listener(config());
   listener.begin(1);
-  const auto add = [&, t = std::int64_t{0}](const Vec3& p_P, bool down) mutable { listener.add(at(p_P, t += 1'000'000, 0, 0, down ? PalpationListener::kMark : 0)); };
+  auto add = [&, t = std::int64_t{0}](const Vec3& p_P, bool down) mutable { listener.add(at(p_P, t += 1'000'000, 0, 0, down ? PalpationListener::kMark : 0)); };
   add({0, 0, 0}, true);   // held since before the trial
   add({0, 0, 0}, false);
   add({0, 0, 0.05}, true);   // in the air

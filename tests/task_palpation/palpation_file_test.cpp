@@ -5,6 +5,7 @@
 #include <fstream>
 
 #include "anatomy/geometry/error.h"
+#include "apps/station/calibration_file.h"
 #include "tests/support/scratch_folder.h"
 
 namespace palpa::task_palpation {
@@ -34,8 +35,6 @@ class Copy {
     try {
       readPalpation(folder_ / "tasks/task.json");
     } catch (const Error& error) {
-      return error.what();
-    } catch (const UsageError& error) {
       return error.what();
     }
     return "";
