@@ -130,7 +130,7 @@ void PalpatingHand::judge(double now_s) {
   Felt felt{tip_now_P_, depths_, false};
   for (double& depth : felt.depths) depth *= std::exp(skill_.weber * judgement_.normal());
   if (suspect_P_) {
-    (confirming_ ? confirmed_ : closer_).push_back(felt);
+    (look_ == Look::climb ? closer_ : fresh_).push_back(felt);
   } else {
     felt.firm = firmness(felt) > skill_.looks_closer;
     memory_.push_back(felt);
@@ -138,7 +138,8 @@ void PalpatingHand::judge(double now_s) {
       suspect_P_ = felt.p_P;
       rounds_left_ = skill_.rounds;
       closer_.assign(1, felt);
-      confirming_ = false;
+      look_ = Look::climb;
+      if (skill_.again > 0) pressAfresh(felt.p_P, skill_.again, Look::again);
     }
   }
   next(now_s);
@@ -181,35 +182,52 @@ Vec3 PalpatingHand::firmestPlace() const {
   return weight > 0 ? Vec3(middle / weight) : *suspect_P_;
 }
 
+/// At one place, so often: what led there was chosen for being firm, only fresh presses tell.
+void PalpatingHand::pressAfresh(const Vec3& p_P, int times, Look look) {
+  look_ = look;
+  fresh_.clear();
+  suspect_P_ = Vec3(p_P.x(), p_P.y(), 0);
+  places_.insert(places_.end(), static_cast<std::size_t>(times), *suspect_P_);
+}
+
+double PalpatingHand::meanFirmness(const std::vector<Felt>& presses) const {
+  double sum = 0;
+  for (const Felt& felt : presses) sum += firmness(felt) / static_cast<double>(presses.size());
+  return sum;
+}
+
+/// The presses of a look are done: was it chance, where is it firmest, is it a lump?
 void PalpatingHand::decide(double now_s) {
-  const bool first = closer_.size() == 1;
-  const std::optional<Vec3> up = first ? suspect_P_ : uphill();
-  if (!confirming_ && up && rounds_left_-- > 0) {
-    suspect_P_ = up;
-    planCross(*up);
-    return next(now_s);
+  constexpr double kNotChance = 0.7;   // of what made one look
+  if (look_ == Look::again && meanFirmness(fresh_) < kNotChance * skill_.looks_closer) return dismiss(now_s);
+  if (look_ != Look::confirm) {
+    const bool begins = closer_.size() == 1;
+    look_ = Look::climb;
+    const std::optional<Vec3> up = begins ? suspect_P_ : uphill();
+    if (up && known(*up)) return dismiss(now_s);   // the flank of one that was marked
+    if (up && rounds_left_-- > 0) {
+      suspect_P_ = up;
+      planCross(*up);
+      return next(now_s);
+    }
+    if (skill_.confirms > 0) {
+      pressAfresh(firmestPlace(), skill_.confirms, Look::confirm);
+      return next(now_s);
+    }
   }
-  const Vec3 middle = confirming_ ? *suspect_P_ : firmestPlace();
-  double firmest = 0;
-  if (!confirming_ && skill_.confirms > 0) {   // what led here was chosen for being firm: only fresh presses tell
-    confirming_ = true;
-    confirmed_.clear();
-    suspect_P_ = middle;
-    places_.insert(places_.end(), static_cast<std::size_t>(skill_.confirms), Vec3(middle.x(), middle.y(), 0));
-    return next(now_s);
-  }
-  const std::vector<Felt>& telling = confirming_ ? confirmed_ : closer_;
-  for (const Felt& felt : telling) firmest += firmness(felt) / static_cast<double>(telling.size());
-  const Vec3 looked = *suspect_P_;
+  const Vec3 middle = look_ == Look::confirm ? *suspect_P_ : firmestPlace();
+  const double firmest = meanFirmness(look_ == Look::confirm ? fresh_ : closer_);
+  if (firmest < skill_.marks_from || known(middle)) return dismiss(now_s);
   suspect_P_.reset();
-  confirming_ = false;
-  if (firmest < skill_.marks_from || known(middle)) {
-    dismissed_P_.push_back(looked);
-    return next(now_s);
-  }
   marked_P_.push_back(middle);
   word_ = grade(middle, firmest);
   goTo(Vec3(middle.x(), middle.y(), 0), now_s, Step::mark);
+}
+
+void PalpatingHand::dismiss(double now_s) {
+  dismissed_P_.push_back(*suspect_P_);
+  suspect_P_.reset();
+  next(now_s);
 }
 
 /// As wide as where it was felt to be firm.

@@ -26,6 +26,7 @@ struct PalpatingSkill {
   double reaction = 0;                  ///< s
   double weber = 0;                     ///< standard deviation of ln of a judged depth
   double looks_closer = 0, marks_from = 0;    ///< ln of how much less it gives way than around
+  int again = 0;                        ///< presses of a place that seemed firm, before a closer look
   int rounds = 0, confirms = 0;         ///< of five presses about the place, at most, in a closer look that follows what is firmer; presses at the firmest place by which it is decided, 0: by those that led there
   double closer_force = 1;              ///< how much harder a closer look presses
   double size_sd = 0;                   ///< share
@@ -49,6 +50,7 @@ class PalpatingHand final : public Hand {
   const HandGrip& grip() const override { return skill_.grip; }
 
  private:
+  enum class Look { again, climb, confirm };   ///< of a closer look: was it chance, where is it firmest, is it a lump
   enum class Step { rest, travel, press, overshoot, lift, mark, release };
   /// A press as it is remembered.
   struct Felt {
@@ -66,6 +68,9 @@ class PalpatingHand final : public Hand {
   void next(double now_s);
   void planCross(const Vec3& p_P);
   void decide(double now_s);
+  void dismiss(double now_s);
+  void pressAfresh(const Vec3& p_P, int times, Look look);
+  double meanFirmness(const std::vector<Felt>& presses) const;
   std::optional<Vec3> uphill() const;
   Vec3 firmestPlace() const;
   double firmness(const Felt& felt) const;
@@ -93,10 +98,10 @@ class PalpatingHand final : public Hand {
   bool touched_ = false;
   std::vector<double> depths_;           ///< of this press so far
   std::vector<Vec3> places_;             ///< still to be pressed, the next one last
-  std::vector<Felt> memory_, closer_, confirmed_;
+  std::vector<Felt> memory_, closer_, fresh_;
   std::optional<Vec3> suspect_P_;        ///< a closer look is on
   int rounds_left_ = 0;
-  bool confirming_ = false;
+  Look look_ = Look::climb;
   std::vector<Vec3> marked_P_, dismissed_P_;
   Word word_;
   bool done_ = false;

@@ -30,6 +30,7 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   s.weber = file.number("weber", 0, 1);
   s.looks_closer = file.number("looks_closer", 0, 2);
   s.marks_from = file.number("marks_from", 0, 2);
+  s.again = file.integer("again", 0, 10);
   s.rounds = file.integer("rounds", 0, 10);
   s.confirms = file.integer("confirms", 0, 10);
   s.closer_force = file.number("closer_force", 1, 2);
