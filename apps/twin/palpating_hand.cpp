@@ -14,20 +14,11 @@ constexpr double kOverTop = 0.005;      // m, from where a press begins
 constexpr double kMoves = 0.003, kNear = 0.0008;   // m above the top: between them the hand learns what moving takes
 constexpr double kTouch_N = 0.06, kDeepest = 0.009;   // N above the air's, m below the top: a hand that feels nothing stops there
 constexpr double kLift = 0.05;          // m/s
-constexpr double kCross = 0.004;        // m, of a closer look
-constexpr double kKnown = 0.015;        // m: nobody looks twice at the same lump
-constexpr double kSame = 0.006;         // m
-constexpr std::size_t kCompared = 12;   // presses
-constexpr std::size_t kFewest = 8;
+constexpr double kCross = 0.0035;       // m, of a closer look: its presses lie within 5 mm of each other
+constexpr double kKnown = 0.020;        // m: nobody looks twice at the same lump or its flank
+constexpr double kSame = 0.008;         // m, of a place that was dismissed
 constexpr double kMarkFor_s = 0.3;
 constexpr double kHome = 0.04;          // m above the top
-
-double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
-  return values[values.size() / 2];
-}
-
-double across(const Vec3& a, const Vec3& b) { return (a - b).head<2>().norm(); }
 
 }  // namespace
 
@@ -39,7 +30,8 @@ PalpatingHand::PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& 
       seed_(seed),
       judgement_(seed, "palpating.judgement.0"),
       noise_(seed, "palpating.noise"),
-      tremor_(skill.tremor_rms, runtime::RandomStream(seed, "palpating.tremor")) {}
+      tremor_(skill.tremor_rms, runtime::RandomStream(seed, "palpating.tremor")),
+      memory_(skill.pressures.size()) {}
 
 void PalpatingHand::planStrips() {
   places_.clear();
@@ -59,7 +51,7 @@ void PalpatingHand::planStrips() {
 void PalpatingHand::beginTrial(int trial, double now_s) {
   trial_ = trial;
   judgement_ = runtime::RandomStream(seed_, "palpating.judgement." + std::to_string(trial));
-  memory_.clear();
+  memory_.forget();
   closer_.clear();
   suspect_P_.reset();
   marked_P_.clear();
@@ -96,30 +88,6 @@ void PalpatingHand::pressing(double now_s) {
   step_ = Step::overshoot;   // it goes on for as long as it takes to react
 }
 
-/// How much less it gave way than the places about it that seemed ordinary: ln, mean over the pressures. With several the first one only says where the surface is: when it was touched is told badly.
-double PalpatingHand::firmness(const Felt& felt) const {
-  double sum = 0;
-  int count = 0;
-  for (std::size_t l = skill_.pressures.size() > 1 ? 1 : 0; l < felt.depths.size(); ++l) {
-    std::vector<double> around = ordinaryAbout(felt.p_P, l);
-    if (around.size() < kFewest) continue;
-    sum += std::log(median(around) / std::max(felt.depths[l], 1e-4));
-    ++count;
-  }
-  return count > 0 ? sum / count : 0;
-}
-
-/// What the nearest ordinary places gave; a hand compares side by side.
-std::vector<double> PalpatingHand::ordinaryAbout(const Vec3& p_P, std::size_t pressure) const {
-  std::vector<std::pair<double, double>> near;
-  for (const Felt& felt : memory_)
-    if (!felt.firm && felt.depths.size() > pressure && across(felt.p_P, p_P) > kCross) near.emplace_back(across(felt.p_P, p_P), felt.depths[pressure]);
-  std::sort(near.begin(), near.end());
-  std::vector<double> depths;
-  for (std::size_t i = 0; i < std::min(near.size(), kCompared); ++i) depths.push_back(near[i].second);
-  return depths;
-}
-
 bool PalpatingHand::known(const Vec3& p_P) const {
   const auto near = [&](const Vec3& other) { return across(other, p_P) < kKnown; };
   const auto same = [&](const Vec3& other) { return across(other, p_P) < kSame; };
@@ -127,13 +95,13 @@ bool PalpatingHand::known(const Vec3& p_P) const {
 }
 
 void PalpatingHand::judge(double now_s) {
-  Felt felt{tip_now_P_, depths_, false};
+  FeltPress felt{tip_now_P_, depths_, false};
   for (double& depth : felt.depths) depth *= std::exp(skill_.weber * judgement_.normal());
   if (suspect_P_) {
     (look_ == Look::climb ? closer_ : fresh_).push_back(felt);
   } else {
-    felt.firm = firmness(felt) > skill_.looks_closer;
-    memory_.push_back(felt);
+    felt.firm = memory_.firmness(felt) > skill_.looks_closer;
+    memory_.add(felt);
     if (felt.firm && !known(felt.p_P)) {
       suspect_P_ = felt.p_P;
       rounds_left_ = skill_.rounds;
@@ -149,39 +117,6 @@ void PalpatingHand::planCross(const Vec3& p_P) {
   for (const Vec3& off : {Vec3(0, -kCross, 0), Vec3(0, kCross, 0), Vec3(kCross, 0, 0), Vec3(-kCross, 0, 0), Vec3(0, 0, 0)}) places_.push_back(Vec3(p_P.x(), p_P.y(), 0) + off);
 }
 
-/// From the last five presses toward where it is firmer, twice as far as their middle lies; the way of one who feels for the top of a hill. Nothing where they are on top.
-std::optional<Vec3> PalpatingHand::uphill() const {
-  constexpr std::size_t kPresses = 5;
-  constexpr double kOnTop = 1.2e-3, kFarthest = 8e-3;   // m
-  if (closer_.size() < kPresses) return std::nullopt;
-  const std::vector<Felt> last(closer_.end() - kPresses, closer_.end());
-  double least = 1e9, weight = 0;
-  for (const Felt& felt : last) least = std::min(least, firmness(felt));
-  Vec3 shift = Vec3::Zero();
-  for (const Felt& felt : last) {
-    const double w = std::pow(firmness(felt) - least, 2);
-    shift += w * (felt.p_P - *suspect_P_);
-    weight += w;
-  }
-  shift.z() = 0;
-  if (weight > 0) shift *= 2 / weight;
-  if (shift.norm() < 2 * kOnTop) return std::nullopt;
-  return *suspect_P_ + shift * std::min(1.0, kFarthest / shift.norm());
-}
-
-/// The middle of the places looked at closer about the last one, each as much as it is firm.
-Vec3 PalpatingHand::firmestPlace() const {
-  Vec3 middle = Vec3::Zero();
-  double weight = 0;
-  for (const Felt& felt : closer_) {
-    if (across(felt.p_P, *suspect_P_) > kSame) continue;
-    const double w = std::pow(std::max(firmness(felt), 0.0), 2);
-    middle += w * felt.p_P;
-    weight += w;
-  }
-  return weight > 0 ? Vec3(middle / weight) : *suspect_P_;
-}
-
 /// At one place, so often: what led there was chosen for being firm, only fresh presses tell.
 void PalpatingHand::pressAfresh(const Vec3& p_P, int times, Look look) {
   look_ = look;
@@ -190,20 +125,14 @@ void PalpatingHand::pressAfresh(const Vec3& p_P, int times, Look look) {
   places_.insert(places_.end(), static_cast<std::size_t>(times), *suspect_P_);
 }
 
-double PalpatingHand::meanFirmness(const std::vector<Felt>& presses) const {
-  double sum = 0;
-  for (const Felt& felt : presses) sum += firmness(felt) / static_cast<double>(presses.size());
-  return sum;
-}
-
 /// The presses of a look are done: was it chance, where is it firmest, is it a lump?
 void PalpatingHand::decide(double now_s) {
   constexpr double kNotChance = 0.7;   // of what made one look
-  if (look_ == Look::again && meanFirmness(fresh_) < kNotChance * skill_.looks_closer) return dismiss(now_s);
+  if (look_ == Look::again && memory_.meanFirmness(fresh_) < kNotChance * skill_.looks_closer) return dismiss(now_s);
   if (look_ != Look::confirm) {
     const bool begins = closer_.size() == 1;
     look_ = Look::climb;
-    const std::optional<Vec3> up = begins ? suspect_P_ : uphill();
+    const std::optional<Vec3> up = begins ? suspect_P_ : memory_.uphill(closer_, *suspect_P_);
     if (up && known(*up)) return dismiss(now_s);   // the flank of one that was marked
     if (up && rounds_left_-- > 0) {
       suspect_P_ = up;
@@ -211,12 +140,12 @@ void PalpatingHand::decide(double now_s) {
       return next(now_s);
     }
     if (skill_.confirms > 0) {
-      pressAfresh(firmestPlace(), skill_.confirms, Look::confirm);
+      pressAfresh(memory_.firmestPlace(closer_, *suspect_P_), skill_.confirms, Look::confirm);
       return next(now_s);
     }
   }
-  const Vec3 middle = look_ == Look::confirm ? *suspect_P_ : firmestPlace();
-  const double firmest = meanFirmness(look_ == Look::confirm ? fresh_ : closer_);
+  const Vec3 middle = look_ == Look::confirm ? *suspect_P_ : memory_.firmestPlace(closer_, *suspect_P_);
+  const double firmest = memory_.meanFirmness(look_ == Look::confirm ? fresh_ : closer_);
   if (firmest < skill_.marks_from || known(middle)) return dismiss(now_s);
   suspect_P_.reset();
   marked_P_.push_back(middle);
@@ -232,19 +161,10 @@ void PalpatingHand::dismiss(double now_s) {
 
 /// As wide as where it was felt to be firm.
 Hand::Word PalpatingHand::grade(const Vec3& p_P, double firmest) {
-  double sum = 0, weight = 0;
-  const auto add = [&](const Felt& felt) {
-    const double r = across(felt.p_P, p_P), w = std::max(firmness(felt), 0.0);
-    if (r > kKnown) return;
-    sum += w * r * r;
-    weight += w;
-  };
-  std::for_each(memory_.begin(), memory_.end(), add);
-  std::for_each(closer_.begin(), closer_.end(), add);
+  constexpr double kAcross = 3, kSmallest = 0.006, kLargest = 0.035;   // of the spread; m
   Word word;
   word.kind = Word::Kind::grade;
-  const double spread = weight > 0 ? std::sqrt(sum / weight) : kCross;
-  word.diameter = std::clamp(3 * spread * (1 + skill_.size_sd * judgement_.normal()), 0.006, 0.035);
+  word.diameter = std::clamp(kAcross * memory_.spreadAbout(p_P, closer_) * (1 + skill_.size_sd * judgement_.normal()), kSmallest, kLargest);
   word.hardness = firmest >= skill_.hard_from ? 2 : 1;
   return word;
 }

@@ -9,6 +9,7 @@
 #include "apps/twin/bearings.h"
 #include "apps/twin/hand.h"
 #include "apps/twin/min_jerk.h"
+#include "apps/twin/touch_memory.h"
 #include "apps/twin/tremor.h"
 
 namespace palpa::twin {
@@ -52,13 +53,6 @@ class PalpatingHand final : public Hand {
  private:
   enum class Look { again, climb, confirm };   ///< of a closer look: was it chance, where is it firmest, is it a lump
   enum class Step { rest, travel, press, overshoot, lift, mark, release };
-  /// A press as it is remembered.
-  struct Felt {
-    Vec3 p_P;
-    std::vector<double> depths;         ///< m, judged: how far it gave way to the first pressure, and from there to each of the others
-    bool firm = false;                  ///< it seemed to be when it was pressed
-  };
-
   void think(const Senses& senses);
   void beginTrial(int trial, double now_s);
   void planStrips();
@@ -70,11 +64,6 @@ class PalpatingHand final : public Hand {
   void decide(double now_s);
   void dismiss(double now_s);
   void pressAfresh(const Vec3& p_P, int times, Look look);
-  double meanFirmness(const std::vector<Felt>& presses) const;
-  std::optional<Vec3> uphill() const;
-  Vec3 firmestPlace() const;
-  double firmness(const Felt& felt) const;
-  std::vector<double> ordinaryAbout(const Vec3& p_P, std::size_t pressure) const;
   bool known(const Vec3& p_P) const;
   Word grade(const Vec3& p_P, double firmest);
 
@@ -98,7 +87,8 @@ class PalpatingHand final : public Hand {
   bool touched_ = false;
   std::vector<double> depths_;           ///< of this press so far
   std::vector<Vec3> places_;             ///< still to be pressed, the next one last
-  std::vector<Felt> memory_, closer_, fresh_;
+  TouchMemory memory_;
+  std::vector<FeltPress> closer_, fresh_;
   std::optional<Vec3> suspect_P_;        ///< a closer look is on
   int rounds_left_ = 0;
   Look look_ = Look::climb;

@@ -1,0 +1,46 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "anatomy/geometry/pose.h"
+
+namespace palpa::twin {
+
+/// A press as a simulated examiner remembers it. Frame P of the phantom, m.
+struct FeltPress {
+  Vec3 p_P = Vec3::Zero();
+  std::vector<double> depths;         ///< judged: how far it gave way to the first pressure, and from there to each of the others
+  bool firm = false;                  ///< it seemed to be when it was pressed
+};
+
+double across(const Vec3& a, const Vec3& b);   ///< m, along the top
+
+/// What the presses of a search have told so far, and how firm a place is beside the others: ln of how much less it gives way, 0 where it is like them.
+class TouchMemory {
+ public:
+  /// With several pressures the first one only says where the surface is: when it was touched is told badly.
+  explicit TouchMemory(std::size_t pressures) : first_told_(pressures > 1 ? 1 : 0) {}
+
+  void forget() { presses_.clear(); }
+  void add(const FeltPress& press) { presses_.push_back(press); }
+  const std::vector<FeltPress>& presses() const { return presses_; }
+
+  /// Against the nearest places that seemed ordinary, mean over the pressures; 0 while there are too few of them.
+  double firmness(const FeltPress& press) const;
+  double meanFirmness(const std::vector<FeltPress>& presses) const;
+  /// From five presses about `centre` toward where it is firmer, twice as far as their middle lies; the way of one who feels for the top of a hill. Nothing on top of it, or with fewer presses.
+  std::optional<Vec3> uphill(const std::vector<FeltPress>& presses, const Vec3& centre) const;
+  /// The middle of the presses about `centre`, each as much as it is firm.
+  Vec3 firmestPlace(const std::vector<FeltPress>& presses, const Vec3& centre) const;
+  /// Root mean square distance of what is firm about `centre`, over everything remembered and `more`.
+  double spreadAbout(const Vec3& centre, const std::vector<FeltPress>& more) const;
+
+ private:
+  std::vector<double> ordinaryAbout(const Vec3& p_P, std::size_t pressure) const;
+  std::size_t first_told_;
+  std::vector<FeltPress> presses_;
+};
+
+}  // namespace palpa::twin

@@ -1,0 +1,64 @@
+#include "apps/twin/touch_memory.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+namespace palpa::twin {
+namespace {
+
+constexpr double kOrdinary = 0.004;   // m
+
+/// How far a place gives way with a lump at the origin that takes off up to 30 %.
+FeltPress pressAt(double x, double y) {
+  const double less = 0.3 * std::exp(-(x * x + y * y) / (2 * 0.006 * 0.006));
+  return {{x, y, 0}, {0.001, kOrdinary * (1 - less) / 3, kOrdinary * (1 - less)}, less > 0.1};
+}
+
+TouchMemory searched() {
+  TouchMemory memory(3);
+  for (int i = -3; i <= 3; ++i)
+    for (int j = -3; j <= 3; ++j) memory.add(pressAt(0.008 * i, 0.008 * j));
+  return memory;
+}
+
+std::vector<FeltPress> crossAbout(double x, double y) {
+  constexpr double d = 0.004;
+  return {pressAt(x, y), pressAt(x + d, y), pressAt(x - d, y), pressAt(x, y + d), pressAt(x, y - d)};
+}
+
+TEST(TouchMemory, TellsFirmFromOrdinary) {
+  const TouchMemory memory = searched();
+  EXPECT_NEAR(memory.firmness(pressAt(0, 0)), -std::log(0.7), 0.03);
+  EXPECT_NEAR(memory.firmness(pressAt(0.024, 0.024)), 0, 0.01);
+  EXPECT_EQ(TouchMemory(3).firmness(pressAt(0, 0)), 0) << "there is nothing to compare with";
+}
+
+TEST(TouchMemory, WhereItWasTouchedTellsNothing) {
+  FeltPress press = pressAt(0, 0);
+  press.depths[0] *= 3;
+  EXPECT_EQ(searched().firmness(press), searched().firmness(pressAt(0, 0)));
+}
+
+TEST(TouchMemory, GoesUphillToTheTop) {
+  const TouchMemory memory = searched();
+  Vec3 at(0.009, -0.004, 0);
+  for (int i = 0; i < 6; ++i) {
+    const std::optional<Vec3> next = memory.uphill(crossAbout(at.x(), at.y()), at);
+    if (!next) break;
+    at = *next;
+  }
+  EXPECT_LT(at.norm(), 0.003);
+  EXPECT_LT(memory.firmestPlace(crossAbout(at.x(), at.y()), at).norm(), 0.003);
+  EXPECT_FALSE(memory.uphill({pressAt(0, 0)}, Vec3::Zero()));
+}
+
+TEST(TouchMemory, AWiderLumpSpreadsWider) {
+  const TouchMemory memory = searched();
+  const double spread = memory.spreadAbout(Vec3::Zero(), crossAbout(0, 0));
+  EXPECT_GT(spread, 0.004);
+  EXPECT_LT(spread, 0.010);
+}
+
+}  // namespace
+}  // namespace palpa::twin
