@@ -35,7 +35,7 @@ std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
 void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world, const PalpationRun& run, const std::filesystem::path& folder) {
   std::vector<assess::PalpationAssessment> judged;
   for (const auto& trial : run.trials)
-    if (trial.assessment.facts.outcome != "void") judged.push_back(trial.assessment);
+    if (trial.assessment.facts.outcome != "void" && trial.assessment.facts.role == "scored") judged.push_back(trial.assessment);
   report::writePalpationCsv(options.trainee, judged, folder / "trials.csv");
   report::PalpationReport page;
   page.title = world.task.title;
@@ -55,7 +55,8 @@ void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& 
   }
   std::printf("Written to %s:\n", folder.string().c_str());
   std::printf("  report.html     what was found and felt, with reasons and pictures: open this first\n");
-  std::printf("  trials.csv      one row a trial\n  session.palpa   the evidence: every tick, for replay\n");
+  std::printf("  trials.csv      one row a scored trial\n  session.palpa   the evidence: every tick, for replay\n");
+  if (run.video) std::printf("  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, and where the board was\n", static_cast<unsigned long long>(run.video->pictures));
   if (!run.pictures.empty()) std::printf("  view-*.png      %zu pictures of the marked moments\n", run.pictures.size());
 }
 

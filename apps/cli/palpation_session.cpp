@@ -12,14 +12,11 @@ std::string whyUnscored(const SessionOptions& options, const PalpationWorld& wor
   return "";
 }
 
-/// The trials without any help are those that count.
 std::vector<task_palpation::PalpationPlan> planOf(const SessionOptions& options, const PalpationWorld& world) {
   const bool scored = whyUnscored(options, world).empty();
-  const task_palpation::Guidance guidance(options.guidance);
   std::vector<task_palpation::PalpationPlan> plan;
   for (int i = 0; i < options.trials; ++i) {
-    const char* role = !scored ? "not scored" : guidance.helps(i + 1) ? "guided" : "scored";
-    plan.push_back({role, options.seed + static_cast<std::uint64_t>(i), options.force_feedback});
+    plan.push_back({scored ? "scored" : "not scored", options.seed + static_cast<std::uint64_t>(i), options.force_feedback});
   }
   return plan;
 }

@@ -8,6 +8,7 @@
 #include "apps/cli/output_folder.h"
 #include "apps/cli/session_info.h"
 #include "apps/station/assets.h"
+#include "apps/task_palpation/palpation_listener.h"
 #include "apps/twin/palpating_hand.h"
 #include "apps/twin/sample_twin.h"
 
@@ -33,6 +34,8 @@ PalpationWorld::PalpationWorld(const SessionOptions& options)
       X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
     station.file.refuse("sample/tip_radius_mm", "is not that of the tip with which the task's lumps were identified");
+  if (!isSimulated(options.who) && (station.safety.deadman_button & task_palpation::PalpationListener::kMark))
+    station.file.refuse("safety/deadman_button", "is the button that marks a lump; give another");
 }
 
 haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) const {

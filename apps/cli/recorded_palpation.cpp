@@ -7,9 +7,11 @@
 namespace palpa::cli {
 namespace {
 
-nlohmann::json parsed(const std::string& text, const char* what) {
+/// One field of what a record describes; `otherwise` where it has none.
+template <class Value>
+Value fieldOf(const std::string& text, const char* field, const Value& otherwise, const char* what) {
   try {
-    return nlohmann::json::parse(text);
+    return nlohmann::json::parse(text).value(field, otherwise);
   } catch (const nlohmann::json::exception&) {
     throw Error("the session's description is damaged", what, "Restore the file from a backup");
   }
@@ -33,11 +35,11 @@ Said saidIn(const std::vector<runtime::Event>& events, int trial) {
 
 }  // namespace
 
-std::string engineOf(const record::SessionReader& reader) { return parsed(reader.info().task_json, "its task").value("engine", "needle"); }
+std::string engineOf(const record::SessionReader& reader) { return fieldOf(reader.info().task_json, "engine", std::string("needle"), "its task"); }
 
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
-  const task_palpation::Scoring scoring = task_palpation::scoringOf(station::JsonFile(parsed(reader.info().task_json, "its task"), "the recorded task"));
-  const bool simulated = parsed(reader.info().session_json, "its session").value("simulated", false);
+  const task_palpation::Scoring scoring = task_palpation::scoringOf(station::JsonFile(nlohmann::json::parse(reader.info().task_json), "the recorded task"));
+  const bool simulated = fieldOf(reader.info().session_json, "simulated", false, "its session");
   const std::vector<runtime::Event> events = reader.events();
   std::vector<RecordedPalpation> trials;
   task_palpation::PalpationListener listener(reader.info().tick_config);
@@ -53,10 +55,11 @@ std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& r
     const runtime::TrialHeader& header = trial->header;
     for (const runtime::Event& grade : said.grades) {
       const task_palpation::Grade told = task_palpation::gradeOf(grade.text);
-      listener.grade(told.diameter, told.hardness, told.mobility, static_cast<std::size_t>(grade.value));
+      if (grade.value >= 1 && grade.value <= static_cast<double>(listener.marks().size()))
+        listener.grade(told.diameter, told.hardness, told.mobility, static_cast<std::size_t>(grade.value));
     }
-    const nlohmann::json scores = trial->ended && !trial->end.scores_json.empty() ? parsed(trial->end.scores_json, "a trial's score") : nlohmann::json::object();
-    const assess::PalpationFacts facts{header.trial, header.role, simulated, header.force_feedback, header.seed, trial->end.outcome, scores.value("GUIDED", 0.0)};
+    const double guided = trial->ended && !trial->end.scores_json.empty() ? fieldOf(trial->end.scores_json, "GUIDED", 0.0, "a trial's score") : 0;
+    const assess::PalpationFacts facts{header.trial, header.role, simulated, header.force_feedback, header.seed, trial->end.outcome, guided};
     trials.push_back({*trial, assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps, listener.samples(), listener.marks())});
     ++trial;
     begin();

@@ -25,9 +25,7 @@ SessionFrame::SessionFrame(const SessionOptions& options, const World& world, Se
       executive_(options.fast ? runtime::makeVirtualExecutive() : runtime::makeRealExecutive()),
       mode_(executive_->mode()),
       bus_(mode_),
-      devices_(options, world.station, std::move(hands), bus_, channels, executive_->clock(), mode_) {
-  if (options.record_video) video_.emplace(folder);
-}
+      devices_(options, world.station, std::move(hands), bus_, channels, executive_->clock(), mode_) {}
 
 std::vector<runtime::BoardPlace> SessionFrame::places() const {
   std::vector<runtime::BoardPlace> all;
@@ -60,6 +58,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, c
                                    if (video_) video_->add(view);
                                  });
   record::SessionWriter writer(folder_ / "session.palpa", info);
+  if (options_.record_video) video_.emplace(folder_);
   runtime::RecorderActivity recorder(bus_, writer, world_.tick.period_ns);
   Progress progress(options_.quiet);
   Interrupt interrupt(channels_);

@@ -64,19 +64,23 @@ void writeAdvice(Html& html, const assess::PalpationAssessment& trial) {
   for (const std::string& sentence : trial.advice) html.element("li", sentence);
 }
 
+/// Guided ones and those with the lumps shown do not.
+bool counts(const assess::PalpationFacts& facts) { return facts.role.empty() || facts.role == "scored"; }
+
 }  // namespace
 
 std::string palpationVerdict(const assess::PalpationAssessment& trial) {
   const std::string& outcome = trial.facts.outcome;
   if (outcome == "void") return "Not judged: void";
   if (outcome.empty()) return "Not judged: not finished";
+  if (!counts(trial.facts)) return "Not counted: " + trial.facts.role;
   if (trial.passed) return "Passed";
   if (outcome == "aborted") return "Not passed: stopped early";
   return outcome == "time" ? "Not passed: time limit reached" : "Not passed";
 }
 
 Tone toneOfPalpation(const assess::PalpationAssessment& trial) {
-  if (trial.facts.outcome == "void" || trial.facts.outcome.empty()) return Tone::neutral;
+  if (trial.facts.outcome == "void" || trial.facts.outcome.empty() || !counts(trial.facts)) return Tone::neutral;
   return trial.passed ? Tone::good : Tone::bad;
 }
 

@@ -1,12 +1,12 @@
 #include <algorithm>
 
-#include "apps/runtime/random.h"
+#include "anatomy/geometry/error.h"
 #include "apps/task_palpation/palpation_file.h"
 
 namespace palpa::task_palpation {
 namespace {
 
-constexpr int kPlacesTried = 400;
+constexpr int kPlacesTried = 400, kBegunAnew = 200;
 
 std::size_t countOf(const std::vector<double>& shares, double u) {
   std::size_t count = 0;
@@ -22,12 +22,17 @@ bool farFromAll(const Case& others, const Vec3& p_P, double apart) {
 
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed) {
   runtime::RandomStream random(seed, "palpation.case");
+  const std::size_t count = countOf(settings.cases.lumps, random.uniform());
+  return placeLumps(settings, count, random);
+}
+
+Case placeLumps(const PalpationSettings& settings, std::size_t count, runtime::RandomStream& random) {
   const CaseRules& rules = settings.cases;
   const double x = settings.scoring.rules.area.half_x - rules.margin, y = settings.scoring.rules.area.half_y - rules.margin;
-  const std::size_t count = countOf(rules.lumps, random.uniform());
   Case drawn;
-  for (int tried = 0; drawn.size() < count; ++tried) {
+  for (int tried = 0, anew = 0; drawn.size() < count; ++tried) {
     if (tried == kPlacesTried) {   // the first ones stand in the way of the rest
+      if (++anew == kBegunAnew) throw Error("lumps so far apart find no room in the area", "\"" + settings.id + "\", " + std::to_string(count) + " lumps", "Make cases/apart_mm or the number of lumps smaller");
       drawn.clear();
       tried = 0;
     }

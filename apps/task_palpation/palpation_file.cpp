@@ -17,6 +17,7 @@ Scoring scoringOf(const station::JsonFile& file) {
   rules.levels = {file.number("pressure/light_N", 0.05, 20), file.number("pressure/medium_N", 0.05, 20), file.number("pressure/deep_N", 0.05, 20)};
   if (!(rules.levels[0] < rules.levels[1] && rules.levels[1] < rules.levels[2])) file.refuse("pressure", "must rise from light to deep");
   rules.too_hard = file.number("pressure/too_hard_N", 0.1, 50);
+  if (rules.too_hard <= rules.levels[2]) file.refuse("pressure/too_hard_N", "must be more than deep");
   rules.reach = kFileMm * file.number("scoring/reach_mm", 1, 30);
   rules.touch = file.number("scoring/touch_N", 0.02, 5);
   rules.found_within = kFileMm * file.number("scoring/found_within_mm", 1, 50);
@@ -52,14 +53,15 @@ std::vector<double> sharesOf(const station::JsonFile& file) {
 
 /// Lumps lie wholly inside.
 void requireInside(const station::JsonFile& file, const PalpationSettings& settings) {
+  const assess::SearchArea& area = settings.scoring.rules.area;
+  if (2 * area.half_x > settings.size.x() || 2 * area.half_y > settings.size.y()) file.refuse("area", "is larger than the phantom");
   for (const std::size_t k : settings.cases.kinds) {
     const station::LumpKind& kind = settings.library.kinds[k];
-    if (kind.depth - kind.diameter / 2 < 0 || kind.depth + kind.diameter / 2 > settings.size.z())
+    const double beyond = kind.diameter / 2 - settings.cases.margin;
+    if (area.half_x + beyond > settings.size.x() / 2 || area.half_y + beyond > settings.size.y() / 2 || kind.depth - kind.diameter / 2 < 0 || kind.depth + kind.diameter / 2 > settings.size.z())
       file.refuse("cases/kinds", "holds \"" + kind.name + "\", which would stick out of the phantom: its middle lies " + std::to_string(std::lround(1e3 * kind.depth)) + " mm deep, it measures " +
                                      std::to_string(std::lround(1e3 * kind.diameter)) + " mm");
   }
-  const assess::SearchArea& area = settings.scoring.rules.area;
-  if (2 * area.half_x > settings.size.x() || 2 * area.half_y > settings.size.y()) file.refuse("area", "is larger than the phantom");
   const double free_x = area.half_x - settings.cases.margin, free_y = area.half_y - settings.cases.margin;
   if (free_x <= 0 || free_y <= 0) file.refuse("cases/margin_mm", "leaves no room");
   const double rooms = (1 + std::floor(2 * free_x / settings.cases.apart)) * (1 + std::floor(2 * free_y / settings.cases.apart));
@@ -84,6 +86,8 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   settings.time_limit_s = file.number("end/time_limit_s", 10, 3600);
   settings.taxonomy = {file.text("taxonomy/visual"), file.text("taxonomy/haptic"), file.text("taxonomy/purpose"), file.text("taxonomy/property")};
   requireInside(file, settings);
+  runtime::RandomStream trial(0, "palpation.rooms");
+  placeLumps(settings, settings.cases.lumps.size() - 1, trial);   // refused now, not in the middle of a session
   settings.source = file.json().dump();
   return settings;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/assess/palpation/palpation_assessment.h"
+#include "apps/runtime/random.h"
 #include "apps/station/lump_library.h"
 
 namespace palpa::task_palpation {
@@ -54,6 +55,8 @@ using Case = std::vector<LumpInCase>;
 
 /// The same for the same seed.
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed);
+/// So many lumps, drawn by the rules. Throws Error where they find no room.
+Case placeLumps(const PalpationSettings& settings, std::size_t count, runtime::RandomStream& random);
 std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLibrary& library);
 haptics::PlacedLumps placed(const Case& in_case);
 

@@ -24,7 +24,11 @@ void PalpationListener::begin(std::uint32_t trial) {
 }
 
 bool PalpationListener::add(const haptics::FlightRecord& record) {
-  if (record.commands.trial != trial_ || !record.commands.armed || !record.reading.homed) return false;
+  if (record.commands.trial != trial_) return false;
+  if (!record.commands.armed || !record.reading.homed) {
+    pressed_ = true;   // what is pressed over a pause marks nothing
+    return false;
+  }
   const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
   last_ns_ = record.t_ns;
   if (dt > 0 && dt < kLongestGap_s) seconds_ += dt;

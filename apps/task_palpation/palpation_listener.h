@@ -9,7 +9,7 @@ namespace palpa::task_palpation {
 
 /// Makes of recorded ticks what a palpation is judged by; the same for a session and for its replay.
 /// Place: the lowest point of the round tip, on whose end T is. How hard it is pressed: what the hand has to hold against along P's z, the real thing and the device together.
-/// A mark: button 1 of the device goes down while the tip is over the phantom.
+/// A mark: button 1 of the device goes down while the tip is not above the phantom's top by more than `kOver`; beside the area, too, where it is a false alarm.
 class PalpationListener {
  public:
   static constexpr std::uint32_t kMark = 1;          ///< bit of DeviceReading::buttons

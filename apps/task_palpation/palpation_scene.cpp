@@ -51,10 +51,15 @@ void PalpationScene::showFelt(scene::SceneState& state) const {
   state.lead_A = status_.lead_P ? std::optional<Vec3>(setup_.X_AP * *status_.lead_P) : std::nullopt;
 }
 
-/// What the real thing gives back at the tip, what the device adds at the handle.
+/// What the real thing gives back at the tip, what the device adds at the handle. While a lump is searched only both together: the device does nothing but lumps, and its arrow would give them away.
 void PalpationScene::showForces(scene::SceneState& state, const runtime::ToolState& tool) const {
   state.forces.clear();
   const Vec3 f_real_A = X_AD().rotation() * unpack(tool.f_sensed_D), f_device_A = X_AD().rotation() * unpack(tool.f_command_D);
+  if (status_.lumps.empty()) {
+    const Vec3 felt_A = f_real_A + f_device_A;
+    if (felt_A.norm() > kShownForce_N) state.forces.push_back({scene::ForceKind::reaction, state.X_AT.translation(), felt_A});
+    return;
+  }
   if (f_real_A.norm() > kShownForce_N) state.forces.push_back({scene::ForceKind::reaction, state.X_AT.translation(), f_real_A});
   if (f_device_A.norm() > kShownForce_N) state.forces.push_back({scene::ForceKind::device, state.X_AT * Vec3(0, 0, -0.11), f_device_A});
 }

@@ -80,7 +80,8 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   showLumps(nullptr);
   tell(now_ns, "case", caseText(lumpsOf(case_, setup_.settings.library)));
   picture("start", "Before anything was felt");
-  return {status().trial, now_ns, plan().seed, plan().role, plan().force_feedback, 0};
+  const std::string role = plan().role == "scored" && guidance_.helps(status().trial) ? "guided" : plan().role;   // trials without any help are those that count
+  return {status().trial, now_ns, plan().seed, role, plan().force_feedback, 0};
 }
 
 /// While a trial runs only where they may be seen; after it all, found or missed.
@@ -95,10 +96,10 @@ trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome,
   CompletedPalpation trial;
   trial.reason = reason;
   const double seconds = listener_.seconds();
-  const assess::PalpationFacts facts{status().trial, plan().role, setup_.simulated, plan().force_feedback, plan().seed, outcome, seconds > 0 ? guidance_.shown_s() / seconds : 0};
+  const assess::PalpationFacts facts{status().trial, status().role, setup_.simulated, plan().force_feedback, plan().seed, outcome, seconds > 0 ? guidance_.shown_s() / seconds : 0};
   trial.assessment = assess::assessPalpation(facts, setup_.settings.scoring.rules, setup_.settings.scoring.standard, lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
   trial.samples = listener_.samples();
-  guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
+  if (outcome == "done" || outcome == "time") guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
   showLumps(&trial.assessment);
   shown_.levels = levelsOf(map_);
   shown_.lead_P.reset();

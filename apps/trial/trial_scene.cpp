@@ -134,6 +134,8 @@ void TrialScene::render() {
 void TrialScene::keepPictures() {
   PictureRequest moment;
   while (channels_.pictures_to_scene.pop(&moment)) {
+    follow(now_ns_);   // what was asked for after this frame was composed
+    composeAll();
     char stem[96];
     std::snprintf(stem, sizeof stem, "view-%02d-%02zu-%s", moment.trial, pictures_.size() + 1,
                   moment.label.c_str());

@@ -190,9 +190,9 @@ void PalpatingHand::think(const Senses& senses) {
   if (!senses.seen) return;
   if (senses.seen->running && senses.seen->trial != trial_) return beginTrial(senses.seen->trial, now_s);
   if (!senses.seen->running && step_ != Step::rest && step_ != Step::travel) {   // paused or over: away from it
-    done_ = true;
     return goTo(Vec3(tip_P_.x(), tip_P_.y(), kHome), now_s, Step::rest);
   }
+  if (senses.seen->running && step_ == Step::rest && trial_ > 0 && !done_) return next(now_s);   // after a pause
   switch (step_) {
     case Step::rest: return;
     case Step::travel:

@@ -41,7 +41,7 @@ struct VisiblePhantom {
   double half_x = 0, half_y = 0;        ///< m
 };
 
-/// A simulated person who searches a soft thing for lumps, in vertical strips: presses, judges how far it gave way at each pressure against what the last places gave, looks closer where it
+/// A simulated person who searches a soft thing for lumps, in vertical strips: presses, judges how far it gave way at each pressure against what the nearest ordinary places gave, looks closer where it
 /// gave less, marks by holding still with the button, grades. Knows what is on the screen and what the hand feels; nothing else.
 class PalpatingHand final : public Hand {
  public:

@@ -108,7 +108,8 @@ TEST(Palpation, TheSameSeedGivesTheSameNumbersAndViewsChangeNone) {
 TEST(Palpation, SeeingTheLumpsDoesNotCount) {
   const Folder here;
   ASSERT_EQ(palpa(palpation({"--operator", "novice", "--preset", "prostate", "--see-through", "on", "--out", "A"}), here.path()).exit_code, 0);
-  EXPECT_TRUE(says(contentOf(here / "A/report.html"), "not scored"));
+  EXPECT_TRUE(says(contentOf(here / "A/report.html"), "Not counted: not scored"));
+  EXPECT_TRUE(rowsOf(contentOf(here / "A/trials.csv")).empty());
 }
 
 TEST(Palpation, WrongUsageIsNamed) {

@@ -103,6 +103,19 @@ TEST(TouchTick, WithoutItsSensorThereIsNoForceAndTheRecordSaysWhy) {
   EXPECT_EQ(none.allocations(), 0);
 }
 
+TEST(TouchTick, ASensorThatIsSilentBetweenTrialsIsNoTrip) {
+  TouchLoop loop;
+  loop.commands.armed = 0;
+  loop.sensor = SensorState::unusable;
+  FlightRecord quiet;
+  for (int i = 0; i < 30; ++i) quiet = loop.step({0, 0, 0.01}, Vec3::Zero());
+  EXPECT_EQ(quiet.safety, SafetyCause::not_ready);
+  EXPECT_FALSE(quiet.events & kSafetyTripped);
+  EXPECT_EQ(unpack(quiet.f_command_D), Vec3(Vec3::Zero()));
+  loop.commands.armed = 1;
+  EXPECT_EQ(loop.step({0, 0, 0.01}, Vec3::Zero()).safety, SafetyCause::no_sensor);
+}
+
 /// A copy of the state goes on with the same bits: a session can be replayed from any keyframe.
 TEST(TouchTick, GoesOnFromAnyKeyframe) {
   auto loop = std::make_unique<TouchLoop>();

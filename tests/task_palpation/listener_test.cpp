@@ -86,6 +86,17 @@ TEST(PalpationListener, AMarkIsAButtonThatGoesDownOverThePhantom) {
   listener.grade(0.01, 0, 0, 7);   // there is none
 }
 
+TEST(PalpationListener, AButtonHeldOverAPauseMarksNothing) {
+  PalpationListener listener(config());
+  listener.begin(1);
+  listener.add(at({0, 0, 0}, 1'000'000, 0, 0));
+  haptics::FlightRecord paused = at({0, 0, 0}, 2'000'000, 0, 0, PalpationListener::kMark);
+  paused.commands.armed = 0;
+  listener.add(paused);
+  listener.add(at({0, 0, 0}, 3'000'000, 0, 0, PalpationListener::kMark));
+  EXPECT_TRUE(listener.marks().empty());
+}
+
 TEST(Grades, GoThroughWordsAndBack) {
   const Grade grade = gradeOf(gradeText(0.016, 2, 1));
   EXPECT_EQ(grade.diameter, 0.016);

@@ -69,6 +69,17 @@ TEST(PalpationFile, NamesWhatIsWrong) {
   }
   {
     Copy copy;
+    copy.task["area"]["half_across_mm"] = 49;
+    copy.task["cases"]["margin_mm"] = 0;
+    EXPECT_TRUE(has(copy.refusal(), "stick out of the phantom"));
+  }
+  {
+    Copy copy;
+    copy.task["pressure"]["too_hard_N"] = 0.5;
+    EXPECT_TRUE(has(copy.refusal(), "more than deep"));
+  }
+  {
+    Copy copy;
     copy.task["area"]["half_across_mm"] = 60;
     EXPECT_TRUE(has(copy.refusal(), "larger than the phantom"));
   }
@@ -154,6 +165,13 @@ TEST(PalpationCase, TheSameForASeedAndWithinTheArea) {
     }
   }
   for (std::size_t n = 0; n < settings.cases.lumps.size(); ++n) EXPECT_NEAR(counts[n] / 400.0, settings.cases.lumps[n], 4 * std::sqrt(0.25 / 400)) << n;   // four standard deviations of a share
+}
+
+TEST(PalpationCase, LumpsThatHardlyFitAreRefusedBeforeAnythingStarts) {
+  Copy copy;
+  copy.task["cases"]["lumps"] = {0.2, 0.2, 0.2, 0.2, 0.2};
+  copy.task["cases"]["apart_mm"] = 47.9;   // four would have to lie in the very corners of 48 mm
+  EXPECT_TRUE(has(copy.refusal(), "no room"));
 }
 
 TEST(PalpationCase, IsPlacedForTheLoop) {
