@@ -122,7 +122,7 @@ void HudPainter::buildPhase() {
 std::vector<HudPainter::Row> HudPainter::readings() const {
   const Hud& text = content_->text;
   std::vector<Row> rows{
-      {"Time", text.time}, {"Depth", text.depth}, {"Force", text.force}, {"Touched", text.touched}, {"Overlay", text.overlay}};
+      {"Time", text.time}, {"Depth", text.depth}, {"Force", text.force}, {"Touched", text.touched}, {"Overlay", text.overlay}, {"Marked", text.marked}, {"Note", text.note}};
   std::erase_if(rows, [](const Row& row) { return row.value.empty(); });
   return rows;
 }

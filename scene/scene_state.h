@@ -88,6 +88,8 @@ struct Hud {
   std::string notice;   ///< one line of advice, loss of tracking, emergency stop
   std::string mark;     ///< "SIMULATED OPERATOR"
   bool alarm = false;   ///< notice in alarm style
+  std::string marked;   ///< "2": how many lumps were marked
+  std::string note;     ///< what to bear in mind: "scaled force: ..."
 
   bool operator==(const Hud&) const = default;
 };

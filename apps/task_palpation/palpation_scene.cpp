@@ -72,8 +72,8 @@ scene::Hud PalpationScene::words(const runtime::ToolState& tool, const std::stri
     hud.force = lineOf("%.1f N ", status_.pressed_N) + kPressures[status_.level] + (status_.force_feedback ? "" : " (force feedback off)");
     const int seconds = static_cast<int>(status_.elapsed_s);
     hud.time = lineOf("%d:%02d", seconds / 60, seconds % 60);
-    hud.touched = setup_.force_note;
-    if (!status_.marks_P.empty()) hud.depth = lineOf("%d marked", static_cast<int>(status_.marks_P.size()));
+    hud.note = setup_.force_note;
+    if (!status_.marks_P.empty()) hud.marked = lineOf("%d", static_cast<int>(status_.marks_P.size()));
   }
   trial::noticeOf(status_, tool.safety, "", trouble, &hud);
   hud.mark = mark();
