@@ -85,7 +85,7 @@ std::vector<Look> looks() {
       {"guide-and-ellipse", with([&](SceneState& s) { s.guide = Guide{entry_A, vein_A}; s.tip_covariance_A = 2e-5 * Mat3::Identity(); })},
       {"trail", with([&](SceneState& s) { for (int i = 0; i <= 40; ++i) s.trail_A.push_back(entry_A + 0.025 * i * (vein_A - entry_A) + Vec3(0, 0, 0.004 * std::sin(0.5 * i))); })},
       {"occluder", with([&](SceneState& s) { s.occluders = {{&hand, makePose(Mat3::Identity(), entry_A + Vec3(0.02, -0.06, 0.02))}}; })},
-      {"words", with([](SceneState& s) { s.hud = {"phase 2: advance to the vein", "12 mm under the skin, in fat", "1.2 N", "0:31", "clavicle", "within 0.4 mm", "The camera has lost the board: the overlay stands still", "SIMULATED OPERATOR", false}; })},
+      {"words", with([](SceneState& s) { s.hud = {"phase 2: advance to the vein", "12 mm under the skin, in fat", "1.2 N", "0:31", "clavicle", "within 0.4 mm", "The camera has lost the board: the overlay stands still", "SIMULATED OPERATOR", false, "2 lumps", "scaled to the device"}; })},
       {"alarm", with([](SceneState& s) { s.hud.notice = "The needle touches the lung"; s.hud.alarm = true; })},
       {"no-camera", with([](SceneState& s) { s.picture = nullptr; s.registered = false; })},
       {"not-registered", with([](SceneState& s) { s.registered = false; })},
