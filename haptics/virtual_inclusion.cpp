@@ -17,12 +17,12 @@ struct Implicit {
   double f = 0, slope = 0;
 };
 Implicit implicitly(const HuntCrossley& law, double x, double before, double dt) noexcept {
-  const double rate = (x - before) / dt;
-  const bool bounded = law.k + law.b * rate < 0.1 * law.k;
-  const double at = std::max(x, kBedFloor);
+  const double rate = (x - before) / dt, factor = law.k + law.b * rate, least = 0.1 * law.k;   // as forceOf and stiffnessOf have it, with one power for all
+  const double at = std::max(x, kBedFloor), power = std::pow(at, law.m - 1);
+  const double held = std::max(factor, least);
   Implicit i;
-  i.f = forceOf(law, x, rate);
-  i.slope = stiffnessOf(law, at, rate) + (bounded ? 0 : std::pow(at, law.m) * law.b / dt);
+  i.f = x == at ? power * at * held : forceOf(law, x, rate);
+  i.slope = power * (law.m * held + (factor < least ? 0 : at * law.b / dt));
   return i;
 }
 

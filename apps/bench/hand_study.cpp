@@ -29,64 +29,82 @@ bool calmNow(const LedTip& way, double t) { return t > kCalmAfter && (way.at(t) 
 
 }  // namespace
 
+void HandWatch::count(double given_J, double least_J, const Vec3& f_d, const Vec3& v, bool calm_now) {
+  figures_.gained_mJ = std::max(figures_.gained_mJ, 1e3 * (least_J - given_J));
+  figures_.largest_N = std::max(figures_.largest_N, f_d.norm());
+  if (calm_now) {
+    sum2_ += v.squaredNorm();
+    ++calm_;
+  } else if (calm_ > 0) {
+    figures_.still_mm_s = std::max(figures_.still_mm_s, 1e3 * std::sqrt(sum2_ / calm_));
+    sum2_ = calm_ = 0;
+  }
+}
+
 HandFigures handFigures(const twin::PhantomTwin& start, const HandCase& one) {
   const LedTip way = handsWay();
   twin::PhantomTwin phantom = start;
   twin::DeviceTwin device(one.truth, makePose(Mat3::Identity(), way.at(0)));
   SensedTouch sensed(kHandSeed, one.truth);
-  haptics::FrictionModulationState state;
-  HandFigures figures;
-  Vec3 tip_last = way.at(0), f_touch = Vec3::Zero();
-  double given = 0, sum2 = 0;
-  int calm = 0;
+  haptics::TouchAugmentationState state;
+  HandWatch watch;
+  Vec3 f_touch = Vec3::Zero();
+  double given = 0;
   for (double t = 0; t < way.duration(); t += kPhantomTick) {
-    const Vec3 true_tip = device.truePose().translation();
-    const auto [tip, f_r] = sensed.feel(true_tip, f_touch, kPhantomTick);
-    const haptics::Modulated now = haptics::modulateFriction(one.law, f_r, tip - tip_last, kPhantomTick, &state);
-    tip_last = tip;
-    const Vec3 f_d = one.modulated ? now.f_d : Vec3(Vec3::Zero());
+    const auto [tip, f_r] = sensed.feel(device.truePose().translation(), f_touch, kPhantomTick);
+    const haptics::AugmentedTouch now = haptics::augmentTouch(one.law, one.lumps, {{{true, tip + one.law.tip_radius * Vec3::UnitZ(), f_r}, {}}}, kPhantomTick, &state);
+    const Vec3 f_d = one.modulated ? now.f_d[0] : Vec3(Vec3::Zero());
     for (int i = 1; i <= kStepsPerTick; ++i) {
       const double part = kPhantomTick / kStepsPerTick;
       device.advance(part, makePose(Mat3::Identity(), way.at(t - kPhantomTick + i * part)), one.grip, f_d, f_touch);
       given += device.gripForce().dot(device.trueVelocity()) * part;
       f_touch = phantom.step(device.truePose().translation(), part).f;
     }
-    figures.gained_mJ = std::max(figures.gained_mJ, -1e3 * given);
-    figures.largest_N = std::max(figures.largest_N, f_d.norm());
-    if (calmNow(way, t)) {
-      sum2 += device.trueVelocity().squaredNorm();
-      ++calm;
-    } else if (calm > 0) {
-      figures.still_mm_s = std::max(figures.still_mm_s, 1e3 * std::sqrt(sum2 / calm));
-      sum2 = calm = 0;
-    }
+    watch.count(given, 0, f_d, device.trueVelocity(), calmNow(way, t));
   }
-  return figures;
+  return watch.figures();
 }
 
-std::vector<HandCase> handCases(const KnownPhantom& known) {
+std::vector<JudgedDevice> judgedDevices() {
   // Phantom Premium 1.5: 8.5 N, 0.03 mm, 75 g, 0.04 N of friction (its maker's sheet). Falcon: 8 N, 0.06 mm; inertia and friction [chosen] as larger.
-  const std::pair<const char*, twin::DeviceTruth> devices[] = {{"premium", {0.075, 0.04, 0.2, 30e-6, 0.0006, 8.5, 0.001, {}}}, {"falcon", {0.15, 0.25, 0.6, 60e-6, 0.0006, 8.0, 0.002, {}}}};
+  return {{"premium", {0.075, 0.04, 0.2, 30e-6, 0.0006, 8.5, 0.001, {}}}, {"falcon", {0.15, 0.25, 0.6, 60e-6, 0.0006, 8.0, 0.002, {}}}};
+}
+
+std::vector<twin::HandGrip> judgedHands() {
+  std::vector<twin::HandGrip> hands;
+  for (const double stiffness : {100.0, 1000.0}) {
+    for (const double damping : {2.0, 10.0}) {
+      for (const double mass : {0.05, 0.2}) hands.push_back({stiffness, damping, mass});
+    }
+  }
+  return hands;
+}
+
+std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump, const Vec3& p_T0) {
   const haptics::Dahl real = known.friction.law;
   struct Change {
     const char* name;
     double factor;
     haptics::Dahl wanted;
-    bool modulated;
+    bool lump, modulated;
   };
-  const Change changes[] = {{"none", 1, real, false}, {"stiffness x 0.5", 0.5, real, true}, {"stiffness x 2", 2, real, true},
-                            {"smoother", 1, {0.5 * real.mu, real.sigma, real.B}, true}, {"rougher", 1, {2 * real.mu, real.sigma, 2 * real.B}, true}};
+  const Change changes[] = {{"none", 1, real, false, false},
+                            {"stiffness x 0.5", 0.5, real, false, true},
+                            {"stiffness x 2", 2, real, false, true},
+                            {"smoother", 1, {0.5 * real.mu, real.sigma, real.B}, false, true},
+                            {"rougher", 1, {2 * real.mu, real.sigma, 2 * real.B}, false, true},
+                            {"lump", 1, real, true, true},
+                            {"lump, stiffness x 2, rougher", 2, {2 * real.mu, real.sigma, 2 * real.B}, true, true}};
   std::vector<HandCase> cases;
-  for (const auto& [name, truth] : devices) {
+  for (const JudgedDevice& device : judgedDevices()) {
     for (const Change& change : changes) {
-      for (const double stiffness : {100.0, 1000.0}) {
-        for (const double damping : {2.0, 10.0}) {
-          for (const double mass : {0.05, 0.2}) {
-            haptics::StiffnessModulation contact = feelingOf(known, 0.1);
-            contact.target.factor = change.factor;
-            cases.push_back({name, change.name, truth, {stiffness, damping, mass}, {contact, change.wanted}, change.modulated});
-          }
-        }
+      for (const twin::HandGrip& grip : judgedHands()) {
+        HandCase one{device.name, change.name, device.truth, grip, lump, {}, change.modulated};
+        one.law.surface = {feelingOf(known, 0.1), change.wanted};
+        one.law.surface.contact.target.factor = change.factor;
+        one.law.other_friction = 1;
+        if (change.lump) one.lumps = {{{pack(p_T0), 1}}};
+        cases.push_back(one);
       }
     }
   }

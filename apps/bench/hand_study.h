@@ -5,7 +5,7 @@
 
 #include "apps/bench/contact_study.h"
 #include "apps/twin/device_twin.h"
-#include "haptics/friction_modulation.h"
+#include "haptics/touch_augmentation.h"
 
 namespace palpa::bench {
 
@@ -19,12 +19,33 @@ struct HandCase {
   std::string device, modulation;
   twin::DeviceTruth truth;
   twin::HandGrip grip;
-  haptics::FrictionModulation law;   ///< of both: with the real friction as the wanted one it changes stiffness alone
+  haptics::TouchAugmentation law;
+  haptics::PlacedLumps lumps;
   bool modulated = true;
 };
 HandFigures handFigures(const twin::PhantomTwin& phantom, const HandCase& one);
 
-/// The devices and modulations that are judged, each with the hands at the ends of the published range: pen grips of 0.05 to 0.2 kg, 2 to 10 N s/m, 100 to 1000 N/m.
-std::vector<HandCase> handCases(const KnownPhantom& known);
+/// The devices that are judged, and the hands at the ends of the published range: pen grips of 0.05 to 0.2 kg, 2 to 10 N s/m, 100 to 1000 N/m.
+struct JudgedDevice {
+  const char* name;
+  twin::DeviceTruth truth;
+};
+std::vector<JudgedDevice> judgedDevices();
+std::vector<twin::HandGrip> judgedHands();
+
+/// Every modulation of a single contact with every device and hand; `lump`: as identified, at its place `p_T0` in the phantom, m.
+std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump, const Vec3& p_T0);
+
+/// Watches a hand-held thing: calm while it is held still, energy from the hand.
+class HandWatch {
+ public:
+  void count(double given_J, double least_J, const Vec3& f_d, const Vec3& v, bool calm_now);
+  HandFigures figures() const { return figures_; }
+
+ private:
+  HandFigures figures_;
+  double sum2_ = 0;
+  int calm_ = 0;
+};
 
 }  // namespace palpa::bench

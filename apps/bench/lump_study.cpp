@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "calibration/lump_contact.h"
+#include "haptics/tick_pair.h"
 
 namespace palpa::bench {
 namespace {
@@ -117,19 +118,61 @@ LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phan
   return figures;
 }
 
-QueryTiming augmentationTiming(const std::vector<PlainTouches>& plain, const haptics::TouchAugmentation& one) {
-  haptics::TouchAugmentation law = one;
+namespace {
+
+/// The longest time in which both tools touched, as the loop reads it.
+std::vector<std::array<haptics::SensedForce, 2>> touchingWhile(const PlainTouches& touches, double tip_radius) {
+  std::vector<std::array<haptics::SensedForce, 2>> longest, now;
+  for (const std::array<PhantomTick, 2>& ticks : touches.ticks) {
+    const auto sensed = [&](const PhantomTick& tick) { return haptics::SensedForce{pack(tick.f_r), pack(Vec3(tick.tip + tip_radius * Vec3::UnitZ())), haptics::SensorState::valid, {}}; };
+    if (!ticks[0].truth.contact || !ticks[1].truth.contact) now.clear();
+    else now.push_back({sensed(ticks[0]), sensed(ticks[1])});
+    if (now.size() > longest.size()) longest = now;
+  }
+  return longest;
+}
+
+haptics::PairConfig everythingOn(haptics::TouchAugmentation law) {
   law.surface.contact.target.factor = 1.3;
   law.surface.wanted = law.surface.contact.friction;
   law.surface.wanted.mu *= 0.5;
   law.other_friction = 1;
-  const haptics::PlacedLumps lumps{{{{0, 0, -law.kinds[0].l0}, 1}, {{-kOver, 0, -law.kinds[0].l0}, 1}}};
-  std::vector<std::array<haptics::ToolTouch, 2>> tools;
-  for (const std::array<PhantomTick, 2>& ticks : plain.back().ticks) {
-    if (ticks[0].truth.contact && ticks[1].truth.contact) tools.push_back({toolOf(ticks[0], law), toolOf(ticks[1], law)});
+  haptics::PairConfig config;
+  for (haptics::TickConfig& tool : config.tools) {
+    tool.engine = haptics::Engine::touch;
+    tool.object_at_port = 1;
+    tool.touch = law;
   }
-  haptics::TouchAugmentationState state;
-  return timeQueries(static_cast<int>(tools.size()), [&](int i) { haptics::augmentTouch(law, lumps, tools[static_cast<std::size_t>(i)], kPhantomTick, &state); });
+  return config;
+}
+
+}  // namespace
+
+PairTiming pairTiming(const std::vector<PlainTouches>& plain, const haptics::TouchAugmentation& law) {
+  const std::vector<std::array<haptics::SensedForce, 2>> felt = touchingWhile(plain.back(), law.tip_radius);
+  const haptics::PairConfig config = everythingOn(law);
+  haptics::TickCommands commands;
+  commands.armed = 1;
+  commands.lumps = {{{{0, 0, -law.kinds[0].l0}, 1}, {{-kOver, 0, -law.kinds[0].l0}, 1}}};
+  haptics::PairState state;
+  PairTiming timing;
+  std::uint64_t pushed = 0, asked = 0;
+  timing.time = timeQueries(static_cast<int>(felt.size()), [&](int i) {
+    if (i == 0) state = {};   // back to where it began: no leap
+    const std::array<haptics::SensedForce, 2>& sensed = felt[static_cast<std::size_t>(i)];
+    std::array<haptics::DeviceReading, 2> readings;
+    for (std::size_t t = 0; t < 2; ++t) {
+      readings[t].t_ns = 1'000'000 * (i + 1);
+      readings[t].sequence = static_cast<std::uint64_t>(i + 1);
+      readings[t].p_DE = sensed[t].p_DK;
+      readings[t].homed = 1;
+    }
+    const std::array<haptics::FlightRecord, 2> records = haptics::tickPair(config, state, readings, commands, readings[0].t_ns, sensed);
+    asked += 2;
+    for (const haptics::FlightRecord& record : records) pushed += record.f_command_D != Packed3{};
+  });
+  timing.pushed = static_cast<double>(pushed) / static_cast<double>(asked);
+  return timing;
 }
 
 }  // namespace palpa::bench

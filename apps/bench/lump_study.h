@@ -27,7 +27,11 @@ struct LumpFigures {
 };
 LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phantom& lumped, const haptics::TouchAugmentation& law);
 
-/// What one tick of all of it costs with two tools on the plain phantom: another stiffness, another friction, two lumps; the readings of the stroke of two fingers over the first.
-QueryTiming augmentationTiming(const std::vector<PlainTouches>& plain, const haptics::TouchAugmentation& law);
+/// What one tick of all of it costs with two devices on the plain phantom: sensed forces to commands, another stiffness, another friction, two lumps; the readings of the stroke of two fingers.
+struct PairTiming {
+  QueryTiming time;
+  double pushed = 0;              ///< share of the commands that were some force: nothing was skipped
+};
+PairTiming pairTiming(const std::vector<PlainTouches>& plain, const haptics::TouchAugmentation& law);
 
 }  // namespace palpa::bench

@@ -104,6 +104,11 @@ void addReading(std::vector<Column>& columns) {
                      [](const FlightRecord& r) { return std::to_string(r.reading.buttons); }});
   columns.push_back({{"homed", "1: positions are absolute"},
                      [](const FlightRecord& r) { return std::to_string(r.reading.homed); }});
+  for (int i = 0; i < 3; ++i)
+    columns.push_back({{std::string("f_hand_D_") + "xyz"[i] + "_N", "force of the hand on the tool, by an instrumented handle"}, [=](const FlightRecord& r) { return shortest(r.reading.f_hand_D[static_cast<std::size_t>(i)]); }});
+  for (int i = 0; i < 3; ++i)
+    columns.push_back({{std::string("f_device_D_") + "xyz"[i] + "_N", "force of the device on the tool, drives and friction, by a force cell"}, [=](const FlightRecord& r) { return shortest(r.reading.f_device_D[static_cast<std::size_t>(i)]); }});
+  columns.push_back({{"instrumented", "1: hand and device are measured so (simulated devices only)"}, [](const FlightRecord& r) { return std::to_string(r.reading.instrumented); }});
 }
 
 void addCommands(std::vector<Column>& columns) {

@@ -33,7 +33,8 @@ void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
     const Vec3 friction =
         -v_D_ * (truth_.coulomb / (v_D_.norm() + kSlidingSpeed) + truth_.viscous);
     const Vec3 a_D = (f_grip_D_ + f_drive_D_ + f_touch_D + friction) / mass;
-    f_fingers_D_ = truth_.apparent_mass * a_D - (f_drive_D_ + f_touch_D + friction);
+    f_fingers_D_ = f_grip_D_ - grip.mass * a_D;
+    f_device_D_ = f_drive_D_ + friction;
     v_D_ += a_D * h;
     p += v_D_ * h;
   }

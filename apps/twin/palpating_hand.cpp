@@ -14,7 +14,7 @@ constexpr double kOverTop = 0.005;      // m, from where a press begins
 constexpr double kMoves = 0.003, kNear = 0.0008;   // m above the top: between them the hand learns what moving takes
 constexpr double kTouch_N = 0.06, kDeepest = 0.009;   // N above the air's, m below the top: a hand that feels nothing stops there
 constexpr double kLift = 0.05;          // m/s
-constexpr double kCross = 0.0035;       // m, of a closer look: its presses lie within 5 mm of each other
+constexpr double kCross = 0.008;        // m, of a closer look: as far as where a lump's flanks are steepest
 constexpr double kKnown = 0.020;        // m: nobody looks twice at the same lump or its flank
 constexpr double kSame = 0.008;         // m, of a place that was dismissed
 constexpr double kMarkFor_s = 0.3;
@@ -128,23 +128,26 @@ void PalpatingHand::pressAfresh(const Vec3& p_P, int times, Look look) {
 /// The presses of a look are done: was it chance, where is it firmest, is it a lump?
 void PalpatingHand::decide(double now_s) {
   constexpr double kNotChance = 0.7;   // of what made one look
+  constexpr double kOnTop = 2.4e-3;    // m
   if (look_ == Look::again && memory_.meanFirmness(fresh_) < kNotChance * skill_.looks_closer) return dismiss(now_s);
   if (look_ != Look::confirm) {
     const bool begins = closer_.size() == 1;
     look_ = Look::climb;
-    const std::optional<Vec3> up = begins ? suspect_P_ : memory_.uphill(closer_, *suspect_P_);
-    if (up && known(*up)) return dismiss(now_s);   // the flank of one that was marked
-    if (up && rounds_left_-- > 0) {
-      suspect_P_ = up;
-      planCross(*up);
+    const Vec3 top = begins ? *suspect_P_ : memory_.hillTop(closer_, *suspect_P_);
+    if (known(top)) return dismiss(now_s);   // the flank of one that was marked
+    if ((begins || across(top, *suspect_P_) > kOnTop) && rounds_left_-- > 0) {
+      suspect_P_ = top;
+      planCross(top);
       return next(now_s);
     }
     if (skill_.confirms > 0) {
-      pressAfresh(memory_.firmestPlace(closer_, *suspect_P_), skill_.confirms, Look::confirm);
+      pressAfresh(top, skill_.confirms, Look::confirm);
       return next(now_s);
     }
   }
-  const Vec3 middle = look_ == Look::confirm ? *suspect_P_ : memory_.firmestPlace(closer_, *suspect_P_);
+  std::vector<FeltPress> all = closer_;
+  all.insert(all.end(), fresh_.begin(), fresh_.end());
+  const Vec3 middle = memory_.hillTop(all, *suspect_P_);
   const double firmest = memory_.meanFirmness(look_ == Look::confirm ? fresh_ : closer_);
   if (firmest < skill_.marks_from || known(middle)) return dismiss(now_s);
   suspect_P_.reset();

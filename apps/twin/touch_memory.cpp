@@ -7,7 +7,7 @@ namespace palpa::twin {
 namespace {
 
 constexpr std::size_t kCompared = 12, kFewest = 8;   // presses
-constexpr double kBeside = 0.004, kAbout = 0.006, kOneLump = 0.015;   // m
+constexpr double kBeside = 0.004, kOneLump = 0.015;   // m
 
 double medianOf(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -47,35 +47,29 @@ double TouchMemory::meanFirmness(const std::vector<FeltPress>& presses) const {
   return sum;
 }
 
-std::optional<Vec3> TouchMemory::uphill(const std::vector<FeltPress>& presses, const Vec3& centre) const {
-  constexpr std::size_t kCrossOf = 5;
-  constexpr double kOnTop = 2.4e-3, kFarthest = 8e-3;   // m
-  if (presses.size() < kCrossOf) return std::nullopt;
-  const std::vector<FeltPress> last(presses.end() - kCrossOf, presses.end());
-  double least = 1e9, weight = 0;
-  for (const FeltPress& press : last) least = std::min(least, firmness(press));
-  Vec3 shift = Vec3::Zero();
-  for (const FeltPress& press : last) {
-    const double w = std::pow(firmness(press) - least, 2);
-    shift += w * (press.p_P - centre);
-    weight += w;
+Vec3 TouchMemory::hillTop(const std::vector<FeltPress>& presses, const Vec3& centre) const {
+  constexpr double kWide = 8.5e-3, kFelt = 0.016, kStep = 1e-3;   // m
+  constexpr int kFarthest = 10;                                    // steps
+  std::vector<std::pair<Vec3, double>> felt;
+  for (const std::vector<FeltPress>* some : {&presses_, &presses})
+    for (const FeltPress& press : *some)
+      if (across(press.p_P, centre) < kFelt) felt.emplace_back(press.p_P, firmness(press));
+  Vec3 top = centre;
+  double most = 0;   // of what the hill explains
+  for (int i = -kFarthest; i <= kFarthest; ++i) {
+    for (int j = -kFarthest; j <= kFarthest; ++j) {
+      const Vec3 at = centre + kStep * Vec3(i, j, 0);
+      double along = 0, square = 0;
+      for (const auto& [p, firm] : felt) {
+        const double hill = std::exp(-std::pow(across(p, at) / kWide, 2) / 2);
+        along += hill * firm;
+        square += hill * hill;
+      }
+      const double explained = along > 0 ? along * along / square : 0;
+      if (explained > most) most = explained, top = at;
+    }
   }
-  shift.z() = 0;
-  if (weight > 0) shift *= 2 / weight;
-  if (shift.norm() < kOnTop) return std::nullopt;
-  return centre + shift * std::min(1.0, kFarthest / shift.norm());
-}
-
-Vec3 TouchMemory::firmestPlace(const std::vector<FeltPress>& presses, const Vec3& centre) const {
-  Vec3 middle = Vec3::Zero();
-  double weight = 0;
-  for (const FeltPress& press : presses) {
-    if (across(press.p_P, centre) > kAbout) continue;
-    const double w = std::pow(std::max(firmness(press), 0.0), 2);
-    middle += w * press.p_P;
-    weight += w;
-  }
-  return weight > 0 ? Vec3(middle / weight) : centre;
+  return top;
 }
 
 double TouchMemory::spreadAbout(const Vec3& centre, const std::vector<FeltPress>& more) const {

@@ -1,7 +1,6 @@
 #pragma once
 
 #include <cstddef>
-#include <optional>
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
@@ -30,10 +29,9 @@ class TouchMemory {
   /// Against the nearest places that seemed ordinary, mean over the pressures; 0 while there are too few of them.
   double firmness(const FeltPress& press) const;
   double meanFirmness(const std::vector<FeltPress>& presses) const;
-  /// From five presses about `centre` toward where it is firmer, twice as far as their middle lies; the way of one who feels for the top of a hill. Nothing on top of it, or with fewer presses.
-  std::optional<Vec3> uphill(const std::vector<FeltPress>& presses, const Vec3& centre) const;
-  /// The middle of the presses about `centre`, each as much as it is firm.
-  Vec3 firmestPlace(const std::vector<FeltPress>& presses, const Vec3& centre) const;
+  /// Where the top of a firm hill lies that was felt about `centre`: the place, to a millimetre, from which a round hill as wide as a fingertip feels a lump explains best what `presses` and the
+  /// search itself told there. `centre` where there is no hill.
+  Vec3 hillTop(const std::vector<FeltPress>& presses, const Vec3& centre) const;
   /// Root mean square distance of what is firm about `centre`, over everything remembered and `more`.
   double spreadAbout(const Vec3& centre, const std::vector<FeltPress>& more) const;
 

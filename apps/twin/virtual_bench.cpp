@@ -34,6 +34,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
         board_moves(readBoardMoves(setup.station)),
         sway(kMm * setup.station.file.number("twin/camera_sway_mm", 0, 100)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
+        cell_noise(setup.seed, "bench.force_cells"),
         mechanics(trueDevice(setup.station, setup.seed), setup.X_DE_start),
         hand(std::move(setup.hand)),
         real_thing(std::move(setup.real_thing)) {
@@ -77,6 +78,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
     reading.plunger = action.plunger;
     reading.buttons = action.buttons;
     reading.homed = 1;
+    measureForces(reading);
     device.publish(reading, now_ns);
     if (sensor) {
       const Pose X_WE = X_WD_true * mechanics.truePose();
@@ -85,6 +87,15 @@ struct VirtualBench::Impl final : public runtime::Activity {
     }
     due_ns = std::max((due_ns < 0 ? now_ns : due_ns) + kBenchPeriod, now_ns);
     return due_ns;
+  }
+
+  /// Two force cells, at the handle and before the tool, each with its own noise and as fine as a converter is: whole binary parts of a newton also take little room in a record.
+  void measureForces(haptics::DeviceReading& reading) {
+    constexpr double kNoise_N = 0.01, kCounts = 1024;   // [chosen] a good cell's; a newton
+    const auto noisy = [&](const Vec3& f_D) { return pack(Vec3(((f_D + kNoise_N * Vec3(cell_noise.normal(), cell_noise.normal(), cell_noise.normal())) * kCounts).array().round() / kCounts)); };
+    reading.f_hand_D = noisy(mechanics.fingerForce());
+    reading.f_device_D = noisy(mechanics.deviceForce());
+    reading.instrumented = 1;
   }
 
   /// Hand, drives and mechanics; a real thing is touched more often than the loop ticks.
@@ -116,6 +127,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
   std::vector<BoardMove> board_moves;
   double sway;
   Pose X_CW_boom;
+  runtime::RandomStream cell_noise;
   DeviceTwin mechanics;
   std::unique_ptr<Hand> hand;
   RealThing real_thing;
