@@ -6,6 +6,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/force_check.h"
 #include "apps/cli/recorded_palpation.h"
 #include "apps/cli/recorded_session.h"
 #include "apps/record/tick_export.h"
@@ -46,6 +47,13 @@ bool samePalpationScores(const record::SessionReader& reader) {
   return same;
 }
 
+void tellForces(const record::SessionReader& reader) {
+  const std::optional<assess::ForceBalance> balance = recordedBalance(reader);
+  if (!balance) return;
+  std::printf("Hand, device and phantom, each measured by itself, add up to m a: within %.3f N (rms %.4f N) at %zu samples; the phantom gave up to %.2f N\n", balance->largest_N, balance->rms_N,
+              balance->samples, balance->object_N);
+}
+
 void replay(const std::string& file) {
   const record::SessionReader reader(file);
   const ReplayCheck check = replayTicks(reader);
@@ -57,6 +65,7 @@ void replay(const std::string& file) {
     throw Error("the replay differs from the record" +
                     (check.first_difference >= 0 ? " from tick " + std::to_string(check.first_difference) : ""),
                 file, "It was made by another version or processor, or was changed");
+  tellForces(reader);
   std::printf("The replay equals the record: same forces, same score\n");
 }
 

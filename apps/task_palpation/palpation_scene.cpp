@@ -2,10 +2,11 @@
 
 #include <cstdio>
 
+#include "apps/task_palpation/shown_forces.h"
+
 namespace palpa::task_palpation {
 namespace {
 
-constexpr double kShownForce_N = 0.05;
 constexpr const char* kPressures[] = {"", "light", "medium", "deep"};
 
 template <class... Numbers>
@@ -28,7 +29,7 @@ void PalpationScene::compose(scene::SceneState& state, const runtime::ToolState&
   state.tool = scene::Tool::probe;
   state.hud = words(tool, trouble);
   showFelt(state);
-  showForces(state, tool);
+  state.forces = shownForces(tool, X_AD().rotation(), state.X_AT, !status_.lumps.empty());
 }
 
 /// The area is outlined from the start: it is known what is to be searched.
@@ -49,19 +50,6 @@ void PalpationScene::showFelt(scene::SceneState& state) const {
   state.marks_A.clear();
   for (const Vec3& p_P : status_.marks_P) state.marks_A.push_back(setup_.X_AP * Vec3(p_P.x(), p_P.y(), 0));
   state.lead_A = status_.lead_P ? std::optional<Vec3>(setup_.X_AP * *status_.lead_P) : std::nullopt;
-}
-
-/// What the real thing gives back at the tip, what the device adds at the handle. While a lump is searched only both together: the device does nothing but lumps, and its arrow would give them away.
-void PalpationScene::showForces(scene::SceneState& state, const runtime::ToolState& tool) const {
-  state.forces.clear();
-  const Vec3 f_real_A = X_AD().rotation() * unpack(tool.f_sensed_D), f_device_A = X_AD().rotation() * unpack(tool.f_command_D);
-  if (status_.lumps.empty()) {
-    const Vec3 felt_A = f_real_A + f_device_A;
-    if (felt_A.norm() > kShownForce_N) state.forces.push_back({scene::ForceKind::reaction, state.X_AT.translation(), felt_A});
-    return;
-  }
-  if (f_real_A.norm() > kShownForce_N) state.forces.push_back({scene::ForceKind::reaction, state.X_AT.translation(), f_real_A});
-  if (f_device_A.norm() > kShownForce_N) state.forces.push_back({scene::ForceKind::device, state.X_AT * Vec3(0, 0, -0.11), f_device_A});
 }
 
 scene::Hud PalpationScene::words(const runtime::ToolState& tool, const std::string& trouble) const {

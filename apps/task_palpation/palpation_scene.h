@@ -21,7 +21,6 @@ class PalpationScene final : public trial::TrialScene {
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
   void compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) override;
   void showFelt(scene::SceneState& state) const;
-  void showForces(scene::SceneState& state, const runtime::ToolState& tool) const;
   scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
 
   Setup setup_;

@@ -57,6 +57,7 @@ PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationCha
       setup_(setup),
       channels_(channels),
       listener_(setup.tick),
+      sensor_(setup.tick),
       map_(setup.settings.scoring.rules.area, setup.settings.scoring.rules.levels, setup.settings.scoring.rules.reach),
       guidance_(setup.guided) {
   completed_.reserve(setup.plan.size());
@@ -66,13 +67,16 @@ PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationCha
 
 std::string PalpationTask::notReady(const haptics::FlightRecord& last) const {
   if (last.sensed.state != haptics::SensorState::valid) return "the force sensor says nothing that could be used";
-  return unpack(last.sensed.f_D).norm() >= setup_.settings.scoring.rules.touch ? "the tool touches something: lift it" : "";
+  if (unpack(last.sensed.f_D).norm() < setup_.settings.scoring.rules.touch) return "";
+  if (sensor_.inTheAir(last) == 0) return "the tool touches something: lift it";
+  return "the force sensor shows a force though nothing is touched: it has drifted, or its scale is wrong. Take its zero anew";
 }
 
 runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   case_ = drawCase(setup_.settings, plan().seed);
   placed_ = placed(case_);
   listener_.begin(static_cast<std::uint32_t>(status().trial));
+  sensor_.reset();
   map_ = assess::CoverageMap(setup_.settings.scoring.rules.area, setup_.settings.scoring.rules.levels, setup_.settings.scoring.rules.reach);
   guidance_.begin(status().trial);
   shown_.levels.clear();
@@ -109,6 +113,12 @@ trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome,
 }
 
 void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
+  if (status().state == trial::TrialState::running) {
+    if (const std::string trouble = sensor_.add(record); !trouble.empty()) {
+      sensor_.reset();
+      return hold(trouble, now_ns);
+    }
+  }
   const std::size_t marks = listener_.marks().size();
   const bool kept = listener_.add(record);
   if (listener_.marks().size() > marks) {

@@ -6,6 +6,7 @@
 #include "apps/task_palpation/guidance.h"
 #include "apps/task_palpation/palpation_file.h"
 #include "apps/task_palpation/palpation_listener.h"
+#include "apps/task_palpation/sensor_check.h"
 #include "apps/trial/trial_task.h"
 
 namespace palpa::task_palpation {
@@ -74,6 +75,7 @@ class PalpationTask final : public trial::TrialTask {
   Setup setup_;
   PalpationChannels& channels_;
   PalpationListener listener_;
+  SensorCheck sensor_;
   assess::CoverageMap map_;
   Guidance guidance_;
   Case case_;

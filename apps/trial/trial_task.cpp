@@ -114,6 +114,14 @@ void TrialTask::endTrial(const std::string& outcome, const std::string& reason, 
   since_ns_ = now_ns;
 }
 
+void TrialTask::hold(const std::string& trouble, std::int64_t now_ns) {
+  tell(now_ns, "safety", "Force taken away: " + trouble);
+  if (lead_.automatic) return endTrial("void", trouble, now_ns);
+  status_.state = TrialState::paused;
+  status_.notice = "Paused: " + trouble + ". Then Enter goes on";
+  tell(now_ns, "pause", "The trial is paused: " + trouble);
+}
+
 void TrialTask::listen(std::int64_t now_ns) {
   haptics::FlightRecord record;
   while (bus_.haptic_to_task.pop(&record)) {

@@ -51,6 +51,8 @@ class TrialTask : public runtime::Activity {
   virtual void hear(const UserRequest&, std::int64_t) {}
 
   void endTrial(const std::string& outcome, const std::string& reason, std::int64_t now_ns);
+  /// What is measured cannot be meant: no more force. Paused until somebody has looked after it; where nobody is there, the trial is void. `trouble`: a clause.
+  void hold(const std::string& trouble, std::int64_t now_ns);
   void tell(std::int64_t now_ns, const std::string& kind, const std::string& text, double value = 0);
   void picture(const std::string& label, const std::string& caption);
   TrialStatus& status() { return status_; }

@@ -3,40 +3,20 @@
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/geometry/error.h"
+#include "apps/twin/fault_spans.h"
 
 namespace palpa::twin {
 namespace {
 
 using Kind = CameraFault::Kind;
-constexpr double kLongestSession = 86'400;   // s
 constexpr int kCloth = 110, kDark = 30;      // a gray level; by what a covered lens divides the light
 
-struct Name {
-  const char* name;
-  Kind kind;
-};
-constexpr Name kNames[] = {{"hidden", Kind::hidden}, {"black", Kind::black}, {"frozen", Kind::frozen}, {"wrong_size", Kind::wrong_size}, {"gone", Kind::gone}, {"ended", Kind::ended}};
-
-Kind kindIn(const station::JsonFile& entry) {
-  const std::string said = entry.text("kind");
-  for (const Name& known : kNames)
-    if (said == known.name) return known.kind;
-  entry.refuse("kind", "is \"" + said + "\"; known are hidden, black, frozen, wrong_size, gone, ended");
-}
+constexpr std::pair<const char*, Kind> kCameraFaults[] = {{"hidden", Kind::hidden}, {"black", Kind::black}, {"frozen", Kind::frozen}, {"wrong_size", Kind::wrong_size}, {"gone", Kind::gone}, {"ended", Kind::ended}};
 
 }  // namespace
 
 std::vector<CameraFault> readCameraFaults(const station::JsonFile& file) {
-  std::vector<CameraFault> faults;
-  if (!file.has("twin/camera_faults")) return faults;
-  const nlohmann::json& list = file.json().at("twin").at("camera_faults");
-  if (!list.is_array()) file.refuse("twin/camera_faults", "must be a list");
-  for (const nlohmann::json& item : list) {
-    const station::JsonFile entry(item, file.name() + ", \"twin/camera_faults\"");
-    faults.push_back({kindIn(entry), entry.number("from_s", 0, kLongestSession), entry.number("to_s", 0, kLongestSession)});
-    if (faults.back().to <= faults.back().from) entry.refuse("to_s", "must be later than from_s");
-  }
-  return faults;
+  return readFaults<CameraFault>(file, "camera_faults", [](const station::JsonFile& entry, double from, double to) { return CameraFault{faultKind<Kind>(entry, kCameraFaults), from, to}; });
 }
 
 const CameraFault* faultAt(const std::vector<CameraFault>& faults, double t) {

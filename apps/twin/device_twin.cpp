@@ -26,6 +26,7 @@ void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
   const Vec3 p_hand = X_DH.translation();
   const Vec3 v_hand = (p_hand - p_hand_last_D_) / dt;
   Vec3 p = X_DE_.translation();
+  f_fingers_mean_D_ = f_device_mean_D_ = Vec3::Zero();
   for (int i = 0; i < kSubsteps; ++i) {
     f_drive_D_ += (f_target - f_drive_D_) * (h / (truth_.actuator_tau + h));
     const Vec3 p_now = p_hand_last_D_ + (p_hand - p_hand_last_D_) * ((i + 1.0) / kSubsteps);
@@ -34,7 +35,8 @@ void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
         -v_D_ * (truth_.coulomb / (v_D_.norm() + kSlidingSpeed) + truth_.viscous);
     const Vec3 a_D = (f_grip_D_ + f_drive_D_ + f_touch_D + friction) / mass;
     f_fingers_D_ = f_grip_D_ - grip.mass * a_D;
-    f_device_D_ = f_drive_D_ + friction;
+    f_fingers_mean_D_ += f_fingers_D_ / kSubsteps;
+    f_device_mean_D_ += (f_drive_D_ + friction) / kSubsteps;
     v_D_ += a_D * h;
     p += v_D_ * h;
   }

@@ -51,13 +51,16 @@ class DeviceTwin {
   const Pose& truePose() const { return X_DE_; }   ///< for accuracy reports only
   const Vec3& gripForce() const { return f_grip_D_; }   ///< what moves hand and tool: of the arm on both
   const Vec3& fingerForce() const { return f_fingers_D_; }   ///< between hand and tool: of the fingers on the tool: f_grip - m_hand a
-  const Vec3& deviceForce() const { return f_device_D_; }    ///< of the device on the tool: drives and friction
+  /// What force cells that average over the last `advance` see: the fingers' force on the tool, and the device's, drives and friction.
+  const Vec3& meanFingerForce() const { return f_fingers_mean_D_; }
+  const Vec3& meanDeviceForce() const { return f_device_mean_D_; }
   PackedPose encoderPose() const { return encoderReading(truth_, X_DE_); }   ///< what the device's electronics say
 
  private:
   DeviceTruth truth_;
   Pose X_DE_;
-  Vec3 v_D_ = Vec3::Zero(), p_hand_last_D_, f_drive_D_ = Vec3::Zero(), f_grip_D_ = Vec3::Zero(), f_fingers_D_ = Vec3::Zero(), f_device_D_ = Vec3::Zero();
+  Vec3 v_D_ = Vec3::Zero(), p_hand_last_D_, f_drive_D_ = Vec3::Zero(), f_grip_D_ = Vec3::Zero(), f_fingers_D_ = Vec3::Zero();
+  Vec3 f_fingers_mean_D_ = Vec3::Zero(), f_device_mean_D_ = Vec3::Zero();
 };
 
 }  // namespace palpa::twin

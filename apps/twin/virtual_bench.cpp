@@ -10,6 +10,7 @@
 #include "apps/twin/bench_truth.h"
 #include "apps/twin/board_moves.h"
 #include "apps/twin/camera_faults.h"
+#include "apps/twin/sensor_faults.h"
 #include "apps/twin/sensor_twin.h"
 
 namespace palpa::twin {
@@ -31,6 +32,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
         normal_W(setup.normal_W),
         station(setup.station),
         camera_faults(readCameraFaults(setup.station.file)),
+        sensor_faults(readSensorFaults(setup.station.file)),
         board_moves(readBoardMoves(setup.station)),
         sway(kMm * setup.station.file.number("twin/camera_sway_mm", 0, 100)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
@@ -83,7 +85,8 @@ struct VirtualBench::Impl final : public runtime::Activity {
     if (sensor) {
       const Pose X_WE = X_WD_true * mechanics.truePose();
       if (!real_thing) touch.p_W = (X_WE * X_ET_true).translation();
-      sensor->publish(felt->measure(X_WE * X_ES, touch.f_W, touch.p_W, dt, now_ns), now_ns);
+      haptics::WrenchSample sample = felt->measure(X_WE * X_ES, touch.f_W, touch.p_W, dt, now_ns);
+      if (spoil(sensor_faults, 1e-9 * static_cast<double>(now_ns), station.force_sensor->filter.bias, &sample)) sensor->publish(sample, now_ns);
     }
     due_ns = std::max((due_ns < 0 ? now_ns : due_ns) + kBenchPeriod, now_ns);
     return due_ns;
@@ -93,8 +96,8 @@ struct VirtualBench::Impl final : public runtime::Activity {
   void measureForces(haptics::DeviceReading& reading) {
     constexpr double kNoise_N = 0.01, kCounts = 1024;   // [chosen] a good cell's; a newton
     const auto noisy = [&](const Vec3& f_D) { return pack(Vec3(((f_D + kNoise_N * Vec3(cell_noise.normal(), cell_noise.normal(), cell_noise.normal())) * kCounts).array().round() / kCounts)); };
-    reading.f_hand_D = noisy(mechanics.fingerForce());
-    reading.f_device_D = noisy(mechanics.deviceForce());
+    reading.f_hand_D = noisy(f_hand_D);
+    reading.f_device_D = noisy(f_device_D);
     reading.instrumented = 1;
   }
 
@@ -102,8 +105,11 @@ struct VirtualBench::Impl final : public runtime::Activity {
   void move(const Hand::Action& action, const Vec3& f_command_D, double dt) {
     constexpr int kTouches = 4;
     const int parts = real_thing ? kTouches : 1;
+    f_hand_D = f_device_D = Vec3::Zero();
     for (int i = 0; i < parts; ++i) {
       mechanics.advance(dt / parts, action.X_DH, hand->grip(), f_command_D, X_WD_true.linear().transpose() * touch.f_W);
+      f_hand_D += mechanics.meanFingerForce() / parts;
+      f_device_D += mechanics.meanDeviceForce() / parts;
       if (real_thing) touch = real_thing(X_WD_true * mechanics.truePose() * X_ET_true, dt / parts);
     }
   }
@@ -122,8 +128,10 @@ struct VirtualBench::Impl final : public runtime::Activity {
   Pose X_WD_believed, X_ET_believed, X_WD_true, X_ET_true;
   Vec3 watched_W, normal_W;
   Touch touch;
+  Vec3 f_hand_D = Vec3::Zero(), f_device_D = Vec3::Zero();   // means over the last step
   const station::Station& station;
   std::vector<CameraFault> camera_faults;
+  std::vector<SensorFault> sensor_faults;
   std::vector<BoardMove> board_moves;
   double sway;
   Pose X_CW_boom;

@@ -1,42 +1,14 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <map>
-#include <sstream>
 #include <utility>
 
+#include "csv_rows.h"
 #include "program.h"
 
 /// Whole sessions of a simulated expert, from the arguments to the files. Each takes a few seconds.
 namespace palpa::cli_test {
 namespace {
-
-using Row = std::map<std::string, std::string>;
-
-std::vector<std::string> cells(const std::string& line) {
-  std::vector<std::string> all;
-  std::istringstream stream(line);
-  for (std::string cell; std::getline(stream, cell, ',');) all.push_back(cell);
-  return all;
-}
-
-/// Rows of a CSV without quotes, by column.
-std::vector<Row> rowsOf(const std::string& csv) {
-  std::istringstream lines(csv);
-  std::string line;
-  std::getline(lines, line);
-  const std::vector<std::string> header = cells(line);
-  std::vector<Row> rows;
-  while (std::getline(lines, line)) {
-    const std::vector<std::string> values = cells(line);
-    EXPECT_EQ(values.size(), header.size()) << line;
-    Row row;
-    for (std::size_t i = 0; i < std::min(values.size(), header.size()); ++i)
-      row[header[i]] = values[i];
-    rows.push_back(row);
-  }
-  return rows;
-}
 
 /// One session a program run, shared by the tests that only look at it.
 struct Recorded {
