@@ -71,7 +71,11 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   expectLumps(lines, 1);
   expectLumps(lines, 2);
   EXPECT_EQ(valuesOf(lines, "har_tick_hot_median").size(), 1u);
-  EXPECT_EQ(valuesOf(lines, "hand_still_mm_s").size(), 10u);   // two devices, five modulations
+  ASSERT_EQ(valuesOf(lines, "har_tick_pushed").size(), 1u);
+  EXPECT_GE(valuesOf(lines, "har_tick_pushed")[0], 0.9) << "what was timed did something";
+  EXPECT_EQ(valuesOf(lines, "hand_still_mm_s").size(), 26u);   // two devices; seven modulations under one tool, six between two
+  ASSERT_EQ(valuesOf(lines, "held_object_slid_mm").size(), 1u);
+  EXPECT_LE(worst(lines, "held_object_slid_mm"), 6) << "it was held";
   EXPECT_LE(worst(lines, "hand_still_mm_s"), 2);               // nothing swings on and on: that would be tens
   EXPECT_LE(worst(lines, "hand_gained_mJ"), 0.1);
   EXPECT_LE(worst(lines, "hand_largest_force"), 8);
