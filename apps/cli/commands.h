@@ -6,8 +6,9 @@
 /// Actions throw UsageError (exit code 2) or Error (1).
 namespace palpa::cli {
 
-void addParacentesis(CLI::App& program);   ///< paracentesis, train
+void addParacentesis(CLI::App& program);
 void addPalpation(CLI::App& program);
+void addTrain(CLI::App& program);   ///< either, by the task file
 void addReplay(CLI::App& program);
 void addCalibrate(CLI::App& program);
 void addPatient(CLI::App& program);

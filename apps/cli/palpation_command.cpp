@@ -6,6 +6,7 @@
 #include "apps/cli/output_folder.h"
 #include "apps/cli/palpation_session.h"
 #include "apps/cli/session_arguments.h"
+#include "apps/cli/session_commands.h"
 #include "apps/station/assets.h"
 
 namespace palpa::cli {

@@ -5,6 +5,7 @@
 #include "apps/cli/needle_session.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/session_arguments.h"
+#include "apps/cli/session_commands.h"
 #include "apps/cli/session_outcome.h"
 
 namespace palpa::cli {
@@ -23,7 +24,9 @@ constexpr const char* kSessionExamples = R"(Examples:
 Keys in a session: Enter start or go on, P pause, A abort, F1-F4 void (interrupted, technical fault,
 trainee stopped, other), space emergency stop, R re-arm, Escape leave.)";
 
-void run(SessionOptions options) {
+}  // namespace
+
+void runParacentesisCommand(SessionOptions options) {
   settle(options);
   NeedleWorld world(options);
   settleOperator(options, world.station);
@@ -33,25 +36,13 @@ void run(SessionOptions options) {
   writeOutcome(options, world, result, folder);
 }
 
-}  // namespace
-
 void addParacentesis(CLI::App& program) {
   const auto options = std::make_shared<SessionOptions>();
   CLI::App* command = program.add_subcommand(
       "paracentesis", "A training session: paracentesis of the subclavian vein");
   command->footer(kSessionExamples);
   addSessionArguments(*command, *options);
-  command->callback([options] { run(*options); });
-
-  const auto train_options = std::make_shared<SessionOptions>();
-  CLI::App* train = program.add_subcommand("train", "A training session from a task file");
-  train->footer("Example:\n  palpa train --task assets/tasks/paracentesis.json --operator expert --fast");
-  train->add_option("--task", train_options->task, "Task file")->required()->type_name("FILE");
-  addSessionArguments(*train, *train_options);
-  train->callback([train_options] {
-    train_options->command = "train";
-    run(*train_options);
-  });
+  command->callback([options] { runParacentesisCommand(*options); });
 }
 
 }  // namespace palpa::cli

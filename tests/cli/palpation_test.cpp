@@ -95,6 +95,17 @@ TEST(Palpation, SeeingTheLumpsDoesNotCount) {
   EXPECT_TRUE(rowsOf(contentOf(here / "A/trials.csv")).empty());
 }
 
+TEST(Palpation, ATaskFileIsEnough) {
+  const Folder here;
+  const std::string task = std::string(PALPA_SOURCE_DIR) + "/assets/tasks/palpation_prostate.json";
+  ASSERT_EQ(palpa(palpation({"--task", task, "--operator", "novice", "--seed", "5", "--out", "A"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa({"train", "--task", task, "--fast", "--no-views", "--quiet", "--operator", "novice", "--seed", "5", "--out", "B"}, here.path()).exit_code, 0);
+  EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
+  const Outcome outcome = palpa({"train", "--task", task, "--fast", "--operator", "novice", "--side", "left"}, here.path());
+  EXPECT_EQ(outcome.exit_code, 2);
+  EXPECT_TRUE(says(outcome.err, "--side")) << outcome.err;
+}
+
 TEST(Palpation, WrongUsageIsNamed) {
   const Folder here;
   const Outcome station = palpa(palpation({"--station", std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json", "--operator", "expert"}), here.path());

@@ -1,0 +1,39 @@
+#include <memory>
+
+#include "anatomy/geometry/error.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/session_arguments.h"
+#include "apps/cli/session_commands.h"
+#include "apps/station/json_file.h"
+
+namespace palpa::cli {
+namespace {
+
+/// An option that means nothing here is a misunderstanding, not a wish.
+void refuseNeedleOptions(const CLI::App& given) {
+  CLI::App known;
+  SessionOptions unused;
+  addRunArguments(known, unused);
+  for (const CLI::Option* option : given.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name)) throw UsageError("has no meaning for a palpation", name, "Leave it out; palpa palpation --help lists what there is");
+  }
+}
+
+}  // namespace
+
+void addTrain(CLI::App& program) {
+  const auto options = std::make_shared<SessionOptions>();
+  CLI::App* command = program.add_subcommand("train", "A training session from a task file");
+  command->footer("Examples:\n  palpa train --task assets/tasks/paracentesis.json --operator expert --fast\n  palpa train --task assets/tasks/palpation_prostate.json --operator expert --fast");
+  command->add_option("--task", options->task, "Task file")->required()->type_name("FILE");
+  addSessionArguments(*command, *options);
+  command->callback([options, command] {
+    options->command = "train";
+    if (station::JsonFile(options->task).text("engine") != "palpation") return runParacentesisCommand(*options);
+    refuseNeedleOptions(*command);
+    runPalpationCommand(*options);
+  });
+}
+
+}  // namespace palpa::cli
