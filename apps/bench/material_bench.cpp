@@ -109,7 +109,9 @@ void benchHands(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
     dropped_mm = std::max(dropped_mm, figures.dropped_mm);
   }
   worst.print();
-  print("held_object_slid_mm", dropped_mm, "mm", paramsOf(Noise::realistic));
+  nlohmann::json params = paramsOf(Noise::realistic);
+  params["hands"] = judgedHands().size();
+  print("held_object_slid_mm", dropped_mm, "mm", params);
 }
 
 }  // namespace
