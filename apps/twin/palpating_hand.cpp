@@ -14,7 +14,7 @@ constexpr double kOverTop = 0.005;      // m, from where a press begins
 constexpr double kMoves = 0.003, kNear = 0.0008;   // m above the top: between them the hand learns what moving takes
 constexpr double kTouch_N = 0.06, kDeepest = 0.009;   // N above the air's, m below the top: a hand that feels nothing stops there
 constexpr double kLift = 0.05;          // m/s
-constexpr double kCross = 0.008;        // m, of a closer look: as far as where a lump's flanks are steepest
+constexpr double kCross = 0.0035;       // m, of a closer look: its presses lie within 5 mm of each other; the search itself has felt the flanks
 constexpr double kKnown = 0.020;        // m: nobody looks twice at the same lump or its flank
 constexpr double kSame = 0.008;         // m, of a place that was dismissed
 constexpr double kMarkFor_s = 0.3;
@@ -53,6 +53,7 @@ void PalpatingHand::beginTrial(int trial, double now_s) {
   judgement_ = runtime::RandomStream(seed_, "palpating.judgement." + std::to_string(trial));
   memory_.forget();
   closer_.clear();
+  closer_places_.clear();
   suspect_P_.reset();
   marked_P_.clear();
   dismissed_P_.clear();
@@ -114,15 +115,18 @@ void PalpatingHand::judge(double now_s) {
 }
 
 void PalpatingHand::planCross(const Vec3& p_P) {
-  for (const Vec3& off : {Vec3(0, -kCross, 0), Vec3(0, kCross, 0), Vec3(kCross, 0, 0), Vec3(-kCross, 0, 0), Vec3(0, 0, 0)}) places_.push_back(Vec3(p_P.x(), p_P.y(), 0) + off);
+  for (const Vec3& off : {Vec3(0, -kCross, 0), Vec3(0, kCross, 0), Vec3(kCross, 0, 0), Vec3(-kCross, 0, 0), Vec3(0, 0, 0)}) closer_places_.push_back(inArea(Vec3(p_P.x(), p_P.y(), 0) + off));
 }
+
+/// Nobody asks what lies beyond the outline; and toward the edge of a block it gives way less by itself.
+Vec3 PalpatingHand::inArea(const Vec3& p_P) const { return {std::clamp(p_P.x(), -phantom_.half_x, phantom_.half_x), std::clamp(p_P.y(), -phantom_.half_y, phantom_.half_y), p_P.z()}; }
 
 /// At one place, so often: what led there was chosen for being firm, only fresh presses tell.
 void PalpatingHand::pressAfresh(const Vec3& p_P, int times, Look look) {
   look_ = look;
   fresh_.clear();
   suspect_P_ = Vec3(p_P.x(), p_P.y(), 0);
-  places_.insert(places_.end(), static_cast<std::size_t>(times), *suspect_P_);
+  closer_places_.assign(static_cast<std::size_t>(times), *suspect_P_);
 }
 
 /// The presses of a look are done: was it chance, where is it firmest, is it a lump?
@@ -133,7 +137,7 @@ void PalpatingHand::decide(double now_s) {
   if (look_ != Look::confirm) {
     const bool begins = closer_.size() == 1;
     look_ = Look::climb;
-    const Vec3 top = begins ? *suspect_P_ : memory_.hillTop(closer_, *suspect_P_);
+    const Vec3 top = begins ? *suspect_P_ : inArea(memory_.hillTop(closer_, *suspect_P_));
     if (known(top)) return dismiss(now_s);   // the flank of one that was marked
     if ((begins || across(top, *suspect_P_) > kOnTop) && rounds_left_-- > 0) {
       suspect_P_ = top;
@@ -147,7 +151,7 @@ void PalpatingHand::decide(double now_s) {
   }
   std::vector<FeltPress> all = closer_;
   all.insert(all.end(), fresh_.begin(), fresh_.end());
-  const Vec3 middle = memory_.hillTop(all, *suspect_P_);
+  const Vec3 middle = inArea(memory_.hillTop(all, *suspect_P_));
   const double firmest = memory_.meanFirmness(look_ == Look::confirm ? fresh_ : closer_);
   if (firmest < skill_.marks_from || known(middle)) return dismiss(now_s);
   suspect_P_.reset();
@@ -173,11 +177,10 @@ Hand::Word PalpatingHand::grade(const Vec3& p_P, double firmest) {
 }
 
 void PalpatingHand::next(double now_s) {
-  const auto cross_left = [&] { return suspect_P_ && !places_.empty() && across(places_.back(), *suspect_P_) < kCross + 1e-6; };
-  if (suspect_P_ && !cross_left()) return decide(now_s);
-  if (!places_.empty()) {
-    const Vec3 place = places_.back();
-    places_.pop_back();
+  if (suspect_P_ && closer_places_.empty()) return decide(now_s);
+  if (std::vector<Vec3>& places = suspect_P_ ? closer_places_ : places_; !places.empty()) {
+    const Vec3 place = places.back();
+    places.pop_back();
     return goTo(place, now_s, Step::press);
   }
   done_ = true;

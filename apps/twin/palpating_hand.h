@@ -61,6 +61,7 @@ class PalpatingHand final : public Hand {
   void judge(double now_s);
   void next(double now_s);
   void planCross(const Vec3& p_P);
+  Vec3 inArea(const Vec3& p_P) const;
   void decide(double now_s);
   void dismiss(double now_s);
   void pressAfresh(const Vec3& p_P, int times, Look look);
@@ -86,7 +87,7 @@ class PalpatingHand final : public Hand {
   double felt_N_ = 0, air_N_ = 0, touched_z_ = 0, light_z_ = 0;
   bool touched_ = false;
   std::vector<double> depths_;           ///< of this press so far
-  std::vector<Vec3> places_;             ///< still to be pressed, the next one last
+  std::vector<Vec3> places_, closer_places_;   ///< still to be pressed, the next one last: in the search, in the closer look that is on
   TouchMemory memory_;
   std::vector<FeltPress> closer_, fresh_;
   std::optional<Vec3> suspect_P_;        ///< a closer look is on
