@@ -45,6 +45,7 @@ struct TickCommands {
     return one;
   }();
   PlacedLumps lumps{};                 ///< in P, of this trial
+  float squeeze_stiffness = 1, squeeze_weight = 1;   ///< of what is held between two tools: how many times as hard and as heavy as it is, in this trial
 };
 static_assert(std::is_trivially_copyable_v<TickCommands>);
 
@@ -99,6 +100,7 @@ struct FlightRecord {
   SafetyCause safety = SafetyCause::none;
   std::uint8_t skin_punctures = 0;  ///< in this trial
   std::uint8_t damped = 0;          ///< passivity control added damping
+  std::uint8_t tool = 0;            ///< which of two devices; 0 where there is one
 };
 static_assert(std::is_trivially_copyable_v<FlightRecord>);
 

@@ -25,7 +25,8 @@ struct PairState {
 static_assert(std::is_trivially_copyable_v<PairConfig> && std::is_trivially_copyable_v<PairState>);
 
 /// One tick of both: readings -> what each sensor felt -> augmentTouch, or modulateSqueeze -> each device's passivity and safety. Each device keeps its own limits and is
-/// judged by its own readings: pressing goes on with the one that is believed; squeezing, which takes two, gives no force then. Pure; the promises of `tick`.
+/// judged by its own readings: pressing goes on with the one that is believed; squeezing, which takes two, gives no force then. What is held is `commands.squeeze_*` times as
+/// hard and heavy as the law has it. Pure; the promises of `tick`.
 std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state, const std::array<DeviceReading, 2>& readings, const TickCommands& commands, std::int64_t now_ns,
                                      const std::array<SensedForce, 2>& sensed) noexcept;
 

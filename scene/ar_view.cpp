@@ -45,6 +45,7 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       glass_((window.AddRenderer(renderer_), window), *renderer_),
       organs_(*renderer_, patient, &glass_),
       instrument_(*renderer_),
+      other_probe_(*renderer_),
       arrows_(*above_, layout.force_colours),
       guide_(*above_, colour::kAdvice, 2.5),
       ellipse_(*above_, colour::kAdvice, 1.8),
@@ -155,6 +156,10 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   if (skin_) skin_->update(state.skin_push);
   organs_.setStyle(state.skin);
   organs_.setVisible(visible);
+  organs_.setPose(state.X_AB);
+  other_probe_.update(state.second_X_AT.value_or(state.X_AT), 0, 0);
+  if (visible && state.second_X_AT) other_probe_.show(Tool::probe);
+  else other_probe_.hide();
   instrument_.update(state.X_AT, state.plunger, state.blood);
   if (visible && state.show_tool)
     instrument_.show(state.tool);

@@ -83,7 +83,7 @@ class ArView {
   Glass glass_;
   OrganActors organs_;
   std::unique_ptr<DeflectedSkin> skin_;  // null: it does not give way
-  Instrument instrument_;
+  Instrument instrument_, other_probe_;
   vtkSmartPointer<vtkActor> trail_;
   ForceArrows arrows_;
   EdgedLines guide_, ellipse_;

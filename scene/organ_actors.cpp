@@ -13,6 +13,8 @@
 #include <vtkRenderer.h>
 #include <vtkTexture.h>
 
+#include "scene/instrument.h"
+
 #include <cstring>
 
 #include "scene/palette.h"
@@ -130,6 +132,14 @@ void OrganActors::setVisible(bool visible) {
   if (visible == visible_) return;
   visible_ = visible;
   apply();
+}
+
+void OrganActors::setPose(const Pose& X_AB) {
+  if (!moved_ && X_AB.matrix().isIdentity(0)) return;
+  copy(X_AB, *X_AB_);
+  if (!moved_)
+    for (Part& part : parts_) part.actor->SetUserMatrix(X_AB_);
+  moved_ = true;
 }
 
 void OrganActors::moveTo(bool glass, Part& part) {

@@ -1,5 +1,7 @@
 #pragma once
 
+#include <vtkMatrix4x4.h>
+#include <vtkNew.h>
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
@@ -30,6 +32,7 @@ class OrganActors {
 
   void setStyle(SkinStyle style);
   void setVisible(bool visible);
+  void setPose(const Pose& X_AB);   ///< where the body is that was made in A: a thing that is held moves. Only what is not translucent
   vtkPolyData* skin() const { return skin_; }  ///< the first skin's points as they are drawn; null without one
 
  private:
@@ -47,7 +50,8 @@ class OrganActors {
   std::vector<Part> parts_;
   vtkSmartPointer<vtkPolyData> skin_;
   SkinStyle style_ = SkinStyle::translucent;
-  bool visible_ = true;
+  bool visible_ = true, moved_ = false;
+  vtkNew<vtkMatrix4x4> X_AB_;
 };
 
 }  // namespace palpa::scene

@@ -118,6 +118,8 @@ struct SceneState {
   std::vector<Lump> lumps;
   std::vector<Vec3> marks_A;              ///< where the trainee said "here is one": pins, numbered from 1 in this order
   std::optional<Vec3> lead_A;             ///< where guidance asks the hand to go next: a ring on the surface
+  std::optional<Pose> second_X_AT;        ///< another probe beside the tool; AR view only
+  Pose X_AB = Pose::Identity();           ///< where the body is that is shown as made in A: a thing in the hands moves. AR view only, and not while it is translucent
 };
 
 }  // namespace palpa::scene

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "apps/bench/sensed_touch.h"
+#include "apps/twin/held_object.h"
 
 namespace palpa::bench {
 namespace {
@@ -27,35 +28,6 @@ LedTip gripWay(const twin::PhantomTable& side, const GripCase& one) {
 
 Vec3 mirrored(const Vec3& p) { return {-p.x(), p.y(), p.z()}; }
 
-/// The object: what it does to each tool, and where that puts it.
-class HeldObject {
- public:
-  explicit HeldObject(const twin::PhantomTable& side) : sides_{twin::PhantomTwin(side, {}), twin::PhantomTwin(side, {})} {}
-
-  /// On the tools, in W. `held`: a support keeps it where it is.
-  std::array<Vec3, 2> step(const std::array<Vec3, 2>& tips, bool held, double dt) {
-    std::array<Vec3, 2> f;
-    Vec3 on_object(0, 0, -kMass * kGravity);
-    for (std::size_t t = 0; t < 2; ++t) {
-      const Vec3 from = tips[t] - p_, out = t == 0 ? from : mirrored(from);   // the side's frame: its outward normal is x here and z there
-      const Vec3 touch = sides_[t].step({-out.z(), out.y(), out.x() - kHalf}, dt).f;
-      const Vec3 on_tool(touch.z(), touch.y(), -touch.x());
-      f[t] = t == 0 ? on_tool : mirrored(on_tool);
-      on_object -= f[t];
-    }
-    if (!held) {
-      v_ += on_object / kMass * dt;
-      p_ += v_ * dt;
-    }
-    return f;
-  }
-  const Vec3& place() const { return p_; }
-
- private:
-  std::array<twin::PhantomTwin, 2> sides_;
-  Vec3 p_ = Vec3::Zero(), v_ = Vec3::Zero();
-};
-
 bool gripCalm(const LedTip& way, double t) { return t > kFalls + kStill && (way.at(t) - way.at(t - kStill)).norm() < 1e-9; }
 
 }  // namespace
@@ -65,7 +37,7 @@ GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one) {
   const auto hand = [&](std::size_t t, double at) { return makePose(Mat3::Identity(), t == 0 ? way.at(at) : mirrored(way.at(at))); };
   std::array<twin::DeviceTwin, 2> devices{twin::DeviceTwin(one.truth, hand(0, 0)), twin::DeviceTwin(one.truth, hand(1, 0))};
   std::array<SensedTouch, 2> sensed{SensedTouch(kGripSeed, one.truth), SensedTouch(kGripSeed + 1, one.truth)};
-  HeldObject object(side);
+  twin::HeldObject object({kHalf, kMass}, side, {});
   haptics::SqueezeState state;
   HandWatch watch;
   std::array<Vec3, 2> f_touch{Vec3::Zero(), Vec3::Zero()};
@@ -83,7 +55,7 @@ GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one) {
         given += devices[i].gripForce().dot(devices[i].trueVelocity()) * dt;
         tips[i] = devices[i].truePose().translation();
       }
-      f_touch = object.step(tips, t < kFalls, dt);
+      f_touch = object.step(tips, dt, t < kFalls);
     }
     const double felt_weight = kMass * kGravity * (one.modulated ? std::max(one.law.weight_factor, 1.0) : 1.0);
     const double least = -felt_weight * std::max(-object.place().z(), 0.0);   // what falls gives

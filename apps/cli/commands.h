@@ -8,7 +8,8 @@ namespace palpa::cli {
 
 void addParacentesis(CLI::App& program);
 void addPalpation(CLI::App& program);
-void addTrain(CLI::App& program);   ///< either, by the task file
+void addSqueeze(CLI::App& program);
+void addTrain(CLI::App& program);   ///< any of them, by the task file
 void addReplay(CLI::App& program);
 void addCalibrate(CLI::App& program);
 void addPatient(CLI::App& program);

@@ -1,6 +1,7 @@
 #include "apps/cli/force_check.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -34,14 +35,16 @@ std::optional<assess::ForceBalance> recordedBalance(const record::SessionReader&
   constexpr std::size_t kPart = 200'000;   // ticks: what is held in memory at once
   const double mass = station::JsonFile(nlohmann::json::parse(reader.info().station_json), "the recorded station").number("device/apparent_mass_kg", 0, 5);
   Together together;
-  std::vector<haptics::FlightRecord> part;
+  std::array<std::vector<haptics::FlightRecord>, 2> parts;   // of each tool
   const auto finish = [&] {
-    together.add(assess::balanceOf(part, mass));
-    part.clear();
+    for (std::vector<haptics::FlightRecord>& part : parts) {
+      together.add(assess::balanceOf(part, mass));
+      part.clear();
+    }
   };
   reader.ticks([&](const haptics::FlightRecord& tick) {
-    if (tick.reading.instrumented && tick.sensed.state == haptics::SensorState::valid) part.push_back(tick);
-    if (part.size() >= kPart) finish();
+    if (tick.reading.instrumented && tick.sensed.state == haptics::SensorState::valid) parts[tick.tool & 1].push_back(tick);
+    if (parts[0].size() >= kPart) finish();
   });
   finish();
   if (together.all().samples == 0) return std::nullopt;

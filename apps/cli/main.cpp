@@ -43,6 +43,7 @@ int run(int argc, char** argv) {
   program.require_subcommand(0, 1);
   palpa::cli::addParacentesis(program);
   palpa::cli::addPalpation(program);
+  palpa::cli::addSqueeze(program);
   palpa::cli::addTrain(program);
   palpa::cli::addReplay(program);
   palpa::cli::addCalibrate(program);

@@ -18,10 +18,6 @@ std::vector<report::PalpationPage> pagesOf(const PalpationWorld& world, const Pa
   return pages;
 }
 
-std::vector<report::Fact> taxonomyFacts(const task_palpation::Taxonomy& taxonomy) {
-  return {{"What is seen", taxonomy.visual, ""}, {"What is felt", taxonomy.haptic, ""}, {"What it is for", taxonomy.purpose, ""}, {"What is changed", taxonomy.property, ""}};
-}
-
 std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
   std::vector<report::Fact> facts;
   for (const station::LumpKind& kind : library.kinds)

@@ -67,12 +67,13 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
                                   options.seed,
                                   {},
                                   nullptr,
+                                  {},
                                   {}};
   if (isSimulated(options.who)) {
     const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.seed);
-    bench.real_thing = [sample](const Pose& X_WT_true, double dt) {
-      const twin::SampleTwin::Touch touch = sample->step(X_WT_true, dt);
-      return twin::VirtualBench::Touch{touch.f_W, touch.p_W};
+    bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
+      const twin::SampleTwin::Touch touch = sample->step(X_WT_true[0], dt);
+      return std::array<twin::VirtualBench::Touch, 2>{{{touch.f_W, touch.p_W}, {}}};
     };
   }
   return {std::move(bench), std::nullopt, task.library.tip_radius};

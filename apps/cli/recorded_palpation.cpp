@@ -54,7 +54,7 @@ std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& r
   const auto finish = [&] {
     const runtime::TrialHeader& header = trial->header;
     for (const runtime::Event& grade : said.grades) {
-      const task_palpation::Grade told = task_palpation::gradeOf(grade.text);
+      const trial::Grade told = trial::gradeOf(grade.text);
       if (grade.value >= 1 && grade.value <= static_cast<double>(listener.marks().size()))
         listener.grade(told.diameter, told.hardness, told.mobility, static_cast<std::size_t>(grade.value));
     }

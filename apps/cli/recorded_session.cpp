@@ -109,7 +109,40 @@ bool sameForces(const haptics::FlightRecord& a, const haptics::FlightRecord& b) 
 
 }  // namespace
 
-ReplayCheck replayTicks(const record::SessionReader& reader) {
+namespace {
+
+void count(const haptics::FlightRecord& recorded, const haptics::FlightRecord& again, ReplayCheck* check) {
+  ++check->ticks;
+  if (sameForces(recorded, again)) return;
+  if (check->different++ == 0) check->first_difference = recorded.tick;
+}
+
+/// Two devices in one tick: from the first tick on, while none is missing.
+ReplayCheck replayPairs(const record::SessionReader& reader) {
+  const haptics::PairConfig& config = *reader.info().pair_config;
+  ReplayCheck check;
+  const auto state = std::make_unique<haptics::PairState>();
+  std::optional<haptics::FlightRecord> first;
+  reader.ticks([&](const haptics::FlightRecord& recorded) {
+    if (check.gaps > 0) return;
+    if (recorded.tool == 0) {
+      if (first || recorded.tick != state->tools[0].tick) ++check.gaps;
+      first = recorded;
+      return;
+    }
+    if (!first || first->tick != recorded.tick) {
+      ++check.gaps;
+      return;
+    }
+    const std::array<haptics::FlightRecord, 2> again = haptics::tickPair(config, *state, {first->reading, recorded.reading}, recorded.commands, recorded.t_ns, {first->sensed, recorded.sensed});
+    count(*first, again[0], &check);
+    count(recorded, again[1], &check);
+    first.reset();
+  });
+  return check;
+}
+
+ReplayCheck replaySingle(const record::SessionReader& reader) {
   std::unordered_map<std::uint64_t, LocalGeometry> snapshots;
   reader.snapshots([&](const LocalGeometry& g) { snapshots[g.number] = g; });
   std::unordered_map<std::int64_t, haptics::TickState> keyframes;
@@ -132,11 +165,13 @@ ReplayCheck replayTicks(const record::SessionReader& reader) {
         haptics::tick(config, state, recorded.reading,
                       snapshot == snapshots.end() ? nullptr : &snapshot->second, recorded.commands,
                       recorded.t_ns, recorded.sensed);
-    ++check.ticks;
-    if (sameForces(recorded, again)) return;
-    if (check.different++ == 0) check.first_difference = recorded.tick;
+    count(recorded, again, &check);
   });
   return check;
 }
+
+}  // namespace
+
+ReplayCheck replayTicks(const record::SessionReader& reader) { return reader.info().pair_config ? replayPairs(reader) : replaySingle(reader); }
 
 }  // namespace palpa::cli

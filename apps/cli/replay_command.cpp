@@ -9,6 +9,7 @@
 #include "apps/cli/force_check.h"
 #include "apps/cli/recorded_palpation.h"
 #include "apps/cli/recorded_session.h"
+#include "apps/cli/recorded_squeeze.h"
 #include "apps/record/tick_export.h"
 
 namespace palpa::cli {
@@ -47,6 +48,23 @@ bool samePalpationScores(const record::SessionReader& reader) {
   return same;
 }
 
+bool sameSqueezeScores(const record::SessionReader& reader) {
+  bool same = true;
+  for (const RecordedSqueeze& trial : recordedSqueezes(reader)) {
+    if (!hasScore(trial.recorded)) continue;
+    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) == nlohmann::json::parse(task_squeeze::scoreJson(trial.again));
+    std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(), equal ? "" : "  DIFFERENT from the recorded score");
+    same = same && equal;
+  }
+  return same;
+}
+
+bool sameScores(const record::SessionReader& reader, const std::string& file) {
+  const std::string engine = engineOf(reader);
+  if (engine == "palpation") return samePalpationScores(reader);
+  return engine == "squeeze" ? sameSqueezeScores(reader) : sameNeedleScores(file);
+}
+
 void tellForces(const record::SessionReader& reader) {
   const std::optional<assess::ForceBalance> balance = recordedBalance(reader);
   if (!balance) return;
@@ -60,7 +78,7 @@ void replay(const std::string& file) {
   std::printf("%lld ticks run again: %lld differ%s\n", static_cast<long long>(check.ticks),
               static_cast<long long>(check.different), check.gaps ? " (records are missing)" : "");
   bool same = check.different == 0 && check.ticks > 0;
-  same = (engineOf(reader) == "palpation" ? samePalpationScores(reader) : sameNeedleScores(file)) && same;
+  same = sameScores(reader, file) && same;
   if (!same)
     throw Error("the replay differs from the record" +
                     (check.first_difference >= 0 ? " from tick " + std::to_string(check.first_difference) : ""),

@@ -1,7 +1,7 @@
 #include "apps/cli/session_devices.h"
 
 #include "apps/record/session_file.h"
-#include "apps/task_palpation/palpation_listener.h"
+#include "apps/trial/grade.h"
 #include "haptics/devices/falcon_firmware.h"
 #include "haptics/devices/libusb_transport.h"
 
@@ -26,7 +26,7 @@ std::unique_ptr<runtime::ChannelSensor> benchSensor(const station::Station& stat
 
 trial::UserRequest requestOf(const twin::Hand::Word& word) {
   using Kind = twin::Hand::Word::Kind;
-  if (word.kind == Kind::grade) return {trial::UserCommand::grade, task_palpation::gradeText(word.diameter, word.hardness, word.mobility)};
+  if (word.kind == Kind::grade) return {trial::UserCommand::grade, trial::gradeText(word.diameter, word.hardness, word.mobility)};
   if (word.kind == Kind::done) return {trial::UserCommand::done, ""};
   return {trial::UserCommand::abort, "The simulated operator gave up"};
 }
@@ -36,6 +36,14 @@ trial::UserRequest requestOf(const twin::Hand::Word& word) {
 SessionDevices::SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands, runtime::Bus& bus, trial::Channels& channels, const runtime::Clock& clock, runtime::TimeMode mode)
     : station_(station), bench_moves_(isSimulated(options.who)), channel_(station.device.capabilities, mode) {
   if (bench_moves_) bench_sensor_ = benchSensor(station, mode);
+  if (hands.bench.second) {
+    second_ = std::make_unique<Second>(station.device.capabilities, mode);
+    second_->sensor = benchSensor(station, mode);
+    if (!bench_moves_ || !second_->sensor) throw UsageError("has no two devices with force sensors that this program can drive", station.file.name(), "Two tools are simulated only, so far: leave out --station, take --operator expert or novice");
+    hands.bench.second->device = &second_->device;
+    hands.bench.second->sensor = second_->sensor.get();
+    second_->sensing.emplace(*second_->sensor, sensingSetup(options.rate_Hz, hands.tip_radius, hands.bench.second->X_WD));
+  }
   if (bench_moves_ || (options.camera.empty() && station.camera_setup.driver == station::CameraSetup::Driver::bench)) makeBench(std::move(hands.bench), bus, channels);
   openDevice(hands.mouse, bus, channels);
   openSensor(options, hands.tip_radius, clock, mode);
@@ -89,10 +97,15 @@ void SessionDevices::openSensor(const SessionOptions& options, double tip_radius
     net_ft_activity_ = std::make_unique<runtime::NetFtActivity>(*net_ft_);
     sensor = net_ft_.get();
   }
-  runtime::ForceSensing::Setup sensing{setup.filter, station_.X_WD, setup.X_ES};
-  sensing.filter.low_pass = haptics::butterworth(setup.cutoff_Hz, options.rate_Hz);
+  sensing_.emplace(*sensor, sensingSetup(options.rate_Hz, tip_radius, station_.X_WD));
+}
+
+runtime::ForceSensing::Setup SessionDevices::sensingSetup(double rate_Hz, double tip_radius, const Pose& X_WD) const {
+  const ForceSensorSetup& setup = *station_.force_sensor;
+  runtime::ForceSensing::Setup sensing{setup.filter, X_WD, setup.X_ES};
+  sensing.filter.low_pass = haptics::butterworth(setup.cutoff_Hz, rate_Hz);
   sensing.filter.p_SK = pack(Vec3(setup.X_ES.inverse() * (station_.X_ET * Vec3(0, 0, -tip_radius))));
-  sensing_.emplace(*sensor, sensing);
+  return sensing;
 }
 
 void SessionDevices::addTo(runtime::Executive& executive) {

@@ -33,6 +33,14 @@ class SessionDevices {
   ~SessionDevices();
 
   haptics::HapticDevice& device() { return *plunger_; }
+  /// Another device beside the first, with its sensor; null where the task takes one.
+  struct Second {
+    Second(const haptics::DeviceCapabilities& capabilities, runtime::TimeMode mode) : device(capabilities, mode) {}
+    runtime::ChannelDevice device;
+    std::unique_ptr<runtime::ChannelSensor> sensor;
+    std::optional<runtime::ForceSensing> sensing;
+  };
+  Second* second() { return second_.get(); }
   runtime::ForceSensing* sensing() { return sensing_ ? &*sensing_ : nullptr; }
   twin::VirtualBench* bench() { return bench_.get(); }  ///< for its camera; null where recorded pictures stand for it
   MouseHand* mouse() { return mouse_.get(); }           ///< null: nobody leads with the mouse
@@ -48,11 +56,13 @@ class SessionDevices {
   void makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bus, trial::Channels& channels);
   void openDevice(const std::optional<MouseHand::Setup>& mouse, runtime::Bus& bus, trial::Channels& channels);
   void openSensor(const SessionOptions& options, double tip_radius, const runtime::Clock& clock, runtime::TimeMode mode);
+  runtime::ForceSensing::Setup sensingSetup(double rate_Hz, double tip_radius, const Pose& X_WD) const;
 
   const station::Station& station_;
   const bool bench_moves_;                              // the bench's device is the one that is held
   runtime::ChannelDevice channel_;
   std::unique_ptr<runtime::ChannelSensor> bench_sensor_;
+  std::unique_ptr<Second> second_;
   std::unique_ptr<haptics::NetFtSensor> net_ft_;
   std::unique_ptr<runtime::NetFtActivity> net_ft_activity_;
   std::optional<runtime::ForceSensing> sensing_;

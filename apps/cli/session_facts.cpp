@@ -50,6 +50,10 @@ std::vector<report::Fact> stationFactsOf(const SessionOptions& options, const st
           {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
 }
 
+std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy) {
+  return {{"What is seen", taxonomy.visual, ""}, {"What is felt", taxonomy.haptic, ""}, {"What it is for", taxonomy.purpose, ""}, {"What is changed", taxonomy.property, ""}};
+}
+
 std::vector<report::Fact> runNotes(const SessionRun& result) {
   std::vector<report::Fact> facts;
   for (const runtime::Lateness& late : result.lateness)

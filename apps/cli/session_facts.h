@@ -5,6 +5,7 @@
 
 #include "apps/cli/session_frame.h"
 #include "apps/report/session_report.h"
+#include "apps/station/taxonomy.h"
 
 /// What a report says of any session besides its trials.
 namespace palpa::cli {
@@ -15,6 +16,8 @@ namespace palpa::cli {
 std::string whoPerformed(const SessionOptions& options);
 /// Station, device, calibration, time, software: in this order.
 std::vector<report::Fact> stationFactsOf(const SessionOptions& options, const station::Station& station);
+/// Where the task stands, as its file says.
+std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy);
 /// Lateness, trips with their causes, what drivers and camera had to say, records lost.
 std::vector<report::Fact> runNotes(const SessionRun& run);
 

@@ -21,7 +21,7 @@ SessionFrame::SessionFrame(const SessionOptions& options, const World& world, Se
       folder_(folder),
       window_(options.display == scene::Display::window && !options.no_views),
       pictures_(options, world.station),
-      stage_(options.no_views ? Stage{} : makeStage(options, world.patient, window_)),
+      stage_(options.no_views ? Stage{} : makeStage(options, world.patient, window_, world.fixed_views)),
       executive_(options.fast ? runtime::makeVirtualExecutive() : runtime::makeRealExecutive()),
       mode_(executive_->mode()),
       bus_(mode_),
@@ -50,8 +50,15 @@ trial::TrialScene::Stage SessionFrame::stage(runtime::HeadDisplay* head) {
   return stage;
 }
 
+/// HAPTIC, for one device or for two.
+std::unique_ptr<runtime::Activity> SessionFrame::loop(runtime::GeometryActivity* geometry) {
+  if (!world_.pair) return std::make_unique<runtime::HapticActivity>(bus_, devices_.device(), world_.tick, devices_.sensing(), options_.exact_geometry ? geometry : nullptr);
+  using Tool = runtime::HapticPairActivity::Tool;
+  return std::make_unique<runtime::HapticPairActivity>(bus_, std::array<Tool, 2>{Tool{devices_.device(), *devices_.sensing()}, Tool{devices_.second()->device, *devices_.second()->sensing}}, *world_.pair);
+}
+
 SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, const record::SessionInfo& info, runtime::GeometryActivity* geometry) {
-  runtime::HapticActivity haptic(bus_, devices_.device(), world_.tick, devices_.sensing(), options_.exact_geometry ? geometry : nullptr);
+  const std::unique_ptr<runtime::Activity> haptic = loop(geometry);
   runtime::CameraActivity camera(bus_, pictures_.exposer(devices_.bench(), executive_->clock()), pictures_.board(), pictures_.camera(), pictures_.settings(mode_),
                                  [this, look = pictures_.observer(devices_.bench())](const runtime::CameraView& view) {
                                    look(view);
@@ -63,7 +70,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, c
   Progress progress(options_.quiet);
   Interrupt interrupt(channels_);
   devices_.addTo(*executive_);
-  executive_->add(haptic, {1, true, false, options_.cpu});
+  executive_->add(*haptic, {1, true, false, options_.cpu});
   if (geometry && !options_.exact_geometry) executive_->add(*geometry, {2, false, false});
   executive_->add(camera, {3, false, false});
   executive_->add(task, {4, false, false});

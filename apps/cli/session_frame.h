@@ -11,6 +11,7 @@
 #include "apps/runtime/camera_activity.h"
 #include "apps/runtime/executive.h"
 #include "apps/runtime/haptic_activity.h"
+#include "apps/runtime/haptic_pair_activity.h"
 #include "apps/runtime/video_recorder.h"
 #include "apps/trial/trial_scene.h"
 #include "apps/trial/trial_task.h"
@@ -46,6 +47,8 @@ class SessionFrame {
     const anatomy::Patient& patient;           ///< what is shown
     Pose X_WA;
     haptics::TickConfig tick;
+    std::optional<haptics::PairConfig> pair = {};   ///< of two devices in one tick, in place of `tick`
+    bool fixed_views = true;
   };
   SessionFrame(const SessionOptions& options, const World& world, SessionDevices::Hands hands, trial::Channels& channels, const std::filesystem::path& folder);
 
@@ -62,6 +65,8 @@ class SessionFrame {
   const Stage& desktop() const { return stage_; }
 
  private:
+  std::unique_ptr<runtime::Activity> loop(runtime::GeometryActivity* geometry);
+
   const SessionOptions& options_;
   const World world_;
   trial::Channels& channels_;

@@ -2,8 +2,9 @@
 
 namespace palpa::cli {
 
-Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window) {
+Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window, bool fixed_views) {
   scene::ViewLayout layout;
+  layout.orthographic = fixed_views;
   layout.free_navigation = options.navigation;
   layout.skin_deflection = options.skin_deflection;
   layout.force_colours = options.force_colours;

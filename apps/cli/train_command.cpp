@@ -10,13 +10,13 @@ namespace palpa::cli {
 namespace {
 
 /// An option that means nothing here is a misunderstanding, not a wish.
-void refuseNeedleOptions(const CLI::App& given) {
+void refuseNeedleOptions(const CLI::App& given, const std::string& engine) {
   CLI::App known;
   SessionOptions unused;
   addRunArguments(known, unused);
   for (const CLI::Option* option : given.get_options()) {
     const std::string name = option->get_name();
-    if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name)) throw UsageError("has no meaning for a palpation", name, "Leave it out; palpa palpation --help lists what there is");
+    if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name)) throw UsageError("has no meaning for this task", name, "Leave it out; palpa " + engine + " --help lists what there is");
   }
 }
 
@@ -30,9 +30,10 @@ void addTrain(CLI::App& program) {
   addSessionArguments(*command, *options);
   command->callback([options, command] {
     options->command = "train";
-    if (station::JsonFile(options->task).text("engine") != "palpation") return runParacentesisCommand(*options);
-    refuseNeedleOptions(*command);
-    runPalpationCommand(*options);
+    const std::string engine = station::JsonFile(options->task).text("engine");
+    if (engine != "palpation" && engine != "squeeze") return runParacentesisCommand(*options);
+    refuseNeedleOptions(*command, engine);
+    engine == "palpation" ? runPalpationCommand(*options) : runSqueezeCommand(*options);
   });
 }
 

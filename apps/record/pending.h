@@ -22,11 +22,12 @@ struct Pending {
     return begun.empty() && ended.empty() && events.empty() && ticks.empty() && snapshots.empty() &&
            keyframes.empty();
   }
-  void clear() {  // keeps the memory for the next 200 ticks
+  /// So many ticks have been written, and all the rest. Keeps the memory for the next 200 ticks.
+  void clear(std::size_t ticks_written) {
     begun.clear();
     ended.clear();
     events.clear();
-    ticks.clear();
+    ticks.erase(ticks.begin(), ticks.begin() + static_cast<std::ptrdiff_t>(ticks_written));
     snapshots.clear();
     keyframes.clear();
   }

@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "haptics/flight_record.h"
-#include "haptics/tick.h"
+#include "haptics/tick_pair.h"
 
 namespace palpa::record {
 
@@ -80,7 +80,7 @@ std::string layoutText() {
          sized<TickCommands>("TickCommands") + sized<LocalGeometry>("LocalGeometry") +
          sized<Capsule>("Capsule") + sized<Boundary>("Boundary") + sized<TickState>("TickState") +
          sized<NeedleState>("NeedleState") + sized<SafetyState>("SafetyState") +
-         sized<TickConfig>("TickConfig") + sized<NeedleMaterials>("NeedleMaterials") +
+         sized<TickConfig>("TickConfig") + sized<PairConfig>("PairConfig") + sized<NeedleMaterials>("NeedleMaterials") +
          sized<SafetyLimits>("SafetyLimits");
 }
 

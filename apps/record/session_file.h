@@ -3,11 +3,12 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/runtime/flight_sink.h"
-#include "haptics/tick.h"
+#include "haptics/tick_pair.h"
 
 namespace palpa::record {
 
@@ -22,7 +23,8 @@ struct SessionInfo {
   std::string task_json;
   std::string patient_glb;       ///< the patient file's bytes, so that the evidence stands alone
   std::string expert_path_json;
-  haptics::TickConfig tick_config;
+  haptics::TickConfig tick_config;                   ///< of the first device where there are two
+  std::optional<haptics::PairConfig> pair_config = {};   ///< of two devices in one tick: every tick is recorded twice, FlightRecord::tool telling which
 };
 
 /// Writes `session.palpa`: SQLite, application_id "palp", user_version 1, WAL, one a session. Ticks and

@@ -5,6 +5,7 @@
 #include <cstring>
 #include <map>
 #include <optional>
+#include <span>
 
 #include "apps/record/pending.h"
 #include "apps/record/schema.h"
@@ -61,6 +62,7 @@ void writeInfo(TableWriter& tables, const SessionInfo& info) {
   tables.meta("expert_path_json", info.expert_path_json);
   tables.meta("patient_glb", bytesOf(info.patient_glb.data(), info.patient_glb.size()));
   tables.meta("tick_config", bytesOf(&info.tick_config, 1));
+  tables.meta("pair_config", info.pair_config ? bytesOf(&*info.pair_config, 1) : ByteView());
 }
 
 }  // namespace
@@ -69,7 +71,7 @@ struct SessionWriter::Impl {
   explicit Impl(const std::filesystem::path& path) : file(path) {}
 
   void create(const SessionInfo& info);
-  void commit();
+  void commit(bool closing = false);
   void close();
   void checkOpen() const {
     if (!tables) refuse("is closed already");
@@ -82,8 +84,10 @@ struct SessionWriter::Impl {
   std::optional<Database> database;
   std::optional<TableWriter> tables;
   Pending pending;
+  bool paired = false;         ///< two records a tick
   std::map<int, bool> trials;  ///< trial -> ended
-  std::int64_t last_tick = INT64_MIN, last_keyframe = INT64_MIN;
+  std::pair<std::int64_t, std::uint8_t> last_tick{INT64_MIN, 0};   ///< and its tool
+  std::int64_t last_keyframe = INT64_MIN;
   std::optional<std::uint64_t> last_snapshot;
 };
 
@@ -93,6 +97,7 @@ void SessionWriter::Impl::create(const SessionInfo& info) {
     database.emplace(file, Database::Mode::write);
     setUp(*database);
     tables.emplace(*database);
+    paired = info.pair_config.has_value();
     Transaction transaction(*database);
     writeInfo(*tables, info);
     transaction.commit();
@@ -104,23 +109,26 @@ void SessionWriter::Impl::create(const SessionInfo& info) {
   }
 }
 
-void SessionWriter::Impl::commit() {
+/// A tick's two records stay together: the first waits for the second, unless there will be none.
+void SessionWriter::Impl::commit(bool closing) {
   checkOpen();
   if (pending.empty()) return;
+  const bool waits = paired && !closing && !pending.ticks.empty() && pending.ticks.back().tool == 0;
+  const std::size_t whole = pending.ticks.size() - (waits ? 1 : 0);
   Transaction transaction(*database);
   for (const auto& header : pending.begun) tables->trial(header);
   for (const auto& end : pending.ended) tables->trialEnd(end);
   for (const auto& event : pending.events) tables->event(event);
-  tables->ticks(pending.ticks);
+  tables->ticks(std::span<const haptics::FlightRecord>(pending.ticks).first(whole));
   for (const auto& geometry : pending.snapshots) tables->snapshot(geometry);
   for (const auto& [tick, state] : pending.keyframes) tables->keyframe(tick, state);
   transaction.commit();
-  pending.clear();
+  pending.clear(whole);
 }
 
 void SessionWriter::Impl::close() {
   if (!tables) return;
-  commit();
+  commit(true);
   tables.reset();  // no statement may be open
   if (database->integer("PRAGMA wal_checkpoint(TRUNCATE)") == 0) {
     // A closed session is one plain file: reading it later makes no files beside it. Somebody who
@@ -175,10 +183,10 @@ void SessionWriter::snapshot(const LocalGeometry& geometry) {
 
 void SessionWriter::tick(const haptics::FlightRecord& record) {
   impl_->checkOpen();
-  if (record.tick <= impl_->last_tick) {
+  if (std::pair(record.tick, record.tool) <= impl_->last_tick) {
     impl_->refuse("tick " + std::to_string(record.tick) + " came out of order");
   }
-  impl_->last_tick = record.tick;
+  impl_->last_tick = {record.tick, record.tool};
   impl_->pending.ticks.push_back(record);
   if (impl_->pending.ticks.size() % kChunkTicks == 0) impl_->commit();
 }

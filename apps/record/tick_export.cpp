@@ -74,6 +74,7 @@ void addScalar(std::vector<Column>& columns, const char* name, const char* meani
 void addClock(std::vector<Column>& columns) {
   columns.push_back({{"tick", "number of the tick in the session"},
                      [](const FlightRecord& r) { return std::to_string(r.tick); }});
+  columns.push_back({{"tool", "which of two devices, from 0"}, [](const FlightRecord& r) { return std::to_string(r.tool); }});
   columns.push_back({{"t_ns", "session time of the tick"},
                      [](const FlightRecord& r) { return std::to_string(r.t_ns); }});
   columns.push_back({{"late_ns", "of the tick behind its due time; 0 in virtual time"},

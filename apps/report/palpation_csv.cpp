@@ -1,6 +1,7 @@
 #include <string>
 
 #include "anatomy/geometry/whole_file.h"
+#include "apps/report/csv_field.h"
 #include "apps/report/numbers.h"
 #include "apps/report/palpation_report.h"
 
@@ -10,14 +11,6 @@ namespace {
 constexpr const char* kPalpationHeader =
     "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,LUMPS,FOUND,MISSED,FALSE_ALARMS,REPEATED,CLEAR_QUADRANTS,WRONG_QUADRANTS,COVERAGE_LIGHT,COVERAGE_MEDIUM,COVERAGE_DEEP,TWICE,"
     "PATTERN,PATTERN_KEPT,PEAK_N,MEAN_N,TOO_LIGHT,TOO_HARD,CLOSER_FORCE,PRESSES,TIME_S,GUIDED,ERROR_MEAN_MM,SIZE_ERROR_MEAN_MM,PASSED\n";
-
-/// RFC 4180: quoted only where needed, quotes doubled.
-std::string palpationField(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string quoted = "\"";
-  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
-  return quoted + '"';
-}
 
 std::string meanField(double sum, int count) { return count > 0 ? shortest(sum / count) : ""; }
 
@@ -39,9 +32,9 @@ std::string errorFields(const assess::PalpationAssessment& trial) {
 std::string palpationRow(const std::string& user_id, const assess::PalpationAssessment& trial) {
   const assess::PalpationFacts& facts = trial.facts;
   const assess::PalpationScore& s = trial.score;
-  std::string line = palpationField(user_id) + ',' + std::to_string(facts.trial) + ',' + std::to_string(facts.seed) +
+  std::string line = csvField(user_id) + ',' + std::to_string(facts.trial) + ',' + std::to_string(facts.seed) +
                      (facts.simulated ? ",1" : ",0") + (facts.force_feedback ? ",1," : ",0,") +
-                     palpationField(facts.outcome);
+                     csvField(facts.outcome);
   for (const int count : {s.found + s.missed, s.found, s.missed, s.false_alarms, s.repeated, s.clear_quadrants, s.wrong_quadrants}) line += ',' + std::to_string(count);
   for (const double share : s.coverage) line += ',' + shortest(share);
   line += ',' + shortest(s.twice) + ',' + assess::nameOf(s.pattern.pattern);

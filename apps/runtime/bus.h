@@ -51,6 +51,8 @@ struct Displayed {
   bool running = false;
   bool blood_flows = false;       ///< blood enters the syringe
   bool injury = false;            ///< lung or artery: the screen says so
+  Pose second_X_AT = Pose::Identity();   ///< another tool, where there is one
+  enum class Question : std::uint8_t { none, harder, heavier } question = Question::none;   ///< that the screen asks
 };
 
 struct Keyframe {
@@ -67,6 +69,7 @@ struct Bus {
       : geometry_to_haptic(mode),
         haptic_to_geometry(mode),
         haptic_to_scene(mode),
+        second_to_scene(mode),
         task_to_haptic(mode),
         camera_to_scene(mode),
         camera_to_task(mode),
@@ -74,6 +77,7 @@ struct Bus {
 
   StateChannel<LocalGeometry> geometry_to_haptic;
   StateChannel<ToolState> haptic_to_geometry, haptic_to_scene;
+  StateChannel<ToolState> second_to_scene;   ///< of the second of two devices; silent where there is one
   StateChannel<haptics::TickCommands> task_to_haptic;
   StateChannel<CameraView> camera_to_scene, camera_to_task;
   StateChannel<Displayed> scene_to_operator;

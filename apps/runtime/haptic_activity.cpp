@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "apps/runtime/tool_state.h"
+
 namespace palpa::runtime {
 std::int64_t HapticActivity::step(std::int64_t now_ns) {
   const haptics::DeviceReading reading = device_.read(now_ns);
@@ -26,38 +28,16 @@ const LocalGeometry* HapticActivity::geometryFor(const haptics::DeviceReading& r
   haptics::FlightRecord record;
   record.reading = reading;
   record.phase = state_.contact.phase;
-  ToolState tool = toolNow(record, now_ns);
+  ToolState tool = toolStateOf(config_, state_, record, now_ns);
   tool.v_D = {0, 0, 0};
   if (unpack(tool.X_DT).matrix().allFinite()) made_ = exact_->make(tool, now_ns);
   return &made_;
 }
 
-ToolState HapticActivity::toolNow(const haptics::FlightRecord& record, std::int64_t now_ns) const {
-  ToolState tool;
-  tool.t_ns = now_ns;
-  tool.X_DT = haptics::toolPose(config_, state_, record.reading);
-  tool.v_D = config_.engine == haptics::Engine::probe ? state_.probe.motion.v_D
-                                                           : state_.contact.motion.v_D;
-  tool.f_contact_D = record.f_contact_D;
-  tool.f_command_D = record.f_command_D;
-  tool.entry_D = state_.contact.entry_D;
-  tool.depth = record.depth;
-  tool.plunger = record.reading.plunger;
-  tool.bone_force = record.bone_force;
-  tool.phase = record.phase;
-  tool.tissue = record.tissue;
-  tool.wall = record.wall;
-  tool.bone = record.bone;
-  tool.safety = record.safety;
-  tool.homed = record.reading.homed;
-  if (record.sensed.state == haptics::SensorState::valid) tool.f_sensed_D = record.sensed.f_D;
-  return tool;
-}
-
 void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_ns) {
   bus_.haptic_to_recorder.push(record);
   bus_.haptic_to_task.push(record);
-  const ToolState tool = toolNow(record, now_ns);
+  const ToolState tool = toolStateOf(config_, state_, record, now_ns);
   if (!exact_) bus_.haptic_to_geometry.publish(tool, now_ns);
   bus_.haptic_to_scene.publish(tool, now_ns);
 }

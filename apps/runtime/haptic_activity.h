@@ -25,7 +25,6 @@ class HapticActivity final : public Activity {
   std::int64_t period_ns() const override { return config_.period_ns; }
 
  private:
-  ToolState toolNow(const haptics::FlightRecord& record, std::int64_t now_ns) const;
   void tell(const haptics::FlightRecord& record, std::int64_t now_ns);
   const LocalGeometry* geometryFor(const haptics::DeviceReading& reading, std::int64_t now_ns);
 

@@ -126,6 +126,7 @@ Station readStation(const std::filesystem::path& path) {
   s.decimate = file.number("camera/decimate", 1, 4);
   s.X_WD = readPose(file, "registration/X_WD");
   s.X_ET = readPose(file, "tool/X_ET");
+  if (file.has("second_device")) s.second_X_WD = readPose(file, "second_device/X_WD");
   s.entry_W = kMm * file.vector("patient/entry_mm");
   const haptics::DeviceCapabilities& can = s.device.capabilities;
   s.safety.max_force_N = file.number("safety/max_force_N", 0.1, can.max_force_N);

@@ -84,7 +84,7 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   settings.cases = {sharesOf(file), kindsOf(file, settings.library), kFileMm * file.number("cases/apart_mm", 5, 200), kFileMm * file.number("cases/margin_mm", 0, 200)};
   settings.clinical_force_N = file.number("pressure/clinical_deep_N", 0, 50);
   settings.time_limit_s = file.number("end/time_limit_s", 10, 3600);
-  settings.taxonomy = {file.text("taxonomy/visual"), file.text("taxonomy/haptic"), file.text("taxonomy/purpose"), file.text("taxonomy/property")};
+  settings.taxonomy = station::taxonomyOf(file);
   requireInside(file, settings);
   runtime::RandomStream trial(0, "palpation.rooms");
   placeLumps(settings, settings.cases.lumps.size() - 1, trial);   // refused now, not in the middle of a session

@@ -7,6 +7,7 @@
 #include "apps/assess/palpation/palpation_assessment.h"
 #include "apps/runtime/random.h"
 #include "apps/station/lump_library.h"
+#include "apps/station/taxonomy.h"
 
 namespace palpa::task_palpation {
 
@@ -15,11 +16,6 @@ struct CaseRules {
   std::vector<double> lumps;           ///< probability of 0, 1, 2, ... lumps
   std::vector<std::size_t> kinds;      ///< of the library, from 0; each equally likely
   double apart = 0, margin = 0;        ///< m, between lumps' middles; from the area's edge
-};
-
-/// Where the task stands among haptic and visual augmented realities, in words (Jeon, Choi & Harders 2015, their section 2).
-struct Taxonomy {
-  std::string visual, haptic, purpose, property;
 };
 
 /// How a search is judged.
@@ -39,7 +35,7 @@ struct PalpationSettings {
   Scoring scoring;
   double clinical_force_N = 0;         ///< that deep palpation takes on a patient; where the device gives less, the screen says "scaled force"
   double time_limit_s = 300;
-  Taxonomy taxonomy;
+  station::Taxonomy taxonomy;
   std::string source;                  ///< the file's text, for the evidence
 };
 

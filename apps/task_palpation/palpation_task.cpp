@@ -137,9 +137,9 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
 void PalpationTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
   if (request.command == trial::UserCommand::done) return endTrial("done", "", now_ns);
   if (request.command != trial::UserCommand::grade || listener_.marks().empty()) return;
-  const Grade grade = gradeOf(request.reason);
+  const trial::Grade grade = trial::gradeOf(request.reason);
   listener_.grade(grade.diameter, grade.hardness, grade.mobility);
-  tell(now_ns, "grade", gradeText(grade.diameter, grade.hardness, grade.mobility), static_cast<double>(listener_.marks().size()));
+  tell(now_ns, "grade", trial::gradeText(grade.diameter, grade.hardness, grade.mobility), static_cast<double>(listener_.marks().size()));
 }
 
 void PalpationTask::command(haptics::TickCommands& commands) const { commands.lumps = placed_; }

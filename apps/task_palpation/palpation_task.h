@@ -7,6 +7,7 @@
 #include "apps/task_palpation/palpation_file.h"
 #include "apps/task_palpation/palpation_listener.h"
 #include "apps/task_palpation/sensor_check.h"
+#include "apps/trial/grade.h"
 #include "apps/trial/trial_task.h"
 
 namespace palpa::task_palpation {

@@ -127,6 +127,7 @@ void TrialTask::listen(std::int64_t now_ns) {
   while (bus_.haptic_to_task.pop(&record)) {
     watchSafety(record);
     last_ = record;
+    watch(record);
     if (status_.active()) judge(record, now_ns);
   }
 }

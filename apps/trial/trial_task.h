@@ -42,6 +42,8 @@ class TrialTask : public runtime::Activity {
     std::string scores_json, sentence, notice, caption;
   };
   virtual Conclusion conclude(const std::string& outcome, const std::string& reason) = 0;
+  /// Every tick, trial or not.
+  virtual void watch(const haptics::FlightRecord&) {}
   /// A tick while a trial runs or is paused.
   virtual void judge(const haptics::FlightRecord& record, std::int64_t now_ns) = 0;
   /// Of the trial that is on: what the loop must be told beside armed, stop and number.

@@ -10,8 +10,6 @@
 #include "apps/twin/bench_truth.h"
 #include "apps/twin/board_moves.h"
 #include "apps/twin/camera_faults.h"
-#include "apps/twin/sensor_faults.h"
-#include "apps/twin/sensor_twin.h"
 
 namespace palpa::twin {
 namespace {
@@ -25,35 +23,41 @@ constexpr double kLongestBenchStep = 0.005;  // s, a late step is not integrated
 struct VirtualBench::Impl final : public runtime::Activity {
   Impl(Setup setup, runtime::Bus& bus_in, runtime::ChannelDevice& device_in)
       : bus(bus_in),
-        device(device_in),
         X_WD_believed(setup.station.X_WD),
         X_ET_believed(setup.station.X_ET),
         watched_W(setup.watched_W),
         normal_W(setup.normal_W),
         station(setup.station),
         camera_faults(readCameraFaults(setup.station.file)),
-        sensor_faults(readSensorFaults(setup.station.file)),
         board_moves(readBoardMoves(setup.station)),
         sway(kMm * setup.station.file.number("twin/camera_sway_mm", 0, 100)),
         X_CW_boom(cameraOnBoom(setup.station, setup.seed)),
-        cell_noise(setup.seed, "bench.force_cells"),
-        mechanics(trueDevice(setup.station, setup.seed), setup.X_DE_start),
-        hand(std::move(setup.hand)),
-        real_thing(std::move(setup.real_thing)) {
-    X_WD_true = drawWorld(setup.station, setup.seed).X_WD;
-    X_ET_true = drawWorld(setup.station, setup.seed).X_ET;
+        real_thing(std::move(setup.real_thing)),
+        on_word(std::move(setup.on_word)) {
+    const WorldTruth world = drawWorld(setup.station, setup.seed);
+    X_WD_true = world.X_WD;
+    X_ET_true = world.X_ET;
     VirtualCameraSettings settings;
     settings.latency_ns = static_cast<std::int64_t>(setup.station.camera_latency_s * 1e9);
     VirtualScene scene;
     for (const station::OtherBoard& board : setup.station.boards) scene.plates.push_back(board.grid);
     camera.emplace(trueCamera(setup.station, setup.seed), setup.station.board, settings, setup.seed, scene);
     errors_mm.reserve(4096);
-    on_word = setup.on_word;
-    sensor = setup.sensor;
-    if (sensor) {
-      X_ES = setup.station.force_sensor->X_ES;
-      felt.emplace(trueSensor(setup.station, setup.seed), setup.seed);
+    tools.emplace_back(toolSetup(std::move(setup.hand), setup.X_DE_start, X_WD_true, device_in, setup.sensor, setup.seed));
+    if (setup.second) {
+      // As far off its place as the first one is: one table, one registration.
+      const Pose X_WD2_true = X_WD_true * X_WD_believed.inverse() * setup.second->X_WD;
+      tools.emplace_back(toolSetup(std::move(setup.second->hand), setup.second->X_DE_start, X_WD2_true, *setup.second->device, setup.second->sensor, setup.seed + 1));
     }
+  }
+
+  HeldTool::Setup toolSetup(std::unique_ptr<Hand> hand, const Pose& X_DE_start, const Pose& X_WD, runtime::ChannelDevice& device, runtime::ChannelSensor* sensor, std::uint64_t seed) const {
+    HeldTool::Setup tool{std::move(hand), trueDevice(station, seed), X_WD, X_ET_true, X_DE_start, &device, sensor, {}, Pose::Identity(), {}, readSensorFaults(station.file), seed};
+    if (!sensor) return tool;
+    tool.sensor_truth = trueSensor(station, seed);
+    tool.X_ES = station.force_sensor->X_ES;
+    tool.zero = station.force_sensor->filter.bias;
+    return tool;
   }
 
   const char* name() const override { return "bench"; }
@@ -62,56 +66,32 @@ struct VirtualBench::Impl final : public runtime::Activity {
     const double dt =
         last_ns < 0 ? 1e-3 : std::clamp(static_cast<double>(now_ns - last_ns) * 1e-9, 1e-4, kLongestBenchStep);
     last_ns = now_ns;
-    Hand::Senses senses;
-    senses.now_ns = now_ns;
-    senses.X_DE = mechanics.truePose();
-    senses.f_grip_D = mechanics.gripForce();
-    senses.f_fingers_D = mechanics.fingerForce();
-    senses.seen = bus.scene_to_operator.read(now_ns);
-    const Hand::Action action = hand->act(senses, dt);
-    if (action.says.kind != Hand::Word::Kind::none && on_word) on_word(action.says);
-    move(action, unpack(device.commanded(now_ns)), dt);
-    haptics::DeviceReading reading;
-    const PackedPose X_DE = mechanics.encoderPose();
-    reading.t_ns = now_ns;
-    reading.sequence = ++sequence;
-    reading.p_DE = X_DE.p;
-    reading.q_DE = X_DE.q;
-    reading.plunger = action.plunger;
-    reading.buttons = action.buttons;
-    reading.homed = 1;
-    measureForces(reading);
-    device.publish(reading, now_ns);
-    if (sensor) {
-      const Pose X_WE = X_WD_true * mechanics.truePose();
-      if (!real_thing) touch.p_W = (X_WE * X_ET_true).translation();
-      haptics::WrenchSample sample = felt->measure(X_WE * X_ES, touch.f_W, touch.p_W, dt, now_ns);
-      if (spoil(sensor_faults, 1e-9 * static_cast<double>(now_ns), station.force_sensor->filter.bias, &sample)) sensor->publish(sample, now_ns);
+    const runtime::Displayed* seen = bus.scene_to_operator.read(now_ns);
+    for (HeldTool& tool : tools) {
+      const Hand::Action& action = tool.act(seen, now_ns, dt);
+      if (action.says.kind != Hand::Word::Kind::none && on_word) on_word(action.says);
     }
+    move(dt);
+    for (HeldTool& tool : tools) tool.publish(now_ns, dt);
     due_ns = std::max((due_ns < 0 ? now_ns : due_ns) + kBenchPeriod, now_ns);
     return due_ns;
   }
 
-  /// Two force cells, at the handle and before the tool, each with its own noise and as fine as a converter is: whole binary parts of a newton also take little room in a record.
-  void measureForces(haptics::DeviceReading& reading) {
-    constexpr double kNoise_N = 0.01, kCounts = 1024;   // [chosen] a good cell's; a newton
-    const auto noisy = [&](const Vec3& f_D) { return pack(Vec3(((f_D + kNoise_N * Vec3(cell_noise.normal(), cell_noise.normal(), cell_noise.normal())) * kCounts).array().round() / kCounts)); };
-    reading.f_hand_D = noisy(f_hand_D);
-    reading.f_device_D = noisy(f_device_D);
-    reading.instrumented = 1;
-  }
-
   /// Hand, drives and mechanics; a real thing is touched more often than the loop ticks.
-  void move(const Hand::Action& action, const Vec3& f_command_D, double dt) {
+  void move(double dt) {
     constexpr int kTouches = 4;
     const int parts = real_thing ? kTouches : 1;
-    f_hand_D = f_device_D = Vec3::Zero();
     for (int i = 0; i < parts; ++i) {
-      mechanics.advance(dt / parts, action.X_DH, hand->grip(), f_command_D, X_WD_true.linear().transpose() * touch.f_W);
-      f_hand_D += mechanics.meanFingerForce() / parts;
-      f_device_D += mechanics.meanDeviceForce() / parts;
-      if (real_thing) touch = real_thing(X_WD_true * mechanics.truePose() * X_ET_true, dt / parts);
+      for (HeldTool& tool : tools) tool.advance(dt / parts, parts);
+      touchAll(dt / parts);
     }
+  }
+
+  /// Where nothing real lies its touch is none, at the tip.
+  void touchAll(double dt) {
+    std::array<Pose, 2> X_WT{tools.front().X_WT(), tools.back().X_WT()};
+    const std::array<Touch, 2> touches = real_thing ? real_thing(X_WT, dt) : std::array<Touch, 2>{{{Vec3::Zero(), X_WT[0].translation()}, {Vec3::Zero(), X_WT[1].translation()}}};
+    for (std::size_t t = 0; t < tools.size(); ++t) tools[t].touch(touches[t]);
   }
 
   /// The boom sways a little: two slow sines.
@@ -124,27 +104,17 @@ struct VirtualBench::Impl final : public runtime::Activity {
   }
 
   runtime::Bus& bus;
-  runtime::ChannelDevice& device;
   Pose X_WD_believed, X_ET_believed, X_WD_true, X_ET_true;
   Vec3 watched_W, normal_W;
-  Touch touch;
-  Vec3 f_hand_D = Vec3::Zero(), f_device_D = Vec3::Zero();   // means over the last step
   const station::Station& station;
   std::vector<CameraFault> camera_faults;
-  std::vector<SensorFault> sensor_faults;
   std::vector<BoardMove> board_moves;
   double sway;
   Pose X_CW_boom;
-  runtime::RandomStream cell_noise;
-  DeviceTwin mechanics;
-  std::unique_ptr<Hand> hand;
   RealThing real_thing;
-  std::optional<VirtualCamera> camera;
-  runtime::ChannelSensor* sensor = nullptr;
-  std::optional<SensorTwin> felt;
-  Pose X_ES = Pose::Identity();
   std::function<void(const Hand::Word&)> on_word;
-  std::uint64_t sequence = 0;
+  std::optional<VirtualCamera> camera;
+  std::vector<HeldTool> tools;   // one or two
   std::int64_t last_ns = -1, due_ns = -1;
   std::size_t pictures = 0;
   std::vector<double> errors_mm;

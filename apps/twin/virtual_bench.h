@@ -1,14 +1,14 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "apps/runtime/camera_activity.h"
-#include "apps/runtime/channel_device.h"
-#include "apps/runtime/channel_sensor.h"
 #include "apps/station/station_file.h"
-#include "apps/twin/hand.h"
+#include "apps/twin/held_tool.h"
 #include "apps/twin/virtual_camera.h"
 
 namespace palpa::twin {
@@ -26,11 +26,16 @@ struct BenchAccuracy {
 /// readings. Truth is drawn around the station's figures with the spreads in its file.
 class VirtualBench {
  public:
-  /// Of something real under the tool, which truly is at X_WT: its force on it after another `dt`, N, and where that acts. All in W.
-  struct Touch {
-    Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
+  /// Of something real under the tools, which truly are at X_WT (the second one as the first where there is one): its force on each after another `dt`.
+  using Touch = HeldTool::Touch;
+  using RealThing = std::function<std::array<Touch, 2>(const std::array<Pose, 2>& X_WT, double dt)>;
+  /// Another device of the same make on the same table.
+  struct SecondTool {
+    std::unique_ptr<Hand> hand;
+    Pose X_WD, X_DE_start;
+    runtime::ChannelDevice* device = nullptr;
+    runtime::ChannelSensor* sensor = nullptr;
   };
-  using RealThing = std::function<Touch(const Pose& X_WT, double dt)>;
   struct Setup {
     const station::Station& station;
     std::unique_ptr<Hand> hand;
@@ -40,6 +45,7 @@ class VirtualBench {
     std::function<void(const Hand::Word&)> on_word;   ///< the simulated person says something
     runtime::ChannelSensor* sensor = nullptr;   ///< where the station has a virtual force sensor
     RealThing real_thing;         ///< none: a virtual patient alone
+    std::optional<SecondTool> second = {};
   };
   VirtualBench(Setup setup, runtime::Bus& bus, runtime::ChannelDevice& device);
   ~VirtualBench();

@@ -153,5 +153,56 @@ TEST(SessionFile, RefusesWhatContradictsItself) {
   EXPECT_NO_THROW(writer.close());  // none of it stands in the way of the rest
 }
 
+haptics::FlightRecord ofTool(std::int64_t tick, std::uint8_t tool) {
+  haptics::FlightRecord record = syntheticTick(tick);
+  record.tool = tool;
+  record.indentation = 0.001 * tool;
+  return record;
+}
+
+/// A tick's two records stay together, however it is committed, and come back in order.
+TEST(SessionFile, TwoDevicesAreTwoRecordsATick) {
+  const fs::path file = freshFolder("pairs") / "session.palpa";
+  SessionInfo info = syntheticInfo();
+  info.pair_config.emplace();
+  info.pair_config->squeezing = 1;
+  constexpr std::int64_t kTicks = 431;
+  {
+    SessionWriter writer(file, info);
+    for (std::int64_t tick = 0; tick < kTicks; ++tick) {
+      writer.tick(ofTool(tick, 0));
+      if (tick % 7 == 3) writer.commit();   // in the middle of a tick
+      writer.tick(ofTool(tick, 1));
+    }
+    EXPECT_THROW(writer.tick(ofTool(kTicks - 1, 0)), Error) << "that was";
+    writer.close();
+  }
+  const SessionReader reader(file);
+  ASSERT_TRUE(reader.info().pair_config);
+  EXPECT_EQ(bits(*reader.info().pair_config), bits(*info.pair_config));
+  std::int64_t count = 0;
+  reader.ticks([&](const haptics::FlightRecord& record) {
+    ASSERT_EQ(bits(record), bits(ofTool(count / 2, static_cast<std::uint8_t>(count % 2)))) << count;
+    ++count;
+  });
+  EXPECT_EQ(count, 2 * kTicks);
+}
+
+/// The last tick of a process that was stopped between its two halves is not lost either.
+TEST(SessionFile, HalfATickAtTheEndIsKept) {
+  const fs::path file = freshFolder("half") / "session.palpa";
+  SessionInfo info = syntheticInfo();
+  info.pair_config.emplace();
+  {
+    SessionWriter writer(file, info);
+    writer.tick(ofTool(0, 0));
+    writer.commit();
+    writer.close();
+  }
+  std::int64_t count = 0;
+  SessionReader(file).ticks([&](const haptics::FlightRecord&) { ++count; });
+  EXPECT_EQ(count, 1);
+}
+
 }  // namespace
 }  // namespace palpa::record

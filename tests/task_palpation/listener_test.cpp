@@ -98,13 +98,13 @@ TEST(PalpationListener, AButtonHeldOverAPauseMarksNothing) {
 }
 
 TEST(Grades, GoThroughWordsAndBack) {
-  const Grade grade = gradeOf(gradeText(0.016, 2, 1));
+  const trial::Grade grade = trial::gradeOf(trial::gradeText(0.016, 2, 1));
   EXPECT_EQ(grade.diameter, 0.016);
   EXPECT_EQ(grade.hardness, 2);
   EXPECT_EQ(grade.mobility, 1);
-  EXPECT_EQ(gradeText(0, 0, 0), "");
-  EXPECT_EQ(gradeOf("diameter nonsense mm").diameter, 0);
-  EXPECT_EQ(gradeOf("").hardness, 0);
+  EXPECT_EQ(trial::gradeText(0, 0, 0), "");
+  EXPECT_EQ(trial::gradeOf("diameter nonsense mm").diameter, 0);
+  EXPECT_EQ(trial::gradeOf("").hardness, 0);
 }
 
 TEST(Cases, GoThroughTheRecordAndBack) {

@@ -1,0 +1,35 @@
+#pragma once
+
+#include "apps/task_squeeze/squeeze_task.h"
+#include "apps/trial/trial_scene.h"
+
+namespace palpa::task_squeeze {
+
+/// What is seen of a comparison: the object, moving with the fingers that hold it, both tools, what each finger feels.
+class SqueezeScene final : public trial::TrialScene {
+ public:
+  struct Setup {
+    Stage stage;
+    Pose X_WD2 = Pose::Identity();     ///< the second device's base
+    Vec3 middle_A = Vec3::Zero();      ///< of the object at rest
+  };
+  SqueezeScene(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels);
+
+ private:
+  const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
+  void compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) override;
+  void tell(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
+  scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
+
+  Setup setup_;
+  SqueezeChannels& channels_;
+  runtime::Bus& bus_;
+  Pose X_AD2_;
+  SqueezeStatus status_;
+  runtime::ToolState second_;
+};
+
+/// Where the object is shown, as moved from where it rests: between the tips that hold it.
+Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, bool held);
+
+}  // namespace palpa::task_squeeze

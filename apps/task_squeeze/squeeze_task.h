@@ -1,0 +1,71 @@
+#pragma once
+
+#include <vector>
+
+#include "apps/task_squeeze/squeeze_listener.h"
+#include "apps/trial/grade.h"
+#include "apps/trial/trial_task.h"
+
+namespace palpa::task_squeeze {
+
+struct CompletedSqueeze {
+  assess::SqueezeTrial trial;
+  std::string reason;                  ///< why aborted or void
+};
+
+/// What the task tells the scene.
+struct SqueezeStatus : trial::TrialStatus {
+  assess::SqueezedProperty property = assess::SqueezedProperty::stiffness;
+  int thing = 0;                       ///< 0 or 1: which of the two is felt now
+  double squeezed_N = 0;
+  bool held = false;
+};
+
+struct SqueezeChannels : trial::Channels {
+  explicit SqueezeChannels(runtime::TimeMode mode) : status_to_scene(mode) {}
+  runtime::StateChannel<SqueezeStatus> status_to_scene;
+};
+
+/// The comparison's trials: two things, one after the other and as often as one likes ("done": the other one, once the object is let go); then which has more ("grade": 1 or 2).
+class SqueezeTask final : public trial::TrialTask {
+ public:
+  struct Setup {
+    const SqueezeSettings& settings;
+    bool simulated = false, automatic = true, force_feedback = true;
+    std::string not_scored;            ///< why; empty: scored
+    std::uint64_t seed = 1;
+    std::vector<Comparison> comparisons;
+    std::vector<runtime::BoardPlace> places;
+  };
+  SqueezeTask(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels, runtime::Executive& executive);
+
+  const std::vector<CompletedSqueeze>& completed() const { return completed_; }
+
+ private:
+  std::string notReady(const haptics::FlightRecord& last) const override;
+  runtime::TrialHeader begin(std::int64_t now_ns) override;
+  Conclusion conclude(const std::string& outcome, const std::string& reason) override;
+  void watch(const haptics::FlightRecord& record) override { last_of_[record.tool & 1] = record; }
+  void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
+  void command(haptics::TickCommands& commands) const override;
+  void publishStatus(std::int64_t now_ns) override;
+  void hear(const trial::UserRequest& request, std::int64_t now_ns) override;
+  void otherThing(std::int64_t now_ns);
+  void answer(int said, std::int64_t now_ns);
+  const Comparison& comparison() const { return setup_.comparisons[static_cast<std::size_t>(status().trial - 1)]; }
+
+  Setup setup_;
+  SqueezeChannels& channels_;
+  SqueezeListener listener_;
+  std::array<haptics::FlightRecord, 2> last_of_;
+  int thing_ = 0, said_ = 0;
+  SqueezeStatus shown_;
+  std::vector<CompletedSqueeze> completed_;
+};
+
+/// What a trial was, from its facts and what was heard of it; the same for a session and for its replay.
+assess::SqueezeTrial judged(assess::SqueezeTrial facts, const Comparison& comparison, const SqueezeListener& listener, int said);
+/// What is recorded of it.
+std::string scoreJson(const assess::SqueezeTrial& trial);
+
+}  // namespace palpa::task_squeeze

@@ -1,0 +1,86 @@
+#include "apps/assess/squeeze/discrimination.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <random>
+
+namespace palpa::assess {
+namespace {
+
+SqueezeTrial answer(double first, double second, int said) {
+  SqueezeTrial trial;
+  trial.outcome = "done";
+  trial.factors = {first, second};
+  trial.said = said;
+  return trial;
+}
+
+/// Answers of somebody whose feeling scatters by `sd` of the logarithm.
+std::vector<SqueezeTrial> answersOf(double sd, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::normal_distribution<double> scatter(0, sd);
+  const double ratios[] = {0.75, 0.87, 1.15, 1.33};
+  std::vector<SqueezeTrial> trials;
+  for (int i = 0; i < count; ++i) {
+    const double second = ratios[i % 4];
+    trials.push_back(answer(1, second, std::log(second) + scatter(random) > scatter(random) ? 2 : 1));
+  }
+  return trials;
+}
+
+TEST(SqueezeTrial, KnowsWhatIsRight) {
+  EXPECT_TRUE(answer(1, 1.33, 2).right());
+  EXPECT_FALSE(answer(1, 1.33, 1).right());
+  EXPECT_TRUE(answer(1.33, 1, 1).right());
+  EXPECT_FALSE(answer(1, 1.33, 0).answered());
+  EXPECT_EQ(summaryOf(answer(1, 1.33, 2)), "Right: the second one was harder, by 33 %.");
+  EXPECT_EQ(summaryOf(answer(1, 0.75, 2)), "Wrong: the first one was harder, by 33 %.");
+  SqueezeTrial timed = answer(1, 1.33, 2);
+  timed.outcome = "time";
+  EXPECT_FALSE(timed.right());
+}
+
+TEST(Discrimination, CountsByRatioWhicheverCameFirst) {
+  const Discrimination d = discriminationIn({answer(1, 1.25, 2), answer(1.25, 1, 2), answer(1, 2, 2), answer(1, 2, 0)}, SqueezedProperty::stiffness);
+  ASSERT_EQ(d.shares.size(), 2u);
+  EXPECT_EQ(d.shares[0].right, 1);
+  EXPECT_EQ(d.shares[0].of, 2);
+  EXPECT_EQ(d.of, 3);
+  EXPECT_FALSE(d.threshold) << "too few";
+  EXPECT_EQ(discriminationIn({answer(1, 1.25, 2)}, SqueezedProperty::weight).of, 0);
+}
+
+TEST(Discrimination, FindsTheThresholdItWasMadeWith) {
+  for (const double sd : {0.08, 0.2}) {
+    const std::optional<Threshold> found = discriminationIn(answersOf(sd, 4000, 5), SqueezedProperty::stiffness).threshold;
+    ASSERT_TRUE(found);
+    EXPECT_NEAR(std::log(found->ratio), 0.67449 * std::sqrt(2.0) * sd, 0.08 * sd);
+  }
+}
+
+/// About 95 of 100 intervals hold the truth.
+TEST(Discrimination, ItsIntervalIsHonest) {
+  const double truth = std::exp(0.67449 * std::sqrt(2.0) * 0.15);
+  int holds = 0, told = 0;
+  for (unsigned seed = 0; seed < 300; ++seed) {
+    const std::optional<Threshold> found = discriminationIn(answersOf(0.15, 80, seed), SqueezedProperty::stiffness).threshold;
+    if (!found) continue;
+    ++told;
+    holds += (!found->low || *found->low <= truth) && (!found->high || *found->high >= truth);
+  }
+  EXPECT_GT(told, 280);
+  EXPECT_GT(holds, 0.91 * told);
+  EXPECT_LT(holds, 0.99 * told);
+}
+
+TEST(Discrimination, AllRightOrChanceTellNoThreshold) {
+  std::vector<SqueezeTrial> right(12, answer(1, 1.33, 2)), chance;
+  for (int i = 0; i < 40; ++i) chance.push_back(answer(1, 1.33, 1 + i % 2));
+  EXPECT_FALSE(discriminationIn(right, SqueezedProperty::stiffness).threshold);
+  const std::optional<Threshold> none = discriminationIn(chance, SqueezedProperty::stiffness).threshold;
+  EXPECT_TRUE(!none || !none->high);
+}
+
+}  // namespace
+}  // namespace palpa::assess

@@ -1,0 +1,114 @@
+#include <gtest/gtest.h>
+
+#include <map>
+
+#include "anatomy/geometry/error.h"
+#include "apps/task_squeeze/squeeze_scene.h"
+#include "tests/support/files.h"
+
+namespace palpa::task_squeeze {
+namespace {
+
+const std::string kTask = std::string(PALPA_SOURCE_DIR) + "/assets/tasks/squeeze.json";
+
+TEST(SqueezeFile, TheShippedOneIsRead) {
+  const SqueezeSettings s = readSqueeze(kTask);
+  EXPECT_EQ(s.stiffness.size(), 6u);
+  EXPECT_EQ(s.weight.size(), 6u);
+  EXPECT_NEAR(s.mass, 0.02, 1e-12);
+  EXPECT_FALSE(s.taxonomy.haptic.empty());
+  EXPECT_GT(s.library.surface.k, 0);
+}
+
+TEST(SqueezeFile, EveryDifferenceAsOftenAndEveryOrder) {
+  const SqueezeSettings s = readSqueeze(kTask);
+  std::map<std::pair<int, std::array<double, 2>>, int> times;
+  for (const Comparison& c : comparisonsOf(s, 3, 72)) ++times[{static_cast<int>(c.property), c.factors}];
+  EXPECT_EQ(times.size(), 24u);
+  for (const auto& [which, count] : times) EXPECT_EQ(count, 3);
+  const auto one = comparisonsOf(s, 3, 16), same = comparisonsOf(s, 3, 16), other = comparisonsOf(s, 4, 16);
+  bool differs = false;
+  for (std::size_t i = 0; i < 16; ++i) {
+    EXPECT_EQ(one[i].factors, same[i].factors);
+    differs = differs || one[i].factors != other[i].factors;
+  }
+  EXPECT_TRUE(differs);
+  EXPECT_EQ(comparisonsOf(s, 3, 5).size(), 5u);
+}
+
+TEST(SqueezeFile, AComparisonIsWrittenAndReadAgain) {
+  const Comparison c{assess::SqueezedProperty::weight, {1, 1.43}}, again = comparisonIn(comparisonText(c));
+  EXPECT_EQ(again.property, c.property);
+  EXPECT_EQ(again.factors, c.factors);
+  EXPECT_THROW(comparisonIn("[]"), Error);
+  EXPECT_THROW(comparisonIn("nonsense"), Error);
+}
+
+/// What both tools tell of a tick.
+void hear(SqueezeListener& listener, const Comparison& comparison, int thing, std::int64_t t_ms, double real_N, double device_N) {
+  haptics::FlightRecord r;
+  r.t_ns = t_ms * 1'000'000;
+  r.commands.trial = 1;
+  r.commands.armed = 1;
+  tellLoop(comparison, thing, &r.commands);
+  r.sensed.state = haptics::SensorState::valid;
+  for (const std::uint8_t tool : {0, 1}) {
+    r.tool = tool;
+    const double side = tool == 0 ? 1 : -1;
+    r.sensed.f_D = {side * real_N, 0, 0};
+    r.f_command_D = {side * device_N, 0, 0};
+    listener.add(r);
+  }
+}
+
+TEST(SqueezeListener, CountsGripsOfEachAndFeelsBothForces) {
+  const Comparison c{assess::SqueezedProperty::stiffness, {1, 1.5}};
+  SqueezeListener listener(0.1);
+  listener.begin(1, c);
+  std::int64_t t = 0;
+  for (int i = 0; i < 300; ++i) hear(listener, c, 0, ++t, 0.6, 0);
+  EXPECT_TRUE(listener.held());
+  for (int i = 0; i < 100; ++i) hear(listener, c, 0, ++t, 0.0, 0);
+  EXPECT_FALSE(listener.held());
+  for (int i = 0; i < 300; ++i) hear(listener, c, 1, ++t, 0.6, 0.3);
+  for (int i = 0; i < 100; ++i) hear(listener, c, 1, ++t, 0.0, 0);
+  for (int i = 0; i < 50; ++i) hear(listener, c, 1, ++t, 0.6, 0.3);   // a touch, no grip
+  EXPECT_EQ(listener.grips(), (std::array<int, 2>{1, 1}));
+  EXPECT_NEAR(listener.peak(), 0.9, 1e-12);
+  EXPECT_NEAR(listener.seconds(), 0.849, 1e-9);
+}
+
+TEST(SqueezeListener, OneFingerIsNoGripAndAPauseIsNoTime) {
+  const Comparison c;
+  SqueezeListener listener(0.1);
+  listener.begin(1, c);
+  haptics::FlightRecord r;
+  r.commands.trial = 1;
+  r.commands.armed = 1;
+  for (int i = 0; i < 500; ++i) {
+    r.t_ns = 1'000'000LL * i;
+    r.sensed.state = haptics::SensorState::valid;
+    r.tool = 0;
+    r.sensed.f_D = {0.6, 0, 0};
+    listener.add(r);
+    r.tool = 1;
+    r.sensed.f_D = {0, 0, 0};
+    listener.add(r);
+  }
+  EXPECT_EQ(listener.grips()[0] + listener.grips()[1], 0);
+  EXPECT_EQ(listener.peak(), 0);
+  const double seconds = listener.seconds();
+  r.commands.armed = 0;
+  r.t_ns += 60'000'000'000;
+  listener.add(r);
+  EXPECT_EQ(listener.seconds(), seconds);
+}
+
+TEST(SqueezeScene, WhatIsHeldMovesWithTheFingers) {
+  const Vec3 middle(0, 0.03, 0), first(0.025, 0.03, 0.02), second(-0.025, 0.03, 0.02);
+  EXPECT_LT((heldPlace(first, second, middle, true).translation() - Vec3(0, 0, 0.02)).norm(), 1e-12);
+  EXPECT_TRUE(heldPlace(first, second, middle, false).matrix().isIdentity());
+}
+
+}  // namespace
+}  // namespace palpa::task_squeeze
