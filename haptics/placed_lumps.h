@@ -8,7 +8,7 @@
 
 namespace palpa::haptics {
 
-inline constexpr int kMostLumps = 4, kMostLumpKinds = 8;
+inline constexpr int kMostLumps = 6, kMostLumpKinds = 8;
 
 /// A virtual lump of one of a session's kinds, at a place.
 struct PlacedLump {

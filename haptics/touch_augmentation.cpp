@@ -33,7 +33,7 @@ AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lum
       continue;
     }
     const InclusionAnswer lump = feelInclusion(law.kinds[lumps[i].kind - 1], unpack(lumps[i].p_T0), contacts, dt, &state->lumps[i]);
-    now.d[i] = lump.d;
+    now.d[i] = pack(lump.d);
     now.iterations += lump.iterations;
     for (std::size_t t = 0; t < 2; ++t) {
       const Modulated& felt = now.touch[t];

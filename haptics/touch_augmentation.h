@@ -37,7 +37,7 @@ static_assert(std::is_trivially_copyable_v<TouchAugmentationState>);
 struct AugmentedTouch {
   std::array<Modulated, 2> touch;                ///< what was felt of the real object, and what is changed of it
   std::array<Vec3, 2> f_d{Vec3::Zero(), Vec3::Zero()};   ///< N, of the devices on the tools, all together
-  std::array<Vec3, kMostLumps> d{Vec3::Zero(), Vec3::Zero(), Vec3::Zero(), Vec3::Zero()};   ///< m, how far the lumps are pushed
+  std::array<Packed3, kMostLumps> d{};            ///< m, how far the lumps are pushed
   int iterations = 0;                            ///< of all lumps' solvers; at most kMostLumps kMostInclusionIterations
 };
 

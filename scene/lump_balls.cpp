@@ -118,9 +118,10 @@ void LumpBalls::update(const std::vector<Lump>& lumps, const Sight& sight, bool 
     if (shown_ == balls_.size()) balls_.push_back(std::make_unique<LumpBall>(through_, sphere_, ring_px_));
     LumpBall& ball = *balls_[shown_++];
     ball.moveTo(solid_skin ? above_ : through_);
-    ball.outlineBy(lump.found ? ring_ : dashes_);
-    dye(*ball.ball, lump.found ? colour::kFound : colour::kMissed);
-    dye(*ball.ring, lump.found ? colour::kFound : colour::kMissed);
+    const Rgb& look = lump.normal ? colour::kNormal : lump.found ? colour::kFound : colour::kMissed;
+    ball.outlineBy(lump.found || lump.normal ? ring_ : dashes_);
+    dye(*ball.ball, look);
+    dye(*ball.ring, look);
     ball.place(lump, sight.eye());
     ball.show(true);
   }

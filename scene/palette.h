@@ -39,6 +39,7 @@ inline constexpr Rgba kFeltMedium{0.18, 0.62, 0.88, 0.48};
 inline constexpr Rgba kFeltDeep{0.01, 0.20, 0.58, 0.55};
 inline constexpr Rgb kFound{0.98, 0.86, 0.30};     ///< a lump; yellow and vermilion differ for colour-blind eyes, by hue and by brightness
 inline constexpr Rgb kMissed{0.90, 0.40, 0.10};
+inline constexpr Rgb kNormal{0.72, 0.72, 0.74};    ///< what belongs there
 inline constexpr Rgb kSection{0.86, 0.72, 0.62};  ///< the skin's outline in fixed views
 }  // namespace colour
 

@@ -67,6 +67,7 @@ struct Lump {
   Vec3 p_A = Vec3::Zero();   ///< its middle
   double radius = 0.005;     ///< metres
   bool found = false;
+  bool normal = false;       ///< belongs there: neither found nor missed
 };
 
 /// How a view for two eyes is laid out. anaglyph: for red and cyan glasses. headset: side by side, words before each eye.

@@ -109,7 +109,7 @@ LumpFigures lumpFigures(const std::vector<PlainTouches>& plain, const twin::Phan
         if (!truth[t].contact) continue;
         error.add(ticks[t].truth.f + now.f_d[t] - truth[t].f, truth[t].f);
         unrendered.add(ticks[t].truth.f - truth[t].f, truth[t].f);
-        figures.position_mm = std::max(figures.position_mm, 1e3 * (now.d[0] - truth[t].lump).norm());
+        figures.position_mm = std::max(figures.position_mm, 1e3 * (unpack(now.d[0]) - truth[t].lump).norm());
       }
     }
   }

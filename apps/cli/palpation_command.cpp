@@ -15,6 +15,8 @@ namespace {
 constexpr const char* kPalpationExamples = R"(Examples:
   palpa palpation --operator expert --fast --out A
       a simulated examiner searches silicone for lumps that are not there; open A/report.html
+  palpa palpation --preset abdomen --operator expert --fast
+      the liver's edge is felt in every case, and is no lump
   palpa palpation --preset prostate --operator novice --trials 5 --fast
       a smaller phantom, five cases
   palpa palpation --station my_station.json --guidance on --trials 6
@@ -22,7 +24,7 @@ constexpr const char* kPalpationExamples = R"(Examples:
 Button 1 of the device: here is a lump. Then grade it: 1 soft, 2 hard, 3 fixed, 4 mobile, 5-8: 10, 15, 20,
 25 mm. Keys: Enter start or go on, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
 
-const std::map<std::string, std::string> kPresets{{"breast", "tasks/palpation_breast.json"}, {"prostate", "tasks/palpation_prostate.json"}};
+const std::map<std::string, std::string> kPresets{{"abdomen", "tasks/palpation_abdomen.json"}, {"breast", "tasks/palpation_breast.json"}, {"prostate", "tasks/palpation_prostate.json"}};
 
 }  // namespace
 
@@ -41,7 +43,7 @@ void addPalpation(CLI::App& program) {
   CLI::App* command = program.add_subcommand("palpation", "A training session: search soft tissue for lumps");
   command->footer(kPalpationExamples);
   const auto preset = std::make_shared<std::string>("breast");
-  command->add_option("--preset", *preset, "Phantom and cases: breast (default) or prostate")->check(CLI::IsMember(kPresets))->type_name("breast|prostate");
+  command->add_option("--preset", *preset, "Phantom and cases: breast (default), abdomen or prostate")->check(CLI::IsMember(kPresets))->type_name("abdomen|breast|prostate");
   command->add_option("--task", options->task, "Task file, in place of a preset")->type_name("FILE");
   const auto on_off = [command](const char* name, bool& value, const char* help) {
     command->add_option_function<std::string>(name, [&value](const std::string& text) { value = text == "on"; }, help)->check(CLI::IsMember({"on", "off"}))->type_name("on|off");

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <limits>
 #include <memory>
 #include <nlohmann/json.hpp>
 
@@ -56,7 +57,11 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
 
 SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const {
   const twin::PalpatingSkill skill = twin::readPalpatingSkill(station::assetFile(options.who == OperatorKind::novice ? "operators/palpation_novice.json" : "operators/palpation_expert.json"));
-  const twin::VisiblePhantom seen{anatomy::X_AP(), task.scoring.rules.area.half_x, task.scoring.rules.area.half_y};
+  const twin::VisiblePhantom seen{anatomy::X_AP(), task.scoring.rules.area.half_x, task.scoring.rules.area.half_y, [normal = task.scoring.rules.normal](const Vec3& p_P) {
+                                    double nearest = std::numeric_limits<double>::infinity();
+                                    for (const assess::NormalAnatomy& one : normal) nearest = std::min(nearest, assess::fromLine(one, p_P));
+                                    return nearest;
+                                  }};
   const Pose& X_WP = station.sample->X_WP;
   const Pose X_WT = X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(), Vec3(0, -task.scoring.rules.area.half_y, kPickedUp));
   twin::VirtualBench::Setup bench{station,

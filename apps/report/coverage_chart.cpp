@@ -53,6 +53,23 @@ void drawCells(Html& svg, const MapFrame& at, const assess::CoverageMap& map) {
   svgRect(svg, "edge", at.left, at.top, at.width, at.height);
 }
 
+std::string linePath(const MapFrame& at, const assess::NormalAnatomy& normal) {
+  std::string path;
+  for (const Vec3& p : normal.line_P) path += (path.empty() ? 'M' : 'L') + coordinate(at.x(p)) + ' ' + coordinate(at.y(p));
+  return path;
+}
+
+/// A broad band with its middle line, and its name where it begins.
+void drawNormal(Html& svg, const MapFrame& at, const assess::PalpationRules& rules) {
+  for (const assess::NormalAnatomy& normal : rules.normal) {
+    if (normal.line_P.empty()) continue;
+    const std::string path = linePath(at, normal);
+    svg.empty("path", {{"class", "normal"}, {"d", path}, {"stroke-width", coordinate(at.scale * normal.width)}});
+    svgPath(svg, "normal-line", path);
+    svgText(svg, "words", at.x(normal.line_P.front()) - 6, at.y(normal.line_P.front()) - 8, normal.name);
+  }
+}
+
 void drawLumps(Html& svg, const MapFrame& at, const assess::PalpationAssessment& trial) {
   for (std::size_t i = 0; i < trial.lumps.size(); ++i) {
     const assess::CaseLump& lump = trial.lumps[i];
@@ -112,6 +129,7 @@ void drawMap(Html& html, const PalpationPage& page, const assess::CoverageMap& m
                            "The searched area from above: " + fixed(100 * map.share(1), 0) + " % felt, " + fixed(100 * map.share(3), 0) + " % deeply; " + std::to_string(score.found) +
                                " lumps found, " + std::to_string(score.missed) + " missed, " + std::to_string(score.false_alarms) + " false alarms");
   drawCells(html, at, map);
+  drawNormal(html, at, page.rules);
   drawLumps(html, at, page.assessment);
   drawMarks(html, at, page);
   drawSurroundings(html, at);

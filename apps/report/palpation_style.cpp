@@ -24,6 +24,8 @@ svg .pips{fill:none;stroke:var(--ink);stroke-width:3;stroke-linecap:round}
 svg .pips.level-3{stroke:var(--on)}
 svg .edge{fill:none;stroke:var(--muted);stroke-width:1.5}
 svg .halo{fill:none;stroke:var(--card);stroke-width:7;stroke-linecap:round}
+svg .normal{fill:none;stroke:var(--muted);stroke-opacity:.55;stroke-linecap:round;stroke-linejoin:round}
+svg .normal-line{fill:none;stroke:var(--ink);stroke-width:1.5;stroke-dasharray:2 5;stroke-linecap:round}
 svg .ring{fill:none;stroke-width:3.5}
 svg .ring.found{stroke:var(--good-ink)}
 svg .ring.missed{stroke:var(--bad-ink);stroke-dasharray:8 6}

@@ -58,6 +58,17 @@ void writeLumpRow(Html& html, const PalpationPage& page, std::size_t index) {
   html.element("td", gradeWord(lump.mobility, kMobilityWords));
 }
 
+/// "2 of them lie on the liver's edge, which is normal here."
+std::string normalText(const PalpationPage& page) {
+  const int count = page.assessment.score.of_normal, alarms = page.assessment.score.false_alarms;
+  std::string names;
+  for (const assess::NormalAnatomy& normal : page.rules.normal) names += (names.empty() ? "" : ", ") + normal.name;
+  if (names.empty()) return "";
+  if (count == 0) return " Felt in every case, and normal: " + names + ".";
+  const std::string which = alarms == 1 ? "It lies" : count == alarms ? "They lie" : std::to_string(count) + " of them " + (count == 1 ? "lies" : "lie");
+  return ' ' + which + " on what is normal here: " + names + ".";
+}
+
 std::string marksText(const assess::PalpationScore& score) {
   std::string text = score.false_alarms == 0 ? "No false alarm." : std::to_string(score.false_alarms) + (score.false_alarms == 1 ? " mark is a false alarm." : " marks are false alarms.");
   if (score.repeated > 0) text += ' ' + std::to_string(score.repeated) + (score.repeated == 1 ? " mark repeats" : " marks repeat") + " a lump that had been found; that costs nothing.";
@@ -104,7 +115,7 @@ void writeLumpTable(Html& html, const PalpationPage& page) {
   } else {
     html.element("p", "There was no lump in this case.");
   }
-  html.element("p", marksText(trial.score));
+  html.element("p", marksText(trial.score) + normalText(page));
 }
 
 void writePalpationFigures(Html& html, const PalpationPage& page) {

@@ -38,7 +38,7 @@ Case placeLumps(const PalpationSettings& settings, std::size_t count, runtime::R
     }
     const std::size_t kind = rules.kinds[std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(rules.kinds.size())), rules.kinds.size() - 1)];
     const Vec3 p_P(random.uniform(-x, x), random.uniform(-y, y), -settings.library.kinds[kind].depth);
-    if (farFromAll(drawn, p_P, rules.apart)) drawn.push_back({kind, p_P});
+    if (farFromAll(drawn, p_P, rules.apart) && farFromAll(settings.anatomy, p_P, rules.apart)) drawn.push_back({kind, p_P});
   }
   return drawn;
 }
@@ -52,9 +52,12 @@ std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLi
   return lumps;
 }
 
-haptics::PlacedLumps placed(const Case& in_case) {
+haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy) {
   haptics::PlacedLumps lumps{};
-  for (std::size_t i = 0; i < in_case.size() && i < lumps.size(); ++i) lumps[i] = {pack(in_case[i].p_P), static_cast<std::uint32_t>(in_case[i].kind) + 1, 0};
+  std::size_t next = 0;
+  for (const Case* some : {&in_case, &anatomy})
+    for (const LumpInCase& lump : *some)
+      if (next < lumps.size()) lumps[next++] = {pack(lump.p_P), static_cast<std::uint32_t>(lump.kind) + 1, 0};
   return lumps;
 }
 

@@ -8,6 +8,37 @@ namespace {
 
 constexpr double kFileMm = 1e-3;
 
+double finiteIn(const station::JsonFile& file, const nlohmann::json& value, double low, double high) {
+  if (!value.is_number() || !(value.get<double>() >= low && value.get<double>() <= high)) file.refuse("anatomy", "holds " + value.dump() + " where a number from " + std::to_string(std::lround(low)) + " to " + std::to_string(std::lround(high)) + " must be");
+  return value.get<double>();
+}
+
+/// "anatomy": [{"name": ..., "kind": ..., "width_mm": ..., "line_mm": [[x, y], ...]}, ...]; none of it: an empty list.
+const nlohmann::json& anatomyIn(const station::JsonFile& file) {
+  static const nlohmann::json kNone = nlohmann::json::array();
+  const auto all = file.json().find("anatomy");
+  if (all == file.json().end()) return kNone;
+  if (!all->is_array()) file.refuse("anatomy", "must be a list");
+  for (const nlohmann::json& one : *all) {
+    const bool named = one.is_object() && one.contains("name") && one["name"].is_string() && one.contains("kind") && one["kind"].is_string();
+    if (!named || !one.contains("line_mm") || !one["line_mm"].is_array() || one["line_mm"].empty()) file.refuse("anatomy", "must name \"name\", \"kind\" (of the library), \"width_mm\" and \"line_mm\" of each");
+  }
+  return *all;
+}
+
+std::vector<assess::NormalAnatomy> normalIn(const station::JsonFile& file) {
+  std::vector<assess::NormalAnatomy> all;
+  for (const nlohmann::json& one : anatomyIn(file)) {
+    assess::NormalAnatomy normal{one["name"].get<std::string>(), {}, kFileMm * finiteIn(file, one.value("width_mm", nlohmann::json()), 1, 200)};
+    for (const nlohmann::json& point : one["line_mm"]) {
+      if (!point.is_array() || point.size() != 2) file.refuse("anatomy", "holds " + point.dump() + " where a point [across, away] must be");
+      normal.line_P.emplace_back(kFileMm * finiteIn(file, point[0], -200, 200), kFileMm * finiteIn(file, point[1], -200, 200), 0);
+    }
+    all.push_back(std::move(normal));
+  }
+  return all;
+}
+
 }  // namespace
 
 Scoring scoringOf(const station::JsonFile& file) {
@@ -21,19 +52,22 @@ Scoring scoringOf(const station::JsonFile& file) {
   rules.reach = kFileMm * file.number("scoring/reach_mm", 1, 30);
   rules.touch = file.number("scoring/touch_N", 0.02, 5);
   rules.found_within = kFileMm * file.number("scoring/found_within_mm", 1, 50);
+  rules.normal = normalIn(file);
   scoring.standard = {file.number("scoring/pass_sensitivity", 0, 1), file.number("scoring/pass_coverage", 0, 1)};
   return scoring;
 }
 
 namespace {
 
+std::size_t kindNamed(const station::JsonFile& file, const char* field, const nlohmann::json& name, const station::LumpLibrary& library) {
+  const auto one = std::find_if(library.kinds.begin(), library.kinds.end(), [&](const station::LumpKind& kind) { return name.is_string() && kind.name == name.get<std::string>(); });
+  if (one == library.kinds.end()) file.refuse(field, "names " + name.dump() + ", which the library of lumps does not hold");
+  return static_cast<std::size_t>(one - library.kinds.begin());
+}
+
 std::vector<std::size_t> kindsOf(const station::JsonFile& file, const station::LumpLibrary& library) {
   std::vector<std::size_t> kinds;
-  for (const nlohmann::json& name : file.json().at("cases").value("kinds", nlohmann::json::array())) {
-    const auto one = std::find_if(library.kinds.begin(), library.kinds.end(), [&](const station::LumpKind& kind) { return name.is_string() && kind.name == name.get<std::string>(); });
-    if (one == library.kinds.end()) file.refuse("cases/kinds", "names " + name.dump() + ", which the library of lumps does not hold");
-    kinds.push_back(static_cast<std::size_t>(one - library.kinds.begin()));
-  }
+  for (const nlohmann::json& name : file.json().at("cases").value("kinds", nlohmann::json::array())) kinds.push_back(kindNamed(file, "cases/kinds", name, library));
   if (kinds.empty()) file.refuse("cases/kinds", "must name one lump at least");
   return kinds;
 }
@@ -47,8 +81,22 @@ std::vector<double> sharesOf(const station::JsonFile& file) {
     all += shares.back();
   }
   if (std::abs(all - 1) > 1e-6) file.refuse("cases/lumps", "must add up to 1");
-  if (shares.size() > haptics::kMostLumps + 1) file.refuse("cases/lumps", "allows more than " + std::to_string(haptics::kMostLumps) + " lumps");
   return shares;
+}
+
+/// A lump at each point of its line, as deep as it was identified.
+Case piecesOf(const station::JsonFile& file, const std::vector<assess::NormalAnatomy>& normal, const station::LumpLibrary& library) {
+  Case pieces;
+  for (std::size_t i = 0; i < normal.size(); ++i) {
+    const std::size_t kind = kindNamed(file, "anatomy", anatomyIn(file)[i]["kind"], library);
+    for (const Vec3& p : normal[i].line_P) pieces.push_back({kind, Vec3(p.x(), p.y(), -library.kinds[kind].depth)});
+  }
+  return pieces;
+}
+
+void requireFew(const station::JsonFile& file, const PalpationSettings& settings) {
+  if (settings.cases.lumps.size() - 1 + settings.anatomy.size() <= haptics::kMostLumps) return;
+  file.refuse("cases/lumps", "allows more than " + std::to_string(haptics::kMostLumps) + " lumps, the points of \"anatomy\" among them");
 }
 
 /// Lumps lie wholly inside.
@@ -61,6 +109,10 @@ void requireInside(const station::JsonFile& file, const PalpationSettings& setti
     if (area.half_x + beyond > settings.size.x() / 2 || area.half_y + beyond > settings.size.y() / 2 || kind.depth - kind.diameter / 2 < 0 || kind.depth + kind.diameter / 2 > settings.size.z())
       file.refuse("cases/kinds", "holds \"" + kind.name + "\", which would stick out of the phantom: its middle lies " + std::to_string(std::lround(1e3 * kind.depth)) + " mm deep, it measures " +
                                      std::to_string(std::lround(1e3 * kind.diameter)) + " mm");
+  }
+  for (const LumpInCase& piece : settings.anatomy) {
+    const double r = settings.library.kinds[piece.kind].diameter / 2;
+    if (std::abs(piece.p_P.x()) + r > settings.size.x() / 2 || std::abs(piece.p_P.y()) + r > settings.size.y() / 2) file.refuse("anatomy", "would stick out of the phantom");
   }
   const double free_x = area.half_x - settings.cases.margin, free_y = area.half_y - settings.cases.margin;
   if (free_x <= 0 || free_y <= 0) file.refuse("cases/margin_mm", "leaves no room");
@@ -82,9 +134,11 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   settings.scoring = scoringOf(file);
   if (!file.has("cases/lumps") || !file.has("cases/kinds")) file.refuse("cases", "must hold \"lumps\" and \"kinds\"");
   settings.cases = {sharesOf(file), kindsOf(file, settings.library), kFileMm * file.number("cases/apart_mm", 5, 200), kFileMm * file.number("cases/margin_mm", 0, 200)};
+  settings.anatomy = piecesOf(file, settings.scoring.rules.normal, settings.library);
   settings.clinical_force_N = file.number("pressure/clinical_deep_N", 0, 50);
   settings.time_limit_s = file.number("end/time_limit_s", 10, 3600);
   settings.taxonomy = station::taxonomyOf(file);
+  requireFew(file, settings);
   requireInside(file, settings);
   runtime::RandomStream trial(0, "palpation.rooms");
   placeLumps(settings, settings.cases.lumps.size() - 1, trial);   // refused now, not in the middle of a session

@@ -26,6 +26,13 @@ struct Scoring {
 /// Of a task's text alone, without its lumps. Throws UsageError naming the field.
 Scoring scoringOf(const station::JsonFile& task);
 
+/// A lump at a place: P, m.
+struct LumpInCase {
+  std::size_t kind = 0;                ///< of the library, from 0
+  Vec3 p_P = Vec3::Zero();
+};
+using Case = std::vector<LumpInCase>;
+
 /// A palpation task as its file says it (assets/tasks/palpation_*.json). Another phantom, other lumps, other rules need a file, not code.
 struct PalpationSettings {
   std::string id, title;
@@ -33,6 +40,7 @@ struct PalpationSettings {
   station::LumpLibrary library;
   CaseRules cases;
   Scoring scoring;
+  Case anatomy;                        ///< normal anatomy, in pieces, in every case: a library lump at each point of its line (named and judged by scoring.rules.normal)
   double clinical_force_N = 0;         ///< that deep palpation takes on a patient; where the device gives less, the screen says "scaled force"
   double time_limit_s = 300;
   station::Taxonomy taxonomy;
@@ -42,18 +50,12 @@ struct PalpationSettings {
 /// Throws UsageError naming file and field, Error for a library that cannot be used or a lump that would stick out of the phantom.
 PalpationSettings readPalpation(const std::filesystem::path& file);
 
-/// A lump at a place: P, m.
-struct LumpInCase {
-  std::size_t kind = 0;                ///< of the library, from 0
-  Vec3 p_P = Vec3::Zero();
-};
-using Case = std::vector<LumpInCase>;
-
 /// The same for the same seed.
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed);
 /// So many lumps, drawn by the rules. Throws Error where they find no room.
 Case placeLumps(const PalpationSettings& settings, std::size_t count, runtime::RandomStream& random);
 std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLibrary& library);
-haptics::PlacedLumps placed(const Case& in_case);
+/// Together they are no more than haptics::kMostLumps.
+haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy);
 
 }  // namespace palpa::task_palpation

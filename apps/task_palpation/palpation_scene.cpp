@@ -46,7 +46,7 @@ void PalpationScene::showFelt(scene::SceneState& state) const {
     state.coverage = grid;
   }
   state.lumps.clear();
-  for (const PalpationStatus::Shown& lump : status_.lumps) state.lumps.push_back({setup_.X_AP * lump.p_P, lump.radius, lump.found});
+  for (const PalpationStatus::Shown& lump : status_.lumps) state.lumps.push_back({setup_.X_AP * lump.p_P, lump.radius, lump.found, lump.normal});
   state.marks_A.clear();
   for (const Vec3& p_P : status_.marks_P) state.marks_A.push_back(setup_.X_AP * Vec3(p_P.x(), p_P.y(), 0));
   state.lead_A = status_.lead_P ? std::optional<Vec3>(setup_.X_AP * *status_.lead_P) : std::nullopt;

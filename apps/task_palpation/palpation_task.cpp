@@ -74,7 +74,7 @@ std::string PalpationTask::notReady(const haptics::FlightRecord& last) const {
 
 runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   case_ = drawCase(setup_.settings, plan().seed);
-  placed_ = placed(case_);
+  placed_ = placed(case_, setup_.settings.anatomy);
   listener_.begin(static_cast<std::uint32_t>(status().trial));
   sensor_.reset();
   map_ = assess::CoverageMap(setup_.settings.scoring.rules.area, setup_.settings.scoring.rules.levels, setup_.settings.scoring.rules.reach);
@@ -93,7 +93,8 @@ void PalpationTask::showLumps(const assess::PalpationAssessment* judged) {
   shown_.lumps.clear();
   if (!judged && !setup_.see_through) return;
   const std::vector<assess::CaseLump> lumps = lumpsOf(case_, setup_.settings.library);
-  for (std::size_t i = 0; i < lumps.size(); ++i) shown_.lumps.push_back({lumps[i].p_P, lumps[i].diameter / 2, judged && judged->score.lumps[i].mark >= 0});
+  for (std::size_t i = 0; i < lumps.size(); ++i) shown_.lumps.push_back({lumps[i].p_P, lumps[i].diameter / 2, judged && judged->score.lumps[i].mark >= 0, false});
+  for (const assess::CaseLump& piece : lumpsOf(setup_.settings.anatomy, setup_.settings.library)) shown_.lumps.push_back({piece.p_P, piece.diameter / 2, false, true});
 }
 
 trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome, const std::string& reason) {

@@ -33,6 +33,7 @@ struct PalpationStatus : trial::TrialStatus {
     Vec3 p_P = Vec3::Zero();
     double radius = 0;
     bool found = false;
+    bool normal = false;               ///< belongs there
   };
   std::vector<Shown> lumps;            ///< seen through the surface
   std::optional<Vec3> lead_P;          ///< where guidance leads

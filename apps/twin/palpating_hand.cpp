@@ -89,7 +89,10 @@ void PalpatingHand::pressing(double now_s) {
   step_ = Step::overshoot;   // it goes on for as long as it takes to react
 }
 
+bool PalpatingHand::normal(const Vec3& p_P) const { return skill_.knows_anatomy && phantom_.from_normal && phantom_.from_normal(p_P) < kKnown; }
+
 bool PalpatingHand::known(const Vec3& p_P) const {
+  if (normal(p_P)) return true;
   const auto near = [&](const Vec3& other) { return across(other, p_P) < kKnown; };
   const auto same = [&](const Vec3& other) { return across(other, p_P) < kSame; };
   return std::any_of(marked_P_.begin(), marked_P_.end(), near) || std::any_of(dismissed_P_.begin(), dismissed_P_.end(), same);
@@ -101,7 +104,7 @@ void PalpatingHand::judge(double now_s) {
   if (suspect_P_) {
     (look_ == Look::climb ? closer_ : fresh_).push_back(felt);
   } else {
-    felt.firm = memory_.firmness(felt) > skill_.looks_closer;
+    felt.firm = memory_.firmness(felt) > skill_.looks_closer || normal(felt.p_P);   // what is firm is no measure of the rest
     memory_.add(felt);
     if (felt.firm && !known(felt.p_P)) {
       suspect_P_ = felt.p_P;

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -32,6 +33,7 @@ struct PalpatingSkill {
   double closer_force = 1;              ///< how much harder a closer look presses
   double size_sd = 0;                   ///< share
   double hard_from = 0;                 ///< ln, as `marks_from`: from here on a lump is called hard
+  bool knows_anatomy = false;           ///< what belongs there is not taken for a lump
 };
 PalpatingSkill readPalpatingSkill(const std::filesystem::path& file);
 
@@ -39,6 +41,7 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& file);
 struct VisiblePhantom {
   Pose X_AP = Pose::Identity();
   double half_x = 0, half_y = 0;        ///< m
+  std::function<double(const Vec3& p_P)> from_normal;   ///< m, to where something firm belongs in such a body: what books teach, not what this case holds; empty: nowhere
 };
 
 /// A simulated person who searches a soft thing for lumps, in vertical strips: presses, judges how far it gave way at each pressure against what the nearest ordinary places gave, looks closer where it
@@ -66,6 +69,7 @@ class PalpatingHand final : public Hand {
   void dismiss(double now_s);
   void pressAfresh(const Vec3& p_P, int times, Look look);
   bool known(const Vec3& p_P) const;
+  bool normal(const Vec3& p_P) const;
   Word grade(const Vec3& p_P, double firmest);
 
   PalpatingSkill skill_;

@@ -23,6 +23,16 @@ TEST(PalpationScore, MarksFindWhatIsNear) {
   EXPECT_EQ(score.sensitivity(), 0.5);
 }
 
+TEST(PalpationScore, NormalAnatomyThatIsMarkedIsAFalseAlarmOfItsOwn) {
+  PalpationRules rules;
+  rules.normal = {{"a rib", {Vec3(-0.02, 0.01, 0), Vec3(0.02, 0.01, 0)}, 0.01}};
+  const PalpationScore score = scorePalpation(rules, {lumpAt(0.01, -0.02)}, {}, {markAt(0.005, 0.0199), markAt(0.005, 0.0215), markAt(0.01, -0.02)});
+  EXPECT_EQ(score.found, 1);
+  EXPECT_EQ(score.false_alarms, 2);
+  EXPECT_EQ(score.of_normal, 1);
+  EXPECT_NEAR(fromLine(rules.normal[0], Vec3(0.023, 0.014, 0)), 0.005, 1e-12);
+}
+
 /// Two marks between two lumps: each lump gets the mark that leaves the other its own.
 TEST(PalpationScore, EveryLumpGetsOneMarkAndAMarkOneLump) {
   const PalpationScore both = scorePalpation({}, {lumpAt(0, 0), lumpAt(0.012, 0)}, {}, {markAt(0.001, 0), markAt(0.010, 0)});

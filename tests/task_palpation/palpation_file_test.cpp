@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <fstream>
 
 #include "anatomy/geometry/error.h"
@@ -47,7 +48,7 @@ class Copy {
 bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 TEST(PalpationFile, TheShippedOnesAreTaken) {
-  for (const char* name : {"palpation_breast.json", "palpation_prostate.json"}) {
+  for (const char* name : {"palpation_breast.json", "palpation_abdomen.json", "palpation_prostate.json"}) {
     const PalpationSettings settings = readPalpation(kAssets / "tasks" / name);
     EXPECT_FALSE(settings.title.empty());
     EXPECT_EQ(settings.library.kinds.size(), 8u);
@@ -55,6 +56,36 @@ TEST(PalpationFile, TheShippedOnesAreTaken) {
     EXPECT_FALSE(settings.taxonomy.haptic.empty());
   }
   EXPECT_EQ(Copy().refusal(), "");
+}
+
+TEST(PalpationFile, NormalAnatomyIsInEveryCaseAndLumpsKeepAwayFromIt) {
+  const PalpationSettings abdomen = readPalpation(kAssets / "tasks/palpation_abdomen.json");
+  ASSERT_EQ(abdomen.scoring.rules.normal.size(), 1u);
+  EXPECT_EQ(abdomen.anatomy.size(), abdomen.scoring.rules.normal[0].line_P.size());
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    const Case in_case = drawCase(abdomen, seed);
+    for (const LumpInCase& lump : in_case) EXPECT_EQ(assess::anatomyAt(abdomen.scoring.rules.normal, lump.p_P, abdomen.scoring.rules.reach), nullptr) << seed;
+    const haptics::PlacedLumps lumps = placed(in_case, abdomen.anatomy);
+    EXPECT_EQ(std::count_if(lumps.begin(), lumps.end(), [](const haptics::PlacedLump& lump) { return lump.kind != 0; }), static_cast<std::ptrdiff_t>(in_case.size() + abdomen.anatomy.size()));
+  }
+}
+
+TEST(PalpationFile, AnatomyThatCannotBeMeantIsRefused) {
+  const nlohmann::json good = {{{"name", "a rib"}, {"kind", "middle"}, {"width_mm", 10}, {"line_mm", {{-10, 0}, {10, 0}}}}};
+  const auto refusalWith = [&](const char* field, const nlohmann::json& value) {
+    Copy copy;
+    copy.task["cases"]["apart_mm"] = 12;
+    copy.task["anatomy"] = good;
+    copy.task["anatomy"][0][field] = value;
+    return copy.refusal();
+  };
+  EXPECT_EQ(refusalWith("name", "a rib"), "");
+  EXPECT_TRUE(has(refusalWith("name", 3), "anatomy"));
+  EXPECT_TRUE(has(refusalWith("kind", "bone"), "which the library of lumps does not hold"));
+  EXPECT_TRUE(has(refusalWith("width_mm", -1), "anatomy"));
+  EXPECT_TRUE(has(refusalWith("line_mm", {{0, 0, 0}}), "a point [across, away]"));
+  EXPECT_TRUE(has(refusalWith("line_mm", {{48, 0}}), "would stick out of the phantom"));
+  EXPECT_TRUE(has(refusalWith("line_mm", {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}), "points of"));
 }
 
 TEST(PalpationFile, EveryShippedLumpIsWorthFinding) {
@@ -175,7 +206,7 @@ TEST(PalpationCase, LumpsThatHardlyFitAreRefusedBeforeAnythingStarts) {
 }
 
 TEST(PalpationCase, IsPlacedForTheLoop) {
-  const haptics::PlacedLumps lumps = placed({{2, {0.01, 0.02, -0.018}}});
+  const haptics::PlacedLumps lumps = placed({{2, {0.01, 0.02, -0.018}}}, {});
   EXPECT_EQ(lumps[0].kind, 3u);
   EXPECT_EQ(lumps[0].p_T0, (Packed3{0.01, 0.02, -0.018}));
   EXPECT_EQ(lumps[1].kind, 0u);

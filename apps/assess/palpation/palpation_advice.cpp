@@ -63,14 +63,24 @@ void adviseMissed(const AdviceSource& source, std::vector<std::string>* advice) 
   }
 }
 
+/// By name, each once.
+void adviseNormal(const std::vector<std::string>& taken, std::vector<std::string>* advice) {
+  if (!taken.empty()) advice->push_back("Marked as a lump, but normal here: " + joinedWords(taken) + ". What belongs there runs on to both sides; a lump ends all around.");
+}
+
+void addOnce(std::vector<std::string>* words, const std::string& word) {
+  if (std::find(words->begin(), words->end(), word) == words->end()) words->push_back(word);
+}
+
 void adviseFalseAlarms(const AdviceSource& source, std::vector<std::string>* advice) {
-  std::vector<std::string> places;
+  std::vector<std::string> places, normal;
   for (std::size_t i = 0; i < source.of.marks.size(); ++i) {
     if (meaningOf(i, source.rules, source.of.score, source.of.lumps, source.of.marks) != MarkMeaning::false_alarm) continue;
-    const std::string place = placeWords(source.rules.area, source.of.marks[i].p_P);
-    if (std::find(places.begin(), places.end(), place) == places.end()) places.push_back(place);
+    const NormalAnatomy* on = anatomyAt(source.rules.normal, source.of.marks[i].p_P, source.rules.reach);
+    addOnce(on ? &normal : &places, on ? on->name : placeWords(source.rules.area, source.of.marks[i].p_P));
   }
-  const int count = source.of.score.false_alarms;
+  adviseNormal(normal, advice);
+  const int count = source.of.score.false_alarms - source.of.score.of_normal;
   if (count == 0) return;
   const std::string marks = count == 1 ? "One mark was no lump (" : std::to_string(count) + " marks were no lumps (";
   advice->push_back(marks + joinedWords(places) + "). Before you mark, press from several sides: a lump has an edge all around.");

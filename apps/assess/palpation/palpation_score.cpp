@@ -38,6 +38,7 @@ void giveMarks(const PalpationRules& rules, const std::vector<CaseLump>& lumps, 
   for (std::size_t m = 0; m < marks.size(); ++m) {
     (*false_alarm)[m] = !near[m];
     score->false_alarms += !near[m];
+    score->of_normal += !near[m] && anatomyAt(rules.normal, marks[m].p_P, rules.reach) != nullptr;
     score->repeated += near[m] && !used[m];
   }
 }

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/assess/palpation/coverage_map.h"
+#include "apps/assess/palpation/normal_anatomy.h"
 #include "apps/assess/palpation/search_pattern.h"
 
 namespace palpa::assess {
@@ -12,6 +13,7 @@ struct PalpationRules {
   double touch = 0.1;                     ///< N
   double too_hard = 2.5;                  ///< N
   double found_within = 15e-3;            ///< m, of a lump's middle
+  std::vector<NormalAnatomy> normal;      ///< what is felt besides lumps
 };
 
 /// What became of one lump of the case.
@@ -36,6 +38,7 @@ struct PalpationScore {
   double seconds = 0;
   int presses = 0;
   double closer_force = 0;       ///< mean peak of palpating presses over that of searching ones; 0: one of them is missing
+  int of_normal = 0;             ///< false alarms that lie on normal anatomy
 
   double sensitivity() const { return found + missed > 0 ? static_cast<double>(found) / (found + missed) : 1; }
   double specificity() const { return clear_quadrants > 0 ? 1 - static_cast<double>(wrong_quadrants) / clear_quadrants : 1; }
