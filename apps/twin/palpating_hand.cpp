@@ -16,6 +16,7 @@ constexpr double kTouch_N = 0.06, kDeepest = 0.009;   // N above the air's, m be
 constexpr double kLift = 0.05;          // m/s
 constexpr double kCross = 0.0035;       // m, of a closer look: its presses lie within 5 mm of each other; the search itself has felt the flanks
 constexpr double kKnown = 0.020;        // m: nobody looks twice at the same lump or its flank
+constexpr double kAround = 0.016;       // m: as far as a lump is felt
 constexpr double kSame = 0.008;         // m, of a place that was dismissed
 constexpr double kMarkFor_s = 0.3;
 constexpr double kHome = 0.04;          // m above the top
@@ -54,6 +55,7 @@ void PalpatingHand::beginTrial(int trial, double now_s) {
   memory_.forget();
   closer_.clear();
   closer_places_.clear();
+  waiting_.clear();
   suspect_P_.reset();
   marked_P_.clear();
   dismissed_P_.clear();
@@ -106,15 +108,34 @@ void PalpatingHand::judge(double now_s) {
   } else {
     felt.firm = memory_.firmness(felt) > skill_.looks_closer || normal(felt.p_P);   // what is firm is no measure of the rest
     memory_.add(felt);
-    if (felt.firm && !known(felt.p_P)) {
-      suspect_P_ = felt.p_P;
-      rounds_left_ = skill_.rounds;
-      closer_.assign(1, felt);
-      look_ = Look::climb;
-      if (skill_.again > 0) pressAfresh(felt.p_P, skill_.again, Look::again);
-    }
+    if (felt.firm && !known(felt.p_P)) waiting_.push_back(felt);
   }
   next(now_s);
+}
+
+/// Where the hill about a place has its top, by what the search has told; a hand that looked closer on the flank would mark the flank.
+Vec3 PalpatingHand::thoughtOver(Vec3 p_P) const {
+  constexpr int kTimes = 3;   // of a centimetre at most
+  for (int i = 0; i < kTimes && skill_.feels_around; ++i) p_P = inArea(memory_.hillTop({}, p_P));
+  return p_P;
+}
+
+/// At the first that waits and whose surroundings were felt as far as they will be.
+bool PalpatingHand::lookCloser() {
+  while (!waiting_.empty()) {
+    const FeltPress felt = waiting_.front();
+    if (skill_.feels_around && !places_.empty() && places_.back().x() < felt.p_P.x() + kAround) return false;
+    waiting_.erase(waiting_.begin());
+    const Vec3 top = thoughtOver(felt.p_P);
+    if (known(felt.p_P) || known(top)) continue;
+    suspect_P_ = top;
+    rounds_left_ = skill_.rounds;
+    closer_.assign(1, felt);
+    look_ = Look::climb;
+    if (skill_.again > 0) pressAfresh(top, skill_.again, Look::again);
+    return true;
+  }
+  return false;
 }
 
 void PalpatingHand::planCross(const Vec3& p_P) {
@@ -180,7 +201,7 @@ Hand::Word PalpatingHand::grade(const Vec3& p_P, double firmest) {
 }
 
 void PalpatingHand::next(double now_s) {
-  if (suspect_P_ && closer_places_.empty()) return decide(now_s);
+  if ((suspect_P_ || lookCloser()) && closer_places_.empty()) return decide(now_s);
   if (std::vector<Vec3>& places = suspect_P_ ? closer_places_ : places_; !places.empty()) {
     const Vec3 place = places.back();
     places.pop_back();

@@ -33,6 +33,7 @@ struct PalpatingSkill {
   double closer_force = 1;              ///< how much harder a closer look presses
   double size_sd = 0;                   ///< share
   double hard_from = 0;                 ///< ln, as `marks_from`: from here on a lump is called hard
+  bool feels_around = false;            ///< what seemed firm waits until all about it has been felt; else a closer look begins at once
   bool knows_anatomy = false;           ///< what belongs there is not taken for a lump
 };
 PalpatingSkill readPalpatingSkill(const std::filesystem::path& file);
@@ -63,6 +64,8 @@ class PalpatingHand final : public Hand {
   void pressing(double now_s);
   void judge(double now_s);
   void next(double now_s);
+  bool lookCloser();
+  Vec3 thoughtOver(Vec3 p_P) const;
   void planCross(const Vec3& p_P);
   Vec3 inArea(const Vec3& p_P) const;
   void decide(double now_s);
@@ -94,6 +97,7 @@ class PalpatingHand final : public Hand {
   std::vector<Vec3> places_, closer_places_;   ///< still to be pressed, the next one last: in the search, in the closer look that is on
   TouchMemory memory_;
   std::vector<FeltPress> closer_, fresh_;
+  std::vector<FeltPress> waiting_;       ///< seemed firm; still to be looked at
   std::optional<Vec3> suspect_P_;        ///< a closer look is on
   int rounds_left_ = 0;
   Look look_ = Look::climb;

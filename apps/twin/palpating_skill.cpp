@@ -36,6 +36,7 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   s.closer_force = file.number("closer_force", 1, 2);
   s.size_sd = file.number("size_sd", 0, 1);
   s.hard_from = file.number("hard_from", 0, 2);
+  s.feels_around = file.integer("feels_around", 0, 1) == 1;
   s.knows_anatomy = file.integer("knows_anatomy", 0, 1) == 1;
   return s;
 }
