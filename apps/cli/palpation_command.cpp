@@ -21,7 +21,9 @@ constexpr const char* kPalpationExamples = R"(Examples:
       a smaller phantom, five cases
   palpa palpation --station my_station.json --guidance on --trials 6
       you, on a station with a haptic device and a force sensor; help that fades, every other case without
-Button 1 of the device: here is a lump. Then grade it: 1 soft, 2 hard, 3 fixed, 4 mobile, 5-8: 10, 15, 20,
+  palpa palpation
+      you, with a display and a mouse, on the virtual bench: nothing is felt, but what a sensor feels is drawn
+Button 1 of the device: here is a lump. With a mouse: move it over the phantom, hold the left button to press, M: here is a lump. Then grade it: 1 soft, 2 hard, 3 fixed, 4 mobile, 5-8: 10, 15, 20,
 25 mm. Keys: Enter start or go on, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
 
 const std::map<std::string, std::string> kPresets{{"abdomen", "tasks/palpation_abdomen.json"}, {"breast", "tasks/palpation_breast.json"}, {"prostate", "tasks/palpation_prostate.json"}};

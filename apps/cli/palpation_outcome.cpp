@@ -39,8 +39,10 @@ void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& 
   page.simulated = world.simulated(options);
   page.force_note = world.forceNote();
   page.trials = pagesOf(world, run);
+  page.standard = world.task.scoring.standard;
   page.taxonomy = taxonomyFacts(world.task.taxonomy);
   page.station = stationFactsOf(options, world.station);
+  page.station.push_back(surfaceFact(world.task.library));
   for (report::Fact& fact : lumpFacts(world.task.library)) page.station.push_back(std::move(fact));
   page.notes = runNotes(run);
   report::writePalpationReport(page, folder / "report.html");

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/cli/output_folder.h"
+#include "apps/cli/pointing_hand.h"
 #include "apps/cli/session_info.h"
 #include "apps/station/assets.h"
 #include "apps/task_palpation/palpation_listener.h"
@@ -26,6 +27,16 @@ station::Station palpationStation(const SessionOptions& options) {
   return station;
 }
 
+/// What anybody sees or has learnt of the phantom.
+twin::VisiblePhantom visible(const task_palpation::PalpationSettings& task) {
+  const auto from_normal = [normal = task.scoring.rules.normal](const Vec3& p_P) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const assess::NormalAnatomy& one : normal) nearest = std::min(nearest, assess::fromLine(one, p_P));
+    return nearest;
+  };
+  return {anatomy::X_AP(), task.scoring.rules.area.half_x, task.scoring.rules.area.half_y, from_normal};
+}
+
 }  // namespace
 
 PalpationWorld::PalpationWorld(const SessionOptions& options)
@@ -33,9 +44,10 @@ PalpationWorld::PalpationWorld(const SessionOptions& options)
       task(task_palpation::readPalpation(options.task.empty() ? station::assetFile("tasks/palpation_breast.json") : std::filesystem::path(options.task))),
       phantom(anatomy::phantomBlock(task.size, task.title)),
       X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
+  task.library = station::onStation(std::move(task.library), station.calibrations);
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
     station.file.refuse("sample/tip_radius_mm", "is not that of the tip with which the task's lumps were identified");
-  if (!isSimulated(options.who) && (station.safety.deadman_button & task_palpation::PalpationListener::kMark))
+  if (!onBench() && (station.safety.deadman_button & task_palpation::PalpationListener::kMark))
     station.file.refuse("safety/deadman_button", "is the button that marks a lump; give another");
 }
 
@@ -50,22 +62,22 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
   config.touch = station::touchOf(task.library);
   config.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
   config.period_ns = std::llround(1e9 / options.rate_Hz);
-  if (isSimulated(options.who)) config.safety.deadman_button = 0;  // nobody could hold it
-  config.device_turns = isSimulated(options.who) || station.device.capabilities.has_orientation;
+  if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
+  config.device_turns = onBench() || station.device.capabilities.has_orientation;
   return config;
 }
 
 SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const {
   const twin::PalpatingSkill skill = twin::readPalpatingSkill(station::assetFile(options.who == OperatorKind::novice ? "operators/palpation_novice.json" : "operators/palpation_expert.json"));
-  const twin::VisiblePhantom seen{anatomy::X_AP(), task.scoring.rules.area.half_x, task.scoring.rules.area.half_y, [normal = task.scoring.rules.normal](const Vec3& p_P) {
-                                    double nearest = std::numeric_limits<double>::infinity();
-                                    for (const assess::NormalAnatomy& one : normal) nearest = std::min(nearest, assess::fromLine(one, p_P));
-                                    return nearest;
-                                  }};
+  const twin::VisiblePhantom seen = visible(task);
   const Pose& X_WP = station.sample->X_WP;
+  auto person = options.who == OperatorKind::person && onBench() ? std::make_unique<PointingHand>(PointingHand::Setup{station.X_WD.inverse() * X_WP, station.X_ET, anatomy::X_AP(), seen.half_x, seen.half_y, skill.grip}) : nullptr;
+  PointingHand* const pointing = person.get();
+  std::unique_ptr<twin::Hand> hand = std::move(person);
+  if (!hand) hand = std::make_unique<twin::PalpatingHand>(skill, seen, station.X_ET, options.seed);
   const Pose X_WT = X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(), Vec3(0, -task.scoring.rules.area.half_y, kPickedUp));
   twin::VirtualBench::Setup bench{station,
-                                  std::make_unique<twin::PalpatingHand>(skill, seen, station.X_ET, options.seed),
+                                  std::move(hand),
                                   station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
                                   X_WP.translation(),
                                   X_WP.linear() * Vec3::UnitZ(),
@@ -74,14 +86,14 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
                                   nullptr,
                                   {},
                                   {}};
-  if (isSimulated(options.who)) {
+  if (onBench()) {
     const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.seed);
     bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
       const twin::SampleTwin::Touch touch = sample->step(X_WT_true[0], dt);
       return std::array<twin::VirtualBench::Touch, 2>{{{touch.f_W, touch.p_W}, {}}};
     };
   }
-  return {std::move(bench), std::nullopt, task.library.tip_radius};
+  return {std::move(bench), std::nullopt, task.library.tip_radius, pointing};
 }
 
 record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {

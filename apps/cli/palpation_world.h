@@ -21,8 +21,9 @@ struct PalpationWorld {
   Pose X_WA = Pose::Identity();
 
   bool simulated(const SessionOptions& options) const { return isSimulated(options.who) || station.simulated || task.library.simulated; }
+  bool onBench() const { return station.device.driver == station::DeviceDriver::bench; }
   haptics::TickConfig tickConfig(const SessionOptions& options) const;
-  /// Who may hold the tool: a simulated person on the bench's silicone. A mouse could feel nothing.
+  /// Who may hold the tool: on the bench's silicone a simulated person, or one with a mouse, who sees what is felt there.
   SessionDevices::Hands hands(const SessionOptions& options) const;
   record::SessionInfo info(const SessionOptions& options) const;
   /// "Scaled force: ..." where the device cannot give what deep palpation takes on a patient; empty: it can.

@@ -34,7 +34,7 @@ trial::UserRequest requestOf(const twin::Hand::Word& word) {
 }  // namespace
 
 SessionDevices::SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands, runtime::Bus& bus, trial::Channels& channels, const runtime::Clock& clock, runtime::TimeMode mode)
-    : station_(station), bench_moves_(isSimulated(options.who)), channel_(station.device.capabilities, mode) {
+    : station_(station), bench_moves_(isSimulated(options.who) || hands.pointing), pointing_(hands.pointing), channel_(station.device.capabilities, mode) {
   if (bench_moves_) bench_sensor_ = benchSensor(station, mode);
   if (hands.bench.second) {
     second_ = std::make_unique<Second>(station.device.capabilities, mode);

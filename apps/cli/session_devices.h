@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/cli/mouse_hand.h"
+#include "apps/cli/pointing_hand.h"
 #include "apps/cli/session_options.h"
 #include "apps/runtime/button_plunger.h"
 #include "apps/runtime/corrected_device.h"
@@ -28,6 +29,7 @@ class SessionDevices {
     twin::VirtualBench::Setup bench;             ///< what is simulated; sensor and how one gives up are put in here
     std::optional<MouseHand::Setup> mouse;
     double tip_radius = 0;                       ///< m: the point whose place goes with the sensed force lies so far behind the tip
+    PointingHand* pointing = nullptr;            ///< it holds the bench's device, for a person
   };
   SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands, runtime::Bus& bus, trial::Channels& channels, const runtime::Clock& clock, runtime::TimeMode mode);
   ~SessionDevices();
@@ -44,6 +46,7 @@ class SessionDevices {
   runtime::ForceSensing* sensing() { return sensing_ ? &*sensing_ : nullptr; }
   twin::VirtualBench* bench() { return bench_.get(); }  ///< for its camera; null where recorded pictures stand for it
   MouseHand* mouse() { return mouse_.get(); }           ///< null: nobody leads with the mouse
+  PointingHand* pointing() { return pointing_; }        ///< null: nobody points at the bench
 
   void addTo(runtime::Executive& executive);            ///< what has to run beside the loop
 
@@ -60,6 +63,7 @@ class SessionDevices {
 
   const station::Station& station_;
   const bool bench_moves_;                              // the bench's device is the one that is held
+  PointingHand* const pointing_;                        // the bench's
   runtime::ChannelDevice channel_;
   std::unique_ptr<runtime::ChannelSensor> bench_sensor_;
   std::unique_ptr<Second> second_;

@@ -50,7 +50,10 @@ std::vector<report::Fact> stationFactsOf(const SessionOptions& options, const st
           {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
 }
 
+report::Fact surfaceFact(const station::LumpLibrary& library) { return {"Softness and friction of the sample", library.of_surface, ""}; }
+
 std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy) {
+  if (taxonomy.visual.empty()) return {};
   return {{"What is seen", taxonomy.visual, ""}, {"What is felt", taxonomy.haptic, ""}, {"What it is for", taxonomy.purpose, ""}, {"What is changed", taxonomy.property, ""}};
 }
 

@@ -5,6 +5,7 @@
 
 #include "apps/cli/session_frame.h"
 #include "apps/report/session_report.h"
+#include "apps/station/lump_library.h"
 #include "apps/station/taxonomy.h"
 
 /// What a report says of any session besides its trials.
@@ -18,6 +19,8 @@ std::string whoPerformed(const SessionOptions& options);
 std::vector<report::Fact> stationFactsOf(const SessionOptions& options, const station::Station& station);
 /// Where the task stands, as its file says.
 std::vector<report::Fact> taxonomyFacts(const station::Taxonomy& taxonomy);
+/// By what the surface that is touched is known.
+report::Fact surfaceFact(const station::LumpLibrary& library);
 /// Lateness, trips with their causes, what drivers and camera had to say, records lost.
 std::vector<report::Fact> runNotes(const SessionRun& run);
 

@@ -46,7 +46,11 @@ trial::TrialScene::Stage SessionFrame::stage(runtime::HeadDisplay* head) {
   stage.folder = folder_;
   stage.every_source_picture = pictures_.photographs();
   stage.places = places();
-  if (window_) stage.input = [this](const scene::ViewInput& input, std::int64_t) { handleKeys(input, channels_); };
+  if (!window_) return stage;
+  stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
+    handleKeys(input, channels_);
+    if (PointingHand* hand = devices_.pointing()) hand->handle(input, stage_.view->arGeometry(), now_ns);
+  };
   return stage;
 }
 

@@ -114,6 +114,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world, const
   page.trainee = whoPerformed(options);
   page.simulated = isSimulated(options, world);
   page.trials = pages(result);
+  page.taxonomy = taxonomyFacts(world.task.taxonomy);
   page.station = stationFacts(options, world);
   page.registration = registrationFacts(result, world);
   page.notes = runNotes(result);

@@ -21,6 +21,7 @@ void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& worl
   for (const trial::SavedPicture& p : run.pictures) page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
   page.taxonomy = taxonomyFacts(world.task.taxonomy);
   page.station = stationFactsOf(options, world.station);
+  page.station.push_back(surfaceFact(world.task.library));
   page.notes = runNotes(run);
   report::writeSqueezeReport(page, folder / "report.html");
 

@@ -51,6 +51,7 @@ SqueezeWorld::SqueezeWorld(const SessionOptions& options)
       object(anatomy::phantomBlock(sizeOf(task), task.title)),
       X_WO(station.sample->X_WP * makePose(Mat3::Identity(), Vec3(0, 0, -task.half))),
       X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
+  task.library = station::onStation(std::move(task.library), station.calibrations);
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
     station.file.refuse("sample/tip_radius_mm", "is not that of the tip with which the object's sides were identified");
 }

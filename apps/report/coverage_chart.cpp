@@ -59,13 +59,16 @@ std::string linePath(const MapFrame& at, const assess::NormalAnatomy& normal) {
   return path;
 }
 
-/// A broad band with its middle line, and its name where it begins.
+/// A broad band with its middle line, no farther than the map, and its name where it begins.
 void drawNormal(Html& svg, const MapFrame& at, const assess::PalpationRules& rules) {
   for (const assess::NormalAnatomy& normal : rules.normal) {
     if (normal.line_P.empty()) continue;
-    const std::string path = linePath(at, normal);
-    svg.empty("path", {{"class", "normal"}, {"d", path}, {"stroke-width", coordinate(at.scale * normal.width)}});
-    svgPath(svg, "normal-line", path);
+    const std::string path = linePath(at, normal), x = coordinate(at.left), y = coordinate(at.top), width = coordinate(at.width), height = coordinate(at.height);
+    {
+      const auto map = svg.in("svg", {{"x", x}, {"y", y}, {"width", width}, {"height", height}, {"viewBox", x + ' ' + y + ' ' + width + ' ' + height}});
+      svg.empty("path", {{"class", "normal"}, {"d", path}, {"stroke-width", coordinate(at.scale * normal.width)}});
+      svgPath(svg, "normal-line", path);
+    }
     svgText(svg, "words", at.x(normal.line_P.front()) - 6, at.y(normal.line_P.front()) - 8, normal.name);
   }
 }

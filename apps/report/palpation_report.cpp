@@ -59,7 +59,7 @@ std::string palpationHtml(const PalpationReport& report) {
     writePalpationHeader(html, report);
     {
       const auto main = html.in("main");
-      writePalpationTotals(html, report.trials);
+      writePalpationTotals(html, report.trials, report.standard);
       for (const PalpationPage& page : report.trials) writePalpationSection(html, page);
       writeFacts(html, "Where this task stands", report.taxonomy);
       writeFacts(html, "Station", report.station);

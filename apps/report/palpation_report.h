@@ -25,6 +25,7 @@ struct PalpationReport {
   std::vector<PalpationPage> trials;
   std::vector<Fact> taxonomy;   ///< "Where this task stands"
   std::vector<Fact> station, notes;
+  assess::PalpationStandard standard;
 };
 
 /// One self-contained HTML page: over all trials, then each trial, then what it was done with. All or nothing on disk.

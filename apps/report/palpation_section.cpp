@@ -1,5 +1,6 @@
 #include "apps/report/palpation_section.h"
 
+#include "apps/assess/palpation/palpation_judgement.h"
 #include "apps/report/coverage_chart.h"
 #include "apps/report/numbers.h"
 #include "apps/report/palpation_tables.h"
@@ -64,23 +65,20 @@ void writeAdvice(Html& html, const assess::PalpationAssessment& trial) {
   for (const std::string& sentence : trial.advice) html.element("li", sentence);
 }
 
-/// Guided ones and those with the lumps shown do not.
-bool counts(const assess::PalpationFacts& facts) { return facts.role.empty() || facts.role == "scored"; }
-
 }  // namespace
 
 std::string palpationVerdict(const assess::PalpationAssessment& trial) {
   const std::string& outcome = trial.facts.outcome;
   if (outcome == "void") return "Not judged: void";
   if (outcome.empty()) return "Not judged: not finished";
-  if (!counts(trial.facts)) return "Not counted: " + trial.facts.role;
-  if (trial.passed) return "Passed";
-  if (outcome == "aborted") return "Not passed: stopped early";
-  return outcome == "time" ? "Not passed: time limit reached" : "Not passed";
+  if (!assess::counts(trial)) return "Not counted: " + trial.facts.role;
+  if (trial.passed) return "At the standard";
+  if (outcome == "aborted") return "Below the standard: stopped early";
+  return outcome == "time" ? "Below the standard: time limit reached" : "Below the standard";
 }
 
 Tone toneOfPalpation(const assess::PalpationAssessment& trial) {
-  if (trial.facts.outcome == "void" || trial.facts.outcome.empty() || !counts(trial.facts)) return Tone::neutral;
+  if (!assess::counts(trial)) return Tone::neutral;
   return trial.passed ? Tone::good : Tone::bad;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <utility>
 
+#include "apps/assess/palpation/palpation_judgement.h"
 #include "apps/report/numbers.h"
 #include "apps/report/page_parts.h"
 #include "apps/report/wilson.h"
@@ -18,8 +19,7 @@ PalpationSums sumsOf(const std::vector<PalpationPage>& trials) {
   PalpationSums sums;
   for (const PalpationPage& page : trials) {
     const assess::PalpationAssessment& trial = page.assessment;
-    const bool scored = trial.facts.role.empty() || trial.facts.role == "scored";
-    if (!scored || trial.facts.outcome == "void" || trial.facts.outcome.empty()) {
+    if (!assess::counts(trial)) {
       ++sums.left_out;
       continue;
     }
@@ -51,9 +51,21 @@ std::string totalsSentence(const PalpationSums& sums) {
   return found + alarms + ".";
 }
 
+Fact judgementFact(const std::vector<PalpationPage>& pages, const assess::PalpationStandard& standard) {
+  std::vector<assess::PalpationAssessment> trials;
+  for (const PalpationPage& page : pages) trials.push_back(page.assessment);
+  const assess::PalpationJudgement judgement = assess::judgementOf(trials, standard);
+  using Verdict = assess::PalpationJudgement::Verdict;
+  if (judgement.verdict == Verdict::too_few_cases)
+    return {"Passed?", "not judged", "that takes " + std::to_string(assess::kEnoughCases) + " cases or more, with lumps among them; here " + std::to_string(judgement.cases) + ": so few tell little of a person"};
+  const auto percent = [](double value) { return fixed(100 * value, 0) + " %"; };
+  return {"Passed?", judgement.verdict == Verdict::passed ? "yes" : "no",
+          percent(standard.sensitivity) + " of the lumps and " + percent(standard.coverage) + " of the area are asked for; felt on average: " + percent(std::floor(100 * judgement.coverage) / 100)};
+}
+
 }  // namespace
 
-void writePalpationTotals(Html& html, const std::vector<PalpationPage>& trials) {
+void writePalpationTotals(Html& html, const std::vector<PalpationPage>& trials, const assess::PalpationStandard& standard) {
   const PalpationSums sums = sumsOf(trials);
   const auto section = html.in("section", {{"class", "card"}, {"id", "totals"}});
   html.element("h2", "All trials");
@@ -66,7 +78,8 @@ void writePalpationTotals(Html& html, const std::vector<PalpationPage>& trials) 
                         shareFact("Sensitivity", sums.found, sums.lumps, "of the lumps, those found"),
                         shareFact("Specificity", sums.clear - sums.wrong, sums.clear, "of the quarters without a lump, those left clear"),
                         {"False alarms", std::to_string(sums.false_alarms), "marks where no lump is"},
-                        {"Passed", std::to_string(sums.passed) + " of " + numberOf(sums.trials, "trial", "trials"), ""}});
+                        {"At the standard", std::to_string(sums.passed) + " of " + numberOf(sums.trials, "trial", "trials"), ""},
+                        judgementFact(trials, standard)});
   std::string note = "The intervals take all lumps, and all quarters, as independent of each other: read them as a lower bound of the doubt.";
   if (sums.left_out > 0) note = numberOf(sums.left_out, "trial is", "trials are") + " not counted here: void, not finished, or not scored. " + note;
   html.element("p", {{"class", "muted small"}}, note);

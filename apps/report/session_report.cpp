@@ -61,6 +61,7 @@ std::string page(const SessionReport& report) {
       const auto main = html.in("main");
       for (const TrialPage& trial : report.trials) writeTrialSection(html, trial);
       writeOverview(html, report.trials);
+      writeFacts(html, "Where this task stands", report.taxonomy);
       writeFacts(html, "Registration", report.registration);
       writeFacts(html, "Station", report.station);
       writeFacts(html, "Notes", report.notes);

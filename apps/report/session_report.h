@@ -37,6 +37,7 @@ struct SessionReport {
   std::vector<Fact>
       registration;         ///< registration error and its source, simulated truth named as such
   std::vector<Fact> notes;  ///< lateness, lost tracking, safety trips
+  std::vector<Fact> taxonomy;   ///< "Where this task stands"
 };
 
 /// Writes one self-contained HTML page (no network, no script needed to read it). Beside, then

@@ -34,6 +34,17 @@ haptics::HuntCrossley lawAt(const CalibrationFile& file, const std::string& name
   return law;
 }
 
+void setSoftness(LumpLibrary& library, const CalibrationFile& file, const std::string& path) {
+  library.surface = lawAt(file, "", kSurfacePower, path);
+  library.x0 = file.at("x0_m", 1)[0];
+}
+
+void setFriction(LumpLibrary& library, const CalibrationFile& file, const std::string& path) {
+  library.friction = {file.at("mu", 1)[0], file.at("sigma_N_per_m", 1)[0], file.at("B_Ns_per_m", 1)[0]};
+  const haptics::Dahl& law = library.friction;
+  if (!(law.mu >= 0 && law.sigma > 0 && law.B >= 0)) throw Error("has mu or B below zero, or no sigma", path, "Nothing rubs like that: identify it again");
+}
+
 /// A word for one of two grades, from 1.
 int gradeAt(const JsonFile& kind, const std::string& field, const std::string& one, const std::string& two) {
   const std::string word = kind.text(field);
@@ -67,13 +78,24 @@ LumpLibrary readLumps(const std::filesystem::path& path) {
   const std::filesystem::path folder = path.parent_path();
   LumpLibrary library;
   const CalibrationFile surface = calibrationAt(file, "surface", "material", folder), friction = calibrationAt(file, "friction", "friction", folder);
-  library.surface = lawAt(surface, "", kSurfacePower, (folder / file.text("surface")).string());
-  library.x0 = surface.at("x0_m", 1)[0];
-  library.friction = {friction.at("mu", 1)[0], friction.at("sigma_N_per_m", 1)[0], friction.at("B_Ns_per_m", 1)[0]};
+  setSoftness(library, surface, (folder / file.text("surface")).string());
+  setFriction(library, friction, (folder / file.text("friction")).string());
+  library.of_surface = "the library of lumps";
   library.tip_radius = 1e-3 * file.number("tip_radius_mm", 1, 30);
   library.simulated = surface.simulated || friction.simulated;
   for (const JsonFile& entry : file.entries("kinds")) library.kinds.push_back(kindAt(entry, folder, &library.simulated));
   if (library.kinds.empty() || library.kinds.size() > haptics::kMostLumpKinds) file.refuse("kinds", "must hold 1 to " + std::to_string(haptics::kMostLumpKinds) + " lumps");
+  return library;
+}
+
+LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>& calibrations) {
+  const AppliedCalibration *material = calibrationOf(calibrations, "material"), *friction = calibrationOf(calibrations, "friction");
+  if (material) setSoftness(library, material->file, material->path.string());
+  if (friction) setFriction(library, friction->file, friction->path.string());
+  const auto own = [](const AppliedCalibration* c) { return "this station's calibration of " + c->file.date.substr(0, 10); };
+  if (material && friction) library.of_surface = own(material);
+  else if (material) library.of_surface = own(material) + ", its friction by the library of lumps";
+  else if (friction) library.of_surface = "the library of lumps, its friction by " + own(friction);
   return library;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/station/calibrations.h"
 #include "apps/station/json_file.h"
 #include "haptics/touch_augmentation.h"
 
@@ -25,12 +26,17 @@ struct LumpLibrary {
   haptics::Dahl friction;
   double tip_radius = 0;               ///< m
   bool simulated = false;              ///< identified on the virtual bench
+  std::string of_surface;              ///< by what the surface is known: "the library of lumps", "this station's calibration of 2026-11-02"
   std::vector<LumpKind> kinds;
 };
 
 /// Throws UsageError or Error naming file and field: no kinds or more than eight, a law with k < 0, b < 0 or m outside 1 to 2 (0.5 to 3 for a lump's bed), a calibration that failed, one of
 /// another kind.
 LumpLibrary readLumps(const std::filesystem::path& file);
+
+/// The same with the surface as this station's own "material" and "friction" calibrations found it, where it has them: the sample that lies there is touched, not the library's. Throws as `readLumps`
+/// for a law that cannot be; whether a calibration passed, the station's verdict says.
+LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>& calibrations);
 
 /// What the loop has to know of the library.
 haptics::TouchAugmentation touchOf(const LumpLibrary& library);

@@ -5,6 +5,7 @@
 
 #include "apps/assess/assess_trial.h"
 #include "apps/station/json_file.h"
+#include "apps/station/taxonomy.h"
 
 namespace palpa::task_needle {
 
@@ -16,6 +17,7 @@ struct TaskSettings {
   std::filesystem::path expert_path;   ///< where the optimal path is
   std::filesystem::path materials;
   std::string source;                  ///< the file's text, for the evidence
+  station::Taxonomy taxonomy;
 };
 
 /// Throws UsageError naming file and field.

@@ -17,6 +17,7 @@ constexpr double kLift = 0.05;          // m/s
 constexpr double kCross = 0.0035;       // m, of a closer look: its presses lie within 5 mm of each other; the search itself has felt the flanks
 constexpr double kKnown = 0.020;        // m: nobody looks twice at the same lump or its flank
 constexpr double kAround = 0.016;       // m: as far as a lump is felt
+constexpr double kBelongs = 0.017;      // m from the middle of what belongs there: farther off a lump would be felt as one
 constexpr double kSame = 0.008;         // m, of a place that was dismissed
 constexpr double kMarkFor_s = 0.3;
 constexpr double kHome = 0.04;          // m above the top
@@ -91,24 +92,28 @@ void PalpatingHand::pressing(double now_s) {
   step_ = Step::overshoot;   // it goes on for as long as it takes to react
 }
 
-bool PalpatingHand::normal(const Vec3& p_P) const { return skill_.knows_anatomy && phantom_.from_normal && phantom_.from_normal(p_P) < kKnown; }
+/// As far as it matters: where nothing of it is felt any more, one place is like another.
+double PalpatingHand::fromNormal(const Vec3& p_P) const {
+  constexpr double kFelt = 0.026;   // m
+  return skill_.knows_anatomy && phantom_.from_normal ? std::min(kFelt, phantom_.from_normal(p_P)) : kFelt;
+}
 
 bool PalpatingHand::known(const Vec3& p_P) const {
-  if (normal(p_P)) return true;
+  if (fromNormal(p_P) < kBelongs) return true;
   const auto near = [&](const Vec3& other) { return across(other, p_P) < kKnown; };
   const auto same = [&](const Vec3& other) { return across(other, p_P) < kSame; };
   return std::any_of(marked_P_.begin(), marked_P_.end(), near) || std::any_of(dismissed_P_.begin(), dismissed_P_.end(), same);
 }
 
 void PalpatingHand::judge(double now_s) {
-  FeltPress felt{tip_now_P_, depths_, false};
+  FeltPress felt{tip_now_P_, depths_, false, fromNormal(tip_now_P_)};
   for (double& depth : felt.depths) depth *= std::exp(skill_.weber * judgement_.normal());
   if (suspect_P_) {
     (look_ == Look::climb ? closer_ : fresh_).push_back(felt);
   } else {
-    felt.firm = memory_.firmness(felt) > skill_.looks_closer || normal(felt.p_P);   // what is firm is no measure of the rest
+    felt.firm = memory_.firmness(felt) > skill_.looks_closer;   // what is firm is no measure of the rest
     memory_.add(felt);
-    if (felt.firm && !known(felt.p_P)) waiting_.push_back(felt);
+    waiting_.push_back(felt);
   }
   next(now_s);
 }
@@ -126,8 +131,9 @@ bool PalpatingHand::lookCloser() {
     const FeltPress felt = waiting_.front();
     if (skill_.feels_around && !places_.empty() && places_.back().x() < felt.p_P.x() + kAround) return false;
     waiting_.erase(waiting_.begin());
+    if (memory_.firmness(felt) <= skill_.looks_closer || known(felt.p_P)) continue;
     const Vec3 top = thoughtOver(felt.p_P);
-    if (known(felt.p_P) || known(top)) continue;
+    if (known(top)) continue;
     suspect_P_ = top;
     rounds_left_ = skill_.rounds;
     closer_.assign(1, felt);

@@ -72,7 +72,7 @@ class PalpatingHand final : public Hand {
   void dismiss(double now_s);
   void pressAfresh(const Vec3& p_P, int times, Look look);
   bool known(const Vec3& p_P) const;
-  bool normal(const Vec3& p_P) const;
+  double fromNormal(const Vec3& p_P) const;
   Word grade(const Vec3& p_P, double firmest);
 
   PalpatingSkill skill_;
@@ -97,7 +97,7 @@ class PalpatingHand final : public Hand {
   std::vector<Vec3> places_, closer_places_;   ///< still to be pressed, the next one last: in the search, in the closer look that is on
   TouchMemory memory_;
   std::vector<FeltPress> closer_, fresh_;
-  std::vector<FeltPress> waiting_;       ///< seemed firm; still to be looked at
+  std::vector<FeltPress> waiting_;       ///< of the search, still to be thought about
   std::optional<Vec3> suspect_P_;        ///< a closer look is on
   int rounds_left_ = 0;
   Look look_ = Look::climb;

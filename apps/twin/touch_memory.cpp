@@ -6,8 +6,8 @@
 namespace palpa::twin {
 namespace {
 
-constexpr std::size_t kCompared = 12, kFewest = 8;   // presses
-constexpr double kBeside = 0.004, kOneLump = 0.015;   // m
+constexpr std::size_t kCompared = 12, kFewest = 6;   // presses
+constexpr double kBeside = 0.004, kOneLump = 0.015, kAlike = 0.007;   // m
 
 double medianOf(std::vector<double> values) {
   std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
@@ -19,10 +19,12 @@ double medianOf(std::vector<double> values) {
 double across(const Vec3& a, const Vec3& b) { return (a - b).head<2>().norm(); }
 
 /// A hand compares side by side.
-std::vector<double> TouchMemory::ordinaryAbout(const Vec3& p_P, std::size_t pressure) const {
+std::vector<double> TouchMemory::ordinaryAbout(const FeltPress& press, std::size_t pressure) const {
   std::vector<std::pair<double, double>> near;
-  for (const FeltPress& press : presses_)
-    if (!press.firm && press.depths.size() > pressure && across(press.p_P, p_P) > kBeside) near.emplace_back(across(press.p_P, p_P), press.depths[pressure]);
+  for (const FeltPress& other : presses_) {
+    const bool comparable = !other.firm && other.depths.size() > pressure && std::abs(other.from_normal - press.from_normal) < kAlike;
+    if (const double apart = across(other.p_P, press.p_P); comparable && apart > kBeside) near.emplace_back(apart, other.depths[pressure]);
+  }
   std::sort(near.begin(), near.end());
   std::vector<double> depths;
   for (std::size_t i = 0; i < std::min(near.size(), kCompared); ++i) depths.push_back(near[i].second);
@@ -33,7 +35,7 @@ double TouchMemory::firmness(const FeltPress& press) const {
   double sum = 0;
   int count = 0;
   for (std::size_t l = first_told_; l < press.depths.size(); ++l) {
-    const std::vector<double> around = ordinaryAbout(press.p_P, l);
+    const std::vector<double> around = ordinaryAbout(press, l);
     if (around.size() < kFewest) continue;
     sum += std::log(medianOf(around) / std::max(press.depths[l], 1e-4));
     ++count;

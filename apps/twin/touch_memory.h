@@ -12,6 +12,7 @@ struct FeltPress {
   Vec3 p_P = Vec3::Zero();
   std::vector<double> depths;         ///< judged: how far it gave way to the first pressure, and from there to each of the others
   bool firm = false;                  ///< it seemed to be when it was pressed
+  double from_normal = 0;             ///< m to what belongs there and is felt, as far as one knows of it; the same everywhere: one knows of none
 };
 
 double across(const Vec3& a, const Vec3& b);   ///< m, along the top
@@ -26,7 +27,7 @@ class TouchMemory {
   void add(const FeltPress& press) { presses_.push_back(press); }
   const std::vector<FeltPress>& presses() const { return presses_; }
 
-  /// Against the nearest places that seemed ordinary, mean over the pressures; 0 while there are too few of them.
+  /// Against the nearest places that seemed ordinary and lie about as far from what belongs there, mean over the pressures; 0 while there are too few of them.
   double firmness(const FeltPress& press) const;
   double meanFirmness(const std::vector<FeltPress>& presses) const;
   /// Where the top of a firm hill lies that was felt about `centre`: the place, to a millimetre, from which a round hill as wide as a fingertip feels a lump explains best what `presses` and the
@@ -36,7 +37,7 @@ class TouchMemory {
   double spreadAbout(const Vec3& centre, const std::vector<FeltPress>& more) const;
 
  private:
-  std::vector<double> ordinaryAbout(const Vec3& p_P, std::size_t pressure) const;
+  std::vector<double> ordinaryAbout(const FeltPress& press, std::size_t pressure) const;
   std::size_t first_told_;
   std::vector<FeltPress> presses_;
 };

@@ -45,6 +45,24 @@ TEST(CalibrateFeel, OnTheVirtualBench) {
   }
 }
 
+/// What lies on the station was calibrated there: sessions go by that, not by the library of lumps.
+TEST(CalibrateFeel, SessionsGoByTheStationsOwnSample) {
+  const Folder here;
+  ASSERT_FALSE(found("material", {"--seed", "2"}, here).is_null());
+  ASSERT_FALSE(found("friction", {"--seed", "2", "--station", "material/station.json"}, here).is_null());
+  const auto report = [&here](const std::string& out, std::vector<std::string> more) {
+    std::vector<std::string> arguments{"squeeze", "--operator", "expert", "--fast", "--no-views", "--quiet", "--out", out};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = palpa(arguments, here.path());
+    EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+    return contentOf(here / (out + "/report.html"));
+  };
+  EXPECT_TRUE(says(report("shipped", {}), "the library of lumps"));
+  const std::string own = report("own", {"--station", "friction/station.json"});
+  EXPECT_TRUE(says(own, "calibration of 20"));
+  EXPECT_FALSE(says(own, "the library of lumps"));
+}
+
 TEST(CalibrateFeel, ALumpOnTheVirtualBench) {
   for (const char* mockup : {"middle", "hard", "large, deep"}) {
     const Folder here;

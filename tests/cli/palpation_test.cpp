@@ -23,8 +23,8 @@ std::vector<std::string> palpation(std::vector<std::string> more) {
   return all;
 }
 
-std::vector<Row> searched(const std::string& who, int trials, const Folder& here) {
-  const Outcome outcome = palpa(palpation({"--operator", who, "--seed", "1", "--trials", std::to_string(trials), "--out", who}), here.path());
+std::vector<Row> searched(const std::string& who, int trials, const Folder& here, const std::string& preset = "breast", const std::string& seed = "1") {
+  const Outcome outcome = palpa(palpation({"--preset", preset, "--operator", who, "--seed", seed, "--trials", std::to_string(trials), "--out", who}), here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   return outcome.exit_code == 0 ? rowsOf(contentOf(here / (who + "/trials.csv"))) : std::vector<Row>{};
 }
@@ -38,7 +38,7 @@ double wilsonLower(double hits, double of) {
 /// Experts find what is there and little else; novices do clearly worse. Few cases bound less, so they are bound less tightly.
 TEST(Palpation, ExpertsFindLumpsAndNovicesMissThem) {
   const Folder here;
-  const int trials = test::counted(4, 90);
+  const int trials = test::counted(4, 100);
   const std::vector<Row> expert = searched("expert", trials, here), novice = searched("novice", trials, here);
   ASSERT_EQ(expert.size(), static_cast<std::size_t>(trials));
   const double lumps = sum(expert, "LUMPS"), found = sum(expert, "FOUND"), clear = sum(expert, "CLEAR_QUADRANTS"), wrong = sum(expert, "WRONG_QUADRANTS");
@@ -60,6 +60,20 @@ TEST(Palpation, ExpertsFindLumpsAndNovicesMissThem) {
   }
   EXPECT_GT(2 * strips, trials) << "closer looks break the pattern now and then, not as a rule";
   EXPECT_GT(2 * done, trials) << "five minutes are enough";
+}
+
+/// Who knows the anatomy takes the liver's edge for what it is; who does not takes it for a lump.
+TEST(Palpation, TheLiversEdgeIsNoLump) {
+  const Folder here;
+  const int trials = test::counted(3, 24);
+  const std::vector<Row> expert = searched("expert", trials, here, "abdomen", "2001"), novice = searched("novice", trials, here, "abdomen", "2001");
+  ASSERT_EQ(expert.size(), static_cast<std::size_t>(trials));
+  ASSERT_EQ(novice.size(), static_cast<std::size_t>(trials));
+  EXPECT_LE(sum(expert, "FALSE_ALARMS"), 0.34 * trials);
+  EXPECT_GE(sum(novice, "FALSE_ALARMS"), 0.5 * trials);
+  EXPECT_GT(sum(expert, "FOUND"), sum(novice, "FOUND"));
+  EXPECT_GE(sum(expert, "FOUND"), 0.6 * sum(expert, "LUMPS"));
+  EXPECT_TRUE(says(contentOf(here / "novice/report.html"), "What belongs there runs on to both sides"));
 }
 
 TEST(Palpation, ReplayJudgesItAgain) {

@@ -2,6 +2,7 @@
 
 #include "apps/assess/palpation/mark_meaning.h"
 #include "apps/assess/palpation/palpation_assessment.h"
+#include "apps/assess/palpation/palpation_judgement.h"
 #include "apps/assess/palpation/place_words.h"
 #include "searches.h"
 
@@ -135,6 +136,28 @@ TEST(PlaceWords, FarIsAwayFromTheTrainee) {
   EXPECT_EQ(placeWords(area, Vec3(-0.02, -0.02, 0)), "near left");
   EXPECT_EQ(placeWords(area, Vec3(0.02, -0.02, 0)), "near right");
   EXPECT_EQ(placeWords(area, Vec3(0.008, -0.008, 0)), "in the middle");
+}
+
+TEST(Judgement, TakesEightCasesThatCount) {
+  using Verdict = PalpationJudgement::Verdict;
+  const PalpationAssessment found = assessed({aLump(0, 0)}, {aMark(0, 0)}), missed = assessed({aLump(0, 0)}, {}), empty = assessed({}, {});
+  PalpationAssessment guided = found, interrupted = found;
+  guided.facts.role = "not scored";
+  interrupted.facts.outcome = "void";
+  std::vector<PalpationAssessment> trials(7, found);
+  trials.push_back(guided);
+  trials.push_back(interrupted);
+  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::too_few_cases);
+  EXPECT_EQ(judgementOf(trials, {}).cases, 7);
+  trials.push_back(found);
+  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::passed);
+  trials.push_back(missed);
+  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::not_passed) << "8 of 9 are less than 90 %";
+  trials.push_back(found);
+  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::passed) << "9 of 10";
+  for (PalpationAssessment& trial : trials) trial.score.coverage[0] = 0.94;
+  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::not_passed);
+  EXPECT_EQ(judgementOf(std::vector<PalpationAssessment>(9, empty), {}).verdict, Verdict::too_few_cases) << "nothing could be missed";
 }
 
 }  // namespace

@@ -68,7 +68,8 @@ TEST(PalpationPage, TellsWhatWasFoundAndWhatWasNot) {
   EXPECT_TRUE(says(page, ">missed</td>"));
   EXPECT_TRUE(says(page, "1 mark is a false alarm."));
   EXPECT_TRUE(says(page, "1 mark repeats a lump"));
-  EXPECT_TRUE(says(page, "Not passed"));
+  EXPECT_TRUE(says(page, "Below the standard"));
+  EXPECT_TRUE(says(page, "that takes 8 cases or more"));
   EXPECT_TRUE(says(page, escaped(report.force_note)));
   EXPECT_TRUE(says(page, "Where this task stands"));
   EXPECT_TRUE(says(page, "Made by Palpa 0.1.0."));

@@ -191,6 +191,7 @@ inline SessionReport syntheticReport(int trials = 1) {
   report.station = {{"Haptic device", "virtual, 7.9 N, 1 kHz", ""},
                     {"Camera", "640 × 480, 15 Hz", "virtual"},
                     {"Software", "Palpa 0.1.0", ""}};
+  report.taxonomy = {{"What is felt", "virtual reality", ""}};
   report.notes = {{"Ticks later than 1 ms", "0 of 31 500", ""},
                   {"Board lost from view", "0.8 s", "at 12.1 s; the last pose was kept"}};
   return report;
