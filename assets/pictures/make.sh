@@ -50,11 +50,16 @@ if command -v chromium >/dev/null; then
     --window-size=1000,1580 --screenshot="$work/report.png" "file://$work/out/readme/report.html" >/dev/null 2>&1 ||
     fail "chromium could not draw the report"
   small report.png report.png
+  "$palpa" palpation --preset abdomen --operator expert --seed 2001 --fast --no-views --quiet --out palpation >/dev/null
+  chromium --headless "${root[@]}" --disable-gpu --no-first-run --hide-scrollbars --user-data-dir="$work/profile" \
+    --window-size=1000,1900 --screenshot="$work/palpation.png" "file://$work/palpation/report.html" >/dev/null 2>&1 ||
+    fail "chromium could not draw the palpation's report"
+  small palpation.png palpation.png -crop 920x700+30+1100 +repage
   "$palpa" calibrate all --seed 3 --quiet --out station3 >/dev/null
   chromium --headless "${root[@]}" --disable-gpu --no-first-run --hide-scrollbars --user-data-dir="$work/profile" \
     --window-size=1000,1480 --screenshot="$work/calibration.png" "file://$work/station3/calibration.html" >/dev/null 2>&1 ||
     fail "chromium could not draw the calibration's page"
   small calibration.png calibration.png
 else
-  echo "report.png and calibration.png are left as they were: chromium is not installed"
+  echo "report.png, palpation.png and calibration.png are left as they were: chromium is not installed"
 fi
