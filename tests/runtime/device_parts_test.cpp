@@ -1,5 +1,7 @@
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 #include "apps/runtime/button_plunger.h"
 #include "apps/runtime/channel_device.h"
 #include "apps/runtime/channel_sensor.h"
@@ -76,6 +78,47 @@ TEST(ForceSensing, IsTheTouchAloneInTheDevicesFrame) {
   }
   ASSERT_EQ(sensed.state, haptics::SensorState::valid);
   EXPECT_LT((unpack(sensed.f_D) - touch_D).norm(), 1e-9);
+}
+
+/// A device that says nothing for some milliseconds, as under load, takes no force away; a sensor that has a fault does, at once.
+TEST(ForceSensing, HoldsThroughAShortGapOfTheDeviceAndNoLonger) {
+  struct Sensed {
+    ChannelSensor sensor{{}, TimeMode::virtual_time};
+    ForceSensing sensing{sensor, [] {
+                           ForceSensing::Setup setup;
+                           setup.filter.low_pass = haptics::butterworth(100, 1000);
+                           return setup;
+                         }()};
+    std::uint64_t sequence = 0;
+    haptics::SensorState at(std::int64_t ms, double force = 1, std::uint32_t flags = 0) {
+      haptics::WrenchSample sample;
+      sample.t_ns = ms * kMillisecond;
+      sample.sequence = ++sequence;
+      sample.f_S = {0, 0, force};
+      sample.flags = flags;
+      sensor.publish(sample, sample.t_ns);
+      haptics::DeviceReading reading;
+      reading.homed = 1;
+      reading.t_ns = sample.t_ns;
+      return sensing.sense(reading, sample.t_ns).state;
+    }
+    void settle() {
+      for (std::int64_t ms = 0; ms < 20; ++ms) at(ms);
+    }
+  };
+  using haptics::SensorState;
+  Sensed hiccup;
+  hiccup.settle();
+  for (const std::int64_t ms : {26, 27, 28, 29}) EXPECT_EQ(hiccup.at(ms), SensorState::valid) << ms;
+  Sensed away;
+  away.settle();
+  EXPECT_EQ(away.at(31), SensorState::unusable);
+  Sensed broken;
+  broken.settle();
+  EXPECT_EQ(broken.at(20, 1, haptics::kFault), SensorState::unusable);
+  Sensed mad;
+  mad.settle();
+  EXPECT_EQ(mad.at(20, std::nan("")), SensorState::unusable);
 }
 
 }  // namespace
