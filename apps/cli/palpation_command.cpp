@@ -17,12 +17,12 @@ constexpr const char* kPalpationExamples = R"(Examples:
       a simulated examiner searches silicone for lumps that are not there; open A/report.html
   palpa palpation --preset abdomen --operator expert --fast
       the liver's edge is felt in every case, and is no lump
-  palpa palpation --preset prostate --operator novice --trials 5 --fast
-      a smaller phantom, five cases
-  palpa palpation --station my_station.json --guidance on --trials 6
+  palpa palpation --preset prostate --operator novice --trials 8 --fast
+      a smaller phantom, eight cases: so many it takes to pass or fail
+  palpa palpation --station my_station.json --guidance on --trials 16
       you, on a station with a haptic device and a force sensor; help that fades, every other case without
   palpa palpation
-      you, with a display and a mouse, on the virtual bench: nothing is felt, but what a sensor feels is drawn
+      you, with a display and a mouse, on the virtual bench: nothing is felt, but what a sensor feels is drawn; not scored
 Button 1 of the device: here is a lump. With a mouse: move it over the phantom, hold the left button to press, M: here is a lump. Then grade it: 1 soft, 2 hard, 3 fixed, 4 mobile, 5-8: 10, 15, 20,
 25 mm. Keys: Enter start or go on, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
 

@@ -24,6 +24,8 @@ station::Station palpationStation(const SessionOptions& options) {
   station::judgeAge(station, utcNow());
   if (!station.sample) throw UsageError("has no \"sample\"", station.file.name(), "Say where the phantom lies: sample/X_WP, sample/tip_radius_mm");
   if (!station.force_sensor) throw UsageError("has no \"force_sensor\"", station.file.name(), "Lumps are added to what is felt of the phantom: that must be measured. Describe the sensor");
+  if (station.device.driver == station::DeviceDriver::bench && station.force_sensor->driver != station::ForceSensorSetup::Driver::bench)
+    station.file.refuse("force_sensor/driver", "is a real sensor, but the device is simulated and touches simulated silicone; it must be \"virtual\", too");
   return station;
 }
 

@@ -30,10 +30,14 @@ class PointingHand final : public twin::Hand {
     bool press = false;
     int marks = 0;                 ///< asked for so far
   };
+  void move(const Wish& wish, double dt);
+
   const Setup setup_;
   runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
   Wish wish_;                      // the scene thread's
-  Vec3 tip_P_;                     // the bench thread's
+  std::int64_t mark_key_ns_ = -1'000'000'000;
+  Vec3 tip_P_ = Vec3::Zero();      // the bench thread's
+  bool begun_ = false;
   int marked_ = 0;
   double mark_left_s_ = 0;
 };

@@ -74,7 +74,7 @@ void SessionDevices::openDevice(const std::optional<MouseHand::Setup>& mouse, ru
   } else if (mouse) {
     mouse_ = std::make_unique<MouseHand>(*mouse, channel_, channels);
   } else {
-    throw UsageError("is simulated, and nobody could feel with it", station_.file.name() + ", device", "Give a station with a haptic device, or --operator expert or novice");
+    throw UsageError("is no device that could feel anything", station_.file.name() + ", device", "Give a station with a haptic device, or one whose device/driver is \"virtual\"");
   }
   if (station_.workspace.order > 0) {
     corrected_.emplace(*device, station_.workspace);

@@ -38,7 +38,7 @@ void writePalpationReport(const PalpationReport& report, const std::filesystem::
 ///   COVERAGE_LIGHT COVERAGE_MEDIUM COVERAGE_DEEP (felt at this pressure or a deeper one) TWICE (felt again)
 ///   PATTERN PATTERN_KEPT PEAK_N MEAN_N TOO_LIGHT TOO_HARD (of the time of touching)
 ///   CLOSER_FORCE (mean peak of closer looks over that of searching presses) PRESSES TIME_S GUIDED (of the time)
-///   ERROR_MEAN_MM (between mark and lump, of the lumps found) SIZE_ERROR_MEAN_MM (said less true, with sign, of those graded) PASSED
+///   ERROR_MEAN_MM (between mark and lump, of the lumps found) SIZE_ERROR_MEAN_MM (said less true, with sign, of those graded) AT_STANDARD (this trial; nobody passes by one)
 void writePalpationCsv(const std::string& user_id, const std::vector<assess::PalpationAssessment>& trials, const std::filesystem::path& file);
 
 }  // namespace palpa::report

@@ -8,7 +8,7 @@
 
 namespace palpa::report {
 
-/// "Passed", "Not passed: time limit reached", "Not judged: void", ...
+/// "At the standard", "Below the standard: time limit reached", "Not judged: void", ...
 std::string palpationVerdict(const assess::PalpationAssessment& trial);
 Tone toneOfPalpation(const assess::PalpationAssessment& trial);
 

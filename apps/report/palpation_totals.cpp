@@ -56,8 +56,9 @@ Fact judgementFact(const std::vector<PalpationPage>& pages, const assess::Palpat
   for (const PalpationPage& page : pages) trials.push_back(page.assessment);
   const assess::PalpationJudgement judgement = assess::judgementOf(trials, standard);
   using Verdict = assess::PalpationJudgement::Verdict;
+  if (judgement.lumps == 0) return {"Passed?", "not judged", "no lump was there to be found"};
   if (judgement.verdict == Verdict::too_few_cases)
-    return {"Passed?", "not judged", "that takes " + std::to_string(assess::kEnoughCases) + " cases or more, with lumps among them; here " + std::to_string(judgement.cases) + ": so few tell little of a person"};
+    return {"Passed?", "not judged", "that takes " + std::to_string(assess::kEnoughCases) + " cases or more; here " + std::to_string(judgement.cases) + ": so few tell little of a person"};
   const auto percent = [](double value) { return fixed(100 * value, 0) + " %"; };
   return {"Passed?", judgement.verdict == Verdict::passed ? "yes" : "no",
           percent(standard.sensitivity) + " of the lumps and " + percent(standard.coverage) + " of the area are asked for; felt on average: " + percent(std::floor(100 * judgement.coverage) / 100)};
@@ -91,6 +92,7 @@ void writePalpationGlossary(Html& html) {
       {"Specificity", "Of the quarters of the area without a lump near them, the share in which none was marked. False alarms lower it."},
       {"Coverage", "The share of the area that was felt, at each pressure or a deeper one. Where nothing was felt, nothing can be found."},
       {"False alarm", "A mark with no lump near it."},
+      {"At the standard", "In this trial enough lumps were found and enough of the area was felt, as the task asks. One trial passes or fails nobody."},
       {"Closer look", "Several presses about one place, in contrast to the search, which goes on."},
       {"95 % interval", "What the true share may well be, as few trials tell little (Wilson)."}};
   html.element("h2", "What these words mean");

@@ -15,7 +15,8 @@ haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading, 
   const Pose X_DS = makePose(q_DE.toRotationMatrix(), unpack(reading.p_DE)) * setup_.X_ES;
   const haptics::ContactWrench contact =
       haptics::step(setup_.filter, state_, sample, pack(Pose(setup_.X_WD * X_DS)), reading.t_ns);
-  if (!contact.valid) return state_.held && now_ns - last_ns_ <= kGoodFor_ns ? last_ : sensed;
+  if (!state_.held) last_ns_ = -kGoodFor_ns - 1;   // the sensor is not well: what it said before is no word for after
+  if (!contact.valid) return now_ns - last_ns_ <= kGoodFor_ns ? last_ : sensed;
   sensed.state = haptics::SensorState::valid;
   sensed.f_D = pack(Vec3(X_DS.linear() * unpack(contact.contact.f_S)));
   sensed.p_DK = pack(Vec3(setup_.X_WD.inverse() * unpack(contact.p_WK)));

@@ -89,13 +89,16 @@ LumpLibrary readLumps(const std::filesystem::path& path) {
 }
 
 LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>& calibrations) {
-  const AppliedCalibration *material = calibrationOf(calibrations, "material"), *friction = calibrationOf(calibrations, "friction");
-  if (material) setSoftness(library, material->file, material->path.string());
-  if (friction) setFriction(library, friction->file, friction->path.string());
-  const auto own = [](const AppliedCalibration* c) { return "this station's calibration of " + c->file.date.substr(0, 10); };
-  if (material && friction) library.of_surface = own(material);
-  else if (material) library.of_surface = own(material) + ", its friction by the library of lumps";
-  else if (friction) library.of_surface = "the library of lumps, its friction by " + own(friction);
+  const std::string shipped = library.of_surface;
+  const auto own = [&](const char* kind, void (*set)(LumpLibrary&, const CalibrationFile&, const std::string&)) -> std::string {
+    const AppliedCalibration* found = calibrationOf(calibrations, kind);
+    if (!found) return shipped;
+    set(library, found->file, found->path.string());
+    library.simulated = library.simulated || found->file.simulated;
+    return "this station's calibration of " + found->file.date.substr(0, 10);
+  };
+  const std::string softness = own("material", setSoftness), friction = own("friction", setFriction);
+  library.of_surface = softness == friction ? softness : "softness: " + softness + "; friction: " + friction;
   return library;
 }
 

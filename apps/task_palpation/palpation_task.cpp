@@ -30,7 +30,7 @@ std::string scoreJson(const assess::PalpationAssessment& a) {
                         {"PEAK_N", a.score.peak},
                         {"TIME_S", a.score.seconds},
                         {"GUIDED", a.facts.guided},
-                        {"PASSED", a.passed ? 1 : 0}}
+                        {"AT_STANDARD", a.passed ? 1 : 0}}
       .dump();
 }
 

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <numbers>
 
 #include "apps/runtime/clock.h"
@@ -14,6 +15,7 @@ struct Pointed {
   PointingHand::Setup setup;
   PointingHand hand;
   std::int64_t now_ns = 0;
+  Vec3 lies_P = Vec3(0, -0.02, 0.05);   ///< the tip, before anybody takes the tool
   scene::ViewInput input;
   scene::ArGeometry view;
 
@@ -39,7 +41,10 @@ struct Pointed {
     g.X_CA = (s.X_AP * X_PC).inverse();
     return g;
   }
-  Pointed() : setup(standing()), hand(setup), view(seen(setup)) { pointAt({0, 0, 0}); }
+  explicit Pointed(double held_for_s = 1.5) : setup(standing()), hand(setup), view(seen(setup)) {
+    pointAt({0, 0, 0});
+    after(held_for_s);
+  }
 
   void pointAt(const Vec3& p_P) {
     const Vec3 p_C = view.X_CA * setup.X_AP * p_P;
@@ -59,6 +64,7 @@ struct Pointed {
       now_ns += runtime::kMillisecond;
       twin::Hand::Senses senses;
       senses.now_ns = now_ns;
+      senses.X_DE = setup.X_DP * makePose(Mat3::Identity(), lies_P) * setup.X_ET.inverse();
       action = hand.act(senses, 1e-3);
     }
     return {setup.X_DP.inverse() * (action.X_DH * setup.X_ET).translation(), action.buttons == 1};
@@ -98,6 +104,43 @@ TEST(PointingHand, PressesWhileTheButtonIsHeldAndNoDeeperThanAHandWould) {
   p.input.left_button = false;
   p.say();
   EXPECT_GT(p.after(0.5).first.z(), 0.004);
+}
+
+TEST(PointingHand, TakesTheToolWhereItLiesAndLowersItGently) {
+  Pointed p(0);
+  Vec3 before = p.lies_P;
+  double fastest = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const Vec3 now = p.after(0.001).first;
+    fastest = std::max(fastest, (now - before).norm() / 1e-3);
+    before = now;
+  }
+  EXPECT_LT(fastest, 0.35) << "m/s";
+  EXPECT_LT((before - Vec3(0, 0, 0.006)).norm(), 1e-4);
+}
+
+TEST(PointingHand, AKeyThatIsHeldMarksOnce) {
+  Pointed p;
+  int marks = 0;
+  bool down = false;
+  const auto wait = [&](double seconds) {
+    for (int i = 0; i < static_cast<int>(1000 * seconds); ++i) {
+      const bool now = p.after(0.001).second;
+      marks += now && !down;
+      down = now;
+    }
+  };
+  for (int repeat = 0; repeat < 40; ++repeat) {
+    p.input.keys = {"m"};
+    p.say();
+    wait(repeat == 0 ? 0.6 : 0.033);
+  }
+  EXPECT_EQ(marks, 1);
+  wait(1);
+  p.input.keys = {"M"};
+  p.say();
+  wait(0.5);
+  EXPECT_EQ(marks, 2);
 }
 
 TEST(PointingHand, MarksOnceAKey) {

@@ -75,6 +75,15 @@ TEST(Page, TellsEachPenaltyWithItsReason) {
   EXPECT_LT(page.find("Lung touched</strong>"), page.find("Time</strong>"));
 }
 
+TEST(Page, TellsWhereTheTaskStands) {
+  SessionReport report = syntheticReport(1);
+  const std::string page = written(report, "stands");
+  EXPECT_TRUE(contains(page, "Where this task stands"));
+  EXPECT_TRUE(contains(page, report.taxonomy[0].value));
+  report.taxonomy.clear();   // an older recording's
+  EXPECT_FALSE(contains(written(report, "stands_not"), "Where this task stands"));
+}
+
 TEST(Page, TellsNearMissesWithTheirMoments) {
   const std::string page = written(syntheticReport(1), "near");
   EXPECT_TRUE(contains(page, "−1.3 mm"));

@@ -200,7 +200,7 @@ TEST(PalpationCsv, HasAColumnForEachFigure) {
   EXPECT_FALSE(std::getline(lines, rest));
   EXPECT_EQ(header,
             "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,LUMPS,FOUND,MISSED,FALSE_ALARMS,REPEATED,CLEAR_QUADRANTS,WRONG_QUADRANTS,COVERAGE_LIGHT,COVERAGE_MEDIUM,COVERAGE_DEEP,TWICE,"
-            "PATTERN,PATTERN_KEPT,PEAK_N,MEAN_N,TOO_LIGHT,TOO_HARD,CLOSER_FORCE,PRESSES,TIME_S,GUIDED,ERROR_MEAN_MM,SIZE_ERROR_MEAN_MM,PASSED");
+            "PATTERN,PATTERN_KEPT,PEAK_N,MEAN_N,TOO_LIGHT,TOO_HARD,CLOSER_FORCE,PRESSES,TIME_S,GUIDED,ERROR_MEAN_MM,SIZE_ERROR_MEAN_MM,AT_STANDARD");
   const Columns names = split(header), values = split(row);
   ASSERT_EQ(values.size(), names.size());
   const auto value = [&](const std::string& name) { return values[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]; };
@@ -212,7 +212,7 @@ TEST(PalpationCsv, HasAColumnForEachFigure) {
   EXPECT_EQ(value("GUIDED"), "0.25");
   EXPECT_NEAR(std::stod(value("ERROR_MEAN_MM")), std::hypot(2.5, 2), 1e-9);
   EXPECT_NEAR(std::stod(value("SIZE_ERROR_MEAN_MM")), 4, 1e-9);
-  EXPECT_EQ(value("PASSED"), "0");
+  EXPECT_EQ(value("AT_STANDARD"), "0");
 }
 
 TEST(PalpationCsv, QuotesNamesAndLeavesEmptyWhatWasNotMeasured) {

@@ -80,45 +80,82 @@ TEST(ForceSensing, IsTheTouchAloneInTheDevicesFrame) {
   EXPECT_LT((unpack(sensed.f_D) - touch_D).norm(), 1e-9);
 }
 
-/// A device that says nothing for some milliseconds, as under load, takes no force away; a sensor that has a fault does, at once.
-TEST(ForceSensing, HoldsThroughAShortGapOfTheDeviceAndNoLonger) {
-  struct Sensed {
-    ChannelSensor sensor{{}, TimeMode::virtual_time};
-    ForceSensing sensing{sensor, [] {
-                           ForceSensing::Setup setup;
-                           setup.filter.low_pass = haptics::butterworth(100, 1000);
-                           return setup;
-                         }()};
-    std::uint64_t sequence = 0;
-    haptics::SensorState at(std::int64_t ms, double force = 1, std::uint32_t flags = 0) {
+/// Ticks of a millisecond: what the sensor measures, the force told, whether the device spoke.
+class Gaps : public ::testing::Test {
+ protected:
+  Gaps() {
+    for (int i = 0; i < 20; ++i) tick(1);
+  }
+  static ForceSensing::Setup setup() {
+    ForceSensing::Setup s;
+    s.filter.low_pass = haptics::butterworth(100, 1000);
+    return s;
+  }
+  haptics::SensedForce tick(double force, bool device_speaks = true, std::uint32_t flags = 0) {
+    now_ns_ += kMillisecond;
+    haptics::WrenchSample sample;
+    sample.t_ns = now_ns_;
+    sample.sequence = ++sequence_;
+    sample.f_S = {0, 0, force};
+    sample.flags = flags;
+    sensor_.publish(sample, now_ns_);
+    if (device_speaks) reading_.t_ns = now_ns_;
+    reading_.homed = 1;
+    return sensing_.sense(reading_, now_ns_);
+  }
+  static bool valid(const haptics::SensedForce& sensed) { return sensed.state == haptics::SensorState::valid; }
+
+ private:
+  ChannelSensor sensor_{{}, TimeMode::virtual_time};
+  ForceSensing sensing_{sensor_, setup()};
+  haptics::DeviceReading reading_;
+  std::int64_t now_ns_ = 0;
+  std::uint64_t sequence_ = 0;
+};
+
+/// As under load: until the motion is known again the last force holds.
+TEST_F(Gaps, AShortOneOfTheDeviceTakesNoForceAway) {
+  haptics::SensedForce last;
+  for (int i = 0; i < 6; ++i) ASSERT_TRUE(valid(last = tick(1.5, false))) << i;
+  for (int i = 0; i < 2; ++i) {
+    const haptics::SensedForce held = tick(9);
+    ASSERT_TRUE(valid(held)) << i;
+    EXPECT_EQ(held.f_D[2], last.f_D[2]) << "what is told while nobody knows how the tool moves is what was told last";
+  }
+  for (int i = 0; i < 30; ++i) last = tick(2);
+  ASSERT_TRUE(valid(last));
+  EXPECT_NEAR(last.f_D[2], 2, 1e-3);
+}
+
+TEST_F(Gaps, AFaultOfTheSensorTakesItAwayAtOnceAndNothingOldComesBack) {
+  for (int i = 0; i < 3; ++i) EXPECT_FALSE(valid(tick(1, true, haptics::kFault))) << i;
+  EXPECT_FALSE(valid(tick(3))) << "the first good sample: nothing is known yet, and what was before the fault is no word for it";
+  haptics::SensedForce sensed;
+  for (int i = 0; i < 30; ++i) sensed = tick(3);
+  ASSERT_TRUE(valid(sensed));
+  EXPECT_NEAR(sensed.f_D[2], 3, 1e-3);
+  EXPECT_FALSE(valid(tick(std::nan("")))) << "not a number, though nothing is flagged";
+  EXPECT_FALSE(valid(tick(3)));
+}
+
+TEST(ForceSensing, AWordIsGoodForTenMillisecondsWhenTheLoopItselfStood) {
+  for (const std::int64_t stood_ms : {7, 11}) {
+    ChannelSensor sensor({}, TimeMode::virtual_time);
+    ForceSensing::Setup setup;
+    setup.filter.low_pass = haptics::butterworth(100, 1000);
+    ForceSensing sensing(sensor, setup);
+    haptics::SensedForce sensed;
+    haptics::DeviceReading reading;
+    reading.homed = 1;
+    for (std::int64_t i = 0; i <= 20; ++i) {
       haptics::WrenchSample sample;
-      sample.t_ns = ms * kMillisecond;
-      sample.sequence = ++sequence;
-      sample.f_S = {0, 0, force};
-      sample.flags = flags;
+      sample.t_ns = reading.t_ns = (i < 20 ? i : 19 + stood_ms) * kMillisecond;
+      sample.sequence = static_cast<std::uint64_t>(i + 1);
       sensor.publish(sample, sample.t_ns);
-      haptics::DeviceReading reading;
-      reading.homed = 1;
-      reading.t_ns = sample.t_ns;
-      return sensing.sense(reading, sample.t_ns).state;
+      sensed = sensing.sense(reading, sample.t_ns);
     }
-    void settle() {
-      for (std::int64_t ms = 0; ms < 20; ++ms) at(ms);
-    }
-  };
-  using haptics::SensorState;
-  Sensed hiccup;
-  hiccup.settle();
-  for (const std::int64_t ms : {26, 27, 28, 29}) EXPECT_EQ(hiccup.at(ms), SensorState::valid) << ms;
-  Sensed away;
-  away.settle();
-  EXPECT_EQ(away.at(31), SensorState::unusable);
-  Sensed broken;
-  broken.settle();
-  EXPECT_EQ(broken.at(20, 1, haptics::kFault), SensorState::unusable);
-  Sensed mad;
-  mad.settle();
-  EXPECT_EQ(mad.at(20, std::nan("")), SensorState::unusable);
+    EXPECT_EQ(sensed.state, stood_ms < 10 ? haptics::SensorState::valid : haptics::SensorState::unusable) << stood_ms;
+  }
 }
 
 }  // namespace
