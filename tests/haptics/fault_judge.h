@@ -18,9 +18,10 @@ class FaultJudge {
     EXPECT_TRUE(std::isfinite(state.passivity.energy_J) && unpack(state.passivity.f_last_D).allFinite() &&
                 unpack(state.passivity.added_D).allFinite())
         << "what is not a number stays in the state";
-    // Not by its number: random bytes may have given that to an earlier one, which was plausible.
+    // By number and time: random bytes may have given the number alone to an earlier one, which was plausible.
     if (world.damaged) {
-      EXPECT_FALSE(record.events & kSnapshotAdopted) << "a damaged snapshot was adopted";
+      EXPECT_FALSE(state.now.number == world.offered.number && state.now.t_ns == world.offered.t_ns) << "a damaged snapshot was adopted";
+      EXPECT_FALSE(record.events & kSnapshotAdopted) << "the record says that a damaged snapshot was adopted";
     }
     const std::string why = mustBeZero(world, state);
     const bool zero = record.f_command_D == Packed3{0, 0, 0};
