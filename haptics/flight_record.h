@@ -46,6 +46,12 @@ struct TickCommands {
   }();
   PlacedLumps lumps{};                 ///< in P, of this trial
   float squeeze_stiffness = 1, squeeze_weight = 1;   ///< of what is held between two tools: how many times as hard and as heavy as it is, in this trial
+  std::uint32_t floor = 0;             ///< number of the floor that is searched; 0: none
+  std::uint8_t degraded = 0;           ///< the floor with the lesser gains
+  std::uint8_t held = 0;               ///< the handle is held where an episode starts
+  std::uint8_t augmented = 0;          ///< 1: the session's augmentations may add force
+  std::uint8_t reserved = 0;
+  Packed3 line_p_D{}, line_a_D{};      ///< m; unit: a line for virtual fixtures; direction 0: none
 };
 static_assert(std::is_trivially_copyable_v<TickCommands>);
 
@@ -101,6 +107,11 @@ struct FlightRecord {
   std::uint8_t skin_punctures = 0;  ///< in this trial
   std::uint8_t damped = 0;          ///< passivity control added damping
   std::uint8_t tool = 0;            ///< which of two devices; 0 where there is one
+  std::uint8_t place = 0;           ///< where on a floor (FloorPlace bits)
+  std::uint8_t subtasks = 0;        ///< bit i: part i of the task is on
+  std::uint8_t augmenting = 0;      ///< bit i: augmentation i adds force
+  std::uint8_t began = 0;           ///< bit i: it was triggered in this tick
+  Packed3 f_augmentation_D{};       ///< of all augmentations, as computed; in `f_wanted_D`
 };
 static_assert(std::is_trivially_copyable_v<FlightRecord>);
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "haptics/tick_frame.h"
+#include "haptics/tick_augmentation.h"
 
 namespace palpa::haptics {
 namespace {
@@ -48,16 +48,23 @@ NeedleContact touchedContact(const TickConfig& config, TickState& state, const F
   return addedIn(config, now.f_d[0], now.touch[0].x, now.touch[0].f_n);
 }
 
+NeedleContact contactNow(const TickConfig& config, TickState& state, const TickCommands& commands, std::int64_t now_ns, TickFrame& frame) {
+  if (config.engine == Engine::touch) return touchedContact(config, state, frame.record, frame.input.dt);
+  return blendedContact(config, state, frame.pose, commands, frame.input.dt, now_ns);
+}
+
 }  // namespace
 
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
-                  const SensedForce& sensed) noexcept {
+                  const SensedForce& sensed, const Floor* floor) noexcept {
   TickFrame frame = beginTick(config, state, reading, latest, commands, now_ns, sensed);
   NeedleContact contact;
   if (frame.felt) {
-    contact = config.engine == Engine::touch ? touchedContact(config, state, frame.record, frame.input.dt)
-                                             : blendedContact(config, state, frame.pose, commands, frame.input.dt, now_ns);
+    FloorTouch touch;
+    const bool on_floor = config.engine == Engine::floor;
+    contact = on_floor ? floorContact(config, state, floor, &frame, &touch) : contactNow(config, state, commands, now_ns, frame);
+    addAugmentations(config, state, contact, floor, on_floor ? &touch : nullptr, &frame);
   }
   return finishTick(config, state, contact, frame);
 }

@@ -2,6 +2,8 @@
 
 #include <type_traits>
 
+#include "haptics/augmentation/augmentation.h"
+#include "haptics/floor_contact.h"
 #include "haptics/needle_contact.h"
 #include "haptics/passivity.h"
 #include "haptics/probe_contact.h"
@@ -11,8 +13,8 @@
 
 namespace palpa::haptics {
 
-/// What the tool is for: a needle or a probe on a virtual patient, or a tool with a force sensor on a real thing whose feel is changed.
-enum class Engine : std::uint8_t { needle, probe, touch };
+/// What the tool is for: a needle or a probe on a virtual patient, a tool with a force sensor on a real thing whose feel is changed, or a probe on a virtual floor.
+enum class Engine : std::uint8_t { needle, probe, touch, floor };
 
 /// Constant during a session; stored in its file. Trivially copyable, so that a replay has it whole.
 struct TickConfig {
@@ -34,6 +36,10 @@ struct TickConfig {
   std::int64_t fade_ns = 50'000'000;
   TouchAugmentation touch;
   PackedPose X_DP;                          ///< the real thing, in whose frame its lumps lie
+  PackedPose X_DF;                          ///< the floor
+  FloorRendering floor;
+  AugmentationPlan augmentations;
+  std::array<double, kMostLumpKinds> lump_radius{};   ///< m, of each kind: where a lump's edge is
 };
 static_assert(std::is_trivially_copyable_v<TickConfig>);
 
@@ -46,6 +52,9 @@ struct TickState {
   NeedleState contact, contact_old;  ///< `contact_old` runs on `old` during the blend
   ProbeState probe, probe_old;
   TouchAugmentationState touch;
+  FloorState floor;
+  PointMotion tip;                   ///< of what the task's parts are told by
+  AugmentationState augmentation;
   PassivityState passivity;
   SafetyState safety;
   ReadingState reading;
@@ -63,14 +72,14 @@ static_assert(std::is_trivially_copyable_v<TickState>);
 /// some millimetres in the tissue: the entry is its pivot.
 PackedPose toolPose(const TickConfig& config, const TickState& state, const DeviceReading& reading) noexcept;
 
-/// One tick: reading -> contact on the snapshot -> blend -> passivity -> safety limiter -> command. Pure: same
+/// One tick: reading -> contact on the snapshot -> blend -> augmentation -> passivity -> safety limiter -> command. Pure: same
 /// inputs, same bits. `latest` is the newest snapshot or null; it is adopted when the last blend is over, unless
 /// it is damaged. Whatever comes in, the command is finite and within the limits. Never allocates, locks, logs or
 /// throws. `sensed` is what a force sensor says of a real object at the tool: it counts at the hand's port. Engine::touch asks for no snapshots, and gives no force while the sensor is
-/// not valid. Zero force in the same tick for readings that cannot be, jumps, a clock that stood still or went
+/// not valid; Engine::floor asks for none either, `floor` is the one whose number the commands say. Zero force in the same tick for readings that cannot be, jumps, a clock that stood still or went
 /// back, and after a pause of the loop (watchdog). A device that is not homed touches nothing.
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
-                  const SensedForce& sensed = {}) noexcept;
+                  const SensedForce& sensed = {}, const Floor* floor = nullptr) noexcept;
 
 }  // namespace palpa::haptics

@@ -36,6 +36,9 @@ void startTrial(TickState& state, std::uint32_t trial) {
   state.contact = state.contact_old = NeedleState{};
   state.probe = state.probe_old = ProbeState{};
   state.touch = TouchAugmentationState{};
+  state.floor = FloorState{};
+  state.tip = PointMotion{};
+  state.augmentation = AugmentationState{};
   state.passivity = PassivityState{};
   state.blending = 0;
 }
@@ -67,16 +70,17 @@ std::uint32_t adopt(const TickConfig& config, TickState& state, const LocalGeome
 /// After readings that were not believed the velocity is measured anew.
 void forgetMotion(TickState& state) {
   for (PointMotion* motion : {&state.contact.motion, &state.contact_old.motion, &state.probe.motion,
-                              &state.probe_old.motion})
+                              &state.probe_old.motion, &state.floor.motion, &state.tip})
     motion->started = 0;
   state.touch = TouchAugmentationState{};
+  state.augmentation = AugmentationState{};
   state.passivity = PassivityState{};
 }
 
 /// 1 while the snapshot is young, then falling to 0 within the fade. One from the future is as bad as an
 /// old one: the clock went back, or its time is wrong.
 double freshness(const TickConfig& config, const TickState& state, std::int64_t now_ns) {
-  if (config.engine == Engine::touch) return 1;   // a real thing is always where it is
+  if (config.engine == Engine::touch || config.engine == Engine::floor) return 1;   // a real thing, a floor are always where they are
   if (state.now.number == 0) return 0;
   const double over =
       std::abs(between(state.now.t_ns, now_ns)) - static_cast<double>(config.age_limit_ns);
@@ -119,6 +123,9 @@ void forgetContact(TickState& state) {
   state.contact.skin_punctures = state.contact_old.skin_punctures = punctures;
   state.probe = state.probe_old = ProbeState{};
   state.touch = TouchAugmentationState{};
+  state.floor = FloorState{};
+  state.tip = PointMotion{};
+  state.augmentation = AugmentationState{};
   state.passivity = PassivityState{};
 }
 
@@ -128,9 +135,11 @@ Vec3 objectForce(const TickConfig& config, const SensedForce& sensed) {
 }
 
 /// The force that is asked of the limiter. Where nothing will be rendered the observer starts anew.
-Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands& commands,
-                  const SensedForce& sensed, double fresh, const Vec3& f_contact_D, const SafetyInput& in) {
-  const Vec3 f_D = fresh * f_contact_D;
+Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& frame, const Vec3& f_felt_D) {
+  const TickCommands& commands = frame.record.commands;
+  const SafetyInput& in = frame.input;
+  const double fresh = frame.fresh;
+  const Vec3 f_D = fresh * f_felt_D;
   if (!commands.force_feedback || !commands.armed || fresh == 0) {
     state.passivity = PassivityState{};
     return commands.force_feedback ? f_D : Vec3::Zero();
@@ -138,13 +147,17 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickCommands
   PassivityInput port;
   port.p_DE = in.p_DE;
   port.f_D = f_D;
-  port.f_object_D = objectForce(config, sensed);
+  port.f_object_D = objectForce(config, frame.record.sensed);
+  port.declared_J = fresh * frame.work_J;
   port.fresh = in.sequence != state.passivity.sequence;
   port.dt = in.dt;
   const Vec3 f_passive_D = keepPassive(config.passivity, state.passivity, port);
   state.passivity.sequence = in.sequence;
   return f_passive_D;
 }
+
+/// The part of the commanded force that carries the handle: none where the limiter let none out.
+Vec3 heldBack(const FlightRecord& record, const TickFrame& frame) { return unpack(record.f_command_D).squaredNorm() > 0 ? frame.f_hold_D : Vec3(Vec3::Zero()); }
 
 void describe(const TickConfig& config, FlightRecord& record, const NeedleContact& contact,
               const TickState& state) {
@@ -255,12 +268,12 @@ NeedleContact addedIn(const TickConfig& config, const Vec3& f_d_P, double x, dou
 
 const FlightRecord& finishTick(const TickConfig& config, TickState& state, const NeedleContact& contact, TickFrame& frame) noexcept {
   FlightRecord& record = frame.record;
-  if (frame.felt) frame.input.f_wanted_D = passiveForce(config, state, record.commands, record.sensed, frame.fresh, contact.f_D, frame.input);
+  if (frame.felt) frame.input.f_wanted_D = passiveForce(config, state, frame, contact.f_D + unpack(record.f_augmentation_D)) + frame.f_hold_D;
   record.f_wanted_D = pack(frame.input.f_wanted_D);
   describe(config, record, contact, state);
   record.f_command_D = pack(limitForce(config.safety, state.safety, frame.input));
-  state.passivity.f_last_D =  // what the hand really gets
-      pack(Vec3(unpack(record.f_command_D) + objectForce(config, record.sensed)));
+  state.passivity.f_last_D =  // what the hand really gets, beside what carries the handle
+      pack(Vec3(unpack(record.f_command_D) - heldBack(record, frame) + objectForce(config, record.sensed)));
   tellCause(record, state, frame.fresh);
   return record;
 }

@@ -9,6 +9,7 @@ namespace palpa::cli {
 void addParacentesis(CLI::App& program);
 void addPalpation(CLI::App& program);
 void addSqueeze(CLI::App& program);
+void addSearch(CLI::App& program);
 void addTrain(CLI::App& program);   ///< any of them, by the task file
 void addReplay(CLI::App& program);
 void addCalibrate(CLI::App& program);

@@ -44,6 +44,7 @@ int run(int argc, char** argv) {
   palpa::cli::addParacentesis(program);
   palpa::cli::addPalpation(program);
   palpa::cli::addSqueeze(program);
+  palpa::cli::addSearch(program);
   palpa::cli::addTrain(program);
   palpa::cli::addReplay(program);
   palpa::cli::addCalibrate(program);

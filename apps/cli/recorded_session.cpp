@@ -103,6 +103,7 @@ namespace {
 bool sameForces(const haptics::FlightRecord& a, const haptics::FlightRecord& b) {
   return a.f_contact_D == b.f_contact_D && a.f_command_D == b.f_command_D &&
          a.tau_missing_D == b.tau_missing_D && a.depth == b.depth && a.events == b.events &&
+         a.f_augmentation_D == b.f_augmentation_D && a.subtasks == b.subtasks && a.place == b.place &&
          a.phase == b.phase && a.tissue == b.tissue && a.bone == b.bone && a.wall == b.wall &&
          a.safety == b.safety;
 }
@@ -142,7 +143,7 @@ ReplayCheck replayPairs(const record::SessionReader& reader) {
   return check;
 }
 
-ReplayCheck replaySingle(const record::SessionReader& reader) {
+ReplayCheck replaySingle(const record::SessionReader& reader, const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
   std::unordered_map<std::uint64_t, LocalGeometry> snapshots;
   reader.snapshots([&](const LocalGeometry& g) { snapshots[g.number] = g; });
   std::unordered_map<std::int64_t, haptics::TickState> keyframes;
@@ -164,7 +165,7 @@ ReplayCheck replaySingle(const record::SessionReader& reader) {
     const haptics::FlightRecord again =
         haptics::tick(config, state, recorded.reading,
                       snapshot == snapshots.end() ? nullptr : &snapshot->second, recorded.commands,
-                      recorded.t_ns, recorded.sensed);
+                      recorded.t_ns, recorded.sensed, floors && recorded.commands.floor ? floors(recorded.commands.floor) : nullptr);
     count(recorded, again, &check);
   });
   return check;
@@ -172,6 +173,8 @@ ReplayCheck replaySingle(const record::SessionReader& reader) {
 
 }  // namespace
 
-ReplayCheck replayTicks(const record::SessionReader& reader) { return reader.info().pair_config ? replayPairs(reader) : replaySingle(reader); }
+ReplayCheck replayTicks(const record::SessionReader& reader, const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
+  return reader.info().pair_config ? replayPairs(reader) : replaySingle(reader, floors);
+}
 
 }  // namespace palpa::cli

@@ -49,6 +49,7 @@ struct ReplayCheck {
   std::int64_t ticks = 0, different = 0, first_difference = -1;
   std::int64_t gaps = 0;   ///< ticks missing in the record; the state is then taken from a keyframe
 };
-ReplayCheck replayTicks(const record::SessionReader& reader);
+/// `floors`: of a search, by number; null where there are none.
+ReplayCheck replayTicks(const record::SessionReader& reader, const std::function<const haptics::Floor*(std::uint32_t number)>& floors = {});
 
 }  // namespace palpa::cli

@@ -8,6 +8,7 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/force_check.h"
 #include "apps/cli/recorded_palpation.h"
+#include "apps/cli/recorded_search.h"
 #include "apps/cli/recorded_session.h"
 #include "apps/cli/recorded_squeeze.h"
 #include "apps/record/tick_export.h"
@@ -59,9 +60,21 @@ bool sameSqueezeScores(const record::SessionReader& reader) {
   return same;
 }
 
+bool sameSearchScores(const record::SessionReader& reader) {
+  bool same = true;
+  for (const RecordedSearch& trial : recordedSearches(reader)) {
+    if (!hasScore(trial.recorded)) continue;
+    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) == nlohmann::json::parse(task_search::scoreJson(trial.again));
+    std::printf("Episode %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(), equal ? "" : "  DIFFERENT from the recorded score");
+    same = same && equal;
+  }
+  return same;
+}
+
 bool sameScores(const record::SessionReader& reader, const std::string& file) {
   const std::string engine = engineOf(reader);
   if (engine == "palpation") return samePalpationScores(reader);
+  if (engine == "surface") return sameSearchScores(reader);
   return engine == "squeeze" ? sameSqueezeScores(reader) : sameNeedleScores(file);
 }
 
@@ -74,7 +87,7 @@ void tellForces(const record::SessionReader& reader) {
 
 void replay(const std::string& file) {
   const record::SessionReader reader(file);
-  const ReplayCheck check = replayTicks(reader);
+  const ReplayCheck check = replayTicks(reader, recordedFloors(reader));
   std::printf("%lld ticks run again: %lld differ%s\n", static_cast<long long>(check.ticks),
               static_cast<long long>(check.different), check.gaps ? " (records are missing)" : "");
   bool same = check.different == 0 && check.ticks > 0;

@@ -8,5 +8,6 @@ namespace palpa::cli {
 void runParacentesisCommand(SessionOptions options);
 void runPalpationCommand(SessionOptions options);
 void runSqueezeCommand(SessionOptions options);
+void runSearchCommand(SessionOptions options);
 
 }  // namespace palpa::cli

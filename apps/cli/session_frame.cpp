@@ -56,7 +56,7 @@ trial::TrialScene::Stage SessionFrame::stage(runtime::HeadDisplay* head) {
 
 /// HAPTIC, for one device or for two.
 std::unique_ptr<runtime::Activity> SessionFrame::loop(runtime::GeometryActivity* geometry) {
-  if (!world_.pair) return std::make_unique<runtime::HapticActivity>(bus_, devices_.device(), world_.tick, devices_.sensing(), options_.exact_geometry ? geometry : nullptr);
+  if (!world_.pair) return std::make_unique<runtime::HapticActivity>(bus_, devices_.device(), world_.tick, devices_.sensing(), options_.exact_geometry ? geometry : nullptr, world_.floors);
   using Tool = runtime::HapticPairActivity::Tool;
   return std::make_unique<runtime::HapticPairActivity>(bus_, std::array<Tool, 2>{Tool{devices_.device(), *devices_.sensing()}, Tool{devices_.second()->device, *devices_.second()->sensing}}, *world_.pair);
 }

@@ -49,6 +49,7 @@ class SessionFrame {
     haptics::TickConfig tick;
     std::optional<haptics::PairConfig> pair = {};   ///< of two devices in one tick, in place of `tick`
     bool fixed_views = true;
+    const runtime::FloorSource* floors = nullptr;   ///< of a search
   };
   SessionFrame(const SessionOptions& options, const World& world, SessionDevices::Hands hands, trial::Channels& channels, const std::filesystem::path& folder);
 

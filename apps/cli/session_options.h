@@ -52,6 +52,9 @@ struct SessionOptions {
   bool quiet = false;
   bool guidance = false;         ///< palpation: help that fades, in every other trial
   bool see_through = false;      ///< palpation: the lumps are shown; not scored
+  std::string mode = "real";     ///< search: real, degraded, augmented, or all of them one after the other
+  bool blocks = false;           ///< search: the task's blocks; training in `mode`
+  bool augment = false;          ///< needle, palpation: the task's augmentations add force
 };
 
 }  // namespace palpa::cli

@@ -31,8 +31,9 @@ void addTrain(CLI::App& program) {
   command->callback([options, command] {
     options->command = "train";
     const std::string engine = station::JsonFile(options->task).text("engine");
-    if (engine != "palpation" && engine != "squeeze") return runParacentesisCommand(*options);
-    refuseNeedleOptions(*command, engine);
+    if (engine != "palpation" && engine != "squeeze" && engine != "surface") return runParacentesisCommand(*options);
+    refuseNeedleOptions(*command, engine == "surface" ? "search" : engine);
+    if (engine == "surface") return runSearchCommand(*options);
     engine == "palpation" ? runPalpationCommand(*options) : runSqueezeCommand(*options);
   });
 }

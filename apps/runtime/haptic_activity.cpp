@@ -12,9 +12,9 @@ std::int64_t HapticActivity::step(std::int64_t now_ns) {
   const haptics::TickCommands* commands = bus_.task_to_haptic.read(now_ns);
   if (state_.tick % kKeyframeTicks == 0)
     bus_.keyframes_to_recorder.push(Keyframe{state_.tick, state_});
-  haptics::FlightRecord record =
-      haptics::tick(config_, state_, reading, latest, commands ? *commands : haptics::TickCommands{},
-                    now_ns, sensed);
+  const haptics::TickCommands told = commands ? *commands : haptics::TickCommands{};
+  const haptics::Floor* floor = floors_ && told.floor ? floors_->floor(told.floor) : nullptr;
+  haptics::FlightRecord record = haptics::tick(config_, state_, reading, latest, told, now_ns, sensed, floor);
   device_.command(now_ns, record.f_command_D);
   record.late_ns = due_ns_ < 0 ? 0 : now_ns - due_ns_;
   tell(record, now_ns);

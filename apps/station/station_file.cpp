@@ -122,6 +122,7 @@ Station readStation(const std::filesystem::path& path) {
   s.things = readRealThings(file, path.parent_path(), s.boards);
   s.landmarks = readLandmarks(file);
   if (file.has("sample")) s.sample = Sample{readPose(file, "sample/X_WP"), 1e-3 * file.number("sample/tip_radius_mm", 1, 30)};
+  if (file.has("floor")) s.floor = FloorSetup{readPose(file, "floor/X_WF"), kMm * file.number("floor/unit_mm", 0.01, 2), file.number("floor/handle_weight_N", 0, 10)};
   s.grid = readGrid(file);
   s.decimate = file.number("camera/decimate", 1, 4);
   s.X_WD = readPose(file, "registration/X_WD");
@@ -138,6 +139,7 @@ Station readStation(const std::filesystem::path& path) {
   s.safety.thermal_tau = s.device.thermal_tau;
   const double stable = haptics::couplingStiffness(can, kLongestPeriod);
   s.coupling.stiffness = file.number("coupling/stiffness_N_per_m", 10, stable);
+  if (file.has("coupling/velocity_tau_ms")) s.coupling.velocity_tau = 1e-3 * file.number("coupling/velocity_tau_ms", 0.1, 50);
   s.passivity.max_damping = kDampedShare * can.apparent_mass / kLongestPeriod;
   s.passivity.coulomb = can.coulomb_friction;
   s.calibration_verdict = file.text("calibration/verdict");

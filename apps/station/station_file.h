@@ -28,6 +28,13 @@ struct Sample {
   double tip_radius = 0.008;       ///< m
 };
 
+/// Where a floor to be searched lies in the workspace, and what the device must carry. F: origin in its middle, z up.
+struct FloorSetup {
+  Pose X_WF = Pose::Identity();
+  double unit = 60e-6;             ///< m in the hand for one unit of the floor; coarse devices need a larger one
+  double handle_weight_N = 0;      ///< held up by the device
+};
+
 /// Whose pictures the station watches.
 struct CameraSetup {
   enum class Driver { bench, webcam };
@@ -62,6 +69,7 @@ struct Station {
   std::vector<RealThing> things;           ///< that hide virtual ones in the picture
   std::optional<ar::TagGridSpec> marker;   ///< a small grid of tags on the end effector, for registration and latency
   std::optional<Sample> sample;            ///< what palpation, squeezing and their calibrations touch
+  std::optional<FloorSetup> floor;         ///< what a search explores
   std::vector<Landmark> landmarks;         ///< known points that a tip can be put on
   std::vector<Landmark> grid;              ///< more of them, evenly through the workspace: for the device's position error
   haptics::WorkspaceCorrection workspace;  ///< of the device's readings

@@ -66,6 +66,7 @@ DeviceTruth trueDevice(const station::Station& station, std::uint64_t seed) {
   truth.encoder_step = kTruthMm * file.number("twin/device/encoder_step_mm", 1e-6, 1);
   truth.encoder_angle = kTruthDeg * file.number("twin/device/encoder_angle_deg", 1e-6, 5);
   truth.actuator_tau = 1e-3 * file.number("twin/device/actuator_tau_ms", 0, 100);
+  if (file.has("twin/device/weight_N")) truth.weight_N = file.number("twin/device/weight_N", 0, 10);
   if (const double error = kTruthMm * spreadOr0(file, "twin/device/position_error_mm", 10); error > 0) {
     constexpr double kLongestWave = 0.5, kShortestWave = 0.3;   // m
     RandomStream random(seed, "bench.position_error");

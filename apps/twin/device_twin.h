@@ -25,6 +25,7 @@ struct DeviceTruth {
   double max_force_N = 7.9;         ///< the drives saturate here
   double actuator_tau = 0.001;      ///< s, first-order lag of the drives
   PositionError position_error;     ///< what it says less what is
+  double weight_N = 0;              ///< of the handle; 0: the mechanism carries it itself
 };
 
 /// How a hand holds the tool: a spring and a damper toward where it wants to be.

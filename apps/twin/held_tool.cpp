@@ -20,7 +20,7 @@ const Hand::Action& HeldTool::act(const runtime::Displayed* seen, std::int64_t n
 }
 
 void HeldTool::advance(double dt, int parts) {
-  mechanics_.advance(dt, action_.X_DH, setup_.hand->grip(), f_command_D_, setup_.X_WD.linear().transpose() * touch_.f_W);
+  mechanics_.advance(dt, action_.X_DH, setup_.hand->grip(), f_command_D_, setup_.X_WD.linear().transpose() * (touch_.f_W - setup_.truth.weight_N * Vec3::UnitZ()));
   f_hand_D_ += mechanics_.meanFingerForce() / parts;
   f_device_D_ += mechanics_.meanDeviceForce() / parts;
 }

@@ -54,6 +54,8 @@ std::vector<Layer> makeLayers() {
       {"anatomy/geometry", {}, {}, {"Eigen"}},
       {"anatomy/deflection", {"anatomy/geometry"}, {}, {"Eigen"}},
       {"haptics/materials", {"anatomy/geometry"}, {}, {"Eigen"}},
+      {"haptics/surface", {"anatomy/geometry"}, {}, {"Eigen"}},
+      {"haptics/augmentation", {"anatomy/geometry", "haptics/surface"}, {}, {"Eigen"}},
       {"haptics/sensors", {"haptics", "anatomy/geometry"}, {}, {"Eigen"}},
       {"anatomy/volume", {"anatomy"}, {}, {"Eigen", "JSON", "GDCM", "VTK data", "zlib"}},
       {"anatomy", {}, {}, {"Eigen", "JSON", "tinygltf", "GDCM", "VTK data"}},

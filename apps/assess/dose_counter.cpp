@@ -1,0 +1,29 @@
+#include "apps/assess/dose_counter.h"
+
+namespace palpa::assess {
+
+DoseCounter::DoseCounter(const haptics::AugmentationPlan& plan, const std::vector<std::string>& subtasks) {
+  for (const std::string& name : subtasks) doses_.push_back({name, 0, 0, 0, 0});
+  for (std::size_t i = 0; i < part_of_.size(); ++i) part_of_[i] = plan.each[i].subtask;
+}
+
+void DoseCounter::add(const haptics::FlightRecord& record, double dt) {
+  const double added_N = unpack(record.f_augmentation_D).norm();
+  for (std::size_t s = 0; s < doses_.size(); ++s) {
+    const unsigned bit = 1u << s;
+    bool felt = false;
+    for (std::size_t i = 0; i < part_of_.size(); ++i) felt = felt || ((record.augmenting >> i & 1u) && (part_of_[i] == s || part_of_[i] == haptics::kAnySubtask));
+    SubtaskDose& dose = doses_[s];
+    if (record.subtasks & bit) {
+      dose.on_s += dt;
+      if (!(was_ & bit)) ++dose.times;
+    }
+    if (felt) {
+      dose.augmented_s += dt;
+      dose.impulse_Ns += added_N * dt;
+    }
+  }
+  was_ = record.subtasks;
+}
+
+}  // namespace palpa::assess

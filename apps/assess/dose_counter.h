@@ -1,0 +1,28 @@
+#pragma once
+
+#include <array>
+#include <string>
+#include <vector>
+
+#include "apps/assess/subtask_dose.h"
+#include "haptics/augmentation/augmentation.h"
+#include "haptics/flight_record.h"
+
+namespace palpa::assess {
+
+/// Adds up over recorded ticks how long each part of a task was on, how often it came on, and how much was added to the force meanwhile. What is added counts for every part that an active augmentation belongs to.
+class DoseCounter {
+ public:
+  DoseCounter() = default;
+  DoseCounter(const haptics::AugmentationPlan& plan, const std::vector<std::string>& subtasks);
+  /// The next tick of the trial, `dt` seconds after the one before.
+  void add(const haptics::FlightRecord& record, double dt);
+  const std::vector<SubtaskDose>& doses() const { return doses_; }
+
+ private:
+  std::vector<SubtaskDose> doses_;
+  std::array<std::uint8_t, haptics::kMostAugmentations> part_of_{};   ///< of each augmentation
+  std::uint8_t was_ = 0;
+};
+
+}  // namespace palpa::assess

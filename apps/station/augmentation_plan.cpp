@@ -1,0 +1,173 @@
+#include "apps/station/augmentation_plan.h"
+
+#include <array>
+#include <tuple>
+#include <utility>
+
+#include "haptics/flight_record.h"
+
+namespace palpa::station {
+namespace {
+
+using haptics::Augmentation;
+using haptics::Condition;
+using haptics::Cue;
+
+constexpr double kMilli = 1e-3;
+
+template <typename Value, std::size_t N>
+Value chosen(const JsonFile& file, const std::string& at, const std::array<std::pair<const char*, Value>, N>& known) {
+  const std::string said = file.text(at);
+  std::string all;
+  for (const auto& [name, value] : known) {
+    if (said == name) return value;
+    all += (all.empty() ? "" : ", ") + std::string(name);
+  }
+  file.refuse(at, "is \"" + said + "\"; known: " + all);
+}
+
+Cue cueIn(const JsonFile& file) {
+  const std::string said = file.text("cue");
+  std::string all;
+  for (int i = 1; i < haptics::kCues; ++i) {
+    const Cue cue = static_cast<Cue>(i);
+    if (said == haptics::cueName(cue).name) return cue;
+    all += (all.empty() ? "" : ", ") + std::string(haptics::cueName(cue).name);
+  }
+  file.refuse("cue", "is \"" + said + "\"; known: " + all);
+}
+
+/// "inserted" of the phases, "muscle" of the tissues: its number.
+double countedIn(const JsonFile& file, Cue cue) {
+  if (!file.json().at("is").is_string()) return file.number("is", 0, 255);
+  const std::string said = file.text("is");
+  static constexpr std::array<const char*, 3> kPhases{"outside", "indenting", "inserted"};
+  if (cue == Cue::phase)
+    for (std::size_t i = 0; i < kPhases.size(); ++i)
+      if (said == kPhases[i]) return static_cast<double>(i);
+  if (cue == Cue::tissue)
+    for (int i = 0; i < kTissueCount; ++i)
+      if (said == palpa::name(static_cast<Tissue>(i))) return i;
+  file.refuse("is", "is \"" + said + "\", which \"" + haptics::cueName(cue).name + "\" never is");
+}
+
+Condition conditionIn(const JsonFile& file, double hysteresis) {
+  constexpr double kLargest = 1e6;
+  Condition c;
+  c.cue = cueIn(file);
+  c.hysteresis = hysteresis;
+  const double unit = haptics::cueName(c.cue).si;
+  if (file.has("at_least")) c.threshold = unit * file.number("at_least", -kLargest, kLargest);
+  else if (file.has("below")) c.compare = Condition::Compare::below, c.threshold = unit * file.number("below", -kLargest, kLargest);
+  else if (file.has("is")) c.compare = Condition::Compare::equal, c.threshold = countedIn(file, c.cue);
+  else file.refuse("cue", "needs \"at_least\", \"below\" or \"is\" beside it");
+  return c;
+}
+
+haptics::Subtask subtaskIn(const JsonFile& file, double hysteresis) {
+  haptics::Subtask subtask;
+  const std::vector<JsonFile> conditions = file.entries("on");
+  if (conditions.empty() || conditions.size() > haptics::kMostConditions) file.refuse("on", "must hold 1 to " + std::to_string(haptics::kMostConditions) + " conditions");
+  for (const JsonFile& condition : conditions) subtask.conditions[subtask.count++] = conditionIn(condition, hysteresis);
+  return subtask;
+}
+
+void readTrigger(const JsonFile& file, Augmentation* a) {
+  using Trigger = Augmentation::Trigger;
+  using Known = std::pair<const char*, std::pair<Trigger, std::uint32_t>>;
+  static constexpr std::array<Known, 8> kTriggers{{{"begin", {Trigger::begin, 0}},
+                                                   {"rise", {Trigger::rise, 0}},
+                                                   {"bump", {Trigger::bump, 0}},
+                                                   {"skin_punctured", {Trigger::event, haptics::kSkinPunctured}},
+                                                   {"withdrawn", {Trigger::event, haptics::kWithdrawn}},
+                                                   {"wall_punctured", {Trigger::event, haptics::kWallPunctured}},
+                                                   {"bone_touched", {Trigger::event, haptics::kBoneTouched}},
+                                                   {"bone_left", {Trigger::event, haptics::kBoneLeft}}}};
+  if (!file.has("trigger")) return;
+  std::tie(a->trigger, a->events) = chosen(file, "trigger", kTriggers);
+}
+
+void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
+  using Kind = Augmentation::Kind;
+  constexpr double kStrongest = 50;   // N
+  switch (a->kind) {
+    case Kind::none:
+      return;
+    case Kind::pulse:
+      a->amplitude = file.number("force_N", 0, kStrongest);
+      a->width_s = kMilli * file.number("width_ms", 1, 200);
+      if (a->trigger == Augmentation::Trigger::none) file.refuse("kind", "is \"pulse\": say what triggers it, \"trigger\"");
+      return;
+    case Kind::vibration:
+      a->amplitude = file.number("force_N", 0, kStrongest);
+      if (file.has("wavelength_mm")) a->wavelength = kMilli * file.number("wavelength_mm", 0.01, 100);
+      else a->frequency_Hz = file.number("frequency_Hz", 1, 500);
+      if (a->trigger != Augmentation::Trigger::none) a->tau_s = kMilli * file.number("decay_ms", 1, 2000);
+      return;
+    case Kind::attraction:
+      a->amplitude = file.number("force_N", 0, kStrongest);
+      if (file.has("reach_U")) *reach_U = file.number("reach_U", 0.1, 1000);
+      else a->reach = kMilli * file.number("reach_mm", 0.01, 100);
+      return;
+    case Kind::exaggeration:
+      a->amplitude = file.number("times", 0, 5);
+      a->tau_s = kMilli * file.number("tau_ms", 1, 2000);
+      return;
+    case Kind::fixture:
+      a->amplitude = file.number("stiffness_N_per_m", 0, 1e4);
+      return;
+  }
+}
+
+Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double* reach_U) {
+  using Kind = Augmentation::Kind;
+  using Way = Augmentation::Way;
+  static constexpr std::array<std::pair<const char*, Kind>, 5> kKinds{{{"pulse", Kind::pulse}, {"vibration", Kind::vibration}, {"attraction", Kind::attraction}, {"exaggeration", Kind::exaggeration}, {"fixture", Kind::fixture}}};
+  static constexpr std::array<std::pair<const char*, Way>, 4> kWays{{{"up", Way::up}, {"against_motion", Way::against_motion}, {"along_tool", Way::along_tool}, {"against_tool", Way::against_tool}}};
+  Augmentation a;
+  a.kind = chosen(file, "kind", kKinds);
+  if (file.has("way")) a.way = chosen(file, "way", kWays);
+  const std::string subtask = file.text("subtask");
+  for (std::size_t i = 0; i < named.subtasks.size(); ++i)
+    if (named.subtasks[i].name == subtask) a.subtask = static_cast<std::uint8_t>(i);
+  if (a.subtask == haptics::kAnySubtask && subtask != "any") file.refuse("subtask", "is \"" + subtask + "\", which \"subtasks\" does not name");
+  readTrigger(file, &a);
+  if (file.has("blend_ms")) a.blend_s = kMilli * file.number("blend_ms", 0, 1000);
+  readShape(file, &a, reach_U);
+  return a;
+}
+
+}  // namespace
+
+NamedPlan readPlan(const JsonFile& task) {
+  constexpr double kUsual = 0.05;
+  NamedPlan named;
+  if (!task.has("subtasks")) return named;
+  const double hysteresis = task.has("hysteresis") ? task.number("hysteresis", 0, 0.9) : kUsual;
+  const std::vector<JsonFile> subtasks = task.entries("subtasks"), augmentations = task.entries("augmentations");
+  if (subtasks.size() > haptics::kMostSubtasks) task.refuse("subtasks", "holds more than " + std::to_string(haptics::kMostSubtasks));
+  if (augmentations.size() > haptics::kMostAugmentations) task.refuse("augmentations", "holds more than " + std::to_string(haptics::kMostAugmentations));
+  for (const JsonFile& subtask : subtasks) {
+    named.subtasks.push_back({subtask.text("name"), subtask.text("means")});
+    named.plan.subtasks.each[named.plan.subtasks.count++] = subtaskIn(subtask, hysteresis);
+  }
+  for (const JsonFile& augmentation : augmentations) {
+    double reach_U = 0;
+    named.plan.each[named.plan.count++] = augmentationIn(augmentation, named, &reach_U);
+    named.augmentations.push_back({augmentation.text("name"), augmentation.text("means")});
+    named.reach_U.push_back(reach_U);
+  }
+  named.limit_share = task.number("limit_share", 0, 1);
+  return named;
+}
+
+haptics::AugmentationPlan onDevice(const NamedPlan& named, double max_force_N, double stiffness, double unit) {
+  haptics::AugmentationPlan plan = named.plan;
+  plan.largest = named.limit_share * max_force_N;
+  plan.steepest = stiffness;
+  for (std::size_t i = 0; i < named.reach_U.size(); ++i)
+    if (named.reach_U[i] > 0) plan.each[i].reach = unit * named.reach_U[i];
+  return plan;
+}
+
+}  // namespace palpa::station

@@ -1,0 +1,73 @@
+#pragma once
+
+#include <vector>
+
+#include "apps/task_search/floors.h"
+#include "apps/task_search/search_listener.h"
+#include "apps/trial/trial_task.h"
+
+namespace palpa::task_search {
+
+struct CompletedSearch {
+  assess::SearchTrial trial;
+  std::string reason;                  ///< why aborted or void
+};
+
+/// What the task tells the scene.
+struct SearchStatus : trial::TrialStatus {
+  assess::SearchMode mode = assess::SearchMode::real;
+  std::string block;
+  bool held = false;                   ///< the handle is still held at its start
+};
+
+struct SearchChannels : trial::Channels {
+  explicit SearchChannels(runtime::TimeMode mode) : status_to_scene(mode) {}
+  runtime::StateChannel<SearchStatus> status_to_scene;
+};
+
+/// The search's episodes: the handle is held over the middle, let go, and the episode ends when the probe has stayed in an element's pit.
+class SearchTask final : public trial::TrialTask {
+ public:
+  struct Setup {
+    const SearchSettings& settings;
+    haptics::TickConfig tick;
+    bool simulated = false, automatic = true, force_feedback = true;
+    bool waits = false;                ///< for a floor that is being made: in virtual time
+    std::string not_scored;            ///< why; empty: scored
+    const std::vector<Episode>& episodes;
+    std::vector<runtime::BoardPlace> places;
+  };
+  SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus, SearchChannels& channels, runtime::Executive& executive);
+
+  const std::vector<CompletedSearch>& completed() const { return completed_; }
+
+ private:
+  std::string notReady(const haptics::FlightRecord& last) const override;
+  runtime::TrialHeader begin(std::int64_t now_ns) override;
+  Conclusion conclude(const std::string& outcome, const std::string& reason) override;
+  void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
+  void command(haptics::TickCommands& commands) const override;
+  void publishStatus(std::int64_t now_ns) override;
+  void letGo(const haptics::FlightRecord& record, std::int64_t now_ns);
+  const Episode& episode() const { return setup_.episodes[static_cast<std::size_t>(status().trial - 1)]; }
+
+  Setup setup_;
+  Floors& floors_;
+  SearchChannels& channels_;
+  SearchListener listener_;
+  bool held_ = false;
+  std::int64_t began_ns_ = 0;
+  SearchStatus shown_;
+  std::vector<CompletedSearch> completed_;
+};
+
+/// Where the tip is, in D, by a reading of a device that turns.
+Vec3 tipOf(const haptics::TickConfig& config, const haptics::DeviceReading& reading);
+/// What the loop is told of an episode.
+void tellLoop(const Episode& episode, haptics::TickCommands* commands);
+/// What a trial was, from its facts and what was heard of it; the same for a session and for its replay.
+assess::SearchTrial judged(assess::SearchTrial facts, const Episode& episode, const SearchListener& listener);
+/// What is recorded of it.
+std::string scoreJson(const assess::SearchTrial& trial);
+
+}  // namespace palpa::task_search

@@ -1,0 +1,275 @@
+#include "apps/twin/searching_hand.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "apps/runtime/random.h"
+#include "apps/station/json_file.h"
+#include "apps/twin/bearings.h"
+#include "apps/twin/tremor.h"
+
+namespace palpa::twin {
+namespace {
+
+constexpr double kTurn = 2 * std::numbers::pi, kThird = kTurn / 3;
+constexpr double kMind_s = 0.01;                       // 100 Hz
+constexpr std::int64_t kGlance_ns = 100'000'000;       // 10 Hz
+constexpr double kLetGo_s = 1.4;                       // after the episode begins on the screen the handle is free
+constexpr double kDescent = 0.010;        // m/s
+constexpr double kPressGain = 0.004;                   // m/s more for every newton too little
+constexpr double kStay_s = 0.9;                        // in a middle, before looking round
+constexpr double kStroke_U = 18;                       // amplitude: within the texture
+constexpr double kSpiral_U = 12, kSpiralPitch_U = 4;
+
+double wrapped(double angle, double period) { return angle - period * std::round(angle / period); }
+
+class SearchingHand final : public Hand {
+ public:
+  SearchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET, std::uint64_t seed)
+      : skill_(skill), floor_(floor), X_ET_(X_ET), judgement_(seed, "searching.judgement"), glance_(seed, "searching.glance"), tremor_(skill.tremor_rms, runtime::RandomStream(seed, "searching.tremor")),
+        jolts_(skill.jolt, runtime::RandomStream(seed, "searching.jolts")) {}
+
+  Action act(const Senses& senses, double dt) override {
+    look(senses, dt);
+    if (!bearings_.taken()) return {senses.X_DE, 0, 0, {}};
+    if (jolts_.feel(f_F_, dt) && step_ == Step::round) angles_.push_back(std::atan2(p_U_.y(), p_U_.x()));
+    if (senses.now_ns >= next_ns_) {
+      next_ns_ = senses.now_ns + static_cast<std::int64_t>(kMind_s * 1e9);
+      think(senses);
+    }
+    press(dt);
+    move(dt);
+    Action action;
+    action.X_DH = bearings_.X_DA() * makePose(R_FT_, floor_.unit * goal_U_ + tremor_.next(dt)) * X_ET_.inverse();
+    return action;
+  }
+  const HandGrip& grip() const override { return skill_.grip; }
+
+ private:
+  enum class Step { rest, wait, descend, reach, round, go, stroke, middle, spiral };
+
+  void look(const Senses& senses, double dt) {
+    const Vec3 p_D = senses.X_DE.translation();
+    speed_ += ((p_D - p_last_D_).norm() / dt - speed_) * std::min(1.0, dt / 0.05);
+    p_last_D_ = p_D;
+    const Pose X_DT = senses.X_DE * X_ET_;
+    if (senses.seen && (senses.now_ns - last_glance_ns_ >= kGlance_ns || !bearings_.taken())) {
+      last_glance_ns_ = senses.now_ns;
+      Pose X_FT = floor_.X_AF.inverse() * senses.seen->X_AT;
+      X_FT.translation() /= floor_.magnification;      // as it is in the hand
+      if (!bearings_.taken()) {
+        R_FT_ = X_FT.rotation();
+        goal_U_ = X_FT.translation() / floor_.unit;
+      }
+      bearings_.look(X_FT, X_DT, skill_.look_sd, speed_, glance_);
+    }
+    if (!bearings_.taken()) return;
+    p_U_ = bearings_.X_DA().inverse() * X_DT.translation() / floor_.unit;
+    f_F_ = bearings_.X_DA().rotation().transpose() * senses.f_fingers_D;
+    pressed_N_ += (-f_F_.z() - pressed_N_) * std::min(1.0, dt / 0.03);
+  }
+
+  void begin(const Step step, double now_s) {
+    step_ = step;
+    since_s_ = now_s;
+    travelled_ = 0;
+  }
+
+  /// On the floor the hand keeps its pressure, whatever lies under it.
+  void press(double dt) {
+    if (step_ == Step::rest || step_ == Step::wait) return;
+    const double rate = step_ == Step::descend ? -kDescent : kPressGain * (pressed_N_ - skill_.press);
+    goal_U_.z() += rate * dt / floor_.unit;
+  }
+
+  Vec3 onCircle(double angle) const { return {floor_.circle * std::cos(angle), floor_.circle * std::sin(angle), 0}; }
+  double angleOf(int element) const { return orientation_ + kThird * element; }
+
+  /// Straight on at a speed (m/s) until there; across the floor only.
+  bool toward(const Vec3& there_U, double speed, double dt) {
+    const Eigen::Vector2d way = (there_U - goal_U_).head<2>();
+    const double step = speed * dt / floor_.unit, left = way.norm();
+    goal_U_.head<2>() += left > step ? Eigen::Vector2d(way * (step / left)) : way;
+    return left <= step;
+  }
+
+  void move(double dt) {
+    switch (step_) {
+      case Step::rest:
+      case Step::descend:
+        return;
+      case Step::wait:
+        goal_U_ += (Vec3(0, 0, floor_.start_height) - goal_U_) * std::min(1.0, dt / 0.2);
+        return;
+      case Step::reach:
+        arrived_ = toward(onCircle(orientation_), skill_.scan_speed, dt);
+        return;
+      case Step::round: {
+        travelled_ += skill_.scan_speed * dt / floor_.unit / floor_.circle;
+        const Vec3 there = onCircle(orientation_ + direction_ * travelled_);
+        goal_U_.head<2>() = there.head<2>();
+        return;
+      }
+      case Step::go:
+        arrived_ = toward(onCircle(angleOf(element_)) + kStroke_U * strokeWay(), skill_.scan_speed, dt);
+        return;
+      case Step::stroke: {
+        travelled_ += skill_.stroke_speed * dt / floor_.unit / kStroke_U;   // of the phase; the peak speed is the stroke's
+        const Vec3 there = onCircle(angleOf(element_)) + kStroke_U * std::cos(travelled_) * strokeWay();
+        goal_U_.head<2>() = there.head<2>();
+        return;
+      }
+      case Step::middle:
+        arrived_ = toward(onCircle(angleOf(element_)), skill_.settle_speed, dt);
+        return;
+      case Step::spiral: {
+        const double r = kSpiralPitch_U * travelled_ / kTurn;
+        travelled_ += skill_.settle_speed * dt / floor_.unit / std::max(r, 1.0);
+        const Vec3 there = onCircle(angleOf(element_)) + r * Vec3(std::cos(travelled_), std::sin(travelled_), 0);
+        goal_U_.head<2>() = there.head<2>();
+        arrived_ = r > kSpiral_U;
+        return;
+      }
+    }
+  }
+
+  /// Across the circle, so that one stroke and the round before it do not feel the same bumps.
+  Vec3 strokeWay() const { return {std::cos(angleOf(element_)), std::sin(angleOf(element_)), 0}; }
+
+  void think(const Senses& senses) {
+    const double now_s = 1e-9 * static_cast<double>(senses.now_ns), been_s = now_s - since_s_;
+    if (!senses.seen) return;
+    if (!senses.seen->running) {
+      step_ = Step::rest;
+      return;
+    }
+    if (senses.seen->trial != trial_) {
+      trial_ = senses.seen->trial;
+      return begin(Step::wait, now_s);
+    }
+    switch (step_) {
+      case Step::rest:
+        return begin(Step::descend, now_s);           // after a pause
+      case Step::wait:
+        if (been_s > kLetGo_s) begin(Step::descend, now_s);
+        return;
+      case Step::descend:
+        if (pressed_N_ < 0.5 * skill_.press) return;
+        return startRounds(now_s);
+      case Step::reach:
+        if (arrived_) begin(Step::round, now_s);
+        return;
+      case Step::round:
+        if (travelled_ >= kTurn) afterRound(now_s);
+        return;
+      case Step::go:
+        if (!arrived_) return;
+        jolts_.beginStroke();
+        return begin(Step::stroke, now_s);
+      case Step::stroke:
+        if (been_s >= skill_.stroke_s) afterStroke(now_s);
+        return;
+      case Step::middle:
+        if (arrived_ && been_s > kStay_s + 0.5) begin(Step::spiral, now_s);
+        return;
+      case Step::spiral:
+        if (arrived_) startRounds(now_s);             // not there: all over again
+        return;
+    }
+  }
+
+  void startRounds(double now_s) {
+    angles_.clear();
+    round_ = 0;
+    direction_ = 1;
+    orientation_ = judgement_.uniform(0, kTurn);
+    begin(Step::reach, now_s);
+  }
+
+  /// Round once more, the other way, while too little was noticed.
+  void afterRound(double now_s) {
+    ++round_;
+    orientation_ += direction_ * kTurn;
+    if (round_ < 2 || (static_cast<int>(angles_.size()) < skill_.jolts * round_ && round_ < skill_.rounds)) {
+      direction_ = -direction_;
+      return begin(Step::round, now_s);
+    }
+    orientation_ = orientationBy(angles_, floor_.groove / floor_.circle, wrapped(judgement_.uniform(0, kThird), kThird));
+    element_ = 0;
+    begin(Step::go, now_s);
+  }
+
+  void afterStroke(double now_s) {
+    rough_[static_cast<std::size_t>(element_)] = jolts_.roughness() * std::exp(skill_.weber_roughness * judgement_.normal());
+    if (++element_ < 3) return begin(Step::go, now_s);
+    element_ = static_cast<int>(std::max_element(rough_.begin(), rough_.end()) - rough_.begin());
+    begin(Step::middle, now_s);
+  }
+
+  const SearchingSkill skill_;
+  const VisibleFloor floor_;
+  const Pose X_ET_;
+  runtime::RandomStream judgement_, glance_;
+  Tremor tremor_;
+  JoltSense jolts_;
+  Bearings bearings_;
+  Mat3 R_FT_ = Mat3::Identity();
+  Vec3 p_last_D_ = Vec3::Zero(), p_U_ = Vec3::Zero(), goal_U_ = Vec3::Zero(), f_F_ = Vec3::Zero();
+  double speed_ = 0, pressed_N_ = 0, since_s_ = 0, travelled_ = 0, orientation_ = 0, direction_ = 1;
+  std::int64_t next_ns_ = 0, last_glance_ns_ = -kGlance_ns;
+  Step step_ = Step::rest;
+  int trial_ = 0, element_ = 0, round_ = 0;
+  bool arrived_ = false;
+  std::array<double, 3> rough_{};
+  std::vector<double> angles_;
+};
+
+}  // namespace
+
+double orientationBy(const std::vector<double>& angles, double half, double start) {
+  constexpr int kSteps = 240;                          // half a degree
+  std::array<int, kSteps> within{};
+  int most = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    for (const double angle : angles) within[static_cast<std::size_t>(i)] += std::abs(wrapped(angle - kThird * i / kSteps, kThird)) <= half;
+    most = std::max(most, within[static_cast<std::size_t>(i)]);
+  }
+  if (most == 0) return start;
+  // The middle of all that are as good: where the jolts lie evenly about it.
+  double x = 0, y = 0;
+  for (int i = 0; i < kSteps; ++i) {
+    if (within[static_cast<std::size_t>(i)] != most) continue;
+    x += std::cos(kTurn * i / kSteps);
+    y += std::sin(kTurn * i / kSteps);
+  }
+  if (std::hypot(x, y) < 1e-9) return start;
+  const double angle = std::atan2(y, x) / 3;
+  return angle < 0 ? angle + kThird : angle;
+}
+
+std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET, std::uint64_t seed) { return std::make_unique<SearchingHand>(skill, floor, X_ET, seed); }
+
+SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
+  constexpr double kMillimetre = 1e-3;
+  const station::JsonFile file(path);
+  file.needVersion(1);
+  SearchingSkill s;
+  s.name = file.text("name");
+  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000), file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
+  s.tremor_rms = kMillimetre * file.number("tremor_rms_mm", 0, 5);
+  s.look_sd = kMillimetre * file.number("look_sd_mm", 0, 50);
+  s.press = file.number("press_N", 0.05, 20);
+  s.scan_speed = kMillimetre * file.number("scan_speed_mm_per_s", 1, 500);
+  s.stroke_speed = kMillimetre * file.number("stroke_speed_mm_per_s", 1, 500);
+  s.settle_speed = kMillimetre * file.number("settle_speed_mm_per_s", 0.1, 100);
+  s.rounds = file.integer("rounds", 2, 20);
+  s.jolts = file.integer("jolts", 1, 100);
+  s.stroke_s = file.number("stroke_s", 0.1, 10);
+  s.weber_roughness = file.number("weber_roughness", 0, 2);
+  s.jolt = {file.number("jolt_weber", 0, 5), file.number("jolt_least_N", 0, 5), file.number("jolt_spread", 0, 1), file.number("rough_floor_N", 0, 5)};
+  return s;
+}
+
+}  // namespace palpa::twin
