@@ -13,9 +13,9 @@
 namespace palpa::twin {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi, kThird = kTurn / 3;
-constexpr double kMind_s = 0.01;                       // 100 Hz
-constexpr std::int64_t kGlance_ns = 100'000'000;       // 10 Hz
+constexpr double kFullTurn = 2 * std::numbers::pi, kThirdTurn = kFullTurn / 3;
+constexpr double kDecision_s = 0.01;                       // 100 Hz
+constexpr std::int64_t kOverview_ns = 100'000'000;       // 10 Hz
 constexpr double kLetGo_s = 1.4;                       // after the episode begins on the screen the handle is free
 constexpr double kDescent = 0.010;        // m/s
 constexpr double kPressGain = 0.004;                   // m/s more for every newton too little
@@ -36,7 +36,7 @@ class SearchingHand final : public Hand {
     if (!bearings_.taken()) return {senses.X_DE, 0, 0, {}};
     if (jolts_.feel(f_F_, dt) && step_ == Step::round) angles_.push_back(std::atan2(p_U_.y(), p_U_.x()));
     if (senses.now_ns >= next_ns_) {
-      next_ns_ = senses.now_ns + static_cast<std::int64_t>(kMind_s * 1e9);
+      next_ns_ = senses.now_ns + static_cast<std::int64_t>(kDecision_s * 1e9);
       think(senses);
     }
     press(dt);
@@ -55,7 +55,7 @@ class SearchingHand final : public Hand {
     speed_ += ((p_D - p_last_D_).norm() / dt - speed_) * std::min(1.0, dt / 0.05);
     p_last_D_ = p_D;
     const Pose X_DT = senses.X_DE * X_ET_;
-    if (senses.seen && (senses.now_ns - last_glance_ns_ >= kGlance_ns || !bearings_.taken())) {
+    if (senses.seen && (senses.now_ns - last_glance_ns_ >= kOverview_ns || !bearings_.taken())) {
       last_glance_ns_ = senses.now_ns;
       Pose X_FT = floor_.X_AF.inverse() * senses.seen->X_AT;
       X_FT.translation() /= floor_.magnification;      // as it is in the hand
@@ -85,7 +85,7 @@ class SearchingHand final : public Hand {
   }
 
   Vec3 onCircle(double angle) const { return {floor_.circle * std::cos(angle), floor_.circle * std::sin(angle), 0}; }
-  double angleOf(int element) const { return orientation_ + kThird * element; }
+  double angleOf(int element) const { return orientation_ + kThirdTurn * element; }
 
   /// Straight on at a speed (m/s) until there; across the floor only.
   bool toward(const Vec3& there_U, double speed, double dt) {
@@ -125,7 +125,7 @@ class SearchingHand final : public Hand {
         arrived_ = toward(onCircle(angleOf(element_)), skill_.settle_speed, dt);
         return;
       case Step::spiral: {
-        const double r = kSpiralPitch_U * travelled_ / kTurn;
+        const double r = kSpiralPitch_U * travelled_ / kFullTurn;
         travelled_ += skill_.settle_speed * dt / floor_.unit / std::max(r, 1.0);
         const Vec3 there = onCircle(angleOf(element_)) + r * Vec3(std::cos(travelled_), std::sin(travelled_), 0);
         goal_U_.head<2>() = there.head<2>();
@@ -162,7 +162,7 @@ class SearchingHand final : public Hand {
         if (arrived_) begin(Step::round, now_s);
         return;
       case Step::round:
-        if (travelled_ >= kTurn) afterRound(now_s);
+        if (travelled_ >= kFullTurn) afterRound(now_s);
         return;
       case Step::go:
         if (!arrived_) return;
@@ -184,19 +184,19 @@ class SearchingHand final : public Hand {
     angles_.clear();
     round_ = 0;
     direction_ = 1;
-    orientation_ = judgement_.uniform(0, kTurn);
+    orientation_ = judgement_.uniform(0, kFullTurn);
     begin(Step::reach, now_s);
   }
 
   /// Round once more, the other way, while too little was noticed.
   void afterRound(double now_s) {
     ++round_;
-    orientation_ += direction_ * kTurn;
+    orientation_ += direction_ * kFullTurn;
     if (round_ < 2 || (static_cast<int>(angles_.size()) < skill_.jolts * round_ && round_ < skill_.rounds)) {
       direction_ = -direction_;
       return begin(Step::round, now_s);
     }
-    orientation_ = orientationBy(angles_, floor_.groove / floor_.circle, wrapped(judgement_.uniform(0, kThird), kThird));
+    orientation_ = orientationBy(angles_, floor_.groove / floor_.circle, wrapped(judgement_.uniform(0, kThirdTurn), kThirdTurn));
     element_ = 0;
     begin(Step::go, now_s);
   }
@@ -218,7 +218,7 @@ class SearchingHand final : public Hand {
   Mat3 R_FT_ = Mat3::Identity();
   Vec3 p_last_D_ = Vec3::Zero(), p_U_ = Vec3::Zero(), goal_U_ = Vec3::Zero(), f_F_ = Vec3::Zero();
   double speed_ = 0, pressed_N_ = 0, since_s_ = 0, travelled_ = 0, orientation_ = 0, direction_ = 1;
-  std::int64_t next_ns_ = 0, last_glance_ns_ = -kGlance_ns;
+  std::int64_t next_ns_ = 0, last_glance_ns_ = -kOverview_ns;
   Step step_ = Step::rest;
   int trial_ = 0, element_ = 0, round_ = 0;
   bool arrived_ = false;
@@ -233,7 +233,7 @@ double orientationBy(const std::vector<double>& angles, double half, double star
   std::array<int, kSteps> within{};
   int most = 0;
   for (int i = 0; i < kSteps; ++i) {
-    for (const double angle : angles) within[static_cast<std::size_t>(i)] += std::abs(wrapped(angle - kThird * i / kSteps, kThird)) <= half;
+    for (const double angle : angles) within[static_cast<std::size_t>(i)] += std::abs(wrapped(angle - kThirdTurn * i / kSteps, kThirdTurn)) <= half;
     most = std::max(most, within[static_cast<std::size_t>(i)]);
   }
   if (most == 0) return start;
@@ -241,12 +241,12 @@ double orientationBy(const std::vector<double>& angles, double half, double star
   double x = 0, y = 0;
   for (int i = 0; i < kSteps; ++i) {
     if (within[static_cast<std::size_t>(i)] != most) continue;
-    x += std::cos(kTurn * i / kSteps);
-    y += std::sin(kTurn * i / kSteps);
+    x += std::cos(kFullTurn * i / kSteps);
+    y += std::sin(kFullTurn * i / kSteps);
   }
   if (std::hypot(x, y) < 1e-9) return start;
   const double angle = std::atan2(y, x) / 3;
-  return angle < 0 ? angle + kThird : angle;
+  return angle < 0 ? angle + kThirdTurn : angle;
 }
 
 std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET, std::uint64_t seed) { return std::make_unique<SearchingHand>(skill, floor, X_ET, seed); }

@@ -6,75 +6,14 @@
 #include <limits>
 #include <numbers>
 
-#include "anatomy/random_stream.h"
 #include "calibration/agreement.h"
 #include "tests/calibration/complaint.h"
+#include "tests/calibration/planted_trials.h"
 
 namespace palpa::calibration {
 namespace {
 
-using test::complaint;
-using test::says;
-
-struct PlantedTrials {
-  std::vector<Eigen::MatrixXd> trials;
-  std::vector<std::vector<int>> paths;
-  std::vector<int> path() const {
-    std::vector<int> all;
-    for (const std::vector<int>& one : paths) all.insert(all.end(), one.begin(), one.end());
-    return all;
-  }
-};
-
-/// States held for 20 steps in the mean, mostly left for the next one. Their features lie `apart` standard deviations from each other, the first about 0,
-/// the second in other units about 7.
-HiddenMarkov plantedModel(int states, double apart) {
-  HiddenMarkov m;
-  m.start = Eigen::VectorXd::Constant(states, states > 1 ? 0.1 / (states - 1) : 1);
-  m.transition = Eigen::MatrixXd::Constant(states, states, states > 2 ? 0.01 / (states - 2) : 0);
-  m.mean.resize(states, 2);
-  m.variance.resize(states, 2);
-  m.start[0] = states > 1 ? 0.9 : 1;
-  for (Eigen::Index k = 0; k < states; ++k) {
-    m.transition(k, k) = 0.95;
-    m.transition(k, (k + 1) % states) = states > 2 ? 0.04 : 0.05;
-    m.mean.row(k) << apart * static_cast<double>(k % 2), 7 + 1e-3 * apart * static_cast<double>(k / 2);
-    m.variance.row(k) << 1, 1e-6;
-  }
-  return m;
-}
-
-int plantedDraw(const Eigen::VectorXd& chances, anatomy::RandomStream* random) {
-  double left = random->uniform();
-  int k = 0;
-  while (k + 1 < chances.size() && (left -= chances[k]) > 0) ++k;
-  return k;
-}
-
-PlantedTrials simulated(const HiddenMarkov& m, std::uint64_t seed, int trials = 8, int steps = 250) {
-  anatomy::RandomStream random(seed);
-  PlantedTrials all;
-  for (int i = 0; i < trials; ++i) {
-    Eigen::MatrixXd x(steps, m.mean.cols());
-    std::vector<int> path;
-    for (int t = 0; t < steps; ++t) {
-      path.push_back(plantedDraw(t == 0 ? m.start : Eigen::VectorXd(m.transition.row(path.back()).transpose()), &random));
-      for (Eigen::Index d = 0; d < x.cols(); ++d) x(t, d) = m.mean(path.back(), d) + std::sqrt(m.variance(path.back(), d)) * random.normal();
-    }
-    all.trials.push_back(x);
-    all.paths.push_back(path);
-  }
-  return all;
-}
-
-std::vector<int> mostLikelyOfAll(const HiddenMarkov& m, const std::vector<Eigen::MatrixXd>& trials) {
-  std::vector<int> all;
-  for (const Eigen::MatrixXd& t : trials) {
-    const std::vector<int> path = mostLikely(m, t);
-    all.insert(all.end(), path.begin(), path.end());
-  }
-  return all;
-}
+using test::complaint, test::says, test::PlantedTrials, test::plantedModel, test::simulated, test::mostLikelyOfAll;
 
 bool sameBits(const HiddenMarkov& a, const HiddenMarkov& b) {
   return a.start == b.start && a.transition == b.transition && a.mean == b.mean && a.variance == b.variance && a.climb == b.climb && a.log_likelihood == b.log_likelihood;
@@ -223,61 +162,6 @@ TEST(HiddenMarkov, TheLikelihoodNeverFalls) {
   }
 }
 
-HiddenMarkovSettings quick() {
-  HiddenMarkovSettings settings;
-  settings.starts = 3;
-  settings.least_gain = 1e-4;
-  return settings;
-}
-
-TEST(HiddenMarkov, ProposesAsManyStatesAsWerePlanted) {
-  for (const int states : {2, 3, 4}) {
-    const PlantedTrials planted = simulated(plantedModel(states, 4), 8, 8, 150);
-    const StatesProposal proposal = proposeStates(planted.trials, 5, 7, 4, quick());
-    EXPECT_EQ(proposal.states, states);
-    EXPECT_EQ(proposal.repeatable, states);
-    ASSERT_EQ(proposal.curve.size(), 5u);
-    for (const HeldOut& one : proposal.curve) {
-      EXPECT_GT(one.standard_error, 0);
-      EXPECT_LE(one.mean, proposal.curve[static_cast<std::size_t>(proposal.best - 1)].mean);
-      EXPECT_GE(one.bic, proposal.curve[static_cast<std::size_t>(states - 1)].bic);   // these steps are what BIC asks for
-    }
-  }
-}
-
-/// Features that wander about their state's mean: first-order autoregressive.
-PlantedTrials wandering(HiddenMarkov m, double correlation, std::uint64_t seed) {
-  m.transition.diagonal().array() += 4;   // held for 100 steps
-  m.transition /= 5;
-  PlantedTrials planted = simulated(m, seed, 8, 1000);
-  anatomy::RandomStream random(seed + 1);
-  for (std::size_t i = 0; i < planted.trials.size(); ++i)
-    for (Eigen::Index d = 0; d < 2; ++d) {
-      double e = random.normal();
-      for (Eigen::Index t = 0; t < planted.trials[i].rows(); ++t) {
-        const int k = planted.paths[i][static_cast<std::size_t>(t)];
-        e = correlation * e + std::sqrt(1 - correlation * correlation) * random.normal();
-        planted.trials[i](t, d) = m.mean(k, d) + std::sqrt(m.variance(k, d)) * e;
-      }
-    }
-  return planted;
-}
-
-TEST(HiddenMarkov, StepsThatTellEachOtherNeedThinningAndRepeating) {
-  const PlantedTrials planted = wandering(plantedModel(3, 5), 0.8, 14);
-  std::vector<Eigen::MatrixXd> brief, thinned;
-  for (const Eigen::MatrixXd& t : planted.trials) {
-    brief.push_back(t.topRows(400));
-    thinned.push_back(t(Eigen::seqN(0, 100, 10), Eigen::all));
-  }
-  const StatesProposal steep = proposeStates(brief, 4, 7, 2, quick());
-  EXPECT_EQ(steep.states, 4) << "better than the header says";
-  EXPECT_EQ(steep.repeatable, 3);
-  const StatesProposal honest = proposeStates(thinned, 4, 7, 2, quick());
-  EXPECT_EQ(honest.states, 3);
-  EXPECT_EQ(honest.repeatable, 3);
-}
-
 TEST(HiddenMarkov, SameSeedSameBits) {
   const PlantedTrials planted = simulated(plantedModel(3, 2), 9);
   const HiddenMarkov once = fitHiddenMarkov(planted.trials, 3, 11), again = fitHiddenMarkov(planted.trials, 3, 11);
@@ -337,11 +221,6 @@ TEST(HiddenMarkov, WhatTheTrialsCannotTellIsNamed) {
   EXPECT_TRUE(says(complaint([&] { logLikelihood(m, bad * std::numeric_limits<double>::infinity()); }), "no number"));
   EXPECT_TRUE(says(complaint([&] { filtered(m, {}, Eigen::Vector3d::Zero()); }), "not of the model's size"));
   EXPECT_TRUE(says(complaint([&] { filtered(m, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()); }), "the belief is none"));
-  const auto proposalOf = [&](std::size_t trials, int most, int folds) { return complaint([&] { proposeStates({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(trials)}, most, 1, folds); }); };
-  EXPECT_EQ(proposalOf(4, 2, 0), "");
-  EXPECT_TRUE(says(proposalOf(2, 2, 0), "2 trials are too few"));
-  EXPECT_TRUE(says(proposalOf(4, 2, 5), "5 folds"));
-  EXPECT_TRUE(says(proposalOf(4, 0, 0), "no number of states"));
 }
 
 }  // namespace

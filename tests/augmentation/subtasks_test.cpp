@@ -1,0 +1,109 @@
+#include "haptics/augmentation/subtasks.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <string>
+
+namespace palpa::haptics {
+namespace {
+
+Subtasks one(const Condition& c) {
+  Subtasks s;
+  s.each[0].conditions[0] = c;
+  s.each[0].count = 1;
+  s.count = 1;
+  return s;
+}
+
+CueValues speed(double v) {
+  CueValues cues;
+  cues[Cue::floor_speed] = v;
+  return cues;
+}
+
+TEST(Subtasks, OnAtItsThresholdOffFivePercentBelow) {
+  const Subtasks s = one({Cue::floor_speed, Condition::Compare::at_least, {}, 468.75, 0.05});
+  SubtaskState state;
+  EXPECT_EQ(detect(s, speed(468.74), 1, &state), 0u);
+  EXPECT_EQ(state.on, 0u);
+  EXPECT_EQ(detect(s, speed(468.75), 2, &state), 1u);
+  EXPECT_EQ(state.on, 1u);
+  EXPECT_EQ(state.since_ns[0], 2);
+  EXPECT_EQ(detect(s, speed(0.95 * 468.75 + 1e-6), 3, &state), 0u);
+  EXPECT_EQ(state.on, 1u);
+  EXPECT_EQ(state.since_ns[0], 2);
+  detect(s, speed(0.95 * 468.75 - 1e-6), 4, &state);
+  EXPECT_EQ(state.on, 0u);
+  EXPECT_EQ(state.since_ns[0], 4);
+}
+
+TEST(Subtasks, BelowIsTheMirrorImage) {
+  const Subtasks s = one({Cue::floor_speed, Condition::Compare::below, {}, 100, 0.05});
+  SubtaskState state;
+  detect(s, speed(100), 1, &state);
+  EXPECT_EQ(state.on, 0u);
+  detect(s, speed(99.9), 2, &state);
+  EXPECT_EQ(state.on, 1u);
+  detect(s, speed(104.9), 3, &state);
+  EXPECT_EQ(state.on, 1u);
+  detect(s, speed(105), 4, &state);
+  EXPECT_EQ(state.on, 0u);
+}
+
+TEST(Subtasks, HysteresisOfANegativeThresholdGoesTheRightWay) {
+  CueValues cues;
+  const Subtasks s = one({Cue::lump_edge, Condition::Compare::at_least, {}, -0.004, 0.1});
+  SubtaskState state;
+  cues[Cue::lump_edge] = -0.0039;
+  detect(s, cues, 1, &state);
+  EXPECT_EQ(state.on, 1u);
+  cues[Cue::lump_edge] = -0.0043;
+  detect(s, cues, 2, &state);
+  EXPECT_EQ(state.on, 1u);
+  cues[Cue::lump_edge] = -0.0045;
+  detect(s, cues, 3, &state);
+  EXPECT_EQ(state.on, 0u);
+}
+
+TEST(Subtasks, AllConditionsMustHoldAndPartsMayOverlap) {
+  Subtasks s = one({Cue::floor_contact, Condition::Compare::at_least, {}, 1, 0});
+  s.each[0].conditions[1] = {Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+  s.each[0].count = 2;
+  s.each[1].conditions[0] = {Cue::phase, Condition::Compare::equal, {}, 2, 0};
+  s.each[1].count = 1;
+  s.count = 2;
+  SubtaskState state;
+  CueValues cues;
+  cues[Cue::floor_contact] = 1;
+  EXPECT_EQ(detect(s, cues, 1, &state), 0u);
+  cues[Cue::floor_texture] = 1;
+  EXPECT_EQ(detect(s, cues, 2, &state), 1u);
+  cues[Cue::phase] = 2;
+  EXPECT_EQ(detect(s, cues, 3, &state), 2u);
+  EXPECT_EQ(state.on, 3u);
+  cues[Cue::floor_contact] = 0;
+  detect(s, cues, 4, &state);
+  EXPECT_EQ(state.on, 2u);
+}
+
+TEST(Subtasks, ASpeedThatTremblesAboutItsThresholdDoesNotChatter) {
+  const Subtasks s = one({Cue::floor_speed, Condition::Compare::at_least, {}, 468.75, 0.05});
+  SubtaskState state;
+  int switches = 0;
+  for (int i = 0; i < 1000; ++i) {
+    const std::uint32_t before = state.on;
+    detect(s, speed(468.75 * (1 + (i % 2 ? 0.02 : -0.02))), i, &state);
+    switches += before != state.on;
+  }
+  EXPECT_EQ(switches, 1);
+}
+
+TEST(Cues, EveryOneHasANameOfItsOwn) {
+  std::set<std::string> names;
+  for (int i = 0; i < kCues; ++i) EXPECT_TRUE(names.insert(cueName(static_cast<Cue>(i)).name).second) << i;
+  EXPECT_EQ(cueName(static_cast<Cue>(200)).name, std::string("none"));
+}
+
+}  // namespace
+}  // namespace palpa::haptics
