@@ -67,6 +67,7 @@ void lookAtFloor(const TickConfig& config, const Floor& floor, const FloorTouch&
   if (floor.rises && touch.touching && speed > 0)
     in->rise = floor.rises->rises(p.x(), p.y(), GaborTable::directionOf(v_F.x(), v_F.y()), GaborTable::scaleOf(speed, kFirstScan));
   in->bump = touch.touching && floor.surface->crossesBump(before.x(), before.y(), p.x(), p.y());
+  if (touch.touching) in->footprint = floor.surface->bumpOnWay(before.x(), before.y(), p.x(), p.y()) / std::max(floor.surface->spec().target.radius, floor.surface->spec().distractor.radius);
   if (!floor.valleys || !touch.touching) return;
   const ValleyMap::Nearest valley = floor.valleys->nearest(p.x(), p.y());
   if (!valley.found) return;

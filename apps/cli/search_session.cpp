@@ -82,6 +82,7 @@ SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
   seen.X_AF = X_AF;
   seen.magnification = magnification();
   seen.unit = rendering.unit;
+  seen.handle_mass = station.device.capabilities.apparent_mass;
   seen.start_height = rendering.start_height;
   seen.circle = task.spec.circle;
   seen.disc = task.spec.disc;

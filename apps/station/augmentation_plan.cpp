@@ -113,6 +113,10 @@ void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
       a->amplitude = file.number("times", 0, 5);
       a->tau_s = kMilli * file.number("tau_ms", 1, 2000);
       return;
+    case Kind::relief:
+      a->amplitude = file.number("force_N", 0, kStrongest);
+      a->trigger = Augmentation::Trigger::bump;
+      return;
     case Kind::fixture:
       a->amplitude = file.number("stiffness_N_per_m", 0, 1e4);
       return;
@@ -122,7 +126,7 @@ void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
 Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double* reach_U) {
   using Kind = Augmentation::Kind;
   using Way = Augmentation::Way;
-  static constexpr std::array<std::pair<const char*, Kind>, 5> kKinds{{{"pulse", Kind::pulse}, {"vibration", Kind::vibration}, {"attraction", Kind::attraction}, {"exaggeration", Kind::exaggeration}, {"fixture", Kind::fixture}}};
+  static constexpr std::array<std::pair<const char*, Kind>, 6> kKinds{{{"pulse", Kind::pulse}, {"vibration", Kind::vibration}, {"attraction", Kind::attraction}, {"exaggeration", Kind::exaggeration}, {"fixture", Kind::fixture}, {"relief", Kind::relief}}};
   static constexpr std::array<std::pair<const char*, Way>, 4> kWays{{{"up", Way::up}, {"against_motion", Way::against_motion}, {"along_tool", Way::along_tool}, {"against_tool", Way::against_tool}}};
   Augmentation a;
   a.kind = chosen(file, "kind", kKinds);

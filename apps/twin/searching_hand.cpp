@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "apps/runtime/random.h"
 #include "apps/station/json_file.h"
@@ -25,6 +26,17 @@ constexpr double kSpiral_U = 12, kSpiralPitch_U = 4;
 
 double wrapped(double angle, double period) { return angle - period * std::round(angle / period); }
 
+/// Where the hand wants to be, as a hand can: no corners. Critically damped, so that the acceleration is known beforehand.
+struct SmoothWay {
+  Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();
+  void follow(const Vec3& goal, double dt) {
+    constexpr double kTau = 0.015;                     // s
+    a = (goal - p) / (kTau * kTau) - 2 * v / kTau;
+    v += a * dt;
+    p += v * dt;
+  }
+};
+
 class SearchingHand final : public Hand {
  public:
   SearchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET, std::uint64_t seed)
@@ -34,15 +46,16 @@ class SearchingHand final : public Hand {
   Action act(const Senses& senses, double dt) override {
     look(senses, dt);
     if (!bearings_.taken()) return {senses.X_DE, 0, 0, {}};
-    if (jolts_.feel(f_F_, dt) && step_ == Step::round) angles_.push_back(std::atan2(p_U_.y(), p_U_.x()));
+    if (jolts_.feel(v_F_ - way_.v, dt) && step_ == Step::round) angles_.push_back(std::atan2(p_U_.y(), p_U_.x()));
     if (senses.now_ns >= next_ns_) {
       next_ns_ = senses.now_ns + static_cast<std::int64_t>(kDecision_s * 1e9);
       think(senses);
     }
     press(dt);
     move(dt);
+    way_.follow(floor_.unit * goal_U_, dt);
     Action action;
-    action.X_DH = bearings_.X_DA() * makePose(R_FT_, floor_.unit * goal_U_ + tremor_.next(dt)) * X_ET_.inverse();
+    action.X_DH = bearings_.X_DA() * makePose(R_FT_, way_.p + lead(dt) + tremor_.next(dt)) * X_ET_.inverse();
     return action;
   }
   const HandGrip& grip() const override { return skill_.grip; }
@@ -51,10 +64,10 @@ class SearchingHand final : public Hand {
   enum class Step { rest, wait, descend, reach, round, go, stroke, middle, spiral };
 
   void look(const Senses& senses, double dt) {
-    const Vec3 p_D = senses.X_DE.translation();
-    speed_ += ((p_D - p_last_D_).norm() / dt - speed_) * std::min(1.0, dt / 0.05);
-    p_last_D_ = p_D;
     const Pose X_DT = senses.X_DE * X_ET_;
+    const Vec3 p_D = X_DT.translation(), v_D = last_ ? Vec3((p_D - *last_) / dt) : Vec3(Vec3::Zero());
+    last_ = p_D;
+    speed_ += (v_D.norm() - speed_) * std::min(1.0, dt / 0.05);
     if (senses.seen && (senses.now_ns - last_glance_ns_ >= kOverview_ns || !bearings_.taken())) {
       last_glance_ns_ = senses.now_ns;
       Pose X_FT = floor_.X_AF.inverse() * senses.seen->X_AT;
@@ -62,13 +75,22 @@ class SearchingHand final : public Hand {
       if (!bearings_.taken()) {
         R_FT_ = X_FT.rotation();
         goal_U_ = X_FT.translation() / floor_.unit;
+        way_.p = X_FT.translation();
       }
       bearings_.look(X_FT, X_DT, skill_.look_sd, speed_, glance_);
     }
     if (!bearings_.taken()) return;
     p_U_ = bearings_.X_DA().inverse() * X_DT.translation() / floor_.unit;
+    v_F_ = bearings_.X_DA().rotation().transpose() * v_D;
     f_F_ = bearings_.X_DA().rotation().transpose() * senses.f_fingers_D;
     pressed_N_ += (-f_F_.z() - pressed_N_) * std::min(1.0, dt / 0.03);
+  }
+
+  /// How far the hand goes before the handle, so that the grip gives all that the handle and the hand need: k e + b de/dt = M a.
+  const Vec3& lead(double dt) {
+    const auto& [stiffness, damping, mass] = skill_.grip;
+    lead_ = (damping * lead_ + (floor_.handle_mass + mass) * dt * way_.a) / (damping + stiffness * dt);
+    return lead_;
   }
 
   void begin(const Step step, double now_s) {
@@ -80,9 +102,11 @@ class SearchingHand final : public Hand {
   /// On the floor the hand keeps its pressure, whatever lies under it.
   void press(double dt) {
     if (step_ == Step::rest || step_ == Step::wait) return;
-    const double rate = step_ == Step::descend ? -kDescent : kPressGain * (pressed_N_ - skill_.press);
+    const double rate = step_ == Step::descend ? -kDescent : kPressGain * (pressed_N_ - (light() ? skill_.stroke_press : skill_.press));
     goal_U_.z() += rate * dt / floor_.unit;
   }
+
+  bool light() const { return step_ == Step::go || step_ == Step::stroke; }
 
   Vec3 onCircle(double angle) const { return {floor_.circle * std::cos(angle), floor_.circle * std::sin(angle), 0}; }
   double angleOf(int element) const { return orientation_ + kThirdTurn * element; }
@@ -108,7 +132,7 @@ class SearchingHand final : public Hand {
         return;
       case Step::round: {
         travelled_ += skill_.scan_speed * dt / floor_.unit / floor_.circle;
-        const Vec3 there = onCircle(orientation_ + direction_ * travelled_);
+        const Vec3 there = onCircle(orientation_ + travelled_);
         goal_U_.head<2>() = there.head<2>();
         return;
       }
@@ -122,7 +146,7 @@ class SearchingHand final : public Hand {
         return;
       }
       case Step::middle:
-        arrived_ = toward(onCircle(angleOf(element_)), skill_.settle_speed, dt);
+        arrived_ = toward(onCircle(angleOf(element_)), (p_U_ - onCircle(angleOf(element_))).head<2>().norm() > floor_.disc ? skill_.scan_speed : skill_.settle_speed, dt);
         return;
       case Step::spiral: {
         const double r = kSpiralPitch_U * travelled_ / kFullTurn;
@@ -162,7 +186,7 @@ class SearchingHand final : public Hand {
         if (arrived_) begin(Step::round, now_s);
         return;
       case Step::round:
-        if (travelled_ >= kFullTurn) afterRound(now_s);
+        if (travelled_ >= kFullTurn * (round_ + 1)) afterRound(now_s);
         return;
       case Step::go:
         if (!arrived_) return;
@@ -172,7 +196,8 @@ class SearchingHand final : public Hand {
         if (been_s >= skill_.stroke_s) afterStroke(now_s);
         return;
       case Step::middle:
-        if (arrived_ && been_s > kStay_s + 0.5) begin(Step::spiral, now_s);
+        if (!arrived_) since_s_ = now_s;                 // the stay counts from there
+        if (been_s > kStay_s) begin(Step::spiral, now_s);
         return;
       case Step::spiral:
         if (arrived_) startRounds(now_s);             // not there: all over again
@@ -183,28 +208,27 @@ class SearchingHand final : public Hand {
   void startRounds(double now_s) {
     angles_.clear();
     round_ = 0;
-    direction_ = 1;
     orientation_ = judgement_.uniform(0, kFullTurn);
     begin(Step::reach, now_s);
   }
 
-  /// Round once more, the other way, while too little was noticed.
+  /// Round once more while too little was noticed.
   void afterRound(double now_s) {
     ++round_;
-    orientation_ += direction_ * kFullTurn;
-    if (round_ < 2 || (static_cast<int>(angles_.size()) < skill_.jolts * round_ && round_ < skill_.rounds)) {
-      direction_ = -direction_;
-      return begin(Step::round, now_s);
-    }
+    if (round_ < 2 || (static_cast<int>(angles_.size()) < skill_.jolts * round_ && round_ < skill_.rounds)) return;
     orientation_ = orientationBy(angles_, floor_.groove / floor_.circle, wrapped(judgement_.uniform(0, kThirdTurn), kThirdTurn));
-    element_ = 0;
+    element_ = times_ = 0;
+    felt_ = {};
     begin(Step::go, now_s);
   }
 
+  /// Every texture so many times, one after the other; what is remembered is the mean of what was felt.
   void afterStroke(double now_s) {
-    rough_[static_cast<std::size_t>(element_)] = jolts_.roughness() * std::exp(skill_.weber_roughness * judgement_.normal());
-    if (++element_ < 3) return begin(Step::go, now_s);
-    element_ = static_cast<int>(std::max_element(rough_.begin(), rough_.end()) - rough_.begin());
+    felt_[static_cast<std::size_t>(element_)] += std::log(jolts_.roughness()) + skill_.weber_roughness * judgement_.normal();
+    element_ = (element_ + 1) % 3;
+    if (element_ == 0) ++times_;
+    if (times_ < skill_.strokes) return begin(Step::go, now_s);
+    element_ = static_cast<int>(std::max_element(felt_.begin(), felt_.end()) - felt_.begin());
     begin(Step::middle, now_s);
   }
 
@@ -215,14 +239,16 @@ class SearchingHand final : public Hand {
   Tremor tremor_;
   JoltSense jolts_;
   Bearings bearings_;
+  SmoothWay way_;
   Mat3 R_FT_ = Mat3::Identity();
-  Vec3 p_last_D_ = Vec3::Zero(), p_U_ = Vec3::Zero(), goal_U_ = Vec3::Zero(), f_F_ = Vec3::Zero();
-  double speed_ = 0, pressed_N_ = 0, since_s_ = 0, travelled_ = 0, orientation_ = 0, direction_ = 1;
+  std::optional<Vec3> last_;
+  Vec3 v_F_ = Vec3::Zero(), p_U_ = Vec3::Zero(), goal_U_ = Vec3::Zero(), f_F_ = Vec3::Zero(), lead_ = Vec3::Zero();
+  double speed_ = 0, pressed_N_ = 0, since_s_ = 0, travelled_ = 0, orientation_ = 0;
   std::int64_t next_ns_ = 0, last_glance_ns_ = -kOverview_ns;
   Step step_ = Step::rest;
-  int trial_ = 0, element_ = 0, round_ = 0;
+  int trial_ = 0, element_ = 0, round_ = 0, times_ = 0;
   bool arrived_ = false;
-  std::array<double, 3> rough_{};
+  std::array<double, 3> felt_{};
   std::vector<double> angles_;
 };
 
@@ -261,14 +287,16 @@ SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
   s.tremor_rms = kMillimetre * file.number("tremor_rms_mm", 0, 5);
   s.look_sd = kMillimetre * file.number("look_sd_mm", 0, 50);
   s.press = file.number("press_N", 0.05, 20);
+  s.stroke_press = file.number("stroke_press_N", 0.05, 20);
   s.scan_speed = kMillimetre * file.number("scan_speed_mm_per_s", 1, 500);
   s.stroke_speed = kMillimetre * file.number("stroke_speed_mm_per_s", 1, 500);
   s.settle_speed = kMillimetre * file.number("settle_speed_mm_per_s", 0.1, 100);
   s.rounds = file.integer("rounds", 2, 20);
   s.jolts = file.integer("jolts", 1, 100);
   s.stroke_s = file.number("stroke_s", 0.1, 10);
+  s.strokes = file.integer("strokes", 1, 10);
   s.weber_roughness = file.number("weber_roughness", 0, 2);
-  s.jolt = {file.number("jolt_weber", 0, 5), file.number("jolt_least_N", 0, 5), file.number("jolt_spread", 0, 1), file.number("rough_floor_N", 0, 5)};
+  s.jolt = {kMillimetre * file.number("jolt_least_mm_per_s", 0, 100), file.number("jolt_contrast", 0, 20), file.number("jolt_spread", 0, 1), kMillimetre * file.number("rough_floor_mm_per_s", 0, 100)};
   return s;
 }
 

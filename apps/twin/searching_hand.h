@@ -15,11 +15,12 @@ struct SearchingSkill {
   std::string name;
   HandGrip grip;
   double tremor_rms = 0, look_sd = 0;   ///< m, in the hand
-  double press = 0;                     ///< N, on the floor
+  double press = 0, stroke_press = 0;   ///< N, on the floor: to find edges, to tell a texture
   double scan_speed = 0, stroke_speed = 0, settle_speed = 0;   ///< m/s: going round, stroking over a texture, looking for a pit
   int rounds = 0;                       ///< at most, before deciding where the elements are
   int jolts = 0;                        ///< that make a round worth deciding by
-  double stroke_s = 0;                  ///< on each texture
+  double stroke_s = 0;                  ///< on each texture, each time
+  int strokes = 0;                      ///< times over each texture before deciding
   double weber_roughness = 0;           ///< standard deviation of ln of what is felt
   JoltSense::Limits jolt;
 };
@@ -30,6 +31,7 @@ struct VisibleFloor {
   Pose X_AF = Pose::Identity();
   double magnification = 10;
   double unit = 60e-6;                  ///< m in the hand
+  double handle_mass = 0;               ///< kg, that the hand has got used to
   double start_height = 20, circle = 200.0 / 3, disc = 25, groove = 35;   ///< U; groove: its outer rim
 };
 

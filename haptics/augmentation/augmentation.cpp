@@ -112,13 +112,15 @@ Vec3 forceOf(const Part& p, double steepest) noexcept {
       return attraction(p, steepest);
     case Augmentation::Kind::exaggeration:
       return exaggeration(p);
+    case Augmentation::Kind::relief:
+      return p.weight() * p.a.amplitude * p.in.footprint * wayOf(p);
     case Augmentation::Kind::fixture:
       return p.weight() * std::min(p.a.amplitude, steepest) * p.in.to_line;
   }
   return Vec3::Zero();
 }
 
-bool heedsMotion(Augmentation::Kind kind) noexcept { return kind != Augmentation::Kind::pulse && kind != Augmentation::Kind::vibration; }
+bool heedsMotion(Augmentation::Kind kind) noexcept { return kind != Augmentation::Kind::pulse && kind != Augmentation::Kind::vibration && kind != Augmentation::Kind::relief; }
 
 void advance(const Part& p, bool on) noexcept {
   const double step = p.a.blend_s > 0 ? p.in.dt / p.a.blend_s : 1;

@@ -16,7 +16,8 @@ struct Augmentation {
     vibration,      ///< A sin(2 pi f t), or A sin(2 pi s / wavelength) of the way s along the surface
     attraction,     ///< A (1 - cos(2 pi d / reach)) / r toward the nearest valley at the distance d <= reach, r its radius of curvature in U: smooth, 0 at both ends, 2 A / r at reach / 2
     exaggeration,   ///< A (f - low-pass f) of the contact force, time constant tau: what changes fast feels stronger
-    fixture         ///< spring of stiffness A toward a line, across it
+    fixture,        ///< spring of stiffness A toward a line, across it
+    relief          ///< A h / h_max along the way while over a bump of height h, however deep the probe is: a texture that the device is too soft for
   };
   /// When a pulse or a decaying vibration begins; `none`: a vibration goes on as long as its part.
   enum class Trigger : std::uint8_t { none, begin, event, rise, bump };
@@ -53,7 +54,8 @@ struct AugmentationInput {
   CueValues cues;
   std::uint32_t events = 0;
   bool allowed = true;               ///< false: this session or trial goes without
-  bool rise = false, bump = false;   ///< a rise, a bump under the probe's way
+  bool rise = false, bump = false;   ///< a rise, a bump that the probe's way enters
+  double footprint = 0;              ///< 0 to 1: height of the bump that the probe is over, or came across since the last tick, of the highest's
   Vec3 f_contact = Vec3::Zero(), v = Vec3::Zero(), dp = Vec3::Zero();   ///< dp: way since the last tick
   Vec3 up = Vec3::Zero(), tool = Vec3::Zero();                          ///< unit: outward normal; the tool's axis toward its tip; 0: none
   Vec3 to_valley = Vec3::Zero();     ///< m, along the surface

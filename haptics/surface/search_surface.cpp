@@ -152,15 +152,24 @@ Vec3 SearchSurface::closestOnFloor(const Vec3& p) const noexcept {
   return closest;
 }
 
-bool SearchSurface::crossesBump(double ax, double ay, double bx, double by) const noexcept {
+int SearchSurface::bumpEntered(double ax, double ay, double bx, double by) const noexcept {
   const double dx = bx - ax, dy = by - ay, length2 = dx * dx + dy * dy;
   for (int e = 0; e < kElements; ++e) {
     const auto [mx, my] = middles_[static_cast<std::size_t>(e)];
     const double along = length2 > 0 ? std::clamp(((mx - ax) * dx + (my - ay) * dy) / length2, 0.0, 1.0) : 0;
     const double x = ax + along * dx - mx, y = ay + along * dy - my;
-    if (x * x + y * y < spec_.disc * spec_.disc && texture(e).entered(ax - mx, ay - my, bx - mx, by - my)) return true;
+    if (x * x + y * y < spec_.disc * spec_.disc && texture(e).entered(ax - mx, ay - my, bx - mx, by - my)) return e;
   }
-  return false;
+  return -1;
+}
+
+bool SearchSurface::crossesBump(double ax, double ay, double bx, double by) const noexcept { return bumpEntered(ax, ay, bx, by) >= 0; }
+
+double SearchSurface::bumpOnWay(double ax, double ay, double bx, double by) const noexcept {
+  const Place at = place(bx, by);
+  if (at.texture && texture(at.element).covered(at.x, at.y)) return texture(at.element).spec().radius;
+  const int entered = bumpEntered(ax, ay, bx, by);
+  return entered < 0 ? 0 : texture(entered).spec().radius;
 }
 
 }  // namespace palpa::haptics

@@ -63,10 +63,13 @@ class SearchSurface {
   bool isFree(const Vec3& p) const noexcept;
   /// Whether the way from a to b (x, y) enters a bump's footprint in which a is not.
   bool crossesBump(double ax, double ay, double bx, double by) const noexcept;
+  /// Height of the bump whose footprint b is in, or else the way from a to b enters; 0: none.
+  double bumpOnWay(double ax, double ay, double bx, double by) const noexcept;
 
  private:
   double smoothHeight(const Place& at) const noexcept;
   bool overFloor(const Vec3& p) const noexcept;
+  int bumpEntered(double ax, double ay, double bx, double by) const noexcept;   ///< whose: an element; -1: none
   Vec3 closestOnFloor(const Vec3& p) const noexcept;
 
   SearchSpec spec_;
