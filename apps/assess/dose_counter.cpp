@@ -26,4 +26,18 @@ void DoseCounter::add(const haptics::FlightRecord& record, double dt) {
   was_ = record.subtasks;
 }
 
+void TrialDoses::begin(std::uint32_t trial) {
+  counter_ = DoseCounter(plan_, subtasks_);
+  trial_ = trial;
+  last_ns_ = -1;
+}
+
+void TrialDoses::add(const haptics::FlightRecord& record) {
+  constexpr double kLongestGap_s = 0.1;
+  if (record.commands.trial != trial_ || !record.commands.armed) return;
+  const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
+  last_ns_ = record.t_ns;
+  if (dt > 0 && dt <= kLongestGap_s) counter_.add(record, dt);
+}
+
 }  // namespace palpa::assess

@@ -1,7 +1,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "apps/assess/subtask_dose.h"
@@ -23,6 +25,24 @@ class DoseCounter {
   std::vector<SubtaskDose> doses_;
   std::array<std::uint8_t, haptics::kMostAugmentations> part_of_{};   ///< of each augmentation
   std::uint8_t was_ = 0;
+};
+
+/// The doses of one trial after another, from every tick as it was recorded.
+class TrialDoses {
+ public:
+  TrialDoses() = default;
+  TrialDoses(const haptics::AugmentationPlan& plan, std::vector<std::string> subtasks) : plan_(plan), subtasks_(std::move(subtasks)) {}
+  void begin(std::uint32_t trial);
+  /// Counts while the trial is on and forces may be rendered; what lies between two ticks far apart was a pause.
+  void add(const haptics::FlightRecord& record);
+  const std::vector<SubtaskDose>& doses() const { return counter_.doses(); }
+
+ private:
+  haptics::AugmentationPlan plan_;
+  std::vector<std::string> subtasks_;
+  DoseCounter counter_;
+  std::uint32_t trial_ = 0;
+  std::int64_t last_ns_ = -1;
 };
 
 }  // namespace palpa::assess

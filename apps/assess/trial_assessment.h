@@ -7,6 +7,7 @@
 #include "anatomy/geometry/local_geometry.h"
 #include "anatomy/geometry/pose.h"
 #include "apps/assess/paracentesis_score.h"
+#include "apps/assess/subtask_dose.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::assess {
@@ -71,6 +72,8 @@ struct TrialAssessment {
   double closest_pleura_mm = 0, closest_artery_mm = 0;
   double closest_pleura_s = 0, closest_artery_s = 0;
   int skin_punctures = 0;
+  bool augmented = false;            ///< the task's augmentations added force
+  std::vector<SubtaskDose> doses;    ///< of the task's parts
   int redirections =
       0;  ///< in phase 2: drawn back > 3 mm, advanced > 3 mm again, > 3 degrees apart
 };

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/bench/bumpy_torso.h"
+#include "apps/bench/floor_bench.h"
 #include "apps/bench/metric.h"
 #include "apps/bench/tick_timing.h"
 #include "apps/runtime/quantile.h"
@@ -153,6 +154,7 @@ void benchHaptics(const HapticsBenchOptions& options) {
       if (stroke_Hz == 0.2) printCost(world, settings, stroke, options.quick);
     }
   }
+  benchFloor(options.quick);
 }
 
 }  // namespace palpa::bench

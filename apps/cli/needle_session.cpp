@@ -29,10 +29,10 @@ std::vector<task_needle::TrialPlan> plan(const SessionOptions& options, const Ne
   const bool scored = whyNotScored(options, world).empty();
   std::vector<task_needle::TrialPlan> trials;
   if (person && options.familiarisation)
-    trials.push_back(world.trial("familiarisation", options.seed + kFamiliarisationSeed, options.force_feedback));
+    trials.push_back(world.trial("familiarisation", options.seed + kFamiliarisationSeed, options.force_feedback, false));
   for (int i = 0; i < options.trials; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    trials.push_back(world.trial(scored ? options.role : "not scored", seed, options.force_feedback));
+    trials.push_back(world.trial(scored ? options.role : "not scored", seed, options.force_feedback, options.augment));
   }
   return trials;
 }
@@ -64,7 +64,7 @@ class NeedleSession {
     const bool person = options_.who == OperatorKind::person;
     return {world_.patient, world_.query, world_.task, world_.expert_path ? &*world_.expert_path : nullptr,
             world_.X_DA.inverse(), pack(world_.station.X_ET), isSimulated(options_, world_), !person,
-            whyNotScored(options_, world_), plan(options_, world_, person), frame_.places()};
+            whyNotScored(options_, world_), plan(options_, world_, person), frame_.places(), world_.tickConfig().augmentations};
   }
 
   task_needle::SceneActivity::Setup sceneSetup() {

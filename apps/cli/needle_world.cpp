@@ -93,6 +93,7 @@ haptics::TickConfig NeedleWorld::tickConfig() const {
   config.safety = station.safety;
   config.passivity = station.passivity;
   config.X_ET = pack(station.X_ET);
+  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
   return config;
 }
 
@@ -110,8 +111,8 @@ twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill, bool
   return v;
 }
 
-task_needle::TrialPlan NeedleWorld::trial(const std::string& role, std::uint64_t seed, bool force_feedback) const {
-  task_needle::TrialPlan plan{role, seed, force_feedback, 0, {}};
+task_needle::TrialPlan NeedleWorld::trial(const std::string& role, std::uint64_t seed, bool force_feedback, bool augmented) const {
+  task_needle::TrialPlan plan{role, seed, force_feedback, augmented, 0, {}};
   plan.puncture_force_N =
       runtime::RandomStream(seed, "skin.puncture").uniform(needle.puncture_low_N, needle.puncture_high_N);
   runtime::RandomStream walls(seed, "walls.puncture");

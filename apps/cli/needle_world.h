@@ -39,7 +39,7 @@ struct NeedleWorld {
   /// studied this patient's images, in the patient as he is shown.
   twin::VisibleAnatomy visible(const twin::OperatorSkill& skill, bool knows_patient) const;
   /// A trial with this seed's skin and walls.
-  task_needle::TrialPlan trial(const std::string& role, std::uint64_t seed, bool force_feedback) const;
+  task_needle::TrialPlan trial(const std::string& role, std::uint64_t seed, bool force_feedback, bool augmented) const;
 };
 
 }  // namespace palpa::cli

@@ -52,6 +52,7 @@ void addPalpation(CLI::App& program) {
   };
   on_off("--guidance", options->guidance, "A ring and the map of what was felt, in every other case, fading (default off)");
   on_off("--see-through", options->see_through, "Show the lumps (default off); such trials are not scored");
+  addAugmentArgument(*command, *options);
   addRunArguments(*command, *options);
   command->callback([options, preset] {
     if (options->task.empty()) options->task = station::assetFile(kPresets.at(*preset)).string();

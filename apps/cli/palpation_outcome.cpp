@@ -1,4 +1,5 @@
 #include <cstdio>
+#include <tuple>
 
 #include "apps/cli/palpation_session.h"
 #include "apps/cli/session_facts.h"
@@ -45,6 +46,7 @@ void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& 
   page.station.push_back(surfaceFact(world.task.library));
   for (report::Fact& fact : lumpFacts(world.task.library)) page.station.push_back(std::move(fact));
   page.notes = runNotes(run);
+  page.parts = partsOf(world.task.augmentations, run.trials, [](const auto& t) { return std::tuple(t.assessment.doses, t.assessment.facts.augmented, t.assessment.score.seconds); });
   report::writePalpationReport(page, folder / "report.html");
 
   for (const auto& trial : run.trials) {

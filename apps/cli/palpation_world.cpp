@@ -63,6 +63,8 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
   config.X_ET = pack(station.X_ET);
   config.touch = station::touchOf(task.library);
   config.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
+  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
+  for (std::size_t i = 0; i < task.library.kinds.size(); ++i) config.lump_radius[i] = task.library.kinds[i].diameter / 2;
   config.period_ns = std::llround(1e9 / options.rate_Hz);
   if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
   config.device_turns = onBench() || station.device.capabilities.has_orientation;
@@ -110,6 +112,7 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
                                      {"force_feedback", options.force_feedback},
                                      {"guidance", options.guidance},
                                      {"see_through", options.see_through},
+                                     {"augment", options.augment},
                                      {"virtual_time", options.fast}}
                           .dump();
   info.station_json = station.file.json().dump();

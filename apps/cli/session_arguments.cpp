@@ -86,8 +86,13 @@ void addRunArguments(CLI::App& command, SessionOptions& o) {
   command.add_flag("--quiet", o.quiet, "No progress on standard error");
 }
 
+void addAugmentArgument(CLI::App& command, SessionOptions& o) {
+  choice(command, "--augment", o.augment, kOnOff, "Add the task's own cues to the forces, each in its part of the task (default off)");
+}
+
 void addSessionArguments(CLI::App& command, SessionOptions& o) {
   addRunArguments(command, o);
+  addAugmentArgument(command, o);
   command.add_option("--patient", o.patient, "Patient file (.glb); default: built from reference figures")->type_name("FILE");
   command.add_option("--patient-seed", o.patient_seed, "Draw another patient; 0: the reference patient")
       ->check(CLI::NonNegativeNumber);

@@ -10,6 +10,8 @@ namespace palpa::cli {
 /// Adds the options that every session command has.
 void addRunArguments(CLI::App& command, SessionOptions& options);
 /// These, and those of a needle's session.
+/// --augment, where a task's file has augmentations that are off by default.
+void addAugmentArgument(CLI::App& command, SessionOptions& options);
 void addSessionArguments(CLI::App& command, SessionOptions& options);
 
 /// After parsing: what "auto" means here, and contradictions (UsageError).

@@ -24,4 +24,18 @@ report::Fact surfaceFact(const station::LumpLibrary& library);
 /// Lateness, trips with their causes, what drivers and camera had to say, records lost.
 std::vector<report::Fact> runNotes(const SessionRun& run);
 
+/// The parts of a task for its report.
+template <typename Trials, typename Of>
+report::SubtaskSection partsOf(const station::NamedPlan& plan, const Trials& trials, Of of) {
+  report::SubtaskSection section;
+  for (const station::NamedPlan::Part& part : plan.subtasks) section.meanings.emplace_back(part.name, part.means);
+  for (const auto& trial : trials) {
+    const auto [doses, augmented, seconds] = of(trial);
+    section.trials.push_back(doses);
+    section.augmented += augmented;
+    section.seconds += seconds;
+  }
+  return section;
+}
+
 }  // namespace palpa::cli

@@ -64,6 +64,7 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
                                      {"trainee", options.trainee},
                                      {"force_feedback", options.force_feedback},
                                      {"side", anatomy::name(world.patient.side)},
+                                     {"augment", options.augment},
                                      {"skin_deflection", options.skin_deflection},
                                      {"handedness", options.left_handed ? "left" : "right"},
                                      {"virtual_time", options.fast},

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <sstream>
+#include <tuple>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
@@ -118,6 +119,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world, const
   page.station = stationFacts(options, world);
   page.registration = registrationFacts(result, world);
   page.notes = runNotes(result);
+  page.parts = partsOf(world.task.augmentations, result.trials, [](const auto& t) { return std::tuple(t.assessment.doses, t.assessment.augmented, 1e-3 * t.assessment.values.time_ms); });
   report::writeReport(page, folder / "report.html");
   if (!result.registration.empty()) writeRegistration(result.registration, folder / "registration.csv");
 

@@ -14,6 +14,7 @@ void refuseNeedleOptions(const CLI::App& given, const std::string& engine) {
   CLI::App known;
   SessionOptions unused;
   addRunArguments(known, unused);
+  if (engine == "palpation") addAugmentArgument(known, unused);
   for (const CLI::Option* option : given.get_options()) {
     const std::string name = option->get_name();
     if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name)) throw UsageError("has no meaning for this task", name, "Leave it out; palpa " + engine + " --help lists what there is");

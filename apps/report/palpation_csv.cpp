@@ -4,13 +4,14 @@
 #include "apps/report/csv_field.h"
 #include "apps/report/numbers.h"
 #include "apps/report/palpation_report.h"
+#include "apps/report/subtask_csv.h"
 
 namespace palpa::report {
 namespace {
 
 constexpr const char* kPalpationHeader =
     "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,LUMPS,FOUND,MISSED,FALSE_ALARMS,REPEATED,CLEAR_QUADRANTS,WRONG_QUADRANTS,COVERAGE_LIGHT,COVERAGE_MEDIUM,COVERAGE_DEEP,TWICE,"
-    "PATTERN,PATTERN_KEPT,PEAK_N,MEAN_N,TOO_LIGHT,TOO_HARD,CLOSER_FORCE,PRESSES,TIME_S,GUIDED,ERROR_MEAN_MM,SIZE_ERROR_MEAN_MM,AT_STANDARD\n";
+    "PATTERN,PATTERN_KEPT,PEAK_N,MEAN_N,TOO_LIGHT,TOO_HARD,CLOSER_FORCE,PRESSES,TIME_S,GUIDED,ERROR_MEAN_MM,SIZE_ERROR_MEAN_MM,AT_STANDARD,AUGMENTED";
 
 std::string meanField(double sum, int count) { return count > 0 ? shortest(sum / count) : ""; }
 
@@ -40,14 +41,15 @@ std::string palpationRow(const std::string& user_id, const assess::PalpationAsse
   line += ',' + shortest(s.twice) + ',' + assess::nameOf(s.pattern.pattern);
   for (const double value : {s.pattern.kept, s.peak, s.mean, s.too_light, s.too_hard}) line += ',' + shortest(value);
   line += ',' + (s.closer_force > 0 ? shortest(s.closer_force) : "") + ',' + std::to_string(s.presses);
-  return line + ',' + shortest(s.seconds) + ',' + shortest(facts.guided) + ',' + errorFields(trial) + (trial.passed ? ",1\n" : ",0\n");
+  return line + ',' + shortest(s.seconds) + ',' + shortest(facts.guided) + ',' + errorFields(trial) + (trial.passed ? ",1" : ",0") + (facts.augmented ? ",1" : ",0");
 }
 
 }  // namespace
 
 void writePalpationCsv(const std::string& user_id, const std::vector<assess::PalpationAssessment>& trials, const std::filesystem::path& file) {
-  std::string csv = kPalpationHeader;
-  for (const auto& trial : trials) csv += palpationRow(user_id, trial);
+  const std::vector<assess::SubtaskDose> parts = trials.empty() ? std::vector<assess::SubtaskDose>() : trials.front().doses;
+  std::string csv = kPalpationHeader + subtaskColumns(parts) + '\n';
+  for (const auto& trial : trials) csv += palpationRow(user_id, trial) + subtaskFields(parts, trial.doses) + '\n';
   writeWhole(file, csv);
 }
 

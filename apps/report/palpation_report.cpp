@@ -54,13 +54,14 @@ std::string palpationHtml(const PalpationReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, report.title, report.trainee, palpationStyle());
+    writeHeadElement(html, report.title, report.trainee, std::string(palpationStyle()) + std::string(subtaskTableStyle()));
     const auto body = html.in("body");
     writePalpationHeader(html, report);
     {
       const auto main = html.in("main");
       writePalpationTotals(html, report.trials, report.standard);
       for (const PalpationPage& page : report.trials) writePalpationSection(html, page);
+      writeSubtaskSection(html, report.parts);
       writeFacts(html, "Where this task stands", report.taxonomy);
       writeFacts(html, "Station", report.station);
       writeFacts(html, "Notes", report.notes);

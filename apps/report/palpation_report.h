@@ -26,6 +26,7 @@ struct PalpationReport {
   std::vector<Fact> taxonomy;   ///< "Where this task stands"
   std::vector<Fact> station, notes;
   assess::PalpationStandard standard;
+  SubtaskSection parts;
 };
 
 /// One self-contained HTML page: over all trials, then each trial, then what it was done with. All or nothing on disk.
@@ -39,6 +40,7 @@ void writePalpationReport(const PalpationReport& report, const std::filesystem::
 ///   PATTERN PATTERN_KEPT PEAK_N MEAN_N TOO_LIGHT TOO_HARD (of the time of touching)
 ///   CLOSER_FORCE (mean peak of closer looks over that of searching presses) PRESSES TIME_S GUIDED (of the time)
 ///   ERROR_MEAN_MM (between mark and lump, of the lumps found) SIZE_ERROR_MEAN_MM (said less true, with sign, of those graded) AT_STANDARD (this trial; nobody passes by one)
+///   AUGMENTED (cues were added to the forces), then of each part of the task what subtask_csv.h says
 void writePalpationCsv(const std::string& user_id, const std::vector<assess::PalpationAssessment>& trials, const std::filesystem::path& file);
 
 }  // namespace palpa::report

@@ -54,13 +54,14 @@ std::string page(const SessionReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, report.title, report.trainee);
+    writeHeadElement(html, report.title, report.trainee, subtaskTableStyle());
     const auto body = html.in("body");
     writeHeader(html, report);
     {
       const auto main = html.in("main");
       for (const TrialPage& trial : report.trials) writeTrialSection(html, trial);
       writeOverview(html, report.trials);
+      writeSubtaskSection(html, report.parts);
       writeFacts(html, "Where this task stands", report.taxonomy);
       writeFacts(html, "Registration", report.registration);
       writeFacts(html, "Station", report.station);

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/assess/trial_assessment.h"
+#include "apps/report/subtask_table.h"
 
 namespace palpa::report {
 
@@ -38,6 +39,7 @@ struct SessionReport {
       registration;         ///< registration error and its source, simulated truth named as such
   std::vector<Fact> notes;  ///< lateness, lost tracking, safety trips
   std::vector<Fact> taxonomy;   ///< "Where this task stands"
+  SubtaskSection parts;
 };
 
 /// Writes one self-contained HTML page (no network, no script needed to read it). Beside, then
@@ -45,7 +47,8 @@ struct SessionReport {
 void writeReport(const SessionReport& report, const std::filesystem::path& file);
 
 /// trials.csv: header row, then one row a trial: USER_ID FF COL_LUNG COL_RIB COL_ART COL_VEIN
-/// PHASE_1 PHASE_2 ECON_MEAN ECON_VAR TIME SUCCESS TRIAL SEED SIMULATED TOTAL. No date, path or
+/// PHASE_1 PHASE_2 ECON_MEAN ECON_VAR TIME SUCCESS TRIAL SEED SIMULATED TOTAL AUGMENTED (cues were
+/// added to the forces), then of each part of the task what subtask_csv.h says. No date, path or
 /// host timing.
 void writeTrialsCsv(const std::string& user_id, const std::vector<assess::TrialAssessment>& trials,
                     const std::filesystem::path& file);

@@ -79,6 +79,18 @@ void writeSubtaskNote(Html& html) {
                "newton for one second. Added on average: while a cue was felt.");
 }
 
+void writeSubtaskSection(Html& html, const SubtaskSection& parts) {
+  const std::vector<assess::SubtaskDose> sums = dosesSummed(parts.trials);
+  if (sums.empty()) return;
+  const auto section = html.in("section", {{"class", "card"}, {"id", "parts"}});
+  html.element("h2", "The parts of the task, and what the cues added");
+  const std::size_t all = parts.trials.size();
+  html.element("p", parts.augmented == 0 ? std::string("No cues were added to the forces.")
+                                         : "In " + std::to_string(parts.augmented) + " of " + std::to_string(all) + (all == 1 ? " trial" : " trials") + " cues were added to the forces: what was felt is then more than the tissue's own.");
+  writeSubtaskTable(html, sums, parts.meanings, parts.seconds);
+  writeSubtaskNote(html);
+}
+
 std::string_view subtaskTableStyle() { return kSubtaskStyle; }
 
 }  // namespace palpa::report

@@ -23,6 +23,16 @@ void writeSubtaskTable(Html& html, const std::vector<assess::SubtaskDose>& doses
 /// What the figures of the table mean: stands once below one or several of them.
 void writeSubtaskNote(Html& html);
 
+/// What the parts of a task were given in a session.
+struct SubtaskSection {
+  std::vector<std::vector<assess::SubtaskDose>> trials;
+  SubtaskMeanings meanings;
+  double seconds = 0;                  ///< of all trials
+  int augmented = 0;                   ///< trials in which cues were on
+};
+/// A section of its own; nothing where the task has no parts.
+void writeSubtaskSection(Html& html, const SubtaskSection& section);
+
 /// For writeHeadElement.
 std::string_view subtaskTableStyle();
 

@@ -2,6 +2,7 @@
 
 #include "apps/report/numbers.h"
 #include "apps/report/session_report.h"
+#include "apps/report/subtask_csv.h"
 #include "anatomy/geometry/whole_file.h"
 
 namespace palpa::report {
@@ -9,7 +10,7 @@ namespace {
 
 constexpr const char* kHeader =
     "USER_ID,FF,COL_LUNG,COL_RIB,COL_ART,COL_VEIN,PHASE_1,PHASE_2,ECON_MEAN,ECON_VAR,TIME,SUCCESS,"
-    "TRIAL,SEED,SIMULATED,TOTAL\n";
+    "TRIAL,SEED,SIMULATED,TOTAL,AUGMENTED";
 
 /// RFC 4180: quoted only where needed, quotes doubled.
 std::string field(const std::string& text) {
@@ -28,15 +29,16 @@ std::string row(const std::string& user_id, const assess::TrialAssessment& trial
   }
   line += v.success ? ",1," : ",0,";
   return line + std::to_string(trial.trial) + ',' + std::to_string(trial.seed) +
-         (trial.simulated ? ",1," : ",0,") + shortest(trial.total) + '\n';
+         (trial.simulated ? ",1," : ",0,") + shortest(trial.total) + (trial.augmented ? ",1" : ",0");
 }
 
 }  // namespace
 
 void writeTrialsCsv(const std::string& user_id, const std::vector<assess::TrialAssessment>& trials,
                     const std::filesystem::path& file) {
-  std::string csv = kHeader;
-  for (const auto& trial : trials) csv += row(user_id, trial);
+  const std::vector<assess::SubtaskDose> parts = trials.empty() ? std::vector<assess::SubtaskDose>() : trials.front().doses;
+  std::string csv = kHeader + subtaskColumns(parts) + '\n';
+  for (const auto& trial : trials) csv += row(user_id, trial) + subtaskFields(parts, trial.doses) + '\n';
   writeWhole(file, csv);
 }
 

@@ -25,6 +25,11 @@ struct NamedPlan {
   double limit_share = 0.5;
   std::vector<double> reach_U;                ///< of each augmentation, where it is given in units of a floor; else 0
   bool empty() const { return subtasks.empty(); }
+  std::vector<std::string> subtaskNames() const {
+    std::vector<std::string> names;
+    for (const Part& part : subtasks) names.push_back(part.name);
+    return names;
+  }
 };
 
 /// Empty where the file names no "subtasks". Throws UsageError naming the field.

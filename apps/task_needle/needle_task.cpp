@@ -30,7 +30,8 @@ NeedleTask::NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& chan
     : TrialTask({static_cast<int>(setup.plan.size()), setup.automatic, setup.calibration_problem, setup.places}, bus, channels, executive),
       setup_(setup),
       channels_(channels),
-      sampler_(setup.X_AD, setup.X_ET) {
+      sampler_(setup.X_AD, setup.X_ET),
+      doses_(setup.augmentations, setup.settings.augmentations.subtaskNames()) {
   completed_.reserve(setup_.plan.size());
 }
 
@@ -41,6 +42,7 @@ std::string NeedleTask::notReady(const haptics::FlightRecord& last) const {
 runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
   shown_ = {};
   sampler_.begin(static_cast<std::uint32_t>(status().trial));
+  doses_.begin(static_cast<std::uint32_t>(status().trial));
   phases_ = {};
   samples_.clear();
   in_lumen_s_ = 0;
@@ -64,6 +66,8 @@ trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome, co
     trial.assessment.simulated = setup_.simulated;
     trial.assessment.values.success = outcome == "success";
   }
+  trial.assessment.augmented = plan().augmented;
+  trial.assessment.doses = doses_.doses();
   trial.samples = std::move(samples_);
   samples_.clear();
   shown_.blood_flows = false;
@@ -74,6 +78,7 @@ trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome, co
 }
 
 void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
+  doses_.add(record);
   assess::TrialSample sample;
   if (!sampler_.add(record, &sample)) return;
   const double dt = samples_.empty() ? 0 : sample.t_s - samples_.back().t_s;
@@ -125,6 +130,7 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
 void NeedleTask::command(haptics::TickCommands& commands) const {
   commands.puncture_force_N = plan().puncture_force_N;
   commands.wall_scale = plan().wall_scale;
+  commands.augmented = plan().augmented;
   commands.subtask = static_cast<std::uint8_t>(shown_.phase);
 }
 

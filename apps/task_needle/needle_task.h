@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "anatomy/surface_query.h"
+#include "apps/assess/dose_counter.h"
 #include "apps/assess/trial_sampler.h"
 #include "apps/task_needle/task_file.h"
 #include "apps/task_needle/task_status.h"
@@ -16,6 +17,7 @@ struct TrialPlan {
   std::string role = "scored";
   std::uint64_t seed = 1;
   bool force_feedback = true;
+  bool augmented = false;                              ///< the task's augmentations add force
   double puncture_force_N = 1.5;                       ///< of the skin
   std::array<float, kOrganCount> wall_scale = haptics::TickCommands{}.wall_scale;   ///< of the walls' median peaks
 };
@@ -47,6 +49,7 @@ class NeedleTask final : public trial::TrialTask {
     std::string calibration_problem;  ///< not empty: sessions are "not scored"
     std::vector<TrialPlan> plan;
     std::vector<runtime::BoardPlace> places;   ///< of the boards besides the table's
+    haptics::AugmentationPlan augmentations;   ///< as on this device
   };
   NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& channels, runtime::Executive& executive);
 
@@ -68,6 +71,7 @@ class NeedleTask final : public trial::TrialTask {
   assess::PhaseDetector phases_;
   TaskStatus shown_;                   ///< its own part; the base is filled in when it is published
   std::vector<assess::TrialSample> samples_;
+  assess::TrialDoses doses_;
   std::vector<CompletedTrial> completed_;
   double in_lumen_s_ = 0;              ///< dwell with the plunger drawn
   std::array<double, kOrganCount> touched_s_{};   ///< trial time of the last contact, by Organ

@@ -43,6 +43,7 @@ TaskSettings readTask(const std::filesystem::path& path) {
   task.expert_path = path.parent_path() / file.text("expert_path");
   task.materials = path.parent_path() / file.text("materials");
   task.source = file.json().dump();
+  task.augmentations = station::readPlan(file);
   if (file.has("taxonomy")) task.taxonomy = station::taxonomyOf(file);   // older recordings carry none
   return task;
 }

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/assess/assess_trial.h"
+#include "apps/station/augmentation_plan.h"
 #include "apps/station/json_file.h"
 #include "apps/station/taxonomy.h"
 
@@ -18,6 +19,7 @@ struct TaskSettings {
   std::filesystem::path materials;
   std::string source;                  ///< the file's text, for the evidence
   station::Taxonomy taxonomy;
+  station::NamedPlan augmentations;    ///< empty: the task has no parts
 };
 
 /// Throws UsageError naming file and field.

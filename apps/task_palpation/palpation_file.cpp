@@ -138,6 +138,7 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   settings.clinical_force_N = file.number("pressure/clinical_deep_N", 0, 50);
   settings.time_limit_s = file.number("end/time_limit_s", 10, 3600);
   settings.taxonomy = station::taxonomyOf(file);
+  settings.augmentations = station::readPlan(file);
   requireFew(file, settings);
   requireInside(file, settings);
   runtime::RandomStream trial(0, "palpation.rooms");

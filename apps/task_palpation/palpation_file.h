@@ -6,6 +6,7 @@
 
 #include "apps/assess/palpation/palpation_assessment.h"
 #include "apps/runtime/random.h"
+#include "apps/station/augmentation_plan.h"
 #include "apps/station/lump_library.h"
 #include "apps/station/taxonomy.h"
 
@@ -44,6 +45,7 @@ struct PalpationSettings {
   double clinical_force_N = 0;         ///< that deep palpation takes on a patient; where the device gives less, the screen says "scaled force"
   double time_limit_s = 300;
   station::Taxonomy taxonomy;
+  station::NamedPlan augmentations;    ///< empty: the task has no parts
   std::string source;                  ///< the file's text, for the evidence
 };
 

@@ -57,6 +57,7 @@ PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationCha
       setup_(setup),
       channels_(channels),
       listener_(setup.tick),
+      doses_(setup.tick.augmentations, setup.settings.augmentations.subtaskNames()),
       sensor_(setup.tick),
       map_(setup.settings.scoring.rules.area, setup.settings.scoring.rules.levels, setup.settings.scoring.rules.reach),
       guidance_(setup.guided) {
@@ -76,6 +77,7 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   case_ = drawCase(setup_.settings, plan().seed);
   placed_ = placed(case_, setup_.settings.anatomy);
   listener_.begin(static_cast<std::uint32_t>(status().trial));
+  doses_.begin(static_cast<std::uint32_t>(status().trial));
   sensor_.reset();
   map_ = assess::CoverageMap(setup_.settings.scoring.rules.area, setup_.settings.scoring.rules.levels, setup_.settings.scoring.rules.reach);
   guidance_.begin(status().trial);
@@ -101,8 +103,9 @@ trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome,
   CompletedPalpation trial;
   trial.reason = reason;
   const double seconds = listener_.seconds();
-  const assess::PalpationFacts facts{status().trial, status().role, setup_.simulated, plan().force_feedback, plan().seed, outcome, seconds > 0 ? guidance_.shown_s() / seconds : 0};
+  const assess::PalpationFacts facts{status().trial, status().role, setup_.simulated, plan().force_feedback, plan().seed, outcome, seconds > 0 ? guidance_.shown_s() / seconds : 0, plan().augmented};
   trial.assessment = assess::assessPalpation(facts, setup_.settings.scoring.rules, setup_.settings.scoring.standard, lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
+  trial.assessment.doses = doses_.doses();
   trial.samples = listener_.samples();
   if (outcome == "done" || outcome == "time") guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
   showLumps(&trial.assessment);
@@ -121,6 +124,7 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
     }
   }
   const std::size_t marks = listener_.marks().size();
+  doses_.add(record);
   const bool kept = listener_.add(record);
   if (listener_.marks().size() > marks) {
     shown_.marks_P.push_back(listener_.marks().back().p_P);
@@ -143,7 +147,10 @@ void PalpationTask::hear(const trial::UserRequest& request, std::int64_t now_ns)
   tell(now_ns, "grade", trial::gradeText(grade.diameter, grade.hardness, grade.mobility), static_cast<double>(listener_.marks().size()));
 }
 
-void PalpationTask::command(haptics::TickCommands& commands) const { commands.lumps = placed_; }
+void PalpationTask::command(haptics::TickCommands& commands) const {
+  commands.lumps = placed_;
+  commands.augmented = plan().augmented;
+}
 
 void PalpationTask::publishStatus(std::int64_t now_ns) {
   if (status().state == trial::TrialState::running) {

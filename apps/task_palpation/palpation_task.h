@@ -3,6 +3,7 @@
 #include <optional>
 #include <vector>
 
+#include "apps/assess/dose_counter.h"
 #include "apps/task_palpation/guidance.h"
 #include "apps/task_palpation/palpation_file.h"
 #include "apps/task_palpation/palpation_listener.h"
@@ -16,6 +17,7 @@ struct PalpationPlan {
   std::string role = "scored";
   std::uint64_t seed = 1;
   bool force_feedback = true;
+  bool augmented = false;              ///< the task's augmentations add force
 };
 
 struct CompletedPalpation {
@@ -77,6 +79,7 @@ class PalpationTask final : public trial::TrialTask {
   Setup setup_;
   PalpationChannels& channels_;
   PalpationListener listener_;
+  assess::TrialDoses doses_;
   SensorCheck sensor_;
   assess::CoverageMap map_;
   Guidance guidance_;

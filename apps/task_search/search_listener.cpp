@@ -7,12 +7,6 @@ namespace {
 
 constexpr double kLongestGap_s = 0.1;   // longer: it was paused
 
-std::vector<std::string> namesOf(const std::vector<station::NamedPlan::Part>& parts) {
-  std::vector<std::string> names;
-  for (const station::NamedPlan::Part& part : parts) names.push_back(part.name);
-  return names;
-}
-
 }  // namespace
 
 SearchListener::SearchListener(const SearchSettings& task, const haptics::AugmentationPlan& plan) : task_(&task), plan_(plan) {}
@@ -20,7 +14,7 @@ SearchListener::SearchListener(const SearchSettings& task, const haptics::Augmen
 void SearchListener::begin(std::uint32_t trial) {
   *this = SearchListener(*task_, plan_);
   trial_ = trial;
-  doses_ = assess::DoseCounter(plan_, namesOf(task_->augmentations.subtasks));
+  doses_ = assess::DoseCounter(plan_, task_->augmentations.subtaskNames());
 }
 
 void SearchListener::add(const haptics::FlightRecord& record, const Vec3& p_DT) {
@@ -38,7 +32,7 @@ void SearchListener::add(const haptics::FlightRecord& record, const Vec3& p_DT) 
   const int element = (record.place & haptics::kPlaceElement) - 1;
   if (element >= 0) visited_[static_cast<std::size_t>(element)] += dt;
   if (record.place & haptics::kPlaceTouching) {
-    const double N = unpack(record.f_command_D).norm();
+    const double N = (unpack(record.f_contact_D) + unpack(record.f_augmentation_D)).norm();
     peak_N_ = std::max(peak_N_, N);
     force_Ns_ += N * dt;
     contact_s_ += dt;

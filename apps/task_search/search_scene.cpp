@@ -17,7 +17,7 @@ void SearchScene::compose(scene::SceneState& state, const runtime::ToolState& to
   const Vec3 p_F = setup_.X_AF.inverse() * state.X_AT.translation();
   state.X_AT.translation() = shownPoint(setup_.X_AF, setup_.magnification, p_F);
   state.tool = scene::Tool::probe;
-  state.skin = scene::SkinStyle::solid;
+  state.skin = scene::SkinStyle::translucent;
   state.forces.clear();
   scene::CoverageGrid outline;
   outline.X_AG = setup_.X_AF;

@@ -176,6 +176,44 @@ TEST(SearchSurface, CrossingABumpIsSteppingIntoAFootprint) {
   }
 }
 
+/// Slow ways and fast ones, within an element, from one to another and past them all.
+TEST(SearchSurface, TheBumpOnAWayIsTheOneAtItsEndOrElseOneItEnters) {
+  const SearchSurface floor = searchFloor(12);
+  Draws draw(75);
+  for (const double length : {0.0, 0.02, 0.4, 2.0, 7.0, 20.0, 120.0}) {
+    int low = 0, high = 0, none = 0;
+    for (int n = 0; n < 600; ++n) {
+      const auto [mx, my] = floor.middle(n % 3);
+      const double r = 36 * std::sqrt(draw()), around = draw.from(0, 7), angle = draw.from(0, 7);
+      const double ax = mx + r * std::cos(around), ay = my + r * std::sin(around), bx = ax + length * std::cos(angle), by = ay + length * std::sin(angle);
+      const WayOverBumps way = plainWay(floor, ax, ay, bx, by);
+      if (way.unsure) continue;
+      const double told = floor.bumpOnWay(ax, ay, bx, by);
+      if (way.heights.empty()) {
+        EXPECT_EQ(told, 0) << length << ": " << ax << " " << ay;
+      } else {
+        EXPECT_EQ(std::count(way.heights.begin(), way.heights.end(), told) > 0, true) << length << ": " << ax << " " << ay << " " << told;
+      }
+      ++(told > 1 ? high : told > 0 ? low : none);
+    }
+    EXPECT_GT(low, 20) << length;
+    EXPECT_GT(high, 20) << length;
+    EXPECT_GT(none, 20) << length;
+  }
+}
+
+TEST(SearchSurface, NoBumpIsOnAWayElsewhere) {
+  const SearchSurface floor = searchFloor(12);
+  Draws draw(76);
+  for (int n = 0; n < 2000; ++n) {
+    const auto [mx, my] = floor.middle(n % 3);
+    const double angle = draw.from(0, 7), turn = draw.from(-0.5, 0.5), in = draw.from(0, 5), out = draw.from(29, 36);   // in the pit; round the groove: the chord stays 28 from the middle
+    EXPECT_EQ(floor.bumpOnWay(mx, my, mx + in * std::cos(angle), my + in * std::sin(angle)), 0) << in;
+    EXPECT_EQ(floor.bumpOnWay(mx + out * std::cos(angle), my + out * std::sin(angle), mx + out * std::cos(angle + turn), my + out * std::sin(angle + turn)), 0) << out;
+  }
+  EXPECT_EQ(floor.bumpOnWay(-20, -20, 20, 20), 0);
+}
+
 TEST(SearchSurface, RefusesFiguresThatDoNotFit) {
   const auto floor = [](const auto& change) {
     SearchSpec spec;

@@ -57,6 +57,36 @@ inline double plainHeight(const SearchSurface& floor, double x, double y) {
   return height;
 }
 
+/// From a point to the nearest of the way from a to b.
+inline double toWay(double x, double y, double ax, double ay, double bx, double by) {
+  const Eigen::Vector2d a(ax, ay), way(bx - ax, by - ay), p(x, y);
+  const double length2 = way.squaredNorm(), share = length2 > 0 ? std::clamp((p - a).dot(way) / length2, 0.0, 1.0) : 0;
+  return (p - a - share * way).norm();
+}
+
+/// Heights of the bumps whose footprints b is in; where there are none, of those that the way from a to b enters from outside. `unsure`: rounding decides.
+struct WayOverBumps {
+  std::vector<double> heights;
+  bool unsure = false;
+};
+inline WayOverBumps plainWay(const SearchSurface& floor, double ax, double ay, double bx, double by) {
+  WayOverBumps under, entered;
+  bool unsure = false;
+  for (int e = 0; e < SearchSurface::kElements; ++e) {
+    const auto [mx, my] = floor.middle(e);
+    const double radius = floor.texture(e).spec().radius;
+    for (const BumpPattern::Bump& b : floor.texture(e).bumps()) {
+      const double x = mx + b.x, y = my + b.y, from_a = std::hypot(ax - x, ay - y), from_b = std::hypot(bx - x, by - y), from_way = toWay(x, y, ax, ay, bx, by);
+      for (const double d : {from_a, from_b, from_way}) unsure = unsure || std::abs(d - radius) < 1e-9;
+      if (from_b < radius) under.heights.push_back(radius);
+      else if (from_a >= radius && from_way < radius) entered.heights.push_back(radius);
+    }
+  }
+  WayOverBumps& way = under.heights.empty() ? entered : under;
+  way.unsure = unsure;
+  return way;
+}
+
 /// How deep p lies in what is not free, as a length that is no more than the distance to the free space: under the smooth height, in a ball, beyond a wall.
 inline double plainDepth(const SearchSurface& floor, const Vec3& p) {
   const double half = 0.5 * floor.spec().side;

@@ -4,7 +4,7 @@ namespace palpa::assess {
 
 bool counts(const PalpationAssessment& trial) {
   const PalpationFacts& facts = trial.facts;
-  return (facts.role.empty() || facts.role == "scored") && facts.outcome != "void" && !facts.outcome.empty();
+  return (facts.role.empty() || facts.role == "scored") && !facts.augmented && facts.outcome != "void" && !facts.outcome.empty();
 }
 
 PalpationJudgement judgementOf(const std::vector<PalpationAssessment>& trials, const PalpationStandard& standard) {
