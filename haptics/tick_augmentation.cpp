@@ -7,7 +7,7 @@ namespace palpa::haptics {
 namespace {
 
 constexpr double kFarAway = 1;         // m: there is no lump
-constexpr double kFirstScan = 468.75;  // U/s: 2 px of the 1024 px height map a tick
+constexpr double kFirstScale = 2000;   // px/s: 2 px in a millisecond, half the finest wavelength. 468.75 U/s where 1024 px are 240 U
 
 struct FloorFrame {
   Pose X_DF;
@@ -65,7 +65,7 @@ void lookAtFloor(const TickConfig& config, const Floor& floor, const FloorTouch&
   const Vec3 p = touch.p_U, before = p - dp_F / config.floor.unit, v_F = FloorFrame(config).toF(in->v);
   const double speed = in->cues[Cue::floor_speed];
   if (floor.rises && touch.touching && speed > 0)
-    in->rise = floor.rises->rises(p.x(), p.y(), GaborTable::directionOf(v_F.x(), v_F.y()), GaborTable::scaleOf(speed, kFirstScan));
+    in->rise = floor.rises->rises(p.x(), p.y(), GaborTable::directionOf(v_F.x(), v_F.y()), GaborTable::scaleOf(speed, kFirstScale * floor.rises->side() / floor.rises->size()));
   in->bump = touch.touching && floor.surface->crossesBump(before.x(), before.y(), p.x(), p.y());
   if (touch.touching) in->footprint = floor.surface->bumpOnWay(before.x(), before.y(), p.x(), p.y()) / std::max(floor.surface->spec().target.radius, floor.surface->spec().distractor.radius);
   if (!floor.valleys || !touch.touching) return;
@@ -135,7 +135,7 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
   in.to_line = toLine(frame->record.commands, p_D);
   in.dt = frame->input.dt;
   in.now_ns = frame->input.now_ns;
-  if (touch && floor && floor->surface) lookAtFloor(config, *floor, *touch, FloorFrame(config).toF(in.dp), &in);
+  if (in.allowed && touch && floor && floor->surface) lookAtFloor(config, *floor, *touch, FloorFrame(config).toF(in.dp), &in);
   const Augmented added = augment(plan, in, &state.augmentation);
   FlightRecord& record = frame->record;
   record.f_augmentation_D = pack(added.f);

@@ -34,7 +34,8 @@ void printLookUps(const SearchFloor& floor, bool quick) {
 void printFloorTick(const SearchFloor& floor, bool quick) {
   const FloorTickTiming timing = timeFloorTick(floor, quick ? 20'000 : 200'000, quick ? 3 : 11);
   nlohmann::json params = floorParams(floor);
-  params["augmentations"] = floor.config.augmentations.count;
+  params["augmentations"] = timing.pushing;
+  params["parts"] = timing.parts;
   params["press_N"] = timing.press_N;
   print("floor_tick_median", timing.augmented.median_us, "us", params);
   print("floor_tick_p99", timing.augmented.p99_us, "us", params);

@@ -1,5 +1,6 @@
 #include "apps/bench/floor_timing.h"
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 
@@ -11,13 +12,13 @@
 namespace palpa::bench {
 namespace {
 
-constexpr double kTurn = 2 * std::numbers::pi;
+constexpr double kWholeTurn = 2 * std::numbers::pi;
 constexpr double kOrientation = 0.4;    // rad
 constexpr double kPress = 0.5;          // N [chosen] light exploration
 constexpr double kRoundHz = 0.8, kAcrossHz = 1.7, kAcross = 35;   // U
 constexpr int kPathTicks = 10'000;      // 10 s: 8 rounds, 17 times across, and it is where it began
 constexpr int kBlockOfLooks = 1000;
-constexpr double kDeepest = 8;          // U
+constexpr double kDeepestLook = 8;          // U
 
 haptics::TickConfig floorConfig(const task_search::SearchSettings& task, const station::Station& station) {
   haptics::TickConfig config;
@@ -48,8 +49,8 @@ std::vector<Look> drawLooks(const haptics::SearchSurface& surface, bool on_textu
   while (static_cast<int>(looks.size()) < count) {
     Look look{random.uniform(-half, half), random.uniform(-half, half)};
     if (on_texture && !surface.place(look.x, look.y).texture) continue;
-    look.z = surface.smoothHeight(look.x, look.y) - random.uniform(0, kDeepest);
-    const double speed = 100 * std::exp2(random.uniform(0, 5)), way = random.uniform(0, kTurn);
+    look.z = surface.smoothHeight(look.x, look.y) - random.uniform(0, kDeepestLook);
+    const double speed = 100 * std::exp2(random.uniform(0, 5)), way = random.uniform(0, kWholeTurn);
     look.vx = speed * std::cos(way);
     look.vy = speed * std::sin(way);
     look.direction = static_cast<int>(random.uniform(0, haptics::GaborTable::kDirections));
@@ -100,13 +101,17 @@ class FloorPath {
     reading.t_ns = now_ns_ += config_.period_ns;
     const haptics::FlightRecord record = haptics::tick(config_, *state_, reading, nullptr, commands_, now_ns_, {}, &floor_);
     pushed_ += record.augmenting != 0;
+    pushing_ |= record.augmenting;
+    parts_ |= record.subtasks;
     if (++at_ == readings_.size()) at_ = 0;
   }
+  int pushing() const { return std::popcount(pushing_); }
+  int parts() const { return std::popcount(parts_); }
   double pushed() const { return static_cast<double>(pushed_) / static_cast<double>(ticks_); }
 
  private:
   static Vec3 pathPoint(const SearchFloor& floor, double t) {
-    const double r = floor.task.spec.circle + kAcross * std::sin(kTurn * kAcrossHz * t), angle = kTurn * kRoundHz * t;
+    const double r = floor.task.spec.circle + kAcross * std::sin(kWholeTurn * kAcrossHz * t), angle = kWholeTurn * kRoundHz * t;
     const Vec3 p(r * std::cos(angle), r * std::sin(angle), 0);
     const haptics::FloorRendering& law = floor.config.floor;
     return Vec3(law.unit * Vec3(p.x(), p.y(), floor.made->surface.smoothHeight(p.x(), p.y())) - kPress / law.degraded.stiffness * Vec3::UnitZ());
@@ -119,6 +124,7 @@ class FloorPath {
   std::vector<haptics::DeviceReading> readings_;
   std::size_t at_ = 0;
   std::uint64_t ticks_ = 0, pushed_ = 0;
+  unsigned pushing_ = 0, parts_ = 0;   // a bit each
   std::int64_t now_ns_ = 0;
 };
 
@@ -165,6 +171,8 @@ FloorTickTiming timeFloorTick(const SearchFloor& floor, int ticks, int blocks) {
   timing.plain = timeQueries(ticks, [&](int) { plain.step(); });
   timing.ratio = compareQueries(blocks, kPathTicks, [&](int) { plain.step(); }, [&](int) { augmented.step(); });
   timing.pushed = augmented.pushed();
+  timing.pushing = augmented.pushing();
+  timing.parts = augmented.parts();
   return timing;
 }
 

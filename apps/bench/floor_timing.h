@@ -34,6 +34,7 @@ struct FloorTickTiming {
   QueryTiming augmented, plain;       ///< every augmentation of the task; the same floor in a session that has none
   Ratio ratio;                        ///< augmented over plain, A B B A
   double pushed = 0;                  ///< share of the ticks in which some augmentation gave force
+  int pushing = 0, parts = 0;         ///< how many augmentations ever gave force, parts of the task were ever on
   double press_N = 0;
 };
 FloorTickTiming timeFloorTick(const SearchFloor& floor, int ticks, int blocks);

@@ -5,6 +5,7 @@
 
 #include "apps/cli/session_frame.h"
 #include "apps/report/session_report.h"
+#include "apps/station/augmentation_plan.h"
 #include "apps/station/lump_library.h"
 #include "apps/station/taxonomy.h"
 

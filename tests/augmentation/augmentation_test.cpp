@@ -213,6 +213,91 @@ TEST(Augmentation, AFixturePullsToItsLine) {
   EXPECT_NEAR(augment(plan, in, &state).f.x(), 0.2, 1e-12);
 }
 
+Augmentation reliefOf(double blend_s) {
+  Augmentation a;
+  a.kind = Augmentation::Kind::relief;
+  a.trigger = Augmentation::Trigger::bump;
+  a.amplitude = 0.8;
+  a.blend_s = blend_s;
+  return a;
+}
+
+/// As long as the footprint is there and as high as it is, at once, whatever the probe does.
+TEST(Augmentation, AReliefIsTheFootprintAlongItsWay) {
+  const AugmentationPlan plan = planOf(reliefOf(0));
+  AugmentationState state;
+  for (const double footprint : {0.0, 0.5, 1.0, 1.0, 0.25, 0.0}) {
+    AugmentationInput in = upward();
+    in.footprint = footprint;
+    in.v = Vec3(0.3, 0, -0.1);
+    const Augmented out = augment(plan, in, &state);
+    EXPECT_EQ(out.f, Vec3(0, 0, 0.8 * footprint)) << footprint;
+    EXPECT_EQ(out.active, footprint > 0 ? 1u : 0u);
+  }
+}
+
+TEST(Augmentation, AReliefGoesAnyOfTheWays) {
+  AugmentationInput in = upward();
+  in.footprint = 0.5;
+  in.v = Vec3(0.3, 0, -0.4);
+  in.tool = Vec3::UnitY();
+  const auto along = [&](Augmentation::Way way) {
+    Augmentation a = reliefOf(0);
+    a.way = way;
+    AugmentationState state;
+    return augment(planOf(a), in, &state).f;
+  };
+  using Way = Augmentation::Way;
+  EXPECT_LT((along(Way::against_motion) - Vec3(-0.24, 0, 0.32)).norm(), 1e-12);
+  EXPECT_LT((along(Way::along_tool) - Vec3(0, 0.4, 0)).norm(), 1e-12);
+  EXPECT_LT((along(Way::against_tool) - Vec3(0, -0.4, 0)).norm(), 1e-12);
+}
+
+TEST(Augmentation, AReliefBlendsInAndOutWithItsPart) {
+  AugmentationPlan plan = planOf(reliefOf(0.02));
+  plan.each[0].subtask = 0;
+  plan.subtasks.count = 1;
+  plan.subtasks.each[0].count = 1;
+  plan.subtasks.each[0].conditions[0] = {Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+  AugmentationState state;
+  for (int i = 0; i < 100; ++i) {
+    AugmentationInput in = upward();
+    in.footprint = 0.5;
+    in.cues[Cue::floor_texture] = i >= 10 && i < 60;
+    const double weight = i < 10 ? 0 : i < 60 ? std::min(1.0, (i - 9) / 20.0) : std::max(0.0, 1 - (i - 59) / 20.0);
+    EXPECT_NEAR(augment(plan, in, &state).f.z(), weight * 0.4, 1e-12) << i;
+  }
+}
+
+TEST(Augmentation, AReliefBeginsOnEachBumpThatIsEntered) {
+  AugmentationPlan plan = planOf(reliefOf(0.02));
+  plan.each[0].subtask = 0;
+  plan.subtasks.count = 1;
+  plan.subtasks.each[0].count = 1;
+  plan.subtasks.each[0].conditions[0] = {Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+  AugmentationState state;
+  for (int i = 0; i < 60; ++i) {
+    AugmentationInput in = upward();
+    in.cues[Cue::floor_texture] = i >= 20;
+    in.footprint = 1;
+    in.bump = i == 5 || i == 30 || i == 33;
+    EXPECT_EQ(augment(plan, in, &state).began, i == 30 || i == 33 ? 1u : 0u) << i;
+  }
+}
+
+TEST(Augmentation, AReliefDeclaresItsWork) {
+  AugmentationPlan plan = planOf(reliefOf(0));
+  AugmentationState state;
+  AugmentationInput in = upward();
+  in.footprint = 0.5;
+  in.dp = Vec3(0.1, 0, 1e-4);
+  EXPECT_NEAR(augment(plan, in, &state).work_J, 0.4e-4, 1e-15);
+  in.dp = Vec3(0.1, 0, -1e-4);
+  EXPECT_NEAR(augment(plan, in, &state).work_J, -0.4e-4, 1e-15);
+  plan.largest = 0.1;   // of what is felt
+  EXPECT_NEAR(augment(plan, in, &state).work_J, -0.1e-4, 1e-15);
+}
+
 TEST(Augmentation, AllTogetherNeverExceedTheLimit) {
   AugmentationPlan plan = planOf(pulseOn(Augmentation::Trigger::bump));
   plan.each[0].amplitude = 30;

@@ -182,7 +182,7 @@ TEST(SearchSurface, TheBumpOnAWayIsTheOneAtItsEndOrElseOneItEnters) {
   Draws draw(75);
   for (const double length : {0.0, 0.02, 0.4, 2.0, 7.0, 20.0, 120.0}) {
     int low = 0, high = 0, none = 0;
-    for (int n = 0; n < 600; ++n) {
+    for (int n = 0; n < 1500; ++n) {
       const auto [mx, my] = floor.middle(n % 3);
       const double r = 36 * std::sqrt(draw()), around = draw.from(0, 7), angle = draw.from(0, 7);
       const double ax = mx + r * std::cos(around), ay = my + r * std::sin(around), bx = ax + length * std::cos(angle), by = ay + length * std::sin(angle);
@@ -192,7 +192,7 @@ TEST(SearchSurface, TheBumpOnAWayIsTheOneAtItsEndOrElseOneItEnters) {
       if (way.heights.empty()) {
         EXPECT_EQ(told, 0) << length << ": " << ax << " " << ay;
       } else {
-        EXPECT_EQ(std::count(way.heights.begin(), way.heights.end(), told) > 0, true) << length << ": " << ax << " " << ay << " " << told;
+        EXPECT_TRUE(std::count(way.heights.begin(), way.heights.end(), told) > 0) << length << ": " << ax << " " << ay << " " << told;
       }
       ++(told > 1 ? high : told > 0 ? low : none);
     }

@@ -45,7 +45,7 @@ TEST(GaborFilter, IsPositiveWhereTheSurfaceRisesInItsDirection) {
   for (int scale = 0; scale < 3; ++scale) {
     EXPECT_GT(middle(3, scale), 0);
     EXPECT_LT(middle(19, scale), 0);
-    EXPECT_NEAR(middle(11, scale), 0, 1e-5);   // across: neither
+    EXPECT_NEAR(middle(11, scale), 0, 1e-3 * middle(3, scale));   // across: neither; heights of 15 U in single precision
     EXPECT_GT(middle(3, scale), middle(6, scale));
   }
 }

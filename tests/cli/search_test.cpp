@@ -1,0 +1,146 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/assess/search/search_trial.h"
+#include "csv_rows.h"
+#include "program.h"
+#include "tests/support/counts.h"
+
+/// The haptic search task, as an educator runs it.
+namespace palpa::cli_test {
+namespace {
+
+std::vector<std::string> search(std::vector<std::string> more) {
+  std::vector<std::string> all{"search", "--fast", "--no-views", "--quiet"};
+  all.insert(all.end(), more.begin(), more.end());
+  return all;
+}
+
+std::vector<Row> episodes(const std::vector<std::string>& more, const Folder& here) {
+  const Outcome outcome = palpa(search(more), here.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  const auto out = std::find(more.begin(), more.end(), "--out");
+  return outcome.exit_code == 0 ? rowsOf(contentOf(here / (*(out + 1) + "/trials.csv"))) : std::vector<Row>{};
+}
+
+std::vector<assess::SearchTrial> episodesOf(const std::vector<Row>& rows) {
+  std::vector<assess::SearchTrial> trials;
+  for (const Row& row : rows) {
+    assess::SearchTrial trial;
+    trial.trial = static_cast<int>(trials.size()) + 1;
+    trial.outcome = row.at("OUTCOME");
+    trial.mode = row.at("MODE") == "real" ? assess::SearchMode::real : row.at("MODE") == "degraded" ? assess::SearchMode::degraded : assess::SearchMode::augmented;
+    trial.target = std::stoi(row.at("TARGET"));
+    trial.chosen = std::stoi(row.at("CHOSEN"));
+    trials.push_back(trial);
+  }
+  return trials;
+}
+
+double foundShare(const std::vector<Row>& rows, const std::string& mode) {
+  double found = 0, all = 0;
+  for (const Row& row : rows) {
+    if (row.at("MODE") != mode) continue;
+    found += std::stod(row.at("FOUND"));
+    ++all;
+  }
+  return found / all;
+}
+
+/// The searchers' figures and the task's were fixed before these episodes were ever searched (seeds 20001 to 60099 served to choose them).
+TEST(Search, ADegradedFloorLosesTheTargetAndCuesGiveItBack) {
+  const Folder here;
+  const int trials = test::counted(6, 100);
+  const std::vector<Row> rows = episodes({"--operator", "expert", "--mode", "all", "--seed", "910001", "--trials", std::to_string(trials), "--out", "A"}, here);
+  ASSERT_EQ(rows.size(), 3 * static_cast<std::size_t>(trials));
+  for (const Row& row : rows) EXPECT_EQ(row.at("SIMULATED"), "1");
+  const double real = foundShare(rows, "real"), degraded = foundShare(rows, "degraded"), augmented = foundShare(rows, "augmented");
+  EXPECT_GT(real, degraded);
+  EXPECT_GT(augmented, degraded);
+  if (!test::fullCounts()) return;
+  const std::optional<assess::Recovery> recovery = assess::recoveryOf(episodesOf(rows), 1);
+  ASSERT_TRUE(recovery);
+  EXPECT_GT(recovery->low, 0) << real << " " << degraded << " " << augmented;
+  RecordProperty("real_degraded_augmented", std::to_string(real) + " " + std::to_string(degraded) + " " + std::to_string(augmented));
+  RecordProperty("recovered", std::to_string(recovery->share) + " (" + std::to_string(recovery->low) + ", " + std::to_string(recovery->high) + ")");
+}
+
+/// The same floors in every mode; cues are felt in one of them only.
+TEST(Search, ModesDifferInTheFloorsStiffnessAndInCuesOnly) {
+  const Folder here;
+  const std::vector<Row> rows = episodes({"--operator", "expert", "--mode", "all", "--seed", "20001", "--trials", "2", "--out", "A"}, here);
+  ASSERT_EQ(rows.size(), 6u);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const Row& row = rows[i];
+    EXPECT_EQ(row.at("ORIENTATION_DEG"), rows[i - i % 3].at("ORIENTATION_DEG"));
+    EXPECT_EQ(row.at("TARGET"), rows[i - i % 3].at("TARGET"));
+    double added = 0;
+    for (const char* part : {"SCAN", "SHAPE", "IDENTIFY"}) {
+      EXPECT_GT(std::stod(row.at(std::string(part) + "_ON_S")), 0) << part;
+      added += std::stod(row.at(std::string(part) + "_IMPULSE_NS"));
+    }
+    row.at("MODE") == "augmented" ? EXPECT_GT(added, 0.1) : EXPECT_EQ(added, 0) << row.at("MODE");
+  }
+}
+
+TEST(Search, ReplayFeelsAndJudgesItAgain) {
+  const Folder here;
+  ASSERT_EQ(palpa(search({"--operator", "novice", "--mode", "all", "--seed", "3", "--out", "A"}), here.path()).exit_code, 0);
+  const Outcome outcome = palpa({"replay", "A/session.palpa"}, here.path());
+  EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_TRUE(says(outcome.out, "The replay equals the record")) << outcome.out;
+}
+
+TEST(Search, TheSameSeedGivesTheSameNumbersAndViewsChangeNone) {
+  const Folder here;
+  ASSERT_EQ(palpa(search({"--operator", "expert", "--mode", "augmented", "--seed", "5", "--out", "A"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa({"search", "--fast", "--quiet", "--operator", "expert", "--mode", "augmented", "--seed", "5", "--out", "B"}, here.path()).exit_code, 0);
+  EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
+  const std::string page = contentOf(here / "B/report.html");
+  for (const char* words : {"SIMULATED", "Was the target found?", "The parts of the task, and what the cues added", "Where this task stands"}) EXPECT_TRUE(says(page, words)) << words;
+}
+
+/// Baseline, training, evaluation: the task's blocks; here a task with short ones.
+TEST(Search, BlocksComeInTheirOrderAndTrainInTheModeGiven) {
+  const Folder here;
+  nlohmann::json task = nlohmann::json::parse(contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json"));
+  for (nlohmann::json& block : task["blocks"]) block["episodes"] = 1;
+  const std::string file = here.file("short.json", task.dump());
+  const std::vector<Row> rows = episodes({"--task", file, "--operator", "expert", "--mode", "augmented", "--blocks", "--seed", "20001", "--out", "A"}, here);
+  ASSERT_EQ(rows.size(), 3u);
+  const char* blocks[] = {"baseline", "training", "evaluation"};
+  const char* modes[] = {"real", "augmented", "real"};
+  for (std::size_t i = 0; i < 3; ++i) {
+    EXPECT_EQ(rows[i].at("BLOCK"), blocks[i]);
+    EXPECT_EQ(rows[i].at("MODE"), modes[i]);
+  }
+}
+
+TEST(Search, ATaskFileIsEnough) {
+  const Folder here;
+  const std::string task = std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json";
+  ASSERT_EQ(palpa(search({"--operator", "novice", "--seed", "5", "--out", "A"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa({"train", "--task", task, "--fast", "--no-views", "--quiet", "--operator", "novice", "--seed", "5", "--out", "B"}, here.path()).exit_code, 0);
+  EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
+}
+
+TEST(Search, WrongUsageIsNamed) {
+  const Folder here;
+  const auto refused = [&](const std::vector<std::string>& arguments, const char* word) {
+    const Outcome outcome = palpa(search(arguments), here.path());
+    EXPECT_EQ(outcome.exit_code, 2) << word;
+    EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
+    EXPECT_TRUE(says(outcome.err, word)) << outcome.err;
+  };
+  refused({"--station", std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json", "--operator", "expert"}, "\"floor\"");
+  refused({"--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/paracentesis.json", "--operator", "expert"}, "engine");
+  refused({"--mode", "stiff"}, "--mode");
+  nlohmann::json task = nlohmann::json::parse(contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json"));
+  task["stimulus"]["groove_U"]["value"] = 10;
+  refused({"--task", here.file("groove.json", task.dump()), "--operator", "expert"}, "groove");
+}
+
+}  // namespace
+}  // namespace palpa::cli_test
