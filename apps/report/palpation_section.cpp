@@ -71,7 +71,7 @@ std::string palpationVerdict(const assess::PalpationAssessment& trial) {
   const std::string& outcome = trial.facts.outcome;
   if (outcome == "void") return "Not judged: void";
   if (outcome.empty()) return "Not judged: not finished";
-  if (!assess::counts(trial)) return "Not counted: " + trial.facts.role;
+  if (!assess::counts(trial)) return "Not counted: " + (trial.facts.augmented ? std::string("cues were added to the forces") : trial.facts.role);
   if (trial.passed) return "At the standard";
   if (outcome == "aborted") return "Below the standard: stopped early";
   return outcome == "time" ? "Below the standard: time limit reached" : "Below the standard";

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <algorithm>
 #include <nlohmann/json.hpp>
 
 #include "apps/assess/search/search_trial.h"
@@ -81,7 +81,11 @@ TEST(Search, ModesDifferInTheFloorsStiffnessAndInCuesOnly) {
       EXPECT_GT(std::stod(row.at(std::string(part) + "_ON_S")), 0) << part;
       added += std::stod(row.at(std::string(part) + "_IMPULSE_NS"));
     }
-    row.at("MODE") == "augmented" ? EXPECT_GT(added, 0.1) : EXPECT_EQ(added, 0) << row.at("MODE");
+    if (row.at("MODE") == "augmented") {
+      EXPECT_GT(added, 0.1);
+    } else {
+      EXPECT_EQ(added, 0) << row.at("MODE");
+    }
   }
 }
 

@@ -1,0 +1,97 @@
+#include "apps/calibrate/subtask_features.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <utility>
+
+namespace palpa::calibrate {
+namespace {
+
+constexpr std::array<SubtaskFeatureName, kSubtaskFeatures> kFeatureNames{{{"log_speed", "speed of the tip"},
+                                                                          {"log_force", "contact force"},
+                                                                          {"in_contact", "contact"},
+                                                                          {"log_shaking", "shaking of the force"}}};
+
+/// The bits that were counted most often; of equals those that came first.
+int mostOften(const std::vector<std::pair<int, int>>& labels) {
+  return std::max_element(labels.begin(), labels.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+}
+
+}  // namespace
+
+const SubtaskFeatureName& subtaskFeatureName(int feature) { return kFeatureNames.at(static_cast<std::size_t>(feature)); }
+
+/// As the parts' cue "contact_force" has it: sensed of a real thing, else computed.
+Vec3 SubtaskSteps::forceOn(const haptics::FlightRecord& record) const {
+  const bool sensed = config_.engine == haptics::Engine::touch && record.sensed.state == haptics::SensorState::valid;
+  return unpack(sensed ? record.sensed.f_D : record.f_contact_D);
+}
+
+void SubtaskSteps::interrupt() {
+  if (running_ && !rows_.empty()) {
+    SubtaskSequence sequence{{}, 1e-9 * static_cast<double>(begin_ns_), Eigen::MatrixXd(static_cast<Eigen::Index>(rows_.size()), kSubtaskFeatures), std::move(labels_)};
+    for (std::size_t i = 0; i < rows_.size(); ++i) sequence.features.row(static_cast<Eigen::Index>(i)) = rows_[i];
+    done_.push_back(std::move(sequence));
+  }
+  rows_.clear();
+  labels_.clear();
+  sums_ = {};
+  running_ = false;
+}
+
+void SubtaskSteps::closeStep() {
+  const double n = sums_.ticks;
+  Eigen::RowVectorXd row(static_cast<Eigen::Index>(kSubtaskFeatures));
+  row[kLogSpeed] = std::log(std::max(sums_.speed / n, kLeastSpeed));
+  row[kLogForce] = std::log(std::max(sums_.force / n, kLeastForce_N));
+  row[kInContact] = sums_.contact / n;
+  row[kLogShaking] = std::log(std::max(std::sqrt(sums_.shaking2 / n), kLeastShaking_N));
+  rows_.push_back(row);
+  labels_.push_back(mostOften(sums_.labels));
+  sums_ = {};
+  ++step_;
+}
+
+void SubtaskSteps::count(const haptics::FlightRecord& record) {
+  const double dt = 1e-9 * static_cast<double>(record.t_ns - last_ns_);
+  const haptics::DeviceReading& reading = record.reading;
+  haptics::follow(motion_, unpack(reading.p_DE) + unpack(reading.q_DE).normalized() * unpack(config_.X_ET.p), kSpeedTau_s, dt);
+  const Vec3 f = forceOn(record);
+  slow_force_ += (f - slow_force_) * (dt / (kShakingTau_s + dt));
+  ++sums_.ticks;
+  sums_.speed += unpack(motion_.v_D).norm();
+  sums_.force += f.norm();
+  sums_.contact += f.norm() >= kLeastForce_N;
+  sums_.shaking2 += (f - slow_force_).squaredNorm();
+  const int bits = record.subtasks;
+  const auto label = std::find_if(sums_.labels.begin(), sums_.labels.end(), [&](const auto& l) { return l.first == bits; });
+  if (label == sums_.labels.end())
+    sums_.labels.emplace_back(bits, 1);
+  else
+    ++label->second;
+}
+
+void SubtaskSteps::add(const haptics::FlightRecord& record) {
+  if (record.tool != 0) return;
+  if (!record.commands.armed || record.commands.held) return interrupt();
+  // A step without a tick is a gap.
+  if (running_ && (record.t_ns <= last_ns_ || record.t_ns >= begin_ns_ + (step_ + 2) * kSubtaskStep_ns)) interrupt();
+  if (!running_) {
+    running_ = true;
+    begin_ns_ = last_ns_ = record.t_ns;
+    step_ = 0;
+    motion_ = {};
+    slow_force_ = forceOn(record);
+  }
+  if (record.t_ns >= begin_ns_ + (step_ + 1) * kSubtaskStep_ns) closeStep();
+  count(record);
+  last_ns_ = record.t_ns;
+}
+
+std::vector<SubtaskSequence> SubtaskSteps::take() {
+  interrupt();
+  return std::exchange(done_, {});
+}
+
+}  // namespace palpa::calibrate
