@@ -2,6 +2,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <functional>
 #include <vector>
 
 /// Subtasks proposed from recorded trials: a hidden Markov model whose states give Gaussian features.
@@ -66,7 +67,7 @@ struct HeldOut {
   double mean = 0;             ///< log likelihood for each step, nats, mean over trials, each held out once
   double standard_error = 0;   ///< of that mean: standard deviation over trials / sqrt(trials)
   double bic = 0;              ///< of the fit to all trials
-  double repeated = 1;         ///< adjusted Rand index of the paths that fits to two halves of the trials find in all of them, median of three halvings
+  double repeated = 1;         ///< adjusted Rand index of the paths that fits to two halves of the trials find in all of them, median of three halvings; of two trials the only one
 };
 
 struct StatesProposal {
@@ -87,7 +88,9 @@ struct StatesProposal {
 /// Simulated, three states held for 100 steps, features first-order autoregressive with correlation 0.8 and 0.95, 6 states offered: as they are,
 /// the rule takes 5 or 6, BIC 6, repeatable is 3; thinned to 0.1 all say 3.
 ///
-/// Throws Error as fitHiddenMarkov does for folds and halves, and for fewer than three trials or folds that cannot be.
-StatesProposal proposeStates(const std::vector<Eigen::MatrixXd>& trials, int most, std::uint64_t seed, int folds = 0, const HiddenMarkovSettings& settings = {});
+/// Throws Error as fitHiddenMarkov does for folds and halves, and for fewer than two trials or folds that cannot be. `begins`: called with each number of states before it is tried.
+StatesProposal proposeStates(const std::vector<Eigen::MatrixXd>& trials, int most, std::uint64_t seed, int folds = 0, const HiddenMarkovSettings& settings = {}, const std::function<void(int states)>& begins = {});
+/// How many trials the smaller half of so many may hold: what each number of states must be fitted to.
+std::size_t smallestHalf(std::size_t trials);
 
 }  // namespace palpa::calibration

@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <string>
 
@@ -11,13 +10,13 @@
 namespace palpa::calibration {
 namespace {
 
-constexpr int kLeastHeldOut = 3, kMostFolds = 10;   // trials; folds when none are asked for
+constexpr int kLeastHeldOut = 2, kMostFolds = 10;   // trials; folds when none are asked for
 constexpr int kHalvings = 3;
 constexpr double kAsWell = 0.05;   // of the adjusted Rand index
 
 int foldsFor(std::size_t trials, int most, int folds) {
   const int count = static_cast<int>(trials);
-  if (count < kLeastHeldOut) throw Error(std::to_string(count) + " trials are too few to hold some out, " + std::to_string(kLeastHeldOut) + " are needed", kHmmWhere, "Record more trials");
+  if (count < kLeastHeldOut) throw Error(std::to_string(count) + (count == 1 ? " trial is" : " trials are") + " too few to hold some out, " + std::to_string(kLeastHeldOut) + " are needed", kHmmWhere, "Record more trials");
   if (most < 1) throw Error("no number of states is offered", kHmmWhere, "Offer 1 at least");
   if (folds == 0) return std::min(count, kMostFolds);
   if (folds < 2 || folds > count) throw Error(std::to_string(folds) + " folds cannot be made of " + std::to_string(count) + " trials", kHmmWhere, "Take 2 at least, and no more than trials");
@@ -38,15 +37,15 @@ Eigen::VectorXd heldOutLikelihoods(const std::vector<Eigen::MatrixXd>& trials, i
   return by_trial;
 }
 
-/// Even and odd trials, first and last ones, and what is left: three halvings that have nothing in common.
+/// Even and odd trials, first and last ones, and what is left: three halvings that have nothing in common. Of two trials they are one.
 bool inFirstHalf(std::size_t trial, std::size_t trials, int halving) {
   const bool odd = trial % 2 == 1, early = trial < trials / 2;
   return halving == 0 ? odd : halving == 1 ? early : odd != early;
 }
 
 double repeatedBy(const std::vector<Eigen::MatrixXd>& trials, int states, std::uint64_t seed, const HiddenMarkovSettings& settings) {
-  std::array<double, kHalvings> repeated{};
-  for (int halving = 0; halving < kHalvings; ++halving) {
+  std::vector<double> repeated;
+  for (int halving = 0; halving < (trials.size() < 3 ? 1 : kHalvings); ++halving) {
     std::vector<Eigen::MatrixXd> halves[2];
     for (std::size_t i = 0; i < trials.size(); ++i) halves[inFirstHalf(i, trials.size(), halving) ? 0 : 1].push_back(trials[i]);
     std::vector<int> paths[2];
@@ -57,21 +56,32 @@ double repeatedBy(const std::vector<Eigen::MatrixXd>& trials, int states, std::u
         paths[half].insert(paths[half].end(), path.begin(), path.end());
       }
     }
-    repeated[static_cast<std::size_t>(halving)] = adjustedRandIndex(contingencyOf(paths[0], paths[1]));
+    repeated.push_back(adjustedRandIndex(contingencyOf(paths[0], paths[1])));
   }
   std::sort(repeated.begin(), repeated.end());
-  return repeated[kHalvings / 2];   // one fit caught below the greatest likelihood does not matter
+  return repeated[repeated.size() / 2];   // one fit caught below the greatest likelihood does not matter
 }
 
 }  // namespace
 
-StatesProposal proposeStates(const std::vector<Eigen::MatrixXd>& trials, int most, std::uint64_t seed, int folds, const HiddenMarkovSettings& settings) {
+std::size_t smallestHalf(std::size_t trials) {
+  std::size_t smallest = trials;
+  for (int halving = 0; halving < (trials < 3 ? 1 : kHalvings); ++halving) {
+    std::size_t first = 0;
+    for (std::size_t i = 0; i < trials; ++i) first += inFirstHalf(i, trials, halving);
+    smallest = std::min({smallest, first, trials - first});
+  }
+  return smallest;
+}
+
+StatesProposal proposeStates(const std::vector<Eigen::MatrixXd>& trials, int most, std::uint64_t seed, int folds, const HiddenMarkovSettings& settings, const std::function<void(int states)>& begins) {
   const auto parts = static_cast<std::size_t>(foldsFor(trials.size(), most, folds));
   const auto count = static_cast<double>(trials.size());
   std::size_t steps = 0;
   for (const Eigen::MatrixXd& t : trials) steps += static_cast<std::size_t>(t.rows());
   StatesProposal proposal;
   for (int states = 1; states <= most; ++states) {
+    if (begins) begins(states);
     const double criterion = bic(fitHiddenMarkov(trials, states, seed, settings), steps);   // first: it names what is wrong with a trial by its number
     const Eigen::VectorXd by_trial = heldOutLikelihoods(trials, states, seed, parts, settings);
     const double mean = by_trial.mean(), squares = (by_trial.array() - mean).square().sum();

@@ -103,6 +103,7 @@ void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
       if (file.has("wavelength_mm")) a->wavelength = kMilli * file.number("wavelength_mm", 0.01, 100);
       else a->frequency_Hz = file.number("frequency_Hz", 1, 500);
       if (a->trigger != Augmentation::Trigger::none) a->tau_s = kMilli * file.number("decay_ms", 1, 2000);
+      else if (file.has("decay_ms")) file.refuse("decay_ms", "needs \"trigger\" beside it: after what does it decay?");
       return;
     case Kind::attraction:
       a->amplitude = file.number("force_N", 0, kStrongest);
@@ -130,7 +131,8 @@ Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double
   static constexpr std::array<std::pair<const char*, Way>, 4> kWays{{{"up", Way::up}, {"against_motion", Way::against_motion}, {"along_tool", Way::along_tool}, {"against_tool", Way::against_tool}}};
   Augmentation a;
   a.kind = chosen(file, "kind", kKinds);
-  if (file.has("way")) a.way = chosen(file, "way", kWays);
+  const bool heeds_way = a.kind == Kind::pulse || a.kind == Kind::vibration || a.kind == Kind::relief;
+  if (heeds_way) a.way = chosen(file, "way", kWays);
   const std::string subtask = file.text("subtask");
   for (std::size_t i = 0; i < named.subtasks.size(); ++i)
     if (named.subtasks[i].name == subtask) a.subtask = static_cast<std::uint8_t>(i);
@@ -144,10 +146,9 @@ Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double
 }  // namespace
 
 NamedPlan readPlan(const JsonFile& task) {
-  constexpr double kUsual = 0.05;
   NamedPlan named;
   if (!task.has("subtasks")) return named;
-  const double hysteresis = task.has("hysteresis") ? task.number("hysteresis", 0, 0.9) : kUsual;
+  const double hysteresis = task.number("hysteresis", 0, 0.9);
   const std::vector<JsonFile> subtasks = task.entries("subtasks"), augmentations = task.entries("augmentations");
   if (subtasks.size() > haptics::kMostSubtasks) task.refuse("subtasks", "holds more than " + std::to_string(haptics::kMostSubtasks));
   if (augmentations.size() > haptics::kMostAugmentations) task.refuse("augmentations", "holds more than " + std::to_string(haptics::kMostAugmentations));

@@ -66,11 +66,23 @@ TEST(HiddenMarkovChoice, StepsThatTellEachOtherNeedThinningAndRepeating) {
   EXPECT_EQ(honest.repeatable, 3);
 }
 
+TEST(HiddenMarkovChoice, HalvesOfFewTrialsAreNeverEmpty) {
+  const std::size_t smallest[] = {1, 1, 2, 2, 2, 3, 4, 4, 4};   // of 2, 3 ... 10 trials
+  for (std::size_t trials = 2; trials <= 10; ++trials) EXPECT_EQ(smallestHalf(trials), smallest[trials - 2]) << trials;
+  std::vector<int> begun;
+  const StatesProposal two = proposeStates(simulated(plantedModel(2, 4), 21, 2, 300).trials, 3, 7, 0, quick(), [&](int states) { begun.push_back(states); });
+  EXPECT_EQ(begun, (std::vector<int>{1, 2, 3}));
+  EXPECT_EQ(two.repeatable, 2);
+  EXPECT_GT(two.curve[1].repeated, 0.8);
+}
+
 TEST(HiddenMarkovChoice, WhatTheTrialsCannotTellIsNamed) {
   const std::vector<Eigen::MatrixXd> good = simulated(plantedModel(2, 3), 13, 4, 50).trials;
   const auto proposalOf = [&](std::size_t trials, int most, int folds) { return complaint([&] { proposeStates({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(trials)}, most, 1, folds); }); };
   EXPECT_EQ(proposalOf(4, 2, 0), "");
-  EXPECT_TRUE(says(proposalOf(2, 2, 0), "2 trials are too few"));
+  EXPECT_EQ(proposalOf(2, 2, 0), "");
+  EXPECT_TRUE(says(proposalOf(1, 2, 0), "1 trial is too few"));
+  EXPECT_TRUE(says(proposalOf(0, 2, 0), "0 trials are too few"));
   EXPECT_TRUE(says(proposalOf(4, 2, 5), "5 folds"));
   EXPECT_TRUE(says(proposalOf(4, 0, 0), "no number of states"));
 }

@@ -28,21 +28,21 @@ std::vector<assess::TrialAssessment> paperRows() {
 
 constexpr const char* kHeader =
     "USER_ID,FF,COL_LUNG,COL_RIB,COL_ART,COL_VEIN,PHASE_1,PHASE_2,ECON_MEAN,ECON_VAR,TIME,SUCCESS,"
-    "TRIAL,SEED,SIMULATED,TOTAL\n";
+    "TRIAL,SEED,SIMULATED,TOTAL,AUGMENTED\n";
 
 TEST(TrialsCsv, IsThisText) {
   const fs::path file = freshFolder("csv") / "trials.csv";
   writeTrialsCsv("P07", paperRows(), file);
   EXPECT_EQ(slurp(file), std::string(kHeader) +
-                             "P07,1,0,0,0,1,6,0,18,27,31524,1,1,18446744073709551615,1,913.24\n"
-                             "P07,0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4\n");
+                             "P07,1,0,0,0,1,6,0,18,27,31524,1,1,18446744073709551615,1,913.24,0\n"
+                             "P07,0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4,0\n");
 }
 
 TEST(TrialsCsv, QuotesWhatNeedsIt) {
   const fs::path file = freshFolder("csv_quotes") / "trials.csv";
   writeTrialsCsv("a,\"b\"\n", {paperRows()[1]}, file);
   EXPECT_EQ(slurp(file), std::string(kHeader) +
-                             "\"a,\"\"b\"\"\n\",0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4\n");
+                             "\"a,\"\"b\"\"\n\",0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4,0\n");
 }
 
 struct CommaPoint : std::numpunct<char> {

@@ -28,13 +28,13 @@ json partOf(const char* name, const json& conditions) { return {{"name", name}, 
 
 /// Of the part "go", pushing; with what is given besides.
 json addedOf(const char* kind, const json& more = json::object()) {
-  json added{{"name", "added"}, {"means", "for a test"}, {"kind", kind}, {"subtask", "go"}, {"force_N", 2}};
+  json added{{"name", "added"}, {"means", "for a test"}, {"kind", kind}, {"subtask", "go"}, {"way", "up"}, {"force_N", 2}};
   added.update(more);
   return added;
 }
 
 json planWith(const json& augmentations) {
-  return {{"subtasks", json::array({partOf("go", json::array({conditionOf("floor_speed", "at_least", 400)}))})}, {"augmentations", augmentations}, {"limit_share", 0.5}};
+  return {{"subtasks", json::array({partOf("go", json::array({conditionOf("floor_speed", "at_least", 400)}))})}, {"augmentations", augmentations}, {"hysteresis", 0.05}, {"limit_share", 0.5}};
 }
 
 NamedPlan planIn(const json& task) { return readPlan(JsonFile(task, "task.json")); }
@@ -152,7 +152,7 @@ TEST(AugmentationPlan, ConditionsAreInTheUnitsOfTheirCues) {
   EXPECT_EQ(edge.cue, Cue::lump_edge);
   EXPECT_EQ(edge.compare, Condition::Compare::below);
   EXPECT_DOUBLE_EQ(edge.threshold, -0.004);
-  EXPECT_EQ(edge.hysteresis, 0.05) << "where nothing is said";
+  EXPECT_EQ(edge.hysteresis, 0.05);
   EXPECT_EQ(onlyCondition(conditionOf("wall_force", "at_least", 0.5)).threshold, 0.5);
   const Condition inserted = onlyCondition(conditionOf("phase", "is", "inserted"));
   EXPECT_EQ(inserted.compare, Condition::Compare::equal);
@@ -219,9 +219,17 @@ TEST(AugmentationPlan, WhatIsMissingIsNamed) {
     task["subtasks"][0].erase(field);
     expectNamed(task, field);
   }
-  json task = planWith(json::array());
-  task.erase("limit_share");
-  expectNamed(task, "limit_share");
+  for (const char* kind : {"pulse", "vibration", "relief"}) {
+    json task = planWith(json::array({addedOf(kind, {{"frequency_Hz", 80}, {"trigger", "begin"}, {"width_ms", 10}, {"decay_ms", 10}})}));
+    task["augmentations"][0].erase("way");
+    expectNamed(task, "way");
+  }
+  expectNamedIn("vibration", {{"frequency_Hz", 80}, {"decay_ms", 10}}, "decay_ms", "trigger");
+  for (const char* field : {"limit_share", "hysteresis"}) {
+    json task = planWith(json::array());
+    task.erase(field);
+    expectNamed(task, field);
+  }
 }
 
 TEST(AugmentationPlan, FiguresOutOfAllProportionAreNamed) {

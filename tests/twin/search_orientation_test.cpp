@@ -35,7 +35,7 @@ TEST(SearchOrientation, OneElementIsEnoughWhereverItIs) {
     const double found = foundBy({angle});
     EXPECT_LE(apart(found, angle), kLookStep) << angle;
     EXPECT_GE(found, 0);
-    EXPECT_LT(found, kThirdTurn_rad);
+    EXPECT_LE(found, kThirdTurn_rad);
   }
 }
 

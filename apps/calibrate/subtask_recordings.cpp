@@ -1,0 +1,140 @@
+#include "apps/calibrate/subtask_recordings.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <utility>
+
+#include "anatomy/geometry/error.h"
+#include "apps/record/session_file.h"
+#include "apps/station/sha256.h"
+
+namespace palpa::calibrate {
+namespace {
+
+using nlohmann::json;
+
+json parsedText(const std::string& text, const std::string& what, const std::string& file) {
+  const json parsed = json::parse(text, nullptr, false);
+  if (!parsed.is_object()) throw Error("the description of its " + what + " is damaged", file, "Restore the file from a backup");
+  return parsed;
+}
+
+/// A set-up mistake in what was recorded is no mistake in the call.
+station::NamedPlan recordedPlan(const station::JsonFile& task) {
+  try {
+    return station::readPlan(task);
+  } catch (const UsageError& e) {
+    throw Error(static_cast<const Error&>(e));
+  }
+}
+
+/// By what the parts are told, in order.
+json conditionsOf(const station::JsonFile& task) {
+  json conditions = json::array();
+  for (const station::JsonFile& part : task.entries("subtasks")) conditions.push_back(part.json().value("on", json::array()));
+  return conditions;
+}
+
+/// All sequences of a recording, in order of time; `augmented`: trials in which cues might be added.
+std::vector<SubtaskSequence> sequencesOf(const record::SessionReader& reader, const std::string& recording, int* augmented) {
+  std::map<std::uint32_t, const record::RecordedTrial*> trials;
+  const std::vector<record::RecordedTrial> recorded = reader.trials();
+  for (const record::RecordedTrial& trial : recorded) trials[static_cast<std::uint32_t>(trial.header.trial)] = &trial;
+  std::vector<SubtaskSequence> sequences;
+  SubtaskSteps steps(reader.info().tick_config);
+  std::uint32_t current = 0;
+  bool cues = false;
+  const auto finish = [&] {
+    for (SubtaskSequence& sequence : steps.take()) {
+      sequence.trial = recording + "trial " + std::to_string(current);
+      sequences.push_back(std::move(sequence));
+    }
+    *augmented += cues;
+    cues = false;
+  };
+  reader.ticks([&](const haptics::FlightRecord& record) {
+    if (record.commands.trial != current) finish();
+    current = record.commands.trial;
+    const auto trial = trials.find(current);
+    if (trial == trials.end() || record.t_ns < trial->second->header.t_ns || (trial->second->ended && record.t_ns > trial->second->end.t_ns)) return;
+    cues = cues || record.commands.augmented;
+    steps.add(record);
+  });
+  finish();
+  return sequences;
+}
+
+/// "R1, " where there are several.
+std::string recordingName(const std::vector<std::filesystem::path>& files, std::size_t i) {
+  if (files.size() == 1) return "";
+  const std::string folder = std::filesystem::absolute(files[i]).parent_path().filename().string();
+  return (files[i].filename() == "session.palpa" && !folder.empty() ? folder : files[i].filename().string()) + ", ";
+}
+
+struct RecordedTask {
+  station::JsonFile file;
+  json conditions;
+  station::NamedPlan plan;
+};
+
+RecordedTask recordedTaskOf(const record::SessionReader& reader, const std::string& file) {
+  RecordedTask task;
+  task.file = station::JsonFile(parsedText(reader.info().task_json, "task", file), file + ", its task");
+  task.plan = recordedPlan(task.file);
+  if (task.plan.empty())
+    throw Error("its task \"" + task.file.json().value("id", "?") + "\" names no parts (\"subtasks\")", file, "Record a task whose file names its parts, as the search, the palpations and paracentesis do");
+  task.conditions = conditionsOf(task.file);
+  return task;
+}
+
+void requireSameParts(const json& conditions, const json& first, const std::string& file, const std::string& other) {
+  if (conditions != first) throw Error("its task tells its parts by other conditions than " + other, file, "Give recordings of one task, made with the same parts");
+}
+
+}  // namespace
+
+std::string SubtaskRecordings::wordsOf(int label) const {
+  std::string words;
+  for (std::size_t i = 0; i < parts.size(); ++i)
+    if (label >> i & 1) words += (words.empty() ? "" : " + ") + parts[i].name;
+  return words.empty() ? "no part" : words;
+}
+
+SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>& given, const std::filesystem::path& task) {
+  SubtaskRecordings all;
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& file : given) files.push_back(std::filesystem::is_directory(file) ? file / "session.palpa" : file);
+  json first;
+  for (std::size_t i = 0; i < files.size(); ++i) {
+    const std::string file = files[i].string();
+    const record::SessionReader reader(files[i]);
+    const RecordedTask recorded = recordedTaskOf(reader, file);
+    if (i == 0) {
+      first = recorded.conditions;
+      all.task = recorded.file.json().value("id", "?");
+      all.station = parsedText(reader.info().station_json, "station", file).value("id", "?");
+      all.parts = recorded.plan.subtasks;
+    }
+    requireSameParts(recorded.conditions, first, file, files.front().string());
+    all.simulated = parsedText(reader.info().session_json, "session", file).value("simulated", true) || all.simulated;
+    for (SubtaskSequence& sequence : sequencesOf(reader, recordingName(files, i), &all.augmented)) {
+      if (sequence.labels.size() < kShortestSequence)
+        ++all.left_out;
+      else
+        all.sequences.push_back(std::move(sequence));
+    }
+    all.files.push_back({files[i].filename().string(), station::sha256OfFile(files[i])});
+  }
+  if (task.empty()) return all;
+  const station::JsonFile named(task);
+  const station::NamedPlan plan = station::readPlan(named);
+  if (plan.empty()) throw UsageError("names no parts (\"subtasks\")", task.string(), "Give the file of the task that was recorded");
+  if (conditionsOf(named) != first)
+    throw UsageError("tells its parts by other conditions than the recordings' own task, by which the recorded parts were told", task.string(), "Leave --task out, or record the sessions again with this task");
+  all.parts = plan.subtasks;
+  all.task = named.json().value("id", "?");
+  return all;
+}
+
+}  // namespace palpa::calibrate
