@@ -28,6 +28,8 @@ Vec3 SubtaskSteps::forceOn(const haptics::FlightRecord& record) const {
   return unpack(sensed ? record.sensed.f_D : record.f_contact_D);
 }
 
+Vec3 SubtaskSteps::tipOf(const haptics::DeviceReading& reading) const { return unpack(reading.p_DE) + unpack(reading.q_DE).normalized() * unpack(config_.X_ET.p); }
+
 void SubtaskSteps::interrupt() {
   if (running_ && !rows_.empty()) {
     SubtaskSequence sequence{{}, 1e-9 * static_cast<double>(begin_ns_), Eigen::MatrixXd(static_cast<Eigen::Index>(rows_.size()), kSubtaskFeatures), std::move(labels_)};
@@ -55,8 +57,7 @@ void SubtaskSteps::closeStep() {
 
 void SubtaskSteps::count(const haptics::FlightRecord& record) {
   const double dt = 1e-9 * static_cast<double>(record.t_ns - last_ns_);
-  const haptics::DeviceReading& reading = record.reading;
-  haptics::follow(motion_, unpack(reading.p_DE) + unpack(reading.q_DE).normalized() * unpack(config_.X_ET.p), kSpeedTau_s, dt);
+  haptics::follow(motion_, tipOf(record.reading), kSpeedTau_s, dt);
   const Vec3 f = forceOn(record);
   slow_force_ += (f - slow_force_) * (dt / (kShakingTau_s + dt));
   ++sums_.ticks;
@@ -74,7 +75,7 @@ void SubtaskSteps::count(const haptics::FlightRecord& record) {
 
 void SubtaskSteps::add(const haptics::FlightRecord& record) {
   if (record.tool != 0) return;
-  if (!record.commands.armed || record.commands.held) return interrupt();
+  if (!record.commands.armed || record.commands.held || !tipOf(record.reading).allFinite() || !forceOn(record).allFinite()) return interrupt();
   // A step without a tick is a gap.
   if (running_ && (record.t_ns <= last_ns_ || record.t_ns >= begin_ns_ + (step_ + 2) * kSubtaskStep_ns)) interrupt();
   if (!running_) {

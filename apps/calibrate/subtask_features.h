@@ -35,7 +35,7 @@ struct SubtaskSequence {
   std::vector<int> labels;        ///< bits of the parts that were on for most of the step; of equals those that came first
 };
 
-/// Gathers the steps of one trial: every tick of tool 0 that was armed and not held, in order. What is between is a gap: a new sequence. A step that is not full is left out.
+/// Gathers the steps of one trial: every tick of tool 0 that was armed, not held and told finite numbers, in order. What is between is a gap: a new sequence. A step that is not full is left out.
 class SubtaskSteps {
  public:
   explicit SubtaskSteps(const haptics::TickConfig& config) : config_(config) {}
@@ -53,6 +53,7 @@ class SubtaskSteps {
   void closeStep();
   void count(const haptics::FlightRecord& record);
   Vec3 forceOn(const haptics::FlightRecord& record) const;
+  Vec3 tipOf(const haptics::DeviceReading& reading) const;   ///< in D
 
   haptics::TickConfig config_;
   bool running_ = false;

@@ -3,6 +3,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/calibrate_station.h"
+#include "apps/cli/calibrate_subtasks.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/needle_session.h"
 #include "apps/cli/output_folder.h"
@@ -92,6 +93,7 @@ void addCalibrate(CLI::App& program) {
   CLI::App* calibrate = program.add_subcommand("calibrate", "Calibration routines");
   calibrate->require_subcommand(1);
   addStationCalibrations(*calibrate);
+  addSubtaskCalibration(*calibrate);
   CLI::App* experts = calibrate->add_subcommand("experts", "The optimal path from experts' recorded trials");
   experts->footer(kExpertExamples);
   const auto o = std::make_shared<ExpertOptions>();

@@ -62,7 +62,7 @@ struct CalibrationFile {
   const std::vector<double>& at(const std::string& name, std::size_t size) const;
 };
 
-inline const std::vector<std::string> kCalibrationKinds{"camera", "tool", "workspace", "registration", "latency", "force-sensor", "material", "friction", "inclusion"};
+inline const std::vector<std::string> kCalibrationKinds{"camera", "tool", "workspace", "registration", "latency", "force-sensor", "material", "friction", "inclusion", "subtasks"};
 
 /// Throws Error naming file and field: foreign, newer, damaged, changed by hand, or with figures that are none.
 CalibrationFile readCalibration(const std::filesystem::path& file);

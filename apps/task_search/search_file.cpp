@@ -41,6 +41,15 @@ std::vector<SearchBlock> blocksIn(const station::JsonFile& file) {
   return blocks;
 }
 
+/// Refused now, not at the first episode.
+void needFloor(const station::JsonFile& file, const haptics::SearchSpec& spec) {
+  try {
+    haptics::SearchSurface(spec, {}, [] { return 0.5; });
+  } catch (const Error& e) {
+    file.refuse("stimulus", std::string("is no floor: ") + e.what());
+  }
+}
+
 }  // namespace
 
 SearchSettings readSearch(const station::JsonFile& file) {
@@ -50,6 +59,7 @@ SearchSettings readSearch(const station::JsonFile& file) {
   s.id = file.text("id");
   s.title = file.text("title");
   s.spec = specIn(file);
+  needFloor(file, s.spec);
   s.rendering.real = {file.number("interaction/stiffness_N_per_m", 10, 1e5), file.number("interaction/damping_Ns_per_m", 0, 500)};
   s.rendering.degraded.damping = file.number("interaction/degraded_damping_Ns_per_m", 0, 500);
   s.degraded_share = file.number("interaction/degraded_share", 0.01, 1);

@@ -22,7 +22,7 @@ struct Episode {
   void step(Fault fault) {
     world.advance(fault);
     last = tick(world.config, state, world.reading, world.offers ? &world.offered : nullptr,
-                world.commands, world.now, world.sensed);
+                world.commands, world.now, world.sensed, world.floor());
     judge.judge(world, state, last);
   }
   void steps(Fault fault, int count) {
@@ -31,6 +31,7 @@ struct Episode {
   /// Nothing that was sent may stay in the state: a sound world gives a sound force again.
   void recover() {
     world.target = -0.001;
+    world.cues = false;
     steps(Fault::none, 1000);
     step(Fault::disarmed);
     step(Fault::trial_changes);
@@ -45,9 +46,9 @@ int lengthOf(Fault fault, Dice& dice) {
   return 1 + dice.below(dice.chance(0.1) ? 100 : 12);
 }
 
-void runEpisode(Dice& dice, Engine engine, FaultJudge& sum) {
+void runEpisode(Dice& dice, Engine engine, bool cues, FaultJudge& sum) {
   FaultJudge judge;
-  auto e = std::make_unique<Episode>(Episode{FaultyWorld(dice, engine), {}, judge, {}});
+  auto e = std::make_unique<Episode>(Episode{FaultyWorld(dice, engine, cues), {}, judge, {}});
   e->steps(Fault::none, 100);
   for (int k = 0; k < kFaultsInEpisode; ++k) {
     const auto fault = static_cast<Fault>(1 + dice.below(kFaultCount - 1));
@@ -65,16 +66,16 @@ void runEpisode(Dice& dice, Engine engine, FaultJudge& sum) {
 }
 
 bool mayHappen(SafetyCause cause, Engine engine) {
-  if (cause == SafetyCause::stale_geometry || cause == SafetyCause::corrupt_geometry) return engine != Engine::touch;
+  if (cause == SafetyCause::stale_geometry || cause == SafetyCause::corrupt_geometry) return engine == Engine::needle || engine == Engine::probe;
   return cause != SafetyCause::no_sensor || engine == Engine::touch;
 }
 
-void campaign(Engine engine, std::uint64_t seed) {
+void campaign(Engine engine, std::uint64_t seed, bool cues = false) {
   const int faults = test::counted(20'000, 100'000) / 2;
   Dice dice(seed);
   FaultJudge sum;
   for (int i = 0; i < faults / kFaultsInEpisode; ++i) {
-    runEpisode(dice, engine, sum);
+    runEpisode(dice, engine, cues, sum);
     if (testing::Test::HasFailure()) FAIL() << "in episode " << i;
   }
   EXPECT_GT(sum.pushed, 5 * faults) << "a campaign without force proves nothing";
@@ -96,6 +97,11 @@ TEST(FaultCampaign, TheProbesForceStaysWithinItsLimitsWhateverComesIn) {
 TEST(FaultCampaign, TheForceAddedToARealThingStaysWithinItsLimitsWhateverComesIn) {
   campaign(Engine::touch, 20'260'103);
 }
+
+/// Cues are no exception: every limit, every fault, every cause holds with all of them on, strong and stiff as a task's file may say.
+TEST(FaultCampaign, TheNeedlesForceWithEveryCueStaysWithinItsLimits) { campaign(Engine::needle, 20'260'104, true); }
+TEST(FaultCampaign, TheForceAddedToARealThingWithEveryCueStaysWithinItsLimits) { campaign(Engine::touch, 20'260'105, true); }
+TEST(FaultCampaign, TheFloorsForceWithEveryCueStaysWithinItsLimits) { campaign(Engine::floor, 20'260'106, true); }
 
 }  // namespace
 }  // namespace palpa::haptics

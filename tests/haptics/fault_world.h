@@ -6,6 +6,7 @@
 
 #include "haptics/tick.h"
 #include "needle_bench.h"
+#include "tests/surface/surface_bench.h"
 
 namespace palpa::haptics {
 
@@ -41,6 +42,7 @@ inline constexpr HuntCrossley kSoftThing{900, 300, 1.4};
 /// Knows nothing of the tick: it only makes its inputs.
 struct FaultyWorld {
   Dice& dice;
+  bool cues = false;             ///< a task's cues of every kind add force
   TickConfig config;
   TickCommands commands;
   DeviceReading reading;
@@ -57,7 +59,7 @@ struct FaultyWorld {
   Vec3 shift = Vec3::Zero();     ///< where a jump put the device
   Quat turn = Quat::Identity();
 
-  FaultyWorld(Dice& dice_in, Engine engine) : dice(dice_in) {
+  FaultyWorld(Dice& dice_in, Engine engine, bool with_cues) : dice(dice_in), cues(with_cues) {
     config.materials = NeedleBench{}.materials;
     config.engine = engine;
     config.X_ET.p = {0, 0, 0.11};
@@ -82,6 +84,15 @@ struct FaultyWorld {
     config.touch.other_friction = dice.chance(0.5);
     config.touch.kinds[0] = {0.014, {8000, 0, 1.9}, {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
     config.touch.tip_radius = 0.008;
+    config.floor.weight_N = dice.uniform(0, 0.5);
+    if (with_cues) nameCues();
+  }
+
+  /// What is under a probe in the tick: a floor, where there is one.
+  const Floor* floor() const {
+    static const SearchSurface surface = searchFloor(5);
+    static const Floor there{&surface, nullptr, nullptr};
+    return config.engine == Engine::floor ? &there : nullptr;
   }
 
   /// The inputs of the next tick, with this fault.
@@ -92,6 +103,8 @@ struct FaultyWorld {
     commands = TickCommands{};
     commands.trial = trial;
     commands.armed = 1;
+    commands.augmented = cues;
+    commands.line_a_D = {1, 0, 0};
     commands.lumps[0] = {{0.002, 0, -0.014}, 1};
     commands.lumps[3] = {{-0.01, 0.004, -0.014}, 1};
     sense();
@@ -117,6 +130,27 @@ struct FaultyWorld {
   }
 
  private:
+  /// One of every kind, stronger than any device; parts that come and go with the contact.
+  void nameCues() {
+    using Kind = Augmentation::Kind;
+    AugmentationPlan& plan = config.augmentations;
+    plan.subtasks.count = 1;
+    plan.subtasks.each[0].count = 1;
+    plan.subtasks.each[0].conditions[0] = {Cue::contact_force, Condition::Compare::at_least, {}, dice.uniform(0.01, 0.5), 0.05};
+    for (const Kind kind : {Kind::pulse, Kind::vibration, Kind::attraction, Kind::exaggeration, Kind::fixture, Kind::relief}) {
+      Augmentation& a = plan.each[plan.count++];
+      a.kind = kind;
+      a.subtask = dice.chance(0.5) ? kAnySubtask : 0;
+      a.amplitude = kind == Kind::fixture ? dice.uniform(10, 1e5) : dice.uniform(0.1, 50);
+      a.trigger = kind == Kind::pulse ? Augmentation::Trigger::begin : kind == Kind::relief ? Augmentation::Trigger::bump : Augmentation::Trigger::none;
+      a.frequency_Hz = dice.uniform(20, 300);
+      a.reach = 0.001;
+      a.tau_s = dice.uniform(0.005, 0.1);
+    }
+    plan.largest = dice.uniform(0, 20);
+    plan.steepest = config.coupling.stiffness;
+  }
+
   void moveHand() {
     const double step = 0.05 * 1e-9 * static_cast<double>(config.period_ns);  // 5 cm/s
     depth += std::clamp(target - depth, -step, step);
@@ -145,7 +179,8 @@ struct FaultyWorld {
     if (fault == Fault::packets_dropped) return;
     ++reading.sequence;
     reading.t_ns = now;
-    reading.p_DE = pack(Vec3(Vec3(0, 0, 0.11 - depth) + shift));
+    const double across = config.engine == Engine::floor ? 0.004 + 0.0015 * std::sin(6e-9 * static_cast<double>(ticks * config.period_ns)) : 0;
+    reading.p_DE = pack(Vec3(Vec3(across, 0, 0.11 - depth) + shift));
     reading.q_DE = pack(Quat(turn * Quat(0, 1, 0, 0)));  // tool down
     reading_absurd = fault == Fault::position_absurd || fault == Fault::orientation_absurd;
     if (fault == Fault::position_absurd)
@@ -211,6 +246,7 @@ struct FaultyWorld {
       commands.puncture_force_N = dice.absurd();
       for (float& scale : commands.wall_scale) scale = static_cast<float>(dice.absurd());
       commands.lumps[0].p_T0[static_cast<std::size_t>(dice.below(3))] = dice.absurd();
+      commands.line_p_D[0] = commands.line_a_D[1] = dice.absurd();
       commands.lumps[3].kind = static_cast<std::uint32_t>(dice.bits());
     }
     if (fault == Fault::sensor_absurd) harmSensor();

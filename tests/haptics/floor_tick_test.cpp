@@ -269,6 +269,7 @@ TEST(FloorTick, ANewTrialBeginsAnew) {
   const FlightRecord first = loop.step(overTheElement(loop.surface, 60));
   EXPECT_EQ(first.subtasks, 0);
   EXPECT_EQ(unpack(loop.state.tip.v_D), Vec3(Vec3::Zero()));
+  EXPECT_NEAR(loop.state.augmentation.weight[1], 0.05, 1e-12) << "blends in again";
 }
 
 TEST(FloorTick, GoesOnFromAnyKeyframe) {

@@ -10,7 +10,7 @@ namespace palpa::haptics {
 namespace {
 
 const HuntCrossley kRealThing{900, 200, 1.4};
-const Dahl kRealSurface{0.35, 1500, 0.4};
+const Dahl kRealThingsSurface{0.35, 1500, 0.4};
 
 struct TouchLoop {
   TickConfig config;
@@ -24,8 +24,8 @@ struct TouchLoop {
   TouchLoop() {
     config.engine = Engine::touch;
     config.object_at_port = 1;
-    config.touch.surface.contact = {kRealThing, 0, kRealSurface, {}, 0.1};
-    config.touch.surface.wanted = kRealSurface;
+    config.touch.surface.contact = {kRealThing, 0, kRealThingsSurface, {}, 0.1};
+    config.touch.surface.wanted = kRealThingsSurface;
     config.touch.kinds[0] = {0.014, {8000, 0, 1.9}, {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
     config.touch.tip_radius = 0.008;
     config.safety.max_slew_N_per_s = 1e5;

@@ -210,6 +210,28 @@ TEST(ShippedPlan, WithoutIdentifyingThereIsNoRelief) {
   }
 }
 
+/// While its weight fades the relief still needs the contact.
+TEST(ShippedPlan, LiftedTheReliefEndsAtOnce) {
+  Draws draw(36);
+  int pushed = 0;
+  for (int n = 0; n < 12; ++n) {
+    const StrokeLine line = lineAcross(draw, 0, 1500);
+    SearchLoop loop;
+    for (int i = 0; i < line.ticks; ++i) {
+      const bool lifted = i % 8 >= 6;
+      Vec3 p = pressedAt(line.from + i * 1.5 * line.way);
+      if (lifted) p.z() = kLifted_U;
+      const FlightRecord at = loop.step(p);
+      if (lifted) {
+        ASSERT_EQ(at.f_augmentation_D, (Packed3{0, 0, 0})) << n << ' ' << i;
+      } else {
+        pushed += unpack(at.f_augmentation_D).norm() > 0;
+      }
+    }
+  }
+  EXPECT_GT(pushed, 20);
+}
+
 TEST(ShippedPlan, NotAugmentedItAddsExactlyNothing) {
   Draws draw(34);
   for (int n = 0; n < 6; ++n) {

@@ -1,0 +1,79 @@
+#include "apps/cli/calibrate_subtasks.h"
+
+#include <cstdio>
+#include <memory>
+
+#include "apps/calibrate/subtask_page.h"
+#include "apps/cli/output_folder.h"
+#include "apps/runtime/clock.h"
+
+namespace palpa::cli {
+namespace {
+
+constexpr const char* kSubtaskExamples = R"(Examples:
+  palpa calibrate subtasks out/expert-a/session.palpa out/expert-b/session.palpa --out parts
+      what experts did, cut by a hidden Markov model, beside the parts that the task's file names
+  palpa calibrate subtasks out/expert-a/session.palpa --states 3
+      into three states, however many are proposed
+The sessions are of one task whose file names its parts. Six trials or more, better of several experts.)";
+
+constexpr std::int64_t kSilent_ns = 2'000'000'000, kBetween_ns = 1'000'000'000;
+
+struct SubtaskCommand {
+  std::vector<std::string> recordings;
+  std::string task, out;
+  std::uint64_t seed = 1;
+  int states = 0;
+  bool quiet = false;
+};
+
+/// Says what is being done once it has taken two seconds, then each second.
+class PatientNotes {
+ public:
+  explicit PatientNotes(bool quiet) : quiet_(quiet) {}
+  void operator()(const std::string& stage) {
+    const std::int64_t now = wall_.now();
+    if (quiet_ || now < next_ns_) return;
+    std::fprintf(stderr, "%s\n", stage.c_str());
+    next_ns_ = now + kBetween_ns;
+  }
+
+ private:
+  bool quiet_;
+  runtime::SteadyClock wall_;
+  std::int64_t next_ns_ = kSilent_ns;
+};
+
+void calibrateSubtasks(const SubtaskCommand& o) {
+  using namespace calibrate;
+  const SubtaskRecordings recordings = readSubtaskRecordings({o.recordings.begin(), o.recordings.end()}, o.task);
+  PatientNotes notes(o.quiet);
+  const SubtaskSegmentation found = segment(recordings.sequences, {o.seed, o.states, [&](const std::string& stage) { notes(stage); }});
+  const std::string command = "palpa calibrate subtasks" + std::string(o.states ? " --states " + std::to_string(o.states) : "") + " --seed " + std::to_string(o.seed);
+  const Origin origin{recordings.station, command, "recorded sessions", utcNow(), recordings.simulated, recordings.files};
+  const Result result = subtaskResult(recordings, found, origin);
+  const std::filesystem::path folder = makeOutputFolder(o.out, "calibrate-subtasks");
+  station::writeCalibration(result.file, folder / "calibration.json");
+  writeSubtaskPage(recordings, found, result, folder / "calibration.html");
+  std::printf("%s%s\n", result.title.c_str(), recordings.simulated ? " (SIMULATED)" : "");
+  for (const std::string& sentence : result.sentences) std::printf("  %s\n", sentence.c_str());
+  for (const std::string& advice : result.advice) std::printf("  Mind: %s\n", advice.c_str());
+  std::printf("Written: %s\n", (folder / "calibration.html").c_str());
+}
+
+}  // namespace
+
+void addSubtaskCalibration(CLI::App& calibrate) {
+  CLI::App* command = calibrate.add_subcommand("subtasks", "A task's parts proposed from experts' recorded sessions, beside the hand-written ones");
+  command->footer(kSubtaskExamples);
+  const auto o = std::make_shared<SubtaskCommand>();
+  command->add_option("RECORDING", o->recordings, "Recorded sessions (session.palpa) of one task")->required()->type_name("FILE...");
+  command->add_option("--task", o->task, "Task file to take the parts' names from; otherwise what was recorded")->type_name("FILE");
+  command->add_option("--states", o->states, "Take so many states; otherwise as many as are proposed")->check(CLI::Range(2, calibrate::kMostProposed));
+  command->add_option("--seed", o->seed, "Seed of the fits' starts")->check(CLI::NonNegativeNumber);
+  command->add_option("--out", o->out, "Folder for the results")->type_name("DIR");
+  command->add_flag("--quiet", o->quiet, "No progress");
+  command->callback([o] { calibrateSubtasks(*o); });
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,54 @@
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "program.h"
+
+/// A task's parts proposed from sessions that the program itself has recorded, as an educator has them proposed.
+namespace palpa::cli_test {
+namespace {
+
+using nlohmann::json;
+
+TEST(CalibrateSubtasks, FromARecordedSearch) {
+  const Folder here;
+  const Outcome search = palpa({"search", "--operator", "expert", "--mode", "real", "--trials", "3", "--seed", "70001", "--fast", "--no-views", "--quiet", "--out", "search"}, here.path());
+  ASSERT_EQ(search.exit_code, 0) << search.err;
+  const auto proposed = [&](const std::string& out) { return palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "4", "--seed", "3", "--quiet", "--out", out}, here.path()); };
+  const Outcome outcome = proposed("parts");
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.errLines(), 0) << outcome.err;
+  for (const char* words : {"(SIMULATED)", "Taken, as asked: 4 states", "State 1", "kappa", "The hand-written parts change", "Neither segmentation is the truth"}) EXPECT_TRUE(says(outcome.out, words)) << words << "\n" << outcome.out;
+  const std::string page = contentOf(here / "parts/calibration.html");
+  for (const char* words : {"SIMULATED", "How many states?", "Cohen&#39;s kappa", "state 4", "identify", "trial 3"}) EXPECT_TRUE(says(page, words)) << words;
+  for (const char* words : {"http:", "https:", "<script", "nan"}) EXPECT_FALSE(says(page, std::string(words) + "/")) << words;
+  const json file = json::parse(contentOf(here / "parts/calibration.json"));
+  EXPECT_EQ(file["kind"], "subtasks");
+  EXPECT_EQ(file["simulated"], true);
+  EXPECT_EQ(file["parameters"]["states"][0], 4);
+  ASSERT_EQ(proposed("again").exit_code, 0);
+  EXPECT_EQ(json::parse(contentOf(here / "again/calibration.json"))["parameters"], file["parameters"]);
+}
+
+TEST(CalibrateSubtasks, RefusesWhatHasNoPartsOrTooFewTrials) {
+  const Folder here;
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& words, int exit_code = 1) {
+    std::vector<std::string> arguments{"calibrate", "subtasks", "--out", "parts", "--quiet"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome outcome = palpa(arguments, here.path());
+    EXPECT_EQ(outcome.exit_code, exit_code) << outcome.err;
+    EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
+    EXPECT_TRUE(says(outcome.err, words)) << outcome.err;
+  };
+  here.file("text.palpa", "a text that is long enough to be looked at");
+  refused({"text.palpa"}, "text.palpa: is no session file");
+  refused({"none.palpa"}, "none.palpa: no such file");
+  ASSERT_EQ(palpa({"search", "--operator", "expert", "--mode", "real", "--trials", "1", "--seed", "70001", "--fast", "--no-views", "--quiet", "--out", "one"}, here.path()).exit_code, 0);
+  refused({"one/session.palpa"}, "1 trial is too few");
+  ASSERT_EQ(palpa({"squeeze", "--operator", "expert", "--trials", "1", "--seed", "70001", "--fast", "--no-views", "--quiet", "--out", "squeeze"}, here.path()).exit_code, 0);
+  refused({"squeeze/session.palpa"}, "names no parts (\"subtasks\")");
+  EXPECT_FALSE(std::filesystem::exists(here / "parts"));
+}
+
+}  // namespace
+}  // namespace palpa::cli_test
