@@ -116,6 +116,7 @@ void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
       return;
     case Kind::relief:
       a->amplitude = file.number("force_N", 0, kStrongest);
+      if (a->trigger != Augmentation::Trigger::none) file.refuse("trigger", "has no meaning for a relief: it is felt wherever a bump is");
       a->trigger = Augmentation::Trigger::bump;
       return;
     case Kind::fixture:
@@ -138,6 +139,7 @@ Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double
     if (named.subtasks[i].name == subtask) a.subtask = static_cast<std::uint8_t>(i);
   if (a.subtask == haptics::kAnySubtask && subtask != "any") file.refuse("subtask", "is \"" + subtask + "\", which \"subtasks\" does not name");
   readTrigger(file, &a);
+  if (a.trigger == Augmentation::Trigger::begin && a.subtask == haptics::kAnySubtask) file.refuse("trigger", "is \"begin\", but of no part: name one in \"subtask\"");
   if (file.has("blend_ms")) a.blend_s = kMilli * file.number("blend_ms", 0, 1000);
   readShape(file, &a, reach_U);
   return a;
@@ -147,7 +149,10 @@ Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double
 
 NamedPlan readPlan(const JsonFile& task) {
   NamedPlan named;
-  if (!task.has("subtasks")) return named;
+  if (!task.has("subtasks")) {
+    if (task.has("augmentations")) task.refuse("augmentations", "needs \"subtasks\" beside it: in which parts of the task?");
+    return named;
+  }
   const double hysteresis = task.number("hysteresis", 0, 0.9);
   const std::vector<JsonFile> subtasks = task.entries("subtasks"), augmentations = task.entries("augmentations");
   if (subtasks.size() > haptics::kMostSubtasks) task.refuse("subtasks", "holds more than " + std::to_string(haptics::kMostSubtasks));
@@ -170,8 +175,11 @@ haptics::AugmentationPlan onDevice(const NamedPlan& named, double max_force_N, d
   haptics::AugmentationPlan plan = named.plan;
   plan.largest = named.limit_share * max_force_N;
   plan.steepest = stiffness;
-  for (std::size_t i = 0; i < named.reach_U.size(); ++i)
-    if (named.reach_U[i] > 0) plan.each[i].reach = unit * named.reach_U[i];
+  for (std::size_t i = 0; i < named.reach_U.size(); ++i) {
+    if (named.reach_U[i] <= 0) continue;
+    if (unit <= 0) throw UsageError("is given in units of a floor, and this task has none", "augmentations/" + std::to_string(i) + "/reach_U", "Give reach_mm");
+    plan.each[i].reach = unit * named.reach_U[i];
+  }
   return plan;
 }
 

@@ -35,7 +35,7 @@ struct NamedPlan {
 /// Empty where the file names no "subtasks". Throws UsageError naming the field.
 NamedPlan readPlan(const JsonFile& task);
 
-/// The plan for a device: never more than its share of `max_force_N`, nothing steeper than `stiffness` (N/m); lengths in units of a floor become metres by `unit`.
+/// The plan for a device: never more than its share of `max_force_N`, nothing steeper than `stiffness` (N/m); lengths in units of a floor become metres by `unit`. Throws UsageError where there are some and `unit` is 0.
 haptics::AugmentationPlan onDevice(const NamedPlan& named, double max_force_N, double stiffness, double unit = 0);
 
 }  // namespace palpa::station

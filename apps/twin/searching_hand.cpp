@@ -263,16 +263,17 @@ double orientationBy(const std::vector<double>& angles, double half, double star
     most = std::max(most, within[static_cast<std::size_t>(i)]);
   }
   if (most == 0) return start;
-  // The middle of all that are as good: where the jolts lie evenly about it.
-  double x = 0, y = 0;
+  // The middle of the longest stretch of those that are as good; the circle goes on where it ends.
+  double best = start;
+  int longest = 0;
   for (int i = 0; i < kSteps; ++i) {
-    if (within[static_cast<std::size_t>(i)] != most) continue;
-    x += std::cos(kFullTurn * i / kSteps);
-    y += std::sin(kFullTurn * i / kSteps);
+    int length = 0;
+    while (length < kSteps && within[static_cast<std::size_t>((i + length) % kSteps)] == most) ++length;
+    const double middle = kThirdTurn * std::fmod((i + 0.5 * (length - 1)) / kSteps, 1.0);
+    const bool nearer = std::abs(wrapped(middle - start, kThirdTurn)) < std::abs(wrapped(best - start, kThirdTurn));
+    if (length > longest || (length == longest && nearer)) best = middle, longest = length;
   }
-  if (std::hypot(x, y) < 1e-9) return start;
-  const double angle = std::atan2(y, x) / 3;
-  return angle < 0 ? angle + kThirdTurn : angle;
+  return longest < kSteps ? best : start;
 }
 
 std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET, std::uint64_t seed) { return std::make_unique<SearchingHand>(skill, floor, X_ET, seed); }

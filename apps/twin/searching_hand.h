@@ -39,7 +39,7 @@ struct VisibleFloor {
 /// roughest; from there looks for its pit. Knows what is on the screen and what it feels; nothing else.
 std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET, std::uint64_t seed);
 
-/// Where three elements lie, equally spaced, by the angles (rad) at which jolts were noticed: the direction of one of them, 0 to 2 pi / 3, about which most jolts are within `half` of an element's middle. `start`: for ties and where there are none.
+/// Where three elements lie, equally spaced, by the angles (rad) at which jolts were noticed: the direction of one of them, 0 to 2 pi / 3, about which most jolts are within `half` of an element's middle; of several, the middle of the widest range of them, of equals the one nearest `start`, which is the answer where nothing tells.
 double orientationBy(const std::vector<double>& angles, double half, double start);
 
 }  // namespace palpa::twin

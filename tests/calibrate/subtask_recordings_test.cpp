@@ -4,6 +4,7 @@
 
 #include <fstream>
 
+#include "tests/calibrate/a_calibration.h"
 #include "tests/calibration/complaint.h"
 #include "tests/record/synthetic_session.h"
 
@@ -11,7 +12,7 @@
 namespace palpa::calibrate {
 namespace {
 
-using calibration::test::complaint, calibration::test::says;
+using calibration::test::complaint, palpa::test::says;
 
 constexpr const char* kSlowPart = R"({"name": "slow", "means": "hardly moving", "on": [{"cue": "speed", "below": 0.01}]})";
 constexpr const char* kFastPart = R"({"name": "fast", "means": "moving", "on": [{"cue": "speed", "at_least": 0.01}]})";

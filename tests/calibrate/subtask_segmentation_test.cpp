@@ -8,13 +8,14 @@
 #include "anatomy/random_stream.h"
 #include "apps/calibrate/subtask_result.h"
 #include "apps/calibrate/subtask_words.h"
+#include "tests/calibrate/a_calibration.h"
 #include "tests/calibration/complaint.h"
 
 /// Trials of which the regimes are known, cut into states and compared with labels that fit and labels that do not.
 namespace palpa::calibrate {
 namespace {
 
-using calibration::test::complaint, calibration::test::says;
+using calibration::test::complaint, palpa::test::says;
 
 struct Regime {
   double speed, force, contact, shaking;   // m/s, N, share, N

@@ -225,6 +225,9 @@ TEST(AugmentationPlan, WhatIsMissingIsNamed) {
     expectNamed(task, "way");
   }
   expectNamedIn("vibration", {{"frequency_Hz", 80}, {"decay_ms", 10}}, "decay_ms", "trigger");
+  expectNamed({{"augmentations", json::array()}, {"limit_share", 0.5}}, "augmentations", "subtasks");
+  expectNamedIn("relief", {{"trigger", "rise"}}, "trigger", "no meaning");
+  expectNamedIn("pulse", {{"trigger", "begin"}, {"width_ms", 10}, {"subtask", "any"}}, "trigger", "of no part");
   for (const char* field : {"limit_share", "hysteresis"}) {
     json task = planWith(json::array());
     task.erase(field);
@@ -279,6 +282,7 @@ TEST(AugmentationPlan, OnADeviceItHasItsLimitsAndLengths) {
   EXPECT_EQ(plan.each[2].amplitude, 30) << "what one alone is told; all together are bounded";
   EXPECT_DOUBLE_EQ(onDevice(named, 15, 5250, 250e-6).each[0].reach, 1.25e-3);
   EXPECT_DOUBLE_EQ(onDevice(named, 8, 1000, 60e-6).largest, 4);
+  EXPECT_THROW(onDevice(named, 8, 1000), UsageError) << "units of no floor";
 }
 
 }  // namespace

@@ -149,14 +149,8 @@ StrokeLine lineAcross(Draws& draw, int element, double speed) {
   return line;
 }
 
-/// The push at the tick's end by all that is stated: 0.8 N on the highest bumps, half as much on those half as high, in and out with its part within 20 ms.
-struct StatedRelief {
-  double weight = 0;
-  double next(bool identify, double height_U) {
-    weight = std::clamp(weight + (identify ? 0.05 : -0.05), 0.0, 1.0);
-    return weight * 0.8 * height_U / 2;
-  }
-};
+/// By all that is stated: 0.8 N on the highest bumps, half as much on those half as high, at once with its part.
+double statedRelief(bool identify, double height_U) { return identify ? 0.8 * height_U / 2 : 0; }
 
 /// Where footprints are under the probe or were entered since the last tick, and nowhere else, at 400 to 20,000 U/s.
 TEST(ShippedPlan, TheReliefPushesExactlyOverFootprints) {
@@ -166,7 +160,6 @@ TEST(ShippedPlan, TheReliefPushesExactlyOverFootprints) {
     for (int n = 0; n < 60; ++n) {
       const StrokeLine line = lineAcross(draw, n % 3, speed);
       SearchLoop loop;
-      StatedRelief stated;
       Vec3 before = pressedAt(line.from);
       for (int i = 0; i < line.ticks; ++i) {
         const Vec3 p = pressedAt(line.from + i * 1e-3 * speed * line.way);
@@ -174,7 +167,7 @@ TEST(ShippedPlan, TheReliefPushesExactlyOverFootprints) {
         const haptics::WayOverBumps way = haptics::plainWay(theFloor(), before.x(), before.y(), p.x(), p.y());
         before = p;
         const bool identify = at.subtasks & kIdentifyOn;
-        const double push = stated.next(identify, way.heights.empty() ? 0 : way.heights[0]);
+        const double push = statedRelief(identify, way.heights.empty() ? 0 : way.heights[0]);
         if (way.unsure) continue;
         const Vec3 f = unpack(at.f_augmentation_D);
         ASSERT_NEAR(f.z(), push, 1e-9) << speed << ' ' << n << ' ' << i;
@@ -210,7 +203,7 @@ TEST(ShippedPlan, WithoutIdentifyingThereIsNoRelief) {
   }
 }
 
-/// While its weight fades the relief still needs the contact.
+/// The relief needs the contact.
 TEST(ShippedPlan, LiftedTheReliefEndsAtOnce) {
   Draws draw(36);
   int pushed = 0;

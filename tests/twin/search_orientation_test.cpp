@@ -50,11 +50,24 @@ TEST(SearchOrientation, SomeFalseJoltsDoNotMatter) {
   }
 }
 
+/// Wherever jolts lie, no direction has more of them about it than the one found; looked at as finely as it looks.
+TEST(SearchOrientation, NoDirectionHasMoreJoltsAboutIt) {
+  runtime::RandomStream random(8, "test.directions");
+  const auto about = [](const std::vector<double>& angles, double direction) { return std::count_if(angles.begin(), angles.end(), [&](double angle) { return apart(angle, direction) <= kSeenHalf + 1e-9; }); };
+  for (int n = 0; n < 200; ++n) {
+    std::vector<double> angles;
+    for (int i = 0; i < 8; ++i) angles.push_back(random.uniform(0, 3 * kThirdTurn_rad));
+    const double found = foundBy(angles), below = kLookStep * std::floor(found / kLookStep + 1e-9);
+    const auto here = std::max(about(angles, below), about(angles, below + kLookStep));   // the middle may lie between two that are looked at
+    for (int i = 0; i < 240; ++i) EXPECT_LE(about(angles, i * kLookStep), here) << n;
+  }
+}
+
 TEST(SearchOrientation, WithoutJoltsItStaysWithItsStart) { EXPECT_EQ(foundBy({}), kNotTaken); }
 
-/// As many in one place as in the one opposite, between the thirds: neither is better.
-TEST(SearchOrientation, ATieStaysWithItsStart) {
-  EXPECT_EQ(foundBy({0.4, 0.4 + kThirdTurn_rad / 2}, 0.3), kNotTaken);
+/// As many in one place as in the one opposite, between the thirds: the one nearer the start.
+TEST(SearchOrientation, ATieGoesToWhatIsNearerTheStart) {
+  EXPECT_LE(apart(foundBy({0.4, 0.4 + kThirdTurn_rad / 2}, 0.3), 0.4 + kThirdTurn_rad / 2), kLookStep);
   EXPECT_LE(apart(foundBy({0.4, 0.4, 0.4 + kThirdTurn_rad / 2}, 0.3), 0.4), kLookStep) << "one more decides";
 }
 
