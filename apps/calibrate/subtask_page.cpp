@@ -16,6 +16,7 @@ using report::fixed;
 using report::Html;
 
 constexpr std::size_t kShownTrials = 4;
+const std::string kMostlyHead = "mostly", kGoesHead = "goes with";
 
 void writeSubtaskTop(Html& html, const SubtaskRecordings& recordings, const Result& result) {
   const auto header = html.in("header");
@@ -46,7 +47,7 @@ void writeHeads(Html& html, const std::vector<std::string>& heads) {
   const auto row = html.in("tr");
   bool first = true;
   for (const std::string& one : heads) {
-    html.element("th", {{"scope", "col"}, {"class", first ? "name" : ""}}, one);
+    html.element("th", {{"scope", "col"}, {"class", first || one == kMostlyHead || one == kGoesHead ? "name" : ""}}, one);
     first = false;
   }
 }
@@ -54,7 +55,7 @@ void writeHeads(Html& html, const std::vector<std::string>& heads) {
 void writeLooks(Html& html, const SubtaskRecordings& recordings, const SubtaskSegmentation& found) {
   const auto scroll = html.in("div", {{"class", "scroll"}, {"tabindex", "0"}});
   const auto table = html.in("table", {{"class", "all states"}});
-  writeHeads(html, {"State", "of the time", "held for", "speed", "force", "in contact", "shaking", "mostly", "goes with"});
+  writeHeads(html, {"State", "of the time", "held for", "speed", "force", "in contact", "shaking", kMostlyHead, kGoesHead});
   const auto body = html.in("tbody");
   for (std::size_t row = 0; row < found.looks.size(); ++row) {
     const StateLook& look = found.looks[row];
@@ -111,7 +112,7 @@ void writeMain(Html& html, const SubtaskRecordings& recordings, const SubtaskSeg
     html.element("h3", "What each state is like");
     writeLooks(html, recordings, found);
     html.element("p", {{"class", "muted small"}}, "Medians over the state's steps of 10 ms. Shaking: root mean square of the contact force above 20 Hz. Speeds below 1 mm/s, forces below 0.02 N and shaking below "
-                                                  "0.005 N are taken as these. Mostly: the parts that are on for most of its steps. Goes with: one to one, so that most steps agree.");
+                                                  "0.005 N are taken as these. Mostly: the parts that are on for most of its steps. Goes with: one to one, so that most steps agree; none where it is less than a quarter of the state.");
   }
   {
     const auto section = html.in("section", {{"class", "card"}});
@@ -121,7 +122,7 @@ void writeMain(Html& html, const SubtaskRecordings& recordings, const SubtaskSeg
     html.element("h3", "Where they differ");
     writeSentences(html, whereTheyDiffer(recordings, found));
     writeSteps(html, recordings, found);
-    html.element("p", {{"class", "muted small"}}, "Framed: pairs that go with each other. By chance: what parts as long but at other times within their trials reach 1 time in 20.");
+    html.element("p", {{"class", "muted small"}}, "Framed: what kappa counts as agreement, one to one so that it is most. By chance: what parts as long but at other times within their trials reach 1 time in 20.");
   }
   {
     const auto section = html.in("section", {{"class", "card"}});

@@ -7,6 +7,8 @@ namespace {
 
 constexpr int kSubtasksGoodFor_days = 3650;   // hands' ways do not age; other experts are another matter
 
+constexpr double kLeastOfState = 0.25;         // of a state: with less of it a part only happens to be left by the matching
+
 using station::CalibrationFile;
 
 std::vector<double> listed(const Eigen::VectorXd& values) { return {values.data(), values.data() + values.size()}; }
@@ -73,7 +75,8 @@ std::string stateName(const SubtaskSegmentation& found, std::size_t row) { retur
 
 std::string partOf(const SubtaskRecordings& recordings, const SubtaskSegmentation& found, std::size_t row) {
   const int column = found.matching[row];
-  return column < 0 ? "" : recordings.wordsOf(found.steps.other[static_cast<std::size_t>(column)]);
+  const Eigen::RowVectorXi counts = found.steps.counts.row(static_cast<Eigen::Index>(row));
+  return column < 0 || counts[column] < kLeastOfState * counts.sum() ? "" : recordings.wordsOf(found.steps.other[static_cast<std::size_t>(column)]);
 }
 
 Result subtaskResult(const SubtaskRecordings& recordings, const SubtaskSegmentation& found, const Origin& origin) {

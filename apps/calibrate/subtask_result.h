@@ -13,7 +13,7 @@ inline constexpr double kRepeats = 0.8;   ///< adjusted Rand index of two halves
 /// steps of each label by state.
 Result subtaskResult(const SubtaskRecordings& recordings, const SubtaskSegmentation& found, const Origin& origin);
 
-/// The label that goes with a row of the table of steps, or "" where none is left for it.
+/// The label that goes with a row of the table of steps: its match, where that is a quarter of the state or more; else "".
 std::string partOf(const SubtaskRecordings& recordings, const SubtaskSegmentation& found, std::size_t row);
 /// "2": states are counted from 1 for people.
 std::string stateName(const SubtaskSegmentation& found, std::size_t row);

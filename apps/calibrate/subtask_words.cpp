@@ -15,7 +15,7 @@ constexpr std::size_t kFewTrials = 6, kNamedDifferences = 3;
 constexpr double kNamedShare = 0.02;        // of all steps: differences below are not named
 constexpr double kBusy_s = 0.2;             // changes that follow each other within this lie within 100 ms of nearly anything
 
-std::string percent(double share) { return fixed(100 * share, share > 0 && share < 0.0095 ? 1 : 0) + " %"; }
+std::string percent(double share) { return fixed(100 * share, share > 0.0005 && share < 0.0095 ? 1 : 0) + " %"; }
 std::string many(std::size_t n, const std::string& one) { return std::to_string(n) + " " + one + (n == 1 ? "" : "s"); }
 std::string quoted(const std::string& words) { return "\"" + words + "\""; }
 std::string atLeast(double value, double least, double unit, const std::string& name, int decimals) {
@@ -86,7 +86,7 @@ Sentences whatTheyAre(const SubtaskRecordings& recordings, const SubtaskSegmenta
     const StateLook& look = found.looks[row];
     const std::string part = partOf(recordings, found, row);
     s.push_back("State " + stateName(found, row) + ", " + percent(look.share) + " of the time: " + wordsOf(look) + ". " + percent(look.mostly_share) + " of it is " + quoted(recordings.wordsOf(look.mostly)) +
-                (part.empty() ? "; no hand-written part is left to go with it." : "; it goes with " + quoted(part) + "."));
+                (part.empty() ? "; no hand-written part of its own goes with it." : "; it goes with " + quoted(part) + "."));
   }
   return s;
 }
@@ -115,8 +115,10 @@ Sentences whereTheyDiffer(const SubtaskRecordings& recordings, const SubtaskSegm
                 stateName(found, all[i].row) + (part.empty() ? "." : ", which goes with " + quoted(part) + "."));
   }
   std::string alone;
+  Sentences with_state;
+  for (std::size_t row = 0; row < found.steps.one.size(); ++row) with_state.push_back(partOf(recordings, found, row));
   for (std::size_t c = 0; c < found.steps.other.size(); ++c)
-    if (std::find(found.matching.begin(), found.matching.end(), static_cast<int>(c)) == found.matching.end()) alone += (alone.empty() ? "" : ", ") + quoted(recordings.wordsOf(found.steps.other[c]));
+    if (std::find(with_state.begin(), with_state.end(), recordings.wordsOf(found.steps.other[c])) == with_state.end()) alone += (alone.empty() ? "" : ", ") + quoted(recordings.wordsOf(found.steps.other[c]));
   if (!alone.empty()) s.push_back("No state of its own: " + alone + ".");
   return s;
 }

@@ -17,7 +17,7 @@ using calibration::test::complaint, palpa::test::says;
 constexpr const char* kSlowPart = R"({"name": "slow", "means": "hardly moving", "on": [{"cue": "speed", "below": 0.01}]})";
 constexpr const char* kFastPart = R"({"name": "fast", "means": "moving", "on": [{"cue": "speed", "at_least": 0.01}]})";
 
-std::string taskOf(const std::string& parts) { return R"({"version": 1, "id": "strokes", "hysteresis": 0.05, "subtasks": [)" + parts + R"(], "augmentations": []})"; }
+std::string taskOf(const std::string& parts) { return R"({"version": 1, "id": "strokes", "hysteresis": 0.05, "subtasks": [)" + parts + R"(], "augmentations": [], "limit_share": 0.5})"; }
 
 /// Two trials of 0.8 s, between them 0.2 s of none; the first part is on in the first half of each, then the second. In the second trial the handle is held for 0.1 s, and cues are allowed.
 std::filesystem::path recorded(const std::string& name, const std::string& task, const std::string& session = R"({"simulated": true})") {
