@@ -19,7 +19,7 @@ TEST(CalibrateSubtasks, FromARecordedSearch) {
   const Outcome outcome = proposed("parts");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.errLines(), 0) << outcome.err;
-  for (const char* words : {"(SIMULATED)", "Taken, as asked: 4 states", "State 1", "kappa", "The hand-written parts change", "Neither segmentation is the truth"}) EXPECT_TRUE(says(outcome.out, words)) << words << "\n" << outcome.out;
+  for (const char* words : {"(SIMULATED)", ": 4 states.", "State 1", "kappa", "The hand-written parts change", "Neither segmentation is the truth"}) EXPECT_TRUE(says(outcome.out, words)) << words << "\n" << outcome.out;
   const std::string page = contentOf(here / "parts/calibration.html");
   for (const char* words : {"SIMULATED", "How many states?", "Cohen&#39;s kappa", "state 4", "identify", "trial 3"}) EXPECT_TRUE(says(page, words)) << words;
   for (const char* words : {"src=\"http", "href=\"http", "<script", "url("}) EXPECT_FALSE(says(page, words)) << words;   // one file
