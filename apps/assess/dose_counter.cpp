@@ -2,21 +2,27 @@
 
 namespace palpa::assess {
 
-DoseCounter::DoseCounter(const haptics::AugmentationPlan& plan, const std::vector<std::string>& subtasks) {
+DoseCounter::DoseCounter(const haptics::AugmentationPlan& plan, const std::vector<std::string>& subtasks) : parts_(subtasks.size()) {
   for (const std::string& name : subtasks) doses_.push_back({name, 0, 0, 0, 0});
-  for (std::size_t i = 0; i < part_of_.size(); ++i) part_of_[i] = plan.each[i].subtask;
+  bool any = false;
+  for (std::size_t i = 0; i < part_of_.size(); ++i) {
+    part_of_[i] = plan.each[i].subtask;
+    any = any || (i < plan.count && part_of_[i] == haptics::kAnySubtask);
+  }
+  if (any) doses_.push_back({"any part", 0, 0, 0, 0});
 }
 
 void DoseCounter::add(const haptics::FlightRecord& record, double dt) {
   const double added_N = unpack(record.f_augmentation_D).norm();
   for (std::size_t s = 0; s < doses_.size(); ++s) {
-    const unsigned bit = 1u << s;
+    const bool named = s < parts_, on = !named || (record.subtasks >> s & 1u), was = named ? was_ >> s & 1u : started_;
+    const std::size_t part = named ? s : haptics::kAnySubtask;
     bool felt = false;
-    for (std::size_t i = 0; i < part_of_.size(); ++i) felt = felt || ((record.augmenting >> i & 1u) && (part_of_[i] == s || part_of_[i] == haptics::kAnySubtask));
+    for (std::size_t i = 0; i < part_of_.size(); ++i) felt = felt || ((record.augmenting >> i & 1u) && part_of_[i] == part);
     SubtaskDose& dose = doses_[s];
-    if (record.subtasks & bit) {
+    if (on) {
       dose.on_s += dt;
-      if (!(was_ & bit)) ++dose.times;
+      if (!was) ++dose.times;
     }
     if (felt) {
       dose.augmented_s += dt;
@@ -24,6 +30,7 @@ void DoseCounter::add(const haptics::FlightRecord& record, double dt) {
     }
   }
   was_ = record.subtasks;
+  started_ = true;
 }
 
 void TrialDoses::begin(std::uint32_t trial) {

@@ -12,7 +12,7 @@
 
 namespace palpa::assess {
 
-/// Adds up over recorded ticks how long each part of a task was on, how often it came on, and how much was added to the force meanwhile. What is added counts for every part that an active augmentation belongs to.
+/// Adds up over recorded ticks how long each part of a task was on, how often it came on, and how much was added to the force meanwhile. What is added counts for every part that an active augmentation belongs to. Augmentations of no part in particular have a row of their own, the last, "any part", which is always on.
 class DoseCounter {
  public:
   DoseCounter() = default;
@@ -24,7 +24,9 @@ class DoseCounter {
  private:
   std::vector<SubtaskDose> doses_;
   std::array<std::uint8_t, haptics::kMostAugmentations> part_of_{};   ///< of each augmentation
+  std::size_t parts_ = 0;              ///< named ones
   std::uint8_t was_ = 0;
+  bool started_ = false;
 };
 
 /// The doses of one trial after another, from every tick as it was recorded.

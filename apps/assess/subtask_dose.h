@@ -9,7 +9,7 @@ struct SubtaskDose {
   std::string subtask;                                      ///< as the task's file names it
   double on_s = 0;
   int times = 0;                                            ///< it came on
-  double augmented_s = 0;                                   ///< a cue of its own, or of any part, was felt; what had begun may outlast the part
+  double augmented_s = 0;                                   ///< a cue of its own was felt; what had begun may outlast the part
   double impulse_Ns = 0;                                    ///< of the cues
 };
 

@@ -5,11 +5,12 @@
 namespace palpa::assess {
 namespace {
 
-/// Of the first part two, of the second one, and one of whatever part is on.
+/// Two of each part.
 haptics::AugmentationPlan plannedDoses() {
   haptics::AugmentationPlan plan;
   plan.each[0].subtask = plan.each[1].subtask = 0;
   plan.each[2].subtask = 1;
+  plan.each[3].subtask = 1;
   plan.count = 4;
   return plan;
 }
@@ -64,13 +65,20 @@ TEST(DoseCounter, WhatIsAddedIsThePartsItBelongsTo) {
   EXPECT_NEAR(look.on_s, 0.7, 1e-9);
 }
 
-TEST(DoseCounter, WhatBelongsToAnyPartCountsForAll) {
-  DoseCounter counter = twoParts();
+TEST(DoseCounter, WhatBelongsToNoPartHasARowOfItsOwn) {
+  haptics::AugmentationPlan plan = plannedDoses();
+  plan.each[3].subtask = haptics::kAnySubtask;
+  DoseCounter counter(plan, {"look", "press"});
   addFor(counter, dosed(0b11, 0b1000, 2), 100);
-  for (const SubtaskDose& dose : counter.doses()) {
-    EXPECT_NEAR(dose.augmented_s, 0.1, 1e-9);
-    EXPECT_NEAR(dose.impulse_Ns, 0.2, 1e-9);
-  }
+  addFor(counter, dosed(0), 50);
+  ASSERT_EQ(counter.doses().size(), 3u);
+  const SubtaskDose &look = counter.doses()[0], &any = counter.doses()[2];
+  EXPECT_EQ(look.augmented_s + look.impulse_Ns, 0);
+  EXPECT_EQ(any.subtask, "any part");
+  EXPECT_NEAR(any.on_s, 0.150, 1e-9);
+  EXPECT_EQ(any.times, 1);
+  EXPECT_NEAR(any.augmented_s, 0.100, 1e-9);
+  EXPECT_NEAR(any.impulse_Ns, 0.2, 1e-9);
 }
 
 TEST(DoseCounter, TicksCountAsLongAsTheyAre) {
