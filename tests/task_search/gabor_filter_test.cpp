@@ -13,7 +13,7 @@ namespace {
 
 using haptics::GaborTable;
 
-/// The same by the definition: every pixel a sum, in double; the correlation of OpenCV with the filter turned by half a turn is the convolution.
+/// The same in double, by OpenCV's correlation with the filter turned by half a turn: that is the convolution. That it is, sums of a pixel's own confirm (below).
 cv::Mat directly(const cv::Mat& map, const cv::Mat& kernel) {
   cv::Mat turned, wide, response;
   cv::flip(kernel, turned, -1);
@@ -47,6 +47,30 @@ TEST(GaborFilter, IsPositiveWhereTheSurfaceRisesInItsDirection) {
     EXPECT_LT(middle(19, scale), 0);
     EXPECT_NEAR(middle(11, scale), 0, 1e-3 * middle(3, scale));   // across: neither; heights of 15 U in single precision
     EXPECT_GT(middle(3, scale), middle(6, scale));
+  }
+}
+
+/// By the definition, one pixel: sum of map(p - q) kernel(q), nothing beyond the border.
+double summedAt(const cv::Mat& map, const cv::Mat& kernel, int i, int j) {
+  const int half = kernel.rows / 2;
+  double sum = 0;
+  for (int v = -half; v <= half; ++v)
+    for (int u = -half; u <= half; ++u) {
+      const int x = i - u, y = j - v;
+      if (x >= 0 && y >= 0 && x < map.cols && y < map.rows) sum += static_cast<double>(map.at<float>(y, x)) * static_cast<double>(kernel.at<float>(v + half, u + half));
+    }
+  return sum;
+}
+
+TEST(GaborFilter, WhatTheTableIsComparedWithIsTheSumByItsDefinition) {
+  const haptics::SearchSurface surface = surfaceOf(shippedSearch().spec, episodeWith(assess::SearchMode::augmented));
+  const cv::Mat map = heightMap([&](double x, double y) { return surface.smoothHeight(x, y); }, 128, 240);
+  for (int scale = 0; scale < GaborTable::kScales; ++scale) {
+    const cv::Mat kernel = gaborKernel(3 + 5 * scale, scale), response = directly(map, kernel);
+    for (int n = 0; n < 60; ++n) {
+      const int i = 37 * n % 128, j = (53 * n + 11) % 128;
+      EXPECT_NEAR(response.at<double>(j, i), summedAt(map, kernel, i, j), 1e-9) << scale << ": " << i << ' ' << j;
+    }
   }
 }
 
