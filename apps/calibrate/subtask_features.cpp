@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <utility>
 
 namespace palpa::calibrate {
@@ -39,36 +38,27 @@ void SubtaskSteps::interrupt() {
   rows_.clear();
   labels_.clear();
   sums_ = {};
+  counted_.clear();
   running_ = false;
 }
 
 void SubtaskSteps::closeStep() {
-  const double n = sums_.ticks;
-  Eigen::RowVectorXd row(static_cast<Eigen::Index>(kSubtaskFeatures));
-  row[kLogSpeed] = std::log(std::max(sums_.speed / n, kLeastSpeed));
-  row[kLogForce] = std::log(std::max(sums_.force / n, kLeastForce_N));
-  row[kInContact] = sums_.contact / n;
-  row[kLogShaking] = std::log(std::max(std::sqrt(sums_.shaking2 / n), kLeastShaking_N));
+  const haptics::LearnedRow step = sums_.close();
+  const Eigen::RowVectorXd row = Eigen::Map<const Eigen::RowVectorXd>(step.data(), kSubtaskFeatures);
   rows_.push_back(row);
-  labels_.push_back(mostOften(sums_.labels));
-  sums_ = {};
+  labels_.push_back(mostOften(counted_));
+  counted_.clear();
   ++step_;
 }
 
 void SubtaskSteps::count(const haptics::FlightRecord& record) {
   const double dt = 1e-9 * static_cast<double>(record.t_ns - last_ns_);
   haptics::follow(motion_, tipOf(record.reading), kSpeedTau_s, dt);
-  const Vec3 f = forceOn(record);
-  slow_force_ += (f - slow_force_) * (dt / (kShakingTau_s + dt));
-  ++sums_.ticks;
-  sums_.speed += unpack(motion_.v_D).norm();
-  sums_.force += f.norm();
-  sums_.contact += f.norm() >= kLeastForce_N;
-  sums_.shaking2 += (f - slow_force_).squaredNorm();
+  sums_.add(unpack(motion_.v_D).norm(), forceOn(record), dt);
   const int bits = record.subtasks;
-  const auto label = std::find_if(sums_.labels.begin(), sums_.labels.end(), [&](const auto& l) { return l.first == bits; });
-  if (label == sums_.labels.end())
-    sums_.labels.emplace_back(bits, 1);
+  const auto label = std::find_if(counted_.begin(), counted_.end(), [&](const auto& l) { return l.first == bits; });
+  if (label == counted_.end())
+    counted_.emplace_back(bits, 1);
   else
     ++label->second;
 }
@@ -83,7 +73,7 @@ void SubtaskSteps::add(const haptics::FlightRecord& record) {
     begin_ns_ = last_ns_ = record.t_ns;
     step_ = 0;
     motion_ = {};
-    slow_force_ = forceOn(record);
+    sums_.slow_force = pack(forceOn(record));
   }
   if (record.t_ns >= begin_ns_ + (step_ + 1) * kSubtaskStep_ns) closeStep();
   count(record);
