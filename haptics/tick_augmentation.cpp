@@ -36,13 +36,25 @@ double lumpEdge(const TickConfig& config, const TickFrame& frame) noexcept {
   return nearest;
 }
 
+/// Computed, or sensed of a real thing.
+Vec3 feltForce(const TickConfig& config, const NeedleContact& contact, const SensedForce& sensed) noexcept {
+  return config.engine == Engine::touch && sensed.state == SensorState::valid ? unpack(sensed.f_D) : contact.f_D;
+}
+
+/// The belief of a learned model goes on; while the handle is held, nothing is done that it knows.
+void believeLearned(const TickConfig& config, TickState& state, const Vec3& f, const TickFrame& frame) noexcept {
+  LearnedState& learned = state.augmentation.learned;
+  if (frame.record.commands.held) learned = {};
+  else learnedState(config.augmentations.learned, unpack(state.tip.v_D).norm(), f, static_cast<std::int64_t>(1e9 * frame.input.dt + 0.5), &learned);
+}
+
 CueValues cuesOf(const TickConfig& config, const TickState& state, const NeedleContact& contact, const FloorTouch* touch, const TickFrame& frame) noexcept {
   CueValues cues;
   const FlightRecord& record = frame.record;
   cues[Cue::speed] = unpack(state.tip.v_D).norm();
   cues[Cue::advance] = contact.v_axial;
   const bool sensed = config.engine == Engine::touch && record.sensed.state == SensorState::valid;
-  cues[Cue::contact_force] = sensed ? unpack(record.sensed.f_D).norm() : contact.f_D.norm();
+  cues[Cue::contact_force] = feltForce(config, contact, record.sensed).norm();
   cues[Cue::skin_force] = contact.skin_force;
   cues[Cue::wall_force] = contact.wall_force;
   cues[Cue::bone_force] = contact.bone_force;
@@ -51,6 +63,7 @@ CueValues cuesOf(const TickConfig& config, const TickState& state, const NeedleC
   cues[Cue::phase] = static_cast<double>(state.contact.phase);
   cues[Cue::tissue] = static_cast<double>(contact.tissue);
   cues[Cue::part] = record.commands.subtask;
+  cues[Cue::learned] = 1 + state.augmentation.learned.state;
   cues[Cue::lump_edge] = sensed ? lumpEdge(config, frame) : kFarAway;
   if (!touch) return cues;
   cues[Cue::floor_contact] = touch->touching;
@@ -125,6 +138,7 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
   AugmentationInput in;
   if (state.tip.started) in.dp = p_D - unpack(state.tip.p_D);
   follow(state.tip, p_D, plan.speed_tau, frame->input.dt);
+  believeLearned(config, state, feltForce(config, contact, frame->record.sensed), *frame);
   in.cues = cuesOf(config, state, contact, touch, *frame);
   in.events = contact.events;
   in.allowed = frame->record.commands.augmented;

@@ -31,7 +31,7 @@ station::NamedPlan recordedPlan(const station::JsonFile& task) {
 
 /// By what the parts are told, in order.
 json conditionsOf(const station::JsonFile& task) {
-  json conditions = json::array();
+  json conditions = json::array({task.json().value("learned", json())});
   for (const station::JsonFile& part : task.entries("subtasks")) conditions.push_back(part.json().value("on", json::array()));
   return conditions;
 }

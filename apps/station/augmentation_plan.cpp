@@ -4,6 +4,8 @@
 #include <tuple>
 #include <utility>
 
+#include "anatomy/geometry/error.h"
+#include "apps/station/learned_model.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::station {
@@ -51,7 +53,13 @@ double countedIn(const JsonFile& file, Cue cue) {
   file.refuse("is", "is \"" + said + "\", which \"" + haptics::cueName(cue).name + "\" never is");
 }
 
-Condition conditionIn(const JsonFile& file, double hysteresis) {
+/// A learned state that there is.
+void needState(const JsonFile& file, const Condition& c, std::uint32_t states) {
+  if (states == 0) file.refuse("cue", "is \"learned\", but the task has no \"learned\": name what palpa calibrate subtasks made");
+  if (c.compare != Condition::Compare::equal || c.threshold < 1 || c.threshold > states) file.refuse("cue", "is \"learned\": say beside it which state it \"is\", 1 to " + std::to_string(states));
+}
+
+Condition conditionIn(const JsonFile& file, double hysteresis, std::uint32_t states) {
   constexpr double kLargest = 1e6;
   Condition c;
   c.cue = cueIn(file);
@@ -61,14 +69,15 @@ Condition conditionIn(const JsonFile& file, double hysteresis) {
   else if (file.has("below")) c.compare = Condition::Compare::below, c.threshold = unit * file.number("below", -kLargest, kLargest);
   else if (file.has("is")) c.compare = Condition::Compare::equal, c.threshold = countedIn(file, c.cue);
   else file.refuse("cue", "needs \"at_least\", \"below\" or \"is\" beside it");
+  if (c.cue == Cue::learned) needState(file, c, states);
   return c;
 }
 
-haptics::Subtask subtaskIn(const JsonFile& file, double hysteresis) {
+haptics::Subtask subtaskIn(const JsonFile& file, double hysteresis, std::uint32_t states) {
   haptics::Subtask subtask;
   const std::vector<JsonFile> conditions = file.entries("on");
   if (conditions.empty() || conditions.size() > haptics::kMostConditions) file.refuse("on", "must hold 1 to " + std::to_string(haptics::kMostConditions) + " conditions");
-  for (const JsonFile& condition : conditions) subtask.conditions[subtask.count++] = conditionIn(condition, hysteresis);
+  for (const JsonFile& condition : conditions) subtask.conditions[subtask.count++] = conditionIn(condition, hysteresis, states);
   return subtask;
 }
 
@@ -153,13 +162,14 @@ NamedPlan readPlan(const JsonFile& task) {
     if (task.has("augmentations")) task.refuse("augmentations", "needs \"subtasks\" beside it: in which parts of the task?");
     return named;
   }
+  named.plan.learned = learnedIn(task);
   const double hysteresis = task.number("hysteresis", 0, 0.9);
   const std::vector<JsonFile> subtasks = task.entries("subtasks"), augmentations = task.entries("augmentations");
   if (subtasks.size() > haptics::kMostSubtasks) task.refuse("subtasks", "holds more than " + std::to_string(haptics::kMostSubtasks));
   if (augmentations.size() > haptics::kMostAugmentations) task.refuse("augmentations", "holds more than " + std::to_string(haptics::kMostAugmentations));
   for (const JsonFile& subtask : subtasks) {
     named.subtasks.push_back({subtask.text("name"), subtask.text("means")});
-    named.plan.subtasks.each[named.plan.subtasks.count++] = subtaskIn(subtask, hysteresis);
+    named.plan.subtasks.each[named.plan.subtasks.count++] = subtaskIn(subtask, hysteresis, named.plan.learned.states);
   }
   for (const JsonFile& augmentation : augmentations) {
     double reach_U = 0;

@@ -1,5 +1,7 @@
 #include "apps/task_needle/task_file.h"
 
+#include "apps/station/learned_model.h"
+
 namespace palpa::task_needle {
 namespace {
 
@@ -31,7 +33,7 @@ assess::ScoringRules readRules(const station::JsonFile& file) {
 }  // namespace
 
 TaskSettings readTask(const std::filesystem::path& path) {
-  const station::JsonFile file(path);
+  const station::JsonFile file = station::readTaskFile(path);
   file.needVersion(1);
   if (const std::string engine = file.text("engine"); engine != "needle")
     file.refuse("engine", "is \"" + engine + "\"; known: needle");

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "apps/station/learned_model.h"
+
 namespace palpa::task_palpation {
 namespace {
 
@@ -123,7 +125,7 @@ void requireInside(const station::JsonFile& file, const PalpationSettings& setti
 }  // namespace
 
 PalpationSettings readPalpation(const std::filesystem::path& path) {
-  const station::JsonFile file(path);
+  const station::JsonFile file = station::readTaskFile(path);
   file.needVersion(1);
   if (const std::string engine = file.text("engine"); engine != "palpation") file.refuse("engine", "is \"" + engine + "\"; here it must be palpation");
   PalpationSettings settings;

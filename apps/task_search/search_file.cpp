@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "anatomy/geometry/error.h"
+#include "apps/station/learned_model.h"
 
 namespace palpa::task_search {
 namespace {
@@ -80,7 +81,7 @@ SearchSettings readSearch(const station::JsonFile& file) {
   return s;
 }
 
-SearchSettings readSearch(const std::filesystem::path& path) { return readSearch(station::JsonFile(path)); }
+SearchSettings readSearch(const std::filesystem::path& path) { return readSearch(station::readTaskFile(path)); }
 
 haptics::FloorRendering renderingOn(const SearchSettings& task, const station::Station& station) {
   if (!station.floor) throw UsageError("has no \"floor\"", station.file.name(), "Say where the floor lies and how large its unit is in the hand: floor/X_WF, floor/unit_mm, floor/handle_weight_N");

@@ -142,9 +142,10 @@ Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in, Aug
   if (!(state->started & kElapsedStarted)) state->elapsed.fill(-1);
   state->started |= kElapsedStarted;
   if (!in.allowed) {
-    const SubtaskState parts = state->subtasks;
-    *state = AugmentationState{};
-    state->subtasks = parts;
+    AugmentationState told;   // parts are told all the same
+    told.subtasks = state->subtasks;
+    told.learned = state->learned;
+    *state = told;
     return out;
   }
   Vec3 heedless = Vec3::Zero();

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "anatomy/geometry/pose.h"
+#include "haptics/augmentation/learned_part.h"
 #include "haptics/augmentation/subtasks.h"
 
 namespace palpa::haptics {
@@ -46,6 +47,7 @@ struct AugmentationPlan {
   double largest = 0;                ///< N, of all together
   double steepest = 1000;            ///< N/m: attraction and fixture rise no steeper, so that the device can hold them
   double speed_tau = 0.005;          ///< s, of the speed that parts are told by
+  LearnedModel learned;              ///< by which Cue::learned tells
 };
 static_assert(std::is_trivially_copyable_v<AugmentationPlan>);
 
@@ -73,6 +75,7 @@ struct AugmentationState {
   std::array<Packed3, kMostAugmentations> slow{};       ///< N, low-passed contact force
   std::uint32_t was = 0;             ///< bit i: the trigger of i was there in the last tick
   std::uint32_t started = 0;         ///< bit i: `slow` is there; bit 31: `elapsed` is
+  LearnedState learned;
 };
 static_assert(std::is_trivially_copyable_v<AugmentationState>);
 

@@ -69,6 +69,8 @@ LearnedRow StepSums::close() noexcept {
 int learnedState(const LearnedModel& model, double tip_speed, const Vec3& f, std::int64_t elapsed_ns, LearnedState* state) noexcept {
   if (model.states == 0) return -1;
   if (elapsed_ns <= 0 || !std::isfinite(tip_speed) || !f.allFinite()) return state->state;
+  const bool first = state->state < 0 && state->step_ns == 0;
+  if (first) state->sums.slow_force = pack(f);
   state->sums.add(tip_speed, f, 1e-9 * static_cast<double>(elapsed_ns));
   state->step_ns += elapsed_ns;
   if (state->step_ns < kLearnedStep_ns) return state->state;

@@ -45,7 +45,7 @@ static_assert(std::is_trivially_copyable_v<LearnedModel>);
 struct LearnedState {
   StepSums sums;
   std::array<double, kMostLearnedStates> belief{};
-  std::int64_t step_ns = 0;            ///< of the step that is gathered
+  std::int64_t step_ns = 0;            ///< of the step that is gathered: how long so far
   std::int32_t state = -1;             ///< the most probable one; -1: nothing is known yet
   std::uint32_t reserved = 0;
 };

@@ -31,6 +31,31 @@ TEST(CalibrateSubtasks, FromARecordedSearch) {
   EXPECT_EQ(json::parse(contentOf(here / "again/calibration.json"))["parameters"], file["parameters"]);
 }
 
+TEST(CalibrateSubtasks, ATaskMayAskForWhatWasLearned) {
+  const Folder here;
+  const auto search = [&](const std::string& trials, const std::string& out, const std::string& task) {
+    std::vector<std::string> arguments{"search", "--operator", "expert", "--mode", "real", "--trials", trials, "--seed", "70001", "--fast", "--no-views", "--quiet", "--out", out};
+    if (!task.empty()) arguments.insert(arguments.end(), {"--task", task});
+    return palpa(arguments, here.path());
+  };
+  ASSERT_EQ(search("3", "search", "").exit_code, 0);
+  ASSERT_EQ(palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "2", "--seed", "3", "--quiet", "--out", "parts"}, here.path()).exit_code, 0);
+  json task = json::parse(contentOf(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/tasks/search.json"));
+  task["learned"] = "parts/calibration.json";
+  for (int state : {1, 2}) task["subtasks"].push_back({{"name", "learned " + std::to_string(state)}, {"means", "as learned"}, {"on", {{{"cue", "learned"}, {"is", state}}}}});
+  here.file("task.json", task.dump());
+  const Outcome learned = search("1", "learned", "task.json");
+  ASSERT_EQ(learned.exit_code, 0) << learned.err;
+  EXPECT_TRUE(says(contentOf(here / "learned/report.html"), "learned 2"));
+  std::filesystem::remove_all(here / "parts");   // the recording has the model itself
+  const Outcome again = palpa({"replay", "learned/session.palpa"}, here.path());
+  EXPECT_EQ(again.exit_code, 0) << again.err;
+  EXPECT_TRUE(says(again.out, "equals the record")) << again.out;
+  const Outcome gone = search("1", "gone", "task.json");
+  EXPECT_NE(gone.exit_code, 0);
+  EXPECT_TRUE(says(gone.err, "parts/calibration.json")) << gone.err;
+}
+
 TEST(CalibrateSubtasks, RefusesWhatHasNoPartsOrTooFewTrials) {
   const Folder here;
   const auto refused = [&](const std::vector<std::string>& more, const std::string& words, int exit_code = 1) {
