@@ -28,6 +28,7 @@ struct TrialSample {
   double f_command = 0;       ///< N, magnitude rendered
   double plunger = 0;
   std::uint32_t events = 0;  ///< haptics::TickEvent bits, merged over the samples left out
+  std::uint32_t subtasks = 0;   ///< bit i: part i of the task is on
 };
 
 /// One line of the score with its reason.
@@ -72,6 +73,7 @@ struct TrialAssessment {
   double closest_pleura_mm = 0, closest_artery_mm = 0;
   double closest_pleura_s = 0, closest_artery_s = 0;
   int skin_punctures = 0;
+  bool by_path = true;               ///< false: the task has a goal of its own, and only success and time tell
   bool augmented = false;            ///< the task's augmentations added force
   std::vector<SubtaskDose> doses;    ///< of the task's parts
   int redirections =

@@ -35,6 +35,7 @@ bool TrialSampler::add(const haptics::FlightRecord& record, TrialSample* sample)
   sample->plunger = record.reading.plunger;
   sample->events = record.events | pending_events_;
   pending_events_ = 0;
+  sample->subtasks = record.subtasks;
   return true;
 }
 

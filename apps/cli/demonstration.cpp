@@ -51,6 +51,7 @@ class Playback final : public runtime::Activity {
     status.trial = status.trials = 1;
     status.role = "demonstration";
     status.phase = phases_.phase();
+    status.step = assess::clinicalName(status.phase);
     status.elapsed_s = moment.sample.t_s;
     status.plunger = moment.sample.plunger;
     status.blood_flows = moment.sample.tissue == Tissue::vein_lumen && moment.sample.plunger > 0.25;

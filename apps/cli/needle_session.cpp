@@ -68,7 +68,7 @@ class NeedleSession {
   }
 
   task_needle::SceneActivity::Setup sceneSetup() {
-    task_needle::SceneActivity::Setup setup{stageSetup(), options_.skin_deflection ? &world_.query : nullptr, skinOf(world_.patient), {}};
+    task_needle::SceneActivity::Setup setup{stageSetup(), options_.skin_deflection ? &world_.query : nullptr, skinOf(world_.patient), {}, world_.task.words};
     if (options_.guide) setup.guide = scene::Guide{world_.patient.landmark(anatomy::landmark::kEntry), world_.patient.landmark(anatomy::landmark::kVeinTarget)};
     return setup;
   }

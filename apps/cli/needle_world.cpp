@@ -4,12 +4,14 @@
 #include <cmath>
 #include <fstream>
 #include <sstream>
+#include <utility>
 
 #include "anatomy/import/decimate.h"
 #include "anatomy/import/mesh_file.h"
 #include "anatomy/parametric_patient.h"
 #include "anatomy/patient_check.h"
 #include "anatomy/patient_file.h"
+#include "anatomy/phantom_block.h"
 #include "apps/cli/output_folder.h"
 #include "apps/runtime/random.h"
 #include "apps/station/assets.h"
@@ -17,7 +19,19 @@
 namespace palpa::cli {
 namespace {
 
-anatomy::Patient makePatient(const SessionOptions& options) {
+/// The needle's way is straight down.
+anatomy::Patient makeBlock(const SessionOptions& options, const task_needle::TaskSettings& task) {
+  const SessionOptions as_made;
+  const std::pair<const char*, bool> not_here[]{{"--patient", !options.patient.empty()}, {"--patient-seed", options.patient_seed != as_made.patient_seed}, {"--guide", options.guide}};
+  for (const auto& [option, given] : not_here)
+    if (given) throw UsageError("has no meaning for this task: a block is punctured, no patient", option, "Leave it out");
+  anatomy::Patient block = anatomy::phantomBlock(task.block->size, task.title);
+  block.layers = task.block->layers;
+  return block;
+}
+
+anatomy::Patient makePatient(const SessionOptions& options, const task_needle::TaskSettings& task) {
+  if (task.block) return makeBlock(options, task);
   if (!options.patient.empty()) {
     anatomy::Patient patient = anatomy::readPatient(options.patient);
     anatomy::requireForNeedle(patient, options.patient);
@@ -72,12 +86,12 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
     : station(makeStation(options)),
       task(makeTask(options)),
       needle(station::readNeedleFile(task.materials)),
-      patient(makePatient(options)),
+      patient(makePatient(options, task)),
       query(patient),
       geometry(patient, query),
-      landmarks(patient) {
+      landmarks(task.block ? std::nullopt : std::make_optional<anatomy::LandmarkFrame>(patient)) {
   for (const station::RealThing& thing : station.things) real_things.push_back(meshOf(thing));
-  if (!options.record_only) expert_path = calibration::readExpertPath(task.expert_path);
+  if (!options.record_only && !task.expert_path.empty()) expert_path = calibration::readExpertPath(task.expert_path);
   X_WA = options.camera.empty() ? station::placePatient(patient, station.entry_W)
                                 : station::placePatientOnBoard(patient);
   if (!options.camera.empty())  // the bench's device stands where it stood, relative to the patient
@@ -101,13 +115,21 @@ twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill, bool
   twin::VisibleAnatomy v;
   v.entry_A = patient.landmark(anatomy::landmark::kEntry);
   v.normal_A = query.closest(surfaceIndex(patient, Organ::skin), v.entry_A).n_A;
+  if (!landmarks) {
+    v.aim_A = v.entry_A - skill.vein_distance * v.normal_A;
+    v.vein_distance = skill.vein_distance;
+    v.medial_A = Vec3::UnitX();
+    v.posterior_A = Vec3::UnitY();
+    v.cephalad_A = Vec3::UnitZ();
+    return v;
+  }
   v.aim_A = knows_patient ? patient.landmark(anatomy::landmark::kVeinTarget)
                           : Vec3(patient.landmark(anatomy::landmark::kSternalEndPosteriorSuperior) +
-                                 landmarks.vectorToA(skill.aim_offset_L));
+                                 landmarks->vectorToA(skill.aim_offset_L));
   v.vein_distance = knows_patient ? (v.aim_A - v.entry_A).norm() : skill.vein_distance;
-  v.medial_A = landmarks.vectorToA(Vec3::UnitX());
-  v.posterior_A = landmarks.vectorToA(Vec3::UnitY());
-  v.cephalad_A = landmarks.vectorToA(Vec3::UnitZ());
+  v.medial_A = landmarks->vectorToA(Vec3::UnitX());
+  v.posterior_A = landmarks->vectorToA(Vec3::UnitY());
+  v.cephalad_A = landmarks->vectorToA(Vec3::UnitZ());
   return v;
 }
 

@@ -29,7 +29,7 @@ struct NeedleWorld {
   anatomy::Patient patient;
   anatomy::SurfaceQuery query;
   anatomy::LocalGeometryBuilder geometry;
-  anatomy::LandmarkFrame landmarks;
+  std::optional<anatomy::LandmarkFrame> landmarks;   ///< none: it is no patient
   std::optional<calibration::ExpertPath> expert_path;
   std::vector<anatomy::TriangleMesh> real_things;   ///< the station's, in its order; metres
   Pose X_WA, X_DA;

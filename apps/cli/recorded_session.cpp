@@ -55,9 +55,9 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
                 "Restore the file from a backup");
   }
   patient_ = anatomy::readPatient(TemporaryFile(info.patient_glb, ".glb").path());
-  anatomy::requireForNeedle(patient_, file.string() + ", its patient");
   query_ = std::make_unique<anatomy::SurfaceQuery>(patient_);
-  rules_ = task_needle::readTask(TemporaryFile(info.task_json, ".json").path()).rules;
+  task_ = task_needle::readTask(TemporaryFile(info.task_json, ".json").path());
+  if (!task_.block) anatomy::requireForNeedle(patient_, file.string() + ", its patient");
   if (!info.expert_path_json.empty())
     expert_path_ = std::make_unique<calibration::ExpertPath>(
         calibration::readExpertPath(TemporaryFile(info.expert_path_json, ".json").path()));
@@ -91,11 +91,20 @@ void RecordedSession::eachTrial(
 
 assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& trial,
                                                  const Samples& samples) const {
+  if (task_.goal) {
+    task_needle::GoalTrial goal(*task_.goal, task_.augmentations.subtaskNames(), task_.words);
+    for (const assess::TrialSample& sample : samples) goal.add(sample);
+    assess::TrialAssessment again;
+    again.trial = trial.header.trial;
+    again.outcome = trial.end.outcome;
+    goal.tell(&again);
+    return again;
+  }
   if (!expert_path_)
     throw Error("no optimal path was recorded", "session", "It was made to calibrate experts, not to be scored");
   const assess::TrialFacts facts{trial.header.trial, trial.header.role, simulated_,
                                  trial.header.force_feedback, trial.header.seed, trial.end.outcome};
-  return assess::assessTrial(facts, samples, patient_, *query_, *expert_path_, rules_);
+  return assess::assessTrial(facts, samples, patient_, *query_, *expert_path_, task_.rules);
 }
 
 namespace {

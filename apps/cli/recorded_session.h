@@ -29,7 +29,8 @@ class RecordedSession {
   using Samples = std::vector<assess::TrialSample>;
   /// Calls `visit` with every trial and all its judged ticks, in A: one pass over the record.
   void eachTrial(const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const;
-  /// The trial scored again, from the evidence alone. Throws Error when no expert path was recorded.
+  bool hasGoal() const { return task_.goal.has_value(); }   ///< else the vein, by an optimal path
+  /// The trial scored again, from the evidence alone: of a task with a goal of its own success, time and course. Throws Error when no expert path was recorded.
   assess::TrialAssessment rescore(const record::RecordedTrial& trial, const Samples& samples) const;
 
  private:
@@ -37,7 +38,7 @@ class RecordedSession {
   anatomy::Patient patient_;
   std::unique_ptr<anatomy::SurfaceQuery> query_;
   std::unique_ptr<calibration::ExpertPath> expert_path_;
-  assess::ScoringRules rules_;
+  task_needle::TaskSettings task_;
   Pose X_DA_ = Pose::Identity();
   bool simulated_ = false;
   std::string operator_;

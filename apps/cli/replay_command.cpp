@@ -28,8 +28,16 @@ bool sameNeedleScores(const std::string& file) {
   bool same = true;
   session.eachTrial([&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
     if (!hasScore(trial)) return;
+    const nlohmann::json scores = nlohmann::json::parse(trial.end.scores_json);
+    if (session.hasGoal()) {
+      const assess::TrialAssessment reached = session.rescore(trial, samples);
+      const bool equal = scores.at("TIME") == reached.values.time_ms && scores.at("SUCCESS") == (reached.values.success ? 1 : 0);
+      std::printf("Trial %d: %s%s\n", trial.header.trial, reached.summary.c_str(), equal ? "" : "  DIFFERENT from the recorded score");
+      same = same && equal;
+      return;
+    }
     if (session.reader().info().expert_path_json.empty()) return;
-    const double stored = nlohmann::json::parse(trial.end.scores_json).at("TOTAL").get<double>();
+    const double stored = scores.at("TOTAL").get<double>();
     const double again = session.rescore(trial, samples).total;
     std::printf("Trial %d: total penalty %.6f recorded, %.6f scored again%s\n", trial.header.trial, stored,
                 again, stored == again ? "" : "  DIFFERENT");

@@ -75,7 +75,8 @@ std::vector<report::Fact> registrationFacts(const SessionResult& result, const N
 
 std::vector<report::Fact> stationFacts(const SessionOptions& options, const NeedleWorld& world) {
   std::vector<report::Fact> facts = stationFactsOf(options, world.station);
-  facts.insert(facts.begin() + 3, {"Patient", world.patient.name, std::string(anatomy::name(world.patient.side)) + " side"});
+  if (world.task.block) facts.insert(facts.begin() + 3, {"Phantom", "a block", format("%.0f x %.0f x %.0f mm", 1e3 * world.task.block->size.x(), 1e3 * world.task.block->size.y(), 1e3 * world.task.block->size.z())});
+  else facts.insert(facts.begin() + 3, {"Patient", world.patient.name, std::string(anatomy::name(world.patient.side)) + " side"});
   if (world.expert_path)
     facts.push_back({"Optimal path", format("from %d expert trials", world.expert_path->trials),
                      world.expert_path->simulated ? "simulated experts" : ""});
@@ -97,8 +98,8 @@ void writeRegistration(const std::vector<RegistrationRow>& rows, const std::file
 void sayResult(const SessionResult& result) {
   for (const auto& trial : result.trials) {
     const assess::TrialAssessment& a = trial.assessment;
-    std::printf("Trial %d (%s%s): %s Total penalty %.1f (lower is better)\n", a.trial, a.role.c_str(),
-                a.simulated ? ", simulated" : "", a.summary.empty() ? a.outcome.c_str() : a.summary.c_str(), a.total);
+    const std::string total = a.by_path ? format(" Total penalty %.1f (lower is better)", a.total) : "";
+    std::printf("Trial %d (%s%s): %s%s\n", a.trial, a.role.c_str(), a.simulated ? ", simulated" : "", a.summary.empty() ? a.outcome.c_str() : a.summary.c_str(), total.c_str());
   }
 }
 
@@ -111,7 +112,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world, const
     if (trial.assessment.role == "scored" && trial.assessment.outcome != "void") scored.push_back(trial.assessment);
   report::writeTrialsCsv(options.trainee, scored, folder / "trials.csv");
   report::SessionReport page;
-  page.title = world.task.title + ", " + anatomy::name(world.patient.side) + " side";
+  page.title = world.task.title + (world.task.block ? std::string() : std::string(", ") + anatomy::name(world.patient.side) + " side");
   page.trainee = whoPerformed(options);
   page.simulated = isSimulated(options, world);
   page.trials = pages(result);

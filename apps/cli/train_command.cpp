@@ -26,7 +26,7 @@ void refuseNeedleOptions(const CLI::App& given, const std::string& engine) {
 void addTrain(CLI::App& program) {
   const auto options = std::make_shared<SessionOptions>();
   CLI::App* command = program.add_subcommand("train", "A training session from a task file");
-  command->footer("Examples:\n  palpa train --task assets/tasks/paracentesis.json --operator expert --fast\n  palpa train --task assets/tasks/palpation_prostate.json --operator expert --fast");
+  command->footer("Examples:\n  palpa train --task assets/tasks/paracentesis.json --operator expert --fast\n  palpa train --task assets/tasks/palpation_prostate.json --operator expert --fast\n  palpa train --task assets/tasks/bone_pin.json --augment on --operator expert --fast");
   command->add_option("--task", options->task, "Task file")->required()->type_name("FILE");
   addSessionArguments(*command, *options);
   command->callback([options, command] {

@@ -134,6 +134,24 @@ void writeRow(Html& html, const TrialAssessment& t) {
   }
 }
 
+/// Of a task with a goal of its own.
+void writeGoalTable(Html& html, const std::vector<TrialPage>& trials) {
+  const auto table = html.in("table", {{"class", "all"}});
+  {
+    const auto head = html.in("thead"), row = html.in("tr");
+    for (const char* name : {"Trial", "Outcome", "Force feedback", "Time, s"}) html.element("th", {{"scope", "col"}}, name);
+  }
+  const auto body = html.in("tbody");
+  for (const TrialPage& page : trials) {
+    const TrialAssessment& t = page.assessment;
+    const auto row = html.in("tr");
+    html.element("th", {{"scope", "row"}}, std::to_string(t.trial));
+    writeOutcome(html, t);
+    html.element("td", t.force_feedback ? "on" : "off");
+    html.element("td", fixed(t.values.time_ms / 1000, 1));
+  }
+}
+
 void writeTable(Html& html, const std::vector<TrialPage>& trials) {
   const auto scroll = html.in("div", {{"class", "scroll"}, {"tabindex", "0"}});
   const auto table = html.in("table", {{"class", "all"}});
@@ -148,6 +166,7 @@ void writeOverview(Html& html, const std::vector<TrialPage>& trials) {
   if (trials.size() < 2) return;
   const auto section = html.in("section", {{"class", "card"}, {"id", "all-trials"}});
   html.element("h2", "All trials");
+  if (!trials.front().assessment.by_path) return writeGoalTable(html, trials);
   {
     const auto figure = html.in("figure");
     drawTotals(html, trials, kWide);

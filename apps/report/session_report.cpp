@@ -18,6 +18,10 @@ bool isSimulated(const SessionReport& report) {
                                          [](const auto& t) { return t.assessment.simulated; });
 }
 
+bool byPath(const SessionReport& report) {
+  return std::all_of(report.trials.begin(), report.trials.end(), [](const auto& t) { return t.assessment.by_path; });
+}
+
 void writeLinks(Html& html, const SessionReport& report) {
   if (report.trials.size() < 2) return;
   const auto nav = html.in("nav", {{"aria-label", "Trials"}});
@@ -42,7 +46,7 @@ void writeHeader(Html& html, const SessionReport& report) {
 
 void writeFooter(Html& html, const SessionReport& report) {
   const auto footer = html.in("footer");
-  {
+  if (byPath(report)) {
     const auto card = html.in("div", {{"class", "card"}});
     writeGlossary(html);
   }

@@ -44,7 +44,7 @@ PlotPanel forcePanel(const std::vector<assess::TrialSample>& samples, bool wide)
 
 PlotPanel depthPanel(const std::vector<assess::TrialSample>& samples, bool wide) {
   PlotPanel panel{
-      wide ? "Depth" : "Depth of the tip under the skin", "mm", {}, 0, 1, wide ? 120.0 : 110.0};
+      wide ? "Depth" : "Depth of the tip", "mm", {}, 0, 1, wide ? 120.0 : 110.0};
   panel.curves.push_back(curveOf(samples, "depth", "depth", [](const assess::TrialSample& s) {
     return std::isfinite(s.depth) ? std::max(0.0, 1000 * s.depth) : s.depth;
   }));
@@ -89,7 +89,7 @@ void drawPanels(Html& svg, const ChartFrame& frame, const Axis& x, const Bands& 
   for (const PlotPanel& panel : bands.panels) {
     top += kBetween + headingHeight(frame);
     drawPanel(svg, frame, x, top, panel);
-    if (frame.wide && panel.title != "Force") svgText(svg, "legend", 0, top + 31, "under the skin");
+    if (frame.wide && panel.title != "Force") svgText(svg, "legend", 0, top + 31, "of the tip");
     top += panel.height;
   }
   drawTimeAxis(svg, frame, x, top + 2, "time since the start of the trial, s");

@@ -20,11 +20,13 @@ void writeTrialSection(Html& html, const TrialPage& page) {
     if (!trial.role.empty()) html.element("span", {{"class", "role"}}, trial.role);
   }
   writeVerdict(html, trial);
-  html.element("h3", "Score");
-  writeScoreTable(html, trial);
+  if (trial.by_path) {
+    html.element("h3", "Score");
+    writeScoreTable(html, trial);
+  }
   html.element("h3", "Course of the trial");
   writeTrialChart(html, page);
-  writeNearMisses(html, trial);
+  if (trial.by_path) writeNearMisses(html, trial);
   writePictures(html, page.pictures);
 }
 

@@ -24,12 +24,13 @@ std::string row(const std::string& user_id, const assess::TrialAssessment& trial
   const assess::ParacentesisValues& v = trial.values;
   std::string line = field(user_id) + (trial.force_feedback ? ",1" : ",0");
   for (const double value : {v.col_lung, v.col_rib, v.col_art, v.col_vein, v.phase_1, v.phase_2,
-                             v.econ_mean, v.econ_var, v.time_ms}) {
-    line += ',' + shortest(value);
+                             v.econ_mean, v.econ_var}) {
+    line += ',' + (trial.by_path ? shortest(value) : "");
   }
+  line += ',' + shortest(v.time_ms);
   line += v.success ? ",1," : ",0,";
   return line + std::to_string(trial.trial) + ',' + std::to_string(trial.seed) +
-         (trial.simulated ? ",1," : ",0,") + shortest(trial.total) + (trial.augmented ? ",1" : ",0");
+         (trial.simulated ? ",1," : ",0,") + (trial.by_path ? shortest(trial.total) : "") + (trial.augmented ? ",1" : ",0");
 }
 
 }  // namespace

@@ -35,8 +35,10 @@ void writeTile(Html& html, const char* name, const std::string& value) {
 void writeTiles(Html& html, const assess::TrialAssessment& trial) {
   const auto tiles = html.in("ul", {{"class", "tiles"}});
   writeTile(html, "Duration", fixed(trial.values.time_ms / 1000, 1) + " s");
-  writeTile(html, "Skin punctures", std::to_string(trial.skin_punctures));
-  writeTile(html, "Redirections", std::to_string(trial.redirections));
+  if (trial.by_path) {
+    writeTile(html, "Skin punctures", std::to_string(trial.skin_punctures));
+    writeTile(html, "Redirections", std::to_string(trial.redirections));
+  }
   writeTile(html, "Force feedback", trial.force_feedback ? "on" : "off");
   writeTile(html, "Seed", std::to_string(trial.seed));
 }
@@ -109,7 +111,7 @@ void writeVerdict(Html& html, const assess::TrialAssessment& trial) {
       html.element("p", trial.summary);
       if (trial.outcome != "void") html.element("p", largestReasons(trial));
     }
-    writeTotal(html, trial);
+    if (trial.by_path) writeTotal(html, trial);
   }
   writeTiles(html, trial);
 }

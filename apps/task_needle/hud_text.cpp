@@ -14,14 +14,14 @@ std::string format(const char* pattern, Numbers... numbers) {
   return text;
 }
 
-std::string depthText(const runtime::ToolState& tool) {
+std::string depthText(const runtime::ToolState& tool, const TaskWords& words) {
+  const std::string surface = "the " + words.of(Organ::skin);
   switch (tool.phase) {
-    case haptics::NeedlePhase::outside: return "outside the skin";
-    case haptics::NeedlePhase::indenting: return "on the skin";
+    case haptics::NeedlePhase::outside: return "outside " + surface;
+    case haptics::NeedlePhase::indenting: return "on " + surface;
     case haptics::NeedlePhase::inserted: break;
   }
-  return format("%.0f mm under the skin, in ", tool.depth * 1e3) +
-         (tool.tissue == Tissue::vein_lumen ? "the vein" : name(tool.tissue));
+  return format("%.0f mm under ", tool.depth * 1e3) + surface + ", in " + (tool.tissue == Tissue::vein_lumen ? "the vein" : words.of(tool.tissue));
 }
 
 std::string touchedText(const runtime::ToolState& tool) {
@@ -41,14 +41,14 @@ bool injury(const runtime::ToolState& tool) {
 }
 
 scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, const std::string& camera,
-                   const std::string& mark) {
+                   const std::string& mark, const TaskWords& words) {
   scene::Hud hud;
   const bool active = status.active();
-  hud.phase = active ? clinicalName(status.phase) : "";
+  hud.phase = active ? status.step : "";
   if (status.trials > 1 && status.trial > 0)
     hud.phase = format("Trial %d of %d  ", status.trial, status.trials) + hud.phase;
   if (active) {
-    hud.depth = depthText(tool);
+    hud.depth = depthText(tool, words);
     hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) +
                 (status.force_feedback ? "" : " (force feedback off)");
     const int seconds = static_cast<int>(status.elapsed_s);

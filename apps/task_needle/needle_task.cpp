@@ -41,14 +41,16 @@ std::string NeedleTask::notReady(const haptics::FlightRecord& last) const {
 
 runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
   shown_ = {};
+  if (!setup_.settings.goal) shown_.step = assess::clinicalName(shown_.phase);
   sampler_.begin(static_cast<std::uint32_t>(status().trial));
+  if (setup_.settings.goal) goal_ = GoalTrial(*setup_.settings.goal, setup_.settings.augmentations.subtaskNames(), setup_.settings.words);
   doses_.begin(static_cast<std::uint32_t>(status().trial));
   phases_ = {};
   samples_.clear();
   in_lumen_s_ = 0;
   touched_s_.fill(-kContactPause);
   entered_vein_ = false;
-  picture("start", "Before the needle touches the skin");
+  picture("start", "Before the needle touches the " + setup_.settings.words.of(Organ::skin));
   return {status().trial, now_ns, plan().seed, plan().role, plan().force_feedback, plan().puncture_force_N};
 }
 
@@ -64,7 +66,9 @@ trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome, co
     trial.assessment.outcome = outcome;
     trial.assessment.seed = plan().seed;
     trial.assessment.simulated = setup_.simulated;
+    trial.assessment.force_feedback = plan().force_feedback;
     trial.assessment.values.success = outcome == "success";
+    if (setup_.settings.goal) goal_.tell(&trial.assessment);
   }
   trial.assessment.augmented = plan().augmented;
   trial.assessment.doses = doses_.doses();
@@ -73,8 +77,9 @@ trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome, co
   shown_.blood_flows = false;
   const bool success = outcome == "success";
   completed_.push_back(std::move(trial));
-  return {scoresJson(completed_.back().assessment), completed_.back().assessment.summary, success ? "Vein reached. Trial ended" : "Trial ended: " + outcome,
-          success ? "Blood flows freely: the vein is reached" : "The end of the trial"};
+  const std::string reached = setup_.settings.goal ? "Done: " + setup_.settings.goal->means : "Blood flows freely: the vein is reached";
+  return {scoresJson(completed_.back().assessment), completed_.back().assessment.summary,
+          !success ? "Trial ended: " + outcome : setup_.settings.goal ? "Done. Trial ended" : "Vein reached. Trial ended", success ? reached : "The end of the trial"};
 }
 
 void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
@@ -84,31 +89,34 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   const double dt = samples_.empty() ? 0 : sample.t_s - samples_.back().t_s;
   samples_.push_back(sample);
   phases_.add(sample);
+  if (setup_.settings.goal) goal_.add(sample);
   announce(sample, record.t_ns);
+  shown_.step = setup_.settings.goal ? goal_.step() : assess::clinicalName(shown_.phase);
   status().elapsed_s = sample.t_s;
   shown_.plunger = sample.plunger;
   shown_.blood_flows = aspirating(sample, setup_.settings.rules);
   in_lumen_s_ = shown_.blood_flows ? in_lumen_s_ + dt : 0;
   if (shown_.blood_flows) shown_.blood = std::min(sample.plunger, shown_.blood + kFillRate * dt);
-  if (in_lumen_s_ >= setup_.settings.rules.dwell_s) return endTrial("success", "", now_ns);
+  if (setup_.settings.goal ? goal_.reached() : in_lumen_s_ >= setup_.settings.rules.dwell_s) return endTrial("success", "", now_ns);
   if (sample.t_s >= setup_.settings.time_limit_s) return endTrial("time", "The time limit was reached", now_ns);
 }
 
 /// Events in clinical words, and pictures of the moments that the report shows.
 void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns) {
+  const TaskWords& words = setup_.settings.words;
   if (phases_.phase() != shown_.phase) {
     shown_.phase = phases_.phase();
-    tell(now_ns, "phase", assess::clinicalName(shown_.phase));
-    if (shown_.phase == assess::ProcedurePhase::advance)
+    if (!setup_.settings.goal) tell(now_ns, "phase", assess::clinicalName(shown_.phase));
+    if (!setup_.settings.goal && shown_.phase == assess::ProcedurePhase::advance)
       picture("phase-2", "Phase 2 begins: the needle is directed behind the clavicle");
   }
   if (sample.events & haptics::kSkinPunctured) {
-    tell(now_ns, "puncture", "The skin is punctured");
-    picture("puncture", "The skin is punctured");
+    const std::string punctured = "The " + words.of(Organ::skin) + " is punctured";
+    tell(now_ns, "puncture", punctured);
+    picture("puncture", punctured);
   }
-  if (sample.events & haptics::kWithdrawn) tell(now_ns, "withdrawn", "The needle is out of the skin");
-  if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none)
-    tell(now_ns, "wall", std::string("Wall punctured: ") + palpa::name(sample.wall));
+  if (sample.events & haptics::kWithdrawn) tell(now_ns, "withdrawn", "The needle is out of the " + words.of(Organ::skin));
+  if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none) tell(now_ns, "wall", "Wall punctured: " + words.of(sample.wall));
   Organ touching = sample.bone;
   if (sample.tissue == Tissue::lung || sample.wall == Organ::lung) touching = Organ::lung;
   if (sample.tissue == Tissue::artery_lumen || sample.wall == Organ::artery) touching = Organ::artery;

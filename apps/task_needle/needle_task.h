@@ -69,6 +69,7 @@ class NeedleTask final : public trial::TrialTask {
   TaskChannels& channels_;
   assess::TrialSampler sampler_;
   assess::PhaseDetector phases_;
+  GoalTrial goal_;                     ///< where the task has a goal of its own
   TaskStatus shown_;                   ///< its own part; the base is filled in when it is published
   std::vector<assess::TrialSample> samples_;
   assess::TrialDoses doses_;

@@ -37,7 +37,7 @@ void SceneActivity::compose(scene::SceneState& state, const runtime::ToolState& 
   if (skin_) state.skin_push = skin_->follow(tool, X_AD(), now_ns());
   state.plunger = tool.plunger;
   state.blood = status_.blood;
-  state.hud = hudText(status_, tool, trouble, mark());
+  state.hud = hudText(status_, tool, trouble, mark(), setup_.words);
   showForces(state, tool);
   leaveTrail(state, tool);
 }

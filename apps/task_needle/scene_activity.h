@@ -15,6 +15,7 @@ class SceneActivity final : public trial::TrialScene {
     const anatomy::SurfaceQuery* giving_way = nullptr;
     int skin = 0;
     std::optional<scene::Guide> guide;
+    TaskWords words;
   };
   SceneActivity(const Setup& setup, runtime::Bus& bus, TaskChannels& channels);
 

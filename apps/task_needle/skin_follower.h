@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <optional>
 
+#include "anatomy/skin_dimple.h"
 #include "anatomy/surface_query.h"
 #include "apps/runtime/bus.h"
 

@@ -18,7 +18,7 @@ std::vector<std::string> onHeadset(std::vector<std::string> more) {
   return all;
 }
 
-int rowsOf(const std::filesystem::path& csv) {
+int rowsIn(const std::filesystem::path& csv) {
   const std::string text = contentOf(csv);
   return static_cast<int>(std::count(text.begin(), text.end(), '\n')) - 1;
 }
@@ -28,7 +28,7 @@ TEST(HeadsetSession, OneThatIsLostEndsInTheDesktopViewAndTheTrialGoesOn) {
   const Folder here;
   const Outcome outcome = palpa(onHeadset({"--operator", "expert"}), here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
-  EXPECT_EQ(rowsOf(here / "A/trials.csv"), 1);
+  EXPECT_EQ(rowsIn(here / "A/trials.csv"), 1);
   const std::string page = contentOf(here / "A/report.html");
   EXPECT_TRUE(says(page, "Headset"));
   EXPECT_TRUE(says(page, "then the headset was lost"));
@@ -46,7 +46,7 @@ TEST(HeadsetSession, WithoutARuntimeTheDesktopViewGoesOnAndOneLineSaysSo) {
   EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
   EXPECT_TRUE(says(outcome.err, "no OpenXR runtime is there")) << outcome.err;
   EXPECT_TRUE(says(outcome.err, "goes on on the desktop")) << outcome.err;
-  EXPECT_EQ(rowsOf(here / "A/trials.csv"), 1);
+  EXPECT_EQ(rowsIn(here / "A/trials.csv"), 1);
 }
 
 /// A person without a window and without a headset has nothing to look at.

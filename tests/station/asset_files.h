@@ -45,6 +45,8 @@ inline std::vector<AssetFile> assetFiles() {
       {"stations/virtual_bench.json", [](const auto& file) { readStation(file); }},
       {"materials/needle.json", [](const auto& file) { readNeedleFile(file); }},
       {"tasks/paracentesis.json", [](const auto& file) { task_needle::readTask(file); }},
+      {"materials/bone_pin.json", [](const auto& file) { readNeedleFile(file); }},
+      {"tasks/bone_pin.json", [](const auto& file) { task_needle::readTask(file); }},
       {"operators/expert.json", skill},
       {"operators/novice.json", skill},
       {"boards/table.json", [](const auto& file) { ar::readTagGrid(file); }, false},

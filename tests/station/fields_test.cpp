@@ -17,7 +17,7 @@ using Pointer = json::json_pointer;
 /// Fields that only explain: nobody computes with them.
 bool explains(const std::string& field) {
   for (const char* word : {"source", "about", "what", "unit", "reason", "title", "name", "/id",
-                           "date", "description", "family"})
+                           "date", "description", "family", "/words/"})
     if (field.find(word) != std::string::npos) return true;
   return false;
 }

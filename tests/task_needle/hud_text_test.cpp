@@ -65,5 +65,22 @@ TEST(HudText, WhatTheDriverSaysComesFirst) {
   EXPECT_TRUE(hud.alarm);
 }
 
+TEST(HudText, CallsThingsByTheTasksWords) {
+  TaskStatus status;
+  status.state = trial::TrialState::running;
+  status.step = "seated";
+  runtime::ToolState tool;
+  tool.phase = haptics::NeedlePhase::inserted;
+  tool.tissue = Tissue::fat;
+  tool.depth = 0.0093;
+  EXPECT_EQ(hudText(status, tool, "", "").depth, "9 mm under the skin, in fat");
+  TaskWords words;
+  words.tissue[static_cast<std::size_t>(Tissue::fat)] = "cancellous bone";
+  words.organ[static_cast<std::size_t>(Organ::skin)] = "bone";
+  const scene::Hud hud = hudText(status, tool, "", "", words);
+  EXPECT_EQ(hud.depth, "9 mm under the bone, in cancellous bone");
+  EXPECT_EQ(hud.phase, "seated");
+}
+
 }  // namespace
 }  // namespace palpa::task_needle
