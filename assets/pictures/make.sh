@@ -44,22 +44,24 @@ moment out/readme vein vein.png
 "$palpa" board print --out board.png
 small board.png board.png -resize 700x
 
+root=(); [ "$(id -u)" = 0 ] && root=(--no-sandbox)  # chromium refuses its sandbox to root
+
+# page FILE HEIGHT TO [convert options...]: the top of a page
+page() {
+  local from=$1 height=$2 to=$3; shift 3
+  chromium --headless "${root[@]}" --disable-gpu --no-first-run --hide-scrollbars --user-data-dir="$work/profile" \
+    --window-size=1000,"$height" --screenshot="$work/$to" "file://$work/$from" >/dev/null 2>&1 || fail "chromium could not draw $from"
+  small "$to" "$to" "$@"
+}
+
 if command -v chromium >/dev/null; then
-  root=(); [ "$(id -u)" = 0 ] && root=(--no-sandbox)  # chromium refuses its sandbox to root
-  chromium --headless "${root[@]}" --disable-gpu --no-first-run --hide-scrollbars --user-data-dir="$work/profile" \
-    --window-size=1000,1580 --screenshot="$work/report.png" "file://$work/out/readme/report.html" >/dev/null 2>&1 ||
-    fail "chromium could not draw the report"
-  small report.png report.png
+  page out/readme/report.html 1580 report.png
   "$palpa" palpation --preset abdomen --operator expert --seed 2001 --fast --no-views --quiet --out palpation >/dev/null
-  chromium --headless "${root[@]}" --disable-gpu --no-first-run --hide-scrollbars --user-data-dir="$work/profile" \
-    --window-size=1000,1900 --screenshot="$work/palpation.png" "file://$work/palpation/report.html" >/dev/null 2>&1 ||
-    fail "chromium could not draw the palpation's report"
-  small palpation.png palpation.png -crop 920x700+30+1100 +repage
+  page palpation/report.html 1900 palpation.png -crop 920x665+30+1100 +repage
+  "$palpa" search --operator expert --mode all --trials 20 --seed 3001 --fast --no-views --quiet --out search >/dev/null
+  page search/report.html 900 search.png -crop 1000x850+0+10 +repage
   "$palpa" calibrate all --seed 3 --quiet --out station3 >/dev/null
-  chromium --headless "${root[@]}" --disable-gpu --no-first-run --hide-scrollbars --user-data-dir="$work/profile" \
-    --window-size=1000,1480 --screenshot="$work/calibration.png" "file://$work/station3/calibration.html" >/dev/null 2>&1 ||
-    fail "chromium could not draw the calibration's page"
-  small calibration.png calibration.png
+  page station3/calibration.html 1480 calibration.png
 else
-  echo "report.png, palpation.png and calibration.png are left as they were: chromium is not installed"
+  echo "report.png, palpation.png, search.png and calibration.png are left as they were: chromium is not installed"
 fi
