@@ -3,35 +3,15 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/whole_file.h"
+#include "apps/calibrate/page_frame.h"
 #include "apps/calibrate/page_plots.h"
-#include "apps/report/html.h"
-#include "apps/report/style.h"
 
 namespace palpa::calibrate {
 namespace {
 
 using report::Html;
 
-void writeTop(Html& html, const PageHead& head, const std::vector<Result>& results) {
-  const auto header = html.in("header");
-  html.element("h1", "Calibration of the station");
-  {
-    const auto who = html.in("p", {{"class", "who"}});
-    const auto item = [&](const char* name, const std::string& value) {
-      const auto span = html.in("span");
-      html.text(std::string(name) + ' ');
-      html.element("strong", value);
-    };
-    item("Station", head.station);
-    item("Date", head.date);
-    if (head.seconds > 0) item("Took", quantity(head.seconds, "s"));
-  }
-  if (head.simulated) {
-    const auto banner = html.in("p", {{"class", "banner"}, {"role", "note"}});
-    html.element("strong", "SIMULATED");
-    html.text("Made on the virtual bench by a simulated hand: it says nothing about a real station.");
-  }
+void writeVerdict(Html& html, const std::vector<Result>& results) {
   const bool good = std::all_of(results.begin(), results.end(), [](const Result& r) { return r.file.passed(); });
   const auto verdict = html.in("div", {{"class", good ? "verdict good" : "verdict bad"}});
   const auto finding = html.in("div", {{"class", "finding"}});
@@ -44,12 +24,8 @@ void writeChecks(Html& html, const Result& r) {
   if (r.file.checks.empty()) return;
   const auto table = html.in("table", {{"class", "facts"}});
   const auto body = html.in("tbody");
-  for (const auto& check : r.file.checks) {
-    const auto row = html.in("tr");
-    html.element("th", {{"scope", "row"}}, (check.passed() ? "✓ " : "✗ ") + check.name);
-    html.element("td", {{"class", "value"}}, quantity(check.value, check.unit));
-    html.element("td", {{"class", "muted"}}, "good up to " + quantity(check.limit, check.unit));
-  }
+  for (const auto& check : r.file.checks)
+    writeFact(html, (check.passed() ? "✓ " : "✗ ") + check.name, quantity(check.value, check.unit), "good up to " + quantity(check.limit, check.unit));
 }
 
 /// "recorded files: pivot.csv, spin.csv"
@@ -75,31 +51,17 @@ void writeResult(Html& html, const Result& r) {
 }  // namespace
 
 void writePage(const PageHead& head, const std::vector<Result>& results, const std::filesystem::path& file) {
-  Html html;
-  html.raw("<!DOCTYPE html>\n");
-  {
-    const auto page = html.in("html", {{"lang", "en"}});
-    {
-      const auto in_head = html.in("head");
-      html.empty("meta", {{"charset", "utf-8"}});
-      html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
-      html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
-      html.element("title", "Calibration · " + head.station);
-      const auto style = html.in("style");
-      html.raw(report::styleSheet());
-      html.raw(plotStyle());
-    }
-    const auto body = html.in("body");
-    writeTop(html, head, results);
-    const auto main = html.in("main");
+  PageFrame frame{"Calibration · " + head.station, "Calibration of the station", {{"Station", head.station}, {"Date", head.date}}, "", ""};
+  if (head.seconds > 0) frame.who.emplace_back("Took", quantity(head.seconds, "s"));
+  if (head.simulated) frame.simulated = "Made on the virtual bench by a simulated hand: it says nothing about a real station.";
+  const auto main = [&](Html& html) {
     for (const Result& r : results) writeResult(html, r);
-    if (!head.remarks.empty()) {
-      const auto section = html.in("section", {{"class", "card"}});
-      html.element("h2", "Against the simulated truth");
-      for (const std::string& remark : head.remarks) html.element("p", remark);
-    }
-  }
-  writeWhole(file, html.str() + "\n");
+    if (head.remarks.empty()) return;
+    const auto section = html.in("section", {{"class", "card"}});
+    html.element("h2", "Against the simulated truth");
+    for (const std::string& remark : head.remarks) html.element("p", remark);
+  };
+  writeFramed(frame, [&](Html& html) { writeVerdict(html, results); }, main, file);
 }
 
 }  // namespace palpa::calibrate

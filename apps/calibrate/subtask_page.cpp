@@ -2,12 +2,10 @@
 
 #include <algorithm>
 
-#include "anatomy/geometry/whole_file.h"
-#include "apps/calibrate/page_plots.h"
+#include "apps/calibrate/page_frame.h"
 #include "apps/calibrate/subtask_charts.h"
 #include "apps/calibrate/subtask_words.h"
 #include "apps/report/numbers.h"
-#include "apps/report/style.h"
 
 namespace palpa::calibrate {
 namespace {
@@ -17,26 +15,6 @@ using report::Html;
 
 constexpr std::size_t kShownTrials = 4;
 const std::string kMostlyHead = "mostly", kGoesHead = "goes with";
-
-void writeSubtaskTop(Html& html, const SubtaskRecordings& recordings, const Result& result) {
-  const auto header = html.in("header");
-  html.element("h1", result.title);
-  {
-    const auto who = html.in("p", {{"class", "who"}});
-    const auto item = [&](const char* name, const std::string& value) {
-      const auto span = html.in("span");
-      html.text(std::string(name) + ' ');
-      html.element("strong", value);
-    };
-    item("Station", recordings.station);
-    item("Date", result.file.date);
-    item("Trials", std::to_string(recordings.sequences.size()));
-  }
-  if (!recordings.simulated) return;
-  const auto banner = html.in("p", {{"class", "banner"}, {"role", "note"}});
-  html.element("strong", "SIMULATED");
-  html.text("Recorded from simulated hands: it says how the program's own hands move, nothing about people.");
-}
 
 void writeSentences(Html& html, const Sentences& sentences) {
   for (const std::string& sentence : sentences) html.element("p", sentence);
@@ -74,17 +52,11 @@ void writeAgreement(Html& html, const SubtaskSegmentation& found) {
   const SubtaskAgreement& a = found.agreement;
   const auto table = html.in("table", {{"class", "facts"}});
   const auto body = html.in("tbody");
-  const auto fact = [&](const std::string& name, const std::string& value, const std::string& note) {
-    const auto row = html.in("tr");
-    html.element("th", {{"scope", "row"}}, name);
-    html.element("td", {{"class", "value"}}, value);
-    html.element("td", {{"class", "muted"}}, note);
-  };
-  fact("Cohen's kappa", fixed(a.kappa, 2), "after the best matching; by chance " + fixed(found.by_chance.kappa, 2) + ". Below 0.4: little agreement");
-  fact("Adjusted Rand index", fixed(a.rand, 2), "without matching; by chance " + fixed(found.by_chance.rand, 2));
-  fact("Boundaries: precision", fixed(a.boundaries.precision(), 2), std::to_string(a.boundaries.met) + " of " + std::to_string(a.boundaries.found) + " proposed changes lie within 100 ms of a hand-written one");
-  fact("Boundaries: recall", fixed(a.boundaries.recall(), 2), std::to_string(a.boundaries.met) + " of " + std::to_string(a.boundaries.expected) + " hand-written changes lie within 100 ms of a proposed one");
-  fact("Boundaries: F", fixed(a.boundaries.f(), 2), "both in one; by chance " + fixed(found.by_chance.boundary_f, 2));
+  writeFact(html, "Cohen's kappa", fixed(a.kappa, 2), "after the best matching; by chance " + fixed(found.by_chance.kappa, 2) + ". Below 0.4: little agreement");
+  writeFact(html, "Adjusted Rand index", fixed(a.rand, 2), "without matching; by chance " + fixed(found.by_chance.rand, 2));
+  writeFact(html, "Boundaries: precision", fixed(a.boundaries.precision(), 2), std::to_string(a.boundaries.met) + " of " + std::to_string(a.boundaries.found) + " proposed changes lie within 100 ms of a hand-written one");
+  writeFact(html, "Boundaries: recall", fixed(a.boundaries.recall(), 2), std::to_string(a.boundaries.met) + " of " + std::to_string(a.boundaries.expected) + " hand-written changes lie within 100 ms of a proposed one");
+  writeFact(html, "Boundaries: F", fixed(a.boundaries.f(), 2), "both in one; by chance " + fixed(found.by_chance.boundary_f, 2));
 }
 
 void writeSteps(Html& html, const SubtaskRecordings& recordings, const SubtaskSegmentation& found) {
@@ -103,7 +75,6 @@ void writeSteps(Html& html, const SubtaskRecordings& recordings, const SubtaskSe
 }
 
 void writeMain(Html& html, const SubtaskRecordings& recordings, const SubtaskSegmentation& found, const Result& result) {
-  const auto main = html.in("main");
   {
     const auto section = html.in("section", {{"class", "card"}});
     html.element("h2", "What is proposed");
@@ -142,26 +113,9 @@ void writeMain(Html& html, const SubtaskRecordings& recordings, const SubtaskSeg
 }  // namespace
 
 void writeSubtaskPage(const SubtaskRecordings& recordings, const SubtaskSegmentation& found, const Result& result, const std::filesystem::path& file) {
-  Html html;
-  html.raw("<!DOCTYPE html>\n");
-  {
-    const auto page = html.in("html", {{"lang", "en"}});
-    {
-      const auto in_head = html.in("head");
-      html.empty("meta", {{"charset", "utf-8"}});
-      html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
-      html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
-      html.element("title", result.title);
-      const auto style = html.in("style");
-      html.raw(report::styleSheet());
-      html.raw(plotStyle());
-      html.raw(subtaskChartStyle());
-    }
-    const auto body = html.in("body");
-    writeSubtaskTop(html, recordings, result);
-    writeMain(html, recordings, found, result);
-  }
-  writeWhole(file, html.str() + "\n");
+  PageFrame frame{result.title, result.title, {{"Station", recordings.station}, {"Date", result.file.date}, {"Trials", std::to_string(recordings.sequences.size())}}, "", subtaskChartStyle()};
+  if (recordings.simulated) frame.simulated = "Recorded from simulated hands: it says how the program's own hands move, nothing about people.";
+  writeFramed(frame, [](Html&) {}, [&](Html& html) { writeMain(html, recordings, found, result); }, file);
 }
 
 }  // namespace palpa::calibrate

@@ -47,7 +47,9 @@ task_needle::TaskSettings makeTask(const SessionOptions& options) {
   task_needle::TaskSettings task = task_needle::readTask(
       options.task.empty() ? station::assetFile("tasks/paracentesis.json")
                            : std::filesystem::path(options.task));
-  if (!options.expert_path.empty()) task.expert_path = options.expert_path;
+  if (options.expert_path.empty()) return task;
+  if (task.goal) throw UsageError("has no meaning for this task: it has a goal of its own, no optimal path", "--expert-path", "Leave it out");
+  task.expert_path = options.expert_path;
   return task;
 }
 

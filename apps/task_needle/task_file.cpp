@@ -63,6 +63,7 @@ TaskSettings readTask(const std::filesystem::path& path) {
   task.augmentations = station::readPlan(file);
   task.words = wordsIn(file);
   if (file.has("phantom")) task.block = blockIn(file);
+  if (task.block && !file.has("goal")) file.refuse("phantom", "needs \"goal\" beside it: no optimal path leads through a block");
   if (file.has("goal")) {
     task.goal = goalIn(file, task.augmentations);
   } else {
