@@ -22,17 +22,17 @@ int seeds() { return palpa::test::counted(12, 20); }
 Cohort cohort(OperatorKind who, bool force_feedback) {
   Cohort result;
   const std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/cohort";
+  SessionOptions options;
+  options.who = who;
+  options.force_feedback = force_feedback;
+  options.fast = options.no_views = options.quiet = true;
+  options.display = scene::Display::offscreen;
+  NeedleWorld world(options);
+  world.station.camera_rate_Hz = 2;  // pictures change no score; the ready check needs some
   for (int i = 0; i < seeds(); ++i) {
-    SessionOptions options;
-    options.who = who;
-    options.force_feedback = force_feedback;
     options.seed = 1 + static_cast<std::uint64_t>(i);
-    options.fast = options.no_views = options.quiet = true;
-    options.display = scene::Display::offscreen;
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
-    NeedleWorld world(options);
-    world.station.camera_rate_Hz = 2;  // pictures change no score; the ready check needs some
     const SessionResult session = runNeedleSession(options, world, folder);
     const assess::TrialAssessment& trial = session.trials.at(0).assessment;
     EXPECT_TRUE(trial.simulated);
