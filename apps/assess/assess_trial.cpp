@@ -1,6 +1,7 @@
 #include "apps/assess/assess_trial.h"
 
 #include "apps/assess/explanations.h"
+#include "apps/assess/needle_metrics.h"
 #include "apps/assess/timeline.h"
 
 namespace palpa::assess {
@@ -44,6 +45,7 @@ TrialAssessment assessTrial(const TrialFacts& facts, const std::vector<TrialSamp
   a.closest_artery_s = r.artery_miss.t_s;
   a.skin_punctures = countPunctures(r);
   a.redirections = countRedirections(r.samples, r.history.passes);
+  a.metrics = needleMetrics(r, a, frame, path, rules);
   return a;
 }
 

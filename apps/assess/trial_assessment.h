@@ -6,6 +6,7 @@
 
 #include "anatomy/geometry/local_geometry.h"
 #include "anatomy/geometry/pose.h"
+#include "apps/assess/metrics/metric_table.h"
 #include "apps/assess/paracentesis_score.h"
 #include "apps/assess/subtask_dose.h"
 #include "haptics/flight_record.h"
@@ -78,6 +79,7 @@ struct TrialAssessment {
   std::vector<SubtaskDose> doses;    ///< of the task's parts
   int redirections =
       0;  ///< in phase 2: drawn back > 3 mm, advanced > 3 mm again, > 3 degrees apart
+  std::vector<metrics::MetricValue> metrics = {};   ///< by the names of metric_table
 };
 
 }  // namespace palpa::assess

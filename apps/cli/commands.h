@@ -18,6 +18,7 @@ void addRender(CLI::App& program);
 void addBoard(CLI::App& program);
 void addPhantom(CLI::App& program);
 void addExport(CLI::App& program);
+void addRecords(CLI::App& program);   ///< trainees and their trials
 void addBench(CLI::App& program);
 
 }  // namespace palpa::cli

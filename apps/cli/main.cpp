@@ -54,6 +54,7 @@ int run(int argc, char** argv) {
   palpa::cli::addBoard(program);
   palpa::cli::addPhantom(program);
   palpa::cli::addExport(program);
+  palpa::cli::addRecords(program);
   palpa::cli::addBench(program);
   try {
     program.parse(argc, argv);

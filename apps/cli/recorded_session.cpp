@@ -11,6 +11,7 @@
 #include "anatomy/geometry/error.h"
 #include "anatomy/patient_check.h"
 #include "anatomy/patient_file.h"
+#include "apps/assess/needle_metrics.h"
 
 namespace palpa::cli {
 namespace {
@@ -98,6 +99,7 @@ assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& tr
     again.trial = trial.header.trial;
     again.outcome = trial.end.outcome;
     goal.tell(&again);
+    again.metrics = assess::goalMetrics(again, samples, task_.rules);
     return again;
   }
   if (!expert_path_)

@@ -4,6 +4,7 @@
 #include <map>
 
 #include "anatomy/geometry/error.h"
+#include "apps/record/store/record_store.h"
 
 namespace palpa::cli {
 namespace {
@@ -63,10 +64,7 @@ void addRunArguments(CLI::App& command, SessionOptions& o) {
   choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
   command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(CLI::Range(1, 1000));
   command.add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")
-      ->check([](const std::string& id) {
-        return id.empty() || id.size() > 32 || id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") != std::string::npos
-                   ? "a trainee's pseudonym has 1 to 32 letters, digits, - or _" : std::string();
-      });
+      ->check(record::whyNoPseudonym);
   command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can, repeats exactly");
   command.add_flag("--record-video", o.record_video, "Keep the camera's pictures beside their poses: camera.mjpeg and a table");
   command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");

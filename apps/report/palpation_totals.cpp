@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/assess/palpation/palpation_judgement.h"
-#include "apps/assess/wilson.h"
+#include "apps/assess/statistics/wilson.h"
 #include "apps/report/numbers.h"
 #include "apps/report/page_parts.h"
 
@@ -39,7 +39,7 @@ std::string numberOf(int n, const char* one, const char* many) { return std::to_
 /// "71 %" and "95 % interval: 36 % to 92 %".
 Fact shareFact(const char* name, int hits, int of, const std::string& what) {
   if (of == 0) return {name, "–", "nothing to tell it from"};
-  const assess::ShareInterval share = assess::wilson(hits, of);
+  const statistics::ShareInterval share = statistics::wilson(hits, of);
   const auto percent = [](double value) { return fixed(100 * value, 0) + " %"; };
   return {name, percent(share.share), "95 % interval " + percent(share.low) + " to " + percent(share.high) + "; " + what};
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/assess/wilson.h"
+#include "apps/assess/statistics/wilson.h"
 #include "apps/report/chart_frame.h"
 #include "apps/report/numbers.h"
 
@@ -22,7 +22,7 @@ void drawShares(Html& html, const assess::Discrimination& answers, const char* w
   svgText(html, "words end", right, y.at(0.5) - 5, "chance");
   for (std::size_t i = 0; i < answers.shares.size(); ++i) {
     const assess::SharesAtRatio& share = answers.shares[i];
-    const assess::ShareInterval interval = assess::wilson(share.right, share.of);
+    const statistics::ShareInterval interval = statistics::wilson(share.right, share.of);
     const double x = left + (static_cast<double>(i) + 0.5) * column;
     svgLine(html, "whisker", x, y.at(interval.low), x, y.at(interval.high));
     for (const double end : {interval.low, interval.high}) svgLine(html, "whisker", x - kWhisker, y.at(end), x + kWhisker, y.at(end));

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "apps/assess/needle_metrics.h"
+
 namespace palpa::task_needle {
 namespace {
 
@@ -69,6 +71,7 @@ trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome, co
     trial.assessment.force_feedback = plan().force_feedback;
     trial.assessment.values.success = outcome == "success";
     if (setup_.settings.goal) goal_.tell(&trial.assessment);
+    trial.assessment.metrics = assess::goalMetrics(trial.assessment, samples_, setup_.settings.rules);
   }
   trial.assessment.augmented = plan().augmented;
   trial.assessment.doses = doses_.doses();

@@ -30,6 +30,7 @@ std::vector<assess::SearchTrial> episodesOf(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     assess::SearchTrial trial;
     trial.trial = static_cast<int>(trials.size()) + 1;
+    trial.role = "scored";   // the table has no others
     trial.outcome = row.at("OUTCOME");
     trial.mode = row.at("MODE") == "real" ? assess::SearchMode::real : row.at("MODE") == "degraded" ? assess::SearchMode::degraded : assess::SearchMode::augmented;
     trial.target = std::stoi(row.at("TARGET"));

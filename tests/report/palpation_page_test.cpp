@@ -4,7 +4,7 @@
 #include <sstream>
 
 #include "anatomy/geometry/error.h"
-#include "apps/assess/wilson.h"
+#include "apps/assess/statistics/wilson.h"
 #include "apps/report/html.h"
 #include "apps/report/palpation_style.h"
 #include "synthetic_palpation.h"
@@ -171,13 +171,13 @@ TEST(PalpationPage, LeavesOneToLookAt) {
 
 /// The closed form at the ends, and the figures for 81 of 263 in R. G. Newcombe, Statistics in Medicine 17, 1998, table I.
 TEST(Wilson, IsTheScoreInterval) {
-  const assess::ShareInterval all = assess::wilson(10, 10), some = assess::wilson(81, 263), none = assess::wilson(0, 0);
+  const statistics::ShareInterval all = statistics::wilson(10, 10), some = statistics::wilson(81, 263), none = statistics::wilson(0, 0);
   EXPECT_NEAR(all.low, 10 / (10 + 1.959963984540054 * 1.959963984540054), 1e-12);
   EXPECT_NEAR(all.high, 1, 1e-12);
   EXPECT_NEAR(some.low, 0.2553, 5e-5);
   EXPECT_NEAR(some.high, 0.3662, 5e-5);
   EXPECT_TRUE(std::isnan(none.share));
-  EXPECT_NEAR(assess::wilson(3, 10).low, 1 - assess::wilson(7, 10).high, 1e-12);
+  EXPECT_NEAR(statistics::wilson(3, 10).low, 1 - statistics::wilson(7, 10).high, 1e-12);
 }
 
 using Columns = std::vector<std::string>;

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/assess/wilson.h"
+#include "apps/assess/statistics/wilson.h"
 #include "synthetic_search.h"
 
 namespace palpa::assess {
@@ -74,7 +74,7 @@ TEST(SearchTally, TheMedianIsOfTheChoices) {
 
 TEST(SearchTally, ItsIntervalIsWilsons) {
   const SearchTally tally = talliesOf(episodes(SearchMode::real, 7, 10)).front();
-  const ShareInterval interval = wilson(7, 10);
+  const statistics::ShareInterval interval = statistics::wilson(7, 10);
   EXPECT_EQ(tally.found_share, 0.7);
   EXPECT_EQ(tally.found_low, interval.low);
   EXPECT_EQ(tally.found_high, interval.high);

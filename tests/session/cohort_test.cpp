@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "apps/assess/welch.h"
+#include "apps/assess/statistics/t_test.h"
 #include "apps/cli/needle_session.h"
 #include "tests/support/counts.h"
 
@@ -86,8 +86,8 @@ TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
   const Cohort expert = cohort(OperatorKind::expert, true);
   const Cohort novice = cohort(OperatorKind::novice, true);
   const Cohort numb = cohort(OperatorKind::expert, false);
-  const assess::WelchTest skill = assess::welch(expert.totals, novice.totals);
-  const assess::WelchTest touch = assess::welch(expert.totals, numb.totals);
+  const statistics::TTest skill = statistics::welch(expert.totals, novice.totals);
+  const statistics::TTest touch = statistics::welch(expert.totals, numb.totals);
   std::printf("simulated operators, %d seeds: expert %.0f (success %d), novice %.0f (%d), p = %.2g; "
               "expert without force feedback %.0f (%d), p = %.2g\n",
               seeds(), skill.mean_a, expert.successes, skill.mean_b, novice.successes, skill.p_two_sided,

@@ -3,7 +3,7 @@
 #include <limits>
 
 #include "apps/assess/search/search_trial.h"
-#include "apps/assess/wilson.h"
+#include "apps/assess/statistics/wilson.h"
 
 namespace palpa::assess {
 namespace {
@@ -19,7 +19,7 @@ void fill(SearchTally& tally, const std::vector<SearchTrial>& trials) {
     tally.found += chose(trial) && trial.found();
   }
   tally.seconds_median = medianSeconds(alike);
-  const ShareInterval interval = wilson(tally.found, tally.episodes);
+  const statistics::ShareInterval interval = statistics::wilson(tally.found, tally.episodes);
   tally.found_share = interval.share;
   tally.found_low = interval.low;
   tally.found_high = interval.high;

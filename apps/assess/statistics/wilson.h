@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-namespace palpa::assess {
+namespace palpa::statistics {
 
 /// A share with its 95 % confidence interval.
 struct ShareInterval {
@@ -23,4 +23,4 @@ inline ShareInterval wilson(int hits, int of) {
   return {p, std::max(0.0, middle - half), std::min(1.0, middle + half)};
 }
 
-}  // namespace palpa::assess
+}  // namespace palpa::statistics

@@ -1,0 +1,100 @@
+#include "apps/assess/metrics/metric_table.h"
+
+namespace palpa::metrics {
+namespace {
+
+constexpr char kNeverInserted[] = "the needle was never inserted";
+constexpr char kNoContact[] = "nothing was touched";
+constexpr char kNoPath[] = "the task has no taught path";
+
+}  // namespace
+
+const std::vector<MetricDefinition>& metricTable() {
+  using enum Better;
+  static const std::vector<MetricDefinition> table{
+      // Of any task
+      {"success", "Success", "1", higher, "all", "1 when the task's goal was reached, else 0", ""},
+      {"time_s", "Time", "s", lower, "all", "from the start to success, else to the end", ""},
+      {"path_length_mm", "Length of the tip's path", "mm", lower, "needle, search", "sum of the tip's steps of 20 ms", ""},
+      {"path_inefficiency_pct", "Path longer than a straight line", "%", lower, "needle", "100 x (path length / distance from first to last point - 1)", "both ends are less than 10 mm apart"},
+      {"mean_speed_mm_s", "Mean speed", "mm/s", neither, "needle, search", "path length over time", "nothing moved in time"},
+      {"bounding_box_mm3", "Room taken", "mm3", lower, "needle", "volume of the box around the tip's path, along the patient's axes", ""},
+      {"translational_actions", "Movements", "1", lower, "needle", "times the tip's speed rises above 50 mm/s for more than 0.2 s", ""},
+      {"rotational_actions", "Turns", "1", lower, "needle", "times the tool turns faster than 50 degrees/s for more than 0.2 s", ""},
+      {"rotation_total_deg", "Rotation", "deg", lower, "needle", "sum of the axis' turns; turns about itself are not counted", ""},
+      {"smoothness_sparc", "Smoothness", "1", higher, "needle", "spectral arc length of the speed (Balasubramanian 2015); one ideal movement has -1.4", "nothing moved"},
+      {"integrated_jerk", "Jerk", "m/s^2.5", lower, "needle", "root of the integral of the squared third derivative of the tip's position; grows with a station's noise", "the trial is shorter than 80 ms"},
+      {"peak_force_N", "Largest force", "N", lower, "needle, palpation, search, squeeze", "largest computed force of contact, means of 20 ms", ""},
+      {"mean_force_N", "Mean force", "N", neither, "needle, palpation, search", "mean computed force while it is 0.05 N or more", kNoContact},
+      {"force_jerk_N_s", "Unsteadiness of the force", "N/s", lower, "needle", "root mean square of the force's rate while it is 0.05 N or more", kNoContact},
+      // Palpation
+      {"sensitivity_pct", "Lumps found", "%", higher, "palpation", "found of all lumps", "there was no lump"},
+      {"specificity_pct", "Clear quarters left alone", "%", higher, "palpation", "quarters of the area without a lump in which none was marked", "no quarter is clear"},
+      {"false_alarms", "False alarms", "1", lower, "palpation", "marks that are no lump's", ""},
+      {"coverage_light_pct", "Felt lightly", "%", higher, "palpation", "share of the area felt with light pressure or more", ""},
+      {"coverage_medium_pct", "Felt with medium pressure", "%", higher, "palpation", "share of the area felt with medium pressure or more", ""},
+      {"coverage_deep_pct", "Felt deep", "%", higher, "palpation", "share of the area felt with deep pressure", ""},
+      {"felt_twice_pct", "Felt again", "%", neither, "palpation", "share of the area felt more than once", ""},
+      {"presses", "Presses", "1", neither, "palpation", "times the probe was pressed in", ""},
+      {"closer_force_ratio", "Force when looking closer", "1", neither, "palpation", "mean peak of presses that palpate over that of presses that search; experts: about 1.15", "one of the two kinds is missing"},
+      {"too_light_pct", "Too light", "%", lower, "palpation", "share of the time of touching below the least useful force", kNoContact},
+      {"too_hard_pct", "Too hard", "%", lower, "palpation", "share of the time of touching above the largest sensible force", kNoContact},
+      // Search and comparison
+      {"chosen", "An element was chosen", "1", higher, "search", "1 when the probe stayed in a pit before the time was over, else 0", ""},
+      {"difference_pct", "Difference of the two things", "%", neither, "squeeze", "how much more the one has than the other", ""},
+      {"grips", "Grips", "1", lower, "squeeze", "how often the two were held", ""},
+      // Needle
+      {"total", "Total penalty", "1", lower, "needle", "sum of weight x value of the nine values of the score (Tzafestas 2008)", kNoPath},
+      {"col_lung", "Lung touched", "1", lower, "needle", "scoring samples (20 Hz) with the tip in the lung or pressing on the pleura", kNoPath},
+      {"col_rib", "Rib or bone struck", "1", lower, "needle", "scoring samples with rib, sternum, or clavicle above the guiding force", kNoPath},
+      {"col_artery", "Artery touched", "1", lower, "needle", "scoring samples with the tip in an artery or pressing on its wall", kNoPath},
+      {"col_vein", "Vein touched in vain", "1", lower, "needle", "scoring samples at the vein outside the final, successful stay; its back wall always", kNoPath},
+      {"phase_1_mm", "Error of entry and depth", "mm", lower, "needle", "distance of the puncture from the taught entry plus error of depth", kNoPath},
+      {"phase_2", "Error of direction", "1", lower, "needle", "1000 x angle to the taught direction / acceptable angle, when the advance begins", kNoPath},
+      {"econ_mean_mm", "Mean distance from the taught line", "mm", lower, "needle", "of tip and of the shaft 70 mm behind it, during the advance", kNoPath},
+      {"econ_var_mm2", "Variance of the same", "mm2", lower, "needle", "population variance over all samples of the advance", kNoPath},
+      {"skin_punctures", "Skin punctures", "1", lower, "needle", "times the skin was punctured", ""},
+      {"redirections", "Redirections", "1", lower, "needle", "drawn back by more than 3 mm and advanced again more than 3 degrees apart, without leaving the skin", ""},
+      {"needle_passes", "Needle passes", "1", lower, "needle", "skin punctures plus redirections: every advance of the needle", ""},
+      {"first_pass_success", "Success at the first pass", "1", higher, "needle", "1 when the goal was reached in the first needle pass, else 0", ""},
+      {"aspirations", "Aspirations", "1", neither, "needle", "times the plunger was drawn while the needle was in", ""},
+      {"back_wall_punctures", "Back wall punctured", "1", lower, "needle", "times the tip went out of the vein through its far wall", ""},
+      {"tissue_time_s", "Time in tissue", "s", lower, "needle", "time with the needle in", ""},
+      {"tissue_path_mm", "Path in tissue", "mm", lower, "needle", "the tip's path while in", ""},
+      {"tissue_damage_mm2", "Tissue swept", "mm2", lower, "needle", "area that the inserted part of the needle sweeps", ""},
+      {"closest_pleura_mm", "Closest to the pleura", "mm", higher, "needle", "smallest distance of the inserted tip from the lung, 20 times a second; negative: inside", kNeverInserted},
+      {"closest_pleura_at_s", "When it was closest to the pleura", "s", neither, "needle", "since the trial's start", kNeverInserted},
+      {"closest_artery_mm", "Closest to an artery", "mm", higher, "needle", "smallest distance of the inserted tip from an artery; negative: inside", kNeverInserted},
+      {"closest_artery_at_s", "When it was closest to an artery", "s", neither, "needle", "since the trial's start", kNeverInserted},
+      {"bone_force_peak_N", "Largest force on bone", "N", lower, "needle", "largest computed force of bone on the needle", ""},
+      {"over_force_s", "Bone pressed too hard", "s", lower, "needle", "time with more force on bone than guides the needle (3 N unless the task says otherwise)", ""},
+      {"speed_at_vein_mm_s", "Speed at the vein", "mm/s", lower, "needle", "mean speed of the tip in the 0.2 s before it entered the vein for the last time", "it never did"},
+      {"frechet_mm", "Largest distance along the taught line", "mm", lower, "needle", "Frechet distance of the advance from the taught line, from beside its start to the end", "there was no advance"},
+      {"hausdorff_mm", "Farthest from the taught line", "mm", lower, "needle", "Hausdorff distance of the advance from the taught line, from beside its start to the end", "there was no advance"},
+      {"warped_mm", "Mean distance along the taught line", "mm", lower, "needle", "mean distance of the advance from that line after dynamic time warping", "there was no advance"},
+  };
+  return table;
+}
+
+bool belongsTo(const MetricDefinition& definition, std::string_view engine) {
+  const std::string_view tasks = definition.tasks;
+  return tasks == "all" || tasks.find(engine) != std::string_view::npos;
+}
+
+const MetricDefinition* metricNamed(std::string_view name) {
+  for (const MetricDefinition& definition : metricTable())
+    if (name == definition.name) return &definition;
+  return nullptr;
+}
+
+std::string metricsAsMarkdown() {
+  std::string text = "| name | what | unit | better | task | definition | does not apply when |\n| --- | --- | --- | --- | --- | --- | --- |\n";
+  for (const MetricDefinition& d : metricTable()) {
+    const char* better = d.better == Better::lower ? "lower" : d.better == Better::higher ? "higher" : "neither";
+    for (const char* cell : {d.name, d.title, d.unit, better, d.tasks, d.definition, d.valid}) text += std::string("| ") + cell + ' ';
+    text += "|\n";
+  }
+  return text;
+}
+
+}  // namespace palpa::metrics

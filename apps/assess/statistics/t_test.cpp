@@ -1,0 +1,74 @@
+#include "apps/assess/statistics/t_test.h"
+
+#include <boost/math/distributions/students_t.hpp>
+#include <cmath>
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::statistics {
+namespace {
+
+constexpr char kTTest[] = "t-test";
+
+void requireVariance(double variance) {
+  if (!(variance > 0)) throw Error("nothing varies in the values", kTTest, "Constant values cannot be tested");
+}
+
+/// `sd`: of the values, for the effect; `error`: of the difference.
+TTest testOf(double mean_a, double mean_b, double sd, double error, double degrees) {
+  const boost::math::students_t distribution(degrees);
+  TTest test;
+  test.mean_a = mean_a;
+  test.mean_b = mean_b;
+  test.difference = mean_a - mean_b;
+  test.t = test.difference / error;
+  test.degrees = degrees;
+  test.p_less = boost::math::cdf(distribution, test.t);
+  test.p_greater = boost::math::cdf(boost::math::complement(distribution, test.t));
+  test.p_two_sided = 2 * boost::math::cdf(distribution, -std::abs(test.t));
+  const double half = error * boost::math::quantile(distribution, 0.975);
+  test.low = test.difference - half;
+  test.high = test.difference + half;
+  test.effect = test.difference / sd * (1 - 3 / (4 * degrees - 1));
+  return test;
+}
+
+double pooledVariance(const Moments& a, const Moments& b) {
+  return ((a.n - 1) * a.sd * a.sd + (b.n - 1) * b.sd * b.sd) / (a.n + b.n - 2);
+}
+
+void require(const Moments& a, const Moments& b) {
+  if (!(a.n >= 2 && b.n >= 2)) throw Error("there are fewer than two values", kTTest, "Collect more trials");
+  requireVariance(a.sd * a.sd + b.sd * b.sd);
+}
+
+}  // namespace
+
+TTest welchFromMoments(const Moments& a, const Moments& b) {
+  require(a, b);
+  const double va = a.sd * a.sd / a.n, vb = b.sd * b.sd / b.n;
+  const double degrees = (va + vb) * (va + vb) / (va * va / (a.n - 1) + vb * vb / (b.n - 1));
+  TTest test = testOf(a.mean, b.mean, std::sqrt(pooledVariance(a, b)), std::sqrt(va + vb), degrees);
+  test.effect = pooledFromMoments(a, b).effect;
+  return test;
+}
+
+TTest pooledFromMoments(const Moments& a, const Moments& b) {
+  require(a, b);
+  const double sd = std::sqrt(pooledVariance(a, b));
+  return testOf(a.mean, b.mean, sd, sd * std::sqrt(1 / a.n + 1 / b.n), a.n + b.n - 2);
+}
+
+TTest paired(const std::vector<double>& a, const std::vector<double>& b) {
+  if (a.size() != b.size()) throw Error("the samples are not pairs", kTTest, "Leave out whoever lacks one of the two values");
+  std::vector<double> differences(a.size());
+  for (std::size_t i = 0; i < a.size(); ++i) differences[i] = a[i] - b[i];
+  const Moments d = momentsOf(differences, kTTest);
+  requireVariance(d.sd);
+  return testOf(meanOf(a), meanOf(b), d.sd, d.sd / std::sqrt(d.n), d.n - 1);
+}
+
+TTest welch(const std::vector<double>& a, const std::vector<double>& b) { return welchFromMoments(momentsOf(a, kTTest), momentsOf(b, kTTest)); }
+TTest pooled(const std::vector<double>& a, const std::vector<double>& b) { return pooledFromMoments(momentsOf(a, kTTest), momentsOf(b, kTTest)); }
+
+}  // namespace palpa::statistics

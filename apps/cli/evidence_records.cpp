@@ -1,0 +1,112 @@
+#include "apps/cli/evidence_records.h"
+
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/geometry/error.h"
+#include "apps/assess/needle_metrics.h"
+#include "apps/assess/palpation/palpation_metrics.h"
+#include "apps/assess/search/search_metrics.h"
+#include "apps/assess/squeeze/squeeze_metrics.h"
+#include "apps/cli/recorded_palpation.h"
+#include "apps/cli/recorded_search.h"
+#include "apps/cli/recorded_session.h"
+#include "apps/cli/recorded_squeeze.h"
+#include "apps/station/sha256.h"
+
+namespace palpa::cli {
+namespace {
+
+using Figures = std::map<int, std::vector<metrics::MetricValue>>;   ///< by trial
+
+Figures needleFigures(const std::filesystem::path& evidence) {
+  const RecordedSession session(evidence);
+  Figures figures;
+  session.eachTrial([&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+    const bool judged = trial.ended && trial.end.outcome != "void" && (session.hasGoal() || !session.reader().info().expert_path_json.empty());
+    if (judged) figures[trial.header.trial] = session.rescore(trial, samples).metrics;
+  });
+  return figures;
+}
+
+template <class Trials, class Judge>
+Figures figuresOf(const Trials& trials, Judge judge) {
+  Figures figures;
+  for (const auto& trial : trials)
+    if (trial.recorded.ended && trial.recorded.end.outcome != "void") figures[trial.recorded.header.trial] = judge(trial);
+  return figures;
+}
+
+Figures figuresIn(const record::SessionReader& reader, const std::filesystem::path& evidence) {
+  const std::string engine = engineOf(reader);
+  if (engine == "palpation") return figuresOf(recordedPalpations(reader), [](const RecordedPalpation& t) { return assess::palpationMetrics(t.assessment); });
+  if (engine == "surface") return figuresOf(recordedSearches(reader), [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
+  if (engine == "squeeze") return figuresOf(recordedSqueezes(reader), [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
+  return needleFigures(evidence);
+}
+
+/// Of the station's calibrations, as the station's file had them.
+std::vector<record::StoredCalibration> calibrationsIn(const nlohmann::json& station) {
+  std::vector<record::StoredCalibration> all;
+  for (const nlohmann::json& c : station.value("calibrations", nlohmann::json::array()))
+    all.push_back({c.value("kind", ""), c.value("date", ""), c.value("sha256", ""), c.value("verdict", "")});
+  return all;
+}
+
+record::StoredSession sessionIn(const record::SessionReader& reader, const std::filesystem::path& evidence) {
+  const record::SessionInfo& info = reader.info();
+  const nlohmann::json session = nlohmann::json::parse(info.session_json), station = nlohmann::json::parse(info.station_json);
+  record::StoredSession s;
+  s.uuid = info.uuid;
+  s.trainee = session.value("trainee", "");
+  s.started_utc = info.started_utc;
+  s.software = info.software;
+  s.task = info.command;
+  s.station = station.value("id", "");
+  s.simulated = session.value("simulated", false);
+  s.evidence = std::filesystem::absolute(evidence).string();
+  s.evidence_sha256 = station::sha256OfFile(evidence);
+  s.facts_json = info.session_json;
+  s.calibrations = calibrationsIn(station);
+  return s;
+}
+
+record::StoredTrial trialIn(const record::RecordedTrial& t, const Figures& figures) {
+  record::StoredTrial trial;
+  trial.number = t.header.trial;
+  trial.start_ns = t.header.t_ns;
+  trial.end_ns = t.end.t_ns;
+  trial.role = t.header.role;
+  trial.seed = t.header.seed;
+  trial.force_feedback = t.header.force_feedback;
+  trial.outcome = t.end.outcome;
+  trial.reason = t.end.reason;
+  trial.score_json = t.end.scores_json;
+  if (const auto known = figures.find(t.header.trial); known != figures.end())
+    for (const metrics::MetricValue& m : known->second) trial.metrics.push_back({m.name, m.value});
+  trial.success = trial.metric("success") == 1;
+  return trial;
+}
+
+}  // namespace
+
+EvidenceRecords recordsOf(const std::filesystem::path& evidence) {
+  const record::SessionReader reader(evidence);
+  EvidenceRecords records;
+  try {
+    records.session = sessionIn(reader, evidence);
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(std::string("the session's description is damaged (") + e.what() + ")", evidence.string(), "Restore the file from a backup");
+  }
+  const Figures figures = figuresIn(reader, evidence);
+  for (const record::RecordedTrial& t : reader.trials()) {
+    if (t.ended) records.trials.push_back(trialIn(t, figures));
+    else ++records.unfinished;
+  }
+  for (const runtime::Event& e : reader.events())
+    for (record::StoredTrial& trial : records.trials)
+      if (trial.number == e.trial) trial.events.push_back({e.t_ns, e.kind, e.text, e.value});
+  return records;
+}
+
+}  // namespace palpa::cli

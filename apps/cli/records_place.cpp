@@ -1,0 +1,36 @@
+#include "apps/cli/records_place.h"
+
+#include <cstdlib>
+#include <filesystem>
+
+#include "apps/record/store/sql_connection.h"
+
+namespace palpa::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+void makeFolderOf(const std::string& url) {
+  std::error_code ignored;   // opening says what is wrong
+  if (!record::isServer(url) && url.find("://") == std::string::npos) fs::create_directories(fs::absolute(url).parent_path(), ignored);
+}
+
+}  // namespace
+
+std::string usualRecords() {
+  if (const char* url = std::getenv("PALPA_RECORDS"); url && *url) return url;
+  if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data == '/') return (fs::path(data) / "palpa/records.sqlite").string();
+  const char* home = std::getenv("HOME");
+  return (fs::path(home && *home ? home : ".") / ".local/share/palpa/records.sqlite").string();
+}
+
+void addRecordsArgument(CLI::App& command, std::string& url) {
+  command.add_option("--records", url, "Records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, else ~/.local/share/palpa/records.sqlite)")->type_name("FILE|URL");
+  command.parse_complete_callback([&url] {
+    if (!url.empty()) return;
+    url = usualRecords();
+    makeFolderOf(url);
+  });
+}
+
+}  // namespace palpa::cli

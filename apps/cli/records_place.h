@@ -1,0 +1,14 @@
+#pragma once
+
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace palpa::cli {
+
+/// Where the records are when nothing else is said: $PALPA_RECORDS, else records.sqlite in $XDG_DATA_HOME/palpa or ~/.local/share/palpa.
+std::string usualRecords();
+
+/// --records, with that default; the folder of a file is made when the command runs.
+void addRecordsArgument(CLI::App& command, std::string& url);
+
+}  // namespace palpa::cli

@@ -1,0 +1,156 @@
+#include "apps/record/store/migrations.h"
+
+#include <iterator>
+#include <map>
+#include <string>
+#include <utility>
+
+namespace palpa::record {
+namespace {
+
+// Step i brings version i to i + 1. A step that was published is never changed; a change of the tables is a further step.
+const char* const kSteps[] = {R"sql(
+CREATE TABLE palpa_schema(version BIGINT NOT NULL);
+INSERT INTO palpa_schema(version) VALUES(0);
+
+CREATE TABLE trainees(
+  id           TEXT PRIMARY KEY,      -- a pseudonym
+  group_name   TEXT NOT NULL,
+  experience   TEXT NOT NULL,
+  handedness   TEXT NOT NULL,
+  added_utc    TEXT NOT NULL,
+  consent_utc  TEXT NOT NULL,         -- '' where not given
+  research_utc TEXT NOT NULL,
+  retain_until TEXT NOT NULL
+);
+
+CREATE TABLE deletions(               -- who was deleted must not come back with a late delivery
+  digest       TEXT PRIMARY KEY,      -- SHA-256 of the pseudonym
+  deleted_utc  TEXT NOT NULL
+);
+
+CREATE TABLE deleted_evidence(        -- of deleted persons, still to be removed where it was made
+  session      TEXT PRIMARY KEY,
+  evidence     TEXT NOT NULL
+);
+
+CREATE TABLE sessions(
+  uuid            TEXT PRIMARY KEY,
+  trainee         TEXT NOT NULL REFERENCES trainees(id),
+  arrival         BIGINT NOT NULL,
+  started_utc     TEXT NOT NULL,
+  software        TEXT NOT NULL,
+  task            TEXT NOT NULL,
+  station         TEXT NOT NULL,
+  simulated       BIGINT NOT NULL,
+  study           TEXT NOT NULL,
+  slot            BIGINT NOT NULL,
+  evidence        TEXT NOT NULL,
+  evidence_sha256 TEXT NOT NULL,
+  facts_json      TEXT NOT NULL,
+  UNIQUE(trainee, arrival)
+);
+
+CREATE TABLE calibrations(
+  session  TEXT NOT NULL REFERENCES sessions(uuid) ON DELETE CASCADE,
+  name     TEXT NOT NULL,
+  made_utc TEXT NOT NULL,
+  sha256   TEXT NOT NULL,
+  verdict  TEXT NOT NULL,
+  PRIMARY KEY(session, name)
+);
+
+CREATE TABLE trials(
+  session        TEXT NOT NULL REFERENCES sessions(uuid) ON DELETE CASCADE,
+  number         BIGINT NOT NULL,
+  start_ns       BIGINT NOT NULL,
+  end_ns         BIGINT NOT NULL,
+  role           TEXT NOT NULL,
+  seed           TEXT NOT NULL,       -- 64 bits without sign
+  force_feedback BIGINT NOT NULL,
+  outcome        TEXT NOT NULL,
+  reason         TEXT NOT NULL,
+  success        BIGINT NOT NULL,
+  score_json     TEXT NOT NULL,
+  PRIMARY KEY(session, number)
+);
+
+CREATE TABLE metrics(
+  session TEXT NOT NULL,
+  number  BIGINT NOT NULL,
+  name    TEXT NOT NULL,
+  value   DOUBLE PRECISION,           -- null: does not apply
+  PRIMARY KEY(session, number, name),
+  FOREIGN KEY(session, number) REFERENCES trials(session, number) ON DELETE CASCADE
+);
+
+CREATE TABLE events(
+  session TEXT NOT NULL,
+  number  BIGINT NOT NULL,
+  ordinal BIGINT NOT NULL,
+  t_ns    BIGINT NOT NULL,
+  kind    TEXT NOT NULL,
+  text    TEXT NOT NULL,
+  value   DOUBLE PRECISION,
+  PRIMARY KEY(session, number, ordinal),
+  FOREIGN KEY(session, number) REFERENCES trials(session, number) ON DELETE CASCADE
+);
+)sql"};
+
+/// Of the newest version.
+const std::vector<std::pair<std::string, std::string>> kTables{
+    {"trainees", "id,group_name,experience,handedness,added_utc,consent_utc,research_utc,retain_until"},
+    {"deletions", "digest,deleted_utc"},
+    {"deleted_evidence", "session,evidence"},
+    {"sessions", "uuid,trainee,arrival,started_utc,software,task,station,simulated,study,slot,evidence,evidence_sha256,facts_json"},
+    {"calibrations", "session,name,made_utc,sha256,verdict"},
+    {"trials", "session,number,start_ns,end_ns,role,seed,force_feedback,outcome,reason,success,score_json"},
+    {"metrics", "session,number,name,value"},
+    {"events", "session,number,ordinal,t_ns,kind,text,value"}};
+
+constexpr int kNewest = static_cast<int>(std::size(kSteps));
+
+}  // namespace
+
+int newestSchema() { return kNewest; }
+
+const std::vector<std::string>& tableNames() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> all;
+    for (const auto& [table, columns] : kTables) all.emplace_back(table);
+    return all;
+  }();
+  return names;
+}
+
+const std::string& columnsOf(const std::string& name) {
+  static const std::map<std::string, std::string> all(kTables.begin(), kTables.end());
+  const auto found = all.find(name);
+  if (found == all.end()) throw Error("is no table of the records", name, "Report this");
+  return found->second;
+}
+
+int schemaOf(SqlConnection& connection) {
+  if (!connection.hasTable("palpa_schema")) return 0;
+  const SqlRows rows = connection.query("SELECT version FROM palpa_schema");
+  if (rows.size() != 1) throw Error("does not say its version once", connection.place(), "It is damaged or was changed by hand: restore a backup");
+  const std::int64_t version = rows.integer(0, 0);
+  if (version > kNewest)
+    throw Error("was written by a newer version of Palpa (tables " + std::to_string(version) + ", known up to " + std::to_string(kNewest) + ")", connection.place(), "Update Palpa on this station; nothing was changed");
+  return static_cast<int>(version);
+}
+
+int migrate(SqlConnection& connection, int version) {
+  if (const int found = schemaOf(connection); found >= version) return found;
+  SqlTransaction transaction(connection);
+  connection.lockSchema();
+  const int found = schemaOf(connection);   // again: another station may have been quicker
+  for (int step = found; step < version; ++step) {
+    connection.script(kSteps[step]);
+    connection.query("UPDATE palpa_schema SET version=$1", {std::int64_t{step + 1}});
+  }
+  transaction.commit();
+  return found;
+}
+
+}  // namespace palpa::record

@@ -1,0 +1,51 @@
+#include "apps/record/store/pending.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+
+#include "anatomy/geometry/error.h"
+#include "anatomy/geometry/whole_file.h"
+
+namespace palpa::record {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr char kSuffix[] = ".pending";
+
+}  // namespace
+
+PendingList::PendingList(fs::path folder) : folder_(std::move(folder)) {}
+
+fs::path PendingList::usualFolder() {
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/') return fs::path(state) / "palpa/pending";
+  const char* home = std::getenv("HOME");
+  return fs::path(home && *home ? home : "/tmp") / ".local/state/palpa/pending";
+}
+
+void PendingList::note(const PendingSession& session) {
+  std::error_code problem;
+  fs::create_directories(folder_, problem);
+  if (problem) throw Error("cannot be made (" + problem.message() + ")", folder_.string(), "Make it writable, or set XDG_STATE_HOME to another folder");
+  writeWhole(folder_ / (session.uuid + kSuffix), fs::absolute(session.evidence).string() + "\n" + session.url + "\n");
+}
+
+std::vector<PendingSession> PendingList::sessions() const {
+  std::vector<PendingSession> all;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder_, none)) {
+    if (entry.path().extension() != kSuffix) continue;
+    std::ifstream stream(entry.path());
+    std::string evidence, url;
+    if (std::getline(stream, evidence) && std::getline(stream, url) && !evidence.empty()) all.push_back({entry.path().stem().string(), evidence, url});
+  }
+  std::sort(all.begin(), all.end(), [](const PendingSession& a, const PendingSession& b) { return a.uuid < b.uuid; });
+  return all;
+}
+
+void PendingList::forget(const std::string& uuid) {
+  std::error_code ignored;
+  fs::remove(folder_ / (uuid + kSuffix), ignored);
+}
+
+}  // namespace palpa::record

@@ -1,0 +1,33 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace palpa::record {
+
+/// A session whose trials may not all have reached the store yet.
+struct PendingSession {
+  std::string uuid;
+  std::filesystem::path evidence;   ///< its session.palpa, absolute
+  std::string url;                  ///< of the store it belongs to
+};
+
+/// This station's list of sessions still to be delivered: a small file each, in a folder that outlives the process. The evidence itself holds the trials; the list only says where to look.
+/// A session is noted before its first trial and forgotten when the store has them all, so whatever happens in between is made up for later.
+class PendingList {
+ public:
+  /// Makes the folder when the first session is noted.
+  explicit PendingList(std::filesystem::path folder);
+  /// $XDG_STATE_HOME/palpa/pending, else ~/.local/state/palpa/pending.
+  static std::filesystem::path usualFolder();
+
+  void note(const PendingSession& session);          ///< written beside, then renamed; throws Error
+  std::vector<PendingSession> sessions() const;      ///< by uuid; what is no note is passed over
+  void forget(const std::string& uuid);
+
+ private:
+  std::filesystem::path folder_;
+};
+
+}  // namespace palpa::record

@@ -1,0 +1,139 @@
+#include <fcntl.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cmath>
+#include <cstring>
+#include <fstream>
+
+#include "apps/record/sqlite.h"
+#include "apps/record/store/sql_connection.h"
+#include "apps/runtime/clock.h"
+
+namespace palpa::record {
+namespace {
+
+constexpr int kRecordsApplicationId = 0x70616c52;   // "palR"
+constexpr int kWaitForOthers_ms = 20'000;           // eight stations that write at once take turns
+
+void makeFile(const std::string& file) {
+  const int descriptor = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
+  if (descriptor < 0) throw Error(std::string("cannot be opened for writing (") + std::strerror(errno) + ")", "records file " + file, "Check that its folder exists and may be written");
+  ::close(descriptor);
+}
+
+void checkKind(const std::string& file) {
+  char start[16] = {};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(start, sizeof start);
+  if (stream.gcount() == 0) return;   // new
+  if (stream.gcount() != sizeof start || std::memcmp(start, "SQLite format 3", 16) != 0)
+    throw Error("is no records file", "records file " + file, "Give the right file, or restore it from a backup");
+}
+
+class SqliteConnection final : public SqlConnection {
+ public:
+  explicit SqliteConnection(const std::string& file) : database_(prepared(file), Database::Mode::write) {
+    sqlite3_busy_timeout(database_.handle(), kWaitForOthers_ms);
+    const std::int64_t id = database_.integer("PRAGMA application_id");
+    if (id != 0 && id != kRecordsApplicationId)
+      throw Error("is a database of another program", "records file " + file, "Give the right file; a session's evidence is added by palpa records add");
+    switchToLog();
+    database_.exec("PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA secure_delete=ON");
+    if (const std::string verdict = database_.text("PRAGMA quick_check"); verdict != "ok")
+      throw Error("is damaged (" + verdict + ")", "records file " + file, "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE .recover`");
+    if (id == 0) database_.exec("PRAGMA application_id=" + std::to_string(kRecordsApplicationId));
+  }
+
+  SqlRows query(const std::string& sql, const std::vector<SqlValue>& values) override {
+    return guarded([&] { return answer(sql, values); });
+  }
+  void script(const std::string& statements) override {
+    guarded([&] { database_.exec(statements); });
+  }
+  void begin() override { script("BEGIN IMMEDIATE"); }
+  void commit() override { script("COMMIT"); }
+  void rollback() noexcept override { sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr); }
+  void lockSchema() override {}   // a transaction for writing has the file to itself
+  void freeze() override {}
+  bool hasTable(const std::string& name) override { return !query("SELECT 1 FROM sqlite_master WHERE type='table' AND name=$1", {name}).empty(); }
+  std::string place() const override { return "records file " + database_.file().string(); }
+
+ private:
+  SqlRows answer(const std::string& sql, const std::vector<SqlValue>& values) {
+    sqlite3_stmt* raw = nullptr;
+    if (sqlite3_prepare_v2(database_.handle(), sql.c_str(), -1, &raw, nullptr) != SQLITE_OK) database_.fail("cannot be read or written");
+    const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> statement(raw, sqlite3_finalize);
+    bindAll(raw, values);
+    SqlRows rows;
+    for (int code; (code = sqlite3_step(raw)) != SQLITE_DONE;) {
+      if (code != SQLITE_ROW) database_.fail("cannot be read or written");
+      rows.add(rowOf(raw));
+    }
+    return rows;
+  }
+
+  /// A file that others hold, or a full disk, may do later.
+  template <typename Action>
+  auto guarded(Action action) -> decltype(action()) {
+    try {
+      return action();
+    } catch (const DatabaseError& e) {
+      const bool later = e.code == SQLITE_BUSY || e.code == SQLITE_LOCKED || e.code == SQLITE_FULL || e.code == SQLITE_IOERR;
+      if (!later) throw;
+      throw StoreUnreachable(std::string("cannot be written now (") + sqlite3_errstr(e.code) + ")", place(), "Free the disk or close what holds the file; trials are kept on this station and sent later");
+    }
+  }
+
+  /// Readers and a writer side by side. Several programs may ask for it at once on a new file, which SQLite answers without waiting.
+  void switchToLog() {
+    for (int tries = 200;; --tries) try {
+        database_.text("PRAGMA journal_mode=WAL");
+        return;
+      } catch (const DatabaseError& e) {
+        if (e.code != SQLITE_BUSY || tries == 0) throw;
+        runtime::SteadyClock().sleepUntil(20 * runtime::kMillisecond);
+      }
+  }
+
+  static std::string prepared(const std::string& file) {
+    makeFile(file);
+    checkKind(file);
+    return file;
+  }
+
+  void bindAll(sqlite3_stmt* statement, const std::vector<SqlValue>& values) {
+    for (std::size_t i = 0; i < values.size(); ++i) {
+      const int index = sqlite3_bind_parameter_index(statement, ("$" + std::to_string(i + 1)).c_str());
+      if (index == 0) continue;   // given, not used
+      const SqlValue& v = values[i];
+      int code = SQLITE_OK;
+      if (const auto* whole = std::get_if<std::int64_t>(&v)) code = sqlite3_bind_int64(statement, index, *whole);
+      else if (const auto* real = std::get_if<double>(&v)) code = std::isnan(*real) ? sqlite3_bind_null(statement, index) : sqlite3_bind_double(statement, index, *real);
+      else if (const auto* text = std::get_if<std::string>(&v)) code = sqlite3_bind_text64(statement, index, text->data(), text->size(), SQLITE_TRANSIENT, SQLITE_UTF8);
+      else code = sqlite3_bind_null(statement, index);
+      if (code != SQLITE_OK) database_.fail("cannot be read or written");
+    }
+  }
+
+  static std::vector<SqlValue> rowOf(sqlite3_stmt* statement) {
+    std::vector<SqlValue> row;
+    for (int c = 0; c < sqlite3_column_count(statement); ++c) {
+      const int type = sqlite3_column_type(statement, c);
+      if (type == SQLITE_INTEGER) row.emplace_back(std::int64_t{sqlite3_column_int64(statement, c)});
+      else if (type == SQLITE_FLOAT) row.emplace_back(sqlite3_column_double(statement, c));
+      else if (type == SQLITE_NULL) row.emplace_back(std::monostate{});
+      else row.emplace_back(std::string(reinterpret_cast<const char*>(sqlite3_column_text(statement, c)), static_cast<std::size_t>(sqlite3_column_bytes(statement, c))));
+    }
+    return row;
+  }
+
+  Database database_;
+};
+
+}  // namespace
+
+std::unique_ptr<SqlConnection> openSqlite(const std::string& file) { return std::make_unique<SqliteConnection>(file); }
+
+}  // namespace palpa::record

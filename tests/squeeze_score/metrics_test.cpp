@@ -1,0 +1,28 @@
+#include "apps/assess/squeeze/squeeze_metrics.h"
+
+#include <gtest/gtest.h>
+
+namespace palpa::assess {
+namespace {
+
+TEST(SqueezeMetrics, OfAComparisonMadeByHand) {
+  SqueezeTrial trial;
+  trial.outcome = "done";
+  trial.factors = {1.0, 1.25};
+  trial.said = 2;
+  trial.seconds = 12;
+  trial.peak_N = 4;
+  trial.grips = {2, 3};
+  const double expected[] = {1, 12, 25, 5, 4};
+  const auto all = squeezeMetrics(trial);
+  ASSERT_EQ(all.size(), 5u);
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    EXPECT_NEAR(all[i].value, expected[i], 1e-9) << all[i].name;
+    EXPECT_TRUE(metrics::metricNamed(all[i].name) && metrics::belongsTo(*metrics::metricNamed(all[i].name), "squeeze")) << all[i].name;
+  }
+  trial.said = 1;
+  EXPECT_EQ(squeezeMetrics(trial)[0].value, 0);
+}
+
+}  // namespace
+}  // namespace palpa::assess
