@@ -1,0 +1,49 @@
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+#include "tests/browser/page_faults.h"
+#include "tests/report/synthetic_report.h"
+
+namespace palpa::report {
+namespace {
+
+/// One browser for all tests of this process.
+class Pages : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    if (test::Browser::whyNot().empty()) browser_ = std::make_unique<test::Browser>();
+  }
+  static void TearDownTestSuite() { browser_.reset(); }
+  void SetUp() override {
+    if (!browser_) GTEST_SKIP() << test::Browser::whyNot();
+  }
+  static void expectNoFaults(const std::filesystem::path& page) {
+    for (const std::string& fault : test::faultsOf(*browser_, page)) ADD_FAILURE() << fault;
+  }
+  static inline std::unique_ptr<test::Browser> browser_;
+};
+
+TEST_F(Pages, OfNeedleSessions) {
+  const auto folder = test::freshFolder("browser");
+  writeReport(test::syntheticReport(1), folder / "one.html");
+  writeReport(test::syntheticReport(10), folder / "ten.html");
+  expectNoFaults(folder / "one.html");
+  expectNoFaults(folder / "ten.html");
+}
+
+/// The judge itself: it finds each of these.
+TEST_F(Pages, FaultsAreFound) {
+  const auto file = test::freshFolder("browser_faults") / "bad.html";
+  std::ofstream(file) << R"(<!doctype html><meta charset="utf-8"><title>x</title><body style="margin:0">
+<div style="width:3000px">broad</div><p style="font-size:6px">tiny</p><p style="color:#eee">pale</p>
+<svg width="300" height="50" viewBox="0 0 300 50"><text x="10" y="20">one</text><text x="14" y="20">two</text><text x="290" y="40">outside</text></svg>
+<script>console.error('broken')</script></body>)";
+  std::string all;
+  for (const std::string& fault : test::faultsOf(*browser_, file)) all += fault + "\n";
+  for (const char* expected : {"wider than the screen", "type of 6.0 px: tiny", "hardly legible: pale", "run into each other: \"one\" and \"two\"", "runs out of its drawing: outside", "broken"})
+    EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
+}
+
+}  // namespace
+}  // namespace palpa::report
