@@ -144,7 +144,7 @@ svg text.mid{text-anchor:middle}
 svg text.end{text-anchor:end}
 svg text.inside{font-size:12px}
 svg text.words{paint-order:stroke;stroke:var(--card);stroke-width:5px;stroke-linejoin:round}
-svg text.number{fill:var(--on);font-size:11px;font-weight:650}
+svg text.number{fill:var(--on);font-size:12px;font-weight:650}
 svg text.number.guide{fill:var(--guide-ink)}
 svg .grid{stroke:var(--line)}
 svg .zero,svg .axis{stroke:var(--muted)}
@@ -171,6 +171,10 @@ svg .area{stroke:none;fill:var(--blue);fill-opacity:.12}
 svg .inside-organ{fill:var(--bad);fill-opacity:.3}
 svg .wall{stroke:var(--ink);stroke-width:2}
 .scale{display:block;width:100%;max-width:320px;height:auto}
+@media (max-width:899px){
+  main,header,footer{padding-left:12px;padding-right:12px}
+  .card{padding:20px 16px}
+}
 @media (max-width:719px){
   main,header,footer{padding-left:12px;padding-right:12px}
   header{padding-top:24px}

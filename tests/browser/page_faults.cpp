@@ -18,7 +18,7 @@ if (wide > room + 1) {
 const shown = e => { const r = e.getBoundingClientRect(); return r.width > 0.5 && r.height > 0.5 && getComputedStyle(e).visibility !== 'hidden' && (!e.checkVisibility || e.checkVisibility()); };
 const words = e => e.textContent.trim().replace(/\s+/g, ' ').slice(0, 40);
 const luminance = c => { const [r, g, b] = c.map(v => { v /= 255; return v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4; }); return 0.2126 * r + 0.7152 * g + 0.0722 * b; };
-const colour = s => { const m = s.match(/[\d.]+/g); return m ? m.map(Number) : [0, 0, 0, 0]; };
+const colour = s => { const m = (s.match(/[\d.]+/g) || [0, 0, 0, 0]).map(Number); return s.startsWith('color(') ? m.map((v, i) => i < 3 ? 255 * v : v) : m; };
 const behind = e => { for (let p = e; p; p = p.parentElement) { const c = colour(getComputedStyle(p).backgroundColor); if (c.length < 4 || c[3] > 0.5) return c.slice(0, 3); } return [255, 255, 255]; };
 const contrast = (a, b) => { const x = luminance(a), y = luminance(b); return (Math.max(x, y) + 0.05) / (Math.min(x, y) + 0.05); };
 const texts = [...document.body.querySelectorAll('*')].filter(e => [...e.childNodes].some(n => n.nodeType === 3 && n.textContent.trim()) && !['STYLE', 'SCRIPT', 'TITLE'].includes(e.tagName.toUpperCase()) && shown(e));
