@@ -10,7 +10,7 @@ namespace {
 constexpr double kEdgeTolerance = 1e-9;
 
 // Seen area below this part of the longest edge squared: nothing to hit.
-constexpr double kFlat = 1e-11;
+constexpr double kFlatTriangle = 1e-11;
 
 struct Ray {
   Vec3 start, direction, inverse;
@@ -44,7 +44,7 @@ bool hitsTriangle(const std::array<Vec3, 3>& t, const Ray& ray, Hit* hit) {
   const double sum = w.sum();  // direction . normal, twice the area seen along the ray
   const double longest = std::max({(b - a).norm(), (c - b).norm(), (a - c).norm()});
   // Edge-on or without area: its neighbours, slightly inclusive, take the ray.
-  if (std::abs(sum) < kFlat * longest * longest) return false;
+  if (std::abs(sum) < kFlatTriangle * longest * longest) return false;
   w /= sum;
   if (w.minCoeff() < -kEdgeTolerance) return false;
   const double s = w.dot(Vec3(a.dot(d), b.dot(d), c.dot(d)));

@@ -11,7 +11,7 @@ namespace palpa::calibration {
 namespace {
 
 const char kRefinement[] = "registration by a tag";
-constexpr std::size_t kLeastViews = 8;
+constexpr std::size_t kLeastPairs = 8;
 constexpr int kUnknowns = 12;
 constexpr int kOwnErrors = 2;   // of a pose that make most of its corners' errors: the hand's tremble across the view
 constexpr double kDerivativeStep = 1e-6;
@@ -83,7 +83,7 @@ Chosen whole(const std::vector<TagView>& views, const std::vector<HandEyeSample>
     chosen.views.push_back(views[i]);
     chosen.poses.push_back(poses[i]);
   }
-  if (chosen.views.size() < kLeastViews)
+  if (chosen.views.size() < kLeastPairs)
     throw Error("the whole tag was seen in " + std::to_string(chosen.views.size()) + " poses only", kRefinement, "Hold the tool where the camera sees all of it, in ten poses or more");
   return chosen;
 }
@@ -101,7 +101,7 @@ void leaveOut(const Chosen& all, const std::vector<bool>& good, const CameraMode
         others.views.push_back(all.views[i]);
         others.poses.push_back(all.poses[i]);
       }
-    if (others.views.size() < kLeastViews) return;
+    if (others.views.size() < kLeastPairs) return;
     const HandEye begun = calibrateHandEye(others.poses);
     const Unknowns before{begun.X_EM, begun.X_DC};
     Unknowns after = before;

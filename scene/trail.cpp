@@ -13,7 +13,7 @@
 namespace palpa::scene {
 
 namespace {
-constexpr double kStep = 0.0002;  // metres; finer than a pixel at any working distance
+constexpr double kTrailStep = 0.0002;  // metres; finer than a pixel at any working distance
 }
 
 Trail::Trail() { update({}); }
@@ -40,7 +40,7 @@ void Trail::update(const std::vector<Vec3>& path_A) {
   vtkNew<vtkPoints> points;
   Vec3 previous = Vec3::Constant(1e9);
   for (const Vec3& p : path_A) {
-    if ((p - previous).norm() < kStep) continue;
+    if ((p - previous).norm() < kTrailStep) continue;
     points->InsertNextPoint(p.data());
     previous = p;
   }

@@ -10,7 +10,7 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kGap = 1.1e-3;       // a mesh strays from its field by up to 0.6 mm
+constexpr double kClearance = 1.1e-3;       // a mesh strays from its field by up to 0.6 mm
 constexpr int kAttempts = 4;
 constexpr double kSmoother = 1.4;    // when a surface stays folded: more smoothing, so often
 constexpr double kMargin = 12e-3;    // about the mask: the field is known so far
@@ -122,7 +122,7 @@ TriangleMesh labelSurface(const Scan& scan, const Mask& mask, Values* occupied, 
   for (int attempt = 0; folded > 0 && attempt < kAttempts; ++attempt, smoothing *= kSmoother) {
     patch.values = blurred(patch.grid, raw, smoothing);
     if (occupied)
-      forPatch(scan, patch, [&](std::size_t n, std::size_t there) { patch.values[n] = std::max(patch.values[n], static_cast<float>(kGap) - (*occupied)[there]); });
+      forPatch(scan, patch, [&](std::size_t n, std::size_t there) { patch.values[n] = std::max(patch.values[n], static_cast<float>(kClearance) - (*occupied)[there]); });
     mesh = meshed(scan, patch, cell, outward, beyond, &folded);
   }
   if (occupied)

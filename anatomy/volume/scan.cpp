@@ -14,7 +14,7 @@ constexpr double kAboveShoulders = 0.12, kBelowShoulders = 0.20;
 constexpr double kShoulderWidth = 0.8;           // of the widest slice
 constexpr double kThinnest = 3e-3;               // table, clothes, tubes are thinner than twice this
 constexpr double kThinWall = 15e-3;              // m, on from what is thicker
-constexpr double kBeside = 40e-3;                // of air kept about the body
+constexpr double kAirKept = 40e-3;                // of air kept about the body
 constexpr double kSpeck = 1e-6;                  // m^3
 constexpr double kEnvelope = 18e-3;              // fat between muscles is narrower than twice this
 
@@ -111,7 +111,7 @@ void cropToBody(Scan* scan) {
   }
   Index3 size = whole.size;
   for (std::size_t a = 0; a < 2; ++a) {
-    const int more = static_cast<int>(kBeside / whole.spacing[static_cast<int>(a)]);
+    const int more = static_cast<int>(kAirKept / whole.spacing[static_cast<int>(a)]);
     low[a] = std::max(0, low[a] - more), high[a] = std::min(whole.size[a], high[a] + more);
     size[a] = high[a] - low[a];
   }

@@ -16,7 +16,7 @@ constexpr double kTravelSpeed = 0.15;   // m/s
 constexpr double kShortestWay = 0.5;    // s
 constexpr double kSettles = 0.25;       // s before "now" is said
 constexpr double kPressFor = 0.4;       // s
-constexpr double kFullTurn = 2 * std::numbers::pi;
+constexpr double kWholeTurn = 2 * std::numbers::pi;
 
 constexpr double kOverSample = 2e-3;    // m
 constexpr double kSlowOnes = 0.6;       // share of presses; the others are taps
@@ -75,7 +75,7 @@ void SetupMotion::begin(const runtime::Request& request, const Pose& X_WT, const
   const double takes = std::max(way / kTravelSpeed, kShortestWay);
   approach_ = MinJerk(X_WT, X_WT_, t, takes);
   arrives_ = t + takes;
-  wave_phase_ = kFullTurn * Vec3(choices_.uniform(), choices_.uniform(), choices_.uniform());
+  wave_phase_ = kWholeTurn * Vec3(choices_.uniform(), choices_.uniform(), choices_.uniform());
 }
 
 Pose SetupMotion::during(double t) const {
@@ -83,20 +83,20 @@ Pose SetupMotion::during(double t) const {
   const double ease = std::min(u / 0.5, 1.0);   // begins gently
   Pose X = X_WT_;
   if (request_.what == What::pivot) {
-    const double tilt = 0.55 * ease * (0.55 + 0.45 * std::sin(kFullTurn * 0.11 * u)), round = kFullTurn * 0.45 * u;
+    const double tilt = 0.55 * ease * (0.55 + 0.45 * std::sin(kWholeTurn * 0.11 * u)), round = kWholeTurn * 0.45 * u;
     const Vec3 axis(std::cos(round), std::sin(round), 0);
-    X.linear() = calibration::rotationOf(tilt * axis) * X.linear() * calibration::rotationOf(0.6 * std::sin(kFullTurn * 0.17 * u) * Vec3::UnitZ());
+    X.linear() = calibration::rotationOf(tilt * axis) * X.linear() * calibration::rotationOf(0.6 * std::sin(kWholeTurn * 0.17 * u) * Vec3::UnitZ());
   } else if (request_.what == What::spin) {
-    X.linear() = X.linear() * calibration::rotationOf(ease * 1.9 * std::sin(kFullTurn * 0.2 * u) * Vec3::UnitZ());
+    X.linear() = X.linear() * calibration::rotationOf(ease * 1.9 * std::sin(kWholeTurn * 0.2 * u) * Vec3::UnitZ());
   } else if (feels(request_.what)) {
     X.translation() = X_WP_ * felt_.at(u - kSettles);
   } else if (request_.what == What::wave) {
     // Incommensurate sines: no lag but the right one makes two such motions alike.
     const Vec3& f = wave_phase_;
-    X.translation() += ease * 0.035 * Vec3(std::sin(kFullTurn * 0.61 * u + f.x()) + 0.4 * std::sin(kFullTurn * 1.37 * u + f.y()),
-                                           std::sin(kFullTurn * 0.47 * u + f.y()) + 0.3 * std::sin(kFullTurn * 1.09 * u + f.z()),
-                                           0.6 * std::sin(kFullTurn * 0.83 * u + f.z()));
-    X.linear() = calibration::rotationOf(ease * 0.15 * Vec3(std::sin(kFullTurn * 0.31 * u), std::sin(kFullTurn * 0.43 * u), 0)) * X.linear();
+    X.translation() += ease * 0.035 * Vec3(std::sin(kWholeTurn * 0.61 * u + f.x()) + 0.4 * std::sin(kWholeTurn * 1.37 * u + f.y()),
+                                           std::sin(kWholeTurn * 0.47 * u + f.y()) + 0.3 * std::sin(kWholeTurn * 1.09 * u + f.z()),
+                                           0.6 * std::sin(kWholeTurn * 0.83 * u + f.z()));
+    X.linear() = calibration::rotationOf(ease * 0.15 * Vec3(std::sin(kWholeTurn * 0.31 * u), std::sin(kWholeTurn * 0.43 * u), 0)) * X.linear();
   }
   return X;
 }
