@@ -80,7 +80,12 @@ void deliverPending(const RecordsOptions& o) {
   if (waiting.empty()) std::printf("Nothing waits to be delivered\n");
   std::size_t failed = 0;
   for (const record::PendingSession& session : waiting) try {
+      if (pending.isHeld(session.uuid)) {
+        std::printf("Session %s is still going on\n", session.uuid.c_str());
+        continue;
+      }
       bring(session.evidence, session.url);
+      pending.forget(session.uuid);
     } catch (const Error& e) {
       std::printf("Session %s waits on: %s\n", session.uuid.c_str(), e.what());
       ++failed;

@@ -72,7 +72,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, r
                                  });
   if (info.uuid.empty()) info.uuid = record::newUuid();
   record::SessionWriter writer(folder_ / "session.palpa", info);
-  noteForRecords(options_, info.uuid, folder_ / "session.palpa");
+  const auto noted = noteForRecords(options_, info.uuid, folder_ / "session.palpa");
   if (options_.record_video) video_.emplace(folder_);
   runtime::RecorderActivity recorder(bus_, writer, world_.tick.period_ns);
   Progress progress(options_.quiet);

@@ -4,7 +4,6 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/deliver_evidence.h"
-#include "apps/record/store/pending.h"
 
 namespace palpa::cli {
 namespace {
@@ -29,8 +28,11 @@ void checkTrainee(SessionOptions& o) {
   }
 }
 
-void noteForRecords(const SessionOptions& o, const std::string& uuid, const std::filesystem::path& evidence) {
-  if (!o.records.empty()) record::PendingList(record::PendingList::usualFolder()).note({uuid, evidence, o.records});
+std::unique_ptr<record::PendingHold> noteForRecords(const SessionOptions& o, const std::string& uuid, const std::filesystem::path& evidence) {
+  if (o.records.empty()) return nullptr;
+  record::PendingList pending(record::PendingList::usualFolder());
+  pending.note({uuid, evidence, o.records});
+  return pending.hold(uuid);
 }
 
 void deliverSession(const SessionOptions& o, const std::filesystem::path& folder) {

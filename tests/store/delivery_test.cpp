@@ -46,5 +46,16 @@ TEST(Pending, OutlivesTheProcess) {
   EXPECT_EQ(PendingList(folder).sessions().size(), 1u);
 }
 
+TEST(Pending, OfASessionThatGoesOnIsLeftAlone) {
+  PendingList list(test::freshFolder("store", "held"));
+  list.note({"a", "/x/a/session.palpa", "/r.sqlite"});
+  EXPECT_FALSE(list.isHeld("a"));
+  auto hold = list.hold("a");
+  EXPECT_TRUE(list.isHeld("a"));
+  hold.reset();
+  EXPECT_FALSE(list.isHeld("a"));
+  EXPECT_FALSE(list.isHeld("never noted"));
+}
+
 }  // namespace
 }  // namespace palpa::record
