@@ -34,7 +34,7 @@ DataTable filled(const char* name, const char* meaning, const Columns<Row>& colu
 
 json orNothing(double value) { return std::isfinite(value) ? json(value) : json(); }
 json orNothing(const std::string& text) { return text.empty() ? json() : json(text); }
-double seconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+double inSeconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
 
 /// Texts that hold JSON, as objects; null where they hold none.
 json parsed(const std::string& text) {
@@ -129,8 +129,8 @@ DataTable trialsTable(const Dataset& data) {
       {{"task", "text", "what was trained", "", ""}, [](const Trial& t) { return t.session.task; }},
       {{"simulated", "0 or 1", "1: the operator or the station was simulated", "", ""}, [](const Trial& t) { return t.session.simulated ? 1 : 0; }},
       {{"role", "text", "scored, familiarisation, not scored, ...", "", ""}, [](const Trial& t) { return t.trial.role; }},
-      {{"start_s", "s", "since the session's start", "", ""}, [](const Trial& t) { return seconds(t.trial.start_ns); }},
-      {{"end_s", "s", "since the session's start", "", ""}, [](const Trial& t) { return seconds(t.trial.end_ns); }},
+      {{"start_s", "s", "since the session's start", "", ""}, [](const Trial& t) { return inSeconds(t.trial.start_ns); }},
+      {{"end_s", "s", "since the session's start", "", ""}, [](const Trial& t) { return inSeconds(t.trial.end_ns); }},
       {{"seed", "text", "64 bits as digits; what was random in the trial follows from it", "", ""}, [](const Trial& t) { return std::to_string(t.trial.seed); }},
       {{"force_feedback", "0 or 1", "1: forces were rendered", "", ""}, [](const Trial& t) { return t.trial.force_feedback ? 1 : 0; }},
       {{"outcome", "text", "how it ended; void: does not count", "", ""}, [](const Trial& t) { return t.trial.outcome; }},
@@ -151,7 +151,7 @@ DataTable eventsTable(const Dataset& data) {
     for (const record::StoredEvent& e : t.trial.events) rows.push_back({&t, &e});
   const Columns<Happened> columns{{{"session", "UUID", "of the session", "", ""}, [](const Happened& h) { return h.trial->session.uuid; }},
                                   {{"trial", "1", "its number in the session", "", ""}, [](const Happened& h) { return h.trial->trial.number; }},
-                                  {{"t_s", "s", "since the session's start", "", ""}, [](const Happened& h) { return seconds(h.event->t_ns); }},
+                                  {{"t_s", "s", "since the session's start", "", ""}, [](const Happened& h) { return inSeconds(h.event->t_ns); }},
                                   {{"kind", "text", "what kind of event", "", ""}, [](const Happened& h) { return h.event->kind; }},
                                   {{"text", "text", "what happened, in words", "", "no words"}, [](const Happened& h) { return orNothing(h.event->text); }},
                                   {{"value", "1", "a number that belongs to it", "", "there is none"}, [](const Happened& h) { return orNothing(h.event->value); }}};

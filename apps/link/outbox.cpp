@@ -47,8 +47,17 @@ std::vector<Letter> lettersOf(record::Statement& statement) {
 }  // namespace
 
 Outbox::Outbox(const fs::path& file) : database_(prepared(file), record::Database::Mode::write) {
-  database_.exec("PRAGMA busy_timeout=20000; PRAGMA synchronous=FULL; PRAGMA secure_delete=ON");
+  database_.exec("PRAGMA busy_timeout=20000; PRAGMA secure_delete=ON");
+  writeAhead();
   database_.exec(kTables);
+}
+
+/// One write to the disk less a statement. A power cut may take back what was noted last: it is told again, and stored once.
+void Outbox::writeAhead() {
+  try {
+    if (database_.text("PRAGMA journal_mode=WAL") == "wal") database_.exec("PRAGMA synchronous=NORMAL");
+  } catch (const record::DatabaseError&) {   // another program is at it, or the disk does not bear it: slower
+  }
 }
 
 fs::path Outbox::usualFile() {

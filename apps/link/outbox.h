@@ -44,6 +44,7 @@ class Outbox {
   void takeBack(const Route& route, const std::string& id, const Letter& voiding);
 
  private:
+  void writeAhead();
   void insert(const Route& route, const Letter& letter);
   record::Database database_;
 };

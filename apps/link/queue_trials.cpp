@@ -37,7 +37,7 @@ int takeBackDeleted(record::RecordStore& store, const Route& route, Outbox& outb
   std::map<std::string, bool> deleted;
   const auto wasDeleted = [&](const std::string& person) {
     const auto known = deleted.find(person);
-    return known != deleted.end() ? known->second : deleted[person] = store.wasDeleted(person);
+    return known != deleted.end() ? known->second : deleted.emplace(person, store.wasDeleted(person)).first->second;
   };
   const std::vector<Letter> told = outbox.told(route);
   std::set<std::pair<std::string, std::int64_t>> void_now;

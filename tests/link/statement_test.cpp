@@ -81,7 +81,9 @@ TEST(Statement, IsTheSameForTheSameTrialAndNoOther) {
     for (int trial = 1; trial <= 20; ++trial) ids.insert(link::statementId(uuidOf(session), trial));
   EXPECT_EQ(ids.size(), 100u);
   EXPECT_EQ(link::voidingOf(statement()["id"]), link::voidingOf(statement()["id"]));
-  EXPECT_THROW(link::statementOf({.uuid = "u1"}, trialOf(1), kHome), Error);
+  record::StoredSession odd = sessionOf("A", 1);
+  odd.uuid = "u1";
+  EXPECT_THROW(link::statementOf(odd, trialOf(1), kHome), Error);
 }
 
 TEST(Statement, IsRecognisedInWhatAStoreMadeOfIt) {

@@ -177,7 +177,7 @@ TEST_F(Tell, OneThatIsRefusedDoesNotKeepTheOthersBack) {
   const link::Sent sent = send();
   EXPECT_EQ(sent.delivered, kTrials);
   ASSERT_EQ(sent.refused.size(), 1u);
-  EXPECT_NE(sent.refused[0].find("it answers 400 (statement has"), std::string::npos) << sent.refused[0];
+  EXPECT_NE(sent.refused[0].find("it answers 400 (actor is missing)"), std::string::npos) << sent.refused[0];
 }
 
 TEST_F(Tell, WhoWasDeletedIsTakenBack) {

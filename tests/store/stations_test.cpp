@@ -22,7 +22,8 @@ class Stations : public Store {
   void SetUp() override {
     Store::SetUp();
     if (IsSkipped()) return;
-    for (int s = 0; s < kStations; ++s) RecordStore(url).addTrainee(novice(traineeOf(s)));
+    RecordStore store(url);
+    for (int s = 0; s < kStations; ++s) store.addTrainee(novice(traineeOf(s)));
   }
 
   /// All at once, none allowed to write yet.
@@ -38,7 +39,8 @@ class Stations : public Store {
   }
 
   void expectAllOnce() const {
-    const auto all = RecordStore(url).trials();
+    RecordStore store(url);
+    const auto all = store.trials();
     EXPECT_EQ(all.size(), static_cast<std::size_t>(kStations * kTrialsEach));
     std::set<std::pair<std::string, std::int64_t>> seen;
     for (const TrialWithSession& t : all) {
@@ -46,7 +48,7 @@ class Stations : public Store {
       EXPECT_EQ(t.session.arrival, 1);
       EXPECT_EQ(t.trial.metric("total"), static_cast<double>(t.trial.number));
       EXPECT_EQ(t.trial.metrics.size(), 2u);
-      EXPECT_EQ(RecordStore(url).events(t.session.uuid, t.trial.number).size(), 2u);
+      EXPECT_EQ(store.events(t.session.uuid, t.trial.number).size(), 2u);
       if (HasFailure()) return;
     }
   }
@@ -79,8 +81,9 @@ TEST_P(Stations, KilledWritersAreMadeUpFor) {
       station.kill();
       EXPECT_EQ(station.wait(), 128 + SIGKILL);
     }
+    RecordStore store(url);
     for (int s = 0; s < kStations; ++s) {   // what was said to have arrived is there
-      const auto there = RecordStore(url).trials({.trainee = traineeOf(s)}).size();
+      const auto there = store.trials({.trainee = traineeOf(s)}).size();
       EXPECT_GE(there, static_cast<std::size_t>(stations[static_cast<std::size_t>(s)].arrived()));
       EXPECT_LT(there, static_cast<std::size_t>(kTrialsEach));
     }
