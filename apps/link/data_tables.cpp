@@ -5,6 +5,7 @@
 #include <set>
 
 #include "apps/assess/metrics/metric_table.h"
+#include "apps/link/further_tables.h"
 
 namespace palpa::link {
 namespace {
@@ -161,7 +162,7 @@ DataTable eventsTable(const Dataset& data) {
 }  // namespace
 
 Dataset datasetOf(record::RecordStore& store, const std::vector<record::Trainee>& who) {
-  Dataset data{who, {}, {}};
+  Dataset data{who, {}, {}, furtherTables(store, who)};
   for (const record::Trainee& t : who) {
     for (const record::StoredSession& s : store.sessions(t.id))
       if (auto whole = store.session(s.uuid)) data.sessions.push_back(std::move(*whole));
@@ -173,6 +174,10 @@ Dataset datasetOf(record::RecordStore& store, const std::vector<record::Trainee>
   return data;
 }
 
-std::vector<DataTable> tablesOf(const Dataset& data, bool with_paths) { return {traineesTable(data), sessionsTable(data, with_paths), calibrationsTable(data), trialsTable(data), eventsTable(data)}; }
+std::vector<DataTable> tablesOf(const Dataset& data, bool with_paths) {
+  std::vector<DataTable> tables{traineesTable(data), sessionsTable(data, with_paths), calibrationsTable(data), trialsTable(data), eventsTable(data)};
+  for (const FurtherTable& further : data.further) tables.push_back(asTable(further));
+  return tables;
+}
 
 }  // namespace palpa::link

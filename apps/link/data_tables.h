@@ -8,11 +8,19 @@
 
 namespace palpa::link {
 
+/// A further table of the store that names a trainee in each row: places in studies, answers to questionnaires.
+struct FurtherTable {
+  std::string name;
+  std::vector<std::string> columns;
+  std::vector<std::vector<record::SqlValue>> rows;
+};
+
 /// What the records hold of some people.
 struct Dataset {
   std::vector<record::Trainee> trainees;
   std::vector<record::StoredSession> sessions;    ///< with their calibrations
   std::vector<record::TrialWithSession> trials;   ///< with their events
+  std::vector<FurtherTable> further = {};
 };
 
 Dataset datasetOf(record::RecordStore& store, const std::vector<record::Trainee>& who);

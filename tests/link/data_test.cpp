@@ -3,9 +3,12 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include "apps/assess/metrics/metric_table.h"
+#include "apps/link/further_tables.h"
+#include "apps/record/store/migrations.h"
 #include "tests/link/trials.h"
 #include "tests/support/files.h"
 
@@ -106,6 +109,19 @@ TEST_F(Export, TheDictionaryHasEveryColumnOfEveryFile) {
   }
   EXPECT_EQ(row, dictionary.rows.size());
   EXPECT_NE(markdown.find("| total | 1 | Total penalty: sum of weight x value"), std::string::npos);
+}
+
+/// A person's export is everything: also what the store learns to keep later.
+TEST_F(Export, HasEveryTableThatNamesATrainee) {
+  std::set<std::string> exported;
+  for (const link::DataTable& t : link::tablesOf(data_, false)) exported.insert(t.name);
+  for (const std::string& name : record::tableNames()) {
+    const bool names_one = ("," + record::columnsOf(name) + ",").find(",trainee,") != std::string::npos;
+    EXPECT_TRUE(!names_one || exported.contains(name)) << name;
+  }
+  const link::DataTable answers = link::asTable({"answers", {"trainee", "answer", "later"}, {{std::string("A"), std::int64_t{5}, std::monostate{}}}});
+  EXPECT_EQ(link::asCsv(answers), "trainee,answer,later\nA,5,\n");
+  for (const link::Column& c : answers.columns) EXPECT_FALSE(c.meaning.empty());
 }
 
 TEST_F(Export, WhatIsNoTextLosesNoFile) {
