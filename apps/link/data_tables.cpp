@@ -35,7 +35,7 @@ DataTable filled(const char* name, const char* meaning, const Columns<Row>& colu
 
 json orNothing(double value) { return std::isfinite(value) ? json(value) : json(); }
 json orNothing(const std::string& text) { return text.empty() ? json() : json(text); }
-double inSeconds(std::int64_t ns) { return 1e-9 * static_cast<double>(ns); }
+double inSeconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
 /// Texts that hold JSON, as objects; null where they hold none.
 json parsed(const std::string& text) {

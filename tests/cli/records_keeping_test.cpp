@@ -169,10 +169,13 @@ TEST_F(SessionIntoRecords, FinishedTrialsArrive) {
 
 TEST_F(SessionIntoRecords, OfEveryTask) {
   int sessions = 0;
-  for (const char* task : {"palpation", "search", "squeeze"}) {
-    const Outcome done = palpa({task, "--operator", "expert", "--fast", "--no-views", "--quiet", "--trainee", "T007", "--records", "records.sqlite", "--out", task}, here_.path());
+  for (const std::vector<std::string>& task : {std::vector<std::string>{"palpation", "--preset", "prostate"}, {"search"}, {"squeeze"}}) {
+    std::vector<std::string> words = task;
+    for (const char* word : {"--operator", "expert", "--fast", "--no-views", "--quiet", "--trainee", "T007", "--records", "records.sqlite", "--out"}) words.emplace_back(word);
+    words.push_back(task[0]);
+    const Outcome done = palpa(words, here_.path());
     EXPECT_EQ(done.exit_code, 0) << done.err;
-    EXPECT_EQ(record::RecordStore(file()).sessions("T007").size(), static_cast<std::size_t>(++sessions)) << task << done.err;
+    EXPECT_EQ(record::RecordStore(file()).sessions("T007").size(), static_cast<std::size_t>(++sessions)) << task[0] << done.err;
   }
 }
 
