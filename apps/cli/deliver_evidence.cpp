@@ -5,9 +5,14 @@
 
 namespace palpa::cli {
 
-std::string absoluteRecords(const std::string& url) { return record::isServer(url) || url.find("://") != std::string::npos ? url : std::filesystem::absolute(url).lexically_normal().string(); }
+std::string absoluteRecords(const std::string& url) {
+  return record::isServer(url) || url.find("://") != std::string::npos
+             ? url
+             : std::filesystem::absolute(url).lexically_normal().string();
+}
 
-EvidenceDelivery deliverEvidence(const std::filesystem::path& evidence, const std::string& url, const record::Patience& patience) {
+EvidenceDelivery deliverEvidence(const std::filesystem::path& evidence, const std::string& url,
+                                 const record::Patience& patience) {
   const EvidenceRecords records = recordsOf(evidence);
   record::PendingList pending(record::PendingList::usualFolder());
   pending.note({records.session.uuid, evidence, absoluteRecords(url)});

@@ -9,7 +9,7 @@ namespace palpa::cli {
 namespace {
 
 constexpr char kNobody[] = "T000";
-constexpr record::Patience kBriefly{2, 300'000'000};   // a person waits
+constexpr record::Patience kBriefly{2, 300'000'000};  // a person waits
 
 }  // namespace
 
@@ -20,15 +20,20 @@ void checkTrainee(SessionOptions& o) {
     record::RecordStore store(o.records);
     if (store.trainee(o.trainee)) return;
     if (o.trainee != kNobody)
-      throw UsageError("is not in the " + store.place(), "trainee " + o.trainee, "Add the trainee first: palpa records trainee add --id " + o.trainee + "; or run without records");
-    std::printf("This session is nobody's and will not be in the records: --trainee says whose it is\n");
+      throw UsageError("is not in the " + store.place(), "trainee " + o.trainee,
+                       "Add the trainee first: palpa records trainee add --id " + o.trainee +
+                           "; or run without records");
+    std::printf(
+        "This session is nobody's and will not be in the records: --trainee says whose it is\n");
     o.records.clear();
   } catch (const record::StoreUnreachable& e) {
     std::fprintf(stderr, "palpa: %s\n", e.what());
   }
 }
 
-std::unique_ptr<record::PendingHold> noteForRecords(const SessionOptions& o, const std::string& uuid, const std::filesystem::path& evidence) {
+std::unique_ptr<record::PendingHold> noteForRecords(const SessionOptions& o,
+                                                    const std::string& uuid,
+                                                    const std::filesystem::path& evidence) {
   if (o.records.empty()) return nullptr;
   record::PendingList pending(record::PendingList::usualFolder());
   pending.note({uuid, evidence, o.records});
@@ -40,10 +45,13 @@ void deliverSession(const SessionOptions& o, const std::filesystem::path& folder
   try {
     const EvidenceDelivery done = deliverEvidence(folder / "session.palpa", o.records, kBriefly);
     const int all = done.trials.added + done.trials.present;
-    std::printf("In the records of %s: %d trial%s\n", done.trainee.c_str(), all, all == 1 ? "" : "s");
+    std::printf("In the records of %s: %d trial%s\n", done.trainee.c_str(), all,
+                all == 1 ? "" : "s");
   } catch (const std::exception& e) {
     const std::string what = e.what();
-    std::fprintf(stderr, "palpa: not in the records yet (%s); palpa records deliver sends it later\n", what.substr(0, what.find('\n')).c_str());
+    std::fprintf(stderr,
+                 "palpa: not in the records yet (%s); palpa records deliver sends it later\n",
+                 what.substr(0, what.find('\n')).c_str());
   }
 }
 

@@ -9,7 +9,9 @@ namespace {
 using nlohmann::json;
 
 /// What is no UTF-8 must not lose a whole file.
-std::string asText(const json& value) { return value.dump(-1, ' ', false, json::error_handler_t::replace); }
+std::string asText(const json& value) {
+  return value.dump(-1, ' ', false, json::error_handler_t::replace);
+}
 
 std::string cellText(const json& cell) {
   if (cell.is_null()) return "";
@@ -20,7 +22,8 @@ std::string cellText(const json& cell) {
 std::string forMarkdown(const json& cell) {
   std::string text;
   if (cell.is_string())
-    for (const char c : cell.get<std::string>()) text += c == '|' ? std::string("\\|") : std::string(1, c);
+    for (const char c : cell.get<std::string>())
+      text += c == '|' ? std::string("\\|") : std::string(1, c);
   return text;
 }
 
@@ -33,7 +36,8 @@ std::string asCsv(const DataTable& table) {
     text += '\n';
   };
   line(table.columns.size(), [&](std::size_t i) { return csvField(table.columns[i].name); });
-  for (const auto& row : table.rows) line(row.size(), [&](std::size_t i) { return cellText(row[i]); });
+  for (const auto& row : table.rows)
+    line(row.size(), [&](std::size_t i) { return cellText(row[i]); });
   return text;
 }
 
@@ -52,26 +56,35 @@ std::string asJson(const std::vector<DataTable>& tables) {
 
 DataTable dictionaryOf(const std::vector<DataTable>& tables) {
   DataTable dictionary{"dictionary", "What every column is", {}, {}};
-  for (const char* name : {"table", "column", "unit", "meaning", "better", "empty_when"}) dictionary.columns.push_back({name, "text", "", "", ""});
+  for (const char* name : {"table", "column", "unit", "meaning", "better", "empty_when"})
+    dictionary.columns.push_back({name, "text", "", "", ""});
   for (const DataTable& table : tables)
-    for (const Column& c : table.columns) dictionary.rows.push_back({table.name, c.name, c.unit, c.meaning, c.better, c.missing});
+    for (const Column& c : table.columns)
+      dictionary.rows.push_back({table.name, c.name, c.unit, c.meaning, c.better, c.missing});
   return dictionary;
 }
 
 std::string dictionaryAsMarkdown(const std::vector<DataTable>& tables) {
-  std::string text = "# Data dictionary\n\nFields are separated by commas, the point is decimal, times are UTC. An empty field: does not apply. People are known by pseudonym; `simulated` 1 is no person's performance on a real station.\n";
+  std::string text =
+      "# Data dictionary\n\nFields are separated by commas, the point is decimal, times are UTC. "
+      "An empty field: does not apply. People are known by pseudonym; `simulated` 1 is no person's "
+      "performance on a real station.\n";
   for (const DataTable& table : tables) {
-    text += "\n## " + table.name + ".csv\n\n" + table.meaning + ".\n\n| column | unit | meaning | better | empty when |\n| --- | --- | --- | --- | --- |\n";
+    text +=
+        "\n## " + table.name + ".csv\n\n" + table.meaning +
+        ".\n\n| column | unit | meaning | better | empty when |\n| --- | --- | --- | --- | --- |\n";
     for (const Column& c : table.columns) {
       text += "|";
-      for (const std::string& cell : {c.name, c.unit, c.meaning, c.better, c.missing}) text += " " + forMarkdown(cell) + " |";
+      for (const std::string& cell : {c.name, c.unit, c.meaning, c.better, c.missing})
+        text += " " + forMarkdown(cell) + " |";
       text += "\n";
     }
   }
   return text;
 }
 
-std::vector<std::string> writeTables(const std::vector<DataTable>& tables, DataFormat format, const std::filesystem::path& folder) {
+std::vector<std::string> writeTables(const std::vector<DataTable>& tables, DataFormat format,
+                                     const std::filesystem::path& folder) {
   std::vector<std::string> written;
   const auto write = [&](const std::string& name, const std::string& text) {
     writeWhole(folder / name, text);

@@ -18,7 +18,9 @@ std::string dictionaryAsMarkdown(const std::vector<DataTable>& tables);
 
 enum class DataFormat { csv, json, both };
 
-/// <table>.csv, records.json; dictionary.csv and dictionary.md beside them. Answers with the files' names. Throws Error.
-std::vector<std::string> writeTables(const std::vector<DataTable>& tables, DataFormat format, const std::filesystem::path& folder);
+/// <table>.csv, records.json; dictionary.csv and dictionary.md beside them. Answers with the files'
+/// names. Throws Error.
+std::vector<std::string> writeTables(const std::vector<DataTable>& tables, DataFormat format,
+                                     const std::filesystem::path& folder);
 
 }  // namespace palpa::link

@@ -4,8 +4,10 @@
 
 namespace palpa::link {
 
-/// Every table of the store, but those that are exported by name, that says whose each row is: a person's export has everything, whatever the store learnt to keep.
-std::vector<FurtherTable> furtherTables(record::RecordStore& store, const std::vector<record::Trainee>& who);
+/// Every table of the store, but those that are exported by name, that says whose each row is: a
+/// person's export has everything, whatever the store learnt to keep.
+std::vector<FurtherTable> furtherTables(record::RecordStore& store,
+                                        const std::vector<record::Trainee>& who);
 
 DataTable asTable(const FurtherTable& further);
 

@@ -30,7 +30,9 @@ constexpr char kColumns[] = "id,voids,session,trial,person,body";
 fs::path prepared(const fs::path& file) {
   std::error_code problem;
   fs::create_directories(file.parent_path(), problem);
-  if (problem) throw Error("cannot be made (" + problem.message() + ")", file.parent_path().string(), "Make it writable, or set XDG_STATE_HOME to another folder");
+  if (problem)
+    throw Error("cannot be made (" + problem.message() + ")", file.parent_path().string(),
+                "Make it writable, or set XDG_STATE_HOME to another folder");
   if (!fs::exists(file, problem)) {
     std::ofstream(file, std::ios::app).flush();
     fs::permissions(file, fs::perms::owner_read | fs::perms::owner_write, problem);
@@ -40,7 +42,9 @@ fs::path prepared(const fs::path& file) {
 
 std::vector<Letter> lettersOf(record::Statement& statement) {
   std::vector<Letter> all;
-  while (statement.step()) all.push_back({statement.text(0), statement.text(1), statement.text(2), statement.integer(3), statement.text(4), statement.text(5)});
+  while (statement.step())
+    all.push_back({statement.text(0), statement.text(1), statement.text(2), statement.integer(3),
+                   statement.text(4), statement.text(5)});
   return all;
 }
 
@@ -52,22 +56,29 @@ Outbox::Outbox(const fs::path& file) : database_(prepared(file), record::Databas
   database_.exec(kTables);
 }
 
-/// One write to the disk less a statement. A power cut may take back what was noted last: it is told again, and stored once.
+/// One write to the disk less a statement. A power cut may take back what was noted last: it is
+/// told again, and stored once.
 void Outbox::writeAhead() {
   try {
-    if (database_.text("PRAGMA journal_mode=WAL") == "wal") database_.exec("PRAGMA synchronous=NORMAL");
-  } catch (const record::DatabaseError&) {   // another program is at it, or the disk does not bear it: slower
+    if (database_.text("PRAGMA journal_mode=WAL") == "wal")
+      database_.exec("PRAGMA synchronous=NORMAL");
+  } catch (const record::DatabaseError&) {  // another program is at it, or the disk does not bear
+                                            // it: slower
   }
 }
 
 fs::path Outbox::usualFile() {
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/') return fs::path(state) / "palpa/xapi.sqlite";
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/')
+    return fs::path(state) / "palpa/xapi.sqlite";
   const char* home = std::getenv("HOME");
   return fs::path(home && *home ? home : "/tmp") / ".local/state/palpa/xapi.sqlite";
 }
 
 void Outbox::insert(const Route& r, const Letter& l) {
-  record::Statement(database_, std::string("INSERT OR IGNORE INTO letters(endpoint,records,") + kColumns + ",state) VALUES(?,?,?,?,?,?,?,?,0)").bind(r.endpoint, r.records, l.id, l.voids, l.session, l.trial, l.person, l.body).run();
+  record::Statement(database_, std::string("INSERT OR IGNORE INTO letters(endpoint,records,") +
+                                   kColumns + ",state) VALUES(?,?,?,?,?,?,?,?,0)")
+      .bind(r.endpoint, r.records, l.id, l.voids, l.session, l.trial, l.person, l.body)
+      .run();
 }
 
 bool Outbox::put(const Route& route, const Letter& letter) {
@@ -79,14 +90,22 @@ bool Outbox::put(const Route& route, const Letter& letter) {
 }
 
 std::vector<Letter> Outbox::waiting(const std::string& endpoint) {
-  record::Statement statement(database_, std::string("SELECT ") + kColumns + " FROM letters WHERE endpoint=? AND state=0 ORDER BY number");
+  record::Statement statement(database_,
+                              std::string("SELECT ") + kColumns +
+                                  " FROM letters WHERE endpoint=? AND state=0 ORDER BY number");
   return lettersOf(statement.bind(endpoint));
 }
 
-void Outbox::delivered(const std::string& endpoint, const std::string& id) { record::Statement(database_, "UPDATE letters SET state=1,body='' WHERE endpoint=? AND id=? AND state=0").bind(endpoint, id).run(); }
+void Outbox::delivered(const std::string& endpoint, const std::string& id) {
+  record::Statement(database_,
+                    "UPDATE letters SET state=1,body='' WHERE endpoint=? AND id=? AND state=0")
+      .bind(endpoint, id)
+      .run();
+}
 
 std::vector<std::string> Outbox::endpoints(const std::string& records) {
-  record::Statement statement(database_, "SELECT DISTINCT endpoint FROM letters WHERE records=? ORDER BY endpoint");
+  record::Statement statement(
+      database_, "SELECT DISTINCT endpoint FROM letters WHERE records=? ORDER BY endpoint");
   statement.bind(records);
   std::vector<std::string> all;
   while (statement.step()) all.push_back(statement.text(0));
@@ -94,13 +113,18 @@ std::vector<std::string> Outbox::endpoints(const std::string& records) {
 }
 
 std::vector<Letter> Outbox::told(const Route& route) {
-  record::Statement statement(database_, std::string("SELECT ") + kColumns + " FROM letters WHERE endpoint=? AND records=? AND voids='' AND state<2 ORDER BY number");
+  record::Statement statement(
+      database_,
+      std::string("SELECT ") + kColumns +
+          " FROM letters WHERE endpoint=? AND records=? AND voids='' AND state<2 ORDER BY number");
   return lettersOf(statement.bind(route.endpoint, route.records));
 }
 
 void Outbox::takeBack(const Route& route, const std::string& id, const Letter& voiding) {
   record::Transaction transaction(database_);
-  record::Statement(database_, "UPDATE letters SET state=2,body='' WHERE endpoint=? AND id=?").bind(route.endpoint, id).run();
+  record::Statement(database_, "UPDATE letters SET state=2,body='' WHERE endpoint=? AND id=?")
+      .bind(route.endpoint, id)
+      .run();
   insert(route, voiding);
   transaction.commit();
 }

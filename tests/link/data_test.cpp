@@ -20,7 +20,8 @@ using nlohmann::json;
 class Export : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = test::freshFolder("link", testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ =
+        test::freshFolder("link", testing::UnitTest::GetInstance()->current_test_info()->name());
     record::RecordStore store((folder_ / "records.sqlite").string());
     for (const char* id : {"A", "B"}) store.addTrainee(person(id));
     for (int i = 1; i <= 3; ++i) store.addTrial(sessionOf("A", 1), trialOf(i, 0.1 * i));
@@ -32,7 +33,8 @@ class Export : public testing::Test {
 
   const link::DataTable& table(const std::string& name) {
     tables_ = link::tablesOf(data_, false);
-    return *std::find_if(tables_.begin(), tables_.end(), [&](const auto& t) { return t.name == name; });
+    return *std::find_if(tables_.begin(), tables_.end(),
+                         [&](const auto& t) { return t.name == name; });
   }
 
   static json cell(const link::DataTable& table, std::size_t row, const std::string& column) {
@@ -50,7 +52,7 @@ class Export : public testing::Test {
 TEST_F(Export, EveryTrialWithEveryFigure) {
   const link::DataTable& trials = table("trials");
   ASSERT_EQ(trials.rows.size(), 4u);
-  EXPECT_EQ(cell(trials, 2, "total"), 0.1 * 3);   // to the last bit
+  EXPECT_EQ(cell(trials, 2, "total"), 0.1 * 3);  // to the last bit
   EXPECT_TRUE(cell(trials, 0, "closest_artery_mm").is_null());
   EXPECT_EQ(cell(trials, 3, "of_the_future"), 7.0);
   EXPECT_EQ(cell(trials, 0, "seed"), "18364758544493064720");
@@ -74,7 +76,8 @@ TEST_F(Export, FilesReadBack) {
   EXPECT_EQ(all["trials"][2]["total"], 0.1 * 3);
   EXPECT_EQ(all["sessions"][0]["facts"]["study"]["id"], "pilot");
   const std::string trainees = test::slurp(folder_ / "trainees.csv");
-  EXPECT_NE(trainees.find("A,novice,\"3rd year, left \"\"early\"\"\",left,"), std::string::npos) << trainees;
+  EXPECT_NE(trainees.find("A,novice,\"3rd year, left \"\"early\"\"\",left,"), std::string::npos)
+      << trainees;
   const std::string trials = test::slurp(folder_ / "trials.csv");
   EXPECT_EQ(std::count(trials.begin(), trials.end(), '\n'), 5);
   EXPECT_NE(trials.find("0.30000000000000004"), std::string::npos);
@@ -103,7 +106,8 @@ TEST_F(Export, TheDictionaryHasEveryColumnOfEveryFile) {
     for (std::string name; std::getline(names, name, ','); ++row) {
       EXPECT_EQ(dictionary.rows.at(row).at(0), t.name);
       EXPECT_EQ(dictionary.rows.at(row).at(1), name);
-      for (std::size_t i : {2u, 3u}) EXPECT_FALSE(dictionary.rows[row][i].get<std::string>().empty()) << name;
+      for (std::size_t i : {2u, 3u})
+        EXPECT_FALSE(dictionary.rows[row][i].get<std::string>().empty()) << name;
       EXPECT_NE(markdown.find("| " + name + " |"), std::string::npos) << name;
     }
   }
@@ -116,10 +120,14 @@ TEST_F(Export, HasEveryTableThatNamesATrainee) {
   std::set<std::string> exported;
   for (const link::DataTable& t : link::tablesOf(data_, false)) exported.insert(t.name);
   for (const std::string& name : record::tableNames()) {
-    const bool names_one = ("," + record::columnsOf(name) + ",").find(",trainee,") != std::string::npos;
+    const bool names_one =
+        ("," + record::columnsOf(name) + ",").find(",trainee,") != std::string::npos;
     EXPECT_TRUE(!names_one || exported.contains(name)) << name;
   }
-  const link::DataTable answers = link::asTable({"answers", {"trainee", "answer", "later"}, {{std::string("A"), std::int64_t{5}, std::monostate{}}}});
+  const link::DataTable answers =
+      link::asTable({"answers",
+                     {"trainee", "answer", "later"},
+                     {{std::string("A"), std::int64_t{5}, std::monostate{}}}});
   EXPECT_EQ(link::asCsv(answers), "trainee,answer,later\nA,5,\n");
   for (const link::Column& c : answers.columns) EXPECT_FALSE(c.meaning.empty());
 }

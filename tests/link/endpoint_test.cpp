@@ -35,15 +35,23 @@ TEST(Endpoint, RefusesWhatWouldLeak) {
   EXPECT_EQ(secret.find("geheim"), std::string::npos);
   EXPECT_NE(complaintAbout("http://lrs.example/xapi").find("--insecure"), std::string::npos);
   EXPECT_NO_THROW(endpointOf("http://lrs.example/xapi", true));
-  for (const char* here : {"http://127.0.0.1:8080/xapi", "http://localhost/xapi", "http://[::1]/xapi"}) EXPECT_EQ(complaintAbout(here), "") << here;
-  for (const char* none : {"", "lrs.example", "ftp://lrs.example", "https://", "https:///xapi", "https://a:port/x", "https://a/x?y=1", "https://a/x y"}) EXPECT_NE(complaintAbout(none), "") << none;
+  for (const char* here :
+       {"http://127.0.0.1:8080/xapi", "http://localhost/xapi", "http://[::1]/xapi"})
+    EXPECT_EQ(complaintAbout(here), "") << here;
+  for (const char* none : {"", "lrs.example", "ftp://lrs.example", "https://", "https:///xapi",
+                           "https://a:port/x", "https://a/x?y=1", "https://a/x y"})
+    EXPECT_NE(complaintAbout(none), "") << none;
 }
 
 class Logins : public testing::Test {
  protected:
   void SetUp() override {
-    file_ = test::freshFolder("link", testing::UnitTest::GetInstance()->current_test_info()->name()) / "netrc";
-    std::ofstream(file_) << "machine other.example login a password one\nmachine lrs.example\n  login b\n  password two\nmachine lrs.example login c password three\ndefault login d password four\n";
+    file_ =
+        test::freshFolder("link", testing::UnitTest::GetInstance()->current_test_info()->name()) /
+        "netrc";
+    std::ofstream(file_)
+        << "machine other.example login a password one\nmachine lrs.example\n  login b\n  password "
+           "two\nmachine lrs.example login c password three\ndefault login d password four\n";
     std::filesystem::permissions(file_, std::filesystem::perms::owner_read);
     ::setenv("NETRC", file_.c_str(), 1);
     ::unsetenv("PALPA_XAPI_PASSWORD");
@@ -62,11 +70,12 @@ TEST_F(Logins, ComeFromTheFile) {
 TEST_F(Logins, TheEnvironmentGoesFirst) {
   ::setenv("PALPA_XAPI_PASSWORD", "five", 1);
   EXPECT_EQ(loginFor("lrs.example", "c").password, "five");
-  EXPECT_EQ(loginFor("lrs.example", "").password, "two");   // without a user it is nobody's
+  EXPECT_EQ(loginFor("lrs.example", "").password, "two");  // without a user it is nobody's
 }
 
 TEST_F(Logins, AFileThatOthersReadIsRefused) {
-  std::filesystem::permissions(file_, std::filesystem::perms::group_read, std::filesystem::perm_options::add);
+  std::filesystem::permissions(file_, std::filesystem::perms::group_read,
+                               std::filesystem::perm_options::add);
   EXPECT_THROW(loginFor("lrs.example", ""), UsageError);
 }
 

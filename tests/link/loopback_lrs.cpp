@@ -18,7 +18,8 @@ constexpr std::int64_t kTooSlow = 1500 * runtime::kMillisecond;
 
 /// The answer's head comes, its body never: the client sees a broken connection.
 void breakOff(Response& response) {
-  response.set_content_provider(1000, "application/json", [](std::size_t, std::size_t, httplib::DataSink&) { return false; });
+  response.set_content_provider(1000, "application/json",
+                                [](std::size_t, std::size_t, httplib::DataSink&) { return false; });
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ struct LoopbackLrs::Impl {
   /// Empty: the request may be answered.
   bool refused(const LoopbackLrs& lrs, const Request& request, Response& response) {
     response.set_header(kVersion, "1.0.3");
-    if (request.get_header_value(kVersion).rfind("1.0", 0) != 0) return complain(response, 400, "no version of the Experience API"), true;
+    if (request.get_header_value(kVersion).rfind("1.0", 0) != 0)
+      return complain(response, 400, "no version of the Experience API"), true;
     if (lrs.user.empty()) return false;
     const auto [name, value] = httplib::make_basic_authentication_header(lrs.user, lrs.password);
     if (request.get_header_value(name) == value) return false;
@@ -46,9 +48,10 @@ struct LoopbackLrs::Impl {
     return true;
   }
 
-  void store(const LoopbackLrs& lrs, const std::string& id, const json& statement, Response& response) {
+  void store(const LoopbackLrs& lrs, const std::string& id, const json& statement,
+             Response& response) {
     const auto known = statements.find(id);
-    if (known != statements.end()) {   // never changed, whatever comes
+    if (known != statements.end()) {  // never changed, whatever comes
       const bool same = link::saysTheSame(statement, known->second.statement);
       response.status = same && !lrs.conflicts_on_same ? 204 : 409;
       if (!same) complaints.push_back("another statement under the id " + id);
@@ -71,22 +74,29 @@ struct LoopbackLrs::Impl {
   void put(const LoopbackLrs& lrs, const Request& request, Response& response) {
     if (refused(lrs, request, response)) return;
     const std::string id = request.get_param_value("statementId");
-    if (request.params.size() != 1 || id.empty()) return complain(response, 400, "statementId is missing, or there is more");
-    if (request.get_header_value("Content-Type").rfind("application/json", 0) != 0) return complain(response, 400, "no application/json");
+    if (request.params.size() != 1 || id.empty())
+      return complain(response, 400, "statementId is missing, or there is more");
+    if (request.get_header_value("Content-Type").rfind("application/json", 0) != 0)
+      return complain(response, 400, "no application/json");
     const json statement = json::parse(request.body, nullptr, false);
     if (statement.is_discarded()) return complain(response, 400, "no JSON");
-    if (const std::string why = whyNoStatement(statement); !why.empty()) return complain(response, 400, why);
-    if (statement.contains("id") && statement["id"] != id) return complain(response, 400, "id is not statementId");
+    if (const std::string why = whyNoStatement(statement); !why.empty())
+      return complain(response, 400, why);
+    if (statement.contains("id") && statement["id"] != id)
+      return complain(response, 400, "id is not statementId");
     store(lrs, id, statement, response);
   }
 
   void get(const LoopbackLrs& lrs, const Request& request, Response& response) {
     if (refused(lrs, request, response)) return;
     const bool voided = request.has_param("voidedStatementId");
-    if (voided == request.has_param("statementId")) return complain(response, 400, "one of statementId and voidedStatementId");
-    const auto found = statements.find(request.get_param_value(voided ? "voidedStatementId" : "statementId"));
+    if (voided == request.has_param("statementId"))
+      return complain(response, 400, "one of statementId and voidedStatementId");
+    const auto found =
+        statements.find(request.get_param_value(voided ? "voidedStatementId" : "statementId"));
     response.status = found == statements.end() || found->second.voided != voided ? 404 : 200;
-    if (response.status == 200) response.set_content(found->second.statement.dump(), "application/json");
+    if (response.status == 200)
+      response.set_content(found->second.statement.dump(), "application/json");
   }
 };
 
@@ -99,10 +109,12 @@ void LoopbackLrs::start() {
   impl_ = std::move(next);
   Impl& impl = *impl_;
   impl.server.set_keep_alive_timeout(1);
+  impl.server.set_tcp_nodelay(true);
   impl.server.Put("/xapi/statements", [this, &impl](const Request& request, Response& response) {
     const Mishap what = mishap(puts_++);
     if (what == Mishap::drop_before) return breakOff(response);
-    if (what == Mishap::login_page) return response.set_content("<html>Please log in</html>", "text/html");
+    if (what == Mishap::login_page)
+      return response.set_content("<html>Please log in</html>", "text/html");
     if (what == Mishap::error_500 || what == Mishap::too_many) {
       response.set_header(kVersion, "1.0.3");
       response.status = what == Mishap::too_many ? 429 : 500;
@@ -118,9 +130,11 @@ void LoopbackLrs::start() {
     const std::lock_guard lock(impl.mutex);
     impl.get(*this, request, response);
   });
-  if (port_ == 0) port_ = impl.server.bind_to_any_port("127.0.0.1");
+  if (port_ == 0)
+    port_ = impl.server.bind_to_any_port("127.0.0.1");
   else
-    for (int tries = 200; tries > 0 && !impl.server.bind_to_port("127.0.0.1", port_); --tries) runtime::SteadyClock().sleepUntil(10 * runtime::kMillisecond);
+    for (int tries = 200; tries > 0 && !impl.server.bind_to_port("127.0.0.1", port_); --tries)
+      runtime::SteadyClock().sleepUntil(10 * runtime::kMillisecond);
   thread_ = std::thread([&impl] { impl.server.listen_after_bind(); });
   while (!impl.server.is_running()) runtime::SteadyClock().sleepUntil(runtime::kMillisecond);
 }
@@ -131,7 +145,9 @@ void LoopbackLrs::stop() {
   thread_.join();
 }
 
-std::string LoopbackLrs::url() const { return "http://127.0.0.1:" + std::to_string(port_) + "/xapi"; }
+std::string LoopbackLrs::url() const {
+  return "http://127.0.0.1:" + std::to_string(port_) + "/xapi";
+}
 
 std::map<std::string, LoopbackLrs::Stored> LoopbackLrs::stored() const {
   const std::lock_guard lock(impl_->mutex);

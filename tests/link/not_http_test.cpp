@@ -20,7 +20,10 @@ class Babbler {
     address.sin_family = AF_INET;
     address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
     socklen_t size = sizeof address;
-    if (::bind(socket_, reinterpret_cast<sockaddr*>(&address), size) != 0 || ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size) != 0 || ::listen(socket_, 8) != 0) throw std::runtime_error("no port");
+    if (::bind(socket_, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
+        ::getsockname(socket_, reinterpret_cast<sockaddr*>(&address), &size) != 0 ||
+        ::listen(socket_, 8) != 0)
+      throw std::runtime_error("no port");
     port_ = ntohs(address.sin_port);
     thread_ = std::thread([this] { run(); });
   }
@@ -31,7 +34,9 @@ class Babbler {
   }
   Babbler(const Babbler&) = delete;
   Babbler& operator=(const Babbler&) = delete;
-  std::string url(const std::string& scheme) const { return scheme + "://127.0.0.1:" + std::to_string(port_); }
+  std::string url(const std::string& scheme) const {
+    return scheme + "://127.0.0.1:" + std::to_string(port_);
+  }
 
  private:
   void run() {
@@ -53,7 +58,10 @@ LrsAnswer answerTo(const std::string& url) {
 }
 
 TEST(NoHttp, GarbageIsNoAnswer) {
-  for (const std::string& bytes : {std::string("\x00\xff\x13garbage\r\n\r\n", 14), std::string("HTTP/1.1 204"), std::string("HTTP/1.1 204 No Content\r\nX-Experience-API-Version: 1.0.3\r\n"), std::string()}) {
+  for (const std::string& bytes :
+       {std::string("\x00\xff\x13garbage\r\n\r\n", 14), std::string("HTTP/1.1 204"),
+        std::string("HTTP/1.1 204 No Content\r\nX-Experience-API-Version: 1.0.3\r\n"),
+        std::string()}) {
     const Babbler babbler(bytes);
     const LrsAnswer answer = answerTo(babbler.url("http"));
     EXPECT_EQ(answer.status, 0) << bytes;

@@ -1,4 +1,5 @@
-// From the records to a learning record store, whatever happens in between: every statement there exactly once.
+// From the records to a learning record store, whatever happens in between: every statement there
+// exactly once.
 #include "apps/link/tell.h"
 
 #include <gtest/gtest.h>
@@ -25,18 +26,27 @@ constexpr link::Pace kQuick{12, 1'000'000};
 class Tell : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = test::freshFolder("link", testing::UnitTest::GetInstance()->current_test_info()->name());
+    folder_ =
+        test::freshFolder("link", testing::UnitTest::GetInstance()->current_test_info()->name());
     store_ = std::make_unique<record::RecordStore>((folder_ / "records.sqlite").string());
     for (const char* id : {"A", "B"}) store_->addTrainee(person(id));
-    for (int i = 1; i <= kTrials / 2; ++i) store_->addTrial(sessionOf("A", 1), trialOf(i)), store_->addTrial(sessionOf("B", 2), trialOf(i));
+    for (int i = 1; i <= kTrials / 2; ++i)
+      store_->addTrial(sessionOf("A", 1), trialOf(i)),
+          store_->addTrial(sessionOf("B", 2), trialOf(i));
     lrs_.start();
   }
 
   link::Route route() const { return {lrs_.url(), "records"}; }
-  link::Queued queue(bool simulated = false) { return link::queueTrials(*store_, route(), {store_->trainees(), simulated, "https://centre.example"}, *outbox()); }
-  std::unique_ptr<link::Outbox> outbox() const { return std::make_unique<link::Outbox>(folder_ / "state/xapi.sqlite"); }
+  link::Queued queue(bool simulated = false) {
+    return link::queueTrials(*store_, route(),
+                             {store_->trainees(), simulated, "https://centre.example"}, *outbox());
+  }
+  std::unique_ptr<link::Outbox> outbox() const {
+    return std::make_unique<link::Outbox>(folder_ / "state/xapi.sqlite");
+  }
 
-  link::Sent send(const link::Pace& pace = kQuick, const link::Login& login = {"teacher", "secret"}) const {
+  link::Sent send(const link::Pace& pace = kQuick,
+                  const link::Login& login = {"teacher", "secret"}) const {
     const link::Endpoint endpoint = link::endpointOf(lrs_.url(), false);
     link::LrsClient client(endpoint, login, {1, 1});
     return link::sendWaiting(*outbox(), endpoint, client, pace);
@@ -79,13 +89,13 @@ TEST_F(Tell, ALostStateTellsAgainAndNothingIsThereTwice) {
   send();
   std::filesystem::remove_all(folder_ / "state");
   queue();
-  EXPECT_EQ(send().delivered, kTrials);   // 204 again
+  EXPECT_EQ(send().delivered, kTrials);  // 204 again
   std::filesystem::remove_all(folder_ / "state");
   lrs_.conflicts_on_same = true;
   queue();
   const link::Sent again = send();
   EXPECT_EQ(again.delivered, 0);
-  EXPECT_EQ(again.present, kTrials);   // 409, and the same when read
+  EXPECT_EQ(again.present, kTrials);  // 409, and the same when read
   expectAllOnce();
 }
 
@@ -106,9 +116,14 @@ TEST_F(Tell, MishapsOfEveryKind) {
   lrs_.stop();
   runtime::RandomStream dice(7, "mishaps");
   std::vector<Mishap> plan;
-  for (int i = 0; i < 40; ++i) plan.push_back(std::vector<Mishap>{none, drop_before, drop_after, error_500, login_page, unlike_an_lrs, too_many}[static_cast<std::size_t>(dice.uniform() * 7)]);
+  for (int i = 0; i < 40; ++i)
+    plan.push_back(std::vector<Mishap>{none, drop_before, drop_after, error_500, login_page,
+                                       unlike_an_lrs,
+                                       too_many}[static_cast<std::size_t>(dice.uniform() * 7)]);
   plan[4] = slow;
-  lrs_.mishap = [plan](int n) { return n < static_cast<int>(plan.size()) ? plan[static_cast<std::size_t>(n)] : none; };
+  lrs_.mishap = [plan](int n) {
+    return n < static_cast<int>(plan.size()) ? plan[static_cast<std::size_t>(n)] : none;
+  };
   lrs_.start();
   queue();
   const link::Sent sent = send();
@@ -122,7 +137,7 @@ TEST_F(Tell, KilledSendersAndAServerThatComesAndGoes) {
   runtime::RandomStream dice(11, "kills");
   lrs_.stop();
   lrs_.mishap = [](int) {
-    runtime::SteadyClock().sleepUntil(4 * runtime::kMillisecond);   // so that kills fall in between
+    runtime::SteadyClock().sleepUntil(4 * runtime::kMillisecond);  // so that kills fall in between
     return Mishap::none;
   };
   lrs_.start();
@@ -132,7 +147,9 @@ TEST_F(Tell, KilledSendersAndAServerThatComesAndGoes) {
     const int before = lrs_.puts();
     const pid_t sender = startSender();
     const runtime::SteadyClock waited;
-    while (lrs_.puts() == before && waited.now() < 5 * runtime::kSecond && !outbox()->waiting(lrs_.url()).empty()) runtime::SteadyClock().sleepUntil(runtime::kMillisecond);
+    while (lrs_.puts() == before && waited.now() < 5 * runtime::kSecond &&
+           !outbox()->waiting(lrs_.url()).empty())
+      runtime::SteadyClock().sleepUntil(runtime::kMillisecond);
     runtime::SteadyClock().sleepUntil(static_cast<std::int64_t>(dice.uniform() * 12e6));
     if (i % 3 == 2) lrs_.stop();
     ::kill(sender, SIGKILL);
@@ -152,23 +169,27 @@ TEST_F(Tell, AWrongPasswordIsNamedAndLosesNothing) {
     send(kQuick, {"teacher", "geheim"});
     ADD_FAILURE() << "was let in";
   } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("refuses user or password"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("refuses user or password"), std::string::npos)
+        << e.what();
     EXPECT_EQ(std::string(e.what()).find("geheim"), std::string::npos);
   }
   EXPECT_EQ(outbox()->waiting(lrs_.url()).size(), static_cast<std::size_t>(kTrials));
-  EXPECT_EQ(lrs_.puts(), 1);   // not twenty times
+  EXPECT_EQ(lrs_.puts(), 1);  // not twenty times
 }
 
 TEST_F(Tell, AnotherStatementUnderTheSameIdIsNotOverwritten) {
   queue();
-  nlohmann::json other = link::statementOf(sessionOf("A", 1), trialOf(3, 1), "https://centre.example");
+  nlohmann::json other =
+      link::statementOf(sessionOf("A", 1), trialOf(3, 1), "https://centre.example");
   lrs_.keep(other);
   const link::Sent sent = send();
   EXPECT_EQ(sent.delivered, kTrials - 1);
   ASSERT_EQ(sent.refused.size(), 1u);
-  EXPECT_EQ(sent.refused[0], "session " + uuidOf(1) + ", trial 3: another statement has this id already");
+  EXPECT_EQ(sent.refused[0],
+            "session " + uuidOf(1) + ", trial 3: another statement has this id already");
   EXPECT_EQ(sent.left, 1u);
-  EXPECT_EQ(lrs_.stored().at(link::statementId(uuidOf(1), 3)).statement["result"]["score"]["raw"], 1.0);
+  EXPECT_EQ(lrs_.stored().at(link::statementId(uuidOf(1), 3)).statement["result"]["score"]["raw"],
+            1.0);
 }
 
 TEST_F(Tell, OneThatIsRefusedDoesNotKeepTheOthersBack) {
@@ -177,7 +198,8 @@ TEST_F(Tell, OneThatIsRefusedDoesNotKeepTheOthersBack) {
   const link::Sent sent = send();
   EXPECT_EQ(sent.delivered, kTrials);
   ASSERT_EQ(sent.refused.size(), 1u);
-  EXPECT_NE(sent.refused[0].find("it answers 400 (actor is missing)"), std::string::npos) << sent.refused[0];
+  EXPECT_NE(sent.refused[0].find("it answers 400 (actor is missing)"), std::string::npos)
+      << sent.refused[0];
 }
 
 TEST_F(Tell, WhoWasDeletedIsTakenBack) {
@@ -193,7 +215,7 @@ TEST_F(Tell, WhoWasDeletedIsTakenBack) {
   EXPECT_TRUE(lrs_.stored().at(link::statementId(uuidOf(1), 1)).voided);
   expectAllOnce(kTrials + kTrials / 2);
   const std::string left = test::slurp(folder_ / "state/xapi.sqlite");
-  EXPECT_EQ(left.find("\"name\":\"A\""), std::string::npos);   // nothing of the person stays here
+  EXPECT_EQ(left.find("\"name\":\"A\""), std::string::npos);  // nothing of the person stays here
 }
 
 TEST_F(Tell, WhoIsDeletedBeforeAnythingWasSentIsNeverTold) {

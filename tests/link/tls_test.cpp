@@ -34,7 +34,8 @@ Certificate certificateFor(EVP_PKEY* key, const char* computer) {
   ASN1_TIME_set_string(X509_getm_notBefore(c), "20200101000000Z");
   ASN1_TIME_set_string(X509_getm_notAfter(c), "20991231000000Z");
   X509_set_pubkey(c, key);
-  X509_NAME_add_entry_by_txt(X509_get_subject_name(c), "CN", MBSTRING_ASC, reinterpret_cast<const unsigned char*>("test"), -1, -1, 0);
+  X509_NAME_add_entry_by_txt(X509_get_subject_name(c), "CN", MBSTRING_ASC,
+                             reinterpret_cast<const unsigned char*>("test"), -1, -1, 0);
   X509_set_issuer_name(c, X509_get_subject_name(c));
   addExtension(c, NID_basic_constraints, "critical,CA:TRUE");
   addExtension(c, NID_subject_alt_name, computer);
@@ -56,8 +57,11 @@ class ProtectedServer {
   ProtectedServer(const std::filesystem::path& folder, const char* computer) {
     const Key key(EVP_EC_gen("P-256"), EVP_PKEY_free);
     const Certificate certificate = certificateFor(key.get(), computer);
-    certificate_file = pem(folder / "certificate.pem", [&](std::FILE* f) { PEM_write_X509(f, certificate.get()); });
-    const std::string key_file = pem(folder / "key.pem", [&](std::FILE* f) { PEM_write_PrivateKey(f, key.get(), nullptr, nullptr, 0, nullptr, nullptr); });
+    certificate_file = pem(folder / "certificate.pem",
+                           [&](std::FILE* f) { PEM_write_X509(f, certificate.get()); });
+    const std::string key_file = pem(folder / "key.pem", [&](std::FILE* f) {
+      PEM_write_PrivateKey(f, key.get(), nullptr, nullptr, 0, nullptr, nullptr);
+    });
     server_ = std::make_unique<httplib::SSLServer>(certificate_file.c_str(), key_file.c_str());
     server_->Put("/statements", [this](const httplib::Request&, httplib::Response& response) {
       ++asked;
@@ -76,7 +80,8 @@ class ProtectedServer {
   ProtectedServer& operator=(const ProtectedServer&) = delete;
 
   LrsAnswer answer() const {
-    LrsClient client(endpointOf("https://127.0.0.1:" + std::to_string(port_), false), {"teacher", "secret"}, {5, 5});
+    LrsClient client(endpointOf("https://127.0.0.1:" + std::to_string(port_), false),
+                     {"teacher", "secret"}, {5, 5});
     return client.put("0a1b2c3d-4e5f-4a6b-8c7d-000000000001", "{}");
   }
 
@@ -91,7 +96,10 @@ class ProtectedServer {
 
 class Tls : public testing::Test {
  protected:
-  void SetUp() override { folder_ = test::freshFolder("link", testing::UnitTest::GetInstance()->current_test_info()->name()); }
+  void SetUp() override {
+    folder_ =
+        test::freshFolder("link", testing::UnitTest::GetInstance()->current_test_info()->name());
+  }
   void TearDown() override { ::unsetenv("SSL_CERT_FILE"); }
   std::filesystem::path folder_;
 };

@@ -1,4 +1,5 @@
-// Eight stations, each a process of its own, write 200 trials at once; writers are killed, the server goes away and comes back: no trial lost, none twice.
+// Eight stations, each a process of its own, write 200 trials at once; writers are killed, the
+// server goes away and comes back: no trial lost, none twice.
 #include <algorithm>
 #include <set>
 
@@ -29,7 +30,8 @@ class Stations : public Store {
   /// All at once, none allowed to write yet.
   std::vector<WriterProcess> start() const {
     std::vector<WriterProcess> stations;
-    for (int s = 0; s < kStations; ++s) stations.push_back(WriterProcess({url, traineeOf(s), std::to_string(kTrialsEach)}));
+    for (int s = 0; s < kStations; ++s)
+      stations.push_back(WriterProcess({url, traineeOf(s), std::to_string(kTrialsEach)}));
     return stations;
   }
 
@@ -56,11 +58,13 @@ class Stations : public Store {
   runtime::RandomStream dice_{2026, "stations"};
 };
 
-INSTANTIATE_TEST_SUITE_P(Both, Stations, testing::Values("SQLite", "PostgreSQL"), [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Both, Stations, testing::Values("SQLite", "PostgreSQL"),
+                         [](const auto& p) { return std::string(p.param); });
 
 /// What only a server can do.
 class ServerStations : public Stations {};
-INSTANTIATE_TEST_SUITE_P(Server, ServerStations, testing::Values("PostgreSQL"), [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Server, ServerStations, testing::Values("PostgreSQL"),
+                         [](const auto& p) { return std::string(p.param); });
 
 TEST_P(Stations, AllAtOnce) {
   auto stations = start();
@@ -68,7 +72,8 @@ TEST_P(Stations, AllAtOnce) {
   expectAllOnce();
 }
 
-/// Each is allowed one trial more than it has to say has arrived before it is killed: in the middle of that one, or just after.
+/// Each is allowed one trial more than it has to say has arrived before it is killed: in the middle
+/// of that one, or just after.
 TEST_P(Stations, KilledWritersAreMadeUpFor) {
   const int rounds = test::counted(1, 8);
   for (int round = 0; round < rounds; ++round) {
@@ -82,7 +87,7 @@ TEST_P(Stations, KilledWritersAreMadeUpFor) {
       EXPECT_EQ(station.wait(), 128 + SIGKILL);
     }
     RecordStore store(url);
-    for (int s = 0; s < kStations; ++s) {   // what was said to have arrived is there
+    for (int s = 0; s < kStations; ++s) {  // what was said to have arrived is there
       const auto there = store.trials({.trainee = traineeOf(s)}).size();
       EXPECT_GE(there, static_cast<std::size_t>(stations[static_cast<std::size_t>(s)].arrived()));
       EXPECT_LT(there, static_cast<std::size_t>(kTrialsEach));
@@ -97,14 +102,18 @@ TEST_P(ServerStations, TheServerIsKilledAndComesBack) {
   const int kills = test::counted(2, 8);
   auto stations = start();
   for (int k = 0; k < kills; ++k) {
-    const int more = kTrialsEach / (kills + 1), whole = k * more + 1 + static_cast<int>(dice_.bits() % static_cast<unsigned>(more));
+    const int more = kTrialsEach / (kills + 1),
+              whole = k * more + 1 + static_cast<int>(dice_.bits() % static_cast<unsigned>(more));
     for (WriterProcess& station : stations) station.allow(more);
-    for (WriterProcess& station : stations) ASSERT_TRUE(station.waitFor(std::min(whole, (k + 1) * more)));
+    for (WriterProcess& station : stations)
+      ASSERT_TRUE(station.waitFor(std::min(whole, (k + 1) * more)));
     runtime::SteadyClock().sleepUntil(static_cast<std::int64_t>(dice_.uniform() * 10e6));
     server->kill();
     if (k + 1 == kills)
-      for (WriterProcess& station : stations) station.allowAll();   // they write against a server that is not there
-    runtime::SteadyClock().sleepUntil(static_cast<std::int64_t>((0.05 + 0.2 * dice_.uniform()) * 1e9));
+      for (WriterProcess& station : stations)
+        station.allowAll();  // they write against a server that is not there
+    runtime::SteadyClock().sleepUntil(
+        static_cast<std::int64_t>((0.05 + 0.2 * dice_.uniform()) * 1e9));
     server->start();
   }
   runToTheEnd(stations);
@@ -112,7 +121,8 @@ TEST_P(ServerStations, TheServerIsKilledAndComesBack) {
 }
 
 TEST_P(Stations, OnAStoreThatNobodyMadeYet) {
-  const std::string fresh = onServer() ? server->freshDatabase() : (folder / "fresh.sqlite").string();
+  const std::string fresh =
+      onServer() ? server->freshDatabase() : (folder / "fresh.sqlite").string();
   std::vector<WriterProcess> stations;
   for (int s = 0; s < kStations; ++s) stations.push_back(WriterProcess({fresh, traineeOf(s)}));
   for (WriterProcess& station : stations) EXPECT_EQ(station.wait(), 0);

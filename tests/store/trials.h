@@ -8,7 +8,10 @@
 /// People, sessions and trials as tests store them.
 namespace palpa::record {
 
-inline Trainee novice(const std::string& id) { return {id, "novice", "3rd year", "right", "2026-03-01T10:00:00Z", "2026-03-01T10:00:00Z", "", "2027-03-01"}; }
+inline Trainee novice(const std::string& id) {
+  return {id, "novice",    "3rd year", "right", "2026-03-01T10:00:00Z", "2026-03-01T10:00:00Z",
+          "", "2027-03-01"};
+}
 
 inline StoredSession sessionOf(const std::string& trainee, const std::string& uuid) {
   StoredSession s;
@@ -36,7 +39,8 @@ inline StoredTrial trialOf(std::int64_t number, double total = 913.24) {
   t.success = true;
   t.score_json = R"({"TOTAL":913.24})";
   t.metrics = {{"closest_artery", std::numeric_limits<double>::quiet_NaN()}, {"total", total}};
-  t.events = {{5, "puncture", "The skin was punctured", 1.5}, {9, "note", "It's a note: ü", std::numeric_limits<double>::quiet_NaN()}};
+  t.events = {{5, "puncture", "The skin was punctured", 1.5},
+              {9, "note", "It's a note: ü", std::numeric_limits<double>::quiet_NaN()}};
   return t;
 }
 

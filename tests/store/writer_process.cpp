@@ -11,9 +11,10 @@
 namespace palpa::test {
 
 WriterProcess::WriterProcess(const std::vector<std::string>& arguments) {
-  ::signal(SIGPIPE, SIG_IGN);   // of one that was killed
+  ::signal(SIGPIPE, SIG_IGN);  // of one that was killed
   int in[2], out[2];
-  if (::pipe2(in, O_CLOEXEC) != 0 || ::pipe2(out, O_CLOEXEC) != 0) throw std::runtime_error("no pipe");
+  if (::pipe2(in, O_CLOEXEC) != 0 || ::pipe2(out, O_CLOEXEC) != 0)
+    throw std::runtime_error("no pipe");
   std::vector<char*> words{const_cast<char*>(PALPA_WRITER)};
   for (const std::string& word : arguments) words.push_back(const_cast<char*>(word.c_str()));
   words.push_back(nullptr);
@@ -31,7 +32,11 @@ WriterProcess::WriterProcess(const std::vector<std::string>& arguments) {
 }
 
 WriterProcess::WriterProcess(WriterProcess&& other) noexcept
-    : process_(std::exchange(other.process_, -1)), in_(std::exchange(other.in_, -1)), out_(std::exchange(other.out_, -1)), arrived_(other.arrived_), code_(other.code_) {}
+    : process_(std::exchange(other.process_, -1)),
+      in_(std::exchange(other.in_, -1)),
+      out_(std::exchange(other.out_, -1)),
+      arrived_(other.arrived_),
+      code_(other.code_) {}
 
 WriterProcess::~WriterProcess() {
   kill();
@@ -39,7 +44,9 @@ WriterProcess::~WriterProcess() {
   if (out_ >= 0) ::close(out_);
 }
 
-void WriterProcess::tell(const std::string& words) { (void)!::write(in_, words.data(), words.size()); }
+void WriterProcess::tell(const std::string& words) {
+  (void)!::write(in_, words.data(), words.size());
+}
 void WriterProcess::allow(int trials) { tell(std::string(static_cast<std::size_t>(trials), 'g')); }
 void WriterProcess::allowAll() { tell("f"); }
 

@@ -11,16 +11,16 @@ namespace palpa::test {
 class WriterProcess {
  public:
   explicit WriterProcess(const std::vector<std::string>& arguments);
-  ~WriterProcess();   ///< killed, if it still runs
+  ~WriterProcess();  ///< killed, if it still runs
   WriterProcess(WriterProcess&& other) noexcept;
   WriterProcess(const WriterProcess&) = delete;
 
-  void allow(int trials);        ///< so many more
+  void allow(int trials);  ///< so many more
   void allowAll();
-  bool waitFor(int arrived);     ///< until it says that so many have arrived; false: it ended before
+  bool waitFor(int arrived);  ///< until it says that so many have arrived; false: it ended before
   int arrived() const { return arrived_; }
-  void kill();                   ///< SIGKILL, and waits until it is gone
-  int wait();                    ///< for its end; its exit code, 128 + signal when it was killed
+  void kill();  ///< SIGKILL, and waits until it is gone
+  int wait();   ///< for its end; its exit code, 128 + signal when it was killed
 
  private:
   void tell(const std::string& words);

@@ -46,8 +46,8 @@ int addTrainee(const std::string& url, const std::string& trainee) {
 
 }  // namespace
 
-/// palpa_test_writer URL TRAINEE COUNT: a station that delivers a session, trial by trial; says "a" for each that has arrived.
-/// palpa_test_writer URL TRAINEE: adds the trainee; 3: is there already.
+/// palpa_test_writer URL TRAINEE COUNT: a station that delivers a session, trial by trial; says "a"
+/// for each that has arrived. palpa_test_writer URL TRAINEE: adds the trainee; 3: is there already.
 int main(int argc, char** argv) {
   try {
     if (argc == 3) return addTrainee(argv[1], argv[2]);
