@@ -42,6 +42,7 @@ std::unique_ptr<record::PendingHold> noteForRecords(const SessionOptions& o,
 
 void deliverSession(const SessionOptions& o, const std::filesystem::path& folder) {
   if (o.records.empty()) return;
+  if (!o.quiet) std::fprintf(stderr, "Bringing the trials into the records ...\n");
   try {
     const EvidenceDelivery done = deliverEvidence(folder / "session.palpa", o.records, kBriefly);
     const int all = done.trials.added + done.trials.present;
