@@ -106,6 +106,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   expert.seed = kDemonstrationSeed;
   expert.trials = 1;
   expert.trainee = "simulated-expert";
+  expert.records.clear();   // what was shown is nobody's trial
   expert.fast = expert.no_views = expert.quiet = true;
   expert.display = scene::Display::offscreen;
   expert.headset = false;

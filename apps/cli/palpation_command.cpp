@@ -7,6 +7,7 @@
 #include "apps/cli/palpation_session.h"
 #include "apps/cli/session_arguments.h"
 #include "apps/cli/session_commands.h"
+#include "apps/cli/session_records.h"
 #include "apps/station/assets.h"
 
 namespace palpa::cli {
@@ -35,8 +36,10 @@ void runPalpationCommand(SessionOptions options) {
   if (options.headset) throw UsageError("does not show palpation yet", "--display openxr", "Choose window or offscreen");
   const PalpationWorld world(options);
   settleOperator(options, world.station);
+  checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
   writePalpationOutcome(options, world, runPalpation(options, world, folder), folder);
+  deliverSession(options, folder);
 }
 
 void addPalpation(CLI::App& program) {

@@ -7,6 +7,7 @@
 #include "apps/cli/session_arguments.h"
 #include "apps/cli/session_commands.h"
 #include "apps/cli/session_outcome.h"
+#include "apps/cli/session_records.h"
 
 namespace palpa::cli {
 namespace {
@@ -30,10 +31,12 @@ void runParacentesisCommand(SessionOptions options) {
   settle(options);
   NeedleWorld world(options);
   settleOperator(options, world.station);
+  checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
   if (options.who == OperatorKind::person && options.demonstration) showDemonstration(options, world, folder);
   const SessionResult result = runNeedleSession(options, world, folder);
   writeOutcome(options, world, result, folder);
+  deliverSession(options, folder);
 }
 
 void addParacentesis(CLI::App& program) {

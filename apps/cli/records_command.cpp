@@ -7,26 +7,16 @@
 #include "anatomy/geometry/whole_file.h"
 #include "apps/assess/metrics/metric_table.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/evidence_records.h"
+#include "apps/cli/deliver_evidence.h"
 #include "apps/cli/output_folder.h"
+#include "apps/cli/records_actions.h"
 #include "apps/cli/records_place.h"
-#include "apps/record/session_file.h"
-#include "apps/record/store/delivery.h"
 #include "apps/record/store/pending.h"
 
 namespace palpa::cli {
 namespace {
 
 namespace fs = std::filesystem;
-
-struct RecordsOptions {
-  std::string url;
-  record::Trainee trainee;
-  std::string group, experience, handedness, retain_until;   ///< of a change: empty leaves it
-  bool consent = false, research = false, yes = false;
-  std::vector<std::string> sessions;
-  std::string out;
-};
 
 void print(const record::Trainee& t, std::size_t sessions) {
   std::printf("%-16s %-14s %-20s %-6s consent %-10s research %-10s keep until %-10s %zu session%s\n", t.id.c_str(), t.group.c_str(), t.experience.c_str(), t.handedness.c_str(),
@@ -50,16 +40,15 @@ void addTrainee(RecordsOptions o) {
 
 void changeTrainee(const RecordsOptions& o) {
   record::RecordStore store(o.url);
-  std::optional<record::Trainee> t = store.trainee(o.trainee.id);
-  if (!t) throw UsageError("is not in the records", "trainee " + o.trainee.id, "palpa records trainee list shows who is");
-  if (!o.group.empty()) t->group = o.group;
-  if (!o.experience.empty()) t->experience = o.experience;
-  if (!o.handedness.empty()) t->handedness = o.handedness;
-  if (!o.retain_until.empty()) t->retain_until = o.retain_until;
-  if (o.consent) t->consent_utc = utcNow();
-  if (o.research) t->research_utc = utcNow();
-  store.changeTrainee(*t);
-  print(*t, store.sessions(t->id).size());
+  record::Trainee t = traineeIn(store, o.trainee.id);
+  if (!o.group.empty()) t.group = o.group;
+  if (!o.experience.empty()) t.experience = o.experience;
+  if (!o.handedness.empty()) t.handedness = o.handedness;
+  if (!o.retain_until.empty()) t.retain_until = o.retain_until;
+  if (o.consent) t.consent_utc = utcNow();
+  if (o.research) t.research_utc = utcNow();
+  store.changeTrainee(t);
+  print(t, store.sessions(t.id).size());
 }
 
 void listTrainees(const RecordsOptions& o) {
@@ -69,60 +58,39 @@ void listTrainees(const RecordsOptions& o) {
   for (const record::Trainee& t : all) print(t, store.sessions(t.id).size());
 }
 
-/// Noted until the store has all of it, so that what cannot be sent now is sent by `palpa records deliver`.
-void deliverEvidence(const fs::path& file, const std::string& url) {
-  const EvidenceRecords records = recordsOf(file);
-  record::PendingList pending(record::PendingList::usualFolder());
-  pending.note({records.session.uuid, file, url});
+void bring(const fs::path& file, const std::string& url) {
   try {
-    const record::Delivered delivered = record::deliver(url, records.session, records.trials);
-    std::printf("%s: trainee %s, %d trial%s added, %d there already%s\n", file.string().c_str(), records.session.trainee.c_str(), delivered.added, delivered.added == 1 ? "" : "s", delivered.present,
-                records.unfinished ? ", one unfinished left out" : "");
+    const EvidenceDelivery done = deliverEvidence(file, url);
+    std::printf("%s: trainee %s, %s added, %d there already%s\n", file.string().c_str(), done.trainee.c_str(), counted(static_cast<std::size_t>(done.trials.added), "trial").c_str(), done.trials.present, done.unfinished ? ", one unfinished left out" : "");
   } catch (const record::StoreUnreachable&) {
     std::printf("%s: noted; palpa records deliver sends it\n", file.string().c_str());
     throw;
-  } catch (...) {   // a mistake that time does not mend
-    pending.forget(records.session.uuid);
-    throw;
   }
-  pending.forget(records.session.uuid);
 }
 
 void addSessions(const RecordsOptions& o) {
-  for (const std::string& session : o.sessions) deliverEvidence(fs::is_directory(session) ? fs::path(session) / "session.palpa" : fs::path(session), o.url);
+  for (const std::string& session : o.sessions) bring(fs::is_directory(session) ? fs::path(session) / "session.palpa" : fs::path(session), o.url);
 }
 
-void deliverPending(const RecordsOptions&) {
-  const auto waiting = record::PendingList(record::PendingList::usualFolder()).sessions();
+/// One that fails does not keep the others back.
+void deliverPending(const RecordsOptions& o) {
+  record::PendingList pending(record::PendingList::usualFolder());
+  if (!o.forget.empty()) pending.forget(o.forget);
+  const auto waiting = pending.sessions();
   if (waiting.empty()) std::printf("Nothing waits to be delivered\n");
-  for (const record::PendingSession& session : waiting) deliverEvidence(session.evidence, session.url);
-}
-
-/// Only what is this session's evidence: another file may lie there by now.
-bool removeEvidence(const record::StoredSession& session) {
-  try {
-    if (record::SessionReader(session.evidence).info().uuid != session.uuid) return false;
-  } catch (const Error&) {   // not here, or not to be read
-    return false;
-  }
-  std::error_code problem;
-  const bool gone = fs::remove(session.evidence, problem);
-  for (const char* beside : {"-wal", "-shm"}) fs::remove(session.evidence + beside, problem);
-  return gone;
-}
-
-void deletePerson(const RecordsOptions& o) {
-  record::RecordStore store(o.url);
-  const std::size_t sessions = store.sessions(o.trainee.id).size();
-  if (!o.yes) throw UsageError("would delete this person's " + std::to_string(sessions) + " sessions with their evidence for good", "trainee " + o.trainee.id, "Add --yes if that is meant");
-  for (const record::StoredSession& session : store.deletePerson(o.trainee.id, utcNow())) {
-    if (!removeEvidence(session)) continue;
-    store.evidenceDeleted(session.uuid);
-    std::printf("Deleted: %s; its folder may still hold a report and pictures\n", session.evidence.c_str());
-  }
-  std::printf("Trainee %s and %zu session%s deleted; late deliveries will be refused\n", o.trainee.id.c_str(), sessions, sessions == 1 ? "" : "s");
-  for (const record::StoredSession& left : store.evidenceToDelete())
-    std::printf("Still to be deleted where it was made: %s (session %s)\n", left.evidence.c_str(), left.uuid.c_str());
+  std::size_t failed = 0;
+  for (const record::PendingSession& session : waiting) try {
+      if (pending.isHeld(session.uuid)) {
+        std::printf("Session %s is still going on\n", session.uuid.c_str());
+        continue;
+      }
+      bring(session.evidence, session.url);
+      pending.forget(session.uuid);
+    } catch (const Error& e) {
+      std::printf("Session %s waits on: %s\n", session.uuid.c_str(), e.what());
+      ++failed;
+    }
+  if (failed > 0) throw Error("could not be delivered: see above", counted(failed, "session"), "Try again later; one that never can be: palpa records deliver --forget UUID");
 }
 
 void writeMetrics(const RecordsOptions& o) {
@@ -143,28 +111,28 @@ CLI::App* sub(CLI::App* parent, const std::shared_ptr<RecordsOptions>& o, const 
   return command;
 }
 
+std::string whyNoDate(const std::string& d) {
+  const bool date = d.size() == 10 && d[4] == '-' && d[7] == '-' && d.find_first_not_of("0123456789-") == std::string::npos;
+  return date ? "" : "a date is written 2027-03-01";
+}
+
 void addTraineeOptions(CLI::App* command, RecordsOptions& o) {
   command->add_option("--group", o.group, "In the educator's words: novice, experienced, ...");
   command->add_option("--experience", o.experience, "\"3rd year\", \"50 lines\", ...");
   command->add_option("--handedness", o.handedness, "right (default) or left")->check(CLI::IsMember({"right", "left"}));
-  command->add_option("--keep-until", o.retain_until, "Date after which the records are to be deleted")->type_name("YYYY-MM-DD")->check([](const std::string& d) {
-    const bool date = d.size() == 10 && d[4] == '-' && d[7] == '-' && d.find_first_not_of("0123456789-") == std::string::npos;
-    return date ? std::string() : std::string("a date is written 2027-03-01");
-  });
+  command->add_option("--keep-until", o.retain_until, "Date after which the records are to be deleted")->type_name("YYYY-MM-DD")->check(whyNoDate);
   command->add_flag("--consent", o.consent, "The trainee has agreed to training records, today");
   command->add_flag("--research", o.research, "The trainee has agreed to use in studies, today");
 }
 
 CLI::Option* addId(CLI::App* command, RecordsOptions& o) { return command->add_option("--id", o.trainee.id, "The trainee's pseudonym")->required()->type_name("ID"); }
 
-}  // namespace
+void addWho(CLI::App* command, RecordsOptions& o) {
+  command->add_option("--id", o.trainee.id, "One trainee's pseudonym")->type_name("ID");
+  command->add_flag("--all", o.all, "Everybody in the records");
+}
 
-void addRecords(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("records", "Trainees and their trials: one store for all sessions");
-  command->require_subcommand(1);
-  command->footer("Examples:\n  palpa records trainee add --id T001 --group novice --consent\n  palpa paracentesis --trainee T001\n  palpa records add out/paracentesis-20260301-120000\n"
-                  "  palpa records trainee list\n  palpa records delete --id T001 --yes");
-  const auto o = std::make_shared<RecordsOptions>();
+void addTrainees(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   CLI::App* trainee = command->add_subcommand("trainee", "Who trains, by pseudonym");
   trainee->require_subcommand(1);
   CLI::App* add = sub(trainee, o, "add", "Add a trainee", [](const RecordsOptions& r) { addTrainee(r); });
@@ -174,15 +142,55 @@ void addRecords(CLI::App& program) {
     addTraineeOptions(one, *o);
   }
   sub(trainee, o, "list", "Who is in the records", listTrainees);
-  sub(command, o, "add", "Bring finished sessions into the records; as often as you like", addSessions)->add_option("sessions", o->sessions, "session.palpa, or a session's folder")->required()->type_name("FILE...");
-  CLI::App* waiting = command->add_subcommand("deliver", "Send what could not be sent before");
-  waiting->callback([o] { deliverPending(*o); });
+  addId(sub(command, o, "show", "Sessions and trials of a person, in plain words", showTrainee), *o);
+  CLI::App* overdue = sub(command, o, "overdue", "Whose records were to be kept until a day that is past", listOverdue);
+  overdue->add_option("--date", o->date, "In place of today")->type_name("YYYY-MM-DD")->check(whyNoDate);
+  overdue->add_flag("--delete", o->remove, "Delete them, with their evidence");
   CLI::App* remove = sub(command, o, "delete", "Delete a person: records and evidence, for good", deletePerson);
   addId(remove, *o);
-  remove->add_flag("--yes", o->yes, "Yes, for good");
+  for (CLI::App* one : {overdue, remove}) one->add_flag("--yes", o->yes, "Yes, for good");
+}
+
+void addStore(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
+  sub(command, o, "add", "Bring finished sessions into the records; as often as you like", addSessions)->add_option("sessions", o->sessions, "session.palpa, or a session's folder")->required()->type_name("FILE...");
+  CLI::App* waiting = command->add_subcommand("deliver", "Send what could not be sent before");
+  waiting->add_option("--forget", o->forget, "A session that is not to be sent any more")->type_name("UUID");
+  waiting->callback([o] { deliverPending(*o); });
+  sub(command, o, "backup", "Everything into one file", backUpRecords)->add_option("--out", o->out, "File to be made")->required()->type_name("FILE");
+  sub(command, o, "restore", "A backup into empty records: a new file, or an empty database on a server", restoreRecords)->add_option("--from", o->from, "File that palpa records backup wrote")->required()->type_name("FILE");
+  sub(command, o, "migrate", "Bring the tables to the newest version, and say from which", migrateRecords);
+}
+
+void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
+  CLI::App* data = sub(command, o, "export", "Tables for other programs, with a dictionary: people by pseudonym", exportRecords);
+  addWho(data, *o);
+  data->add_option("--out", o->out, "Folder (default out/records-<time>)")->type_name("DIR");
+  data->add_option("--format", o->format, "csv, json, or both (default)")->check(CLI::IsMember({"csv", "json", "both"}))->type_name("csv|json|both");
+  data->add_flag("--research", o->research, "For a study: only who has agreed to that");
+  data->add_flag("--paths", o->paths, "With the places of evidence on this computer");
+  CLI::App* tell = sub(command, o, "xapi", "Tell a learning record store of trials (xAPI); what cannot be sent now waits and is sent next time", tellRecords);
+  tell->add_option("--to", o->to, "Its address, without user and password")->required()->type_name("URL");
+  addWho(tell, *o);
+  tell->add_option("--user", o->user, "The password comes from PALPA_XAPI_PASSWORD or ~/.netrc")->type_name("NAME");
+  tell->add_option("--home-page", o->home_page, "Whose pseudonyms these are: an address of your centre")->type_name("IRI");
+  tell->add_flag("--simulated", o->simulated, "Tell of simulated sessions, too");
+  tell->add_flag("--insecure", o->insecure, "Allow http to another computer");
   CLI::App* table = command->add_subcommand("metrics", "What every figure of a trial is: definition, unit, direction");
   table->add_option("--out", o->out, "Markdown file; default: standard output")->type_name("FILE");
   table->callback([o] { writeMetrics(*o); });
+}
+
+}  // namespace
+
+void addRecords(CLI::App& program) {
+  CLI::App* command = program.add_subcommand("records", "Trainees and their trials: one store for all sessions");
+  command->require_subcommand(1);
+  command->footer("Examples:\n  palpa records trainee add --id T001 --group novice --consent\n  palpa paracentesis --trainee T001 --records ~/records.sqlite\n  palpa records add out/paracentesis-20260301-120000\n"
+                  "  palpa records show --id T001\n  palpa records export --all --out data\n  palpa records backup --out records-2026-03-01.sqlite\n  palpa records delete --id T001 --yes");
+  const auto o = std::make_shared<RecordsOptions>();
+  addTrainees(command, o);
+  addStore(command, o);
+  addData(command, o);
 }
 
 }  // namespace palpa::cli

@@ -6,6 +6,7 @@
 #include "apps/cli/search_session.h"
 #include "apps/cli/session_arguments.h"
 #include "apps/cli/session_commands.h"
+#include "apps/cli/session_records.h"
 
 namespace palpa::cli {
 namespace {
@@ -29,8 +30,10 @@ void runSearchCommand(SessionOptions options) {
   const SearchWorld world(options);
   settleOperator(options, world.station);
   if (options.who == OperatorKind::person && world.onBench()) throw UsageError("cannot be felt with a mouse", "--operator person", "Give a station with a haptic device (--station), or take --operator expert or novice");
+  checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
   writeSearchOutcome(options, world, runSearch(options, world, folder), folder);
+  deliverSession(options, folder);
 }
 
 void addSearch(CLI::App& program) {

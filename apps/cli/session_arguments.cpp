@@ -65,6 +65,9 @@ void addRunArguments(CLI::App& command, SessionOptions& o) {
   command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(CLI::Range(1, 1000));
   command.add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")
       ->check(record::whyNoPseudonym);
+  command.add_option("--records", o.records, "Bring finished trials into these records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, else nobody is recorded)")
+      ->envname("PALPA_RECORDS")
+      ->type_name("FILE|URL");
   command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can, repeats exactly");
   command.add_flag("--record-video", o.record_video, "Keep the camera's pictures beside their poses: camera.mjpeg and a table");
   command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");

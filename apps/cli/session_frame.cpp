@@ -2,6 +2,8 @@
 
 #include "apps/cli/interrupt.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/session_records.h"
+#include "apps/record/uuid.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/recorder_activity.h"
 
@@ -61,14 +63,16 @@ std::unique_ptr<runtime::Activity> SessionFrame::loop(runtime::GeometryActivity*
   return std::make_unique<runtime::HapticPairActivity>(bus_, std::array<Tool, 2>{Tool{devices_.device(), *devices_.sensing()}, Tool{devices_.second()->device, *devices_.second()->sensing}}, *world_.pair);
 }
 
-SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, const record::SessionInfo& info, runtime::GeometryActivity* geometry) {
+SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, record::SessionInfo info, runtime::GeometryActivity* geometry) {
   const std::unique_ptr<runtime::Activity> haptic = loop(geometry);
   runtime::CameraActivity camera(bus_, pictures_.exposer(devices_.bench(), executive_->clock()), pictures_.board(), pictures_.camera(), pictures_.settings(mode_),
                                  [this, look = pictures_.observer(devices_.bench())](const runtime::CameraView& view) {
                                    look(view);
                                    if (video_) video_->add(view);
                                  });
+  if (info.uuid.empty()) info.uuid = record::newUuid();
   record::SessionWriter writer(folder_ / "session.palpa", info);
+  const auto noted = noteForRecords(options_, info.uuid, folder_ / "session.palpa");
   if (options_.record_video) video_.emplace(folder_);
   runtime::RecorderActivity recorder(bus_, writer, world_.tick.period_ns);
   Progress progress(options_.quiet);

@@ -54,7 +54,7 @@ class SessionFrame {
   SessionFrame(const SessionOptions& options, const World& world, SessionDevices::Hands hands, trial::Channels& channels, const std::filesystem::path& folder);
 
   /// Adds the activities and runs them until the task ends the session; `geometry` null: the tick asks for none. The evidence file is made last: a mistake in the set-up leaves none behind.
-  SessionRun run(trial::TrialTask& task, trial::TrialScene& scene, const record::SessionInfo& info, runtime::GeometryActivity* geometry = nullptr);
+  SessionRun run(trial::TrialTask& task, trial::TrialScene& scene, record::SessionInfo info, runtime::GeometryActivity* geometry = nullptr);
 
   /// Where and how the scene shows; with a window its keys are obeyed.
   trial::TrialScene::Stage stage(runtime::HeadDisplay* head = nullptr);

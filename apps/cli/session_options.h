@@ -28,6 +28,7 @@ struct SessionOptions {
   bool force_feedback = true;
   int trials = 1;
   std::string trainee = "T000";
+  std::string records;            ///< where finished trials go; empty: nobody is recorded
   bool fast = false;
   bool no_views = false;
   bool record_video = false;      ///< keep the camera's pictures

@@ -5,6 +5,7 @@
 #include "apps/cli/output_folder.h"
 #include "apps/cli/session_arguments.h"
 #include "apps/cli/session_commands.h"
+#include "apps/cli/session_records.h"
 #include "apps/cli/squeeze_session.h"
 
 namespace palpa::cli {
@@ -24,8 +25,10 @@ void runSqueezeCommand(SessionOptions options) {
   if (!isSimulated(options.who)) throw UsageError("cannot hold something with one device", "--operator", "Two devices are simulated only, so far: --operator expert or novice");
   if (options.headset) throw UsageError("does not show squeezing yet", "--display openxr", "Choose window or offscreen");
   const SqueezeWorld world(options);
+  checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
   writeSqueezeOutcome(options, world, runSqueeze(options, world, folder), folder);
+  deliverSession(options, folder);
 }
 
 void addSqueeze(CLI::App& program) {

@@ -1,10 +1,9 @@
 #pragma once
 
-#include <string>
+#include "anatomy/geometry/csv_field.h"
 
 namespace palpa::report {
 
-/// A text as a field of a CSV, RFC 4180: quoted only where needed, quotes doubled.
-std::string csvField(const std::string& text);
+using palpa::csvField;
 
 }  // namespace palpa::report

@@ -23,6 +23,13 @@ void redirect(const fs::path& file, int stream) {
   ::close(fd);
 }
 
+/// From whoever runs the tests: their records and what waits to be sent. A test that means records by the environment names them in PALPA_TEST_RECORDS.
+void keepApart(const fs::path& folder) {
+  ::setenv("XDG_STATE_HOME", (folder / "state").c_str(), 0);
+  if (const char* records = std::getenv("PALPA_TEST_RECORDS")) ::setenv("PALPA_RECORDS", records, 1);
+  else ::unsetenv("PALPA_RECORDS");
+}
+
 [[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder,
                          const fs::path& out, const fs::path& err, int fill) {
   // Fresh memory holds another byte in every run: what is read before it is written then differs.
@@ -32,6 +39,7 @@ void redirect(const fs::path& file, int stream) {
   redirect(err, STDERR_FILENO);
   if (::chdir(folder.c_str()) != 0) ::_exit(126);
   ::unsetenv("DISPLAY");
+  keepApart(folder);
   arguments.insert(arguments.begin(), PALPA_PROGRAM);
   std::vector<char*> argv;
   for (std::string& argument : arguments) argv.push_back(argument.data());

@@ -76,6 +76,7 @@ std::vector<Layer> makeLayers() {
        librariesAnd({"apps/runtime"}),
        {},
        {"Eigen", "JSON", "SQLite", "zlib"}},
+      {"apps/link", {"anatomy/geometry", "apps/record", "apps/assess/metrics", "apps/runtime", "apps/station"}, {}, {"JSON", "httplib", "OpenSSL"}},
       {"apps/report", librariesAnd({"apps/assess"}), {}, {"Eigen", "JSON", "VTK", "VTK data", "Cairo"}},
       {"apps/twin/phantom", {"anatomy/geometry", "apps/station"}, {}, {"Eigen", "JSON"}},
       {"apps/twin", librariesAnd({"apps/runtime", "apps/station"}), {}, app_libraries},

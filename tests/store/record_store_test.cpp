@@ -4,6 +4,8 @@
 #include <fstream>
 
 #include "apps/record/store/migrations.h"
+#include "tests/support/counts.h"
+#include "tests/support/damage.h"
 
 namespace palpa::record {
 namespace {
@@ -210,6 +212,39 @@ TEST(DamagedFile, IsNamedAndLeftAlone) {
   const std::string message = messageOf([&] { RecordStore store(file); });
   EXPECT_TRUE(says(message, "damaged") || says(message, "malformed")) << message;
   EXPECT_EQ(std::filesystem::file_size(file), size);
+}
+
+/// A flipped byte within a text may go unseen, one in the file's structure may not; a file that was cut never does. What is refused stays as it is.
+TEST(DamagedFile, FlippedBytesAndCutsAreNamed) {
+  const auto folder = test::freshFolder("store", "flipped");
+  const std::string whole = (folder / "whole.sqlite").string(), file = (folder / "records.sqlite").string();
+  {
+    RecordStore store(whole);
+    store.addTrainee(novice("A"));
+    for (int i = 1; i <= 40; ++i) store.addTrial(sessionOf("A", "u1"), trialOf(i));
+  }
+  const std::string bytes = test::slurp(whole);
+  test::DamageDice dice(5);
+  int named = 0;
+  const int rounds = test::counted(80, 3000);
+  for (int i = 0; i < rounds; ++i) {
+    std::string damaged = bytes;
+    const bool cut = i % 4 == 0;
+    if (cut) damaged.resize(1 + dice.below(bytes.size() - 1));
+    else damaged[dice.below(bytes.size())] ^= static_cast<char>(1 + dice.below(255));
+    for (const char* beside : {"", "-wal", "-shm"}) std::filesystem::remove(file + beside);
+    std::ofstream(file, std::ios::binary) << damaged;
+    try {
+      RecordStore store(file);
+      for (const TrialWithSession& t : store.trials()) store.events(t.session.uuid, t.trial.number);
+      EXPECT_FALSE(cut) << damaged.size();
+    } catch (const Error& e) {
+      test::expectClearWord(e, "records file " + file);
+      EXPECT_EQ(test::slurp(file), damaged) << e.what();
+      ++named;
+    }
+  }
+  EXPECT_GT(named, rounds / 4);
 }
 
 TEST(Server, SaysWhyItRefuses) {

@@ -1,5 +1,9 @@
 #include "apps/record/store/pending.h"
 
+#include <fcntl.h>
+#include <sys/file.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdlib>
 #include <fstream>
@@ -15,6 +19,14 @@ constexpr char kSuffix[] = ".pending";
 
 }  // namespace
 
+PendingHold::PendingHold(const fs::path& note) : descriptor_(::open(note.c_str(), O_RDONLY | O_CLOEXEC)) {
+  if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX | LOCK_NB);
+}
+
+PendingHold::~PendingHold() {
+  if (descriptor_ >= 0) ::close(descriptor_);
+}
+
 PendingList::PendingList(fs::path folder) : folder_(std::move(folder)) {}
 
 fs::path PendingList::usualFolder() {
@@ -23,11 +35,13 @@ fs::path PendingList::usualFolder() {
   return fs::path(home && *home ? home : "/tmp") / ".local/state/palpa/pending";
 }
 
+fs::path PendingList::noteOf(const std::string& uuid) const { return folder_ / (uuid + kSuffix); }
+
 void PendingList::note(const PendingSession& session) {
   std::error_code problem;
   fs::create_directories(folder_, problem);
   if (problem) throw Error("cannot be made (" + problem.message() + ")", folder_.string(), "Make it writable, or set XDG_STATE_HOME to another folder");
-  writeWhole(folder_ / (session.uuid + kSuffix), fs::absolute(session.evidence).string() + "\n" + session.url + "\n");
+  writeWhole(noteOf(session.uuid), fs::absolute(session.evidence).string() + "\n" + session.url + "\n");
 }
 
 std::vector<PendingSession> PendingList::sessions() const {
@@ -45,7 +59,17 @@ std::vector<PendingSession> PendingList::sessions() const {
 
 void PendingList::forget(const std::string& uuid) {
   std::error_code ignored;
-  fs::remove(folder_ / (uuid + kSuffix), ignored);
+  fs::remove(noteOf(uuid), ignored);
+}
+
+std::unique_ptr<PendingHold> PendingList::hold(const std::string& uuid) const { return std::make_unique<PendingHold>(noteOf(uuid)); }
+
+bool PendingList::isHeld(const std::string& uuid) const {
+  const int descriptor = ::open(noteOf(uuid).c_str(), O_RDONLY | O_CLOEXEC);
+  if (descriptor < 0) return false;
+  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;
+  ::close(descriptor);
+  return held;
 }
 
 }  // namespace palpa::record

@@ -8,6 +8,7 @@ namespace palpa::record {
 namespace {
 
 constexpr char kConnectSeconds[] = "10";
+constexpr char kSilent_ms[] = "20000";   // a server behind a pulled cable is away after that
 constexpr std::int64_t kSchemaLock = 0x70616c70615f72;   // any number, the same in all stations
 
 std::string firstLine(const std::string& text) {
@@ -34,7 +35,7 @@ class PostgresConnection final : public SqlConnection {
   explicit PostgresConnection(std::string url) : url_(std::move(url)) {
     guarded([&] {
       const bool has_options = url_.find('?') != std::string::npos;
-      connection_ = std::make_unique<pqxx::connection>(url_ + (has_options ? "&" : "?") + "connect_timeout=" + kConnectSeconds + "&client_encoding=UTF8&application_name=palpa");
+      connection_ = std::make_unique<pqxx::connection>(url_ + (has_options ? "&" : "?") + "connect_timeout=" + kConnectSeconds + "&tcp_user_timeout=" + kSilent_ms + "&client_encoding=UTF8&application_name=palpa");
     });
   }
 

@@ -1,5 +1,6 @@
 #include "apps/record/store/record_store.h"
 
+#include <charconv>
 #include <limits>
 
 #include "apps/record/store/migrations.h"
@@ -27,6 +28,13 @@ std::vector<Trainee> traineesOf(const SqlRows& rows) {
 
 std::vector<SqlValue> valuesOf(const Trainee& t) { return {t.id, t.group, t.experience, t.handedness, t.added_utc, t.consent_utc, t.research_utc, t.retain_until}; }
 
+std::uint64_t seedOf(const std::string& digits, const SqlConnection& store) {
+  std::uint64_t seed = 0;
+  const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
+  if (problem != std::errc() || end != digits.data() + digits.size()) throw Error("is damaged (a seed is no number)", store.place(), "Restore a backup: palpa records restore");
+  return seed;
+}
+
 void require(const Trainee& trainee) {
   if (const std::string why = whyNoPseudonym(trainee.id); !why.empty()) throw UsageError(why, "trainee \"" + trainee.id + "\"", "Choose another pseudonym");
   if (trainee.handedness != "right" && trainee.handedness != "left") throw UsageError("must be right or left", "handedness of " + trainee.id, "Give one of them");
@@ -51,7 +59,7 @@ RecordStore::RecordStore(const std::string& url) : RecordStore(connect(url)) {}
 void RecordStore::addTrainee(const Trainee& trainee) {
   require(trainee);
   SqlTransaction transaction(*connection_);
-  if (!connection_->query("SELECT 1 FROM deletions WHERE digest=$1", {station::sha256(trainee.id)}).empty())
+  if (wasDeleted(station::sha256(trainee.id)))
     throw UsageError("was deleted on request, and late deliveries under this name are refused", "trainee " + trainee.id, "Choose another pseudonym");
   const SqlRows added = connection_->query("INSERT INTO trainees(" + columnsOf("trainees") + ") VALUES($1,$2,$3,$4,$5,$6,$7,$8) ON CONFLICT(id) DO NOTHING RETURNING id", valuesOf(trainee));
   if (added.empty()) throw UsageError("is in the records already", "trainee " + trainee.id, "Choose another pseudonym, or change this one: palpa records trainee change");
@@ -74,6 +82,8 @@ std::optional<Trainee> RecordStore::trainee(const std::string& id) {
 
 std::vector<Trainee> RecordStore::trainees() { return traineesOf(connection_->query("SELECT " + columnsOf("trainees") + " FROM trainees ORDER BY id")); }
 
+bool RecordStore::wasDeleted(const std::string& digest) { return !connection_->query("SELECT 1 FROM deletions WHERE digest=$1", {digest}).empty(); }
+
 std::vector<Trainee> RecordStore::overdue(const std::string& date) {
   return traineesOf(connection_->query("SELECT " + columnsOf("trainees") + " FROM trainees WHERE retain_until<>'' AND retain_until<$1 ORDER BY id", {date}));
 }
@@ -81,7 +91,7 @@ std::vector<Trainee> RecordStore::overdue(const std::string& date) {
 /// The trainee's row is locked by the update, so two stations number his sessions one after the other.
 void RecordStore::requireSession(const StoredSession& s) {
   if (connection_->query("UPDATE trainees SET id=id WHERE id=$1 RETURNING id", {s.trainee}).empty()) {
-    if (!connection_->query("SELECT 1 FROM deletions WHERE digest=$1", {station::sha256(s.trainee)}).empty())
+    if (wasDeleted(station::sha256(s.trainee)))
       throw PersonDeleted("was deleted on request; the trial is refused", "trainee " + s.trainee, "Its evidence is to be removed, too");
     throw UsageError("is not in the records", "trainee " + s.trainee, "Add it: palpa records trainee add --id " + s.trainee);
   }
@@ -146,7 +156,7 @@ std::vector<TrialWithSession> RecordStore::trials(const TrialFilter& f) {
   for (std::size_t i = 0; i < rows.size(); ++i) {
     constexpr std::size_t c = kSessionColumnCount;
     TrialWithSession entry{sessionOf(rows, i),
-                           {rows.integer(i, c), rows.integer(i, c + 1), rows.integer(i, c + 2), rows.text(i, c + 3), std::stoull("0" + rows.text(i, c + 4)), rows.integer(i, c + 5) != 0, rows.text(i, c + 6), rows.text(i, c + 7),
+                           {rows.integer(i, c), rows.integer(i, c + 1), rows.integer(i, c + 2), rows.text(i, c + 3), seedOf(rows.text(i, c + 4), *connection_), rows.integer(i, c + 5) != 0, rows.text(i, c + 6), rows.text(i, c + 7),
                             rows.integer(i, c + 8) != 0, rows.text(i, c + 9), {}, {}}};
     for (; m < metrics.size() && metrics.text(m, 0) == entry.session.uuid && metrics.integer(m, 1) == entry.trial.number; ++m) entry.trial.metrics.push_back({metrics.text(m, 2), metrics.real(m, 3)});
     all.push_back(std::move(entry));

@@ -56,6 +56,7 @@ class RecordStore {
   std::vector<StoredSession> deletePerson(const std::string& id, const std::string& now_utc);
   std::vector<StoredSession> evidenceToDelete();              ///< uuid and evidence only: of deleted persons, not yet removed
   void evidenceDeleted(const std::string& session);
+  bool wasDeleted(const std::string& digest);                 ///< SHA-256 of a pseudonym
   std::vector<Trainee> overdue(const std::string& date);      ///< whose retention ended before this date
 
   SqlConnection& connection() { return *connection_; }        ///< for what else belongs into the store

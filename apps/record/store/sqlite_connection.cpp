@@ -36,14 +36,7 @@ class SqliteConnection final : public SqlConnection {
  public:
   explicit SqliteConnection(const std::string& file) : database_(prepared(file), Database::Mode::write) {
     sqlite3_busy_timeout(database_.handle(), kWaitForOthers_ms);
-    const std::int64_t id = database_.integer("PRAGMA application_id");
-    if (id != 0 && id != kRecordsApplicationId)
-      throw Error("is a database of another program", "records file " + file, "Give the right file; a session's evidence is added by palpa records add");
-    switchToLog();
-    database_.exec("PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA secure_delete=ON");
-    if (const std::string verdict = database_.text("PRAGMA quick_check"); verdict != "ok")
-      throw Error("is damaged (" + verdict + ")", "records file " + file, "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE .recover`");
-    if (id == 0) database_.exec("PRAGMA application_id=" + std::to_string(kRecordsApplicationId));
+    guarded([&] { prepare(); });
   }
 
   SqlRows query(const std::string& sql, const std::vector<SqlValue>& values) override {
@@ -61,6 +54,20 @@ class SqliteConnection final : public SqlConnection {
   std::string place() const override { return "records file " + database_.file().string(); }
 
  private:
+  void prepare() {
+    const std::int64_t id = database_.integer("PRAGMA application_id");
+    if (id != 0 && id != kRecordsApplicationId)
+      throw Error("is a database of another program", place(), "Give the right file; a session's evidence is added by palpa records add");
+    switchToLog();
+    database_.exec("PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA secure_delete=ON");
+    if (const std::string verdict = database_.text("PRAGMA quick_check"); verdict != "ok") failDamaged(verdict);
+    if (id == 0) database_.exec("PRAGMA application_id=" + std::to_string(kRecordsApplicationId));
+  }
+
+  [[noreturn]] void failDamaged(const std::string& reason) const {
+    throw Error("is damaged (" + reason.substr(0, reason.find('\n')) + ")", place(), "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE .recover`");
+  }
+
   SqlRows answer(const std::string& sql, const std::vector<SqlValue>& values) {
     sqlite3_stmt* raw = nullptr;
     if (sqlite3_prepare_v2(database_.handle(), sql.c_str(), -1, &raw, nullptr) != SQLITE_OK) database_.fail("cannot be read or written");
@@ -80,7 +87,8 @@ class SqliteConnection final : public SqlConnection {
     try {
       return action();
     } catch (const DatabaseError& e) {
-      const bool later = e.code == SQLITE_BUSY || e.code == SQLITE_LOCKED || e.code == SQLITE_FULL || e.code == SQLITE_IOERR;
+      const bool later = e.code == SQLITE_BUSY || e.code == SQLITE_LOCKED || e.code == SQLITE_FULL || e.code == SQLITE_IOERR || e.code == SQLITE_PROTOCOL;
+      if (e.code == SQLITE_CORRUPT || e.code == SQLITE_NOTADB) failDamaged(sqlite3_errstr(e.code));
       if (!later) throw;
       throw StoreUnreachable(std::string("cannot be written now (") + sqlite3_errstr(e.code) + ")", place(), "Free the disk or close what holds the file; trials are kept on this station and sent later");
     }

@@ -1,6 +1,6 @@
-#include "apps/report/csv_field.h"
+#include "anatomy/geometry/csv_field.h"
 
-namespace palpa::report {
+namespace palpa {
 
 std::string csvField(const std::string& text) {
   if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
@@ -9,4 +9,4 @@ std::string csvField(const std::string& text) {
   return quoted + '"';
 }
 
-}  // namespace palpa::report
+}  // namespace palpa

@@ -1,0 +1,149 @@
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+
+#include "anatomy/geometry/error.h"
+#include "apps/cli/deliver_evidence.h"
+#include "apps/cli/output_folder.h"
+#include "apps/cli/records_actions.h"
+#include "apps/link/tell.h"
+#include "apps/record/session_file.h"
+
+namespace palpa::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Only what is this session's evidence: another file may lie there by now.
+bool removeEvidence(const record::StoredSession& session) {
+  try {
+    if (record::SessionReader(session.evidence).info().uuid != session.uuid) return false;
+  } catch (const Error&) {  // not here, or not to be read
+    return false;
+  }
+  std::error_code problem;
+  const bool gone = fs::remove(session.evidence, problem);
+  for (const char* beside : {"-wal", "-shm"}) fs::remove(session.evidence + beside, problem);
+  return gone;
+}
+
+/// What learning record stores were told of a deleted person is to be taken back.
+void takeBack(record::RecordStore& store, const std::string& url) {
+  if (!fs::exists(link::Outbox::usualFile())) return;
+  link::Outbox outbox(link::Outbox::usualFile());
+  const std::string records = absoluteRecords(url);
+  for (const std::string& endpoint : outbox.endpoints(records))
+    if (const int count = link::takeBackDeleted(store, {endpoint, records}, outbox); count > 0)
+      std::printf("%s will be taken back there by: palpa records xapi --to %s\n",
+                  counted(static_cast<std::size_t>(count), "statement").c_str(), endpoint.c_str());
+}
+
+void deleteOne(record::RecordStore& store, const std::string& id) {
+  const std::vector<record::StoredSession> sessions = store.deletePerson(id, utcNow());
+  for (const record::StoredSession& session : sessions) {
+    if (!removeEvidence(session)) continue;
+    store.evidenceDeleted(session.uuid);
+    std::printf("Deleted: %s; its folder may still hold a report and pictures\n",
+                session.evidence.c_str());
+  }
+  std::printf("Trainee %s and %s deleted; late deliveries will be refused\n", id.c_str(),
+              counted(sessions.size(), "session").c_str());
+}
+
+void sayWhatIsLeft(record::RecordStore& store, const std::string& url) {
+  for (const record::StoredSession& left : store.evidenceToDelete())
+    std::printf("Still to be deleted where it was made: %s (session %s)\n", left.evidence.c_str(),
+                left.uuid.c_str());
+  takeBack(store, url);
+}
+
+std::string agreed(const std::string& utc) {
+  return utc.empty() ? "not agreed" : "agreed on " + utc.substr(0, 10);
+}
+
+void printTrial(const record::StoredTrial& t) {
+  const double seconds = t.metric("time_s"), total = t.metric("total"),
+               found = t.metric("sensitivity_pct");
+  std::printf("    trial %lld (%s): %s", static_cast<long long>(t.number), t.role.c_str(),
+              t.outcome.c_str());
+  if (std::isfinite(seconds)) std::printf(", %.1f s", seconds);
+  if (std::isfinite(total)) std::printf(", total penalty %.1f", total);
+  if (std::isfinite(found)) std::printf(", %.0f %% of the lumps found", found);
+  std::printf("%s%s%s\n", t.force_feedback ? "" : ", without force feedback",
+              t.reason.empty() ? "" : ": ", t.reason.c_str());
+}
+
+void printSession(const record::StoredSession& s) {
+  std::printf("  session %lld, %s: %s at %s%s", static_cast<long long>(s.arrival),
+              s.started_utc.c_str(), s.task.c_str(), s.station.c_str(),
+              s.simulated ? ", simulated" : "");
+  if (!s.study.empty())
+    std::printf(", study %s, slot %lld", s.study.c_str(), static_cast<long long>(s.slot));
+  std::printf("\n");
+}
+
+}  // namespace
+
+std::string counted(std::size_t count, const std::string& what) {
+  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
+}
+
+record::Trainee traineeIn(record::RecordStore& store, const std::string& id) {
+  const std::optional<record::Trainee> t = store.trainee(id);
+  if (!t)
+    throw UsageError("is not in the records", "trainee " + id,
+                     "palpa records trainee list shows who is");
+  return *t;
+}
+
+void showTrainee(const RecordsOptions& o) {
+  record::RecordStore store(o.url);
+  const record::Trainee t = traineeIn(store, o.trainee.id);
+  const std::vector<record::TrialWithSession> trials = store.trials({.trainee = t.id});
+  const std::vector<record::StoredSession> sessions = store.sessions(t.id);
+  std::printf("Trainee %s%s%s, %s-handed%s%s, since %s\n", t.id.c_str(),
+              t.group.empty() ? "" : ", ", t.group.c_str(), t.handedness.c_str(),
+              t.experience.empty() ? "" : ", ", t.experience.c_str(),
+              t.added_utc.substr(0, 10).c_str());
+  std::printf("  training records: %s; use in studies: %s; keep until: %s\n",
+              agreed(t.consent_utc).c_str(), agreed(t.research_utc).c_str(),
+              t.retain_until.empty() ? "no limit was set" : t.retain_until.c_str());
+  std::printf("  %s, %s\n", counted(sessions.size(), "session").c_str(),
+              counted(trials.size(), "trial").c_str());
+  for (const record::StoredSession& s : sessions) {
+    printSession(s);
+    for (const record::TrialWithSession& trial : trials)
+      if (trial.session.uuid == s.uuid) printTrial(trial.trial);
+  }
+}
+
+void listOverdue(const RecordsOptions& o) {
+  record::RecordStore store(o.url);
+  const std::string date = o.date.empty() ? utcNow().substr(0, 10) : o.date;
+  const std::vector<record::Trainee> over = store.overdue(date);
+  std::printf("On %s the time of %s is over\n", date.c_str(),
+              counted(over.size(), "trainee").c_str());
+  for (const record::Trainee& t : over)
+    std::printf("  %-16s keep until %s, %s\n", t.id.c_str(), t.retain_until.c_str(),
+                counted(store.sessions(t.id).size(), "session").c_str());
+  if (!o.remove || over.empty()) return;
+  if (!o.yes)
+    throw UsageError(
+        "would delete " + counted(over.size(), "person") + "'s records and evidence for good",
+        "--delete", "Add --yes if that is meant");
+  for (const record::Trainee& t : over) deleteOne(store, t.id);
+  sayWhatIsLeft(store, o.url);
+}
+
+void deletePerson(const RecordsOptions& o) {
+  record::RecordStore store(o.url);
+  const std::size_t sessions = store.sessions(traineeIn(store, o.trainee.id).id).size();
+  if (!o.yes)
+    throw UsageError("would delete this person's " + counted(sessions, "session") +
+                         " with their evidence for good",
+                     "trainee " + o.trainee.id, "Add --yes if that is meant");
+  deleteOne(store, o.trainee.id);
+  sayWhatIsLeft(store, o.url);
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/record/store/record_store.h"
+
+namespace palpa::link {
+
+/// A further table of the store that names a trainee in each row: places in studies, answers to
+/// questionnaires.
+struct FurtherTable {
+  std::string name;
+  std::vector<std::string> columns;
+  std::vector<std::vector<record::SqlValue>> rows;
+};
+
+/// What the records hold of some people.
+struct Dataset {
+  std::vector<record::Trainee> trainees;
+  std::vector<record::StoredSession> sessions;   ///< with their calibrations
+  std::vector<record::TrialWithSession> trials;  ///< with their events
+  std::vector<FurtherTable> further = {};
+};
+
+Dataset datasetOf(record::RecordStore& store, const std::vector<record::Trainee>& who);
+
+/// What a column holds.
+struct Column {
+  std::string name;
+  std::string
+      unit;  ///< "text", "UTC", "0 or 1", "JSON"; of a figure its unit, "1" for a plain number
+  std::string meaning;
+  std::string better;   ///< "lower", "higher"; empty: neither
+  std::string missing;  ///< when a cell is empty; empty: never
+};
+
+struct DataTable {
+  std::string name, meaning;
+  std::vector<Column> columns;
+  std::vector<std::vector<nlohmann::json>> rows;  ///< null: empty
+};
+
+/// trainees, sessions, calibrations, trials (with every figure that this program knows or the
+/// records hold), events. People appear by pseudonym, places of this computer (where evidence lies)
+/// only `with_paths`.
+std::vector<DataTable> tablesOf(const Dataset& data, bool with_paths);
+
+}  // namespace palpa::link

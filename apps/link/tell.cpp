@@ -1,0 +1,121 @@
+#include "apps/link/tell.h"
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/geometry/error.h"
+#include "apps/link/statement.h"
+#include "apps/runtime/clock.h"
+
+namespace palpa::link {
+namespace {
+
+using nlohmann::json;
+
+enum class Fate { stored, present, nothing_to_void, refused, later };
+
+struct Verdict {
+  Fate fate;
+  std::string words;
+};
+
+json parsedBody(const LrsAnswer& answer) {
+  json value = json::parse(answer.body, nullptr, false);
+  return value.is_discarded() ? json() : value;
+}
+
+std::string firstWords(const std::string& body) {
+  constexpr std::size_t kEnough = 160;
+  std::string words = body.substr(0, std::min(body.find_first_of("\r\n"), kEnough));
+  return words.empty() ? "no reason given" : words;
+}
+
+[[noreturn]] void fail(const LrsAnswer& answer, const Endpoint& endpoint) {
+  if (answer.status == 401 || answer.status == 403)
+    throw Error("refuses user or password", endpoint.text(),
+                "Check --user, and the password in PALPA_XAPI_PASSWORD or ~/.netrc; statements are "
+                "kept and sent later");
+  throw Error("is no learning record store (it answers " + std::to_string(answer.status) + ")",
+              endpoint.text(),
+              "Check the address: it ends before /statements; statements are kept and sent later");
+}
+
+/// What no store would say of one statement alone, but of all.
+bool concernsAll(const LrsAnswer& a) {
+  return a.status == 401 || a.status == 403 || a.status == 405 ||
+         (a.status >= 300 && a.status < 400) || (a.status == 404 && !a.is_lrs);
+}
+
+bool isForLater(const LrsAnswer& a) {
+  return a.status == 0 || a.status == 408 || a.status == 429 || a.status >= 500;
+}
+
+std::string troubleOf(const LrsAnswer& a) {
+  return a.status == 0 ? a.trouble
+         : !a.is_lrs   ? "the answer is no learning record store's"
+                       : "it answers " + std::to_string(a.status) + " (" + firstWords(a.body) + ")";
+}
+
+/// It has a statement with this id: ours?
+Verdict compared(LrsClient& client, const Letter& letter) {
+  for (const bool voided : {false, true}) {
+    const LrsAnswer there = client.get(letter.id, voided);
+    if (isForLater(there)) return {Fate::later, troubleOf(there)};
+    if (there.status != 200) continue;
+    if (saysTheSame(json::parse(letter.body, nullptr, false), parsedBody(there)))
+      return {Fate::present, ""};
+    return {Fate::refused, "another statement has this id already"};
+  }
+  return {Fate::refused, "the store says that it has it and does not show it"};
+}
+
+/// A statement that never arrived need not be taken back, and a store may refuse to.
+bool hasNothingToVoid(LrsClient& client, const Letter& letter) {
+  const LrsAnswer there = client.get(letter.voids);
+  return there.status == 404 && there.is_lrs && client.get(letter.voids, true).status == 404;
+}
+
+Verdict tell(LrsClient& client, const Endpoint& endpoint, const Letter& letter) {
+  if (!letter.voids.empty() && hasNothingToVoid(client, letter)) return {Fate::nothing_to_void, ""};
+  const LrsAnswer answer = client.put(letter.id, letter.body);
+  if (concernsAll(answer)) fail(answer, endpoint);
+  if (isForLater(answer)) return {Fate::later, troubleOf(answer)};
+  if (!answer.is_lrs) return {Fate::later, troubleOf(answer)};  // a page that asks for a login, say
+  if (answer.status == 204) return {Fate::stored, ""};
+  if (answer.status == 409) return compared(client, letter);
+  return {Fate::refused, troubleOf(answer)};
+}
+
+Verdict tellPatiently(LrsClient& client, const Endpoint& endpoint, const Letter& letter,
+                      const Pace& pace) {
+  std::int64_t pause_ns = pace.pause_ns;
+  for (int tries = pace.tries;; pause_ns *= 2) {
+    const Verdict verdict = tell(client, endpoint, letter);
+    if (verdict.fate != Fate::later || --tries <= 0) return verdict;
+    runtime::SteadyClock().sleepUntil(pause_ns);
+  }
+}
+
+}  // namespace
+
+Sent sendWaiting(Outbox& outbox, const Endpoint& endpoint, LrsClient& client, const Pace& pace) {
+  Sent sent;
+  for (const Letter& letter : outbox.waiting(endpoint.text())) {
+    const Verdict verdict = tellPatiently(client, endpoint, letter, pace);
+    if (verdict.fate == Fate::later) {
+      sent.trouble = verdict.words;
+      break;
+    }
+    if (verdict.fate == Fate::refused) {
+      sent.refused.push_back("session " + letter.session + ", trial " +
+                             std::to_string(letter.trial) + ": " + verdict.words);
+      continue;
+    }
+    outbox.delivered(endpoint.text(), letter.id);
+    sent.delivered += verdict.fate == Fate::stored;
+    sent.present += verdict.fate == Fate::present;
+  }
+  sent.left = outbox.waiting(endpoint.text()).size();
+  return sent;
+}
+
+}  // namespace palpa::link
