@@ -64,7 +64,7 @@ StudyResult framedResult(const std::vector<StudyRow>& rows, const StudyDesign& d
   return result;
 }
 
-std::vector<std::string> cautionsOf(const std::vector<StudyRow>&, const StudyResult& result, std::size_t smallest) {
+std::vector<std::string> cautionsOf(const StudyResult& result, std::size_t smallest) {
   std::vector<std::string> cautions;
   if (smallest >= 2)
     cautions.push_back("With " + std::to_string(smallest) + " subjects to a group, four of five studies like this one see a difference only if it is as large as " + number(smallestVisibleEffect(smallest), 1) +

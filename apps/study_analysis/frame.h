@@ -13,7 +13,7 @@ namespace palpa::study_analysis {
 StudyResult framedResult(const std::vector<StudyRow>& rows, const StudyDesign& design, const std::string& kind);
 
 /// What cannot be said: few subjects (`smallest`: in the smallest cell that is tested), several versions, a mixture of people and simulation.
-std::vector<std::string> cautionsOf(const std::vector<StudyRow>& rows, const StudyResult& result, std::size_t smallest);
+std::vector<std::string> cautionsOf(const StudyResult& result, std::size_t smallest);
 
 /// Why p-values of trials pooled as independent are not to be trusted.
 std::vector<std::string> publishedWords();

@@ -104,7 +104,7 @@ StudyResult analyseGeneral(const std::vector<StudyRow>& rows, const StudyDesign&
   if (!all.empty()) result.exhibits.push_back({"comparisons", "Comparisons", "Each subject counts once. Two-sided; Holm's correction is over all rows of this table.", Part::table, comparisonTable(all), {}, notesOf(all)});
   for (const std::string& metric : names)
     if (!design.metrics.empty()) result.exhibits.push_back(mixedExhibit(rows, design, metric));
-  result.cautions = cautionsOf(rows, result, smallest);
+  result.cautions = cautionsOf(result, smallest);
   return result;
 }
 

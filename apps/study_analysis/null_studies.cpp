@@ -9,11 +9,11 @@
 namespace palpa::study_analysis {
 namespace {
 
-struct Samples {
+struct BothGroups {
   std::vector<Series> learners, experts;
 };
 
-Samples drawnSamples(const LearningModel& model, const DrawnStudies& drawn, int study) {
+BothGroups drawnSamples(const LearningModel& model, const DrawnStudies& drawn, int study) {
   const std::vector<Series> series = seriesOf(drawStudy({model}, drawn.subjects, drawn.trials, drawn.seed + static_cast<std::uint64_t>(study)), model.metric);
   const LearningCurve& last = model.curves.back();
   return {within(series, model.curves.front().group, last.condition), within(series, last.group, last.condition)};
@@ -31,7 +31,7 @@ Detections detectionsIn(const LearningModel& model, const DrawnStudies& drawn) {
   Detections found;
   const auto below = [&](const statistics::TTest& test) { return test.p_less < drawn.level ? 1 : 0; };
   for (int study = 0; study < drawn.studies; ++study) {
-    const Samples s = drawnSamples(model, drawn, study);
+    const BothGroups s = drawnSamples(model, drawn, study);
     const std::vector<Learning> learning = learningOf(s.learners);
     std::vector<double> first, last;
     for (const Learning& l : learning) {

@@ -113,18 +113,18 @@ Pilot pilotOf(const std::vector<StudyRow>& rows, const StudyDesign& design) {
 StudyResult analysePilot(const std::vector<StudyRow>& rows, const StudyDesign& design) {
   const Pilot pilot = pilotOf(rows, design);
   StudyResult result = framedResult(rows, design, "paracentesis pilot");
-  result.findings = pilotFindings(rows, design, pilot);
+  result.findings = pilotFindings(design, pilot);
   const auto add = [&](std::vector<Exhibit> more) { std::move(more.begin(), more.end(), std::back_inserter(result.exhibits)); };
   add(pilotFigures(rows, design, pilot));
   add(pilotTables(rows, design, pilot));
   for (const std::string& metric : kPilotMetrics) result.exhibits.push_back(mixedExhibit(rows, design, metric));
   if (design.as_published) {
-    add(pilotPublished(rows, design, pilot));
+    add(pilotPublished(design, pilot));
     result.published_words = publishedWords();
   }
   std::size_t smallest = result.subjects;
   for (const LearningCell& cell : pilot.learning) smallest = std::min(smallest, cell.test.a.n);
-  result.cautions = cautionsOf(rows, result, smallest);
+  result.cautions = cautionsOf(result, smallest);
   return result;
 }
 

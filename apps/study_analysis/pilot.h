@@ -40,7 +40,7 @@ StudyResult analysePilot(const std::vector<StudyRow>& rows, const StudyDesign& d
 /// Parts of it.
 std::vector<Exhibit> pilotFigures(const std::vector<StudyRow>& rows, const StudyDesign& design, const Pilot& pilot);
 std::vector<Exhibit> pilotTables(const std::vector<StudyRow>& rows, const StudyDesign& design, const Pilot& pilot);
-std::vector<Exhibit> pilotPublished(const std::vector<StudyRow>& rows, const StudyDesign& design, const Pilot& pilot);
-std::vector<std::string> pilotFindings(const std::vector<StudyRow>& rows, const StudyDesign& design, const Pilot& pilot);
+std::vector<Exhibit> pilotPublished(const StudyDesign& design, const Pilot& pilot);
+std::vector<std::string> pilotFindings(const StudyDesign& design, const Pilot& pilot);
 
 }  // namespace palpa::study_analysis

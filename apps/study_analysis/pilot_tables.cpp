@@ -94,7 +94,7 @@ std::vector<Exhibit> pilotTables(const std::vector<StudyRow>& rows, const StudyD
   return all;
 }
 
-std::vector<Exhibit> pilotPublished(const std::vector<StudyRow>& rows, const StudyDesign& design, const Pilot& pilot) {
+std::vector<Exhibit> pilotPublished(const StudyDesign& design, const Pilot& pilot) {
   std::vector<Exhibit> all;
   for (std::size_t c = 0; c < pilot.conditions.size(); ++c) {
     Exhibit e{learningId(c) + "_as_published", "Learning, as published: " + inWords(design, pilot.learners) + ", " + inWords(design, pilot.conditions[c]),

@@ -48,7 +48,7 @@ std::string groupFinding(const Comparison& c) {
 
 }  // namespace
 
-std::vector<std::string> pilotFindings(const std::vector<StudyRow>&, const StudyDesign& design, const Pilot& pilot) {
+std::vector<std::string> pilotFindings(const StudyDesign& design, const Pilot& pilot) {
   std::vector<std::string> findings;
   for (const LearningCell& cell : pilot.learning) findings.push_back(learningFinding(design, cell));
   for (const Comparison& c : pilot.learning_between) findings.push_back(betweenFinding(design, c, pilot));

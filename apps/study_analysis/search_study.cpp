@@ -117,7 +117,7 @@ StudyResult analyseSearchStudy(const std::vector<StudyRow>& rows, const StudyDes
   result.exhibits.push_back(anovaTable(design, study));
   std::size_t smallest = result.subjects;
   for (const std::vector<double>& group : study.anovas[0].groups) smallest = std::min(smallest, group.size());
-  result.cautions = cautionsOf(rows, result, smallest);
+  result.cautions = cautionsOf(result, smallest);
   result.cautions.push_back("Sum and larger of the two improvements are made of the same figures as the first two analyses; the paper chose the last after it had seen the scatter. Only Holm's p-values allow for looking four times.");
   if (!study.left_out.empty()) result.cautions.push_back("Left out, since baseline, training or evaluation is missing: " + joined(study.left_out) + ".");
   if (design.as_published) result.published_words = {"The published analyses take one value a subject, as the table above does: there is no other way to show. They were not corrected for being four; the column p is as they were, the column p (Holm) allows for it."};

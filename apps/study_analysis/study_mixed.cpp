@@ -86,10 +86,17 @@ void fillFrom(Exhibit& exhibit, const statistics::MixedModel& model) {
                           percent(model.alike) + " of the spread is the subjects' own (" + counted(model.subjects, "subject") + ", " + counted(model.trials, "trial") + ").");
 }
 
+/// A figure's name as a part of a file's.
+std::string plainName(std::string name) {
+  for (char& c : name)
+    if (std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_").find(c) == std::string::npos) c = '_';
+  return name;
+}
+
 }  // namespace
 
 Exhibit mixedExhibit(const std::vector<StudyRow>& rows, const StudyDesign& design, const std::string& metric) {
-  Exhibit exhibit{"mixed_model_" + metric, "All trials at once: " + metricTitle(metric),
+  Exhibit exhibit{"mixed_model_" + plainName(metric), "All trials at once: " + metricTitle(metric),
                   "A check on the tests above: a mixed model with an intercept for each subject (REML), so that trials of one subject are not taken as independent. Effects are in the figure's own unit; "
                   "learning is taken as a straight line.",
                   Part::check,
