@@ -24,8 +24,8 @@ void printDetections(const char* what, const study_analysis::Detections& found) 
               share(found.groups_published), share(found.learning), share(found.learning_published));
 }
 
-void plan(const PlanOptions& o) {
-  std::printf("SIMULATED: %d studies drawn from a learning model, figure %s, %d subjects in each group and condition, %d trials each, one-tailed level %g\n", o.drawn.studies, o.metric.c_str(), o.drawn.subjects, o.drawn.trials, o.drawn.level);
+void planStudy(const PlanOptions& o) {
+  std::printf("SIMULATED: %d studies drawn from a learning model, figure %s, %d subjects in each group and condition, %d trials each, level %g\n", o.drawn.studies, o.metric.c_str(), o.drawn.subjects, o.drawn.trials, o.drawn.level);
   printDetections("Studies that find the effects of Tzafestas 2008 (power):", detectionsIn(modelOf(study_analysis::pilotModels(), o.metric), o.drawn));
   printDetections("Studies that find effects where there are none (false positives):", detectionsIn(modelOf(study_analysis::nullModels(), o.metric), o.drawn));
   const study_analysis::Band band = study_analysis::binomialBand(o.drawn.studies, o.drawn.level);
@@ -40,11 +40,11 @@ void addStudyPlan(CLI::App& study) {
   command->add_option("--subjects", o->drawn.subjects, "In each group and condition (default 5, as in the paper)")->check(CLI::Range(2, 1000));
   command->add_option("--trials", o->drawn.trials, "Of each subject (default 10)")->check(CLI::Range(4, 1000));
   command->add_option("--simulate", o->drawn.studies, "Studies to draw (default 2000)")->check(CLI::Range(1, 1000000));
-  command->add_option("--level", o->drawn.level, "One-tailed level (default 0.05)")->check(CLI::Range(0.0001, 0.5));
+  command->add_option("--level", o->drawn.level, "Level of each test (default 0.05)")->check(CLI::Range(0.0001, 0.5));
   command->add_option("--metric", o->metric, "total (default) or time_s")->check(CLI::IsMember({"total", "time_s"}));
   command->add_option("--seed", o->drawn.seed, "Random seed (default 1)");
   command->footer("Example:\n  palpa study plan --subjects 12 --simulate 2000");
-  command->callback([o] { plan(*o); });
+  command->callback([o] { planStudy(*o); });
 }
 
 }  // namespace palpa::cli

@@ -37,14 +37,14 @@ StudyRow rowOf(const record::TrialWithSession& t, int session_number) {
   return row;
 }
 
-std::string textOf(const station::JsonFile& file, const char* field, const std::string& otherwise) { return file.has(field) ? file.text(field) : otherwise; }
+std::string optionalText(const station::JsonFile& file, const char* field, const std::string& otherwise) { return file.has(field) ? file.text(field) : otherwise; }
 
 /// Names in their order; their meaning into `words`.
 std::vector<std::string> namesOf(const station::JsonFile& protocol, const char* list, std::map<std::string, std::string>& words) {
   std::vector<std::string> names;
   for (const station::JsonFile& entry : protocol.entries(list)) {
     names.push_back(entry.text("name"));
-    words[names.back()] = std::string(list) == "conditions" ? textOf(entry, "means", "") : "";
+    words[names.back()] = std::string(list) == "conditions" ? optionalText(entry, "means", "") : "";
   }
   return names;
 }
@@ -82,8 +82,8 @@ ProtocolFacts protocolFacts(const std::string& file) {
   ProtocolFacts facts;
   facts.id = protocol.text("id");
   study_analysis::StudyDesign& design = facts.design;
-  design.title = textOf(protocol, "title", facts.id);
-  design.kind = study_analysis::studyKindNamed(textOf(protocol, "analysis", ""), file + ", field analysis");
+  design.title = optionalText(protocol, "title", facts.id);
+  design.kind = study_analysis::studyKindNamed(optionalText(protocol, "analysis", ""), file + ", field analysis");
   design.groups = namesOf(protocol, "groups", design.words);
   design.conditions = namesOf(protocol, "conditions", design.words);
   return facts;

@@ -29,7 +29,7 @@ void require(const LearningModel& model, const DrawnStudies& drawn) {
 Detections detectionsIn(const LearningModel& model, const DrawnStudies& drawn) {
   require(model, drawn);
   Detections found;
-  const auto below = [&](const statistics::TTest& test) { return test.p_less < drawn.level ? 1 : 0; };
+  const auto below = [&](double p) { return p < drawn.level ? 1 : 0; };
   for (int study = 0; study < drawn.studies; ++study) {
     const BothGroups s = drawnSamples(model, drawn, study);
     const std::vector<Learning> learning = learningOf(s.learners);
@@ -39,10 +39,10 @@ Detections detectionsIn(const LearningModel& model, const DrawnStudies& drawn) {
       last.insert(last.end(), l.last_trials.begin(), l.last_trials.end());
     }
     ++found.studies;
-    found.groups += below(statistics::welch(subjectMeans(s.experts), subjectMeans(s.learners)));
-    found.learning += below(statistics::paired(lastOf(learning), firstOf(learning)));
-    found.groups_published += below(statistics::welch(pooledTrials(s.experts), pooledTrials(s.learners)));
-    found.learning_published += below(statistics::welch(last, first));
+    found.groups += below(statistics::welch(subjectMeans(s.experts), subjectMeans(s.learners)).p_two_sided);
+    found.learning += below(statistics::paired(lastOf(learning), firstOf(learning)).p_two_sided);
+    found.groups_published += below(statistics::welch(pooledTrials(s.experts), pooledTrials(s.learners)).p_less);
+    found.learning_published += below(statistics::welch(last, first).p_less);
   }
   return found;
 }

@@ -7,18 +7,18 @@
 
 namespace palpa::study_analysis {
 
-/// How often an analysis called something an effect. One-tailed, as the hypotheses of the pilot are directed: experienced people have smaller figures, figures fall with practice.
+/// How often an analysis called something an effect, by the very tests of the page.
 struct Detections {
   int studies = 0;
-  int groups = 0, learning = 0;                         ///< one value a subject: Welch between groups, paired within
-  int groups_published = 0, learning_published = 0;     ///< trials pooled
+  int groups = 0, learning = 0;                         ///< one value a subject, two-sided: Welch between groups, paired within
+  int groups_published = 0, learning_published = 0;     ///< trials pooled, one-tailed: experienced people have smaller figures, figures fall with practice
 };
 
 struct DrawnStudies {
   int studies = 2000;
   int subjects = 5;          ///< in each group and condition: 20 in all, as in the paper
   int trials = 10;
-  double level = 0.05;
+  double level = 0.05;       ///< of each test
   std::uint64_t seed = 1;
 };
 
