@@ -1,5 +1,7 @@
 #include "apps/report/study_report.h"
 
+#include <algorithm>
+
 #include "anatomy/geometry/whole_file.h"
 #include "apps/report/html.h"
 #include "apps/report/numbers.h"
@@ -26,7 +28,7 @@ constexpr std::string_view kStudyStyle = R"css(
 .study-table{border-collapse:collapse;font-size:.85rem;width:100%;margin:.6rem 0}
 .study-table th,.study-table td{text-align:right;padding:.35rem .45rem;border-bottom:1px solid var(--line);white-space:nowrap}
 .study-table thead th{font-weight:400;color:var(--muted);vertical-align:bottom;white-space:normal;line-height:1.25}
-.study-table .words{text-align:left;white-space:normal;min-width:5.5rem}
+.study-table .words{text-align:left;white-space:normal;min-width:4.6rem}
 .study-table th:first-child,.study-table td:first-child{padding-left:0}
 .doubts{margin:.4rem 0 0;padding-left:1.2rem;color:var(--muted);font-size:.875rem}
 details summary{cursor:pointer;color:var(--muted);font-size:.875rem;margin-top:.5rem}
@@ -34,10 +36,16 @@ details summary{cursor:pointer;color:var(--muted);font-size:.875rem;margin-top:.
 @media print{.study-table{font-size:6.5pt}.study-table th,.study-table td{padding:.2rem;white-space:normal}.study-table .words{min-width:0}.exhibit{break-inside:avoid}details summary{display:none}details::details-content{content-visibility:visible;display:block}}
 )css";
 
+/// No line ends between a number and its "%".
+std::string keptTogether(std::string text) {
+  for (std::size_t at = text.find(" %"); at != std::string::npos; at = text.find(" %", at + 2)) text.replace(at, 1, "\u00a0");
+  return text;
+}
+
 void writeSentences(Html& html, const char* css, const std::vector<std::string>& sentences) {
   if (sentences.empty()) return;
   const auto list = html.in("ul", {{"class", css}});
-  for (const std::string& sentence : sentences) html.element("li", sentence);
+  for (const std::string& sentence : sentences) html.element("li", keptTogether(sentence));
 }
 
 void writeStudyHeader(Html& html, const StudyResult& result) {
@@ -60,6 +68,10 @@ void writeStudyHeader(Html& html, const StudyResult& result) {
     html.element("p", {{"class", "small"}}, std::to_string(result.simulated_trials) + " of the " + std::to_string(result.trials) + " trials are simulated.");
 }
 
+bool hidden(const study_analysis::Table& table) {
+  return std::any_of(table.columns.begin(), table.columns.end(), [](const study_analysis::Column& c) { return !c.page; });
+}
+
 void writeExhibitTable(Html& html, const Exhibit& exhibit) {
   if (exhibit.table.rows.empty()) return;
   if (exhibit.plots.empty() || exhibit.table.rows.size() <= kStudyRowsOpen) {
@@ -78,7 +90,7 @@ void writeExhibit(Html& html, const Exhibit& exhibit, bool simulated) {
     const auto figure = html.in("figure", {{"class", "course"}});
     writeStudyPlot(html, plot, exhibit.title);
   }
-  html.element("p", {{"class", "muted small"}}, exhibit.caption);
+  html.element("p", {{"class", "muted small"}}, keptTogether(exhibit.caption) + (hidden(exhibit.table) ? " More columns are in " + exhibit.id + ".csv." : ""));
   writeExhibitTable(html, exhibit);
   writeSentences(html, "doubts", exhibit.notes);
 }

@@ -43,6 +43,7 @@ void writeStudyTable(Html& html, const study_analysis::Table& table) {
     const auto head = html.in("thead");
     const auto row = html.in("tr");
     for (std::size_t c = 0; c < table.columns.size(); ++c) {
+      if (!table.columns[c].page) continue;
       const bool words = !table.rows.empty() && isText(table.rows[0][c]);
       html.element("th", {{"scope", "col"}, {"class", words ? "words" : "figure"}}, table.columns[c].title);
     }
@@ -50,7 +51,8 @@ void writeStudyTable(Html& html, const study_analysis::Table& table) {
   const auto body = html.in("tbody");
   for (const std::vector<Cell>& cells : table.rows) {
     const auto row = html.in("tr");
-    for (std::size_t c = 0; c < cells.size(); ++c) html.element("td", {{"class", isText(cells[c]) ? "words" : "figure"}}, studyCell(cells[c], table.columns[c]));
+    for (std::size_t c = 0; c < cells.size(); ++c)
+      if (table.columns[c].page) html.element("td", {{"class", isText(cells[c]) ? "words" : "figure"}}, studyCell(cells[c], table.columns[c]));
   }
 }
 

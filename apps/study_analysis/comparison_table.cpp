@@ -14,7 +14,7 @@ std::vector<Cell> sampleCells(const Comparison& c) {
 
 const std::vector<Column>& sampleColumns() {
   static const std::vector<Column> columns{{"about", "Where", 0},          {"figure", "Figure", 0},      {"sample_a", "Of", 0},         {"n_a", "n", 0},    {"mean_a", "Mean", 1},
-                                           {"sd_a", "SD", 1},              {"sample_b", "against", 0},   {"n_b", "n", 0},               {"mean_b", "Mean", 1}, {"sd_b", "SD", 1}};
+                                           {"sd_a", "SD", 1, Format::number, false},              {"sample_b", "against", 0},   {"n_b", "n", 0},               {"mean_b", "Mean", 1}, {"sd_b", "SD", 1, Format::number, false}};
   return columns;
 }
 
@@ -36,11 +36,11 @@ Table comparisonTable(const std::vector<Comparison>& all) {
   Table table = startedWith({{"difference", "Difference", 1},
                              {"low", "95 % from", 1},
                              {"high", "to", 1},
-                             {"resampled_low", "Resampled from", 1},
-                             {"resampled_high", "to", 1},
+                             {"resampled_low", "Resampled from", 1, Format::number, false},
+                             {"resampled_high", "to", 1, Format::number, false},
                              {"test", "Test", 0},
-                             {"t", "t", 2},
-                             {"df", "df", 1},
+                             {"t", "t", 2, Format::number, false},
+                             {"df", "df", 1, Format::number, false},
                              {"p", "p", 3, Format::p_value},
                              {"p_holm", "p (Holm)", 3, Format::p_value},
                              {"hedges_g", "Effect g", 2}});

@@ -14,6 +14,7 @@ struct Column {
   std::string title;   ///< for readers: "Mean, first two"
   int decimals = 1;
   Format format = Format::number;
+  bool page = true;    ///< false: in files only, the page would be too wide
 };
 
 using Cell = std::variant<std::string, double>;   ///< not a number: does not apply

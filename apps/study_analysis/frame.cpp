@@ -39,12 +39,11 @@ std::vector<std::string> conditionsOf(const std::vector<StudyRow>& rows, const S
 
 StudyResult analyseStudy(const std::vector<StudyRow>& rows, const StudyDesign& design) {
   if (rows.empty()) throw UsageError("no scored trial to analyse", design.title, "Bring sessions of the study into the records first");
-  switch (design.kind) {
-    case StudyKind::paracentesis_pilot: return analysePilot(rows, design);
-    case StudyKind::search_study: return analyseSearchStudy(rows, design);
-    case StudyKind::general: break;
-  }
-  return analyseGeneral(rows, design);
+  const auto analyse = design.kind == StudyKind::paracentesis_pilot ? analysePilot : design.kind == StudyKind::search_study ? analyseSearchStudy : analyseGeneral;
+  StudyResult result = analyse(rows, design);
+  for (std::string& finding : result.findings) finding = capitalised(finding);
+  for (Exhibit& exhibit : result.exhibits) exhibit.title = capitalised(exhibit.title);
+  return result;
 }
 
 StudyResult framedResult(const std::vector<StudyRow>& rows, const StudyDesign& design, const std::string& kind) {

@@ -85,7 +85,7 @@ std::vector<std::string> generalFindings(const std::vector<Comparison>& all) {
 
 StudyResult analyseGeneral(const std::vector<StudyRow>& rows, const StudyDesign& design) {
   StudyResult result = framedResult(rows, design, "general");
-  Exhibit cells{"by_group_and_condition", "By group and condition", "Each subject counts once, by the mean of his trials; 95 % interval by Student's t.", Part::table, {cellColumns(), {}}, {}, {}};
+  Exhibit cells{"by_group_and_condition", "By group and condition", "Each subject counts once, by the mean of their trials; 95 % interval by Student's t.", Part::table, {cellColumns(), {}}, {}, {}};
   std::vector<Comparison> all;
   const std::vector<std::string> names = metricsOf(rows, design);
   for (const std::string& metric : names) {

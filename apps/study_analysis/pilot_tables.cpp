@@ -22,28 +22,36 @@ const std::vector<Column>& learningColumns() {
                                            {"learning_rate_percent", "Learning rate, %", 1},
                                            {"rate_low_percent", "95 % from", 1},
                                            {"rate_high_percent", "to", 1},
-                                           {"t", "t", 2},
-                                           {"df", "df", 1},
-                                           {"p", "p", 3, Format::p_value}};
+                                           {"resampled_low_percent", "Resampled from", 1},
+                                           {"resampled_high_percent", "to", 1},
+                                           {"t", "t", 2, Format::number, false},
+                                           {"df", "df", 1, Format::number, false},
+                                           {"p", "p", 3, Format::p_value},
+                                           {"p_holm", "p (Holm)", 3, Format::p_value},
+                                           {"hedges_g", "Effect g", 2}};
   return columns;
 }
 
-std::vector<Cell> learningRow(const Comparison& c, double rate, double low, double high) {
-  return {metricTitle(c.metric), countOf(c.b.n), c.b.mean, c.b.sd, c.a.mean, c.a.sd, 100 * rate, 100 * low, 100 * high, c.t, c.degrees, c.p};
+std::vector<Column> publishedLearningColumns() {
+  std::vector<Column> columns(learningColumns().begin(), learningColumns().begin() + 7);
+  columns.insert(columns.end(), {{"t", "t", 2}, {"df", "df", 1}, {"p_one_tailed", "p, one-tailed", 4, Format::p_value}});
+  return columns;
+}
+
+std::vector<Cell> learningRow(const LearningCell& cell) {
+  const Comparison& c = cell.test;
+  return {metricTitle(c.metric), countOf(c.b.n), c.b.mean, c.b.sd, c.a.mean, c.a.sd, 100 * cell.rate.value, 100 * cell.rateLow(), 100 * cell.rateHigh(), 100 * cell.rate.low, 100 * cell.rate.high, c.t, c.degrees, c.p, c.p_holm, c.effect};
 }
 
 Exhibit learningTable(const StudyDesign& design, const Pilot& pilot, std::size_t condition) {
   const std::string words = inWords(design, pilot.learners) + ", " + inWords(design, pilot.conditions[condition]);
   Exhibit e{learningId(condition), "Learning: " + words,
-            "Means and standard deviations over subjects, each counted once by the mean of two trials. Learning rate: 1 − mean of the last two / mean of the first two; its interval by resampling subjects. Test: paired t, two-sided.",
+            "Means and standard deviations over subjects, each counted once by the mean of two trials. Learning rate: 1 − mean of the last two / mean of the first two; its interval by Student's t of the fall, over the mean of the first two, and by resampling subjects (too narrow for so few as five). Test: paired t, two-sided.",
             Part::table, {learningColumns(), {}}, {}, {}};
-  e.table.columns.insert(e.table.columns.end(), {{"p_holm", "p (Holm)", 3, Format::p_value}, {"hedges_g", "Effect g", 2}});
   std::vector<Comparison> tests;
   for (const LearningCell& cell : pilot.learning) {
     if (cell.condition != pilot.conditions[condition]) continue;
-    std::vector<Cell> row = learningRow(cell.test, cell.rate.value, cell.rate.low, cell.rate.high);
-    row.insert(row.end(), {cell.test.p_holm, cell.test.effect});
-    e.table.rows.push_back(std::move(row));
+    e.table.rows.push_back(learningRow(cell));
     tests.push_back(cell.test);
     if (cell.left_out > 0) addOnce(e.notes, counted(cell.left_out, "subject") + " had fewer than four trials with this figure and is left out: " + metricTitle(cell.metric) + ".");
   }
@@ -52,7 +60,7 @@ Exhibit learningTable(const StudyDesign& design, const Pilot& pilot, std::size_t
 }
 
 Exhibit secondGroup(const std::vector<StudyRow>& rows, const StudyDesign& design, const Pilot& pilot) {
-  Exhibit e{"table_5", "Overall: " + inWords(design, pilot.experts), "Over all trials; each subject counts once, by his mean.", Part::table, {cellColumns(), {}}, {}, {}};
+  Exhibit e{"table_5", "Overall: " + inWords(design, pilot.experts), "Over all trials; each subject counts once, by the mean of their trials.", Part::table, {cellColumns(), {}}, {}, {}};
   std::vector<StudyRow> of_group;
   std::copy_if(rows.begin(), rows.end(), std::back_inserter(of_group), [&](const StudyRow& r) { return r.group == pilot.experts; });
   for (const std::string& metric : kPilotMetrics) addCellRows(e.table, metric, of_group, design);
@@ -61,7 +69,7 @@ Exhibit secondGroup(const std::vector<StudyRow>& rows, const StudyDesign& design
 
 Exhibit groupTable(const StudyDesign& design, const Pilot& pilot) {
   return {"table_6", inWords(design, pilot.experts) + " against " + inWords(design, pilot.learners),
-          "Each subject counts once, by the mean of all his trials. Welch's t-test, two-sided; Holm's correction is over all learning and group tests of this page.", Part::table, comparisonTable(pilot.groups), {}, notesOf(pilot.groups)};
+          "Each subject counts once, by the mean of all trials. Welch's t-test, two-sided; Holm's correction is over all learning and group tests of this page.", Part::table, comparisonTable(pilot.groups), {}, notesOf(pilot.groups)};
 }
 
 Exhibit betweenTable(const Pilot& pilot) {
@@ -98,14 +106,10 @@ std::vector<Exhibit> pilotPublished(const StudyDesign& design, const Pilot& pilo
   std::vector<Exhibit> all;
   for (std::size_t c = 0; c < pilot.conditions.size(); ++c) {
     Exhibit e{learningId(c) + "_as_published", "Learning, as published: " + inWords(design, pilot.learners) + ", " + inWords(design, pilot.conditions[c]),
-              "Trials pooled: n = subjects × two trials. Welch's t-test, one-tailed.", Part::published, {learningColumns(), {}}, {}, {}};
-    e.table.columns.erase(e.table.columns.begin() + 7, e.table.columns.begin() + 9);   // no interval was published
-    e.table.columns.back() = {"p_one_tailed", "p, one-tailed", 4, Format::p_value};
+              "Trials pooled: n = subjects × two trials. Welch's t-test, one-tailed.", Part::published, {publishedLearningColumns(), {}}, {}, {}};
     for (std::size_t m = 0; m < kPilotMetrics.size(); ++m) {
       const Comparison& test = pilot.learning_published[c * kPilotMetrics.size() + m];
-      std::vector<Cell> row = learningRow(test, 1 - test.a.mean / test.b.mean, 0, 0);
-      row.erase(row.begin() + 7, row.begin() + 9);
-      e.table.rows.push_back(std::move(row));
+      e.table.rows.push_back({metricTitle(test.metric), countOf(test.b.n), test.b.mean, test.b.sd, test.a.mean, test.a.sd, 100 * (1 - test.a.mean / test.b.mean), test.t, test.degrees, test.p});
       if (!test.tested()) e.notes.push_back(metricTitle(test.metric) + ": not tested: " + test.not_tested);
     }
     all.push_back(std::move(e));

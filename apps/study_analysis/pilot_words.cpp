@@ -27,7 +27,7 @@ std::string verdictOf(const Comparison& c) {
 std::string learningFinding(const StudyDesign& design, const LearningCell& cell) {
   const std::string who = inWords(design, cell.group) + ", " + inWords(design, cell.condition) + ": ";
   if (!cell.test.tested()) return who + "learning in " + metricTitle(cell.metric) + " cannot be tested: " + cell.test.not_tested;
-  return who + changeWords(cell.metric, cell.rate.value) + " in the last two trials than in the first two (fall of " + percent(cell.rate.value) + ", 95 % interval " + percent(cell.rate.low) + " to " + percent(cell.rate.high) + "; " +
+  return who + changeWords(cell.metric, cell.rate.value) + " in the last two trials than in the first two (95 % interval of the fall " + percent(cell.rateLow()) + " to " + percent(cell.rateHigh()) + "; " +
          counted(cell.test.a.n, "subject") + "). " + verdictOf(cell.test);
 }
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "anatomy/random_stream.h"
 #include "apps/report/study_report.h"
 #include "apps/report/study_table.h"
 #include "apps/study_analysis/learning_model.h"
@@ -34,12 +35,14 @@ StudyResult pilotResult() {
 /// Twenty-one subjects who search; times that fall, success that rises more with cues.
 StudyResult searchResult() {
   std::vector<StudyRow> rows;
+  anatomy::RandomStream random(4);
   for (int s = 0; s < 21; ++s) {
     const bool cues = s % 2 != 0;
+    const double own = 3 * random.normal(), skill = 0.5 + 0.1 * random.normal(), gained = (cues ? 0.12 : 0.05) + 0.1 * random.normal(), hurry = (cues ? 3 : 1) + 2 * random.normal();
     for (int t = 0; t < 160; ++t) {
       const bool training = t >= 60 && t < 100, after = t >= 100;
-      const double seconds = 12 + s % 5 + 20.0 / (1 + 0.04 * t) + (training ? 6 : 0) - (after && cues ? 2.0 + s % 3 : 0) + (t * 7 + s) % 5;
-      const bool found = (t * 13 + s * 5) % 10 < 5 + (after ? (cues ? 3 : 2) : 0) + s % 3;
+      const double seconds = std::max(3.0, 14 + own + 20.0 / (1 + 0.04 * t) + (training ? 6 : 0) - (after ? hurry : 0) + 4 * random.normal());
+      const bool found = random.uniform() < skill + (after ? gained : 0);
       rows.push_back({"S" + std::to_string(s + 1), "trainee", training ? (cues ? "augmented" : "degraded") : "full", training ? "training" : after ? "evaluation" : "baseline", t < 60 ? 1 : 2, t + 1, 0, true, "palpa 0.1.0", {{"success", found ? 1.0 : 0.0}, {"time_s", seconds}}});
     }
   }
@@ -71,7 +74,7 @@ TEST(StudyPage, ExamplesToLookAt) {
 
 TEST(StudyPage, SentencesComeFirstAndSimulatedIsSaid) {
   const std::string page = studyPage(pilotResult(), "sentences");
-  EXPECT_LT(page.find("novice, with force feedback: "), page.find("<svg"));
+  EXPECT_LT(page.find("Novice, with force feedback: "), page.find("<svg"));
   EXPECT_TRUE(studySays(page, "SIMULATED"));
   EXPECT_TRUE(studySays(page, "What was found (simulated)"));
   EXPECT_TRUE(studySays(page, "too many degrees of freedom"));

@@ -110,12 +110,13 @@ TEST(Pilot, HandMadeTrialsGiveHandMadeAnswers) {
   EXPECT_NEAR(cell.test.t, -2 * std::sqrt(3.0), 1e-12);
   EXPECT_NEAR(cell.test.p, 0.0742, 5e-5);
   EXPECT_EQ(cell.test.p_holm, cell.test.p) << "the only one that can be tested";
+  EXPECT_NEAR(cell.rateHigh(), (4 + 4.302653 * 2 / std::sqrt(3.0)) / 20, 1e-6) << "Student's t with two degrees";
   EXPECT_GE(cell.rate.value, cell.rate.low);
   EXPECT_LE(cell.rate.value, cell.rate.high);
   ASSERT_EQ(cell.rates.size(), 3u);
   EXPECT_NEAR(cell.rates[1], 0.3, 1e-12);
   const StudyResult result = analyseStudy(rows, pilotDesign());
-  EXPECT_TRUE(result.findings[0].starts_with("novice, with force feedback: 20 % faster in the last two trials than in the first two (fall of 20 %, 95 % interval ")) << result.findings[0];
+  EXPECT_TRUE(result.findings[0].starts_with("Novice, with force feedback: 20 % faster in the last two trials than in the first two (95 % interval of the fall ")) << result.findings[0];
   EXPECT_NE(exhibit(result, "table_3").notes[0].find("1 subject had fewer than four trials"), std::string::npos);
   const Exhibit& curve = exhibit(result, "figure_5");
   EXPECT_NEAR(at(curve, 0, "mean"), (9 + 20 + 28 + 1) / 4.0, 1e-12);
