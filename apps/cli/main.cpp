@@ -7,6 +7,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/study_analyse.h"
 
 namespace {
 
@@ -55,6 +56,10 @@ int run(int argc, char** argv) {
   palpa::cli::addPhantom(program);
   palpa::cli::addExport(program);
   palpa::cli::addRecords(program);
+  CLI::App* study = program.add_subcommand("study", "Studies: what they found, and planning them");
+  study->require_subcommand(1);
+  palpa::cli::addStudyAnalyse(*study);
+  palpa::cli::addStudyPlan(*study);
   palpa::cli::addBench(program);
   try {
     program.parse(argc, argv);

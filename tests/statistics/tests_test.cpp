@@ -166,5 +166,13 @@ TEST(Holm, StepsDown) {
   EXPECT_THROW(holm({1.5}), Error);
 }
 
+/// 0.7 - 0.5 and 0.9 - 0.7 differ by rounding only: that is no spread.
+TEST(Rounding, IsNoSpread) {
+  EXPECT_THROW(oneWayAnova({{0.7 - 0.5, 0.9 - 0.7, 0.8 - 0.6}, {0.8 - 0.5, 0.9 - 0.6, 1.0 - 0.7}}), Error);
+  EXPECT_THROW(welch({0.7 - 0.5, 0.9 - 0.7}, {0.8 - 0.5, 0.9 - 0.6}), Error);
+  EXPECT_THROW(paired({0.7, 0.9, 0.8}, {0.5, 0.7, 0.6}), Error);
+  EXPECT_NO_THROW(welch({1, 1 + 1e-12}, {2, 2}));
+}
+
 }  // namespace
 }  // namespace palpa::statistics

@@ -1,6 +1,7 @@
 #include "apps/assess/statistics/anova.h"
 
 #include <boost/math/distributions/fisher_f.hpp>
+#include <limits>
 
 #include "anatomy/geometry/error.h"
 #include "apps/assess/statistics/sample.h"
@@ -9,6 +10,14 @@ namespace palpa::statistics {
 namespace {
 
 constexpr char kAnova[] = "analysis of variance";
+
+/// Squares that rounding alone may leave within groups of equal values.
+double roundingOf(const std::vector<double>& values) {
+  double squares = 0;
+  for (const double v : values) squares += v * v;
+  constexpr double kDigits = 8 * std::numeric_limits<double>::epsilon();
+  return kDigits * kDigits * squares;
+}
 
 }  // namespace
 
@@ -33,7 +42,7 @@ Anova oneWayAnova(const std::vector<std::vector<double>>& groups) {
     anova.squares_between += static_cast<double>(groups[g].size()) * (means[g] - grand) * (means[g] - grand);
     for (const double v : groups[g]) anova.squares_within += (v - means[g]) * (v - means[g]);
   }
-  if (!(anova.squares_within > 0)) throw Error("nothing varies within the groups", kAnova, "Constant values cannot be tested");
+  if (!(anova.squares_within > roundingOf(all))) throw Error("nothing varies within the groups", kAnova, "Constant values cannot be tested");
   anova.degrees_between = static_cast<double>(groups.size()) - 1;
   anova.degrees_within = static_cast<double>(all.size() - groups.size());
   const double within = anova.squares_within / anova.degrees_within, total = anova.squares_between + anova.squares_within;

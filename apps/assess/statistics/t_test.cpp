@@ -1,7 +1,9 @@
 #include "apps/assess/statistics/t_test.h"
 
+#include <algorithm>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
+#include <limits>
 
 #include "anatomy/geometry/error.h"
 
@@ -10,8 +12,10 @@ namespace {
 
 constexpr char kTTest[] = "t-test";
 
-void requireVariance(double variance) {
-  if (!(variance > 0)) throw Error("nothing varies in the values", kTTest, "Constant values cannot be tested");
+/// `size`: of the values; what rounding alone may leave of it is no variance.
+void requireVariance(double variance, double size) {
+  constexpr double kDigits = 8 * std::numeric_limits<double>::epsilon();
+  if (!(variance > kDigits * kDigits * size * size)) throw Error("nothing varies in the values", kTTest, "Constant values cannot be tested");
 }
 
 /// `sd`: of the values, for the effect; `error`: of the difference.
@@ -39,7 +43,7 @@ double pooledVariance(const Moments& a, const Moments& b) {
 
 void require(const Moments& a, const Moments& b) {
   if (!(a.n >= 2 && b.n >= 2)) throw Error("there are fewer than two values", kTTest, "Collect more trials");
-  requireVariance(a.sd * a.sd + b.sd * b.sd);
+  requireVariance(a.sd * a.sd + b.sd * b.sd, std::max(std::abs(a.mean), std::abs(b.mean)));
 }
 
 }  // namespace
@@ -64,7 +68,7 @@ TTest paired(const std::vector<double>& a, const std::vector<double>& b) {
   std::vector<double> differences(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) differences[i] = a[i] - b[i];
   const Moments d = momentsOf(differences, kTTest);
-  requireVariance(d.sd);
+  requireVariance(d.sd * d.sd, std::max(std::abs(meanOf(a)), std::abs(meanOf(b))));
   return testOf(meanOf(a), meanOf(b), d.sd, d.sd / std::sqrt(d.n), d.n - 1);
 }
 
