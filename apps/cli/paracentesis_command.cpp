@@ -26,7 +26,7 @@ trainee stopped, other), space emergency stop, R re-arm, Escape leave.)";
 
 }  // namespace
 
-void runParacentesisCommand(SessionOptions options) {
+SessionLeft runParacentesisCommand(SessionOptions options) {
   settle(options);
   NeedleWorld world(options);
   settleOperator(options, world.station);
@@ -34,6 +34,7 @@ void runParacentesisCommand(SessionOptions options) {
   if (options.who == OperatorKind::person && options.demonstration) showDemonstration(options, world, folder);
   const SessionResult result = runNeedleSession(options, world, folder);
   writeOutcome(options, world, result, folder);
+  return {folder, result.quit};
 }
 
 void addParacentesis(CLI::App& program) {

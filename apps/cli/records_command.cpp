@@ -7,11 +7,11 @@
 #include "anatomy/geometry/whole_file.h"
 #include "apps/assess/metrics/metric_table.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/evidence_records.h"
+#include "apps/cli/evidence_delivery.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/records_place.h"
+#include "apps/cli/study_copy.h"
 #include "apps/record/session_file.h"
-#include "apps/record/store/delivery.h"
 #include "apps/record/store/pending.h"
 
 namespace palpa::cli {
@@ -69,23 +69,16 @@ void listTrainees(const RecordsOptions& o) {
   for (const record::Trainee& t : all) print(t, store.sessions(t.id).size());
 }
 
-/// Noted until the store has all of it, so that what cannot be sent now is sent by `palpa records deliver`.
 void deliverEvidence(const fs::path& file, const std::string& url) {
   const EvidenceRecords records = recordsOf(file);
-  record::PendingList pending(record::PendingList::usualFolder());
-  pending.note({records.session.uuid, file, url});
   try {
-    const record::Delivered delivered = record::deliver(url, records.session, records.trials);
+    const record::Delivered delivered = deliverSession(file, records, url);
     std::printf("%s: trainee %s, %d trial%s added, %d there already%s\n", file.string().c_str(), records.session.trainee.c_str(), delivered.added, delivered.added == 1 ? "" : "s", delivered.present,
                 records.unfinished ? ", one unfinished left out" : "");
   } catch (const record::StoreUnreachable&) {
     std::printf("%s: noted; palpa records deliver sends it\n", file.string().c_str());
     throw;
-  } catch (...) {   // a mistake that time does not mend
-    pending.forget(records.session.uuid);
-    throw;
   }
-  pending.forget(records.session.uuid);
 }
 
 void addSessions(const RecordsOptions& o) {
@@ -115,6 +108,7 @@ void deletePerson(const RecordsOptions& o) {
   record::RecordStore store(o.url);
   const std::size_t sessions = store.sessions(o.trainee.id).size();
   if (!o.yes) throw UsageError("would delete this person's " + std::to_string(sessions) + " sessions with their evidence for good", "trainee " + o.trainee.id, "Add --yes if that is meant");
+  removeStudyCopies(o.trainee.id);
   for (const record::StoredSession& session : store.deletePerson(o.trainee.id, utcNow())) {
     if (!removeEvidence(session)) continue;
     store.evidenceDeleted(session.uuid);

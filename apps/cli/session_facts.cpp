@@ -38,6 +38,7 @@ std::string format(const char* pattern, ...) {
 std::string whoPerformed(const SessionOptions& options) {
   if (options.who == OperatorKind::person) return options.trainee;
   if (options.who == OperatorKind::recorded) return "recorded hand";
+  if (options.who == OperatorKind::learner) return options.trainee + ", a simulated learner";
   const std::string who = options.who == OperatorKind::novice ? "simulated novice" : "simulated expert";
   return options.knows_patient ? who + " who has studied this patient" : who;
 }

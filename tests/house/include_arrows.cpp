@@ -76,6 +76,7 @@ std::vector<Layer> makeLayers() {
        librariesAnd({"apps/runtime"}),
        {},
        {"Eigen", "JSON", "SQLite", "zlib"}},
+      {"apps/study", librariesAnd({"apps/runtime", "apps/station", "apps/record/store"}), {}, {"Eigen", "JSON"}},
       {"apps/report", librariesAnd({"apps/assess"}), {}, {"Eigen", "JSON", "VTK", "VTK data", "Cairo"}},
       {"apps/twin/phantom", {"anatomy/geometry", "apps/station"}, {}, {"Eigen", "JSON"}},
       {"apps/twin", librariesAnd({"apps/runtime", "apps/station"}), {}, app_libraries},

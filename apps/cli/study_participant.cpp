@@ -1,0 +1,178 @@
+#include "apps/cli/study_participant.h"
+
+#include <algorithm>
+#include <set>
+
+#include "anatomy/geometry/error.h"
+#include "apps/cli/evidence_delivery.h"
+#include "apps/cli/output_folder.h"
+#include "apps/cli/study_copy.h"
+#include "apps/record/store/pending.h"
+#include "apps/study/allocation.h"
+
+namespace palpa::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Throws UsageError for somebody who cannot take part.
+void needFit(const record::Trainee& trainee, const study::Protocol& protocol, bool enrolled) {
+  const std::string who = "trainee " + trainee.id;
+  for (const auto& [barred, why] : barredFrom(protocol))
+    if (barred == trainee.id)
+      throw UsageError(why, who, "Experts who calibrate take no part; enrol somebody else");
+  if (trainee.research_utc.empty() && trainee.experience != kSimulatedExperience)
+    throw UsageError("has not agreed to studies", who,
+                     "Note the consent once it is given: palpa records trainee change --id " +
+                         trainee.id + " --research");
+  if (!enrolled && !protocol.group(trainee.group))
+    throw UsageError(
+        "is in the group \"" + trainee.group + "\", which is none of the study's", who,
+        "Correct it: palpa records trainee change --id " + trainee.id + " --group ...");
+}
+
+std::vector<record::PendingSession> waitingFor(const std::string& url) {
+  std::vector<record::PendingSession> waiting =
+      record::PendingList(record::PendingList::usualFolder()).sessions();
+  std::erase_if(waiting, [&](const record::PendingSession& s) { return s.url != url; });
+  return waiting;
+}
+
+}  // namespace
+
+StudyParticipant::StudyParticipant(const study::Protocol& protocol, const std::string& trainee,
+                                   const std::string& url, std::uint64_t seed)
+    : protocol_(protocol),
+      trainee_(trainee),
+      url_(url),
+      seed_(seed),
+      copy_(studyCopyFile(protocol.id, trainee, url)) {
+  readCopy();
+  refresh();
+}
+
+void StudyParticipant::refresh() {
+  try {
+    sendWaiting();
+    fromRecords();
+    online_ = true;
+    writeCopy();
+  } catch (const record::StoreUnreachable&) {
+    if (enrolment_.study.empty()) throw;
+    online_ = false;
+    addWaiting();
+  }
+}
+
+/// Sessions noted here whose program was killed, or whose records could not be reached. One without
+/// a file never began.
+void StudyParticipant::sendWaiting() {
+  for (const record::PendingSession& waiting : waitingFor(url_)) {
+    if (!fs::exists(waiting.evidence)) {
+      record::PendingList(record::PendingList::usualFolder()).forget(waiting.uuid);
+      continue;
+    }
+    const EvidenceRecords records = recordsOf(waiting.evidence);
+    if (records.session.trainee == trainee_) deliverSession(waiting.evidence, records, url_);
+  }
+}
+
+void StudyParticipant::fromRecords() {
+  record::RecordStore store(url_);
+  record::StudyStore studies(store);
+  const std::optional<record::Trainee> trainee = store.trainee(trainee_);
+  if (!trainee)
+    throw UsageError(
+        "is not in the records", "trainee " + trainee_,
+        "Add the trainee: palpa records trainee add --id " + trainee_ + " --group ... --research");
+  const std::optional<record::Enrolment> there = studies.enrolment(protocol_.id, trainee_);
+  needFit(*trainee, protocol_, there.has_value());
+  const std::string now = utcNow();
+  record::Enrolment wanted;
+  wanted.study = protocol_.id;
+  wanted.trainee = trainee_;
+  wanted.group = there ? there->group : trainee->group;
+  wanted.simulated = trainee->experience == kSimulatedExperience;
+  wanted.enrolled_utc = now;
+  enrolment_ = studies.enrol({protocol_.id, protocol_.sha256, seed_, now}, wanted,
+                             [&](std::uint64_t seed, std::int64_t place) {
+                               return protocol_.allocation
+                                          ? study::conditionOf(*protocol_.allocation, wanted.group,
+                                                               seed, place)
+                                          : std::string();
+                             });
+  for (KnownAnswer& known : answers_)
+    if (!known.sent) studies.answer(known.answer);
+  answers_.clear();
+  for (const record::Answer& answer : studies.answers(protocol_.id, trainee_))
+    answers_.push_back({answer, true});
+  trials_.clear();
+  for (const record::TrialWithSession& t :
+       store.trials({.trainee = trainee_, .study = protocol_.id}))
+    trials_.push_back(study::doneTrial(t.session, t.trial));
+}
+
+/// What the records do not know yet. In the order in which it began: here one clock counts.
+void StudyParticipant::addWaiting() {
+  std::set<std::string> known;
+  for (const study::DoneTrial& trial : trials_) known.insert(trial.session);
+  std::vector<EvidenceRecords> more;
+  for (const record::PendingSession& waiting : waitingFor(url_))
+    if (!known.count(waiting.uuid) && fs::exists(waiting.evidence))
+      more.push_back(recordsOf(waiting.evidence));
+  std::erase_if(more, [&](const EvidenceRecords& r) {
+    return r.session.trainee != trainee_ || r.session.study != protocol_.id;
+  });
+  std::sort(more.begin(), more.end(), [](const EvidenceRecords& a, const EvidenceRecords& b) {
+    return a.session.started_utc < b.session.started_utc;
+  });
+  for (const EvidenceRecords& records : more)
+    for (const record::StoredTrial& trial : records.trials)
+      trials_.push_back(study::doneTrial(records.session, trial));
+}
+
+study::Next StudyParticipant::next(const std::string& now_utc) const {
+  std::vector<std::pair<int, std::string>> answered;
+  for (const KnownAnswer& known : answers_)
+    answered.emplace_back(static_cast<int>(known.answer.session), known.answer.item);
+  return study::nextOf(protocol_, enrolment_.condition, trials_, answered, now_utc);
+}
+
+void StudyParticipant::answer(int session, const std::string& item, const std::string& text) {
+  const std::string& questionnaire =
+      protocol_.sessions[static_cast<std::size_t>(session - 1)].questionnaire->id;
+  answers_.push_back(
+      {{protocol_.id, trainee_, session, item, questionnaire, text, utcNow()}, false});
+  writeCopy();
+  if (!online_) return;
+  try {
+    record::RecordStore store(url_);
+    record::StudyStore(store).answer(answers_.back().answer);
+    answers_.back().sent = true;
+  } catch (const record::StoreUnreachable&) {
+    online_ = false;
+  }
+  writeCopy();
+}
+
+void StudyParticipant::readCopy() {
+  const std::optional<StudyCopy> copy = readStudyCopy(copy_);
+  if (!copy || copy->protocol_sha256 != protocol_.sha256) return;
+  enrolment_ = copy->enrolment;
+  trials_ = copy->trials;
+  for (std::size_t i = 0; i < copy->answers.size(); ++i)
+    answers_.push_back({copy->answers[i], i < copy->sent});
+}
+
+void StudyParticipant::writeCopy() const {
+  StudyCopy copy{protocol_.sha256, enrolment_, trials_, {}, 0};
+  for (const bool sent : {true, false})
+    for (const KnownAnswer& known : answers_)
+      if (known.sent == sent) {
+        copy.answers.push_back(known.answer);
+        copy.sent += sent;
+      }
+  writeStudyCopy(copy, copy_);
+}
+
+}  // namespace palpa::cli
