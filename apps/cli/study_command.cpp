@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <memory>
 
 #include "anatomy/geometry/error.h"
@@ -19,7 +20,11 @@ constexpr const char* kRunExamples = R"(Examples:
   palpa study run --protocol assets/protocols/paracentesis_pilot.json --simulate --learning assets/protocols/learners/paracentesis_learners.json --records cohort.sqlite
       virtual trainees who learn, to test the whole chain; simulated, and called so)";
 
-void run(const StudyOptions& o) {
+/// Notes of this station name the records; they must mean the same from any folder.
+std::string fromAnywhere(const std::string& url) { return record::isServer(url) ? url : std::filesystem::absolute(url).string(); }
+
+void run(StudyOptions o) {
+  o.url = fromAnywhere(o.url);
   if (o.simulate) {
     if (!o.trainee.empty())
       throw UsageError("go with one of them only", "--trainee, --simulate",

@@ -1,12 +1,14 @@
 #include "apps/cli/study_participant.h"
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 #include <set>
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/evidence_delivery.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/study_copy.h"
+#include "apps/record/session_file.h"
 #include "apps/record/store/pending.h"
 #include "apps/study/allocation.h"
 
@@ -31,10 +33,23 @@ void needFit(const record::Trainee& trainee, const study::Protocol& protocol, bo
         "Correct it: palpa records trainee change --id " + trainee.id + " --group ...");
 }
 
-std::vector<record::PendingSession> waitingFor(const std::string& url) {
+/// Whose session it is; empty where that cannot be read, as `palpa records deliver` says.
+std::string traineeIn(const fs::path& evidence) {
+  try {
+    return nlohmann::json::parse(record::SessionReader(evidence).info().session_json)
+        .value("trainee", "");
+  } catch (const std::exception&) {
+    return "";
+  }
+}
+
+/// Of this trainee, on this station. A session that was noted but has no file never began.
+std::vector<record::PendingSession> waitingFor(const std::string& trainee, const std::string& url) {
   std::vector<record::PendingSession> waiting =
       record::PendingList(record::PendingList::usualFolder()).sessions();
-  std::erase_if(waiting, [&](const record::PendingSession& s) { return s.url != url; });
+  std::erase_if(waiting, [&](const record::PendingSession& s) {
+    return s.url != url || (fs::exists(s.evidence) && traineeIn(s.evidence) != trainee);
+  });
   return waiting;
 }
 
@@ -64,16 +79,13 @@ void StudyParticipant::refresh() {
   }
 }
 
-/// Sessions noted here whose program was killed, or whose records could not be reached. One without
-/// a file never began.
+/// Sessions whose program was killed, or whose records could not be reached.
 void StudyParticipant::sendWaiting() {
-  for (const record::PendingSession& waiting : waitingFor(url_)) {
-    if (!fs::exists(waiting.evidence)) {
+  for (const record::PendingSession& waiting : waitingFor(trainee_, url_)) {
+    if (fs::exists(waiting.evidence))
+      deliverSession(waiting.evidence, recordsOf(waiting.evidence), url_);
+    else
       record::PendingList(record::PendingList::usualFolder()).forget(waiting.uuid);
-      continue;
-    }
-    const EvidenceRecords records = recordsOf(waiting.evidence);
-    if (records.session.trainee == trainee_) deliverSession(waiting.evidence, records, url_);
   }
 }
 
@@ -117,12 +129,10 @@ void StudyParticipant::addWaiting() {
   std::set<std::string> known;
   for (const study::DoneTrial& trial : trials_) known.insert(trial.session);
   std::vector<EvidenceRecords> more;
-  for (const record::PendingSession& waiting : waitingFor(url_))
+  for (const record::PendingSession& waiting : waitingFor(trainee_, url_))
     if (!known.count(waiting.uuid) && fs::exists(waiting.evidence))
       more.push_back(recordsOf(waiting.evidence));
-  std::erase_if(more, [&](const EvidenceRecords& r) {
-    return r.session.trainee != trainee_ || r.session.study != protocol_.id;
-  });
+  std::erase_if(more, [&](const EvidenceRecords& r) { return r.session.study != protocol_.id; });
   std::sort(more.begin(), more.end(), [](const EvidenceRecords& a, const EvidenceRecords& b) {
     return a.session.started_utc < b.session.started_utc;
   });

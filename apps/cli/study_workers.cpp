@@ -1,10 +1,12 @@
 #include "apps/cli/study_workers.h"
 
 #include <sys/mman.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <atomic>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
@@ -91,6 +93,7 @@ void shareWork(int items, int workers, int steps, bool quiet, const Work& work) 
   for (int i = 0; i < workers && i < items; ++i) {
     const pid_t child = ::fork();
     if (child == 0) {
+      ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // nobody works on for a parent that was killed
       workThrough(board, items, work);
       std::fflush(stdout);
       ::_exit(0);

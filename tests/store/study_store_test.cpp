@@ -12,12 +12,22 @@ namespace {
 
 class Studies : public Store {
  protected:
-  static StudyBeginning beginning(const std::string& sha = "abc") { return {"pilot", sha, 0xfedcba9876543210u, "2026-03-01T10:00:00Z"}; }
-  static Enrolment wanted(const std::string& trainee, const std::string& group = "novice") { return {"pilot", trainee, group, 0, "", false, "2026-03-02T10:00:00Z"}; }
-  static std::string draw(std::uint64_t seed, std::int64_t place) { return std::to_string(seed) + (place % 2 ? " odd" : " even"); }
-  static Enrolment enrol(RecordStore& store, const std::string& trainee, const std::string& group = "novice") { return StudyStore(store).enrol(beginning(), wanted(trainee, group), draw); }
+  static StudyBeginning beginning(const std::string& sha = "abc") {
+    return {"pilot", sha, 0xfedcba9876543210u, "2026-03-01T10:00:00Z"};
+  }
+  static Enrolment wanted(const std::string& trainee, const std::string& group = "novice") {
+    return {"pilot", trainee, group, 0, "", false, "2026-03-02T10:00:00Z"};
+  }
+  static std::string draw(std::uint64_t seed, std::int64_t place) {
+    return std::to_string(seed) + (place % 2 ? " odd" : " even");
+  }
+  static Enrolment enrol(RecordStore& store, const std::string& trainee,
+                         const std::string& group = "novice") {
+    return StudyStore(store).enrol(beginning(), wanted(trainee, group), draw);
+  }
 };
-INSTANTIATE_TEST_SUITE_P(Both, Studies, testing::Values("SQLite", "PostgreSQL"), [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Both, Studies, testing::Values("SQLite", "PostgreSQL"),
+                         [](const auto& p) { return std::string(p.param); });
 
 std::string complaintOf(const std::function<void()>& action) {
   try {
@@ -35,8 +45,8 @@ TEST_P(Studies, GiveThePlacesOfEachGroupInTurn) {
   EXPECT_EQ(enrol(store, "B", "experienced").place, 1);
   const Enrolment c = enrol(store, "C");
   EXPECT_EQ(c.place, 2);
-  EXPECT_EQ(c.condition, "18364758544493064720 even");   // the seed comes back whole
-  const Enrolment again = enrol(store, "C", "experienced");   // enrolled is enrolled
+  EXPECT_EQ(c.condition, "18364758544493064720 even");       // the seed comes back whole
+  const Enrolment again = enrol(store, "C", "experienced");  // enrolled is enrolled
   EXPECT_EQ(again.place, 2);
   EXPECT_EQ(again.group, "novice");
   StudyStore studies(store);
@@ -53,17 +63,25 @@ TEST_P(Studies, TheSeedIsOfTheFirstAndTheFileMustStay) {
   enrol(store, "A");
   StudyBeginning later = beginning();
   later.seed = 5;
-  EXPECT_EQ(StudyStore(store).enrol(later, wanted("B"), draw).condition, "18364758544493064720 even");
-  const std::string complaint = complaintOf([&] { StudyStore(store).enrol(beginning("other"), wanted("B"), draw); });
-  EXPECT_NE(complaint.find("began on 2026-03-01 by another protocol"), std::string::npos) << complaint;
-  EXPECT_NE(complaintOf([&] { enrol(store, "Z"); }).find("is not in the records"), std::string::npos);
-  EXPECT_EQ(StudyStore(store).placesGiven("pilot", "novice"), 2);   // no place was lost on the way
+  EXPECT_EQ(StudyStore(store).enrol(later, wanted("B"), draw).condition,
+            "18364758544493064720 even");
+  const std::string complaint =
+      complaintOf([&] { StudyStore(store).enrol(beginning("other"), wanted("B"), draw); });
+  EXPECT_NE(complaint.find("began on 2026-03-01 by another protocol"), std::string::npos)
+      << complaint;
+  EXPECT_NE(complaintOf([&] { enrol(store, "Z"); }).find("is not in the records"),
+            std::string::npos);
+  EXPECT_EQ(StudyStore(store).placesGiven("pilot", "novice"), 2);  // no place was lost on the way
 }
 
 TEST_P(Studies, AFailedDrawUsesNoPlace) {
   RecordStore store(url);
   store.addTrainee(novice("A"));
-  EXPECT_THROW(StudyStore(store).enrol(beginning(), wanted("A"), [](std::uint64_t, std::int64_t) -> std::string { throw Error("no", "draw", "Again"); }), Error);
+  EXPECT_THROW(StudyStore(store).enrol(beginning(), wanted("A"),
+                                       [](std::uint64_t, std::int64_t) -> std::string {
+                                         throw Error("no", "draw", "Again");
+                                       }),
+               Error);
   EXPECT_EQ(enrol(store, "A").place, 1);
 }
 
@@ -84,7 +102,8 @@ TEST_P(Studies, NoPlaceIsGivenTwice) {
   RecordStore store(url);
   const std::vector<Enrolment> all = StudyStore(store).enrolments("pilot");
   ASSERT_EQ(all.size(), static_cast<std::size_t>(kTrainees));
-  for (std::size_t i = 0; i < all.size(); ++i) EXPECT_EQ(all[i].place, static_cast<std::int64_t>(i + 1));
+  for (std::size_t i = 0; i < all.size(); ++i)
+    EXPECT_EQ(all[i].place, static_cast<std::int64_t>(i + 1));
 }
 
 TEST_P(Studies, KeepTheFirstAnswer) {
@@ -101,7 +120,8 @@ TEST_P(Studies, KeepTheFirstAnswer) {
   EXPECT_EQ(answers[1].session, 2);
   EXPECT_EQ(answers[1].answer, "It's ü");
   EXPECT_EQ(studies.answers("pilot").size(), 2u);
-  EXPECT_THROW(studies.answer({"pilot", "B", 1, "useful", "q", "4", ""}), Error);   // nobody enrolled
+  EXPECT_THROW(studies.answer({"pilot", "B", 1, "useful", "q", "4", ""}),
+               Error);  // nobody enrolled
 }
 
 TEST_P(Studies, GoWithThePersonButThePlaceStaysUsed) {

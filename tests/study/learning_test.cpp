@@ -12,10 +12,22 @@ using nlohmann::json;
 
 json learnersJson() {
   const auto group = [](const char* name) {
-    return json{{"name", name}, {"subjects", 3}, {"start", 0.1}, {"start_sd", 0.0}, {"asymptote", 0.9}, {"asymptote_sd", 0.0}, {"rate_per_trial", 0.25}, {"rate_sd", 0.0}};
+    return json{{"name", name},           {"subjects", 3},    {"start", 0.1},
+                {"start_sd", 0.0},        {"asymptote", 0.9}, {"asymptote_sd", 0.0},
+                {"rate_per_trial", 0.25}, {"rate_sd", 0.0}};
   };
-  return {{"version", 1}, {"id", "some"}, {"title", "Some"}, {"planted", "something"}, {"engine", "needle"}, {"from", "a.json"}, {"to", "b.json"}, {"groups", {group("novice"), group("experienced")}},
-          {"conditions", {{{"name", "A"}, {"rate_times", 2}}, {{"name", "B"}, {"rate_times", 0}}, {{"name", "plain"}, {"rate_times", 1}}}}};
+  return {{"version", 1},
+          {"id", "some"},
+          {"title", "Some"},
+          {"planted", "something"},
+          {"engine", "needle"},
+          {"from", "a.json"},
+          {"to", "b.json"},
+          {"groups", {group("novice"), group("experienced")}},
+          {"conditions",
+           {{{"name", "A"}, {"rate_times", 2}},
+            {{"name", "B"}, {"rate_times", 0}},
+            {{"name", "plain"}, {"rate_times", 1}}}}};
 }
 
 Learners read(const json& learners) {
@@ -29,9 +41,9 @@ TEST(Learning, IsTheCurveThatIsWritten) {
   const Learners learners = read(learnersJson());
   VirtualTrainee trainee(learners, "novice", 1);
   EXPECT_DOUBLE_EQ(trainee.level(), 0.1);
-  trainee.practised("A");   // twice as much
+  trainee.practised("A");  // twice as much
   EXPECT_DOUBLE_EQ(trainee.level(), 0.9 - 0.8 * std::exp(-0.5));
-  trainee.practised("B");   // nothing
+  trainee.practised("B");  // nothing
   EXPECT_DOUBLE_EQ(trainee.level(), 0.9 - 0.8 * std::exp(-0.5));
   trainee.practised("plain");
   EXPECT_DOUBLE_EQ(trainee.level(), 0.9 - 0.8 * std::exp(-0.75));
@@ -75,16 +87,24 @@ TEST(Learning, SaysWhatIsWrong) {
     change(text);
     return complaintOf([&] { read(text); });
   };
-  const auto has = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos && text.find("learners.json") != std::string::npos; };
+  const auto has = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos && text.find("learners.json") != std::string::npos;
+  };
   EXPECT_TRUE(has(complaint([](json& l) { l["version"] = 2; }), "newer"));
   EXPECT_TRUE(has(complaint([](json& l) { l["engine"] = "squeeze"; }), "needle and surface"));
-  EXPECT_TRUE(has(complaint([](json& l) { l["engine"] = "surface"; }), "of the protocol is of \"needle\""));
+  EXPECT_TRUE(
+      has(complaint([](json& l) { l["engine"] = "surface"; }), "of the protocol is of \"needle\""));
   EXPECT_TRUE(has(complaint([](json& l) { l["groups"].erase(1); }), "lacks \"experienced\""));
-  EXPECT_TRUE(has(complaint([](json& l) { l["groups"][1]["name"] = "masters"; }), "\"experienced\""));
-  EXPECT_TRUE(has(complaint([](json& l) { l["conditions"].push_back({{"name", "C"}, {"rate_times", 1}}); }), "\"C\", which is no condition"));
+  EXPECT_TRUE(
+      has(complaint([](json& l) { l["groups"][1]["name"] = "masters"; }), "\"experienced\""));
+  EXPECT_TRUE(has(complaint([](json& l) {
+                    l["conditions"].push_back({{"name", "C"}, {"rate_times", 1}});
+                  }),
+                  "\"C\", which is no condition"));
   EXPECT_TRUE(has(complaint([](json& l) { l["groups"][0]["start"] = 1.5; }), "\"start\" is 1.5"));
   EXPECT_TRUE(has(complaint([](json& l) { l["groups"][0]["subjects"] = 0; }), "\"subjects\" is 0"));
-  EXPECT_TRUE(has(complaint([](json& l) { l["groups"][0].erase("rate_per_trial"); }), "\"rate_per_trial\" is missing"));
+  EXPECT_TRUE(has(complaint([](json& l) { l["groups"][0].erase("rate_per_trial"); }),
+                  "\"rate_per_trial\" is missing"));
 }
 
 TEST(Learning, TheShippedLearnersFitTheirProtocols) {
@@ -97,9 +117,12 @@ TEST(Learning, TheShippedLearnersFitTheirProtocols) {
   const Learners nothing = readLearners(shipped / "learners/paracentesis_no_effect.json", pilot);
   EXPECT_EQ(nothing.groups.at("novice").start, nothing.groups.at("experienced").start);
   EXPECT_EQ(nothing.groups.at("novice").rate, 0);
-  for (const Learners& l : {planted, nothing}) EXPECT_LT(twin::readOperatorSkill(l.to).entry_sd, twin::readOperatorSkill(l.from).entry_sd);
-  const Learners search = readLearners(shipped / "learners/search_learners.json", readProtocol(shipped / "search_study.json"));
-  EXPECT_LT(twin::readSearchingSkill(search.to).weber_roughness, twin::readSearchingSkill(search.from).weber_roughness);
+  for (const Learners& l : {planted, nothing})
+    EXPECT_LT(twin::readOperatorSkill(l.to).entry_sd, twin::readOperatorSkill(l.from).entry_sd);
+  const Learners search = readLearners(shipped / "learners/search_learners.json",
+                                       readProtocol(shipped / "search_study.json"));
+  EXPECT_LT(twin::readSearchingSkill(search.to).weber_roughness,
+            twin::readSearchingSkill(search.from).weber_roughness);
 }
 
 }  // namespace

@@ -28,7 +28,7 @@ TEST(Protocol, IsReadAsWritten) {
   EXPECT_EQ(p.sessions[1].days_after, 2);
   EXPECT_EQ(p.sessions[1].questionnaire->items.size(), 2u);
   EXPECT_FALSE(p.condition("B")->shows.force_feedback);
-  EXPECT_FALSE(p.condition("B")->shows.navigation);   // always so
+  EXPECT_FALSE(p.condition("B")->shows.navigation);  // always so
   EXPECT_TRUE(p.condition("plain")->shows.force_feedback);
   EXPECT_TRUE(p.bars_experts);
   EXPECT_FALSE(p.blind());
@@ -44,7 +44,9 @@ TEST(Protocol, TheShippedOnesAreTheSources) {
   EXPECT_EQ(pilot.block(2).trials, 10);
   EXPECT_TRUE(pilot.condition("FF")->shows.force_feedback);
   EXPECT_FALSE(pilot.condition("NO")->shows.force_feedback);
-  for (const Condition& c : pilot.conditions) EXPECT_FALSE(c.shows.navigation || c.shows.skin_deflection || c.shows.augment || c.shows.guide) << c.name;
+  for (const Condition& c : pilot.conditions)
+    EXPECT_FALSE(c.shows.navigation || c.shows.skin_deflection || c.shows.augment || c.shows.guide)
+        << c.name;
   EXPECT_TRUE(pilot.sessions.at(0).questionnaire);
 
   const Protocol search = readProtocol(shipped / "search_study.json");
@@ -54,7 +56,7 @@ TEST(Protocol, TheShippedOnesAreTheSources) {
   for (int step = 1; step <= 3; ++step) {
     EXPECT_EQ(search.block(step).trials, trials[step - 1]);
     EXPECT_EQ(search.block(step).rest_after, 20);
-    EXPECT_EQ(search.block(step).condition.empty(), step == 2);   // drawn for the training alone
+    EXPECT_EQ(search.block(step).condition.empty(), step == 2);  // drawn for the training alone
   }
   EXPECT_EQ(search.condition(search.block(1).condition)->shows.mode, "real");
   EXPECT_EQ(search.condition("augmented")->shows.mode, "augmented");
@@ -83,24 +85,64 @@ json& block(json& p, int i) { return p["sessions"][0]["blocks"][i]; }
 INSTANTIATE_TEST_SUITE_P(
     Each, WrongProtocol,
     testing::Values(
-        Damage{"Version", [](json& p) { p["version"] = 2; }, "\"version\" is newer"}, Damage{"NoId", [](json& p) { p.erase("id"); }, "\"id\" is missing"},
-        Damage{"IdOfWords", [](json& p) { p["id"] = "a study"; }, "\"id\" is \"a study\""}, Damage{"NoGroup", [](json& p) { p["groups"] = json::array(); }, "\"groups\" must be"},
-        Damage{"GroupTwice", [](json& p) { p["groups"][1]["name"] = "novice"; }, "as that of another"}, Damage{"ConditionTwice", [](json& p) { p["conditions"][2]["name"] = "A"; }, "as that of another"},
-        Damage{"UnknownCondition", [](json& p) { block(p, 0)["condition"] = "C"; }, "none of the protocol's conditions"},
-        Damage{"UnknownDrawn", [](json& p) { p["allocation"]["conditions"][1] = "C"; }, "none of the protocol's conditions"},
-        Damage{"DrawnTwice", [](json& p) { p["allocation"]["conditions"][1] = "A"; }, "\"A\" twice"}, Damage{"OneDrawn", [](json& p) { p["allocation"]["conditions"] = {"A"}; }, "at least two"},
-        Damage{"Unbalanced", [](json& p) { p["allocation"]["block"] = 3; }, "multiple of the number of conditions"}, Damage{"NoAllocation", [](json& p) { p.erase("allocation"); }, "no \"allocation\""},
-        Damage{"NothingDrawn", [](json& p) { block(p, 1)["condition"] = "plain"; }, "is used by no block"},
-        Damage{"NotUsed", [](json& p) { p["conditions"].push_back({{"name", "D"}, {"means", "idle"}}); }, "\"D\", which no block"},
-        Damage{"Misspelt", [](json& p) { p["conditions"][0]["sets"] = {{"force_feedbak", true}}; }, "force_feedbak"},
-        Damage{"OnInWords", [](json& p) { p["conditions"][0]["sets"] = {{"force_feedback", "on"}}; }, "must be true or false"},
-        Damage{"UnknownMode", [](json& p) { p["conditions"][0]["sets"] = {{"mode", "soft"}}; }, "must be one of augmented, degraded, real"},
-        Damage{"NamedDrawn", [](json& p) { p["conditions"][0]["name"] = "drawn"; }, "which means the condition"}, Damage{"NoTrials", [](json& p) { block(p, 1)["trials"] = 0; }, "\"trials\" is 0, outside 1"},
-        Damage{"HalfATrial", [](json& p) { block(p, 1)["trials"] = 1.5; }, "whole number"}, Damage{"NegativeRest", [](json& p) { block(p, 1)["rest_s"] = -1; }, "\"rest_s\" is -1"},
-        Damage{"RestOfNoTime", [](json& p) { block(p, 1).erase("rest_s"); }, "needs rest_s"}, Damage{"UnknownRole", [](json& p) { block(p, 1)["role"] = "exam"; }, "must be one of familiarisation, scored"},
-        Damage{"NegativeDays", [](json& p) { p["sessions"][1]["days_after"] = -1; }, "\"days_after\" is -1"}, Damage{"NoBlock", [](json& p) { p["sessions"][1]["blocks"] = json::array(); }, "\"blocks\" must be"},
-        Damage{"NoSession", [](json& p) { p.erase("sessions"); }, "\"sessions\" must be"}, Damage{"BlindToWhom", [](json& p) { p["blind"] = {"everybody"}; }, "must be one of educator, trainee"},
-        Damage{"BarredOne", [](json& p) { p["barred"] = {7}; }, "must be a list of texts"}, Damage{"NoTask", [](json& p) { block(p, 1)["task"] = "none.json"; }, "cannot be read"}),
+        Damage{"Version", [](json& p) { p["version"] = 2; }, "\"version\" is newer"},
+        Damage{"NoId", [](json& p) { p.erase("id"); }, "\"id\" is missing"},
+        Damage{"IdOfWords", [](json& p) { p["id"] = "a study"; }, "\"id\" is \"a study\""},
+        Damage{"NoGroup", [](json& p) { p["groups"] = json::array(); }, "\"groups\" must be"},
+        Damage{"GroupTwice", [](json& p) { p["groups"][1]["name"] = "novice"; },
+               "as that of another"},
+        Damage{"ConditionTwice", [](json& p) { p["conditions"][2]["name"] = "A"; },
+               "as that of another"},
+        Damage{"UnknownCondition", [](json& p) { block(p, 0)["condition"] = "C"; },
+               "none of the protocol's conditions"},
+        Damage{"UnknownDrawn", [](json& p) { p["allocation"]["conditions"][1] = "C"; },
+               "none of the protocol's conditions"},
+        Damage{"DrawnTwice", [](json& p) { p["allocation"]["conditions"][1] = "A"; },
+               "\"A\" twice"},
+        Damage{"OneDrawn", [](json& p) { p["allocation"]["conditions"] = json::array({"A"}); }, "at least two"},
+        Damage{"Unbalanced", [](json& p) { p["allocation"]["block"] = 3; },
+               "multiple of the number of conditions"},
+        Damage{"NoAllocation", [](json& p) { p.erase("allocation"); }, "no \"allocation\""},
+        Damage{"NothingDrawn", [](json& p) { block(p, 1)["condition"] = "plain"; },
+               "is used by no block"},
+        Damage{"NotUsed",
+               [](json& p) {
+                 p["conditions"].push_back({{"name", "D"}, {"means", "idle"}});
+               },
+               "\"D\", which no block"},
+        Damage{"Misspelt",
+               [](json& p) {
+                 p["conditions"][0]["sets"] = {{"force_feedbak", true}};
+               },
+               "force_feedbak"},
+        Damage{"OnInWords",
+               [](json& p) {
+                 p["conditions"][0]["sets"] = {{"force_feedback", "on"}};
+               },
+               "must be true or false"},
+        Damage{"UnknownMode",
+               [](json& p) {
+                 p["conditions"][0]["sets"] = {{"mode", "soft"}};
+               },
+               "must be one of augmented, degraded, real"},
+        Damage{"NamedDrawn", [](json& p) { p["conditions"][0]["name"] = "drawn"; },
+               "which means the condition"},
+        Damage{"NoTrials", [](json& p) { block(p, 1)["trials"] = 0; },
+               "\"trials\" is 0, outside 1"},
+        Damage{"HalfATrial", [](json& p) { block(p, 1)["trials"] = 1.5; }, "whole number"},
+        Damage{"NegativeRest", [](json& p) { block(p, 1)["rest_s"] = -1; }, "\"rest_s\" is -1"},
+        Damage{"RestOfNoTime", [](json& p) { block(p, 1).erase("rest_s"); }, "needs rest_s"},
+        Damage{"UnknownRole", [](json& p) { block(p, 1)["role"] = "exam"; },
+               "must be one of familiarisation, scored"},
+        Damage{"NegativeDays", [](json& p) { p["sessions"][1]["days_after"] = -1; },
+               "\"days_after\" is -1"},
+        Damage{"NoBlock", [](json& p) { p["sessions"][1]["blocks"] = json::array(); },
+               "\"blocks\" must be"},
+        Damage{"NoSession", [](json& p) { p.erase("sessions"); }, "\"sessions\" must be"},
+        Damage{"BlindToWhom", [](json& p) { p["blind"] = json::array({"everybody"}); },
+               "must be one of educator, trainee"},
+        Damage{"BarredOne", [](json& p) { p["barred"] = json::array({7}); }, "must be a list of texts"},
+        Damage{"NoTask", [](json& p) { block(p, 1)["task"] = "none.json"; }, "cannot be read"}),
     [](const auto& p) { return std::string(p.param.name); });
 
 TEST(Protocol, ATaskOfAnUnknownEngineIsRefused) {
@@ -113,14 +155,16 @@ TEST(Protocol, FieldsOfAWrongKindAreNamedNotBelieved) {
   const json good = smallProtocol();
   const json flat = good.flatten();
   for (const auto& [pointer, value] : flat.items())
-    for (const json& wrong : {json(nullptr), json::array({1, 2}), json(std::string(3, 'x')), json(-1e300)}) {
+    for (const json& wrong :
+         {json(nullptr), json::array({1, 2}), json(std::string(3, 'x')), json(-1e300)}) {
       json changed = good;
       changed.at(json::json_pointer(pointer)) = wrong;
       const auto file = written(changed);
       try {
-        readProtocol(file);   // a text in place of a text may well be one
+        readProtocol(file);  // a text in place of a text may well be one
       } catch (const UsageError& e) {
-        EXPECT_NE(std::string(e.what()).find(file.parent_path().string()), std::string::npos) << pointer << ": " << e.what();
+        EXPECT_NE(std::string(e.what()).find(file.parent_path().string()), std::string::npos)
+            << pointer << ": " << e.what();
       }
     }
 }

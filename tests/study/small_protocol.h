@@ -13,7 +13,8 @@
 
 namespace palpa::study {
 
-/// Two groups, two conditions drawn, a third that is not; two sessions, the first of two blocks, the second with a questionnaire.
+/// Two groups, two conditions drawn, a third that is not; two sessions, the first of two blocks,
+/// the second with a questionnaire.
 inline nlohmann::json smallProtocol() {
   return nlohmann::json::parse(R"({
     "version": 1, "id": "small", "title": "A small study", "source": "made up",
@@ -31,15 +32,18 @@ inline nlohmann::json smallProtocol() {
 }
 
 inline nlohmann::json smallQuestionnaire() {
-  return nlohmann::json::parse(R"({"version": 1, "id": "after", "title": "After it", "source": "made up", "items": [
+  return nlohmann::json::parse(
+      R"({"version": 1, "id": "after", "title": "After it", "source": "made up", "items": [
     {"id": "useful", "kind": "likert", "points": 5, "question": "Was it useful?", "low": "no", "high": "yes"},
     {"id": "remarks", "kind": "text", "question": "Anything else?", "may_be_left": true}]})");
 }
 
 /// The file, with its task and questionnaire beside it.
-inline std::filesystem::path written(const nlohmann::json& protocol, const nlohmann::json& questionnaire = smallQuestionnaire()) {
+inline std::filesystem::path written(const nlohmann::json& protocol,
+                                     const nlohmann::json& questionnaire = smallQuestionnaire()) {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const auto folder = test::freshFolder("study", std::string(test->test_suite_name()) + "-" + test->name());
+  const auto folder =
+      test::freshFolder("study", std::string(test->test_suite_name()) + "-" + test->name());
   std::ofstream(folder / "task.json") << R"({"version": 1, "engine": "needle"})";
   std::ofstream(folder / "questions.json") << questionnaire.dump();
   std::ofstream(folder / "protocol.json") << protocol.dump();
