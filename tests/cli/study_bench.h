@@ -10,10 +10,10 @@
 
 namespace palpa::cli_test {
 
-inline const std::string kAssets = PALPA_SOURCE_DIR "/assets";
+inline const std::string kShipped = PALPA_SOURCE_DIR "/assets";
 
 inline nlohmann::json protocolText() {
-  const std::string task = kAssets + "/tasks/paracentesis.json";
+  const std::string task = kShipped + "/tasks/paracentesis.json";
   return {
       {"version", 1},
       {"id", "small"},
@@ -29,7 +29,7 @@ inline nlohmann::json protocolText() {
       {"sessions",
        {{{"name", "only"},
          {"blocks", {{{"name", "trials"}, {"task", task}, {"trials", 2}, {"condition", "drawn"}}}},
-         {"questionnaire", kAssets + "/protocols/questionnaires/paracentesis_pilot.json"}}}}};
+         {"questionnaire", kShipped + "/protocols/questionnaires/paracentesis_pilot.json"}}}}};
 }
 
 class Study : public testing::Test {

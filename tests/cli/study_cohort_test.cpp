@@ -31,8 +31,8 @@ TEST_F(Study, VirtualTraineesFillAProtocol) {
                  {"title", "Few"},
                  {"planted", "nothing much"},
                  {"engine", "needle"},
-                 {"from", kAssets + "/operators/novice.json"},
-                 {"to", kAssets + "/operators/expert.json"},
+                 {"from", kShipped + "/operators/novice.json"},
+                 {"to", kShipped + "/operators/expert.json"},
                  {"groups", {group("novice", 0.5), group("experienced", 0.9)}},
                  {"conditions",
                   {{{"name", "FF"}, {"rate_times", 1}}, {{"name", "NO"}, {"rate_times", 0.5}}}}}

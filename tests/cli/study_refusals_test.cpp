@@ -35,11 +35,11 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
   here.file("protocol.json", text.dump());
   refused("barred by the protocol");
   // An expert whose trials made the task's optimal path.
-  json path = json::parse(contentOf(kAssets + "/tasks/paracentesis_expert_path.json")),
-       task = json::parse(contentOf(kAssets + "/tasks/paracentesis.json"));
+  json path = json::parse(contentOf(kShipped + "/tasks/paracentesis_expert_path.json")),
+       task = json::parse(contentOf(kShipped + "/tasks/paracentesis.json"));
   path["experts"].push_back("T001");
   here.file("paracentesis_expert_path.json", path.dump());
-  task["materials"] = kAssets + "/materials/needle.json";
+  task["materials"] = kShipped + "/materials/needle.json";
   here.file("task.json", task.dump());
   text = protocolText();
   text["sessions"][0]["blocks"][0]["task"] = "task.json";

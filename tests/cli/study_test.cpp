@@ -74,8 +74,10 @@ TEST_F(Study, GoesOnWhereItWasKilled) {
   EXPECT_EQ(on.exit_code, 0) << on.err;
   auto records = store();
   std::set<std::uint64_t> seeds;
-  for (const auto& t : records.trials({.study = "small"}))
-    if (t.trial.outcome != "void") EXPECT_TRUE(seeds.insert(t.trial.seed).second) << "done twice";
+  for (const auto& t : records.trials({.study = "small"})) {
+    if (t.trial.outcome == "void") continue;
+    EXPECT_TRUE(seeds.insert(t.trial.seed).second) << "done twice";
+  }
   EXPECT_EQ(seeds.size(), 2u);
   EXPECT_EQ(record::StudyStore(records).placesGiven("small", "novice"), 1);
   EXPECT_TRUE(says(status().out, "questionnaire")) << status().out;

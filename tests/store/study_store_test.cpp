@@ -87,13 +87,13 @@ TEST_P(Studies, AFailedDrawUsesNoPlace) {
 
 /// Several stations enrol at once, some of them the same trainee.
 TEST_P(Studies, NoPlaceIsGivenTwice) {
-  constexpr int kStations = 4, kEach = 6, kTrainees = 12;
+  constexpr int kDesks = 4, kEach = 6, kTrainees = 12;
   {
     RecordStore store(url);
     for (int i = 0; i < kTrainees; ++i) store.addTrainee(novice("T" + std::to_string(i)));
   }
   std::vector<std::thread> stations;
-  for (int s = 0; s < kStations; ++s)
+  for (int s = 0; s < kDesks; ++s)
     stations.emplace_back([&, s] {
       RecordStore store(url);
       for (int i = 0; i < kEach; ++i) enrol(store, "T" + std::to_string((s * 3 + i) % kTrainees));
