@@ -50,6 +50,13 @@ std::vector<std::string> simulateExperts(const ExpertOptions& o) {
   return files;
 }
 
+/// Who takes part in no study that uses the path: the pseudonym; of simulated experts without one the folder of their session.
+std::string expertOf(const RecordedSession& session, const std::string& file) {
+  static const std::string kNobody = SessionOptions().trainee;
+  if (session.trainee() != kNobody && !session.trainee().empty()) return session.trainee();
+  return session.simulated() ? std::filesystem::path(file).parent_path().filename().string() : session.operatorName();
+}
+
 void calibrateExperts(ExpertOptions o) {
   if (o.from.empty() == (o.simulate == 0))
     throw UsageError("needs either --from or --simulate", "palpa calibrate experts", "See its --help");
@@ -65,9 +72,7 @@ void calibrateExperts(ExpertOptions o) {
       ++seen;
       calibration::ExpertTrial expert;
       if (trial.end.outcome == "success" &&
-          assess::expertTrial(samples, frame, session.operatorName(), &expert)) {
-        expert.expert = session.simulated() ? std::filesystem::path(file).parent_path().filename().string()
-                                            : session.operatorName();
+          assess::expertTrial(samples, frame, expertOf(session, file), &expert)) {
         trials.push_back(std::move(expert));
       }
     });

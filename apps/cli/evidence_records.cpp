@@ -64,6 +64,10 @@ record::StoredSession sessionIn(const record::SessionReader& reader, const std::
   s.task = info.command;
   s.station = station.value("id", "");
   s.simulated = session.value("simulated", false);
+  if (const nlohmann::json study = session.value("study", nlohmann::json::object()); !study.empty()) {
+    s.study = study.at("id");
+    s.slot = study.at("slot");
+  }
   s.evidence = std::filesystem::absolute(evidence).string();
   s.evidence_sha256 = station::sha256OfFile(evidence);
   s.facts_json = info.session_json;

@@ -56,10 +56,7 @@ int run(int argc, char** argv) {
   palpa::cli::addPhantom(program);
   palpa::cli::addExport(program);
   palpa::cli::addRecords(program);
-  CLI::App* study = program.add_subcommand("study", "Studies: what they found, and planning them");
-  study->require_subcommand(1);
-  palpa::cli::addStudyAnalyse(*study);
-  palpa::cli::addStudyPlan(*study);
+  palpa::cli::addStudy(program);
   palpa::cli::addBench(program);
   try {
     program.parse(argc, argv);

@@ -1,6 +1,7 @@
 #include "apps/cli/needle_hands.h"
 
 #include "apps/station/assets.h"
+#include "apps/twin/learning_hand.h"
 #include "apps/twin/operator.h"
 
 namespace palpa::cli {
@@ -10,13 +11,20 @@ twin::OperatorSkill skillOf(OperatorKind who) {
   return twin::readOperatorSkill(station::assetFile(who == OperatorKind::novice ? "operators/novice.json" : "operators/expert.json"));
 }
 
+std::unique_ptr<twin::Hand> operatorOf(const SessionOptions& options, const twin::OperatorSkill& skill, const twin::VisibleAnatomy& anatomy, const Pose& X_ET) {
+  if (options.who != OperatorKind::learner) return std::make_unique<twin::Operator>(skill, anatomy, X_ET, options.seed);
+  return std::make_unique<twin::LearningHand>([learner = options.learner, from = twin::readOperatorSkill(options.learner.from), to = twin::readOperatorSkill(options.learner.to), anatomy, X_ET](int trial) {
+    return std::make_unique<twin::Operator>(between(from, to, learner.level(trial)), anatomy, X_ET, learner.seed + static_cast<std::uint64_t>(trial - 1));
+  });
+}
+
 }  // namespace
 
 SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWorld& world) {
   const twin::OperatorSkill skill = skillOf(options.who);
   const twin::VisibleAnatomy anatomy = world.visible(skill, options.knows_patient);
   twin::VirtualBench::Setup bench{world.station,
-                                  std::make_unique<twin::Operator>(skill, anatomy, world.station.X_ET, options.seed),
+                                  operatorOf(options, skill, anatomy, world.station.X_ET),
                                   twin::needlePickedUp(world.station, world.X_WA, anatomy.entry_A, options.left_handed),
                                   world.X_WA * anatomy.entry_A,
                                   world.X_WA.rotation() * anatomy.normal_A,

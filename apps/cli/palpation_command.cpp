@@ -31,15 +31,17 @@ const std::map<std::string, std::string> kPresets{{"abdomen", "tasks/palpation_a
 
 }  // namespace
 
-void runPalpationCommand(SessionOptions options) {
+SessionLeft runPalpationCommand(SessionOptions options) {
   settle(options);
   if (options.headset) throw UsageError("does not show palpation yet", "--display openxr", "Choose window or offscreen");
   const PalpationWorld world(options);
   settleOperator(options, world.station);
   checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
-  writePalpationOutcome(options, world, runPalpation(options, world, folder), folder);
+  const PalpationRun run = runPalpation(options, world, folder);
+  writePalpationOutcome(options, world, run, folder);
   deliverSession(options, folder);
+  return {folder, run.quit};
 }
 
 void addPalpation(CLI::App& program) {

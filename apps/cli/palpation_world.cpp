@@ -102,10 +102,11 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
 
 record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
   record::SessionInfo info;
+  info.uuid = options.uuid;
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = nlohmann::json{{"seed", options.seed},
+  info.session_json = sessionText({{"seed", options.seed},
                                      {"operator", nameOf(options.who)},
                                      {"simulated", simulated(options)},
                                      {"trainee", options.trainee},
@@ -113,8 +114,8 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
                                      {"guidance", options.guidance},
                                      {"see_through", options.see_through},
                                      {"augment", options.augment},
-                                     {"virtual_time", options.fast}}
-                          .dump();
+                                     {"virtual_time", options.fast}},
+                                  options);
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.tick_config = tickConfig(options);

@@ -27,7 +27,7 @@ trainee stopped, other), space emergency stop, R re-arm, Escape leave.)";
 
 }  // namespace
 
-void runParacentesisCommand(SessionOptions options) {
+SessionLeft runParacentesisCommand(SessionOptions options) {
   settle(options);
   NeedleWorld world(options);
   settleOperator(options, world.station);
@@ -37,6 +37,7 @@ void runParacentesisCommand(SessionOptions options) {
   const SessionResult result = runNeedleSession(options, world, folder);
   writeOutcome(options, world, result, folder);
   deliverSession(options, folder);
+  return {folder, result.quit};
 }
 
 void addParacentesis(CLI::App& program) {

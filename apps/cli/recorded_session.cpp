@@ -51,6 +51,7 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
     X_DA_ = poseFrom(session.at("X_DA"));
     simulated_ = session.at("simulated").get<bool>();
     operator_ = session.at("operator").get<std::string>();
+    trainee_ = session.value("trainee", "");
   } catch (const nlohmann::json::exception& e) {
     throw Error(std::string("the session's description is damaged (") + e.what() + ")", file.string(),
                 "Restore the file from a backup");

@@ -25,6 +25,7 @@ class RecordedSession {
   const Pose& X_DA() const { return X_DA_; }
   bool simulated() const { return simulated_; }
   const std::string& operatorName() const { return operator_; }
+  const std::string& trainee() const { return trainee_; }   ///< pseudonym of who performed
   const std::vector<record::RecordedTrial>& trials() const { return trials_; }
   using Samples = std::vector<assess::TrialSample>;
   /// Calls `visit` with every trial and all its judged ticks, in A: one pass over the record.
@@ -41,7 +42,7 @@ class RecordedSession {
   task_needle::TaskSettings task_;
   Pose X_DA_ = Pose::Identity();
   bool simulated_ = false;
-  std::string operator_;
+  std::string operator_, trainee_;
   std::vector<record::RecordedTrial> trials_;
 };
 

@@ -6,6 +6,7 @@
 #include "apps/cli/deliver_evidence.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/records_actions.h"
+#include "apps/cli/study_copy.h"
 #include "apps/link/tell.h"
 #include "apps/record/session_file.h"
 
@@ -39,6 +40,7 @@ void takeBack(record::RecordStore& store, const std::string& url) {
 }
 
 void deleteOne(record::RecordStore& store, const std::string& id) {
+  removeStudyCopies(id);
   const std::vector<record::StoredSession> sessions = store.deletePerson(id, utcNow());
   for (const record::StoredSession& session : sessions) {
     if (!removeEvidence(session)) continue;

@@ -24,7 +24,7 @@ Three things lie hidden on a floor; one is rougher than the others. Find it, and
 
 }  // namespace
 
-void runSearchCommand(SessionOptions options) {
+SessionLeft runSearchCommand(SessionOptions options) {
   settle(options);
   if (options.headset) throw UsageError("does not show a search yet", "--display openxr", "Choose window or offscreen");
   const SearchWorld world(options);
@@ -32,8 +32,10 @@ void runSearchCommand(SessionOptions options) {
   if (options.who == OperatorKind::person && world.onBench()) throw UsageError("cannot be felt with a mouse", "--operator person", "Give a station with a haptic device (--station), or take --operator expert or novice");
   checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
-  writeSearchOutcome(options, world, runSearch(options, world, folder), folder);
+  const SearchRun run = runSearch(options, world, folder);
+  writeSearchOutcome(options, world, run, folder);
   deliverSession(options, folder);
+  return {folder, run.quit};
 }
 
 void addSearch(CLI::App& program) {

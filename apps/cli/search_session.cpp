@@ -9,7 +9,7 @@
 #include "apps/cli/session_info.h"
 #include "apps/station/assets.h"
 #include "apps/task_search/search_scene.h"
-#include "apps/twin/searching_hand.h"
+#include "apps/twin/learning_hand.h"
 
 namespace palpa::cli {
 namespace {
@@ -46,6 +46,13 @@ Vec3 plateSize(const task_search::SearchSettings& task) {
   return {side, side, kPlateThick};
 }
 
+std::unique_ptr<twin::Hand> searchingHandOf(const SessionOptions& options, const twin::VisibleFloor& seen, const Pose& X_ET) {
+  if (options.who != OperatorKind::learner) return twin::searchingHand(twin::readSearchingSkill(station::assetFile(options.who == OperatorKind::novice ? "operators/search_novice.json" : "operators/search_expert.json")), seen, X_ET, options.seed);
+  return std::make_unique<twin::LearningHand>([learner = options.learner, from = twin::readSearchingSkill(options.learner.from), to = twin::readSearchingSkill(options.learner.to), seen, X_ET](int trial) {
+    return twin::searchingHand(between(from, to, learner.level(trial)), seen, X_ET, learner.seed + static_cast<std::uint64_t>(trial - 1));
+  });
+}
+
 /// The probe points down.
 Mat3 downward() { return Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(); }
 
@@ -77,7 +84,6 @@ haptics::TickConfig SearchWorld::tickConfig(const SessionOptions& options) const
 }
 
 SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
-  const twin::SearchingSkill skill = twin::readSearchingSkill(station::assetFile(options.who == OperatorKind::novice ? "operators/search_novice.json" : "operators/search_expert.json"));
   twin::VisibleFloor seen;
   seen.X_AF = X_AF;
   seen.magnification = magnification();
@@ -89,7 +95,7 @@ SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
   seen.groove = task.spec.groove + task.spec.groove_half_width;
   const Pose X_WF = station.floor->X_WF, X_WT = X_WF * makePose(downward(), Vec3(0, 0, rendering.start_height * rendering.unit));
   twin::VirtualBench::Setup bench{station,
-                                  twin::searchingHand(skill, seen, station.X_ET, options.seed),
+                                  searchingHandOf(options, seen, station.X_ET),
                                   station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
                                   X_WF.translation(),
                                   X_WF.linear() * Vec3::UnitZ(),
@@ -103,12 +109,13 @@ SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
 
 record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
   record::SessionInfo info;
+  info.uuid = options.uuid;
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = nlohmann::json{{"seed", options.seed},        {"operator", nameOf(options.who)},           {"simulated", simulated(options)}, {"mode", options.mode},
-                                     {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}}
-                          .dump();
+  info.session_json = sessionText({{"seed", options.seed},        {"operator", nameOf(options.who)},           {"simulated", simulated(options)}, {"mode", options.mode},
+                                     {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}},
+                                  options);
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
   info.tick_config = tickConfig(options);
@@ -121,7 +128,7 @@ SearchRun runSearch(const SessionOptions& options, const SearchWorld& world, con
   task_search::Floors floors(world.task, world.episodes);
   SessionFrame frame(options, {world.station, world.plate, world.X_WA, tick, {}, false, &floors}, world.hands(options), channels, folder);
   const std::string not_scored = world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict;
-  task_search::SearchTask task({world.task, tick, world.simulated(options), options.who != OperatorKind::person, options.force_feedback, options.fast, not_scored, world.episodes, frame.places()}, floors,
+  task_search::SearchTask task({world.task, tick, world.simulated(options), options.who != OperatorKind::person, options.force_feedback, options.fast, not_scored, world.episodes, frame.places(), options.role}, floors,
                                frame.bus(), channels, frame.executive());
   task_search::SearchScene scene({frame.stage(), world.station.floor->X_WF, world.X_AF, world.task.spec.side * world.rendering.unit, world.magnification()}, frame.bus(), channels);
   SearchRun run;

@@ -57,21 +57,12 @@ void checkPerson(const SessionOptions& o) {
 
 }  // namespace
 
-void addRunArguments(CLI::App& command, SessionOptions& o) {
+void addPlaceArguments(CLI::App& command, SessionOptions& o) {
   command.add_option("--station", o.station, "Station file; default: the virtual bench")->type_name("FILE");
-  command.add_option("--seed", o.seed, "Everything random follows from it (default 1)")->check(CLI::NonNegativeNumber);
   choice(command, "--operator", o.who, kOperators, "Who performs: you, or a simulated expert or novice");
-  choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
-  command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(CLI::Range(1, 1000));
-  command.add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")
-      ->check(record::whyNoPseudonym);
-  command.add_option("--records", o.records, "Bring finished trials into these records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, else nobody is recorded)")
-      ->envname("PALPA_RECORDS")
-      ->type_name("FILE|URL");
   command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can, repeats exactly");
   command.add_flag("--record-video", o.record_video, "Keep the camera's pictures beside their poses: camera.mjpeg and a table");
   command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");
-  command.add_flag_callback("--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
   choice(command, "--force-colours", o.force_colours, kForceColours, "Of the force arrows: grays (paper, the default), or told apart by colour-blind eyes (safe)");
   choice(command, "--stereo", o.stereo, kStereos, "The large view for two eyes (default none); anaglyph: for red and cyan glasses");
   choice(command, "--inset", o.inset, kInsets, "A small picture in the corner (default none); camera: what it sees, without the overlay");
@@ -85,6 +76,19 @@ void addRunArguments(CLI::App& command, SessionOptions& o) {
   command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop a second (default 1000)")->check(CLI::Range(1000.0, 4000.0));
   command.add_option("--cpu", o.cpu, "Keep the haptic thread on this processor")->check(CLI::Range(0, 1023));
   command.add_flag("--quiet", o.quiet, "No progress on standard error");
+}
+
+void addRunArguments(CLI::App& command, SessionOptions& o) {
+  addPlaceArguments(command, o);
+  command.add_option("--seed", o.seed, "Everything random follows from it (default 1)")->check(CLI::NonNegativeNumber);
+  choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
+  command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(CLI::Range(1, 1000));
+  command.add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")
+      ->check(record::whyNoPseudonym);
+  command.add_option("--records", o.records, "Bring finished trials into these records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, else nobody is recorded)")
+      ->envname("PALPA_RECORDS")
+      ->type_name("FILE|URL");
+  command.add_flag_callback("--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
 }
 
 void addAugmentArgument(CLI::App& command, SessionOptions& o) {

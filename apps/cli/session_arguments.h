@@ -7,7 +7,9 @@
 
 namespace palpa::cli {
 
-/// Adds the options that every session command has.
+/// Adds the options that say where and how a session is held: station, operator, display, folder.
+void addPlaceArguments(CLI::App& command, SessionOptions& options);
+/// These, and the others that every session command has.
 void addRunArguments(CLI::App& command, SessionOptions& options);
 /// These, and those of a needle's session.
 /// --augment, where a task's file has augmentations that are off by default.

@@ -38,16 +38,20 @@ std::string format(const char* pattern, ...) {
 std::string whoPerformed(const SessionOptions& options) {
   if (options.who == OperatorKind::person) return options.trainee;
   if (options.who == OperatorKind::recorded) return "recorded hand";
+  if (options.who == OperatorKind::learner) return options.trainee + ", a simulated learner";
   const std::string who = options.who == OperatorKind::novice ? "simulated novice" : "simulated expert";
   return options.knows_patient ? who + " who has studied this patient" : who;
 }
 
 std::vector<report::Fact> stationFactsOf(const SessionOptions& options, const station::Station& station) {
-  return {{"Station", station.title, station.id},
+  std::vector<report::Fact> facts{
+          {"Station", station.title, station.id},
           {"Haptic device", station.device.capabilities.name, format("%.1f N, stable to %.0f N/m", station.device.capabilities.max_force_N, station.device.capabilities.stable_stiffness)},
           {"Calibration", station.calibration_verdict, station.calibration_date},
           {"Time", options.fast ? "virtual (repeats exactly)" : "real", ""},
           {"Software", std::string("palpa ") + PALPA_VERSION, ""}};
+  if (!options.study.id.empty()) facts.push_back({"Study", options.study.id, "block " + options.study.block});   // not the condition: it may be blind
+  return facts;
 }
 
 report::Fact surfaceFact(const station::LumpLibrary& library) { return {"Softness and friction of the sample", library.of_surface, ""}; }

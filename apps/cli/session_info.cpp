@@ -32,8 +32,16 @@ const char* nameOf(OperatorKind who) {
     case OperatorKind::person: return "person";
     case OperatorKind::recorded: return "recorded";
     case OperatorKind::novice: return "novice";
+    case OperatorKind::learner: return "learner";
     default: return "expert";
   }
+}
+
+std::string sessionText(nlohmann::json session, const SessionOptions& options) {
+  const StudyStep& s = options.study;
+  if (!s.id.empty())
+    session["study"] = {{"id", s.id}, {"slot", s.slot}, {"group", s.group}, {"condition", s.condition}, {"block", s.block}, {"step", s.step}, {"protocol_sha256", s.protocol_sha256}};
+  return session.dump();
 }
 
 bool isSimulated(const SessionOptions& options, const NeedleWorld& world) {
@@ -54,10 +62,11 @@ haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld&
 record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world,
                                 const std::filesystem::path& folder) {
   record::SessionInfo info;
+  info.uuid = options.uuid;
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = nlohmann::json{{"seed", options.seed},
+  info.session_json = sessionText({{"seed", options.seed},
                                      {"operator", nameOf(options.who)},
                                      {"knows_patient", options.knows_patient},
                                      {"simulated", isSimulated(options, world)},
@@ -68,10 +77,11 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
                                      {"skin_deflection", options.skin_deflection},
                                      {"handedness", options.left_handed ? "left" : "right"},
                                      {"virtual_time", options.fast},
+                                     {"camera_rate_Hz", world.station.camera_rate_Hz},
                                      {"X_DA", json(world.X_DA)},
                                      {"X_WA", json(world.X_WA)},
-                                     {"X_WD", json(world.station.X_WD)}}
-                          .dump();
+                                     {"X_WD", json(world.station.X_WD)}},
+                                  options);
   info.station_json = world.station.file.json().dump();
   info.task_json = world.task.source;
   info.patient_glb = bytesOf(world.patient, folder);

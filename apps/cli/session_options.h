@@ -1,6 +1,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 
 #include "anatomy/patient.h"
@@ -9,9 +10,25 @@
 
 namespace palpa::cli {
 
-enum class OperatorKind { automatic, person, expert, novice, recorded };   // recorded: a replayed hand
+enum class OperatorKind { automatic, person, expert, novice, learner, recorded };   // learner: simulated, better from trial to trial; recorded: a replayed hand
 
-inline bool isSimulated(OperatorKind who) { return who == OperatorKind::expert || who == OperatorKind::novice; }
+inline bool isSimulated(OperatorKind who) { return who == OperatorKind::expert || who == OperatorKind::novice || who == OperatorKind::learner; }
+
+/// Of which study a session is part.
+struct StudyStep {
+  std::string id;                     ///< the protocol's; empty: none
+  std::int64_t slot = 0;              ///< 1, 2, ...: which block on the trainee's way through the study
+  std::string group, condition, block;
+  int step = 0;                       ///< of the block: its trial with which the session begins, 1, 2, ...
+  std::string protocol_sha256;
+};
+
+/// Who learns, where the operator is a simulated learner.
+struct LearnerOptions {
+  std::string from, to;               ///< operator files: whose figures he has at level 0 and at level 1
+  std::function<double(int)> level;   ///< at the session's nth trial
+  std::uint64_t seed = 0;             ///< of the hand's own chances; at the nth trial n - 1 more
+};
 
 /// What every session command understands.
 struct SessionOptions {
@@ -56,6 +73,9 @@ struct SessionOptions {
   std::string mode = "real";     ///< search: real, degraded, augmented, or all of them one after the other
   bool blocks = false;           ///< search: the task's blocks; training in `mode`
   bool augment = false;          ///< needle, palpation: the task's augmentations add force
+  StudyStep study;
+  std::string uuid;              ///< of the session; empty: made when it begins
+  LearnerOptions learner;
 };
 
 }  // namespace palpa::cli

@@ -20,15 +20,17 @@ Two devices are simulated only, so far: a person cannot take part yet.)";
 
 }  // namespace
 
-void runSqueezeCommand(SessionOptions options) {
+SessionLeft runSqueezeCommand(SessionOptions options) {
   settle(options);
   if (!isSimulated(options.who)) throw UsageError("cannot hold something with one device", "--operator", "Two devices are simulated only, so far: --operator expert or novice");
   if (options.headset) throw UsageError("does not show squeezing yet", "--display openxr", "Choose window or offscreen");
   const SqueezeWorld world(options);
   checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
-  writeSqueezeOutcome(options, world, runSqueeze(options, world, folder), folder);
+  const SqueezeRun run = runSqueeze(options, world, folder);
+  writeSqueezeOutcome(options, world, run, folder);
   deliverSession(options, folder);
+  return {folder, run.quit};
 }
 
 void addSqueeze(CLI::App& program) {

@@ -23,6 +23,13 @@ void refuseNeedleOptions(const CLI::App& given, const std::string& engine) {
 
 }  // namespace
 
+SessionLeft runSessionCommand(const std::string& engine, SessionOptions options) {
+  if (engine == "palpation") return runPalpationCommand(std::move(options));
+  if (engine == "surface") return runSearchCommand(std::move(options));
+  if (engine == "squeeze") return runSqueezeCommand(std::move(options));
+  return runParacentesisCommand(std::move(options));
+}
+
 void addTrain(CLI::App& program) {
   const auto options = std::make_shared<SessionOptions>();
   CLI::App* command = program.add_subcommand("train", "A training session from a task file");
@@ -32,10 +39,8 @@ void addTrain(CLI::App& program) {
   command->callback([options, command] {
     options->command = "train";
     const std::string engine = station::JsonFile(options->task).text("engine");
-    if (engine != "palpation" && engine != "squeeze" && engine != "surface") return runParacentesisCommand(*options);
-    refuseNeedleOptions(*command, engine == "surface" ? "search" : engine);
-    if (engine == "surface") return runSearchCommand(*options);
-    engine == "palpation" ? runPalpationCommand(*options) : runSqueezeCommand(*options);
+    if (engine == "palpation" || engine == "squeeze" || engine == "surface") refuseNeedleOptions(*command, engine == "surface" ? "search" : engine);
+    runSessionCommand(engine, *options);
   });
 }
 

@@ -36,6 +36,7 @@ class SearchTask final : public trial::TrialTask {
     std::string not_scored;            ///< why; empty: scored
     const std::vector<Episode>& episodes;
     std::vector<runtime::BoardPlace> places;
+    std::string role = "scored";       ///< of the episodes, where nothing speaks against it
   };
   SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus, SearchChannels& channels, runtime::Executive& executive);
 

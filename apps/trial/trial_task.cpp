@@ -191,7 +191,7 @@ void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
     case UserCommand::rearm:
       return rearm(now_ns);
     case UserCommand::quit:
-      if (status_.active()) endTrial("aborted", reason.empty() ? "The session was closed" : reason, now_ns);
+      if (status_.active()) endTrial("void", reason.empty() ? "The session was closed" : reason, now_ns);   // nobody's failure
       quit_ = true;
       executive_.stop();
       return;

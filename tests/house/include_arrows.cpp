@@ -76,6 +76,7 @@ std::vector<Layer> makeLayers() {
        librariesAnd({"apps/runtime"}),
        {},
        {"Eigen", "JSON", "SQLite", "zlib"}},
+      {"apps/study", librariesAnd({"apps/runtime", "apps/station", "apps/record/store"}), {}, {"Eigen", "JSON"}},
       {"apps/link", {"anatomy/geometry", "apps/record", "apps/assess/metrics", "apps/runtime", "apps/station"}, {}, {"JSON", "httplib", "OpenSSL"}},
       {"apps/study_analysis", {"anatomy", "apps/assess/statistics", "apps/assess/metrics"}, {}, {"Eigen", "Boost"}},
       {"apps/report", librariesAnd({"apps/assess", "apps/study_analysis"}), {}, {"Eigen", "JSON", "VTK", "VTK data", "Cairo"}},

@@ -95,6 +95,45 @@ CREATE TABLE events(
   PRIMARY KEY(session, number, ordinal),
   FOREIGN KEY(session, number) REFERENCES trials(session, number) ON DELETE CASCADE
 );
+)sql",
+                             R"sql(
+CREATE TABLE studies(
+  study           TEXT PRIMARY KEY,     -- the protocol's id
+  protocol_sha256 TEXT NOT NULL,        -- of its file when the study began
+  seed            TEXT NOT NULL,        -- 64 bits without sign: the order of the conditions follows from it
+  began_utc       TEXT NOT NULL
+);
+
+CREATE TABLE study_groups(
+  study      TEXT NOT NULL REFERENCES studies(study),
+  group_name TEXT NOT NULL,
+  given      BIGINT NOT NULL,           -- places given so far; of a deleted person, too: none is given twice
+  PRIMARY KEY(study, group_name)
+);
+
+CREATE TABLE enrolments(
+  study        TEXT NOT NULL REFERENCES studies(study),
+  trainee      TEXT NOT NULL REFERENCES trainees(id) ON DELETE CASCADE,
+  group_name   TEXT NOT NULL,
+  place        BIGINT NOT NULL,         -- 1, 2, ... in this group, by enrolment
+  condition    TEXT NOT NULL,
+  simulated    BIGINT NOT NULL,
+  enrolled_utc TEXT NOT NULL,
+  PRIMARY KEY(study, trainee),
+  UNIQUE(study, group_name, place)
+);
+
+CREATE TABLE answers(
+  study         TEXT NOT NULL,
+  trainee       TEXT NOT NULL,
+  session       BIGINT NOT NULL,        -- of the protocol
+  item          TEXT NOT NULL,
+  questionnaire TEXT NOT NULL,
+  answer        TEXT NOT NULL,
+  answered_utc  TEXT NOT NULL,
+  PRIMARY KEY(study, trainee, session, item),
+  FOREIGN KEY(study, trainee) REFERENCES enrolments(study, trainee) ON DELETE CASCADE
+);
 )sql"};
 
 /// Of the newest version.
@@ -106,7 +145,11 @@ const std::vector<std::pair<std::string, std::string>> kTables{
     {"calibrations", "session,name,made_utc,sha256,verdict"},
     {"trials", "session,number,start_ns,end_ns,role,seed,force_feedback,outcome,reason,success,score_json"},
     {"metrics", "session,number,name,value"},
-    {"events", "session,number,ordinal,t_ns,kind,text,value"}};
+    {"events", "session,number,ordinal,t_ns,kind,text,value"},
+    {"studies", "study,protocol_sha256,seed,began_utc"},
+    {"study_groups", "study,group_name,given"},
+    {"enrolments", "study,trainee,group_name,place,condition,simulated,enrolled_utc"},
+    {"answers", "study,trainee,session,item,questionnaire,answer,answered_utc"}};
 
 constexpr int kNewest = static_cast<int>(std::size(kSteps));
 

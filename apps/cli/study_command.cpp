@@ -1,0 +1,105 @@
+#include <filesystem>
+#include <memory>
+
+#include "anatomy/geometry/error.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/records_place.h"
+#include "apps/cli/session_arguments.h"
+#include "apps/cli/study_analyse.h"
+#include "apps/cli/study_run.h"
+#include "apps/record/store/record_store.h"
+
+namespace palpa::cli {
+namespace {
+
+constexpr const char* kRunExamples = R"(Examples:
+  palpa records trainee add --id T001 --group novice --consent --research
+  palpa study run --protocol assets/protocols/paracentesis_pilot.json --trainee T001
+      enrols, draws the condition, leads through the session; after an interruption the same command goes on
+  palpa study run --protocol assets/protocols/paracentesis_pilot.json --trainee T001 --answers answers.json
+      takes the questionnaire's answers from a file: {"useful": 4, "remarks": "..."}
+  palpa study run --protocol assets/protocols/paracentesis_pilot.json --simulate --learning assets/protocols/learners/paracentesis_learners.json --records cohort.sqlite
+      virtual trainees who learn, to test the whole chain; simulated, and called so)";
+
+/// Notes of this station name the records; they must mean the same from any folder.
+std::string fromAnywhere(const std::string& url) { return record::isServer(url) ? url : std::filesystem::absolute(url).string(); }
+
+void run(StudyOptions o) {
+  o.url = fromAnywhere(o.url);
+  if (o.simulate) {
+    if (!o.trainee.empty())
+      throw UsageError("go with one of them only", "--trainee, --simulate",
+                       "Leave one of them out");
+    if (o.learners.empty())
+      throw UsageError("needs --learning: who learns how", "--simulate",
+                       "E.g. --learning assets/protocols/learners/paracentesis_learners.json");
+    return simulateStudy(o);
+  }
+  if (o.trainee.empty())
+    throw UsageError("needs --trainee or --simulate", "palpa study run", "See its --help");
+  if (!o.learners.empty())
+    throw UsageError("goes with --simulate only", "--learning", "Leave it out, or add --simulate");
+  runStudySession(o);
+}
+
+void addProtocol(CLI::App& command, StudyOptions& o) {
+  command.add_option("--protocol", o.protocol, "Protocol file")->required()->type_name("FILE");
+  addRecordsArgument(command, o.url);
+}
+
+void addRun(CLI::App& study) {
+  const auto o = std::make_shared<StudyOptions>();
+  CLI::App* command = study.add_subcommand(
+      "run", "Lead a trainee through the next session of a protocol; or fill it with virtual ones");
+  command->footer(kRunExamples);
+  addProtocol(*command, *o);
+  command->add_option("--trainee", o->trainee, "Pseudonym, as in the records")
+      ->check(record::whyNoPseudonym);
+  command
+      ->add_option("--answers", o->answers,
+                   "Answers to the questionnaire; default: they are asked for")
+      ->type_name("FILE");
+  command
+      ->add_option("--seed", o->seed,
+                   "Of the study, where it begins with this trainee (default: drawn and kept in "
+                   "the records; 1 for virtual trainees)")
+      ->check(CLI::PositiveNumber);
+  CLI::Option* simulate =
+      command
+          ->add_option(
+              "--simulate", o->subjects,
+              "Virtual trainees, so many of each group (default: as the learners' file says)")
+          ->expected(0, 1)
+          ->check(CLI::Range(0, 1000));
+  command->add_option("--learning", o->learners, "How virtual trainees learn")->type_name("FILE");
+  command
+      ->add_option("--workers", o->workers,
+                   "Processes for virtual trainees (default 2); changes no result")
+      ->check(CLI::Range(1, 64));
+  addPlaceArguments(*command, o->session);
+  command->callback([o, simulate] {
+    o->simulate = simulate->count() > 0;
+    run(*o);
+  });
+}
+
+}  // namespace
+
+void addStudy(CLI::App& program) {
+  CLI::App* study =
+      program.add_subcommand("study", "Studies: run a protocol, see how far it is, what was found, how many subjects it takes");
+  study->require_subcommand(1);
+  study->footer(
+      "Examples:\n  palpa study run --protocol assets/protocols/paracentesis_pilot.json --trainee "
+      "T001\n  palpa study status --protocol assets/protocols/paracentesis_pilot.json");
+  addRun(*study);
+  const auto o = std::make_shared<StudyOptions>();
+  CLI::App* status = study->add_subcommand(
+      "status", "Who is enrolled, who is next, how far everybody is; never a condition");
+  addProtocol(*status, *o);
+  status->callback([o] { tellStudy(*o); });
+  addStudyAnalyse(*study);
+  addStudyPlan(*study);
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,66 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/record/store/record_store.h"
+
+namespace palpa::record {
+
+/// Somebody's place in a study.
+struct Enrolment {
+  std::string study;  ///< the protocol's id
+  std::string trainee, group;
+  std::int64_t place = 0;  ///< 1, 2, ... in this group, by enrolment
+  std::string condition;   ///< that was drawn; empty: the protocol draws none
+  bool simulated = false;
+  std::string enrolled_utc;
+};
+
+/// What one file of a study looked like when the first trainee was enrolled: the rest must see the
+/// same.
+struct StudyBeginning {
+  std::string study, protocol_sha256;
+  std::uint64_t seed = 0;  ///< taken where the study begins, unused afterwards
+  std::string now_utc;
+};
+
+/// One item of a questionnaire, answered after a session of the protocol (1, 2, ...).
+struct Answer {
+  std::string study, trainee;
+  std::int64_t session = 1;
+  std::string item, questionnaire, answer, answered_utc;
+};
+
+/// Who takes part in studies, in which condition, and what they answered: in the store of a centre.
+/// Every call is one transaction.
+class StudyStore {
+ public:
+  explicit StudyStore(RecordStore& store) : connection_(store.connection()) {}
+
+  /// The condition of a place, by the study's seed.
+  using Draw = std::function<std::string(std::uint64_t seed, std::int64_t place)>;
+  /// Enrols; whoever is enrolled already keeps place and condition. The next place of the group is
+  /// given and its condition drawn under the group's lock, so that several stations never give one
+  /// place twice, and nobody sees a condition before it is used. Throws UsageError for a trainee
+  /// who is not in the records, or a study that began by another protocol file.
+  Enrolment enrol(const StudyBeginning& beginning, const Enrolment& wanted, const Draw& draw);
+  std::optional<Enrolment> enrolment(const std::string& study, const std::string& trainee);
+  std::vector<Enrolment> enrolments(const std::string& study);  ///< by group and place
+  std::int64_t placesGiven(const std::string& study,
+                           const std::string& group);  ///< those of deleted persons among them
+
+  void answer(const Answer& answer);  ///< the first answer to an item stays
+  std::vector<Answer> answers(const std::string& study,
+                              const std::string& trainee = "");  ///< by trainee, session, item
+
+ private:
+  std::uint64_t seedOf(const StudyBeginning& beginning);  ///< within a transaction; throws
+                                                          ///< UsageError for another protocol
+  SqlConnection& connection_;
+};
+
+}  // namespace palpa::record

@@ -1,0 +1,120 @@
+#include "apps/study/progress.h"
+
+#include <algorithm>
+
+#include "apps/study/utc.h"
+
+namespace palpa::study {
+namespace {
+
+int countOf(const std::vector<DoneTrial>& trials, std::int64_t step) {
+  return static_cast<int>(std::count_if(trials.begin(), trials.end(), [&](const DoneTrial& t) {
+    return t.step == step && t.outcome != "void";
+  }));
+}
+
+std::vector<std::string> clockRemarks(const std::vector<DoneTrial>& trials,
+                                      const std::string& now_utc) {
+  std::vector<std::string> remarks;
+  const auto add = [&](const std::string& remark) {
+    if (remarks.empty() || remarks.back() != remark) remarks.push_back(remark);
+  };
+  for (std::size_t i = 1; i < trials.size(); ++i)
+    if (secondsOf(trials[i].began_utc) < secondsOf(trials[i - 1].began_utc))
+      add("A session is dated " + trials[i].began_utc + ", before the one that came before it (" +
+          trials[i - 1].began_utc + "): a clock was changed; the order in which they came counts");
+  if (!trials.empty() && secondsOf(now_utc) < secondsOf(trials.back().began_utc))
+    add("This station's clock says " + now_utc + ", which is before the last session (" +
+        trials.back().began_utc + "): check the clock");
+  return remarks;
+}
+
+/// s. A clock that went back makes no rest longer than it is.
+double restDue(const Block& block, const DoneTrial& last, const std::string& now_utc) {
+  const double since =
+      static_cast<double>(secondsOf(now_utc) - secondsOf(last.began_utc)) - last.ended_s;
+  return std::clamp(block.rest_s - std::max(0.0, since), 0.0, block.rest_s);
+}
+
+/// Of the last trial's block, where it stopped at a rest.
+double restAfter(const Protocol& protocol, const std::vector<DoneTrial>& trials,
+                 std::int64_t next_step, const std::string& now_utc) {
+  if (trials.empty()) return 0;
+  const DoneTrial& last = trials.back();
+  const Block& block = protocol.block(last.step);
+  if (protocol.sessionOf(last.step) != protocol.sessionOf(next_step))
+    return 0;  // days are between them, or none
+  const bool stopped = last.step != next_step ||
+                       (block.rest_after && countOf(trials, last.step) % block.rest_after == 0);
+  return stopped ? restDue(block, last, now_utc) : 0;
+}
+
+/// A date before which the session cannot begin; empty: it can.
+std::string earliest(const Session& session, const std::vector<DoneTrial>& trials,
+                     const std::string& now_utc) {
+  if (session.days_after == 0 || trials.empty()) return "";
+  const std::int64_t first = dayOf(trials.back().began_utc) + session.days_after;
+  return dayOf(now_utc) < first ? dateText(first) : "";
+}
+
+Next blockNext(const Protocol& protocol, const std::string& drawn,
+               const std::vector<DoneTrial>& trials, const Block& block,
+               const std::string& now_utc) {
+  Next next;
+  next.kind = Next::Kind::trials;
+  next.session = protocol.sessionOf(block.step);
+  next.step = block.step;
+  next.condition = block.condition.empty() ? drawn : block.condition;
+  next.done = countOf(trials, block.step);
+  next.left = block.trials - next.done;
+  next.trials = block.rest_after
+                    ? std::min(next.left, block.rest_after - next.done % block.rest_after)
+                    : next.left;
+  next.rest_s = restAfter(protocol, trials, block.step, now_utc);
+  const Session& session = protocol.sessions[static_cast<std::size_t>(next.session - 1)];
+  if (block.step == session.blocks.front().step && next.done == 0)
+    next.not_before = earliest(session, trials, now_utc);
+  return next;
+}
+
+std::vector<std::string> openItems(const Questionnaire& questionnaire, int session,
+                                   const std::vector<std::pair<int, std::string>>& answered) {
+  std::vector<std::string> open;
+  for (const Item& item : questionnaire.items)
+    if (std::find(answered.begin(), answered.end(), std::pair(session, item.id)) == answered.end())
+      open.push_back(item.id);
+  return open;
+}
+
+}  // namespace
+
+DoneTrial doneTrial(const record::StoredSession& session, const record::StoredTrial& trial) {
+  return {session.slot, session.uuid, session.started_utc, 1e-9 * static_cast<double>(trial.end_ns),
+          trial.outcome};
+}
+
+Next nextOf(const Protocol& protocol, const std::string& drawn,
+            const std::vector<DoneTrial>& trials,
+            const std::vector<std::pair<int, std::string>>& answered, const std::string& now_utc) {
+  Next next;
+  int number = 0;
+  for (const Session& session : protocol.sessions) {
+    ++number;
+    for (const Block& block : session.blocks) {
+      if (countOf(trials, block.step) >= block.trials) continue;
+      next = blockNext(protocol, drawn, trials, block, now_utc);
+      next.remarks = clockRemarks(trials, now_utc);
+      return next;
+    }
+    if (!session.questionnaire) continue;
+    next.open_items = openItems(*session.questionnaire, number, answered);
+    if (next.open_items.empty()) continue;
+    next.kind = Next::Kind::questionnaire;
+    next.session = number;
+    return next;
+  }
+  next.session = number;
+  return next;
+}
+
+}  // namespace palpa::study

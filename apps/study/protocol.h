@@ -1,0 +1,84 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/study/questionnaire.h"
+
+namespace palpa::study {
+
+/// What is shown and felt.
+struct Presentation {
+  bool force_feedback = true;
+  bool augment = false;          ///< the task's cues are added
+  bool skin_deflection = false;  ///< the skin is shown to give way
+  bool guide = false;            ///< needle: a line to the vein; such trials are not scored
+  bool guidance = false;         ///< palpation: help that fades
+  bool navigation = true;        ///< of the view
+  std::string mode = "real";     ///< search: real, degraded, augmented
+};
+
+struct Condition {
+  std::string name, means;
+  Presentation shows;
+};
+
+struct Group {
+  std::string name, means;
+};
+
+/// Trials that follow each other, of one task.
+struct Block {
+  std::string name;
+  std::filesystem::path task;
+  std::string engine;           ///< of the task: "needle", "palpation", "squeeze", "surface"
+  std::string role = "scored";  ///< of the trials
+  int trials = 1;
+  std::string condition;  ///< by name; empty: the one that was drawn for the trainee
+  int rest_after = 0;     ///< trials; 0: no rest within the block
+  double rest_s = 0;      ///< then, and after the block
+  std::int64_t step = 0;  ///< 1, 2, ... on the way through the study
+};
+
+struct Session {
+  std::string name;
+  int days_after = 0;  ///< at least so many days after the session before
+  std::vector<Block> blocks;
+  std::optional<Questionnaire> questionnaire;  ///< at its end
+};
+
+/// How conditions are drawn: permuted blocks of so many places, in each group by itself.
+struct Allocation {
+  std::vector<std::string> conditions;  ///< one for each trainee
+  int block = 0;
+};
+
+/// A study as its file describes it.
+struct Protocol {
+  std::string id, title, source, sha256;
+  std::filesystem::path file;
+  std::vector<Group> groups;
+  std::vector<Condition> conditions;
+  std::optional<Allocation> allocation;  ///< none: all trainees go the same way
+  std::vector<Session> sessions;
+  std::uint64_t trial_seed = 1;  ///< of the tasks' chances: the same for all trainees
+  bool blind_trainee = false,
+       blind_educator = false;      ///< must not be told the condition that was drawn
+  bool bars_experts = true;         ///< who made the optimal path of a task takes no part
+  std::vector<std::string> barred;  ///< further pseudonyms
+
+  const Group* group(const std::string& name) const;  ///< null: none of that name
+  const Condition* condition(const std::string& name) const;
+  const Block& block(std::int64_t step) const;  ///< throws Error for a step that there is not
+  int sessionOf(std::int64_t step) const;       ///< 1, 2, ...
+  bool blind() const { return blind_trainee || blind_educator; }
+};
+
+/// Throws UsageError naming file and field: version, names, conditions that are unknown, double or
+/// not used, counts, rests, task files and their engines.
+Protocol readProtocol(const std::filesystem::path& file);
+
+}  // namespace palpa::study
