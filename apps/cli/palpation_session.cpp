@@ -17,7 +17,7 @@ std::vector<task_palpation::PalpationPlan> planOf(const SessionOptions& options,
   const bool scored = whyUnscored(options, world).empty();
   std::vector<task_palpation::PalpationPlan> plan;
   for (int i = 0; i < options.trials; ++i) {
-    plan.push_back({scored ? "scored" : "not scored", options.seed + static_cast<std::uint64_t>(i), options.force_feedback, options.augment});
+    plan.push_back({!scored ? "not scored" : options.assess ? "assessed" : "scored", options.seed + static_cast<std::uint64_t>(i), options.force_feedback, options.augment});
   }
   return plan;
 }

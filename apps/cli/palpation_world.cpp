@@ -113,7 +113,8 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
                                      {"guidance", options.guidance},
                                      {"see_through", options.see_through},
                                      {"augment", options.augment},
-                                     {"virtual_time", options.fast}}
+                                     {"virtual_time", options.fast},
+                                     {"assessed", options.assess}}
                           .dump();
   info.station_json = station.file.json().dump();
   info.task_json = task.source;

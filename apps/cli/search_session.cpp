@@ -107,7 +107,7 @@ record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
   info.session_json = nlohmann::json{{"seed", options.seed},        {"operator", nameOf(options.who)},           {"simulated", simulated(options)}, {"mode", options.mode},
-                                     {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}}
+                                     {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}, {"assessed", options.assess}}
                           .dump();
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
@@ -121,7 +121,7 @@ SearchRun runSearch(const SessionOptions& options, const SearchWorld& world, con
   task_search::Floors floors(world.task, world.episodes);
   SessionFrame frame(options, {world.station, world.plate, world.X_WA, tick, {}, false, &floors}, world.hands(options), channels, folder);
   const std::string not_scored = world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict;
-  task_search::SearchTask task({world.task, tick, world.simulated(options), options.who != OperatorKind::person, options.force_feedback, options.fast, not_scored, world.episodes, frame.places()}, floors,
+  task_search::SearchTask task({world.task, tick, world.simulated(options), options.who != OperatorKind::person, options.force_feedback, options.fast, not_scored, world.episodes, frame.places(), options.assess}, floors,
                                frame.bus(), channels, frame.executive());
   task_search::SearchScene scene({frame.stage(), world.station.floor->X_WF, world.X_AF, world.task.spec.side * world.rendering.unit, world.magnification()}, frame.bus(), channels);
   SearchRun run;

@@ -68,6 +68,7 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
                                      {"skin_deflection", options.skin_deflection},
                                      {"handedness", options.left_handed ? "left" : "right"},
                                      {"virtual_time", options.fast},
+                                     {"assessed", options.assess},
                                      {"X_DA", json(world.X_DA)},
                                      {"X_WA", json(world.X_WA)},
                                      {"X_WD", json(world.station.X_WD)}}

@@ -7,6 +7,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
+#include "apps/assess/trial_role.h"
 #include "apps/cli/session_facts.h"
 #include "apps/cli/session_info.h"
 #include "apps/report/session_report.h"
@@ -109,7 +110,7 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world, const
                   const std::filesystem::path& folder) {
   std::vector<assess::TrialAssessment> scored;
   for (const auto& trial : result.trials)
-    if (trial.assessment.role == "scored" && trial.assessment.outcome != "void") scored.push_back(trial.assessment);
+    if (assess::countsAsScored(trial.assessment.role) && trial.assessment.outcome != "void") scored.push_back(trial.assessment);
   report::writeTrialsCsv(options.trainee, scored, folder / "trials.csv");
   report::SessionReport page;
   page.title = world.task.title + (world.task.block ? std::string() : std::string(", ") + anatomy::name(world.patient.side) + " side");

@@ -97,7 +97,7 @@ record::SessionInfo SqueezeWorld::info(const SessionOptions& options) const {
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
   info.session_json = nlohmann::json{{"seed", options.seed},        {"operator", nameOf(options.who)},           {"simulated", true},
-                                     {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}}
+                                     {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}, {"assessed", options.assess}}
                           .dump();
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
@@ -111,7 +111,7 @@ SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world, 
   const haptics::PairConfig pair = world.pairConfig(options);
   SessionFrame frame(options, {world.station, world.object, world.X_WA, pair.tools[0], pair, false}, world.hands(options), channels, folder);
   const std::string not_scored = world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict;
-  task_squeeze::SqueezeTask task({world.task, true, true, options.force_feedback, not_scored, options.seed, task_squeeze::comparisonsOf(world.task, options.seed, options.trials), frame.places()},
+  task_squeeze::SqueezeTask task({world.task, true, true, options.force_feedback, not_scored, options.seed, task_squeeze::comparisonsOf(world.task, options.seed, options.trials), frame.places(), options.assess},
                                  frame.bus(), channels, frame.executive());
   task_squeeze::SqueezeScene scene({frame.stage(), *world.station.second_X_WD, (world.X_WA.inverse() * world.X_WO).translation()}, frame.bus(), channels);
   SqueezeRun run;

@@ -55,7 +55,7 @@ runtime::TrialHeader SearchTask::begin(std::int64_t now_ns) {
   floors_.prepare(number + 1);
   tell(now_ns, "case", episodeText(episode()));
   picture("start", "The handle is held over the middle");
-  return {status().trial, now_ns, episode().seed, setup_.not_scored.empty() ? "scored" : "not scored", setup_.force_feedback, 0};
+  return {status().trial, now_ns, episode().seed, !setup_.not_scored.empty() ? "not scored" : setup_.assessed ? "assessed" : "scored", setup_.force_feedback, 0};
 }
 
 trial::TrialTask::Conclusion SearchTask::conclude(const std::string& outcome, const std::string& reason) {

@@ -36,6 +36,7 @@ class SearchTask final : public trial::TrialTask {
     std::string not_scored;            ///< why; empty: scored
     const std::vector<Episode>& episodes;
     std::vector<runtime::BoardPlace> places;
+    bool assessed = false;             ///< every aid is off
   };
   SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus, SearchChannels& channels, runtime::Executive& executive);
 

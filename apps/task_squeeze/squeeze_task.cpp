@@ -41,7 +41,7 @@ runtime::TrialHeader SqueezeTask::begin(std::int64_t now_ns) {
   listener_.begin(static_cast<std::uint32_t>(status().trial), comparison());
   tell(now_ns, "case", comparisonText(comparison()));
   picture("start", "Before anything was held");
-  return {status().trial, now_ns, setup_.seed, setup_.not_scored.empty() ? "scored" : "not scored", setup_.force_feedback, 0};
+  return {status().trial, now_ns, setup_.seed, !setup_.not_scored.empty() ? "not scored" : setup_.assessed ? "assessed" : "scored", setup_.force_feedback, 0};
 }
 
 trial::TrialTask::Conclusion SqueezeTask::conclude(const std::string& outcome, const std::string& reason) {

@@ -36,6 +36,7 @@ class SqueezeTask final : public trial::TrialTask {
     std::uint64_t seed = 1;
     std::vector<Comparison> comparisons;
     std::vector<runtime::BoardPlace> places;
+    bool assessed = false;             ///< every aid is off
   };
   SqueezeTask(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels, runtime::Executive& executive);
 
