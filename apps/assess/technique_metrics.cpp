@@ -12,20 +12,22 @@ constexpr double kDegreesOf = 180 / M_PI;
 constexpr double kDrawnBack = 0.003;   // m: less is a tremor, as of redirections
 constexpr const char* kErrors[] = {"site", "landmarks", "periosteum", "shallow", "cephalad", "left_vein"};
 
-/// Share of the way toward the vein under suction, %; forward is every tick's step along the needle at a new depth.
+/// Share of the way toward the vein under suction, %: from each deepest point to the next, so that a way made again does not count again.
 double aspiratedAdvance(const TrialReview& r, const ScoringRules& rules) {
   double all = 0, under_suction = 0;
   for (const Pass& pass : r.history.passes) {
     if (!pass.advanced) continue;
-    double deepest = -1;
+    Vec3 deepest_A = r.samples[pass.phase_2].tip_A;
+    double deepest = (deepest_A - pass.puncture.tip_A).norm();
     for (std::size_t i = pass.phase_2; i <= pass.last && i < r.samples.size() && !inVein(r.samples[i]); ++i) {
       const TrialSample& s = r.samples[i];
       const double reach = (s.tip_A - pass.puncture.tip_A).norm();
-      if (deepest >= 0 && reach > deepest) {
-        all += reach - deepest;
-        if (s.plunger >= rules.plunger_drawn) under_suction += reach - deepest;
-      }
-      deepest = std::max(deepest, reach);
+      if (reach <= deepest) continue;
+      const double way = (s.tip_A - deepest_A).norm();
+      all += way;
+      if (s.plunger >= rules.plunger_drawn) under_suction += way;
+      deepest = reach;
+      deepest_A = s.tip_A;
     }
   }
   return all > 0 ? 100 * under_suction / all : kUnknown;

@@ -78,7 +78,7 @@ class ScriptedHand {
     motion_.push(0.006, speed()).bone(Organ::clavicle, script_.clavicle_N).push(0.001 * script_.clavicle_s, 0.001).bone(Organ::none, 0);
     for (int i = 0; i < script_.redirections; ++i) {
       motion_.push(0.008, speed()).push(-0.010);
-      motion_.turnTo(motion_.now().axis_A + 3.5 * kDeg * frame_.vectorToA(Vec3(0, i % 2 ? -1 : 1, 0)), 10 * kDeg);
+      motion_.turnTo(motion_.now().axis_A + 5 * kDeg * frame_.vectorToA(Vec3(0, i % 2 ? -1 : 1, 0)), 10 * kDeg);
     }
     motion_.push(0.012, speed());
     if (script_.meets != Tissue::air) motion_.in(script_.meets).push(0.002, speed()).push(-0.002).in(Tissue::connective);
@@ -86,7 +86,7 @@ class ScriptedHand {
     else motion_.push(0.010, speed()).withdraw().hold(0.5);
   }
   void enter() {
-    motion_.push(0.004, speed()).in(Tissue::connective, Organ::vein).push(0.001, 0.003).in(Tissue::vein_lumen).push(0.002, 0.003);
+    motion_.push(0.004, speed()).in(Tissue::connective, Organ::vein).push(0.001, 0.003).in(Tissue::vein_lumen).push(0.001, 0.010);   // a tenth of a second
     motion_.now().plunger = 0.5;
   }
   void vein() {
