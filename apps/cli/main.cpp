@@ -7,6 +7,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/report_trial.h"
 
 namespace {
 
@@ -55,6 +56,8 @@ int run(int argc, char** argv) {
   palpa::cli::addPhantom(program);
   palpa::cli::addExport(program);
   palpa::cli::addRecords(program);
+  palpa::cli::addReportTrial(*program.add_subcommand("report", "Pages made from what was recorded")->require_subcommand(1));
+  palpa::cli::addRate(program);
   palpa::cli::addBench(program);
   try {
     program.parse(argc, argv);
