@@ -65,7 +65,7 @@ report::BesideTrial besideOf(const TrialReportOptions& o) {
   const RecordedSession session(file);
   const FoundTrial other = findTrial(session, o.beside_trial, file);
   const std::string who = session.simulated() ? "a simulated " + session.operatorName() : session.operatorName() == "expert" ? "an expert" : "another person";
-  return {session.operatorName() == "expert" ? "expert" : "beside", "The dashed line is trial " + std::to_string(o.beside_trial) + " of " + who + ", from the start of that trial.", thinned(other.samples)};
+  return {session.operatorName() == "expert" ? "expert" : "beside", "The dash-dotted line is trial " + std::to_string(o.beside_trial) + " of " + who + ", from the start of that trial.", thinned(other.samples)};
 }
 
 void needsPath(const RecordedSession& session, const std::string& file) {

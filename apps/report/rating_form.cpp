@@ -10,7 +10,7 @@ namespace {
 constexpr std::string_view kPaper = R"css(
 :root{color-scheme:light;--page:#fff;--card:#fff;--ink:#111;--muted:#555;--line:#999;--faint:#6b7280}
 @media (prefers-color-scheme:dark){:root{--page:#fff;--card:#fff;--ink:#111;--muted:#555;--line:#999}}
-.paper{max-width:794px}
+.paper{max-width:794px;padding-top:24px;padding-bottom:24px}
 .paper h1{font-size:1.35rem}
 .paper h2{font-size:1.1rem;margin:1.6rem 0 .5rem}
 .lines{display:grid;grid-template-columns:1fr 1fr;gap:.9rem 2rem;margin:1rem 0}
@@ -23,12 +23,11 @@ constexpr std::string_view kPaper = R"css(
 .form .box i{display:inline-block;width:.95rem;height:.95rem;border:1.3px solid var(--ink);vertical-align:middle}
 .form code{font-size:.72rem;color:var(--muted)}
 .form .faint{color:var(--faint);font-size:.75rem}
-.grades td{width:14%}
-.grades .box{width:3rem}
-.grades .words{font-size:.78rem}
+.grades .box{width:2.2rem}
+.grades .words{font-size:.78rem;width:50%}
 .free{border:1px solid var(--line);height:5.5rem;margin:.4rem 0 1rem}
 @media (max-width:719px){.form .box{width:2.6rem}.lines{grid-template-columns:1fr}}
-@media print{@page{size:A4;margin:12mm}html{font-size:12px}.form tr{break-inside:avoid}.grades-part{break-inside:avoid}.form .box{width:3.4rem}}
+@media print{@page{size:A4;margin:12mm}html{font-size:11px}.paper{padding:0}.form tr{break-inside:avoid}.grades-part{break-inside:avoid}.form .box{width:3.4rem}.grades .box{width:2.2rem}}
 )css";
 
 void writeLine(Html& html, const char* name, const std::string& value) {
