@@ -106,6 +106,16 @@ TEST(NeedleMetrics, ForceOnBoneAndOnTheHand) {
   EXPECT_NEAR(metric(a, "peak_force_N"), 1.5, 1e-9);
 }
 
+TEST(NeedleMetrics, AForceThatGrowsEvenlyHasItsSlopeAsUnsteadiness) {
+  Motion m;
+  m.push(0.010).puncture();
+  for (int i = 0; i < 1000; ++i) {
+    m.now().f_contact = 0.1 + 0.004 * i;
+    m.hold(0.001);
+  }
+  EXPECT_NEAR(metric(assess(m.samples(), "time"), "force_jerk_N_s"), 4, 0.15);   // the first step of 20 ms comes from nothing
+}
+
 TEST(NeedleMetrics, WhatDoesNotApplyIsNoNumber) {
   const TrialAssessment a = assess(Motion().hold(2).samples(), "time");
   for (const char* name : {"closest_pleura_mm", "closest_pleura_at_s", "closest_artery_mm", "speed_at_vein_mm_s", "frechet_mm", "mean_force_N", "smoothness_sparc", "path_inefficiency_pct"})

@@ -1,6 +1,5 @@
 #include "apps/record/store/ratings.h"
 
-#include "apps/record/store/backup.h"
 #include "tests/store/stores.h"
 
 namespace palpa::record {
@@ -44,7 +43,7 @@ TEST_P(Ratings, OfATrialThatIsNotThereOrOfSeveralSheetsAreRefused) {
   EXPECT_TRUE(ratingsIn(store).empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Ratings, testing::Values("SQLite", "PostgreSQL"));
+INSTANTIATE_TEST_SUITE_P(Both, Ratings, testing::Values("SQLite", "PostgreSQL"), [](const auto& p) { return std::string(p.param); });
 
 }  // namespace
 }  // namespace palpa::record
