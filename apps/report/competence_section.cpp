@@ -11,32 +11,33 @@ namespace {
 using competence::Mark;
 using competence::Status;
 
-Tone toneOf(Status status) { return status == Status::passed ? Tone::good : status == Status::failed ? Tone::bad : Tone::guide; }
+Tone toneOf(Status status) {
+  return status == Status::passed ? Tone::good : status == Status::failed ? Tone::bad : Tone::guide;
+}
 
 const char* signOf(Mark mark) {
   switch (mark) {
-    case Mark::done: return "✓";
-    case Mark::not_done: return "✗";
-    case Mark::did_not_arise: return "–";
-    default: return "□";
+    case Mark::done:
+      return "✓";
+    case Mark::not_done:
+      return "✗";
+    case Mark::did_not_arise:
+      return "–";
+    default:
+      return "□";
   }
 }
 
-const char* wordsOf(Mark mark) {
-  switch (mark) {
-    case Mark::done: return "done";
-    case Mark::not_done: return "not done";
-    case Mark::did_not_arise: return "did not arise";
-    default: return "not judged";
-  }
+const char* cssOf(Mark mark) {
+  return mark == Mark::done ? "good" : mark == Mark::not_done ? "bad" : "open";
 }
-
-const char* cssOf(Mark mark) { return mark == Mark::done ? "good" : mark == Mark::not_done ? "bad" : "open"; }
 
 void writeErrors(Html& html, const assess::TrialAssessment& trial) {
   html.element("h3", "Errors of technique");
   if (trial.errors.empty()) {
-    html.element("p", trial.skin_punctures ? "None of the six common errors of this procedure was made." : "The needle was not inserted: there is no technique to judge.");
+    html.element("p", trial.skin_punctures
+                          ? "None of the six common errors of this procedure was made."
+                          : "The needle was not inserted: there is no technique to judge.");
     return;
   }
   const auto list = html.in("ul", {{"class", "errors"}});
@@ -49,13 +50,19 @@ void writeErrors(Html& html, const assess::TrialAssessment& trial) {
 }
 
 /// Floor: 97.96 % are not 98 %.
-std::string shareText(double share) { return trimmed(std::floor(1e3 * share + 1e-9) / 10, 1) + " %"; }
+std::string shareText(double share) {
+  return trimmed(std::floor(1e3 * share + 1e-9) / 10, 1) + " %";
+}
 
 std::string scoreText(const competence::Verdict& v) {
   const competence::ChecklistScore& s = v.score;
-  const std::string share = s.open ? "between " + shareText(s.low) + " and " + shareText(s.high) : shareText(s.low);
-  return std::to_string(s.done) + " of " + std::to_string(s.done + s.not_done + s.open) + " items done (" + share + "; " + shareText(v.standard) + " asked for). Major items " + std::to_string(s.major_done) + " of " +
-         std::to_string(s.major) + ", minor " + std::to_string(s.minor_done) + " of " + std::to_string(s.minor) + (s.open ? " so far" : "") + ": " + v.level + ".";
+  const std::string share =
+      s.open ? "between " + shareText(s.low) + " and " + shareText(s.high) : shareText(s.low);
+  return std::to_string(s.done) + " of " + std::to_string(s.done + s.not_done + s.open) +
+         " items done (" + share + "; " + shareText(v.standard) + " asked for). Major items " +
+         std::to_string(s.major_done) + " of " + std::to_string(s.major) + ", minor " +
+         std::to_string(s.minor_done) + " of " + std::to_string(s.minor) +
+         (s.open ? " so far" : "") + ": " + v.level + ".";
 }
 
 void writeChecklist(Html& html, const competence::Verdict& v) {
@@ -66,7 +73,8 @@ void writeChecklist(Html& html, const competence::Verdict& v) {
   {
     const auto head = html.in("thead");
     const auto row = html.in("tr");
-    for (const char* title : {"Item", "Weight", "Judged by", "Result"}) html.element("th", {{"scope", "col"}}, title);
+    for (const char* title : {"Item", "Weight", "Judged by", "Result"})
+      html.element("th", {{"scope", "col"}}, title);
   }
   const auto body = html.in("tbody");
   for (const competence::MarkedItem& m : v.items) {
@@ -74,11 +82,13 @@ void writeChecklist(Html& html, const competence::Verdict& v) {
     {
       const auto cell = html.in("td");
       html.text(m.item->text);
-      if (!m.why.empty() && m.mark != Mark::done) html.element("p", {{"class", "muted small"}}, m.why);
+      if (!m.why.empty() && m.mark != Mark::done)
+        html.element("p", {{"class", "muted small"}}, m.why);
     }
     html.element("td", m.item->major ? "major" : "minor");
     html.element("td", m.item->byRater() ? "rater" : "simulator");
-    html.element("td", {{"class", std::string("result ") + cssOf(m.mark)}}, std::string(signOf(m.mark)) + " " + wordsOf(m.mark));
+    html.element("td", {{"class", std::string("result ") + cssOf(m.mark)}},
+                 std::string(signOf(m.mark)) + " " + competence::markWords(m.mark));
   }
 }
 
@@ -86,13 +96,21 @@ void writePassOrFail(Html& html, const TrialPage& page) {
   const competence::Verdict& v = *page.verdict;
   html.element("h3", "Pass or fail");
   {
-    const auto box = html.in("div", {{"class", std::string("judgement ") + cssClass(toneOf(v.status))}});
-    html.element("p", {{"class", "outcome"}}, std::string(competence::statusWords(v.status)) + (page.assessment.simulated ? " (simulated)" : ""));
+    const auto box =
+        html.in("div", {{"class", std::string("judgement ") + cssClass(toneOf(v.status))}});
+    html.element("p", {{"class", "outcome"}},
+                 std::string(competence::statusWords(v.status)) +
+                     (page.assessment.simulated ? " (simulated)" : ""));
     for (const std::string& reason : v.reasons) html.element("p", reason);
-    if (v.reasons.empty()) html.element("p", "The checklist reaches the standard, the global rating its cut-off, and no critical error was made.");
-    if (v.global_mean) html.element("p", "Global rating: " + trimmed(*v.global_mean, 1) + " of 5 on average.");
+    if (v.reasons.empty())
+      html.element("p",
+                   "The checklist reaches the standard, the global rating its cut-off, and no "
+                   "critical error was made.");
+    if (v.global_mean)
+      html.element("p", "Global rating: " + trimmed(*v.global_mean, 1) + " of 5 on average.");
   }
-  if (!page.certification.empty()) html.element("p", {{"class", "muted small"}}, page.certification);
+  if (!page.certification.empty())
+    html.element("p", {{"class", "muted small"}}, page.certification);
   writeChecklist(html, v);
 }
 

@@ -54,20 +54,23 @@ void writeBox(Html& html) {
 std::string saidBySimulator(const RatingForm& form, const competence::Item& item) {
   for (const competence::MarkedItem& m : form.marks) {
     if (m.item != &item || item.byRater() || m.mark == competence::Mark::open) continue;
-    const char* word = m.mark == competence::Mark::done ? "done" : m.mark == competence::Mark::not_done ? "not done" : "did not arise";
-    return std::string("simulator: ") + word + (m.why.empty() || m.mark == competence::Mark::done ? "" : ", " + m.why);
+    return std::string("simulator: ") + competence::markWords(m.mark) +
+           (m.why.empty() || m.mark == competence::Mark::done ? "" : ", " + m.why);
   }
   return "";
 }
 
 void writeItems(Html& html, const RatingForm& form) {
   html.element("h2", form.checklist->title);
-  html.element("p", {{"class", "small"}}, "Mark one box an item. Bold items are major. Judge what you saw, whatever the simulator says.");
+  html.element("p", {{"class", "small"}},
+               "Mark one box an item. Bold items are major. Judge what you saw, whatever the "
+               "simulator says.");
   const auto table = html.in("table", {{"class", "form"}});
   {
     const auto row = html.in("tr");
     html.element("th", "Item");
-    for (const char* title : {"done", "not done", "did not arise"}) html.element("th", {{"class", "box"}}, title);
+    for (const char* title : {"done", "not done", "did not arise"})
+      html.element("th", {{"class", "box"}}, title);
   }
   for (const competence::Item& item : form.checklist->items) {
     const auto row = html.in("tr");
@@ -92,7 +95,8 @@ void writeGrades(Html& html, const competence::GlobalRating& global) {
   {
     const auto row = html.in("tr");
     html.element("th", "Aspect");
-    for (const char* grade : {"1", "2", "3", "4", "5"}) html.element("th", {{"class", "box"}}, grade);
+    for (const char* grade : {"1", "2", "3", "4", "5"})
+      html.element("th", {{"class", "box"}}, grade);
     html.element("th", "Words for 1, 3 and 5");
   }
   for (const competence::RatingItem& item : global.items) {
@@ -104,7 +108,8 @@ void writeGrades(Html& html, const competence::GlobalRating& global) {
       html.element("code", item.id);
     }
     for (int i = 0; i < competence::kBestGrade; ++i) writeBox(html);
-    html.element("td", {{"class", "words"}}, "1: " + item.low + ". 3: " + item.middle + ". 5: " + item.high + ".");
+    html.element("td", {{"class", "words"}},
+                 "1: " + item.low + ". 3: " + item.middle + ". 5: " + item.high + ".");
   }
 }
 
@@ -125,12 +130,14 @@ void writeRatingForm(const RatingForm& form, const std::filesystem::path& file) 
     if (form.global) writeGrades(html, *form.global);
     html.element("h2", "Remarks");
     html.element("div", {{"class", "free"}}, "");
-    html.element("p", {{"class", "small muted"}}, form.checklist->source + (form.global ? ". " + form.global->source : "") + ".");
+    html.element("p", {{"class", "small muted"}},
+                 form.checklist->source + (form.global ? ". " + form.global->source : "") + ".");
   }
   writeWhole(file, html.str());
 }
 
-std::string answerSheet(const competence::Checklist& checklist, const competence::GlobalRating* global) {
+std::string answerSheet(const competence::Checklist& checklist,
+                        const competence::GlobalRating* global) {
   std::string text = "item,value\n# done, not done or did not arise:\n";
   for (const competence::Item& item : checklist.items) text += item.id + ",\n";
   if (!global) return text;

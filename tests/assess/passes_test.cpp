@@ -19,16 +19,24 @@ void expectPasses(const std::vector<TrialSample>& samples, int passes) {
 Motion redirectedTimes(int times) {
   Motion m;
   m.push(0.010).puncture().push(0.008).turnTo(taughtPath().direction_L).push(0.020);
-  for (int i = 0; i < times; ++i) m.push(-0.010).turnTo(direction_L((i % 2 ? 25 : 35) * kDeg, 15 * kDeg)).push(0.012);
+  for (int i = 0; i < times; ++i)
+    m.push(-0.010).turnTo(direction_L((i % 2 ? 25 : 35) * kDeg, 15 * kDeg)).push(0.012);
   return m;
 }
 
 TEST(PassCounter, CountsAsTheScoreDoes) {
   expectPasses(Motion().hold(1).samples(), 0);
   expectPasses(textbook().samples(), 1);
-  for (int times = 1; times <= 4; ++times) expectPasses(redirectedTimes(times).samples(), 1 + times);
+  for (int times = 1; times <= 4; ++times)
+    expectPasses(redirectedTimes(times).samples(), 1 + times);
   Motion twice = redirectedTimes(2);
-  twice.withdraw().push(-0.005).push(0.005).puncture().push(0.008).turnTo(taughtPath().direction_L).push(0.028);
+  twice.withdraw()
+      .push(-0.005)
+      .push(0.005)
+      .puncture()
+      .push(0.008)
+      .turnTo(taughtPath().direction_L)
+      .push(0.028);
   expectPasses(twice.samples(), 4);
 }
 

@@ -18,7 +18,8 @@ Checklist listOf(int items, int major) {
   list.standards = {0.98, 0.90};
   list.competent = {17, 5};
   list.borderline = {10, 2};
-  for (int i = 0; i < items; ++i) list.items.push_back({"i" + std::to_string(i), "item", i < major, {}, false});
+  for (int i = 0; i < items; ++i)
+    list.items.push_back({"i" + std::to_string(i), "item", i < major, {}, false});
   return list;
 }
 
@@ -46,22 +47,26 @@ Answers ratersItemsDone(const Checklist& list) {
   return answers;
 }
 
-Verdict verdictOf(const Script& script, std::uint64_t seed, const Checklist& list, double standard = 0.98) {
+Verdict verdictOf(const Script& script, std::uint64_t seed, const Checklist& list,
+                  double standard = 0.98) {
   anatomy::RandomStream draw(seed);
   const assess::TrialAssessment a = judged(script, seed, draw);
   const GlobalRating global = shippedGlobal();
-  return judge({true, a.outcome}, list, figuresOf(a), ratersItemsDone(list), &global, grades(global, 5), standard);
+  return judge({true, a.outcome}, list, figuresOf(a), ratersItemsDone(list), &global,
+               grades(global, 5), standard);
 }
 
 TEST(Verdict, AGoodTrialWithAGoodRatingPasses) {
   const Checklist list = shippedChecklist();
   const Verdict v = verdictOf({}, 2, list);
-  for (const MarkedItem& m : v.items) EXPECT_TRUE(m.mark == Mark::done || m.mark == Mark::did_not_arise) << m.item->id << ": " << m.why;
+  for (const MarkedItem& m : v.items)
+    EXPECT_TRUE(m.mark == Mark::done || m.mark == Mark::did_not_arise)
+        << m.item->id << ": " << m.why;
   for (const std::string& reason : v.reasons) ADD_FAILURE() << reason;
   EXPECT_EQ(v.status, Status::passed);
   EXPECT_EQ(v.level, "competent");
   EXPECT_EQ(v.score.low, 1);
-  EXPECT_EQ(v.score.did_not_arise, 1);   // it was never drawn back
+  EXPECT_EQ(v.score.did_not_arise, 1);  // it was never drawn back
 }
 
 TEST(Verdict, APleuralOrArterialPunctureFailsWhateverElseWasDone) {
@@ -76,7 +81,8 @@ TEST(Verdict, APleuralOrArterialPunctureFailsWhateverElseWasDone) {
       EXPECT_EQ(v.score.low, 1);
       EXPECT_EQ(v.status, Status::failed);
       ASSERT_EQ(v.critical.size(), 1u);
-      EXPECT_EQ(v.critical[0], tissue == Tissue::lung ? "the pleura was punctured" : "an artery was punctured");
+      EXPECT_EQ(v.critical[0],
+                tissue == Tissue::lung ? "the pleura was punctured" : "an artery was punctured");
     }
   }
 }
@@ -102,7 +108,7 @@ TEST(Verdict, WithoutSuctionTheItemIsNotDone) {
       EXPECT_EQ(m.why, "Advanced under suction: 0 % (at least 50 %)");
     }
   EXPECT_EQ(v.status, Status::failed);
-  EXPECT_EQ(verdictOf(script, 2, list, 0.90).status, Status::passed);   // 22 of 23 are 95.6 %
+  EXPECT_EQ(verdictOf(script, 2, list, 0.90).status, Status::passed);  // 22 of 23 are 95.6 %
 }
 
 TEST(Verdict, NobodyPassesWithoutARaterOrInPractice) {
@@ -110,7 +116,10 @@ TEST(Verdict, NobodyPassesWithoutARaterOrInPractice) {
   const GlobalRating global = shippedGlobal();
   anatomy::RandomStream draw(2);
   const assess::TrialAssessment a = judged({}, 2, draw);
-  const auto judgedWith = [&](const VerdictFacts& facts, const Answers& items, const Answers& rating) { return judge(facts, list, figuresOf(a), items, &global, rating, 0.98); };
+  const auto judgedWith = [&](const VerdictFacts& facts, const Answers& items,
+                              const Answers& rating) {
+    return judge(facts, list, figuresOf(a), items, &global, rating, 0.98);
+  };
   const Verdict alone = judgedWith(kAssessed, {}, {});
   EXPECT_EQ(alone.status, Status::not_certified);
   EXPECT_EQ(alone.score.open, 8);
@@ -118,8 +127,10 @@ TEST(Verdict, NobodyPassesWithoutARaterOrInPractice) {
   EXPECT_EQ(alone.reasons[0], "Checklist: 15 of 23 items done; 8 need a rater; 98 % is asked for.");
   EXPECT_EQ(alone.reasons[1], "No global rating was given.");
   EXPECT_EQ(judgedWith(kAssessed, ratersItemsDone(list), {}).status, Status::not_certified);
-  EXPECT_EQ(judgedWith({false, "success"}, ratersItemsDone(list), grades(global, 5)).status, Status::not_certified);
-  EXPECT_EQ(judgedWith({true, "void"}, ratersItemsDone(list), grades(global, 5)).status, Status::not_certified);
+  EXPECT_EQ(judgedWith({false, "success"}, ratersItemsDone(list), grades(global, 5)).status,
+            Status::not_certified);
+  EXPECT_EQ(judgedWith({true, "void"}, ratersItemsDone(list), grades(global, 5)).status,
+            Status::not_certified);
   Answers gap = grades(global, 5);
   gap.erase("feel");
   EXPECT_EQ(judgedWith(kAssessed, ratersItemsDone(list), gap).status, Status::not_certified);
@@ -143,21 +154,24 @@ TEST(Verdict, WhatIsNotJudgedMakesTheShareUncertain) {
   EXPECT_NEAR(s.low, 20.0 / 23, 1e-12);
   EXPECT_NEAR(s.high, 22.0 / 23, 1e-12);
   const Verdict v = judge(kAssessed, list, noFigures, answers, nullptr, {}, 0.98);
-  EXPECT_EQ(v.status, Status::failed);   // at most 22 of 23, whatever is said of the other two
-  EXPECT_EQ(judge(kAssessed, list, noFigures, answers, nullptr, {}, 0.90).status, Status::not_certified);
+  EXPECT_EQ(v.status, Status::failed);  // at most 22 of 23, whatever is said of the other two
+  EXPECT_EQ(judge(kAssessed, list, noFigures, answers, nullptr, {}, 0.90).status,
+            Status::not_certified);
 }
 
 TEST(Verdict, StandardsOfNinetyEightAndNinetyPercent) {
   const Checklist list = listOf(50, 40);
   const GlobalRating global = shippedGlobal();
   Answers answers = all(list, kDone);
-  const auto at = [&](double standard) { return judge(kAssessed, list, noFigures, answers, &global, grades(global, 4), standard).status; };
-  answers["i49"] = kNotDone;                                          // 49 of 50 are 98 %
+  const auto at = [&](double standard) {
+    return judge(kAssessed, list, noFigures, answers, &global, grades(global, 4), standard).status;
+  };
+  answers["i49"] = kNotDone;  // 49 of 50 are 98 %
   EXPECT_EQ(at(0.98), Status::passed);
   answers["i48"] = kNotDone;
   EXPECT_EQ(at(0.98), Status::failed);
   EXPECT_EQ(at(0.90), Status::passed);
-  for (const char* id : {"i45", "i46", "i47"}) answers[id] = kNotDone;   // 45 of 50 are 90 %
+  for (const char* id : {"i45", "i46", "i47"}) answers[id] = kNotDone;  // 45 of 50 are 90 %
   EXPECT_EQ(at(0.90), Status::passed);
   answers["i44"] = kNotDone;
   EXPECT_EQ(at(0.90), Status::failed);
@@ -181,8 +195,10 @@ TEST(Verdict, LevelsCountMajorAndMinorItems) {
 
 TEST(Verdict, ANeedleThatWasNeverInsertedHasDoneNothingWell) {
   const Checklist list = shippedChecklist();
-  const assess::TrialAssessment a = assess::assessTrial(assess::test::facts("time"), assess::test::Motion(200).hold(3).samples(), referencePatient(anatomy::Side::right),
-                                                        assess::OrganDistance(assess::test::nowhere), shippedPath(), {});
+  const assess::TrialAssessment a =
+      assess::assessTrial(assess::test::facts("time"), assess::test::Motion(200).hold(3).samples(),
+                          referencePatient(anatomy::Side::right),
+                          assess::OrganDistance(assess::test::nowhere), shippedPath(), {});
   for (const MarkedItem& m : marked(list, figuresOf(a), {}))
     EXPECT_NE(m.mark, Mark::done) << m.item->id;
 }
@@ -200,10 +216,19 @@ TEST(Certification, SaysWhatFewTrialsCannotCertify) {
   std::vector<int> runs;
   for (const Certification& c : certifications()) runs.push_back(c.limits.shortest_clean_run);
   EXPECT_EQ(runs, (std::vector<int>{13, 19, 20, 41}));
-  EXPECT_NE(whatCannotBeCertified(1).find("1 trial cannot certify anybody. The fewest trials in a row without a failure: 13 for a rate of failure of 10 % against 25 %, 19 "), std::string::npos) << whatCannotBeCertified(1);
+  EXPECT_NE(whatCannotBeCertified(1).find(
+                "1 trial cannot certify anybody. The fewest trials in a row without a failure: 13 "
+                "for a rate of failure of 10 % against 25 %, 19 "),
+            std::string::npos)
+      << whatCannotBeCertified(1);
   EXPECT_NE(whatCannotBeCertified(10).find("10 trials cannot certify anybody"), std::string::npos);
-  EXPECT_NE(whatCannotBeCertified(19).find("19 trials without a failure are enough for some rates (13 for"), std::string::npos) << whatCannotBeCertified(19);
-  EXPECT_NE(whatCannotBeCertified(41).find("41 trials without a failure are enough for every rate"), std::string::npos) << whatCannotBeCertified(41);
+  EXPECT_NE(whatCannotBeCertified(19).find(
+                "19 trials without a failure are enough for some rates (13 for"),
+            std::string::npos)
+      << whatCannotBeCertified(19);
+  EXPECT_NE(whatCannotBeCertified(41).find("41 trials without a failure are enough for every rate"),
+            std::string::npos)
+      << whatCannotBeCertified(41);
 }
 
 }  // namespace

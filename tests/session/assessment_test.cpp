@@ -26,7 +26,8 @@ SessionOptions quick(bool assess, std::uint64_t seed = 3) {
 }
 
 std::filesystem::path freshPlace(const std::string& name) {
-  const std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session" / name;
+  const std::filesystem::path folder =
+      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session" / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
@@ -43,7 +44,8 @@ Aids aidsIn(const std::filesystem::path& folder) {
   const record::SessionReader reader(folder / "session.palpa");
   Aids aids;
   aids.assessed = reader.info().session_json.find("\"assessed\":true") != std::string::npos;
-  for (const record::RecordedTrial& trial : reader.trials()) aids.roles.push_back(trial.header.role);
+  for (const record::RecordedTrial& trial : reader.trials())
+    aids.roles.push_back(trial.header.role);
   const auto zero = [](const Packed3& v) { return v == Packed3{}; };
   reader.ticks([&](const haptics::FlightRecord& r) {
     ++aids.ticks;
@@ -71,7 +73,7 @@ Aids ofNeedle(SessionOptions options, const std::string& name) {
 
 TEST(Assessment, NoAidAddsForceToANeedle) {
   expectNoAid(ofNeedle(quick(true), "assessed_needle"));
-  SessionOptions practice = quick(false);   // the same trial with cues: the test would see them
+  SessionOptions practice = quick(false);  // the same trial with cues: the test would see them
   practice.augment = true;
   const Aids aids = ofNeedle(practice, "practice_needle");
   EXPECT_GT(aids.with_force, 0);
@@ -123,7 +125,8 @@ double figureOf(const assess::TrialAssessment& a, const std::string& name) {
   return -1;
 }
 
-/// The same hand on the same patient: in practice it needs two passes or more, in assessment with a limit of one the trial ends when the second begins.
+/// The same hand on the same patient: in practice it needs two passes or more, in assessment with a
+/// limit of one the trial ends when the second begins.
 TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
   const std::filesystem::path folder = freshPlace("passes");
   const auto run = [&](bool assess, int most) {
@@ -146,11 +149,12 @@ TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
   EXPECT_NE(limited.summary.find("a pass too many"), std::string::npos) << limited.summary;
   const RecordedSession recorded(folder / "session.palpa");
   int trials = 0;
-  recorded.eachTrial([&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
-    ++trials;
-    EXPECT_EQ(trial.end.outcome, "passes");
-    EXPECT_EQ(recorded.rescore(trial, samples).total, limited.total);   // to the last bit
-  });
+  recorded.eachTrial(
+      [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+        ++trials;
+        EXPECT_EQ(trial.end.outcome, "passes");
+        EXPECT_EQ(recorded.rescore(trial, samples).total, limited.total);  // to the last bit
+      });
   EXPECT_EQ(trials, 1);
 }
 

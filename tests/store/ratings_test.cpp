@@ -8,7 +8,8 @@ namespace {
 class Ratings : public Store {};
 
 std::vector<Rating> sheet(const std::string& rater, std::int64_t value, std::int64_t trial = 1) {
-  return {{"u1", trial, rater, "subclavian", "sha", "held", value, "2026-03-01T11:00:00Z"}, {"u1", trial, rater, "subclavian", "sha", "sterile", value, "2026-03-01T11:00:00Z"}};
+  return {{"u1", trial, rater, "subclavian", "sha", "held", value, "2026-03-01T11:00:00Z"},
+          {"u1", trial, rater, "subclavian", "sha", "sterile", value, "2026-03-01T11:00:00Z"}};
 }
 
 TEST_P(Ratings, AreKeptReplacedAndGoWithThePerson) {
@@ -18,7 +19,7 @@ TEST_P(Ratings, AreKeptReplacedAndGoWithThePerson) {
   enterRatings(store, sheet("R1", 1));
   enterRatings(store, sheet("R2", -1));
   ASSERT_EQ(ratingsIn(store).size(), 4u);
-  enterRatings(store, {sheet("R1", 0).front()});   // the sheet entered again, with one item
+  enterRatings(store, {sheet("R1", 0).front()});  // the sheet entered again, with one item
   const std::vector<Rating> all = ratingsIn(store, "u1");
   ASSERT_EQ(all.size(), 3u);
   EXPECT_EQ(all[0].rater, "R1");
@@ -43,7 +44,8 @@ TEST_P(Ratings, OfATrialThatIsNotThereOrOfSeveralSheetsAreRefused) {
   EXPECT_TRUE(ratingsIn(store).empty());
 }
 
-INSTANTIATE_TEST_SUITE_P(Both, Ratings, testing::Values("SQLite", "PostgreSQL"), [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Both, Ratings, testing::Values("SQLite", "PostgreSQL"),
+                         [](const auto& p) { return std::string(p.param); });
 
 }  // namespace
 }  // namespace palpa::record

@@ -31,9 +31,12 @@ std::optional<int> gradeIn(const std::string& word) {
 
 }  // namespace
 
-const char* answerWords(int answer) { return answer == kDone ? "done" : answer == kNotDone ? "not done" : "did not arise"; }
+const char* answerWords(int answer) {
+  return answer == kDone ? "done" : answer == kNotDone ? "not done" : "did not arise";
+}
 
-FormAnswers parseAnswers(const std::string& text, const std::string& where, const Checklist& checklist, const GlobalRating* global) {
+FormAnswers parseAnswers(const std::string& text, const std::string& where,
+                         const Checklist& checklist, const GlobalRating* global) {
   FormAnswers answers;
   std::istringstream lines(text);
   int number = 0;
@@ -41,16 +44,21 @@ FormAnswers parseAnswers(const std::string& text, const std::string& where, cons
     ++number;
     line = trimmed(line.substr(0, line.find('#')));
     if (line.empty() || line == "item,value") continue;
-    const auto refuse = [&](const std::string& what) { throw UsageError(what, where + ", line " + std::to_string(number), "A line is item,value: done, not done or did not arise; a grade is 1 to 5"); };
+    const auto refuse = [&](const std::string& what) {
+      throw UsageError(what, where + ", line " + std::to_string(number),
+                       "A line is item,value: done, not done or did not arise; a grade is 1 to 5");
+    };
     const std::size_t comma = line.find(',');
     if (comma == std::string::npos) refuse("has no comma");
     const std::string id = trimmed(line.substr(0, comma)), word = trimmed(line.substr(comma + 1));
-    if (word.empty()) continue;   // left blank on the paper
+    if (word.empty()) continue;  // left blank on the paper
     const bool of_list = has(checklist.items, id);
-    if (!of_list && !(global && has(global->items, id))) refuse("names \"" + id + "\", which the form does not have");
+    if (!of_list && !(global && has(global->items, id)))
+      refuse("names \"" + id + "\", which the form does not have");
     const std::optional<int> value = of_list ? doneIn(word) : gradeIn(word);
     if (!value) refuse("\"" + word + "\" is no answer to \"" + id + "\"");
-    if (!(of_list ? answers.checklist : answers.global).emplace(id, *value).second) refuse("answers \"" + id + "\" again");
+    if (!(of_list ? answers.checklist : answers.global).emplace(id, *value).second)
+      refuse("answers \"" + id + "\" again");
   }
   return answers;
 }
