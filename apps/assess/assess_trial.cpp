@@ -2,6 +2,7 @@
 
 #include "apps/assess/explanations.h"
 #include "apps/assess/needle_metrics.h"
+#include "apps/assess/technical_errors.h"
 #include "apps/assess/timeline.h"
 
 namespace palpa::assess {
@@ -45,6 +46,7 @@ TrialAssessment assessTrial(const TrialFacts& facts, const std::vector<TrialSamp
   a.closest_artery_s = r.artery_miss.t_s;
   a.skin_punctures = countPunctures(r);
   a.redirections = countRedirections(r.samples, r.history.passes);
+  a.errors = technicalErrors(r, frame, path, rules);
   a.metrics = needleMetrics(r, a, frame, path, rules);
   return a;
 }

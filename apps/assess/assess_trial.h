@@ -6,6 +6,7 @@
 #include "anatomy/landmark_frame.h"
 #include "anatomy/patient.h"
 #include "anatomy/surface_query.h"
+#include "apps/assess/error_rules.h"
 #include "apps/assess/trial_assessment.h"
 #include "calibration/expert_path.h"
 
@@ -20,6 +21,7 @@ struct ScoringRules {
   double plunger_drawn = 0.25;  ///< fraction that counts as drawn
   double shaft_point = 0.070;   ///< m behind the tip, second point of ECON
   ScoreWeights weights;
+  ErrorRules errors;
 };
 
 struct TrialFacts {
@@ -27,7 +29,7 @@ struct TrialFacts {
   std::string role;
   bool simulated = false, force_feedback = true;
   std::uint64_t seed = 0;
-  std::string outcome;  ///< "success", "aborted", "time", "void"
+  std::string outcome;  ///< "success", "aborted", "time", "passes" (one too many), "void"
 };
 
 /// The score of one trial with its reasons. Reads the record only: `samples` are all ticks of the

@@ -9,6 +9,7 @@
 #include "apps/assess/metrics/force_use.h"
 #include "apps/assess/metrics/kinematics.h"
 #include "apps/assess/metrics/tissue.h"
+#include "apps/assess/technique_metrics.h"
 
 namespace palpa::assess {
 namespace {
@@ -131,6 +132,7 @@ std::vector<MetricValue> needleMetrics(const TrialReview& r, const TrialAssessme
                                {"frechet_mm", 1e3 * metrics::frechet(advance, taught)},
                                {"hausdorff_mm", 1e3 * metrics::hausdorff(advance, taught)},
                                {"warped_mm", 1e3 * metrics::timeWarped(advance, taught)}};
+  for (MetricValue& m : techniqueMetrics(r, a.errors, frame, path, rules)) all.push_back(std::move(m));
   for (MetricValue& m : motionMetrics(r.samples, rules)) all.push_back(std::move(m));
   return all;
 }

@@ -50,31 +50,39 @@ const Pass* scoredPass(const std::vector<Pass>& passes, bool success) {
 
 namespace {
 
-/// Follows how far the tip is from the entry; a turning point must be left by more than `kLeast`.
-class RedirectionCounter {
- public:
-  void add(double reach, const Vec3& axis) {
-    if (!retreating_) {
-      if (reach > peak_) peak_ = reach, axis_at_peak_ = axis;
-      if (reach < peak_ - kLeast) retreating_ = true, low_ = reach;
-      return;
-    }
-    low_ = std::min(low_, reach);
-    if (reach <= low_ + kLeast) return;
-    if (angleBetween(axis, axis_at_peak_) > kLeastTurn) ++count_;
-    retreating_ = false, peak_ = reach, axis_at_peak_ = axis;
-  }
-  int count() const { return count_; }
-
- private:
-  static constexpr double kLeast = 0.003, kLeastTurn = 0.05236;  // m; 3 degrees
-  double peak_ = -1, low_ = 0;
-  Vec3 axis_at_peak_ = Vec3::UnitZ();
-  bool retreating_ = false;
-  int count_ = 0;
-};
+constexpr double kLeast = 0.003, kLeastTurn = 0.05236;  // m; 3 degrees
 
 }  // namespace
+
+void RedirectionCounter::add(double reach, const Vec3& axis) {
+  if (!retreating_) {
+    if (reach > peak_) peak_ = reach, axis_at_peak_ = axis;
+    if (reach < peak_ - kLeast) retreating_ = true, low_ = reach;
+    return;
+  }
+  low_ = std::min(low_, reach);
+  if (reach <= low_ + kLeast) return;
+  if (angleBetween(axis, axis_at_peak_) > kLeastTurn) ++count_;
+  retreating_ = false, peak_ = reach, axis_at_peak_ = axis;
+}
+
+void PassCounter::add(const TrialSample& sample) {
+  const bool was_advancing = detector_.advancing();
+  detector_.add(sample);
+  punctures_ += (sample.events & haptics::kSkinPunctured) != 0;
+  const bool inserted = detector_.phase() != ProcedurePhase::approach, was_inserted = before_ != ProcedurePhase::approach;
+  insertions_ += inserted && !was_inserted;
+  before_ = detector_.phase();
+  if (!inserted && was_inserted) {
+    redirections_ += current_.count();
+    current_ = {};
+  }
+  if (inserted && !detector_.advancing()) current_ = {};   // phase 2 was taken back: it begins anew
+  if (detector_.advancing()) {
+    if (!was_advancing) current_ = {};
+    current_.add((sample.tip_A - detector_.puncture().tip_A).norm(), sample.axis_A);
+  }
+}
 
 int countRedirections(Samples samples, const std::vector<Pass>& passes) {
   int count = 0;

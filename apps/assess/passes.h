@@ -1,5 +1,6 @@
 #pragma once
 
+#include <algorithm>
 #include <vector>
 
 #include "apps/assess/intervals.h"
@@ -28,8 +29,34 @@ PhaseHistory detectPhases(Samples samples);
 /// else the last. Null when the skin was never punctured.
 const Pass* scoredPass(const std::vector<Pass>& passes, bool success);
 
-/// Changes of direction in phase 2: the tip drawn back by more than 3 mm toward the entry, then
-/// advanced by more than 3 mm along a direction more than 3 degrees from that before.
+/// Follows how far the tip is from the entry; a turning point must be left by more than 3 mm. Counts changes of direction: the tip drawn back, then advanced again along a direction more than 3 degrees
+/// from that before.
+class RedirectionCounter {
+ public:
+  void add(double reach, const Vec3& axis);
+  int count() const { return count_; }
+
+ private:
+  double peak_ = -1, low_ = 0;
+  Vec3 axis_at_peak_ = Vec3::UnitZ();
+  bool retreating_ = false;
+  int count_ = 0;
+};
+
+/// Changes of direction in phase 2 of all passes.
 int countRedirections(Samples samples, const std::vector<Pass>& passes);
+
+/// Needle passes while they are made: skin punctures and redirections, as the score counts them afterwards.
+class PassCounter {
+ public:
+  void add(const TrialSample& sample);   ///< every tick of the trial
+  int passes() const { return std::max(punctures_, insertions_) + redirections_ + current_.count(); }
+
+ private:
+  PhaseDetector detector_;
+  ProcedurePhase before_ = ProcedurePhase::approach;
+  RedirectionCounter current_;           ///< of the pass that is on
+  int punctures_ = 0, insertions_ = 0, redirections_ = 0;
+};
 
 }  // namespace palpa::assess

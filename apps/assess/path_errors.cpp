@@ -12,20 +12,22 @@ constexpr double kWorstDirection = 5000;  // PHASE_2 of a trial without phase 2
 double elevation(const Vec3& d_L) { return std::asin(std::clamp(d_L.y(), -1.0, 1.0)); }
 double azimuth(const Vec3& d_L) { return std::atan2(d_L.z(), d_L.x()); }
 
-void compare(const Vec3& axis_L, const calibration::ExpertPath& path, DirectionError* error) {
-  const Vec3& taught = path.direction_L;
-  error->angle = angleBetween(axis_L, taught);
-  error->steeper = elevation(axis_L) - elevation(taught);
-  const double turn = std::remainder(azimuth(axis_L) - azimuth(taught), 2 * M_PI);
-  error->more_cephalad = turn * std::cos(elevation(axis_L));
-  error->value = 1000 * error->angle / path.direction_acceptable;
-}
-
 double distanceFromLine(const Vec3& p_L, const Vec3& from_L, const Vec3& along_L) {
   return (p_L - from_L).cross(along_L).norm();
 }
 
 }  // namespace
+
+DirectionError comparedWith(const Vec3& axis_L, const calibration::ExpertPath& path) {
+  const Vec3& taught = path.direction_L;
+  DirectionError error;
+  error.angle = angleBetween(axis_L, taught);
+  error.steeper = elevation(axis_L) - elevation(taught);
+  const double turn = std::remainder(azimuth(axis_L) - azimuth(taught), 2 * M_PI);
+  error.more_cephalad = turn * std::cos(elevation(axis_L));
+  error.value = 1000 * error.angle / path.direction_acceptable;
+  return error;
+}
 
 EntryError entryError(const Pass* pass, Samples samples, const anatomy::LandmarkFrame& frame,
                       const calibration::ExpertPath& path) {
@@ -55,7 +57,7 @@ DirectionError directionError(const Pass* pass, Samples samples,
   error.value = kWorstDirection;
   if (!pass) return error;
   const TrialSample& judged = pass->advanced ? pass->start_of_phase_2 : samples[pass->last];
-  compare(frame.vectorToLandmarks(judged.axis_A), path, &error);
+  error = comparedWith(frame.vectorToLandmarks(judged.axis_A), path);
   error.judged = pass->advanced ? DirectionError::Judged::at_phase_2
                                 : DirectionError::Judged::at_last_insertion;
   if (!pass->advanced) error.value = std::min(error.value, kWorstDirection);

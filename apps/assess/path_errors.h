@@ -30,6 +30,9 @@ struct DirectionError {
   double value = 0;          ///< 1000 x angle / acceptable
 };
 
+/// A direction against the taught one; `judged` and the cap of `value` are the caller's.
+DirectionError comparedWith(const Vec3& axis_L, const calibration::ExpertPath& path);
+
 /// Phase 2 not reached: the last direction while inserted, value at most 5000; never inserted:
 /// 5000.
 DirectionError directionError(const Pass* pass, Samples samples,

@@ -58,6 +58,7 @@ Moment ending(const TrialFacts& facts, const TrialReview& r) {
   if (r.success) return {r.end_s, "success", "Blood flows freely: vein reached"};
   if (facts.outcome == "aborted") return {r.end_s, "aborted", "Trial stopped"};
   if (facts.outcome == "time") return {r.end_s, "time", "Time is over"};
+  if (facts.outcome == "passes") return {r.end_s, "aborted", "A pass too many: the trial ends"};
   if (facts.outcome == "void") return {r.end_s, "void", "Trial declared void"};
   return {r.end_s, "end", "Trial ended"};
 }

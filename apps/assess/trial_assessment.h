@@ -43,6 +43,17 @@ struct Penalty {
   std::vector<double> moments_s;  ///< when it happened (starts of the spans); may be empty
 };
 
+/// One of the six common errors of subclavian access that was made.
+struct TechnicalError {
+  std::string code;       ///< "site", "landmarks", "periosteum", "shallow", "cephalad", "left_vein"
+  std::string title;      ///< "Too cephalad"
+  std::string sentence;   ///< "The needle was aimed 14° too far toward the head over 12.0 mm, from 8.2 s on (...): ..."
+  double t_s = 0;
+  double value = 0, threshold = 0;
+  std::string unit;       ///< of both
+  int times = 1;
+};
+
 /// A stretch of the trial for the timeline.
 struct Span {
   std::string label;  ///< "phase 1", "in the vein", "clavicle", ...
@@ -58,15 +69,16 @@ struct Moment {
 
 struct TrialAssessment {
   int trial = 0;
-  std::string role;  ///< "scored", "familiarisation", "demonstration"
+  std::string role;  ///< "scored", "assessed", "familiarisation", "demonstration"
   bool simulated = false;
   bool force_feedback = true;
   std::uint64_t seed = 0;
-  std::string outcome;  ///< "success", "aborted", "time", "void"
+  std::string outcome;  ///< "success", "aborted", "time", "passes" (one too many), "void"
   std::string summary;  ///< one or two plain sentences
   ParacentesisValues values;
   double total = 0;
   std::vector<Penalty> penalties;
+  std::vector<TechnicalError> errors = {};   ///< in the order of the procedure
   std::vector<Span> spans;
   std::vector<Moment> moments;
   /// Of the tip while inserted; negative: inside. Infinite, with moment -1, when the needle was

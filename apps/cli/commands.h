@@ -20,6 +20,7 @@ void addPhantom(CLI::App& program);
 void addExport(CLI::App& program);
 void addRecords(CLI::App& program);   ///< trainees and their trials
 void addStudy(CLI::App& program);     ///< a protocol's sessions, who is where in it
+void addRate(CLI::App& program);      ///< human raters
 void addBench(CLI::App& program);
 
 }  // namespace palpa::cli

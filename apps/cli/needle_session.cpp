@@ -33,6 +33,7 @@ std::vector<task_needle::TrialPlan> plan(const SessionOptions& options, const Ne
   for (int i = 0; i < options.trials; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
     trials.push_back(world.trial(scored ? options.role : "not scored", seed, options.force_feedback, options.augment));
+    trials.back().most_passes = options.assess ? world.task.most_passes.assessed : world.task.most_passes.practice;
   }
   return trials;
 }
@@ -47,7 +48,7 @@ class NeedleSession {
  public:
   NeedleSession(const SessionOptions& options, NeedleWorld& world, const std::filesystem::path& folder) : options_(options), world_(world), folder_(folder) {
     MouseHand* mouse = frame_.devices().mouse();
-    if (mouse) mouse->onSkinKey([this] { scene_.cycleSkin(); });
+    if (mouse && !options_.assess) mouse->onSkinKey([this] { scene_.cycleSkin(); });
     if (mouse && head_.view) head_.view->onHeld([this, mouse](const headset::HeldTool& held) { mouse->hold(held, frame_.executive().clock().now()); });
   }
 

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <tuple>
 
+#include "apps/assess/trial_role.h"
 #include "apps/cli/palpation_session.h"
 #include "apps/cli/session_facts.h"
 #include "apps/report/palpation_report.h"
@@ -32,7 +33,7 @@ std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
 void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world, const PalpationRun& run, const std::filesystem::path& folder) {
   std::vector<assess::PalpationAssessment> judged;
   for (const auto& trial : run.trials)
-    if (trial.assessment.facts.outcome != "void" && trial.assessment.facts.role == "scored") judged.push_back(trial.assessment);
+    if (trial.assessment.facts.outcome != "void" && assess::countsAsScored(trial.assessment.facts.role)) judged.push_back(trial.assessment);
   report::writePalpationCsv(options.trainee, judged, folder / "trials.csv");
   report::PalpationReport page;
   page.title = world.task.title;

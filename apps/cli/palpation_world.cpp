@@ -114,7 +114,8 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
                                      {"guidance", options.guidance},
                                      {"see_through", options.see_through},
                                      {"augment", options.augment},
-                                     {"virtual_time", options.fast}},
+                                     {"virtual_time", options.fast},
+                                     {"assessed", options.assess}},
                                   options);
   info.station_json = station.file.json().dump();
   info.task_json = task.source;

@@ -1,5 +1,6 @@
 #include "apps/cli/session_arguments.h"
 
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 
@@ -55,6 +56,17 @@ void checkPerson(const SessionOptions& o) {
                      "Set DISPLAY, or choose --operator expert or novice on the virtual bench");
 }
 
+/// What was asked for is refused; what is on by default is taken away, with a word.
+void settleAssessment(SessionOptions& o) {
+  const std::pair<const char*, bool> aids[]{{"--guide on", o.guide}, {"--guidance on", o.guidance}, {"--see-through on", o.see_through}, {"--augment on", o.augment},
+                                            {"--skin-deflection on", o.skin_deflection}, {"--mode augmented", o.mode == "augmented" || o.mode == "all"}, {"--blocks", o.blocks}};
+  for (const auto& [option, given] : aids)
+    if (given) throw UsageError("is an aid or practice, and in an assessment every aid is off", std::string(option) + " with --assess", "Leave one of them out");
+  o.role = "assessed";
+  o.navigation = o.demonstration = false;
+  if (!o.quiet) std::puts("Assessment: every aid is off: the view stays fixed, the screen tells neither tissue nor force, no demonstration");
+}
+
 }  // namespace
 
 void addPlaceArguments(CLI::App& command, SessionOptions& o) {
@@ -72,6 +84,7 @@ void addPlaceArguments(CLI::App& command, SessionOptions& o) {
           "Where to show it; openxr: on a headset, and on the desktop beside it")
       ->check(CLI::IsMember({"auto", "window", "offscreen", kHeadset}))
       ->type_name("auto|offscreen|openxr|window");
+  command.add_flag("--assess", o.assess, "Assessment: every aid is off, as for an examination; a needle's trial ends at the fourth pass");
   command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")->type_name("DIR");
   command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop a second (default 1000)")->check(CLI::Range(1000.0, 4000.0));
   command.add_option("--cpu", o.cpu, "Keep the haptic thread on this processor")->check(CLI::Range(0, 1023));
@@ -146,6 +159,7 @@ void settle(SessionOptions& o) {
     throw UsageError("cannot go with --display openxr", o.fast ? "--fast" : "--no-views", "Leave one of them out: a headset shows what is now");
   if (o.inset != scene::Inset::none && (o.stereo == scene::Stereo::side_by_side || o.stereo == scene::Stereo::top_bottom))
     throw UsageError("would be seen by one eye only", "--inset with --stereo", "Leave one of them out");
+  if (o.assess) settleAssessment(o);
   if (o.exact_geometry && !o.fast)
     throw UsageError("needs virtual time", "--geometry exact", "Add --fast: the full mesh takes longer than a tick");
   if (o.display == scene::Display::window && o.fast)

@@ -78,6 +78,7 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
                                      {"handedness", options.left_handed ? "left" : "right"},
                                      {"virtual_time", options.fast},
                                      {"camera_rate_Hz", world.station.camera_rate_Hz},
+                                     {"assessed", options.assess},
                                      {"X_DA", json(world.X_DA)},
                                      {"X_WA", json(world.X_WA)},
                                      {"X_WD", json(world.station.X_WD)}},

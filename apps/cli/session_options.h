@@ -72,6 +72,7 @@ struct SessionOptions {
   bool see_through = false;      ///< palpation: the lumps are shown; not scored
   std::string mode = "real";     ///< search: real, degraded, augmented, or all of them one after the other
   bool blocks = false;           ///< search: the task's blocks; training in `mode`
+  bool assess = false;           ///< assessment: every aid is off
   bool augment = false;          ///< needle, palpation: the task's augmentations add force
   StudyStep study;
   std::string uuid;              ///< of the session; empty: made when it begins

@@ -2,41 +2,35 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <optional>
 #include <sstream>
 #include <tuple>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
+#include "apps/assess/trial_role.h"
+#include "apps/cli/rating_forms.h"
 #include "apps/cli/session_facts.h"
 #include "apps/cli/session_info.h"
+#include "apps/cli/trial_samples.h"
 #include "apps/report/session_report.h"
 #include "apps/station/overlay_error.h"
 
 namespace palpa::cli {
 namespace {
 
-/// Every tenth tick for the plots; what happened in between is merged into the one kept.
-std::vector<assess::TrialSample> thinned(const std::vector<assess::TrialSample>& samples) {
-  constexpr std::size_t kKeep = 10;
-  std::vector<assess::TrialSample> kept;
-  std::uint32_t events = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    events |= samples[i].events;
-    if (i % kKeep != 0 && i + 1 != samples.size()) continue;
-    kept.push_back(samples[i]);
-    kept.back().events = events;
-    events = 0;
-  }
-  return kept;
-}
-
-std::vector<report::TrialPage> pages(const SessionResult& result) {
+/// `forms`: of an assessment, whose trials are judged; null: practice.
+std::vector<report::TrialPage> pages(const SessionResult& result, const RatingForms* forms) {
   std::vector<report::TrialPage> all;
   for (const auto& trial : result.trials) {
     report::TrialPage page{trial.assessment, thinned(trial.samples), {}};
     for (const auto& p : result.pictures)
       if (p.moment.trial == trial.assessment.trial)
         page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
+    if (forms && assess::inAssessment(trial.assessment.role) && trial.assessment.by_path) {
+      page.verdict = verdictOf(trial.assessment, *forms, {}, standardOf(forms->checklist, 0));
+      page.certification = competence::whatCannotBeCertified(static_cast<int>(result.trials.size()));
+    }
     all.push_back(std::move(page));
   }
   return all;
@@ -109,13 +103,14 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world, const
                   const std::filesystem::path& folder) {
   std::vector<assess::TrialAssessment> scored;
   for (const auto& trial : result.trials)
-    if (trial.assessment.role == "scored" && trial.assessment.outcome != "void") scored.push_back(trial.assessment);
+    if (assess::countsAsScored(trial.assessment.role) && trial.assessment.outcome != "void") scored.push_back(trial.assessment);
   report::writeTrialsCsv(options.trainee, scored, folder / "trials.csv");
   report::SessionReport page;
   page.title = world.task.title + (world.task.block ? std::string() : std::string(", ") + anatomy::name(world.patient.side) + " side");
   page.trainee = whoPerformed(options);
   page.simulated = isSimulated(options, world);
-  page.trials = pages(result);
+  const std::optional<RatingForms> forms = options.assess ? std::optional(readForms("", "")) : std::nullopt;
+  page.trials = pages(result, forms ? &*forms : nullptr);
   page.taxonomy = taxonomyFacts(world.task.taxonomy);
   page.station = stationFacts(options, world);
   page.registration = registrationFacts(result, world);

@@ -1,5 +1,6 @@
 #include <cstdio>
 
+#include "apps/assess/trial_role.h"
 #include "apps/cli/session_facts.h"
 #include "apps/cli/squeeze_session.h"
 #include "apps/report/squeeze_report.h"
@@ -11,7 +12,7 @@ void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& worl
   std::vector<assess::SqueezeTrial> scored;
   for (const task_squeeze::CompletedSqueeze& trial : run.trials) {
     page.trials.push_back(trial.trial);
-    if (trial.trial.role == "scored" && trial.trial.outcome != "void") scored.push_back(trial.trial);
+    if (assess::countsAsScored(trial.trial.role) && trial.trial.outcome != "void") scored.push_back(trial.trial);
   }
   report::writeSqueezeCsv(options.trainee, scored, folder / "trials.csv");
   page.title = world.task.title;

@@ -98,7 +98,7 @@ record::SessionInfo SqueezeWorld::info(const SessionOptions& options) const {
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
   info.session_json = sessionText({{"seed", options.seed},        {"operator", nameOf(options.who)},           {"simulated", true},
-                                     {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}},
+                                     {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}, {"assessed", options.assess}},
                                   options);
   info.station_json = station.file.json().dump();
   info.task_json = task.source;

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <string>
 
+#include "apps/assess/trial_role.h"
 #include "apps/report/mark.h"
 #include "apps/report/numbers.h"
 #include "apps/report/svg_plot.h"
@@ -20,7 +21,7 @@ bool counts(const TrialAssessment& trial) {
 
 /// Circle: success; square: with a complication; diamond: no success; hollow: not a scored trial.
 void drawTrial(Html& svg, const TrialAssessment& trial, double x, double y) {
-  const bool scored = trial.role.empty() || trial.role == "scored";
+  const bool scored = trial.role.empty() || assess::countsAsScored(trial.role);
   const Tone tone = toneOfOutcome(trial);
   svgPath(svg, std::string("mark ") + cssClass(tone) + (scored ? "" : " hollow"),
           markPath(tone, x, y, 6.5));
@@ -110,7 +111,7 @@ void writeTableHead(Html& html) {
 
 void writeOutcome(Html& html, const TrialAssessment& trial) {
   const auto cell = html.in("td", {{"class", "words"}});
-  const bool scored = trial.role.empty() || trial.role == "scored";
+  const bool scored = trial.role.empty() || assess::countsAsScored(trial.role);
   html.element("span", {{"class", std::string("dot ") + cssClass(toneOfOutcome(trial))}},
                shortOutcome(trial) + (scored ? "" : ", " + trial.role));
 }

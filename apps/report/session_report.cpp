@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "apps/report/competence_section.h"
 #include "apps/report/glossary.h"
 #include "apps/report/html.h"
 #include "apps/report/overview.h"
@@ -58,7 +59,7 @@ std::string page(const SessionReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, report.title, report.trainee, subtaskTableStyle());
+    writeHeadElement(html, report.title, report.trainee, std::string(subtaskTableStyle()) + std::string(competenceStyle()));
     const auto body = html.in("body");
     writeHeader(html, report);
     {

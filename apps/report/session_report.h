@@ -1,10 +1,12 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "apps/assess/competence/verdict.h"
 #include "apps/assess/trial_assessment.h"
 #include "apps/report/subtask_table.h"
 
@@ -16,10 +18,20 @@ struct Picture {
   double t_s = -1;  ///< moment in the trial; < 0: none
 };
 
+/// Another trial, drawn beside this one.
+struct BesideTrial {
+  std::string label;                         ///< "expert": in the legend
+  std::string words;                         ///< whose trial it is, a sentence
+  std::vector<assess::TrialSample> samples;  ///< as below
+};
+
 struct TrialPage {
   assess::TrialAssessment assessment;
   std::vector<assess::TrialSample> samples;  ///< about 100 Hz is plenty for the plots
   std::vector<Picture> pictures;
+  std::optional<competence::Verdict> verdict = {};   ///< its checklist must outlive the page
+  std::string certification = {};            ///< what so few trials cannot certify; beside a verdict
+  BesideTrial beside = {};                   ///< without samples: none
 };
 
 /// A figure with its name, for tables of facts ("Registration error at the entry point, median":

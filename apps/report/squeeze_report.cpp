@@ -4,6 +4,7 @@
 
 #include "anatomy/geometry/whole_file.h"
 #include "apps/assess/squeeze/discrimination.h"
+#include "apps/assess/trial_role.h"
 #include "apps/report/html.h"
 #include "apps/report/numbers.h"
 #include "apps/report/page_parts.h"
@@ -27,7 +28,7 @@ svg .threshold.level-2{stroke-dasharray:4 4}
 .wrong-word{color:var(--bad-ink);font-weight:600}
 )css";
 
-bool countsIn(const assess::SqueezeTrial& trial) { return trial.role == "scored" && trial.outcome != "void"; }
+bool countsIn(const assess::SqueezeTrial& trial) { return assess::countsAsScored(trial.role) && trial.outcome != "void"; }
 
 std::vector<assess::SqueezeTrial> counted(const std::vector<assess::SqueezeTrial>& trials) {
   std::vector<assess::SqueezeTrial> all;

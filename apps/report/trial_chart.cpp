@@ -32,23 +32,31 @@ double largest(const std::vector<Curve>& curves) {
   return high;
 }
 
-PlotPanel forcePanel(const std::vector<assess::TrialSample>& samples, bool wide) {
+double forceOf(const assess::TrialSample& s) { return s.f_contact; }
+double depthOf(const assess::TrialSample& s) { return std::isfinite(s.depth) ? std::max(0.0, 1000 * s.depth) : s.depth; }
+
+/// The other trial's line comes last, so that it lies on top.
+void addBeside(const BesideTrial& beside, double (*value)(const assess::TrialSample&), PlotPanel* panel) {
+  if (!beside.samples.empty()) panel->curves.push_back(curveOf(beside.samples, beside.label.c_str(), "beside", value));
+}
+
+PlotPanel forcePanel(const TrialPage& page, bool wide) {
+  const std::vector<assess::TrialSample>& samples = page.samples;
   PlotPanel panel{"Force", "N", {}, 1, 0, wide ? 150.0 : 130.0};
-  panel.curves.push_back(curveOf(samples, "computed", "computed",
-                                 [](const assess::TrialSample& s) { return s.f_contact; }));
+  panel.curves.push_back(curveOf(samples, "computed", "computed", forceOf));
   panel.curves.push_back(curveOf(samples, "rendered", "rendered",
                                  [](const assess::TrialSample& s) { return s.f_command; }));
+  addBeside(page.beside, forceOf, &panel);
   panel.y_top = niceCeiling(std::max(largest(panel.curves), 0.1));  // a flat line stays flat
   return panel;
 }
 
-PlotPanel depthPanel(const std::vector<assess::TrialSample>& samples, bool wide) {
+PlotPanel depthPanel(const TrialPage& page, bool wide) {
   PlotPanel panel{
       wide ? "Depth" : "Depth of the tip", "mm", {}, 0, 1, wide ? 120.0 : 110.0};
-  panel.curves.push_back(curveOf(samples, "depth", "depth", [](const assess::TrialSample& s) {
-    return std::isfinite(s.depth) ? std::max(0.0, 1000 * s.depth) : s.depth;
-  }));
+  panel.curves.push_back(curveOf(page.samples, page.beside.samples.empty() ? "depth" : "this trial", "depth", depthOf));
   panel.curves.back().filled = true;
+  addBeside(page.beside, depthOf, &panel);
   panel.y_bottom = niceCeiling(std::max(largest(panel.curves), 1.0));  // deeper is lower
   return panel;
 }
@@ -71,7 +79,7 @@ Bands bandsOf(const TrialPage& page, const ChartFrame& frame, const Axis& x) {
   }
   bands.lanes_height = laneHeight(frame) * static_cast<double>(bands.lanes.size());
   if (!page.samples.empty()) {
-    bands.panels = {forcePanel(page.samples, frame.wide), depthPanel(page.samples, frame.wide)};
+    bands.panels = {forcePanel(page, frame.wide), depthPanel(page, frame.wide)};
   }
   bands.height = bands.marks_height + bands.lanes_height + 44;
   for (const auto& panel : bands.panels) {
@@ -89,7 +97,7 @@ void drawPanels(Html& svg, const ChartFrame& frame, const Axis& x, const Bands& 
   for (const PlotPanel& panel : bands.panels) {
     top += kBetween + headingHeight(frame);
     drawPanel(svg, frame, x, top, panel);
-    if (frame.wide && panel.title != "Force") svgText(svg, "legend", 0, top + 31, "of the tip");
+    if (frame.wide && panel.title != "Force" && panel.curves.size() == 1) svgText(svg, "legend", 0, top + 31, "of the tip");
     top += panel.height;
   }
   drawTimeAxis(svg, frame, x, top + 2, "time since the start of the trial, s");
@@ -138,6 +146,7 @@ double durationOf(const TrialPage& page) {
     if (std::isfinite(t)) end = std::max(end, t);
   };
   for (const auto& sample : page.samples) reach(sample.t_s);
+  for (const auto& sample : page.beside.samples) reach(sample.t_s);
   for (const auto& span : page.assessment.spans) reach(span.to_s);
   for (const auto& moment : page.assessment.moments) reach(moment.t_s);
   return end > 0 ? end : 1;
@@ -159,6 +168,7 @@ void writeTrialChart(Html& html, const TrialPage& page) {
   drawChart(html, page, kNarrow);
   writeMomentList(html, page);
   if (page.samples.empty()) html.element("figcaption", "No motion was recorded in this trial.");
+  if (!page.beside.samples.empty()) html.element("figcaption", page.beside.words);
 }
 
 }  // namespace palpa::report

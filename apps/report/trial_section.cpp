@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "apps/report/competence_section.h"
 #include "apps/report/near_miss.h"
 #include "apps/report/pictures.h"
 #include "apps/report/score_table.h"
@@ -20,6 +21,7 @@ void writeTrialSection(Html& html, const TrialPage& page) {
     if (!trial.role.empty()) html.element("span", {{"class", "role"}}, trial.role);
   }
   writeVerdict(html, trial);
+  writeCompetence(html, page);
   if (trial.by_path) {
     html.element("h3", "Score");
     writeScoreTable(html, trial);

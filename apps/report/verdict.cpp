@@ -68,18 +68,19 @@ std::string outcomeWords(const assess::TrialAssessment& trial) {
   }
   if (outcome == "aborted") return "Not successful: aborted";
   if (outcome == "time") return "Not successful: time limit reached";
+  if (outcome == "passes") return "Not successful: too many passes of the needle";
   if (outcome == "void") return "Void: does not count";
   return outcome.empty() ? "Not finished" : outcome;
 }
 
 std::string shortOutcome(const assess::TrialAssessment& trial) {
   if (trial.outcome == "success") return hasComplication(trial) ? "complication" : "success";
-  return trial.outcome == "time" ? "time limit" : trial.outcome;
+  return trial.outcome == "time" ? "time limit" : trial.outcome == "passes" ? "too many passes" : trial.outcome;
 }
 
 Tone toneOfOutcome(const assess::TrialAssessment& trial) {
   if (trial.outcome == "success") return hasComplication(trial) ? Tone::guide : Tone::good;
-  return trial.outcome == "aborted" || trial.outcome == "time" ? Tone::bad : Tone::neutral;
+  return trial.outcome == "aborted" || trial.outcome == "time" || trial.outcome == "passes" ? Tone::bad : Tone::neutral;
 }
 
 std::string largestReasons(const assess::TrialAssessment& assessment) {

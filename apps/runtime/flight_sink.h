@@ -22,7 +22,7 @@ struct TrialHeader {
   int trial = 0;            ///< 1, 2, ...; unique in the session
   std::int64_t t_ns = 0;
   std::uint64_t seed = 0;
-  std::string role;         ///< "scored", "familiarisation", "demonstration"
+  std::string role;         ///< "scored", "assessed", "familiarisation", "demonstration"
   bool force_feedback = true;
   double puncture_force_N = 0;
 };
@@ -30,7 +30,7 @@ struct TrialHeader {
 struct TrialEnd {
   int trial = 0;
   std::int64_t t_ns = 0;    ///< session time of the last tick that was judged
-  std::string outcome;      ///< "success", "aborted", "time", "void", "not scored"
+  std::string outcome;      ///< "success", "aborted", "time", "passes", "void", "not scored"
   std::string reason;
   std::string scores_json;  ///< as the assessment wrote them; empty when void
 };

@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "apps/assess/trial_role.h"
 #include "apps/trial/trial_scene.h"
 
 namespace palpa::task_needle {
@@ -43,19 +44,18 @@ bool injury(const runtime::ToolState& tool) {
 scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, const std::string& camera,
                    const std::string& mark, const TaskWords& words) {
   scene::Hud hud;
-  const bool active = status.active();
-  hud.phase = active ? status.step : "";
+  const bool active = status.active(), told = !assess::inAssessment(status.role);   // what a patient would not tell is an aid
+  hud.phase = active && told ? status.step : "";
   if (status.trials > 1 && status.trial > 0)
     hud.phase = format("Trial %d of %d  ", status.trial, status.trials) + hud.phase;
   if (active) {
-    hud.depth = depthText(tool, words);
-    hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) +
-                (status.force_feedback ? "" : " (force feedback off)");
+    if (told) hud.depth = depthText(tool, words);
+    if (told) hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) + (status.force_feedback ? "" : " (force feedback off)");
     const int seconds = static_cast<int>(status.elapsed_s);
     hud.time = format("%d:%02d", seconds / 60, seconds % 60);
-    hud.touched = touchedText(tool);
+    if (told) hud.touched = touchedText(tool);
   }
-  const bool hurts = active && injury(tool);
+  const bool hurts = active && told && injury(tool);
   std::string own;
   if (hurts) own = "The needle touches the " + std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery");
   else if (status.blood_flows) own = "Blood flows into the syringe";

@@ -48,6 +48,7 @@ runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
   if (setup_.settings.goal) goal_ = GoalTrial(*setup_.settings.goal, setup_.settings.augmentations.subtaskNames(), setup_.settings.words);
   doses_.begin(static_cast<std::uint32_t>(status().trial));
   phases_ = {};
+  passes_ = {};
   samples_.clear();
   in_lumen_s_ = 0;
   touched_s_.fill(-kContactPause);
@@ -92,6 +93,7 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   const double dt = samples_.empty() ? 0 : sample.t_s - samples_.back().t_s;
   samples_.push_back(sample);
   phases_.add(sample);
+  passes_.add(sample);
   if (setup_.settings.goal) goal_.add(sample);
   announce(sample, record.t_ns);
   shown_.step = setup_.settings.goal ? goal_.step() : assess::clinicalName(shown_.phase);
@@ -101,6 +103,7 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   in_lumen_s_ = shown_.blood_flows ? in_lumen_s_ + dt : 0;
   if (shown_.blood_flows) shown_.blood = std::min(sample.plunger, shown_.blood + kFillRate * dt);
   if (setup_.settings.goal ? goal_.reached() : in_lumen_s_ >= setup_.settings.rules.dwell_s) return endTrial("success", "", now_ns);
+  if (const int most = plan().most_passes; most > 0 && passes_.passes() > most) return endTrial("passes", "Ended at needle pass " + std::to_string(most + 1) + ": no more than " + std::to_string(most) + " are allowed", now_ns);
   if (sample.t_s >= setup_.settings.time_limit_s) return endTrial("time", "The time limit was reached", now_ns);
 }
 

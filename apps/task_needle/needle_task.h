@@ -5,6 +5,7 @@
 
 #include "anatomy/surface_query.h"
 #include "apps/assess/dose_counter.h"
+#include "apps/assess/passes.h"
 #include "apps/assess/trial_sampler.h"
 #include "apps/task_needle/task_file.h"
 #include "apps/task_needle/task_status.h"
@@ -20,6 +21,7 @@ struct TrialPlan {
   bool augmented = false;                              ///< the task's augmentations add force
   double puncture_force_N = 1.5;                       ///< of the skin
   std::array<float, kOrganCount> wall_scale = haptics::TickCommands{}.wall_scale;   ///< of the walls' median peaks
+  int most_passes = 0;                                 ///< of the needle: the next one ends the trial; 0: no limit
 };
 
 struct CompletedTrial {
@@ -69,6 +71,7 @@ class NeedleTask final : public trial::TrialTask {
   TaskChannels& channels_;
   assess::TrialSampler sampler_;
   assess::PhaseDetector phases_;
+  assess::PassCounter passes_;
   GoalTrial goal_;                     ///< where the task has a goal of its own
   TaskStatus shown_;                   ///< its own part; the base is filled in when it is published
   std::vector<assess::TrialSample> samples_;

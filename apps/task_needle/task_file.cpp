@@ -31,6 +31,23 @@ assess::ScoringRules readRules(const station::JsonFile& file) {
 }
 
 constexpr double kFileMm = 1e-3;
+constexpr double kFileDeg = 0.017453292519943295;
+
+/// Recordings made before the errors were named carry no figures for them: the usual ones.
+assess::ErrorRules readErrors(const station::JsonFile& file) {
+  assess::ErrorRules rules;
+  if (!file.has("errors")) return rules;
+  rules.site_off = kFileMm * file.number("errors/site_off_mm", 1, 100);
+  rules.landmark_off = kFileMm * file.number("errors/landmark_off_mm", 1, 100);
+  rules.too_shallow = kFileDeg * file.number("errors/too_shallow_deg", 1, 90);
+  rules.too_cephalad = kFileDeg * file.number("errors/too_cephalad_deg", 1, 90);
+  rules.too_caudal = kFileDeg * file.number("errors/too_caudal_deg", 1, 90);
+  rules.aim_travel = kFileMm * file.number("errors/aim_travel_mm", 0, 50);
+  rules.periosteum_N = file.number("errors/periosteum_N", 0, 100);
+  rules.periosteum_s = file.number("errors/periosteum_s", 0, 10);
+  rules.blood_s = file.number("errors/blood_s", 0, 10);
+  return rules;
+}
 
 Goal goalIn(const station::JsonFile& file, const station::NamedPlan& parts) {
   Goal goal;
@@ -58,6 +75,7 @@ TaskSettings readTask(const std::filesystem::path& path) {
   task.id = file.text("id");
   task.title = file.text("title");
   task.time_limit_s = file.number("end/time_limit_s", 1, 3600);
+  if (file.has("end/most_passes")) task.most_passes = {file.integer("end/most_passes/assessed", 0, 100), file.integer("end/most_passes/practice", 0, 100)};
   task.materials = path.parent_path() / file.text("materials");
   task.source = file.json().dump();
   task.augmentations = station::readPlan(file);
@@ -68,6 +86,7 @@ TaskSettings readTask(const std::filesystem::path& path) {
     task.goal = goalIn(file, task.augmentations);
   } else {
     task.rules = readRules(file);
+    task.rules.errors = readErrors(file);
     task.expert_path = path.parent_path() / file.text("expert_path");
   }
   if (file.has("taxonomy")) task.taxonomy = station::taxonomyOf(file);   // older recordings carry none

@@ -20,10 +20,16 @@ struct PuncturedBlock {
   anatomy::SoftLayers layers;
 };
 
+/// Needle passes after which the next one ends the trial; 0: no limit.
+struct PassLimit {
+  int assessed = 0, practice = 0;
+};
+
 /// A needle task as its file says it (assets/tasks/*.json). A new site needs a file, not code. It has an optimal path ("expert_path", "scoring") or a goal of its own ("goal").
 struct TaskSettings {
   std::string id, title;
   double time_limit_s = 300;
+  PassLimit most_passes;
   assess::ScoringRules rules;
   std::filesystem::path expert_path;   ///< where the optimal path is; empty: there is none
   std::filesystem::path materials;

@@ -15,7 +15,7 @@ struct TrialStatus {
   TrialState state = TrialState::checking;
   int trial = 0;
   int trials = 0;
-  std::string role;                    ///< "scored", "familiarisation", "demonstration"
+  std::string role;                    ///< "scored", "assessed", "familiarisation", "demonstration"
   bool force_feedback = true;
   double elapsed_s = 0;
   bool emergency_stop = false;

@@ -106,6 +106,16 @@ TEST(NeedleMetrics, ForceOnBoneAndOnTheHand) {
   EXPECT_NEAR(metric(a, "peak_force_N"), 1.5, 1e-9);
 }
 
+TEST(NeedleMetrics, AForceThatGrowsEvenlyHasItsSlopeAsUnsteadiness) {
+  Motion m;
+  m.push(0.010).puncture();
+  for (int i = 0; i < 1000; ++i) {
+    m.now().f_contact = 0.1 + 0.004 * i;
+    m.hold(0.001);
+  }
+  EXPECT_NEAR(metric(assess(m.samples(), "time"), "force_jerk_N_s"), 4, 0.15);   // the first step of 20 ms comes from nothing
+}
+
 TEST(NeedleMetrics, WhatDoesNotApplyIsNoNumber) {
   const TrialAssessment a = assess(Motion().hold(2).samples(), "time");
   for (const char* name : {"closest_pleura_mm", "closest_pleura_at_s", "closest_artery_mm", "speed_at_vein_mm_s", "frechet_mm", "mean_force_N", "smoothness_sparc", "path_inefficiency_pct"})
@@ -113,6 +123,56 @@ TEST(NeedleMetrics, WhatDoesNotApplyIsNoNumber) {
   EXPECT_EQ(metric(a, "skin_punctures"), 0);
   EXPECT_EQ(metric(a, "first_pass_success"), 0);
   EXPECT_EQ(metric(a, "tissue_path_mm"), 0);
+}
+
+/// 20 scoring samples a second: what is touched for 0.5 s counts 10 times.
+TEST(NeedleMetrics, CollisionsByKind) {
+  Motion m;
+  m.push(0.010).puncture().push(0.008).turnTo(taughtPath().direction_L).push(0.010);
+  m.in(Tissue::lung).hold(0.5).in(Tissue::artery_lumen).hold(0.4).in(Tissue::vein_lumen).hold(0.3).in(Tissue::connective).bone(Organ::rib, 1).hold(0.2);
+  const TrialAssessment a = assess(m.samples(), "time");
+  EXPECT_NEAR(metric(a, "col_lung"), 10, 1);
+  EXPECT_NEAR(metric(a, "col_artery"), 8, 1);
+  EXPECT_NEAR(metric(a, "col_vein"), 6, 1);   // in vain: there was no success
+  EXPECT_NEAR(metric(a, "col_rib"), 4, 1);
+}
+
+/// An advance parallel to the taught line, 3 mm beside it, led sideways nowhere; 9 degrees off where 6 are acceptable.
+TEST(NeedleMetrics, DirectionAndDistanceFromTheLine) {
+  Motion beside;
+  beside.now().tip_A += 0.003 * taughtPath().direction_L.cross(Vec3::UnitY()).normalized();
+  beside.push(0.010).puncture().push(0.008).turnTo(taughtPath().direction_L).push(0.028);
+  EXPECT_NEAR(metric(assess(beside.samples(), "time"), "econ_mean_mm"), 3, 0.01);
+  EXPECT_NEAR(metric(assess(beside.samples(), "time"), "econ_var_mm2"), 0, 1e-6);
+  EXPECT_NEAR(metric(assess(beside.samples(), "time"), "phase_2"), 0, 1);
+  Motion steep;
+  steep.push(0.010).puncture().push(0.008).turnTo(direction_L(34 * kDeg, 15 * kDeg)).push(0.028);
+  EXPECT_NEAR(metric(assess(steep.samples(), "time"), "phase_2"), 1500, 1);
+}
+
+/// 10 mm back and 20 mm aside in air: a flat box, and with 30 mm up a full one.
+TEST(NeedleMetrics, RoomTurnsAndJerk) {
+  Motion m;
+  const Vec3 start = m.now().tip_A;
+  m.push(0.010).turnTo(Vec3::UnitX(), 90 * kDeg);
+  m.push(0.020).turnTo(Vec3::UnitZ(), 90 * kDeg).push(0.030);
+  const TrialAssessment a = assess(m.samples(), "time");
+  const Vec3 edges = (m.samples().back().tip_A - start).cwiseAbs();
+  EXPECT_NEAR(metric(a, "bounding_box_mm3"), 1e9 * edges.prod(), 0.02 * 1e9 * edges.prod());
+  EXPECT_NEAR(metric(a, "bounding_box_mm3"), 10 * 20 * 30, 0.02 * 6000);
+  EXPECT_EQ(metric(a, "rotational_actions"), 2);   // 90 degrees a second, a second each
+  // Still, then at 10 mm/s: steps of the speed between samples of 20 ms, which a hand does not make; a hold has none.
+  EXPECT_GT(metric(a, "integrated_jerk"), 1);
+  EXPECT_NEAR(metric(assess(Motion().hold(2).samples(), "time"), "integrated_jerk"), 0, 1e-9);
+}
+
+TEST(NeedleMetrics, TheArterysMomentIsTheClosest) {
+  const auto artery = [](Organ organ, const Vec3& p) { return organ == Organ::artery ? (p - Motion::toA(taughtPath().line_to_L)).norm() - 0.004 : std::numeric_limits<double>::infinity(); };
+  Motion m;
+  m.push(0.010).puncture().push(0.008).turnTo(taughtPath().direction_L).push(0.020).hold(0.5).push(-0.020);
+  const TrialAssessment a = assessTrial(facts("time"), m.samples(), landmarksOnly(), OrganDistance(artery), taughtPath(), {});
+  EXPECT_NEAR(metric(a, "closest_artery_mm"), 10 - 4, 0.1);   // 20 of the line's 30 mm
+  EXPECT_NEAR(metric(a, "closest_artery_at_s"), m.time() - 2.25, 0.3);   // in the hold before the 2 s of drawing back
 }
 
 TEST(NeedleMetrics, ClosestPointAndItsMoment) {

@@ -3,7 +3,7 @@
 #include <fstream>
 
 #include "tests/browser/page_faults.h"
-#include "tests/report/synthetic_report.h"
+#include "tests/report/synthetic_verdict.h"
 
 namespace palpa::report {
 namespace {
@@ -30,6 +30,14 @@ TEST_F(Pages, OfNeedleSessions) {
   writeReport(test::syntheticReport(10), folder / "ten.html");
   expectNoFaults(folder / "one.html");
   expectNoFaults(folder / "ten.html");
+}
+
+TEST_F(Pages, OfVerdictsAndForms) {
+  const auto folder = test::freshFolder("browser_verdict");
+  writeReport(test::judgedReport(), folder / "judged.html");
+  writeRatingForm(test::madeUpForm(true), folder / "blank.html");
+  writeRatingForm(test::madeUpForm(false), folder / "form.html");
+  for (const char* page : {"judged.html", "blank.html", "form.html"}) expectNoFaults(folder / page);
 }
 
 /// The judge itself: it finds each of these.

@@ -69,6 +69,7 @@ std::vector<Layer> makeLayers() {
       {"ar", {"anatomy/geometry", "calibration"}, {"ar/headset"}, {"Eigen", "OpenCV", "AprilTag", "JSON"}},
       {"scene", {"anatomy"}, {}, {"Eigen", "VTK", "VTK data", "OpenGL"}},
       {"apps/runtime", kLibraries, {}, app_libraries},
+      {"apps/assess/competence", {"anatomy/geometry", "apps/assess"}, {}, {"Eigen", "JSON"}},
       {"apps/assess", kLibraries, {}, {"Eigen", "JSON", "Boost"}},
       {"apps/station", kLibraries, {}, {"Eigen", "OpenCV", "JSON", "OpenSSL"}},
       {"apps/record/store", librariesAnd({"apps/record", "apps/runtime", "apps/station"}), {}, {"Eigen", "JSON", "SQLite", "PostgreSQL"}},

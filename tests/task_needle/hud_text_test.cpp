@@ -82,5 +82,27 @@ TEST(HudText, CallsThingsByTheTasksWords) {
   EXPECT_EQ(hud.phase, "seated");
 }
 
+TEST(HudText, AssessmentTellsOnlyWhatAPatientWould) {
+  TaskStatus status;
+  status.state = trial::TrialState::running;
+  status.trial = status.trials = 1;
+  status.step = "phase 2: advance to the vein";
+  status.role = "scored";
+  runtime::ToolState tool;
+  tool.phase = haptics::NeedlePhase::inserted;
+  tool.tissue = Tissue::lung;
+  tool.depth = 0.03;
+  const scene::Hud practice = hudText(status, tool, "", "");
+  EXPECT_TRUE(practice.alarm);
+  EXPECT_EQ(practice.touched, "LUNG");
+  status.role = "assessed";
+  status.blood_flows = true;
+  const scene::Hud exam = hudText(status, tool, "", "");
+  EXPECT_FALSE(exam.alarm);
+  for (const std::string& text : {exam.phase, exam.depth, exam.force, exam.touched}) EXPECT_EQ(text, "");
+  EXPECT_EQ(exam.time, "0:00");
+  EXPECT_EQ(exam.notice, "Blood flows into the syringe");
+}
+
 }  // namespace
 }  // namespace palpa::task_needle

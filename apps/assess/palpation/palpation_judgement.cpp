@@ -1,10 +1,11 @@
 #include "apps/assess/palpation/palpation_judgement.h"
+#include "apps/assess/trial_role.h"
 
 namespace palpa::assess {
 
 bool counts(const PalpationAssessment& trial) {
   const PalpationFacts& facts = trial.facts;
-  return (facts.role.empty() || facts.role == "scored") && !facts.augmented && facts.outcome != "void" && !facts.outcome.empty();
+  return (facts.role.empty() || countsAsScored(facts.role)) && !facts.augmented && facts.outcome != "void" && !facts.outcome.empty();
 }
 
 PalpationJudgement judgementOf(const std::vector<PalpationAssessment>& trials, const PalpationStandard& standard) {

@@ -1,4 +1,5 @@
 #include "apps/assess/search/search_trial.h"
+#include "apps/assess/trial_role.h"
 
 namespace palpa::assess {
 
@@ -16,7 +17,7 @@ std::optional<SearchMode> searchModeOf(const std::string& text) {
   return std::nullopt;
 }
 
-bool counts(const SearchTrial& trial) { return trial.role == "scored" && trial.outcome != "void"; }
+bool counts(const SearchTrial& trial) { return countsAsScored(trial.role) && trial.outcome != "void"; }
 
 bool chose(const SearchTrial& trial) { return trial.outcome == "done" && trial.chosen >= 0; }
 

@@ -8,6 +8,22 @@
 namespace palpa::record {
 namespace {
 
+// Of kSteps: what human raters said of trials.
+const char* const kRatings = R"sql(
+CREATE TABLE ratings(
+  session     TEXT NOT NULL,
+  number      BIGINT NOT NULL,
+  rater       TEXT NOT NULL,         -- a pseudonym
+  form        TEXT NOT NULL,
+  form_sha256 TEXT NOT NULL,         -- of the edition that was used
+  item        TEXT NOT NULL,
+  value       BIGINT NOT NULL,       -- checklist: 1 done, 0 not done, -1 did not arise; global rating: 1 to 5
+  entered_utc TEXT NOT NULL,
+  PRIMARY KEY(session, number, rater, form, item),
+  FOREIGN KEY(session, number) REFERENCES trials(session, number) ON DELETE CASCADE
+);
+)sql";
+
 // Step i brings version i to i + 1. A step that was published is never changed; a change of the tables is a further step.
 const char* const kSteps[] = {R"sql(
 CREATE TABLE palpa_schema(version BIGINT NOT NULL);
@@ -134,7 +150,8 @@ CREATE TABLE answers(
   PRIMARY KEY(study, trainee, session, item),
   FOREIGN KEY(study, trainee) REFERENCES enrolments(study, trainee) ON DELETE CASCADE
 );
-)sql"};
+)sql",
+                             kRatings};
 
 /// Of the newest version.
 const std::vector<std::pair<std::string, std::string>> kTables{
@@ -149,7 +166,8 @@ const std::vector<std::pair<std::string, std::string>> kTables{
     {"studies", "study,protocol_sha256,seed,began_utc"},
     {"study_groups", "study,group_name,given"},
     {"enrolments", "study,trainee,group_name,place,condition,simulated,enrolled_utc"},
-    {"answers", "study,trainee,session,item,questionnaire,answer,answered_utc"}};
+    {"answers", "study,trainee,session,item,questionnaire,answer,answered_utc"},
+    {"ratings", "session,number,rater,form,form_sha256,item,value,entered_utc"}};
 
 constexpr int kNewest = static_cast<int>(std::size(kSteps));
 

@@ -1,0 +1,88 @@
+#include "apps/cli/rating_forms.h"
+
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include "anatomy/geometry/error.h"
+#include "apps/assess/trial_role.h"
+#include "apps/station/assets.h"
+#include "apps/station/sha256.h"
+
+namespace palpa::cli {
+
+std::string textOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  if (!stream.is_open() || stream.bad())
+    throw UsageError("cannot be read", file.string(), "Check the path");
+  return text;
+}
+
+RatingForms readForms(const std::string& checklist, const std::string& global) {
+  const std::filesystem::path list = checklist.empty()
+                                         ? station::assetFile("checklists/subclavian.json")
+                                         : std::filesystem::path(checklist),
+                              rating = global.empty()
+                                           ? station::assetFile("checklists/global_rating.json")
+                                           : std::filesystem::path(global);
+  RatingForms forms{competence::parseChecklist(textOf(list), list.string()),
+                    competence::parseGlobalRating(textOf(rating), rating.string()),
+                    station::sha256OfFile(list), station::sha256OfFile(rating)};
+  for (const competence::RatingItem& aspect : forms.global.items)
+    for (const competence::Item& item : forms.checklist.items)
+      if (item.id == aspect.id)
+        throw UsageError("both have \"" + item.id + "\", so that an answer could belong to either",
+                         list.string() + ", " + rating.string(), "Rename one of them");
+  return forms;
+}
+
+double standardOf(const competence::Checklist& checklist, double percent) {
+  if (percent == 0) return checklist.standards.front();
+  std::string known;
+  for (const double standard : checklist.standards) {
+    if (std::abs(100 * standard - percent) < 1e-6) return standard;
+    known += (known.empty() ? "" : ", ") + std::to_string(std::lround(100 * standard));
+  }
+  throw UsageError("is no standard of this checklist", "--standard", "Known: " + known);
+}
+
+competence::FormAnswers answersIn(const std::vector<record::Rating>& ratings, std::int64_t trial,
+                                  const std::string& rater, const RatingForms& forms) {
+  competence::FormAnswers answers;
+  for (const record::Rating& r : ratings) {
+    if (r.number != trial || r.rater != rater) continue;
+    const bool of_list = r.form == forms.checklist.id;
+    if (!of_list && r.form != forms.global.id) continue;
+    if (r.form_sha256 != (of_list ? forms.checklist_sha256 : forms.global_sha256))
+      throw UsageError(
+          "was rated by " + rater + " on another edition of the form \"" + r.form + "\"",
+          "trial " + std::to_string(trial), "Give that edition with --checklist and --global");
+    (of_list ? answers.checklist : answers.global)[r.item] = static_cast<int>(r.value);
+  }
+  return answers;
+}
+
+competence::Figures figuresOf(const assess::TrialAssessment& assessment) {
+  return [&assessment](const std::string& name) -> std::optional<double> {
+    for (const metrics::MetricValue& m : assessment.metrics)
+      if (m.name == name) return m.value;
+    return std::nullopt;
+  };
+}
+
+competence::Figures figuresOf(const record::StoredTrial& trial) {
+  return [&trial](const std::string& name) -> std::optional<double> {
+    for (const record::Metric& m : trial.metrics)
+      if (m.name == name) return m.value;
+    return std::nullopt;
+  };
+}
+
+competence::Verdict verdictOf(const assess::TrialAssessment& a, const RatingForms& forms,
+                              const competence::FormAnswers& answers, double standard) {
+  return competence::judge({assess::inAssessment(a.role), a.outcome}, forms.checklist, figuresOf(a),
+                           answers.checklist, &forms.global, answers.global, standard);
+}
+
+}  // namespace palpa::cli

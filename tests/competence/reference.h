@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "anatomy/parametric_patient.h"
+#include "apps/assess/competence/verdict.h"
+#include "tests/support/files.h"
+#include "tests/support/scripted_trial.h"
+
+namespace palpa::competence::test {
+
+/// The reference patient's landmarks on a side; made once a process.
+inline const anatomy::Patient& referencePatient(anatomy::Side side) {
+  const auto make = [](anatomy::Side of) {
+    anatomy::PatientParameters p = anatomy::drawParameters(
+        anatomy::readPopulation(PALPA_SOURCE_DIR "/assets/patients/reference.json"), of, 0);
+    p.extent = anatomy::Extent::bust;
+    return anatomy::buildPatient(p);
+  };
+  static const anatomy::Patient right = make(anatomy::Side::right),
+                                left = make(anatomy::Side::left);
+  return side == anatomy::Side::right ? right : left;
+}
+
+inline calibration::ExpertPath shippedPath() {
+  return calibration::readExpertPath(PALPA_SOURCE_DIR
+                                     "/assets/tasks/paracentesis_expert_path.json");
+}
+inline Checklist shippedChecklist() {
+  return parseChecklist(palpa::test::slurp(PALPA_SOURCE_DIR "/assets/checklists/subclavian.json"),
+                        "subclavian.json");
+}
+inline GlobalRating shippedGlobal() {
+  return parseGlobalRating(
+      palpa::test::slurp(PALPA_SOURCE_DIR "/assets/checklists/global_rating.json"),
+      "global_rating.json");
+}
+
+/// A scripted trial, judged as a session judges it; `seed` even: on the right side.
+inline assess::TrialAssessment judged(const palpa::test::Script& script, std::uint64_t seed,
+                                      anatomy::RandomStream& draw) {
+  const anatomy::Patient& patient =
+      referencePatient(seed % 2 ? anatomy::Side::left : anatomy::Side::right);
+  const anatomy::LandmarkFrame frame(patient);
+  const calibration::ExpertPath path = shippedPath();
+  const std::vector<assess::TrialSample> samples =
+      palpa::test::ScriptedHand(script, frame, path, draw).trial();
+  return assess::assessTrial(
+      assess::test::facts(palpa::test::succeeds(script) ? "success" : "aborted"), samples, patient,
+      assess::OrganDistance(assess::test::nowhere), path, {});
+}
+
+inline Figures figuresOf(const assess::TrialAssessment& a) {
+  return [&a](const std::string& name) -> std::optional<double> {
+    for (const metrics::MetricValue& m : a.metrics)
+      if (m.name == name) return m.value;
+    return std::nullopt;
+  };
+}
+
+}  // namespace palpa::competence::test

@@ -1,0 +1,162 @@
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "anatomy/geometry/error.h"
+#include "apps/cli/needle_session.h"
+#include "apps/cli/palpation_session.h"
+#include "apps/cli/recorded_session.h"
+#include "apps/cli/search_session.h"
+#include "apps/cli/session_arguments.h"
+#include "apps/record/session_file.h"
+
+/// Assessment: no aid adds force in any tick, and a needle's trial ends at the fourth pass.
+namespace palpa::cli {
+namespace {
+
+SessionOptions quick(bool assess, std::uint64_t seed = 3) {
+  SessionOptions options;
+  options.who = OperatorKind::expert;
+  options.seed = seed;
+  options.assess = assess;
+  options.fast = options.no_views = options.quiet = true;
+  options.display = scene::Display::offscreen;
+  settle(options);
+  return options;
+}
+
+std::filesystem::path freshPlace(const std::string& name) {
+  const std::filesystem::path folder =
+      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session" / name;
+  std::filesystem::remove_all(folder);
+  std::filesystem::create_directories(folder);
+  return folder;
+}
+
+/// What aids did in a session, from every recorded tick.
+struct Aids {
+  long ticks = 0, with_force = 0, commanded = 0;
+  bool assessed = false;
+  std::vector<std::string> roles;
+};
+
+Aids aidsIn(const std::filesystem::path& folder) {
+  const record::SessionReader reader(folder / "session.palpa");
+  Aids aids;
+  aids.assessed = reader.info().session_json.find("\"assessed\":true") != std::string::npos;
+  for (const record::RecordedTrial& trial : reader.trials())
+    aids.roles.push_back(trial.header.role);
+  const auto zero = [](const Packed3& v) { return v == Packed3{}; };
+  reader.ticks([&](const haptics::FlightRecord& r) {
+    ++aids.ticks;
+    aids.with_force += !zero(r.f_augmentation_D) || r.augmenting || r.began;
+    aids.commanded += r.commands.augmented || !zero(r.commands.line_a_D);
+  });
+  return aids;
+}
+
+void expectNoAid(const Aids& aids) {
+  EXPECT_GT(aids.ticks, 1000);
+  EXPECT_EQ(aids.with_force, 0);
+  EXPECT_EQ(aids.commanded, 0);
+  EXPECT_TRUE(aids.assessed);
+  EXPECT_EQ(aids.roles, std::vector<std::string>{"assessed"});
+}
+
+Aids ofNeedle(SessionOptions options, const std::string& name) {
+  const std::filesystem::path folder = freshPlace(name);
+  NeedleWorld world(options);
+  world.station.camera_rate_Hz = 2;
+  runNeedleSession(options, world, folder);
+  return aidsIn(folder);
+}
+
+TEST(Assessment, NoAidAddsForceToANeedle) {
+  expectNoAid(ofNeedle(quick(true), "assessed_needle"));
+  SessionOptions practice = quick(false);  // the same trial with cues: the test would see them
+  practice.augment = true;
+  const Aids aids = ofNeedle(practice, "practice_needle");
+  EXPECT_GT(aids.with_force, 0);
+  EXPECT_GT(aids.commanded, 0);
+  EXPECT_FALSE(aids.assessed);
+  EXPECT_EQ(aids.roles, std::vector<std::string>{"scored"});
+}
+
+TEST(Assessment, NoAidAddsForceToAPalpation) {
+  const SessionOptions options = quick(true);
+  const std::filesystem::path folder = freshPlace("assessed_palpation");
+  const PalpationWorld world(options);
+  runPalpation(options, world, folder);
+  expectNoAid(aidsIn(folder));
+}
+
+TEST(Assessment, NoAidAddsForceToASearch) {
+  const SessionOptions options = quick(true);
+  const std::filesystem::path folder = freshPlace("assessed_search");
+  const SearchWorld world(options);
+  runSearch(options, world, folder);
+  expectNoAid(aidsIn(folder));
+}
+
+TEST(Assessment, EveryAidIsRefused) {
+  const auto refused = [](auto&& set) {
+    SessionOptions options;
+    options.assess = options.fast = options.quiet = true;
+    set(options);
+    EXPECT_THROW(settle(options), UsageError);
+  };
+  refused([](SessionOptions& o) { o.guide = true; });
+  refused([](SessionOptions& o) { o.guidance = true; });
+  refused([](SessionOptions& o) { o.see_through = true; });
+  refused([](SessionOptions& o) { o.augment = true; });
+  refused([](SessionOptions& o) { o.skin_deflection = true; });
+  refused([](SessionOptions& o) { o.mode = "augmented"; });
+  refused([](SessionOptions& o) { o.mode = "all"; });
+  refused([](SessionOptions& o) { o.blocks = true; });
+  const SessionOptions left = quick(true);
+  EXPECT_FALSE(left.navigation);
+  EXPECT_FALSE(left.demonstration);
+  EXPECT_EQ(left.role, "assessed");
+}
+
+double figureOf(const assess::TrialAssessment& a, const std::string& name) {
+  for (const metrics::MetricValue& m : a.metrics)
+    if (m.name == name) return m.value;
+  return -1;
+}
+
+/// The same hand on the same patient: in practice it needs two passes or more, in assessment with a
+/// limit of one the trial ends when the second begins.
+TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
+  const std::filesystem::path folder = freshPlace("passes");
+  const auto run = [&](bool assess, int most) {
+    const SessionOptions options = quick(assess, 604);
+    NeedleWorld world(options);
+    world.station.camera_rate_Hz = 2;
+    if (most > 0) world.task.most_passes.assessed = most;
+    EXPECT_EQ(world.task.most_passes.practice, 0);
+    return runNeedleSession(options, world, freshPlace("passes")).trials.at(0).assessment;
+  };
+  NeedleWorld shipped(quick(true));
+  EXPECT_EQ(shipped.task.most_passes.assessed, 3);
+  const assess::TrialAssessment practice = run(false, 0);
+  ASSERT_GE(figureOf(practice, "needle_passes"), 2);
+  EXPECT_EQ(practice.outcome, "success");
+  const assess::TrialAssessment limited = run(true, 1);
+  EXPECT_EQ(limited.outcome, "passes");
+  EXPECT_FALSE(limited.values.success);
+  EXPECT_EQ(figureOf(limited, "needle_passes"), 2);
+  EXPECT_NE(limited.summary.find("a pass too many"), std::string::npos) << limited.summary;
+  const RecordedSession recorded(folder / "session.palpa");
+  int trials = 0;
+  recorded.eachTrial(
+      [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+        ++trials;
+        EXPECT_EQ(trial.end.outcome, "passes");
+        EXPECT_EQ(recorded.rescore(trial, samples).total, limited.total);  // to the last bit
+      });
+  EXPECT_EQ(trials, 1);
+}
+
+}  // namespace
+}  // namespace palpa::cli
