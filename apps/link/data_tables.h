@@ -29,8 +29,7 @@ Dataset datasetOf(record::RecordStore& store, const std::vector<record::Trainee>
 /// What a column holds.
 struct Column {
   std::string name;
-  std::string
-      unit;  ///< "text", "UTC", "0 or 1", "JSON"; of a figure its unit, "1" for a plain number
+  std::string unit;  ///< "text", "UTC", "0 or 1", "JSON"; "1": a plain number
   std::string meaning;
   std::string better;   ///< "lower", "higher"; empty: neither
   std::string missing;  ///< when a cell is empty; empty: never

@@ -39,11 +39,10 @@ struct Pace {
 };
 
 struct Sent {
-  int delivered = 0, present = 0;  ///< stored now; were there already
-  std::vector<std::string>
-      refused;  ///< in words, for each statement that the store does not take; they go on waiting
-  std::string trouble;   ///< why it was stopped early; empty: all were tried
-  std::size_t left = 0;  ///< statements that wait
+  int delivered = 0, present = 0;    ///< stored now; were there already
+  std::vector<std::string> refused;  ///< in words; these go on waiting
+  std::string trouble;               ///< why it was stopped early; empty: all were tried
+  std::size_t left = 0;              ///< statements that wait
 };
 
 /// Sends what waits for this endpoint, in order: each by PUT under its own id, so that a lost

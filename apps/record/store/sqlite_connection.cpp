@@ -88,7 +88,8 @@ class SqliteConnection final : public SqlConnection {
       return action();
     } catch (const DatabaseError& e) {
       const bool later = e.code == SQLITE_BUSY || e.code == SQLITE_LOCKED || e.code == SQLITE_FULL || e.code == SQLITE_IOERR || e.code == SQLITE_PROTOCOL;
-      if (e.code == SQLITE_CORRUPT || e.code == SQLITE_NOTADB) failDamaged(sqlite3_errstr(e.code));
+      const bool broken = e.code == SQLITE_CORRUPT || e.code == SQLITE_NOTADB || e.code == SQLITE_ERROR;   // the last: tables are not as they were made
+      if (broken) failDamaged(sqlite3_errmsg(database_.handle()));
       if (!later) throw;
       throw StoreUnreachable(std::string("cannot be written now (") + sqlite3_errstr(e.code) + ")", place(), "Free the disk or close what holds the file; trials are kept on this station and sent later");
     }
