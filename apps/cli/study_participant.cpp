@@ -6,6 +6,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/deliver_evidence.h"
+#include "apps/cli/evidence_records.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/study_copy.h"
 #include "apps/record/session_file.h"

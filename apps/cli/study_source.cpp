@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
+#include "apps/assess/trial_role.h"
 #include "apps/station/json_file.h"
 
 namespace palpa::cli {
@@ -62,7 +63,7 @@ std::vector<StudyRow> studyRows(record::RecordStore& store, const std::string& s
       session = t.session.uuid;
       ++number;
     }
-    if (t.trial.role == "familiarisation" || t.trial.outcome == "void" || t.trial.metrics.empty()) continue;
+    if (!assess::countsAsScored(t.trial.role) || t.trial.outcome == "void" || t.trial.metrics.empty()) continue;
     rows.push_back(rowOf(t, number));
   }
   if (rows.empty()) throw UsageError("holds no scored trial of the study \"" + study + "\"", store.place(), "Check the study's id, or bring its sessions in: palpa records add");

@@ -23,10 +23,16 @@ std::string slug(const std::string& text) {
 
 json verb(const std::string& name) { return {{"id", kVerbs + name}, {"display", {{"en", name}}}}; }
 
+/// Nobody passes with a punctured lung or artery, whatever else was reached.
+bool harmed(const record::StoredTrial& t) {
+  return t.metric("pleural_punctures") > 0 || t.metric("arterial_punctures") > 0;
+}
+
 std::string verbOf(const record::StoredTrial& t) {
+  const bool judged = t.role == "scored" || t.role == "assessed";
   if (t.outcome == "aborted") return "terminated";
-  if (t.role != "scored" || t.outcome == "not scored") return "completed";
-  return t.success ? "passed" : "failed";
+  if (!judged || t.outcome == "not scored") return "completed";
+  return t.success && !harmed(t) ? "passed" : "failed";
 }
 
 json activityOf(const record::StoredSession& s) {
