@@ -130,7 +130,7 @@ double figureOf(const assess::TrialAssessment& a, const std::string& name) {
 TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
   const std::filesystem::path folder = freshPlace("passes");
   const auto run = [&](bool assess, int most) {
-    const SessionOptions options = quick(assess, 604);
+    const SessionOptions options = quick(assess, 601);
     NeedleWorld world(options);
     world.station.camera_rate_Hz = 2;
     if (most > 0) world.task.most_passes.assessed = most;
