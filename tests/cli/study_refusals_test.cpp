@@ -56,7 +56,7 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
 
 /// The path's file keeps the pseudonyms of those who made it.
 TEST_F(Study, ExpertsAreKnownByTheirPseudonyms) {
-  ASSERT_EQ(palpa({"paracentesis", "--operator", "expert", "--trainee", "E01", "--trials", "4",
+  ASSERT_EQ(palpa({"paracentesis", "--operator", "expert", "--trainee", "E01", "--trials", "6",
                    "--seed", "900001", "--fast", "--no-views", "--quiet", "--out", "E"},
                   here.path())
                 .exit_code,
