@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <cstdio>
-#include <random>
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/deliver_evidence.h"
@@ -11,8 +10,9 @@
 #include "apps/cli/study_questions.h"
 #include "apps/cli/study_session.h"
 #include "apps/record/store/pending.h"
+#include "apps/record/uuid.h"
 #include "apps/runtime/clock.h"
-#include "apps/station/assets.h"
+#include "apps/station/sha256.h"
 #include "apps/station/station_file.h"
 
 namespace palpa::cli {
@@ -129,9 +129,9 @@ void sayFarewell(const Next& next, const study::Protocol& protocol, int session)
               next.not_before.empty() ? " can begin" : (": not before " + next.not_before).c_str());
 }
 
+/// Nobody's to foretell, and kept in the records, where everything follows from it.
 std::uint64_t drawnSeed() {
-  std::random_device device;
-  return (static_cast<std::uint64_t>(device()) << 32) ^ device();
+  return std::stoull(station::sha256(record::newUuid()).substr(0, 16), nullptr, 16);
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "apps/cli/study_run.h"
 #include "apps/cli/study_session.h"
 #include "apps/cli/study_workers.h"
+#include "apps/runtime/random.h"
 #include "apps/study/allocation.h"
 #include "apps/study/learning.h"
 
@@ -40,7 +41,8 @@ std::string idOf(int number) {
   return text;
 }
 
-/// Pictures of the board serve the ready check alone: no score depends on them, and at 15 Hz they cost most of the time. The check wants one within 1.5 s.
+/// Pictures of the board serve the ready check alone: no score depends on them, and at 15 Hz they
+/// cost most of the time. The check wants one within 1.5 s.
 constexpr double kPicturesOfCohort_Hz = 0.8;
 
 void buildWorlds(Shared& shared) {
@@ -82,8 +84,10 @@ std::vector<Subject> enrolAll(const StudyOptions& o, const study::Protocol& prot
                    ? study::conditionOf(*protocol.allocation, group.name, seed, place)
                    : std::string();
       };
-      subjects.push_back({studies.enrol({protocol.id, protocol.sha256, o.seed, now}, wanted, draw),
-                          o.seed * 1'000'003 + subjects.size() + 1});
+      subjects.push_back(
+          {studies.enrol({protocol.id, protocol.sha256, o.seed, now}, wanted, draw),
+           runtime::RandomStream(o.seed, "study.person." + group.name + "." + std::to_string(i))
+               .bits()});
       if (subjects.back().enrolment.group != group.name)
         throw UsageError(
             "is enrolled in another group", "trainee " + id,
@@ -107,10 +111,9 @@ LearnerOptions learnerAt(const Shared& shared, const Subject& subject,
   std::vector<double> levels;
   for (int i = 0; i < next.trials; ++i, trainee.practised(next.condition))
     levels.push_back(trainee.level());
-  constexpr std::uint64_t kSeedsOfPerson = 100'000;
   return {shared.learners.from.string(), shared.learners.to.string(),
           [levels](int trial) { return levels.at(static_cast<std::size_t>(trial - 1)); },
-          subject.seed * kSeedsOfPerson + static_cast<std::uint64_t>(trials)};
+          subject.seed + static_cast<std::uint64_t>(trials)};
 }
 
 bool runTrials(const Shared& shared, const SessionOptions& session, const study::Block& block,

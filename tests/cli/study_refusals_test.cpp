@@ -56,22 +56,21 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
 
 /// The path's file keeps the pseudonyms of those who made it.
 TEST_F(Study, ExpertsAreKnownByTheirPseudonyms) {
-  ASSERT_EQ(palpa({"paracentesis", "--operator", "expert", "--trainee", "E01", "--trials", "4",
-                   "--seed", "900001", "--fast", "--no-views", "--quiet", "--out", "E"},
-                  here.path())
-                .exit_code,
-            0);
-  const Outcome made = palpa(
-      {"calibrate", "experts", "--from", "E/session.palpa", "--least", "3", "--out", "path.json"},
-      here.path());
+  ASSERT_EQ(palpa(session({"--trainee", "E01", "--out", "E"}), here.path()).exit_code, 0);
+  const Outcome made =
+      palpa({"calibrate", "experts", "--from", "E/session.palpa", "E/session.palpa",
+             "E/session.palpa", "--least", "3", "--out", "path.json"},
+            here.path());
   ASSERT_EQ(made.exit_code, 0) << made.err;
   EXPECT_EQ(json::parse(contentOf(here / "path.json")).at("experts"), json::array({"E01"}));
 }
 
 TEST_F(Study, AChangedProtocolIsAnotherStudy) {
+  json text = protocolText();
+  text["sessions"][0]["blocks"][0]["trials"] = 1;
+  here.file("protocol.json", text.dump());
   addTrainee("T001", "novice");
   ASSERT_EQ(runTrainee({"--answers", "answers.json"}).exit_code, 0);
-  json text = protocolText();
   text["trial_seed"] = 5;
   here.file("protocol.json", text.dump());
   const Outcome changed = runTrainee();
@@ -82,6 +81,7 @@ TEST_F(Study, AChangedProtocolIsAnotherStudy) {
 TEST_F(Study, TellsNoConditionWhereItIsBlind) {
   json text = protocolText();
   text["blind"] = json::array({"educator"});
+  text["sessions"][0]["blocks"][0]["trials"] = 1;
   text["conditions"][0]["means"] = "with the secret";
   text["conditions"][1]["means"] = "without the secret";
   here.file("protocol.json", text.dump());

@@ -1,10 +1,10 @@
 #include <gtest/gtest.h>
 
 #include <set>
-#include <thread>
 
 #include "apps/record/store/pending.h"
 #include "apps/record/store/study_store.h"
+#include "apps/runtime/clock.h"
 #include "apps/station/sha256.h"
 #include "study_bench.h"
 
@@ -58,6 +58,7 @@ TEST_F(Study, LeadsThroughASessionAndItsQuestions) {
 /// Whatever the moment: nothing that ended is lost, nothing is done twice.
 TEST_F(Study, GoesOnWhereItWasKilled) {
   addTrainee("T001", "novice");
+  runtime::SteadyClock clock;
   for (int tries = 0; tries < 3; ++tries) {
     Running running(
         {"study", "run", "--protocol", "protocol.json", "--records", "records.sqlite", "--out",
@@ -65,7 +66,7 @@ TEST_F(Study, GoesOnWhereItWasKilled) {
         here.path());
     const auto evidence = here / "out/T001";
     for (int wait = 0; wait < 600 && !running.ended(); ++wait) {
-      std::this_thread::sleep_for(std::chrono::milliseconds(10));
+      clock.sleepUntil(clock.now() + 10 * runtime::kMillisecond);
       if (std::filesystem::exists(evidence) && wait > 100 + 60 * tries) break;
     }
     tries % 2 ? static_cast<void>(running.interrupt()) : running.kill();
