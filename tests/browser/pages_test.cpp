@@ -2,8 +2,10 @@
 
 #include <fstream>
 
+#include "apps/report/study_report.h"
 #include "tests/browser/page_faults.h"
 #include "tests/report/synthetic_report.h"
+#include "tests/report/synthetic_study.h"
 
 namespace palpa::report {
 namespace {
@@ -30,6 +32,14 @@ TEST_F(Pages, OfNeedleSessions) {
   writeReport(test::syntheticReport(10), folder / "ten.html");
   expectNoFaults(folder / "one.html");
   expectNoFaults(folder / "ten.html");
+}
+
+TEST_F(Pages, OfStudies) {
+  const auto folder = test::freshFolder("browser_studies");
+  writeStudyReport({test::pilotResult(), {{"Protocol", "paracentesis_pilot.json", ""}}}, folder / "pilot.html");
+  writeStudyReport({test::searchResult(), {}}, folder / "search.html");
+  expectNoFaults(folder / "pilot.html");
+  expectNoFaults(folder / "search.html");
 }
 
 /// The judge itself: it finds each of these.
