@@ -17,31 +17,49 @@ using study_analysis::StudyRow;
 nlohmann::json studyFacts(const record::StoredSession& session) {
   try {
     const nlohmann::json facts = nlohmann::json::parse(session.facts_json);
-    if (facts.is_object() && facts.contains("study") && facts.at("study").is_object()) return facts.at("study");
-  } catch (const nlohmann::json::exception&) {   // said below
+    if (facts.is_object() && facts.contains("study") && facts.at("study").is_object())
+      return facts.at("study");
+  } catch (const nlohmann::json::exception&) {  // said below
   }
-  throw Error("the session's description is damaged or says nothing of the study", "session " + session.uuid, "Bring it into the records again: palpa records add");
+  throw Error("the session's description is damaged or says nothing of the study",
+              "session " + session.uuid, "Bring it into the records again: palpa records add");
 }
 
-std::string wordIn(const nlohmann::json& study, const char* field, const record::StoredSession& session) {
+std::string wordIn(const nlohmann::json& study, const char* field,
+                   const record::StoredSession& session) {
   const auto found = study.find(field);
   if (found == study.end()) return "";
-  if (!found->is_string()) throw Error(std::string("the study's ") + field + " is no text", "session " + session.uuid, "Bring it into the records again: palpa records add");
+  if (!found->is_string())
+    throw Error(std::string("the study's ") + field + " is no text", "session " + session.uuid,
+                "Bring it into the records again: palpa records add");
   return found->get<std::string>();
 }
 
 StudyRow rowOf(const record::TrialWithSession& t, int session_number) {
   const nlohmann::json study = studyFacts(t.session);
-  StudyRow row{t.session.trainee, wordIn(study, "group", t.session), wordIn(study, "condition", t.session), wordIn(study, "block", t.session), session_number, static_cast<int>(t.trial.number), 0, t.session.simulated, t.session.software, {}};
+  StudyRow row{t.session.trainee,
+               wordIn(study, "group", t.session),
+               wordIn(study, "condition", t.session),
+               wordIn(study, "block", t.session),
+               session_number,
+               static_cast<int>(t.trial.number),
+               0,
+               t.session.simulated,
+               t.session.software,
+               {}};
   for (const record::Metric& m : t.trial.metrics)
-    if (m.value == m.value) row.metrics[m.name] = m.value;   // not a number: does not apply
+    if (m.value == m.value) row.metrics[m.name] = m.value;  // not a number: does not apply
   return row;
 }
 
-std::string optionalText(const station::JsonFile& file, const char* field, const std::string& otherwise) { return file.has(field) ? file.text(field) : otherwise; }
+std::string optionalText(const station::JsonFile& file, const char* field,
+                         const std::string& otherwise) {
+  return file.has(field) ? file.text(field) : otherwise;
+}
 
 /// Names in their order; their meaning into `words`.
-std::vector<std::string> namesOf(const station::JsonFile& protocol, const char* list, std::map<std::string, std::string>& words) {
+std::vector<std::string> namesOf(const station::JsonFile& protocol, const char* list,
+                                 std::map<std::string, std::string>& words) {
   std::vector<std::string> names;
   for (const station::JsonFile& entry : protocol.entries(list)) {
     names.push_back(entry.text("name"));
@@ -56,17 +74,22 @@ std::vector<StudyRow> studyRows(record::RecordStore& store, const std::string& s
   record::TrialFilter filter;
   filter.study = study;
   std::vector<StudyRow> rows;
-  std::map<std::string, std::pair<std::string, int>> latest;   // of a trainee: session and its number
+  std::map<std::string, std::pair<std::string, int>>
+      latest;  // of a trainee: session and its number
   for (const record::TrialWithSession& t : store.trials(filter)) {
     auto& [session, number] = latest[t.session.trainee];
     if (session != t.session.uuid) {
       session = t.session.uuid;
       ++number;
     }
-    if (!assess::countsAsScored(t.trial.role) || t.trial.outcome == "void" || t.trial.metrics.empty()) continue;
+    if (!assess::countsAsScored(t.trial.role) || t.trial.outcome == "void" ||
+        t.trial.metrics.empty())
+      continue;
     rows.push_back(rowOf(t, number));
   }
-  if (rows.empty()) throw UsageError("holds no scored trial of the study \"" + study + "\"", store.place(), "Check the study's id, or bring its sessions in: palpa records add");
+  if (rows.empty())
+    throw UsageError("holds no scored trial of the study \"" + study + "\"", store.place(),
+                     "Check the study's id, or bring its sessions in: palpa records add");
   study_analysis::orderAndNumber(rows, store.place());
   return rows;
 }
@@ -84,7 +107,8 @@ ProtocolFacts protocolFacts(const std::string& file) {
   facts.id = protocol.text("id");
   study_analysis::StudyDesign& design = facts.design;
   design.title = optionalText(protocol, "title", facts.id);
-  design.kind = study_analysis::studyKindNamed(optionalText(protocol, "analysis", ""), file + ", field analysis");
+  design.kind = study_analysis::studyKindNamed(optionalText(protocol, "analysis", ""),
+                                               file + ", field analysis");
   design.groups = namesOf(protocol, "groups", design.words);
   design.conditions = namesOf(protocol, "conditions", design.words);
   return facts;

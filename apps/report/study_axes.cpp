@@ -9,16 +9,19 @@
 namespace palpa::report {
 namespace {
 
-constexpr double kStudyWideHigh = 250, kStudyNarrowHigh = 200, kStudyKeyLine = 22, kStudyTitleLine = 22, kStudyBelow = 46, kStudyLeft = 66, kStudyNarrowLeft = 52;   // px
+constexpr double kStudyWideHigh = 250, kStudyNarrowHigh = 200, kStudyKeyLine = 22,
+                 kStudyTitleLine = 22, kStudyBelow = 46, kStudyLeft = 66,
+                 kStudyNarrowLeft = 52;  // px
 constexpr double kStudyMark = 4.6;
-constexpr int kStudyFamilies = 4;   // drawn differently
+constexpr int kStudyFamilies = 4;  // drawn differently
 
 struct KeyPlace {
   double x = 0, y = 0;
 };
 
 /// The key from left to right, in as many lines as it takes.
-std::vector<KeyPlace> keyPlaces(const ChartFrame& frame, const std::vector<std::string>& families, double left) {
+std::vector<KeyPlace> keyPlaces(const ChartFrame& frame, const std::vector<std::string>& families,
+                                double left) {
   std::vector<KeyPlace> places;
   KeyPlace at{left, 0};
   for (const std::string& name : families) {
@@ -41,9 +44,12 @@ void drawStudyKey(Html& svg, const StudyArea& area, const study_analysis::Plot& 
   for (std::size_t i = 0; i < places.size(); ++i) {
     const double y = 14 + places[i].y;
     const int family = static_cast<int>(i);
-    if (plot.kind != study_analysis::PlotKind::scatter) svgLine(svg, "study-line " + familyClass(family), places[i].x, y - 4, places[i].x + 26, y - 4);
+    if (plot.kind != study_analysis::PlotKind::scatter)
+      svgLine(svg, "study-line " + familyClass(family), places[i].x, y - 4, places[i].x + 26,
+              y - 4);
     drawStudyMark(svg, family, places[i].x + 13, y - 4);
-    svgText(svg, "legend", places[i].x + 33, y, fitted(plot.families[i], area.frame.width - places[i].x - 40, area.frame.font));
+    svgText(svg, "legend", places[i].x + 33, y,
+            fitted(plot.families[i], area.frame.width - places[i].x - 40, area.frame.font));
   }
 }
 
@@ -64,11 +70,13 @@ StudyRange studyRange(const study_analysis::Plot& plot, bool zero) {
   return {low < 0 || !zero ? low - room : 0, high + room};
 }
 
-StudyArea studyArea(const ChartFrame& frame, const study_analysis::Plot& plot, double from, double to, const StudyRange& range) {
+StudyArea studyArea(const ChartFrame& frame, const study_analysis::Plot& plot, double from,
+                    double to, const StudyRange& range) {
   StudyArea area;
   area.frame = frame;
   const double left = frame.wide ? kStudyLeft : kStudyNarrowLeft;
-  area.top = keyHeight(frame, plot, left) + kStudyTitleLine + (plot.dividers.empty() ? 0 : kStudyKeyLine);
+  area.top =
+      keyHeight(frame, plot, left) + kStudyTitleLine + (plot.dividers.empty() ? 0 : kStudyKeyLine);
   area.bottom = area.top + (frame.wide ? kStudyWideHigh : kStudyNarrowHigh);
   area.height = area.bottom + kStudyBelow;
   area.x = {from, to, left, frame.width - frame.right};
@@ -81,7 +89,8 @@ void drawStudyAxes(Html& svg, const StudyArea& area, const study_analysis::Plot&
   svgText(svg, "label strong", 0, keyHeight(area.frame, plot, area.x.from_px) + 13, plot.y_title);
   const Ticks ticks = niceTicks(area.y.from, area.y.to, area.frame.wide ? 8 : 6);
   for (const double value : ticks.values) {
-    svgLine(svg, value == 0 ? "zero" : "grid", area.x.from_px, area.y.at(value), area.x.to_px, area.y.at(value));
+    svgLine(svg, value == 0 ? "zero" : "grid", area.x.from_px, area.y.at(value), area.x.to_px,
+            area.y.at(value));
     svgText(svg, "tick end", area.x.from_px - 7, area.y.at(value) + 4, ticks.label(value));
   }
 }

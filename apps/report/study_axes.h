@@ -14,8 +14,8 @@ namespace palpa::report {
 /// Where a plot lies in its picture.
 struct StudyArea {
   ChartFrame frame;
-  Axis x, y;               ///< y.from_px: the lower edge
-  double top = 0, bottom = 0, height = 0;   ///< height: of the whole picture
+  Axis x, y;                               ///< y.from_px: the lower edge
+  double top = 0, bottom = 0, height = 0;  ///< height: of the whole picture
 };
 
 /// Lowest and highest of all points and intervals; `zero`: from zero, where nothing is below.
@@ -25,7 +25,8 @@ struct StudyRange {
 StudyRange studyRange(const study_analysis::Plot& plot, bool zero);
 
 /// Room for the key and both titles around a plot whose x reaches from `from` to `to`.
-StudyArea studyArea(const ChartFrame& frame, const study_analysis::Plot& plot, double from, double to, const StudyRange& range);
+StudyArea studyArea(const ChartFrame& frame, const study_analysis::Plot& plot, double from,
+                    double to, const StudyRange& range);
 
 /// Lines and numbers of the values, their title, the key of families.
 void drawStudyAxes(Html& svg, const StudyArea& area, const study_analysis::Plot& plot);

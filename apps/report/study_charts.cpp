@@ -36,7 +36,7 @@ svg .study-mark.family-2{fill:var(--good);stroke:var(--card)}
 svg .study-mark.family-3{fill:var(--card);stroke:var(--plain)}
 )css";
 
-std::vector<Point> pointsOf(const PlotSeries& s, double PlotPoint::* of) {
+std::vector<Point> pointsOf(const PlotSeries& s, double PlotPoint::*of) {
   std::vector<Point> points;
   for (const PlotPoint& p : s.points) points.push_back({p.x, p.*of});
   return points;
@@ -45,7 +45,9 @@ std::vector<Point> pointsOf(const PlotSeries& s, double PlotPoint::* of) {
 /// From the low ends to the right and over the high ends back.
 void drawBand(Html& svg, const StudyArea& area, const PlotSeries& s) {
   std::string d;
-  const auto to = [&](double x, double y) { d += (d.empty() ? "M" : "L") + coordinate(area.x.at(x)) + ' ' + coordinate(area.y.at(y)); };
+  const auto to = [&](double x, double y) {
+    d += (d.empty() ? "M" : "L") + coordinate(area.x.at(x)) + ' ' + coordinate(area.y.at(y));
+  };
   for (const PlotPoint& p : s.points) to(p.x, p.low);
   for (auto p = s.points.rbegin(); p != s.points.rend(); ++p) to(p->x, p->high);
   if (!d.empty()) svgPath(svg, "study-band " + familyClass(s.family), d + 'Z');
@@ -73,29 +75,42 @@ void drawCurves(Html& html, const Plot& plot, const ChartFrame& frame, const std
   drawDividers(html, area, plot);
   for (const PlotSeries& s : plot.series) drawBand(html, area, s);
   for (const PlotSeries& s : plot.series) {
-    svgPath(html, "study-line " + familyClass(s.family), linePath(pointsOf(s, &PlotPoint::y), area.x, area.y));
-    for (const PlotPoint& p : s.points) drawStudyMark(html, s.family, area.x.at(p.x), area.y.at(p.y));
+    svgPath(html, "study-line " + familyClass(s.family),
+            linePath(pointsOf(s, &PlotPoint::y), area.x, area.y));
+    for (const PlotPoint& p : s.points)
+      drawStudyMark(html, s.family, area.x.at(p.x), area.y.at(p.y));
   }
   drawTimeAxis(html, frame, area.x, area.bottom, plot.x_title);
 }
 
-void drawNames(Html& svg, const StudyArea& area, const std::vector<std::string>& names, double room) {
+void drawNames(Html& svg, const StudyArea& area, const std::vector<std::string>& names,
+               double room) {
   svgLine(svg, "axis", area.x.from_px, area.bottom, area.x.to_px, area.bottom);
-  for (std::size_t i = 0; i < names.size(); ++i) svgText(svg, "tick mid", area.x.at(static_cast<double>(i)), area.bottom + 18, fitted(names[i], room, area.frame.font));
+  for (std::size_t i = 0; i < names.size(); ++i)
+    svgText(svg, "tick mid", area.x.at(static_cast<double>(i)), area.bottom + 18,
+            fitted(names[i], room, area.frame.font));
 }
 
 void drawBars(Html& html, const Plot& plot, const ChartFrame& frame, const std::string& label) {
-  const StudyArea area = studyArea(frame, plot, -0.5, static_cast<double>(plot.x_names.size()) - 0.5, studyRange(plot, true));
+  const StudyArea area = studyArea(
+      frame, plot, -0.5, static_cast<double>(plot.x_names.size()) - 0.5, studyRange(plot, true));
   const auto svg = openSvg(html, frame, area.height, label);
   drawStudyAxes(html, area, plot);
-  const double slot = area.x.at(1) - area.x.at(0), width = std::min(90.0, 0.7 * slot / static_cast<double>(std::max<std::size_t>(1, plot.series.size())));
+  const double slot = area.x.at(1) - area.x.at(0),
+               width = std::min(
+                   90.0,
+                   0.7 * slot / static_cast<double>(std::max<std::size_t>(1, plot.series.size())));
   const double zero = area.y.at(std::max(0.0, area.y.from));
   for (std::size_t i = 0; i < plot.series.size(); ++i)
     for (const PlotPoint& p : plot.series[i].points) {
-      const double left = area.x.at(p.x) + width * (static_cast<double>(i) - static_cast<double>(plot.series.size()) / 2), middle = left + width / 2, high = area.y.at(p.y);
-      svgRect(html, "study-bar " + familyClass(plot.series[i].family), left, std::min(high, zero), width, std::abs(zero - high));
+      const double left = area.x.at(p.x) + width * (static_cast<double>(i) -
+                                                    static_cast<double>(plot.series.size()) / 2),
+                   middle = left + width / 2, high = area.y.at(p.y);
+      svgRect(html, "study-bar " + familyClass(plot.series[i].family), left, std::min(high, zero),
+              width, std::abs(zero - high));
       svgLine(html, "study-whisker", middle, area.y.at(p.low), middle, area.y.at(p.high));
-      for (const double end : {p.low, p.high}) svgLine(html, "study-whisker", middle - 6, area.y.at(end), middle + 6, area.y.at(end));
+      for (const double end : {p.low, p.high})
+        svgLine(html, "study-whisker", middle - 6, area.y.at(end), middle + 6, area.y.at(end));
       drawStudyMark(html, plot.series[i].family, middle, high);
     }
   drawNames(html, area, plot.x_names, slot - 10);
@@ -105,9 +120,10 @@ void drawBars(Html& html, const Plot& plot, const ChartFrame& frame, const std::
 void drawSlopes(Html& html, const Plot& plot, const ChartFrame& frame, const std::string& label) {
   Plot without_key = plot;
   without_key.families.clear();
-  without_key.dividers.assign(1, {});   // room for the panels' names
+  without_key.dividers.assign(1, {});  // room for the panels' names
   const auto panels = static_cast<double>(std::max<std::size_t>(1, plot.families.size()));
-  const StudyArea area = studyArea(frame, without_key, -0.3, 2 * panels - 0.7, studyRange(plot, true));
+  const StudyArea area =
+      studyArea(frame, without_key, -0.3, 2 * panels - 0.7, studyRange(plot, true));
   const auto svg = openSvg(html, frame, area.height, label);
   without_key.dividers.clear();
   drawStudyAxes(html, area, without_key);
@@ -115,14 +131,19 @@ void drawSlopes(Html& html, const Plot& plot, const ChartFrame& frame, const std
   for (std::size_t f = 0; f < plot.families.size(); ++f) {
     names.insert(names.end(), plot.x_names.begin(), plot.x_names.end());
     const double from = 2 * static_cast<double>(f);
-    svgText(html, "label mid", area.x.at(from + 0.5), area.top - 8, fitted(plot.families[f], 1.6 * (area.x.at(1) - area.x.at(0)), frame.font));
-    if (f > 0) svgLine(html, "study-divider", area.x.at(from - 0.5), area.top, area.x.at(from - 0.5), area.bottom);
+    svgText(html, "label mid", area.x.at(from + 0.5), area.top - 8,
+            fitted(plot.families[f], 1.6 * (area.x.at(1) - area.x.at(0)), frame.font));
+    if (f > 0)
+      svgLine(html, "study-divider", area.x.at(from - 0.5), area.top, area.x.at(from - 0.5),
+              area.bottom);
   }
   for (const PlotSeries& s : plot.series) {
     PlotSeries shifted = s;
     for (PlotPoint& p : shifted.points) p.x += 2 * s.family;
-    svgPath(html, "study-line " + familyClass(s.family), linePath(pointsOf(shifted, &PlotPoint::y), area.x, area.y));
-    for (const PlotPoint& p : shifted.points) drawStudyMark(html, s.family, area.x.at(p.x), area.y.at(p.y));
+    svgPath(html, "study-line " + familyClass(s.family),
+            linePath(pointsOf(shifted, &PlotPoint::y), area.x, area.y));
+    for (const PlotPoint& p : shifted.points)
+      drawStudyMark(html, s.family, area.x.at(p.x), area.y.at(p.y));
   }
   drawNames(html, area, names, area.x.at(1) - area.x.at(0) - 4);
 }
@@ -140,14 +161,18 @@ void drawScatter(Html& html, const Plot& plot, const ChartFrame& frame, const st
   drawStudyAxes(html, area, plot);
   svgLine(html, "zero", area.x.at(0), area.top, area.x.at(0), area.bottom);
   for (const PlotSeries& s : plot.series)
-    for (const PlotPoint& p : s.points) drawStudyMark(html, s.family, area.x.at(p.x), area.y.at(p.y));
+    for (const PlotPoint& p : s.points)
+      drawStudyMark(html, s.family, area.x.at(p.x), area.y.at(p.y));
   drawTimeAxis(html, frame, area.x, area.bottom, plot.x_title);
 }
 
 }  // namespace
 
 void writeStudyPlot(Html& html, const Plot& plot, const std::string& label) {
-  const auto draw = plot.kind == PlotKind::curves ? drawCurves : plot.kind == PlotKind::bars ? drawBars : plot.kind == PlotKind::slopes ? drawSlopes : drawScatter;
+  const auto draw = plot.kind == PlotKind::curves   ? drawCurves
+                    : plot.kind == PlotKind::bars   ? drawBars
+                    : plot.kind == PlotKind::slopes ? drawSlopes
+                                                    : drawScatter;
   const std::string spoken = label + ": " + plot.y_title;
   for (const ChartFrame& frame : {kWide, kNarrow}) draw(html, plot, frame, spoken);
 }

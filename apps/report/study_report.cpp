@@ -16,7 +16,7 @@ using study_analysis::Exhibit;
 using study_analysis::Part;
 using study_analysis::StudyResult;
 
-constexpr std::size_t kStudyRowsOpen = 8;   // longer tables behind a figure are folded up
+constexpr std::size_t kStudyRowsOpen = 8;  // longer tables behind a figure are folded up
 
 constexpr std::string_view kStudyStyle = R"css(
 .findings{margin:0;padding-left:1.3rem}
@@ -26,7 +26,7 @@ constexpr std::string_view kStudyStyle = R"css(
 .exhibit h3{margin-top:0}
 .exhibit figure+figure{margin-top:1.2rem}
 .study-table{border-collapse:collapse;font-size:.85rem;width:100%;margin:.6rem 0}
-.study-table th,.study-table td{text-align:right;padding:.35rem .45rem;border-bottom:1px solid var(--line);white-space:nowrap}
+.study-table th,.study-table td{text-align:right;padding:.35rem .35rem;border-bottom:1px solid var(--line);white-space:nowrap}
 .study-table thead th{font-weight:400;color:var(--muted);vertical-align:bottom;white-space:normal;line-height:1.25}
 .study-table .words{text-align:left;white-space:normal;min-width:4.6rem}
 .study-table th:first-child,.study-table td:first-child{padding-left:0}
@@ -38,7 +38,8 @@ details summary{cursor:pointer;color:var(--muted);font-size:.875rem;margin-top:.
 
 /// No line ends between a number and its "%".
 std::string keptTogether(std::string text) {
-  for (std::size_t at = text.find(" %"); at != std::string::npos; at = text.find(" %", at + 2)) text.replace(at, 1, "\u00a0");
+  for (std::size_t at = text.find(" %"); at != std::string::npos; at = text.find(" %", at + 2))
+    text.replace(at, 1, "\u00a0");
   return text;
 }
 
@@ -65,11 +66,14 @@ void writeStudyHeader(Html& html, const StudyResult& result) {
   if (result.simulated_trials == 0) return;
   writeSimulatedBanner(html);
   if (result.simulated_trials < result.trials)
-    html.element("p", {{"class", "small"}}, std::to_string(result.simulated_trials) + " of the " + std::to_string(result.trials) + " trials are simulated.");
+    html.element("p", {{"class", "small"}},
+                 std::to_string(result.simulated_trials) + " of the " +
+                     std::to_string(result.trials) + " trials are simulated.");
 }
 
 bool hidden(const study_analysis::Table& table) {
-  return std::any_of(table.columns.begin(), table.columns.end(), [](const study_analysis::Column& c) { return !c.page; });
+  return std::any_of(table.columns.begin(), table.columns.end(),
+                     [](const study_analysis::Column& c) { return !c.page; });
 }
 
 void writeExhibitTable(Html& html, const Exhibit& exhibit) {
@@ -79,7 +83,8 @@ void writeExhibitTable(Html& html, const Exhibit& exhibit) {
     return;
   }
   const auto details = html.in("details");
-  html.element("summary", "The numbers behind (" + std::to_string(exhibit.table.rows.size()) + " rows; also in " + exhibit.id + ".csv)");
+  html.element("summary", "The numbers behind (" + std::to_string(exhibit.table.rows.size()) +
+                              " rows; also in " + exhibit.id + ".csv)");
   writeStudyTable(html, exhibit.table);
 }
 
@@ -90,12 +95,15 @@ void writeExhibit(Html& html, const Exhibit& exhibit, bool simulated) {
     const auto figure = html.in("figure", {{"class", "course"}});
     writeStudyPlot(html, plot, exhibit.title);
   }
-  html.element("p", {{"class", "muted small"}}, keptTogether(exhibit.caption) + (hidden(exhibit.table) ? " More columns are in " + exhibit.id + ".csv." : ""));
+  html.element("p", {{"class", "muted small"}},
+               keptTogether(exhibit.caption) +
+                   (hidden(exhibit.table) ? " More columns are in " + exhibit.id + ".csv." : ""));
   writeExhibitTable(html, exhibit);
   writeSentences(html, "doubts", exhibit.notes);
 }
 
-void writeParts(Html& html, const StudyResult& result, Part part, const char* title, const char* css, const std::vector<std::string>& words) {
+void writeParts(Html& html, const StudyResult& result, Part part, const char* title,
+                const char* css, const std::vector<std::string>& words) {
   bool some = !words.empty();
   for (const Exhibit& e : result.exhibits) some = some || e.part == part;
   if (!some) return;
@@ -111,7 +119,8 @@ void writeStudyMain(Html& html, const StudyPage& page) {
   const StudyResult& result = page.result;
   {
     const auto section = html.in("section", {{"class", "card"}});
-    html.element("h2", result.simulated_trials > 0 ? "What was found (simulated)" : "What was found");
+    html.element("h2",
+                 result.simulated_trials > 0 ? "What was found (simulated)" : "What was found");
     writeSentences(html, "findings", result.findings);
   }
   {
@@ -122,9 +131,11 @@ void writeStudyMain(Html& html, const StudyPage& page) {
   writeParts(html, result, Part::figure, "Figures", "card", {});
   writeParts(html, result, Part::table, "Tables and tests", "card", {});
   writeParts(html, result, Part::check, "A second look at the same trials", "card", {});
-  writeParts(html, result, Part::published, "As published", "card published", result.published_words);
+  writeParts(html, result, Part::published, "As published", "card published",
+             result.published_words);
   std::vector<Fact> facts = page.sources;
-  for (const std::string& software : result.software) facts.push_back({"Recorded by", software, ""});
+  for (const std::string& software : result.software)
+    facts.push_back({"Recorded by", software, ""});
   writeFacts(html, "Where this comes from", facts);
 }
 
@@ -133,7 +144,8 @@ std::string studyHtml(const StudyPage& page) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, page.result.title, "", std::string(kStudyStyle) + std::string(studyChartStyle()));
+    writeHeadElement(html, page.result.title, "",
+                     std::string(kStudyStyle) + std::string(studyChartStyle()));
     const auto body = html.in("body");
     writeStudyHeader(html, page.result);
     writeStudyMain(html, page);
@@ -143,9 +155,12 @@ std::string studyHtml(const StudyPage& page) {
 
 }  // namespace
 
-void writeStudyReport(const StudyPage& page, const std::filesystem::path& file) { writeWhole(file, studyHtml(page)); }
+void writeStudyReport(const StudyPage& page, const std::filesystem::path& file) {
+  writeWhole(file, studyHtml(page));
+}
 
-std::vector<std::filesystem::path> writeStudyTables(const StudyResult& result, const std::filesystem::path& folder) {
+std::vector<std::filesystem::path> writeStudyTables(const StudyResult& result,
+                                                    const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
   for (const Exhibit& e : result.exhibits) {
     const bool simulated = result.simulated_trials > 0;

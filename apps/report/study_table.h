@@ -10,7 +10,8 @@ namespace palpa::report {
 /// A table of a study for readers; scrolls where it is wider than the page.
 void writeStudyTable(Html& html, const study_analysis::Table& table);
 
-/// A number as its column wants it: decimals, "< 0.001" for small p-values, "–" for what does not apply.
+/// A number as its column wants it: decimals, "< 0.001" for small p-values, "–" for what does not
+/// apply.
 std::string studyCell(const study_analysis::Cell& cell, const study_analysis::Column& column);
 
 std::string studyCsv(const study_analysis::Table& table, bool simulated);

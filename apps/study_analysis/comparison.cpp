@@ -37,21 +37,28 @@ std::vector<double> differencesOf(const std::vector<double>& a, const std::vecto
 }
 
 /// Pairs are drawn as pairs: of their differences.
-void resample(Comparison& c, const std::vector<double>& a, const std::vector<double>& b, std::uint64_t seed) {
+void resample(Comparison& c, const std::vector<double>& a, const std::vector<double>& b,
+              std::uint64_t seed) {
   const statistics::BootstrapSettings settings{2000, 0.95, seed};
   const Samples samples = c.test == Test::paired ? Samples{differencesOf(a, b)} : Samples{a, b};
   const statistics::BootstrapInterval interval = statistics::bootstrap(
-      samples, [](const Samples& s) { return statistics::meanOf(s[0]) - (s.size() > 1 ? statistics::meanOf(s[1]) : 0); }, settings);
+      samples,
+      [](const Samples& s) {
+        return statistics::meanOf(s[0]) - (s.size() > 1 ? statistics::meanOf(s[1]) : 0);
+      },
+      settings);
   c.boot_low = interval.low;
   c.boot_high = interval.high;
 }
 
-std::vector<std::string> concernsOf(const Comparison& c, const std::vector<double>& a, const std::vector<double>& b) {
+std::vector<std::string> concernsOf(const Comparison& c, const std::vector<double>& a,
+                                    const std::vector<double>& b) {
   if (c.test == Test::welch) return statistics::concernsAbout({a, b}, {c.a_name, c.b_name});
   return statistics::concernsAbout({differencesOf(a, b)}, {c.a_name + " less " + c.b_name});
 }
 
-Comparison started(Test test, const std::vector<double>& a, const std::vector<double>& b, const std::string& a_name, const std::string& b_name) {
+Comparison started(Test test, const std::vector<double>& a, const std::vector<double>& b,
+                   const std::string& a_name, const std::string& b_name) {
   Comparison c;
   c.test = test;
   c.a_name = a_name;
@@ -63,10 +70,12 @@ Comparison started(Test test, const std::vector<double>& a, const std::vector<do
 
 }  // namespace
 
-Comparison compare(Test test, const std::vector<double>& a, const std::vector<double>& b, const std::string& a_name, const std::string& b_name, std::uint64_t seed) {
+Comparison compare(Test test, const std::vector<double>& a, const std::vector<double>& b,
+                   const std::string& a_name, const std::string& b_name, std::uint64_t seed) {
   Comparison c = started(test, a, b, a_name, b_name);
   try {
-    const statistics::TTest t = test == Test::paired ? statistics::paired(a, b) : statistics::welch(a, b);
+    const statistics::TTest t =
+        test == Test::paired ? statistics::paired(a, b) : statistics::welch(a, b);
     fill(c, t);
     c.p = t.p_two_sided;
     resample(c, a, b, seed);
@@ -77,7 +86,8 @@ Comparison compare(Test test, const std::vector<double>& a, const std::vector<do
   return c;
 }
 
-Comparison compareAsPublished(const std::vector<double>& a, const std::vector<double>& b, const std::string& a_name, const std::string& b_name) {
+Comparison compareAsPublished(const std::vector<double>& a, const std::vector<double>& b,
+                              const std::string& a_name, const std::string& b_name) {
   Comparison c = started(Test::welch, a, b, a_name, b_name);
   try {
     const statistics::TTest t = statistics::welch(a, b);
@@ -102,7 +112,9 @@ void correctTogether(const std::vector<Comparison*>& family) {
 PlotPoint meanPoint(double x, const std::vector<double>& values) {
   const statistics::Description d = statistics::describe(values);
   if (d.n < 2) return {x, d.mean, d.mean, d.mean};
-  const double n = static_cast<double>(d.n), half = d.sd / std::sqrt(n) * boost::math::quantile(boost::math::students_t(n - 1), 0.975);
+  const double n = static_cast<double>(d.n),
+               half = d.sd / std::sqrt(n) *
+                      boost::math::quantile(boost::math::students_t(n - 1), 0.975);
   return {x, d.mean, d.mean - half, d.mean + half};
 }
 

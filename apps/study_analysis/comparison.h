@@ -12,14 +12,16 @@ namespace palpa::study_analysis {
 
 enum class Test { paired, welch };
 
-/// One question: is `a` larger or smaller than `b`? Values are one a subject, unless the published way is asked for.
+/// One question: is `a` larger or smaller than `b`? Values are one a subject, unless the published
+/// way is asked for.
 struct Comparison {
-  std::string metric, about;          ///< "time_s"; "novice, force feedback: last two against first two"
-  std::string a_name, b_name;         ///< of the two samples, in words
+  std::string metric, about;   ///< "time_s"; "novice, force feedback: last two against first two"
+  std::string a_name, b_name;  ///< of the two samples, in words
   Test test = Test::welch;
   statistics::Description a, b;
-  double difference = kNone, low = kNone, high = kNone;             ///< mean a - mean b, 95 % interval of Student's t
-  double boot_low = kNone, boot_high = kNone;                       ///< the same by resampling subjects (BCa)
+  double difference = kNone, low = kNone,
+         high = kNone;                         ///< mean a - mean b, 95 % interval of Student's t
+  double boot_low = kNone, boot_high = kNone;  ///< the same by resampling subjects (BCa)
   double t = kNone, degrees = kNone;
   double p = kNone;                   ///< two-sided; one-tailed (a is smaller) in the published way
   double p_holm = kNone;              ///< with all that are tested together
@@ -32,11 +34,14 @@ struct Comparison {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 };
 
-/// Two-sided, with intervals and concerns; `a` and `b` hold a value a subject, pairs in one order. Never throws for samples that cannot be tested: says why.
-Comparison compare(Test test, const std::vector<double>& a, const std::vector<double>& b, const std::string& a_name, const std::string& b_name, std::uint64_t seed);
+/// Two-sided, with intervals and concerns; `a` and `b` hold a value a subject, pairs in one order.
+/// Never throws for samples that cannot be tested: says why.
+Comparison compare(Test test, const std::vector<double>& a, const std::vector<double>& b,
+                   const std::string& a_name, const std::string& b_name, std::uint64_t seed);
 
 /// Welch, one-tailed (a is smaller), trials pooled as if independent: the way of Tzafestas 2008.
-Comparison compareAsPublished(const std::vector<double>& a, const std::vector<double>& b, const std::string& a_name, const std::string& b_name);
+Comparison compareAsPublished(const std::vector<double>& a, const std::vector<double>& b,
+                              const std::string& a_name, const std::string& b_name);
 
 /// Fills p_holm of those that were tested.
 void correctTogether(const std::vector<Comparison*>& family);

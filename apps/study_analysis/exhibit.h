@@ -10,14 +10,14 @@ namespace palpa::study_analysis {
 enum class Format { number, p_value };
 
 struct Column {
-  std::string name;    ///< in files: "mean_first"; never changes its meaning
-  std::string title;   ///< for readers: "Mean, first two"
+  std::string name;   ///< in files: "mean_first"; never changes its meaning
+  std::string title;  ///< for readers: "Mean, first two"
   int decimals = 1;
   Format format = Format::number;
-  bool page = true;    ///< false: in files only, the page would be too wide
+  bool page = true;  ///< false: in files only, the page would be too wide
 };
 
-using Cell = std::variant<std::string, double>;   ///< not a number: does not apply
+using Cell = std::variant<std::string, double>;  ///< not a number: does not apply
 
 struct Table {
   std::vector<Column> columns;
@@ -26,20 +26,20 @@ struct Table {
 
 struct PlotPoint {
   double x = 0, y = 0;
-  double low = 0, high = 0;   ///< 95 % interval; equal where there is none
+  double low = 0, high = 0;  ///< 95 % interval; equal where there is none
 };
 
 struct PlotSeries {
   std::string label;
-  int family = 0;             ///< of like colour, dash and shape: condition, group
+  int family = 0;  ///< of like colour, dash and shape: condition, group
   std::vector<PlotPoint> points;
 };
 
 enum class PlotKind {
-  curves,    ///< means over trials with bands
-  bars,      ///< x: 0, 1, ... named by x_names; a series a colour
-  slopes,    ///< before and after, a line a subject, a panel a family
-  scatter    ///< a point a subject
+  curves,  ///< means over trials with bands
+  bars,    ///< x: 0, 1, ... named by x_names; a series a colour
+  slopes,  ///< before and after, a line a subject, a panel a family
+  scatter  ///< a point a subject
 };
 
 /// A vertical line with the name of what begins there.
@@ -51,21 +51,22 @@ struct PlotDivider {
 struct Plot {
   PlotKind kind = PlotKind::curves;
   std::string x_title, y_title;
-  std::vector<std::string> x_names, families;   ///< families: what a colour stands for
+  std::vector<std::string> x_names, families;  ///< families: what a colour stands for
   std::vector<PlotSeries> series;
   std::vector<PlotDivider> dividers;
 };
 
 enum class Part { figure, table, check, published };
 
-/// A table or figure of the results, with what is to be said of it; a figure has its numbers as a table, too.
+/// A table or figure of the results, with what is to be said of it; a figure has its numbers as a
+/// table, too.
 struct Exhibit {
-  std::string id;        ///< "table_3": names its files
+  std::string id;  ///< "table_3": names its files
   std::string title, caption;
   Part part = Part::table;
   Table table;
   std::vector<Plot> plots;
-  std::vector<std::string> notes;   ///< assumptions in doubt, who was left out
+  std::vector<std::string> notes;  ///< assumptions in doubt, who was left out
 };
 
 /// What a study found, in the order in which it is read.
@@ -74,10 +75,11 @@ struct StudyResult {
   std::vector<std::string> groups, conditions;
   std::size_t subjects = 0, trials = 0, simulated_trials = 0;
   std::vector<std::string> software;
-  std::vector<std::string> findings;     ///< plain sentences, most important first
+  std::vector<std::string> findings;  ///< plain sentences, most important first
   std::vector<Exhibit> exhibits;
-  std::vector<std::string> cautions;     ///< what cannot be said, and why
-  std::vector<std::string> published_words;   ///< why the figures after the published way are not to be trusted; empty: not asked for
+  std::vector<std::string> cautions;         ///< what cannot be said, and why
+  std::vector<std::string> published_words;  ///< why the figures after the published way are not to
+                                             ///< be trusted; empty: not asked for
 };
 
 }  // namespace palpa::study_analysis

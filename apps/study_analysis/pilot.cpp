@@ -13,7 +13,8 @@
 namespace palpa::study_analysis {
 namespace {
 
-std::string cellWords(const StudyDesign& design, const std::string& group, const std::string& condition) {
+std::string cellWords(const StudyDesign& design, const std::string& group,
+                      const std::string& condition) {
   return inWords(design, group) + (condition.empty() ? "" : ", " + inWords(design, condition));
 }
 
@@ -32,35 +33,54 @@ statistics::BootstrapInterval rateInterval(const std::vector<Learning>& all, std
   return statistics::bootstrap({numbers}, rate, {2000, 0.95, seed});
 }
 
-LearningCell learningCell(const std::vector<Series>& series, const StudyDesign& design, const std::string& metric, const std::string& group, const std::string& condition) {
+LearningCell learningCell(const std::vector<Series>& series, const StudyDesign& design,
+                          const std::string& metric, const std::string& group,
+                          const std::string& condition) {
   const std::vector<Series> cell = within(series, group, condition);
   const std::vector<Learning> all = learningOf(cell);
-  LearningCell learning{metric, group, condition, cell.size() - all.size(), compare(Test::paired, lastOf(all), firstOf(all), "last two trials", "first two", design.seed), {std::nan(""), std::nan(""), std::nan("")}, {}};
+  LearningCell learning{
+      metric,
+      group,
+      condition,
+      cell.size() - all.size(),
+      compare(Test::paired, lastOf(all), firstOf(all), "last two trials", "first two", design.seed),
+      {std::nan(""), std::nan(""), std::nan("")},
+      {}};
   learning.test.metric = metric;
   learning.test.about = cellWords(design, group, condition);
   for (const Learning& l : all)
     if (l.first != 0) learning.rates.push_back(1 - l.last / l.first);
-  if (learning.rates.size() == all.size() && all.size() >= 2) learning.rate = rateInterval(all, design.seed);
+  if (learning.rates.size() == all.size() && all.size() >= 2)
+    learning.rate = rateInterval(all, design.seed);
   return learning;
 }
 
-Comparison betweenRates(const StudyDesign& design, const LearningCell& without, const LearningCell& with) {
-  Comparison c = compare(Test::welch, with.rates, without.rates, inWords(design, with.condition), inWords(design, without.condition), design.seed);
+Comparison betweenRates(const StudyDesign& design, const LearningCell& without,
+                        const LearningCell& with) {
+  Comparison c = compare(Test::welch, with.rates, without.rates, inWords(design, with.condition),
+                         inWords(design, without.condition), design.seed);
   c.metric = with.metric;
   c.about = "learning of " + inWords(design, with.group);
   return c;
 }
 
-Comparison betweenGroups(const std::vector<Series>& series, const StudyDesign& design, const std::string& metric, const Pilot& pilot, const std::string& condition, bool published) {
-  const std::vector<Series> experts = within(series, pilot.experts, condition), learners = within(series, pilot.learners, condition);
+Comparison betweenGroups(const std::vector<Series>& series, const StudyDesign& design,
+                         const std::string& metric, const Pilot& pilot,
+                         const std::string& condition, bool published) {
+  const std::vector<Series> experts = within(series, pilot.experts, condition),
+                            learners = within(series, pilot.learners, condition);
   const std::string a = inWords(design, pilot.experts), b = inWords(design, pilot.learners);
-  Comparison c = published ? compareAsPublished(pooledTrials(experts), pooledTrials(learners), a, b) : compare(Test::welch, subjectMeans(experts), subjectMeans(learners), a, b, design.seed);
+  Comparison c = published ? compareAsPublished(pooledTrials(experts), pooledTrials(learners), a, b)
+                           : compare(Test::welch, subjectMeans(experts), subjectMeans(learners), a,
+                                     b, design.seed);
   c.metric = metric;
   c.about = condition.empty() ? "all trials" : inWords(design, condition);
   return c;
 }
 
-Comparison publishedLearning(const std::vector<Series>& series, const StudyDesign& design, const std::string& metric, const std::string& group, const std::string& condition) {
+Comparison publishedLearning(const std::vector<Series>& series, const StudyDesign& design,
+                             const std::string& metric, const std::string& group,
+                             const std::string& condition) {
   std::vector<double> first, last;
   for (const Learning& l : learningOf(within(series, group, condition))) {
     first.insert(first.end(), l.first_trials.begin(), l.first_trials.end());
@@ -81,7 +101,8 @@ void correctPilot(Pilot& pilot) {
 }
 
 bool hasMetric(const std::vector<StudyRow>& rows, const std::string& metric) {
-  return std::any_of(rows.begin(), rows.end(), [&](const StudyRow& r) { return std::isfinite(r.metric(metric)); });
+  return std::any_of(rows.begin(), rows.end(),
+                     [&](const StudyRow& r) { return std::isfinite(r.metric(metric)); });
 }
 
 }  // namespace
@@ -89,23 +110,30 @@ bool hasMetric(const std::vector<StudyRow>& rows, const std::string& metric) {
 Pilot pilotOf(const std::vector<StudyRow>& rows, const StudyDesign& design) {
   Pilot pilot;
   const std::vector<std::string> groups = groupsOf(rows, design);
-  if (groups.empty()) throw UsageError("no trial to analyse", design.title, "Bring sessions of the study into the records first");
+  if (groups.empty())
+    throw UsageError("no trial to analyse", design.title,
+                     "Bring sessions of the study into the records first");
   pilot.learners = groups[0];
   if (groups.size() > 1) pilot.experts = groups[1];
   pilot.conditions = conditionsOf(rows, design);
-  if (std::none_of(kPilotMetrics.begin(), kPilotMetrics.end(), [&](const std::string& m) { return hasMetric(rows, m); }))
-    throw UsageError("no trial has the figures time_s or total", design.title, "Name the columns so, or use --kind general");
+  if (std::none_of(kPilotMetrics.begin(), kPilotMetrics.end(),
+                   [&](const std::string& m) { return hasMetric(rows, m); }))
+    throw UsageError("no trial has the figures time_s or total", design.title,
+                     "Name the columns so, or use --kind general");
   for (const std::string& condition : pilot.conditions)
     for (const std::string& metric : kPilotMetrics) {
       const std::vector<Series> series = seriesOf(rows, metric);
       pilot.learning.push_back(learningCell(series, design, metric, pilot.learners, condition));
-      pilot.learning_published.push_back(publishedLearning(series, design, metric, pilot.learners, condition));
+      pilot.learning_published.push_back(
+          publishedLearning(series, design, metric, pilot.learners, condition));
       if (pilot.experts.empty()) continue;
       pilot.groups.push_back(betweenGroups(series, design, metric, pilot, condition, false));
-      pilot.groups_published.push_back(betweenGroups(series, design, metric, pilot, condition, true));
+      pilot.groups_published.push_back(
+          betweenGroups(series, design, metric, pilot, condition, true));
     }
   for (std::size_t m = 0; pilot.conditions.size() > 1 && m < kPilotMetrics.size(); ++m)
-    pilot.learning_between.push_back(betweenRates(design, pilot.learning[m], pilot.learning[kPilotMetrics.size() + m]));
+    pilot.learning_between.push_back(
+        betweenRates(design, pilot.learning[m], pilot.learning[kPilotMetrics.size() + m]));
   correctPilot(pilot);
   return pilot;
 }
@@ -114,10 +142,13 @@ StudyResult analysePilot(const std::vector<StudyRow>& rows, const StudyDesign& d
   const Pilot pilot = pilotOf(rows, design);
   StudyResult result = framedResult(rows, design, "paracentesis pilot");
   result.findings = pilotFindings(design, pilot);
-  const auto add = [&](std::vector<Exhibit> more) { std::move(more.begin(), more.end(), std::back_inserter(result.exhibits)); };
+  const auto add = [&](std::vector<Exhibit> more) {
+    std::move(more.begin(), more.end(), std::back_inserter(result.exhibits));
+  };
   add(pilotFigures(rows, design, pilot));
   add(pilotTables(rows, design, pilot));
-  for (const std::string& metric : kPilotMetrics) result.exhibits.push_back(mixedExhibit(rows, design, metric));
+  for (const std::string& metric : kPilotMetrics)
+    result.exhibits.push_back(mixedExhibit(rows, design, metric));
   if (design.as_published) {
     add(pilotPublished(design, pilot));
     result.published_words = publishedWords();

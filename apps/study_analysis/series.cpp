@@ -14,7 +14,9 @@ std::vector<Series> seriesOf(const std::vector<StudyRow>& rows, const std::strin
   std::vector<Series> all;
   std::vector<int> counts;
   for (const StudyRow& row : rows) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Series& s) { return s.subject == row.subject && s.condition == row.condition; });
+    const auto found = std::find_if(all.begin(), all.end(), [&](const Series& s) {
+      return s.subject == row.subject && s.condition == row.condition;
+    });
     const auto at = static_cast<std::size_t>(found - all.begin());
     if (found == all.end()) {
       all.push_back({row.subject, row.group, row.condition, {}, {}});
@@ -30,10 +32,12 @@ std::vector<Series> seriesOf(const std::vector<StudyRow>& rows, const std::strin
   return all;
 }
 
-std::vector<Series> within(const std::vector<Series>& all, const std::string& group, const std::string& condition) {
+std::vector<Series> within(const std::vector<Series>& all, const std::string& group,
+                           const std::string& condition) {
   std::vector<Series> some;
   for (const Series& s : all)
-    if ((group.empty() || s.group == group) && (condition.empty() || s.condition == condition)) some.push_back(s);
+    if ((group.empty() || s.group == group) && (condition.empty() || s.condition == condition))
+      some.push_back(s);
   return some;
 }
 
@@ -53,7 +57,11 @@ std::vector<Learning> learningOf(const std::vector<Series>& series) {
   std::vector<Learning> all;
   for (const Series& s : series) {
     if (s.values.size() < kTrialsToLearn) continue;
-    Learning l{s.subject, 0, 0, {s.values.begin(), s.values.begin() + 2}, {s.values.end() - 2, s.values.end()}};
+    Learning l{s.subject,
+               0,
+               0,
+               {s.values.begin(), s.values.begin() + 2},
+               {s.values.end() - 2, s.values.end()}};
     l.first = meanOf(l.first_trials);
     l.last = meanOf(l.last_trials);
     all.push_back(std::move(l));

@@ -8,10 +8,11 @@
 
 namespace palpa::study_analysis {
 
-/// A figure over the trials of one subject under one condition, in order; trials to which it does not apply are left out.
+/// A figure over the trials of one subject under one condition, in order; trials to which it does
+/// not apply are left out.
 struct Series {
   std::string subject, group, condition;
-  std::vector<int> trials;        ///< 1, 2, ... among this subject's trials under this condition
+  std::vector<int> trials;  ///< 1, 2, ... among this subject's trials under this condition
   std::vector<double> values;
 };
 
@@ -19,7 +20,8 @@ struct Series {
 std::vector<Series> seriesOf(const std::vector<StudyRow>& rows, const std::string& metric);
 
 /// Those of a group under a condition; an empty text: any.
-std::vector<Series> within(const std::vector<Series>& all, const std::string& group, const std::string& condition);
+std::vector<Series> within(const std::vector<Series>& all, const std::string& group,
+                           const std::string& condition);
 
 /// One value a subject: the mean of his trials.
 std::vector<double> subjectMeans(const std::vector<Series>& series);
@@ -34,7 +36,7 @@ struct Learning {
   std::vector<double> first_trials, last_trials;
 };
 
-inline constexpr std::size_t kTrialsToLearn = 4;   ///< fewer do not have a first two and a last two
+inline constexpr std::size_t kTrialsToLearn = 4;  ///< fewer do not have a first two and a last two
 
 /// Of each subject with four trials or more.
 std::vector<Learning> learningOf(const std::vector<Series>& series);
@@ -42,12 +44,13 @@ std::vector<Learning> learningOf(const std::vector<Series>& series);
 std::vector<double> firstOf(const std::vector<Learning>& all);
 std::vector<double> lastOf(const std::vector<Learning>& all);
 
-/// Of means over subjects: 1 - mean(last) / mean(first), Tzafestas 2008. Positive: less at the end. Not a number where the first mean is 0.
+/// Of means over subjects: 1 - mean(last) / mean(first), Tzafestas 2008. Positive: less at the end.
+/// Not a number where the first mean is 0.
 double learningRate(const std::vector<Learning>& all);
 
 /// What a figure is called in tables and sentences: "Time, s"; and whether less of it is better.
 std::string metricTitle(const std::string& metric);
-std::string metricUnit(const std::string& metric);   ///< "s"; "" for a plain number
-bool lowerIsBetter(const std::string& metric);       ///< true of what the table of metrics does not know
+std::string metricUnit(const std::string& metric);  ///< "s"; "" for a plain number
+bool lowerIsBetter(const std::string& metric);  ///< true of what the table of metrics does not know
 
 }  // namespace palpa::study_analysis

@@ -8,7 +8,8 @@
 namespace palpa::study_analysis {
 namespace {
 
-constexpr char kColumns[] = "The first line is SUBJECT,GROUP,CONDITION,BLOCK,TRIAL and the names of the figures";
+constexpr char kColumns[] =
+    "The first line is SUBJECT,GROUP,CONDITION,BLOCK,TRIAL and the names of the figures";
 
 using Fields = std::vector<std::string>;
 
@@ -21,7 +22,7 @@ struct Line {
 class CsvReader {
  public:
   CsvReader(const std::string& text, std::string where) : text_(text), where_(std::move(where)) {
-    if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;   // a byte order mark of a spreadsheet
+    if (text_.starts_with("\xef\xbb\xbf")) at_ = 3;  // a byte order mark of a spreadsheet
   }
 
   bool next(Line& line) {
@@ -47,7 +48,8 @@ class CsvReader {
       readQuoted(field);
       return field;
     }
-    while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n' && text_[at_] != '\r') field += text_[at_++];
+    while (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n' && text_[at_] != '\r')
+      field += text_[at_++];
     return field;
   }
 
@@ -58,10 +60,13 @@ class CsvReader {
       if (text_[at_] == '\n') ++number_;
       field += text_[at_];
     }
-    if (at_ >= text_.size()) throw UsageError("a quoted text has no end", where_, "Correct the table");
+    if (at_ >= text_.size())
+      throw UsageError("a quoted text has no end", where_, "Correct the table");
     ++at_;
     if (at_ < text_.size() && text_[at_] != ',' && text_[at_] != '\n' && text_[at_] != '\r')
-      throw UsageError("something follows a quoted text", where_ + ", line " + std::to_string(number_), "Double the quotes within a text");
+      throw UsageError("something follows a quoted text",
+                       where_ + ", line " + std::to_string(number_),
+                       "Double the quotes within a text");
   }
 
   const std::string& text_;
@@ -72,9 +77,12 @@ class CsvReader {
 /// The cells of a line, by the names in the header.
 class Cells {
  public:
-  Cells(const Fields& header, const Line& line, const std::string& where) : header_(header), line_(line), where_(where + ", line " + std::to_string(line.number)) {
+  Cells(const Fields& header, const Line& line, const std::string& where)
+      : header_(header), line_(line), where_(where + ", line " + std::to_string(line.number)) {
     if (line.fields.size() != header.size())
-      throw UsageError("has " + std::to_string(line.fields.size()) + " cells where the header has " + std::to_string(header.size()), where_, "Correct the line");
+      throw UsageError("has " + std::to_string(line.fields.size()) +
+                           " cells where the header has " + std::to_string(header.size()),
+                       where_, "Correct the line");
   }
 
   std::string text(const std::string& column) const {
@@ -88,7 +96,8 @@ class Cells {
     double value = 0;
     const auto end = std::from_chars(cell.data(), cell.data() + cell.size(), value);
     if (end.ec != std::errc() || end.ptr != cell.data() + cell.size() || !std::isfinite(value))
-      throw UsageError("column " + header_[i] + ": \"" + cell + "\" is not a number", where_, "Write 12.5; leave the cell empty where a figure does not apply");
+      throw UsageError("column " + header_[i] + ": \"" + cell + "\" is not a number", where_,
+                       "Write 12.5; leave the cell empty where a figure does not apply");
     return value;
   }
 
@@ -96,7 +105,9 @@ class Cells {
     for (std::size_t i = 0; i < header_.size(); ++i) {
       if (header_[i] != column || line_.fields[i].empty()) continue;
       const double value = number(i);
-      if (value != std::floor(value) || value < low || value > 1e6) throw UsageError("column " + column + " must be a whole number from " + std::to_string(low), where_, "Correct the line");
+      if (value != std::floor(value) || value < low || value > 1e6)
+        throw UsageError("column " + column + " must be a whole number from " + std::to_string(low),
+                         where_, "Correct the line");
       return static_cast<int>(value);
     }
     return otherwise;
@@ -114,16 +125,27 @@ class Cells {
 };
 
 bool isFigure(const std::string& column) {
-  for (const char* name : {"SUBJECT", "GROUP", "CONDITION", "BLOCK", "TRIAL", "SESSION", "SIMULATED", "SOFTWARE", "ROLE", "OUTCOME"})
+  for (const char* name : {"SUBJECT", "GROUP", "CONDITION", "BLOCK", "TRIAL", "SESSION",
+                           "SIMULATED", "SOFTWARE", "ROLE", "OUTCOME"})
     if (column == name) return false;
   return true;
 }
 
 StudyRow rowOf(const Cells& cells) {
-  StudyRow row{cells.text("SUBJECT"), cells.text("GROUP"), cells.text("CONDITION"), cells.text("BLOCK"), cells.whole("SESSION", 1, 1), cells.whole("TRIAL", 0, 1), 0,
-               cells.whole("SIMULATED", 0, 0) != 0, cells.text("SOFTWARE"), {}};
-  if (row.subject.empty()) throw UsageError("has no subject", cells.where(), "Say whose trial it is");
-  if (row.trial == 0) throw UsageError("has no trial number", cells.where(), "Number the trials of a block from 1");
+  StudyRow row{cells.text("SUBJECT"),
+               cells.text("GROUP"),
+               cells.text("CONDITION"),
+               cells.text("BLOCK"),
+               cells.whole("SESSION", 1, 1),
+               cells.whole("TRIAL", 0, 1),
+               0,
+               cells.whole("SIMULATED", 0, 0) != 0,
+               cells.text("SOFTWARE"),
+               {}};
+  if (row.subject.empty())
+    throw UsageError("has no subject", cells.where(), "Say whose trial it is");
+  if (row.trial == 0)
+    throw UsageError("has no trial number", cells.where(), "Number the trials of a block from 1");
   for (std::size_t i = 0; i < cells.size(); ++i)
     if (isFigure(cells.name(i)) && !cells.empty(i)) row.metrics[cells.name(i)] = cells.number(i);
   return row;
@@ -132,11 +154,16 @@ StudyRow rowOf(const Cells& cells) {
 void requireHeader(const Fields& header, const std::string& where) {
   for (const char* needed : {"SUBJECT", "GROUP", "CONDITION", "BLOCK", "TRIAL"}) {
     const auto times = std::count(header.begin(), header.end(), needed);
-    if (times != 1) throw UsageError(std::string(times ? "has more than one column " : "has no column ") + needed, where, kColumns);
+    if (times != 1)
+      throw UsageError(std::string(times ? "has more than one column " : "has no column ") + needed,
+                       where, kColumns);
   }
-  if (std::none_of(header.begin(), header.end(), isFigure)) throw UsageError("has no figures", where, kColumns);
+  if (std::none_of(header.begin(), header.end(), isFigure))
+    throw UsageError("has no figures", where, kColumns);
   for (const std::string& name : header)
-    if (name.empty() || std::count(header.begin(), header.end(), name) > 1) throw UsageError(name.empty() ? "has a column without a name" : "has two columns " + name, where, kColumns);
+    if (name.empty() || std::count(header.begin(), header.end(), name) > 1)
+      throw UsageError(name.empty() ? "has a column without a name" : "has two columns " + name,
+                       where, kColumns);
 }
 
 }  // namespace
@@ -152,7 +179,8 @@ std::vector<StudyRow> rowsOfCsv(const std::string& text, const std::string& wher
     if (cells.text("ROLE") == "familiarisation" || cells.text("OUTCOME") == "void") continue;
     rows.push_back(rowOf(cells));
   }
-  if (rows.empty()) throw UsageError("holds no scored trial", where, "Each line after the first is a trial");
+  if (rows.empty())
+    throw UsageError("holds no scored trial", where, "Each line after the first is a trial");
   orderAndNumber(rows, where);
   return rows;
 }

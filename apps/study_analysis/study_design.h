@@ -12,21 +12,25 @@ namespace palpa::study_analysis {
 
 enum class StudyKind { general, paracentesis_pilot, search_study };
 
-/// "general" or "", "paracentesis pilot", "search study". Throws UsageError for another, naming `where`.
+/// "general" or "", "paracentesis pilot", "search study". Throws UsageError for another, naming
+/// `where`.
 StudyKind studyKindNamed(const std::string& name, const std::string& where);
 
 /// What is asked of the rows.
 struct StudyDesign {
   StudyKind kind = StudyKind::general;
   std::string title = "Study";
-  std::vector<std::string> groups, conditions;   ///< in the order of the protocol; what is not named follows as it appears
-  std::map<std::string, std::string> words;      ///< how groups, conditions and blocks are called in sentences; default: by their name
-  std::vector<std::string> metrics;              ///< of the general analysis; empty: all that vary
-  bool as_published = false;                     ///< beside: the way of the paper
-  std::uint64_t seed = 1;                        ///< of the bootstrap
+  std::vector<std::string> groups,
+      conditions;  ///< in the order of the protocol; what is not named follows as it appears
+  std::map<std::string, std::string>
+      words;  ///< how groups, conditions and blocks are called in sentences; default: by their name
+  std::vector<std::string> metrics;  ///< of the general analysis; empty: all that vary
+  bool as_published = false;         ///< beside: the way of the paper
+  std::uint64_t seed = 1;            ///< of the bootstrap
 };
 
-/// The whole analysis. Throws UsageError where the rows lack what the kind of study needs, Error where nothing can be computed.
+/// The whole analysis. Throws UsageError where the rows lack what the kind of study needs, Error
+/// where nothing can be computed.
 StudyResult analyseStudy(const std::vector<StudyRow>& rows, const StudyDesign& design);
 
 std::string inWords(const StudyDesign& design, const std::string& name);

@@ -20,13 +20,15 @@ struct ModelTable {
 
 struct Factor {
   std::string name;
-  std::vector<double> values;   ///< a value a trial
+  std::vector<double> values;  ///< a value a trial
 };
 
 /// -1/2 for the first level, +1/2 for the second.
-Factor halves(const std::vector<Series>& series, const std::vector<std::string>& levels, const StudyDesign& design, std::string Series::* of) {
+Factor halves(const std::vector<Series>& series, const std::vector<std::string>& levels,
+              const StudyDesign& design, std::string Series::*of) {
   Factor factor{inWords(design, levels[1]) + " against " + inWords(design, levels[0]), {}};
-  for (const Series& s : series) factor.values.insert(factor.values.end(), s.values.size(), s.*of == levels[1] ? 0.5 : -0.5);
+  for (const Series& s : series)
+    factor.values.insert(factor.values.end(), s.values.size(), s.*of == levels[1] ? 0.5 : -0.5);
   return factor;
 }
 
@@ -39,10 +41,14 @@ Factor courseOf(const std::vector<Series>& series) {
   return factor;
 }
 
-std::vector<Factor> factorsOf(const std::vector<Series>& series, const std::vector<std::string>& groups, const std::vector<std::string>& conditions, const StudyDesign& design) {
+std::vector<Factor> factorsOf(const std::vector<Series>& series,
+                              const std::vector<std::string>& groups,
+                              const std::vector<std::string>& conditions,
+                              const StudyDesign& design) {
   std::vector<Factor> factors;
   if (groups.size() == 2) factors.push_back(halves(series, groups, design, &Series::group));
-  if (conditions.size() == 2) factors.push_back(halves(series, conditions, design, &Series::condition));
+  if (conditions.size() == 2)
+    factors.push_back(halves(series, conditions, design, &Series::condition));
   factors.push_back(courseOf(series));
   return factors;
 }
@@ -75,38 +81,63 @@ ModelTable tableOf(const std::vector<Series>& series, const std::vector<Factor>&
 statistics::MixedModel fit(const ModelTable& table) {
   const auto rows = static_cast<Eigen::Index>(table.y.size());
   Eigen::MatrixXd x(rows, static_cast<Eigen::Index>(table.columns.size()));
-  for (std::size_t c = 0; c < table.columns.size(); ++c) x.col(static_cast<Eigen::Index>(c)) = Eigen::Map<const Eigen::VectorXd>(table.columns[c].data(), rows);
-  return statistics::fitMixedModel(Eigen::Map<const Eigen::VectorXd>(table.y.data(), rows), x, table.names, table.subject);
+  for (std::size_t c = 0; c < table.columns.size(); ++c)
+    x.col(static_cast<Eigen::Index>(c)) =
+        Eigen::Map<const Eigen::VectorXd>(table.columns[c].data(), rows);
+  return statistics::fitMixedModel(Eigen::Map<const Eigen::VectorXd>(table.y.data(), rows), x,
+                                   table.names, table.subject);
 }
 
 void fillFrom(Exhibit& exhibit, const statistics::MixedModel& model) {
   for (const statistics::FixedEffect& e : model.effects)
-    exhibit.table.rows.push_back({e.name, e.estimate, e.error, e.low, e.high, e.t, e.degrees, e.p, std::string(e.within ? "within subjects" : "between subjects")});
-  exhibit.notes.push_back("Subjects differ by a standard deviation of " + number(model.sd_subject, decimalsFor(model.sd_subject)) + ", trials of one subject by " + number(model.sd_residual, decimalsFor(model.sd_residual)) + ": " +
-                          percent(model.alike) + " of the spread is the subjects' own (" + counted(model.subjects, "subject") + ", " + counted(model.trials, "trial") + ").");
+    exhibit.table.rows.push_back({e.name, e.estimate, e.error, e.low, e.high, e.t, e.degrees, e.p,
+                                  std::string(e.within ? "within subjects" : "between subjects")});
+  exhibit.notes.push_back(
+      "Subjects differ by a standard deviation of " +
+      number(model.sd_subject, decimalsFor(model.sd_subject)) + ", trials of one subject by " +
+      number(model.sd_residual, decimalsFor(model.sd_residual)) + ": " + percent(model.alike) +
+      " of the spread is the subjects' own (" + counted(model.subjects, "subject") + ", " +
+      counted(model.trials, "trial") + ").");
 }
 
 /// A figure's name as a part of a file's.
 std::string plainName(std::string name) {
   for (char& c : name)
-    if (std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_").find(c) == std::string::npos) c = '_';
+    if (std::string("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_").find(c) ==
+        std::string::npos)
+      c = '_';
   return name;
 }
 
 }  // namespace
 
-Exhibit mixedExhibit(const std::vector<StudyRow>& rows, const StudyDesign& design, const std::string& metric) {
-  Exhibit exhibit{"mixed_model_" + plainName(metric), "All trials at once: " + metricTitle(metric),
-                  "A check on the tests above: a mixed model with an intercept for each subject (REML), so that trials of one subject are not taken as independent. Effects are in the figure's own unit; "
+Exhibit mixedExhibit(const std::vector<StudyRow>& rows, const StudyDesign& design,
+                     const std::string& metric) {
+  Exhibit exhibit{"mixed_model_" + plainName(metric),
+                  "All trials at once: " + metricTitle(metric),
+                  "A check on the tests above: a mixed model with an intercept for each subject "
+                  "(REML), so that trials of one subject are not taken as independent. Effects are "
+                  "in the figure's own unit; "
                   "learning is taken as a straight line.",
                   Part::check,
-                  {{{"effect", "Effect", 0}, {"estimate", "Estimate", 2}, {"error", "Standard error", 2}, {"low", "95 % from", 2}, {"high", "to", 2}, {"t", "t", 2}, {"df", "df", 0}, {"p", "p", 3, Format::p_value}, {"kind", "Differs", 0}}, {}},
+                  {{{"effect", "Effect", 0},
+                    {"estimate", "Estimate", 2},
+                    {"error", "Standard error", 2},
+                    {"low", "95 % from", 2},
+                    {"high", "to", 2},
+                    {"t", "t", 2},
+                    {"df", "df", 0},
+                    {"p", "p", 3, Format::p_value},
+                    {"kind", "Differs", 0}},
+                   {}},
                   {},
                   {}};
   const std::vector<Series> series = seriesOf(rows, metric);
-  const std::vector<std::string> groups = groupsOf(rows, design), conditions = conditionsOf(rows, design);
+  const std::vector<std::string> groups = groupsOf(rows, design),
+                                 conditions = conditionsOf(rows, design);
   if (series.empty() || groups.size() > 2 || conditions.size() > 2) {
-    exhibit.notes.push_back(series.empty() ? "No trial has this figure." : "Fitted for two groups and two conditions only.");
+    exhibit.notes.push_back(series.empty() ? "No trial has this figure."
+                                           : "Fitted for two groups and two conditions only.");
     return exhibit;
   }
   try {

@@ -9,22 +9,25 @@ namespace palpa::study_analysis {
 /// A scored trial of a study.
 struct StudyRow {
   std::string subject, group, condition, block;
-  int session = 1;           ///< 1, 2, ... of this subject in this study
-  int trial = 0;             ///< 1, 2, ... in its session and block
-  int overall = 0;           ///< 1, 2, ... of this subject, over all blocks
+  int session = 1;  ///< 1, 2, ... of this subject in this study
+  int trial = 0;    ///< 1, 2, ... in its session and block
+  int overall = 0;  ///< 1, 2, ... of this subject, over all blocks
   bool simulated = false;
-  std::string software;      ///< that recorded it; empty: not told
-  std::map<std::string, double> metrics;   ///< by name; without those that do not apply
-  double metric(const std::string& name) const;   ///< not a number where it does not apply
+  std::string software;                          ///< that recorded it; empty: not told
+  std::map<std::string, double> metrics;         ///< by name; without those that do not apply
+  double metric(const std::string& name) const;  ///< not a number where it does not apply
 };
 
-/// Orders rows by subject (as they first appear), session, block (as it first appears in the session) and trial; then numbers `trial` and `overall` from 1.
-/// Throws UsageError, naming `where`, for a trial that is there twice and for a subject in two groups.
+/// Orders rows by subject (as they first appear), session, block (as it first appears in the
+/// session) and trial; then numbers `trial` and `overall` from 1. Throws UsageError, naming
+/// `where`, for a trial that is there twice and for a subject in two groups.
 void orderAndNumber(std::vector<StudyRow>& rows, const std::string& where);
 
-/// Rows of a table "SUBJECT,GROUP,CONDITION,BLOCK,TRIAL,<figure>,..." (RFC 4180; any order), figures named as in the table of metrics ("time_s", "total", "success") or
-/// as their owner names them; an empty cell: does not apply. Optional columns: SESSION, SIMULATED (0, 1), SOFTWARE, ROLE and OUTCOME: rows whose role is "familiarisation" or whose
-/// outcome is "void" are left out. Throws UsageError, naming `where` and the line, for what it cannot read.
+/// Rows of a table "SUBJECT,GROUP,CONDITION,BLOCK,TRIAL,<figure>,..." (RFC 4180; any order),
+/// figures named as in the table of metrics ("time_s", "total", "success") or as their owner names
+/// them; an empty cell: does not apply. Optional columns: SESSION, SIMULATED (0, 1), SOFTWARE, ROLE
+/// and OUTCOME: rows whose role is "familiarisation" or whose outcome is "void" are left out.
+/// Throws UsageError, naming `where` and the line, for what it cannot read.
 std::vector<StudyRow> rowsOfCsv(const std::string& text, const std::string& where);
 
 }  // namespace palpa::study_analysis

@@ -4,71 +4,40 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/random_stream.h"
 #include "apps/report/study_report.h"
 #include "apps/report/study_table.h"
-#include "apps/study_analysis/learning_model.h"
-#include "apps/study_analysis/study_design.h"
+#include "synthetic_study.h"
 #include "tests/support/files.h"
 #include "well_formed.h"
 
 namespace palpa::report {
 namespace {
 
-using study_analysis::StudyDesign;
-using study_analysis::StudyKind;
 using study_analysis::StudyResult;
-using study_analysis::StudyRow;
-
-/// Twenty simulated subjects, as many as the paper had.
-StudyResult pilotResult() {
-  StudyDesign design;
-  design.kind = StudyKind::paracentesis_pilot;
-  design.title = "Paracentesis pilot";
-  design.groups = {"novice", "experienced"};
-  design.conditions = {"NO", "FF"};
-  design.words = {{"NO", "without force feedback"}, {"FF", "with force feedback"}};
-  design.as_published = true;
-  return analyseStudy(study_analysis::drawStudy(study_analysis::pilotModels(), 5, 10, 1), design);
-}
-
-/// Twenty-one subjects who search; times that fall, success that rises more with cues.
-StudyResult searchResult() {
-  std::vector<StudyRow> rows;
-  anatomy::RandomStream random(4);
-  for (int s = 0; s < 21; ++s) {
-    const bool cues = s % 2 != 0;
-    const double own = 3 * random.normal(), skill = 0.5 + 0.1 * random.normal(), gained = (cues ? 0.12 : 0.05) + 0.1 * random.normal(), hurry = (cues ? 3 : 1) + 2 * random.normal();
-    for (int t = 0; t < 160; ++t) {
-      const bool training = t >= 60 && t < 100, after = t >= 100;
-      const double seconds = std::max(3.0, 14 + own + 20.0 / (1 + 0.04 * t) + (training ? 6 : 0) - (after ? hurry : 0) + 4 * random.normal());
-      const bool found = random.uniform() < skill + (after ? gained : 0);
-      rows.push_back({"S" + std::to_string(s + 1), "trainee", training ? (cues ? "augmented" : "degraded") : "full", training ? "training" : after ? "evaluation" : "baseline", t < 60 ? 1 : 2, t + 1, 0, true, "palpa 0.1.0", {{"success", found ? 1.0 : 0.0}, {"time_s", seconds}}});
-    }
-  }
-  orderAndNumber(rows, "example");
-  StudyDesign design;
-  design.kind = StudyKind::search_study;
-  design.title = "Search study";
-  design.conditions = {"full", "degraded", "augmented"};
-  design.words = {{"degraded", "a weak device without cues"}, {"augmented", "a weak device with cues"}};
-  return analyseStudy(rows, design);
-}
+using test::pilotResult;
+using test::searchResult;
 
 std::string studyPage(const StudyResult& result, const std::string& name) {
-  const std::filesystem::path file = palpa::test::freshFolder("report", "study_" + name) / "report.html";
+  const std::filesystem::path file =
+      palpa::test::freshFolder("report", "study_" + name) / "report.html";
   writeStudyReport({result, {{"Protocol", name + ".json", ""}}}, file);
   const std::string page = palpa::test::slurp(file);
   EXPECT_EQ(test::faultOf(page), "");
   return page;
 }
 
-bool studySays(const std::string& page, const std::string& words) { return page.find(words) != std::string::npos; }
+bool studySays(const std::string& page, const std::string& words) {
+  return page.find(words) != std::string::npos;
+}
 
 TEST(StudyPage, ExamplesToLookAt) {
-  const std::string pilot = studyPage(pilotResult(), "example_pilot"), search = studyPage(searchResult(), "example_search");
-  for (const char* id : {"table_3", "table_4", "table_5", "table_6", "figure_4", "figure_5", "figure_6", "mixed_model_total", "table_6_as_published"}) EXPECT_TRUE(studySays(pilot, std::string("id=\"") + id + '"')) << id;
-  for (const char* id : {"figure_6", "figure_7", "figure_8", "figure_9", "figure_10", "anova"}) EXPECT_TRUE(studySays(search, std::string("id=\"") + id + '"')) << id;
+  const std::string pilot = studyPage(pilotResult(), "example_pilot"),
+                    search = studyPage(searchResult(), "example_search");
+  for (const char* id : {"table_3", "table_4", "table_5", "table_6", "figure_4", "figure_5",
+                         "figure_6", "mixed_model_total", "table_6_as_published"})
+    EXPECT_TRUE(studySays(pilot, std::string("id=\"") + id + '"')) << id;
+  for (const char* id : {"figure_6", "figure_7", "figure_8", "figure_9", "figure_10", "anova"})
+    EXPECT_TRUE(studySays(search, std::string("id=\"") + id + '"')) << id;
   EXPECT_LT(pilot.size() + search.size(), 1'000'000u);
 }
 
@@ -82,9 +51,12 @@ TEST(StudyPage, SentencesComeFirstAndSimulatedIsSaid) {
   StudyResult people = pilotResult();
   people.simulated_trials = 0;
   people.published_words.clear();
-  std::erase_if(people.exhibits, [](const study_analysis::Exhibit& e) { return e.part == study_analysis::Part::published; });
+  std::erase_if(people.exhibits, [](const study_analysis::Exhibit& e) {
+    return e.part == study_analysis::Part::published;
+  });
   const std::string real = studyPage(people, "people");
-  for (const char* words : {"SIMULATED", "simulated", "As published", "<script", "<link", "src="}) EXPECT_FALSE(studySays(real, words)) << words;
+  for (const char* words : {"SIMULATED", "simulated", "As published", "<script", "<link", "src="})
+    EXPECT_FALSE(studySays(real, words)) << words;
 }
 
 TEST(StudyPage, NoTextIsMarkup) {
@@ -100,7 +72,8 @@ TEST(StudyPage, NoTextIsMarkup) {
   EXPECT_FALSE(studySays(studyPage(result, "hostile"), "<script"));
 }
 
-/// Values far apart, below zero, alike, or none: drawn within the picture, and nothing that is no number in a path.
+/// Values far apart, below zero, alike, or none: drawn within the picture, and nothing that is no
+/// number in a path.
 TEST(StudyPage, DrawsWhateverComes) {
   StudyResult result = pilotResult();
   for (const double value : {-5.0, 0.0, 1e9, 1e-9, std::nan("")}) {
@@ -108,7 +81,8 @@ TEST(StudyPage, DrawsWhateverComes) {
     for (study_analysis::Exhibit& e : odd.exhibits)
       for (study_analysis::Plot& p : e.plots)
         for (study_analysis::PlotSeries& s : p.series)
-          for (study_analysis::PlotPoint& point : s.points) point.y = point.low = point.high = value;
+          for (study_analysis::PlotPoint& point : s.points)
+            point.y = point.low = point.high = value;
     const std::string page = studyPage(odd, "odd");
     EXPECT_FALSE(studySays(page, "nan") || studySays(page, "inf\"")) << value;
   }
@@ -126,24 +100,30 @@ TEST(StudyTables, ACsvAndAJsonForEachWithTheSameNumbers) {
   EXPECT_EQ(files.size(), 2 * result.exhibits.size());
   for (const study_analysis::Exhibit& e : result.exhibits) {
     const std::string csv = palpa::test::slurp(folder / (e.id + ".csv"));
-    EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')), 1 + e.table.rows.size()) << e.id;
+    EXPECT_EQ(static_cast<std::size_t>(std::count(csv.begin(), csv.end(), '\n')),
+              1 + e.table.rows.size())
+        << e.id;
     const auto json = nlohmann::json::parse(palpa::test::slurp(folder / (e.id + ".json")));
     EXPECT_EQ(json.at("simulated"), true);
     ASSERT_EQ(json.at("rows").size(), e.table.rows.size());
     for (std::size_t r = 0; r < e.table.rows.size(); ++r)
       for (std::size_t c = 0; c < e.table.columns.size(); ++c)
-        if (const double* value = std::get_if<double>(&e.table.rows[r][c]); value && std::isfinite(*value)) {
+        if (const double* value = std::get_if<double>(&e.table.rows[r][c]);
+            value && std::isfinite(*value)) {
           EXPECT_EQ(json["rows"][r][c].get<double>(), *value);
         }
   }
 }
 
 TEST(StudyTables, CellsAreQuotedNumberedAndMarked) {
-  const study_analysis::Table table{{{"who", "Who", 0}, {"p", "p", 3, study_analysis::Format::p_value}, {"p", "p", 3}}, {{std::string("a,\"b\""), 0.00021, std::nan("")}}};
+  const study_analysis::Table table{
+      {{"who", "Who", 0}, {"p", "p", 3, study_analysis::Format::p_value}, {"p", "p", 3}},
+      {{std::string("a,\"b\""), 0.00021, std::nan("")}}};
   EXPECT_EQ(studyCsv(table, true), "who,p,p_2,SIMULATED\n\"a,\"\"b\"\"\",0.00021,,1\n");
   EXPECT_EQ(studyCell(table.rows[0][1], table.columns[1]), "< 0.001");
   EXPECT_EQ(studyCell(table.rows[0][2], table.columns[2]), "–");
-  const auto json = nlohmann::json::parse(studyJson({"id", "t", "c", study_analysis::Part::table, table, {}, {"n"}}, false));
+  const auto json = nlohmann::json::parse(
+      studyJson({"id", "t", "c", study_analysis::Part::table, table, {}, {"n"}}, false));
   EXPECT_TRUE(json["rows"][0][2].is_null());
   EXPECT_EQ(json["columns"][2]["name"], "p_2");
 }

@@ -1,4 +1,5 @@
-// Two published fits of lme (Pinheiro and Bates, "Mixed-Effects Models in S and S-PLUS", Springer 2000) with their data, and laws.
+// Two published fits of lme (Pinheiro and Bates, "Mixed-Effects Models in S and S-PLUS", Springer
+// 2000) with their data, and laws.
 #include <gtest/gtest.h>
 
 #include <Eigen/Core>
@@ -20,19 +21,24 @@ struct Trials {
 
 /// Travel time of ultrasonic waves in six rails (Devore 2000; Pinheiro and Bates, section 1.1).
 Trials rails() {
-  const std::vector<double> times{55, 53, 54, 26, 37, 32, 78, 91, 85, 92, 100, 96, 49, 51, 50, 80, 85, 83};
+  const std::vector<double> times{55, 53,  54, 26, 37, 32, 78, 91, 85,
+                                  92, 100, 96, 49, 51, 50, 80, 85, 83};
   Trials t{Eigen::Map<const Eigen::VectorXd>(times.data(), 18), Eigen::MatrixXd::Ones(18, 1), {}};
   for (int i = 0; i < 18; ++i) t.subject.push_back(i / 3);
   return t;
 }
 
-/// Distance from pituitary gland to pterygomaxillary fissure at 8, 10, 12, 14 years, 16 boys and 11 girls (Potthoff and Roy, Biometrika 51, 1964).
+/// Distance from pituitary gland to pterygomaxillary fissure at 8, 10, 12, 14 years, 16 boys and 11
+/// girls (Potthoff and Roy, Biometrika 51, 1964).
 Trials jaws(bool interaction) {
   const std::vector<std::vector<double>> children{
-      {26, 25, 29, 31},       {21.5, 22.5, 23, 26.5}, {23, 22.5, 24, 27.5},   {25.5, 27.5, 26.5, 27}, {20, 23.5, 22.5, 26},   {24.5, 25.5, 27, 28.5}, {22, 22, 24.5, 26.5},
-      {24, 21.5, 24.5, 25.5}, {23, 20.5, 31, 26},     {27.5, 28, 31, 31.5},   {23, 23, 23.5, 25},     {21.5, 23.5, 24, 28},   {17, 24.5, 26, 29.5},   {22.5, 25.5, 25.5, 26},
-      {23, 24.5, 26, 30},     {22, 21.5, 23.5, 25},   {21, 20, 21.5, 23},     {21, 21.5, 24, 25.5},   {20.5, 24, 24.5, 26},   {23.5, 24.5, 25, 26.5}, {21.5, 23, 22.5, 23.5},
-      {20, 21, 21, 22.5},     {21.5, 22.5, 23, 25},   {23, 23, 23.5, 24},     {20, 21, 22, 21.5},     {16.5, 19, 19, 19.5},   {24.5, 25, 28, 28}};
+      {26, 25, 29, 31},       {21.5, 22.5, 23, 26.5}, {23, 22.5, 24, 27.5}, {25.5, 27.5, 26.5, 27},
+      {20, 23.5, 22.5, 26},   {24.5, 25.5, 27, 28.5}, {22, 22, 24.5, 26.5}, {24, 21.5, 24.5, 25.5},
+      {23, 20.5, 31, 26},     {27.5, 28, 31, 31.5},   {23, 23, 23.5, 25},   {21.5, 23.5, 24, 28},
+      {17, 24.5, 26, 29.5},   {22.5, 25.5, 25.5, 26}, {23, 24.5, 26, 30},   {22, 21.5, 23.5, 25},
+      {21, 20, 21.5, 23},     {21, 21.5, 24, 25.5},   {20.5, 24, 24.5, 26}, {23.5, 24.5, 25, 26.5},
+      {21.5, 23, 22.5, 23.5}, {20, 21, 21, 22.5},     {21.5, 22.5, 23, 25}, {23, 23, 23.5, 24},
+      {20, 21, 22, 21.5},     {16.5, 19, 19, 19.5},   {24.5, 25, 28, 28}};
   Trials t{Eigen::VectorXd(108), Eigen::MatrixXd::Ones(108, interaction ? 4 : 3), {}};
   for (int i = 0; i < 108; ++i) {
     t.y[i] = children[static_cast<std::size_t>(i / 4)][static_cast<std::size_t>(i % 4)];
@@ -56,7 +62,8 @@ TEST(MixedModel, OfRailsIsThePublishedOne) {
   EXPECT_EQ(m.subjects, 6u);
 }
 
-/// Balanced and without columns of its own, REML is the analysis of variance: sd_subject^2 = (MSB - MSW) / n.
+/// Balanced and without columns of its own, REML is the analysis of variance: sd_subject^2 = (MSB -
+/// MSW) / n.
 TEST(MixedModel, OfRailsIsTheAnalysisOfVariance) {
   const Trials t = rails();
   const MixedModel m = fitMixedModel(t.y, t.x, {"mean"}, t.subject);
@@ -101,7 +108,8 @@ TEST(MixedModel, OfJawsWithTheInteractionIsThePublishedOne) {
   EXPECT_NEAR(m.sd_residual, 1.386382, 5e-6);
 }
 
-/// A question that differs between subjects only, with equally many trials each, is the pooled t-test of the subjects' means.
+/// A question that differs between subjects only, with equally many trials each, is the pooled
+/// t-test of the subjects' means.
 TEST(MixedModel, BetweenSubjectsIsTheTestOfTheirMeans) {
   anatomy::RandomStream random(3);
   Trials t{Eigen::VectorXd(60), Eigen::MatrixXd::Ones(60, 2), {}};
@@ -126,7 +134,7 @@ TEST(MixedModel, BetweenSubjectsIsTheTestOfTheirMeans) {
 
 TEST(MixedModel, SubjectsWhoAreAlikeHaveNoSpreadOfTheirOwn) {
   Trials t = rails();
-  for (int i = 0; i < 18; ++i) t.y[i] = i % 3;   // every subject the same mean
+  for (int i = 0; i < 18; ++i) t.y[i] = i % 3;  // every subject the same mean
   const MixedModel m = fitMixedModel(t.y, t.x, {"mean"}, t.subject);
   EXPECT_EQ(m.sd_subject, 0);
   EXPECT_EQ(m.alike, 0);
@@ -134,7 +142,13 @@ TEST(MixedModel, SubjectsWhoAreAlikeHaveNoSpreadOfTheirOwn) {
 
 TEST(MixedModel, RefusesWhatCannotBeFitted) {
   Trials t = rails();
-  const auto refused = [&](const Trials& bad) { EXPECT_THROW(fitMixedModel(bad.y, bad.x, std::vector<std::string>(static_cast<std::size_t>(bad.x.cols()), "c"), bad.subject), Error); };
+  const auto refused = [&](const Trials& bad) {
+    EXPECT_THROW(
+        fitMixedModel(bad.y, bad.x,
+                      std::vector<std::string>(static_cast<std::size_t>(bad.x.cols()), "c"),
+                      bad.subject),
+        Error);
+  };
   Trials bad = t;
   bad.subject.pop_back();
   refused(bad);

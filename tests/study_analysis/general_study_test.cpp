@@ -14,11 +14,14 @@ using test::exhibit;
 /// Two groups of three; each subject does two trials in both conditions.
 std::vector<StudyRow> crossed() {
   std::vector<StudyRow> rows;
-  const std::vector<std::vector<double>> off{{1, 3}, {4, 4}, {6, 8}, {10, 12}, {15, 15}, {13, 15}}, on{{1, 1}, {2, 4}, {6, 6}, {9, 9}, {12, 14}, {10, 12}};
+  const std::vector<std::vector<double>> off{{1, 3}, {4, 4}, {6, 8}, {10, 12}, {15, 15}, {13, 15}},
+      on{{1, 1}, {2, 4}, {6, 6}, {9, 9}, {12, 14}, {10, 12}};
   for (std::size_t s = 0; s < 6; ++s)
     for (std::size_t t = 0; t < 2; ++t) {
-      rows.push_back(test::row("S" + std::to_string(s), s < 3 ? "a" : "b", "off", "x", static_cast<int>(t) + 1, {{"time_s", off[s][t]}, {"constant", 4}}));
-      rows.push_back(test::row("S" + std::to_string(s), s < 3 ? "a" : "b", "on", "y", static_cast<int>(t) + 1, {{"time_s", on[s][t]}, {"constant", 4}}));
+      rows.push_back(test::row("S" + std::to_string(s), s < 3 ? "a" : "b", "off", "x",
+                               static_cast<int>(t) + 1, {{"time_s", off[s][t]}, {"constant", 4}}));
+      rows.push_back(test::row("S" + std::to_string(s), s < 3 ? "a" : "b", "on", "y",
+                               static_cast<int>(t) + 1, {{"time_s", on[s][t]}, {"constant", 4}}));
     }
   orderAndNumber(rows, "crossed");
   return rows;

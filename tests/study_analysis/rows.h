@@ -5,12 +5,13 @@
 #include <variant>
 #include <vector>
 
-#include "apps/study_analysis/exhibit.h"
-#include "apps/study_analysis/study_row.h"
+#include "apps/study_analysis/study_design.h"
 
 namespace palpa::study_analysis::test {
 
-inline StudyRow row(const std::string& subject, const std::string& group, const std::string& condition, const std::string& block, int trial, std::map<std::string, double> metrics) {
+inline StudyRow row(const std::string& subject, const std::string& group,
+                    const std::string& condition, const std::string& block, int trial,
+                    std::map<std::string, double> metrics) {
   return {subject, group, condition, block, 1, trial, 0, false, "palpa 0.1.0", std::move(metrics)};
 }
 
@@ -40,8 +41,21 @@ inline const Exhibit& exhibit(const StudyResult& result, const std::string& id) 
 /// The number in a column of a row; not a number where there is none.
 inline double at(const Exhibit& e, std::size_t row, const std::string& column) {
   for (std::size_t c = 0; c < e.table.columns.size(); ++c)
-    if (e.table.columns[c].name == column && row < e.table.rows.size()) return std::get<double>(e.table.rows[row][c]);
+    if (e.table.columns[c].name == column && row < e.table.rows.size())
+      return std::get<double>(e.table.rows[row][c]);
   return std::nan("");
+}
+
+/// The pilot as the paper had it, the published way beside.
+inline StudyDesign pilotDesign() {
+  StudyDesign design;
+  design.kind = StudyKind::paracentesis_pilot;
+  design.title = "Pilot";
+  design.groups = {"novice", "experienced"};
+  design.conditions = {"NO", "FF"};
+  design.words = {{"NO", "without force feedback"}, {"FF", "with force feedback"}};
+  design.as_published = true;
+  return design;
 }
 
 }  // namespace palpa::study_analysis::test

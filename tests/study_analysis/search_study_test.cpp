@@ -1,4 +1,5 @@
-// The search study of Edmunds and Pai: printed F values from data made to have them, and four subjects by hand.
+// The search study of Edmunds and Pai: printed F values from data made to have them, and four
+// subjects by hand.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -23,30 +24,38 @@ StudyDesign searchDesign() {
 }
 
 /// One subject with `trials` in each block, all alike.
-void addSubject(std::vector<StudyRow>& rows, const std::string& subject, const std::string& training, const std::array<double, 3>& success, const std::array<double, 3>& seconds, int trials = 4) {
+void addSubject(std::vector<StudyRow>& rows, const std::string& subject,
+                const std::string& training, const std::array<double, 3>& success,
+                const std::array<double, 3>& seconds, int trials = 4) {
   const std::array<std::string, 3> blocks{"baseline", "training", "evaluation"};
   for (std::size_t b = 0; b < 3; ++b)
     for (int t = 1; t <= trials; ++t) {
-      StudyRow row = test::row(subject, "trainee", b == 1 ? training : "full", blocks[b], t, {{"success", success[b]}, {"time_s", seconds[b] + (b == 1 ? t : 0)}});
+      StudyRow row =
+          test::row(subject, "trainee", b == 1 ? training : "full", blocks[b], t,
+                    {{"success", success[b]}, {"time_s", seconds[b] + (b == 1 ? t : 0)}});
       row.session = b == 0 ? 1 : 2;
       rows.push_back(row);
     }
 }
 
 /// Values of two groups, 10 and 11, whose means are given and whose spread makes F.
-std::pair<std::vector<double>, std::vector<double>> groupsWith(double f, double mean_a, double mean_b) {
-  const double between = 10.0 * 11 / 21 * (mean_a - mean_b) * (mean_a - mean_b), sd = std::sqrt(between / f);
+std::pair<std::vector<double>, std::vector<double>> groupsWith(double f, double mean_a,
+                                                               double mean_b) {
+  const double between = 10.0 * 11 / 21 * (mean_a - mean_b) * (mean_a - mean_b),
+               sd = std::sqrt(between / f);
   return {test::valuesWith(mean_a, sd, 10), test::valuesWith(mean_b, sd, 11)};
 }
 
 TEST(SearchStudy, TwentyOneSubjectsGiveThePrintedAnovas) {
-  const auto [success_a, success_b] = groupsWith(1.41, 0.05, 0.11);   // the printed improvements
+  const auto [success_a, success_b] = groupsWith(1.41, 0.05, 0.11);  // the printed improvements
   const auto [time_a, time_b] = groupsWith(0.03, 0.20, 0.21);
   std::vector<StudyRow> rows;
   for (std::size_t i = 0; i < 21; ++i) {
     const bool augmented = i >= 10;
-    const double up = augmented ? success_b[i - 10] : success_a[i], down = augmented ? time_b[i - 10] : time_a[i];
-    addSubject(rows, "S" + std::to_string(i), augmented ? "augmented" : "degraded", {0.5, 0.5, 0.5 + up}, {40, 50, 40 * (1 - down)});
+    const double up = augmented ? success_b[i - 10] : success_a[i],
+                 down = augmented ? time_b[i - 10] : time_a[i];
+    addSubject(rows, "S" + std::to_string(i), augmented ? "augmented" : "degraded",
+               {0.5, 0.5, 0.5 + up}, {40, 50, 40 * (1 - down)});
   }
   orderAndNumber(rows, "printed");
   const Exhibit anova = exhibit(analyseStudy(rows, searchDesign()), "anova");
@@ -82,7 +91,8 @@ TEST(SearchStudy, ImprovementsAreScaledByTheSpreadOfAllSubjects) {
   EXPECT_NEAR(study.subjects[2].largest(), 0.25 / down, 1e-12);
   // success: groups {0, .2} and {.2, .4}: between .04, within .02 + .02 with 2 degrees
   EXPECT_NEAR(study.anovas[0].anova->f, 2, 1e-9);
-  EXPECT_NEAR(study.anovas[0].anova->p, 0.29289, 5e-6);   // 1 - sqrt(F / (F + 2)) for 1 and 2 degrees
+  EXPECT_NEAR(study.anovas[0].anova->p, 0.29289,
+              5e-6);  // 1 - sqrt(F / (F + 2)) for 1 and 2 degrees
 }
 
 TEST(SearchStudy, FiguresShowWhatTheyClaim) {
@@ -92,7 +102,9 @@ TEST(SearchStudy, FiguresShowWhatTheyClaim) {
   EXPECT_NEAR(at(before_after, 3, "evaluation"), 90, 1e-9);
   EXPECT_EQ(before_after.plots[0].series[3].family, 1);
   EXPECT_NEAR(at(exhibit(result, "figure_7"), 0, "change"), -10, 1e-9);
-  const Exhibit& durations = exhibit(result, "figure_9");   // the second kind of training; of C and D, as near the median, the first
+  const Exhibit& durations = exhibit(
+      result,
+      "figure_9");  // the second kind of training; of C and D, as near the median, the first
   EXPECT_NE(durations.caption.find("subject C"), std::string::npos);
   ASSERT_EQ(durations.table.rows.size(), 3u);
   EXPECT_NEAR(at(durations, 1, "mean_s"), 32.5, 1e-12);
@@ -117,9 +129,12 @@ TEST(SearchStudy, AveragesNeverReachAcrossBlocks) {
 
 TEST(SearchStudy, WhoLacksABlockIsLeftOutAndNamed) {
   std::vector<StudyRow> rows = fourSubjects();
-  std::erase_if(rows, [](const StudyRow& r) { return r.subject == "B" && r.block == "evaluation"; });
+  std::erase_if(rows,
+                [](const StudyRow& r) { return r.subject == "B" && r.block == "evaluation"; });
   const StudyResult result = analyseStudy(rows, searchDesign());
-  EXPECT_NE(result.cautions.back().find("Left out, since baseline, training or evaluation is missing: B."), std::string::npos);
+  EXPECT_NE(result.cautions.back().find(
+                "Left out, since baseline, training or evaluation is missing: B."),
+            std::string::npos);
   std::erase_if(rows, [](const StudyRow& r) { return r.block == "training"; });
   EXPECT_THROW(analyseStudy(rows, searchDesign()), UsageError);
 }
@@ -127,7 +142,8 @@ TEST(SearchStudy, WhoLacksABlockIsLeftOutAndNamed) {
 TEST(SearchStudy, GroupsTellTheTrainingWhereThereAreSeveral) {
   std::vector<StudyRow> rows = fourSubjects();
   for (StudyRow& r : rows) r.group = r.subject < "C" ? "plain" : "cues";
-  EXPECT_EQ(searchStudyOf(rows, searchDesign()).trainings, (std::vector<std::string>{"plain", "cues"}));
+  EXPECT_EQ(searchStudyOf(rows, searchDesign()).trainings,
+            (std::vector<std::string>{"plain", "cues"}));
 }
 
 }  // namespace

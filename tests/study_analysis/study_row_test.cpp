@@ -19,7 +19,8 @@ std::string refusalOf(const std::string& csv) {
 
 TEST(StudyCsv, ReadsRowsInAnyOrderAndNumbersThem) {
   const std::vector<StudyRow> rows = rowsOfCsv(
-      "\xef\xbb\xbfTRIAL,SUBJECT,GROUP,CONDITION,BLOCK,SESSION,time_s,total,SIMULATED,ROLE,OUTCOME\r\n"
+      "\xef\xbb\xbfTRIAL,SUBJECT,GROUP,CONDITION,BLOCK,SESSION,time_s,total,SIMULATED,ROLE,"
+      "OUTCOME\r\n"
       "1,\"B, the \"\"second\"\"\",novice,FF,test,1,12.5,,1,scored,done\r\n"
       "\r\n"
       "2,A,experienced,NO,test,2,3,5,0,scored,done\n"
@@ -46,12 +47,14 @@ TEST(StudyCsv, SaysWhatItCannotRead) {
   for (const auto& [csv, words] : std::vector<std::pair<std::string, std::string>>{
            {"", "t.csv: is empty"},
            {"SUBJECT,GROUP,CONDITION,BLOCK,time_s\nA,g,c,b,1\n", "has no column TRIAL"},
-           {"SUBJECT,SUBJECT,GROUP,CONDITION,BLOCK,TRIAL,time_s\n", "has more than one column SUBJECT"},
+           {"SUBJECT,SUBJECT,GROUP,CONDITION,BLOCK,TRIAL,time_s\n",
+            "has more than one column SUBJECT"},
            {"SUBJECT,GROUP,CONDITION,BLOCK,TRIAL\nA,g,c,b,1\n", "has no figures"},
            {"SUBJECT,GROUP,CONDITION,BLOCK,TRIAL,x,x\n", "has two columns x"},
            {header, "holds no scored trial"},
            {header + "A,g,c,b,1\n", "line 2: has 5 cells where the header has 6"},
-           {header + "A,g,c,b,1,2\nA,g,c,b,2,1.2.3\n", "line 3: column time_s: \"1.2.3\" is not a number"},
+           {header + "A,g,c,b,1,2\nA,g,c,b,2,1.2.3\n",
+            "line 3: column time_s: \"1.2.3\" is not a number"},
            {header + "A,g,c,b,1,nan\n", "is not a number"},
            {header + "A,g,c,b,1.5,2\n", "column TRIAL must be a whole number from 1"},
            {header + "A,g,c,b,-1,2\n", "column TRIAL must be a whole number from 1"},
@@ -66,7 +69,8 @@ TEST(StudyCsv, SaysWhatItCannotRead) {
 
 /// Any damage is refused in words or read; nothing else happens.
 TEST(StudyCsv, SurvivesEveryCutAndFlip) {
-  const std::string good = "SUBJECT,GROUP,CONDITION,BLOCK,TRIAL,time_s\n\"A\",g,c,b,1,2.5\nB,g,\"c\",b,2,3\n";
+  const std::string good =
+      "SUBJECT,GROUP,CONDITION,BLOCK,TRIAL,time_s\n\"A\",g,c,b,1,2.5\nB,g,\"c\",b,2,3\n";
   for (std::size_t i = 0; i < good.size(); ++i)
     for (const char c : {'"', ',', '\n', '\r', '\0', '9'}) {
       std::string bad = good;
