@@ -19,6 +19,7 @@ void addBoard(CLI::App& program);
 void addPhantom(CLI::App& program);
 void addExport(CLI::App& program);
 void addRecords(CLI::App& program);   ///< trainees and their trials
+void addReport(CLI::App& program);    ///< pages of a trainee or a group
 void addBench(CLI::App& program);
 
 }  // namespace palpa::cli

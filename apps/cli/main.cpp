@@ -55,6 +55,7 @@ int run(int argc, char** argv) {
   palpa::cli::addPhantom(program);
   palpa::cli::addExport(program);
   palpa::cli::addRecords(program);
+  palpa::cli::addReport(program);
   palpa::cli::addBench(program);
   try {
     program.parse(argc, argv);
