@@ -115,6 +115,7 @@ struct Hud {
 
 struct SceneState {
   const Image* picture = nullptr;  ///< undistorted camera picture; null: plain background
+  const Image* beside = nullptr;   ///< what the inset shows; null: `picture`
   Pinhole camera;
   bool registered = false;  ///< X_CA is valid
   Pose X_CA = Pose::Identity();

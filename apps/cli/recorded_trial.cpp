@@ -67,7 +67,7 @@ std::vector<replay::Mark> marksIn(const RecordedSession& session, int number) {
 
 }  // namespace
 
-RecordedNeedleTrial::RecordedNeedleTrial(const std::filesystem::path& file, int number) : session(needleSession(file)) {
+RecordedNeedleTrial::RecordedNeedleTrial(const std::filesystem::path& file, int number) : session(needleSession(file)), pictures(file.parent_path()) {
   const record::RecordedTrial& one = chosen(session, file, number);
   trial.number = one.header.trial;
   trial.force_feedback = one.header.force_feedback;

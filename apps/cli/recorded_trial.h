@@ -13,6 +13,7 @@ struct RecordedNeedleTrial {
   RecordedNeedleTrial(const std::filesystem::path& file, int number);
   RecordedSession session;
   replay::NeedleTrial trial;
+  replay::RecordedPictures pictures;   ///< of the camera, where they lie beside the file
 };
 
 }  // namespace palpa::cli

@@ -44,19 +44,20 @@ struct ReplayStage {
   std::unique_ptr<scene::SceneView> view;
 };
 
-ReplayStage stageFor(const anatomy::Patient& patient, scene::Display display, Picture size) {
+ReplayStage stageFor(const RecordedNeedleTrial& recorded, scene::Display display, Picture size) {
   ReplayStage stage;
   stage.context = scene::makeGlContext(display, size.width, size.height, "Palpa: replay");
   scene::ViewLayout layout;
   layout.width = size.width;
   layout.height = size.height;
-  stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
+  if (!recorded.pictures.empty()) layout.inset = scene::Inset::camera;
+  stage.view = std::make_unique<scene::SceneView>(*stage.context, recorded.session.patient(), layout);
   return stage;
 }
 
-void playInWindow(const RecordedNeedleTrial& recorded, const Cut& cut, const ReplayViewOptions& o) {
-  const ReplayStage stage = stageFor(recorded.session.patient(), scene::Display::window, {1280, 720});
-  replay::NeedleReplay shown(recorded.trial, *stage.view);
+void playInWindow(RecordedNeedleTrial& recorded, const Cut& cut, const ReplayViewOptions& o) {
+  const ReplayStage stage = stageFor(recorded, scene::Display::window, {1280, 720});
+  replay::NeedleReplay shown(recorded.trial, *stage.view, &recorded.pictures);
   replay::Player player(cut.from_s, cut.to_s, o.speed);
   std::printf("space: pause; Left, Right: 1 s; with shift: a frame; + and -: speed; Escape: leave\n");
   constexpr std::int64_t kFrame_ns = 33'333'333;
@@ -71,11 +72,11 @@ void playInWindow(const RecordedNeedleTrial& recorded, const Cut& cut, const Rep
   }
 }
 
-void writeFilm(const RecordedNeedleTrial& recorded, const Cut& cut, const ReplayViewOptions& o) {
+void writeFilm(RecordedNeedleTrial& recorded, const Cut& cut, const ReplayViewOptions& o) {
   const Picture size = sizeOf(o.size);
   replay::codecOf(o.video);   // refused before the scene is made
-  const ReplayStage stage = stageFor(recorded.session.patient(), scene::Display::offscreen, size);
-  replay::NeedleReplay shown(recorded.trial, *stage.view);
+  const ReplayStage stage = stageFor(recorded, scene::Display::offscreen, size);
+  replay::NeedleReplay shown(recorded.trial, *stage.view, &recorded.pictures);
   const int frames = std::max(1, static_cast<int>(std::lround((cut.to_s - cut.from_s) / o.speed * o.frames_per_second)));
   replay::Player speed(cut.from_s, cut.to_s, o.speed);
   replay::Film film(o.video, o.frames_per_second, size.width, size.height);
@@ -103,7 +104,7 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
 }
 
 void viewReplay(const std::string& file, const ReplayViewOptions& o) {
-  const RecordedNeedleTrial recorded(file, o.trial);
+  RecordedNeedleTrial recorded(file, o.trial);
   const Cut cut = cutOf(o, recorded.trial.length_s());
   if (o.video.empty()) playInWindow(recorded, cut, o);
   else writeFilm(recorded, cut, o);

@@ -26,7 +26,7 @@ std::string wordsAt(const std::vector<Mark>& marks, double t_s) {
 }
 
 struct NeedleReplay::Impl {
-  Impl(const NeedleTrial& shown, scene::SceneView& on) : recorded(shown), view(on), activity(setup(), bus, channels) {
+  Impl(const NeedleTrial& shown, scene::SceneView& on, RecordedPictures* beside) : recorded(shown), view(on), pictures(beside), activity(setup(), bus, channels) {
     Vec3 last = Vec3::Constant(1e9);
     for (const Moment& moment : recorded.moments) {
       const Vec3 tip = recorded.X_AD * unpack(moment.tool.X_DT).translation();
@@ -56,6 +56,7 @@ struct NeedleReplay::Impl {
   void add(scene::SceneState& state) const {
     const std::size_t i = momentAt(recorded.moments, at_s);
     state.trail_A.assign(trail.begin(), trail.begin() + static_cast<std::ptrdiff_t>(trail_length[i]));
+    state.beside = pictures ? pictures->at(recorded.moments[i].tool.t_ns) : nullptr;
     scene::Timeline strip;
     const double length = std::max(recorded.length_s(), 1e-9);
     strip.at = at_s / length;
@@ -90,6 +91,7 @@ struct NeedleReplay::Impl {
 
   const NeedleTrial& recorded;
   scene::SceneView& view;
+  RecordedPictures* pictures;
   std::vector<Vec3> trail;
   std::vector<std::size_t> trail_length;   ///< up to each moment
   runtime::Bus bus{runtime::TimeMode::virtual_time};
@@ -101,7 +103,7 @@ struct NeedleReplay::Impl {
   task_needle::SceneActivity activity;
 };
 
-NeedleReplay::NeedleReplay(const NeedleTrial& trial, scene::SceneView& view) : impl_(std::make_unique<Impl>(trial, view)) {}
+NeedleReplay::NeedleReplay(const NeedleTrial& trial, scene::SceneView& view, RecordedPictures* pictures) : impl_(std::make_unique<Impl>(trial, view, pictures)) {}
 NeedleReplay::~NeedleReplay() = default;
 void NeedleReplay::show(double t_s, const std::string& rate) { impl_->show(t_s, rate); }
 const scene::ViewInput& NeedleReplay::input() const { return impl_->input; }

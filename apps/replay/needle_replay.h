@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/replay/needle_moments.h"
+#include "apps/replay/recorded_pictures.h"
 #include "apps/task_needle/task_words.h"
 #include "scene/scene_view.h"
 
@@ -33,7 +34,8 @@ struct NeedleTrial {
 /// that can be walked around. The view outlives it; one thread.
 class NeedleReplay {
  public:
-  NeedleReplay(const NeedleTrial& trial, scene::SceneView& view);
+  /// `pictures` of the camera, shown in the view's inset; null: none.
+  NeedleReplay(const NeedleTrial& trial, scene::SceneView& view, RecordedPictures* pictures = nullptr);
   ~NeedleReplay();
   /// Draws the moment; `rate`: how it is played, in words.
   void show(double t_s, const std::string& rate);

@@ -1,9 +1,11 @@
 #include <gtest/gtest.h>
 
+#include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
 #include "anatomy/geometry/error.h"
 #include "apps/replay/film.h"
+#include "apps/replay/recorded_pictures.h"
 #include "tests/support/files.h"
 
 namespace palpa::replay {
@@ -49,6 +51,43 @@ TEST(Film, WrongWishesAreNamed) {
   EXPECT_THROW(Film(folder / "no" / "such" / "a.avi", 25, 160, 120), Error);
   Film film(folder / "a.avi", 25, 160, 120);
   EXPECT_THROW(film.add(plain(100, 100, 0, 0, 0)), Error);
+}
+
+/// Three JPEGs one after the other, of which each is a brightness of its own.
+std::filesystem::path threePictures() {
+  const auto folder = palpa::test::freshFolder("replay", "pictures");
+  std::ofstream film(folder / "camera.mjpeg", std::ios::binary), table(folder / "camera.mjpeg.csv");
+  table << "number,t_exposure_ns,source\n";
+  for (int i = 0; i < 3; ++i) {
+    std::vector<unsigned char> jpeg;
+    cv::imencode(".jpg", cv::Mat(48, 64, CV_8UC3, cv::Scalar(20 + 90 * i, 10, 10)), jpeg);
+    film.write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
+    table << i << ',' << 1000 * (i + 1) << ",x\n";
+  }
+  return folder;
+}
+
+TEST(RecordedPictures, TheLastOneTakenIsShownWhicheverWayOneCame) {
+  RecordedPictures pictures(threePictures());
+  ASSERT_FALSE(pictures.empty());
+  EXPECT_EQ(pictures.at(999), nullptr);
+  for (const auto& [t_ns, blue] : {std::pair{1000, 20}, {2500, 110}, {99999, 200}, {1999, 20}}) {
+    const scene::Image* image = pictures.at(t_ns);
+    ASSERT_NE(image, nullptr);
+    EXPECT_EQ(image->width, 64);
+    EXPECT_NEAR(image->pixels[3 * (24 * 64 + 32) + 2], blue, 6) << t_ns;
+  }
+}
+
+TEST(RecordedPictures, WhatIsMissingOrCutShortIsLeftOut) {
+  EXPECT_TRUE(RecordedPictures(palpa::test::freshFolder("replay", "none")).empty());
+  const auto folder = threePictures();
+  std::filesystem::resize_file(folder / "camera.mjpeg", std::filesystem::file_size(folder / "camera.mjpeg") / 2);
+  RecordedPictures cut(folder);
+  EXPECT_NE(cut.at(1000), nullptr);
+  cut.at(99999);   // whatever it is, it does not fail
+  std::filesystem::resize_file(folder / "camera.mjpeg", 0);
+  EXPECT_TRUE(RecordedPictures(folder).empty());
 }
 
 }  // namespace
