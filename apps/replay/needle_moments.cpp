@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "apps/runtime/tool_state.h"
+
 namespace palpa::replay {
 namespace {
 
@@ -24,21 +26,8 @@ void MomentReader::add(const haptics::FlightRecord& record) {
 }
 
 runtime::ToolState MomentReader::toolIn(const haptics::FlightRecord& record) const {
-  runtime::ToolState tool;
   const Quat q_DE = unpack(record.reading.q_DE);
-  tool.t_ns = record.t_ns;
-  tool.X_DT = pack(makePose(q_DE.normalized().toRotationMatrix(), unpack(record.reading.p_DE)) * X_ET_);
-  tool.f_contact_D = record.f_contact_D;
-  tool.f_command_D = record.f_command_D;
-  tool.depth = record.depth;
-  tool.plunger = record.reading.plunger;
-  tool.bone_force = record.bone_force;
-  tool.phase = record.phase;
-  tool.tissue = record.tissue;
-  tool.wall = record.wall;
-  tool.bone = record.bone;
-  tool.safety = record.safety;
-  return tool;
+  return runtime::toolStateOf(pack(makePose(q_DE.normalized().toRotationMatrix(), unpack(record.reading.p_DE)) * X_ET_), record);
 }
 
 std::size_t momentAt(const std::vector<Moment>& moments, double t_s) {

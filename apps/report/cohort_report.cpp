@@ -9,8 +9,7 @@
 #include "apps/report/cohort_charts.h"
 #include "apps/report/data_table.h"
 #include "apps/report/numbers.h"
-#include "apps/report/page_parts.h"
-#include "apps/report/progress_style.h"
+#include "apps/report/practice_page.h"
 #include "apps/report/progress_words.h"
 
 namespace palpa::report {
@@ -99,12 +98,6 @@ void writeCompetences(Html& html, const progress::Series& group, const std::vect
 void writeGroup(Html& html, const progress::Series& group, const statistics::CusumRates& rates) {
   const std::vector<progress::Series> trainees = progress::byTrainee(group);
   const ShownMetrics shown = metricsOf(group.engine);
-  const auto section = html.in("section", {{"class", "card series"}});
-  {
-    const auto head = html.in("h2");
-    html.text(group.name());
-    if (group.simulated) html.element("span", {{"class", "badge"}}, "simulated");
-  }
   writeCohortSummary(html, group, trainees, rates);
   html.element("h3", "Common errors");
   writeCommonErrors(html, progress::commonErrors(group));
@@ -115,54 +108,15 @@ void writeGroup(Html& html, const progress::Series& group, const statistics::Cus
   writeCompetences(html, group, trainees, rates);
 }
 
-void writeCohortHeader(Html& html, const CohortReport& report) {
-  std::set<std::string> trainees;
-  bool simulated = false;
-  for (const progress::PracticeTrial& trial : report.trials) {
-    trainees.insert(trial.trainee);
-    simulated = simulated || trial.simulated;
-  }
-  const auto header = html.in("header");
-  html.element("h1", report.group.empty() ? "All trainees" : "Group: " + report.group);
-  {
-    const auto who = html.in("p", {{"class", "who"}});
-    for (const auto& [name, value] : {std::pair{"Trainees ", std::to_string(trainees.size())}, std::pair{"Trials ", std::to_string(report.trials.size())}, std::pair{"Page of ", report.made_utc.substr(0, 10)}}) {
-      const auto span = html.in("span");
-      html.text(name);
-      html.element("strong", value);
-    }
-  }
-  if (simulated) writeSimulatedBanner(html);
-}
-
-void writeCohortBody(Html& html, const CohortReport& report) {
-  const std::vector<progress::Series> all = progress::seriesOf(report.trials);
-  const auto main = html.in("main");
-  if (all.empty()) html.element("p", {{"class", "card"}}, "No trial counts yet: none was both scored and finished.");
-  if (all.size() > 1) html.element("p", {{"class", "apart muted"}}, "Trials of different kinds are kept apart: another task, with or without force feedback, cues or guidance, simulated or not.");
-  for (const progress::Series& group : all) writeGroup(html, group, report.rates);
-  if (const std::string left = progress::leftOut(report.trials); !left.empty()) html.element("p", {{"class", "muted small"}}, "Left out of every figure: " + left + '.');
-}
-
-std::string cohortHtml(const CohortReport& report) {
-  Html html;
-  html.raw("<!doctype html>\n");
-  const auto write = [&] {
-    const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, "Cohort", report.group, progressStyle());
-    const auto body = html.in("body");
-    writeCohortHeader(html, report);
-    writeCohortBody(html, report);
-    const auto footer = html.in("footer");
-    html.element("p", {{"class", "muted small"}}, "Intervals of the group are over trainees, since a trainee's trials are not independent. Reliability: Shrout and Fleiss, Psychol. Bull. 86, 1979. Palpa has not been validated on people.");
-    if (!report.software.empty()) html.element("p", {{"class", "muted small"}}, "Made by " + report.software + '.');
-  };
-  write();
-  return html.str();
-}
-
 }  // namespace
 
-void writeCohortReport(const CohortReport& report, const std::filesystem::path& file) { writeWhole(file, cohortHtml(report)); }
+void writeCohortReport(const CohortReport& report, const std::filesystem::path& file) {
+  std::set<std::string> trainees;
+  for (const progress::PracticeTrial& trial : report.trials) trainees.insert(trial.trainee);
+  const PracticePage page{"Cohort", report.group, report.group.empty() ? "All trainees" : "Group: " + report.group,
+                          {{"Trainees", std::to_string(trainees.size())}, {"Trials", std::to_string(report.trials.size())}, {"Page of", report.made_utc.substr(0, 10)}},
+                          "Intervals of the group are over trainees, since a trainee's trials are not independent. Reliability: Shrout and Fleiss, Psychol. Bull. 86, 1979.", report.software};
+  writeWhole(file, practiceHtml(page, report.trials, [&](Html& html, const progress::Series& group) { writeGroup(html, group, report.rates); }));
+}
 
 }  // namespace palpa::report
