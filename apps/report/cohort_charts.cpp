@@ -6,10 +6,10 @@
 #include "apps/assess/statistics/sample.h"
 #include "apps/report/data_table.h"
 #include "apps/report/numbers.h"
+#include "apps/report/polyline.h"
 #include "apps/report/practice_axes.h"
 #include "apps/report/progress_words.h"
 #include "apps/report/row_plot.h"
-#include "apps/report/svg_plot.h"
 
 namespace palpa::report {
 namespace {
@@ -63,7 +63,7 @@ void drawGroupCurve(Html& html, const progress::GroupCurve& curve, const std::st
   const Axis x = trialAxis(frame, longest), y{niceCeiling(high), 0, kPracticeTop, kPracticeTop + kPracticeHigh};
   const std::string title = metrics::metricNamed(metric)->title;
   const auto svg = openSvg(html, frame, kPracticeTop + kPracticeHigh + 44, title + " of every trainee, and the group's mean");
-  drawPanel(html, frame, x, kPracticeTop, {title, unit.empty() ? "number" : unit, {}, y.from, 0, kPracticeHigh});
+  drawPracticePanel(html, frame, x, title, unit.empty() ? "number" : unit, y.from, 0);
   for (const std::vector<double>& own : curve.curves) {
     std::vector<Point> points;
     for (std::size_t i = 0; i < own.size(); ++i) points.push_back(pointAt(i, factor * own[i]));
@@ -118,6 +118,7 @@ void writeTraineeFigures(Html& html, const progress::Series& group, const std::s
   }
   plot.middle = statistics::meanOf(means);
   fitAxis(plot);
+  html.element("h4", metrics::metricNamed(metric)->title);
   {
     const auto figure = html.in("figure", {{"class", "course"}});
     drawRowPlot(html, plot);

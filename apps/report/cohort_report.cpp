@@ -49,14 +49,17 @@ std::string reliabilityWords(const progress::Series& group, const std::string& m
   return words + (r->icc.value < progress::kReliable ? " Below 0.7: nobody should pass or fail by it." : " 0.7 or more: it tells trainees apart well enough to go by.");
 }
 
-std::string attentionWords(const std::vector<progress::Attention>& attention, std::size_t trainees) {
-  if (attention.empty()) return "nobody of " + counted(trainees, "trainee") + ", by these figures.";
-  std::string words;
+void writeAttention(Html& html, const std::vector<progress::Attention>& attention, std::size_t trainees) {
+  if (attention.empty()) return shortItem(html, "Needs attention:", "nobody of " + counted(trainees, "trainee") + ", by these figures.");
+  const auto li = html.in("li");
+  html.element("strong", "Needs attention:");
+  html.text(' ' + std::to_string(attention.size()) + " of " + counted(trainees, "trainee") + '.');
+  const auto list = html.in("ul");
   for (const progress::Attention& a : attention) {
-    words += (words.empty() ? "" : ". ") + a.trainee + ": ";
+    std::string words = a.trainee + ": ";
     for (std::size_t i = 0; i < a.reasons.size(); ++i) words += (i ? "; " : "") + a.reasons[i];
+    html.element("li", words + '.');
   }
-  return words + '.';
 }
 
 void writeCohortSummary(Html& html, const progress::Series& group, const std::vector<progress::Series>& trainees, const statistics::CusumRates& rates) {
@@ -67,7 +70,7 @@ void writeCohortSummary(Html& html, const progress::Series& group, const std::ve
   const progress::GroupMean success = progress::groupMean(shares);
   shortItem(html, "Practice:", counted(trainees.size(), "trainee") + ", " + counted(group.trials.size(), "scored trial") + '.');
   shortItem(html, "Success:", std::to_string(successes) + " of " + std::to_string(group.trials.size()) + " trials; " + figureOf("success", success.mean) + " of a trainee's" + intervalWords("success", success.interval) + '.');
-  shortItem(html, "Needs attention:", attentionWords(progress::whoNeedsAttention(group, rates), trainees.size()));
+  writeAttention(html, progress::whoNeedsAttention(group, rates), trainees.size());
   shortItem(html, "Common errors:", commonWords(progress::commonErrors(group)));
   shortItem(html, "Reliability:", reliabilityWords(group, metricsOf(group.engine).reliability));
 }
@@ -85,7 +88,7 @@ void writeCompetences(Html& html, const progress::Series& group, const std::vect
     return;
   }
   html.element("p", "Rates set by the educator: " + trimmed(100 * rates.acceptable, 1) + " % acceptable, " + trimmed(100 * rates.unacceptable, 1) + " % unacceptable; none is established for this procedure. Fewer than " + std::to_string(fewest) + " trials cannot certify anybody.");
-  DataTable table{"", {"Trainee", "Trials", "Failures", "CUSUM"}, {}};
+  DataTable table{"", {"Trainee", "Trials", "Failures", "CUSUM"}, {}, 3};
   for (const progress::Series& own : trainees) {
     std::vector<bool> failures;
     for (const progress::PracticeTrial& trial : own.trials) failures.push_back(progress::failed(trial));

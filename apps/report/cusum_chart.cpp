@@ -5,7 +5,7 @@
 #include "apps/report/numbers.h"
 #include "apps/report/practice_axes.h"
 #include "apps/report/progress_chart.h"
-#include "apps/report/svg_plot.h"
+#include "apps/report/polyline.h"
 
 namespace palpa::report {
 namespace {
@@ -33,9 +33,10 @@ std::vector<std::vector<Point>> runsOf(const statistics::Cusum& chart) {
   return runs;
 }
 
-void drawLimit(Html& html, const char* css, const Axis& x, double y, const char* words) {
+/// `below`: its words stand under it.
+void drawLimit(Html& html, const char* css, const Axis& x, double y, bool below, const char* words) {
   svgLine(html, css, x.from_px, y, x.to_px, y);
-  svgText(html, "words end tick", x.to_px - 2, y - 5, words);
+  svgText(html, "words end tick", x.to_px - 2, below ? y + 15 : y - 6, words);
 }
 
 void drawCusum(Html& html, const progress::Series& series, const progress::Competence& c, bool wide) {
@@ -45,12 +46,12 @@ void drawCusum(Html& html, const progress::Series& series, const progress::Compe
     high = std::max(high, sum);
     low = std::min(low, sum);
   }
-  const double top = high + 0.8, bottom = low - 0.5;
+  const double top = high + 0.8, bottom = low - 0.8;
   const Axis x = frame.across(0, static_cast<double>(std::max(c.chart.sums.size(), c.minimum)) + 0.5), y{top, bottom, kPracticeTop, kPracticeTop + kPracticeHigh};
   const auto svg = openSvg(html, frame, kPracticeTop + kPracticeHigh + 44, "Cumulative sum of failures between its limits");
-  drawPanel(html, frame, x, kPracticeTop, {"CUSUM", "sum", {}, top, bottom, kPracticeHigh});
-  drawLimit(html, "limit reject", x, y.at(c.limits.h_reject), "above: unacceptable failure rate");
-  drawLimit(html, "limit accept", x, y.at(-c.limits.h_accept), "below: acceptable failure rate");
+  drawPracticePanel(html, frame, x, "CUSUM", "sum", top, bottom);
+  drawLimit(html, "limit reject", x, y.at(c.limits.h_reject), false, "above: unacceptable failure rate");
+  drawLimit(html, "limit accept", x, y.at(-c.limits.h_accept), true, "below: acceptable failure rate");
   for (const std::vector<Point>& run : runsOf(c.chart))
     if (run.size() > 1) svgPath(html, "curve sum", linePath(run, x, y));
   for (std::size_t i = 0; i < c.chart.sums.size(); ++i) {

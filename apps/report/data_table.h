@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -12,6 +13,7 @@ struct DataTable {
   std::string title;                            ///< "The figures of this plot"
   std::vector<std::string> columns;
   std::vector<std::vector<std::string>> rows;   ///< as long as `columns`
+  std::size_t words_from = SIZE_MAX;            ///< from this column on they are words, not figures
 };
 void writeDataTable(Html& html, const DataTable& table);
 

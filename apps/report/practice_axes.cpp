@@ -1,6 +1,7 @@
 #include "apps/report/practice_axes.h"
 
 #include "apps/report/numbers.h"
+#include "apps/report/svg_plot.h"
 
 namespace palpa::report {
 namespace {
@@ -8,6 +9,12 @@ namespace {
 constexpr double kWhiskerEnd = 5;   // px
 
 }  // namespace
+
+void drawPracticePanel(Html& svg, const ChartFrame& frame, const Axis& x, const std::string& title, const std::string& unit, double top, double bottom) {
+  ChartFrame above = frame;
+  above.wide = false;
+  drawPanel(svg, above, x, kPracticeTop, {title, unit, {}, top, bottom, kPracticeHigh});
+}
 
 void drawTrialNumbers(Html& svg, const ChartFrame& frame, const Axis& x, double y, std::size_t trials) {
   const std::size_t every = 1 + trials * (frame.wide ? 34 : 28) / static_cast<std::size_t>(x.to_px - x.from_px);

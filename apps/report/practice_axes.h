@@ -12,12 +12,15 @@ namespace palpa::report {
 
 inline constexpr double kPracticeTop = 24, kPracticeHigh = 190;   // px: of a plot's upper edge, of the plot
 
-/// Room for "12 000" beside the narrow form.
+/// Room for "12 000" at the left; titles stand above the plot.
 inline ChartFrame practiceFrame(bool wide) {
   ChartFrame frame = wide ? kWide : kNarrow;
-  if (!wide) frame.left = 50;
+  frame.left = wide ? 60 : 50;
   return frame;
 }
+
+/// Grid and value axis, the title above them.
+void drawPracticePanel(Html& svg, const ChartFrame& frame, const Axis& x, const std::string& title, const std::string& unit, double top, double bottom);
 
 inline Axis trialAxis(const ChartFrame& frame, std::size_t trials) { return frame.across(0.5, static_cast<double>(std::max<std::size_t>(trials, 2)) + 0.5); }
 

@@ -9,7 +9,7 @@
 #include "apps/report/numbers.h"
 #include "apps/report/practice_axes.h"
 #include "apps/report/progress_words.h"
-#include "apps/report/svg_plot.h"
+#include "apps/report/polyline.h"
 
 namespace palpa::report {
 namespace {
@@ -56,9 +56,7 @@ void drawLearning(Html& html, const progress::Series& series, const LearningPlot
   const Axis x = trialAxis(frame, plot.values.size());
   const std::string title = metrics::metricNamed(plot.metric)->title;
   const auto svg = openSvg(html, frame, kPracticeTop + kPracticeHigh + 44, title + " of each trial");
-  PlotPanel panel{"", unit.empty() ? "number" : unit, {}, top, bottom, kPracticeHigh};
-  panel.title = wide ? fitted(title, frame.left - 14 - textWidth(", " + panel.unit, frame.font + 1), frame.font + 1) : title;
-  drawPanel(html, frame, x, kPracticeTop, panel);
+  drawPracticePanel(html, frame, x, title, unit.empty() ? "number" : unit, top, bottom);
   const Axis y{top, bottom, kPracticeTop, kPracticeTop + kPracticeHigh};
   drawSessions(html, series, x, y.from_px, y.to_px);
   if (plot.curve) {
@@ -101,7 +99,7 @@ void drawSuccess(Html& html, const std::vector<progress::SuccessBlock>& blocks, 
   const ChartFrame frame = practiceFrame(wide);
   const Axis x = trialAxis(frame, trials), y{100, 0, kPracticeTop, kPracticeTop + kPracticeHigh};
   const auto svg = openSvg(html, frame, kPracticeTop + kPracticeHigh + 44, "Share of successes in blocks of trials");
-  drawPanel(html, frame, x, kPracticeTop, {"Success", "%", {}, 100, 0, kPracticeHigh});
+  drawPracticePanel(html, frame, x, "Success", "%", 100, 0);
   for (const progress::SuccessBlock& block : blocks) {
     const double middle = x.at(0.5 * static_cast<double>(block.from + block.to));
     drawWhisker(html, middle, y.at(100 * block.share.low), middle, y.at(100 * block.share.high));

@@ -13,9 +13,15 @@ constexpr std::string_view kProgressStyle = R"css(
 .behind summary{cursor:pointer;color:var(--blue);font-size:.9rem}
 .data{border-collapse:collapse;font-size:.85rem;margin:.6rem 0 0;min-width:50%}
 .data th,.data td{text-align:right;padding:.35rem .8rem .35rem 0;border-bottom:1px solid var(--line);font-weight:400}
-.data th:first-child,.data td.words{text-align:left}
+.data td,.data th:first-child{vertical-align:top}
+.data td{white-space:nowrap}
+.data th:first-child,.data .words{text-align:left}
+.data td.words{white-space:normal;min-width:13rem}
 .data thead th{color:var(--muted);vertical-align:bottom}
-.course+h3,.behind+h3{margin-top:2rem}
+.behind+.course,.course+.course{margin-top:1.8rem}
+.behind+h4,.course+h4,h3+h4{margin:1.6rem 0 .3rem}
+.course+h3,.behind+h3,.scroll+h3{margin-top:2.2rem}
+.short ul{margin:.3rem 0 0;padding-left:1.2rem}
 svg .band{fill:var(--blue);fill-opacity:.14;stroke:none}
 svg .curve.fitted{stroke:var(--blue);stroke-width:2.4}
 svg .curve.own{stroke:var(--muted);stroke-width:1;stroke-opacity:.55}
@@ -32,6 +38,7 @@ svg .row-back{fill:var(--lane)}
 svg .row-back.odd{fill:none}
 @media print{
   .behind{display:none}
+  h4{break-after:avoid}
   .series+.series{break-before:page}
   .short li,.course{break-inside:avoid}
 }

@@ -10,11 +10,6 @@ namespace {
 
 bool isShare(const std::string& metric) { return metric == "success" || metric == "first_pass_success" || metric == "chosen"; }
 
-std::string capitalised(std::string text) {
-  text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
-}
-
 std::string amount(double value) { return trimmed(value, std::abs(value) >= 100 ? 0 : 1); }
 
 /// "12 s to 30 s less", "−3 s to 8 s" where the sign is open.
@@ -57,12 +52,10 @@ std::string intervalWords(const std::string& metric, const std::optional<std::pa
   return " (95 % interval " + figureOf(metric, interval->first) + " to " + figureOf(metric, interval->second) + ")";
 }
 
-std::string changeSentence(const progress::Change& c) {
-  using Verdict = progress::Change::Verdict;
-  const std::string what = capitalised(titleWithin(c.metric));
-  const std::string means = "from " + figureOf(c.metric, c.first) + " (mean of the first " + std::to_string(c.each) + " trials) to " + figureOf(c.metric, c.last) + " (of the last " + std::to_string(c.each) + ")";
-  if (c.verdict == Verdict::unclear) return what + ": no clear change, " + means + "; the difference's 95 % interval is " + differenceRange(c) + ".";
-  return what + (c.verdict == Verdict::better ? " got better: " : " got worse: ") + means + ", " + figureOf(c.metric, std::abs(c.difference)) + (c.difference < 0 ? " less" : " more") + " (95 % interval " + differenceRange(c) + ").";
+std::string changeWords(const progress::Change& c) {
+  const std::string means = titleWithin(c.metric) + ", from " + figureOf(c.metric, c.first) + " to " + figureOf(c.metric, c.last) + " (means of the first and the last " + std::to_string(c.each) + " trials)";
+  if (c.verdict == progress::Change::Verdict::unclear) return means + "; the difference's 95 % interval is " + differenceRange(c);
+  return means + ", " + figureOf(c.metric, std::abs(c.difference)) + (c.difference < 0 ? " less" : " more") + " (95 % interval " + differenceRange(c) + ')';
 }
 
 std::string counted(std::size_t count, const std::string& what) { return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s"); }

@@ -22,8 +22,8 @@ std::string fieldOf(const std::string& metric, double value);
 /// " (95 % interval 12.1 s to 30 s)"; empty without one.
 std::string intervalWords(const std::string& metric, const std::optional<std::pair<double, double>>& interval);
 
-/// "Time got better: from 42 s (mean of the first 5 trials) to 21 s (of the last 5), 21 s less (95 % interval 12 s to 30 s less)."
-std::string changeSentence(const progress::Change& change);
+/// "time, from 42 s to 21 s (means of the first and the last 5 trials), 21 s less (95 % interval 12 s to 30 s)"; where it is unclear the interval has its sign.
+std::string changeWords(const progress::Change& change);
 
 /// "1 trial", "3 trials"
 std::string counted(std::size_t count, const std::string& what);

@@ -52,7 +52,7 @@ std::string lossWords(const progress::RetentionGap& gap, const std::string& metr
 }
 
 void writeGaps(Html& html, const progress::Series& series) {
-  DataTable table{"", {"Pause", "From", "To", "Figure", "What it cost"}, {}};
+  DataTable table{"", {"Pause", "From", "To", "Figure", "What it cost"}, {}, 4};
   for (const std::string& metric : curvesOf(series))
     for (const progress::RetentionGap& gap : progress::retentionGaps(series, metric))
       table.rows.push_back({counted(static_cast<std::size_t>(gap.days), "day"), gap.before_utc.substr(0, 10), gap.after_utc.substr(0, 10), metrics::metricNamed(metric)->title, lossWords(gap, metric)});
@@ -99,7 +99,7 @@ void writeErrorSection(Html& html, const progress::Series& series) {
     html.element("p", "None of the errors that figures can tell happened.");
     return;
   }
-  DataTable table{"", {"Error", "Trials", "Last five", "Against it"}, {}};
+  DataTable table{"", {"Error", "Trials", "Last five", "Against it"}, {}, 3};
   for (const progress::ErrorCount& e : errors) table.rows.push_back({e.kind->words, std::to_string(e.with) + " of " + std::to_string(e.of), std::to_string(e.lately) + " of " + std::to_string(e.lately_of), e.kind->practise});
   writeOpenTable(html, table);
 }

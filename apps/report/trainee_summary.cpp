@@ -13,6 +13,8 @@ namespace {
 
 using progress::Change;
 
+constexpr std::size_t kSaidInFull = 3;
+
 void item(Html& html, const char* head, const std::string& sentence) {
   if (sentence.empty()) return;
   const auto li = html.in("li");
@@ -27,21 +29,33 @@ std::vector<Change> changesIn(const progress::Series& series) {
   return changes;
 }
 
+std::string titlesOf(const std::vector<Change>& changes) {
+  std::string words;
+  for (const Change& change : changes) words += (words.empty() ? "" : ", ") + titleWithin(change.metric);
+  return words.empty() ? words : words + '.';
+}
+
+/// The most telling ones with their figures, the others by name.
+void writeChangesThat(Html& html, Change::Verdict verdict, const char* head, const char* more, const std::vector<Change>& changes) {
+  std::vector<Change> others;
+  std::size_t said = 0;
+  for (const Change& change : changes) {
+    if (change.verdict != verdict) continue;
+    if (said++ < kSaidInFull) item(html, head, changeWords(change) + '.');
+    else others.push_back(change);
+  }
+  item(html, more, titlesOf(others));
+}
+
 void writeChanges(Html& html, const progress::Series& series) {
   const std::vector<Change> changes = changesIn(series);
   if (changes.empty()) return item(html, "Change:", "too few trials to say what changed; six or more tell.");
-  bool any = false;
-  for (const auto& [verdict, head] : {std::pair{Change::Verdict::better, "Better:"}, std::pair{Change::Verdict::worse, "Worse:"}})
-    for (const Change& change : changes) {
-      if (change.verdict != verdict) continue;
-      item(html, head, changeSentence(change));
-      any = true;
-    }
-  std::string unclear;
-  for (const Change& change : changes)
-    if (change.verdict == Change::Verdict::unclear) unclear += (unclear.empty() ? "" : ", ") + titleWithin(change.metric);
-  if (!any) item(html, "Change:", changeSentence(changes.front()));
-  if (!unclear.empty()) item(html, "No clear change:", unclear + '.');
+  writeChangesThat(html, Change::Verdict::better, "Better:", "Also better:", changes);
+  writeChangesThat(html, Change::Verdict::worse, "Worse:", "Also worse:", changes);
+  std::vector<Change> unclear;
+  std::copy_if(changes.begin(), changes.end(), std::back_inserter(unclear), [](const Change& c) { return c.verdict == Change::Verdict::unclear; });
+  if (unclear.size() == changes.size()) return item(html, "No clear change:", changeWords(unclear.front()) + (unclear.size() > 1 ? ". Nor in the others." : "."));
+  item(html, "No clear change:", titlesOf(unclear));
 }
 
 std::string costSentence(const progress::Series& series) {

@@ -34,7 +34,7 @@ std::size_t occurrences(const std::string& page, const std::string& words) {
 
 TEST(TraineePage, SaysInShortWhatAnEducatorAsks) {
   const std::string page = traineePage(test::madeUpTrainee(30));
-  for (const char* words : {"Trainee T&lt;7&gt;", "30 scored trials in 6 sessions, 2027-01-10 to 2027-07-15", "Time got better: from ", "95 % interval", "Costs most now:", "points a trial", "Nearest misses:", "mm from the pleura in trial ",
+  for (const char* words : {"Trainee T&lt;7&gt;", "30 scored trials in 6 sessions, 2027-01-10 to 2027-07-15", "time, from 56.1 s to ", "95 % interval", "Costs most now:", "points a trial", "Nearest misses:", "mm from the pleura in trial ",
                             "Recurring:", "Practise next:", "none is established for this procedure", "exponential curve", "bootstrap"})
     EXPECT_TRUE(tells(page, words)) << words;
   EXPECT_FALSE(tells(page, "SIMULATED"));
@@ -151,9 +151,9 @@ TEST(ProgressWords, FiguresHaveTheirUnits) {
   EXPECT_EQ(intervalWords("time_s", std::nullopt), "");
   EXPECT_EQ(fieldOf("success", 1), "yes");
   progress::Change change{"time_s", 3, 40, 20, -20, -28, -12, progress::Change::Verdict::better};
-  EXPECT_EQ(changeSentence(change), "Time got better: from 40 s (mean of the first 3 trials) to 20 s (of the last 3), 20 s less (95 % interval 12 s to 28 s).");
+  EXPECT_EQ(changeWords(change), "time, from 40 s to 20 s (means of the first and the last 3 trials), 20 s less (95 % interval 12 s to 28 s)");
   change = {"closest_pleura_mm", 3, 5, 6, 1, -2, 4, progress::Change::Verdict::unclear};
-  EXPECT_EQ(changeSentence(change), "Closest to the pleura: no clear change, from 5 mm (mean of the first 3 trials) to 6 mm (of the last 3); the difference's 95 % interval is −2 mm to 4 mm.");
+  EXPECT_EQ(changeWords(change), "closest to the pleura, from 5 mm to 6 mm (means of the first and the last 3 trials); the difference's 95 % interval is −2 mm to 4 mm");
 }
 
 TEST(Example, PagesOfPracticeToLookAt) {
