@@ -51,6 +51,11 @@ std::pair<std::string, std::string> halves(const std::string& text) {
 
 int textSize_px(int window_height) { return std::max(11, (window_height + 24) / 48); }
 
+int stripHeight_px(int window_height) {
+  const int text = textSize_px(window_height);
+  return lineHeight({static_cast<int>(0.85 * text + 0.5)}) + 2 * (text / 2);
+}
+
 struct HudPainter::Content {
   Hud text;
   std::set<ForceKind> kinds;
@@ -190,7 +195,7 @@ void HudPainter::buildTimeline() {
   if (!content_->text.timeline) return;
   const Timeline& strip = *content_->text.timeline;
   const TextStyle look = style(0.85, false, colour::kText);
-  const int pad = text_ / 2, height = lineHeight(look) + 2 * pad;
+  const int pad = text_ / 2, height = stripHeight_px(content_->height);
   const Rect frame{content_->panel.x + margin_, above_, content_->panel.width - 2 * margin_, height};
   plates_.add(frame, colour::kPlate, pad / 2);
   const int middle = frame.y + height / 2, widest = textWidth("88:88.8 of 88:88.8", look), rate = textWidth("paused", look);

@@ -85,7 +85,9 @@ struct NeedleReplay::Impl {
     const Moment& moment = recorded.moments[momentAt(recorded.moments, t_s)];
     bus.haptic_to_scene.publish(moment.tool, now_ns);
     bus.camera_to_scene.publish(calmCamera(), now_ns);
-    channels.status_to_scene.publish(statusAt(moment, recorded.number, recorded.force_feedback), now_ns);
+    task_needle::TaskStatus status = statusAt(moment, recorded.number, recorded.force_feedback);
+    status.elapsed_s = t_s;   // as the strip says it
+    channels.status_to_scene.publish(status, now_ns);
     activity.step(now_ns);
   }
 

@@ -11,9 +11,8 @@ constexpr double kWhiskerEnd = 5;   // px
 }  // namespace
 
 void drawPracticePanel(Html& svg, const ChartFrame& frame, const Axis& x, const std::string& title, const std::string& unit, double top, double bottom) {
-  ChartFrame above = frame;
-  above.wide = false;
-  drawPanel(svg, above, x, kPracticeTop, {title, unit, {}, top, bottom, kPracticeHigh});
+  svgText(svg, "label strong", 0, 14, title + ", " + unit);
+  drawPanel(svg, frame, x, kPracticeTop, {"", unit, {}, top, bottom, kPracticeHigh});
 }
 
 void drawTrialNumbers(Html& svg, const ChartFrame& frame, const Axis& x, double y, std::size_t trials) {

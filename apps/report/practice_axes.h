@@ -10,7 +10,7 @@
 /// What the charts of practice share.
 namespace palpa::report {
 
-inline constexpr double kPracticeTop = 24, kPracticeHigh = 190;   // px: of a plot's upper edge, of the plot
+inline constexpr double kPracticeTop = 36, kPracticeHigh = 190;   // px: of a plot's upper edge, of the plot
 
 /// Room for "12 000" at the left; titles stand above the plot.
 inline ChartFrame practiceFrame(bool wide) {

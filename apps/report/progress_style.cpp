@@ -16,7 +16,8 @@ constexpr std::string_view kProgressStyle = R"css(
 .data td,.data th:first-child{vertical-align:top}
 .data td{white-space:nowrap}
 .data th:first-child,.data .words{text-align:left}
-.data td.words{white-space:normal;min-width:13rem}
+.data td.words{white-space:normal;min-width:6rem}
+.data td.words:last-child{min-width:13rem}
 .data thead th{color:var(--muted);vertical-align:bottom}
 .behind+.course,.course+.course{margin-top:1.8rem}
 .behind+h4,.course+h4,h3+h4{margin:1.6rem 0 .3rem}

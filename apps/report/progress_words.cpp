@@ -24,6 +24,7 @@ std::string differenceRange(const progress::Change& c) {
 std::string titleWithin(const std::string& metric) {
   const metrics::MetricDefinition* definition = metrics::metricNamed(metric);
   if (!definition) return metric;
+  if (metric == "econ_var_mm2") return "variance of the distance from the taught line";   // its title leans on the one before it
   std::string title = definition->title;
   title[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(title[0])));
   return title;

@@ -52,10 +52,10 @@ std::string lossWords(const progress::RetentionGap& gap, const std::string& metr
 }
 
 void writeGaps(Html& html, const progress::Series& series) {
-  DataTable table{"", {"Pause", "From", "To", "Figure", "What it cost"}, {}, 4};
+  DataTable table{"", {"Pause, days", "From", "To", "Figure", "What it cost"}, {}, 3};
   for (const std::string& metric : curvesOf(series))
     for (const progress::RetentionGap& gap : progress::retentionGaps(series, metric))
-      table.rows.push_back({counted(static_cast<std::size_t>(gap.days), "day"), gap.before_utc.substr(0, 10), gap.after_utc.substr(0, 10), metrics::metricNamed(metric)->title, lossWords(gap, metric)});
+      table.rows.push_back({std::to_string(gap.days), gap.before_utc.substr(0, 10), gap.after_utc.substr(0, 10), metrics::metricNamed(metric)->title, lossWords(gap, metric)});
   if (table.rows.empty()) {
     html.element("p", "There was no pause of a week or more between sessions: nothing can be said yet of what is kept.");
     return;
