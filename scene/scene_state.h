@@ -108,7 +108,7 @@ struct Hud {
   bool alarm = false;   ///< notice in alarm style
   std::string marked;   ///< "2": how many lumps were marked
   std::string note;     ///< what to bear in mind: "scaled force: ..."
-  std::optional<Timeline> timeline;   ///< of a replay
+  std::optional<Timeline> timeline = {};   ///< of a replay
 
   bool operator==(const Hud&) const = default;
 };
