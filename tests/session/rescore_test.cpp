@@ -64,14 +64,14 @@ TEST(Rescore, RecordedTrialsHaveTheirStoredScoresExactly) {
     int kind = 0;
     for (const OperatorKind who : {OperatorKind::expert, OperatorKind::novice})
       for (const bool felt : {true, false}) {
-        if (!palpa::test::fullCounts() && kind++ % 2 != (side == anatomy::Side::left)) continue;   // half of the kinds on each side
+        if (!palpa::test::fullCounts() && kind++ != (side == anatomy::Side::left ? 3 : 0)) continue;   // the expert on the right, the numb novice on the left
         options.who = who;
         options.force_feedback = felt;
         options.seed = 300 + static_cast<std::uint64_t>(100 * trials);
         trials += recordAndRescore(options, world, std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/rescore");
       }
   }
-  EXPECT_GE(trials, palpa::test::counted(4, 100));
+  EXPECT_GE(trials, palpa::test::counted(2, 100));
 }
 
 }  // namespace
