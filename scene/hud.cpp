@@ -23,6 +23,17 @@ bool anyCut(const std::vector<ForceArrow>& forces) {
   });
 }
 
+/// Colour and share of the strip's height of a mark.
+std::pair<Rgb, double> lookOf(TickTone tone) {
+  switch (tone) {
+    case TickTone::good: return {colour::kTickGood, 0.5};
+    case TickTone::guide: return {colour::kMark, 0.7};
+    case TickTone::bad: return {colour::kTickBad, 1.0};
+    case TickTone::neutral: break;
+  }
+  return {colour::kTextDim, 0.35};
+}
+
 Rgba opaque(const Rgb& c) { return {c[0], c[1], c[2], 1}; }
 
 /// Breaks a line at the space nearest its middle; unchanged when there is none.
@@ -39,6 +50,11 @@ std::pair<std::string, std::string> halves(const std::string& text) {
 }  // namespace
 
 int textSize_px(int window_height) { return std::max(11, (window_height + 24) / 48); }
+
+int stripHeight_px(int window_height) {
+  const int text = textSize_px(window_height);
+  return lineHeight({static_cast<int>(0.85 * text + 0.5)}) + 2 * (text / 2);
+}
 
 struct HudPainter::Content {
   Hud text;
@@ -70,6 +86,7 @@ void HudPainter::build() {
   buildMark();
   buildPhase();
   buildReadings();
+  buildTimeline();
   buildLegend();
   buildNotice();
   for (std::size_t i = used_; i < labels_.size(); ++i) labels_[i]->hide();
@@ -171,6 +188,29 @@ void HudPainter::buildLegend() {
     x += textWidth(name(kind), bright) + 2 * pad;
   }
   write(scale, dim, x, y, Align::left);
+  above_ = frame.top() + margin_;
+}
+
+void HudPainter::buildTimeline() {
+  if (!content_->text.timeline) return;
+  const Timeline& strip = *content_->text.timeline;
+  const TextStyle look = style(0.85, false, colour::kText);
+  const int pad = text_ / 2, height = stripHeight_px(content_->height);
+  const Rect frame{content_->panel.x + margin_, above_, content_->panel.width - 2 * margin_, height};
+  plates_.add(frame, colour::kPlate, pad / 2);
+  const int middle = frame.y + height / 2, widest = textWidth("88:88.8 of 88:88.8", look), rate = textWidth("paused", look);
+  write(strip.time, look, frame.x + pad, middle, Align::left);
+  write(strip.rate, look, frame.right() - pad, middle, Align::right);
+  const Rect track{frame.x + widest + 2 * pad, middle - 2, std::max(1, frame.width - widest - rate - 5 * pad), 4};
+  const auto across = [&](double share) { return track.x + static_cast<int>(share * track.width); };
+  plates_.add(track, opaque(colour::kTextDim), 0);
+  plates_.add({track.x, track.y, std::max(1, across(strip.at) - track.x), track.height}, opaque(colour::kAdvice), 0);
+  for (const Timeline::Tick& tick : strip.ticks) {
+    const auto [tone, share] = lookOf(tick.tone);
+    const int high = std::max(6, static_cast<int>(share * (height - 4)));
+    plates_.add({across(tick.at) - 1, middle - high / 2, 3, high}, opaque(tone), 0);
+  }
+  plates_.add({across(strip.at) - 2, middle - height / 2 + 2, 4, height - 4}, opaque(colour::kText), 1);
   above_ = frame.top() + margin_;
 }
 

@@ -15,9 +15,11 @@ namespace palpa::scene {
 
 /// Size of ordinary text for a window of this height.
 int textSize_px(int window_height);
+/// What the strip of a replay takes of the view's lower edge, without its margin.
+int stripHeight_px(int window_height);
 
 /// Words over the AR view: phase and readings at the top left, the mark at the top right, the
-/// legend of the force arrows at the bottom left, the notice at the bottom centre.
+/// legend of the force arrows at the bottom left, the notice at the bottom centre; of a replay a strip below them.
 class HudPainter {
  public:
   explicit HudPainter(vtkRenderer& renderer, ForceColours colours = ForceColours::paper);  ///< the renderer covers the whole window
@@ -38,6 +40,7 @@ class HudPainter {
   void buildMark();
   void buildLegend();
   void buildNotice();
+  void buildTimeline();
   std::vector<Row> readings() const;
   void write(const std::string& text, const TextStyle& style, int x, int y, Align align);
   TextStyle style(double scale, bool bold, const Rgb& colour) const;

@@ -23,6 +23,7 @@ inline constexpr Rgb kTextDim{0.66, 0.70, 0.75};
 inline constexpr Rgb kMark{1.00, 0.80, 0.30};  ///< amber badge
 inline constexpr Rgba kAlarmPlate{0.72, 0.08, 0.05, 0.94};
 inline constexpr Rgb kAdvice{0.45, 0.76, 0.96};  ///< edge of a calm notice
+inline constexpr Rgb kTickGood{0.18, 0.78, 0.60}, kTickBad{0.95, 0.45, 0.18};   ///< on a replay's strip
 inline constexpr Rgb kSteel{0.80, 0.83, 0.86};
 inline constexpr Rgb kLumen{0.10, 0.10, 0.12};
 inline constexpr Rgb kHub{0.88, 0.52, 0.66};  ///< 18G is pink (ISO 6009)

@@ -78,6 +78,23 @@ enum class Inset { none, camera };
 
 enum class SkinStyle { solid, translucent, hidden };
 
+/// What a mark on a strip means; also its height, so that colour does not stand alone.
+enum class TickTone { neutral, good, guide, bad };
+
+/// A strip along the bottom of the large view: where in a recorded trial one is, and what happened when. Fractions of its length.
+struct Timeline {
+  struct Tick {
+    double at = 0;
+    TickTone tone = TickTone::neutral;
+    bool operator==(const Tick&) const = default;
+  };
+  double at = 0;
+  std::vector<Tick> ticks;
+  std::string time;     ///< "0:12.4 of 0:31.0"
+  std::string rate;     ///< "x 0.5", "paused"
+  bool operator==(const Timeline&) const = default;
+};
+
 /// Words on the picture; empty lines are left out.
 struct Hud {
   std::string phase;    ///< "Phase 1: puncture the skin"
@@ -91,12 +108,14 @@ struct Hud {
   bool alarm = false;   ///< notice in alarm style
   std::string marked;   ///< "2": how many lumps were marked
   std::string note;     ///< what to bear in mind: "scaled force: ..."
+  std::optional<Timeline> timeline = {};   ///< of a replay
 
   bool operator==(const Hud&) const = default;
 };
 
 struct SceneState {
   const Image* picture = nullptr;  ///< undistorted camera picture; null: plain background
+  const Image* beside = nullptr;   ///< what the inset shows; null: `picture`
   Pinhole camera;
   bool registered = false;  ///< X_CA is valid
   Pose X_CA = Pose::Identity();

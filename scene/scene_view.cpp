@@ -121,7 +121,9 @@ void SceneView::Impl::show(const SceneState& state) {
   trail.update(state.trail_A);
   ar.update(state);
   for (const auto& view : fixed) view->update(state);
-  if (inset) inset->show(state.picture, panels.ar, size[0], size[1]);
+  Rect free = panels.ar;
+  if (state.hud.timeline) free.y += stripHeight_px(size[1]) + textSize_px(size[1]) / 2;
+  if (inset) inset->show(state.beside ? state.beside : state.picture, free, size[0], size[1]);
   writeWords(state);
   window.Render();
   if (layout.stereo == Stereo::anaglyph) mergeEyes();

@@ -21,6 +21,7 @@ void addExport(CLI::App& program);
 void addRecords(CLI::App& program);   ///< trainees and their trials
 void addStudy(CLI::App& program);     ///< a protocol's sessions, who is where in it
 void addRate(CLI::App& program);      ///< human raters
+void addReport(CLI::App& program);    ///< pages of a trainee or a group
 void addBench(CLI::App& program);
 
 }  // namespace palpa::cli

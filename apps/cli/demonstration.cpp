@@ -1,13 +1,12 @@
 #include "apps/cli/demonstration.h"
 
-#include <algorithm>
 #include <cstdio>
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/needle_session.h"
 #include "apps/cli/mouse_hand.h"
 #include "apps/cli/output_folder.h"
-#include "apps/cli/recorded_session.h"
+#include "apps/cli/recorded_trial.h"
 #include "apps/cli/stage.h"
 #include "apps/runtime/executive.h"
 
@@ -21,11 +20,7 @@ constexpr std::int64_t kLinger = 3 * runtime::kSecond;
 /// A recorded trial, told to the scene at the speed at which it happened.
 class Playback final : public runtime::Activity {
  public:
-  struct Moment {
-    assess::TrialSample sample;
-    runtime::ToolState tool;
-  };
-  Playback(std::vector<Moment> moments, runtime::Bus& bus, task_needle::TaskChannels& channels,
+  Playback(std::vector<replay::Moment> moments, runtime::Bus& bus, task_needle::TaskChannels& channels,
            runtime::Executive& executive)
       : moments_(std::move(moments)), bus_(bus), channels_(channels), executive_(executive) {}
   const char* name() const override { return "playback"; }
@@ -37,61 +32,28 @@ class Playback final : public runtime::Activity {
         executive_.stop();
     if (start_ns_ < 0) start_ns_ = now_ns;
     const double t_s = static_cast<double>(now_ns - start_ns_) * 1e-9;
-    while (next_ < moments_.size() && moments_[next_].sample.t_s <= t_s) phases_.add(moments_[next_++].sample);
-    if (next_ == moments_.size() && (end_ns_ = end_ns_ < 0 ? now_ns : end_ns_, now_ns - end_ns_ > kLinger))
+    const std::size_t at = replay::momentAt(moments_, t_s);
+    if (at + 1 == moments_.size() && (end_ns_ = end_ns_ < 0 ? now_ns : end_ns_, now_ns - end_ns_ > kLinger))
       executive_.stop();
-    if (next_ > 0) publish(moments_[next_ - 1], now_ns);
+    publish(moments_[at], now_ns);
     return now_ns + kPlaybackPeriod;
   }
 
  private:
-  void publish(const Moment& moment, std::int64_t now_ns) {
-    task_needle::TaskStatus status;
-    status.state = trial::TrialState::running;
-    status.trial = status.trials = 1;
+  void publish(const replay::Moment& moment, std::int64_t now_ns) {
+    task_needle::TaskStatus status = replay::statusAt(moment, 1, true);
     status.role = "demonstration";
-    status.phase = phases_.phase();
-    status.step = assess::clinicalName(status.phase);
-    status.elapsed_s = moment.sample.t_s;
-    status.plunger = moment.sample.plunger;
-    status.blood_flows = moment.sample.tissue == Tissue::vein_lumen && moment.sample.plunger > 0.25;
-    status.blood = status.blood_flows ? moment.sample.plunger : 0;
     status.notice = "Demonstration by a simulated expert. Enter: your turn";
     bus_.haptic_to_scene.publish(moment.tool, now_ns);
     channels_.status_to_scene.publish(status, now_ns);
   }
 
-  std::vector<Moment> moments_;
+  std::vector<replay::Moment> moments_;
   runtime::Bus& bus_;
   task_needle::TaskChannels& channels_;
   runtime::Executive& executive_;
-  assess::PhaseDetector phases_;
-  std::size_t next_ = 0;
   std::int64_t start_ns_ = -1, end_ns_ = -1;
 };
-
-std::vector<Playback::Moment> momentsOf(const RecordedSession& session, const NeedleWorld& world) {
-  std::vector<Playback::Moment> moments;
-  assess::TrialSampler sampler(session.X_DA().inverse(), session.reader().info().tick_config.X_ET);
-  sampler.begin(1);
-  session.reader().ticks([&](const haptics::FlightRecord& record) {
-    Playback::Moment moment;
-    if (!sampler.add(record, &moment.sample)) return;
-    const Quat q_DE = unpack(record.reading.q_DE);
-    const Pose X_DE = makePose(q_DE.normalized().toRotationMatrix(), unpack(record.reading.p_DE));
-    moment.tool.X_DT = pack(X_DE * world.station.X_ET);
-    moment.tool.f_contact_D = record.f_contact_D;
-    moment.tool.f_command_D = record.f_command_D;
-    moment.tool.depth = record.depth;
-    moment.tool.plunger = record.reading.plunger;
-    moment.tool.phase = record.phase;
-    moment.tool.tissue = record.tissue;
-    moment.tool.wall = record.wall;
-    moment.tool.bone = record.bone;
-    moments.push_back(moment);
-  });
-  return moments;
-}
 
 }  // namespace
 
@@ -112,13 +74,13 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   expert.headset = false;
   const std::filesystem::path place = makeOutputFolder((folder / "demonstration").string(), "");
   if (runNeedleSession(expert, world, place).quit) throw Error("was interrupted", "the demonstration", "Start again");
-  const RecordedSession recorded(place / "session.palpa");
+  const RecordedNeedleTrial recorded(place / "session.palpa", 1);
 
   const Stage stage = makeStage(options, world.patient, true);
   const auto executive = runtime::makeRealExecutive();
   runtime::Bus bus(executive->mode());
   task_needle::TaskChannels channels(executive->mode());
-  Playback playback(momentsOf(recorded, world), bus, channels, *executive);
+  Playback playback(recorded.trial.moments, bus, channels, *executive);
   task_needle::SceneActivity::Setup shown;
   trial::TrialScene::Stage& setup = shown.stage;
   setup.views = trial::TrialScene::Views::continuous;

@@ -7,7 +7,6 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/report_trial.h"
 
 namespace {
 
@@ -57,7 +56,7 @@ int run(int argc, char** argv) {
   palpa::cli::addExport(program);
   palpa::cli::addRecords(program);
   palpa::cli::addStudy(program);
-  palpa::cli::addReportTrial(*program.add_subcommand("report", "Pages made from what was recorded")->require_subcommand(1));
+  palpa::cli::addReport(program);
   palpa::cli::addRate(program);
   palpa::cli::addBench(program);
   try {

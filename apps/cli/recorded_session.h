@@ -22,6 +22,7 @@ class RecordedSession {
 
   const record::SessionReader& reader() const { return *reader_; }
   const anatomy::Patient& patient() const { return patient_; }
+  const task_needle::TaskWords& words() const { return task_.words; }
   const Pose& X_DA() const { return X_DA_; }
   bool simulated() const { return simulated_; }
   const std::string& operatorName() const { return operator_; }

@@ -11,6 +11,7 @@
 #include "apps/cli/recorded_search.h"
 #include "apps/cli/recorded_session.h"
 #include "apps/cli/recorded_squeeze.h"
+#include "apps/cli/replay_view.h"
 #include "apps/record/tick_export.h"
 
 namespace palpa::cli {
@@ -111,11 +112,16 @@ void replay(const std::string& file) {
 }  // namespace
 
 void addReplay(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("replay", "Run a recorded session again: same forces, same score");
-  command->footer("Example:\n  palpa replay out/paracentesis-20260301-120000/session.palpa");
+  CLI::App* command = program.add_subcommand("replay", "Run a recorded session again: same forces, same score; or see a trial of it again");
+  command->footer("Examples:\n  palpa replay out/paracentesis-20260301-120000/session.palpa\n  palpa replay out/A/session.palpa --view --trial 2 --speed 0.5\n  palpa replay out/A/session.palpa --video trial.mp4");
   const auto file = std::make_shared<std::string>();
+  const auto seen = std::make_shared<ReplayViewOptions>();
   command->add_option("session", *file, "session.palpa")->required()->type_name("FILE");
-  command->callback([file] { replay(*file); });
+  addReplayViewOptions(*command, *seen);
+  command->callback([file, seen] {
+    if (seen->wanted()) viewReplay(*file, *seen);
+    else replay(*file);
+  });
 }
 
 void addExport(CLI::App& program) {

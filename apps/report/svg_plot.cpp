@@ -23,6 +23,7 @@ void drawSample(Html& svg, const Curve& curve, double x, double y) {
 
 /// Title, unit and legend: in the left margin where there is one, else in a line above.
 void drawHeading(Html& svg, const ChartFrame& frame, double top, const PlotPanel& panel) {
+  if (panel.title.empty()) return;
   const std::string title = panel.title + ", " + panel.unit;
   if (frame.wide) {
     svgText(svg, "label strong", 0, top + 12, title);

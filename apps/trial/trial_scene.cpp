@@ -89,6 +89,7 @@ void TrialScene::composeAll() {
   compose(state_, tool_, camera.empty() && stage_.head ? stage_.head->trouble() : camera);
   showEllipse(camera.empty());
   hideBehindRealThings();
+  if (stage_.more) stage_.more(state_);
 }
 
 void TrialScene::showEllipse(bool camera_good) {

@@ -46,6 +46,7 @@ class TrialScene : public runtime::Activity {
     std::function<std::optional<Mat3>(const Pose& X_DT)> tip_covariance_A;
     std::vector<RealThing> things;
     std::vector<runtime::BoardPlace> places;   ///< of the boards besides the table's
+    std::function<void(scene::SceneState&)> more;   ///< adds last what no task shows: a replay's strip
     /// Keys and mouse of a window, once a frame.
     std::function<void(const scene::ViewInput&, std::int64_t now_ns)> input;
   };

@@ -54,6 +54,21 @@ TEST_P(HudFrame, AlarmIsARedPlateInTheLowerMiddleOfTheArView) {
   EXPECT_LT(changed(before, after).right, 0.7 * width());
 }
 
+TEST_P(HudFrame, AReplaysStripLiesAtTheBottomOfTheArViewAndMovesOn) {
+  const Image before = frame();
+  state_.hud.timeline = Timeline{0.25, {{0.9, TickTone::bad}}, "0:02.5 of 0:10.0", "x 1"};
+  const Image quarter = frame();
+  const Blob strip = changed(before, quarter);
+  EXPECT_GT(strip.top, 0.85 * height());
+  EXPECT_LT(strip.right, 0.7 * width());
+  EXPECT_GT(strip.right - strip.left, 0.6 * width());
+  state_.hud.timeline->at = 0.75;
+  const Blob moved = changed(quarter, frame());
+  EXPECT_GT(moved.count, 20);
+  EXPECT_GT(moved.top, 0.85 * height());
+  EXPECT_GT(moved.right - moved.left, 0.1 * width());
+}
+
 TEST_P(HudFrame, MarkStandsInTheTopRightCornerOfTheArView) {
   const Image before = frame();
   state_.hud.mark = "SIMULATED OPERATOR";

@@ -1,0 +1,113 @@
+#include "apps/cli/replay_view.h"
+
+#include <cmath>
+#include <cstdio>
+
+#include "anatomy/geometry/error.h"
+#include "apps/cli/recorded_trial.h"
+#include "apps/cli/work_progress.h"
+#include "apps/replay/film.h"
+#include "apps/replay/player.h"
+#include "apps/runtime/clock.h"
+
+namespace palpa::cli {
+namespace {
+
+struct Picture {
+  int width = 0, height = 0;
+};
+
+Picture sizeOf(const std::string& text) {
+  Picture size;
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 160 || size.height < 120 || size.width > 7680 || size.height > 4320 || size.width % 2 || size.height % 2)
+    throw UsageError("is no size of a film", "--size " + text, "Write it as 1280x720: even numbers, 160x120 to 7680x4320");
+  return size;
+}
+
+struct Cut {
+  double from_s = 0, to_s = 0;
+};
+
+Cut cutOf(const ReplayViewOptions& o, double length_s) {
+  const Cut cut{o.from_s, o.to_s < 0 ? length_s : std::min(o.to_s, length_s)};
+  if (cut.from_s < 0 || cut.from_s >= cut.to_s) {
+    char length[32];
+    std::snprintf(length, sizeof length, "%.1f s", length_s);
+    throw UsageError("leave nothing to show", "--from and --to", std::string("The trial lasts ") + length);
+  }
+  return cut;
+}
+
+struct ReplayStage {
+  std::unique_ptr<scene::GlContextProvider> context;
+  std::unique_ptr<scene::SceneView> view;
+};
+
+ReplayStage stageFor(const RecordedNeedleTrial& recorded, scene::Display display, Picture size) {
+  ReplayStage stage;
+  stage.context = scene::makeGlContext(display, size.width, size.height, "Palpa: replay");
+  scene::ViewLayout layout;
+  layout.width = size.width;
+  layout.height = size.height;
+  if (!recorded.pictures.empty()) layout.inset = scene::Inset::camera;
+  stage.view = std::make_unique<scene::SceneView>(*stage.context, recorded.session.patient(), layout);
+  return stage;
+}
+
+void playInWindow(RecordedNeedleTrial& recorded, const Cut& cut, const ReplayViewOptions& o) {
+  const ReplayStage stage = stageFor(recorded, scene::Display::window, {1280, 720});
+  replay::NeedleReplay shown(recorded.trial, *stage.view, &recorded.pictures);
+  replay::Player player(cut.from_s, cut.to_s, o.speed);
+  std::printf("space: pause; Left, Right: 1 s; with shift: a frame; + and -: speed; Escape: leave\n");
+  constexpr std::int64_t kFrame_ns = 33'333'333;
+  const runtime::SteadyClock clock;
+  for (std::int64_t last_ns = clock.now(); !player.left() && !shown.input().closed;) {
+    const std::int64_t now_ns = clock.now();
+    player.advance(static_cast<double>(now_ns - last_ns) * 1e-9);
+    last_ns = now_ns;
+    shown.show(player.at_s(), player.words());
+    for (const std::string& key : shown.input().keys) player.key(key, shown.input().shift);
+    clock.sleepUntil(now_ns + kFrame_ns);
+  }
+}
+
+void writeFilm(RecordedNeedleTrial& recorded, const Cut& cut, const ReplayViewOptions& o) {
+  const Picture size = sizeOf(o.size);
+  replay::codecOf(o.video);   // refused before the scene is made
+  const ReplayStage stage = stageFor(recorded, scene::Display::offscreen, size);
+  replay::NeedleReplay shown(recorded.trial, *stage.view, &recorded.pictures);
+  const int frames = std::max(1, static_cast<int>(std::lround((cut.to_s - cut.from_s) / o.speed * o.frames_per_second)));
+  replay::Player speed(cut.from_s, cut.to_s, o.speed);
+  replay::Film film(o.video, o.frames_per_second, size.width, size.height);
+  WorkProgress progress("pictures", frames);
+  for (int i = 0; i < frames; ++i) {
+    shown.show(cut.from_s + i * o.speed / o.frames_per_second, speed.words());
+    film.add(stage.view->capture());
+    progress.done(i + 1);
+  }
+  film.finish();
+  std::printf("Written: %s (%d pictures, %.1f s)\n", o.video.c_str(), frames, frames / o.frames_per_second);
+}
+
+}  // namespace
+
+void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
+  command.add_flag("--view", o.view, "Show a trial in the scene, in a window: space pauses, arrows step, + and - change the speed, Escape leaves");
+  command.add_option("--video", o.video, "Write it as a film instead (.mp4, .avi)")->type_name("FILE");
+  command.add_option("--trial", o.trial, "Which trial; default: the first that was finished")->check(CLI::PositiveNumber);
+  command.add_option("--speed", o.speed, "1: as fast as it was")->check(CLI::Range(replay::kSlowest, replay::kFastest));
+  command.add_option("--from", o.from_s, "Second of the trial to begin with")->check(CLI::NonNegativeNumber);
+  command.add_option("--to", o.to_s, "Second of the trial to end with; default: its end")->check(CLI::NonNegativeNumber);
+  command.add_option("--fps", o.frames_per_second, "Pictures a second of the film")->check(CLI::Range(1.0, 120.0));
+  command.add_option("--size", o.size, "Of the film, pixels")->type_name("WxH");
+}
+
+void viewReplay(const std::string& file, const ReplayViewOptions& o) {
+  RecordedNeedleTrial recorded(file, o.trial);
+  const Cut cut = cutOf(o, recorded.trial.length_s());
+  if (o.video.empty()) playInWindow(recorded, cut, o);
+  else writeFilm(recorded, cut, o);
+}
+
+}  // namespace palpa::cli

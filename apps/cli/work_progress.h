@@ -1,0 +1,27 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/runtime/clock.h"
+
+namespace palpa::cli {
+
+/// How far a piece of work is, on standard error: a line that renews itself on a terminal, a line every five seconds otherwise.
+class WorkProgress {
+ public:
+  WorkProgress(std::string what, int of);
+  ~WorkProgress();
+  WorkProgress(const WorkProgress&) = delete;
+  WorkProgress& operator=(const WorkProgress&) = delete;
+  void done(int count);
+
+ private:
+  std::string what_;
+  int of_;
+  bool terminal_;
+  std::int64_t last_ns_ = 0;
+  runtime::SteadyClock clock_;
+};
+
+}  // namespace palpa::cli

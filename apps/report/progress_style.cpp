@@ -1,0 +1,52 @@
+#include "apps/report/progress_style.h"
+
+namespace palpa::report {
+namespace {
+
+constexpr std::string_view kProgressStyle = R"css(
+.short{margin:0;padding-left:1.3rem}
+.short li{margin:0 0 .55rem;padding-left:.2rem}
+.short strong{font-weight:650}
+.short .warn{color:var(--bad-ink);font-weight:600}
+.apart{margin-top:1rem}
+.behind{margin:.6rem 0 0}
+.behind summary{cursor:pointer;color:var(--blue);font-size:.9rem}
+.data{border-collapse:collapse;font-size:.85rem;margin:.6rem 0 0;min-width:50%}
+.data th,.data td{text-align:right;padding:.35rem .8rem .35rem 0;border-bottom:1px solid var(--line);font-weight:400}
+.data td,.data th:first-child{vertical-align:top}
+.data td{white-space:nowrap}
+.data th:first-child,.data .words{text-align:left}
+.data td.words{white-space:normal;min-width:6rem}
+.data td.words:last-child{min-width:13rem}
+.data thead th{color:var(--muted);vertical-align:bottom}
+.behind+.course,.course+.course{margin-top:1.8rem}
+.behind+h4,.course+h4,h3+h4{margin:1.6rem 0 .3rem}
+.course+h3,.behind+h3,.scroll+h3{margin-top:2.2rem}
+.short ul{margin:.3rem 0 0;padding-left:1.2rem}
+svg .band{fill:var(--blue);fill-opacity:.14;stroke:none}
+svg .curve.fitted{stroke:var(--blue);stroke-width:2.4}
+svg .curve.own{stroke:var(--muted);stroke-width:1;stroke-opacity:.55}
+svg .curve.sum{stroke:var(--ink);stroke-width:1.6}
+svg .session{stroke:var(--plain);stroke-opacity:.5;stroke-dasharray:2 4}
+svg .limit{stroke-width:1.6}
+svg .limit.accept{stroke:var(--good-ink);stroke-dasharray:9 4}
+svg .limit.reject{stroke:var(--bad-ink);stroke-dasharray:3 3}
+svg .whisker{stroke:var(--ink);stroke-width:2;stroke-linecap:round}
+svg .dot-share{fill:var(--blue);stroke:var(--card);stroke-width:2}
+svg .dot-own{fill:none;stroke:var(--muted);stroke-width:1.2}
+svg .group-mean{stroke:var(--blue);stroke-width:1.6;stroke-dasharray:6 4}
+svg .row-back{fill:var(--lane)}
+svg .row-back.odd{fill:none}
+@media print{
+  .behind{display:none}
+  h4{break-after:avoid}
+  .series+.series{break-before:page}
+  .short li,.course{break-inside:avoid}
+}
+)css";
+
+}  // namespace
+
+std::string_view progressStyle() { return kProgressStyle; }
+
+}  // namespace palpa::report

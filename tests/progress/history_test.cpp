@@ -1,0 +1,84 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "practice.h"
+
+namespace palpa::progress {
+namespace {
+
+using test::cleanTrial;
+using test::set;
+
+TEST(History, WhatDiffersIsNeverInOneSeries) {
+  std::vector<PracticeTrial> trials;
+  for (int i = 1; i <= 8; ++i) {
+    PracticeTrial t = cleanTrial("A", i);
+    t.simulated = i % 2 == 0;
+    t.force_feedback = i % 4 < 2;
+    if (i == 8) t.condition = "cues on";
+    trials.push_back(t);
+  }
+  const std::vector<Series> all = seriesOf(trials);
+  ASSERT_EQ(all.size(), 5u);
+  for (const Series& series : all)
+    for (const PracticeTrial& t : series.trials) {
+      EXPECT_EQ(t.simulated, series.simulated);
+      EXPECT_EQ(t.force_feedback, series.force_feedback);
+      EXPECT_EQ(t.condition, series.condition);
+    }
+  EXPECT_EQ(all.back().name().find("paracentesis"), 0u);
+}
+
+TEST(History, WhatDoesNotCountIsNamed) {
+  std::vector<PracticeTrial> trials(4, cleanTrial("A", 1));
+  trials[1].role = "familiarisation";
+  trials[2].outcome = "void";
+  trials[3].role = "not scored";
+  ASSERT_EQ(seriesOf(trials).size(), 1u);
+  EXPECT_EQ(seriesOf(trials)[0].trials.size(), 1u);
+  EXPECT_EQ(leftOut(trials), "1 familiarisation, 1 not scored, 1 void");
+  EXPECT_EQ(leftOut({trials[0]}), "");
+}
+
+TEST(History, TrialsStandInOrderOfArrivalWhateverTheirDates) {
+  PracticeTrial late = cleanTrial("A", 1, "2001-01-01T00:00:00Z"), early = cleanTrial("A", 2, "2027-01-01T00:00:00Z");
+  late.arrival = 2;
+  const Series series = seriesOf({late, early}).at(0);
+  EXPECT_EQ(series.trials[0].number, 2);
+  EXPECT_EQ(series.trials[1].number, 1);
+}
+
+TEST(History, WhatHarmsIsAFailure) {
+  const PracticeTrial clean = cleanTrial("A", 1);
+  EXPECT_FALSE(failed(clean));
+  for (const auto& [metric, value] : {std::pair{"success", 0.0}, std::pair{"col_lung", 1.0}, std::pair{"col_artery", 1.0}, std::pair{"needle_passes", 4.0}}) {
+    PracticeTrial t = clean;
+    set(t, metric, value);
+    EXPECT_TRUE(failed(t)) << metric;
+  }
+  PracticeTrial three = clean;
+  set(three, "needle_passes", 3);
+  EXPECT_FALSE(failed(three));
+}
+
+TEST(History, EveryFigureShownIsInTheTable) {
+  for (const char* engine : {"needle", "palpation", "search", "squeeze", "another"})
+    for (const std::string& name : shownFigures(engine)) {
+      const metrics::MetricDefinition* definition = metrics::metricNamed(name);
+      ASSERT_NE(definition, nullptr) << name;
+      EXPECT_TRUE(engine == std::string("another") || metrics::belongsTo(*definition, engine)) << name;
+    }
+}
+
+TEST(History, AnEngineIsKnownByItsFigures) {
+  EXPECT_EQ(engineOfFigures(cleanTrial("A", 1).metrics), "needle");
+  EXPECT_EQ(engineOfFigures({{"presses", 3}}), "palpation");
+  EXPECT_EQ(engineOfFigures({{"chosen", 1}}), "search");
+  EXPECT_EQ(engineOfFigures({{"grips", 2}}), "squeeze");
+  EXPECT_EQ(engineOfFigures({}), "");
+  EXPECT_TRUE(std::isnan(cleanTrial("A", 1).metric("no such")));
+}
+
+}  // namespace
+}  // namespace palpa::progress

@@ -1,0 +1,109 @@
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "apps/replay/needle_replay.h"
+#include "apps/replay/player.h"
+
+namespace palpa::replay {
+namespace {
+
+TEST(Player, GoesOnAtItsSpeedAndStopsAtTheEnd) {
+  Player player(2, 10, 0.5);
+  player.advance(4);
+  EXPECT_NEAR(player.at_s(), 4, 1e-12);
+  EXPECT_EQ(player.words(), "x 0.5");
+  player.advance(100);
+  EXPECT_EQ(player.at_s(), 10);
+  EXPECT_TRUE(player.paused());
+  player.key("space", false);   // from the start again
+  EXPECT_EQ(player.at_s(), 2);
+  EXPECT_FALSE(player.paused());
+}
+
+TEST(Player, PausedItStands) {
+  Player player(0, 10, 1);
+  player.advance(3);
+  player.key("space", false);
+  player.advance(3);
+  EXPECT_EQ(player.at_s(), 3);
+  EXPECT_EQ(player.words(), "paused");
+  player.key("Right", true);
+  EXPECT_NEAR(player.at_s(), 3.04, 1e-12);
+  player.key("Left", true);
+  EXPECT_NEAR(player.at_s(), 3, 1e-12);
+}
+
+TEST(Player, ArrowsJumpAndNeverLeaveTheCut) {
+  Player player(1, 8, 1);
+  player.key("Left", false);
+  EXPECT_EQ(player.at_s(), 1);
+  player.key("Right", false);
+  EXPECT_EQ(player.at_s(), 2);
+  player.key("Up", false);
+  EXPECT_EQ(player.at_s(), 7);
+  player.key("Up", false);
+  EXPECT_EQ(player.at_s(), 8);
+  player.key("Home", false);
+  EXPECT_EQ(player.at_s(), 1);
+  EXPECT_FALSE(player.left());
+  player.key("Escape", false);
+  EXPECT_TRUE(player.left());
+}
+
+TEST(Player, SpeedStaysWithinItsLimits) {
+  Player player(0, 1, 1);
+  for (int i = 0; i < 2; ++i) player.key("plus", false);
+  EXPECT_NEAR(player.speed(), 2, 1e-12);
+  for (int i = 0; i < 40; ++i) player.key("minus", false);
+  EXPECT_EQ(player.speed(), kSlowest);
+  for (int i = 0; i < 40; ++i) player.key("plus", false);
+  EXPECT_EQ(player.speed(), kFastest);
+}
+
+TEST(Marks, WordsStandForAWhileAndTheLatestWins) {
+  const std::vector<Mark> marks{{1, scene::TickTone::neutral, "Skin punctured"}, {2, scene::TickTone::bad, "Artery"}};
+  EXPECT_EQ(wordsAt(marks, 0.9), "");
+  EXPECT_EQ(wordsAt(marks, 1), "Skin punctured");
+  EXPECT_EQ(wordsAt(marks, 2.2), "Artery");
+  EXPECT_EQ(wordsAt(marks, 2 + kMarkShown), "");
+}
+
+haptics::FlightRecord tickAt(double t_s, double plunger, Tissue tissue) {
+  haptics::FlightRecord record;
+  record.tick = std::llround(1000 * t_s);
+  record.t_ns = 1'000'000 * record.tick;
+  record.commands.trial = 2;
+  record.commands.armed = 1;
+  record.reading.p_DE = {0.01 * t_s, 0, 0};
+  record.reading.q_DE = {1, 0, 0, 0};
+  record.reading.plunger = plunger;
+  record.phase = haptics::NeedlePhase::inserted;
+  record.tissue = tissue;
+  return record;
+}
+
+TEST(Moments, TheyAreThoseOfTheTrialAndBloodFillsAQuarterASecond) {
+  MomentReader reader(Pose::Identity(), pack(Pose::Identity()), 2);
+  haptics::FlightRecord other = tickAt(0, 0, Tissue::air);
+  other.commands.trial = 1;
+  reader.add(other);
+  for (int i = 0; i < 2000; ++i) reader.add(tickAt(1 + 1e-3 * i, 0.5, i < 1000 ? Tissue::air : Tissue::vein_lumen));
+  const std::vector<Moment>& moments = reader.moments();
+  ASSERT_EQ(moments.size(), 500u);   // every 4 ms
+  EXPECT_FALSE(moments[249].blood_flows);
+  EXPECT_TRUE(moments[251].blood_flows);
+  EXPECT_NEAR(moments.back().blood, 0.25 * (moments.back().t_s - moments[249].t_s), 0.003);
+  const std::size_t middle = momentAt(moments, moments[100].t_s + 0.003);
+  EXPECT_EQ(middle, 100u);
+  EXPECT_EQ(momentAt(moments, -1), 0u);
+  EXPECT_EQ(momentAt(moments, 99), moments.size() - 1);
+  EXPECT_NEAR(unpack(moments[100].tool.X_DT).translation().x(), 0.014, 1e-9);
+  const task_needle::TaskStatus status = statusAt(moments.back(), 2, false);
+  EXPECT_EQ(status.trial, 2);
+  EXPECT_FALSE(status.force_feedback);
+  EXPECT_TRUE(status.blood_flows);
+}
+
+}  // namespace
+}  // namespace palpa::replay
