@@ -9,6 +9,7 @@
 #include "anatomy/shapes/root.h"
 #include "anatomy/shapes/surface_nets.h"
 #include "anatomy/surface_query.h"
+#include "anatomy/triangle_tree.h"
 
 namespace palpa::anatomy {
 namespace {
