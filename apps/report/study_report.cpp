@@ -33,7 +33,7 @@ constexpr std::string_view kStudyStyle = R"css(
 .doubts{margin:.4rem 0 0;padding-left:1.2rem;color:var(--muted);font-size:.875rem}
 details summary{cursor:pointer;color:var(--muted);font-size:.875rem;margin-top:.5rem}
 .published{border-left:6px solid var(--guide)}
-@media print{.study-table{font-size:6.5pt}.study-table th,.study-table td{padding:.2rem;white-space:normal}.study-table .words{min-width:0}.exhibit{break-inside:avoid}details summary{display:none}details::details-content{content-visibility:visible;display:block}}
+@media print{.study-table{font-size:7pt}.study-table th,.study-table td{padding:.2rem;white-space:normal}.study-table .words{min-width:0}.exhibit{break-inside:avoid}details summary{display:none}details::details-content{content-visibility:visible;display:block}}
 )css";
 
 /// No line ends between a number and its "%".
