@@ -12,16 +12,16 @@ namespace {
 class Pages : public testing::Test {
  protected:
   static void SetUpTestSuite() {
-    if (test::Browser::whyNot().empty()) browser_ = std::make_unique<test::Browser>();
+    if (palpa::test::Browser::whyNot().empty()) browser_ = std::make_unique<palpa::test::Browser>();
   }
   static void TearDownTestSuite() { browser_.reset(); }
   void SetUp() override {
-    if (!browser_) GTEST_SKIP() << test::Browser::whyNot();
+    if (!browser_) GTEST_SKIP() << palpa::test::Browser::whyNot();
   }
   static void expectNoFaults(const std::filesystem::path& page) {
-    for (const std::string& fault : test::faultsOf(*browser_, page)) ADD_FAILURE() << fault;
+    for (const std::string& fault : palpa::test::faultsOf(*browser_, page)) ADD_FAILURE() << fault;
   }
-  static inline std::unique_ptr<test::Browser> browser_;
+  static inline std::unique_ptr<palpa::test::Browser> browser_;
 };
 
 TEST_F(Pages, OfNeedleSessions) {
@@ -48,7 +48,7 @@ TEST_F(Pages, FaultsAreFound) {
 <svg width="300" height="50" viewBox="0 0 300 50"><text x="10" y="20">one</text><text x="14" y="20">two</text><text x="290" y="40">outside</text></svg>
 <script>console.error('broken')</script></body>)";
   std::string all;
-  for (const std::string& fault : test::faultsOf(*browser_, file)) all += fault + "\n";
+  for (const std::string& fault : palpa::test::faultsOf(*browser_, file)) all += fault + "\n";
   for (const char* expected : {"wider than the screen", "type of 6.0 px: tiny", "hardly legible: pale", "run into each other: \"one\" and \"two\"", "runs out of its drawing: outside", "broken"})
     EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
 }
