@@ -40,6 +40,14 @@ install_missing() {
     fail "apt-get could not install the packages; the lines above say why"
 }
 
+# As many as there are processors, and as 2.5 GB of memory for each allow: many files are compiled at once.
+compile_jobs() {
+  local fit=$(($(sed -n 's/^MemAvailable: *\([0-9]*\) kB/\1/p' /proc/meminfo) / 2500000)) processors
+  processors=$(nproc)
+  [ "$fit" -lt 1 ] && fit=1
+  echo $((fit < processors ? fit : processors))
+}
+
 # build PRESET [cmake options...] -- [targets...]
 build() {
   local preset=$1; shift
@@ -53,5 +61,5 @@ build() {
     (cd "$top" && cmake --preset "$preset" "${options[@]}" >"$log" 2>&1) || { tail -n 20 "$log" >&2; fail "configuring failed; see $log"; }
     echo "${options[*]}" >"$stamp"
   fi
-  (cd "$top" && cmake --build "build/$preset" ${1:+--target "$@"} >&2) || fail "the build failed; the lines above say why"
+  (cd "$top" && cmake --build "build/$preset" --parallel "$(compile_jobs)" ${1:+--target "$@"} >&2) || fail "the build failed; the lines above say why"
 }

@@ -21,7 +21,7 @@ constexpr std::string_view kPaper = R"css(
 .form td{border-bottom:1px solid var(--line);padding:.28rem .3rem;vertical-align:top}
 .form .box{width:4.2rem;text-align:center}
 .form .box i{display:inline-block;width:.95rem;height:.95rem;border:1.3px solid var(--ink);vertical-align:middle}
-.form code{font-size:.72rem;color:var(--muted)}
+.form code{font-size:.8rem;color:var(--muted)}
 .form .faint{color:var(--faint);font-size:.75rem}
 .grades .box{width:2.2rem}
 .grades .words{font-size:.78rem;width:50%}
