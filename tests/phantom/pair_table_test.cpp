@@ -6,6 +6,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/twin/phantom/phantom_twin.h"
+#include "tests/support/counts.h"
 
 namespace palpa::twin {
 namespace {
@@ -66,6 +67,7 @@ TEST(PairTable, AddsToEachAloneWhatBothDo) {
 
 /// The cells are what the elements say; between them it is nearly so; and the mirror image is one.
 TEST(PairTable, IsWhatTheElementsSay) {
+  if (!test::fullCounts()) GTEST_SKIP() << "its elements take a minute: ./check --full";
   const SoftBlock block = blockWithLump();
   PhantomTable one;
   one.aways = 6;
