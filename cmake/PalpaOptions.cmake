@@ -8,6 +8,7 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 option(PALPA_TESTS "Build the tests" ON)
 option(PALPA_WERROR "Treat warnings as errors" OFF)
 set(PALPA_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
+option(PALPA_SANITIZE_WHOLE "Look also into modules that are linked only" OFF)
 
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
