@@ -20,6 +20,6 @@ endfunction()
 # PALPA_SANITIZE_WHOLE (./check --full): compiling its templates takes ten minutes there.
 function(palpa_linked_only NAME)
   if(PALPA_SANITIZE MATCHES "address" AND NOT PALPA_SANITIZE_WHOLE)
-    target_compile_options(palpa_${NAME} PRIVATE -fno-sanitize=all)
+    target_compile_options(palpa_${NAME} PRIVATE -fno-sanitize=all -g0)
   endif()
 endfunction()
