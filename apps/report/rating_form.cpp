@@ -27,7 +27,7 @@ constexpr std::string_view kPaper = R"css(
 .grades .words{font-size:.78rem;width:50%}
 .free{border:1px solid var(--line);height:5.5rem;margin:.4rem 0 1rem}
 @media (max-width:719px){.form .box{width:2.6rem}.lines{grid-template-columns:1fr}}
-@media print{@page{size:A4;margin:12mm}html{font-size:11px}.paper{padding:0}.form tr{break-inside:avoid}.grades-part{break-inside:avoid}.form .box{width:3.4rem}.grades .box{width:2.2rem}}
+@media print{@page{size:A4;margin:12mm}html{font-size:12px}.paper{padding:0}.form tr{break-inside:avoid}.grades-part{break-inside:avoid}.form .box{width:3.4rem}.grades .box{width:2.2rem}}
 )css";
 
 void writeLine(Html& html, const char* name, const std::string& value) {
