@@ -10,6 +10,7 @@ namespace {
 
 constexpr double kSteepest = 0.1;      // least cosine between needle and skin normal that is believed
 constexpr double kLeftSkin = 0.0005;   // m outside before the needle counts as withdrawn
+constexpr double kTornOut = 0.005;     // m that skin follows a point at most (a tent): beyond, it holds no needle
 constexpr double kLateralRamp = 0.002; // m of insertion over which the lateral hold builds up
 constexpr double kStickShare = 0.8;    // presliding stiffness as a share of the coupling's
 
@@ -143,6 +144,7 @@ void pushWall(Step& s, const TissueWalk& walk) {
 
 void withdraw(Step& s) {
   s.state.phase = NeedlePhase::outside;
+  s.state.was_outside = 0;   // behind a flat needle the skin may bulge: it is felt again once the point is clear of it
   s.state.walls_front = s.state.walls_back = 0;
   s.state.release_D = {0, 0, 0};
   s.state.skin_anchor_D = pack(s.pose.p_DT);
@@ -151,7 +153,7 @@ void withdraw(Step& s) {
 
 void afterPuncture(Step& s) {
   const double insertion = (s.pose.p_DT - unpack(s.state.entry_D)).dot(s.pose.a_D);
-  if (insertion < -kLeftSkin) return withdraw(s);
+  if (insertion < -kLeftSkin || nearestOn(s.geometry.skin, s.pose.p_DT).distance > kTornOut) return withdraw(s);
   const TissueWalk walk =
       walkTissues(s.materials, s.geometry, s.pose.p_DT, s.pose.a_D, std::max(insertion, 0.0),
                   {s.state.walls_front, s.state.walls_back});

@@ -23,7 +23,7 @@ struct NeedleState {
   Organ pushed = Organ::none;     ///< the wall that is being pushed
   std::uint8_t pushed_leaving = 0;
   std::uint8_t skin_punctures = 0;
-  std::uint8_t was_outside = 0;   ///< since this state began: a needle that begins in the tissue feels nothing
+  std::uint8_t was_outside = 0;   ///< the point has been, since this state began or the needle was withdrawn
   std::uint8_t reserved[2]{};
 };
 static_assert(std::is_trivially_copyable_v<NeedleState>);
@@ -52,8 +52,8 @@ struct NeedleContact {
 ///   walls             K_w x, relaxing, at most K_c x; gives way at peak x wall_scale; what it had stored is let go
 ///                     within `release_tau`, never more than was felt
 ///   always            bone: K_c x penetration of tip and shaft into the capsules, along the contact normal
-/// A needle that is in the tissue from the first tick on feels nothing until it has been outside once. No force of skin
-/// or wall exceeds the one at which they give way. Advances `state`. No allocation, no exception.
+/// A needle that is in the tissue from the first tick on, or that was withdrawn along skin that bulges, feels nothing until its point has been outside once. A point 5 mm
+/// out of the skin is out, wherever it entered. No force of skin or wall exceeds the one at which they give way. Advances `state`. No allocation, no exception.
 NeedleContact needleContact(const NeedleMaterials& materials, const CouplingLimits& coupling,
                             const LocalGeometry& geometry, const NeedlePose& pose,
                             const TickCommands& commands, double dt, NeedleState& state) noexcept;

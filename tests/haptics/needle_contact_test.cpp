@@ -121,6 +121,27 @@ TEST(NeedleContact, WithdrawalEndsTheContact) {
   EXPECT_EQ(bench.atDepth(-0.003).f_D.norm(), 0);
 }
 
+TEST(NeedleContact, WithdrawnAlongSkinThatBulgesTheNeedleIsFeltOnceItsPointWasClear) {
+  NeedleBench bench;
+  bench.move(0, 0.01);
+  ASSERT_EQ(bench.state.phase, NeedlePhase::inserted);
+  bench.axis = Vec3::UnitX();   // it lies flat: 5 mm back along it are behind the entry, and still 2 mm below the surface
+  EXPECT_TRUE(bench.at({-0.005, 0, -0.002}).events & kWithdrawn);
+  for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.at({-0.005, 0, -0.004}).f_D.norm(), 0);
+  EXPECT_EQ(bench.state.skin_punctures, 1);
+  bench.at({-0.005, 0, 0.001});
+  EXPECT_GT(bench.at({-0.005, 0, -0.001}).f_D.z(), 0);
+}
+
+TEST(NeedleContact, APointInTheAirIsOutWhereverItEntered) {
+  NeedleBench bench;
+  bench.move(0, 0.01);
+  bench.axis = Vec3(1, 0, 1).normalized();   // swung out: the entry lies behind the point, along the needle
+  EXPECT_FALSE(bench.at({0.003, 0, 0.003}).events & kWithdrawn);
+  EXPECT_TRUE(bench.at({0.006, 0, 0.006}).events & kWithdrawn);
+  EXPECT_EQ(bench.at({0.006, 0, 0.006}).depth, 0);
+}
+
 TEST(NeedleContact, BonePushesTheShaftAwayAlongTheNormal) {
   NeedleBench bench;
   bench.move(0, 0.012);
