@@ -191,7 +191,7 @@ void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
     case UserCommand::rearm:
       return rearm(now_ns);
     case UserCommand::quit:
-      if (status_.active()) endTrial("void", reason.empty() ? "The session was closed" : reason, now_ns);   // nobody's failure
+      leave(reason, now_ns);
       quit_ = true;
       executive_.stop();
       return;
@@ -200,6 +200,12 @@ void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
       if (status_.active()) hear(request, now_ns);
       return;
   }
+}
+
+/// In practice nobody's failure; from an examination one does not slip away.
+void TrialTask::leave(const std::string& reason, std::int64_t now_ns) {
+  if (!status_.active()) return;
+  endTrial(status_.role == "assessed" ? "aborted" : "void", reason.empty() ? "The session was closed" : reason, now_ns);
 }
 
 void TrialTask::goOn(std::int64_t now_ns) {

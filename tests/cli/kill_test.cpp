@@ -91,10 +91,13 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
   EXPECT_GT(in_the_middle, 0) << "no kill fell into the recording";
 }
 
-TEST(Interrupt, ClosesASessionAsEscapeDoes) {
+/// Interrupted in the middle; how the trial that was running ended then, or how the last before it did, where the signal came between two.
+void expectClosed(const std::vector<std::string>& more, const std::string& outcome) {
   Folder here;
   const runtime::SteadyClock clock;
-  Running running(session({"--trials", "500", "--out", "A"}), here.path());  // minutes of work
+  std::vector<std::string> arguments = session({"--trials", "500", "--out", "A"});  // minutes of work
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  Running running(arguments, here.path());
   const fs::path file = here / "A/session.palpa";
   bool begun = false;
   while (!begun && !running.ended()) {
@@ -108,10 +111,15 @@ TEST(Interrupt, ClosesASessionAsEscapeDoes) {
   EXPECT_LT(left.trials().size(), 500u);
   const record::RecordedTrial last = left.trials().back();
   EXPECT_TRUE(last.ended);
-  EXPECT_TRUE(last.end.reason == "Interrupted" || last.end.outcome == "success") << last.end.outcome;  // between trials
+  if (last.end.reason == "Interrupted") EXPECT_EQ(last.end.outcome, outcome);
+  else EXPECT_EQ(last.end.outcome, "success") << last.end.reason;
   EXPECT_TRUE(fs::exists(here / "A/report.html"));
   EXPECT_TRUE(fs::exists(here / "A/trials.csv"));
 }
+
+TEST(Interrupt, ClosesASessionAsEscapeDoes) { expectClosed({}, "void"); }
+
+TEST(Interrupt, IsNoWayOutOfAnAssessment) { expectClosed({"--assess"}, "aborted"); }
 
 }  // namespace
 }  // namespace palpa::cli_test
