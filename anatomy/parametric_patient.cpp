@@ -12,6 +12,7 @@
 #include "anatomy/parametric/skin_map.h"
 #include "anatomy/parametric/skin_texture.h"
 #include "anatomy/parametric/thorax.h"
+#include "anatomy/patient_file.h"
 #include "anatomy/shapes/mesh_tools.h"
 
 namespace palpa::anatomy {
@@ -154,6 +155,7 @@ Patient buildPatient(const PatientParameters& parameters) {
   assembly.addBoth("pectoralis_minor", Organ::muscle, makePectoralisMinor(solved.skin, solved.clavicle, solved.build), kMuscleColour);
   assembly.addBoth("subclavius", Organ::muscle, makeSubclavius(solved.skin, solved.clavicle), kMuscleColour);
   markLandmarks(solved, &assembly);
+  roundAsInFile(patient);
   // From the field's surface onto the mesh's, some hundredths of a millimetre away.
   Vec3& entry = patient.landmarks[landmark::kEntry];
   entry = TriangleTree(patient.organs.front().mesh).closest(entry).p;

@@ -6,6 +6,10 @@
 
 namespace palpa::anatomy {
 
+/// Points and normals as a file keeps them, in floats. A patient that is built ends with this, so that it and what is read of its file are the same, bit for bit:
+/// a trial judged again from its record meets the same surfaces.
+void roundAsInFile(Patient& patient);
+
 /// glTF binary (Y up, metres). `extras` of the root carry unit, side, layers, landmarks, licence, source,
 /// those of each node its organ, tissue, licence and source. Written beside the target, then renamed. Throws Error.
 void writePatient(const Patient& patient, const std::filesystem::path& file);

@@ -185,6 +185,12 @@ class ModelWriter {
 
 }  // namespace
 
+void roundAsInFile(Patient& patient) {
+  for (OrganSurface& surface : patient.organs)
+    for (std::vector<Vec3>* vectors : {&surface.mesh.points, &surface.mesh.normals})
+      for (Vec3& v : *vectors) v = v.cast<float>().cast<double>();   // the file's axes are these, swapped and turned: rounding is the same
+}
+
 void writePatient(const Patient& patient, const std::filesystem::path& file) {
   const tinygltf::Model model = ModelWriter(file.string()).write(patient);
   std::ostringstream bytes;

@@ -3,6 +3,9 @@
 #include <fstream>
 
 #include "tests/browser/page_faults.h"
+#include "tests/report/synthetic_palpation.h"
+#include "tests/report/synthetic_practice.h"
+#include "tests/report/synthetic_search_report.h"
 #include "tests/report/synthetic_verdict.h"
 
 namespace palpa::report {
@@ -38,6 +41,21 @@ TEST_F(Pages, OfVerdictsAndForms) {
   writeRatingForm(test::madeUpForm(true), folder / "blank.html");
   writeRatingForm(test::madeUpForm(false), folder / "form.html");
   for (const char* page : {"judged.html", "blank.html", "form.html"}) expectNoFaults(folder / page);
+}
+
+TEST_F(Pages, OfPractice) {
+  const auto folder = test::freshFolder("browser_practice");
+  writeTraineeReport(test::madeUpTrainee(5), folder / "few.html");
+  writeTraineeReport(test::madeUpTrainee(30), folder / "trainee.html");
+  writeCohortReport(test::madeUpCohort(8, 20), folder / "cohort.html");
+  for (const char* page : {"few.html", "trainee.html", "cohort.html"}) expectNoFaults(folder / page);
+}
+
+TEST_F(Pages, OfPalpationAndSearch) {
+  const auto folder = test::freshFolder("browser_touch");
+  writePalpationReport(test::syntheticPalpation(3), folder / "palpation.html");
+  writeSearchReport(test::searchedSession(), folder / "search.html");
+  for (const char* page : {"palpation.html", "search.html"}) expectNoFaults(folder / page);
 }
 
 /// The judge itself: it finds each of these.

@@ -53,7 +53,7 @@ double foundShare(const std::vector<Row>& rows, const std::string& mode) {
 /// The searchers' figures and the task's were fixed before these episodes were ever searched (seeds 20001 to 60099 served to choose them, 910001 to 910100 to find an error).
 TEST(Search, ADegradedFloorLosesTheTargetAndCuesGiveItBack) {
   const Folder here;
-  const int trials = test::counted(6, 100);
+  const int trials = test::counted(5, 100);
   const std::vector<Row> rows = episodes({"--operator", "expert", "--mode", "all", "--seed", "920001", "--trials", std::to_string(trials), "--out", "A"}, here);
   ASSERT_EQ(rows.size(), 3 * static_cast<std::size_t>(trials));
   for (const Row& row : rows) EXPECT_EQ(row.at("SIMULATED"), "1");

@@ -13,12 +13,8 @@
 namespace palpa::cli {
 namespace {
 
-/// Exactly; but distances from the patient's surface, whose file keeps coordinates as floats (0.02 um at 0.3 m), to a tenth of a micrometre. Not a number is
-/// equal to itself: the figure does not apply.
-bool sameFigure(const std::string& name, double stored, double live) {
-  const bool distance = name == "closest_pleura_mm" || name == "closest_artery_mm";
-  return (std::isnan(stored) && std::isnan(live)) || (distance ? std::abs(stored - live) < 1e-4 : stored == live);
-}
+/// Exactly. Not a number is equal to itself: the figure does not apply.
+bool sameFigure(double stored, double live) { return (std::isnan(stored) && std::isnan(live)) || stored == live; }
 
 void expectSameScore(const assess::TrialAssessment& again, const std::string& scores_json) {
   const nlohmann::json stored = nlohmann::json::parse(scores_json);
@@ -30,7 +26,7 @@ void expectSameScore(const assess::TrialAssessment& again, const std::string& sc
 
 void expectSameMetrics(const std::vector<metrics::MetricValue>& live, const record::StoredTrial& stored) {
   ASSERT_EQ(stored.metrics.size(), live.size());
-  for (const metrics::MetricValue& m : live) EXPECT_TRUE(sameFigure(m.name, stored.metric(m.name), m.value)) << m.name << ": " << stored.metric(m.name) << ", live " << m.value;
+  for (const metrics::MetricValue& m : live) EXPECT_TRUE(sameFigure(stored.metric(m.name), m.value)) << m.name << ": " << stored.metric(m.name) << ", live " << m.value;
 }
 
 /// Records a session and judges it again from its file alone; answers how many trials.
