@@ -11,10 +11,18 @@ twin::OperatorSkill skillOf(OperatorKind who) {
   return twin::readOperatorSkill(station::assetFile(who == OperatorKind::novice ? "operators/novice.json" : "operators/expert.json"));
 }
 
+/// A learner at a trial. The clavicle guides whoever feels it: nobody learns to lean on it where it is not felt.
+twin::OperatorSkill learnt(const SessionOptions& options, const twin::OperatorSkill& from, const twin::OperatorSkill& to, double level) {
+  twin::OperatorSkill skill = between(from, to, level);
+  if (!options.force_feedback) skill.guide = from.guide;
+  return skill;
+}
+
 std::unique_ptr<twin::Hand> operatorOf(const SessionOptions& options, const twin::OperatorSkill& skill, const twin::VisibleAnatomy& anatomy, const Pose& X_ET) {
   if (options.who != OperatorKind::learner) return std::make_unique<twin::Operator>(skill, anatomy, X_ET, options.seed);
-  return std::make_unique<twin::LearningHand>([learner = options.learner, from = twin::readOperatorSkill(options.learner.from), to = twin::readOperatorSkill(options.learner.to), anatomy, X_ET](int trial) {
-    return std::make_unique<twin::Operator>(between(from, to, learner.level(trial)), anatomy, X_ET, learner.seed + static_cast<std::uint64_t>(trial - 1));
+  return std::make_unique<twin::LearningHand>([options, from = twin::readOperatorSkill(options.learner.from), to = twin::readOperatorSkill(options.learner.to), anatomy, X_ET](int trial) {
+    const LearnerOptions& learner = options.learner;
+    return std::make_unique<twin::Operator>(learnt(options, from, to, learner.level(trial)), anatomy, X_ET, learner.seed + static_cast<std::uint64_t>(trial - 1));
   });
 }
 

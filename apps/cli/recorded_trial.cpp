@@ -6,27 +6,13 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/recorded_palpation.h"
+#include "apps/cli/recorded_touch.h"
 #include "apps/report/tone.h"
 
 namespace palpa::cli {
 namespace {
 
 constexpr double kNear_mm = 5;   // what is told as a near miss
-
-const std::filesystem::path& needleSession(const std::filesystem::path& file) {
-  const std::string engine = engineOf(record::SessionReader(file));
-  if (engine == "palpation" || engine == "surface" || engine == "squeeze")
-    throw UsageError("is a session of another task than a needle's, which cannot be shown again yet", file.string(), "Without --view and --video it is run again and judged");
-  return file;
-}
-
-const record::RecordedTrial& chosen(const RecordedSession& session, const std::filesystem::path& file, int number) {
-  const auto& trials = session.trials();
-  const auto found = std::find_if(trials.begin(), trials.end(), [&](const record::RecordedTrial& t) { return number == 0 ? t.ended : t.header.trial == number; });
-  if (found == trials.end())
-    throw UsageError(number == 0 ? "has no finished trial" : "has no trial " + std::to_string(number), file.string(), "It has " + std::to_string(trials.size()) + " trials, numbered from 1");
-  return *found;
-}
 
 scene::TickTone tickOf(const std::string& kind) {
   switch (report::toneOfMoment(kind)) {
@@ -67,8 +53,21 @@ std::vector<replay::Mark> marksIn(const RecordedSession& session, int number) {
 
 }  // namespace
 
-RecordedNeedleTrial::RecordedNeedleTrial(const std::filesystem::path& file, int number) : session(needleSession(file)), pictures(file.parent_path()) {
-  const record::RecordedTrial& one = chosen(session, file, number);
+const record::RecordedTrial& chosenTrial(const std::vector<record::RecordedTrial>& trials, const std::filesystem::path& file, int number) {
+  const auto found = std::find_if(trials.begin(), trials.end(), [&](const record::RecordedTrial& t) { return number == 0 ? t.ended : t.header.trial == number; });
+  if (found == trials.end())
+    throw UsageError(number == 0 ? "has no finished trial" : "has no trial " + std::to_string(number), file.string(), "It has " + std::to_string(trials.size()) + " trials, numbered from 1");
+  return *found;
+}
+
+std::unique_ptr<RecordedShow> recordedShow(const std::filesystem::path& file, int number) {
+  const std::string engine = engineOf(record::SessionReader(file));
+  if (engine == "palpation" || engine == "surface" || engine == "squeeze") return recordedTouch(file, engine, number);
+  return std::make_unique<RecordedNeedleTrial>(file, number);
+}
+
+RecordedNeedleTrial::RecordedNeedleTrial(const std::filesystem::path& file, int number) : session(file), films(file.parent_path()) {
+  const record::RecordedTrial& one = chosenTrial(session.trials(), file, number);
   trial.number = one.header.trial;
   trial.force_feedback = one.header.force_feedback;
   trial.X_AD = session.X_DA().inverse();

@@ -1,19 +1,44 @@
 #pragma once
 
 #include <filesystem>
+#include <memory>
 
+#include "anatomy/patient.h"
 #include "apps/cli/recorded_session.h"
 #include "apps/replay/needle_replay.h"
 
 namespace palpa::cli {
 
-/// One trial of a recorded needle session, ready to be shown, with its events and near misses as marks.
-struct RecordedNeedleTrial {
-  /// `number` 0: the first that was finished. Throws UsageError for a trial that is not there, or another task's session; Error for a damaged file.
+/// One trial of a recorded session, ready to be shown in the scene, with its events as marks.
+class RecordedShow {
+ public:
+  virtual ~RecordedShow() = default;
+  virtual const anatomy::Patient& patient() const = 0;
+  virtual double length_s() const = 0;
+  virtual bool pictures() const { return false; }      ///< of the camera, beside
+  virtual bool fixedViews() const { return false; }    ///< as the session had them
+  /// The view and this outlive it.
+  virtual std::unique_ptr<replay::TrialReplay> on(scene::SceneView& view) = 0;
+};
+
+/// Of any task. `number` 0: the first that was finished. Throws UsageError for a trial that is not there; Error for a damaged file.
+std::unique_ptr<RecordedShow> recordedShow(const std::filesystem::path& file, int number);
+
+/// A needle's, with its near misses as marks, too.
+struct RecordedNeedleTrial final : RecordedShow {
   RecordedNeedleTrial(const std::filesystem::path& file, int number);
+  const anatomy::Patient& patient() const override { return session.patient(); }
+  double length_s() const override { return trial.length_s(); }
+  bool pictures() const override { return !films.empty(); }
+  bool fixedViews() const override { return true; }
+  std::unique_ptr<replay::TrialReplay> on(scene::SceneView& view) override { return replay::needleReplay(trial, view, &films); }
+
   RecordedSession session;
   replay::NeedleTrial trial;
-  replay::RecordedPictures pictures;   ///< of the camera, where they lie beside the file
+  replay::RecordedPictures films;   ///< of the camera, where they lie beside the file
 };
+
+/// Which of a session's trials. Throws UsageError where it is not there.
+const record::RecordedTrial& chosenTrial(const std::vector<record::RecordedTrial>& trials, const std::filesystem::path& file, int number);
 
 }  // namespace palpa::cli

@@ -44,45 +44,46 @@ struct ReplayStage {
   std::unique_ptr<scene::SceneView> view;
 };
 
-ReplayStage stageFor(const RecordedNeedleTrial& recorded, scene::Display display, Picture size) {
+ReplayStage stageFor(const RecordedShow& recorded, scene::Display display, Picture size) {
   ReplayStage stage;
   stage.context = scene::makeGlContext(display, size.width, size.height, "Palpa: replay");
   scene::ViewLayout layout;
   layout.width = size.width;
   layout.height = size.height;
-  if (!recorded.pictures.empty()) layout.inset = scene::Inset::camera;
-  stage.view = std::make_unique<scene::SceneView>(*stage.context, recorded.session.patient(), layout);
+  layout.orthographic = recorded.fixedViews();
+  if (recorded.pictures()) layout.inset = scene::Inset::camera;
+  stage.view = std::make_unique<scene::SceneView>(*stage.context, recorded.patient(), layout);
   return stage;
 }
 
-void playInWindow(RecordedNeedleTrial& recorded, const Cut& cut, const ReplayViewOptions& o) {
+void playInWindow(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
   const ReplayStage stage = stageFor(recorded, scene::Display::window, {1280, 720});
-  replay::NeedleReplay shown(recorded.trial, *stage.view, &recorded.pictures);
+  const std::unique_ptr<replay::TrialReplay> shown = recorded.on(*stage.view);
   replay::Player player(cut.from_s, cut.to_s, o.speed);
   std::printf("space: pause; Left, Right: 1 s; with shift: a frame; + and -: speed; Escape: leave\n");
   constexpr std::int64_t kFrame_ns = 33'333'333;
   const runtime::SteadyClock clock;
-  for (std::int64_t last_ns = clock.now(); !player.left() && !shown.input().closed;) {
+  for (std::int64_t last_ns = clock.now(); !player.left() && !shown->input().closed;) {
     const std::int64_t now_ns = clock.now();
     player.advance(static_cast<double>(now_ns - last_ns) * 1e-9);
     last_ns = now_ns;
-    shown.show(player.at_s(), player.words());
-    for (const std::string& key : shown.input().keys) player.key(key, shown.input().shift);
+    shown->show(player.at_s(), player.words());
+    for (const std::string& key : shown->input().keys) player.key(key, shown->input().shift);
     clock.sleepUntil(now_ns + kFrame_ns);
   }
 }
 
-void writeFilm(RecordedNeedleTrial& recorded, const Cut& cut, const ReplayViewOptions& o) {
+void writeFilm(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
   const Picture size = sizeOf(o.size);
   replay::codecOf(o.video);   // refused before the scene is made
   const ReplayStage stage = stageFor(recorded, scene::Display::offscreen, size);
-  replay::NeedleReplay shown(recorded.trial, *stage.view, &recorded.pictures);
+  const std::unique_ptr<replay::TrialReplay> shown = recorded.on(*stage.view);
   const int frames = std::max(1, static_cast<int>(std::lround((cut.to_s - cut.from_s) / o.speed * o.frames_per_second)));
   replay::Player speed(cut.from_s, cut.to_s, o.speed);
   replay::Film film(o.video, o.frames_per_second, size.width, size.height);
   WorkProgress progress("pictures", frames);
   for (int i = 0; i < frames; ++i) {
-    shown.show(cut.from_s + i * o.speed / o.frames_per_second, speed.words());
+    shown->show(cut.from_s + i * o.speed / o.frames_per_second, speed.words());
     film.add(stage.view->capture());
     progress.done(i + 1);
   }
@@ -104,10 +105,10 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
 }
 
 void viewReplay(const std::string& file, const ReplayViewOptions& o) {
-  RecordedNeedleTrial recorded(file, o.trial);
-  const Cut cut = cutOf(o, recorded.trial.length_s());
-  if (o.video.empty()) playInWindow(recorded, cut, o);
-  else writeFilm(recorded, cut, o);
+  const std::unique_ptr<RecordedShow> recorded = recordedShow(file, o.trial);
+  const Cut cut = cutOf(o, recorded->length_s());
+  if (o.video.empty()) playInWindow(*recorded, cut, o);
+  else writeFilm(*recorded, cut, o);
 }
 
 }  // namespace palpa::cli

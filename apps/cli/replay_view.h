@@ -18,8 +18,7 @@ struct ReplayViewOptions {
 
 void addReplayViewOptions(CLI::App& command, ReplayViewOptions& options);
 
-/// Plays a trial of a needle's session in a window, or writes it as a film. Throws UsageError for a trial that is not there or another task's session, Error
-/// where there is no display.
+/// Plays a trial of any task's session in a window, or writes it as a film. Throws UsageError for a trial that is not there, Error where there is no display.
 void viewReplay(const std::string& file, const ReplayViewOptions& options);
 
 }  // namespace palpa::cli

@@ -2,12 +2,11 @@
 
 #include <algorithm>
 
-#include "apps/runtime/tool_state.h"
+#include "apps/replay/trial_replay.h"
 
 namespace palpa::replay {
 namespace {
 
-constexpr double kMomentStep = 0.004;   // s
 constexpr double kDrawn = 0.25, kFill = 0.25;   // of the syringe: drawn enough to aspirate; a second
 
 }  // namespace
@@ -22,17 +21,7 @@ void MomentReader::add(const haptics::FlightRecord& record) {
   if (flows) blood_ = std::min(sample.plunger, blood_ + kFill * (sample.t_s - last_s_));
   last_s_ = sample.t_s;
   if (!moments_.empty() && sample.t_s - moments_.back().t_s < kMomentStep - 1e-9) return;
-  moments_.push_back({sample.t_s, toolIn(record), phases_.phase(), blood_, flows});
-}
-
-runtime::ToolState MomentReader::toolIn(const haptics::FlightRecord& record) const {
-  const Quat q_DE = unpack(record.reading.q_DE);
-  return runtime::toolStateOf(pack(makePose(q_DE.normalized().toRotationMatrix(), unpack(record.reading.p_DE)) * X_ET_), record);
-}
-
-std::size_t momentAt(const std::vector<Moment>& moments, double t_s) {
-  const auto after = std::upper_bound(moments.begin(), moments.end(), t_s, [](double t, const Moment& m) { return t < m.t_s; });
-  return after == moments.begin() ? 0 : static_cast<std::size_t>(after - moments.begin()) - 1;
+  moments_.push_back({sample.t_s, toolIn(record, X_ET_), phases_.phase(), blood_, flows});
 }
 
 task_needle::TaskStatus statusAt(const Moment& moment, int trial, bool force_feedback) {
@@ -41,9 +30,9 @@ task_needle::TaskStatus statusAt(const Moment& moment, int trial, bool force_fee
   status.trial = trial;
   status.trials = 1;
   status.force_feedback = force_feedback;
+  status.elapsed_s = moment.t_s;
   status.phase = moment.phase;
   status.step = assess::clinicalName(moment.phase);
-  status.elapsed_s = moment.t_s;
   status.plunger = moment.tool.plunger;
   status.blood = moment.blood;
   status.blood_flows = moment.blood_flows;

@@ -28,17 +28,12 @@ class MomentReader {
   const std::vector<Moment>& moments() const { return moments_; }
 
  private:
-  runtime::ToolState toolIn(const haptics::FlightRecord& record) const;
-
   Pose X_ET_;
   assess::TrialSampler sampler_;
   assess::PhaseDetector phases_;
   double blood_ = 0, last_s_ = 0;
   std::vector<Moment> moments_;
 };
-
-/// The last moment at or before `t_s`, or the first. Throws nothing; `moments` is not empty.
-std::size_t momentAt(const std::vector<Moment>& moments, double t_s);
 
 /// What the task said of this moment. `trial`: its number and whether forces were felt.
 task_needle::TaskStatus statusAt(const Moment& moment, int trial, bool force_feedback);

@@ -5,8 +5,6 @@
 #include "anatomy/geometry/error.h"
 
 namespace palpa::task_palpation {
-namespace {
-
 int levelOf(const assess::PressureLevels& levels, double f) {
   int level = 0;
   for (const double from : levels) level += f >= from;
@@ -19,8 +17,6 @@ std::vector<std::uint8_t> levelsOf(const assess::CoverageMap& map) {
     for (int column = 0; column < map.columns(); ++column) levels.push_back(static_cast<std::uint8_t>(map.level(column, row)));
   return levels;
 }
-
-}  // namespace
 
 std::string scoreJson(const assess::PalpationAssessment& a) {
   return nlohmann::json{{"FOUND", a.score.found},

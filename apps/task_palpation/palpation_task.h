@@ -89,6 +89,10 @@ class PalpationTask final : public trial::TrialTask {
   std::vector<CompletedPalpation> completed_;
 };
 
+/// As the scene shows it: of a pressure, 0 to 3; of each cell of the map, row by row from the trainee away.
+int levelOf(const assess::PressureLevels& levels, double f_N);
+std::vector<std::uint8_t> levelsOf(const assess::CoverageMap& map);
+
 /// What is recorded of a score.
 std::string scoreJson(const assess::PalpationAssessment& assessment);
 

@@ -21,10 +21,9 @@ class SqueezeListener {
   double now_N() const { return now_N_; }            ///< squeezing force of the last tick
   bool held() const { return held_s_ > 0; }          ///< both fingers touch
   const std::array<int, 2>& grips() const { return grips_; }
+  int thing(const haptics::TickCommands& commands) const;   ///< which of the two is felt by these commands: 0 or 1
 
  private:
-  int thing(const haptics::TickCommands& commands) const;   ///< 0 or 1
-
   double touch_;
   std::uint32_t trial_ = 0;
   Comparison comparison_;

@@ -63,6 +63,25 @@ TEST(ReplayView, HalfTheSpeedIsTwiceThePictures) {
   EXPECT_EQ(framesOf(recordedNeedle() / "b.mp4").size(), 20u);
 }
 
+/// Seen again as they were: the picture moves, the strip is there, and going back within one run shows the same.
+TEST(ReplayView, EveryTaskIsSeenAgain) {
+  for (const std::vector<std::string>& task : {std::vector<std::string>{"palpation", "--preset", "prostate"}, {"search", "--mode", "augmented"}, {"squeeze"}}) {
+    const Folder here;
+    std::vector<std::string> arguments = task;
+    arguments.insert(arguments.end(), {"--operator", "expert", "--seed", "3", "--trials", "1", "--fast", "--no-views", "--quiet", "--out", "A"});
+    ASSERT_EQ(palpa(arguments, here.path()).exit_code, 0) << task[0];
+    const Outcome outcome = palpa({"replay", "A/session.palpa", "--video", "a.avi", "--from", "2", "--to", "6", "--speed", "4", "--size", "320x240"}, here.path());
+    ASSERT_EQ(outcome.exit_code, 0) << task[0] << outcome.err;
+    const std::vector<cv::Mat> frames = framesOf(here / "a.avi");
+    ASSERT_EQ(frames.size(), 25u) << task[0];
+    cv::Mat difference;
+    cv::absdiff(frames.front(), frames.back(), difference);
+    EXPECT_GT(cv::norm(difference, cv::NORM_L1) / static_cast<double>(difference.total()), 0.1) << task[0];
+    EXPECT_GT(playedColumns(frames.back()), playedColumns(frames.front()) + 3) << task[0];
+    EXPECT_EQ(palpa({"replay", "A/session.palpa", "--video", "b.avi", "--trial", "7"}, here.path()).exit_code, 2) << task[0];
+  }
+}
+
 TEST(ReplayView, WrongWishesAreNamed) {
   const auto complains = [](std::vector<std::string> words, const char* about) {
     const Outcome outcome = film(std::move(words));
