@@ -5,6 +5,7 @@
 #include <cerrno>
 #include <cmath>
 #include <cstring>
+#include <filesystem>
 #include <fstream>
 
 #include "apps/record/sqlite.h"
@@ -23,13 +24,24 @@ void makeFile(const std::string& file) {
   ::close(descriptor);
 }
 
+/// SQLite fills up what is missing of the last page and says nothing. With a log beside, the file may well be in the middle of being written.
+void checkWhole(const std::string& file, const char* header) {
+  const auto high = static_cast<unsigned char>(header[16]), low = static_cast<unsigned char>(header[17]);
+  const std::uintmax_t page = high == 0 && low == 1 ? 65536 : 256u * high + low;   // as the file format has it
+  std::error_code none;
+  const std::uintmax_t log = std::filesystem::file_size(file + "-wal", none);
+  if (page == 0 || (!none && log > 0) || std::filesystem::file_size(file) % page == 0) return;
+  throw Error("is damaged (it was cut short)", "records file " + file, "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE .recover`");
+}
+
 void checkKind(const std::string& file) {
-  char start[16] = {};
+  char start[18] = {};
   std::ifstream stream(file, std::ios::binary);
   stream.read(start, sizeof start);
   if (stream.gcount() == 0) return;   // new
-  if (stream.gcount() != sizeof start || std::memcmp(start, "SQLite format 3", 16) != 0)
+  if (stream.gcount() < 16 || std::memcmp(start, "SQLite format 3", 16) != 0)
     throw Error("is no records file", "records file " + file, "Give the right file, or restore it from a backup");
+  checkWhole(file, start);
 }
 
 class SqliteConnection final : public SqlConnection {
