@@ -88,7 +88,7 @@ std::vector<Layer> makeLayers() {
        librariesAnd({"apps/trial", "apps/runtime", "apps/assess", "apps/station"}),
        {},
        app_libraries},
-      {"apps/replay", librariesAnd({"apps/task_needle", "apps/trial", "apps/assess", "apps/runtime"}), {}, app_libraries},
+      {"apps/replay", librariesAnd({"apps/task_*", "apps/trial", "apps/assess", "apps/runtime"}), {}, app_libraries},
       {"apps/cli", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON", "CLI11"}},
       {"apps/bench", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON", "VTK", "VTK data", "Embree"}},
       {"apps",
