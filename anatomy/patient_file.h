@@ -6,7 +6,7 @@
 
 namespace palpa::anatomy {
 
-/// Points and normals as a file keeps them, in floats. A patient that is built ends with this, so that it and what is read of its file are the same, bit for bit:
+/// Points and normals as they are read from a file, which keeps floats. A patient that is built ends with this, so that it and what is read of its file are the same, bit for bit:
 /// a trial judged again from its record meets the same surfaces.
 void roundAsInFile(Patient& patient);
 

@@ -11,6 +11,7 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr double kLargestCoordinate = 3.0;  // metres: beyond this the unit is wrong
+constexpr double kUnit = 1e-6;               // a unit vector in floats, which stays as it is
 constexpr float kLargestRepeat = 100;       // of a picture over a surface
 
 class PatientReader {
@@ -219,7 +220,7 @@ class PatientReader {
       if (std::abs(length - 1) > 0.01)
         fail("the surface \"" + surface->id + "\" has a normal of length " +
              std::to_string(length));
-      n /= length;
+      if (std::abs(length - 1) > kUnit) n /= length;
     }
   }
 

@@ -185,10 +185,20 @@ class ModelWriter {
 
 }  // namespace
 
+namespace {
+
+/// To floats and back. Through memory: GCC 12 drops a conversion that is undone at once when it does two numbers together.
+void throughFloats(std::vector<Vec3>& vectors) {
+  std::vector<Eigen::Vector3f> kept;
+  for (const Vec3& v : vectors) kept.push_back(v.cast<float>());
+  for (std::size_t i = 0; i < kept.size(); ++i) vectors[i] = kept[i].cast<double>();
+}
+
+}  // namespace
+
 void roundAsInFile(Patient& patient) {
-  for (OrganSurface& surface : patient.organs)
-    for (std::vector<Vec3>* vectors : {&surface.mesh.points, &surface.mesh.normals})
-      for (Vec3& v : *vectors) v = v.cast<float>().cast<double>();   // the file's axes are these, swapped and turned: rounding is the same
+  for (OrganSurface& surface : patient.organs)   // the file's axes are these, swapped and turned: rounding is the same
+    for (std::vector<Vec3>* vectors : {&surface.mesh.points, &surface.mesh.normals}) throughFloats(*vectors);
 }
 
 void writePatient(const Patient& patient, const std::filesystem::path& file) {

@@ -6,7 +6,6 @@
 #include <numbers>
 
 #include "anatomy/geometry/error.h"
-#include "anatomy/patient_file.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -102,7 +101,6 @@ Patient phantomBlock(const Vec3& size, const std::string& name) {
   patient.name = name;
   patient.layers = {0.002, 0, 0};
   patient.organs.push_back({"skin", Organ::skin, blockMesh(size), kBlockColour});
-  roundAsInFile(patient);
   patient.landmarks[landmark::kEntry] = X_AP() * Vec3::Zero();
   patient.landmarks[landmark::kNearEdge] = X_AP() * Vec3(0, -size.y() / 2, -kBlockEdge);
   return patient;

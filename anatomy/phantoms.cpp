@@ -5,7 +5,6 @@
 #include <cstdio>
 
 #include "anatomy/geometry/error.h"
-#include "anatomy/patient_file.h"
 #include "anatomy/shapes/field.h"
 #include "anatomy/shapes/root.h"
 #include "anatomy/shapes/surface_nets.h"
@@ -134,7 +133,6 @@ Patient buildPhantom(const PhantomSpec& spec) {
   patient.layers = {0.002, 0, 0};
   patient.organs.push_back({"skin", Organ::skin, phantomMesh(body.field, body.low, body.high, body.cell), kSiliconeColour});
   if (spec.inclusion) addInclusion(body, spec.kind, *spec.inclusion, &patient);
-  roundAsInFile(patient);
   return patient;
 }
 

@@ -22,6 +22,7 @@ void addRecords(CLI::App& program);   ///< trainees and their trials
 void addStudy(CLI::App& program);     ///< a protocol's sessions, who is where in it
 void addRate(CLI::App& program);      ///< human raters
 void addReport(CLI::App& program);    ///< pages of a trainee or a group
+void addDoctor(CLI::App& program);    ///< is the station well?
 void addBench(CLI::App& program);
 
 }  // namespace palpa::cli

@@ -23,6 +23,7 @@ Nothing is connected? Everything runs on the virtual bench. What you can do now:
   palpa replay out/.../session.palpa       run a recorded session again: same forces, same score
   palpa patient info                       what the patient holds
   palpa calibrate all                      set the station up; a page says whether it is ready
+  palpa doctor                             is everything well? what to do where it is not
   palpa board print --out board.png        the board that the camera looks for
 
 A session leaves its results in out/<command>-<time>/: open report.html first.
@@ -58,6 +59,7 @@ int run(int argc, char** argv) {
   palpa::cli::addStudy(program);
   palpa::cli::addReport(program);
   palpa::cli::addRate(program);
+  palpa::cli::addDoctor(program);
   palpa::cli::addBench(program);
   try {
     program.parse(argc, argv);

@@ -87,16 +87,20 @@ nlohmann::json toJson(const std::vector<AppliedCalibration>& calibrations, const
   return list;
 }
 
-std::string faultOf(const std::vector<AppliedCalibration>& calibrations, const std::string& station) {
-  for (const AppliedCalibration& c : calibrations) {
-    if (!c.file.passed()) return nameOf(c) + " failed: " + c.file.verdict;
-    if (c.file.station != station) return nameOf(c) + " belongs to station \"" + c.file.station + "\"";
-    if (c.sha256 != c.sha256_wanted) return nameOf(c) + " was replaced after the station's file was written";
-    for (const CalibrationFile::Rest& rest : c.file.rests_on) {
-      const AppliedCalibration* other = calibrationOf(calibrations, rest.kind);
-      if (!other || other->sha256 != rest.sha256) return nameOf(c) + " is outdated: it was made with another " + rest.kind + " calibration";
-    }
+std::string faultIn(const AppliedCalibration& c, const std::vector<AppliedCalibration>& calibrations, const std::string& station) {
+  if (!c.file.passed()) return nameOf(c) + " failed: " + c.file.verdict;
+  if (c.file.station != station) return nameOf(c) + " belongs to station \"" + c.file.station + "\"";
+  if (c.sha256 != c.sha256_wanted) return nameOf(c) + " was replaced after the station's file was written";
+  for (const CalibrationFile::Rest& rest : c.file.rests_on) {
+    const AppliedCalibration* other = calibrationOf(calibrations, rest.kind);
+    if (!other || other->sha256 != rest.sha256) return nameOf(c) + " is outdated: it was made with another " + rest.kind + " calibration";
   }
+  return "";
+}
+
+std::string faultOf(const std::vector<AppliedCalibration>& calibrations, const std::string& station) {
+  for (const AppliedCalibration& c : calibrations)
+    if (const std::string fault = faultIn(c, calibrations, station); !fault.empty()) return fault;
   return "";
 }
 

@@ -27,7 +27,9 @@ const AppliedCalibration* calibrationOf(const std::vector<AppliedCalibration>& c
 /// The same section for a station file that refers to `calibrations`, paths relative to `folder`.
 nlohmann::json toJson(const std::vector<AppliedCalibration>& calibrations, const std::filesystem::path& folder);
 
-/// What is wrong with one of them ("the tool calibration failed: ..."), ages apart; empty: nothing.
+/// What is wrong with one among a station's ("the tool calibration failed: ..."), age apart; empty: nothing.
+std::string faultIn(const AppliedCalibration& one, const std::vector<AppliedCalibration>& calibrations, const std::string& station);
+/// The first of them with which something is wrong.
 std::string faultOf(const std::vector<AppliedCalibration>& calibrations, const std::string& station);
 
 /// Whether one is older than it is good for on `date`; empty: none is.

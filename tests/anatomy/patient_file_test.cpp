@@ -66,7 +66,8 @@ bool readsOrRefuses(const std::filesystem::path& file) {
 
 TEST(PatientFile, RoundTripKeepsEverything) {
   const ScratchFolder folder("round_trip");
-  const Patient& written = referencePatient();
+  Patient written = referencePatient();
+  roundAsInFile(written);
   writePatient(written, folder / "p.glb");
   const Patient read = readPatient(folder / "p.glb");
   EXPECT_EQ(read.name, written.name);
@@ -88,8 +89,8 @@ TEST(PatientFile, RoundTripKeepsEverything) {
     EXPECT_EQ(a.texture.height, b.texture.height);
     EXPECT_EQ(a.texture.rgb, b.texture.rgb);
     EXPECT_EQ(a.mesh.triangles, b.mesh.triangles);
-    EXPECT_EQ(a.mesh.points, b.mesh.points);
-    EXPECT_EQ(a.mesh.normals, b.mesh.normals);
+    EXPECT_TRUE(a.mesh.points == b.mesh.points) << a.id;
+    EXPECT_TRUE(a.mesh.normals == b.mesh.normals) << a.id;
   }
 }
 

@@ -38,7 +38,7 @@ double wilsonLower(double hits, double of) {
 /// Experts find what is there and little else; novices do clearly worse. Few cases bound less, so they are bound less tightly.
 TEST(Palpation, ExpertsFindLumpsAndNovicesMissThem) {
   const Folder here;
-  const int trials = test::counted(3, 100);
+  const int trials = test::counted(4, 100);
   const std::vector<Row> expert = searched("expert", trials, here), novice = searched("novice", trials, here);
   ASSERT_EQ(expert.size(), static_cast<std::size_t>(trials));
   const double lumps = sum(expert, "LUMPS"), found = sum(expert, "FOUND"), clear = sum(expert, "CLEAR_QUADRANTS"), wrong = sum(expert, "WRONG_QUADRANTS");

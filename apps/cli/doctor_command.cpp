@@ -1,0 +1,119 @@
+#include <cstdio>
+#include <memory>
+
+#include "anatomy/geometry/error.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/output_folder.h"
+#include "apps/cli/records_place.h"
+#include "apps/doctor/computer_check.h"
+#include "apps/doctor/device_check.h"
+#include "apps/doctor/picture_facts.h"
+#include "apps/doctor/station_check.h"
+#include "apps/record/store/pending.h"
+#include "apps/station/assets.h"
+#include "apps/twin/setup_bench.h"
+#include "ar/webcam.h"
+#include "scene/gl_context.h"
+
+namespace palpa::cli {
+namespace {
+
+using namespace doctor;
+
+constexpr const char* kMade_utc = "2026-01-01T00:00:00Z";   // no trial is older than this program
+constexpr int kPictures = 30;
+
+struct DoctorOptions {
+  std::string station, records, out = "out";
+  std::uint64_t seed = 1;
+  bool json = false;
+};
+
+/// What the bench's camera sees before anybody does anything.
+std::function<std::optional<ar::Frame>()> benchPictures(const station::Station& station, std::uint64_t seed) {
+  auto bench = std::make_shared<twin::SetupBench>(station, seed);
+  return [bench]() -> std::optional<ar::Frame> {
+    for (std::optional<runtime::Moment> moment = bench->next(); moment; moment = bench->next())
+      if (moment->picture) return moment->picture();
+    return std::nullopt;
+  };
+}
+
+PictureFacts seenBy(const station::Station& station, std::uint64_t seed) {
+  const std::unique_ptr<ar::Board> board = ar::makeBoard(station.board, station.decimate);
+  if (station.camera_setup.driver == station::CameraSetup::Driver::bench) return lookAt(benchPictures(station, seed), kPictures, *board, station.camera);
+  const station::CameraSetup& setup = station.camera_setup;
+  std::unique_ptr<ar::Webcam> camera;   // opened where a failure is told
+  const auto grab = [&] {
+    if (!camera) camera = std::make_unique<ar::Webcam>(ar::WebcamSettings{setup.device, station.camera.width, station.camera.height, station.camera_rate_Hz, setup.exposure_ms, setup.gain, setup.focus});
+    return camera->grab();
+  };
+  return lookAt(grab, kPictures, *board, station.camera);
+}
+
+void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
+
+Findings examined(const DoctorOptions& o) {
+  Findings all{askAssets()};
+  if (canStart(all)) {
+    const std::filesystem::path file = o.station.empty() ? station::assetFile("stations/virtual_bench.json") : std::filesystem::path(o.station);
+    if (const auto station = readStation(file, &all)) {
+      append(all, judgePictures(seenBy(*station, o.seed), station->camera_rate_Hz, station->camera));
+      all.push_back(askDevice(station->device));
+      all.push_back(askSensor(*station));
+      append(all, judgeCalibrations(*station, utcNow()));
+      all.push_back(judgeLoop(measureLoop(), station->device.driver == station::DeviceDriver::falcon));
+    }
+  }
+  all.push_back(askDrawing([] { return std::string(scene::makeGlContext(scene::Display::automatic, 320, 240, "Palpa: doctor")->describe()); }));
+  all.push_back(judgeHeadset(headsetRuntime()));
+  all.push_back(askRecords(o.records, record::PendingList(record::PendingList::usualFolder()).sessions().size()));
+  all.push_back(judgeDisk(measureDisk(o.out)));
+  all.push_back(judgeDate(utcNow(), kMade_utc));
+  all.push_back(askLocale());
+  return all;
+}
+
+void print(const Findings& findings) {
+  std::size_t wide = 0, ill = 0, notes = 0;
+  for (const Finding& f : findings) {
+    wide = std::max(wide, f.subject.size());
+    ill += f.state == State::ill;
+    notes += f.state == State::note;
+  }
+  for (const Finding& f : findings) {
+    std::printf("%-4s  %-*s  %s\n", name(f.state), static_cast<int>(wide), f.subject.c_str(), f.verdict.c_str());
+    if (!f.fix.empty()) std::printf("%*s  -> %s\n", static_cast<int>(wide) + 6, "", f.fix.c_str());
+  }
+  if (ill > 0) std::printf("\nNo session can start: see to what is ill (%zu).\n", ill);
+  else if (notes > 0) std::printf("\nA session can start; %zu thing%s should be seen to.\n", notes, notes == 1 ? "" : "s");
+  else std::printf("\nThe station is well.\n");
+}
+
+void examine(DoctorOptions o) {
+  if (o.records.empty()) o.records = usualRecords();
+  const Findings findings = examined(o);
+  if (o.json) std::printf("%s\n", toJson(findings).c_str());
+  else print(findings);
+  if (canStart(findings)) return;
+  std::string named;
+  for (const Finding& f : findings)
+    if (f.state == State::ill) named += (named.empty() ? "" : ", ") + f.subject;
+  throw Error("no session can start (" + named + ")", "doctor", "Do what stands beside what is ill, then ask again");
+}
+
+}  // namespace
+
+void addDoctor(CLI::App& program) {
+  auto o = std::make_shared<DoctorOptions>();
+  CLI::App* command = program.add_subcommand("doctor", "Is this station well? What is wrong, and what to do");
+  command->add_option("--station", o->station, "Station file; default: the virtual bench")->type_name("FILE");
+  command->add_option("--records", o->records, "Records: a file, or postgresql://user@host/database (default: the usual ones)")->type_name("FILE|URL");
+  command->add_option("--out", o->out, "Where results of sessions will go (default out)")->type_name("DIR");
+  command->add_option("--seed", o->seed, "Of the virtual bench")->check(CLI::PositiveNumber);
+  command->add_flag("--json", o->json, "For programs: {\"can_start\", \"findings\": [{\"subject\", \"state\", \"verdict\", \"fix\"}]}");
+  command->footer("Exit code 0: a session can start; 1: none can.\n\nExamples:\n  palpa doctor\n  palpa doctor --station my_station.json --json");
+  command->callback([o] { examine(*o); });
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,148 @@
+#include "apps/doctor/computer_check.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <clocale>
+#include <cstdlib>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "anatomy/geometry/error.h"
+#include "apps/doctor/words.h"
+#include "apps/runtime/clock.h"
+#include "apps/runtime/real_time.h"
+#include "apps/station/assets.h"
+
+namespace palpa::doctor {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::uint64_t kMegabyte = 1'000'000;
+constexpr std::uint64_t kLeast = 200 * kMegabyte, kComfortable = 2000 * kMegabyte;   // a trial leaves some 10 MB
+
+std::string environment(const char* name) {
+  const char* value = std::getenv(name);
+  return value ? value : "";
+}
+
+/// The nearest folder that exists.
+fs::path existing(fs::path folder) {
+  std::error_code none;
+  folder = fs::absolute(folder, none);
+  while (!fs::exists(folder, none) && folder.has_parent_path() && folder != folder.parent_path()) folder = folder.parent_path();
+  return folder;
+}
+
+}  // namespace
+
+LoopFacts measureLoop() {
+  LoopFacts facts;
+  std::thread([&facts] {
+    constexpr int kSteps = 1000;
+    facts.priority = runtime::becomeRealTime(-1);
+    const runtime::SteadyClock clock;
+    std::vector<std::int64_t> late;
+    const std::int64_t begun = clock.now();
+    for (int i = 1; i <= kSteps; ++i) {
+      const std::int64_t due = begun + i * runtime::kMillisecond;
+      clock.sleepUntil(due);
+      late.push_back(clock.now() - due);
+    }
+    facts.rate_Hz = kSteps / (1e-9 * static_cast<double>(clock.now() - begun));
+    std::sort(late.begin(), late.end());
+    facts.late_99_us = 1e-3 * static_cast<double>(late[kSteps * 99 / 100]);
+  }).join();
+  return facts;
+}
+
+Finding judgeLoop(const LoopFacts& facts, bool needed) {
+  constexpr double kLate_us = 500;   // half a step of 1 kHz
+  const std::string measured = text("%.0f steps a second, 99 of 100 within %.0f us", facts.rate_Hz, facts.late_99_us);
+  if (!needed) return {"haptic loop", State::well, measured + "; the virtual bench needs no more"};
+  const bool refused = facts.priority.rfind("SCHED_FIFO", 0) != 0;
+  if (facts.rate_Hz < 900 || facts.late_99_us > kLate_us)
+    return {"haptic loop", State::note, measured + ": forces will stutter", refused ? "Let this user run in real time (below), and close other programs" : "Close other programs; on a laptop plug in the power supply"};
+  if (refused) return {"haptic loop", State::note, measured + ", but at normal priority: forces may stutter when the computer is busy", "As root write \"@audio - rtprio 90\" and \"@audio - memlock unlimited\" into /etc/security/limits.d/palpa.conf, add this user to the group audio, log in again"};
+  return {"haptic loop", State::well, measured + ", in real time"};
+}
+
+DiskFacts measureDisk(const fs::path& folder) {
+  DiskFacts facts{existing(folder), true, 0};
+  std::error_code failed;
+  const fs::space_info space = fs::space(facts.folder, failed);
+  facts.free_bytes = failed ? 0 : space.available;
+  facts.writable = ::access(facts.folder.c_str(), W_OK) == 0;
+  return facts;
+}
+
+Finding judgeDisk(const DiskFacts& facts) {
+  const std::string place = facts.folder.string();
+  if (!facts.writable) return {"disk", State::ill, place + " may not be written by this user", "Start in a folder of your own, or say where results go: --out"};
+  const std::string free = text("%.1f GB free", 1e-9 * static_cast<double>(facts.free_bytes)) + " in " + place;
+  if (facts.free_bytes < kLeast) return {"disk", State::ill, free, "Free the disk: a session leaves some 10 MB a trial, and needs room to end in order"};
+  if (facts.free_bytes < kComfortable) return {"disk", State::note, free + ": enough for some " + text("%.0f trials", static_cast<double>(facts.free_bytes - kLeast) / (10.0 * kMegabyte)), "Free the disk before a course"};
+  return {"disk", State::well, free};
+}
+
+Finding judgeDate(const std::string& now_utc, const std::string& built_utc) {
+  if (now_utc < built_utc) return {"date", State::ill, "the computer believes it is " + now_utc.substr(0, 10) + ", before this program was made", "Set the computer's date; sessions and calibrations are dated by it"};
+  return {"date", State::well, now_utc.substr(0, 10) + " " + now_utc.substr(11, 5) + " UTC"};
+}
+
+Finding askDrawing(const std::function<std::string()>& draw) {
+  try {
+    return {"pictures", State::well, "drawn by OpenGL (" + draw() + ")"};
+  } catch (const std::exception& e) {
+    Finding finding = troubled("pictures", State::ill, e.what());
+    finding.fix += ". Sessions without pictures still run: --no-views";
+    return finding;
+  }
+}
+
+fs::path headsetRuntime() {
+  if (const std::string given = environment("XR_RUNTIME_JSON"); !given.empty()) return given;
+  const std::string home = environment("HOME"), config = environment("XDG_CONFIG_HOME");
+  std::error_code none;
+  for (const fs::path& folder : {fs::path(config.empty() ? home + "/.config" : config), fs::path("/etc/xdg"), fs::path("/etc"), fs::path("/usr/share")})
+    if (const fs::path file = folder / "openxr/1/active_runtime.json"; fs::exists(file, none)) return file;
+  return {};
+}
+
+Finding judgeHeadset(const fs::path& file) {
+  if (file.empty()) return {"headset", State::absent, "no OpenXR runtime is installed; the desktop shows everything"};
+  const auto broken = [&file](const std::string& why) { return Finding{"headset", State::note, why, "Install the headset's OpenXR runtime again, or correct " + file.string() + ". Sessions on the desktop run without"}; };
+  std::ifstream stream(file);
+  if (!stream) return broken("the OpenXR runtime's file cannot be read: " + file.string());
+  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  if (json.is_discarded() || !json.is_object() || !json.contains("runtime") || !json["runtime"].is_object()) return broken("the OpenXR runtime's file is damaged: " + file.string());
+  const nlohmann::json path = json["runtime"].value("library_path", nlohmann::json());
+  if (!path.is_string()) return broken("the OpenXR runtime's file names no library: " + file.string());
+  const fs::path library = path.get<std::string>();
+  std::error_code none;
+  const bool search = !library.has_parent_path();   // a bare name is found by the system's loader
+  if (!search && !fs::exists(library.is_absolute() ? library : file.parent_path() / library, none)) return broken("the OpenXR runtime is not where its file says: " + library.string());
+  return {"headset", State::well, "an OpenXR runtime is installed: " + library.filename().string()};
+}
+
+Finding askLocale() {
+  std::string named = environment("LC_ALL");
+  if (named.empty()) named = environment("LANG");
+  const std::string before = std::setlocale(LC_ALL, nullptr);
+  const bool known = std::setlocale(LC_ALL, "") != nullptr;
+  std::setlocale(LC_ALL, before.c_str());
+  if (!known) return {"language", State::note, "the settings name a language that is not installed" + (named.empty() ? std::string() : " (" + named + ")"), "Set LC_ALL to C.UTF-8, or install it: dpkg-reconfigure locales"};
+  return {"language", State::well, named.empty() ? "none set" : named};
+}
+
+Finding askAssets() {
+  try {
+    return {"program's files", State::well, station::assetsFolder().string()};
+  } catch (const std::exception& e) {
+    return troubled("program's files", State::ill, e.what());
+  }
+}
+
+}  // namespace palpa::doctor

@@ -1,0 +1,26 @@
+#pragma once
+
+#include "apps/doctor/finding.h"
+#include "apps/station/station_file.h"
+#include "haptics/devices/falcon_link.h"
+
+namespace palpa::doctor {
+
+/// What a Falcon's link says after it has been tried.
+Finding judgeFalcon(const haptics::FalconStatus& status);
+
+/// The station's haptic device, tried for a second or two; nothing is moved by it, no force is rendered.
+Finding askDevice(const station::DeviceSetup& setup);
+
+/// What came of a force sensor in some time.
+struct SensorFacts {
+  std::uint64_t records = 0, lost = 0, faults = 0;
+  double seconds = 0;
+  std::string trouble;     ///< it could not be opened: why
+};
+Finding judgeSensor(const SensorFacts& facts);
+
+/// The station's force sensor, listened to for half a second.
+Finding askSensor(const station::Station& station);
+
+}  // namespace palpa::doctor
