@@ -9,7 +9,21 @@
 
 namespace palpa {
 
-WholeFile::WholeFile(const std::filesystem::path& file) : file_(file), beside_(file.string() + ".part"), stream_(beside_, std::ios::binary) {
+namespace {
+
+/// A session's evidence and a centre's records are databases; a page or a table that is given their name must not take their place.
+bool isDatabase(const std::filesystem::path& file) {
+  constexpr std::string_view kBegins = "SQLite format 3";
+  std::string start(kBegins.size(), ' ');
+  std::ifstream stream(file, std::ios::binary);
+  return stream.read(start.data(), static_cast<std::streamsize>(start.size())) && start == kBegins;
+}
+
+}  // namespace
+
+WholeFile::WholeFile(const std::filesystem::path& file) : file_(file), beside_(file.string() + ".part") {
+  if (isDatabase(file_)) throw Error("holds a session or records, which nothing overwrites", file_.string(), "Give another name");
+  stream_.open(beside_, std::ios::binary);
   if (!stream_) fail(errno);
 }
 

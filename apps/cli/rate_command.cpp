@@ -18,7 +18,7 @@ namespace {
 constexpr const char* kRateExamples = R"(Examples:
   palpa rate form --out form.html
       a blank form to print; form.csv beside it is what is typed in afterwards
-  palpa rate form --session out/A --trial 1 --records records.sqlite --out form.html
+  palpa rate form --session out/A --trial 1 --records records.sqlite --out form-A1.html
       for one trial, with what the simulator says standing faintly beside
   palpa rate enter --session out/A --trial 1 --rater R1 --answers form.csv
   palpa rate agreement
@@ -49,6 +49,14 @@ record::TrialWithSession storedTrial(record::RecordStore& store, const std::stri
                    "Bring the session into the records first: palpa records add");
 }
 
+/// Beside the form, to type in what was marked. One that holds answers stays.
+std::filesystem::path sheetFor(const std::string& page, const std::string& blank) {
+  if (std::filesystem::path(page).extension() != ".html") throw UsageError("must end with .html", "--out " + page, "The sheet to fill in lies beside it and ends with .csv");
+  std::filesystem::path sheet = std::filesystem::path(page).replace_extension("csv");
+  if (std::filesystem::exists(sheet) && textOf(sheet.string()) != blank) throw UsageError("is there already and may hold answers", sheet.string(), "Give another --out");
+  return sheet;
+}
+
 void writeForm(const RateOptions& o) {
   const RatingForms forms = readForms(o.checklist, o.global);
   report::RatingForm form;
@@ -64,9 +72,10 @@ void writeForm(const RateOptions& o) {
     form.simulated = t.session.simulated;
     form.marks = competence::marked(forms.checklist, figuresOf(t.trial), {});
   }
+  const std::string blank = report::answerSheet(forms.checklist, form.global);
+  const std::filesystem::path sheet = sheetFor(o.out, blank);
   report::writeRatingForm(form, o.out);
-  const std::filesystem::path sheet = std::filesystem::path(o.out).replace_extension("csv");
-  writeWhole(sheet, report::answerSheet(forms.checklist, form.global));
+  writeWhole(sheet, blank);
   std::printf("Written: %s, to print; %s, to fill in from it (palpa rate enter)\n", o.out.c_str(),
               sheet.string().c_str());
 }

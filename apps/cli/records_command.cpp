@@ -1,3 +1,4 @@
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -112,7 +113,9 @@ CLI::App* sub(CLI::App* parent, const std::shared_ptr<RecordsOptions>& o, const 
 }
 
 std::string whyNoDate(const std::string& d) {
-  const bool date = d.size() == 10 && d[4] == '-' && d[7] == '-' && d.find_first_not_of("0123456789-") == std::string::npos;
+  int year = 0, month = 0, day = 0, end = 0;
+  const bool written = d.size() == 10 && d.find_first_not_of("0123456789-") == std::string::npos && std::sscanf(d.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &end) == 3 && end == 10;
+  const bool date = written && year >= 2000 && std::chrono::year_month_day(std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)), std::chrono::day(static_cast<unsigned>(day))).ok();
   return date ? "" : "a date is written 2027-03-01";
 }
 
@@ -185,7 +188,7 @@ void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
 void addRecords(CLI::App& program) {
   CLI::App* command = program.add_subcommand("records", "Trainees and their trials: one store for all sessions");
   command->require_subcommand(1);
-  command->footer("Examples:\n  palpa records trainee add --id T001 --group novice --consent\n  palpa paracentesis --trainee T001 --records ~/records.sqlite\n  palpa records add out/paracentesis-20260301-120000\n"
+  command->footer("Examples:\n  export PALPA_RECORDS=~/records.sqlite\n  palpa records trainee add --id T001 --group novice --consent\n  palpa paracentesis --trainee T001\n  palpa records add out/paracentesis-20260301-120000\n"
                   "  palpa records show --id T001\n  palpa records export --all --out data\n  palpa records backup --out records-2026-03-01.sqlite\n  palpa records delete --id T001 --yes");
   const auto o = std::make_shared<RecordsOptions>();
   addTrainees(command, o);

@@ -5,6 +5,7 @@
 #include "apps/cli/deliver_evidence.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/records_actions.h"
+#include "apps/cli/records_place.h"
 #include "apps/link/data_files.h"
 #include "apps/link/statement.h"
 #include "apps/link/tell.h"
@@ -65,6 +66,7 @@ void queue(const RecordsOptions& o, const link::Route& route, link::Outbox& outb
 }  // namespace
 
 void exportRecords(const RecordsOptions& o) {
+  requireRecords(o.url);
   record::RecordStore store(o.url);
   People people = chosen(store, o);
   if (o.research) keepAgreed(people, &record::Trainee::research_utc, "use in studies");

@@ -5,6 +5,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/records_actions.h"
+#include "apps/cli/records_place.h"
 #include "apps/record/store/backup.h"
 #include "apps/record/store/migrations.h"
 
@@ -39,6 +40,7 @@ std::size_t copied(const std::string& from, const std::string& to) {
 
 /// Written beside and renamed: a backup is there whole or not at all.
 void backUpRecords(const RecordsOptions& o) {
+  requireRecords(o.url);
   if (record::isServer(o.out))
     throw UsageError("is a server; a backup is a file", "--out",
                      "Give a file; palpa records restore brings it to a server");
@@ -58,8 +60,11 @@ void backUpRecords(const RecordsOptions& o) {
 void restoreRecords(const RecordsOptions& o) {
   if (!fs::is_regular_file(o.from))
     throw UsageError("is no file", o.from, "Give a backup that palpa records backup wrote");
-  const PassingFile copy(fs::temp_directory_path() /
-                         ("palpa-restore-" + std::to_string(::getpid()) + ".sqlite"));
+  requireRecords(o.from);
+  std::string folder = (fs::temp_directory_path() / "palpa-restore-XXXXXX").string();
+  if (!::mkdtemp(folder.data())) throw Error("cannot be made", folder, "Free space there, or set TMPDIR");
+  const PassingFile own{fs::path(folder)};
+  const PassingFile copy(fs::path(folder) / fs::path(o.from).filename());
   std::error_code problem;
   fs::copy_file(o.from, copy.name(), fs::copy_options::overwrite_existing, problem);
   if (problem)

@@ -6,6 +6,7 @@
 #include "apps/cli/deliver_evidence.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/records_actions.h"
+#include "apps/cli/records_place.h"
 #include "apps/cli/study_copy.h"
 #include "apps/link/tell.h"
 #include "apps/record/session_file.h"
@@ -99,6 +100,7 @@ record::Trainee traineeIn(record::RecordStore& store, const std::string& id) {
 }
 
 void showTrainee(const RecordsOptions& o) {
+  requireRecords(o.url);
   record::RecordStore store(o.url);
   const record::Trainee t = traineeIn(store, o.trainee.id);
   const std::vector<record::TrialWithSession> trials = store.trials({.trainee = t.id});
@@ -138,6 +140,7 @@ void listOverdue(const RecordsOptions& o) {
 }
 
 void deletePerson(const RecordsOptions& o) {
+  requireRecords(o.url);
   record::RecordStore store(o.url);
   const std::size_t sessions = store.sessions(traineeIn(store, o.trainee.id).id).size();
   if (!o.yes)

@@ -3,6 +3,7 @@
 #include <cstdlib>
 #include <filesystem>
 
+#include "anatomy/geometry/error.h"
 #include "apps/record/store/sql_connection.h"
 
 namespace palpa::cli {
@@ -22,6 +23,14 @@ std::string usualRecords() {
   if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data == '/') return (fs::path(data) / "palpa/records.sqlite").string();
   const char* home = std::getenv("HOME");
   return (fs::path(home && *home ? home : ".") / ".local/share/palpa/records.sqlite").string();
+}
+
+void requireRecords(const std::string& url) {
+  if (record::isServer(url)) return;
+  std::error_code none;
+  const bool there = fs::exists(url, none);
+  if (there && (fs::is_directory(url, none) || fs::file_size(url, none) > 0)) return;
+  throw UsageError(there ? "is empty" : "is not there", "records file " + url, there ? "Restore it from a backup: palpa records restore" : "Give the right one: --records; the first trainee makes one: palpa records trainee add");
 }
 
 void addRecordsArgument(CLI::App& command, std::string& url) {

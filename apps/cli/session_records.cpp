@@ -22,7 +22,7 @@ void checkTrainee(SessionOptions& o) {
     if (o.trainee != kNobody)
       throw UsageError("is not in the " + store.place(), "trainee " + o.trainee,
                        "Add the trainee first: palpa records trainee add --id " + o.trainee +
-                           "; or run without records");
+                           " --records " + o.records + "; or run without records");
     std::printf(
         "This session is nobody's and will not be in the records: --trainee says whose it is\n");
     o.records.clear();

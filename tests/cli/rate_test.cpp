@@ -94,6 +94,10 @@ TEST(Rate, MistakesAreSaid) {
           "bad.csv, line 2: names \"steril\"");
   refused({"rate", "form", "--checklist", "bad.json", "--records", "r.sqlite"},
           "bad.json, version: must be a number");
+  here.file("filled.csv", "item,value\nsterile,done\n");
+  refused({"rate", "form", "--out", "filled.html", "--records", "r.sqlite"}, "may hold answers");
+  refused({"rate", "form", "--out", "filled.csv", "--records", "r.sqlite"}, "must end with .html");
+  EXPECT_TRUE(says(contentOf(here / "filled.csv"), "sterile,done"));
   refused({"rate", "form", "--checklist", "none.json", "--records", "r.sqlite"},
           "none.json: cannot be read");
   refused({"rate", "enter", "--session", "A", "--rater", "Dr Smith", "--answers", "bad.csv"},

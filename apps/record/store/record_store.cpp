@@ -49,8 +49,8 @@ double StoredTrial::metric(const std::string& name) const {
 }
 
 std::string whyNoPseudonym(const std::string& id) {
-  const bool fits = !id.empty() && id.size() <= 32 && id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
-  return fits ? "" : "a trainee's pseudonym has 1 to 32 letters, digits, - or _";
+  const bool fits = !id.empty() && id[0] != '-' && id[0] != '_' && id.size() <= 32 && id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
+  return fits ? "" : "a pseudonym has 1 to 32 letters, digits, - or _, and begins with a letter or a digit";
 }
 
 RecordStore::RecordStore(std::unique_ptr<SqlConnection> connection) : connection_(std::move(connection)) { migrate(*connection_); }
