@@ -16,7 +16,7 @@ void note(int) { interrupted = 1; }
 
 }  // namespace
 
-Interrupt::Interrupt(trial::Channels& channels) : channels_(channels) {
+InterruptNote::InterruptNote() {
   interrupted = 0;
   struct sigaction action {};
   action.sa_handler = note;
@@ -24,12 +24,14 @@ Interrupt::Interrupt(trial::Channels& channels) : channels_(channels) {
   for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &action, &old_actions[i]);
 }
 
-Interrupt::~Interrupt() {
+InterruptNote::~InterruptNote() {
   for (std::size_t i = 0; i < std::size(kSignals); ++i) sigaction(kSignals[i], &old_actions[i], nullptr);
 }
 
+bool InterruptNote::noted() const { return interrupted != 0; }
+
 std::int64_t Interrupt::step(std::int64_t now_ns) {
-  if (!interrupted) return now_ns + kLookPeriod;
+  if (!note_.noted()) return now_ns + kLookPeriod;
   channels_.signals_to_task.push({trial::UserCommand::quit, "Interrupted"});
   return runtime::kNever;
 }

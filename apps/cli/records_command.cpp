@@ -76,8 +76,13 @@ void addSessions(const RecordsOptions& o) {
 /// One that fails does not keep the others back.
 void deliverPending(const RecordsOptions& o) {
   record::PendingList pending(record::PendingList::usualFolder());
-  if (!o.forget.empty()) pending.forget(o.forget);
-  const auto waiting = pending.sessions();
+  auto waiting = pending.sessions();
+  if (!o.forget.empty()) {
+    if (std::erase_if(waiting, [&](const record::PendingSession& s) { return s.uuid == o.forget; }) == 0)
+      throw UsageError("is not among the sessions that wait", "session " + o.forget, "palpa records deliver names them");
+    pending.forget(o.forget);
+    std::printf("Forgotten: session %s; its evidence stays where it is\n", o.forget.c_str());
+  }
   if (waiting.empty()) std::printf("Nothing waits to be delivered\n");
   std::size_t failed = 0;
   for (const record::PendingSession& session : waiting) try {

@@ -46,7 +46,7 @@ void deleteOne(record::RecordStore& store, const std::string& id) {
   for (const record::StoredSession& session : sessions) {
     if (!removeEvidence(session)) continue;
     store.evidenceDeleted(session.uuid);
-    std::printf("Deleted: %s; its folder may still hold a report and pictures\n",
+    std::printf("Deleted: %s; its folder may still hold a report, a table and pictures: delete it by hand\n",
                 session.evidence.c_str());
   }
   std::printf("Trainee %s and %s deleted; late deliveries will be refused\n", id.c_str(),
@@ -133,7 +133,7 @@ void listOverdue(const RecordsOptions& o) {
   if (!o.remove || over.empty()) return;
   if (!o.yes)
     throw UsageError(
-        "would delete " + counted(over.size(), "person") + "'s records and evidence for good",
+        "would delete the records and evidence of " + counted(over.size(), "person") + " for good",
         "--delete", "Add --yes if that is meant");
   for (const record::Trainee& t : over) deleteOne(store, t.id);
   sayWhatIsLeft(store, o.url);

@@ -118,7 +118,10 @@ void addReplay(CLI::App& program) {
   const auto seen = std::make_shared<ReplayViewOptions>();
   command->add_option("session", *file, "session.palpa")->required()->type_name("FILE");
   addReplayViewOptions(*command, *seen);
-  command->callback([file, seen] {
+  command->callback([file, seen, command] {
+    if (seen->view && !seen->video.empty()) throw UsageError("do not go together", "--view and --video", "Give one of them");
+    for (const char* option : {"--trial", "--speed", "--from", "--to", "--fps", "--size"})
+      if (!seen->wanted() && command->count(option) > 0) throw UsageError("is for a trial that is seen again", option, "Add --view, or --video FILE");
     if (seen->wanted()) viewReplay(*file, *seen);
     else replay(*file);
   });

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "anatomy/geometry/error.h"
+#include "apps/cli/interrupt.h"
 #include "apps/cli/recorded_trial.h"
 #include "apps/cli/work_progress.h"
 #include "apps/replay/film.h"
@@ -31,7 +32,7 @@ struct Cut {
 
 Cut cutOf(const ReplayViewOptions& o, double length_s) {
   const Cut cut{o.from_s, o.to_s < 0 ? length_s : std::min(o.to_s, length_s)};
-  if (cut.from_s < 0 || cut.from_s >= cut.to_s) {
+  if (!(cut.from_s >= 0 && cut.from_s < cut.to_s)) {
     char length[32];
     std::snprintf(length, sizeof length, "%.1f s", length_s);
     throw UsageError("leave nothing to show", "--from and --to", std::string("The trial lasts ") + length);
@@ -82,7 +83,9 @@ void writeFilm(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& 
   replay::Player speed(cut.from_s, cut.to_s, o.speed);
   replay::Film film(o.video, o.frames_per_second, size.width, size.height);
   WorkProgress progress("pictures", frames);
+  const InterruptNote interrupt;
   for (int i = 0; i < frames; ++i) {
+    if (interrupt.noted()) throw Error("was interrupted: nothing is written", o.video, "Start again, or take a part of the trial: --from, --to");
     shown->show(cut.from_s + i * o.speed / o.frames_per_second, speed.words());
     film.add(stage.view->capture());
     progress.done(i + 1);

@@ -25,6 +25,7 @@ void reportTrainee(const ReportOptions& o) {
   const std::optional<record::Trainee> trainee = store.trainee(o.choice.trainee);
   if (!trainee) throw UsageError("is not in the records", "trainee " + o.choice.trainee, "palpa records trainee list shows who is");
   const report::TraineeReport page{trainee->id, trainee->group, trainee->experience, utcNow(), std::string("palpa ") + PALPA_VERSION, o.rates, practiceIn(store, o.choice)};
+  if (page.trials.empty()) throw UsageError("has no trials" + (o.choice.task.empty() ? std::string() : " of " + o.choice.task) + " in the records", "trainee " + trainee->id, "palpa records show --id " + trainee->id + " says what there is; palpa records add brings sessions in");
   const std::filesystem::path file = makeOutputFolder(o.out, "report-" + trainee->id) / "trainee.html";
   report::writeTraineeReport(page, file);
   std::printf("Written: %s (%zu trial%s)\n", file.string().c_str(), page.trials.size(), page.trials.size() == 1 ? "" : "s");

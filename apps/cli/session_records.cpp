@@ -18,7 +18,10 @@ void checkTrainee(SessionOptions& o) {
   o.records = absoluteRecords(o.records);
   try {
     record::RecordStore store(o.records);
-    if (store.trainee(o.trainee)) return;
+    if (const auto trainee = store.trainee(o.trainee)) {
+      if (trainee->consent_utc.empty()) std::printf("No consent of %s to training records is noted; where it was given: palpa records trainee change --id %s --consent\n", o.trainee.c_str(), o.trainee.c_str());
+      return;
+    }
     if (o.trainee != kNobody)
       throw UsageError("is not in the " + store.place(), "trainee " + o.trainee,
                        "Add the trainee first: palpa records trainee add --id " + o.trainee +

@@ -1,9 +1,11 @@
 #include "apps/cli/study_analyse.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
+#include "anatomy/geometry/error.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/records_place.h"
 #include "apps/cli/study_source.h"
@@ -61,11 +63,22 @@ AnalyseInput inputOf(const AnalyseOptions& o) {
   return input;
 }
 
+using study_analysis::StudyRow;
+
+/// A name mistyped would leave its rows out of every table.
+template <class NameOf>
+void requireNames(const std::vector<std::string>& names, const std::vector<StudyRow>& rows, const char* option, NameOf nameOf) {
+  for (const std::string& name : names)
+    if (std::none_of(rows.begin(), rows.end(), [&](const StudyRow& row) { return nameOf(row) == name; })) throw UsageError("is in no trial of this study", std::string(option) + " " + name, "Write it as the protocol or the table does");
+}
+
 void analyse(const AnalyseOptions& o) {
   if (o.protocol.empty() && o.study.empty() && o.csv.empty())
     throw UsageError("needs --protocol, --study or --csv", "palpa study analyse",
                      "Say what is to be analysed");
   AnalyseInput input = inputOf(o);
+  requireNames(o.groups, input.rows, "--groups", [](const StudyRow& row) { return row.group; });
+  requireNames(o.conditions, input.rows, "--conditions", [](const StudyRow& row) { return row.condition; });
   const study_analysis::StudyResult result = study_analysis::analyseStudy(input.rows, input.design);
   const fs::path folder = makeOutputFolder(o.out, "study");
   const std::vector<fs::path> files = report::writeStudyTables(result, folder);

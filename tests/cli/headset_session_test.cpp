@@ -77,13 +77,24 @@ double widthOf(std::vector<Vec3> path) {
   return width;
 }
 
+/// Until the runtime has kept so many pictures of an eye, one a frame, and eight seconds have passed; two minutes at most, on a computer that is busy.
+void awaitFrames(const std::filesystem::path& picture, int frames, Running& running) {
+  std::filesystem::file_time_type last{};
+  for (int seen = 0, tries = 0; tries < 12'000 && !running.ended() && (seen < frames || tries < 800); ++tries) {
+    usleep(10'000);
+    std::error_code none;
+    const auto time = std::filesystem::last_write_time(picture, none);
+    seen += !none && time != last;
+    if (!none) last = time;
+  }
+}
+
 /// A person's needle goes as far as the controller goes, which does not turn. (To a millimetre: test_headset, Controller.)
 TEST(HeadsetSession, TheControllerHoldsTheNeedle) {
   const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64;rate=200;stands=1000000");
   const Folder here;
   Running running(onHeadset({"--operator", "person", "--no-familiarisation"}), here.path());
-  for (int i = 0; i < 1200 && !running.ended() && !std::filesystem::exists(xr.folder() / "eye1.pam"); ++i) usleep(50'000);
-  usleep(8'000'000);
+  awaitFrames(xr.folder() / "eye1.pam", 40, running);
   EXPECT_EQ(running.interrupt(), 0);
   const test::XrReport report = xr.report();
   EXPECT_EQ(report.complaints, std::vector<std::string>{});
