@@ -25,7 +25,14 @@ struct Answer {
   }
 };
 
+/// Of this computer's own state only what a test is about.
+void settle(const Folder& here) {
+  ::setenv("LC_ALL", "C.UTF-8", 1);
+  ::setenv("XDG_STATE_HOME", here.path().c_str(), 1);
+}
+
 Answer asked(const Folder& here, std::vector<std::string> more = {}) {
+  settle(here);
   std::vector<std::string> arguments{"doctor", "--json", "--records", "records.sqlite"};
   arguments.insert(arguments.end(), more.begin(), more.end());
   const Outcome o = palpa(arguments, here.path());
