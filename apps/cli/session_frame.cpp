@@ -22,7 +22,7 @@ std::string toneOf(const std::string& kind) {
 }
 
 live::Hello helloOf(const SessionOptions& o, const station::Station& station, const std::string& uuid) {
-  return {uuid, o.command, o.trainee, isSimulated(o.who) || station.simulated, o.assess, o.trials};
+  return {uuid, o.task.empty() ? o.command : std::filesystem::path(o.task).stem().string(), o.trainee, isSimulated(o.who) || station.simulated, o.assess, o.trials};
 }
 
 }  // namespace
