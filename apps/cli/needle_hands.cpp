@@ -36,7 +36,7 @@ SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWor
                                   twin::needlePickedUp(world.station, world.X_WA, anatomy.entry_A, options.left_handed),
                                   world.X_WA * anatomy.entry_A,
                                   world.X_WA.rotation() * anatomy.normal_A,
-                                  options.seed,
+                                  options.benchSeed(),
                                   {},
                                   nullptr,
                                   {}};

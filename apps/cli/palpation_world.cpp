@@ -85,13 +85,13 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
                                   station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
                                   X_WP.translation(),
                                   X_WP.linear() * Vec3::UnitZ(),
-                                  options.seed,
+                                  options.benchSeed(),
                                   {},
                                   nullptr,
                                   {},
                                   {}};
   if (onBench()) {
-    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.seed);
+    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
     bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
       const twin::SampleTwin::Touch touch = sample->step(X_WT_true[0], dt);
       return std::array<twin::VirtualBench::Touch, 2>{{{touch.f_W, touch.p_W}, {}}};
@@ -106,7 +106,7 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},
+  info.session_json = sessionText({{"seed", options.seed}, {"bench_seed", options.benchSeed()},
                                      {"operator", nameOf(options.who)},
                                      {"simulated", simulated(options)},
                                      {"trainee", options.trainee},

@@ -99,7 +99,7 @@ SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
                                   station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
                                   X_WF.translation(),
                                   X_WF.linear() * Vec3::UnitZ(),
-                                  options.seed,
+                                  options.benchSeed(),
                                   {},
                                   nullptr,
                                   {},
@@ -113,7 +113,7 @@ record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},        {"operator", nameOf(options.who)},           {"simulated", simulated(options)}, {"mode", options.mode},
+  info.session_json = sessionText({{"seed", options.seed}, {"bench_seed", options.benchSeed()},        {"operator", nameOf(options.who)},           {"simulated", simulated(options)}, {"mode", options.mode},
                                      {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}, {"assessed", options.assess}},
                                   options);
   info.station_json = station.file.json().dump();

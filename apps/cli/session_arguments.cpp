@@ -95,6 +95,7 @@ void addPlaceArguments(CLI::App& command, SessionOptions& o) {
 void addRunArguments(CLI::App& command, SessionOptions& o) {
   addPlaceArguments(command, o);
   command.add_option("--seed", o.seed, "Everything random follows from it (default 1)")->check(CLI::NonNegativeNumber);
+  command.add_option("--bench-seed", o.bench_seed, "Of the virtual bench's truth: that with which it was calibrated (default: as --seed)")->check(CLI::PositiveNumber);
   choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
   command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(CLI::Range(1, 1000));
   command.add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")

@@ -66,7 +66,7 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},
+  info.session_json = sessionText({{"seed", options.seed}, {"bench_seed", options.benchSeed()},
                                      {"operator", nameOf(options.who)},
                                      {"knows_patient", options.knows_patient},
                                      {"simulated", isSimulated(options, world)},

@@ -40,6 +40,8 @@ struct SessionOptions {
   anatomy::Side side = anatomy::Side::right;
   bool left_handed = false;
   std::uint64_t seed = 1;
+  std::uint64_t bench_seed = 0;   ///< of the virtual bench's truth, which a calibration of it belongs to; 0: as `seed`
+  std::uint64_t benchSeed() const { return bench_seed ? bench_seed : seed; }
   OperatorKind who = OperatorKind::automatic;
   bool knows_patient = false;     ///< a simulated operator aims by this patient's images, not by the mean anatomy
   bool force_feedback = true;

@@ -85,9 +85,9 @@ SessionDevices::Hands SqueezeWorld::hands(const SessionOptions& options) const {
     const Pose X_WT = X_WO * makePose(rotationWithZ(Vec3(-side, 0, 0)), Vec3(side * kOpenBeside, 0, 0));
     return Pose(X_WD.inverse() * X_WT * station.X_ET.inverse());
   };
-  twin::VirtualBench::Setup bench{station, std::move(fingers[0]), pickedUp(station.X_WD, 1), X_WO.translation(), X_WO.linear() * Vec3::UnitZ(), options.seed, {}, nullptr, {}, {}};
+  twin::VirtualBench::Setup bench{station, std::move(fingers[0]), pickedUp(station.X_WD, 1), X_WO.translation(), X_WO.linear() * Vec3::UnitZ(), options.benchSeed(), {}, nullptr, {}, {}};
   bench.second = twin::VirtualBench::SecondTool{std::move(fingers[1]), *station.second_X_WD, pickedUp(*station.second_X_WD, -1), nullptr, nullptr};
-  if (isSimulated(options.who)) bench.real_thing = realObject(*this, options.seed);
+  if (isSimulated(options.who)) bench.real_thing = realObject(*this, options.benchSeed());
   return {std::move(bench), std::nullopt, task.library.tip_radius};
 }
 
@@ -97,7 +97,7 @@ record::SessionInfo SqueezeWorld::info(const SessionOptions& options) const {
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed},        {"operator", nameOf(options.who)},           {"simulated", true},
+  info.session_json = sessionText({{"seed", options.seed}, {"bench_seed", options.benchSeed()},        {"operator", nameOf(options.who)},           {"simulated", true},
                                      {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}, {"assessed", options.assess}},
                                   options);
   info.station_json = station.file.json().dump();

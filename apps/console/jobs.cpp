@@ -27,12 +27,12 @@ void clearOld(const fs::path& jobs) {
 
 nlohmann::json fractionOf(const std::vector<std::string>& lines) {
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
-    const std::size_t of = line->find(" of ");
-    if (of == std::string::npos) continue;
-    std::size_t begin = of;
-    while (begin > 0 && line->at(begin - 1) >= '0' && line->at(begin - 1) <= '9') --begin;
-    int part = 0, whole = 0;
-    if (std::sscanf(line->c_str() + begin, "%d of %d", &part, &whole) == 2 && whole > 0 && part >= 0 && part <= whole) return static_cast<double>(part) / whole;
+    for (std::size_t of = line->find(" of "); of != std::string::npos; of = line->find(" of ", of + 1)) {
+      std::size_t begin = of;
+      while (begin > 0 && line->at(begin - 1) >= '0' && line->at(begin - 1) <= '9') --begin;
+      int part = 0, whole = 0;
+      if (std::sscanf(line->c_str() + begin, "%d of %d", &part, &whole) == 2 && whole > 0 && part >= 0 && part <= whole) return static_cast<double>(part) / whole;
+    }
   }
   return nullptr;
 }
@@ -129,10 +129,11 @@ void Jobs::stop(const std::string& id) {
   askToEnd(found->second.process);
 }
 
-fs::path Jobs::folder(const std::string& id) const {
-  std::error_code none;
-  if (!isId(id) || !fs::is_directory(place_.jobs() / id, none)) throw UsageError("is not here", "job " + id.substr(0, 64), "Start it again");
-  return place_.jobs() / id;
+fs::path Jobs::page(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end() || found->second.wish.page.empty()) throw UsageError("is not here", "page of " + id.substr(0, 64), "Ask for it again");
+  return place_.jobs() / id / found->second.wish.page;
 }
 
 std::string Jobs::workingOn(const std::string& prefix) {

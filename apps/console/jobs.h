@@ -22,7 +22,7 @@ class Jobs {
     std::string key;                        ///< the same piece of work has the same key: it is not done twice at once
     std::string title;                      ///< "Camera"
     std::vector<std::string> arguments;     ///< of the command; "{}" stands for the job's folder
-    std::string page;                       ///< the file that shows what came out, in the folder; empty: none
+    std::string page;                       ///< the file that shows what came out, in the folder or with its whole path; empty: none
     std::function<void(const std::filesystem::path& folder, bool good)> then;   ///< on the jobs' thread
   };
   explicit Jobs(const Place& place);
@@ -33,7 +33,7 @@ class Jobs {
   /// {"state": "working|done|failed", "title", "done", "lines", "page", "message"}; throws UsageError for an unknown one.
   nlohmann::json one(const std::string& id);
   void stop(const std::string& id);
-  std::filesystem::path folder(const std::string& id) const;   ///< throws UsageError
+  std::filesystem::path page(const std::string& id);   ///< throws UsageError for a job that has none
   /// Waits or runs with a key that begins so; empty: none.
   std::string workingOn(const std::string& prefix);
 

@@ -56,10 +56,7 @@ json report(Console& c, const std::string& key, const std::string& title, std::v
   const std::lock_guard lock(mutex);
   auto found = made.find(key);
   if (found == made.end()) {
-    Jobs::Wish wish{key, title, std::move(arguments), "page.html", [page](const fs::path& folder, bool) {
-                      std::error_code none;
-                      fs::rename(folder / "report" / page, folder / "page.html", none);
-                    }};
+    Jobs::Wish wish{key, title, std::move(arguments), "report/" + page, {}};
     wish.arguments.insert(wish.arguments.end(), {"--records", c.place.records, "--out", "{}/report"});
     found = made.emplace(key, c.jobs.add(std::move(wish))).first;
   }

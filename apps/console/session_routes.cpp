@@ -65,7 +65,7 @@ std::vector<std::string> argumentsOf(const Console& c, const SessionWish& wish) 
   if (wish.assess) a.push_back("--assess");
   if (kindOf(task->engine)->side) a.insert(a.end(), {"--side", wish.side});
   if (kindOf(task->engine)->side && wish.patient_seed > 0) a.insert(a.end(), {"--patient-seed", std::to_string(wish.patient_seed)});
-  if (const std::string chosen = stationOf(c.place); !chosen.empty()) a.insert(a.end(), {"--station", chosen});
+  if (const std::string chosen = stationOf(c.place); !chosen.empty()) a.insert(a.end(), {"--station", chosen, "--bench-seed", "1"});   // calibrated from here: with the bench's first seed
   return a;
 }
 

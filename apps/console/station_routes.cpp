@@ -42,10 +42,10 @@ json me(const Console& c, bool entered) {
   if (!entered) return all;
   all["display"] = c.place.display;
   all["records"] = c.place.records;
-  const std::string chosen = stationOf(c.place);
-  all["station"] = chosen.empty() ? "virtual bench" : chosen;
   try {
-    all["simulated"] = stationNow(c).simulated;
+    const station::Station station = stationNow(c);
+    all["station"] = station.title;
+    all["simulated"] = station.simulated;
   } catch (const Error& e) {
     all["station_trouble"] = e.what();
   }
@@ -69,8 +69,8 @@ json calibration(Console& c) {
   for (const Step& step : kSteps) all["steps"].push_back({{"id", step.id}, {"title", step.title}, {"what", step.what}});
   const std::string chosen = stationOf(c.place);
   all["file"] = chosen;
-  all["station"] = chosen.empty() ? "virtual bench" : fs::path(chosen).stem().string();
   const station::Station station = stationNow(c);
+  all["station"] = station.title;
   all["verdict"] = station.calibration_verdict;
   for (const auto& one : station.calibrations) all["calibrations"].push_back({{"name", one.file.kind}, {"made_utc", one.file.date}, {"verdict", one.file.verdict}, {"simulated", one.file.simulated}});
   return all;
@@ -85,16 +85,13 @@ std::string calibrate(Console& c, const std::string& step) {
   Jobs::Wish wish;
   wish.key = "calibrate";
   wish.title = step == "all" ? "Everything" : found->title;
-  wish.arguments = {"calibrate", step, "--out", "{}/station"};
-  wish.page = "station/calibration.html";
+  const fs::path place = c.place.home / "stations" / newId();
+  wish.arguments = {"calibrate", step, "--out", place.string()};
+  wish.page = (place / "calibration.html").string();
   if (const std::string chosen = stationOf(c.place); !chosen.empty() && step != "all") wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
-  wish.then = [&c](const fs::path& folder, bool good) {
+  wish.then = [&c, place](const fs::path&, bool good) {
     std::error_code none;
-    const fs::path kept = c.place.home / "stations" / folder.filename();
-    if (!good || !fs::exists(folder / "station/station.json", none)) return;
-    fs::create_directories(kept.parent_path(), none);
-    fs::copy(folder / "station", kept, fs::copy_options::recursive, none);
-    if (!none) chooseStation(c.place, (kept / "station.json").string());
+    if (good && fs::exists(place / "station.json", none)) chooseStation(c.place, (place / "station.json").string());
   };
   return c.jobs.add(std::move(wish));
 }
@@ -154,10 +151,7 @@ void addStationRoutes(WebServer& server, Console& c) {
     answer(r, json::object(), 202);
   });
   server.Get(R"(/api/pages/([A-Za-z0-9_-]{1,64}))", [&c](const httplib::Request& q, httplib::Response& r) {
-    const fs::path folder = c.jobs.folder(q.matches[1]);
-    for (const char* page : {"page.html", "station/calibration.html"})
-      if (std::error_code none; fs::exists(folder / page, none)) return sendFile(r, folder / page, "text/html; charset=utf-8");
-    refuse(r, 404, "is not here");
+    sendFile(r, c.jobs.page(q.matches[1]), "text/html; charset=utf-8");
   });
 }
 
