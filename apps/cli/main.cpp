@@ -61,6 +61,7 @@ int run(int argc, char** argv) {
   palpa::cli::addRate(program);
   palpa::cli::addDoctor(program);
   palpa::cli::addBench(program);
+  palpa::cli::addManual(program, kWelcome);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {
