@@ -5,11 +5,12 @@ set(CPACK_PACKAGE_NAME palpa)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
 set(CPACK_PACKAGE_CONTACT ${PALPA_MAINTAINER})
 set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "visuo-haptic trainer for palpation and needle procedures")
-set(CPACK_PACKAGE_DESCRIPTION "A needle is led into a virtual patient who lies on a table in a camera's picture; a haptic
-loop computes a thousand times a second what the hand would feel. After each trial
-a report says what happened, what it cost, and why, in clinical words. Lumps are
-searched in soft tissue, things compared between two fingers. Without a camera or a
-haptic device everything runs on a simulated bench.
+set(CPACK_PACKAGE_DESCRIPTION "A needle is led into a virtual patient who lies on a table in a
+camera's picture; a haptic loop computes a thousand times a second what
+the hand would feel. After each trial a report says what happened, what
+it cost, and why, in clinical words. Lumps are searched in soft tissue,
+things compared between two fingers. Without a camera or a haptic device
+everything runs on a simulated bench.
 .
 Not a medical device: it has not been validated on people.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
