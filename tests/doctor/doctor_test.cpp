@@ -6,10 +6,12 @@
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/geometry/error.h"
+#include "apps/doctor/clock_check.h"
 #include "apps/doctor/computer_check.h"
 #include "apps/doctor/device_check.h"
 #include "apps/doctor/picture_facts.h"
 #include "apps/doctor/station_check.h"
+#include "apps/record/store/migrations.h"
 #include "apps/record/store/record_store.h"
 #include "apps/station/assets.h"
 #include "apps/twin/camera_faults.h"
@@ -139,13 +141,34 @@ TEST(DoctorsDevice, EveryProblemOfAFalconIsNamed) {
   }
 }
 
-TEST(DoctorsDevice, AFirmwareFileThatIsNotThereIsNamed) {
+TEST(DoctorsDevice, FirmwareThatIsNotThereOrNoneIsNamed) {
+  const fs::path folder = test::freshFolder("doctor", "firmware");
   station::DeviceSetup setup;
   setup.driver = station::DeviceDriver::falcon;
-  setup.firmware = "/nowhere/falcon.bin";
-  const Finding finding = askDevice(setup);
-  EXPECT_EQ(finding.state, State::ill);
-  EXPECT_NE(finding.verdict.find("/nowhere/falcon.bin"), std::string::npos) << finding.verdict;
+  EXPECT_EQ(askFirmware(setup).state, State::absent);
+  setup.firmware = folder / "falcon.bin";
+  expectSays(askFirmware(setup), State::ill, setup.firmware.string());
+  std::ofstream(setup.firmware) << "a page that a browser saved";
+  expectSays(askFirmware(setup), State::ill, setup.firmware.string());
+  std::ofstream(setup.firmware) << std::string(8492, 'F');
+  expectSays(askFirmware(setup), State::well, "8492 bytes");
+}
+
+/// As udev reads them: a file in an earlier folder hides one of its name.
+TEST(DoctorsDevice, TheRuleOfUdevIsLookedForWhereUdevLooks) {
+  const fs::path top = test::freshFolder("doctor", "udev"), etc = top / "etc", lib = top / "lib";
+  const std::vector<fs::path> folders{etc, top / "nowhere", lib};
+  expectSays(askUdevRule(folders), State::note, "there is none");
+  fs::create_directories(etc);
+  fs::create_directories(lib);
+  std::ofstream(etc / "50-other.rules") << "ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"6001\", GROUP=\"plugdev\"\n# 0403 cb48\n";
+  expectSays(askUdevRule(folders), State::note, "there is none");
+  fs::copy(station::assetFile("udev/60-palpa-falcon.rules"), lib);
+  expectSays(askUdevRule(folders), State::well, (lib / "60-palpa-falcon.rules").string());
+  std::ofstream{etc / "60-palpa-falcon.rules"};
+  expectSays(askUdevRule(folders), State::note, "there is none");
+  std::ofstream(etc / "60-palpa-falcon.rules") << "ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", MODE=\"0600\"\n";
+  expectSays(askUdevRule(folders), State::note, "nobody but root");
 }
 
 TEST(DoctorsSensor, SilenceLossAndFaultsAreNamed) {
@@ -223,11 +246,85 @@ TEST(DoctorsRecords, WhatIsWrongWithThemIsNamedAndNothingIsMade) {
   expectSays(askRecords("postgresql://nobody@127.0.0.1:9/none", 0), State::note, "127.0.0.1");
 }
 
+/// An empty file stays empty, an older one old: whoever only asks uses nothing.
+TEST(DoctorsRecords, AreLookedAtAndNotUsed) {
+  const fs::path folder = test::freshFolder("doctor", "looked_at");
+  const std::string file = (folder / "records.sqlite").string();
+  std::ofstream{file};
+  expectSays(askRecords(file, 0), State::note, "is empty");
+  EXPECT_EQ(fs::file_size(file), 0u);
+  {
+    const auto connection = record::connect(file);
+    record::migrate(*connection, 1);
+  }
+  const std::string older = test::slurp(file);
+  expectSays(askRecords(file, 0), State::note, "will be brought to the newest version");
+  EXPECT_EQ(test::slurp(file), older);
+  { record::connect(file)->query("UPDATE palpa_schema SET version=99"); }
+  expectSays(askRecords(file, 0), State::note, "newer version of Palpa");
+  EXPECT_EQ(std::distance(fs::directory_iterator(folder), {}), 1);
+}
+
+TEST(DoctorsBoard, ThePrintIsMeasuredOrHasBeen) {
+  station::Station station = benchStation();
+  expectSays(judgePrint(station, 0), State::well, "simulated");
+  expectSays(judgePrint(station, 99.8), State::well, "99.8 mm");
+  expectSays(judgePrint(station, 98.9), State::note, "1.1 % too small");
+  expectSays(judgePrint(station, 95.2), State::ill, "4.8 % too small");
+  expectSays(judgePrint(station, 103), State::ill, "3.0 % too large");
+  station.camera_setup.driver = station::CameraSetup::Driver::webcam;
+  expectSays(judgePrint(station, 0), State::note, "nobody has measured it");
+  station.calibrations = {calibration("registration")};
+  expectSays(judgePrint(station, 0), State::note, "nobody has measured it");
+  station::addPose(station.calibrations[0].file, "X_EM", Pose::Identity());
+  expectSays(judgePrint(station, 0), State::well, "at the registration of 2026-03-01");
+  station.calibrations[0].file.verdict = "fail: it does not fit";
+  expectSays(judgePrint(station, 0), State::note, "nobody has measured it");
+}
+
+TEST(DoctorsComputer, ClocksThatDoNotAgreeAreNamed) {
+  expectSays(judgeClocks({1, 1, 0.2, true}, {}, true), State::well, "kept by a time server");
+  expectSays(judgeClocks({1, 1, 0.2, false}, {}, false), State::well, "the date goes with them");
+  expectSays(judgeClocks({1, 1, 0.2, false}, {}, true), State::note, "no time server");
+  expectSays(judgeClocks({1, 1, -3600'000, true}, {}, false), State::note, "was set by -3600000 ms");
+  expectSays(judgeClocks({4'000'000, 1, 0, true}, {}, false), State::note, "steps by 4.0 ms");
+  const ClockWatch watch;
+  runtime::SteadyClock().sleepUntil(20 * runtime::kMillisecond);
+  EXPECT_GT(watch.facts().seconds, 0.02);
+  EXPECT_GT(watch.facts().resolution_ns, 0);
+}
+
+/// A real camera dates its pictures by the computer's clock; pictures that go back or come from elsewhere are told.
+TEST(DoctorsPictures, TimesThatCannotBeAreNamed) {
+  const station::Station& s = benchStation();
+  const auto board = ar::makeBoard(s.board, s.decimate);
+  const runtime::SteadyClock clock;
+  const std::int64_t start = -clock.ofMonotonic(0);   // of CLOCK_MONOTONIC
+  const auto seen = [&](const std::function<std::int64_t(int)>& stamp) {
+    int n = 0;
+    const auto grab = [&]() -> std::optional<ar::Frame> { return ar::Frame{static_cast<std::uint64_t>(n), stamp(n++), cv::Mat(480, 640, CV_8UC1, cv::Scalar(128)), "test"}; };
+    return judgeClocks({}, lookAt(grab, 5, *board, s.camera, &clock), false);
+  };
+  runtime::SteadyClock().sleepUntil(10 * runtime::kMillisecond);
+  expectSays(seen([&](int n) { return start + n * runtime::kMillisecond; }), State::well, "date");
+  expectSays(seen([&](int n) { return start + (n == 3 ? 0 : n * runtime::kMillisecond); }), State::note, "go back in 1 of 5");
+  expectSays(seen([&](int n) { return start - 100 * runtime::kSecond + n; }), State::note, "5 of 5 pictures by another clock");
+  expectSays(seen([&](int n) { return start + 900 * runtime::kSecond + n; }), State::note, "5 of 5 pictures by another clock");
+}
+
+TEST(DoctorsPictures, WhatACameraDoesNotLetBeFixedIsNamed) {
+  PictureFacts facts;
+  facts.pictures = facts.seen = 10, facts.seconds = 0.6, facts.bright = 200, facts.edge_px = 2;
+  facts.remark = "the camera does not let its exposure be fixed";
+  expectSays(judgePictures(facts, 15, benchStation().camera)[0], State::note, "exposure be fixed");
+}
+
 TEST(DoctorsComputer, LoopDiskAndDateAreJudged) {
   expectSays(judgeLoop({"SCHED_FIFO", 1000, 40}, true), State::well, "in real time");
   expectSays(judgeLoop({"normal priority: SCHED_FIFO refused (Operation not permitted)", 1000, 40}, true), State::note, "normal priority");
   expectSays(judgeLoop({"SCHED_FIFO", 640, 900}, true), State::note, "will stutter");
   expectSays(judgeLoop({"SCHED_FIFO", 640, 900}, false), State::well, "virtual bench");
+  expectSays(judgeLoop({"SCHED_FIFO", 1000, 40, "memory not locked: refused (Cannot allocate memory)"}, true), State::note, "put out to disk");
   EXPECT_GT(measureLoop().rate_Hz, 100);
   expectSays(judgeDisk({"/data", true, 50'000'000'000}), State::well, "50.0 GB free");
   expectSays(judgeDisk({"/data", true, 1'000'000'000}), State::note, "enough for some 80 trials");
