@@ -23,8 +23,9 @@ class ClockWatch {
   ClockFacts facts() const;
 
  private:
+  std::int64_t ahead() const;   ///< of the date before that clock
   runtime::SteadyClock clock_;
-  std::int64_t date_;
+  std::int64_t ahead_;
 };
 
 /// `shared`: several stations write into the same records, and their dates should agree. `pictures`: whether the camera dates its pictures by this computer's clock.
