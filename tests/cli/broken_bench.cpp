@@ -90,8 +90,9 @@ void BrokenBench::sensor(std::uint32_t step, std::uint32_t status) {
   sensor_ = std::make_unique<haptics::FakeNetFt>(haptics::recordBytes(1, 100, status));
   sender_ = std::thread([this, step, status] {
     const runtime::SteadyClock clock;
-    std::uint32_t number = 1;
-    for (std::int64_t due = 0; !over_; due += runtime::kMillisecond) {
+    while (!over_ && sensor_->requests().empty()) clock.sleepUntil(clock.now() + runtime::kMillisecond);
+    std::uint32_t number = 1;   // what it answered to the request
+    for (std::int64_t due = clock.now() + 5 * runtime::kMillisecond; !over_; due += runtime::kMillisecond) {
       clock.sleepUntil(due);
       number += step;
       sensor_->send(haptics::recordBytes(number, 100 + number, status));
