@@ -68,6 +68,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   expert.seed = kDemonstrationSeed;
   expert.trials = 1;
   expert.trainee = "simulated-expert";
+  expert.live.clear();
   expert.records.clear();   // what was shown is nobody's trial
   expert.fast = expert.no_views = expert.quiet = true;
   expert.display = scene::Display::offscreen;

@@ -7,6 +7,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/console_command.h"
 
 namespace {
 
@@ -14,6 +15,8 @@ constexpr const char* kWelcome = R"(Palpa: visuo-haptic training for palpation a
 
 Nothing is connected? Everything runs on the virtual bench. What you can do now:
 
+  palpa console                            the educator's pages in a browser: everything below by mouse
+                                           (palpa alone opens them where there is a display)
   palpa paracentesis                       a session: with a display you hold the needle by the mouse,
                                            without one a simulated expert performs it
   palpa paracentesis --operator novice     watch a simulated novice; read the report's reasons
@@ -60,6 +63,7 @@ int run(int argc, char** argv) {
   palpa::cli::addReport(program);
   palpa::cli::addRate(program);
   palpa::cli::addDoctor(program);
+  palpa::cli::addConsole(program);
   palpa::cli::addBench(program);
   palpa::cli::addManual(program, kWelcome);
   try {
@@ -68,7 +72,9 @@ int run(int argc, char** argv) {
     if (e.get_exit_code() == 0) return program.exit(e);
     return complain(std::string(e.what()) + ". See `palpa --help`", 2);
   }
-  if (program.get_subcommands().empty()) std::fputs(kWelcome, stdout);
+  if (!program.get_subcommands().empty()) return 0;
+  std::fputs(kWelcome, stdout);
+  if (std::getenv("DISPLAY")) palpa::cli::runConsole();
   return 0;
 }
 

@@ -46,6 +46,7 @@ class TouchShow : public RecordedShow {
  public:
   const anatomy::Patient& patient() const override { return *shown_; }
   double length_s() const override { return trial_.length_s(); }
+  const std::vector<replay::Mark>& marks() const override { return trial_.marks; }
 
  protected:
   TouchShow(const std::filesystem::path& file, int number) : reader_(file), recorded_(chosenTrial(trials_ = reader_.trials(), file, number)), marks_(reader_, recorded_.header.trial), file_(file.string()) {

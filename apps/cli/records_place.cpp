@@ -25,6 +25,12 @@ std::string usualRecords() {
   return (fs::path(home && *home ? home : ".") / ".local/share/palpa/records.sqlite").string();
 }
 
+std::string usualRecordsMade() {
+  const std::string url = usualRecords();
+  makeFolderOf(url);
+  return url;
+}
+
 void requireRecords(const std::string& url) {
   if (record::isServer(url)) return;
   std::error_code none;
@@ -37,8 +43,7 @@ void addRecordsArgument(CLI::App& command, std::string& url) {
   command.add_option("--records", url, "Records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, else ~/.local/share/palpa/records.sqlite)")->type_name("FILE|URL");
   command.parse_complete_callback([&url] {
     if (!url.empty()) return;
-    url = usualRecords();
-    makeFolderOf(url);
+    url = usualRecordsMade();
   });
 }
 

@@ -7,6 +7,8 @@ namespace palpa::cli {
 
 /// Where the records are when nothing else is said: $PALPA_RECORDS, else records.sqlite in $XDG_DATA_HOME/palpa or ~/.local/share/palpa.
 std::string usualRecords();
+/// The same, its folder made.
+std::string usualRecordsMade();
 
 /// For what only reads: throws UsageError where a records file is not there or empty, so that a name mistyped is not taken for records of nobody.
 void requireRecords(const std::string& url);

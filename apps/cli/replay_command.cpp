@@ -113,15 +113,15 @@ void replay(const std::string& file) {
 
 void addReplay(CLI::App& program) {
   CLI::App* command = program.add_subcommand("replay", "Run a recorded session again: same forces, same score; or see a trial of it again");
-  command->footer("Examples:\n  palpa replay out/paracentesis-20260301-120000/session.palpa\n  palpa replay out/A/session.palpa --view --trial 2 --speed 0.5\n  palpa replay out/A/session.palpa --video trial.mp4");
+  command->footer("Examples:\n  palpa replay out/paracentesis-20260301-120000/session.palpa\n  palpa replay out/A/session.palpa --view --trial 2 --speed 0.5\n  palpa replay out/A/session.palpa --video trial.mp4\n  palpa replay out/A/session.palpa --pictures moments --fps 5 --size 960x540");
   const auto file = std::make_shared<std::string>();
   const auto seen = std::make_shared<ReplayViewOptions>();
   command->add_option("session", *file, "session.palpa")->required()->type_name("FILE");
   addReplayViewOptions(*command, *seen);
   command->callback([file, seen, command] {
-    if (seen->view && !seen->video.empty()) throw UsageError("do not go together", "--view and --video", "Give one of them");
+    if (seen->view + !seen->video.empty() + !seen->pictures.empty() > 1) throw UsageError("do not go together", "--view, --video and --pictures", "Give one of them");
     for (const char* option : {"--trial", "--speed", "--from", "--to", "--fps", "--size"})
-      if (!seen->wanted() && command->count(option) > 0) throw UsageError("is for a trial that is seen again", option, "Add --view, or --video FILE");
+      if (!seen->wanted() && command->count(option) > 0) throw UsageError("is for a trial that is seen again", option, "Add --view, --video FILE or --pictures DIR");
     if (seen->wanted()) viewReplay(*file, *seen);
     else replay(*file);
   });

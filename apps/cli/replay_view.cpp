@@ -2,9 +2,15 @@
 
 #include <cmath>
 #include <cstdio>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/geometry/whole_file.h"
 #include "apps/cli/interrupt.h"
+#include "apps/cli/output_folder.h"
 #include "apps/cli/recorded_trial.h"
 #include "apps/cli/work_progress.h"
 #include "apps/replay/film.h"
@@ -24,6 +30,11 @@ Picture sizeOf(const std::string& text) {
   if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 160 || size.height < 120 || size.width > 7680 || size.height > 4320 || size.width % 2 || size.height % 2)
     throw UsageError("is no size of a film", "--size " + text, "Write it as 1280x720: even numbers, 160x120 to 7680x4320");
   return size;
+}
+
+const char* toneName(scene::TickTone tone) {
+  constexpr const char* kNames[] = {"neutral", "good", "guide", "bad"};
+  return kNames[static_cast<std::size_t>(tone)];
 }
 
 struct Cut {
@@ -74,24 +85,51 @@ void playInWindow(RecordedShow& recorded, const Cut& cut, const ReplayViewOption
   }
 }
 
-void writeFilm(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
+/// Draws picture after picture of the cut.
+void draw(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o, const std::function<void(int number, const scene::Image&)>& keep) {
   const Picture size = sizeOf(o.size);
-  replay::codecOf(o.video);   // refused before the scene is made
   const ReplayStage stage = stageFor(recorded, scene::Display::offscreen, size);
   const std::unique_ptr<replay::TrialReplay> shown = recorded.on(*stage.view);
   const int frames = std::max(1, static_cast<int>(std::lround((cut.to_s - cut.from_s) / o.speed * o.frames_per_second)));
   replay::Player speed(cut.from_s, cut.to_s, o.speed);
-  replay::Film film(o.video, o.frames_per_second, size.width, size.height);
   WorkProgress progress("pictures", frames);
   const InterruptNote interrupt;
   for (int i = 0; i < frames; ++i) {
-    if (interrupt.noted()) throw Error("was interrupted: nothing is written", o.video, "Start again, or take a part of the trial: --from, --to");
+    if (interrupt.noted()) throw Error("was interrupted: nothing is written", o.video.empty() ? o.pictures : o.video, "Start again, or take a part of the trial: --from, --to");
     shown->show(cut.from_s + i * o.speed / o.frames_per_second, speed.words());
-    film.add(stage.view->capture());
+    keep(i, stage.view->capture());
     progress.done(i + 1);
   }
+}
+
+void writeFilm(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
+  const Picture size = sizeOf(o.size);
+  replay::codecOf(o.video);   // refused before the scene is made
+  replay::Film film(o.video, o.frames_per_second, size.width, size.height);
+  draw(recorded, cut, o, [&](int, const scene::Image& picture) { film.add(picture); });
   film.finish();
-  std::printf("Written: %s (%d pictures, %.1f s)\n", o.video.c_str(), frames, frames / o.frames_per_second);
+  std::printf("Written: %s (%d pictures, %.1f s)\n", o.video.c_str(), film.frames(), film.frames() / o.frames_per_second);
+}
+
+/// Beside the pictures stands what they show: length, rate, and what happened when. It comes last: with it they are complete.
+void writePictures(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
+  const std::filesystem::path folder = makeOutputFolder(o.pictures, "pictures");
+  int count = 0;
+  draw(recorded, cut, o, [&](int number, const scene::Image& picture) {
+    char name[32];
+    std::snprintf(name, sizeof name, "picture-%05d.jpg", number);
+    const cv::Mat shown(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.pixels.data()));
+    cv::Mat bgr;
+    cv::cvtColor(shown, bgr, cv::COLOR_RGB2BGR);
+    std::vector<std::uint8_t> bytes;
+    cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, 85});
+    writeWhole(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    count = number + 1;
+  });
+  nlohmann::json told{{"from_s", cut.from_s}, {"length_s", recorded.length_s()}, {"pictures_per_second", o.frames_per_second / o.speed}, {"pictures", count}, {"marks", nlohmann::json::array()}};
+  for (const replay::Mark& mark : recorded.marks()) told["marks"].push_back({{"t_s", mark.t_s}, {"tone", toneName(mark.tone)}, {"text", mark.words}});
+  writeWhole(folder / "pictures.json", told.dump(1) + "\n");
+  std::printf("Written: %s (%d pictures, and pictures.json: what happened when)\n", folder.c_str(), count);
 }
 
 }  // namespace
@@ -99,6 +137,7 @@ void writeFilm(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& 
 void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
   command.add_flag("--view", o.view, "Show a trial in the scene, in a window: space pauses, arrows step, + and - change the speed, Escape leaves");
   command.add_option("--video", o.video, "Write it as a film instead (.mp4, .avi)")->type_name("FILE");
+  command.add_option("--pictures", o.pictures, "Write single pictures into this folder (JPEG), and what happened when (pictures.json)")->type_name("DIR");
   command.add_option("--trial", o.trial, "Which trial; default: the first that was finished")->check(CLI::PositiveNumber);
   command.add_option("--speed", o.speed, "1: as fast as it was")->check(CLI::Range(replay::kSlowest, replay::kFastest));
   command.add_option("--from", o.from_s, "Second of the trial to begin with")->check(CLI::NonNegativeNumber);
@@ -110,8 +149,9 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
 void viewReplay(const std::string& file, const ReplayViewOptions& o) {
   const std::unique_ptr<RecordedShow> recorded = recordedShow(file, o.trial);
   const Cut cut = cutOf(o, recorded->length_s());
-  if (o.video.empty()) playInWindow(*recorded, cut, o);
-  else writeFilm(*recorded, cut, o);
+  if (o.view) playInWindow(*recorded, cut, o);
+  else if (!o.video.empty()) writeFilm(*recorded, cut, o);
+  else writePictures(*recorded, cut, o);
 }
 
 }  // namespace palpa::cli

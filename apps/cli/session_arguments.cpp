@@ -86,6 +86,7 @@ void addPlaceArguments(CLI::App& command, SessionOptions& o) {
       ->type_name("auto|offscreen|openxr|window");
   command.add_flag("--assess", o.assess, "Assessment: every aid is off, as for an examination; a needle's trial ends at the fourth pass");
   command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")->type_name("DIR");
+  command.add_option("--live", o.live, "Let a console look on and steer, through a local socket at this path")->type_name("SOCKET");
   command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop a second (default 1000)")->check(CLI::Range(1000.0, 4000.0));
   command.add_option("--cpu", o.cpu, "Keep the haptic thread on this processor")->check(CLI::Range(0, 1023));
   command.add_flag("--quiet", o.quiet, "No progress on standard error");

@@ -4,10 +4,28 @@
 #include "apps/cli/progress.h"
 #include "apps/cli/session_records.h"
 #include "apps/record/uuid.h"
+#include "apps/report/tone.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/recorder_activity.h"
 
 namespace palpa::cli {
+namespace {
+
+std::string toneOf(const std::string& kind) {
+  switch (report::toneOfMoment(kind)) {
+    case report::Tone::good: return "good";
+    case report::Tone::guide: return "guide";
+    case report::Tone::bad: return "bad";
+    case report::Tone::neutral: break;
+  }
+  return "neutral";
+}
+
+live::Hello helloOf(const SessionOptions& o, const station::Station& station, const std::string& uuid) {
+  return {uuid, o.task.empty() ? o.command : std::filesystem::path(o.task).stem().string(), o.trainee, isSimulated(o.who) || station.simulated, o.assess, o.trials};
+}
+
+}  // namespace
 
 std::string markFor(OperatorKind who, const station::Station& station) {
   if (isSimulated(who)) return "SIMULATED OPERATOR";
@@ -48,12 +66,20 @@ trial::TrialScene::Stage SessionFrame::stage(runtime::HeadDisplay* head) {
   stage.folder = folder_;
   stage.every_source_picture = pictures_.photographs();
   stage.places = places();
+  if (!options_.live.empty()) stage.watch = [this](const scene::SceneState& state, const trial::TrialStatus& status, std::int64_t now_ns) { tell(state, status, now_ns); };
   if (!window_) return stage;
   stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
     handleKeys(input, channels_);
     if (PointingHand* hand = devices_.pointing()) hand->handle(input, stage_.view->arGeometry(), now_ns);
   };
   return stage;
+}
+
+/// To whoever looks on; without views, in words only.
+void SessionFrame::tell(const scene::SceneState& state, const trial::TrialStatus& status, std::int64_t now_ns) {
+  if (!live_) return;
+  live_->show(state.hud, status, now_ns);
+  if (stage_.view && !options_.fast && live_->wantsPicture(now_ns)) live_->picture(stage_.view->capture(), now_ns);
 }
 
 /// HAPTIC, for one device or for two.
@@ -74,7 +100,12 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, r
   record::SessionWriter writer(folder_ / "session.palpa", info);
   const auto noted = noteForRecords(options_, info.uuid, folder_ / "session.palpa");
   if (options_.record_video) video_.emplace(folder_);
-  runtime::RecorderActivity recorder(bus_, writer, world_.tick.period_ns);
+  std::optional<live::LiveSink> told;
+  if (!options_.live.empty()) {
+    live_ = std::make_unique<live::LiveSession>(options_.live, helloOf(options_, world_.station, info.uuid), channels_);
+    told.emplace(writer, live_->log(), world_.near, toneOf);
+  }
+  runtime::RecorderActivity recorder(bus_, told ? static_cast<runtime::FlightSink&>(*told) : writer, world_.tick.period_ns);
   Progress progress(options_.quiet);
   Interrupt interrupt(channels_);
   devices_.addTo(*executive_);
@@ -90,6 +121,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, r
   scene.finish(executive_->clock().now());
   recorder.finish();
   writer.close();
+  live_.reset();
   SessionRun run;
   run.pictures = scene.pictures();
   run.lateness = executive_->lateness();

@@ -7,6 +7,7 @@
 #include "apps/cli/session_devices.h"
 #include "apps/cli/session_pictures.h"
 #include "apps/cli/stage.h"
+#include "apps/live/live_session.h"
 #include "apps/record/session_file.h"
 #include "apps/runtime/camera_activity.h"
 #include "apps/runtime/executive.h"
@@ -50,6 +51,7 @@ class SessionFrame {
     std::optional<haptics::PairConfig> pair = {};   ///< of two devices in one tick, in place of `tick`
     bool fixed_views = true;
     const runtime::FloorSource* floors = nullptr;   ///< of a search
+    live::NearMiss near = {};                       ///< told to whoever looks on; empty: nothing is near
   };
   SessionFrame(const SessionOptions& options, const World& world, SessionDevices::Hands hands, trial::Channels& channels, const std::filesystem::path& folder);
 
@@ -67,6 +69,7 @@ class SessionFrame {
 
  private:
   std::unique_ptr<runtime::Activity> loop(runtime::GeometryActivity* geometry);
+  void tell(const scene::SceneState& state, const trial::TrialStatus& status, std::int64_t now_ns);
 
   const SessionOptions& options_;
   const World world_;
@@ -80,6 +83,7 @@ class SessionFrame {
   runtime::Bus bus_;
   SessionDevices devices_;
   std::optional<runtime::VideoRecorder> video_;
+  std::unique_ptr<live::LiveSession> live_;   ///< while somebody may look on
 };
 
 /// Words on the picture that say what is not a person on a real station.

@@ -63,6 +63,7 @@ struct SessionOptions {
   std::string expert_path;        ///< overrides the task's
   std::string role = "scored";   ///< of the trials
   bool record_only = false;       ///< no expert path needed: trials that will make one
+  std::string live;               ///< local socket where others may look on; empty: nobody
   std::string out;
   double rate_Hz = 1000;         ///< ticks a second
   int cpu = -1;                  ///< of the haptic thread; -1: any

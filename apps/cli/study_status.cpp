@@ -10,23 +10,6 @@ namespace {
 
 using study::Next;
 
-std::string whereIs(const study::Protocol& protocol, const Next& next) {
-  const std::string session =
-      "session " + std::to_string(next.session) + " of " + std::to_string(protocol.sessions.size());
-  switch (next.kind) {
-    case Next::Kind::finished:
-      return "finished";
-    case Next::Kind::questionnaire:
-      return session + ", questionnaire: " + std::to_string(next.open_items.size()) + " open";
-    case Next::Kind::trials:
-      break;
-  }
-  const study::Block& block = protocol.block(next.step);
-  return session + ", " + block.name + ": " + std::to_string(next.done) + " of " +
-         std::to_string(block.trials) + " trials" +
-         (next.not_before.empty() ? "" : ", not before " + next.not_before);
-}
-
 void tellTrainee(const study::Protocol& protocol, record::RecordStore& store,
                  const record::Enrolment& e) {
   std::vector<study::DoneTrial> trials;
@@ -38,7 +21,7 @@ void tellTrainee(const study::Protocol& protocol, record::RecordStore& store,
     answered.emplace_back(static_cast<int>(a.session), a.item);
   const Next next = study::nextOf(protocol, e.condition, trials, answered, utcNow());
   std::printf("  %-12s %-14s %s%s\n", e.trainee.c_str(), e.group.c_str(),
-              whereIs(protocol, next).c_str(), e.simulated ? " (simulated)" : "");
+              study::whereIs(protocol, next).c_str(), e.simulated ? " (simulated)" : "");
   for (const std::string& remark : next.remarks) std::printf("    Note: %s\n", remark.c_str());
 }
 

@@ -117,4 +117,21 @@ Next nextOf(const Protocol& protocol, const std::string& drawn,
   return next;
 }
 
+std::string whereIs(const study::Protocol& protocol, const Next& next) {
+  const std::string session =
+      "session " + std::to_string(next.session) + " of " + std::to_string(protocol.sessions.size());
+  switch (next.kind) {
+    case Next::Kind::finished:
+      return "finished";
+    case Next::Kind::questionnaire:
+      return session + ", questionnaire: " + std::to_string(next.open_items.size()) + " open";
+    case Next::Kind::trials:
+      break;
+  }
+  const study::Block& block = protocol.block(next.step);
+  return session + ", " + block.name + ": " + std::to_string(next.done) + " of " +
+         std::to_string(block.trials) + " trials" +
+         (next.not_before.empty() ? "" : ", not before " + next.not_before);
+}
+
 }  // namespace palpa::study

@@ -44,4 +44,7 @@ Next nextOf(const Protocol& protocol, const std::string& drawn,
             const std::vector<DoneTrial>& trials,
             const std::vector<std::pair<int, std::string>>& answered, const std::string& now_utc);
 
+/// In words, without the condition: "session 1 of 2, learning: 3 of 10 trials".
+std::string whereIs(const Protocol& protocol, const Next& next);
+
 }  // namespace palpa::study

@@ -48,6 +48,7 @@ std::int64_t TrialScene::step(std::int64_t now_ns) {
   next_frame_ns_ = now_ns + (worn ? kBesideHeadset : kFramePeriod);
   if (stage_.views == Views::continuous) render();
   if (stage_.views != Views::none) keepPictures();
+  if (stage_.watch) stage_.watch(state_, *status_, now_ns);
   return worn ? now_ns : next_frame_ns_;
 }
 

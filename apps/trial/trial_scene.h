@@ -47,6 +47,8 @@ class TrialScene : public runtime::Activity {
     std::vector<RealThing> things;
     std::vector<runtime::BoardPlace> places;   ///< of the boards besides the table's
     std::function<void(scene::SceneState&)> more;   ///< adds last what no task shows: a replay's strip
+    /// Told after every frame what is on the screen, and where the trials stand.
+    std::function<void(const scene::SceneState&, const TrialStatus&, std::int64_t now_ns)> watch;
     /// Keys and mouse of a window, once a frame.
     std::function<void(const scene::ViewInput&, std::int64_t now_ns)> input;
   };

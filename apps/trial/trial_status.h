@@ -36,11 +36,12 @@ struct PictureRequest {
 
 /// What the person in charge wants (keys, console), or whoever is being trained.
 enum class UserCommand : std::uint8_t {
-  start, pause, abort, void_trial, emergency_stop, rearm, quit, done, grade
+  start, pause, abort, void_trial, emergency_stop, rearm, quit, done, grade, note
 };
 struct UserRequest {
   UserCommand command = UserCommand::start;
-  std::string reason;    ///< of a void; of a grade: what was said, as the task writes it down
+  std::string reason;    ///< of a void; of a grade: what was said, as the task writes it down; of a note: its text
+  double at_s = 0;       ///< of a note: the session time it is about
 };
 
 /// Between task, scene and whoever asks for something: one writer, one reader each.
@@ -49,6 +50,7 @@ struct Channels {
   runtime::EventQueue<UserRequest> requests_to_task{64};   ///< from the scene: keys
   runtime::EventQueue<UserRequest> signals_to_task{4};     ///< from the system: the session shall end
   runtime::EventQueue<UserRequest> operator_to_task{8};    ///< from a simulated operator
+  runtime::EventQueue<UserRequest> console_to_task{64};    ///< from whoever looks on through the console
 };
 
 }  // namespace palpa::trial

@@ -167,7 +167,7 @@ void TrialTask::hearDevice() {
 
 void TrialTask::obey(std::int64_t now_ns) {
   UserRequest request;
-  while (channels_.requests_to_task.pop(&request) || channels_.operator_to_task.pop(&request) || channels_.signals_to_task.pop(&request)) obey(request, now_ns);
+  while (channels_.requests_to_task.pop(&request) || channels_.operator_to_task.pop(&request) || channels_.signals_to_task.pop(&request) || channels_.console_to_task.pop(&request)) obey(request, now_ns);
 }
 
 void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
@@ -195,6 +195,8 @@ void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
       quit_ = true;
       executive_.stop();
       return;
+    case UserCommand::note:
+      return tell(now_ns, "note", reason, request.at_s);
     case UserCommand::done:
     case UserCommand::grade:
       if (status_.active()) hear(request, now_ns);

@@ -1,0 +1,108 @@
+#include "apps/cli/console_command.h"
+
+#include <spawn.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <fstream>
+#include <memory>
+
+#include "anatomy/geometry/error.h"
+#include "apps/cli/commands.h"
+#include "apps/cli/records_place.h"
+#include "apps/console/console.h"
+#include "apps/live/local_socket.h"
+#include "apps/station/assets.h"
+
+extern char** environ;
+
+namespace palpa::cli {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::size_t kShortestToken = 16;
+
+struct ConsoleOptions {
+  std::string listen = "127.0.0.1", token_file, records, home;
+  std::vector<std::string> names;
+  int port = 0;
+  bool open = true;
+};
+
+fs::path usualHome() {
+  if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data == '/') return fs::path(data) / "palpa/console";
+  const char* home = std::getenv("HOME");
+  return fs::path(home && *home ? home : ".") / ".local/share/palpa/console";
+}
+
+/// The first line; a file that others may read gives its token away.
+std::string tokenIn(const std::string& file) {
+  if (file.empty()) return "";
+  struct stat facts {};
+  if (::stat(file.c_str(), &facts) != 0) throw UsageError("is not there", "--token-file " + file, "Write a token of at least 16 letters and digits into it");
+  if ((facts.st_mode & 0077) != 0) throw UsageError("may be read by others", "--token-file " + file, "chmod 600 " + file);
+  std::string token;
+  std::getline(std::ifstream(file), token);
+  if (token.size() < kShortestToken) throw UsageError("holds fewer than 16 characters", "--token-file " + file, "Make one: head -c 24 /dev/urandom | base64 > " + file);
+  return token;
+}
+
+void openInBrowser(const std::string& url) {
+  std::string program = "xdg-open", page = url;
+  char* argv[] = {program.data(), page.data(), nullptr};
+  pid_t pid = 0;
+  if (posix_spawnp(&pid, "xdg-open", nullptr, nullptr, argv, environ) != 0) std::fprintf(stderr, "No browser could be opened: type the address into one\n");
+}
+
+console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
+  console::ConsoleSettings s;
+  s.place.home = fs::absolute(o.home.empty() ? usualHome() : fs::path(o.home));
+  s.place.pages = station::assetFile("console");
+  s.place.records = o.records;
+  s.place.sockets = live::socketFolder();
+  s.place.version = PALPA_VERSION;
+  s.place.display = std::getenv("DISPLAY") != nullptr;
+  s.address = o.listen;
+  s.port = o.port;
+  s.token = tokenIn(o.token_file);
+  s.names = o.names;
+  return s;
+}
+
+void serve(const ConsoleOptions& o) {
+  const console::ConsoleSettings settings = settingsOf(o);
+  serveConsole(settings, [&](const std::string& url) {
+    std::printf("The console: %s\n", url.c_str());
+    if (!settings.token.empty()) std::printf("It asks for the token in %s\n", o.token_file.c_str());
+    std::printf("Ctrl-C ends it; a session that runs goes on, and is found again when the console is back\n");
+    std::fflush(stdout);
+    if (o.open && settings.place.display) openInBrowser(url);
+  });
+  std::printf("The console has ended\n");
+}
+
+}  // namespace
+
+void runConsole() {
+  ConsoleOptions o;
+  o.records = usualRecordsMade();
+  serve(o);
+}
+
+void addConsole(CLI::App& program) {
+  const auto o = std::make_shared<ConsoleOptions>();
+  CLI::App* command = program.add_subcommand("console", "The educator's pages: station, calibration, trainees, sessions, results, replay, studies");
+  command->add_option("--listen", o->listen, "Address to listen at (default 127.0.0.1: this computer alone); others need --token-file")->type_name("ADDRESS");
+  command->add_option("--port", o->port, "Port (default: any that is free)")->check(CLI::Range(1, 65535));
+  command->add_option("--token-file", o->token_file, "File with the token that whoever opens the pages must give; readable by you alone")->type_name("FILE");
+  command->add_option("--name", o->names, "Another name by which browsers reach this computer, e.g. station3.local")->type_name("HOST");
+  command->add_option("--home", o->home, "Where the console keeps its sessions (default ~/.local/share/palpa/console)")->type_name("DIR");
+  command->add_flag_callback("--no-open", [o] { o->open = false; }, "Do not open a browser");
+  addRecordsArgument(*command, o->records);
+  command->footer("Examples:\n  palpa console\n  palpa console --port 8080 --no-open\n  palpa console --listen 192.168.1.20 --port 8080 --token-file ~/palpa-token\n      for a tablet in a room's own network: http is not encrypted; keep it off other networks");
+  command->callback([o] { serve(*o); });
+}
+
+}  // namespace palpa::cli

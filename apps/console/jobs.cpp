@@ -1,0 +1,145 @@
+#include "apps/console/jobs.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdio>
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::console {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr std::chrono::milliseconds kLook{100};
+constexpr std::size_t kShownLines = 12, kKeptJobs = 200;
+
+/// Beyond so many folders the oldest go: all that is in them can be made again.
+void clearOld(const fs::path& jobs) {
+  std::vector<fs::path> all;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(jobs, none))
+    if (isId(entry.path().filename().string())) all.push_back(entry.path());
+  std::sort(all.begin(), all.end());
+  for (std::size_t i = 0; i + kKeptJobs < all.size(); ++i) fs::remove_all(all[i], none);
+}
+
+}  // namespace
+
+nlohmann::json fractionOf(const std::vector<std::string>& lines) {
+  for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
+    const std::size_t of = line->find(" of ");
+    if (of == std::string::npos) continue;
+    std::size_t begin = of;
+    while (begin > 0 && line->at(begin - 1) >= '0' && line->at(begin - 1) <= '9') --begin;
+    int part = 0, whole = 0;
+    if (std::sscanf(line->c_str() + begin, "%d of %d", &part, &whole) == 2 && whole > 0 && part >= 0 && part <= whole) return static_cast<double>(part) / whole;
+  }
+  return nullptr;
+}
+
+Jobs::Jobs(const Place& place) : place_(place) {
+  fs::create_directories(place_.jobs());
+  clearOld(place_.jobs());
+  thread_ = std::thread([this] { run(); });
+}
+
+Jobs::~Jobs() {
+  {
+    const std::lock_guard lock(mutex_);
+    ending_ = true;
+    for (auto& [id, job] : jobs_)
+      if (job.state == State::running) askToEnd(job.process);
+  }
+  changed_.notify_all();
+  thread_.join();
+}
+
+std::string Jobs::add(Wish wish) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, job] : jobs_)
+    if (job.wish.key == wish.key && (job.state == State::waiting || job.state == State::running)) return id;
+  const std::string id = newId();
+  jobs_[id].wish = std::move(wish);
+  queue_.push_back(id);
+  changed_.notify_all();
+  return id;
+}
+
+void Jobs::run() {
+  for (;;) {
+    std::string id;
+    {
+      std::unique_lock lock(mutex_);
+      changed_.wait(lock, [this] { return ending_ || !queue_.empty(); });
+      if (ending_) return;
+      id = queue_.front();
+      queue_.erase(queue_.begin());
+    }
+    perform(id);
+  }
+}
+
+void Jobs::perform(const std::string& id) {
+  const fs::path folder = place_.jobs() / id;
+  std::error_code none;
+  fs::create_directories(folder, none);
+  ProcessId process;
+  Wish wish;
+  {
+    const std::lock_guard lock(mutex_);
+    wish = jobs_[id].wish;
+    std::vector<std::string> arguments = wish.arguments;
+    for (std::string& argument : arguments)
+      if (const std::size_t at = argument.find("{}"); at != std::string::npos) argument.replace(at, 2, folder.string());
+    if (!jobs_[id].stopped) {
+      try {
+        process = jobs_[id].process = start(arguments, folder / "log.txt", true);
+      } catch (const Error&) {
+        process = {};
+      }
+    }
+    jobs_[id].state = State::running;
+  }
+  while (runs(process)) std::this_thread::sleep_for(kLook);
+  const bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() && (wish.page.empty() || fs::exists(folder / wish.page, none));
+  if (wish.then) wish.then(folder, good);
+  const std::lock_guard lock(mutex_);
+  jobs_[id].state = good && !jobs_[id].stopped ? State::done : State::failed;
+}
+
+nlohmann::json Jobs::one(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) throw UsageError("is not known", "job " + id.substr(0, 64), "Start it again");
+  const Job& job = found->second;
+  const fs::path log = place_.jobs() / id / "log.txt";
+  const auto lines = lastLines(log, kShownLines);
+  std::error_code none;
+  nlohmann::json one{{"id", id}, {"title", job.wish.title}, {"state", job.state == State::done ? "done" : job.state == State::failed ? "failed" : "working"}, {"lines", lines}, {"done", job.state == State::done ? nlohmann::json(1) : fractionOf(lines)}, {"message", ""}, {"picture", nullptr}, {"page", ""}};
+  if (job.state == State::failed) one["message"] = job.stopped ? "It was stopped." : complaintIn(log);
+  if (!job.wish.page.empty() && fs::exists(place_.jobs() / id / job.wish.page, none)) one["page"] = "/api/pages/" + id;
+  return one;
+}
+
+void Jobs::stop(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end()) throw UsageError("is not known", "job " + id.substr(0, 64), "It is over already");
+  found->second.stopped = true;
+  askToEnd(found->second.process);
+}
+
+fs::path Jobs::folder(const std::string& id) const {
+  std::error_code none;
+  if (!isId(id) || !fs::is_directory(place_.jobs() / id, none)) throw UsageError("is not here", "job " + id.substr(0, 64), "Start it again");
+  return place_.jobs() / id;
+}
+
+std::string Jobs::workingOn(const std::string& prefix) {
+  const std::lock_guard lock(mutex_);
+  for (const auto& [id, job] : jobs_)
+    if (job.wish.key.rfind(prefix, 0) == 0 && (job.state == State::waiting || job.state == State::running)) return id;
+  return "";
+}
+
+}  // namespace palpa::console

@@ -1,0 +1,63 @@
+#pragma once
+
+#include <condition_variable>
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "apps/console/child.h"
+#include "apps/console/place.h"
+
+namespace palpa::console {
+
+/// Work in the background: commands of this program, one after the other, at low priority. Each has a folder under jobs/ and a log there. Any thread.
+class Jobs {
+ public:
+  struct Wish {
+    std::string key;                        ///< the same piece of work has the same key: it is not done twice at once
+    std::string title;                      ///< "Camera"
+    std::vector<std::string> arguments;     ///< of the command; "{}" stands for the job's folder
+    std::string page;                       ///< the file that shows what came out, in the folder; empty: none
+    std::function<void(const std::filesystem::path& folder, bool good)> then;   ///< on the jobs' thread
+  };
+  explicit Jobs(const Place& place);
+  ~Jobs();                                  ///< what runs is asked to end
+
+  /// The id of the job: the one with this key that waits or runs, else a new one.
+  std::string add(Wish wish);
+  /// {"state": "working|done|failed", "title", "done", "lines", "page", "message"}; throws UsageError for an unknown one.
+  nlohmann::json one(const std::string& id);
+  void stop(const std::string& id);
+  std::filesystem::path folder(const std::string& id) const;   ///< throws UsageError
+  /// Waits or runs with a key that begins so; empty: none.
+  std::string workingOn(const std::string& prefix);
+
+ private:
+  enum class State { waiting, running, done, failed };
+  struct Job {
+    Wish wish;
+    State state = State::waiting;
+    ProcessId process;
+    bool stopped = false;
+  };
+  void run();
+  void perform(const std::string& id);
+
+  const Place& place_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::map<std::string, Job> jobs_;
+  std::vector<std::string> queue_;
+  bool ending_ = false;
+  std::thread thread_;
+};
+
+/// How far, of the last line that says "3 of 20"; null: it does not say.
+nlohmann::json fractionOf(const std::vector<std::string>& lines);
+
+}  // namespace palpa::console

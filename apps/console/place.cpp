@@ -1,0 +1,52 @@
+#include "apps/console/place.h"
+
+#include <algorithm>
+#include <cctype>
+#include <ctime>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/geometry/whole_file.h"
+#include "apps/console/guard.h"
+#include "apps/station/json_file.h"
+
+namespace palpa::console {
+namespace {
+
+constexpr std::size_t kLongestId = 64;
+
+std::string timeNow(const char* pattern) {
+  const std::time_t now = std::time(nullptr);
+  std::tm parts{};
+  char text[32];
+  std::strftime(text, sizeof text, pattern, gmtime_r(&now, &parts));
+  return text;
+}
+
+bool plainName(const std::string& text) {
+  return !text.empty() && text.size() <= kLongestId && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+}
+
+}  // namespace
+
+bool isId(const std::string& text) { return plainName(text); }
+
+std::string newId() { return timeNow("%Y%m%d-%H%M%S-") + randomKey().substr(0, 8); }
+
+std::string utcNow() { return timeNow("%Y-%m-%dT%H:%M:%SZ"); }
+
+bool isShown(const std::string& name) {
+  if (name == "report.html" || name == "trials.csv") return true;
+  return name.size() > 9 && name.rfind("view-", 0) == 0 && name.compare(name.size() - 4, 4, ".png") == 0 && plainName(name.substr(0, name.size() - 4));
+}
+
+std::string stationOf(const Place& place) {
+  std::error_code none;
+  if (!std::filesystem::exists(place.settings(), none)) return "";
+  const station::JsonFile file(place.settings());
+  const std::string chosen = file.has("station") ? file.text("station") : "";
+  return std::filesystem::exists(chosen, none) ? chosen : "";
+}
+
+void chooseStation(const Place& place, const std::string& file) { writeWhole(place.settings(), nlohmann::json{{"station", file}}.dump(1) + "\n"); }
+
+}  // namespace palpa::console

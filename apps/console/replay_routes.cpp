@@ -1,0 +1,113 @@
+#include <cmath>
+#include <map>
+#include <string>
+
+#include "anatomy/geometry/error.h"
+#include "apps/console/routes.h"
+#include "apps/live/curve.h"
+#include "apps/record/session_file.h"
+#include "apps/station/json_file.h"
+
+namespace palpa::console {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+constexpr int kPicturesPerSecond = 5;
+constexpr char kSize[] = "960x540";
+
+double rounded(double value) { return std::isfinite(value) ? std::round(value * 1e3) / 1e3 : 0; }
+
+/// Of one trial, times since it began.
+json curvesOf(const record::SessionReader& reader, const record::RecordedTrial& trial) {
+  live::Curve curve;
+  reader.ticks([&](const haptics::FlightRecord& record) {
+    if (record.tool == 0 && record.t_ns >= trial.header.t_ns && (!trial.ended || record.t_ns <= trial.end.t_ns)) curve.add(record);
+  });
+  const double began_s = static_cast<double>(trial.header.t_ns) * 1e-9;
+  json t = json::array(), force = t, depth = t;
+  for (const live::Curve::Point& point : curve.points()) {
+    t.push_back(rounded(point.t_s - began_s));
+    force.push_back(rounded(point.force_N));
+    depth.push_back(rounded(point.depth_mm));
+  }
+  return {{"t_s", t}, {"force_N", force}, {"depth_mm", depth}};
+}
+
+/// A needle's phases out of its events: each lasts until the next.
+json phasesIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial, double length_s) {
+  json all = json::array();
+  for (const runtime::Event& event : events) {
+    if (event.trial != trial.header.trial || event.kind != "phase") continue;
+    const double t_s = rounded(static_cast<double>(event.t_ns - trial.header.t_ns) * 1e-9);
+    if (!all.empty()) all.back()["to_s"] = t_s;
+    all.push_back({{"from_s", t_s}, {"to_s", rounded(length_s)}, {"name", event.text}});
+  }
+  return all;
+}
+
+json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial) {
+  json all = json::array();
+  for (const runtime::Event& event : events)
+    if (event.trial == trial.header.trial && event.kind != "case") all.push_back({{"t_s", rounded(static_cast<double>((event.kind == "note" && event.value > 0 ? static_cast<std::int64_t>(event.value * 1e9) : event.t_ns) - trial.header.t_ns) * 1e-9)}, {"event", event.kind}, {"text", event.text}, {"tone", event.kind == "note" ? "note" : "neutral"}});
+  return all;
+}
+
+struct Recorded {
+  fs::path evidence, pictures;
+  std::string key;
+};
+
+Recorded recorded(Console& c, const std::string& id, int number) {
+  const fs::path folder = c.sessions.folder(id);
+  return {c.sessions.results(id) / "session.palpa", folder / ("replay-" + std::to_string(number)), "replay " + id + " " + std::to_string(number)};
+}
+
+/// Pictures are drawn once, by the command that draws films.
+void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
+  std::error_code none;
+  (*told)["ready"] = fs::exists(trial.pictures / "pictures.json", none);
+  if ((*told)["ready"]) {
+    const json pictures = station::JsonFile(trial.pictures / "pictures.json").json();
+    (*told)["frames"] = pictures.value("pictures", 0);
+    (*told)["marks"] = pictures.value("marks", json::array());
+    (*told)["done"] = 1;
+    return;
+  }
+  const std::string job = c.jobs.add({trial.key, "Pictures of a trial", {"replay", trial.evidence.string(), "--trial", std::to_string(number), "--pictures", trial.pictures.string(), "--fps", std::to_string(kPicturesPerSecond), "--size", kSize}, "", {}});
+  const json state = c.jobs.one(job);
+  (*told)["done"] = state["done"].is_number() ? state["done"] : json(0);
+}
+
+json replay(Console& c, const std::string& id, int number) {
+  const Recorded where = recorded(c, id, number);
+  if (const auto link = c.sessions.link(id); link && !link->wait(0, std::chrono::milliseconds(0)).over) throw UsageError("is still running", "the session", "Its trials can be seen again when it is over");
+  const record::SessionReader reader(where.evidence);
+  for (const record::RecordedTrial& trial : reader.trials()) {
+    if (trial.header.trial != number) continue;
+    json told = curvesOf(reader, trial);
+    const double length_s = trial.ended ? static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9 : told["t_s"].empty() ? 0 : told["t_s"].back().get<double>();
+    const std::vector<runtime::Event> events = reader.events();
+    told["length_s"] = rounded(length_s);
+    told["events"] = eventsIn(events, trial);
+    told["phases"] = phasesIn(events, trial, length_s);
+    told["fps"] = kPicturesPerSecond;
+    told["frames"] = std::max(1, static_cast<int>(std::lround(length_s * kPicturesPerSecond)));
+    drawPictures(c, where, number, &told);
+    return told;
+  }
+  throw UsageError("is not in the session", "trial " + std::to_string(number), "Choose one of the list");
+}
+
+}  // namespace
+
+void addReplayRoutes(WebServer& server, Console& c) {
+  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/replay)", [&c](const httplib::Request& q, httplib::Response& r) { answer(r, replay(c, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0)))); });
+  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/frame/([0-9]{1,5}))", [&c](const httplib::Request& q, httplib::Response& r) {
+    char name[32];
+    std::snprintf(name, sizeof name, "picture-%05zu.jpg", wholeNumber(q.matches[3], 0));
+    sendFile(r, recorded(c, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0))).pictures / name, "image/jpeg");
+  });
+}
+
+}  // namespace palpa::console

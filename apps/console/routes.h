@@ -1,0 +1,43 @@
+#pragma once
+
+#include <atomic>
+#include <memory>
+#include <mutex>
+#include <string>
+
+#include "apps/console/jobs.h"
+#include "apps/console/place.h"
+#include "apps/console/sessions.h"
+#include "apps/console/web_server.h"
+
+namespace palpa::console {
+
+/// What the routes share.
+struct Console {
+  explicit Console(Place where, Guard& the_guard) : place(std::move(where)), guard(the_guard), sessions(place), jobs(place) {}
+  const Place place;
+  Guard& guard;
+  Sessions sessions;
+  Jobs jobs;
+  struct Health {
+    std::mutex mutex;
+    nlohmann::json findings;      ///< as `palpa doctor --json` wrote it; null: not yet
+    std::string checked_utc, job;
+  } health;
+};
+
+/// One function a part of the house's API; each adds its paths to the server.
+void addStationRoutes(WebServer& server, Console& console);    ///< me, enter, health, calibration, jobs, pages
+void addPeopleRoutes(WebServer& server, Console& console);     ///< trainees, reports, cohort, studies
+void addSessionRoutes(WebServer& server, Console& console);    ///< tasks, sessions, commands, files
+void addLiveRoutes(WebServer& server, Console& console);       ///< events and pictures as they happen
+void addReplayRoutes(WebServer& server, Console& console);     ///< a trial on one timeline
+
+void checkHealth(Console& console);
+
+/// A whole file as an answer; 404 where it is none.
+void sendFile(httplib::Response& response, const std::filesystem::path& file, const std::string& type);
+/// {"state", "page", "message"} of a job that makes a page.
+nlohmann::json pageOf(const nlohmann::json& job);
+
+}  // namespace palpa::console

@@ -1,0 +1,156 @@
+#include "apps/console/session_link.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+
+#include "apps/live/local_socket.h"
+#include "apps/live/wire.h"
+
+namespace palpa::console {
+
+/// Frames of one connection.
+class LinkReader {
+ public:
+  live::FrameDecoder decoder;
+  bool watching = false;
+};
+
+namespace {
+
+constexpr std::chrono::seconds kWatched{3};
+constexpr std::chrono::milliseconds kTryAgain{100};
+constexpr int kLook_ms = 50;
+
+bool sendAll(int socket, const std::string& bytes) {
+  for (std::size_t sent = 0; sent < bytes.size();) {
+    const ssize_t count = ::send(socket, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
+    if (count > 0) sent += static_cast<std::size_t>(count);
+    else if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) return false;
+    pollfd one{socket, POLLOUT, 0};
+    if (sent < bytes.size() && ::poll(&one, 1, 1000) != 1) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+SessionLink::SessionLink(std::string socket) : path_(std::move(socket)) {
+  thread_ = std::thread([this] { run(); });
+}
+
+SessionLink::~SessionLink() {
+  ending_.store(true);
+  thread_.join();
+}
+
+void SessionLink::run() {
+  live::giveWay();
+  while (!ending_.load()) {
+    if (const int socket = live::connectTo(path_); socket >= 0) {
+      speak(socket);
+      ::close(socket);
+    }
+    {
+      const std::lock_guard lock(mutex_);
+      connected_ = false;
+      if (over_) return;
+    }
+    std::this_thread::sleep_for(kTryAgain);
+  }
+}
+
+void SessionLink::speak(int socket) {
+  LinkReader reader;
+  {
+    const std::lock_guard lock(mutex_);
+    connected_ = true;
+    passed_ = 0;
+  }
+  while (!ending_.load()) {
+    std::string out;
+    {
+      const std::lock_guard lock(mutex_);
+      if (over_) return;
+      if (watched() != reader.watching) {
+        reader.watching = !reader.watching;
+        out += live::encoded(live::FrameKind::watch, reader.watching ? "1" : "0");
+      }
+      for (const std::string& command : commands_) out += live::encoded(live::FrameKind::command, command);
+      commands_.clear();
+    }
+    if (!out.empty() && !sendAll(socket, out)) return;
+    pollfd one{socket, POLLIN, 0};
+    if (::poll(&one, 1, kLook_ms) > 0 && !hear(socket, reader)) return;
+  }
+}
+
+bool SessionLink::hear(int socket, LinkReader& reader) {
+  char bytes[65536];
+  const ssize_t count = ::recv(socket, bytes, sizeof bytes, 0);
+  if (count <= 0) return count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR);
+  reader.decoder.feed(bytes, static_cast<std::size_t>(count));
+  try {
+    while (const auto frame = reader.decoder.next()) {
+      const std::lock_guard lock(mutex_);
+      if (frame->kind == live::FrameKind::entry) take(frame->body);
+      if (frame->kind == live::FrameKind::picture) picture_ = {std::make_shared<const std::string>(frame->body), picture_.number + 1};
+    }
+  } catch (const Error&) {
+    return false;
+  }
+  changed_.notify_all();
+  return true;
+}
+
+/// The first entry of a connection tells which session it is: the one known already goes on where it was.
+void SessionLink::take(const std::string& entry) {
+  if (passed_ == 0 && entry != hello_) {
+    hello_ = entry;
+    begun_ = entries_.size();
+  }
+  if (begun_ + passed_ >= entries_.size()) entries_.push_back(entry);
+  ++passed_;
+}
+
+bool SessionLink::watched() const { return std::chrono::steady_clock::now() - asked_ < kWatched; }
+
+SessionLink::News SessionLink::wait(std::size_t from, std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  changed_.wait_for(lock, patience, [&] { return entries_.size() > from || over_; });
+  News news;
+  news.over = over_;
+  for (std::size_t i = from; i < entries_.size(); ++i) news.entries.push_back(entries_[i]);
+  return news;
+}
+
+SessionLink::Picture SessionLink::picture(std::uint64_t after, std::chrono::milliseconds patience) {
+  std::unique_lock lock(mutex_);
+  asked_ = std::chrono::steady_clock::now();
+  changed_.wait_for(lock, patience, [&] { return picture_.number > after || over_; });
+  return picture_.number > after ? picture_ : Picture{};
+}
+
+bool SessionLink::send(const std::string& command) {
+  const std::lock_guard lock(mutex_);
+  if (!connected_ || over_) return false;
+  commands_.push_back(command);
+  return true;
+}
+
+void SessionLink::close(const std::string& last) {
+  const std::lock_guard lock(mutex_);
+  if (over_) return;
+  entries_.push_back(last);
+  over_ = true;
+  changed_.notify_all();
+}
+
+bool SessionLink::told() const {
+  const std::lock_guard lock(mutex_);
+  return !entries_.empty();
+}
+
+}  // namespace palpa::console

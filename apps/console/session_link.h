@@ -1,0 +1,60 @@
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <condition_variable>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace palpa::console {
+
+/// The console's end of a running session's socket: what the session has told, its newest picture, and a way to ask for something. Connects anew where the connection is lost; the session tells its
+/// log from the beginning then, and what is known already is passed over. Any thread.
+class SessionLink {
+ public:
+  explicit SessionLink(std::string socket);
+  ~SessionLink();
+
+  struct News {
+    std::vector<std::string> entries;    ///< from the number that was asked for
+    bool over = false;                   ///< the session told its last
+  };
+  /// Entries from number `from`; waits for the first of them, at most `patience`.
+  News wait(std::size_t from, std::chrono::milliseconds patience);
+  struct Picture {
+    std::shared_ptr<const std::string> jpeg;   ///< null: none yet
+    std::uint64_t number = 0;
+  };
+  /// The newest picture after number `after`; waits for it, at most `patience`. While somebody has asked within the last seconds the session draws them.
+  Picture picture(std::uint64_t after, std::chrono::milliseconds patience);
+  /// False: nobody is there to hear it.
+  bool send(const std::string& command);
+  /// The session has ended: `last` becomes the log's last entry.
+  void close(const std::string& last);
+  bool told() const;                     ///< it has said something
+
+ private:
+  void run();
+  void speak(int socket);
+  bool hear(int socket, class LinkReader& reader);
+  void take(const std::string& entry);
+  bool watched() const;
+
+  const std::string path_;
+  mutable std::mutex mutex_;
+  std::condition_variable changed_;
+  std::vector<std::string> entries_;
+  std::size_t begun_ = 0, passed_ = 0;   ///< where the present session's log begins in ours; how many of it came on this connection
+  std::string hello_;
+  std::vector<std::string> commands_;
+  Picture picture_;
+  std::chrono::steady_clock::time_point asked_{};
+  bool connected_ = false, over_ = false;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+}  // namespace palpa::console

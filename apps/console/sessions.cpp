@@ -1,0 +1,186 @@
+#include "apps/console/sessions.h"
+
+#include <algorithm>
+
+#include "anatomy/geometry/error.h"
+#include "anatomy/geometry/whole_file.h"
+#include "apps/record/session_file.h"
+#include "apps/station/json_file.h"
+
+namespace palpa::console {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+constexpr char kFacts[] = "console.json", kLog[] = "log.txt";
+
+json factsOf(const fs::path& folder) {
+  try {
+    return station::JsonFile(folder / kFacts).json();
+  } catch (const Error&) {
+    return json::object();
+  }
+}
+
+std::string textOf(const json& facts, const char* field) { return facts.value(field, json()).is_string() ? facts[field].get<std::string>() : ""; }
+
+ProcessId processOf(const json& facts) {
+  const auto number = [&](const char* field) { return facts.value(field, json()).is_number() ? facts[field].get<std::int64_t>() : 0; };
+  return {static_cast<int>(number("pid")), static_cast<std::uint64_t>(number("began"))};
+}
+
+/// The newest folder with results: the session's own, or where a study put its block.
+fs::path resultsIn(const fs::path& folder) {
+  std::error_code none;
+  if (fs::exists(folder / "session.palpa", none)) return folder;
+  fs::path newest = folder;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (entry.is_directory(none) && fs::exists(entry.path() / "session.palpa", none) && entry.path().filename().string() != "demonstration" && (newest == folder || entry.path() > newest)) newest = entry.path();
+  return newest;
+}
+
+json trialOf(const record::RecordedTrial& trial) {
+  json one{{"number", trial.header.trial}, {"role", trial.header.role}, {"outcome", trial.ended ? trial.end.outcome : "interrupted"}, {"reason", trial.end.reason}, {"length_s", static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9}};
+  const json scores = json::parse(trial.end.scores_json, nullptr, false);
+  if (scores.is_object())
+    for (const char* field : {"total", "summary"})
+      if (scores.contains(field)) one[field] = scores[field];
+  return one;
+}
+
+json trialsIn(const fs::path& evidence) {
+  json all = json::array();
+  std::error_code none;
+  if (!fs::exists(evidence, none)) return all;
+  for (const record::RecordedTrial& trial : record::SessionReader(evidence).trials()) all.push_back(trialOf(trial));
+  return all;
+}
+
+json filesIn(const fs::path& folder) {
+  std::vector<std::string> names;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(folder, none))
+    if (entry.is_regular_file(none) && isShown(entry.path().filename().string())) names.push_back(entry.path().filename().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+}  // namespace
+
+Sessions::Sessions(const Place& place) : place_(place) {
+  fs::create_directories(place_.sessions());
+  find();
+}
+
+std::string Sessions::socketOf(const std::string& id) const { return place_.sockets + "/" + id.substr(id.size() > 24 ? id.size() - 24 : 0) + ".sock"; }
+
+fs::path Sessions::folder(const std::string& id) const {
+  std::error_code none;
+  if (!isId(id) || !fs::is_regular_file(place_.sessions() / id / kFacts, none)) throw UsageError("is not here", "session " + id.substr(0, 64), "Choose one of the list");
+  return place_.sessions() / id;
+}
+
+fs::path Sessions::results(const std::string& id) const { return resultsIn(folder(id)); }
+
+/// Those that went on while there was no console.
+void Sessions::find() {
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(place_.sessions(), none)) {
+    const std::string id = entry.path().filename().string();
+    const ProcessId process = processOf(factsOf(entry.path()));
+    if (isId(id) && runs(process)) running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
+  }
+}
+
+std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> arguments) {
+  look();
+  const std::lock_guard lock(mutex_);
+  if (std::any_of(running_.begin(), running_.end(), [](const auto& one) { return !one.second.over; })) throw UsageError("is running already", "a session", "End it first, or wait until it is over");
+  const std::string id = newId();
+  const fs::path folder = place_.sessions() / id;
+  fs::create_directories(folder);
+  for (const std::string& more : {std::string("--live"), socketOf(id), std::string("--out"), folder.string()}) arguments.push_back(more);
+  json facts{{"task", wish.task}, {"trainee", wish.trainee}, {"started_utc", utcNow()}, {"assessed", wish.assess}, {"simulated", wish.performer != "person"}, {"study", !wish.protocol.empty()}, {"trials", wish.trials}};
+  writeWhole(folder / kFacts, facts.dump(1) + "\n");
+  const ProcessId process = start(arguments, folder / kLog, false);
+  facts["pid"] = process.pid;
+  facts["began"] = process.began;
+  writeWhole(folder / kFacts, facts.dump(1) + "\n");
+  running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
+  return id;
+}
+
+void Sessions::look() {
+  const std::lock_guard lock(mutex_);
+  for (auto& [id, one] : running_) {
+    if (one.over || runs(one.process)) continue;
+    one.over = true;
+    const fs::path folder = place_.sessions() / id;
+    const std::string state = stateOf(id, folder);
+    one.link->close(json{{"kind", "end"}, {"state", state}, {"message", state == "finished" ? "" : complaintIn(folder / kLog)}}.dump(-1, ' ', false, json::error_handler_t::replace));
+  }
+}
+
+/// With the mutex held, or of a session that does not run.
+std::string Sessions::stateOf(const std::string& id, const fs::path& folder) {
+  if (const auto found = running_.find(id); found != running_.end() && !found->second.over) return found->second.link->told() ? "running" : "starting";
+  std::error_code none;
+  if (fs::exists(resultsIn(folder) / "report.html", none)) return "finished";
+  return fs::exists(resultsIn(folder) / "session.palpa", none) ? "interrupted" : "failed";
+}
+
+json Sessions::told(const std::string& id, const fs::path& folder) {
+  const json facts = factsOf(folder);
+  const std::string state = stateOf(id, folder);
+  json one{{"id", id}, {"task", textOf(facts, "task")}, {"trainee", textOf(facts, "trainee")}, {"started_utc", textOf(facts, "started_utc")}, {"state", state}, {"message", state == "failed" || state == "interrupted" ? complaintIn(folder / kLog) : ""}};
+  for (const char* field : {"assessed", "simulated", "trials", "study"}) one[field] = facts.value(field, json());
+  return one;
+}
+
+json Sessions::list() {
+  look();
+  const std::lock_guard lock(mutex_);
+  std::vector<std::string> ids;
+  std::error_code none;
+  for (const auto& entry : fs::directory_iterator(place_.sessions(), none))
+    if (isId(entry.path().filename().string()) && fs::exists(entry.path() / kFacts, none)) ids.push_back(entry.path().filename().string());
+  std::sort(ids.rbegin(), ids.rend());
+  json all = json::array();
+  for (const std::string& id : ids) all.push_back(told(id, place_.sessions() / id));
+  return all;
+}
+
+json Sessions::one(const std::string& id) {
+  const fs::path here = folder(id);
+  look();
+  json one;
+  {
+    const std::lock_guard lock(mutex_);
+    one = told(id, here);
+  }
+  const fs::path results = resultsIn(here);
+  one["files"] = filesIn(results);
+  one["results"] = json::array();
+  if (one["state"] == "running" || one["state"] == "starting") return one;   // its evidence is being written
+  try {
+    one["results"] = trialsIn(results / "session.palpa");
+  } catch (const Error& e) {
+    one["message"] = e.what();
+  }
+  return one;
+}
+
+std::shared_ptr<SessionLink> Sessions::link(const std::string& id) {
+  look();
+  const std::lock_guard lock(mutex_);
+  const auto found = running_.find(id);
+  return found == running_.end() ? nullptr : found->second.link;
+}
+
+bool Sessions::oneRuns() {
+  look();
+  const std::lock_guard lock(mutex_);
+  return std::any_of(running_.begin(), running_.end(), [](const auto& one) { return !one.second.over; });
+}
+
+}  // namespace palpa::console

@@ -1,0 +1,65 @@
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "apps/console/child.h"
+#include "apps/console/place.h"
+#include "apps/console/session_link.h"
+
+namespace palpa::console {
+
+/// What an educator asks for when a session shall begin.
+struct SessionWish {
+  std::string task;               ///< id of a task file
+  std::string trainee;            ///< pseudonym; empty: nobody
+  std::string performer = "person";   ///< person, expert, novice
+  std::string side = "right";
+  bool assess = false, force_feedback = true;
+  int trials = 1;
+  std::uint64_t seed = 1, patient_seed = 0;
+  std::string protocol;           ///< of a study: its file; the task then follows from it
+};
+/// Throws UsageError where a field is missing, of the wrong kind or out of range.
+SessionWish readWish(const nlohmann::json& json);
+
+/// The sessions that were begun from the console, each a process and a folder of its own; the running ones are found again after a restart. At most one runs. Any thread.
+class Sessions {
+ public:
+  explicit Sessions(const Place& place);
+
+  /// Starts one; throws UsageError where one runs already. `arguments`: of the command that holds it.
+  std::string begin(const SessionWish& wish, std::vector<std::string> arguments);
+  /// Newest first, as the pages take them.
+  nlohmann::json list();
+  nlohmann::json one(const std::string& id);                ///< throws UsageError where it is none
+  std::filesystem::path folder(const std::string& id) const;  ///< throws UsageError where it is none
+  std::filesystem::path results(const std::string& id) const; ///< where its report is: the folder, or that of a study's newest block
+  /// Of a session that runs, or ran since the console began; null otherwise.
+  std::shared_ptr<SessionLink> link(const std::string& id);
+  bool oneRuns();
+  /// Looks whether the running ones have ended; called now and then.
+  void look();
+
+ private:
+  struct Running {
+    ProcessId process;
+    std::shared_ptr<SessionLink> link;
+    bool over = false;
+  };
+  void find();
+  nlohmann::json told(const std::string& id, const std::filesystem::path& folder);
+  std::string stateOf(const std::string& id, const std::filesystem::path& folder);
+  std::string socketOf(const std::string& id) const;
+
+  const Place& place_;
+  std::mutex mutex_;
+  std::map<std::string, Running> running_;
+};
+
+}  // namespace palpa::console

@@ -1,0 +1,164 @@
+#include <fstream>
+#include <sstream>
+
+#include "anatomy/geometry/error.h"
+#include "apps/console/routes.h"
+#include "apps/station/assets.h"
+#include "apps/station/json_file.h"
+#include "apps/station/station_file.h"
+
+namespace palpa::console {
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+struct Step {
+  const char *id, *title, *what;
+};
+constexpr Step kSteps[] = {
+    {"camera", "Camera", "Hold the printed board before the camera, near and far, tilted, in every corner of the picture, until the picture is covered."},
+    {"workspace", "Device", "Touch the points of the grid one after the other; this measures how the device errs from place to place."},
+    {"tool", "Needle", "Rest the needle's tip in one place and pivot it; then spin it about itself. This finds the tip and the direction."},
+    {"registration", "Where the device stands", "Touch the marked points on the board. This ties what is felt to what is seen."},
+    {"latency", "Delay between seen and felt", "Move the tool to and fro before the camera for some seconds."},
+    {"force-sensor", "Force sensor", "Hold the tool still in different directions. This finds the sensor's bias and the tool's weight."},
+};
+
+std::string textIn(const fs::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::ostringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+station::Station stationNow(const Console& c) {
+  const std::string chosen = stationOf(c.place);
+  return station::readStation(chosen.empty() ? station::assetFile("stations/virtual_bench.json") : fs::path(chosen));
+}
+
+json me(const Console& c, bool entered) {
+  json all{{"version", c.place.version}, {"entered", entered}, {"page_key", c.guard.pageKey()}};
+  if (!entered) return all;
+  all["display"] = c.place.display;
+  all["records"] = c.place.records;
+  const std::string chosen = stationOf(c.place);
+  all["station"] = chosen.empty() ? "virtual bench" : chosen;
+  try {
+    all["simulated"] = stationNow(c).simulated;
+  } catch (const Error& e) {
+    all["station_trouble"] = e.what();
+  }
+  return all;
+}
+
+json health(Console& c) {
+  const std::lock_guard lock(c.health.mutex);
+  json all{{"state", c.health.job.empty() ? "done" : "checking"}, {"checked_utc", c.health.checked_utc}};
+  if (c.health.findings.is_object()) {
+    all["can_start"] = c.health.findings.value("can_start", false);
+    all["findings"] = c.health.findings.value("findings", json::array());
+  } else {
+    all["findings"] = json::array();
+  }
+  return all;
+}
+
+json calibration(Console& c) {
+  json all{{"job", c.jobs.workingOn("calibrate")}, {"steps", json::array()}, {"calibrations", json::array()}};
+  for (const Step& step : kSteps) all["steps"].push_back({{"id", step.id}, {"title", step.title}, {"what", step.what}});
+  const std::string chosen = stationOf(c.place);
+  all["file"] = chosen;
+  all["station"] = chosen.empty() ? "virtual bench" : fs::path(chosen).stem().string();
+  const station::Station station = stationNow(c);
+  all["verdict"] = station.calibration_verdict;
+  for (const auto& one : station.calibrations) all["calibrations"].push_back({{"name", one.file.kind}, {"made_utc", one.file.date}, {"verdict", one.file.verdict}, {"simulated", one.file.simulated}});
+  return all;
+}
+
+/// A calibration that left a station file makes it the station in use.
+std::string calibrate(Console& c, const std::string& step) {
+  const bool known = step == "all" || std::any_of(std::begin(kSteps), std::end(kSteps), [&](const Step& one) { return step == one.id; });
+  if (!known) throw UsageError("is no calibration step", step.substr(0, 32), "Choose one of the list");
+  if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");
+  const Step* const found = std::find_if(std::begin(kSteps), std::end(kSteps), [&](const Step& one) { return step == one.id; });
+  Jobs::Wish wish;
+  wish.key = "calibrate";
+  wish.title = step == "all" ? "Everything" : found->title;
+  wish.arguments = {"calibrate", step, "--out", "{}/station"};
+  wish.page = "station/calibration.html";
+  if (const std::string chosen = stationOf(c.place); !chosen.empty() && step != "all") wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
+  wish.then = [&c](const fs::path& folder, bool good) {
+    std::error_code none;
+    const fs::path kept = c.place.home / "stations" / folder.filename();
+    if (!good || !fs::exists(folder / "station/station.json", none)) return;
+    fs::create_directories(kept.parent_path(), none);
+    fs::copy(folder / "station", kept, fs::copy_options::recursive, none);
+    if (!none) chooseStation(c.place, (kept / "station.json").string());
+  };
+  return c.jobs.add(std::move(wish));
+}
+
+}  // namespace
+
+void sendFile(httplib::Response& response, const fs::path& file, const std::string& type) {
+  std::error_code none;
+  if (!fs::is_regular_file(file, none) || fs::is_symlink(file, none)) return refuse(response, 404, "is not here");
+  response.set_content(textIn(file), type);
+}
+
+json pageOf(const json& job) { return {{"state", job.at("state")}, {"page", job.at("page")}, {"message", job.at("message")}, {"done", job.at("done")}}; }
+
+void checkHealth(Console& c) {
+  Jobs::Wish wish;
+  wish.key = "doctor";
+  wish.title = "The station is looked at";
+  wish.arguments = {"doctor", "--json", "--records", c.place.records, "--out", c.place.sessions().string()};
+  if (const std::string chosen = stationOf(c.place); !chosen.empty()) wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
+  wish.then = [&c](const fs::path& folder, bool) {
+    const std::string text = textIn(folder / "log.txt");
+    const std::size_t begin = text.find('{'), end = text.rfind('}');
+    json found = begin == std::string::npos || end == std::string::npos ? json() : json::parse(text.substr(begin, end - begin + 1), nullptr, false);
+    if (!found.is_object()) found = {{"can_start", false}, {"findings", {{{"subject", "doctor"}, {"state", "ill"}, {"verdict", complaintIn(folder / "log.txt")}, {"fix", "Run palpa doctor in a terminal"}}}}};
+    const std::lock_guard lock(c.health.mutex);
+    c.health.findings = std::move(found);
+    c.health.checked_utc = utcNow();
+    c.health.job.clear();
+  };
+  const std::lock_guard lock(c.health.mutex);
+  c.health.job = c.jobs.add(std::move(wish));
+}
+
+void addStationRoutes(WebServer& server, Console& c) {
+  server.Get("/api/me", [&c](const httplib::Request& q, httplib::Response& r) { answer(r, me(c, c.guard.entered(q.get_header_value("Cookie")))); });
+  server.Post("/api/enter", [&c](const httplib::Request& q, httplib::Response& r) {
+    const json body = bodyOf(q);
+    const std::string cookie = c.guard.enter(q.remote_addr, body.value("token", json()).is_string() ? body["token"].get<std::string>() : "");
+    if (cookie.empty()) return refuse(r, 403, "that is not the token; after five wrong ones wait a minute");
+    r.set_header("Set-Cookie", "palpa=" + cookie + "; HttpOnly; SameSite=Strict; Path=/");
+    answer(r, json::object());
+  });
+  server.Get("/api/health", [&c](const httplib::Request&, httplib::Response& r) { answer(r, health(c)); });
+  server.Post("/api/health", [&c](const httplib::Request&, httplib::Response& r) {
+    checkHealth(c);
+    answer(r, json::object(), 202);
+  });
+  server.Get("/api/calibration", [&c](const httplib::Request&, httplib::Response& r) { answer(r, calibration(c)); });
+  server.Post("/api/calibration", [&c](const httplib::Request& q, httplib::Response& r) {
+    const json body = bodyOf(q);
+    answer(r, {{"job", calibrate(c, body.value("step", json()).is_string() ? body["step"].get<std::string>() : "")}}, 202);
+  });
+  server.Get(R"(/api/jobs/([A-Za-z0-9_-]{1,64}))", [&c](const httplib::Request& q, httplib::Response& r) { answer(r, c.jobs.one(q.matches[1])); });
+  server.Post(R"(/api/jobs/([A-Za-z0-9_-]{1,64})/stop)", [&c](const httplib::Request& q, httplib::Response& r) {
+    c.jobs.stop(q.matches[1]);
+    answer(r, json::object(), 202);
+  });
+  server.Get(R"(/api/pages/([A-Za-z0-9_-]{1,64}))", [&c](const httplib::Request& q, httplib::Response& r) {
+    const fs::path folder = c.jobs.folder(q.matches[1]);
+    for (const char* page : {"page.html", "station/calibration.html"})
+      if (std::error_code none; fs::exists(folder / page, none)) return sendFile(r, folder / page, "text/html; charset=utf-8");
+    refuse(r, 404, "is not here");
+  });
+}
+
+}  // namespace palpa::console

@@ -1,0 +1,50 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "apps/console/guard.h"
+#include "apps/console/http.h"
+#include "apps/console/refusals.h"
+
+namespace palpa::console {
+
+/// The HTTP server: limits on connections, sizes and time before a request is looked at; the guard before it is answered; safe headers on every answer. Its threads give way to all others.
+class WebServer final : public httplib::Server {
+ public:
+  WebServer(Guard& guard, Refusals& refusals);
+
+  /// A stream (events, pictures) is let in: at most kMostStreams at once.
+  bool enterStream() { return streams_.fetch_add(1) < kMostStreams || (leaveStream(), false); }
+  void leaveStream() { streams_.fetch_sub(1); }
+  /// The server is ending: streams shall.
+  bool ending() const { return ending_.load(); }
+  void end();
+
+  static constexpr int kMostConnections = 96, kMostStreams = 24;
+
+ private:
+  bool process_and_close_socket(socket_t socket) override;
+  void serve(class DeadlineStream& stream);
+  HandlerResponse admit(const httplib::Request& request, httplib::Response& response);
+
+  Guard& guard_;
+  Refusals& refusals_;
+  std::atomic<int> connections_{0}, streams_{0};
+  std::atomic<bool> ending_{false};
+};
+
+/// Of a file, by its ending.
+const char* mediaTypeOf(const std::string& name);
+/// A whole number that a header or path holds; `otherwise` for what is none, or beyond six digits.
+std::size_t wholeNumber(const std::string& text, std::size_t otherwise);
+
+/// {"error": words} with a status.
+void refuse(httplib::Response& response, int status, const std::string& words);
+void answer(httplib::Response& response, const nlohmann::json& json, int status = 200);
+/// The body as a JSON object; throws UsageError where it is none.
+nlohmann::json bodyOf(const httplib::Request& request);
+
+}  // namespace palpa::console

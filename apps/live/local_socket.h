@@ -1,0 +1,20 @@
+#pragma once
+
+#include <string>
+
+namespace palpa::live {
+
+/// A listening Unix socket at `path`, readable by this user only; what a dead process left there is removed. Throws Error.
+int listenAt(const std::string& path);
+/// Connected, or -1: nobody is there.
+int connectTo(const std::string& path);
+/// The process at the other end runs as the same user.
+bool sameUser(int socket);
+
+/// Where sockets of sessions are: $XDG_RUNTIME_DIR/palpa, else /tmp/palpa-<user id>; made, readable by this user only. Throws Error where somebody else owns it.
+std::string socketFolder();
+
+/// The calling thread gives way to all others that want to run.
+void giveWay();
+
+}  // namespace palpa::live

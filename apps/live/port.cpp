@@ -1,0 +1,158 @@
+#include "apps/live/port.h"
+
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+#include <utility>
+
+#include "apps/live/local_socket.h"
+
+namespace palpa::live {
+namespace {
+
+constexpr std::size_t kMostPeers = 8, kEntriesAtOnce = 256, kEnoughWaiting = 64 << 10;
+constexpr int kLook_ms = 25, kQuality = 80, kWidest = 1280;
+constexpr std::chrono::milliseconds kFarewell{500};
+
+std::string jpegOf(const scene::Image& image) {
+  cv::Mat shown(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data())), bgr;
+  cv::cvtColor(shown, bgr, cv::COLOR_RGB2BGR);
+  if (bgr.cols > kWidest) cv::resize(bgr, bgr, {kWidest, bgr.rows * kWidest / bgr.cols}, 0, 0, cv::INTER_AREA);
+  std::vector<std::uint8_t> bytes;
+  cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  return {bytes.begin(), bytes.end()};
+}
+
+}  // namespace
+
+struct Port::Peer {
+  explicit Peer(int descriptor) : socket(descriptor) {}
+  ~Peer() { ::close(socket); }
+  Peer(const Peer&) = delete;
+  Peer& operator=(const Peer&) = delete;
+
+  const int socket;
+  FrameDecoder decoder;
+  std::string waiting;        ///< to be written
+  std::size_t told = 0;       ///< entries of the log
+  bool watches = false, lost = false;
+};
+
+Port::Port(std::string path, const LiveLog& log, Heard heard) : path_(std::move(path)), log_(log), heard_(std::move(heard)), listener_(listenAt(path_)) {
+  thread_ = std::thread([this] { run(); });
+}
+
+Port::~Port() {
+  ending_.store(true);
+  thread_.join();
+  ::close(listener_);
+  ::unlink(path_.c_str());
+}
+
+void Port::offer(scene::Image picture) {
+  if (picture.channels != 3 || picture.pixels.empty()) return;
+  const std::lock_guard lock(picture_mutex_);
+  picture_ = std::move(picture);
+  has_picture_.store(true, std::memory_order_release);
+}
+
+void Port::run() {
+  giveWay();
+  std::chrono::steady_clock::time_point leave{};
+  for (;;) {
+    waitForPeers(kLook_ms);
+    accept();
+    encodePicture();
+    for (auto& peer : peers_) {
+      read(*peer);
+      write(*peer);
+    }
+    leaveLost();
+    if (!ending_.load()) continue;
+    const auto now = std::chrono::steady_clock::now();
+    if (leave == std::chrono::steady_clock::time_point{}) leave = now + kFarewell;
+    if (allTold() || now > leave) return;
+  }
+}
+
+void Port::waitForPeers(int timeout_ms) {
+  std::vector<pollfd> all{{listener_, POLLIN, 0}};
+  for (const auto& peer : peers_) all.push_back({peer->socket, static_cast<short>(peer->waiting.empty() ? POLLIN : POLLIN | POLLOUT), 0});
+  ::poll(all.data(), all.size(), timeout_ms);
+}
+
+void Port::accept() {
+  for (int socket; (socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0;) {
+    if (peers_.size() >= kMostPeers || !sameUser(socket)) ::close(socket);
+    else peers_.push_back(std::make_unique<Peer>(socket));
+  }
+}
+
+void Port::read(Peer& peer) {
+  char bytes[4096];
+  ssize_t count = 0;
+  while ((count = ::recv(peer.socket, bytes, sizeof bytes, 0)) > 0) {
+    peer.decoder.feed(bytes, static_cast<std::size_t>(count));
+    obey(peer);
+    if (peer.lost) return;
+  }
+  if (count == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) peer.lost = true;
+}
+
+void Port::obey(Peer& peer) {
+  try {
+    while (const auto frame = peer.decoder.next()) {
+      if (frame->kind == FrameKind::watch) peer.watches = frame->body == "1";
+      if (frame->kind == FrameKind::command) heard_(frame->body);
+    }
+  } catch (const Error&) {
+    peer.lost = true;   // it does not speak our language
+  }
+}
+
+void Port::write(Peer& peer) {
+  if (peer.waiting.size() < kEnoughWaiting) {
+    for (const std::string& entry : log_.since(peer.told, kEntriesAtOnce)) {
+      peer.waiting += encoded(FrameKind::entry, entry);
+      ++peer.told;
+    }
+  }
+  while (!peer.waiting.empty()) {
+    const ssize_t count = ::send(peer.socket, peer.waiting.data(), peer.waiting.size(), MSG_NOSIGNAL);
+    if (count <= 0) {
+      peer.lost |= errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR;
+      return;
+    }
+    peer.waiting.erase(0, static_cast<std::size_t>(count));
+  }
+}
+
+void Port::encodePicture() {
+  watched_.store(std::any_of(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->watches; }), std::memory_order_relaxed);
+  if (!has_picture_.load(std::memory_order_acquire)) return;
+  scene::Image picture;
+  {
+    const std::lock_guard lock(picture_mutex_);
+    picture = std::move(picture_);
+    has_picture_.store(false, std::memory_order_release);
+  }
+  const std::string frame = encoded(FrameKind::picture, jpegOf(picture));
+  for (auto& peer : peers_)
+    if (peer->watches && peer->waiting.size() < kEnoughWaiting) peer->waiting += frame;
+}
+
+void Port::leaveLost() {
+  peers_.erase(std::remove_if(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->lost; }), peers_.end());
+}
+
+bool Port::allTold() const {
+  return std::all_of(peers_.begin(), peers_.end(), [this](const auto& peer) { return peer->waiting.empty() && peer->told == log_.size(); });
+}
+
+}  // namespace palpa::live

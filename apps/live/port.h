@@ -1,0 +1,54 @@
+#pragma once
+
+#include <atomic>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "apps/live/live_log.h"
+#include "apps/live/wire.h"
+#include "scene/scene_state.h"
+
+namespace palpa::live {
+
+/// The session's end of the local socket: tells its log and its pictures to up to eight who look on, hears what they ask. A thread of its own at low priority; whoever is slow gets fewer pictures, and nobody who
+/// looks on can hold the session up. Only processes of the same user are heard.
+class Port {
+ public:
+  /// Called on the port's thread with the body of a command.
+  using Heard = std::function<void(const std::string& command)>;
+  /// Throws Error where there can be no socket at `path`.
+  Port(std::string path, const LiveLog& log, Heard heard);
+  ~Port();   ///< tells what is left, for at most half a second
+
+  /// Somebody wants pictures, and the last one is gone.
+  bool wantsPicture() const { return watched_.load(std::memory_order_relaxed) && !has_picture_.load(std::memory_order_acquire); }
+  void offer(scene::Image picture);
+
+ private:
+  struct Peer;
+  void run();
+  void waitForPeers(int timeout_ms);
+  void accept();
+  void read(Peer& peer);
+  void obey(Peer& peer);
+  void write(Peer& peer);
+  void encodePicture();
+  void leaveLost();
+  bool allTold() const;
+
+  const std::string path_;
+  const LiveLog& log_;
+  const Heard heard_;
+  int listener_ = -1;
+  std::vector<std::unique_ptr<Peer>> peers_;
+  std::atomic<bool> watched_{false}, has_picture_{false}, ending_{false};
+  std::mutex picture_mutex_;
+  scene::Image picture_;
+  std::thread thread_;
+};
+
+}  // namespace palpa::live

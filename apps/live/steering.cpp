@@ -1,0 +1,42 @@
+#include "apps/live/steering.h"
+
+#include <algorithm>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/geometry/error.h"
+
+namespace palpa::live {
+namespace {
+
+using trial::UserCommand;
+constexpr std::size_t kLongestReason = 500;
+
+const std::map<std::string, UserCommand> kCommands{{"start", UserCommand::start}, {"pause", UserCommand::pause}, {"abort", UserCommand::abort}, {"void", UserCommand::void_trial}, {"stop", UserCommand::emergency_stop},
+                                                   {"rearm", UserCommand::rearm}, {"leave", UserCommand::quit}, {"note", UserCommand::note}};
+
+std::string textIn(const nlohmann::json& json, const char* field) {
+  if (!json.contains(field)) return "";
+  if (!json[field].is_string()) throw UsageError("is no text", field, "Send it as a text");
+  const std::string text = json[field];
+  if (text.size() > kLongestReason) throw UsageError("is longer than 500 characters", field, "Shorten it");
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; })) throw UsageError("holds control characters", field, "Write it in one line");
+  return text;
+}
+
+}  // namespace
+
+trial::UserRequest parseSteering(const std::string& text) {
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object()) throw UsageError("is no JSON object", "command to the session", "Send {\"command\": ...}");
+  const std::string name = textIn(json, "command");
+  const auto found = kCommands.find(name);
+  if (found == kCommands.end()) throw UsageError("is none that a session knows", "command \"" + name.substr(0, 32) + "\"", "start, pause, abort, void, stop, rearm, leave, note");
+  trial::UserRequest request{found->second, textIn(json, "reason"), 0};
+  if (request.reason.empty() && (request.command == UserCommand::void_trial || request.command == UserCommand::note))
+    throw UsageError("needs words", "command \"" + name + "\"", request.command == UserCommand::note ? "Write what is to be noted" : "Say why the trial shall not count");
+  if (json.contains("at_s") && json["at_s"].is_number()) request.at_s = json["at_s"];
+  return request;
+}
+
+}  // namespace palpa::live

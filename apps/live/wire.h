@@ -1,0 +1,38 @@
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "anatomy/geometry/error.h"
+
+/// Between a running session and whoever looks on: frames over a local socket, kind (1 byte), length (4 bytes, little-endian), body.
+namespace palpa::live {
+
+enum class FrameKind : char {
+  entry = 'L',      ///< session -> console: the next entry of its log, a JSON object
+  picture = 'P',    ///< session -> console: what is on the screen, JPEG
+  command = 'C',    ///< console -> session: {"command", "reason", "at_s"}
+  watch = 'W'       ///< console -> session: "1": pictures are wanted; "0": nobody looks
+};
+
+struct Frame {
+  FrameKind kind = FrameKind::entry;
+  std::string body;
+};
+
+inline constexpr std::size_t kLongestPicture = 8u << 20, kLongestEntry = 1u << 20, kLongestCommand = 8u << 10;
+
+std::string encoded(FrameKind kind, const std::string& body);
+
+/// Frames out of bytes as they come, in whatever pieces. Throws Error for what is no frame, or one longer than its kind may be: the peer is then to be left.
+class FrameDecoder {
+ public:
+  void feed(const char* bytes, std::size_t count) { pending_.append(bytes, count); }
+  std::optional<Frame> next();
+
+ private:
+  std::string pending_;
+};
+
+}  // namespace palpa::live

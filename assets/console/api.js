@@ -1,0 +1,90 @@
+// The server in sentences: reads, writes (page key, a nonce for each), and whether it answers at all.
+const kPatience_ms = 15000;
+let pageKey = '';
+let known = null;
+let lostAt = 0;
+const watchers = new Set();
+
+export class Trouble extends Error {
+  constructor(message, status = 0) { super(message); this.status = status; }
+  get offline() { return this.status === 0; }
+}
+
+/** Calls back with the time (ms) since when nobody answers, 0 when somebody does again. */
+export function watchConnection(callback) { watchers.add(callback); return () => watchers.delete(callback); }
+export function lostSince() { return lostAt; }
+
+export function reportConnection(answers) {
+  const next = answers ? 0 : lostAt || Date.now();
+  if (next === lostAt) return;
+  lostAt = next;
+  for (const callback of watchers) callback(lostAt);
+}
+
+function nonce() {
+  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join('');
+}
+
+async function sentence(response) {
+  try {
+    const answer = await response.json();
+    if (answer && typeof answer.error === 'string' && answer.error) return answer.error;
+  } catch { /* no JSON: the status must do */ }
+  if (response.status === 404) return 'The console knows nothing of this. It may have been removed; go back and choose again.';
+  return `The console could not do this (answer ${response.status}). Try again; if it stays so, look at the Station page.`;
+}
+
+async function send(method, path, body) {
+  const headers = method === 'POST' ? {'Content-Type': 'application/json', 'X-Palpa-Page': pageKey, 'X-Palpa-Write': nonce()} : {};
+  let response;
+  try {
+    response = await fetch(path, {method, headers, cache: 'no-store', body: method === 'POST' ? JSON.stringify(body ?? {}) : undefined, signal: AbortSignal.timeout(kPatience_ms)});
+  } catch {
+    reportConnection(false);
+    throw new Trouble('No connection to the console. What you asked for has not been confirmed; it is tried again only when you ask again.');
+  }
+  reportConnection(true);
+  return response;
+}
+
+async function answerOf(response) {
+  if (!response.ok) throw new Trouble(await sentence(response), response.status);
+  const text = await response.text();
+  if (!text) return {};
+  try { return JSON.parse(text); } catch { throw new Trouble('The console answered something that cannot be read. Reload this page.', response.status); }
+}
+
+export async function get(path) {
+  const response = await send('GET', path);
+  if (response.status === 401) location.hash = '#/enter';
+  return answerOf(response);
+}
+
+/** A write. A page key from before the server's last start is renewed once: what was refused has not been done. */
+export async function post(path, body) {
+  let response = await send('POST', path, body);
+  if (response.status === 403 && path !== '/api/enter') {
+    const before = pageKey;
+    await me(true);
+    if (pageKey !== before) response = await send('POST', path, body);
+  }
+  if (response.status === 401) location.hash = '#/enter';
+  return answerOf(response);
+}
+
+/** Who and where: asked once, and again after entering or a restart. */
+export async function me(again = false) {
+  if (!known || again) {
+    known = await get('/api/me');
+    pageKey = known.page_key || '';
+  }
+  return known;
+}
+
+/** A list, whatever the server sent: what is not a list is an empty one. */
+export async function list(path) {
+  const answer = await get(path);
+  return Array.isArray(answer) ? answer : [];
+}
+
+export const url = (...parts) => parts.map((part, at) => (at === 0 ? part : encodeURIComponent(part))).join('/');

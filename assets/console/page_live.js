@@ -1,0 +1,77 @@
+// The session that is on: picture, controls, curves, events, notes.
+import {get, lostSince, url, watchConnection} from './api.js';
+import {announce, h, put, say} from './dom.js';
+import {clock, isOn, liveState, taskName, who} from './format.js';
+import {LiveControls} from './live_controls.js';
+import {LiveCurves} from './live_curves.js';
+import {LiveEvents} from './live_events.js';
+import {followPicture, followSession} from './live_stream.js';
+import {badge, notice, simulatedBadge} from './parts.js';
+
+/** The session's second, carried on between messages while a trial runs. */
+class SessionTime {
+  constructor() { this.t = 0; this.at = performance.now(); this.running = false; }
+  hear(t_s) { if (Number.isFinite(t_s) && t_s >= this.t) { this.t = t_s; this.at = performance.now(); } }
+  now() { return this.t + (this.running ? Math.min(3, (performance.now() - this.at) / 1000) : 0); }
+}
+
+function figures() {
+  const made = {};
+  const one = (key, name) => h('div', {class: `figure-${key}`}, h('dt', {}, name), made[key] = h('dd', {}, '–'));
+  const node = h('dl', {class: 'card live-figures'}, one('time', 'Time of the trial'), one('force', 'Force'), one('depth', 'Depth'), one('phase', 'Phase'), one('touched', 'Touching'));
+  return {node, show(s) {
+    say(made.time, clock(s.elapsed_s)); say(made.force, s.force || '–'); say(made.depth, s.depth || '–'); say(made.phase, s.phase || '–'); say(made.touched, s.touched || 'nothing');
+  }};
+}
+
+function picture() {
+  const img = h('img', {class: 'view', alt: 'Live picture: what the trainee sees', width: 1280, height: 720}), word = h('p', {class: 'view-word'}, 'Waiting for the picture…');
+  return {node: h('div', {class: 'view-box'}, word, img), img, seen(is) { word.hidden = is; img.classList.toggle('absent', !is); }, over() { word.hidden = false; img.hidden = true; say(word, 'The session is over.'); }};
+}
+
+export async function show({root, life, params: [id], open}) {
+  const session = await get(url('/api/sessions', id));
+  if (life.over) return;
+  if (!isOn(session)) { location.replace(`#/results/${encodeURIComponent(id)}`); return; }
+  document.body.dataset.sessionOn = 'yes';
+  const state = h('p', {class: 'live-state', role: 'status'}), tags = h('div', {class: 'row tight'});
+  open(taskName(session.task), tags, state);
+  const alarm = h('div', {role: 'alert', class: 'alarm'}), over = h('div', {});
+  const time = new SessionTime(), controls = new LiveControls(life, id), curves = new LiveCurves(life), events = new LiveEvents(life, id, () => time.now()), figure = figures(), view = picture();
+  root.append(controls.node, controls.said, alarm, over, h('div', {class: 'live'}, h('div', {class: 'stack'}, view.node, curves.node), h('div', {class: 'stack side'}, figure.node, events.node)),
+    h('p', {class: 'muted small'}, 'Keys: Ctrl . (Control and full stop) is the emergency stop, from anywhere on this page; M marks a moment when no text field has the focus. The emergency stop travels over the network: the stop at the station itself comes first.'));
+  const moving = followPicture(life, id, view.img, view.seen);
+  life.atEnd(watchConnection((since) => { if (!since) moving.again(); }));
+  const title = (hello) => put(tags, badge('none', who(hello.trainee)), hello.assessed ? badge('note', 'assessed') : badge('none', 'practice'), hello.simulated ? simulatedBadge() : null);
+  title(session);
+
+  let stateShown = '', alarmShown = '';
+  const showStatus = (s) => {
+    time.running = s.state === 'running';
+    const [tone, word] = liveState(s.state), of = Number(s.trials) > 1 ? `, trial ${s.trial} of ${s.trials}` : '';
+    const line = `${word}${of}${s.notice && !s.alarm ? `. ${s.notice}` : ''}`;
+    if (line !== stateShown) { stateShown = line; put(state, badge(tone, word + of), s.notice && !s.alarm ? h('span', {}, s.notice) : null); }
+    const cry = s.emergency_stop ? `${s.notice || 'Emergency stop: forces are off.'} Re-arm when hands are clear of the device.` : s.alarm ? s.notice || 'Alarm.' : '';
+    if (cry !== alarmShown) { alarmShown = cry; put(alarm, cry ? notice('stop', cry) : null); }
+    if (Number(s.trial) > curves.trial) curves.clear(Number(s.trial));
+    controls.show(s);
+    figure.show(s);
+  };
+  const showEnd = (end) => {
+    document.body.dataset.sessionOn = 'no';
+    time.running = false;
+    const good = end.state === 'finished';
+    put(over, h('div', {class: 'card over'}, notice(good ? 'good' : end.state === 'failed' ? 'bad' : 'note', end.message || (good ? 'The session is over; everything was kept.' : `The session ended: ${end.state || 'unknown'}.`)),
+      h('div', {class: 'row'}, h('a', {class: 'button primary big', href: `#/results/${encodeURIComponent(id)}`}, 'Read the result'), h('a', {class: 'button', href: '#/session'}, 'Another session'))));
+    put(state, badge('none', 'Session is over')); put(alarm);
+    controls.end(); events.end(); moving.stop(); view.over();
+    announce('The session is over.');
+  };
+  const kinds = {
+    hello: title, status: showStatus, curve: (m) => curves.add(m), end: showEnd,
+    event: (m) => { curves.moment(m, m.tone || 'neutral'); events.add(m, m.tone || 'neutral'); },
+    near: (m) => { curves.moment(m, 'near'); events.add(m, 'near'); },
+  };
+  put(state, badge('work', lostSince() ? 'Waiting for the console' : 'The station is starting…'));
+  followSession(life, id, (m) => { time.hear(m.kind === 'curve' ? m.t_s?.at(-1) : m.t_s); if (Object.hasOwn(kinds, m.kind)) kinds[m.kind](m); });
+}
