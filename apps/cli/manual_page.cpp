@@ -11,6 +11,7 @@ struct Named {
 constexpr Named kFiles[] = {
     {"out/<command>-<time>/", "what a session leaves, unless --out says another folder: report.html, trials.csv, session.palpa (the evidence), pictures"},
     {"~/.local/share/palpa/records.sqlite", "the usual records of trainees; nobody is recorded unless records and a trainee are named"},
+    {"~/.local/share/palpa/console/", "what the console keeps of the sessions that it started"},
     {"~/.local/state/palpa/pending/", "sessions that wait to be delivered to the records"},
     {"/usr/share/palpa/assets/", "materials, patients, tasks, stations, protocols: data with units and sources. Copy a station's file from stations/ and change the copy"},
 };
@@ -20,7 +21,8 @@ constexpr Named kVariables[] = {
     {"PALPA_RECORDS", "the records of trainees: a file, or postgresql://user@host/database (the password in ~/.pgpass)"},
     {"DISPLAY", "without it nothing is shown in a window: a simulated operator performs, pictures are drawn into files"},
     {"XR_RUNTIME_JSON", "the headset's OpenXR runtime, where it is not the usual one"},
-    {"XDG_DATA_HOME, XDG_STATE_HOME", "in place of ~/.local/share and ~/.local/state"},
+    {"XDG_DATA_HOME, XDG_STATE_HOME, XDG_CONFIG_HOME", "in place of ~/.local/share, ~/.local/state and ~/.config"},
+    {"XDG_RUNTIME_DIR", "where a running session and the console meet"},
     {"NETRC", "where the password of a learning record store is, in place of ~/.netrc"},
 };
 

@@ -14,7 +14,7 @@ apt-get update -qq
 files >/opt/before
 packages_before=$(dpkg-query -W | wc -l)
 deb=$(ls /opt/palpa_*.deb)
-timed "apt install ./$(basename "$deb")" apt-get install -y -q "$deb"
+timed "apt install ./$(basename "$deb")" apt-get install -y -q --install-recommends "$deb"
 [ "$failures" = 0 ] || finish
 echo "      $(($(dpkg-query -W | wc -l) - packages_before)) packages came with it, $(($(files | wc -l) - $(wc -l </opt/before))) files"
 expect "no package is broken" bash -c '[ -z "$(dpkg --audit)" ]'
@@ -32,6 +32,12 @@ expect "  left its report, its table and its evidence" test -s /tmp/x/report.htm
 timed "  and gives the same forces when it is replayed" as_user palpa replay /tmp/x/session.palpa
 timed "a demonstration with pictures" as_user palpa paracentesis --operator expert --fast --trials 1 --quiet --out /tmp/y
 expect "  left pictures" bash -c 'ls /tmp/y/view-*.png'
+as_user timeout --signal=INT 12 palpa console --no-open --port 8765 >/tmp/console.txt 2>&1 &
+for _ in $(seq 50); do grep -q 'The console: ' /tmp/console.txt && break; sleep 0.2; done
+page() { exec 3<>/dev/tcp/127.0.0.1/8765 && printf 'GET / HTTP/1.1\r\nHost: 127.0.0.1:8765\r\nConnection: close\r\n\r\n' >&3 && timeout 5 cat <&3; }
+timed "palpa console gives its page" page
+expect "  which is HTML" grep -qi '<html' <<<"$answer"
+wait   # until its time is over
 expect "manual page" test -s /usr/share/man/man1/palpa.1.gz
 expect "completion" bash -c '. /usr/share/bash-completion/completions/palpa && complete -p palpa'
 expect "desktop entry, icon, udev rule, licence" test -s /usr/share/applications/palpa.desktop -a -s /usr/share/icons/hicolor/scalable/apps/palpa.svg -a -s /usr/lib/udev/rules.d/60-palpa-falcon.rules -a -s /usr/share/doc/palpa/copyright

@@ -45,6 +45,11 @@ for command in "${commands[@]}"; do
   done
 done
 expect "manual page names all ${#commands[@]} commands and their $options options" [ "$missing" = 0 ]
+missing=0
+for variable in $(grep -rhoE '(getenv|environment)\("[A-Z_]+"\)' "$source"/{anatomy,apps,ar,haptics,scene} | grep -oE '[A-Z_]{2,}' | grep -vxE 'HOME|LANG|LC_ALL' | sort -u); do
+  grep -qw "$variable" plain.txt || { echo "not in the page: $variable"; missing=1; }
+done
+expect "manual page names every variable of the environment that is asked for" [ "$missing" = 0 ]
 expect "that is a plausible number" [ ${#commands[@]} -ge 40 -a "$options" -ge 200 ]
 
 # try WANTED WORD...: the completion of the last word
