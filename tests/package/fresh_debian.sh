@@ -7,6 +7,7 @@ here=$(cd "$(dirname "$0")" && pwd)
 command -v mmdebstrap >/dev/null || { echo "skipped: mmdebstrap is not installed"; exit 77; }
 mode=unshare
 [ "$(id -u)" = 0 ] && mode=root
+[ $mode = root ] || command -v newuidmap >/dev/null || { echo "skipped: without root it takes the package uidmap"; exit 77; }
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 chmod 755 "$work"

@@ -14,7 +14,8 @@ apt-get update -qq
 files >/opt/before
 packages_before=$(dpkg-query -W | wc -l)
 deb=$(ls /opt/palpa_*.deb)
-timed "apt install ./$(basename "$deb")" apt-get install -y -q --install-recommends "$deb"
+# Without recommendations: what this bare system's own packages recommend as well, autoremove would keep.
+timed "apt install ./$(basename "$deb")" apt-get install -y -q --no-install-recommends "$deb"
 [ "$failures" = 0 ] || finish
 echo "      $(($(dpkg-query -W | wc -l) - packages_before)) packages came with it, $(($(files | wc -l) - $(wc -l </opt/before))) files"
 expect "no package is broken" bash -c '[ -z "$(dpkg --audit)" ]'
