@@ -25,5 +25,6 @@ void addReport(CLI::App& program);    ///< pages of a trainee or a group
 void addDoctor(CLI::App& program);    ///< is the station well?
 void addConsole(CLI::App& program);   ///< the educator's pages
 void addBench(CLI::App& program);
+void addManual(CLI::App& program, const std::string& welcome);   ///< manual page and completion, from all that were added before
 
 }  // namespace palpa::cli

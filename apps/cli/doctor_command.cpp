@@ -5,13 +5,17 @@
 #include "apps/cli/commands.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/records_place.h"
+#include "apps/doctor/clock_check.h"
 #include "apps/doctor/computer_check.h"
 #include "apps/doctor/device_check.h"
 #include "apps/doctor/picture_facts.h"
 #include "apps/doctor/station_check.h"
 #include "apps/record/store/pending.h"
+#include "apps/record/store/sql_connection.h"
 #include "apps/station/assets.h"
 #include "apps/twin/setup_bench.h"
+#include "ar/image_sequence.h"
+#include "ar/video_file.h"
 #include "ar/webcam.h"
 #include "scene/gl_context.h"
 
@@ -24,8 +28,9 @@ constexpr const char* kMade_utc = "2026-01-01T00:00:00Z";   // no trial is older
 constexpr int kPictures = 30;
 
 struct DoctorOptions {
-  std::string station, records, out = "out";
+  std::string station, records, camera, out = "out";
   std::uint64_t seed = 1;
+  double bar_mm = 0;
   bool json = false;
 };
 
@@ -39,31 +44,56 @@ std::function<std::optional<ar::Frame>()> benchPictures(const station::Station& 
   };
 }
 
-PictureFacts seenBy(const station::Station& station, std::uint64_t seed) {
+/// A source of pictures that is opened where a failure is told.
+PictureFacts seenThrough(const std::function<std::unique_ptr<ar::Camera>()>& open, const station::Station& station, const ar::Board& board, const runtime::Clock* clock) {
+  std::unique_ptr<ar::Camera> camera;
+  PictureFacts facts = lookAt(
+      [&] {
+        if (!camera) camera = open();
+        return camera->grab();
+      },
+      kPictures, board, station.camera, clock);
+  if (const auto* webcam = dynamic_cast<const ar::Webcam*>(camera.get()); webcam && !webcam->remarks().empty()) facts.remark = webcam->remarks().front();
+  return facts;
+}
+
+PictureFacts seenBy(const station::Station& station, const DoctorOptions& o) {
   const std::unique_ptr<ar::Board> board = ar::makeBoard(station.board, station.decimate);
-  if (station.camera_setup.driver == station::CameraSetup::Driver::bench) return lookAt(benchPictures(station, seed), kPictures, *board, station.camera);
+  if (!o.camera.empty())
+    return seenThrough([&]() -> std::unique_ptr<ar::Camera> {
+      if (ar::isVideoFile(o.camera)) return std::make_unique<ar::VideoFile>(o.camera);
+      return std::make_unique<ar::ImageSequence>(o.camera, station.camera_rate_Hz);
+    }, station, *board, nullptr);
+  if (station.camera_setup.driver == station::CameraSetup::Driver::bench) return lookAt(benchPictures(station, o.seed), kPictures, *board, station.camera);
   const station::CameraSetup& setup = station.camera_setup;
-  std::unique_ptr<ar::Webcam> camera;   // opened where a failure is told
-  const auto grab = [&] {
-    if (!camera) camera = std::make_unique<ar::Webcam>(ar::WebcamSettings{setup.device, station.camera.width, station.camera.height, station.camera_rate_Hz, setup.exposure_ms, setup.gain, setup.focus});
-    return camera->grab();
-  };
-  return lookAt(grab, kPictures, *board, station.camera);
+  const runtime::SteadyClock clock;
+  return seenThrough([&] {
+    return std::make_unique<ar::Webcam>(ar::WebcamSettings{setup.device, station.camera.width, station.camera.height, station.camera_rate_Hz, setup.exposure_ms, setup.gain, setup.focus});
+  }, station, *board, &clock);
 }
 
 void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
+
+/// What stands on the table: camera, board, devices, and how they were calibrated.
+Findings table(const station::Station& station, const PictureFacts& pictures, const DoctorOptions& o) {
+  const bool falcon = station.device.driver == station::DeviceDriver::falcon;
+  Findings all = judgePictures(pictures, station.camera_rate_Hz, station.camera);
+  all.push_back(judgePrint(station, o.bar_mm));
+  all.push_back(askDevice(station.device));
+  if (falcon) append(all, {askFirmware(station.device), askUdevRule(udevFolders())});
+  all.push_back(askSensor(station));
+  append(all, judgeCalibrations(station, utcNow()));
+  const ClockWatch watch;
+  all.push_back(judgeLoop(measureLoop(), falcon));
+  all.push_back(judgeClocks(watch.facts(), pictures, record::isServer(o.records)));
+  return all;
+}
 
 Findings examined(const DoctorOptions& o) {
   Findings all{askAssets()};
   if (canStart(all)) {
     const std::filesystem::path file = o.station.empty() ? station::assetFile("stations/virtual_bench.json") : std::filesystem::path(o.station);
-    if (const auto station = readStation(file, &all)) {
-      append(all, judgePictures(seenBy(*station, o.seed), station->camera_rate_Hz, station->camera));
-      all.push_back(askDevice(station->device));
-      all.push_back(askSensor(*station));
-      append(all, judgeCalibrations(*station, utcNow()));
-      all.push_back(judgeLoop(measureLoop(), station->device.driver == station::DeviceDriver::falcon));
-    }
+    if (const auto station = readStation(file, &all)) append(all, table(*station, seenBy(*station, o), o));
   }
   all.push_back(askDrawing([] { return std::string(scene::makeGlContext(scene::Display::automatic, 320, 240, "Palpa: doctor")->describe()); }));
   all.push_back(judgeHeadset(headsetRuntime()));
@@ -109,10 +139,12 @@ void addDoctor(CLI::App& program) {
   CLI::App* command = program.add_subcommand("doctor", "Is this station well? What is wrong, and what to do");
   command->add_option("--station", o->station, "Station file; default: the virtual bench")->type_name("FILE");
   command->add_option("--records", o->records, "Records: a file, or postgresql://user@host/database (default: the usual ones)")->type_name("FILE|URL");
+  command->add_option("--camera", o->camera, "Instead of the station's camera: recorded pictures or a film of it")->type_name("GLOB|FILM");
+  command->add_option("--bar", o->bar_mm, "What a ruler says of the printed board's bar of 100 mm, in mm")->check(CLI::Range(50.0, 200.0));
   command->add_option("--out", o->out, "Where results of sessions will go (default out)")->type_name("DIR");
   command->add_option("--seed", o->seed, "Of the virtual bench")->check(CLI::PositiveNumber);
   command->add_flag("--json", o->json, "For programs: {\"can_start\", \"findings\": [{\"subject\", \"state\", \"verdict\", \"fix\"}]}");
-  command->footer("Exit code 0: a session can start; 1: none can.\n\nExamples:\n  palpa doctor\n  palpa doctor --station my_station.json --json");
+  command->footer("Exit code 0: a session can start; 1: none can.\n\nExamples:\n  palpa doctor\n  palpa doctor --station my_station.json --json\n  palpa doctor --station my_station.json --bar 99.8\n  palpa doctor --station my_station.json --camera 'shots/*.png'");
   command->callback([o] { examine(*o); });
 }
 

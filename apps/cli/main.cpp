@@ -65,6 +65,7 @@ int run(int argc, char** argv) {
   palpa::cli::addDoctor(program);
   palpa::cli::addConsole(program);
   palpa::cli::addBench(program);
+  palpa::cli::addManual(program, kWelcome);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

@@ -23,6 +23,8 @@ namespace fs = std::filesystem;
 constexpr std::uint64_t kMegabyte = 1'000'000;
 constexpr std::uint64_t kLeast = 200 * kMegabyte, kComfortable = 2000 * kMegabyte;   // a trial leaves some 10 MB
 
+constexpr const char* kPermit = "As root write \"@audio - rtprio 90\" and \"@audio - memlock unlimited\" into /etc/security/limits.d/palpa.conf, add this user to the group audio, log in again";
+
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
   return value ? value : "";
@@ -40,6 +42,8 @@ fs::path existing(fs::path folder) {
 
 LoopFacts measureLoop() {
   LoopFacts facts;
+  const runtime::MemoryLock lock;
+  facts.memory = lock.words();
   std::thread([&facts] {
     constexpr int kSteps = 1000;
     facts.priority = runtime::becomeRealTime(-1);
@@ -65,7 +69,8 @@ Finding judgeLoop(const LoopFacts& facts, bool needed) {
   const bool refused = facts.priority.rfind("SCHED_FIFO", 0) != 0;
   if (facts.rate_Hz < 900 || facts.late_99_us > kLate_us)
     return {"haptic loop", State::note, measured + ": forces will stutter", refused ? "Let this user run in real time (below), and close other programs" : "Close other programs; on a laptop plug in the power supply"};
-  if (refused) return {"haptic loop", State::note, measured + ", but at normal priority: forces may stutter when the computer is busy", "As root write \"@audio - rtprio 90\" and \"@audio - memlock unlimited\" into /etc/security/limits.d/palpa.conf, add this user to the group audio, log in again"};
+  if (refused) return {"haptic loop", State::note, measured + ", but at normal priority: forces may stutter when the computer is busy", kPermit};
+  if (facts.memory.find("not locked") != std::string::npos) return {"haptic loop", State::note, measured + ", but its memory may be put out to disk: forces may stutter", kPermit};
   return {"haptic loop", State::well, measured + ", in real time"};
 }
 

@@ -8,11 +8,12 @@
 
 namespace palpa::doctor {
 
-/// How steadily a thread of this computer runs: a thousand steps of a millisecond.
+/// How steadily a thread of this computer runs: a thousand steps of a millisecond, with what a session asks of the system.
 struct LoopFacts {
   std::string priority;        ///< what becomeRealTime said
   double rate_Hz = 0;
   double late_99_us = 0;       ///< 99 of 100 steps began no later
+  std::string memory = {};     ///< what MemoryLock said; empty: not asked
 };
 LoopFacts measureLoop();
 /// `needed`: a real device is held by this loop; the virtual bench waits for nobody.

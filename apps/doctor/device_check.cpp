@@ -14,10 +14,19 @@ constexpr std::int64_t kPatience = 3 * runtime::kSecond;   // a firmware upload 
 constexpr const char* kDevice = "haptic device";
 constexpr const char* kSensor = "force sensor";
 
+bool isGood(const std::filesystem::path& firmware) {
+  try {
+    haptics::readFalconFirmware(firmware);
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
 /// Tried until it is ready, has to be homed, or the time is up.
 haptics::FalconStatus triedFalcon(const station::DeviceSetup& setup) {
   haptics::FalconDriver falcon(std::make_unique<haptics::LibusbTransport>(haptics::kFalconUsb),
-                               setup.firmware.empty() ? std::vector<std::uint8_t>{} : haptics::readFalconFirmware(setup.firmware));
+                               !isGood(setup.firmware) ? std::vector<std::uint8_t>{} : haptics::readFalconFirmware(setup.firmware));
   const runtime::SteadyClock clock;
   falcon.open();
   haptics::FalconStatus status = falcon.status();
@@ -46,6 +55,15 @@ Finding judgeFalcon(const haptics::FalconStatus& status) {
     return {kDevice, State::note, missed + " packets to the Novint Falcon had no answer", "Use another cable or a USB port that no camera is on"};
   }
   return {kDevice, State::well, "the Novint Falcon answers and knows where its grip is"};
+}
+
+Finding askFirmware(const station::DeviceSetup& setup) {
+  if (setup.firmware.empty()) return {"firmware", State::absent, "the station's file names none: something else must give the Falcon its firmware whenever its power was off"};
+  try {
+    return {"firmware", State::well, text("%.0f bytes in ", static_cast<double>(haptics::readFalconFirmware(setup.firmware).size())) + setup.firmware.string()};
+  } catch (const std::exception& e) {
+    return troubled("firmware", State::ill, e.what());
+  }
 }
 
 Finding askDevice(const station::DeviceSetup& setup) {

@@ -1,5 +1,8 @@
 #pragma once
 
+#include <filesystem>
+#include <vector>
+
 #include "apps/doctor/finding.h"
 #include "apps/station/station_file.h"
 #include "haptics/devices/falcon_link.h"
@@ -8,6 +11,14 @@ namespace palpa::doctor {
 
 /// What a Falcon's link says after it has been tried.
 Finding judgeFalcon(const haptics::FalconStatus& status);
+
+/// The firmware file that a station names for its Falcon: there, and as large as a firmware is.
+Finding askFirmware(const station::DeviceSetup& setup);
+
+/// Where udev finds its rules; of two files of one name the first counts.
+const std::vector<std::filesystem::path>& udevFolders();
+/// The rule that lets whoever sits at the station open a Falcon.
+Finding askUdevRule(const std::vector<std::filesystem::path>& folders);
 
 /// The station's haptic device, tried for a second or two; nothing is moved by it, no force is rendered.
 Finding askDevice(const station::DeviceSetup& setup);

@@ -60,10 +60,10 @@ cv::Rect around(const std::vector<ar::BoardPoint>& points, const cv::Size& size)
 /// One picture after the other.
 class Looker {
  public:
-  Looker(const ar::Board& board, const calibration::CameraModel& camera) : board_(board), camera_(camera) {}
+  Looker(const ar::Board& board, const calibration::CameraModel& camera, const runtime::Clock* clock) : board_(board), camera_(camera), clock_(clock) {}
 
   void look(const ar::Frame& frame) {
-    if (facts_.pictures++ == 0) first_ns_ = frame.t_exposure_ns;
+    lookAtTime(frame.t_exposure_ns);
     facts_.seconds = 1e-9 * static_cast<double>(frame.t_exposure_ns - first_ns_);
     if (frame.image.cols != camera_.width || frame.image.rows != camera_.height) {
       ++facts_.wrong_size;
@@ -92,6 +92,16 @@ class Looker {
   }
 
  private:
+  void lookAtTime(std::int64_t exposed_ns) {
+    constexpr std::int64_t kOldest = 2 * runtime::kSecond;   // as a session has it
+    if (facts_.pictures++ == 0) first_ns_ = exposed_ns;
+    else if (exposed_ns <= last_ns_) ++facts_.backward;
+    last_ns_ = exposed_ns;
+    if (!clock_) return;
+    const std::int64_t now = clock_->now(), stamped = clock_->ofMonotonic(exposed_ns);
+    if (stamped > now || stamped <= now - kOldest) ++facts_.undated;
+  }
+
   void findBoard(const cv::Mat& gray) {
     const std::vector<ar::BoardPoint> points = board_.detect(gray);
     if (static_cast<int>(points.size()) < board_.leastPoints()) return;
@@ -106,7 +116,8 @@ class Looker {
   const ar::Board& board_;
   const calibration::CameraModel& camera_;
   PictureFacts facts_;
-  std::int64_t first_ns_ = 0;
+  const runtime::Clock* clock_;
+  std::int64_t first_ns_ = 0, last_ns_ = 0;
   cv::Mat last_;
   std::vector<double> bright_, burnt_, edges_, rms_;
 };
@@ -122,6 +133,7 @@ Finding judgeCamera(const PictureFacts& f, double rate_Hz, const calibration::Ca
   const double rate = f.seconds > 0 ? (f.pictures - 1) / f.seconds : 0;
   if (f.seen > 0 && f.edge_px > kBlurred_px) return {"camera", State::note, text("pictures are out of focus (edges are %.1f pixels wide)", f.edge_px), "Turn the lens's focus, or set camera/focus in the station's file; then calibrate the camera anew"};
   if (rate < kSlow * rate_Hz) return {"camera", State::note, text("gives %.1f pictures a second where %.1f are asked for", rate, rate_Hz), "Give it a USB port of its own and more light (a dark room makes exposures long)"};
+  if (!f.remark.empty()) return {"camera", State::note, f.remark, "Use a camera whose exposure, focus and white balance can be fixed; with this one keep the light as it was at its calibration"};
   return {"camera", State::well, text("%.1f pictures a second, exposure right", rate) + (f.seen > 0 ? text(", edges %.1f pixels wide", f.edge_px) : "")};
 }
 
@@ -136,8 +148,8 @@ Finding judgeBoard(const PictureFacts& f) {
 
 }  // namespace
 
-PictureFacts lookAt(const std::function<std::optional<ar::Frame>()>& grab, int count, const ar::Board& board, const calibration::CameraModel& camera) {
-  Looker looker(board, camera);
+PictureFacts lookAt(const std::function<std::optional<ar::Frame>()>& grab, int count, const ar::Board& board, const calibration::CameraModel& camera, const runtime::Clock* clock) {
+  Looker looker(board, camera, clock);
   try {
     for (int i = 0; i < count; ++i) {
       const std::optional<ar::Frame> frame = grab();

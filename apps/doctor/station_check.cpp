@@ -1,8 +1,10 @@
 #include "apps/doctor/station_check.h"
 
+#include <cmath>
+
 #include "anatomy/geometry/error.h"
-#include "apps/record/store/record_store.h"
-#include "apps/record/store/sql_connection.h"
+#include "apps/doctor/words.h"
+#include "apps/record/store/store_look.h"
 #include "apps/station/calibrations.h"
 
 namespace palpa::doctor {
@@ -49,13 +51,32 @@ Findings judgeCalibrations(const station::Station& station, const std::string& n
   return {{"calibrations", State::note, station.calibration_verdict.empty() ? "there are none" : station.calibration_verdict, kAnew}};
 }
 
+Finding judgePrint(const station::Station& station, double bar_mm) {
+  constexpr double kRuler = 0.005, kWrong = 0.02;   // what a ruler tells; from what on a registration by a tag is refused
+  constexpr const char* kPrint = "board's print";
+  const double off = bar_mm / 100 - 1;
+  if (bar_mm > 0 && std::abs(off) > kRuler)
+    return {kPrint, std::abs(off) > kWrong ? State::ill : State::note, text("is %.1f %% too %s: everything is drawn that much off its place", 100 * std::abs(off), off > 0 ? "large" : "small"),
+            "Print it again at 100 % (\"actual size\", not \"fit to page\"): palpa board print; measure the bar of 100 mm"};
+  if (bar_mm > 0) return {kPrint, State::well, text("its bar of 100 mm measures %.1f mm", bar_mm)};
+  if (station.camera_setup.driver == station::CameraSetup::Driver::bench) return {kPrint, State::well, "simulated, in its true size"};
+  const station::AppliedCalibration* registration = station::calibrationOf(station.calibrations, "registration");
+  if (registration && registration->file.passed())
+    for (const station::CalibrationFile::Numbers& numbers : registration->file.parameters)
+      if (numbers.name == "X_EM_position_m") return {kPrint, State::well, "camera and device agreed on lengths at the registration of " + registration->file.date.substr(0, 10)};
+  return {kPrint, State::note, "nobody has measured it", "Lay a ruler on the bar of 100 mm beside the tags, and tell: palpa doctor --bar 99.5"};
+}
+
 Finding askRecords(const std::string& url, std::size_t waiting) {
-  std::error_code none;
-  if (!record::isServer(url) && !std::filesystem::exists(url, none)) return {"records", State::well, "none so far; the first trainee makes " + url + waitingWords(waiting)};
+  using Kind = record::StoreLook::State;
   try {
-    record::RecordStore store(url);
-    const std::size_t trainees = store.trainees().size();
-    const std::string verdict = std::to_string(trainees) + (trainees == 1 ? " trainee in " : " trainees in ") + store.place() + waitingWords(waiting);
+    const record::StoreLook look = record::lookAtStore(url);
+    if (look.state == Kind::absent) return {"records", State::well, "none so far; the first trainee makes " + url + waitingWords(waiting)};
+    if (look.state == Kind::empty)
+      return {"records", State::note, look.place + ": is empty" + waitingWords(waiting), "If there were trainees in it, restore a backup (palpa records restore); if it is new, nothing: the first trainee fills it"};
+    const std::string verdict = std::to_string(look.trainees) + (look.trainees == 1 ? " trainee in " : " trainees in ") + look.place + waitingWords(waiting);
+    if (look.state == Kind::older)
+      return {"records", State::note, verdict + "; older (tables " + std::to_string(look.schema) + "): they will be brought to the newest version when a session uses them", "Copy them first if a station with an older Palpa is to read them again; else nothing, or: palpa records migrate"};
     if (waiting > 0) return {"records", State::note, verdict, "Deliver them: palpa records deliver"};
     return {"records", State::well, verdict};
   } catch (const std::exception& e) {

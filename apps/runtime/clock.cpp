@@ -12,6 +12,18 @@ std::int64_t monotonic() {
 }
 }  // namespace
 
+std::int64_t dateNow() noexcept {
+  timespec t{};
+  clock_gettime(CLOCK_REALTIME, &t);
+  return t.tv_sec * kSecond + t.tv_nsec;
+}
+
+std::int64_t clockResolution() noexcept {
+  timespec t{};
+  clock_getres(CLOCK_MONOTONIC, &t);
+  return t.tv_sec * kSecond + t.tv_nsec;
+}
+
 SteadyClock::SteadyClock() : start_ns_(monotonic()) {}
 
 std::int64_t SteadyClock::now() const noexcept { return monotonic() - start_ns_; }

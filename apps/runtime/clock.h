@@ -29,4 +29,10 @@ class SteadyClock final : public Clock {
   std::int64_t start_ns_;
 };
 
+/// The computer's date in nanoseconds since 1970 (UTC); somebody may set it at any moment. For asking how the clocks are, not for sessions.
+std::int64_t dateNow() noexcept;
+
+/// The smallest step of CLOCK_MONOTONIC, in nanoseconds.
+std::int64_t clockResolution() noexcept;
+
 }  // namespace palpa::runtime

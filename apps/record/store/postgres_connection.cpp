@@ -32,10 +32,11 @@ std::string exactly(double value) {
 
 class PostgresConnection final : public SqlConnection {
  public:
-  explicit PostgresConnection(std::string url) : url_(std::move(url)) {
+  PostgresConnection(std::string url, Access access) : url_(std::move(url)) {
     guarded([&] {
+      const char* only_read = access == Access::read ? "&options=-c%20default_transaction_read_only%3Don" : "";
       const bool has_options = url_.find('?') != std::string::npos;
-      connection_ = std::make_unique<pqxx::connection>(url_ + (has_options ? "&" : "?") + "connect_timeout=" + kConnectSeconds + "&tcp_user_timeout=" + kSilent_ms + "&client_encoding=UTF8&application_name=palpa");
+      connection_ = std::make_unique<pqxx::connection>(url_ + (has_options ? "&" : "?") + "connect_timeout=" + kConnectSeconds + "&tcp_user_timeout=" + kSilent_ms + "&client_encoding=UTF8&application_name=palpa" + only_read);
     });
   }
 
@@ -139,6 +140,6 @@ class PostgresConnection final : public SqlConnection {
 
 }  // namespace
 
-std::unique_ptr<SqlConnection> openPostgres(const std::string& url) { return std::make_unique<PostgresConnection>(url); }
+std::unique_ptr<SqlConnection> openPostgres(const std::string& url, Access access) { return std::make_unique<PostgresConnection>(url, access); }
 
 }  // namespace palpa::record

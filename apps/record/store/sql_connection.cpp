@@ -14,6 +14,17 @@ bool hasPassword(const std::string& url) {
   return (in_authority && colon < at) || url.find("password=") != std::string::npos;
 }
 
+std::unique_ptr<SqlConnection> open(const std::string& url, Access access) {
+  if (!isServer(url)) {
+    if (url.empty() || url.find("://") != std::string::npos)
+      throw UsageError("is neither a file nor a postgresql:// address", "records \"" + url + "\"", "Give the path of a file, or postgresql://user@host/database");
+    return openSqlite(url, access);
+  }
+  if (hasPassword(url))
+    throw UsageError("holds a password, which others could read", "records address", "Leave it out and put it into ~/.pgpass or PGPASSWORD");
+  return openPostgres(url, access);
+}
+
 }  // namespace
 
 std::string SqlRows::text(std::size_t row, std::size_t column) const {
@@ -41,15 +52,7 @@ bool isServer(const std::string& url) {
   return false;
 }
 
-std::unique_ptr<SqlConnection> connect(const std::string& url) {
-  if (!isServer(url)) {
-    if (url.empty() || url.find("://") != std::string::npos)
-      throw UsageError("is neither a file nor a postgresql:// address", "records \"" + url + "\"", "Give the path of a file, or postgresql://user@host/database");
-    return openSqlite(url);
-  }
-  if (hasPassword(url))
-    throw UsageError("holds a password, which others could read", "records address", "Leave it out and put it into ~/.pgpass or PGPASSWORD");
-  return openPostgres(url);
-}
+std::unique_ptr<SqlConnection> connect(const std::string& url) { return open(url, Access::write); }
+std::unique_ptr<SqlConnection> connectToRead(const std::string& url) { return open(url, Access::read); }
 
 }  // namespace palpa::record

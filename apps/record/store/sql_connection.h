@@ -76,7 +76,11 @@ class SqlTransaction {
 std::unique_ptr<SqlConnection> connect(const std::string& url);
 bool isServer(const std::string& url);
 
-std::unique_ptr<SqlConnection> openSqlite(const std::string& file);
-std::unique_ptr<SqlConnection> openPostgres(const std::string& url);
+/// The same to read only: nothing is made, written or migrated, neither in the store nor, of a file, beside it. The file must exist and hold something.
+std::unique_ptr<SqlConnection> connectToRead(const std::string& url);
+
+enum class Access { write, read };
+std::unique_ptr<SqlConnection> openSqlite(const std::string& file, Access access);
+std::unique_ptr<SqlConnection> openPostgres(const std::string& url, Access access);
 
 }  // namespace palpa::record

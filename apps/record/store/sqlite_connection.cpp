@@ -44,11 +44,18 @@ void checkKind(const std::string& file) {
   checkWhole(file, start);
 }
 
+/// With a log and its index beside it somebody writes, or was killed: what stands in the log is read as well. Otherwise SQLite would make both: it is told that nobody writes.
+Database::Mode readingMode(const std::string& file) {
+  std::error_code none;
+  const bool in_use = std::filesystem::file_size(file + "-wal", none) > 0 && !none && std::filesystem::exists(file + "-shm", none);
+  return in_use ? Database::Mode::read : Database::Mode::read_immutable;
+}
+
 class SqliteConnection final : public SqlConnection {
  public:
-  explicit SqliteConnection(const std::string& file) : database_(prepared(file), Database::Mode::write) {
+  SqliteConnection(const std::string& file, Access access) : database_(prepared(file, access), access == Access::write ? Database::Mode::write : readingMode(file)) {
     sqlite3_busy_timeout(database_.handle(), kWaitForOthers_ms);
-    guarded([&] { prepare(); });
+    guarded([&] { access == Access::write ? prepare() : check(); });
   }
 
   SqlRows query(const std::string& sql, const std::vector<SqlValue>& values) override {
@@ -67,13 +74,27 @@ class SqliteConnection final : public SqlConnection {
 
  private:
   void prepare() {
-    const std::int64_t id = database_.integer("PRAGMA application_id");
-    if (id != 0 && id != kRecordsApplicationId)
-      throw Error("is a database of another program", place(), "Give the right file; a session's evidence is added by palpa records add");
+    const std::int64_t id = ownId();
     switchToLog();
     database_.exec("PRAGMA synchronous=FULL; PRAGMA foreign_keys=ON; PRAGMA secure_delete=ON");
-    if (const std::string verdict = database_.text("PRAGMA quick_check"); verdict != "ok") failDamaged(verdict);
+    checkPages();
     if (id == 0) database_.exec("PRAGMA application_id=" + std::to_string(kRecordsApplicationId));
+  }
+
+  void check() {
+    ownId();
+    checkPages();
+  }
+
+  /// 0: a file that holds nothing yet.
+  std::int64_t ownId() {
+    const std::int64_t id = database_.integer("PRAGMA application_id");
+    if (id == kRecordsApplicationId || (id == 0 && database_.integer("SELECT count(*) FROM sqlite_master") == 0)) return id;
+    throw Error("is a database of another program", place(), "Give the right file; a session's evidence is added by palpa records add");
+  }
+
+  void checkPages() {
+    if (const std::string verdict = database_.text("PRAGMA quick_check"); verdict != "ok") failDamaged(verdict);
   }
 
   [[noreturn]] void failDamaged(const std::string& reason) const {
@@ -118,8 +139,8 @@ class SqliteConnection final : public SqlConnection {
       }
   }
 
-  static std::string prepared(const std::string& file) {
-    makeFile(file);
+  static std::string prepared(const std::string& file, Access access) {
+    if (access == Access::write) makeFile(file);
     checkKind(file);
     return file;
   }
@@ -155,6 +176,6 @@ class SqliteConnection final : public SqlConnection {
 
 }  // namespace
 
-std::unique_ptr<SqlConnection> openSqlite(const std::string& file) { return std::make_unique<SqliteConnection>(file); }
+std::unique_ptr<SqlConnection> openSqlite(const std::string& file, Access access) { return std::make_unique<SqliteConnection>(file, access); }
 
 }  // namespace palpa::record
