@@ -15,8 +15,8 @@ const lanes = (tall) => [
 
 export class LiveCurves {
   constructor(life) {
-    this.recent = new Timeline({title: 'Force and depth, the last 30 seconds', lanes: lanes(78), tickWord: (t) => (t === 0 ? 'now' : `${t} s`), relative: true});
-    this.whole = new Timeline({title: 'Force and depth, the whole trial', lanes: lanes(44), tickWord: (t) => clock(t, 0)});
+    this.recent = new Timeline({title: 'Force and depth, the last 30 seconds', lanes: lanes(56), tickWord: (t) => (t === 0 ? 'now' : `${t} s`), relative: true});
+    this.whole = new Timeline({title: 'Force and depth, the whole trial', lanes: lanes(40), tickWord: (t) => clock(t, 0)});
     this.node = h('section', {class: 'card curves', 'aria-label': 'Force and depth', 'data-points': '0'}, h('h2', {}, 'The last 30 seconds'), this.recent.node, h('h2', {}, 'The whole trial'), this.whole.node, asTable('Data as a table', () => this.#table()));
     this.clear(1);
     this.drawn = this.drawnWhole = 0;

@@ -1,7 +1,7 @@
 // What several pages are made of: notices, buttons, fields, tables.
 import {h, mark, put} from './dom.js';
 
-/** A sentence with its shape. tone: good, bad, note, none, work. */
+/** A sentence with its shape. tone: good, bad, note, none, work, stop. */
 export function notice(tone, text, ...more) {
   return h('div', {class: `notice ${tone}`, role: tone === 'bad' ? 'alert' : null}, mark(tone), h('div', {}, h('p', {}, text), more));
 }
