@@ -1,8 +1,8 @@
 // The server in sentences: reads, writes (page key, a nonce for each), and whether it answers at all.
-const kPatience_ms = 15000;
+const kPatience_ms = 15000, kDoubt_ms = 1500;
 let pageKey = '';
 let known = null;
-let lostAt = 0;
+let lostAt = 0, heardAt = 0;
 const watchers = new Set();
 
 export class Trouble extends Error {
@@ -14,7 +14,10 @@ export class Trouble extends Error {
 export function watchConnection(callback) { watchers.add(callback); return () => watchers.delete(callback); }
 export function lostSince() { return lostAt; }
 
+/** A failure right after an answer or a live message is not yet a lost connection. */
 export function reportConnection(answers) {
+  if (answers) heardAt = Date.now();
+  else if (Date.now() - heardAt < kDoubt_ms) return;
   const next = answers ? 0 : lostAt || Date.now();
   if (next === lostAt) return;
   lostAt = next;

@@ -39,20 +39,22 @@ export function followSession(life, id, told) {
   });
 }
 
-/** The picture that is shown, as a picture of its own: what a stream leaves behind is gone when it is let go. */
-function still(img) {
-  const canvas = document.createElement('canvas');
-  [canvas.width, canvas.height] = [img.naturalWidth, img.naturalHeight];
-  try { canvas.getContext('2d').drawImage(img, 0, 0); return canvas.toDataURL('image/jpeg', 0.9); } catch { return ''; }
-}
-
-/** Keeps the moving picture in `img`: begins again after a break, lets go of it while nobody looks. */
-export function followPicture(life, id, img, seen) {
+/** Keeps the moving picture in `view` (img, still): begins again after a break; lets go of it while nobody looks and at the end, leaving its last picture. */
+export function followPicture(life, id, view) {
+  const {img, still} = view;
   let count = 0, over = false;
-  const begin = () => { if (!over && !document.hidden) img.src = `${url('/api/sessions', id, 'view')}?n=${++count}`; };
-  const letGo = () => { const last = img.naturalWidth ? still(img) : ''; if (last) img.src = last; else { img.removeAttribute('src'); seen(false); } };
-  life.listen(img, 'load', () => seen(true));
-  life.listen(img, 'error', () => { seen(false); if (!over) life.after(kAgain_ms, begin); });
+  const begin = () => { if (!over && !document.hidden) { img.hidden = false; img.src = `${url('/api/sessions', id, 'view')}?n=${++count}`; } };
+  const letGo = () => {
+    if (img.naturalWidth) {
+      [still.width, still.height] = [img.naturalWidth, img.naturalHeight];
+      still.getContext('2d').drawImage(img, 0, 0);
+      still.hidden = false;
+    }
+    img.removeAttribute('src');
+    img.hidden = true;
+  };
+  life.listen(img, 'load', () => { view.seen(true); still.hidden = true; });
+  life.listen(img, 'error', () => { if (!img.hidden) view.seen(false); if (!over) life.after(kAgain_ms, begin); });
   life.listen(document, 'visibilitychange', () => { if (document.hidden) letGo(); else begin(); });
   life.atEnd(letGo);
   begin();

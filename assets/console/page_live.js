@@ -25,8 +25,8 @@ function figures() {
 }
 
 function picture() {
-  const img = h('img', {class: 'view', alt: 'Live picture: what the trainee sees', width: 1280, height: 720}), word = h('p', {class: 'view-word'}, 'Waiting for the picture…');
-  return {node: h('div', {class: 'view-box'}, word, img), img, seen(is) { word.hidden = is; img.classList.toggle('absent', !is); }, over() { say(word, 'The session is over.'); }};
+  const img = h('img', {class: 'view', alt: 'Live picture: what the trainee sees', width: 1280, height: 720}), still = h('canvas', {role: 'img', 'aria-label': 'The last picture', hidden: true}), word = h('p', {class: 'view-word'}, 'Waiting for the picture…');
+  return {node: h('div', {class: 'view-box'}, word, still, img), img, still, seen(is) { word.hidden = is; img.classList.toggle('absent', !is); }, over() { say(word, 'The session is over.'); word.hidden = !still.hidden; }};
 }
 
 export async function show({root, life, params: [id], open}) {
@@ -40,7 +40,7 @@ export async function show({root, life, params: [id], open}) {
   const time = new SessionTime(), controls = new LiveControls(life, id), curves = new LiveCurves(life), events = new LiveEvents(life, id, () => time.now()), figure = figures(), view = picture();
   const keys = h('p', {class: 'muted small keys'}, 'Keys: Ctrl . (Control and full stop) is the emergency stop, from anywhere on this page; M marks a moment when no text field has the focus. The emergency stop travels over the network: the stop at the station itself comes first.');
   root.append(controls.node, controls.said, alarm, over, h('div', {class: 'live'}, h('div', {class: 'stack'}, view.node, curves.node), h('div', {class: 'stack side'}, figure.node, events.node)), keys);
-  const moving = followPicture(life, id, view.img, view.seen);
+  const moving = followPicture(life, id, view);
   life.atEnd(watchConnection((since) => { if (!since) moving.again(); }));
   const title = (hello) => put(tags, badge('none', who(hello.trainee)), hello.assessed ? badge('note', 'assessed') : badge('none', 'practice'), hello.simulated ? simulatedBadge() : null);
   title(session);
