@@ -57,21 +57,26 @@ async function answerOf(response) {
   try { return JSON.parse(text); } catch { throw new Trouble('The console answered something that cannot be read. Reload this page.', response.status); }
 }
 
+/** After a refusal: who one is may have changed (a restart, a new token); who is outside is sent to the door. True when the page key is another one. */
+async function renewed(path) {
+  if (path === '/api/me' || path === '/api/enter') return false;
+  const before = pageKey;
+  const now = await me(true);
+  if (!now.entered) location.hash = '#/enter';
+  return now.entered && pageKey !== before;
+}
+const refused = (response) => response.status === 401 || response.status === 403;
+
 export async function get(path) {
   const response = await send('GET', path);
-  if (response.status === 401) location.hash = '#/enter';
+  if (refused(response)) await renewed(path);
   return answerOf(response);
 }
 
 /** A write. A page key from before the server's last start is renewed once: what was refused has not been done. */
 export async function post(path, body) {
   let response = await send('POST', path, body);
-  if (response.status === 403 && path !== '/api/enter') {
-    const before = pageKey;
-    await me(true);
-    if (pageKey !== before) response = await send('POST', path, body);
-  }
-  if (response.status === 401) location.hash = '#/enter';
+  if (refused(response) && await renewed(path)) response = await send('POST', path, body);
   return answerOf(response);
 }
 

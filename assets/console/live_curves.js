@@ -7,10 +7,11 @@ import {Timeline} from './timeline.js';
 
 const kWindow_s = 30, kDraw_ms = 90, kWhole_ms = 500;
 
+const known = (x) => (Number.isFinite(x) ? x : NaN);
 const lanes = (tall) => [
   {id: 'moments', kind: 'moments', label: 'Events', height: 20},
   {id: 'force', kind: 'curve', label: 'Force', unit: 'N', height: tall, least: [0, 2]},
-  {id: 'depth', kind: 'curve', label: 'Depth under the skin', unit: 'mm', height: tall, least: [0, 20], inverted: true},
+  {id: 'depth', kind: 'curve', label: 'Depth', unit: 'mm', height: tall, least: [0, 20], inverted: true},
 ];
 
 export class LiveCurves {
@@ -37,7 +38,7 @@ export class LiveCurves {
       if (Number.isNaN(this.start)) this.start = times[k];
       const t = times[k] - this.start;
       if (this.t.length && t <= this.t[this.t.length - 1]) continue;
-      this.t.push(t); this.force.push(Number(message.force_N?.[k])); this.depth.push(Number(message.depth_mm?.[k]));
+      this.t.push(t); this.force.push(known(message.force_N?.[k])); this.depth.push(known(message.depth_mm?.[k]));
     }
     this.dirty = true;
   }

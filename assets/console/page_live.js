@@ -6,7 +6,7 @@ import {LiveControls} from './live_controls.js';
 import {LiveCurves} from './live_curves.js';
 import {LiveEvents} from './live_events.js';
 import {followPicture, followSession} from './live_stream.js';
-import {badge, notice, simulatedBadge} from './parts.js';
+import {badge, notice, simulatedBadge, tag} from './parts.js';
 
 /** The session's second, carried on between messages while a trial runs. */
 class SessionTime {
@@ -42,7 +42,7 @@ export async function show({root, life, params: [id], open}) {
   root.append(controls.node, controls.said, alarm, over, h('div', {class: 'live'}, h('div', {class: 'stack'}, view.node, curves.node), h('div', {class: 'stack side'}, figure.node, events.node)), keys);
   const moving = followPicture(life, id, view);
   life.atEnd(watchConnection((since) => { if (!since) moving.again(); }));
-  const title = (hello) => put(tags, badge('none', who(hello.trainee)), hello.assessed ? badge('note', 'assessed') : badge('none', 'practice'), hello.simulated ? simulatedBadge() : null);
+  const title = (hello) => put(tags, tag(who(hello.trainee)), tag(hello.assessed ? 'assessed' : 'practice'), hello.simulated ? simulatedBadge() : null);
   title(session);
 
   let stateShown = '', alarmShown = '';

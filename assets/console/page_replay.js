@@ -8,7 +8,7 @@ import {valueAt} from './scale.js';
 import {Timeline} from './timeline.js';
 
 const kLanes = [{id: 'phases', kind: 'bands', label: 'Phase', height: 26}, {id: 'moments', kind: 'moments', label: 'Events', height: 24},
-  {id: 'force', kind: 'curve', label: 'Force', unit: 'N', height: 110, least: [0, 2]}, {id: 'depth', kind: 'curve', label: 'Depth under the skin', unit: 'mm', height: 110, least: [0, 20], inverted: true}];
+  {id: 'force', kind: 'curve', label: 'Force', unit: 'N', height: 110, least: [0, 2]}, {id: 'depth', kind: 'curve', label: 'Depth', unit: 'mm', height: 110, least: [0, 20], inverted: true}];
 const kWords = {good: 'good', bad: 'error', near: 'near miss', note: 'note'};
 
 function view(alt, caption) {

@@ -7,6 +7,7 @@ export function notice(tone, text, ...more) {
 }
 
 export const badge = (tone, word) => h('span', {class: `badge ${tone}`}, mark(tone), word);
+export const tag = (word) => h('span', {class: 'badge tag'}, word);
 export const simulatedBadge = () => h('span', {class: 'badge simulated'}, mark('note'), 'simulated');
 
 /** A button that is off while its work is under way; what goes wrong is said in `trouble` (an element) or beside it. */

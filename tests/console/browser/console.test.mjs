@@ -46,7 +46,7 @@ async function startAssessed(trainee, trials) {
 async function withoutNetwork() {
   await e.cut();
   try {
-    await page.locator('#lost', {hasText: 'No connection to the console since'}).waitFor({timeout: 15_000});
+    await page.locator('#lost', {hasText: 'No connection to the console for'}).waitFor({timeout: 15_000});
     assert.match(await page.locator('#lost').textContent(), /the session goes on\. Trying again/);
     await e.picture('no-connection');
   } finally { await e.context.setOffline(false); }
