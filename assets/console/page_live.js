@@ -25,8 +25,8 @@ function figures() {
 }
 
 function picture() {
-  const img = h('img', {class: 'view', alt: 'Live picture: what the trainee sees', width: 1280, height: 720}), still = h('canvas', {role: 'img', 'aria-label': 'The last picture', hidden: true}), word = h('p', {class: 'view-word'}, 'Waiting for the picture…');
-  return {node: h('div', {class: 'view-box'}, word, still, img), img, still, seen(is) { word.hidden = is; img.classList.toggle('absent', !is); }, over() { say(word, 'The session is over.'); word.hidden = !still.hidden; }};
+  const img = h('img', {class: 'view absent', alt: 'Live picture: what the trainee sees', width: 1280, height: 720}), still = h('canvas', {role: 'img', 'aria-label': 'The last picture'}), word = h('p', {class: 'view-word'}, 'Waiting for the picture…');
+  return {node: h('div', {class: 'view-box'}, word, still, img), img, still, seen(is) { word.hidden = is; }, moves(is) { img.classList.toggle('absent', !is); }, over() { say(word, 'The session is over.'); }};
 }
 
 export async function show({root, life, params: [id], open}) {
