@@ -1,8 +1,8 @@
 // The server in sentences: reads, writes (page key, a nonce for each), and whether it answers at all.
-const kPatience_ms = 15000;
+const kPatience_ms = 15000, kDoubt_ms = 1500;
 let pageKey = '';
 let known = null;
-let lostAt = 0;
+let lostAt = 0, heardAt = 0;
 const watchers = new Set();
 
 export class Trouble extends Error {
@@ -14,7 +14,10 @@ export class Trouble extends Error {
 export function watchConnection(callback) { watchers.add(callback); return () => watchers.delete(callback); }
 export function lostSince() { return lostAt; }
 
+/** A failure right after an answer or a live message is not yet a lost connection. */
 export function reportConnection(answers) {
+  if (answers) heardAt = Date.now();
+  else if (Date.now() - heardAt < kDoubt_ms) return;
   const next = answers ? 0 : lostAt || Date.now();
   if (next === lostAt) return;
   lostAt = next;
@@ -54,21 +57,26 @@ async function answerOf(response) {
   try { return JSON.parse(text); } catch { throw new Trouble('The console answered something that cannot be read. Reload this page.', response.status); }
 }
 
+/** After a refusal: who one is may have changed (a restart, a new token); who is outside is sent to the door. True when the page key is another one. */
+async function renewed(path) {
+  if (path === '/api/me' || path === '/api/enter') return false;
+  const before = pageKey;
+  const now = await me(true);
+  if (!now.entered) location.hash = '#/enter';
+  return now.entered && pageKey !== before;
+}
+const refused = (response) => response.status === 401 || response.status === 403;
+
 export async function get(path) {
   const response = await send('GET', path);
-  if (response.status === 401) location.hash = '#/enter';
+  if (refused(response)) await renewed(path);
   return answerOf(response);
 }
 
 /** A write. A page key from before the server's last start is renewed once: what was refused has not been done. */
 export async function post(path, body) {
   let response = await send('POST', path, body);
-  if (response.status === 403 && path !== '/api/enter') {
-    const before = pageKey;
-    await me(true);
-    if (pageKey !== before) response = await send('POST', path, body);
-  }
-  if (response.status === 401) location.hash = '#/enter';
+  if (refused(response) && await renewed(path)) response = await send('POST', path, body);
   return answerOf(response);
 }
 

@@ -37,6 +37,7 @@ const kShapes = {
   near: () => [svg('path', {d: 'M8 15 15.4 1.4H.6z'}), svg('path', {class: 'in', d: 'M8 3.8v4M8 10v.2'})],
   none: () => [svg('circle', {class: 'open', cx: 8, cy: 8, r: 6})],
   neutral: () => [svg('rect', {x: 6, y: 1, width: 4, height: 14, rx: 1})],
+  stop: () => [svg('path', {d: 'M5 .8h6L15.2 5v6L11 15.2H5L.8 11V5z'}), svg('path', {class: 'in', d: 'M4.8 8h6.4'})],
   work: () => [svg('path', {class: 'open', d: 'M8 2a6 6 0 1 1-6 6'})],
 };
 

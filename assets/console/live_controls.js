@@ -45,6 +45,7 @@ export class LiveControls {
   }
 
   show(status) {
+    if (this.status.emergency_stop && !status.emergency_stop) put(this.said);
     this.status = status;
     const {state} = status, on = state === 'running' || state === 'paused', stopped = !!status.emergency_stop;
     const next = Number(status.trials) > 1 ? `Start trial ${status.trial} of ${status.trials}` : 'Start the trial';

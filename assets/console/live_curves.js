@@ -7,16 +7,17 @@ import {Timeline} from './timeline.js';
 
 const kWindow_s = 30, kDraw_ms = 90, kWhole_ms = 500;
 
+const known = (x) => (Number.isFinite(x) ? x : NaN);
 const lanes = (tall) => [
   {id: 'moments', kind: 'moments', label: 'Events', height: 20},
   {id: 'force', kind: 'curve', label: 'Force', unit: 'N', height: tall, least: [0, 2]},
-  {id: 'depth', kind: 'curve', label: 'Depth under the skin', unit: 'mm', height: tall, least: [0, 20], inverted: true},
+  {id: 'depth', kind: 'curve', label: 'Depth', unit: 'mm', height: tall, least: [0, 20], inverted: true},
 ];
 
 export class LiveCurves {
   constructor(life) {
-    this.recent = new Timeline({title: 'Force and depth, the last 30 seconds', lanes: lanes(78), tickWord: (t) => (t === 0 ? 'now' : `${t} s`), relative: true});
-    this.whole = new Timeline({title: 'Force and depth, the whole trial', lanes: lanes(44), tickWord: (t) => clock(t, 0)});
+    this.recent = new Timeline({title: 'Force and depth, the last 30 seconds', lanes: lanes(56), tickWord: (t) => (t === 0 ? 'now' : `${t} s`), relative: true});
+    this.whole = new Timeline({title: 'Force and depth, the whole trial', lanes: lanes(40), tickWord: (t) => clock(t, 0)});
     this.node = h('section', {class: 'card curves', 'aria-label': 'Force and depth', 'data-points': '0'}, h('h2', {}, 'The last 30 seconds'), this.recent.node, h('h2', {}, 'The whole trial'), this.whole.node, asTable('Data as a table', () => this.#table()));
     this.clear(1);
     this.drawn = this.drawnWhole = 0;
@@ -37,7 +38,7 @@ export class LiveCurves {
       if (Number.isNaN(this.start)) this.start = times[k];
       const t = times[k] - this.start;
       if (this.t.length && t <= this.t[this.t.length - 1]) continue;
-      this.t.push(t); this.force.push(Number(message.force_N?.[k])); this.depth.push(Number(message.depth_mm?.[k]));
+      this.t.push(t); this.force.push(known(message.force_N?.[k])); this.depth.push(known(message.depth_mm?.[k]));
     }
     this.dirty = true;
   }

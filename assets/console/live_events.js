@@ -24,7 +24,7 @@ export class LiveEvents {
       this.label, this.text, this.said, h('div', {class: 'row'}, this.save, h('button', {type: 'button', onclick: () => this.#close()}, 'Leave it')));
     const key = tick('The key M marks', keyMarks);
     key.box.addEventListener('change', () => { keyMarks = key.box.checked; });
-    this.writing = h('section', {class: 'card', 'aria-label': 'Notes'}, this.mark, this.form, key.node);
+    this.writing = h('section', {class: 'card notes', 'aria-label': 'Notes'}, this.mark, this.form, key.node);
     this.node = h('div', {class: 'stack'}, this.writing, h('section', {class: 'card events-card', 'aria-label': 'Events'}, h('h2', {}, 'Events'), h('div', {class: 'events-scroll', role: 'log', 'aria-label': 'Events, newest first', tabindex: '0'}, this.list)));
     life.listen(window, 'keydown', (e) => { if (keyMarks && !this.over && e.key.toLowerCase() === 'm' && !e.ctrlKey && !e.metaKey && !e.altKey && !e.repeat && !typing(e.target)) { e.preventDefault(); this.#stamp(); } });
   }

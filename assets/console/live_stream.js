@@ -39,15 +39,29 @@ export function followSession(life, id, told) {
   });
 }
 
-/** Keeps the moving picture in `img`: begins again after a break, lets go of it while nobody looks. */
-export function followPicture(life, id, img, seen) {
-  let count = 0, over = false;
-  const begin = () => { if (!over && !document.hidden) img.src = `${url('/api/sessions', id, 'view')}?n=${++count}`; };
-  const letGo = () => { img.removeAttribute('src'); seen(false); };
-  life.listen(img, 'load', () => seen(true));
-  life.listen(img, 'error', () => { seen(false); if (!over) life.after(kAgain_ms, begin); });
+/**
+ * Keeps the moving picture in `view` (img, still): begins again when it has ended, lets go of it while nobody looks and at the end. Its last picture is kept in `still`, for a stream that ends leaves nothing, and says nothing.
+ */
+export function followPicture(life, id, view) {
+  const {img, still} = view;
+  let count = 0, begun = 0, over = false;
+  const begin = () => { if (over || document.hidden) return; begun = Date.now(); img.src = `${url('/api/sessions', id, 'view')}?n=${++count}`; };
+  const keep = () => {
+    if (!img.naturalWidth) return;
+    if (still.width !== img.naturalWidth) [still.width, still.height] = [img.naturalWidth, img.naturalHeight];
+    still.getContext('2d').drawImage(img, 0, 0);
+    view.seen(true);
+  };
+  const letGo = () => { keep(); img.removeAttribute('src'); view.moves(false); };
+  life.listen(img, 'load', keep);
   life.listen(document, 'visibilitychange', () => { if (document.hidden) letGo(); else begin(); });
   life.atEnd(letGo);
+  life.every(500, () => {
+    if (over) return false;
+    view.moves(img.naturalWidth > 0);
+    if (img.naturalWidth) keep(); else if (Date.now() - begun > 2 * kAgain_ms) begin();
+    return true;
+  });
   begin();
-  return {again: begin, stop() { over = true; const still = img.cloneNode(false); still.removeAttribute('src'); letGo(); }};
+  return {again: begin, stop() { over = true; letGo(); }};
 }

@@ -46,7 +46,7 @@ function showConnection() {
   if (since) {
     const seconds = Math.round((Date.now() - since) / 1000);
     const goesOn = document.body.dataset.sessionOn === 'yes' ? '; the session goes on' : '';
-    put(banner, mark('note'), h('span', {}, `No connection to the console since ${seconds} s${goesOn}. Trying again…`));
+    put(banner, mark('note'), h('span', {}, `No connection to the console for ${seconds} s${goesOn}. Trying again…`));
   }
   if (was && since) announce('No connection to the console. Trying again.');
   if (!was && !since) announce('The connection is back.');
@@ -61,6 +61,7 @@ async function lookForSession() {
 }
 
 watchConnection(showConnection);
+watchConnection((since) => { if (!since && document.querySelector('main [data-waits]')) location.reload(); });
 setInterval(showConnection, 1000);
 setInterval(() => { if (lostSince()) get('/api/me').catch(() => {}); }, 2000);
 setInterval(() => { if (!lostSince() && !document.hidden) lookForSession().catch(() => {}); }, 4000);

@@ -27,7 +27,7 @@ function step(one, at, made, run) {
 async function follow(life, job, place, done) {
   const lines = h('ol', {class: 'lines', 'aria-live': 'polite'}), picture = h('img', {class: 'job-picture', alt: 'What the camera sees at this moment', hidden: true});
   const title = h('h2', {}, 'Calibration is running'), bar = h('div', {});
-  const stop = button('Stop', () => post(url('/api/jobs', job, 'stop'), {}), {class: 'quiet'});
+  const stop = button('Stop', () => post(url('/api/jobs', job, 'stop'), {}));
   put(place, h('div', {class: 'card'}, title, bar, lines, picture, h('div', {class: 'row'}, stop)));
   let count = 0, shown = '';
   await life.every(700, async () => {

@@ -6,7 +6,7 @@ import {LiveControls} from './live_controls.js';
 import {LiveCurves} from './live_curves.js';
 import {LiveEvents} from './live_events.js';
 import {followPicture, followSession} from './live_stream.js';
-import {badge, notice, simulatedBadge} from './parts.js';
+import {badge, notice, simulatedBadge, tag} from './parts.js';
 
 /** The session's second, carried on between messages while a trial runs. */
 class SessionTime {
@@ -25,8 +25,8 @@ function figures() {
 }
 
 function picture() {
-  const img = h('img', {class: 'view', alt: 'Live picture: what the trainee sees', width: 1280, height: 720}), word = h('p', {class: 'view-word'}, 'Waiting for the picture…');
-  return {node: h('div', {class: 'view-box'}, word, img), img, seen(is) { word.hidden = is; img.classList.toggle('absent', !is); }, over() { word.hidden = false; img.hidden = true; say(word, 'The session is over.'); }};
+  const img = h('img', {class: 'view absent', alt: 'Live picture: what the trainee sees', width: 1280, height: 720}), still = h('canvas', {role: 'img', 'aria-label': 'The last picture'}), word = h('p', {class: 'view-word'}, 'Waiting for the picture…');
+  return {node: h('div', {class: 'view-box'}, word, still, img), img, still, seen(is) { word.hidden = is; }, moves(is) { img.classList.toggle('absent', !is); }, over() { say(word, 'The session is over.'); }};
 }
 
 export async function show({root, life, params: [id], open}) {
@@ -38,11 +38,11 @@ export async function show({root, life, params: [id], open}) {
   open(taskName(session.task), tags, state);
   const alarm = h('div', {role: 'alert', class: 'alarm'}), over = h('div', {});
   const time = new SessionTime(), controls = new LiveControls(life, id), curves = new LiveCurves(life), events = new LiveEvents(life, id, () => time.now()), figure = figures(), view = picture();
-  root.append(controls.node, controls.said, alarm, over, h('div', {class: 'live'}, h('div', {class: 'stack'}, view.node, curves.node), h('div', {class: 'stack side'}, figure.node, events.node)),
-    h('p', {class: 'muted small'}, 'Keys: Ctrl . (Control and full stop) is the emergency stop, from anywhere on this page; M marks a moment when no text field has the focus. The emergency stop travels over the network: the stop at the station itself comes first.'));
-  const moving = followPicture(life, id, view.img, view.seen);
+  const keys = h('p', {class: 'muted small keys'}, 'Keys: Ctrl . (Control and full stop) is the emergency stop, from anywhere on this page; M marks a moment when no text field has the focus. The emergency stop travels over the network: the stop at the station itself comes first.');
+  root.append(controls.node, controls.said, alarm, over, h('div', {class: 'live'}, h('div', {class: 'stack'}, view.node, curves.node), h('div', {class: 'stack side'}, figure.node, events.node)), keys);
+  const moving = followPicture(life, id, view);
   life.atEnd(watchConnection((since) => { if (!since) moving.again(); }));
-  const title = (hello) => put(tags, badge('none', who(hello.trainee)), hello.assessed ? badge('note', 'assessed') : badge('none', 'practice'), hello.simulated ? simulatedBadge() : null);
+  const title = (hello) => put(tags, tag(who(hello.trainee)), tag(hello.assessed ? 'assessed' : 'practice'), hello.simulated ? simulatedBadge() : null);
   title(session);
 
   let stateShown = '', alarmShown = '';
@@ -51,7 +51,7 @@ export async function show({root, life, params: [id], open}) {
     const [tone, word] = liveState(s.state), of = Number(s.trials) > 1 ? `, trial ${s.trial} of ${s.trials}` : '';
     const line = `${word}${of}${s.notice && !s.alarm ? `. ${s.notice}` : ''}`;
     if (line !== stateShown) { stateShown = line; put(state, badge(tone, word + of), s.notice && !s.alarm ? h('span', {}, s.notice) : null); }
-    const cry = s.emergency_stop ? `${s.notice || 'Emergency stop: forces are off.'} Re-arm when hands are clear of the device.` : s.alarm ? s.notice || 'Alarm.' : '';
+    const cry = s.emergency_stop ? `${(s.notice || 'Emergency stop: forces are off').replace(/[.\s]*$/, '.')} Re-arm when hands are clear of the device.` : s.alarm ? s.notice || 'Alarm.' : '';
     if (cry !== alarmShown) { alarmShown = cry; put(alarm, cry ? notice('stop', cry) : null); }
     if (Number(s.trial) > curves.trial) curves.clear(Number(s.trial));
     controls.show(s);
@@ -61,10 +61,10 @@ export async function show({root, life, params: [id], open}) {
     document.body.dataset.sessionOn = 'no';
     time.running = false;
     const good = end.state === 'finished';
-    put(over, h('div', {class: 'card over'}, notice(good ? 'good' : end.state === 'failed' ? 'bad' : 'note', end.message || (good ? 'The session is over; everything was kept.' : `The session ended: ${end.state || 'unknown'}.`)),
+    put(over, h('div', {class: 'over'}, notice(good ? 'good' : end.state === 'failed' ? 'bad' : 'note', end.message || (good ? 'The session is over; everything was kept.' : `The session ended: ${end.state || 'unknown'}.`)),
       h('div', {class: 'row'}, h('a', {class: 'button primary big', href: `#/results/${encodeURIComponent(id)}`}, 'Read the result'), h('a', {class: 'button', href: '#/session'}, 'Another session'))));
     put(state, badge('none', 'Session is over')); put(alarm);
-    controls.end(); events.end(); moving.stop(); view.over();
+    controls.end(); events.end(); moving.stop(); view.over(); keys.hidden = true;
     announce('The session is over.');
   };
   const kinds = {

@@ -8,7 +8,7 @@ import {valueAt} from './scale.js';
 import {Timeline} from './timeline.js';
 
 const kLanes = [{id: 'phases', kind: 'bands', label: 'Phase', height: 26}, {id: 'moments', kind: 'moments', label: 'Events', height: 24},
-  {id: 'force', kind: 'curve', label: 'Force', unit: 'N', height: 110, least: [0, 2]}, {id: 'depth', kind: 'curve', label: 'Depth under the skin', unit: 'mm', height: 110, least: [0, 20], inverted: true}];
+  {id: 'force', kind: 'curve', label: 'Force', unit: 'N', height: 110, least: [0, 2]}, {id: 'depth', kind: 'curve', label: 'Depth', unit: 'mm', height: 110, least: [0, 20], inverted: true}];
 const kWords = {good: 'good', bad: 'error', near: 'near miss', note: 'note'};
 
 function view(alt, caption) {
@@ -51,7 +51,7 @@ function secondsTable(replay) {
   return table('Force, depth and events, each second', ['Time', 'Force, N', 'Depth, mm', 'Events'], rows);
 }
 
-const line = (second) => svg('svg', {class: 'timeline line', viewBox: '0 0 34 10', width: 34, height: 10, 'aria-hidden': 'true'}, svg('path', {class: `curve ${second ? 'second' : ''}`, d: 'M1 5H33'}));
+const line = (second) => svg('svg', {class: 'line', viewBox: '0 0 34 10', width: 34, height: 10, 'aria-hidden': 'true'}, svg('path', {class: `curve ${second ? 'second' : ''}`, d: 'M1 5H33'}));
 const key = (beside) => h('p', {class: 'key'}, h('span', {}, line(false), 'this trial'), beside ? h('span', {}, line(true), 'the trial beside (dashed)') : null, ['good', 'bad', 'near', 'note'].map((tone) => h('span', {}, mark(tone), kWords[tone])));
 
 /** The page once the curves are there. */

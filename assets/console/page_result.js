@@ -18,7 +18,7 @@ function verdict(session) {
 
 function trialRow(session, r) {
   const [tone, word] = outcome(r.outcome);
-  return [`Trial ${r.number}`, r.role || '–', h('span', {}, badge(tone, word), r.reason ? h('span', {class: 'muted'}, ` ${r.reason}`) : null), r.outcome === 'void' ? '–' : figure(r.total), Number.isFinite(r.length_s) ? clock(r.length_s) : '–', r.summary || '',
+  return [`Trial ${r.number}`, r.role || '–', [h('span', {class: 'row tight'}, badge(tone, word), r.reason ? h('span', {class: 'muted'}, r.reason) : null), r.summary ? h('p', {class: 'hint'}, r.summary) : null], r.outcome === 'void' ? '–' : figure(r.total), Number.isFinite(r.length_s) ? clock(r.length_s) : '–',
     h('a', {class: 'no-print', href: `#/replay/${encodeURIComponent(session.id)}/${r.number}`, 'aria-label': `Replay of trial ${r.number}`}, 'Replay')];
 }
 
@@ -36,9 +36,9 @@ export async function show({root, params: [id], open}) {
   root.append(h('div', {class: 'verdict'}, notice(tone === 'bad' ? 'bad' : tone, text)));
   root.append(h('div', {class: 'card'}, facts([['Trainee', session.trainee ? h('a', {href: `#/trainees/${encodeURIComponent(session.trainee)}`}, session.trainee) : who('')], ['Kind', session.assessed ? 'assessed' : 'practice'], ['State', badge(...sessionState(session.state))],
     ['Data', session.simulated ? simulatedBadge() : 'of a person']])));
-  root.append(h('h2', {}, 'Trials'), results.length ? h('div', {class: 'card flush'}, table('Trials of this session', ['Trial', 'Kind', 'Outcome', 'Total', 'Length', 'In short', h('span', {class: 'no-print'}, 'Look')], results.map((r) => trialRow(session, r)), true)) : h('p', {class: 'muted'}, 'None.'));
+  root.append(h('h2', {}, 'Trials'), results.length ? h('div', {class: 'card flush'}, table('Trials of this session', ['Trial', 'Kind', 'Outcome', session.task === 'paracentesis' ? 'Penalty (lower is better)' : 'Total', 'Length', h('span', {class: 'no-print'}, 'Look')], results.map((r) => trialRow(session, r)), true)) : h('p', {class: 'muted'}, 'None.'));
   const more = pictures(session, files);
   if (more) root.append(...more);
   root.append(h('h2', {}, 'Report'), files.includes('report.html') ? reportFrame(url('/api/sessions', id, 'file', 'report.html'), `Report on the session of ${moment(session.started_utc)}`) : h('p', {class: 'muted'}, 'This session left no report.'));
-  if (files.includes('trials.csv')) root.append(h('p', {}, h('a', {href: url('/api/sessions', id, 'file', 'trials.csv'), download: `${id}-trials.csv`}, 'Figures of all trials as a table (CSV)')));
+  if (files.includes('trials.csv')) root.append(h('p', {class: 'no-print'}, h('a', {href: url('/api/sessions', id, 'file', 'trials.csv'), download: `${id}-trials.csv`}, 'Figures of all trials as a table (CSV)')));
 }

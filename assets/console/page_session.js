@@ -13,7 +13,6 @@ const number = (value, low, high) => h('input', {type: 'number', value: String(v
 
 function form(tasks, trainees, me, chosenTrainee) {
   const first = tasks.find((t) => t.id === 'paracentesis') || tasks[0];
-  const about = h('p', {class: 'hint'});
   const task = radios('Task', tasks.map((t) => [t.id, t.title || taskName(t.id), t.about || '']), first?.id, () => follow());
   const trainee = choice([['', 'nobody (T000)'], ...trainees.map((t) => [t.id, `${t.id}${t.group ? `, ${t.group}` : ''}`])], trainees.some((t) => t.id === chosenTrainee) ? chosenTrainee : '');
   const side = radios('Side of the patient', [['right', 'right'], ['left', 'left']], 'right');
@@ -38,7 +37,7 @@ function form(tasks, trainees, me, chosenTrainee) {
       side: side.value(), patient_seed: whole(patient, 0, 1000000, 'Patient')});
     location.hash = `#/session/${encodeURIComponent(begun.id)}`;
   };
-  return h('form', {class: 'card form session-form', novalidate: true, onsubmit: (e) => { e.preventDefault(); during(go, said, begin); }}, about, h('div', {class: 'grid two'}, h('div', {}, task.node),
+  return h('form', {class: 'card form session-form', novalidate: true, onsubmit: (e) => { e.preventDefault(); during(go, said, begin); }}, h('div', {class: 'grid two'}, h('div', {}, task.node),
     h('div', {}, field('Trainee', trainee, 'Without a trainee nothing is added to anybody\'s record.'), operator.node)), h('div', {class: 'grid two'}, kind.node, h('div', {}, side.node, force.node)),
   h('details', {}, h('summary', {}, 'More: number of trials, another patient'), h('div', {class: 'grid three'}, field('Trials', trials), patientField, field('Seed', seed, 'The same seed gives the same simulated hand again.'))), said,
   h('div', {class: 'row'}, go, h('span', {class: 'muted'}, 'You watch and lead it from the next page.')));

@@ -12,7 +12,7 @@ function sentence(health) {
   const ill = findings.filter((f) => f.state === 'ill'), notes = findings.filter((f) => f.state === 'note');
   if (health.state === 'checking') return ['work', 'The station is being checked…', 'This takes a few seconds. You need not wait: the checks go on.'];
   if (ill.length > 0 || health.can_start === false) return ['bad', 'The station needs you first.', ill.length > 0 ? ill.map((f) => f.fix || f.verdict).join(' ') : 'No session can start; what was found stands below.'];
-  if (notes.length > 0) return ['good', 'The station is well.', `${plural(notes.length, 'thing')} to know, below; a session can start.`];
+  if (notes.length > 0) return ['good', 'The station is well.', `${notes.length === 1 ? 'One thing' : plural(notes.length, 'thing')} to know, below; a session can start.`];
   return ['good', 'The station is well.', 'Everything that a session needs was found and works.'];
 }
 
@@ -34,10 +34,10 @@ export async function show({root, life, open}) {
     const [tone, first, then] = sentence(health);
     const again = button('Check again', async () => { await post('/api/health', {}); life.every(700, look); }, {class: 'quiet'});
     put(hero, h('div', {class: `hero-mark ${tone}`}, mark(tone)), h('div', {class: 'hero-words'}, h('p', {class: 'hero-sentence', id: 'health-sentence'}, first), h('p', {}, then)),
-      h('div', {class: 'hero-go'}, h('a', {class: 'button primary big', href: '#/session', id: 'start-session'}, 'Start a session'), again));
+      h('div', {class: 'hero-go'}, h('a', {class: `button big ${tone === 'bad' ? '' : 'primary'}`, href: '#/session', id: 'start-session'}, 'Start a session'), again));
     announce(first);
     const findings = [...(health.findings || [])].sort((a, b) => kOrder.indexOf(a.state) - kOrder.indexOf(b.state));
-    put(list, h('h2', {}, 'What was found'), findings.length > 0 ? h('ul', {class: 'findings'}, findings.map(finding)) : h('p', {class: 'muted'}, 'Nothing yet.'), health.checked_utc ? h('p', {class: 'muted'}, `Checked ${moment(health.checked_utc)}`) : null);
+    put(list, h('h2', {}, 'What was found'), findings.length > 0 ? h('ul', {class: 'findings'}, findings.map(finding)) : h('p', {class: 'muted'}, 'Nothing yet.'), health.checked_utc ? h('p', {class: 'muted under'}, `Checked ${moment(health.checked_utc)}`) : null);
     return health.state === 'checking';
   };
   await look();

@@ -1,12 +1,13 @@
 // What several pages are made of: notices, buttons, fields, tables.
 import {h, mark, put} from './dom.js';
 
-/** A sentence with its shape. tone: good, bad, note, none, work. */
+/** A sentence with its shape. tone: good, bad, note, none, work, stop. */
 export function notice(tone, text, ...more) {
   return h('div', {class: `notice ${tone}`, role: tone === 'bad' ? 'alert' : null}, mark(tone), h('div', {}, h('p', {}, text), more));
 }
 
 export const badge = (tone, word) => h('span', {class: `badge ${tone}`}, mark(tone), word);
+export const tag = (word) => h('span', {class: 'badge tag'}, word);
 export const simulatedBadge = () => h('span', {class: 'badge simulated'}, mark('note'), 'simulated');
 
 /** A button that is off while its work is under way; what goes wrong is said in `trouble` (an element) or beside it. */

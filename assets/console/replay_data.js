@@ -2,6 +2,7 @@
 import {get, list, url} from './api.js';
 import {isOn, moment, taskName, who} from './format.js';
 
+const known = (x) => (Number.isFinite(x) ? x : NaN);
 const numbers = (x) => (Array.isArray(x) ? x : []);
 
 /** Curves are there at once; `changed(replay)` is called then, as the pictures grow, and when they are ready. */
@@ -14,7 +15,7 @@ export async function loadReplay(life, session, trial, changed) {
       return false;
     }
     const t = numbers(answer.t_s);
-    const replay = {...answer, t, force: numbers(answer.force_N), depth: numbers(answer.depth_mm), events: numbers(answer.events), phases: numbers(answer.phases), near: numbers(answer.near), length: Number(answer.length_s) || t.at(-1) || 1};
+    const replay = {...answer, t, force: numbers(answer.force_N).map(known), depth: numbers(answer.depth_mm).map(known), events: numbers(answer.events), phases: numbers(answer.phases), near: numbers(answer.near), length: Number(answer.length_s) || t.at(-1) || 1};
     changed(replay);
     return !replay.ready;
   });

@@ -23,8 +23,11 @@ class Life {
   end() { for (const t of this.timers) clearTimeout(t); this.control.abort(); }
 }
 
+/** What is no proper address stays as it was typed, and matches no page. */
+function decoded(part) { try { return decodeURIComponent(part); } catch { return part; } }
+
 function matching(routes, path) {
-  const parts = path.split('/').filter(Boolean).map(decodeURIComponent);
+  const parts = path.split('/').filter(Boolean).map(decoded);
   for (const [pattern, load] of routes) {
     const wanted = pattern.split('/').filter(Boolean);
     if (wanted.length !== parts.length) continue;
@@ -72,6 +75,7 @@ async function show(routes, guard) {
     if (mine !== serial) return;
     if (!root.isConnected) put(document.getElementById('main'), root);
     if (!root.querySelector('h1')) here.open('This page could not be shown');
+    if (error.offline) root.dataset.waits = 'yes';   // shown again when somebody answers
     root.append(notice('bad', error.message || 'This page could not be shown. Reload it.'));
   }
 }

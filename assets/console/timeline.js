@@ -107,6 +107,13 @@ export class Timeline {
     });
   }
 
+  /** Figures at a lane's edge: round steps where there is room, else its ends, and 0 when it is clear of both. */
+  #values({height, box: {range: [low, high]}}) {
+    if (height > 90) return ticks(low, high, 4);
+    const room = (Math.min(-low, high) / (high - low)) * height;
+    return room >= 25 ? [low, 0, high] : [low, high];
+  }
+
   #frames() {
     const right = this.width - kRight, foot = this.height - kAxis, made = [];
     const origin = this.relative ? this.to : 0;   // relative: times are counted back from the right edge
@@ -120,9 +127,10 @@ export class Timeline {
       const {top, bottom, range} = lane.box;
       if (lane.kind !== 'curve') { made.push(svg('text', {class: 'lane-name', x: 2, y: (top + bottom) / 2 + 5}, lane.label)); continue; }
       made.push(svg('rect', {class: 'lane', x: kLeft, y: top, width: right - kLeft, height: bottom - top}));
-      for (const v of ticks(range[0], range[1], lane.height > 90 ? 4 : 2)) {
+      if (range[0] < 0 && range[1] > 0) { const y = this.#y(lane.box)(0); made.push(svg('line', {class: 'zero', x1: kLeft, x2: right, y1: y, y2: y})); }
+      for (const v of this.#values(lane)) {
         const y = this.#y(lane.box)(v);
-        made.push(svg('line', {class: v === 0 ? 'zero' : 'grid', x1: kLeft, x2: right, y1: y, y2: y}), svg('text', {class: 'tick', x: kLeft - 8, y: Math.min(bottom, Math.max(top + 10, y + 5)), 'text-anchor': 'end'}, String(Number(v.toFixed(3)))));
+        made.push(svg('line', {class: 'grid', x1: kLeft, x2: right, y1: y, y2: y}), svg('text', {class: 'tick', x: kLeft - 8, y: Math.min(bottom, Math.max(top + 10, y + 5)), 'text-anchor': 'end'}, String(Number(v.toFixed(3)))));
       }
       made.push(svg('text', {class: 'curve-name', x: kLeft + 8, y: lane.inverted ? bottom - 8 : top + 16}, `${lane.label}, ${lane.unit}`));
     }
