@@ -29,4 +29,7 @@ class SteadyClock final : public Clock {
   std::int64_t start_ns_;
 };
 
+/// UTC of now, ns since 1970: for stamps that leave the program, never for what happens in it.
+std::int64_t utcNow_ns() noexcept;
+
 }  // namespace palpa::runtime

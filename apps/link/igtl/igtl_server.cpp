@@ -25,7 +25,7 @@ void IgtlServer::showAlways(const std::string& from, const std::string& to, cons
 void IgtlServer::show(const Moment& moment) {
   for (const NamedPose& pose : moment.poses) {
     const std::string name = toName(pose.from, kReference);
-    const Bytes message = transformMessage(name, toWire(pose.X_W), moment.utc_ns);
+    const Bytes message = transformMessage(name, toWire(pose.X_W), pose.utc_ns);
     for (Peer& peer : peers_) peer.state(name, message);
   }
   for (const auto& [name, X_mm] : always_) {

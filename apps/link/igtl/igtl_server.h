@@ -9,6 +9,7 @@ namespace palpa::igt {
 struct NamedPose {
   std::string from;               ///< "NeedleTip": its pose in W
   Pose X_W = Pose::Identity();
+  std::int64_t utc_ns = 0;
 };
 struct NamedForce {
   std::string name;               ///< "NeedleContactForce"
@@ -17,7 +18,7 @@ struct NamedForce {
 
 /// What is shown of a moment. What is not known at it is not in it: PLUS' way of saying that a transform is not to be used, for those who read no metadata.
 struct Moment {
-  std::int64_t utc_ns = 0;
+  std::int64_t utc_ns = 0;        ///< of forces, lengths and the whole
   std::vector<NamedPose> poses;
   std::vector<NamedForce> forces;
   std::vector<std::pair<std::string, double>> lengths_mm;
