@@ -90,10 +90,11 @@ void IgtlServer::answer(Peer& peer, const Message& request, const Moment& moment
   peer.event(trackingAnswer(kDevice, granted, moment.utc_ns));
 }
 
+/// The instrument's name alone: in which frame says the request. (The library loses names of 20 characters here.)
 std::vector<NamedMatrix> IgtlServer::tools(const Moment& moment, const std::string& coordinates) const {
   std::vector<NamedMatrix> tools;
   for (const NamedPose& pose : moment.poses)
-    tools.push_back(isTable(coordinates) ? NamedMatrix{toName(pose.from, kReference), toWire(pose.X_W)} : NamedMatrix{toName(pose.from, kRas), toWire(X_RasW_ * pose.X_W)});
+    tools.push_back({pose.from, toWire(isTable(coordinates) ? pose.X_W : Pose(X_RasW_ * pose.X_W))});
   return tools;
 }
 
