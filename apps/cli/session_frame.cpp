@@ -92,6 +92,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, r
   executive_->run();
   scene.finish(executive_->clock().now());
   recorder.finish();
+  igtl.finish(executive_->clock().now());
   writer.close();
   SessionRun run;
   run.pictures = scene.pictures();

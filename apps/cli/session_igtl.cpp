@@ -45,6 +45,10 @@ void SessionIgtl::addTo(runtime::Executive& executive) {
   if (link_) executive.add(*link_, {9, false, false});
 }
 
+void SessionIgtl::finish(std::int64_t now_ns) {
+  if (link_) link_->step(now_ns);
+}
+
 std::vector<SessionDevices::Fact> SessionIgtl::facts() const {
   std::vector<SessionDevices::Fact> facts;
   if (tracker_) {

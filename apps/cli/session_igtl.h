@@ -22,6 +22,8 @@ class SessionIgtl {
   SessionIgtl(const SessionOptions& options, const station::Station& station, const Shown& shown, runtime::Bus& bus, const runtime::Clock& clock);
 
   void addTo(runtime::Executive& executive);
+  /// After the recorder has finished: what was recorded last is told, too.
+  void finish(std::int64_t now_ns);
   std::vector<SessionDevices::Fact> facts() const;   ///< after the session
 
  private:
