@@ -17,6 +17,12 @@ pkg_check_modules(SQLITE3 REQUIRED IMPORTED_TARGET sqlite3)
 pkg_check_modules(PQXX REQUIRED IMPORTED_TARGET libpqxx)
 pkg_check_modules(HTTPLIB REQUIRED IMPORTED_TARGET cpp-httplib)
 pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
+# OpenIGTLink: its package's own file is refused by CMake of today.
+find_path(IGTL_HEADERS igtlTransformMessage.h PATH_SUFFIXES openigtlink REQUIRED)
+find_library(IGTL_LIBRARY OpenIGTLink REQUIRED)
+add_library(OpenIGTLink::OpenIGTLink INTERFACE IMPORTED)
+target_include_directories(OpenIGTLink::OpenIGTLink INTERFACE ${IGTL_HEADERS})  # imported: warnings in them are not ours
+target_link_libraries(OpenIGTLink::OpenIGTLink INTERFACE ${IGTL_LIBRARY})
 find_package(VTK 9 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonMath CommonTransforms CommonExecutionModel
   FiltersCore FiltersGeneral FiltersSources FiltersModeling

@@ -22,6 +22,8 @@ constexpr const char* kSessionExamples = R"(Examples:
       the same without force feedback, five trials
   palpa paracentesis --camera 'shots/left*.jpg' --intrinsics left.yml --board chessboard:9x6:0.025 --fast
       the patient on your own recorded pictures
+  palpa paracentesis --igtl 18944
+      the same session in 3D Slicer: there, an OpenIGTLink connector, client, localhost, port 18944
 Keys in a session: Enter start or go on, P pause, A abort, F1-F4 void (interrupted, technical fault,
 trainee stopped, other), space emergency stop, R re-arm, Escape leave.)";
 

@@ -2,6 +2,7 @@
 
 #include "apps/cli/interrupt.h"
 #include "apps/cli/progress.h"
+#include "apps/cli/session_igtl.h"
 #include "apps/cli/session_records.h"
 #include "apps/record/uuid.h"
 #include "apps/report/tone.h"
@@ -96,6 +97,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, r
                                    look(view);
                                    if (video_) video_->add(view);
                                  });
+  SessionIgtl igtl(options_, world_.station, {world_.X_WA, unpack(world_.tick.X_ET), world_.tick.engine == haptics::Engine::needle, world_.pair.has_value()}, bus_, executive_->clock());
   if (info.uuid.empty()) info.uuid = record::newUuid();
   record::SessionWriter writer(folder_ / "session.palpa", info);
   const auto noted = noteForRecords(options_, info.uuid, folder_ / "session.palpa");
@@ -117,9 +119,11 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, r
   executive_->add(recorder, {6, false, false});
   executive_->add(progress, {7, false, false});
   executive_->add(interrupt, {8, false, false});
+  igtl.addTo(*executive_);
   executive_->run();
   scene.finish(executive_->clock().now());
   recorder.finish();
+  igtl.finish(executive_->clock().now());
   writer.close();
   live_.reset();
   SessionRun run;
@@ -131,6 +135,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, r
   run.camera_remarks = pictures_.remarks();
   run.board = scene.board();
   run.devices = devices_.facts();
+  for (SessionDevices::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));
   run.safety_events = task.safetyEvents();
   run.dropped = recorder.dropped() + task.lostTicks();
   run.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;

@@ -71,6 +71,8 @@ struct SessionOptions {
   int cpu = -1;                  ///< of the haptic thread; -1: any
   bool exact_geometry = false;   ///< from the full mesh in every tick
   bool quiet = false;
+  int igtl_port = 0;             ///< served by OpenIGTLink; 0: not
+  std::string igtl_listen = "127.0.0.1";   ///< to whom: an address of this computer
   bool guidance = false;         ///< palpation: help that fades, in every other trial
   bool see_through = false;      ///< palpation: the lumps are shown; not scored
   std::string mode = "real";     ///< search: real, degraded, augmented, or all of them one after the other

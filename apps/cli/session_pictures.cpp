@@ -59,6 +59,7 @@ runtime::CameraActivity::Settings SessionPictures::settings(runtime::TimeMode mo
   settings.latency_ns = static_cast<std::int64_t>(1e9 * std::min(station_.camera_latency_s, 1 / rate_Hz_));
   settings.mode = mode;
   settings.photographs = photographs();
+  if (file_.empty() && station_.tracker) settings.tracked = {station_.tracker->sigma, station_.tracker->sigma_rad, station_.tracker->stale_s};
   if (file_.empty())
     for (const station::OtherBoard& other : station_.boards) settings.others.push_back(ar::makeBoard(other.grid, station_.decimate));
   return settings;

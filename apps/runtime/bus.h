@@ -39,6 +39,7 @@ struct CameraView {
   std::optional<ar::BoardPose> pose;      ///< as measured in this picture; empty when the board is not seen in it
   std::optional<Pose> X_CW;               ///< of the board at the exposure: filtered over the pictures, or foretold where it is hidden for a moment
   ar::TrackState tracking = ar::TrackState::searching;
+  bool by_tracker = false;   ///< X_CW and `tracking` are of another tracking system than the pictures
   ar::PictureFault fault = ar::PictureFault::none;   ///< gone: `source` says why
   std::vector<std::optional<Pose>> others;   ///< X_CB of the boards besides the table's, as `X_CW`, in the order of the camera's settings; empty: not seen
 };
@@ -53,6 +54,18 @@ struct Displayed {
   bool injury = false;            ///< lung or artery: the screen says so
   Pose second_X_AT = Pose::Identity();   ///< another tool, where there is one
   enum class Question : std::uint8_t { none, harder, heavier } question = Question::none;   ///< that the screen asks
+};
+
+/// Where the camera was, without its picture.
+struct CameraPose {
+  std::int64_t t_ns = 0;          ///< of the exposure
+  std::optional<Pose> X_CW;       ///< as in CameraView
+};
+
+/// The camera's pose as a tracking system measured it, in place of the table's board.
+struct TrackedPose {
+  std::int64_t t_ns = 0;          ///< session time of the measurement
+  Pose X_CW = Pose::Identity();
 };
 
 struct Keyframe {
@@ -73,6 +86,9 @@ struct Bus {
         task_to_haptic(mode),
         camera_to_scene(mode),
         camera_to_task(mode),
+        haptic_to_link(mode),
+        second_to_link(mode),
+        camera_to_link(mode),
         scene_to_operator(mode) {}
 
   StateChannel<LocalGeometry> geometry_to_haptic;
@@ -80,6 +96,8 @@ struct Bus {
   StateChannel<ToolState> second_to_scene;   ///< of the second of two devices; silent where there is one
   StateChannel<haptics::TickCommands> task_to_haptic;
   StateChannel<CameraView> camera_to_scene, camera_to_task;
+  StateChannel<ToolState> haptic_to_link, second_to_link;   ///< link: other programs that listen; nobody reads where none may
+  StateChannel<CameraPose> camera_to_link;
   StateChannel<Displayed> scene_to_operator;
 
   EventQueue<haptics::FlightRecord> haptic_to_recorder{8192}, haptic_to_task{8192};
@@ -87,6 +105,8 @@ struct Bus {
   EventQueue<LocalGeometry> geometry_to_recorder{512};
   EventQueue<EvidenceMessage> task_to_recorder{1024};
   EventQueue<Event> device_to_task{64};   ///< what a driver has to tell
+  EventQueue<EvidenceMessage> recorder_to_link{256};
+  EventQueue<TrackedPose> tracker_to_camera{512};
 };
 
 }  // namespace palpa::runtime

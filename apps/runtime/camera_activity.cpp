@@ -7,9 +7,15 @@ namespace {
 
 constexpr std::int64_t kAskAgain = kSecond;   // after a source has failed
 
-std::optional<Pose> poseAt(const ar::BoardTracker& tracker, std::int64_t t_ns) {
-  const ar::PoseTrack::Answer there = tracker.track().at(t_ns);
+std::optional<Pose> poseAt(const ar::PoseTrack& track, std::int64_t t_ns) {
+  const ar::PoseTrack::Answer there = track.at(t_ns);
   return there.how == ar::PoseTrack::Lookup::none ? std::nullopt : std::optional(there.X);
+}
+
+ar::PoseTrack trackOf(const std::optional<CameraActivity::Tracking>& tracked) {
+  ar::PoseTrack::Settings settings;
+  if (tracked) settings.longest_prediction = tracked->stale;
+  return ar::PoseTrack(settings);
 }
 
 }  // namespace
@@ -21,6 +27,7 @@ CameraActivity::CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
       expose_(std::move(expose)),
       tracker_(board, camera, {{}, !settings.photographs}),
       settings_(settings),
+      tracked_(trackOf(settings.tracked)),
       health_({camera.width, camera.height}),
       observer_(std::move(observer)) {
   for (const auto& other : settings_.others) other_trackers_.emplace_back(*other, camera, ar::BoardTracker::Settings{{}, !settings_.photographs});
@@ -59,19 +66,39 @@ void CameraActivity::track(const cv::Mat& image, CameraView* view) {
   if (view->fault == ar::PictureFault::wrong_size) return;
   // A frozen picture shows where the boards were.
   const bool fresh = view->fault != ar::PictureFault::frozen;
-  if (fresh) view->pose = tracker_.see(image, view->t_exposure_ns);
-  view->X_CW = poseAt(tracker_, view->t_exposure_ns);
+  if (settings_.tracked) {
+    follow(view);
+  } else {
+    if (fresh) view->pose = tracker_.see(image, view->t_exposure_ns);
+    view->X_CW = poseAt(tracker_.track(), view->t_exposure_ns);
+    view->tracking = tracker_.state();
+  }
   for (ar::BoardTracker& other : other_trackers_) {
     if (fresh) other.see(image, view->t_exposure_ns);
-    view->others.push_back(poseAt(other, view->t_exposure_ns));
+    view->others.push_back(poseAt(other.track(), view->t_exposure_ns));
   }
-  view->tracking = tracker_.state();
+}
+
+/// What another tracking system says of the camera's place at the exposure. On the camera's thread alone.
+void CameraActivity::follow(CameraView* view) {
+  ar::Matrix6 covariance = ar::Matrix6::Zero();
+  covariance.topLeftCorner<3, 3>().diagonal().setConstant(settings_.tracked->sigma_rad * settings_.tracked->sigma_rad);
+  covariance.bottomRightCorner<3, 3>().diagonal().setConstant(settings_.tracked->sigma * settings_.tracked->sigma);
+  TrackedPose pose;
+  while (bus_.tracker_to_camera.pop(&pose)) {
+    tracked_.add(pose.X_CW, covariance, pose.t_ns);
+    tracked_before_ = true;
+  }
+  view->by_tracker = true;
+  view->X_CW = poseAt(tracked_, view->t_exposure_ns);
+  view->tracking = view->X_CW ? ar::TrackState::tracked : tracked_before_ ? ar::TrackState::lost : ar::TrackState::searching;
 }
 
 /// When the next picture is due.
 std::int64_t CameraActivity::publish(const CameraView& view, std::int64_t exposed_ns, std::int64_t now_ns) {
   bus_.camera_to_scene.publish(view, now_ns);
   bus_.camera_to_task.publish(view, now_ns);
+  bus_.camera_to_link.publish({view.t_exposure_ns, view.X_CW}, now_ns);
   if (observer_) observer_(view);
   if (view.fault == ar::PictureFault::ended) return kNever;
   return view.fault == ar::PictureFault::gone ? now_ns + kAskAgain : exposed_ns + settings_.period_ns;

@@ -17,11 +17,17 @@ namespace palpa::runtime {
 /// exposure and it is joined when the result becomes visible, so the outcome does not depend on speed.
 class CameraActivity final : public Activity {
  public:
+  /// How good a tracking system is, and how long after its last pose the camera's place is foretold; beyond, it is lost.
+  struct Tracking {
+    double sigma = 0.3e-3, sigma_rad = 2e-3;   ///< m and rad, of each component
+    double stale = 0.1;                        ///< s
+  };
   struct Settings {
     std::int64_t period_ns = 66'666'667;
     std::int64_t latency_ns = 50'000'000;   ///< exposure to published pose; at most the period
     TimeMode mode = TimeMode::virtual_time;
     bool photographs = false;               ///< each picture stands for itself: no motion between them
+    std::optional<Tracking> tracked{};      ///< X_CW comes by `Bus::tracker_to_camera`; the table's board is not looked for
     std::vector<std::shared_ptr<const ar::Board>> others{};   ///< looked for besides the table's, each with a motion of its own
   };
   /// Freezes the inputs of a picture exposed now, and returns what takes it (run on any thread).
@@ -40,6 +46,7 @@ class CameraActivity final : public Activity {
  private:
   CameraView see(const Exposure& exposure, std::int64_t t_ns, std::uint64_t number);
   void track(const cv::Mat& image, CameraView* view);
+  void follow(CameraView* view);
   std::int64_t publish(const CameraView& view, std::int64_t exposed_ns, std::int64_t now_ns);
 
   Bus& bus_;
@@ -47,6 +54,8 @@ class CameraActivity final : public Activity {
   ar::BoardTracker tracker_;   ///< used by one picture at a time
   std::vector<ar::BoardTracker> other_trackers_;
   Settings settings_;
+  ar::PoseTrack tracked_;      ///< by another tracking system, where there is one
+  bool tracked_before_ = false;
   ar::PictureHealth health_;
   Observer observer_;
   std::future<CameraView> pending_;

@@ -5,18 +5,15 @@
 
 namespace palpa::runtime {
 namespace {
-std::int64_t monotonic() {
+std::int64_t timeOf(clockid_t clock) {
   timespec t{};
-  clock_gettime(CLOCK_MONOTONIC, &t);
+  clock_gettime(clock, &t);
   return t.tv_sec * kSecond + t.tv_nsec;
 }
+std::int64_t monotonic() { return timeOf(CLOCK_MONOTONIC); }
 }  // namespace
 
-std::int64_t dateNow() noexcept {
-  timespec t{};
-  clock_gettime(CLOCK_REALTIME, &t);
-  return t.tv_sec * kSecond + t.tv_nsec;
-}
+std::int64_t dateNow() noexcept { return timeOf(CLOCK_REALTIME); }
 
 std::int64_t clockResolution() noexcept {
   timespec t{};

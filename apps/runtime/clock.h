@@ -29,7 +29,7 @@ class SteadyClock final : public Clock {
   std::int64_t start_ns_;
 };
 
-/// The computer's date in nanoseconds since 1970 (UTC); somebody may set it at any moment. For asking how the clocks are, not for sessions.
+/// The computer's date in nanoseconds since 1970 (UTC); somebody may set it at any moment. For asking how the clocks are and for stamps that leave the program, never for what happens in a session.
 std::int64_t dateNow() noexcept;
 
 /// The smallest step of CLOCK_MONOTONIC, in nanoseconds.

@@ -40,6 +40,7 @@ void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_
   const ToolState tool = toolStateOf(config_, state_, record, now_ns);
   if (!exact_) bus_.haptic_to_geometry.publish(tool, now_ns);
   bus_.haptic_to_scene.publish(tool, now_ns);
+  bus_.haptic_to_link.publish(tool, now_ns);
 }
 
 }  // namespace palpa::runtime

@@ -21,8 +21,11 @@ std::int64_t HapticPairActivity::step(std::int64_t now_ns) {
     bus_.haptic_to_recorder.push(records[t]);
     bus_.haptic_to_task.push(records[t]);
   }
-  bus_.haptic_to_scene.publish(toolStateOf(config_.tools[0], state_.tools[0], records[0], now_ns), now_ns);
-  bus_.second_to_scene.publish(toolStateOf(config_.tools[1], state_.tools[1], records[1], now_ns), now_ns);
+  const std::array<ToolState, 2> told{toolStateOf(config_.tools[0], state_.tools[0], records[0], now_ns), toolStateOf(config_.tools[1], state_.tools[1], records[1], now_ns)};
+  bus_.haptic_to_scene.publish(told[0], now_ns);
+  bus_.second_to_scene.publish(told[1], now_ns);
+  bus_.haptic_to_link.publish(told[0], now_ns);
+  bus_.second_to_link.publish(told[1], now_ns);
   due_ns_ = std::max((due_ns_ < 0 ? now_ns : due_ns_) + period_ns(), now_ns);
   return due_ns_;
 }

@@ -13,6 +13,7 @@ void RecorderActivity::drain() {
     if (const auto* event = std::get_if<Event>(&message)) sink_.event(*event);
     if (const auto* header = std::get_if<TrialHeader>(&message)) sink_.beginTrial(*header);
     if (const auto* end = std::get_if<TrialEnd>(&message)) sink_.endTrial(*end);
+    bus_.recorder_to_link.push(message);
   }
   LocalGeometry geometry;
   while (bus_.geometry_to_recorder.pop(&geometry)) sink_.snapshot(geometry);

@@ -110,6 +110,7 @@ Station readStation(const std::filesystem::path& path) {
   s.force_sensor = readForceSensor(file);
   s.camera = readCamera(file);
   s.camera_setup = readCameraSetup(file);
+  s.tracker = readTracker(file);
   s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
   const bool on_bench = s.camera_setup.driver == CameraSetup::Driver::bench;   // where a picture is seen before the next is taken
   s.camera_latency_s = 1e-3 * file.number("camera/latency_ms", 0, on_bench ? 1000 / s.camera_rate_Hz : 1000);

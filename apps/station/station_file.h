@@ -8,6 +8,7 @@
 #include "apps/station/calibrations.h"
 #include "apps/station/device_setup.h"
 #include "apps/station/real_things.h"
+#include "apps/station/tracker_setup.h"
 #include "ar/board.h"
 #include "calibration/camera_model.h"
 #include "haptics/tick.h"
@@ -61,6 +62,7 @@ struct Station {
   std::optional<ForceSensorSetup> force_sensor;
   calibration::CameraModel camera;
   CameraSetup camera_setup;
+  std::optional<TrackerSetup> tracker;     ///< says where the camera is, in place of the board
   ar::TagGridSpec board;
   double decimate = 2;
   double camera_rate_Hz = 15;

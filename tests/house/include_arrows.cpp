@@ -78,6 +78,7 @@ std::vector<Layer> makeLayers() {
        {},
        {"Eigen", "JSON", "SQLite", "zlib"}},
       {"apps/study", librariesAnd({"apps/runtime", "apps/station", "apps/record/store"}), {}, {"Eigen", "JSON"}},
+      {"apps/link/igtl", {"anatomy/geometry", "haptics", "ar", "apps/runtime"}, {}, {"Eigen", "JSON", "OpenIGTLink"}},
       {"apps/link", {"anatomy/geometry", "apps/record", "apps/assess/metrics", "apps/runtime", "apps/station"}, {}, {"JSON", "httplib", "OpenSSL"}},
       {"apps/study_analysis", {"anatomy", "apps/assess/statistics", "apps/assess/metrics"}, {}, {"Eigen", "Boost"}},
       {"apps/report", librariesAnd({"apps/assess", "apps/study_analysis"}), {}, {"Eigen", "JSON", "VTK", "VTK data", "Cairo"}},
@@ -97,7 +98,7 @@ std::vector<Layer> makeLayers() {
       {"apps",
        librariesAnd({"apps"}),
        {"apps/twin"},
-       {"Eigen", "OpenCV", "JSON", "httplib", "SQLite", "OpenIGTLink"}},
+       {"Eigen", "OpenCV", "JSON", "httplib", "SQLite"}},
   };
 }
 
