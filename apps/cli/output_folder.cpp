@@ -1,29 +1,16 @@
 #include "apps/cli/output_folder.h"
 
-#include <ctime>
 #include <fstream>
 
 #include "anatomy/geometry/error.h"
+#include "apps/runtime/serving_clock.h"
 
 namespace palpa::cli {
-namespace {
-
-std::string timeText(const char* pattern, bool utc) {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  utc ? gmtime_r(&now, &parts) : localtime_r(&now, &parts);
-  char text[64];
-  std::strftime(text, sizeof text, pattern, &parts);
-  return text;
-}
-
-}  // namespace
-
-std::string utcNow() { return timeText("%Y-%m-%dT%H:%M:%SZ", true); }
+std::string utcNow() { return runtime::dateText("%Y-%m-%dT%H:%M:%SZ"); }
 
 std::filesystem::path makeOutputFolder(const std::string& given, const std::string& command) {
   const std::filesystem::path folder =
-      given.empty() ? std::filesystem::path("out") / (command + "-" + timeText("%Y%m%d-%H%M%S", false))
+      given.empty() ? std::filesystem::path("out") / (command + "-" + runtime::dateText("%Y%m%d-%H%M%S", runtime::Zone::local))
                     : std::filesystem::path(given);
   std::error_code error;
   std::filesystem::create_directories(folder, error);

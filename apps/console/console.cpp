@@ -13,6 +13,7 @@
 #include "anatomy/geometry/whole_file.h"
 #include "apps/console/routes.h"
 #include "apps/live/local_socket.h"
+#include "apps/runtime/serving_clock.h"
 
 namespace palpa::console {
 namespace {
@@ -113,7 +114,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   only.tell(url);
   ready(url);
   while (!ended) {
-    std::this_thread::sleep_for(kRound);
+    runtime::rest(kRound);
     console.sessions.look();
   }
   server.end();

@@ -4,13 +4,14 @@
 #include <string>
 
 #include "apps/console/http.h"
+#include "apps/runtime/serving_clock.h"
 
 namespace palpa::console {
 
 /// A connection whose request must be complete by a moment and within a size, however slowly its bytes come; answers may take as long as they are taken off.
 class DeadlineStream final : public httplib::Stream {
  public:
-  using Clock = std::chrono::steady_clock;
+  using Clock = runtime::ServingClock;
   explicit DeadlineStream(int socket);
 
   /// From here a request may be read, until `deadline` and up to `most` bytes.

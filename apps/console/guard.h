@@ -8,6 +8,8 @@
 #include <unordered_set>
 #include <vector>
 
+#include "apps/runtime/serving_clock.h"
+
 /// Who may ask the console what. Judged from the request alone, before anything is done for it.
 namespace palpa::console {
 
@@ -40,7 +42,7 @@ class Guard {
   const std::string& pageKey() const { return page_key_; }
 
  private:
-  using Clock = std::chrono::steady_clock;
+  using Clock = runtime::ServingClock;
   Verdict judgeWrite(const Asked& asked);
   bool flooding(const std::string& remote);
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "anatomy/geometry/error.h"
+#include "apps/runtime/serving_clock.h"
 
 namespace palpa::console {
 namespace {
@@ -100,7 +101,7 @@ void Jobs::perform(const std::string& id) {
     }
     jobs_[id].state = State::running;
   }
-  while (runs(process)) std::this_thread::sleep_for(kLook);
+  while (runs(process)) runtime::rest(kLook);
   const bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() && (wish.page.empty() || fs::exists(folder / wish.page, none));
   if (wish.then) wish.then(folder, good);
   const std::lock_guard lock(mutex_);

@@ -2,25 +2,17 @@
 
 #include <algorithm>
 #include <cctype>
-#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/geometry/whole_file.h"
 #include "apps/console/guard.h"
+#include "apps/runtime/serving_clock.h"
 #include "apps/station/json_file.h"
 
 namespace palpa::console {
 namespace {
 
 constexpr std::size_t kLongestId = 64;
-
-std::string timeNow(const char* pattern) {
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  char text[32];
-  std::strftime(text, sizeof text, pattern, gmtime_r(&now, &parts));
-  return text;
-}
 
 bool plainName(const std::string& text) {
   return !text.empty() && text.size() <= kLongestId && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
@@ -30,9 +22,9 @@ bool plainName(const std::string& text) {
 
 bool isId(const std::string& text) { return plainName(text); }
 
-std::string newId() { return timeNow("%Y%m%d-%H%M%S-") + randomKey().substr(0, 8); }
+std::string newId() { return runtime::dateText("%Y%m%d-%H%M%S-") + randomKey().substr(0, 8); }
 
-std::string utcNow() { return timeNow("%Y-%m-%dT%H:%M:%SZ"); }
+std::string utcNow() { return runtime::dateText("%Y-%m-%dT%H:%M:%SZ"); }
 
 bool isShown(const std::string& name) {
   if (name == "report.html" || name == "trials.csv") return true;

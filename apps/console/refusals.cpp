@@ -1,8 +1,9 @@
 #include "apps/console/refusals.h"
 
 #include <algorithm>
-#include <ctime>
 #include <fstream>
+
+#include "apps/runtime/serving_clock.h"
 
 namespace palpa::console {
 namespace {
@@ -23,11 +24,7 @@ void Refusals::note(const std::string& remote, const std::string& method, const 
   const std::lock_guard lock(mutex_);
   std::error_code none;
   if (std::filesystem::file_size(file_, none) > kLongest && !none) std::filesystem::rename(file_, file_.string() + ".1", none);
-  char time[32];
-  const std::time_t now = std::time(nullptr);
-  std::tm parts{};
-  std::strftime(time, sizeof time, "%Y-%m-%dT%H:%M:%SZ", gmtime_r(&now, &parts));
-  std::ofstream(file_, std::ios::app) << time << ' ' << plain(remote) << ' ' << plain(method) << ' ' << plain(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
+  std::ofstream(file_, std::ios::app) << runtime::dateText("%Y-%m-%dT%H:%M:%SZ") << ' ' << plain(remote) << ' ' << plain(method) << ' ' << plain(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
 }
 
 }  // namespace palpa::console

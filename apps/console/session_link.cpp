@@ -58,7 +58,7 @@ void SessionLink::run() {
       connected_ = false;
       if (over_) return;
     }
-    std::this_thread::sleep_for(kTryAgain);
+    runtime::rest(kTryAgain);
   }
 }
 
@@ -115,7 +115,7 @@ void SessionLink::take(const std::string& entry) {
   ++passed_;
 }
 
-bool SessionLink::watched() const { return std::chrono::steady_clock::now() - asked_ < kWatched; }
+bool SessionLink::watched() const { return runtime::ServingClock::now() - asked_ < kWatched; }
 
 SessionLink::News SessionLink::wait(std::size_t from, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
@@ -128,7 +128,7 @@ SessionLink::News SessionLink::wait(std::size_t from, std::chrono::milliseconds 
 
 SessionLink::Picture SessionLink::picture(std::uint64_t after, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
-  asked_ = std::chrono::steady_clock::now();
+  asked_ = runtime::ServingClock::now();
   changed_.wait_for(lock, patience, [&] { return picture_.number > after || over_; });
   return picture_.number > after ? picture_ : Picture{};
 }

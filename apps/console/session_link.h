@@ -9,6 +9,8 @@
 #include <thread>
 #include <vector>
 
+#include "apps/runtime/serving_clock.h"
+
 namespace palpa::console {
 
 /// The console's end of a running session's socket: what the session has told, its newest picture, and a way to ask for something. Connects anew where the connection is lost; the session tells its
@@ -51,7 +53,7 @@ class SessionLink {
   std::string hello_;
   std::vector<std::string> commands_;
   Picture picture_;
-  std::chrono::steady_clock::time_point asked_{};
+  runtime::ServingClock::time_point asked_{};
   bool connected_ = false, over_ = false;
   std::atomic<bool> ending_{false};
   std::thread thread_;

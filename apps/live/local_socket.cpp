@@ -10,6 +10,7 @@
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
+#include <filesystem>
 
 #include "anatomy/geometry/error.h"
 
@@ -64,7 +65,9 @@ bool sameUser(int socket) {
 
 std::string socketFolder() {
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
-  const std::string folder = runtime && *runtime == '/' ? std::string(runtime) + "/palpa" : "/tmp/palpa-" + std::to_string(::geteuid());
+  std::error_code none;
+  const std::filesystem::path temporary = std::filesystem::temp_directory_path(none);
+  const std::string folder = runtime && *runtime == '/' ? std::string(runtime) + "/palpa" : ((none ? "/tmp" : temporary) / ("palpa-" + std::to_string(::geteuid()))).string();
   if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST) throw Error(std::string("cannot be made (") + std::strerror(errno) + ")", folder, "Set XDG_RUNTIME_DIR to a folder of yours");
   struct stat facts{};
   if (::lstat(folder.c_str(), &facts) != 0 || !S_ISDIR(facts.st_mode) || facts.st_uid != ::geteuid() || (facts.st_mode & 0077) != 0)

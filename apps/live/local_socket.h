@@ -11,7 +11,7 @@ int connectTo(const std::string& path);
 /// The process at the other end runs as the same user.
 bool sameUser(int socket);
 
-/// Where sockets of sessions are: $XDG_RUNTIME_DIR/palpa, else /tmp/palpa-<user id>; made, readable by this user only. Throws Error where somebody else owns it.
+/// Where sockets of sessions are: $XDG_RUNTIME_DIR/palpa, else palpa-<user id> among the temporary files; made, readable by this user only. Throws Error where somebody else owns it.
 std::string socketFolder();
 
 /// The calling thread gives way to all others that want to run.

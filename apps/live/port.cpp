@@ -6,12 +6,12 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <chrono>
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 #include <utility>
 
 #include "apps/live/local_socket.h"
+#include "apps/runtime/serving_clock.h"
 
 namespace palpa::live {
 namespace {
@@ -64,7 +64,7 @@ void Port::offer(scene::Image picture) {
 
 void Port::run() {
   giveWay();
-  std::chrono::steady_clock::time_point leave{};
+  runtime::ServingClock::time_point leave{};
   for (;;) {
     waitForPeers(kLook_ms);
     accept();
@@ -75,8 +75,8 @@ void Port::run() {
     }
     leaveLost();
     if (!ending_.load()) continue;
-    const auto now = std::chrono::steady_clock::now();
-    if (leave == std::chrono::steady_clock::time_point{}) leave = now + kFarewell;
+    const auto now = runtime::ServingClock::now();
+    if (leave == runtime::ServingClock::time_point{}) leave = now + kFarewell;
     if (allTold() || now > leave) return;
   }
 }
