@@ -57,6 +57,7 @@ export class Educator {
     for (const [width, size] of [['desktop', kDesktop], ['tablet', kTablet]]) {
       await page.setViewportSize(size);
       await page.waitForTimeout(300);
+      for (const frame of page.frames()) await frame.waitForLoadState('load');
       await this.picture(`${name}-${width}`, page);
       await page.evaluate(kAxe);
       const found = await page.evaluate(async () => (await window.axe.run(document, {iframes: false})).violations.map((v) => ({id: v.id, impact: v.impact, where: v.nodes.slice(0, 3).map((n) => `${n.target}: ${n.any[0]?.message || ''}`)})));
