@@ -2,7 +2,7 @@
 const kAway = /^Force taken away: (.*)$/, kBack = 'Force is back';
 
 function words(off) {
-  const seconds = `${off.total.toFixed(1)} s`;
+  const seconds = off.total < 0.05 ? 'less than 0.1 s' : `${off.total.toFixed(1)} s`;
   if (off.since !== null) return off.times === 1 ? `Force taken away: ${off.cause}` : `Force taken away, ${off.times} times in a row: ${off.cause}`;
   return off.times === 1 ? `Force was off for ${seconds}: ${off.cause}` : `Force was off ${off.times} times, ${seconds} together: ${off.cause}`;
 }
