@@ -74,12 +74,12 @@ void expectAsRecorded(const std::vector<Got>& heard, const WrittenDown& recorded
     const haptics::FlightRecord* tick = recorded.at(m.utc_ns - start_ns);
     if (m.device == "NeedleToReference") {
       ASSERT_TRUE(tick) << m.utc_ns - start_ns << " ns: no tick was then";
-      const Pose X_WE = .X_WD * unpack(PackedPose{tick->reading.p_DE, tick->reading.q_DE});
+      const Pose X_WE = recorded.X_WD * unpack(PackedPose{tick->reading.p_DE, tick->reading.q_DE});
       EXPECT_LT((m.X_mm - igt::toWire(X_WE)).cwiseAbs().maxCoeff(), 1e-3) << "mm, at " << tick->tick;
       ++poses;
     } else if (m.device == "NeedleDeviceForce") {
       ASSERT_TRUE(tick);
-      const Vec3 f_W = .X_WD.linear() * unpack(tick->f_command_D);
+      const Vec3 f_W = recorded.X_WD.linear() * unpack(tick->f_command_D);
       EXPECT_NEAR((Vec3(m.values.at(0), m.values.at(1), m.values.at(2)) - f_W).norm(), 0, 1e-9);
       ++forces;
     }

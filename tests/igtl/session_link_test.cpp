@@ -171,7 +171,7 @@ TEST(IgtlThreads, SessionIsServedAndFollowsATrackerAtOnce) {
   slicer.join();
   std::int64_t last = 0;
   for (const Got& m : heard) {
-    EXPECT_TRUE(m.whole);
+    EXPECT_TRUE(m.whole) << m.type << " " << m.device << ", " << &m - heard.data() << " of " << heard.size();
     if (m.device != "NeedleTipToReference") continue;
     EXPECT_GE(m.utc_ns, last) << "in the order of time";
     last = m.utc_ns;
