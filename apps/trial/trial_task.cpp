@@ -67,7 +67,7 @@ void TrialTask::watchCamera(std::int64_t now_ns) {
   const std::string trouble = sightTrouble(view, now_ns);
   if (trouble == camera_) return;
   if (!trouble.empty()) tell(now_ns, "camera", trouble, 1);
-  else tell(now_ns, "camera", "the camera sees the board", 0);
+  else tell(now_ns, "camera", view->by_tracker ? "the tracking system sees the camera" : "the camera sees the board", 0);
   camera_ = trouble;
 }
 
