@@ -68,7 +68,7 @@ struct Recorded {
 
 Recorded recorded(Console& c, const std::string& id, int number) {
   const fs::path folder = c.sessions.folder(id);
-  return {c.sessions.results(id) / "session.palpa", folder / ("replay-" + std::to_string(number)), "replay " + id + " " + std::to_string(number)};
+  return {c.sessions.shown(id) / "session.palpa", folder / ("replay-" + std::to_string(number)), "replay " + id + " " + std::to_string(number)};
 }
 
 /// Pictures are drawn once, by the command that draws films.

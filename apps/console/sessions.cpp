@@ -54,13 +54,17 @@ json trialOf(const record::RecordedTrial& trial, const std::vector<runtime::Even
   return one;
 }
 
-json trialsIn(const fs::path& evidence) {
+json trialsIn(const fs::path& evidence, bool blind) {
   json all = json::array();
   std::error_code none;
   if (!fs::exists(evidence, none)) return all;
   const record::SessionReader reader(evidence);
   const std::vector<runtime::Event> events = reader.events();
-  for (const record::RecordedTrial& trial : reader.trials()) all.push_back(trialOf(trial, events));
+  for (const record::RecordedTrial& trial : reader.trials()) {
+    all.push_back(trialOf(trial, events));
+    if (!blind) continue;
+    for (const char* figure : {"total", "summary", "role"}) all.back().erase(figure);
+  }
   return all;
 }
 
@@ -90,6 +94,11 @@ fs::path Sessions::folder(const std::string& id) const {
 
 fs::path Sessions::results(const std::string& id) const { return resultsIn(folder(id)); }
 
+fs::path Sessions::shown(const std::string& id) const {
+  if (factsOf(folder(id)).value("blind", false)) throw UsageError("belongs to a study whose educators are blind", "session " + id, "Its figures are read with the study's: palpa study analyse");
+  return results(id);
+}
+
 /// Those that went on while there was no console.
 void Sessions::find() {
   std::error_code none;
@@ -108,7 +117,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   const fs::path folder = place_.sessions() / id;
   fs::create_directories(folder);
   for (const std::string& more : {std::string("--live"), socketOf(id), std::string("--out"), folder.string()}) arguments.push_back(more);
-  json facts{{"task", wish.task}, {"trainee", wish.trainee}, {"started_utc", utcNow()}, {"assessed", wish.assess}, {"simulated", wish.performer != "person"}, {"study", !wish.protocol.empty()}, {"trials", wish.trials}};
+  json facts{{"task", wish.task}, {"trainee", wish.trainee}, {"started_utc", utcNow()}, {"assessed", wish.assess}, {"simulated", wish.performer != "person"}, {"study", !wish.protocol.empty()}, {"blind", wish.blind}, {"trials", wish.trials}};
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
   const ProcessId process = start(arguments, folder / kLog, false);
   facts["pid"] = process.pid;
@@ -141,7 +150,7 @@ json Sessions::told(const std::string& id, const fs::path& folder) {
   const json facts = factsOf(folder);
   const std::string state = stateOf(id, folder);
   json one{{"id", id}, {"task", textOf(facts, "task")}, {"trainee", textOf(facts, "trainee")}, {"started_utc", textOf(facts, "started_utc")}, {"state", state}, {"message", state == "failed" || state == "interrupted" ? complaintIn(folder / kLog) : ""}};
-  for (const char* field : {"assessed", "simulated", "trials", "study"}) one[field] = facts.value(field, json());
+  for (const char* field : {"assessed", "simulated", "trials", "study", "blind"}) one[field] = facts.value(field, json());
   return one;
 }
 
@@ -167,11 +176,12 @@ json Sessions::one(const std::string& id) {
     one = told(id, here);
   }
   const fs::path results = resultsIn(here);
-  one["files"] = filesIn(results);
+  const bool blind = one["blind"] == true;
+  one["files"] = blind ? json::array() : filesIn(results);
   one["results"] = json::array();
   if (one["state"] == "running" || one["state"] == "starting") return one;   // its evidence is being written
   try {
-    one["results"] = trialsIn(results / "session.palpa");
+    one["results"] = trialsIn(results / "session.palpa", blind);
   } catch (const Error& e) {
     one["message"] = e.what();
   }

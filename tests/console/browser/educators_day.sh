@@ -32,4 +32,6 @@ for _ in $(seq 300); do
   sleep 0.1
 done
 cd "$work"
+cp "$here/../../../assets/console/moments.js" "$work"   # beside a package.json that says what kind of module it is
+PALPA_CONSOLE_PAGES=$work node --test moments.test.mjs
 PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures node --test console.test.mjs
