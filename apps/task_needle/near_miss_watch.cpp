@@ -6,7 +6,7 @@
 namespace palpa::task_needle {
 namespace {
 
-constexpr double kNothingTold = 1e3 * kNearMiss;   // mm
+constexpr double kNear_mm = 1e3 * kNearMiss, kNothingTold = 1e9;
 
 }  // namespace
 
@@ -23,10 +23,10 @@ std::string NearMissWatch::look(const Vec3& tip_A, bool inserted, std::uint32_t 
   trial_ = trial;
   if (!inserted) return "";
   const Watched* nearest = nullptr;
-  double least_mm = kNothingTold;
+  double least_mm = kNear_mm;
   for (Watched& one : watched_) {
     const double distance_mm = 1e3 * query_.closest(one.surface, tip_A).distance;
-    if (!(distance_mm > 0) || std::ceil(distance_mm) > one.told || (one.told < kNothingTold && std::ceil(distance_mm) == one.told)) continue;
+    if (!(distance_mm > 0 && distance_mm < kNear_mm) || std::ceil(distance_mm) >= one.told) continue;
     one.told = std::ceil(distance_mm);
     if (distance_mm < least_mm) {
       least_mm = distance_mm;
