@@ -29,13 +29,20 @@ ProcessId processOf(const json& facts) {
   return {static_cast<int>(number("pid")), static_cast<std::uint64_t>(number("began"))};
 }
 
-/// The newest folder with results: the session's own, or where a study put its block.
+/// The newest folder with results: the session's own, or where a study put its last block (TRAINEE/BLOCK).
 fs::path resultsIn(const fs::path& folder) {
+  constexpr int kDeepest = 2;
+  constexpr char kEvidence[] = "session.palpa";
   std::error_code none;
-  if (fs::exists(folder / "session.palpa", none)) return folder;
+  if (fs::exists(folder / kEvidence, none)) return folder;
   fs::path newest = folder;
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.is_directory(none) && fs::exists(entry.path() / "session.palpa", none) && entry.path().filename().string() != "demonstration" && (newest == folder || entry.path() > newest)) newest = entry.path();
+  fs::file_time_type began = fs::file_time_type::min();
+  for (auto entry = fs::recursive_directory_iterator(folder, none); entry != fs::recursive_directory_iterator(); entry.increment(none)) {
+    if (entry.depth() >= kDeepest || entry->path().filename() == "demonstration") entry.disable_recursion_pending();
+    if (entry->path().filename() != kEvidence || entry->last_write_time(none) < began) continue;
+    newest = entry->path().parent_path();
+    began = entry->last_write_time(none);
+  }
   return newest;
 }
 
