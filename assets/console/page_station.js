@@ -18,7 +18,7 @@ function sentence(health) {
 
 function finding(f) {
   const [tone, word] = kStates[f.state] || ['neutral', String(f.state)];
-  return h('li', {class: `finding ${tone}`}, h('div', {class: 'finding-state'}, badge(tone, word)), h('div', {}, h('h3', {}, String(f.subject || '')), h('p', {}, String(f.verdict || '')), f.fix ? h('p', {class: 'fix'}, h('strong', {}, 'What to do: '), f.fix) : null));
+  return h('li', {class: `finding ${tone}`}, h('div', {class: 'finding-state'}, badge(tone, word)), h('div', {}, h('h3', {}, String(f.subject || '')), h('p', {class: String(f.verdict || '').startsWith('/') ? 'place' : null}, String(f.verdict || '')), f.fix ? h('p', {class: 'fix'}, h('strong', {}, 'What to do: '), f.fix) : null));
 }
 
 export async function show({root, life, open}) {
