@@ -62,6 +62,31 @@ TEST_P(Chapter, DoesWhatItSays) {
     if (link.is_picture) expectMade(link, skipped);
 }
 
+/// What the script of a page with these commands exits with.
+int codeOf(const std::string& commands) {
+  const test::ScratchFolder folder("guide-planted");
+  Page page;
+  page.blocks.push_back({"sh", "", commands, 1});
+  std::ofstream(folder / "script") << scriptOf(page, folder.path());
+  return run("bash '" + (folder / "script").string() + "'");
+}
+
+TEST(PlantedChapter, FailsWhereACommandDoesNotDoWhatThePageSays) {
+  EXPECT_EQ(codeOf("export A=1\ntest \"$A\" = 1\nfalse   # exits with 1: as it should\npalpa --version\n"), 0);
+  EXPECT_NE(codeOf("false\ntrue\n"), 0);
+  EXPECT_NE(codeOf("true # exits with 1\n"), 0);
+  EXPECT_NE(codeOf("palpa doctor --no-such-option\n"), 0);
+  EXPECT_NE(codeOf("palpa console --no-open --port nothing\n"), 0);
+}
+
+TEST(PlantedChapter, SlowBlocksAreNamedAsSkipped) {
+  const test::ScratchFolder folder("guide-planted");
+  Page page;
+  page.blocks = {{"sh", "slow", "false\n", 7}, {"sh", "", "true\n", 12}};
+  EXPECT_EQ(skippedIn(page, folder.path()), everything() ? std::set<int>{} : std::set<int>{7});
+  EXPECT_EQ(scriptOf(page, folder.path()).find("command_of 7 ") == std::string::npos, !everything());
+}
+
 INSTANTIATE_TEST_SUITE_P(Guide, Chapter, testing::ValuesIn(chapters()), nameOf);
 
 }  // namespace

@@ -66,7 +66,7 @@ TEST(Documents, PicturesOfTheGuideAreShownAndSmall) {
 }
 
 TEST(Documents, ChaptersAreShort) {
-  for (const fs::path& file : chapters()) EXPECT_LE(fs::file_size(file), 14'000u) << file << ": more than some three pages";
+  for (const fs::path& file : chapters()) EXPECT_LE(fs::file_size(file), 12'000u) << file << ": more than some three pages";
 }
 
 }  // namespace
