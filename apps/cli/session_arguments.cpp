@@ -103,8 +103,8 @@ void addRunArguments(CLI::App& command, SessionOptions& o) {
   command.add_option("--records", o.records, "Bring finished trials into these records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, else nobody is recorded)")
       ->envname("PALPA_RECORDS")
       ->type_name("FILE|URL");
-  CLI::Option* igtl = command.add_option("--igtl", o.igtl_port, "Serve this session by OpenIGTLink, for 3D Slicer and its like (usual: 18944)")->check(CLI::Range(1, 65535))->type_name("PORT");
-  command.add_option("--igtl-listen", o.igtl_listen, "Address that --igtl serves at: 127.0.0.1, this computer only (default), 0.0.0.0: every network")->type_name("ADDRESS")->needs(igtl);
+  CLI::Option* igtl = command.add_option("--igtl", o.igtl_port, "Let 3D Slicer and other programs follow this session live, by OpenIGTLink: where tool and patient are, forces, events. They connect to this port (usual: 18944)")->check(CLI::Range(1, 65535))->type_name("PORT");
+  command.add_option("--igtl-listen", o.igtl_listen, "Who may follow: 127.0.0.1, programs on this computer (default); this computer's own address, or 0.0.0.0: whoever reaches it by network, without password or encryption")->type_name("ADDRESS")->needs(igtl);
   command.add_flag_callback("--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
 }
 

@@ -39,12 +39,18 @@ fs::path resultsIn(const fs::path& folder) {
   return newest;
 }
 
-json trialOf(const record::RecordedTrial& trial) {
+/// The sentence that ended the trial, where one did.
+std::string summaryOf(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial) {
+  for (auto event = events.rbegin(); event != events.rend(); ++event)
+    if (event->trial == trial.header.trial && event->kind == trial.end.outcome) return event->text;
+  return "";
+}
+
+json trialOf(const record::RecordedTrial& trial, const std::vector<runtime::Event>& events) {
   json one{{"number", trial.header.trial}, {"role", trial.header.role}, {"outcome", trial.ended ? trial.end.outcome : "interrupted"}, {"reason", trial.end.reason}, {"length_s", static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9}};
   const json scores = json::parse(trial.end.scores_json, nullptr, false);
-  if (scores.is_object())
-    for (const char* field : {"total", "summary"})
-      if (scores.contains(field)) one[field] = scores[field];
+  if (scores.is_object() && scores.contains("TOTAL")) one["total"] = scores["TOTAL"];
+  if (std::string summary = summaryOf(events, trial); !summary.empty()) one["summary"] = std::move(summary);
   return one;
 }
 
@@ -52,7 +58,9 @@ json trialsIn(const fs::path& evidence) {
   json all = json::array();
   std::error_code none;
   if (!fs::exists(evidence, none)) return all;
-  for (const record::RecordedTrial& trial : record::SessionReader(evidence).trials()) all.push_back(trialOf(trial));
+  const record::SessionReader reader(evidence);
+  const std::vector<runtime::Event> events = reader.events();
+  for (const record::RecordedTrial& trial : reader.trials()) all.push_back(trialOf(trial, events));
   return all;
 }
 

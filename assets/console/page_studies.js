@@ -18,7 +18,7 @@ function nextBlock(study, trainees, me) {
   if (options.length === 0) return h('p', {class: 'muted'}, 'Nobody is waiting. Add a trainee on the page Trainees to enrol somebody new.');
   const trainee = choice(options), group = choice((study.groups || []).map((g) => [g, g])), operator = choice(kOperators, me.display ? 'person' : 'expert');
   const groupField = field('Group', group, 'Of somebody new. It cannot be changed afterwards.');
-  const follow = () => { const at = (study.enrolled || []).find((e) => e.trainee === trainee.value) || trainees.find((t) => t.id === trainee.value); if (at?.group) group.value = at.group; groupField.hidden = known.has(trainee.value); };
+  const follow = () => { const at = (study.enrolled || []).find((e) => e.trainee === trainee.value) || trainees.find((t) => t.id === trainee.value); if (study.groups?.includes(at?.group)) group.value = at.group; groupField.hidden = known.has(trainee.value); };
   trainee.addEventListener('change', follow);
   follow();
   const said = h('div', {class: 'said'}), go = h('button', {type: 'submit', class: 'primary'}, 'Start the next block');

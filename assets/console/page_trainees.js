@@ -1,7 +1,7 @@
 // Who trains here, under pseudonyms; and how somebody new is added.
 import {list, post} from './api.js';
 import {announce, h, put} from './dom.js';
-import {day, plural} from './format.js';
+import {day} from './format.js';
 import {badge, choice, during, field, radios, table, tick} from './parts.js';
 
 /** The next free T-number, so that nothing need be invented. */
@@ -11,7 +11,7 @@ function freePseudonym(trainees) {
 }
 
 function rows(trainees) {
-  return trainees.map((t) => [h('a', {href: `#/trainees/${encodeURIComponent(t.id)}`}, t.id), t.group || '–', t.experience || '–', plural(Number(t.sessions) || 0, 'session'), plural(Number(t.trials) || 0, 'trial'),
+  return trainees.map((t) => [h('a', {href: `#/trainees/${encodeURIComponent(t.id)}`}, t.id), t.group || '–', t.experience || '–', String(Number(t.sessions) || 0), String(Number(t.trials) || 0),
     t.consent_utc ? badge('good', 'noted') : badge('note', 'missing'), t.retain_until ? day(t.retain_until) : 'no date set']);
 }
 
