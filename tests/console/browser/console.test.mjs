@@ -1,5 +1,6 @@
 // An educator's day at a console that runs: PALPA_CONSOLE_URL (and PALPA_CONSOLE_TOKEN, PALPA_CONSOLE_SHOTS, PALPA_CHROMIUM).
 import assert from 'node:assert/strict';
+import {execFileSync} from 'node:child_process';
 import fs from 'node:fs';
 import path from 'node:path';
 import {after, before, test} from 'node:test';
@@ -7,6 +8,7 @@ import {Educator, tabTo} from './educator.mjs';
 
 const url = process.env.PALPA_CONSOLE_URL;
 const skip = url ? false : 'PALPA_CONSOLE_URL is not set: start a console and give its address';
+const begin = process.env.PALPA_CONSOLE_BEGIN;
 const stem = `B${Date.now().toString(36).toUpperCase()}`;
 const trainees = [`${stem}-1`, `${stem}-2`];
 const kMark = '<img src=x onerror=alert(1)>';
@@ -186,6 +188,7 @@ test('the replay is scrubbed, an expert beside', {skip, timeout: 500_000}, async
 
 test('by keyboard alone: from the first page to a running session, stopped and ended', {skip, timeout: 300_000}, async (t) => {
   const own = await e.newPage();
+  const came = performance.now();
   await own.goto(e.base);
   await own.locator('#start-session').waitFor();
   await own.keyboard.press('Tab');
@@ -203,7 +206,7 @@ test('by keyboard alone: from the first page to a running session, stopped and e
   let presses = 2;
   if (/^Start/.test(await own.locator('#live-go').textContent())) { await tabTo(own, '#live-go'); await own.keyboard.press('Enter'); ++presses; }
   await own.locator('.live-state', {hasText: 'Trial is running'}).waitFor();
-  t.diagnostic(`choices from the first page to the first trial: ${presses}`);
+  t.diagnostic(`choices from the first page to the first trial: ${presses}, ${((performance.now() - came) / 1000).toFixed(1)} s`);
   assert.ok(presses <= 4);
   await own.keyboard.press('Control+.');
   await own.locator('.alarm .notice', {hasText: 'Re-arm when hands are clear'}).waitFor();
@@ -219,6 +222,43 @@ test('by keyboard alone: from the first page to a running session, stopped and e
   await own.keyboard.press('Enter');
   await own.getByRole('link', {name: 'Read the result'}).waitFor();
   await own.close();
+});
+
+const told = (where) => where.locator('.events .event').allTextContents();
+
+/** Somebody closes the browser, loads the page again, has no network for a while, looks on from a second browser; and the console is killed and started again. */
+test('whatever happens to browser and console, the trials go on and the page catches up', {skip: skip || (begin ? false : 'PALPA_CONSOLE_BEGIN is not set: this console may not be killed'), timeout: 600_000}, async (t) => {
+  const full = !!process.env.PALPA_FULL;
+  const id = await startAssessed(trainees[0], full ? 8 : 3);
+  const other = await Educator.come(url);
+  await other.go(`#/session/${id}`);
+  await other.page.waitForFunction(() => Number(document.querySelector('.curves')?.dataset.points) > 5);
+  await page.reload();
+  await page.waitForFunction(() => document.querySelectorAll('.events .event').length > 2);
+  await e.cut();
+  await page.waitForTimeout(full ? 60_000 : 5000);
+  await e.context.setOffline(false);
+  await page.locator('#lost').waitFor({state: 'hidden', timeout: 60_000});
+  other.away = true;
+  execFileSync('bash', [begin, '--port', new URL(url).port]);
+  await page.locator('main h1').focus();
+  await page.waitForFunction(() => document.querySelector('#lost').hidden, null, {timeout: 60_000});
+  e.away = other.away = false;
+  await page.keyboard.press('m');
+  await page.keyboard.type('the console was away');
+  await page.keyboard.press('Enter');
+  await page.locator('.event.note', {hasText: 'the console was away'}).waitFor();
+  await other.page.locator('.event.note', {hasText: 'the console was away'}).waitFor();
+  await over().waitFor({timeout: 300_000});
+  await other.page.getByRole('link', {name: 'Read the result'}).waitFor();
+  const mine = await told(page), theirs = await told(other.page);
+  t.diagnostic(`events told to both browsers: ${mine.length}`);
+  assert.deepEqual(mine, theirs);
+  assert.equal(mine.filter((text) => /^\S* ?.*Trial \d+ starts$/.test(text)).length, full ? 8 : 3, mine.join(' | '));
+  e.complaints.push(...other.complaints);
+  await other.leave();
+  await e.go(`#/results/${id}`);
+  assert.equal(await page.getByRole('row', {name: /success/}).count(), full ? 8 : 3);
 });
 
 test('the other pages, too', {skip, timeout: 200_000}, async () => {

@@ -22,16 +22,22 @@ done <"$here/libraries.txt"
 
 export HOME=$work XDG_RUNTIME_DIR=$work/run LC_ALL=C.UTF-8
 unset DISPLAY PALPA_RECORDS XDG_DATA_HOME XDG_STATE_HOME
-"$palpa" console --no-open --home "$work/home" --records "$work/records.sqlite" >"$work/console.txt" 2>&1 &
-console=$!
-trap 'kill $console 2>/dev/null; wait $console 2>/dev/null' EXIT
-for _ in $(seq 300); do
-  url=$(sed -n 's/^The console: //p' "$work/console.txt")
-  [ -n "$url" ] && break
-  kill -0 $console 2>/dev/null || { cat "$work/console.txt"; exit 1; }
+# begin.sh [--port N]: starts the console and waits until it is there. Kills the one before, as a power cut would.
+cat >"$work/begin.sh" <<BEGIN
+[ -f "$work/pid" ] && kill -KILL \$(cat "$work/pid")
+setsid "$palpa" console --no-open --home "$work/home" --records "$work/records.sqlite" "\$@" >"$work/console.txt" 2>&1 </dev/null &
+echo \$! >"$work/pid"
+for _ in \$(seq 300); do
+  grep -q '^The console: ' "$work/console.txt" && exit 0
+  kill -0 \$(cat "$work/pid") 2>/dev/null || { cat "$work/console.txt"; exit 1; }
   sleep 0.1
 done
+exit 1
+BEGIN
+trap 'kill $(cat "$work/pid") 2>/dev/null || true' EXIT
+bash "$work/begin.sh"
+url=$(sed -n 's/^The console: //p' "$work/console.txt")
 cd "$work"
 cp "$here/../../../assets/console/moments.js" "$work"   # beside a package.json that says what kind of module it is
 PALPA_CONSOLE_PAGES=$work node --test moments.test.mjs
-PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures node --test console.test.mjs
+PALPA_CONSOLE_BEGIN=$work/begin.sh PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures node --test console.test.mjs
