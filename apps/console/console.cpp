@@ -1,5 +1,6 @@
 #include "apps/console/console.h"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
@@ -85,7 +86,10 @@ struct Signals {
 
 }  // namespace
 
-bool isLoopback(const std::string& address) { return address == "localhost" || address == "::1" || address.rfind("127.", 0) == 0; }
+bool isLoopback(const std::string& address) {
+  in_addr v4{};
+  return address == "localhost" || address == "::1" || (::inet_pton(AF_INET, address.c_str(), &v4) == 1 && ntohl(v4.s_addr) >> 24 == 127);   // a name that begins with 127. may be anybody's
+}
 
 void serveConsole(const ConsoleSettings& s, const std::function<void(const std::string&)>& ready) {
   if (!isLoopback(s.address) && s.token.empty()) throw UsageError("needs a token", "--listen " + s.address, "Others can reach this address: give a file that holds a token with --token-file");

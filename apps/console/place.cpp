@@ -1,7 +1,6 @@
 #include "apps/console/place.h"
 
 #include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/geometry/whole_file.h"
@@ -15,7 +14,7 @@ namespace {
 constexpr std::size_t kLongestId = 64;
 
 bool plainName(const std::string& text) {
-  return !text.empty() && text.size() <= kLongestId && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+  return !text.empty() && text.size() <= kLongestId && std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_'; });
 }
 
 }  // namespace
