@@ -157,7 +157,8 @@ void WebServer::serve(DeadlineStream& stream) {
     stream.begin(Clock::now() + kRequestWithin, kLongestRequest);
     bool closed = false;
     turn = {.remote = stream.remote()};
-    if (!process_request(stream, count == kRequestsAConnection, closed, nullptr) || closed || stream.cut()) return;
+    const auto whole = [](httplib::Request& request) { request.ranges.clear(); };   // parts are refused; the refusal is no answer in parts either
+    if (!process_request(stream, count == kRequestsAConnection, closed, whole) || closed || stream.cut()) return;
     if (turn.closes) return linger(stream.socket());
   }
 }
