@@ -31,6 +31,7 @@ class OnlyOne {
   explicit OnlyOne(const fs::path& home) : url_(home / "address") {
     descriptor_ = ::open((home / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    if (descriptor_ >= 0) ::close(descriptor_);
     std::string url;
     std::getline(std::ifstream(url_), url);
     throw Error("runs already", "a console of this user" + (url.empty() ? "" : " (" + url + ")"), "Use that one, or give another place with --home");

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
 #include "apps/console/guard.h"
 #include "apps/runtime/serving_clock.h"
@@ -34,6 +35,7 @@ std::string stationOf(const Place& place) {
   std::error_code none;
   if (!std::filesystem::exists(place.settings(), none)) return "";
   const station::JsonFile file(place.settings());
+  if (!file.json().is_object()) throw UsageError("holds no settings", place.settings().string(), "Restore it, or remove it and calibrate anew");
   const std::string chosen = file.has("station") ? file.text("station") : "";
   return std::filesystem::exists(chosen, none) ? chosen : "";
 }

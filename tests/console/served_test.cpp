@@ -55,7 +55,7 @@ class Served {
   ~Served() { end(); }
   void end() {
     if (!thread_.joinable()) return;
-    ::kill(::getpid(), SIGTERM);
+    if (url().rfind("http", 0) == 0) ::kill(::getpid(), SIGTERM);
     thread_.join();
   }
   std::string url() {

@@ -61,8 +61,11 @@ std::vector<std::string> read(SessionLink& link, std::size_t from, std::size_t c
 template <class Seen>
 bool soon(Seen seen) {
   const auto until = runtime::ServingClock::now() + kLong;
-  while (!seen() && runtime::ServingClock::now() < until) runtime::rest(5ms);
-  return seen();
+  while (runtime::ServingClock::now() < until) {
+    if (seen()) return true;
+    runtime::rest(5ms);
+  }
+  return false;
 }
 
 TEST(SessionLink, TellsTheWholeLogInOrderToWhoeverAsksFromAnywhere) {
