@@ -102,6 +102,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   WebServer server(guard, refusals);
   const int port = s.port == 0 ? server.bind_to_any_port(s.address) : server.bind_to_port(s.address, s.port) ? s.port : -1;
   if (port <= 0) throw Error("cannot be listened at", s.address + (s.port ? ", port " + std::to_string(s.port) : ""), "Another program uses it, perhaps: choose another with --port");
+  server.widen();
   guard.answerTo(hostsOf(s, port));
   Console console(s.place, guard);
   addPages(server, console);

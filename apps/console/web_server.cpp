@@ -16,7 +16,9 @@ namespace palpa::console {
 namespace {
 
 using Clock = DeadlineStream::Clock;
-constexpr std::chrono::seconds kRequestWithin{10}, kIdle{5};
+constexpr std::chrono::milliseconds kRequestWithin{10'000}, kIdle{5'000};
+constexpr std::chrono::milliseconds kCrowdedRequestWithin{2'000}, kCrowdedIdle{250};   // where half the places are taken: who says nothing makes room
+constexpr int kKnocking = 512;
 constexpr std::size_t kLongestRequest = 128u << 10;
 constexpr std::chrono::milliseconds kLinger{500};
 constexpr int kRequestsAConnection = 1000, kThreadsToRefuse = 8;
@@ -113,6 +115,8 @@ void WebServer::end() {
   stop();
 }
 
+void WebServer::widen() { ::listen(svr_sock_.load(), kKnocking); }
+
 httplib::Server::HandlerResponse WebServer::admit(const httplib::Request& request, httplib::Response& response) {
   Verdict verdict = judgeFraming(request);
   if (verdict.status == 200) verdict = guard_.judge(askedOf(request));
@@ -153,8 +157,8 @@ bool WebServer::process_and_close_socket(socket_t socket) {
 
 void WebServer::serve(DeadlineStream& stream) {
   for (int count = 1; count <= kRequestsAConnection && !ending(); ++count) {
-    if (!stream.waits(kIdle)) return;
-    stream.begin(Clock::now() + kRequestWithin, kLongestRequest);
+    if (!stream.waits(crowded() ? kCrowdedIdle : kIdle)) return;
+    stream.begin(Clock::now() + (crowded() ? kCrowdedRequestWithin : kRequestWithin), kLongestRequest);
     bool closed = false;
     turn = {.remote = stream.remote()};
     const auto whole = [](httplib::Request& request) { request.ranges.clear(); };   // parts are refused; the refusal is no answer in parts either

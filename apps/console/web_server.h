@@ -23,6 +23,8 @@ class WebServer final : public httplib::Server {
   /// The server is ending: streams shall.
   bool ending() const { return ending_.load(); }
   void end();
+  /// Once it is bound: many may knock at once, and are told to wait rather than left before the door.
+  void widen();
 
   static constexpr int kMostConnections = 96, kMostStreams = 24;
 
@@ -30,6 +32,7 @@ class WebServer final : public httplib::Server {
   bool process_and_close_socket(socket_t socket) override;
   void serve(class DeadlineStream& stream);
   void finish(const httplib::Request& request, httplib::Response& response);
+  bool crowded() const { return connections_.load() > kMostConnections / 2; }
   HandlerResponse admit(const httplib::Request& request, httplib::Response& response);
 
   Guard& guard_;

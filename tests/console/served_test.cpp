@@ -8,6 +8,7 @@
 
 #include <memory>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <thread>
 
 #include "anatomy/geometry/error.h"

@@ -9,14 +9,13 @@ std::unique_ptr<Console> Attacked::console_;
 std::string Attacked::session_;
 std::size_t Attacked::noted_ = 0;
 
-void Attacked::SetUpTestSuite() {
-  if (folder_) return;
+void Attacked::beginAll() {
   folder_ = std::make_unique<ShortFolder>();
   console_ = std::make_unique<Console>(folder());
   EXPECT_EQ(console().post("/api/trainees", {{"id", "T017"}, {"group", kMarkup}, {"experience", kMarkup}, {"handedness", "right"}, {"consent", true}}).status, 201);
 }
 
-void Attacked::TearDownTestSuite() {
+void Attacked::endAll() {
   if (!console_) return;
   if (!session_.empty()) {
     console().post("/api/sessions/" + session_ + "/command", {{"command", "leave"}});
@@ -27,7 +26,18 @@ void Attacked::TearDownTestSuite() {
   folder_.reset();
 }
 
-void Attacked::SetUp() { noted_ = console().refused().size(); }
+void Attacked::SetUp() {
+  if (!console_) beginAll();
+  noted_ = console().refused().size();
+}
+
+/// After the last test of the program.
+class Ending : public ::testing::Environment {
+  void TearDown() override { Attacked::endAll(); }
+};
+namespace {
+[[maybe_unused]] ::testing::Environment* const ending = ::testing::AddGlobalTestEnvironment(new Ending);
+}
 
 const std::string& Attacked::session() {
   if (!session_.empty() && console().get("/api/sessions/" + session_).json().value("state", "") == "running") return session_;
@@ -44,8 +54,6 @@ const std::string& Attacked::session() {
   if (knows.empty()) return ::testing::AssertionFailure() << "the session tells nothing";
   double first = -1, later = -1;
   std::size_t seen_until = 0;
-  const auto over = std::chrono::milliseconds(0);
-  (void)over;
   console().events(id, "", [&](const auto& all) {
     for (; seen_until < all.size(); ++seen_until) {
       const auto t = all[seen_until].data.value("t_s", nlohmann::json());

@@ -168,14 +168,20 @@ Answer Console::post(const std::string& path, const nlohmann::json& body) {
 }
 
 std::vector<Event> Console::events(const std::string& session, const std::string& last, const std::function<bool(const std::vector<Event>&)>& enough) {
-  Wire wire(port_);
   Headers headers = readHeaders();
   if (!last.empty()) headers.emplace_back("Last-Event-ID", last);
-  wire.send(requestOf("GET", "/api/sessions/" + session + "/live", headers));
+  const std::string request = requestOf("GET", "/api/sessions/" + session + "/live", headers);
+  Wire wire(port_);
+  wire.send(request);
   std::vector<Event> all;
   std::string bytes;
   inTime([&] {
     bytes += wire.readSome(1s);
+    if (wire.closed() && answerIn(bytes).status == 503) {   // no place yet
+      bytes.clear();
+      wire = Wire(port_);
+      wire.send(request);
+    }
     for (Event& event : eventsIn(bytes)) all.push_back(std::move(event));
     return wire.closed() || enough(all);
   });

@@ -68,7 +68,7 @@ class Console {
   Answer post(const std::string& path, const nlohmann::json& body);
   /// Exactly these bytes.
   Answer raw(const std::string& bytes, const std::string& from = "");
-  /// Events after `last` (empty: all), until `enough` says so or the stream ends.
+  /// As an EventSource does: anew where there was no place. Events after `last` (empty: all), until `enough` says so or the stream ends.
   std::vector<Event> events(const std::string& session, const std::string& last, const std::function<bool(const std::vector<Event>&)>& enough);
 
  private:

@@ -20,7 +20,7 @@ constexpr char kId[] = "20260301-123000-1a2b3c4d";
 
 /// Virtual time: every tick follows from the seed alone, however the computer is loaded.
 std::vector<std::string> sessionIn(const fs::path& out, const std::string& live) {
-  std::vector<std::string> all{"paracentesis", "--operator", "expert", "--fast", "--no-views", "--quiet", "--seed", "7", "--trials", std::to_string(test::counted(2, 10)), "--out", out.string()};
+  std::vector<std::string> all{"paracentesis", "--operator", "expert", "--fast", "--no-views", "--quiet", "--seed", "7", "--trials", std::to_string(test::counted(1, 10)), "--out", out.string()};
   if (!live.empty()) all.insert(all.end(), {"--live", live});
   return all;
 }
@@ -91,7 +91,7 @@ TEST(Forces, AreTheSameTickByTickUnderAttack) {
   RecordProperty("streams dropped", asked);
 
   const auto before = ticksOf(calm), under = ticksOf(attacked);
-  ASSERT_GT(before.size(), 10'000u);
+  ASSERT_GT(before.size(), 5'000u);
   ASSERT_EQ(before.size(), under.size());
   std::size_t differ = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {

@@ -16,6 +16,13 @@ class Wire {
   Wire(Wire&& other) noexcept : socket_(other.socket_) { other.socket_ = -1; }
   Wire(const Wire&) = delete;
   Wire& operator=(const Wire&) = delete;
+  Wire& operator=(Wire&& other) noexcept {
+    leave();
+    socket_ = other.socket_;
+    closed_ = other.closed_;
+    other.socket_ = -1;
+    return *this;
+  }
 
   bool connected() const { return socket_ >= 0; }
   /// How many bytes were taken; fewer than all: the other side has gone, or took nothing for `patience`.
