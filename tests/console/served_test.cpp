@@ -5,7 +5,6 @@
 
 #include <atomic>
 #include <fstream>
-
 #include <memory>
 #include <mutex>
 #include <nlohmann/json.hpp>
@@ -16,9 +15,9 @@
 #include "apps/console/guard.h"
 #include "apps/console/http.h"
 #include "apps/runtime/serving_clock.h"
-#include "short_folder.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/short_folder.h"
 
 namespace palpa::console {
 namespace {
@@ -121,7 +120,7 @@ struct Desk {
     return inTime([&] { return console->get("/api/sessions/" + id)["state"] == state; });
   }
   const test::ScratchFolder folder;
-  const ShortFolder sockets;
+  const test::ShortFolder sockets;
   std::unique_ptr<Served> console;
 };
 

@@ -8,8 +8,8 @@
 
 #include "apps/live/local_socket.h"
 #include "apps/live/port.h"
-#include "short_folder.h"
 #include "tests/support/damage.h"
+#include "tests/support/short_folder.h"
 
 namespace palpa::console {
 namespace {
@@ -69,7 +69,7 @@ bool soon(Seen seen) {
 }
 
 TEST(SessionLink, TellsTheWholeLogInOrderToWhoeverAsksFromAnywhere) {
-  const ShortFolder here;
+  const test::ShortFolder here;
   Session session(here / "s");
   session.tell(0, 3000);
   SessionLink link(here / "s");
@@ -81,7 +81,7 @@ TEST(SessionLink, TellsTheWholeLogInOrderToWhoeverAsksFromAnywhere) {
 
 /// The line breaks and comes back: what is known is passed over, nothing is told twice, nothing is lost.
 TEST(SessionLink, AfterABrokenLineEachEntryIsThereOnce) {
-  const ShortFolder here;
+  const test::ShortFolder here;
   Session session(here / "s");
   SessionLink link(here / "s");
   for (int round = 0; round < 5; ++round) {
@@ -97,7 +97,7 @@ TEST(SessionLink, AfterABrokenLineEachEntryIsThereOnce) {
 
 /// A study's blocks are sessions one after the other at one socket.
 TEST(SessionLink, AnotherSessionAtTheSameSocketGoesOnAfterTheFirst) {
-  const ShortFolder here;
+  const test::ShortFolder here;
   SessionLink link(here / "s");
   {
     Session first(here / "s", "{\"kind\":\"hello\",\"uuid\":\"1\"}");
@@ -113,7 +113,7 @@ TEST(SessionLink, AnotherSessionAtTheSameSocketGoesOnAfterTheFirst) {
 
 /// A page that knows more than there is knows another log: it is told this one from its beginning, but not before all of it is here.
 TEST(SessionLink, ANumberBeyondTheLogIsAnotherLogs) {
-  const ShortFolder here;
+  const test::ShortFolder here;
   {
     SessionLink nobody(here / "s");
     EXPECT_TRUE(nobody.wait(500, 50ms).entries.empty());
@@ -129,7 +129,7 @@ TEST(SessionLink, ANumberBeyondTheLogIsAnotherLogs) {
 }
 
 TEST(SessionLink, TheEndIsToldOnce) {
-  const ShortFolder here;
+  const test::ShortFolder here;
   auto session = std::make_unique<Session>(here / "s");
   SessionLink link(here / "s");
   ASSERT_EQ(read(link, 0, 1).size(), 1u);
@@ -143,7 +143,7 @@ TEST(SessionLink, TheEndIsToldOnce) {
 }
 
 TEST(SessionLink, RequestsArriveInOrderAndNobodyIsPromisedWhatNobodyHears) {
-  const ShortFolder here;
+  const test::ShortFolder here;
   SessionLink link(here / "s");
   EXPECT_FALSE(link.send("lost"));
   Session session(here / "s");
@@ -153,7 +153,7 @@ TEST(SessionLink, RequestsArriveInOrderAndNobodyIsPromisedWhatNobodyHears) {
 }
 
 TEST(SessionLink, PicturesAreDrawnWhileSomebodyLooks) {
-  const ShortFolder here;
+  const test::ShortFolder here;
   Session session(here / "s");
   SessionLink link(here / "s");
   ASSERT_EQ(read(link, 0, 1).size(), 1u);
@@ -169,7 +169,7 @@ TEST(SessionLink, PicturesAreDrawnWhileSomebodyLooks) {
 
 /// Whatever sits at the socket and talks nonsense: no entry comes of it, and the link lives on for the session that comes then.
 TEST(SessionLink, NonsenseAtTheOtherEndHurtsNothing) {
-  const ShortFolder here;
+  const test::ShortFolder here;
   SessionLink link(here / "s");
   {
     const int listener = live::listenAt(here / "s");
@@ -192,14 +192,14 @@ TEST(SessionLink, NonsenseAtTheOtherEndHurtsNothing) {
 
 /// XDG_RUNTIME_DIR may be too long for a socket: nobody is there then, and the console lives.
 TEST(SessionLink, APathThatNoSocketCanHave) {
-  SessionLink link("/tmp/" + std::string(300, 'x'));
+  SessionLink link("/" + std::string(300, 'x'));
   EXPECT_FALSE(link.send("{}"));
   runtime::rest(200ms);   // its thread has tried
   EXPECT_TRUE(link.wait(0, 0ms).entries.empty());
 }
 
 TEST(SessionLink, ManyReadWhileTheSessionTalksAndTheLineBreaks) {
-  const ShortFolder here;
+  const test::ShortFolder here;
   Session session(here / "s");
   SessionLink link(here / "s");
   std::vector<std::vector<std::string>> got(5);

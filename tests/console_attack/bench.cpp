@@ -78,16 +78,6 @@ int waitFor(pid_t pid) {
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-ShortFolder::ShortFolder() {
-  char name[] = "/tmp/palpa-att-XXXXXX";
-  path_ = ::mkdtemp(name);
-}
-
-ShortFolder::~ShortFolder() {
-  std::error_code none;
-  fs::remove_all(path_, none);
-}
-
 Console::Console(const fs::path& folder, std::vector<std::string> more) : folder_(folder), more_(std::move(more)) { begin(); }
 
 Console::~Console() { kill(); }

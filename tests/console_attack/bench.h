@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "raw_http.h"
+#include "tests/support/short_folder.h"
 
 namespace palpa::console_attack {
 
@@ -26,19 +27,7 @@ pid_t startProgram(const std::vector<std::string>& arguments, const fs::path& fo
 /// Its exit code, 128 + signal when that ended it.
 int waitFor(pid_t pid);
 
-/// A folder with a short name, for sockets, gone at the end.
-class ShortFolder {
- public:
-  ShortFolder();
-  ~ShortFolder();
-  ShortFolder(const ShortFolder&) = delete;
-  ShortFolder& operator=(const ShortFolder&) = delete;
-  const fs::path& path() const { return path_; }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-
- private:
-  fs::path path_;
-};
+using test::ShortFolder;
 
 /// A console of the built program, in a folder of its own.
 class Console {

@@ -30,8 +30,11 @@ TEST_F(TheEnd, AConsoleThatIsKilledFindsItsSessionAgain) {
   EXPECT_EQ(console().post("/api/sessions", {{"task", "paracentesis"}, {"operator", "expert"}}).status, 409) << "a second one on the same station";
   EXPECT_EQ(console().post("/api/sessions/" + id + "/command", {{"command", "note"}, {"reason", kMarkup}, {"at_s", 1.5}}).status, 202);
 
-  const auto all = console().events(id, "", [](const std::vector<Event>& seen) { return std::any_of(seen.begin(), seen.end(), [](const Event& e) { return e.data.value("kind", "") == "trial_end"; }); });
-  EXPECT_TRUE(std::any_of(all.begin(), all.end(), [](const Event& e) { return e.data.value("event", "") == "note" && e.data.value("text", "") == kMarkup; })) << "as it was written";
+  const auto noted = [](const Event& e) { return e.data.value("event", "") == "note" && e.data.value("text", "") == kMarkup; };
+  const auto trialOver = [](const Event& e) { return e.data.value("kind", "") == "trial_end"; };
+  const auto all = console().events(id, "", [&](const std::vector<Event>& seen) { return std::any_of(seen.begin(), seen.end(), noted) && std::any_of(seen.begin(), seen.end(), trialOver); });
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), noted)) << "as it was written";
+  EXPECT_TRUE(std::any_of(all.begin(), all.end(), trialOver));
   EXPECT_EQ(console().post("/api/sessions/" + id + "/command", {{"command", "leave"}}).status, 202);
   const auto end = console().events(id, std::to_string(all.back().id), [](const auto&) { return false; });
   ASSERT_FALSE(end.empty());

@@ -13,6 +13,7 @@
 #include "peer.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"
+#include "tests/support/short_folder.h"
 
 namespace palpa::live {
 namespace {
@@ -21,8 +22,9 @@ using namespace std::chrono_literals;
 using nlohmann::json;
 
 std::string newSocket() {
+  static const test::ShortFolder folder;
   static int count = 0;
-  return "/tmp/palpa-port-" + std::to_string(::getpid()) + "-" + std::to_string(++count) + ".sock";
+  return folder / std::to_string(++count);
 }
 
 long residentKiB() {

@@ -9,27 +9,14 @@
 
 #include "anatomy/geometry/error.h"
 #include "peer.h"
+#include "tests/support/short_folder.h"
 
 namespace palpa::live {
 namespace {
 
 namespace fs = std::filesystem;
 
-/// A folder with a short name: a socket's path has 107 characters at most, a build folder's may have more.
-class ShortFolder {
- public:
-  ShortFolder() { path_ = ::mkdtemp(name_); }
-  ~ShortFolder() {
-    std::error_code none;
-    fs::remove_all(path_, none);
-  }
-  fs::path operator/(const std::string& name) const { return path_ / name; }
-  const fs::path& path() const { return path_; }
-
- private:
-  char name_[32] = "/tmp/palpa-live-XXXXXX";
-  fs::path path_;
-};
+using test::ShortFolder;
 
 unsigned modeOf(const fs::path& path) {
   struct stat facts {};
