@@ -6,6 +6,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <fstream>
 #include <thread>
@@ -21,9 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kRound{200};
-volatile std::sig_atomic_t ended = 0;
+std::atomic<bool> ended{false};   // a signal may come on any thread
+static_assert(std::atomic<bool>::is_always_lock_free);
 
-void note(int) { ended = 1; }
+void note(int) { ended.store(true); }
 
 /// One console a place: two would start two sessions on one station. Released with the process, however it ends.
 class OnlyOne {
@@ -73,7 +75,7 @@ void prepare(const Place& place) {
 struct Signals {
   struct sigaction old_int {}, old_term {};
   Signals() {
-    ended = 0;
+    ended.store(false);
     struct sigaction action {};
     action.sa_handler = note;
     sigaction(SIGINT, &action, &old_int);
@@ -119,7 +121,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   const std::string url = "http://" + bracketed(s.address == "0.0.0.0" ? "127.0.0.1" : s.address) + ":" + std::to_string(port) + "/";
   only.tell(url);
   ready(url);
-  while (!ended) {
+  while (!ended.load()) {
     runtime::rest(kRound);
     console.sessions.look();
   }

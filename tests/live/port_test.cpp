@@ -27,7 +27,11 @@ std::string newSocket() {
   return folder / std::to_string(++count);
 }
 
+/// Of this process; 0 under a sanitizer, which keeps what was freed for a while.
 long residentKiB() {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  return 0;
+#endif
   std::ifstream file("/proc/self/status");
   for (std::string word; file >> word;)
     if (word == "VmRSS:") {
@@ -49,6 +53,7 @@ scene::Image pictureOf(int width, int height) {
 struct Told {
   explicit Told(std::chrono::milliseconds patience = 10s) : port(path, log, [this](const std::string& command) { hear(command); }, patience) {}
   void hear(const std::string& command) {
+    if (slow) runtime::rest(2ms);
     const std::lock_guard lock(mutex);
     heard.push_back(command);
   }
@@ -58,6 +63,7 @@ struct Told {
   }
   const std::string path = newSocket();
   LiveLog log;
+  std::atomic<bool> slow{false};
   std::mutex mutex;
   std::vector<std::string> heard;
   Port port;
@@ -207,18 +213,19 @@ TEST(Port, WhoLeavesInTheMiddleOfAFrameAsksForNothing) {
   EXPECT_EQ(told.heardCount(), 1u);
 }
 
-/// Whoever sends without end holds up neither the others nor the session's end.
+/// Whoever sends without end, and faster than it is heard, holds up neither the others nor the session's end.
 TEST(Port, AFloodHoldsNobodyUp) {
   auto told = std::make_unique<Told>();
+  told->slow = true;
   std::atomic<bool> ending{false};
   std::thread flood([&, path = told->path] {
     Peer peer(path);
     std::string many;
-    for (int i = 0; i < 2000; ++i) many += encoded(FrameKind::command, "{}");
+    for (int i = 0; i < 20; ++i) many += encoded(FrameKind::command, std::string(4000, ' '));
     while (!ending.load() && peer.sendAll(many)) {
     }
   });
-  ASSERT_TRUE(eventually([&] { return told->heardCount() > 5000; }));
+  ASSERT_TRUE(eventually([&] { return told->heardCount() > 50; }));
   Peer other(told->path);
   fill(told->log, 100);
   EXPECT_TRUE(other.getsEntries(100));
