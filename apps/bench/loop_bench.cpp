@@ -8,6 +8,7 @@
 #include "apps/bench/bumpy_torso.h"
 #include "apps/bench/loop_segment.h"
 #include "apps/bench/metric.h"
+#include "apps/bench/onlookers.h"
 #include "apps/bench/paired.h"
 
 namespace palpa::bench {
@@ -79,6 +80,19 @@ void printRatio(const Measured& all, nlohmann::json params) {
   print("lateness_ratio_p99_high", interval.high, "1", params);
 }
 
+void tell(const LoopSurroundings& around, const LoopBenchOptions& options, nlohmann::json params) {
+  const int before = around.scene ? around.scene->frames() : 0;
+  const Measured all = measure(around, std::llround(1e9 * options.seconds / (4 * kBlocks)));
+  if (around.scene) params["frames"] = around.scene->frames() - before;
+  printLoop("ours", all.ours, params);
+  printLoop("bare", all.bare, params);
+  printRatio(all, params);
+  params["loop"] = "ours";
+  params["ticks_in_contact"] = all.contacts;
+  print("step_cost_median", median(all.costs), "us", params);
+  print("step_cost_p99", median(all.costs_p99), "us", params);
+}
+
 }  // namespace
 
 void benchLoop(const LoopBenchOptions& options) {
@@ -94,18 +108,17 @@ void benchLoop(const LoopBenchOptions& options) {
     drawn = std::string("none: ") + e.what();
   }
   const LoopSurroundings around{{}, builder, scene.get(), std::llround(1e9 / options.rate_Hz), options.cpu};
-  const Measured all = measure(around, std::llround(1e9 * options.seconds / (4 * kBlocks)));
-
-  nlohmann::json params{{"rate_hz", options.rate_Hz}, {"seconds", options.seconds},
-                        {"scene", drawn}, {"geometry_hz", 60}, {"noise", "none"}};
-  if (scene) params["frames"] = scene->frames();
-  printLoop("ours", all.ours, params);
-  printLoop("bare", all.bare, params);
-  printRatio(all, params);
-  params["loop"] = "ours";
-  params["ticks_in_contact"] = all.contacts;
-  print("step_cost_median", median(all.costs), "us", params);
-  print("step_cost_p99", median(all.costs_p99), "us", params);
+  const nlohmann::json params{{"rate_hz", options.rate_Hz}, {"seconds", options.seconds}, {"scene", drawn}, {"geometry_hz", 60}, {"noise", "none"}};
+  tell(around, options, params);
+  if (options.pages == 0) return;
+  if (!scene) throw palpa::Error("there is no picture to look on at (" + drawn + ")", "--pages", "Leave it out");
+  Onlookers onlookers(options.pages);
+  scene->showTo(&onlookers);
+  nlohmann::json watched = params;
+  watched["pages"] = options.pages;
+  tell(around, options, watched);
+  scene->showTo(nullptr);
+  print("pictures_to_each_page", static_cast<double>(onlookers.pictures()) / options.pages / options.seconds, "1/s", watched);
 }
 
 }  // namespace palpa::bench

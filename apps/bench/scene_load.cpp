@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/bench/onlookers.h"
 #include "apps/bench/reference_bust.h"
 #include "scene/scene_view.h"
 
@@ -46,6 +47,7 @@ std::int64_t SceneLoad::step(std::int64_t now_ns) {
   own.state.forces = {{scene::ForceKind::reaction, own.state.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
   own.state.hud.force = std::to_string(1 + sway) + " N";
   own.view.show(own.state);
+  if (onlookers_ && onlookers_->wantPicture(now_ns)) onlookers_->show(own.view.capture(), now_ns);
   ++own.frames;
   return now_ns + kFrame;
 }

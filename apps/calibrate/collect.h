@@ -7,6 +7,7 @@
 #include "apps/runtime/rig.h"
 #include "apps/station/station_file.h"
 #include "ar/board_pose.h"
+#include "calibration/camera_calibration.h"
 #include "calibration/board_view.h"
 #include "calibration/hand_eye_refinement.h"
 
@@ -20,6 +21,8 @@ class Guide {
   virtual void ask(const std::string& words) = 0;
   /// `live`: what is known so far, in words.
   virtual void progress(const std::string& what, int done, int of, const std::string& live) = 0;
+  /// The board's points in the view just taken, and where in the picture it has been seen so far.
+  virtual void covered(const std::vector<ar::BoardPoint>&, const calibration::CoverageMap&) {}
 };
 
 /// Where a collector works.

@@ -3,7 +3,6 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/calibrate/collect.h"
-#include "calibration/camera_calibration.h"
 
 namespace palpa::calibrate {
 namespace {
@@ -91,6 +90,7 @@ std::vector<calibration::BoardView> collectViews(const Scene& scene, int views) 
     taken.push_back(std::move(view));
     for (const ar::BoardPoint& point : points)
       if (int* cell = calibration::cellAt(coverage, point.pixel, scene.station.camera.width, scene.station.camera.height)) ++*cell;
+    scene.guide.covered(points, coverage);
     scene.guide.progress("Views of the board", i + 1, views,
                          std::to_string(points.size()) + " corners; " + std::to_string(std::lround(100 * calibration::coveredShare(coverage))) + " % of the picture covered so far");
   }

@@ -21,11 +21,12 @@ void addHaptics(CLI::App& bench) {
 
 void addLoop(CLI::App& bench) {
   CLI::App* loop = bench.add_subcommand("loop", "Lateness of the haptic loop beside a bare timer loop, under load");
-  loop->footer("Example:\n  palpa bench loop > loop.jsonl\n  palpa bench loop --rate 4000 --cpu 1");
+  loop->footer("Example:\n  palpa bench loop > loop.jsonl\n  palpa bench loop --rate 4000 --cpu 1\n  palpa bench loop --pages 2\n      the same again while two pages of the console look on");
   const auto options = std::make_shared<bench::LoopBenchOptions>();
   loop->add_option("--seconds", options->seconds, "Of measurement, in 40 segments")->check(CLI::Range(1.0, 3600.0));
   loop->add_option("--rate", options->rate_Hz, "Ticks a second")->check(CLI::Range(1000.0, 4000.0));
   loop->add_option("--cpu", options->cpu, "Keep the measured thread on this processor")->check(CLI::Range(0, 1023));
+  loop->add_option("--pages", options->pages, "Measure again while so many pages of the console look on")->check(CLI::Range(0, 8));
   loop->callback([options] { bench::benchLoop(*options); });
 }
 

@@ -13,6 +13,8 @@
 #include "apps/calibrate/page.h"
 #include "apps/calibrate/recorded.h"
 #include "apps/calibrate/sequence.h"
+#include "apps/calibrate/watched_rig.h"
+#include "apps/cli/calibrate_watch.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/setup_accuracy.h"
 #include "apps/station/assets.h"
@@ -26,7 +28,7 @@ namespace {
 using namespace calibrate;
 
 struct CalibrateOptions {
-  std::string kind, station, out;
+  std::string kind, station, out, watch;
   std::uint64_t seed = 1;
   bool quiet = false, all_corners = false;
   std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings, touches;
@@ -43,10 +45,10 @@ struct CalibrateOptions {
   }
 };
 
-/// On a terminal a line that renews itself, otherwise one line a step.
+/// On a terminal a line that renews itself, otherwise a line at the beginning and one at the end; each step's where somebody looks on.
 class TerminalGuide final : public Guide {
  public:
-  TerminalGuide(bool quiet, bool person) : quiet_(quiet), person_(person), terminal_(isatty(STDERR_FILENO)) {}
+  TerminalGuide(bool quiet, bool person, WatchedPicture* watched) : quiet_(quiet), person_(person), watched_(watched), terminal_(isatty(STDERR_FILENO)) {}
   ~TerminalGuide() override {
     if (open_) std::fputs("\n", stderr);
   }
@@ -59,13 +61,18 @@ class TerminalGuide final : public Guide {
     if (terminal_) {
       std::fprintf(stderr, "\r\033[K%s: %d of %d  %s%s", what.c_str(), done, of, live.c_str(), last ? "\n" : "");
       open_ = !last;
-    } else if (last || done == 1) {
+    } else if (last || done == 1 || watched_) {
       std::fprintf(stderr, "%s: %d of %d  %s\n", what.c_str(), done, of, live.c_str());
     }
   }
+  void covered(const std::vector<ar::BoardPoint>& points, const calibration::CoverageMap& coverage) override {
+    if (watched_) watched_->covered(points, coverage);
+  }
 
  private:
-  bool quiet_, person_, terminal_, open_ = false;
+  bool quiet_, person_;
+  WatchedPicture* watched_;
+  bool terminal_, open_ = false;
 };
 
 station::Station stationOf(const CalibrateOptions& o) {
@@ -225,8 +232,13 @@ void calibrateStation(const CalibrateOptions& o) {
     throw Error(std::string("cannot be led through a calibration yet: its ") + (real_camera ? "camera" : "device") + " is real, and the guided calibration knows only simulated ones",
                 "station \"" + station.id + "\"", "Record samples, and give them; see --help");
   twin::SetupBench bench(station, o.seed);
-  TerminalGuide guide(o.quiet, false);
-  CorrectedRig rig(bench);   // by the station's own calibration, where it has one
+  std::optional<WatchedPicture> watched;
+  if (!o.watch.empty()) watched.emplace(o.watch);
+  TerminalGuide guide(o.quiet, false, watched ? &*watched : nullptr);
+  WatchedRig seen(bench, [&](const ar::Frame& frame) {
+    if (watched) watched->see(frame);
+  });
+  CorrectedRig rig(seen);   // by the station's own calibration, where it has one
   if (o.kind != "all" && o.kind != "workspace") rig.correctBy(station.workspace);
   const Scene scene{station, rig, guide};
   if (o.kind != "all") {
@@ -322,6 +334,7 @@ void addStationCalibrations(CLI::App& calibrate) {
     command->add_option("--seed", o->seed, "Seed of the virtual bench")->check(CLI::NonNegativeNumber);
     command->add_option("--out", o->out, "Folder for the results")->type_name("DIR");
     command->add_flag("--quiet", o->quiet, "No progress");
+    command->add_option("--watch", o->watch, "Keep in this JPEG what the camera sees, for a page that shows it; and a line for each step")->type_name("FILE");
     addFiles(command, routine.name, o.get());
     command->callback([o] { calibrateStation(*o); });
   }

@@ -11,6 +11,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/cli/commands.h"
+#include "apps/cli/event_tone.h"
 #include "apps/cli/records_place.h"
 #include "apps/console/console.h"
 #include "apps/live/local_socket.h"
@@ -68,6 +69,7 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   s.port = o.port;
   s.token = tokenIn(o.token_file);
   s.names = o.names;
+  s.tone = toneOfEvent;
   return s;
 }
 

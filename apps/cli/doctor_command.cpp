@@ -10,6 +10,7 @@
 #include "apps/doctor/device_check.h"
 #include "apps/doctor/picture_facts.h"
 #include "apps/doctor/station_check.h"
+#include "apps/doctor/tracker_check.h"
 #include "apps/record/store/pending.h"
 #include "apps/record/store/sql_connection.h"
 #include "apps/station/assets.h"
@@ -82,6 +83,7 @@ Findings table(const station::Station& station, const PictureFacts& pictures, co
   all.push_back(askDevice(station.device));
   if (falcon) append(all, {askFirmware(station.device), askUdevRule(udevFolders())});
   all.push_back(askSensor(station));
+  if (station.tracker) all.push_back(askTracker(*station.tracker));
   append(all, judgeCalibrations(station, utcNow()));
   const ClockWatch watch;
   all.push_back(judgeLoop(measureLoop(), falcon));

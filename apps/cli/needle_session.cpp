@@ -9,6 +9,7 @@
 #include "apps/cli/session_info.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/station/overlay_error.h"
+#include "apps/task_needle/near_miss_watch.h"
 
 namespace palpa::cli {
 namespace {
@@ -94,11 +95,18 @@ class NeedleSession {
     return S_W ? std::optional<Mat3>(R_AW * *S_W * R_AW.transpose()) : std::nullopt;
   }
 
+  /// Of the evidence's records as they come.
+  std::string nearMiss(const haptics::FlightRecord& record) {
+    const Pose X_DT = unpack(PackedPose{record.reading.p_DE, record.reading.q_DE}) * world_.station.X_ET;
+    return near_.look(world_.X_DA.inverse() * X_DT.translation(), record.phase == haptics::NeedlePhase::inserted, record.commands.trial);
+  }
+
   const SessionOptions& options_;
   NeedleWorld& world_;
   const std::filesystem::path folder_;
   task_needle::TaskChannels channels_{options_.fast ? runtime::TimeMode::virtual_time : runtime::TimeMode::real};
-  SessionFrame frame_{options_, {world_.station, world_.patient, world_.X_WA, tickConfig(options_, world_)}, needleHands(options_, world_), channels_, folder_};
+  task_needle::NearMissWatch near_{world_.patient, world_.query};
+  SessionFrame frame_{options_, {.station = world_.station, .patient = world_.patient, .X_WA = world_.X_WA, .tick = tickConfig(options_, world_), .near = [this](const haptics::FlightRecord& record) { return nearMiss(record); }}, needleHands(options_, world_), channels_, folder_};
   const HeadStage head_ = makeHeadStage(options_, world_, frame_.desktop());
   runtime::GeometryActivity geometry_{frame_.bus(), world_.geometry, world_.X_DA};
   task_needle::NeedleTask task_{taskSetup(), frame_.bus(), channels_, frame_.executive()};

@@ -35,6 +35,8 @@ anatomy::Patient makePatient(const SessionOptions& options, const task_needle::T
   if (!options.patient.empty()) {
     anatomy::Patient patient = anatomy::readPatient(options.patient);
     anatomy::requireForNeedle(patient, options.patient);
+    if (options.side == anatomy::Side::left && patient.side != options.side)   // right is what is meant where nothing is said
+      throw UsageError("is left, and this patient was built for the right side", "--side", "Leave it out, or build the patient anew: palpa patient build --side left");
     return patient;
   }
   anatomy::PatientParameters parameters = anatomy::drawParameters(

@@ -8,11 +8,10 @@
 #include "apps/cli/recorded_palpation.h"
 #include "apps/cli/recorded_touch.h"
 #include "apps/report/tone.h"
+#include "apps/task_needle/near_miss_watch.h"
 
 namespace palpa::cli {
 namespace {
-
-constexpr double kNear_mm = 5;   // what is told as a near miss
 
 scene::TickTone tickOf(const std::string& kind) {
   switch (report::toneOfMoment(kind)) {
@@ -25,16 +24,16 @@ scene::TickTone tickOf(const std::string& kind) {
 }
 
 void addNearMiss(std::vector<replay::Mark>& marks, double distance_mm, double at_s, const char* organ) {
-  if (!std::isfinite(distance_mm) || distance_mm > kNear_mm || at_s < 0) return;
+  if (!std::isfinite(distance_mm) || distance_mm > 1e3 * task_needle::kNearMiss || at_s < 0) return;
   char words[96];
   if (distance_mm > 0) std::snprintf(words, sizeof words, "Near miss: %.1f mm from %s", distance_mm, organ);
   else std::snprintf(words, sizeof words, "Deepest in %s: %.1f mm", organ, -distance_mm);
-  marks.push_back({at_s, distance_mm > 0 ? scene::TickTone::guide : scene::TickTone::bad, words});
+  marks.push_back({at_s, distance_mm > 0 ? scene::TickTone::guide : scene::TickTone::bad, words, distance_mm > 0});
 }
 
 std::vector<replay::Mark> marksOf(const assess::TrialAssessment& judged) {
   std::vector<replay::Mark> marks;
-  for (const assess::Moment& moment : judged.moments) marks.push_back({moment.t_s, tickOf(moment.kind), moment.text});
+  for (const assess::Moment& moment : judged.moments) marks.push_back({moment.t_s, tickOf(moment.kind), moment.text, false});
   addNearMiss(marks, judged.closest_pleura_mm, judged.closest_pleura_s, "the pleura");
   addNearMiss(marks, judged.closest_artery_mm, judged.closest_artery_s, "an artery");
   std::stable_sort(marks.begin(), marks.end(), [](const replay::Mark& a, const replay::Mark& b) { return a.t_s < b.t_s; });

@@ -127,7 +127,7 @@ void writePictures(RecordedShow& recorded, const Cut& cut, const ReplayViewOptio
     count = number + 1;
   });
   nlohmann::json told{{"from_s", cut.from_s}, {"length_s", recorded.length_s()}, {"pictures_per_second", o.frames_per_second / o.speed}, {"pictures", count}, {"marks", nlohmann::json::array()}};
-  for (const replay::Mark& mark : recorded.marks()) told["marks"].push_back({{"t_s", mark.t_s}, {"tone", toneName(mark.tone)}, {"text", mark.words}});
+  for (const replay::Mark& mark : recorded.marks()) told["marks"].push_back({{"t_s", mark.t_s}, {"tone", toneName(mark.tone)}, {"text", mark.words}, {"near_miss", mark.near_miss}});
   writeWhole(folder / "pictures.json", told.dump(1) + "\n");
   std::printf("Written: %s (%d pictures, and pictures.json: what happened when)\n", folder.c_str(), count);
 }

@@ -7,6 +7,7 @@
 #include "anatomy/geometry/error.h"
 #include "apps/cli/rating_forms.h"
 #include "apps/cli/recorded_session.h"
+#include "apps/cli/records_place.h"
 #include "apps/cli/session_facts.h"
 #include "apps/cli/trial_samples.h"
 #include "apps/report/session_report.h"
@@ -64,7 +65,9 @@ competence::FormAnswers answersFor(const TrialReportOptions& o, const RatingForm
   if (!o.answers.empty())
     return competence::parseAnswers(textOf(o.answers), o.answers, forms.checklist, &forms.global);
   if (o.rater.empty()) return {};
-  record::RecordStore store(o.records);
+  const std::string records = o.records.empty() ? usualRecords() : o.records;
+  requireRecords(records);
+  record::RecordStore store(records);
   const competence::FormAnswers answers =
       answersIn(record::ratingsIn(store, uuid), o.trial, o.rater, forms);
   if (answers.checklist.empty() && answers.global.empty())
@@ -94,9 +97,6 @@ void needsPath(const RecordedSession& session, const std::string& file) {
 }
 
 void reportTrial(const TrialReportOptions& o) {
-  if (!o.rater.empty() && o.records.empty())
-    throw UsageError("needs --records", "--rater",
-                     "Say where the ratings were entered, or give them with --answers");
   const RatingForms forms = readForms(o.checklist, o.global);
   const std::string file = sessionFile(o.session);
   const RecordedSession session(file);
@@ -155,7 +155,7 @@ void addReportTrial(CLI::App& report) {
   command->add_option("--answers", o->answers, "What a rater marked, typed in: item,value")
       ->type_name("FILE");
   command->add_option("--rater", o->rater, "The rater whose sheet is in the records");
-  command->add_option("--records", o->records, "Records with ratings")->type_name("FILE|URL");
+  command->add_option("--records", o->records, "Records with the rater's sheet: a file, or postgresql://user@host/database (default: as of palpa records)")->type_name("FILE|URL");
   command->add_option("--out", o->out, "Page to write (default trial.html)")->type_name("FILE");
   command->callback([o] { reportTrial(*o); });
 }

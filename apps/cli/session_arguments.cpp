@@ -86,6 +86,7 @@ void addPlaceArguments(CLI::App& command, SessionOptions& o) {
       ->type_name("auto|offscreen|openxr|window");
   command.add_flag("--assess", o.assess, "Assessment: every aid is off, as for an examination; a needle's trial ends at the fourth pass");
   command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")->type_name("DIR");
+  command.add_option("--bench-seed", o.bench_seed, "Of the virtual bench's truth: that with which it was calibrated (default: as --seed)")->check(CLI::PositiveNumber);
   command.add_option("--live", o.live, "Let a console look on and steer, through a local socket at this path")->type_name("SOCKET");
   command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop a second (default 1000)")->check(CLI::Range(1000.0, 4000.0));
   command.add_option("--cpu", o.cpu, "Keep the haptic thread on this processor")->check(CLI::Range(0, 1023));
@@ -95,7 +96,6 @@ void addPlaceArguments(CLI::App& command, SessionOptions& o) {
 void addRunArguments(CLI::App& command, SessionOptions& o) {
   addPlaceArguments(command, o);
   command.add_option("--seed", o.seed, "Everything random follows from it (default 1)")->check(CLI::NonNegativeNumber);
-  command.add_option("--bench-seed", o.bench_seed, "Of the virtual bench's truth: that with which it was calibrated (default: as --seed)")->check(CLI::PositiveNumber);
   choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
   command.add_option("--trials", o.trials, "Number of trials (default 1)")->check(CLI::Range(1, 1000));
   command.add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")
@@ -103,8 +103,8 @@ void addRunArguments(CLI::App& command, SessionOptions& o) {
   command.add_option("--records", o.records, "Bring finished trials into these records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, else nobody is recorded)")
       ->envname("PALPA_RECORDS")
       ->type_name("FILE|URL");
-  CLI::Option* igtl = command.add_option("--igtl", o.igtl_port, "Serve this session by OpenIGTLink, for 3D Slicer and its like (usual: 18944)")->check(CLI::Range(1, 65535))->type_name("PORT");
-  command.add_option("--igtl-listen", o.igtl_listen, "Address that --igtl serves at: 127.0.0.1, this computer only (default), 0.0.0.0: every network")->type_name("ADDRESS")->needs(igtl);
+  CLI::Option* igtl = command.add_option("--igtl", o.igtl_port, "Let 3D Slicer and other programs follow this session live, by OpenIGTLink: where tool and patient are, forces, events. They connect to this port (usual: 18944)")->check(CLI::Range(1, 65535))->type_name("PORT");
+  command.add_option("--igtl-listen", o.igtl_listen, "Who may follow: 127.0.0.1, programs on this computer (default); this computer's own address, or 0.0.0.0: whoever reaches it by network, without password or encryption")->type_name("ADDRESS")->needs(igtl);
   command.add_flag_callback("--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
 }
 

@@ -109,7 +109,7 @@ runtime::ForceSensing::Setup SessionDevices::sensingSetup(double rate_Hz, double
 }
 
 void SessionDevices::addTo(runtime::Executive& executive) {
-  if (bench_moves_) executive.add(bench_->activity(), {0, false, false});
+  if (bench_moves_) executive.add(bench_->activity(), {0, true, false});   // a device moves in time, whatever the computer does
   if (mouse_) executive.add(*mouse_, {0, false, false});
   if (falcon_activity_) executive.add(*falcon_activity_, {0, true, false});
   if (net_ft_activity_) executive.add(*net_ft_activity_, {0, false, false});

@@ -1,26 +1,16 @@
 #include "apps/cli/session_frame.h"
 
+#include "apps/cli/event_tone.h"
 #include "apps/cli/interrupt.h"
 #include "apps/cli/progress.h"
 #include "apps/cli/session_igtl.h"
 #include "apps/cli/session_records.h"
 #include "apps/record/uuid.h"
-#include "apps/report/tone.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/recorder_activity.h"
 
 namespace palpa::cli {
 namespace {
-
-std::string toneOf(const std::string& kind) {
-  switch (report::toneOfMoment(kind)) {
-    case report::Tone::good: return "good";
-    case report::Tone::guide: return "guide";
-    case report::Tone::bad: return "bad";
-    case report::Tone::neutral: break;
-  }
-  return "neutral";
-}
 
 live::Hello helloOf(const SessionOptions& o, const station::Station& station, const std::string& uuid) {
   return {uuid, o.task.empty() ? o.command : std::filesystem::path(o.task).stem().string(), o.trainee, isSimulated(o.who) || station.simulated, o.assess, o.trials};
@@ -105,7 +95,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene, r
   std::optional<live::LiveSink> told;
   if (!options_.live.empty()) {
     live_ = std::make_unique<live::LiveSession>(options_.live, helloOf(options_, world_.station, info.uuid), channels_);
-    told.emplace(writer, live_->log(), world_.near, toneOf);
+    told.emplace(writer, live_->log(), world_.near, toneOfEvent);
   }
   runtime::RecorderActivity recorder(bus_, told ? static_cast<runtime::FlightSink&>(*told) : writer, world_.tick.period_ns);
   Progress progress(options_.quiet);

@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "anatomy/geometry/error.h"
+#include "anatomy/phantom_block.h"
 
 namespace palpa::cli {
 namespace {
@@ -17,7 +18,7 @@ igt::SessionLink::Setup linkOf(const SessionOptions& options, const station::Sta
   setup.X_WD = station.X_WD;
   setup.X_ET = shown.X_ET;
   if (shown.two_tools) setup.second_X_WD = station.second_X_WD;
-  if (!shown.needle && station.sample) setup.X_WP = station.sample->X_WP;
+  if (!shown.needle) setup.X_WP = shown.X_WA * anatomy::X_AP();   // what is palpated, squeezed or searched
   return setup;
 }
 

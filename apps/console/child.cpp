@@ -76,9 +76,10 @@ ProcessId start(const std::vector<std::string>& arguments, const std::filesystem
 
 bool runs(const ProcessId& process) {
   if (process.pid <= 0) return false;
-  ::waitpid(process.pid, nullptr, WNOHANG);
   const std::uint64_t began = beganAt(process.pid);
-  return began != 0 && began == process.began;
+  if (began != 0 && began == process.began) return true;
+  ::waitpid(process.pid, nullptr, WNOHANG);   // put away, where it was ours
+  return false;
 }
 
 void askToEnd(const ProcessId& process) {

@@ -106,7 +106,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   if (port <= 0) throw Error("cannot be listened at", s.address + (s.port ? ", port " + std::to_string(s.port) : ""), "Another program uses it, perhaps: choose another with --port");
   server.widen();
   guard.answerTo(hostsOf(s, port));
-  Console console(s.place, guard);
+  Console console(s.place, guard, s.tone);
   addPages(server, console);
   addStationRoutes(server, console);
   addPeopleRoutes(server, console);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "apps/console/place.h"
+#include "apps/live/live_sink.h"
 
 namespace palpa::console {
 
@@ -13,6 +14,7 @@ struct ConsoleSettings {
   std::string address = "127.0.0.1";
   int port = 0;                    ///< 0: any that is free
   std::string token;               ///< needed for any other address than this computer's own
+  live::ToneOf tone;               ///< of a replay's events
   std::vector<std::string> names;  ///< by which pages may also call it, without port
 };
 

@@ -122,6 +122,7 @@ nlohmann::json Jobs::one(const std::string& id) {
   std::error_code none;
   nlohmann::json one{{"id", id}, {"title", job.wish.title}, {"state", job.state == State::done ? "done" : job.state == State::failed ? "failed" : "working"}, {"lines", lines}, {"done", job.state == State::done ? nlohmann::json(1) : fractionOf(lines)}, {"message", ""}, {"picture", nullptr}, {"page", ""}};
   if (job.state == State::failed) one["message"] = job.stopped ? "It was stopped." : complaintIn(log);
+  if (!job.wish.picture.empty() && fs::exists(place_.jobs() / id / job.wish.picture, none)) one["picture"] = "/api/jobs/" + id + "/picture";
   if (!job.wish.page.empty() && fs::exists(place_.jobs() / id / job.wish.page, none)) one["page"] = "/api/pages/" + id;
   return one;
 }
@@ -132,6 +133,13 @@ void Jobs::stop(const std::string& id) {
   if (found == jobs_.end()) throw UsageError("is not known", "job " + id.substr(0, 64), "It is over already");
   found->second.stopped = true;
   askToEnd(found->second.process);
+}
+
+fs::path Jobs::picture(const std::string& id) {
+  const std::lock_guard lock(mutex_);
+  const auto found = jobs_.find(id);
+  if (found == jobs_.end() || found->second.wish.picture.empty()) throw UsageError("is not here", "picture of " + id.substr(0, 64), "Load the page again");
+  return place_.jobs() / id / found->second.wish.picture;
 }
 
 fs::path Jobs::page(const std::string& id) {

@@ -24,6 +24,7 @@ class Jobs {
     std::vector<std::string> arguments;     ///< of the command; "{}" stands for the job's folder
     std::string page;                       ///< the file that shows what came out, in the folder or with its whole path; empty: none
     std::function<void(const std::filesystem::path& folder, bool good)> then;   ///< on the jobs' thread
+    std::string picture = "";               ///< the file in the folder that shows what the camera sees meanwhile; empty: none
   };
   explicit Jobs(const Place& place);
   ~Jobs();                                  ///< what runs is asked to end
@@ -33,6 +34,7 @@ class Jobs {
   /// {"state": "working|done|failed", "title", "done", "lines", "page", "message"}; throws UsageError for an unknown one.
   nlohmann::json one(const std::string& id);
   void stop(const std::string& id);
+  std::filesystem::path picture(const std::string& id);   ///< throws UsageError for a job that has none
   std::filesystem::path page(const std::string& id);   ///< throws UsageError for a job that has none
   /// Waits or runs with a key that begins so; empty: none.
   std::string workingOn(const std::string& prefix);

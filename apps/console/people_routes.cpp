@@ -66,13 +66,28 @@ json report(Console& c, const std::string& key, const std::string& title, std::v
 /// Changes with every trial that comes into the records.
 std::string stateOfRecords(record::RecordStore& store, const std::string& trainee) { return std::to_string(store.trials({.trainee = trainee}).size()); }
 
+/// What an educator can start now; empty: nothing.
+std::string startable(const study::Next& next) {
+  if (next.kind != study::Next::Kind::trials) return "";
+  if (!next.not_before.empty() && next.not_before > utcNow()) return "";
+  return std::to_string(next.trials) + (next.trials == 1 ? " trial" : " trials");
+}
+
+/// What has to be done elsewhere before a block can be.
+std::string elsewhere(const study::Protocol& protocol, const study::Next& next, const std::string& trainee) {
+  if (next.kind != study::Next::Kind::questionnaire) return "";
+  return "The questionnaire is answered at the station's terminal: palpa study run --protocol " + protocol.id + ".json --trainee " + trainee;
+}
+
 json enrolled(const study::Protocol& protocol, record::RecordStore& store, const record::Enrolment& e) {
   std::vector<study::DoneTrial> trials;
   for (const record::TrialWithSession& t : store.trials({.trainee = e.trainee, .study = protocol.id})) trials.push_back(study::doneTrial(t.session, t.trial));
   std::vector<std::pair<int, std::string>> answered;
   for (const record::Answer& a : record::StudyStore(store).answers(protocol.id, e.trainee)) answered.emplace_back(static_cast<int>(a.session), a.item);
   const study::Next next = study::nextOf(protocol, e.condition, trials, answered, utcNow());
-  return {{"trainee", e.trainee}, {"group", e.group}, {"where", study::whereIs(protocol, next)}, {"finished", next.kind == study::Next::Kind::finished}, {"simulated", e.simulated}, {"remarks", next.remarks}};
+  json remarks = next.remarks;
+  if (const std::string first = elsewhere(protocol, next, e.trainee); !first.empty()) remarks.push_back(first);
+  return {{"trainee", e.trainee}, {"group", e.group}, {"where", study::whereIs(protocol, next)}, {"next", startable(next)}, {"finished", next.kind == study::Next::Kind::finished}, {"simulated", e.simulated}, {"remarks", remarks}};
 }
 
 std::vector<fs::path> protocolFiles() {
@@ -110,13 +125,14 @@ json studies(Console& c) {
 std::string runStudy(Console& c, const std::string& id, const json& body) {
   SessionWish wish;
   wish.protocol = protocolFile(id).string();
+  wish.blind = study::readProtocol(wish.protocol).blind_educator;
   wish.task = id;
   wish.trainee = wordsIn(body, "trainee");
   if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty()) throw UsageError(why, "trainee", "Choose one of the list");
   wish.performer = wordsIn(body, "operator");
   if (wish.performer != "person" && wish.performer != "expert" && wish.performer != "novice") throw UsageError("is none of person, expert, novice", "who performs", "Choose one of them");
   std::vector<std::string> arguments{"study", "run", "--protocol", wish.protocol, "--trainee", wish.trainee, "--operator", wish.performer, "--records", c.place.records};
-  if (const std::string chosen = stationOf(c.place); !chosen.empty()) arguments.insert(arguments.end(), {"--station", chosen});
+  if (const std::string chosen = stationOf(c.place); !chosen.empty()) arguments.insert(arguments.end(), {"--station", chosen, "--bench-seed", "1"});
   return c.sessions.begin(wish, std::move(arguments));
 }
 

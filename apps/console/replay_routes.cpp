@@ -46,11 +46,19 @@ json phasesIn(const std::vector<runtime::Event>& events, const record::RecordedT
   return all;
 }
 
-json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial) {
+json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial, const live::ToneOf& tone) {
   json all = json::array();
   for (const runtime::Event& event : events)
-    if (event.trial == trial.header.trial && event.kind != "case") all.push_back({{"t_s", rounded(static_cast<double>((event.kind == "note" && event.value > 0 ? static_cast<std::int64_t>(event.value * 1e9) : event.t_ns) - trial.header.t_ns) * 1e-9)}, {"event", event.kind}, {"text", event.text}, {"tone", event.kind == "note" ? "note" : "neutral"}});
+    if (event.trial == trial.header.trial && event.kind != "case") all.push_back({{"t_s", rounded(static_cast<double>((event.kind == "note" && event.value > 0 ? static_cast<std::int64_t>(event.value * 1e9) : event.t_ns) - trial.header.t_ns) * 1e-9)}, {"event", event.kind}, {"text", event.text}, {"tone", tone(event)}});
   return all;
+}
+
+/// Near misses out of what the pictures' command found.
+json nearIn(const json& pictures) {
+  json near = json::array();
+  for (const json& mark : pictures.value("marks", json::array()))
+    if (mark.value("near_miss", false)) near.push_back({{"t_s", mark.at("t_s")}, {"text", mark.at("text")}});
+  return near;
 }
 
 struct Recorded {
@@ -60,7 +68,7 @@ struct Recorded {
 
 Recorded recorded(Console& c, const std::string& id, int number) {
   const fs::path folder = c.sessions.folder(id);
-  return {c.sessions.results(id) / "session.palpa", folder / ("replay-" + std::to_string(number)), "replay " + id + " " + std::to_string(number)};
+  return {c.sessions.shown(id) / "session.palpa", folder / ("replay-" + std::to_string(number)), "replay " + id + " " + std::to_string(number)};
 }
 
 /// Pictures are drawn once, by the command that draws films.
@@ -70,7 +78,7 @@ void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
   if ((*told)["ready"]) {
     const json pictures = station::JsonFile(trial.pictures / "pictures.json").json();
     (*told)["frames"] = pictures.value("pictures", 0);
-    (*told)["marks"] = pictures.value("marks", json::array());
+    (*told)["near"] = nearIn(pictures);
     (*told)["done"] = 1;
     return;
   }
@@ -89,7 +97,7 @@ json replay(Console& c, const std::string& id, int number) {
     const double length_s = trial.ended ? static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9 : told["t_s"].empty() ? 0 : told["t_s"].back().get<double>();
     const std::vector<runtime::Event> events = reader.events();
     told["length_s"] = rounded(length_s);
-    told["events"] = eventsIn(events, trial);
+    told["events"] = eventsIn(events, trial, c.tone);
     told["phases"] = phasesIn(events, trial, length_s);
     told["fps"] = kPicturesPerSecond;
     told["frames"] = std::max(1, static_cast<int>(std::lround(length_s * kPicturesPerSecond)));

@@ -9,14 +9,16 @@
 #include "apps/console/place.h"
 #include "apps/console/sessions.h"
 #include "apps/console/web_server.h"
+#include "apps/live/live_sink.h"
 
 namespace palpa::console {
 
 /// What the routes share.
 struct Console {
-  explicit Console(Place where, Guard& the_guard) : place(std::move(where)), guard(the_guard), sessions(place), jobs(place) {}
+  Console(Place where, Guard& the_guard, live::ToneOf tone_of) : place(std::move(where)), guard(the_guard), tone(std::move(tone_of)), sessions(place), jobs(place) {}
   const Place place;
   Guard& guard;
+  const live::ToneOf tone;
   Sessions sessions;
   struct Health {
     std::mutex mutex;

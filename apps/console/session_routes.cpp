@@ -96,7 +96,7 @@ void addSessionRoutes(WebServer& server, Console& c) {
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/file/([A-Za-z0-9_.-]{1,80}))", [&c](const httplib::Request& q, httplib::Response& r) {
     const std::string name = q.matches[2];
     if (!isShown(name)) return refuse(r, 404, "is not here");
-    sendFile(r, c.sessions.results(q.matches[1]) / name, mediaTypeOf(name));
+    sendFile(r, c.sessions.shown(q.matches[1]) / name, mediaTypeOf(name));
   });
 }
 

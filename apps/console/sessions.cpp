@@ -29,30 +29,49 @@ ProcessId processOf(const json& facts) {
   return {static_cast<int>(number("pid")), static_cast<std::uint64_t>(number("began"))};
 }
 
-/// The newest folder with results: the session's own, or where a study put its block.
+/// The newest folder with results: the session's own, or where a study put its last block (TRAINEE/BLOCK).
 fs::path resultsIn(const fs::path& folder) {
+  constexpr int kDeepest = 2;
+  constexpr char kEvidence[] = "session.palpa";
   std::error_code none;
-  if (fs::exists(folder / "session.palpa", none)) return folder;
+  if (fs::exists(folder / kEvidence, none)) return folder;
   fs::path newest = folder;
-  for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.is_directory(none) && fs::exists(entry.path() / "session.palpa", none) && entry.path().filename().string() != "demonstration" && (newest == folder || entry.path() > newest)) newest = entry.path();
+  fs::file_time_type began = fs::file_time_type::min();
+  for (auto entry = fs::recursive_directory_iterator(folder, none); entry != fs::recursive_directory_iterator(); entry.increment(none)) {
+    if (entry.depth() >= kDeepest || entry->path().filename() == "demonstration") entry.disable_recursion_pending();
+    if (entry->path().filename() != kEvidence || entry->last_write_time(none) < began) continue;
+    newest = entry->path().parent_path();
+    began = entry->last_write_time(none);
+  }
   return newest;
 }
 
-json trialOf(const record::RecordedTrial& trial) {
+/// The sentence that ended the trial, where one did.
+std::string summaryOf(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial) {
+  for (auto event = events.rbegin(); event != events.rend(); ++event)
+    if (event->trial == trial.header.trial && event->kind == trial.end.outcome) return event->text;
+  return "";
+}
+
+json trialOf(const record::RecordedTrial& trial, const std::vector<runtime::Event>& events) {
   json one{{"number", trial.header.trial}, {"role", trial.header.role}, {"outcome", trial.ended ? trial.end.outcome : "interrupted"}, {"reason", trial.end.reason}, {"length_s", static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9}};
   const json scores = json::parse(trial.end.scores_json, nullptr, false);
-  if (scores.is_object())
-    for (const char* field : {"total", "summary"})
-      if (scores.contains(field)) one[field] = scores[field];
+  if (scores.is_object() && scores.contains("TOTAL")) one["total"] = scores["TOTAL"];
+  if (std::string summary = summaryOf(events, trial); !summary.empty()) one["summary"] = std::move(summary);
   return one;
 }
 
-json trialsIn(const fs::path& evidence) {
+json trialsIn(const fs::path& evidence, bool blind) {
   json all = json::array();
   std::error_code none;
   if (!fs::exists(evidence, none)) return all;
-  for (const record::RecordedTrial& trial : record::SessionReader(evidence).trials()) all.push_back(trialOf(trial));
+  const record::SessionReader reader(evidence);
+  const std::vector<runtime::Event> events = reader.events();
+  for (const record::RecordedTrial& trial : reader.trials()) {
+    all.push_back(trialOf(trial, events));
+    if (!blind) continue;
+    for (const char* figure : {"total", "summary", "role"}) all.back().erase(figure);
+  }
   return all;
 }
 
@@ -90,6 +109,11 @@ fs::path Sessions::folder(const std::string& id) const {
 
 fs::path Sessions::results(const std::string& id) const { return resultsIn(folder(id)); }
 
+fs::path Sessions::shown(const std::string& id) const {
+  if (factsOf(folder(id)).value("blind", false)) throw UsageError("belongs to a study whose educators are blind", "session " + id, "Its figures are read with the study's: palpa study analyse");
+  return results(id);
+}
+
 /// Those that went on while there was no console.
 void Sessions::find() {
   std::error_code none;
@@ -108,7 +132,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   const fs::path folder = place_.sessions() / id;
   fs::create_directories(folder);
   for (const std::string& more : {std::string("--live"), socketOf(id), std::string("--out"), folder.string()}) arguments.push_back(more);
-  json facts{{"task", wish.task}, {"trainee", wish.trainee}, {"started_utc", utcNow()}, {"assessed", wish.assess}, {"simulated", wish.performer != "person"}, {"study", !wish.protocol.empty()}, {"trials", wish.trials}};
+  json facts{{"task", wish.task}, {"trainee", wish.trainee}, {"started_utc", utcNow()}, {"assessed", wish.assess}, {"simulated", wish.performer != "person"}, {"study", !wish.protocol.empty()}, {"blind", wish.blind}, {"trials", wish.trials}};
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
   const ProcessId process = start(arguments, folder / kLog, false);
   facts["pid"] = process.pid;
@@ -141,7 +165,7 @@ json Sessions::told(const std::string& id, const fs::path& folder) {
   const json facts = factsOf(folder);
   const std::string state = stateOf(id, folder);
   json one{{"id", id}, {"task", textOf(facts, "task")}, {"trainee", textOf(facts, "trainee")}, {"started_utc", textOf(facts, "started_utc")}, {"state", state}, {"message", messageOf(state, folder)}};
-  for (const char* field : {"assessed", "simulated", "trials", "study"}) one[field] = facts.value(field, json());
+  for (const char* field : {"assessed", "simulated", "trials", "study", "blind"}) one[field] = facts.value(field, json());
   return one;
 }
 
@@ -167,11 +191,12 @@ json Sessions::one(const std::string& id) {
     one = told(id, here);
   }
   const fs::path results = resultsIn(here);
-  one["files"] = filesIn(results);
+  const bool blind = one["blind"] == true;
+  one["files"] = blind ? json::array() : filesIn(results);
   one["results"] = json::array();
   if (one["state"] == "running" || one["state"] == "starting") return one;   // its evidence is being written
   try {
-    one["results"] = trialsIn(results / "session.palpa");
+    one["results"] = trialsIn(results / "session.palpa", blind);
   } catch (const Error& e) {
     one["message"] = e.what();
   }

@@ -24,6 +24,7 @@ struct SessionWish {
   int trials = 1;
   std::uint64_t seed = 1, patient_seed = 0;
   std::string protocol;           ///< of a study: its file; the task then follows from it
+  bool blind = false;             ///< of a study: an educator must not be told what was drawn
 };
 /// Throws UsageError where a field is missing, of the wrong kind or out of range.
 SessionWish readWish(const nlohmann::json& json);
@@ -40,6 +41,8 @@ class Sessions {
   nlohmann::json one(const std::string& id);                ///< throws UsageError where it is none
   std::filesystem::path folder(const std::string& id) const;  ///< throws UsageError where it is none
   std::filesystem::path results(const std::string& id) const; ///< where its report is: the folder, or that of a study's newest block
+  /// The same, to be shown; throws UsageError where the study is blind for educators: figures and pictures could tell what was drawn.
+  std::filesystem::path shown(const std::string& id) const;
   /// Of a session that runs, or ran since the console began; null otherwise.
   std::shared_ptr<SessionLink> link(const std::string& id);
   bool oneRuns();

@@ -86,7 +86,8 @@ std::string calibrate(Console& c, const std::string& step) {
   wish.key = "calibrate";
   wish.title = step == "all" ? "Everything" : found->title;
   const fs::path place = c.place.home / "stations" / newId();
-  wish.arguments = {"calibrate", step, "--out", place.string()};
+  wish.picture = "camera.jpg";
+  wish.arguments = {"calibrate", step, "--out", place.string(), "--watch", "{}/" + wish.picture};
   wish.page = (place / "calibration.html").string();
   if (const std::string chosen = stationOf(c.place); !chosen.empty() && step != "all") wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
   wish.then = [&c, place](const fs::path&, bool good) {
@@ -150,6 +151,7 @@ void addStationRoutes(WebServer& server, Console& c) {
     c.jobs.stop(q.matches[1]);
     answer(r, json::object(), 202);
   });
+  server.Get(R"(/api/jobs/([A-Za-z0-9_-]{1,64})/picture)", [&c](const httplib::Request& q, httplib::Response& r) { sendFile(r, c.jobs.picture(q.matches[1]), "image/jpeg"); });
   server.Get(R"(/api/pages/([A-Za-z0-9_-]{1,64}))", [&c](const httplib::Request& q, httplib::Response& r) {
     sendFile(r, c.jobs.page(q.matches[1]), "text/html; charset=utf-8");
   });

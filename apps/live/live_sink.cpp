@@ -7,7 +7,7 @@ namespace palpa::live {
 void LiveSink::beginTrial(const runtime::TrialHeader& header) {
   evidence_.beginTrial(header);
   near_words_.clear();
-  log_.add(entryOf({{"kind", "trial"}, {"t_s", secondsOf(header.t_ns)}, {"trial", header.trial}, {"role", header.role}, {"force_feedback", header.force_feedback}}));
+  log_.add(entryOf({{"kind", "trial"}, {"t_s", secondsOf(header.t_ns)}, {"trial", header.trial}, {"role", header.role}}));
 }
 
 void LiveSink::tick(const haptics::FlightRecord& record) {
@@ -19,7 +19,7 @@ void LiveSink::tick(const haptics::FlightRecord& record) {
 
 void LiveSink::event(const runtime::Event& event) {
   evidence_.event(event);
-  log_.add(entryOf({{"kind", "event"}, {"t_s", secondsOf(event.t_ns)}, {"trial", event.trial}, {"event", event.kind}, {"text", event.text}, {"tone", event.kind == "note" ? "note" : tone_(event.kind)}, {"value", event.value}}));
+  log_.add(entryOf({{"kind", "event"}, {"t_s", secondsOf(event.t_ns)}, {"trial", event.trial}, {"event", event.kind}, {"text", event.text}, {"tone", tone_(event)}, {"value", event.value}}));
 }
 
 void LiveSink::endTrial(const runtime::TrialEnd& end) {

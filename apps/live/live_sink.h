@@ -13,8 +13,8 @@ namespace palpa::live {
 /// What came too near, in words ("1.8 mm from the pleura"); empty: nothing. Asked a few times a second, on the recorder's thread.
 using NearMiss = std::function<std::string(const haptics::FlightRecord&)>;
 
-/// "good", "guide", "bad", "neutral" of a kind of event.
-using ToneOf = std::function<std::string(const std::string& kind)>;
+/// "good", "guide", "bad", "neutral" or "note": what an event means for the learner.
+using ToneOf = std::function<std::string(const runtime::Event& event)>;
 
 /// Tells what goes into the evidence to the log as well. Evidence comes first: what cannot be told changes nothing there. On the recorder's thread.
 class LiveSink final : public runtime::FlightSink {

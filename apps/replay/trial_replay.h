@@ -15,6 +15,7 @@ struct Mark {
   double t_s = 0;
   scene::TickTone tone = scene::TickTone::neutral;
   std::string words;
+  bool near_miss = false;
 };
 
 /// How long words of a mark stay, s of the trial.

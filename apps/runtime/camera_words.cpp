@@ -22,7 +22,7 @@ std::string cameraTrouble(const CameraView* view, std::int64_t now_ns) {
     case ar::TrackState::searching:
       return view->by_tracker ? "the tracking system says nothing of the camera yet: is its server running, are both markers in its sight?" : "the camera does not see the board";
     case ar::TrackState::lost:
-      return view->by_tracker ? "the tracking system has lost the camera or the table: the overlay stands still" : "the camera has lost the board: the overlay stands still";
+      return view->by_tracker ? "the tracking system has lost the camera or the table, or sends nothing any more: the overlay stands still" : "the camera has lost the board: the overlay stands still";
     case ar::TrackState::tracked:
     case ar::TrackState::coasting: break;
   }

@@ -10,6 +10,9 @@
 namespace palpa::runtime {
 
 /// Something worth telling, with the moment.
+/// Text of the "safety" event that ends one.
+inline constexpr const char* kForceIsBack = "Force is back";
+
 struct Event {
   std::int64_t t_ns = 0;    ///< session time
   int trial = 0;            ///< 0: outside a trial

@@ -67,7 +67,7 @@ void TrialTask::watchCamera(std::int64_t now_ns) {
   const std::string trouble = sightTrouble(view, now_ns);
   if (trouble == camera_) return;
   if (!trouble.empty()) tell(now_ns, "camera", trouble, 1);
-  else tell(now_ns, "camera", "the camera sees the board", 0);
+  else tell(now_ns, "camera", view->by_tracker ? "the tracking system sees the camera" : "the camera sees the board", 0);
   camera_ = trouble;
 }
 
@@ -141,7 +141,7 @@ void TrialTask::watchSafety(const haptics::FlightRecord& record) {
     status_.trip = record.safety;
     trip_ns_ = record.t_ns;
   }
-  if (record.events & haptics::kSafetyCleared) tell(record.t_ns, "safety", "Force is back");
+  if (record.events & haptics::kSafetyCleared) tell(record.t_ns, "safety", runtime::kForceIsBack);
   if (record.events & haptics::kSnapshotRefused) tell(record.t_ns, "safety", "Damaged geometry was refused");
   if (record.t_ns - trip_ns_ > kTripShown) status_.trip = SafetyCause::none;
   if (record.safety == SafetyCause::duty) {

@@ -54,7 +54,8 @@ export class LiveControls {
     this.#may(this.abort, on);
     this.#may(this.void, on);
     this.#may(this.leave, state !== 'finished');
-    this.rearm.hidden = !stopped;
+    this.rearm.hidden = !stopped;   // in the place of "Go on": nothing moves under the hand
+    this.go.hidden = stopped;
   }
 
   #may(made, allowed) { if (allowed && !this.over) made.removeAttribute('aria-disabled'); else made.setAttribute('aria-disabled', 'true'); }

@@ -2,6 +2,7 @@
 import {post, url} from './api.js';
 import {announce, h, mark, put, say} from './dom.js';
 import {clock} from './format.js';
+import {joined, momentOf} from './moments.js';
 import {during, tick} from './parts.js';
 
 const kWords = {good: 'good', bad: 'error', near: 'near miss', note: 'note', neutral: ''};
@@ -47,16 +48,21 @@ export class LiveEvents {
     this.#close();
   }
 
-  /** A note comes twice, from here and from the station: it is shown once. */
+  /** A note comes twice, from here and from the station: it is shown once. False: it belongs to what stands there already. */
   add(message, tone) {
     if (message.event === 'note' || tone === 'note') {
       const key = String(message.text || '').replace(/^note:\s*/i, '');
-      if (this.notes.has(key)) { this.notes.delete(key); return; }
+      if (this.notes.has(key)) { this.notes.delete(key); return false; }
       if (message.event === 'note') this.notes.add(key);
     }
     this.list.querySelector('.none-yet')?.remove();
+    const more = joined(this.last, message);
+    this.last = more || momentOf({...message, tone});
+    if (more) { say(this.lastText, more.text); return false; }
     const word = kWords[tone] ?? '';
-    this.list.prepend(h('li', {class: `event ${tone}`}, mark(tone), h('span', {class: 'event-time'}, clock(message.t_s)), h('span', {}, word ? h('strong', {}, `${word}: `) : null, String(message.text || message.event || ''))));
+    this.lastText = h('span', {}, this.last.text);
+    this.list.prepend(h('li', {class: `event ${tone}`}, mark(tone), h('span', {class: 'event-time'}, clock(message.t_s)), h('span', {}, word ? h('strong', {}, `${word}: `) : null, this.lastText)));
+    return true;
   }
 
   end() { this.over = true; this.writing.hidden = true; }

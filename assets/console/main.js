@@ -33,7 +33,7 @@ let entered = false;
 const lastKnown = () => entered;
 function remember(here) {
   entered = !!here.entered;
-  put(document.getElementById('where'), here.station ? [h('span', {}, here.station), here.simulated ? simulatedBadge() : null] : []);
+  put(document.getElementById('where'), here.station ? [h('span', {title: here.station}, here.station.replace(/ \(.*\)$/, '')), here.simulated ? simulatedBadge() : null] : []);
   say(document.getElementById('foot'), `Palpa ${here.version || ''} · Records stay on this station${here.records ? `: ${here.records}` : ''} · Pseudonyms only, nothing leaves this computer.`);
 }
 

@@ -13,7 +13,7 @@ function toneOf(verdict) {
 
 function age(made) {
   if (!made) return [badge('note', 'not done yet')];
-  const days = Math.floor(Number(made.age_days));
+  const days = Math.floor((Date.now() - Date.parse(made.made_utc)) / 86_400_000);
   return [badge(toneOf(String(made.verdict || '')), String(made.verdict || 'made')), made.simulated ? simulatedBadge() : null,
     h('span', {class: 'muted'}, `made ${day(made.made_utc)}${Number.isFinite(days) ? (days < 1 ? ', today' : `, ${plural(days, 'day')} ago`) : ''}`)];
 }

@@ -1,7 +1,7 @@
 // The session that is on: picture, controls, curves, events, notes.
 import {get, lostSince, url, watchConnection} from './api.js';
 import {announce, h, put, say} from './dom.js';
-import {clock, isOn, liveState, taskName, who} from './format.js';
+import {clock, figure as figureOf, isOn, liveState, taskName, who} from './format.js';
 import {LiveControls} from './live_controls.js';
 import {LiveCurves} from './live_curves.js';
 import {LiveEvents} from './live_events.js';
@@ -19,8 +19,16 @@ function figures() {
   const made = {};
   const one = (key, name) => h('div', {class: `figure-${key}`}, h('dt', {}, name), made[key] = h('dd', {}, '–'));
   const node = h('dl', {class: 'card live-figures'}, one('time', 'Time of the trial'), one('force', 'Force'), one('depth', 'Depth'), one('phase', 'Phase'), one('touched', 'Touching'));
-  return {node, show(s) {
-    say(made.time, clock(s.elapsed_s)); say(made.force, s.force || '–'); say(made.depth, s.depth || '–'); say(made.phase, s.phase || '–'); say(made.touched, s.touched || 'nothing');
+  let said = {}, last = {};   // what the trainee's screen says; in an assessed trial it says little, and curves and events tell the educator the rest
+  const draw = () => {
+    const phase = (said.phase || '').replace(/^Trial \d+ of \d+\s*/, '');
+    say(made.time, clock(said.elapsed_s)); say(made.force, said.force || (Number.isFinite(last.force) ? `${figureOf(last.force, 1)} N` : '–')); say(made.depth, said.depth || (Number.isFinite(last.depth) ? `${figureOf(last.depth, 0)} mm` : '–'));
+    say(made.phase, phase || last.phase || '–'); say(made.touched, said.touched || 'nothing');
+  };
+  return {node, show(s) { said = s; draw(); }, curve(m) { last.force = m.force_N?.at(-1); last.depth = m.depth_mm?.at(-1); draw(); }, event(m) {
+    if (m.event === 'phase') last.phase = m.text;
+    if (m.event === 'start') last = {};
+    draw();
   }};
 }
 
@@ -51,7 +59,7 @@ export async function show({root, life, params: [id], open}) {
     const [tone, word] = liveState(s.state), of = Number(s.trials) > 1 ? `, trial ${s.trial} of ${s.trials}` : '';
     const line = `${word}${of}${s.notice && !s.alarm ? `. ${s.notice}` : ''}`;
     if (line !== stateShown) { stateShown = line; put(state, badge(tone, word + of), s.notice && !s.alarm ? h('span', {}, s.notice) : null); }
-    const cry = s.emergency_stop ? `${(s.notice || 'Emergency stop: forces are off').replace(/[.\s]*$/, '.')} Re-arm when hands are clear of the device.` : s.alarm ? s.notice || 'Alarm.' : '';
+    const cry = s.emergency_stop ? 'EMERGENCY STOP: forces are off. Re-arm when hands are clear of the device, then go on.' : s.alarm ? s.notice || 'Alarm.' : '';
     if (cry !== alarmShown) { alarmShown = cry; put(alarm, cry ? notice('stop', cry) : null); }
     if (Number(s.trial) > curves.trial) curves.clear(Number(s.trial));
     controls.show(s);
@@ -68,8 +76,8 @@ export async function show({root, life, params: [id], open}) {
     announce('The session is over.');
   };
   const kinds = {
-    hello: title, status: showStatus, curve: (m) => curves.add(m), end: showEnd,
-    event: (m) => { curves.moment(m, m.tone || 'neutral'); events.add(m, m.tone || 'neutral'); },
+    hello: title, status: showStatus, curve: (m) => { curves.add(m); figure.curve(m); }, end: showEnd,
+    event: (m) => { figure.event(m); if (events.add(m, m.tone || 'neutral')) curves.moment(m, m.tone || 'neutral'); },
     near: (m) => { curves.moment(m, 'near'); events.add(m, 'near'); },
   };
   put(state, badge('work', lostSince() ? 'Waiting for the console' : 'The station is starting…'));

@@ -19,7 +19,7 @@ function verdict(session) {
 function trialRow(session, r) {
   const [tone, word] = outcome(r.outcome);
   return [`Trial ${r.number}`, r.role || '–', [h('span', {class: 'row tight'}, badge(tone, word), r.reason ? h('span', {class: 'muted'}, r.reason) : null), r.summary ? h('p', {class: 'hint'}, r.summary) : null], r.outcome === 'void' ? '–' : figure(r.total), Number.isFinite(r.length_s) ? clock(r.length_s) : '–',
-    h('a', {class: 'no-print', href: `#/replay/${encodeURIComponent(session.id)}/${r.number}`, 'aria-label': `Replay of trial ${r.number}`}, 'Replay')];
+    session.blind ? '–' : h('a', {class: 'no-print', href: `#/replay/${encodeURIComponent(session.id)}/${r.number}`, 'aria-label': `Replay of trial ${r.number}`}, 'Replay')];
 }
 
 function pictures(session, files) {
@@ -37,6 +37,7 @@ export async function show({root, params: [id], open}) {
   root.append(h('div', {class: 'card'}, facts([['Trainee', session.trainee ? h('a', {href: `#/trainees/${encodeURIComponent(session.trainee)}`}, session.trainee) : who('')], ['Kind', session.assessed ? 'assessed' : 'practice'], ['State', badge(...sessionState(session.state))],
     ['Data', session.simulated ? simulatedBadge() : 'of a person']])));
   root.append(h('h2', {}, 'Trials'), results.length ? h('div', {class: 'card flush'}, table('Trials of this session', ['Trial', 'Kind', 'Outcome', session.task === 'paracentesis' ? 'Penalty (lower is better)' : 'Total', 'Length', h('span', {class: 'no-print'}, 'Look')], results.map((r) => trialRow(session, r)), true)) : h('p', {class: 'muted'}, 'None.'));
+  if (session.blind) { root.append(notice('note', 'This session belongs to a study whose educators are blind: report, figures and replay are not shown here. They are read with the study\'s, when it is over.')); return; }
   const more = pictures(session, files);
   if (more) root.append(...more);
   root.append(h('h2', {}, 'Report'), files.includes('report.html') ? reportFrame(url('/api/sessions', id, 'file', 'report.html'), `Report on the session of ${moment(session.started_utc)}`) : h('p', {class: 'muted'}, 'This session left no report.'));

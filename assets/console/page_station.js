@@ -1,7 +1,7 @@
 // Is the station well? One sentence first, then what was found, then the way to a session.
 import {get, post} from './api.js';
 import {announce, h, mark, put} from './dom.js';
-import {moment, plural} from './format.js';
+import {capital, moment, plural} from './format.js';
 import {badge, button} from './parts.js';
 
 const kStates = {well: ['good', 'well'], none: ['none', 'not there'], note: ['note', 'note'], ill: ['bad', 'needs you']};
@@ -18,7 +18,7 @@ function sentence(health) {
 
 function finding(f) {
   const [tone, word] = kStates[f.state] || ['neutral', String(f.state)];
-  return h('li', {class: `finding ${tone}`}, h('div', {class: 'finding-state'}, badge(tone, word)), h('div', {}, h('h3', {}, String(f.subject || '')), h('p', {}, String(f.verdict || '')), f.fix ? h('p', {class: 'fix'}, h('strong', {}, 'What to do: '), f.fix) : null));
+  return h('li', {class: `finding ${tone}`}, h('div', {class: 'finding-state'}, badge(tone, word)), h('div', {}, h('h3', {}, String(f.subject || '')), h('p', {}, capital(String(f.verdict || ''))), f.fix ? h('p', {class: 'fix'}, h('strong', {}, 'What to do: '), f.fix) : null));
 }
 
 export async function show({root, life, open}) {

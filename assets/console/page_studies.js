@@ -7,27 +7,23 @@ import {badge, choice, during, field, notice, simulatedBadge, table} from './par
 const kOperators = [['person', 'the trainee (a person)'], ['expert', 'simulated expert'], ['novice', 'simulated novice']];
 
 function enrolled(study) {
-  const rows = (study.enrolled || []).map((e) => [e.trainee, e.group || '–', h('span', {class: 'row tight'}, e.where || '–', e.simulated ? simulatedBadge() : null), e.next || badge('good', 'nothing more'), (e.remarks || []).map((r) => h('div', {}, badge('note', String(r))))]);
+  const rows = (study.enrolled || []).map((e) => [e.trainee, e.group || '–', h('span', {class: 'row tight'}, e.where || '–', e.simulated ? simulatedBadge() : null), e.next || (e.finished ? badge('good', 'nothing more') : 'nothing now'), (e.remarks || []).map((r) => h('div', {}, badge('note', String(r))))]);
   return rows.length ? table(`Trainees enrolled in ${study.id}`, ['Trainee', 'Group', 'Where', 'Next', 'Remarks'], rows, true) : h('p', {class: 'muted'}, 'Nobody is enrolled yet.');
 }
 
 function nextBlock(study, trainees, me) {
   const waiting = (study.enrolled || []).filter((e) => e.next), known = new Set((study.enrolled || []).map((e) => e.trainee));
-  const fresh = trainees.filter((t) => !known.has(t.id));
-  const options = [...waiting.map((e) => [e.trainee, `${e.trainee}: ${e.next}`]), ...fresh.map((t) => [t.id, `${t.id}: not enrolled yet, is enrolled by this`])];
-  if (options.length === 0) return h('p', {class: 'muted'}, 'Nobody is waiting. Add a trainee on the page Trainees to enrol somebody new.');
-  const trainee = choice(options), group = choice((study.groups || []).map((g) => [g, g])), operator = choice(kOperators, me.display ? 'person' : 'expert');
-  const groupField = field('Group', group, 'Of somebody new. It cannot be changed afterwards.');
-  const follow = () => { const at = (study.enrolled || []).find((e) => e.trainee === trainee.value) || trainees.find((t) => t.id === trainee.value); if (at?.group) group.value = at.group; groupField.hidden = known.has(trainee.value); };
-  trainee.addEventListener('change', follow);
-  follow();
+  const fresh = trainees.filter((t) => !known.has(t.id) && (study.groups || []).includes(t.group));
+  const options = [...waiting.map((e) => [e.trainee, `${e.trainee}: ${e.next}`]), ...fresh.map((t) => [t.id, `${t.id}, ${t.group}: not enrolled yet, is enrolled by this`])];
+  if (options.length === 0) return h('p', {class: 'muted'}, `Nobody can begin a block now. Somebody new is enrolled by the first block: add a trainee of the group ${(study.groups || []).join(' or ')} on the page Trainees.`);
+  const trainee = choice(options), operator = choice(kOperators, me.display ? 'person' : 'expert');
   const said = h('div', {class: 'said'}), go = h('button', {type: 'submit', class: 'primary'}, 'Start the next block');
   const start = async () => {
-    const begun = await post(url('/api/studies', study.id, 'run'), {trainee: trainee.value, group: group.value, operator: operator.value});
+    const begun = await post(url('/api/studies', study.id, 'run'), {trainee: trainee.value, operator: operator.value});
     location.hash = `#/session/${encodeURIComponent(begun.session)}`;
   };
   return h('form', {class: 'form', novalidate: true, onsubmit: (e) => { e.preventDefault(); during(go, said, start); }}, h('h3', {}, 'Next block'),
-    h('div', {class: 'grid three'}, field('Trainee', trainee), groupField, field('Who performs', operator, me.display ? null : 'This station has no display: a person cannot train here now.')), said, h('div', {class: 'row'}, go));
+    h('div', {class: 'grid two'}, field('Trainee', trainee), field('Who performs', operator, me.display ? null : 'This station has no display: a person cannot train here now.')), said, h('div', {class: 'row'}, go));
 }
 
 export async function show({root, open}) {

@@ -14,7 +14,7 @@ export async function show({root, life, params: [id], open}) {
     ['Agreed to records', trainee.consent_utc ? day(trainee.consent_utc) : 'no'], ['Agreed to research', trainee.research_utc ? day(trainee.research_utc) : 'no'], ['Keep until', trainee.retain_until ? day(trainee.retain_until) : 'no date set']])));
   const own = sessions.filter((s) => s.trainee === id);
   root.append(h('h2', {}, 'Sessions'), own.length ? h('div', {class: 'card flush'}, table(`Sessions of ${id}`, ['When', 'Task', 'Kind', 'State'], own.map((s) => [h('a', {href: `#/${isOn(s) ? 'session' : 'results'}/${encodeURIComponent(s.id)}`}, moment(s.started_utc)), taskName(s.task), s.assessed ? 'assessed' : 'practice', badge(...sessionState(s.state))]), true))
-    : h('p', {class: 'muted'}, 'No session yet.'));
+    : h('p', {class: 'muted'}, Number(trainee.sessions) > 0 ? 'None that was started from this console; the report below counts all.' : 'No session yet.'));
   const report = h('div', {});
   root.append(h('h2', {}, 'Report'), report);
   awaitReport(life, url('/api/trainees', id, 'report'), report, `Report on trainee ${id}`);

@@ -1,7 +1,7 @@
 // Who trains here, under pseudonyms; and how somebody new is added.
 import {list, post} from './api.js';
 import {announce, h, put} from './dom.js';
-import {day, plural} from './format.js';
+import {day} from './format.js';
 import {badge, choice, during, field, radios, table, tick} from './parts.js';
 
 /** The next free T-number, so that nothing need be invented. */
@@ -11,13 +11,13 @@ function freePseudonym(trainees) {
 }
 
 function rows(trainees) {
-  return trainees.map((t) => [h('a', {href: `#/trainees/${encodeURIComponent(t.id)}`}, t.id), t.group || '–', t.experience || '–', plural(Number(t.sessions) || 0, 'session'), plural(Number(t.trials) || 0, 'trial'),
+  return trainees.map((t) => [h('a', {href: `#/trainees/${encodeURIComponent(t.id)}`}, t.id), t.group || '–', t.experience || '–', String(Number(t.sessions) || 0), String(Number(t.trials) || 0),
     t.consent_utc ? badge('good', 'noted') : badge('note', 'missing'), t.retain_until ? day(t.retain_until) : 'no date set']);
 }
 
-function form(trainees, done) {
+function form(trainees, groups, done) {
   const id = h('input', {type: 'text', value: freePseudonym(trainees), pattern: '[A-Za-z0-9_-]{1,64}', maxlength: '64', autocomplete: 'off', spellcheck: 'false', required: true});
-  const group = choice([['novice', 'novice'], ['experienced', 'experienced']]), experience = h('input', {type: 'text', maxlength: '200', autocomplete: 'off'});
+  const group = choice(groups.map((g) => [g, g])), experience = h('input', {type: 'text', maxlength: '200', autocomplete: 'off'});
   const hand = radios('Writes with the', [['right', 'right hand'], ['left', 'left hand']], 'right');
   const consent = tick('The trainee agrees that training records are kept here', false, 'Ask first. Without this nothing can be kept.', {required: true});
   const research = tick('The trainee also agrees to the use for research', false, 'Separate and free: training does not depend on it.');
@@ -38,10 +38,12 @@ export async function show({root, open}) {
   open('Trainees');
   const place = h('div', {}), adding = h('div', {});
   root.append(place, adding);
+  const studies = await list('/api/studies').catch(() => []);
+  const groups = [...new Set(['novice', 'experienced', ...studies.flatMap((s) => s.groups || [])])];
   const draw = async () => {
     const trainees = await list('/api/trainees');
     put(place, trainees.length ? h('div', {class: 'card flush'}, table('Trainees of this station', ['Pseudonym', 'Group', 'Experience', 'Sessions', 'Trials', 'Agreement', 'Keep until'], rows(trainees), true)) : h('p', {class: 'lead'}, 'Nobody has been added yet. A first try needs nobody: start a session without a trainee.'));
-    put(adding, form(trainees, async (id) => { await draw(); announce(`${id} was added.`); place.querySelector(`a[href="#/trainees/${id}"]`)?.focus(); }));
+    put(adding, form(trainees, groups, async (id) => { await draw(); announce(`${id} was added.`); place.querySelector(`a[href="#/trainees/${id}"]`)?.focus(); }));
   };
   await draw();
 }

@@ -1,6 +1,7 @@
 // A trial to look at again: fetched, and waited for while its pictures are drawn.
 import {get, list, url} from './api.js';
 import {isOn, moment, taskName, who} from './format.js';
+import {momentsIn} from './moments.js';
 
 const known = (x) => (Number.isFinite(x) ? x : NaN);
 const numbers = (x) => (Array.isArray(x) ? x : []);
@@ -23,7 +24,7 @@ export async function loadReplay(life, session, trial, changed) {
 
 /** Moments of a replay in the order of time; near misses among them. */
 export function momentsOf(replay) {
-  const all = replay.events.map((e) => ({t: e.t_s, tone: e.tone || 'neutral', text: e.text || e.event || ''})).concat(replay.near.map((n) => ({t: n.t_s, tone: 'near', text: n.text || 'near miss'})));
+  const all = momentsIn(replay.events).concat(replay.near.map((n) => ({t: n.t_s, tone: 'near', text: n.text || 'near miss'})));
   return all.filter((m) => Number.isFinite(m.t)).sort((a, b) => a.t - b.t);
 }
 

@@ -29,6 +29,8 @@ void PrintTo(const Fault& fault, std::ostream* out) { *out << fault.name; }
 
 const std::vector<std::string> kOfAFalcon{"haptic device", "udev rule", "calibrations", "haptic loop"};   // of the shipped station; that the computer may not refuse real time
 
+const nlohmann::json kHere{{"position_mm", {0, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}};
+
 void blur(cv::Mat& picture, int) { cv::GaussianBlur(picture, picture, {}, 1.6); }
 
 void records(BrokenBench& b, const std::string& bytes) { b.here().file("records.sqlite", bytes); }
@@ -84,6 +86,8 @@ const std::vector<Fault>& deviceFaults() {
       {"NoLockedMemory", "haptic loop", "note", "put out to disk", "limits.d", [](BrokenBench& b) { falcon(b), b.computer("no locked memory"); }, kOfAFalcon},
       {"BusyComputer", "haptic loop", "note", "will stutter", "lose", [](BrokenBench& b) { falcon(b), b.computer("busy computer"); }, kOfAFalcon},
       {"SilentForceSensor", "force sensor", "ill", "127.0.0.1", "", [](BrokenBench& b) { b.sensorAt(9); }},
+      {"SilentTrackingSystem", "tracking system", "ill", "does not answer at 127.0.0.1, port 9", "PlusServer",
+       [](BrokenBench& b) { b.station([](nlohmann::json& s) { s["tracker"] = {{"driver", "plus"}, {"host", "127.0.0.1"}, {"port", 9}, {"transform", "ReferenceToCamera"}, {"X_CK", kHere}, {"X_RW", kHere}}; }); }},
       {"LossyForceSensor", "force sensor", "note", "samples were lost", "cable of its own", [](BrokenBench& b) { b.sensor(3, 0); }},
       {"BrokenForceSensor", "force sensor", "ill", "overloaded or broken", "Take the load off", [](BrokenBench& b) { b.sensor(1, 0x80000000); }}};
   return all;

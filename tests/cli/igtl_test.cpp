@@ -2,8 +2,10 @@
 #include <poll.h>
 
 #include <fstream>
+#include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <thread>
 
 #include "apps/link/igtl/conventions.h"
@@ -74,12 +76,12 @@ void expectAsRecorded(const std::vector<Got>& heard, const WrittenDown& recorded
     const haptics::FlightRecord* tick = recorded.at(m.utc_ns - start_ns);
     if (m.device == "NeedleToReference") {
       ASSERT_TRUE(tick) << m.utc_ns - start_ns << " ns: no tick was then";
-      const Pose X_WE = .X_WD * unpack(PackedPose{tick->reading.p_DE, tick->reading.q_DE});
+      const Pose X_WE = recorded.X_WD * unpack(PackedPose{tick->reading.p_DE, tick->reading.q_DE});
       EXPECT_LT((m.X_mm - igt::toWire(X_WE)).cwiseAbs().maxCoeff(), 1e-3) << "mm, at " << tick->tick;
       ++poses;
     } else if (m.device == "NeedleDeviceForce") {
       ASSERT_TRUE(tick);
-      const Vec3 f_W = .X_WD.linear() * unpack(tick->f_command_D);
+      const Vec3 f_W = recorded.X_WD.linear() * unpack(tick->f_command_D);
       EXPECT_NEAR((Vec3(m.values.at(0), m.values.at(1), m.values.at(2)) - f_W).norm(), 0, 1e-9);
       ++forces;
     }
@@ -134,28 +136,65 @@ std::string stationWithTracker(int port, const std::string& transform = "Referen
   return station.dump();
 }
 
-TEST(Igtl, CameraIsWhereTheTrackingSystemSays) {
-  Folder here;
-  igt_test::LibraryServer plus;
-  here.file("station.json", stationWithTracker(plus.port()));
-  const std::uint16_t port = freePort();
-  const Running run({"paracentesis", "--station", "station.json", "--operator", "expert", "--no-views", "--quiet", "--out", "A", "--igtl", std::to_string(port)}, here.path());
-  ASSERT_TRUE(plus.accept(60'000));
-  const auto client = connectWhenThere(port);
-  ASSERT_TRUE(client);
-  const Pose X_KR = makePose(Eigen::AngleAxisd(3, Vec3::UnitX()).toRotationMatrix(), Vec3(0.03, -0.02, 0.5));
-  std::optional<Got> ready, camera;
-  for (int i = 0; i < 1000 && !(ready && camera); ++i) {   // 20 s at most
-    plus.send(igt::transformMessage("ReferenceToCamera", igt::toWire(X_KR), 0));
-    for (auto got = client->next(20); got; got = client->next(0)) {
-      if (got->device == "PalpaEvent" && eventOf(*got).at("kind") == "ready") ready = got;
-      if (got->device == "CameraToReference") camera = got;
-    }
+/// A session whose camera's place this PLUS server tells; what it says is heard.
+class Followed {
+ public:
+  Followed() {
+    here_.file("station.json", stationWithTracker(plus.port()));
+    run_.emplace(std::vector<std::string>{"paracentesis", "--station", "station.json", "--operator", "expert", "--no-views", "--quiet", "--out", "A", "--igtl", std::to_string(port_)}, here_.path());
   }
-  ASSERT_TRUE(ready) << "the tracking system's word is enough for the ready check";
+  bool begins() { return plus.accept(60'000) && (client_ = connectWhenThere(port_)); }
+  /// Sends, if it is to, and listens until `done` is said; nothing after 20 s.
+  std::optional<Got> hears(bool sending, const std::function<bool(const Got&)>& done) {
+    for (int i = 0; i < 1000; ++i) {
+      if (sending) plus.send(igt::transformMessage("ReferenceToCamera", igt::toWire(X_KR), 0));
+      for (auto got = client_->next(20); got; got = client_->next(0))
+        if (done(*got)) return got;
+    }
+    return std::nullopt;
+  }
+  std::optional<Got> hearsEvent(bool sending, const std::string& kind, double value) {
+    return hears(sending, [&](const Got& got) { return got.device == "PalpaEvent" && eventOf(got).at("kind") == kind && eventOf(got).at("value") == value; });
+  }
+  /// Ends it as Ctrl-C does; its page.
+  std::string ended() {
+    EXPECT_EQ(run_->interrupt(), 0);
+    return contentOf(here_ / "A/report.html");
+  }
+
+  igt_test::LibraryServer plus;
+  const Pose X_KR = makePose(Eigen::AngleAxisd(3, Vec3::UnitX()).toRotationMatrix(), Vec3(0.03, -0.02, 0.5));
+
+ private:
+  Folder here_;
+  const std::uint16_t port_ = freePort();
+  std::optional<Running> run_;
+  std::unique_ptr<LibraryClient> client_;
+};
+
+TEST(Igtl, CameraIsWhereTheTrackingSystemSaysUntilItIsLost) {
+  Followed session;
+  ASSERT_TRUE(session.begins());
+  ASSERT_TRUE(session.hearsEvent(true, "ready", 0)) << "the tracking system's word is enough for the ready check";
+  const auto toldCamera = [](const Got& got) { return got.device == "CameraToReference"; };
+  const auto camera = session.hears(true, toldCamera);
   ASSERT_TRUE(camera);
-  const Pose X_CW = makePose(Mat3::Identity(), Vec3(0.01, 0, 0)) * X_KR;
+  const Pose X_CW = makePose(Mat3::Identity(), Vec3(0.01, 0, 0)) * session.X_KR;
   EXPECT_LT((camera->X_mm - igt::toWire(X_CW.inverse())).cwiseAbs().maxCoeff(), 0.1);
+
+  session.plus.hangUp();
+  const auto lost = session.hearsEvent(false, "camera", 1);
+  ASSERT_TRUE(lost) << "the session says that tracking is lost";
+  EXPECT_TRUE(says(eventOf(*lost).at("text"), "tracking system has lost")) << lost->text;
+
+  ASSERT_TRUE(session.plus.accept(10'000)) << "the session tries again";
+  session.plus.send(igt::Bytes(3000, 0x5a));   // a server that sends nonsense is left
+  ASSERT_TRUE(session.plus.accept(10'000)) << "and again";
+  ASSERT_TRUE(session.hearsEvent(true, "camera", 0)) << "it is found again";
+  ASSERT_TRUE(session.hears(true, toldCamera));
+  const std::string page = session.ended();
+  EXPECT_TRUE(says(page, "Poses of the tracking system"));
+  EXPECT_TRUE(says(page, "connected 3 times"));
 }
 
 TEST(Igtl, TrackersOfAStationAreChecked) {

@@ -55,6 +55,15 @@ TEST(Patient, ThatWasDescribedIsBuiltAndTold) {
   EXPECT_FALSE(says(told.out, "BAD")) << told.out;
 }
 
+TEST(Patient, IsNotPuncturedOnASideThatWasNotBuilt) {
+  const Folder here;
+  ASSERT_EQ(palpa({"patient", "build", "--seed", "3", "--out", "p.glb"}, here.path()).exit_code, 0);
+  const Outcome refused = palpa(session({"--patient", "p.glb", "--side", "left"}), here.path());
+  EXPECT_EQ(refused.exit_code, 2);
+  EXPECT_EQ(refused.errLines(), 1) << refused.err;
+  EXPECT_TRUE(says(refused.err, "--side") && says(refused.err, "right side")) << refused.err;
+}
+
 TEST(Patient, WhoCannotBeIsRefusedInOneLine) {
   const Folder here;
   for (const auto& stated : {std::pair{"--height", "3"}, std::pair{"--bmi", "90"}}) {

@@ -102,7 +102,6 @@ TEST(Rate, MistakesAreSaid) {
           "none.json: cannot be read");
   refused({"rate", "enter", "--session", "A", "--rater", "Dr Smith", "--answers", "bad.csv"},
           "pseudonym");
-  refused({"report", "trial", "none.palpa", "--rater", "R1"}, "needs --records");
   refused({"paracentesis", "--assess", "--guide", "on", "--fast", "--operator", "expert"},
           "--guide on with --assess");
   refused({"search", "--assess", "--mode", "augmented", "--fast", "--operator", "expert"},

@@ -92,7 +92,7 @@ std::vector<Layer> makeLayers() {
       {"apps/replay", librariesAnd({"apps/task_*", "apps/trial", "apps/assess", "apps/runtime"}), {}, app_libraries},
       {"apps/live", {"anatomy/geometry", "haptics", "scene", "apps/runtime", "apps/trial"}, {"haptics/devices"}, {"OpenCV", "JSON"}},
       {"apps/console", {"anatomy/geometry", "apps/runtime", "apps/live", "apps/record", "apps/study", "apps/station"}, {}, {"JSON", "httplib", "OpenSSL"}},
-      {"apps/doctor", librariesAnd({"apps/station", "apps/runtime", "apps/record/store"}), {}, {"Eigen", "OpenCV", "JSON"}},
+      {"apps/doctor", librariesAnd({"apps/station", "apps/runtime", "apps/record/store", "apps/link/igtl"}), {}, {"Eigen", "OpenCV", "JSON"}},
       {"apps/cli", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON", "CLI11"}},
       {"apps/bench", librariesAnd({"apps"}), {}, {"Eigen", "OpenCV", "JSON", "VTK", "VTK data", "Embree"}},
       {"apps",

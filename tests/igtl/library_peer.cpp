@@ -157,6 +157,21 @@ void LibraryServer::stop() {
   server_->CloseSocket();
 }
 
+igt::Bytes headerOf(const std::string& type, std::uint64_t body_size) {
+  igt::Bytes bytes = igt::transformMessage("X", Mat4::Identity(), 0);
+  for (std::size_t i = 0; i < 12; ++i) bytes[2 + i] = i < type.size() ? static_cast<std::uint8_t>(type[i]) : 0;
+  bytes.resize(42);
+  number(bytes, body_size, 8);
+  number(bytes, 0, 8);
+  return bytes;
+}
+
+igt::Bytes withChecksum(igt::Bytes message) {
+  const std::uint64_t crc = crc64(message.data() + igt::kHeaderSize, message.size() - igt::kHeaderSize, 0);
+  for (std::size_t i = 0; i < 8; ++i) message[50 + i] = static_cast<std::uint8_t>(crc >> (8 * (7 - i)));
+  return message;
+}
+
 igt::Bytes withMetadata(const igt::Bytes& version1, const std::vector<std::pair<std::string, std::string>>& metadata) {
   igt::Bytes body, entries, texts;
   number(entries, metadata.size(), 2);

@@ -76,6 +76,10 @@ class LibraryServer {
   int port_ = 0;
 };
 
+/// A header alone, of any type and size; what its body is to be is not said.
+igt::Bytes headerOf(const std::string& type, std::uint64_t body_size);
+/// The same message with the checksum that its body has now.
+igt::Bytes withChecksum(igt::Bytes message);
 /// A message with header version 2 and metadata, by the specification of protocol 3, made of one with version 1.
 igt::Bytes withMetadata(const igt::Bytes& version1, const std::vector<std::pair<std::string, std::string>>& metadata);
 

@@ -246,6 +246,65 @@ TEST_F(IgtlServerTest, WhoReadsAgainGetsTheNewestState) {
   for (const Got& m : messages) EXPECT_TRUE(m.whole) << "no message is cut";
 }
 
+TEST_F(IgtlServerTest, HugeBodiesAreNeitherKeptNorWaitedFor) {
+  LibraryClient good(server_.port()), promises(server_.port()), lies(server_.port());
+  serve();
+  promises.send(igt_test::headerOf("IMAGE", 1ull << 30));         // 1 GiB: passed over as it comes, if ever
+  lies.send(igt_test::headerOf("STT_TDATA", (1ull << 30) + 1));   // no OpenIGTLink
+  promises.send(Bytes(100'000, 0x11));
+  serve(5);
+  EXPECT_EQ(server_.peers(), 2u);
+  promises.all();
+  promises.startTracking(10, "");
+  good.all();
+  serve(5);
+  EXPECT_EQ(countOf(promises.all(), "TDATA"), 0) << "what comes is a part of the picture";
+  EXPECT_TRUE(lastOf(good.all(), "NeedleTipToReference"));
+}
+
+TEST_F(IgtlServerTest, RequestsOfALaterVersionArePassedOver) {
+  LibraryClient asks(server_.port());
+  serve();
+  Bytes later = startTrackingMessage("X", {10, ""}, 0);
+  later[1] = 3;
+  asks.all();
+  asks.send(later);
+  serve(3, false);
+  EXPECT_EQ(asks.all().size(), 0u);
+  asks.startTracking(10, "");
+  serve(3, false);
+  EXPECT_GT(countOf(asks.all(), "TDATA"), 0) << "the next is understood";
+}
+
+TEST_F(IgtlServerTest, WhoComesBackIsServedAnew) {
+  server_.say("PalpaPhase", "inserted", kUtc, true);
+  for (int visit = 0; visit < 20; ++visit) {
+    LibraryClient slicer(server_.port());
+    ASSERT_TRUE(slicer.connected());
+    serve(3);
+    const auto messages = slicer.all();
+    EXPECT_TRUE(lastOf(messages, "NeedleTipToReference")) << visit;
+    EXPECT_TRUE(lastOf(messages, "PalpaPhase")) << visit;
+    EXPECT_EQ(countOf(messages, "TDATA"), 0) << "what an earlier one asked for is over";
+    slicer.startTracking(10, "");
+    serve(2);
+  }
+  serve(2);
+  EXPECT_EQ(server_.peers(), 0u);
+  EXPECT_EQ(server_.everConnected(), 20u);
+}
+
+TEST_F(IgtlServerTest, NoTrackingDataWhereNothingIsKnown) {
+  LibraryClient asks(server_.port());
+  serve();
+  asks.all();
+  asks.startTracking(10, "");
+  for (int i = 0; i < 5; ++i, now_ns_ += 10 * kMs) server_.serve(Moment{}, now_ns_);
+  const auto messages = asks.all();
+  EXPECT_EQ(countOf(messages, "RTS_TDATA"), 1);
+  EXPECT_EQ(countOf(messages, "TDATA"), 0) << "one without tools would be taken for damage";
+}
+
 TEST_F(IgtlServerTest, NinthIsTurnedAway) {
   std::vector<std::unique_ptr<LibraryClient>> clients;
   for (std::size_t i = 0; i <= IgtlServer::kMostPeers; ++i) clients.push_back(std::make_unique<LibraryClient>(server_.port()));

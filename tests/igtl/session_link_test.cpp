@@ -76,6 +76,29 @@ TEST_F(IgtlSessionLink, ToolAndForcesAreToldOnTheTable) {
   EXPECT_EQ(nlohmann::json::parse(phase->text), (nlohmann::json{{"trial", 0}, {"phase", "indenting"}, {"tissue", name(Tissue::muscle)}}));
 }
 
+TEST(IgtlTwoTools, EachHasItsNamesAndItsDevice) {
+  runtime::Bus bus{runtime::TimeMode::real};
+  SessionLink::Setup two = setup();
+  two.tool = "Probe";
+  two.second_X_WD = makePose(Mat3::Identity(), Vec3(0, 0, 0.4));
+  two.X_WP = makePose(Mat3::Identity(), Vec3(0, 0.24, 0.05));
+  SessionLink link(two, bus);
+  LibraryClient client(link.server().port());
+  bus.haptic_to_link.publish(toolAt(0), 0);
+  bus.second_to_link.publish(toolAt(0), 0);
+  for (std::int64_t t = 0; t <= 40; t += 10) link.step(t * runtime::kMillisecond);
+  const auto messages = client.all();
+  const auto first = lastOf(messages, "ProbeTipToReference"), tip = lastOf(messages, "Probe2TipToReference"), second = lastOf(messages, "Probe2ToReference"), fixed = lastOf(messages, "Probe2TipToProbe2");
+  ASSERT_TRUE(first && tip && second && fixed) << "20 characters are not cut";
+  EXPECT_LT((first->X_mm - toWire(kX_WD * unpack(toolAt(0).X_DT))).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT((tip->X_mm - toWire(*two.second_X_WD * unpack(toolAt(0).X_DT))).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT((second->X_mm * fixed->X_mm - tip->X_mm).cwiseAbs().maxCoeff(), 1e-3) << "names chain";
+  EXPECT_TRUE(lastOf(messages, "Probe2ContactForce"));
+  const auto phantom = lastOf(messages, "PhantomToReference");
+  ASSERT_TRUE(phantom);
+  EXPECT_LT((phantom->X_mm - toWire(*two.X_WP)).cwiseAbs().maxCoeff(), 1e-4);
+}
+
 TEST_F(IgtlSessionLink, WhatIsNotKnownIsNotTold) {
   runtime::ToolState tool = toolAt(0);
   tool.homed = false;
@@ -171,7 +194,7 @@ TEST(IgtlThreads, SessionIsServedAndFollowsATrackerAtOnce) {
   slicer.join();
   std::int64_t last = 0;
   for (const Got& m : heard) {
-    EXPECT_TRUE(m.whole);
+    EXPECT_TRUE(m.whole) << m.type << " " << m.device << ", " << &m - heard.data() << " of " << heard.size();
     if (m.device != "NeedleTipToReference") continue;
     EXPECT_GE(m.utc_ns, last) << "in the order of time";
     last = m.utc_ns;

@@ -193,6 +193,43 @@ TEST_F(IgtlTracker, SilenceEndsTheConnection) {
   EXPECT_TRUE(server_.accept(2000)) << "a cable that was pulled says nothing: try anew";
 }
 
+TEST_F(IgtlTracker, MarkersOutOfSightForLongAreFoundAgainAtOnce) {
+  together();
+  for (int again = 1; again <= 6; ++again) {   // a sender that says nothing of what it does not see
+    stepUntil([&] { return client_->counts().connections > static_cast<std::uint64_t>(again); }, 80, 100);
+    ASSERT_TRUE(server_.accept(0)) << "try " << again << " came within 8 s of session time";
+  }
+  server_.send(transform());
+  EXPECT_TRUE(hears(1));
+}
+
+TEST_F(IgtlTracker, PromisedBodiesThatNeverComeEndInAnotherTry) {
+  together();
+  server_.send(igt_test::headerOf("TRANSFORM", ~0ull));
+  stepUntil([&] { return client_->counts().connections == 2; });
+  ASSERT_TRUE(server_.accept(2000)) << "no such size: at once";
+  server_.send(igt_test::headerOf("IMAGE", 1ull << 30));
+  server_.send(transform());   // a part of that picture
+  ASSERT_FALSE(hears(1));
+  stepUntil([&] { return client_->counts().connections == 3; }, 80, 100);
+  ASSERT_TRUE(server_.accept(2000)) << "no message in 5 s";
+  server_.send(transform());
+  EXPECT_TRUE(hears(1));
+}
+
+TEST_F(IgtlTracker, LaterVersionsAndHalfMessagesAreNoPoses) {
+  together();
+  Bytes later = transform();
+  later[1] = 3;
+  server_.send(later);
+  const Bytes whole = transform();
+  server_.send(Bytes(whole.begin(), whole.begin() + 60));
+  EXPECT_FALSE(stepUntil([&] { return client_->counts().poses > 0; }, 20));
+  EXPECT_EQ(client_->counts().skipped, 1u);
+  server_.send(Bytes(whole.begin() + 60, whole.end()));
+  EXPECT_TRUE(hears(1)) << "the rest came later";
+}
+
 TEST_F(IgtlTracker, QueueThatNobodyEmptiesStopsNothing) {
   together();
   for (int i = 0; i < 500; ++i) server_.send(transform());

@@ -12,6 +12,7 @@
 namespace palpa::igt {
 namespace {
 
+using igt_test::headerOf;
 using igt_test::withMetadata;
 
 const Pose kPose = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(0.012, -0.345, 0.678));
@@ -28,15 +29,6 @@ std::vector<Message> messagesIn(MessageStream& stream, const Bytes& bytes, std::
 Bytes operator+(Bytes a, const Bytes& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
-}
-
-/// A header alone, of any type and size.
-Bytes header(const std::string& type, std::uint64_t body_size) {
-  Bytes bytes = transformMessage("X", Mat4::Identity(), 0);
-  bytes.resize(kHeaderSize);
-  for (std::size_t i = 0; i < 12; ++i) bytes[2 + i] = i < type.size() ? static_cast<std::uint8_t>(type[i]) : 0;
-  for (int i = 0; i < 8; ++i) bytes[static_cast<std::size_t>(42 + i)] = static_cast<std::uint8_t>(body_size >> (8 * (7 - i)));
-  return bytes;
 }
 
 TEST(IgtlConventions, MillimetresGoOutAndMetresComeBack) {
@@ -149,7 +141,7 @@ TEST(IgtlStream, WrongChecksumIsDroppedAndTheNextIsRead) {
 
 TEST(IgtlStream, UnknownTypesAndPicturesArePassedOverBySize) {
   const std::uint64_t picture = 3 * MessageStream::kLargestBody;
-  const Bytes bytes = header("COLORT", 20) + Bytes(20, 0xab) + header("IMAGE", picture) + Bytes(picture, 0xcd) + header("TRANSFORM", picture) + Bytes(picture, 0xef) + transformMessage("AToB", toWire(kPose), 1);
+  const Bytes bytes = headerOf("COLORT", 20) + Bytes(20, 0xab) + headerOf("IMAGE", picture) + Bytes(picture, 0xcd) + headerOf("TRANSFORM", picture) + Bytes(picture, 0xef) + transformMessage("AToB", toWire(kPose), 1);
   MessageStream stream;
   const auto messages = messagesIn(stream, bytes, 1000);
   ASSERT_EQ(messages.size(), 1u);
@@ -157,9 +149,46 @@ TEST(IgtlStream, UnknownTypesAndPicturesArePassedOverBySize) {
   EXPECT_EQ(stream.counts().messages, 1u);
 }
 
+TEST(IgtlStream, LaterVersionsArePassedOverBySize) {
+  Bytes later = transformMessage("AToB", toWire(kPose), 1);
+  later[1] = 3;
+  MessageStream stream;
+  const auto messages = messagesIn(stream, later + transformMessage("CToB", toWire(kPose), 1), 9);
+  ASSERT_EQ(messages.size(), 1u);
+  EXPECT_EQ(messages[0].header.device, "CToB");
+  EXPECT_EQ(stream.counts().skipped, 1u);
+  EXPECT_EQ(stream.counts().damaged, 0u);
+  later[1] = 77;
+  MessageStream nonsense;
+  messagesIn(nonsense, later, 100);
+  EXPECT_TRUE(nonsense.broken());
+}
+
+TEST(IgtlStream, GibibyteIsPassedOverWithoutBeingKept) {
+  const std::uint64_t size = MessageStream::kLargestSkip;
+  MessageStream stream;
+  messagesIn(stream, headerOf("IMAGE", size), 100);
+  const Bytes piece(1 << 20, 0x42);
+  for (std::uint64_t sent = 0; sent < size; sent += piece.size()) {
+    stream.feed(piece);
+    ASSERT_FALSE(stream.next());
+  }
+  EXPECT_EQ(messagesIn(stream, transformMessage("AToB", toWire(kPose), 1), 50).size(), 1u);
+  MessageStream larger;
+  messagesIn(larger, headerOf("IMAGE", size + 1), 100);
+  EXPECT_TRUE(larger.broken());
+}
+
+TEST(IgtlWire, TextTooLongForItsFieldIsCutBetweenCharacters) {
+  const Bytes bytes = stringMessage("Text", std::string(65534, 'x') + "\xc3\xa4\xc3\xa4", 1);
+  EXPECT_EQ(bytes.size(), kHeaderSize + 4 + 65534);
+  EXPECT_TRUE(crcFits(*readHeader(View(bytes).first<kHeaderSize>()), View(bytes).subspan(kHeaderSize)));
+  EXPECT_EQ(stringMessage("Text", "\xc3\xa4", 1).size(), kHeaderSize + 4 + 2);
+}
+
 TEST(IgtlStream, HugeBodyOrNoHeaderEndsIt) {
   MessageStream huge;
-  messagesIn(huge, header("TRANSFORM", ~0ull), 100);
+  messagesIn(huge, headerOf("TRANSFORM", ~0ull), 100);
   EXPECT_TRUE(huge.broken());
   MessageStream http;
   const std::string request = "GET / HTTP/1.1\r\nHost: localhost:18944\r\nUser-Agent: somebody\r\nAccept: */*\r\n\r\n";

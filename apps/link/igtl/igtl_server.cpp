@@ -9,6 +9,7 @@ namespace {
 
 constexpr std::int64_t kMillisecond = 1'000'000;
 constexpr std::int64_t kLongestPeriod_ms = 60'000;
+constexpr int kMostKnocks = 16;
 
 bool isTable(const std::string& coordinates) { return coordinates.empty() || coordinates == kReference; }
 bool isAnatomy(const std::string& coordinates) { return coordinates == kPatient || coordinates == kRas || coordinates == "RAS"; }
@@ -51,18 +52,25 @@ void IgtlServer::greet(Peer& peer, std::int64_t utc_ns) {
   for (const auto& [device, text] : lasting_) peer.event(stringMessage(device, text, utc_ns));
 }
 
-void IgtlServer::serve(const Moment& moment, std::int64_t now_ns) {
-  for (TcpSocket socket = listener_.accept(); socket.open(); socket = listener_.accept()) {
-    if (peers_.size() >= kMostPeers) continue;   // turned away: closed as the next takes its place
+/// Of those who wait a few in one call: nobody who knocks without end keeps the others waiting.
+void IgtlServer::welcome(std::int64_t utc_ns, std::int64_t now_ns) {
+  for (int knocks = 0; knocks < kMostKnocks; ++knocks) {
+    TcpSocket socket = listener_.accept();
+    if (!socket.open()) return;
+    if (peers_.size() >= kMostPeers) continue;   // turned away
     peers_.emplace_back(std::move(socket), now_ns);
-    greet(peers_.back(), moment.utc_ns);
+    greet(peers_.back(), utc_ns);
     ++ever_;
   }
+}
+
+void IgtlServer::serve(const Moment& moment, std::int64_t now_ns) {
+  welcome(moment.utc_ns, now_ns);
   for (Peer& peer : peers_) {
     for (const Message& request : peer.requests()) answer(peer, request, moment, now_ns);
     if (peer.tracking.on && now_ns >= peer.tracking.next_ns) {
       peer.tracking.next_ns = now_ns + peer.tracking.period_ns;
-      peer.state("TDATA", trackingMessage(kDevice, tools(moment, peer.tracking.coordinates), moment.utc_ns));
+      if (!moment.poses.empty()) peer.state("TDATA", trackingMessage(kDevice, tools(moment, peer.tracking.coordinates), moment.utc_ns));   // receivers take one of no tool for damage
     }
     peer.flush(now_ns);
   }

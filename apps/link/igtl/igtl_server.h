@@ -51,6 +51,7 @@ class IgtlServer {
   std::uint64_t lostEvents() const;
 
  private:
+  void welcome(std::int64_t utc_ns, std::int64_t now_ns);
   void greet(Peer& peer, std::int64_t utc_ns);
   void answer(Peer& peer, const Message& request, const Moment& moment, std::int64_t now_ns);
   std::vector<NamedMatrix> tools(const Moment& moment, const std::string& coordinates) const;

@@ -6,9 +6,9 @@
 namespace palpa::igt {
 namespace {
 
-bool isRead(const std::string& type) {
+bool isRead(const Header& header) {
   static constexpr std::array kTypes{"TRANSFORM", "TDATA", "STT_TDATA", "STP_TDATA", "RTS_TDATA", "GET_STATUS", "STATUS"};
-  return std::find(kTypes.begin(), kTypes.end(), type) != kTypes.end();
+  return header.version <= kNewestVersion && std::find(kTypes.begin(), kTypes.end(), header.type) != kTypes.end();
 }
 
 }  // namespace
@@ -37,7 +37,7 @@ bool MessageStream::takeHeader() {
     return false;
   }
   drop(kHeaderSize);
-  if (header_->body_size <= kLargestBody && isRead(header_->type)) return true;
+  if (header_->body_size <= kLargestBody && isRead(*header_)) return true;
   skip_ = header_->body_size;
   ++counts_.skipped;
   header_.reset();

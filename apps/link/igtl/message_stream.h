@@ -10,7 +10,7 @@ namespace palpa::igt {
 /// What came, and what was passed over.
 struct StreamCounts {
   std::uint64_t messages = 0;      ///< whole, with the right checksum, of a type that is read here
-  std::uint64_t skipped = 0;       ///< of other types, or too large to be kept: passed over by their size
+  std::uint64_t skipped = 0;       ///< of other types, of later versions, or too large to be kept: passed over by their size
   std::uint64_t damaged = 0;       ///< dropped: wrong checksum, or sizes that do not add up
 };
 

@@ -26,6 +26,7 @@ std::string text(const json& value) { return value.dump(-1, ' ', false, json::er
 
 SessionLink::SessionLink(const Setup& setup, runtime::Bus& bus) : setup_(setup), bus_(bus), server_(setup.ipv4, setup.port, setup.X_WA) {
   server_.showAlways(setup_.tool + "Tip", setup_.tool, setup_.X_ET);
+  if (setup_.second_X_WD) server_.showAlways(setup_.tool + "2Tip", setup_.tool + "2", setup_.X_ET);
   if (setup_.X_WP) server_.showAlways("Phantom", kReference, *setup_.X_WP);
 }
 

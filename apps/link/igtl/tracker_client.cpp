@@ -50,7 +50,7 @@ void TrackerClient::connect(std::int64_t now_ns) {
   since_ns_ = now_ns;
 }
 
-/// The next try comes later from time to time, until something came.
+/// The next try comes later from time to time, until a message came or a connection held.
 void TrackerClient::part(std::int64_t now_ns) {
   socket_.close();
   counts_.damaged += stream_.counts().damaged;
@@ -78,7 +78,9 @@ void TrackerClient::hear(std::int64_t now_ns) {
     stream_.feed(View(buffer).first(got));
     while (const auto message = stream_.next()) take(*message);
   }
-  if (!socket_.open() || stream_.broken() || now_ns - since_ns_ > kSilent_ns) part(now_ns);
+  const bool silent = now_ns - since_ns_ > kSilent_ns;
+  if (silent) pause_ns_ = kFirstPause_ns;   // markers may only be out of sight: be there again when they are back
+  if (silent || !socket_.open() || stream_.broken()) part(now_ns);
 }
 
 void TrackerClient::take(const Message& message) {

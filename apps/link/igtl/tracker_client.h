@@ -33,7 +33,7 @@ struct TrackerCounts {
 
 /// DEVICE: reads one transform from a PLUS server (or any that speaks OpenIGTLink), as TRANSFORM or out of TDATA, and passes X_CW = X_CK X_KR X_RW on to the camera's activity with the session time at
 /// which it was measured (arrival less latency). Real time only; a step lasts until something comes, at most `kWait_ms`. Connects by itself, and again whenever the connection is lost, ends in
-/// something that is no OpenIGTLink, or is silent for `kSilent_ns`: at once, then after 0.25 s, twice that, ... at most 4 s. A queue that nobody empties costs the newest poses, no time.
+/// something that is no OpenIGTLink, or is silent for `kSilent_ns`: after 0.25 s, then twice that, ... at most 4 s; after silence always 0.25 s. A queue that nobody empties costs the newest poses, no time.
 class TrackerClient final : public runtime::Activity {
  public:
   static constexpr int kWait_ms = 20;

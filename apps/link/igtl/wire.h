@@ -43,7 +43,9 @@ struct Header {
   std::int64_t utc_ns = 0;       ///< 0: not given
   std::uint64_t body_size = 0, crc = 0;
 };
-/// Nothing where these bytes are no header: unknown version, a type that is not printable.
+/// Versions whose bodies are understood; the header's own fields lie alike in later ones, so that these can be passed over by their size.
+inline constexpr int kNewestVersion = 2, kNewestLikely = 15;
+/// Nothing where these bytes are no header: a version that nobody has, a type that is not printable.
 std::optional<Header> readHeader(std::span<const std::uint8_t, kHeaderSize> bytes);
 bool crcFits(const Header& header, View body);
 

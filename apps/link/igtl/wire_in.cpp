@@ -62,7 +62,7 @@ std::optional<Header> readHeader(std::span<const std::uint8_t, kHeaderSize> byte
   header.type = textOf(raw.name, IGTL_HEADER_TYPE_SIZE);
   header.device = textOf(raw.device_name, IGTL_HEADER_NAME_SIZE);
   const bool printable = std::all_of(header.type.begin(), header.type.end(), [](unsigned char c) { return std::isprint(c); });
-  if (header.version < 1 || header.version > 2 || header.type.empty() || !printable) return std::nullopt;
+  if (header.version < 1 || header.version > kNewestLikely || header.type.empty() || !printable) return std::nullopt;
   const auto fraction = static_cast<std::uint32_t>(raw.timestamp & 0xffffffffu);
   header.utc_ns = static_cast<std::int64_t>(raw.timestamp >> 32) * kSecond + igtl_frac_to_nanosec(fraction);
   header.body_size = raw.body_size;

@@ -4,6 +4,8 @@
 #include <igtlTrackingDataMessage.h>
 #include <igtlTransformMessage.h>
 
+#include <algorithm>
+
 #include "apps/link/igtl/wire.h"
 
 namespace palpa::igt {
@@ -13,6 +15,13 @@ constexpr std::int64_t kSecond_ns = 1'000'000'000;
 constexpr int kUtf8 = 106;   // its number in IANA's list of character sets
 
 std::string cut(const std::string& name) { return name.substr(0, kLongestName); }
+
+/// The message counts its bytes with 16 bits; no character is cut in two.
+std::string shortened(const std::string& utf8) {
+  std::size_t end = std::min<std::size_t>(utf8.size(), 0xffff);
+  while (end < utf8.size() && end > 0 && (static_cast<unsigned char>(utf8[end]) & 0xc0) == 0x80) --end;
+  return utf8.substr(0, end);
+}
 
 Bytes packed(igtl::MessageBase& message, const std::string& device, std::int64_t utc_ns) {
   igtl::TimeStamp::Pointer stamp = igtl::TimeStamp::New();
@@ -71,7 +80,7 @@ Bytes sensorMessage(const std::string& device, std::vector<double> values, Quant
 Bytes stringMessage(const std::string& device, const std::string& utf8, std::int64_t utc_ns) {
   igtl::StringMessage::Pointer message = igtl::StringMessage::New();
   message->SetEncoding(kUtf8);
-  message->SetString(utf8.c_str());
+  message->SetString(shortened(utf8).c_str());
   return packed(*message, device, utc_ns);
 }
 

@@ -7,6 +7,7 @@ import {chromium} from 'playwright-core';
 
 const kArguments = ['--no-sandbox', '--headless', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
 const kAxe = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
+const kHighest = 6000;   // px
 export const kDesktop = {width: 1366, height: 900}, kTablet = {width: 820, height: 1180};
 
 export class Educator {
@@ -50,13 +51,22 @@ export class Educator {
     await page.locator('main h1').waitFor();
   }
 
-  async picture(name, page = this.page) { if (this.shots) await page.screenshot({path: path.join(this.shots, `${name}.png`), fullPage: true}); }
+  /** The whole page on a screen as high as it: a browser does not draw a frame that is out of sight. */
+  async picture(name, page = this.page) {
+    if (!this.shots) return;
+    const before = page.viewportSize();
+    await page.setViewportSize({width: before.width, height: Math.max(before.height, Math.min(kHighest, await page.evaluate(() => document.documentElement.scrollHeight)))});
+    await page.waitForTimeout(200);
+    await page.screenshot({path: path.join(this.shots, `${name}.png`)});
+    await page.setViewportSize(before);
+  }
 
   /** Pictures and axe at both widths; serious and critical findings are kept for the end. Nothing may be wider than the screen, no type smaller than 14 px. */
   async examine(name, page = this.page) {
     for (const [width, size] of [['desktop', kDesktop], ['tablet', kTablet]]) {
       await page.setViewportSize(size);
       await page.waitForTimeout(300);
+      for (const frame of page.frames()) await frame.waitForLoadState('load');
       await this.picture(`${name}-${width}`, page);
       await page.evaluate(kAxe);
       const found = await page.evaluate(async () => (await window.axe.run(document, {iframes: false})).violations.map((v) => ({id: v.id, impact: v.impact, where: v.nodes.slice(0, 3).map((n) => `${n.target}: ${n.any[0]?.message || ''}`)})));

@@ -1,0 +1,37 @@
+#!/usr/bin/env bash
+# educators_day.sh PALPA WORK: starts a console of the program PALPA on an empty virtual bench in the folder WORK and plays an educator's day at it in Chromium.
+# Exits with 77 (skipped) and says why where Chromium, Node or the two libraries cannot be had.
+set -euo pipefail
+palpa=$1 work=$2
+here=$(cd "$(dirname "$0")" && pwd)
+skip() { echo "skipped: $*"; exit 77; }
+
+[ -x "${PALPA_CHROMIUM:-/usr/bin/chromium}" ] || skip "no Chromium (Debian: chromium)"
+command -v node >/dev/null || skip "no Node (Debian: nodejs)"
+rm -rf "$work" && mkdir -p "$work/run" && chmod 700 "$work/run"
+cp "$here"/*.mjs "$here/package.json" "$work"
+
+# The browser's driver and axe: each one file of the registry, without further libraries, known by its sum.
+while read -r name version sum; do
+  place=$work/node_modules/$name
+  if [ -f "$here/node_modules/$name/package.json" ]; then mkdir -p "$work/node_modules" && cp -r "$here/node_modules/$name" "$place" && continue; fi
+  curl -fsS --retry 3 --max-time 120 -o "$work/$name.tgz" "https://registry.npmjs.org/$name/-/$name-$version.tgz" || skip "$name $version could not be fetched from registry.npmjs.org"
+  [ "$(openssl dgst -sha512 -binary "$work/$name.tgz" | base64 -w0)" = "$sum" ] || { echo "$name $version is not what it should be"; exit 1; }
+  mkdir -p "$place" && tar xzf "$work/$name.tgz" -C "$place" --strip-components=1
+done <"$here/libraries.txt"
+
+export HOME=$work XDG_RUNTIME_DIR=$work/run LC_ALL=C.UTF-8
+unset DISPLAY PALPA_RECORDS XDG_DATA_HOME XDG_STATE_HOME
+"$palpa" console --no-open --home "$work/home" --records "$work/records.sqlite" >"$work/console.txt" 2>&1 &
+console=$!
+trap 'kill $console 2>/dev/null; wait $console 2>/dev/null' EXIT
+for _ in $(seq 300); do
+  url=$(sed -n 's/^The console: //p' "$work/console.txt")
+  [ -n "$url" ] && break
+  kill -0 $console 2>/dev/null || { cat "$work/console.txt"; exit 1; }
+  sleep 0.1
+done
+cd "$work"
+cp "$here/../../../assets/console/moments.js" "$work"   # beside a package.json that says what kind of module it is
+PALPA_CONSOLE_PAGES=$work node --test moments.test.mjs
+PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures node --test console.test.mjs
