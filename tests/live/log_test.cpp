@@ -91,7 +91,7 @@ struct Session {
   Evidence evidence;
   LiveLog log;
   std::string near;
-  LiveSink sink{evidence, log, [this](const haptics::FlightRecord&) { return near; }, [](const std::string& kind) { return kind == "puncture" ? "good" : "neutral"; }};
+  LiveSink sink{evidence, log, [this](const haptics::FlightRecord&) { return near; }, [](const runtime::Event& event) { return std::string(event.kind == "puncture" ? "good" : event.kind == "note" ? "note" : "neutral"); }};
   std::vector<json> told() const {
     std::vector<json> all;
     for (const std::string& entry : log.since(0, 1'000'000)) all.push_back(json::parse(entry));
