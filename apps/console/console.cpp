@@ -1,10 +1,12 @@
 #include "apps/console/console.h"
 
+#include <arpa/inet.h>
 #include <fcntl.h>
 #include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
+#include <atomic>
 #include <csignal>
 #include <fstream>
 #include <thread>
@@ -20,9 +22,10 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kRound{200};
-volatile std::sig_atomic_t ended = 0;
+std::atomic<bool> ended{false};   // a signal may come on any thread
+static_assert(std::atomic<bool>::is_always_lock_free);
 
-void note(int) { ended = 1; }
+void note(int) { ended.store(true); }
 
 /// One console a place: two would start two sessions on one station. Released with the process, however it ends.
 class OnlyOne {
@@ -30,6 +33,7 @@ class OnlyOne {
   explicit OnlyOne(const fs::path& home) : url_(home / "address") {
     descriptor_ = ::open((home / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
     if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
+    if (descriptor_ >= 0) ::close(descriptor_);
     std::string url;
     std::getline(std::ifstream(url_), url);
     throw Error("runs already", "a console of this user" + (url.empty() ? "" : " (" + url + ")"), "Use that one, or give another place with --home");
@@ -71,7 +75,7 @@ void prepare(const Place& place) {
 struct Signals {
   struct sigaction old_int {}, old_term {};
   Signals() {
-    ended = 0;
+    ended.store(false);
     struct sigaction action {};
     action.sa_handler = note;
     sigaction(SIGINT, &action, &old_int);
@@ -85,7 +89,10 @@ struct Signals {
 
 }  // namespace
 
-bool isLoopback(const std::string& address) { return address == "localhost" || address == "::1" || address.rfind("127.", 0) == 0; }
+bool isLoopback(const std::string& address) {
+  in_addr v4{};
+  return address == "localhost" || address == "::1" || (::inet_pton(AF_INET, address.c_str(), &v4) == 1 && ntohl(v4.s_addr) >> 24 == 127);   // a name that begins with 127. may be anybody's
+}
 
 void serveConsole(const ConsoleSettings& s, const std::function<void(const std::string&)>& ready) {
   if (!isLoopback(s.address) && s.token.empty()) throw UsageError("needs a token", "--listen " + s.address, "Others can reach this address: give a file that holds a token with --token-file");
@@ -97,6 +104,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   WebServer server(guard, refusals);
   const int port = s.port == 0 ? server.bind_to_any_port(s.address) : server.bind_to_port(s.address, s.port) ? s.port : -1;
   if (port <= 0) throw Error("cannot be listened at", s.address + (s.port ? ", port " + std::to_string(s.port) : ""), "Another program uses it, perhaps: choose another with --port");
+  server.widen();
   guard.answerTo(hostsOf(s, port));
   Console console(s.place, guard, s.tone);
   addPages(server, console);
@@ -113,7 +121,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   const std::string url = "http://" + bracketed(s.address == "0.0.0.0" ? "127.0.0.1" : s.address) + ":" + std::to_string(port) + "/";
   only.tell(url);
   ready(url);
-  while (!ended) {
+  while (!ended.load()) {
     runtime::rest(kRound);
     console.sessions.look();
   }

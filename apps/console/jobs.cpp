@@ -92,7 +92,7 @@ void Jobs::perform(const std::string& id) {
     std::vector<std::string> arguments = wish.arguments;
     for (std::string& argument : arguments)
       if (const std::size_t at = argument.find("{}"); at != std::string::npos) argument.replace(at, 2, folder.string());
-    if (!jobs_[id].stopped) {
+    if (!jobs_[id].stopped && !ending_) {
       try {
         process = jobs_[id].process = start(arguments, folder / "log.txt", true);
       } catch (const Error&) {
@@ -102,8 +102,12 @@ void Jobs::perform(const std::string& id) {
     jobs_[id].state = State::running;
   }
   while (runs(process)) runtime::rest(kLook);
-  const bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() && (wish.page.empty() || fs::exists(folder / wish.page, none));
-  if (wish.then) wish.then(folder, good);
+  bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() && (wish.page.empty() || fs::exists(folder / wish.page, none));
+  try {
+    if (wish.then) wish.then(folder, good);
+  } catch (const std::exception&) {
+    good = false;   // a full disk, say: the next command meets it as well, and tells
+  }
   const std::lock_guard lock(mutex_);
   jobs_[id].state = good && !jobs_[id].stopped ? State::done : State::failed;
 }

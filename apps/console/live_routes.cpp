@@ -16,6 +16,7 @@ void sendEvents(WebServer& server, const std::shared_ptr<SessionLink>& link, std
       [&server, link, next = from](std::size_t, httplib::DataSink& sink) mutable {
         if (server.ending()) return false;
         const SessionLink::News news = link->wait(next, kPatience);
+        next = news.from;
         std::string out;
         for (const std::string& entry : news.entries) out += "id: " + std::to_string(++next) + "\ndata: " + entry + "\n\n";
         if (out.empty()) out = ": here\n\n";

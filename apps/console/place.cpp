@@ -1,9 +1,9 @@
 #include "apps/console/place.h"
 
 #include <algorithm>
-#include <cctype>
 #include <nlohmann/json.hpp>
 
+#include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
 #include "apps/console/guard.h"
 #include "apps/runtime/serving_clock.h"
@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kLongestId = 64;
 
 bool plainName(const std::string& text) {
-  return !text.empty() && text.size() <= kLongestId && std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isalnum(c) || c == '-' || c == '_'; });
+  return !text.empty() && text.size() <= kLongestId && std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_'; });
 }
 
 }  // namespace
@@ -35,6 +35,7 @@ std::string stationOf(const Place& place) {
   std::error_code none;
   if (!std::filesystem::exists(place.settings(), none)) return "";
   const station::JsonFile file(place.settings());
+  if (!file.json().is_object()) throw UsageError("holds no settings", place.settings().string(), "Restore it, or remove it and calibrate anew");
   const std::string chosen = file.has("station") ? file.text("station") : "";
   return std::filesystem::exists(chosen, none) ? chosen : "";
 }

@@ -18,13 +18,20 @@ std::string plain(const std::string& text) {
   return line;
 }
 
+/// One word of it: what was sent adds no words of its own.
+std::string word(const std::string& text) {
+  std::string one = plain(text);
+  std::replace(one.begin(), one.end(), ' ', '?');
+  return one.empty() ? "-" : one;
+}
+
 }  // namespace
 
 void Refusals::note(const std::string& remote, const std::string& method, const std::string& path, int status, const std::string& words) {
   const std::lock_guard lock(mutex_);
   std::error_code none;
   if (std::filesystem::file_size(file_, none) > kLongest && !none) std::filesystem::rename(file_, file_.string() + ".1", none);
-  std::ofstream(file_, std::ios::app) << runtime::dateText("%Y-%m-%dT%H:%M:%SZ") << ' ' << plain(remote) << ' ' << plain(method) << ' ' << plain(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
+  std::ofstream(file_, std::ios::app) << runtime::dateText("%Y-%m-%dT%H:%M:%SZ") << ' ' << word(remote) << ' ' << word(method) << ' ' << word(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
 }
 
 }  // namespace palpa::console

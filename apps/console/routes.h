@@ -20,12 +20,12 @@ struct Console {
   Guard& guard;
   const live::ToneOf tone;
   Sessions sessions;
-  Jobs jobs;
   struct Health {
     std::mutex mutex;
     nlohmann::json findings;      ///< as `palpa doctor --json` wrote it; null: not yet
     std::string checked_utc, job;
   } health;
+  Jobs jobs;                      ///< last: its thread uses the rest until it has ended
 };
 
 /// One function a part of the house's API; each adds its paths to the server.

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <cerrno>
+#include <cstdlib>
 
 #include "apps/live/local_socket.h"
 #include "apps/live/wire.h"
@@ -68,6 +69,7 @@ void SessionLink::speak(int socket) {
     const std::lock_guard lock(mutex_);
     connected_ = true;
     passed_ = 0;
+    known_ = SIZE_MAX;
   }
   while (!ending_.load()) {
     std::string out;
@@ -95,6 +97,7 @@ bool SessionLink::hear(int socket, LinkReader& reader) {
   try {
     while (const auto frame = reader.decoder.next()) {
       const std::lock_guard lock(mutex_);
+      if (frame->kind == live::FrameKind::known) known_ = std::strtoull(frame->body.c_str(), nullptr, 10);
       if (frame->kind == live::FrameKind::entry) take(frame->body);
       if (frame->kind == live::FrameKind::picture) picture_ = {std::make_shared<const std::string>(frame->body), picture_.number + 1};
     }
@@ -119,10 +122,11 @@ bool SessionLink::watched() const { return runtime::ServingClock::now() - asked_
 
 SessionLink::News SessionLink::wait(std::size_t from, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, patience, [&] { return entries_.size() > from || over_; });
+  changed_.wait_for(lock, patience, [&] { return entries_.size() > from || over_ || (caughtUp() && from > entries_.size()); });
   News news;
   news.over = over_;
-  for (std::size_t i = from; i < entries_.size(); ++i) news.entries.push_back(entries_[i]);
+  news.from = caughtUp() && from > entries_.size() ? 0 : from;
+  for (std::size_t i = news.from; i < entries_.size() && news.entries.size() < kMostAtOnce; ++i) news.entries.push_back(entries_[i]);
   return news;
 }
 

@@ -21,10 +21,12 @@ class SessionLink {
   ~SessionLink();
 
   struct News {
-    std::vector<std::string> entries;    ///< from the number that was asked for
+    std::size_t from = 0;                ///< number of the first of them: what was asked for, or 0 where the log is shorter than that
+    std::vector<std::string> entries;    ///< at most kMostAtOnce
     bool over = false;                   ///< the session told its last
   };
-  /// Entries from number `from`; waits for the first of them, at most `patience`.
+  static constexpr std::size_t kMostAtOnce = 1024;
+  /// Entries from number `from`; waits for the first of them, at most `patience`. A number beyond the log's end, once all of it is here, is another log's: it is told from its beginning.
   News wait(std::size_t from, std::chrono::milliseconds patience);
   struct Picture {
     std::shared_ptr<const std::string> jpeg;   ///< null: none yet
@@ -44,12 +46,14 @@ class SessionLink {
   bool hear(int socket, class LinkReader& reader);
   void take(const std::string& entry);
   bool watched() const;
+  bool caughtUp() const { return over_ || passed_ >= known_; }
 
   const std::string path_;
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::string> entries_;
   std::size_t begun_ = 0, passed_ = 0;   ///< where the present session's log begins in ours; how many of it came on this connection
+  std::size_t known_ = SIZE_MAX;         ///< how many there were when it began
   std::string hello_;
   std::vector<std::string> commands_;
   Picture picture_;

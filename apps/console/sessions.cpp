@@ -84,6 +84,14 @@ json filesIn(const fs::path& folder) {
   return names;
 }
 
+/// Why it ended as it did; empty: as it should.
+std::string messageOf(const std::string& state, const fs::path& folder) {
+  if (state != "failed" && state != "interrupted") return "";
+  const std::string complaint = complaintIn(folder / kLog);
+  if (!complaint.empty()) return complaint;
+  return state == "failed" ? "The session ended before it began, without a word: it was killed, or the computer stopped. Begin it again" : "The session ended without a word: it was killed, or the computer stopped. What was recorded until then is kept";
+}
+
 }  // namespace
 
 Sessions::Sessions(const Place& place) : place_(place) {
@@ -141,7 +149,7 @@ void Sessions::look() {
     one.over = true;
     const fs::path folder = place_.sessions() / id;
     const std::string state = stateOf(id, folder);
-    one.link->close(json{{"kind", "end"}, {"state", state}, {"message", state == "finished" ? "" : complaintIn(folder / kLog)}}.dump(-1, ' ', false, json::error_handler_t::replace));
+    one.link->close(json{{"kind", "end"}, {"state", state}, {"message", messageOf(state, folder)}}.dump(-1, ' ', false, json::error_handler_t::replace));
   }
 }
 
@@ -156,7 +164,7 @@ std::string Sessions::stateOf(const std::string& id, const fs::path& folder) {
 json Sessions::told(const std::string& id, const fs::path& folder) {
   const json facts = factsOf(folder);
   const std::string state = stateOf(id, folder);
-  json one{{"id", id}, {"task", textOf(facts, "task")}, {"trainee", textOf(facts, "trainee")}, {"started_utc", textOf(facts, "started_utc")}, {"state", state}, {"message", state == "failed" || state == "interrupted" ? complaintIn(folder / kLog) : ""}};
+  json one{{"id", id}, {"task", textOf(facts, "task")}, {"trainee", textOf(facts, "trainee")}, {"started_utc", textOf(facts, "started_utc")}, {"state", state}, {"message", messageOf(state, folder)}};
   for (const char* field : {"assessed", "simulated", "trials", "study", "blind"}) one[field] = facts.value(field, json());
   return one;
 }

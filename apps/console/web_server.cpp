@@ -1,5 +1,6 @@
 #include "apps/console/web_server.h"
 
+#include <poll.h>
 #include <sys/socket.h>
 #include <unistd.h>
 
@@ -8,14 +9,18 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/console/deadline_stream.h"
+#include "apps/console/framing.h"
 #include "apps/live/local_socket.h"
 
 namespace palpa::console {
 namespace {
 
 using Clock = DeadlineStream::Clock;
-constexpr std::chrono::seconds kRequestWithin{10}, kIdle{5};
-constexpr std::size_t kLongestBody = 64u << 10, kLongestRequest = 128u << 10;
+constexpr std::chrono::milliseconds kRequestWithin{10'000}, kIdle{5'000};
+constexpr std::chrono::milliseconds kCrowdedRequestWithin{2'000}, kCrowdedIdle{250};   // where half the places are taken: who says nothing makes room
+constexpr int kKnocking = 512;
+constexpr std::size_t kLongestRequest = 128u << 10;
+constexpr std::chrono::milliseconds kLinger{500};
 constexpr int kRequestsAConnection = 1000, kThreadsToRefuse = 8;
 
 /// A pool whose threads give way to the rest of the computer.
@@ -34,6 +39,47 @@ class LowPriorityPool final : public httplib::TaskQueue {
  private:
   httplib::ThreadPool pool_;
 };
+
+/// The request that this thread is at.
+struct Turn {
+  std::string remote;
+  bool admitted = false;    ///< framing and guard let it pass; its body is read then
+  bool noted = false;       ///< a refusal, in words
+  bool nowhere = false;     ///< no such path
+  bool closes = false;
+};
+thread_local Turn turn;
+
+const char* wordsFor(int status) {
+  switch (status) {
+    case 400: return "was not understood";
+    case 403: return "a wrong token";
+    case 404: return "no such path";
+    case 414: return "a path too long";
+    case 422: return "what was asked for cannot be";
+    case 500: return "went wrong";
+    default: return "refused";
+  }
+}
+
+void setSafeHeaders(const httplib::Request& request, httplib::Response& response) {
+  const bool report = request.path.rfind("/api/pages/", 0) == 0 || request.path.find("/file/") != std::string::npos;
+  for (const auto& [name, value] : safeHeaders()) {
+    response.headers.erase(name);
+    response.set_header(name, report && name == "Content-Security-Policy" ? kReportPolicy : value);
+  }
+}
+
+/// Takes off, for a moment, what is still being sent: a socket closed with bytes unread takes the answer with it.
+void linger(int socket) {
+  ::shutdown(socket, SHUT_WR);
+  char bytes[4096];
+  const auto until = Clock::now() + kLinger;
+  for (std::size_t left = kLongestRequest; left > sizeof bytes && Clock::now() < until; left -= sizeof bytes) {
+    pollfd one{socket, POLLIN, 0};
+    if (::poll(&one, 1, static_cast<int>(kLinger.count())) != 1 || ::recv(socket, bytes, sizeof bytes, MSG_DONTWAIT) <= 0) return;
+  }
+}
 
 Asked askedOf(const httplib::Request& r) {
   return {r.remote_addr, r.method, r.path, r.get_header_value("Host"), r.get_header_value("Origin"), r.get_header_value("Sec-Fetch-Site"), r.get_header_value("Content-Type"), r.get_header_value("Cookie"),
@@ -58,8 +104,10 @@ WebServer::WebServer(Guard& guard, Refusals& refusals) : guard_(guard), refusals
     }
   });
   set_error_handler([](const httplib::Request&, httplib::Response& response) {
+    turn.nowhere = response.body.empty() && response.status == 404;
     if (response.body.empty()) refuse(response, response.status, response.status == 404 ? "is not here" : response.status == 413 ? "is too long" : "was not understood");
   });
+  set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) { finish(request, response); });
 }
 
 void WebServer::end() {
@@ -67,14 +115,29 @@ void WebServer::end() {
   stop();
 }
 
+void WebServer::widen() { ::listen(svr_sock_.load(), kKnocking); }
+
 httplib::Server::HandlerResponse WebServer::admit(const httplib::Request& request, httplib::Response& response) {
-  const bool report = request.path.rfind("/api/pages/", 0) == 0 || request.path.find("/file/") != std::string::npos;
-  for (const auto& [name, value] : safeHeaders()) response.set_header(name, report && name == "Content-Security-Policy" ? kReportPolicy : value);
-  const Verdict verdict = guard_.judge(askedOf(request));
-  if (verdict.status == 200) return HandlerResponse::Unhandled;
+  Verdict verdict = judgeFraming(request);
+  if (verdict.status == 200) verdict = guard_.judge(askedOf(request));
+  turn.admitted = verdict.status == 200;
+  if (turn.admitted) return HandlerResponse::Unhandled;
+  turn.noted = true;
   refusals_.note(request.remote_addr, request.method, request.path, verdict.status, verdict.words);
   refuse(response, verdict.status, verdict.words);
   return HandlerResponse::Handled;
+}
+
+/// Every answer passes here, also to what could not be read as a request.
+void WebServer::finish(const httplib::Request& request, httplib::Response& response) {
+  setSafeHeaders(request, response);
+  const bool refused = response.status >= 400 && response.status != 409 && (response.status != 404 || turn.nowhere);
+  if (refused && !turn.noted) refusals_.note(turn.remote, request.method, request.path, response.status, wordsFor(response.status));
+  turn.closes = response.status >= 400 && (!turn.admitted || response.status == 400 || response.status == 413);
+  if (!turn.closes) return;
+  response.headers.erase("Keep-Alive");
+  response.headers.erase("Connection");
+  response.set_header("Connection", "close");
 }
 
 bool WebServer::process_and_close_socket(socket_t socket) {
@@ -94,10 +157,13 @@ bool WebServer::process_and_close_socket(socket_t socket) {
 
 void WebServer::serve(DeadlineStream& stream) {
   for (int count = 1; count <= kRequestsAConnection && !ending(); ++count) {
-    if (!stream.waits(kIdle)) return;
-    stream.begin(Clock::now() + kRequestWithin, kLongestRequest);
+    if (!stream.waits(crowded() ? kCrowdedIdle : kIdle)) return;
+    stream.begin(Clock::now() + (crowded() ? kCrowdedRequestWithin : kRequestWithin), kLongestRequest);
     bool closed = false;
-    if (!process_request(stream, count == kRequestsAConnection, closed, nullptr) || closed || stream.cut()) return;
+    turn = {.remote = stream.remote()};
+    const auto whole = [](httplib::Request& request) { request.ranges.clear(); };   // parts are refused; the refusal is no answer in parts either
+    if (!process_request(stream, count == kRequestsAConnection, closed, whole) || closed || stream.cut()) return;
+    if (turn.closes) return linger(stream.socket());
   }
 }
 

@@ -11,7 +11,8 @@
 
 namespace palpa::console {
 
-/// The HTTP server: limits on connections, sizes and time before a request is looked at; the guard before it is answered; safe headers on every answer. Its threads give way to all others.
+/// The HTTP server: limits on connections, sizes and time before a request is looked at; framing and guard before its body is read; safe headers on every answer. What is refused is noted, and ends its
+/// connection: what may be left of its body is no next request. Its threads give way to all others.
 class WebServer final : public httplib::Server {
  public:
   WebServer(Guard& guard, Refusals& refusals);
@@ -22,12 +23,16 @@ class WebServer final : public httplib::Server {
   /// The server is ending: streams shall.
   bool ending() const { return ending_.load(); }
   void end();
+  /// Once it is bound: many may knock at once, and are told to wait rather than left before the door.
+  void widen();
 
   static constexpr int kMostConnections = 96, kMostStreams = 24;
 
  private:
   bool process_and_close_socket(socket_t socket) override;
   void serve(class DeadlineStream& stream);
+  void finish(const httplib::Request& request, httplib::Response& response);
+  bool crowded() const { return connections_.load() > kMostConnections / 2; }
   HandlerResponse admit(const httplib::Request& request, httplib::Response& response);
 
   Guard& guard_;

@@ -9,6 +9,7 @@ namespace palpa::live {
 namespace {
 
 constexpr std::int64_t kWords = 200'000'000, kPicture = 66'000'000;   // ns
+constexpr int kToldRefusals = 1000;
 
 const char* nameOf(trial::TrialState state) {
   using trial::TrialState;
@@ -58,7 +59,7 @@ void LiveSession::hear(const std::string& command) {
   try {
     channels_.console_to_task.push(parseSteering(command));
   } catch (const Error& e) {
-    log_.add(entryOf({{"kind", "refused"}, {"text", e.what()}}));
+    if (++refused_ <= kToldRefusals) log_.add(entryOf({{"kind", "refused"}, {"text", e.what()}}));
   }
 }
 

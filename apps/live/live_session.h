@@ -33,6 +33,7 @@ class LiveSession {
   LiveLog log_;
   trial::Channels& channels_;
   std::string told_;                   ///< the last status, without its time
+  int refused_ = 0;                    ///< told: a peer that sends nonsense for hours shall not fill the memory
   std::int64_t next_words_ns_ = 0, next_picture_ns_ = 0;
   Port port_;                          ///< last: its thread uses the rest
 };

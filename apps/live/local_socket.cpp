@@ -19,10 +19,12 @@ namespace {
 
 constexpr int kBacklog = 8, kNice = 15;
 
+bool fits(const std::string& path) { return path.size() < sizeof sockaddr_un{}.sun_path && path.find('\0') == std::string::npos; }
+
 sockaddr_un addressOf(const std::string& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
-  if (path.size() >= sizeof address.sun_path) throw Error("is too long for a socket", path, "Set XDG_RUNTIME_DIR to a shorter one");
+  if (!fits(path)) throw Error("is too long for a socket", path, "Set XDG_RUNTIME_DIR to a shorter one");
   std::memcpy(address.sun_path, path.c_str(), path.size());
   return address;
 }
@@ -32,6 +34,7 @@ int unixSocket() { return ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NO
 }  // namespace
 
 int connectTo(const std::string& path) {
+  if (!fits(path)) return -1;
   const sockaddr_un address = addressOf(path);
   const int socket = unixSocket();
   if (socket < 0) return -1;

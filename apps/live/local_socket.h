@@ -6,7 +6,7 @@ namespace palpa::live {
 
 /// A listening Unix socket at `path`, readable by this user only; what a dead process left there is removed. Throws Error.
 int listenAt(const std::string& path);
-/// Connected, or -1: nobody is there.
+/// Connected, or -1: nobody is there, or nobody can be (the path is too long for a socket).
 int connectTo(const std::string& path);
 /// The process at the other end runs as the same user.
 bool sameUser(int socket);

@@ -17,6 +17,7 @@ namespace palpa::live {
 namespace {
 
 constexpr std::size_t kMostPeers = 8, kEntriesAtOnce = 256, kEnoughWaiting = 64 << 10;
+constexpr int kCallersAtOnce = 16, kReadsAtOnce = 16;   // of one peer: another's turn comes, and the session's end, whatever one sends
 constexpr int kLook_ms = 25, kQuality = 80, kWidest = 1280;
 constexpr std::chrono::milliseconds kFarewell{500};
 
@@ -42,9 +43,11 @@ struct Port::Peer {
   std::string waiting;        ///< to be written
   std::size_t told = 0;       ///< entries of the log
   bool watches = false, lost = false;
+  runtime::ServingClock::time_point took = runtime::ServingClock::now();   ///< when it took something off, or nothing waited
 };
 
-Port::Port(std::string path, const LiveLog& log, Heard heard) : path_(std::move(path)), log_(log), heard_(std::move(heard)), listener_(listenAt(path_)) {
+Port::Port(std::string path, const LiveLog& log, Heard heard, std::chrono::milliseconds patience)
+    : path_(std::move(path)), log_(log), heard_(std::move(heard)), patience_(patience), listener_(listenAt(path_)) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -56,7 +59,7 @@ Port::~Port() {
 }
 
 void Port::offer(scene::Image picture) {
-  if (picture.channels != 3 || picture.pixels.empty()) return;
+  if (picture.channels != 3 || picture.width <= 0 || picture.height <= 0 || picture.pixels.size() != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height)) return;
   const std::lock_guard lock(picture_mutex_);
   picture_ = std::move(picture);
   has_picture_.store(true, std::memory_order_release);
@@ -88,19 +91,23 @@ void Port::waitForPeers(int timeout_ms) {
 }
 
 void Port::accept() {
-  for (int socket; (socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0;) {
-    if (peers_.size() >= kMostPeers || !sameUser(socket)) ::close(socket);
-    else peers_.push_back(std::make_unique<Peer>(socket));
+  for (int callers = 0, socket; callers < kCallersAtOnce && (socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0; ++callers) {
+    if (peers_.size() >= kMostPeers || !sameUser(socket)) {
+      ::close(socket);
+    } else {
+      peers_.push_back(std::make_unique<Peer>(socket));
+      peers_.back()->waiting = encoded(FrameKind::known, std::to_string(log_.size()));
+    }
   }
 }
 
 void Port::read(Peer& peer) {
   char bytes[4096];
   ssize_t count = 0;
-  while ((count = ::recv(peer.socket, bytes, sizeof bytes, 0)) > 0) {
+  for (int reads = 0; (count = ::recv(peer.socket, bytes, sizeof bytes, 0)) > 0;) {
     peer.decoder.feed(bytes, static_cast<std::size_t>(count));
     obey(peer);
-    if (peer.lost) return;
+    if (peer.lost || ++reads == kReadsAtOnce) return;
   }
   if (count == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) peer.lost = true;
 }
@@ -116,21 +123,28 @@ void Port::obey(Peer& peer) {
   }
 }
 
-void Port::write(Peer& peer) {
-  if (peer.waiting.size() < kEnoughWaiting) {
-    for (const std::string& entry : log_.since(peer.told, kEntriesAtOnce)) {
-      peer.waiting += encoded(FrameKind::entry, entry);
-      ++peer.told;
-    }
+void Port::tell(Peer& peer) {
+  if (peer.waiting.size() >= kEnoughWaiting) return;
+  for (const std::string& entry : log_.since(peer.told, kEntriesAtOnce)) {
+    peer.waiting += encoded(FrameKind::entry, entry);
+    ++peer.told;
+    if (peer.waiting.size() >= kEnoughWaiting) return;
   }
+}
+
+void Port::write(Peer& peer) {
+  tell(peer);
+  const auto now = runtime::ServingClock::now();
   while (!peer.waiting.empty()) {
     const ssize_t count = ::send(peer.socket, peer.waiting.data(), peer.waiting.size(), MSG_NOSIGNAL);
     if (count <= 0) {
-      peer.lost |= errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR;
+      peer.lost |= (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) || now - peer.took > patience_;
       return;
     }
     peer.waiting.erase(0, static_cast<std::size_t>(count));
+    peer.took = now;
   }
+  peer.took = now;
 }
 
 void Port::encodePicture() {

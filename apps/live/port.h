@@ -1,6 +1,7 @@
 #pragma once
 
 #include <atomic>
+#include <chrono>
 #include <functional>
 #include <memory>
 #include <mutex>
@@ -14,14 +15,15 @@
 
 namespace palpa::live {
 
-/// The session's end of the local socket: tells its log and its pictures to up to eight who look on, hears what they ask. A thread of its own at low priority; whoever is slow gets fewer pictures, and nobody who
+/// The session's end of the local socket: tells its log and its pictures to up to eight who look on, hears what they ask. A thread of its own at low priority; whoever is slow gets fewer pictures, who takes nothing is left, and nobody who
 /// looks on can hold the session up. Only processes of the same user are heard.
 class Port {
  public:
   /// Called on the port's thread with the body of a command.
   using Heard = std::function<void(const std::string& command)>;
   /// Throws Error where there can be no socket at `path`.
-  Port(std::string path, const LiveLog& log, Heard heard);
+  /// `patience`: whoever has taken nothing off for so long while something waits is left; he may come again.
+  Port(std::string path, const LiveLog& log, Heard heard, std::chrono::milliseconds patience = std::chrono::seconds(10));
   ~Port();   ///< tells what is left, for at most half a second
 
   /// Somebody wants pictures, and the last one is gone.
@@ -36,6 +38,7 @@ class Port {
   void read(Peer& peer);
   void obey(Peer& peer);
   void write(Peer& peer);
+  void tell(Peer& peer);
   void encodePicture();
   void leaveLost();
   bool allTold() const;
@@ -43,6 +46,7 @@ class Port {
   const std::string path_;
   const LiveLog& log_;
   const Heard heard_;
+  const std::chrono::milliseconds patience_;
   int listener_ = -1;
   std::vector<std::unique_ptr<Peer>> peers_;
   std::atomic<bool> watched_{false}, has_picture_{false}, ending_{false};

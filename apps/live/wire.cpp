@@ -12,6 +12,7 @@ std::size_t longest(char kind) {
     case FrameKind::entry: return kLongestEntry;
     case FrameKind::picture: return kLongestPicture;
     case FrameKind::command: return kLongestCommand;
+    case FrameKind::known: return kLongestCount;
     case FrameKind::watch: return 1;
   }
   throw Error("is no kind of frame", "local socket of a session", "Console and session are of different versions: start both anew");

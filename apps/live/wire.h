@@ -12,6 +12,7 @@ namespace palpa::live {
 enum class FrameKind : char {
   entry = 'L',      ///< session -> console: the next entry of its log, a JSON object
   picture = 'P',    ///< session -> console: what is on the screen, JPEG
+  known = 'K',      ///< session -> console, once, first: how many entries its log held when the console came; with as many it has caught up
   command = 'C',    ///< console -> session: {"command", "reason", "at_s"}
   watch = 'W'       ///< console -> session: "1": pictures are wanted; "0": nobody looks
 };
@@ -21,7 +22,7 @@ struct Frame {
   std::string body;
 };
 
-inline constexpr std::size_t kLongestPicture = 8u << 20, kLongestEntry = 1u << 20, kLongestCommand = 8u << 10;
+inline constexpr std::size_t kLongestPicture = 8u << 20, kLongestEntry = 1u << 20, kLongestCommand = 8u << 10, kLongestCount = 20;
 
 std::string encoded(FrameKind kind, const std::string& body);
 

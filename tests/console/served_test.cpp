@@ -1,0 +1,227 @@
+// The console whole, in this process: what its threads share is under the sanitizers; sessions and commands are played.
+#include <gtest/gtest.h>
+#include <signal.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <fstream>
+#include <memory>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <thread>
+
+#include "anatomy/geometry/error.h"
+#include "apps/console/console.h"
+#include "apps/console/guard.h"
+#include "apps/console/http.h"
+#include "apps/runtime/serving_clock.h"
+#include "tests/support/damage.h"
+#include "tests/support/scratch_folder.h"
+#include "tests/support/short_folder.h"
+
+namespace palpa::console {
+namespace {
+
+using nlohmann::json;
+using namespace std::chrono_literals;
+
+template <class Seen>
+bool inTime(Seen seen) {
+  const auto until = runtime::ServingClock::now() + 60s;
+  while (runtime::ServingClock::now() < until) {
+    if (seen()) return true;
+    runtime::rest(20ms);
+  }
+  return false;
+}
+
+class Served {
+ public:
+  Served(const std::filesystem::path& home, const std::string& sockets) {
+    settings_.place.home = home;
+    settings_.place.pages = std::filesystem::path(PALPA_SOURCE_DIR) / "assets/console";
+    settings_.place.records = (home.parent_path() / "records.sqlite").string();
+    settings_.place.sockets = sockets;
+    settings_.place.version = "test";
+    thread_ = std::thread([this] {
+      try {
+        serveConsole(settings_, [this](const std::string& url) { say(url); });
+      } catch (const std::exception& e) {
+        say(std::string("! ") + e.what());
+      }
+    });
+    inTime([this] { return !url().empty(); });
+  }
+  ~Served() { end(); }
+  void end() {
+    if (!thread_.joinable()) return;
+    if (url().rfind("http", 0) == 0) ::kill(::getpid(), SIGTERM);
+    thread_.join();
+  }
+  std::string url() {
+    const std::lock_guard lock(mutex_);
+    return url_;
+  }
+  httplib::Client client() {
+    httplib::Client one(url().substr(0, url().size() - 1));
+    one.set_read_timeout(60);
+    return one;
+  }
+  json get(const std::string& path) {
+    const auto answer = client().Get(path);
+    return answer ? json::parse(answer->body, nullptr, false) : json();
+  }
+  int post(const std::string& path, const json& body, json* told = nullptr) {
+    if (key_.empty()) key_ = get("/api/me").value("page_key", "");
+    const auto answer = client().Post(path, {{"X-Palpa-Page", key_}, {"X-Palpa-Write", randomKey()}}, body.dump(), "application/json");
+    if (answer && told) *told = json::parse(answer->body, nullptr, false);
+    return answer ? answer->status : 0;
+  }
+  /// Events from after `last`, until `count` have come or the stream has ended.
+  std::vector<std::pair<std::size_t, json>> events(const std::string& id, const std::string& last, std::size_t count) {
+    std::vector<std::pair<std::size_t, json>> all;
+    std::string text;
+    httplib::Headers headers;
+    if (!last.empty()) headers.emplace("Last-Event-ID", last);
+    client().Get("/api/sessions/" + id + "/live", headers, [&](const char* bytes, std::size_t size) {
+      text.append(bytes, size);
+      for (std::size_t end; (end = text.find("\n\n")) != std::string::npos; text.erase(0, end + 2)) {
+        if (text.rfind("id: ", 0) != 0) continue;
+        all.emplace_back(std::stoul(text.substr(4)), json::parse(text.substr(text.find("data: ") + 6, end - text.find("data: ") - 6), nullptr, false));
+      }
+      return all.size() < count;
+    });
+    return all;
+  }
+
+ private:
+  void say(const std::string& url) {
+    const std::lock_guard lock(mutex_);
+    url_ = url;
+  }
+  ConsoleSettings settings_;
+  std::mutex mutex_;
+  std::string url_, key_;
+  std::thread thread_;
+};
+
+struct Desk {
+  explicit Desk(const std::string& name) : folder(name) { console = std::make_unique<Served>(folder / "home", sockets.path()); }
+  std::string begin() {
+    json told;
+    EXPECT_EQ(console->post("/api/sessions", {{"task", "paracentesis"}, {"operator", "expert"}}, &told), 201) << told.dump();
+    return told.value("id", "");
+  }
+  void restart() {
+    console.reset();
+    console = std::make_unique<Served>(folder / "home", sockets.path());
+  }
+  bool isState(const std::string& id, const std::string& state) {
+    return inTime([&] { return console->get("/api/sessions/" + id)["state"] == state; });
+  }
+  const test::ScratchFolder folder;
+  const test::ShortFolder sockets;
+  std::unique_ptr<Served> console;
+};
+
+TEST(Served, ASessionIsBegunLookedAtSteeredAndOver) {
+  Desk desk("served");
+  Served& console = *desk.console;
+  const std::string id = desk.begin();
+  EXPECT_EQ(console.post("/api/sessions", {{"task", "paracentesis"}, {"operator", "expert"}}), 409);
+  const auto first = console.events(id, "", 30);
+  ASSERT_GE(first.size(), 30u);
+  for (std::size_t i = 0; i < first.size(); ++i) EXPECT_EQ(first[i].first, i + 1);
+  EXPECT_EQ(first[0].second["kind"], "hello");
+  EXPECT_EQ(console.post("/api/sessions/" + id + "/command", {{"command", "pause"}}), 202);
+  EXPECT_EQ(console.post("/api/sessions/" + id + "/command", {{"command", "<script>"}}), 422);
+  EXPECT_EQ(console.post("/api/sessions/" + id + "/command", {{"command", "leave"}}), 202);
+  const auto rest = console.events(id, std::to_string(first.back().first), 1'000'000);
+  ASSERT_FALSE(rest.empty());
+  EXPECT_EQ(rest.front().first, first.back().first + 1);
+  EXPECT_EQ(rest.back().second["kind"], "end");
+  EXPECT_EQ(rest.back().second["state"], "finished");
+  EXPECT_EQ(console.post("/api/sessions/" + id + "/command", {{"command", "pause"}}), 409);
+  EXPECT_EQ(console.get("/api/sessions")[0]["state"], "finished");
+}
+
+/// The console ends and comes back: the session has gone on, and whoever was away reads on where he was.
+TEST(Served, ASessionOutlivesItsConsole) {
+  Desk desk("outlives");
+  const std::string id = desk.begin();
+  const auto before = desk.console->events(id, "", 20);
+  ASSERT_GE(before.size(), 20u);
+  desk.restart();
+  const auto after = desk.console->events(id, "20", before.size() + 30);
+  ASSERT_GE(after.size(), 30u);
+  EXPECT_EQ(after.front().first, 21u);
+  for (std::size_t i = 20; i < before.size(); ++i) EXPECT_EQ(after[i - 20], before[i]);
+  for (std::size_t i = 1; i < after.size(); ++i) EXPECT_EQ(after[i].second["number"], after[i - 1].second["number"].get<int>() + 1);
+  const auto anew = desk.console->events(id, "999999", 5);
+  ASSERT_FALSE(anew.empty());
+  EXPECT_EQ(anew.front().first, 1u) << "a number beyond the log: told from its beginning";
+  EXPECT_EQ(desk.console->post("/api/sessions/" + id + "/command", {{"command", "leave"}}), 202);
+  EXPECT_TRUE(desk.isState(id, "finished"));
+}
+
+TEST(Served, AKilledSessionIsSaidInWords) {
+  Desk desk("killed");
+  const std::string id = desk.begin();
+  ASSERT_GE(desk.console->events(id, "", 3).size(), 3u);
+  const json facts = json::parse(std::ifstream(desk.folder / "home" / "sessions" / id / "console.json"));
+  ::kill(facts["pid"].get<int>(), SIGKILL);
+  const auto all = desk.console->events(id, "", 1'000'000);
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all.back().second["kind"], "end");
+  EXPECT_NE(all.back().second["state"], "finished");
+  EXPECT_NE(all.back().second["message"], "") << "nobody is told what happened";
+  EXPECT_NE(desk.console->get("/api/sessions/" + id)["message"], "");
+  const std::string next = desk.begin();   // the next can begin
+  ASSERT_GE(desk.console->events(next, "", 3).size(), 3u);
+  EXPECT_EQ(desk.console->post("/api/sessions/" + next + "/command", {{"command", "leave"}}), 202);
+  EXPECT_TRUE(desk.isState(next, "finished"));
+}
+
+TEST(Served, TwoConsolesAtOnePlaceAreOneTooMany) {
+  Desk desk("two");
+  Served second(desk.folder / "home", desk.sockets.path());
+  EXPECT_NE(second.url().find("runs already"), std::string::npos) << second.url();
+  EXPECT_NE(second.url().find(desk.console->url()), std::string::npos);
+  EXPECT_TRUE(desk.console->get("/api/me").contains("version"));
+}
+
+TEST(Served, ManyAskForEverythingAtOnce) {
+  Desk desk("many");
+  const std::string id = desk.begin();
+  ASSERT_TRUE(desk.isState(id, "running"));
+  desk.console->post("/api/trainees", {{"id", "T1"}});
+  std::atomic<int> unanswered{0};
+  std::vector<std::thread> threads;
+  const std::string paths[] = {"/", "/api/me", "/api/health", "/api/tasks", "/api/trainees", "/api/sessions", "/api/sessions/" + id, "/api/sessions/" + id + "/picture", "/api/calibration", "/api/studies", "/api/trainees/T1/report", "/api/cohort"};
+  for (int t = 0; t < 8; ++t)
+    threads.emplace_back([&, t] {
+      for (std::size_t i = 0; i < std::size(paths); ++i) unanswered += !desk.console->client().Get(paths[(i + static_cast<std::size_t>(t)) % std::size(paths)]);
+      unanswered += desk.console->events(id, "", 50).size() < 50;
+    });
+  threads.emplace_back([&] {
+    for (int i = 0; i < 10; ++i) desk.console->post("/api/sessions/" + id + "/command", {{"command", "pause"}});
+    desk.console->post("/api/health", json::object());
+  });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(unanswered, 0);
+  EXPECT_EQ(desk.console->post("/api/sessions/" + id + "/command", {{"command", "leave"}}), 202);
+  EXPECT_TRUE(desk.isState(id, "finished"));
+}
+
+TEST(Served, OpenToOthersOnlyWithAToken) {
+  for (const std::string address : {"0.0.0.0", "::", "192.168.1.20", "", "127.evil.example", "127.0.0.1.evil.example", "127.0.0", "localhost.evil.example", "0"}) {
+    ConsoleSettings settings;
+    settings.address = address;
+    EXPECT_FALSE(isLoopback(address)) << address;
+    EXPECT_THROW(serveConsole(settings, [](const std::string&) { ADD_FAILURE() << "it served"; }), UsageError) << address;
+  }
+  for (const char* address : {"127.0.0.1", "127.1.2.3", "localhost", "::1"}) EXPECT_TRUE(isLoopback(address)) << address;
+}
+
+}  // namespace
+}  // namespace palpa::console

@@ -1,0 +1,104 @@
+#include <fcntl.h>
+#include <gtest/gtest.h>
+#include <sys/stat.h>
+#include <sys/un.h>
+
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+
+#include "anatomy/geometry/error.h"
+#include "peer.h"
+#include "tests/support/short_folder.h"
+
+namespace palpa::live {
+namespace {
+
+namespace fs = std::filesystem;
+
+using test::ShortFolder;
+
+unsigned modeOf(const fs::path& path) {
+  struct stat facts {};
+  return ::lstat(path.c_str(), &facts) == 0 ? facts.st_mode & 07777 : 0;
+}
+
+struct RuntimeFolder {
+  explicit RuntimeFolder(const std::string& path) { ::setenv("XDG_RUNTIME_DIR", path.c_str(), 1); }
+  ~RuntimeFolder() { ::unsetenv("XDG_RUNTIME_DIR"); }
+};
+
+TEST(LocalSocket, FolderAndSocketAreTheUsersAlone) {
+  const ShortFolder here;
+  const RuntimeFolder runtime(here.path());
+  const mode_t mask = ::umask(0);
+  const std::string folder = socketFolder();
+  EXPECT_EQ(folder, (here / "palpa").string());
+  EXPECT_EQ(modeOf(folder), 0700u);
+  const int listener = listenAt(folder + "/a.sock");
+  EXPECT_EQ(modeOf(folder + "/a.sock"), 0600u);
+  EXPECT_EQ(::umask(mask), 0u) << "it was left changed";
+  ::close(listener);
+  EXPECT_EQ(socketFolder(), folder);
+}
+
+TEST(LocalSocket, AFolderThatOthersMayEnterIsRefused) {
+  const ShortFolder here;
+  const RuntimeFolder runtime(here.path());
+  fs::create_directory(here / "palpa");
+  for (const unsigned mode : {0750u, 0701u, 0777u, 0720u}) {
+    ASSERT_EQ(::chmod((here / "palpa").c_str(), mode), 0);
+    EXPECT_THROW(socketFolder(), Error) << std::oct << mode;
+  }
+  ASSERT_EQ(::chmod((here / "palpa").c_str(), 0700), 0);
+  EXPECT_NO_THROW(socketFolder());
+}
+
+TEST(LocalSocket, AFolderThatIsALinkOrAFileIsRefused) {
+  const ShortFolder here;
+  const RuntimeFolder runtime(here.path());
+  fs::create_directory(here / "elsewhere");
+  ASSERT_EQ(::chmod((here / "elsewhere").c_str(), 0700), 0);
+  fs::create_symlink(here / "elsewhere", here / "palpa");
+  EXPECT_THROW(socketFolder(), Error);
+  fs::remove(here / "palpa");
+  std::ofstream(here / "palpa") << "x";
+  EXPECT_THROW(socketFolder(), Error);
+}
+
+TEST(LocalSocket, WhatADeadSessionLeftIsTakenOver_ALivingOnesIsNot) {
+  const ShortFolder here;
+  const std::string path = here / "s.sock";
+  const int dead = listenAt(path);
+  ::close(dead);
+  EXPECT_TRUE(fs::exists(path)) << "as a killed session leaves it";
+  EXPECT_FALSE(Peer(path).connected());
+  const int living = listenAt(path);
+  EXPECT_TRUE(Peer(path).connected());
+  EXPECT_THROW(listenAt(path), Error);
+  EXPECT_TRUE(Peer(path).connected()) << "the living one's socket was taken away";
+  ::close(living);
+}
+
+TEST(LocalSocket, APathThatNoSocketCanHaveIsAnErrorToListenAndNobodyToCall) {
+  const ShortFolder here;
+  const std::string longest = here.path().string() + "/" + std::string(sizeof(sockaddr_un{}.sun_path) - here.path().string().size() - 2, 'x');
+  ::close(listenAt(longest));
+  EXPECT_THROW(listenAt(longest + "x"), Error);
+  EXPECT_EQ(connectTo(longest + "x"), -1);
+  EXPECT_EQ(connectTo(std::string(10'000, 'x')), -1);
+  EXPECT_THROW(listenAt(here / "not/there.sock"), Error);
+  EXPECT_EQ(connectTo(here / "not/there.sock"), -1);
+}
+
+TEST(LocalSocket, NothingOfItStaysOpenInAChild) {
+  const ShortFolder here;
+  const int listener = listenAt(here / "s.sock");
+  const int caller = connectTo(here / "s.sock");
+  for (const int socket : {listener, caller}) EXPECT_TRUE(::fcntl(socket, F_GETFD) & FD_CLOEXEC);
+  ::close(listener);
+  ::close(caller);
+}
+
+}  // namespace
+}  // namespace palpa::live
