@@ -28,7 +28,7 @@ export async function show({root, life, open}) {
     }
     const some = sessions.filter((s) => !chosen || s.trainee === chosen);
     put(place, some.length ? h('div', {class: 'card flush'}, table(`Sessions, newest first${chosen ? `, of ${who(chosen)}` : ''}`, ['When', 'Task', 'Trainee', 'Kind', 'Trials', 'State'], some.map(row), true))
-      : h('p', {class: 'lead'}, 'No session has been held yet. ', h('a', {href: '#/session'}, 'Start one.')));
+      : h('p', {class: 'lead'}, 'No session has been held from here yet. ', h('a', {href: '#/session'}, 'Start one.')));
   };
   await draw();
   life.every(4000, draw);
