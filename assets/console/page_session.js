@@ -16,7 +16,7 @@ function form(tasks, trainees, me, chosenTrainee) {
   const task = radios('Task', tasks.map((t) => [t.id, t.title || taskName(t.id), t.about || '']), first?.id, () => follow());
   const trainee = choice([['', 'nobody (T000)'], ...trainees.map((t) => [t.id, `${t.id}${t.group ? `, ${t.group}` : ''}`])], trainees.some((t) => t.id === chosenTrainee) ? chosenTrainee : '');
   const side = radios('Side of the patient', [['right', 'right'], ['left', 'left']], 'right');
-  const kind = radios('Kind', [['practice', 'practice', 'Aids as the task sets them.'], ['assess', 'assessed', 'Every aid is off, and the trial counts.']], 'practice');
+  const kind = radios('Kind', [['practice', 'practice', 'Aids as the task sets them.'], ['assess', 'assessed', 'Every aid is off, as in an examination.']], 'practice');
   const operator = radios('Who performs', [['person', 'a person', me.display ? '' : 'This station has no display: a person cannot train here now.'], ['expert', 'simulated expert', 'Shows how it goes; marked as simulated.'], ['novice', 'simulated novice', 'Makes the common errors; marked as simulated.']], me.display ? 'person' : 'expert');
   const force = tick('Force feedback', true, 'Off: the needle is seen, not felt.');
   const trials = number(1, 1, 100), patient = number(0, 0, 1000000), seed = number(1, 0, 1000000);
