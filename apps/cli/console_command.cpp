@@ -16,6 +16,7 @@
 #include "apps/console/console.h"
 #include "apps/live/local_socket.h"
 #include "apps/station/assets.h"
+#include "apps/station/station_file.h"
 
 extern char** environ;
 
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 constexpr std::size_t kShortestToken = 16;
 
 struct ConsoleOptions {
-  std::string listen = "127.0.0.1", token_file, records, home;
+  std::string listen = "127.0.0.1", token_file, records, home, station;
   std::vector<std::string> names;
   int port = 0;
   bool open = true;
@@ -70,6 +71,10 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   s.token = tokenIn(o.token_file);
   s.names = o.names;
   s.tone = toneOfEvent;
+  if (!o.station.empty()) {
+    station::readStation(o.station);   // refused here, where somebody reads it
+    s.station = fs::absolute(o.station).string();
+  }
   return s;
 }
 
@@ -101,6 +106,7 @@ void addConsole(CLI::App& program) {
   command->add_option("--token-file", o->token_file, "File with the token that whoever opens the pages must give; readable by you alone")->type_name("FILE");
   command->add_option("--name", o->names, "Another name by which browsers reach this computer, e.g. station3.local")->type_name("HOST");
   command->add_option("--home", o->home, "Where the console keeps its sessions (default ~/.local/share/palpa/console)")->type_name("DIR");
+  command->add_option("--station", o->station, "Station file of this place, from now on (default: as last time; at first the virtual bench)")->type_name("FILE");
   command->add_flag_callback("--no-open", [o] { o->open = false; }, "Do not open a browser");
   addRecordsArgument(*command, o->records);
   command->footer("Examples:\n  palpa console\n  palpa console --port 8080 --no-open\n  palpa console --listen 192.168.1.20 --port 8080 --token-file ~/palpa-token\n      for a tablet in a room's own network: http is not encrypted; keep it off other networks");

@@ -53,6 +53,15 @@ std::vector<record::StoredCalibration> calibrationsIn(const nlohmann::json& stat
   return all;
 }
 
+/// What was trained, whichever command led to it: a needle's task by its id, other tasks by the command of their kind.
+std::string taskOf(const record::SessionReader& reader) {
+  const std::string engine = engineOf(reader), command = reader.info().command;
+  if (engine == "palpation" || engine == "squeeze") return engine;
+  if (engine == "surface") return "search";
+  const nlohmann::json task = nlohmann::json::parse(reader.info().task_json, nullptr, false);
+  return task.is_object() && task.contains("id") && task["id"].is_string() ? task["id"].get<std::string>() : command;
+}
+
 record::StoredSession sessionIn(const record::SessionReader& reader, const std::filesystem::path& evidence) {
   const record::SessionInfo& info = reader.info();
   const nlohmann::json session = nlohmann::json::parse(info.session_json), station = nlohmann::json::parse(info.station_json);
@@ -61,7 +70,7 @@ record::StoredSession sessionIn(const record::SessionReader& reader, const std::
   s.trainee = session.value("trainee", "");
   s.started_utc = info.started_utc;
   s.software = info.software;
-  s.task = info.command;
+  s.task = taskOf(reader);
   s.station = station.value("id", "");
   s.simulated = session.value("simulated", false);
   if (const nlohmann::json study = session.value("study", nlohmann::json::object()); !study.empty()) {

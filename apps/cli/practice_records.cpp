@@ -18,9 +18,6 @@ std::string conditionOf(const record::TrialWithSession& stored) {
   return condition;
 }
 
-/// A session from a task's own file is known by what runs it.
-std::string taskOf(const std::string& command, const std::string& engine) { return command == "train" && !engine.empty() ? "own " + engine + " task" : command; }
-
 }  // namespace
 
 progress::PracticeTrial practiceOf(const record::TrialWithSession& stored, const std::string& group) {
@@ -29,7 +26,7 @@ progress::PracticeTrial practiceOf(const record::TrialWithSession& stored, const
   t.trainee = stored.session.trainee;
   t.group = group;
   t.engine = progress::engineOfFigures(t.metrics);
-  t.task = taskOf(stored.session.task, t.engine);
+  t.task = stored.session.task;
   t.started_utc = stored.session.started_utc;
   t.arrival = stored.session.arrival;
   t.number = stored.trial.number;

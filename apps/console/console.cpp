@@ -98,6 +98,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   if (!isLoopback(s.address) && s.token.empty()) throw UsageError("needs a token", "--listen " + s.address, "Others can reach this address: give a file that holds a token with --token-file");
   prepare(s.place);
   OnlyOne only(s.place.home);
+  if (!s.station.empty()) chooseStation(s.place, s.station);
   const Signals signals;
   Refusals refusals(s.place.home / "refused.log");
   Guard guard(s.token);

@@ -24,7 +24,7 @@ struct Kind {
 };
 constexpr Kind kKinds[] = {
     {"needle", "Lead a needle to a target that is felt, and seen over the camera's picture.", true, true},
-    {"palpation", "Search silicone for lumps that are not there.", false, true},
+    {"palpation", "Search a soft phantom for lumps: they are felt, though the silicone has none.", false, true},
     {"squeeze", "Between two fingers: which is harder, which is heavier?", false, false},
     {"surface", "Find the rough one of three hidden things by touch.", false, false},
 };

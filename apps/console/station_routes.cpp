@@ -66,10 +66,11 @@ json health(Console& c) {
 
 json calibration(Console& c) {
   json all{{"job", c.jobs.workingOn("calibrate")}, {"steps", json::array()}, {"calibrations", json::array()}};
-  for (const Step& step : kSteps) all["steps"].push_back({{"id", step.id}, {"title", step.title}, {"what", step.what}});
   const std::string chosen = stationOf(c.place);
   all["file"] = chosen;
   const station::Station station = stationNow(c);
+  for (const Step& step : kSteps)
+    if (station.force_sensor || std::string(step.id) != "force-sensor") all["steps"].push_back({{"id", step.id}, {"title", step.title}, {"what", step.what}});
   all["station"] = station.title;
   all["verdict"] = station.calibration_verdict;
   for (const auto& one : station.calibrations) all["calibrations"].push_back({{"name", one.file.kind}, {"made_utc", one.file.date}, {"verdict", one.file.verdict}, {"simulated", one.file.simulated}});
@@ -89,7 +90,7 @@ std::string calibrate(Console& c, const std::string& step) {
   wish.picture = "camera.jpg";
   wish.arguments = {"calibrate", step, "--out", place.string(), "--watch", "{}/" + wish.picture};
   wish.page = (place / "calibration.html").string();
-  if (const std::string chosen = stationOf(c.place); !chosen.empty() && step != "all") wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
+  if (const std::string chosen = stationOf(c.place); !chosen.empty()) wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
   wish.then = [&c, place](const fs::path&, bool good) {
     std::error_code none;
     if (good && fs::exists(place / "station.json", none)) chooseStation(c.place, (place / "station.json").string());

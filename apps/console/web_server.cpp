@@ -93,6 +93,10 @@ constexpr char kFull[] = "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\
 WebServer::WebServer(Guard& guard, Refusals& refusals) : guard_(guard), refusals_(refusals) {
   new_task_queue = [] { return new LowPriorityPool; };
   set_payload_max_length(kLongestBody);
+  set_socket_options([](socket_t socket) {   // not the library's SO_REUSEPORT: another console would share the port, and its pages
+    const int yes = 1;
+    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
+  });
   set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) { return admit(request, response); });
   set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr thrown) {
     try {

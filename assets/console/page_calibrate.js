@@ -12,10 +12,16 @@ function toneOf(verdict) {
 }
 
 function age(made) {
-  if (!made) return [badge('note', 'not done yet')];
+  if (!made) return [badge('none', 'not done yet')];
   const days = Math.floor((Date.now() - Date.parse(made.made_utc)) / 86_400_000);
   return [badge(toneOf(String(made.verdict || '')), String(made.verdict || 'made')), made.simulated ? simulatedBadge() : null,
     h('span', {class: 'muted'}, `made ${day(made.made_utc)}${Number.isFinite(days) ? (days < 1 ? ', today' : `, ${plural(days, 'day')} ago`) : ''}`)];
+}
+
+/** How the station stands, in words. */
+function standing(all) {
+  if (!(all.calibrations || []).length) return all.verdict === 'pass' ? 'sessions are scored with the figures in the station\'s file; nothing has been measured here yet' : all.verdict || 'not judged yet';
+  return all.verdict === 'pass' ? 'calibrated, sessions are scored' : all.verdict || 'not judged yet';
 }
 
 function step(one, at, made, run) {
@@ -62,7 +68,7 @@ export async function show({root, life, open}) {
   const draw = async () => {
     const all = await get('/api/calibration');
     const made = new Map((all.calibrations || []).map((c) => [c.name, c]));
-    put(head, h('p', {class: 'lead'}, `${all.station || 'This station'}: ${all.verdict || 'not judged yet'}.`), h('p', {class: 'muted'}, 'Each step takes a minute or less. What a step measures replaces what was there only when it is good enough.'));
+    put(head, h('p', {class: 'lead'}, `${all.station || 'This station'}: ${standing(all)}.`), h('p', {class: 'muted'}, 'Each step takes a minute or less. What a step measures replaces what was there only when it is good enough.'));
     const others = (all.calibrations || []).filter((c) => !(all.steps || []).some((s) => s.id === c.name));
     put(list, h('div', {class: 'row between'}, h('h2', {}, 'Steps'), button('Run all steps', () => run('all'), {class: 'primary'})), h('ol', {class: 'steps'}, (all.steps || []).map((one, at) => step(one, at, made.get(one.id), run))),
       others.length ? [h('h2', {}, 'Also in use'), h('ul', {class: 'plain'}, others.map((c) => h('li', {class: 'row tight'}, h('strong', {}, c.name), age(c))))] : null);

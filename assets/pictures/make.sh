@@ -39,7 +39,6 @@ moment() {
 cd "$work"
 "$palpa" paracentesis --operator expert --seed 1 --fast --out out/readme
 moment out/readme phase-2 session.png
-moment out/readme vein vein.png
 
 "$palpa" board print --out board.png
 small board.png board.png -resize 700x

@@ -14,6 +14,7 @@
 #include "apps/console/console.h"
 #include "apps/console/guard.h"
 #include "apps/console/http.h"
+#include "apps/console/web_server.h"
 #include "apps/runtime/serving_clock.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
@@ -221,6 +222,16 @@ TEST(Served, OpenToOthersOnlyWithAToken) {
     EXPECT_THROW(serveConsole(settings, [](const std::string&) { ADD_FAILURE() << "it served"; }), UsageError) << address;
   }
   for (const char* address : {"127.0.0.1", "127.1.2.3", "localhost", "::1"}) EXPECT_TRUE(isLoopback(address)) << address;
+}
+
+TEST(ConsolePort, IsSharedWithNobody) {
+  const test::ScratchFolder here("port");
+  Guard guard("");
+  Refusals refusals(here.path() / "refused.log");
+  WebServer first(guard, refusals), second(guard, refusals);
+  const int port = first.bind_to_any_port("127.0.0.1");
+  ASSERT_GT(port, 0);
+  EXPECT_FALSE(second.bind_to_port("127.0.0.1", port));   // else two consoles would answer in turn
 }
 
 }  // namespace
