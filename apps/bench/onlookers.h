@@ -7,6 +7,7 @@
 
 #include "apps/console/session_link.h"
 #include "apps/live/port.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::bench {
 
@@ -18,8 +19,8 @@ class Onlookers {
   ~Onlookers();
 
   /// On the scene's thread, once a frame.
-  bool wantPicture(std::int64_t now_ns) const { return port_.wantsPicture() && now_ns >= next_ns_; }
-  void show(scene::Image picture, std::int64_t now_ns);
+  bool wantPicture() const { return port_.wantsPicture() && clock_.now() >= next_ns_; }
+  void show(scene::Image picture);
   /// All pages together.
   int pictures() const { return pictures_.load(); }
 
@@ -32,6 +33,7 @@ class Onlookers {
   console::SessionLink link_;
   std::atomic<bool> ending_{false};
   std::atomic<int> pictures_{0};
+  const runtime::SteadyClock clock_;   // goes on from segment to segment
   std::int64_t next_ns_ = 0;
   std::vector<std::thread> pages_;
 };

@@ -47,7 +47,7 @@ std::int64_t SceneLoad::step(std::int64_t now_ns) {
   own.state.forces = {{scene::ForceKind::reaction, own.state.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
   own.state.hud.force = std::to_string(1 + sway) + " N";
   own.view.show(own.state);
-  if (onlookers_ && onlookers_->wantPicture(now_ns)) onlookers_->show(own.view.capture(), now_ns);
+  if (onlookers_ && onlookers_->wantPicture()) onlookers_->show(own.view.capture());
   ++own.frames;
   return now_ns + kFrame;
 }

@@ -21,7 +21,7 @@ Nothing is connected? Everything runs on the virtual bench. What you can do now:
                                            without one a simulated expert performs it
   palpa paracentesis --operator novice     watch a simulated novice; read the report's reasons
   palpa paracentesis --trials 10 --fast    ten trials, as fast as this computer can
-  palpa palpation --operator expert --fast search silicone for lumps that are not there
+  palpa palpation --operator expert --fast search a soft phantom for lumps that are felt, not there
   palpa search --operator expert --fast    find the rough one of three things on a floor that is felt, not seen
   palpa replay out/.../session.palpa       run a recorded session again: same forces, same score
   palpa patient info                       what the patient holds

@@ -77,7 +77,7 @@ export async function show({root, life, params: [id], open}) {
   };
   const kinds = {
     hello: title, status: showStatus, curve: (m) => { curves.add(m); figure.curve(m); }, end: showEnd,
-    event: (m) => { figure.event(m); if (events.add(m, m.tone || 'neutral')) curves.moment(m, m.tone || 'neutral'); },
+    event: (heard) => { const m = heard.event === 'note' && heard.value > 0 ? {...heard, t_s: heard.value} : heard; figure.event(m); if (events.add(m, m.tone || 'neutral')) curves.moment(m, m.tone || 'neutral'); },
     near: (m) => { curves.moment(m, 'near'); events.add(m, 'near'); },
   };
   put(state, badge('work', lostSince() ? 'Waiting for the console' : 'The station is starting…'));

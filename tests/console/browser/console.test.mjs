@@ -224,39 +224,41 @@ test('by keyboard alone: from the first page to a running session, stopped and e
   await own.close();
 });
 
-const told = (where) => where.locator('.events .event').allTextContents();
+/** A note stands where it was heard of: the order may differ. */
+const told = async (where) => (await where.locator('.events .event').allTextContents()).sort();
 
 /** Somebody closes the browser, loads the page again, has no network for a while, looks on from a second browser; and the console is killed and started again. */
 test('whatever happens to browser and console, the trials go on and the page catches up', {skip: skip || (begin ? false : 'PALPA_CONSOLE_BEGIN is not set: this console may not be killed'), timeout: 600_000}, async (t) => {
   const full = !!process.env.PALPA_FULL;
   const id = await startAssessed(trainees[0], full ? 8 : 3);
   const other = await Educator.come(url);
-  await other.go(`#/session/${id}`);
-  await other.page.waitForFunction(() => Number(document.querySelector('.curves')?.dataset.points) > 5);
-  await page.reload();
-  await page.waitForFunction(() => document.querySelectorAll('.events .event').length > 2);
-  await e.cut();
-  await page.waitForTimeout(full ? 60_000 : 5000);
-  await e.context.setOffline(false);
-  await page.locator('#lost').waitFor({state: 'hidden', timeout: 60_000});
-  other.away = true;
-  execFileSync('bash', [begin, '--port', new URL(url).port]);
-  await page.locator('main h1').focus();
-  await page.waitForFunction(() => document.querySelector('#lost').hidden, null, {timeout: 60_000});
-  await page.keyboard.press('m');
-  await page.keyboard.type('the console was away');
-  await page.keyboard.press('Enter');   // refused at first: the page's key is of the console before
-  await page.locator('.event.note', {hasText: 'the console was away'}).waitFor();
-  e.away = other.away = false;
-  await other.page.locator('.event.note', {hasText: 'the console was away'}).waitFor();
-  await over().waitFor({timeout: 300_000});
-  await other.page.getByRole('link', {name: 'Read the result'}).waitFor();
-  const mine = await told(page), theirs = await told(other.page);
-  t.diagnostic(`events told to both browsers: ${mine.length}`);
-  assert.deepEqual(mine, theirs);
-  assert.equal(mine.filter((text) => /^\S* ?.*Trial \d+ starts$/.test(text)).length, full ? 8 : 3, mine.join(' | '));
-  e.complaints.push(...other.complaints);
-  await other.leave();
+  try {
+    await other.go(`#/session/${id}`);
+    await other.page.waitForFunction(() => Number(document.querySelector('.curves')?.dataset.points) > 5);
+    await page.reload();
+    await page.waitForFunction(() => document.querySelectorAll('.events .event').length > 2);
+    await e.cut();
+    await page.waitForTimeout(full ? 60_000 : 5000);
+    await e.context.setOffline(false);
+    await page.locator('#lost').waitFor({state: 'hidden', timeout: 60_000});
+    other.away = true;
+    execFileSync('bash', [begin, '--port', new URL(url).port]);
+    await page.locator('main h1').focus();
+    await page.waitForFunction(() => document.querySelector('#lost').hidden, null, {timeout: 60_000});
+    await page.keyboard.press('m');
+    await page.keyboard.type('the console was away');
+    await page.keyboard.press('Enter');   // refused at first: the page's key is of the console before
+    await page.locator('.event.note', {hasText: 'the console was away'}).waitFor();
+    e.away = other.away = false;
+    await other.page.locator('.event.note', {hasText: 'the console was away'}).waitFor();
+    await over().waitFor({timeout: 300_000});
+    await other.page.getByRole('link', {name: 'Read the result'}).waitFor();
+    const mine = await told(page), theirs = await told(other.page);
+    t.diagnostic(`events told to both browsers: ${mine.length}`);
+    assert.deepEqual(mine, theirs);
+    assert.equal(mine.filter((text) => /^\S* ?.*Trial \d+ starts$/.test(text)).length, full ? 8 : 3, mine.join(' | '));
+    e.complaints.push(...other.complaints);
+  } finally { await other.leave(); }
   await e.go(`#/results/${id}`);
   assert.equal(await page.getByRole('row', {name: /success/}).count(), full ? 8 : 3);
 });
