@@ -12,7 +12,7 @@ function freePseudonym(trainees) {
 
 function rows(trainees) {
   return trainees.map((t) => [h('a', {href: `#/trainees/${encodeURIComponent(t.id)}`}, t.id), t.group || '–', t.experience || '–', String(Number(t.sessions) || 0), String(Number(t.trials) || 0),
-    t.consent_utc ? badge('good', 'noted') : badge('note', 'missing'), t.retain_until ? day(t.retain_until) : 'no date set']);
+    t.consent_utc ? badge('good', 'noted') : badge('note', 'missing'), t.retain_until ? day(t.retain_until) : '–']);
 }
 
 function form(trainees, groups, done) {
