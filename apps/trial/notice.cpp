@@ -39,6 +39,22 @@ std::string forceText(haptics::SafetyCause cause) {
   }
 }
 
+std::string whyText(haptics::SafetyCause cause) {
+  using haptics::SafetyCause;
+  switch (cause) {
+    case SafetyCause::energy: return "the device gave too much energy";
+    case SafetyCause::silent_device: return "the device was silent";
+    case SafetyCause::stale_geometry:
+    case SafetyCause::watchdog: return "the computer could not keep up";
+    case SafetyCause::corrupt_geometry: return "damaged geometry was refused";
+    case SafetyCause::no_sensor: return "the force sensor said nothing that could be believed";
+    case SafetyCause::not_finite:
+    case SafetyCause::jump:
+    case SafetyCause::clock: return "the device's readings could not be believed";
+    default: return haptics::name(cause);
+  }
+}
+
 void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std::string& own, const std::string& camera, scene::Hud* hud) {
   hud->notice = status.notice;
   hud->alarm = status.alarm;
@@ -50,7 +66,7 @@ void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std:
   if (status.active()) {
     if (!status.device.empty()) say("Force is off: " + status.device, true);
     say(forceText(safety), true);
-    if (!forceText(status.trip).empty()) say(std::string("Force was off for a moment: ") + haptics::name(status.trip), true);
+    if (!forceText(status.trip).empty()) say("Force was off for a moment: " + whyText(status.trip), true);
     say(hint(safety), false);
   }
   say(own, hud->alarm);

@@ -116,6 +116,8 @@ class TrialScene : public runtime::Activity {
 std::string overlayText(const Mat3& covariance);
 /// What a trip means for whoever holds the tool; empty: nothing to say.
 std::string forceText(haptics::SafetyCause cause);
+/// Why force was taken away, as part of a sentence: "the device was silent".
+std::string whyText(haptics::SafetyCause cause);
 /// The line of advice that every task has: its own, trouble with force, device, camera; in this order. Sets the alarm.
 void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std::string& own, const std::string& camera, scene::Hud* hud);
 

@@ -1,6 +1,7 @@
 #include "apps/trial/trial_task.h"
 
 #include "anatomy/geometry/error.h"
+#include "apps/trial/trial_scene.h"
 
 namespace palpa::trial {
 namespace {
@@ -137,7 +138,7 @@ void TrialTask::listen(std::int64_t now_ns) {
 void TrialTask::watchSafety(const haptics::FlightRecord& record) {
   using haptics::SafetyCause;
   if (record.events & haptics::kSafetyTripped) {
-    tell(record.t_ns, "safety", std::string("Force taken away: ") + haptics::name(record.safety));
+    tell(record.t_ns, "safety", "Force taken away: " + whyText(record.safety));
     status_.trip = record.safety;
     trip_ns_ = record.t_ns;
   }
