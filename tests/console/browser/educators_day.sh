@@ -2,7 +2,7 @@
 # educators_day.sh PALPA WORK: starts a console of the program PALPA on an empty virtual bench in the folder WORK and plays an educator's day at it in Chromium.
 # Exits with 77 (skipped) and says why where Chromium, Node or the two libraries cannot be had.
 set -euo pipefail
-palpa=$1 work=$2
+palpa=$(realpath "$1") work=$(realpath -m "$2")
 here=$(cd "$(dirname "$0")" && pwd)
 skip() { echo "skipped: $*"; exit 77; }
 

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # palpa_alone.sh PALPA WORK: the program without a word, where there is a display: it begins a console and opens its page in the browser, which is a script here.
 set -euo pipefail
-palpa=$1 work=$2
+palpa=$(realpath "$1") work=$(realpath -m "$2")
 rm -rf "$work" && mkdir -p "$work/bin" "$work/run" && chmod 700 "$work/run"
 printf '#!/bin/sh\nprintf "%%s\\n" "$@" >"%s/opened.part" && mv "%s/opened.part" "%s/opened"\n' "$work" "$work" "$work" >"$work/bin/xdg-open"
 chmod +x "$work/bin/xdg-open"
