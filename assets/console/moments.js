@@ -9,9 +9,12 @@ function words(off) {
 
 const withWords = (moment, off) => ({...moment, off, text: words(off)});
 
+const kNamed = {void: 'Trial is void', abort: 'Trial aborted'};   // their text is the reason alone
+
 /** The moment that an event begins: {t, tone, event, text}. */
 export function momentOf(event) {
   const moment = {t: event.t_s, tone: event.tone || 'neutral', event: event.event || '', text: String(event.text || event.event || '')};
+  if (kNamed[event.event]) moment.text = moment.text && moment.text !== event.event ? `${kNamed[event.event]}: ${moment.text}` : kNamed[event.event];
   const away = event.event === 'safety' ? kAway.exec(moment.text) : null;
   return away ? withWords(moment, {cause: away[1], since: event.t_s, times: 1, total: 0}) : moment;
 }

@@ -22,6 +22,8 @@ test('several of one cause in a row are one; the moment stays the first', () => 
   assert.deepEqual(texts([away(1), back(1.2), away(2), back(2.3)]), ['Force was off 2 times, 0.5 s together: the device was silent']);
 });
 
+test('a void trial is told as one', () => { assert.deepEqual(texts([{t_s: 1, event: 'void', text: 'technical fault'}]), ['Trial is void: technical fault']); });
+
 test('another cause, or something between, is another', () => {
   assert.equal(texts([away(1), back(1.2), away(2, 'emergency stop')]).length, 2);
   assert.deepEqual(texts([away(1), {t_s: 1.5, event: 'puncture', text: 'The skin is punctured'}, back(2)]), ['Force taken away: the device was silent', 'The skin is punctured', 'Force is back']);
