@@ -9,7 +9,7 @@ function words(off) {
 
 const withWords = (moment, off) => ({...moment, off, text: words(off)});
 
-const kNamed = {void: 'Trial is void', abort: 'Trial aborted'};   // their text is the reason alone
+const kNamed = {void: 'Trial is void'};   // its text is the reason alone
 
 /** The moment that an event begins: {t, tone, event, text}. */
 export function momentOf(event) {
