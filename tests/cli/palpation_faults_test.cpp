@@ -54,7 +54,7 @@ TEST_P(PalpationFault, IsNamedAndTakesTheForceAway) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Every, PalpationFault,
-                         testing::Values(SensorFailure{"unplugged", {}, "no force sensor", false}, SensorFailure{"saturated", {}, "no force sensor", false},
+                         testing::Values(SensorFailure{"unplugged", {}, "the force sensor said nothing that could be believed", false}, SensorFailure{"saturated", {}, "the force sensor said nothing that could be believed", false},
                                          SensorFailure{"drifting", {{"rate_N_per_s", 0.05}}, "it has drifted", true}, SensorFailure{"reversed", nlohmann::json::object(), "its sign is wrong", true},
                                          SensorFailure{"wrong_scale", {{"factor", 3}}, "its scale is wrong", true}, SensorFailure{"wrong_scale", {{"factor", 0.3}}, "wrong scale", true}),
                          [](const auto& one) { return one.param.name + std::to_string(one.index); });
