@@ -3,11 +3,8 @@
 #include <fstream>
 
 #include "anatomy/geometry/error.h"
-#include "apps/runtime/serving_clock.h"
 
 namespace palpa::cli {
-std::string utcNow() { return runtime::dateText("%Y-%m-%dT%H:%M:%SZ"); }
-
 std::filesystem::path makeOutputFolder(const std::string& given, const std::string& command) {
   const std::filesystem::path folder =
       given.empty() ? std::filesystem::path("out") / (command + "-" + runtime::dateText("%Y%m%d-%H%M%S", runtime::Zone::local))

@@ -4,8 +4,6 @@
 #include <cstdio>
 #include <functional>
 #include <nlohmann/json.hpp>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 
 #include "anatomy/geometry/error.h"
 #include "anatomy/geometry/whole_file.h"
@@ -13,12 +11,15 @@
 #include "apps/cli/output_folder.h"
 #include "apps/cli/recorded_trial.h"
 #include "apps/cli/work_progress.h"
+#include "apps/live/jpeg.h"
 #include "apps/replay/film.h"
 #include "apps/replay/player.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::cli {
 namespace {
+
+constexpr int kPictureQuality = 85;
 
 struct Picture {
   int width = 0, height = 0;
@@ -118,12 +119,7 @@ void writePictures(RecordedShow& recorded, const Cut& cut, const ReplayViewOptio
   draw(recorded, cut, o, [&](int number, const scene::Image& picture) {
     char name[32];
     std::snprintf(name, sizeof name, "picture-%05d.jpg", number);
-    const cv::Mat shown(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.pixels.data()));
-    cv::Mat bgr;
-    cv::cvtColor(shown, bgr, cv::COLOR_RGB2BGR);
-    std::vector<std::uint8_t> bytes;
-    cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, 85});
-    writeWhole(folder / name, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
+    writeWhole(folder / name, live::jpegOf(picture, kPictureQuality));
     count = number + 1;
   });
   nlohmann::json told{{"from_s", cut.from_s}, {"length_s", recorded.length_s()}, {"pictures_per_second", o.frames_per_second / o.speed}, {"pictures", count}, {"marks", nlohmann::json::array()}};

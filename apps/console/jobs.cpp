@@ -57,6 +57,26 @@ Jobs::~Jobs() {
 
 std::string Jobs::add(Wish wish) {
   const std::lock_guard lock(mutex_);
+  return addLocked(std::move(wish));
+}
+
+nlohmann::json Jobs::ask(Wish wish) {
+  const std::string key = wish.key;
+  std::string id;
+  {
+    const std::lock_guard lock(mutex_);
+    const auto found = asked_.find(key);
+    id = found != asked_.end() ? found->second : asked_[key] = addLocked(std::move(wish));
+  }
+  const nlohmann::json told = one(id);
+  if (told["state"] == "failed") {
+    const std::lock_guard lock(mutex_);
+    asked_.erase(key);
+  }
+  return told;
+}
+
+std::string Jobs::addLocked(Wish wish) {
   for (const auto& [id, job] : jobs_)
     if (job.wish.key == wish.key && (job.state == State::waiting || job.state == State::running)) return id;
   const std::string id = newId();

@@ -31,6 +31,8 @@ class Jobs {
 
   /// The id of the job: the one with this key that waits or runs, else a new one.
   std::string add(Wish wish);
+  /// What becomes of a piece of work that is begun when it is asked for first, as one() tells it. A failure is told once: whoever asks again begins it anew.
+  nlohmann::json ask(Wish wish);
   /// {"state": "working|done|failed", "title", "done", "lines", "page", "message"}; throws UsageError for an unknown one.
   nlohmann::json one(const std::string& id);
   void stop(const std::string& id);
@@ -47,6 +49,7 @@ class Jobs {
     ProcessId process;
     bool stopped = false;
   };
+  std::string addLocked(Wish wish);
   void run();
   void perform(const std::string& id);
 
@@ -54,6 +57,7 @@ class Jobs {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::string, Job> jobs_;
+  std::map<std::string, std::string> asked_;   ///< key -> job
   std::vector<std::string> queue_;
   bool ending_ = false;
   std::thread thread_;

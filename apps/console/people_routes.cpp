@@ -51,16 +51,9 @@ json trainees(record::RecordStore& store) {
 
 /// A page made by a command of this program, as somebody asks for it; made anew when the records have changed since.
 json report(Console& c, const std::string& key, const std::string& title, std::vector<std::string> arguments, const std::string& page) {
-  static std::mutex mutex;
-  static std::map<std::string, std::string> made;   // key and state of the records -> job
-  const std::lock_guard lock(mutex);
-  auto found = made.find(key);
-  if (found == made.end()) {
-    Jobs::Wish wish{key, title, std::move(arguments), "report/" + page, {}};
-    wish.arguments.insert(wish.arguments.end(), {"--records", c.place.records, "--out", "{}/report"});
-    found = made.emplace(key, c.jobs.add(std::move(wish))).first;
-  }
-  return pageOf(c.jobs.one(found->second));
+  Jobs::Wish wish{key, title, std::move(arguments), "report/" + page, {}};
+  wish.arguments.insert(wish.arguments.end(), {"--records", c.place.records, "--out", "{}/report"});
+  return pageOf(c.jobs.ask(std::move(wish)));
 }
 
 /// Changes with every trial that comes into the records.
@@ -81,13 +74,17 @@ std::string elsewhere(const study::Protocol& protocol, const study::Next& next, 
 
 json enrolled(const study::Protocol& protocol, record::RecordStore& store, const record::Enrolment& e) {
   std::vector<study::DoneTrial> trials;
-  for (const record::TrialWithSession& t : store.trials({.trainee = e.trainee, .study = protocol.id})) trials.push_back(study::doneTrial(t.session, t.trial));
+  bool simulated = e.simulated;
+  for (const record::TrialWithSession& t : store.trials({.trainee = e.trainee, .study = protocol.id})) {
+    trials.push_back(study::doneTrial(t.session, t.trial));
+    simulated = simulated || t.session.simulated;
+  }
   std::vector<std::pair<int, std::string>> answered;
   for (const record::Answer& a : record::StudyStore(store).answers(protocol.id, e.trainee)) answered.emplace_back(static_cast<int>(a.session), a.item);
   const study::Next next = study::nextOf(protocol, e.condition, trials, answered, utcNow());
   json remarks = next.remarks;
   if (const std::string first = elsewhere(protocol, next, e.trainee); !first.empty()) remarks.push_back(first);
-  return {{"trainee", e.trainee}, {"group", e.group}, {"where", study::whereIs(protocol, next)}, {"next", startable(next)}, {"finished", next.kind == study::Next::Kind::finished}, {"simulated", e.simulated}, {"remarks", remarks}};
+  return {{"trainee", e.trainee}, {"group", e.group}, {"where", study::whereIs(protocol, next)}, {"next", startable(next)}, {"finished", next.kind == study::Next::Kind::finished}, {"simulated", simulated}, {"remarks", remarks}};
 }
 
 std::vector<fs::path> protocolFiles() {
@@ -131,6 +128,7 @@ std::string runStudy(Console& c, const std::string& id, const json& body) {
   if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty()) throw UsageError(why, "trainee", "Choose one of the list");
   wish.performer = wordsIn(body, "operator");
   if (wish.performer != "person" && wish.performer != "expert" && wish.performer != "novice") throw UsageError("is none of person, expert, novice", "who performs", "Choose one of them");
+  wish.simulated = isSimulated(c, wish.performer);
   std::vector<std::string> arguments{"study", "run", "--protocol", wish.protocol, "--trainee", wish.trainee, "--operator", wish.performer, "--records", c.place.records};
   if (const std::string chosen = stationOf(c.place); !chosen.empty()) arguments.insert(arguments.end(), {"--station", chosen, "--bench-seed", "1"});
   return c.sessions.begin(wish, std::move(arguments));

@@ -24,7 +24,6 @@ bool isId(const std::string& text) { return plainName(text); }
 
 std::string newId() { return runtime::dateText("%Y%m%d-%H%M%S-") + randomKey().substr(0, 8); }
 
-std::string utcNow() { return runtime::dateText("%Y-%m-%dT%H:%M:%SZ"); }
 
 bool isShown(const std::string& name) {
   if (name == "report.html" || name == "trials.csv") return true;

@@ -3,6 +3,8 @@
 #include <filesystem>
 #include <string>
 
+#include "apps/runtime/serving_clock.h"
+
 namespace palpa::console {
 
 /// Where the console works: what it keeps, and what it hands to the commands that it starts.
@@ -23,7 +25,7 @@ struct Place {
 bool isId(const std::string& text);
 /// "20260301-123000-1a2b3c4d": in the order of time, never twice.
 std::string newId();
-std::string utcNow();
+using runtime::utcNow;
 
 /// A name in a session's folder that may be shown: report.html, trials.csv, view-*.png; else it is not handed out.
 bool isShown(const std::string& name);

@@ -31,7 +31,7 @@ void Refusals::note(const std::string& remote, const std::string& method, const 
   const std::lock_guard lock(mutex_);
   std::error_code none;
   if (std::filesystem::file_size(file_, none) > kLongest && !none) std::filesystem::rename(file_, file_.string() + ".1", none);
-  std::ofstream(file_, std::ios::app) << runtime::dateText("%Y-%m-%dT%H:%M:%SZ") << ' ' << word(remote) << ' ' << word(method) << ' ' << word(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
+  std::ofstream(file_, std::ios::app) << runtime::utcNow() << ' ' << word(remote) << ' ' << word(method) << ' ' << word(path.substr(0, path.find('?'))) << ' ' << status << ' ' << plain(words) << '\n';
 }
 
 }  // namespace palpa::console

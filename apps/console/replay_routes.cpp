@@ -1,5 +1,7 @@
 #include <cmath>
-#include <map>
+#include <deque>
+#include <memory>
+#include <mutex>
 #include <string>
 
 #include "anatomy/geometry/error.h"
@@ -82,35 +84,62 @@ void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
     (*told)["done"] = 1;
     return;
   }
-  const std::string job = c.jobs.add({trial.key, "Pictures of a trial", {"replay", trial.evidence.string(), "--trial", std::to_string(number), "--pictures", trial.pictures.string(), "--fps", std::to_string(kPicturesPerSecond), "--size", kSize}, "", {}});
-  const json state = c.jobs.one(job);
+  const json state = c.jobs.ask({trial.key, "Pictures of a trial", {"replay", trial.evidence.string(), "--trial", std::to_string(number), "--pictures", trial.pictures.string(), "--fps", std::to_string(kPicturesPerSecond), "--size", kSize}, "", {}});
   (*told)["done"] = state["done"].is_number() ? state["done"] : json(0);
+  if (state["state"] != "failed") return;
+  (*told)["ready"] = true;   // there will be none: what stands beside them is all there is
+  (*told)["frames"] = 0;
+  (*told)["trouble"] = state["message"];
 }
 
-json replay(Console& c, const std::string& id, int number) {
+json toldOf(const record::SessionReader& reader, const record::RecordedTrial& trial, const live::ToneOf& tone) {
+  json told = curvesOf(reader, trial);
+  const double length_s = trial.ended ? static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9 : told["t_s"].empty() ? 0 : told["t_s"].back().get<double>();
+  const std::vector<runtime::Event> events = reader.events();
+  told["length_s"] = rounded(length_s);
+  told["events"] = eventsIn(events, trial, tone);
+  told["phases"] = phasesIn(events, trial, length_s);
+  told["fps"] = kPicturesPerSecond;
+  told["frames"] = std::max(1, static_cast<int>(std::lround(length_s * kPicturesPerSecond)));
+  return told;
+}
+
+/// The trials read last: a page asks each second while pictures are drawn, and what is over changes no more.
+class ReadTrials {
+ public:
+  json of(const Recorded& where, int number, const live::ToneOf& tone) {
+    const std::lock_guard lock(mutex_);
+    for (const auto& [key, told] : kept_)
+      if (key == where.key) return told;
+    const record::SessionReader reader(where.evidence);
+    for (const record::RecordedTrial& trial : reader.trials()) {
+      if (trial.header.trial != number) continue;
+      kept_.emplace_front(where.key, toldOf(reader, trial, tone));
+      if (kept_.size() > kMost) kept_.pop_back();
+      return kept_.front().second;
+    }
+    throw UsageError("is not in the session", "trial " + std::to_string(number), "Choose one of the list");
+  }
+
+ private:
+  static constexpr std::size_t kMost = 4;   // one and an expert's beside, of two pages
+  std::mutex mutex_;
+  std::deque<std::pair<std::string, json>> kept_;
+};
+
+json replay(Console& c, ReadTrials& read, const std::string& id, int number) {
   const Recorded where = recorded(c, id, number);
   if (const auto link = c.sessions.link(id); link && !link->wait(0, std::chrono::milliseconds(0)).over) throw UsageError("is still running", "the session", "Its trials can be seen again when it is over");
-  const record::SessionReader reader(where.evidence);
-  for (const record::RecordedTrial& trial : reader.trials()) {
-    if (trial.header.trial != number) continue;
-    json told = curvesOf(reader, trial);
-    const double length_s = trial.ended ? static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9 : told["t_s"].empty() ? 0 : told["t_s"].back().get<double>();
-    const std::vector<runtime::Event> events = reader.events();
-    told["length_s"] = rounded(length_s);
-    told["events"] = eventsIn(events, trial, c.tone);
-    told["phases"] = phasesIn(events, trial, length_s);
-    told["fps"] = kPicturesPerSecond;
-    told["frames"] = std::max(1, static_cast<int>(std::lround(length_s * kPicturesPerSecond)));
-    drawPictures(c, where, number, &told);
-    return told;
-  }
-  throw UsageError("is not in the session", "trial " + std::to_string(number), "Choose one of the list");
+  json told = read.of(where, number, c.tone);
+  drawPictures(c, where, number, &told);
+  return told;
 }
 
 }  // namespace
 
 void addReplayRoutes(WebServer& server, Console& c) {
-  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/replay)", [&c](const httplib::Request& q, httplib::Response& r) { answer(r, replay(c, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0)))); });
+  const auto read = std::make_shared<ReadTrials>();
+  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/replay)", [&c, read](const httplib::Request& q, httplib::Response& r) { answer(r, replay(c, *read, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0)))); });
   server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/frame/([0-9]{1,5}))", [&c](const httplib::Request& q, httplib::Response& r) {
     char name[32];
     std::snprintf(name, sizeof name, "picture-%05zu.jpg", wholeNumber(q.matches[3], 0));

@@ -10,6 +10,7 @@
 #include "apps/console/sessions.h"
 #include "apps/console/web_server.h"
 #include "apps/live/live_sink.h"
+#include "apps/station/station_file.h"
 
 namespace palpa::console {
 
@@ -36,6 +37,10 @@ void addLiveRoutes(WebServer& server, Console& console);       ///< events and p
 void addReplayRoutes(WebServer& server, Console& console);     ///< a trial on one timeline
 
 void checkHealth(Console& console);
+/// The station in use. Throws Error for a damaged file.
+station::Station stationNow(const Console& console);
+/// What comes of it is simulated: because of who performs, or of where.
+bool isSimulated(const Console& console, const std::string& performer);
 
 /// A whole file as an answer; 404 where it is none.
 void sendFile(httplib::Response& response, const std::filesystem::path& file, const std::string& type);

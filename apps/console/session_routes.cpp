@@ -87,7 +87,8 @@ void addSessionRoutes(WebServer& server, Console& c) {
   });
   server.Get("/api/sessions", [&c](const httplib::Request&, httplib::Response& r) { answer(r, c.sessions.list()); });
   server.Post("/api/sessions", [&c](const httplib::Request& q, httplib::Response& r) {
-    const SessionWish wish = readWish(bodyOf(q));
+    SessionWish wish = readWish(bodyOf(q));
+    wish.simulated = isSimulated(c, wish.performer);
     if (c.sessions.oneRuns()) return refuse(r, 409, "a session is running already: end it first, or wait until it is over");
     answer(r, {{"id", c.sessions.begin(wish, argumentsOf(c, wish))}}, 201);
   });

@@ -132,7 +132,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   const fs::path folder = place_.sessions() / id;
   fs::create_directories(folder);
   for (const std::string& more : {std::string("--live"), socketOf(id), std::string("--out"), folder.string()}) arguments.push_back(more);
-  json facts{{"task", wish.task}, {"trainee", wish.trainee}, {"started_utc", utcNow()}, {"assessed", wish.assess}, {"simulated", wish.performer != "person"}, {"study", !wish.protocol.empty()}, {"blind", wish.blind}, {"trials", wish.trials}};
+  json facts{{"task", wish.task}, {"trainee", wish.trainee}, {"started_utc", utcNow()}, {"assessed", wish.assess}, {"simulated", wish.simulated}, {"study", !wish.protocol.empty()}, {"blind", wish.blind}, {"trials", wish.trials}};
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
   const ProcessId process = start(arguments, folder / kLog, false);
   facts["pid"] = process.pid;
@@ -157,8 +157,9 @@ void Sessions::look() {
 std::string Sessions::stateOf(const std::string& id, const fs::path& folder) {
   if (const auto found = running_.find(id); found != running_.end() && !found->second.over) return found->second.link->told() ? "running" : "starting";
   std::error_code none;
-  if (fs::exists(resultsIn(folder) / "report.html", none)) return "finished";
-  return fs::exists(resultsIn(folder) / "session.palpa", none) ? "interrupted" : "failed";
+  const fs::path results = resultsIn(folder);
+  if (fs::exists(results / "report.html", none)) return "finished";
+  return fs::exists(results / "session.palpa", none) ? "interrupted" : "failed";
 }
 
 json Sessions::told(const std::string& id, const fs::path& folder) {

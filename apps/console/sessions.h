@@ -24,6 +24,7 @@ struct SessionWish {
   int trials = 1;
   std::uint64_t seed = 1, patient_seed = 0;
   std::string protocol;           ///< of a study: its file; the task then follows from it
+  bool simulated = false;         ///< who performs, or the station
   bool blind = false;             ///< of a study: an educator must not be told what was drawn
 };
 /// Throws UsageError where a field is missing, of the wrong kind or out of range.

@@ -32,11 +32,6 @@ std::string textIn(const fs::path& file) {
   return text.str();
 }
 
-station::Station stationNow(const Console& c) {
-  const std::string chosen = stationOf(c.place);
-  return station::readStation(chosen.empty() ? station::assetFile("stations/virtual_bench.json") : fs::path(chosen));
-}
-
 json me(const Console& c, bool entered) {
   json all{{"version", c.place.version}, {"entered", entered}, {"page_key", c.guard.pageKey()}};
   if (!entered) return all;
@@ -79,10 +74,9 @@ json calibration(Console& c) {
 
 /// A calibration that left a station file makes it the station in use.
 std::string calibrate(Console& c, const std::string& step) {
-  const bool known = step == "all" || std::any_of(std::begin(kSteps), std::end(kSteps), [&](const Step& one) { return step == one.id; });
-  if (!known) throw UsageError("is no calibration step", step.substr(0, 32), "Choose one of the list");
-  if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");
   const Step* const found = std::find_if(std::begin(kSteps), std::end(kSteps), [&](const Step& one) { return step == one.id; });
+  if (step != "all" && found == std::end(kSteps)) throw UsageError("is no calibration step", step.substr(0, 32), "Choose one of the list");
+  if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");
   Jobs::Wish wish;
   wish.key = "calibrate";
   wish.title = step == "all" ? "Everything" : found->title;
@@ -99,6 +93,13 @@ std::string calibrate(Console& c, const std::string& step) {
 }
 
 }  // namespace
+
+station::Station stationNow(const Console& c) {
+  const std::string chosen = stationOf(c.place);
+  return station::readStation(chosen.empty() ? station::assetFile("stations/virtual_bench.json") : fs::path(chosen));
+}
+
+bool isSimulated(const Console& c, const std::string& performer) { return performer != "person" || stationNow(c).simulated; }
 
 void sendFile(httplib::Response& response, const fs::path& file, const std::string& type) {
   std::error_code none;

@@ -6,10 +6,9 @@
 
 #include <algorithm>
 #include <cerrno>
-#include <opencv2/imgcodecs.hpp>
-#include <opencv2/imgproc.hpp>
 #include <utility>
 
+#include "apps/live/jpeg.h"
 #include "apps/live/local_socket.h"
 #include "apps/runtime/serving_clock.h"
 
@@ -20,15 +19,6 @@ constexpr std::size_t kMostPeers = 8, kEntriesAtOnce = 256, kEnoughWaiting = 64 
 constexpr int kCallersAtOnce = 16, kReadsAtOnce = 16;   // of one peer: another's turn comes, and the session's end, whatever one sends
 constexpr int kLook_ms = 25, kQuality = 80, kWidest = 1280;
 constexpr std::chrono::milliseconds kFarewell{500};
-
-std::string jpegOf(const scene::Image& image) {
-  cv::Mat shown(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data())), bgr;
-  cv::cvtColor(shown, bgr, cv::COLOR_RGB2BGR);
-  if (bgr.cols > kWidest) cv::resize(bgr, bgr, {kWidest, bgr.rows * kWidest / bgr.cols}, 0, 0, cv::INTER_AREA);
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, kQuality});
-  return {bytes.begin(), bytes.end()};
-}
 
 }  // namespace
 
@@ -156,7 +146,7 @@ void Port::encodePicture() {
     picture = std::move(picture_);
     has_picture_.store(false, std::memory_order_release);
   }
-  const std::string frame = encoded(FrameKind::picture, jpegOf(picture));
+  const std::string frame = encoded(FrameKind::picture, jpegOf(picture, kQuality, kWidest));
   for (auto& peer : peers_)
     if (peer->watches && peer->waiting.size() < kEnoughWaiting) peer->waiting += frame;
 }

@@ -24,4 +24,6 @@ std::string dateText(const char* pattern, Zone zone) {
   return {text, std::strftime(text, sizeof text, pattern, &parts)};
 }
 
+std::string utcNow() { return dateText("%Y-%m-%dT%H:%M:%SZ"); }
+
 }  // namespace palpa::runtime

@@ -15,7 +15,7 @@ function view(alt, caption) {
   const img = h('img', {alt, width: 1280, height: 720, class: 'absent'}), word = h('div', {class: 'view-word'}), note = h('figcaption', {}, caption);
   img.addEventListener('load', () => img.classList.remove('absent'));
   return {img, node: h('figure', {}, h('div', {class: 'view-box'}, word, img), note), show(replay) {
-    put(word, replay.failed ? h('p', {}, replay.failed) : replay.ready ? (replay.frames > 0 ? '' : h('p', {}, 'There are no pictures of this trial.')) : h('div', {}, h('p', {}, 'Pictures are being drawn…'), progress('Pictures drawn', replay.done)));
+    put(word, replay.failed ? h('p', {}, replay.failed) : replay.ready ? (replay.frames > 0 ? '' : h('p', {}, `There are no pictures of this trial. ${replay.trouble || ''}`)) : h('div', {}, h('p', {}, 'Pictures are being drawn…'), progress('Pictures drawn', replay.done)));
   }};
 }
 

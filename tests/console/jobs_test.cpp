@@ -59,6 +59,25 @@ TEST(Jobs, WhatFailsSaysWhy) {
   EXPECT_EQ(w.jobs->one(pageless)["page"], "");
 }
 
+/// A page that asks again and again is told how it is; a failure is told, not hidden by another try, and the next who asks begins anew.
+TEST(Jobs, WhatIsAskedForIsBegunOnceAndItsFailureToldOnce) {
+  const Workshop w("jobs-ask");
+  const auto settled = [&](const Jobs::Wish& wish) {
+    const std::string id = w.jobs->ask(wish)["id"];
+    EXPECT_TRUE(w.settled(id) == "done" || w.settled(id) == "failed");
+    return id;
+  };
+  const std::string page = settled(report("a"));
+  EXPECT_EQ(w.jobs->ask(report("a"))["id"], page);      // done long ago: not made again
+  EXPECT_EQ(w.jobs->ask(report("a"))["state"], "done");
+  const Jobs::Wish bad{"b", "Nothing", {"nonsense"}, "", {}};
+  const std::string failed = settled(bad);
+  const nlohmann::json told = w.jobs->ask(bad);
+  EXPECT_EQ(told["id"], failed);
+  EXPECT_EQ(told["state"], "failed");
+  EXPECT_NE(w.jobs->ask(bad)["id"], failed);
+}
+
 TEST(Jobs, TheSameWorkIsDoneOnceAtATime) {
   const Workshop w("jobs-same");
   const std::string first = w.jobs->add(waiting("a"));

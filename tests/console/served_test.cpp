@@ -44,6 +44,7 @@ class Served {
     settings_.place.records = (home.parent_path() / "records.sqlite").string();
     settings_.place.sockets = sockets;
     settings_.place.version = "test";
+    settings_.place.display = true;   // a person may perform; none does here
     thread_ = std::thread([this] {
       try {
         serveConsole(settings_, [this](const std::string& url) { say(url); });
@@ -144,6 +145,41 @@ TEST(Served, ASessionIsBegunLookedAtSteeredAndOver) {
   EXPECT_EQ(rest.back().second["state"], "finished");
   EXPECT_EQ(console.post("/api/sessions/" + id + "/command", {{"command", "pause"}}), 409);
   EXPECT_EQ(console.get("/api/sessions")[0]["state"], "finished");
+}
+
+/// A Falcon before a webcam.
+std::filesystem::path realStation(const std::filesystem::path& folder) {
+  json station = json::parse(std::ifstream(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/stations/falcon.json"));
+  station["camera"]["driver"] = "webcam";
+  station["camera"]["device"] = "0";
+  station["camera"]["exposure_ms"] = 10;
+  std::ofstream(folder / "real.json") << station.dump();
+  return folder / "real.json";
+}
+
+/// Who performs, or where: either makes it simulated, and it is called so.
+TEST(Served, ItIsSimulatedByWhoPerformsAndByWhere) {
+  const test::ScratchFolder folder("simulated");
+  const test::ShortFolder sockets;
+  Place place;
+  place.home = folder / "home";
+  std::filesystem::create_directories(place.home);
+  const auto simulated = [&](const std::filesystem::path& station, const std::string& performer) {
+    chooseStation(place, station.string());
+    Served console(place.home, sockets.path());
+    json told;
+    EXPECT_EQ(console.post("/api/sessions", {{"task", "paracentesis"}, {"operator", performer}}, &told), 201) << told.dump();
+    const std::string path = "/api/sessions/" + told.value("id", "");
+    EXPECT_TRUE(inTime([&] { return console.get(path)["state"] == "running"; }));
+    EXPECT_EQ(console.post(path + "/command", {{"command", "leave"}}), 202);
+    EXPECT_TRUE(inTime([&] { return console.get(path)["state"] == "finished"; }));
+    return console.get(path)["simulated"] == true;
+  };
+  const std::filesystem::path bench = std::filesystem::path(PALPA_SOURCE_DIR) / "assets/stations/virtual_bench.json", real = realStation(folder.path());
+  EXPECT_TRUE(simulated(bench, "person"));
+  EXPECT_TRUE(simulated(bench, "expert"));
+  EXPECT_TRUE(simulated(real, "expert"));
+  EXPECT_FALSE(simulated(real, "person"));
 }
 
 /// The console ends and comes back: the session has gone on, and whoever was away reads on where he was.
