@@ -8,10 +8,10 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr double kThinnest = 0.001, kThickest = 0.020;  // radius of a rod
-constexpr double kSeedHalf = 0.010;      // half of a new rod's length, at most
-constexpr double kSeedGive = 0.0005;     // by which a new rod may stick out
-constexpr double kAxisReach = 0.012;     // of the surface round a place tells where the bone goes
-constexpr double kCovered = 0.0045;      // so far off, a sample wants a rod before anything is refined
+constexpr double kSeedHalf = 0.010;                     // half of a new rod's length, at most
+constexpr double kSeedGive = 0.0005;                    // by which a new rod may stick out
+constexpr double kAxisReach = 0.012;  // of the surface round a place tells where the bone goes
+constexpr double kCovered = 0.0045;   // so far off, a sample wants a rod before anything is refined
 constexpr int kStepsBetween = 3, kStepsAtLast = 12;
 using Vec7 = Eigen::Matrix<double, 7, 1>;
 using Mat7 = Eigen::Matrix<double, 7, 7>;
@@ -40,7 +40,8 @@ class RodFitter {
   std::vector<Rod> used() const {
     std::vector<Rod> rods;
     for (std::size_t k = 0; k < rods_.size(); ++k)
-      if (std::find(whose_.begin(), whose_.end(), static_cast<int>(k)) != whose_.end()) rods.push_back(rods_[k]);
+      if (std::find(whose_.begin(), whose_.end(), static_cast<int>(k)) != whose_.end())
+        rods.push_back(rods_[k]);
     return rods;
   }
 
@@ -55,7 +56,8 @@ class RodFitter {
     const Vec3 across = along - along.dot(s.n) * s.n;
     const bool has_way = across.norm() > 0.5;
     const Vec3 u = has_way ? Vec3(across.normalized()) : Vec3(Vec3::Zero());
-    rods_.push_back(inscribedRod(samples_, s.p, s.n, u, kSeedGive, kThickest, has_way ? kSeedHalf : 0));
+    rods_.push_back(
+        inscribedRod(samples_, s.p, s.n, u, kSeedGive, kThickest, has_way ? kSeedHalf : 0));
     offer(static_cast<int>(rods_.size()) - 1);
   }
 
@@ -129,8 +131,8 @@ class RodFitter {
 
   const std::vector<SurfaceSample>& samples_;
   std::vector<Rod> rods_;
-  std::vector<double> off_;   ///< of each sample from the union
-  std::vector<int> whose_;    ///< the rod nearest to it
+  std::vector<double> off_;  ///< of each sample from the union
+  std::vector<int> whose_;   ///< the rod nearest to it
   double cost_ = 0;
 };
 
@@ -145,7 +147,8 @@ double distanceTo(const Rod& rod, const Vec3& p, Vec3* foot) {
   return off.norm() - rod.radius;
 }
 
-double inscribedRadius(const std::vector<SurfaceSample>& samples, const Vec3& p, const Vec3& n, double give, double most) {
+double inscribedRadius(const std::vector<SurfaceSample>& samples, const Vec3& p, const Vec3& n,
+                       double give, double most) {
   double radius = most;
   for (const SurfaceSample& s : samples) {
     const Vec3 back = p - s.p;
@@ -157,8 +160,8 @@ double inscribedRadius(const std::vector<SurfaceSample>& samples, const Vec3& p,
   return std::max(radius, kThinnest);
 }
 
-Rod inscribedRod(const std::vector<SurfaceSample>& samples, const Vec3& p, const Vec3& n, const Vec3& u, double give,
-                 double most, double half) {
+Rod inscribedRod(const std::vector<SurfaceSample>& samples, const Vec3& p, const Vec3& n,
+                 const Vec3& u, double give, double most, double half) {
   const double radius = inscribedRadius(samples, p, n, give, most);
   const Vec3 c = p - radius * n;
   const double free = std::max(radius - give, 0.0);

@@ -26,25 +26,29 @@ class Dice {
   RandomStream random_;
 };
 
-// The spread before the ends are cut off at which the one that is left is the published one (moments of the truncated
-// normal; a range of a few spreads to either side).
+// The spread before the ends are cut off at which the one that is left is the published one
+// (moments of the truncated normal; a range of a few spreads to either side).
 double uncut(const Spread& s) {
   if (s.sd <= 0) return 0;
   double sd = s.sd;
   for (int i = 0; i < 30; ++i) {
     const double a = (s.low - s.mean) / sd, b = (s.high - s.mean) / sd;
-    const auto density = [](double x) { return std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi); };
-    const double inside = 0.5 * (std::erf(b / std::numbers::sqrt2) - std::erf(a / std::numbers::sqrt2));
+    const auto density = [](double x) {
+      return std::exp(-0.5 * x * x) / std::sqrt(2 * std::numbers::pi);
+    };
+    const double inside =
+        0.5 * (std::erf(b / std::numbers::sqrt2) - std::erf(a / std::numbers::sqrt2));
     const double shift = (density(a) - density(b)) / inside;
-    const double left = sd * std::sqrt(1 + (a * density(a) - b * density(b)) / inside - shift * shift);
+    const double left =
+        sd * std::sqrt(1 + (a * density(a) - b * density(b)) / inside - shift * shift);
     sd *= std::min(s.sd / left, 1.1);
-    if (sd > 1.5 * s.sd) return 1.5 * s.sd;   // too narrow a range for such a spread
+    if (sd > 1.5 * s.sd) return 1.5 * s.sd;  // too narrow a range for such a spread
   }
   return sd;
 }
 
-// Normal within the range: drawn again outside it, so that the shape inside stays normal. `known`: how many
-// deviations a quantity that goes together with this one (correlation r) is off its mean.
+// Normal within the range: drawn again outside it, so that the shape inside stays normal. `known`:
+// how many deviations a quantity that goes together with this one (correlation r) is off its mean.
 double draw(const Spread& s, Dice* dice, double r = 0, double known = 0) {
   double x = s.mean;
   const double sd = uncut(s);
@@ -57,19 +61,21 @@ double draw(const Spread& s, Dice* dice, double r = 0, double known = 0) {
 
 double stated(double value, const Spread& s, const char* what, const char* unit) {
   if (value >= s.low && value <= s.high) return value;
-  throw Error(std::string(what) + " is " + std::to_string(value) + " " + unit + ", outside " + std::to_string(s.low) + " to " +
-                  std::to_string(s.high) + " " + unit,
+  throw Error(std::string(what) + " is " + std::to_string(value) + " " + unit + ", outside " +
+                  std::to_string(s.low) + " to " + std::to_string(s.high) + " " + unit,
               "parametric patient", "Give a value inside the range");
 }
 
-// Height and body mass index with how many deviations of the whole population they are off its means.
+// Height and body mass index with how many deviations of the whole population they are off its
+// means.
 struct Body {
   Sex sex;
   double height, bmi, taller, heavier;
 };
 
 Body drawBody(const Population& population, const Person& person, Dice* dice) {
-  const Spread &women = population.height_women, &men = population.height_men, &bmi = population.bmi;
+  const Spread &women = population.height_women, &men = population.height_men,
+               &bmi = population.bmi;
   // Of women and men in equal numbers.
   const double mean = (women.mean + men.mean) / 2, apart = (men.mean - women.mean) / 2;
   const double sd = std::sqrt((women.sd * women.sd + men.sd * men.sd) / 2 + apart * apart);
@@ -86,11 +92,13 @@ Body drawBody(const Population& population, const Person& person, Dice* dice) {
   return body;
 }
 
-SoftLayers layersFor(const Population& population, double vein_depth, const Body& body, Dice* dice) {
+SoftLayers layersFor(const Population& population, double vein_depth, const Body& body,
+                     Dice* dice) {
   const double all = 1e-3 * softAtEntry(softAtWindow(1e3 * vein_depth));
   SoftLayers layers;
   layers.skin = draw(population.skin_thickness, dice);
-  const Spread& share = body.sex == Sex::male ? population.fat_share_men : population.fat_share_women;
+  const Spread& share =
+      body.sex == Sex::male ? population.fat_share_men : population.fat_share_women;
   layers.fat = draw(share, dice, population.fat_share_with_bmi, body.heavier) * (all - layers.skin);
   layers.muscle = all - layers.skin - layers.fat;
   return layers;
@@ -98,7 +106,8 @@ SoftLayers layersFor(const Population& population, double vein_depth, const Body
 
 }  // namespace
 
-PatientParameters drawParameters(const Population& population, Side side, std::uint64_t seed, const Person& person) {
+PatientParameters drawParameters(const Population& population, Side side, std::uint64_t seed,
+                                 const Person& person) {
   Dice dice(seed);
   std::string last;
   for (int tries = 0; tries < (seed == 0 ? 1 : kMostTries); ++tries) {
@@ -112,7 +121,8 @@ PatientParameters drawParameters(const Population& population, Side side, std::u
     p.vein_depth = draw(population.vein_depth, &dice, population.vein_depth_with_bmi, body.heavier);
     p.vein_diameter = draw(population.vein_diameter, &dice);
     p.pleura_distance = draw(population.pleura_distance, &dice);
-    p.clavicle_length = draw(population.clavicle_length, &dice, population.clavicle_length_with_height, body.taller);
+    p.clavicle_length = draw(population.clavicle_length, &dice,
+                             population.clavicle_length_with_height, body.taller);
     p.clavicle_thickness = draw(population.clavicle_thickness, &dice);
     p.layers = layersFor(population, p.vein_depth, body, &dice);
     try {

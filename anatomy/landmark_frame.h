@@ -4,10 +4,11 @@
 
 namespace palpa::anatomy {
 
-/// Side-free coordinates for what is taught: (medial, posterior, cephalad) about the junction of the
-/// clavicle's medial and middle thirds. Medial points along the clavicle's chord to its sternal end;
-/// cephalad is the part of +z_A across it; posterior completes the orthogonal triple, pointing to +y_A.
-/// On the left side the triple is left-handed: both sides give the same numbers for mirrored motion.
+/// Side-free coordinates for what is taught: (medial, posterior, cephalad) about the junction of
+/// the clavicle's medial and middle thirds. Medial points along the clavicle's chord to its sternal
+/// end; cephalad is the part of +z_A across it; posterior completes the orthogonal triple, pointing
+/// to +y_A. On the left side the triple is left-handed: both sides give the same numbers for
+/// mirrored motion.
 class LandmarkFrame {
  public:
   explicit LandmarkFrame(const Patient& patient);
@@ -19,7 +20,7 @@ class LandmarkFrame {
 
  private:
   Vec3 origin_;
-  Mat3 basis_;   ///< columns: medial, posterior, cephalad in A; determinant +-1
+  Mat3 basis_;  ///< columns: medial, posterior, cephalad in A; determinant +-1
 };
 
 }  // namespace palpa::anatomy

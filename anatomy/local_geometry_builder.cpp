@@ -12,10 +12,13 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kBendReach = 0.015;  // a bone so near may be touched before the next snapshot (0.25 m/s: 4 mm): its bend counts
-constexpr double kFitAhead = 0.060;   // bones so near to the entry are fitted at once, others when the tool comes near them
+constexpr double kBendReach = 0.015;  // a bone so near may be touched before the next snapshot
+                                      // (0.25 m/s: 4 mm): its bend counts
+constexpr double kFitAhead =
+    0.060;  // bones so near to the entry are fitted at once, others when the tool comes near them
 constexpr double kBoneReach = 0.040;  // bones further from tip and shaft are left out
-constexpr double kSurfaceReach = 0.008;  // of the skin round the tool: a fast hand's way until the next snapshot
+constexpr double kSurfaceReach =
+    0.008;  // of the skin round the tool: a fast hand's way until the next snapshot
 constexpr double kAhead = 0.060;      // boundaries are looked for this far beyond the tip
 constexpr double kTowardSkin = 0.02;  // sine of the least angle at which the axis counts as inward
 
@@ -80,7 +83,10 @@ LocalGeometryBuilder::LocalGeometryBuilder(const Patient& patient, const Surface
     const OrganSurface& surface = patient.organs[i];
     if (surface.organ == Organ::skin && skin_ < 0) skin_ = static_cast<int>(i);
     if (!isBone(surface.organ)) continue;
-    Bone bone{static_cast<int>(i), surface.organ, {}, std::make_unique<BoneCapsulesOnDemand>(surface.mesh)};
+    Bone bone{static_cast<int>(i),
+              surface.organ,
+              {},
+              std::make_unique<BoneCapsulesOnDemand>(surface.mesh)};
     for (const Vec3& p : surface.mesh.points) bone.box.extend(p);
     bones_.push_back(std::move(bone));
   }
@@ -90,7 +96,8 @@ LocalGeometryBuilder::LocalGeometryBuilder(const Patient& patient, const Surface
     if (bone.box.exteriorDistance(entry->second) <= kFitAhead) bone.capsules->get();
 }
 
-std::vector<LocalGeometryBuilder::NearBone> LocalGeometryBuilder::bonesNear(const Tool& tool, const Axis& axis) const {
+std::vector<LocalGeometryBuilder::NearBone> LocalGeometryBuilder::bonesNear(
+    const Tool& tool, const Axis& axis) const {
   const bool inserted = tool.punctured && axis.s_skin < 0;
   const Vec3 other = inserted ? Vec3(axis.tip + axis.s_skin * axis.direction) : axis.tip;
   std::vector<NearBone> near;
@@ -112,7 +119,8 @@ std::vector<LocalGeometryBuilder::NearBone> LocalGeometryBuilder::bonesNear(cons
   return near;
 }
 
-void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis, LocalGeometry* geometry) const {
+void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis,
+                                    LocalGeometry* geometry) const {
   std::vector<NearBone> near = bonesNear(tool, axis);
   int places = LocalGeometry::kMaxBones;
   for (bool any = true; any && places > 0;) {
@@ -160,7 +168,8 @@ void LocalGeometryBuilder::addBoundaries(const Axis& axis, LocalGeometry* geomet
                  planes[next].wall);
   };
   for (const RayHit& hit : hits) {
-    if (hit.organ == Organ::skin || hit.organ == Organ::airway) continue;  // layers stand for the skin; no needle here has a law for the airway
+    if (hit.organ == Organ::skin || hit.organ == Organ::airway)
+      continue;  // layers stand for the skin; no needle here has a law for the airway
     layersUpTo(hit.s);
     if (hit.organ != Organ::muscle) {
       list.crossing(hit, axis.s_skin + hit.s);
@@ -179,7 +188,8 @@ LocalGeometry LocalGeometryBuilder::build(std::uint64_t number, std::int64_t t_n
   geometry.number = number;
   geometry.t_ns = t_ns;
   const Vec3 tip = tool.X_AT.translation(), direction = tool.X_AT.linear().col(2);
-  // A needle in the tissue meets layers, no longer the skin's surface: its plane at the entry will do.
+  // A needle in the tissue meets layers, no longer the skin's surface: its plane at the entry will
+  // do.
   geometry.skin = tool.punctured ? fitSurfacePatch(query_, skin_, tool.entry_A, 0)
                                  : fitSurfacePatch(query_, skin_, tip, kSurfaceReach);
   const Vec3 skin_p = unpack(geometry.skin.p), skin_n = unpack(geometry.skin.n);

@@ -12,14 +12,15 @@ namespace palpa::anatomy {
 
 /// Makes the snapshot that the haptic tick reads, around a predicted tool. Pure: same inputs, same
 /// bits. Skin as a curved patch round the tip (before puncture) or round `entry`;
-/// bones within 40 mm of the tip or the inserted shaft as capsules of which one touches the bone's mesh at
-/// its nearest point, with its normal there, and the others follow its shape round it (bone_capsules.h); tissue boundaries along the needle axis from the skin
-/// inward to 60 mm beyond the tip (offset planes for skin, fat and muscle, which ends earlier where
-/// the axis leaves its mesh at a border; mesh crossings for vessels, lung and bone). A needle that
-/// points away from the skin has no boundaries. Threads may share it.
+/// bones within 40 mm of the tip or the inserted shaft as capsules of which one touches the bone's
+/// mesh at its nearest point, with its normal there, and the others follow its shape round it
+/// (bone_capsules.h); tissue boundaries along the needle axis from the skin inward to 60 mm beyond
+/// the tip (offset planes for skin, fat and muscle, which ends earlier where the axis leaves its
+/// mesh at a border; mesh crossings for vessels, lung and bone). A needle that points away from the
+/// skin has no boundaries. Threads may share it.
 ///
-/// The capsules' places are shared out so: one for every bone in reach, the nearest bones first; what is left goes round
-/// one by one among the bones within 15 mm, until each has all that it has.
+/// The capsules' places are shared out so: one for every bone in reach, the nearest bones first;
+/// what is left goes round one by one among the bones within 15 mm, until each has all that it has.
 class LocalGeometryBuilder {
  public:
   LocalGeometryBuilder(const Patient& patient, const SurfaceQuery& query);
@@ -43,7 +44,7 @@ class LocalGeometryBuilder {
     const Bone* bone;
     double distance;
     std::vector<Capsule> capsules;
-    std::size_t taken;   ///< so many of them go into the snapshot
+    std::size_t taken;  ///< so many of them go into the snapshot
   };
   struct Axis {
     Vec3 tip, direction, skin_p, skin_n;

@@ -15,18 +15,21 @@ void insert(const NeedlePass& pass, NeedlePasses* passes) {
     return;
   }
   int at = passes->count++;
-  for (; at > 0 && before(pass, passes->pass[at - 1]); --at) passes->pass[at] = passes->pass[at - 1];
+  for (; at > 0 && before(pass, passes->pass[at - 1]); --at)
+    passes->pass[at] = passes->pass[at - 1];
   passes->pass[at] = pass;
 }
 
 }  // namespace
 
 double NeedlePasses::depth(Organ organ) const {
-  const auto first = std::find_if(begin(), end(), [organ](const NeedlePass& p) { return p.organ == organ; });
+  const auto first =
+      std::find_if(begin(), end(), [organ](const NeedlePass& p) { return p.organ == organ; });
   return first == end() ? 0 : length - first->enter;
 }
 
-void addPasses(std::span<TriangleTree::Crossing> crossings, Organ organ, int surface, NeedlePasses* passes) {
+void addPasses(std::span<TriangleTree::Crossing> crossings, Organ organ, int surface,
+               NeedlePasses* passes) {
   std::sort(crossings.begin(), crossings.end(), [](const auto& a, const auto& b) {
     return a.s < b.s || (a.s == b.s && a.entering > b.entering);
   });

@@ -7,9 +7,10 @@
 
 namespace palpa::anatomy {
 
-/// Turns one surface's crossings with the needle (of length `passes->length`; they are sorted here) into stretches
-/// inside it, and puts those in their place among the others.
-void addPasses(std::span<TriangleTree::Crossing> crossings, Organ organ, int surface, NeedlePasses* passes);
+/// Turns one surface's crossings with the needle (of length `passes->length`; they are sorted here)
+/// into stretches inside it, and puts those in their place among the others.
+void addPasses(std::span<TriangleTree::Crossing> crossings, Organ organ, int surface,
+               NeedlePasses* passes);
 
 /// The needle lies in this surface from end to end.
 void addWhole(Organ organ, int surface, NeedlePasses* passes);

@@ -22,12 +22,18 @@ const OrganSurface& Patient::organ(Organ kind) const {
 Tissue tissueInside(Organ organ) {
   if (isBone(organ)) return Tissue::bone;
   switch (organ) {
-    case Organ::skin: return Tissue::skin;
-    case Organ::muscle: return Tissue::muscle;
-    case Organ::lung: return Tissue::lung;
-    case Organ::vein: return Tissue::vein_lumen;
-    case Organ::artery: return Tissue::artery_lumen;
-    default: return Tissue::air;
+    case Organ::skin:
+      return Tissue::skin;
+    case Organ::muscle:
+      return Tissue::muscle;
+    case Organ::lung:
+      return Tissue::lung;
+    case Organ::vein:
+      return Tissue::vein_lumen;
+    case Organ::artery:
+      return Tissue::artery_lumen;
+    default:
+      return Tissue::air;
   }
 }
 

@@ -17,13 +17,13 @@ struct TriangleMesh {
   std::vector<Vec3> points;
   std::vector<Vec3> normals;                            ///< one a point, outward, unit length
   std::vector<std::array<std::uint32_t, 3>> triangles;  ///< counter-clockwise seen from outside
-  std::vector<std::array<float, 2>> uvs;                ///< one a point, v down the picture (glTF); or none
+  std::vector<std::array<float, 2>> uvs;  ///< one a point, v down the picture (glTF); or none
 };
 
 /// A picture to be laid over a surface by its `uvs`; rows from the top, sRGB.
 struct Texture {
   int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;   ///< 3 a pixel; empty: none
+  std::vector<std::uint8_t> rgb;  ///< 3 a pixel; empty: none
 };
 
 struct OrganSurface {
@@ -31,9 +31,9 @@ struct OrganSurface {
   Organ organ = Organ::none;
   TriangleMesh mesh;
   std::array<float, 4> rgba{1, 1, 1, 1};
-  std::string licence{};   ///< of this surface, where it is not the patient's
-  std::string source{};    ///< who made it, as its licence asks to be named
-  Texture texture{};       ///< multiplied by rgba
+  std::string licence{};  ///< of this surface, where it is not the patient's
+  std::string source{};   ///< who made it, as its licence asks to be named
+  Texture texture{};      ///< multiplied by rgba
 };
 
 /// What a surface encloses; air where it says nothing of it.
@@ -63,8 +63,9 @@ inline constexpr const char* kEntry =
     "entry_point";  ///< on the skin, 1 cm below the medial-third junction
 inline constexpr const char* kVeinTarget =
     "vein_target";  ///< centre of the lumen where the taught line meets it
-inline constexpr const char* kWindow = "infraclavicular_window";      ///< centre of the vein's lumen below the middle of the clavicle
-inline constexpr const char* kWindowSkin = "infraclavicular_window_skin";   ///< on the skin over it
+inline constexpr const char* kWindow =
+    "infraclavicular_window";  ///< centre of the vein's lumen below the middle of the clavicle
+inline constexpr const char* kWindowSkin = "infraclavicular_window_skin";  ///< on the skin over it
 }  // namespace landmark
 
 struct Patient {

@@ -12,7 +12,7 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kNear = 0.008;   // m: organs farther apart need no line
+constexpr double kNear = 0.008;  // m: organs farther apart need no line
 constexpr double kNone = std::numeric_limits<double>::infinity();
 
 class Checker {
@@ -47,7 +47,9 @@ class Checker {
     findings_.push_back({what, value, unit, ok, wanted});
   }
 
-  double distanceToLine(int index) const { return query_.nearSegment(index, entry_, target_).distance; }
+  double distanceToLine(int index) const {
+    return query_.nearSegment(index, entry_, target_).distance;
+  }
 
   void checkLine() {
     const Vec3 way = target_ - entry_, direction = way.normalized();
@@ -88,7 +90,8 @@ class Checker {
   }
 
   void checkVein() {
-    const auto window = patient_.landmarks.find(landmark::kWindow), over = patient_.landmarks.find(landmark::kWindowSkin);
+    const auto window = patient_.landmarks.find(landmark::kWindow),
+               over = patient_.landmarks.find(landmark::kWindowSkin);
     const bool marked = window != patient_.landmarks.end() && over != patient_.landmarks.end();
     const Vec3 skin = marked ? over->second : query_.closest(skin_, target_).p_A;
     const Vec3 inward = ((marked ? window->second : target_) - skin).normalized();
@@ -129,8 +132,8 @@ class Checker {
     return sum / kChords;
   }
 
-  // Least signed distance of one surface's vertices to another: negative where they overlap. Only vertices in or near
-  // the other's box can be that near.
+  // Least signed distance of one surface's vertices to another: negative where they overlap. Only
+  // vertices in or near the other's box can be that near.
   double gap(int a, int b) const {
     double least = kNone;
     const Eigen::AlignedBox3d box = grown(boxes_[b]);
@@ -158,16 +161,21 @@ class Checker {
       double shallowest = kNone;
       for (const Vec3& p : patient_.organs[a].mesh.points)
         shallowest = std::min(shallowest, -query_.closest(skin_, p).distance);
-      report("depth of " + patient_.organs[a].id, 1e3 * shallowest, "mm", shallowest > 1e-3, "above 1");
+      report("depth of " + patient_.organs[a].id, 1e3 * shallowest, "mm", shallowest > 1e-3,
+             "above 1");
     }
   }
 
   // Two organs that are nowhere near each other are not worth a line.
   void checkGap(int a, int b) {
     const auto& organs = patient_.organs;
-    if (!vital(organs[a].organ) || !vital(organs[b].organ) || !grown(boxes_[a]).intersects(boxes_[b])) return;
+    if (!vital(organs[a].organ) || !vital(organs[b].organ) ||
+        !grown(boxes_[a]).intersects(boxes_[b]))
+      return;
     const double found = std::min(gap(a, b), gap(b, a));
-    if (found < kNear) report("gap " + organs[b].id + " - " + organs[a].id, 1e3 * found, "mm", found > 0.3e-3, "above 0.3");
+    if (found < kNear)
+      report("gap " + organs[b].id + " - " + organs[a].id, 1e3 * found, "mm", found > 0.3e-3,
+             "above 0.3");
   }
 
   void checkMeshes() {
@@ -178,15 +186,14 @@ class Checker {
       if (!isClosed(o.mesh) || signedVolume(o.mesh) <= 0) ++open;
     }
     report("surfaces open or inside out", open, "", open == 0, "0");
-    report("triangles", static_cast<double>(triangles), "", triangles <= 300'000,
-           "at most 300000");
+    report("triangles", static_cast<double>(triangles), "", triangles <= 300'000, "at most 300000");
   }
 
   const Patient& patient_;
   SurfaceQuery query_;
   Vec3 entry_, target_;
   int skin_, vein_;
-  std::vector<Eigen::AlignedBox3d> boxes_;   ///< by surface
+  std::vector<Eigen::AlignedBox3d> boxes_;  ///< by surface
   std::vector<Finding> findings_;
 };
 
@@ -195,10 +202,12 @@ class Checker {
 std::vector<std::string> missingForNeedle(const Patient& patient) {
   std::vector<std::string> missing;
   for (const Organ needed : {Organ::skin, Organ::clavicle, Organ::vein, Organ::lung})
-    if (std::none_of(patient.organs.begin(), patient.organs.end(), [&](const auto& o) { return o.organ == needed; }))
+    if (std::none_of(patient.organs.begin(), patient.organs.end(),
+                     [&](const auto& o) { return o.organ == needed; }))
       missing.push_back(std::string("the organ ") + palpa::name(needed));
-  for (const char* needed : {landmark::kNotch, landmark::kSternalEnd, landmark::kAcromialEnd, landmark::kMedialThird,
-                             landmark::kEntry, landmark::kSternalEndPosteriorSuperior, landmark::kVeinTarget})
+  for (const char* needed :
+       {landmark::kNotch, landmark::kSternalEnd, landmark::kAcromialEnd, landmark::kMedialThird,
+        landmark::kEntry, landmark::kSternalEndPosteriorSuperior, landmark::kVeinTarget})
     if (!patient.landmarks.count(needed)) missing.push_back(std::string("the landmark ") + needed);
   return missing;
 }

@@ -22,7 +22,8 @@ struct Finding {
 /// entry_point and vein_target and the organs of the reference patient; throws Error without.
 std::vector<Finding> checkPatient(const Patient& patient);
 
-/// Landmarks and organs that the needle task cannot do without and the patient lacks, by name; empty for a fit patient.
+/// Landmarks and organs that the needle task cannot do without and the patient lacks, by name;
+/// empty for a fit patient.
 std::vector<std::string> missingForNeedle(const Patient& patient);
 
 /// Throws Error, in one line with everything that is missing; `where`: its file.

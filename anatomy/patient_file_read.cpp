@@ -11,7 +11,7 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr double kLargestCoordinate = 3.0;  // metres: beyond this the unit is wrong
-constexpr double kUnit = 1e-6;               // a unit vector in floats, which stays as it is
+constexpr double kUnit = 1e-6;              // a unit vector in floats, which stays as it is
 constexpr float kLargestRepeat = 100;       // of a picture over a surface
 
 class PatientReader {
@@ -111,11 +111,14 @@ class PatientReader {
 
   // A view that lies inside its buffer.
   const tinygltf::BufferView& viewOf(int index) const {
-    if (index < 0 || index >= static_cast<int>(model_.bufferViews.size())) fail("a buffer view is missing");
+    if (index < 0 || index >= static_cast<int>(model_.bufferViews.size()))
+      fail("a buffer view is missing");
     const tinygltf::BufferView& view = model_.bufferViews[index];
-    if (view.buffer < 0 || view.buffer >= static_cast<int>(model_.buffers.size())) fail("a buffer is missing");
+    if (view.buffer < 0 || view.buffer >= static_cast<int>(model_.buffers.size()))
+      fail("a buffer is missing");
     const std::size_t size = model_.buffers[view.buffer].data.size();
-    if (view.byteOffset > size || view.byteLength > size - view.byteOffset) fail("a buffer view reaches beyond its buffer");
+    if (view.byteOffset > size || view.byteLength > size - view.byteOffset)
+      fail("a buffer view reaches beyond its buffer");
     return view;
   }
 
@@ -200,7 +203,8 @@ class PatientReader {
       fail("the surface \"" + node.name + "\" is of an unknown organ");
     if (const std::string tissue = optionalText(node.extras, "tissue");
         !tissue.empty() && tissue != palpa::name(tissueInside(surface.organ)))
-      fail("the surface \"" + node.name + "\" is of the tissue \"" + tissue + "\", which its organ does not enclose");
+      fail("the surface \"" + node.name + "\" is of the tissue \"" + tissue +
+           "\", which its organ does not enclose");
     surface.licence = optionalText(node.extras, "licence");
     surface.source = optionalText(node.extras, "source");
     surface.mesh.points = vectors(primitives[0], "POSITION");
@@ -235,18 +239,21 @@ class PatientReader {
     }
   }
 
-  std::vector<std::array<float, 2>> coordinates(const tinygltf::Primitive& primitive, std::size_t points) const {
+  std::vector<std::array<float, 2>> coordinates(const tinygltf::Primitive& primitive,
+                                                std::size_t points) const {
     const auto found = primitive.attributes.find("TEXCOORD_0");
     if (found == primitive.attributes.end()) return {};
     std::size_t count = 0;
     int component = 0;
-    const unsigned char* at = data(found->second, TINYGLTF_TYPE_VEC2, 2 * sizeof(float), &count, &component);
+    const unsigned char* at =
+        data(found->second, TINYGLTF_TYPE_VEC2, 2 * sizeof(float), &count, &component);
     if (component != TINYGLTF_COMPONENT_TYPE_FLOAT) fail("TEXCOORD_0 are not floats");
     if (count != points) fail("a surface has not one TEXCOORD_0 a vertex");
     std::vector<std::array<float, 2>> result(count);
     std::memcpy(result.data(), at, count * sizeof result[0]);
     for (const auto& [u, v] : result)
-      if (!(std::abs(u) <= kLargestRepeat && std::abs(v) <= kLargestRepeat)) fail("a TEXCOORD_0 is not a sensible number");
+      if (!(std::abs(u) <= kLargestRepeat && std::abs(v) <= kLargestRepeat))
+        fail("a TEXCOORD_0 is not a sensible number");
     return result;
   }
 
@@ -256,12 +263,16 @@ class PatientReader {
     if (primitive.material < 0) return;
     const auto& info = model_.materials[primitive.material].pbrMetallicRoughness.baseColorTexture;
     if (info.index == -1) return;
-    if (info.index < 0 || info.index >= static_cast<int>(model_.textures.size())) fail("a texture is missing");
+    if (info.index < 0 || info.index >= static_cast<int>(model_.textures.size()))
+      fail("a texture is missing");
     const int source = model_.textures[info.index].source;
-    if (source < 0 || source >= static_cast<int>(model_.images.size())) fail("a picture is missing");
-    if (info.texCoord != 0 || surface->mesh.uvs.empty()) fail("the surface \"" + surface->id + "\" has a picture but no TEXCOORD_0");
+    if (source < 0 || source >= static_cast<int>(model_.images.size()))
+      fail("a picture is missing");
+    if (info.texCoord != 0 || surface->mesh.uvs.empty())
+      fail("the surface \"" + surface->id + "\" has a picture but no TEXCOORD_0");
     const tinygltf::BufferView& view = viewOf(model_.images[source].bufferView);
-    surface->texture = textureOfPng(model_.buffers[view.buffer].data.data() + view.byteOffset, view.byteLength, file_);
+    surface->texture = textureOfPng(model_.buffers[view.buffer].data.data() + view.byteOffset,
+                                    view.byteLength, file_);
   }
 
   std::string file_;

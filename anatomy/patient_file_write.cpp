@@ -105,7 +105,8 @@ class ModelWriter {
 
   int addCoordinates(const std::vector<std::array<float, 2>>& uvs) {
     tinygltf::Accessor accessor;
-    accessor.bufferView = addView(uvs.data(), uvs.size() * sizeof uvs[0], TINYGLTF_TARGET_ARRAY_BUFFER);
+    accessor.bufferView =
+        addView(uvs.data(), uvs.size() * sizeof uvs[0], TINYGLTF_TARGET_ARRAY_BUFFER);
     accessor.componentType = TINYGLTF_COMPONENT_TYPE_FLOAT;
     accessor.type = TINYGLTF_TYPE_VEC2;
     accessor.count = uvs.size();
@@ -163,7 +164,8 @@ class ModelWriter {
     primitive.mode = TINYGLTF_MODE_TRIANGLES;
     primitive.attributes["POSITION"] = addVectors(surface.mesh.points, true);
     primitive.attributes["NORMAL"] = addVectors(surface.mesh.normals, false);
-    if (!surface.mesh.uvs.empty()) primitive.attributes["TEXCOORD_0"] = addCoordinates(surface.mesh.uvs);
+    if (!surface.mesh.uvs.empty())
+      primitive.attributes["TEXCOORD_0"] = addCoordinates(surface.mesh.uvs);
     primitive.indices = addIndices(surface.mesh);
     primitive.material = addMaterial(surface);
     tinygltf::Mesh mesh;
@@ -187,7 +189,8 @@ class ModelWriter {
 
 namespace {
 
-/// To floats and back. Through memory: GCC 12 drops a conversion that is undone at once when it does two numbers together.
+/// To floats and back. Through memory: GCC 12 drops a conversion that is undone at once when it
+/// does two numbers together.
 void throughFloats(std::vector<Vec3>& vectors) {
   std::vector<Eigen::Vector3f> kept;
   for (const Vec3& v : vectors) kept.push_back(v.cast<float>());
@@ -197,8 +200,10 @@ void throughFloats(std::vector<Vec3>& vectors) {
 }  // namespace
 
 void roundAsInFile(Patient& patient) {
-  for (OrganSurface& surface : patient.organs)   // the file's axes are these, swapped and turned: rounding is the same
-    for (std::vector<Vec3>* vectors : {&surface.mesh.points, &surface.mesh.normals}) throughFloats(*vectors);
+  for (OrganSurface& surface :
+       patient.organs)  // the file's axes are these, swapped and turned: rounding is the same
+    for (std::vector<Vec3>* vectors : {&surface.mesh.points, &surface.mesh.normals})
+      throughFloats(*vectors);
 }
 
 void writePatient(const Patient& patient, const std::filesystem::path& file) {

@@ -10,29 +10,34 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kShortestSide = 0.010, kLongestSide = 2;   // m
-constexpr double kBlockStep = 0.0025;   // m: fine enough to give way under a tip
-constexpr int kMostSteps = 120, kArcSteps = 3;   // along a side; along an eighth of a circle
+constexpr double kShortestSide = 0.010, kLongestSide = 2;  // m
+constexpr double kBlockStep = 0.0025;                      // m: fine enough to give way under a tip
+constexpr int kMostSteps = 120, kArcSteps = 3;  // along a side; along an eighth of a circle
 constexpr std::array<float, 4> kBlockColour{0.93F, 0.79F, 0.71F, 1};
 
 using Lattice = std::array<std::uint32_t, 3>;
 
-/// Where lattice planes cut an axis, from -half to half: even along the flat part, and by even angles where edges are round.
+/// Where lattice planes cut an axis, from -half to half: even along the flat part, and by even
+/// angles where edges are round.
 std::vector<double> cutsAlong(double side) {
   const double flat = side / 2 - kBlockEdge;
   const int steps = std::clamp(static_cast<int>(std::lround(2 * flat / kBlockStep)), 1, kMostSteps);
   std::vector<double> cuts;
-  for (int i = kArcSteps; i > 0; --i) cuts.push_back(-flat - kBlockEdge * std::tan(std::numbers::pi / 4 * i / kArcSteps));
+  for (int i = kArcSteps; i > 0; --i)
+    cuts.push_back(-flat - kBlockEdge * std::tan(std::numbers::pi / 4 * i / kArcSteps));
   for (int i = 0; i <= steps; ++i) cuts.push_back(flat * (2.0 * i / steps - 1));
-  for (int i = 1; i <= kArcSteps; ++i) cuts.push_back(flat + kBlockEdge * std::tan(std::numbers::pi / 4 * i / kArcSteps));
+  for (int i = 1; i <= kArcSteps; ++i)
+    cuts.push_back(flat + kBlockEdge * std::tan(std::numbers::pi / 4 * i / kArcSteps));
   return cuts;
 }
 
-/// The surface of a box's lattice, pushed onto the box with round edges: every point shared, so the mesh is closed.
+/// The surface of a box's lattice, pushed onto the box with round edges: every point shared, so the
+/// mesh is closed.
 class BlockMesh {
  public:
   explicit BlockMesh(const Vec3& size) : flat_(size / 2 - Vec3::Constant(kBlockEdge)) {
-    for (int axis = 0; axis < 3; ++axis) cuts_[static_cast<std::size_t>(axis)] = cutsAlong(size[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      cuts_[static_cast<std::size_t>(axis)] = cutsAlong(size[axis]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       addFace(axis, false);
       addFace(axis, true);
@@ -41,10 +46,13 @@ class BlockMesh {
   TriangleMesh mesh;
 
  private:
-  std::uint32_t last(std::size_t axis) const { return static_cast<std::uint32_t>(cuts_[axis].size()) - 1; }
+  std::uint32_t last(std::size_t axis) const {
+    return static_cast<std::uint32_t>(cuts_[axis].size()) - 1;
+  }
 
   std::uint32_t pointAt(const Lattice& at) {
-    const auto [entry, is_new] = index_.try_emplace(at, static_cast<std::uint32_t>(mesh.points.size()));
+    const auto [entry, is_new] =
+        index_.try_emplace(at, static_cast<std::uint32_t>(mesh.points.size()));
     if (!is_new) return entry->second;
     const Vec3 q(cuts_[0][at[0]], cuts_[1][at[1]], cuts_[2][at[2]]);
     const Vec3 inner = q.cwiseMax(-flat_).cwiseMin(flat_), normal = (q - inner).normalized();
@@ -95,8 +103,9 @@ Pose X_AP() {
 
 Patient phantomBlock(const Vec3& size, const std::string& name) {
   if (!(size.minCoeff() >= kShortestSide && size.maxCoeff() <= kLongestSide) || !size.allFinite())
-    throw Error("no block is " + std::to_string(1e3 * size.x()) + " x " + std::to_string(1e3 * size.y()) + " x " + std::to_string(1e3 * size.z()) + " mm", "phantom",
-                "Give sides from 10 mm to 2 m");
+    throw Error("no block is " + std::to_string(1e3 * size.x()) + " x " +
+                    std::to_string(1e3 * size.y()) + " x " + std::to_string(1e3 * size.z()) + " mm",
+                "phantom", "Give sides from 10 mm to 2 m");
   Patient patient;
   patient.name = name;
   patient.layers = {0.002, 0, 0};

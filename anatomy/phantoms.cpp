@@ -14,9 +14,10 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kLeastSilicone = 0.002, kMeshError = 0.0005;   // m
+constexpr double kLeastSilicone = 0.002, kMeshError = 0.0005;  // m
 constexpr double kLeastDiameter = 0.002;
-constexpr std::array<float, 4> kSiliconeColour{0.93f, 0.77f, 0.69f, 0.45f}, kInclusionColour{0.90f, 0.62f, 0.20f, 1};
+constexpr std::array<float, 4> kSiliconeColour{0.93f, 0.77f, 0.69f, 0.45f},
+    kInclusionColour{0.90f, 0.62f, 0.20f, 1};
 
 double dent(double square, double wide) { return std::exp(-0.5 * square / (wide * wide)); }
 
@@ -37,19 +38,22 @@ double bellyHeight(double x, double z) {
 
 double abdomenField(const Vec3& p) {
   constexpr double kCorner = 0.030;
-  const double dx = std::max(std::abs(p.x()) - (0.130 - kCorner), 0.0), dz = std::max(std::abs(p.z()) - (0.100 - kCorner), 0.0);
-  const double sides = std::hypot(dx, dz) - kCorner, front = 0.9 * (-p.y() - bellyHeight(p.x(), p.z()));
+  const double dx = std::max(std::abs(p.x()) - (0.130 - kCorner), 0.0),
+               dz = std::max(std::abs(p.z()) - (0.100 - kCorner), 0.0);
+  const double sides = std::hypot(dx, dz) - kCorner,
+               front = 0.9 * (-p.y() - bellyHeight(p.x(), p.z()));
   return smoothMax(smoothMax(sides, front, 0.030), p.y(), 0.004);
 }
 
 struct PhantomBody {
   Field field;
-  Vec3 low, high;   // m; the body lies within
+  Vec3 low, high;  // m; the body lies within
   double cell;
 };
 
 PhantomBody bodyOf(PhantomKind kind) {
-  if (kind == PhantomKind::breast) return {breastField, {-0.060, -0.045, -0.060}, {0.060, 0, 0.060}, 0.0022};
+  if (kind == PhantomKind::breast)
+    return {breastField, {-0.060, -0.045, -0.060}, {0.060, 0, 0.060}, 0.0022};
   return {abdomenField, {-0.130, -0.082, -0.100}, {0.130, 0, 0.100}, 0.0035};
 }
 
@@ -67,8 +71,9 @@ PlaceUnderSkin placeUnder(const PhantomBody& body, double x, double z, double de
   const auto front = [&](double y) { return body.field({x, y, z}); };
   const double outside = body.low.y() - 0.010;
   if (!(front(outside) > 0 && front(-0.005) < 0))
-    throw Error("there is no skin " + std::to_string(1e3 * x) + " mm to the left and " + std::to_string(1e3 * z) + " mm up", "phantom",
-                "Put the inclusion nearer to the middle");
+    throw Error("there is no skin " + std::to_string(1e3 * x) + " mm to the left and " +
+                    std::to_string(1e3 * z) + " mm up",
+                "phantom", "Put the inclusion nearer to the middle");
   const Vec3 skin(x, findRoot(front, outside, -0.005, 1e-9), z);
   return {skin, skin - depth * gradient(body.field, skin, 1e-4).normalized()};
 }
@@ -77,47 +82,63 @@ OrganSurface sphereIn(const PhantomInclusion& inclusion, const PlaceUnderSkin& p
   const double radius = inclusion.diameter / 2;
   const auto field = [&](const Vec3& p) { return (p - place.centre).norm() - radius; };
   const Vec3 reach = Vec3::Constant(radius);
-  return {"inclusion", Organ::inclusion, phantomMesh(field, place.centre - reach, place.centre + reach, radius / 12), kInclusionColour};
+  return {"inclusion", Organ::inclusion,
+          phantomMesh(field, place.centre - reach, place.centre + reach, radius / 12),
+          kInclusionColour};
 }
 
-// z of the liver's lower edge: lowest toward the patient's right, up to the costal margin beyond the midline.
+// z of the liver's lower edge: lowest toward the patient's right, up to the costal margin beyond
+// the midline.
 double liverEdge(double x) { return 0.024 + 8 * (x + 0.06) * (x + 0.06); }
 
-// A wedge: its front keeps its depth under the nearest skin, its back falls away above the rounded edge.
-OrganSurface liverIn(const PhantomBody& body, const TriangleTree& skin, const PhantomInclusion& inclusion, PlaceUnderSkin* middle) {
+// A wedge: its front keeps its depth under the nearest skin, its back falls away above the rounded
+// edge.
+OrganSurface liverIn(const PhantomBody& body, const TriangleTree& skin,
+                     const PhantomInclusion& inclusion, PlaceUnderSkin* middle) {
   constexpr double kRight = -0.098, kTop = 0.092, kMiddle = -0.045, kWedge = 0.35;
   const double thick = inclusion.diameter, depth = inclusion.depth;
   const auto field = [=, &skin](const Vec3& p) {
     const double under = bellyHeight(p.x(), p.z()) + p.y(), above = p.z() - liverEdge(p.x());
-    const double front = depth + skin.closest(p).signed_distance, back = 0.94 * (under - depth - thick - kWedge * std::max(above, 0.0));
-    const double ends = smoothMax(smoothMax(kRight - p.x(), p.z() - kTop, 0.020), -0.6 * above, 0.010);
+    const double front = depth + skin.closest(p).signed_distance,
+                 back = 0.94 * (under - depth - thick - kWedge * std::max(above, 0.0));
+    const double ends =
+        smoothMax(smoothMax(kRight - p.x(), p.z() - kTop, 0.020), -0.6 * above, 0.010);
     return smoothMax(smoothMax(front, back, 0.2 * thick), ends, 0.9 * thick);
   };
   *middle = placeUnder(body, kMiddle, liverEdge(kMiddle) + thick, depth + 0.5 * thick);
   const double cell = std::clamp(thick / 8, 0.0010, 0.0025);
-  return {"liver", Organ::inclusion, phantomMesh(field, {kRight, -0.082, 0.020}, {0.040, 0, kTop}, cell), kInclusionColour};
+  return {"liver", Organ::inclusion,
+          phantomMesh(field, {kRight, -0.082, 0.020}, {0.040, 0, kTop}, cell), kInclusionColour};
 }
 
 void requireRoom(const Patient& patient, const PhantomInclusion& inclusion) {
   const SurfaceQuery query(patient);
   double least = 1;
-  for (const Vec3& p : patient.organs.back().mesh.points) least = std::min(least, -query.closest(0, p).distance);
+  for (const Vec3& p : patient.organs.back().mesh.points)
+    least = std::min(least, -query.closest(0, p).distance);
   if (least >= std::min(inclusion.depth, kLeastSilicone) - kMeshError) return;
   char what[160];
-  std::snprintf(what, sizeof what, "an inclusion of %.1f mm under %.1f mm does not fit: %.1f mm of silicone would stay round it", 1e3 * inclusion.diameter,
-                1e3 * inclusion.depth, 1e3 * least);
+  std::snprintf(
+      what, sizeof what,
+      "an inclusion of %.1f mm under %.1f mm does not fit: %.1f mm of silicone would stay round it",
+      1e3 * inclusion.diameter, 1e3 * inclusion.depth, 1e3 * least);
   throw Error(what, "phantom", "Make it smaller or put it elsewhere");
 }
 
-void addInclusion(const PhantomBody& body, PhantomKind kind, const PhantomInclusion& inclusion, Patient* patient) {
-  if (!(inclusion.diameter >= kLeastDiameter && inclusion.diameter <= 0.2 && inclusion.depth >= 0.001 && inclusion.depth <= 0.1))
-    throw Error("an inclusion is 2 to 200 mm thick and 1 to 100 mm deep", "phantom", "Give such values");
+void addInclusion(const PhantomBody& body, PhantomKind kind, const PhantomInclusion& inclusion,
+                  Patient* patient) {
+  if (!(inclusion.diameter >= kLeastDiameter && inclusion.diameter <= 0.2 &&
+        inclusion.depth >= 0.001 && inclusion.depth <= 0.1))
+    throw Error("an inclusion is 2 to 200 mm thick and 1 to 100 mm deep", "phantom",
+                "Give such values");
   PlaceUnderSkin place;
   if (kind == PhantomKind::breast) {
-    place = placeUnder(body, inclusion.left, inclusion.up, inclusion.depth + inclusion.diameter / 2);
+    place =
+        placeUnder(body, inclusion.left, inclusion.up, inclusion.depth + inclusion.diameter / 2);
     patient->organs.push_back(sphereIn(inclusion, place));
   } else {
-    patient->organs.push_back(liverIn(body, TriangleTree(patient->organs.front().mesh), inclusion, &place));
+    patient->organs.push_back(
+        liverIn(body, TriangleTree(patient->organs.front().mesh), inclusion, &place));
   }
   patient->landmarks[landmark::kInclusion] = place.centre;
   patient->landmarks[landmark::kInclusionSkin] = place.skin;
@@ -131,7 +152,9 @@ Patient buildPhantom(const PhantomSpec& spec) {
   Patient patient;
   patient.name = spec.kind == PhantomKind::breast ? "breast phantom" : "abdomen phantom";
   patient.layers = {0.002, 0, 0};
-  patient.organs.push_back({"skin", Organ::skin, phantomMesh(body.field, body.low, body.high, body.cell), kSiliconeColour});
+  patient.organs.push_back({"skin", Organ::skin,
+                            phantomMesh(body.field, body.low, body.high, body.cell),
+                            kSiliconeColour});
   if (spec.inclusion) addInclusion(body, spec.kind, *spec.inclusion, &patient);
   return patient;
 }

@@ -6,7 +6,8 @@
 
 namespace palpa::anatomy {
 
-PlaneFit fitPlaneTo(const TriangleTree& tree, const Vec3& centre, const Vec3& normal, double reach) {
+PlaneFit fitPlaneTo(const TriangleTree& tree, const Vec3& centre, const Vec3& normal,
+                    double reach) {
   PlaneFit fit{normal, 0};
   if (!(reach > 0)) return fit;
   const auto each = [&](auto f) {

@@ -30,18 +30,22 @@ class Reference {
   Spread spread(const char* key, const char* wanted_unit = "mm", double si = 1e-3) const {
     const nlohmann::json& found = entry(key);
     const auto unit = found.find("unit");
-    if (unit == found.end() || *unit != wanted_unit) fail(std::string("the unit is not \"") + wanted_unit + "\"", key);
+    if (unit == found.end() || *unit != wanted_unit)
+      fail(std::string("the unit is not \"") + wanted_unit + "\"", key);
     const auto range = found.find("range");
-    if (range == found.end() || !range->is_array() || range->size() != 2) fail("the range is not two numbers", key);
-    const Spread s{si * value(found, "mean", key), si * value(found, "sd", key), si * number((*range)[0], key),
-                   si * number((*range)[1], key)};
-    if (!(s.low <= s.mean && s.mean <= s.high && s.sd >= 0)) fail("mean, sd and range contradict each other", key);
+    if (range == found.end() || !range->is_array() || range->size() != 2)
+      fail("the range is not two numbers", key);
+    const Spread s{si * value(found, "mean", key), si * value(found, "sd", key),
+                   si * number((*range)[0], key), si * number((*range)[1], key)};
+    if (!(s.low <= s.mean && s.mean <= s.high && s.sd >= 0))
+      fail("mean, sd and range contradict each other", key);
     return s;
   }
 
  private:
   [[noreturn]] void fail(const std::string& what, const std::string& key) const {
-    throw Error(what, key.empty() ? file_ : file_ + ", \"" + key + "\"", "Compare with assets/patients/reference.json");
+    throw Error(what, key.empty() ? file_ : file_ + ", \"" + key + "\"",
+                "Compare with assets/patients/reference.json");
   }
   const nlohmann::json& entry(const char* key) const {
     const auto found = json_.is_object() ? json_.find(key) : json_.end();

@@ -9,8 +9,9 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr double kLeastShare = 0.1;
-constexpr double kAway = 0.2;          // cosine: a vertex whose normal turns away more lies on another sheet
-constexpr double kNothing = 1e-7;      // m: not a dimple
+constexpr double kAway =
+    0.2;  // cosine: a vertex whose normal turns away more lies on another sheet
+constexpr double kNothing = 1e-7;  // m: not a dimple
 
 }  // namespace
 
@@ -37,7 +38,9 @@ std::span<const SkinDimple::Vertex> SkinDimple::press(const SkinPush& push) {
   double share = 0;
   for (int k = 0; k < 3; ++k)
     if (moves(foot.corners[k]))
-      share += foot.weights[k] * own.deflection.at(inPlane(own.tree.points()[foot.corners[k]] - push.p_A)).depth / push.depth;
+      share += foot.weights[k] *
+               own.deflection.at(inPlane(own.tree.points()[foot.corners[k]] - push.p_A)).depth /
+               push.depth;
   const double factor = 1 / std::max(share, kLeastShare);
   own.tree.forVerticesWithin(push.p_A, own.deflection.settings().patch, [&](std::uint32_t i) {
     if (!moves(i)) return;

@@ -8,7 +8,8 @@ namespace palpa::anatomy {
 namespace {
 
 /// Of one triangle, in A; zero where it has no area.
-ShapeOperator ofTriangle(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n, const Vec3& twice_area) {
+ShapeOperator ofTriangle(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n,
+                         const Vec3& twice_area) {
   const Vec3 face = twice_area.normalized(), x = (p[1] - p[0]).normalized(), y = face.cross(x);
   Mat3 A = Mat3::Zero();
   Vec3 b = Vec3::Zero();
@@ -21,10 +22,12 @@ ShapeOperator ofTriangle(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>
   }
   const Vec3 efg = A.ldlt().solve(b);
   if (!efg.allFinite()) return ShapeOperator::Zero();
-  return efg[0] * x * x.transpose() + efg[1] * (x * y.transpose() + y * x.transpose()) + efg[2] * y * y.transpose();
+  return efg[0] * x * x.transpose() + efg[1] * (x * y.transpose() + y * x.transpose()) +
+         efg[2] * y * y.transpose();
 }
 
-/// Carried from the face's plane into the one across n: the axis of the fold stays, the rest is turned.
+/// Carried from the face's plane into the one across n: the axis of the fold stays, the rest is
+/// turned.
 ShapeOperator intoPlane(const ShapeOperator& S, const Vec3& face, const Vec3& n) {
   const Quat turn = Quat::FromTwoVectors(face, n);
   const Mat3 R = turn.toRotationMatrix();

@@ -10,7 +10,8 @@ namespace {
 constexpr int kRings = 3, kPerRing = 6;  // ring r has 6 r points
 constexpr int kSamples = 1 + kPerRing * kRings * (kRings + 1) / 2;
 constexpr int kEnough = 20;
-constexpr double kSameSide = 0.3;  // cosine: a sample whose normal turns away more lies on another sheet
+constexpr double kSameSide =
+    0.3;  // cosine: a sample whose normal turns away more lies on another sheet
 
 using Design = Eigen::Matrix<double, Eigen::Dynamic, SurfacePatch::kTerms, 0, kSamples>;
 using Column = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kSamples>;
@@ -26,7 +27,13 @@ Terms terms(double a, double b) {
 class Samples {
  public:
   Samples(const Vec3& p, const Vec3& x, const Vec3& n, double reach)
-      : p_(p), x_(x), y_(n.cross(x)), n_(n), reach_(reach), A_(kSamples, SurfacePatch::kTerms), h_(kSamples) {}
+      : p_(p),
+        x_(x),
+        y_(n.cross(x)),
+        n_(n),
+        reach_(reach),
+        A_(kSamples, SurfacePatch::kTerms),
+        h_(kSamples) {}
 
   void add(const SurfacePoint& s) {
     const Vec3 q = (s.p_A - p_) / reach_;
@@ -49,7 +56,8 @@ class Samples {
 
 }  // namespace
 
-SurfacePatch fitSurfacePatch(const SurfaceQuery& query, int surface, const Vec3& near_A, double reach) {
+SurfacePatch fitSurfacePatch(const SurfaceQuery& query, int surface, const Vec3& near_A,
+                             double reach) {
   const SurfacePoint centre = query.rounded(surface, near_A);
   const Vec3 n = centre.n_A, x = rotationWithZ(n).col(0), y = n.cross(x);
   SurfacePatch patch;
@@ -64,7 +72,8 @@ SurfacePatch fitSurfacePatch(const SurfaceQuery& query, int surface, const Vec3&
     for (int k = 0; k < kPerRing * ring; ++k) {
       const double turn = 2 * std::numbers::pi * (k + 0.5 * (ring % 2)) / (kPerRing * ring);
       const double out = reach * ring / kRings;
-      samples.add(query.rounded(surface, centre.p_A + out * (std::cos(turn) * x + std::sin(turn) * y)));
+      samples.add(
+          query.rounded(surface, centre.p_A + out * (std::cos(turn) * x + std::sin(turn) * y)));
     }
   if (samples.count() < kEnough) return patch;
   const Terms fitted = samples.solve();

@@ -49,7 +49,8 @@ CurvedPoint SurfaceQuery::curved(int surface, const Vec3& p_A) const {
   const std::vector<ShapeOperator>& shapes = impl_->shapes[surface];
   ShapeOperator S = ShapeOperator::Zero();
   for (int k = 0; k < 3; ++k) S += nearest.weights[k] * shapes[nearest.corners[k]];
-  return {{nearest.p, nearest.normal, nearest.signed_distance}, principalCurvatures(S, nearest.normal)};
+  return {{nearest.p, nearest.normal, nearest.signed_distance},
+          principalCurvatures(S, nearest.normal)};
 }
 
 SurfacePoint SurfaceQuery::rounded(int surface, const Vec3& p_A) const {
@@ -102,13 +103,15 @@ void SurfaceQuery::needle(const Vec3& start_A, const Vec3& tip_A, NeedlePasses* 
   }
 }
 
-SurfacePoint SurfaceQuery::nearSegment(int surface, const Vec3& a_A, const Vec3& b_A, double* s) const {
+SurfacePoint SurfaceQuery::nearSegment(int surface, const Vec3& a_A, const Vec3& b_A,
+                                       double* s) const {
   const TriangleTree::SegmentDistance near = impl_->trees.at(surface).nearSegment(a_A, b_A);
   if (s) *s = near.s;
   return {near.p, near.normal, near.signed_distance};
 }
 
-int SurfaceQuery::nearMisses(const Vec3& tip_A, const Vec3& back_A, std::span<NearMiss> misses) const {
+int SurfaceQuery::nearMisses(const Vec3& tip_A, const Vec3& back_A,
+                             std::span<NearMiss> misses) const {
   const int count = std::min(surfaces(), static_cast<int>(misses.size()));
   for (int i = 0; i < count; ++i) {
     const SurfacePoint tip = closest(i, tip_A);
@@ -124,7 +127,8 @@ int SurfaceQuery::nearMisses(const Vec3& tip_A, const Vec3& back_A, std::span<Ne
   return count;
 }
 
-SurfaceQuery::TangentPlane SurfaceQuery::tangentPlane(int surface, const Vec3& p_A, double reach) const {
+SurfaceQuery::TangentPlane SurfaceQuery::tangentPlane(int surface, const Vec3& p_A,
+                                                      double reach) const {
   const SurfacePoint near = closest(surface, p_A);
   const PlaneFit fit = fitPlaneTo(impl_->trees[surface], near.p_A, near.n_A, reach);
   return {near.p_A, fit.n, fit.rms};

@@ -13,7 +13,8 @@ struct Parameters {
 /// Nearest points of a + s u and c + t v, 0 <= s, t <= 1 (Ericson 5.1.9).
 Parameters nearestOfSegments(const Vec3& a, const Vec3& u, const Vec3& c, const Vec3& v) {
   const Vec3 r = a - c;
-  const double uu = u.squaredNorm(), vv = v.squaredNorm(), vr = v.dot(r), ur = u.dot(r), uv = u.dot(v);
+  const double uu = u.squaredNorm(), vv = v.squaredNorm(), vr = v.dot(r), ur = u.dot(r),
+               uv = u.dot(v);
   if (!(uu > 0)) return {0, vv > 0 ? std::clamp(vr / vv, 0.0, 1.0) : 0};
   if (!(vv > 0)) return {std::clamp(-ur / uu, 0.0, 1.0), 0};
   const double across = uu * vv - uv * uv;
@@ -50,7 +51,8 @@ SegmentToTriangle segmentToTriangle(const Vec3& a, const Vec3& b, const std::arr
   const auto at = [&](const Vec3& w) { return Vec3(w[0] * t[0] + w[1] * t[1] + w[2] * t[2]); };
   best.squared = (at(best.weights) - a).squaredNorm();
   const Vec3 from_b = closestWeights(b, t[0], t[1], t[2]);
-  if (const double squared = (at(from_b) - b).squaredNorm(); squared < best.squared) best = {squared, 1, from_b};
+  if (const double squared = (at(from_b) - b).squaredNorm(); squared < best.squared)
+    best = {squared, 1, from_b};
   for (int k = 0; k < 3; ++k) {
     const Vec3 &c = t[k], &d = t[(k + 1) % 3];
     const Parameters near = nearestOfSegments(a, way, c, d - c);

@@ -16,8 +16,9 @@ struct SegmentToTriangle {
   double s;        ///< 0..1 along the segment
   Vec3 weights;    ///< barycentric
 };
-/// Exact: the least of crossing (0), both ends against the face, and the segment against the three edges
-/// (Ericson 5.1.9, 5.1.10). A segment of no length is a point.
-SegmentToTriangle segmentToTriangle(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& triangle);
+/// Exact: the least of crossing (0), both ends against the face, and the segment against the three
+/// edges (Ericson 5.1.9, 5.1.10). A segment of no length is a point.
+SegmentToTriangle segmentToTriangle(const Vec3& a, const Vec3& b,
+                                    const std::array<Vec3, 3>& triangle);
 
 }  // namespace palpa::anatomy

@@ -9,10 +9,10 @@
 namespace palpa::anatomy {
 
 /// Bounding volume hierarchy over one mesh: exact closest point to a point or a segment and all ray
-/// crossings, in the mesh's unit. Nodes of four boxes in single precision, widened so that nothing is
-/// missed; split by the surface-area heuristic (Wald 2007); the triangles' corners lie beside each other in leaf
-/// order, in double precision, and every answer is computed from them. Immutable; queries use only
-/// the stack, so threads may share it.
+/// crossings, in the mesh's unit. Nodes of four boxes in single precision, widened so that nothing
+/// is missed; split by the surface-area heuristic (Wald 2007); the triangles' corners lie beside
+/// each other in leaf order, in double precision, and every answer is computed from them.
+/// Immutable; queries use only the stack, so threads may share it.
 class TriangleTree {
  public:
   explicit TriangleTree(const TriangleMesh& mesh);
@@ -32,7 +32,8 @@ class TriangleTree {
   Closest rounded(const Vec3& p) const;
 
   struct SegmentDistance {
-    double signed_distance;  ///< 0 where the segment meets the surface; negative where all of it is inside
+    double signed_distance;  ///< 0 where the segment meets the surface; negative where all of it is
+                             ///< inside
     double s;                ///< 0..1: the segment's nearest point a + s (b - a)
     Vec3 p;                  ///< the surface's
     Vec3 normal;             ///< interpolated there, unit
@@ -45,12 +46,14 @@ class TriangleTree {
     Vec3 normal;
     bool entering;
   };
-  /// The crossings of start + s * direction (unit), 0 <= s <= length, unordered; one that runs through an edge
-  /// or a vertex shared by several triangles counts once. Writes at most `room` of them and returns how many it
-  /// wrote; `*lost` is set when there were more.
-  int cast(const Vec3& start, const Vec3& direction, double length, Crossing* crossings, int room, bool* lost) const;
+  /// The crossings of start + s * direction (unit), 0 <= s <= length, unordered; one that runs
+  /// through an edge or a vertex shared by several triangles counts once. Writes at most `room` of
+  /// them and returns how many it wrote; `*lost` is set when there were more.
+  int cast(const Vec3& start, const Vec3& direction, double length, Crossing* crossings, int room,
+           bool* lost) const;
 
-  /// Calls f(vertex) for every vertex of a triangle within `reach` of `centre`, each once, always in the same order.
+  /// Calls f(vertex) for every vertex of a triangle within `reach` of `centre`, each once, always
+  /// in the same order.
   template <class F>
   void forVerticesWithin(const Vec3& centre, double reach, F f) const;
 
@@ -74,7 +77,8 @@ class TriangleTree {
       return sum;
     }
   };
-  // A child is a node's index, or a leaf: a flag, how many triangles it has, and the first one's index.
+  // A child is a node's index, or a leaf: a flag, how many triangles it has, and the first one's
+  // index.
   static constexpr std::uint32_t kLeaf = 1u << 31, kFirst = (1u << 28) - 1;
   static constexpr int kCountShift = 28;
   static std::uint32_t leafBegin(std::uint32_t child) { return child & kFirst; }
@@ -96,9 +100,9 @@ class TriangleTree {
   Vec3 interpolated(std::uint32_t triangle, const Vec3& weights) const;
 
   std::vector<Vec3> points_, normals_;
-  std::vector<Corners> triangles_;              ///< in leaf order
-  std::vector<std::array<Vec3, 3>> corners_;    ///< their points
-  std::vector<std::uint8_t> first_use_;         ///< bit k: no earlier triangle has corner k
+  std::vector<Corners> triangles_;            ///< in leaf order
+  std::vector<std::array<Vec3, 3>> corners_;  ///< their points
+  std::vector<std::uint8_t> first_use_;       ///< bit k: no earlier triangle has corner k
   std::vector<Node> nodes_;
   Eigen::AlignedBox3d bounds_;
   Vec3 centre_ = Vec3::Zero();
@@ -106,9 +110,9 @@ class TriangleTree {
   std::vector<std::array<Vec3, 3>> edge_pseudonormals_;  ///< edge k runs from corner k to k + 1
 };
 
-/// Point of the cubic Bezier triangle over a facet (Vlachos et al. 2001, "curved PN triangles"): it meets
-/// the corners p with the normals n, so that a coarse mesh of a smooth shape errs with the fourth
-/// power of its edges, not the second. `weights` barycentric.
+/// Point of the cubic Bezier triangle over a facet (Vlachos et al. 2001, "curved PN triangles"): it
+/// meets the corners p with the normals n, so that a coarse mesh of a smooth shape errs with the
+/// fourth power of its edges, not the second. `weights` barycentric.
 Vec3 roundedPoint(const std::array<Vec3, 3>& p, const std::array<Vec3, 3>& n, const Vec3& weights);
 
 }  // namespace palpa::anatomy

@@ -12,7 +12,8 @@ constexpr std::uint32_t kLeafSize = 6;
 constexpr int kBins = 16;
 constexpr int kUneven = 24;  // levels; below, ranges are halved: at most 15 levels more
 
-// Of the largest coordinate about the middle: single precision rounds boxes and queries by less than this.
+// Of the largest coordinate about the middle: single precision rounds boxes and queries by less
+// than this.
 constexpr double kMargin = 4 * 6e-8;
 
 double area(const Box& box) {
@@ -26,7 +27,8 @@ struct Bins {
   std::array<std::uint32_t, kBins> count{};
 };
 
-/// Bin after which to cut, and what that costs: area times number, both sides. -1 when one side is always empty.
+/// Bin after which to cut, and what that costs: area times number, both sides. -1 when one side is
+/// always empty.
 std::pair<int, double> cheapest(const Bins& bins) {
   std::array<double, kBins> right{};
   Box box;
@@ -71,7 +73,8 @@ TriangleTreeBuilder::TriangleTreeBuilder(TriangleTree& tree) : tree_(tree) {
 
 Box TriangleTreeBuilder::boxOf(const Range& range) const {
   Box box;
-  for (std::uint32_t i = range.first; i < range.first + range.count; ++i) box.extend(boxes_[order_[i]]);
+  for (std::uint32_t i = range.first; i < range.first + range.count; ++i)
+    box.extend(boxes_[order_[i]]);
   return box;
 }
 
@@ -79,8 +82,9 @@ std::uint32_t TriangleTreeBuilder::build(Range range, int level) {
   std::array<Range, 4> parts{range};
   int count = range.count > 0 ? 1 : 0;
   while (count > 0 && count < 4) {
-    const auto largest = std::max_element(parts.begin(), parts.begin() + count,
-                                          [](const Range& a, const Range& b) { return a.count < b.count; });
+    const auto largest =
+        std::max_element(parts.begin(), parts.begin() + count,
+                         [](const Range& a, const Range& b) { return a.count < b.count; });
     if (largest->count <= kLeafSize) break;
     parts[count] = cut(&*largest, level);
     ++count;
@@ -115,7 +119,8 @@ std::uint32_t TriangleTreeBuilder::build(Range range, int level) {
 /// Leaves the first part in `range` and returns the rest.
 TriangleTreeBuilder::Range TriangleTreeBuilder::cut(Range* range, int level) {
   Box centres;
-  for (std::uint32_t i = range->first; i < range->first + range->count; ++i) centres.extend(centres_[order_[i]]);
+  for (std::uint32_t i = range->first; i < range->first + range->count; ++i)
+    centres.extend(centres_[order_[i]]);
   std::uint32_t kept = level < kUneven ? bestCut(*range, centres) : 0;
   if (kept == 0) kept = halve(*range, centres);
   const Range rest{range->first + kept, range->count - kept};

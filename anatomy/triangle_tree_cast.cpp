@@ -35,8 +35,8 @@ struct Hit {
   bool entering = false;
 };
 
-/// Weights as volumes with the ray; the depth is interpolated from the corners, which stays right for slivers,
-/// where a division by the normal would not.
+/// Weights as volumes with the ray; the depth is interpolated from the corners, which stays right
+/// for slivers, where a division by the normal would not.
 bool hitsTriangle(const std::array<Vec3, 3>& t, const Ray& ray, Hit* hit) {
   const Vec3 a = t[0] - ray.start, b = t[1] - ray.start, c = t[2] - ray.start;
   const Vec3& d = ray.direction;
@@ -54,8 +54,8 @@ bool hitsTriangle(const std::array<Vec3, 3>& t, const Ray& ray, Hit* hit) {
 
 }  // namespace
 
-int TriangleTree::cast(const Vec3& start, const Vec3& direction, double length, Crossing* crossings, int room,
-                       bool* lost) const {
+int TriangleTree::cast(const Vec3& start, const Vec3& direction, double length, Crossing* crossings,
+                       int room, bool* lost) const {
   const Ray ray{start - centre_, direction, direction.cwiseInverse(), length};
   const Ray exact{start, direction, ray.inverse, length};
   const double same = 1e-9 * (1 + length);  // two crossings closer than this are one

@@ -44,9 +44,12 @@ void TriangleTree::makePseudonormals() {
   std::sort(uses.begin(), uses.end());
   for (std::size_t begin = 0, end = 0; begin < uses.size(); begin = end) {
     Vec3 sum = Vec3::Zero();
-    for (; end < uses.size() && uses[end].low == uses[begin].low && uses[end].high == uses[begin].high; ++end)
+    for (; end < uses.size() && uses[end].low == uses[begin].low &&
+           uses[end].high == uses[begin].high;
+         ++end)
       sum += face_normals_[uses[end].triangle];
-    for (std::size_t use = begin; use < end; ++use) edge_pseudonormals_[uses[use].triangle][uses[use].k] = sum;
+    for (std::size_t use = begin; use < end; ++use)
+      edge_pseudonormals_[uses[use].triangle][uses[use].k] = sum;
   }
 }
 

@@ -7,7 +7,8 @@
 namespace palpa::anatomy {
 namespace {
 
-// Single precision rounds a box's distance from the segment by less than this part of the coordinates.
+// Single precision rounds a box's distance from the segment by less than this part of the
+// coordinates.
 constexpr float kSlack = 1e-6f;
 
 float limitAbove(double squared) { return static_cast<float>(squared * (1 + 1e-5)); }
@@ -20,12 +21,16 @@ TriangleTree::SegmentDistance TriangleTree::nearSegment(const Vec3& a, const Vec
   const float inverse = way.squaredNorm() > 0 ? 1 / way.squaredNorm() : 0;
   const float size = from.cwiseAbs().maxCoeff() + to.cwiseAbs().maxCoeff() +
                      static_cast<float>(bounds_.sizes().maxCoeff());
-  // The larger of two lower bounds: from the segment's own box, and from the sphere about the node's box.
+  // The larger of two lower bounds: from the segment's own box, and from the sphere about the
+  // node's box.
   const auto bound = [&](const Node& node) {
     Lanes apart = Lanes::Zero(), along = Lanes::Zero(), radius = Lanes::Zero();
     Lanes middle[3];
     for (int axis = 0; axis < 3; ++axis) {
-      apart += (node.low[axis] - high[axis]).max(low[axis] - node.high[axis]).max(Lanes::Zero()).square();
+      apart += (node.low[axis] - high[axis])
+                   .max(low[axis] - node.high[axis])
+                   .max(Lanes::Zero())
+                   .square();
       middle[axis] = 0.5f * (node.low[axis] + node.high[axis]) - from[axis];
       radius += (0.5f * (node.high[axis] - node.low[axis])).square();
       along += middle[axis] * way[axis];
@@ -36,7 +41,8 @@ TriangleTree::SegmentDistance TriangleTree::nearSegment(const Vec3& a, const Vec
     const Lanes sphere = off.sqrt() - radius.sqrt();
     Lanes least = (apart.sqrt().max(sphere) - kSlack * size).max(Lanes::Zero()).square();
     for (int lane = 0; lane < 4; ++lane)  // a lane without a child
-      if (!(node.low[0][lane] <= node.high[0][lane])) least[lane] = std::numeric_limits<float>::infinity();
+      if (!(node.low[0][lane] <= node.high[0][lane]))
+        least[lane] = std::numeric_limits<float>::infinity();
     return least;
   };
   // No farther than its beginning: what is farther than that need not be looked at.

@@ -6,11 +6,13 @@
 
 namespace palpa::anatomy {
 
-/// The room that a walk needs: a level adds at most three, and TriangleTreeBuilder keeps below these levels.
+/// The room that a walk needs: a level adds at most three, and TriangleTreeBuilder keeps below
+/// these levels.
 inline constexpr int kTreeLevels = 64, kTreeStack = 3 * kTreeLevels + 4;
 
-/// Nearest boxes first. `bound(node)` gives a lower bound for each of the four children, `leaf(child, limit)`
-/// looks at the triangles of one and returns the limit from then on; what is not below the limit is left out.
+/// Nearest boxes first. `bound(node)` gives a lower bound for each of the four children,
+/// `leaf(child, limit)` looks at the triangles of one and returns the limit from then on; what is
+/// not below the limit is left out.
 template <class Bound, class Leaf>
 void TriangleTree::descend(Bound bound, Leaf leaf, float limit) const {
   struct Open {
@@ -49,7 +51,8 @@ void TriangleTree::forVerticesWithin(const Vec3& centre, double reach, F f) cons
   const auto leaf = [&](std::uint32_t child, float limit) {
     for (std::uint32_t i = leafBegin(child); i < leafEnd(child); ++i)
       for (int k = 0; k < 3; ++k)
-        if ((first_use_[i] >> k & 1) && (corners_[i][k] - centre).squaredNorm() < reach2) f(triangles_[i][k]);
+        if ((first_use_[i] >> k & 1) && (corners_[i][k] - centre).squaredNorm() < reach2)
+          f(triangles_[i][k]);
     return limit;
   };
   descend(bound, leaf, static_cast<float>(reach2 * (1 + 1e-6)) + std::numeric_limits<float>::min());

@@ -53,7 +53,9 @@ TubeFit fitTubeTo(const TriangleTree& tree, const Vec3& centre, double reach) {
   Mat3 R;  // third column: the axis
   R << eigen.eigenvectors().col(1), eigen.eigenvectors().col(2), eigen.eigenvectors().col(0);
   if (R(0, 2) < 0) R.col(2) = -R.col(2);
-  const auto local = [&](std::uint32_t i) { return Vec3(R.transpose() * (points[i] - centre) / reach); };
+  const auto local = [&](std::uint32_t i) {
+    return Vec3(R.transpose() * (points[i] - centre) / reach);
+  };
 
   Mat3 sums = Mat3::Zero();
   Vec3 right = Vec3::Zero();

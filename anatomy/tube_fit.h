@@ -16,7 +16,8 @@ struct TubeFit {
 /// normals (those of a tube are perpendicular to it); the circle solves |q|^2 = 2 c.q + e in the
 /// plane across, by linear least squares (Kasa 1976), radius^2 = e + |c|^2. The ends are the
 /// outermost of the vertices used. Not ok with fewer than 8 vertices or where no circle fits.
-/// Three walks over those vertices, nothing kept: no allocation, and the cost knows only how many are near.
+/// Three walks over those vertices, nothing kept: no allocation, and the cost knows only how many
+/// are near.
 TubeFit fitTubeTo(const TriangleTree& tree, const Vec3& centre, double reach);
 
 }  // namespace palpa::anatomy

@@ -27,7 +27,8 @@ class Board {
   /// any other kind of picture.
   virtual std::vector<BoardPoint> detect(const cv::Mat& image) const = 0;
   virtual std::string describe() const = 0;
-  /// So many points in one plane are not found by chance; a board that shows fewer is believed only where it is expected.
+  /// So many points in one plane are not found by chance; a board that shows fewer is believed only
+  /// where it is expected.
   virtual int leastPoints() const { return 8; }
 };
 
@@ -85,9 +86,11 @@ struct Tag {
 };
 std::vector<Tag> detectTags(const cv::Mat& gray, double decimate = 1.0);
 
-/// Families of tags that are not ours: "tag16h5", "tag25h9", "tag36h10", "tagCircle21h7", "tagStandard41h12".
+/// Families of tags that are not ours: "tag16h5", "tag25h9", "tag36h10", "tagCircle21h7",
+/// "tagStandard41h12".
 const std::vector<std::string>& foreignTagFamilies();
-/// One of their tags with its white border, a pixel a cell. Throws UsageError for another name or an id that the family does not have.
+/// One of their tags with its white border, a pixel a cell. Throws UsageError for another name or
+/// an id that the family does not have.
 cv::Mat drawForeignTag(const std::string& family, int id);
 
 /// The grid as a picture (white margin of one spacing), `px_per_m` pixels a metre, for print and

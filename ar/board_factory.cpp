@@ -27,8 +27,12 @@ struct Maker {
 
 struct SheetMaker {
   Sheet operator()(const TagGridSpec& spec) const { return sheetOf(spec); }
-  Sheet operator()(const ChessboardSpec& spec) const { return chessboardSheet(spec.inner_corners, spec.square); }
-  Sheet operator()(const SingleTagSpec& spec) const { return sheetOf(TagGridSpec{1, 1, spec.tag_size, spec.tag_size / 4, 0}); }
+  Sheet operator()(const ChessboardSpec& spec) const {
+    return chessboardSheet(spec.inner_corners, spec.square);
+  }
+  Sheet operator()(const SingleTagSpec& spec) const {
+    return sheetOf(TagGridSpec{1, 1, spec.tag_size, spec.tag_size / 4, 0});
+  }
   Sheet operator()(const CharucoSpec& spec) const { return sheetOf(spec); }
 };
 
@@ -44,6 +48,8 @@ std::unique_ptr<Board> makeBoard(const std::string& spec, double decimate) {
 
 Sheet sheetOf(const std::string& spec) { return std::visit(SheetMaker{}, parseBoardSpec(spec)); }
 
-cv::Mat drawBoard(const std::string& spec, double px_per_m) { return pictureOf(sheetOf(spec), px_per_m); }
+cv::Mat drawBoard(const std::string& spec, double px_per_m) {
+  return pictureOf(sheetOf(spec), px_per_m);
+}
 
 }  // namespace palpa::ar

@@ -121,7 +121,9 @@ std::vector<RefinedPose> refinedSolutions(const std::vector<BoardPoint>& points,
 std::vector<RefinedPose> differentOnes(const std::vector<RefinedPose>& solutions) {
   std::vector<RefinedPose> different;
   for (const RefinedPose& one : solutions)
-    if (different.empty() || (different.size() == 1 && !one.X_CW.isApprox(different[0].X_CW, kSameSolution))) different.push_back(one);
+    if (different.empty() ||
+        (different.size() == 1 && !one.X_CW.isApprox(different[0].X_CW, kSameSolution)))
+      different.push_back(one);
   return different;
 }
 
@@ -140,7 +142,8 @@ std::vector<BoardPose> estimateBoardPoses(const std::vector<BoardPoint>& points,
     pose.X_CW = solutions[i].X_CW;
     pose.covariance = pixel_sigma * pixel_sigma * solutions[i].information.inverse();
     pose.rms_px = solutions[i].rms_px;
-    pose.rms_other_px = solutions.size() > 1 ? solutions[1 - i].rms_px : std::numeric_limits<double>::infinity();
+    pose.rms_other_px =
+        solutions.size() > 1 ? solutions[1 - i].rms_px : std::numeric_limits<double>::infinity();
     pose.points = int(used.size());
     pose.rejected = int(points.size() - used.size());
     poses.push_back(pose);

@@ -34,7 +34,8 @@ std::optional<BoardPose> estimateBoardPose(const std::vector<BoardPoint>& points
                                            const calibration::CameraModel& camera,
                                            double pixel_sigma = 0.2);
 
-/// The same, and after it the second solution where there is one: small or distant boards fit nearly as well tilted the other way.
+/// The same, and after it the second solution where there is one: small or distant boards fit
+/// nearly as well tilted the other way.
 std::vector<BoardPose> estimateBoardPoses(const std::vector<BoardPoint>& points,
                                           const calibration::CameraModel& camera,
                                           double pixel_sigma = 0.2);

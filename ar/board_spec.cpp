@@ -12,7 +12,8 @@ namespace {
   throw UsageError(what, "board '" + spec + "'",
                    "Known are tags:COLUMNSxROWS:SIZE:GAP[:FIRST_ID] (tags:6x4:0.030:0.0075), "
                    "aprilgrid:COLUMNSxROWS:SIZE:GAP/SIZE[:BORDER_BITS] (aprilgrid:6x6:0.088:0.3), "
-                   "chessboard:COLUMNSxROWS:SQUARE[:HALF_WINDOW_PX] counting inner corners (chessboard:9x6:0.025), "
+                   "chessboard:COLUMNSxROWS:SQUARE[:HALF_WINDOW_PX] counting inner corners "
+                   "(chessboard:9x6:0.025), "
                    "charuco:COLUMNSxROWS:SQUARE:MARKER[:DICTIONARY] counting squares "
                    "(charuco:7x5:0.030:0.022:DICT_5X5_100), tag36h11:SIZE (tag36h11:0.05), and "
                    "files FILE.json (ours) and FILE.yaml (Kalibr's); lengths in metres.");
@@ -88,7 +89,8 @@ BoardSpec parseBoardSpec(const std::string& word) {
   if (kind == "aprilgrid" && four_or_five) return aprilGridSpec(parts, word);
   if (kind == "charuco" && four_or_five) return charucoSpec(parts, word);
   if (kind == "chessboard" && (three || parts.size() == 4))
-    return ChessboardSpec{counts(parts[1], word), length(parts[2], word), three ? 0 : parse<int>(parts[3], word)};
+    return ChessboardSpec{counts(parts[1], word), length(parts[2], word),
+                          three ? 0 : parse<int>(parts[3], word)};
   if (kind == "tag36h11" && parts.size() == 2) return SingleTagSpec{length(parts[1], word)};
   for (const char* known : {"tags", "aprilgrid", "charuco", "chessboard", "tag36h11"})
     if (kind == known) refuse(word, "has too few or too many parts");

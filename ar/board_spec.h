@@ -10,7 +10,7 @@ namespace palpa::ar {
 
 struct ChessboardSpec {
   cv::Size inner_corners;
-  double square = 0;  ///< metres
+  double square = 0;       ///< metres
   int half_window_px = 0;  ///< 0: what suits the board
 };
 

@@ -9,7 +9,8 @@ void drawSquares(const CharucoSpec& spec, Sheet* sheet) {
   for (int row = 0; row < spec.rows; ++row)
     for (int col = 0; col < spec.columns; ++col)
       if ((row + col) % 2 == 0)
-        sheet->black.push_back({left + col * spec.square, top - (row + 1) * spec.square, spec.square, spec.square});
+        sheet->black.push_back(
+            {left + col * spec.square, top - (row + 1) * spec.square, spec.square, spec.square});
 }
 
 /// `left`, `top`: in W.

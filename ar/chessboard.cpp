@@ -107,7 +107,8 @@ Chessboard::Chessboard(cv::Size inner_corners, double square, int half_window_px
         "a chessboard needs 3 to 100 inner corners each way, not as many columns as rows",
         "chessboard", "Count the corners where four squares meet, as in 9x6.");
   if (half_window_px < 0 || half_window_px > 50)
-    throw UsageError("the window must be 0 to 50 px", "chessboard", "Leave it out: it is then fitted to the board.");
+    throw UsageError("the window must be 0 to 50 px", "chessboard",
+                     "Leave it out: it is then fitted to the board.");
   if (!(square >= 0.0005 && square <= 2))
     throw UsageError("the square must be 0.0005 to 2 m", "chessboard", "Give metres, as in 0.025.");
 }

@@ -17,8 +17,9 @@ namespace palpa::ar {
 /// after a quarter turn.
 class Chessboard : public Board {
  public:
-  /// `half_window_px`: half the side of the square in which a corner is located, as other programs let it be given; 0: three
-  /// tenths of the smallest distance between corners, so that it never reaches past a neighbouring edge.
+  /// `half_window_px`: half the side of the square in which a corner is located, as other programs
+  /// let it be given; 0: three tenths of the smallest distance between corners, so that it never
+  /// reaches past a neighbouring edge.
   Chessboard(cv::Size inner_corners, double square, int half_window_px = 0);
   std::vector<BoardPoint> detect(const cv::Mat& image) const override;
   std::string describe() const override;

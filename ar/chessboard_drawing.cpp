@@ -8,9 +8,10 @@ Sheet chessboardSheet(cv::Size inner_corners, double square) {
   Sheet sheet{"chessboard", (squares + Eigen::Vector2d(2, 2)) * square, square, {}};
   for (int row = 0; row <= inner_corners.height; ++row)
     for (int col = 0; col <= inner_corners.width; ++col)
-      if ((row + col) % 2 == 0) sheet.black.push_back({(col - squares.x() / 2) * square, (row - squares.y() / 2) * square, square, square});
+      if ((row + col) % 2 == 0)
+        sheet.black.push_back(
+            {(col - squares.x() / 2) * square, (row - squares.y() / 2) * square, square, square});
   return sheet;
 }
-
 
 }  // namespace palpa::ar

@@ -5,13 +5,13 @@
 namespace palpa::ar {
 namespace {
 
-constexpr int kBlack = 12;                         // gray levels
+constexpr int kBlack = 12;  // gray levels
 constexpr std::size_t kStep = 7;
 constexpr std::int64_t kFrozenFor_ns = 500'000'000;
 constexpr int kFrozenPictures = 5;
 
 struct Samples {
-  std::uint64_t fingerprint = 0xcbf29ce484222325ull;   // FNV-1a
+  std::uint64_t fingerprint = 0xcbf29ce484222325ull;  // FNV-1a
   std::array<std::size_t, 256> histogram{};
   std::size_t count = 0;
 };
@@ -32,7 +32,8 @@ Samples samplesOf(const cv::Mat& image) {
 
 bool isBlack(const Samples& s) {
   std::size_t bright = 0;
-  for (std::size_t level = kBlack; level < s.histogram.size(); ++level) bright += s.histogram[level];
+  for (std::size_t level = kBlack; level < s.histogram.size(); ++level)
+    bright += s.histogram[level];
   return bright * 100 < s.count;
 }
 
@@ -48,7 +49,8 @@ PictureFault PictureHealth::judge(const cv::Mat& image, std::int64_t t_ns) {
   }
   ++same_;
   if (isBlack(samples)) return PictureFault::black;
-  return same_ >= kFrozenPictures && t_ns - since_ns_ >= kFrozenFor_ns ? PictureFault::frozen : PictureFault::none;
+  return same_ >= kFrozenPictures && t_ns - since_ns_ >= kFrozenFor_ns ? PictureFault::frozen
+                                                                       : PictureFault::none;
 }
 
 }  // namespace palpa::ar

@@ -8,8 +8,9 @@ namespace palpa::ar {
 /// What can be wrong with a picture or with where it comes from.
 enum class PictureFault { none, black, frozen, wrong_size, gone, ended };
 
-/// Judges picture after picture of one camera. black: the brightest hundredth is darker than `kBlack`. frozen: bit for bit the same as the ones before for
-/// half a second and five pictures; a sensor's noise never is. Samples every 7th pixel.
+/// Judges picture after picture of one camera. black: the brightest hundredth is darker than
+/// `kBlack`. frozen: bit for bit the same as the ones before for half a second and five pictures; a
+/// sensor's noise never is. Samples every 7th pixel.
 class PictureHealth {
  public:
   explicit PictureHealth(cv::Size expected) : expected_(expected) {}
@@ -18,7 +19,7 @@ class PictureHealth {
  private:
   cv::Size expected_;
   std::uint64_t fingerprint_ = 0;
-  std::int64_t since_ns_ = 0;   ///< first of the same pictures
+  std::int64_t since_ns_ = 0;  ///< first of the same pictures
   int same_ = 0;
 };
 

@@ -20,7 +20,8 @@ Mat33 singerTransition(double dt, double memory) {
   return F;
 }
 
-/// For an acceleration of unit standard deviation: the integral of F(s) g g' F(s)' 2 / memory over s from 0 to dt, g = (0, 0, 1); Simpson's rule.
+/// For an acceleration of unit standard deviation: the integral of F(s) g g' F(s)' 2 / memory over
+/// s from 0 to dt, g = (0, 0, 1); Simpson's rule.
 Mat33 singerNoise(double dt, double memory) {
   constexpr int kIntervals = 8;
   Mat33 Q = Mat33::Zero();
@@ -42,7 +43,8 @@ Vector6 perKind(double of_turn, double of_shift) {
 Matrix18 forAllAxes(const Mat33& m, const Vector6& scale) {
   Matrix18 all;
   for (int i = 0; i < 3; ++i)
-    for (int j = 0; j < 3; ++j) all.block<6, 6>(6 * i, 6 * j) = m(i, j) * Matrix6(scale.asDiagonal());
+    for (int j = 0; j < 3; ++j)
+      all.block<6, 6>(6 * i, 6 * j) = m(i, j) * Matrix6(scale.asDiagonal());
   return all;
 }
 
@@ -50,12 +52,14 @@ Matrix18 forAllAxes(const Mat33& m, const Vector6& scale) {
 
 Vector6 difference(const Pose& a, const Pose& b) {
   Vector6 d;
-  d << calibration::rotationVector(a.linear() * b.linear().transpose()), a.translation() - b.translation();
+  d << calibration::rotationVector(a.linear() * b.linear().transpose()),
+      a.translation() - b.translation();
   return d;
 }
 
 Pose stepped(const Pose& X, const Vector6& step) {
-  const Mat3 R = Quat(calibration::rotationOf(step.head<3>()) * X.linear()).normalized().toRotationMatrix();
+  const Mat3 R =
+      Quat(calibration::rotationOf(step.head<3>()) * X.linear()).normalized().toRotationMatrix();
   return makePose(R, X.translation() + step.tail<3>());
 }
 
@@ -64,7 +68,8 @@ PoseMotion predicted(const PoseMotion& motion, const MotionModel& model, double 
   if (model.still) {
     next.X = motion.X;
     next.covariance.topLeftCorner<6, 6>() = motion.covariance.topLeftCorner<6, 6>();
-    next.covariance.topLeftCorner<6, 6>().diagonal() += dt * perKind(model.walk_rad, model.walk_m).cwiseAbs2();
+    next.covariance.topLeftCorner<6, 6>().diagonal() +=
+        dt * perKind(model.walk_rad, model.walk_m).cwiseAbs2();
     return next;
   }
   const Mat33 F = singerTransition(dt, model.memory);
@@ -73,18 +78,22 @@ PoseMotion predicted(const PoseMotion& motion, const MotionModel& model, double 
   next.acceleration = F(2, 2) * motion.acceleration;
   const Matrix18 F_all = forAllAxes(F, Vector6::Ones());
   next.covariance = F_all * motion.covariance * F_all.transpose() +
-                    forAllAxes(singerNoise(dt, model.memory), perKind(model.acceleration_rad, model.acceleration_m).cwiseAbs2());
+                    forAllAxes(singerNoise(dt, model.memory),
+                               perKind(model.acceleration_rad, model.acceleration_m).cwiseAbs2());
   return next;
 }
 
-PoseMotion updated(const PoseMotion& motion, const Pose& X_measured, const Matrix6& covariance, double* log_likelihood) {
+PoseMotion updated(const PoseMotion& motion, const Pose& X_measured, const Matrix6& covariance,
+                   double* log_likelihood) {
   const Vector6 innovation = difference(X_measured, motion.X);
   const Matrix6 S = motion.covariance.topLeftCorner<6, 6>() + covariance;
   const Eigen::LLT<Matrix6> llt(S);
-  const Eigen::Matrix<double, 18, 6> K = llt.solve(motion.covariance.leftCols<6>().transpose()).transpose();
+  const Eigen::Matrix<double, 18, 6> K =
+      llt.solve(motion.covariance.leftCols<6>().transpose()).transpose();
   const Eigen::Matrix<double, 18, 1> step = K * innovation;
   if (log_likelihood)
-    *log_likelihood = -0.5 * innovation.dot(llt.solve(innovation)) - Matrix6(llt.matrixL()).diagonal().array().log().sum();
+    *log_likelihood = -0.5 * innovation.dot(llt.solve(innovation)) -
+                      Matrix6(llt.matrixL()).diagonal().array().log().sum();
   PoseMotion next;
   next.X = stepped(motion.X, step.head<6>());
   next.rate = motion.rate + step.segment<6>(6);
@@ -96,7 +105,8 @@ PoseMotion updated(const PoseMotion& motion, const Pose& X_measured, const Matri
 
 double surprise(const PoseMotion& motion, const Pose& X_measured, const Matrix6& covariance) {
   const Vector6 innovation = difference(X_measured, motion.X);
-  return innovation.dot((motion.covariance.topLeftCorner<6, 6>() + covariance).llt().solve(innovation));
+  return innovation.dot(
+      (motion.covariance.topLeftCorner<6, 6>() + covariance).llt().solve(innovation));
 }
 
 }  // namespace palpa::ar

@@ -12,7 +12,7 @@ using calibration::CameraModel;
 struct Normal {
   Matrix6 A = Matrix6::Zero();  ///< J^T J
   Vector6 b = Vector6::Zero();  ///< J^T residual
-  double cost = 0;        ///< sum of squares; not a number when a point is behind the camera
+  double cost = 0;              ///< sum of squares; not a number when a point is behind the camera
 };
 
 Normal linearise(const Pose& X_CW, const std::vector<BoardPoint>& points,

@@ -5,13 +5,16 @@
 namespace palpa::ar {
 namespace {
 
-double since(std::int64_t from_ns, std::int64_t to_ns) { return 1e-9 * static_cast<double>(to_ns - from_ns); }
+double since(std::int64_t from_ns, std::int64_t to_ns) {
+  return 1e-9 * static_cast<double>(to_ns - from_ns);
+}
 
 /// `s` of the way from a to b, `dt` apart.
 Pose between(const PoseMotion& a, const PoseMotion& b, double s, double dt) {
   const Vector6 whole = difference(b.X, a.X);
   const double s2 = s * s, s3 = s2 * s;
-  return stepped(a.X, (s3 - 2 * s2 + s) * dt * a.rate + (-2 * s3 + 3 * s2) * whole + (s3 - s2) * dt * b.rate);
+  return stepped(
+      a.X, (s3 - 2 * s2 + s) * dt * a.rate + (-2 * s3 + 3 * s2) * whole + (s3 - s2) * dt * b.rate);
 }
 
 }  // namespace
@@ -19,7 +22,8 @@ Pose between(const PoseMotion& a, const PoseMotion& b, double s, double dt) {
 bool PoseTrack::add(const Pose& X, const Matrix6& covariance, std::int64_t t_ns) {
   const PoseFilter::Taken taken = filter_.update(X, covariance, t_ns);
   if (taken == PoseFilter::Taken::left_out) return false;
-  if (taken == PoseFilter::Taken::started_anew) past_.clear();   // between the other side of a gap or a jump and here no way was gone
+  if (taken == PoseFilter::Taken::started_anew)
+    past_.clear();  // between the other side of a gap or a jump and here no way was gone
   past_.push_back({t_ns, filter_.now()});
   while (since(past_.front().t_ns, t_ns) > settings_.remembers) past_.pop_front();
   return true;
@@ -27,7 +31,8 @@ bool PoseTrack::add(const Pose& X, const Matrix6& covariance, std::int64_t t_ns)
 
 PoseTrack::Answer PoseTrack::at(std::int64_t t_ns) const {
   if (past_.empty() || t_ns < past_.front().t_ns) return {};
-  const auto after = std::upper_bound(past_.begin(), past_.end(), t_ns, [](std::int64_t t, const Entry& e) { return t < e.t_ns; });
+  const auto after = std::upper_bound(past_.begin(), past_.end(), t_ns,
+                                      [](std::int64_t t, const Entry& e) { return t < e.t_ns; });
   const Entry& a = *std::prev(after);
   if (a.t_ns == t_ns) return {Lookup::exact, a.motion.X, a.motion.covariance.topLeftCorner<6, 6>()};
   if (after == past_.end()) {
@@ -38,7 +43,8 @@ PoseTrack::Answer PoseTrack::at(std::int64_t t_ns) const {
   const Entry& b = *after;
   const double dt = since(a.t_ns, b.t_ns), s = since(a.t_ns, t_ns) / dt;
   return {Lookup::interpolated, between(a.motion, b.motion, s, dt),
-          (1 - s) * a.motion.covariance.topLeftCorner<6, 6>() + s * b.motion.covariance.topLeftCorner<6, 6>()};
+          (1 - s) * a.motion.covariance.topLeftCorner<6, 6>() +
+              s * b.motion.covariance.topLeftCorner<6, 6>()};
 }
 
 void PoseTrack::forget() {

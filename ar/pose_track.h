@@ -12,8 +12,8 @@ class PoseTrack {
  public:
   struct Settings {
     PoseFilter::Settings filter;
-    double remembers = 2;             ///< s
-    double longest_prediction = 0.25; ///< s beyond the last pose
+    double remembers = 2;              ///< s
+    double longest_prediction = 0.25;  ///< s beyond the last pose
   };
   PoseTrack() : PoseTrack(Settings{}) {}
   explicit PoseTrack(const Settings& settings) : settings_(settings), filter_(settings.filter) {}
@@ -23,11 +23,13 @@ class PoseTrack {
 
   enum class Lookup { none, exact, interpolated, predicted };
   struct Answer {
-    Lookup how = Lookup::none;        ///< none: before what is remembered, or too long after the last pose
+    Lookup how =
+        Lookup::none;  ///< none: before what is remembered, or too long after the last pose
     Pose X = Pose::Identity();
     Matrix6 covariance = Matrix6::Zero();
   };
-  /// At any time: as it was filtered then, between two such by Hermite's cubic (poses and rates), or foretold.
+  /// At any time: as it was filtered then, between two such by Hermite's cubic (poses and rates),
+  /// or foretold.
   Answer at(std::int64_t t_ns) const;
 
   const PoseFilter& filter() const { return filter_; }
@@ -40,7 +42,7 @@ class PoseTrack {
   };
   Settings settings_;
   PoseFilter filter_;
-  std::deque<Entry> past_;   ///< in the order of time
+  std::deque<Entry> past_;  ///< in the order of time
 };
 
 }  // namespace palpa::ar

@@ -6,7 +6,8 @@
 namespace palpa::ar {
 
 Pose PoseUpsampler::carriedTo(std::int64_t now_ns) const {
-  const double dt = std::clamp(1e-9 * static_cast<double>(now_ns - t_ns_), 0.0, settings_.longest), m = settings_.memory;
+  const double dt = std::clamp(1e-9 * static_cast<double>(now_ns - t_ns_), 0.0, settings_.longest),
+               m = settings_.memory;
   return stepped(X_, dt * rate_ + m * (dt - m * (1 - std::exp(-dt / m))) * acceleration_);
 }
 
@@ -23,7 +24,8 @@ void PoseUpsampler::take(const PoseMotion& motion, std::int64_t t_ns, std::int64
 
 Pose PoseUpsampler::at(std::int64_t now_ns) const {
   if (!started_) return Pose::Identity();
-  const double s = std::clamp(1e-9 * static_cast<double>(now_ns - taken_ns_) / settings_.blend, 0.0, 1.0);
+  const double s =
+      std::clamp(1e-9 * static_cast<double>(now_ns - taken_ns_) / settings_.blend, 0.0, 1.0);
   return stepped(carriedTo(now_ns), (1 - s * s * (3 - 2 * s)) * contradiction_);
 }
 

@@ -6,13 +6,14 @@
 
 namespace palpa::ar {
 
-/// From poses that come now and then a pose for every tick of the haptic loop: each is carried on by its rate and dying acceleration, and where a new one
-/// contradicts what was said before, the difference fades (smoothstep, no step of the pose or of its speed) within `blend`. Never further than
-/// `longest` ahead: then it stands. Allocates nothing.
+/// From poses that come now and then a pose for every tick of the haptic loop: each is carried on
+/// by its rate and dying acceleration, and where a new one contradicts what was said before, the
+/// difference fades (smoothstep, no step of the pose or of its speed) within `blend`. Never further
+/// than `longest` ahead: then it stands. Allocates nothing.
 class PoseUpsampler {
  public:
   struct Settings {
-    double blend = 0.033, longest = 0.1, memory = 0.3;   ///< s
+    double blend = 0.033, longest = 0.1, memory = 0.3;  ///< s
   };
   PoseUpsampler() : PoseUpsampler(Settings{}) {}
   explicit PoseUpsampler(const Settings& settings) : settings_(settings) {}
@@ -30,7 +31,7 @@ class PoseUpsampler {
   bool started_ = false;
   Pose X_ = Pose::Identity();
   Vector6 rate_ = Vector6::Zero(), acceleration_ = Vector6::Zero();
-  Vector6 contradiction_ = Vector6::Zero();   ///< what was said less the new estimate, when it came
+  Vector6 contradiction_ = Vector6::Zero();  ///< what was said less the new estimate, when it came
   std::int64_t t_ns_ = 0, taken_ns_ = 0;
 };
 

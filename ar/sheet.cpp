@@ -28,10 +28,14 @@ void cover(double x0, double x1, double y0, double y1, cv::Mat* share) {
 
 cv::Mat pictureOf(const Sheet& sheet, double px_per_m) {
   if (!(sheet.smallest * px_per_m >= 1 && sheet.size.maxCoeff() * px_per_m <= 30000))
-    throw UsageError("a cell needs at least a pixel and the sheet at most 30000", sheet.what, "Choose another resolution.");
-  cv::Mat share(roundUp(sheet.size.y() * px_per_m), roundUp(sheet.size.x() * px_per_m), CV_32F, 0.0), picture;
+    throw UsageError("a cell needs at least a pixel and the sheet at most 30000", sheet.what,
+                     "Choose another resolution.");
+  cv::Mat share(roundUp(sheet.size.y() * px_per_m), roundUp(sheet.size.x() * px_per_m), CV_32F,
+                0.0),
+      picture;
   for (const Sheet::Black& b : sheet.black) {
-    const double x = share.cols / 2.0 + b.left * px_per_m, y = share.rows / 2.0 - b.bottom * px_per_m;
+    const double x = share.cols / 2.0 + b.left * px_per_m,
+                 y = share.rows / 2.0 - b.bottom * px_per_m;
     cover(x, x + b.width * px_per_m, y - b.height * px_per_m, y, &share);
   }
   share.convertTo(picture, CV_8U, -255, 255);

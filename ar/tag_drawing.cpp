@@ -26,7 +26,8 @@ void drawTag(const apriltag_family_t& family, int id, const TagGridSpec& spec, S
   for (int row = 0; row < n; ++row)
     for (int col = 0; col < n; ++col)
       if (black[std::size_t(row * n + col)])
-        sheet->black.push_back({upper_left.x() + col * cell, upper_left.y() - (row + 1) * cell, cell, cell});
+        sheet->black.push_back(
+            {upper_left.x() + col * cell, upper_left.y() - (row + 1) * cell, cell, cell});
 }
 
 /// One at every crossing of two gaps, the gap round the grid included: each touches the corners of
@@ -35,7 +36,8 @@ void drawCornerSquares(const TagGridSpec& spec, Sheet* sheet) {
   const double pitch = spec.tag_size + spec.spacing;
   for (int row = 0; row <= spec.rows; ++row)
     for (int col = 0; col <= spec.columns; ++col)
-      sheet->black.push_back({(col - spec.columns / 2.0) * pitch - spec.spacing / 2, (row - spec.rows / 2.0) * pitch - spec.spacing / 2, spec.spacing,
+      sheet->black.push_back({(col - spec.columns / 2.0) * pitch - spec.spacing / 2,
+                              (row - spec.rows / 2.0) * pitch - spec.spacing / 2, spec.spacing,
                               spec.spacing});
 }
 
@@ -45,11 +47,14 @@ Sheet sheetOf(const TagGridSpec& spec) {
   validate(spec, "tag grid");
   const TagFamily family = makeTagFamily(spec.border_bits);
   Sheet sheet{"tag grid", sheetSize(spec), spec.tag_size / family->width_at_border, {}};
-  for (int id = spec.first_id; id < spec.first_id + spec.columns * spec.rows; ++id) drawTag(*family, id, spec, &sheet);
+  for (int id = spec.first_id; id < spec.first_id + spec.columns * spec.rows; ++id)
+    drawTag(*family, id, spec, &sheet);
   if (spec.corner_squares) drawCornerSquares(spec, &sheet);
   return sheet;
 }
 
-cv::Mat drawTagGrid(const TagGridSpec& spec, double px_per_m) { return pictureOf(sheetOf(spec), px_per_m); }
+cv::Mat drawTagGrid(const TagGridSpec& spec, double px_per_m) {
+  return pictureOf(sheetOf(spec), px_per_m);
+}
 
 }  // namespace palpa::ar

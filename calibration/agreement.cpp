@@ -14,7 +14,9 @@ constexpr char kAgreementWhere[] = "agreement of two labelings";
 void requireLabels(const std::vector<int>& one, const std::vector<int>& other) {
   if (one.empty()) throw Error("there are no steps", kAgreementWhere, "Label at least one");
   if (one.size() != other.size())
-    throw Error(std::to_string(one.size()) + " steps and " + std::to_string(other.size()) + " are not the same", kAgreementWhere, "Label the same steps in both");
+    throw Error(std::to_string(one.size()) + " steps and " + std::to_string(other.size()) +
+                    " are not the same",
+                kAgreementWhere, "Label the same steps in both");
 }
 
 std::vector<int> labelsIn(std::vector<int> labels) {
@@ -23,12 +25,20 @@ std::vector<int> labelsIn(std::vector<int> labels) {
   return labels;
 }
 
-Eigen::Index placeOf(int label, const std::vector<int>& labels) { return std::lower_bound(labels.begin(), labels.end(), label) - labels.begin(); }
+Eigen::Index placeOf(int label, const std::vector<int>& labels) {
+  return std::lower_bound(labels.begin(), labels.end(), label) - labels.begin();
+}
 
-/// The Hungarian method with potentials, a row at a time along the cheapest path that alternates; O(n^3).
+/// The Hungarian method with potentials, a row at a time along the cheapest path that alternates;
+/// O(n^3).
 class Assignment {
  public:
-  explicit Assignment(const Eigen::MatrixXd& cost) : cost_(cost), n_(static_cast<std::size_t>(cost.rows())), row_potential_(n_, 0), column_potential_(n_, 0), row_of_(n_, kNobody) {}
+  explicit Assignment(const Eigen::MatrixXd& cost)
+      : cost_(cost),
+        n_(static_cast<std::size_t>(cost.rows())),
+        row_potential_(n_, 0),
+        column_potential_(n_, 0),
+        row_of_(n_, kNobody) {}
   /// By column, the row.
   std::vector<std::size_t> run() {
     for (std::size_t row = 0; row < n_; ++row) place(row);
@@ -39,12 +49,14 @@ class Assignment {
   static constexpr std::size_t kNobody = std::numeric_limits<std::size_t>::max();
 
   double reduced(std::size_t row, std::size_t column) const {
-    return cost_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) - row_potential_[row] - column_potential_[column];
+    return cost_(static_cast<Eigen::Index>(row), static_cast<Eigen::Index>(column)) -
+           row_potential_[row] - column_potential_[column];
   }
 
   void place(std::size_t newcomer) {
-    std::vector<double> way(n_, std::numeric_limits<double>::infinity());   // cheapest so far to a column
-    std::vector<std::size_t> before(n_, kNobody);                           // the column before it on that path
+    std::vector<double> way(
+        n_, std::numeric_limits<double>::infinity());  // cheapest so far to a column
+    std::vector<std::size_t> before(n_, kNobody);      // the column before it on that path
     std::vector<bool> reached(n_, false);
     std::size_t row = newcomer, last = kNobody;
     while (true) {
@@ -68,7 +80,8 @@ class Assignment {
   }
 
   /// Potentials by which the next column costs nothing.
-  void shift(std::size_t newcomer, double by, const std::vector<bool>& reached, std::vector<double>* way) {
+  void shift(std::size_t newcomer, double by, const std::vector<bool>& reached,
+             std::vector<double>* way) {
     row_potential_[newcomer] += by;
     for (std::size_t c = 0; c < n_; ++c) {
       if (reached[c]) {
@@ -93,16 +106,20 @@ double pairsOf(double n) { return n * (n - 1) / 2; }
 Contingency contingencyOf(const std::vector<int>& one, const std::vector<int>& other) {
   requireLabels(one, other);
   Contingency table{labelsIn(one), labelsIn(other), {}};
-  table.counts = Eigen::MatrixXi::Zero(static_cast<Eigen::Index>(table.one.size()), static_cast<Eigen::Index>(table.other.size()));
-  for (std::size_t i = 0; i < one.size(); ++i) ++table.counts(placeOf(one[i], table.one), placeOf(other[i], table.other));
+  table.counts = Eigen::MatrixXi::Zero(static_cast<Eigen::Index>(table.one.size()),
+                                       static_cast<Eigen::Index>(table.other.size()));
+  for (std::size_t i = 0; i < one.size(); ++i)
+    ++table.counts(placeOf(one[i], table.one), placeOf(other[i], table.other));
   return table;
 }
 
 std::vector<int> bestMatching(const Contingency& table) {
-  const Eigen::Index rows = table.counts.rows(), columns = table.counts.cols(), n = std::max(rows, columns);
-  Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(n, n);   // padded by labels that nobody has
+  const Eigen::Index rows = table.counts.rows(), columns = table.counts.cols(),
+                     n = std::max(rows, columns);
+  Eigen::MatrixXd cost = Eigen::MatrixXd::Zero(n, n);  // padded by labels that nobody has
   const Eigen::MatrixXd counts = table.counts.cast<double>();
-  const Eigen::VectorXd of_row = counts.rowwise().sum() / counts.sum(), of_column = counts.colwise().sum().transpose() / counts.sum();
+  const Eigen::VectorXd of_row = counts.rowwise().sum() / counts.sum(),
+                        of_column = counts.colwise().sum().transpose() / counts.sum();
   // Chance sums to 1 at most: half of it never outweighs a step.
   cost.topLeftCorner(rows, columns) = 0.5 * of_row * of_column.transpose() - counts;
   const std::vector<std::size_t> row_of = Assignment(cost).run();
@@ -115,7 +132,8 @@ std::vector<int> bestMatching(const Contingency& table) {
 double cohensKappa(const Contingency& table) {
   if (table.counts.size() == 1) return 1;
   const std::vector<int> matching = bestMatching(table);
-  const Eigen::MatrixXd share = table.counts.cast<double>() / static_cast<double>(table.counts.sum());
+  const Eigen::MatrixXd share =
+      table.counts.cast<double>() / static_cast<double>(table.counts.sum());
   double observed = 0, by_chance = 0;
   for (std::size_t i = 0; i < matching.size(); ++i) {
     if (matching[i] < 0) continue;
@@ -129,8 +147,10 @@ double cohensKappa(const Contingency& table) {
 double adjustedRandIndex(const Contingency& table) {
   const Eigen::MatrixXd n = table.counts.cast<double>();
   const double together = n.unaryExpr(&pairsOf).sum();
-  const double one = n.rowwise().sum().unaryExpr(&pairsOf).sum(), other = n.colwise().sum().unaryExpr(&pairsOf).sum();
-  const double all = pairsOf(n.sum()), most = (one + other) / 2, by_chance = all > 0 ? one * other / all : 0;
+  const double one = n.rowwise().sum().unaryExpr(&pairsOf).sum(),
+               other = n.colwise().sum().unaryExpr(&pairsOf).sum();
+  const double all = pairsOf(n.sum()), most = (one + other) / 2,
+               by_chance = all > 0 ? one * other / all : 0;
   if (one == other && (one == 0 || one == all)) return 1;
   return (together - by_chance) / (most - by_chance);
 }
@@ -142,9 +162,13 @@ std::vector<int> boundariesOf(const std::vector<int>& labels) {
   return boundaries;
 }
 
-double BoundaryAgreement::precision() const { return found > 0 ? static_cast<double>(met) / found : 1; }
+double BoundaryAgreement::precision() const {
+  return found > 0 ? static_cast<double>(met) / found : 1;
+}
 
-double BoundaryAgreement::recall() const { return expected > 0 ? static_cast<double>(met) / expected : 1; }
+double BoundaryAgreement::recall() const {
+  return expected > 0 ? static_cast<double>(met) / expected : 1;
+}
 
 double BoundaryAgreement::f() const {
   const double both = precision() + recall();
@@ -158,9 +182,11 @@ BoundaryAgreement& BoundaryAgreement::operator+=(const BoundaryAgreement& more) 
   return *this;
 }
 
-BoundaryAgreement boundaryAgreement(const std::vector<int>& found, const std::vector<int>& expected, int tolerance) {
+BoundaryAgreement boundaryAgreement(const std::vector<int>& found, const std::vector<int>& expected,
+                                    int tolerance) {
   requireLabels(found, expected);
-  if (tolerance < 0) throw Error("the tolerance is negative", kAgreementWhere, "Give steps, 0 or more");
+  if (tolerance < 0)
+    throw Error("the tolerance is negative", kAgreementWhere, "Give steps, 0 or more");
   const std::vector<int> ours = boundariesOf(found), theirs = boundariesOf(expected);
   BoundaryAgreement agreement{0, static_cast<int>(ours.size()), static_cast<int>(theirs.size())};
   // In order, each with the first that is free: on a line that pairs as many as can be.

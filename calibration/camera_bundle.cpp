@@ -19,14 +19,16 @@ Mat3 homographyOf(const BoardView& view, const std::string& where) {
   for (const Vec3& p : view.p_W) board.emplace_back(p.x(), p.y());
   for (const Eigen::Vector2d& p : view.pixels) picture.emplace_back(p.x(), p.y());
   const cv::Mat found = cv::findHomography(board, picture, cv::LMEDS);
-  if (found.empty() || !cv::checkRange(found)) throw Error("the corners of the view " + view.name + " are no picture of the board", where, "Leave it out");
+  if (found.empty() || !cv::checkRange(found))
+    throw Error("the corners of the view " + view.name + " are no picture of the board", where,
+                "Leave it out");
   Mat3 H;
   for (int i = 0; i < 9; ++i) H(i / 3, i % 3) = found.at<double>(i / 3, i % 3);
   return H;
 }
 
-/// With the picture's origin shifted to the centre, columns g, h of a homography fulfil g' w h = 0 and g' w g = h' w h for w = diag(1/fx^2, 1/fy^2, 1): least
-/// squares of the two.
+/// With the picture's origin shifted to the centre, columns g, h of a homography fulfil g' w h = 0
+/// and g' w g = h' w h for w = diag(1/fx^2, 1/fy^2, 1): least squares of the two.
 void findFocalLengths(const std::vector<Mat3>& homographies, CameraModel* model) {
   Mat3 shift = Mat3::Identity();
   shift(0, 2) = -model->cx;
@@ -35,8 +37,9 @@ void findFocalLengths(const std::vector<Mat3>& homographies, CameraModel* model)
   Eigen::Vector2d b = Eigen::Vector2d::Zero();
   for (const Mat3& H : homographies) {
     Mat3 G = shift * H;
-    G /= G.topLeftCorner<2, 2>().norm() / model->width;   // of like size in all views
-    const Vec3 gh = G.col(0).cwiseProduct(G.col(1)), difference = G.col(0).cwiseAbs2() - G.col(1).cwiseAbs2();
+    G /= G.topLeftCorner<2, 2>().norm() / model->width;  // of like size in all views
+    const Vec3 gh = G.col(0).cwiseProduct(G.col(1)),
+               difference = G.col(0).cwiseAbs2() - G.col(1).cwiseAbs2();
     for (const Vec3& row : {gh, difference}) {
       A += row.head<2>() * row.head<2>().transpose();
       b -= row.head<2>() * row.z();
@@ -44,7 +47,10 @@ void findFocalLengths(const std::vector<Mat3>& homographies, CameraModel* model)
   }
   const Eigen::Vector2d w = A.completeOrthogonalDecomposition().solve(b);
   const double usual = std::max(model->width, model->height);
-  const auto focal = [&](double inverse_square) { return inverse_square > 0 ? std::clamp(1 / std::sqrt(inverse_square), 0.3 * usual, 20 * usual) : usual; };
+  const auto focal = [&](double inverse_square) {
+    return inverse_square > 0 ? std::clamp(1 / std::sqrt(inverse_square), 0.3 * usual, 20 * usual)
+                              : usual;
+  };
   model->fx = focal(w[0]);
   model->fy = focal(w[1]);
 }
@@ -62,14 +68,21 @@ Pose poseOf(const Mat3& H, const CameraModel& m) {
 
 class BundleFit {
  public:
-  BundleFit(const std::vector<BoardView>& views, int lens_numbers, CameraBundle* bundle) : views_(views), lens_(lens_numbers), bundle_(*bundle) {
+  BundleFit(const std::vector<BoardView>& views, int lens_numbers, CameraBundle* bundle)
+      : views_(views), lens_(lens_numbers), bundle_(*bundle) {
     for (const BoardView& view : views_) corners_ += static_cast<int>(view.pixels.size());
   }
 
   Fit run(bool keep_all, const std::string& where) {
-    const FitProblem problem{corners_, 2, lens_ + 6 * static_cast<int>(views_.size()), [this](const VectorX& dx) { return residuals(dx); },
-                       [this](const VectorX& dx) { bundle_ = at(dx); }, [this] { return jacobian(); }, keep_all};
-    return robustFit(problem, where, 1);   // how many may be wrong is decided where views are left out
+    const FitProblem problem{corners_,
+                             2,
+                             lens_ + 6 * static_cast<int>(views_.size()),
+                             [this](const VectorX& dx) { return residuals(dx); },
+                             [this](const VectorX& dx) { bundle_ = at(dx); },
+                             [this] { return jacobian(); },
+                             keep_all};
+    return robustFit(problem, where,
+                     1);  // how many may be wrong is decided where views are left out
   }
 
  private:
@@ -79,7 +92,8 @@ class BundleFit {
     std::array<double*, kLensNumbers> numbers{&m.fx, &m.fy, &m.cx, &m.cy};
     for (std::size_t k = 0; k < 5; ++k) numbers[4 + k] = &m.distortion[k];
     for (int k = 0; k < lens_; ++k) *numbers[static_cast<std::size_t>(k)] += dx[k];
-    for (std::size_t v = 0; v < b.X_CW.size(); ++v) b.X_CW[v] = moved(b.X_CW[v], dx.segment<6>(lens_ + 6 * static_cast<Eigen::Index>(v)));
+    for (std::size_t v = 0; v < b.X_CW.size(); ++v)
+      b.X_CW[v] = moved(b.X_CW[v], dx.segment<6>(lens_ + 6 * static_cast<Eigen::Index>(v)));
     return b;
   }
 
@@ -88,7 +102,8 @@ class BundleFit {
     VectorX r(2 * corners_);
     Eigen::Index row = 0;
     for (std::size_t v = 0; v < views_.size(); ++v)
-      for (std::size_t i = 0; i < views_[v].pixels.size(); ++i, row += 2) r.segment<2>(row) = b.model.project(b.X_CW[v] * views_[v].p_W[i]) - views_[v].pixels[i];
+      for (std::size_t i = 0; i < views_[v].pixels.size(); ++i, row += 2)
+        r.segment<2>(row) = b.model.project(b.X_CW[v] * views_[v].p_W[i]) - views_[v].pixels[i];
     return r;
   }
 
@@ -118,7 +133,8 @@ class BundleFit {
 
 }  // namespace
 
-CameraBundle startBundle(const std::vector<BoardView>& views, int width, int height, const std::string& where) {
+CameraBundle startBundle(const std::vector<BoardView>& views, int width, int height,
+                         const std::string& where) {
   std::vector<Mat3> homographies;
   for (const BoardView& view : views) homographies.push_back(homographyOf(view, where));
   CameraBundle bundle;
@@ -131,7 +147,8 @@ CameraBundle startBundle(const std::vector<BoardView>& views, int width, int hei
   return bundle;
 }
 
-Fit adjustBundle(const std::vector<BoardView>& views, int lens_numbers, bool keep_all, CameraBundle* bundle, const std::string& where) {
+Fit adjustBundle(const std::vector<BoardView>& views, int lens_numbers, bool keep_all,
+                 CameraBundle* bundle, const std::string& where) {
   return BundleFit(views, lens_numbers, bundle).run(keep_all, where);
 }
 

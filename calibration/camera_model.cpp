@@ -99,7 +99,8 @@ Eigen::Vector2d CameraModel::project(const Vec3& p_C,
 }
 
 Eigen::Matrix<double, 2, kLensNumbers> CameraModel::byLens(const Vec3& p_C) const {
-  const Vec2 p = p_C.head<2>() / p_C.z(), ray(fx * p.x(), fy * p.y()), bent = distort(distortion, p);
+  const Vec2 p = p_C.head<2>() / p_C.z(), ray(fx * p.x(), fy * p.y()),
+             bent = distort(distortion, p);
   const double r2 = p.squaredNorm(), xy = p.x() * p.y();
   Eigen::Matrix<double, 2, kLensNumbers> J = decltype(J)::Zero();
   J(0, 0) = bent.x();

@@ -98,8 +98,8 @@ void checkFormat(const FieldReader& reader) {
   const int version = reader.count("version", 1);
   if (version > kPathVersion)
     reader.fail("version", "version " + std::to_string(version) +
-                               " is newer than this program knows (" + std::to_string(kPathVersion) +
-                               "); update the program, or");
+                               " is newer than this program knows (" +
+                               std::to_string(kPathVersion) + "); update the program, or");
 }
 
 Json inMm(const Vec3& v) { return {v.x() / kMm, v.y() / kMm, v.z() / kMm}; }
@@ -127,8 +127,8 @@ Json toJson(const ExpertPath& path) {
 }
 
 bool allFinite(const ExpertPath& path) {
-  return path.entry_L.allFinite() && path.direction_L.allFinite() &&
-         path.line_from_L.allFinite() && path.line_to_L.allFinite() &&
+  return path.entry_L.allFinite() && path.direction_L.allFinite() && path.line_from_L.allFinite() &&
+         path.line_to_L.allFinite() &&
          std::isfinite(path.entry_sd + path.depth + path.depth_sd + path.direction_sd +
                        path.direction_acceptable);
 }

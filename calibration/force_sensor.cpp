@@ -10,10 +10,12 @@ namespace palpa::calibration {
 namespace {
 
 const char kForceSensor[] = "force sensor";
-constexpr double kGravity = 9.80665, kNoMass = 1e-3;   // m/s^2, kg
+constexpr double kGravity = 9.80665, kNoMass = 1e-3;  // m/s^2, kg
 using Vec10 = Eigen::Matrix<double, 10, 1>;
 
-Vec3 weightOf(const StaticReading& reading, const Vec3& down_D) { return kGravity * reading.R_DS.transpose() * down_D; }   // of 1 kg, in S
+Vec3 weightOf(const StaticReading& reading, const Vec3& down_D) {
+  return kGravity * reading.R_DS.transpose() * down_D;
+}  // of 1 kg, in S
 
 /// bias_f and mass from the forces alone, then bias_m and mass * centre from the torques.
 Vec10 linearStart(const std::vector<StaticReading>& readings, const Vec3& down_D) {
@@ -41,18 +43,29 @@ Vec10 linearStart(const std::vector<StaticReading>& readings, const Vec3& down_D
 
 void requireTurning(const std::vector<StaticReading>& readings, const Vec3& down_D) {
   Vec3 mean = Vec3::Zero();
-  for (const StaticReading& reading : readings) mean += reading.R_DS.transpose() * down_D / static_cast<double>(readings.size());
+  for (const StaticReading& reading : readings)
+    mean += reading.R_DS.transpose() * down_D / static_cast<double>(readings.size());
   Mat3 spread = Mat3::Zero();
   for (const StaticReading& reading : readings) {
     const Vec3 off = reading.R_DS.transpose() * down_D - mean;
     spread += off * off.transpose() / static_cast<double>(readings.size());
   }
-  const Vec3 sizes = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues().cwiseMax(0).cwiseSqrt();
-  if (sizes[2] < 0.2) throw Error("the sensor was hardly turned against the vertical: its tool's weight and its bias look alike", kForceSensor, "Hold it upright, lying and upside down");
-  if (sizes[1] < 0.1) throw Error("the sensor was turned through a small arc only: its tool's weight and its bias are hardly told apart", kForceSensor, "Turn it by a quarter and more, about two axes");
+  const Vec3 sizes =
+      Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues().cwiseMax(0).cwiseSqrt();
+  if (sizes[2] < 0.2)
+    throw Error(
+        "the sensor was hardly turned against the vertical: its tool's weight and its bias look "
+        "alike",
+        kForceSensor, "Hold it upright, lying and upside down");
+  if (sizes[1] < 0.1)
+    throw Error(
+        "the sensor was turned through a small arc only: its tool's weight and its bias are hardly "
+        "told apart",
+        kForceSensor, "Turn it by a quarter and more, about two axes");
 }
 
-void checkCrossTalk(const std::vector<StaticReading>& readings, const Vec3& down_D, ForceSensorCalibration* result) {
+void checkCrossTalk(const std::vector<StaticReading>& readings, const Vec3& down_D,
+                    ForceSensorCalibration* result) {
   // f - bias = M w: three rows alike, one least squares.
   Mat3 ww = Mat3::Zero(), fw = Mat3::Zero();
   int count = 0;
@@ -71,16 +84,24 @@ void checkCrossTalk(const std::vector<StaticReading>& readings, const Vec3& down
 
 }  // namespace
 
-ForceSensorCalibration calibrateForceSensor(const std::vector<StaticReading>& readings, const Vec3& down_D) {
-  if (readings.size() < 6) throw Error(std::to_string(readings.size()) + " readings are too few", kForceSensor, "Take six at least, upright, lying and upside down");
+ForceSensorCalibration calibrateForceSensor(const std::vector<StaticReading>& readings,
+                                            const Vec3& down_D) {
+  if (readings.size() < 6)
+    throw Error(std::to_string(readings.size()) + " readings are too few", kForceSensor,
+                "Take six at least, upright, lying and upside down");
   for (const StaticReading& reading : readings)
-    if (!reading.R_DS.allFinite() || !reading.f_S.allFinite() || !reading.m_S.allFinite()) throw Error("a reading is not a number", kForceSensor, "Take it again");
+    if (!reading.R_DS.allFinite() || !reading.f_S.allFinite() || !reading.m_S.allFinite())
+      throw Error("a reading is not a number", kForceSensor, "Take it again");
   requireTurning(readings, down_D);
   Vec10 x = linearStart(readings, down_D);
   if (x[6] < -kNoMass)
-    throw Error("the tool would weigh less than nothing", kForceSensor, "Down is up, or the poses are of the base in the sensor instead of the sensor in the base");
-  if (x[6] < kNoMass) throw Error("the sensor feels no weight of its tool", kForceSensor, "Is it switched on, and the tool mounted? Forces are newtons");
-  double sd_f = 1, sd_m = 0.05;   // a lever of 50 mm until the residuals tell
+    throw Error(
+        "the tool would weigh less than nothing", kForceSensor,
+        "Down is up, or the poses are of the base in the sensor instead of the sensor in the base");
+  if (x[6] < kNoMass)
+    throw Error("the sensor feels no weight of its tool", kForceSensor,
+                "Is it switched on, and the tool mounted? Forces are newtons");
+  double sd_f = 1, sd_m = 0.05;  // a lever of 50 mm until the residuals tell
   const auto residuals = [&](const VectorX& dx) {
     const Vec10 y = x + Vec10(dx);
     VectorX r(6 * readings.size());
@@ -92,7 +113,8 @@ ForceSensorCalibration calibrateForceSensor(const std::vector<StaticReading>& re
     }
     return r;
   };
-  const FitProblem problem{static_cast<int>(readings.size()), 6, 10, residuals, [&](const VectorX& dx) { x += dx; }};
+  const FitProblem problem{static_cast<int>(readings.size()), 6, 10, residuals,
+                           [&](const VectorX& dx) { x += dx; }};
   ForceSensorCalibration result;
   for (int round = 0; round < 3; ++round) {
     result.fit = robustFit(problem, kForceSensor);
@@ -101,7 +123,8 @@ ForceSensorCalibration calibrateForceSensor(const std::vector<StaticReading>& re
     for (std::size_t i = 0; i < readings.size(); ++i) {
       if (!result.fit.good[i]) continue;
       f += result.fit.r.segment<3>(static_cast<Eigen::Index>(6 * i)).squaredNorm() * sd_f * sd_f;
-      m += result.fit.r.segment<3>(static_cast<Eigen::Index>(6 * i + 3)).squaredNorm() * sd_m * sd_m;
+      m +=
+          result.fit.r.segment<3>(static_cast<Eigen::Index>(6 * i + 3)).squaredNorm() * sd_m * sd_m;
       ++good;
     }
     result.rms_f = std::sqrt(f / (3 * good));
@@ -116,7 +139,8 @@ ForceSensorCalibration calibrateForceSensor(const std::vector<StaticReading>& re
   result.centre_S = x.tail<3>();
   result.covariance = result.fit.covariance;
   if (result.mass < 4 * std::sqrt(result.covariance(6, 6)))
-    throw Error("the tool's weight is lost in the sensor's noise", kForceSensor, "Take more readings, or hang a known weight on the tool");
+    throw Error("the tool's weight is lost in the sensor's noise", kForceSensor,
+                "Take more readings, or hang a known weight on the tool");
   checkCrossTalk(readings, down_D, &result);
   return result;
 }

@@ -15,7 +15,8 @@ namespace {
 
 const char kHandEye[] = "hand-eye calibration";
 constexpr double kLeastSpread = 3 * kDegree;
-constexpr double kWorstTurn = 5 * kDegree, kWorstShift = 0.03;   // rms at which samples do not belong together
+constexpr double kWorstTurn = 5 * kDegree,
+                 kWorstShift = 0.03;  // rms at which samples do not belong together
 constexpr std::size_t kLeastSamples = 8, kSubset = 8;
 constexpr int kSubsets = 30;
 
@@ -38,7 +39,8 @@ void solveShifts(const std::vector<HandEyeSample>& samples, Both* both) {
   both->Z.translation() = t.tail<3>();
 }
 
-/// Shah 2013: (R_B (x) R_A) vec R_X = vec R_Z, so these are the right and left singular vectors of the sum's largest singular value.
+/// Shah 2013: (R_B (x) R_A) vec R_X = vec R_Z, so these are the right and left singular vectors of
+/// the sum's largest singular value.
 Both byKroneckerProduct(const std::vector<HandEyeSample>& samples) {
   using Mat9 = Eigen::Matrix<double, 9, 9>;
   Mat9 K = Mat9::Zero();
@@ -50,8 +52,10 @@ Both byKroneckerProduct(const std::vector<HandEyeSample>& samples) {
   const Eigen::JacobiSVD<Mat9> svd(K, Eigen::ComputeFullU | Eigen::ComputeFullV);
   const auto rotation = [](Mat3 m) { return nearestRotation(m.determinant() < 0 ? Mat3(-m) : m); };
   Both both{Pose::Identity(), Pose::Identity()};
-  both.X.linear() = rotation(Eigen::Map<const Mat3>(Eigen::Matrix<double, 9, 1>(svd.matrixV().col(0)).data()).eval());
-  both.Z.linear() = rotation(Eigen::Map<const Mat3>(Eigen::Matrix<double, 9, 1>(svd.matrixU().col(0)).data()).eval());
+  both.X.linear() = rotation(
+      Eigen::Map<const Mat3>(Eigen::Matrix<double, 9, 1>(svd.matrixV().col(0)).data()).eval());
+  both.Z.linear() = rotation(
+      Eigen::Map<const Mat3>(Eigen::Matrix<double, 9, 1>(svd.matrixU().col(0)).data()).eval());
   solveShifts(samples, &both);
   return both;
 }
@@ -70,18 +74,20 @@ Both byRelativeMotions(const std::vector<HandEyeSample>& samples) {
   Both both{Pose::Identity(), Pose::Identity()};
   both.X.linear() = nearestRotation(cross);
   Mat3 sum = Mat3::Zero();
-  for (const HandEyeSample& s : samples) sum += s.X_DE.linear() * both.X.linear() * s.X_CM.linear().transpose();
+  for (const HandEyeSample& s : samples)
+    sum += s.X_DE.linear() * both.X.linear() * s.X_CM.linear().transpose();
   both.Z.linear() = nearestRotation(sum);
   solveShifts(samples, &both);
   return both;
 }
 
 struct Miss {
-  Vec3 turn, shift;   // in M, in C
+  Vec3 turn, shift;  // in M, in C
 };
 Miss missOf(const HandEyeSample& s, const Both& both) {
   const Pose predicted = both.Z.inverse() * s.X_DE * both.X;
-  return {rotationVector(s.X_CM.linear().transpose() * predicted.linear()), predicted.translation() - s.X_CM.translation()};
+  return {rotationVector(s.X_CM.linear().transpose() * predicted.linear()),
+          predicted.translation() - s.X_CM.translation()};
 }
 
 /// Turn and shift together: a degree weighs as much as 5 mm.
@@ -91,7 +97,8 @@ double medianMiss(const std::vector<HandEyeSample>& samples, const Both& both) {
     const Miss miss = missOf(s, both);
     misses.push_back(std::hypot(miss.turn.norm() / kDegree, miss.shift.norm() / 0.005));
   }
-  std::nth_element(misses.begin(), misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2), misses.end());
+  std::nth_element(misses.begin(), misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2),
+                   misses.end());
   return misses[misses.size() / 2];
 }
 
@@ -100,12 +107,15 @@ Both bestStart(const std::vector<HandEyeSample>& samples) {
   std::mt19937 bits(1);
   std::vector<HandEyeSample> some = samples;
   for (int i = 0; i < kSubsets && samples.size() > kSubset; ++i) {
-    for (std::size_t k = 0; k < kSubset; ++k) std::swap(some[k], some[k + bits() % (some.size() - k)]);
+    for (std::size_t k = 0; k < kSubset; ++k)
+      std::swap(some[k], some[k + bits() % (some.size() - k)]);
     const std::vector<HandEyeSample> subset(some.begin(), some.begin() + kSubset);
     starts.push_back(byKroneckerProduct(subset));
     starts.push_back(byRelativeMotions(subset));
   }
-  return *std::min_element(starts.begin(), starts.end(), [&](const Both& a, const Both& b) { return medianMiss(samples, a) < medianMiss(samples, b); });
+  return *std::min_element(starts.begin(), starts.end(), [&](const Both& a, const Both& b) {
+    return medianMiss(samples, a) < medianMiss(samples, b);
+  });
 }
 
 /// Spreads of the turn, the shift across the view and the shift along it.
@@ -115,10 +125,12 @@ struct Spreads {
 
 class HandEyeFit {
  public:
-  HandEyeFit(const std::vector<HandEyeSample>& samples, const Both& start) : samples_(samples), both_(start) {}
+  HandEyeFit(const std::vector<HandEyeSample>& samples, const Both& start)
+      : samples_(samples), both_(start) {}
 
   Fit run() {
-    const FitProblem problem{static_cast<int>(samples_.size()), 6, 12, [this](const VectorX& dx) { return residuals(dx); },
+    const FitProblem problem{static_cast<int>(samples_.size()), 6, 12,
+                             [this](const VectorX& dx) { return residuals(dx); },
                              [this](const VectorX& dx) { both_ = at(dx); }};
     Fit fit = robustFit(problem, kHandEye);
     for (int i = 0; i < 3; ++i) {
@@ -130,14 +142,17 @@ class HandEyeFit {
   const Both& both() const { return both_; }
 
  private:
-  Both at(const VectorX& dx) const { return {moved(both_.X, dx.head<6>()), moved(both_.Z, dx.tail<6>())}; }
+  Both at(const VectorX& dx) const {
+    return {moved(both_.X, dx.head<6>()), moved(both_.Z, dx.tail<6>())};
+  }
 
   VectorX residuals(const VectorX& dx) const {
     const Both both = at(dx);
     VectorX r(6 * samples_.size());
     for (std::size_t i = 0; i < samples_.size(); ++i) {
       const Miss miss = missOf(samples_[i], both);
-      r.segment<6>(static_cast<Eigen::Index>(6 * i)) << miss.turn / spreads_.turn, miss.shift.head<2>() / spreads_.across, miss.shift.z() / spreads_.along;
+      r.segment<6>(static_cast<Eigen::Index>(6 * i)) << miss.turn / spreads_.turn,
+          miss.shift.head<2>() / spreads_.across, miss.shift.z() / spreads_.along;
     }
     return r;
   }
@@ -152,7 +167,8 @@ class HandEyeFit {
       along += miss.shift.z() * miss.shift.z();
       ++good;
     }
-    spreads_ = {std::sqrt(turn / good) + 1e-9, std::sqrt(across / good) + 1e-9, std::sqrt(along / good) + 1e-9};
+    spreads_ = {std::sqrt(turn / good) + 1e-9, std::sqrt(across / good) + 1e-9,
+                std::sqrt(along / good) + 1e-9};
   }
 
   const std::vector<HandEyeSample>& samples_;
@@ -178,7 +194,9 @@ Rms rmsOf(const std::vector<HandEyeSample>& samples, const Both& both, Which whi
 }
 
 void requireSamples(const std::vector<HandEyeSample>& samples) {
-  if (samples.size() < kLeastSamples) throw Error(std::to_string(samples.size()) + " samples are too few", kHandEye, "Take 15 or more, with the hand turned to every side");
+  if (samples.size() < kLeastSamples)
+    throw Error(std::to_string(samples.size()) + " samples are too few", kHandEye,
+                "Take 15 or more, with the hand turned to every side");
   std::vector<Pose> hand, tag;
   for (const HandEyeSample& s : samples) {
     requirePose(s.X_DE, kHandEye);
@@ -190,9 +208,14 @@ void requireSamples(const std::vector<HandEyeSample>& samples) {
     const LeastTilted tilts = leastTilted(*poses);
     if (tilts.spread >= kLeastSpread) continue;
     char words[200];
-    std::snprintf(words, sizeof words, tilts.most < kLeastSpread ? "the %s did not turn" : "the %s turned about one axis only: the tag's place along it cannot be known (it tilted by %.1f degrees rms)",
+    std::snprintf(words, sizeof words,
+                  tilts.most < kLeastSpread
+                      ? "the %s did not turn"
+                      : "the %s turned about one axis only: the tag's place along it cannot be "
+                        "known (it tilted by %.1f degrees rms)",
                   poses == &hand ? "hand" : "tag", tilts.spread / kDegree);
-    throw Error(words, kHandEye, "Turn the hand about two other axes as well, by 20 degrees and more");
+    throw Error(words, kHandEye,
+                "Turn the hand about two other axes as well, by 20 degrees and more");
   }
 }
 
@@ -200,10 +223,18 @@ void requireSamples(const std::vector<HandEyeSample>& samples) {
 [[noreturn]] void refuseMisfit(const std::vector<HandEyeSample>& samples, const Rms& rms) {
   std::vector<HandEyeSample> other = samples;
   for (HandEyeSample& s : other) s.X_CM = s.X_CM.inverse();
-  const bool inverted = medianMiss(other, bestStart(other)) < 0.3 * medianMiss(samples, bestStart(samples));
+  const bool inverted =
+      medianMiss(other, bestStart(other)) < 0.3 * medianMiss(samples, bestStart(samples));
   char words[200];
-  std::snprintf(words, sizeof words, "hand and tag do not move together: %.1f degrees and %.0f mm rms remain", rms.turn / kDegree, 1e3 * rms.shift);
-  throw Error(words, kHandEye, inverted ? "One of the lists seems to hold the inverse poses (camera in tag instead of tag in camera)" : "See that the samples of both lists were taken together, and that lengths are metres");
+  std::snprintf(words, sizeof words,
+                "hand and tag do not move together: %.1f degrees and %.0f mm rms remain",
+                rms.turn / kDegree, 1e3 * rms.shift);
+  throw Error(
+      words, kHandEye,
+      inverted
+          ? "One of the lists seems to hold the inverse poses (camera in tag instead of tag in "
+            "camera)"
+          : "See that the samples of both lists were taken together, and that lengths are metres");
 }
 
 Both fitted(const std::vector<HandEyeSample>& samples, Fit* fit) {
@@ -221,7 +252,8 @@ Rms leftOut(const std::vector<HandEyeSample>& samples, const std::vector<bool>& 
     std::vector<HandEyeSample> others;
     for (std::size_t i = 0; i < samples.size(); ++i)
       if (i % kParts != part && good[i]) others.push_back(samples[i]);
-    const Rms rms = rmsOf(samples, fitted(others, nullptr), [&](std::size_t i) { return i % kParts == part && good[i]; });
+    const Rms rms = rmsOf(samples, fitted(others, nullptr),
+                          [&](std::size_t i) { return i % kParts == part && good[i]; });
     turn += rms.turn * rms.turn / kParts;
     shift += rms.shift * rms.shift / kParts;
   }
@@ -240,7 +272,7 @@ HandEye calibrateHandEye(const std::vector<HandEyeSample>& samples) {
   Both both;
   try {
     both = fitted(samples, &result.fit);
-  } catch (const Error&) {   // too many do not fit: say why, if that can be seen
+  } catch (const Error&) {  // too many do not fit: say why, if that can be seen
     both = bestStart(samples);
     const Rms rms = rmsOf(samples, both, [](std::size_t) { return true; });
     if (rms.turn > kWorstTurn || rms.shift > kWorstShift) refuseMisfit(samples, rms);

@@ -13,18 +13,23 @@ namespace {
 const char kRefinement[] = "registration by a tag";
 constexpr std::size_t kLeastPairs = 8;
 constexpr int kUnknowns = 12;
-constexpr int kOwnErrors = 2;   // of a pose that make most of its corners' errors: the hand's tremble across the view
+constexpr int kOwnErrors =
+    2;  // of a pose that make most of its corners' errors: the hand's tremble across the view
 constexpr double kDerivativeStep = 1e-6;
 
 struct Unknowns {
   Pose X_EM, X_DW;
-  Unknowns by(const VectorX& dx) const { return {moved(X_EM, dx.head<6>()), moved(X_DW, dx.tail<6>())}; }
+  Unknowns by(const VectorX& dx) const {
+    return {moved(X_EM, dx.head<6>()), moved(X_DW, dx.tail<6>())};
+  }
 };
 
 VectorX residualsOf(const TagView& view, const Unknowns& x, const CameraModel& camera) {
   const Pose X_CM = view.X_CW * x.X_DW.inverse() * view.X_DE * x.X_EM;
   VectorX r(2 * view.p_M.size());
-  for (std::size_t i = 0; i < view.p_M.size(); ++i) r.segment<2>(static_cast<Eigen::Index>(2 * i)) = camera.project(X_CM * view.p_M[i]) - view.pixels[i];
+  for (std::size_t i = 0; i < view.p_M.size(); ++i)
+    r.segment<2>(static_cast<Eigen::Index>(2 * i)) =
+        camera.project(X_CM * view.p_M[i]) - view.pixels[i];
   return r;
 }
 
@@ -32,13 +37,16 @@ MatrixX derivative(const TagView& view, const Unknowns& x, const CameraModel& ca
   MatrixX J(2 * view.p_M.size(), kUnknowns);
   for (int i = 0; i < kUnknowns; ++i) {
     const VectorX dx = kDerivativeStep * VectorX::Unit(kUnknowns, i);
-    J.col(i) = (residualsOf(view, x.by(dx), camera) - residualsOf(view, x.by(-dx), camera)) / (2 * kDerivativeStep);
+    J.col(i) = (residualsOf(view, x.by(dx), camera) - residualsOf(view, x.by(-dx), camera)) /
+               (2 * kDerivativeStep);
   }
   return J;
 }
 
-/// Bread and meat: the corners of one pose are one cluster; the factor makes up for the parameters that its six errors were fitted with.
-MatrixX clusteredCovariance(const std::vector<TagView>& views, const std::vector<bool>& good, const Unknowns& x, const CameraModel& camera) {
+/// Bread and meat: the corners of one pose are one cluster; the factor makes up for the parameters
+/// that its six errors were fitted with.
+MatrixX clusteredCovariance(const std::vector<TagView>& views, const std::vector<bool>& good,
+                            const Unknowns& x, const CameraModel& camera) {
   MatrixX bread = MatrixX::Zero(kUnknowns, kUnknowns), meat = bread;
   int clusters = 0;
   for (std::size_t i = 0; i < views.size(); ++i) {
@@ -51,7 +59,8 @@ MatrixX clusteredCovariance(const std::vector<TagView>& views, const std::vector
   }
   const MatrixX inverse = bread.inverse();
   const double numbers = 6.0 * clusters;
-  const MatrixX covariance = numbers / std::max(numbers - kUnknowns, 1.0) * inverse * meat * inverse;
+  const MatrixX covariance =
+      numbers / std::max(numbers - kUnknowns, 1.0) * inverse * meat * inverse;
   return 0.5 * (covariance + covariance.transpose());
 }
 
@@ -60,10 +69,12 @@ Fit adjust(const std::vector<TagView>& views, const CameraModel& camera, Unknown
   const auto residuals = [&](const VectorX& dx) {
     const Unknowns y = x->by(dx);
     VectorX r(size * static_cast<Eigen::Index>(views.size()));
-    for (std::size_t i = 0; i < views.size(); ++i) r.segment(size * static_cast<Eigen::Index>(i), size) = residualsOf(views[i], y, camera);
+    for (std::size_t i = 0; i < views.size(); ++i)
+      r.segment(size * static_cast<Eigen::Index>(i), size) = residualsOf(views[i], y, camera);
     return r;
   };
-  FitProblem problem{static_cast<int>(views.size()), static_cast<int>(size), kUnknowns, residuals, [&](const VectorX& dx) { *x = x->by(dx); }};
+  FitProblem problem{static_cast<int>(views.size()), static_cast<int>(size), kUnknowns, residuals,
+                     [&](const VectorX& dx) { *x = x->by(dx); }};
   problem.freedom = kOwnErrors;
   return robustFit(problem, kRefinement);
 }
@@ -84,14 +95,18 @@ Chosen whole(const std::vector<TagView>& views, const std::vector<HandEyeSample>
     chosen.poses.push_back(poses[i]);
   }
   if (chosen.views.size() < kLeastPairs)
-    throw Error("the whole tag was seen in " + std::to_string(chosen.views.size()) + " poses only", kRefinement, "Hold the tool where the camera sees all of it, in ten poses or more");
+    throw Error("the whole tag was seen in " + std::to_string(chosen.views.size()) + " poses only",
+                kRefinement, "Hold the tool where the camera sees all of it, in ten poses or more");
   return chosen;
 }
 
 /// Mean squared distance of a pose's corners, px^2.
-double squaresOf(const TagView& view, const Unknowns& x, const CameraModel& camera) { return residualsOf(view, x, camera).squaredNorm() / static_cast<double>(view.p_M.size()); }
+double squaresOf(const TagView& view, const Unknowns& x, const CameraModel& camera) {
+  return residualsOf(view, x, camera).squaredNorm() / static_cast<double>(view.p_M.size());
+}
 
-void leaveOut(const Chosen& all, const std::vector<bool>& good, const CameraModel& camera, RefinedHandEye* result) {
+void leaveOut(const Chosen& all, const std::vector<bool>& good, const CameraModel& camera,
+              RefinedHandEye* result) {
   constexpr std::size_t kParts = 5;
   double start = 0, refined = 0, count = 0;
   for (std::size_t part = 0; part < kParts; ++part) {
@@ -119,7 +134,8 @@ void leaveOut(const Chosen& all, const std::vector<bool>& good, const CameraMode
 
 }  // namespace
 
-RefinedHandEye refineHandEye(const std::vector<TagView>& views, const std::vector<HandEyeSample>& poses, const CameraModel& camera) {
+RefinedHandEye refineHandEye(const std::vector<TagView>& views,
+                             const std::vector<HandEyeSample>& poses, const CameraModel& camera) {
   const Chosen all = whole(views, poses);
   const HandEye start = calibrateHandEye(all.poses);
   Unknowns x{start.X_EM, start.X_DC};

@@ -11,13 +11,13 @@ namespace palpa::calibration {
 namespace {
 
 const char kLandmarks[] = "landmark registration";
-constexpr double kFlat = 0.05;      // of the landmarks' spread: below it they lie on one line
-constexpr double kOnePlace = 0.005;     // m: landmarks that all lie within this are one place
+constexpr double kFlat = 0.05;       // of the landmarks' spread: below it they lie on one line
+constexpr double kOnePlace = 0.005;  // m: landmarks that all lie within this are one place
 constexpr double kWrongScale = 0.1;
 
 struct Spread {
   Vec3 mean_A, mean_B;
-  Mat3 cross, of_A, of_B;   // weighted covariances
+  Mat3 cross, of_A, of_B;  // weighted covariances
 };
 
 Spread spreadOf(const std::vector<TouchedLandmark>& landmarks) {
@@ -42,27 +42,37 @@ Spread spreadOf(const std::vector<TouchedLandmark>& landmarks) {
 }
 
 void requireSpread(const Spread& s) {
-  const Vec3 sizes = Eigen::SelfAdjointEigenSolver<Mat3>(s.of_A).eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Vec3 sizes =
+      Eigen::SelfAdjointEigenSolver<Mat3>(s.of_A).eigenvalues().cwiseMax(0).cwiseSqrt();
   if (sizes[2] < kOnePlace)
-    throw Error("the landmarks lie within " + std::to_string(static_cast<int>(std::ceil(1e3 * sizes[2]))) + " mm", kLandmarks,
-                "Choose landmarks all over the phantom; lengths are metres");
-  if (sizes[1] < kFlat * sizes[2]) throw Error("the landmarks lie on one line: nothing tells how the phantom is turned about it", kLandmarks, "Touch one beside that line");
+    throw Error("the landmarks lie within " +
+                    std::to_string(static_cast<int>(std::ceil(1e3 * sizes[2]))) + " mm",
+                kLandmarks, "Choose landmarks all over the phantom; lengths are metres");
+  if (sizes[1] < kFlat * sizes[2])
+    throw Error("the landmarks lie on one line: nothing tells how the phantom is turned about it",
+                kLandmarks, "Touch one beside that line");
   if (sizes[0] < kFlat * sizes[2])
-    throw Error("the landmarks lie in one plane: a mirrored list or a swapped axis would fit as well, with the anatomy upside down", kLandmarks,
-                "Touch one well above or below that plane");
+    throw Error(
+        "the landmarks lie in one plane: a mirrored list or a swapped axis would fit as well, with "
+        "the anatomy upside down",
+        kLandmarks, "Touch one well above or below that plane");
 }
 
 // Sizes may differ by a unit; a mirrored set fits only mirrored.
 void requireLikeness(const Spread& s, double scale) {
   if (std::abs(scale - 1) > kWrongScale) {
     char words[160];
-    std::snprintf(words, sizeof words, "the touched landmarks are %.3g times as far apart as the known ones", scale);
-    throw Error(words, kLandmarks, "One of the lists is in another unit, or landmarks are mixed up");
+    std::snprintf(words, sizeof words,
+                  "the touched landmarks are %.3g times as far apart as the known ones", scale);
+    throw Error(words, kLandmarks,
+                "One of the lists is in another unit, or landmarks are mixed up");
   }
-  const Vec3 sizes = Eigen::SelfAdjointEigenSolver<Mat3>(s.of_A).eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Vec3 sizes =
+      Eigen::SelfAdjointEigenSolver<Mat3>(s.of_A).eigenvalues().cwiseMax(0).cwiseSqrt();
   const bool solid = sizes[0] > 0.2 * sizes[2];
   if (solid && s.cross.determinant() < 0)
-    throw Error("the touched landmarks are the mirror image of the known ones", kLandmarks, "See to left and right, and to the order of the axes");
+    throw Error("the touched landmarks are the mirror image of the known ones", kLandmarks,
+                "See to left and right, and to the order of the axes");
 }
 
 }  // namespace
@@ -71,12 +81,18 @@ Mat3 LandmarkRegistration::covarianceAt(const Vec3& p_A) const {
   return pointCovariance(X_BA, covariance, p_A);
 }
 
-double LandmarkRegistration::tre(const Vec3& p_A) const { return std::sqrt(covarianceAt(p_A).trace()); }
+double LandmarkRegistration::tre(const Vec3& p_A) const {
+  return std::sqrt(covarianceAt(p_A).trace());
+}
 
-LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landmarks, double largest_fre, double most_outliers) {
-  if (landmarks.size() < 4) throw Error(std::to_string(landmarks.size()) + " landmarks are too few", kLandmarks, "Touch four at least, better eight, not all in one plane");
+LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landmarks,
+                                       double largest_fre, double most_outliers) {
+  if (landmarks.size() < 4)
+    throw Error(std::to_string(landmarks.size()) + " landmarks are too few", kLandmarks,
+                "Touch four at least, better eight, not all in one plane");
   for (const TouchedLandmark& l : landmarks)
-    if (!l.p_A.allFinite() || !l.p_B.allFinite() || !(l.sd > 0)) throw Error("a landmark is not a number", kLandmarks, "Touch it again");
+    if (!l.p_A.allFinite() || !l.p_B.allFinite() || !(l.sd > 0))
+      throw Error("a landmark is not a number", kLandmarks, "Touch it again");
   const Spread spread = spreadOf(landmarks);
   requireSpread(spread);
 
@@ -89,7 +105,8 @@ LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landm
     const Vec3 at = middle_B + dx.tail<3>();
     VectorX r(3 * landmarks.size());
     for (std::size_t i = 0; i < landmarks.size(); ++i)
-      r.segment<3>(static_cast<Eigen::Index>(3 * i)) = (turned * (landmarks[i].p_A - middle_A) + at - landmarks[i].p_B) / landmarks[i].sd;
+      r.segment<3>(static_cast<Eigen::Index>(3 * i)) =
+          (turned * (landmarks[i].p_A - middle_A) + at - landmarks[i].p_B) / landmarks[i].sd;
     return r;
   };
   const auto move = [&](const VectorX& dx) {
@@ -98,10 +115,12 @@ LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landm
   };
   LandmarkRegistration result;
   result.scale = std::sqrt(spread.of_B.trace() / spread.of_A.trace());
-  result.fit = robustFit({static_cast<int>(landmarks.size()), 3, 6, residuals, move}, kLandmarks, most_outliers);
+  result.fit = robustFit({static_cast<int>(landmarks.size()), 3, 6, residuals, move}, kLandmarks,
+                         most_outliers);
   R = nearestRotation(R);
   result.X_BA = makePose(R, middle_B - R * middle_A);
-  // (turn, shift of the middle) -> (turn, shift of A's origin): shift = shift of the middle + R [middle]x turn.
+  // (turn, shift of the middle) -> (turn, shift of A's origin): shift = shift of the middle + R
+  // [middle]x turn.
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Identity();
   J.bottomLeftCorner<3, 3>() = R * crossMatrix(middle_A);
   result.covariance = J * result.fit.covariance * J.transpose();
@@ -121,7 +140,8 @@ LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landm
   if (result.fre > largest_fre) {
     char words[120];
     std::snprintf(words, sizeof words, "the landmarks fit to %.1f mm rms only", 1e3 * result.fre);
-    throw Error(words, kLandmarks, "See that they were touched in the order of the list, and touch them again");
+    throw Error(words, kLandmarks,
+                "See that they were touched in the order of the list, and touch them again");
   }
   return result;
 }

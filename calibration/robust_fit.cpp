@@ -15,15 +15,18 @@ namespace {
 
 constexpr double kGoodQuantile = 0.999;
 constexpr int kLeastNormSteps = 40, kSquareSteps = 30, kSelections = 20;
-constexpr double kStill = 1e-10;   // relative change of the cost below which a fit has ended
-constexpr double kRounding = 1e-9; // no block is an outlier for less: data without noise have none
+constexpr double kStill = 1e-10;    // relative change of the cost below which a fit has ended
+constexpr double kRounding = 1e-9;  // no block is an outlier for less: data without noise have none
 
 using ChiSquared = boost::math::chi_squared;
 
 class RobustFitter {
  public:
   RobustFitter(const FitProblem& problem, const std::string& where, double step)
-      : problem_(problem), where_(where), step_(step), good_(static_cast<std::size_t>(problem.blocks), true) {}
+      : problem_(problem),
+        where_(where),
+        step_(step),
+        good_(static_cast<std::size_t>(problem.blocks), true) {}
 
   Fit run(double most_outliers) {
     requireEnough(problem_.blocks);
@@ -36,8 +39,10 @@ class RobustFitter {
     }
     const auto out = static_cast<double>(std::count(good_.begin(), good_.end(), false));
     if (out > most_outliers * problem_.blocks)
-      throw Error(std::to_string(static_cast<int>(out)) + " of " + std::to_string(problem_.blocks) + " measurements do not fit the others",
-                  where_, "Look for a loose part, a slipped marker or mixed-up files, and measure again");
+      throw Error(std::to_string(static_cast<int>(out)) + " of " + std::to_string(problem_.blocks) +
+                      " measurements do not fit the others",
+                  where_,
+                  "Look for a loose part, a slipped marker or mixed-up files, and measure again");
     return result();
   }
 
@@ -89,11 +94,13 @@ class RobustFitter {
 
   double cost(const VectorX& r, const VectorX& weights) const {
     double sum = 0;
-    for (int b = 0; b < problem_.blocks; ++b) sum += weights[b] * r.segment(b * problem_.size, problem_.size).squaredNorm();
+    for (int b = 0; b < problem_.blocks; ++b)
+      sum += weights[b] * r.segment(b * problem_.size, problem_.size).squaredNorm();
     return sum;
   }
 
-  /// Units in which every parameter counts alike (Jacobi's), so that pixels and radians may stand side by side.
+  /// Units in which every parameter counts alike (Jacobi's), so that pixels and radians may stand
+  /// side by side.
   static VectorX unitsOf(const MatrixX& A) {
     const double least = 1e-24 * A.diagonal().maxCoeff() + std::numeric_limits<double>::min();
     return A.diagonal().cwiseMax(least).cwiseSqrt().cwiseInverse();
@@ -111,7 +118,8 @@ class RobustFitter {
       const VectorX dx = unit.cwiseProduct(damped.ldlt().solve(-unit.cwiseProduct(normal.g)));
       if (!dx.allFinite()) continue;
       const VectorX r = problem_.residuals(dx);
-      const double after = r.allFinite() ? cost(r, weights) : std::numeric_limits<double>::infinity();
+      const double after =
+          r.allFinite() ? cost(r, weights) : std::numeric_limits<double>::infinity();
       if (!(after < before)) continue;
       problem_.move(dx);
       r_ = problem_.residuals(VectorX::Zero(problem_.parameters));
@@ -143,19 +151,24 @@ class RobustFitter {
   bool select() {
     if (problem_.keep_all) return false;
     const ChiSquared chi2(independent());
-    // The median sees the fit's own freedom: few measurements leave residuals smaller than the noise.
-    const double freedom = std::sqrt(1 - static_cast<double>(problem_.parameters) / (problem_.blocks * problem_.size));
+    // The median sees the fit's own freedom: few measurements leave residuals smaller than the
+    // noise.
+    const double freedom =
+        std::sqrt(1 - static_cast<double>(problem_.parameters) / (problem_.blocks * problem_.size));
     const double scale = medianNorm() / std::sqrt(boost::math::quantile(chi2, 0.5)) / freedom;
-    const double limit = std::max(scale * std::sqrt(boost::math::quantile(chi2, kGoodQuantile)), kRounding);
+    const double limit =
+        std::max(scale * std::sqrt(boost::math::quantile(chi2, kGoodQuantile)), kRounding);
     const std::vector<bool> before = good_;
-    for (int b = 0; b < problem_.blocks; ++b) good_[static_cast<std::size_t>(b)] = !(norm(b) > limit);
+    for (int b = 0; b < problem_.blocks; ++b)
+      good_[static_cast<std::size_t>(b)] = !(norm(b) > limit);
     requireEnough(static_cast<int>(std::count(good_.begin(), good_.end(), true)));
     return good_ != before;
   }
 
   VectorX goodWeights() const {
     VectorX weights(problem_.blocks);
-    for (int b = 0; b < problem_.blocks; ++b) weights[b] = good_[static_cast<std::size_t>(b)] ? 1 : 0;
+    for (int b = 0; b < problem_.blocks; ++b)
+      weights[b] = good_[static_cast<std::size_t>(b)] ? 1 : 0;
     return weights;
   }
 
@@ -178,13 +191,16 @@ class RobustFitter {
     }
     fit.dof = blocks * problem_.size - problem_.parameters;
     const double m = independent(), q = boost::math::quantile(ChiSquared(m), kGoodQuantile);
-    const double kept = problem_.keep_all ? 1 : boost::math::cdf(ChiSquared(m + 2), q) / kGoodQuantile;   // of the variance, inside the cut
+    const double kept = problem_.keep_all ? 1
+                                          : boost::math::cdf(ChiSquared(m + 2), q) /
+                                                kGoodQuantile;  // of the variance, inside the cut
     fit.sigma = std::sqrt(squares / fit.dof / kept);
     fit.rms = std::sqrt(squares / blocks);
     const MatrixX information = normalOf(goodWeights()).A;
     const VectorX unit = unitsOf(information);
     const MatrixX scaled = unit.asDiagonal() * information * unit.asDiagonal();
-    fit.covariance = fit.sigma * fit.sigma * unit.asDiagonal() * scaled.completeOrthogonalDecomposition().pseudoInverse() * unit.asDiagonal();
+    fit.covariance = fit.sigma * fit.sigma * unit.asDiagonal() *
+                     scaled.completeOrthogonalDecomposition().pseudoInverse() * unit.asDiagonal();
     return fit;
   }
 
@@ -203,7 +219,8 @@ double Fit::halfWidth95(int i) const {
   return boost::math::quantile(boost::math::students_t(dof), 0.975) * std::sqrt(covariance(i, i));
 }
 
-Fit robustFit(const FitProblem& problem, const std::string& where, double most_outliers, double step) {
+Fit robustFit(const FitProblem& problem, const std::string& where, double most_outliers,
+              double step) {
   return RobustFitter(problem, where, step).run(most_outliers);
 }
 

@@ -26,7 +26,8 @@ LeastTilted leastTilted(const std::vector<Pose>& poses) {
   Mat3 mean = Mat3::Zero();
   for (const Pose& X : poses) mean += X.linear() / static_cast<double>(poses.size());
   const Eigen::SelfAdjointEigenSolver<Mat3> solver(Mat3::Identity() - mean.transpose() * mean);
-  return {solver.eigenvectors().col(0), std::sqrt(std::max(solver.eigenvalues()[0], 0.0)), std::sqrt(std::max(solver.eigenvalues()[2], 0.0))};
+  return {solver.eigenvectors().col(0), std::sqrt(std::max(solver.eigenvalues()[0], 0.0)),
+          std::sqrt(std::max(solver.eigenvalues()[2], 0.0))};
 }
 
 Mat3 pointCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance, const Vec3& p) {
@@ -35,7 +36,8 @@ Mat3 pointCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covarianc
   return J * covariance * J.transpose();
 }
 
-Eigen::Matrix<double, 6, 6> inverseCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance) {
+Eigen::Matrix<double, 6, 6> inverseCovariance(const Pose& X,
+                                              const Eigen::Matrix<double, 6, 6>& covariance) {
   Eigen::Matrix<double, 6, 6> J = Eigen::Matrix<double, 6, 6>::Zero();
   J.topLeftCorner<3, 3>() = -X.linear();
   J.bottomLeftCorner<3, 3>() = crossMatrix(X.inverse().translation());

@@ -9,7 +9,7 @@
 
 namespace palpa::calibration {
 
-inline constexpr double kDegree = std::numbers::pi / 180;   ///< rad
+inline constexpr double kDegree = std::numbers::pi / 180;  ///< rad
 
 inline Mat3 crossMatrix(const Vec3& v) {
   Mat3 m;
@@ -20,7 +20,8 @@ inline Mat3 crossMatrix(const Vec3& v) {
 /// Rotation by |w| about w.
 inline Mat3 rotationOf(const Vec3& w) {
   const double angle = w.norm();
-  return angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix() : Mat3(Mat3::Identity());
+  return angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix()
+                   : Mat3(Mat3::Identity());
 }
 
 /// What points up points down after it, x stays: a needle upright, a board that faces a camera.
@@ -32,21 +33,26 @@ inline Vec3 rotationVector(const Mat3& R) {
   return turn.angle() * turn.axis();
 }
 
-/// The pose moved by dx: turned by the first three in its own frame, shifted by the last three in the outer one.
+/// The pose moved by dx: turned by the first three in its own frame, shifted by the last three in
+/// the outer one.
 template <class Vector6>
 Pose moved(const Pose& X, const Vector6& dx) {
-  return makePose(X.rotation() * rotationOf(Vec3(dx[0], dx[1], dx[2])), X.translation() + Vec3(dx[3], dx[4], dx[5]));
+  return makePose(X.rotation() * rotationOf(Vec3(dx[0], dx[1], dx[2])),
+                  X.translation() + Vec3(dx[3], dx[4], dx[5]));
 }
 
-/// Covariance of X p by that of X (turn in its own frame, shift in the outer one): J = [-R [p]x, I].
+/// Covariance of X p by that of X (turn in its own frame, shift in the outer one): J = [-R [p]x,
+/// I].
 Mat3 pointCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance, const Vec3& p);
 
 /// Covariance of the inverse pose: turn' = -R turn, shift' = [X^-1 0]x turn - R' shift.
-Eigen::Matrix<double, 6, 6> inverseCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance);
+Eigen::Matrix<double, 6, 6> inverseCovariance(const Pose& X,
+                                              const Eigen::Matrix<double, 6, 6>& covariance);
 
-/// How far each direction of the rotations' inner frame was tilted: the mean of |(R_i - mean R) u|^2 is 1 - |mean R u|^2,
-/// which for a tilt by a about an axis across u is a^2. The direction that kept best where it was, and its rms tilt, rad;
-/// `most`: that of the direction that was tilted most.
+/// How far each direction of the rotations' inner frame was tilted: the mean of |(R_i - mean R)
+/// u|^2 is 1 - |mean R u|^2, which for a tilt by a about an axis across u is a^2. The direction
+/// that kept best where it was, and its rms tilt, rad; `most`: that of the direction that was
+/// tilted most.
 struct LeastTilted {
   Vec3 axis;
   double spread, most;

@@ -12,8 +12,9 @@ namespace {
 using haptics::Dahl;
 constexpr char kFrictionWhere[] = "friction identification";
 constexpr std::size_t kLeastSlides = 200, kLeastStrokes = 4;
-constexpr double kSameWay = 0.5;            // cosine: a stroke goes on while its motion turns by less than 60 degrees
-constexpr double kSlidFar = 3;              // in units of F_c / sigma: 95 % of Coulomb's friction
+constexpr double kSameWay =
+    0.5;  // cosine: a stroke goes on while its motion turns by less than 60 degrees
+constexpr double kSlidFar = 3;  // in units of F_c / sigma: 95 % of Coulomb's friction
 constexpr double kNoStep = 1e-9;
 
 /// A sample in its stroke: the way since the stroke began, and what is dragged along it.
@@ -25,10 +26,17 @@ using Stroke = std::vector<Along>;
 Vec3 inPlane(const Vec3& v, const Vec3& n) { return v - v.dot(n) * n; }
 
 void requireNumbers(const std::vector<SlideSample>& samples, double dt) {
-  if (samples.size() < kLeastSlides) throw Error(std::to_string(samples.size()) + " samples are too few, " + std::to_string(kLeastSlides) + " are needed", kFrictionWhere, "Stroke for longer");
+  if (samples.size() < kLeastSlides)
+    throw Error(std::to_string(samples.size()) + " samples are too few, " +
+                    std::to_string(kLeastSlides) + " are needed",
+                kFrictionWhere, "Stroke for longer");
   bool good = dt > 0;
-  for (const SlideSample& s : samples) good = good && s.p.allFinite() && s.drag.allFinite() && std::isfinite(s.f_n) && std::abs(s.n.norm() - 1) < 1e-6;
-  if (!good) throw Error("a sample is no number, or a normal not of length 1", kFrictionWhere, "Record anew");
+  for (const SlideSample& s : samples)
+    good = good && s.p.allFinite() && s.drag.allFinite() && std::isfinite(s.f_n) &&
+           std::abs(s.n.norm() - 1) < 1e-6;
+  if (!good)
+    throw Error("a sample is no number, or a normal not of length 1", kFrictionWhere,
+                "Record anew");
 }
 
 std::vector<Stroke> strokesOf(const std::vector<SlideSample>& samples, double dt) {
@@ -40,15 +48,20 @@ std::vector<Stroke> strokesOf(const std::vector<SlideSample>& samples, double dt
     const double step = dp.norm();
     if (s.f_n <= 0 || step < kNoStep) continue;
     const Vec3 way = dp / step;
-    if (strokes.empty() || samples[i - 1].f_n <= 0 || way.dot(before) < kSameWay) strokes.emplace_back();
+    if (strokes.empty() || samples[i - 1].f_n <= 0 || way.dot(before) < kSameWay)
+      strokes.emplace_back();
     Stroke& stroke = strokes.back();
-    stroke.push_back({(stroke.empty() ? 0 : stroke.back().way) + step, step / dt, s.f_n, s.drag.dot(way)});
+    stroke.push_back(
+        {(stroke.empty() ? 0 : stroke.back().way) + step, step / dt, s.f_n, s.drag.dot(way)});
     before = way;
   }
   double longest = 0;
   for (const Stroke& stroke : strokes) longest = std::max(longest, stroke.back().way);
   std::erase_if(strokes, [&](const Stroke& stroke) { return stroke.back().way < 0.1 * longest; });
-  if (strokes.size() < kLeastStrokes) throw Error(std::to_string(strokes.size()) + " strokes are too few, " + std::to_string(kLeastStrokes) + " are needed", kFrictionWhere, "Stroke back and forth over the surface");
+  if (strokes.size() < kLeastStrokes)
+    throw Error(std::to_string(strokes.size()) + " strokes are too few, " +
+                    std::to_string(kLeastStrokes) + " are needed",
+                kFrictionWhere, "Stroke back and forth over the surface");
   return strokes;
 }
 
@@ -86,9 +99,15 @@ double presliding(const std::vector<Stroke>& strokes, double mu, double B) {
 class SlideFit {
  public:
   SlideFit(const std::vector<SlideSample>& samples, double dt, const Dahl& start)
-      : samples_(samples), dt_(dt), p_(std::log(start.mu), std::log(start.sigma), start.B), scale_(1, 1, std::max(start.mu, 0.1)) {}
+      : samples_(samples),
+        dt_(dt),
+        p_(std::log(start.mu), std::log(start.sigma), start.B),
+        scale_(1, 1, std::max(start.mu, 0.1)) {}
   Fit run(double drag_rms) {
-    return nearFit({static_cast<int>(samples_.size()) - 1, 2, 3, [this](const VectorX& dp) { return residuals(dp); }, [this](const VectorX& dp) { p_ += dp.cwiseProduct(scale_); }}, drag_rms, kFrictionWhere);
+    return nearFit({static_cast<int>(samples_.size()) - 1, 2, 3,
+                    [this](const VectorX& dp) { return residuals(dp); },
+                    [this](const VectorX& dp) { p_ += dp.cwiseProduct(scale_); }},
+                   drag_rms, kFrictionWhere);
   }
   Dahl law() const { return lawAt(p_); }
   double misfit() const { return residuals(VectorX::Zero(3)).squaredNorm(); }
@@ -106,7 +125,8 @@ class SlideFit {
     for (std::size_t i = 1; i < samples_.size(); ++i) {
       const SlideSample& s = samples_[i];
       const Vec3 drag = haptics::dragOf(law, s.p - samples_[i - 1].p, s.n, s.f_n, dt_, &state);
-      const Vec3 one = s.n.unitOrthogonal(), other = s.n.cross(one), left = s.f_n > 0 ? Vec3(s.drag - drag) : Vec3(Vec3::Zero());
+      const Vec3 one = s.n.unitOrthogonal(), other = s.n.cross(one),
+                 left = s.f_n > 0 ? Vec3(s.drag - drag) : Vec3(Vec3::Zero());
       r.segment<2>(static_cast<Eigen::Index>(2 * (i - 1))) << left.dot(one), left.dot(other);
     }
     return r;
@@ -116,9 +136,11 @@ class SlideFit {
   Vec3 p_, scale_;
 };
 
-/// Divide and conquer's answer, or, where a trembling hand blurs where strokes begin, the best of some that lie around what slides: everything it says of sliding, and sliding after a twentieth
+/// Divide and conquer's answer, or, where a trembling hand blurs where strokes begin, the best of
+/// some that lie around what slides: everything it says of sliding, and sliding after a twentieth
 /// of a millimetre to one and a half.
-Dahl startFor(const std::vector<SlideSample>& samples, double dt, const Eigen::Vector2d& sliding, double sigma) {
+Dahl startFor(const std::vector<SlideSample>& samples, double dt, const Eigen::Vector2d& sliding,
+              double sigma) {
   double dragged = 0, pressed = 0;
   for (const SlideSample& s : samples) {
     dragged += inPlane(s.drag, s.n).norm() * std::max(s.f_n, 0.0);
@@ -145,13 +167,18 @@ SurfaceFriction identifySurfaceFriction(const std::vector<SlideSample>& samples,
   requireNumbers(samples, dt);
   const std::vector<Stroke> strokes = strokesOf(samples, dt);
   const Eigen::Vector2d sliding = slidingLaw(strokes);
-  if (!(sliding[0] > 0)) throw Error("nothing drags along the motion", kFrictionWhere, "Is the sign of the force right, and does the tool touch?");
+  if (!(sliding[0] > 0))
+    throw Error("nothing drags along the motion", kFrictionWhere,
+                "Is the sign of the force right, and does the tool touch?");
   const double sigma = presliding(strokes, sliding[0], sliding[1]);
-  if (!(sigma > 0)) throw Error("no stroke shows how the tool begins to slide", kFrictionWhere, "Stroke back and forth without lifting the tool");
+  if (!(sigma > 0))
+    throw Error("no stroke shows how the tool begins to slide", kFrictionWhere,
+                "Stroke back and forth without lifting the tool");
   SlideFit fit(samples, dt, startFor(samples, dt, sliding, sigma));
   SurfaceFriction found;
   double squares = 0, slowest = 1e9, fastest = 0;
-  for (const SlideSample& s : samples) squares += inPlane(s.drag, s.n).squaredNorm() / (2 * static_cast<double>(samples.size()));
+  for (const SlideSample& s : samples)
+    squares += inPlane(s.drag, s.n).squaredNorm() / (2 * static_cast<double>(samples.size()));
   found.fit = fit.run(std::sqrt(squares));
   found.law = fit.law();
   found.covariance = fit.covariance(found.fit);
@@ -165,11 +192,16 @@ SurfaceFriction identifySurfaceFriction(const std::vector<SlideSample>& samples,
     slowest = std::min(slowest, top);
     fastest = std::max(fastest, top);
   }
-  if (found.slid < kSlidFar) throw Error("the tool never slid: it only bent the surface", kFrictionWhere, "Stroke further");
+  if (found.slid < kSlidFar)
+    throw Error("the tool never slid: it only bent the surface", kFrictionWhere, "Stroke further");
   const Vec3 half = 1.96 * found.covariance.diagonal().cwiseSqrt();
-  if (!half.allFinite() || half[2] * fastest > 0.2 * found.law.mu) throw Error("the speeds are too alike to tell the viscous part", kFrictionWhere, "Stroke slowly and fast");
-  if (half[1] > 0.3 * found.law.sigma) found.advice = "Stroke in short ways back and forth: the beginning of sliding is hardly told.";
-  else if (fastest < 2 * slowest) found.advice = "Stroke once slowly, once fast.";
+  if (!half.allFinite() || half[2] * fastest > 0.2 * found.law.mu)
+    throw Error("the speeds are too alike to tell the viscous part", kFrictionWhere,
+                "Stroke slowly and fast");
+  if (half[1] > 0.3 * found.law.sigma)
+    found.advice = "Stroke in short ways back and forth: the beginning of sliding is hardly told.";
+  else if (fastest < 2 * slowest)
+    found.advice = "Stroke once slowly, once fast.";
   found.law.B = std::max(found.law.B, 0.0);
   return found;
 }

@@ -22,7 +22,9 @@ std::string text(const char* format, double value) {
 
 void requirePoses(const std::vector<Pose>& poses, std::size_t least, const char* where) {
   if (poses.size() < least)
-    throw Error(std::to_string(poses.size()) + " samples are too few, " + std::to_string(least) + " are needed", where, "Record longer");
+    throw Error(std::to_string(poses.size()) + " samples are too few, " + std::to_string(least) +
+                    " are needed",
+                where, "Record longer");
   for (const Pose& X : poses) requirePose(X, where);
 }
 
@@ -44,10 +46,13 @@ Vec6 algebraicPivot(const std::vector<Pose>& poses) {
 /// Residuals in E, along the lever and across it, each divided by its spread.
 class PivotFit {
  public:
-  PivotFit(const std::vector<Pose>& poses, Vec6 x) : poses_(poses), x_(std::move(x)) { turnTowardLever(); }
+  PivotFit(const std::vector<Pose>& poses, Vec6 x) : poses_(poses), x_(std::move(x)) {
+    turnTowardLever();
+  }
 
   Fit run() {
-    FitProblem problem{static_cast<int>(poses_.size()), 3, 6, [this](const VectorX& dx) { return residuals(dx); },
+    FitProblem problem{static_cast<int>(poses_.size()), 3, 6,
+                       [this](const VectorX& dx) { return residuals(dx); },
                        [this](const VectorX& dx) { x_ += dx; }};
     Fit fit = robustFit(problem, kPivot);
     for (int i = 0; i < 3; ++i) {
@@ -63,7 +68,8 @@ class PivotFit {
   double rms(const Fit& fit) const {
     double squares = 0;
     for (int i = 0; i < static_cast<int>(poses_.size()); ++i)
-      if (fit.good[static_cast<std::size_t>(i)]) squares += fit.r.segment<3>(3 * i).cwiseProduct(spread_).squaredNorm();
+      if (fit.good[static_cast<std::size_t>(i)])
+        squares += fit.r.segment<3>(3 * i).cwiseProduct(spread_).squaredNorm();
     return std::sqrt(squares / (static_cast<double>(poses_.size()) - fit.outliers()));
   }
 
@@ -73,7 +79,8 @@ class PivotFit {
     VectorX r(3 * poses_.size());
     for (std::size_t i = 0; i < poses_.size(); ++i) {
       const Vec3 off_D = poses_[i] * Vec3(x.head<3>()) - x.tail<3>();
-      r.segment<3>(static_cast<Eigen::Index>(3 * i)) = (to_lever_ * poses_[i].linear().transpose() * off_D).cwiseQuotient(spread_);
+      r.segment<3>(static_cast<Eigen::Index>(3 * i)) =
+          (to_lever_ * poses_[i].linear().transpose() * off_D).cwiseQuotient(spread_);
     }
     return r;
   }
@@ -81,7 +88,8 @@ class PivotFit {
   /// z along the lever.
   void turnTowardLever() {
     const Vec3 tip = x_.head<3>();
-    to_lever_ = tip.norm() > 1e-6 ? Mat3(rotationWithZ(tip.normalized()).transpose()) : Mat3(Mat3::Identity());
+    to_lever_ = tip.norm() > 1e-6 ? Mat3(rotationWithZ(tip.normalized()).transpose())
+                                  : Mat3(Mat3::Identity());
   }
 
   void respread(const Fit& fit) {
@@ -94,7 +102,8 @@ class PivotFit {
       across += (r.x() * r.x() + r.y() * r.y()) / 2;
       ++count;
     }
-    const double a = std::sqrt(along / count), c = std::sqrt(across / count), least = 1e-3 * std::max(a, c) + 1e-6;
+    const double a = std::sqrt(along / count), c = std::sqrt(across / count),
+                 least = 1e-3 * std::max(a, c) + 1e-6;
     spread_ = Vec3(std::max(c, least), std::max(c, least), std::max(a, least));
   }
 
@@ -113,13 +122,19 @@ TipCalibration calibrateTip(const std::vector<Pose>& X_DE, const TipLimits& limi
   tip.least_spread = tilts.spread;
   PivotFit pivot(X_DE, algebraicPivot(X_DE));
   if (tilts.most < limits.least_spread)
-    throw Error(text("the tool was hardly turned: by %.1f degrees rms", tilts.most / kDegree), kPivot, "Tilt it to every side by 20 degrees and more, the tip in its hole");
+    throw Error(text("the tool was hardly turned: by %.1f degrees rms", tilts.most / kDegree),
+                kPivot, "Tilt it to every side by 20 degrees and more, the tip in its hole");
   if (tilts.spread < limits.least_spread) {
     char where[120];
-    std::snprintf(where, sizeof where, "(%.2f, %.2f, %.2f)", tilts.axis.x(), tilts.axis.y(), tilts.axis.z());
-    throw Error(text("the tool was turned about one axis only: the tilt of that axis is %.1f degrees rms", tilts.spread / kDegree) +
-                    ", so how far the tip lies along " + where + " of the end effector cannot be known",
-                kPivot, text("Tilt the tool to every side by 20 degrees and more (%.0f degrees rms are needed)", limits.least_spread / kDegree));
+    std::snprintf(where, sizeof where, "(%.2f, %.2f, %.2f)", tilts.axis.x(), tilts.axis.y(),
+                  tilts.axis.z());
+    throw Error(
+        text("the tool was turned about one axis only: the tilt of that axis is %.1f degrees rms",
+             tilts.spread / kDegree) +
+            ", so how far the tip lies along " + where + " of the end effector cannot be known",
+        kPivot,
+        text("Tilt the tool to every side by 20 degrees and more (%.0f degrees rms are needed)",
+             limits.least_spread / kDegree));
   }
   tip.fit = pivot.run();
   tip.tip_E = pivot.x().head<3>();
@@ -127,15 +142,22 @@ TipCalibration calibrateTip(const std::vector<Pose>& X_DE, const TipLimits& limi
   tip.covariance = tip.fit.covariance.topLeftCorner<3, 3>();
   for (int k = 0; k < 3; ++k) tip.half95[k] = tip.fit.halfWidth95(k);
   tip.rms = pivot.rms(tip.fit);
-  const double worst = std::sqrt(Eigen::SelfAdjointEigenSolver<Mat3>(tip.covariance).eigenvalues()[2]);
+  const double worst =
+      std::sqrt(Eigen::SelfAdjointEigenSolver<Mat3>(tip.covariance).eigenvalues()[2]);
   if (tip.rms > limits.largest_rms)
-    throw Error(text("the tip wandered: it is %.1f mm rms away from one place", 1e3 * tip.rms), kPivot,
-                "Keep the tip in its hole while tilting; see that lengths are metres and poses are of the end effector in the base, not the other way");
+    throw Error(text("the tip wandered: it is %.1f mm rms away from one place", 1e3 * tip.rms),
+                kPivot,
+                "Keep the tip in its hole while tilting; see that lengths are metres and poses are "
+                "of the end effector in the base, not the other way");
   if (tip.tip_E.norm() > limits.longest)
-    throw Error(text("the tip would be %.0f mm from the end effector's origin", 1e3 * tip.tip_E.norm()), kPivot,
-                "See that lengths are metres, and that the poses are of the end effector in the base, not the other way (both ways pivot)");
+    throw Error(
+        text("the tip would be %.0f mm from the end effector's origin", 1e3 * tip.tip_E.norm()),
+        kPivot,
+        "See that lengths are metres, and that the poses are of the end effector in the base, not "
+        "the other way (both ways pivot)");
   if (worst > limits.largest_sd)
-    throw Error(text("the tip would be known to %.2f mm only", 1e3 * worst), kPivot, "Tilt farther, and record longer");
+    throw Error(text("the tip would be known to %.2f mm only", 1e3 * worst), kPivot,
+                "Tilt farther, and record longer");
   return tip;
 }
 
@@ -143,9 +165,12 @@ namespace {
 
 Eigen::Matrix<double, 3, 2> acrossOf(const Vec3& axis) { return rotationWithZ(axis).leftCols<2>(); }
 
-Vec3 tilted(const Vec3& axis, double a, double b) { return (axis + acrossOf(axis) * Eigen::Vector2d(a, b)).normalized(); }
+Vec3 tilted(const Vec3& axis, double a, double b) {
+  return (axis + acrossOf(axis) * Eigen::Vector2d(a, b)).normalized();
+}
 
-/// Axis that the rotations leave where it is, and where: of the largest singular value of the mean rotation.
+/// Axis that the rotations leave where it is, and where: of the largest singular value of the mean
+/// rotation.
 struct Axes {
   Vec3 in_E, in_D;
 };
@@ -167,7 +192,8 @@ double arcSpun(const std::vector<Pose>& poses, const Axes& axes) {
   }
   std::sort(angles.begin(), angles.end());
   double widest = angles.front() + 2 * std::numbers::pi - angles.back();
-  for (std::size_t i = 1; i < angles.size(); ++i) widest = std::max(widest, angles[i] - angles[i - 1]);
+  for (std::size_t i = 1; i < angles.size(); ++i)
+    widest = std::max(widest, angles[i] - angles[i - 1]);
   return 2 * std::numbers::pi - widest;
 }
 
@@ -181,17 +207,21 @@ AxisCalibration calibrateAxis(const std::vector<Pose>& X_DE, const Vec3& toward_
   AxisCalibration result;
   result.turned = arcSpun(X_DE, axes);
   if (result.turned < kLeastArc)
-    throw Error(text("the needle was spun by %.0f degrees only", result.turned / kDegree), kSpin, "Spin it by half a turn or more");
+    throw Error(text("the needle was spun by %.0f degrees only", result.turned / kDegree), kSpin,
+                "Spin it by half a turn or more");
 
   const auto residuals = [&](const VectorX& dx) {
     const Vec3 axis = tilted(axes.in_E, dx[0], dx[1]), direction = tilted(axes.in_D, dx[2], dx[3]);
     const Eigen::Matrix<double, 3, 2> across = acrossOf(axes.in_D);
     VectorX r(2 * X_DE.size());
     for (std::size_t i = 0; i < X_DE.size(); ++i)
-      r.segment<2>(static_cast<Eigen::Index>(2 * i)) = across.transpose() * (X_DE[i].linear() * axis - direction);
+      r.segment<2>(static_cast<Eigen::Index>(2 * i)) =
+          across.transpose() * (X_DE[i].linear() * axis - direction);
     return r;
   };
-  const auto move = [&](const VectorX& dx) { axes = {tilted(axes.in_E, dx[0], dx[1]), tilted(axes.in_D, dx[2], dx[3])}; };
+  const auto move = [&](const VectorX& dx) {
+    axes = {tilted(axes.in_E, dx[0], dx[1]), tilted(axes.in_D, dx[2], dx[3])};
+  };
   result.fit = robustFit({static_cast<int>(X_DE.size()), 2, 4, residuals, move}, kSpin);
   result.axis_E = axes.in_E;
   result.direction_D = axes.in_D;
@@ -199,8 +229,9 @@ AxisCalibration calibrateAxis(const std::vector<Pose>& X_DE, const Vec3& toward_
   result.covariance = result.fit.covariance.topLeftCorner<2, 2>();
   result.rms = result.fit.rms;
   if (result.rms > kLargestWander)
-    throw Error(text("the needle did not spin about itself: its axis wandered by %.1f degrees rms", result.rms / kDegree), kSpin,
-                "Hold it in a drill guide or a tight hole while spinning");
+    throw Error(text("the needle did not spin about itself: its axis wandered by %.1f degrees rms",
+                     result.rms / kDegree),
+                kSpin, "Hold it in a drill guide or a tight hole while spinning");
   return result;
 }
 

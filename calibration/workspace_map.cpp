@@ -30,7 +30,9 @@ VectorX phi(const Vec3& q, int order) {
   return values;
 }
 
-Vec3 scaled(const WorkspaceMap& map, const Vec3& p_D) { return (p_D - map.centre_D).cwiseQuotient(map.half_D); }
+Vec3 scaled(const WorkspaceMap& map, const Vec3& p_D) {
+  return (p_D - map.centre_D).cwiseQuotient(map.half_D);
+}
 
 void measureBox(const std::vector<TouchedPoint>& points, WorkspaceMap* map) {
   Eigen::AlignedBox3d box;
@@ -39,19 +41,22 @@ void measureBox(const std::vector<TouchedPoint>& points, WorkspaceMap* map) {
   map->half_D = (box.sizes() / 2).cwiseMax(1e-3);
 }
 
-/// Of a device that is to be put right many points may miss a rigid motion: no reason to refuse yet.
+/// Of a device that is to be put right many points may miss a rigid motion: no reason to refuse
+/// yet.
 LandmarkRegistration rigid(const std::vector<TouchedPoint>& points, double most_outliers) {
   std::vector<TouchedLandmark> landmarks;
   for (const TouchedPoint& p : points) landmarks.push_back({p.p_D, p.p_G, 1e-3});
   return registerLandmarks(landmarks, 0.02, most_outliers);
 }
 
-/// The map from D to the grid: G = coefficients' phi, linear; robust. The rigid motion nearest to it becomes X_GD.
+/// The map from D to the grid: G = coefficients' phi, linear; robust. The rigid motion nearest to
+/// it becomes X_GD.
 void fitPolynomial(const std::vector<TouchedPoint>& points, const Pose& X_GD, WorkspaceMap* map) {
   const int terms = monomials(map->order), parameters = 3 * terms;
   std::vector<VectorX> values;
-  for (const TouchedPoint& p : points) values.push_back(phi(scaled(*map, p.p_D - p.lever_D), map->order));
-  VectorX x = VectorX::Zero(parameters);   // term by term, of what is beside the rigid motion, in G
+  for (const TouchedPoint& p : points)
+    values.push_back(phi(scaled(*map, p.p_D - p.lever_D), map->order));
+  VectorX x = VectorX::Zero(parameters);  // term by term, of what is beside the rigid motion, in G
   const auto residuals = [&](const VectorX& dx) {
     const VectorX y = x + dx;
     VectorX r(3 * points.size());
@@ -62,16 +67,21 @@ void fitPolynomial(const std::vector<TouchedPoint>& points, const Pose& X_GD, Wo
     }
     return r;
   };
-  map->fit = robustFit({static_cast<int>(points.size()), 3, parameters, residuals, [&](const VectorX& dx) { x += dx; }}, kWorkspace, kMostOutliers, 1e-4);
+  map->fit = robustFit({static_cast<int>(points.size()), 3, parameters, residuals,
+                        [&](const VectorX& dx) { x += dx; }},
+                       kWorkspace, kMostOutliers, 1e-4);
   map->coefficients.resize(terms, 3);
-  for (int k = 0; k < terms; ++k) map->coefficients.row(k) = (X_GD.linear().transpose() * x.segment<3>(3 * k)).transpose();
+  for (int k = 0; k < terms; ++k)
+    map->coefficients.row(k) = (X_GD.linear().transpose() * x.segment<3>(3 * k)).transpose();
 }
 
-double rmsOf(const std::vector<TouchedPoint>& points, const WorkspaceMap& map, bool corrected, const std::vector<bool>& which) {
+double rmsOf(const std::vector<TouchedPoint>& points, const WorkspaceMap& map, bool corrected,
+             const std::vector<bool>& which) {
   double squares = 0, count = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!which[i]) continue;
-    const Vec3 off = corrected ? map.correction(points[i].p_D - points[i].lever_D) : Vec3(Vec3::Zero());
+    const Vec3 off =
+        corrected ? map.correction(points[i].p_D - points[i].lever_D) : Vec3(Vec3::Zero());
     squares += (map.X_GD * Vec3(points[i].p_D + off) - points[i].p_G).squaredNorm();
     ++count;
   }
@@ -82,7 +92,8 @@ WorkspaceMap fitted(const std::vector<TouchedPoint>& points, int order) {
   WorkspaceMap map;
   map.order = order;
   measureBox(points, &map);
-  const LandmarkRegistration registration = rigid(points, order == 0 ? kMostOutliers : kMostBeforeCorrection);
+  const LandmarkRegistration registration =
+      rigid(points, order == 0 ? kMostOutliers : kMostBeforeCorrection);
   map.X_GD = registration.X_BA;
   if (order == 0) {
     map.fit = registration.fit;
@@ -115,21 +126,30 @@ void leaveOut(const std::vector<TouchedPoint>& points, WorkspaceMap* map) {
 }
 
 void requirePoints(const std::vector<TouchedPoint>& points) {
-  if (points.size() < kLeastPoints) throw Error(std::to_string(points.size()) + " points are too few", kWorkspace, "Touch a grid of 3 x 3 x 3 or more");
+  if (points.size() < kLeastPoints)
+    throw Error(std::to_string(points.size()) + " points are too few", kWorkspace,
+                "Touch a grid of 3 x 3 x 3 or more");
   Vec3 mean = Vec3::Zero();
   for (const TouchedPoint& p : points) {
-    if (!p.p_G.allFinite() || !p.p_D.allFinite()) throw Error("a point is not a number", kWorkspace, "Touch it again");
+    if (!p.p_G.allFinite() || !p.p_D.allFinite())
+      throw Error("a point is not a number", kWorkspace, "Touch it again");
     mean += p.p_D / static_cast<double>(points.size());
   }
   Mat3 spread = Mat3::Zero();
-  for (const TouchedPoint& p : points) spread += (p.p_D - mean) * (p.p_D - mean).transpose() / static_cast<double>(points.size());
-  const Vec3 sizes = Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues().cwiseMax(0).cwiseSqrt();
-  if (sizes[0] < 0.1 * sizes[2]) throw Error("the points lie in one plane: above and below it nothing would be known", kWorkspace, "Touch the grid at two heights more");
+  for (const TouchedPoint& p : points)
+    spread += (p.p_D - mean) * (p.p_D - mean).transpose() / static_cast<double>(points.size());
+  const Vec3 sizes =
+      Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues().cwiseMax(0).cwiseSqrt();
+  if (sizes[0] < 0.1 * sizes[2])
+    throw Error("the points lie in one plane: above and below it nothing would be known",
+                kWorkspace, "Touch the grid at two heights more");
 }
 
 }  // namespace
 
-Vec3 WorkspaceMap::correction(const Vec3& p_D) const { return coefficients.transpose() * phi(scaled(*this, p_D), order); }
+Vec3 WorkspaceMap::correction(const Vec3& p_D) const {
+  return coefficients.transpose() * phi(scaled(*this, p_D), order);
+}
 
 Mat3 WorkspaceMap::covarianceAt(const Vec3& p_D) const {
   if (order == 0) {
@@ -139,7 +159,8 @@ Mat3 WorkspaceMap::covarianceAt(const Vec3& p_D) const {
   }
   const VectorX values = phi(scaled(*this, p_D), order);
   MatrixX J(3, 3 * values.size());
-  for (Eigen::Index k = 0; k < values.size(); ++k) J.middleCols<3>(3 * k) = values[k] * Mat3::Identity();
+  for (Eigen::Index k = 0; k < values.size(); ++k)
+    J.middleCols<3>(3 * k) = values[k] * Mat3::Identity();
   return J * fit.covariance * J.transpose();
 }
 
@@ -154,15 +175,16 @@ WorkspaceMap mapWorkspace(const std::vector<TouchedPoint>& points) {
   requirePoints(points);
   std::optional<WorkspaceMap> best;
   for (int order = 0; order <= kHighestOrder; ++order) {
-    if (order > 0 && static_cast<std::size_t>(monomials(order)) * 3 / 2 > points.size()) break;   // enough to spare
+    if (order > 0 && static_cast<std::size_t>(monomials(order)) * 3 / 2 > points.size())
+      break;  // enough to spare
     try {
       WorkspaceMap map = mapWorkspace(points, order);
       if (!best || map.left_out_after < kBetter * best->left_out_after) best = std::move(map);
     } catch (const Error&) {
-      continue;   // a low order may miss too many points of a device that a higher one puts right
+      continue;  // a low order may miss too many points of a device that a higher one puts right
     }
   }
-  return best ? *best : mapWorkspace(points, 0);   // which says why not
+  return best ? *best : mapWorkspace(points, 0);  // which says why not
 }
 
 }  // namespace palpa::calibration

@@ -8,23 +8,26 @@
 
 namespace palpa::calibration {
 
-/// A point of a grid that was touched: where it is on the grid (frame G), where the device said its tip was (D); metres. `lever_D`: the tip less
-/// the end effector, for it is the end effector's place that a device has wrong; zero: the map is of the tip's own places.
+/// A point of a grid that was touched: where it is on the grid (frame G), where the device said its
+/// tip was (D); metres. `lever_D`: the tip less the end effector, for it is the end effector's
+/// place that a device has wrong; zero: the map is of the tip's own places.
 struct TouchedPoint {
   Vec3 p_G = Vec3::Zero(), p_D = Vec3::Zero(), lever_D = Vec3::Zero();
 };
 
-/// The device's systematic position error as a smooth map (after Harders et al. 2009: rigid + distortion): where the device says p_D the
-/// tip is at
+/// The device's systematic position error as a smooth map (after Harders et al. 2009: rigid +
+/// distortion): where the device says p_D the tip is at
 ///   corrected(p_D) = p_D + sum over k of c_k phi_k(q),   q = (p_D - centre_D) / half_D,
-/// phi: the monomials of q up to `order`, of which the grid's pose takes the part that is a rigid motion.
+/// phi: the monomials of q up to `order`, of which the grid's pose takes the part that is a rigid
+/// motion.
 struct WorkspaceMap {
-  int order = 0;                                     ///< 0: the device is right as it is
+  int order = 0;  ///< 0: the device is right as it is
   Vec3 centre_D = Vec3::Zero(), half_D = Vec3::Ones();
-  MatrixX coefficients;                              ///< m, monomials by 3
-  Pose X_GD = Pose::Identity();                      ///< of the corrected device
-  double rms_before = 0, rms_after = 0;              ///< m, of the points against the grid, rigid only and corrected
-  double left_out_before = 0, left_out_after = 0;    ///< rms of points that the fit had not seen, m
+  MatrixX coefficients;          ///< m, monomials by 3
+  Pose X_GD = Pose::Identity();  ///< of the corrected device
+  double rms_before = 0,
+         rms_after = 0;  ///< m, of the points against the grid, rigid only and corrected
+  double left_out_before = 0, left_out_after = 0;  ///< rms of points that the fit had not seen, m
   Fit fit;
 
   Vec3 corrected(const Vec3& p_D) const { return p_D + correction(p_D); }
@@ -33,8 +36,9 @@ struct WorkspaceMap {
   Mat3 covarianceAt(const Vec3& p_D) const;
 };
 
-/// The order (0 to 3) with the least error at points left out is taken, a higher one only if it is better by a twentieth. Throws Error for fewer than 12
-/// points, points in one plane (nothing is known beside it), points that are in other units, and points that do not fit.
+/// The order (0 to 3) with the least error at points left out is taken, a higher one only if it is
+/// better by a twentieth. Throws Error for fewer than 12 points, points in one plane (nothing is
+/// known beside it), points that are in other units, and points that do not fit.
 WorkspaceMap mapWorkspace(const std::vector<TouchedPoint>& points);
 
 /// The same with a given order.

@@ -6,9 +6,9 @@ namespace palpa::haptics {
 
 /// Deepest contact of the needle (a thick segment) with one bone capsule.
 struct BoneContact {
-  double penetration = 0;       ///< m; 0: none
-  Vec3 p_D = Vec3::Zero();      ///< on the needle's axis
-  Vec3 n_D = Vec3::UnitZ();     ///< from the bone to the needle, unit
+  double penetration = 0;    ///< m; 0: none
+  Vec3 p_D = Vec3::Zero();   ///< on the needle's axis
+  Vec3 n_D = Vec3::UnitZ();  ///< from the bone to the needle, unit
   Organ organ = Organ::none;
 };
 

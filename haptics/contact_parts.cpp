@@ -15,7 +15,8 @@ void follow(PointMotion& motion, const Vec3& p_D, double tau, double dt) noexcep
   motion.started = 1;
 }
 
-Vec3 dragAcross(Packed3& anchor_D, const Vec3& p_D, const Vec3& n_D, double k, double largest) noexcept {
+Vec3 dragAcross(Packed3& anchor_D, const Vec3& p_D, const Vec3& n_D, double k,
+                double largest) noexcept {
   Vec3 drag = p_D - unpack(anchor_D);
   drag -= drag.dot(n_D) * n_D;
   const double size = drag.norm(), most = k > 0 ? largest / k : 0;
@@ -24,8 +25,8 @@ Vec3 dragAcross(Packed3& anchor_D, const Vec3& p_D, const Vec3& n_D, double k, d
   return -k * drag;
 }
 
-BoneTouch touchBones(const LocalGeometry& geometry, const Vec3& p_hub, const Vec3& p_tip, double radius,
-                     double stiffness, Organ last) noexcept {
+BoneTouch touchBones(const LocalGeometry& geometry, const Vec3& p_hub, const Vec3& p_tip,
+                     double radius, double stiffness, Organ last) noexcept {
   BoneContact deepest[BoneTouch::kMost];
   int bone_of[BoneTouch::kMost];
   BoneTouch touch;

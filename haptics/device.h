@@ -10,16 +10,19 @@ namespace palpa::haptics {
 
 /// One reading of a haptic device. D: device base, E: end effector (gimbal centre).
 struct DeviceReading {
-  std::int64_t t_ns = 0;        ///< device clock mapped to the session's
-  std::uint64_t sequence = 0;   ///< grows with every new reading; a silent device stops counting
+  std::int64_t t_ns = 0;       ///< device clock mapped to the session's
+  std::uint64_t sequence = 0;  ///< grows with every new reading; a silent device stops counting
   Packed3 p_DE{0, 0, 0};
   Packed4 q_DE{1, 0, 0, 0};
-  double plunger = 0;           ///< drawn fraction of the syringe, 0..1
+  double plunger = 0;  ///< drawn fraction of the syringe, 0..1
   std::uint32_t buttons = 0;
   std::uint32_t homed = 0;      ///< 1 once positions are absolute
-  Packed3 f_hand_D{0, 0, 0};    ///< of the hand on the tool, N, by an instrumented handle; not used by the loop, recorded
-  Packed3 f_device_D{0, 0, 0};  ///< of the device on the tool, N, drives and friction, by a force cell before it; likewise
-  std::uint32_t instrumented = 0;   ///< 1: both are measured. No device sold measures them: simulated ones do
+  Packed3 f_hand_D{0, 0, 0};    ///< of the hand on the tool, N, by an instrumented handle; not used
+                                ///< by the loop, recorded
+  Packed3 f_device_D{0, 0, 0};  ///< of the device on the tool, N, drives and friction, by a force
+                                ///< cell before it; likewise
+  std::uint32_t instrumented =
+      0;  ///< 1: both are measured. No device sold measures them: simulated ones do
   std::uint32_t reserved = 0;
 };
 static_assert(std::is_trivially_copyable_v<DeviceReading>);
@@ -33,7 +36,7 @@ struct DeviceCapabilities {
   double apparent_mass = 0;        ///< kg
   double viscous_damping = 0;      ///< N s/m, of the mechanism
   double coulomb_friction = 0;     ///< N, of the drives; 0: not known
-  double delay = 0;                ///< s, from a reading to the force that answers it, beyond the loop's period
+  double delay = 0;  ///< s, from a reading to the force that answers it, beyond the loop's period
   int force_axes = 3;
   bool has_orientation = true;
   Packed3 workspace_centre{0, 0, 0};     ///< in D, m

@@ -15,14 +15,22 @@ enum class NeedlePhase : std::uint8_t { outside, indenting, inserted };
 
 /// Why the safety limiter took the force away, or what it changed.
 enum class SafetyCause : std::uint8_t {
-  none, not_finite, clamp, slew, energy, silent_device, stale_geometry, emergency_stop, watchdog,
+  none,
+  not_finite,
+  clamp,
+  slew,
+  energy,
+  silent_device,
+  stale_geometry,
+  emergency_stop,
+  watchdog,
   not_ready,
   jump,              ///< the position moved faster than a hand can
   clock,             ///< session time stood still or went back
   corrupt_geometry,  ///< stale, because the snapshots that came were refused
   deadman,           ///< the button that must be held is not
   duty,              ///< the drives have had more than they can bear for long: less force
-  no_sensor          ///< what is felt rests on a force sensor, and that says nothing that could be believed
+  no_sensor  ///< what is felt rests on a force sensor, and that says nothing that could be believed
 };
 inline constexpr int kSafetyCauseCount = 16;
 const char* name(SafetyCause cause);
@@ -32,33 +40,37 @@ enum class SensorState : std::uint8_t { none, valid, unusable };
 
 /// What the tick is told from outside; recorded with every tick, so that it can be run again.
 struct TickCommands {
-  double puncture_force_N = 1.5;       ///< skin gives way here in the current trial
-  std::uint32_t trial = 0;             ///< a change resets the contact
-  std::uint8_t force_feedback = 1;     ///< 0: forces are computed and recorded but not rendered
+  double puncture_force_N = 1.5;    ///< skin gives way here in the current trial
+  std::uint32_t trial = 0;          ///< a change resets the contact
+  std::uint8_t force_feedback = 1;  ///< 0: forces are computed and recorded but not rendered
   std::uint8_t emergency_stop = 0;
-  std::uint8_t armed = 0;              ///< 0: no force (not homed, between trials)
-  std::uint8_t subtask = 0;            ///< number of the part of the task that is on, as the task counts them
+  std::uint8_t armed = 0;    ///< 0: no force (not homed, between trials)
+  std::uint8_t subtask = 0;  ///< number of the part of the task that is on, as the task counts them
   /// By Organ: a wall's peak in this trial, in its median peak.
   std::array<float, kOrganCount> wall_scale = [] {
     std::array<float, kOrganCount> one;
     one.fill(1);
     return one;
   }();
-  PlacedLumps lumps{};                 ///< in P, of this trial
-  float squeeze_stiffness = 1, squeeze_weight = 1;   ///< of what is held between two tools: how many times as hard and as heavy as it is, in this trial
-  std::uint32_t floor = 0;             ///< number of the floor that is searched; 0: none
-  std::uint8_t degraded = 0;           ///< the floor with the lesser gains
-  std::uint8_t held = 0;               ///< the handle is held where an episode starts
-  std::uint8_t augmented = 0;          ///< 1: the session's augmentations may add force
+  PlacedLumps lumps{};  ///< in P, of this trial
+  float squeeze_stiffness = 1,
+        squeeze_weight = 1;    ///< of what is held between two tools: how many times as hard and as
+                               ///< heavy as it is, in this trial
+  std::uint32_t floor = 0;     ///< number of the floor that is searched; 0: none
+  std::uint8_t degraded = 0;   ///< the floor with the lesser gains
+  std::uint8_t held = 0;       ///< the handle is held where an episode starts
+  std::uint8_t augmented = 0;  ///< 1: the session's augmentations may add force
   std::uint8_t reserved = 0;
-  Packed3 line_p_D{}, line_a_D{};      ///< m; unit: a line for virtual fixtures; direction 0: none
+  Packed3 line_p_D{}, line_a_D{};  ///< m; unit: a line for virtual fixtures; direction 0: none
 };
 static_assert(std::is_trivially_copyable_v<TickCommands>);
 
-/// What a force sensor says of a real object that the tool touches, cleared of tool, bias and noise.
+/// What a force sensor says of a real object that the tool touches, cleared of tool, bias and
+/// noise.
 struct SensedForce {
-  Packed3 f_D{};                       ///< of the object on the tool, N
-  Packed3 p_DK{};                      ///< m, where the point that touches was (a round tip's middle), as late as the force is
+  Packed3 f_D{};   ///< of the object on the tool, N
+  Packed3 p_DK{};  ///< m, where the point that touches was (a round tip's middle), as late as the
+                   ///< force is
   SensorState state = SensorState::none;
   std::uint8_t reserved[7]{};
 };
@@ -68,40 +80,42 @@ static_assert(std::is_trivially_copyable_v<SensedForce>);
 enum TickEvent : std::uint32_t {
   kSkinPunctured = 1u << 0,
   kWithdrawn = 1u << 1,
-  kWallPunctured = 1u << 2,        ///< organ in `wall`; `wall_leaving` tells the back wall
-  kBoneTouched = 1u << 3,          ///< contact begins; organ in `bone`
+  kWallPunctured = 1u << 2,  ///< organ in `wall`; `wall_leaving` tells the back wall
+  kBoneTouched = 1u << 3,    ///< contact begins; organ in `bone`
   kBoneLeft = 1u << 4,
   kSnapshotAdopted = 1u << 5,
-  kSafetyTripped = 1u << 6,        ///< cause in `safety`
+  kSafetyTripped = 1u << 6,  ///< cause in `safety`
   kSafetyCleared = 1u << 7,
-  kSnapshotRefused = 1u << 8,      ///< damaged; `snapshot` is its number in this tick
+  kSnapshotRefused = 1u << 8,  ///< damaged; `snapshot` is its number in this tick
 };
 
 /// One tick of the haptic loop: everything that is needed to run it again and to score it.
 /// Forces act on the tool, expressed in D, newtons.
 struct FlightRecord {
   std::int64_t tick = 0;
-  std::int64_t t_ns = 0;            ///< session time of the tick
+  std::int64_t t_ns = 0;  ///< session time of the tick
   DeviceReading reading;
   TickCommands commands;
   SensedForce sensed;
-  std::int64_t late_ns = 0;         ///< of the tick behind its due time; 0 in virtual time
-  std::uint64_t snapshot = 0;       ///< number of the newest geometry snapshot used, or refused in this tick
-  Packed3 f_contact_D{};            ///< computed contact force (coupled), independent of `force_feedback`
-  Packed3 f_wanted_D{};             ///< after fading and passivity control: what entered the safety limiter
-  Packed3 f_command_D{};            ///< what left the safety limiter
-  Packed3 tau_missing_D{};          ///< torque about E that a three-axis device cannot give, N m
-  double indentation = 0;           ///< of the skin before puncture, m
-  double depth = 0;                 ///< of the tip below the skin plane along the needle, m; along its normal while the needle has never been outside
-  double v_axial = 0;               ///< of the tip along the needle, inward positive, m/s
-  double skin_force = 0;            ///< normal force on the skin before puncture, N
-  double bone_force = 0;            ///< largest bone contact force, N
-  double wall_force = 0;            ///< on the wall being deformed, N
-  std::uint32_t events = 0;         ///< TickEvent bits
+  std::int64_t late_ns = 0;  ///< of the tick behind its due time; 0 in virtual time
+  std::uint64_t snapshot =
+      0;                  ///< number of the newest geometry snapshot used, or refused in this tick
+  Packed3 f_contact_D{};  ///< computed contact force (coupled), independent of `force_feedback`
+  Packed3 f_wanted_D{};   ///< after fading and passivity control: what entered the safety limiter
+  Packed3 f_command_D{};  ///< what left the safety limiter
+  Packed3 tau_missing_D{};  ///< torque about E that a three-axis device cannot give, N m
+  double indentation = 0;   ///< of the skin before puncture, m
+  double depth = 0;       ///< of the tip below the skin plane along the needle, m; along its normal
+                          ///< while the needle has never been outside
+  double v_axial = 0;     ///< of the tip along the needle, inward positive, m/s
+  double skin_force = 0;  ///< normal force on the skin before puncture, N
+  double bone_force = 0;  ///< largest bone contact force, N
+  double wall_force = 0;  ///< on the wall being deformed, N
+  std::uint32_t events = 0;  ///< TickEvent bits
   NeedlePhase phase = NeedlePhase::outside;
-  Tissue tissue = Tissue::air;      ///< at the tip; walls not yet punctured keep the tip outside
-  Organ wall = Organ::none;         ///< whose wall the tip deforms, or punctured in this tick
-  Organ bone = Organ::none;         ///< bone in contact
+  Tissue tissue = Tissue::air;  ///< at the tip; walls not yet punctured keep the tip outside
+  Organ wall = Organ::none;     ///< whose wall the tip deforms, or punctured in this tick
+  Organ bone = Organ::none;     ///< bone in contact
   std::uint8_t wall_leaving = 0;
   SafetyCause safety = SafetyCause::none;
   std::uint8_t skin_punctures = 0;  ///< in this trial

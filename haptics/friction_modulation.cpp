@@ -2,7 +2,8 @@
 
 namespace palpa::haptics {
 
-Modulated modulateFriction(const FrictionModulation& law, const Vec3& f_r, const Vec3& dp, double dt, FrictionModulationState* state) noexcept {
+Modulated modulateFriction(const FrictionModulation& law, const Vec3& f_r, const Vec3& dp,
+                           double dt, FrictionModulationState* state) noexcept {
   Modulated now = modulateStiffness(law.contact, f_r, dp, dt, &state->contact);
   if (!now.contact) {
     state->wanted = {};

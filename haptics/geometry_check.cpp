@@ -6,12 +6,12 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr double kUnit = 1e-6;          // of a unit vector's squared length, and of a right angle's cosine
-constexpr double kWidestPatch = 1;      // m
-constexpr double kTallestTerm = 1;      // m, of any term of a patch at its rim
-constexpr double kSteepestTerm = 100;   // slope of any term at the rim
-constexpr double kSharpestTerm = 1e9;   // any coefficient: no overflow however small the reach
-constexpr double kThickestBone = 0.2;   // m
+constexpr double kUnit = 1e-6;  // of a unit vector's squared length, and of a right angle's cosine
+constexpr double kWidestPatch = 1;     // m
+constexpr double kTallestTerm = 1;     // m, of any term of a patch at its rim
+constexpr double kSteepestTerm = 100;  // slope of any term at the rim
+constexpr double kSharpestTerm = 1e9;  // any coefficient: no overflow however small the reach
+constexpr double kThickestBone = 0.2;  // m
 
 bool near(const Packed3& p) {  // a comparison with a NaN is false
   return std::abs(p[0]) <= kFarthest && std::abs(p[1]) <= kFarthest && std::abs(p[2]) <= kFarthest;

@@ -8,11 +8,12 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr double kSteepest = 0.1;      // least cosine between needle and skin normal that is believed
-constexpr double kLeftSkin = 0.0005;   // m outside before the needle counts as withdrawn
-constexpr double kTornOut = 0.005;     // m that skin follows a point at most (a tent): beyond, it holds no needle
-constexpr double kLateralRamp = 0.002; // m of insertion over which the lateral hold builds up
-constexpr double kStickShare = 0.8;    // presliding stiffness as a share of the coupling's
+constexpr double kSteepest = 0.1;  // least cosine between needle and skin normal that is believed
+constexpr double kLeftSkin = 0.0005;  // m outside before the needle counts as withdrawn
+constexpr double kTornOut =
+    0.005;  // m that skin follows a point at most (a tent): beyond, it holds no needle
+constexpr double kLateralRamp = 0.002;  // m of insertion over which the lateral hold builds up
+constexpr double kStickShare = 0.8;     // presliding stiffness as a share of the coupling's
 
 /// Right of the root below, however deep the tip is: for u >= u_f = max(u_0, 10 um),
 /// F(u) >= K_0 (exp(m (u - u_0)) - 1) u_f, which reaches K_c x at the returned u.
@@ -22,9 +23,9 @@ double firstIndentation(const SkinLaw& skin, double K_c, double x) {
   return std::min(x, std::max(floor, skin.u_0 + std::log1p(K_c * x / slope) / skin.m));
 }
 
-/// Indentation u of the skin with F(u) = K_c (x - u), x the tip's depth: the skin's law in series with
-/// the coupling. The left side minus the right is convex and rising, so Newton from the right descends to
-/// the root.
+/// Indentation u of the skin with F(u) = K_c (x - u), x the tip's depth: the skin's law in series
+/// with the coupling. The left side minus the right is convex and rising, so Newton from the right
+/// descends to the root.
 double indentationInSeries(const SkinLaw& skin, double K_c, double x) {
   double u = firstIndentation(skin, K_c, x);
   for (int i = 0; i < 60; ++i) {
@@ -94,7 +95,8 @@ void beforePuncture(Step& s) {
   if (gives) puncture(s, n, x);
 }
 
-/// Stick–slip of cutting and shaft friction: an anchor that yields at the limit of either direction.
+/// Stick–slip of cutting and shaft friction: an anchor that yields at the limit of either
+/// direction.
 double axialFriction(Step& s, double insertion, double advancing, double retracting) {
   const double k = kStickShare * s.coupling.stiffness;
   const double stretch =
@@ -144,7 +146,8 @@ void pushWall(Step& s, const TissueWalk& walk) {
 
 void withdraw(Step& s) {
   s.state.phase = NeedlePhase::outside;
-  s.state.was_outside = 0;   // behind a flat needle the skin may bulge: it is felt again once the point is clear of it
+  s.state.was_outside =
+      0;  // behind a flat needle the skin may bulge: it is felt again once the point is clear of it
   s.state.walls_front = s.state.walls_back = 0;
   s.state.release_D = {0, 0, 0};
   s.state.skin_anchor_D = pack(s.pose.p_DT);
@@ -153,7 +156,8 @@ void withdraw(Step& s) {
 
 void afterPuncture(Step& s) {
   const double insertion = (s.pose.p_DT - unpack(s.state.entry_D)).dot(s.pose.a_D);
-  if (insertion < -kLeftSkin || nearestOn(s.geometry.skin, s.pose.p_DT).distance > kTornOut) return withdraw(s);
+  if (insertion < -kLeftSkin || nearestOn(s.geometry.skin, s.pose.p_DT).distance > kTornOut)
+    return withdraw(s);
   const TissueWalk walk =
       walkTissues(s.materials, s.geometry, s.pose.p_DT, s.pose.a_D, std::max(insertion, 0.0),
                   {s.state.walls_front, s.state.walls_back});
@@ -194,8 +198,10 @@ NeedleContact needleContact(const NeedleMaterials& materials, const CouplingLimi
   } else {
     beforePuncture(step);
   }
-  if (state.phase == NeedlePhase::inserted) pushBones(step);
-  else state.bone = Organ::none;
+  if (state.phase == NeedlePhase::inserted)
+    pushBones(step);
+  else
+    state.bone = Organ::none;
   return step.out;
 }
 

@@ -19,7 +19,8 @@ NeedleContact probeContact(const ProbeMaterials& materials, const CouplingLimits
     const double elastic = relaxed(materials.relaxation, state.relaxation, k * x, dt);
     out.skin_force = std::max(elastic - materials.damping * v, 0.0);
     if (!state.touching) state.anchor_D = pack(p_DT);
-    out.f_D = out.skin_force * skin.normal + dragAcross(state.anchor_D, p_DT, skin.normal, materials.shear,
+    out.f_D = out.skin_force * skin.normal + dragAcross(state.anchor_D, p_DT, skin.normal,
+                                                        materials.shear,
                                                         materials.friction * out.skin_force);
     out.tissue = Tissue::skin;
   }

@@ -15,16 +15,17 @@ bool possible(const DeviceReading& reading) noexcept;
 struct ReadingState {
   Packed3 p_DE{}, p_DT{};
   std::uint64_t sequence = 0;
-  double since_ns = 0;          ///< since the position was last new
-  double hold_ns = 0;           ///< still to be steady after a jump
+  double since_ns = 0;  ///< since the position was last new
+  double hold_ns = 0;   ///< still to be steady after a jump
   std::uint8_t started = 0;
   std::uint8_t reserved[7]{};
 };
 static_assert(std::is_trivially_copyable_v<ReadingState>);
 
-/// A jump: gimbal or tip moved farther than max_speed x (time since the last new reading + period); the period
-/// because readings and ticks are not in step. Time counts up to silent_ns. After a jump the readings are not
-/// believed until they have been steady for jump_hold_ns. Returns whether they are.
+/// A jump: gimbal or tip moved farther than max_speed x (time since the last new reading + period);
+/// the period because readings and ticks are not in step. Time counts up to silent_ns. After a jump
+/// the readings are not believed until they have been steady for jump_hold_ns. Returns whether they
+/// are.
 bool steady(const SafetyLimits& limits, std::int64_t period_ns, const NeedlePose& pose,
             std::uint64_t sequence, double elapsed_ns, ReadingState& state) noexcept;
 

@@ -6,8 +6,8 @@
 namespace palpa::haptics {
 namespace {
 
-/// Falls are free, rises are bounded: what of the last force still points along the wanted one stays,
-/// the rest of the way is the rise.
+/// Falls are free, rises are bounded: what of the last force still points along the wanted one
+/// stays, the rest of the way is the rise.
 Vec3 limitRise(const Vec3& f, const Vec3& last, double largest_step, bool* limited) {
   const double last2 = last.squaredNorm();
   const double kept = last2 > 0 ? std::clamp(f.dot(last) / last2, 0.0, 1.0) : 0.0;
@@ -82,10 +82,22 @@ SafetyCause reasonForZero(const SafetyLimits& limits, SafetyState& state, const 
 }  // namespace
 
 const char* name(SafetyCause cause) {
-  static constexpr const char* kNames[kSafetyCauseCount] = {
-      "none",          "not finite",     "clamp",          "slew",     "energy",
-      "silent device", "stale geometry", "emergency stop", "watchdog", "not ready",
-      "position jump", "clock fault",   "damaged geometry", "button not held", "warm drives", "no force sensor"};
+  static constexpr const char* kNames[kSafetyCauseCount] = {"none",
+                                                            "not finite",
+                                                            "clamp",
+                                                            "slew",
+                                                            "energy",
+                                                            "silent device",
+                                                            "stale geometry",
+                                                            "emergency stop",
+                                                            "watchdog",
+                                                            "not ready",
+                                                            "position jump",
+                                                            "clock fault",
+                                                            "damaged geometry",
+                                                            "button not held",
+                                                            "warm drives",
+                                                            "no force sensor"};
   return kNames[static_cast<int>(cause)];
 }
 

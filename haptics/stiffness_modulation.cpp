@@ -6,8 +6,8 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr double kPressedWithin = 0.05;   // tan 3 degrees
-constexpr double kNormalFollows = 1e-4;   // m of sliding
+constexpr double kPressedWithin = 0.05;  // tan 3 degrees
+constexpr double kNormalFollows = 1e-4;  // m of sliding
 
 /// The part of a motion that slides over a surface of normal u.
 Vec3 slidOf(const Vec3& dp, const Vec3& u) noexcept {
@@ -19,7 +19,8 @@ Vec3 slidOf(const Vec3& dp, const Vec3& u) noexcept {
 
 }  // namespace
 
-Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, const Vec3& dp, double dt, StiffnessModulationState* state) noexcept {
+Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, const Vec3& dp,
+                            double dt, StiffnessModulationState* state) noexcept {
   if (!f_r.allFinite() || !dp.allFinite() || !(dt > 0) || f_r.norm() < law.least_contact) {
     *state = {};
     return {};
@@ -27,11 +28,12 @@ Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, con
   // At first touch the reaction itself is the best normal there is; from then on the last one.
   const Vec3 u_before = state->f_n > 0 ? unpack(state->u_n) : Vec3(f_r.normalized());
   const double f_before = state->f_n > 0 ? state->f_n : f_r.norm();
-  const Vec3 slid = slidOf(dp, u_before), drag = dragOf(law.friction, slid, u_before, f_before, dt, &state->friction);
+  const Vec3 slid = slidOf(dp, u_before),
+             drag = dragOf(law.friction, slid, u_before, f_before, dt, &state->friction);
   const Vec3 f_rn = f_r + drag;
   Modulated now;
   now.f_n = f_rn.norm();
-  if (now.f_n < law.least_contact) {   // all of it is friction: no normal can be told
+  if (now.f_n < law.least_contact) {  // all of it is friction: no normal can be told
     *state = {};
     return {};
   }
@@ -40,11 +42,13 @@ Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, con
   now.u_n = f_rn / now.f_n;
   const double rate = -dp.dot(now.u_n) / dt;
   now.x = std::max(0.0, law.x0 + depthOf(law.real, now.f_n, rate));
-  const double wanted = law.target.constant > 0 ? law.target.constant * now.x : law.target.factor * now.f_n;
+  const double wanted =
+      law.target.constant > 0 ? law.target.constant * now.x : law.target.factor * now.f_n;
   now.f_d = (wanted - now.f_n) * now.u_n;
   const double follows = state->f_n > 0 ? 1 - std::exp(-slid.norm() / kNormalFollows) : 0;
   const Vec3 between = u_before + follows * (now.u_n - u_before);
-  state->u_n = pack(between.norm() > 0.1 ? Vec3(between.normalized()) : now.u_n);   // where it has turned round
+  state->u_n = pack(between.norm() > 0.1 ? Vec3(between.normalized())
+                                         : now.u_n);  // where it has turned round
   state->f_n = now.f_n;
   return now;
 }

@@ -43,13 +43,17 @@ NeedleContact blendedContact(const TickConfig& config, TickState& state, const N
 }
 
 /// What is added to a real thing.
-NeedleContact touchedContact(const TickConfig& config, TickState& state, const FlightRecord& record, double dt) {
-  const AugmentedTouch now = augmentTouch(config.touch, record.commands.lumps, {touchIn(config, record.sensed), {}}, dt, &state.touch);
+NeedleContact touchedContact(const TickConfig& config, TickState& state, const FlightRecord& record,
+                             double dt) {
+  const AugmentedTouch now = augmentTouch(config.touch, record.commands.lumps,
+                                          {touchIn(config, record.sensed), {}}, dt, &state.touch);
   return addedIn(config, now.f_d[0], now.touch[0].x, now.touch[0].f_n);
 }
 
-NeedleContact contactNow(const TickConfig& config, TickState& state, const TickCommands& commands, std::int64_t now_ns, TickFrame& frame) {
-  if (config.engine == Engine::touch) return touchedContact(config, state, frame.record, frame.input.dt);
+NeedleContact contactNow(const TickConfig& config, TickState& state, const TickCommands& commands,
+                         std::int64_t now_ns, TickFrame& frame) {
+  if (config.engine == Engine::touch)
+    return touchedContact(config, state, frame.record, frame.input.dt);
   return blendedContact(config, state, frame.pose, commands, frame.input.dt, now_ns);
 }
 
@@ -63,7 +67,8 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   if (frame.felt) {
     FloorTouch touch;
     const bool on_floor = config.engine == Engine::floor;
-    contact = on_floor ? floorContact(config, state, floor, &frame, &touch) : contactNow(config, state, commands, now_ns, frame);
+    contact = on_floor ? floorContact(config, state, floor, &frame, &touch)
+                       : contactNow(config, state, commands, now_ns, frame);
     addAugmentations(config, state, contact, floor, on_floor ? &touch : nullptr, &frame);
   }
   return finishTick(config, state, contact, frame);

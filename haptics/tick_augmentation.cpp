@@ -6,8 +6,9 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr double kFarAway = 1;         // m: there is no lump
-constexpr double kFirstScale = 2000;   // px/s: 2 px in a millisecond, half the finest wavelength. 468.75 U/s where 1024 px are 240 U
+constexpr double kFarAway = 1;        // m: there is no lump
+constexpr double kFirstScale = 2000;  // px/s: 2 px in a millisecond, half the finest wavelength.
+                                      // 468.75 U/s where 1024 px are 240 U
 
 struct FloorFrame {
   Pose X_DF;
@@ -18,8 +19,9 @@ struct FloorFrame {
 
 /// The handle before an episode: a weak spring to its start, so that the hand follows it.
 Vec3 holdForce(const FloorRendering& law, const Vec3& p_F, const Vec3& v_F) noexcept {
-  constexpr double kDamping = 5;       // N s/m
-  const Vec3 f = law.hold_stiffness * (Vec3(0, 0, law.start_height * law.unit) - p_F) - kDamping * v_F;
+  constexpr double kDamping = 5;  // N s/m
+  const Vec3 f =
+      law.hold_stiffness * (Vec3(0, 0, law.start_height * law.unit) - p_F) - kDamping * v_F;
   const double size = f.norm();
   return size > law.hold_force_N ? Vec3(f * (law.hold_force_N / size)) : f;
 }
@@ -37,18 +39,25 @@ double lumpEdge(const TickConfig& config, const TickFrame& frame) noexcept {
 }
 
 /// Computed, or sensed of a real thing.
-Vec3 feltForce(const TickConfig& config, const NeedleContact& contact, const SensedForce& sensed) noexcept {
-  return config.engine == Engine::touch && sensed.state == SensorState::valid ? unpack(sensed.f_D) : contact.f_D;
+Vec3 feltForce(const TickConfig& config, const NeedleContact& contact,
+               const SensedForce& sensed) noexcept {
+  return config.engine == Engine::touch && sensed.state == SensorState::valid ? unpack(sensed.f_D)
+                                                                              : contact.f_D;
 }
 
 /// The belief of a learned model goes on; while the handle is held, nothing is done that it knows.
-void believeLearned(const TickConfig& config, TickState& state, const Vec3& f, const TickFrame& frame) noexcept {
+void believeLearned(const TickConfig& config, TickState& state, const Vec3& f,
+                    const TickFrame& frame) noexcept {
   LearnedState& learned = state.augmentation.learned;
-  if (frame.record.commands.held) learned = {};
-  else learnedState(config.augmentations.learned, unpack(state.tip.v_D).norm(), f, static_cast<std::int64_t>(1e9 * frame.input.dt + 0.5), &learned);
+  if (frame.record.commands.held)
+    learned = {};
+  else
+    learnedState(config.augmentations.learned, unpack(state.tip.v_D).norm(), f,
+                 static_cast<std::int64_t>(1e9 * frame.input.dt + 0.5), &learned);
 }
 
-CueValues cuesOf(const TickConfig& config, const TickState& state, const NeedleContact& contact, const FloorTouch* touch, const TickFrame& frame) noexcept {
+CueValues cuesOf(const TickConfig& config, const TickState& state, const NeedleContact& contact,
+                 const FloorTouch* touch, const TickFrame& frame) noexcept {
   CueValues cues;
   const FlightRecord& record = frame.record;
   cues[Cue::speed] = unpack(state.tip.v_D).norm();
@@ -74,13 +83,20 @@ CueValues cuesOf(const TickConfig& config, const TickState& state, const NeedleC
 }
 
 /// What the floor itself tells: rises and bumps under the probe's way, the valley nearby.
-void lookAtFloor(const TickConfig& config, const Floor& floor, const FloorTouch& touch, const Vec3& dp_F, AugmentationInput* in) noexcept {
-  const Vec3 p = touch.p_U, before = p - dp_F / config.floor.unit, v_F = FloorFrame(config).toF(in->v);
+void lookAtFloor(const TickConfig& config, const Floor& floor, const FloorTouch& touch,
+                 const Vec3& dp_F, AugmentationInput* in) noexcept {
+  const Vec3 p = touch.p_U, before = p - dp_F / config.floor.unit,
+             v_F = FloorFrame(config).toF(in->v);
   const double speed = in->cues[Cue::floor_speed];
   if (floor.rises && touch.touching && speed > 0)
-    in->rise = floor.rises->rises(p.x(), p.y(), GaborTable::directionOf(v_F.x(), v_F.y()), GaborTable::scaleOf(speed, kFirstScale * floor.rises->side() / floor.rises->size()));
+    in->rise = floor.rises->rises(
+        p.x(), p.y(), GaborTable::directionOf(v_F.x(), v_F.y()),
+        GaborTable::scaleOf(speed, kFirstScale * floor.rises->side() / floor.rises->size()));
   in->bump = touch.touching && floor.surface->crossesBump(before.x(), before.y(), p.x(), p.y());
-  if (touch.touching) in->footprint = floor.surface->bumpOnWay(before.x(), before.y(), p.x(), p.y()) / std::max(floor.surface->spec().target.radius, floor.surface->spec().distractor.radius);
+  if (touch.touching)
+    in->footprint =
+        floor.surface->bumpOnWay(before.x(), before.y(), p.x(), p.y()) /
+        std::max(floor.surface->spec().target.radius, floor.surface->spec().distractor.radius);
   if (!floor.valleys || !touch.touching) return;
   const ValleyMap::Nearest valley = floor.valleys->nearest(p.x(), p.y());
   if (!valley.found) return;
@@ -110,7 +126,8 @@ Vec3 toLine(const TickCommands& commands, const Vec3& p_D) noexcept {
 
 }  // namespace
 
-NeedleContact floorContact(const TickConfig& config, TickState& state, const Floor* floor, TickFrame* frame, FloorTouch* touch) noexcept {
+NeedleContact floorContact(const TickConfig& config, TickState& state, const Floor* floor,
+                           TickFrame* frame, FloorTouch* touch) noexcept {
   const FloorFrame f(config);
   const Vec3 p_D = frame->pose.p_DT, p_F = f.toF(p_D - f.X_DF.translation());
   follow(state.floor.motion, p_D, config.coupling.velocity_tau, frame->input.dt);
@@ -121,7 +138,9 @@ NeedleContact floorContact(const TickConfig& config, TickState& state, const Flo
   if (commands.held) {
     hold_F += holdForce(config.floor, p_F, v_F);
   } else if (floor && floor->surface) {
-    *touch = touchFloor(*floor->surface, commands.degraded ? config.floor.degraded : config.floor.real, config.coupling.stiffness, config.floor.unit, p_F, v_F);
+    *touch =
+        touchFloor(*floor->surface, commands.degraded ? config.floor.degraded : config.floor.real,
+                   config.coupling.stiffness, config.floor.unit, p_F, v_F);
     contact.f_D = f.toD(touch->f_F);
     contact.indentation = touch->penetration;
   }
@@ -131,7 +150,8 @@ NeedleContact floorContact(const TickConfig& config, TickState& state, const Flo
   return contact;
 }
 
-void addAugmentations(const TickConfig& config, TickState& state, const NeedleContact& contact, const Floor* floor, const FloorTouch* touch, TickFrame* frame) noexcept {
+void addAugmentations(const TickConfig& config, TickState& state, const NeedleContact& contact,
+                      const Floor* floor, const FloorTouch* touch, TickFrame* frame) noexcept {
   const AugmentationPlan& plan = config.augmentations;
   if (plan.subtasks.count == 0 && plan.count == 0) return;
   const Vec3 p_D = frame->pose.p_DT;
@@ -149,7 +169,8 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
   in.to_line = toLine(frame->record.commands, p_D);
   in.dt = frame->input.dt;
   in.now_ns = frame->input.now_ns;
-  if (in.allowed && touch && floor && floor->surface) lookAtFloor(config, *floor, *touch, FloorFrame(config).toF(in.dp), &in);
+  if (in.allowed && touch && floor && floor->surface)
+    lookAtFloor(config, *floor, *touch, FloorFrame(config).toF(in.dp), &in);
   const Augmented added = augment(plan, in, &state.augmentation);
   FlightRecord& record = frame->record;
   record.f_augmentation_D = pack(added.f);

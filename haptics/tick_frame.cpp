@@ -10,8 +10,8 @@ namespace {
 
 constexpr double kStrongestObject = 1000;  // N
 
-/// A device that does not turn holds the needle as its tool says; once inserted the needle points from the entry to the
-/// tip, taking over between 3 and 6 mm.
+/// A device that does not turn holds the needle as its tool says; once inserted the needle points
+/// from the entry to the tip, taking over between 3 and 6 mm.
 Vec3 alongEntry(const NeedleState& needle, const Vec3& p_DT, const Vec3& held_D) {
   constexpr double kFrom = 0.003, kTo = 0.006;
   const Vec3 way = p_DT - unpack(needle.entry_D);
@@ -22,7 +22,8 @@ Vec3 alongEntry(const NeedleState& needle, const Vec3& p_DT, const Vec3& held_D)
   return axis.norm() > 0.1 ? axis.normalized() : held_D;
 }
 
-NeedlePose needlePose(const TickConfig& config, const NeedleState& needle, const DeviceReading& reading) {
+NeedlePose needlePose(const TickConfig& config, const NeedleState& needle,
+                      const DeviceReading& reading) {
   const Quat q_DE = unpack(reading.q_DE).normalized();
   const Vec3 p_DE = unpack(reading.p_DE);
   const Quat q_ET = unpack(config.X_ET.q);
@@ -43,13 +44,12 @@ void startTrial(TickState& state, std::uint32_t trial) {
   state.blending = 0;
 }
 
-/// A snapshot that arrives during a blend waits until it is over, so that the force never jumps. A damaged one
-/// is refused: the one before it stays, grows stale and fades. Returns the TickEvent.
+/// A snapshot that arrives during a blend waits until it is over, so that the force never jumps. A
+/// damaged one is refused: the one before it stays, grows stale and fades. Returns the TickEvent.
 std::uint32_t adopt(const TickConfig& config, TickState& state, const LocalGeometry* latest,
                     std::int64_t now_ns) {
   state.t_adopted_ns = std::min(state.t_adopted_ns, now_ns);  // where the clock went back
-  if (state.blending &&
-      between(state.t_adopted_ns, now_ns) >= static_cast<double>(config.blend_ns))
+  if (state.blending && between(state.t_adopted_ns, now_ns) >= static_cast<double>(config.blend_ns))
     state.blending = 0;
   if (!latest || latest->number == 0 || state.blending) return 0;
   if (latest->number == state.now.number || latest->number == state.refused) return 0;
@@ -77,10 +77,11 @@ void forgetMotion(TickState& state) {
   state.passivity = PassivityState{};
 }
 
-/// 1 while the snapshot is young, then falling to 0 within the fade. One from the future is as bad as an
-/// old one: the clock went back, or its time is wrong.
+/// 1 while the snapshot is young, then falling to 0 within the fade. One from the future is as bad
+/// as an old one: the clock went back, or its time is wrong.
 double freshness(const TickConfig& config, const TickState& state, std::int64_t now_ns) {
-  if (config.engine == Engine::touch || config.engine == Engine::floor) return 1;   // a real thing, a floor are always where they are
+  if (config.engine == Engine::touch || config.engine == Engine::floor)
+    return 1;  // a real thing, a floor are always where they are
   if (state.now.number == 0) return 0;
   const double over =
       std::abs(between(state.now.t_ns, now_ns)) - static_cast<double>(config.age_limit_ns);
@@ -91,15 +92,16 @@ double freshness(const TickConfig& config, const TickState& state, std::int64_t 
 SafetyCause faultOf(const TickConfig& config, TickState& state, const DeviceReading& reading,
                     const NeedlePose& pose, double elapsed_ns) {
   if (!possible(reading)) return SafetyCause::not_finite;
-  // Where it will be once homed is no jump from where it seemed to be, but has to be steady as after one.
+  // Where it will be once homed is no jump from where it seemed to be, but has to be steady as
+  // after one.
   if (!reading.homed) {
     state.reading = ReadingState{};
     state.homing_ns = static_cast<double>(config.safety.jump_hold_ns);
     return SafetyCause::none;
   }
   state.homing_ns = std::max(state.homing_ns - std::max(elapsed_ns, 0.0), 0.0);
-  const bool still = steady(config.safety, config.period_ns, pose, reading.sequence, elapsed_ns,
-                            state.reading);
+  const bool still =
+      steady(config.safety, config.period_ns, pose, reading.sequence, elapsed_ns, state.reading);
   if (!still) return SafetyCause::jump;
   if (state.homing_ns > 0) return SafetyCause::not_ready;
   if (elapsed_ns <= 0) return SafetyCause::clock;
@@ -109,14 +111,17 @@ SafetyCause faultOf(const TickConfig& config, TickState& state, const DeviceRead
 
 bool sensorBelieved(const SensedForce& sensed) {
   const Vec3 f = unpack(sensed.f_D);
-  return sensed.state == SensorState::valid && f.allFinite() && f.norm() <= kStrongestObject && unpack(sensed.p_DK).allFinite();
+  return sensed.state == SensorState::valid && f.allFinite() && f.norm() <= kStrongestObject &&
+         unpack(sensed.p_DK).allFinite();
 }
 
 bool believable(SafetyCause fault) {
-  return fault != SafetyCause::not_finite && fault != SafetyCause::jump && fault != SafetyCause::not_ready && fault != SafetyCause::no_sensor;
+  return fault != SafetyCause::not_finite && fault != SafetyCause::jump &&
+         fault != SafetyCause::not_ready && fault != SafetyCause::no_sensor;
 }
 
-/// A device that is not homed does not know where it is: nothing is touched, and what was touched is over.
+/// A device that is not homed does not know where it is: nothing is touched, and what was touched
+/// is over.
 void forgetContact(TickState& state) {
   const std::uint8_t punctures = state.contact.skin_punctures;
   state.contact = state.contact_old = NeedleState{};
@@ -135,7 +140,8 @@ Vec3 objectForce(const TickConfig& config, const SensedForce& sensed) {
 }
 
 /// The force that is asked of the limiter. Where nothing will be rendered the observer starts anew.
-Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& frame, const Vec3& f_felt_D) {
+Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& frame,
+                  const Vec3& f_felt_D) {
   const TickCommands& commands = frame.record.commands;
   const SafetyInput& in = frame.input;
   const double fresh = frame.fresh;
@@ -157,7 +163,9 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& f
 }
 
 /// The part of the commanded force that carries the handle: none where the limiter let none out.
-Vec3 heldBack(const FlightRecord& record, const TickFrame& frame) { return unpack(record.f_command_D).squaredNorm() > 0 ? frame.f_hold_D : Vec3(Vec3::Zero()); }
+Vec3 heldBack(const FlightRecord& record, const TickFrame& frame) {
+  return unpack(record.f_command_D).squaredNorm() > 0 ? frame.f_hold_D : Vec3(Vec3::Zero());
+}
 
 void describe(const TickConfig& config, FlightRecord& record, const NeedleContact& contact,
               const TickState& state) {
@@ -222,14 +230,17 @@ void tellCause(FlightRecord& record, TickState& state, double fresh) {
 
 }  // namespace
 
-PackedPose toolPose(const TickConfig& config, const TickState& state, const DeviceReading& reading) noexcept {
+PackedPose toolPose(const TickConfig& config, const TickState& state,
+                    const DeviceReading& reading) noexcept {
   const NeedlePose pose = needlePose(config, state.contact, reading);
   const Quat q_DT = (unpack(reading.q_DE).normalized() * unpack(config.X_ET.q)).normalized();
-  const Quat turn = Quat::FromTwoVectors(q_DT * Vec3::UnitZ(), pose.a_D);  // none where the device turns
+  const Quat turn =
+      Quat::FromTwoVectors(q_DT * Vec3::UnitZ(), pose.a_D);  // none where the device turns
   return {pack(pose.p_DT), pack(config.device_turns ? q_DT : Quat(turn * q_DT))};
 }
 
-TickFrame beginTick(const TickConfig& config, TickState& state, const DeviceReading& reading, const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
+TickFrame beginTick(const TickConfig& config, TickState& state, const DeviceReading& reading,
+                    const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
                     const SensedForce& sensed) noexcept {
   const double period = static_cast<double>(config.period_ns);
   const double elapsed = state.tick == 0 ? period : between(state.t_ns, now_ns);
@@ -244,12 +255,17 @@ TickFrame beginTick(const TickConfig& config, TickState& state, const DeviceRead
   record.events |= adopt(config, state, latest, now_ns);
   frame.pose = needlePose(config, state.contact, reading);
   SafetyCause fault = faultOf(config, state, reading, frame.pose, elapsed);
-  if (fault == SafetyCause::none && config.engine == Engine::touch && reading.homed && !sensorBelieved(sensed)) fault = commands.armed ? SafetyCause::no_sensor : SafetyCause::not_ready;
-  frame.input = safetyInput(reading, commands, fault, now_ns, std::clamp(elapsed * 1e-9, 0.0, kLongestStep));
+  if (fault == SafetyCause::none && config.engine == Engine::touch && reading.homed &&
+      !sensorBelieved(sensed))
+    fault = commands.armed ? SafetyCause::no_sensor : SafetyCause::not_ready;
+  frame.input =
+      safetyInput(reading, commands, fault, now_ns, std::clamp(elapsed * 1e-9, 0.0, kLongestStep));
   frame.fresh = freshness(config, state, now_ns);
   frame.felt = reading.homed && believable(fault);
-  if (!reading.homed) forgetContact(state);
-  else if (!frame.felt) forgetMotion(state);
+  if (!reading.homed)
+    forgetContact(state);
+  else if (!frame.felt)
+    forgetMotion(state);
   return frame;
 }
 
@@ -266,14 +282,19 @@ NeedleContact addedIn(const TickConfig& config, const Vec3& f_d_P, double x, dou
   return contact;
 }
 
-const FlightRecord& finishTick(const TickConfig& config, TickState& state, const NeedleContact& contact, TickFrame& frame) noexcept {
+const FlightRecord& finishTick(const TickConfig& config, TickState& state,
+                               const NeedleContact& contact, TickFrame& frame) noexcept {
   FlightRecord& record = frame.record;
-  if (frame.felt) frame.input.f_wanted_D = passiveForce(config, state, frame, contact.f_D + unpack(record.f_augmentation_D)) + frame.f_hold_D;
+  if (frame.felt)
+    frame.input.f_wanted_D =
+        passiveForce(config, state, frame, contact.f_D + unpack(record.f_augmentation_D)) +
+        frame.f_hold_D;
   record.f_wanted_D = pack(frame.input.f_wanted_D);
   describe(config, record, contact, state);
   record.f_command_D = pack(limitForce(config.safety, state.safety, frame.input));
   state.passivity.f_last_D =  // what the hand really gets, beside what carries the handle
-      pack(Vec3(unpack(record.f_command_D) - heldBack(record, frame) + objectForce(config, record.sensed)));
+      pack(Vec3(unpack(record.f_command_D) - heldBack(record, frame) +
+                objectForce(config, record.sensed)));
   tellCause(record, state, frame.fresh);
   return record;
 }

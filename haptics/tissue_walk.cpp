@@ -7,11 +7,11 @@ namespace {
 
 constexpr double kForgetWall = 0.0003;  // m back out of a wall before it counts as whole again
 constexpr double kGrazing = 0.05;       // cosine below which a boundary is nearly parallel
-constexpr double kLocal = 0.003;        // m: the plane is believed this far along the needle, no farther
+constexpr double kLocal = 0.003;  // m: the plane is believed this far along the needle, no farther
 
-/// How far along the needle the tip is past a boundary; negative before it. The crossing point's own
-/// distance along the axis, corrected for the plane's tilt where the needle has moved sideways since. A
-/// grazing plane far from its crossing says nothing: the correction is bounded.
+/// How far along the needle the tip is past a boundary; negative before it. The crossing point's
+/// own distance along the axis, corrected for the plane's tilt where the needle has moved sideways
+/// since. A grazing plane far from its crossing says nothing: the correction is bounded.
 double pastBoundary(const Boundary& boundary, const Vec3& p_DT, const Vec3& a_D) {
   const Vec3 n = unpack(boundary.n), to_tip = p_DT - unpack(boundary.p);
   const double along = to_tip.dot(a_D);

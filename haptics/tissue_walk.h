@@ -13,15 +13,15 @@ struct PuncturedWalls {
 /// What the tip and the shaft are in, walking the boundaries from the skin inward.
 struct TissueWalk {
   Tissue tissue = Tissue::skin;
-  double shaft_friction = 0;   ///< N: sum over layers of friction per length x length
-  double wall_depth = 0;       ///< m: how far the tip has pushed an intact wall
+  double shaft_friction = 0;  ///< N: sum over layers of friction per length x length
+  double wall_depth = 0;      ///< m: how far the tip has pushed an intact wall
   Organ wall = Organ::none;
   bool wall_leaving = false;
-  PuncturedWalls passed;       ///< walls that are punctured and still around the needle
+  PuncturedWalls passed;  ///< walls that are punctured and still around the needle
 };
 
-/// `insertion`: length of needle under the skin. A wall that is not in `walls` stops the walk: the tip
-/// is still before it, pushing. A wall is forgotten when the tip is 0.3 mm back out of it.
+/// `insertion`: length of needle under the skin. A wall that is not in `walls` stops the walk: the
+/// tip is still before it, pushing. A wall is forgotten when the tip is 0.3 mm back out of it.
 TissueWalk walkTissues(const NeedleMaterials& materials, const LocalGeometry& geometry,
                        const Vec3& p_DT, const Vec3& a_D, double insertion,
                        const PuncturedWalls& walls) noexcept;

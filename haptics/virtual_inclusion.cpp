@@ -7,17 +7,21 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr double kLumpBalanced = 1e-6;      // N
-constexpr double kNearestToLump = 1e-4;       // m between tool and lump: nearer there is no line between them
-constexpr double kBedFloor = 1e-5;         // m: below, a bed's stiffness is taken from there, for at rest it may be zero
+constexpr double kLumpBalanced = 1e-6;  // N
+constexpr double kNearestToLump =
+    1e-4;  // m between tool and lump: nearer there is no line between them
+constexpr double kBedFloor =
+    1e-5;  // m: below, a bed's stiffness is taken from there, for at rest it may be zero
 constexpr int kMostHalvings = 8;
 
-/// A law with its rate as a backward difference from `before`: force, and its derivative by the depth.
+/// A law with its rate as a backward difference from `before`: force, and its derivative by the
+/// depth.
 struct Implicit {
   double f = 0, slope = 0;
 };
 Implicit implicitly(const HuntCrossley& law, double x, double before, double dt) noexcept {
-  const double rate = (x - before) / dt, factor = law.k + law.b * rate, least = 0.1 * law.k;   // as forceOf and stiffnessOf have it, with one power for all
+  const double rate = (x - before) / dt, factor = law.k + law.b * rate,
+               least = 0.1 * law.k;  // as forceOf and stiffnessOf have it, with one power for all
   const double at = std::max(x, kBedFloor), power = std::pow(at, law.m - 1);
   const double held = std::max(factor, least);
   Implicit i;
@@ -26,7 +30,8 @@ Implicit implicitly(const HuntCrossley& law, double x, double before, double dt)
   return i;
 }
 
-/// The lump pushed by d: what the tools feel, what is left unbalanced on it, and how that changes with d.
+/// The lump pushed by d: what the tools feel, what is left unbalanced on it, and how that changes
+/// with d.
 struct Balance {
   std::array<Vec3, 2> f_T{Vec3::Zero(), Vec3::Zero()};
   std::array<double, 2> l{};
@@ -36,16 +41,24 @@ struct Balance {
 
 class Lump {
  public:
-  Lump(const VirtualInclusion& lump, const Vec3& p_T0, const std::array<InclusionContact, 2>& tools, double dt, const InclusionState& before) noexcept
-      : lump_(lump), p_T0_(p_T0), tools_(tools), dt_(dt), d_before_(unpack(before.d)), l_before_(before.l) {
-    for (std::size_t t = 0; t < 2; ++t) from_surface_[t] = (tools[t].p_H + tools[t].x * tools[t].u_n - p_T0).norm();
+  Lump(const VirtualInclusion& lump, const Vec3& p_T0, const std::array<InclusionContact, 2>& tools,
+       double dt, const InclusionState& before) noexcept
+      : lump_(lump),
+        p_T0_(p_T0),
+        tools_(tools),
+        dt_(dt),
+        d_before_(unpack(before.d)),
+        l_before_(before.l) {
+    for (std::size_t t = 0; t < 2; ++t)
+      from_surface_[t] = (tools[t].p_H + tools[t].x * tools[t].u_n - p_T0).norm();
   }
 
   Balance at(const Vec3& d) const noexcept {
     Balance b;
     for (int i = 0; i < 3; ++i) {
       const double side = d[i] < 0 ? -1 : 1;
-      const Implicit bed = implicitly(lump_.G[static_cast<std::size_t>(i)], side * d[i], side * d_before_[i], dt_);
+      const Implicit bed =
+          implicitly(lump_.G[static_cast<std::size_t>(i)], side * d[i], side * d_before_[i], dt_);
       b.left[i] = side * bed.f;
       b.slope(i, i) = bed.slope;
     }
@@ -67,7 +80,8 @@ class Lump {
     const Vec3 n = to_middle / from_middle;
     b->f_T[t] = felt.f * n;
     b->left += b->f_T[t];
-    b->slope += scale * felt.slope * n * (line / apart).transpose() - felt.f / from_middle * (Mat3::Identity() - n * n.transpose());
+    b->slope += scale * felt.slope * n * (line / apart).transpose() -
+                felt.f / from_middle * (Mat3::Identity() - n * n.transpose());
   }
 
   const VirtualInclusion& lump_;
@@ -79,15 +93,20 @@ class Lump {
   std::array<double, 2> from_surface_{};
 };
 
-bool usable(const Vec3& p_T0, const std::array<InclusionContact, 2>& tools, double dt, const InclusionState& state) noexcept {
+bool usable(const Vec3& p_T0, const std::array<InclusionContact, 2>& tools, double dt,
+            const InclusionState& state) noexcept {
   bool good = dt > 0 && p_T0.allFinite() && unpack(state.d).allFinite();
-  for (const InclusionContact& tool : tools) good = good && (!tool.touching || (tool.p_H.allFinite() && tool.u_n.allFinite() && std::isfinite(tool.x)));
+  for (const InclusionContact& tool : tools)
+    good = good && (!tool.touching ||
+                    (tool.p_H.allFinite() && tool.u_n.allFinite() && std::isfinite(tool.x)));
   return good;
 }
 
 }  // namespace
 
-InclusionAnswer feelInclusion(const VirtualInclusion& lump, const Vec3& p_T0, const std::array<InclusionContact, 2>& tools, double dt, InclusionState* state) noexcept {
+InclusionAnswer feelInclusion(const VirtualInclusion& lump, const Vec3& p_T0,
+                              const std::array<InclusionContact, 2>& tools, double dt,
+                              InclusionState* state) noexcept {
   InclusionAnswer answer;
   if (!usable(p_T0, tools, dt, *state)) {
     *state = {};

@@ -15,8 +15,11 @@ Packed3 corrected(const WorkspaceCorrection& correction, const Packed3& p) noexc
   for (int degree = 0; degree <= correction.order; ++degree)
     for (int i = degree; i >= 0; --i)
       for (int j = degree - i; j >= 0; --j, ++term) {
-        const double phi = power[0][static_cast<std::size_t>(i)] * power[1][static_cast<std::size_t>(j)] * power[2][static_cast<std::size_t>(degree - i - j)];
-        for (std::size_t axis = 0; axis < 3; ++axis) result[axis] += correction.coefficients[term][axis] * phi;
+        const double phi = power[0][static_cast<std::size_t>(i)] *
+                           power[1][static_cast<std::size_t>(j)] *
+                           power[2][static_cast<std::size_t>(degree - i - j)];
+        for (std::size_t axis = 0; axis < 3; ++axis)
+          result[axis] += correction.coefficients[term][axis] * phi;
       }
   return result;
 }

@@ -18,13 +18,13 @@ constexpr double kDegree = std::numbers::pi / 180;
 constexpr double kDistance = 0.42;  // metres from the virtual camera to the entry region
 constexpr double kElevation = 28 * kDegree;
 constexpr double kOnTable = -38 * kDegree;  // somebody who sits before it
-constexpr double kAzimuth = 18 * kDegree;  // toward the punctured side
-constexpr double kToolReach = 0.30;        // metres from the tip: the syringe, an arrow at its end
-constexpr double kEyesApart = 0.063;       // metres, the mean of adults (Dodgson 2004)
+constexpr double kAzimuth = 18 * kDegree;   // toward the punctured side
+constexpr double kToolReach = 0.30;         // metres from the tip: the syringe, an arrow at its end
+constexpr double kEyesApart = 0.063;        // metres, the mean of adults (Dodgson 2004)
 constexpr double kNearestFocus = 0.1;
-constexpr double kNearestThing = 0.05;     // m from the camera, of what is real
-constexpr double kShaft_px = 5;            // an arrow's shaft in a window 720 pixels high
-constexpr double kPin_px = 11;             // a pin's head, likewise
+constexpr double kNearestThing = 0.05;  // m from the camera, of what is real
+constexpr double kShaft_px = 5;         // an arrow's shaft in a window 720 pixels high
+constexpr double kPin_px = 11;          // a pin's head, likewise
 
 OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
   const double azimuth = patient.side == anatomy::Side::right ? -kAzimuth : kAzimuth;
@@ -51,9 +51,12 @@ ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const R
       ellipse_(*above_, colour::kAdvice, 1.8),
       search_(*on_skin_, *above_, 2.5),
       occluders_(*renderer_) {
-  if (layout.skin_deflection && organs_.skin()) skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
+  if (layout.skin_deflection && organs_.skin())
+    skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
   setUpRenderers();
-  if (stereo_ != Stereo::none && stereo_ != Stereo::anaglyph) second_ = std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *on_skin_, *above_);
+  if (stereo_ != Stereo::none && stereo_ != Stereo::anaglyph)
+    second_ =
+        std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *on_skin_, *above_);
 }
 
 void ArView::setUpRenderers() {
@@ -64,7 +67,7 @@ void ArView::setUpRenderers() {
     renderer->SetActiveCamera(renderer_->GetActiveCamera());
     window_.AddRenderer(renderer);
   }
-  on_skin_->EraseOff();   // over the colours and depths so far
+  on_skin_->EraseOff();  // over the colours and depths so far
   above_->SetLayer(1);
   renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
 }
@@ -117,7 +120,9 @@ void ArView::applyCameras(const SceneState& state) {
   glass_.look(X_CA_.inverse().translation());
   if (stereo_ == Stereo::none) return lookThrough({pinhole_, X_CA_}, picture_, *renderer_);
   const Pinhole whole = virtual_ ? pinhole_ : state.camera;
-  eyes_ = state.eyes ? *state.eyes : stereoPair(whole, X_CA_, kEyesApart, std::max((X_CA_ * region_.focus_A).z(), kNearestFocus));
+  eyes_ = state.eyes ? *state.eyes
+                     : stereoPair(whole, X_CA_, kEyesApart,
+                                  std::max((X_CA_ * region_.focus_A).z(), kNearestFocus));
   eye_panels_ = eyePanels(panel_, stereo_);
   for (std::size_t i = 0; i < 2; ++i) {
     eye_panels_[i] = letterbox(eye_panels_[i], eyes_[i].camera.width, eyes_[i].camera.height);
@@ -125,15 +130,21 @@ void ArView::applyCameras(const SceneState& state) {
   }
   lookThrough(eyes_[0], eye_panels_[0], *renderer_);
   if (!second_) return;
-  second_->forAll([&](vtkRenderer& renderer) { setViewport(renderer, eye_panels_[1], window_width_, window_height_); });
+  second_->forAll([&](vtkRenderer& renderer) {
+    setViewport(renderer, eye_panels_[1], window_width_, window_height_);
+  });
   lookThrough(eyes_[1], eye_panels_[1], second_->behind());
 }
 
 void ArView::lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind) {
   if (&behind == renderer_.Get())
-    for (vtkRenderer* renderer : {renderer_.Get(), on_skin_.Get(), above_.Get(), &glass_.renderer()}) setViewport(*renderer, where, window_width_, window_height_);
-  DepthRange range = depthRangeOf({{eye.X_CA * region_.whole_centre_A, region_.whole_radius}, {eye.X_CA * tip_A_, kToolReach}});
-  if (real_things_) range.near = std::min(range.near, kNearestThing);   // they stand anywhere before the patient
+    for (vtkRenderer* renderer :
+         {renderer_.Get(), on_skin_.Get(), above_.Get(), &glass_.renderer()})
+      setViewport(*renderer, where, window_width_, window_height_);
+  DepthRange range = depthRangeOf(
+      {{eye.X_CA * region_.whole_centre_A, region_.whole_radius}, {eye.X_CA * tip_A_, kToolReach}});
+  if (real_things_)
+    range.near = std::min(range.near, kNearestThing);  // they stand anywhere before the patient
   aim(*behind.GetActiveCamera(), eye.camera, eye.X_CA, range);
 }
 
@@ -145,7 +156,9 @@ void ArView::showLines(const SceneState& state, bool visible) {
   else
     guide_.hide();
   std::vector<Vec3> ellipse;
-  if (visible && state.tip_covariance_A && !virtual_) ellipse = uncertaintyEllipse(*state.tip_covariance_A, state.X_AT.translation(), X_CA_, pinhole_);
+  if (visible && state.tip_covariance_A && !virtual_)
+    ellipse =
+        uncertaintyEllipse(*state.tip_covariance_A, state.X_AT.translation(), X_CA_, pinhole_);
   if (ellipse.empty())
     ellipse_.hide();
   else
@@ -158,8 +171,10 @@ void ArView::showPatient(const SceneState& state, bool visible) {
   organs_.setVisible(visible);
   organs_.setPose(state.X_AB);
   other_probe_.update(state.second_X_AT.value_or(state.X_AT), 0, 0);
-  if (visible && state.second_X_AT) other_probe_.show(Tool::probe);
-  else other_probe_.hide();
+  if (visible && state.second_X_AT)
+    other_probe_.show(Tool::probe);
+  else
+    other_probe_.hide();
   instrument_.update(state.X_AT, state.plunger, state.blood);
   if (visible && state.show_tool)
     instrument_.show(state.tool);

@@ -47,9 +47,12 @@ class ArView {
   bool showsPatient() const { return shows_patient_; }
   OrbitCamera& orbit() { return orbit_; }
   const Rect& picture() const { return picture_; }  ///< the part of the panel that is drawn on
-  const std::array<EyeCamera, 2>& eyes() const { return eyes_; }      ///< of a stereo view; as large as their panels
+  const std::array<EyeCamera, 2>& eyes() const {
+    return eyes_;
+  }  ///< of a stereo view; as large as their panels
   const std::array<Rect, 2>& panelsOfEyes() const { return eye_panels_; }
-  /// What is seen where: the camera, or the left one of two eyes, and the part of the window that it fills.
+  /// What is seen where: the camera, or the left one of two eyes, and the part of the window that
+  /// it fills.
   EyeCamera eye() const { return stereo_ == Stereo::none ? EyeCamera{pinhole_, X_CA_} : eyes_[0]; }
   const Rect& eyePanel() const { return stereo_ == Stereo::none ? picture_ : eye_panels_[0]; }
 
@@ -89,7 +92,8 @@ class ArView {
   EdgedLines guide_, ellipse_;
   SearchOverlay search_;
   Occluders occluders_;
-  std::unique_ptr<SecondEye> second_;    // null: one camera, or an anaglyph's eyes one after the other
+  std::unique_ptr<SecondEye>
+      second_;  // null: one camera, or an anaglyph's eyes one after the other
 };
 
 }  // namespace palpa::scene

@@ -21,18 +21,23 @@
 namespace palpa::scene {
 namespace {
 
-constexpr double kOverSurface = 0.0004;   // m; a surface in the same plane would show through in stripes
-constexpr int kCell_texels = 12;          // a cell's edge, less where there are many
+constexpr double kOverSurface =
+    0.0004;                       // m; a surface in the same plane would show through in stripes
+constexpr int kCell_texels = 12;  // a cell's edge, less where there are many
 constexpr int kMost_texels = 2048;
-constexpr double kSeam = 0.62;            // opacity of a cell's rim, in parts of its own: cells can be counted
+constexpr double kSeam =
+    0.62;  // opacity of a cell's rim, in parts of its own: cells can be counted
 
 bool isSound(const CoverageGrid& grid) {
-  return grid.columns > 0 && grid.rows > 0 && std::max(grid.columns, grid.rows) <= kMost_texels && grid.cell_x > 0 && grid.cell_y > 0 &&
-         grid.levels.size() == static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
+  return grid.columns > 0 && grid.rows > 0 && std::max(grid.columns, grid.rows) <= kMost_texels &&
+         grid.cell_x > 0 && grid.cell_y > 0 &&
+         grid.levels.size() ==
+             static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
 }
 
 bool sameSheet(const CoverageGrid& a, const CoverageGrid& b) {
-  return a.columns == b.columns && a.rows == b.rows && a.cell_x == b.cell_x && a.cell_y == b.cell_y && a.X_AG.matrix() == b.X_AG.matrix();
+  return a.columns == b.columns && a.rows == b.rows && a.cell_x == b.cell_x &&
+         a.cell_y == b.cell_y && a.X_AG.matrix() == b.X_AG.matrix();
 }
 
 Rgba feltColour(std::uint8_t level) {
@@ -48,21 +53,27 @@ Rgba feltColour(std::uint8_t level) {
   }
 }
 
-std::uint8_t toByte(double share) { return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0))); }
+std::uint8_t toByte(double share) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
+}
 
 std::array<Vec3, 4> cornersOf(const CoverageGrid& grid) {
   const double x = 0.5 * grid.columns * grid.cell_x, y = 0.5 * grid.rows * grid.cell_y;
-  const auto at = [&](double dx, double dy) { return Vec3(grid.X_AG * Vec3(dx, dy, kOverSurface)); };
+  const auto at = [&](double dx, double dy) {
+    return Vec3(grid.X_AG * Vec3(dx, dy, kOverSurface));
+  };
   return {at(-x, -y), at(x, -y), at(x, y), at(-x, y)};
 }
 
 }  // namespace
 
-CoverageCarpet::CoverageCarpet(vtkRenderer& renderer, double outline_px) : outline_(((void)renderer.AddActor(carpet_), renderer), colour::kText, outline_px) {
+CoverageCarpet::CoverageCarpet(vtkRenderer& renderer, double outline_px)
+    : outline_(((void)renderer.AddActor(carpet_), renderer), colour::kText, outline_px) {
   vtkNew<vtkFloatArray> places;
   places->SetNumberOfComponents(2);
   places->SetName("TextureCoordinates");
-  for (const auto& [u, v] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)}) places->InsertNextTuple2(u, v);
+  for (const auto& [u, v] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
+    places->InsertNextTuple2(u, v);
   vtkNew<vtkCellArray> cells;
   for (const vtkIdType last : {2, 3}) {
     const vtkIdType triangle[] = {0, last - 1, last};
@@ -78,11 +89,11 @@ CoverageCarpet::CoverageCarpet(vtkRenderer& renderer, double outline_px) : outli
   texture->EdgeClampOn();
   const vtkSmartPointer<vtkPolyDataMapper> mapper = makePassMapper();
   mapper->SetInputData(sheet_);
-  setWrites(*mapper, true, false);   // what lies under it is drawn later, and over it
+  setWrites(*mapper, true, false);  // what lies under it is drawn later, and over it
   carpet_->SetMapper(mapper);
   carpet_->SetTexture(texture);
   carpet_->GetProperty()->LightingOff();
-  carpet_->ForceOpaqueOn();          // in the order of actors, and blended (see Glass)
+  carpet_->ForceOpaqueOn();  // in the order of actors, and blended (see Glass)
   carpet_->VisibilityOff();
 }
 
@@ -105,7 +116,9 @@ void CoverageCarpet::dye(const CoverageGrid& grid) {
   auto* texel = static_cast<std::uint8_t*>(picture_->GetScalarPointer());
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x, texel += 4) {
-      const Rgba ink = feltColour(grid.levels[static_cast<std::size_t>(y / side) * static_cast<std::size_t>(grid.columns) + static_cast<std::size_t>(x / side)]);
+      const Rgba ink = feltColour(
+          grid.levels[static_cast<std::size_t>(y / side) * static_cast<std::size_t>(grid.columns) +
+                      static_cast<std::size_t>(x / side)]);
       const bool rim = side > 3 && (x % side == 0 || y % side == 0);
       for (std::size_t k = 0; k < 3; ++k) texel[k] = toByte(ink[k]);
       texel[3] = toByte(rim ? kSeam * ink[3] : ink[3]);
@@ -117,8 +130,10 @@ void CoverageCarpet::dye(const CoverageGrid& grid) {
 void CoverageCarpet::update(const std::optional<CoverageGrid>& grid, bool visible) {
   const bool shown = visible && grid && isSound(*grid);
   if (shown && !(drawn_ && sameSheet(*drawn_, *grid))) lay(*grid);
-  if (shown && !(drawn_ && drawn_->columns == grid->columns && drawn_->levels == grid->levels)) dye(*grid);
-  if (shown && !(drawn_ && sameSheet(*drawn_, *grid) && drawn_->levels == grid->levels)) drawn_ = grid;
+  if (shown && !(drawn_ && drawn_->columns == grid->columns && drawn_->levels == grid->levels))
+    dye(*grid);
+  if (shown && !(drawn_ && sameSheet(*drawn_, *grid) && drawn_->levels == grid->levels))
+    drawn_ = grid;
   carpet_->SetVisibility(shown);
   outline_.setVisible(shown);
 }

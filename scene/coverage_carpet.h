@@ -14,14 +14,16 @@ class vtkRenderer;
 
 namespace palpa::scene {
 
-/// What has been felt, as a translucent carpet just over the plane of its grid, and the outline of the whole. Cells that were not felt stay clear. Without light, so that a level
-/// has one colour wherever it lies.
+/// What has been felt, as a translucent carpet just over the plane of its grid, and the outline of
+/// the whole. Cells that were not felt stay clear. Without light, so that a level has one colour
+/// wherever it lies.
 class CoverageCarpet {
  public:
   CoverageCarpet(vtkRenderer& renderer, double outline_px);
   ~CoverageCarpet();
 
-  /// Lays the carpet anew where the grid has changed, dyes it anew where levels have; else costs a comparison. A grid without as many levels as cells is not shown.
+  /// Lays the carpet anew where the grid has changed, dyes it anew where levels have; else costs a
+  /// comparison. A grid without as many levels as cells is not shown.
   void update(const std::optional<CoverageGrid>& grid, bool visible);
   bool visible() const;
 

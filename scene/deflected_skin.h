@@ -11,8 +11,8 @@ class vtkPolyData;
 
 namespace palpa::scene {
 
-/// Moves the points and normals of a drawn skin in place, and puts them back bit for bit when the push ends: what is
-/// not under a push has never been touched.
+/// Moves the points and normals of a drawn skin in place, and puts them back bit for bit when the
+/// push ends: what is not under a push has never been touched.
 class DeflectedSkin {
  public:
   /// `drawn` shows `mesh` (polyDataOf) and has to outlive this.
@@ -30,7 +30,7 @@ class DeflectedSkin {
   anatomy::SkinDimple dimple_;
   vtkPolyData& drawn_;
   float* points_;
-  float* normals_;   // null: drawn without
+  float* normals_;  // null: drawn without
   std::vector<Before> before_;
 };
 

@@ -1,16 +1,18 @@
 #include "scene/eye_copy.h"
 
-#include <vtk_glew.h>
 #include <vtkOpenGLFramebufferObject.h>
 #include <vtkOpenGLRenderWindow.h>
 #include <vtkOpenGLState.h>
+#include <vtk_glew.h>
 
 #include "anatomy/geometry/error.h"
 
 namespace palpa::scene {
 namespace {
 
-vtkOpenGLRenderWindow& openGl(vtkRenderWindow& window) { return static_cast<vtkOpenGLRenderWindow&>(window); }
+vtkOpenGLRenderWindow& openGl(vtkRenderWindow& window) {
+  return static_cast<vtkOpenGLRenderWindow&>(window);
+}
 
 /// VTK remembers what is bound: what we bind it must hear of, and have back.
 class Bindings {
@@ -30,18 +32,21 @@ void drawInto(vtkOpenGLState& state, std::uint32_t* framebuffer, std::uint32_t t
   state.vtkglBindFramebuffer(GL_DRAW_FRAMEBUFFER, *framebuffer);
   glFramebufferTexture2D(GL_DRAW_FRAMEBUFFER, GL_COLOR_ATTACHMENT0, GL_TEXTURE_2D, texture, 0);
   if (glCheckFramebufferStatus(GL_DRAW_FRAMEBUFFER) != GL_FRAMEBUFFER_COMPLETE)
-    throw Error("the graphics driver does not draw into the headset's pictures", "an eye's picture", "Update the graphics driver");
+    throw Error("the graphics driver does not draw into the headset's pictures", "an eye's picture",
+                "Update the graphics driver");
 }
 
 void readFrame(vtkOpenGLRenderWindow& window) {
-  vtkOpenGLFramebufferObject* const drawn = window.GetRenderFramebuffer();   // nothing is multisampled: it holds the frame
+  vtkOpenGLFramebufferObject* const drawn =
+      window.GetRenderFramebuffer();  // nothing is multisampled: it holds the frame
   drawn->Bind(GL_READ_FRAMEBUFFER);
   drawn->ActivateReadBuffer(0);
 }
 
 void blit(const Rect& from, int width, int height) {
   const bool same = from.width == width && from.height == height;
-  glBlitFramebuffer(from.x, from.y, from.right(), from.top(), 0, 0, width, height, GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
+  glBlitFramebuffer(from.x, from.y, from.right(), from.top(), 0, 0, width, height,
+                    GL_COLOR_BUFFER_BIT, same ? GL_NEAREST : GL_LINEAR);
 }
 
 }  // namespace
@@ -54,7 +59,8 @@ EyeCopier::~EyeCopier() {
   if (encoded_) glDeleteTextures(1, &encoded_);
 }
 
-/// The part through a texture of encoded colours, which a blit then decodes (OpenGL 4.4, 18.3.1): left bound for reading.
+/// The part through a texture of encoded colours, which a blit then decodes (OpenGL 4.4, 18.3.1):
+/// left bound for reading.
 void EyeCopier::readDecoded(const Rect& part) {
   vtkOpenGLState& state = *openGl(window_).GetState();
   if (encoded_width_ != part.width || encoded_height_ != part.height) {
@@ -62,7 +68,8 @@ void EyeCopier::readDecoded(const Rect& part) {
     GLint bound = 0;
     glGetIntegerv(GL_TEXTURE_BINDING_2D, &bound);
     glBindTexture(GL_TEXTURE_2D, encoded_);
-    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, part.width, part.height, 0, GL_RGBA, GL_UNSIGNED_BYTE, nullptr);
+    glTexImage2D(GL_TEXTURE_2D, 0, GL_SRGB8_ALPHA8, part.width, part.height, 0, GL_RGBA,
+                 GL_UNSIGNED_BYTE, nullptr);
     glTexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAX_LEVEL, 0);
     glBindTexture(GL_TEXTURE_2D, static_cast<GLuint>(bound));
     encoded_width_ = part.width;
@@ -83,8 +90,10 @@ void EyeCopier::copy(const Rect& part, const TextureTarget& target) {
   state.vtkglDisable(GL_SCISSOR_TEST);
   glDisable(GL_FRAMEBUFFER_SRGB);
   const bool linear = target.format != GL_SRGB8_ALPHA8 && target.format != GL_SRGB8;
-  if (linear) readDecoded(part);
-  else readFrame(window);
+  if (linear)
+    readDecoded(part);
+  else
+    readFrame(window);
   drawInto(state, &frame_, target.texture);
   if (linear) glEnable(GL_FRAMEBUFFER_SRGB);
   blit(linear ? Rect{0, 0, part.width, part.height} : part, target.width, target.height);

@@ -11,7 +11,7 @@ namespace palpa::scene {
 /// A two-dimensional texture of the window's context, rows from the bottom.
 struct TextureTarget {
   std::uint32_t texture = 0;
-  std::int64_t format = 0;   ///< OpenGL's internal format
+  std::int64_t format = 0;  ///< OpenGL's internal format
   int width = 0, height = 0;
 };
 
@@ -22,15 +22,18 @@ class EyeCopier {
   ~EyeCopier();
   EyeCopier(const EyeCopier&) = delete;
   EyeCopier& operator=(const EyeCopier&) = delete;
-  /// A part of the last frame, stretched where the sizes differ. Colours are drawn encoded (sRGB): they stay as they are in a texture that holds such, and are decoded for one
-  /// that holds linear colours. Throws Error where the texture cannot be drawn into.
+  /// A part of the last frame, stretched where the sizes differ. Colours are drawn encoded (sRGB):
+  /// they stay as they are in a texture that holds such, and are decoded for one that holds linear
+  /// colours. Throws Error where the texture cannot be drawn into.
   void copy(const Rect& part, const TextureTarget& target);
 
  private:
   void readDecoded(const Rect& part);
 
   vtkRenderWindow& window_;
-  std::uint32_t frame_ = 0, between_ = 0, encoded_ = 0;   ///< OpenGL's: framebuffers about the target and about `encoded_`, a texture
+  std::uint32_t frame_ = 0, between_ = 0,
+                encoded_ =
+                    0;  ///< OpenGL's: framebuffers about the target and about `encoded_`, a texture
   int encoded_width_ = 0, encoded_height_ = 0;
 };
 

@@ -51,7 +51,8 @@ struct ForceArrows::Arrow {
   vtkNew<vtkMatrix4x4> X_A_arrow;
 };
 
-ForceArrows::ForceArrows(vtkRenderer& renderer, ForceColours colours) : renderer_(renderer), colours_(colours) {}
+ForceArrows::ForceArrows(vtkRenderer& renderer, ForceColours colours)
+    : renderer_(renderer), colours_(colours) {}
 ForceArrows::~ForceArrows() = default;
 
 void ForceArrows::update(const std::vector<ForceArrow>& forces, const Pose& X_CA, double focal_px,
@@ -79,13 +80,13 @@ Rgb arrowColour(ForceKind kind, ForceColours colours) {
   const bool safe = colours == ForceColours::safe;
   switch (kind) {
     case ForceKind::reaction:
-      return safe ? Rgb{0.835, 0.369, 0.000} : Rgb{0.22, 0.22, 0.22};   // vermilion
+      return safe ? Rgb{0.835, 0.369, 0.000} : Rgb{0.22, 0.22, 0.22};  // vermilion
     case ForceKind::weight:
-      return safe ? Rgb{0.337, 0.706, 0.914} : Rgb{0.50, 0.50, 0.50};   // sky blue
+      return safe ? Rgb{0.337, 0.706, 0.914} : Rgb{0.50, 0.50, 0.50};  // sky blue
     case ForceKind::device:
       break;
   }
-  return safe ? Rgb{0.941, 0.894, 0.259} : Rgb{0.86, 0.86, 0.86};       // yellow
+  return safe ? Rgb{0.941, 0.894, 0.259} : Rgb{0.86, 0.86, 0.86};  // yellow
 }
 
 Rgb arrowOutline(ForceKind kind) {

@@ -12,7 +12,8 @@ namespace palpa::scene {
 
 /// Force arrows after Jeon, Choi and Harders (2015, figure 10.7): reaction dark gray, weight mid
 /// gray, device light gray; each has an outline of the opposite brightness, so that it is seen on
-/// any background; or the other colours. The length is the force, the thickness is constant on the screen.
+/// any background; or the other colours. The length is the force, the thickness is constant on the
+/// screen.
 class ForceArrows {
  public:
   static constexpr double kMetresPerNewton = 0.030;

@@ -40,7 +40,9 @@ std::unique_ptr<GlContextProvider> offscreen(int width, int height, const char* 
 
 void GlContextProvider::makeCurrent() { window()->MakeCurrent(); }
 
-void GlContextProvider::neverWait() { static_cast<vtkOpenGLRenderWindow*>(window())->SetSwapControl(0); }
+void GlContextProvider::neverWait() {
+  static_cast<vtkOpenGLRenderWindow*>(window())->SetSwapControl(0);
+}
 
 std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int height,
                                                  const char* title) {

@@ -8,11 +8,11 @@ namespace palpa::scene {
 
 /// A context as GLX or EGL have it, for what else wants to draw in it.
 struct NativeContext {
-  bool glx = false;                ///< otherwise EGL
+  bool glx = false;  ///< otherwise EGL
   void *display = nullptr, *config = nullptr, *context = nullptr;
-  unsigned long drawable = 0;      ///< GLX
-  unsigned visual = 0;             ///< GLX
-  void (*(*address)(const char*))() = nullptr;   ///< of OpenGL's functions (EGL)
+  unsigned long drawable = 0;                   ///< GLX
+  unsigned visual = 0;                          ///< GLX
+  void (*(*address)(const char*))() = nullptr;  ///< of OpenGL's functions (EGL)
 };
 
 enum class Display { automatic, window, offscreen };

@@ -17,7 +17,7 @@
 namespace palpa::scene {
 namespace {
 
-constexpr double kEyeMoved = 0.005;   // of its distance
+constexpr double kEyeMoved = 0.005;  // of its distance
 
 std::vector<std::array<long long, 3>> trianglesOf(vtkPolyData& surface) {
   std::vector<std::array<long long, 3>> triangles;
@@ -30,7 +30,8 @@ std::vector<std::array<long long, 3>> trianglesOf(vtkPolyData& surface) {
   return triangles;
 }
 
-std::vector<Eigen::Vector3f> middlesOf(vtkPolyData& surface, const std::vector<std::array<long long, 3>>& triangles) {
+std::vector<Eigen::Vector3f> middlesOf(vtkPolyData& surface,
+                                       const std::vector<std::array<long long, 3>>& triangles) {
   std::vector<Eigen::Vector3f> middles;
   middles.reserve(triangles.size());
   for (const auto& triangle : triangles) {
@@ -45,14 +46,17 @@ std::vector<Eigen::Vector3f> middlesOf(vtkPolyData& surface, const std::vector<s
 }
 
 /// Of the box's nearest point.
-double nearest(const Vec3& low, const Vec3& high, const Vec3& eye) { return (eye.cwiseMax(low).cwiseMin(high) - eye).norm(); }
+double nearest(const Vec3& low, const Vec3& high, const Vec3& eye) {
+  return (eye.cwiseMax(low).cwiseMin(high) - eye).norm();
+}
 
 }  // namespace
 
-Glass::Glass(vtkRenderWindow& window, vtkRenderer& behind) : window_(window), sorted_for_(Vec3::Zero()) {
+Glass::Glass(vtkRenderWindow& window, vtkRenderer& behind)
+    : window_(window), sorted_for_(Vec3::Zero()) {
   setUpRenderer(*renderer_, colour::kBehindBottom);
   renderer_->SetActiveCamera(behind.GetActiveCamera());
-  renderer_->EraseOff();   // over the colours and depths of `behind`
+  renderer_->EraseOff();  // over the colours and depths of `behind`
   window_.AddRenderer(renderer_);
 }
 
@@ -67,9 +71,11 @@ void Glass::add(vtkActor* actor, vtkPolyData* surface) {
   const double* b = surface->GetBounds();
   added.low = {b[0], b[2], b[4]};
   added.high = {b[1], b[3], b[5]};
-  // VTK's own translucent pass knows no order; its opaque pass draws one actor after the other, and blends.
+  // VTK's own translucent pass knows no order; its opaque pass draws one actor after the other, and
+  // blends.
   actor->ForceOpaqueOn();
-  setWrites(*actor->GetMapper(), true, false);   // what is nearer by a hair must not wipe out what comes next
+  setWrites(*actor->GetMapper(), true,
+            false);  // what is nearer by a hair must not wipe out what comes next
   actor->GetProperty()->BackfaceCullingOn();
   surfaces_.push_back(std::move(added));
   sorted_ = false;
@@ -85,25 +91,31 @@ void Glass::remove(vtkActor* actor) {
 void Glass::sort(Surface& surface, const Vec3& eye) {
   const Eigen::Vector3f from = eye.cast<float>();
   std::vector<std::pair<float, std::uint32_t>> far_first(surface.triangles.size());
-  for (std::size_t i = 0; i < far_first.size(); ++i) far_first[i] = {-(surface.middles[i] - from).squaredNorm(), static_cast<std::uint32_t>(i)};
+  for (std::size_t i = 0; i < far_first.size(); ++i)
+    far_first[i] = {-(surface.middles[i] - from).squaredNorm(), static_cast<std::uint32_t>(i)};
   std::sort(far_first.begin(), far_first.end());
   vtkNew<vtkCellArray> cells;
-  cells->AllocateExact(static_cast<vtkIdType>(far_first.size()), static_cast<vtkIdType>(3 * far_first.size()));
+  cells->AllocateExact(static_cast<vtkIdType>(far_first.size()),
+                       static_cast<vtkIdType>(3 * far_first.size()));
   for (const auto& [distance, i] : far_first) {
-    const vtkIdType corners[] = {surface.triangles[i][0], surface.triangles[i][1], surface.triangles[i][2]};
+    const vtkIdType corners[] = {surface.triangles[i][0], surface.triangles[i][1],
+                                 surface.triangles[i][2]};
     cells->InsertNextCell(3, corners);
   }
   surface.polys->SetPolys(cells);
 }
 
 void Glass::order(const Vec3& eye) {
-  std::stable_sort(surfaces_.begin(), surfaces_.end(), [&](const Surface& a, const Surface& b) { return nearest(a.low, a.high, eye) > nearest(b.low, b.high, eye); });
+  std::stable_sort(surfaces_.begin(), surfaces_.end(), [&](const Surface& a, const Surface& b) {
+    return nearest(a.low, a.high, eye) > nearest(b.low, b.high, eye);
+  });
   renderer_->RemoveAllViewProps();
   for (const Surface& surface : surfaces_) renderer_->AddActor(surface.actor);
 }
 
 void Glass::look(const Vec3& eye) {
-  const double distance = surfaces_.empty() ? 0 : (0.5 * (surfaces_.front().low + surfaces_.front().high) - eye).norm();
+  const double distance =
+      surfaces_.empty() ? 0 : (0.5 * (surfaces_.front().low + surfaces_.front().high) - eye).norm();
   if (sorted_ && (eye - sorted_for_).norm() < kEyeMoved * distance) return;
   for (Surface& surface : surfaces_) sort(surface, eye);
   order(eye);

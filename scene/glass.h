@@ -16,9 +16,11 @@ class vtkRenderWindow;
 
 namespace palpa::scene {
 
-/// Translucent surfaces over what a renderer has drawn, blended from the far to the near, in a pass of its own that keeps colours and depths. Within a
-/// surface the triangles go by the distance of their middles from the eye (Newell, Newell, Sancha 1972, without splitting), surfaces by the nearest corner of
-/// their boxes, so that one around another comes after it. Only faces that look at the eye are drawn. Exact where surfaces do not pass through each other and triangles are
+/// Translucent surfaces over what a renderer has drawn, blended from the far to the near, in a pass
+/// of its own that keeps colours and depths. Within a surface the triangles go by the distance of
+/// their middles from the eye (Newell, Newell, Sancha 1972, without splitting), surfaces by the
+/// nearest corner of their boxes, so that one around another comes after it. Only faces that look
+/// at the eye are drawn. Exact where surfaces do not pass through each other and triangles are
 /// small; depth peeling, which is exact always, draws everything once more for every layer.
 ///
 /// Sorted anew when the eye has moved by a two-hundredth of its distance.

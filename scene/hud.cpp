@@ -26,10 +26,14 @@ bool anyCut(const std::vector<ForceArrow>& forces) {
 /// Colour and share of the strip's height of a mark.
 std::pair<Rgb, double> lookOf(TickTone tone) {
   switch (tone) {
-    case TickTone::good: return {colour::kTickGood, 0.5};
-    case TickTone::guide: return {colour::kMark, 0.7};
-    case TickTone::bad: return {colour::kTickBad, 1.0};
-    case TickTone::neutral: break;
+    case TickTone::good:
+      return {colour::kTickGood, 0.5};
+    case TickTone::guide:
+      return {colour::kMark, 0.7};
+    case TickTone::bad:
+      return {colour::kTickBad, 1.0};
+    case TickTone::neutral:
+      break;
   }
   return {colour::kTextDim, 0.35};
 }
@@ -65,7 +69,8 @@ struct HudPainter::Content {
   bool operator==(const Content&) const = default;
 };
 
-HudPainter::HudPainter(vtkRenderer& renderer, ForceColours colours) : plates_(renderer), renderer_(renderer), colours_(colours) {}
+HudPainter::HudPainter(vtkRenderer& renderer, ForceColours colours)
+    : plates_(renderer), renderer_(renderer), colours_(colours) {}
 HudPainter::~HudPainter() = default;
 
 void HudPainter::update(const Hud& text, const std::vector<ForceArrow>& forces, const Rect& panel,
@@ -138,8 +143,10 @@ void HudPainter::buildPhase() {
 
 std::vector<HudPainter::Row> HudPainter::readings() const {
   const Hud& text = content_->text;
-  std::vector<Row> rows{
-      {"Time", text.time}, {"Depth", text.depth}, {"Force", text.force}, {"Touched", text.touched}, {"Overlay", text.overlay}, {"Marked", text.marked}, {"Note", text.note}};
+  std::vector<Row> rows{{"Time", text.time},       {"Depth", text.depth},
+                        {"Force", text.force},     {"Touched", text.touched},
+                        {"Overlay", text.overlay}, {"Marked", text.marked},
+                        {"Note", text.note}};
   std::erase_if(rows, [](const Row& row) { return row.value.empty(); });
   return rows;
 }
@@ -196,21 +203,26 @@ void HudPainter::buildTimeline() {
   const Timeline& strip = *content_->text.timeline;
   const TextStyle look = style(0.85, false, colour::kText);
   const int pad = text_ / 2, height = stripHeight_px(content_->height);
-  const Rect frame{content_->panel.x + margin_, above_, content_->panel.width - 2 * margin_, height};
+  const Rect frame{content_->panel.x + margin_, above_, content_->panel.width - 2 * margin_,
+                   height};
   plates_.add(frame, colour::kPlate, pad / 2);
-  const int middle = frame.y + height / 2, widest = textWidth("88:88.8 of 88:88.8", look), rate = textWidth("paused", look);
+  const int middle = frame.y + height / 2, widest = textWidth("88:88.8 of 88:88.8", look),
+            rate = textWidth("paused", look);
   write(strip.time, look, frame.x + pad, middle, Align::left);
   write(strip.rate, look, frame.right() - pad, middle, Align::right);
-  const Rect track{frame.x + widest + 2 * pad, middle - 2, std::max(1, frame.width - widest - rate - 5 * pad), 4};
+  const Rect track{frame.x + widest + 2 * pad, middle - 2,
+                   std::max(1, frame.width - widest - rate - 5 * pad), 4};
   const auto across = [&](double share) { return track.x + static_cast<int>(share * track.width); };
   plates_.add(track, opaque(colour::kTextDim), 0);
-  plates_.add({track.x, track.y, std::max(1, across(strip.at) - track.x), track.height}, opaque(colour::kAdvice), 0);
+  plates_.add({track.x, track.y, std::max(1, across(strip.at) - track.x), track.height},
+              opaque(colour::kAdvice), 0);
   for (const Timeline::Tick& tick : strip.ticks) {
     const auto [tone, share] = lookOf(tick.tone);
     const int high = std::max(6, static_cast<int>(share * (height - 4)));
     plates_.add({across(tick.at) - 1, middle - high / 2, 3, high}, opaque(tone), 0);
   }
-  plates_.add({across(strip.at) - 2, middle - height / 2 + 2, 4, height - 4}, opaque(colour::kText), 1);
+  plates_.add({across(strip.at) - 2, middle - height / 2 + 2, 4, height - 4}, opaque(colour::kText),
+              1);
   above_ = frame.top() + margin_;
 }
 

@@ -19,10 +19,13 @@ int textSize_px(int window_height);
 int stripHeight_px(int window_height);
 
 /// Words over the AR view: phase and readings at the top left, the mark at the top right, the
-/// legend of the force arrows at the bottom left, the notice at the bottom centre; of a replay a strip below them.
+/// legend of the force arrows at the bottom left, the notice at the bottom centre; of a replay a
+/// strip below them.
 class HudPainter {
  public:
-  explicit HudPainter(vtkRenderer& renderer, ForceColours colours = ForceColours::paper);  ///< the renderer covers the whole window
+  explicit HudPainter(
+      vtkRenderer& renderer,
+      ForceColours colours = ForceColours::paper);  ///< the renderer covers the whole window
   ~HudPainter();
 
   /// Lays everything out again, only when something changed.

@@ -63,13 +63,15 @@ void Instrument::update(const Pose& X_AT, double plunger, double blood) {
 
 void Instrument::show(Tool tool) {
   const bool needle = tool == Tool::needle;
-  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), barrel_.Get()}) actor->SetVisibility(needle);
+  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), barrel_.Get()})
+    actor->SetVisibility(needle);
   blood_->SetVisibility(needle && has_blood_);
   probe_->SetVisibility(tool == Tool::probe);
 }
 
 void Instrument::hide() {
-  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), barrel_.Get(), blood_.Get(), probe_.Get()}) actor->VisibilityOff();
+  for (vtkActor* actor : {needle_.Get(), plunger_.Get(), barrel_.Get(), blood_.Get(), probe_.Get()})
+    actor->VisibilityOff();
 }
 
 InstrumentSilhouette::InstrumentSilhouette(vtkRenderer& renderer) {

@@ -14,7 +14,8 @@ namespace palpa::scene {
 
 void copy(const Pose& X, vtkMatrix4x4& matrix);
 
-/// What is held in the AR view: the needle with its syringe (clear graduated barrel, plunger, blood), or the probe.
+/// What is held in the AR view: the needle with its syringe (clear graduated barrel, plunger,
+/// blood), or the probe.
 class Instrument {
  public:
   explicit Instrument(vtkRenderer& renderer);

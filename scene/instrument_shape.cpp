@@ -102,9 +102,15 @@ vtkSmartPointer<vtkPolyData> probeShape(const ProbeSize& size) {
   const double neck = -1.6 * r, end = size.handle_end;
   MeshBuilder builder;
   builder.dome(r, 0, colour::kTip, 32);
-  builder.turn({{r, -r}, {r, neck}, {0.94 * r, neck - 0.001}, {shaft, neck - 0.005}}, colour::kTip, 32);
+  builder.turn({{r, -r}, {r, neck}, {0.94 * r, neck - 0.001}, {shaft, neck - 0.005}}, colour::kTip,
+               32);
   builder.turn({{shaft, neck - 0.005}, {shaft, size.shaft_end}}, colour::kSteel);
-  builder.turn({{shaft, size.shaft_end}, {handle, size.shaft_end - 0.006}, {handle, end + 0.003}, {handle - 0.003, end}, {0, end}}, colour::kRubber);
+  builder.turn({{shaft, size.shaft_end},
+                {handle, size.shaft_end - 0.006},
+                {handle, end + 0.003},
+                {handle - 0.003, end},
+                {0, end}},
+               colour::kRubber);
   return builder.mesh();
 }
 

@@ -21,12 +21,13 @@ struct InstrumentSize {
   double barrel_length = 0.072;
 };
 
-/// A finger's stand-in for palpation, in T as well: the foremost point of its half-sphere at the origin, the sphere's centre
-/// at z = -tip_radius. The tip is as wide as a fingertip (16 mm), round and without an edge that a hand could feel.
+/// A finger's stand-in for palpation, in T as well: the foremost point of its half-sphere at the
+/// origin, the sphere's centre at z = -tip_radius. The tip is as wide as a fingertip (16 mm), round
+/// and without an edge that a hand could feel.
 struct ProbeSize {
   double tip_radius = 0.008;
   double shaft_radius = 0.0045;
-  double shaft_end = -0.110;   ///< z where the handle begins
+  double shaft_end = -0.110;  ///< z where the handle begins
   double handle_radius = 0.0075;
   double handle_end = -0.190;
 };

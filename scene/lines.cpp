@@ -28,7 +28,7 @@ EdgedLines::EdgedLines(vtkRenderer& renderer, const Rgb& colour, double width_px
     renderer.AddActor(actor);
   };
   set(edge_, dark, width_px + 2.5);
-  set(line_, colour, width_px);   // later and as near: over its edge
+  set(line_, colour, width_px);  // later and as near: over its edge
 }
 
 EdgedLines::~EdgedLines() = default;
@@ -58,13 +58,15 @@ void EdgedLines::setVisible(bool visible) {
 
 bool EdgedLines::visible() const { return line_->GetVisibility() != 0; }
 
-std::vector<Vec3> uncertaintyEllipse(const Mat3& covariance_A, const Vec3& p_A, const Pose& X_CA, const Pinhole& camera, double least_px) {
+std::vector<Vec3> uncertaintyEllipse(const Mat3& covariance_A, const Vec3& p_A, const Pose& X_CA,
+                                     const Pinhole& camera, double least_px) {
   constexpr double kChi2_2_95 = 5.991;
   constexpr int kCorners = 64;
   const Vec3 p = X_CA * p_A;
   if (!(p.z() > 0)) return {};
   Eigen::Matrix<double, 2, 3> J;
-  J << camera.fx / p.z(), 0, -camera.fx * p.x() / (p.z() * p.z()), 0, camera.fy / p.z(), -camera.fy * p.y() / (p.z() * p.z());
+  J << camera.fx / p.z(), 0, -camera.fx * p.x() / (p.z() * p.z()), 0, camera.fy / p.z(),
+      -camera.fy * p.y() / (p.z() * p.z());
   const Mat3 S_C = X_CA.linear() * covariance_A * X_CA.linear().transpose();
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d> solver(J * S_C * J.transpose());
   const Eigen::Vector2d half = (kChi2_2_95 * solver.eigenvalues().cwiseMax(0)).cwiseSqrt();
@@ -72,8 +74,10 @@ std::vector<Vec3> uncertaintyEllipse(const Mat3& covariance_A, const Vec3& p_A, 
   std::vector<Vec3> ellipse;
   for (int i = 0; i <= kCorners; ++i) {
     const double round = 2 * std::numbers::pi * i / kCorners;
-    const Eigen::Vector2d px = solver.eigenvectors() * half.cwiseProduct(Eigen::Vector2d(std::cos(round), std::sin(round)));
-    ellipse.push_back(X_CA.inverse() * (p + p.z() * Vec3(px.x() / camera.fx, px.y() / camera.fy, 0)));
+    const Eigen::Vector2d px = solver.eigenvectors() *
+                               half.cwiseProduct(Eigen::Vector2d(std::cos(round), std::sin(round)));
+    ellipse.push_back(X_CA.inverse() *
+                      (p + p.z() * Vec3(px.x() / camera.fx, px.y() / camera.fy, 0)));
   }
   return ellipse;
 }

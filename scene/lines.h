@@ -21,7 +21,7 @@ class EdgedLines {
   /// Each entry a line through its points.
   void show(const std::vector<std::vector<Vec3>>& lines_A);
   void hide();
-  void setVisible(bool visible);   ///< what was shown last
+  void setVisible(bool visible);  ///< what was shown last
   bool visible() const;
 
  private:
@@ -29,9 +29,11 @@ class EdgedLines {
   vtkNew<vtkActor> edge_, line_;
 };
 
-/// Where 95 % of a point's pixels lie, by the covariance of its place: the ellipse d' (J S J')^-1 d = 5.99, J the derivative of the projection, in the plane through
-/// the point parallel to the picture. Empty where it would be smaller than `least_px`.
-std::vector<Vec3> uncertaintyEllipse(const Mat3& covariance_A, const Vec3& p_A, const Pose& X_CA, const Pinhole& camera, double least_px = 2);
+/// Where 95 % of a point's pixels lie, by the covariance of its place: the ellipse d' (J S J')^-1 d
+/// = 5.99, J the derivative of the projection, in the plane through the point parallel to the
+/// picture. Empty where it would be smaller than `least_px`.
+std::vector<Vec3> uncertaintyEllipse(const Mat3& covariance_A, const Vec3& p_A, const Pose& X_CA,
+                                     const Pinhole& camera, double least_px = 2);
 
 /// From `from` to `to` in dashes of 5 mm, 3 mm apart.
 std::vector<std::vector<Vec3>> dashes(const Vec3& from, const Vec3& to);

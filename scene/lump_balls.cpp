@@ -22,7 +22,7 @@ namespace palpa::scene {
 namespace {
 
 constexpr double kBallOpacity = 0.50;
-constexpr double kRingEdge_px = 2;   // by which the dark edge is wider than the ring
+constexpr double kRingEdge_px = 2;  // by which the dark edge is wider than the ring
 
 /// A circle of radius 1 about z, whole or in dashes.
 vtkSmartPointer<vtkPolyData> circleShape(bool dashed) {
@@ -55,7 +55,7 @@ struct LumpBalls::LumpBall {
     const vtkSmartPointer<vtkPolyDataMapper> mapper = makePassMapper();
     mapper->SetInputData(sphere);
     mapper->ScalarVisibilityOff();
-    setWrites(*mapper, true, false);   // its own outline lies partly behind it
+    setWrites(*mapper, true, false);  // its own outline lies partly behind it
     ball->SetMapper(mapper);
     ball->ForceOpaqueOn();
     ball->SetUserMatrix(X_A_ball);
@@ -88,12 +88,16 @@ struct LumpBalls::LumpBall {
   void outlineBy(vtkPolyData* shape) {
     if (outline->GetInput() != shape) outline->SetInputData(shape);
   }
-  /// The outline of a sphere seen from d away is a circle of r sqrt(1 - r^2 / d^2), r^2 / d before its middle.
+  /// The outline of a sphere seen from d away is a circle of r sqrt(1 - r^2 / d^2), r^2 / d before
+  /// its middle.
   void place(const Lump& lump, const Vec3& eye) {
     const Vec3 toward = eye - lump.p_A;
     const double d = toward.norm(), r = lump.radius, s = r / d;
     copy(scaledPose(Mat3::Identity(), lump.p_A, r), *X_A_ball);
-    if (s < 1) copy(scaledPose(rotationWithZ(toward / d), lump.p_A + s * r * toward / d, r * std::sqrt(1 - s * s)), *X_A_ring);
+    if (s < 1)
+      copy(scaledPose(rotationWithZ(toward / d), lump.p_A + s * r * toward / d,
+                      r * std::sqrt(1 - s * s)),
+           *X_A_ring);
   }
 
   vtkRenderer* where;
@@ -103,7 +107,11 @@ struct LumpBalls::LumpBall {
 };
 
 LumpBalls::LumpBalls(vtkRenderer& through, vtkRenderer& above, double ring_px)
-    : through_(through), above_(above), ring_px_(ring_px), ring_(circleShape(false)), dashes_(circleShape(true)) {
+    : through_(through),
+      above_(above),
+      ring_px_(ring_px),
+      ring_(circleShape(false)),
+      dashes_(circleShape(true)) {
   MeshBuilder builder;
   builder.ball(1, colour::kFound, 40);
   sphere_ = builder.mesh();
@@ -115,7 +123,8 @@ void LumpBalls::update(const std::vector<Lump>& lumps, const Sight& sight, bool 
   shown_ = 0;
   for (const Lump& lump : lumps) {
     if (!(lump.radius > 0)) continue;
-    if (shown_ == balls_.size()) balls_.push_back(std::make_unique<LumpBall>(through_, sphere_, ring_px_));
+    if (shown_ == balls_.size())
+      balls_.push_back(std::make_unique<LumpBall>(through_, sphere_, ring_px_));
     LumpBall& ball = *balls_[shown_++];
     ball.moveTo(solid_skin ? above_ : through_);
     const Rgb& look = lump.normal ? colour::kNormal : lump.found ? colour::kFound : colour::kMissed;

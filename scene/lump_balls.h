@@ -13,10 +13,12 @@ class vtkRenderer;
 
 namespace palpa::scene {
 
-/// What lies inside: translucent balls, each with its outline as the eye sees it. Found: yellow, the outline closed. Not found: vermilion, the outline dashed. Normal: gray, the outline closed.
+/// What lies inside: translucent balls, each with its outline as the eye sees it. Found: yellow,
+/// the outline closed. Not found: vermilion, the outline dashed. Normal: gray, the outline closed.
 class LumpBalls {
  public:
-  /// `through`: after the translucent skin, with the depths of what is opaque, so that a tool hides them. `above`: where a solid skin would.
+  /// `through`: after the translucent skin, with the depths of what is opaque, so that a tool hides
+  /// them. `above`: where a solid skin would.
   LumpBalls(vtkRenderer& through, vtkRenderer& above, double ring_px);
   ~LumpBalls();
 

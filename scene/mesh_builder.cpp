@@ -66,12 +66,14 @@ void MeshBuilder::band(const ProfilePoint& a, const ProfilePoint& b, const Rgb& 
 }
 
 /// The part of a sphere that lies within an angle of its pole, which is toward +z.
-void MeshBuilder::cap(double radius, const Vec3& centre, double to_pole_angle, const Rgb& colour, int sides, int rings) {
+void MeshBuilder::cap(double radius, const Vec3& centre, double to_pole_angle, const Rgb& colour,
+                      int sides, int rings) {
   for (int i = 0; i <= rings; ++i) {
     const double from_pole = to_pole_angle * i / rings;
     for (int j = 0; j <= sides; ++j) {
       const double angle = 2 * std::numbers::pi * j / sides;
-      const Vec3 n(std::sin(from_pole) * std::cos(angle), std::sin(from_pole) * std::sin(angle), std::cos(from_pole));
+      const Vec3 n(std::sin(from_pole) * std::cos(angle), std::sin(from_pole) * std::sin(angle),
+                   std::cos(from_pole));
       const long at = addPoint(centre + radius * n, n, colour);
       if (i == 0 || j == 0) continue;
       const vtkIdType above = at - sides - 1;

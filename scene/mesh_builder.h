@@ -39,7 +39,8 @@ class MeshBuilder {
 
  private:
   long addPoint(const Vec3& p, const Vec3& n, const Rgb& colour);
-  void cap(double radius, const Vec3& centre, double to_pole_angle, const Rgb& colour, int sides, int rings);
+  void cap(double radius, const Vec3& centre, double to_pole_angle, const Rgb& colour, int sides,
+           int rings);
   void band(const ProfilePoint& a, const ProfilePoint& b, const Rgb& colour, int sides);
 
   struct Data;

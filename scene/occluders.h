@@ -9,8 +9,8 @@ class vtkRenderer;
 
 namespace palpa::scene {
 
-/// Real things in the camera's picture that hide what is drawn behind them: they fill the depths and leave the colours, which are the picture's.
-/// Drawn before everything else of their renderer.
+/// Real things in the camera's picture that hide what is drawn behind them: they fill the depths
+/// and leave the colours, which are the picture's. Drawn before everything else of their renderer.
 class Occluders {
  public:
   explicit Occluders(vtkRenderer& renderer);

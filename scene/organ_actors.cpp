@@ -34,7 +34,8 @@ bool isPlainWhite(const std::array<float, 4>& rgba) {
 
 bool hasPicture(const anatomy::OrganSurface& organ) {
   const anatomy::Texture& texture = organ.texture;
-  return texture.width > 0 && texture.height > 0 && organ.mesh.uvs.size() == organ.mesh.points.size() &&
+  return texture.width > 0 && texture.height > 0 &&
+         organ.mesh.uvs.size() == organ.mesh.points.size() &&
          texture.rgb.size() == std::size_t{3} * texture.width * texture.height;
 }
 
@@ -107,7 +108,8 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh) {
   return result;
 }
 
-OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass) : renderer_(renderer), glass_(glass) {
+OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass)
+    : renderer_(renderer), glass_(glass) {
   for (const anatomy::OrganSurface& organ : patient.organs) {
     const vtkSmartPointer<vtkPolyData> surface = polyDataOf(organ.mesh);
     if (!skin_ && organ.organ == Organ::skin) skin_ = surface;

@@ -23,8 +23,9 @@ vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh);
 bool coversOrgans(Organ organ);
 
 /// The patient's surfaces as actors: organs opaque, and what covers them (skin, muscle) in the
-/// chosen style. A surface with a picture shows that, multiplied by its colour. What is translucent goes into `glass`, where there is one; without, VTK's
-/// order-independent blending draws it, which is right for a single layer.
+/// chosen style. A surface with a picture shows that, multiplied by its colour. What is translucent
+/// goes into `glass`, where there is one; without, VTK's order-independent blending draws it, which
+/// is right for a single layer.
 class OrganActors {
  public:
   OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass = nullptr);
@@ -32,8 +33,11 @@ class OrganActors {
 
   void setStyle(SkinStyle style);
   void setVisible(bool visible);
-  void setPose(const Pose& X_AB);   ///< where the body is that was made in A: a thing that is held moves. Only what is not translucent
-  vtkPolyData* skin() const { return skin_; }  ///< the first skin's points as they are drawn; null without one
+  void setPose(const Pose& X_AB);  ///< where the body is that was made in A: a thing that is held
+                                   ///< moves. Only what is not translucent
+  vtkPolyData* skin() const {
+    return skin_;
+  }  ///< the first skin's points as they are drawn; null without one
 
  private:
   struct Part {

@@ -48,10 +48,13 @@ void OrthoView::addTrail(Trail& trail) { trail_ = trail.addTo(*renderer_, 1.5); 
 /// From the front a section tells nothing of depth; a skin alone gets its outline.
 vtkSmartPointer<vtkActor> OrthoView::sectionOf(const anatomy::Patient& patient) const {
   if (region_.only_skin) return skinSection(patient, region_.whole_centre_A, aspect_.ahead_A);
-  return plane_ == Plane::frontal ? nullptr : skinSection(patient, region_.focus_A, aspect_.ahead_A);
+  return plane_ == Plane::frontal ? nullptr
+                                  : skinSection(patient, region_.focus_A, aspect_.ahead_A);
 }
 
-double OrthoView::metresAcross() const { return std::max(region_.width, region_.height * where_.width / where_.height); }
+double OrthoView::metresAcross() const {
+  return std::max(region_.width, region_.height * where_.width / where_.height);
+}
 
 void OrthoView::aimCamera() {
   vtkCamera* camera = renderer_->GetActiveCamera();
@@ -144,7 +147,8 @@ void OrthoView::keepStill(const Image& window_picture) {
 Sight OrthoView::sight() const {
   Mat3 R_AC;
   R_AC << aspect_.ahead_A.cross(aspect_.up_A), -aspect_.up_A, aspect_.ahead_A;
-  return {makePose(R_AC, region_.centre_A - kFarAway * aspect_.ahead_A).inverse(), kFarAway * where_.width / metresAcross(), 0.5 * kAway};
+  return {makePose(R_AC, region_.centre_A - kFarAway * aspect_.ahead_A).inverse(),
+          kFarAway * where_.width / metresAcross(), 0.5 * kAway};
 }
 
 void OrthoView::update(const SceneState& state) {

@@ -45,7 +45,7 @@ class OrthoView {
   void aimCamera();
   vtkSmartPointer<vtkActor> sectionOf(const anatomy::Patient& patient) const;
   Sight sight() const;
-  double metresAcross() const;   ///< at the panel's width
+  double metresAcross() const;  ///< at the panel's width
   void layoutWords(int window_height);
   void putScaleBar(const TextStyle& style);
   void put(const std::string& words, const TextStyle& style, int x, int y);

@@ -23,24 +23,28 @@ inline constexpr Rgb kTextDim{0.66, 0.70, 0.75};
 inline constexpr Rgb kMark{1.00, 0.80, 0.30};  ///< amber badge
 inline constexpr Rgba kAlarmPlate{0.72, 0.08, 0.05, 0.94};
 inline constexpr Rgb kAdvice{0.45, 0.76, 0.96};  ///< edge of a calm notice
-inline constexpr Rgb kTickGood{0.18, 0.78, 0.60}, kTickBad{0.95, 0.45, 0.18};   ///< on a replay's strip
+inline constexpr Rgb kTickGood{0.18, 0.78, 0.60},
+    kTickBad{0.95, 0.45, 0.18};  ///< on a replay's strip
 inline constexpr Rgb kSteel{0.80, 0.83, 0.86};
 inline constexpr Rgb kLumen{0.10, 0.10, 0.12};
 inline constexpr Rgb kHub{0.88, 0.52, 0.66};  ///< 18G is pink (ISO 6009)
 inline constexpr Rgb kGlass{0.80, 0.90, 0.97};
 inline constexpr Rgb kRubber{0.13, 0.14, 0.16};
 inline constexpr Rgb kPlastic{0.90, 0.92, 0.94};
-inline constexpr Rgb kTip{0.93, 0.93, 0.88};   ///< of the palpation probe
+inline constexpr Rgb kTip{0.93, 0.93, 0.88};  ///< of the palpation probe
 inline constexpr Rgb kInk{0.10, 0.14, 0.20};
 inline constexpr Rgb kBlood{0.50, 0.02, 0.03};
 inline constexpr Rgb kTrail{0.99, 0.82, 0.26};
-// Felt lightly, firmly, deeply: as maps show the sea, paler where it is shallow. Each has its brightness, whatever lies below.
+// Felt lightly, firmly, deeply: as maps show the sea, paler where it is shallow. Each has its
+// brightness, whatever lies below.
 inline constexpr Rgba kFeltLight{0.66, 0.92, 1.00, 0.44};
 inline constexpr Rgba kFeltMedium{0.18, 0.62, 0.88, 0.48};
 inline constexpr Rgba kFeltDeep{0.01, 0.20, 0.58, 0.55};
-inline constexpr Rgb kFound{0.98, 0.86, 0.30};     ///< a lump; yellow and vermilion differ for colour-blind eyes, by hue and by brightness
+inline constexpr Rgb kFound{
+    0.98, 0.86,
+    0.30};  ///< a lump; yellow and vermilion differ for colour-blind eyes, by hue and by brightness
 inline constexpr Rgb kMissed{0.90, 0.40, 0.10};
-inline constexpr Rgb kNormal{0.72, 0.72, 0.74};    ///< what belongs there
+inline constexpr Rgb kNormal{0.72, 0.72, 0.74};   ///< what belongs there
 inline constexpr Rgb kSection{0.86, 0.72, 0.62};  ///< the skin's outline in fixed views
 }  // namespace colour
 

@@ -17,7 +17,8 @@ class PassMapper : public vtkOpenGLPolyDataMapper {
   bool colours = true, depths = true;
 
   void RenderPiece(vtkRenderer* renderer, vtkActor* actor) override {
-    vtkOpenGLState* state = static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())->GetState();
+    vtkOpenGLState* state =
+        static_cast<vtkOpenGLRenderWindow*>(renderer->GetRenderWindow())->GetState();
     if (!colours) state->vtkglColorMask(0, 0, 0, 0);
     if (!depths) state->vtkglDepthMask(0);
     Superclass::RenderPiece(renderer, actor);

@@ -21,9 +21,9 @@
 namespace palpa::scene {
 namespace {
 
-constexpr double kHead = 2.3;     // its middle over the point, in radii of the head
+constexpr double kHead = 2.3;  // its middle over the point, in radii of the head
 constexpr double kRim = 0.22;
-constexpr double kStep = 0.01;    // between what lies upon each other, in radii
+constexpr double kStep = 0.01;  // between what lies upon each other, in radii
 
 /// A drop: the point at the origin, its head of radius 1 above; grown by `rim`.
 void addDrop(MeshBuilder& builder, double rim, double z, const Rgb& c) {
@@ -42,7 +42,8 @@ void addDrop(MeshBuilder& builder, double rim, double z, const Rgb& c) {
 }
 
 /// Words of the given height, their middle at `middle`.
-void addWords(MeshBuilder& builder, const std::string& words, double height, double widest, const Vec3& middle, const Rgb& c) {
+void addWords(MeshBuilder& builder, const std::string& words, double height, double widest,
+              const Vec3& middle, const Rgb& c) {
   vtkNew<vtkVectorText> text;
   text->SetText(words.c_str());
   text->Update();
@@ -60,7 +61,8 @@ void addWords(MeshBuilder& builder, const std::string& words, double height, dou
   };
   for (vtkIdType i = 0; i < shape->GetNumberOfCells(); ++i) {
     shape->GetCellPoints(i, corners);
-    for (vtkIdType k = 2; k < corners->GetNumberOfIds(); ++k) builder.triangle(point(0), point(k - 1), point(k), c);
+    for (vtkIdType k = 2; k < corners->GetNumberOfIds(); ++k)
+      builder.triangle(point(0), point(k - 1), point(k), c);
   }
 }
 
@@ -92,11 +94,15 @@ Pins::~Pins() = default;
 
 void Pins::update(const std::vector<Vec3>& places_A, const Sight& sight, double head_px) {
   const Mat3 R = sight.facing();
-  while (pins_.size() < places_A.size()) pins_.push_back(std::make_unique<Pin>(renderer_, pins_.size() + 1));
+  while (pins_.size() < places_A.size())
+    pins_.push_back(std::make_unique<Pin>(renderer_, pins_.size() + 1));
   shown_ = places_A.size();
   for (std::size_t i = 0; i < pins_.size(); ++i) {
     pins_[i]->actor->SetVisibility(i < shown_);
-    if (i < shown_) copy(makePose(head_px * sight.metresPerPixel(places_A[i]) * R, places_A[i] + sight.before * R.col(2)), *pins_[i]->X_A);
+    if (i < shown_)
+      copy(makePose(head_px * sight.metresPerPixel(places_A[i]) * R,
+                    places_A[i] + sight.before * R.col(2)),
+           *pins_[i]->X_A);
   }
 }
 

@@ -9,7 +9,8 @@ class vtkRenderer;
 
 namespace palpa::scene {
 
-/// Places somebody has marked: pins as on maps, numbered from 1, upright and of one size on the screen.
+/// Places somebody has marked: pins as on maps, numbered from 1, upright and of one size on the
+/// screen.
 class Pins {
  public:
   explicit Pins(vtkRenderer& renderer);

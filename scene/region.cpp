@@ -44,7 +44,9 @@ Box wholeBox(const anatomy::Patient& patient) {
 }
 
 bool hasOnlySkin(const anatomy::Patient& patient) {
-  return !patient.organs.empty() && std::all_of(patient.organs.begin(), patient.organs.end(), [](const auto& organ) { return organ.organ == Organ::skin; });
+  return !patient.organs.empty() &&
+         std::all_of(patient.organs.begin(), patient.organs.end(),
+                     [](const auto& organ) { return organ.organ == Organ::skin; });
 }
 
 }  // namespace

@@ -11,10 +11,10 @@ struct Region {
   double width = 0.2;                  ///< metres across the fixed views
   Vec3 whole_centre_A = Vec3::Zero();  ///< sphere about the whole patient
   double whole_radius = 0.3;
-  double whole_half = 0.3;             ///< half of the patient's longest side
-  double height = 0;                   ///< metres down the fixed views that are to be seen as well; 0: as it comes
-  bool only_skin = false;              ///< nothing lies under it: the skin itself is to be seen
-  bool on_table = false;             ///< a thing on a table, looked at from its near edge
+  double whole_half = 0.3;  ///< half of the patient's longest side
+  double height = 0;  ///< metres down the fixed views that are to be seen as well; 0: as it comes
+  bool only_skin = false;  ///< nothing lies under it: the skin itself is to be seen
+  bool on_table = false;   ///< a thing on a table, looked at from its near edge
 };
 
 /// From the landmarks and the clavicle of the punctured side; a patient without them is framed

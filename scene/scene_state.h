@@ -31,7 +31,8 @@ struct EyeCamera {
 };
 
 enum class ForceKind { reaction, weight, device };
-/// paper: grays, as Jeon, Choi and Harders (2015) have them. safe: colours of Okabe and Ito (2008), told apart by colour-blind eyes and by brightness.
+/// paper: grays, as Jeon, Choi and Harders (2015) have them. safe: colours of Okabe and Ito (2008),
+/// told apart by colour-blind eyes and by brightness.
 enum class ForceColours { paper, safe };
 
 struct ForceArrow {
@@ -43,7 +44,8 @@ struct ForceArrow {
 /// What is held in the hand, as the tool frame T carries it (scene/instrument_shape.h).
 enum class Tool { needle, probe };
 
-/// A real thing in the picture, at a place in A. The mesh outlives the view that shows it and does not change.
+/// A real thing in the picture, at a place in A. The mesh outlives the view that shows it and does
+/// not change.
 struct Occluder {
   const anatomy::TriangleMesh* mesh = nullptr;
   Pose X_A = Pose::Identity();
@@ -54,26 +56,30 @@ struct Guide {
   Vec3 from_A = Vec3::Zero(), to_A = Vec3::Zero();
 };
 
-/// What of an area has been felt, and how firmly: a grid in the plane z = 0 of G, centred on G's origin, columns along x, rows along y.
+/// What of an area has been felt, and how firmly: a grid in the plane z = 0 of G, centred on G's
+/// origin, columns along x, rows along y.
 struct CoverageGrid {
   Pose X_AG = Pose::Identity();
-  double cell_x = 0.004, cell_y = 0.004;   ///< metres
+  double cell_x = 0.004, cell_y = 0.004;  ///< metres
   int columns = 0, rows = 0;
-  std::vector<std::uint8_t> levels;        ///< row by row from the lowest y; 0: not felt, 1 light, 2 medium, 3 deep
+  std::vector<std::uint8_t>
+      levels;  ///< row by row from the lowest y; 0: not felt, 1 light, 2 medium, 3 deep
 };
 
 /// Something that lies inside, seen through the surface.
 struct Lump {
-  Vec3 p_A = Vec3::Zero();   ///< its middle
-  double radius = 0.005;     ///< metres
+  Vec3 p_A = Vec3::Zero();  ///< its middle
+  double radius = 0.005;    ///< metres
   bool found = false;
-  bool normal = false;       ///< belongs there: neither found nor missed
+  bool normal = false;  ///< belongs there: neither found nor missed
 };
 
-/// How a view for two eyes is laid out. anaglyph: for red and cyan glasses. headset: side by side, words before each eye.
+/// How a view for two eyes is laid out. anaglyph: for red and cyan glasses. headset: side by side,
+/// words before each eye.
 enum class Stereo { none, side_by_side, top_bottom, anaglyph, headset };
 
-/// A small picture in the corner of the large view. camera: what the camera sees, without the overlay.
+/// A small picture in the corner of the large view. camera: what the camera sees, without the
+/// overlay.
 enum class Inset { none, camera };
 
 enum class SkinStyle { solid, translucent, hidden };
@@ -81,7 +87,8 @@ enum class SkinStyle { solid, translucent, hidden };
 /// What a mark on a strip means; also its height, so that colour does not stand alone.
 enum class TickTone { neutral, good, guide, bad };
 
-/// A strip along the bottom of the large view: where in a recorded trial one is, and what happened when. Fractions of its length.
+/// A strip along the bottom of the large view: where in a recorded trial one is, and what happened
+/// when. Fractions of its length.
 struct Timeline {
   struct Tick {
     double at = 0;
@@ -90,8 +97,8 @@ struct Timeline {
   };
   double at = 0;
   std::vector<Tick> ticks;
-  std::string time;     ///< "0:12.4 of 0:31.0"
-  std::string rate;     ///< "x 0.5", "paused"
+  std::string time;  ///< "0:12.4 of 0:31.0"
+  std::string rate;  ///< "x 0.5", "paused"
   bool operator==(const Timeline&) const = default;
 };
 
@@ -108,7 +115,7 @@ struct Hud {
   bool alarm = false;   ///< notice in alarm style
   std::string marked;   ///< "2": how many lumps were marked
   std::string note;     ///< what to bear in mind: "scaled force: ..."
-  std::optional<Timeline> timeline = {};   ///< of a replay
+  std::optional<Timeline> timeline = {};  ///< of a replay
 
   bool operator==(const Hud&) const = default;
 };
@@ -119,27 +126,34 @@ struct SceneState {
   Pinhole camera;
   bool registered = false;  ///< X_CA is valid
   Pose X_CA = Pose::Identity();
-  std::optional<std::array<EyeCamera, 2>> eyes;  ///< left and right, for a stereo view; empty: derived from the one camera
-  Pose X_AT = Pose::Identity();  ///< tip of needle or probe at the origin of T, +z the way it advances
+  std::optional<std::array<EyeCamera, 2>>
+      eyes;  ///< left and right, for a stereo view; empty: derived from the one camera
+  Pose X_AT =
+      Pose::Identity();  ///< tip of needle or probe at the origin of T, +z the way it advances
   Tool tool = Tool::needle;
   bool show_tool = true;
   double plunger = 0;  ///< drawn fraction, 0..1
   double blood = 0;    ///< fraction of the syringe filled with blood, 0..1
   SkinStyle skin = SkinStyle::translucent;
-  /// How a tool presses the skin in or draws it out; shown by views with `ViewLayout::skin_deflection`.
+  /// How a tool presses the skin in or draws it out; shown by views with
+  /// `ViewLayout::skin_deflection`.
   std::optional<anatomy::SkinPush> skin_push;
   std::vector<ForceArrow> forces;
   std::vector<Vec3> trail_A;  ///< path of the tip so far
   std::optional<Guide> guide;
-  std::optional<Mat3> tip_covariance_A;   ///< of the drawn tip against the real one, m^2: shown as an ellipse
-  std::vector<Occluder> occluders;        ///< hide what is behind them while there is a picture
+  std::optional<Mat3>
+      tip_covariance_A;  ///< of the drawn tip against the real one, m^2: shown as an ellipse
+  std::vector<Occluder> occluders;  ///< hide what is behind them while there is a picture
   Hud hud;
-  std::optional<CoverageGrid> coverage;   ///< a carpet on the surface; its outline shows what is to be searched
+  std::optional<CoverageGrid>
+      coverage;  ///< a carpet on the surface; its outline shows what is to be searched
   std::vector<Lump> lumps;
-  std::vector<Vec3> marks_A;              ///< where the trainee said "here is one": pins, numbered from 1 in this order
-  std::optional<Vec3> lead_A;             ///< where guidance asks the hand to go next: a ring on the surface
-  std::optional<Pose> second_X_AT;        ///< another probe beside the tool; AR view only
-  Pose X_AB = Pose::Identity();           ///< where the body is that is shown as made in A: a thing in the hands moves. AR view only, and not while it is translucent
+  std::vector<Vec3>
+      marks_A;  ///< where the trainee said "here is one": pins, numbered from 1 in this order
+  std::optional<Vec3> lead_A;  ///< where guidance asks the hand to go next: a ring on the surface
+  std::optional<Pose> second_X_AT;  ///< another probe beside the tool; AR view only
+  Pose X_AB = Pose::Identity();  ///< where the body is that is shown as made in A: a thing in the
+                                 ///< hands moves. AR view only, and not while it is translucent
 };
 
 }  // namespace palpa::scene

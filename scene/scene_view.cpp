@@ -17,8 +17,8 @@
 #include "scene/ortho_view.h"
 #include "scene/plates.h"
 #include "scene/renderer_setup.h"
-#include "scene/window_pixels.h"
 #include "scene/window_input.h"
+#include "scene/window_pixels.h"
 
 namespace palpa::scene {
 struct SceneView::Impl {
@@ -37,16 +37,16 @@ struct SceneView::Impl {
   Region region;
   vtkNew<vtkRenderer> frame;  // whole window, behind: borders, and what the picture leaves free
   Plates margins;
-  vtkNew<vtkRenderer> words;  // whole window, in front
-  vtkNew<vtkRenderer> merged; // alone: an anaglyph
+  vtkNew<vtkRenderer> words;   // whole window, in front
+  vtkNew<vtkRenderer> merged;  // alone: an anaglyph
   Backdrop merged_backdrop{*merged, false};
   Image anaglyph_picture;
   Trail trail;
   ArView ar;
   std::vector<std::unique_ptr<OrthoView>> fixed;
-  std::unique_ptr<CameraInset> inset;   // null: none
+  std::unique_ptr<CameraInset> inset;  // null: none
   HudPainter hud;
-  std::unique_ptr<HudPainter> other_hud;   // before the right eye of a headset
+  std::unique_ptr<HudPainter> other_hud;  // before the right eye of a headset
   Navigation navigation;
   std::unique_ptr<WindowInput> input;
   EyeCopier copier{window};
@@ -69,7 +69,8 @@ SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patie
   setUpRenderer(*frame, layout.see_through ? colour::kClear : colour::kBorder);
   if (layout.see_through) frame->SetBackgroundAlpha(0);
   setUpRenderer(*words, colour::kBorder);
-  if (layout.stereo == Stereo::headset) other_hud = std::make_unique<HudPainter>(*words, layout.force_colours);
+  if (layout.stereo == Stereo::headset)
+    other_hud = std::make_unique<HudPainter>(*words, layout.force_colours);
   words->SetLayer(2);
   ar.addTrail(trail);
   if (layout.orthographic) {
@@ -130,7 +131,8 @@ void SceneView::Impl::show(const SceneState& state) {
 }
 
 void SceneView::Impl::writeWords(const SceneState& state) {
-  const std::vector<ForceArrow> forces = ar.showsPatient() ? state.forces : std::vector<ForceArrow>();
+  const std::vector<ForceArrow> forces =
+      ar.showsPatient() ? state.forces : std::vector<ForceArrow>();
   if (!other_hud) return hud.update(state.hud, forces, panels.ar, size[1]);
   const std::array<Rect, 2> where = wordPanels(ar.eyes(), ar.panelsOfEyes());
   hud.update(state.hud, forces, where[0], 2 * where[0].height);

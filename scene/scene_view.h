@@ -5,8 +5,8 @@
 #include <string>
 
 #include "anatomy/patient.h"
-#include "scene/gl_context.h"
 #include "scene/eye_copy.h"
+#include "scene/gl_context.h"
 #include "scene/scene_state.h"
 
 namespace palpa::scene {
@@ -26,16 +26,18 @@ struct ViewLayout {
   int width = 1280, height = 720;
   bool orthographic = true;     ///< three fixed views (front, side, top) beside the AR view
   bool free_navigation = true;  ///< drag the virtual camera; a protocol can switch it off
-  /// The skin gives way where it is touched (AR view). Off where people are assessed: seeing must not replace feeling.
+  /// The skin gives way where it is touched (AR view). Off where people are assessed: seeing must
+  /// not replace feeling.
   bool skin_deflection = false;
   ForceColours force_colours = ForceColours::paper;
-  Stereo stereo = Stereo::none;   ///< of the AR view
+  Stereo stereo = Stereo::none;  ///< of the AR view
   Inset inset = Inset::none;
-  bool see_through = false;       ///< what is not drawn is black and clear (alpha 0): for displays that one looks through
+  bool see_through = false;  ///< what is not drawn is black and clear (alpha 0): for displays that
+                             ///< one looks through
 };
 
-/// How the AR view (its left eye, in stereo) looks right now, in window pixels from the top left: the pixel (u, v) under the
-/// mouse sees the ray ((u - cx) / fx, (v - cy) / fy, 1) of C.
+/// How the AR view (its left eye, in stereo) looks right now, in window pixels from the top left:
+/// the pixel (u, v) under the mouse sees the ray ((u - cx) / fx, (v - cy) / fy, 1) of C.
 struct ArGeometry {
   Pinhole camera;  ///< cx, cy count from the window's corner
   Pose X_CA = Pose::Identity();
@@ -53,7 +55,7 @@ class SceneView {
   Image capture() const;               ///< the last frame, RGB, top row first
   /// The last frame of one eye (0 left, 1 right; a stereo view) into a texture of the same context.
   void copyEye(std::size_t eye, const TextureTarget& target) const;
-  ViewInput poll();                    ///< events of an interactive window; empty otherwise
+  ViewInput poll();  ///< events of an interactive window; empty otherwise
 
   ArGeometry arGeometry() const;
   void resetNavigation();  ///< the virtual camera back to where it began

@@ -6,9 +6,9 @@
 namespace palpa::scene {
 namespace {
 
-constexpr double kLeadRadius = 0.010;     // m: a fingertip stands in it
+constexpr double kLeadRadius = 0.010;  // m: a fingertip stands in it
 constexpr double kLeadTick = 0.004;
-constexpr double kLeadLift = 0.001;       // toward the viewer, off the surface
+constexpr double kLeadLift = 0.001;  // toward the viewer, off the surface
 
 /// A ring about the origin, and four ticks that point to its middle.
 std::vector<std::vector<Vec3>> leadShape(const Pose& X_A) {
@@ -18,15 +18,20 @@ std::vector<std::vector<Vec3>> leadShape(const Pose& X_A) {
     return Vec3(X_A * Vec3(radius * std::cos(angle), radius * std::sin(angle), 0));
   };
   std::vector<std::vector<Vec3>> lines(1);
-  for (int i = 0; i <= kSteps; ++i) lines[0].push_back(at(kLeadRadius, static_cast<double>(i) / kSteps));
-  for (const double share : {0.0, 0.25, 0.5, 0.75}) lines.push_back({at(kLeadRadius, share), at(kLeadRadius + kLeadTick, share)});
+  for (int i = 0; i <= kSteps; ++i)
+    lines[0].push_back(at(kLeadRadius, static_cast<double>(i) / kSteps));
+  for (const double share : {0.0, 0.25, 0.5, 0.75})
+    lines.push_back({at(kLeadRadius, share), at(kLeadRadius + kLeadTick, share)});
   return lines;
 }
 
 }  // namespace
 
 SearchOverlay::SearchOverlay(vtkRenderer& on_skin, vtkRenderer& above, double line_px)
-    : carpet_(on_skin, 0.6 * line_px), lead_(on_skin, colour::kText, line_px), balls_(on_skin, above, 0.9 * line_px), pins_(above) {}
+    : carpet_(on_skin, 0.6 * line_px),
+      lead_(on_skin, colour::kText, line_px),
+      balls_(on_skin, above, 0.9 * line_px),
+      pins_(above) {}
 
 SearchOverlay::~SearchOverlay() = default;
 
@@ -41,7 +46,8 @@ void SearchOverlay::showLead(const SceneState& state, bool visible, const Sight&
   lead_drawn_ = true;
 }
 
-void SearchOverlay::update(const SceneState& state, bool visible, const Sight& sight, double pin_px) {
+void SearchOverlay::update(const SceneState& state, bool visible, const Sight& sight,
+                           double pin_px) {
   balls_above_ = state.skin == SkinStyle::solid;
   carpet_.update(state.coverage, visible);
   balls_.update(visible ? state.lumps : std::vector<Lump>(), sight, balls_above_);

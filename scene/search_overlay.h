@@ -11,12 +11,15 @@ namespace palpa::scene {
 /// Of a search by hand: what has been felt, what lies inside, what was marked, where to go next.
 class SearchOverlay {
  public:
-  /// `on_skin` is drawn after the skin and with its depths, `above` over everything; they may be one. `pin_px`: radius of a pin's head.
+  /// `on_skin` is drawn after the skin and with its depths, `above` over everything; they may be
+  /// one. `pin_px`: radius of a pin's head.
   SearchOverlay(vtkRenderer& on_skin, vtkRenderer& above, double line_px);
   ~SearchOverlay();
 
   void update(const SceneState& state, bool visible, const Sight& sight, double pin_px);
-  bool anyOnSkin() const { return carpet_.visible() || lead_.visible() || (balls_.any() && !balls_above_); }
+  bool anyOnSkin() const {
+    return carpet_.visible() || lead_.visible() || (balls_.any() && !balls_above_);
+  }
   bool anyAbove() const { return pins_.any() || (balls_.any() && balls_above_); }
 
  private:

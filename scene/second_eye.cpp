@@ -22,13 +22,19 @@ bool same(vtkPropCollection& a, vtkPropCollection& b) {
 void copyProps(vtkRenderer& from, vtkRenderer& to) {
   if (same(*from.GetViewProps(), *to.GetViewProps())) return;
   to.RemoveAllViewProps();
-  for (int i = 0; i < from.GetViewProps()->GetNumberOfItems(); ++i) to.AddViewProp(static_cast<vtkProp*>(from.GetViewProps()->GetItemAsObject(i)));
+  for (int i = 0; i < from.GetViewProps()->GetNumberOfItems(); ++i)
+    to.AddViewProp(static_cast<vtkProp*>(from.GetViewProps()->GetItemAsObject(i)));
 }
 
 }  // namespace
 
-SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass, vtkRenderer& on_skin, vtkRenderer& above)
-    : window_(window), first_behind_(behind), first_glass_(glass), first_on_skin_(on_skin), first_above_(above) {
+SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass,
+                     vtkRenderer& on_skin, vtkRenderer& above)
+    : window_(window),
+      first_behind_(behind),
+      first_glass_(glass),
+      first_on_skin_(on_skin),
+      first_above_(above) {
   forAll([&](vtkRenderer& renderer) {
     setUpRenderer(renderer, colour::kBehindBottom);
     renderer.SetActiveCamera(behind_->GetActiveCamera());

@@ -7,15 +7,17 @@ class vtkRenderWindow;
 
 namespace palpa::scene {
 
-/// The other eye of a view: the same actors and background as the first eye's four renderers, another camera.
+/// The other eye of a view: the same actors and background as the first eye's four renderers,
+/// another camera.
 class SecondEye {
  public:
-  SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass, vtkRenderer& on_skin, vtkRenderer& above);
+  SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass, vtkRenderer& on_skin,
+            vtkRenderer& above);
   ~SecondEye();
 
   /// After the first eye's renderers were brought up to date.
   void mirror();
-  vtkRenderer& behind() { return *behind_; }   ///< its camera is that of all four
+  vtkRenderer& behind() { return *behind_; }  ///< its camera is that of all four
 
   template <class Do>
   void forAll(Do act) {

@@ -4,11 +4,13 @@
 
 namespace palpa::scene {
 
-/// Who looks, for what has its size on the screen or faces the eye. A parallel view is one from far away.
+/// Who looks, for what has its size on the screen or faces the eye. A parallel view is one from far
+/// away.
 struct Sight {
   Pose X_CA = Pose::Identity();
-  double focal_px = 1000;   ///< in window pixels
-  double before = 0;        ///< metres by which what must never be hidden is drawn nearer to the eye; for parallel views, where nobody sees it
+  double focal_px = 1000;  ///< in window pixels
+  double before = 0;  ///< metres by which what must never be hidden is drawn nearer to the eye; for
+                      ///< parallel views, where nobody sees it
 
   Vec3 eye() const { return X_CA.inverse().translation(); }
   /// Of C in A, turned so that x is right, y up, z toward the eye.

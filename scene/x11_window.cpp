@@ -44,19 +44,21 @@ GLXFBConfig configOf(::Display* display, int id) {
 }
 
 NativeContext X11Provider::native() {
-  window_->Start();   // makes the context where there is none
+  window_->Start();  // makes the context where there is none
   makeCurrent();
   NativeContext native;
   native.glx = true;
   native.display = glXGetCurrentDisplay();
   native.context = glXGetCurrentContext();
   native.drawable = glXGetCurrentDrawable();
-  if (native.display == nullptr || native.context == nullptr) throw Error("has no OpenGL context", "X11 window", "Update the graphics driver");
+  if (native.display == nullptr || native.context == nullptr)
+    throw Error("has no OpenGL context", "X11 window", "Update the graphics driver");
   auto* const display = static_cast<::Display*>(native.display);
   int id = 0, visual = 0;
   glXQueryContext(display, static_cast<GLXContext>(native.context), GLX_FBCONFIG_ID, &id);
   native.config = configOf(display, id);
-  if (native.config) glXGetFBConfigAttrib(display, static_cast<GLXFBConfig>(native.config), GLX_VISUAL_ID, &visual);
+  if (native.config)
+    glXGetFBConfigAttrib(display, static_cast<GLXFBConfig>(native.config), GLX_VISUAL_ID, &visual);
   native.visual = static_cast<unsigned>(visual);
   return native;
 }

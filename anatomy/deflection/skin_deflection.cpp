@@ -36,8 +36,10 @@ SkinDeflection::SkinDeflection(const Settings& settings)
 }
 
 void SkinDeflection::assemble() {
-  const auto free = static_cast<std::uint32_t>(disc_.nodes.size()) - static_cast<std::uint32_t>(disc_.per_ring);
-  const double k = settings_.decay > 0 ? 1 / (settings_.decay * settings_.decay) : 0;  // in units of T
+  const auto free =
+      static_cast<std::uint32_t>(disc_.nodes.size()) - static_cast<std::uint32_t>(disc_.per_ring);
+  const double k =
+      settings_.decay > 0 ? 1 / (settings_.decay * settings_.decay) : 0;  // in units of T
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(9 * disc_.triangles.size());
   share_.assign(disc_.nodes.size(), 0);

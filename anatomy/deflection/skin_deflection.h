@@ -6,28 +6,34 @@
 
 namespace palpa::anatomy {
 
-/// The skin's surface round a contact: a membrane under tension T on an elastic foundation k (fat and muscle below),
+/// The skin's surface round a contact: a membrane under tension T on an elastic foundation k (fat
+/// and muscle below),
 ///
 ///     T laplace(w) - k w = -p     w = 0 on the rim      w: depth along the inward normal, metres
 ///
-/// by linear finite elements on a graded disc. Why a membrane: skin is thin and under tension (Langer's lines), its bending counts
-/// only within about its own thickness; why a foundation: without one a dimple would end where the patch does. With it,
-/// it falls like K0(r / lambda), lambda = sqrt(T / k). The depth at the contact is prescribed, so only
-/// lambda matters, not T and k.
+/// by linear finite elements on a graded disc. Why a membrane: skin is thin and under tension
+/// (Langer's lines), its bending counts only within about its own thickness; why a foundation:
+/// without one a dimple would end where the patch does. With it, it falls like K0(r / lambda),
+/// lambda = sqrt(T / k). The depth at the contact is prescribed, so only lambda matters, not T and
+/// k.
 ///
-/// The equation knows no place: the disc travels with the contact (contact-centred coordinates), and the matrix is factorised
-/// once, for the life of the object. A frame is one back-substitution. A point load would be singular (ln r): the
-/// load covers a disc of the contact's radius. A tool that leans presses more ahead of it:
+/// The equation knows no place: the disc travels with the contact (contact-centred coordinates),
+/// and the matrix is factorised once, for the life of the object. A frame is one back-substitution.
+/// A point load would be singular (ln r): the load covers a disc of the contact's radius. A tool
+/// that leans presses more ahead of it:
 ///
-///     p(x) = p0 (1 + lean . x / a)     |lean| <= 1, a: contact radius; its centre lies a lean / 4 ahead
+///     p(x) = p0 (1 + lean . x / a)     |lean| <= 1, a: contact radius; its centre lies a lean / 4
+///     ahead
 ///
-/// Errors: tests/anatomy_deflection holds it against the closed forms. Linear: slopes and depths are taken as small; a
-/// dimple deeper than it is wide is drawn, but no longer mechanics.
+/// Errors: tests/anatomy_deflection holds it against the closed forms. Linear: slopes and depths
+/// are taken as small; a dimple deeper than it is wide is drawn, but no longer mechanics.
 class SkinDeflection {
  public:
   struct Settings {
-    double decay = 0.012;     ///< lambda, m; [chosen], no figure found: 10 mm away a dimple is down to a fifth. 0: no foundation
-    double contact = 0.0015;  ///< radius of the load, m; [chosen]: an 18 G needle's 0.6 mm, spread by half the skin's 2 mm
+    double decay = 0.012;  ///< lambda, m; [chosen], no figure found: 10 mm away a dimple is down to
+                           ///< a fifth. 0: no foundation
+    double contact = 0.0015;  ///< radius of the load, m; [chosen]: an 18 G needle's 0.6 mm, spread
+                              ///< by half the skin's 2 mm
     double patch = 0.060;     ///< radius of the rim, m: five times lambda
     int per_ring = 48;        ///< nodes a ring: 1700 nodes in all; 84: 5000
   };
@@ -38,7 +44,7 @@ class SkinDeflection {
 
   struct Sample {
     double depth = 0;
-    Vec2 slope = Vec2::Zero();   ///< gradient of the depth
+    Vec2 slope = Vec2::Zero();  ///< gradient of the depth
   };
   /// Interpolated at x; zero from the rim on.
   Sample at(const Vec2& x) const;
@@ -47,7 +53,7 @@ class SkinDeflection {
   const Settings& settings() const { return settings_; }
   /// Of the nodes that can move: all but the last ring, in the disc's order.
   const Eigen::SparseMatrix<double>& stiffness() const { return stiffness_; }
-  Eigen::VectorXd load(const Vec2& lean) const;      ///< p0 so that the force is T
+  Eigen::VectorXd load(const Vec2& lean) const;  ///< p0 so that the force is T
   Eigen::VectorXd solve(const Eigen::VectorXd& load) const { return solver_.solve(load); }
 
  private:
@@ -59,10 +65,10 @@ class SkinDeflection {
   GradedDisc disc_;
   Eigen::SparseMatrix<double> stiffness_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
-  std::array<Eigen::VectorXd, 3> loads_;    // even, and per unit of lean in x and y
+  std::array<Eigen::VectorXd, 3> loads_;  // even, and per unit of lean in x and y
   Eigen::VectorXd load_, depth_;
   std::vector<Vec2> slope_;
-  std::vector<double> share_;               // of the area round a node: for the slopes' mean
+  std::vector<double> share_;  // of the area round a node: for the slopes' mean
 };
 
 }  // namespace palpa::anatomy

@@ -4,8 +4,9 @@
 
 namespace palpa {
 namespace {
-constexpr const char* kOrgans[kOrganCount] = {"none",    "skin", "muscle", "clavicle", "rib",
-                                              "sternum", "lung", "vein",   "artery", "fascia",   "scapula", "cartilage", "airway", "spine", "inclusion"};
+constexpr const char* kOrgans[kOrganCount] = {
+    "none",   "skin",   "muscle",  "clavicle",  "rib",    "sternum", "lung",     "vein",
+    "artery", "fascia", "scapula", "cartilage", "airway", "spine",   "inclusion"};
 constexpr const char* kTissues[kTissueCount] = {
     "air", "skin", "fat", "muscle", "connective", "vein lumen", "artery lumen", "lung", "bone"};
 }  // namespace

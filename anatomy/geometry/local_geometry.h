@@ -13,22 +13,41 @@ namespace palpa {
 
 /// Anatomical structure, as the score and the report name it.
 enum class Organ : std::uint8_t {
-  none, skin, muscle, clavicle, rib, sternum, lung, vein, artery,
-  fascia,   ///< of the muscle: a wall between fat and muscle, no mesh of its own
-  scapula, cartilage, airway, spine,
-  inclusion   ///< what a phantom hides in its silicone, to be felt
+  none,
+  skin,
+  muscle,
+  clavicle,
+  rib,
+  sternum,
+  lung,
+  vein,
+  artery,
+  fascia,  ///< of the muscle: a wall between fat and muscle, no mesh of its own
+  scapula,
+  cartilage,
+  airway,
+  spine,
+  inclusion  ///< what a phantom hides in its silicone, to be felt
 };
 inline constexpr int kOrganCount = 15;
 
 /// Hard to the needle. Cartilage of the ribs in an adult is firm enough to stop it.
 constexpr bool isBone(Organ organ) {
-  return organ == Organ::clavicle || organ == Organ::rib || organ == Organ::sternum || organ == Organ::scapula ||
-         organ == Organ::cartilage || organ == Organ::spine;
+  return organ == Organ::clavicle || organ == Organ::rib || organ == Organ::sternum ||
+         organ == Organ::scapula || organ == Organ::cartilage || organ == Organ::spine;
 }
 
 /// Material that the needle tip moves through; mechanical constants are looked up by it.
 enum class Tissue : std::uint8_t {
-  air, skin, fat, muscle, connective, vein_lumen, artery_lumen, lung, bone
+  air,
+  skin,
+  fat,
+  muscle,
+  connective,
+  vein_lumen,
+  artery_lumen,
+  lung,
+  bone
 };
 inline constexpr int kTissueCount = 9;
 
@@ -36,8 +55,8 @@ const char* name(Organ organ);
 const char* name(Tissue tissue);
 Organ organFromName(const char* text);  ///< Organ::none when unknown
 
-/// Bone as capsules: all points within `radius` of a segment a–b (a = b: a sphere). Capsules with the same
-/// `bone` are a chain that stands for one bone.
+/// Bone as capsules: all points within `radius` of a segment a–b (a = b: a sphere). Capsules with
+/// the same `bone` are a chain that stands for one bone.
 struct Capsule {
   Packed3 a{}, b{};
   double radius = 0;
@@ -47,27 +66,29 @@ struct Capsule {
 };
 
 /// A tissue boundary crossed by the (extended) needle axis, as a plane. `n` points back toward the
-/// side the needle comes from. Walls (`wall` != none) must be punctured before the tip is past them.
+/// side the needle comes from. Walls (`wall` != none) must be punctured before the tip is past
+/// them.
 struct Boundary {
   Packed3 p{};
   Packed3 n{0, 0, 1};
   Tissue from = Tissue::air;
   Tissue to = Tissue::air;
-  Organ wall = Organ::none;     ///< organ whose wall this is: fascia, vein, artery, lung; none: no wall
-  bool leaving = false;         ///< true for the back wall
+  Organ wall =
+      Organ::none;       ///< organ whose wall this is: fascia, vein, artery, lung; none: no wall
+  bool leaving = false;  ///< true for the back wall
 };
 
 struct LocalGeometry {
   static constexpr int kMaxBones = 16;
   static constexpr int kMaxBoundaries = 16;
 
-  std::uint64_t number = 0;     ///< 0: nothing has arrived yet
-  std::int64_t t_ns = 0;        ///< when the tool was where this was made for
-  SurfacePatch skin;            ///< round the entry once the skin is punctured, else round the tool
+  std::uint64_t number = 0;  ///< 0: nothing has arrived yet
+  std::int64_t t_ns = 0;     ///< when the tool was where this was made for
+  SurfacePatch skin;         ///< round the entry once the skin is punctured, else round the tool
   std::int32_t bone_count = 0;
   std::int32_t boundary_count = 0;
-  Capsule bones[kMaxBones];              ///< a bone's chain lies together
-  Boundary boundaries[kMaxBoundaries];   ///< ordered from the skin inward
+  Capsule bones[kMaxBones];             ///< a bone's chain lies together
+  Boundary boundaries[kMaxBoundaries];  ///< ordered from the skin inward
 };
 static_assert(std::is_trivially_copyable_v<LocalGeometry>);
 

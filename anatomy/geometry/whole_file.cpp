@@ -11,7 +11,8 @@ namespace palpa {
 
 namespace {
 
-/// A session's evidence and a centre's records are databases; a page or a table that is given their name must not take their place.
+/// A session's evidence and a centre's records are databases; a page or a table that is given their
+/// name must not take their place.
 bool isDatabase(const std::filesystem::path& file) {
   constexpr std::string_view kBegins = "SQLite format 3";
   std::string start(kBegins.size(), ' ');
@@ -21,8 +22,11 @@ bool isDatabase(const std::filesystem::path& file) {
 
 }  // namespace
 
-WholeFile::WholeFile(const std::filesystem::path& file) : file_(file), beside_(file.string() + ".part") {
-  if (isDatabase(file_)) throw Error("holds a session or records, which nothing overwrites", file_.string(), "Give another name");
+WholeFile::WholeFile(const std::filesystem::path& file)
+    : file_(file), beside_(file.string() + ".part") {
+  if (isDatabase(file_))
+    throw Error("holds a session or records, which nothing overwrites", file_.string(),
+                "Give another name");
   stream_.open(beside_, std::ios::binary);
   if (!stream_) fail(errno);
 }
@@ -47,7 +51,8 @@ void WholeFile::finish() {
 }
 
 void WholeFile::fail(int reason) const {
-  throw Error(std::string("cannot be written (") + std::strerror(reason) + ")", file_.string(), "Check that the folder exists, may be written to and has free space");
+  throw Error(std::string("cannot be written (") + std::strerror(reason) + ")", file_.string(),
+              "Check that the folder exists, may be written to and has free space");
 }
 
 void writeWhole(const std::filesystem::path& file, std::string_view content) {

@@ -6,7 +6,8 @@
 
 namespace palpa {
 
-/// A file that is there whole or not at all: written beside under another name, renamed by finish(). Never takes the place of a session or of records. All throw Error.
+/// A file that is there whole or not at all: written beside under another name, renamed by
+/// finish(). Never takes the place of a session or of records. All throw Error.
 class WholeFile {
  public:
   explicit WholeFile(const std::filesystem::path& file);

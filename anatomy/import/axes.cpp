@@ -7,13 +7,20 @@ namespace {
 
 std::optional<Vec3> directionNamed(char letter) {
   switch (letter) {
-    case 'L': return Vec3(1, 0, 0);
-    case 'R': return Vec3(-1, 0, 0);
-    case 'P': return Vec3(0, 1, 0);
-    case 'A': return Vec3(0, -1, 0);
-    case 'S': return Vec3(0, 0, 1);
-    case 'I': return Vec3(0, 0, -1);
-    default: return std::nullopt;
+    case 'L':
+      return Vec3(1, 0, 0);
+    case 'R':
+      return Vec3(-1, 0, 0);
+    case 'P':
+      return Vec3(0, 1, 0);
+    case 'A':
+      return Vec3(0, -1, 0);
+    case 'S':
+      return Vec3(0, 0, 1);
+    case 'I':
+      return Vec3(0, 0, -1);
+    default:
+      return std::nullopt;
   }
 }
 

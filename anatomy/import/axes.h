@@ -7,10 +7,12 @@
 
 namespace palpa::anatomy {
 
-/// Axes of a file, said by three letters: where its +x, +y and +z point. L and R: the patient's left and right, A and P:
-/// anterior and posterior, S and I: superior and inferior. "LPS" is frame A itself, "LSA" glTF's custom (y up, z front).
+/// Axes of a file, said by three letters: where its +x, +y and +z point. L and R: the patient's
+/// left and right, A and P: anterior and posterior, S and I: superior and inferior. "LPS" is frame
+/// A itself, "LSA" glTF's custom (y up, z front).
 struct FileAxes {
-  Mat3 A_from_file = Mat3::Identity();   ///< v_A = A_from_file * v_file; a turn, or a turn and a mirror
+  Mat3 A_from_file =
+      Mat3::Identity();  ///< v_A = A_from_file * v_file; a turn, or a turn and a mirror
   bool right_handed() const { return A_from_file.determinant() > 0; }
 };
 

@@ -15,7 +15,8 @@ namespace palpa::anatomy {
   throw Error(what, where, "Export the surface again or take another file");
 }
 
-/// Walks through bytes that nobody vouches for: lines, words, numbers, binary values. Never past the end.
+/// Walks through bytes that nobody vouches for: lines, words, numbers, binary values. Never past
+/// the end.
 class ByteReader {
  public:
   ByteReader(std::string_view bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
@@ -31,7 +32,8 @@ class ByteReader {
     const std::string_view text = bytes_.substr(at_, stop - at_);
     at_ = stop;
     if (at_ < bytes_.size() && bytes_[at_] == '\r') ++at_;
-    if (at_ < bytes_.size() && bytes_[at_] == '\n' && (at_ == stop || bytes_[at_ - 1] == '\r')) ++at_;
+    if (at_ < bytes_.size() && bytes_[at_] == '\n' && (at_ == stop || bytes_[at_ - 1] == '\r'))
+      ++at_;
     return text;
   }
 

@@ -7,7 +7,8 @@ namespace {
 
 constexpr double kNever = std::numeric_limits<double>::infinity();
 
-/// Table of least areas: row i, column j stands for the part of the ring from i to j, closed by the line j - i.
+/// Table of least areas: row i, column j stands for the part of the ring from i to j, closed by the
+/// line j - i.
 struct Table {
   explicit Table(std::size_t size) : n(size), area(size * size, 0), apex(size * size, 0) {}
   std::size_t at(std::size_t i, std::size_t j) const { return i * n + j; }

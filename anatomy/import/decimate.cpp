@@ -19,7 +19,7 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr int kMendingRounds = 4;
-constexpr double kVtkScale = 1e3;   // millimetres: VTK's thresholds are made for numbers about one
+constexpr double kVtkScale = 1e3;  // millimetres: VTK's thresholds are made for numbers about one
 
 vtkSmartPointer<vtkPolyData> toVtk(const TriangleMesh& mesh) {
   vtkNew<vtkPoints> points;
@@ -108,7 +108,8 @@ TriangleMesh byTopology(const TriangleMesh& mesh, double reduction) {
 }
 
 bool asGoodAs(const TriangleMesh& original, const TriangleMesh& result) {
-  if (result.triangles.size() < 4 || result.triangles.size() > original.triangles.size()) return false;
+  if (result.triangles.size() < 4 || result.triangles.size() > original.triangles.size())
+    return false;
   for (const Vec3& p : result.points)
     if (!p.allFinite()) return false;
   if (!isClosed(original)) return true;
@@ -138,9 +139,12 @@ TriangleMesh decimated(const TriangleMesh& mesh, std::size_t triangles, Decimati
   *report = {mesh.triangles.size(), mesh.triangles.size(), 0, 0, "none"};
   TriangleMesh result = mesh;
   if (mesh.triangles.size() > triangles) {
-    const double reduction = 1 - static_cast<double>(triangles) / static_cast<double>(mesh.triangles.size());
+    const double reduction =
+        1 - static_cast<double>(triangles) / static_cast<double>(mesh.triangles.size());
     const std::pair<const char*, TriangleMesh (*)(const TriangleMesh&, double)> ways[] = {
-        {"quadrics", byQuadrics}, {"quadrics, mended", byQuadricsMended}, {"edges kept manifold", byTopology}};
+        {"quadrics", byQuadrics},
+        {"quadrics, mended", byQuadricsMended},
+        {"edges kept manifold", byTopology}};
     for (const auto& [name, way] : ways) {
       TriangleMesh found = way(mesh, reduction);
       if (!asGoodAs(mesh, found)) continue;

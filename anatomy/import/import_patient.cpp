@@ -11,28 +11,35 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr std::size_t kMostTriangles = 20'000'000;
-constexpr std::size_t kLeastTriangles = 200;   // of a surface that is decimated
-constexpr double kFarthestPoint = 3;           // m: what a patient file can hold
+constexpr std::size_t kLeastTriangles = 200;  // of a surface that is decimated
+constexpr double kFarthestPoint = 3;          // m: what a patient file can hold
 
 std::string namesOf(const std::vector<RawMesh>& meshes) {
   std::string names;
-  for (std::size_t i = 0; i < meshes.size() && i < 8; ++i) names += (names.empty() ? "" : ", ") + meshes[i].name;
+  for (std::size_t i = 0; i < meshes.size() && i < 8; ++i)
+    names += (names.empty() ? "" : ", ") + meshes[i].name;
   return meshes.size() > 8 ? names + " ..." : names;
 }
 
 /// All surfaces of a file, or the one that the entry names, as one.
-RawMesh chosen(const std::vector<RawMesh>& meshes, const MapEntry& entry, const std::string& where) {
+RawMesh chosen(const std::vector<RawMesh>& meshes, const MapEntry& entry,
+               const std::string& where) {
   RawMesh all;
   all.name = entry.id;
   for (std::size_t i = 0; i < meshes.size(); ++i) {
-    if (entry.mesh_name ? meshes[i].name != *entry.mesh_name : entry.mesh_index && *entry.mesh_index != i) continue;
+    if (entry.mesh_name ? meshes[i].name != *entry.mesh_name
+                        : entry.mesh_index && *entry.mesh_index != i)
+      continue;
     const auto first = static_cast<Corner>(all.points.size());
     all.points.insert(all.points.end(), meshes[i].points.begin(), meshes[i].points.end());
-    for (const Triangle& t : meshes[i].triangles) all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    for (const Triangle& t : meshes[i].triangles)
+      all.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
   if (all.triangles.empty())
-    throw UsageError("it has no surface " + (entry.mesh_name ? "\"" + *entry.mesh_name + "\"" : "number " + std::to_string(*entry.mesh_index)),
-                     where, "It has " + namesOf(meshes));
+    throw UsageError(
+        "it has no surface " + (entry.mesh_name ? "\"" + *entry.mesh_name + "\""
+                                                : "number " + std::to_string(*entry.mesh_index)),
+        where, "It has " + namesOf(meshes));
   return all;
 }
 
@@ -40,19 +47,26 @@ void keepLargestPiece(RawMesh* mesh, std::size_t* left_out) {
   Pieces pieces = piecesOf(mesh->triangles, mesh->points.size());
   std::map<Corner, std::size_t> size;
   for (const Triangle& t : mesh->triangles) ++size[pieces.root(t[0])];
-  const auto largest = std::max_element(size.begin(), size.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
+  const auto largest = std::max_element(
+      size.begin(), size.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
   const std::size_t before = mesh->triangles.size();
-  std::erase_if(mesh->triangles, [&](const Triangle& t) { return pieces.root(t[0]) != largest->first; });
+  std::erase_if(mesh->triangles,
+                [&](const Triangle& t) { return pieces.root(t[0]) != largest->first; });
   *left_out = before - mesh->triangles.size();
 }
 
 /// Refuses a length that the entry's organ cannot have.
-void refuseImplausible(const SurfaceReport& report, const MapEntry& entry, const std::string& where) {
+void refuseImplausible(const SurfaceReport& report, const MapEntry& entry,
+                       const std::string& where) {
   if (plausibleLength(entry.organ, report.longest)) return;
   const auto likely = likelyUnit(entry.organ, report.longest / entry.unit.metres);
-  throw UsageError("\"" + entry.id + "\" would be a " + name(entry.organ) + " of " + lengthText(report.longest) + ", read in " + entry.unit.words,
-                   where, likely ? "It was probably written in " + std::string(likely->words) + ": say \"unit\": \"" + likely->name + "\" (--unit " + likely->name + ")"
-                                 : "In no unit that is known would it be one");
+  throw UsageError("\"" + entry.id + "\" would be a " + name(entry.organ) + " of " +
+                       lengthText(report.longest) + ", read in " + entry.unit.words,
+                   where,
+                   likely ? "It was probably written in " + std::string(likely->words) +
+                                ": say \"unit\": \"" + likely->name + "\" (--unit " + likely->name +
+                                ")"
+                          : "In no unit that is known would it be one");
 }
 
 /// In A's axes, metres; only points in use.
@@ -68,7 +82,9 @@ TriangleMesh placed(const RawMesh& mesh, const MapEntry& entry, const std::strin
       if (at == kUnused) {
         at = static_cast<Corner>(result.points.size());
         result.points.push_back(entry.place(mesh.points[t[k]]));
-        if (!result.points.back().allFinite()) throw Error("\"" + entry.id + "\" has a point that is nowhere", where, "Check scale and translate_mm");
+        if (!result.points.back().allFinite())
+          throw Error("\"" + entry.id + "\" has a point that is nowhere", where,
+                      "Check scale and translate_mm");
       }
       n[k] = at;
     }
@@ -80,7 +96,8 @@ TriangleMesh placed(const RawMesh& mesh, const MapEntry& entry, const std::strin
 
 class Importer {
  public:
-  Importer(const ImportMap& map, const std::filesystem::path& folder, const ImportOptions& options, ImportReport* report)
+  Importer(const ImportMap& map, const std::filesystem::path& folder, const ImportOptions& options,
+           ImportReport* report)
       : map_(map), folder_(folder), options_(options), report_(*report) {}
 
   Patient run() {
@@ -97,7 +114,8 @@ class Importer {
   }
 
  private:
-  /// A file's surfaces; the last file stays read, for entries that take one surface each of the same file.
+  /// A file's surfaces; the last file stays read, for entries that take one surface each of the
+  /// same file.
   const std::vector<RawMesh>& read(const std::filesystem::path& file) {
     if (file != last_file_) last_ = readMeshFile(file);
     last_file_ = file;
@@ -109,7 +127,8 @@ class Importer {
     const std::string where = file.string();
     const RawMesh raw = chosen(read(file), entry, where);
     if ((triangles_ += raw.triangles.size()) > kMostTriangles)
-      throw Error("with this file there are more than 20 million triangles", where, "Take coarser surfaces or fewer");
+      throw Error("with this file there are more than 20 million triangles", where,
+                  "Take coarser surfaces or fewer");
     SurfaceReport done;
     done.id = entry.id;
     done.file = entry.file.string();
@@ -122,11 +141,13 @@ class Importer {
     done.after = checkSurface(mended);
     done.longest = done.metres * (done.after.high - done.after.low).maxCoeff();
     refuseImplausible(done, entry, where);
-    patient_.organs.push_back({entry.id, entry.organ, placed(mended, entry, where), entry.rgba, entry.licence, entry.source});
+    patient_.organs.push_back({entry.id, entry.organ, placed(mended, entry, where), entry.rgba,
+                               entry.licence, entry.source});
     report_.surfaces.push_back(std::move(done));
   }
 
-  /// Each surface gets its share of the budget, small ones at least kLeastTriangles or what they have.
+  /// Each surface gets its share of the budget, small ones at least kLeastTriangles or what they
+  /// have.
   std::vector<std::size_t> shares() const {
     std::vector<std::size_t> share;
     std::size_t all = 0, floors = 0;
@@ -138,8 +159,10 @@ class Importer {
     }
     if (options_.triangles == 0 || all <= options_.triangles) return share;
     if (floors > options_.triangles)
-      throw UsageError("is " + std::to_string(options_.triangles), "--triangles", "These surfaces need at least " + std::to_string(floors));
-    const double ratio = static_cast<double>(options_.triangles - floors) / static_cast<double>(all - floors);
+      throw UsageError("is " + std::to_string(options_.triangles), "--triangles",
+                       "These surfaces need at least " + std::to_string(floors));
+    const double ratio =
+        static_cast<double>(options_.triangles - floors) / static_cast<double>(all - floors);
     for (std::size_t& count : share) {
       const std::size_t floor = std::min(count, kLeastTriangles);
       count = floor + static_cast<std::size_t>(ratio * static_cast<double>(count - floor));
@@ -150,24 +173,30 @@ class Importer {
   void decimate() {
     const std::vector<std::size_t> share = shares();
     for (std::size_t i = 0; i < share.size(); ++i)
-      patient_.organs[i].mesh = decimated(patient_.organs[i].mesh, share[i], &report_.surfaces[i].decimation);
+      patient_.organs[i].mesh =
+          decimated(patient_.organs[i].mesh, share[i], &report_.surfaces[i].decimation);
   }
 
   void moveOrigin() {
     const auto notch = patient_.landmarks.find(landmark::kNotch);
-    if (map_.origin) report_.origin = *map_.origin;
-    else if (notch != patient_.landmarks.end()) report_.origin = notch->second;
-    else report_.landmarks.push_back("no notch: the origin is the files'");
+    if (map_.origin)
+      report_.origin = *map_.origin;
+    else if (notch != patient_.landmarks.end())
+      report_.origin = notch->second;
+    else
+      report_.landmarks.push_back("no notch: the origin is the files'");
     for (OrganSurface& organ : patient_.organs)
       for (Vec3& p : organ.mesh.points) {
         p -= report_.origin;
         if (p.cwiseAbs().maxCoeff() > kFarthestPoint)
-          throw Error("\"" + organ.id + "\" lies more than 3 m from the origin", map_.name, "Check unit, scale, translate_mm and origin");
+          throw Error("\"" + organ.id + "\" lies more than 3 m from the origin", map_.name,
+                      "Check unit, scale, translate_mm and origin");
       }
     for (auto& [key, p] : patient_.landmarks) {
       p -= report_.origin;
       if (p.cwiseAbs().maxCoeff() > kFarthestPoint)
-        throw Error("the landmark \"" + key + "\" lies more than 3 m from the origin", map_.name, "Check its unit and axes");
+        throw Error("the landmark \"" + key + "\" lies more than 3 m from the origin", map_.name,
+                    "Check its unit and axes");
     }
   }
 
@@ -182,7 +211,8 @@ class Importer {
 
 }  // namespace
 
-Patient importPatient(const ImportMap& map, const std::filesystem::path& folder, const ImportOptions& options, ImportReport* report) {
+Patient importPatient(const ImportMap& map, const std::filesystem::path& folder,
+                      const ImportOptions& options, ImportReport* report) {
   *report = {};
   return Importer(map, folder, options, report).run();
 }

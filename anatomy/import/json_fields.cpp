@@ -13,7 +13,8 @@ constexpr std::size_t kLongestText = 2000;
 }  // namespace
 
 std::string printable(const std::string& key) {
-  const std::string quoted = nlohmann::json(key).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
+  const std::string quoted =
+      nlohmann::json(key).dump(-1, ' ', true, nlohmann::json::error_handler_t::replace);
   return quoted.substr(1, std::min<std::size_t>(quoted.size() - 2, 60));
 }
 
@@ -28,15 +29,17 @@ nlohmann::json parseJson(const std::string& text, const std::string& file) {
     std::string words = e.what();
     for (char& c : words)
       if (static_cast<unsigned char>(c) < 32) c = ' ';
-    throw UsageError("is not valid JSON (" + words + ")", file, "Correct the file at the place named");
+    throw UsageError("is not valid JSON (" + words + ")", file,
+                     "Correct the file at the place named");
   }
 }
 
 JsonFields::JsonFields(const nlohmann::json& object, std::string file, std::string path)
     : object_(object), file_(std::move(file)), path_(std::move(path)) {
   if (!object_.is_object())
-    throw UsageError((path_.empty() ? std::string("the file") : "field \"" + path_ + "\"") + " is not an object { }", file_,
-                     "Correct the file");
+    throw UsageError((path_.empty() ? std::string("the file") : "field \"" + path_ + "\"") +
+                         " is not an object { }",
+                     file_, "Correct the file");
 }
 
 void JsonFields::refuse(const std::string& field, const std::string& what) const {
@@ -59,9 +62,11 @@ std::string JsonFields::text(const std::string& field) {
   const nlohmann::json& value = need(field);
   if (!value.is_string()) refuse(field, "is not a text");
   std::string words = value.get<std::string>();
-  if (words.empty() || words.size() > kLongestText) refuse(field, "is empty or longer than 2000 letters");
+  if (words.empty() || words.size() > kLongestText)
+    refuse(field, "is empty or longer than 2000 letters");
   for (const char c : words)
-    if (static_cast<unsigned char>(c) < 32) refuse(field, "holds a line break or another control character");
+    if (static_cast<unsigned char>(c) < 32)
+      refuse(field, "holds a line break or another control character");
   return words;
 }
 
@@ -75,7 +80,8 @@ double JsonFields::numberOr(const std::string& field, double otherwise, double l
   if (!value->is_number()) refuse(field, "is not a number");
   const double x = value->get<double>();
   if (!(x >= least && x <= most))
-    refuse(field, "is " + value->dump() + ", not between " + nlohmann::json(least).dump() + " and " + nlohmann::json(most).dump());
+    refuse(field, "is " + value->dump() + ", not between " + nlohmann::json(least).dump() +
+                      " and " + nlohmann::json(most).dump());
   return x;
 }
 
@@ -94,7 +100,8 @@ Vec3 JsonFields::triple(const std::string& field, double most) {
     if (!value[i].is_number()) refuse(field, "is not three numbers");
     v[static_cast<int>(i)] = value[i].get<double>();
   }
-  if (!v.allFinite() || v.cwiseAbs().maxCoeff() > most) refuse(field, "has a number larger than " + nlohmann::json(most).dump());
+  if (!v.allFinite() || v.cwiseAbs().maxCoeff() > most)
+    refuse(field, "has a number larger than " + nlohmann::json(most).dump());
   return v;
 }
 
@@ -103,7 +110,8 @@ void JsonFields::done() const {
     if (!asked_.count(key)) {
       std::string known;
       for (const std::string& name : asked_) known += (known.empty() ? "" : ", ") + name;
-      throw UsageError("field \"" + pathOf(printable(key)) + "\" is unknown", file_, "Known here: " + known);
+      throw UsageError("field \"" + pathOf(printable(key)) + "\" is unknown", file_,
+                       "Known here: " + known);
     }
 }
 

@@ -28,15 +28,18 @@ std::string load(const std::filesystem::path& file) {
 
 MeshFormat meshFormat(const std::filesystem::path& file) {
   std::string ending = file.extension().string();
-  std::transform(ending.begin(), ending.end(), ending.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(ending.begin(), ending.end(), ending.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   if (ending == ".glb") return MeshFormat::gltf;
   if (ending == ".obj") return MeshFormat::obj;
   if (ending == ".stl") return MeshFormat::stl;
   if (ending == ".ply") return MeshFormat::ply;
-  throw UsageError("ends in \"" + ending + "\"", file.string(), "Surfaces are read from .glb, .obj, .stl and .ply");
+  throw UsageError("ends in \"" + ending + "\"", file.string(),
+                   "Surfaces are read from .glb, .obj, .stl and .ply");
 }
 
-std::vector<RawMesh> readMesh(MeshFormat format, const std::string& bytes, const std::string& where) {
+std::vector<RawMesh> readMesh(MeshFormat format, const std::string& bytes,
+                              const std::string& where) {
   std::vector<RawMesh> meshes = format == MeshFormat::gltf  ? readGltf(bytes, where)
                                 : format == MeshFormat::obj ? readObj(bytes, where)
                                 : format == MeshFormat::stl ? readStl(bytes, where)

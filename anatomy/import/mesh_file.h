@@ -10,23 +10,25 @@
 
 namespace palpa::anatomy {
 
-/// A surface as a file has it: the file's own unit and axes, nothing promised but that indices are in range and
-/// numbers finite.
+/// A surface as a file has it: the file's own unit and axes, nothing promised but that indices are
+/// in range and numbers finite.
 struct RawMesh {
-  std::string name;   ///< of the object or node in the file; else the file's name
+  std::string name;  ///< of the object or node in the file; else the file's name
   std::vector<Vec3> points;
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 
 /// What the file says it is: by its ending, .glb .obj .stl .ply.
 enum class MeshFormat { gltf, obj, stl, ply };
-MeshFormat meshFormat(const std::filesystem::path& file);   ///< throws UsageError for another ending
+MeshFormat meshFormat(const std::filesystem::path& file);  ///< throws UsageError for another ending
 
-/// All surfaces of a file that nobody vouches for. Polygons become fans of triangles; glTF nodes are placed by their
-/// transforms. What a file claims is checked against its size before memory is taken. Throws Error.
+/// All surfaces of a file that nobody vouches for. Polygons become fans of triangles; glTF nodes
+/// are placed by their transforms. What a file claims is checked against its size before memory is
+/// taken. Throws Error.
 std::vector<RawMesh> readMeshFile(const std::filesystem::path& file);
 
 /// The same from bytes; `where` begins every message.
-std::vector<RawMesh> readMesh(MeshFormat format, const std::string& bytes, const std::string& where);
+std::vector<RawMesh> readMesh(MeshFormat format, const std::string& bytes,
+                              const std::string& where);
 
 }  // namespace palpa::anatomy

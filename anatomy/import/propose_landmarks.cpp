@@ -9,8 +9,9 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kInside = 0.002;       // of the clavicle's extremes its ends are cut
-constexpr double kNotchReach = 0.035;   // of the middle between the sternal ends the notch lies within
+constexpr double kInside = 0.002;  // of the clavicle's extremes its ends are cut
+constexpr double kNotchReach =
+    0.035;  // of the middle between the sternal ends the notch lies within
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 Eigen::AlignedBox3d boxAround(const TriangleMesh& mesh) {
@@ -35,12 +36,15 @@ void eachCut(const TriangleMesh& mesh, const Vec3& p, const Vec3& n, Visit visit
   }
 }
 
-/// The clavicle's long axis as a line with the surface's extremes on it; `sternal` is the end nearer to the midplane.
+/// The clavicle's long axis as a line with the surface's extremes on it; `sternal` is the end
+/// nearer to the midplane.
 struct LongAxis {
-  Vec3 middle, direction;   // from the sternal to the acromial end
+  Vec3 middle, direction;  // from the sternal to the acromial end
   double sternal = 0, acromial = 0;
 
-  Vec3 at(double share) const { return middle + (sternal + share * (acromial - sternal)) * direction; }
+  Vec3 at(double share) const {
+    return middle + (sternal + share * (acromial - sternal)) * direction;
+  }
   double length() const { return acromial - sternal; }
 };
 
@@ -56,9 +60,12 @@ LongAxis longAxisOf(const TriangleMesh& mesh, double midplane) {
   eachTriangle([&](const Vec3& centre, double weight) { mean += weight * centre, area += weight; });
   mean /= area;
   Mat3 spread = Mat3::Zero();
-  eachTriangle([&](const Vec3& centre, double weight) { spread += weight * (centre - mean) * (centre - mean).transpose(); });
+  eachTriangle([&](const Vec3& centre, double weight) {
+    spread += weight * (centre - mean) * (centre - mean).transpose();
+  });
   LongAxis axis{mean, Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().col(2)};
-  if (std::abs(mean.x() + 0.05 * axis.direction.x() - midplane) < std::abs(mean.x() - 0.05 * axis.direction.x() - midplane))
+  if (std::abs(mean.x() + 0.05 * axis.direction.x() - midplane) <
+      std::abs(mean.x() - 0.05 * axis.direction.x() - midplane))
     axis.direction = -axis.direction;
   axis.sternal = kNan;
   for (const Vec3& p : mesh.points) {
@@ -80,8 +87,11 @@ class Proposer {
         const bool left = boxAround(surface.mesh).center().x() > midplane_;
         (left == (patient_.side == Side::left) ? here_ : there_) = &surface;
       }
-    if (here_) clavicle();
-    else say("no clavicle of the " + std::string(name(patient_.side)) + " side: its landmarks are not proposed");
+    if (here_)
+      clavicle();
+    else
+      say("no clavicle of the " + std::string(name(patient_.side)) +
+          " side: its landmarks are not proposed");
     notch();
     cannot();
     return std::move(words_);
@@ -103,9 +113,12 @@ class Proposer {
       if (surface.organ == Organ::sternum) sternum.extend(boxAround(surface.mesh));
       if (surface.organ == Organ::clavicle) clavicles.extend(boxAround(surface.mesh)), ++bones;
     }
-    if (!sternum.isEmpty()) midplane_ = sternum.center().x();
-    else if (bones == 2) midplane_ = clavicles.center().x();
-    else say("neither a sternum nor two clavicles: the midplane is taken where the files have x = 0");
+    if (!sternum.isEmpty())
+      midplane_ = sternum.center().x();
+    else if (bones == 2)
+      midplane_ = clavicles.center().x();
+    else
+      say("neither a sternum nor two clavicles: the midplane is taken where the files have x = 0");
   }
 
   static Vec3 endOf(const OrganSurface& clavicle, const LongAxis& axis) {
@@ -116,9 +129,11 @@ class Proposer {
     const TriangleMesh& mesh = here_->mesh;
     const LongAxis axis = longAxisOf(mesh, midplane_);
     bool any = propose(landmark::kSternalEnd, endOf(*here_, axis));
-    any |= propose(landmark::kAcromialEnd, middleOfSection(mesh, axis.at(1 - kInside / axis.length()), axis.direction));
+    any |= propose(landmark::kAcromialEnd,
+                   middleOfSection(mesh, axis.at(1 - kInside / axis.length()), axis.direction));
     any |= propose(landmark::kMedialThird, middleOfSection(mesh, axis.at(1.0 / 3), axis.direction));
-    any |= propose(landmark::kLateralThird, middleOfSection(mesh, axis.at(2.0 / 3), axis.direction));
+    any |=
+        propose(landmark::kLateralThird, middleOfSection(mesh, axis.at(2.0 / 3), axis.direction));
     any |= propose(landmark::kSternalEndPosteriorSuperior, posteriorSuperior(mesh, axis));
     if (any) say("ends and thirds of " + here_->id + " from its long axis and sections");
   }
@@ -126,10 +141,11 @@ class Proposer {
   /// Of the section through the sternal end the point farthest back and up.
   static Vec3 posteriorSuperior(const TriangleMesh& mesh, const LongAxis& axis) {
     Vec3 best = Vec3::Constant(kNan);
-    eachCut(mesh, axis.at(kInside / axis.length()), axis.direction, [&](const Vec3& a, const Vec3& b) {
-      for (const Vec3& p : {a, b})
-        if (!best.allFinite() || p.y() + p.z() > best.y() + best.z()) best = p;
-    });
+    eachCut(mesh, axis.at(kInside / axis.length()), axis.direction,
+            [&](const Vec3& a, const Vec3& b) {
+              for (const Vec3& p : {a, b})
+                if (!best.allFinite() || p.y() + p.z() > best.y() + best.z()) best = p;
+            });
     return best;
   }
 
@@ -137,10 +153,11 @@ class Proposer {
     std::optional<Vec3> highest;
     for (const OrganSurface& surface : patient_.organs)
       if (surface.organ == Organ::sternum)
-        eachCut(surface.mesh, Vec3(midplane_, 0, 0), Vec3::UnitX(), [&](const Vec3& a, const Vec3& b) {
-          for (const Vec3& p : {a, b})
-            if (!highest || p.z() > highest->z()) highest = p;
-        });
+        eachCut(surface.mesh, Vec3(midplane_, 0, 0), Vec3::UnitX(),
+                [&](const Vec3& a, const Vec3& b) {
+                  for (const Vec3& p : {a, b})
+                    if (!highest || p.z() > highest->z()) highest = p;
+                });
     return highest;
   }
 
@@ -148,10 +165,12 @@ class Proposer {
     if (patient_.landmarks.count(landmark::kNotch)) return;
     std::optional<Vec3> between;
     if (here_ && there_)
-      between = 0.5 * (endOf(*here_, longAxisOf(here_->mesh, midplane_)) + endOf(*there_, longAxisOf(there_->mesh, midplane_)));
+      between = 0.5 * (endOf(*here_, longAxisOf(here_->mesh, midplane_)) +
+                       endOf(*there_, longAxisOf(there_->mesh, midplane_)));
     const std::optional<Vec3> sternum = highestOfSternum();
     if (sternum && (!between || (*sternum - *between).norm() <= kNotchReach)) {
-      if (propose(landmark::kNotch, *sternum)) say("suprasternal notch at the highest point of the sternum in the midplane, on the bone");
+      if (propose(landmark::kNotch, *sternum))
+        say("suprasternal notch at the highest point of the sternum in the midplane, on the bone");
     } else if (between && propose(landmark::kNotch, *between)) {
       say("suprasternal notch midway between the sternal ends of the clavicles");
     }
@@ -159,7 +178,8 @@ class Proposer {
 
   void cannot() {
     std::string list;
-    for (const char* key : {landmark::kNotch, landmark::kSternalEnd, landmark::kAcromialEnd, landmark::kMedialThird, landmark::kEntry, landmark::kVeinTarget})
+    for (const char* key : {landmark::kNotch, landmark::kSternalEnd, landmark::kAcromialEnd,
+                            landmark::kMedialThird, landmark::kEntry, landmark::kVeinTarget})
       if (!patient_.landmarks.count(key)) list += (list.empty() ? "" : ", ") + std::string(key);
     if (!list.empty()) say("not proposed, the meshes do not show them: " + list);
   }
@@ -167,7 +187,8 @@ class Proposer {
   Patient& patient_;
   std::vector<std::string> words_;
   double midplane_ = 0;
-  const OrganSurface *here_ = nullptr, *there_ = nullptr;   // clavicles of the punctured and the other side
+  const OrganSurface *here_ = nullptr,
+                     *there_ = nullptr;  // clavicles of the punctured and the other side
 };
 
 }  // namespace

@@ -7,7 +7,7 @@ namespace palpa::anatomy {
 namespace {
 
 using Affine = Eigen::Affine3d;
-constexpr int kDeepestNode = 64;          // parents above a node: more is a ring
+constexpr int kDeepestNode = 64;  // parents above a node: more is a ring
 constexpr std::size_t kMostNodes = 100'000;
 
 class GltfSurfaces {
@@ -27,21 +27,26 @@ class GltfSurfaces {
   }
 
  private:
-  static bool inRange(int index, std::size_t count) { return index >= 0 && static_cast<std::size_t>(index) < count; }
+  static bool inRange(int index, std::size_t count) {
+    return index >= 0 && static_cast<std::size_t>(index) < count;
+  }
 
   Affine transform(const tinygltf::Node& node) const {
     Affine X = Affine::Identity();
     if (node.matrix.size() == 16) {
-      for (int i = 0; i < 16; ++i) X.matrix()(i % 4, i / 4) = node.matrix[static_cast<std::size_t>(i)];
+      for (int i = 0; i < 16; ++i)
+        X.matrix()(i % 4, i / 4) = node.matrix[static_cast<std::size_t>(i)];
     } else {
-      if (node.translation.size() == 3) X.translate(Vec3(node.translation[0], node.translation[1], node.translation[2]));
+      if (node.translation.size() == 3)
+        X.translate(Vec3(node.translation[0], node.translation[1], node.translation[2]));
       if (node.rotation.size() == 4) {
         const Quat q(node.rotation[3], node.rotation[0], node.rotation[1], node.rotation[2]);
         if (q.norm() > 0.5) X.rotate(q.normalized());
       }
       if (node.scale.size() == 3) X.scale(Vec3(node.scale[0], node.scale[1], node.scale[2]));
     }
-    if (!X.matrix().allFinite()) refuseMesh("the node \"" + node.name + "\" has a place that is not a number", where_);
+    if (!X.matrix().allFinite())
+      refuseMesh("the node \"" + node.name + "\" has a place that is not a number", where_);
     return X;
   }
 
@@ -71,18 +76,22 @@ class GltfSurfaces {
     if (position == primitive.attributes.end()) refuseMesh("a surface has no points", where_);
     const auto first = static_cast<std::uint32_t>(mesh->points.size());
     const Block points = block(position->second, TINYGLTF_TYPE_VEC3, 12);
-    if (points.component != TINYGLTF_COMPONENT_TYPE_FLOAT) refuseMesh("its points are not floats", where_);
+    if (points.component != TINYGLTF_COMPONENT_TYPE_FLOAT)
+      refuseMesh("its points are not floats", where_);
     for (std::size_t i = 0; i < points.count; ++i) {
       Eigen::Vector3f p;
       std::memcpy(p.data(), points.at + i * points.stride, sizeof p);
       const Vec3 placed = X * p.cast<double>();
-      if (!placed.allFinite()) refuseMesh("point " + std::to_string(i) + " is not a number", where_);
+      if (!placed.allFinite())
+        refuseMesh("point " + std::to_string(i) + " is not a number", where_);
       mesh->points.push_back(placed);
     }
     const bool mirrored = X.linear().determinant() < 0;
     const auto count = static_cast<std::uint32_t>(points.count);
     const auto corner = [&](std::uint32_t index) {
-      if (index >= count) refuseMesh("a triangle names point " + std::to_string(index) + ", which is not there", where_);
+      if (index >= count)
+        refuseMesh("a triangle names point " + std::to_string(index) + ", which is not there",
+                   where_);
       return first + index;
     };
     const auto triangle = [&](std::uint32_t a, std::uint32_t b, std::uint32_t c) {
@@ -106,31 +115,40 @@ class GltfSurfaces {
 
   static std::size_t bytesOf(int component) {
     switch (component) {
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE: return 1;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT: return 2;
-      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT: return 4;
-      default: return 0;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE:
+        return 1;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_SHORT:
+        return 2;
+      case TINYGLTF_COMPONENT_TYPE_UNSIGNED_INT:
+        return 4;
+      default:
+        return 0;
     }
   }
 
   Block block(int index, int type, std::size_t element) const {
     if (!inRange(index, model_.accessors.size())) refuseMesh("an accessor is missing", where_);
     const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
-    if (accessor.type != type || accessor.sparse.isSparse) refuseMesh("an accessor has the wrong type", where_);
+    if (accessor.type != type || accessor.sparse.isSparse)
+      refuseMesh("an accessor has the wrong type", where_);
     if (element == 0) element = bytesOf(accessor.componentType);
     if (element == 0 || !inRange(accessor.bufferView, model_.bufferViews.size()))
       refuseMesh("an accessor's data are missing (compressed files are not read)", where_);
-    const tinygltf::BufferView& view = model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
+    const tinygltf::BufferView& view =
+        model_.bufferViews[static_cast<std::size_t>(accessor.bufferView)];
     if (!inRange(view.buffer, model_.buffers.size())) refuseMesh("a buffer is missing", where_);
     const auto& data = model_.buffers[static_cast<std::size_t>(view.buffer)].data;
     const std::size_t stride = view.byteStride ? view.byteStride : element;
-    const bool inside = stride >= element && view.byteOffset <= data.size() &&
-                        view.byteLength <= data.size() - view.byteOffset && accessor.byteOffset <= view.byteLength &&
-                        (accessor.count == 0 ||
-                         (element <= view.byteLength - accessor.byteOffset &&
-                          accessor.count - 1 <= (view.byteLength - accessor.byteOffset - element) / stride));
+    const bool inside =
+        stride >= element && view.byteOffset <= data.size() &&
+        view.byteLength <= data.size() - view.byteOffset &&
+        accessor.byteOffset <= view.byteLength &&
+        (accessor.count == 0 ||
+         (element <= view.byteLength - accessor.byteOffset &&
+          accessor.count - 1 <= (view.byteLength - accessor.byteOffset - element) / stride));
     if (!inside) refuseMesh("an accessor reaches beyond its buffer", where_);
-    return {data.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride, accessor.componentType};
+    return {data.data() + view.byteOffset + accessor.byteOffset, accessor.count, stride,
+            accessor.componentType};
   }
 
   static std::uint32_t index(const Block& block, std::size_t i) {

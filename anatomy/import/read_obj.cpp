@@ -8,7 +8,8 @@ std::uint32_t cornerOf(const ByteReader& in, std::string_view word, std::size_t 
   const long long index = in.whole(word.substr(0, word.find('/')));
   const long long count = static_cast<long long>(points);
   const long long at = index > 0 ? index - 1 : count + index;
-  if (index == 0 || at < 0 || at >= count) in.fail("a face names point " + std::to_string(index) + ", which is not there");
+  if (index == 0 || at < 0 || at >= count)
+    in.fail("a face names point " + std::to_string(index) + ", which is not there");
   return static_cast<std::uint32_t>(at);
 }
 
@@ -28,7 +29,8 @@ std::vector<RawMesh> readObj(const std::string& bytes, const std::string& where)
       mesh.name = std::string(ByteReader::word(line));
     } else if (kind == "f") {
       std::vector<std::uint32_t> corners;
-      for (std::string_view word = ByteReader::word(line); !word.empty(); word = ByteReader::word(line))
+      for (std::string_view word = ByteReader::word(line); !word.empty();
+           word = ByteReader::word(line))
         corners.push_back(cornerOf(in, word, mesh.points.size()));
       addFan(corners, &mesh);
     }

@@ -11,7 +11,7 @@ enum class Coding { text, little, big };
 struct Property {
   std::string name;
   Type type = Type::float32;
-  std::optional<Type> count;   ///< of a list
+  std::optional<Type> count;  ///< of a list
 };
 struct Element {
   std::string name;
@@ -31,8 +31,9 @@ Type typeOf(const ByteReader& in, std::string_view name) {
     Type type;
   };
   static constexpr Name kNames[] = {
-      {"char", "int8", Type::int8},       {"uchar", "uint8", Type::uint8},    {"short", "int16", Type::int16},
-      {"ushort", "uint16", Type::uint16}, {"int", "int32", Type::int32},      {"uint", "uint32", Type::uint32},
+      {"char", "int8", Type::int8},        {"uchar", "uint8", Type::uint8},
+      {"short", "int16", Type::int16},     {"ushort", "uint16", Type::uint16},
+      {"int", "int32", Type::int32},       {"uint", "uint32", Type::uint32},
       {"float", "float32", Type::float32}, {"double", "float64", Type::float64}};
   for (const Name& n : kNames)
     if (name == n.old_name || name == n.new_name) return n.type;
@@ -84,16 +85,25 @@ Header readHeader(ByteReader& in) {
 
 double value(ByteReader& in, Coding coding, Type type) {
   if (coding == Coding::text) return in.number(in.word());
-  const bool swapped = coding == (std::endian::native == std::endian::little ? Coding::big : Coding::little);
+  const bool swapped =
+      coding == (std::endian::native == std::endian::little ? Coding::big : Coding::little);
   switch (type) {
-    case Type::int8: return in.take<std::int8_t>();
-    case Type::uint8: return in.take<std::uint8_t>();
-    case Type::int16: return in.take<std::int16_t>(swapped);
-    case Type::uint16: return in.take<std::uint16_t>(swapped);
-    case Type::int32: return in.take<std::int32_t>(swapped);
-    case Type::uint32: return in.take<std::uint32_t>(swapped);
-    case Type::float32: return static_cast<double>(in.take<float>(swapped));
-    case Type::float64: break;
+    case Type::int8:
+      return in.take<std::int8_t>();
+    case Type::uint8:
+      return in.take<std::uint8_t>();
+    case Type::int16:
+      return in.take<std::int16_t>(swapped);
+    case Type::uint16:
+      return in.take<std::uint16_t>(swapped);
+    case Type::int32:
+      return in.take<std::int32_t>(swapped);
+    case Type::uint32:
+      return in.take<std::uint32_t>(swapped);
+    case Type::float32:
+      return static_cast<double>(in.take<float>(swapped));
+    case Type::float64:
+      break;
   }
   return in.take<double>(swapped);
 }
@@ -114,8 +124,10 @@ class Body {
     if (element.count > in_.left() || element.properties.empty())
       in_.fail("it claims " + std::to_string(element.count) + " of \"" + element.name + "\"");
     for (std::size_t i = 0; i < element.count; ++i) {
-      if (element.name == "vertex") readPoint(element, mesh);
-      else readFace(element, mesh);
+      if (element.name == "vertex")
+        readPoint(element, mesh);
+      else
+        readFace(element, mesh);
     }
   }
 
@@ -125,7 +137,8 @@ class Body {
     for (const Property& property : element.properties) {
       if (property.count) in_.fail("a point has a list");
       const double v = value(in_, coding_, property.type);
-      if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z') p[property.name[0] - 'x'] = v;
+      if (property.name.size() == 1 && property.name[0] >= 'x' && property.name[0] <= 'z')
+        p[property.name[0] - 'x'] = v;
     }
     if (!p.allFinite()) in_.fail("a point is not a number");
     mesh->points.push_back(p);
@@ -135,13 +148,15 @@ class Body {
   void readFace(const Element& element, RawMesh* mesh) {
     std::vector<std::uint32_t> corners;
     for (const Property& property : element.properties) {
-      const std::size_t count = property.count ? countOf(in_, coding_, *property.count, kLargestPolygon) : 1;
+      const std::size_t count =
+          property.count ? countOf(in_, coding_, *property.count, kLargestPolygon) : 1;
       const bool face = element.name == "face" && property.count &&
                         (property.name == "vertex_indices" || property.name == "vertex_index");
       for (std::size_t k = 0; k < count; ++k) {
         const double v = value(in_, coding_, property.type);
         if (!face) continue;
-        if (!(v >= 0 && v < static_cast<double>(mesh->points.size()))) in_.fail("a face names a point that is not there");
+        if (!(v >= 0 && v < static_cast<double>(mesh->points.size())))
+          in_.fail("a face names a point that is not there");
         corners.push_back(static_cast<std::uint32_t>(v));
       }
     }

@@ -17,7 +17,8 @@ RawMesh readBinary(ByteReader& in) {
   in.skip(kHeader);
   const std::uint32_t count = in.take<std::uint32_t>();
   if (in.left() / kFacet < count)
-    in.fail("it claims " + std::to_string(count) + " facets and has room for " + std::to_string(in.left() / kFacet));
+    in.fail("it claims " + std::to_string(count) + " facets and has room for " +
+            std::to_string(in.left() / kFacet));
   RawMesh mesh;
   mesh.points.reserve(3 * static_cast<std::size_t>(count));
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -25,7 +26,8 @@ RawMesh readBinary(ByteReader& in) {
     for (int corner = 0; corner < 3; ++corner) {
       Vec3 p;
       for (int k = 0; k < 3; ++k) p[k] = static_cast<double>(in.take<float>());
-      if (!p.allFinite()) in.fail("facet " + std::to_string(i) + " has a corner that is not a number");
+      if (!p.allFinite())
+        in.fail("facet " + std::to_string(i) + " has a corner that is not a number");
       addCorner(p, &mesh);
     }
     in.skip(2);
@@ -46,7 +48,8 @@ RawMesh readText(ByteReader& in) {
   return mesh;
 }
 
-/// "solid" begins text files, and some binary ones: those have the length that their count asks for, or no facet in words.
+/// "solid" begins text files, and some binary ones: those have the length that their count asks
+/// for, or no facet in words.
 bool isText(const std::string& bytes) {
   if (bytes.compare(0, 5, "solid") != 0) return false;
   if (bytes.size() < kHeader + 4) return true;

@@ -11,7 +11,7 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr std::size_t kLeastSolid = 4;   // triangles of the smallest solid
+constexpr std::size_t kLeastSolid = 4;  // triangles of the smallest solid
 
 /// Every place once; triangles that are something, each once.
 RawMesh joined(const RawMesh& mesh, RepairReport* report) {
@@ -26,24 +26,29 @@ RawMesh joined(const RawMesh& mesh, RepairReport* report) {
   for (const Triangle& t : mesh.triangles) {
     const Triangle n{number[t[0]], number[t[1]], number[t[2]]};
     const Triangle sorted = sortedCorners(n);
-    if (sorted[0] == sorted[1] || sorted[1] == sorted[2] || !seen.insert(sorted).second) ++report->dropped_triangles;
-    else result.triangles.push_back(n);
+    if (sorted[0] == sorted[1] || sorted[1] == sorted[2] || !seen.insert(sorted).second)
+      ++report->dropped_triangles;
+    else
+      result.triangles.push_back(n);
   }
   return result;
 }
 
-/// Without scraps: parts that hang together by edges and have fewer than four triangles enclose nothing. They stay
-/// where there is nothing else.
+/// Without scraps: parts that hang together by edges and have fewer than four triangles enclose
+/// nothing. They stay where there is nothing else.
 void dropScraps(RawMesh* mesh, RepairReport* report) {
   std::unordered_map<std::uint64_t, Corner> first_at;
   Pieces parts(mesh->triangles.size());
   for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       const Triangle& t = mesh->triangles[i];
-      parts.join(first_at.emplace(edgeKey(t[k], t[(k + 1) % 3]), static_cast<Corner>(i)).first->second, static_cast<Corner>(i));
+      parts.join(
+          first_at.emplace(edgeKey(t[k], t[(k + 1) % 3]), static_cast<Corner>(i)).first->second,
+          static_cast<Corner>(i));
     }
   std::map<Corner, std::size_t> size;
-  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) ++size[parts.root(static_cast<Corner>(i))];
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+    ++size[parts.root(static_cast<Corner>(i))];
   std::vector<Triangle> kept;
   for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
     if (size[parts.root(static_cast<Corner>(i))] >= kLeastSolid) kept.push_back(mesh->triangles[i]);
@@ -61,12 +66,14 @@ bool forth(const Triangle& t, std::uint64_t key) {
   return false;
 }
 
-/// Within each piece all triangles look to the side of its first one; across edges of two triangles only.
+/// Within each piece all triangles look to the side of its first one; across edges of two triangles
+/// only.
 void orient(RawMesh* mesh, std::vector<bool>* turned) {
   std::unordered_map<std::uint64_t, std::vector<Corner>> at_edge;
   for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
     for (std::size_t k = 0; k < 3; ++k)
-      at_edge[edgeKey(mesh->triangles[i][k], mesh->triangles[i][(k + 1) % 3])].push_back(static_cast<Corner>(i));
+      at_edge[edgeKey(mesh->triangles[i][k], mesh->triangles[i][(k + 1) % 3])].push_back(
+          static_cast<Corner>(i));
   turned->assign(mesh->triangles.size(), false);
   std::vector<bool> done(mesh->triangles.size(), false);
   std::vector<Corner> open;
@@ -95,8 +102,9 @@ void orient(RawMesh* mesh, std::vector<bool>* turned) {
   }
 }
 
-/// Rings of open edges, each from corner to corner as the missing triangles would go. Where rings meet in a point they
-/// are parted there: a ring passes no point twice. `left`: edges that lie on no ring.
+/// Rings of open edges, each from corner to corner as the missing triangles would go. Where rings
+/// meet in a point they are parted there: a ring passes no point twice. `left`: edges that lie on
+/// no ring.
 std::vector<std::vector<Corner>> ringsOf(const RawMesh& mesh, std::size_t* left) {
   std::map<Corner, std::vector<Corner>> next;
   const Edges edges = edgesOf(mesh.triangles);
@@ -104,7 +112,8 @@ std::vector<std::vector<Corner>> ringsOf(const RawMesh& mesh, std::size_t* left)
     for (std::size_t k = 0; k < 3; ++k) {
       const Corner a = t[k], b = t[(k + 1) % 3];
       const EdgeUses& uses = edges.at(edgeKey(a, b));
-      if (uses.forth + uses.back == 1) next[b].push_back(a);  // the missing triangle goes the other way
+      if (uses.forth + uses.back == 1)
+        next[b].push_back(a);  // the missing triangle goes the other way
     }
   std::vector<std::vector<Corner>> rings;
   while (!next.empty()) {
@@ -137,7 +146,8 @@ std::vector<Triangle> fanOver(const std::vector<Corner>& ring, std::vector<Vec3>
   const auto centre = static_cast<Corner>(points->size());
   points->push_back(middle);
   std::vector<Triangle> fan;
-  for (std::size_t i = 0; i < ring.size(); ++i) fan.push_back({ring[i], ring[(i + 1) % ring.size()], centre});
+  for (std::size_t i = 0; i < ring.size(); ++i)
+    fan.push_back({ring[i], ring[(i + 1) % ring.size()], centre});
   return fan;
 }
 
@@ -150,7 +160,8 @@ void closeHoles(RawMesh* mesh, RepairReport* report) {
   }
   const auto taken = [&](Corner a, Corner b) { return edges.count(edgeKey(a, b)) > 0; };
   for (const std::vector<Corner>& ring : ringsOf(*mesh, &report->left_holes)) {
-    // The border of a single sheet of one triangle is no hole: what would close it is the sheet itself.
+    // The border of a single sheet of one triangle is no hole: what would close it is the sheet
+    // itself.
     const bool itself = ring.size() == 3 && there.count(sortedCorners({ring[0], ring[1], ring[2]}));
     if (ring.size() < 3 || itself || ring.size() > kLargestHole) {
       ++report->left_holes;
@@ -172,12 +183,14 @@ void closeHoles(RawMesh* mesh, RepairReport* report) {
 void lookOutward(RawMesh* mesh, std::vector<bool>* turned) {
   Pieces pieces = piecesOf(mesh->triangles, mesh->points.size());
   std::map<Corner, std::vector<std::size_t>> of_piece;
-  for (std::size_t i = 0; i < mesh->triangles.size(); ++i) of_piece[pieces.root(mesh->triangles[i][0])].push_back(i);
+  for (std::size_t i = 0; i < mesh->triangles.size(); ++i)
+    of_piece[pieces.root(mesh->triangles[i][0])].push_back(i);
   for (const auto& [root, indices] : of_piece) {
     std::vector<Triangle> piece;
     for (const std::size_t i : indices) piece.push_back(mesh->triangles[i]);
     bool closed = true;
-    for (const auto& [key, uses] : edgesOf(piece)) closed = closed && uses.forth == 1 && uses.back == 1;
+    for (const auto& [key, uses] : edgesOf(piece))
+      closed = closed && uses.forth == 1 && uses.back == 1;
     if (!closed || enclosedVolume(mesh->points, piece, mesh->points[root]) >= 0) continue;
     for (const std::size_t i : indices) {
       turn(mesh->triangles[i]);
@@ -212,13 +225,16 @@ RawMesh repaired(const RawMesh& mesh, RepairReport* report, double tolerance) {
 std::vector<std::string> words(const RepairReport& report, double metres) {
   std::vector<std::string> all;
   const auto tell = [&](std::size_t count, const char* one, const char* many) {
-    if (count > 0) all.push_back(count == 1 ? std::string(one) : std::to_string(count) + " " + many);
+    if (count > 0)
+      all.push_back(count == 1 ? std::string(one) : std::to_string(count) + " " + many);
   };
   tell(report.joined_points, "one repeated point joined", "repeated points joined");
   if (report.welded_points > 0)
-    all.push_back(std::to_string(report.welded_points) + (report.welded_points == 1 ? " point" : " points") + " of seams joined, none moved by more than " +
-                  lengthText(metres * report.farthest_weld));
-  tell(report.dropped_triangles, "one triangle dropped that was nothing or there twice", "triangles dropped that were nothing or there twice");
+    all.push_back(
+        std::to_string(report.welded_points) + (report.welded_points == 1 ? " point" : " points") +
+        " of seams joined, none moved by more than " + lengthText(metres * report.farthest_weld));
+  tell(report.dropped_triangles, "one triangle dropped that was nothing or there twice",
+       "triangles dropped that were nothing or there twice");
   tell(report.scraps, "one loose triangle dropped", "loose triangles dropped");
   tell(report.turned_triangles, "one triangle turned", "triangles turned");
   tell(report.closed_holes, "one hole closed", "holes closed");

@@ -46,9 +46,12 @@ SurfaceCheck checkSurface(const RawMesh& mesh) {
   for (const Triangle& t : mesh.triangles) {
     const Triangle n{number[t[0]], number[t[1]], number[t[2]]};
     const Triangle sorted = sortedCorners(n);
-    if (sorted[0] == sorted[1] || sorted[1] == sorted[2]) ++check.degenerate;
-    else if (!seen.insert(sorted).second) ++check.repeated_triangles;
-    else kept.push_back(n);
+    if (sorted[0] == sorted[1] || sorted[1] == sorted[2])
+      ++check.degenerate;
+    else if (!seen.insert(sorted).second)
+      ++check.repeated_triangles;
+    else
+      kept.push_back(n);
   }
   countEdges(edgesOf(kept), different, &check);
   check.pieces = countPieces(kept, different);
@@ -68,11 +71,14 @@ SurfaceCheck checkSurface(const RawMesh& mesh) {
 std::vector<std::string> findings(const SurfaceCheck& check) {
   std::vector<std::string> words;
   const auto tell = [&](std::size_t count, const char* one, const char* many) {
-    if (count > 0) words.push_back(count == 1 ? std::string(one) : std::to_string(count) + " " + many);
+    if (count > 0)
+      words.push_back(count == 1 ? std::string(one) : std::to_string(count) + " " + many);
   };
   tell(check.holes, "one hole", "holes");
-  tell(check.crowded_edges, "one edge with more than two triangles", "edges with more than two triangles");
-  tell(check.turned_edges, "one edge whose triangles look to different sides", "edges whose triangles look to different sides");
+  tell(check.crowded_edges, "one edge with more than two triangles",
+       "edges with more than two triangles");
+  tell(check.turned_edges, "one edge whose triangles look to different sides",
+       "edges whose triangles look to different sides");
   if (check.inside_out) words.push_back("inside out");
   tell(check.degenerate, "one triangle without an area", "triangles without an area");
   tell(check.repeated_triangles, "one triangle twice", "triangles twice");

@@ -39,7 +39,9 @@ Triangle sortedCorners(const Triangle& triangle) {
   return sorted;
 }
 
-std::uint64_t edgeKey(Corner a, Corner b) { return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b); }
+std::uint64_t edgeKey(Corner a, Corner b) {
+  return static_cast<std::uint64_t>(std::min(a, b)) << 32 | std::max(a, b);
+}
 
 Edges edgesOf(const std::vector<Triangle>& triangles) {
   Edges edges;
@@ -53,7 +55,8 @@ Edges edgesOf(const std::vector<Triangle>& triangles) {
   return edges;
 }
 
-double enclosedVolume(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, const Vec3& middle) {
+double enclosedVolume(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
+                      const Vec3& middle) {
   double sum = 0;
   for (const Triangle& t : triangles) {
     const Vec3 a = points[t[0]] - middle, b = points[t[1]] - middle, c = points[t[2]] - middle;

@@ -13,7 +13,8 @@ namespace palpa::anatomy {
 using Corner = std::uint32_t;
 using Triangle = std::array<Corner, 3>;
 
-/// Points at one place (to the last bit) get one number, in order of first use; `different`: how many there are.
+/// Points at one place (to the last bit) get one number, in order of first use; `different`: how
+/// many there are.
 std::vector<Corner> numberedPlaces(const std::vector<Vec3>& points, std::size_t* different);
 
 /// Corners in ascending order: equal for the same triangle, however it is turned.
@@ -28,12 +29,15 @@ std::uint64_t edgeKey(Corner a, Corner b);
 Edges edgesOf(const std::vector<Triangle>& triangles);
 
 /// The volume that triangles enclose (divergence theorem, about `middle`), negative inside out.
-double enclosedVolume(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles, const Vec3& middle);
+double enclosedVolume(const std::vector<Vec3>& points, const std::vector<Triangle>& triangles,
+                      const Vec3& middle);
 
 /// Union-find over corners.
 class Pieces {
  public:
-  explicit Pieces(std::size_t count) : parent_(count) { std::iota(parent_.begin(), parent_.end(), 0u); }
+  explicit Pieces(std::size_t count) : parent_(count) {
+    std::iota(parent_.begin(), parent_.end(), 0u);
+  }
   Corner root(Corner i) {
     while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
     return i;

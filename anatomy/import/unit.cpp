@@ -20,19 +20,31 @@ struct Span {
 
 Span spanOf(Organ organ) {
   switch (organ) {
-    case Organ::clavicle: return {0.10, 0.20};
-    case Organ::rib: return {0.05, 0.45};
-    case Organ::sternum: return {0.04, 0.27};
-    case Organ::scapula: return {0.09, 0.24};
-    case Organ::spine: return {0.01, 0.80};
-    case Organ::cartilage: return {0.01, 0.30};
-    case Organ::airway: return {0.05, 0.40};
-    case Organ::lung: return {0.12, 0.40};
-    case Organ::muscle: return {0.03, 0.50};
+    case Organ::clavicle:
+      return {0.10, 0.20};
+    case Organ::rib:
+      return {0.05, 0.45};
+    case Organ::sternum:
+      return {0.04, 0.27};
+    case Organ::scapula:
+      return {0.09, 0.24};
+    case Organ::spine:
+      return {0.01, 0.80};
+    case Organ::cartilage:
+      return {0.01, 0.30};
+    case Organ::airway:
+      return {0.05, 0.40};
+    case Organ::lung:
+      return {0.12, 0.40};
+    case Organ::muscle:
+      return {0.03, 0.50};
     case Organ::vein:
-    case Organ::artery: return {0.02, 1.20};
-    case Organ::inclusion: return {0.002, 0.20};
-    default: return {0.10, 2.40};  // skin: a piece of chest to a whole body
+    case Organ::artery:
+      return {0.02, 1.20};
+    case Organ::inclusion:
+      return {0.002, 0.20};
+    default:
+      return {0.10, 2.40};  // skin: a piece of chest to a whole body
   }
 }
 
@@ -66,7 +78,8 @@ std::string lengthText(double metres) {
     double from, metres;
     const char* name;
   };
-  static constexpr Scale kScales[] = {{1000, 1000, "km"}, {1, 1, "m"}, {1e-3, 1e-3, "mm"}, {0, 1e-6, "um"}};
+  static constexpr Scale kScales[] = {
+      {1000, 1000, "km"}, {1, 1, "m"}, {1e-3, 1e-3, "mm"}, {0, 1e-6, "um"}};
   char text[32];
   for (const Scale& scale : kScales)
     if (std::abs(metres) >= scale.from) {

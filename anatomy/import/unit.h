@@ -9,20 +9,21 @@ namespace palpa::anatomy {
 
 /// A unit of length that files are written in.
 struct Unit {
-  const char* name;      ///< "mm"
-  const char* words;     ///< "millimetres"
+  const char* name;   ///< "mm"
+  const char* words;  ///< "millimetres"
   double metres;
 };
 
 /// m, cm, mm, um, in, ft by name; nothing for another name.
 std::optional<Unit> unitNamed(const std::string& name);
-std::string knownUnits();   ///< "m, cm, mm, um, in, ft"
+std::string knownUnits();  ///< "m, cm, mm, um, in, ft"
 
-/// Whether an adult's organ can be so long: its longest side, m. Sources: clavicle 149 +- 10 mm; others from anatomical
-/// atlases, generously.
+/// Whether an adult's organ can be so long: its longest side, m. Sources: clavicle 149 +- 10 mm;
+/// others from anatomical atlases, generously.
 bool plausibleLength(Organ organ, double longest_m);
 
-/// The first unit (in the order of knownUnits) in which a side of `longest` would be plausible for the organ.
+/// The first unit (in the order of knownUnits) in which a side of `longest` would be plausible for
+/// the organ.
 std::optional<Unit> likelyUnit(Organ organ, double longest);
 
 /// "1.4 km", "149 mm": a length in the unit in which people would say it.

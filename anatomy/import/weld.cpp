@@ -11,7 +11,8 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kFolded = 0.94;         // cosine of 20 degrees between two triangles on one side of their edge
+constexpr double kFolded =
+    0.94;  // cosine of 20 degrees between two triangles on one side of their edge
 constexpr double kFinestGrid = 1e12;     // cells a side
 constexpr std::size_t kMostInCell = 64;  // border points: more are no seam
 
@@ -28,7 +29,8 @@ class Welder {
       : mesh_(mesh), tolerance_(tolerance), cluster_(mesh.points.size()) {
     std::iota(cluster_.begin(), cluster_.end(), 0u);
     for (const Triangle& t : mesh.triangles)
-      for (std::size_t k = 0; k < 3; ++k) uses_[ordered(t[k], t[(k + 1) % 3])].push_back({t[k], t[(k + 1) % 3], t[(k + 2) % 3]});
+      for (std::size_t k = 0; k < 3; ++k)
+        uses_[ordered(t[k], t[(k + 1) % 3])].push_back({t[k], t[(k + 1) % 3], t[(k + 2) % 3]});
     for (const auto& [edge, uses] : uses_)
       if (uses.size() == 1) border_.insert({edge.first, edge.second});
   }
@@ -45,7 +47,8 @@ class Welder {
   using Near = std::tuple<double, Corner, Corner>;
 
   Cell cellOf(const Vec3& p) const {
-    return {std::llround(p.x() / tolerance_), std::llround(p.y() / tolerance_), std::llround(p.z() / tolerance_)};
+    return {std::llround(p.x() / tolerance_), std::llround(p.y() / tolerance_),
+            std::llround(p.z() / tolerance_)};
   }
 
   /// Pairs of border points within the tolerance, nearest first.
@@ -59,7 +62,8 @@ class Welder {
     }
     for (const auto& [cell, corners] : cells)
       for (int n = 0; n < 27; ++n) {
-        const auto other = cells.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
+        const auto other =
+            cells.find({cell[0] + n % 3 - 1, cell[1] + n / 3 % 3 - 1, cell[2] + n / 9 - 1});
         if (other == cells.end()) continue;
         for (const Corner a : corners)
           for (const Corner b : other->second) {
@@ -85,7 +89,8 @@ class Welder {
     const std::vector<Corner>&of_a = membersOf(ra, &single_a), &of_b = membersOf(rb, &single_b);
     for (const Corner i : of_a)
       for (const Corner j : of_b)
-        if (uses_.count(ordered(i, j)) || (mesh_.points[i] - mesh_.points[j]).norm() > tolerance_) return;
+        if (uses_.count(ordered(i, j)) || (mesh_.points[i] - mesh_.points[j]).norm() > tolerance_)
+          return;
     std::vector<Corner> all = of_a;
     all.insert(all.end(), of_b.begin(), of_b.end());
     for (const Corner i : all) cluster_[i] = ra;
@@ -104,7 +109,8 @@ class Welder {
     return u.dot(v) > kFolded * u.norm() * v.norm();
   }
 
-  /// Dissolves clusters that close no edge, or that bring three triangles or two on each other to one edge.
+  /// Dissolves clusters that close no edge, or that bring three triangles or two on each other to
+  /// one edge.
   bool undoUseless() {
     std::map<Pair, std::vector<const Use*>> at_edge;
     for (const auto& [edge, uses] : uses_) {
@@ -115,7 +121,8 @@ class Welder {
     std::set<Corner> useful, harmful;
     for (const auto& [edge, uses] : at_edge) {
       if (uses.size() == 1) continue;
-      const bool were_two = uses.size() == 2 && ordered(uses[0]->a, uses[0]->b) == ordered(uses[1]->a, uses[1]->b);
+      const bool were_two =
+          uses.size() == 2 && ordered(uses[0]->a, uses[0]->b) == ordered(uses[1]->a, uses[1]->b);
       if (were_two) continue;
       const bool closes = uses.size() == 2 && !folded(*uses[0], *uses[1]);
       (closes ? useful : harmful).insert({edge.first, edge.second});
@@ -137,7 +144,8 @@ class Welder {
     for (const auto& [root, all] : members_) {
       Vec3 mean = Vec3::Zero();
       for (const Corner i : all) mean += mesh_.points[i] / static_cast<double>(all.size());
-      for (const Corner i : all) report->farthest = std::max(report->farthest, (mesh_.points[i] - mean).norm());
+      for (const Corner i : all)
+        report->farthest = std::max(report->farthest, (mesh_.points[i] - mean).norm());
       places[root] = mean;
       report->joined_points += all.size() - 1;
     }
@@ -148,7 +156,8 @@ class Welder {
       result.points.push_back(places[i]);
     }
     for (const Triangle& t : mesh_.triangles)
-      result.triangles.push_back({number[cluster_[t[0]]], number[cluster_[t[1]]], number[cluster_[t[2]]]});
+      result.triangles.push_back(
+          {number[cluster_[t[0]]], number[cluster_[t[1]]], number[cluster_[t[2]]]});
     return result;
   }
 

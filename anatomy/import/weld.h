@@ -6,14 +6,15 @@ namespace palpa::anatomy {
 
 /// What a weld has done.
 struct WeldReport {
-  std::size_t joined_points = 0;   ///< fewer than before
-  double farthest = 0;             ///< by which a point was moved, in the file's unit
+  std::size_t joined_points = 0;  ///< fewer than before
+  double farthest = 0;            ///< by which a point was moved, in the file's unit
 };
 
-/// The surface with seams closed: points on open borders that are nearer to each other than `tolerance` (file's unit)
-/// become one at their mean, but only where that closes an open edge. Not joined are points of one edge, points whose
-/// cluster would be wider than the tolerance, and borders whose triangles would then lie on each other (less than 20
-/// degrees apart): two sheets that run side by side stay two. Every place of `mesh` is stored once.
+/// The surface with seams closed: points on open borders that are nearer to each other than
+/// `tolerance` (file's unit) become one at their mean, but only where that closes an open edge. Not
+/// joined are points of one edge, points whose cluster would be wider than the tolerance, and
+/// borders whose triangles would then lie on each other (less than 20 degrees apart): two sheets
+/// that run side by side stay two. Every place of `mesh` is stored once.
 RawMesh welded(const RawMesh& mesh, double tolerance, WeldReport* report);
 
 }  // namespace palpa::anatomy

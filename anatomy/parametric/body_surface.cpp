@@ -10,8 +10,8 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kFarFront = -150, kFarBack = 240;   // y that no body reaches
-constexpr double kPlainSoft = 16;                    // mm of skin, fat and muscle that chest() is written for
+constexpr double kFarFront = -150, kFarBack = 240;  // y that no body reaches
+constexpr double kPlainSoft = 16;  // mm of skin, fat and muscle that chest() is written for
 
 double hill(double x, double z, double x0, double z0, double wide, double high) {
   const double a = (x - x0) / wide, b = (z - z0) / high;
@@ -61,16 +61,23 @@ TubeField armOf(const Vec3& acromion, const Build& build) {
   const double bulk = build.female ? 0 : 4, fat = 0.7 * build.softness;
   const auto [top, end] = armAxis(acromion, build);
   const Vec3 beyond = end + 60 * (end - top).normalized();
-  return TubeField({{top, 31 + bulk + fat}, {(top + end) / 2, 34 + bulk + fat}, {end, 33 + bulk + fat}, {beyond, 31 + bulk + fat}});
+  return TubeField({{top, 31 + bulk + fat},
+                    {(top + end) / 2, 34 + bulk + fat},
+                    {end, 33 + bulk + fat},
+                    {beyond, 31 + bulk + fat}});
 }
 
 TubeField scapulaOf(const Vec3& acromion, const Build& build) {
-  return TubeField({{build.place({90, 152, -118}), 4}, {build.place({78, 137, -14}), 5}, {acromion + Vec3(-14, 34, -2), 7}, {acromion + Vec3(6, 8, -1), 8}});
+  return TubeField({{build.place({90, 152, -118}), 4},
+                    {build.place({78, 137, -14}), 5},
+                    {acromion + Vec3(-14, 34, -2), 7},
+                    {acromion + Vec3(6, 8, -1), 8}});
 }
 
 }  // namespace
 
-BodySurface::BodySurface(const Clavicle& clavicle, const Build& build, const SoftLayers& layers, double at_window)
+BodySurface::BodySurface(const Clavicle& clavicle, const Build& build, const SoftLayers& layers,
+                         double at_window)
     : clavicle_(draped(clavicle.sections)),
       scapula_(scapulaOf(clavicle.acromial_end, build)),
       arm_(armOf(clavicle.acromial_end, build)),
@@ -86,7 +93,8 @@ BodySurface::BodySurface(const Clavicle& clavicle, const Build& build, const Sof
   notch_ = living(Vec3::Zero());
 }
 
-// What the layers are at the entry, and from there to the window what the depth asked for there needs.
+// What the layers are at the entry, and from there to the window what the depth asked for there
+// needs.
 double BodySurface::soft(double a) const {
   const double entry = skin_ + fat_ + muscle_;
   const double from = 0.72 * window_a_;
@@ -94,7 +102,7 @@ double BodySurface::soft(double a) const {
 }
 
 double BodySurface::muscle(double a) const {
-  constexpr double kOver = 1.8, kThinnest = 0.6;   // mm
+  constexpr double kOver = 1.8, kThinnest = 0.6;  // mm
   return std::min(muscle_, std::max(soft(a) - kOver, kThinnest));
 }
 
@@ -105,29 +113,35 @@ double BodySurface::chest(double l, double z) const {
   const double sagittal = 15 * std::tanh(low / 60) + 0.10 * low;
   const double across = a / 66;
   const double rounding =
-      (1.2 + 2.2 * softStep(z + 25, 30) + 6 * softStep(z - 30, 20)) * across * across + 1.0 * std::pow(across, 4);
+      (1.2 + 2.2 * softStep(z + 25, 30) + 6 * softStep(z - 30, 20)) * across * across +
+      1.0 * std::pow(across, 4);
   const double pectoral = -(build_.female ? 6 : 13) * hill(a, low, 76, -72, 40, 34);
-  const double fold = build_.female ? 0 : 5 * hill(a, low, 72, -128, 44, 15);   // under the pectoral muscle
+  const double fold =
+      build_.female ? 0 : 5 * hill(a, low, 72, -128, 44, 15);  // under the pectoral muscle
   const double sternal_groove = 3.5 * hill(a, 0, 0, 0, 15, 1) * softStep(-z - 22, 10);
   const double deltopectoral = 6 * hill(a, z, 116, -8, 15, 22);
-  const double infraclavicular = (7.5 + 0.8 * std::max(0.0, kPlainSoft - skin_ - fat_ - muscle_)) * hill(a, z, 59, -9, 15, 14);   // deeper in the lean
+  const double infraclavicular = (7.5 + 0.8 * std::max(0.0, kPlainSoft - skin_ - fat_ - muscle_)) *
+                                 hill(a, z, 59, -9, 15, 14);  // deeper in the lean
   const double supraclavicular = 9 * hill(a, z, 66, 38, 24, 12);
   const double beside = 1 - hill(a, 0, 0, 0, 20, 1);
   const double belly = build_.softness * 0.8 * softStep(-low - 110, 40);
-  return sagittal + rounding + pectoral + fold + sternal_groove + deltopectoral + infraclavicular + supraclavicular -
-         (soft(std::abs(l)) - kPlainSoft) * beside - belly;
+  return sagittal + rounding + pectoral + fold + sternal_groove + deltopectoral + infraclavicular +
+         supraclavicular - (soft(std::abs(l)) - kPlainSoft) * beside - belly;
 }
 
 // Sides and back: an oval whose back follows the spine's curve, with a furrow over the spine.
 double BodySurface::back(const Vec3& q) const {
-  static const Spline wide{{-232, 138}, {-150, 139}, {-90, 141}, {-40, 145}, {10, 142}, {60, 120}, {90, 90}};
-  static const Spline deep{{-232, 166}, {-170, 176}, {-110, 178}, {-50, 168}, {0, 150}, {50, 128}, {100, 116}};
+  static const Spline wide{{-232, 138}, {-150, 139}, {-90, 141}, {-40, 145},
+                           {10, 142},   {60, 120},   {90, 90}};
+  static const Spline deep{{-232, 166}, {-170, 176}, {-110, 178}, {-50, 168},
+                           {0, 150},    {50, 128},   {100, 116}};
   const double z = build_.unplace(q).z();
   const double fat = std::max(0.8 * build_.softness, -1.5);
   const double half = wide(z) * build_.wide + fat, middle = 66;
   const double furrow = 5 * hill(q.x(), 0, 0, 0, 11, 1) * softStep(-z + 20, 20);
   const double half_deep = deep(z) + fat - furrow - middle;
-  const double u = std::abs(q.x()) / half, v = std::abs(q.y() - middle) / (q.y() > middle ? half_deep : 160.0);
+  const double u = std::abs(q.x()) / half,
+               v = std::abs(q.y() - middle) / (q.y() > middle ? half_deep : 160.0);
   return 0.85 * (std::pow(std::pow(u, 2.7) + std::pow(v, 2.7), 1 / 2.7) - 1) * half_deep;
 }
 
@@ -136,7 +150,8 @@ double BodySurface::neckAndJaw(const Vec3& q) const {
   const double fat = 0.45 * build_.softness;
   const double z = build_.unplace(q).z();
   const double centre = 66 - 0.10 * std::max(z, 0.0);
-  const double round = std::hypot(q.x(), (q.y() - centre) * 0.95) - 54 - thick - fat + 0.05 * (84 - z);
+  const double round =
+      std::hypot(q.x(), (q.y() - centre) * 0.95) - 54 - thick - fat + 0.05 * (84 - z);
   const double neck = smoothMax(round, z - 150, 30);
   // A mannequin's head: skull, jaw, chin, nose, brow, sockets, no more.
   const Vec3 p = build_.unplace(q);
@@ -159,7 +174,9 @@ double BodySurface::neckAndJaw(const Vec3& q) const {
 
 double BodySurface::shoulder(const Vec3& q) const {
   const double bulk = build_.female ? 0 : 4;
-  const double deltoid = ellipsoid(q, acromion_ + Vec3(9, 5, -44), Vec3(31 + bulk, 38 + bulk, 54) + Vec3::Constant(0.7 * build_.softness));
+  const double deltoid =
+      ellipsoid(q, acromion_ + Vec3(9, 5, -44),
+                Vec3(31 + bulk, 38 + bulk, 54) + Vec3::Constant(0.7 * build_.softness));
   const auto [top, end] = armAxis(acromion_, build_);
   return smoothMin(deltoid, smoothMax(arm_(q), (q - end).dot((end - top).normalized()), 9), 26);
 }
@@ -179,7 +196,8 @@ double BodySurface::bare(const Vec3& p) const {
   // Trapezius: the shoulder's top falls from the neck to the acromion.
   const double acromion = acromion_.x(), top_there = acromion_.z() + 13;
   const double u = q.x() / acromion;
-  const double top = 0.95 * (p.z() - (top_there + (76 - top_there) * (1 - u) * (1 - 0.45 * u)) - (build_.female ? 0 : 5 * (1 - u)));
+  const double top = 0.95 * (p.z() - (top_there + (76 - top_there) * (1 - u) * (1 - 0.45 * u)) -
+                             (build_.female ? 0 : 5 * (1 - u)));
   double shape = smoothMax(smoothMax(front, top, 46), back(q), 30);
   shape = smoothMin(shape, neckAndJaw(q), 30);
   shape = smoothMin(shape, shoulder(q), 30);
@@ -211,12 +229,14 @@ double BodySurface::front(double l, double z, bool under_breast) const {
 }
 
 Vec3 BodySurface::frontNormal(double l, double z) const {
-  return gradient([this](const Vec3& p) { return bare(p); }, {l, front(l, z, true), z}, 2.0).normalized();
+  return gradient([this](const Vec3& p) { return bare(p); }, {l, front(l, z, true), z}, 2.0)
+      .normalized();
 }
 
 TriangleMesh BodySurface::mesh() const {
   const double half = acromion_.x() + 110;
-  const Eigen::AlignedBox3d box(Vec3(-half, kFarFront, lower_ - 10), Vec3(half, kFarBack, upper_ + 10));
+  const Eigen::AlignedBox3d box(Vec3(-half, kFarFront, lower_ - 10),
+                                Vec3(half, kFarBack, upper_ + 10));
   const double size = 0.5 * build_.wide + 0.5 * build_.tall + 0.01 * std::max(build_.softness, 0.0);
   return surfaceNets(*this, box, (build_.bust() ? 3.4 : 4.35) * size, 2.5);
 }

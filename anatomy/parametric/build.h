@@ -4,11 +4,12 @@
 
 namespace palpa::anatomy {
 
-/// How this body differs in size from the one that the shapes are written for (1.70 m, clavicle 149.4 mm). Around
-/// the sternoclavicular joint nothing is scaled: what decides the manoeuvre there is solved for.
+/// How this body differs in size from the one that the shapes are written for (1.70 m, clavicle
+/// 149.4 mm). Around the sternoclavicular joint nothing is scaled: what decides the manoeuvre there
+/// is solved for.
 struct Build {
-  double wide = 1;   ///< of what lies more than 20 mm from the midline
-  double tall = 1;   ///< of what lies more than 30 mm above or below the notch
+  double wide = 1;      ///< of what lies more than 20 mm from the midline
+  double tall = 1;      ///< of what lies more than 30 mm above or below the notch
   double softness = 0;  ///< mm of fat beyond the body's that the shapes are written for
   bool female = true;
   Extent extent = Extent::torso;

@@ -11,13 +11,14 @@ struct Solution {
   Clavicle clavicle;
   BodySurface skin;
   TaughtLine line;
-  Vec3 window, window_skin;   ///< the vein's centre and the skin over it at the infraclavicular window
+  Vec3 window,
+      window_skin;  ///< the vein's centre and the skin over it at the infraclavicular window
   Vessels vessels;
 };
 
-/// Checks the parameters against their documented ranges, finds the taught line and places the vein so that the depth
-/// of its front wall at the window, along the skin's normal, is the one asked for (within 0.02 mm of the fields).
-/// Throws Error with the violated constraint.
+/// Checks the parameters against their documented ranges, finds the taught line and places the vein
+/// so that the depth of its front wall at the window, along the skin's normal, is the one asked for
+/// (within 0.02 mm of the fields). Throws Error with the violated constraint.
 Solution solve(const PatientParameters& parameters);
 
 }  // namespace palpa::anatomy

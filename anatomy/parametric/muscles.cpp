@@ -62,14 +62,19 @@ TriangleMesh makePectoralisMajor(const BodySurface& skin, const Clavicle& clavic
     const Flat f = a + u * (b - a) - Flat(0, sag);
     const Vec3 on_skin(f.x(), skin.front(f.x(), f.y(), true), f.y());
     const Vec3 n = skin.frontNormal(f.x(), f.y());
-    const double off = std::abs(f.x()), thick = skin.muscle(off), half = thick / 2 * rounded(u, 0.10) * rounded(v, 0.07);
-    return SheetPoint{on_skin - n * (skin.soft(off) - thick / 2), n, half - std::min(fibres(u, v, 13), 0.3 * half), half};
+    const double off = std::abs(f.x()), thick = skin.muscle(off),
+                 half = thick / 2 * rounded(u, 0.10) * rounded(v, 0.07);
+    return SheetPoint{on_skin - n * (skin.soft(off) - thick / 2), n,
+                      half - std::min(fibres(u, v, 13), 0.3 * half), half};
   };
   return sheet(at, 30, 66);
 }
 
-TriangleMesh makePectoralisMinor(const BodySurface& skin, const Clavicle& clavicle, const Build& build) {
-  const Vec3 top = build.place({74, 2, -90}), bottom = build.bust() ? build.place({82, -5, -116}) : build.place({84, -10, -147}), tip = coracoid(clavicle);
+TriangleMesh makePectoralisMinor(const BodySurface& skin, const Clavicle& clavicle,
+                                 const Build& build) {
+  const Vec3 top = build.place({74, 2, -90}),
+             bottom = build.bust() ? build.place({82, -5, -116}) : build.place({84, -10, -147}),
+             tip = coracoid(clavicle);
   const auto middle = [&](double u, double v) {
     const Vec3 from = top + v * (bottom - top) + Vec3(0, -2.5 * std::sin(std::numbers::pi * v), 0);
     const Vec3 to = tip + Vec3(-3 * v, -5, -6 + 5 * (1 - 2 * v));
@@ -77,7 +82,8 @@ TriangleMesh makePectoralisMinor(const BodySurface& skin, const Clavicle& clavic
   };
   const auto at = [&](double u, double v) {
     constexpr double kStep = 1e-3;
-    const Vec3 du = middle(u + kStep, v) - middle(u - kStep, v), dv = middle(u, v + kStep) - middle(u, v - kStep);
+    const Vec3 du = middle(u + kStep, v) - middle(u - kStep, v),
+               dv = middle(u, v + kStep) - middle(u, v - kStep);
     Vec3 n = du.cross(dv).normalized();
     if (n.y() > 0) n = -n;
     const double half = 3.2 * rounded(u, 0.08) * rounded(v, 0.12);
@@ -91,7 +97,8 @@ TriangleMesh makeSubclavius(const BodySurface& skin, const Clavicle& clavicle) {
     const Section& s = clavicle.sections[static_cast<std::size_t>(fraction * 96)];
     return under(skin, s.centre + Vec3(0, 4.0, -s.half_up - 2.6), 3.6);
   };
-  const Curve curve({under(skin, {34, 15.5, -12}, 2.6), under(skin, {43, 16.5, -7}, 3.6), below(0.34), below(0.46), below(0.58)});
+  const Curve curve({under(skin, {34, 15.5, -12}, 2.6), under(skin, {43, 16.5, -7}, 3.6),
+                     below(0.34), below(0.46), below(0.58)});
   std::vector<Section> sections = sectionsAlong(curve.sample(30), Vec3::UnitZ());
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const double u = static_cast<double>(i) / static_cast<double>(sections.size() - 1);

@@ -10,7 +10,7 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr int kAlongRib = 96, kAroundRib = 16;
-constexpr double kJointGap = 0.7;   // mm between bone and cartilage
+constexpr double kJointGap = 0.7;  // mm between bone and cartilage
 
 // Points of the middle line from the sternum to the vertebra; the cartilage ends at point `joint`.
 struct Course {
@@ -20,53 +20,134 @@ struct Course {
 };
 
 const std::vector<Course>& courses() {
-  static const std::vector<Course> seven{
-      {{{25.5, 12, -19}, {40, 21, -20}, {52, 32, -17.5}, {59.5, 47, -10}, {61, 62, -1}, {55, 76, 9}, {42, 86, 17}, {26, 88, 22}},
-       0.20, 6.5, 3.0},
-      {{{19, 2.2, -50}, {40, 6.5, -51}, {64, 15, -50}, {84, 31, -45}, {94, 54, -33}, {92, 78, -18}, {78, 98, -5}, {56, 107, 2}, {28, 96, 6}},
-       0.17, 6.5, 3.0},
-      {{{21, -2.2, -82}, {44, 0.5, -86}, {72, 9, -87}, {97, 28, -83}, {110, 54, -71}, {109, 82, -55}, {95, 106, -39}, {67, 119, -24}, {28, 106, -16}},
-       0.17, 6.6, 3.1},
-      {{{21, -6, -106}, {46, -6, -114}, {78, 4, -119}, {106, 24, -117}, {121, 54, -106}, {120, 86, -89}, {105, 114, -71}, {74, 129, -53}, {28, 115, -40}},
-       0.18, 6.8, 3.2},
-      {{{21.5, -8.5, -126}, {46, -10, -139}, {80, 0, -148}, {110, 22, -148}, {127, 54, -138}, {127, 90, -121}, {111, 121, -102}, {78, 137, -83}, {28, 122, -66}},
-       0.21, 7.0, 3.3},
-      {{{20.5, -10, -141}, {42, -13, -155.5}, {74, -6, -172}, {106, 14, -177}, {128, 50, -169}, {130, 92, -152}, {114, 126, -132}, {80, 143, -112}, {28, 128, -94}},
-       0.26, 7.0, 3.3},
-      {{{17.5, -10, -154}, {36, -14, -174.5}, {66, -8, -192}, {100, 10, -202}, {126, 48, -198}, {131, 92, -182}, {116, 129, -162}, {82, 146, -142}, {28, 132, -122}},
-       0.31, 7.0, 3.3}};
+  static const std::vector<Course> seven{{{{25.5, 12, -19},
+                                           {40, 21, -20},
+                                           {52, 32, -17.5},
+                                           {59.5, 47, -10},
+                                           {61, 62, -1},
+                                           {55, 76, 9},
+                                           {42, 86, 17},
+                                           {26, 88, 22}},
+                                          0.20,
+                                          6.5,
+                                          3.0},
+                                         {{{19, 2.2, -50},
+                                           {40, 6.5, -51},
+                                           {64, 15, -50},
+                                           {84, 31, -45},
+                                           {94, 54, -33},
+                                           {92, 78, -18},
+                                           {78, 98, -5},
+                                           {56, 107, 2},
+                                           {28, 96, 6}},
+                                          0.17,
+                                          6.5,
+                                          3.0},
+                                         {{{21, -2.2, -82},
+                                           {44, 0.5, -86},
+                                           {72, 9, -87},
+                                           {97, 28, -83},
+                                           {110, 54, -71},
+                                           {109, 82, -55},
+                                           {95, 106, -39},
+                                           {67, 119, -24},
+                                           {28, 106, -16}},
+                                          0.17,
+                                          6.6,
+                                          3.1},
+                                         {{{21, -6, -106},
+                                           {46, -6, -114},
+                                           {78, 4, -119},
+                                           {106, 24, -117},
+                                           {121, 54, -106},
+                                           {120, 86, -89},
+                                           {105, 114, -71},
+                                           {74, 129, -53},
+                                           {28, 115, -40}},
+                                          0.18,
+                                          6.8,
+                                          3.2},
+                                         {{{21.5, -8.5, -126},
+                                           {46, -10, -139},
+                                           {80, 0, -148},
+                                           {110, 22, -148},
+                                           {127, 54, -138},
+                                           {127, 90, -121},
+                                           {111, 121, -102},
+                                           {78, 137, -83},
+                                           {28, 122, -66}},
+                                          0.21,
+                                          7.0,
+                                          3.3},
+                                         {{{20.5, -10, -141},
+                                           {42, -13, -155.5},
+                                           {74, -6, -172},
+                                           {106, 14, -177},
+                                           {128, 50, -169},
+                                           {130, 92, -152},
+                                           {114, 126, -132},
+                                           {80, 143, -112},
+                                           {28, 128, -94}},
+                                          0.26,
+                                          7.0,
+                                          3.3},
+                                         {{{17.5, -10, -154},
+                                           {36, -14, -174.5},
+                                           {66, -8, -192},
+                                           {100, 10, -202},
+                                           {126, 48, -198},
+                                           {131, 92, -182},
+                                           {116, 129, -162},
+                                           {82, 146, -142},
+                                           {28, 132, -122}},
+                                          0.31,
+                                          7.0,
+                                          3.3}};
   return seven;
 }
 
-// The bar's broad side stands upright at the flank and leans with the chest wall in front; the first lies flat.
+// The bar's broad side stands upright at the flank and leans with the chest wall in front; the
+// first lies flat.
 Vec3 broadSide(std::size_t rib) {
   if (rib == 0) return {0.35, -0.55, 0.1};
   return rib == 1 ? Vec3(0.15, -0.25, 1) : Vec3(0.05, -0.1, 1);
 }
 
-TriangleMesh part(const std::vector<Section>& all, std::size_t begin, std::size_t end, double bulge) {
-  return sweep({all.begin() + static_cast<std::ptrdiff_t>(begin), all.begin() + static_cast<std::ptrdiff_t>(end)}, kAroundRib, bulge);
+TriangleMesh part(const std::vector<Section>& all, std::size_t begin, std::size_t end,
+                  double bulge) {
+  return sweep({all.begin() + static_cast<std::ptrdiff_t>(begin),
+                all.begin() + static_cast<std::ptrdiff_t>(end)},
+               kAroundRib, bulge);
 }
 
 Rib makeRib(const Course& course, const std::vector<Vec3>& points, const Vec3& broad) {
   const Curve curve(points);
   std::vector<Section> sections = sectionsAlong(curve.sample(kAlongRib), broad);
-  // Round cartilage at the sternum, a knob at its joint with the bone, then a flat bar with a neck and a head.
+  // Round cartilage at the sternum, a knob at its joint with the bone, then a flat bar with a neck
+  // and a head.
   const double j = course.joint;
-  const Spline broadness{{0, 0.80}, {0.6 * j, 0.88}, {j, 1.10}, {j + 0.08, 1}, {0.55, 1.04}, {0.84, 0.92}, {0.93, 0.78}, {1, 0.9}};
-  const Spline thickness{{0, 1.40}, {0.6 * j, 1.30}, {j, 1.35}, {j + 0.1, 1.02}, {0.55, 1}, {0.80, 1.2}, {0.93, 1.1}, {1, 1.5}};
+  const Spline broadness{{0, 0.80},    {0.6 * j, 0.88}, {j, 1.10},    {j + 0.08, 1},
+                         {0.55, 1.04}, {0.84, 0.92},    {0.93, 0.78}, {1, 0.9}};
+  const Spline thickness{{0, 1.40}, {0.6 * j, 1.30}, {j, 1.35},   {j + 0.1, 1.02},
+                         {0.55, 1}, {0.80, 1.2},     {0.93, 1.1}, {1, 1.5}};
   std::vector<TubeField::Station> stations;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const double u = static_cast<double>(i) / static_cast<double>(sections.size() - 1);
     sections[i].half_up = course.broad * broadness(u);
     sections[i].half_side = course.thick * thickness(u);
     if (i % 3 == 0 || i + 1 == sections.size())
-      stations.push_back({sections[i].centre, std::max(sections[i].half_up, sections[i].half_side)});
+      stations.push_back(
+          {sections[i].centre, std::max(sections[i].half_up, sections[i].half_side)});
   }
   const auto joint = static_cast<std::size_t>(std::lround(j * (kAlongRib - 1)));
-  constexpr double kFlat = 0.12;   // bulge of the ends at the joint
-  const auto retreat = [&](std::size_t i) { return static_cast<std::size_t>(std::ceil((2 * kFlat * course.broad + kJointGap) / (curve.length() / (kAlongRib - 1)))) + i; };
-  return {TubeField(std::move(stations)), part(sections, retreat(joint), sections.size(), kFlat), part(sections, 0, joint + 1, kFlat)};
+  constexpr double kFlat = 0.12;  // bulge of the ends at the joint
+  const auto retreat = [&](std::size_t i) {
+    return static_cast<std::size_t>(std::ceil((2 * kFlat * course.broad + kJointGap) /
+                                              (curve.length() / (kAlongRib - 1)))) +
+           i;
+  };
+  return {TubeField(std::move(stations)), part(sections, retreat(joint), sections.size(), kFlat),
+          part(sections, 0, joint + 1, kFlat)};
 }
 
 }  // namespace

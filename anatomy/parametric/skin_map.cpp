@@ -7,14 +7,15 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kAxis_y = 66;   // mm; within trunk, neck and head
+constexpr double kAxis_y = 66;  // mm; within trunk, neck and head
 constexpr float kNowhere = -1;
 
 using Float3 = std::array<float, 3>;
 
 class SkinRaster {
  public:
-  SkinRaster(int width, int height) : map_{width, height, {}}, radius_(std::size_t(width) * height, kNowhere) {
+  SkinRaster(int width, int height)
+      : map_{width, height, {}}, radius_(std::size_t(width) * height, kNowhere) {
     map_.points.resize(radius_.size());
   }
 
@@ -23,7 +24,8 @@ class SkinRaster {
     std::array<Eigen::Vector3f, 3> p;
     for (std::size_t k = 0; k < 3; ++k) {
       const auto& [u, v] = mesh.uvs[corners[k]];
-      uv[k] = {u * static_cast<float>(map_.width) - 0.5f, v * static_cast<float>(map_.height) - 0.5f};
+      uv[k] = {u * static_cast<float>(map_.width) - 0.5f,
+               v * static_cast<float>(map_.height) - 0.5f};
       p[k] = mesh.points[corners[k]].cast<float>();
     }
     const float area = cross(uv[1] - uv[0], uv[2] - uv[0]);
@@ -33,7 +35,8 @@ class SkinRaster {
     for (int y = top; y <= bottom; ++y)
       for (int x = left; x <= right; ++x) {
         const Eigen::Vector2f at(x, y);
-        const float a = cross(uv[1] - at, uv[2] - at) / area, b = cross(uv[2] - at, uv[0] - at) / area, c = 1 - a - b;
+        const float a = cross(uv[1] - at, uv[2] - at) / area,
+                    b = cross(uv[2] - at, uv[0] - at) / area, c = 1 - a - b;
         if (std::min({a, b, c}) >= -1e-4f) put(x, y, a * p[0] + b * p[1] + c * p[2]);
       }
   }
@@ -51,10 +54,13 @@ class SkinRaster {
   }
 
  private:
-  static float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) { return a.x() * b.y() - a.y() * b.x(); }
+  static float cross(const Eigen::Vector2f& a, const Eigen::Vector2f& b) {
+    return a.x() * b.y() - a.y() * b.x();
+  }
   static std::pair<int, int> span(const std::array<Eigen::Vector2f, 3>& uv, int axis, int size) {
     const auto [low, high] = std::minmax({uv[0][axis], uv[1][axis], uv[2][axis]});
-    return {std::max(0, static_cast<int>(std::ceil(low))), std::min(size - 1, static_cast<int>(std::floor(high)))};
+    return {std::max(0, static_cast<int>(std::ceil(low))),
+            std::min(size - 1, static_cast<int>(std::floor(high)))};
   }
   std::size_t index(int x, int y) const { return std::size_t(y) * map_.width + x; }
 
@@ -82,7 +88,7 @@ class SkinRaster {
   }
 
   SkinMap map_;
-  std::vector<float> radius_;   // of what is drawn there; kNowhere: nothing
+  std::vector<float> radius_;  // of what is drawn there; kNowhere: nothing
 };
 
 }  // namespace
@@ -96,15 +102,17 @@ void layPicture(TriangleMesh* skin_B_mm) {
   skin_B_mm->uvs.clear();
   for (const Vec3& p : skin_B_mm->points) {
     const double u = std::atan2(std::abs(p.x()), kAxis_y - p.y()) / std::numbers::pi;
-    skin_B_mm->uvs.push_back({static_cast<float>(u), static_cast<float>((top - p.z()) / (top - bottom))});
+    skin_B_mm->uvs.push_back(
+        {static_cast<float>(u), static_cast<float>((top - p.z()) / (top - bottom))});
   }
 }
 
 SkinMap mapOfSkin(const TriangleMesh& skin_B_mm, int width, int height) {
   SkinRaster raster(width, height);
   for (const auto& corners : skin_B_mm.triangles) {
-    const bool plus = std::any_of(corners.begin(), corners.end(), [&](std::uint32_t c) { return skin_B_mm.points[c].x() >= 0; });
-    if (plus) raster.draw(skin_B_mm, corners);   // the other side is its mirror image
+    const bool plus = std::any_of(corners.begin(), corners.end(),
+                                  [&](std::uint32_t c) { return skin_B_mm.points[c].x() >= 0; });
+    if (plus) raster.draw(skin_B_mm, corners);  // the other side is its mirror image
   }
   return raster.filled();
 }

@@ -10,8 +10,11 @@
 namespace palpa::anatomy {
 namespace {
 
-// y of the sternum's middle: its plane leans backward upward and bends at the sternal angle. `low`: z in the shapes' body.
-double sternumMiddle(double low) { return 8.5 + 0.20 * low + (low < -48 ? 0.06 * (-48 - low) : 0.0); }
+// y of the sternum's middle: its plane leans backward upward and bends at the sternal angle. `low`:
+// z in the shapes' body.
+double sternumMiddle(double low) {
+  return 8.5 + 0.20 * low + (low < -48 ? 0.06 * (-48 - low) : 0.0);
+}
 
 double sternumField(const Vec3& p, const Clavicle& clavicle, const Build& build) {
   const double l = std::abs(p.x()), z = p.z(), low = build.unplace(p).z();
@@ -20,7 +23,8 @@ double sternumField(const Vec3& p, const Clavicle& clavicle, const Build& build)
   double half = low > -48 ? 15.5 + 13.5 * std::pow((low + 48) / 40, 1.2) : body;
   if (low < -138) half = std::max(body - 0.85 * (-138 - low), 4.2);
   // Notches for the cartilages of the ribs.
-  for (const double rib : {-50.0, -82.0, -106.0, -126.0, -141.0}) half -= 2.2 * std::exp(-0.5 * std::pow((low - rib) / 5, 2));
+  for (const double rib : {-50.0, -82.0, -106.0, -126.0, -141.0})
+    half -= 2.2 * std::exp(-0.5 * std::pow((low - rib) / 5, 2));
   const double middle = sternumMiddle(low);
   const double end = std::max(build.place({0, 0, -180}).z(), build.floor(9));
   const double thick = low < -150 ? 3.6 : 5.5;
@@ -41,7 +45,8 @@ Vec3 spineMiddle(const Build& build, double low) {
 }
 
 double spineField(const Vec3& p, const Build& build) {
-  constexpr double kHeight = 21.5, kTop = 34;   // of a vertebra with its disc; upper end of the first
+  constexpr double kHeight = 21.5,
+                   kTop = 34;  // of a vertebra with its disc; upper end of the first
   const double low = build.unplace(p).z();
   const Vec3 middle = spineMiddle(build, low);
   const double phase = 2 * M_PI * (kTop - low) / kHeight;
@@ -61,7 +66,8 @@ double spineField(const Vec3& p, const Build& build) {
     };
     processes = std::min(processes, bar(m + Vec3(0, 16, 0), m + Vec3(0, 40, -17), 5.5, 3));
     for (const double side : {-1.0, 1.0})
-      processes = std::min(processes, bar(m + Vec3(side * 9, 18, 0), m + Vec3(side * 25, 31, 4), 5, 3.5));
+      processes =
+          std::min(processes, bar(m + Vec3(side * 9, 18, 0), m + Vec3(side * 25, 31, 4), 5, 3.5));
   }
   const double arch = std::hypot(p.x(), p.y() - middle.y() - 19) - 9.5;
   double f = smoothMin(smoothMin(body, arch, 5), processes, 5);
@@ -71,8 +77,10 @@ double spineField(const Vec3& p, const Build& build) {
 
 // The lung's dome in the root of the neck: sections that grow downward from the apex.
 double dome(const Vec3& p, double shift_y) {
-  static const Spline half_width{{0, 6}, {5, 12}, {14, 18.5}, {28, 23}, {45, 28}, {65, 36}, {95, 43}, {165, 48}};
-  static const Spline half_depth{{0, 6}, {5, 11}, {14, 17.5}, {22, 22.5}, {29, 26.5}, {45, 31}, {65, 33}, {95, 34}, {165, 35}};
+  static const Spline half_width{{0, 6},   {5, 12},  {14, 18.5}, {28, 23},
+                                 {45, 28}, {65, 36}, {95, 43},   {165, 48}};
+  static const Spline half_depth{{0, 6},   {5, 11},  {14, 17.5}, {22, 22.5}, {29, 26.5},
+                                 {45, 31}, {65, 33}, {95, 34},   {165, 35}};
   static const Spline centre{{0, 35}, {14, 34}, {28, 33}, {45, 37}, {65, 45}, {95, 54}, {165, 60}};
   constexpr double kApex = 30;
   const double below = kApex - p.z();
@@ -81,23 +89,30 @@ double dome(const Vec3& p, double shift_y) {
   const double back = 57.5 - std::min(0.06 * h, 6.0) + shift_y;
   const double u = std::abs((p.x() - centre(h)) / a), v = std::abs((p.y() - back) / b);
   const double power = 2.2 + 0.6 * std::min(h / 100, 1.0);
-  const double side = (std::pow(std::pow(u, power) + std::pow(v, power), 1 / power) - 1) * std::min(a, b);
+  const double side =
+      (std::pow(std::pow(u, power) + std::pow(v, power), 1 / power) - 1) * std::min(a, b);
   return smoothMax(smoothMax(0.8 * side, -below, 12), -90 - p.z(), 10);
 }
 
 // What the ribs enclose beside the mediastinum, from the second rib down to the diaphragm's dome.
 double cageSide(const Vec3& p, const Build& build, bool heart) {
-  static const Spline wide{{-215, 124}, {-170, 124}, {-130, 119}, {-95, 108}, {-60, 91}, {-40, 78}, {-20, 60}, {0, 46}, {20, 34}};
-  static const Spline front{{-215, -2}, {-150, -3}, {-110, 2}, {-80, 8}, {-50, 15}, {-20, 27}, {0, 38}, {20, 46}};
-  static const Spline behind{{-215, 136}, {-150, 135}, {-110, 128}, {-70, 116}, {-40, 105}, {-10, 94}, {20, 82}};
+  static const Spline wide{{-215, 124}, {-170, 124}, {-130, 119}, {-95, 108}, {-60, 91},
+                           {-40, 78},   {-20, 60},   {0, 46},     {20, 34}};
+  static const Spline front{{-215, -2}, {-150, -3}, {-110, 2}, {-80, 8},
+                            {-50, 15},  {-20, 27},  {0, 38},   {20, 46}};
+  static const Spline behind{{-215, 136}, {-150, 135}, {-110, 128}, {-70, 116},
+                             {-40, 105},  {-10, 94},   {20, 82}};
   const Vec3 t = build.unplace(p);
   const double a = wide(t.z()), yf = front(t.z()), yb = behind(t.z());
   const double yc = (yf + yb) / 2, b = (yb - yf) / 2;
   const double u = std::abs(t.x()) / a, v = std::abs(t.y() - yc) / b;
   double f = 0.8 * (std::pow(std::pow(u, 2.3) + std::pow(v, 2.3), 1 / 2.3) - 1) * std::min(a, b);
   // Mediastinum: wider for the heart on its side; in front the lungs nearly meet.
-  const double heart_bulge = (heart ? 26 : 10) * std::exp(-0.5 * (std::pow((t.z() + 130) / 42, 2) + std::pow((t.y() - 35) / 32, 2)));
-  const double medial = 15 + 14 * std::exp(-0.5 * std::pow((t.y() - 95) / 26, 2)) + 6 * std::exp(-0.5 * std::pow((t.y() - 50) / 22, 2)) + heart_bulge;
+  const double heart_bulge =
+      (heart ? 26 : 10) *
+      std::exp(-0.5 * (std::pow((t.z() + 130) / 42, 2) + std::pow((t.y() - 35) / 32, 2)));
+  const double medial = 15 + 14 * std::exp(-0.5 * std::pow((t.y() - 95) / 26, 2)) +
+                        6 * std::exp(-0.5 * std::pow((t.y() - 50) / 22, 2)) + heart_bulge;
   f = smoothMax(f, medial - t.x(), 14);
   f = smoothMax(f, p.z() - build.place({0, 0, 12}).z(), 30);
   // Diaphragm: a dome higher in the middle of the lung's base.
@@ -123,18 +138,28 @@ TriangleMesh makeSternum(const Clavicle& clavicle, const Build& build) {
 
 TriangleMesh makeSpine(const Build& build) {
   const auto field = [&](const Vec3& p) { return spineField(p, build); };
-  return surfaceNets(field, {Vec3(-36, 50, build.place({0, 0, -170}).z()), Vec3(36, 176, build.place({0, 0, 42}).z())}, 3.2);
+  return surfaceNets(
+      field,
+      {Vec3(-36, 50, build.place({0, 0, -170}).z()), Vec3(36, 176, build.place({0, 0, 42}).z())},
+      3.2);
 }
 
 std::vector<TubeField> airwayTubes(double handed) {
-  return {TubeField({{{0, 28, 66}, 9}, {{0, 32, 20}, 9}, {{-1 * handed, 42, 2}, 8.5}, {{-2 * handed, 59.5, -22}, 8.5}, {{-1 * handed, 70, -48}, 8.6}, {{handed, 76, -62}, 9}}),
+  return {TubeField({{{0, 28, 66}, 9},
+                     {{0, 32, 20}, 9},
+                     {{-1 * handed, 42, 2}, 8.5},
+                     {{-2 * handed, 59.5, -22}, 8.5},
+                     {{-1 * handed, 70, -48}, 8.6},
+                     {{handed, 76, -62}, 9}}),
           TubeField({{{handed, 76, -62}, 7.5}, {{handed * 24, 82, -84}, 7}}),
           TubeField({{{handed, 76, -62}, 6.5}, {{-handed * 24, 66, -90}, 6}})};
 }
 
 TriangleMesh makeAirway(const Vessels& vessels) {
   const std::vector<TubeField> tubes = airwayTubes(vessels.handed);
-  const auto rings = [](double z) { return 0.35 * std::cos(2 * M_PI * z / 5.2); };   // the cartilages show
+  const auto rings = [](double z) {
+    return 0.35 * std::cos(2 * M_PI * z / 5.2);
+  };  // the cartilages show
   const auto field = [&](const Vec3& p) {
     double f = smoothMin(smoothMin(tubes[0](p), tubes[1](p), 5), tubes[2](p), 5) - rings(p.z());
     if (f > 8) return f;
@@ -144,9 +169,10 @@ TriangleMesh makeAirway(const Vessels& vessels) {
   return surfaceNets(field, {Vec3(-42, 12, -100), Vec3(42, 98, 82)}, 2.0);
 }
 
-TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, const Build& build, double sign, double shift_y,
-                      double groove_mm, const Eigen::AlignedBox3d& part) {
-  const bool heart = sign * vessels.handed < 0;   // on the patient's left
+TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, const Build& build,
+                      double sign, double shift_y, double groove_mm,
+                      const Eigen::AlignedBox3d& part) {
+  const bool heart = sign * vessels.handed < 0;  // on the patient's left
   const std::vector<TubeField> airway = airwayTubes(vessels.handed);
   const auto field = [&](const Vec3& p) {
     double f = smoothMin(dome(p, shift_y), cageSide(p, build, heart), 16);
@@ -160,7 +186,8 @@ TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, cons
     if (groove_mm - vessels.veinsAtLeast(there) <= f - 4) return f;
     return smoothMax(f, groove_mm - vessels.veinField(there), 4);
   };
-  Eigen::AlignedBox3d box(Vec3(-4, -30, build.place({0, 0, -205}).z()), Vec3(build.place({140, 0, 0}).x(), 152, 42));
+  Eigen::AlignedBox3d box(Vec3(-4, -30, build.place({0, 0, -205}).z()),
+                          Vec3(build.place({140, 0, 0}).x(), 152, 42));
   if (!part.isEmpty()) box = onGrid(part.intersection(box), box.min(), kLungCell);
   TriangleMesh mesh = surfaceNets(field, box, kLungCell, 2.5);
   return sign > 0 ? mesh : mirroredMesh(mesh);

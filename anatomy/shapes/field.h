@@ -19,8 +19,8 @@ double smoothMax(double a, double b, double k);
 /// From 0 to 1 about x = 0, half of it within 0.55 `width`.
 inline double softStep(double x, double width) { return 0.5 * (1 + std::tanh(x / width)); }
 
-/// Tube of varying radius along a chain of points. Spans are kept in bundles with a sphere around each,
-/// so that most are never looked at.
+/// Tube of varying radius along a chain of points. Spans are kept in bundles with a sphere around
+/// each, so that most are never looked at.
 class TubeField {
  public:
   struct Station {
@@ -50,7 +50,8 @@ class TubeField {
   Eigen::AlignedBox3d box_;
 };
 
-/// smoothMin(f, tube(p) - grow, k) and smoothMax(f, gap - tube(p), k), asking the tube only where it counts.
+/// smoothMin(f, tube(p) - grow, k) and smoothMax(f, gap - tube(p), k), asking the tube only where
+/// it counts.
 double addTube(double f, const TubeField& tube, const Vec3& p, double grow, double k);
 double carveTube(double f, const TubeField& tube, const Vec3& p, double gap, double k);
 

@@ -22,7 +22,8 @@ TriangleMesh sheet(const std::function<SheetPoint(double u, double v)>& at, int 
   };
   for (int j = 0; j < across; ++j)
     for (int i = 0; i < along; ++i) {
-      const std::size_t a = std::size_t(j) * (along + 1) + i, b = a + 1, c = b + along + 1, d = c - 1;
+      const std::size_t a = std::size_t(j) * (along + 1) + i, b = a + 1, c = b + along + 1,
+                        d = c - 1;
       // At two corners the diagonal turns, lest front and back share a whole triangle.
       const bool corner = (i == along - 1 && j == 0) || (i == 0 && j == across - 1);
       if (corner) {

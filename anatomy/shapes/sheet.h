@@ -6,8 +6,8 @@
 
 namespace palpa::anatomy {
 
-/// A point of a sheet's middle surface, its unit normal, and how far the sheet reaches to either side; both halves 0
-/// on the border.
+/// A point of a sheet's middle surface, its unit normal, and how far the sheet reaches to either
+/// side; both halves 0 on the border.
 struct SheetPoint {
   Vec3 middle, normal;
   double front, back;

@@ -6,11 +6,14 @@
 
 namespace palpa::anatomy {
 
-/// Smooth random field in space: numbers in [-1, 1] on a lattice, blended between (value noise). The same with every
-/// compiler and library; neighbours a few cells apart know nothing of each other.
+/// Smooth random field in space: numbers in [-1, 1] on a lattice, blended between (value noise).
+/// The same with every compiler and library; neighbours a few cells apart know nothing of each
+/// other.
 class ValueNoise {
  public:
-  ValueNoise(std::uint64_t seed, double cell) : seed_(static_cast<std::uint32_t>(seed ^ (seed >> 32))), scale_(static_cast<float>(1 / cell)) {}
+  ValueNoise(std::uint64_t seed, double cell)
+      : seed_(static_cast<std::uint32_t>(seed ^ (seed >> 32))),
+        scale_(static_cast<float>(1 / cell)) {}
 
   float operator()(const std::array<float, 3>& p) const {
     std::array<std::int32_t, 3> at;
@@ -31,7 +34,8 @@ class ValueNoise {
     return low + w[1] * (high - low);
   }
   float at(std::int32_t x, std::int32_t y, std::int32_t z) const {
-    std::uint32_t h = seed_ + 0x9e3779b1u * static_cast<std::uint32_t>(x) + 0x85ebca77u * static_cast<std::uint32_t>(y) +
+    std::uint32_t h = seed_ + 0x9e3779b1u * static_cast<std::uint32_t>(x) +
+                      0x85ebca77u * static_cast<std::uint32_t>(y) +
                       0xc2b2ae3du * static_cast<std::uint32_t>(z);
     h = (h ^ (h >> 15)) * 0x2c1b3c6du;
     h = (h ^ (h >> 12)) * 0x297a2d39u;

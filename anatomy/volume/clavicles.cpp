@@ -10,10 +10,10 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr int kThresholds = 8;
-constexpr double kHighest = 2.2;          // times the bone level above the soft tissue's
+constexpr double kHighest = 2.2;  // times the bone level above the soft tissue's
 constexpr double kSeedReach = 8e-3, kWatershed = 4e-3, kMarrow = 6e-3, kThread = 4e-3;
-constexpr double kRival = 3e-6;           // m^3
-constexpr double kPerStep = 4e-3;         // a lower threshold is worth so much height
+constexpr double kRival = 3e-6;    // m^3
+constexpr double kPerStep = 4e-3;  // a lower threshold is worth so much height
 
 struct Shape {
   std::size_t voxels = 0;
@@ -51,8 +51,9 @@ bool looksLikeClavicle(const Shape& s, double midline, double body_middle_y) {
   const double side = s.mean.x() < midline ? -1 : 1;
   const double medial = side < 0 ? midline - s.high.x() : s.low.x() - midline;
   const double lateral = side < 0 ? midline - s.low.x() : s.high.x() - midline;
-  return s.spread[0] > 0.017 && s.spread[0] < 0.055 && s.spread[1] < 0.0095 && s.spread[2] > 0.0027 && s.spread[2] < 0.008 && medial > -0.005 &&
-         medial < 0.045 && lateral > 0.06 && s.mean.y() < body_middle_y && std::abs(s.along.x()) > 0.35;
+  return s.spread[0] > 0.017 && s.spread[0] < 0.055 && s.spread[1] < 0.0095 &&
+         s.spread[2] > 0.0027 && s.spread[2] < 0.008 && medial > -0.005 && medial < 0.045 &&
+         lateral > 0.06 && s.mean.y() < body_middle_y && std::abs(s.along.x()) > 0.35;
 }
 
 /// All bone at one threshold, and which piece of it is meant.
@@ -63,7 +64,8 @@ struct Choice {
 
 class Search {
  public:
-  Search(const Scan& scan, const Mask& taken, const Seeds& seeds) : scan_(scan), taken_(taken), seeds_(seeds) {
+  Search(const Scan& scan, const Mask& taken, const Seeds& seeds)
+      : scan_(scan), taken_(taken), seeds_(seeds) {
     double y = 0, count = 0;
     for (std::size_t n = 0; n < scan.body.size(); n += 7)
       if (scan.body[n]) y += scan.place(n).y(), ++count;
@@ -72,7 +74,8 @@ class Search {
 
   std::optional<Clavicle3> find(Side side) const {
     const auto seed = seeds_.find(std::string("clavicle_") + name(side));
-    const std::optional<Choice> choice = seed == seeds_.end() ? byShape(side) : bySeed(seed->second);
+    const std::optional<Choice> choice =
+        seed == seeds_.end() ? byShape(side) : bySeed(seed->second);
     if (!choice) return std::nullopt;
     return finished(*choice);
   }
@@ -86,7 +89,8 @@ class Search {
     return piecesOf(scan_.grid, mask);
   }
 
-  /// Of all thresholds the piece that lies highest (ribs of this shape lie lower), of those the one of the lowest threshold.
+  /// Of all thresholds the piece that lies highest (ribs of this shape lie lower), of those the one
+  /// of the lowest threshold.
   std::optional<Choice> byShape(Side side) const {
     std::optional<Choice> best;
     double most = -1e9;
@@ -95,7 +99,9 @@ class Search {
       const std::vector<Shape> shapes = shapesOf(scan_, choice.pieces);
       for (std::size_t i = 1; i < shapes.size(); ++i) {
         const Shape& s = shapes[i];
-        if ((s.mean.x() < scan_.midline_x) != (side == Side::right) || !looksLikeClavicle(s, scan_.midline_x, middle_y_)) continue;
+        if ((s.mean.x() < scan_.midline_x) != (side == Side::right) ||
+            !looksLikeClavicle(s, scan_.midline_x, middle_y_))
+          continue;
         const double worth = s.mean.z() + s.spread[0] - kPerStep * step;
         if (worth > most) most = worth, choice.piece = static_cast<int>(i);
       }
@@ -112,7 +118,8 @@ class Search {
       if (!choice.piece) break;
       const Shape shape = shapesOf(scan_, choice.pieces)[static_cast<std::size_t>(choice.piece)];
       if (looksLikeClavicle(shape, scan_.midline_x, middle_y_)) return choice;
-      if (!loosest || shape.spread[1] > 0.02) loosest = std::move(choice);  // still joined to others: the next one
+      if (!loosest || shape.spread[1] > 0.02)
+        loosest = std::move(choice);  // still joined to others: the next one
     }
     return loosest;
   }
@@ -122,7 +129,8 @@ class Search {
     int found = 0;
     double nearest = kSeedReach;
     Index3 reach{};
-    for (std::size_t a = 0; a < 3; ++a) reach[a] = static_cast<int>(kSeedReach / scan_.grid.spacing[static_cast<int>(a)]);
+    for (std::size_t a = 0; a < 3; ++a)
+      reach[a] = static_cast<int>(kSeedReach / scan_.grid.spacing[static_cast<int>(a)]);
     for (int k = -reach[2]; k <= reach[2]; ++k)
       for (int j = -reach[1]; j <= reach[1]; ++j)
         for (int i = -reach[0]; i <= reach[0]; ++i) {
@@ -130,7 +138,8 @@ class Search {
           if (!scan_.grid.holds(c)) continue;
           const int piece = pieces.label[scan_.grid.index(c)];
           const double distance = (scan_.place(c) - seed_S).norm();
-          if (piece && pieces.voxels[static_cast<std::size_t>(piece)] > 20 && distance < nearest) nearest = distance, found = piece;
+          if (piece && pieces.voxels[static_cast<std::size_t>(piece)] > 20 && distance < nearest)
+            nearest = distance, found = piece;
         }
     return found;
   }
@@ -141,8 +150,12 @@ class Search {
     for (std::size_t n = 0; n < within.size(); ++n) within[n] = within[n] && !taken_[n];
     std::vector<std::int32_t> markers = choice.pieces.label;
     for (std::int32_t& m : markers)  // crumbs of spongy bone are nobody's rivals
-      if (static_cast<double>(choice.pieces.voxels[static_cast<std::size_t>(m)]) * scan_.grid.spacing.prod() < kRival) m = 0;
-    const std::vector<std::int32_t> parted = grown(scan_.grid, std::move(markers), within, kWatershed);
+      if (static_cast<double>(choice.pieces.voxels[static_cast<std::size_t>(m)]) *
+              scan_.grid.spacing.prod() <
+          kRival)
+        m = 0;
+    const std::vector<std::int32_t> parted =
+        grown(scan_.grid, std::move(markers), within, kWatershed);
     Clavicle3 clavicle;
     clavicle.mask.resize(parted.size());
     Mask others(parted.size());
@@ -155,14 +168,17 @@ class Search {
     clavicle.mask = withoutThreads(whole);
     clavicle.axis_S = centreLine(scan_, clavicle.mask);
     const auto off = [&](const Vec3& p) { return std::abs(p.x() - scan_.midline_x); };
-    if (off(clavicle.axis_S.front()) > off(clavicle.axis_S.back())) std::reverse(clavicle.axis_S.begin(), clavicle.axis_S.end());
-    for (std::size_t i = 1; i < clavicle.axis_S.size(); ++i) clavicle.length += (clavicle.axis_S[i] - clavicle.axis_S[i - 1]).norm();
+    if (off(clavicle.axis_S.front()) > off(clavicle.axis_S.back()))
+      std::reverse(clavicle.axis_S.begin(), clavicle.axis_S.end());
+    for (std::size_t i = 1; i < clavicle.axis_S.size(); ++i)
+      clavicle.length += (clavicle.axis_S[i] - clavicle.axis_S[i - 1]).norm();
     clavicle.leaves_volume = leaves(clavicle);
     clavicle.seed_S = clavicle.axis_S[clavicle.axis_S.size() / 2];
     return clavicle;
   }
 
-  /// Without the vessels that hang on it: what no ball of 4 mm fits into, except within 2 mm of what one does.
+  /// Without the vessels that hang on it: what no ball of 4 mm fits into, except within 2 mm of
+  /// what one does.
   Mask withoutThreads(const Mask& whole) const {
     const Mask core = largestPiece(scan_.grid, opened(scan_.grid, whole, kThread));
     std::vector<std::int32_t> marked(core.begin(), core.end());

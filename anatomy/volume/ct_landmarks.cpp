@@ -13,10 +13,12 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kMeanLength = 0.1494, kShortestWhole = 0.130;  // clavicle, model sheet 5: 149.4 +- 10.3 mm
+constexpr double kMeanLength = 0.1494,
+                 kShortestWhole = 0.130;  // clavicle, model sheet 5: 149.4 +- 10.3 mm
 constexpr double kSuggestStep = 0.008;
 constexpr double kBelow = 0.010, kSternalRegion = 0.012;
-constexpr double kSteepest = 30 * std::numbers::pi / 180, kLeastClearance = 1e-3, kNeedle = 0.060, kLeastMedial = 0.15;
+constexpr double kSteepest = 30 * std::numbers::pi / 180, kLeastClearance = 1e-3, kNeedle = 0.060,
+                 kLeastMedial = 0.15;
 
 Vec3 along(const std::vector<Vec3>& line, double s) {
   for (std::size_t i = 1; i < line.size(); ++i) {
@@ -30,13 +32,19 @@ Vec3 along(const std::vector<Vec3>& line, double s) {
 class Marker {
  public:
   Marker(const Clavicle3& clavicle, const Vein& vein, const Seeds& seeds, CtPatient* ct)
-      : clavicle_(clavicle), vein_(vein), seeds_(seeds), patient_(ct->patient), ct_(*ct), query_(ct->patient) {}
+      : clavicle_(clavicle),
+        vein_(vein),
+        seeds_(seeds),
+        patient_(ct->patient),
+        ct_(*ct),
+        query_(ct->patient) {}
 
   void run() {
     markBone();
     set(landmark::kNotch, [&] { return notch(); });
     set(landmark::kEntry, [&] { return entry(); });
-    const SurfacePoint on_skin = query_.closest(surface(Organ::skin), patient_.landmarks[landmark::kEntry]);
+    const SurfacePoint on_skin =
+        query_.closest(surface(Organ::skin), patient_.landmarks[landmark::kEntry]);
     patient_.landmarks[landmark::kEntry] = on_skin.p_A;
     set(landmark::kVeinTarget, [&] { return target(); });
   }
@@ -60,10 +68,15 @@ class Marker {
     double whole = clavicle_.length;
     char words[160];
     if (clavicle_.leaves_volume) {
-      std::snprintf(words, sizeof words, "The clavicle's acromial end leaves the volume: %.0f mm of it are inside", 1e3 * clavicle_.length);
+      std::snprintf(words, sizeof words,
+                    "The clavicle's acromial end leaves the volume: %.0f mm of it are inside",
+                    1e3 * clavicle_.length);
       remark(words);
-      if (whole < kShortestWhole) whole = kMeanLength, remark("Its thirds are estimated for a bone of 149 mm, the adult mean");
-      else remark("Its thirds are taken of what is inside");
+      if (whole < kShortestWhole)
+        whole = kMeanLength,
+        remark("Its thirds are estimated for a bone of 149 mm, the adult mean");
+      else
+        remark("Its thirds are taken of what is inside");
     }
     patient_.landmarks[landmark::kSternalEnd] = clavicle_.axis_S.front();
     patient_.landmarks[landmark::kAcromialEnd] = clavicle_.axis_S.back();
@@ -71,8 +84,10 @@ class Marker {
     patient_.landmarks[landmark::kLateralThird] = along(clavicle_.axis_S, 2 * whole / 3);
     Vec3 angle = clavicle_.axis_S.front();
     double most = -1e9;
-    for (const Vec3& p : patient_.organs[static_cast<std::size_t>(surface(Organ::clavicle))].mesh.points)
-      if ((p - clavicle_.axis_S.front()).norm() < kSternalRegion && p.y() + p.z() > most) most = p.y() + p.z(), angle = p;
+    for (const Vec3& p :
+         patient_.organs[static_cast<std::size_t>(surface(Organ::clavicle))].mesh.points)
+      if ((p - clavicle_.axis_S.front()).norm() < kSternalRegion && p.y() + p.z() > most)
+        most = p.y() + p.z(), angle = p;
     patient_.landmarks[landmark::kSternalEndPosteriorSuperior] = angle;
   }
 
@@ -85,12 +100,14 @@ class Marker {
   }
 
   Vec3 notch() const {
-    const Vec3 other = ct_.seeds.count("midline") ? ct_.seeds.at("midline") : clavicle_.axis_S.front();
+    const Vec3 other =
+        ct_.seeds.count("midline") ? ct_.seeds.at("midline") : clavicle_.axis_S.front();
     Vec3 top(other.x(), clavicle_.axis_S.front().y(), -1e9);
     for (const OrganSurface& organ : patient_.organs)
       if (organ.organ == Organ::sternum)
         for (const Vec3& p : organ.mesh.points)
-          if (std::abs(p.x() - other.x()) < 0.010 && p.z() > top.z()) top = {other.x(), p.y(), p.z()};
+          if (std::abs(p.x() - other.x()) < 0.010 && p.z() > top.z())
+            top = {other.x(), p.y(), p.z()};
     if (top.z() < -1e8) top.z() = clavicle_.axis_S.front().z();
     return skinInFrontOf(top);
   }
@@ -98,7 +115,8 @@ class Marker {
   Vec3 entry() const {
     const Vec3 third = patient_.landmarks.at(landmark::kMedialThird);
     double lower = third.z();
-    for (const Vec3& p : patient_.organs[static_cast<std::size_t>(surface(Organ::clavicle))].mesh.points)
+    for (const Vec3& p :
+         patient_.organs[static_cast<std::size_t>(surface(Organ::clavicle))].mesh.points)
       if (std::abs(p.x() - third.x()) < 3e-3 && p.y() < third.y()) lower = std::min(lower, p.z());
     return skinInFrontOf({third.x(), third.y(), lower - kBelow});
   }
@@ -125,29 +143,33 @@ class Marker {
   /// A straight way from the entry to a place in the vein.
   struct Way {
     Vec3 to = Vec3::Zero();
-    double angle = 0, clearance = 0, length = 0;   // rad to the skin's tangent plane, m
-    bool free = false, taught = false;             // of bone and lung; medially, cephalad, within the needle's reach
+    double angle = 0, clearance = 0, length = 0;  // rad to the skin's tangent plane, m
+    bool free = false,
+         taught = false;  // of bone and lung; medially, cephalad, within the needle's reach
     bool usable() const { return free && taught; }
   };
 
   Way wayTo(const Vec3& p, const Vec3& entry, const Vec3& normal) const {
     const Vec3 d = (p - entry).normalized();
     const double medially = patient_.side == Side::right ? d.x() : -d.x();
-    Way way{p, std::asin(std::clamp(-d.dot(normal), -1.0, 1.0)), clearance(entry, p), (p - entry).norm()};
+    Way way{p, std::asin(std::clamp(-d.dot(normal), -1.0, 1.0)), clearance(entry, p),
+            (p - entry).norm()};
     way.free = way.clearance >= kLeastClearance && meetsVeinFirst(entry, p);
     way.taught = way.length <= kNeedle && medially > kLeastMedial && d.z() > 0;
     return way;
   }
 
-  /// Along the vein's line from lateral to medial: of the ways that are free of bone the one that lies flattest on the skin.
+  /// Along the vein's line from lateral to medial: of the ways that are free of bone the one that
+  /// lies flattest on the skin.
   Way flattest(const Vec3& entry) const {
     const Vec3 normal = query_.closest(surface(Organ::skin), entry).n_A;
     Way best;
     double least = std::numeric_limits<double>::infinity();
     for (const Vec3& p : vein_.line_S) {
       const Way way = wayTo(p, entry, normal);
-      const double worth = way.angle + (way.free ? 0 : 3 + std::max(0.0, kLeastClearance - way.clearance) / 1e-3) +
-                           (way.taught ? 0 : 1 + std::max(0.0, way.length - kNeedle) / 1e-3);
+      const double worth =
+          way.angle + (way.free ? 0 : 3 + std::max(0.0, kLeastClearance - way.clearance) / 1e-3) +
+          (way.taught ? 0 : 1 + std::max(0.0, way.length - kNeedle) / 1e-3);
       if (worth < least) least = worth, best = way;
     }
     return best;
@@ -161,7 +183,8 @@ class Marker {
     return way.to;
   }
 
-  /// An entry more lateral or lower from which the way lies flatter, the nearest that is flat enough.
+  /// An entry more lateral or lower from which the way lies flatter, the nearest that is flat
+  /// enough.
   void suggest(const Vec3& entry) {
     const double laterally = patient_.side == Side::right ? -1 : 1;
     Way best;
@@ -169,27 +192,39 @@ class Marker {
     double least = std::numeric_limits<double>::infinity();
     for (int row = -1; row <= 4; ++row)
       for (int column = 0; column <= 8; ++column) {
-        const Vec3 p = skinInFrontOf(entry + Vec3(laterally * kSuggestStep * column, 0, -kSuggestStep * row));
+        const Vec3 p =
+            skinInFrontOf(entry + Vec3(laterally * kSuggestStep * column, 0, -kSuggestStep * row));
         const Way way = flattest(p);
         const double worth = std::max(way.angle, kSteepest) + (p - entry).norm();
         if (way.usable() && worth < least) least = worth, best = way, from = p;
       }
     if (!std::isfinite(least) || from == entry) return;
     char words[200];
-    std::snprintf(words, sizeof words, "From an entry %.0f mm away the way would meet the skin at %.0f degrees: %s", 1e3 * (from - entry).norm(),
-                  best.angle * 180 / std::numbers::pi, seedOption(landmark::kEntry, from).c_str());
+    std::snprintf(words, sizeof words,
+                  "From an entry %.0f mm away the way would meet the skin at %.0f degrees: %s",
+                  1e3 * (from - entry).norm(), best.angle * 180 / std::numbers::pi,
+                  seedOption(landmark::kEntry, from).c_str());
     remark(words);
   }
 
   void tell(const Way& way) {
     char words[260];
     const double degrees = way.angle * 180 / std::numbers::pi;
-    std::snprintf(words, sizeof words, "The way from the entry to the vein is %.0f mm long, passes bone at %.1f mm and meets the skin at %.0f degrees; the vein lies %.0f mm deep there",
-                  1e3 * way.length, 1e3 * way.clearance, degrees, -1e3 * query_.closest(surface(Organ::skin), way.to).distance);
+    std::snprintf(words, sizeof words,
+                  "The way from the entry to the vein is %.0f mm long, passes bone at %.1f mm and "
+                  "meets the skin at %.0f degrees; the vein lies %.0f mm deep there",
+                  1e3 * way.length, 1e3 * way.clearance, degrees,
+                  -1e3 * query_.closest(surface(Organ::skin), way.to).distance);
     remark(words);
-    if (!way.usable()) return remark("No straight way from the entry to the vein is free of bone and lung: move entry_point or vein_target by --seed-point");
+    if (!way.usable())
+      return remark(
+          "No straight way from the entry to the vein is free of bone and lung: move entry_point "
+          "or vein_target by --seed-point");
     if (way.angle <= kSteepest) return;
-    std::snprintf(words, sizeof words, "At most 30 degrees are taught: from this entry no way to the vein that is free of bone lies flatter than %.0f", degrees);
+    std::snprintf(words, sizeof words,
+                  "At most 30 degrees are taught: from this entry no way to the vein that is free "
+                  "of bone lies flatter than %.0f",
+                  degrees);
     remark(words);
   }
 
@@ -203,6 +238,8 @@ class Marker {
 
 }  // namespace
 
-void markLandmarks(const Clavicle3& clavicle, const Vein& vein, const Seeds& seeds, CtPatient* ct) { Marker(clavicle, vein, seeds, ct).run(); }
+void markLandmarks(const Clavicle3& clavicle, const Vein& vein, const Seeds& seeds, CtPatient* ct) {
+  Marker(clavicle, vein, seeds, ct).run();
+}
 
 }  // namespace palpa::anatomy

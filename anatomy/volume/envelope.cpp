@@ -12,7 +12,8 @@ Mask skinMask(const Scan& scan, const std::vector<LabelledOrgan>& parts) {
   Mask inside = scan.tissue;
   for (const LabelledOrgan& part : parts)
     for (std::size_t n = 0; n < inside.size(); ++n) inside[n] |= part.mask[n];
-  inside = filledAcross(scan.grid, closed(scan.grid, filledAcross(scan.grid, inside, 2), kFurrow), 2);
+  inside =
+      filledAcross(scan.grid, closed(scan.grid, filledAcross(scan.grid, inside, 2), kFurrow), 2);
   return largestPiece(scan.grid, inside);
 }
 

@@ -10,10 +10,10 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kClearance = 1.1e-3;       // a mesh strays from its field by up to 0.6 mm
+constexpr double kClearance = 1.1e-3;  // a mesh strays from its field by up to 0.6 mm
 constexpr int kAttempts = 4;
-constexpr double kSmoother = 1.4;    // when a surface stays folded: more smoothing, so often
-constexpr double kMargin = 12e-3;    // about the mask: the field is known so far
+constexpr double kSmoother = 1.4;  // when a surface stays folded: more smoothing, so often
+constexpr double kMargin = 12e-3;  // about the mask: the field is known so far
 
 /// A box of the scan's voxels with values between them by three linear steps.
 struct Patch {
@@ -49,7 +49,8 @@ Patch patchAbout(const Scan& scan, const Mask& mask, double margin) {
   for (std::size_t n = 0; n < mask.size(); ++n) {
     if (!mask[n]) continue;
     const Index3 c = scan.grid.cell(n);
-    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], c[a]), high[a] = std::max(high[a], c[a]);
+    for (std::size_t a = 0; a < 3; ++a)
+      low[a] = std::min(low[a], c[a]), high[a] = std::max(high[a], c[a]);
   }
   Patch patch;
   patch.grid.spacing = scan.grid.spacing;
@@ -83,12 +84,14 @@ void forPatch(const Scan& scan, const Patch& patch, Visit visit) {
 double outsideOf(const VoxelGrid& grid, const Vec3& c) {
   double most = -1;
   for (int a = 0; a < 3; ++a)
-    most = std::max(most, grid.spacing[a] * std::max(-c[a], c[a] - (grid.size[static_cast<std::size_t>(a)] - 1)));
+    most = std::max(most, grid.spacing[a] *
+                              std::max(-c[a], c[a] - (grid.size[static_cast<std::size_t>(a)] - 1)));
   return most;
 }
 
 /// One piece, facing outward; `*folded`: edges that stay folded.
-TriangleMesh meshed(const Scan& scan, const Patch& patch, double cell, double outward, double beyond, int* folded) {
+TriangleMesh meshed(const Scan& scan, const Patch& patch, double cell, double outward,
+                    double beyond, int* folded) {
   const Mat3 to_index = scan.volume.steps_S.inverse();
   const Vec3 low(patch.low[0], patch.low[1], patch.low[2]);
   const auto field = [&](const Vec3& p_S) {
@@ -97,7 +100,8 @@ TriangleMesh meshed(const Scan& scan, const Patch& patch, double cell, double ou
   };
   Eigen::AlignedBox3d box;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 c(corner & 1 ? patch.grid.size[0] : -1, corner & 2 ? patch.grid.size[1] : -1, corner & 4 ? patch.grid.size[2] : -1);
+    const Vec3 c(corner & 1 ? patch.grid.size[0] : -1, corner & 2 ? patch.grid.size[1] : -1,
+                 corner & 4 ? patch.grid.size[2] : -1);
     box.extend(scan.volume.pointToS(low + c));
   }
   const Vec3 more = Vec3::Constant(beyond + 3 * cell);
@@ -113,7 +117,8 @@ TriangleMesh meshed(const Scan& scan, const Patch& patch, double cell, double ou
 
 Values nothingOccupied(const Scan& scan) { return Values(scan.grid.count(), 1.f); }
 
-TriangleMesh labelSurface(const Scan& scan, const Mask& mask, Values* occupied, double smoothing, double cell, double outward, double beyond) {
+TriangleMesh labelSurface(const Scan& scan, const Mask& mask, Values* occupied, double smoothing,
+                          double cell, double outward, double beyond) {
   if (std::find(mask.begin(), mask.end(), 1) == mask.end()) return {};
   Patch patch = patchAbout(scan, mask, kMargin + outward);
   const Values raw = signedDistance(patch.grid, largestPiece(patch.grid, cut(scan, patch, mask)));
@@ -122,11 +127,16 @@ TriangleMesh labelSurface(const Scan& scan, const Mask& mask, Values* occupied, 
   for (int attempt = 0; folded > 0 && attempt < kAttempts; ++attempt, smoothing *= kSmoother) {
     patch.values = blurred(patch.grid, raw, smoothing);
     if (occupied)
-      forPatch(scan, patch, [&](std::size_t n, std::size_t there) { patch.values[n] = std::max(patch.values[n], static_cast<float>(kClearance) - (*occupied)[there]); });
+      forPatch(scan, patch, [&](std::size_t n, std::size_t there) {
+        patch.values[n] =
+            std::max(patch.values[n], static_cast<float>(kClearance) - (*occupied)[there]);
+      });
     mesh = meshed(scan, patch, cell, outward, beyond, &folded);
   }
   if (occupied)
-    forPatch(scan, patch, [&](std::size_t n, std::size_t there) { (*occupied)[there] = std::min((*occupied)[there], patch.values[n]); });
+    forPatch(scan, patch, [&](std::size_t n, std::size_t there) {
+      (*occupied)[there] = std::min((*occupied)[there], patch.values[n]);
+    });
   return mesh;
 }
 

@@ -6,19 +6,22 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kAirInLung = -500;                        // HU
-constexpr double kCavity = 10e-3;                          // fat between muscles is narrower than twice this
-constexpr double kLeastLung = 100e-6;                      // m^3
-constexpr double kVessels = 8e-3;                          // lung closes over its vessels
-constexpr double kMidline = 6e-3;                          // half of what at least parts estimated lungs
-constexpr double kColumn = 50e-3, kColumnFat = 18e-3;      // half width of the mediastinum; fat in it closes
+constexpr double kAirInLung = -500;    // HU
+constexpr double kCavity = 10e-3;      // fat between muscles is narrower than twice this
+constexpr double kLeastLung = 100e-6;  // m^3
+constexpr double kVessels = 8e-3;      // lung closes over its vessels
+constexpr double kMidline = 6e-3;      // half of what at least parts estimated lungs
+constexpr double kColumn = 50e-3,
+                 kColumnFat = 18e-3;  // half width of the mediastinum; fat in it closes
 
 /// Heart, vessels, spine and the fat between them: fat looks as lungs do where it is clipped.
 Mask mediastinum(const Scan& scan, double midline_x) {
   Mask column(scan.body.size());
-  for (std::size_t n = 0; n < column.size(); ++n) column[n] = scan.tissue[n] && std::abs(scan.place(n).x() - midline_x) < kColumn;
+  for (std::size_t n = 0; n < column.size(); ++n)
+    column[n] = scan.tissue[n] && std::abs(scan.place(n).x() - midline_x) < kColumn;
   column = closed(scan.grid, opened(scan.grid, column, kVessels / 2), kColumnFat);
-  for (std::size_t n = 0; n < column.size(); ++n) column[n] |= std::abs(scan.place(n).x() - midline_x) <= kMidline;
+  for (std::size_t n = 0; n < column.size(); ++n)
+    column[n] |= std::abs(scan.place(n).x() - midline_x) <= kMidline;
   return column;
 }
 
@@ -29,7 +32,8 @@ std::vector<LabelledOrgan> findLungs(const Scan& scan, double midline_x) {
   const Mask between = clipped ? mediastinum(scan, midline_x) : Mask(scan.body.size(), 0);
   Mask air(scan.body.size());
   for (std::size_t n = 0; n < air.size(); ++n)
-    air[n] = scan.body[n] && (clipped ? !scan.tissue[n] && !between[n] : scan.volume.values[n] <= kAirInLung);
+    air[n] = scan.body[n] &&
+             (clipped ? !scan.tissue[n] && !between[n] : scan.volume.values[n] <= kAirInLung);
   const double opening = clipped ? kCavity : 2e-3;
   const Mask core = opened(scan.grid, air, opening);
   Pieces pieces = piecesOf(scan.grid, core);
@@ -45,12 +49,15 @@ std::vector<LabelledOrgan> findLungs(const Scan& scan, double midline_x) {
   for (const std::int32_t piece : largest) {
     Mask core_of(pieces.label.size());
     for (std::size_t n = 0; n < core_of.size(); ++n) core_of[n] = pieces.label[n] == piece;
-    LabelledOrgan lung{"", Organ::lung, filled(scan.grid, closed(scan.grid, core_of, kVessels), true), clipped, 3e-3, 2.8e-3};
+    LabelledOrgan lung{
+        "",      Organ::lung, filled(scan.grid, closed(scan.grid, core_of, kVessels), true),
+        clipped, 3e-3,        2.8e-3};
     for (std::size_t n = 0; n < lung.mask.size(); ++n) lung.mask[n] = lung.mask[n] && !between[n];
     double x = 0, count = 0;
     for (std::size_t n = 0; n < lung.mask.size(); ++n)
       if (lung.mask[n]) x += scan.place(n).x(), ++count;
-    lung.id = std::string(x / std::max(count, 1.0) < midline_x ? "lung_right" : "lung_left") + (clipped ? "_estimated" : "");
+    lung.id = std::string(x / std::max(count, 1.0) < midline_x ? "lung_right" : "lung_left") +
+              (clipped ? "_estimated" : "");
     if (!lungs.empty() && lungs.front().id == lung.id) break;
     lungs.push_back(std::move(lung));
   }

@@ -7,8 +7,8 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kFold = -0.2;         // cosine between neighbours' normals
-constexpr double kNoArea = 1e-11;      // m^2, twice a triangle's
+constexpr double kFold = -0.2;     // cosine between neighbours' normals
+constexpr double kNoArea = 1e-11;  // m^2, twice a triangle's
 constexpr int kRounds = 40, kWiden = 5;
 
 /// An edge and the triangles on its two sides.
@@ -17,23 +17,32 @@ struct SharedEdge {
 };
 
 std::vector<SharedEdge> sharedEdges(const TriangleMesh& mesh) {
-  struct Use { std::uint32_t low, high, triangle; };
+  struct Use {
+    std::uint32_t low, high, triangle;
+  };
   std::vector<Use> uses;
   for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k) {
       const auto [low, high] = std::minmax(mesh.triangles[t][k], mesh.triangles[t][(k + 1) % 3]);
       uses.push_back({low, high, t});
     }
-  std::sort(uses.begin(), uses.end(), [](const Use& x, const Use& y) { return std::tie(x.low, x.high, x.triangle) < std::tie(y.low, y.high, y.triangle); });
+  std::sort(uses.begin(), uses.end(), [](const Use& x, const Use& y) {
+    return std::tie(x.low, x.high, x.triangle) < std::tie(y.low, y.high, y.triangle);
+  });
   std::vector<SharedEdge> edges;
   for (std::size_t i = 0; i + 1 < uses.size(); ++i)
-    if (uses[i].low == uses[i + 1].low && uses[i].high == uses[i + 1].high) edges.push_back({uses[i].low, uses[i].high, uses[i].triangle, uses[i + 1].triangle});
+    if (uses[i].low == uses[i + 1].low && uses[i].high == uses[i + 1].high)
+      edges.push_back({uses[i].low, uses[i].high, uses[i].triangle, uses[i + 1].triangle});
   return edges;
 }
 
 class Unfolding {
  public:
-  explicit Unfolding(TriangleMesh* mesh) : mesh_(*mesh), edges_(sharedEdges(*mesh)), marked_(mesh->points.size()), normals_(mesh->triangles.size()) {}
+  explicit Unfolding(TriangleMesh* mesh)
+      : mesh_(*mesh),
+        edges_(sharedEdges(*mesh)),
+        marked_(mesh->points.size()),
+        normals_(mesh->triangles.size()) {}
 
   int run() {
     int folded = mark();
@@ -51,12 +60,14 @@ class Unfolding {
     int folded = 0;
     for (std::size_t t = 0; t < normals_.size(); ++t) {
       const auto& c = mesh_.triangles[t];
-      const Vec3 n = (mesh_.points[c[1]] - mesh_.points[c[0]]).cross(mesh_.points[c[2]] - mesh_.points[c[0]]);
+      const Vec3 n =
+          (mesh_.points[c[1]] - mesh_.points[c[0]]).cross(mesh_.points[c[2]] - mesh_.points[c[0]]);
       normals_[t] = n.normalized();
       if (n.norm() < kNoArea) markTriangle(t), ++folded;
     }
     for (const SharedEdge& edge : edges_)
-      if (normals_[edge.left].dot(normals_[edge.right]) < kFold) markTriangle(edge.left), markTriangle(edge.right), ++folded;
+      if (normals_[edge.left].dot(normals_[edge.right]) < kFold)
+        markTriangle(edge.left), markTriangle(edge.right), ++folded;
     return folded;
   }
 
@@ -83,8 +94,8 @@ class Unfolding {
 
   TriangleMesh& mesh_;
   std::vector<SharedEdge> edges_;
-  std::vector<std::uint8_t> marked_;   ///< by vertex
-  std::vector<Vec3> normals_;          ///< by triangle
+  std::vector<std::uint8_t> marked_;  ///< by vertex
+  std::vector<Vec3> normals_;         ///< by triangle
 };
 
 std::uint32_t rootOf(std::vector<std::uint32_t>* parent, std::uint32_t i) {
@@ -101,9 +112,11 @@ void keepLargestPiece(TriangleMesh* mesh) {
     for (const std::uint32_t corner : t) parent[rootOf(&parent, corner)] = rootOf(&parent, t[0]);
   std::vector<double> volume(parent.size(), 0);
   for (const auto& t : mesh->triangles)
-    volume[rootOf(&parent, t[0])] += mesh->points[t[0]].dot(mesh->points[t[1]].cross(mesh->points[t[2]]));
+    volume[rootOf(&parent, t[0])] +=
+        mesh->points[t[0]].dot(mesh->points[t[1]].cross(mesh->points[t[2]]));
   if (volume.empty()) return;
-  const auto largest = static_cast<std::uint32_t>(std::max_element(volume.begin(), volume.end()) - volume.begin());
+  const auto largest =
+      static_cast<std::uint32_t>(std::max_element(volume.begin(), volume.end()) - volume.begin());
   std::vector<std::uint32_t> place(parent.size(), 0);
   TriangleMesh out;
   for (std::uint32_t i = 0; i < parent.size(); ++i)
@@ -113,7 +126,8 @@ void keepLargestPiece(TriangleMesh* mesh) {
       if (!mesh->normals.empty()) out.normals.push_back(mesh->normals[i]);
     }
   for (const auto& t : mesh->triangles)
-    if (rootOf(&parent, t[0]) == largest) out.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
+    if (rootOf(&parent, t[0]) == largest)
+      out.triangles.push_back({place[t[0]], place[t[1]], place[t[2]]});
   *mesh = std::move(out);
 }
 

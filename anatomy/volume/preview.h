@@ -10,8 +10,10 @@ struct Picture {
   std::vector<std::uint8_t> rgb;
 };
 
-/// The brightest of the scan seen from in front, from the patient's left and from below, as radiologists hang them (patient's right on the
-/// left), 1 mm a pixel, with the outlines of `labels` and crosses at `marks`.
-Picture projections(const Scan& scan, const std::vector<const LabelledOrgan*>& labels, const Seeds& marks);
+/// The brightest of the scan seen from in front, from the patient's left and from below, as
+/// radiologists hang them (patient's right on the left), 1 mm a pixel, with the outlines of
+/// `labels` and crosses at `marks`.
+Picture projections(const Scan& scan, const std::vector<const LabelledOrgan*>& labels,
+                    const Seeds& marks);
 
 }  // namespace palpa::anatomy

@@ -8,12 +8,13 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kCrumb = 0.25e-6, kLeastRib = 1.0e-6;     // m^3
+constexpr double kCrumb = 0.25e-6, kLeastRib = 1.0e-6;  // m^3
 constexpr double kLeastLength = 25e-3;
-constexpr double kBin = 0.12;                              // rad about the lung's middle
-constexpr double kGap = 30e-3, kBridge = 3.2e-3;           // widest between pieces of one rib; radius of what joins them
-constexpr double kAside = 6e-3, kTurn = 0.45;              // an end may lie so far off the other's direction
-constexpr double kAtSpine = 85e-3;                         // half width in which ribs begin
+constexpr double kBin = 0.12;  // rad about the lung's middle
+constexpr double kGap = 30e-3,
+                 kBridge = 3.2e-3;  // widest between pieces of one rib; radius of what joins them
+constexpr double kAside = 6e-3, kTurn = 0.45;  // an end may lie so far off the other's direction
+constexpr double kAtSpine = 85e-3;             // half width in which ribs begin
 
 /// A piece of a rib, or several: its middle line from behind forward.
 struct Rod {
@@ -36,7 +37,8 @@ struct Rod {
 
 class RibCage {
  public:
-  RibCage(const Scan& scan, const LabelledOrgan& lung, double midline_x) : scan_(scan), midline_x_(midline_x) {
+  RibCage(const Scan& scan, const LabelledOrgan& lung, double midline_x)
+      : scan_(scan), midline_x_(midline_x) {
     double count = 0;
     for (std::size_t n = 0; n < lung.mask.size(); n += 5)
       if (lung.mask[n]) middle_ += scan.place(n), ++count;
@@ -59,7 +61,9 @@ class RibCage {
       std::size_t rear = 0, fore = 0;
       for (std::size_t a = 0; a < rods_.size(); ++a)
         for (std::size_t b = 0; b < rods_.size(); ++b)
-          if (const double gap = a == b ? kGap : gapBetween(rods_[a], rods_[b]); gap < std::min(least, kGap)) least = gap, rear = a, fore = b;
+          if (const double gap = a == b ? kGap : gapBetween(rods_[a], rods_[b]);
+              gap < std::min(least, kGap))
+            least = gap, rear = a, fore = b;
       if (!std::isfinite(least)) return;
       Rod& whole = rods_[rear];
       bridge(whole.front(), rods_[fore].back(), &whole.voxels);
@@ -70,24 +74,38 @@ class RibCage {
   }
 
   void name(std::vector<LabelledOrgan>* organs) {
-    const auto too_small = [&](const Rod& rod) { return volume(rod.voxels) < kLeastRib || rod.length() < kLeastLength; };
+    const auto too_small = [&](const Rod& rod) {
+      return volume(rod.voxels) < kLeastRib || rod.length() < kLeastLength;
+    };
     std::erase_if(rods_, too_small);
-    std::stable_sort(rods_.begin(), rods_.end(), [](const Rod& a, const Rod& b) { return a.back().z() > b.back().z(); });
+    std::stable_sort(rods_.begin(), rods_.end(),
+                     [](const Rod& a, const Rod& b) { return a.back().z() > b.back().z(); });
     int ribs = 0, pieces = 0;
     for (const Rod& rod : rods_) {
-      const bool whole = std::abs(rod.back().x() - midline_x_) < kAtSpine && rod.back().y() > middle_.y();
-      const std::string id = whole ? "rib_" + std::to_string(++ribs) : "rib_piece_" + std::to_string(++pieces);
-      LabelledOrgan organ{id + (side_ < 0 ? "_right" : "_left"), Organ::rib, Mask(scan_.body.size(), 0), false, 1.3e-3, 2.0e-3};
+      const bool whole =
+          std::abs(rod.back().x() - midline_x_) < kAtSpine && rod.back().y() > middle_.y();
+      const std::string id =
+          whole ? "rib_" + std::to_string(++ribs) : "rib_piece_" + std::to_string(++pieces);
+      LabelledOrgan organ{id + (side_ < 0 ? "_right" : "_left"),
+                          Organ::rib,
+                          Mask(scan_.body.size(), 0),
+                          false,
+                          1.3e-3,
+                          2.0e-3};
       for (const std::size_t n : rod.voxels) organ.mask[n] = 1;
       organs->push_back(std::move(organ));
     }
   }
 
  private:
-  double volume(const std::vector<std::size_t>& voxels) const { return static_cast<double>(voxels.size()) * scan_.grid.spacing.prod(); }
+  double volume(const std::vector<std::size_t>& voxels) const {
+    return static_cast<double>(voxels.size()) * scan_.grid.spacing.prod();
+  }
 
   /// 0 at the spine, growing round the side to the sternum.
-  double angleOf(const Vec3& p) const { return std::atan2(side_ * (p.x() - middle_.x()), p.y() - middle_.y()) + 1.2; }
+  double angleOf(const Vec3& p) const {
+    return std::atan2(side_ * (p.x() - middle_.x()), p.y() - middle_.y()) + 1.2;
+  }
 
   void findLine(Rod* rod) const {
     constexpr int kBins = static_cast<int>(2 * std::numbers::pi / kBin) + 1;
@@ -111,7 +129,8 @@ class RibCage {
       return to.dot(heading) < -kAside ? kGap : (to - to.dot(heading) * heading).norm();
     };
     const double most = kAside + kTurn * gap;
-    const bool facing = aside(rear.heading(true), way) < most && aside(fore.heading(false), -way) < most;
+    const bool facing =
+        aside(rear.heading(true), way) < most && aside(fore.heading(false), -way) < most;
     return facing ? gap : std::numeric_limits<double>::infinity();
   }
 
@@ -121,12 +140,14 @@ class RibCage {
       const Vec3 p = from + (to - from) * i / steps;
       const Index3 at = scan_.cellAt(p);
       Index3 reach{};
-      for (std::size_t a = 0; a < 3; ++a) reach[a] = static_cast<int>(std::ceil(kBridge / scan_.grid.spacing[static_cast<int>(a)]));
+      for (std::size_t a = 0; a < 3; ++a)
+        reach[a] = static_cast<int>(std::ceil(kBridge / scan_.grid.spacing[static_cast<int>(a)]));
       for (int z = -reach[2]; z <= reach[2]; ++z)
         for (int y = -reach[1]; y <= reach[1]; ++y)
           for (int x = -reach[0]; x <= reach[0]; ++x) {
             const Index3 c{at[0] + x, at[1] + y, at[2] + z};
-            if (scan_.grid.holds(c) && (scan_.place(c) - p).norm() <= kBridge) voxels->push_back(scan_.grid.index(c));
+            if (scan_.grid.holds(c) && (scan_.place(c) - p).norm() <= kBridge)
+              voxels->push_back(scan_.grid.index(c));
           }
     }
   }
@@ -139,7 +160,8 @@ class RibCage {
 
 }  // namespace
 
-void addRibs(const Scan& scan, const Mask& ribs, const std::vector<LabelledOrgan>& lungs, double midline_x, std::vector<LabelledOrgan>* organs) {
+void addRibs(const Scan& scan, const Mask& ribs, const std::vector<LabelledOrgan>& lungs,
+             double midline_x, std::vector<LabelledOrgan>* organs) {
   const Pieces pieces = piecesOf(scan.grid, ribs);
   std::vector<std::vector<std::size_t>> voxels(pieces.voxels.size());
   for (std::size_t n = 0; n < ribs.size(); ++n)

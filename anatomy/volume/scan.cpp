@@ -8,15 +8,15 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kAir = -300;                    // HU
-constexpr double kWorkingStep = 1.5e-3;          // m: reduced while a step stays below this
+constexpr double kAir = -300;            // HU
+constexpr double kWorkingStep = 1.5e-3;  // m: reduced while a step stays below this
 constexpr double kAboveShoulders = 0.12, kBelowShoulders = 0.20;
-constexpr double kShoulderWidth = 0.8;           // of the widest slice
-constexpr double kThinnest = 3e-3;               // table, clothes, tubes are thinner than twice this
-constexpr double kThinWall = 15e-3;              // m, on from what is thicker
-constexpr double kAirKept = 40e-3;                // of air kept about the body
-constexpr double kSpeck = 1e-6;                  // m^3
-constexpr double kEnvelope = 18e-3;              // fat between muscles is narrower than twice this
+constexpr double kShoulderWidth = 0.8;  // of the widest slice
+constexpr double kThinnest = 3e-3;      // table, clothes, tubes are thinner than twice this
+constexpr double kThinWall = 15e-3;     // m, on from what is thicker
+constexpr double kAirKept = 40e-3;      // of air kept about the body
+constexpr double kSpeck = 1e-6;         // m^3
+constexpr double kEnvelope = 18e-3;     // fat between muscles is narrower than twice this
 
 /// Means over blocks.
 Volume reduced(const Volume& v, const Index3& by) {
@@ -26,14 +26,16 @@ Volume reduced(const Volume& v, const Index3& by) {
     out.steps_S.col(static_cast<int>(a)) = by[a] * v.steps_S.col(static_cast<int>(a));
   }
   out.origin_S = v.pointToS(Vec3(by[0] - 1, by[1] - 1, by[2] - 1) / 2);
-  out.values.reserve(static_cast<std::size_t>(out.size[0]) * static_cast<std::size_t>(out.size[1]) * static_cast<std::size_t>(out.size[2]));
+  out.values.reserve(static_cast<std::size_t>(out.size[0]) * static_cast<std::size_t>(out.size[1]) *
+                     static_cast<std::size_t>(out.size[2]));
   for (int k = 0; k < out.size[2]; ++k)
     for (int j = 0; j < out.size[1]; ++j)
       for (int i = 0; i < out.size[0]; ++i) {
         double sum = 0;
         for (int c = 0; c < by[2]; ++c)
           for (int b = 0; b < by[1]; ++b)
-            for (int a = 0; a < by[0]; ++a) sum += v.at(i * by[0] + a, j * by[1] + b, k * by[2] + c);
+            for (int a = 0; a < by[0]; ++a)
+              sum += v.at(i * by[0] + a, j * by[1] + b, k * by[2] + c);
         out.values.push_back(static_cast<float>(sum / (by[0] * by[1] * by[2])));
       }
   return out;
@@ -44,7 +46,9 @@ Volume slices(const Volume& v, int low, int high) {
   out.size[2] = high - low;
   out.origin_S = v.pointToS(Vec3(0, 0, low));
   out.values.assign(v.values.begin() + static_cast<std::ptrdiff_t>(v.index(0, 0, low)),
-                    v.values.begin() + static_cast<std::ptrdiff_t>(v.index(0, 0, high - 1) + v.index(0, 1, 0) * static_cast<std::size_t>(v.size[1])));
+                    v.values.begin() + static_cast<std::ptrdiff_t>(
+                                           v.index(0, 0, high - 1) +
+                                           v.index(0, 1, 0) * static_cast<std::size_t>(v.size[1])));
   return out;
 }
 
@@ -71,11 +75,15 @@ Mask withoutSpecks(const VoxelGrid& grid, const Mask& mask) {
   const Pieces pieces = piecesOf(grid, mask);
   Mask out(mask.size());
   for (std::size_t n = 0; n < mask.size(); ++n)
-    out[n] = mask[n] && static_cast<double>(pieces.voxels[static_cast<std::size_t>(pieces.label[n])]) * grid.spacing.prod() > kSpeck;
+    out[n] =
+        mask[n] && static_cast<double>(pieces.voxels[static_cast<std::size_t>(pieces.label[n])]) *
+                           grid.spacing.prod() >
+                       kSpeck;
   return out;
 }
 
-/// Soft tissue without table, clothes and specks: what is thick, and thin walls (between ribs) that go on from it.
+/// Soft tissue without table, clothes and specks: what is thick, and thin walls (between ribs) that
+/// go on from it.
 Mask tissueOf(const VoxelGrid& grid, const Mask& soft) {
   const Mask solid = filled(grid, soft, true);  // lungs, marrow: what is left is thin or body
   const Mask thick = withoutSpecks(grid, opened(grid, solid, kThinnest));
@@ -88,16 +96,19 @@ Mask tissueOf(const VoxelGrid& grid, const Mask& soft) {
 void findBody(Scan* scan) {
   const VoxelGrid& grid = scan->grid;
   Mask soft(scan->volume.values.size());
-  for (std::size_t n = 0; n < soft.size(); ++n) soft[n] = scan->volume.values[n] > scan->levels.soft;
+  for (std::size_t n = 0; n < soft.size(); ++n)
+    soft[n] = scan->volume.values[n] > scan->levels.soft;
   if (scan->levels.clipped) {
     // What was lost to the window parts muscles, shoulders and clavicles from each other.
     scan->tissue = tissueOf(grid, soft);
     scan->body = filled(grid, largestPiece(grid, closed(grid, scan->tissue, kEnvelope)), true);
   } else {
-    scan->body = filled(grid, largestPiece(grid, opened(grid, filled(grid, soft, true), kThinnest)), true);
+    scan->body =
+        filled(grid, largestPiece(grid, opened(grid, filled(grid, soft, true), kThinnest)), true);
     scan->tissue = std::move(soft);
   }
-  for (std::size_t n = 0; n < scan->body.size(); ++n) scan->tissue[n] = scan->tissue[n] && scan->body[n];
+  for (std::size_t n = 0; n < scan->body.size(); ++n)
+    scan->tissue[n] = scan->tissue[n] && scan->body[n];
 }
 
 /// Without the air, table and shelf beside the body.
@@ -107,7 +118,8 @@ void cropToBody(Scan* scan) {
   for (std::size_t n = 0; n < scan->body.size(); ++n) {
     if (!scan->body[n]) continue;
     const Index3 c = whole.cell(n);
-    for (std::size_t a = 0; a < 3; ++a) low[a] = std::min(low[a], c[a]), high[a] = std::max(high[a], c[a] + 1);
+    for (std::size_t a = 0; a < 3; ++a)
+      low[a] = std::min(low[a], c[a]), high[a] = std::max(high[a], c[a] + 1);
   }
   Index3 size = whole.size;
   for (std::size_t a = 0; a < 2; ++a) {
@@ -125,7 +137,8 @@ void cropToBody(Scan* scan) {
   for (std::size_t n = 0; n < count; ++n) {
     const Index3 c = out.grid.cell(n);
     const std::size_t from = whole.index({c[0] + low[0], c[1] + low[1], c[2]});
-    out.volume.values[n] = scan->volume.values[from], out.body[n] = scan->body[from], out.tissue[n] = scan->tissue[from];
+    out.volume.values[n] = scan->volume.values[from], out.body[n] = scan->body[from],
+    out.tissue[n] = scan->tissue[from];
   }
   *scan = std::move(out);
 }
@@ -133,8 +146,11 @@ void cropToBody(Scan* scan) {
 double meanBone(const Scan& scan) {
   double sum = 0, count = 0;
   for (std::size_t n = 0; n < scan.body.size(); ++n)
-    if (scan.body[n] && scan.volume.values[n] >= scan.levels.bone) sum += scan.place(n).x(), ++count;
-  if (count == 0) throw Error("no bone is as bright as " + std::to_string(scan.levels.bone), "CT volume", "Give --bone-level, or take a CT volume");
+    if (scan.body[n] && scan.volume.values[n] >= scan.levels.bone)
+      sum += scan.place(n).x(), ++count;
+  if (count == 0)
+    throw Error("no bone is as bright as " + std::to_string(scan.levels.bone), "CT volume",
+                "Give --bone-level, or take a CT volume");
   return sum / count;
 }
 
@@ -155,7 +171,10 @@ Levels levelsOf(const Volume& volume) {
 Index3 Scan::cellAt(const Vec3& p_S) const {
   const Vec3 c = volume.pointToIndex(p_S);
   Index3 cell{};
-  for (std::size_t a = 0; a < 3; ++a) cell[a] = std::clamp(static_cast<int>(std::lround(std::clamp(c[static_cast<int>(a)], -1e6, 1e6))), 0, grid.size[a] - 1);
+  for (std::size_t a = 0; a < 3; ++a)
+    cell[a] =
+        std::clamp(static_cast<int>(std::lround(std::clamp(c[static_cast<int>(a)], -1e6, 1e6))), 0,
+                   grid.size[a] - 1);
   return cell;
 }
 
@@ -168,7 +187,9 @@ Mask Scan::above(double level) const {
 Scan prepareScan(const Volume& given, const Levels& levels) {
   Volume v = alongBody(given);
   Index3 by{1, 1, 1};
-  for (std::size_t a = 0; a < 3; ++a) by[a] = std::clamp(static_cast<int>(kWorkingStep / v.spacing()[static_cast<int>(a)]), 1, std::max(1, v.size[a] / 8));
+  for (std::size_t a = 0; a < 3; ++a)
+    by[a] = std::clamp(static_cast<int>(kWorkingStep / v.spacing()[static_cast<int>(a)]), 1,
+                       std::max(1, v.size[a] / 8));
   if (by != Index3{1, 1, 1}) v = reduced(v, by);
   const int shoulders = shoulderSlice(v, levels.soft);
   const double step = v.spacing()[2];

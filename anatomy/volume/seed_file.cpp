@@ -13,10 +13,14 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr const char* kKnown[] = {"vein_svc", "vein_axilla", "clavicle_right", "clavicle_left", "midline", "suprasternal_notch", "entry_point", "vein_target"};
+constexpr const char* kKnown[] = {"vein_svc",      "vein_axilla", "clavicle_right",
+                                  "clavicle_left", "midline",     "suprasternal_notch",
+                                  "entry_point",   "vein_target"};
 constexpr double kFarthest_mm = 1e4;
 
-bool known(const std::string& name) { return std::find(std::begin(kKnown), std::end(kKnown), name) != std::end(kKnown); }
+bool known(const std::string& name) {
+  return std::find(std::begin(kKnown), std::end(kKnown), name) != std::end(kKnown);
+}
 
 std::string knownNames() {
   std::string names;
@@ -29,17 +33,22 @@ std::string knownNames() {
 Seeds readSeeds(const std::filesystem::path& file) {
   std::ifstream stream(file);
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
-  const auto fail = [&](const std::string& what) { throw Error(what, file.string(), "Write it anew by a run with another --seeds name"); };
-  if (!json.is_object() || json.value("format", nlohmann::json()) != "palpa-seeds" || !json.contains("points") || !json["points"].is_object())
+  const auto fail = [&](const std::string& what) {
+    throw Error(what, file.string(), "Write it anew by a run with another --seeds name");
+  };
+  if (!json.is_object() || json.value("format", nlohmann::json()) != "palpa-seeds" ||
+      !json.contains("points") || !json["points"].is_object())
     fail("it is no file of seed points");
   if (json.value("unit", nlohmann::json()) != "mm") fail("its unit is not mm");
   Seeds seeds;
   for (const auto& [name, point] : json["points"].items()) {
-    if (!known(name)) fail("\"" + name.substr(0, 40) + "\" is no known point (" + knownNames() + ")");
+    if (!known(name))
+      fail("\"" + name.substr(0, 40) + "\" is no known point (" + knownNames() + ")");
     if (!point.is_array() || point.size() != 3) fail("\"" + name + "\" has not three numbers");
     for (int a = 0; a < 3; ++a) {
       const nlohmann::json& value = point[static_cast<std::size_t>(a)];
-      if (!value.is_number() || !(std::abs(value.get<double>()) <= kFarthest_mm)) fail("\"" + name + "\" has not three sensible numbers");
+      if (!value.is_number() || !(std::abs(value.get<double>()) <= kFarthest_mm))
+        fail("\"" + name + "\" has not three sensible numbers");
       seeds[name][a] = 1e-3 * value.get<double>();
     }
   }
@@ -47,8 +56,12 @@ Seeds readSeeds(const std::filesystem::path& file) {
 }
 
 void writeSeeds(const Seeds& seeds, const std::filesystem::path& file) {
-  nlohmann::json json{{"format", "palpa-seeds"}, {"unit", "mm"}, {"frame", "the volume's: x left, y posterior, z superior"}};
-  for (const auto& [name, p] : seeds) json["points"][name] = {std::round(1e4 * p.x()) / 10, std::round(1e4 * p.y()) / 10, std::round(1e4 * p.z()) / 10};
+  nlohmann::json json{{"format", "palpa-seeds"},
+                      {"unit", "mm"},
+                      {"frame", "the volume's: x left, y posterior, z superior"}};
+  for (const auto& [name, p] : seeds)
+    json["points"][name] = {std::round(1e4 * p.x()) / 10, std::round(1e4 * p.y()) / 10,
+                            std::round(1e4 * p.z()) / 10};
   writeWhole(file, json.dump(2) + "\n");
 }
 
@@ -57,16 +70,21 @@ void addSeed(const std::string& text, Seeds* seeds) {
   const std::string name = text.substr(0, equals);
   double x = 0, y = 0, z = 0;
   char more = 0;
-  if (equals == std::string::npos || std::sscanf(text.c_str() + equals + 1, "%lf,%lf,%lf%c", &x, &y, &z, &more) != 3 ||
+  if (equals == std::string::npos ||
+      std::sscanf(text.c_str() + equals + 1, "%lf,%lf,%lf%c", &x, &y, &z, &more) != 3 ||
       !(std::max({std::abs(x), std::abs(y), std::abs(z)}) <= kFarthest_mm))
-    throw UsageError("is \"" + text + "\"", "--seed-point", "Give name=x,y,z in mm, e.g. vein_svc=149.1,-201.1,-80");
-  if (!known(name)) throw UsageError("\"" + name + "\" is no known point", "--seed-point", "Known: " + knownNames());
+    throw UsageError("is \"" + text + "\"", "--seed-point",
+                     "Give name=x,y,z in mm, e.g. vein_svc=149.1,-201.1,-80");
+  if (!known(name))
+    throw UsageError("\"" + name + "\" is no known point", "--seed-point",
+                     "Known: " + knownNames());
   (*seeds)[name] = 1e-3 * Vec3(x, y, z);
 }
 
 std::string seedOption(const std::string& name, const Vec3& p_S) {
   char text[160];
-  std::snprintf(text, sizeof text, "--seed-point %s=%.1f,%.1f,%.1f", name.c_str(), 1e3 * p_S.x(), 1e3 * p_S.y(), 1e3 * p_S.z());
+  std::snprintf(text, sizeof text, "--seed-point %s=%.1f,%.1f,%.1f", name.c_str(), 1e3 * p_S.x(),
+                1e3 * p_S.y(), 1e3 * p_S.z());
   return text;
 }
 

@@ -6,8 +6,8 @@
 
 namespace palpa::anatomy {
 
-/// JSON: {"format": "palpa-seeds", "unit": "mm", "points": {"vein_svc": [x, y, z], ...}} in the volume's frame S. Names other than
-/// those that the search knows are refused. Throws Error.
+/// JSON: {"format": "palpa-seeds", "unit": "mm", "points": {"vein_svc": [x, y, z], ...}} in the
+/// volume's frame S. Names other than those that the search knows are refused. Throws Error.
 Seeds readSeeds(const std::filesystem::path& file);
 void writeSeeds(const Seeds& seeds, const std::filesystem::path& file);  ///< beside, then renamed
 

@@ -8,14 +8,16 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kMediastinum = 40e-3;                     // lungs closed by this hold heart and great vessels
-constexpr double kIndent = 9e-3;                           // ribs press no deeper into the closed lungs
-constexpr double kUnderSkin = 20e-3, kFrontRib = 28e-3, kBackRib = 60e-3;  // depth of sternum and ribs
-constexpr double kWall = 14e-3;                            // ribs lie within this of the lung
-constexpr double kSternumStrip = 12e-3, kRibsFrom = 38e-3; // half widths from the midline
+constexpr double kMediastinum = 40e-3;  // lungs closed by this hold heart and great vessels
+constexpr double kIndent = 9e-3;        // ribs press no deeper into the closed lungs
+constexpr double kUnderSkin = 20e-3, kFrontRib = 28e-3,
+                 kBackRib = 60e-3;                          // depth of sternum and ribs
+constexpr double kWall = 14e-3;                             // ribs lie within this of the lung
+constexpr double kSternumStrip = 12e-3, kRibsFrom = 38e-3;  // half widths from the midline
 constexpr double kPlate = 5e-3;                             // marrow and gaps between its parts
 constexpr double kSpine = 40e-3;
-constexpr double kPool = 6.5e-3, kPoolRim = 5e-3;           // a ball so large fits into heart and spine, into no rib
+constexpr double kPool = 6.5e-3,
+                 kPoolRim = 5e-3;  // a ball so large fits into heart and spine, into no rib
 
 Mask unionOf(const std::vector<LabelledOrgan>& organs, std::size_t count) {
   Mask all(count, 0);
@@ -30,7 +32,8 @@ Mask pools(const Scan& scan, const Mask& bright) {
 }
 
 /// Bone of the chest's wall: near the lungs, not inside of what they enclose, not the spine.
-Mask wallBone(const Scan& scan, const Mask& lungs, const Mask& taken, double midline_x, double front_y, double top_z) {
+Mask wallBone(const Scan& scan, const Mask& lungs, const Mask& taken, double midline_x,
+              double front_y, double top_z) {
   const Values to_lung = distanceTo(scan.grid, lungs);
   const Values inside = distanceTo(scan.grid, inverted(closed(scan.grid, lungs, kMediastinum)));
   const Values under = distanceTo(scan.grid, inverted(scan.body));
@@ -41,9 +44,12 @@ Mask wallBone(const Scan& scan, const Mask& lungs, const Mask& taken, double mid
     const Vec3 p = scan.place(n);
     const double off = std::abs(p.x() - midline_x);
     const bool spine = off < kSpine && p.y() > front_y + 0.07;
-    const bool at_front = off < kRibsFrom && p.y() < front_y + 0.025 && p.z() < top_z + 0.01 && under[n] < kUnderSkin;
+    const bool at_front =
+        off < kRibsFrom && p.y() < front_y + 0.025 && p.z() < top_z + 0.01 && under[n] < kUnderSkin;
     const double deepest = p.y() < front_y + 0.06 ? kFrontRib : kBackRib;
-    bone[n] = !taken[n] && !spine && (at_front || (off > kRibsFrom && !pool[n] && to_lung[n] <= kWall && inside[n] <= kIndent && under[n] <= deepest));
+    bone[n] = !taken[n] && !spine &&
+              (at_front || (off > kRibsFrom && !pool[n] && to_lung[n] <= kWall &&
+                            inside[n] <= kIndent && under[n] <= deepest));
   }
   return bone;
 }
@@ -56,8 +62,10 @@ Mask partOf(const std::vector<std::int32_t>& labels, std::int32_t label) {
 
 }  // namespace
 
-std::vector<LabelledOrgan> findThoraxBones(const Scan& scan, const std::vector<LabelledOrgan>& lungs, const Mask& taken, double midline_x,
-                                           double front_y, double top_z) {
+std::vector<LabelledOrgan> findThoraxBones(const Scan& scan,
+                                           const std::vector<LabelledOrgan>& lungs,
+                                           const Mask& taken, double midline_x, double front_y,
+                                           double top_z) {
   std::vector<LabelledOrgan> organs;
   if (lungs.empty()) return organs;
   const Mask bone = wallBone(scan, unionOf(lungs, taken.size()), taken, midline_x, front_y, top_z);
@@ -73,7 +81,8 @@ std::vector<LabelledOrgan> findThoraxBones(const Scan& scan, const std::vector<L
   const Mask plate = filled(scan.grid, closed(scan.grid, partOf(parted, 1), kPlate), true);
   Mask sternum = largestPiece(scan.grid, opened(scan.grid, plate, kPlate / 2));
   Mask ribs = filled(scan.grid, closed(scan.grid, partOf(parted, 2), 2e-3), true);
-  for (std::size_t n = 0; n < ribs.size(); ++n) sternum[n] = sternum[n] && !taken[n], ribs[n] = ribs[n] && !sternum[n] && !taken[n];
+  for (std::size_t n = 0; n < ribs.size(); ++n)
+    sternum[n] = sternum[n] && !taken[n], ribs[n] = ribs[n] && !sternum[n] && !taken[n];
   organs.push_back({"sternum", Organ::sternum, std::move(sternum), false, 2.0e-3, 2.0e-3});
   addRibs(scan, ribs, lungs, midline_x, &organs);
   return organs;

@@ -20,18 +20,27 @@ struct Letter {
 
 Letter letterOf(char letter, const std::string& axes) {
   switch (letter) {
-    case 'L': return {0, 1};
-    case 'R': return {0, -1};
-    case 'P': return {1, 1};
-    case 'A': return {1, -1};
-    case 'S': return {2, 1};
-    case 'I': return {2, -1};
+    case 'L':
+      return {0, 1};
+    case 'R':
+      return {0, -1};
+    case 'P':
+      return {1, 1};
+    case 'A':
+      return {1, -1};
+    case 'S':
+      return {2, 1};
+    case 'I':
+      return {2, -1};
     default:
-      throw UsageError("is \"" + axes + "\"", "--ct-axes", "Give three letters of L/R, A/P, S/I, e.g. LPS: where columns, rows, slices point");
+      throw UsageError(
+          "is \"" + axes + "\"", "--ct-axes",
+          "Give three letters of L/R, A/P, S/I, e.g. LPS: where columns, rows, slices point");
   }
 }
 
-/// For each axis of the grid the axis of S that it is nearest to, each once: the assignment with the largest sum of cosines.
+/// For each axis of the grid the axis of S that it is nearest to, each once: the assignment with
+/// the largest sum of cosines.
 std::array<int, 3> nearestAxes(const Mat3& steps) {
   const Mat3 unit = steps.colwise().normalized();
   std::array<int, 3> order{0, 1, 2}, best = order;
@@ -52,17 +61,21 @@ void checkGeometry(const Volume& volume, const std::string& where) {
   };
   std::size_t voxels = 1;
   for (const int n : volume.size) {
-    if (n < 2 || n > kLongestSide) refuse("a side of " + std::to_string(n) + " voxels is not between 2 and 4096");
+    if (n < 2 || n > kLongestSide)
+      refuse("a side of " + std::to_string(n) + " voxels is not between 2 and 4096");
     voxels *= static_cast<std::size_t>(n);
   }
-  if (voxels > kMostVoxels) refuse("it has " + std::to_string(voxels) + " voxels, more than 512 x 512 x 1024");
-  if (!volume.steps_S.allFinite() || !volume.origin_S.allFinite()) refuse("spacing, directions or origin are not numbers");
+  if (voxels > kMostVoxels)
+    refuse("it has " + std::to_string(voxels) + " voxels, more than 512 x 512 x 1024");
+  if (!volume.steps_S.allFinite() || !volume.origin_S.allFinite())
+    refuse("spacing, directions or origin are not numbers");
   const Vec3 spacing = volume.spacing();
   if (spacing.minCoeff() < kShortestStep || spacing.maxCoeff() > kLongestStep)
     refuse("the spacing is not between 0.05 and 20 mm");
   const Mat3 unit = volume.steps_S.colwise().normalized();
   if (std::abs(unit.determinant()) < kFlattest) refuse("the axes do not span a volume");
-  if (volume.origin_S.cwiseAbs().maxCoeff() > kFarthestOrigin) refuse("the origin is more than 10 m away");
+  if (volume.origin_S.cwiseAbs().maxCoeff() > kFarthestOrigin)
+    refuse("the origin is more than 10 m away");
 }
 
 std::string axesOf(const Volume& volume) {
@@ -85,11 +98,13 @@ void overrideAxes(const std::string& axes, bool mirrored, Volume* volume) {
     steps(letter.axis, a) = letter.sign * spacing[a];
   }
   if (steps.determinant() == 0)
-    throw UsageError("\"" + axes + "\" names one direction twice", "--ct-axes", "Give one each of L/R, A/P, S/I");
+    throw UsageError("\"" + axes + "\" names one direction twice", "--ct-axes",
+                     "Give one each of L/R, A/P, S/I");
   const bool turns_hand = (steps.determinant() > 0) != (volume->steps_S.determinant() > 0);
   if (turns_hand && !mirrored)
-    throw UsageError("\"" + axes + "\" is of the other hand than the file's header (" + axesOf(*volume) +
-                         "): left and right would change places", "--ct-axes",
+    throw UsageError("\"" + axes + "\" is of the other hand than the file's header (" +
+                         axesOf(*volume) + "): left and right would change places",
+                     "--ct-axes",
                      "Check the letters; if the file really is mirrored, add --ct-mirrored");
   volume->steps_S = steps;
 }
@@ -102,13 +117,15 @@ Volume alongBody(const Volume& volume) {
   Vec3 corner = Vec3::Zero();
   std::array<std::ptrdiff_t, 3> stride{};
   std::ptrdiff_t start = 0;
-  const std::array<std::ptrdiff_t, 3> strides{1, volume.size[0], static_cast<std::ptrdiff_t>(volume.size[0]) * volume.size[1]};
+  const std::array<std::ptrdiff_t, 3> strides{
+      1, volume.size[0], static_cast<std::ptrdiff_t>(volume.size[0]) * volume.size[1]};
   for (std::size_t b = 0; b < 3; ++b) {
     const auto a = static_cast<std::size_t>(from[b]);
     const int n = volume.size[a];
     const bool backward = volume.steps_S(static_cast<int>(b), static_cast<int>(a)) < 0;
     out.size[b] = n;
-    out.steps_S.col(static_cast<int>(b)) = (backward ? -1 : 1) * volume.steps_S.col(static_cast<int>(a));
+    out.steps_S.col(static_cast<int>(b)) =
+        (backward ? -1 : 1) * volume.steps_S.col(static_cast<int>(a));
     stride[b] = backward ? -strides[a] : strides[a];
     if (!backward) continue;
     corner[static_cast<int>(a)] = n - 1;
@@ -120,7 +137,8 @@ Volume alongBody(const Volume& volume) {
   for (int k = 0; k < out.size[2]; ++k)
     for (int j = 0; j < out.size[1]; ++j)
       for (int i = 0; i < out.size[0]; ++i)
-        out.values[write++] = volume.values[static_cast<std::size_t>(start + i * stride[0] + j * stride[1] + k * stride[2])];
+        out.values[write++] = volume.values[static_cast<std::size_t>(
+            start + i * stride[0] + j * stride[1] + k * stride[2])];
   return out;
 }
 

@@ -7,21 +7,26 @@
 
 #include "anatomy/geometry/pose.h"
 
-/// Volumes of a scanner. Frame S is DICOM's patient frame: +x patient's left, +y posterior, +z superior, metres,
-/// origin where the scanner has it. Frame A has the same axes and its origin at the suprasternal notch.
+/// Volumes of a scanner. Frame S is DICOM's patient frame: +x patient's left, +y posterior, +z
+/// superior, metres, origin where the scanner has it. Frame A has the same axes and its origin at
+/// the suprasternal notch.
 namespace palpa::anatomy {
 
 using Index3 = std::array<int, 3>;
 
 struct Volume {
   Index3 size{0, 0, 0};
-  std::vector<float> values;          ///< i runs fastest, then j, then k; CT: Hounsfield units if the file has them
-  Mat3 steps_S = Mat3::Identity();    ///< columns: from a voxel's centre to the next along i, j, k, metres
-  Vec3 origin_S = Vec3::Zero();       ///< centre of voxel (0, 0, 0)
+  std::vector<float>
+      values;  ///< i runs fastest, then j, then k; CT: Hounsfield units if the file has them
+  Mat3 steps_S =
+      Mat3::Identity();  ///< columns: from a voxel's centre to the next along i, j, k, metres
+  Vec3 origin_S = Vec3::Zero();  ///< centre of voxel (0, 0, 0)
 
   std::size_t index(int i, int j, int k) const {
-    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size[1]) + static_cast<std::size_t>(j)) *
-               static_cast<std::size_t>(size[0]) + static_cast<std::size_t>(i);
+    return (static_cast<std::size_t>(k) * static_cast<std::size_t>(size[1]) +
+            static_cast<std::size_t>(j)) *
+               static_cast<std::size_t>(size[0]) +
+           static_cast<std::size_t>(i);
   }
   float at(int i, int j, int k) const { return values[index(i, j, k)]; }
   Vec3 spacing() const { return steps_S.colwise().norm().transpose(); }
@@ -32,19 +37,23 @@ struct Volume {
 /// The most voxels that are read: 512 x 512 x 1024.
 inline constexpr std::size_t kMostVoxels = std::size_t{1} << 28;
 
-/// Refuses sizes, spacings and directions that no scan has: 2 to 4096 voxels a side, 0.05 to 20 mm a step, axes that
-/// lie at least 30 degrees off each other's plane, origin within 10 m. Called before memory is taken.
+/// Refuses sizes, spacings and directions that no scan has: 2 to 4096 voxels a side, 0.05 to 20 mm
+/// a step, axes that lie at least 30 degrees off each other's plane, origin within 10 m. Called
+/// before memory is taken.
 void checkGeometry(const Volume& volume, const std::string& where);
 
-/// Where +i, +j, +k point, to the nearest axis: three letters of L/R, A/P, S/I, e.g. "LPS" for an unturned volume.
+/// Where +i, +j, +k point, to the nearest axis: three letters of L/R, A/P, S/I, e.g. "LPS" for an
+/// unturned volume.
 std::string axesOf(const Volume& volume);
 
-/// The volume with its i, j, k pointing where `axes` says, whatever its header said: spacing stays, obliquity is dropped, and
-/// the first voxel's place becomes the origin. `mirrored` must be said when the handedness is not that of the header,
-/// because left and right would change places. Throws UsageError.
+/// The volume with its i, j, k pointing where `axes` says, whatever its header said: spacing stays,
+/// obliquity is dropped, and the first voxel's place becomes the origin. `mirrored` must be said
+/// when the handedness is not that of the header, because left and right would change places.
+/// Throws UsageError.
 void overrideAxes(const std::string& axes, bool mirrored, Volume* volume);
 
-/// The same samples with axes swapped and turned until i, j, k point as near as can be to left, posterior, superior.
+/// The same samples with axes swapped and turned until i, j, k point as near as can be to left,
+/// posterior, superior.
 Volume alongBody(const Volume& volume);
 
 }  // namespace palpa::anatomy

@@ -9,7 +9,8 @@ namespace palpa::anatomy {
 namespace {
 
 constexpr double kNowhere = 1;  // metres: farther than any voxel of a body
-constexpr std::array<Index3, 6> kFaces{{{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
+constexpr std::array<Index3, 6> kFaces{
+    {{-1, 0, 0}, {1, 0, 0}, {0, -1, 0}, {0, 1, 0}, {0, 0, -1}, {0, 0, 1}}};
 
 Index3 moved(const Index3& c, const Index3& d) { return {c[0] + d[0], c[1] + d[1], c[2] + d[2]}; }
 
@@ -45,7 +46,9 @@ class Envelope {
  private:
   double meeting(int p, int q, double step) const {
     const double s = step * step;
-    return (old_[static_cast<std::size_t>(q)] - old_[static_cast<std::size_t>(p)]) / (2 * s * (q - p)) + 0.5 * (p + q);
+    return (old_[static_cast<std::size_t>(q)] - old_[static_cast<std::size_t>(p)]) /
+               (2 * s * (q - p)) +
+           0.5 * (p + q);
   }
   std::vector<int> place_;
   std::vector<double> border_, old_;
@@ -55,11 +58,13 @@ class Envelope {
 template <class Visit>
 void forLines(const VoxelGrid& grid, std::size_t axis, Visit visit) {
   const std::size_t u = (axis + 1) % 3, v = (axis + 2) % 3;
-  const std::array<std::size_t, 3> stride{1, static_cast<std::size_t>(grid.size[0]),
-                                          static_cast<std::size_t>(grid.size[0]) * static_cast<std::size_t>(grid.size[1])};
+  const std::array<std::size_t, 3> stride{
+      1, static_cast<std::size_t>(grid.size[0]),
+      static_cast<std::size_t>(grid.size[0]) * static_cast<std::size_t>(grid.size[1])};
   for (int b = 0; b < grid.size[v]; ++b)
     for (int a = 0; a < grid.size[u]; ++a)
-      visit(static_cast<std::size_t>(a) * stride[u] + static_cast<std::size_t>(b) * stride[v], stride[axis], grid.size[axis]);
+      visit(static_cast<std::size_t>(a) * stride[u] + static_cast<std::size_t>(b) * stride[v],
+            stride[axis], grid.size[axis]);
 }
 
 /// What is not reached from the border of one slice across `axis`.
@@ -75,7 +80,8 @@ void fillSlice(const VoxelGrid& grid, const Mask& mask, std::size_t axis, int sl
   std::vector<std::pair<int, int>> stack;
   const auto visit = [&](int a, int b) {
     if (a < 0 || b < 0 || a >= nu || b >= nv) return;
-    std::uint8_t& seen = outside[static_cast<std::size_t>(b) * static_cast<std::size_t>(nu) + static_cast<std::size_t>(a)];
+    std::uint8_t& seen = outside[static_cast<std::size_t>(b) * static_cast<std::size_t>(nu) +
+                                 static_cast<std::size_t>(a)];
     if (seen || mask[voxel(a, b)]) return;
     seen = 1;
     stack.emplace_back(a, b);
@@ -89,22 +95,29 @@ void fillSlice(const VoxelGrid& grid, const Mask& mask, std::size_t axis, int sl
   }
   for (int b = 0; b < nv; ++b)
     for (int a = 0; a < nu; ++a)
-      if (!outside[static_cast<std::size_t>(b) * static_cast<std::size_t>(nu) + static_cast<std::size_t>(a)]) (*out)[voxel(a, b)] = 1;
+      if (!outside[static_cast<std::size_t>(b) * static_cast<std::size_t>(nu) +
+                   static_cast<std::size_t>(a)])
+        (*out)[voxel(a, b)] = 1;
 }
 
 }  // namespace
 
 Values distanceTo(const VoxelGrid& grid, const Mask& mask) {
   Values squared(mask.size());
-  for (std::size_t n = 0; n < mask.size(); ++n) squared[n] = mask[n] ? 0.f : static_cast<float>(kNowhere * kNowhere);
-  const auto longest = static_cast<std::size_t>(*std::max_element(grid.size.begin(), grid.size.end()));
+  for (std::size_t n = 0; n < mask.size(); ++n)
+    squared[n] = mask[n] ? 0.f : static_cast<float>(kNowhere * kNowhere);
+  const auto longest =
+      static_cast<std::size_t>(*std::max_element(grid.size.begin(), grid.size.end()));
   Envelope envelope(longest);
   std::vector<double> line(longest);
   for (std::size_t axis = 0; axis < 3; ++axis)
     forLines(grid, axis, [&](std::size_t first, std::size_t stride, int n) {
-      for (int i = 0; i < n; ++i) line[static_cast<std::size_t>(i)] = squared[first + static_cast<std::size_t>(i) * stride];
+      for (int i = 0; i < n; ++i)
+        line[static_cast<std::size_t>(i)] = squared[first + static_cast<std::size_t>(i) * stride];
       envelope.apply(line.data(), n, grid.spacing[static_cast<int>(axis)]);
-      for (int i = 0; i < n; ++i) squared[first + static_cast<std::size_t>(i) * stride] = static_cast<float>(line[static_cast<std::size_t>(i)]);
+      for (int i = 0; i < n; ++i)
+        squared[first + static_cast<std::size_t>(i) * stride] =
+            static_cast<float>(line[static_cast<std::size_t>(i)]);
     });
   for (float& d : squared) d = std::sqrt(d);
   return squared;
@@ -131,7 +144,9 @@ Mask dilated(const VoxelGrid& grid, const Mask& mask, double radius) {
   return out;
 }
 
-Mask eroded(const VoxelGrid& grid, const Mask& mask, double radius) { return inverted(dilated(grid, inverted(mask), radius)); }
+Mask eroded(const VoxelGrid& grid, const Mask& mask, double radius) {
+  return inverted(dilated(grid, inverted(mask), radius));
+}
 
 Values blurred(const VoxelGrid& grid, Values values, double sigma) {
   std::vector<double> kernel, line;
@@ -141,14 +156,17 @@ Values blurred(const VoxelGrid& grid, Values values, double sigma) {
     if (reach < 1 || s < 0.2) continue;
     kernel.assign(static_cast<std::size_t>(2 * reach + 1), 0);
     double sum = 0;
-    for (int i = -reach; i <= reach; ++i) sum += kernel[static_cast<std::size_t>(i + reach)] = std::exp(-0.5 * i * i / (s * s));
+    for (int i = -reach; i <= reach; ++i)
+      sum += kernel[static_cast<std::size_t>(i + reach)] = std::exp(-0.5 * i * i / (s * s));
     forLines(grid, axis, [&](std::size_t first, std::size_t stride, int n) {
       line.resize(static_cast<std::size_t>(n + 2 * reach));
       for (int i = 0; i < n + 2 * reach; ++i)
-        line[static_cast<std::size_t>(i)] = values[first + static_cast<std::size_t>(std::clamp(i - reach, 0, n - 1)) * stride];
+        line[static_cast<std::size_t>(i)] =
+            values[first + static_cast<std::size_t>(std::clamp(i - reach, 0, n - 1)) * stride];
       for (int i = 0; i < n; ++i) {
         double total = 0;
-        for (int t = 0; t <= 2 * reach; ++t) total += kernel[static_cast<std::size_t>(t)] * line[static_cast<std::size_t>(i + t)];
+        for (int t = 0; t <= 2 * reach; ++t)
+          total += kernel[static_cast<std::size_t>(t)] * line[static_cast<std::size_t>(i + t)];
         values[first + static_cast<std::size_t>(i) * stride] = static_cast<float>(total / sum);
       }
     });
@@ -184,7 +202,8 @@ Pieces piecesOf(const VoxelGrid& grid, const Mask& mask) {
 
 Mask largestPiece(const VoxelGrid& grid, const Mask& mask) {
   const Pieces pieces = piecesOf(grid, mask);
-  const auto most = std::max_element(pieces.voxels.begin(), pieces.voxels.end()) - pieces.voxels.begin();
+  const auto most =
+      std::max_element(pieces.voxels.begin(), pieces.voxels.end()) - pieces.voxels.begin();
   Mask out(mask.size(), 0);
   for (std::size_t n = 0; n < mask.size(); ++n) out[n] = most > 0 && pieces.label[n] == most;
   return out;
@@ -200,19 +219,22 @@ Mask filled(const VoxelGrid& grid, const Mask& mask, bool by_slices) {
   Mask out = mask;
   if (by_slices) {
     for (std::size_t axis = 0; axis < 3; ++axis)
-      for (int slice = 0; slice < grid.size[axis]; ++slice) fillSlice(grid, mask, axis, slice, &out);
+      for (int slice = 0; slice < grid.size[axis]; ++slice)
+        fillSlice(grid, mask, axis, slice, &out);
     return out;
   }
   const Pieces outside = piecesOf(grid, inverted(mask));
   std::vector<bool> open(outside.voxels.size(), false);
   for (std::size_t n = 0; n < mask.size(); ++n)
-    if (outside.label[n] && grid.atBorder(grid.cell(n))) open[static_cast<std::size_t>(outside.label[n])] = true;
+    if (outside.label[n] && grid.atBorder(grid.cell(n)))
+      open[static_cast<std::size_t>(outside.label[n])] = true;
   for (std::size_t n = 0; n < mask.size(); ++n)
     if (outside.label[n] && !open[static_cast<std::size_t>(outside.label[n])]) out[n] = 1;
   return out;
 }
 
-std::vector<std::int32_t> grown(const VoxelGrid& grid, std::vector<std::int32_t> markers, const Mask& within, double reach) {
+std::vector<std::int32_t> grown(const VoxelGrid& grid, std::vector<std::int32_t> markers,
+                                const Mask& within, double reach) {
   using Entry = std::pair<float, std::size_t>;
   std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
   Values way(markers.size(), std::numeric_limits<float>::infinity());

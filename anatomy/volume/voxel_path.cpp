@@ -38,7 +38,8 @@ Ways waysFrom(const VoxelGrid& grid, const Values& cost, std::size_t from, std::
           const std::size_t n = grid.index(next);
           if (cost[n] == kNever) continue;
           const double step = Vec3(x, y, z).cwiseProduct(grid.spacing).norm();
-          const auto there = static_cast<float>(so_far + step * 0.5 * (cost[n] + (cost[at] == kNever ? cost[n] : cost[at])));
+          const auto there = static_cast<float>(
+              so_far + step * 0.5 * (cost[n] + (cost[at] == kNever ? cost[n] : cost[at])));
           if (there >= ways.way[n]) continue;
           ways.way[n] = there;
           ways.before[n] = at;
@@ -50,7 +51,8 @@ Ways waysFrom(const VoxelGrid& grid, const Values& cost, std::size_t from, std::
 
 }  // namespace
 
-std::vector<std::size_t> cheapestPath(const VoxelGrid& grid, const Values& cost, std::size_t from, std::size_t to) {
+std::vector<std::size_t> cheapestPath(const VoxelGrid& grid, const Values& cost, std::size_t from,
+                                      std::size_t to) {
   const Ways ways = waysFrom(grid, cost, from, to);
   if (ways.way[to] == kNever) return {};
   std::vector<std::size_t> path{to};
@@ -62,11 +64,13 @@ std::vector<std::size_t> cheapestPath(const VoxelGrid& grid, const Values& cost,
 std::vector<Vec3> smoothLine(const std::vector<Vec3>& points, double reach) {
   if (points.size() < 3) return points;
   std::vector<double> s(points.size(), 0);
-  for (std::size_t i = 1; i < points.size(); ++i) s[i] = s[i - 1] + (points[i] - points[i - 1]).norm();
+  for (std::size_t i = 1; i < points.size(); ++i)
+    s[i] = s[i - 1] + (points[i] - points[i - 1]).norm();
   const int count = std::max(2, static_cast<int>(s.back() / kPointStep));
   std::vector<Vec3> out;
   for (int i = 0; i <= count; ++i) {
-    const double at = s.back() * i / count, half = std::min({reach, at, s.back() - at});  // even about each point: ends stay
+    const double at = s.back() * i / count,
+                 half = std::min({reach, at, s.back() - at});  // even about each point: ends stay
     Vec3 sum = Vec3::Zero();
     double weight = 0;
     for (std::size_t n = 0; n < points.size(); ++n) {
@@ -74,7 +78,8 @@ std::vector<Vec3> smoothLine(const std::vector<Vec3>& points, double reach) {
       const double w = std::max(0.0, 1 - off / (half + 2e-3));
       sum += w * points[n], weight += w;
     }
-    out.push_back(weight > 0 ? Vec3(sum / weight) : points[std::min(points.size() - 1, static_cast<std::size_t>(i))]);
+    out.push_back(weight > 0 ? Vec3(sum / weight)
+                             : points[std::min(points.size() - 1, static_cast<std::size_t>(i))]);
   }
   return out;
 }
@@ -91,7 +96,8 @@ std::vector<Vec3> centreLine(const Scan& scan, const Mask& mask) {
   const std::size_t one = waysFrom(scan.grid, even, some, mask.size()).farthest;
   const std::size_t other = waysFrom(scan.grid, even, one, mask.size()).farthest;
   std::vector<Vec3> points;
-  for (const std::size_t n : cheapestPath(scan.grid, central, one, other)) points.push_back(scan.place(n));
+  for (const std::size_t n : cheapestPath(scan.grid, central, one, other))
+    points.push_back(scan.place(n));
   return smoothLine(points, kAxisSmoothing);
 }
 

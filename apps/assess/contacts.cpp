@@ -18,9 +18,7 @@ bool touchesBackWall(const TrialSample& s) {
   return s.wall == Organ::vein && (s.wall_leaving || (inVein(s) && !entering_now));
 }
 
-bool touchesRibcage(const TrialSample& s) {
-  return isBone(s.bone) && s.bone != Organ::clavicle;
-}
+bool touchesRibcage(const TrialSample& s) { return isBone(s.bone) && s.bone != Organ::clavicle; }
 bool touchesClavicle(const TrialSample& s) { return s.bone == Organ::clavicle; }
 bool strikesClavicle(const TrialSample& s, const ScoringRules& rules) {
   return touchesClavicle(s) && s.bone_force > rules.clavicle_guide_N;

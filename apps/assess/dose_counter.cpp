@@ -2,7 +2,9 @@
 
 namespace palpa::assess {
 
-DoseCounter::DoseCounter(const haptics::AugmentationPlan& plan, const std::vector<std::string>& subtasks) : parts_(subtasks.size()) {
+DoseCounter::DoseCounter(const haptics::AugmentationPlan& plan,
+                         const std::vector<std::string>& subtasks)
+    : parts_(subtasks.size()) {
   for (const std::string& name : subtasks) doses_.push_back({name, 0, 0, 0, 0});
   bool any = false;
   for (std::size_t i = 0; i < part_of_.size(); ++i) {
@@ -15,10 +17,12 @@ DoseCounter::DoseCounter(const haptics::AugmentationPlan& plan, const std::vecto
 void DoseCounter::add(const haptics::FlightRecord& record, double dt) {
   const double added_N = unpack(record.f_augmentation_D).norm();
   for (std::size_t s = 0; s < doses_.size(); ++s) {
-    const bool named = s < parts_, on = !named || (record.subtasks >> s & 1u), was = named ? was_ >> s & 1u : started_;
+    const bool named = s < parts_, on = !named || (record.subtasks >> s & 1u),
+               was = named ? was_ >> s & 1u : started_;
     const std::size_t part = named ? s : haptics::kAnySubtask;
     bool felt = false;
-    for (std::size_t i = 0; i < part_of_.size(); ++i) felt = felt || ((record.augmenting >> i & 1u) && part_of_[i] == part);
+    for (std::size_t i = 0; i < part_of_.size(); ++i)
+      felt = felt || ((record.augmenting >> i & 1u) && part_of_[i] == part);
     SubtaskDose& dose = doses_[s];
     if (on) {
       dose.on_s += dt;

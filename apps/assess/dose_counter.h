@@ -12,7 +12,10 @@
 
 namespace palpa::assess {
 
-/// Adds up over recorded ticks how long each part of a task was on, how often it came on, and how much was added to the force meanwhile. What is added counts for every part that an active augmentation belongs to. Augmentations of no part in particular have a row of their own, the last, "any part", which is always on.
+/// Adds up over recorded ticks how long each part of a task was on, how often it came on, and how
+/// much was added to the force meanwhile. What is added counts for every part that an active
+/// augmentation belongs to. Augmentations of no part in particular have a row of their own, the
+/// last, "any part", which is always on.
 class DoseCounter {
  public:
   DoseCounter() = default;
@@ -23,8 +26,8 @@ class DoseCounter {
 
  private:
   std::vector<SubtaskDose> doses_;
-  std::array<std::uint8_t, haptics::kMostAugmentations> part_of_{};   ///< of each augmentation
-  std::size_t parts_ = 0;              ///< named ones
+  std::array<std::uint8_t, haptics::kMostAugmentations> part_of_{};  ///< of each augmentation
+  std::size_t parts_ = 0;                                            ///< named ones
   std::uint8_t was_ = 0;
   bool started_ = false;
 };
@@ -33,9 +36,11 @@ class DoseCounter {
 class TrialDoses {
  public:
   TrialDoses() = default;
-  TrialDoses(const haptics::AugmentationPlan& plan, std::vector<std::string> subtasks) : plan_(plan), subtasks_(std::move(subtasks)) {}
+  TrialDoses(const haptics::AugmentationPlan& plan, std::vector<std::string> subtasks)
+      : plan_(plan), subtasks_(std::move(subtasks)) {}
   void begin(std::uint32_t trial);
-  /// Counts while the trial is on and forces may be rendered; what lies between two ticks far apart was a pause.
+  /// Counts while the trial is on and forces may be rendered; what lies between two ticks far apart
+  /// was a pause.
   void add(const haptics::FlightRecord& record);
   const std::vector<SubtaskDose>& doses() const { return counter_.doses(); }
 

@@ -46,17 +46,20 @@ std::string upTo(const TrialReview& r, const std::vector<Interval>& stretches) {
 
 std::string struckBone(Organ organ) {
   switch (organ) {
-    case Organ::rib: return "A rib";
-    case Organ::cartilage: return "The cartilage of a rib";
-    default: return std::string("The ") + name(organ);
+    case Organ::rib:
+      return "A rib";
+    case Organ::cartilage:
+      return "The cartilage of a rib";
+    default:
+      return std::string("The ") + name(organ);
   }
 }
 
 Penalty bone(const TrialReview& r, const ScoringRules& rules) {
   std::string sentence;
   if (!r.ribcage.empty()) {
-    sentence = struckBone(r.samples[r.ribcage.front().first].bone) + " was struck " + duration(r.ribcage) +
-               upTo(r, r.ribcage);
+    sentence = struckBone(r.samples[r.ribcage.front().first].bone) + " was struck " +
+               duration(r.ribcage) + upTo(r, r.ribcage);
   }
   if (!r.clavicle_struck.empty())
     sentence += std::string(sentence.empty() ? "" : " ") +

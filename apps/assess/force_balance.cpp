@@ -10,7 +10,10 @@ namespace {
 constexpr std::size_t kHalf_ticks = 20, kLongestDelay_ticks = 20;
 using Stretch = std::vector<haptics::FlightRecord>;
 
-bool complete(const haptics::FlightRecord& tick) { return tick.reading.instrumented && tick.reading.homed && tick.sensed.state == haptics::SensorState::valid; }
+bool complete(const haptics::FlightRecord& tick) {
+  return tick.reading.instrumented && tick.reading.homed &&
+         tick.sensed.state == haptics::SensorState::valid;
+}
 
 /// Without gaps, all of it recorded.
 std::vector<Stretch> stretchesOf(const std::vector<haptics::FlightRecord>& ticks) {
@@ -23,9 +26,13 @@ std::vector<Stretch> stretchesOf(const std::vector<haptics::FlightRecord>& ticks
   return all;
 }
 
-double periodOf(const Stretch& stretch) { return 1e-9 * static_cast<double>(stretch.back().t_ns - stretch.front().t_ns) / static_cast<double>(stretch.size() - 1); }
+double periodOf(const Stretch& stretch) {
+  return 1e-9 * static_cast<double>(stretch.back().t_ns - stretch.front().t_ns) /
+         static_cast<double>(stretch.size() - 1);
+}
 
-/// How many ticks the sensed point's motion is behind the tool's: where their ways over a window differ least.
+/// How many ticks the sensed point's motion is behind the tool's: where their ways over a window
+/// differ least.
 std::size_t delayOf(const std::vector<Stretch>& stretches) {
   std::size_t best = 0;
   double least = std::numeric_limits<double>::max();
@@ -34,7 +41,8 @@ std::size_t delayOf(const std::vector<Stretch>& stretches) {
     for (const Stretch& s : stretches) {
       for (std::size_t i = 0; i + kHalf_ticks + delay < s.size(); ++i) {
         const Vec3 tool = unpack(s[i + kHalf_ticks].reading.p_DE) - unpack(s[i].reading.p_DE);
-        const Vec3 point = unpack(s[i + kHalf_ticks + delay].sensed.p_DK) - unpack(s[i + delay].sensed.p_DK);
+        const Vec3 point =
+            unpack(s[i + kHalf_ticks + delay].sensed.p_DK) - unpack(s[i + delay].sensed.p_DK);
         sum += (tool - point).squaredNorm();
       }
     }
@@ -57,11 +65,15 @@ ForceBalance balanceOf(const std::vector<haptics::FlightRecord>& ticks, double m
     for (std::size_t i = kHalf_ticks; i + kHalf_ticks + delay < s.size(); ++i) {
       Vec3 forces = Vec3::Zero(), object = Vec3::Zero();
       for (std::size_t k = i - kHalf_ticks + 1; k < i + kHalf_ticks; ++k) {
-        const double share = (static_cast<double>(kHalf_ticks) - std::abs(static_cast<double>(k) - static_cast<double>(i))) / static_cast<double>(kHalf_ticks * kHalf_ticks);
+        const double share = (static_cast<double>(kHalf_ticks) -
+                              std::abs(static_cast<double>(k) - static_cast<double>(i))) /
+                             static_cast<double>(kHalf_ticks * kHalf_ticks);
         object += share * unpack(s[k + delay].sensed.f_D);
         forces += share * (unpack(s[k].reading.f_hand_D) + unpack(s[k].reading.f_device_D));
       }
-      const Vec3 a = (unpack(s[i + kHalf_ticks].reading.p_DE) - 2 * unpack(s[i].reading.p_DE) + unpack(s[i - kHalf_ticks].reading.p_DE)) / (T * T);
+      const Vec3 a = (unpack(s[i + kHalf_ticks].reading.p_DE) - 2 * unpack(s[i].reading.p_DE) +
+                      unpack(s[i - kHalf_ticks].reading.p_DE)) /
+                     (T * T);
       const double residual = (forces + object - mass * a).norm();
       balance.largest_N = std::max(balance.largest_N, residual);
       balance.object_N = std::max(balance.object_N, object.norm());

@@ -22,17 +22,23 @@ constexpr double kDegrees = 180 / std::numbers::pi;
 
 metrics::Motion motionIn(Samples samples) {
   std::vector<metrics::RawSample> raw;
-  for (const TrialSample& s : samples) raw.push_back({s.t_s, s.tip_A, s.axis_A, s.phase == haptics::NeedlePhase::inserted ? s.depth : 0, s.f_contact});
+  for (const TrialSample& s : samples)
+    raw.push_back({s.t_s, s.tip_A, s.axis_A,
+                   s.phase == haptics::NeedlePhase::inserted ? s.depth : 0, s.f_contact});
   return metrics::motionOf(raw);
 }
 
 int aspirationsIn(Samples samples, const ScoringRules& rules) {
-  return static_cast<int>(intervals(samples, [&](const TrialSample& s) { return s.phase == haptics::NeedlePhase::inserted && s.plunger >= rules.plunger_drawn; }).size());
+  return static_cast<int>(intervals(samples, [&](const TrialSample& s) {
+                            return s.phase == haptics::NeedlePhase::inserted &&
+                                   s.plunger >= rules.plunger_drawn;
+                          }).size());
 }
 
 int backWallsIn(Samples samples) {
   int count = 0;
-  for (const TrialSample& s : samples) count += (s.events & haptics::kWallPunctured) && s.wall == Organ::vein && s.wall_leaving;
+  for (const TrialSample& s : samples)
+    count += (s.events & haptics::kWallPunctured) && s.wall == Organ::vein && s.wall_leaving;
   return count;
 }
 
@@ -43,7 +49,9 @@ double bonePeak(Samples samples) {
 }
 
 double overForce(Samples samples, const ScoringRules& rules) {
-  return heldTime(intervals(samples, [&](const TrialSample& s) { return isBone(s.bone) && s.bone_force > rules.clavicle_guide_N; }));
+  return heldTime(intervals(samples, [&](const TrialSample& s) {
+    return isBone(s.bone) && s.bone_force > rules.clavicle_guide_N;
+  }));
 }
 
 /// Mean speed of the tip before the last time it came into the vein.
@@ -61,18 +69,22 @@ double speedAtVein(Samples samples) {
 metrics::Curve advanceOf(const TrialReview& r) {
   metrics::Curve curve;
   if (!r.pass || !r.pass->advanced) return curve;
-  for (std::size_t i = r.pass->phase_2; i <= r.pass->last && i < r.samples.size(); ++i) curve.push_back(r.samples[i].tip_A);
+  for (std::size_t i = r.pass->phase_2; i <= r.pass->last && i < r.samples.size(); ++i)
+    curve.push_back(r.samples[i].tip_A);
   return curve;
 }
 
-/// The taught line from beside the advance's start, which is noticed some millimetres after the turn, to its end.
+/// The taught line from beside the advance's start, which is noticed some millimetres after the
+/// turn, to its end.
 metrics::Curve taughtBeside(const metrics::Curve& advance, const Vec3& from, const Vec3& to) {
   if (advance.empty()) return {from, to};
   const double along = (advance.front() - from).dot(to - from) / (to - from).squaredNorm();
   return {from + std::clamp(along, 0.0, 1.0) * (to - from), to};
 }
 
-double orNone(double distance_mm) { return std::isfinite(distance_mm) ? distance_mm : kDoesNotApply; }
+double orNone(double distance_mm) {
+  return std::isfinite(distance_mm) ? distance_mm : kDoesNotApply;
+}
 
 }  // namespace
 
@@ -100,39 +112,52 @@ std::vector<MetricValue> motionMetrics(Samples samples, const ScoringRules& rule
           {"speed_at_vein_mm_s", 1e3 * speedAtVein(samples)}};
 }
 
-std::vector<MetricValue> goalMetrics(const TrialAssessment& a, Samples samples, const ScoringRules& rules) {
-  std::vector<MetricValue> all{{"success", a.values.success ? 1.0 : 0.0}, {"time_s", a.values.time_ms > 0 ? 1e-3 * a.values.time_ms : samples.empty() ? 0 : samples.back().t_s}};
+std::vector<MetricValue> goalMetrics(const TrialAssessment& a, Samples samples,
+                                     const ScoringRules& rules) {
+  std::vector<MetricValue> all{{"success", a.values.success ? 1.0 : 0.0},
+                               {"time_s", a.values.time_ms > 0 ? 1e-3 * a.values.time_ms
+                                          : samples.empty()    ? 0
+                                                               : samples.back().t_s}};
   for (MetricValue& m : motionMetrics(samples, rules)) all.push_back(std::move(m));
   return all;
 }
 
-std::vector<MetricValue> needleMetrics(const TrialReview& r, const TrialAssessment& a, const anatomy::LandmarkFrame& frame, const calibration::ExpertPath& path, const ScoringRules& rules) {
+std::vector<MetricValue> needleMetrics(const TrialReview& r, const TrialAssessment& a,
+                                       const anatomy::LandmarkFrame& frame,
+                                       const calibration::ExpertPath& path,
+                                       const ScoringRules& rules) {
   const ParacentesisValues& v = r.values;
   const int passes = a.skin_punctures + a.redirections;
-  const metrics::Curve advance = advanceOf(r), taught = taughtBeside(advance, frame.pointToA(path.line_from_L), frame.pointToA(path.line_to_L));
-  std::vector<MetricValue> all{{"success", v.success ? 1.0 : 0.0},
-                               {"time_s", 1e-3 * v.time_ms},
-                               {"total", a.total},
-                               {"col_lung", v.col_lung},
-                               {"col_rib", v.col_rib},
-                               {"col_artery", v.col_art},
-                               {"col_vein", v.col_vein},
-                               {"phase_1_mm", v.phase_1},
-                               {"phase_2", v.phase_2},
-                               {"econ_mean_mm", v.econ_mean},
-                               {"econ_var_mm2", v.econ_var},
-                               {"skin_punctures", static_cast<double>(a.skin_punctures)},
-                               {"redirections", static_cast<double>(a.redirections)},
-                               {"needle_passes", static_cast<double>(passes)},
-                               {"first_pass_success", v.success && passes == 1 ? 1.0 : 0.0},
-                               {"closest_pleura_mm", orNone(a.closest_pleura_mm)},
-                               {"closest_pleura_at_s", std::isfinite(a.closest_pleura_mm) ? a.closest_pleura_s : kDoesNotApply},
-                               {"closest_artery_mm", orNone(a.closest_artery_mm)},
-                               {"closest_artery_at_s", std::isfinite(a.closest_artery_mm) ? a.closest_artery_s : kDoesNotApply},
-                               {"frechet_mm", 1e3 * metrics::frechet(advance, taught)},
-                               {"hausdorff_mm", 1e3 * metrics::hausdorff(advance, taught)},
-                               {"warped_mm", 1e3 * metrics::timeWarped(advance, taught)}};
-  for (MetricValue& m : techniqueMetrics(r, a.errors, frame, path, rules)) all.push_back(std::move(m));
+  const metrics::Curve advance = advanceOf(r),
+                       taught = taughtBeside(advance, frame.pointToA(path.line_from_L),
+                                             frame.pointToA(path.line_to_L));
+  std::vector<MetricValue> all{
+      {"success", v.success ? 1.0 : 0.0},
+      {"time_s", 1e-3 * v.time_ms},
+      {"total", a.total},
+      {"col_lung", v.col_lung},
+      {"col_rib", v.col_rib},
+      {"col_artery", v.col_art},
+      {"col_vein", v.col_vein},
+      {"phase_1_mm", v.phase_1},
+      {"phase_2", v.phase_2},
+      {"econ_mean_mm", v.econ_mean},
+      {"econ_var_mm2", v.econ_var},
+      {"skin_punctures", static_cast<double>(a.skin_punctures)},
+      {"redirections", static_cast<double>(a.redirections)},
+      {"needle_passes", static_cast<double>(passes)},
+      {"first_pass_success", v.success && passes == 1 ? 1.0 : 0.0},
+      {"closest_pleura_mm", orNone(a.closest_pleura_mm)},
+      {"closest_pleura_at_s",
+       std::isfinite(a.closest_pleura_mm) ? a.closest_pleura_s : kDoesNotApply},
+      {"closest_artery_mm", orNone(a.closest_artery_mm)},
+      {"closest_artery_at_s",
+       std::isfinite(a.closest_artery_mm) ? a.closest_artery_s : kDoesNotApply},
+      {"frechet_mm", 1e3 * metrics::frechet(advance, taught)},
+      {"hausdorff_mm", 1e3 * metrics::hausdorff(advance, taught)},
+      {"warped_mm", 1e3 * metrics::timeWarped(advance, taught)}};
+  for (MetricValue& m : techniqueMetrics(r, a.errors, frame, path, rules))
+    all.push_back(std::move(m));
   for (MetricValue& m : motionMetrics(r.samples, rules)) all.push_back(std::move(m));
   return all;
 }

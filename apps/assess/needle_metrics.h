@@ -8,14 +8,21 @@
 
 namespace palpa::assess {
 
-/// Figures of a needle's motion and force that need no taught path; samples up to the end that is judged.
+/// Figures of a needle's motion and force that need no taught path; samples up to the end that is
+/// judged.
 std::vector<metrics::MetricValue> motionMetrics(Samples samples, const ScoringRules& rules);
 
-/// All figures of a trial with a taught path, as metric_table defines them. `assessment`: of the same review.
-std::vector<metrics::MetricValue> needleMetrics(const TrialReview& review, const TrialAssessment& assessment, const anatomy::LandmarkFrame& frame, const calibration::ExpertPath& path,
+/// All figures of a trial with a taught path, as metric_table defines them. `assessment`: of the
+/// same review.
+std::vector<metrics::MetricValue> needleMetrics(const TrialReview& review,
+                                                const TrialAssessment& assessment,
+                                                const anatomy::LandmarkFrame& frame,
+                                                const calibration::ExpertPath& path,
                                                 const ScoringRules& rules);
 
-/// The figures of a trial without a taught path: success, time and motion; from its outcome and values.
-std::vector<metrics::MetricValue> goalMetrics(const TrialAssessment& assessment, Samples samples, const ScoringRules& rules);
+/// The figures of a trial without a taught path: success, time and motion; from its outcome and
+/// values.
+std::vector<metrics::MetricValue> goalMetrics(const TrialAssessment& assessment, Samples samples,
+                                              const ScoringRules& rules);
 
 }  // namespace palpa::assess

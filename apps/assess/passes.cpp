@@ -70,14 +70,15 @@ void PassCounter::add(const TrialSample& sample) {
   const bool was_advancing = detector_.advancing();
   detector_.add(sample);
   punctures_ += (sample.events & haptics::kSkinPunctured) != 0;
-  const bool inserted = detector_.phase() != ProcedurePhase::approach, was_inserted = before_ != ProcedurePhase::approach;
+  const bool inserted = detector_.phase() != ProcedurePhase::approach,
+             was_inserted = before_ != ProcedurePhase::approach;
   insertions_ += inserted && !was_inserted;
   before_ = detector_.phase();
   if (!inserted && was_inserted) {
     redirections_ += current_.count();
     current_ = {};
   }
-  if (inserted && !detector_.advancing()) current_ = {};   // phase 2 was taken back: it begins anew
+  if (inserted && !detector_.advancing()) current_ = {};  // phase 2 was taken back: it begins anew
   if (detector_.advancing()) {
     if (!was_advancing) current_ = {};
     current_.add((sample.tip_A - detector_.puncture().tip_A).norm(), sample.axis_A);

@@ -29,8 +29,9 @@ PhaseHistory detectPhases(Samples samples);
 /// else the last. Null when the skin was never punctured.
 const Pass* scoredPass(const std::vector<Pass>& passes, bool success);
 
-/// Follows how far the tip is from the entry; a turning point must be left by more than 3 mm. Counts changes of direction: the tip drawn back, then advanced again along a direction more than 3 degrees
-/// from that before.
+/// Follows how far the tip is from the entry; a turning point must be left by more than 3 mm.
+/// Counts changes of direction: the tip drawn back, then advanced again along a direction more than
+/// 3 degrees from that before.
 class RedirectionCounter {
  public:
   void add(double reach, const Vec3& axis);
@@ -46,16 +47,19 @@ class RedirectionCounter {
 /// Changes of direction in phase 2 of all passes.
 int countRedirections(Samples samples, const std::vector<Pass>& passes);
 
-/// Needle passes while they are made: skin punctures and redirections, as the score counts them afterwards.
+/// Needle passes while they are made: skin punctures and redirections, as the score counts them
+/// afterwards.
 class PassCounter {
  public:
-  void add(const TrialSample& sample);   ///< every tick of the trial
-  int passes() const { return std::max(punctures_, insertions_) + redirections_ + current_.count(); }
+  void add(const TrialSample& sample);  ///< every tick of the trial
+  int passes() const {
+    return std::max(punctures_, insertions_) + redirections_ + current_.count();
+  }
 
  private:
   PhaseDetector detector_;
   ProcedurePhase before_ = ProcedurePhase::approach;
-  RedirectionCounter current_;           ///< of the pass that is on
+  RedirectionCounter current_;  ///< of the pass that is on
   int punctures_ = 0, insertions_ = 0, redirections_ = 0;
 };
 

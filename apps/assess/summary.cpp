@@ -26,7 +26,8 @@ std::string injuries(const TrialReview& r) {
 std::string outcomeWords(const TrialFacts& facts, const TrialReview& r) {
   if (r.success) return "Vein reached in " + seconds(r.end_s);
   if (facts.outcome == "time") return "Vein not reached within " + seconds(r.end_s);
-  if (facts.outcome == "passes") return "Vein not reached when a pass too many began, after " + seconds(r.end_s);
+  if (facts.outcome == "passes")
+    return "Vein not reached when a pass too many began, after " + seconds(r.end_s);
   if (facts.outcome == "aborted") return "Stopped after " + seconds(r.end_s) + ", vein not reached";
   if (facts.outcome == "void") return "Trial void after " + seconds(r.end_s);
   return "Ended after " + seconds(r.end_s) + ", vein not reached";

@@ -32,7 +32,8 @@ std::vector<Span> timelineSpans(const TrialReview& r, const ScoringRules& rules)
            "clavicle guides", "guide", &spans);
   addSpans(r.clavicle_struck, "clavicle above " + newtons(rules.clavicle_guide_N), "bad", &spans);
   for (const Organ bone : {Organ::rib, Organ::cartilage, Organ::sternum, Organ::scapula})
-    addSpans(intervals(r.samples, [bone](const TrialSample& s) { return s.bone == bone; }), name(bone), "bad", &spans);
+    addSpans(intervals(r.samples, [bone](const TrialSample& s) { return s.bone == bone; }),
+             name(bone), "bad", &spans);
   addSpans(r.back_wall, "back wall of the vein", "bad", &spans);
   addSpans(r.artery, "artery", "bad", &spans);
   addSpans(r.lung_touched, "lung", "bad", &spans);

@@ -28,8 +28,8 @@ struct TrialSample {
   double f_contact = 0;       ///< N, magnitude computed
   double f_command = 0;       ///< N, magnitude rendered
   double plunger = 0;
-  std::uint32_t events = 0;  ///< haptics::TickEvent bits, merged over the samples left out
-  std::uint32_t subtasks = 0;   ///< bit i: part i of the task is on
+  std::uint32_t events = 0;    ///< haptics::TickEvent bits, merged over the samples left out
+  std::uint32_t subtasks = 0;  ///< bit i: part i of the task is on
 };
 
 /// One line of the score with its reason.
@@ -45,12 +45,13 @@ struct Penalty {
 
 /// One of the six common errors of subclavian access that was made.
 struct TechnicalError {
-  std::string code;       ///< "site", "landmarks", "periosteum", "shallow", "cephalad", "left_vein"
-  std::string title;      ///< "Too cephalad"
-  std::string sentence;   ///< "The needle was aimed 14° too far toward the head over 12.0 mm, from 8.2 s on (...): ..."
+  std::string code;      ///< "site", "landmarks", "periosteum", "shallow", "cephalad", "left_vein"
+  std::string title;     ///< "Too cephalad"
+  std::string sentence;  ///< "The needle was aimed 14° too far toward the head over 12.0 mm,
+                         ///< from 8.2 s on (...): ..."
   double t_s = 0;
   double value = 0, threshold = 0;
-  std::string unit;       ///< of both
+  std::string unit;  ///< of both
   int times = 1;
 };
 
@@ -78,7 +79,7 @@ struct TrialAssessment {
   ParacentesisValues values;
   double total = 0;
   std::vector<Penalty> penalties;
-  std::vector<TechnicalError> errors = {};   ///< in the order of the procedure
+  std::vector<TechnicalError> errors = {};  ///< in the order of the procedure
   std::vector<Span> spans;
   std::vector<Moment> moments;
   /// Of the tip while inserted; negative: inside. Infinite, with moment -1, when the needle was
@@ -86,12 +87,12 @@ struct TrialAssessment {
   double closest_pleura_mm = 0, closest_artery_mm = 0;
   double closest_pleura_s = 0, closest_artery_s = 0;
   int skin_punctures = 0;
-  bool by_path = true;               ///< false: the task has a goal of its own, and only success and time tell
-  bool augmented = false;            ///< the task's augmentations added force
-  std::vector<SubtaskDose> doses;    ///< of the task's parts
+  bool by_path = true;  ///< false: the task has a goal of its own, and only success and time tell
+  bool augmented = false;          ///< the task's augmentations added force
+  std::vector<SubtaskDose> doses;  ///< of the task's parts
   int redirections =
       0;  ///< in phase 2: drawn back > 3 mm, advanced > 3 mm again, > 3 degrees apart
-  std::vector<metrics::MetricValue> metrics = {};   ///< by the names of metric_table
+  std::vector<metrics::MetricValue> metrics = {};  ///< by the names of metric_table
 };
 
 }  // namespace palpa::assess

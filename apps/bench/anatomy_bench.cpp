@@ -61,11 +61,13 @@ std::function<void(int)> asking(PointLocator& locator, const Points& points) {
   };
 }
 
-void printRatio(PointLocator& ours, PointLocator& other, const Where& where, const nlohmann::json& at, bool quick) {
+void printRatio(PointLocator& ours, PointLocator& other, const Where& where,
+                const nlohmann::json& at, bool quick) {
   nlohmann::json params = at;
   params["other"] = other.name();
   const int count = std::min<int>(static_cast<int>(where.points.size()), quick ? 200 : 1000);
-  const Ratio ratio = compareQueries(quick ? 3 : 11, count, asking(ours, where.points), asking(other, where.points));
+  const Ratio ratio = compareQueries(quick ? 3 : 11, count, asking(ours, where.points),
+                                     asking(other, where.points));
   print("closest_point_ratio", ratio.median, "1", params);
   print("closest_point_ratio_low", ratio.interval.low, "1", params);
   print("closest_point_ratio_high", ratio.interval.high, "1", params);
@@ -81,20 +83,24 @@ void benchClosest(bool quick) {
   std::vector<std::unique_ptr<PointLocator>> others;
   others.push_back(vtkLocator(mesh));
   if (embreeIsThere()) others.push_back(embreeLocator(mesh));
-  const std::array<Where, 3> places{{{"along a way, within 5 mm", alongAWay(count)},
-                                     {"anywhere, within 20 mm", anywhere(count, -0.02, 0.02, "near")},
-                                     {"anywhere, 100 to 300 mm away", anywhere(count, 0.1, 0.3, "far")}}};
+  const std::array<Where, 3> places{
+      {{"along a way, within 5 mm", alongAWay(count)},
+       {"anywhere, within 20 mm", anywhere(count, -0.02, 0.02, "near")},
+       {"anywhere, 100 to 300 mm away", anywhere(count, 0.1, 0.3, "far")}}};
   for (const Where& where : places) {
-    nlohmann::json params{{"triangles", mesh.triangles.size()}, {"queries", where.name}, {"noise", "none"}};
+    nlohmann::json params{
+        {"triangles", mesh.triangles.size()}, {"queries", where.name}, {"noise", "none"}};
     const QueryTiming hot = timeQueries(count, asking(*ours, where.points));
     print("closest_point_median", hot.median_us, "us", params);
     print("closest_point_p99", hot.p99_us, "us", params);
-    print("closest_point_cold_median", timeCold(quick ? 20 : 200, asking(*ours, where.points)).median_us, "us", params);
+    print("closest_point_cold_median",
+          timeCold(quick ? 20 : 200, asking(*ours, where.points)).median_us, "us", params);
     for (const auto& other : others) printRatio(*ours, *other, where, params, quick);
   }
 }
 
-/// Needles near the taught line: entry within 10 mm, direction within 15 degrees, tip up to 60 mm deep.
+/// Needles near the taught line: entry within 10 mm, direction within 15 degrees, tip up to 60 mm
+/// deep.
 struct NeedlePlace {
   Vec3 back, tip;
 };
@@ -105,7 +111,8 @@ std::vector<NeedlePlace> needles(const anatomy::Patient& patient, int count) {
   std::vector<NeedlePlace> places;
   for (int i = 0; i < count; ++i) {
     const auto about = [&](double spread) {
-      return Vec3(random.uniform(-spread, spread), random.uniform(-spread, spread), random.uniform(-spread, spread));
+      return Vec3(random.uniform(-spread, spread), random.uniform(-spread, spread),
+                  random.uniform(-spread, spread));
     };
     const Vec3 direction = (way + about(0.15)).normalized(), from = entry + about(0.006);
     const double depth = random.uniform(0, 0.06);
@@ -120,7 +127,8 @@ void benchNeedle(const anatomy::Patient& patient, bool quick) {
   for (const auto& organ : patient.organs) triangles += organ.mesh.triangles.size();
   const int count = quick ? 500 : 8000;
   const std::vector<NeedlePlace> places = needles(patient, count);
-  const nlohmann::json params{{"triangles", triangles}, {"organs", patient.organs.size()}, {"noise", "none"}};
+  const nlohmann::json params{
+      {"triangles", triangles}, {"organs", patient.organs.size()}, {"noise", "none"}};
   anatomy::NeedlePasses passes;
   const auto needle = [&](int i) { query.needle(places[i].back, places[i].tip, &passes); };
   std::vector<anatomy::NearMiss> misses(patient.organs.size());
@@ -135,7 +143,8 @@ void benchNeedle(const anatomy::Patient& patient, bool quick) {
   print("near_miss_all_organs_cold_median", timeCold(cold, near).median_us, "us", params);
 }
 
-/// A contact that moves over the skin, deeper and shallower, and leans: every update is another load.
+/// A contact that moves over the skin, deeper and shallower, and leans: every update is another
+/// load.
 void benchSkin(const anatomy::Patient& patient, bool quick) {
   anatomy::SkinDeflection::Settings settings;
   settings.per_ring = 84;
@@ -144,7 +153,9 @@ void benchSkin(const anatomy::Patient& patient, bool quick) {
   anatomy::SkinDeflection skin(settings);
   const double factorised_us = 1e-3 * static_cast<double>(clock.now() - start);
   const int count = quick ? 160 : 1600;
-  const auto update = [&](int i) { skin.update(0.003 * std::sin(0.1 * i), {0.9 * std::cos(0.07 * i), 0.3}); };
+  const auto update = [&](int i) {
+    skin.update(0.003 * std::sin(0.1 * i), {0.9 * std::cos(0.07 * i), 0.3});
+  };
   const nlohmann::json params{{"nodes", skin.disc().nodes.size()}, {"noise", "none"}};
   const QueryTiming timing = timeQueries(count, update);
   print("skin_deflection_set_up", factorised_us, "us", params);
@@ -161,7 +172,10 @@ void benchSkin(const anatomy::Patient& patient, bool quick) {
   };
   const QueryTiming whole = timeQueries(count, press);
   print("skin_deflection_frame", whole.median_us, "us",
-        {{"nodes", skin.disc().nodes.size()}, {"vertices", mesh.points.size()}, {"vertices_moved", moved}, {"noise", "none"}});
+        {{"nodes", skin.disc().nodes.size()},
+         {"vertices", mesh.points.size()},
+         {"vertices_moved", moved},
+         {"noise", "none"}});
 }
 
 }  // namespace
@@ -169,7 +183,8 @@ void benchSkin(const anatomy::Patient& patient, bool quick) {
 void benchAnatomy(const AnatomyBenchOptions& options) {
   benchClosest(options.quick);
   const anatomy::Patient patient = anatomy::buildPatient(anatomy::drawParameters(
-      anatomy::readPopulation(station::assetFile("patients/reference.json").string()), anatomy::Side::right, 0));
+      anatomy::readPopulation(station::assetFile("patients/reference.json").string()),
+      anatomy::Side::right, 0));
   benchNeedle(patient, options.quick);
   benchSkin(patient, options.quick);
 }

@@ -39,8 +39,8 @@ TorsoPoint nearestOnTorso(const Vec3& p) {
     const double gap = s.z - p.z();
     const Eigen::Vector2d g(u.x() - p.x() + gap * s.zx, u.y() - p.y() + gap * s.zy);
     Eigen::Matrix2d H;
-    H << 1 + s.zx * s.zx + gap * s.zxx, s.zx * s.zy + gap * s.zxy,
-        s.zx * s.zy + gap * s.zxy, 1 + s.zy * s.zy + gap * s.zyy;
+    H << 1 + s.zx * s.zx + gap * s.zxx, s.zx * s.zy + gap * s.zxy, s.zx * s.zy + gap * s.zxy,
+        1 + s.zy * s.zy + gap * s.zyy;
     const Eigen::Vector2d step = H.inverse() * g;
     u -= step;
     if (step.norm() < 1e-12) break;
@@ -49,12 +49,14 @@ TorsoPoint nearestOnTorso(const Vec3& p) {
 }
 
 anatomy::Patient torsoPatient(int triangles) {
-  const int columns = std::max(2, int(std::lround(std::sqrt(triangles / 2.0 * kHalfWide / kHalfLong))));
+  const int columns =
+      std::max(2, int(std::lround(std::sqrt(triangles / 2.0 * kHalfWide / kHalfLong))));
   const int rows = std::max(2, int(std::lround(triangles / 2.0 / columns)));
   anatomy::TriangleMesh mesh;
   for (int j = 0; j <= rows; ++j)
     for (int i = 0; i <= columns; ++i) {
-      const TorsoPoint q = torsoAt(kHalfWide * (2.0 * i / columns - 1), kHalfLong * (2.0 * j / rows - 1));
+      const TorsoPoint q =
+          torsoAt(kHalfWide * (2.0 * i / columns - 1), kHalfLong * (2.0 * j / rows - 1));
       mesh.points.push_back(q.p);
       mesh.normals.push_back(q.n);
     }

@@ -10,21 +10,24 @@ namespace {
 
 using twin::LedTip;
 
-constexpr double kDeep = 7e-3, kReach = 0.02;   // m
-constexpr double kLeastFelt = 0.1;              // N, of the modulation
-constexpr double kLeastJudged = 0.2;            // N: lighter touches come and go with the sensor's noise
+constexpr double kDeep = 7e-3, kReach = 0.02;  // m
+constexpr double kLeastFelt = 0.1;             // N, of the modulation
+constexpr double kLeastJudged = 0.2;  // N: lighter touches come and go with the sensor's noise
 const haptics::Dahl kOtherSurface{0.7, 900, 1.0};
-constexpr std::uint64_t kSeen = 1, kFresh = 101;   // seeds
+constexpr std::uint64_t kSeen = 1, kFresh = 101;  // seeds
 
 std::vector<calibration::PressSample> pressSamples(const std::vector<PhantomTick>& ticks) {
   std::vector<calibration::PressSample> samples;
-  for (const PhantomTick& tick : ticks) samples.push_back({-tick.tip.z(), -tick.dp.z() / kPhantomTick, tick.f_r.z()});
+  for (const PhantomTick& tick : ticks)
+    samples.push_back({-tick.tip.z(), -tick.dp.z() / kPhantomTick, tick.f_r.z()});
   return samples;
 }
 
 std::vector<calibration::SlideSample> slideSamples(const std::vector<PhantomTick>& ticks) {
   std::vector<calibration::SlideSample> samples;
-  for (const PhantomTick& tick : ticks) samples.push_back({tick.tip, Vec3::UnitZ(), tick.f_r.z(), -Vec3(tick.f_r.x(), tick.f_r.y(), 0)});
+  for (const PhantomTick& tick : ticks)
+    samples.push_back(
+        {tick.tip, Vec3::UnitZ(), tick.f_r.z(), -Vec3(tick.f_r.x(), tick.f_r.y(), 0)});
   return samples;
 }
 
@@ -42,18 +45,25 @@ Vec3 frictionOf(const twin::PhantomTouch& truth) { return truth.f - truth.f_n * 
 
 bool judged(const PhantomTick& tick) { return tick.truth.contact && tick.truth.f_n > kLeastJudged; }
 
-Vec3 trueStep(const std::vector<PhantomTick>& ticks, std::size_t i) { return i > 0 ? Vec3(ticks[i].true_tip - ticks[i - 1].true_tip) : Vec3(Vec3::Zero()); }
+Vec3 trueStep(const std::vector<PhantomTick>& ticks, std::size_t i) {
+  return i > 0 ? Vec3(ticks[i].true_tip - ticks[i - 1].true_tip) : Vec3(Vec3::Zero());
+}
 
 }  // namespace
 
 double RelativeRms::value() const { return of2_ > 0 ? std::sqrt(off2_ / of2_) : 0; }
 
 KnownPhantom identifyPhantom(const twin::PhantomTwin& phantom, Noise noise) {
-  std::vector<calibration::PressSample> presses = pressSamples(recordTouch(phantom, twin::pressing(Vec3::Zero(), kDeep, kSeen), noise, kSeen));
-  const std::vector<calibration::PressSample> taps = pressSamples(recordTouch(phantom, twin::tapping(Vec3::Zero(), kDeep, kSeen + 1), noise, kSeen + 1));
+  std::vector<calibration::PressSample> presses =
+      pressSamples(recordTouch(phantom, twin::pressing(Vec3::Zero(), kDeep, kSeen), noise, kSeen));
+  const std::vector<calibration::PressSample> taps = pressSamples(
+      recordTouch(phantom, twin::tapping(Vec3::Zero(), kDeep, kSeen + 1), noise, kSeen + 1));
   presses.insert(presses.end(), taps.begin(), taps.end());
-  const std::vector<PhantomTick> strokes = recordTouch(phantom, twin::stroking(Vec3::Zero(), kDeep, kReach, Vec3::UnitX(), kSeen + 2), noise, kSeen + 2);
-  return {calibration::identifySoftContact(presses), calibration::identifySurfaceFriction(slideSamples(strokes), kPhantomTick)};
+  const std::vector<PhantomTick> strokes =
+      recordTouch(phantom, twin::stroking(Vec3::Zero(), kDeep, kReach, Vec3::UnitX(), kSeen + 2),
+                  noise, kSeen + 2);
+  return {calibration::identifySoftContact(presses),
+          calibration::identifySurfaceFriction(slideSamples(strokes), kPhantomTick)};
 }
 
 haptics::StiffnessModulation feelingOf(const KnownPhantom& known, double least_contact) {
@@ -62,9 +72,13 @@ haptics::StiffnessModulation feelingOf(const KnownPhantom& known, double least_c
 
 std::vector<TouchRun> freshTouches(const twin::PhantomTwin& phantom, Noise noise) {
   const Vec3 way = Vec3(1, 0.4, 0).normalized();
-  return {{"pressing", recordTouch(phantom, twin::pressing(Vec3::Zero(), kDeep, kFresh), noise, kFresh)},
-          {"tapping", recordTouch(phantom, twin::tapping(Vec3::Zero(), kDeep, kFresh + 1), noise, kFresh + 1)},
-          {"stroking", recordTouch(phantom, twin::stroking(Vec3::Zero(), kDeep, kReach, way, kFresh + 2), noise, kFresh + 2)}};
+  return {{"pressing",
+           recordTouch(phantom, twin::pressing(Vec3::Zero(), kDeep, kFresh), noise, kFresh)},
+          {"tapping",
+           recordTouch(phantom, twin::tapping(Vec3::Zero(), kDeep, kFresh + 1), noise, kFresh + 1)},
+          {"stroking",
+           recordTouch(phantom, twin::stroking(Vec3::Zero(), kDeep, kReach, way, kFresh + 2), noise,
+                       kFresh + 2)}};
 }
 
 double contactForceError(const KnownPhantom& known, const std::vector<TouchRun>& runs) {
@@ -74,7 +88,10 @@ double contactForceError(const KnownPhantom& known, const std::vector<TouchRun>&
       const twin::PhantomTouch& truth = run.ticks[i].truth;
       if (!truth.contact) continue;
       const double rate = -trueStep(run.ticks, i).z() / kPhantomTick;
-      error.add((haptics::forceOf(known.contact.law, truth.x - known.contact.x0, rate) - truth.f_n) * truth.n, truth.f_n * truth.n);
+      error.add(
+          (haptics::forceOf(known.contact.law, truth.x - known.contact.x0, rate) - truth.f_n) *
+              truth.n,
+          truth.f_n * truth.n);
     }
   }
   return error.value();
@@ -86,7 +103,9 @@ double frictionForceError(const KnownPhantom& known, const std::vector<TouchRun>
     haptics::DahlState state;
     for (std::size_t i = 1; i < run.ticks.size(); ++i) {
       const twin::PhantomTouch& truth = run.ticks[i].truth;
-      const Vec3 drag = haptics::dragOf(known.friction.law, trueStep(run.ticks, i), truth.n, truth.contact ? truth.f_n : 0, kPhantomTick, &state), f_t = frictionOf(truth);
+      const Vec3 drag = haptics::dragOf(known.friction.law, trueStep(run.ticks, i), truth.n,
+                                        truth.contact ? truth.f_n : 0, kPhantomTick, &state),
+                 f_t = frictionOf(truth);
       if (truth.contact) error.add(drag + f_t, f_t);
     }
   }
@@ -96,14 +115,16 @@ double frictionForceError(const KnownPhantom& known, const std::vector<TouchRun>
 double lawError() {
   const haptics::HuntCrossley truth{900, 600, 1.35};
   std::vector<calibration::PressSample> samples;
-  for (const LedTip& tip : {twin::pressing(Vec3::Zero(), kDeep, kSeen), twin::tapping(Vec3::Zero(), kDeep, kSeen + 1)}) {
+  for (const LedTip& tip : {twin::pressing(Vec3::Zero(), kDeep, kSeen),
+                            twin::tapping(Vec3::Zero(), kDeep, kSeen + 1)}) {
     for (double t = kPhantomTick; t < tip.duration(); t += kPhantomTick) {
       const double x = -tip.at(t).z(), rate = (x + tip.at(t - kPhantomTick).z()) / kPhantomTick;
       samples.push_back({x, rate, haptics::forceOf(truth, x, rate)});
     }
   }
   const haptics::HuntCrossley found = calibration::identifySoftContact(samples).law;
-  return std::max({std::abs(found.k / truth.k - 1), std::abs(found.b / truth.b - 1), std::abs(found.m / truth.m - 1)});
+  return std::max({std::abs(found.k / truth.k - 1), std::abs(found.b / truth.b - 1),
+                   std::abs(found.m / truth.m - 1)});
 }
 
 StiffnessFigures stiffnessFigures(const KnownPhantom& known, const TouchRun& run, double factor) {
@@ -113,10 +134,12 @@ StiffnessFigures stiffnessFigures(const KnownPhantom& known, const TouchRun& run
   for (const PhantomTick& tick : run.ticks) {
     const double true_stiffness = tick.truth.x > 0 ? tick.truth.f_n / tick.truth.x : 0;
     haptics::StiffnessModulation law = feelingOf(known, kLeastFelt);
-    law.target.constant = factor * true_stiffness;   // a field over the surface and the depth
-    const haptics::Modulated now = haptics::modulateStiffness(law, tick.f_r, tick.dp, kPhantomTick, &state);
+    law.target.constant = factor * true_stiffness;  // a field over the surface and the depth
+    const haptics::Modulated now =
+        haptics::modulateStiffness(law, tick.f_r, tick.dp, kPhantomTick, &state);
     if (!judged(tick)) continue;
-    const Vec3 wanted = -(factor * tick.truth.f_n * tick.truth.n + frictionOf(tick.truth)), hand = -(tick.truth.f + now.f_d);
+    const Vec3 wanted = -(factor * tick.truth.f_n * tick.truth.n + frictionOf(tick.truth)),
+               hand = -(tick.truth.f + now.f_d);
     error.add(hand - wanted, wanted);
     figures.largest_N = std::max(figures.largest_N, now.f_d.norm());
     figures.largest_share = std::max(figures.largest_share, now.f_d.norm() / tick.truth.f.norm());
@@ -125,15 +148,18 @@ StiffnessFigures stiffnessFigures(const KnownPhantom& known, const TouchRun& run
   return figures;
 }
 
-double frictionModulationError(const KnownPhantom& known, const twin::PhantomTable& phantom, const std::vector<TouchRun>& runs) {
+double frictionModulationError(const KnownPhantom& known, const twin::PhantomTable& phantom,
+                               const std::vector<TouchRun>& runs) {
   const haptics::FrictionModulation law{feelingOf(known, kLeastFelt), kOtherSurface};
   RelativeRms error;
   for (const TouchRun& run : runs) {
     haptics::FrictionModulationState state;
     twin::PhantomTwin other(phantom, otherSilicone());
     for (const PhantomTick& tick : run.ticks) {
-      const haptics::Modulated now = haptics::modulateFriction(law, tick.f_r, tick.dp, kPhantomTick, &state);
-      const Vec3 wanted = frictionOf(other.step(tick.true_tip, kPhantomTick)), f = tick.truth.f + now.f_d, felt = f - f.dot(tick.truth.n) * tick.truth.n;
+      const haptics::Modulated now =
+          haptics::modulateFriction(law, tick.f_r, tick.dp, kPhantomTick, &state);
+      const Vec3 wanted = frictionOf(other.step(tick.true_tip, kPhantomTick)),
+                 f = tick.truth.f + now.f_d, felt = f - f.dot(tick.truth.n) * tick.truth.n;
       if (judged(tick)) error.add(felt - wanted, wanted);
     }
   }

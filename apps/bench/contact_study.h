@@ -9,7 +9,8 @@
 
 namespace palpa::bench {
 
-/// What is known of a phantom after its identification: from presses and taps on one place, and strokes.
+/// What is known of a phantom after its identification: from presses and taps on one place, and
+/// strokes.
 struct KnownPhantom {
   calibration::SoftContact contact;
   calibration::SurfaceFriction friction;
@@ -21,7 +22,7 @@ haptics::StiffnessModulation feelingOf(const KnownPhantom& known, double least_c
 
 /// Fresh motions over the phantom, none of them seen by the identification.
 struct TouchRun {
-  const char* motion;             ///< pressing, tapping, stroking
+  const char* motion;  ///< pressing, tapping, stroking
   std::vector<PhantomTick> ticks;
 };
 std::vector<TouchRun> freshTouches(const twin::PhantomTwin& phantom, Noise noise);
@@ -46,15 +47,18 @@ double frictionForceError(const KnownPhantom& known, const std::vector<TouchRun>
 /// Largest error of k, b, m, relative, on data of the very law, without noise.
 double lawError();
 
-/// The hand's force against s times the true stiffness, f_true(x)/x, with true normal, depth and friction.
+/// The hand's force against s times the true stiffness, f_true(x)/x, with true normal, depth and
+/// friction.
 struct StiffnessFigures {
-  double error = 0;               ///< rms over rms
-  double largest_N = 0;           ///< of the device's force, and of what it may be: 2 % of the reaction
+  double error = 0;      ///< rms over rms
+  double largest_N = 0;  ///< of the device's force, and of what it may be: 2 % of the reaction
   double largest_share = 0;
 };
 StiffnessFigures stiffnessFigures(const KnownPhantom& known, const TouchRun& run, double factor);
 
-/// The hand's force where another surface's friction is to be felt, against a simulated phantom that has it.
-double frictionModulationError(const KnownPhantom& known, const twin::PhantomTable& phantom, const std::vector<TouchRun>& runs);
+/// The hand's force where another surface's friction is to be felt, against a simulated phantom
+/// that has it.
+double frictionModulationError(const KnownPhantom& known, const twin::PhantomTable& phantom,
+                               const std::vector<TouchRun>& runs);
 
 }  // namespace palpa::bench

@@ -29,9 +29,13 @@ MatrixX cramerRaoBound(const Measurement& m) {
   MatrixX information = MatrixX::Zero(m.parameters, m.parameters);
   const VectorX no_dx = VectorX::Zero(m.parameters), no_e = VectorX::Zero(m.noise_sd.size());
   for (int i = 0; i < m.blocks; ++i) {
-    const MatrixX J = derivative([&](const VectorX& dx) { return m.constraint(i, dx, no_e); }, m.parameters, kStep);
-    const MatrixX N = derivative([&](const VectorX& e) { return m.constraint(i, no_dx, e); }, m.noise_sd.size(), kStep) * m.noise_sd.asDiagonal();
-    information += J.transpose() * MatrixX(N * N.transpose()).completeOrthogonalDecomposition().pseudoInverse() * J;
+    const MatrixX J = derivative([&](const VectorX& dx) { return m.constraint(i, dx, no_e); },
+                                 m.parameters, kStep);
+    const MatrixX N = derivative([&](const VectorX& e) { return m.constraint(i, no_dx, e); },
+                                 m.noise_sd.size(), kStep) *
+                      m.noise_sd.asDiagonal();
+    information += J.transpose() *
+                   MatrixX(N * N.transpose()).completeOrthogonalDecomposition().pseudoInverse() * J;
   }
   return information.inverse();
 }

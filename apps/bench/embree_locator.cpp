@@ -16,12 +16,14 @@ class EmbreeLocator final : public PointLocator {
   explicit EmbreeLocator(const anatomy::TriangleMesh& mesh)
       : mesh_(mesh), device_(rtcNewDevice("threads=1")), scene_(rtcNewScene(device_)) {
     RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
-                                                               3 * sizeof(float), mesh.points.size()));
+    auto* points = static_cast<float*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0,
+                                                               RTC_FORMAT_FLOAT3, 3 * sizeof(float),
+                                                               mesh.points.size()));
     for (const Vec3& p : mesh.points)
       for (int axis = 0; axis < 3; ++axis) *points++ = static_cast<float>(p[axis]);
-    auto* corners = static_cast<unsigned*>(rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
-                                                                   3 * sizeof(unsigned), mesh.triangles.size()));
+    auto* corners = static_cast<unsigned*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3,
+                                3 * sizeof(unsigned), mesh.triangles.size()));
     for (const auto& t : mesh.triangles)
       for (const std::uint32_t corner : t) *corners++ = corner;
     rtcSetGeometryBuildQuality(geometry, RTC_BUILD_QUALITY_HIGH);
@@ -38,8 +40,8 @@ class EmbreeLocator final : public PointLocator {
   std::string name() const override { return "Embree point query"; }
   Vec3 closest(const Vec3& p) override {
     Best best{mesh_, p, std::numeric_limits<double>::infinity(), Vec3::Zero()};
-    RTCPointQuery query{static_cast<float>(p.x()), static_cast<float>(p.y()), static_cast<float>(p.z()), 0,
-                        std::numeric_limits<float>::infinity()};
+    RTCPointQuery query{static_cast<float>(p.x()), static_cast<float>(p.y()),
+                        static_cast<float>(p.z()), 0, std::numeric_limits<float>::infinity()};
     RTCPointQueryContext context;
     rtcInitPointQueryContext(&context);
     rtcPointQuery(scene_, &query, &context, &EmbreeLocator::look, &best);
@@ -56,7 +58,8 @@ class EmbreeLocator final : public PointLocator {
   static bool look(RTCPointQueryFunctionArguments* arguments) {
     auto& best = *static_cast<Best*>(arguments->userPtr);
     const auto& t = best.mesh.triangles[arguments->primID];
-    const Vec3 &a = best.mesh.points[t[0]], &b = best.mesh.points[t[1]], &c = best.mesh.points[t[2]];
+    const Vec3 &a = best.mesh.points[t[0]], &b = best.mesh.points[t[1]],
+               &c = best.mesh.points[t[2]];
     const Vec3 w = anatomy::closestWeights(best.p, a, b, c), q = w[0] * a + w[1] * b + w[2] * c;
     const double squared = (q - best.p).squaredNorm();
     if (squared >= best.squared) return false;
@@ -74,7 +77,9 @@ class EmbreeLocator final : public PointLocator {
 }  // namespace
 
 bool embreeIsThere() { return true; }
-std::unique_ptr<PointLocator> embreeLocator(const anatomy::TriangleMesh& mesh) { return std::make_unique<EmbreeLocator>(mesh); }
+std::unique_ptr<PointLocator> embreeLocator(const anatomy::TriangleMesh& mesh) {
+  return std::make_unique<EmbreeLocator>(mesh);
+}
 
 }  // namespace palpa::bench
 

@@ -8,11 +8,12 @@
 
 namespace palpa::bench {
 
-/// One synthetic data set, drawn, estimated, compared with the truth that the estimator does not see.
+/// One synthetic data set, drawn, estimated, compared with the truth that the estimator does not
+/// see.
 struct EstimateCheck {
-  VectorX error;    ///< estimate less truth, parameter by parameter
-  VectorX half95;   ///< half of the stated 95 % intervals
-  VectorX bound;    ///< standard deviations of the Cramer-Rao bound without outliers
+  VectorX error;   ///< estimate less truth, parameter by parameter
+  VectorX half95;  ///< half of the stated 95 % intervals
+  VectorX bound;   ///< standard deviations of the Cramer-Rao bound without outliers
 };
 
 /// `outliers`: share of the measurements that are gross errors.

@@ -30,8 +30,10 @@ EstimateCheck pivot(std::uint64_t seed, double outliers) {
   const Vec3 tip = Vec3(0.005, -0.003, 0.12), pivot_D = 0.1 * inBall(random);
   std::vector<Pose> truth, seen;
   for (int i = 0; i < kSamples; ++i) {
-    const double azimuth = random.uniform(0, 2 * std::numbers::pi), tilt = 35 * kDegree * std::sqrt(random.uniform()), spin = random.uniform(-1, 1);
-    const Mat3 R = rotationOf(tilt * Vec3(std::cos(azimuth), std::sin(azimuth), 0)) * rotationOf(spin * Vec3::UnitZ());
+    const double azimuth = random.uniform(0, 2 * std::numbers::pi),
+                 tilt = 35 * kDegree * std::sqrt(random.uniform()), spin = random.uniform(-1, 1);
+    const Mat3 R = rotationOf(tilt * Vec3(std::cos(azimuth), std::sin(azimuth), 0)) *
+                   rotationOf(spin * Vec3::UnitZ());
     truth.push_back(makePose(R, pivot_D - R * tip));
     VectorX e(6);
     e << kTurn * normal3(random), kShift * normal3(random);
@@ -40,10 +42,13 @@ EstimateCheck pivot(std::uint64_t seed, double outliers) {
   }
   VectorX sd(6);
   sd << Vec3::Constant(kTurn), Vec3::Constant(kShift);
-  const MatrixX bound = cramerRaoBound({kSamples, 6, [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
-    const Pose X = noisy(truth[static_cast<std::size_t>(i)], e);
-    return X * Vec3(tip + dx.head<3>()) - (pivot_D + dx.tail<3>());
-  }, sd});
+  const MatrixX bound =
+      cramerRaoBound({kSamples, 6,
+                      [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
+                        const Pose X = noisy(truth[static_cast<std::size_t>(i)], e);
+                        return X * Vec3(tip + dx.head<3>()) - (pivot_D + dx.tail<3>());
+                      },
+                      sd});
   const TipCalibration found = calibrateTip(seen);
   return {found.tip_E - tip, found.half95, sds(bound).head<3>()};
 }
@@ -57,19 +62,26 @@ EstimateCheck spin(std::uint64_t seed, double outliers) {
   const Mat3 upright = rotationWithZ(toward) * rotationWithZ(axis).transpose();
   std::vector<Pose> truth, seen;
   for (int i = 0; i < kSamples; ++i) {
-    truth.push_back(makePose(upright * rotationOf(random.uniform(0, 270 * kDegree) * axis), Vec3::Zero()));
+    truth.push_back(
+        makePose(upright * rotationOf(random.uniform(0, 270 * kDegree) * axis), Vec3::Zero()));
     Mat3 R = truth.back().linear() * rotationOf(kTurn * normal3(random));
     if (gross[static_cast<std::size_t>(i)]) R = R * rotationOf(0.3 * inBall(random));
     seen.push_back(makePose(R, Vec3::Zero()));
   }
   const AxisCalibration found = calibrateAxis(seen, Vec3::UnitZ());
-  const auto &across = found.across_E;   // where the estimate stands; as good a frame as any
+  const auto& across = found.across_E;  // where the estimate stands; as good a frame as any
   const Eigen::Matrix<double, 3, 2> across_D = rotationWithZ(toward).leftCols<2>();
-  const MatrixX bound = cramerRaoBound({kSamples, 4, [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
-    const Vec3 a = (axis + across * dx.head<2>()).normalized(), d = (toward + across_D * dx.tail<2>()).normalized();
-    return across_D.transpose() * (truth[static_cast<std::size_t>(i)].linear() * rotationOf(e) * a - d);
-  }, VectorX::Constant(3, kTurn)});
-  return {across.transpose() * (found.axis_E - axis), halves(found.fit).head<2>(), sds(bound).head<2>()};
+  const MatrixX bound = cramerRaoBound(
+      {kSamples, 4,
+       [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
+         const Vec3 a = (axis + across * dx.head<2>()).normalized(),
+                    d = (toward + across_D * dx.tail<2>()).normalized();
+         return across_D.transpose() *
+                (truth[static_cast<std::size_t>(i)].linear() * rotationOf(e) * a - d);
+       },
+       VectorX::Constant(3, kTurn)});
+  return {across.transpose() * (found.axis_E - axis), halves(found.fit).head<2>(),
+          sds(bound).head<2>()};
 }
 
 EstimateCheck landmarks(std::uint64_t seed, double outliers) {
@@ -85,12 +97,17 @@ EstimateCheck landmarks(std::uint64_t seed, double outliers) {
     if (gross[static_cast<std::size_t>(i)]) q += 0.03 * direction(random);
     touched.push_back({p, q, kTouch});
   }
-  const MatrixX bound = cramerRaoBound({kLandmarks, 6, [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
-    return moved(X_BA, dx) * touched[static_cast<std::size_t>(i)].p_A - (X_BA * touched[static_cast<std::size_t>(i)].p_A + e);
-  }, VectorX::Constant(3, kTouch)});
+  const MatrixX bound =
+      cramerRaoBound({kLandmarks, 6,
+                      [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
+                        return moved(X_BA, dx) * touched[static_cast<std::size_t>(i)].p_A -
+                               (X_BA * touched[static_cast<std::size_t>(i)].p_A + e);
+                      },
+                      VectorX::Constant(3, kTouch)});
   const LandmarkRegistration found = registerLandmarks(touched);
   VectorX error(6), half(6);
-  error << rotationVector(X_BA.linear().transpose() * found.X_BA.linear()), found.X_BA.translation() - X_BA.translation();
+  error << rotationVector(X_BA.linear().transpose() * found.X_BA.linear()),
+      found.X_BA.translation() - X_BA.translation();
   Fit at_origin = found.fit;
   at_origin.covariance = found.covariance;
   return {error, halves(at_origin), sds(bound)};
@@ -102,30 +119,44 @@ EstimateCheck handEye(std::uint64_t seed, double outliers) {
   const std::vector<bool> gross = grossErrors(random, kSamples, outliers);
   const Pose X_EM = makePose(anyRotation(random), 0.08 * inBall(random));
   const Pose X_DC = makePose(anyRotation(random), Vec3(0.2, -0.1, 0.5) + 0.1 * inBall(random));
-  VectorX sd(12);   // of the device, then of the tag as a camera sees it at 0.6 m
-  sd << Vec3::Constant(0.02 * kDegree), Vec3::Constant(5e-5), Vec3::Constant(0.2 * kDegree), 2e-4, 2e-4, 8e-4;
+  VectorX sd(12);  // of the device, then of the tag as a camera sees it at 0.6 m
+  sd << Vec3::Constant(0.02 * kDegree), Vec3::Constant(5e-5), Vec3::Constant(0.2 * kDegree), 2e-4,
+      2e-4, 8e-4;
   std::vector<HandEyeSample> truth, seen;
   for (int i = 0; i < kSamples; ++i) {
     // The tag where the camera sees it, turned by up to 40 degrees.
-    const Pose X_CM = makePose(rotationOf(Vec3(std::numbers::pi, 0, 0)) * rotationOf(40 * kDegree * inBall(random)), Vec3(0, 0, 0.6) + 0.12 * inBall(random));
+    const Pose X_CM = makePose(
+        rotationOf(Vec3(std::numbers::pi, 0, 0)) * rotationOf(40 * kDegree * inBall(random)),
+        Vec3(0, 0, 0.6) + 0.12 * inBall(random));
     const Pose X_DE = X_DC * X_CM * X_EM.inverse();
     truth.push_back({X_DE, X_CM});
     VectorX e(12);
     for (Eigen::Index k = 0; k < 12; ++k) e[k] = sd[k] * random.normal();
     seen.push_back({noisy(X_DE, e.head<6>()), noisy(X_CM, e.tail<6>())});
-    if (gross[static_cast<std::size_t>(i)]) seen.back().X_CM = makePose(seen.back().X_CM.linear() * rotationOf(0.5 * direction(random)), seen.back().X_CM.translation() + 0.05 * direction(random));
+    if (gross[static_cast<std::size_t>(i)])
+      seen.back().X_CM = makePose(seen.back().X_CM.linear() * rotationOf(0.5 * direction(random)),
+                                  seen.back().X_CM.translation() + 0.05 * direction(random));
   }
-  const MatrixX bound = cramerRaoBound({kSamples, 12, [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
-    const HandEyeSample& s = truth[static_cast<std::size_t>(i)];
-    const Pose X_CM = noisy(s.X_CM, e.tail<6>()), predicted = moved(X_DC, dx.tail<6>()).inverse() * noisy(s.X_DE, e.head<6>()) * moved(X_EM, dx.head<6>());
-    VectorX r(6);
-    r << rotationVector(X_CM.linear().transpose() * predicted.linear()), predicted.translation() - X_CM.translation();
-    return r;
-  }, sd});
+  const MatrixX bound =
+      cramerRaoBound({kSamples, 12,
+                      [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
+                        const HandEyeSample& s = truth[static_cast<std::size_t>(i)];
+                        const Pose X_CM = noisy(s.X_CM, e.tail<6>()),
+                                   predicted = moved(X_DC, dx.tail<6>()).inverse() *
+                                               noisy(s.X_DE, e.head<6>()) *
+                                               moved(X_EM, dx.head<6>());
+                        VectorX r(6);
+                        r << rotationVector(X_CM.linear().transpose() * predicted.linear()),
+                            predicted.translation() - X_CM.translation();
+                        return r;
+                      },
+                      sd});
   const HandEye found = calibrateHandEye(seen);
   VectorX error(12);
-  error << rotationVector(X_EM.linear().transpose() * found.X_EM.linear()), found.X_EM.translation() - X_EM.translation(),
-      rotationVector(X_DC.linear().transpose() * found.X_DC.linear()), found.X_DC.translation() - X_DC.translation();
+  error << rotationVector(X_EM.linear().transpose() * found.X_EM.linear()),
+      found.X_EM.translation() - X_EM.translation(),
+      rotationVector(X_DC.linear().transpose() * found.X_DC.linear()),
+      found.X_DC.translation() - X_DC.translation();
   return {error, halves(found.fit), sds(bound)};
 }
 
@@ -140,9 +171,12 @@ EstimateCheck clocks(std::uint64_t seed, double outliers) {
     pace(k / 4, k % 4) = 2 * std::numbers::pi * random.uniform(0.15, 1.3);
     phase(k / 4, k % 4) = random.uniform(0, 2 * std::numbers::pi);
   }
-  const auto path = [&](double t) -> Vec3 { return (size.array() * (pace.array() * t + phase.array()).sin()).rowwise().sum().matrix(); };
+  const auto path = [&](double t) -> Vec3 {
+    return (size.array() * (pace.array() * t + phase.array()).sin()).rowwise().sum().matrix();
+  };
   std::vector<TimedPoint> device, camera;
-  for (double t = -1; t < kSeconds + 1; t += 0.002) device.push_back({t, path(t) + kDevice * normal3(random)});
+  for (double t = -1; t < kSeconds + 1; t += 0.002)
+    device.push_back({t, path(t) + kDevice * normal3(random)});
   std::vector<double> times;
   for (double t = 0.5; t < kSeconds - 0.5; t += 1 / 30.0) times.push_back(t);
   const double middle = (times.front() + times.back()) / 2;
@@ -153,14 +187,20 @@ EstimateCheck clocks(std::uint64_t seed, double outliers) {
     if (gross[i]) p += 0.04 * inBall(random);
     camera.push_back({t, p});
   }
-  const MatrixX bound = cramerRaoBound({static_cast<int>(times.size()), 8, [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
-    const double t = times[static_cast<std::size_t>(i)], d = t - middle, at = t + offset + drift * d;
-    return moved(X_CD, dx.tail<6>()) * Vec3(path(at + dx[0] + dx[1] * d) + e.tail<3>()) - (X_CD * path(at) + e.head<3>());
-  }, (VectorX(6) << Vec3::Constant(kCamera), Vec3::Constant(kDevice)).finished()});
+  const MatrixX bound = cramerRaoBound(
+      {static_cast<int>(times.size()), 8,
+       [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
+         const double t = times[static_cast<std::size_t>(i)], d = t - middle,
+                      at = t + offset + drift * d;
+         return moved(X_CD, dx.tail<6>()) * Vec3(path(at + dx[0] + dx[1] * d) + e.tail<3>()) -
+                (X_CD * path(at) + e.head<3>());
+       },
+       (VectorX(6) << Vec3::Constant(kCamera), Vec3::Constant(kDevice)).finished()});
   const ClockOffset found = estimateClockOffset(camera, device);
   // The middle that was used may differ by the samples left out at the ends.
   const double true_there = offset + drift * (found.t_middle - middle);
-  return {Eigen::Vector2d(found.offset - true_there, found.drift - drift), halves(found.fit).head<2>(), sds(bound).head<2>()};
+  return {Eigen::Vector2d(found.offset - true_there, found.drift - drift),
+          halves(found.fit).head<2>(), sds(bound).head<2>()};
 }
 
 EstimateCheck forceSensor(std::uint64_t seed, double outliers) {
@@ -169,7 +209,8 @@ EstimateCheck forceSensor(std::uint64_t seed, double outliers) {
   Random random(seed, "study.force");
   const std::vector<bool> gross = grossErrors(random, kReadings, outliers);
   VectorX x(10);
-  x << 0.5 * inBall(random), 0.02 * inBall(random), random.uniform(0.1, 0.2), Vec3(0, 0, 0.05) + 0.02 * inBall(random);
+  x << 0.5 * inBall(random), 0.02 * inBall(random), random.uniform(0.1, 0.2),
+      Vec3(0, 0, 0.05) + 0.02 * inBall(random);
   const Vec3 down = -Vec3::UnitZ();
   const auto shown = [&](const Mat3& R, const VectorX& y) -> VectorX {
     const Vec3 w = y[6] * kGravity * R.transpose() * down;
@@ -184,13 +225,17 @@ EstimateCheck forceSensor(std::uint64_t seed, double outliers) {
     const VectorX both = shown(r.R_DS, x);
     r.f_S = both.head<3>() + kForce * normal3(random);
     r.m_S = both.tail<3>() + kTorque * normal3(random);
-    if (gross[static_cast<std::size_t>(i)]) r.f_S += 3 * direction(random), r.m_S += 0.1 * direction(random);
+    if (gross[static_cast<std::size_t>(i)])
+      r.f_S += 3 * direction(random), r.m_S += 0.1 * direction(random);
     readings.push_back(r);
   }
-  const MatrixX bound = cramerRaoBound({kReadings, 10, [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
-    const Mat3& R = readings[static_cast<std::size_t>(i)].R_DS;
-    return shown(R, x + dx) - shown(R, x) - e;
-  }, (VectorX(6) << Vec3::Constant(kForce), Vec3::Constant(kTorque)).finished()});
+  const MatrixX bound =
+      cramerRaoBound({kReadings, 10,
+                      [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
+                        const Mat3& R = readings[static_cast<std::size_t>(i)].R_DS;
+                        return shown(R, x + dx) - shown(R, x) - e;
+                      },
+                      (VectorX(6) << Vec3::Constant(kForce), Vec3::Constant(kTorque)).finished()});
   const ForceSensorCalibration found = calibrateForceSensor(readings, down);
   VectorX y(10);
   y << found.bias_f, found.bias_m, found.mass, found.centre_S;
@@ -206,7 +251,11 @@ EstimateCheck workspace(std::uint64_t seed, double outliers) {
   const Vec3 half(0.08, 0.06, 0.05);
   Eigen::Matrix<double, 10, 3> bend;
   for (int k = 0; k < 30; ++k) bend(k / 3, k % 3) = (k < 12 ? 5e-4 : 1e-3) * random.normal();
-  const auto monomials = [](const Vec3& q) { return (Eigen::Matrix<double, 10, 1>() << 1, q.x(), q.y(), q.z(), q.x() * q.x(), q.x() * q.y(), q.x() * q.z(), q.y() * q.y(), q.y() * q.z(), q.z() * q.z()).finished(); };
+  const auto monomials = [](const Vec3& q) {
+    return (Eigen::Matrix<double, 10, 1>() << 1, q.x(), q.y(), q.z(), q.x() * q.x(), q.x() * q.y(),
+            q.x() * q.z(), q.y() * q.y(), q.y() * q.z(), q.z() * q.z())
+        .finished();
+  };
   const auto onGrid = [&](const Vec3& p, const VectorX& dx) -> Vec3 {
     const auto m = monomials(p.cwiseQuotient(half));
     Vec3 g = X_GD * Vec3(p + bend.transpose() * m);
@@ -223,10 +272,12 @@ EstimateCheck workspace(std::uint64_t seed, double outliers) {
     if (gross[static_cast<std::size_t>(i)]) g += 0.02 * direction(random);
     points.push_back({g, p});
   }
-  const MatrixX bound = cramerRaoBound({100, 30, [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
-    const Vec3& p = at[static_cast<std::size_t>(i)];
-    return onGrid(p, dx) - onGrid(p, none) - e;
-  }, VectorX::Constant(3, kTouch)});
+  const MatrixX bound = cramerRaoBound({100, 30,
+                                        [&](int i, const VectorX& dx, const VectorX& e) -> VectorX {
+                                          const Vec3& p = at[static_cast<std::size_t>(i)];
+                                          return onGrid(p, dx) - onGrid(p, none) - e;
+                                        },
+                                        VectorX::Constant(3, kTouch)});
   const WorkspaceMap found = mapWorkspace(points, 2);
   VectorX error(27), h(27), least(27);
   for (int k = 0; k < 9; ++k) {
@@ -246,9 +297,10 @@ EstimateCheck workspace(std::uint64_t seed, double outliers) {
 }  // namespace
 
 std::vector<EstimatorStudy> estimatorStudies() {
-  return {{"tool tip (pivot)", pivot},       {"needle axis (spin)", spin},  {"landmark registration", landmarks}, {"hand-eye", handEye},
-          {"clock offset and drift", clocks}, {"force sensor", forceSensor}, {"workspace map", workspace},
-          {"camera", cameraStudy}};
+  return {{"tool tip (pivot)", pivot},          {"needle axis (spin)", spin},
+          {"landmark registration", landmarks}, {"hand-eye", handEye},
+          {"clock offset and drift", clocks},   {"force sensor", forceSensor},
+          {"workspace map", workspace},         {"camera", cameraStudy}};
 }
 
 }  // namespace palpa::bench

@@ -12,13 +12,16 @@ namespace {
 
 using runtime::RandomStream;
 
-int below(RandomStream& random, int n) { return static_cast<int>(random.bits() % static_cast<std::uint64_t>(n)); }
+int below(RandomStream& random, int n) {
+  return static_cast<int>(random.bits() % static_cast<std::uint64_t>(n));
+}
 
 cv::Mat noise(cv::Size size, RandomStream& random) {
   const int grain = 1 << below(random, 4);
   cv::Mat fine(size.height / grain, size.width / grain, CV_8U), picture;
   for (int row = 0; row < fine.rows; ++row)
-    for (int column = 0; column < fine.cols; ++column) fine.at<unsigned char>(row, column) = static_cast<unsigned char>(random.bits() >> 56);
+    for (int column = 0; column < fine.cols; ++column)
+      fine.at<unsigned char>(row, column) = static_cast<unsigned char>(random.bits() >> 56);
   cv::resize(fine, picture, size, 0, 0, below(random, 2) ? cv::INTER_NEAREST : cv::INTER_CUBIC);
   return picture;
 }
@@ -42,7 +45,9 @@ cv::Mat sheet(cv::Size size, RandomStream& random, const CellsOf& cells_of) {
   const int side = 30 + below(random, 90), pitch = side + side / 3;
   int i = 0;
   for (int y = 10; y + side < size.height; y += pitch)
-    for (int x = 10; x + side < size.width; x += pitch) cv::resize(cells_of(i++), page(cv::Rect(x, y, side, side)), {side, side}, 0, 0, cv::INTER_NEAREST);
+    for (int x = 10; x + side < size.width; x += pitch)
+      cv::resize(cells_of(i++), page(cv::Rect(x, y, side, side)), {side, side}, 0, 0,
+                 cv::INTER_NEAREST);
   return page;
 }
 
@@ -57,17 +62,22 @@ cv::Mat randomCells(RandomStream& random) {
 }  // namespace
 
 cv::Mat falsePicture(int i, cv::Size size, std::uint64_t seed) {
-  constexpr int kLeastCodes = 30;   // of tag16h5, the smallest family
+  constexpr int kLeastCodes = 30;  // of tag16h5, the smallest family
   RandomStream random(seed + static_cast<std::uint64_t>(i) * 7919, "bench.tracking.false");
   switch (i % 4) {
-    case 0: return noise(size, random);
-    case 1: return text(size, random);
+    case 0:
+      return noise(size, random);
+    case 1:
+      return text(size, random);
     case 2: {
       const auto& families = ar::foreignTagFamilies();
-      const std::string& family = families[static_cast<std::size_t>(below(random, static_cast<int>(families.size())))];
-      return sheet(size, random, [&](int k) { return ar::drawForeignTag(family, k % kLeastCodes); });
+      const std::string& family =
+          families[static_cast<std::size_t>(below(random, static_cast<int>(families.size())))];
+      return sheet(size, random,
+                   [&](int k) { return ar::drawForeignTag(family, k % kLeastCodes); });
     }
-    default: return sheet(size, random, [&](int) { return randomCells(random); });
+    default:
+      return sheet(size, random, [&](int) { return randomCells(random); });
   }
 }
 

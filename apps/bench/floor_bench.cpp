@@ -9,17 +9,21 @@
 namespace palpa::bench {
 namespace {
 
-constexpr int kSmallMap = 256;                       // px, where it has to be quick
-constexpr double kResolutions[] = {2e-6, 5e-6, 40e-6};   // m: magnetic levitation, a fine linkage, a Falcon
-constexpr double kOff = 0.15;                        // of the threshold: steady motion above and below it
+constexpr int kSmallMap = 256;  // px, where it has to be quick
+constexpr double kResolutions[] = {2e-6, 5e-6,
+                                   40e-6};  // m: magnetic levitation, a fine linkage, a Falcon
+constexpr double kOff = 0.15;               // of the threshold: steady motion above and below it
 
-nlohmann::json floorParams(const SearchFloor& floor) { return {{"task", floor.task.id}, {"map_px", floor.task.map_px}}; }
+nlohmann::json floorParams(const SearchFloor& floor) {
+  return {{"task", floor.task.id}, {"map_px", floor.task.map_px}};
+}
 
 void printMaking(const SearchFloor& floor) {
   nlohmann::json params = floorParams(floor);
   params["processors"] = std::thread::hardware_concurrency();
   print("gabor_precompute_s", floor.made_in_s, "s", params);
-  print("gabor_table_mib", static_cast<double>(floor.made->rises->bytes()) / (1 << 20), "MiB", floorParams(floor));
+  print("gabor_table_mib", static_cast<double>(floor.made->rises->bytes()) / (1 << 20), "MiB",
+        floorParams(floor));
 }
 
 void printLookUps(const SearchFloor& floor, bool quick) {
@@ -50,15 +54,20 @@ void printFloorTick(const SearchFloor& floor, bool quick) {
 void printSubtasks(const SearchFloor& floor, bool quick) {
   const SpeedPart part = speedPart(floor, "scan");
   for (const double resolution : kResolutions) {
-    nlohmann::json params{{"subtask", "scan"}, {"threshold_mm_per_s", 1e3 * part.threshold}, {"resolution_um", 1e6 * resolution}};
+    nlohmann::json params{{"subtask", "scan"},
+                          {"threshold_mm_per_s", 1e3 * part.threshold},
+                          {"resolution_um", 1e6 * resolution}};
     for (const double share : {1 + kOff, 1 - kOff}) {
       params["speed_share"] = share;
-      print("subtask_switches_per_s", switchesPerSecond(part, share, resolution, quick ? 8 : 64), "1/s", params);
+      print("subtask_switches_per_s", switchesPerSecond(part, share, resolution, quick ? 8 : 64),
+            "1/s", params);
     }
     params.erase("speed_share");
     for (const double acceleration : {0.2, 0.5, 2.0, 0.0}) {
-      if (acceleration > 0) params["acceleration_m_per_s2"] = acceleration;
-      else params["acceleration_m_per_s2"] = "at once";
+      if (acceleration > 0)
+        params["acceleration_m_per_s2"] = acceleration;
+      else
+        params["acceleration_m_per_s2"] = "at once";
       const Latency latency = subtaskLatency(part, acceleration, resolution, quick ? 40 : 400);
       print("subtask_latency_ms", latency.largest_ms, "ms", params);
       print("subtask_latency_median_ms", latency.median_ms, "ms", params);

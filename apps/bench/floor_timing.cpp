@@ -13,14 +13,15 @@ namespace palpa::bench {
 namespace {
 
 constexpr double kWholeTurn = 2 * std::numbers::pi;
-constexpr double kOrientation = 0.4;    // rad
-constexpr double kPress = 0.5;          // N [chosen] light exploration
-constexpr double kRoundHz = 0.8, kAcrossHz = 1.7, kAcross = 35;   // U
-constexpr int kPathTicks = 10'000;      // 10 s: 8 rounds, 17 times across, and it is where it began
+constexpr double kOrientation = 0.4;                             // rad
+constexpr double kPress = 0.5;                                   // N [chosen] light exploration
+constexpr double kRoundHz = 0.8, kAcrossHz = 1.7, kAcross = 35;  // U
+constexpr int kPathTicks = 10'000;  // 10 s: 8 rounds, 17 times across, and it is where it began
 constexpr int kBlockOfLooks = 1000;
-constexpr double kDeepestLook = 8;          // U
+constexpr double kDeepestLook = 8;  // U
 
-haptics::TickConfig floorConfig(const task_search::SearchSettings& task, const station::Station& station) {
+haptics::TickConfig floorConfig(const task_search::SearchSettings& task,
+                                const station::Station& station) {
   haptics::TickConfig config;
   config.engine = haptics::Engine::floor;
   config.coupling = station.coupling;
@@ -30,7 +31,8 @@ haptics::TickConfig floorConfig(const task_search::SearchSettings& task, const s
   config.X_ET = pack(station.X_ET);
   config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
   config.floor = task_search::renderingOn(task, station);
-  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness, config.floor.unit);
+  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N,
+                                           station.coupling.stiffness, config.floor.unit);
   return config;
 }
 
@@ -86,20 +88,25 @@ haptics::DeviceReading readingAt(const Pose& X_DF, const Vec3& p_F) {
 /// The path's readings, round and round, through the tick.
 class FloorPath {
  public:
-  FloorPath(const SearchFloor& floor, bool augmented) : config_(floor.config), floor_(floor.made->floor()), state_(std::make_unique<haptics::TickState>()) {
+  FloorPath(const SearchFloor& floor, bool augmented)
+      : config_(floor.config),
+        floor_(floor.made->floor()),
+        state_(std::make_unique<haptics::TickState>()) {
     if (!augmented) config_.augmentations = {};
     commands_.trial = commands_.floor = 1;
     commands_.armed = commands_.degraded = 1;
     commands_.augmented = augmented;
     const Pose X_DF = unpack(config_.X_DF), X_TE = unpack(config_.X_ET).inverse();
-    for (int i = 0; i < kPathTicks; ++i) readings_.push_back(readingAt(X_DF, pathPoint(floor, 1e-3 * i) + X_TE.translation()));
+    for (int i = 0; i < kPathTicks; ++i)
+      readings_.push_back(readingAt(X_DF, pathPoint(floor, 1e-3 * i) + X_TE.translation()));
   }
 
   void step() {
     haptics::DeviceReading& reading = readings_[at_];
     reading.sequence = ++ticks_;
     reading.t_ns = now_ns_ += config_.period_ns;
-    const haptics::FlightRecord record = haptics::tick(config_, *state_, reading, nullptr, commands_, now_ns_, {}, &floor_);
+    const haptics::FlightRecord record =
+        haptics::tick(config_, *state_, reading, nullptr, commands_, now_ns_, {}, &floor_);
     pushed_ += record.augmenting != 0;
     pushing_ |= record.augmenting;
     parts_ |= record.subtasks;
@@ -111,10 +118,12 @@ class FloorPath {
 
  private:
   static Vec3 pathPoint(const SearchFloor& floor, double t) {
-    const double r = floor.task.spec.circle + kAcross * std::sin(kWholeTurn * kAcrossHz * t), angle = kWholeTurn * kRoundHz * t;
+    const double r = floor.task.spec.circle + kAcross * std::sin(kWholeTurn * kAcrossHz * t),
+                 angle = kWholeTurn * kRoundHz * t;
     const Vec3 p(r * std::cos(angle), r * std::sin(angle), 0);
     const haptics::FloorRendering& law = floor.config.floor;
-    return Vec3(law.unit * Vec3(p.x(), p.y(), floor.made->surface.smoothHeight(p.x(), p.y())) - kPress / law.degraded.stiffness * Vec3::UnitZ());
+    return Vec3(law.unit * Vec3(p.x(), p.y(), floor.made->surface.smoothHeight(p.x(), p.y())) -
+                kPress / law.degraded.stiffness * Vec3::UnitZ());
   }
 
   haptics::TickConfig config_;
@@ -124,7 +133,7 @@ class FloorPath {
   std::vector<haptics::DeviceReading> readings_;
   std::size_t at_ = 0;
   std::uint64_t ticks_ = 0, pushed_ = 0;
-  unsigned pushing_ = 0, parts_ = 0;   // a bit each
+  unsigned pushing_ = 0, parts_ = 0;  // a bit each
   std::int64_t now_ns_ = 0;
 };
 
@@ -134,7 +143,8 @@ SearchFloor searchFloor(int map_px) {
   SearchFloor floor;
   floor.task = task_search::readSearch(station::assetFile("tasks/search.json"));
   if (map_px > 0) floor.task.map_px = map_px;
-  floor.config = floorConfig(floor.task, station::readStation(station::assetFile("stations/search_bench.json")));
+  floor.config = floorConfig(
+      floor.task, station::readStation(station::assetFile("stations/search_bench.json")));
   task_search::Episode episode;
   episode.mode = assess::SearchMode::augmented;
   episode.stimulus = {kOrientation, 1};
@@ -153,12 +163,24 @@ std::vector<LookUp> timeLookUps(const SearchFloor& floor, int blocks) {
   std::vector<LookUp> all;
   for (const bool on_texture : {false, true}) {
     const std::vector<Look> looks = drawLooks(surface, on_texture, blocks * kBlockOfLooks);
-    const auto add = [&](const char* name, auto ask) { all.push_back({name, on_texture ? "textures" : "anywhere", blockMedian(looks, ask)}); };
-    add("gabor_lookup_median", [&](const Look& l) { return rises.rises(l.x, l.y, l.direction, l.scale) ? 1.0 : 0.0; });
-    add("gabor_lookup_by_velocity_median", [&](const Look& l) { return rises.rises(l.x, l.y, haptics::GaborTable::directionOf(l.vx, l.vy), haptics::GaborTable::scaleOf(std::hypot(l.vx, l.vy), first)) ? 1.0 : 0.0; });
+    const auto add = [&](const char* name, auto ask) {
+      all.push_back({name, on_texture ? "textures" : "anywhere", blockMedian(looks, ask)});
+    };
+    add("gabor_lookup_median",
+        [&](const Look& l) { return rises.rises(l.x, l.y, l.direction, l.scale) ? 1.0 : 0.0; });
+    add("gabor_lookup_by_velocity_median", [&](const Look& l) {
+      return rises.rises(l.x, l.y, haptics::GaborTable::directionOf(l.vx, l.vy),
+                         haptics::GaborTable::scaleOf(std::hypot(l.vx, l.vy), first))
+                 ? 1.0
+                 : 0.0;
+    });
     add("valley_lookup_median", [&](const Look& l) { return valleys.nearest(l.x, l.y).distance; });
-    add("closest_free_median", [&](const Look& l) { return surface.closestFree({l.x, l.y, l.z}).z(); });
-    add("footprint_lookup_median", [&](const Look& l) { return surface.bumpOnWay(l.x - 1e-3 * l.vx, l.y - 1e-3 * l.vy, l.x, l.y); });
+    add("closest_free_median", [&](const Look& l) {
+      return surface.closestFree({l.x, l.y, l.z}).z();
+    });
+    add("footprint_lookup_median", [&](const Look& l) {
+      return surface.bumpOnWay(l.x - 1e-3 * l.vx, l.y - 1e-3 * l.vy, l.x, l.y);
+    });
   }
   return all;
 }
@@ -169,7 +191,8 @@ FloorTickTiming timeFloorTick(const SearchFloor& floor, int ticks, int blocks) {
   timing.press_N = kPress;
   timing.augmented = timeQueries(ticks, [&](int) { augmented.step(); });
   timing.plain = timeQueries(ticks, [&](int) { plain.step(); });
-  timing.ratio = compareQueries(blocks, kPathTicks, [&](int) { plain.step(); }, [&](int) { augmented.step(); });
+  timing.ratio = compareQueries(
+      blocks, kPathTicks, [&](int) { plain.step(); }, [&](int) { augmented.step(); });
   timing.pushed = augmented.pushed();
   timing.pushing = augmented.pushing();
   timing.parts = augmented.parts();

@@ -8,8 +8,10 @@
 
 namespace palpa::bench {
 
-/// Two hands that hold a simulated object between two simulated devices, in closed loop: its support falls away, they lift it, squeeze it harder and hold it still in between. Frame W, z up,
-/// the tools along x; the object is a mass with a soft side for each tool, free to move but not to turn.
+/// Two hands that hold a simulated object between two simulated devices, in closed loop: its
+/// support falls away, they lift it, squeeze it harder and hold it still in between. Frame W, z up,
+/// the tools along x; the object is a mass with a soft side for each tool, free to move but not to
+/// turn.
 struct GripCase {
   std::string device, modulation;
   twin::DeviceTruth truth;
@@ -18,8 +20,9 @@ struct GripCase {
   bool modulated = true;
 };
 struct GripFigures {
-  HandFigures hands;              ///< gained: by both, beyond what the object, as heavy as it is to feel, has lost in height
-  double dropped_mm = 0;          ///< how far the object slid down between the tools
+  HandFigures hands;  ///< gained: by both, beyond what the object, as heavy as it is to feel, has
+                      ///< lost in height
+  double dropped_mm = 0;  ///< how far the object slid down between the tools
 };
 GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one);
 

@@ -10,8 +10,10 @@ namespace {
 
 using twin::LedTip;
 
-constexpr double kPressDeep = 7e-3, kHold = 3.0, kCalmAfter = 2.5;   // m; s of holding, and from when on it must be calm: a light grip rings for two seconds by itself
-constexpr int kStepsPerTick = 8;                                        // phantom, hand and mechanics do not wait for the loop
+constexpr double kPressDeep = 7e-3, kHold = 3.0,
+                 kCalmAfter = 2.5;  // m; s of holding, and from when on it must be calm: a light
+                                    // grip rings for two seconds by itself
+constexpr int kStepsPerTick = 8;    // phantom, hand and mechanics do not wait for the loop
 constexpr std::uint64_t kHandSeed = 31;
 
 /// Down, hold, across, hold, up; three times, deeper each time.
@@ -19,17 +21,23 @@ LedTip handsWay() {
   LedTip way(Vec3(-0.01, 0, 2e-3));
   for (int i = 1; i <= 3; ++i) {
     const Vec3 below(0, 0, -kPressDeep * i / 3);
-    way.go(Vec3(-0.01, 0, 0) + below, 0.4, kHold).go(Vec3(0.01, 0, 0) + below, 0.5, kHold).go(Vec3(0.01, 0, 2e-3), 0.3).go(Vec3(-0.01, 0, 2e-3), 0.3);
+    way.go(Vec3(-0.01, 0, 0) + below, 0.4, kHold)
+        .go(Vec3(0.01, 0, 0) + below, 0.5, kHold)
+        .go(Vec3(0.01, 0, 2e-3), 0.3)
+        .go(Vec3(-0.01, 0, 2e-3), 0.3);
   }
   return way;
 }
 
 /// Whether the hand has been standing for `kCalmAfter` and stands on.
-bool calmNow(const LedTip& way, double t) { return t > kCalmAfter && (way.at(t) - way.at(t - kCalmAfter)).norm() < 1e-9 && way.at(t).z() < 0; }
+bool calmNow(const LedTip& way, double t) {
+  return t > kCalmAfter && (way.at(t) - way.at(t - kCalmAfter)).norm() < 1e-9 && way.at(t).z() < 0;
+}
 
 }  // namespace
 
-void HandWatch::count(double given_J, double least_J, const Vec3& f_d, const Vec3& v, bool calm_now) {
+void HandWatch::count(double given_J, double least_J, const Vec3& f_d, const Vec3& v,
+                      bool calm_now) {
   figures_.gained_mJ = std::max(figures_.gained_mJ, 1e3 * (least_J - given_J));
   figures_.largest_N = std::max(figures_.largest_N, f_d.norm());
   if (calm_now) {
@@ -52,11 +60,14 @@ HandFigures handFigures(const twin::PhantomTwin& start, const HandCase& one) {
   double given = 0;
   for (double t = 0; t < way.duration(); t += kPhantomTick) {
     const auto [tip, f_r] = sensed.feel(device.truePose().translation(), f_touch, kPhantomTick);
-    const haptics::AugmentedTouch now = haptics::augmentTouch(one.law, one.lumps, {{{true, tip + one.law.tip_radius * Vec3::UnitZ(), f_r}, {}}}, kPhantomTick, &state);
+    const haptics::AugmentedTouch now = haptics::augmentTouch(
+        one.law, one.lumps, {{{true, tip + one.law.tip_radius * Vec3::UnitZ(), f_r}, {}}},
+        kPhantomTick, &state);
     const Vec3 f_d = one.modulated ? now.f_d[0] : Vec3(Vec3::Zero());
     for (int i = 1; i <= kStepsPerTick; ++i) {
       const double part = kPhantomTick / kStepsPerTick;
-      device.advance(part, makePose(Mat3::Identity(), way.at(t - kPhantomTick + i * part)), one.grip, f_d, f_touch);
+      device.advance(part, makePose(Mat3::Identity(), way.at(t - kPhantomTick + i * part)),
+                     one.grip, f_d, f_touch);
       given += device.gripForce().dot(device.trueVelocity()) * part;
       f_touch = phantom.step(device.truePose().translation(), part).f;
     }
@@ -66,8 +77,10 @@ HandFigures handFigures(const twin::PhantomTwin& start, const HandCase& one) {
 }
 
 std::vector<JudgedDevice> judgedDevices() {
-  // Phantom Premium 1.5: 8.5 N, 0.03 mm, 75 g, 0.04 N of friction (its maker's sheet). Falcon: 8 N, 0.06 mm; inertia and friction [chosen] as larger.
-  return {{"premium", {0.075, 0.04, 0.2, 30e-6, 0.0006, 8.5, 0.001, {}}}, {"falcon", {0.15, 0.25, 0.6, 60e-6, 0.0006, 8.0, 0.002, {}}}};
+  // Phantom Premium 1.5: 8.5 N, 0.03 mm, 75 g, 0.04 N of friction (its maker's sheet). Falcon: 8 N,
+  // 0.06 mm; inertia and friction [chosen] as larger.
+  return {{"premium", {0.075, 0.04, 0.2, 30e-6, 0.0006, 8.5, 0.001, {}}},
+          {"falcon", {0.15, 0.25, 0.6, 60e-6, 0.0006, 8.0, 0.002, {}}}};
 }
 
 std::vector<twin::HandGrip> judgedHands() {
@@ -80,7 +93,8 @@ std::vector<twin::HandGrip> judgedHands() {
   return hands;
 }
 
-std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump, const Vec3& p_T0) {
+std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump,
+                                const Vec3& p_T0) {
   const haptics::Dahl real = known.friction.law;
   struct Change {
     const char* name;
@@ -88,13 +102,14 @@ std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchA
     haptics::Dahl wanted;
     bool lump, modulated;
   };
-  const Change changes[] = {{"none", 1, real, false, false},
-                            {"stiffness x 0.5", 0.5, real, false, true},
-                            {"stiffness x 2", 2, real, false, true},
-                            {"smoother", 1, {0.5 * real.mu, real.sigma, real.B}, false, true},
-                            {"rougher", 1, {2 * real.mu, real.sigma, 2 * real.B}, false, true},
-                            {"lump", 1, real, true, true},
-                            {"lump, stiffness x 2, rougher", 2, {2 * real.mu, real.sigma, 2 * real.B}, true, true}};
+  const Change changes[] = {
+      {"none", 1, real, false, false},
+      {"stiffness x 0.5", 0.5, real, false, true},
+      {"stiffness x 2", 2, real, false, true},
+      {"smoother", 1, {0.5 * real.mu, real.sigma, real.B}, false, true},
+      {"rougher", 1, {2 * real.mu, real.sigma, 2 * real.B}, false, true},
+      {"lump", 1, real, true, true},
+      {"lump, stiffness x 2, rougher", 2, {2 * real.mu, real.sigma, 2 * real.B}, true, true}};
   std::vector<HandCase> cases;
   for (const JudgedDevice& device : judgedDevices()) {
     for (const Change& change : changes) {

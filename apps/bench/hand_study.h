@@ -9,11 +9,13 @@
 
 namespace palpa::bench {
 
-/// A hand that presses and strokes a simulated phantom with a simulated device while a modulation runs in closed loop: is it calm, and who gives the energy?
+/// A hand that presses and strokes a simulated phantom with a simulated device while a modulation
+/// runs in closed loop: is it calm, and who gives the energy?
 struct HandFigures {
-  double still_mm_s = 0;          ///< rms of the tool's speed at the ends of holds, the worst hold: where it swings, it does not die
-  double gained_mJ = 0;           ///< most that the hand has got back beyond what it had put in, at any time
-  double largest_N = 0;           ///< that the modulation asks of the device
+  double still_mm_s = 0;  ///< rms of the tool's speed at the ends of holds, the worst hold: where
+                          ///< it swings, it does not die
+  double gained_mJ = 0;  ///< most that the hand has got back beyond what it had put in, at any time
+  double largest_N = 0;  ///< that the modulation asks of the device
 };
 struct HandCase {
   std::string device, modulation;
@@ -25,7 +27,8 @@ struct HandCase {
 };
 HandFigures handFigures(const twin::PhantomTwin& phantom, const HandCase& one);
 
-/// The devices that are judged, and the hands at the ends of the published range: pen grips of 0.05 to 0.2 kg, 2 to 10 N s/m, 100 to 1000 N/m.
+/// The devices that are judged, and the hands at the ends of the published range: pen grips of 0.05
+/// to 0.2 kg, 2 to 10 N s/m, 100 to 1000 N/m.
 struct JudgedDevice {
   const char* name;
   twin::DeviceTruth truth;
@@ -33,8 +36,10 @@ struct JudgedDevice {
 std::vector<JudgedDevice> judgedDevices();
 std::vector<twin::HandGrip> judgedHands();
 
-/// Every modulation of a single contact with every device and hand; `lump`: as identified, at its place `p_T0` in the phantom, m.
-std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump, const Vec3& p_T0);
+/// Every modulation of a single contact with every device and hand; `lump`: as identified, at its
+/// place `p_T0` in the phantom, m.
+std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump,
+                                const Vec3& p_T0);
 
 /// Watches a hand-held thing: calm while it is held still, energy from the hand.
 class HandWatch {

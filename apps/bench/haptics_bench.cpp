@@ -6,14 +6,14 @@
 #include "apps/bench/floor_bench.h"
 #include "apps/bench/metric.h"
 #include "apps/bench/tick_timing.h"
-#include "apps/runtime/quantile.h"
 #include "apps/runtime/clock.h"
+#include "apps/runtime/quantile.h"
 
 namespace palpa::bench {
 namespace {
 
-constexpr double kWarmUp = 0.2;       // s: the first snapshot has to come
-constexpr double kTouching = 0.1;     // N: ratios of smaller forces say nothing
+constexpr double kWarmUp = 0.2;    // s: the first snapshot has to come
+constexpr double kTouching = 0.1;  // N: ratios of smaller forces say nothing
 constexpr double kBoneStiffness = 3000;
 
 struct World {
@@ -64,14 +64,16 @@ Jump refreshJump(const StrokeSettings& settings, const StrokeResult& stroke) {
   const auto on = [&](std::uint64_t snapshot, const haptics::FlightRecord& r) {
     haptics::ProbeState fresh;
     return haptics::probeContact(config.probe, config.coupling, stroke.snapshots[snapshot - 1],
-                                 unpack(r.reading.p_DE), 1e-3, fresh).f_D;
+                                 unpack(r.reading.p_DE), 1e-3, fresh)
+        .f_D;
   };
   Jump jump;
   const auto& records = stroke.records;
   for (std::size_t i = 1; i < records.size(); ++i) {
     const std::uint64_t old = records[i - 1].snapshot;
     if (old == 0 || records[i].snapshot == old) continue;
-    jump.unblended = std::max(jump.unblended, (on(records[i].snapshot, records[i]) - on(old, records[i])).norm());
+    jump.unblended = std::max(jump.unblended,
+                              (on(records[i].snapshot, records[i]) - on(old, records[i])).norm());
     Vec3 left = Vec3::Zero();
     for (std::size_t k = i; k < records.size() && records[k].snapshot == records[i].snapshot; ++k) {
       const Vec3 now = unpack(records[k].f_contact_D) - on(old, records[k]);
@@ -96,8 +98,11 @@ double proxyCost(const StrokeSettings& settings, const World& world, const Strok
 }
 
 nlohmann::json paramsOf(const World& world, const StrokeSettings& s) {
-  return {{"triangles", world.triangles}, {"stroke_hz", s.stroke_Hz}, {"geometry_hz", s.geometry_Hz},
-          {"stiffness_N_per_m", s.stiffness}, {"noise", "none"}};
+  return {{"triangles", world.triangles},
+          {"stroke_hz", s.stroke_Hz},
+          {"geometry_hz", s.geometry_Hz},
+          {"stiffness_N_per_m", s.stiffness},
+          {"noise", "none"}};
 }
 
 void printFidelity(const World& world, const StrokeSettings& s, const StrokeResult& stroke) {
@@ -115,9 +120,10 @@ void printJumps(const World& world, StrokeSettings s) {
   s.geometry_Hz = 30;
   struct Case {
     const char* name;
-    double stiffness, coupling;   // N/m
+    double stiffness, coupling;  // N/m
   };
-  for (const Case& c : {Case{"tissue", s.stiffness, s.coupling}, Case{"bone", kBoneStiffness, kBoneStiffness}}) {
+  for (const Case& c :
+       {Case{"tissue", s.stiffness, s.coupling}, Case{"bone", kBoneStiffness, kBoneStiffness}}) {
     s.stiffness = c.stiffness;
     s.coupling = c.coupling;
     const StrokeResult stroke = runStroke(s, world.builder);
@@ -129,7 +135,8 @@ void printJumps(const World& world, StrokeSettings s) {
   }
 }
 
-void printCost(const World& world, const StrokeSettings& s, const StrokeResult& stroke, bool quick) {
+void printCost(const World& world, const StrokeSettings& s, const StrokeResult& stroke,
+               bool quick) {
   const nlohmann::json params = paramsOf(world, s);
   const TickTiming hot = timeHot(s, stroke, quick ? 40'000 : 400'000);
   print("tick_hot_median", hot.median_us, "us", params);

@@ -6,7 +6,8 @@
 
 namespace palpa::bench {
 
-/// Two tools that keep side by side along x, `apart` from each other, the first beyond: led to the same places in the same time, each to its own depth, m. They start above the surface.
+/// Two tools that keep side by side along x, `apart` from each other, the first beyond: led to the
+/// same places in the same time, each to its own depth, m. They start above the surface.
 class LedPair {
  public:
   LedPair(double shift, double apart);

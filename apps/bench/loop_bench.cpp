@@ -20,7 +20,7 @@ constexpr int kTorsoTriangles = 100'000;
 
 struct Measured {
   LoopTimes ours, bare;
-  std::vector<double> ratios;          // of the 99 % quantiles, one a block
+  std::vector<double> ratios;            // of the 99 % quantiles, one a block
   std::vector<double> costs, costs_p99;  // us, of our steps, one a segment
   std::uint64_t contacts = 0;
 };
@@ -48,7 +48,8 @@ Measured measure(const LoopSurroundings& around, std::int64_t segment_ns) {
     }
     if (++segment % 4) continue;
     const double bare = block[1].late.quantile(0.99);
-    all.ratios.push_back(bare > 0 ? block[0].late.quantile(0.99) / bare : std::numeric_limits<double>::quiet_NaN());
+    all.ratios.push_back(bare > 0 ? block[0].late.quantile(0.99) / bare
+                                  : std::numeric_limits<double>::quiet_NaN());
     add(all.ours, block[0]);
     add(all.bare, block[1]);
     block = {};
@@ -107,18 +108,27 @@ void benchLoop(const LoopBenchOptions& options) {
   } catch (const palpa::Error& e) {
     drawn = std::string("none: ") + e.what();
   }
-  const LoopSurroundings around{{}, builder, scene.get(), std::llround(1e9 / options.rate_Hz), options.cpu};
-  const nlohmann::json params{{"rate_hz", options.rate_Hz}, {"seconds", options.seconds}, {"scene", drawn}, {"geometry_hz", 60}, {"noise", "none"}};
+  const LoopSurroundings around{
+      {}, builder, scene.get(), std::llround(1e9 / options.rate_Hz), options.cpu};
+  const nlohmann::json params{{"rate_hz", options.rate_Hz},
+                              {"seconds", options.seconds},
+                              {"scene", drawn},
+                              {"geometry_hz", 60},
+                              {"noise", "none"}};
   tell(around, options, params);
   if (options.pages == 0) return;
-  if (!scene) throw palpa::Error("there is no picture to look on at (" + drawn + ")", "--pages", "Leave it out");
+  if (!scene)
+    throw palpa::Error("there is no picture to look on at (" + drawn + ")", "--pages",
+                       "Leave it out");
   Onlookers onlookers(options.pages);
   scene->showTo(&onlookers);
   nlohmann::json watched = params;
   watched["pages"] = options.pages;
   tell(around, options, watched);
   scene->showTo(nullptr);
-  print("pictures_to_each_page", static_cast<double>(onlookers.pictures()) / options.pages / options.seconds, "1/s", watched);
+  print("pictures_to_each_page",
+        static_cast<double>(onlookers.pictures()) / options.pages / options.seconds, "1/s",
+        watched);
 }
 
 }  // namespace palpa::bench

@@ -16,7 +16,8 @@ using runtime::TimeMode;
 /// Moves the device; without a haptic loop it also tells geometry where the tool is.
 class Leader final : public runtime::Activity {
  public:
-  Leader(const StrokeSettings& stroke, runtime::Bus& bus, runtime::ChannelDevice& device, bool tells_geometry)
+  Leader(const StrokeSettings& stroke, runtime::Bus& bus, runtime::ChannelDevice& device,
+         bool tells_geometry)
       : led_(stroke, device), bus_(bus), tells_geometry_(tells_geometry) {
     arm(bus);
   }
@@ -53,7 +54,8 @@ class Drain final : public runtime::Activity {
 
 class Curfew final : public runtime::Activity {
  public:
-  Curfew(runtime::Executive& executive, std::int64_t length_ns) : executive_(executive), length_ns_(length_ns) {}
+  Curfew(runtime::Executive& executive, std::int64_t length_ns)
+      : executive_(executive), length_ns_(length_ns) {}
   const char* name() const override { return "curfew"; }
   std::int64_t step(std::int64_t now_ns) override {
     if (end_ns_ == 0) return end_ns_ = now_ns + length_ns_;

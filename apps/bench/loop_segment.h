@@ -7,12 +7,13 @@
 
 namespace palpa::bench {
 
-/// Everything that runs beside the loop, the same whichever loop is measured: the hand's device at 1 kHz, geometry
-/// queries at 60 Hz on the torso, the records taken off at 10 Hz, the picture at 30 Hz where there is one.
+/// Everything that runs beside the loop, the same whichever loop is measured: the hand's device at
+/// 1 kHz, geometry queries at 60 Hz on the torso, the records taken off at 10 Hz, the picture at 30
+/// Hz where there is one.
 struct LoopSurroundings {
   StrokeSettings stroke;
   const anatomy::LocalGeometryBuilder& builder;
-  SceneLoad* scene = nullptr;    ///< null: not drawn
+  SceneLoad* scene = nullptr;  ///< null: not drawn
   std::int64_t period_ns = 1'000'000;
   int cpu = -1;
 };
@@ -20,7 +21,7 @@ struct LoopSurroundings {
 struct OurTimes {
   LoopTimes times;
   runtime::Spread cost;
-  std::uint64_t contacts = 0;    ///< ticks with a contact force: the step did its work
+  std::uint64_t contacts = 0;  ///< ticks with a contact force: the step did its work
 };
 
 /// HapticActivity (probe) on the real executive for `length_ns`.

@@ -32,7 +32,8 @@ void benchContact(const twin::Phantom& phantom, const KnownPhantom& known, Noise
       print("stiffness_rel_error", stiffnessFigures(known, run, factor).error, "1", params);
     }
   }
-  print("friction_rel_error", frictionModulationError(known, phantom.table, {runs[2]}), "1", paramsOf(noise));
+  print("friction_rel_error", frictionModulationError(known, phantom.table, {runs[2]}), "1",
+        paramsOf(noise));
 }
 
 void benchSqueeze(const twin::PhantomTable& side, const haptics::HuntCrossley& known) {
@@ -40,7 +41,10 @@ void benchSqueeze(const twin::PhantomTable& side, const haptics::HuntCrossley& k
     for (const double tilt_deg : {0.0, 30.0, 60.0}) {
       double worst = 0;
       for (const double factor : {0.5, 2.0}) {
-        for (const bool swapped : {false, true}) worst = std::max(worst, squeezeError(side, known, {mass, tilt_deg * std::numbers::pi / 180, factor, swapped}));
+        for (const bool swapped : {false, true})
+          worst = std::max(
+              worst, squeezeError(side, known,
+                                  {mass, tilt_deg * std::numbers::pi / 180, factor, swapped}));
       }
       nlohmann::json params = paramsOf(Noise::none);
       params["mass_kg"] = mass;
@@ -50,8 +54,10 @@ void benchSqueeze(const twin::PhantomTable& side, const haptics::HuntCrossley& k
   }
 }
 
-void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& known, Noise noise, std::size_t most) {
-  const std::array<std::vector<PlainTouches>, 2> plain{touchPlain(phantoms.front(), 1, noise), touchPlain(phantoms.front(), 2, noise)};
+void benchLumps(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& known, Noise noise,
+                std::size_t most) {
+  const std::array<std::vector<PlainTouches>, 2> plain{touchPlain(phantoms.front(), 1, noise),
+                                                       touchPlain(phantoms.front(), 2, noise)};
   for (std::size_t i = 1; i < phantoms.size() && i <= most; ++i) {
     const haptics::TouchAugmentation law = lumpOver(phantoms[i], known, noise);
     if (i == 1 && noise == Noise::none) {
@@ -80,7 +86,8 @@ class WorstHands {
  public:
   void add(const std::string& device, const std::string& modulation, const HandFigures& figures) {
     HandFigures& w = worst_[{device, modulation}];
-    w = {std::max(w.still_mm_s, figures.still_mm_s), std::max(w.gained_mJ, figures.gained_mJ), std::max(w.largest_N, figures.largest_N)};
+    w = {std::max(w.still_mm_s, figures.still_mm_s), std::max(w.gained_mJ, figures.gained_mJ),
+         std::max(w.largest_N, figures.largest_N)};
   }
   void print() const {
     for (const auto& [which, figures] : worst_) {
@@ -101,11 +108,14 @@ class WorstHands {
 void benchHands(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& known) {
   const twin::PhantomTwin plain(phantoms.front().table, {});
   WorstHands worst;
-  for (const HandCase& one : handCases(known, lumpOver(phantoms[1], known, Noise::none), phantoms[1].block.lump->centre)) worst.add(one.device, one.modulation, handFigures(plain, one));
+  for (const HandCase& one :
+       handCases(known, lumpOver(phantoms[1], known, Noise::none), phantoms[1].block.lump->centre))
+    worst.add(one.device, one.modulation, handFigures(plain, one));
   double dropped_mm = 0;
   for (const GripCase& one : gripCases(known.contact.law)) {
     const GripFigures figures = gripFigures(phantoms.front().table, one);
-    worst.add(one.device, one.modulation == "none" ? "squeezed, none" : one.modulation, figures.hands);
+    worst.add(one.device, one.modulation == "none" ? "squeezed, none" : one.modulation,
+              figures.hands);
     dropped_mm = std::max(dropped_mm, figures.dropped_mm);
   }
   worst.print();
@@ -117,7 +127,9 @@ void benchHands(const std::vector<twin::Phantom>& phantoms, const KnownPhantom& 
 }  // namespace
 
 void benchMaterial(const MaterialBenchOptions& options) {
-  const std::vector<twin::Phantom> phantoms = twin::readSolved(station::assetFile("phantoms/mockups.json"), station::assetFile("phantoms/mockups.tables.json"));
+  const std::vector<twin::Phantom> phantoms =
+      twin::readSolved(station::assetFile("phantoms/mockups.json"),
+                       station::assetFile("phantoms/mockups.tables.json"));
   const twin::PhantomTwin plain(phantoms.front().table, {});
   print("hc_param_error", lawError(), "1", paramsOf(Noise::none));
   for (const Noise noise : {Noise::none, Noise::realistic}) {

@@ -11,11 +11,12 @@
 
 namespace palpa::bench {
 
-/// Who looks on beside a measurement: the session's port, which encodes and sends, the console's end of it, and as many pages as are asked for, each of which takes every picture. Threads of their own at
-/// low priority, as in a session with a console.
+/// Who looks on beside a measurement: the session's port, which encodes and sends, the console's
+/// end of it, and as many pages as are asked for, each of which takes every picture. Threads of
+/// their own at low priority, as in a session with a console.
 class Onlookers {
  public:
-  explicit Onlookers(int pages);   ///< throws Error where there can be no local socket
+  explicit Onlookers(int pages);  ///< throws Error where there can be no local socket
   ~Onlookers();
 
   /// On the scene's thread, once a frame.
@@ -33,7 +34,7 @@ class Onlookers {
   console::SessionLink link_;
   std::atomic<bool> ending_{false};
   std::atomic<int> pictures_{0};
-  const runtime::SteadyClock clock_;   // goes on from segment to segment
+  const runtime::SteadyClock clock_;  // goes on from segment to segment
   std::int64_t next_ns_ = 0;
   std::vector<std::thread> pages_;
 };

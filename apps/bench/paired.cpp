@@ -27,7 +27,8 @@ Interval bootstrapMedian(const std::vector<double>& values, int resamples, std::
   std::vector<double> medians, drawn(values.size());
   for (int i = 0; i < resamples; ++i) {
     for (double& value : drawn)
-      value = values[static_cast<std::size_t>(random.uniform() * static_cast<double>(values.size()))];
+      value =
+          values[static_cast<std::size_t>(random.uniform() * static_cast<double>(values.size()))];
     medians.push_back(median(drawn));
   }
   return {runtime::quantile(medians, 0.025), runtime::quantile(medians, 0.975)};

@@ -17,8 +17,9 @@ double median(std::vector<double> values);
 struct Interval {
   double low = 0, high = 0;
 };
-/// 95 % interval of the median by the percentile bootstrap (Efron 1979): `resamples` times as many draws with
-/// replacement as there are values; the 2.5 % and 97.5 % quantiles of their medians. Same seed, same interval; NaN for no values.
+/// 95 % interval of the median by the percentile bootstrap (Efron 1979): `resamples` times as many
+/// draws with replacement as there are values; the 2.5 % and 97.5 % quantiles of their medians.
+/// Same seed, same interval; NaN for no values.
 Interval bootstrapMedian(const std::vector<double>& values, int resamples, std::uint64_t seed);
 
 }  // namespace palpa::bench

@@ -17,7 +17,8 @@ class TouchRecorder {
     tick.true_tip = tick.tip = true_tip;
     tick.truth = truth;
     tick.f_r = truth.f;
-    if (noise_ == Noise::realistic) std::tie(tick.tip, tick.f_r) = sensed_.feel(true_tip, truth.f, kPhantomTick);
+    if (noise_ == Noise::realistic)
+      std::tie(tick.tip, tick.f_r) = sensed_.feel(true_tip, truth.f, kPhantomTick);
     if (before_) tick.dp = tick.tip - *before_;
     before_ = tick.tip;
     return tick;
@@ -35,7 +36,8 @@ std::size_t ticksOf(double duration) { return static_cast<std::size_t>(duration 
 
 const char* nameOf(Noise noise) { return noise == Noise::none ? "none" : "realistic"; }
 
-std::vector<PhantomTick> recordTouch(twin::PhantomTwin phantom, const twin::LedTip& tip, Noise noise, std::uint64_t seed) {
+std::vector<PhantomTick> recordTouch(twin::PhantomTwin phantom, const twin::LedTip& tip,
+                                     Noise noise, std::uint64_t seed) {
   TouchRecorder recorder(noise, seed);
   std::vector<PhantomTick> ticks;
   for (std::size_t i = 0; i < ticksOf(tip.duration()); ++i) {
@@ -45,8 +47,11 @@ std::vector<PhantomTick> recordTouch(twin::PhantomTwin phantom, const twin::LedT
   return ticks;
 }
 
-std::vector<std::array<PhantomTick, 2>> recordTouches(twin::PhantomPairTwin phantom, const LedPair& tips, Noise noise, std::uint64_t seed) {
-  std::array<TouchRecorder, 2> recorders{TouchRecorder(noise, seed), TouchRecorder(noise, seed + 1'000'000)};
+std::vector<std::array<PhantomTick, 2>> recordTouches(twin::PhantomPairTwin phantom,
+                                                      const LedPair& tips, Noise noise,
+                                                      std::uint64_t seed) {
+  std::array<TouchRecorder, 2> recorders{TouchRecorder(noise, seed),
+                                         TouchRecorder(noise, seed + 1'000'000)};
   std::vector<std::array<PhantomTick, 2>> ticks;
   for (std::size_t i = 0; i < ticksOf(tips.duration()); ++i) {
     const std::array<Vec3, 2> at = tips.at(static_cast<double>(i) * kPhantomTick);

@@ -56,7 +56,11 @@ class VtkLocator final : public PointLocator {
 
 }  // namespace
 
-std::unique_ptr<PointLocator> ourLocator(const anatomy::TriangleMesh& mesh) { return std::make_unique<OurLocator>(mesh); }
-std::unique_ptr<PointLocator> vtkLocator(const anatomy::TriangleMesh& mesh) { return std::make_unique<VtkLocator>(mesh); }
+std::unique_ptr<PointLocator> ourLocator(const anatomy::TriangleMesh& mesh) {
+  return std::make_unique<OurLocator>(mesh);
+}
+std::unique_ptr<PointLocator> vtkLocator(const anatomy::TriangleMesh& mesh) {
+  return std::make_unique<VtkLocator>(mesh);
+}
 
 }  // namespace palpa::bench

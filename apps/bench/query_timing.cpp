@@ -52,7 +52,8 @@ QueryTiming timeCold(int count, const std::function<void(int)>& ask) {
   return timingOf(each);
 }
 
-Ratio compareQueries(int blocks, int count, const std::function<void(int)>& a, const std::function<void(int)>& b) {
+Ratio compareQueries(int blocks, int count, const std::function<void(int)>& a,
+                     const std::function<void(int)>& b) {
   const runtime::SteadyClock clock;
   timeAll(clock, std::min(count, 500), a);
   timeAll(clock, std::min(count, 500), b);

@@ -20,7 +20,9 @@ struct Ratio {
   double median = 0;
   Interval interval;
 };
-/// How many times as long b takes as a over the same queries: A B B A in turn, a ratio of times a block, their median.
-Ratio compareQueries(int blocks, int count, const std::function<void(int)>& a, const std::function<void(int)>& b);
+/// How many times as long b takes as a over the same queries: A B B A in turn, a ratio of times a
+/// block, their median.
+Ratio compareQueries(int blocks, int count, const std::function<void(int)>& a,
+                     const std::function<void(int)>& b);
 
 }  // namespace palpa::bench

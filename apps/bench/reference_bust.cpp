@@ -6,7 +6,9 @@
 namespace palpa::bench {
 
 anatomy::Patient referenceBust() {
-  anatomy::PatientParameters parameters = anatomy::drawParameters(anatomy::readPopulation(station::assetFile("patients/reference.json").string()), anatomy::Side::right, 0);
+  anatomy::PatientParameters parameters = anatomy::drawParameters(
+      anatomy::readPopulation(station::assetFile("patients/reference.json").string()),
+      anatomy::Side::right, 0);
   parameters.extent = anatomy::Extent::bust;
   return anatomy::buildPatient(parameters);
 }

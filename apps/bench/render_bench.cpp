@@ -39,7 +39,8 @@ std::size_t trianglesOf(const anatomy::Patient& patient) {
 /// A session's frame: picture, translucent skin, needle, arrows, words, three fixed views.
 class Frame {
  public:
-  Frame(scene::GlContextProvider& context, const anatomy::Patient& patient, const RenderBenchOptions& o)
+  Frame(scene::GlContextProvider& context, const anatomy::Patient& patient,
+        const RenderBenchOptions& o)
       : layout_{o.width, o.height}, window_(*context.window()), view_(context, patient, layout_) {
     entry_A_ = patient.landmark(anatomy::landmark::kEntry);
     state_.picture = &picture_;
@@ -52,7 +53,8 @@ class Frame {
     move(i);
     view_.show(state_);
   }
-  /// The same actors and passes, moved as a program of VTK alone would: camera, one matrix, one texture; then Render.
+  /// The same actors and passes, moved as a program of VTK alone would: camera, one matrix, one
+  /// texture; then Render.
   void bare(int i) {
     move(i);
     vtkRenderer& large = *renderer(1);
@@ -68,23 +70,31 @@ class Frame {
     texture->GetInput()->Modified();
     texture->Modified();
   }
-  vtkRenderer* renderer(int i) { return static_cast<vtkRenderer*>(window_.GetRenderers()->GetItemAsObject(i)); }
+  vtkRenderer* renderer(int i) {
+    return static_cast<vtkRenderer*>(window_.GetRenderers()->GetItemAsObject(i));
+  }
   void move(int i) {
     const double sway = std::sin(0.1 * i);
-    for (std::size_t k = 0; k < picture_.pixels.size(); k += 97) picture_.pixels[k] = static_cast<std::uint8_t>(i);
+    for (std::size_t k = 0; k < picture_.pixels.size(); k += 97)
+      picture_.pixels[k] = static_cast<std::uint8_t>(i);
     state_.X_CA = lookAt(entry_A_ + Vec3(0.002 * sway, -0.45, 0.10), entry_A_);
-    state_.X_AT = makePose(Quat(Eigen::AngleAxisd(-1.2, Vec3::UnitX())).toRotationMatrix(), entry_A_ + Vec3(0, 0.01 * sway, 0));
-    state_.forces = {{scene::ForceKind::reaction, state_.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
+    state_.X_AT = makePose(Quat(Eigen::AngleAxisd(-1.2, Vec3::UnitX())).toRotationMatrix(),
+                           entry_A_ + Vec3(0, 0.01 * sway, 0));
+    state_.forces = {
+        {scene::ForceKind::reaction, state_.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
     state_.hud.phase = "phase 2: advance to the vein";
     char force[16];
-    std::snprintf(force, sizeof force, "%.1f N", 1 + 0.01 * (i / 6 % 10));   // words change a few times a second
+    std::snprintf(force, sizeof force, "%.1f N",
+                  1 + 0.01 * (i / 6 % 10));  // words change a few times a second
     state_.hud.force = force;
   }
 
   scene::ViewLayout layout_;
   vtkRenderWindow& window_;
   scene::SceneView view_;
-  scene::Image picture_{kPictureWidth, kPictureHeight, 3, std::vector<std::uint8_t>(std::size_t{3} * kPictureWidth * kPictureHeight, 120)};
+  scene::Image picture_{
+      kPictureWidth, kPictureHeight, 3,
+      std::vector<std::uint8_t>(std::size_t{3} * kPictureWidth * kPictureHeight, 120)};
   scene::SceneState state_;
   Vec3 entry_A_;
 };
@@ -92,7 +102,8 @@ class Frame {
 /// The patient alone in one renderer, translucent our way or by peeling.
 class Translucent {
  public:
-  Translucent(vtkRenderWindow& window, const anatomy::Patient& patient, bool peeling) : window_(window) {
+  Translucent(vtkRenderWindow& window, const anatomy::Patient& patient, bool peeling)
+      : window_(window) {
     scene::setUpRenderer(*behind_, {0.3, 0.3, 0.3});
     window_.AddRenderer(behind_);
     if (!peeling) glass_ = std::make_unique<scene::Glass>(window_, *behind_);
@@ -145,7 +156,8 @@ double rmsDifference(const scene::Image& a, const scene::Image& b) {
   return std::sqrt(squares / static_cast<double>(n)) / 255;
 }
 
-void benchTranslucency(vtkRenderWindow& window, const anatomy::Patient& patient, int blocks, json params) {
+void benchTranslucency(vtkRenderWindow& window, const anatomy::Patient& patient, int blocks,
+                       json params) {
   const int* size = window.GetSize();
   const double f = 0.9 * size[1];
   const scene::Pinhole camera{size[0], size[1], f, f, size[0] / 2.0, size[1] / 2.0};
@@ -164,16 +176,29 @@ void benchTranslucency(vtkRenderWindow& window, const anatomy::Patient& patient,
   print("translucency_rms_to_peeling", worst, "1", params);
   // The eye moves from frame to frame, so that ours sorts anew in each.
   int frame = 0;
-  const auto eye = [&] { return lookAt(entry_A + Vec3(0.05 * std::sin(0.3 * frame), -0.45, 0.1), entry_A); };
-  const Ratio ratio = compareQueries(blocks, 4, [&](int) { ++frame; peeled.render(camera, eye()); }, [&](int) { ++frame; ours.render(camera, eye()); });
+  const auto eye = [&] {
+    return lookAt(entry_A + Vec3(0.05 * std::sin(0.3 * frame), -0.45, 0.1), entry_A);
+  };
+  const Ratio ratio = compareQueries(
+      blocks, 4,
+      [&](int) {
+        ++frame;
+        peeled.render(camera, eye());
+      },
+      [&](int) {
+        ++frame;
+        ours.render(camera, eye());
+      });
   print("translucency_cost_over_peeling", ratio.median, "1", params);
   print("translucency_cost_over_peeling_low", ratio.interval.low, "1", params);
   print("translucency_cost_over_peeling_high", ratio.interval.high, "1", params);
 }
 
-void benchFrame(scene::GlContextProvider& context, const anatomy::Patient& patient, const RenderBenchOptions& options, int blocks, const json& params) {
+void benchFrame(scene::GlContextProvider& context, const anatomy::Patient& patient,
+                const RenderBenchOptions& options, int blocks, const json& params) {
   Frame frame(context, patient, options);
-  const Ratio ratio = compareQueries(blocks, 4, [&](int i) { frame.bare(i); }, [&](int i) { frame.ours(i); });
+  const Ratio ratio = compareQueries(
+      blocks, 4, [&](int i) { frame.bare(i); }, [&](int i) { frame.ours(i); });
   print("frame_over_bare_vtk", ratio.median, "1", params);
   print("frame_over_bare_vtk_low", ratio.interval.low, "1", params);
   print("frame_over_bare_vtk_high", ratio.interval.high, "1", params);
@@ -187,7 +212,8 @@ void benchFrame(scene::GlContextProvider& context, const anatomy::Patient& patie
   ar::BoardTracker tracker(pictures.board(), pictures.camera());
   std::int64_t t = 0;
   for (int i = 0; i < 10; ++i) tracker.see(picture, t += 33'333'333);
-  const double track = timeQueries(16, [&](int) { tracker.see(picture, t += 33'333'333); }).median_us;
+  const double track =
+      timeQueries(16, [&](int) { tracker.see(picture, t += 33'333'333); }).median_us;
   print("frame", 1e-3 * ours, "ms", params);
   print("overlay_update_share", 1 - 1 / ratio.median, "1", params);
   print("capture_share", capture / (ours + capture), "1", params);
@@ -198,8 +224,12 @@ void benchFrame(scene::GlContextProvider& context, const anatomy::Patient& patie
 
 void benchRender(const RenderBenchOptions& options) {
   const anatomy::Patient patient = referenceBust();
-  const auto context = scene::makeGlContext(scene::Display::offscreen, options.width, options.height, "Palpa");
-  const json params{{"resolution", std::to_string(options.width) + "x" + std::to_string(options.height)}, {"triangles", trianglesOf(patient)}, {"drawn_on", context->describe()}};
+  const auto context =
+      scene::makeGlContext(scene::Display::offscreen, options.width, options.height, "Palpa");
+  const json params{
+      {"resolution", std::to_string(options.width) + "x" + std::to_string(options.height)},
+      {"triangles", trianglesOf(patient)},
+      {"drawn_on", context->describe()}};
   const int blocks = options.quick ? 3 : 11;
   benchFrame(*context, patient, options, blocks, params);
   benchTranslucency(*context->window(), patient, blocks, params);

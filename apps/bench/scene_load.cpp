@@ -44,7 +44,8 @@ std::int64_t SceneLoad::step(std::int64_t now_ns) {
   own.state.X_CA = lookAt(entry_A + Vec3(0.02 * sway, -0.45, 0.10), entry_A);
   own.state.X_AT = makePose(Quat(Eigen::AngleAxisd(-1.2, Vec3::UnitX())).toRotationMatrix(),
                             entry_A + Vec3(0, 0.01 * sway, 0));
-  own.state.forces = {{scene::ForceKind::reaction, own.state.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
+  own.state.forces = {
+      {scene::ForceKind::reaction, own.state.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
   own.state.hud.force = std::to_string(1 + sway) + " N";
   own.view.show(own.state);
   if (onlookers_ && onlookers_->wantPicture()) onlookers_->show(own.view.capture());

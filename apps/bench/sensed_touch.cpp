@@ -8,9 +8,10 @@ namespace palpa::bench {
 namespace {
 
 constexpr double kCutOff_Hz = 60, kRate_Hz = 1000;
-constexpr double kSensorAbove = 0.08;                 // m from the tip
+constexpr double kSensorAbove = 0.08;  // m from the tip
 constexpr double kMassKnown = 1.01, kBias_N = 0.005;
-const Mat3 kDown = (Mat3() << 1, 0, 0, 0, -1, 0, 0, 0, -1).finished();   // z of S points down the tool
+const Mat3 kDown =
+    (Mat3() << 1, 0, 0, 0, -1, 0, 0, 0, -1).finished();  // z of S points down the tool
 
 twin::SensorTruth biased(std::uint64_t seed) {
   runtime::RandomStream random(seed, "bench.sensor_bias");
@@ -21,7 +22,8 @@ twin::SensorTruth biased(std::uint64_t seed) {
 
 }  // namespace
 
-SensedTouch::SensedTouch(std::uint64_t seed, const twin::DeviceTruth& device) : device_(device), sensor_(biased(seed), seed) {
+SensedTouch::SensedTouch(std::uint64_t seed, const twin::DeviceTruth& device)
+    : device_(device), sensor_(biased(seed), seed) {
   filter_.low_pass = haptics::butterworth(kCutOff_Hz, kRate_Hz);
   filter_.tool.mass = kMassKnown * twin::SensorTruth{}.tool_mass;
   filter_.tool.p_SM = twin::SensorTruth{}.p_SM;

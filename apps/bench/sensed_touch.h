@@ -9,8 +9,9 @@
 
 namespace palpa::bench {
 
-/// A tool's tip and the reaction on it, as a station knows them: a device's encoders; a sensor on its last link that carries the tool, whose mass was identified to 1 % and
-/// whose bias to 5 mN [chosen]. Both through one low-pass, so that they are late by the same.
+/// A tool's tip and the reaction on it, as a station knows them: a device's encoders; a sensor on
+/// its last link that carries the tool, whose mass was identified to 1 % and whose bias to 5 mN
+/// [chosen]. Both through one low-pass, so that they are late by the same.
 class SensedTouch {
  public:
   explicit SensedTouch(std::uint64_t seed, const twin::DeviceTruth& device = {});

@@ -18,7 +18,8 @@ constexpr std::int64_t kTick = 1'000'000;
 /// Moves the device, and takes the records off the queues.
 class Hand final : public runtime::Activity {
  public:
-  Hand(const StrokeSettings& settings, runtime::Bus& bus, runtime::ChannelDevice& device, StrokeResult& result)
+  Hand(const StrokeSettings& settings, runtime::Bus& bus, runtime::ChannelDevice& device,
+       StrokeResult& result)
       : end_s_(settings.seconds), led_(settings, device), bus_(bus), result_(result) {
     arm(bus);
   }
@@ -39,7 +40,8 @@ class Hand final : public runtime::Activity {
 /// Stops everything when the stroke is over.
 class End final : public runtime::Activity {
  public:
-  End(runtime::Executive& executive, double seconds) : executive_(executive), end_ns_(std::int64_t(seconds * 1e9)) {}
+  End(runtime::Executive& executive, double seconds)
+      : executive_(executive), end_ns_(std::int64_t(seconds * 1e9)) {}
   const char* name() const override { return "end"; }
   std::int64_t step(std::int64_t now_ns) override {
     if (now_ns < end_ns_) return end_ns_;
@@ -70,7 +72,8 @@ haptics::TickConfig strokeConfig(const StrokeSettings& settings) {
   return config;
 }
 
-StrokeResult runStroke(const StrokeSettings& settings, const anatomy::LocalGeometryBuilder& builder) {
+StrokeResult runStroke(const StrokeSettings& settings,
+                       const anatomy::LocalGeometryBuilder& builder) {
   StrokeResult result;
   runtime::Bus bus(TimeMode::virtual_time);
   runtime::ChannelDevice device({}, TimeMode::virtual_time);

@@ -16,7 +16,9 @@ Vec3 inBall(Random& random) {
 
 Vec3 direction(Random& random) { return normal3(random).normalized(); }
 
-Mat3 anyRotation(Random& random) { return calibration::rotationOf(std::numbers::pi * inBall(random)); }
+Mat3 anyRotation(Random& random) {
+  return calibration::rotationOf(std::numbers::pi * inBall(random));
+}
 
 std::vector<bool> grossErrors(Random& random, std::size_t n, double share) {
   std::vector<bool> gross(n);

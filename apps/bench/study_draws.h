@@ -14,7 +14,7 @@ namespace palpa::bench::study {
 using Random = runtime::RandomStream;
 
 using runtime::normal3;
-Vec3 inBall(Random& random);   ///< of radius 1, evenly
+Vec3 inBall(Random& random);  ///< of radius 1, evenly
 Vec3 direction(Random& random);
 Mat3 anyRotation(Random& random);
 

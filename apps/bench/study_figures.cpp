@@ -27,7 +27,8 @@ StudyFigures figuresOf(const EstimatorStudy& study, int sets, double outliers) {
     }
   }
   std::vector<double> ratios;
-  for (Eigen::Index k = 0; k < errors.size(); ++k) ratios.push_back(std::sqrt(errors[k] / bounds[k]));
+  for (Eigen::Index k = 0; k < errors.size(); ++k)
+    ratios.push_back(std::sqrt(errors[k] / bounds[k]));
   std::sort(ratios.begin(), ratios.end());
   if (ratios.empty()) return figures;
   const std::size_t n = ratios.size();

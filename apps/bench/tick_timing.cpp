@@ -3,8 +3,8 @@
 #include <memory>
 
 #include "apps/bench/metric.h"
-#include "apps/runtime/quantile.h"
 #include "apps/runtime/clock.h"
+#include "apps/runtime/quantile.h"
 
 namespace palpa::bench {
 namespace {
@@ -13,7 +13,9 @@ namespace {
 class Again {
  public:
   Again(const StrokeSettings& settings, const StrokeResult& stroke)
-      : config_(strokeConfig(settings)), stroke_(stroke), state_(std::make_unique<haptics::TickState>()) {}
+      : config_(strokeConfig(settings)),
+        stroke_(stroke),
+        state_(std::make_unique<haptics::TickState>()) {}
 
   void step() {
     const haptics::FlightRecord& was = stroke_.records[at_];

@@ -19,7 +19,8 @@ class TrackingScene {
   const ar::TagGridSpec& spec() const { return spec_; }
   const ar::Board& board() const { return *board_; }
 
-  /// From `distance`, `tilt` away from straight above, round the board by `azimuth`, rolled; its middle in the middle of the picture. rad, m.
+  /// From `distance`, `tilt` away from straight above, round the board by `azimuth`, rolled; its
+  /// middle in the middle of the picture. rad, m.
   static Pose view(double distance, double tilt, double azimuth, double roll);
   Pose anyView(runtime::RandomStream& random, double distance, double most_tilt) const;
 
@@ -28,9 +29,10 @@ class TrackingScene {
   template <class Motion>
   cv::Mat moving(const Motion& X_CW, double t, std::uint64_t number) const {
     constexpr int kParts = 4;
-    constexpr double kExposure = 0.005;   // s
+    constexpr double kExposure = 0.005;  // s
     cv::Mat sum(camera_.height, camera_.width, CV_32F, cv::Scalar(0));
-    for (int i = 0; i < kParts; ++i) add(X_CW(t + kExposure * ((i + 0.5) / kParts - 0.5)), 1.0 / kParts, &sum);
+    for (int i = 0; i < kParts; ++i)
+      add(X_CW(t + kExposure * ((i + 0.5) / kParts - 0.5)), 1.0 / kParts, &sum);
     return exposed(sum, number);
   }
 
@@ -45,7 +47,8 @@ class TrackingScene {
   std::uint64_t seed_;
 };
 
-/// A hand's way there and back, minimum jerk, across the view and along it, turning on the way; `peak` m/s.
+/// A hand's way there and back, minimum jerk, across the view and along it, turning on the way;
+/// `peak` m/s.
 class HandMotion {
  public:
   HandMotion(const Pose& X_CW, double peak) : X_CW_(X_CW), peak_(peak) {}

@@ -13,12 +13,15 @@ namespace {
 constexpr double kLeftOut_px = 0.7, kRms_px = 0.7, kFocalSpread_percent = 0.3;
 constexpr std::size_t kViewsToJudge = 8;
 constexpr int kCameraGoodFor_days = 180;
-constexpr const char* kLensNames[] = {"focal_x_px", "focal_y_px", "centre_x_px", "centre_y_px", "k1", "k2", "p1", "p2", "k3"};
+constexpr const char* kLensNames[] = {
+    "focal_x_px", "focal_y_px", "centre_x_px", "centre_y_px", "k1", "k2", "p1", "p2", "k3"};
 
 /// Squares and number of the errors of every other corner, the pose from the rest.
-void judge(const calibration::BoardView& view, const calibration::CameraModel& camera, double* squares, int* n) {
+void judge(const calibration::BoardView& view, const calibration::CameraModel& camera,
+           double* squares, int* n) {
   std::vector<ar::BoardPoint> half;
-  for (std::size_t i = 0; i < view.p_W.size(); i += 2) half.push_back({view.p_W[i], view.pixels[i]});
+  for (std::size_t i = 0; i < view.p_W.size(); i += 2)
+    half.push_back({view.p_W[i], view.pixels[i]});
   const auto pose = ar::estimateBoardPose(half, camera);
   if (!pose) return;
   for (std::size_t i = 1; i < view.p_W.size(); i += 2) {
@@ -27,13 +30,16 @@ void judge(const calibration::BoardView& view, const calibration::CameraModel& c
   }
 }
 
-/// Root of the mean squared error of corners in views that the lens has not seen; negative: too few views to tell.
-double leftOutRms_px(const std::vector<calibration::BoardView>& views, int width, int height, bool keep_all) {
+/// Root of the mean squared error of corners in views that the lens has not seen; negative: too few
+/// views to tell.
+double leftOutRms_px(const std::vector<calibration::BoardView>& views, int width, int height,
+                     bool keep_all) {
   if (views.size() < kViewsToJudge) return -1;
   std::vector<calibration::BoardView> fitted;
   for (std::size_t i = 0; i < views.size(); ++i)
     if (i % 5 != 4) fitted.push_back(views[i]);
-  const calibration::CameraModel camera = calibration::calibrateCamera(fitted, width, height, {keep_all}).model;
+  const calibration::CameraModel camera =
+      calibration::calibrateCamera(fitted, width, height, {keep_all}).model;
   double squares = 0;
   int n = 0;
   for (std::size_t i = 4; i < views.size(); i += 5) judge(views[i], camera, &squares, &n);
@@ -49,9 +55,10 @@ std::string withSpread(double value, double sd) {
 
 }  // namespace
 
-Result cameraResult(const std::vector<calibration::BoardView>& views, int width, int height, const Origin& origin, calibration::CameraModel* found,
-                    bool keep_all) {
-  const calibration::CameraCalibration c = calibration::calibrateCamera(views, width, height, {keep_all});
+Result cameraResult(const std::vector<calibration::BoardView>& views, int width, int height,
+                    const Origin& origin, calibration::CameraModel* found, bool keep_all) {
+  const calibration::CameraCalibration c =
+      calibration::calibrateCamera(views, width, height, {keep_all});
   Result r;
   r.title = "Camera";
   r.file = begun(origin, "camera", kCameraGoodFor_days);
@@ -65,22 +72,28 @@ Result cameraResult(const std::vector<calibration::BoardView>& views, int width,
     r.file.residuals.values.push_back(c.views[i].rms_px);
     if (!c.views[i].used) r.file.residuals.left_out.push_back(static_cast<int>(i));
     r.file.data.samples += static_cast<int>(views[i].p_W.size());
-    if (c.views[i].used) r.file.data.used += static_cast<int>(views[i].p_W.size()) - c.views[i].outliers;
+    if (c.views[i].used)
+      r.file.data.used += static_cast<int>(views[i].p_W.size()) - c.views[i].outliers;
   }
   r.plots.push_back(plot);
   r.coverage.columns = static_cast<int>(calibration::kCoverageColumns);
   r.coverage.rows = static_cast<int>(calibration::kCoverageRows);
-  for (const auto& row : c.coverage) r.coverage.counts.insert(r.coverage.counts.end(), row.begin(), row.end());
+  for (const auto& row : c.coverage)
+    r.coverage.counts.insert(r.coverage.counts.end(), row.begin(), row.end());
   const double focal_percent = 100 * std::max(c.sd[0] / c.model.fx, c.sd[1] / c.model.fy);
-  r.file.checks = {{"the focal length's uncertainty", focal_percent, kFocalSpread_percent, "%"}, {"the corners' error", c.model.rms_px, kRms_px, "px"}};
+  r.file.checks = {{"the focal length's uncertainty", focal_percent, kFocalSpread_percent, "%"},
+                   {"the corners' error", c.model.rms_px, kRms_px, "px"}};
   if (const double left_out = leftOutRms_px(views, width, height, keep_all); left_out >= 0)
     r.file.checks.push_back({"the corners' error in views not used", left_out, kLeftOut_px, "px"});
   else
     r.advice.push_back("With fewer than eight views nothing is left to judge by: take more.");
-  r.sentences = {std::to_string(views.size()) + " views of the board; corners fit to " + quantity(c.model.rms_px, "px") + ", seen in " +
+  r.sentences = {std::to_string(views.size()) + " views of the board; corners fit to " +
+                     quantity(c.model.rms_px, "px") + ", seen in " +
                      quantity(100 * c.covered, "%") + " of the picture.",
-                 "Focal length " + withSpread(c.model.fx, c.sd[0]) + " across, " + withSpread(c.model.fy, c.sd[1]) + " down; centre " +
-                     withSpread(c.model.cx, c.sd[2]) + ", " + withSpread(c.model.cy, c.sd[3]) + "."};
+                 "Focal length " + withSpread(c.model.fx, c.sd[0]) + " across, " +
+                     withSpread(c.model.fy, c.sd[1]) + " down; centre " +
+                     withSpread(c.model.cx, c.sd[2]) + ", " + withSpread(c.model.cy, c.sd[3]) +
+                     "."};
   for (const std::string& warning : c.warnings) r.advice.push_back(warning);
   r.file.verdict = verdictOf(r.file.checks);
   r.advice.push_back("Redo it when the lens was turned, refocused or knocked.");

@@ -17,7 +17,7 @@ constexpr std::size_t kTouchReadings = 25;
 constexpr double kMostTremor = 4e-4;      // m rms while a tip rests in its hole
 constexpr double kMostTremorHeld = 1e-3;  // m rms, in the air
 constexpr int kTries = 3;
-constexpr std::size_t kEveryPivotReading = 4;   // 25 Hz: neighbours tell nothing new
+constexpr std::size_t kEveryPivotReading = 4;  // 25 Hz: neighbours tell nothing new
 
 /// A stretch of readings with the button down, and the pictures that came meanwhile.
 struct Stretch {
@@ -27,7 +27,8 @@ struct Stretch {
 };
 
 /// Until `readings` were taken with the button down.
-Stretch whilePressed(const Scene& scene, const Request& request, std::size_t readings, std::size_t most_pictures) {
+Stretch whilePressed(const Scene& scene, const Request& request, std::size_t readings,
+                     std::size_t most_pictures) {
   scene.guide.ask(request.words);
   scene.rig.ask(request);
   Stretch stretch;
@@ -36,16 +37,20 @@ Stretch whilePressed(const Scene& scene, const Request& request, std::size_t rea
   while (stretch.X_DE.size() < readings) {
     const Moment moment = need(scene.rig, "calibration");
     if (begun < 0) begun = moment.t;
-    if (moment.t - begun > kPatience) throw Error("nobody pressed the button for a minute", request.words, "Begin again when somebody is at the device");
+    if (moment.t - begun > kPatience)
+      throw Error("nobody pressed the button for a minute", request.words,
+                  "Begin again when somebody is at the device");
     if (moment.reading) {
       const bool was_down = std::exchange(down, pressed(*moment.reading));
       if (!down) continue;
       if (!was_down) down_since = moment.t;
       stretch.X_DE.push_back(poseOf(*moment.reading));
-      if (moment.wrench && !(moment.wrench->flags & haptics::kFault)) stretch.wrenches.push_back(*moment.wrench);
+      if (moment.wrench && !(moment.wrench->flags & haptics::kFault))
+        stretch.wrenches.push_back(*moment.wrench);
     } else if (down && stretch.pictures.size() < most_pictures) {
       std::optional<ar::Frame> frame = moment.picture();
-      if (frame && 1e-9 * static_cast<double>(frame->t_exposure_ns) >= down_since) stretch.pictures.push_back(std::move(*frame));
+      if (frame && 1e-9 * static_cast<double>(frame->t_exposure_ns) >= down_since)
+        stretch.pictures.push_back(std::move(*frame));
     }
   }
   return stretch;
@@ -73,7 +78,9 @@ Stretch whileStill(const Scene& scene, Request request, double most_tremor, std:
   for (int i = 0;; ++i) {
     Stretch stretch = whilePressed(scene, request, kTouchReadings, pictures);
     if (unrest(stretch.X_DE, meanPose(stretch.X_DE)) < most_tremor) return stretch;
-    if (i + 1 == kTries) throw Error("the hand was not still in three tries", words, "Rest it on the table, and begin again");
+    if (i + 1 == kTries)
+      throw Error("the hand was not still in three tries", words,
+                  "Rest it on the table, and begin again");
     request.words = "Not still enough. Once more: " + words;
   }
 }
@@ -84,7 +91,8 @@ std::vector<Pose> thinned(const std::vector<Pose>& poses) {
   return kept;
 }
 
-std::vector<Pose> collectMotion(const Scene& scene, Request::What what, const std::string& words, const Vec3& p_W, double seconds) {
+std::vector<Pose> collectMotion(const Scene& scene, Request::What what, const std::string& words,
+                                const Vec3& p_W, double seconds) {
   Request request;
   request.what = what;
   request.words = words;
@@ -104,20 +112,26 @@ std::vector<ar::BoardPoint> meanPoints(const std::vector<std::vector<ar::BoardPo
   std::map<std::pair<double, double>, std::pair<ar::BoardPoint, std::size_t>> sums;
   for (const auto& points : pictures)
     for (const ar::BoardPoint& point : points) {
-      auto& [sum, count] = sums.try_emplace({point.p_W.x(), point.p_W.y()}, ar::BoardPoint{point.p_W, Eigen::Vector2d::Zero()}, 0).first->second;
+      auto& [sum, count] = sums.try_emplace({point.p_W.x(), point.p_W.y()},
+                                            ar::BoardPoint{point.p_W, Eigen::Vector2d::Zero()}, 0)
+                               .first->second;
       sum.pixel += point.pixel;
       ++count;
     }
   std::vector<ar::BoardPoint> means;
   for (auto& [place, entry] : sums)
-    if (entry.second == pictures.size()) means.push_back({entry.first.p_W, entry.first.pixel / static_cast<double>(pictures.size())});
+    if (entry.second == pictures.size())
+      means.push_back({entry.first.p_W, entry.first.pixel / static_cast<double>(pictures.size())});
   return means;
 }
 
 class TwoBoards {
  public:
-  TwoBoards(const station::Station& station, const calibration::CameraModel& camera) : camera_(camera), board_(ar::makeBoard(station.board, 1.0)) {
-    if (!station.marker) throw Error("has no \"marker\" on the tool", station.file.name(), "Add one, or register by landmarks alone");
+  TwoBoards(const station::Station& station, const calibration::CameraModel& camera)
+      : camera_(camera), board_(ar::makeBoard(station.board, 1.0)) {
+    if (!station.marker)
+      throw Error("has no \"marker\" on the tool", station.file.name(),
+                  "Add one, or register by landmarks alone");
     marker_ = ar::makeBoard(*station.marker, 1.0);
   }
   /// In one picture, or in several of the same pose.
@@ -145,23 +159,32 @@ Request heldRequest(int i) {
   request.what = Request::What::hold;
   const double across = (i % 4 - 1.5) / 1.5, along = (i / 4 % 3 - 1.0), up = (i * 7 % 5) / 4.0;
   request.p_W = Vec3(0.05 * across, 0.17 + 0.035 * along, 0.01 + 0.05 * up);
-  const double round = 2.4 * i;   // the golden angle: every way, none twice
+  const double round = 2.4 * i;  // the golden angle: every way, none twice
   request.lean = Vec3(0.4 * std::cos(round), 0.4 * std::sin(round), 0.35 * std::sin(1.7 * i));
-  request.words = "Hold the tool still where the camera sees its tags, leaning another way than before, and press the button";
+  request.words =
+      "Hold the tool still where the camera sees its tags, leaning another way than before, and "
+      "press the button";
   return request;
 }
 
 }  // namespace
 
 std::vector<Pose> collectPivot(const Scene& scene, const Vec3& p_W, double seconds) {
-  return collectMotion(scene, Request::What::pivot, "Put the tip into the hole, press the button, and tilt the tool every way without leaving the hole", p_W, seconds);
+  return collectMotion(scene, Request::What::pivot,
+                       "Put the tip into the hole, press the button, and tilt the tool every way "
+                       "without leaving the hole",
+                       p_W, seconds);
 }
 
 std::vector<Pose> collectSpin(const Scene& scene, const Vec3& p_W, double seconds) {
-  return collectMotion(scene, Request::What::spin, "Put the needle into the guide, press the button, and spin it about itself, to and fro", p_W, seconds);
+  return collectMotion(
+      scene, Request::What::spin,
+      "Put the needle into the guide, press the button, and spin it about itself, to and fro", p_W,
+      seconds);
 }
 
-std::vector<TouchedPose> collectTouches(const Scene& scene, const std::vector<station::Landmark>& landmarks) {
+std::vector<TouchedPose> collectTouches(const Scene& scene,
+                                        const std::vector<station::Landmark>& landmarks) {
   std::vector<TouchedPose> touched;
   const auto count = static_cast<int>(landmarks.size());
   for (const station::Landmark& landmark : landmarks) {
@@ -178,11 +201,13 @@ std::vector<TouchedPose> collectTouches(const Scene& scene, const std::vector<st
 
 std::vector<Touch> touchesOf(const std::vector<TouchedPose>& poses, const Vec3& tip_E) {
   std::vector<Touch> touches;
-  for (const TouchedPose& t : poses) touches.push_back({t.name, t.p_W, t.X_DE * tip_E, t.for_check, t.X_DE.rotation() * tip_E});
+  for (const TouchedPose& t : poses)
+    touches.push_back({t.name, t.p_W, t.X_DE * tip_E, t.for_check, t.X_DE.rotation() * tip_E});
   return touches;
 }
 
-std::vector<HeldPose> collectHeld(const Scene& scene, const calibration::CameraModel& camera, int poses) {
+std::vector<HeldPose> collectHeld(const Scene& scene, const calibration::CameraModel& camera,
+                                  int poses) {
   const TwoBoards boards(scene.station, camera);
   std::vector<HeldPose> held;
   int seen = 0;
@@ -214,13 +239,16 @@ std::vector<HeldPose> collectHeld(const Scene& scene, const calibration::CameraM
   return held;
 }
 
-LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& camera, const Vec3& p_EM, double seconds) {
+LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& camera,
+                           const Vec3& p_EM, double seconds) {
   const TwoBoards boards(scene.station, camera);
   Request request;
   request.what = Request::What::wave;
   request.p_W = Vec3(0, 0.17, 0.04);
   request.seconds = seconds;
-  request.words = "Press the button and wave the tool before the camera, this way and that, never twice the same";
+  request.words =
+      "Press the button and wave the tool before the camera, this way and that, never twice the "
+      "same";
   scene.guide.ask(request.words);
   scene.rig.ask(request);
   LatencySamples samples;
@@ -229,7 +257,8 @@ LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& c
     const Moment moment = need(scene.rig, "calibration of the time");
     if (first < 0) first = moment.t;
     last = moment.t;
-    if (begun < 0 && moment.t - first > kPatience) throw Error("nobody pressed the button for a minute", request.words, "Begin again");
+    if (begun < 0 && moment.t - first > kPatience)
+      throw Error("nobody pressed the button for a minute", request.words, "Begin again");
     if (moment.reading) {
       const Pose X_DE = poseOf(*moment.reading);
       samples.device.push_back({1e-9 * static_cast<double>(moment.reading->t_ns), X_DE * p_EM});
@@ -239,9 +268,12 @@ LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& c
       if (!frame) continue;
       const Seen s = boards.see({frame->image});
       if (!s.board || !s.marker) continue;
-      samples.camera.push_back({1e-9 * static_cast<double>(frame->t_exposure_ns), s.board->X_CW.inverse() * s.marker->X_CW.translation()});
+      samples.camera.push_back({1e-9 * static_cast<double>(frame->t_exposure_ns),
+                                s.board->X_CW.inverse() * s.marker->X_CW.translation()});
       if (samples.camera.size() % 15 == 0)
-        scene.guide.progress("Motion before the camera", static_cast<int>(last - begun), static_cast<int>(seconds), std::to_string(samples.camera.size()) + " pictures");
+        scene.guide.progress("Motion before the camera", static_cast<int>(last - begun),
+                             static_cast<int>(seconds),
+                             std::to_string(samples.camera.size()) + " pictures");
     }
   }
   return samples;

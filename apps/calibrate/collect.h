@@ -7,11 +7,12 @@
 #include "apps/runtime/rig.h"
 #include "apps/station/station_file.h"
 #include "ar/board_pose.h"
-#include "calibration/camera_calibration.h"
 #include "calibration/board_view.h"
+#include "calibration/camera_calibration.h"
 #include "calibration/hand_eye_refinement.h"
 
-/// Collects what a calibration needs from a station: asks, watches, takes what is good, asks again for what is not.
+/// Collects what a calibration needs from a station: asks, watches, takes what is good, asks again
+/// for what is not.
 namespace palpa::calibrate {
 
 /// Tells a person how it goes.
@@ -46,21 +47,25 @@ struct TouchedPose {
   Pose X_DE = Pose::Identity();
   bool for_check = false;
 };
-std::vector<TouchedPose> collectTouches(const Scene& scene, const std::vector<station::Landmark>& landmarks);
+std::vector<TouchedPose> collectTouches(const Scene& scene,
+                                        const std::vector<station::Landmark>& landmarks);
 /// With the tool that was found.
 std::vector<Touch> touchesOf(const std::vector<TouchedPose>& poses, const Vec3& tip_E);
 
-/// The tool held still in `poses` places where the camera sees its marker: X_DE, the marker's pose in W, its corners (means of up to three pictures),
-/// and what the force sensor showed.
+/// The tool held still in `poses` places where the camera sees its marker: X_DE, the marker's pose
+/// in W, its corners (means of up to three pictures), and what the force sensor showed.
 struct HeldPose {
   Pose X_DE = Pose::Identity(), X_WM = Pose::Identity();
   bool seen = false;
   calibration::TagView view;
   Vec3 f_S = Vec3::Zero(), m_S = Vec3::Zero();
 };
-std::vector<HeldPose> collectHeld(const Scene& scene, const calibration::CameraModel& camera, int poses = 20);
+std::vector<HeldPose> collectHeld(const Scene& scene, const calibration::CameraModel& camera,
+                                  int poses = 20);
 
-/// The tool waved before the camera: the marker in the camera's frame by the camera's clock, p_DE + R_DE p_EM by the device's.
-LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& camera, const Vec3& p_EM, double seconds = 12);
+/// The tool waved before the camera: the marker in the camera's frame by the camera's clock, p_DE +
+/// R_DE p_EM by the device's.
+LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& camera,
+                           const Vec3& p_EM, double seconds = 12);
 
 }  // namespace palpa::calibrate

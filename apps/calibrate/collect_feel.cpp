@@ -14,22 +14,27 @@ namespace {
 
 using runtime::Moment;
 using runtime::Request;
-constexpr double kCutOff_Hz = 30, kFeltDeep = 7e-3, kStrokeReach = 0.02;   // m
-constexpr std::size_t kShownEvery = 250;   // readings
+constexpr double kCutOff_Hz = 30, kFeltDeep = 7e-3, kStrokeReach = 0.02;  // m
+constexpr std::size_t kShownEvery = 250;                                  // readings
 constexpr std::size_t kShownColumns = 24;
-constexpr double kEvenWithin = 0.5;        // of dt
-constexpr std::size_t kLiveEvery = 40;     // readings
+constexpr double kEvenWithin = 0.5;     // of dt
+constexpr std::size_t kLiveEvery = 40;  // readings
 
 void requireSample(const station::Station& station) {
-  if (!station.force_sensor) throw UsageError("has no \"force_sensor\"", station.file.name(), "What a sample is made of is told by force: describe the sensor");
-  if (!station.sample) throw UsageError("has no \"sample\"", station.file.name(), "Say where it lies: sample/X_WP, sample/tip_radius_mm");
+  if (!station.force_sensor)
+    throw UsageError("has no \"force_sensor\"", station.file.name(),
+                     "What a sample is made of is told by force: describe the sensor");
+  if (!station.sample)
+    throw UsageError("has no \"sample\"", station.file.name(),
+                     "Say where it lies: sample/X_WP, sample/tip_radius_mm");
 }
 
 /// A small picture of a stretch of figures, in a line of text.
 std::string sparks(const std::vector<double>& values, double most) {
   static const char* const kHeights[] = {"▁", "▂", "▃", "▄", "▅", "▆", "▇", "█"};
   std::string line;
-  for (const double v : values) line += kHeights[std::clamp(static_cast<int>(8 * v / std::max(most, 1e-9)), 0, 7)];
+  for (const double v : values)
+    line += kHeights[std::clamp(static_cast<int>(8 * v / std::max(most, 1e-9)), 0, 7)];
   return line;
 }
 
@@ -50,7 +55,8 @@ class LivePlot {
   }
   std::string words() const {
     if (felt_.empty()) return "";
-    const double most = std::max(*std::max_element(felt_.begin(), felt_.end()), *std::max_element(foretold_.begin(), foretold_.end()));
+    const double most = std::max(*std::max_element(felt_.begin(), felt_.end()),
+                                 *std::max_element(foretold_.begin(), foretold_.end()));
     return "felt " + sparks(felt_, most) + " foretold " + sparks(foretold_, most);
   }
 
@@ -64,16 +70,22 @@ class LivePlot {
 /// Reading and wrench as a touch of the sample.
 class Feeling {
  public:
-  explicit Feeling(const station::Station& station) : station_(station), filter_(station.force_sensor->filter), radius_(station.sample->tip_radius), X_PW_(station.sample->X_WP.inverse()) {
+  explicit Feeling(const station::Station& station)
+      : station_(station),
+        filter_(station.force_sensor->filter),
+        radius_(station.sample->tip_radius),
+        X_PW_(station.sample->X_WP.inverse()) {
     filter_.motion.rate_Hz = runtime::kFeltRate_Hz;
     filter_.low_pass = haptics::butterworth(kCutOff_Hz, runtime::kFeltRate_Hz);
-    filter_.p_SK = pack(Vec3(station.force_sensor->X_ES.inverse() * (station.X_ET * Vec3(0, 0, -radius_))));
+    filter_.p_SK =
+        pack(Vec3(station.force_sensor->X_ES.inverse() * (station.X_ET * Vec3(0, 0, -radius_))));
   }
   std::optional<FeltSample> feel(const Moment& moment) {
     const Pose X_WS = station_.X_WD * poseOf(*moment.reading) * station_.force_sensor->X_ES;
     haptics::WrenchSample silent;
     silent.flags = haptics::kNothingYet;
-    const haptics::ContactWrench told = haptics::step(filter_, state_, moment.wrench ? *moment.wrench : silent, pack(X_WS), moment.reading->t_ns);
+    const haptics::ContactWrench told = haptics::step(
+        filter_, state_, moment.wrench ? *moment.wrench : silent, pack(X_WS), moment.reading->t_ns);
     if (!told.valid) return std::nullopt;
     FeltSample sample;
     sample.p_P = X_PW_ * unpack(told.p_WK) - radius_ * Vec3::UnitZ();
@@ -115,28 +127,34 @@ FeltSamples collectFelt(const Scene& scene, const Request& request) {
     if (!moment.reading) continue;
     const std::optional<FeltSample> sample = feeling.feel(moment);
     if (!pressed(*moment.reading)) {
-      if (moment.t - begun > kPatience && felt.samples.empty()) throw Error("nobody pressed the button for a minute", request.words, "Begin again when somebody is at the device");
+      if (moment.t - begun > kPatience && felt.samples.empty())
+        throw Error("nobody pressed the button for a minute", request.words,
+                    "Begin again when somebody is at the device");
       if (!felt.samples.empty()) break;
       continue;
     }
     if (!sample) {
       if (silent_since < 0) silent_since = moment.t;
-      if (moment.t - silent_since > 1) throw Error("says nothing that can be used", "force sensor", "Look at its cable; is it overloaded?");
-      felt.samples.clear();   // after a gap the times would not be even
+      if (moment.t - silent_since > 1)
+        throw Error("says nothing that can be used", "force sensor",
+                    "Look at its cable; is it overloaded?");
+      felt.samples.clear();  // after a gap the times would not be even
       continue;
     }
     silent_since = -1;
     felt.samples.push_back(*sample);
     live.add(*sample, felt.dt);
     if (felt.samples.size() % kShownEvery == 0 || felt.samples.size() == wanted)
-      scene.guide.progress("Samples", static_cast<int>(felt.samples.size()), static_cast<int>(wanted), live.words());
+      scene.guide.progress("Samples", static_cast<int>(felt.samples.size()),
+                           static_cast<int>(wanted), live.words());
   }
   return felt;
 }
 
 }  // namespace
 
-FeltSamples collectPresses(const Scene& scene, const std::string& sample, const FeltPlace& place, double seconds) {
+FeltSamples collectPresses(const Scene& scene, const std::string& sample, const FeltPlace& place,
+                           double seconds) {
   requireSample(scene.station);
   Request request;
   request.what = Request::What::press;
@@ -144,7 +162,10 @@ FeltSamples collectPresses(const Scene& scene, const std::string& sample, const 
   request.depth = kFeltDeep;
   request.p_W = scene.station.sample->X_WP * Vec3(place.across, place.along, 0);
   request.seconds = seconds;
-  request.words = "Hold the button and press the sample with the upright tip, 7 mm deep at most, and let go: slowly and quickly, for " + std::to_string(static_cast<int>(seconds)) + " s";
+  request.words =
+      "Hold the button and press the sample with the upright tip, 7 mm deep at most, and let go: "
+      "slowly and quickly, for " +
+      std::to_string(static_cast<int>(seconds)) + " s";
   return collectFelt(scene, request);
 }
 
@@ -157,21 +178,33 @@ FeltSamples collectStrokes(const Scene& scene, const std::string& sample, double
   request.reach = kStrokeReach;
   request.p_W = scene.station.sample->X_WP.translation();
   request.seconds = seconds;
-  request.words = "Hold the button and stroke over the sample, to and fro, lightly and firmly, slowly and fast, for " + std::to_string(static_cast<int>(seconds)) + " s";
+  request.words =
+      "Hold the button and stroke over the sample, to and fro, lightly and firmly, slowly and "
+      "fast, for " +
+      std::to_string(static_cast<int>(seconds)) + " s";
   return collectFelt(scene, request);
 }
 
 FeltSamples readFelt(const std::filesystem::path& file) {
   const SampleTable table(file);
-  if (table.rows() < 2) throw Error("holds fewer than two samples", file.string(), "Record for longer");
+  if (table.rows() < 2)
+    throw Error("holds fewer than two samples", file.string(), "Record for longer");
   FeltSamples felt;
-  felt.dt = (table.number(table.rows() - 1, "t_s") - table.number(0, "t_s")) / static_cast<double>(table.rows() - 1);
-  if (!(felt.dt > 1e-5 && felt.dt < 0.1)) throw Error("has times that do not rise by 0.01 to 100 ms", file.string(), "Give t_s in seconds");
+  felt.dt = (table.number(table.rows() - 1, "t_s") - table.number(0, "t_s")) /
+            static_cast<double>(table.rows() - 1);
+  if (!(felt.dt > 1e-5 && felt.dt < 0.1))
+    throw Error("has times that do not rise by 0.01 to 100 ms", file.string(),
+                "Give t_s in seconds");
   const bool lump = table.has("lump_x_mm") || table.has("lump_x_m");
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    if (i > 0 && std::abs(table.number(i, "t_s") - table.number(i - 1, "t_s") - felt.dt) > kEvenWithin * felt.dt)
-      throw Error("has times that are not even (row " + std::to_string(i + 1) + ")", file.string(), "Record at an even rate, without gaps");
-    FeltSample sample{table.place(i, ""), Vec3(table.number(i, "force_x_N"), table.number(i, "force_y_N"), table.number(i, "force_z_N")), std::nullopt};
+    if (i > 0 && std::abs(table.number(i, "t_s") - table.number(i - 1, "t_s") - felt.dt) >
+                     kEvenWithin * felt.dt)
+      throw Error("has times that are not even (row " + std::to_string(i + 1) + ")", file.string(),
+                  "Record at an even rate, without gaps");
+    FeltSample sample{table.place(i, ""),
+                      Vec3(table.number(i, "force_x_N"), table.number(i, "force_y_N"),
+                           table.number(i, "force_z_N")),
+                      std::nullopt};
     if (lump) sample.lump_P = table.place(i, "lump_");
     felt.samples.push_back(sample);
   }

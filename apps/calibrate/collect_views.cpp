@@ -12,16 +12,24 @@ using runtime::Request;
 constexpr double kStill_px = 0.6;        // mean motion of the corners between two pictures
 constexpr double kPatienceForView = 30;  // s
 constexpr std::size_t kLeastCorners = 16;
-constexpr double kLean = 0.5;            // rad
+constexpr double kLean = 0.5;  // rad
 
 std::string wordsFor(const BoardView& v) {
-  const std::string where = std::string(v.down < -0.2 ? "upper " : v.down > 0.2 ? "lower " : "") + (v.across < -0.2 ? "left" : v.across > 0.2 ? "right" : "middle");
+  const std::string where = std::string(v.down < -0.2  ? "upper "
+                                        : v.down > 0.2 ? "lower "
+                                                       : "") +
+                            (v.across < -0.2  ? "left"
+                             : v.across > 0.2 ? "right"
+                                              : "middle");
   std::string how;
   if (v.lean > 0.2) how = ", its upper edge tilted toward the camera";
   if (v.lean < -0.2) how = ", its lower edge tilted toward the camera";
   if (v.turn > 0.2) how += ", its left edge turned toward the camera";
   if (v.turn < -0.2) how += ", its right edge turned toward the camera";
-  return "Hold the board still in the " + where + " of the picture" + how + (v.share > 0.6 ? ", near" : v.share < 0.45 ? ", far" : "");
+  return "Hold the board still in the " + where + " of the picture" + how +
+         (v.share > 0.6    ? ", near"
+          : v.share < 0.45 ? ", far"
+                           : "");
 }
 
 /// Every part of the picture, leaning every way, near and far.
@@ -31,11 +39,14 @@ BoardView planned(int i) {
   static constexpr double kLeans[] = {1, -1, 0, 0, 0.8, -0.8};
   static constexpr double kTurns[] = {0, 0, 1, -1, 0.8, -0.8, 0.8};
   static constexpr double kShares[] = {0.62, 0.5, 0.4, 0.55};
-  const auto at = [i](const auto& list) { return list[static_cast<std::size_t>(i) % std::size(list)]; };
+  const auto at = [i](const auto& list) {
+    return list[static_cast<std::size_t>(i) % std::size(list)];
+  };
   return {at(kAcross), at(kDown), kLean * at(kLeans), kLean * at(kTurns), at(kShares)};
 }
 
-double movedSince(const std::vector<ar::BoardPoint>& before, const std::vector<ar::BoardPoint>& now) {
+double movedSince(const std::vector<ar::BoardPoint>& before,
+                  const std::vector<ar::BoardPoint>& now) {
   std::map<std::pair<double, double>, Eigen::Vector2d> places;
   for (const ar::BoardPoint& point : before) places[{point.p_W.x(), point.p_W.y()}] = point.pixel;
   double sum = 0;
@@ -80,7 +91,7 @@ std::vector<calibration::BoardView> collectViews(const Scene& scene, int views) 
     scene.guide.ask(request.words);
     scene.rig.ask(request);
     const std::vector<ar::BoardPoint> points = stillView(scene, *board);
-    if (points.empty()) continue;   // not seen there: another view may serve
+    if (points.empty()) continue;  // not seen there: another view may serve
     calibration::BoardView view;
     view.name = "view " + std::to_string(i + 1);
     for (const ar::BoardPoint& point : points) {
@@ -89,10 +100,15 @@ std::vector<calibration::BoardView> collectViews(const Scene& scene, int views) 
     }
     taken.push_back(std::move(view));
     for (const ar::BoardPoint& point : points)
-      if (int* cell = calibration::cellAt(coverage, point.pixel, scene.station.camera.width, scene.station.camera.height)) ++*cell;
+      if (int* cell = calibration::cellAt(coverage, point.pixel, scene.station.camera.width,
+                                          scene.station.camera.height))
+        ++*cell;
     scene.guide.covered(points, coverage);
-    scene.guide.progress("Views of the board", i + 1, views,
-                         std::to_string(points.size()) + " corners; " + std::to_string(std::lround(100 * calibration::coveredShare(coverage))) + " % of the picture covered so far");
+    scene.guide.progress(
+        "Views of the board", i + 1, views,
+        std::to_string(points.size()) + " corners; " +
+            std::to_string(std::lround(100 * calibration::coveredShare(coverage))) +
+            " % of the picture covered so far");
   }
   return taken;
 }

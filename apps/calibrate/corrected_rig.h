@@ -6,7 +6,8 @@
 
 namespace palpa::calibrate {
 
-/// A rig whose readings are put right by a calibration of the workspace, from the moment on when there is one.
+/// A rig whose readings are put right by a calibration of the workspace, from the moment on when
+/// there is one.
 class CorrectedRig final : public runtime::Rig {
  public:
   explicit CorrectedRig(runtime::Rig& rig) : rig_(rig) {}
@@ -16,7 +17,8 @@ class CorrectedRig final : public runtime::Rig {
   void ask(const runtime::Request& request) override { rig_.ask(request); }
   std::optional<runtime::Moment> next() override {
     std::optional<runtime::Moment> moment = rig_.next();
-    if (moment && moment->reading && correction_.order > 0) moment->reading->p_DE = haptics::corrected(correction_, moment->reading->p_DE);
+    if (moment && moment->reading && correction_.order > 0)
+      moment->reading->p_DE = haptics::corrected(correction_, moment->reading->p_DE);
     return moment;
   }
 
@@ -25,7 +27,8 @@ class CorrectedRig final : public runtime::Rig {
     c.order = map.order;
     c.centre = pack(map.centre_D);
     c.half = pack(map.half_D);
-    for (Eigen::Index k = 0; k < map.coefficients.rows(); ++k) c.coefficients[static_cast<std::size_t>(k)] = pack(Vec3(map.coefficients.row(k)));
+    for (Eigen::Index k = 0; k < map.coefficients.rows(); ++k)
+      c.coefficients[static_cast<std::size_t>(k)] = pack(Vec3(map.coefficients.row(k)));
     return c;
   }
 

@@ -10,13 +10,14 @@
 
 namespace palpa::calibrate {
 
-/// A round tip on a soft sample: where its lowest point was in P, what the sample did to it, how far a lump had moved (where something tells that). At even times, `dt` apart.
+/// A round tip on a soft sample: where its lowest point was in P, what the sample did to it, how
+/// far a lump had moved (where something tells that). At even times, `dt` apart.
 struct FeltSample {
-  Vec3 p_P = Vec3::Zero(), f_P = Vec3::Zero();   ///< m, N
-  std::optional<Vec3> lump_P;                    ///< m
+  Vec3 p_P = Vec3::Zero(), f_P = Vec3::Zero();  ///< m, N
+  std::optional<Vec3> lump_P;                   ///< m
 };
 struct FeltSamples {
-  double dt = 1e-3;   ///< s
+  double dt = 1e-3;  ///< s
   std::vector<FeltSample> samples;
 };
 

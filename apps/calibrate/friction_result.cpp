@@ -11,7 +11,8 @@ constexpr double kRubbedOff_percent = 7, kLeastRubbed_N = 0.1, kNotTouched_N = 0
 constexpr int kLeastUntouched = 100;
 constexpr std::size_t kShownSlides = 500;
 
-/// Mean square of what the sensor shows across the normal where nothing is touched, N^2: hands tremble, encoders step.
+/// Mean square of what the sensor shows across the normal where nothing is touched, N^2: hands
+/// tremble, encoders step.
 double noiseOf(const std::vector<calibration::SlideSample>& slides) {
   double squares = 0;
   int untouched = 0;
@@ -23,19 +24,23 @@ double noiseOf(const std::vector<calibration::SlideSample>& slides) {
   return untouched > kLeastUntouched ? squares / untouched : 0;
 }
 
-/// The law run over the whole recording, for what drags now depends on the way before; what it foretells along x from `from` on, and how much it errs there beyond the noise, in percent of the rms drag.
+/// The law run over the whole recording, for what drags now depends on the way before; what it
+/// foretells along x from `from` on, and how much it errs there beyond the noise, in percent of the
+/// rms drag.
 struct Foretold {
   std::vector<double> drag;
   double off_percent = 0;
 };
-Foretold foretell(const haptics::Dahl& law, const std::vector<calibration::SlideSample>& slides, std::size_t from, double dt) {
+Foretold foretell(const haptics::Dahl& law, const std::vector<calibration::SlideSample>& slides,
+                  std::size_t from, double dt) {
   Foretold told;
   haptics::DahlState state;
   const double noise = noiseOf(slides);
   double off = 0, all = 0;
   for (std::size_t i = 0; i < slides.size(); ++i) {
     const Vec3 dp = i > 0 ? Vec3(slides[i].p - slides[i - 1].p) : Vec3(Vec3::Zero());
-    const Vec3 drag = haptics::dragOf(law, dp, slides[i].n, std::max(slides[i].f_n, 0.0), dt, &state);
+    const Vec3 drag =
+        haptics::dragOf(law, dp, slides[i].n, std::max(slides[i].f_n, 0.0), dt, &state);
     if (i < from) continue;
     told.drag.push_back(drag.x());
     if (slides[i].f_n < kLeastRubbed_N) continue;
@@ -47,7 +52,8 @@ Foretold foretell(const haptics::Dahl& law, const std::vector<calibration::Slide
 }
 
 /// How far it has slid, against how hard it was dragged: sizes, for an axis that begins at zero.
-Plot dragOverTime(const std::vector<calibration::SlideSample>& slides, const Foretold& told, double dt) {
+Plot dragOverTime(const std::vector<calibration::SlideSample>& slides, const Foretold& told,
+                  double dt) {
   Plot plot{"Friction while stroking", "s", "N", {}};
   const std::size_t every = std::max<std::size_t>(1, slides.size() / kShownSlides);
   for (std::size_t i = 0; i < slides.size(); i += every) {
@@ -61,21 +67,26 @@ Plot dragOverTime(const std::vector<calibration::SlideSample>& slides, const For
 }  // namespace
 
 Result frictionResult(const FeltSamples& felt, const Origin& origin) {
-  const std::vector<calibration::SlideSample> fitted = slidesOf(toFit(felt)), judged = slidesOf(toJudge(felt));
+  const std::vector<calibration::SlideSample> fitted = slidesOf(toFit(felt)),
+                                              judged = slidesOf(toJudge(felt));
   const calibration::SurfaceFriction found = calibration::identifySurfaceFriction(fitted, felt.dt);
   const Foretold told = foretell(found.law, slidesOf(felt), fitted.size(), felt.dt);
   Result r;
   r.title = "Friction of the sample";
   r.file = begun(origin, "friction", kFrictionGoodFor_days);
-  r.file.parameters = {{"mu", {found.law.mu}}, {"sigma_N_per_m", {found.law.sigma}}, {"B_Ns_per_m", {found.law.B}}};
+  r.file.parameters = {
+      {"mu", {found.law.mu}}, {"sigma_N_per_m", {found.law.sigma}}, {"B_Ns_per_m", {found.law.B}}};
   r.file.coordinates = {"mu", "sigma_N_per_m", "B_Ns_per_m"};
   r.file.covariance = found.covariance;
   r.file.residuals = {"N", found.rms, {}, {}};
-  r.file.checks = {{"friction not explained in strokes not used", told.off_percent, kRubbedOff_percent, "%"}};
+  r.file.checks = {
+      {"friction not explained in strokes not used", told.off_percent, kRubbedOff_percent, "%"}};
   r.file.data.samples = static_cast<int>(felt.samples.size());
   r.file.data.used = static_cast<int>(fitted.size()) - found.fit.outliers();
   r.file.verdict = verdictOf(r.file.checks);
-  r.sentences = {"It rubs with " + quantity(found.law.mu, "") + " of what presses on it, and begins to slide after " + quantity(1e3 * found.law.mu / found.law.sigma, "mm") + " where 1 N presses."};
+  r.sentences = {"It rubs with " + quantity(found.law.mu, "") +
+                 " of what presses on it, and begins to slide after " +
+                 quantity(1e3 * found.law.mu / found.law.sigma, "mm") + " where 1 N presses."};
   if (!found.advice.empty()) r.advice.push_back(found.advice);
   r.advice.push_back("Powder and gel change it: redo it with what will be on the sample.");
   r.plots.push_back(dragOverTime(judged, told, felt.dt));

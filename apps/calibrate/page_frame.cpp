@@ -39,7 +39,8 @@ void writeFrameTop(Html& html, const PageFrame& frame) {
 
 }  // namespace
 
-void writeFramed(const PageFrame& frame, const std::function<void(Html&)>& top, const std::function<void(Html&)>& main, const std::filesystem::path& file) {
+void writeFramed(const PageFrame& frame, const std::function<void(Html&)>& top,
+                 const std::function<void(Html&)>& main, const std::filesystem::path& file) {
   Html html;
   html.raw("<!DOCTYPE html>\n");
   {
@@ -57,7 +58,8 @@ void writeFramed(const PageFrame& frame, const std::function<void(Html&)>& top, 
   writeWhole(file, html.str() + "\n");
 }
 
-void writeFact(Html& html, const std::string& name, const std::string& value, const std::string& note) {
+void writeFact(Html& html, const std::string& name, const std::string& value,
+               const std::string& note) {
   const auto row = html.in("tr");
   html.element("th", {{"scope", "row"}}, name);
   html.element("td", {{"class", "value"}}, value);

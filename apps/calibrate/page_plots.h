@@ -7,7 +7,8 @@
 
 namespace palpa::calibrate {
 
-/// Dots over what they were measured at; those left out are crosses, so that more than their colour differs.
+/// Dots over what they were measured at; those left out are crosses, so that more than their colour
+/// differs.
 void drawPlot(report::Html& html, const Plot& plot);
 
 /// The picture in cells, darker where more corners were seen; an empty cell is framed in dashes.

@@ -20,18 +20,23 @@ bool isJson(const std::filesystem::path& file) { return file.extension() == ".js
 json listIn(const std::filesystem::path& file) {
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
-  if (error) throw Error("cannot be read (" + error.message() + ")", file.string(), "Check the name");
-  if (size > kLargestList) throw Error("is larger than 64 MB", file.string(), "Record for a shorter time");
+  if (error)
+    throw Error("cannot be read (" + error.message() + ")", file.string(), "Check the name");
+  if (size > kLargestList)
+    throw Error("is larger than 64 MB", file.string(), "Record for a shorter time");
   std::ifstream stream(file);
   json list = json::parse(stream, nullptr, false);
-  if (!list.is_array() || list.empty()) throw Error("holds no list", file.string(), "Give a list of 4x4 matrices, in metres");
+  if (!list.is_array() || list.empty())
+    throw Error("holds no list", file.string(), "Give a list of 4x4 matrices, in metres");
   return list;
 }
 
 Pose matrixAt(const json& m, const std::filesystem::path& file, std::size_t entry) {
   const std::string where = file.string() + ", entry " + std::to_string(entry + 1);
   Eigen::Matrix4d matrix;
-  const auto bad = [&]() { return Error("is no 4x4 matrix of numbers", where, "Give rows of a pose, in metres"); };
+  const auto bad = [&]() {
+    return Error("is no 4x4 matrix of numbers", where, "Give rows of a pose, in metres");
+  };
   if (!m.is_array() || m.size() != 4) throw bad();
   for (std::size_t i = 0; i < 4; ++i) {
     if (!m[i].is_array() || m[i].size() != 4) throw bad();
@@ -45,8 +50,10 @@ Pose matrixAt(const json& m, const std::filesystem::path& file, std::size_t entr
   return X;
 }
 
-Vec3 vectorAt(const SampleTable& table, std::size_t row, const std::string& prefix, const std::string& unit) {
-  return {table.number(row, prefix + "x" + unit), table.number(row, prefix + "y" + unit), table.number(row, prefix + "z" + unit)};
+Vec3 vectorAt(const SampleTable& table, std::size_t row, const std::string& prefix,
+              const std::string& unit) {
+  return {table.number(row, prefix + "x" + unit), table.number(row, prefix + "y" + unit),
+          table.number(row, prefix + "z" + unit)};
 }
 
 }  // namespace
@@ -68,13 +75,16 @@ std::vector<calibration::HandEyeSample> readPosePairs(const std::filesystem::pat
   if (isJson(file)) {
     const json list = listIn(file);
     for (std::size_t i = 0; i < list.size(); ++i) {
-      if (!list[i].is_array() || list[i].size() != 2) throw Error("is no pair of matrices", file.string() + ", entry " + std::to_string(i + 1), "Give [end effector in base, tag in camera]");
+      if (!list[i].is_array() || list[i].size() != 2)
+        throw Error("is no pair of matrices", file.string() + ", entry " + std::to_string(i + 1),
+                    "Give [end effector in base, tag in camera]");
       pairs.push_back({matrixAt(list[i][0], file, i), matrixAt(list[i][1], file, i)});
     }
     return pairs;
   }
   const SampleTable table(file);
-  for (std::size_t i = 0; i < table.rows(); ++i) pairs.push_back({table.pose(i, "device_"), table.pose(i, "tag_")});
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    pairs.push_back({table.pose(i, "device_"), table.pose(i, "tag_")});
   return pairs;
 }
 
@@ -82,9 +92,11 @@ std::vector<Touch> readTouches(const std::filesystem::path& file) {
   const SampleTable table(file);
   std::vector<Touch> touches;
   for (std::size_t i = 0; i < table.rows(); ++i) {
-    Touch touch{table.has("name") ? table.text(i, "name") : std::to_string(i + 1), table.place(i, "known_"), table.place(i, "touched_"), false};
+    Touch touch{table.has("name") ? table.text(i, "name") : std::to_string(i + 1),
+                table.place(i, "known_"), table.place(i, "touched_"), false};
     touch.for_check = table.has("for") && table.text(i, "for") == "check";
-    if (table.has("end_x_mm") || table.has("end_x_m")) touch.lever_D = touch.p_D - table.place(i, "end_");
+    if (table.has("end_x_mm") || table.has("end_x_m"))
+      touch.lever_D = touch.p_D - table.place(i, "end_");
     touches.push_back(touch);
   }
   return touches;
@@ -93,7 +105,8 @@ std::vector<Touch> readTouches(const std::filesystem::path& file) {
 std::vector<calibration::TimedPoint> readTrack(const std::filesystem::path& file) {
   const SampleTable table(file);
   std::vector<calibration::TimedPoint> track;
-  for (std::size_t i = 0; i < table.rows(); ++i) track.push_back({table.number(i, "t_s"), table.place(i, "")});
+  for (std::size_t i = 0; i < table.rows(); ++i)
+    track.push_back({table.number(i, "t_s"), table.place(i, "")});
   return track;
 }
 
@@ -101,7 +114,8 @@ std::vector<calibration::StaticReading> readStaticReadings(const std::filesystem
   const SampleTable table(file);
   std::vector<calibration::StaticReading> readings;
   for (std::size_t i = 0; i < table.rows(); ++i)
-    readings.push_back({table.turn(i, "").toRotationMatrix(), vectorAt(table, i, "force_", "_N"), vectorAt(table, i, "torque_", "_Nm")});
+    readings.push_back({table.turn(i, "").toRotationMatrix(), vectorAt(table, i, "force_", "_N"),
+                        vectorAt(table, i, "torque_", "_Nm")});
   return readings;
 }
 
@@ -118,8 +132,10 @@ RecordedViews readViews(const std::string& glob, const ar::Board& board) {
       view.p_W.push_back(point.p_W);
       view.pixels.push_back(point.pixel);
     }
-    if (view.p_W.size() < 8) recorded.unseen.push_back(name);
-    else recorded.views.push_back(std::move(view));
+    if (view.p_W.size() < 8)
+      recorded.unseen.push_back(name);
+    else
+      recorded.views.push_back(std::move(view));
   }
   return recorded;
 }

@@ -22,7 +22,8 @@ std::string verdictOf(const std::vector<station::CalibrationFile::Check>& checks
   std::string words;
   for (const auto& check : checks) {
     if (check.passed()) continue;
-    words += (words.empty() ? "" : "; ") + check.name + " is " + quantity(check.value, check.unit) + ", at most " + quantity(check.limit, check.unit) + " is good";
+    words += (words.empty() ? "" : "; ") + check.name + " is " + quantity(check.value, check.unit) +
+             ", at most " + quantity(check.limit, check.unit) + " is good";
   }
   return words.empty() ? "pass" : words;
 }
@@ -30,7 +31,12 @@ std::string verdictOf(const std::vector<station::CalibrationFile::Check>& checks
 std::string quantity(double value, const std::string& unit) {
   const double size = std::abs(value);
   char text[64];
-  std::snprintf(text, sizeof text, size >= 100 ? "%.0f" : size >= 10 ? "%.1f" : size >= 0.1 || size == 0 ? "%.2f" : "%.3f", value);
+  std::snprintf(text, sizeof text,
+                size >= 100                ? "%.0f"
+                : size >= 10               ? "%.1f"
+                : size >= 0.1 || size == 0 ? "%.2f"
+                                           : "%.3f",
+                value);
   return text + (unit.empty() ? std::string() : " " + unit);
 }
 

@@ -9,13 +9,13 @@ namespace palpa::calibrate {
 
 /// Points to look at: what was measured, over what it was measured at.
 struct Plot {
-  std::string title, x, y;   ///< axes with units
+  std::string title, x, y;  ///< axes with units
   struct Dot {
     double x = 0, y = 0;
     bool left_out = false;
   };
   std::vector<Dot> dots;
-  std::vector<Dot> foretold = {};   ///< a line: what the found law says
+  std::vector<Dot> foretold = {};  ///< a line: what the found law says
 };
 
 /// How many times something was seen in each part of the picture, row by row from the top.
@@ -27,9 +27,9 @@ struct Coverage {
 /// What a routine found: the file to keep, and the same in words and pictures.
 struct Result {
   station::CalibrationFile file;
-  std::string title;                    ///< "Needle tip"
-  std::vector<std::string> sentences;   ///< what was found, for an educator
-  std::vector<std::string> advice;      ///< what could be better, when to redo it
+  std::string title;                   ///< "Needle tip"
+  std::vector<std::string> sentences;  ///< what was found, for an educator
+  std::vector<std::string> advice;     ///< what could be better, when to redo it
   std::vector<Plot> plots;
   Coverage coverage;
 };

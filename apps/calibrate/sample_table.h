@@ -8,8 +8,9 @@
 
 namespace palpa::calibrate {
 
-/// A table of recorded samples: text, columns separated by commas, a header row with the columns' names. The end of a name is its
-/// unit: "x_mm" and "x_m" are both understood; a length without a unit is refused, because a guess is worse than a question.
+/// A table of recorded samples: text, columns separated by commas, a header row with the columns'
+/// names. The end of a name is its unit: "x_mm" and "x_m" are both understood; a length without a
+/// unit is refused, because a guess is worse than a question.
 class SampleTable {
  public:
   /// Throws Error naming the file, and the line where one is wrong.
@@ -30,7 +31,8 @@ class SampleTable {
   const std::string& name() const { return name_; }
 
  private:
-  [[noreturn]] void refuse(std::size_t row, const std::string& column, const std::string& what) const;
+  [[noreturn]] void refuse(std::size_t row, const std::string& column,
+                           const std::string& what) const;
   std::size_t place(const std::string& column) const;
 
   std::string name_;

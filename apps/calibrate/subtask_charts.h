@@ -8,11 +8,14 @@
 
 namespace palpa::calibrate {
 
-/// What trials that were held out say to each number of states, with standard errors; below, how well two halves repeat it. The number taken is ringed.
+/// What trials that were held out say to each number of states, with standard errors; below, how
+/// well two halves repeat it. The number taken is ringed.
 void drawStatesCurve(report::Html& html, const SubtaskSegmentation& found);
 
-/// A trial over time: a lane a hand-written part, a lane a proposed state below. What is what is told by the lanes; colours only help.
-void drawTrialStrip(report::Html& html, const SubtaskRecordings& recordings, const SubtaskSegmentation& found, std::size_t sequence);
+/// A trial over time: a lane a hand-written part, a lane a proposed state below. What is what is
+/// told by the lanes; colours only help.
+void drawTrialStrip(report::Html& html, const SubtaskRecordings& recordings,
+                    const SubtaskSegmentation& found, std::size_t sequence);
 
 /// Added to the page's style sheet.
 std::string subtaskChartStyle();

@@ -7,32 +7,45 @@
 namespace palpa::calibrate {
 namespace {
 
-constexpr std::array<SubtaskFeatureName, kSubtaskFeatures> kFeatureNames{{{"log_speed", "speed of the tip"},
-                                                                          {"log_force", "contact force"},
-                                                                          {"in_contact", "contact"},
-                                                                          {"log_shaking", "shaking of the force"}}};
+constexpr std::array<SubtaskFeatureName, kSubtaskFeatures> kFeatureNames{
+    {{"log_speed", "speed of the tip"},
+     {"log_force", "contact force"},
+     {"in_contact", "contact"},
+     {"log_shaking", "shaking of the force"}}};
 
 /// The bits that were counted most often; of equals those that came first.
 int mostOften(const std::vector<std::pair<int, int>>& labels) {
-  return std::max_element(labels.begin(), labels.end(), [](const auto& a, const auto& b) { return a.second < b.second; })->first;
+  return std::max_element(labels.begin(), labels.end(),
+                          [](const auto& a, const auto& b) { return a.second < b.second; })
+      ->first;
 }
 
 }  // namespace
 
-const SubtaskFeatureName& subtaskFeatureName(int feature) { return kFeatureNames.at(static_cast<std::size_t>(feature)); }
+const SubtaskFeatureName& subtaskFeatureName(int feature) {
+  return kFeatureNames.at(static_cast<std::size_t>(feature));
+}
 
 /// As the parts' cue "contact_force" has it: sensed of a real thing, else computed.
 Vec3 SubtaskSteps::forceOn(const haptics::FlightRecord& record) const {
-  const bool sensed = config_.engine == haptics::Engine::touch && record.sensed.state == haptics::SensorState::valid;
+  const bool sensed = config_.engine == haptics::Engine::touch &&
+                      record.sensed.state == haptics::SensorState::valid;
   return unpack(sensed ? record.sensed.f_D : record.f_contact_D);
 }
 
-Vec3 SubtaskSteps::tipOf(const haptics::DeviceReading& reading) const { return unpack(reading.p_DE) + unpack(reading.q_DE).normalized() * unpack(config_.X_ET.p); }
+Vec3 SubtaskSteps::tipOf(const haptics::DeviceReading& reading) const {
+  return unpack(reading.p_DE) + unpack(reading.q_DE).normalized() * unpack(config_.X_ET.p);
+}
 
 void SubtaskSteps::interrupt() {
   if (running_ && !rows_.empty()) {
-    SubtaskSequence sequence{{}, 1e-9 * static_cast<double>(begin_ns_), Eigen::MatrixXd(static_cast<Eigen::Index>(rows_.size()), kSubtaskFeatures), std::move(labels_)};
-    for (std::size_t i = 0; i < rows_.size(); ++i) sequence.features.row(static_cast<Eigen::Index>(i)) = rows_[i];
+    SubtaskSequence sequence{
+        {},
+        1e-9 * static_cast<double>(begin_ns_),
+        Eigen::MatrixXd(static_cast<Eigen::Index>(rows_.size()), kSubtaskFeatures),
+        std::move(labels_)};
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      sequence.features.row(static_cast<Eigen::Index>(i)) = rows_[i];
     done_.push_back(std::move(sequence));
   }
   rows_.clear();
@@ -44,7 +57,8 @@ void SubtaskSteps::interrupt() {
 
 void SubtaskSteps::closeStep() {
   const haptics::LearnedRow step = sums_.close();
-  const Eigen::RowVectorXd row = Eigen::Map<const Eigen::RowVectorXd>(step.data(), kSubtaskFeatures);
+  const Eigen::RowVectorXd row =
+      Eigen::Map<const Eigen::RowVectorXd>(step.data(), kSubtaskFeatures);
   rows_.push_back(row);
   labels_.push_back(mostOften(counted_));
   counted_.clear();
@@ -56,7 +70,8 @@ void SubtaskSteps::count(const haptics::FlightRecord& record) {
   haptics::follow(motion_, tipOf(record.reading), kSpeedTau_s, dt);
   sums_.add(unpack(motion_.v_D).norm(), forceOn(record), dt);
   const int bits = record.subtasks;
-  const auto label = std::find_if(counted_.begin(), counted_.end(), [&](const auto& l) { return l.first == bits; });
+  const auto label = std::find_if(counted_.begin(), counted_.end(),
+                                  [&](const auto& l) { return l.first == bits; });
   if (label == counted_.end())
     counted_.emplace_back(bits, 1);
   else
@@ -65,9 +80,13 @@ void SubtaskSteps::count(const haptics::FlightRecord& record) {
 
 void SubtaskSteps::add(const haptics::FlightRecord& record) {
   if (record.tool != 0) return;
-  if (!record.commands.armed || record.commands.held || !tipOf(record.reading).allFinite() || !forceOn(record).allFinite()) return interrupt();
+  if (!record.commands.armed || record.commands.held || !tipOf(record.reading).allFinite() ||
+      !forceOn(record).allFinite())
+    return interrupt();
   // A step without a tick is a gap.
-  if (running_ && (record.t_ns <= last_ns_ || record.t_ns >= begin_ns_ + (step_ + 2) * kSubtaskStep_ns)) interrupt();
+  if (running_ &&
+      (record.t_ns <= last_ns_ || record.t_ns >= begin_ns_ + (step_ + 2) * kSubtaskStep_ns))
+    interrupt();
   if (!running_) {
     running_ = true;
     begin_ns_ = last_ns_ = record.t_ns;

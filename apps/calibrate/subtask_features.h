@@ -9,31 +9,36 @@
 #include "haptics/contact_parts.h"
 #include "haptics/tick.h"
 
-/// Recorded ticks as steps of what was felt and done, with the hand-written parts of the task beside them.
+/// Recorded ticks as steps of what was felt and done, with the hand-written parts of the task
+/// beside them.
 namespace palpa::calibrate {
 
-/// A step and its columns are the tick's own (haptics/augmentation/learned_part.h): what was learned here means the same there.
+/// A step and its columns are the tick's own (haptics/augmentation/learned_part.h): what was
+/// learned here means the same there.
 using haptics::kInContact, haptics::kLogForce, haptics::kLogShaking, haptics::kLogSpeed;
 using haptics::kLeastForce_N, haptics::kLeastShaking_N, haptics::kLeastSpeed;
 inline constexpr int kSubtaskFeatures = haptics::kLearnedFeatures;
 inline constexpr std::int64_t kSubtaskStep_ns = haptics::kLearnedStep_ns;
-inline constexpr double kSpeedTau_s = 0.005;      ///< low-pass of the tip's velocity: encoders' steps
+inline constexpr double kSpeedTau_s = 0.005;  ///< low-pass of the tip's velocity: encoders' steps
 
 struct SubtaskFeatureName {
-  const char* name;    ///< in files
+  const char* name;  ///< in files
   const char* words;
 };
 const SubtaskFeatureName& subtaskFeatureName(int feature);
 
 /// A stretch of a trial without gap; a row a step of 10 ms.
 struct SubtaskSequence {
-  std::string trial;              ///< "search, trial 3"
-  double begins_s = 0;            ///< of session time
-  Eigen::MatrixXd features;       ///< steps x kSubtaskFeatures
-  std::vector<int> labels;        ///< bits of the parts that were on for most of the step; of equals those that came first
+  std::string trial;         ///< "search, trial 3"
+  double begins_s = 0;       ///< of session time
+  Eigen::MatrixXd features;  ///< steps x kSubtaskFeatures
+  std::vector<int> labels;   ///< bits of the parts that were on for most of the step; of equals
+                             ///< those that came first
 };
 
-/// Gathers the steps of one trial: every tick of tool 0 that was armed, not held and told finite numbers, in order. What is between is a gap: a new sequence. A step that is not full is left out.
+/// Gathers the steps of one trial: every tick of tool 0 that was armed, not held and told finite
+/// numbers, in order. What is between is a gap: a new sequence. A step that is not full is left
+/// out.
 class SubtaskSteps {
  public:
   explicit SubtaskSteps(const haptics::TickConfig& config) : config_(config) {}
@@ -46,14 +51,15 @@ class SubtaskSteps {
   void closeStep();
   void count(const haptics::FlightRecord& record);
   Vec3 forceOn(const haptics::FlightRecord& record) const;
-  Vec3 tipOf(const haptics::DeviceReading& reading) const;   ///< in D
+  Vec3 tipOf(const haptics::DeviceReading& reading) const;  ///< in D
 
   haptics::TickConfig config_;
   bool running_ = false;
   std::int64_t begin_ns_ = 0, last_ns_ = 0, step_ = 0;
   haptics::PointMotion motion_;
   haptics::StepSums sums_;
-  std::vector<std::pair<int, int>> counted_;   ///< bits of the parts that were on in this step, how often
+  std::vector<std::pair<int, int>>
+      counted_;  ///< bits of the parts that were on in this step, how often
   std::vector<Eigen::RowVectorXd> rows_;
   std::vector<int> labels_;
   std::vector<SubtaskSequence> done_;

@@ -16,7 +16,9 @@ using nlohmann::json;
 
 json parsedText(const std::string& text, const std::string& what, const std::string& file) {
   const json parsed = json::parse(text, nullptr, false);
-  if (!parsed.is_object()) throw Error("the description of its " + what + " is damaged", file, "Restore the file from a backup");
+  if (!parsed.is_object())
+    throw Error("the description of its " + what + " is damaged", file,
+                "Restore the file from a backup");
   return parsed;
 }
 
@@ -32,15 +34,19 @@ station::NamedPlan recordedPlan(const station::JsonFile& task) {
 /// By what the parts are told, in order.
 json conditionsOf(const station::JsonFile& task) {
   json conditions = json::array({task.json().value("learned", json())});
-  for (const station::JsonFile& part : task.entries("subtasks")) conditions.push_back(part.json().value("on", json::array()));
+  for (const station::JsonFile& part : task.entries("subtasks"))
+    conditions.push_back(part.json().value("on", json::array()));
   return conditions;
 }
 
-/// All sequences of a recording, in order of time; `augmented`: trials in which cues might be added.
-std::vector<SubtaskSequence> sequencesOf(const record::SessionReader& reader, const std::string& recording, int* augmented) {
+/// All sequences of a recording, in order of time; `augmented`: trials in which cues might be
+/// added.
+std::vector<SubtaskSequence> sequencesOf(const record::SessionReader& reader,
+                                         const std::string& recording, int* augmented) {
   std::map<std::uint32_t, const record::RecordedTrial*> trials;
   const std::vector<record::RecordedTrial> recorded = reader.trials();
-  for (const record::RecordedTrial& trial : recorded) trials[static_cast<std::uint32_t>(trial.header.trial)] = &trial;
+  for (const record::RecordedTrial& trial : recorded)
+    trials[static_cast<std::uint32_t>(trial.header.trial)] = &trial;
   std::vector<SubtaskSequence> sequences;
   SubtaskSteps steps(reader.info().tick_config);
   std::uint32_t current = 0;
@@ -57,7 +63,9 @@ std::vector<SubtaskSequence> sequencesOf(const record::SessionReader& reader, co
     if (record.commands.trial != current) finish();
     current = record.commands.trial;
     const auto trial = trials.find(current);
-    if (trial == trials.end() || record.t_ns < trial->second->header.t_ns || (trial->second->ended && record.t_ns > trial->second->end.t_ns)) return;
+    if (trial == trials.end() || record.t_ns < trial->second->header.t_ns ||
+        (trial->second->ended && record.t_ns > trial->second->end.t_ns))
+      return;
     cues = cues || record.commands.augmented;
     steps.add(record);
   });
@@ -69,7 +77,10 @@ std::vector<SubtaskSequence> sequencesOf(const record::SessionReader& reader, co
 std::string recordingName(const std::vector<std::filesystem::path>& files, std::size_t i) {
   if (files.size() == 1) return "";
   const std::string folder = std::filesystem::absolute(files[i]).parent_path().filename().string();
-  return (files[i].filename() == "session.palpa" && !folder.empty() ? folder : files[i].filename().string()) + ", ";
+  return (files[i].filename() == "session.palpa" && !folder.empty()
+              ? folder
+              : files[i].filename().string()) +
+         ", ";
 }
 
 struct RecordedTask {
@@ -80,16 +91,24 @@ struct RecordedTask {
 
 RecordedTask recordedTaskOf(const record::SessionReader& reader, const std::string& file) {
   RecordedTask task;
-  task.file = station::JsonFile(parsedText(reader.info().task_json, "task", file), file + ", its task");
+  task.file =
+      station::JsonFile(parsedText(reader.info().task_json, "task", file), file + ", its task");
   task.plan = recordedPlan(task.file);
   if (task.plan.empty())
-    throw Error("its task \"" + task.file.json().value("id", "?") + "\" names no parts (\"subtasks\")", file, "Record a task whose file names its parts, as the search, the palpations and paracentesis do");
+    throw Error(
+        "its task \"" + task.file.json().value("id", "?") + "\" names no parts (\"subtasks\")",
+        file,
+        "Record a task whose file names its parts, as the search, the palpations and paracentesis "
+        "do");
   task.conditions = conditionsOf(task.file);
   return task;
 }
 
-void requireSameParts(const json& conditions, const json& first, const std::string& file, const std::string& other) {
-  if (conditions != first) throw Error("its task tells its parts by other conditions than " + other, file, "Give recordings of one task, made with the same parts");
+void requireSameParts(const json& conditions, const json& first, const std::string& file,
+                      const std::string& other) {
+  if (conditions != first)
+    throw Error("its task tells its parts by other conditions than " + other, file,
+                "Give recordings of one task, made with the same parts");
 }
 
 }  // namespace
@@ -101,10 +120,12 @@ std::string SubtaskRecordings::wordsOf(int label) const {
   return words.empty() ? "no part" : words;
 }
 
-SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>& given, const std::filesystem::path& task) {
+SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>& given,
+                                        const std::filesystem::path& task) {
   SubtaskRecordings all;
   std::vector<std::filesystem::path> files;
-  for (const std::filesystem::path& file : given) files.push_back(std::filesystem::is_directory(file) ? file / "session.palpa" : file);
+  for (const std::filesystem::path& file : given)
+    files.push_back(std::filesystem::is_directory(file) ? file / "session.palpa" : file);
   json first;
   for (std::size_t i = 0; i < files.size(); ++i) {
     const std::string file = files[i].string();
@@ -117,7 +138,9 @@ SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>
       all.parts = recorded.plan.subtasks;
     }
     requireSameParts(recorded.conditions, first, file, files.front().string());
-    all.simulated = parsedText(reader.info().session_json, "session", file).value("simulated", true) || all.simulated;
+    all.simulated =
+        parsedText(reader.info().session_json, "session", file).value("simulated", true) ||
+        all.simulated;
     for (SubtaskSequence& sequence : sequencesOf(reader, recordingName(files, i), &all.augmented)) {
       if (sequence.labels.size() < kShortestSequence)
         ++all.left_out;
@@ -129,9 +152,14 @@ SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>
   if (task.empty()) return all;
   const station::JsonFile named(task);
   const station::NamedPlan plan = station::readPlan(named);
-  if (plan.empty()) throw UsageError("names no parts (\"subtasks\")", task.string(), "Give the file of the task that was recorded");
+  if (plan.empty())
+    throw UsageError("names no parts (\"subtasks\")", task.string(),
+                     "Give the file of the task that was recorded");
   if (conditionsOf(named) != first)
-    throw UsageError("tells its parts by other conditions than the recordings' own task, by which the recorded parts were told", task.string(), "Leave --task out, or record the sessions again with this task");
+    throw UsageError(
+        "tells its parts by other conditions than the recordings' own task, by which the recorded "
+        "parts were told",
+        task.string(), "Leave --task out, or record the sessions again with this task");
   all.parts = plan.subtasks;
   all.task = named.json().value("id", "?");
   return all;

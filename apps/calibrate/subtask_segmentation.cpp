@@ -11,9 +11,9 @@ namespace {
 using calibration::HiddenMarkov;
 using Trials = std::vector<Eigen::MatrixXd>;
 
-constexpr std::size_t kManySteps = 2500;    // thinned from the start to no more: some seconds of work
-constexpr double kChanges = 1e-6;           // of a feature that changes
-constexpr int kStepsOfParameter = 2;        // as fitHiddenMarkov asks for
+constexpr std::size_t kManySteps = 2500;  // thinned from the start to no more: some seconds of work
+constexpr double kChanges = 1e-6;         // of a feature that changes
+constexpr int kStepsOfParameter = 2;      // as fitHiddenMarkov asks for
 constexpr char kSubtasksWhere[] = "palpa calibrate subtasks";
 
 std::size_t stepsIn(const Trials& trials) {
@@ -22,38 +22,51 @@ std::size_t stepsIn(const Trials& trials) {
   return steps;
 }
 
-Trials thinned(const std::vector<SubtaskSequence>& sequences, int every, const std::vector<int>& features) {
+Trials thinned(const std::vector<SubtaskSequence>& sequences, int every,
+               const std::vector<int>& features) {
   Trials trials;
-  for (const SubtaskSequence& s : sequences) trials.emplace_back(s.features(Eigen::seqN(0, (s.features.rows() + every - 1) / every, every), features));
+  for (const SubtaskSequence& s : sequences)
+    trials.emplace_back(
+        s.features(Eigen::seqN(0, (s.features.rows() + every - 1) / every, every), features));
   return trials;
 }
 
-/// Features that change in so many sequences that they do in each half and whenever some are held out.
+/// Features that change in so many sequences that they do in each half and whenever some are held
+/// out.
 std::vector<int> changingFeatures(const std::vector<SubtaskSequence>& sequences, int every) {
   std::vector<int> used;
   for (int d = 0; d < kSubtaskFeatures; ++d) {
     std::size_t changing = 0;
-    for (const Eigen::MatrixXd& x : thinned(sequences, every, {d})) changing += x.maxCoeff() - x.minCoeff() > kChanges;
-    if (changing + calibration::smallestHalf(sequences.size()) > sequences.size()) used.push_back(d);
+    for (const Eigen::MatrixXd& x : thinned(sequences, every, {d}))
+      changing += x.maxCoeff() - x.minCoeff() > kChanges;
+    if (changing + calibration::smallestHalf(sequences.size()) > sequences.size())
+      used.push_back(d);
   }
   return used;
 }
 
-/// The most states that the smallest half of the trials can be fitted to; trials are taken as the shortest.
+/// The most states that the smallest half of the trials can be fitted to; trials are taken as the
+/// shortest.
 int mostStatesOf(const Trials& trials) {
   std::vector<std::size_t> lengths;
   for (const Eigen::MatrixXd& t : trials) lengths.push_back(static_cast<std::size_t>(t.rows()));
   std::sort(lengths.begin(), lengths.end());
   std::size_t half = 0;
   for (std::size_t i = 0; i < calibration::smallestHalf(trials.size()); ++i) half += lengths[i];
-  const auto enough = [&](int k) { return half >= static_cast<std::size_t>(kStepsOfParameter) * static_cast<std::size_t>(k - 1 + k * (k - 1) + 2 * k * static_cast<int>(trials.front().cols())); };
+  const auto enough = [&](int k) {
+    return half >= static_cast<std::size_t>(kStepsOfParameter) *
+                       static_cast<std::size_t>(k - 1 + k * (k - 1) +
+                                                2 * k * static_cast<int>(trials.front().cols()));
+  };
   int most = 0;
   while (most < kMostProposed && lengths.front() >= 2 && enough(most + 1)) ++most;
   return most;
 }
 
-/// Correlation of neighbours that are in one state, features together; what is no continuous figure (contact) left out.
-double neighboursOf(const HiddenMarkov& model, const Trials& trials, const std::vector<int>& features) {
+/// Correlation of neighbours that are in one state, features together; what is no continuous figure
+/// (contact) left out.
+double neighboursOf(const HiddenMarkov& model, const Trials& trials,
+                    const std::vector<int>& features) {
   double together = 0, alone = 0;
   for (const Eigen::MatrixXd& t : trials) {
     const std::vector<int> path = mostLikely(model, t);
@@ -70,18 +83,22 @@ double neighboursOf(const HiddenMarkov& model, const Trials& trials, const std::
 }
 
 /// The fewer of what new trials ask for and what two halves of the trials repeat.
-int takenOf(const calibration::StatesProposal& proposal) { return std::min(proposal.states, proposal.repeatable); }
+int takenOf(const calibration::StatesProposal& proposal) {
+  return std::min(proposal.states, proposal.repeatable);
+}
 
 void standardise(const Trials& trials, SubtaskSegmentation* s) {
   const auto steps = static_cast<double>(stepsIn(trials));
   s->centre = s->spread = Eigen::VectorXd::Zero(trials.front().cols());
   for (const Eigen::MatrixXd& t : trials) s->centre += t.colwise().sum().transpose() / steps;
-  for (const Eigen::MatrixXd& t : trials) s->spread += (t.rowwise() - s->centre.transpose()).colwise().squaredNorm().transpose() / steps;
+  for (const Eigen::MatrixXd& t : trials)
+    s->spread += (t.rowwise() - s->centre.transpose()).colwise().squaredNorm().transpose() / steps;
   s->spread = s->spread.cwiseSqrt();
 }
 
 /// How many states, from steps thinned more and more; the model of the last, in its own steps.
-void chooseStates(const std::vector<SubtaskSequence>& sequences, const SubtaskOptions& o, SubtaskSegmentation* s) {
+void chooseStates(const std::vector<SubtaskSequence>& sequences, const SubtaskOptions& o,
+                  SubtaskSegmentation* s) {
   std::size_t all = 0;
   for (const SubtaskSequence& q : sequences) all += static_cast<std::size_t>(q.features.rows());
   for (int every = static_cast<int>(1 + (all - 1) / kManySteps);; every *= 2) {
@@ -90,11 +107,17 @@ void chooseStates(const std::vector<SubtaskSequence>& sequences, const SubtaskOp
     const int most = features.empty() ? 0 : mostStatesOf(trials);
     const bool first = s->proposal.curve.empty();
     if (first && most < std::max(2, o.states))
-      throw Error("the trials are too short or too much alike for " + std::to_string(std::max(2, o.states)) + " states: " + std::to_string(all) + " steps of 10 ms, " + std::to_string(features.size()) + " of " +
-                      std::to_string(int(kSubtaskFeatures)) + " features change", kSubtasksWhere, "Record more trials");
+      throw Error("the trials are too short or too much alike for " +
+                      std::to_string(std::max(2, o.states)) + " states: " + std::to_string(all) +
+                      " steps of 10 ms, " + std::to_string(features.size()) + " of " +
+                      std::to_string(int(kSubtaskFeatures)) + " features change",
+                  kSubtasksWhere, "Record more trials");
     if (!first && (most < static_cast<int>(s->proposal.curve.size()))) return;
     s->proposal = calibration::proposeStates(trials, most, o.seed, 0, {}, [&](int states) {
-      if (o.progress) o.progress("every " + std::to_string(10 * every) + " ms (" + std::to_string(stepsIn(trials)) + " steps): " + std::to_string(states) + " of " + std::to_string(most) + " states");
+      if (o.progress)
+        o.progress("every " + std::to_string(10 * every) + " ms (" +
+                   std::to_string(stepsIn(trials)) + " steps): " + std::to_string(states) + " of " +
+                   std::to_string(most) + " states");
     });
     s->states = o.states ? o.states : takenOf(s->proposal);
     s->thinned_to = every;
@@ -108,12 +131,16 @@ void chooseStates(const std::vector<SubtaskSequence>& sequences, const SubtaskOp
 
 }  // namespace
 
-SubtaskSegmentation segment(const std::vector<SubtaskSequence>& sequences, const SubtaskOptions& options) {
+SubtaskSegmentation segment(const std::vector<SubtaskSequence>& sequences,
+                            const SubtaskOptions& options) {
   if (sequences.size() < 2)
-    throw Error(std::to_string(sequences.size()) + (sequences.size() == 1 ? " trial is" : " trials are") + " too few: some must be held out to judge by, 2 are needed", kSubtasksWhere,
-                "Give a recording of more trials, or more recordings");
+    throw Error(std::to_string(sequences.size()) +
+                    (sequences.size() == 1 ? " trial is" : " trials are") +
+                    " too few: some must be held out to judge by, 2 are needed",
+                kSubtasksWhere, "Give a recording of more trials, or more recordings");
   for (const SubtaskSequence& q : sequences)
-    if (q.features.cols() != kSubtaskFeatures || static_cast<std::size_t>(q.features.rows()) != q.labels.size() || q.labels.empty())
+    if (q.features.cols() != kSubtaskFeatures ||
+        static_cast<std::size_t>(q.features.rows()) != q.labels.size() || q.labels.empty())
       throw Error("its features and labels do not belong together", q.trial, "Read it again");
   SubtaskSegmentation s;
   chooseStates(sequences, options, &s);

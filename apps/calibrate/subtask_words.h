@@ -12,7 +12,8 @@ using Sentences = std::vector<std::string>;
 
 /// "12 mm/s, 0.40 N, in contact 100 % of its time, shaking by 0.05 N".
 std::string wordsOf(const StateLook& look);
-/// What a kappa means: "little agreement". Landis and Koch 1977, Biometrics 33(1), with 0.4 as where it begins to be more than little.
+/// What a kappa means: "little agreement". Landis and Koch 1977, Biometrics 33(1), with 0.4 as
+/// where it begins to be more than little.
 const char* agreementWords(double kappa);
 /// How many states are proposed, and whether others would find the same.
 Sentences howMany(const SubtaskRecordings& recordings, const SubtaskSegmentation& found);

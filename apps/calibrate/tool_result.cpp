@@ -11,7 +11,7 @@ namespace {
 constexpr double kTipSpread_mm = 0.25, kTipLeftOut_mm = 0.5, kNeedleSpread_deg = 0.5;
 constexpr double kUnknownDirection = 2 * calibration::kDegree;
 constexpr int kToolGoodFor_days = 90;
-constexpr std::size_t kParts = 20;   // stretches of the recording; every fifth judges the fit
+constexpr std::size_t kParts = 20;  // stretches of the recording; every fifth judges the fit
 
 bool judges(std::size_t i, std::size_t n) { return (i * kParts / n) % 5 == 2; }
 
@@ -27,8 +27,9 @@ double leftOutRms(const std::vector<Pose>& left_out, const calibration::TipCalib
   return left_out.empty() ? 0 : std::sqrt(squares / static_cast<double>(left_out.size()));
 }
 
-/// How much less a recording tells than as many independent samples would: neighbours share what is wrong with the device. With r the correlation of
-/// neighbouring residuals the variance of a mean is (1 + r) / (1 - r) times as large (first-order autoregression; Bartlett 1935).
+/// How much less a recording tells than as many independent samples would: neighbours share what is
+/// wrong with the device. With r the correlation of neighbouring residuals the variance of a mean
+/// is (1 + r) / (1 - r) times as large (first-order autoregression; Bartlett 1935).
 double inflation(const std::vector<Pose>& samples, const calibration::TipCalibration& tip) {
   constexpr double kMostCorrelated = 0.99;
   double products = 0, squares = 0;
@@ -63,8 +64,11 @@ Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Ori
   covariance.bottomRightCorner<3, 3>() = inflation(fitted, tip) * tip.covariance;
   const double tip_sd = std::sqrt(covariance.bottomRightCorner<3, 3>().trace());
   r.file.checks = {{"the tip's uncertainty", 1e3 * tip_sd, kTipSpread_mm, "mm"}};
-  r.sentences = {"The tip lies " + quantity(1e3 * tip.tip_E.norm(), "mm") + " from the handle's centre, known to " + quantity(1e3 * tip_sd, "mm") + "."};
-  if (!left_out.empty()) r.file.checks.push_back({"the tip's distance from its hole in samples not used", 1e3 * leftOutRms(left_out, tip), kTipLeftOut_mm, "mm"});
+  r.sentences = {"The tip lies " + quantity(1e3 * tip.tip_E.norm(), "mm") +
+                 " from the handle's centre, known to " + quantity(1e3 * tip_sd, "mm") + "."};
+  if (!left_out.empty())
+    r.file.checks.push_back({"the tip's distance from its hole in samples not used",
+                             1e3 * leftOutRms(left_out, tip), kTipLeftOut_mm, "mm"});
   if (!samples.spin.empty()) {
     const calibration::AxisCalibration axis = calibration::calibrateAxis(samples.spin, R.col(2));
     R = pointedAlong(R, axis.axis_E);
@@ -74,14 +78,19 @@ Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Ori
     turn.row(1) = across_T.row(0);
     covariance.topLeftCorner<3, 3>() = turn * axis.covariance * turn.transpose();
     const double axis_sd = std::sqrt(axis.covariance.trace()) / calibration::kDegree;
-    r.file.checks.push_back({"the uncertainty of the needle's direction", axis_sd, kNeedleSpread_deg, "degrees"});
-    r.sentences.push_back("The needle's direction is known to " + quantity(axis_sd, "degrees") + ".");
+    r.file.checks.push_back(
+        {"the uncertainty of the needle's direction", axis_sd, kNeedleSpread_deg, "degrees"});
+    r.sentences.push_back("The needle's direction is known to " + quantity(axis_sd, "degrees") +
+                          ".");
   } else {
     covariance(0, 0) = covariance(1, 1) = kUnknownDirection * kUnknownDirection;
-    r.advice.push_back("The needle's direction was not calibrated: it is taken from the station's file. Spin the needle in a hole to calibrate it.");
+    r.advice.push_back(
+        "The needle's direction was not calibrated: it is taken from the station's file. Spin the "
+        "needle in a hole to calibrate it.");
   }
   addPose(r.file, "X_ET", makePose(R, tip.tip_E));
-  r.file.coordinates = {"turn_x_rad", "turn_y_rad", "turn_z_rad", "shift_x_m", "shift_y_m", "shift_z_m"};
+  r.file.coordinates = {"turn_x_rad", "turn_y_rad", "turn_z_rad",
+                        "shift_x_m",  "shift_y_m",  "shift_z_m"};
   r.file.covariance = covariance;
   r.file.residuals.unit = "m";
   r.file.residuals.rms = tip.rms;

@@ -8,7 +8,7 @@
 /// What every collector does with a station's moments.
 namespace palpa::calibrate {
 
-inline constexpr double kPatience = 60;          ///< s without an answer: the person has left
+inline constexpr double kPatience = 60;  ///< s without an answer: the person has left
 
 inline runtime::Moment need(runtime::Rig& rig, const char* what) {
   std::optional<runtime::Moment> moment = rig.next();
@@ -16,8 +16,12 @@ inline runtime::Moment need(runtime::Rig& rig, const char* what) {
   return *moment;
 }
 
-inline Pose poseOf(const haptics::DeviceReading& reading) { return unpack(PackedPose{reading.p_DE, reading.q_DE}); }
+inline Pose poseOf(const haptics::DeviceReading& reading) {
+  return unpack(PackedPose{reading.p_DE, reading.q_DE});
+}
 
-inline bool pressed(const haptics::DeviceReading& reading) { return (reading.buttons & runtime::kMarkButton) != 0; }
+inline bool pressed(const haptics::DeviceReading& reading) {
+  return (reading.buttons & runtime::kMarkButton) != 0;
+}
 
 }  // namespace palpa::calibrate

@@ -5,7 +5,9 @@
 namespace palpa::cli {
 namespace {
 
-bool holds(const std::string& text, const char* word) { return text.find(word) != std::string::npos; }
+bool holds(const std::string& text, const char* word) {
+  return text.find(word) != std::string::npos;
+}
 
 /// What the shell offers for a value: "file", "dir", "words a b", or "other" (nothing).
 std::string kindOf(const OptionText& option) {
@@ -14,16 +16,17 @@ std::string kindOf(const OptionText& option) {
     for (const std::string& choice : option.choices) words += " " + choice;
     return words;
   }
-  if (holds(option.value, "FILE") || holds(option.value, "GLOB") || option.value == "SESSION") return "file";
+  if (holds(option.value, "FILE") || holds(option.value, "GLOB") || option.value == "SESSION")
+    return "file";
   if (holds(option.value, "DIR") || holds(option.value, "FOLDER")) return "dir";
   return "other";
 }
 
 /// What is collected over the whole tree.
 struct Tables {
-  std::string paths;                                     ///< "palpa records"|"palpa records export"
-  std::map<std::string, std::string> values;             ///< kind: patterns of "command --option"
-  std::string words;                                     ///< of each command: a line of a case
+  std::string paths;                          ///< "palpa records"|"palpa records export"
+  std::map<std::string, std::string> values;  ///< kind: patterns of "command --option"
+  std::string words;                          ///< of each command: a line of a case
 };
 
 void collect(const CommandText& command, Tables* t) {
@@ -42,7 +45,8 @@ void collect(const CommandText& command, Tables* t) {
     }
   for (const OptionText& one : command.positionals)
     if (positional.empty()) positional = kindOf(one);
-  t->words += "    \"" + command.path + "\") next=\"" + next + "\" options=\"" + options + "\" plain=\"" + positional + "\" ;;\n";
+  t->words += "    \"" + command.path + "\") next=\"" + next + "\" options=\"" + options +
+              "\" plain=\"" + positional + "\" ;;\n";
   for (const CommandText& below : command.commands) collect(below, t);
 }
 
@@ -90,10 +94,19 @@ complete -F _palpa palpa
 std::string bashCompletion(const CommandText& program) {
   Tables tables;
   collect(program, &tables);
-  std::string script = "# bash completion of palpa, made by the program itself: palpa manual --completion\n\n_palpa_known() {   # is this a command?\n  case \"$1\" in\n    " + tables.paths + ") return 0 ;;\n  esac\n  return 1\n}\n";
-  script += "\n_palpa_value() {   # COMMAND OPTION: sets kind to what the option's value may be, empty where it has none\n  kind=\n  case \"$1 $2\" in\n";
-  for (const auto& [kind, patterns] : tables.values) script += "    " + patterns + ") kind=\"" + kind + "\" ;;\n";
-  script += "  esac\n}\n\n_palpa_words() {   # COMMAND: sets next, options, plain\n  next= options= plain=\n  case \"$1\" in\n" + tables.words + "  esac\n}\n";
+  std::string script =
+      "# bash completion of palpa, made by the program itself: palpa manual "
+      "--completion\n\n_palpa_known() {   # is this a command?\n  case \"$1\" in\n    " +
+      tables.paths + ") return 0 ;;\n  esac\n  return 1\n}\n";
+  script +=
+      "\n_palpa_value() {   # COMMAND OPTION: sets kind to what the option's value may be, empty "
+      "where it has none\n  kind=\n  case \"$1 $2\" in\n";
+  for (const auto& [kind, patterns] : tables.values)
+    script += "    " + patterns + ") kind=\"" + kind + "\" ;;\n";
+  script +=
+      "  esac\n}\n\n_palpa_words() {   # COMMAND: sets next, options, plain\n  next= options= "
+      "plain=\n  case \"$1\" in\n" +
+      tables.words + "  esac\n}\n";
   return script + kOffer;
 }
 

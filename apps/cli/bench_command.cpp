@@ -11,27 +11,38 @@ namespace palpa::cli {
 namespace {
 
 void addHaptics(CLI::App& bench) {
-  CLI::App* haptics = bench.add_subcommand("haptics", "Cost of the tick, fidelity and smoothness of its force");
+  CLI::App* haptics =
+      bench.add_subcommand("haptics", "Cost of the tick, fidelity and smoothness of its force");
   haptics->footer("Example:\n  palpa bench haptics > haptics.jsonl\n  palpa bench haptics --quick");
   const auto options = std::make_shared<bench::HapticsBenchOptions>();
   haptics->add_flag("--quick", options->quick, "Small meshes and short strokes");
-  haptics->add_option("--most-triangles", options->most_triangles, "Leave out larger meshes")->check(CLI::Range(1000, 1'000'000));
+  haptics->add_option("--most-triangles", options->most_triangles, "Leave out larger meshes")
+      ->check(CLI::Range(1000, 1'000'000));
   haptics->callback([options] { bench::benchHaptics(*options); });
 }
 
 void addLoop(CLI::App& bench) {
-  CLI::App* loop = bench.add_subcommand("loop", "Lateness of the haptic loop beside a bare timer loop, under load");
-  loop->footer("Example:\n  palpa bench loop > loop.jsonl\n  palpa bench loop --rate 4000 --cpu 1\n  palpa bench loop --pages 2\n      the same again while two pages of the console look on");
+  CLI::App* loop = bench.add_subcommand(
+      "loop", "Lateness of the haptic loop beside a bare timer loop, under load");
+  loop->footer(
+      "Example:\n  palpa bench loop > loop.jsonl\n  palpa bench loop --rate 4000 --cpu 1\n  palpa "
+      "bench loop --pages 2\n      the same again while two pages of the console look on");
   const auto options = std::make_shared<bench::LoopBenchOptions>();
-  loop->add_option("--seconds", options->seconds, "Of measurement, in 40 segments")->check(CLI::Range(1.0, 3600.0));
+  loop->add_option("--seconds", options->seconds, "Of measurement, in 40 segments")
+      ->check(CLI::Range(1.0, 3600.0));
   loop->add_option("--rate", options->rate_Hz, "Ticks a second")->check(CLI::Range(1000.0, 4000.0));
-  loop->add_option("--cpu", options->cpu, "Keep the measured thread on this processor")->check(CLI::Range(0, 1023));
-  loop->add_option("--pages", options->pages, "Measure again while so many pages of the console look on")->check(CLI::Range(0, 8));
+  loop->add_option("--cpu", options->cpu, "Keep the measured thread on this processor")
+      ->check(CLI::Range(0, 1023));
+  loop->add_option("--pages", options->pages,
+                   "Measure again while so many pages of the console look on")
+      ->check(CLI::Range(0, 8));
   loop->callback([options] { bench::benchLoop(*options); });
 }
 
 void addAnatomy(CLI::App& bench) {
-  CLI::App* anatomy = bench.add_subcommand("anatomy", "Cost of the geometric questions and of the skin's deflection, beside other libraries'");
+  CLI::App* anatomy = bench.add_subcommand(
+      "anatomy",
+      "Cost of the geometric questions and of the skin's deflection, beside other libraries'");
   anatomy->footer("Example:\n  palpa bench anatomy > anatomy.jsonl\n  palpa bench anatomy --quick");
   const auto options = std::make_shared<bench::AnatomyBenchOptions>();
   anatomy->add_flag("--quick", options->quick, "A smaller mesh and few queries");
@@ -39,41 +50,65 @@ void addAnatomy(CLI::App& bench) {
 }
 
 void addCalibration(CLI::App& bench) {
-  CLI::App* calibration = bench.add_subcommand("calibration", "How near the estimators come to what the data permit (simulated data)");
-  calibration->footer("Example:\n  palpa bench calibration > calibration.jsonl\n  palpa bench calibration --sets 50");
+  CLI::App* calibration = bench.add_subcommand(
+      "calibration", "How near the estimators come to what the data permit (simulated data)");
+  calibration->footer(
+      "Example:\n  palpa bench calibration > calibration.jsonl\n  palpa bench calibration --sets "
+      "50");
   const auto options = std::make_shared<bench::CalibrationBenchOptions>();
-  calibration->add_option("--sets", options->sets, "Synthetic sets for each estimator (default 500)")->check(CLI::Range(10, 100'000));
+  calibration
+      ->add_option("--sets", options->sets, "Synthetic sets for each estimator (default 500)")
+      ->check(CLI::Range(10, 100'000));
   calibration->callback([options] { bench::benchCalibration(*options); });
 }
 
 void addMaterial(CLI::App& bench) {
-  CLI::App* material = bench.add_subcommand("material", "How true stiffness, friction, squeezing and lumps are that are not there (simulated phantoms)");
-  material->footer("Example:\n  palpa bench material > material.jsonl\n  palpa bench material --quick");
+  CLI::App* material = bench.add_subcommand("material",
+                                            "How true stiffness, friction, squeezing and lumps are "
+                                            "that are not there (simulated phantoms)");
+  material->footer(
+      "Example:\n  palpa bench material > material.jsonl\n  palpa bench material --quick");
   const auto options = std::make_shared<bench::MaterialBenchOptions>();
   material->add_flag("--quick", options->quick, "Without noise only, and three of the mock-ups");
   material->callback([options] { bench::benchMaterial(*options); });
 }
 
 void addRenderBench(CLI::App& bench) {
-  CLI::App* render = bench.add_subcommand("render", "Cost of a frame beside VTK's own, and of translucent surfaces beside depth peeling");
-  render->footer("Example:\n  palpa bench render > render.jsonl\n  palpa bench render --width 1920 --height 1080");
+  CLI::App* render = bench.add_subcommand(
+      "render",
+      "Cost of a frame beside VTK's own, and of translucent surfaces beside depth peeling");
+  render->footer(
+      "Example:\n  palpa bench render > render.jsonl\n  palpa bench render --width 1920 --height "
+      "1080");
   const auto options = std::make_shared<bench::RenderBenchOptions>();
   render->add_option("--width", options->width, "Of the window, px")->check(CLI::Range(320, 4096));
-  render->add_option("--height", options->height, "Of the window, px")->check(CLI::Range(240, 4096));
+  render->add_option("--height", options->height, "Of the window, px")
+      ->check(CLI::Range(240, 4096));
   render->add_flag("--quick", options->quick, "Fewer repetitions");
   render->callback([options] { bench::benchRender(*options); });
 }
 
 void addTracking(CLI::App& bench) {
-  CLI::App* tracking = bench.add_subcommand("tracking", "How true, still and quick the board's tracking is (simulated pictures)");
-  tracking->footer("Example:\n  palpa bench tracking > tracking.jsonl\n  palpa bench tracking --distance 1 --speed 0.1 --quick");
+  CLI::App* tracking = bench.add_subcommand(
+      "tracking", "How true, still and quick the board's tracking is (simulated pictures)");
+  tracking->footer(
+      "Example:\n  palpa bench tracking > tracking.jsonl\n  palpa bench tracking --distance 1 "
+      "--speed 0.1 --quick");
   const auto options = std::make_shared<bench::TrackingBenchOptions>();
-  tracking->add_option("--distance", options->distance, "From camera to board, m")->check(CLI::Range(0.2, 3.0));
-  tracking->add_option("--speed", options->speed, "Peak speed of the motion, m/s")->check(CLI::Range(0.01, 2.0));
-  tracking->add_option("--horizon", options->horizon_ms, "From an exposure to when its pose is drawn, ms")->check(CLI::Range(0.0, 200.0));
-  tracking->add_option("--width", options->width, "Of the picture, px")->check(CLI::Range(320, 4096));
-  tracking->add_option("--height", options->height, "Of the picture, px")->check(CLI::Range(240, 4096));
-  tracking->add_option("--rate", options->rate_Hz, "Pictures a second")->check(CLI::Range(5.0, 240.0));
+  tracking->add_option("--distance", options->distance, "From camera to board, m")
+      ->check(CLI::Range(0.2, 3.0));
+  tracking->add_option("--speed", options->speed, "Peak speed of the motion, m/s")
+      ->check(CLI::Range(0.01, 2.0));
+  tracking
+      ->add_option("--horizon", options->horizon_ms,
+                   "From an exposure to when its pose is drawn, ms")
+      ->check(CLI::Range(0.0, 200.0));
+  tracking->add_option("--width", options->width, "Of the picture, px")
+      ->check(CLI::Range(320, 4096));
+  tracking->add_option("--height", options->height, "Of the picture, px")
+      ->check(CLI::Range(240, 4096));
+  tracking->add_option("--rate", options->rate_Hz, "Pictures a second")
+      ->check(CLI::Range(5.0, 240.0));
   tracking->add_option("--seed", options->seed, "Of the simulated noise");
   tracking->add_flag("--quick", options->quick, "A tenth of the pictures");
   tracking->callback([options] { bench::benchTracking(*options); });

@@ -50,16 +50,19 @@ std::vector<std::string> simulateExperts(const ExpertOptions& o) {
   return files;
 }
 
-/// Who takes part in no study that uses the path: the pseudonym; of simulated experts without one the folder of their session.
+/// Who takes part in no study that uses the path: the pseudonym; of simulated experts without one
+/// the folder of their session.
 std::string expertOf(const RecordedSession& session, const std::string& file) {
   static const std::string kNobody = SessionOptions().trainee;
   if (session.trainee() != kNobody && !session.trainee().empty()) return session.trainee();
-  return session.simulated() ? std::filesystem::path(file).parent_path().filename().string() : session.operatorName();
+  return session.simulated() ? std::filesystem::path(file).parent_path().filename().string()
+                             : session.operatorName();
 }
 
 void calibrateExperts(ExpertOptions o) {
   if (o.from.empty() == (o.simulate == 0))
-    throw UsageError("needs either --from or --simulate", "palpa calibrate experts", "See its --help");
+    throw UsageError("needs either --from or --simulate", "palpa calibrate experts",
+                     "See its --help");
   if (o.simulate) o.from = simulateExperts(o);
   std::vector<calibration::ExpertTrial> trials;
   bool simulated = false;
@@ -68,27 +71,31 @@ void calibrateExperts(ExpertOptions o) {
     const RecordedSession session(file);
     const anatomy::LandmarkFrame frame(session.patient());
     simulated = simulated || session.simulated();
-    session.eachTrial([&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
-      ++seen;
-      calibration::ExpertTrial expert;
-      if (trial.end.outcome == "success" &&
-          assess::expertTrial(samples, frame, expertOf(session, file), &expert)) {
-        trials.push_back(std::move(expert));
-      }
-    });
+    session.eachTrial(
+        [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+          ++seen;
+          calibration::ExpertTrial expert;
+          if (trial.end.outcome == "success" &&
+              assess::expertTrial(samples, frame, expertOf(session, file), &expert)) {
+            trials.push_back(std::move(expert));
+          }
+        });
   }
   calibration::ExpertPath path = calibration::fitExpertPath(trials, o.least);
   path.simulated = simulated;
-  path.made_by = o.simulate ? "palpa calibrate experts --simulate " + std::to_string(o.simulate) + " --experts " +
-                                  std::to_string(o.experts) + " --seed " + std::to_string(o.seed)
+  path.made_by = o.simulate ? "palpa calibrate experts --simulate " + std::to_string(o.simulate) +
+                                  " --experts " + std::to_string(o.experts) + " --seed " +
+                                  std::to_string(o.seed)
                             : "palpa calibrate experts --from ...";
   calibration::writeExpertPath(path, o.out);
   constexpr double kDeg = 57.29577951308232;
-  std::printf("%zu of %zu trials were complete; %d agree and make the path%s\n", trials.size(), seen, path.trials,
-              simulated ? " (simulated experts)" : "");
-  std::printf("Entry +- %.1f mm, depth of phase 1 %.1f +- %.1f mm, direction +- %.1f degrees (acceptable %.1f)\n",
-              1e3 * path.entry_sd, 1e3 * path.depth, 1e3 * path.depth_sd, kDeg * path.direction_sd,
-              kDeg * path.direction_acceptable);
+  std::printf("%zu of %zu trials were complete; %d agree and make the path%s\n", trials.size(),
+              seen, path.trials, simulated ? " (simulated experts)" : "");
+  std::printf(
+      "Entry +- %.1f mm, depth of phase 1 %.1f +- %.1f mm, direction +- %.1f degrees (acceptable "
+      "%.1f)\n",
+      1e3 * path.entry_sd, 1e3 * path.depth, 1e3 * path.depth_sd, kDeg * path.direction_sd,
+      kDeg * path.direction_acceptable);
   std::printf("Written: %s\n", o.out.c_str());
 }
 
@@ -99,16 +106,22 @@ void addCalibrate(CLI::App& program) {
   calibrate->require_subcommand(1);
   addStationCalibrations(*calibrate);
   addSubtaskCalibration(*calibrate);
-  CLI::App* experts = calibrate->add_subcommand("experts", "The optimal path from experts' recorded trials");
+  CLI::App* experts =
+      calibrate->add_subcommand("experts", "The optimal path from experts' recorded trials");
   experts->footer(kExpertExamples);
   const auto o = std::make_shared<ExpertOptions>();
   experts->add_option("--from", o->from, "Recorded sessions of experts")->type_name("FILE...");
-  experts->add_option("--simulate", o->simulate, "Record this many trials of each simulated expert first")
+  experts
+      ->add_option("--simulate", o->simulate,
+                   "Record this many trials of each simulated expert first")
       ->check(CLI::Range(1, 1000));
-  experts->add_option("--experts", o->experts, "How many simulated experts")->check(CLI::Range(1, 20));
-  experts->add_option("--seed", o->seed, "Seed of the simulated experts")->check(CLI::NonNegativeNumber);
+  experts->add_option("--experts", o->experts, "How many simulated experts")
+      ->check(CLI::Range(1, 20));
+  experts->add_option("--seed", o->seed, "Seed of the simulated experts")
+      ->check(CLI::NonNegativeNumber);
   experts->add_option("--least", o->least, "Fewest trials to accept")->check(CLI::Range(3, 1000));
-  experts->add_option("--sessions", o->sessions, "Folder for the simulated sessions")->type_name("DIR");
+  experts->add_option("--sessions", o->sessions, "Folder for the simulated sessions")
+      ->type_name("DIR");
   experts->add_option("--out", o->out, "File to write")->type_name("FILE");
   experts->callback([o] { calibrateExperts(*o); });
 }

@@ -31,7 +31,8 @@ struct CalibrateOptions {
   std::string kind, station, out, watch;
   std::uint64_t seed = 1;
   bool quiet = false, all_corners = false;
-  std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings, touches;
+  std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings,
+      touches;
   std::string presses, strokes, without, above, beside, check, mockup = "middle";
   double depth_mm = 0;
   std::vector<double> down{0, 0, -1};
@@ -39,16 +40,20 @@ struct CalibrateOptions {
   bool recorded() const { return !images.empty() || !tables().empty(); }
   std::vector<std::filesystem::path> tables() const {
     std::vector<std::filesystem::path> given;
-    for (const std::string* file : {&pivot, &spin, &landmarks, &pairs, &camera_track, &device_track, &readings, &touches, &presses, &strokes, &without, &above, &beside, &check})
+    for (const std::string* file :
+         {&pivot, &spin, &landmarks, &pairs, &camera_track, &device_track, &readings, &touches,
+          &presses, &strokes, &without, &above, &beside, &check})
       if (!file->empty()) given.emplace_back(*file);
     return given;
   }
 };
 
-/// On a terminal a line that renews itself, otherwise a line at the beginning and one at the end; each step's where somebody looks on.
+/// On a terminal a line that renews itself, otherwise a line at the beginning and one at the end;
+/// each step's where somebody looks on.
 class TerminalGuide final : public Guide {
  public:
-  TerminalGuide(bool quiet, bool person, WatchedPicture* watched) : quiet_(quiet), person_(person), watched_(watched), terminal_(isatty(STDERR_FILENO)) {}
+  TerminalGuide(bool quiet, bool person, WatchedPicture* watched)
+      : quiet_(quiet), person_(person), watched_(watched), terminal_(isatty(STDERR_FILENO)) {}
   ~TerminalGuide() override {
     if (open_) std::fputs("\n", stderr);
   }
@@ -59,13 +64,15 @@ class TerminalGuide final : public Guide {
     if (quiet_) return;
     const bool last = done >= of;
     if (terminal_) {
-      std::fprintf(stderr, "\r\033[K%s: %d of %d  %s%s", what.c_str(), done, of, live.c_str(), last ? "\n" : "");
+      std::fprintf(stderr, "\r\033[K%s: %d of %d  %s%s", what.c_str(), done, of, live.c_str(),
+                   last ? "\n" : "");
       open_ = !last;
     } else if (last || done == 1 || watched_) {
       std::fprintf(stderr, "%s: %d of %d  %s\n", what.c_str(), done, of, live.c_str());
     }
   }
-  void covered(const std::vector<ar::BoardPoint>& points, const calibration::CoverageMap& coverage) override {
+  void covered(const std::vector<ar::BoardPoint>& points,
+               const calibration::CoverageMap& coverage) override {
     if (watched_) watched_->covered(points, coverage);
   }
 
@@ -77,62 +84,85 @@ class TerminalGuide final : public Guide {
 
 station::Station stationOf(const CalibrateOptions& o) {
   const bool of_sample = o.kind == "material" || o.kind == "friction" || o.kind == "inclusion";
-  return station::readStation(o.station.empty() ? station::assetFile(of_sample ? "stations/palpation_bench.json" : "stations/virtual_bench.json") : std::filesystem::path(o.station));
+  return station::readStation(o.station.empty()
+                                  ? station::assetFile(of_sample ? "stations/palpation_bench.json"
+                                                                 : "stations/virtual_bench.json")
+                                  : std::filesystem::path(o.station));
 }
 
 Origin originOf(const CalibrateOptions& o, const station::Station& station) {
   Origin origin;
   origin.station = station.id;
-  origin.command = "palpa calibrate " + o.kind + (o.recorded() ? "" : " --seed " + std::to_string(o.seed));
+  origin.command =
+      "palpa calibrate " + o.kind + (o.recorded() ? "" : " --seed " + std::to_string(o.seed));
   origin.source = o.recorded() ? "recorded files" : "virtual bench, seed " + std::to_string(o.seed);
   origin.simulated = !o.recorded();
   origin.date = utcNow();
   std::vector<std::filesystem::path> files = o.tables();
   if (!o.images.empty()) files = ar::ImageSequence(o.images, 1).files();
-  for (const std::filesystem::path& file : files) origin.files.push_back({file.filename().string(), station::sha256OfFile(file)});
+  for (const std::filesystem::path& file : files)
+    origin.files.push_back({file.filename().string(), station::sha256OfFile(file)});
   return origin;
 }
 
 /// What was found, on standard output and as a page.
-void leave(const CalibrateOptions& o, const station::Station& station, const SetupResult& setup, std::vector<std::string> remarks, const std::string& accuracy) {
+void leave(const CalibrateOptions& o, const station::Station& station, const SetupResult& setup,
+           std::vector<std::string> remarks, const std::string& accuracy) {
   const std::filesystem::path folder = makeOutputFolder(o.out, "calibrate-" + o.kind);
   writeCalibrations(station, setup.calibrations, folder);
-  PageHead head{station.title, setup.results.front().file.date, setup.results.front().file.simulated, setup.seconds, std::move(remarks)};
+  PageHead head{station.title, setup.results.front().file.date,
+                setup.results.front().file.simulated, setup.seconds, std::move(remarks)};
   writePage(head, setup.results, folder / "calibration.html");
   if (!accuracy.empty()) writeWhole(folder / "accuracy.json", accuracy + "\n");
   std::string failed;
   for (const Result& r : setup.results) {
-    std::printf("%s%s: %s\n", r.title.c_str(), r.file.simulated ? " (simulated)" : "", r.file.verdict.c_str());
+    std::printf("%s%s: %s\n", r.title.c_str(), r.file.simulated ? " (simulated)" : "",
+                r.file.verdict.c_str());
     for (const std::string& sentence : r.sentences) std::printf("  %s\n", sentence.c_str());
     if (!r.file.passed()) failed += (failed.empty() ? "" : ", ") + r.title;
   }
-  for (const std::string& remark : head.remarks) std::printf("Simulated truth: %s\n", remark.c_str());
-  std::printf("Written: %s\nUse it: --station %s\n", (folder / "calibration.html").c_str(), (folder / "station.json").c_str());
-  if (!failed.empty()) throw Error("did not pass: " + failed, "calibration", "Read why in " + (folder / "calibration.html").string() + "; sessions on this station are not scored");
+  for (const std::string& remark : head.remarks)
+    std::printf("Simulated truth: %s\n", remark.c_str());
+  std::printf("Written: %s\nUse it: --station %s\n", (folder / "calibration.html").c_str(),
+              (folder / "station.json").c_str());
+  if (!failed.empty())
+    throw Error("did not pass: " + failed, "calibration",
+                "Read why in " + (folder / "calibration.html").string() +
+                    "; sessions on this station are not scored");
 }
 
-Result fromCameraPictures(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
-  const std::unique_ptr<ar::Board> board = o.board.empty() ? ar::makeBoard(station.board, 1.0) : ar::makeBoard(o.board, 1.0);
+Result fromCameraPictures(const CalibrateOptions& o, const station::Station& station,
+                          const Origin& origin) {
+  const std::unique_ptr<ar::Board> board =
+      o.board.empty() ? ar::makeBoard(station.board, 1.0) : ar::makeBoard(o.board, 1.0);
   RecordedViews recorded = readViews(o.images, *board);
   if (recorded.views.size() < 4 && recorded.unseen.size() > recorded.views.size())
-    throw Error("the board (" + board->describe() + ") was found in " + std::to_string(recorded.views.size()) + " of " +
-                    std::to_string(recorded.views.size() + recorded.unseen.size()) + " pictures", o.images, "Is it the board that --board says?");
+    throw Error("the board (" + board->describe() + ") was found in " +
+                    std::to_string(recorded.views.size()) + " of " +
+                    std::to_string(recorded.views.size() + recorded.unseen.size()) + " pictures",
+                o.images, "Is it the board that --board says?");
   calibration::CameraModel camera;
-  Result result = cameraResult(recorded.views, recorded.width, recorded.height, origin, &camera, o.all_corners);
-  for (const std::string& name : recorded.unseen) result.advice.push_back("The board was not found in " + name + ".");
+  Result result =
+      cameraResult(recorded.views, recorded.width, recorded.height, origin, &camera, o.all_corners);
+  for (const std::string& name : recorded.unseen)
+    result.advice.push_back("The board was not found in " + name + ".");
   return result;
 }
 
 ToolSamples toolSamples(const CalibrateOptions& o) {
   ToolSamples samples;
-  if (o.pivot.empty()) throw UsageError("is missing", "--pivot", "Give the poses recorded while the tip rested in a hole");
+  if (o.pivot.empty())
+    throw UsageError("is missing", "--pivot",
+                     "Give the poses recorded while the tip rested in a hole");
   samples.pivot = readPoses(o.pivot);
   if (!o.spin.empty()) samples.spin = readPoses(o.spin);
   return samples;
 }
 
-/// The error is predicted where the station has its patient; without a station in the middle of what was touched or seen.
-Result fromTouchesAndPairs(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
+/// The error is predicted where the station has its patient; without a station in the middle of
+/// what was touched or seen.
+Result fromTouchesAndPairs(const CalibrateOptions& o, const station::Station& station,
+                           const Origin& origin) {
   std::vector<Touch> touches;
   TagSamples tag;
   std::vector<calibration::HandEyeSample>& pairs = tag.poses;
@@ -141,19 +171,29 @@ Result fromTouchesAndPairs(const CalibrateOptions& o, const station::Station& st
   Vec3 middle = Vec3::Zero();
   for (const Touch& t : touches) middle += t.p_W / static_cast<double>(touches.size());
   if (touches.empty())
-    for (const calibration::HandEyeSample& pair : pairs) middle += pair.X_CM.translation() / static_cast<double>(pairs.size());
+    for (const calibration::HandEyeSample& pair : pairs)
+      middle += pair.X_CM.translation() / static_cast<double>(pairs.size());
   return registrationResult(touches, tag, o.station.empty() ? middle : station.entry_W, origin);
 }
 
 LumpSamples lumpSamples(const CalibrateOptions& o) {
-  for (const auto& [name, file] : {std::pair("--without", &o.without), std::pair("--above", &o.above), std::pair("--check", &o.check)})
-    if (file->empty()) throw UsageError("is missing", name, "An inclusion needs presses without the lump, above it, and at a place to judge by; see --help");
-  if (o.depth_mm <= 0) throw UsageError("is missing", "--depth-mm", "Say how deep the middle of the lump lies below the top");
+  for (const auto& [name, file] : {std::pair("--without", &o.without),
+                                   std::pair("--above", &o.above), std::pair("--check", &o.check)})
+    if (file->empty())
+      throw UsageError("is missing", name,
+                       "An inclusion needs presses without the lump, above it, and at a place to "
+                       "judge by; see --help");
+  if (o.depth_mm <= 0)
+    throw UsageError("is missing", "--depth-mm",
+                     "Say how deep the middle of the lump lies below the top");
   LumpSamples samples;
   samples.without = readFelt(o.without);
   if (!o.strokes.empty()) samples.strokes = readFelt(o.strokes);
   samples.above = readFelt(o.above);
-  if (!samples.above.samples.front().lump_P) throw Error("has no columns lump_x_mm, ...", o.above, "How far the lump moved must be recorded, too: by ultrasound, or by a camera through a clear sample");
+  if (!samples.above.samples.front().lump_P)
+    throw Error("has no columns lump_x_mm, ...", o.above,
+                "How far the lump moved must be recorded, too: by ultrasound, or by a camera "
+                "through a clear sample");
   if (!o.beside.empty()) samples.beside.push_back(readFelt(o.beside));
   samples.check = readFelt(o.check);
   samples.depth = 1e-3 * o.depth_mm;
@@ -166,35 +206,49 @@ Result fromFiles(const CalibrateOptions& o, const station::Station& station, con
   if (o.kind == "workspace") return workspaceResult(readTouches(o.touches), origin);
   if (o.kind == "registration") return fromTouchesAndPairs(o, station, origin);
   if (o.kind == "latency") {
-    if (o.camera_track.empty() || o.device_track.empty()) throw UsageError("needs both", "--camera-track and --device-track", "Give the same motion as both saw it");
-    return latencyResult({readTrack(o.camera_track), readTrack(o.device_track)}, station.camera_latency_s, origin);
+    if (o.camera_track.empty() || o.device_track.empty())
+      throw UsageError("needs both", "--camera-track and --device-track",
+                       "Give the same motion as both saw it");
+    return latencyResult({readTrack(o.camera_track), readTrack(o.device_track)},
+                         station.camera_latency_s, origin);
   }
   if (o.kind == "material") return materialResult(readFelt(o.presses), origin);
   if (o.kind == "friction") return frictionResult(readFelt(o.strokes), origin);
-  if (o.kind == "inclusion") return inclusionResult(lumpSamples(o), station.sample ? station.sample->tip_radius : station::Sample{}.tip_radius, origin);
-  return forceSensorResult(readStaticReadings(o.readings), Vec3(o.down[0], o.down[1], o.down[2]).normalized(), origin);
+  if (o.kind == "inclusion")
+    return inclusionResult(
+        lumpSamples(o), station.sample ? station.sample->tip_radius : station::Sample{}.tip_radius,
+        origin);
+  return forceSensorResult(readStaticReadings(o.readings),
+                           Vec3(o.down[0], o.down[1], o.down[2]).normalized(), origin);
 }
 
 constexpr double kPressFor_s = 20, kStrokeFor_s = 25, kPressLumpFor_s = 6, kStrokeLumpFor_s = 12;
 
 /// Where the simulated sample's lump lies: known to whoever cast it.
 double lumpDepthOf(const station::Station& station, const std::string& mockup) {
-  const twin::PhantomFile file = twin::readPhantoms(station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json"));
+  const twin::PhantomFile file = twin::readPhantoms(
+      station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json"));
   for (const twin::Phantom& phantom : file.phantoms)
     if (phantom.name == mockup && phantom.block.lump) return -phantom.block.lump->centre.z();
-  throw UsageError("is no simulated sample with a lump", "\"" + mockup + "\"", "See " + station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json").string());
+  throw UsageError(
+      "is no simulated sample with a lump", "\"" + mockup + "\"",
+      "See " +
+          station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json").string());
 }
 
 /// Without the lump, above it, on four sides of it, and beside it once more to judge by.
 LumpSamples collectLump(const Scene& scene, const std::string& mockup) {
-  constexpr double kBeside = 8e-3, kJudgedAt = 5e-3;   // m
+  constexpr double kBeside = 8e-3, kJudgedAt = 5e-3;  // m
   LumpSamples samples;
   samples.depth = lumpDepthOf(scene.station, mockup);
   samples.without = collectPresses(scene, "", {}, kPressLumpFor_s);
   samples.strokes = collectStrokes(scene, "", kStrokeLumpFor_s);
   samples.above = collectPresses(scene, mockup, {}, kPressLumpFor_s);
-  for (const FeltPlace& place : {FeltPlace{kBeside, 0}, FeltPlace{0, kBeside}, FeltPlace{-kBeside, 0}, FeltPlace{0, -kBeside}}) samples.beside.push_back(collectPresses(scene, mockup, place, kPressLumpFor_s));
-  samples.check = collectPresses(scene, mockup, {kJudgedAt * 0.8, kJudgedAt * 0.6}, kPressLumpFor_s);
+  for (const FeltPlace& place : {FeltPlace{kBeside, 0}, FeltPlace{0, kBeside},
+                                 FeltPlace{-kBeside, 0}, FeltPlace{0, -kBeside}})
+    samples.beside.push_back(collectPresses(scene, mockup, place, kPressLumpFor_s));
+  samples.check =
+      collectPresses(scene, mockup, {kJudgedAt * 0.8, kJudgedAt * 0.6}, kPressLumpFor_s);
   return samples;
 }
 
@@ -203,18 +257,25 @@ Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& orig
   const station::Station& station = scene.station;
   if (o.kind == "camera") {
     calibration::CameraModel camera;
-    return cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin, &camera);
+    return cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin,
+                        &camera);
   }
   if (o.kind == "tool") return toolResult(collectTool(scene), station.design.X_ET, origin);
   if (o.kind == "workspace") return collectedWorkspace(scene, station.X_ET.translation(), origin);
   if (o.kind == "registration")
-    return collectedRegistration(scene, station.marker ? collectHeld(scene, station.camera) : std::vector<HeldPose>{}, station.camera,
-                                 station.X_ET.translation(), origin);
-  if (o.kind == "latency") return collectedLatency(scene, station.camera, markerOf(collectHeld(scene, station.camera)), origin);
-  if (o.kind == "force-sensor") return forceSensorOf(scene, collectHeld(scene, station.camera), station.X_WD, origin);
-  if (o.kind == "material") return materialResult(collectPresses(scene, "", {}, kPressFor_s), origin);
+    return collectedRegistration(
+        scene, station.marker ? collectHeld(scene, station.camera) : std::vector<HeldPose>{},
+        station.camera, station.X_ET.translation(), origin);
+  if (o.kind == "latency")
+    return collectedLatency(scene, station.camera, markerOf(collectHeld(scene, station.camera)),
+                            origin);
+  if (o.kind == "force-sensor")
+    return forceSensorOf(scene, collectHeld(scene, station.camera), station.X_WD, origin);
+  if (o.kind == "material")
+    return materialResult(collectPresses(scene, "", {}, kPressFor_s), origin);
   if (o.kind == "friction") return frictionResult(collectStrokes(scene, "", kStrokeFor_s), origin);
-  if (o.kind == "inclusion") return inclusionResult(collectLump(scene, o.mockup), station.sample->tip_radius, origin);
+  if (o.kind == "inclusion")
+    return inclusionResult(collectLump(scene, o.mockup), station.sample->tip_radius, origin);
   throw UsageError("is no routine", "palpa calibrate " + o.kind, "See palpa calibrate --help");
 }
 
@@ -229,7 +290,9 @@ void calibrateStation(const CalibrateOptions& o) {
   }
   const bool real_camera = station.camera_setup.driver != station::CameraSetup::Driver::bench;
   if (real_camera || station.device.driver != station::DeviceDriver::bench)
-    throw Error(std::string("cannot be led through a calibration yet: its ") + (real_camera ? "camera" : "device") + " is real, and the guided calibration knows only simulated ones",
+    throw Error(std::string("cannot be led through a calibration yet: its ") +
+                    (real_camera ? "camera" : "device") +
+                    " is real, and the guided calibration knows only simulated ones",
                 "station \"" + station.id + "\"", "Record samples, and give them; see --help");
   twin::SetupBench bench(station, o.seed);
   std::optional<WatchedPicture> watched;
@@ -238,7 +301,7 @@ void calibrateStation(const CalibrateOptions& o) {
   WatchedRig seen(bench, [&](const ar::Frame& frame) {
     if (watched) watched->see(frame);
   });
-  CorrectedRig rig(seen);   // by the station's own calibration, where it has one
+  CorrectedRig rig(seen);  // by the station's own calibration, where it has one
   if (o.kind != "all" && o.kind != "workspace") rig.correctBy(station.workspace);
   const Scene scene{station, rig, guide};
   if (o.kind != "all") {
@@ -248,7 +311,8 @@ void calibrateStation(const CalibrateOptions& o) {
     return leave(o, station, setup, {}, "");
   }
   setup = setUp(scene, origin);
-  const SetupAccuracy accuracy = measureAccuracy(station, station::withCalibrations(station, setup.calibrations), setup, bench);
+  const SetupAccuracy accuracy = measureAccuracy(
+      station, station::withCalibrations(station, setup.calibrations), setup, bench);
   leave(o, station, setup, inWords(accuracy), inJson(accuracy));
 }
 
@@ -257,40 +321,62 @@ struct Routine {
 };
 constexpr Routine kRoutines[] = {
     {"camera", "The lens: from pictures of a board",
-     "Examples:\n  palpa calibrate camera\n      on the virtual bench: a simulated hand holds the board\n"
-     "  palpa calibrate camera --images 'shots/*.png' --board chessboard:9x6:0.025:11 --all-corners\n"
-     "      as other programs do it (corners in squares of 23 px, none left out): to compare with their figures\n"
-     "  palpa calibrate camera --images 'shots/left*.jpg' --board chessboard:9x6:0.025\n      from your own pictures"},
+     "Examples:\n  palpa calibrate camera\n      on the virtual bench: a simulated hand holds the "
+     "board\n"
+     "  palpa calibrate camera --images 'shots/*.png' --board chessboard:9x6:0.025:11 "
+     "--all-corners\n"
+     "      as other programs do it (corners in squares of 23 px, none left out): to compare with "
+     "their figures\n"
+     "  palpa calibrate camera --images 'shots/left*.jpg' --board chessboard:9x6:0.025\n      from "
+     "your own pictures"},
     {"tool", "The needle's tip and direction: pivot and spin",
      "Examples:\n  palpa calibrate tool\n  palpa calibrate tool --pivot pivot.csv --spin spin.csv\n"
-     "Tables have a header row: x_mm (or x_m), y_, z_, q_w, q_x, q_y, q_z: the end effector in the device's base."},
+     "Tables have a header row: x_mm (or x_m), y_, z_, q_w, q_x, q_y, q_z: the end effector in the "
+     "device's base."},
     {"workspace", "The device's systematic position error, from a touched grid",
-     "Examples:\n  palpa calibrate workspace --touches grid.csv\nColumns: known_x_mm, ..., touched_x_mm, ..., end_x_mm, ... (the end effector, where it is known)"},
-    {"registration", "Where the device stands: from touched landmarks, from a tag on the tool, or both",
-     "Examples:\n  palpa calibrate registration --landmarks touched.csv\n      columns: name, known_x_mm, ..., touched_x_mm, ..., for (\"check\": not used to fit)\n"
-     "  palpa calibrate registration --pairs samples.json\n      a list of [end effector in base, tag in camera], 4x4, metres; or a table: device_x_m, ..., tag_x_m, ..."},
+     "Examples:\n  palpa calibrate workspace --touches grid.csv\nColumns: known_x_mm, ..., "
+     "touched_x_mm, ..., end_x_mm, ... (the end effector, where it is known)"},
+    {"registration",
+     "Where the device stands: from touched landmarks, from a tag on the tool, or both",
+     "Examples:\n  palpa calibrate registration --landmarks touched.csv\n      columns: name, "
+     "known_x_mm, ..., touched_x_mm, ..., for (\"check\": not used to fit)\n"
+     "  palpa calibrate registration --pairs samples.json\n      a list of [end effector in base, "
+     "tag in camera], 4x4, metres; or a table: device_x_m, ..., tag_x_m, ..."},
     {"latency", "The time between camera and device, from one motion that both saw",
-     "Examples:\n  palpa calibrate latency --camera-track camera.csv --device-track device.csv\nColumns: t_s, x_mm (or x_m), y_, z_"},
+     "Examples:\n  palpa calibrate latency --camera-track camera.csv --device-track "
+     "device.csv\nColumns: t_s, x_mm (or x_m), y_, z_"},
     {"force-sensor", "Bias and tool weight, from readings in different orientations",
-     "Examples:\n  palpa calibrate force-sensor --readings readings.csv\nColumns: q_w, ..., force_x_N, ..., torque_x_Nm, ..."},
+     "Examples:\n  palpa calibrate force-sensor --readings readings.csv\nColumns: q_w, ..., "
+     "force_x_N, ..., torque_x_Nm, ..."},
     {"material", "How soft a sample is: from presses",
-     "Examples:\n  palpa calibrate material\n      on the virtual palpation bench: a simulated hand presses the silicone\n  palpa calibrate material --presses presses.csv\n"
-     "Columns: t_s; x_mm (or x_m), y_, z_ of the tip's lowest point, z up from the sample's top; force_x_N, ..."},
+     "Examples:\n  palpa calibrate material\n      on the virtual palpation bench: a simulated "
+     "hand presses the silicone\n  palpa calibrate material --presses presses.csv\n"
+     "Columns: t_s; x_mm (or x_m), y_, z_ of the tip's lowest point, z up from the sample's top; "
+     "force_x_N, ..."},
     {"friction", "What a sample's surface rubs with: from strokes",
-     "Examples:\n  palpa calibrate friction\n  palpa calibrate friction --strokes strokes.csv\nColumns as of material"},
-    {"inclusion", "What a lump adds to a sample: from presses of one that has it and one that has not",
+     "Examples:\n  palpa calibrate friction\n  palpa calibrate friction --strokes "
+     "strokes.csv\nColumns as of material"},
+    {"inclusion",
+     "What a lump adds to a sample: from presses of one that has it and one that has not",
      "Examples:\n  palpa calibrate inclusion --mockup hard\n"
-     "  palpa calibrate inclusion --without plain.csv --strokes strokes.csv --above above.csv --beside beside.csv --check check.csv --depth-mm 15\n"
+     "  palpa calibrate inclusion --without plain.csv --strokes strokes.csv --above above.csv "
+     "--beside beside.csv --check check.csv --depth-mm 15\n"
      "Columns as of material, and lump_x_mm, ...: how far the lump has moved"},
     {"all", "Everything, one after the other, with a page that says whether the station is ready",
-     "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: palpa paracentesis --station station3/station.json --seed 3"}};
+     "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: "
+     "palpa paracentesis --station station3/station.json --seed 3"}};
 
 void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
-  const auto file = [&](const char* name, std::string* where, const char* about) { command->add_option(name, *where, about)->type_name("FILE"); };
+  const auto file = [&](const char* name, std::string* where, const char* about) {
+    command->add_option(name, *where, about)->type_name("FILE");
+  };
   if (kind == "camera") {
-    command->add_option("--images", o->images, "Recorded pictures: a shell pattern, quoted")->type_name("GLOB");
-    command->add_option("--board", o->board, "The board in them; otherwise the station's")->type_name("SPEC");
-    command->add_flag("--all-corners", o->all_corners, "Plain least squares: no corner is left out");
+    command->add_option("--images", o->images, "Recorded pictures: a shell pattern, quoted")
+        ->type_name("GLOB");
+    command->add_option("--board", o->board, "The board in them; otherwise the station's")
+        ->type_name("SPEC");
+    command->add_flag("--all-corners", o->all_corners,
+                      "Plain least squares: no corner is left out");
   }
   if (kind == "tool") {
     file("--pivot", &o->pivot, "Recorded poses, the tip in a hole");
@@ -313,12 +399,16 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
     file("--above", &o->above, "Recorded presses above the lump");
     file("--beside", &o->beside, "Recorded presses beside it");
     file("--check", &o->check, "Recorded presses at a place to judge by");
-    command->add_option("--depth-mm", o->depth_mm, "How deep the lump's middle lies")->check(CLI::Range(1.0, 200.0));
-    command->add_option("--mockup", o->mockup, "Simulated sample on the virtual bench")->type_name("NAME");
+    command->add_option("--depth-mm", o->depth_mm, "How deep the lump's middle lies")
+        ->check(CLI::Range(1.0, 200.0));
+    command->add_option("--mockup", o->mockup, "Simulated sample on the virtual bench")
+        ->type_name("NAME");
   }
   if (kind == "force-sensor") {
     file("--readings", &o->readings, "Recorded static readings");
-    command->add_option("--down", o->down, "Where weight pulls, in the device's base")->expected(3)->type_name("X Y Z");
+    command->add_option("--down", o->down, "Where weight pulls, in the device's base")
+        ->expected(3)
+        ->type_name("X Y Z");
   }
 }
 
@@ -330,11 +420,17 @@ void addStationCalibrations(CLI::App& calibrate) {
     command->footer(routine.examples);
     const auto o = std::make_shared<CalibrateOptions>();
     o->kind = routine.name;
-    command->add_option("--station", o->station, "Station file; otherwise the virtual bench")->type_name("FILE");
-    command->add_option("--seed", o->seed, "Seed of the virtual bench")->check(CLI::NonNegativeNumber);
+    command->add_option("--station", o->station, "Station file; otherwise the virtual bench")
+        ->type_name("FILE");
+    command->add_option("--seed", o->seed, "Seed of the virtual bench")
+        ->check(CLI::NonNegativeNumber);
     command->add_option("--out", o->out, "Folder for the results")->type_name("DIR");
     command->add_flag("--quiet", o->quiet, "No progress");
-    command->add_option("--watch", o->watch, "Keep in this JPEG what the camera sees, for a page that shows it; and a line for each step")->type_name("FILE");
+    command
+        ->add_option("--watch", o->watch,
+                     "Keep in this JPEG what the camera sees, for a page that shows it; and a line "
+                     "for each step")
+        ->type_name("FILE");
     addFiles(command, routine.name, o.get());
     command->callback([o] { calibrateStation(*o); });
   }

@@ -4,7 +4,8 @@
 
 namespace palpa::cli {
 
-/// camera, tool, workspace, registration, latency, force-sensor, material, friction, inclusion, all.
+/// camera, tool, workspace, registration, latency, force-sensor, material, friction, inclusion,
+/// all.
 void addStationCalibrations(CLI::App& calibrate);
 
 }  // namespace palpa::cli

@@ -46,11 +46,16 @@ class PatientNotes {
 
 void calibrateSubtasks(const SubtaskCommand& o) {
   using namespace calibrate;
-  const SubtaskRecordings recordings = readSubtaskRecordings({o.recordings.begin(), o.recordings.end()}, o.task);
+  const SubtaskRecordings recordings =
+      readSubtaskRecordings({o.recordings.begin(), o.recordings.end()}, o.task);
   PatientNotes notes(o.quiet);
-  const SubtaskSegmentation found = segment(recordings.sequences, {o.seed, o.states, [&](const std::string& stage) { notes(stage); }});
-  const std::string command = "palpa calibrate subtasks" + std::string(o.states ? " --states " + std::to_string(o.states) : "") + " --seed " + std::to_string(o.seed);
-  const Origin origin{recordings.station, command, "recorded sessions", utcNow(), recordings.simulated, recordings.files};
+  const SubtaskSegmentation found = segment(
+      recordings.sequences, {o.seed, o.states, [&](const std::string& stage) { notes(stage); }});
+  const std::string command = "palpa calibrate subtasks" +
+                              std::string(o.states ? " --states " + std::to_string(o.states) : "") +
+                              " --seed " + std::to_string(o.seed);
+  const Origin origin{recordings.station,   command,         "recorded sessions", utcNow(),
+                      recordings.simulated, recordings.files};
   const Result result = subtaskResult(recordings, found, origin);
   const std::filesystem::path folder = makeOutputFolder(o.out, "calibrate-subtasks");
   station::writeCalibration(result.file, folder / "calibration.json");
@@ -64,12 +69,21 @@ void calibrateSubtasks(const SubtaskCommand& o) {
 }  // namespace
 
 void addSubtaskCalibration(CLI::App& calibrate) {
-  CLI::App* command = calibrate.add_subcommand("subtasks", "A task's parts proposed from experts' recorded sessions, beside the hand-written ones");
+  CLI::App* command = calibrate.add_subcommand(
+      "subtasks",
+      "A task's parts proposed from experts' recorded sessions, beside the hand-written ones");
   command->footer(kSubtaskExamples);
   const auto o = std::make_shared<SubtaskCommand>();
-  command->add_option("RECORDING", o->recordings, "Recorded sessions (session.palpa) of one task")->required()->type_name("FILE...");
-  command->add_option("--task", o->task, "Task file to take the parts' names from; otherwise what was recorded")->type_name("FILE");
-  command->add_option("--states", o->states, "Take so many states; otherwise as many as are proposed")->check(CLI::Range(2, calibrate::kMostProposed));
+  command->add_option("RECORDING", o->recordings, "Recorded sessions (session.palpa) of one task")
+      ->required()
+      ->type_name("FILE...");
+  command
+      ->add_option("--task", o->task,
+                   "Task file to take the parts' names from; otherwise what was recorded")
+      ->type_name("FILE");
+  command
+      ->add_option("--states", o->states, "Take so many states; otherwise as many as are proposed")
+      ->check(CLI::Range(2, calibrate::kMostProposed));
   command->add_option("--seed", o->seed, "Seed of the fits' starts")->check(CLI::NonNegativeNumber);
   command->add_option("--out", o->out, "Folder for the results")->type_name("DIR");
   command->add_flag("--quiet", o->quiet, "No progress");

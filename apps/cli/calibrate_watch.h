@@ -10,8 +10,9 @@
 
 namespace palpa::cli {
 
-/// Keeps in a JPEG what the camera of a calibration sees, for whoever looks on: at most five pictures a second. Parts of the picture in which the board has been seen well are tinted, its points of the
-/// last view ringed. Never in the way: a picture that cannot be written is left out.
+/// Keeps in a JPEG what the camera of a calibration sees, for whoever looks on: at most five
+/// pictures a second. Parts of the picture in which the board has been seen well are tinted, its
+/// points of the last view ringed. Never in the way: a picture that cannot be written is left out.
 class WatchedPicture {
  public:
   explicit WatchedPicture(std::filesystem::path file) : file_(std::move(file)) {}

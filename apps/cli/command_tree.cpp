@@ -8,7 +8,9 @@ namespace {
 std::vector<std::string> split(const std::string& text, char between) {
   std::vector<std::string> parts;
   std::size_t from = 0;
-  for (std::size_t at = text.find(between); at != std::string::npos; at = text.find(between, from = at + 1)) parts.push_back(text.substr(from, at - from));
+  for (std::size_t at = text.find(between); at != std::string::npos;
+       at = text.find(between, from = at + 1))
+    parts.push_back(text.substr(from, at - from));
   parts.push_back(text.substr(from));
   return parts;
 }
@@ -21,11 +23,14 @@ std::string joined(const std::vector<std::string>& parts, const std::string& bet
 
 /// "a|b|c" of small letters and digits: words to choose from, no names of kinds such as FILE|URL.
 bool areWords(const std::string& value) {
-  const bool plain = std::all_of(value.begin(), value.end(), [](char c) { return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '|'; });
+  const bool plain = std::all_of(value.begin(), value.end(), [](char c) {
+    return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '-' || c == '_' || c == '|';
+  });
   return plain && value.find('|') != std::string::npos;
 }
 
-/// The library says "TEXT:{f,m}", "FLOAT:FLOAT in [1000 - 4000]", "UINT:NONNEGATIVE"; a person is told "f|m", "NUMBER" and the range.
+/// The library says "TEXT:{f,m}", "FLOAT:FLOAT in [1000 - 4000]", "UINT:NONNEGATIVE"; a person is
+/// told "f|m", "NUMBER" and the range.
 void readType(const std::string& type, OptionText* option) {
   const std::size_t colon = type.find(':');
   std::string kind = type.substr(0, colon);
@@ -39,7 +44,8 @@ void readType(const std::string& type, OptionText* option) {
   }
   if (const std::size_t open = limits.find('['); open != std::string::npos) {
     const std::string range = limits.substr(open + 1, limits.find(']', open) - open - 1);
-    if (const std::size_t dash = range.find(" - "); dash != std::string::npos) option->description += " [" + range.substr(0, dash) + " to " + range.substr(dash + 3) + "]";
+    if (const std::size_t dash = range.find(" - "); dash != std::string::npos)
+      option->description += " [" + range.substr(0, dash) + " to " + range.substr(dash + 3) + "]";
   }
   option->value = kind;
 }
@@ -50,11 +56,13 @@ OptionText describe(const CLI::Option& given) {
   for (const std::string& name : given.get_lnames()) option.names.push_back("--" + name);
   option.description = given.get_description();
   option.required = given.get_required();
-  if (given.get_expected_max() > 0 && given.get_type_size_max() > 0) readType(given.get_type_name(), &option);
+  if (given.get_expected_max() > 0 && given.get_type_size_max() > 0)
+    readType(given.get_type_name(), &option);
   if (given.get_positional() && option.names.empty()) {
     const std::string name = given.get_name(true);
     if (option.value.empty() || option.value == "TEXT") option.value = name;
-    if (given.get_expected_max() > 1 && option.value.find("...") == std::string::npos) option.value += "...";
+    if (given.get_expected_max() > 1 && option.value.find("...") == std::string::npos)
+      option.value += "...";
   }
   return option;
 }
@@ -69,7 +77,9 @@ CommandText described(const CLI::App& app, const std::string& above) {
     OptionText text = describe(*option);
     (text.names.empty() ? command.positionals : command.options).push_back(std::move(text));
   }
-  for (const CLI::App* below : app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); })) command.commands.push_back(described(*below, command.path + " "));
+  for (const CLI::App* below :
+       app.get_subcommands([](const CLI::App* one) { return !one->get_group().empty(); }))
+    command.commands.push_back(described(*below, command.path + " "));
   return command;
 }
 

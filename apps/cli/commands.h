@@ -2,15 +2,15 @@
 
 #include <CLI/CLI.hpp>
 
-/// One function a subcommand of `palpa`: adds it to the program with its options, examples and action.
-/// Actions throw UsageError (exit code 2) or Error (1).
+/// One function a subcommand of `palpa`: adds it to the program with its options, examples and
+/// action. Actions throw UsageError (exit code 2) or Error (1).
 namespace palpa::cli {
 
 void addParacentesis(CLI::App& program);
 void addPalpation(CLI::App& program);
 void addSqueeze(CLI::App& program);
 void addSearch(CLI::App& program);
-void addTrain(CLI::App& program);   ///< any of them, by the task file
+void addTrain(CLI::App& program);  ///< any of them, by the task file
 void addReplay(CLI::App& program);
 void addCalibrate(CLI::App& program);
 void addPatient(CLI::App& program);
@@ -18,13 +18,15 @@ void addRender(CLI::App& program);
 void addBoard(CLI::App& program);
 void addPhantom(CLI::App& program);
 void addExport(CLI::App& program);
-void addRecords(CLI::App& program);   ///< trainees and their trials
-void addStudy(CLI::App& program);     ///< a protocol's sessions, who is where in it
-void addRate(CLI::App& program);      ///< human raters
-void addReport(CLI::App& program);    ///< pages of a trainee or a group
-void addDoctor(CLI::App& program);    ///< is the station well?
-void addConsole(CLI::App& program);   ///< the educator's pages
+void addRecords(CLI::App& program);  ///< trainees and their trials
+void addStudy(CLI::App& program);    ///< a protocol's sessions, who is where in it
+void addRate(CLI::App& program);     ///< human raters
+void addReport(CLI::App& program);   ///< pages of a trainee or a group
+void addDoctor(CLI::App& program);   ///< is the station well?
+void addConsole(CLI::App& program);  ///< the educator's pages
 void addBench(CLI::App& program);
-void addManual(CLI::App& program, const std::string& welcome);   ///< manual page and completion, from all that were added before
+void addManual(
+    CLI::App& program,
+    const std::string& welcome);  ///< manual page and completion, from all that were added before
 
 }  // namespace palpa::cli

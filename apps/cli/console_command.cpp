@@ -34,7 +34,8 @@ struct ConsoleOptions {
 };
 
 fs::path usualHome() {
-  if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data == '/') return fs::path(data) / "palpa/console";
+  if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data == '/')
+    return fs::path(data) / "palpa/console";
   const char* home = std::getenv("HOME");
   return fs::path(home && *home ? home : ".") / ".local/share/palpa/console";
 }
@@ -43,11 +44,16 @@ fs::path usualHome() {
 std::string tokenIn(const std::string& file) {
   if (file.empty()) return "";
   struct stat facts {};
-  if (::stat(file.c_str(), &facts) != 0) throw UsageError("is not there", "--token-file " + file, "Write a token of at least 16 letters and digits into it");
-  if ((facts.st_mode & 0077) != 0) throw UsageError("may be read by others", "--token-file " + file, "chmod 600 " + file);
+  if (::stat(file.c_str(), &facts) != 0)
+    throw UsageError("is not there", "--token-file " + file,
+                     "Write a token of at least 16 letters and digits into it");
+  if ((facts.st_mode & 0077) != 0)
+    throw UsageError("may be read by others", "--token-file " + file, "chmod 600 " + file);
   std::string token;
   std::getline(std::ifstream(file), token);
-  if (token.size() < kShortestToken) throw UsageError("holds fewer than 16 characters", "--token-file " + file, "Make one: head -c 24 /dev/urandom | base64 > " + file);
+  if (token.size() < kShortestToken)
+    throw UsageError("holds fewer than 16 characters", "--token-file " + file,
+                     "Make one: head -c 24 /dev/urandom | base64 > " + file);
   return token;
 }
 
@@ -55,7 +61,8 @@ void openInBrowser(const std::string& url) {
   std::string program = "xdg-open", page = url;
   char* argv[] = {program.data(), page.data(), nullptr};
   pid_t pid = 0;
-  if (posix_spawnp(&pid, "xdg-open", nullptr, nullptr, argv, environ) != 0) std::fprintf(stderr, "No browser could be opened: type the address into one\n");
+  if (posix_spawnp(&pid, "xdg-open", nullptr, nullptr, argv, environ) != 0)
+    std::fprintf(stderr, "No browser could be opened: type the address into one\n");
 }
 
 console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
@@ -72,7 +79,7 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   s.names = o.names;
   s.tone = toneOfEvent;
   if (!o.station.empty()) {
-    station::readStation(o.station);   // refused here, where somebody reads it
+    station::readStation(o.station);  // refused here, where somebody reads it
     s.station = fs::absolute(o.station).string();
   }
   return s;
@@ -83,7 +90,9 @@ void serve(const ConsoleOptions& o) {
   serveConsole(settings, [&](const std::string& url) {
     std::printf("The console: %s\n", url.c_str());
     if (!settings.token.empty()) std::printf("It asks for the token in %s\n", o.token_file.c_str());
-    std::printf("Ctrl-C ends it; a session that runs goes on, and is found again when the console is back\n");
+    std::printf(
+        "Ctrl-C ends it; a session that runs goes on, and is found again when the console is "
+        "back\n");
     std::fflush(stdout);
     if (o.open && settings.place.display) openInBrowser(url);
   });
@@ -100,16 +109,41 @@ void runConsole() {
 
 void addConsole(CLI::App& program) {
   const auto o = std::make_shared<ConsoleOptions>();
-  CLI::App* command = program.add_subcommand("console", "The educator's pages: station, calibration, trainees, sessions, results, replay, studies");
-  command->add_option("--listen", o->listen, "Address to listen at (default 127.0.0.1: this computer alone); others need --token-file")->type_name("ADDRESS");
-  command->add_option("--port", o->port, "Port (default: any that is free)")->check(CLI::Range(1, 65535));
-  command->add_option("--token-file", o->token_file, "File with the token that whoever opens the pages must give; readable by you alone")->type_name("FILE");
-  command->add_option("--name", o->names, "Another name by which browsers reach this computer, e.g. station3.local")->type_name("HOST");
-  command->add_option("--home", o->home, "Where the console keeps its sessions (default ~/.local/share/palpa/console)")->type_name("DIR");
-  command->add_option("--station", o->station, "Station file of this place, from now on (default: as last time; at first the virtual bench)")->type_name("FILE");
-  command->add_flag_callback("--no-open", [o] { o->open = false; }, "Do not open a browser");
+  CLI::App* command = program.add_subcommand(
+      "console",
+      "The educator's pages: station, calibration, trainees, sessions, results, replay, studies");
+  command
+      ->add_option(
+          "--listen", o->listen,
+          "Address to listen at (default 127.0.0.1: this computer alone); others need --token-file")
+      ->type_name("ADDRESS");
+  command->add_option("--port", o->port, "Port (default: any that is free)")
+      ->check(CLI::Range(1, 65535));
+  command
+      ->add_option(
+          "--token-file", o->token_file,
+          "File with the token that whoever opens the pages must give; readable by you alone")
+      ->type_name("FILE");
+  command
+      ->add_option("--name", o->names,
+                   "Another name by which browsers reach this computer, e.g. station3.local")
+      ->type_name("HOST");
+  command
+      ->add_option("--home", o->home,
+                   "Where the console keeps its sessions (default ~/.local/share/palpa/console)")
+      ->type_name("DIR");
+  command
+      ->add_option("--station", o->station,
+                   "Station file of this place, from now on (default: as last time; at first the "
+                   "virtual bench)")
+      ->type_name("FILE");
+  command->add_flag_callback(
+      "--no-open", [o] { o->open = false; }, "Do not open a browser");
   addRecordsArgument(*command, o->records);
-  command->footer("Examples:\n  palpa console\n  palpa console --port 8080 --no-open\n  palpa console --listen 192.168.1.20 --port 8080 --token-file ~/palpa-token\n      for a tablet in a room's own network: http is not encrypted; keep it off other networks");
+  command->footer(
+      "Examples:\n  palpa console\n  palpa console --port 8080 --no-open\n  palpa console --listen "
+      "192.168.1.20 --port 8080 --token-file ~/palpa-token\n      for a tablet in a room's own "
+      "network: http is not encrypted; keep it off other networks");
   command->callback([o] { serve(*o); });
 }
 

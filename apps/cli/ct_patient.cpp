@@ -21,12 +21,15 @@ void writePicture(const anatomy::Picture& picture, const std::filesystem::path& 
   cv::Mat bgr(picture.height, picture.width, CV_8UC3);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
-      const std::uint8_t* p = &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) + static_cast<std::size_t>(x))];
+      const std::uint8_t* p =
+          &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                            static_cast<std::size_t>(x))];
       bgr.at<cv::Vec3b>(y, x) = {p[2], p[1], p[0]};
     }
   std::filesystem::path beside = file;
   beside.replace_extension(".part.png");
-  if (!cv::imwrite(beside.string(), bgr)) throw Error("cannot be written", file.string(), "Check that the folder may be written to");
+  if (!cv::imwrite(beside.string(), bgr))
+    throw Error("cannot be written", file.string(), "Check that the folder may be written to");
   std::filesystem::rename(beside, file);
 }
 
@@ -37,23 +40,27 @@ void writePreviews(const anatomy::CtPatient& ct, const std::filesystem::path& fo
   const auto those = [&](std::initializer_list<Organ> organs) {
     Labels labels;
     for (const anatomy::LabelledOrgan& label : ct.labels)
-      if (std::find(organs.begin(), organs.end(), label.organ) != organs.end()) labels.push_back(&label);
+      if (std::find(organs.begin(), organs.end(), label.organ) != organs.end())
+        labels.push_back(&label);
     return labels;
   };
-  const std::pair<const char*, Labels> steps[] = {{"1-seeds", {}},
-                                                  {"2-vein", those({Organ::vein})},
-                                                  {"3-clavicles", those({Organ::clavicle})},
-                                                  {"4-thorax", those({Organ::sternum, Organ::rib})},
-                                                  {"5-envelope", those({Organ::skin, Organ::lung})},
-                                                  {"6-all", those({Organ::vein, Organ::clavicle, Organ::sternum, Organ::rib})}};
+  const std::pair<const char*, Labels> steps[] = {
+      {"1-seeds", {}},
+      {"2-vein", those({Organ::vein})},
+      {"3-clavicles", those({Organ::clavicle})},
+      {"4-thorax", those({Organ::sternum, Organ::rib})},
+      {"5-envelope", those({Organ::skin, Organ::lung})},
+      {"6-all", those({Organ::vein, Organ::clavicle, Organ::sternum, Organ::rib})}};
   for (const auto& [name, labels] : steps)
-    writePicture(anatomy::projections(ct.scan, labels, ct.seeds), folder / (std::string(name) + ".png"));
+    writePicture(anatomy::projections(ct.scan, labels, ct.seeds),
+                 folder / (std::string(name) + ".png"));
   std::printf("Previews: %s (red crosses: the points below)\n", folder.string().c_str());
 }
 
 void tellStep(const std::string& step, double done) {
   const bool terminal = isatty(STDERR_FILENO) != 0;
-  std::fprintf(stderr, terminal ? "\r%3.0f %%  %s \033[K" : "%3.0f %%  %s\n", 100 * done, step.c_str());
+  std::fprintf(stderr, terminal ? "\r%3.0f %%  %s \033[K" : "%3.0f %%  %s\n", 100 * done,
+               step.c_str());
   std::fflush(stderr);
 }
 
@@ -61,10 +68,12 @@ void tellResult(const anatomy::CtPatient& ct) {
   if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);
   for (const std::string& words : ct.remarks) std::printf("%s.\n", words.c_str());
   std::printf("Points (mm in the volume's frame); change one and run again:\n");
-  for (const auto& [name, p] : ct.seeds) std::printf("  %s\n", anatomy::seedOption(name, p).c_str());
+  for (const auto& [name, p] : ct.seeds)
+    std::printf("  %s\n", anatomy::seedOption(name, p).c_str());
   for (const anatomy::Finding& finding : anatomy::checkPatient(ct.patient))
     if (!finding.ok)
-      std::printf("Not as it is taught: %s is %.1f %s, wanted %s.\n", finding.name.c_str(), finding.value, finding.unit.c_str(), finding.wanted.c_str());
+      std::printf("Not as it is taught: %s is %.1f %s, wanted %s.\n", finding.name.c_str(),
+                  finding.value, finding.unit.c_str(), finding.wanted.c_str());
 }
 
 anatomy::Seeds seedsFrom(const CtArguments& a) {
@@ -78,16 +87,32 @@ anatomy::Seeds seedsFrom(const CtArguments& a) {
 
 std::shared_ptr<CtArguments> addCtOptions(CLI::App& command) {
   const auto a = std::make_shared<CtArguments>();
-  CLI::Option* ct = command.add_option("--ct", a->ct, "Build from a contrast CT: .mha, .mhd, .nii, .nii.gz, or a folder with a DICOM series")->type_name("FILE|FOLDER");
+  CLI::Option* ct = command
+                        .add_option("--ct", a->ct,
+                                    "Build from a contrast CT: .mha, .mhd, .nii, .nii.gz, or a "
+                                    "folder with a DICOM series")
+                        ->type_name("FILE|FOLDER");
   const auto only = [&](CLI::Option* option) { return option->needs(ct); };
-  only(command.add_option("--ct-axes", a->axes, "Where columns, rows, slices point, when the header lies: three of L/R, A/P, S/I, e.g. LAI"))->type_name("AXES");
+  only(command.add_option("--ct-axes", a->axes,
+                          "Where columns, rows, slices point, when the header lies: three of L/R, "
+                          "A/P, S/I, e.g. LAI"))
+      ->type_name("AXES");
   only(command.add_flag("--ct-mirrored", a->mirrored, "Allow --ct-axes that make left right"));
-  only(command.add_option("--ct-series", a->series, "Which DICOM series of the folder: number or UID"))->type_name("N|UID");
-  only(command.add_option("--seeds", a->seeds, "File of points to start from; written with what was used"))->type_name("FILE");
-  only(command.add_option("--seed-point", a->points, "Moves one point: name=x,y,z (mm); may be repeated"))->type_name("NAME=X,Y,Z");
-  only(command.add_option("--previews", a->previews, "Folder for pictures of each step"))->type_name("DIR");
-  a->bone_given = only(command.add_option("--bone-level", a->bone, "Value at which bone begins (Hounsfield, or the volume's own)"));
-  a->dense_given = only(command.add_option("--vein-level", a->dense, "Value at which the contrast-filled vein begins"));
+  only(command.add_option("--ct-series", a->series,
+                          "Which DICOM series of the folder: number or UID"))
+      ->type_name("N|UID");
+  only(command.add_option("--seeds", a->seeds,
+                          "File of points to start from; written with what was used"))
+      ->type_name("FILE");
+  only(command.add_option("--seed-point", a->points,
+                          "Moves one point: name=x,y,z (mm); may be repeated"))
+      ->type_name("NAME=X,Y,Z");
+  only(command.add_option("--previews", a->previews, "Folder for pictures of each step"))
+      ->type_name("DIR");
+  a->bone_given = only(command.add_option(
+      "--bone-level", a->bone, "Value at which bone begins (Hounsfield, or the volume's own)"));
+  a->dense_given = only(command.add_option("--vein-level", a->dense,
+                                           "Value at which the contrast-filled vein begins"));
   return a;
 }
 

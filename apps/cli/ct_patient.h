@@ -19,7 +19,8 @@ struct CtArguments {
 
 std::shared_ptr<CtArguments> addCtOptions(CLI::App& command);
 
-/// Reads, segments, says what was found and what is not known, writes previews and seeds. `side`: empty for the side of the contrast.
+/// Reads, segments, says what was found and what is not known, writes previews and seeds. `side`:
+/// empty for the side of the contrast.
 anatomy::Patient buildFromCt(const CtArguments& arguments, const std::string& side);
 
 }  // namespace palpa::cli

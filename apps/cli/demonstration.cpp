@@ -3,8 +3,8 @@
 #include <cstdio>
 
 #include "anatomy/geometry/error.h"
-#include "apps/cli/needle_session.h"
 #include "apps/cli/mouse_hand.h"
+#include "apps/cli/needle_session.h"
 #include "apps/cli/output_folder.h"
 #include "apps/cli/recorded_trial.h"
 #include "apps/cli/stage.h"
@@ -20,20 +20,22 @@ constexpr std::int64_t kLinger = 3 * runtime::kSecond;
 /// A recorded trial, told to the scene at the speed at which it happened.
 class Playback final : public runtime::Activity {
  public:
-  Playback(std::vector<replay::Moment> moments, runtime::Bus& bus, task_needle::TaskChannels& channels,
-           runtime::Executive& executive)
+  Playback(std::vector<replay::Moment> moments, runtime::Bus& bus,
+           task_needle::TaskChannels& channels, runtime::Executive& executive)
       : moments_(std::move(moments)), bus_(bus), channels_(channels), executive_(executive) {}
   const char* name() const override { return "playback"; }
 
   std::int64_t step(std::int64_t now_ns) override {
     trial::UserRequest request;
     while (channels_.requests_to_task.pop(&request))
-      if (request.command == trial::UserCommand::start || request.command == trial::UserCommand::quit)
+      if (request.command == trial::UserCommand::start ||
+          request.command == trial::UserCommand::quit)
         executive_.stop();
     if (start_ns_ < 0) start_ns_ = now_ns;
     const double t_s = static_cast<double>(now_ns - start_ns_) * 1e-9;
     const std::size_t at = replay::momentAt(moments_, t_s);
-    if (at + 1 == moments_.size() && (end_ns_ = end_ns_ < 0 ? now_ns : end_ns_, now_ns - end_ns_ > kLinger))
+    if (at + 1 == moments_.size() &&
+        (end_ns_ = end_ns_ < 0 ? now_ns : end_ns_, now_ns - end_ns_ > kLinger))
       executive_.stop();
     publish(moments_[at], now_ns);
     return now_ns + kPlaybackPeriod;
@@ -64,17 +66,18 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   expert.command = "demonstration";
   expert.role = "demonstration";
   expert.who = OperatorKind::expert;
-  expert.knows_patient = !options.patient.empty();   // one shows what one has prepared
+  expert.knows_patient = !options.patient.empty();  // one shows what one has prepared
   expert.seed = kDemonstrationSeed;
   expert.trials = 1;
   expert.trainee = "simulated-expert";
   expert.live.clear();
-  expert.records.clear();   // what was shown is nobody's trial
+  expert.records.clear();  // what was shown is nobody's trial
   expert.fast = expert.no_views = expert.quiet = true;
   expert.display = scene::Display::offscreen;
   expert.headset = false;
   const std::filesystem::path place = makeOutputFolder((folder / "demonstration").string(), "");
-  if (runNeedleSession(expert, world, place).quit) throw Error("was interrupted", "the demonstration", "Start again");
+  if (runNeedleSession(expert, world, place).quit)
+    throw Error("was interrupted", "the demonstration", "Start again");
   const RecordedNeedleTrial recorded(place / "session.palpa", 1);
 
   const Stage stage = makeStage(options, world.patient, true);

@@ -25,7 +25,7 @@ namespace {
 
 using namespace doctor;
 
-constexpr const char* kMade_utc = "2026-01-01T00:00:00Z";   // no trial is older than this program
+constexpr const char* kMade_utc = "2026-01-01T00:00:00Z";  // no trial is older than this program
 constexpr int kPictures = 30;
 
 struct DoctorOptions {
@@ -36,7 +36,8 @@ struct DoctorOptions {
 };
 
 /// What the bench's camera sees before anybody does anything.
-std::function<std::optional<ar::Frame>()> benchPictures(const station::Station& station, std::uint64_t seed) {
+std::function<std::optional<ar::Frame>()> benchPictures(const station::Station& station,
+                                                        std::uint64_t seed) {
   auto bench = std::make_shared<twin::SetupBench>(station, seed);
   return [bench]() -> std::optional<ar::Frame> {
     for (std::optional<runtime::Moment> moment = bench->next(); moment; moment = bench->next())
@@ -46,7 +47,9 @@ std::function<std::optional<ar::Frame>()> benchPictures(const station::Station& 
 }
 
 /// A source of pictures that is opened where a failure is told.
-PictureFacts seenThrough(const std::function<std::unique_ptr<ar::Camera>()>& open, const station::Station& station, const ar::Board& board, const runtime::Clock* clock) {
+PictureFacts seenThrough(const std::function<std::unique_ptr<ar::Camera>()>& open,
+                         const station::Station& station, const ar::Board& board,
+                         const runtime::Clock* clock) {
   std::unique_ptr<ar::Camera> camera;
   PictureFacts facts = lookAt(
       [&] {
@@ -54,29 +57,41 @@ PictureFacts seenThrough(const std::function<std::unique_ptr<ar::Camera>()>& ope
         return camera->grab();
       },
       kPictures, board, station.camera, clock);
-  if (const auto* webcam = dynamic_cast<const ar::Webcam*>(camera.get()); webcam && !webcam->remarks().empty()) facts.remark = webcam->remarks().front();
+  if (const auto* webcam = dynamic_cast<const ar::Webcam*>(camera.get());
+      webcam && !webcam->remarks().empty())
+    facts.remark = webcam->remarks().front();
   return facts;
 }
 
 PictureFacts seenBy(const station::Station& station, const DoctorOptions& o) {
   const std::unique_ptr<ar::Board> board = ar::makeBoard(station.board, station.decimate);
   if (!o.camera.empty())
-    return seenThrough([&]() -> std::unique_ptr<ar::Camera> {
-      if (ar::isVideoFile(o.camera)) return std::make_unique<ar::VideoFile>(o.camera);
-      return std::make_unique<ar::ImageSequence>(o.camera, station.camera_rate_Hz);
-    }, station, *board, nullptr);
-  if (station.camera_setup.driver == station::CameraSetup::Driver::bench) return lookAt(benchPictures(station, o.seed), kPictures, *board, station.camera);
+    return seenThrough(
+        [&]() -> std::unique_ptr<ar::Camera> {
+          if (ar::isVideoFile(o.camera)) return std::make_unique<ar::VideoFile>(o.camera);
+          return std::make_unique<ar::ImageSequence>(o.camera, station.camera_rate_Hz);
+        },
+        station, *board, nullptr);
+  if (station.camera_setup.driver == station::CameraSetup::Driver::bench)
+    return lookAt(benchPictures(station, o.seed), kPictures, *board, station.camera);
   const station::CameraSetup& setup = station.camera_setup;
   const runtime::SteadyClock clock;
-  return seenThrough([&] {
-    return std::make_unique<ar::Webcam>(ar::WebcamSettings{setup.device, station.camera.width, station.camera.height, station.camera_rate_Hz, setup.exposure_ms, setup.gain, setup.focus});
-  }, station, *board, &clock);
+  return seenThrough(
+      [&] {
+        return std::make_unique<ar::Webcam>(
+            ar::WebcamSettings{setup.device, station.camera.width, station.camera.height,
+                               station.camera_rate_Hz, setup.exposure_ms, setup.gain, setup.focus});
+      },
+      station, *board, &clock);
 }
 
-void append(Findings& all, const Findings& more) { all.insert(all.end(), more.begin(), more.end()); }
+void append(Findings& all, const Findings& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
 
 /// What stands on the table: camera, board, devices, and how they were calibrated.
-Findings table(const station::Station& station, const PictureFacts& pictures, const DoctorOptions& o) {
+Findings table(const station::Station& station, const PictureFacts& pictures,
+               const DoctorOptions& o) {
   const bool falcon = station.device.driver == station::DeviceDriver::falcon;
   Findings all = judgePictures(pictures, station.camera_rate_Hz, station.camera);
   all.push_back(judgePrint(station, o.bar_mm));
@@ -94,12 +109,19 @@ Findings table(const station::Station& station, const PictureFacts& pictures, co
 Findings examined(const DoctorOptions& o) {
   Findings all{askAssets()};
   if (canStart(all)) {
-    const std::filesystem::path file = o.station.empty() ? station::assetFile("stations/virtual_bench.json") : std::filesystem::path(o.station);
-    if (const auto station = readStation(file, &all)) append(all, table(*station, seenBy(*station, o), o));
+    const std::filesystem::path file = o.station.empty()
+                                           ? station::assetFile("stations/virtual_bench.json")
+                                           : std::filesystem::path(o.station);
+    if (const auto station = readStation(file, &all))
+      append(all, table(*station, seenBy(*station, o), o));
   }
-  all.push_back(askDrawing([] { return std::string(scene::makeGlContext(scene::Display::automatic, 320, 240, "Palpa: doctor")->describe()); }));
+  all.push_back(askDrawing([] {
+    return std::string(
+        scene::makeGlContext(scene::Display::automatic, 320, 240, "Palpa: doctor")->describe());
+  }));
   all.push_back(judgeHeadset(headsetRuntime()));
-  all.push_back(askRecords(o.records, record::PendingList(record::PendingList::usualFolder()).sessions().size()));
+  all.push_back(askRecords(
+      o.records, record::PendingList(record::PendingList::usualFolder()).sessions().size()));
   all.push_back(judgeDisk(measureDisk(o.out)));
   all.push_back(judgeDate(utcNow(), kMade_utc));
   all.push_back(askLocale());
@@ -114,39 +136,64 @@ void print(const Findings& findings) {
     notes += f.state == State::note;
   }
   for (const Finding& f : findings) {
-    std::printf("%-4s  %-*s  %s\n", name(f.state), static_cast<int>(wide), f.subject.c_str(), f.verdict.c_str());
+    std::printf("%-4s  %-*s  %s\n", name(f.state), static_cast<int>(wide), f.subject.c_str(),
+                f.verdict.c_str());
     if (!f.fix.empty()) std::printf("%*s  -> %s\n", static_cast<int>(wide) + 6, "", f.fix.c_str());
   }
-  if (ill > 0) std::printf("\nNo session can start: see to what is ill (%zu).\n", ill);
-  else if (notes > 0) std::printf("\nA session can start; %zu thing%s should be seen to.\n", notes, notes == 1 ? "" : "s");
-  else std::printf("\nThe station is well.\n");
+  if (ill > 0)
+    std::printf("\nNo session can start: see to what is ill (%zu).\n", ill);
+  else if (notes > 0)
+    std::printf("\nA session can start; %zu thing%s should be seen to.\n", notes,
+                notes == 1 ? "" : "s");
+  else
+    std::printf("\nThe station is well.\n");
 }
 
 void examine(DoctorOptions o) {
   if (o.records.empty()) o.records = usualRecords();
   const Findings findings = examined(o);
-  if (o.json) std::printf("%s\n", toJson(findings).c_str());
-  else print(findings);
+  if (o.json)
+    std::printf("%s\n", toJson(findings).c_str());
+  else
+    print(findings);
   if (canStart(findings)) return;
   std::string named;
   for (const Finding& f : findings)
     if (f.state == State::ill) named += (named.empty() ? "" : ", ") + f.subject;
-  throw Error("no session can start (" + named + ")", "doctor", "Do what stands beside what is ill, then ask again");
+  throw Error("no session can start (" + named + ")", "doctor",
+              "Do what stands beside what is ill, then ask again");
 }
 
 }  // namespace
 
 void addDoctor(CLI::App& program) {
   auto o = std::make_shared<DoctorOptions>();
-  CLI::App* command = program.add_subcommand("doctor", "Is this station well? What is wrong, and what to do");
-  command->add_option("--station", o->station, "Station file; default: the virtual bench")->type_name("FILE");
-  command->add_option("--records", o->records, "Records: a file, or postgresql://user@host/database (default: the usual ones)")->type_name("FILE|URL");
-  command->add_option("--camera", o->camera, "Instead of the station's camera: recorded pictures or a film of it")->type_name("GLOB|FILM");
-  command->add_option("--bar", o->bar_mm, "What a ruler says of the printed board's bar of 100 mm, in mm")->check(CLI::Range(50.0, 200.0));
-  command->add_option("--out", o->out, "Where results of sessions will go (default out)")->type_name("DIR");
+  CLI::App* command =
+      program.add_subcommand("doctor", "Is this station well? What is wrong, and what to do");
+  command->add_option("--station", o->station, "Station file; default: the virtual bench")
+      ->type_name("FILE");
+  command
+      ->add_option("--records", o->records,
+                   "Records: a file, or postgresql://user@host/database (default: the usual ones)")
+      ->type_name("FILE|URL");
+  command
+      ->add_option("--camera", o->camera,
+                   "Instead of the station's camera: recorded pictures or a film of it")
+      ->type_name("GLOB|FILM");
+  command
+      ->add_option("--bar", o->bar_mm,
+                   "What a ruler says of the printed board's bar of 100 mm, in mm")
+      ->check(CLI::Range(50.0, 200.0));
+  command->add_option("--out", o->out, "Where results of sessions will go (default out)")
+      ->type_name("DIR");
   command->add_option("--seed", o->seed, "Of the virtual bench")->check(CLI::PositiveNumber);
-  command->add_flag("--json", o->json, "For programs: {\"can_start\", \"findings\": [{\"subject\", \"state\", \"verdict\", \"fix\"}]}");
-  command->footer("Exit code 0: a session can start; 1: none can.\n\nExamples:\n  palpa doctor\n  palpa doctor --station my_station.json --json\n  palpa doctor --station my_station.json --bar 99.8\n  palpa doctor --station my_station.json --camera 'shots/*.png'");
+  command->add_flag("--json", o->json,
+                    "For programs: {\"can_start\", \"findings\": [{\"subject\", \"state\", "
+                    "\"verdict\", \"fix\"}]}");
+  command->footer(
+      "Exit code 0: a session can start; 1: none can.\n\nExamples:\n  palpa doctor\n  palpa doctor "
+      "--station my_station.json --json\n  palpa doctor --station my_station.json --bar 99.8\n  "
+      "palpa doctor --station my_station.json --camera 'shots/*.png'");
   command->callback([o] { examine(*o); });
 }
 

@@ -18,10 +18,14 @@ std::string toneOfEvent(const runtime::Event& event) {
   if (event.kind == "note") return "note";
   if (event.kind == "safety" && event.text == runtime::kForceIsBack) return "neutral";
   switch (report::toneOfMoment(meaning(event))) {
-    case report::Tone::good: return "good";
-    case report::Tone::guide: return "guide";
-    case report::Tone::bad: return "bad";
-    case report::Tone::neutral: break;
+    case report::Tone::good:
+      return "good";
+    case report::Tone::guide:
+      return "guide";
+    case report::Tone::bad:
+      return "bad";
+    case report::Tone::neutral:
+      break;
   }
   return "neutral";
 }

@@ -17,13 +17,15 @@
 namespace palpa::cli {
 namespace {
 
-using Figures = std::map<int, std::vector<metrics::MetricValue>>;   ///< by trial
+using Figures = std::map<int, std::vector<metrics::MetricValue>>;  ///< by trial
 
 Figures needleFigures(const std::filesystem::path& evidence) {
   const RecordedSession session(evidence);
   Figures figures;
-  session.eachTrial([&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
-    const bool judged = trial.ended && trial.end.outcome != "void" && (session.hasGoal() || !session.reader().info().expert_path_json.empty());
+  session.eachTrial([&](const record::RecordedTrial& trial,
+                        const RecordedSession::Samples& samples) {
+    const bool judged = trial.ended && trial.end.outcome != "void" &&
+                        (session.hasGoal() || !session.reader().info().expert_path_json.empty());
     if (judged) figures[trial.header.trial] = session.rescore(trial, samples).metrics;
   });
   return figures;
@@ -33,15 +35,23 @@ template <class Trials, class Judge>
 Figures figuresOf(const Trials& trials, Judge judge) {
   Figures figures;
   for (const auto& trial : trials)
-    if (trial.recorded.ended && trial.recorded.end.outcome != "void") figures[trial.recorded.header.trial] = judge(trial);
+    if (trial.recorded.ended && trial.recorded.end.outcome != "void")
+      figures[trial.recorded.header.trial] = judge(trial);
   return figures;
 }
 
 Figures figuresIn(const record::SessionReader& reader, const std::filesystem::path& evidence) {
   const std::string engine = engineOf(reader);
-  if (engine == "palpation") return figuresOf(recordedPalpations(reader), [](const RecordedPalpation& t) { return assess::palpationMetrics(t.assessment); });
-  if (engine == "surface") return figuresOf(recordedSearches(reader), [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
-  if (engine == "squeeze") return figuresOf(recordedSqueezes(reader), [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
+  if (engine == "palpation")
+    return figuresOf(recordedPalpations(reader), [](const RecordedPalpation& t) {
+      return assess::palpationMetrics(t.assessment);
+    });
+  if (engine == "surface")
+    return figuresOf(recordedSearches(reader),
+                     [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
+  if (engine == "squeeze")
+    return figuresOf(recordedSqueezes(reader),
+                     [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
   return needleFigures(evidence);
 }
 
@@ -49,22 +59,28 @@ Figures figuresIn(const record::SessionReader& reader, const std::filesystem::pa
 std::vector<record::StoredCalibration> calibrationsIn(const nlohmann::json& station) {
   std::vector<record::StoredCalibration> all;
   for (const nlohmann::json& c : station.value("calibrations", nlohmann::json::array()))
-    all.push_back({c.value("kind", ""), c.value("date", ""), c.value("sha256", ""), c.value("verdict", "")});
+    all.push_back(
+        {c.value("kind", ""), c.value("date", ""), c.value("sha256", ""), c.value("verdict", "")});
   return all;
 }
 
-/// What was trained, whichever command led to it: a needle's task by its id, other tasks by the command of their kind.
+/// What was trained, whichever command led to it: a needle's task by its id, other tasks by the
+/// command of their kind.
 std::string taskOf(const record::SessionReader& reader) {
   const std::string engine = engineOf(reader), command = reader.info().command;
   if (engine == "palpation" || engine == "squeeze") return engine;
   if (engine == "surface") return "search";
   const nlohmann::json task = nlohmann::json::parse(reader.info().task_json, nullptr, false);
-  return task.is_object() && task.contains("id") && task["id"].is_string() ? task["id"].get<std::string>() : command;
+  return task.is_object() && task.contains("id") && task["id"].is_string()
+             ? task["id"].get<std::string>()
+             : command;
 }
 
-record::StoredSession sessionIn(const record::SessionReader& reader, const std::filesystem::path& evidence) {
+record::StoredSession sessionIn(const record::SessionReader& reader,
+                                const std::filesystem::path& evidence) {
   const record::SessionInfo& info = reader.info();
-  const nlohmann::json session = nlohmann::json::parse(info.session_json), station = nlohmann::json::parse(info.station_json);
+  const nlohmann::json session = nlohmann::json::parse(info.session_json),
+                       station = nlohmann::json::parse(info.station_json);
   record::StoredSession s;
   s.uuid = info.uuid;
   s.trainee = session.value("trainee", "");
@@ -73,7 +89,8 @@ record::StoredSession sessionIn(const record::SessionReader& reader, const std::
   s.task = taskOf(reader);
   s.station = station.value("id", "");
   s.simulated = session.value("simulated", false);
-  if (const nlohmann::json study = session.value("study", nlohmann::json::object()); !study.empty()) {
+  if (const nlohmann::json study = session.value("study", nlohmann::json::object());
+      !study.empty()) {
     s.study = study.at("id");
     s.slot = study.at("slot");
   }
@@ -109,12 +126,15 @@ EvidenceRecords recordsOf(const std::filesystem::path& evidence) {
   try {
     records.session = sessionIn(reader, evidence);
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("the session's description is damaged (") + e.what() + ")", evidence.string(), "Restore the file from a backup");
+    throw Error(std::string("the session's description is damaged (") + e.what() + ")",
+                evidence.string(), "Restore the file from a backup");
   }
   const Figures figures = figuresIn(reader, evidence);
   for (const record::RecordedTrial& t : reader.trials()) {
-    if (t.ended) records.trials.push_back(trialIn(t, figures));
-    else ++records.unfinished;
+    if (t.ended)
+      records.trials.push_back(trialIn(t, figures));
+    else
+      ++records.unfinished;
   }
   for (const runtime::Event& e : reader.events())
     for (record::StoredTrial& trial : records.trials)

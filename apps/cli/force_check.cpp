@@ -32,10 +32,12 @@ class Together {
 }  // namespace
 
 std::optional<assess::ForceBalance> recordedBalance(const record::SessionReader& reader) {
-  constexpr std::size_t kPart = 200'000;   // ticks: what is held in memory at once
-  const double mass = station::JsonFile(nlohmann::json::parse(reader.info().station_json), "the recorded station").number("device/apparent_mass_kg", 0, 5);
+  constexpr std::size_t kPart = 200'000;  // ticks: what is held in memory at once
+  const double mass =
+      station::JsonFile(nlohmann::json::parse(reader.info().station_json), "the recorded station")
+          .number("device/apparent_mass_kg", 0, 5);
   Together together;
-  std::array<std::vector<haptics::FlightRecord>, 2> parts;   // of each tool
+  std::array<std::vector<haptics::FlightRecord>, 2> parts;  // of each tool
   const auto finish = [&] {
     for (std::vector<haptics::FlightRecord>& part : parts) {
       together.add(assess::balanceOf(part, mass));
@@ -43,7 +45,8 @@ std::optional<assess::ForceBalance> recordedBalance(const record::SessionReader&
     }
   };
   reader.ticks([&](const haptics::FlightRecord& tick) {
-    if (tick.reading.instrumented && tick.sensed.state == haptics::SensorState::valid) parts[tick.tool & 1].push_back(tick);
+    if (tick.reading.instrumented && tick.sensed.state == haptics::SensorState::valid)
+      parts[tick.tool & 1].push_back(tick);
     if (parts[0].size() >= kPart) finish();
   });
   finish();

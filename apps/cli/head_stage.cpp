@@ -8,10 +8,13 @@ namespace palpa::cli {
 
 SessionDevices::Fact HeadStage::fact() const {
   if (!view) return {"Headset", "none", refusal};
-  return {"Headset", view->describe(), std::to_string(view->frames()) + " pictures shown to each eye" + (view->trouble().empty() ? "" : "; then " + view->trouble())};
+  return {"Headset", view->describe(),
+          std::to_string(view->frames()) + " pictures shown to each eye" +
+              (view->trouble().empty() ? "" : "; then " + view->trouble())};
 }
 
-HeadStage makeHeadStage(const SessionOptions& options, const NeedleWorld& world, const Stage& desktop) {
+HeadStage makeHeadStage(const SessionOptions& options, const NeedleWorld& world,
+                        const Stage& desktop) {
   HeadStage stage;
   if (!options.headset) return stage;
   headset::HeadsetView::Setup setup;

@@ -5,7 +5,8 @@
 
 namespace palpa::cli {
 
-/// While it lives, the first Ctrl-C or SIGTERM is noted instead of ending the program; a second one kills. One at a time; the old handlers come back at its end.
+/// While it lives, the first Ctrl-C or SIGTERM is noted instead of ending the program; a second one
+/// kills. One at a time; the old handlers come back at its end.
 class InterruptNote {
  public:
   InterruptNote();
@@ -15,7 +16,8 @@ class InterruptNote {
   bool noted() const;
 };
 
-/// Ctrl-C and SIGTERM close a session as Escape does: the trial is ended, devices get zero force, files are written.
+/// Ctrl-C and SIGTERM close a session as Escape does: the trial is ended, devices get zero force,
+/// files are written.
 class Interrupt final : public runtime::Activity {
  public:
   explicit Interrupt(trial::Channels& channels) : channels_(channels) {}

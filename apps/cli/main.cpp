@@ -11,7 +11,8 @@
 
 namespace {
 
-constexpr const char* kWelcome = R"(Palpa: visuo-haptic training for palpation and needle procedures.
+constexpr const char* kWelcome =
+    R"(Palpa: visuo-haptic training for palpation and needle procedures.
 
 Nothing is connected? Everything runs on the virtual bench. What you can do now:
 
@@ -43,8 +44,9 @@ int complain(const std::string& message, int code) {
 int run(int argc, char** argv) {
   CLI::App program("Visuo-haptic augmented reality for medical training", "palpa");
   program.set_version_flag("--version", "palpa " PALPA_VERSION);
-  program.footer("Examples:\n  palpa paracentesis --operator expert --seed 1 --fast --out A\n"
-                 "  palpa paracentesis --help");
+  program.footer(
+      "Examples:\n  palpa paracentesis --operator expert --seed 1 --fast --out A\n"
+      "  palpa paracentesis --help");
   program.require_subcommand(0, 1);
   palpa::cli::addParacentesis(program);
   palpa::cli::addPalpation(program);
@@ -82,8 +84,10 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   cv::setNumThreads(1);  // results must not depend on the number of cores
-  cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);   // what went wrong is told once, in our words
-  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8", 0);   // the same of the library that reads films: AV_LOG_QUIET
+  cv::utils::logging::setLogLevel(
+      cv::utils::logging::LOG_LEVEL_SILENT);  // what went wrong is told once, in our words
+  setenv("OPENCV_FFMPEG_LOGLEVEL", "-8",
+         0);  // the same of the library that reads films: AV_LOG_QUIET
   try {
     return run(argc, argv);
   } catch (const palpa::UsageError& e) {

@@ -9,24 +9,36 @@ struct Named {
 };
 
 constexpr Named kFiles[] = {
-    {"out/<command>-<time>/", "what a session leaves, unless --out says another folder: report.html, trials.csv, session.palpa (the evidence), pictures"},
-    {"~/.local/share/palpa/records.sqlite", "the usual records of trainees; nobody is recorded unless records and a trainee are named"},
+    {"out/<command>-<time>/",
+     "what a session leaves, unless --out says another folder: report.html, trials.csv, "
+     "session.palpa (the evidence), pictures"},
+    {"~/.local/share/palpa/records.sqlite",
+     "the usual records of trainees; nobody is recorded unless records and a trainee are named"},
     {"~/.local/share/palpa/console/", "what the console keeps of the sessions that it started"},
     {"~/.local/state/palpa/pending/", "sessions that wait to be delivered to the records"},
-    {"/usr/share/palpa/assets/", "materials, patients, tasks, stations, protocols: data with units and sources. Copy a station's file from stations/ and change the copy"},
+    {"/usr/share/palpa/assets/",
+     "materials, patients, tasks, stations, protocols: data with units and sources. Copy a "
+     "station's file from stations/ and change the copy"},
 };
 
 constexpr Named kVariables[] = {
     {"PALPA_ASSETS", "another folder of the program's data"},
-    {"PALPA_RECORDS", "the records of trainees: a file, or postgresql://user@host/database (the password in ~/.pgpass)"},
-    {"DISPLAY", "without it nothing is shown in a window: a simulated operator performs, pictures are drawn into files"},
+    {"PALPA_RECORDS",
+     "the records of trainees: a file, or postgresql://user@host/database (the password in "
+     "~/.pgpass)"},
+    {"DISPLAY",
+     "without it nothing is shown in a window: a simulated operator performs, pictures are drawn "
+     "into files"},
     {"XR_RUNTIME_JSON", "the headset's OpenXR runtime, where it is not the usual one"},
-    {"XDG_DATA_HOME, XDG_STATE_HOME, XDG_CONFIG_HOME", "in place of ~/.local/share, ~/.local/state and ~/.config"},
+    {"XDG_DATA_HOME, XDG_STATE_HOME, XDG_CONFIG_HOME",
+     "in place of ~/.local/share, ~/.local/state and ~/.config"},
     {"XDG_RUNTIME_DIR", "where a running session and the console meet"},
     {"NETRC", "where the password of a learning record store is, in place of ~/.netrc"},
 };
 
-constexpr Named kCodes[] = {{"0", "done; a trial without success is done as well"}, {"1", "failed in work"}, {"2", "wrong usage, or a wrong settings file"}};
+constexpr Named kCodes[] = {{"0", "done; a trial without success is done as well"},
+                            {"1", "failed in work"},
+                            {"2", "wrong usage, or a wrong settings file"}};
 
 /// Plain text for roff: no dash becomes a hyphen, no leading dot a request.
 std::string plain(const std::string& text) {
@@ -34,14 +46,19 @@ std::string plain(const std::string& text) {
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool begins = i == 0 || text[i - 1] == '\n';
     if (begins && (text[i] == '.' || text[i] == '\'')) escaped += "\\&";
-    if (text[i] == '\\') escaped += "\\e";
-    else if (text[i] == '-') escaped += "\\-";
-    else escaped += text[i];
+    if (text[i] == '\\')
+      escaped += "\\e";
+    else if (text[i] == '-')
+      escaped += "\\-";
+    else
+      escaped += text[i];
   }
   return escaped;
 }
 
-std::string sentence(const std::string& text) { return text.empty() || text.find_last_of(".?!") == text.size() - 1 ? text : text + "."; }
+std::string sentence(const std::string& text) {
+  return text.empty() || text.find_last_of(".?!") == text.size() - 1 ? text : text + ".";
+}
 
 std::string bold(const std::string& text) { return "\\fB" + plain(text) + "\\fR"; }
 std::string slanted(const std::string& text) { return "\\fI" + plain(text) + "\\fR"; }
@@ -53,13 +70,16 @@ std::string listOf(const Named* from, const Named* to) {
 }
 
 /// Lines as they stand.
-std::string asItStands(const std::string& text) { return ".PP\n.nf\n" + plain(text) + (text.empty() || text.back() != '\n' ? "\n" : "") + ".fi\n"; }
+std::string asItStands(const std::string& text) {
+  return ".PP\n.nf\n" + plain(text) + (text.empty() || text.back() != '\n' ? "\n" : "") + ".fi\n";
+}
 
 std::string itemOf(const OptionText& option) {
   std::string head;
   for (const std::string& name : option.names) head += (head.empty() ? "" : ", ") + bold(name);
   if (!option.value.empty()) head += (head.empty() ? "" : " ") + slanted(option.value);
-  return ".TP\n" + head + "\n" + plain(option.description + (option.required ? " (required)" : "")) + "\n";
+  return ".TP\n" + head + "\n" +
+         plain(option.description + (option.required ? " (required)" : "")) + "\n";
 }
 
 std::string synopsisOf(const CommandText& command) {
@@ -67,15 +87,18 @@ std::string synopsisOf(const CommandText& command) {
   for (const OptionText& option : command.options)
     if (option.required) line += " " + bold(option.names.back()) + " " + slanted(option.value);
   if (command.options.size() > 1) line += " [" + slanted("options") + "]";
-  for (const OptionText& one : command.positionals) line += one.required ? " " + slanted(one.value) : " [" + slanted(one.value) + "]";
+  for (const OptionText& one : command.positionals)
+    line += one.required ? " " + slanted(one.value) : " [" + slanted(one.value) + "]";
   return line;
 }
 
 std::string sectionsOf(const CommandText& command) {
   std::string page;
   for (const CommandText& below : command.commands) page += sectionsOf(below);
-  if (!command.commands.empty() && command.positionals.empty() && command.options.size() < 2) return page;   // a group: its commands stand for themselves
-  std::string section = ".SS " + plain(command.path) + "\n" + plain(sentence(command.description)) + "\n.PP\n" + synopsisOf(command) + "\n";
+  if (!command.commands.empty() && command.positionals.empty() && command.options.size() < 2)
+    return page;  // a group: its commands stand for themselves
+  std::string section = ".SS " + plain(command.path) + "\n" + plain(sentence(command.description)) +
+                        "\n.PP\n" + synopsisOf(command) + "\n";
   for (const OptionText& one : command.positionals) section += itemOf(one);
   for (const OptionText& option : command.options)
     if (option.names.back() != "--help") section += itemOf(option);
@@ -85,11 +108,18 @@ std::string sectionsOf(const CommandText& command) {
 
 }  // namespace
 
-std::string manualPage(const CommandText& program, const std::string& version, const std::string& welcome) {
+std::string manualPage(const CommandText& program, const std::string& version,
+                       const std::string& welcome) {
   std::string page = ".\\\" Made by the program itself from its own --help: palpa manual\n";
-  page += ".TH PALPA 1 \"\" \"" + plain(version) + "\" \"User Commands\"\n.SH NAME\npalpa \\- " + plain(program.description) + "\n";
-  page += ".SH SYNOPSIS\n" + bold("palpa") + " " + slanted("command") + " [" + slanted("options") + "]\n.PP\n" + bold("palpa --version") + "\n.PP\n" + bold("palpa") + " [" + slanted("command") + "] " + bold("--help") + "\n";
-  page += ".SH DESCRIPTION\n" + asItStands(welcome) + ".PP\nNot a medical device: Palpa has not been validated on people.\n.SH COMMANDS\nEvery command also understands " + bold("--help") + ".\n";
+  page += ".TH PALPA 1 \"\" \"" + plain(version) + "\" \"User Commands\"\n.SH NAME\npalpa \\- " +
+          plain(program.description) + "\n";
+  page += ".SH SYNOPSIS\n" + bold("palpa") + " " + slanted("command") + " [" + slanted("options") +
+          "]\n.PP\n" + bold("palpa --version") + "\n.PP\n" + bold("palpa") + " [" +
+          slanted("command") + "] " + bold("--help") + "\n";
+  page += ".SH DESCRIPTION\n" + asItStands(welcome) +
+          ".PP\nNot a medical device: Palpa has not been validated on people.\n.SH COMMANDS\nEvery "
+          "command also understands " +
+          bold("--help") + ".\n";
   for (const CommandText& command : program.commands) page += sectionsOf(command);
   page += ".SH EXIT STATUS\n" + listOf(std::begin(kCodes), std::end(kCodes));
   page += ".SH ENVIRONMENT\n" + listOf(std::begin(kVariables), std::end(kVariables));

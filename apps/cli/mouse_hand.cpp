@@ -10,16 +10,19 @@ namespace {
 using trial::UserCommand;
 constexpr double kMetresPerPixel = 0.00025;
 constexpr double kMetresPerNotch = 0.001;
-constexpr double kTurnPerKey = 0.035;        // rad, 2 degrees
-constexpr double kSteepestTurn = 1.4;        // rad from the skin's normal
+constexpr double kTurnPerKey = 0.035;  // rad, 2 degrees
+constexpr double kSteepestTurn = 1.4;  // rad from the skin's normal
 constexpr double kPlungerPerKey = 0.1;
-constexpr double kAboveSkin = 0.015;         // m, where the needle waits
-constexpr double kSmoothing = 0.03;          // s, the mouse's steps become motion
+constexpr double kAboveSkin = 0.015;  // m, where the needle waits
+constexpr double kSmoothing = 0.03;   // s, the mouse's steps become motion
 constexpr std::int64_t kControllerGone = 300 * runtime::kMillisecond;
 constexpr std::int64_t kMousePeriod = runtime::kMillisecond;
 
-constexpr const char* kGrades[] = {"soft", "hard", "fixed", "mobile", "diameter 10 mm", "diameter 15 mm", "diameter 20 mm", "diameter 25 mm"};   // keys 1 to 8
-constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped", "other"};
+constexpr const char* kGrades[] = {"soft",           "hard",           "fixed",
+                                   "mobile",         "diameter 10 mm", "diameter 15 mm",
+                                   "diameter 20 mm", "diameter 25 mm"};  // keys 1 to 8
+constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped",
+                                        "other"};
 
 void request(trial::Channels& channels, UserCommand command, const std::string& reason = "") {
   channels.requests_to_task.push({command, reason});
@@ -30,21 +33,28 @@ void request(trial::Channels& channels, UserCommand command, const std::string& 
 void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
   if (input.closed) request(channels, UserCommand::quit);
   for (const std::string& key : input.keys) {
-    if (key == "Return" || key == "KP_Enter") request(channels, UserCommand::start);
-    else if (key == "p" || key == "P") request(channels, UserCommand::pause);
-    else if (key == "a" || key == "A") request(channels, UserCommand::abort);
-    else if (key == "space") request(channels, UserCommand::emergency_stop);
-    else if (key == "r" || key == "R") request(channels, UserCommand::rearm);
-    else if (key == "Escape") request(channels, UserCommand::quit);
-    else if (key == "d" || key == "D") request(channels, UserCommand::done);
-    else if (key.size() == 1 && key[0] >= '1' && key[0] <= '8') request(channels, UserCommand::grade, kGrades[key[0] - '1']);
+    if (key == "Return" || key == "KP_Enter")
+      request(channels, UserCommand::start);
+    else if (key == "p" || key == "P")
+      request(channels, UserCommand::pause);
+    else if (key == "a" || key == "A")
+      request(channels, UserCommand::abort);
+    else if (key == "space")
+      request(channels, UserCommand::emergency_stop);
+    else if (key == "r" || key == "R")
+      request(channels, UserCommand::rearm);
+    else if (key == "Escape")
+      request(channels, UserCommand::quit);
+    else if (key == "d" || key == "D")
+      request(channels, UserCommand::done);
+    else if (key.size() == 1 && key[0] >= '1' && key[0] <= '8')
+      request(channels, UserCommand::grade, kGrades[key[0] - '1']);
     else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '1' && key[1] <= '4')
       request(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);
   }
 }
 
-MouseHand::MouseHand(const Setup& setup, runtime::ChannelDevice& device,
-                     trial::Channels& channels)
+MouseHand::MouseHand(const Setup& setup, runtime::ChannelDevice& device, trial::Channels& channels)
     : setup_(setup), device_(device), channels_(channels) {
   wish_.tip_A = pack(setup.anatomy.entry_A);
   wish_.along = -kAboveSkin;
@@ -53,8 +63,11 @@ MouseHand::MouseHand(const Setup& setup, runtime::ChannelDevice& device,
 
 void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
   handleKeys(input, channels_);
-  const auto leads = [](const std::string& key) { return key == "Left" || key == "Right" || key == "Up" || key == "Down"; };
-  const bool moved = (input.left_button && dragging_) || input.wheel != 0 || std::any_of(input.keys.begin(), input.keys.end(), leads);
+  const auto leads = [](const std::string& key) {
+    return key == "Left" || key == "Right" || key == "Up" || key == "Down";
+  };
+  const bool moved = (input.left_button && dragging_) || input.wheel != 0 ||
+                     std::any_of(input.keys.begin(), input.keys.end(), leads);
   if (moved && now_ns - seen_ns_ > kControllerGone) letGo(now_ns);
   if (input.left_button && dragging_) {
     const double right = (input.mouse_x - mouse_x_) * kMetresPerPixel;
@@ -66,7 +79,8 @@ void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
   mouse_x_ = input.mouse_x;
   mouse_y_ = input.mouse_y;
   wish_.along = std::clamp(wish_.along + kMetresPerNotch * input.wheel, -0.05, 0.07);
-  // The free hand is on the keyboard: Z and X for a right-handed trainee, comma and period for a left.
+  // The free hand is on the keyboard: Z and X for a right-handed trainee, comma and period for a
+  // left.
   const std::string draw = setup_.left_handed ? "period" : "z";
   const std::string push = setup_.left_handed ? "comma" : "x";
   for (const std::string& key : input.keys) {
@@ -74,8 +88,10 @@ void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
     if (key == "Right") wish_.turn_medial += kTurnPerKey;
     if (key == "Up") wish_.turn_cephalad += kTurnPerKey;
     if (key == "Down") wish_.turn_cephalad -= kTurnPerKey;
-    if (key == draw || (key == "Z" && !setup_.left_handed)) wish_.plunger = std::min(1.0, wish_.plunger + kPlungerPerKey);
-    if (key == push || (key == "X" && !setup_.left_handed)) wish_.plunger = std::max(0.0, wish_.plunger - kPlungerPerKey);
+    if (key == draw || (key == "Z" && !setup_.left_handed))
+      wish_.plunger = std::min(1.0, wish_.plunger + kPlungerPerKey);
+    if (key == push || (key == "X" && !setup_.left_handed))
+      wish_.plunger = std::max(0.0, wish_.plunger - kPlungerPerKey);
     if ((key == "t" || key == "T") && skin_key_) skin_key_();
   }
   wish_.turn_medial = std::clamp(wish_.turn_medial, -kSteepestTurn, kSteepestTurn);
@@ -115,7 +131,8 @@ std::int64_t MouseHand::step(std::int64_t now_ns) {
     const double share = 1e-3 / kSmoothing;
     const Pose wanted = wish->held ? unpack(wish->X_AT) : unpack(wish->off) * pointedByMouse(*wish);
     const Quat turned = Quat(X_AT_.rotation()).slerp(share, Quat(wanted.rotation())).normalized();
-    X_AT_ = makePose(turned.toRotationMatrix(), X_AT_.translation() + share * (wanted.translation() - X_AT_.translation()));
+    X_AT_ = makePose(turned.toRotationMatrix(),
+                     X_AT_.translation() + share * (wanted.translation() - X_AT_.translation()));
     plunger_ += share * (wish->plunger - plunger_);
   }
   const Pose X_DE = setup_.X_DA * X_AT_ * setup_.X_ET.inverse();

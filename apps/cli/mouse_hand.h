@@ -4,8 +4,8 @@
 
 #include "apps/headset/headset_view.h"
 #include "apps/runtime/activity.h"
-#include "apps/runtime/clock.h"
 #include "apps/runtime/channel_device.h"
+#include "apps/runtime/clock.h"
 #include "apps/trial/trial_status.h"
 #include "apps/twin/operator.h"
 #include "scene/scene_view.h"
@@ -15,9 +15,10 @@ namespace palpa::cli {
 /// Keys that every session understands: Enter, P, A, V + 1..4, space, R, Escape.
 void handleKeys(const scene::ViewInput& input, trial::Channels& channels);
 
-/// A person's hand without a haptic device: the mouse, or the controller of a headset, moves the needle; what it would feel is drawn. Moving the mouse with
-/// the left button held shifts the tip along the frontal plane, the wheel moves along the
-/// needle, the arrow keys turn it about its entry, Z and X (left-handed: period and comma) draw and push the plunger, T changes the skin.
+/// A person's hand without a haptic device: the mouse, or the controller of a headset, moves the
+/// needle; what it would feel is drawn. Moving the mouse with the left button held shifts the tip
+/// along the frontal plane, the wheel moves along the needle, the arrow keys turn it about its
+/// entry, Z and X (left-handed: period and comma) draw and push the plunger, T changes the skin.
 class MouseHand final : public runtime::Activity {
  public:
   struct Setup {
@@ -28,34 +29,36 @@ class MouseHand final : public runtime::Activity {
   MouseHand(const Setup& setup, runtime::ChannelDevice& device, trial::Channels& channels);
 
   const char* name() const override { return "mouse"; }
-  std::int64_t step(std::int64_t now_ns) override;   ///< 1 kHz: publishes the smoothed pose
+  std::int64_t step(std::int64_t now_ns) override;  ///< 1 kHz: publishes the smoothed pose
   /// Called by the scene's thread with what the window reports.
   void handle(const scene::ViewInput& input, std::int64_t now_ns);
-  /// Called by the scene's thread once a frame of a headset: its controller leads while it is tracked. One that is not seen any more holds the needle where it was,
-  /// until the mouse is moved: from there the mouse leads on.
+  /// Called by the scene's thread once a frame of a headset: its controller leads while it is
+  /// tracked. One that is not seen any more holds the needle where it was, until the mouse is
+  /// moved: from there the mouse leads on.
   void hold(const headset::HeldTool& held, std::int64_t now_ns);
-  void letGo(std::int64_t now_ns);                   ///< the mouse leads again
+  void letGo(std::int64_t now_ns);  ///< the mouse leads again
   void onSkinKey(std::function<void()> action) { skin_key_ = std::move(action); }
 
  private:
   struct Wish {
     Packed3 tip_A{};
-    double turn_medial = 0, turn_cephalad = 0;   ///< rad, from the skin's normal
-    double along = 0;                            ///< m, from the wheel
+    double turn_medial = 0, turn_cephalad = 0;  ///< rad, from the skin's normal
+    double along = 0;                           ///< m, from the wheel
     double plunger = 0;
-    bool held = false;                           ///< by a controller: X_AT instead of what the mouse says
+    bool held = false;  ///< by a controller: X_AT instead of what the mouse says
     PackedPose X_AT;
-    PackedPose off = pack(Pose(Pose::Identity()));   ///< of the mouse's needle, since it took over from a controller
+    PackedPose off = pack(
+        Pose(Pose::Identity()));  ///< of the mouse's needle, since it took over from a controller
   };
   Pose pointedByMouse(const Wish& wish) const;
   Setup setup_;
   runtime::ChannelDevice& device_;
   trial::Channels& channels_;
   runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
-  Wish wish_;                    // the scene thread's
+  Wish wish_;  // the scene thread's
   double mouse_x_ = 0, mouse_y_ = 0;
   bool dragging_ = false;
-  std::int64_t seen_ns_ = 0;     // the controller
+  std::int64_t seen_ns_ = 0;  // the controller
   std::function<void()> skin_key_;
   // The mouse thread's, smoothed.
   Pose X_AT_;

@@ -5,7 +5,8 @@
 
 namespace palpa::cli {
 
-/// Who may hold the needle: a simulated operator, as the options ask for one, or somebody with a mouse.
+/// Who may hold the needle: a simulated operator, as the options ask for one, or somebody with a
+/// mouse.
 SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWorld& world);
 
 }  // namespace palpa::cli

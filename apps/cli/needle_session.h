@@ -13,8 +13,8 @@ struct SessionResult : SessionRun {
   std::vector<task_needle::CompletedTrial> trials;
 };
 
-/// Runs the trials: station, bench or person, camera, task, scene, recorder. Leaves session.palpa and
-/// view-*.png in `folder`.
+/// Runs the trials: station, bench or person, camera, task, scene, recorder. Leaves session.palpa
+/// and view-*.png in `folder`.
 SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world,
                                const std::filesystem::path& folder);
 

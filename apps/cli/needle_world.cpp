@@ -22,9 +22,14 @@ namespace {
 /// The needle's way is straight down.
 anatomy::Patient makeBlock(const SessionOptions& options, const task_needle::TaskSettings& task) {
   const SessionOptions as_made;
-  const std::pair<const char*, bool> not_here[]{{"--patient", !options.patient.empty()}, {"--patient-seed", options.patient_seed != as_made.patient_seed}, {"--guide", options.guide}};
+  const std::pair<const char*, bool> not_here[]{
+      {"--patient", !options.patient.empty()},
+      {"--patient-seed", options.patient_seed != as_made.patient_seed},
+      {"--guide", options.guide}};
   for (const auto& [option, given] : not_here)
-    if (given) throw UsageError("has no meaning for this task: a block is punctured, no patient", option, "Leave it out");
+    if (given)
+      throw UsageError("has no meaning for this task: a block is punctured, no patient", option,
+                       "Leave it out");
   anatomy::Patient block = anatomy::phantomBlock(task.block->size, task.title);
   block.layers = task.block->layers;
   return block;
@@ -35,22 +40,27 @@ anatomy::Patient makePatient(const SessionOptions& options, const task_needle::T
   if (!options.patient.empty()) {
     anatomy::Patient patient = anatomy::readPatient(options.patient);
     anatomy::requireForNeedle(patient, options.patient);
-    if (options.side == anatomy::Side::left && patient.side != options.side)   // right is what is meant where nothing is said
-      throw UsageError("is left, and this patient was built for the right side", "--side", "Leave it out, or build the patient anew: palpa patient build --side left");
+    if (options.side == anatomy::Side::left &&
+        patient.side != options.side)  // right is what is meant where nothing is said
+      throw UsageError("is left, and this patient was built for the right side", "--side",
+                       "Leave it out, or build the patient anew: palpa patient build --side left");
     return patient;
   }
   anatomy::PatientParameters parameters = anatomy::drawParameters(
-      anatomy::readPopulation(station::assetFile("patients/reference.json").string()), options.side, options.patient_seed);
-  parameters.extent = anatomy::Extent::bust;   // as the phantom that lies behind the board
+      anatomy::readPopulation(station::assetFile("patients/reference.json").string()), options.side,
+      options.patient_seed);
+  parameters.extent = anatomy::Extent::bust;  // as the phantom that lies behind the board
   return anatomy::buildPatient(parameters);
 }
 
 task_needle::TaskSettings makeTask(const SessionOptions& options) {
-  task_needle::TaskSettings task = task_needle::readTask(
-      options.task.empty() ? station::assetFile("tasks/paracentesis.json")
-                           : std::filesystem::path(options.task));
+  task_needle::TaskSettings task =
+      task_needle::readTask(options.task.empty() ? station::assetFile("tasks/paracentesis.json")
+                                                 : std::filesystem::path(options.task));
   if (options.expert_path.empty()) return task;
-  if (task.goal) throw UsageError("has no meaning for this task: it has a goal of its own, no optimal path", "--expert-path", "Leave it out");
+  if (task.goal)
+    throw UsageError("has no meaning for this task: it has a goal of its own, no optimal path",
+                     "--expert-path", "Leave it out");
   task.expert_path = options.expert_path;
   return task;
 }
@@ -60,7 +70,8 @@ station::Station makeStation(const SessionOptions& options) {
       options.station.empty() ? station::assetFile("stations/virtual_bench.json")
                               : std::filesystem::path(options.station));
   station::judgeAge(station, utcNow());
-  if (!options.intrinsics.empty()) station.camera = station.design.camera = calibration::readCameraModel(options.intrinsics);
+  if (!options.intrinsics.empty())
+    station.camera = station.design.camera = calibration::readCameraModel(options.intrinsics);
   return station;
 }
 
@@ -78,7 +89,8 @@ anatomy::TriangleMesh meshOf(const station::RealThing& thing) {
   for (const anatomy::RawMesh& part : anatomy::readMeshFile(thing.mesh)) {
     const auto first = static_cast<std::uint32_t>(mesh.points.size());
     for (const Vec3& p : part.points) mesh.points.push_back(thing.metres * p);
-    for (auto t : part.triangles) mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+    for (auto t : part.triangles)
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
   }
   anatomy::computeUnitNormals(&mesh);
   return mesh;
@@ -95,7 +107,8 @@ NeedleWorld::NeedleWorld(const SessionOptions& options)
       geometry(patient, query),
       landmarks(task.block ? std::nullopt : std::make_optional<anatomy::LandmarkFrame>(patient)) {
   for (const station::RealThing& thing : station.things) real_things.push_back(meshOf(thing));
-  if (!options.record_only && !task.expert_path.empty()) expert_path = calibration::readExpertPath(task.expert_path);
+  if (!options.record_only && !task.expert_path.empty())
+    expert_path = calibration::readExpertPath(task.expert_path);
   X_WA = options.camera.empty() ? station::placePatient(patient, station.entry_W)
                                 : station::placePatientOnBoard(patient);
   if (!options.camera.empty())  // the bench's device stands where it stood, relative to the patient
@@ -111,11 +124,13 @@ haptics::TickConfig NeedleWorld::tickConfig() const {
   config.safety = station.safety;
   config.passivity = station.passivity;
   config.X_ET = pack(station.X_ET);
-  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
+  config.augmentations =
+      station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
   return config;
 }
 
-twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill, bool knows_patient) const {
+twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill,
+                                          bool knows_patient) const {
   twin::VisibleAnatomy v;
   v.entry_A = patient.landmark(anatomy::landmark::kEntry);
   v.normal_A = query.closest(surfaceIndex(patient, Organ::skin), v.entry_A).n_A;
@@ -137,10 +152,11 @@ twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill, bool
   return v;
 }
 
-task_needle::TrialPlan NeedleWorld::trial(const std::string& role, std::uint64_t seed, bool force_feedback, bool augmented) const {
+task_needle::TrialPlan NeedleWorld::trial(const std::string& role, std::uint64_t seed,
+                                          bool force_feedback, bool augmented) const {
   task_needle::TrialPlan plan{role, seed, force_feedback, augmented, 0, {}};
-  plan.puncture_force_N =
-      runtime::RandomStream(seed, "skin.puncture").uniform(needle.puncture_low_N, needle.puncture_high_N);
+  plan.puncture_force_N = runtime::RandomStream(seed, "skin.puncture")
+                              .uniform(needle.puncture_low_N, needle.puncture_high_N);
   runtime::RandomStream walls(seed, "walls.puncture");
   for (std::size_t i = 0; i < plan.wall_scale.size(); ++i) {
     const double z = std::clamp(walls.normal(), -kFarthestWall, kFarthestWall);

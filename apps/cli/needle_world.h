@@ -16,10 +16,10 @@
 
 namespace palpa::cli {
 
-/// Everything a needle session rests on, read and checked before anything starts. Immovable: parts refer
-/// to each other.
+/// Everything a needle session rests on, read and checked before anything starts. Immovable: parts
+/// refer to each other.
 struct NeedleWorld {
-  explicit NeedleWorld(const SessionOptions& options);   ///< throws UsageError / Error
+  explicit NeedleWorld(const SessionOptions& options);  ///< throws UsageError / Error
   NeedleWorld(const NeedleWorld&) = delete;
   NeedleWorld& operator=(const NeedleWorld&) = delete;
 
@@ -29,17 +29,18 @@ struct NeedleWorld {
   anatomy::Patient patient;
   anatomy::SurfaceQuery query;
   anatomy::LocalGeometryBuilder geometry;
-  std::optional<anatomy::LandmarkFrame> landmarks;   ///< none: it is no patient
+  std::optional<anatomy::LandmarkFrame> landmarks;  ///< none: it is no patient
   std::optional<calibration::ExpertPath> expert_path;
-  std::vector<anatomy::TriangleMesh> real_things;   ///< the station's, in its order; metres
+  std::vector<anatomy::TriangleMesh> real_things;  ///< the station's, in its order; metres
   Pose X_WA, X_DA;
 
   haptics::TickConfig tickConfig() const;
-  /// What a simulated operator knows: the landmarks, and where the vein lies in the mean anatomy or, where he has
-  /// studied this patient's images, in the patient as he is shown.
+  /// What a simulated operator knows: the landmarks, and where the vein lies in the mean anatomy
+  /// or, where he has studied this patient's images, in the patient as he is shown.
   twin::VisibleAnatomy visible(const twin::OperatorSkill& skill, bool knows_patient) const;
   /// A trial with this seed's skin and walls.
-  task_needle::TrialPlan trial(const std::string& role, std::uint64_t seed, bool force_feedback, bool augmented) const;
+  task_needle::TrialPlan trial(const std::string& role, std::uint64_t seed, bool force_feedback,
+                               bool augmented) const;
 };
 
 }  // namespace palpa::cli

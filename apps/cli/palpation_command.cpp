@@ -27,13 +27,17 @@ constexpr const char* kPalpationExamples = R"(Examples:
 Button 1 of the device: here is a lump. With a mouse: move it over the phantom, hold the left button to press, M: here is a lump. Then grade it: 1 soft, 2 hard, 3 fixed, 4 mobile, 5-8: 10, 15, 20,
 25 mm. Keys: Enter start or go on, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
 
-const std::map<std::string, std::string> kPresets{{"abdomen", "tasks/palpation_abdomen.json"}, {"breast", "tasks/palpation_breast.json"}, {"prostate", "tasks/palpation_prostate.json"}};
+const std::map<std::string, std::string> kPresets{{"abdomen", "tasks/palpation_abdomen.json"},
+                                                  {"breast", "tasks/palpation_breast.json"},
+                                                  {"prostate", "tasks/palpation_prostate.json"}};
 
 }  // namespace
 
 SessionLeft runPalpationCommand(SessionOptions options) {
   settle(options);
-  if (options.headset) throw UsageError("does not show palpation yet", "--display openxr", "Choose window or offscreen");
+  if (options.headset)
+    throw UsageError("does not show palpation yet", "--display openxr",
+                     "Choose window or offscreen");
   const PalpationWorld world(options);
   settleOperator(options, world.station);
   checkTrainee(options);
@@ -47,16 +51,27 @@ SessionLeft runPalpationCommand(SessionOptions options) {
 void addPalpation(CLI::App& program) {
   const auto options = std::make_shared<SessionOptions>();
   options->command = "palpation";
-  CLI::App* command = program.add_subcommand("palpation", "A training session: search soft tissue for lumps");
+  CLI::App* command =
+      program.add_subcommand("palpation", "A training session: search soft tissue for lumps");
   command->footer(kPalpationExamples);
   const auto preset = std::make_shared<std::string>("breast");
-  command->add_option("--preset", *preset, "Phantom and cases: breast (default), abdomen or prostate")->check(CLI::IsMember(kPresets))->type_name("abdomen|breast|prostate");
-  command->add_option("--task", options->task, "Task file, in place of a preset")->type_name("FILE");
+  command
+      ->add_option("--preset", *preset, "Phantom and cases: breast (default), abdomen or prostate")
+      ->check(CLI::IsMember(kPresets))
+      ->type_name("abdomen|breast|prostate");
+  command->add_option("--task", options->task, "Task file, in place of a preset")
+      ->type_name("FILE");
   const auto on_off = [command](const char* name, bool& value, const char* help) {
-    command->add_option_function<std::string>(name, [&value](const std::string& text) { value = text == "on"; }, help)->check(CLI::IsMember({"on", "off"}))->type_name("on|off");
+    command
+        ->add_option_function<std::string>(
+            name, [&value](const std::string& text) { value = text == "on"; }, help)
+        ->check(CLI::IsMember({"on", "off"}))
+        ->type_name("on|off");
   };
-  on_off("--guidance", options->guidance, "A ring and the map of what was felt, in every other case, fading (default off)");
-  on_off("--see-through", options->see_through, "Show the lumps (default off); such trials are not scored");
+  on_off("--guidance", options->guidance,
+         "A ring and the map of what was felt, in every other case, fading (default off)");
+  on_off("--see-through", options->see_through,
+         "Show the lumps (default off); such trials are not scored");
   addAugmentArgument(*command, *options);
   addRunArguments(*command, *options);
   command->callback([options, preset] {

@@ -13,9 +13,11 @@ struct PalpationRun : SessionRun {
 };
 
 /// Runs the trials; leaves session.palpa and view-*.png in `folder`.
-PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& world, const std::filesystem::path& folder);
+PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& world,
+                          const std::filesystem::path& folder);
 
 /// trials.csv and report.html; the last lines on standard output say what was written.
-void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world, const PalpationRun& run, const std::filesystem::path& folder);
+void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world,
+                           const PalpationRun& run, const std::filesystem::path& folder);
 
 }  // namespace palpa::cli

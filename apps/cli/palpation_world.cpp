@@ -17,15 +17,25 @@
 namespace palpa::cli {
 namespace {
 
-constexpr double kPickedUp = 0.05;   // m above the phantom
+constexpr double kPickedUp = 0.05;  // m above the phantom
 
 station::Station palpationStation(const SessionOptions& options) {
-  station::Station station = station::readStation(options.station.empty() ? station::assetFile("stations/palpation_bench.json") : std::filesystem::path(options.station));
+  station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/palpation_bench.json")
+                              : std::filesystem::path(options.station));
   station::judgeAge(station, utcNow());
-  if (!station.sample) throw UsageError("has no \"sample\"", station.file.name(), "Say where the phantom lies: sample/X_WP, sample/tip_radius_mm");
-  if (!station.force_sensor) throw UsageError("has no \"force_sensor\"", station.file.name(), "Lumps are added to what is felt of the phantom: that must be measured. Describe the sensor");
-  if (station.device.driver == station::DeviceDriver::bench && station.force_sensor->driver != station::ForceSensorSetup::Driver::bench)
-    station.file.refuse("force_sensor/driver", "is a real sensor, but the device is simulated and touches simulated silicone; it must be \"virtual\", too");
+  if (!station.sample)
+    throw UsageError("has no \"sample\"", station.file.name(),
+                     "Say where the phantom lies: sample/X_WP, sample/tip_radius_mm");
+  if (!station.force_sensor)
+    throw UsageError("has no \"force_sensor\"", station.file.name(),
+                     "Lumps are added to what is felt of the phantom: that must be measured. "
+                     "Describe the sensor");
+  if (station.device.driver == station::DeviceDriver::bench &&
+      station.force_sensor->driver != station::ForceSensorSetup::Driver::bench)
+    station.file.refuse("force_sensor/driver",
+                        "is a real sensor, but the device is simulated and touches simulated "
+                        "silicone; it must be \"virtual\", too");
   return station;
 }
 
@@ -33,22 +43,27 @@ station::Station palpationStation(const SessionOptions& options) {
 twin::VisiblePhantom visible(const task_palpation::PalpationSettings& task) {
   const auto from_normal = [normal = task.scoring.rules.normal](const Vec3& p_P) {
     double nearest = std::numeric_limits<double>::infinity();
-    for (const assess::NormalAnatomy& one : normal) nearest = std::min(nearest, assess::fromLine(one, p_P));
+    for (const assess::NormalAnatomy& one : normal)
+      nearest = std::min(nearest, assess::fromLine(one, p_P));
     return nearest;
   };
-  return {anatomy::X_AP(), task.scoring.rules.area.half_x, task.scoring.rules.area.half_y, from_normal};
+  return {anatomy::X_AP(), task.scoring.rules.area.half_x, task.scoring.rules.area.half_y,
+          from_normal};
 }
 
 }  // namespace
 
 PalpationWorld::PalpationWorld(const SessionOptions& options)
     : station(palpationStation(options)),
-      task(task_palpation::readPalpation(options.task.empty() ? station::assetFile("tasks/palpation_breast.json") : std::filesystem::path(options.task))),
+      task(task_palpation::readPalpation(options.task.empty()
+                                             ? station::assetFile("tasks/palpation_breast.json")
+                                             : std::filesystem::path(options.task))),
       phantom(anatomy::phantomBlock(task.size, task.title)),
       X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
   task.library = station::onStation(std::move(task.library), station.calibrations);
   if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
-    station.file.refuse("sample/tip_radius_mm", "is not that of the tip with which the task's lumps were identified");
+    station.file.refuse("sample/tip_radius_mm",
+                        "is not that of the tip with which the task's lumps were identified");
   if (!onBench() && (station.safety.deadman_button & task_palpation::PalpationListener::kMark))
     station.file.refuse("safety/deadman_button", "is the button that marks a lump; give another");
 }
@@ -63,8 +78,10 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
   config.X_ET = pack(station.X_ET);
   config.touch = station::touchOf(task.library);
   config.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
-  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
-  for (std::size_t i = 0; i < task.library.kinds.size(); ++i) config.lump_radius[i] = task.library.kinds[i].diameter / 2;
+  config.augmentations =
+      station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
+  for (std::size_t i = 0; i < task.library.kinds.size(); ++i)
+    config.lump_radius[i] = task.library.kinds[i].diameter / 2;
   config.period_ns = std::llround(1e9 / options.rate_Hz);
   if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
   config.device_turns = onBench() || station.device.capabilities.has_orientation;
@@ -72,14 +89,22 @@ haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) co
 }
 
 SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const {
-  const twin::PalpatingSkill skill = twin::readPalpatingSkill(station::assetFile(options.who == OperatorKind::novice ? "operators/palpation_novice.json" : "operators/palpation_expert.json"));
+  const twin::PalpatingSkill skill = twin::readPalpatingSkill(
+      station::assetFile(options.who == OperatorKind::novice ? "operators/palpation_novice.json"
+                                                             : "operators/palpation_expert.json"));
   const twin::VisiblePhantom seen = visible(task);
   const Pose& X_WP = station.sample->X_WP;
-  auto person = options.who == OperatorKind::person && onBench() ? std::make_unique<PointingHand>(PointingHand::Setup{station.X_WD.inverse() * X_WP, station.X_ET, anatomy::X_AP(), seen.half_x, seen.half_y, skill.grip}) : nullptr;
+  auto person = options.who == OperatorKind::person && onBench()
+                    ? std::make_unique<PointingHand>(PointingHand::Setup{
+                          station.X_WD.inverse() * X_WP, station.X_ET, anatomy::X_AP(), seen.half_x,
+                          seen.half_y, skill.grip})
+                    : nullptr;
   PointingHand* const pointing = person.get();
   std::unique_ptr<twin::Hand> hand = std::move(person);
   if (!hand) hand = std::make_unique<twin::PalpatingHand>(skill, seen, station.X_ET, options.seed);
-  const Pose X_WT = X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(), Vec3(0, -task.scoring.rules.area.half_y, kPickedUp));
+  const Pose X_WT =
+      X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(),
+                      Vec3(0, -task.scoring.rules.area.half_y, kPickedUp));
   twin::VirtualBench::Setup bench{station,
                                   std::move(hand),
                                   station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
@@ -106,16 +131,17 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed}, {"bench_seed", options.benchSeed()},
-                                     {"operator", nameOf(options.who)},
-                                     {"simulated", simulated(options)},
-                                     {"trainee", options.trainee},
-                                     {"force_feedback", options.force_feedback},
-                                     {"guidance", options.guidance},
-                                     {"see_through", options.see_through},
-                                     {"augment", options.augment},
-                                     {"virtual_time", options.fast},
-                                     {"assessed", options.assess}},
+  info.session_json = sessionText({{"seed", options.seed},
+                                   {"bench_seed", options.benchSeed()},
+                                   {"operator", nameOf(options.who)},
+                                   {"simulated", simulated(options)},
+                                   {"trainee", options.trainee},
+                                   {"force_feedback", options.force_feedback},
+                                   {"guidance", options.guidance},
+                                   {"see_through", options.see_through},
+                                   {"augment", options.augment},
+                                   {"virtual_time", options.fast},
+                                   {"assessed", options.assess}},
                                   options);
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
@@ -124,9 +150,12 @@ record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
 }
 
 std::string PalpationWorld::forceNote() const {
-  if (station.safety.max_force_N >= task.clinical_force_N && task.scoring.rules.levels[2] >= task.clinical_force_N) return "";
+  if (station.safety.max_force_N >= task.clinical_force_N &&
+      task.scoring.rules.levels[2] >= task.clinical_force_N)
+    return "";
   char text[128];
-  std::snprintf(text, sizeof text, "Scaled force: deep is %.1f N here, about %.0f N on a patient", task.scoring.rules.levels[2], task.clinical_force_N);
+  std::snprintf(text, sizeof text, "Scaled force: deep is %.1f N here, about %.0f N on a patient",
+                task.scoring.rules.levels[2], task.clinical_force_N);
   return text;
 }
 

@@ -35,7 +35,8 @@ SessionLeft runParacentesisCommand(SessionOptions options) {
   settleOperator(options, world.station);
   checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
-  if (options.who == OperatorKind::person && options.demonstration) showDemonstration(options, world, folder);
+  if (options.who == OperatorKind::person && options.demonstration)
+    showDemonstration(options, world, folder);
   const SessionResult result = runNeedleSession(options, world, folder);
   writeOutcome(options, world, result, folder);
   deliverSession(options, folder);

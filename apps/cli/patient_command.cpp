@@ -20,7 +20,7 @@ namespace {
 struct PatientOptions {
   std::string file, side = "right", out = "patient.glb", unit, organ;
   std::string sex;
-  double height = 0, bmi = 0;   ///< 0: not stated
+  double height = 0, bmi = 0;  ///< 0: not stated
   PhantomOptions phantom;
   std::uint64_t seed = 0;
 };
@@ -51,18 +51,24 @@ void tell(const anatomy::Patient& patient) {
   std::size_t triangles = 0;
   for (const anatomy::OrganSurface& organ : patient.organs) {
     triangles += organ.mesh.triangles.size();
-    std::printf("  %-28s %-9s %6zu triangles\n", organ.id.c_str(), name(organ.organ), organ.mesh.triangles.size());
+    std::printf("  %-28s %-9s %6zu triangles\n", organ.id.c_str(), name(organ.organ),
+                organ.mesh.triangles.size());
   }
-  std::printf("  %zu triangles in all\nLandmarks (mm: left, posterior, superior of the suprasternal notch)\n", triangles);
+  std::printf(
+      "  %zu triangles in all\nLandmarks (mm: left, posterior, superior of the suprasternal "
+      "notch)\n",
+      triangles);
   for (const auto& [landmark, p] : patient.landmarks)
-    std::printf("  %-44s %7.1f %7.1f %7.1f\n", landmark.c_str(), 1e3 * p.x(), 1e3 * p.y(), 1e3 * p.z());
+    std::printf("  %-44s %7.1f %7.1f %7.1f\n", landmark.c_str(), 1e3 * p.x(), 1e3 * p.y(),
+                1e3 * p.z());
   const std::vector<std::string> missing = anatomy::missingForNeedle(patient);
   if (!missing.empty()) std::printf("To be looked at, not to be punctured: it lacks\n");
   for (const std::string& one : missing) std::printf("  %s\n", one.c_str());
   if (!missing.empty()) return;
   std::printf("Checks\n");
   for (const auto& finding : anatomy::checkPatient(patient))
-    std::printf("  %-4s %-52s %8.2f %s\n", finding.ok ? "ok" : "BAD", finding.name.c_str(), finding.value, finding.unit.c_str());
+    std::printf("  %-4s %-52s %8.2f %s\n", finding.ok ? "ok" : "BAD", finding.name.c_str(),
+                finding.value, finding.unit.c_str());
 }
 
 /// Throws UsageError for a unit that nobody knows.
@@ -85,17 +91,22 @@ void checkLength(const CheckedSurface& surface, const PatientOptions& o, Organ o
   const auto likely = anatomy::likelyUnit(organ, in_file);
   throw UsageError("would be a " + std::string(name(organ)) + " of " + anatomy::lengthText(longest),
                    o.file + ", \"" + mesh.name + "\"",
-                   likely ? "It was probably written in " + std::string(likely->words) + ": add --unit " + likely->name
+                   likely ? "It was probably written in " + std::string(likely->words) +
+                                ": add --unit " + likely->name
                           : "In no unit that is known would it be one");
 }
 
 /// Whether it can be mended, and what would be done.
 void tellRepair(const anatomy::RawMesh& mesh, double metres) {
   anatomy::RepairReport report;
-  const bool sound = anatomy::checkSurface(anatomy::repaired(mesh, &report, anatomy::kWeldTolerance / metres)).sound();
+  const bool sound =
+      anatomy::checkSurface(anatomy::repaired(mesh, &report, anatomy::kWeldTolerance / metres))
+          .sound();
   std::string done;
-  for (const std::string& word : anatomy::words(report, metres)) done += (done.empty() ? "" : ", ") + word;
-  std::printf("      %s: %s\n", sound ? "can be mended" : "cannot be mended wholly", done.empty() ? "nothing helps" : done.c_str());
+  for (const std::string& word : anatomy::words(report, metres))
+    done += (done.empty() ? "" : ", ") + word;
+  std::printf("      %s: %s\n", sound ? "can be mended" : "cannot be mended wholly",
+              done.empty() ? "nothing helps" : done.c_str());
 }
 
 /// What a surface is worth, in plain words.
@@ -106,7 +117,8 @@ void tellSurface(const CheckedSurface& surface, const PatientOptions& o) {
               anatomy::lengthText(size.x()).c_str(), anatomy::lengthText(size.y()).c_str(),
               anatomy::lengthText(size.z()).c_str(), check.sound() ? "sound" : "see below");
   if (check.pieces > 1) std::printf("      in %zu pieces\n", check.pieces);
-  for (const std::string& finding : anatomy::findings(check)) std::printf("      %s\n", finding.c_str());
+  for (const std::string& finding : anatomy::findings(check))
+    std::printf("      %s\n", finding.c_str());
   if (!check.sound()) tellRepair(mesh, unitOf(o).metres);
 }
 
@@ -114,7 +126,9 @@ void tellSurface(const CheckedSurface& surface, const PatientOptions& o) {
 void tellSurfaces(const PatientOptions& o) {
   const Organ organ = o.organ.empty() ? Organ::none : organFromName(o.organ.c_str());
   if (!o.organ.empty() && organ == Organ::none)
-    throw UsageError("is \"" + o.organ + "\"", "--organ", "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery, scapula, cartilage, airway, spine, inclusion");
+    throw UsageError("is \"" + o.organ + "\"", "--organ",
+                     "Known: skin, muscle, clavicle, rib, sternum, lung, vein, artery, scapula, "
+                     "cartilage, airway, spine, inclusion");
   const anatomy::Unit unit = unitOf(o);
   std::vector<CheckedSurface> surfaces;
   for (anatomy::RawMesh& mesh : anatomy::readMeshFile(o.file)) {
@@ -122,7 +136,8 @@ void tellSurfaces(const PatientOptions& o) {
     surfaces.push_back({std::move(mesh), check});
     if (organ != Organ::none) checkLength(surfaces.back(), o, organ);
   }
-  std::printf("%zu surface%s, lengths read as %s%s\n", surfaces.size(), surfaces.size() == 1 ? "" : "s", unit.words,
+  std::printf("%zu surface%s, lengths read as %s%s\n", surfaces.size(),
+              surfaces.size() == 1 ? "" : "s", unit.words,
               o.unit.empty() ? " (say --unit mm and the like where they are not)" : "");
   for (const CheckedSurface& surface : surfaces) tellSurface(surface, o);
 }
@@ -130,7 +145,8 @@ void tellSurfaces(const PatientOptions& o) {
 /// A patient of ours says so in its file; anything else is a set of surfaces.
 void info(const PatientOptions& o) {
   if (o.file.empty()) return tell(build(o));
-  const bool other = anatomy::meshFormat(o.file) != anatomy::MeshFormat::gltf || !o.unit.empty() || !o.organ.empty();
+  const bool other = anatomy::meshFormat(o.file) != anatomy::MeshFormat::gltf || !o.unit.empty() ||
+                     !o.organ.empty();
   if (other || !anatomy::isPatientFile(o.file)) return tellSurfaces(o);
   tell(anatomy::readPatient(o.file));
 }
@@ -138,29 +154,40 @@ void info(const PatientOptions& o) {
 /// A patient of many files, told file by file.
 void import(const ImportCommand& o) {
   const anatomy::ImportMap map = anatomy::readImportMap(o.map, {o.unit, o.axes});
-  if (std::filesystem::path(o.out).extension() != ".glb") throw UsageError("is \"" + o.out + "\"", "--out", "A patient file ends in .glb");
+  if (std::filesystem::path(o.out).extension() != ".glb")
+    throw UsageError("is \"" + o.out + "\"", "--out", "A patient file ends in .glb");
   anatomy::ImportReport report;
-  const anatomy::Patient patient =
-      anatomy::importPatient(map, o.folder, {static_cast<std::size_t>(o.triangles), 1e-3 * o.weld_mm}, &report);
+  const anatomy::Patient patient = anatomy::importPatient(
+      map, o.folder, {static_cast<std::size_t>(o.triangles), 1e-3 * o.weld_mm}, &report);
   for (const std::string& line : anatomy::words(report)) std::printf("%s\n", line.c_str());
   anatomy::writePatient(patient, o.out);
-  std::printf("Written: %s (%s; licence: %s)\n", o.out.c_str(), patient.name.c_str(), patient.licence.c_str());
+  std::printf("Written: %s (%s; licence: %s)\n", o.out.c_str(), patient.name.c_str(),
+              patient.licence.c_str());
 }
 
 void addImport(CLI::App& patient) {
   const auto o = std::make_shared<ImportCommand>();
-  CLI::App* command = patient.add_subcommand("import", "A patient from many mesh files, as a map file says");
+  CLI::App* command =
+      patient.add_subcommand("import", "A patient from many mesh files, as a map file says");
   command->footer(
-      "Example:\n  palpa patient import --map assets/patients/bodyparts3d_hra.json DATA --out p.glb\n"
-      "The map (JSON): name, side, unit, axes, licence, source, entries of file, id, organ; more in anatomy/import/README.md.\n"
+      "Example:\n  palpa patient import --map assets/patients/bodyparts3d_hra.json DATA --out "
+      "p.glb\n"
+      "The map (JSON): name, side, unit, axes, licence, source, entries of file, id, organ; more "
+      "in anatomy/import/README.md.\n"
       "Axes: where +x, +y, +z of a file point, L/R, A/P, S/I of the patient.");
-  command->add_option("folder", o->folder, "Folder of the mesh files")->required()->type_name("DIR");
+  command->add_option("folder", o->folder, "Folder of the mesh files")
+      ->required()
+      ->type_name("DIR");
   command->add_option("--map", o->map, "What the files are (.json)")->required()->type_name("FILE");
   command->add_option("--out", o->out, "File to write (.glb)")->type_name("FILE");
-  command->add_option("--unit", o->unit, "Instead of the map's default: " + anatomy::knownUnits())->type_name("UNIT");
-  command->add_option("--axes", o->axes, "Instead of the map's default, for example LSA")->type_name("AXES");
-  command->add_option("--triangles", o->triangles, "Of the whole patient at most; 0: all")->check(CLI::Range(0, 20'000'000));
-  command->add_option("--weld", o->weld_mm, "Seams so wide are joined, mm")->check(CLI::Range(0.0, 1.0));
+  command->add_option("--unit", o->unit, "Instead of the map's default: " + anatomy::knownUnits())
+      ->type_name("UNIT");
+  command->add_option("--axes", o->axes, "Instead of the map's default, for example LSA")
+      ->type_name("AXES");
+  command->add_option("--triangles", o->triangles, "Of the whole patient at most; 0: all")
+      ->check(CLI::Range(0, 20'000'000));
+  command->add_option("--weld", o->weld_mm, "Seams so wide are joined, mm")
+      ->check(CLI::Range(0.0, 1.0));
   command->callback([o] { import(*o); });
 }
 
@@ -170,32 +197,48 @@ void addPatient(CLI::App& program) {
   CLI::App* patient = program.add_subcommand("patient", "Build a patient, or see what one holds");
   patient->require_subcommand(1);
   const auto o = std::make_shared<PatientOptions>();
-  CLI::App* make = patient->add_subcommand("build", "Build a patient from the reference figures or a CT volume");
-  make->footer("Examples:\n  palpa patient build --sex f --height 1.68 --bmi 24 --side right --seed 3 --out p.glb\n  palpa patient build --bmi 38 --seed 4 --out heavy.glb      (what is not stated is drawn, too)\n  palpa patient build --ct chest.mha --previews look --out p.glb\n  palpa patient build --phantom breast --inclusion-mm 20 --depth-mm 15 --out b.glb");
-  const CLI::Option* side = make->add_option("--side", o->side, "Side that is punctured (CT: by default that of the contrast)")->check(CLI::IsMember({"right", "left"}));
+  CLI::App* make =
+      patient->add_subcommand("build", "Build a patient from the reference figures or a CT volume");
+  make->footer(
+      "Examples:\n  palpa patient build --sex f --height 1.68 --bmi 24 --side right --seed 3 --out "
+      "p.glb\n  palpa patient build --bmi 38 --seed 4 --out heavy.glb      (what is not stated is "
+      "drawn, too)\n  palpa patient build --ct chest.mha --previews look --out p.glb\n  palpa "
+      "patient build --phantom breast --inclusion-mm 20 --depth-mm 15 --out b.glb");
+  const CLI::Option* side =
+      make->add_option("--side", o->side,
+                       "Side that is punctured (CT: by default that of the contrast)")
+          ->check(CLI::IsMember({"right", "left"}));
   make->add_option("--sex", o->sex, "f or m (default: drawn)")->check(CLI::IsMember({"f", "m"}));
   make->add_option("--height", o->height, "Metres (default: drawn)");
   make->add_option("--bmi", o->bmi, "Body mass index, kg/m2 (default: drawn)");
-  make->add_option("--seed", o->seed, "0: the means of such a person; others are drawn from the spreads")
+  make->add_option("--seed", o->seed,
+                   "0: the means of such a person; others are drawn from the spreads")
       ->check(CLI::NonNegativeNumber);
   make->add_option("--out", o->out, "File to write (.glb)")->type_name("FILE");
   const auto ct = addCtOptions(*make);
   addPhantomOptions(*make, &o->phantom);
-  for (const char* of_person : {"--side", "--sex", "--height", "--bmi", "--seed"}) make->get_option("--phantom")->excludes(make->get_option(of_person));
+  for (const char* of_person : {"--side", "--sex", "--height", "--bmi", "--seed"})
+    make->get_option("--phantom")->excludes(make->get_option(of_person));
   make->get_option("--phantom")->excludes(make->get_option("--ct"));
   make->callback([o, ct, side] {
-    anatomy::writePatient(ct->ct.empty() ? build(*o) : buildFromCt(*ct, side->count() ? o->side : ""), o->out);
+    anatomy::writePatient(
+        ct->ct.empty() ? build(*o) : buildFromCt(*ct, side->count() ? o->side : ""), o->out);
     std::printf("Written: %s\n", o->out.c_str());
   });
   addImport(*patient);
-  CLI::App* tells = patient->add_subcommand("info", "Organs, sizes, landmarks, checks; or what a file of surfaces is worth");
+  CLI::App* tells = patient->add_subcommand(
+      "info", "Organs, sizes, landmarks, checks; or what a file of surfaces is worth");
   tells->footer(
       "Examples:\n  palpa patient info p.glb      (without a file: the reference patient)\n"
       "  palpa patient info clavicle.stl --unit mm --organ clavicle\n"
-      "      size, holes, triangles that look to different sides; a length that no clavicle has is refused");
-  tells->add_option("file", o->file, "Patient file (.glb), or surfaces (.glb, .obj, .stl, .ply)")->type_name("FILE");
-  tells->add_option("--unit", o->unit, "Of a file of surfaces: " + anatomy::knownUnits())->type_name("UNIT");
-  tells->add_option("--organ", o->organ, "What the surfaces are, to check their size")->type_name("ORGAN");
+      "      size, holes, triangles that look to different sides; a length that no clavicle has is "
+      "refused");
+  tells->add_option("file", o->file, "Patient file (.glb), or surfaces (.glb, .obj, .stl, .ply)")
+      ->type_name("FILE");
+  tells->add_option("--unit", o->unit, "Of a file of surfaces: " + anatomy::knownUnits())
+      ->type_name("UNIT");
+  tells->add_option("--organ", o->organ, "What the surfaces are, to check their size")
+      ->type_name("ORGAN");
   tells->callback([o] { info(*o); });
 }
 

@@ -15,11 +15,16 @@ struct SolveOptions {
 };
 
 void solve(const SolveOptions& o) {
-  const std::filesystem::path file = o.file.empty() ? station::assetFile("phantoms/mockups.json") : std::filesystem::path(o.file);
-  const std::filesystem::path out = o.out.empty() ? std::filesystem::path(file).replace_extension(".tables.json") : std::filesystem::path(o.out);
+  const std::filesystem::path file =
+      o.file.empty() ? station::assetFile("phantoms/mockups.json") : std::filesystem::path(o.file);
+  const std::filesystem::path out =
+      o.out.empty() ? std::filesystem::path(file).replace_extension(".tables.json")
+                    : std::filesystem::path(o.out);
   const bool terminal = isatty(STDERR_FILENO);
   twin::solvePhantoms(file, out, [&](const std::string& name, int done, int of) {
-    if (terminal || done == of) std::fprintf(stderr, "%s%s: %d of %d%s", terminal ? "\r" : "", name.c_str(), done, of, done == of ? "\n" : "");
+    if (terminal || done == of)
+      std::fprintf(stderr, "%s%s: %d of %d%s", terminal ? "\r" : "", name.c_str(), done, of,
+                   done == of ? "\n" : "");
   });
   std::printf("Written: %s\n", out.c_str());
 }
@@ -29,11 +34,17 @@ void solve(const SolveOptions& o) {
 void addPhantom(CLI::App& program) {
   CLI::App* phantom = program.add_subcommand("phantom", "Simulated silicone phantoms");
   phantom->require_subcommand(1);
-  CLI::App* command = phantom->add_subcommand("solve", "What pressing the phantoms of a file takes, by finite elements (some minutes each)");
-  command->footer("Examples:\n  palpa phantom solve                          the shipped mock-ups anew\n  palpa phantom solve --file mine.json --out mine.tables.json");
+  CLI::App* command = phantom->add_subcommand(
+      "solve",
+      "What pressing the phantoms of a file takes, by finite elements (some minutes each)");
+  command->footer(
+      "Examples:\n  palpa phantom solve                          the shipped mock-ups anew\n  "
+      "palpa phantom solve --file mine.json --out mine.tables.json");
   const auto o = std::make_shared<SolveOptions>();
-  command->add_option("--file", o->file, "Phantoms (default: assets/phantoms/mockups.json)")->type_name("FILE");
-  command->add_option("--out", o->out, "Tables to write (default: beside the file, .tables.json)")->type_name("FILE");
+  command->add_option("--file", o->file, "Phantoms (default: assets/phantoms/mockups.json)")
+      ->type_name("FILE");
+  command->add_option("--out", o->out, "Tables to write (default: beside the file, .tables.json)")
+      ->type_name("FILE");
   command->callback([o] { solve(*o); });
 }
 

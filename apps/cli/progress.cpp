@@ -6,8 +6,8 @@
 
 namespace palpa::cli {
 namespace {
-constexpr std::int64_t kStep = 250'000'000;             // session time between looks
-constexpr std::int64_t kTerminal = 200'000'000;         // wall time between lines
+constexpr std::int64_t kStep = 250'000'000;      // session time between looks
+constexpr std::int64_t kTerminal = 200'000'000;  // wall time between lines
 constexpr std::int64_t kPlain = 5'000'000'000;
 }  // namespace
 

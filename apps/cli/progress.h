@@ -5,8 +5,8 @@
 
 namespace palpa::cli {
 
-/// Says on standard error how a session goes: a line that renews itself on a terminal, a line every five
-/// seconds otherwise.
+/// Says on standard error how a session goes: a line that renews itself on a terminal, a line every
+/// five seconds otherwise.
 class Progress final : public runtime::Activity {
  public:
   explicit Progress(bool quiet);

@@ -51,9 +51,12 @@ record::TrialWithSession storedTrial(record::RecordStore& store, const std::stri
 
 /// Beside the form, to type in what was marked. One that holds answers stays.
 std::filesystem::path sheetFor(const std::string& page, const std::string& blank) {
-  if (std::filesystem::path(page).extension() != ".html") throw UsageError("must end with .html", "--out " + page, "The sheet to fill in lies beside it and ends with .csv");
+  if (std::filesystem::path(page).extension() != ".html")
+    throw UsageError("must end with .html", "--out " + page,
+                     "The sheet to fill in lies beside it and ends with .csv");
   std::filesystem::path sheet = std::filesystem::path(page).replace_extension("csv");
-  if (std::filesystem::exists(sheet) && textOf(sheet.string()) != blank) throw UsageError("is there already and may hold answers", sheet.string(), "Give another --out");
+  if (std::filesystem::exists(sheet) && textOf(sheet.string()) != blank)
+    throw UsageError("is there already and may hold answers", sheet.string(), "Give another --out");
   return sheet;
 }
 

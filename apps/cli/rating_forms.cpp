@@ -14,10 +14,12 @@ namespace palpa::cli {
 std::string textOf(const std::filesystem::path& file) {
   std::error_code none;
   std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file, none)) throw UsageError("cannot be read", file.string(), "Check the path");
+  if (!stream || std::filesystem::is_directory(file, none))
+    throw UsageError("cannot be read", file.string(), "Check the path");
   std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
   if (stream.bad()) throw UsageError("cannot be read", file.string(), "Check the path");
-  return text.rfind("\xEF\xBB\xBF", 0) == 0 ? text.substr(3) : text;   // a mark that spreadsheets put before UTF-8
+  return text.rfind("\xEF\xBB\xBF", 0) == 0 ? text.substr(3)
+                                            : text;  // a mark that spreadsheets put before UTF-8
 }
 
 RatingForms readForms(const std::string& checklist, const std::string& global) {

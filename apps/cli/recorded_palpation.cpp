@@ -9,7 +9,8 @@ namespace {
 
 /// One field of what a record describes; `otherwise` where it has none.
 template <class Value>
-Value fieldOf(const std::string& text, const char* field, const Value& otherwise, const char* what) {
+Value fieldOf(const std::string& text, const char* field, const Value& otherwise,
+              const char* what) {
   try {
     return nlohmann::json::parse(text).value(field, otherwise);
   } catch (const nlohmann::json::exception&) {
@@ -35,10 +36,13 @@ Said saidIn(const std::vector<runtime::Event>& events, int trial) {
 
 }  // namespace
 
-std::string engineOf(const record::SessionReader& reader) { return fieldOf(reader.info().task_json, "engine", std::string("needle"), "its task"); }
+std::string engineOf(const record::SessionReader& reader) {
+  return fieldOf(reader.info().task_json, "engine", std::string("needle"), "its task");
+}
 
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
-  const task_palpation::Scoring scoring = task_palpation::scoringOf(station::JsonFile(nlohmann::json::parse(reader.info().task_json), "the recorded task"));
+  const task_palpation::Scoring scoring = task_palpation::scoringOf(
+      station::JsonFile(nlohmann::json::parse(reader.info().task_json), "the recorded task"));
   const bool simulated = fieldOf(reader.info().session_json, "simulated", false, "its session");
   const std::vector<runtime::Event> events = reader.events();
   std::vector<RecordedPalpation> trials;
@@ -56,17 +60,26 @@ std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& r
     for (const runtime::Event& grade : said.grades) {
       const trial::Grade told = trial::gradeOf(grade.text);
       if (grade.value >= 1 && grade.value <= static_cast<double>(listener.marks().size()))
-        listener.grade(told.diameter, told.hardness, told.mobility, static_cast<std::size_t>(grade.value));
+        listener.grade(told.diameter, told.hardness, told.mobility,
+                       static_cast<std::size_t>(grade.value));
     }
-    const double guided = trial->ended && !trial->end.scores_json.empty() ? fieldOf(trial->end.scores_json, "GUIDED", 0.0, "a trial's score") : 0;
-    const assess::PalpationFacts facts{header.trial, header.role, simulated, header.force_feedback, header.seed, trial->end.outcome, guided};
-    trials.push_back({*trial, assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps, listener.samples(), listener.marks())});
+    const double guided = trial->ended && !trial->end.scores_json.empty()
+                              ? fieldOf(trial->end.scores_json, "GUIDED", 0.0, "a trial's score")
+                              : 0;
+    const assess::PalpationFacts facts{
+        header.trial, header.role,        simulated, header.force_feedback,
+        header.seed,  trial->end.outcome, guided};
+    trials.push_back(
+        {*trial, assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
+                                         listener.samples(), listener.marks())});
     ++trial;
     begin();
   };
   begin();
   reader.ticks([&](const haptics::FlightRecord& record) {
-    while (trial != recorded.end() && record.commands.trial > static_cast<std::uint32_t>(trial->header.trial)) finish();
+    while (trial != recorded.end() &&
+           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial))
+      finish();
     if (trial == recorded.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
     listener.add(record);
   });

@@ -13,7 +13,8 @@ struct RecordedPalpation {
   assess::PalpationAssessment assessment;
 };
 
-/// Needs nothing but the file: lumps and grades from its events, touches from its ticks, rules from its task. Throws Error.
+/// Needs nothing but the file: lumps and grades from its events, touches from its ticks, rules from
+/// its task. Throws Error.
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader);
 
 /// "needle", "palpation": of the recorded task.

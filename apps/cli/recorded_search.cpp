@@ -10,7 +10,10 @@
 namespace palpa::cli {
 namespace {
 
-task_search::SearchSettings recordedTask(const record::SessionReader& reader) { return task_search::readSearch(station::JsonFile(nlohmann::json::parse(reader.info().task_json), "the recorded task")); }
+task_search::SearchSettings recordedTask(const record::SessionReader& reader) {
+  return task_search::readSearch(
+      station::JsonFile(nlohmann::json::parse(reader.info().task_json), "the recorded task"));
+}
 
 std::map<int, task_search::Episode> recordedEpisodes(const record::SessionReader& reader) {
   std::map<int, task_search::Episode> episodes;
@@ -30,7 +33,9 @@ struct LastFloor {
   const haptics::Floor* of(std::uint32_t asked) {
     if (asked == number) return &floor;
     const auto episode = episodes.find(static_cast<int>(asked));
-    if (episode == episodes.end()) throw Error("names floor " + std::to_string(asked) + ", of which nothing is said", "session", "Restore the file from a backup");
+    if (episode == episodes.end())
+      throw Error("names floor " + std::to_string(asked) + ", of which nothing is said", "session",
+                  "Restore the file from a backup");
     made = makeFloor(task, episode->second);
     floor = made->floor();
     number = asked;
@@ -54,7 +59,9 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
   };
   const auto finish = [&] {
     const auto episode = episodes.find(trial->header.trial);
-    if (episode == episodes.end()) throw Error("says nothing of episode " + std::to_string(trial->header.trial), "session", "Restore the file from a backup");
+    if (episode == episodes.end())
+      throw Error("says nothing of episode " + std::to_string(trial->header.trial), "session",
+                  "Restore the file from a backup");
     assess::SearchTrial facts;
     facts.trial = trial->header.trial;
     facts.role = trial->header.role;
@@ -68,7 +75,9 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
   };
   begin();
   reader.ticks([&](const haptics::FlightRecord& record) {
-    while (trial != recorded.end() && record.commands.trial > static_cast<std::uint32_t>(trial->header.trial)) finish();
+    while (trial != recorded.end() &&
+           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial))
+      finish();
     if (trial == recorded.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
     listener.add(record, task_search::tipOf(tick, record.reading));
   });
@@ -76,7 +85,8 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
   return trials;
 }
 
-std::function<const haptics::Floor*(std::uint32_t number)> recordedFloors(const record::SessionReader& reader) {
+std::function<const haptics::Floor*(std::uint32_t number)> recordedFloors(
+    const record::SessionReader& reader) {
   if (engineOf(reader) != "surface") return {};
   const auto last = std::make_shared<LastFloor>();
   last->task = recordedTask(reader);

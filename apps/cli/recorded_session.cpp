@@ -16,11 +16,13 @@
 namespace palpa::cli {
 namespace {
 
-/// A text or bytes as a temporary file, for readers that take a path; removed at the end of its life.
+/// A text or bytes as a temporary file, for readers that take a path; removed at the end of its
+/// life.
 class TemporaryFile {
  public:
   TemporaryFile(const std::string& bytes, const char* extension) {
-    std::string pattern = (std::filesystem::temp_directory_path() / "palpa-XXXXXX").string() + extension;
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "palpa-XXXXXX").string() + extension;
     const int fd = mkstemps(pattern.data(), static_cast<int>(std::strlen(extension)));
     if (fd < 0) throw Error("cannot be made", pattern, "Is the disk full?");
     path_ = pattern;
@@ -53,8 +55,8 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
     operator_ = session.at("operator").get<std::string>();
     trainee_ = session.value("trainee", "");
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("the session's description is damaged (") + e.what() + ")", file.string(),
-                "Restore the file from a backup");
+    throw Error(std::string("the session's description is damaged (") + e.what() + ")",
+                file.string(), "Restore the file from a backup");
   }
   patient_ = anatomy::readPatient(TemporaryFile(info.patient_glb, ".glb").path());
   query_ = std::make_unique<anatomy::SurfaceQuery>(patient_);
@@ -104,8 +106,9 @@ assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& tr
     return again;
   }
   if (!expert_path_)
-    throw Error("no optimal path was recorded", "session", "It was made to calibrate experts, not to be scored");
-  const assess::TrialFacts facts{trial.header.trial, trial.header.role, simulated_,
+    throw Error("no optimal path was recorded", "session",
+                "It was made to calibrate experts, not to be scored");
+  const assess::TrialFacts facts{trial.header.trial,          trial.header.role, simulated_,
                                  trial.header.force_feedback, trial.header.seed, trial.end.outcome};
   return assess::assessTrial(facts, samples, patient_, *query_, *expert_path_, task_.rules);
 }
@@ -115,16 +118,17 @@ namespace {
 bool sameForces(const haptics::FlightRecord& a, const haptics::FlightRecord& b) {
   return a.f_contact_D == b.f_contact_D && a.f_command_D == b.f_command_D &&
          a.tau_missing_D == b.tau_missing_D && a.depth == b.depth && a.events == b.events &&
-         a.f_augmentation_D == b.f_augmentation_D && a.subtasks == b.subtasks && a.place == b.place &&
-         a.phase == b.phase && a.tissue == b.tissue && a.bone == b.bone && a.wall == b.wall &&
-         a.safety == b.safety;
+         a.f_augmentation_D == b.f_augmentation_D && a.subtasks == b.subtasks &&
+         a.place == b.place && a.phase == b.phase && a.tissue == b.tissue && a.bone == b.bone &&
+         a.wall == b.wall && a.safety == b.safety;
 }
 
 }  // namespace
 
 namespace {
 
-void count(const haptics::FlightRecord& recorded, const haptics::FlightRecord& again, ReplayCheck* check) {
+void count(const haptics::FlightRecord& recorded, const haptics::FlightRecord& again,
+           ReplayCheck* check) {
   ++check->ticks;
   if (sameForces(recorded, again)) return;
   if (check->different++ == 0) check->first_difference = recorded.tick;
@@ -147,7 +151,9 @@ ReplayCheck replayPairs(const record::SessionReader& reader) {
       ++check.gaps;
       return;
     }
-    const std::array<haptics::FlightRecord, 2> again = haptics::tickPair(config, *state, {first->reading, recorded.reading}, recorded.commands, recorded.t_ns, {first->sensed, recorded.sensed});
+    const std::array<haptics::FlightRecord, 2> again =
+        haptics::tickPair(config, *state, {first->reading, recorded.reading}, recorded.commands,
+                          recorded.t_ns, {first->sensed, recorded.sensed});
     count(*first, again[0], &check);
     count(recorded, again[1], &check);
     first.reset();
@@ -155,11 +161,13 @@ ReplayCheck replayPairs(const record::SessionReader& reader) {
   return check;
 }
 
-ReplayCheck replaySingle(const record::SessionReader& reader, const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
+ReplayCheck replaySingle(const record::SessionReader& reader,
+                         const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
   std::unordered_map<std::uint64_t, LocalGeometry> snapshots;
   reader.snapshots([&](const LocalGeometry& g) { snapshots[g.number] = g; });
   std::unordered_map<std::int64_t, haptics::TickState> keyframes;
-  reader.keyframes([&](std::int64_t tick, const haptics::TickState& state) { keyframes[tick] = state; });
+  reader.keyframes(
+      [&](std::int64_t tick, const haptics::TickState& state) { keyframes[tick] = state; });
 
   const haptics::TickConfig config = reader.info().tick_config;
   ReplayCheck check;
@@ -174,10 +182,10 @@ ReplayCheck replaySingle(const record::SessionReader& reader, const std::functio
       state = keyframe->second;
     }
     const auto snapshot = snapshots.find(recorded.snapshot);
-    const haptics::FlightRecord again =
-        haptics::tick(config, state, recorded.reading,
-                      snapshot == snapshots.end() ? nullptr : &snapshot->second, recorded.commands,
-                      recorded.t_ns, recorded.sensed, floors && recorded.commands.floor ? floors(recorded.commands.floor) : nullptr);
+    const haptics::FlightRecord again = haptics::tick(
+        config, state, recorded.reading, snapshot == snapshots.end() ? nullptr : &snapshot->second,
+        recorded.commands, recorded.t_ns, recorded.sensed,
+        floors && recorded.commands.floor ? floors(recorded.commands.floor) : nullptr);
     count(recorded, again, &check);
   });
   return check;
@@ -185,7 +193,8 @@ ReplayCheck replaySingle(const record::SessionReader& reader, const std::functio
 
 }  // namespace
 
-ReplayCheck replayTicks(const record::SessionReader& reader, const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
+ReplayCheck replayTicks(const record::SessionReader& reader,
+                        const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
   return reader.info().pair_config ? replayPairs(reader) : replaySingle(reader, floors);
 }
 

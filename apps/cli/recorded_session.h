@@ -18,7 +18,7 @@ namespace palpa::cli {
 /// A session as its evidence tells it; needs nothing but the file.
 class RecordedSession {
  public:
-  explicit RecordedSession(const std::filesystem::path& file);   ///< throws Error
+  explicit RecordedSession(const std::filesystem::path& file);  ///< throws Error
 
   const record::SessionReader& reader() const { return *reader_; }
   const anatomy::Patient& patient() const { return patient_; }
@@ -26,13 +26,15 @@ class RecordedSession {
   const Pose& X_DA() const { return X_DA_; }
   bool simulated() const { return simulated_; }
   const std::string& operatorName() const { return operator_; }
-  const std::string& trainee() const { return trainee_; }   ///< pseudonym of who performed
+  const std::string& trainee() const { return trainee_; }  ///< pseudonym of who performed
   const std::vector<record::RecordedTrial>& trials() const { return trials_; }
   using Samples = std::vector<assess::TrialSample>;
   /// Calls `visit` with every trial and all its judged ticks, in A: one pass over the record.
-  void eachTrial(const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const;
-  bool hasGoal() const { return task_.goal.has_value(); }   ///< else the vein, by an optimal path
-  /// The trial scored again, from the evidence alone: of a task with a goal of its own success, time and course. Throws Error when no expert path was recorded.
+  void eachTrial(
+      const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const;
+  bool hasGoal() const { return task_.goal.has_value(); }  ///< else the vein, by an optimal path
+  /// The trial scored again, from the evidence alone: of a task with a goal of its own success,
+  /// time and course. Throws Error when no expert path was recorded.
   assess::TrialAssessment rescore(const record::RecordedTrial& trial, const Samples& samples) const;
 
  private:
@@ -50,9 +52,11 @@ class RecordedSession {
 /// Outcome of running every recorded tick again.
 struct ReplayCheck {
   std::int64_t ticks = 0, different = 0, first_difference = -1;
-  std::int64_t gaps = 0;   ///< ticks missing in the record; the state is then taken from a keyframe
+  std::int64_t gaps = 0;  ///< ticks missing in the record; the state is then taken from a keyframe
 };
 /// `floors`: of a search, by number; null where there are none.
-ReplayCheck replayTicks(const record::SessionReader& reader, const std::function<const haptics::Floor*(std::uint32_t number)>& floors = {});
+ReplayCheck replayTicks(
+    const record::SessionReader& reader,
+    const std::function<const haptics::Floor*(std::uint32_t number)>& floors = {});
 
 }  // namespace palpa::cli

@@ -52,7 +52,9 @@ std::vector<RecordedSqueeze> recordedSqueezes(const record::SessionReader& reade
   };
   begin();
   reader.ticks([&](const haptics::FlightRecord& record) {
-    while (trial != recorded.end() && record.commands.trial > static_cast<std::uint32_t>(trial->header.trial)) finish();
+    while (trial != recorded.end() &&
+           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial))
+      finish();
     if (trial == recorded.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
     listener.add(record);
   });

@@ -9,9 +9,10 @@ namespace palpa::cli {
 
 struct RecordedSqueeze {
   record::RecordedTrial recorded;
-  assess::SqueezeTrial again;          ///< from the ticks and what was said
+  assess::SqueezeTrial again;  ///< from the ticks and what was said
 };
-/// Every trial of a comparison session judged again, from the evidence alone. Throws Error for a record whose parts contradict each other.
+/// Every trial of a comparison session judged again, from the evidence alone. Throws Error for a
+/// record whose parts contradict each other.
 std::vector<RecordedSqueeze> recordedSqueezes(const record::SessionReader& reader);
 
 }  // namespace palpa::cli

@@ -20,9 +20,12 @@ namespace {
 namespace fs = std::filesystem;
 
 void print(const record::Trainee& t, std::size_t sessions) {
-  std::printf("%-16s %-14s %-20s %-6s consent %-10s research %-10s keep until %-10s %zu session%s\n", t.id.c_str(), t.group.c_str(), t.experience.c_str(), t.handedness.c_str(),
-              t.consent_utc.empty() ? "no" : t.consent_utc.substr(0, 10).c_str(), t.research_utc.empty() ? "no" : t.research_utc.substr(0, 10).c_str(), t.retain_until.empty() ? "-" : t.retain_until.c_str(),
-              sessions, sessions == 1 ? "" : "s");
+  std::printf(
+      "%-16s %-14s %-20s %-6s consent %-10s research %-10s keep until %-10s %zu session%s\n",
+      t.id.c_str(), t.group.c_str(), t.experience.c_str(), t.handedness.c_str(),
+      t.consent_utc.empty() ? "no" : t.consent_utc.substr(0, 10).c_str(),
+      t.research_utc.empty() ? "no" : t.research_utc.substr(0, 10).c_str(),
+      t.retain_until.empty() ? "-" : t.retain_until.c_str(), sessions, sessions == 1 ? "" : "s");
 }
 
 void addTrainee(RecordsOptions o) {
@@ -36,7 +39,11 @@ void addTrainee(RecordsOptions o) {
   if (o.research) o.trainee.research_utc = o.trainee.added_utc;
   store.addTrainee(o.trainee);
   std::printf("Trainee %s added to the %s\n", o.trainee.id.c_str(), store.place().c_str());
-  if (!o.consent) std::printf("Consent to keeping training records is not noted: palpa records trainee change --id %s --consent\n", o.trainee.id.c_str());
+  if (!o.consent)
+    std::printf(
+        "Consent to keeping training records is not noted: palpa records trainee change --id %s "
+        "--consent\n",
+        o.trainee.id.c_str());
 }
 
 void changeTrainee(const RecordsOptions& o) {
@@ -55,14 +62,18 @@ void changeTrainee(const RecordsOptions& o) {
 void listTrainees(const RecordsOptions& o) {
   record::RecordStore store(o.url);
   const std::vector<record::Trainee> all = store.trainees();
-  std::printf("%zu trainee%s in the %s\n", all.size(), all.size() == 1 ? "" : "s", store.place().c_str());
+  std::printf("%zu trainee%s in the %s\n", all.size(), all.size() == 1 ? "" : "s",
+              store.place().c_str());
   for (const record::Trainee& t : all) print(t, store.sessions(t.id).size());
 }
 
 void bring(const fs::path& file, const std::string& url) {
   try {
     const EvidenceDelivery done = deliverEvidence(file, url);
-    std::printf("%s: trainee %s, %s added, %d there already%s\n", file.string().c_str(), done.trainee.c_str(), counted(static_cast<std::size_t>(done.trials.added), "trial").c_str(), done.trials.present, done.unfinished ? ", one unfinished left out" : "");
+    std::printf("%s: trainee %s, %s added, %d there already%s\n", file.string().c_str(),
+                done.trainee.c_str(),
+                counted(static_cast<std::size_t>(done.trials.added), "trial").c_str(),
+                done.trials.present, done.unfinished ? ", one unfinished left out" : "");
   } catch (const record::StoreUnreachable&) {
     std::printf("%s: noted; palpa records deliver sends it\n", file.string().c_str());
     throw;
@@ -70,7 +81,9 @@ void bring(const fs::path& file, const std::string& url) {
 }
 
 void addSessions(const RecordsOptions& o) {
-  for (const std::string& session : o.sessions) bring(fs::is_directory(session) ? fs::path(session) / "session.palpa" : fs::path(session), o.url);
+  for (const std::string& session : o.sessions)
+    bring(fs::is_directory(session) ? fs::path(session) / "session.palpa" : fs::path(session),
+          o.url);
 }
 
 /// One that fails does not keep the others back.
@@ -78,8 +91,10 @@ void deliverPending(const RecordsOptions& o) {
   record::PendingList pending(record::PendingList::usualFolder());
   auto waiting = pending.sessions();
   if (!o.forget.empty()) {
-    if (std::erase_if(waiting, [&](const record::PendingSession& s) { return s.uuid == o.forget; }) == 0)
-      throw UsageError("is not among the sessions that wait", "session " + o.forget, "palpa records deliver names them");
+    if (std::erase_if(waiting,
+                      [&](const record::PendingSession& s) { return s.uuid == o.forget; }) == 0)
+      throw UsageError("is not among the sessions that wait", "session " + o.forget,
+                       "palpa records deliver names them");
     pending.forget(o.forget);
     std::printf("Forgotten: session %s; its evidence stays where it is\n", o.forget.c_str());
   }
@@ -96,7 +111,9 @@ void deliverPending(const RecordsOptions& o) {
       std::printf("Session %s waits on: %s\n", session.uuid.c_str(), e.what());
       ++failed;
     }
-  if (failed > 0) throw Error("could not be delivered: see above", counted(failed, "session"), "Try again later; one that never can be: palpa records deliver --forget UUID");
+  if (failed > 0)
+    throw Error("could not be delivered: see above", counted(failed, "session"),
+                "Try again later; one that never can be: palpa records deliver --forget UUID");
 }
 
 void writeMetrics(const RecordsOptions& o) {
@@ -110,7 +127,8 @@ void writeMetrics(const RecordsOptions& o) {
 }
 
 /// A subcommand with the options that all of them share.
-CLI::App* sub(CLI::App* parent, const std::shared_ptr<RecordsOptions>& o, const char* name, const char* help, void (*action)(const RecordsOptions&)) {
+CLI::App* sub(CLI::App* parent, const std::shared_ptr<RecordsOptions>& o, const char* name,
+              const char* help, void (*action)(const RecordsOptions&)) {
   CLI::App* command = parent->add_subcommand(name, help);
   addRecordsArgument(*command, o->url);
   command->callback([o, action] { action(*o); });
@@ -119,21 +137,35 @@ CLI::App* sub(CLI::App* parent, const std::shared_ptr<RecordsOptions>& o, const 
 
 std::string whyNoDate(const std::string& d) {
   int year = 0, month = 0, day = 0, end = 0;
-  const bool written = d.size() == 10 && d.find_first_not_of("0123456789-") == std::string::npos && std::sscanf(d.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &end) == 3 && end == 10;
-  const bool date = written && year >= 2000 && std::chrono::year_month_day(std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)), std::chrono::day(static_cast<unsigned>(day))).ok();
+  const bool written = d.size() == 10 && d.find_first_not_of("0123456789-") == std::string::npos &&
+                       std::sscanf(d.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &end) == 3 &&
+                       end == 10;
+  const bool date = written && year >= 2000 &&
+                    std::chrono::year_month_day(std::chrono::year(year),
+                                                std::chrono::month(static_cast<unsigned>(month)),
+                                                std::chrono::day(static_cast<unsigned>(day)))
+                        .ok();
   return date ? "" : "a date is written 2027-03-01";
 }
 
 void addTraineeOptions(CLI::App* command, RecordsOptions& o) {
   command->add_option("--group", o.group, "In the educator's words: novice, experienced, ...");
   command->add_option("--experience", o.experience, "\"3rd year\", \"50 lines\", ...");
-  command->add_option("--handedness", o.handedness, "right (default) or left")->check(CLI::IsMember({"right", "left"}));
-  command->add_option("--keep-until", o.retain_until, "Date after which the records are to be deleted")->type_name("YYYY-MM-DD")->check(whyNoDate);
+  command->add_option("--handedness", o.handedness, "right (default) or left")
+      ->check(CLI::IsMember({"right", "left"}));
+  command
+      ->add_option("--keep-until", o.retain_until, "Date after which the records are to be deleted")
+      ->type_name("YYYY-MM-DD")
+      ->check(whyNoDate);
   command->add_flag("--consent", o.consent, "The trainee has agreed to training records, today");
   command->add_flag("--research", o.research, "The trainee has agreed to use in studies, today");
 }
 
-CLI::Option* addId(CLI::App* command, RecordsOptions& o) { return command->add_option("--id", o.trainee.id, "The trainee's pseudonym")->required()->type_name("ID"); }
+CLI::Option* addId(CLI::App* command, RecordsOptions& o) {
+  return command->add_option("--id", o.trainee.id, "The trainee's pseudonym")
+      ->required()
+      ->type_name("ID");
+}
 
 void addWho(CLI::App* command, RecordsOptions& o) {
   command->add_option("--id", o.trainee.id, "One trainee's pseudonym")->type_name("ID");
@@ -143,47 +175,80 @@ void addWho(CLI::App* command, RecordsOptions& o) {
 void addTrainees(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   CLI::App* trainee = command->add_subcommand("trainee", "Who trains, by pseudonym");
   trainee->require_subcommand(1);
-  CLI::App* add = sub(trainee, o, "add", "Add a trainee", [](const RecordsOptions& r) { addTrainee(r); });
-  CLI::App* change = sub(trainee, o, "change", "Change what is given; note a consent", changeTrainee);
+  CLI::App* add =
+      sub(trainee, o, "add", "Add a trainee", [](const RecordsOptions& r) { addTrainee(r); });
+  CLI::App* change =
+      sub(trainee, o, "change", "Change what is given; note a consent", changeTrainee);
   for (CLI::App* one : {add, change}) {
     addId(one, *o);
     addTraineeOptions(one, *o);
   }
   sub(trainee, o, "list", "Who is in the records", listTrainees);
-  addId(sub(command, o, "show", "Sessions and trials of a person, in plain words", showTrainee), *o);
-  CLI::App* overdue = sub(command, o, "overdue", "Whose records were to be kept until a day that is past", listOverdue);
-  overdue->add_option("--date", o->date, "In place of today")->type_name("YYYY-MM-DD")->check(whyNoDate);
+  addId(sub(command, o, "show", "Sessions and trials of a person, in plain words", showTrainee),
+        *o);
+  CLI::App* overdue = sub(command, o, "overdue",
+                          "Whose records were to be kept until a day that is past", listOverdue);
+  overdue->add_option("--date", o->date, "In place of today")
+      ->type_name("YYYY-MM-DD")
+      ->check(whyNoDate);
   overdue->add_flag("--delete", o->remove, "Delete them, with their evidence");
-  CLI::App* remove = sub(command, o, "delete", "Delete a person: records and evidence, for good", deletePerson);
+  CLI::App* remove =
+      sub(command, o, "delete", "Delete a person: records and evidence, for good", deletePerson);
   addId(remove, *o);
   for (CLI::App* one : {overdue, remove}) one->add_flag("--yes", o->yes, "Yes, for good");
 }
 
 void addStore(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
-  sub(command, o, "add", "Bring finished sessions into the records; as often as you like", addSessions)->add_option("sessions", o->sessions, "session.palpa, or a session's folder")->required()->type_name("FILE...");
+  sub(command, o, "add", "Bring finished sessions into the records; as often as you like",
+      addSessions)
+      ->add_option("sessions", o->sessions, "session.palpa, or a session's folder")
+      ->required()
+      ->type_name("FILE...");
   CLI::App* waiting = command->add_subcommand("deliver", "Send what could not be sent before");
-  waiting->add_option("--forget", o->forget, "A session that is not to be sent any more")->type_name("UUID");
+  waiting->add_option("--forget", o->forget, "A session that is not to be sent any more")
+      ->type_name("UUID");
   waiting->callback([o] { deliverPending(*o); });
-  sub(command, o, "backup", "Everything into one file", backUpRecords)->add_option("--out", o->out, "File to be made")->required()->type_name("FILE");
-  sub(command, o, "restore", "A backup into empty records: a new file, or an empty database on a server", restoreRecords)->add_option("--from", o->from, "File that palpa records backup wrote")->required()->type_name("FILE");
-  sub(command, o, "migrate", "Bring the tables to the newest version, and say from which", migrateRecords);
+  sub(command, o, "backup", "Everything into one file", backUpRecords)
+      ->add_option("--out", o->out, "File to be made")
+      ->required()
+      ->type_name("FILE");
+  sub(command, o, "restore",
+      "A backup into empty records: a new file, or an empty database on a server", restoreRecords)
+      ->add_option("--from", o->from, "File that palpa records backup wrote")
+      ->required()
+      ->type_name("FILE");
+  sub(command, o, "migrate", "Bring the tables to the newest version, and say from which",
+      migrateRecords);
 }
 
 void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
-  CLI::App* data = sub(command, o, "export", "Tables for other programs, with a dictionary: people by pseudonym", exportRecords);
+  CLI::App* data =
+      sub(command, o, "export", "Tables for other programs, with a dictionary: people by pseudonym",
+          exportRecords);
   addWho(data, *o);
   data->add_option("--out", o->out, "Folder (default out/records-<time>)")->type_name("DIR");
-  data->add_option("--format", o->format, "csv, json, or both (default)")->check(CLI::IsMember({"csv", "json", "both"}))->type_name("csv|json|both");
+  data->add_option("--format", o->format, "csv, json, or both (default)")
+      ->check(CLI::IsMember({"csv", "json", "both"}))
+      ->type_name("csv|json|both");
   data->add_flag("--research", o->research, "For a study: only who has agreed to that");
   data->add_flag("--paths", o->paths, "With the places of evidence on this computer");
-  CLI::App* tell = sub(command, o, "xapi", "Tell a learning record store of trials (xAPI); what cannot be sent now waits and is sent next time", tellRecords);
-  tell->add_option("--to", o->to, "Its address, without user and password")->required()->type_name("URL");
+  CLI::App* tell = sub(command, o, "xapi",
+                       "Tell a learning record store of trials (xAPI); what cannot be sent now "
+                       "waits and is sent next time",
+                       tellRecords);
+  tell->add_option("--to", o->to, "Its address, without user and password")
+      ->required()
+      ->type_name("URL");
   addWho(tell, *o);
-  tell->add_option("--user", o->user, "The password comes from PALPA_XAPI_PASSWORD or ~/.netrc")->type_name("NAME");
-  tell->add_option("--home-page", o->home_page, "Whose pseudonyms these are: an address of your centre")->type_name("IRI");
+  tell->add_option("--user", o->user, "The password comes from PALPA_XAPI_PASSWORD or ~/.netrc")
+      ->type_name("NAME");
+  tell->add_option("--home-page", o->home_page,
+                   "Whose pseudonyms these are: an address of your centre")
+      ->type_name("IRI");
   tell->add_flag("--simulated", o->simulated, "Tell of simulated sessions, too");
   tell->add_flag("--insecure", o->insecure, "Allow http to another computer");
-  CLI::App* table = command->add_subcommand("metrics", "What every figure of a trial is: definition, unit, direction");
+  CLI::App* table = command->add_subcommand(
+      "metrics", "What every figure of a trial is: definition, unit, direction");
   table->add_option("--out", o->out, "Markdown file; default: standard output")->type_name("FILE");
   table->callback([o] { writeMetrics(*o); });
 }
@@ -191,10 +256,15 @@ void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
 }  // namespace
 
 void addRecords(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("records", "Trainees and their trials: one store for all sessions");
+  CLI::App* command =
+      program.add_subcommand("records", "Trainees and their trials: one store for all sessions");
   command->require_subcommand(1);
-  command->footer("Examples:\n  export PALPA_RECORDS=~/records.sqlite\n  palpa records trainee add --id T001 --group novice --consent\n  palpa paracentesis --trainee T001\n  palpa records add out/paracentesis-20260301-120000\n"
-                  "  palpa records show --id T001\n  palpa records export --all --out data\n  palpa records backup --out records-2026-03-01.sqlite\n  palpa records delete --id T001 --yes");
+  command->footer(
+      "Examples:\n  export PALPA_RECORDS=~/records.sqlite\n  palpa records trainee add --id T001 "
+      "--group novice --consent\n  palpa paracentesis --trainee T001\n  palpa records add "
+      "out/paracentesis-20260301-120000\n"
+      "  palpa records show --id T001\n  palpa records export --all --out data\n  palpa records "
+      "backup --out records-2026-03-01.sqlite\n  palpa records delete --id T001 --yes");
   const auto o = std::make_shared<RecordsOptions>();
   addTrainees(command, o);
   addStore(command, o);

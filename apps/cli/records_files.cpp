@@ -62,7 +62,8 @@ void restoreRecords(const RecordsOptions& o) {
     throw UsageError("is no file", o.from, "Give a backup that palpa records backup wrote");
   requireRecords(o.from);
   std::string folder = (fs::temp_directory_path() / "palpa-restore-XXXXXX").string();
-  if (!::mkdtemp(folder.data())) throw Error("cannot be made", folder, "Free space there, or set TMPDIR");
+  if (!::mkdtemp(folder.data()))
+    throw Error("cannot be made", folder, "Free space there, or set TMPDIR");
   const PassingFile own{fs::path(folder)};
   const PassingFile copy(fs::path(folder) / fs::path(o.from).filename());
   std::error_code problem;

@@ -46,8 +46,10 @@ void deleteOne(record::RecordStore& store, const std::string& id) {
   for (const record::StoredSession& session : sessions) {
     if (!removeEvidence(session)) continue;
     store.evidenceDeleted(session.uuid);
-    std::printf("Deleted: %s; its folder may still hold a report, a table and pictures: delete it by hand\n",
-                session.evidence.c_str());
+    std::printf(
+        "Deleted: %s; its folder may still hold a report, a table and pictures: delete it by "
+        "hand\n",
+        session.evidence.c_str());
   }
   std::printf("Trainee %s and %s deleted; late deliveries will be refused\n", id.c_str(),
               counted(sessions.size(), "session").c_str());

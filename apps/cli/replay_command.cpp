@@ -19,31 +19,37 @@ namespace {
 
 /// Trials without a score are named and left out.
 bool hasScore(const record::RecordedTrial& trial) {
-  if (!trial.ended) std::printf("Trial %d was not finished: the program stopped in the middle\n", trial.header.trial);
-  else if (trial.end.scores_json.empty()) std::printf("Trial %d has no score (%s)\n", trial.header.trial, trial.end.outcome.c_str());
+  if (!trial.ended)
+    std::printf("Trial %d was not finished: the program stopped in the middle\n",
+                trial.header.trial);
+  else if (trial.end.scores_json.empty())
+    std::printf("Trial %d has no score (%s)\n", trial.header.trial, trial.end.outcome.c_str());
   return trial.ended && !trial.end.scores_json.empty();
 }
 
 bool sameNeedleScores(const std::string& file) {
   const RecordedSession session(file);
   bool same = true;
-  session.eachTrial([&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
-    if (!hasScore(trial)) return;
-    const nlohmann::json scores = nlohmann::json::parse(trial.end.scores_json);
-    if (session.hasGoal()) {
-      const assess::TrialAssessment reached = session.rescore(trial, samples);
-      const bool equal = scores.at("TIME") == reached.values.time_ms && scores.at("SUCCESS") == (reached.values.success ? 1 : 0);
-      std::printf("Trial %d: %s%s\n", trial.header.trial, reached.summary.c_str(), equal ? "" : "  DIFFERENT from the recorded score");
-      same = same && equal;
-      return;
-    }
-    if (session.reader().info().expert_path_json.empty()) return;
-    const double stored = scores.at("TOTAL").get<double>();
-    const double again = session.rescore(trial, samples).total;
-    std::printf("Trial %d: total penalty %.6f recorded, %.6f scored again%s\n", trial.header.trial, stored,
-                again, stored == again ? "" : "  DIFFERENT");
-    same = same && stored == again;
-  });
+  session.eachTrial(
+      [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+        if (!hasScore(trial)) return;
+        const nlohmann::json scores = nlohmann::json::parse(trial.end.scores_json);
+        if (session.hasGoal()) {
+          const assess::TrialAssessment reached = session.rescore(trial, samples);
+          const bool equal = scores.at("TIME") == reached.values.time_ms &&
+                             scores.at("SUCCESS") == (reached.values.success ? 1 : 0);
+          std::printf("Trial %d: %s%s\n", trial.header.trial, reached.summary.c_str(),
+                      equal ? "" : "  DIFFERENT from the recorded score");
+          same = same && equal;
+          return;
+        }
+        if (session.reader().info().expert_path_json.empty()) return;
+        const double stored = scores.at("TOTAL").get<double>();
+        const double again = session.rescore(trial, samples).total;
+        std::printf("Trial %d: total penalty %.6f recorded, %.6f scored again%s\n",
+                    trial.header.trial, stored, again, stored == again ? "" : "  DIFFERENT");
+        same = same && stored == again;
+      });
   return same;
 }
 
@@ -51,8 +57,10 @@ bool samePalpationScores(const record::SessionReader& reader) {
   bool same = true;
   for (const RecordedPalpation& trial : recordedPalpations(reader)) {
     if (!hasScore(trial.recorded)) continue;
-    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) == nlohmann::json::parse(task_palpation::scoreJson(trial.assessment));
-    std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, trial.assessment.summary.c_str(), equal ? "" : "  DIFFERENT from the recorded score");
+    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) ==
+                       nlohmann::json::parse(task_palpation::scoreJson(trial.assessment));
+    std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, trial.assessment.summary.c_str(),
+                equal ? "" : "  DIFFERENT from the recorded score");
     same = same && equal;
   }
   return same;
@@ -62,8 +70,10 @@ bool sameSqueezeScores(const record::SessionReader& reader) {
   bool same = true;
   for (const RecordedSqueeze& trial : recordedSqueezes(reader)) {
     if (!hasScore(trial.recorded)) continue;
-    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) == nlohmann::json::parse(task_squeeze::scoreJson(trial.again));
-    std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(), equal ? "" : "  DIFFERENT from the recorded score");
+    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) ==
+                       nlohmann::json::parse(task_squeeze::scoreJson(trial.again));
+    std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(),
+                equal ? "" : "  DIFFERENT from the recorded score");
     same = same && equal;
   }
   return same;
@@ -73,8 +83,10 @@ bool sameSearchScores(const record::SessionReader& reader) {
   bool same = true;
   for (const RecordedSearch& trial : recordedSearches(reader)) {
     if (!hasScore(trial.recorded)) continue;
-    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) == nlohmann::json::parse(task_search::scoreJson(trial.again));
-    std::printf("Episode %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(), equal ? "" : "  DIFFERENT from the recorded score");
+    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) ==
+                       nlohmann::json::parse(task_search::scoreJson(trial.again));
+    std::printf("Episode %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(),
+                equal ? "" : "  DIFFERENT from the recorded score");
     same = same && equal;
   }
   return same;
@@ -90,8 +102,10 @@ bool sameScores(const record::SessionReader& reader, const std::string& file) {
 void tellForces(const record::SessionReader& reader) {
   const std::optional<assess::ForceBalance> balance = recordedBalance(reader);
   if (!balance) return;
-  std::printf("Hand, device and phantom, each measured by itself, add up to m a: within %.3f N (rms %.4f N) at %zu samples; the phantom gave up to %.2f N\n", balance->largest_N, balance->rms_N,
-              balance->samples, balance->object_N);
+  std::printf(
+      "Hand, device and phantom, each measured by itself, add up to m a: within %.3f N (rms %.4f "
+      "N) at %zu samples; the phantom gave up to %.2f N\n",
+      balance->largest_N, balance->rms_N, balance->samples, balance->object_N);
 }
 
 void replay(const std::string& file) {
@@ -102,9 +116,11 @@ void replay(const std::string& file) {
   bool same = check.different == 0 && check.ticks > 0;
   same = sameScores(reader, file) && same;
   if (!same)
-    throw Error("the replay differs from the record" +
-                    (check.first_difference >= 0 ? " from tick " + std::to_string(check.first_difference) : ""),
-                file, "It was made by another version or processor, or was changed");
+    throw Error(
+        "the replay differs from the record" +
+            (check.first_difference >= 0 ? " from tick " + std::to_string(check.first_difference)
+                                         : ""),
+        file, "It was made by another version or processor, or was changed");
   tellForces(reader);
   std::printf("The replay equals the record: same forces, same score\n");
 }
@@ -112,31 +128,45 @@ void replay(const std::string& file) {
 }  // namespace
 
 void addReplay(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("replay", "Run a recorded session again: same forces, same score; or see a trial of it again");
-  command->footer("Examples:\n  palpa replay out/paracentesis-20260301-120000/session.palpa\n  palpa replay out/A/session.palpa --view --trial 2 --speed 0.5\n  palpa replay out/A/session.palpa --video trial.mp4\n  palpa replay out/A/session.palpa --pictures moments --fps 5 --size 960x540");
+  CLI::App* command = program.add_subcommand(
+      "replay",
+      "Run a recorded session again: same forces, same score; or see a trial of it again");
+  command->footer(
+      "Examples:\n  palpa replay out/paracentesis-20260301-120000/session.palpa\n  palpa replay "
+      "out/A/session.palpa --view --trial 2 --speed 0.5\n  palpa replay out/A/session.palpa "
+      "--video trial.mp4\n  palpa replay out/A/session.palpa --pictures moments --fps 5 --size "
+      "960x540");
   const auto file = std::make_shared<std::string>();
   const auto seen = std::make_shared<ReplayViewOptions>();
   command->add_option("session", *file, "session.palpa")->required()->type_name("FILE");
   addReplayViewOptions(*command, *seen);
   command->callback([file, seen, command] {
-    if (seen->view + !seen->video.empty() + !seen->pictures.empty() > 1) throw UsageError("do not go together", "--view, --video and --pictures", "Give one of them");
+    if (seen->view + !seen->video.empty() + !seen->pictures.empty() > 1)
+      throw UsageError("do not go together", "--view, --video and --pictures", "Give one of them");
     for (const char* option : {"--trial", "--speed", "--from", "--to", "--fps", "--size"})
-      if (!seen->wanted() && command->count(option) > 0) throw UsageError("is for a trial that is seen again", option, "Add --view, --video FILE or --pictures DIR");
-    if (seen->wanted()) viewReplay(*file, *seen);
-    else replay(*file);
+      if (!seen->wanted() && command->count(option) > 0)
+        throw UsageError("is for a trial that is seen again", option,
+                         "Add --view, --video FILE or --pictures DIR");
+    if (seen->wanted())
+      viewReplay(*file, *seen);
+    else
+      replay(*file);
   });
 }
 
 void addExport(CLI::App& program) {
-  CLI::App* command = program.add_subcommand("export", "Write a session's 1 kHz samples as CSV, with a dictionary");
+  CLI::App* command =
+      program.add_subcommand("export", "Write a session's 1 kHz samples as CSV, with a dictionary");
   command->footer("Example:\n  palpa export out/A/session.palpa --out ticks.csv");
-  const auto file = std::make_shared<std::string>(), out = std::make_shared<std::string>("ticks.csv");
+  const auto file = std::make_shared<std::string>(),
+             out = std::make_shared<std::string>("ticks.csv");
   command->add_option("session", *file, "session.palpa")->required()->type_name("FILE");
   command->add_option("--out", *out, "CSV to write")->type_name("FILE");
   command->callback([file, out] {
     const record::SessionReader reader(*file);
     record::exportTicks(reader, *out);
-    const std::string dictionary = std::filesystem::path(*out).replace_extension("columns.txt").string();
+    const std::string dictionary =
+        std::filesystem::path(*out).replace_extension("columns.txt").string();
     std::ofstream words(dictionary);
     for (const record::TickColumn& column : record::tickColumns())
       words << column.name << ": " << column.meaning << '\n';

@@ -28,8 +28,11 @@ struct Picture {
 Picture sizeOf(const std::string& text) {
   Picture size;
   char rest = 0;
-  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 || size.width < 160 || size.height < 120 || size.width > 7680 || size.height > 4320 || size.width % 2 || size.height % 2)
-    throw UsageError("is no size of a film", "--size " + text, "Write it as 1280x720: even numbers, 160x120 to 7680x4320");
+  if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
+      size.width < 160 || size.height < 120 || size.width > 7680 || size.height > 4320 ||
+      size.width % 2 || size.height % 2)
+    throw UsageError("is no size of a film", "--size " + text,
+                     "Write it as 1280x720: even numbers, 160x120 to 7680x4320");
   return size;
 }
 
@@ -47,7 +50,8 @@ Cut cutOf(const ReplayViewOptions& o, double length_s) {
   if (!(cut.from_s >= 0 && cut.from_s < cut.to_s)) {
     char length[32];
     std::snprintf(length, sizeof length, "%.1f s", length_s);
-    throw UsageError("leave nothing to show", "--from and --to", std::string("The trial lasts ") + length);
+    throw UsageError("leave nothing to show", "--from and --to",
+                     std::string("The trial lasts ") + length);
   }
   return cut;
 }
@@ -73,7 +77,8 @@ void playInWindow(RecordedShow& recorded, const Cut& cut, const ReplayViewOption
   const ReplayStage stage = stageFor(recorded, scene::Display::window, {1280, 720});
   const std::unique_ptr<replay::TrialReplay> shown = recorded.on(*stage.view);
   replay::Player player(cut.from_s, cut.to_s, o.speed);
-  std::printf("space: pause; Left, Right: 1 s; with shift: a frame; + and -: speed; Escape: leave\n");
+  std::printf(
+      "space: pause; Left, Right: 1 s; with shift: a frame; + and -: speed; Escape: leave\n");
   constexpr std::int64_t kFrame_ns = 33'333'333;
   const runtime::SteadyClock clock;
   for (std::int64_t last_ns = clock.now(); !player.left() && !shown->input().closed;) {
@@ -87,16 +92,20 @@ void playInWindow(RecordedShow& recorded, const Cut& cut, const ReplayViewOption
 }
 
 /// Draws picture after picture of the cut.
-void draw(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o, const std::function<void(int number, const scene::Image&)>& keep) {
+void draw(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o,
+          const std::function<void(int number, const scene::Image&)>& keep) {
   const Picture size = sizeOf(o.size);
   const ReplayStage stage = stageFor(recorded, scene::Display::offscreen, size);
   const std::unique_ptr<replay::TrialReplay> shown = recorded.on(*stage.view);
-  const int frames = std::max(1, static_cast<int>(std::lround((cut.to_s - cut.from_s) / o.speed * o.frames_per_second)));
+  const int frames = std::max(
+      1, static_cast<int>(std::lround((cut.to_s - cut.from_s) / o.speed * o.frames_per_second)));
   replay::Player speed(cut.from_s, cut.to_s, o.speed);
   WorkProgress progress("pictures", frames);
   const InterruptNote interrupt;
   for (int i = 0; i < frames; ++i) {
-    if (interrupt.noted()) throw Error("was interrupted: nothing is written", o.video.empty() ? o.pictures : o.video, "Start again, or take a part of the trial: --from, --to");
+    if (interrupt.noted())
+      throw Error("was interrupted: nothing is written", o.video.empty() ? o.pictures : o.video,
+                  "Start again, or take a part of the trial: --from, --to");
     shown->show(cut.from_s + i * o.speed / o.frames_per_second, speed.words());
     keep(i, stage.view->capture());
     progress.done(i + 1);
@@ -105,14 +114,16 @@ void draw(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o, co
 
 void writeFilm(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
   const Picture size = sizeOf(o.size);
-  replay::codecOf(o.video);   // refused before the scene is made
+  replay::codecOf(o.video);  // refused before the scene is made
   replay::Film film(o.video, o.frames_per_second, size.width, size.height);
   draw(recorded, cut, o, [&](int, const scene::Image& picture) { film.add(picture); });
   film.finish();
-  std::printf("Written: %s (%d pictures, %.1f s)\n", o.video.c_str(), film.frames(), film.frames() / o.frames_per_second);
+  std::printf("Written: %s (%d pictures, %.1f s)\n", o.video.c_str(), film.frames(),
+              film.frames() / o.frames_per_second);
 }
 
-/// Beside the pictures stands what they show: length, rate, and what happened when. It comes last: with it they are complete.
+/// Beside the pictures stands what they show: length, rate, and what happened when. It comes last:
+/// with it they are complete.
 void writePictures(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
   const std::filesystem::path folder = makeOutputFolder(o.pictures, "pictures");
   int count = 0;
@@ -122,32 +133,56 @@ void writePictures(RecordedShow& recorded, const Cut& cut, const ReplayViewOptio
     writeWhole(folder / name, live::jpegOf(picture, kPictureQuality));
     count = number + 1;
   });
-  nlohmann::json told{{"from_s", cut.from_s}, {"length_s", recorded.length_s()}, {"pictures_per_second", o.frames_per_second / o.speed}, {"pictures", count}, {"marks", nlohmann::json::array()}};
-  for (const replay::Mark& mark : recorded.marks()) told["marks"].push_back({{"t_s", mark.t_s}, {"tone", toneName(mark.tone)}, {"text", mark.words}, {"near_miss", mark.near_miss}});
+  nlohmann::json told{{"from_s", cut.from_s},
+                      {"length_s", recorded.length_s()},
+                      {"pictures_per_second", o.frames_per_second / o.speed},
+                      {"pictures", count},
+                      {"marks", nlohmann::json::array()}};
+  for (const replay::Mark& mark : recorded.marks())
+    told["marks"].push_back({{"t_s", mark.t_s},
+                             {"tone", toneName(mark.tone)},
+                             {"text", mark.words},
+                             {"near_miss", mark.near_miss}});
   writeWhole(folder / "pictures.json", told.dump(1) + "\n");
-  std::printf("Written: %s (%d pictures, and pictures.json: what happened when)\n", folder.c_str(), count);
+  std::printf("Written: %s (%d pictures, and pictures.json: what happened when)\n", folder.c_str(),
+              count);
 }
 
 }  // namespace
 
 void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
-  command.add_flag("--view", o.view, "Show a trial in the scene, in a window: space pauses, arrows step, + and - change the speed, Escape leaves");
-  command.add_option("--video", o.video, "Write it as a film instead (.mp4, .avi)")->type_name("FILE");
-  command.add_option("--pictures", o.pictures, "Write single pictures into this folder (JPEG), and what happened when (pictures.json)")->type_name("DIR");
-  command.add_option("--trial", o.trial, "Which trial; default: the first that was finished")->check(CLI::PositiveNumber);
-  command.add_option("--speed", o.speed, "1: as fast as it was")->check(CLI::Range(replay::kSlowest, replay::kFastest));
-  command.add_option("--from", o.from_s, "Second of the trial to begin with")->check(CLI::NonNegativeNumber);
-  command.add_option("--to", o.to_s, "Second of the trial to end with; default: its end")->check(CLI::NonNegativeNumber);
-  command.add_option("--fps", o.frames_per_second, "Pictures a second of the film")->check(CLI::Range(1.0, 120.0));
+  command.add_flag("--view", o.view,
+                   "Show a trial in the scene, in a window: space pauses, arrows step, + and - "
+                   "change the speed, Escape leaves");
+  command.add_option("--video", o.video, "Write it as a film instead (.mp4, .avi)")
+      ->type_name("FILE");
+  command
+      .add_option(
+          "--pictures", o.pictures,
+          "Write single pictures into this folder (JPEG), and what happened when (pictures.json)")
+      ->type_name("DIR");
+  command.add_option("--trial", o.trial, "Which trial; default: the first that was finished")
+      ->check(CLI::PositiveNumber);
+  command.add_option("--speed", o.speed, "1: as fast as it was")
+      ->check(CLI::Range(replay::kSlowest, replay::kFastest));
+  command.add_option("--from", o.from_s, "Second of the trial to begin with")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--to", o.to_s, "Second of the trial to end with; default: its end")
+      ->check(CLI::NonNegativeNumber);
+  command.add_option("--fps", o.frames_per_second, "Pictures a second of the film")
+      ->check(CLI::Range(1.0, 120.0));
   command.add_option("--size", o.size, "Of the film, pixels")->type_name("WxH");
 }
 
 void viewReplay(const std::string& file, const ReplayViewOptions& o) {
   const std::unique_ptr<RecordedShow> recorded = recordedShow(file, o.trial);
   const Cut cut = cutOf(o, recorded->length_s());
-  if (o.view) playInWindow(*recorded, cut, o);
-  else if (!o.video.empty()) writeFilm(*recorded, cut, o);
-  else writePictures(*recorded, cut, o);
+  if (o.view)
+    playInWindow(*recorded, cut, o);
+  else if (!o.video.empty())
+    writeFilm(*recorded, cut, o);
+  else
+    writePictures(*recorded, cut, o);
 }
 
 }  // namespace palpa::cli

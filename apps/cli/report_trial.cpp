@@ -155,7 +155,11 @@ void addReportTrial(CLI::App& report) {
   command->add_option("--answers", o->answers, "What a rater marked, typed in: item,value")
       ->type_name("FILE");
   command->add_option("--rater", o->rater, "The rater whose sheet is in the records");
-  command->add_option("--records", o->records, "Records with the rater's sheet: a file, or postgresql://user@host/database (default: as of palpa records)")->type_name("FILE|URL");
+  command
+      ->add_option("--records", o->records,
+                   "Records with the rater's sheet: a file, or postgresql://user@host/database "
+                   "(default: as of palpa records)")
+      ->type_name("FILE|URL");
   command->add_option("--out", o->out, "Page to write (default trial.html)")->type_name("FILE");
   command->callback([o] { reportTrial(*o); });
 }

@@ -26,10 +26,15 @@ Three things lie hidden on a floor; one is rougher than the others. Find it, and
 
 SessionLeft runSearchCommand(SessionOptions options) {
   settle(options);
-  if (options.headset) throw UsageError("does not show a search yet", "--display openxr", "Choose window or offscreen");
+  if (options.headset)
+    throw UsageError("does not show a search yet", "--display openxr",
+                     "Choose window or offscreen");
   const SearchWorld world(options);
   settleOperator(options, world.station);
-  if (options.who == OperatorKind::person && world.onBench()) throw UsageError("cannot be felt with a mouse", "--operator person", "Give a station with a haptic device (--station), or take --operator expert or novice");
+  if (options.who == OperatorKind::person && world.onBench())
+    throw UsageError(
+        "cannot be felt with a mouse", "--operator person",
+        "Give a station with a haptic device (--station), or take --operator expert or novice");
   checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
   const SearchRun run = runSearch(options, world, folder);
@@ -41,13 +46,20 @@ SessionLeft runSearchCommand(SessionOptions options) {
 void addSearch(CLI::App& program) {
   const auto options = std::make_shared<SessionOptions>();
   options->command = "search";
-  CLI::App* command = program.add_subcommand("search", "A training session: find the rough one of three hidden things by touch");
+  CLI::App* command = program.add_subcommand(
+      "search", "A training session: find the rough one of three hidden things by touch");
   command->footer(kSearchExamples);
-  command->add_option("--task", options->task, "Task file (default: the shipped one)")->type_name("FILE");
-  command->add_option("--mode", options->mode, "How the floor is rendered: as stiff as the device bears (real, the default), a fifth of that (degraded), that with cues added (augmented), or each episode in all three")
+  command->add_option("--task", options->task, "Task file (default: the shipped one)")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--mode", options->mode,
+          "How the floor is rendered: as stiff as the device bears (real, the default), a fifth of "
+          "that (degraded), that with cues added (augmented), or each episode in all three")
       ->check(CLI::IsMember({"real", "degraded", "augmented", "all"}))
       ->type_name("all|augmented|degraded|real");
-  command->add_flag("--blocks", options->blocks, "The task's blocks in place of --trials; training in the mode given");
+  command->add_flag("--blocks", options->blocks,
+                    "The task's blocks in place of --trials; training in the mode given");
   addRunArguments(*command, *options);
   command->callback([options] { runSearchCommand(*options); });
 }

@@ -16,24 +16,31 @@ namespace {
 
 using assess::SearchMode;
 
-constexpr double kPlateThick = 0.02;    // m, as shown
+constexpr double kPlateThick = 0.02;  // m, as shown
 constexpr SearchMode kModes[] = {SearchMode::real, SearchMode::degraded, SearchMode::augmented};
 
 station::Station searchStation(const SessionOptions& options) {
-  station::Station station = station::readStation(options.station.empty() ? station::assetFile("stations/search_bench.json") : std::filesystem::path(options.station));
+  station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/search_bench.json")
+                              : std::filesystem::path(options.station));
   station::judgeAge(station, utcNow());
   return station;
 }
 
 /// "all": the same episodes in every mode, one mode after the other for each.
-std::vector<task_search::Episode> episodesFor(const SessionOptions& options, const task_search::SearchSettings& task) {
+std::vector<task_search::Episode> episodesFor(const SessionOptions& options,
+                                              const task_search::SearchSettings& task) {
   if (options.mode != "all") {
     const SearchMode mode = *assess::searchModeOf(options.mode);
-    return options.blocks ? task_search::blocksOf(task, options.seed, mode) : task_search::episodesOf(options.seed, options.trials, mode);
+    return options.blocks ? task_search::blocksOf(task, options.seed, mode)
+                          : task_search::episodesOf(options.seed, options.trials, mode);
   }
-  if (options.blocks) throw UsageError("go with one mode", "--blocks, --mode all", "Say in which mode training goes: --mode degraded or augmented");
+  if (options.blocks)
+    throw UsageError("go with one mode", "--blocks, --mode all",
+                     "Say in which mode training goes: --mode degraded or augmented");
   std::vector<task_search::Episode> all;
-  for (task_search::Episode episode : task_search::episodesOf(options.seed, options.trials, SearchMode::real))
+  for (task_search::Episode episode :
+       task_search::episodesOf(options.seed, options.trials, SearchMode::real))
     for (const SearchMode mode : kModes) {
       episode.mode = mode;
       all.push_back(episode);
@@ -46,11 +53,20 @@ Vec3 plateSize(const task_search::SearchSettings& task) {
   return {side, side, kPlateThick};
 }
 
-std::unique_ptr<twin::Hand> searchingHandOf(const SessionOptions& options, const twin::VisibleFloor& seen, const Pose& X_ET) {
-  if (options.who != OperatorKind::learner) return twin::searchingHand(twin::readSearchingSkill(station::assetFile(options.who == OperatorKind::novice ? "operators/search_novice.json" : "operators/search_expert.json")), seen, X_ET, options.seed);
-  return std::make_unique<twin::LearningHand>([learner = options.learner, from = twin::readSearchingSkill(options.learner.from), to = twin::readSearchingSkill(options.learner.to), seen, X_ET](int trial) {
-    return twin::searchingHand(between(from, to, learner.level(trial)), seen, X_ET, learner.seed + static_cast<std::uint64_t>(trial - 1));
-  });
+std::unique_ptr<twin::Hand> searchingHandOf(const SessionOptions& options,
+                                            const twin::VisibleFloor& seen, const Pose& X_ET) {
+  if (options.who != OperatorKind::learner)
+    return twin::searchingHand(
+        twin::readSearchingSkill(station::assetFile(options.who == OperatorKind::novice
+                                                        ? "operators/search_novice.json"
+                                                        : "operators/search_expert.json")),
+        seen, X_ET, options.seed);
+  return std::make_unique<twin::LearningHand>(
+      [learner = options.learner, from = twin::readSearchingSkill(options.learner.from),
+       to = twin::readSearchingSkill(options.learner.to), seen, X_ET](int trial) {
+        return twin::searchingHand(between(from, to, learner.level(trial)), seen, X_ET,
+                                   learner.seed + static_cast<std::uint64_t>(trial - 1));
+      });
 }
 
 /// The probe points down.
@@ -60,7 +76,8 @@ Mat3 downward() { return Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRot
 
 SearchWorld::SearchWorld(const SessionOptions& options)
     : station(searchStation(options)),
-      task(task_search::readSearch(options.task.empty() ? station::assetFile("tasks/search.json") : std::filesystem::path(options.task))),
+      task(task_search::readSearch(options.task.empty() ? station::assetFile("tasks/search.json")
+                                                        : std::filesystem::path(options.task))),
       rendering(task_search::renderingOn(task, station)),
       plate(anatomy::phantomBlock(plateSize(task), task.title)),
       X_WA(station.floor->X_WF * anatomy::X_AP().inverse()),
@@ -76,7 +93,8 @@ haptics::TickConfig SearchWorld::tickConfig(const SessionOptions& options) const
   config.X_ET = pack(station.X_ET);
   config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
   config.floor = rendering;
-  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness, rendering.unit);
+  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N,
+                                           station.coupling.stiffness, rendering.unit);
   config.period_ns = std::llround(1e9 / options.rate_Hz);
   if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
   config.device_turns = 1;
@@ -93,7 +111,9 @@ SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
   seen.circle = task.spec.circle;
   seen.disc = task.spec.disc;
   seen.groove = task.spec.groove + task.spec.groove_half_width;
-  const Pose X_WF = station.floor->X_WF, X_WT = X_WF * makePose(downward(), Vec3(0, 0, rendering.start_height * rendering.unit));
+  const Pose X_WF = station.floor->X_WF,
+             X_WT =
+                 X_WF * makePose(downward(), Vec3(0, 0, rendering.start_height * rendering.unit));
   twin::VirtualBench::Setup bench{station,
                                   searchingHandOf(options, seen, station.X_ET),
                                   station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
@@ -113,8 +133,15 @@ record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed}, {"bench_seed", options.benchSeed()},        {"operator", nameOf(options.who)},           {"simulated", simulated(options)}, {"mode", options.mode},
-                                     {"trainee", options.trainee}, {"force_feedback", options.force_feedback}, {"virtual_time", options.fast}, {"assessed", options.assess}},
+  info.session_json = sessionText({{"seed", options.seed},
+                                   {"bench_seed", options.benchSeed()},
+                                   {"operator", nameOf(options.who)},
+                                   {"simulated", simulated(options)},
+                                   {"mode", options.mode},
+                                   {"trainee", options.trainee},
+                                   {"force_feedback", options.force_feedback},
+                                   {"virtual_time", options.fast},
+                                   {"assessed", options.assess}},
                                   options);
   info.station_json = station.file.json().dump();
   info.task_json = task.source;
@@ -122,15 +149,25 @@ record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
   return info;
 }
 
-SearchRun runSearch(const SessionOptions& options, const SearchWorld& world, const std::filesystem::path& folder) {
-  task_search::SearchChannels channels(options.fast ? runtime::TimeMode::virtual_time : runtime::TimeMode::real);
+SearchRun runSearch(const SessionOptions& options, const SearchWorld& world,
+                    const std::filesystem::path& folder) {
+  task_search::SearchChannels channels(options.fast ? runtime::TimeMode::virtual_time
+                                                    : runtime::TimeMode::real);
   const haptics::TickConfig tick = world.tickConfig(options);
   task_search::Floors floors(world.task, world.episodes);
-  SessionFrame frame(options, {world.station, world.plate, world.X_WA, tick, {}, false, &floors}, world.hands(options), channels, folder);
-  const std::string not_scored = world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict;
-  task_search::SearchTask task({world.task, tick, world.simulated(options), options.who != OperatorKind::person, options.force_feedback, options.fast, not_scored, world.episodes, frame.places(), options.role}, floors,
-                               frame.bus(), channels, frame.executive());
-  task_search::SearchScene scene({frame.stage(), world.station.floor->X_WF, world.X_AF, world.task.spec.side * world.rendering.unit, world.magnification()}, frame.bus(), channels);
+  SessionFrame frame(options, {world.station, world.plate, world.X_WA, tick, {}, false, &floors},
+                     world.hands(options), channels, folder);
+  const std::string not_scored =
+      world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict;
+  task_search::SearchTask task(
+      {world.task, tick, world.simulated(options), options.who != OperatorKind::person,
+       options.force_feedback, options.fast, not_scored, world.episodes, frame.places(),
+       options.role},
+      floors, frame.bus(), channels, frame.executive());
+  task_search::SearchScene scene(
+      {frame.stage(), world.station.floor->X_WF, world.X_AF,
+       world.task.spec.side * world.rendering.unit, world.magnification()},
+      frame.bus(), channels);
   SearchRun run;
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
   run.trials = task.completed();

@@ -12,7 +12,8 @@ struct SessionLeft {
   bool quit = false;
 };
 
-/// A whole session with its results, as the command of that name runs it. Throws UsageError or Error.
+/// A whole session with its results, as the command of that name runs it. Throws UsageError or
+/// Error.
 SessionLeft runParacentesisCommand(SessionOptions options);
 SessionLeft runPalpationCommand(SessionOptions options);
 SessionLeft runSqueezeCommand(SessionOptions options);

@@ -29,18 +29,29 @@ nlohmann::json json(const Pose& X) {
 
 const char* nameOf(OperatorKind who) {
   switch (who) {
-    case OperatorKind::person: return "person";
-    case OperatorKind::recorded: return "recorded";
-    case OperatorKind::novice: return "novice";
-    case OperatorKind::learner: return "learner";
-    default: return "expert";
+    case OperatorKind::person:
+      return "person";
+    case OperatorKind::recorded:
+      return "recorded";
+    case OperatorKind::novice:
+      return "novice";
+    case OperatorKind::learner:
+      return "learner";
+    default:
+      return "expert";
   }
 }
 
 std::string sessionText(nlohmann::json session, const SessionOptions& options) {
   const StudyStep& s = options.study;
   if (!s.id.empty())
-    session["study"] = {{"id", s.id}, {"slot", s.slot}, {"group", s.group}, {"condition", s.condition}, {"block", s.block}, {"step", s.step}, {"protocol_sha256", s.protocol_sha256}};
+    session["study"] = {{"id", s.id},
+                        {"slot", s.slot},
+                        {"group", s.group},
+                        {"condition", s.condition},
+                        {"block", s.block},
+                        {"step", s.step},
+                        {"protocol_sha256", s.protocol_sha256}};
   return session.dump();
 }
 
@@ -53,7 +64,8 @@ haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld&
   config.period_ns = std::llround(1e9 / options.rate_Hz);
   if (options.exact_geometry) config.blend_ns = 0;  // every tick has its own
   const station::DeviceSetup& device = world.station.device;
-  const bool has_buttons = !isSimulated(options.who) && device.driver != station::DeviceDriver::mouse;
+  const bool has_buttons =
+      !isSimulated(options.who) && device.driver != station::DeviceDriver::mouse;
   if (!has_buttons) config.safety.deadman_button = 0;  // nobody could hold it
   config.device_turns = isSimulated(options.who) || device.capabilities.has_orientation;
   return config;
@@ -66,29 +78,31 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
   info.started_utc = utcNow();
   info.software = std::string("palpa ") + PALPA_VERSION;
   info.command = options.command;
-  info.session_json = sessionText({{"seed", options.seed}, {"bench_seed", options.benchSeed()},
-                                     {"operator", nameOf(options.who)},
-                                     {"knows_patient", options.knows_patient},
-                                     {"simulated", isSimulated(options, world)},
-                                     {"trainee", options.trainee},
-                                     {"force_feedback", options.force_feedback},
-                                     {"side", anatomy::name(world.patient.side)},
-                                     {"augment", options.augment},
-                                     {"skin_deflection", options.skin_deflection},
-                                     {"handedness", options.left_handed ? "left" : "right"},
-                                     {"virtual_time", options.fast},
-                                     {"camera_rate_Hz", world.station.camera_rate_Hz},
-                                     {"assessed", options.assess},
-                                     {"X_DA", json(world.X_DA)},
-                                     {"X_WA", json(world.X_WA)},
-                                     {"X_WD", json(world.station.X_WD)}},
+  info.session_json = sessionText({{"seed", options.seed},
+                                   {"bench_seed", options.benchSeed()},
+                                   {"operator", nameOf(options.who)},
+                                   {"knows_patient", options.knows_patient},
+                                   {"simulated", isSimulated(options, world)},
+                                   {"trainee", options.trainee},
+                                   {"force_feedback", options.force_feedback},
+                                   {"side", anatomy::name(world.patient.side)},
+                                   {"augment", options.augment},
+                                   {"skin_deflection", options.skin_deflection},
+                                   {"handedness", options.left_handed ? "left" : "right"},
+                                   {"virtual_time", options.fast},
+                                   {"camera_rate_Hz", world.station.camera_rate_Hz},
+                                   {"assessed", options.assess},
+                                   {"X_DA", json(world.X_DA)},
+                                   {"X_WA", json(world.X_WA)},
+                                   {"X_WD", json(world.station.X_WD)}},
                                   options);
   info.station_json = world.station.file.json().dump();
   info.task_json = world.task.source;
   info.patient_glb = bytesOf(world.patient, folder);
   if (world.expert_path) {
     std::ifstream stream(world.task.expert_path);
-    info.expert_path_json.assign(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
+    info.expert_path_json.assign(std::istreambuf_iterator<char>(stream),
+                                 std::istreambuf_iterator<char>());
   }
   info.tick_config = tickConfig(options, world);
   return info;

@@ -17,7 +17,8 @@ std::string sessionText(nlohmann::json session, const SessionOptions& options);
 /// Whether anything in the session is simulated: the operator, or what is seen and felt.
 bool isSimulated(const SessionOptions& options, const NeedleWorld& world);
 
-/// What the loop runs with: materials, safety, coupling, rate; what the device and whoever holds it can do.
+/// What the loop runs with: materials, safety, coupling, rate; what the device and whoever holds it
+/// can do.
 haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld& world);
 
 /// What the evidence says of the session. `folder`: for a passing file.

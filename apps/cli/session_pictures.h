@@ -20,8 +20,10 @@ struct RegistrationRow {
   Pose X_CW = Pose::Identity();
 };
 
-/// Where a session's pictures come from, and what board is looked for in them: the bench's camera, the station's webcam, a film, or photographs one
-/// after the other, over and over. Throws UsageError when pictures and intrinsics do not fit, or a webcam is to be watched in virtual time.
+/// Where a session's pictures come from, and what board is looked for in them: the bench's camera,
+/// the station's webcam, a film, or photographs one after the other, over and over. Throws
+/// UsageError when pictures and intrinsics do not fit, or a webcam is to be watched in virtual
+/// time.
 class SessionPictures {
  public:
   SessionPictures(const SessionOptions& options, const station::Station& station);
@@ -35,21 +37,24 @@ class SessionPictures {
   /// `bench` is asked only where its camera is watched; `clock`: the session's.
   runtime::CameraActivity::Exposer exposer(twin::VirtualBench* bench, const runtime::Clock& clock);
   runtime::CameraActivity::Observer observer(twin::VirtualBench* bench);
-  const std::vector<RegistrationRow>& registration() const { return registration_; }   ///< of photographs
-  std::vector<std::string> remarks() const;   ///< what a webcam's driver did not accept, in words
+  const std::vector<RegistrationRow>& registration() const {
+    return registration_;
+  }                                          ///< of photographs
+  std::vector<std::string> remarks() const;  ///< what a webcam's driver did not accept, in words
 
  private:
   enum class Source { bench, webcam, film, photographs };
-  std::optional<ar::Frame> take(std::int64_t now_ns, std::uint64_t number, const runtime::Clock& clock);
+  std::optional<ar::Frame> take(std::int64_t now_ns, std::uint64_t number,
+                                const runtime::Clock& clock);
   std::unique_ptr<ar::Camera> opened() const;
   void note(const runtime::CameraView& view);
 
   const station::Station& station_;
-  std::string file_;                     ///< pattern or film
+  std::string file_;  ///< pattern or film
   Source source_ = Source::bench;
   calibration::CameraModel camera_;
   double rate_Hz_;
-  std::unique_ptr<ar::Camera> pictures_; ///< null: the bench's, or a webcam that is not open
+  std::unique_ptr<ar::Camera> pictures_;  ///< null: the bench's, or a webcam that is not open
   std::size_t photographs_ = 0;
   std::unique_ptr<ar::Board> board_;
   std::vector<RegistrationRow> registration_;

@@ -19,7 +19,11 @@ void checkTrainee(SessionOptions& o) {
   try {
     record::RecordStore store(o.records);
     if (const auto trainee = store.trainee(o.trainee)) {
-      if (trainee->consent_utc.empty()) std::printf("No consent of %s to training records is noted; where it was given: palpa records trainee change --id %s --consent\n", o.trainee.c_str(), o.trainee.c_str());
+      if (trainee->consent_utc.empty())
+        std::printf(
+            "No consent of %s to training records is noted; where it was given: palpa records "
+            "trainee change --id %s --consent\n",
+            o.trainee.c_str(), o.trainee.c_str());
       return;
     }
     if (o.trainee != kNobody)

@@ -22,8 +22,12 @@ Two devices are simulated only, so far: a person cannot take part yet.)";
 
 SessionLeft runSqueezeCommand(SessionOptions options) {
   settle(options);
-  if (!isSimulated(options.who)) throw UsageError("cannot hold something with one device", "--operator", "Two devices are simulated only, so far: --operator expert or novice");
-  if (options.headset) throw UsageError("does not show squeezing yet", "--display openxr", "Choose window or offscreen");
+  if (!isSimulated(options.who))
+    throw UsageError("cannot hold something with one device", "--operator",
+                     "Two devices are simulated only, so far: --operator expert or novice");
+  if (options.headset)
+    throw UsageError("does not show squeezing yet", "--display openxr",
+                     "Choose window or offscreen");
   const SqueezeWorld world(options);
   checkTrainee(options);
   const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
@@ -36,9 +40,12 @@ SessionLeft runSqueezeCommand(SessionOptions options) {
 void addSqueeze(CLI::App& program) {
   const auto options = std::make_shared<SessionOptions>();
   options->command = "squeeze";
-  CLI::App* command = program.add_subcommand("squeeze", "A training session: which of two things in the hand is harder, which is heavier?");
+  CLI::App* command = program.add_subcommand(
+      "squeeze",
+      "A training session: which of two things in the hand is harder, which is heavier?");
   command->footer(kSqueezeExamples);
-  command->add_option("--task", options->task, "Task file (default: the shipped one)")->type_name("FILE");
+  command->add_option("--task", options->task, "Task file (default: the shipped one)")
+      ->type_name("FILE");
   addRunArguments(*command, *options);
   command->callback([options] { runSqueezeCommand(*options); });
 }

@@ -7,16 +7,19 @@
 
 namespace palpa::cli {
 
-/// Everything a comparison session rests on, read and checked before anything starts. Immovable: parts refer to each other.
+/// Everything a comparison session rests on, read and checked before anything starts. Immovable:
+/// parts refer to each other.
 struct SqueezeWorld {
-  explicit SqueezeWorld(const SessionOptions& options);   ///< throws UsageError / Error
+  explicit SqueezeWorld(const SessionOptions& options);  ///< throws UsageError / Error
   SqueezeWorld(const SqueezeWorld&) = delete;
   SqueezeWorld& operator=(const SqueezeWorld&) = delete;
 
   station::Station station;
   task_squeeze::SqueezeSettings task;
-  anatomy::Patient object;             ///< as it is shown
-  Pose X_WO = Pose::Identity(), X_WA = Pose::Identity();   ///< its middle at rest, x from the second tool to the first; as shown
+  anatomy::Patient object;  ///< as it is shown
+  Pose X_WO = Pose::Identity(),
+       X_WA =
+           Pose::Identity();  ///< its middle at rest, x from the second tool to the first; as shown
 
   haptics::PairConfig pairConfig(const SessionOptions& options) const;
   SessionDevices::Hands hands(const SessionOptions& options) const;
@@ -28,9 +31,11 @@ struct SqueezeRun : SessionRun {
 };
 
 /// Runs the trials; leaves session.palpa and view-*.png in `folder`.
-SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world, const std::filesystem::path& folder);
+SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
+                      const std::filesystem::path& folder);
 
 /// trials.csv and report.html; the last lines on standard output say what was written.
-void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world, const SqueezeRun& run, const std::filesystem::path& folder);
+void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world,
+                         const SqueezeRun& run, const std::filesystem::path& folder);
 
 }  // namespace palpa::cli

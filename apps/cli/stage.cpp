@@ -2,7 +2,8 @@
 
 namespace palpa::cli {
 
-Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window, bool fixed_views) {
+Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
+                bool fixed_views) {
   scene::ViewLayout layout;
   layout.orthographic = fixed_views;
   layout.free_navigation = options.navigation;
@@ -11,9 +12,8 @@ Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, 
   layout.stereo = options.stereo;
   layout.inset = options.inset;
   Stage stage;
-  stage.context =
-      scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
-                           layout.width, layout.height, "Palpa");
+  stage.context = scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
+                                       layout.width, layout.height, "Palpa");
   stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
   return stage;
 }

@@ -13,6 +13,7 @@ struct Stage {
   std::unique_ptr<scene::SceneView> view;
 };
 
-Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window, bool fixed_views = true);
+Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
+                bool fixed_views = true);
 
 }  // namespace palpa::cli

@@ -67,9 +67,13 @@ using study_analysis::StudyRow;
 
 /// A name mistyped would leave its rows out of every table.
 template <class NameOf>
-void requireNames(const std::vector<std::string>& names, const std::vector<StudyRow>& rows, const char* option, NameOf nameOf) {
+void requireNames(const std::vector<std::string>& names, const std::vector<StudyRow>& rows,
+                  const char* option, NameOf nameOf) {
   for (const std::string& name : names)
-    if (std::none_of(rows.begin(), rows.end(), [&](const StudyRow& row) { return nameOf(row) == name; })) throw UsageError("is in no trial of this study", std::string(option) + " " + name, "Write it as the protocol or the table does");
+    if (std::none_of(rows.begin(), rows.end(),
+                     [&](const StudyRow& row) { return nameOf(row) == name; }))
+      throw UsageError("is in no trial of this study", std::string(option) + " " + name,
+                       "Write it as the protocol or the table does");
 }
 
 void analyse(const AnalyseOptions& o) {
@@ -78,7 +82,8 @@ void analyse(const AnalyseOptions& o) {
                      "Say what is to be analysed");
   AnalyseInput input = inputOf(o);
   requireNames(o.groups, input.rows, "--groups", [](const StudyRow& row) { return row.group; });
-  requireNames(o.conditions, input.rows, "--conditions", [](const StudyRow& row) { return row.condition; });
+  requireNames(o.conditions, input.rows, "--conditions",
+               [](const StudyRow& row) { return row.condition; });
   const study_analysis::StudyResult result = study_analysis::analyseStudy(input.rows, input.design);
   const fs::path folder = makeOutputFolder(o.out, "study");
   const std::vector<fs::path> files = report::writeStudyTables(result, folder);

@@ -22,7 +22,9 @@ constexpr const char* kRunExamples = R"(Examples:
       virtual trainees who learn, to test the whole chain; simulated, and called so)";
 
 /// Notes of this station name the records; they must mean the same from any folder.
-std::string fromAnywhere(const std::string& url) { return record::isServer(url) ? url : std::filesystem::absolute(url).string(); }
+std::string fromAnywhere(const std::string& url) {
+  return record::isServer(url) ? url : std::filesystem::absolute(url).string();
+}
 
 void run(StudyOptions o) {
   o.url = fromAnywhere(o.url);
@@ -86,8 +88,9 @@ void addRun(CLI::App& study) {
 }  // namespace
 
 void addStudy(CLI::App& program) {
-  CLI::App* study =
-      program.add_subcommand("study", "Studies: run a protocol, see how far it is, what was found, how many subjects it takes");
+  CLI::App* study = program.add_subcommand(
+      "study",
+      "Studies: run a protocol, see how far it is, what was found, how many subjects it takes");
   study->require_subcommand(1);
   study->footer(
       "Examples:\n  palpa study run --protocol assets/protocols/paracentesis_pilot.json --trainee "

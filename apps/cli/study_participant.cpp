@@ -44,12 +44,14 @@ std::string traineeIn(const fs::path& evidence) {
   }
 }
 
-/// Of this trainee, on this station, but what still goes on. A session that was noted but has no file never began.
+/// Of this trainee, on this station, but what still goes on. A session that was noted but has no
+/// file never began.
 std::vector<record::PendingSession> waitingFor(const std::string& trainee, const std::string& url) {
   const record::PendingList pending(record::PendingList::usualFolder());
   std::vector<record::PendingSession> waiting = pending.sessions();
   std::erase_if(waiting, [&](const record::PendingSession& s) {
-    return s.url != absoluteRecords(url) || pending.isHeld(s.uuid) || (fs::exists(s.evidence) && traineeIn(s.evidence) != trainee);
+    return s.url != absoluteRecords(url) || pending.isHeld(s.uuid) ||
+           (fs::exists(s.evidence) && traineeIn(s.evidence) != trainee);
   });
   return waiting;
 }

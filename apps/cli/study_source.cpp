@@ -97,7 +97,8 @@ std::vector<StudyRow> studyRows(record::RecordStore& store, const std::string& s
 std::vector<StudyRow> studyRowsOfFile(const std::string& csv) {
   std::ifstream stream(csv, std::ios::binary);
   std::error_code none;
-  if (!stream || std::filesystem::is_directory(csv, none)) throw UsageError("cannot be read", csv, "Check name and permissions");
+  if (!stream || std::filesystem::is_directory(csv, none))
+    throw UsageError("cannot be read", csv, "Check name and permissions");
   const std::string text{std::istreambuf_iterator<char>(stream), {}};
   return study_analysis::rowsOfCsv(text, csv);
 }

@@ -7,7 +7,8 @@
 
 namespace palpa::cli {
 
-/// How far a piece of work is, on standard error: a line that renews itself on a terminal, a line every five seconds otherwise.
+/// How far a piece of work is, on standard error: a line that renews itself on a terminal, a line
+/// every five seconds otherwise.
 class WorkProgress {
  public:
   WorkProgress(std::string what, int of);

@@ -53,10 +53,12 @@ struct Spawning {
 
 }  // namespace
 
-ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log, bool gives_way) {
+ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                bool gives_way) {
   Spawning how;
   posix_spawn_file_actions_addopen(&how.files, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
-  posix_spawn_file_actions_addopen(&how.files, STDOUT_FILENO, log.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600);
+  posix_spawn_file_actions_addopen(&how.files, STDOUT_FILENO, log.c_str(),
+                                   O_WRONLY | O_CREAT | O_APPEND, 0600);
   posix_spawn_file_actions_adddup2(&how.files, STDOUT_FILENO, STDERR_FILENO);
   posix_spawn_file_actions_addclosefrom_np(&how.files, kFirstOfOurs);
   sigset_t none;
@@ -69,7 +71,10 @@ ProcessId start(const std::vector<std::string>& arguments, const std::filesystem
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);
   pid_t pid = 0;
-  if (const int error = posix_spawn(&pid, "/proc/self/exe", &how.files, &how.attributes, argv.data(), environ)) throw Error(std::string("cannot be started (") + std::strerror(error) + ")", "palpa " + arguments.front(), "Look for memory and disk space");
+  if (const int error =
+          posix_spawn(&pid, "/proc/self/exe", &how.files, &how.attributes, argv.data(), environ))
+    throw Error(std::string("cannot be started (") + std::strerror(error) + ")",
+                "palpa " + arguments.front(), "Look for memory and disk space");
   if (gives_way) ::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), kNice);
   return {pid, beganAt(pid)};
 }
@@ -78,7 +83,7 @@ bool runs(const ProcessId& process) {
   if (process.pid <= 0) return false;
   const std::uint64_t began = beganAt(process.pid);
   if (began != 0 && began == process.began) return true;
-  ::waitpid(process.pid, nullptr, WNOHANG);   // put away, where it was ours
+  ::waitpid(process.pid, nullptr, WNOHANG);  // put away, where it was ours
   return false;
 }
 
@@ -93,16 +98,20 @@ std::vector<std::string> lastLines(const std::filesystem::path& log, std::size_t
   file.seekg(std::max<std::streamoff>(0, size - kTail));
   std::vector<std::string> lines;
   for (std::string line; std::getline(file, line);) {
-    if (const std::size_t anew = line.rfind('\r'); anew != std::string::npos) line.erase(0, anew + 1);
+    if (const std::size_t anew = line.rfind('\r'); anew != std::string::npos)
+      line.erase(0, anew + 1);
     if (!line.empty()) lines.push_back(line);
   }
-  if (lines.size() > most) lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(most));
+  if (lines.size() > most)
+    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(most));
   return lines;
 }
 
 std::string complaintIn(const std::filesystem::path& log) {
   const std::vector<std::string> lines = lastLines(log, 50);
-  const auto found = std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) { return line.rfind("palpa: ", 0) == 0; });
+  const auto found = std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) {
+    return line.rfind("palpa: ", 0) == 0;
+  });
   return found == lines.rend() ? "" : found->substr(7);
 }
 

@@ -11,12 +11,15 @@ namespace palpa::console {
 /// A process of this program, as it can be found again by another one later.
 struct ProcessId {
   int pid = 0;
-  std::uint64_t began = 0;      ///< of the kernel, ticks since boot: tells it from a later process with the same number
+  std::uint64_t began =
+      0;  ///< of the kernel, ticks since boot: tells it from a later process with the same number
   bool operator==(const ProcessId&) const = default;
 };
 
-/// Starts this program anew with `arguments`: in a session of its own, so that it outlives whoever started it; output goes to `log`; nothing of ours stays open in it. Throws Error.
-ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log, bool gives_way);
+/// Starts this program anew with `arguments`: in a session of its own, so that it outlives whoever
+/// started it; output goes to `log`; nothing of ours stays open in it. Throws Error.
+ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log,
+                bool gives_way);
 /// It runs. A child of ours that ended is put away.
 bool runs(const ProcessId& process);
 /// Asks it to end, as Ctrl-C does.

@@ -11,7 +11,7 @@ namespace palpa::console {
 
 struct ConsoleSettings {
   Place place;
-  std::string station;             ///< file of the station in use from now on; empty: as before
+  std::string station;  ///< file of the station in use from now on; empty: as before
   std::string address = "127.0.0.1";
   int port = 0;                    ///< 0: any that is free
   std::string token;               ///< needed for any other address than this computer's own
@@ -22,8 +22,10 @@ struct ConsoleSettings {
 /// This computer alone can reach it.
 bool isLoopback(const std::string& address);
 
-/// Serves until SIGINT or SIGTERM; sessions go on then. `ready`: called with the address of the page when it is there. Throws Error where another console uses the same place, or the port is taken;
-/// UsageError for an address open to others without a token.
-void serveConsole(const ConsoleSettings& settings, const std::function<void(const std::string& url)>& ready);
+/// Serves until SIGINT or SIGTERM; sessions go on then. `ready`: called with the address of the
+/// page when it is there. Throws Error where another console uses the same place, or the port is
+/// taken; UsageError for an address open to others without a token.
+void serveConsole(const ConsoleSettings& settings,
+                  const std::function<void(const std::string& url)>& ready);
 
 }  // namespace palpa::console

@@ -44,16 +44,21 @@ void DeadlineStream::begin(Clock::time_point deadline, std::size_t most) {
   left_ = most;
 }
 
-bool DeadlineStream::waits(std::chrono::milliseconds time) const { return at_ < buffer_.size() || ready(socket_, POLLIN, time); }
+bool DeadlineStream::waits(std::chrono::milliseconds time) const {
+  return at_ < buffer_.size() || ready(socket_, POLLIN, time);
+}
 
 bool DeadlineStream::is_readable() const {
-  return at_ < buffer_.size() || ready(socket_, POLLIN, std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()));
+  return at_ < buffer_.size() ||
+         ready(socket_, POLLIN,
+               std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()));
 }
 
 /// False as soon as the other side is gone: a stream of pictures ends with its reader.
 bool DeadlineStream::is_writable() const {
   pollfd one{socket_, POLLOUT | POLLRDHUP, 0};
-  return ::poll(&one, 1, kWrite_ms) == 1 && !(one.revents & (POLLERR | POLLHUP | POLLRDHUP)) && (one.revents & POLLOUT);
+  return ::poll(&one, 1, kWrite_ms) == 1 && !(one.revents & (POLLERR | POLLHUP | POLLRDHUP)) &&
+         (one.revents & POLLOUT);
 }
 
 bool DeadlineStream::fill() {
@@ -86,13 +91,15 @@ ssize_t DeadlineStream::write(const char* from, std::size_t size) {
 void DeadlineStream::get_remote_ip_and_port(std::string& ip, int& port) const {
   sockaddr_storage from{};
   socklen_t size = sizeof from;
-  if (::getpeername(socket_, reinterpret_cast<sockaddr*>(&from), &size) == 0) addressOf(from, &ip, &port);
+  if (::getpeername(socket_, reinterpret_cast<sockaddr*>(&from), &size) == 0)
+    addressOf(from, &ip, &port);
 }
 
 void DeadlineStream::get_local_ip_and_port(std::string& ip, int& port) const {
   sockaddr_storage from{};
   socklen_t size = sizeof from;
-  if (::getsockname(socket_, reinterpret_cast<sockaddr*>(&from), &size) == 0) addressOf(from, &ip, &port);
+  if (::getsockname(socket_, reinterpret_cast<sockaddr*>(&from), &size) == 0)
+    addressOf(from, &ip, &port);
 }
 
 }  // namespace palpa::console

@@ -8,7 +8,8 @@
 
 namespace palpa::console {
 
-/// A connection whose request must be complete by a moment and within a size, however slowly its bytes come; answers may take as long as they are taken off.
+/// A connection whose request must be complete by a moment and within a size, however slowly its
+/// bytes come; answers may take as long as they are taken off.
 class DeadlineStream final : public httplib::Stream {
  public:
   using Clock = runtime::ServingClock;
@@ -27,7 +28,7 @@ class DeadlineStream final : public httplib::Stream {
   void get_local_ip_and_port(std::string& ip, int& port) const override;
   socket_t socket() const override { return socket_; }
   const std::string& remote() const { return remote_; }
-  bool cut() const { return cut_; }     ///< it was too slow or too long
+  bool cut() const { return cut_; }  ///< it was too slow or too long
 
  private:
   bool fill();

@@ -14,10 +14,14 @@ constexpr std::size_t kKeptNumbers = 20'000, kMostWrites = 60, kMostWrong = 5, k
 constexpr std::chrono::seconds kWritesWithin{10}, kWrongWithin{60};
 constexpr char kCookie[] = "palpa=";
 
-bool same(const std::string& a, const std::string& b) { return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0; }
+bool same(const std::string& a, const std::string& b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
 
 bool isNumber(const std::string& id) {
-  return id.size() == 32 && std::all_of(id.begin(), id.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f'); });
+  return id.size() == 32 && std::all_of(id.begin(), id.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'f');
+         });
 }
 
 std::string valueOf(const std::string& cookies) {
@@ -25,7 +29,8 @@ std::string valueOf(const std::string& cookies) {
     const std::size_t end = std::min(cookies.find(';', at), cookies.size());
     std::size_t begin = at;
     while (begin < end && cookies[begin] == ' ') ++begin;
-    if (cookies.compare(begin, sizeof kCookie - 1, kCookie) == 0) return cookies.substr(begin + sizeof kCookie - 1, end - begin - (sizeof kCookie - 1));
+    if (cookies.compare(begin, sizeof kCookie - 1, kCookie) == 0)
+      return cookies.substr(begin + sizeof kCookie - 1, end - begin - (sizeof kCookie - 1));
     at = end + 1;
   }
   return "";
@@ -40,11 +45,14 @@ std::size_t recent(Times& times, Time now, Span within) {
 
 }  // namespace
 
-const char* const kReportPolicy = "sandbox allow-modals allow-popups; default-src 'none'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
+const char* const kReportPolicy =
+    "sandbox allow-modals allow-popups; default-src 'none'; style-src 'unsafe-inline'; img-src "
+    "data:; base-uri 'none'; form-action 'none'; frame-ancestors 'self'";
 
 std::string randomKey() {
   unsigned char bytes[16];
-  if (RAND_bytes(bytes, sizeof bytes) != 1) throw Error("gives no random numbers", "this computer", "Restart it");
+  if (RAND_bytes(bytes, sizeof bytes) != 1)
+    throw Error("gives no random numbers", "this computer", "Restart it");
   std::string text;
   for (const unsigned char byte : bytes) {
     text += "0123456789abcdef"[byte >> 4];
@@ -55,21 +63,39 @@ std::string randomKey() {
 
 const std::vector<std::pair<std::string, std::string>>& safeHeaders() {
   static const std::vector<std::pair<std::string, std::string>> all{
-      {"Content-Security-Policy", "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; connect-src 'self'; frame-src 'self'; font-src 'self'; base-uri 'none'; form-action 'none'; frame-ancestors 'none'"},
-      {"X-Content-Type-Options", "nosniff"}, {"Referrer-Policy", "no-referrer"}, {"Cross-Origin-Opener-Policy", "same-origin"}, {"Cross-Origin-Resource-Policy", "same-origin"}, {"Cache-Control", "no-store"}};
+      {"Content-Security-Policy",
+       "default-src 'none'; script-src 'self'; style-src 'self'; img-src 'self' data: blob:; "
+       "connect-src 'self'; frame-src 'self'; font-src 'self'; base-uri 'none'; form-action "
+       "'none'; frame-ancestors 'none'"},
+      {"X-Content-Type-Options", "nosniff"},
+      {"Referrer-Policy", "no-referrer"},
+      {"Cross-Origin-Opener-Policy", "same-origin"},
+      {"Cross-Origin-Resource-Policy", "same-origin"},
+      {"Cache-Control", "no-store"}};
   return all;
 }
 
-Guard::Guard(std::string token) : token_(std::move(token)), page_key_(randomKey()), cookie_(randomKey()) {}
+Guard::Guard(std::string token)
+    : token_(std::move(token)), page_key_(randomKey()), cookie_(randomKey()) {}
 
-bool Guard::entered(const std::string& cookie_header) const { return token_.empty() || same(valueOf(cookie_header), cookie_); }
+bool Guard::entered(const std::string& cookie_header) const {
+  return token_.empty() || same(valueOf(cookie_header), cookie_);
+}
 
 Verdict Guard::judge(const Asked& asked) {
-  if (std::find(hosts_.begin(), hosts_.end(), asked.host) == hosts_.end()) return {421, "this console is not called \"" + asked.host.substr(0, 64) + "\": use the address that it says when it starts"};
-  const bool own = asked.origin.empty() || std::any_of(hosts_.begin(), hosts_.end(), [&](const std::string& host) { return asked.origin == "http://" + host; });
+  if (std::find(hosts_.begin(), hosts_.end(), asked.host) == hosts_.end())
+    return {421, "this console is not called \"" + asked.host.substr(0, 64) +
+                     "\": use the address that it says when it starts"};
+  const bool own = asked.origin.empty() ||
+                   std::any_of(hosts_.begin(), hosts_.end(), [&](const std::string& host) {
+                     return asked.origin == "http://" + host;
+                   });
   if (!own) return {403, "asked for by another site"};
-  const bool page = asked.method == "GET" && (asked.path == "/" || asked.path.rfind("/static/", 0) == 0);
-  if (!asked.fetch_site.empty() && asked.fetch_site != "same-origin" && !(asked.fetch_site == "none" && asked.method == "GET") && !page) return {403, "asked for by another site"};
+  const bool page =
+      asked.method == "GET" && (asked.path == "/" || asked.path.rfind("/static/", 0) == 0);
+  if (!asked.fetch_site.empty() && asked.fetch_site != "same-origin" &&
+      !(asked.fetch_site == "none" && asked.method == "GET") && !page)
+    return {403, "asked for by another site"};
   if (asked.method == "POST") {
     if (Verdict verdict = judgeWrite(asked); verdict.status != 200) return verdict;
   } else if (asked.method != "GET") {
@@ -82,7 +108,8 @@ Verdict Guard::judge(const Asked& asked) {
 
 Verdict Guard::judgeWrite(const Asked& asked) {
   if (asked.content_type.rfind("application/json", 0) != 0) return {415, "a write is JSON"};
-  if (!same(asked.page_key, page_key_)) return {403, "not asked for by a page of this console: load the page again"};
+  if (!same(asked.page_key, page_key_))
+    return {403, "not asked for by a page of this console: load the page again"};
   if (!isNumber(asked.write_id)) return {400, "a write needs a number of its own"};
   const std::lock_guard lock(mutex_);
   if (flooding(asked.remote)) return {429, "too many writes: wait a few seconds"};

@@ -15,27 +15,31 @@ namespace palpa::console {
 
 /// What of a request is judged.
 struct Asked {
-  std::string remote;          ///< address it came from
+  std::string remote;  ///< address it came from
   std::string method, path;
-  std::string host, origin, fetch_site, content_type, cookie, page_key, write_id;   ///< of its headers; empty: none
+  std::string host, origin, fetch_site, content_type, cookie, page_key,
+      write_id;  ///< of its headers; empty: none
 };
 
 struct Verdict {
-  int status = 200;            ///< 200: it may pass
-  std::string words;           ///< else why not
+  int status = 200;   ///< 200: it may pass
+  std::string words;  ///< else why not
 };
 
-/// Refuses foreign hosts (a page elsewhere whose name was bent to this address), foreign origins, writes without the page's key or with a number that was used before, floods, and everybody who
+/// Refuses foreign hosts (a page elsewhere whose name was bent to this address), foreign origins,
+/// writes without the page's key or with a number that was used before, floods, and everybody who
 /// has not given the token where one is asked for. Any thread.
 class Guard {
  public:
   /// `token`: empty: none is asked for.
   explicit Guard(std::string token);
-  /// Names with port by which the console may be called; before it is asked anything. Until then nobody may.
+  /// Names with port by which the console may be called; before it is asked anything. Until then
+  /// nobody may.
   void answerTo(std::vector<std::string> hosts) { hosts_ = std::move(hosts); }
 
   Verdict judge(const Asked& asked);
-  /// The cookie for whoever gave the right token; empty: wrong, or too many wrong ones came from there.
+  /// The cookie for whoever gave the right token; empty: wrong, or too many wrong ones came from
+  /// there.
   std::string enter(const std::string& remote, const std::string& token);
   bool entered(const std::string& cookie_header) const;
   bool asksToken() const { return !token_.empty(); }
@@ -49,8 +53,8 @@ class Guard {
   std::vector<std::string> hosts_;
   const std::string token_, page_key_, cookie_;
   mutable std::mutex mutex_;
-  std::unordered_set<std::string> written_;     ///< numbers of writes
-  std::deque<std::string> order_;               ///< of those, oldest first
+  std::unordered_set<std::string> written_;  ///< numbers of writes
+  std::deque<std::string> order_;            ///< of those, oldest first
   std::map<std::string, std::deque<Clock::time_point>> writes_, wrong_;
 };
 

@@ -1,4 +1,4 @@
 #pragma once
 
 #include <httplib.h>
-#undef _res   // a macro of <resolv.h>, a name in Eigen
+#undef _res  // a macro of <resolv.h>, a name in Eigen

@@ -28,11 +28,14 @@ void clearOld(const fs::path& jobs) {
 
 nlohmann::json fractionOf(const std::vector<std::string>& lines) {
   for (auto line = lines.rbegin(); line != lines.rend(); ++line) {
-    for (std::size_t of = line->find(" of "); of != std::string::npos; of = line->find(" of ", of + 1)) {
+    for (std::size_t of = line->find(" of "); of != std::string::npos;
+         of = line->find(" of ", of + 1)) {
       std::size_t begin = of;
       while (begin > 0 && line->at(begin - 1) >= '0' && line->at(begin - 1) <= '9') --begin;
       int part = 0, whole = 0;
-      if (std::sscanf(line->c_str() + begin, "%d of %d", &part, &whole) == 2 && whole > 0 && part >= 0 && part <= whole) return static_cast<double>(part) / whole;
+      if (std::sscanf(line->c_str() + begin, "%d of %d", &part, &whole) == 2 && whole > 0 &&
+          part >= 0 && part <= whole)
+        return static_cast<double>(part) / whole;
     }
   }
   return nullptr;
@@ -78,7 +81,8 @@ nlohmann::json Jobs::ask(Wish wish) {
 
 std::string Jobs::addLocked(Wish wish) {
   for (const auto& [id, job] : jobs_)
-    if (job.wish.key == wish.key && (job.state == State::waiting || job.state == State::running)) return id;
+    if (job.wish.key == wish.key && (job.state == State::waiting || job.state == State::running))
+      return id;
   const std::string id = newId();
   jobs_[id].wish = std::move(wish);
   queue_.push_back(id);
@@ -111,7 +115,8 @@ void Jobs::perform(const std::string& id) {
     wish = jobs_[id].wish;
     std::vector<std::string> arguments = wish.arguments;
     for (std::string& argument : arguments)
-      if (const std::size_t at = argument.find("{}"); at != std::string::npos) argument.replace(at, 2, folder.string());
+      if (const std::size_t at = argument.find("{}"); at != std::string::npos)
+        argument.replace(at, 2, folder.string());
     if (!jobs_[id].stopped && !ending_) {
       try {
         process = jobs_[id].process = start(arguments, folder / "log.txt", true);
@@ -122,11 +127,12 @@ void Jobs::perform(const std::string& id) {
     jobs_[id].state = State::running;
   }
   while (runs(process)) runtime::rest(kLook);
-  bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() && (wish.page.empty() || fs::exists(folder / wish.page, none));
+  bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() &&
+              (wish.page.empty() || fs::exists(folder / wish.page, none));
   try {
     if (wish.then) wish.then(folder, good);
   } catch (const std::exception&) {
-    good = false;   // a full disk, say: the next command meets it as well, and tells
+    good = false;  // a full disk, say: the next command meets it as well, and tells
   }
   const std::lock_guard lock(mutex_);
   jobs_[id].state = good && !jobs_[id].stopped ? State::done : State::failed;
@@ -135,22 +141,36 @@ void Jobs::perform(const std::string& id) {
 nlohmann::json Jobs::one(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = jobs_.find(id);
-  if (found == jobs_.end()) throw UsageError("is not known", "job " + id.substr(0, 64), "Start it again");
+  if (found == jobs_.end())
+    throw UsageError("is not known", "job " + id.substr(0, 64), "Start it again");
   const Job& job = found->second;
   const fs::path log = place_.jobs() / id / "log.txt";
   const auto lines = lastLines(log, kShownLines);
   std::error_code none;
-  nlohmann::json one{{"id", id}, {"title", job.wish.title}, {"state", job.state == State::done ? "done" : job.state == State::failed ? "failed" : "working"}, {"lines", lines}, {"done", job.state == State::done ? nlohmann::json(1) : fractionOf(lines)}, {"message", ""}, {"picture", nullptr}, {"page", ""}};
-  if (job.state == State::failed) one["message"] = job.stopped ? "It was stopped." : complaintIn(log);
-  if (!job.wish.picture.empty() && fs::exists(place_.jobs() / id / job.wish.picture, none)) one["picture"] = "/api/jobs/" + id + "/picture";
-  if (!job.wish.page.empty() && fs::exists(place_.jobs() / id / job.wish.page, none)) one["page"] = "/api/pages/" + id;
+  nlohmann::json one{{"id", id},
+                     {"title", job.wish.title},
+                     {"state", job.state == State::done     ? "done"
+                               : job.state == State::failed ? "failed"
+                                                            : "working"},
+                     {"lines", lines},
+                     {"done", job.state == State::done ? nlohmann::json(1) : fractionOf(lines)},
+                     {"message", ""},
+                     {"picture", nullptr},
+                     {"page", ""}};
+  if (job.state == State::failed)
+    one["message"] = job.stopped ? "It was stopped." : complaintIn(log);
+  if (!job.wish.picture.empty() && fs::exists(place_.jobs() / id / job.wish.picture, none))
+    one["picture"] = "/api/jobs/" + id + "/picture";
+  if (!job.wish.page.empty() && fs::exists(place_.jobs() / id / job.wish.page, none))
+    one["page"] = "/api/pages/" + id;
   return one;
 }
 
 void Jobs::stop(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = jobs_.find(id);
-  if (found == jobs_.end()) throw UsageError("is not known", "job " + id.substr(0, 64), "It is over already");
+  if (found == jobs_.end())
+    throw UsageError("is not known", "job " + id.substr(0, 64), "It is over already");
   found->second.stopped = true;
   askToEnd(found->second.process);
 }
@@ -158,21 +178,25 @@ void Jobs::stop(const std::string& id) {
 fs::path Jobs::picture(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = jobs_.find(id);
-  if (found == jobs_.end() || found->second.wish.picture.empty()) throw UsageError("is not here", "picture of " + id.substr(0, 64), "Load the page again");
+  if (found == jobs_.end() || found->second.wish.picture.empty())
+    throw UsageError("is not here", "picture of " + id.substr(0, 64), "Load the page again");
   return place_.jobs() / id / found->second.wish.picture;
 }
 
 fs::path Jobs::page(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = jobs_.find(id);
-  if (found == jobs_.end() || found->second.wish.page.empty()) throw UsageError("is not here", "page of " + id.substr(0, 64), "Ask for it again");
+  if (found == jobs_.end() || found->second.wish.page.empty())
+    throw UsageError("is not here", "page of " + id.substr(0, 64), "Ask for it again");
   return place_.jobs() / id / found->second.wish.page;
 }
 
 std::string Jobs::workingOn(const std::string& prefix) {
   const std::lock_guard lock(mutex_);
   for (const auto& [id, job] : jobs_)
-    if (job.wish.key.rfind(prefix, 0) == 0 && (job.state == State::waiting || job.state == State::running)) return id;
+    if (job.wish.key.rfind(prefix, 0) == 0 &&
+        (job.state == State::waiting || job.state == State::running))
+      return id;
   return "";
 }
 

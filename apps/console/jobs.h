@@ -15,29 +15,36 @@
 
 namespace palpa::console {
 
-/// Work in the background: commands of this program, one after the other, at low priority. Each has a folder under jobs/ and a log there. Any thread.
+/// Work in the background: commands of this program, one after the other, at low priority. Each has
+/// a folder under jobs/ and a log there. Any thread.
 class Jobs {
  public:
   struct Wish {
-    std::string key;                        ///< the same piece of work has the same key: it is not done twice at once
-    std::string title;                      ///< "Camera"
-    std::vector<std::string> arguments;     ///< of the command; "{}" stands for the job's folder
-    std::string page;                       ///< the file that shows what came out, in the folder or with its whole path; empty: none
-    std::function<void(const std::filesystem::path& folder, bool good)> then;   ///< on the jobs' thread
-    std::string picture = "";               ///< the file in the folder that shows what the camera sees meanwhile; empty: none
+    std::string key;    ///< the same piece of work has the same key: it is not done twice at once
+    std::string title;  ///< "Camera"
+    std::vector<std::string> arguments;  ///< of the command; "{}" stands for the job's folder
+    std::string page;  ///< the file that shows what came out, in the folder or with its whole path;
+                       ///< empty: none
+    std::function<void(const std::filesystem::path& folder, bool good)>
+        then;  ///< on the jobs' thread
+    std::string picture =
+        "";  ///< the file in the folder that shows what the camera sees meanwhile; empty: none
   };
   explicit Jobs(const Place& place);
-  ~Jobs();                                  ///< what runs is asked to end
+  ~Jobs();  ///< what runs is asked to end
 
   /// The id of the job: the one with this key that waits or runs, else a new one.
   std::string add(Wish wish);
-  /// What becomes of a piece of work that is begun when it is asked for first, as one() tells it. A failure is told once: whoever asks again begins it anew.
+  /// What becomes of a piece of work that is begun when it is asked for first, as one() tells it. A
+  /// failure is told once: whoever asks again begins it anew.
   nlohmann::json ask(Wish wish);
-  /// {"state": "working|done|failed", "title", "done", "lines", "page", "message"}; throws UsageError for an unknown one.
+  /// {"state": "working|done|failed", "title", "done", "lines", "page", "message"}; throws
+  /// UsageError for an unknown one.
   nlohmann::json one(const std::string& id);
   void stop(const std::string& id);
-  std::filesystem::path picture(const std::string& id);   ///< throws UsageError for a job that has none
-  std::filesystem::path page(const std::string& id);   ///< throws UsageError for a job that has none
+  std::filesystem::path picture(
+      const std::string& id);                         ///< throws UsageError for a job that has none
+  std::filesystem::path page(const std::string& id);  ///< throws UsageError for a job that has none
   /// Waits or runs with a key that begins so; empty: none.
   std::string workingOn(const std::string& prefix);
 
@@ -57,7 +64,7 @@ class Jobs {
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::string, Job> jobs_;
-  std::map<std::string, std::string> asked_;   ///< key -> job
+  std::map<std::string, std::string> asked_;  ///< key -> job
   std::vector<std::string> queue_;
   bool ending_ = false;
   std::thread thread_;

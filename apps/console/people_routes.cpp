@@ -19,21 +19,27 @@ std::string wordsIn(const json& body, const char* field) {
   if (!body.contains(field)) return "";
   if (!body[field].is_string()) throw UsageError("is no text", field, "Load the page again");
   const std::string text = body[field];
-  if (text.size() > kLongestWords) throw UsageError("is longer than 80 characters", field, "Shorten it");
-  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; })) throw UsageError("holds control characters", field, "Write it in one line");
+  if (text.size() > kLongestWords)
+    throw UsageError("is longer than 80 characters", field, "Shorten it");
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+    throw UsageError("holds control characters", field, "Write it in one line");
   return text;
 }
 
 record::Trainee traineeIn(const json& body) {
   record::Trainee one;
   one.id = wordsIn(body, "id");
-  if (const std::string why = record::whyNoPseudonym(one.id); !why.empty()) throw UsageError(why, "pseudonym", "Take letters, digits, - and _");
+  if (const std::string why = record::whyNoPseudonym(one.id); !why.empty())
+    throw UsageError(why, "pseudonym", "Take letters, digits, - and _");
   one.group = wordsIn(body, "group");
   one.experience = wordsIn(body, "experience");
   if (const std::string hand = wordsIn(body, "handedness"); !hand.empty()) one.handedness = hand;
-  if (one.handedness != "right" && one.handedness != "left") throw UsageError("is neither right nor left", "handedness", "Choose one");
+  if (one.handedness != "right" && one.handedness != "left")
+    throw UsageError("is neither right nor left", "handedness", "Choose one");
   one.added_utc = utcNow();
-  const auto agreed = [&](const char* field) { return body.value(field, json()).is_boolean() && body[field].get<bool>() ? one.added_utc : ""; };
+  const auto agreed = [&](const char* field) {
+    return body.value(field, json()).is_boolean() && body[field].get<bool>() ? one.added_utc : "";
+  };
   one.consent_utc = agreed("consent");
   one.research_utc = agreed("research");
   return one;
@@ -42,22 +48,36 @@ record::Trainee traineeIn(const json& body) {
 json trainees(record::RecordStore& store) {
   std::map<std::string, std::pair<int, int>> counts;
   for (const record::StoredSession& session : store.sessions()) ++counts[session.trainee].first;
-  for (const record::TrialWithSession& trial : store.trials()) ++counts[trial.session.trainee].second;
+  for (const record::TrialWithSession& trial : store.trials())
+    ++counts[trial.session.trainee].second;
   json all = json::array();
   for (const record::Trainee& t : store.trainees())
-    all.push_back({{"id", t.id}, {"group", t.group}, {"experience", t.experience}, {"handedness", t.handedness}, {"added_utc", t.added_utc}, {"consent_utc", t.consent_utc}, {"research_utc", t.research_utc}, {"retain_until", t.retain_until}, {"sessions", counts[t.id].first}, {"trials", counts[t.id].second}});
+    all.push_back({{"id", t.id},
+                   {"group", t.group},
+                   {"experience", t.experience},
+                   {"handedness", t.handedness},
+                   {"added_utc", t.added_utc},
+                   {"consent_utc", t.consent_utc},
+                   {"research_utc", t.research_utc},
+                   {"retain_until", t.retain_until},
+                   {"sessions", counts[t.id].first},
+                   {"trials", counts[t.id].second}});
   return all;
 }
 
-/// A page made by a command of this program, as somebody asks for it; made anew when the records have changed since.
-json report(Console& c, const std::string& key, const std::string& title, std::vector<std::string> arguments, const std::string& page) {
+/// A page made by a command of this program, as somebody asks for it; made anew when the records
+/// have changed since.
+json report(Console& c, const std::string& key, const std::string& title,
+            std::vector<std::string> arguments, const std::string& page) {
   Jobs::Wish wish{key, title, std::move(arguments), "report/" + page, {}};
   wish.arguments.insert(wish.arguments.end(), {"--records", c.place.records, "--out", "{}/report"});
   return pageOf(c.jobs.ask(std::move(wish)));
 }
 
 /// Changes with every trial that comes into the records.
-std::string stateOfRecords(record::RecordStore& store, const std::string& trainee) { return std::to_string(store.trials({.trainee = trainee}).size()); }
+std::string stateOfRecords(record::RecordStore& store, const std::string& trainee) {
+  return std::to_string(store.trials({.trainee = trainee}).size());
+}
 
 /// What an educator can start now; empty: nothing.
 std::string startable(const study::Next& next) {
@@ -67,24 +87,36 @@ std::string startable(const study::Next& next) {
 }
 
 /// What has to be done elsewhere before a block can be.
-std::string elsewhere(const study::Protocol& protocol, const study::Next& next, const std::string& trainee) {
+std::string elsewhere(const study::Protocol& protocol, const study::Next& next,
+                      const std::string& trainee) {
   if (next.kind != study::Next::Kind::questionnaire) return "";
-  return "The questionnaire is answered at the station's terminal: palpa study run --protocol " + protocol.id + ".json --trainee " + trainee;
+  return "The questionnaire is answered at the station's terminal: palpa study run --protocol " +
+         protocol.id + ".json --trainee " + trainee;
 }
 
-json enrolled(const study::Protocol& protocol, record::RecordStore& store, const record::Enrolment& e) {
+json enrolled(const study::Protocol& protocol, record::RecordStore& store,
+              const record::Enrolment& e) {
   std::vector<study::DoneTrial> trials;
   bool simulated = e.simulated;
-  for (const record::TrialWithSession& t : store.trials({.trainee = e.trainee, .study = protocol.id})) {
+  for (const record::TrialWithSession& t :
+       store.trials({.trainee = e.trainee, .study = protocol.id})) {
     trials.push_back(study::doneTrial(t.session, t.trial));
     simulated = simulated || t.session.simulated;
   }
   std::vector<std::pair<int, std::string>> answered;
-  for (const record::Answer& a : record::StudyStore(store).answers(protocol.id, e.trainee)) answered.emplace_back(static_cast<int>(a.session), a.item);
+  for (const record::Answer& a : record::StudyStore(store).answers(protocol.id, e.trainee))
+    answered.emplace_back(static_cast<int>(a.session), a.item);
   const study::Next next = study::nextOf(protocol, e.condition, trials, answered, utcNow());
   json remarks = next.remarks;
-  if (const std::string first = elsewhere(protocol, next, e.trainee); !first.empty()) remarks.push_back(first);
-  return {{"trainee", e.trainee}, {"group", e.group}, {"where", study::whereIs(protocol, next)}, {"next", startable(next)}, {"finished", next.kind == study::Next::Kind::finished}, {"simulated", simulated}, {"remarks", remarks}};
+  if (const std::string first = elsewhere(protocol, next, e.trainee); !first.empty())
+    remarks.push_back(first);
+  return {{"trainee", e.trainee},
+          {"group", e.group},
+          {"where", study::whereIs(protocol, next)},
+          {"next", startable(next)},
+          {"finished", next.kind == study::Next::Kind::finished},
+          {"simulated", simulated},
+          {"remarks", remarks}};
 }
 
 std::vector<fs::path> protocolFiles() {
@@ -107,30 +139,42 @@ json studies(Console& c) {
   json all = json::array();
   for (const fs::path& file : protocolFiles()) {
     const study::Protocol protocol = study::readProtocol(file);
-    json one{{"id", protocol.id}, {"title", protocol.title}, {"groups", json::array()}, {"places", json::array()}, {"enrolled", json::array()}};
+    json one{{"id", protocol.id},
+             {"title", protocol.title},
+             {"groups", json::array()},
+             {"places", json::array()},
+             {"enrolled", json::array()}};
     for (const study::Group& group : protocol.groups) {
       one["groups"].push_back(group.name);
-      one["places"].push_back({{"group", group.name}, {"given", kept.placesGiven(protocol.id, group.name)}});
+      one["places"].push_back(
+          {{"group", group.name}, {"given", kept.placesGiven(protocol.id, group.name)}});
     }
-    for (const record::Enrolment& e : kept.enrolments(protocol.id)) one["enrolled"].push_back(enrolled(protocol, store, e));
+    for (const record::Enrolment& e : kept.enrolments(protocol.id))
+      one["enrolled"].push_back(enrolled(protocol, store, e));
     all.push_back(std::move(one));
   }
   return all;
 }
 
-/// The next block of somebody: the command enrols, draws and leads; its condition is nobody's to see.
+/// The next block of somebody: the command enrols, draws and leads; its condition is nobody's to
+/// see.
 std::string runStudy(Console& c, const std::string& id, const json& body) {
   SessionWish wish;
   wish.protocol = protocolFile(id).string();
   wish.blind = study::readProtocol(wish.protocol).blind_educator;
   wish.task = id;
   wish.trainee = wordsIn(body, "trainee");
-  if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty()) throw UsageError(why, "trainee", "Choose one of the list");
+  if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty())
+    throw UsageError(why, "trainee", "Choose one of the list");
   wish.performer = wordsIn(body, "operator");
-  if (wish.performer != "person" && wish.performer != "expert" && wish.performer != "novice") throw UsageError("is none of person, expert, novice", "who performs", "Choose one of them");
+  if (wish.performer != "person" && wish.performer != "expert" && wish.performer != "novice")
+    throw UsageError("is none of person, expert, novice", "who performs", "Choose one of them");
   wish.simulated = isSimulated(c, wish.performer);
-  std::vector<std::string> arguments{"study", "run", "--protocol", wish.protocol, "--trainee", wish.trainee, "--operator", wish.performer, "--records", c.place.records};
-  if (const std::string chosen = stationOf(c.place); !chosen.empty()) arguments.insert(arguments.end(), {"--station", chosen, "--bench-seed", "1"});
+  std::vector<std::string> arguments{"study",     "run",          "--protocol", wish.protocol,
+                                     "--trainee", wish.trainee,   "--operator", wish.performer,
+                                     "--records", c.place.records};
+  if (const std::string chosen = stationOf(c.place); !chosen.empty())
+    arguments.insert(arguments.end(), {"--station", chosen, "--bench-seed", "1"});
   return c.sessions.begin(wish, std::move(arguments));
 }
 
@@ -144,27 +188,37 @@ void addPeopleRoutes(WebServer& server, Console& c) {
   server.Post("/api/trainees", [&c](const httplib::Request& q, httplib::Response& r) {
     record::RecordStore store(c.place.records);
     const record::Trainee one = traineeIn(bodyOf(q));
-    if (store.trainee(one.id)) return refuse(r, 409, "the pseudonym " + one.id + " is taken: choose another");
+    if (store.trainee(one.id))
+      return refuse(r, 409, "the pseudonym " + one.id + " is taken: choose another");
     store.addTrainee(one);
     answer(r, {{"id", one.id}}, 201);
   });
-  server.Get(R"(/api/trainees/([A-Za-z0-9_-]{1,32})/report)", [&c](const httplib::Request& q, httplib::Response& r) {
+  server.Get(R"(/api/trainees/([A-Za-z0-9_-]{1,32})/report)", [&c](const httplib::Request& q,
+                                                                   httplib::Response& r) {
     const std::string id = q.matches[1];
     record::RecordStore store(c.place.records);
     if (!store.trainee(id)) return refuse(r, 404, "trainee " + id + " is not in the records");
-    answer(r, report(c, "trainee " + id + " " + stateOfRecords(store, id), "Report of " + id, {"report", "trainee", "--id", id}, "trainee.html"));
+    answer(r, report(c, "trainee " + id + " " + stateOfRecords(store, id), "Report of " + id,
+                     {"report", "trainee", "--id", id}, "trainee.html"));
   });
   server.Get("/api/cohort", [&c](const httplib::Request& q, httplib::Response& r) {
     const std::string group = q.get_param_value("group");
     record::RecordStore store(c.place.records);
     const auto all = store.trainees();
-    if (!group.empty() && std::none_of(all.begin(), all.end(), [&](const record::Trainee& t) { return t.group == group; })) return refuse(r, 404, "nobody in the records is of this group");
+    if (!group.empty() && std::none_of(all.begin(), all.end(),
+                                       [&](const record::Trainee& t) { return t.group == group; }))
+      return refuse(r, 404, "nobody in the records is of this group");
     std::vector<std::string> arguments{"report", "cohort"};
     if (!group.empty()) arguments.push_back("--group=" + group);
-    answer(r, report(c, "cohort " + group + " " + stateOfRecords(store, ""), "Report of the cohort", std::move(arguments), "cohort.html"));
+    answer(r, report(c, "cohort " + group + " " + stateOfRecords(store, ""), "Report of the cohort",
+                     std::move(arguments), "cohort.html"));
   });
-  server.Get("/api/studies", [&c](const httplib::Request&, httplib::Response& r) { answer(r, studies(c)); });
-  server.Post(R"(/api/studies/([A-Za-z0-9_-]{1,64})/run)", [&c](const httplib::Request& q, httplib::Response& r) { answer(r, {{"session", runStudy(c, q.matches[1], bodyOf(q))}}, 201); });
+  server.Get("/api/studies",
+             [&c](const httplib::Request&, httplib::Response& r) { answer(r, studies(c)); });
+  server.Post(R"(/api/studies/([A-Za-z0-9_-]{1,64})/run)",
+              [&c](const httplib::Request& q, httplib::Response& r) {
+                answer(r, {{"session", runStudy(c, q.matches[1], bodyOf(q))}}, 201);
+              });
 }
 
 }  // namespace palpa::console

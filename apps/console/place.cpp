@@ -15,7 +15,11 @@ namespace {
 constexpr std::size_t kLongestId = 64;
 
 bool plainName(const std::string& text) {
-  return !text.empty() && text.size() <= kLongestId && std::all_of(text.begin(), text.end(), [](char c) { return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '-' || c == '_'; });
+  return !text.empty() && text.size() <= kLongestId &&
+         std::all_of(text.begin(), text.end(), [](char c) {
+           return (c >= '0' && c <= '9') || (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') ||
+                  c == '-' || c == '_';
+         });
 }
 
 }  // namespace
@@ -24,21 +28,26 @@ bool isId(const std::string& text) { return plainName(text); }
 
 std::string newId() { return runtime::dateText("%Y%m%d-%H%M%S-") + randomKey().substr(0, 8); }
 
-
 bool isShown(const std::string& name) {
   if (name == "report.html" || name == "trials.csv") return true;
-  return name.size() > 9 && name.rfind("view-", 0) == 0 && name.compare(name.size() - 4, 4, ".png") == 0 && plainName(name.substr(0, name.size() - 4));
+  return name.size() > 9 && name.rfind("view-", 0) == 0 &&
+         name.compare(name.size() - 4, 4, ".png") == 0 &&
+         plainName(name.substr(0, name.size() - 4));
 }
 
 std::string stationOf(const Place& place) {
   std::error_code none;
   if (!std::filesystem::exists(place.settings(), none)) return "";
   const station::JsonFile file(place.settings());
-  if (!file.json().is_object()) throw UsageError("holds no settings", place.settings().string(), "Restore it, or remove it and calibrate anew");
+  if (!file.json().is_object())
+    throw UsageError("holds no settings", place.settings().string(),
+                     "Restore it, or remove it and calibrate anew");
   const std::string chosen = file.has("station") ? file.text("station") : "";
   return std::filesystem::exists(chosen, none) ? chosen : "";
 }
 
-void chooseStation(const Place& place, const std::string& file) { writeWhole(place.settings(), nlohmann::json{{"station", file}}.dump(1) + "\n"); }
+void chooseStation(const Place& place, const std::string& file) {
+  writeWhole(place.settings(), nlohmann::json{{"station", file}}.dump(1) + "\n");
+}
 
 }  // namespace palpa::console

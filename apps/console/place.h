@@ -9,28 +9,31 @@ namespace palpa::console {
 
 /// Where the console works: what it keeps, and what it hands to the commands that it starts.
 struct Place {
-  std::filesystem::path home;       ///< sessions, jobs, settings, what was refused
-  std::filesystem::path pages;      ///< index.html and the rest
-  std::string records;              ///< of trainees: a file or a server
-  std::string sockets;              ///< folder of local sockets
+  std::filesystem::path home;   ///< sessions, jobs, settings, what was refused
+  std::filesystem::path pages;  ///< index.html and the rest
+  std::string records;          ///< of trainees: a file or a server
+  std::string sockets;          ///< folder of local sockets
   std::string version;
-  bool display = false;             ///< a window can be opened: a person may hold the tool
+  bool display = false;  ///< a window can be opened: a person may hold the tool
 
   std::filesystem::path settings() const { return home / "settings.json"; }
   std::filesystem::path sessions() const { return home / "sessions"; }
   std::filesystem::path jobs() const { return home / "jobs"; }
 };
 
-/// The console's own id of a session or job: letters, digits, - and _, at most 64; else it is no id, and no path is made of it.
+/// The console's own id of a session or job: letters, digits, - and _, at most 64; else it is no
+/// id, and no path is made of it.
 bool isId(const std::string& text);
 /// "20260301-123000-1a2b3c4d": in the order of time, never twice.
 std::string newId();
 using runtime::utcNow;
 
-/// A name in a session's folder that may be shown: report.html, trials.csv, view-*.png; else it is not handed out.
+/// A name in a session's folder that may be shown: report.html, trials.csv, view-*.png; else it is
+/// not handed out.
 bool isShown(const std::string& name);
 
-/// The station file in use (settings); empty: the virtual bench. And choosing another, kept over restarts.
+/// The station file in use (settings); empty: the virtual bench. And choosing another, kept over
+/// restarts.
 std::string stationOf(const Place& place);
 void chooseStation(const Place& place, const std::string& file);
 

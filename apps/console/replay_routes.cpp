@@ -24,7 +24,9 @@ double rounded(double value) { return std::isfinite(value) ? std::round(value * 
 json curvesOf(const record::SessionReader& reader, const record::RecordedTrial& trial) {
   live::Curve curve;
   reader.ticks([&](const haptics::FlightRecord& record) {
-    if (record.tool == 0 && record.t_ns >= trial.header.t_ns && (!trial.ended || record.t_ns <= trial.end.t_ns)) curve.add(record);
+    if (record.tool == 0 && record.t_ns >= trial.header.t_ns &&
+        (!trial.ended || record.t_ns <= trial.end.t_ns))
+      curve.add(record);
   });
   const double began_s = static_cast<double>(trial.header.t_ns) * 1e-9;
   json t = json::array(), force = t, depth = t;
@@ -37,7 +39,8 @@ json curvesOf(const record::SessionReader& reader, const record::RecordedTrial& 
 }
 
 /// A needle's phases out of its events: each lasts until the next.
-json phasesIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial, double length_s) {
+json phasesIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial,
+              double length_s) {
   json all = json::array();
   for (const runtime::Event& event : events) {
     if (event.trial != trial.header.trial || event.kind != "phase") continue;
@@ -48,10 +51,20 @@ json phasesIn(const std::vector<runtime::Event>& events, const record::RecordedT
   return all;
 }
 
-json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial, const live::ToneOf& tone) {
+json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial,
+              const live::ToneOf& tone) {
   json all = json::array();
   for (const runtime::Event& event : events)
-    if (event.trial == trial.header.trial && event.kind != "case") all.push_back({{"t_s", rounded(static_cast<double>((event.kind == "note" && event.value > 0 ? static_cast<std::int64_t>(event.value * 1e9) : event.t_ns) - trial.header.t_ns) * 1e-9)}, {"event", event.kind}, {"text", event.text}, {"tone", tone(event)}});
+    if (event.trial == trial.header.trial && event.kind != "case")
+      all.push_back(
+          {{"t_s", rounded(static_cast<double>((event.kind == "note" && event.value > 0
+                                                    ? static_cast<std::int64_t>(event.value * 1e9)
+                                                    : event.t_ns) -
+                                               trial.header.t_ns) *
+                           1e-9)},
+           {"event", event.kind},
+           {"text", event.text},
+           {"tone", tone(event)}});
   return all;
 }
 
@@ -59,7 +72,8 @@ json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedT
 json nearIn(const json& pictures) {
   json near = json::array();
   for (const json& mark : pictures.value("marks", json::array()))
-    if (mark.value("near_miss", false)) near.push_back({{"t_s", mark.at("t_s")}, {"text", mark.at("text")}});
+    if (mark.value("near_miss", false))
+      near.push_back({{"t_s", mark.at("t_s")}, {"text", mark.at("text")}});
   return near;
 }
 
@@ -70,7 +84,8 @@ struct Recorded {
 
 Recorded recorded(Console& c, const std::string& id, int number) {
   const fs::path folder = c.sessions.folder(id);
-  return {c.sessions.shown(id) / "session.palpa", folder / ("replay-" + std::to_string(number)), "replay " + id + " " + std::to_string(number)};
+  return {c.sessions.shown(id) / "session.palpa", folder / ("replay-" + std::to_string(number)),
+          "replay " + id + " " + std::to_string(number)};
 }
 
 /// Pictures are drawn once, by the command that draws films.
@@ -84,17 +99,27 @@ void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
     (*told)["done"] = 1;
     return;
   }
-  const json state = c.jobs.ask({trial.key, "Pictures of a trial", {"replay", trial.evidence.string(), "--trial", std::to_string(number), "--pictures", trial.pictures.string(), "--fps", std::to_string(kPicturesPerSecond), "--size", kSize}, "", {}});
+  const json state = c.jobs.ask(
+      {trial.key,
+       "Pictures of a trial",
+       {"replay", trial.evidence.string(), "--trial", std::to_string(number), "--pictures",
+        trial.pictures.string(), "--fps", std::to_string(kPicturesPerSecond), "--size", kSize},
+       "",
+       {}});
   (*told)["done"] = state["done"].is_number() ? state["done"] : json(0);
   if (state["state"] != "failed") return;
-  (*told)["ready"] = true;   // there will be none: what stands beside them is all there is
+  (*told)["ready"] = true;  // there will be none: what stands beside them is all there is
   (*told)["frames"] = 0;
   (*told)["trouble"] = state["message"];
 }
 
-json toldOf(const record::SessionReader& reader, const record::RecordedTrial& trial, const live::ToneOf& tone) {
+json toldOf(const record::SessionReader& reader, const record::RecordedTrial& trial,
+            const live::ToneOf& tone) {
   json told = curvesOf(reader, trial);
-  const double length_s = trial.ended ? static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9 : told["t_s"].empty() ? 0 : told["t_s"].back().get<double>();
+  const double length_s = trial.ended
+                              ? static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9
+                          : told["t_s"].empty() ? 0
+                                                : told["t_s"].back().get<double>();
   const std::vector<runtime::Event> events = reader.events();
   told["length_s"] = rounded(length_s);
   told["events"] = eventsIn(events, trial, tone);
@@ -104,7 +129,8 @@ json toldOf(const record::SessionReader& reader, const record::RecordedTrial& tr
   return told;
 }
 
-/// The trials read last: a page asks each second while pictures are drawn, and what is over changes no more.
+/// The trials read last: a page asks each second while pictures are drawn, and what is over changes
+/// no more.
 class ReadTrials {
  public:
   json of(const Recorded& where, int number, const live::ToneOf& tone) {
@@ -118,18 +144,22 @@ class ReadTrials {
       if (kept_.size() > kMost) kept_.pop_back();
       return kept_.front().second;
     }
-    throw UsageError("is not in the session", "trial " + std::to_string(number), "Choose one of the list");
+    throw UsageError("is not in the session", "trial " + std::to_string(number),
+                     "Choose one of the list");
   }
 
  private:
-  static constexpr std::size_t kMost = 4;   // one and an expert's beside, of two pages
+  static constexpr std::size_t kMost = 4;  // one and an expert's beside, of two pages
   std::mutex mutex_;
   std::deque<std::pair<std::string, json>> kept_;
 };
 
 json replay(Console& c, ReadTrials& read, const std::string& id, int number) {
   const Recorded where = recorded(c, id, number);
-  if (const auto link = c.sessions.link(id); link && !link->wait(0, std::chrono::milliseconds(0)).over) throw UsageError("is still running", "the session", "Its trials can be seen again when it is over");
+  if (const auto link = c.sessions.link(id);
+      link && !link->wait(0, std::chrono::milliseconds(0)).over)
+    throw UsageError("is still running", "the session",
+                     "Its trials can be seen again when it is over");
   json told = read.of(where, number, c.tone);
   drawPictures(c, where, number, &told);
   return told;
@@ -139,12 +169,22 @@ json replay(Console& c, ReadTrials& read, const std::string& id, int number) {
 
 void addReplayRoutes(WebServer& server, Console& c) {
   const auto read = std::make_shared<ReadTrials>();
-  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/replay)", [&c, read](const httplib::Request& q, httplib::Response& r) { answer(r, replay(c, *read, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0)))); });
-  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/frame/([0-9]{1,5}))", [&c](const httplib::Request& q, httplib::Response& r) {
-    char name[32];
-    std::snprintf(name, sizeof name, "picture-%05zu.jpg", wholeNumber(q.matches[3], 0));
-    sendFile(r, recorded(c, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0))).pictures / name, "image/jpeg");
-  });
+  server.Get(
+      R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/replay)",
+      [&c, read](const httplib::Request& q, httplib::Response& r) {
+        answer(r, replay(c, *read, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0))));
+      });
+  server.Get(
+      R"(/api/sessions/([A-Za-z0-9_-]{1,64})/trials/([0-9]{1,5})/frame/([0-9]{1,5}))",
+      [&c](const httplib::Request& q, httplib::Response& r) {
+        char name[32];
+        std::snprintf(name, sizeof name, "picture-%05zu.jpg", wholeNumber(q.matches[3], 0));
+        sendFile(
+            r,
+            recorded(c, q.matches[1], static_cast<int>(wholeNumber(q.matches[2], 0))).pictures /
+                name,
+            "image/jpeg");
+      });
 }
 
 }  // namespace palpa::console

@@ -16,25 +16,31 @@ namespace palpa::console {
 
 /// What the routes share.
 struct Console {
-  Console(Place where, Guard& the_guard, live::ToneOf tone_of) : place(std::move(where)), guard(the_guard), tone(std::move(tone_of)), sessions(place), jobs(place) {}
+  Console(Place where, Guard& the_guard, live::ToneOf tone_of)
+      : place(std::move(where)),
+        guard(the_guard),
+        tone(std::move(tone_of)),
+        sessions(place),
+        jobs(place) {}
   const Place place;
   Guard& guard;
   const live::ToneOf tone;
   Sessions sessions;
   struct Health {
     std::mutex mutex;
-    nlohmann::json findings;      ///< as `palpa doctor --json` wrote it; null: not yet
+    nlohmann::json findings;  ///< as `palpa doctor --json` wrote it; null: not yet
     std::string checked_utc, job;
   } health;
-  Jobs jobs;                      ///< last: its thread uses the rest until it has ended
+  Jobs jobs;  ///< last: its thread uses the rest until it has ended
 };
 
 /// One function a part of the house's API; each adds its paths to the server.
-void addStationRoutes(WebServer& server, Console& console);    ///< me, enter, health, calibration, jobs, pages
-void addPeopleRoutes(WebServer& server, Console& console);     ///< trainees, reports, cohort, studies
-void addSessionRoutes(WebServer& server, Console& console);    ///< tasks, sessions, commands, files
-void addLiveRoutes(WebServer& server, Console& console);       ///< events and pictures as they happen
-void addReplayRoutes(WebServer& server, Console& console);     ///< a trial on one timeline
+void addStationRoutes(WebServer& server,
+                      Console& console);  ///< me, enter, health, calibration, jobs, pages
+void addPeopleRoutes(WebServer& server, Console& console);   ///< trainees, reports, cohort, studies
+void addSessionRoutes(WebServer& server, Console& console);  ///< tasks, sessions, commands, files
+void addLiveRoutes(WebServer& server, Console& console);     ///< events and pictures as they happen
+void addReplayRoutes(WebServer& server, Console& console);   ///< a trial on one timeline
 
 void checkHealth(Console& console);
 /// The station in use. Throws Error for a damaged file.
@@ -43,7 +49,8 @@ station::Station stationNow(const Console& console);
 bool isSimulated(const Console& console, const std::string& performer);
 
 /// A whole file as an answer; 404 where it is none.
-void sendFile(httplib::Response& response, const std::filesystem::path& file, const std::string& type);
+void sendFile(httplib::Response& response, const std::filesystem::path& file,
+              const std::string& type);
 /// {"state", "page", "message"} of a job that makes a page.
 nlohmann::json pageOf(const nlohmann::json& job);
 

@@ -28,8 +28,10 @@ constexpr int kLook_ms = 50;
 bool sendAll(int socket, const std::string& bytes) {
   for (std::size_t sent = 0; sent < bytes.size();) {
     const ssize_t count = ::send(socket, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-    if (count > 0) sent += static_cast<std::size_t>(count);
-    else if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) return false;
+    if (count > 0)
+      sent += static_cast<std::size_t>(count);
+    else if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)
+      return false;
     pollfd one{socket, POLLOUT, 0};
     if (sent < bytes.size() && ::poll(&one, 1, 1000) != 1) return false;
   }
@@ -80,7 +82,8 @@ void SessionLink::speak(int socket) {
         reader.watching = !reader.watching;
         out += live::encoded(live::FrameKind::watch, reader.watching ? "1" : "0");
       }
-      for (const std::string& command : commands_) out += live::encoded(live::FrameKind::command, command);
+      for (const std::string& command : commands_)
+        out += live::encoded(live::FrameKind::command, command);
       commands_.clear();
     }
     if (!out.empty() && !sendAll(socket, out)) return;
@@ -97,9 +100,11 @@ bool SessionLink::hear(int socket, LinkReader& reader) {
   try {
     while (const auto frame = reader.decoder.next()) {
       const std::lock_guard lock(mutex_);
-      if (frame->kind == live::FrameKind::known) known_ = std::strtoull(frame->body.c_str(), nullptr, 10);
+      if (frame->kind == live::FrameKind::known)
+        known_ = std::strtoull(frame->body.c_str(), nullptr, 10);
       if (frame->kind == live::FrameKind::entry) take(frame->body);
-      if (frame->kind == live::FrameKind::picture) picture_ = {std::make_shared<const std::string>(frame->body), picture_.number + 1};
+      if (frame->kind == live::FrameKind::picture)
+        picture_ = {std::make_shared<const std::string>(frame->body), picture_.number + 1};
     }
   } catch (const Error&) {
     return false;
@@ -108,7 +113,8 @@ bool SessionLink::hear(int socket, LinkReader& reader) {
   return true;
 }
 
-/// The first entry of a connection tells which session it is: the one known already goes on where it was.
+/// The first entry of a connection tells which session it is: the one known already goes on where
+/// it was.
 void SessionLink::take(const std::string& entry) {
   if (passed_ == 0 && entry != hello_) {
     hello_ = entry;
@@ -122,11 +128,14 @@ bool SessionLink::watched() const { return runtime::ServingClock::now() - asked_
 
 SessionLink::News SessionLink::wait(std::size_t from, std::chrono::milliseconds patience) {
   std::unique_lock lock(mutex_);
-  changed_.wait_for(lock, patience, [&] { return entries_.size() > from || over_ || (caughtUp() && from > entries_.size()); });
+  changed_.wait_for(lock, patience, [&] {
+    return entries_.size() > from || over_ || (caughtUp() && from > entries_.size());
+  });
   News news;
   news.over = over_;
   news.from = caughtUp() && from > entries_.size() ? 0 : from;
-  for (std::size_t i = news.from; i < entries_.size() && news.entries.size() < kMostAtOnce; ++i) news.entries.push_back(entries_[i]);
+  for (std::size_t i = news.from; i < entries_.size() && news.entries.size() < kMostAtOnce; ++i)
+    news.entries.push_back(entries_[i]);
   return news;
 }
 

@@ -13,32 +13,36 @@
 
 namespace palpa::console {
 
-/// The console's end of a running session's socket: what the session has told, its newest picture, and a way to ask for something. Connects anew where the connection is lost; the session tells its
-/// log from the beginning then, and what is known already is passed over. Any thread.
+/// The console's end of a running session's socket: what the session has told, its newest picture,
+/// and a way to ask for something. Connects anew where the connection is lost; the session tells
+/// its log from the beginning then, and what is known already is passed over. Any thread.
 class SessionLink {
  public:
   explicit SessionLink(std::string socket);
   ~SessionLink();
 
   struct News {
-    std::size_t from = 0;                ///< number of the first of them: what was asked for, or 0 where the log is shorter than that
-    std::vector<std::string> entries;    ///< at most kMostAtOnce
-    bool over = false;                   ///< the session told its last
+    std::size_t from = 0;  ///< number of the first of them: what was asked for, or 0 where the log
+                           ///< is shorter than that
+    std::vector<std::string> entries;  ///< at most kMostAtOnce
+    bool over = false;                 ///< the session told its last
   };
   static constexpr std::size_t kMostAtOnce = 1024;
-  /// Entries from number `from`; waits for the first of them, at most `patience`. A number beyond the log's end, once all of it is here, is another log's: it is told from its beginning.
+  /// Entries from number `from`; waits for the first of them, at most `patience`. A number beyond
+  /// the log's end, once all of it is here, is another log's: it is told from its beginning.
   News wait(std::size_t from, std::chrono::milliseconds patience);
   struct Picture {
-    std::shared_ptr<const std::string> jpeg;   ///< null: none yet
+    std::shared_ptr<const std::string> jpeg;  ///< null: none yet
     std::uint64_t number = 0;
   };
-  /// The newest picture after number `after`; waits for it, at most `patience`. While somebody has asked within the last seconds the session draws them.
+  /// The newest picture after number `after`; waits for it, at most `patience`. While somebody has
+  /// asked within the last seconds the session draws them.
   Picture picture(std::uint64_t after, std::chrono::milliseconds patience);
   /// False: nobody is there to hear it.
   bool send(const std::string& command);
   /// The session has ended: `last` becomes the log's last entry.
   void close(const std::string& last);
-  bool told() const;                     ///< it has said something
+  bool told() const;  ///< it has said something
 
  private:
   void run();
@@ -52,8 +56,9 @@ class SessionLink {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::string> entries_;
-  std::size_t begun_ = 0, passed_ = 0;   ///< where the present session's log begins in ours; how many of it came on this connection
-  std::size_t known_ = SIZE_MAX;         ///< how many there were when it began
+  std::size_t begun_ = 0, passed_ = 0;  ///< where the present session's log begins in ours; how
+                                        ///< many of it came on this connection
+  std::size_t known_ = SIZE_MAX;        ///< how many there were when it began
   std::string hello_;
   std::vector<std::string> commands_;
   Picture picture_;

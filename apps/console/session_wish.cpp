@@ -13,19 +13,25 @@ std::string textIn(const nlohmann::json& asked, const char* field, const std::st
 
 bool flagIn(const nlohmann::json& asked, const char* field, bool otherwise) {
   if (!asked.contains(field)) return otherwise;
-  if (!asked[field].is_boolean()) throw UsageError("is neither true nor false", field, "Load the page again");
+  if (!asked[field].is_boolean())
+    throw UsageError("is neither true nor false", field, "Load the page again");
   return asked[field];
 }
 
-std::uint64_t numberIn(const nlohmann::json& asked, const char* field, std::uint64_t otherwise, std::uint64_t least, std::uint64_t most) {
+std::uint64_t numberIn(const nlohmann::json& asked, const char* field, std::uint64_t otherwise,
+                       std::uint64_t least, std::uint64_t most) {
   if (!asked.contains(field)) return otherwise;
   const auto& value = asked[field];
-  if (!value.is_number_unsigned() || value.get<std::uint64_t>() < least || value.get<std::uint64_t>() > most)
-    throw UsageError("is no whole number from " + std::to_string(least) + " to " + std::to_string(most), field, "Change it");
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() < least ||
+      value.get<std::uint64_t>() > most)
+    throw UsageError(
+        "is no whole number from " + std::to_string(least) + " to " + std::to_string(most), field,
+        "Change it");
   return value;
 }
 
-void requireOneOf(const std::string& value, const char* field, std::initializer_list<const char*> known) {
+void requireOneOf(const std::string& value, const char* field,
+                  std::initializer_list<const char*> known) {
   std::string names;
   for (const char* name : known) {
     if (value == name) return;
@@ -43,7 +49,8 @@ SessionWish readWish(const nlohmann::json& asked) {
   if (!isId(wish.task)) throw UsageError("was not chosen", "task", "Choose one");
   wish.trainee = textIn(asked, "trainee", "");
   if (!wish.trainee.empty())
-    if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty()) throw UsageError(why, "trainee", "Choose one of the list");
+    if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty())
+      throw UsageError(why, "trainee", "Choose one of the list");
   wish.performer = textIn(asked, "operator", "person");
   requireOneOf(wish.performer, "operator", {"person", "expert", "novice"});
   wish.side = textIn(asked, "side", "right");

@@ -22,14 +22,19 @@ json factsOf(const fs::path& folder) {
   }
 }
 
-std::string textOf(const json& facts, const char* field) { return facts.value(field, json()).is_string() ? facts[field].get<std::string>() : ""; }
+std::string textOf(const json& facts, const char* field) {
+  return facts.value(field, json()).is_string() ? facts[field].get<std::string>() : "";
+}
 
 ProcessId processOf(const json& facts) {
-  const auto number = [&](const char* field) { return facts.value(field, json()).is_number() ? facts[field].get<std::int64_t>() : 0; };
+  const auto number = [&](const char* field) {
+    return facts.value(field, json()).is_number() ? facts[field].get<std::int64_t>() : 0;
+  };
   return {static_cast<int>(number("pid")), static_cast<std::uint64_t>(number("began"))};
 }
 
-/// The newest folder with results: the session's own, or where a study put its last block (TRAINEE/BLOCK).
+/// The newest folder with results: the session's own, or where a study put its last block
+/// (TRAINEE/BLOCK).
 fs::path resultsIn(const fs::path& folder) {
   constexpr int kDeepest = 2;
   constexpr char kEvidence[] = "session.palpa";
@@ -37,8 +42,10 @@ fs::path resultsIn(const fs::path& folder) {
   if (fs::exists(folder / kEvidence, none)) return folder;
   fs::path newest = folder;
   fs::file_time_type began = fs::file_time_type::min();
-  for (auto entry = fs::recursive_directory_iterator(folder, none); entry != fs::recursive_directory_iterator(); entry.increment(none)) {
-    if (entry.depth() >= kDeepest || entry->path().filename() == "demonstration") entry.disable_recursion_pending();
+  for (auto entry = fs::recursive_directory_iterator(folder, none);
+       entry != fs::recursive_directory_iterator(); entry.increment(none)) {
+    if (entry.depth() >= kDeepest || entry->path().filename() == "demonstration")
+      entry.disable_recursion_pending();
     if (entry->path().filename() != kEvidence || entry->last_write_time(none) < began) continue;
     newest = entry->path().parent_path();
     began = entry->last_write_time(none);
@@ -47,17 +54,23 @@ fs::path resultsIn(const fs::path& folder) {
 }
 
 /// The sentence that ended the trial, where one did.
-std::string summaryOf(const std::vector<runtime::Event>& events, const record::RecordedTrial& trial) {
+std::string summaryOf(const std::vector<runtime::Event>& events,
+                      const record::RecordedTrial& trial) {
   for (auto event = events.rbegin(); event != events.rend(); ++event)
     if (event->trial == trial.header.trial && event->kind == trial.end.outcome) return event->text;
   return "";
 }
 
 json trialOf(const record::RecordedTrial& trial, const std::vector<runtime::Event>& events) {
-  json one{{"number", trial.header.trial}, {"role", trial.header.role}, {"outcome", trial.ended ? trial.end.outcome : "interrupted"}, {"reason", trial.end.reason}, {"length_s", static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9}};
+  json one{{"number", trial.header.trial},
+           {"role", trial.header.role},
+           {"outcome", trial.ended ? trial.end.outcome : "interrupted"},
+           {"reason", trial.end.reason},
+           {"length_s", static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9}};
   const json scores = json::parse(trial.end.scores_json, nullptr, false);
   if (scores.is_object() && scores.contains("TOTAL")) one["total"] = scores["TOTAL"];
-  if (std::string summary = summaryOf(events, trial); !summary.empty()) one["summary"] = std::move(summary);
+  if (std::string summary = summaryOf(events, trial); !summary.empty())
+    one["summary"] = std::move(summary);
   return one;
 }
 
@@ -79,7 +92,8 @@ json filesIn(const fs::path& folder) {
   std::vector<std::string> names;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(folder, none))
-    if (entry.is_regular_file(none) && isShown(entry.path().filename().string())) names.push_back(entry.path().filename().string());
+    if (entry.is_regular_file(none) && isShown(entry.path().filename().string()))
+      names.push_back(entry.path().filename().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -89,7 +103,10 @@ std::string messageOf(const std::string& state, const fs::path& folder) {
   if (state != "failed" && state != "interrupted") return "";
   const std::string complaint = complaintIn(folder / kLog);
   if (!complaint.empty()) return complaint;
-  return state == "failed" ? "The session ended before it began, without a word: it was killed, or the computer stopped. Begin it again" : "The session ended without a word: it was killed, or the computer stopped. What was recorded until then is kept";
+  return state == "failed" ? "The session ended before it began, without a word: it was killed, or "
+                             "the computer stopped. Begin it again"
+                           : "The session ended without a word: it was killed, or the computer "
+                             "stopped. What was recorded until then is kept";
 }
 
 }  // namespace
@@ -99,18 +116,23 @@ Sessions::Sessions(const Place& place) : place_(place) {
   find();
 }
 
-std::string Sessions::socketOf(const std::string& id) const { return place_.sockets + "/" + id.substr(id.size() > 24 ? id.size() - 24 : 0) + ".sock"; }
+std::string Sessions::socketOf(const std::string& id) const {
+  return place_.sockets + "/" + id.substr(id.size() > 24 ? id.size() - 24 : 0) + ".sock";
+}
 
 fs::path Sessions::folder(const std::string& id) const {
   std::error_code none;
-  if (!isId(id) || !fs::is_regular_file(place_.sessions() / id / kFacts, none)) throw UsageError("is not here", "session " + id.substr(0, 64), "Choose one of the list");
+  if (!isId(id) || !fs::is_regular_file(place_.sessions() / id / kFacts, none))
+    throw UsageError("is not here", "session " + id.substr(0, 64), "Choose one of the list");
   return place_.sessions() / id;
 }
 
 fs::path Sessions::results(const std::string& id) const { return resultsIn(folder(id)); }
 
 fs::path Sessions::shown(const std::string& id) const {
-  if (factsOf(folder(id)).value("blind", false)) throw UsageError("belongs to a study whose educators are blind", "session " + id, "Its figures are read with the study's: palpa study analyse");
+  if (factsOf(folder(id)).value("blind", false))
+    throw UsageError("belongs to a study whose educators are blind", "session " + id,
+                     "Its figures are read with the study's: palpa study analyse");
   return results(id);
 }
 
@@ -120,19 +142,27 @@ void Sessions::find() {
   for (const auto& entry : fs::directory_iterator(place_.sessions(), none)) {
     const std::string id = entry.path().filename().string();
     const ProcessId process = processOf(factsOf(entry.path()));
-    if (isId(id) && runs(process)) running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
+    if (isId(id) && runs(process))
+      running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
   }
 }
 
 std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> arguments) {
   look();
   const std::lock_guard lock(mutex_);
-  if (std::any_of(running_.begin(), running_.end(), [](const auto& one) { return !one.second.over; })) throw UsageError("is running already", "a session", "End it first, or wait until it is over");
+  if (std::any_of(running_.begin(), running_.end(),
+                  [](const auto& one) { return !one.second.over; }))
+    throw UsageError("is running already", "a session", "End it first, or wait until it is over");
   const std::string id = newId();
   const fs::path folder = place_.sessions() / id;
   fs::create_directories(folder);
-  for (const std::string& more : {std::string("--live"), socketOf(id), std::string("--out"), folder.string()}) arguments.push_back(more);
-  json facts{{"task", wish.task}, {"trainee", wish.trainee}, {"started_utc", utcNow()}, {"assessed", wish.assess}, {"simulated", wish.simulated}, {"study", !wish.protocol.empty()}, {"blind", wish.blind}, {"trials", wish.trials}};
+  for (const std::string& more :
+       {std::string("--live"), socketOf(id), std::string("--out"), folder.string()})
+    arguments.push_back(more);
+  json facts{{"task", wish.task},           {"trainee", wish.trainee},
+             {"started_utc", utcNow()},     {"assessed", wish.assess},
+             {"simulated", wish.simulated}, {"study", !wish.protocol.empty()},
+             {"blind", wish.blind},         {"trials", wish.trials}};
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
   const ProcessId process = start(arguments, folder / kLog, false);
   facts["pid"] = process.pid;
@@ -149,13 +179,16 @@ void Sessions::look() {
     one.over = true;
     const fs::path folder = place_.sessions() / id;
     const std::string state = stateOf(id, folder);
-    one.link->close(json{{"kind", "end"}, {"state", state}, {"message", messageOf(state, folder)}}.dump(-1, ' ', false, json::error_handler_t::replace));
+    one.link->close(
+        json{{"kind", "end"}, {"state", state}, {"message", messageOf(state, folder)}}.dump(
+            -1, ' ', false, json::error_handler_t::replace));
   }
 }
 
 /// With the mutex held, or of a session that does not run.
 std::string Sessions::stateOf(const std::string& id, const fs::path& folder) {
-  if (const auto found = running_.find(id); found != running_.end() && !found->second.over) return found->second.link->told() ? "running" : "starting";
+  if (const auto found = running_.find(id); found != running_.end() && !found->second.over)
+    return found->second.link->told() ? "running" : "starting";
   std::error_code none;
   const fs::path results = resultsIn(folder);
   if (fs::exists(results / "report.html", none)) return "finished";
@@ -165,8 +198,14 @@ std::string Sessions::stateOf(const std::string& id, const fs::path& folder) {
 json Sessions::told(const std::string& id, const fs::path& folder) {
   const json facts = factsOf(folder);
   const std::string state = stateOf(id, folder);
-  json one{{"id", id}, {"task", textOf(facts, "task")}, {"trainee", textOf(facts, "trainee")}, {"started_utc", textOf(facts, "started_utc")}, {"state", state}, {"message", messageOf(state, folder)}};
-  for (const char* field : {"assessed", "simulated", "trials", "study", "blind"}) one[field] = facts.value(field, json());
+  json one{{"id", id},
+           {"task", textOf(facts, "task")},
+           {"trainee", textOf(facts, "trainee")},
+           {"started_utc", textOf(facts, "started_utc")},
+           {"state", state},
+           {"message", messageOf(state, folder)}};
+  for (const char* field : {"assessed", "simulated", "trials", "study", "blind"})
+    one[field] = facts.value(field, json());
   return one;
 }
 
@@ -176,7 +215,8 @@ json Sessions::list() {
   std::vector<std::string> ids;
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(place_.sessions(), none))
-    if (isId(entry.path().filename().string()) && fs::exists(entry.path() / kFacts, none)) ids.push_back(entry.path().filename().string());
+    if (isId(entry.path().filename().string()) && fs::exists(entry.path() / kFacts, none))
+      ids.push_back(entry.path().filename().string());
   std::sort(ids.rbegin(), ids.rend());
   json all = json::array();
   for (const std::string& id : ids) all.push_back(told(id, place_.sessions() / id));
@@ -195,7 +235,8 @@ json Sessions::one(const std::string& id) {
   const bool blind = one["blind"] == true;
   one["files"] = blind ? json::array() : filesIn(results);
   one["results"] = json::array();
-  if (one["state"] == "running" || one["state"] == "starting") return one;   // its evidence is being written
+  if (one["state"] == "running" || one["state"] == "starting")
+    return one;  // its evidence is being written
   try {
     one["results"] = trialsIn(results / "session.palpa", blind);
   } catch (const Error& e) {
@@ -214,7 +255,8 @@ std::shared_ptr<SessionLink> Sessions::link(const std::string& id) {
 bool Sessions::oneRuns() {
   look();
   const std::lock_guard lock(mutex_);
-  return std::any_of(running_.begin(), running_.end(), [](const auto& one) { return !one.second.over; });
+  return std::any_of(running_.begin(), running_.end(),
+                     [](const auto& one) { return !one.second.over; });
 }
 
 }  // namespace palpa::console

@@ -16,33 +16,38 @@ namespace palpa::console {
 
 /// What an educator asks for when a session shall begin.
 struct SessionWish {
-  std::string task;               ///< id of a task file
-  std::string trainee;            ///< pseudonym; empty: nobody
-  std::string performer = "person";   ///< person, expert, novice
+  std::string task;                  ///< id of a task file
+  std::string trainee;               ///< pseudonym; empty: nobody
+  std::string performer = "person";  ///< person, expert, novice
   std::string side = "right";
   bool assess = false, force_feedback = true;
   int trials = 1;
   std::uint64_t seed = 1, patient_seed = 0;
-  std::string protocol;           ///< of a study: its file; the task then follows from it
-  bool simulated = false;         ///< who performs, or the station
-  bool blind = false;             ///< of a study: an educator must not be told what was drawn
+  std::string protocol;    ///< of a study: its file; the task then follows from it
+  bool simulated = false;  ///< who performs, or the station
+  bool blind = false;      ///< of a study: an educator must not be told what was drawn
 };
 /// Throws UsageError where a field is missing, of the wrong kind or out of range.
 SessionWish readWish(const nlohmann::json& json);
 
-/// The sessions that were begun from the console, each a process and a folder of its own; the running ones are found again after a restart. At most one runs. Any thread.
+/// The sessions that were begun from the console, each a process and a folder of its own; the
+/// running ones are found again after a restart. At most one runs. Any thread.
 class Sessions {
  public:
   explicit Sessions(const Place& place);
 
-  /// Starts one; throws UsageError where one runs already. `arguments`: of the command that holds it.
+  /// Starts one; throws UsageError where one runs already. `arguments`: of the command that holds
+  /// it.
   std::string begin(const SessionWish& wish, std::vector<std::string> arguments);
   /// Newest first, as the pages take them.
   nlohmann::json list();
-  nlohmann::json one(const std::string& id);                ///< throws UsageError where it is none
-  std::filesystem::path folder(const std::string& id) const;  ///< throws UsageError where it is none
-  std::filesystem::path results(const std::string& id) const; ///< where its report is: the folder, or that of a study's newest block
-  /// The same, to be shown; throws UsageError where the study is blind for educators: figures and pictures could tell what was drawn.
+  nlohmann::json one(const std::string& id);  ///< throws UsageError where it is none
+  std::filesystem::path folder(
+      const std::string& id) const;  ///< throws UsageError where it is none
+  std::filesystem::path results(const std::string& id)
+      const;  ///< where its report is: the folder, or that of a study's newest block
+  /// The same, to be shown; throws UsageError where the study is blind for educators: figures and
+  /// pictures could tell what was drawn.
   std::filesystem::path shown(const std::string& id) const;
   /// Of a session that runs, or ran since the console began; null otherwise.
   std::shared_ptr<SessionLink> link(const std::string& id);

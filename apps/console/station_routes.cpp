@@ -17,12 +17,22 @@ struct Step {
   const char *id, *title, *what;
 };
 constexpr Step kSteps[] = {
-    {"camera", "Camera", "Hold the printed board before the camera, near and far, tilted, in every corner of the picture, until the picture is covered."},
-    {"workspace", "Device", "Touch the points of the grid one after the other; this measures how the device errs from place to place."},
-    {"tool", "Needle", "Rest the needle's tip in one place and pivot it; then spin it about itself. This finds the tip and the direction."},
-    {"registration", "Where the device stands", "Touch the marked points on the board. This ties what is felt to what is seen."},
-    {"latency", "Delay between seen and felt", "Move the tool to and fro before the camera for some seconds."},
-    {"force-sensor", "Force sensor", "Hold the tool still in different directions. This finds the sensor's bias and the tool's weight."},
+    {"camera", "Camera",
+     "Hold the printed board before the camera, near and far, tilted, in every corner of the "
+     "picture, until the picture is covered."},
+    {"workspace", "Device",
+     "Touch the points of the grid one after the other; this measures how the device errs from "
+     "place to place."},
+    {"tool", "Needle",
+     "Rest the needle's tip in one place and pivot it; then spin it about itself. This finds the "
+     "tip and the direction."},
+    {"registration", "Where the device stands",
+     "Touch the marked points on the board. This ties what is felt to what is seen."},
+    {"latency", "Delay between seen and felt",
+     "Move the tool to and fro before the camera for some seconds."},
+    {"force-sensor", "Force sensor",
+     "Hold the tool still in different directions. This finds the sensor's bias and the tool's "
+     "weight."},
 };
 
 std::string textIn(const fs::path& file) {
@@ -49,7 +59,8 @@ json me(const Console& c, bool entered) {
 
 json health(Console& c) {
   const std::lock_guard lock(c.health.mutex);
-  json all{{"state", c.health.job.empty() ? "done" : "checking"}, {"checked_utc", c.health.checked_utc}};
+  json all{{"state", c.health.job.empty() ? "done" : "checking"},
+           {"checked_utc", c.health.checked_utc}};
   if (c.health.findings.is_object()) {
     all["can_start"] = c.health.findings.value("can_start", false);
     all["findings"] = c.health.findings.value("findings", json::array());
@@ -60,22 +71,31 @@ json health(Console& c) {
 }
 
 json calibration(Console& c) {
-  json all{{"job", c.jobs.workingOn("calibrate")}, {"steps", json::array()}, {"calibrations", json::array()}};
+  json all{{"job", c.jobs.workingOn("calibrate")},
+           {"steps", json::array()},
+           {"calibrations", json::array()}};
   const std::string chosen = stationOf(c.place);
   all["file"] = chosen;
   const station::Station station = stationNow(c);
   for (const Step& step : kSteps)
-    if (station.force_sensor || std::string(step.id) != "force-sensor") all["steps"].push_back({{"id", step.id}, {"title", step.title}, {"what", step.what}});
+    if (station.force_sensor || std::string(step.id) != "force-sensor")
+      all["steps"].push_back({{"id", step.id}, {"title", step.title}, {"what", step.what}});
   all["station"] = station.title;
   all["verdict"] = station.calibration_verdict;
-  for (const auto& one : station.calibrations) all["calibrations"].push_back({{"name", one.file.kind}, {"made_utc", one.file.date}, {"verdict", one.file.verdict}, {"simulated", one.file.simulated}});
+  for (const auto& one : station.calibrations)
+    all["calibrations"].push_back({{"name", one.file.kind},
+                                   {"made_utc", one.file.date},
+                                   {"verdict", one.file.verdict},
+                                   {"simulated", one.file.simulated}});
   return all;
 }
 
 /// A calibration that left a station file makes it the station in use.
 std::string calibrate(Console& c, const std::string& step) {
-  const Step* const found = std::find_if(std::begin(kSteps), std::end(kSteps), [&](const Step& one) { return step == one.id; });
-  if (step != "all" && found == std::end(kSteps)) throw UsageError("is no calibration step", step.substr(0, 32), "Choose one of the list");
+  const Step* const found = std::find_if(std::begin(kSteps), std::end(kSteps),
+                                         [&](const Step& one) { return step == one.id; });
+  if (step != "all" && found == std::end(kSteps))
+    throw UsageError("is no calibration step", step.substr(0, 32), "Choose one of the list");
   if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");
   Jobs::Wish wish;
   wish.key = "calibrate";
@@ -84,10 +104,12 @@ std::string calibrate(Console& c, const std::string& step) {
   wish.picture = "camera.jpg";
   wish.arguments = {"calibrate", step, "--out", place.string(), "--watch", "{}/" + wish.picture};
   wish.page = (place / "calibration.html").string();
-  if (const std::string chosen = stationOf(c.place); !chosen.empty()) wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
+  if (const std::string chosen = stationOf(c.place); !chosen.empty())
+    wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
   wish.then = [&c, place](const fs::path&, bool good) {
     std::error_code none;
-    if (good && fs::exists(place / "station.json", none)) chooseStation(c.place, (place / "station.json").string());
+    if (good && fs::exists(place / "station.json", none))
+      chooseStation(c.place, (place / "station.json").string());
   };
   return c.jobs.add(std::move(wish));
 }
@@ -96,30 +118,49 @@ std::string calibrate(Console& c, const std::string& step) {
 
 station::Station stationNow(const Console& c) {
   const std::string chosen = stationOf(c.place);
-  return station::readStation(chosen.empty() ? station::assetFile("stations/virtual_bench.json") : fs::path(chosen));
+  return station::readStation(chosen.empty() ? station::assetFile("stations/virtual_bench.json")
+                                             : fs::path(chosen));
 }
 
-bool isSimulated(const Console& c, const std::string& performer) { return performer != "person" || stationNow(c).simulated; }
+bool isSimulated(const Console& c, const std::string& performer) {
+  return performer != "person" || stationNow(c).simulated;
+}
 
 void sendFile(httplib::Response& response, const fs::path& file, const std::string& type) {
   std::error_code none;
-  if (!fs::is_regular_file(file, none) || fs::is_symlink(file, none)) return refuse(response, 404, "is not here");
+  if (!fs::is_regular_file(file, none) || fs::is_symlink(file, none))
+    return refuse(response, 404, "is not here");
   response.set_content(textIn(file), type);
 }
 
-json pageOf(const json& job) { return {{"state", job.at("state")}, {"page", job.at("page")}, {"message", job.at("message")}, {"done", job.at("done")}}; }
+json pageOf(const json& job) {
+  return {{"state", job.at("state")},
+          {"page", job.at("page")},
+          {"message", job.at("message")},
+          {"done", job.at("done")}};
+}
 
 void checkHealth(Console& c) {
   Jobs::Wish wish;
   wish.key = "doctor";
   wish.title = "The station is looked at";
-  wish.arguments = {"doctor", "--json", "--records", c.place.records, "--out", c.place.sessions().string()};
-  if (const std::string chosen = stationOf(c.place); !chosen.empty()) wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
+  wish.arguments = {"doctor",        "--json", "--records",
+                    c.place.records, "--out",  c.place.sessions().string()};
+  if (const std::string chosen = stationOf(c.place); !chosen.empty())
+    wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
   wish.then = [&c](const fs::path& folder, bool) {
     const std::string text = textIn(folder / "log.txt");
     const std::size_t begin = text.find('{'), end = text.rfind('}');
-    json found = begin == std::string::npos || end == std::string::npos ? json() : json::parse(text.substr(begin, end - begin + 1), nullptr, false);
-    if (!found.is_object()) found = {{"can_start", false}, {"findings", {{{"subject", "doctor"}, {"state", "ill"}, {"verdict", complaintIn(folder / "log.txt")}, {"fix", "Run palpa doctor in a terminal"}}}}};
+    json found = begin == std::string::npos || end == std::string::npos
+                     ? json()
+                     : json::parse(text.substr(begin, end - begin + 1), nullptr, false);
+    if (!found.is_object())
+      found = {{"can_start", false},
+               {"findings",
+                {{{"subject", "doctor"},
+                  {"state", "ill"},
+                  {"verdict", complaintIn(folder / "log.txt")},
+                  {"fix", "Run palpa doctor in a terminal"}}}}};
     const std::lock_guard lock(c.health.mutex);
     c.health.findings = std::move(found);
     c.health.checked_utc = utcNow();
@@ -130,33 +171,52 @@ void checkHealth(Console& c) {
 }
 
 void addStationRoutes(WebServer& server, Console& c) {
-  server.Get("/api/me", [&c](const httplib::Request& q, httplib::Response& r) { answer(r, me(c, c.guard.entered(q.get_header_value("Cookie")))); });
+  server.Get("/api/me", [&c](const httplib::Request& q, httplib::Response& r) {
+    answer(r, me(c, c.guard.entered(q.get_header_value("Cookie"))));
+  });
   server.Post("/api/enter", [&c](const httplib::Request& q, httplib::Response& r) {
     const json body = bodyOf(q);
-    const std::string cookie = c.guard.enter(q.remote_addr, body.value("token", json()).is_string() ? body["token"].get<std::string>() : "");
-    if (cookie.empty()) return refuse(r, 403, "that is not the token; after five wrong ones wait a minute");
+    const std::string cookie = c.guard.enter(q.remote_addr, body.value("token", json()).is_string()
+                                                                ? body["token"].get<std::string>()
+                                                                : "");
+    if (cookie.empty())
+      return refuse(r, 403, "that is not the token; after five wrong ones wait a minute");
     r.set_header("Set-Cookie", "palpa=" + cookie + "; HttpOnly; SameSite=Strict; Path=/");
     answer(r, json::object());
   });
-  server.Get("/api/health", [&c](const httplib::Request&, httplib::Response& r) { answer(r, health(c)); });
+  server.Get("/api/health",
+             [&c](const httplib::Request&, httplib::Response& r) { answer(r, health(c)); });
   server.Post("/api/health", [&c](const httplib::Request&, httplib::Response& r) {
     checkHealth(c);
     answer(r, json::object(), 202);
   });
-  server.Get("/api/calibration", [&c](const httplib::Request&, httplib::Response& r) { answer(r, calibration(c)); });
+  server.Get("/api/calibration",
+             [&c](const httplib::Request&, httplib::Response& r) { answer(r, calibration(c)); });
   server.Post("/api/calibration", [&c](const httplib::Request& q, httplib::Response& r) {
     const json body = bodyOf(q);
-    answer(r, {{"job", calibrate(c, body.value("step", json()).is_string() ? body["step"].get<std::string>() : "")}}, 202);
+    answer(r,
+           {{"job",
+             calibrate(c, body.value("step", json()).is_string() ? body["step"].get<std::string>()
+                                                                 : "")}},
+           202);
   });
-  server.Get(R"(/api/jobs/([A-Za-z0-9_-]{1,64}))", [&c](const httplib::Request& q, httplib::Response& r) { answer(r, c.jobs.one(q.matches[1])); });
-  server.Post(R"(/api/jobs/([A-Za-z0-9_-]{1,64})/stop)", [&c](const httplib::Request& q, httplib::Response& r) {
-    c.jobs.stop(q.matches[1]);
-    answer(r, json::object(), 202);
-  });
-  server.Get(R"(/api/jobs/([A-Za-z0-9_-]{1,64})/picture)", [&c](const httplib::Request& q, httplib::Response& r) { sendFile(r, c.jobs.picture(q.matches[1]), "image/jpeg"); });
-  server.Get(R"(/api/pages/([A-Za-z0-9_-]{1,64}))", [&c](const httplib::Request& q, httplib::Response& r) {
-    sendFile(r, c.jobs.page(q.matches[1]), "text/html; charset=utf-8");
-  });
+  server.Get(R"(/api/jobs/([A-Za-z0-9_-]{1,64}))",
+             [&c](const httplib::Request& q, httplib::Response& r) {
+               answer(r, c.jobs.one(q.matches[1]));
+             });
+  server.Post(R"(/api/jobs/([A-Za-z0-9_-]{1,64})/stop)",
+              [&c](const httplib::Request& q, httplib::Response& r) {
+                c.jobs.stop(q.matches[1]);
+                answer(r, json::object(), 202);
+              });
+  server.Get(R"(/api/jobs/([A-Za-z0-9_-]{1,64})/picture)",
+             [&c](const httplib::Request& q, httplib::Response& r) {
+               sendFile(r, c.jobs.picture(q.matches[1]), "image/jpeg");
+             });
+  server.Get(R"(/api/pages/([A-Za-z0-9_-]{1,64}))",
+             [&c](const httplib::Request& q, httplib::Response& r) {
+               sendFile(r, c.jobs.page(q.matches[1]), "text/html; charset=utf-8");
+             });
 }
 
 }  // namespace palpa::console

@@ -17,7 +17,8 @@ namespace {
 
 using Clock = DeadlineStream::Clock;
 constexpr std::chrono::milliseconds kRequestWithin{10'000}, kIdle{5'000};
-constexpr std::chrono::milliseconds kCrowdedRequestWithin{2'000}, kCrowdedIdle{250};   // where half the places are taken: who says nothing makes room
+constexpr std::chrono::milliseconds kCrowdedRequestWithin{2'000},
+    kCrowdedIdle{250};  // where half the places are taken: who says nothing makes room
 constexpr int kKnocking = 512;
 constexpr std::size_t kLongestRequest = 128u << 10;
 constexpr std::chrono::milliseconds kLinger{500};
@@ -43,75 +44,107 @@ class LowPriorityPool final : public httplib::TaskQueue {
 /// The request that this thread is at.
 struct Turn {
   std::string remote;
-  bool admitted = false;    ///< framing and guard let it pass; its body is read then
-  bool noted = false;       ///< a refusal, in words
-  bool nowhere = false;     ///< no such path
+  bool admitted = false;  ///< framing and guard let it pass; its body is read then
+  bool noted = false;     ///< a refusal, in words
+  bool nowhere = false;   ///< no such path
   bool closes = false;
 };
 thread_local Turn turn;
 
 const char* wordsFor(int status) {
   switch (status) {
-    case 400: return "was not understood";
-    case 403: return "a wrong token";
-    case 404: return "no such path";
-    case 414: return "a path too long";
-    case 422: return "what was asked for cannot be";
-    case 500: return "went wrong";
-    default: return "refused";
+    case 400:
+      return "was not understood";
+    case 403:
+      return "a wrong token";
+    case 404:
+      return "no such path";
+    case 414:
+      return "a path too long";
+    case 422:
+      return "what was asked for cannot be";
+    case 500:
+      return "went wrong";
+    default:
+      return "refused";
   }
 }
 
 void setSafeHeaders(const httplib::Request& request, httplib::Response& response) {
-  const bool report = request.path.rfind("/api/pages/", 0) == 0 || request.path.find("/file/") != std::string::npos;
+  const bool report =
+      request.path.rfind("/api/pages/", 0) == 0 || request.path.find("/file/") != std::string::npos;
   for (const auto& [name, value] : safeHeaders()) {
     response.headers.erase(name);
     response.set_header(name, report && name == "Content-Security-Policy" ? kReportPolicy : value);
   }
 }
 
-/// Takes off, for a moment, what is still being sent: a socket closed with bytes unread takes the answer with it.
+/// Takes off, for a moment, what is still being sent: a socket closed with bytes unread takes the
+/// answer with it.
 void linger(int socket) {
   ::shutdown(socket, SHUT_WR);
   char bytes[4096];
   const auto until = Clock::now() + kLinger;
-  for (std::size_t left = kLongestRequest; left > sizeof bytes && Clock::now() < until; left -= sizeof bytes) {
+  for (std::size_t left = kLongestRequest; left > sizeof bytes && Clock::now() < until;
+       left -= sizeof bytes) {
     pollfd one{socket, POLLIN, 0};
-    if (::poll(&one, 1, static_cast<int>(kLinger.count())) != 1 || ::recv(socket, bytes, sizeof bytes, MSG_DONTWAIT) <= 0) return;
+    if (::poll(&one, 1, static_cast<int>(kLinger.count())) != 1 ||
+        ::recv(socket, bytes, sizeof bytes, MSG_DONTWAIT) <= 0)
+      return;
   }
 }
 
 Asked askedOf(const httplib::Request& r) {
-  return {r.remote_addr, r.method, r.path, r.get_header_value("Host"), r.get_header_value("Origin"), r.get_header_value("Sec-Fetch-Site"), r.get_header_value("Content-Type"), r.get_header_value("Cookie"),
-          r.get_header_value("X-Palpa-Page"), r.get_header_value("X-Palpa-Write")};
+  return {r.remote_addr,
+          r.method,
+          r.path,
+          r.get_header_value("Host"),
+          r.get_header_value("Origin"),
+          r.get_header_value("Sec-Fetch-Site"),
+          r.get_header_value("Content-Type"),
+          r.get_header_value("Cookie"),
+          r.get_header_value("X-Palpa-Page"),
+          r.get_header_value("X-Palpa-Write")};
 }
 
-constexpr char kFull[] = "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\nRetry-After: 5\r\n\r\n";
+constexpr char kFull[] =
+    "HTTP/1.1 503 Service Unavailable\r\nContent-Length: 0\r\nConnection: close\r\nRetry-After: "
+    "5\r\n\r\n";
 
 }  // namespace
 
 WebServer::WebServer(Guard& guard, Refusals& refusals) : guard_(guard), refusals_(refusals) {
   new_task_queue = [] { return new LowPriorityPool; };
   set_payload_max_length(kLongestBody);
-  set_socket_options([](socket_t socket) {   // not the library's SO_REUSEPORT: another console would share the port, and its pages
+  set_socket_options([](socket_t socket) {  // not the library's SO_REUSEPORT: another console would
+                                            // share the port, and its pages
     const int yes = 1;
     ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
   });
-  set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) { return admit(request, response); });
-  set_exception_handler([](const httplib::Request&, httplib::Response& response, std::exception_ptr thrown) {
-    try {
-      std::rethrow_exception(thrown);
-    } catch (const UsageError& e) {
-      refuse(response, 422, e.what());
-    } catch (const std::exception& e) {
-      refuse(response, 500, e.what());
-    }
+  set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+    return admit(request, response);
   });
+  set_exception_handler(
+      [](const httplib::Request&, httplib::Response& response, std::exception_ptr thrown) {
+        try {
+          std::rethrow_exception(thrown);
+        } catch (const UsageError& e) {
+          refuse(response, 422, e.what());
+        } catch (const std::exception& e) {
+          refuse(response, 500, e.what());
+        }
+      });
   set_error_handler([](const httplib::Request&, httplib::Response& response) {
     turn.nowhere = response.body.empty() && response.status == 404;
-    if (response.body.empty()) refuse(response, response.status, response.status == 404 ? "is not here" : response.status == 413 ? "is too long" : "was not understood");
+    if (response.body.empty())
+      refuse(response, response.status,
+             response.status == 404   ? "is not here"
+             : response.status == 413 ? "is too long"
+                                      : "was not understood");
   });
-  set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) { finish(request, response); });
+  set_post_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
+    finish(request, response);
+  });
 }
 
 void WebServer::end() {
@@ -121,7 +154,8 @@ void WebServer::end() {
 
 void WebServer::widen() { ::listen(svr_sock_.load(), kKnocking); }
 
-httplib::Server::HandlerResponse WebServer::admit(const httplib::Request& request, httplib::Response& response) {
+httplib::Server::HandlerResponse WebServer::admit(const httplib::Request& request,
+                                                  httplib::Response& response) {
   Verdict verdict = judgeFraming(request);
   if (verdict.status == 200) verdict = guard_.judge(askedOf(request));
   turn.admitted = verdict.status == 200;
@@ -135,9 +169,13 @@ httplib::Server::HandlerResponse WebServer::admit(const httplib::Request& reques
 /// Every answer passes here, also to what could not be read as a request.
 void WebServer::finish(const httplib::Request& request, httplib::Response& response) {
   setSafeHeaders(request, response);
-  const bool refused = response.status >= 400 && response.status != 409 && (response.status != 404 || turn.nowhere);
-  if (refused && !turn.noted) refusals_.note(turn.remote, request.method, request.path, response.status, wordsFor(response.status));
-  turn.closes = response.status >= 400 && (!turn.admitted || response.status == 400 || response.status == 413);
+  const bool refused =
+      response.status >= 400 && response.status != 409 && (response.status != 404 || turn.nowhere);
+  if (refused && !turn.noted)
+    refusals_.note(turn.remote, request.method, request.path, response.status,
+                   wordsFor(response.status));
+  turn.closes = response.status >= 400 &&
+                (!turn.admitted || response.status == 400 || response.status == 413);
   if (!turn.closes) return;
   response.headers.erase("Keep-Alive");
   response.headers.erase("Connection");
@@ -148,9 +186,11 @@ bool WebServer::process_and_close_socket(socket_t socket) {
   if (connections_.fetch_add(1) < kMostConnections) {
     DeadlineStream stream(socket);
     serve(stream);
-    if (stream.cut()) refusals_.note(stream.remote(), "-", "-", 408, "a request was too slow or too long");
+    if (stream.cut())
+      refusals_.note(stream.remote(), "-", "-", 408, "a request was too slow or too long");
   } else {
-    [[maybe_unused]] const ssize_t sent = ::send(socket, kFull, sizeof kFull - 1, MSG_NOSIGNAL | MSG_DONTWAIT);
+    [[maybe_unused]] const ssize_t sent =
+        ::send(socket, kFull, sizeof kFull - 1, MSG_NOSIGNAL | MSG_DONTWAIT);
     refusals_.note("-", "-", "-", 503, "too many connections");
   }
   connections_.fetch_sub(1);
@@ -162,18 +202,29 @@ bool WebServer::process_and_close_socket(socket_t socket) {
 void WebServer::serve(DeadlineStream& stream) {
   for (int count = 1; count <= kRequestsAConnection && !ending(); ++count) {
     if (!stream.waits(crowded() ? kCrowdedIdle : kIdle)) return;
-    stream.begin(Clock::now() + (crowded() ? kCrowdedRequestWithin : kRequestWithin), kLongestRequest);
+    stream.begin(Clock::now() + (crowded() ? kCrowdedRequestWithin : kRequestWithin),
+                 kLongestRequest);
     bool closed = false;
     turn = {.remote = stream.remote()};
-    const auto whole = [](httplib::Request& request) { request.ranges.clear(); };   // parts are refused; the refusal is no answer in parts either
-    if (!process_request(stream, count == kRequestsAConnection, closed, whole) || closed || stream.cut()) return;
+    const auto whole = [](httplib::Request& request) {
+      request.ranges.clear();
+    };  // parts are refused; the refusal is no answer in parts either
+    if (!process_request(stream, count == kRequestsAConnection, closed, whole) || closed ||
+        stream.cut())
+      return;
     if (turn.closes) return linger(stream.socket());
   }
 }
 
 const char* mediaTypeOf(const std::string& name) {
-  constexpr std::pair<const char*, const char*> kTypes[] = {{".html", "text/html; charset=utf-8"}, {".js", "text/javascript; charset=utf-8"}, {".css", "text/css; charset=utf-8"}, {".svg", "image/svg+xml"},
-                                                            {".csv", "text/csv; charset=utf-8"}, {".png", "image/png"}, {".jpg", "image/jpeg"}};
+  constexpr std::pair<const char*, const char*> kTypes[] = {
+      {".html", "text/html; charset=utf-8"},
+      {".js", "text/javascript; charset=utf-8"},
+      {".css", "text/css; charset=utf-8"},
+      {".svg", "image/svg+xml"},
+      {".csv", "text/csv; charset=utf-8"},
+      {".png", "image/png"},
+      {".jpg", "image/jpeg"}};
   for (const auto& [ending, type] : kTypes)
     if (name.ends_with(ending)) return type;
   return "application/octet-stream";
@@ -181,20 +232,26 @@ const char* mediaTypeOf(const std::string& name) {
 
 std::size_t wholeNumber(const std::string& text, std::size_t otherwise) {
   constexpr std::size_t kDigits = 6;
-  if (text.empty() || text.size() > kDigits || !std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; })) return otherwise;
+  if (text.empty() || text.size() > kDigits ||
+      !std::all_of(text.begin(), text.end(), [](char c) { return c >= '0' && c <= '9'; }))
+    return otherwise;
   return std::stoul(text);
 }
 
-void refuse(httplib::Response& response, int status, const std::string& words) { answer(response, {{"error", words}}, status); }
+void refuse(httplib::Response& response, int status, const std::string& words) {
+  answer(response, {{"error", words}}, status);
+}
 
 void answer(httplib::Response& response, const nlohmann::json& json, int status) {
   response.status = status;
-  response.set_content(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace), "application/json");
+  response.set_content(json.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace),
+                       "application/json");
 }
 
 nlohmann::json bodyOf(const httplib::Request& request) {
   nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
-  if (!body.is_object()) throw UsageError("is no JSON object", "what was sent", "Load the page again");
+  if (!body.is_object())
+    throw UsageError("is no JSON object", "what was sent", "Load the page again");
   return body;
 }
 

@@ -11,8 +11,10 @@
 
 namespace palpa::console {
 
-/// The HTTP server: limits on connections, sizes and time before a request is looked at; framing and guard before its body is read; safe headers on every answer. What is refused is noted, and ends its
-/// connection: what may be left of its body is no next request. Its threads give way to all others.
+/// The HTTP server: limits on connections, sizes and time before a request is looked at; framing
+/// and guard before its body is read; safe headers on every answer. What is refused is noted, and
+/// ends its connection: what may be left of its body is no next request. Its threads give way to
+/// all others.
 class WebServer final : public httplib::Server {
  public:
   WebServer(Guard& guard, Refusals& refusals);
@@ -23,7 +25,8 @@ class WebServer final : public httplib::Server {
   /// The server is ending: streams shall.
   bool ending() const { return ending_.load(); }
   void end();
-  /// Once it is bound: many may knock at once, and are told to wait rather than left before the door.
+  /// Once it is bound: many may knock at once, and are told to wait rather than left before the
+  /// door.
   void widen();
 
   static constexpr int kMostConnections = 96, kMostStreams = 24;

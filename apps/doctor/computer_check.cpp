@@ -21,9 +21,12 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kMegabyte = 1'000'000;
-constexpr std::uint64_t kLeast = 200 * kMegabyte, kComfortable = 2000 * kMegabyte;   // a trial leaves some 10 MB
+constexpr std::uint64_t kLeast = 200 * kMegabyte,
+                        kComfortable = 2000 * kMegabyte;  // a trial leaves some 10 MB
 
-constexpr const char* kPermit = "As root write \"@audio - rtprio 90\" and \"@audio - memlock unlimited\" into /etc/security/limits.d/palpa.conf, add this user to the group audio, log in again";
+constexpr const char* kPermit =
+    "As root write \"@audio - rtprio 90\" and \"@audio - memlock unlimited\" into "
+    "/etc/security/limits.d/palpa.conf, add this user to the group audio, log in again";
 
 std::string environment(const char* name) {
   const char* value = std::getenv(name);
@@ -34,7 +37,8 @@ std::string environment(const char* name) {
 fs::path existing(fs::path folder) {
   std::error_code none;
   folder = fs::absolute(folder, none);
-  while (!fs::exists(folder, none) && folder.has_parent_path() && folder != folder.parent_path()) folder = folder.parent_path();
+  while (!fs::exists(folder, none) && folder.has_parent_path() && folder != folder.parent_path())
+    folder = folder.parent_path();
   return folder;
 }
 
@@ -63,14 +67,22 @@ LoopFacts measureLoop() {
 }
 
 Finding judgeLoop(const LoopFacts& facts, bool needed) {
-  constexpr double kLate_us = 500;   // half a step of 1 kHz
-  const std::string measured = text("%.0f steps a second, 99 of 100 within %.0f us", facts.rate_Hz, facts.late_99_us);
+  constexpr double kLate_us = 500;  // half a step of 1 kHz
+  const std::string measured =
+      text("%.0f steps a second, 99 of 100 within %.0f us", facts.rate_Hz, facts.late_99_us);
   if (!needed) return {"haptic loop", State::well, measured + "; the virtual bench needs no more"};
   const bool refused = facts.priority.rfind("SCHED_FIFO", 0) != 0;
   if (facts.rate_Hz < 900 || facts.late_99_us > kLate_us)
-    return {"haptic loop", State::note, measured + ": forces will stutter", refused ? "Let this user run in real time (below), and close other programs" : "Close other programs; on a laptop plug in the power supply"};
-  if (refused) return {"haptic loop", State::note, measured + ", but at normal priority: forces may stutter when the computer is busy", kPermit};
-  if (facts.memory.find("not locked") != std::string::npos) return {"haptic loop", State::note, measured + ", but its memory may be put out to disk: forces may stutter", kPermit};
+    return {"haptic loop", State::note, measured + ": forces will stutter",
+            refused ? "Let this user run in real time (below), and close other programs"
+                    : "Close other programs; on a laptop plug in the power supply"};
+  if (refused)
+    return {"haptic loop", State::note,
+            measured + ", but at normal priority: forces may stutter when the computer is busy",
+            kPermit};
+  if (facts.memory.find("not locked") != std::string::npos)
+    return {"haptic loop", State::note,
+            measured + ", but its memory may be put out to disk: forces may stutter", kPermit};
   return {"haptic loop", State::well, measured + ", in real time"};
 }
 
@@ -85,15 +97,29 @@ DiskFacts measureDisk(const fs::path& folder) {
 
 Finding judgeDisk(const DiskFacts& facts) {
   const std::string place = facts.folder.string();
-  if (!facts.writable) return {"disk", State::ill, place + " may not be written by this user", "Start in a folder of your own, or say where results go: --out"};
-  const std::string free = text("%.1f GB free", 1e-9 * static_cast<double>(facts.free_bytes)) + " in " + place;
-  if (facts.free_bytes < kLeast) return {"disk", State::ill, free, "Free the disk: a session leaves some 10 MB a trial, and needs room to end in order"};
-  if (facts.free_bytes < kComfortable) return {"disk", State::note, free + ": enough for some " + text("%.0f trials", static_cast<double>(facts.free_bytes - kLeast) / (10.0 * kMegabyte)), "Free the disk before a course"};
+  if (!facts.writable)
+    return {"disk", State::ill, place + " may not be written by this user",
+            "Start in a folder of your own, or say where results go: --out"};
+  const std::string free =
+      text("%.1f GB free", 1e-9 * static_cast<double>(facts.free_bytes)) + " in " + place;
+  if (facts.free_bytes < kLeast)
+    return {"disk", State::ill, free,
+            "Free the disk: a session leaves some 10 MB a trial, and needs room to end in order"};
+  if (facts.free_bytes < kComfortable)
+    return {"disk", State::note,
+            free + ": enough for some " +
+                text("%.0f trials",
+                     static_cast<double>(facts.free_bytes - kLeast) / (10.0 * kMegabyte)),
+            "Free the disk before a course"};
   return {"disk", State::well, free};
 }
 
 Finding judgeDate(const std::string& now_utc, const std::string& built_utc) {
-  if (now_utc < built_utc) return {"date", State::ill, "the computer believes it is " + now_utc.substr(0, 10) + ", before this program was made", "Set the computer's date; sessions and calibrations are dated by it"};
+  if (now_utc < built_utc)
+    return {
+        "date", State::ill,
+        "the computer believes it is " + now_utc.substr(0, 10) + ", before this program was made",
+        "Set the computer's date; sessions and calibrations are dated by it"};
   return {"date", State::well, now_utc.substr(0, 10) + " " + now_utc.substr(11, 5) + " UTC"};
 }
 
@@ -111,24 +137,36 @@ fs::path headsetRuntime() {
   if (const std::string given = environment("XR_RUNTIME_JSON"); !given.empty()) return given;
   const std::string home = environment("HOME"), config = environment("XDG_CONFIG_HOME");
   std::error_code none;
-  for (const fs::path& folder : {fs::path(config.empty() ? home + "/.config" : config), fs::path("/etc/xdg"), fs::path("/etc"), fs::path("/usr/share")})
-    if (const fs::path file = folder / "openxr/1/active_runtime.json"; fs::exists(file, none)) return file;
+  for (const fs::path& folder : {fs::path(config.empty() ? home + "/.config" : config),
+                                 fs::path("/etc/xdg"), fs::path("/etc"), fs::path("/usr/share")})
+    if (const fs::path file = folder / "openxr/1/active_runtime.json"; fs::exists(file, none))
+      return file;
   return {};
 }
 
 Finding judgeHeadset(const fs::path& file) {
-  if (file.empty()) return {"headset", State::absent, "no OpenXR runtime is installed; the desktop shows everything"};
-  const auto broken = [&file](const std::string& why) { return Finding{"headset", State::note, why, "Install the headset's OpenXR runtime again, or correct " + file.string() + ". Sessions on the desktop run without"}; };
+  if (file.empty())
+    return {"headset", State::absent,
+            "no OpenXR runtime is installed; the desktop shows everything"};
+  const auto broken = [&file](const std::string& why) {
+    return Finding{"headset", State::note, why,
+                   "Install the headset's OpenXR runtime again, or correct " + file.string() +
+                       ". Sessions on the desktop run without"};
+  };
   std::ifstream stream(file);
   if (!stream) return broken("the OpenXR runtime's file cannot be read: " + file.string());
   const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
-  if (json.is_discarded() || !json.is_object() || !json.contains("runtime") || !json["runtime"].is_object()) return broken("the OpenXR runtime's file is damaged: " + file.string());
+  if (json.is_discarded() || !json.is_object() || !json.contains("runtime") ||
+      !json["runtime"].is_object())
+    return broken("the OpenXR runtime's file is damaged: " + file.string());
   const nlohmann::json path = json["runtime"].value("library_path", nlohmann::json());
-  if (!path.is_string()) return broken("the OpenXR runtime's file names no library: " + file.string());
+  if (!path.is_string())
+    return broken("the OpenXR runtime's file names no library: " + file.string());
   const fs::path library = path.get<std::string>();
   std::error_code none;
-  const bool search = !library.has_parent_path();   // a bare name is found by the system's loader
-  if (!search && !fs::exists(library.is_absolute() ? library : file.parent_path() / library, none)) return broken("the OpenXR runtime is not where its file says: " + library.string());
+  const bool search = !library.has_parent_path();  // a bare name is found by the system's loader
+  if (!search && !fs::exists(library.is_absolute() ? library : file.parent_path() / library, none))
+    return broken("the OpenXR runtime is not where its file says: " + library.string());
   return {"headset", State::well, "an OpenXR runtime is installed: " + library.filename().string()};
 }
 
@@ -138,7 +176,11 @@ Finding askLocale() {
   const std::string before = std::setlocale(LC_ALL, nullptr);
   const bool known = std::setlocale(LC_ALL, "") != nullptr;
   std::setlocale(LC_ALL, before.c_str());
-  if (!known) return {"language", State::note, "the settings name a language that is not installed" + (named.empty() ? std::string() : " (" + named + ")"), "Set LC_ALL to C.UTF-8, or install it: dpkg-reconfigure locales"};
+  if (!known)
+    return {"language", State::note,
+            "the settings name a language that is not installed" +
+                (named.empty() ? std::string() : " (" + named + ")"),
+            "Set LC_ALL to C.UTF-8, or install it: dpkg-reconfigure locales"};
   return {"language", State::well, named.empty() ? "none set" : named};
 }
 

@@ -8,12 +8,13 @@
 
 namespace palpa::doctor {
 
-/// How steadily a thread of this computer runs: a thousand steps of a millisecond, with what a session asks of the system.
+/// How steadily a thread of this computer runs: a thousand steps of a millisecond, with what a
+/// session asks of the system.
 struct LoopFacts {
-  std::string priority;        ///< what becomeRealTime said
+  std::string priority;  ///< what becomeRealTime said
   double rate_Hz = 0;
-  double late_99_us = 0;       ///< 99 of 100 steps began no later
-  std::string memory = {};     ///< what MemoryLock said; empty: not asked
+  double late_99_us = 0;    ///< 99 of 100 steps began no later
+  std::string memory = {};  ///< what MemoryLock said; empty: not asked
 };
 LoopFacts measureLoop();
 /// `needed`: a real device is held by this loop; the virtual bench waits for nobody.
@@ -28,13 +29,15 @@ struct DiskFacts {
 DiskFacts measureDisk(const std::filesystem::path& folder);
 Finding judgeDisk(const DiskFacts& facts);
 
-/// The computer's date, by which sessions and calibrations are dated. `now_utc` as in a calibration file; `built_utc`: when the program was made: earlier than that it cannot be.
+/// The computer's date, by which sessions and calibrations are dated. `now_utc` as in a calibration
+/// file; `built_utc`: when the program was made: earlier than that it cannot be.
 Finding judgeDate(const std::string& now_utc, const std::string& built_utc);
 
 /// Pictures can be drawn. `draw` makes a context and says which, or throws.
 Finding askDrawing(const std::function<std::string()>& draw);
 
-/// A headset's OpenXR runtime, by the file that names it: its library is there. `file` empty: none is installed.
+/// A headset's OpenXR runtime, by the file that names it: its library is there. `file` empty: none
+/// is installed.
 Finding judgeHeadset(const std::filesystem::path& file);
 /// $XR_RUNTIME_JSON, else active_runtime.json in the usual places; empty: none.
 std::filesystem::path headsetRuntime();

@@ -20,14 +20,15 @@ const std::vector<std::filesystem::path>& udevFolders();
 /// The rule that lets whoever sits at the station open a Falcon.
 Finding askUdevRule(const std::vector<std::filesystem::path>& folders);
 
-/// The station's haptic device, tried for a second or two; nothing is moved by it, no force is rendered.
+/// The station's haptic device, tried for a second or two; nothing is moved by it, no force is
+/// rendered.
 Finding askDevice(const station::DeviceSetup& setup);
 
 /// What came of a force sensor in some time.
 struct SensorFacts {
   std::uint64_t records = 0, lost = 0, faults = 0;
   double seconds = 0;
-  std::string trouble;     ///< it could not be opened: why
+  std::string trouble;  ///< it could not be opened: why
 };
 Finding judgeSensor(const SensorFacts& facts);
 

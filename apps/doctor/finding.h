@@ -3,15 +3,17 @@
 #include <string>
 #include <vector>
 
-/// Is a station well? Each question is asked of the world in one place and judged in another, so that every fault can be put before the judge.
+/// Is a station well? Each question is asked of the world in one place and judged in another, so
+/// that every fault can be put before the judge.
 namespace palpa::doctor {
 
-/// absent: this station has none, and needs none. note: a session can start, but something should be done. ill: no session can.
+/// absent: this station has none, and needs none. note: a session can start, but something should
+/// be done. ill: no session can.
 enum class State { well, absent, note, ill };
 
 /// What was found about one thing, for whoever stands beside it.
 struct Finding {
-  std::string subject;   ///< "camera"
+  std::string subject;  ///< "camera"
   State state = State::well;
   std::string verdict;   ///< "15.0 pictures a second, in focus"
   std::string fix = {};  ///< what to do; empty where nothing is to be done

@@ -11,15 +11,16 @@
 namespace palpa::doctor {
 namespace {
 
-constexpr double kDark = 110, kBurnt = 0.15;         // the brightest hundredth; share of pixels
-constexpr double kBlurred_px = 3.5;                  // edges of a sharp picture are 2 to 3 pixels wide
-constexpr double kPoorFit_px = 1.5;                  // of the board's points: another board, or another camera
-constexpr double kSlow = 0.8;                        // of the rate that is asked for
+constexpr double kDark = 110, kBurnt = 0.15;  // the brightest hundredth; share of pixels
+constexpr double kBlurred_px = 3.5;           // edges of a sharp picture are 2 to 3 pixels wide
+constexpr double kPoorFit_px = 1.5;  // of the board's points: another board, or another camera
+constexpr double kSlow = 0.8;        // of the rate that is asked for
 constexpr double kOftenSeen = 0.8;
 
 double median(std::vector<double> values) {
   if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
   return values[values.size() / 2];
 }
 
@@ -37,12 +38,13 @@ double levelOf(const cv::Mat& gray, double share) {
 /// Contrast over the steepest slopes, as the width from 10 % to 90 % of a straight edge.
 double edgeWidth(const cv::Mat& gray) {
   cv::Mat smooth, dx, dy, slope, whole;
-  cv::GaussianBlur(gray, smooth, {3, 3}, 0);   // noise is no edge
+  cv::GaussianBlur(gray, smooth, {3, 3}, 0);  // noise is no edge
   cv::Sobel(smooth, dx, CV_32F, 1, 0, 3, 0.125);
   cv::Sobel(smooth, dy, CV_32F, 0, 1, 3, 0.125);
   cv::magnitude(dx, dy, slope);
   slope.convertTo(whole, CV_8U);
-  const double steepest = levelOf(whole, 0.98), contrast = levelOf(gray, 0.95) - levelOf(gray, 0.05);
+  const double steepest = levelOf(whole, 0.98),
+               contrast = levelOf(gray, 0.95) - levelOf(gray, 0.05);
   return steepest > 0 ? 0.8 * contrast / steepest : 1e9;
 }
 
@@ -54,13 +56,17 @@ cv::Rect around(const std::vector<ar::BoardPoint>& points, const cv::Size& size)
     low_v = std::min(low_v, point.pixel.y());
     high_v = std::max(high_v, point.pixel.y());
   }
-  return cv::Rect(cv::Point(static_cast<int>(low_u), static_cast<int>(low_v)), cv::Point(static_cast<int>(high_u) + 1, static_cast<int>(high_v) + 1)) & cv::Rect({0, 0}, size);
+  return cv::Rect(cv::Point(static_cast<int>(low_u), static_cast<int>(low_v)),
+                  cv::Point(static_cast<int>(high_u) + 1, static_cast<int>(high_v) + 1)) &
+         cv::Rect({0, 0}, size);
 }
 
 /// One picture after the other.
 class Looker {
  public:
-  Looker(const ar::Board& board, const calibration::CameraModel& camera, const runtime::Clock* clock) : board_(board), camera_(camera), clock_(clock) {}
+  Looker(const ar::Board& board, const calibration::CameraModel& camera,
+         const runtime::Clock* clock)
+      : board_(board), camera_(camera), clock_(clock) {}
 
   void look(const ar::Frame& frame) {
     lookAtTime(frame.t_exposure_ns);
@@ -74,7 +80,8 @@ class Looker {
     if (!last_.empty() && cv::norm(gray, last_, cv::NORM_INF) == 0) ++facts_.alike;
     last_ = gray.clone();
     bright_.push_back(levelOf(gray, 0.99));
-    burnt_.push_back(static_cast<double>(cv::countNonZero(gray >= 250)) / static_cast<double>(gray.total()));
+    burnt_.push_back(static_cast<double>(cv::countNonZero(gray >= 250)) /
+                     static_cast<double>(gray.total()));
     findBoard(gray);
   }
 
@@ -93,9 +100,11 @@ class Looker {
 
  private:
   void lookAtTime(std::int64_t exposed_ns) {
-    constexpr std::int64_t kOldest = 2 * runtime::kSecond;   // as a session has it
-    if (facts_.pictures++ == 0) first_ns_ = exposed_ns;
-    else if (exposed_ns <= last_ns_) ++facts_.backward;
+    constexpr std::int64_t kOldest = 2 * runtime::kSecond;  // as a session has it
+    if (facts_.pictures++ == 0)
+      first_ns_ = exposed_ns;
+    else if (exposed_ns <= last_ns_)
+      ++facts_.backward;
     last_ns_ = exposed_ns;
     if (!clock_) return;
     const std::int64_t now = clock_->now(), stamped = clock_->ofMonotonic(exposed_ns);
@@ -123,32 +132,69 @@ class Looker {
 };
 
 Finding judgeCamera(const PictureFacts& f, double rate_Hz, const calibration::CameraModel& camera) {
-  const auto ill = [](std::string verdict, std::string fix) { return Finding{"camera", State::ill, std::move(verdict), std::move(fix)}; };
+  const auto ill = [](std::string verdict, std::string fix) {
+    return Finding{"camera", State::ill, std::move(verdict), std::move(fix)};
+  };
   if (!f.trouble.empty()) return troubled("camera", State::ill, f.trouble);
-  if (f.pictures < 2) return ill("gives no pictures", "Plug its cable in again; see that no other program uses it");
-  if (f.wrong_size > 0) return ill(text("does not give pictures of %d x %d pixels", camera.width, camera.height), "Calibrate this camera (palpa calibrate camera), or set it to the size that the station's file names");
-  if (2 * f.alike > f.pictures) return ill("gives the same picture over and over", "Unplug the camera and plug it in again");
-  if (f.bright < kDark) return ill(text("pictures are too dark (the brightest hundredth is at %.0f of 255)", f.bright), "Take the cap off, switch a lamp on, or raise camera/exposure_ms in the station's file");
-  if (f.burnt > kBurnt) return ill(text("pictures are too bright (%.0f %% of them is white)", 100 * f.burnt), "Turn the lamp away, or lower camera/exposure_ms in the station's file");
+  if (f.pictures < 2)
+    return ill("gives no pictures", "Plug its cable in again; see that no other program uses it");
+  if (f.wrong_size > 0)
+    return ill(text("does not give pictures of %d x %d pixels", camera.width, camera.height),
+               "Calibrate this camera (palpa calibrate camera), or set it to the size that the "
+               "station's file names");
+  if (2 * f.alike > f.pictures)
+    return ill("gives the same picture over and over", "Unplug the camera and plug it in again");
+  if (f.bright < kDark)
+    return ill(
+        text("pictures are too dark (the brightest hundredth is at %.0f of 255)", f.bright),
+        "Take the cap off, switch a lamp on, or raise camera/exposure_ms in the station's file");
+  if (f.burnt > kBurnt)
+    return ill(text("pictures are too bright (%.0f %% of them is white)", 100 * f.burnt),
+               "Turn the lamp away, or lower camera/exposure_ms in the station's file");
   const double rate = f.seconds > 0 ? (f.pictures - 1) / f.seconds : 0;
-  if (f.seen > 0 && f.edge_px > kBlurred_px) return {"camera", State::note, text("pictures are out of focus (edges are %.1f pixels wide)", f.edge_px), "Turn the lens's focus, or set camera/focus in the station's file; then calibrate the camera anew"};
-  if (rate < kSlow * rate_Hz) return {"camera", State::note, text("gives %.1f pictures a second where %.1f are asked for", rate, rate_Hz), "Give it a USB port of its own and more light (a dark room makes exposures long)"};
-  if (!f.remark.empty()) return {"camera", State::note, f.remark, "Use a camera whose exposure, focus and white balance can be fixed; with this one keep the light as it was at its calibration"};
-  return {"camera", State::well, text("%.1f pictures a second, exposure right", rate) + (f.seen > 0 ? text(", edges %.1f pixels wide", f.edge_px) : "")};
+  if (f.seen > 0 && f.edge_px > kBlurred_px)
+    return {"camera", State::note,
+            text("pictures are out of focus (edges are %.1f pixels wide)", f.edge_px),
+            "Turn the lens's focus, or set camera/focus in the station's file; then calibrate the "
+            "camera anew"};
+  if (rate < kSlow * rate_Hz)
+    return {"camera", State::note,
+            text("gives %.1f pictures a second where %.1f are asked for", rate, rate_Hz),
+            "Give it a USB port of its own and more light (a dark room makes exposures long)"};
+  if (!f.remark.empty())
+    return {"camera", State::note, f.remark,
+            "Use a camera whose exposure, focus and white balance can be fixed; with this one keep "
+            "the light as it was at its calibration"};
+  return {"camera", State::well,
+          text("%.1f pictures a second, exposure right", rate) +
+              (f.seen > 0 ? text(", edges %.1f pixels wide", f.edge_px) : "")};
 }
 
 Finding judgeBoard(const PictureFacts& f) {
   const int fit = f.pictures - f.wrong_size;
-  if (fit < 1) return {"board", State::ill, "cannot be looked for: there are no pictures", "See to the camera first"};
-  if (f.seen == 0) return {"board", State::ill, "is not seen", "Put the printed board flat under the camera, all of it in the picture, nothing on it, the lens in focus. None printed? palpa board print"};
-  if (f.rms_px > kPoorFit_px) return {"board", State::ill, text("does not fit (its points are off by %.1f pixels)", f.rms_px), "Is it the board that the station's file describes, flat and undamaged? Else calibrate the camera anew"};
-  if (f.seen < kOftenSeen * fit) return {"board", State::note, text("is seen in %d of %d pictures only", f.seen, fit), "Move what hides it, and lamps that shine on it"};
-  return {"board", State::well, text("seen in %d of %d pictures, its points within %.2f pixels", f.seen, fit, f.rms_px)};
+  if (fit < 1)
+    return {"board", State::ill, "cannot be looked for: there are no pictures",
+            "See to the camera first"};
+  if (f.seen == 0)
+    return {"board", State::ill, "is not seen",
+            "Put the printed board flat under the camera, all of it in the picture, nothing on it, "
+            "the lens in focus. None printed? palpa board print"};
+  if (f.rms_px > kPoorFit_px)
+    return {"board", State::ill, text("does not fit (its points are off by %.1f pixels)", f.rms_px),
+            "Is it the board that the station's file describes, flat and undamaged? Else calibrate "
+            "the camera anew"};
+  if (f.seen < kOftenSeen * fit)
+    return {"board", State::note, text("is seen in %d of %d pictures only", f.seen, fit),
+            "Move what hides it, and lamps that shine on it"};
+  return {"board", State::well,
+          text("seen in %d of %d pictures, its points within %.2f pixels", f.seen, fit, f.rms_px)};
 }
 
 }  // namespace
 
-PictureFacts lookAt(const std::function<std::optional<ar::Frame>()>& grab, int count, const ar::Board& board, const calibration::CameraModel& camera, const runtime::Clock* clock) {
+PictureFacts lookAt(const std::function<std::optional<ar::Frame>()>& grab, int count,
+                    const ar::Board& board, const calibration::CameraModel& camera,
+                    const runtime::Clock* clock) {
   Looker looker(board, camera, clock);
   try {
     for (int i = 0; i < count; ++i) {
@@ -164,6 +210,9 @@ PictureFacts lookAt(const std::function<std::optional<ar::Frame>()>& grab, int c
   }
 }
 
-Findings judgePictures(const PictureFacts& facts, double rate_Hz, const calibration::CameraModel& camera) { return {judgeCamera(facts, rate_Hz, camera), judgeBoard(facts)}; }
+Findings judgePictures(const PictureFacts& facts, double rate_Hz,
+                       const calibration::CameraModel& camera) {
+  return {judgeCamera(facts, rate_Hz, camera), judgeBoard(facts)};
+}
 
 }  // namespace palpa::doctor

@@ -12,11 +12,12 @@ namespace palpa::doctor {
 struct TrackerFacts {
   igt::TrackerCounts counts;
   double seconds = 0;
-  std::string trouble = {};   ///< it could not even be asked: why
+  std::string trouble = {};  ///< it could not even be asked: why
 };
 Finding judgeTracker(const TrackerFacts& facts, const station::TrackerSetup& setup);
 
-/// The tracking system that a station names, listened to for a second; given up when nothing has come in `wait_s`.
+/// The tracking system that a station names, listened to for a second; given up when nothing has
+/// come in `wait_s`.
 Finding askTracker(const station::TrackerSetup& setup, double wait_s = 3);
 
 }  // namespace palpa::doctor

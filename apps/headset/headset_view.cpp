@@ -7,7 +7,7 @@
 namespace palpa::headset {
 namespace {
 
-constexpr double kReach = 0.10;   // m from the hand to the tool's tip
+constexpr double kReach = 0.10;  // m from the hand to the tool's tip
 
 ar::GlBinding bindingOf(const scene::NativeContext& native) {
   ar::GlBinding gl;
@@ -24,7 +24,8 @@ ar::GlBinding bindingOf(const scene::NativeContext& native) {
 }  // namespace
 
 HeadsetView::HeadsetView(const anatomy::Patient& patient, Setup setup)
-    : setup_(std::move(setup)), context_(scene::makeGlContext(scene::Display::offscreen, 64, 64, "Palpa, headset")) {
+    : setup_(std::move(setup)),
+      context_(scene::makeGlContext(scene::Display::offscreen, 64, 64, "Palpa, headset")) {
   headset_ = ar::openHeadset(bindingOf(context_->native()));
   addView(patient);
 }
@@ -79,23 +80,28 @@ void HeadsetView::show(const scene::SceneState& state) {
   if (draw) {
     scene::SceneState seen = state;
     std::array<scene::EyeCamera, 2> eyes;
-    for (std::size_t i = 0; i < 2; ++i) eyes[i] = {pinholeOf(frame_.eyes[i], width_, height_), frame_.eyes[i].X_LE.inverse() * X_LA_};
+    for (std::size_t i = 0; i < 2; ++i)
+      eyes[i] = {pinholeOf(frame_.eyes[i], width_, height_), frame_.eyes[i].X_LE.inverse() * X_LA_};
     seen.picture = nullptr;
     seen.registered = true;
     seen.camera = eyes[0].camera;
     seen.X_CA = eyes[0].X_CA;
     seen.eyes = eyes;
-    seen.tip_covariance_A.reset();   // of the camera's overlay
+    seen.tip_covariance_A.reset();  // of the camera's overlay
     seen.hud.overlay.clear();
     view_->show(seen);
   }
   context_->makeCurrent();
-  const ar::Headset::Draw copy = [&](std::size_t eye, const ar::EyeTexture& picture) { view_->copyEye(eye, {picture.texture, picture.format, picture.width, picture.height}); };
+  const ar::Headset::Draw copy = [&](std::size_t eye, const ar::EyeTexture& picture) {
+    view_->copyEye(eye, {picture.texture, picture.format, picture.width, picture.height});
+  };
   headset_->end(draw ? copy : ar::Headset::Draw());
   frames_ += draw;
 }
 
-void HeadsetView::pulse(double seconds, double strength) { headset_->vibrate(hand(), seconds, strength); }
+void HeadsetView::pulse(double seconds, double strength) {
+  headset_->vibrate(hand(), seconds, strength);
+}
 
 std::string HeadsetView::trouble() const { return headset_->trouble(); }
 

@@ -12,18 +12,19 @@ namespace palpa::headset {
 /// What a controller says, in the patient's frame.
 struct HeldTool {
   bool tracked = false;
-  Pose X_AT = Pose::Identity();   ///< the tool's tip, 0.10 m before the hand, where it points
-  double plunger = 0;             ///< trigger, 0..1
-  bool start = false;             ///< the button was pressed
+  Pose X_AT = Pose::Identity();  ///< the tool's tip, 0.10 m before the hand, where it points
+  double plunger = 0;            ///< trigger, 0..1
+  bool start = false;            ///< the button was pressed
 };
 
-/// A headset that shows the scene: the patient lies before the person (again whenever they ask for it, or their system recentres), the tool is in their
-/// hand. It has a context and a view of its own; the desktop's go on beside it.
+/// A headset that shows the scene: the patient lies before the person (again whenever they ask for
+/// it, or their system recentres), the tool is in their hand. It has a context and a view of its
+/// own; the desktop's go on beside it.
 class HeadsetView final : public runtime::HeadDisplay {
  public:
   struct Setup {
     Pose X_WA = Pose::Identity();
-    Vec3 focus_A = Vec3::Zero();       ///< what lies before the person
+    Vec3 focus_A = Vec3::Zero();  ///< what lies before the person
     bool left_handed = false;
     scene::ForceColours force_colours = scene::ForceColours::paper;
     bool skin_deflection = false;
@@ -37,8 +38,10 @@ class HeadsetView final : public runtime::HeadDisplay {
   void pulse(double seconds, double strength) override;
   std::string trouble() const override;
   std::string describe() const;
-  void onHeld(std::function<void(const HeldTool&)> action) { held_ = std::move(action); }   ///< called once a frame
-  std::uint64_t frames() const { return frames_; }   ///< shown
+  void onHeld(std::function<void(const HeldTool&)> action) {
+    held_ = std::move(action);
+  }                                                 ///< called once a frame
+  std::uint64_t frames() const { return frames_; }  ///< shown
 
  private:
   std::size_t hand() const { return setup_.left_handed ? 0 : 1; }
@@ -49,9 +52,9 @@ class HeadsetView final : public runtime::HeadDisplay {
   std::unique_ptr<scene::GlContextProvider> context_;
   std::unique_ptr<ar::Headset> headset_;
   std::unique_ptr<scene::SceneView> view_;
-  int width_ = 0, height_ = 0;         ///< of one eye's half of the view
+  int width_ = 0, height_ = 0;  ///< of one eye's half of the view
   ar::HeadsetFrame frame_;
-  bool placed_ = false, asked_ = false;   ///< asked_: to be placed anew, as soon as that may be
+  bool placed_ = false, asked_ = false;  ///< asked_: to be placed anew, as soon as that may be
   std::function<void(const HeldTool&)> held_;
   Pose X_LA_ = Pose::Identity();
   std::uint64_t frames_ = 0;

@@ -3,11 +3,16 @@
 namespace palpa::headset {
 namespace {
 
-constexpr double kAhead = 0.45, kBelow = 0.25;   // m from the eyes: within reach of a bent arm, looked down on as at a table
-constexpr double kLevel = 0.3;                   // less of the gaze than this is level: they look straight up or down
+constexpr double
+    kAhead = 0.45,
+    kBelow = 0.25;  // m from the eyes: within reach of a bent arm, looked down on as at a table
+constexpr double kLevel =
+    0.3;  // less of the gaze than this is level: they look straight up or down
 
 /// Between the eyes.
-Vec3 headOf(const std::array<ar::EyeView, 2>& eyes) { return 0.5 * (eyes[0].X_LE.translation() + eyes[1].X_LE.translation()); }
+Vec3 headOf(const std::array<ar::EyeView, 2>& eyes) {
+  return 0.5 * (eyes[0].X_LE.translation() + eyes[1].X_LE.translation());
+}
 
 }  // namespace
 

@@ -6,14 +6,15 @@
 namespace palpa::live {
 namespace {
 
-constexpr std::int64_t kSlot = 20'000'000;   // ns
+constexpr std::int64_t kSlot = 20'000'000;  // ns
 
 double rounded(double value, double step) { return std::round(value / step) * step; }
 
 }  // namespace
 
 double feltForce(const haptics::FlightRecord& record) {
-  if (record.sensed.state == haptics::SensorState::valid) return (unpack(record.sensed.f_D) + unpack(record.f_command_D)).norm();
+  if (record.sensed.state == haptics::SensorState::valid)
+    return (unpack(record.sensed.f_D) + unpack(record.f_command_D)).norm();
   return unpack(record.f_contact_D).norm();
 }
 
@@ -39,7 +40,9 @@ std::string Curve::take() {
     depth.push_back(std::isfinite(point.depth_mm) ? rounded(point.depth_mm, 1e-2) : 0);
   }
   points_.clear();
-  return nlohmann::json{{"kind", "curve"}, {"trial", trial_}, {"t_s", t}, {"force_N", force}, {"depth_mm", depth}}.dump();
+  return nlohmann::json{
+      {"kind", "curve"}, {"trial", trial_}, {"t_s", t}, {"force_N", force}, {"depth_mm", depth}}
+      .dump();
 }
 
 }  // namespace palpa::live

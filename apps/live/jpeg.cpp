@@ -6,10 +6,12 @@
 namespace palpa::live {
 
 std::string jpegOf(const scene::Image& image, int quality, int widest) {
-  const cv::Mat shown(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data()));
+  const cv::Mat shown(image.height, image.width, CV_8UC3,
+                      const_cast<std::uint8_t*>(image.pixels.data()));
   cv::Mat bgr;
   cv::cvtColor(shown, bgr, cv::COLOR_RGB2BGR);
-  if (widest > 0 && bgr.cols > widest) cv::resize(bgr, bgr, {widest, bgr.rows * widest / bgr.cols}, 0, 0, cv::INTER_AREA);
+  if (widest > 0 && bgr.cols > widest)
+    cv::resize(bgr, bgr, {widest, bgr.rows * widest / bgr.cols}, 0, 0, cv::INTER_AREA);
   std::vector<std::uint8_t> bytes;
   cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
   return {bytes.begin(), bytes.end()};

@@ -8,24 +8,36 @@
 namespace palpa::live {
 namespace {
 
-constexpr std::int64_t kWords = 200'000'000, kPicture = 66'000'000;   // ns
+constexpr std::int64_t kWords = 200'000'000, kPicture = 66'000'000;  // ns
 constexpr int kToldRefusals = 1000;
 
 const char* nameOf(trial::TrialState state) {
   using trial::TrialState;
   switch (state) {
-    case TrialState::checking: return "checking";
-    case TrialState::waiting: return "waiting";
-    case TrialState::running: return "running";
-    case TrialState::paused: return "paused";
-    case TrialState::ended: return "ended";
-    case TrialState::finished: return "finished";
+    case TrialState::checking:
+      return "checking";
+    case TrialState::waiting:
+      return "waiting";
+    case TrialState::running:
+      return "running";
+    case TrialState::paused:
+      return "paused";
+    case TrialState::ended:
+      return "ended";
+    case TrialState::finished:
+      return "finished";
   }
   return "";
 }
 
 std::string helloEntry(const Hello& hello) {
-  return entryOf({{"kind", "hello"}, {"uuid", hello.uuid}, {"task", hello.task}, {"trainee", hello.trainee}, {"simulated", hello.simulated}, {"assessed", hello.assessed}, {"trials", hello.trials}});
+  return entryOf({{"kind", "hello"},
+                  {"uuid", hello.uuid},
+                  {"task", hello.task},
+                  {"trainee", hello.trainee},
+                  {"simulated", hello.simulated},
+                  {"assessed", hello.assessed},
+                  {"trials", hello.trials}});
 }
 
 LiveLog& beginWith(LiveLog& log, const Hello& hello) {
@@ -36,13 +48,28 @@ LiveLog& beginWith(LiveLog& log, const Hello& hello) {
 }  // namespace
 
 LiveSession::LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels)
-    : channels_(channels), port_(socket, beginWith(log_, hello), [this](const std::string& command) { hear(command); }) {}
+    : channels_(channels),
+      port_(socket, beginWith(log_, hello), [this](const std::string& command) { hear(command); }) {
+}
 
-void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status, std::int64_t now_ns) {
+void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
+                       std::int64_t now_ns) {
   if (now_ns < next_words_ns_) return;
   next_words_ns_ = now_ns + kWords;
-  nlohmann::json words{{"kind", "status"}, {"state", nameOf(status.state)}, {"trial", status.trial}, {"trials", status.trials}, {"role", status.role}, {"notice", hud.notice}, {"alarm", hud.alarm},
-                       {"emergency_stop", status.emergency_stop}, {"phase", hud.phase}, {"depth", hud.depth}, {"force", hud.force}, {"touched", hud.touched}, {"elapsed_s", static_cast<double>(static_cast<int>(10 * status.elapsed_s)) / 10}};
+  nlohmann::json words{
+      {"kind", "status"},
+      {"state", nameOf(status.state)},
+      {"trial", status.trial},
+      {"trials", status.trials},
+      {"role", status.role},
+      {"notice", hud.notice},
+      {"alarm", hud.alarm},
+      {"emergency_stop", status.emergency_stop},
+      {"phase", hud.phase},
+      {"depth", hud.depth},
+      {"force", hud.force},
+      {"touched", hud.touched},
+      {"elapsed_s", static_cast<double>(static_cast<int>(10 * status.elapsed_s)) / 10}};
   std::string now = entryOf(words);
   if (now == told_) return;
   told_ = std::move(now);

@@ -21,10 +21,13 @@ class LiveSession {
   LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels);
 
   LiveLog& log() { return log_; }
-  /// On the scene's thread, once a frame: what is on the screen in words. Told when it has changed, at most five times a second.
+  /// On the scene's thread, once a frame: what is on the screen in words. Told when it has changed,
+  /// at most five times a second.
   void show(const scene::Hud& hud, const trial::TrialStatus& status, std::int64_t now_ns);
   /// A picture is wanted now: at most 15 a second, and none while nobody looks.
-  bool wantsPicture(std::int64_t now_ns) const { return port_.wantsPicture() && now_ns >= next_picture_ns_; }
+  bool wantsPicture(std::int64_t now_ns) const {
+    return port_.wantsPicture() && now_ns >= next_picture_ns_;
+  }
   void picture(scene::Image picture, std::int64_t now_ns);
 
  private:
@@ -32,10 +35,10 @@ class LiveSession {
 
   LiveLog log_;
   trial::Channels& channels_;
-  std::string told_;                   ///< the last status, without its time
-  int refused_ = 0;                    ///< told: a peer that sends nonsense for hours shall not fill the memory
+  std::string told_;  ///< the last status, without its time
+  int refused_ = 0;   ///< told: a peer that sends nonsense for hours shall not fill the memory
   std::int64_t next_words_ns_ = 0, next_picture_ns_ = 0;
-  Port port_;                          ///< last: its thread uses the rest
+  Port port_;  ///< last: its thread uses the rest
 };
 
 }  // namespace palpa::live

@@ -16,7 +16,8 @@ namespace palpa::live {
 namespace {
 
 constexpr std::size_t kMostPeers = 8, kEntriesAtOnce = 256, kEnoughWaiting = 64 << 10;
-constexpr int kCallersAtOnce = 16, kReadsAtOnce = 16;   // of one peer: another's turn comes, and the session's end, whatever one sends
+constexpr int kCallersAtOnce = 16, kReadsAtOnce = 16;  // of one peer: another's turn comes, and the
+                                                       // session's end, whatever one sends
 constexpr int kLook_ms = 25, kQuality = 80, kWidest = 1280;
 constexpr std::chrono::milliseconds kFarewell{500};
 
@@ -30,14 +31,19 @@ struct Port::Peer {
 
   const int socket;
   FrameDecoder decoder;
-  std::string waiting;        ///< to be written
-  std::size_t told = 0;       ///< entries of the log
+  std::string waiting;   ///< to be written
+  std::size_t told = 0;  ///< entries of the log
   bool watches = false, lost = false;
-  runtime::ServingClock::time_point took = runtime::ServingClock::now();   ///< when it took something off, or nothing waited
+  runtime::ServingClock::time_point took =
+      runtime::ServingClock::now();  ///< when it took something off, or nothing waited
 };
 
 Port::Port(std::string path, const LiveLog& log, Heard heard, std::chrono::milliseconds patience)
-    : path_(std::move(path)), log_(log), heard_(std::move(heard)), patience_(patience), listener_(listenAt(path_)) {
+    : path_(std::move(path)),
+      log_(log),
+      heard_(std::move(heard)),
+      patience_(patience),
+      listener_(listenAt(path_)) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -49,7 +55,10 @@ Port::~Port() {
 }
 
 void Port::offer(scene::Image picture) {
-  if (picture.channels != 3 || picture.width <= 0 || picture.height <= 0 || picture.pixels.size() != 3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height)) return;
+  if (picture.channels != 3 || picture.width <= 0 || picture.height <= 0 ||
+      picture.pixels.size() !=
+          3 * static_cast<std::size_t>(picture.width) * static_cast<std::size_t>(picture.height))
+    return;
   const std::lock_guard lock(picture_mutex_);
   picture_ = std::move(picture);
   has_picture_.store(true, std::memory_order_release);
@@ -76,12 +85,17 @@ void Port::run() {
 
 void Port::waitForPeers(int timeout_ms) {
   std::vector<pollfd> all{{listener_, POLLIN, 0}};
-  for (const auto& peer : peers_) all.push_back({peer->socket, static_cast<short>(peer->waiting.empty() ? POLLIN : POLLIN | POLLOUT), 0});
+  for (const auto& peer : peers_)
+    all.push_back(
+        {peer->socket, static_cast<short>(peer->waiting.empty() ? POLLIN : POLLIN | POLLOUT), 0});
   ::poll(all.data(), all.size(), timeout_ms);
 }
 
 void Port::accept() {
-  for (int callers = 0, socket; callers < kCallersAtOnce && (socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0; ++callers) {
+  for (int callers = 0, socket;
+       callers < kCallersAtOnce &&
+       (socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0;
+       ++callers) {
     if (peers_.size() >= kMostPeers || !sameUser(socket)) {
       ::close(socket);
     } else {
@@ -109,7 +123,7 @@ void Port::obey(Peer& peer) {
       if (frame->kind == FrameKind::command) heard_(frame->body);
     }
   } catch (const Error&) {
-    peer.lost = true;   // it does not speak our language
+    peer.lost = true;  // it does not speak our language
   }
 }
 
@@ -126,9 +140,11 @@ void Port::write(Peer& peer) {
   tell(peer);
   const auto now = runtime::ServingClock::now();
   while (!peer.waiting.empty()) {
-    const ssize_t count = ::send(peer.socket, peer.waiting.data(), peer.waiting.size(), MSG_NOSIGNAL);
+    const ssize_t count =
+        ::send(peer.socket, peer.waiting.data(), peer.waiting.size(), MSG_NOSIGNAL);
     if (count <= 0) {
-      peer.lost |= (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) || now - peer.took > patience_;
+      peer.lost |= (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) ||
+                   now - peer.took > patience_;
       return;
     }
     peer.waiting.erase(0, static_cast<std::size_t>(count));
@@ -138,7 +154,9 @@ void Port::write(Peer& peer) {
 }
 
 void Port::encodePicture() {
-  watched_.store(std::any_of(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->watches; }), std::memory_order_relaxed);
+  watched_.store(
+      std::any_of(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->watches; }),
+      std::memory_order_relaxed);
   if (!has_picture_.load(std::memory_order_acquire)) return;
   scene::Image picture;
   {
@@ -152,11 +170,15 @@ void Port::encodePicture() {
 }
 
 void Port::leaveLost() {
-  peers_.erase(std::remove_if(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->lost; }), peers_.end());
+  peers_.erase(
+      std::remove_if(peers_.begin(), peers_.end(), [](const auto& peer) { return peer->lost; }),
+      peers_.end());
 }
 
 bool Port::allTold() const {
-  return std::all_of(peers_.begin(), peers_.end(), [this](const auto& peer) { return peer->waiting.empty() && peer->told == log_.size(); });
+  return std::all_of(peers_.begin(), peers_.end(), [this](const auto& peer) {
+    return peer->waiting.empty() && peer->told == log_.size();
+  });
 }
 
 }  // namespace palpa::live

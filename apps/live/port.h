@@ -15,19 +15,26 @@
 
 namespace palpa::live {
 
-/// The session's end of the local socket: tells its log and its pictures to up to eight who look on, hears what they ask. A thread of its own at low priority; whoever is slow gets fewer pictures, who takes nothing is left, and nobody who
-/// looks on can hold the session up. Only processes of the same user are heard.
+/// The session's end of the local socket: tells its log and its pictures to up to eight who look
+/// on, hears what they ask. A thread of its own at low priority; whoever is slow gets fewer
+/// pictures, who takes nothing is left, and nobody who looks on can hold the session up. Only
+/// processes of the same user are heard.
 class Port {
  public:
   /// Called on the port's thread with the body of a command.
   using Heard = std::function<void(const std::string& command)>;
   /// Throws Error where there can be no socket at `path`.
-  /// `patience`: whoever has taken nothing off for so long while something waits is left; he may come again.
-  Port(std::string path, const LiveLog& log, Heard heard, std::chrono::milliseconds patience = std::chrono::seconds(10));
-  ~Port();   ///< tells what is left, for at most half a second
+  /// `patience`: whoever has taken nothing off for so long while something waits is left; he may
+  /// come again.
+  Port(std::string path, const LiveLog& log, Heard heard,
+       std::chrono::milliseconds patience = std::chrono::seconds(10));
+  ~Port();  ///< tells what is left, for at most half a second
 
   /// Somebody wants pictures, and the last one is gone.
-  bool wantsPicture() const { return watched_.load(std::memory_order_relaxed) && !has_picture_.load(std::memory_order_acquire); }
+  bool wantsPicture() const {
+    return watched_.load(std::memory_order_relaxed) &&
+           !has_picture_.load(std::memory_order_acquire);
+  }
   void offer(scene::Image picture);
 
  private:

@@ -6,15 +6,17 @@
 
 #include "anatomy/geometry/error.h"
 
-/// Between a running session and whoever looks on: frames over a local socket, kind (1 byte), length (4 bytes, little-endian), body.
+/// Between a running session and whoever looks on: frames over a local socket, kind (1 byte),
+/// length (4 bytes, little-endian), body.
 namespace palpa::live {
 
 enum class FrameKind : char {
-  entry = 'L',      ///< session -> console: the next entry of its log, a JSON object
-  picture = 'P',    ///< session -> console: what is on the screen, JPEG
-  known = 'K',      ///< session -> console, once, first: how many entries its log held when the console came; with as many it has caught up
-  command = 'C',    ///< console -> session: {"command", "reason", "at_s"}
-  watch = 'W'       ///< console -> session: "1": pictures are wanted; "0": nobody looks
+  entry = 'L',    ///< session -> console: the next entry of its log, a JSON object
+  picture = 'P',  ///< session -> console: what is on the screen, JPEG
+  known = 'K',  ///< session -> console, once, first: how many entries its log held when the console
+                ///< came; with as many it has caught up
+  command = 'C',  ///< console -> session: {"command", "reason", "at_s"}
+  watch = 'W'     ///< console -> session: "1": pictures are wanted; "0": nobody looks
 };
 
 struct Frame {
@@ -22,11 +24,13 @@ struct Frame {
   std::string body;
 };
 
-inline constexpr std::size_t kLongestPicture = 8u << 20, kLongestEntry = 1u << 20, kLongestCommand = 8u << 10, kLongestCount = 20;
+inline constexpr std::size_t kLongestPicture = 8u << 20, kLongestEntry = 1u << 20,
+                             kLongestCommand = 8u << 10, kLongestCount = 20;
 
 std::string encoded(FrameKind kind, const std::string& body);
 
-/// Frames out of bytes as they come, in whatever pieces. Throws Error for what is no frame, or one longer than its kind may be: the peer is then to be left.
+/// Frames out of bytes as they come, in whatever pieces. Throws Error for what is no frame, or one
+/// longer than its kind may be: the peer is then to be left.
 class FrameDecoder {
  public:
   void feed(const char* bytes, std::size_t count) { pending_.append(bytes, count); }

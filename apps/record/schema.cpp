@@ -80,8 +80,8 @@ std::string layoutText() {
          sized<TickCommands>("TickCommands") + sized<LocalGeometry>("LocalGeometry") +
          sized<Capsule>("Capsule") + sized<Boundary>("Boundary") + sized<TickState>("TickState") +
          sized<NeedleState>("NeedleState") + sized<SafetyState>("SafetyState") +
-         sized<TickConfig>("TickConfig") + sized<PairConfig>("PairConfig") + sized<NeedleMaterials>("NeedleMaterials") +
-         sized<SafetyLimits>("SafetyLimits");
+         sized<TickConfig>("TickConfig") + sized<PairConfig>("PairConfig") +
+         sized<NeedleMaterials>("NeedleMaterials") + sized<SafetyLimits>("SafetyLimits");
 }
 
 }  // namespace palpa::record

@@ -14,25 +14,28 @@ namespace palpa::record {
 
 /// What a session file says of itself. JSON texts are stored as given.
 struct SessionInfo {
-  std::string uuid;              ///< made by `create` when empty
-  std::string started_utc;       ///< ISO 8601; the one anchor of session time 0
-  std::string software;          ///< version
-  std::string command;           ///< the command line's meaning, no paths
-  std::string session_json;      ///< seed, operator, force feedback, trainee pseudonym, frames, ...
+  std::string uuid;          ///< made by `create` when empty
+  std::string started_utc;   ///< ISO 8601; the one anchor of session time 0
+  std::string software;      ///< version
+  std::string command;       ///< the command line's meaning, no paths
+  std::string session_json;  ///< seed, operator, force feedback, trainee pseudonym, frames, ...
   std::string station_json;
   std::string task_json;
-  std::string patient_glb;       ///< the patient file's bytes, so that the evidence stands alone
+  std::string patient_glb;  ///< the patient file's bytes, so that the evidence stands alone
   std::string expert_path_json;
-  haptics::TickConfig tick_config;                   ///< of the first device where there are two
-  std::optional<haptics::PairConfig> pair_config = {};   ///< of two devices in one tick: every tick is recorded twice, FlightRecord::tool telling which
+  haptics::TickConfig tick_config;  ///< of the first device where there are two
+  std::optional<haptics::PairConfig> pair_config =
+      {};  ///< of two devices in one tick: every tick is recorded twice, FlightRecord::tool telling
+           ///< which
 };
 
-/// Writes `session.palpa`: SQLite, application_id "palp", user_version 1, WAL, one a session. Ticks and
-/// keyframes in compressed chunks of 200; every snapshot whole. A killed process leaves a file that opens.
+/// Writes `session.palpa`: SQLite, application_id "palp", user_version 1, WAL, one a session. Ticks
+/// and keyframes in compressed chunks of 200; every snapshot whole. A killed process leaves a file
+/// that opens.
 class SessionWriter final : public runtime::FlightSink {
  public:
   SessionWriter(const std::filesystem::path& file, const SessionInfo& info);
-  ~SessionWriter() override;   ///< commits and checkpoints
+  ~SessionWriter() override;  ///< commits and checkpoints
 
   void beginTrial(const runtime::TrialHeader& header) override;
   void snapshot(const LocalGeometry& geometry) override;
@@ -41,7 +44,7 @@ class SessionWriter final : public runtime::FlightSink {
   void event(const runtime::Event& event) override;
   void endTrial(const runtime::TrialEnd& end) override;
   void commit() override;
-  void close();                ///< throws Error when the last commit fails
+  void close();  ///< throws Error when the last commit fails
 
  private:
   struct Impl;
@@ -51,7 +54,7 @@ class SessionWriter final : public runtime::FlightSink {
 struct RecordedTrial {
   runtime::TrialHeader header;
   runtime::TrialEnd end;
-  bool ended = false;          ///< false: the process stopped in the middle
+  bool ended = false;  ///< false: the process stopped in the middle
 };
 
 /// Reads a session file; checks application id, version, chunk sizes. Throws Error.

@@ -106,7 +106,7 @@ void SessionReader::Impl::readInfo() {
   const std::string config = value("tick_config", true);
   check(config.size() == sizeof(info.tick_config), "meta", 0);
   std::memcpy(static_cast<void*>(&info.tick_config), config.data(), config.size());
-  const std::string pair = value("pair_config", true);   // empty: one device
+  const std::string pair = value("pair_config", true);  // empty: one device
   if (pair.empty()) return;
   check(pair.size() == sizeof(haptics::PairConfig), "meta", 0);
   std::memcpy(static_cast<void*>(&info.pair_config.emplace()), pair.data(), pair.size());

@@ -84,9 +84,9 @@ struct SessionWriter::Impl {
   std::optional<Database> database;
   std::optional<TableWriter> tables;
   Pending pending;
-  bool paired = false;         ///< two records a tick
-  std::map<int, bool> trials;  ///< trial -> ended
-  std::pair<std::int64_t, std::uint8_t> last_tick{INT64_MIN, 0};   ///< and its tool
+  bool paired = false;                                            ///< two records a tick
+  std::map<int, bool> trials;                                     ///< trial -> ended
+  std::pair<std::int64_t, std::uint8_t> last_tick{INT64_MIN, 0};  ///< and its tool
   std::int64_t last_keyframe = INT64_MIN;
   std::optional<std::uint64_t> last_snapshot;
 };

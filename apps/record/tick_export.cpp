@@ -24,10 +24,22 @@ const char* word(haptics::NeedlePhase phase) {
 }
 
 const char* word(haptics::SafetyCause cause) {
-  static constexpr const char* kWords[haptics::kSafetyCauseCount] = {
-      "none",          "not_finite",     "clamp",          "slew",     "energy",
-      "silent_device", "stale_geometry", "emergency_stop", "watchdog", "not_ready",
-      "jump",          "clock",          "corrupt_geometry", "deadman", "duty", "no_sensor"};
+  static constexpr const char* kWords[haptics::kSafetyCauseCount] = {"none",
+                                                                     "not_finite",
+                                                                     "clamp",
+                                                                     "slew",
+                                                                     "energy",
+                                                                     "silent_device",
+                                                                     "stale_geometry",
+                                                                     "emergency_stop",
+                                                                     "watchdog",
+                                                                     "not_ready",
+                                                                     "jump",
+                                                                     "clock",
+                                                                     "corrupt_geometry",
+                                                                     "deadman",
+                                                                     "duty",
+                                                                     "no_sensor"};
   const auto index = static_cast<std::size_t>(cause);
   return index < std::size(kWords) ? kWords[index] : "?";
 }
@@ -39,10 +51,14 @@ std::string word(Tissue tissue) {
 
 std::string eventWords(std::uint32_t events) {
   static constexpr std::pair<std::uint32_t, const char*> kWords[] = {
-      {haptics::kSkinPunctured, "skin_punctured"}, {haptics::kWithdrawn, "withdrawn"},
-      {haptics::kWallPunctured, "wall_punctured"}, {haptics::kBoneTouched, "bone_touched"},
-      {haptics::kBoneLeft, "bone_left"},           {haptics::kSnapshotAdopted, "snapshot_adopted"},
-      {haptics::kSafetyTripped, "safety_tripped"}, {haptics::kSafetyCleared, "safety_cleared"},
+      {haptics::kSkinPunctured, "skin_punctured"},
+      {haptics::kWithdrawn, "withdrawn"},
+      {haptics::kWallPunctured, "wall_punctured"},
+      {haptics::kBoneTouched, "bone_touched"},
+      {haptics::kBoneLeft, "bone_left"},
+      {haptics::kSnapshotAdopted, "snapshot_adopted"},
+      {haptics::kSafetyTripped, "safety_tripped"},
+      {haptics::kSafetyCleared, "safety_cleared"},
       {haptics::kSnapshotRefused, "snapshot_refused"}};
   std::string words;
   for (const auto& [bit, text] : kWords) {
@@ -74,7 +90,8 @@ void addScalar(std::vector<Column>& columns, const char* name, const char* meani
 void addClock(std::vector<Column>& columns) {
   columns.push_back({{"tick", "number of the tick in the session"},
                      [](const FlightRecord& r) { return std::to_string(r.tick); }});
-  columns.push_back({{"tool", "which of two devices, from 0"}, [](const FlightRecord& r) { return std::to_string(r.tool); }});
+  columns.push_back({{"tool", "which of two devices, from 0"},
+                     [](const FlightRecord& r) { return std::to_string(r.tool); }});
   columns.push_back({{"t_ns", "session time of the tick"},
                      [](const FlightRecord& r) { return std::to_string(r.t_ns); }});
   columns.push_back({{"late_ns", "of the tick behind its due time; 0 in virtual time"},
@@ -106,10 +123,20 @@ void addReading(std::vector<Column>& columns) {
   columns.push_back({{"homed", "1: positions are absolute"},
                      [](const FlightRecord& r) { return std::to_string(r.reading.homed); }});
   for (int i = 0; i < 3; ++i)
-    columns.push_back({{std::string("f_hand_D_") + "xyz"[i] + "_N", "force of the hand on the tool, by an instrumented handle"}, [=](const FlightRecord& r) { return shortest(r.reading.f_hand_D[static_cast<std::size_t>(i)]); }});
+    columns.push_back({{std::string("f_hand_D_") + "xyz"[i] + "_N",
+                        "force of the hand on the tool, by an instrumented handle"},
+                       [=](const FlightRecord& r) {
+                         return shortest(r.reading.f_hand_D[static_cast<std::size_t>(i)]);
+                       }});
   for (int i = 0; i < 3; ++i)
-    columns.push_back({{std::string("f_device_D_") + "xyz"[i] + "_N", "force of the device on the tool, drives and friction, by a force cell"}, [=](const FlightRecord& r) { return shortest(r.reading.f_device_D[static_cast<std::size_t>(i)]); }});
-  columns.push_back({{"instrumented", "1: hand and device are measured so (simulated devices only)"}, [](const FlightRecord& r) { return std::to_string(r.reading.instrumented); }});
+    columns.push_back({{std::string("f_device_D_") + "xyz"[i] + "_N",
+                        "force of the device on the tool, drives and friction, by a force cell"},
+                       [=](const FlightRecord& r) {
+                         return shortest(r.reading.f_device_D[static_cast<std::size_t>(i)]);
+                       }});
+  columns.push_back(
+      {{"instrumented", "1: hand and device are measured so (simulated devices only)"},
+       [](const FlightRecord& r) { return std::to_string(r.reading.instrumented); }});
 }
 
 void addCommands(std::vector<Column>& columns) {
@@ -126,39 +153,51 @@ void addCommands(std::vector<Column>& columns) {
   columns.push_back({{"subtask", "part of the task that was on, as the task counts them"},
                      [](const FlightRecord& r) { return std::to_string(r.commands.subtask); }});
   columns.push_back({{"lumps", "virtual lumps in this trial"}, [](const FlightRecord& r) {
-                       return std::to_string(std::count_if(r.commands.lumps.begin(), r.commands.lumps.end(), [](const auto& lump) { return lump.kind > 0; }));
+                       return std::to_string(
+                           std::count_if(r.commands.lumps.begin(), r.commands.lumps.end(),
+                                         [](const auto& lump) { return lump.kind > 0; }));
                      }});
-  columns.push_back({{"snapshot", "number of the newest geometry snapshot used, or refused in this tick"},
-                     [](const FlightRecord& r) { return std::to_string(r.snapshot); }});
+  columns.push_back(
+      {{"snapshot", "number of the newest geometry snapshot used, or refused in this tick"},
+       [](const FlightRecord& r) { return std::to_string(r.snapshot); }});
 }
 
 Vec3 tip(const PackedPose& X_ET, const FlightRecord& r) {
   return unpack(r.reading.p_DE) + unpack(r.reading.q_DE).normalized() * unpack(X_ET.p);
 }
 
-/// Tip and proxy: where the tip is, and where it would be on what cannot be entered, f = K_c (proxy - tip).
+/// Tip and proxy: where the tip is, and where it would be on what cannot be entered, f = K_c (proxy
+/// - tip).
 void addTip(std::vector<Column>& columns, const haptics::TickConfig& config) {
   const PackedPose X_ET = config.X_ET;
   const double K_c = config.coupling.stiffness;
   for (int i = 0; i < 3; ++i)
-    columns.push_back({{std::string("p_DT_") + "xyz"[i] + "_m", "position of the tip in the device base"},
-                       [=](const FlightRecord& r) { return shortest(tip(X_ET, r)[i]); }});
+    columns.push_back(
+        {{std::string("p_DT_") + "xyz"[i] + "_m", "position of the tip in the device base"},
+         [=](const FlightRecord& r) { return shortest(tip(X_ET, r)[i]); }});
   for (int i = 0; i < 3; ++i)
-    columns.push_back({{std::string("proxy_D_") + "xyz"[i] + "_m",
-                        "tip + contact force / coupling stiffness: where the coupling would have the tip"},
-                       [=](const FlightRecord& r) {
-                         return shortest(tip(X_ET, r)[i] + r.f_contact_D[static_cast<std::size_t>(i)] / K_c);
-                       }});
+    columns.push_back(
+        {{std::string("proxy_D_") + "xyz"[i] + "_m",
+          "tip + contact force / coupling stiffness: where the coupling would have the tip"},
+         [=](const FlightRecord& r) {
+           return shortest(tip(X_ET, r)[i] + r.f_contact_D[static_cast<std::size_t>(i)] / K_c);
+         }});
 }
 
 void addSensed(std::vector<Column>& columns) {
   for (int i = 0; i < 3; ++i)
     columns.push_back({{std::string("f_sensed_D_") + "xyz"[i] + "_N",
                         "force sensor: of a real object on the tool, device base"},
-                       [=](const FlightRecord& r) { return shortest(r.sensed.f_D[static_cast<std::size_t>(i)]); }});
+                       [=](const FlightRecord& r) {
+                         return shortest(r.sensed.f_D[static_cast<std::size_t>(i)]);
+                       }});
   for (int i = 0; i < 3; ++i)
-    columns.push_back({{std::string("p_sensed_D_") + "xyz"[i] + "_m", "where the tip (a round one's middle) was, as late as the force sensor's word"},
-                       [=](const FlightRecord& r) { return shortest(r.sensed.p_DK[static_cast<std::size_t>(i)]); }});
+    columns.push_back(
+        {{std::string("p_sensed_D_") + "xyz"[i] + "_m",
+          "where the tip (a round one's middle) was, as late as the force sensor's word"},
+         [=](const FlightRecord& r) {
+           return shortest(r.sensed.p_DK[static_cast<std::size_t>(i)]);
+         }});
   columns.push_back({{"sensor", "none, valid or unusable"}, [](const FlightRecord& r) {
                        static constexpr const char* kWords[] = {"none", "valid", "unusable"};
                        const auto index = static_cast<std::size_t>(r.sensed.state);
@@ -169,7 +208,8 @@ void addSensed(std::vector<Column>& columns) {
 void addContact(std::vector<Column>& columns) {
   addVector(columns, "f_contact_D", "N", "computed contact force on the tool, device base",
             &FlightRecord::f_contact_D);
-  addVector(columns, "f_wanted_D", "N", "force after fading and passivity control, before the safety limiter",
+  addVector(columns, "f_wanted_D", "N",
+            "force after fading and passivity control, before the safety limiter",
             &FlightRecord::f_wanted_D);
   addVector(columns, "f_command_D", "N", "force that left the safety limiter, device base",
             &FlightRecord::f_command_D);

@@ -7,7 +7,9 @@
 namespace palpa::replay {
 namespace {
 
-std::filesystem::path besideOf(const std::filesystem::path& file) { return file.parent_path() / ("." + file.stem().string() + ".part" + file.extension().string()); }
+std::filesystem::path besideOf(const std::filesystem::path& file) {
+  return file.parent_path() / ("." + file.stem().string() + ".part" + file.extension().string());
+}
 
 int countedFrames(const std::filesystem::path& file) {
   cv::VideoCapture again(file.string());
@@ -21,12 +23,19 @@ int countedFrames(const std::filesystem::path& file) {
 int codecOf(const std::filesystem::path& file) {
   if (file.extension() == ".avi") return cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
   if (file.extension() == ".mp4") return cv::VideoWriter::fourcc('m', 'p', '4', 'v');
-  throw UsageError("is no kind of video that is written", file.string(), "End its name in .mp4 or .avi");
+  throw UsageError("is no kind of video that is written", file.string(),
+                   "End its name in .mp4 or .avi");
 }
 
 Film::Film(const std::filesystem::path& file, double frames_per_second, int width, int height)
-    : file_(file), beside_(besideOf(file)), writer_(beside_.string(), codecOf(file), frames_per_second, cv::Size(width, height)), width_(width), height_(height) {
-  if (!writer_.isOpened()) throw Error("cannot be written", file.string(), "Choose another place or --size, or try the ending .avi");
+    : file_(file),
+      beside_(besideOf(file)),
+      writer_(beside_.string(), codecOf(file), frames_per_second, cv::Size(width, height)),
+      width_(width),
+      height_(height) {
+  if (!writer_.isOpened())
+    throw Error("cannot be written", file.string(),
+                "Choose another place or --size, or try the ending .avi");
 }
 
 Film::~Film() {
@@ -36,8 +45,11 @@ Film::~Film() {
 }
 
 void Film::add(const scene::Image& picture) {
-  if (picture.width != width_ || picture.height != height_) throw Error("a picture has another size than the film", file_.string(), "Choose an even --size that fits the screen");
-  const cv::Mat rgb(picture.height, picture.width, CV_8UC3, const_cast<std::uint8_t*>(picture.pixels.data()));
+  if (picture.width != width_ || picture.height != height_)
+    throw Error("a picture has another size than the film", file_.string(),
+                "Choose an even --size that fits the screen");
+  const cv::Mat rgb(picture.height, picture.width, CV_8UC3,
+                    const_cast<std::uint8_t*>(picture.pixels.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
   writer_.write(bgr);
@@ -47,7 +59,9 @@ void Film::add(const scene::Image& picture) {
 void Film::finish() {
   writer_.release();
   if (const int there = countedFrames(beside_); there != frames_)
-    throw Error("only " + std::to_string(there) + " of " + std::to_string(frames_) + " pictures can be read again", file_.string(), "Is the disk full?");
+    throw Error("only " + std::to_string(there) + " of " + std::to_string(frames_) +
+                    " pictures can be read again",
+                file_.string(), "Is the disk full?");
   std::filesystem::rename(beside_, file_);
   finished_ = true;
 }

@@ -7,8 +7,9 @@
 
 namespace palpa::replay {
 
-/// A video file, there whole or not at all: written beside under another name, opened again and counted, then renamed. .avi: motion JPEG; .mp4: MPEG-4
-/// part 2. Throws UsageError for another ending, Error for what cannot be written.
+/// A video file, there whole or not at all: written beside under another name, opened again and
+/// counted, then renamed. .avi: motion JPEG; .mp4: MPEG-4 part 2. Throws UsageError for another
+/// ending, Error for what cannot be written.
 class Film {
  public:
   Film(const std::filesystem::path& file, double frames_per_second, int width, int height);
@@ -16,7 +17,7 @@ class Film {
   Film(const Film&) = delete;
   Film& operator=(const Film&) = delete;
 
-  void add(const scene::Image& picture);   ///< of the film's size
+  void add(const scene::Image& picture);  ///< of the film's size
   void finish();
   int frames() const { return frames_; }
 

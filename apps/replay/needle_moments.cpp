@@ -7,11 +7,14 @@
 namespace palpa::replay {
 namespace {
 
-constexpr double kDrawn = 0.25, kFill = 0.25;   // of the syringe: drawn enough to aspirate; a second
+constexpr double kDrawn = 0.25, kFill = 0.25;  // of the syringe: drawn enough to aspirate; a second
 
 }  // namespace
 
-MomentReader::MomentReader(const Pose& X_AD, const PackedPose& X_ET, int trial) : X_ET_(unpack(X_ET)), sampler_(X_AD, X_ET) { sampler_.begin(static_cast<std::uint32_t>(trial)); }
+MomentReader::MomentReader(const Pose& X_AD, const PackedPose& X_ET, int trial)
+    : X_ET_(unpack(X_ET)), sampler_(X_AD, X_ET) {
+  sampler_.begin(static_cast<std::uint32_t>(trial));
+}
 
 void MomentReader::add(const haptics::FlightRecord& record) {
   assess::TrialSample sample;

@@ -13,14 +13,15 @@ namespace palpa::replay {
 
 /// What was shown at a moment of a recorded needle trial, by its ticks alone.
 struct Moment {
-  double t_s = 0;              ///< since the trial's start; pauses do not count
+  double t_s = 0;  ///< since the trial's start; pauses do not count
   runtime::ToolState tool;
   assess::ProcedurePhase phase = assess::ProcedurePhase::approach;
-  double blood = 0;            ///< filled fraction of the syringe
+  double blood = 0;  ///< filled fraction of the syringe
   bool blood_flows = false;
 };
 
-/// Takes a session's ticks in their order and keeps of one trial a moment every 4 ms: more than any film shows.
+/// Takes a session's ticks in their order and keeps of one trial a moment every 4 ms: more than any
+/// film shows.
 class MomentReader {
  public:
   MomentReader(const Pose& X_AD, const PackedPose& X_ET, int trial);

@@ -9,10 +9,16 @@ namespace {
 class PalpationReplay final : public TrialReplay {
  public:
   PalpationReplay(const PalpationTrial& trial, scene::SceneView& view)
-      : TrialReplay(trial, trial.length_s()), recorded_(trial), map_(emptyMap()), scene_({stage(view), anatomy::X_AP(), trial.rules.area, trial.tip_radius, ""}, bus_, channels_) {}
+      : TrialReplay(trial, trial.length_s()),
+        recorded_(trial),
+        map_(emptyMap()),
+        scene_({stage(view), anatomy::X_AP(), trial.rules.area, trial.tip_radius, ""}, bus_,
+               channels_) {}
 
  private:
-  assess::CoverageMap emptyMap() const { return {recorded_.rules.area, recorded_.rules.levels, recorded_.rules.reach}; }
+  assess::CoverageMap emptyMap() const {
+    return {recorded_.rules.area, recorded_.rules.levels, recorded_.rules.reach};
+  }
 
   /// What had been felt up to a moment: going back begins anew.
   void feelUpTo(std::size_t samples) {
@@ -31,7 +37,8 @@ class PalpationReplay final : public TrialReplay {
     status.columns = map_.columns();
     status.rows = map_.rows();
     status.levels = task_palpation::levelsOf(map_);
-    for (std::size_t i = 0; i < moment.marks; ++i) status.marks_P.push_back(recorded_.pressed[i].p_P);
+    for (std::size_t i = 0; i < moment.marks; ++i)
+      status.marks_P.push_back(recorded_.pressed[i].p_P);
     status.lumps = recorded_.lumps;
     status.pressed_N = moment.samples > 0 ? recorded_.samples[moment.samples - 1].f_n : 0;
     status.level = task_palpation::levelOf(recorded_.rules.levels, status.pressed_N);
@@ -50,11 +57,15 @@ class PalpationReplay final : public TrialReplay {
 
 }  // namespace
 
-PalpationReader::PalpationReader(const haptics::TickConfig& config, int trial) : X_ET_(unpack(config.X_ET)), listener_(config) { listener_.begin(static_cast<std::uint32_t>(trial)); }
+PalpationReader::PalpationReader(const haptics::TickConfig& config, int trial)
+    : X_ET_(unpack(config.X_ET)), listener_(config) {
+  listener_.begin(static_cast<std::uint32_t>(trial));
+}
 
 void PalpationReader::add(const haptics::FlightRecord& record) {
   if (!listener_.add(record)) return;
-  moments_.push_back({listener_.seconds(), toolIn(record, X_ET_), listener_.samples().size(), listener_.marks().size()});
+  moments_.push_back({listener_.seconds(), toolIn(record, X_ET_), listener_.samples().size(),
+                      listener_.marks().size()});
 }
 
 void PalpationReader::into(PalpationTrial& trial) const {
@@ -63,6 +74,8 @@ void PalpationReader::into(PalpationTrial& trial) const {
   trial.pressed = listener_.marks();
 }
 
-std::unique_ptr<TrialReplay> palpationReplay(const PalpationTrial& trial, scene::SceneView& view) { return std::make_unique<PalpationReplay>(trial, view); }
+std::unique_ptr<TrialReplay> palpationReplay(const PalpationTrial& trial, scene::SceneView& view) {
+  return std::make_unique<PalpationReplay>(trial, view);
+}
 
 }  // namespace palpa::replay

@@ -10,16 +10,17 @@ namespace palpa::replay {
 
 /// One in 10 ms of a palpation; so many samples were felt and marks made up to it.
 struct PalpationMoment {
-  double t_s = 0;                    ///< since the trial's start; pauses do not count
+  double t_s = 0;  ///< since the trial's start; pauses do not count
   runtime::ToolState tool;
   std::size_t samples = 0, marks = 0;
 };
 
-/// A recorded palpation, ready to be shown at any moment. What lies inside is seen from the start: who looks back may know it.
+/// A recorded palpation, ready to be shown at any moment. What lies inside is seen from the start:
+/// who looks back may know it.
 struct PalpationTrial : ShownTrial {
   assess::PalpationRules rules;
-  double tip_radius = 0.008;         ///< m
-  std::vector<PalpationMoment> moments;   ///< not empty
+  double tip_radius = 0.008;             ///< m
+  std::vector<PalpationMoment> moments;  ///< not empty
   std::vector<assess::PalpationSample> samples;
   std::vector<assess::LumpMark> pressed;  ///< the lumps that were marked
   std::vector<task_palpation::PalpationStatus::Shown> lumps;
@@ -32,7 +33,7 @@ class PalpationReader {
   PalpationReader(const haptics::TickConfig& config, int trial);
   void add(const haptics::FlightRecord& record);
   double seconds() const { return listener_.seconds(); }
-  void into(PalpationTrial& trial) const;   ///< moments, samples, marks
+  void into(PalpationTrial& trial) const;  ///< moments, samples, marks
 
  private:
   Pose X_ET_;

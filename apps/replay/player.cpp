@@ -8,13 +8,14 @@
 namespace palpa::replay {
 namespace {
 
-constexpr double kFrame = 0.04;   // s
+constexpr double kFrame = 0.04;  // s
 
 double within(double speed) { return std::clamp(speed, kSlowest, kFastest); }
 
 }  // namespace
 
-Player::Player(double from_s, double to_s, double speed) : from_s_(from_s), to_s_(std::max(from_s, to_s)), at_s_(from_s), speed_(within(speed)) {}
+Player::Player(double from_s, double to_s, double speed)
+    : from_s_(from_s), to_s_(std::max(from_s, to_s)), at_s_(from_s), speed_(within(speed)) {}
 
 void Player::moveTo(double t_s) { at_s_ = std::clamp(t_s, from_s_, to_s_); }
 
@@ -25,14 +26,16 @@ void Player::advance(double seconds) {
 }
 
 void Player::key(const std::string& symbol, bool shift) {
-  static const std::map<std::string, double> kJumps{{"Left", -1}, {"Right", 1}, {"Down", -5}, {"Up", 5}};
+  static const std::map<std::string, double> kJumps{
+      {"Left", -1}, {"Right", 1}, {"Down", -5}, {"Up", 5}};
   if (const auto jump = kJumps.find(symbol); jump != kJumps.end()) {
     if (shift) paused_ = true;
     moveTo(at_s_ + (shift ? std::copysign(kFrame, jump->second) : jump->second));
   }
   if (symbol == "Home") moveTo(from_s_);
   if (symbol == "End") moveTo(to_s_);
-  if (symbol == "plus" || symbol == "equal" || symbol == "KP_Add") speed_ = within(speed_ * std::sqrt(2.0));
+  if (symbol == "plus" || symbol == "equal" || symbol == "KP_Add")
+    speed_ = within(speed_ * std::sqrt(2.0));
   if (symbol == "minus" || symbol == "KP_Subtract") speed_ = within(speed_ / std::sqrt(2.0));
   if (symbol == "Escape" || symbol == "q") left_ = true;
   if (symbol != "space") return;

@@ -17,13 +17,13 @@ class Player {
   /// From `from_s` to `to_s` of the trial.
   Player(double from_s, double to_s, double speed);
 
-  void advance(double seconds);                      ///< of the viewer's time
-  void key(const std::string& symbol, bool shift);   ///< X key symbol
+  void advance(double seconds);                     ///< of the viewer's time
+  void key(const std::string& symbol, bool shift);  ///< X key symbol
   double at_s() const { return at_s_; }
   double speed() const { return speed_; }
   bool paused() const { return paused_; }
   bool left() const { return left_; }
-  std::string words() const;                         ///< "x 0.5", "paused"
+  std::string words() const;  ///< "x 0.5", "paused"
 
  private:
   void moveTo(double t_s);

@@ -9,7 +9,8 @@
 namespace palpa::replay {
 namespace {
 
-constexpr unsigned char kEscape = 0xff, kBegin = 0xd8;   // JPEG's start of image; a byte 0xff in the data is followed by 0 (ITU T.81, B.1.1.5)
+constexpr unsigned char kEscape = 0xff, kBegin = 0xd8;  // JPEG's start of image; a byte 0xff in the
+                                                        // data is followed by 0 (ITU T.81, B.1.1.5)
 
 /// Second field of every line after the first.
 std::vector<std::int64_t> timesIn(const std::filesystem::path& table) {
@@ -20,7 +21,9 @@ std::vector<std::int64_t> timesIn(const std::filesystem::path& table) {
   while (std::getline(lines, line)) {
     const std::size_t comma = line.find(',');
     std::int64_t t = 0;
-    if (comma == std::string::npos || std::from_chars(line.data() + comma + 1, line.data() + line.size(), t).ec != std::errc()) break;
+    if (comma == std::string::npos ||
+        std::from_chars(line.data() + comma + 1, line.data() + line.size(), t).ec != std::errc())
+      break;
     times.push_back(t);
   }
   return times;
@@ -28,7 +31,8 @@ std::vector<std::int64_t> timesIn(const std::filesystem::path& table) {
 
 }  // namespace
 
-RecordedPictures::RecordedPictures(const std::filesystem::path& folder) : film_(folder / "camera.mjpeg", std::ios::binary) {
+RecordedPictures::RecordedPictures(const std::filesystem::path& folder)
+    : film_(folder / "camera.mjpeg", std::ios::binary) {
   if (!film_) return;
   findPictures();
   times_ns_ = timesIn(folder / "camera.mjpeg.csv");

@@ -9,8 +9,9 @@
 
 namespace palpa::replay {
 
-/// The camera's pictures that a session left beside its evidence ("camera.mjpeg": JPEG after JPEG; "camera.mjpeg.csv": when each was taken), any of them at
-/// once. Nothing where there are none, or where the table names fewer than one; a picture that cannot be read is passed over.
+/// The camera's pictures that a session left beside its evidence ("camera.mjpeg": JPEG after JPEG;
+/// "camera.mjpeg.csv": when each was taken), any of them at once. Nothing where there are none, or
+/// where the table names fewer than one; a picture that cannot be read is passed over.
 class RecordedPictures {
  public:
   explicit RecordedPictures(const std::filesystem::path& folder);
@@ -24,7 +25,7 @@ class RecordedPictures {
 
   std::ifstream film_;
   std::vector<std::int64_t> times_ns_;
-  std::vector<std::streamoff> begins_;   ///< of each picture, and the end
+  std::vector<std::streamoff> begins_;  ///< of each picture, and the end
   std::size_t shown_ = SIZE_MAX;
   scene::Image image_;
 };

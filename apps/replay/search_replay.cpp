@@ -6,12 +6,15 @@
 namespace palpa::replay {
 namespace {
 
-constexpr double kLongestGap = 0.1;   // s; longer: it was paused
+constexpr double kLongestGap = 0.1;  // s; longer: it was paused
 
 class SearchReplay final : public TrialReplay {
  public:
   SearchReplay(const SearchTrial& trial, scene::SceneView& view)
-      : TrialReplay(trial, trial.length_s()), recorded_(trial), scene_({stage(view), Pose::Identity(), anatomy::X_AP(), trial.side, trial.magnification}, bus_, channels_) {}
+      : TrialReplay(trial, trial.length_s()),
+        recorded_(trial),
+        scene_({stage(view), Pose::Identity(), anatomy::X_AP(), trial.side, trial.magnification},
+               bus_, channels_) {}
 
  private:
   void tell(double t_s, std::int64_t now_ns) override {
@@ -32,8 +35,11 @@ class SearchReplay final : public TrialReplay {
 
 }  // namespace
 
-SearchReader::SearchReader(const task_search::SearchSettings& task, const haptics::TickConfig& config, int trial)
-    : config_(config), listener_(task, config.augmentations), trial_(static_cast<std::uint32_t>(trial)) {
+SearchReader::SearchReader(const task_search::SearchSettings& task,
+                           const haptics::TickConfig& config, int trial)
+    : config_(config),
+      listener_(task, config.augmentations),
+      trial_(static_cast<std::uint32_t>(trial)) {
   listener_.begin(trial_);
 }
 
@@ -44,9 +50,12 @@ void SearchReader::add(const haptics::FlightRecord& record) {
   last_ns_ = record.t_ns;
   if (dt <= kLongestGap) seconds_ += dt;
   if (!moments_.empty() && seconds_ - moments_.back().t_s < kMomentStep - 1e-9) return;
-  moments_.push_back({seconds_, toolIn(record, unpack(config_.X_ET)), !listener_.released(), listener_.seconds()});
+  moments_.push_back(
+      {seconds_, toolIn(record, unpack(config_.X_ET)), !listener_.released(), listener_.seconds()});
 }
 
-std::unique_ptr<TrialReplay> searchReplay(const SearchTrial& trial, scene::SceneView& view) { return std::make_unique<SearchReplay>(trial, view); }
+std::unique_ptr<TrialReplay> searchReplay(const SearchTrial& trial, scene::SceneView& view) {
+  return std::make_unique<SearchReplay>(trial, view);
+}
 
 }  // namespace palpa::replay

@@ -9,24 +9,25 @@
 namespace palpa::replay {
 
 struct SearchMoment {
-  double t_s = 0;                    ///< since the trial's start, the holding included; pauses do not count
+  double t_s = 0;  ///< since the trial's start, the holding included; pauses do not count
   runtime::ToolState tool;
   bool held = false;
-  double searched_s = 0;             ///< since the handle was let go
+  double searched_s = 0;  ///< since the handle was let go
 };
 
 /// A recorded episode of a search, ready to be shown at any moment.
 struct SearchTrial : ShownTrial {
-  double side = 0.0144;              ///< m, of the floor in the hand
-  double magnification = 10;         ///< of what is shown
-  std::vector<SearchMoment> moments; ///< not empty
+  double side = 0.0144;               ///< m, of the floor in the hand
+  double magnification = 10;          ///< of what is shown
+  std::vector<SearchMoment> moments;  ///< not empty
   double length_s() const { return moments.back().t_s; }
 };
 
 /// Takes a session's ticks in their order and keeps of one trial a moment every 4 ms.
 class SearchReader {
  public:
-  SearchReader(const task_search::SearchSettings& task, const haptics::TickConfig& config, int trial);
+  SearchReader(const task_search::SearchSettings& task, const haptics::TickConfig& config,
+               int trial);
   void add(const haptics::FlightRecord& record);
   const std::vector<SearchMoment>& moments() const { return moments_; }
 

@@ -8,7 +8,9 @@ namespace {
 class SqueezeReplay final : public TrialReplay {
  public:
   SqueezeReplay(const SqueezeTrial& trial, scene::SceneView& view)
-      : TrialReplay(trial, trial.length_s()), recorded_(trial), scene_({stage(view), trial.X_AD2, trial.middle_A}, bus_, channels_) {}
+      : TrialReplay(trial, trial.length_s()),
+        recorded_(trial),
+        scene_({stage(view), trial.X_AD2, trial.middle_A}, bus_, channels_) {}
 
  private:
   void tell(double t_s, std::int64_t now_ns) override {
@@ -33,7 +35,9 @@ class SqueezeReplay final : public TrialReplay {
 
 }  // namespace
 
-SqueezeReader::SqueezeReader(double touch_N, const std::array<Pose, 2>& X_ET, const task_squeeze::Comparison& comparison, int trial) : X_ET_(X_ET), listener_(touch_N), trial_(static_cast<std::uint32_t>(trial)) {
+SqueezeReader::SqueezeReader(double touch_N, const std::array<Pose, 2>& X_ET,
+                             const task_squeeze::Comparison& comparison, int trial)
+    : X_ET_(X_ET), listener_(touch_N), trial_(static_cast<std::uint32_t>(trial)) {
   listener_.begin(trial_, comparison);
 }
 
@@ -46,9 +50,15 @@ void SqueezeReader::add(const haptics::FlightRecord& record) {
   }
   const double t_s = listener_.seconds();
   if (!moments_.empty() && t_s - moments_.back().t_s < kMomentStep - 1e-9) return;
-  moments_.push_back({t_s, {first_, toolIn(record, X_ET_[1])}, listener_.thing(record.commands), listener_.now_N(), listener_.held()});
+  moments_.push_back({t_s,
+                      {first_, toolIn(record, X_ET_[1])},
+                      listener_.thing(record.commands),
+                      listener_.now_N(),
+                      listener_.held()});
 }
 
-std::unique_ptr<TrialReplay> squeezeReplay(const SqueezeTrial& trial, scene::SceneView& view) { return std::make_unique<SqueezeReplay>(trial, view); }
+std::unique_ptr<TrialReplay> squeezeReplay(const SqueezeTrial& trial, scene::SceneView& view) {
+  return std::make_unique<SqueezeReplay>(trial, view);
+}
 
 }  // namespace palpa::replay

@@ -12,7 +12,8 @@ constexpr std::int64_t kFramePeriod_ns = 40'000'000;
 
 std::string clockWords(double t_s) {
   char text[32];
-  std::snprintf(text, sizeof text, "%d:%04.1f", static_cast<int>(t_s) / 60, t_s - 60 * (static_cast<int>(t_s) / 60));
+  std::snprintf(text, sizeof text, "%d:%04.1f", static_cast<int>(t_s) / 60,
+                t_s - 60 * (static_cast<int>(t_s) / 60));
   return text;
 }
 
@@ -36,14 +37,16 @@ std::string wordsAt(const std::vector<Mark>& marks, double t_s) {
 
 runtime::ToolState toolIn(const haptics::FlightRecord& record, const Pose& X_ET) {
   const Quat q_DE = unpack(record.reading.q_DE);
-  return runtime::toolStateOf(pack(makePose(q_DE.normalized().toRotationMatrix(), unpack(record.reading.p_DE)) * X_ET), record);
+  return runtime::toolStateOf(
+      pack(makePose(q_DE.normalized().toRotationMatrix(), unpack(record.reading.p_DE)) * X_ET),
+      record);
 }
 
 trial::TrialScene::Stage TrialReplay::stage(scene::SceneView& view) {
   trial::TrialScene::Stage s;
   s.views = trial::TrialScene::Views::continuous;
   s.view = &view;
-  s.camera.width = 1280;   // no picture is drawn with it
+  s.camera.width = 1280;  // no picture is drawn with it
   s.camera.height = 720;
   s.camera.fx = s.camera.fy = 1100;
   s.camera.cx = 639.5;

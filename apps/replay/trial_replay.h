@@ -27,10 +27,11 @@ inline constexpr double kMomentStep = 0.004;
 /// The words of the latest mark that is still to be seen; empty: none.
 std::string wordsAt(const std::vector<Mark>& marks, double t_s);
 
-/// The last of `moments`, which have a time `t_s` and stand in its order, at or before a time; or the first.
+/// The last of `moments`, which have a time `t_s` and stand in its order, at or before a time; or
+/// the first.
 template <class Moment>
 std::size_t momentAt(const std::vector<Moment>& moments, double t_s) {
-  std::size_t low = 0, high = moments.size();   // the answer is in [low, high)
+  std::size_t low = 0, high = moments.size();  // the answer is in [low, high)
   while (high - low > 1) (moments[(low + high) / 2].t_s <= t_s ? low : high) = (low + high) / 2;
   return low;
 }
@@ -40,15 +41,17 @@ struct ShownTrial {
   int number = 1;
   bool force_feedback = true;
   Pose X_AD = Pose::Identity();
-  std::string mark;                  ///< "REPLAY: SIMULATED"
-  std::vector<Mark> marks;           ///< in their order
+  std::string mark;         ///< "REPLAY: SIMULATED"
+  std::vector<Mark> marks;  ///< in their order
 };
 
 /// The tool as a record has it, for the scene.
 runtime::ToolState toolIn(const haptics::FlightRecord& record, const Pose& X_ET);
 
-/// Shows a recorded trial at any moment through the scene that showed it when it happened; the board's camera is replaced by a fixed view of the patient, in a window one
-/// that can be walked around. The view outlives it; one thread. What is particular to a task adds whoever derives from this.
+/// Shows a recorded trial at any moment through the scene that showed it when it happened; the
+/// board's camera is replaced by a fixed view of the patient, in a window one that can be walked
+/// around. The view outlives it; one thread. What is particular to a task adds whoever derives from
+/// this.
 class TrialReplay {
  public:
   virtual ~TrialReplay() = default;

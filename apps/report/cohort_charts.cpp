@@ -15,7 +15,9 @@ namespace palpa::report {
 namespace {
 
 std::string intervalField(const std::optional<std::pair<double, double>>& interval, double factor) {
-  return interval ? fixed(factor * interval->first, 1) + " to " + fixed(factor * interval->second, 1) : "–";
+  return interval
+             ? fixed(factor * interval->first, 1) + " to " + fixed(factor * interval->second, 1)
+             : "–";
 }
 
 std::string axisWords(const std::string& metric) {
@@ -23,7 +25,9 @@ std::string axisWords(const std::string& metric) {
   return titleWithin(metric) + (unit.empty() ? "" : ", " + unit);
 }
 
-std::pair<double, double> scaled(const std::pair<double, double>& interval, double factor) { return {factor * interval.first, factor * interval.second}; }
+std::pair<double, double> scaled(const std::pair<double, double>& interval, double factor) {
+  return {factor * interval.first, factor * interval.second};
+}
 
 /// Round limits around all values and intervals.
 void fitAxis(RowPlot& plot) {
@@ -42,15 +46,22 @@ void fitAxis(RowPlot& plot) {
 Point pointAt(std::size_t trial, double value) { return {static_cast<double>(trial + 1), value}; }
 
 /// Upper edge there, lower edge back.
-std::string meanBand(const progress::GroupCurve& curve, double factor, const Axis& x, const Axis& y) {
+std::string meanBand(const progress::GroupCurve& curve, double factor, const Axis& x,
+                     const Axis& y) {
   std::string path;
-  const auto add = [&](std::size_t i, double value) { path += (path.empty() ? "M" : "L") + coordinate(x.at(static_cast<double>(i + 1))) + ' ' + coordinate(std::clamp(y.at(factor * value), y.from_px, y.to_px)); };
-  for (std::size_t i = 0; i < curve.mean.size(); ++i) add(i, curve.mean[i].interval ? curve.mean[i].interval->second : curve.mean[i].mean);
-  for (std::size_t i = curve.mean.size(); i-- > 0;) add(i, curve.mean[i].interval ? curve.mean[i].interval->first : curve.mean[i].mean);
+  const auto add = [&](std::size_t i, double value) {
+    path += (path.empty() ? "M" : "L") + coordinate(x.at(static_cast<double>(i + 1))) + ' ' +
+            coordinate(std::clamp(y.at(factor * value), y.from_px, y.to_px));
+  };
+  for (std::size_t i = 0; i < curve.mean.size(); ++i)
+    add(i, curve.mean[i].interval ? curve.mean[i].interval->second : curve.mean[i].mean);
+  for (std::size_t i = curve.mean.size(); i-- > 0;)
+    add(i, curve.mean[i].interval ? curve.mean[i].interval->first : curve.mean[i].mean);
   return path.empty() ? path : path + "Z";
 }
 
-void drawGroupCurve(Html& html, const progress::GroupCurve& curve, const std::string& metric, bool wide) {
+void drawGroupCurve(Html& html, const progress::GroupCurve& curve, const std::string& metric,
+                    bool wide) {
   const ChartFrame frame = practiceFrame(wide);
   const auto [factor, unit] = scaleOf(metric);
   std::size_t longest = 0;
@@ -60,9 +71,11 @@ void drawGroupCurve(Html& html, const progress::GroupCurve& curve, const std::st
     for (const double value : own)
       if (std::isfinite(value)) high = std::max(high, factor * value);
   }
-  const Axis x = trialAxis(frame, longest), y{niceCeiling(high), 0, kPracticeTop, kPracticeTop + kPracticeHigh};
+  const Axis x = trialAxis(frame, longest),
+             y{niceCeiling(high), 0, kPracticeTop, kPracticeTop + kPracticeHigh};
   const std::string title = metrics::metricNamed(metric)->title;
-  const auto svg = openSvg(html, frame, kPracticeTop + kPracticeHigh + 44, title + " of every trainee, and the group's mean");
+  const auto svg = openSvg(html, frame, kPracticeTop + kPracticeHigh + 44,
+                           title + " of every trainee, and the group's mean");
   drawPracticePanel(html, frame, x, title, unit.empty() ? "number" : unit, y.from, 0);
   for (const std::vector<double>& own : curve.curves) {
     std::vector<Point> points;
@@ -71,7 +84,8 @@ void drawGroupCurve(Html& html, const progress::GroupCurve& curve, const std::st
   }
   if (!curve.mean.empty()) {
     std::vector<Point> mean;
-    for (std::size_t i = 0; i < curve.mean.size(); ++i) mean.push_back(pointAt(i, factor * curve.mean[i].mean));
+    for (std::size_t i = 0; i < curve.mean.size(); ++i)
+      mean.push_back(pointAt(i, factor * curve.mean[i].mean));
     svgPath(html, "band", meanBand(curve, factor, x, y));
     svgPath(html, "curve fitted", linePath(mean, x, y));
   }
@@ -85,18 +99,31 @@ void writeCommonErrors(Html& html, const std::vector<progress::CommonError>& err
     html.element("p", "None of the errors that figures can tell happened.");
     return;
   }
-  RowPlot plot{"Share of a trainee's trials with each error", "share of a trainee's trials, %", 0, 100, {}, {}};
-  DataTable table{"The figures of this plot", {"Error", "Trainees", "Trials", "Mean share, %", "95 %"}, {}};
+  RowPlot plot{"Share of a trainee's trials with each error",
+               "share of a trainee's trials, %",
+               0,
+               100,
+               {},
+               {}};
+  DataTable table{
+      "The figures of this plot", {"Error", "Trainees", "Trials", "Mean share, %", "95 %"}, {}};
   for (const progress::CommonError& e : errors) {
-    const std::string trainees = std::to_string(e.trainees_with) + " of " + std::to_string(e.trainees);
-    const auto interval = e.share.interval ? std::optional(scaled(*e.share.interval, 100)) : std::nullopt;
+    const std::string trainees =
+        std::to_string(e.trainees_with) + " of " + std::to_string(e.trainees);
+    const auto interval =
+        e.share.interval ? std::optional(scaled(*e.share.interval, 100)) : std::nullopt;
     plot.rows.push_back({e.kind->words, {}, 100 * e.share.mean, interval, trainees});
-    table.rows.push_back({e.kind->words, trainees, std::to_string(e.with) + " of " + std::to_string(e.trials), fixed(100 * e.share.mean, 0), intervalField(e.share.interval, 100)});
+    table.rows.push_back({e.kind->words, trainees,
+                          std::to_string(e.with) + " of " + std::to_string(e.trials),
+                          fixed(100 * e.share.mean, 0), intervalField(e.share.interval, 100)});
   }
   {
     const auto figure = html.in("figure", {{"class", "course"}});
     drawRowPlot(html, plot);
-    html.element("figcaption", "Mean over the trainees of the share of each one's trials, with its 95 % interval (bootstrap over trainees; none for fewer than three). At the right: how many trainees it happened to.");
+    html.element("figcaption",
+                 "Mean over the trainees of the share of each one's trials, with its 95 % interval "
+                 "(bootstrap over trainees; none for fewer than three). At the right: how many "
+                 "trainees it happened to.");
   }
   writeDataTable(html, table);
 }
@@ -113,7 +140,8 @@ void writeTraineeFigures(Html& html, const progress::Series& group, const std::s
     for (const double value : f.values) row.values.push_back(factor * value);
     if (f.interval) row.interval = scaled(*f.interval, factor);
     plot.rows.push_back(std::move(row));
-    table.rows.push_back({f.trainee, std::to_string(f.values.size()), trimmed(factor * f.mean, 2), intervalField(f.interval, factor)});
+    table.rows.push_back({f.trainee, std::to_string(f.values.size()), trimmed(factor * f.mean, 2),
+                          intervalField(f.interval, factor)});
     means.push_back(factor * f.mean);
   }
   plot.middle = statistics::meanOf(means);
@@ -122,23 +150,38 @@ void writeTraineeFigures(Html& html, const progress::Series& group, const std::s
   {
     const auto figure = html.in("figure", {{"class", "course"}});
     drawRowPlot(html, plot);
-    html.element("figcaption", "Small rings: each trainee's last trials, up to five; dot and bar: their mean and its 95 % interval (bootstrap over these trials). Dashed: mean of the trainees' means.");
+    html.element(
+        "figcaption",
+        "Small rings: each trainee's last trials, up to five; dot and bar: their mean and its 95 % "
+        "interval (bootstrap over these trials). Dashed: mean of the trainees' means.");
   }
   writeDataTable(html, table);
 }
 
 void writeGroupCurve(Html& html, const progress::Series& group, const std::string& metric) {
   const progress::GroupCurve curve = progress::groupCurve(group, metric);
-  if (std::none_of(curve.curves.begin(), curve.curves.end(), [](const auto& own) { return std::any_of(own.begin(), own.end(), [](double v) { return std::isfinite(v); }); })) return;
+  if (std::none_of(curve.curves.begin(), curve.curves.end(), [](const auto& own) {
+        return std::any_of(own.begin(), own.end(), [](double v) { return std::isfinite(v); });
+      }))
+    return;
   {
     const auto figure = html.in("figure", {{"class", "course"}});
     drawGroupCurve(html, curve, metric, true);
     drawGroupCurve(html, curve, metric, false);
-    html.element("figcaption", std::string("Thin lines: one a trainee. ") + (curve.mean.empty() ? "With fewer than three trainees no mean is drawn." : "Thick: the group's mean at each trial that at least three and half of the trainees have done, with its 95 % interval (bootstrap over trainees)."));
+    html.element(
+        "figcaption",
+        std::string("Thin lines: one a trainee. ") +
+            (curve.mean.empty()
+                 ? "With fewer than three trainees no mean is drawn."
+                 : "Thick: the group's mean at each trial that at least three and half of the "
+                   "trainees have done, with its 95 % interval (bootstrap over trainees)."));
   }
   const double factor = scaleOf(metric).first;
   DataTable table{"The figures of this plot", {"Trial", "Trainees", "Mean", "95 %"}, {}};
-  for (std::size_t i = 0; i < curve.mean.size(); ++i) table.rows.push_back({std::to_string(i + 1), std::to_string(curve.mean[i].trainees), trimmed(factor * curve.mean[i].mean, 2), intervalField(curve.mean[i].interval, factor)});
+  for (std::size_t i = 0; i < curve.mean.size(); ++i)
+    table.rows.push_back({std::to_string(i + 1), std::to_string(curve.mean[i].trainees),
+                          trimmed(factor * curve.mean[i].mean, 2),
+                          intervalField(curve.mean[i].interval, factor)});
   writeDataTable(html, table);
 }
 

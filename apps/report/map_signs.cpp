@@ -6,17 +6,22 @@
 namespace palpa::report {
 namespace {
 
-constexpr double kArm = 7;   // px, of a cross
+constexpr double kArm = 7;  // px, of a cross
 
 std::string placed(double x, double y) { return 'M' + coordinate(x) + ' ' + coordinate(y); }
 
 void drawCircle(Html& svg, const char* css, double x, double y, double radius) {
-  svg.empty("circle", {{"class", css}, {"cx", coordinate(x)}, {"cy", coordinate(y)}, {"r", coordinate(radius)}});
+  svg.empty(
+      "circle",
+      {{"class", css}, {"cx", coordinate(x)}, {"cy", coordinate(y)}, {"r", coordinate(radius)}});
 }
 
 }  // namespace
 
-std::string cellPath(double x, double y, double width, double height) { return placed(x, y) + 'h' + coordinate(width) + 'v' + coordinate(height) + 'h' + coordinate(-width) + 'z'; }
+std::string cellPath(double x, double y, double width, double height) {
+  return placed(x, y) + 'h' + coordinate(width) + 'v' + coordinate(height) + 'h' +
+         coordinate(-width) + 'z';
+}
 
 std::string pipsPath(int level, double x, double y, double step) {
   std::string path;
@@ -31,7 +36,8 @@ void drawLumpRing(Html& svg, double x, double y, double radius, bool found) {
 
 void drawMarkSign(Html& svg, double x, double y, bool false_alarm) {
   const std::string two = coordinate(2 * kArm);
-  std::string path = placed(x - kArm, y - kArm) + 'l' + two + ' ' + two + 'm' + "0-" + two + 'l' + '-' + two + ' ' + two;
+  std::string path = placed(x - kArm, y - kArm) + 'l' + two + ' ' + two + 'm' + "0-" + two + 'l' +
+                     '-' + two + ' ' + two;
   if (false_alarm) path += placed(x - kArm - 3, y - kArm - 3) + "h20v20h-20z";
   svgPath(svg, "halo", path);
   svgPath(svg, false_alarm ? "cross alarm" : "cross", path);

@@ -140,7 +140,8 @@ void writeGoalTable(Html& html, const std::vector<TrialPage>& trials) {
   const auto table = html.in("table", {{"class", "all"}});
   {
     const auto head = html.in("thead"), row = html.in("tr");
-    for (const char* name : {"Trial", "Outcome", "Force feedback", "Time, s"}) html.element("th", {{"scope", "col"}}, name);
+    for (const char* name : {"Trial", "Outcome", "Force feedback", "Time, s"})
+      html.element("th", {{"scope", "col"}}, name);
   }
   const auto body = html.in("tbody");
   for (const TrialPage& page : trials) {

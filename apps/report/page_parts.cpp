@@ -12,7 +12,8 @@ std::string softwareAmong(std::initializer_list<const std::vector<Fact>*> groups
   for (const auto* facts : groups) {
     for (const Fact& fact : *facts) {
       std::string name = fact.name;
-      std::transform(name.begin(), name.end(), name.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      std::transform(name.begin(), name.end(), name.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
       if (name == "software" || name == "software version") return fact.value;
     }
   }
@@ -21,7 +22,8 @@ std::string softwareAmong(std::initializer_list<const std::vector<Fact>*> groups
 
 }  // namespace
 
-void writeHeadElement(Html& html, const std::string& title, const std::string& trainee, std::string_view more_style) {
+void writeHeadElement(Html& html, const std::string& title, const std::string& trainee,
+                      std::string_view more_style) {
   const auto head = html.in("head");
   html.empty("meta", {{"charset", "utf-8"}});
   html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});

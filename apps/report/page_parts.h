@@ -12,7 +12,8 @@
 namespace palpa::report {
 
 /// <head> with title ("Paracentesis · P07") and style sheet; `more_style` is CSS of a page's own.
-void writeHeadElement(Html& html, const std::string& title, const std::string& trainee, std::string_view more_style = {});
+void writeHeadElement(Html& html, const std::string& title, const std::string& trainee,
+                      std::string_view more_style = {});
 
 /// Trainee, date, number of trials; what is empty is left out.
 void writeWho(Html& html, const std::string& trainee, const std::string& when, std::size_t trials);
@@ -25,7 +26,8 @@ void writeFactTable(Html& html, const std::vector<Fact>& facts);
 /// The same in a card with a title.
 void writeFacts(Html& html, const char* title, const std::vector<Fact>& facts);
 
-/// "Made by ...": from the first fact named "software" or "software version", in whatever group it stands.
+/// "Made by ...": from the first fact named "software" or "software version", in whatever group it
+/// stands.
 void writeMadeBy(Html& html, std::initializer_list<const std::vector<Fact>*> groups);
 
 }  // namespace palpa::report

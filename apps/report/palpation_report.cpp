@@ -13,7 +13,9 @@ namespace palpa::report {
 namespace {
 
 bool isSimulatedPalpation(const PalpationReport& report) {
-  return report.simulated || std::any_of(report.trials.begin(), report.trials.end(), [](const PalpationPage& page) { return page.assessment.facts.simulated; });
+  return report.simulated ||
+         std::any_of(report.trials.begin(), report.trials.end(),
+                     [](const PalpationPage& page) { return page.assessment.facts.simulated; });
 }
 
 void writePalpationLinks(Html& html, const PalpationReport& report) {
@@ -23,7 +25,11 @@ void writePalpationLinks(Html& html, const PalpationReport& report) {
   for (const PalpationPage& page : report.trials) {
     const std::string number = std::to_string(page.assessment.facts.trial);
     const std::string dot = std::string("dot ") + cssClass(toneOfPalpation(page.assessment));
-    html.element("a", {{"href", "#trial-" + number}, {"class", dot}, {"title", palpationVerdict(page.assessment)}}, "Trial " + number);
+    html.element("a",
+                 {{"href", "#trial-" + number},
+                  {"class", dot},
+                  {"title", palpationVerdict(page.assessment)}},
+                 "Trial " + number);
   }
 }
 
@@ -54,7 +60,8 @@ std::string palpationHtml(const PalpationReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, report.title, report.trainee, std::string(palpationStyle()) + std::string(subtaskTableStyle()));
+    writeHeadElement(html, report.title, report.trainee,
+                     std::string(palpationStyle()) + std::string(subtaskTableStyle()));
     const auto body = html.in("body");
     writePalpationHeader(html, report);
     {
@@ -73,6 +80,8 @@ std::string palpationHtml(const PalpationReport& report) {
 
 }  // namespace
 
-void writePalpationReport(const PalpationReport& report, const std::filesystem::path& file) { writeWhole(file, palpationHtml(report)); }
+void writePalpationReport(const PalpationReport& report, const std::filesystem::path& file) {
+  writeWhole(file, palpationHtml(report));
+}
 
 }  // namespace palpa::report

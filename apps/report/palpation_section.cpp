@@ -11,17 +11,23 @@ namespace palpa::report {
 namespace {
 
 void drawVerdictSign(Html& html, Tone tone) {
-  const auto svg = html.in("svg", {{"class", "sign"}, {"viewBox", "0 0 40 40"}, {"aria-hidden", "true"}});
+  const auto svg =
+      html.in("svg", {{"class", "sign"}, {"viewBox", "0 0 40 40"}, {"aria-hidden", "true"}});
   html.empty("circle", {{"cx", "20"}, {"cy", "20"}, {"r", "19"}});
-  html.empty("path", {{"d", tone == Tone::good ? "M10 21l7 7 13-15" : tone == Tone::bad ? "M12 12l16 16M28 12l-16 16" : "M11 20h18"}});
+  html.empty("path", {{"d", tone == Tone::good  ? "M10 21l7 7 13-15"
+                            : tone == Tone::bad ? "M12 12l16 16M28 12l-16 16"
+                                                : "M11 20h18"}});
 }
 
 void writeLumpsFound(Html& html, const assess::PalpationAssessment& trial) {
   const auto box = html.in("div", {{"class", "total"}});
   const int lumps = trial.score.found + trial.score.missed;
   const bool counts = trial.facts.outcome != "void" && lumps > 0;
-  html.element("strong", counts ? std::to_string(trial.score.found) + " of " + std::to_string(lumps) : "–");
-  html.element("span", counts ? (lumps == 1 ? "lump found" : "lumps found") : lumps == 0 ? "no lump to find" : "not judged");
+  html.element("strong",
+               counts ? std::to_string(trial.score.found) + " of " + std::to_string(lumps) : "–");
+  html.element("span", counts       ? (lumps == 1 ? "lump found" : "lumps found")
+                       : lumps == 0 ? "no lump to find"
+                                    : "not judged");
 }
 
 void writePalpationTiles(Html& html, const assess::PalpationAssessment& trial) {
@@ -71,7 +77,9 @@ std::string palpationVerdict(const assess::PalpationAssessment& trial) {
   const std::string& outcome = trial.facts.outcome;
   if (outcome == "void") return "Not judged: void";
   if (outcome.empty()) return "Not judged: not finished";
-  if (!assess::counts(trial)) return "Not counted: " + (trial.facts.augmented ? std::string("cues were added to the forces") : trial.facts.role);
+  if (!assess::counts(trial))
+    return "Not counted: " + (trial.facts.augmented ? std::string("cues were added to the forces")
+                                                    : trial.facts.role);
   if (trial.passed) return "At the standard";
   if (outcome == "aborted") return "Below the standard: stopped early";
   return outcome == "time" ? "Below the standard: time limit reached" : "Below the standard";
@@ -95,7 +103,9 @@ void writePalpationSection(Html& html, const PalpationPage& page) {
   writePalpationTiles(html, trial);
   writeAdvice(html, trial);
   html.element("h3", "What was felt, and where the lumps are");
-  html.element("p", "The searched area from above, with you at its lower edge. The stronger the colour of a cell and the more dots in it, the more firmly it was felt.");
+  html.element("p",
+               "The searched area from above, with you at its lower edge. The stronger the colour "
+               "of a cell and the more dots in it, the more firmly it was felt.");
   writeCoverageChart(html, page);
   writeLumpTable(html, page);
   html.element("h3", "Pressing force");

@@ -3,7 +3,8 @@
 namespace palpa::report {
 namespace {
 
-/// Levels: one hue in four steps, and pips to count. Rings and crosses stand on a halo, so that they are seen on every step.
+/// Levels: one hue in four steps, and pips to count. Rings and crosses stand on a halo, so that
+/// they are seen on every step.
 constexpr std::string_view kPalpationStyle = R"css(
 .force-note{margin:1.1rem 0 0;padding:.7rem 1rem;border-left:6px solid var(--blue);border-radius:8px;background:var(--card)}
 .force-note strong{margin-right:.6rem}

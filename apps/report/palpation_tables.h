@@ -5,7 +5,8 @@
 
 namespace palpa::report {
 
-/// Each lump: where and how large it is, whether it was found, how far off place, size and grading were. Then what the false alarms are.
+/// Each lump: where and how large it is, whether it was found, how far off place, size and grading
+/// were. Then what the false alarms are.
 void writeLumpTable(Html& html, const PalpationPage& page);
 
 /// Coverage, pattern, forces, time.

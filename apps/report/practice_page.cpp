@@ -23,39 +23,53 @@ void writePracticeHeader(Html& html, const PracticePage& page, bool simulated) {
   if (simulated) writeSimulatedBanner(html);
 }
 
-void writePracticeMain(Html& html, const std::vector<progress::PracticeTrial>& trials, const std::function<void(Html&, const progress::Series&)>& series) {
+void writePracticeMain(Html& html, const std::vector<progress::PracticeTrial>& trials,
+                       const std::function<void(Html&, const progress::Series&)>& series) {
   const std::vector<progress::Series> all = progress::seriesOf(trials);
   const auto main = html.in("main");
-  if (all.empty()) html.element("p", {{"class", "card"}}, "No trial counts yet: none was both scored and finished.");
-  if (all.size() > 1) html.element("p", {{"class", "apart muted"}}, "Trials of different kinds are kept apart: another task, with or without force feedback, cues or guidance, simulated or not.");
+  if (all.empty())
+    html.element("p", {{"class", "card"}},
+                 "No trial counts yet: none was both scored and finished.");
+  if (all.size() > 1)
+    html.element("p", {{"class", "apart muted"}},
+                 "Trials of different kinds are kept apart: another task, with or without force "
+                 "feedback, cues or guidance, simulated or not.");
   for (const progress::Series& one : all) {
     const auto section = html.in("section", {{"class", "card series"}});
     writeSeriesHeading(html, one);
     series(html, one);
   }
-  if (const std::string left = progress::leftOut(trials); !left.empty()) html.element("p", {{"class", "muted small"}}, "Left out of every figure: " + left + '.');
+  if (const std::string left = progress::leftOut(trials); !left.empty())
+    html.element("p", {{"class", "muted small"}}, "Left out of every figure: " + left + '.');
 }
 
 }  // namespace
 
 void writeSeriesHeading(Html& html, const progress::Series& series) {
   std::string name = series.name();
-  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z') name[0] = static_cast<char>(name[0] - 'a' + 'A');
+  if (!name.empty() && name[0] >= 'a' && name[0] <= 'z')
+    name[0] = static_cast<char>(name[0] - 'a' + 'A');
   html.element("h2", name);
 }
 
-std::string practiceHtml(const PracticePage& page, const std::vector<progress::PracticeTrial>& trials, const std::function<void(Html&, const progress::Series&)>& series) {
+std::string practiceHtml(const PracticePage& page,
+                         const std::vector<progress::PracticeTrial>& trials,
+                         const std::function<void(Html&, const progress::Series&)>& series) {
   Html html;
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
     writeHeadElement(html, page.title, page.name, progressStyle());
     const auto body = html.in("body");
-    writePracticeHeader(html, page, std::any_of(trials.begin(), trials.end(), [](const progress::PracticeTrial& t) { return t.simulated; }));
+    writePracticeHeader(html, page,
+                        std::any_of(trials.begin(), trials.end(),
+                                    [](const progress::PracticeTrial& t) { return t.simulated; }));
     writePracticeMain(html, trials, series);
     const auto footer = html.in("footer");
-    html.element("p", {{"class", "muted small"}}, page.footer + " Palpa has not been validated on people.");
-    if (!page.software.empty()) html.element("p", {{"class", "muted small"}}, "Made by " + page.software + '.');
+    html.element("p", {{"class", "muted small"}},
+                 page.footer + " Palpa has not been validated on people.");
+    if (!page.software.empty())
+      html.element("p", {{"class", "muted small"}}, "Made by " + page.software + '.');
   }
   return html.str();
 }

@@ -10,14 +10,18 @@
 
 namespace palpa::report {
 
-/// The frame of a page of practice: head, who, SIMULATED where any trial is, every kind of trial by `series`, what was left out, footer.
+/// The frame of a page of practice: head, who, SIMULATED where any trial is, every kind of trial by
+/// `series`, what was left out, footer.
 struct PracticePage {
-  std::string title, name;                              ///< of the browser's tab: "Progress", "T017"
+  std::string title, name;  ///< of the browser's tab: "Progress", "T017"
   std::string heading;
-  std::vector<std::pair<std::string, std::string>> who;   ///< name and value; what is empty is left out
+  std::vector<std::pair<std::string, std::string>>
+      who;  ///< name and value; what is empty is left out
   std::string footer, software;
 };
-std::string practiceHtml(const PracticePage& page, const std::vector<progress::PracticeTrial>& trials, const std::function<void(Html&, const progress::Series&)>& series);
+std::string practiceHtml(const PracticePage& page,
+                         const std::vector<progress::PracticeTrial>& trials,
+                         const std::function<void(Html&, const progress::Series&)>& series);
 
 /// "Paracentesis, force feedback off", and that it is simulated.
 void writeSeriesHeading(Html& html, const progress::Series& series);

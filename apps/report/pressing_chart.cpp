@@ -9,7 +9,7 @@
 namespace palpa::report {
 namespace {
 
-constexpr double kMarksHeight = 20, kLineOfText = 13;   // px
+constexpr double kMarksHeight = 20, kLineOfText = 13;  // px
 
 PlotPanel pressingPanel(const PalpationPage& page, bool wide) {
   PlotPanel panel{"Force", "N", {}, 1, 0, wide ? 190.0 : 170.0};
@@ -37,12 +37,15 @@ Axis pressingTime(const PalpationPage& page, const ChartFrame& frame) {
 
 /// A line at each level with its name above it, where there is room between them.
 void drawThresholds(Html& svg, const PalpationPage& page, const Axis& x, const Axis& y) {
-  const std::pair<const char*, double> lines[] = {
-      {"light", page.rules.levels[0]}, {"medium", page.rules.levels[1]}, {"deep", page.rules.levels[2]}, {"too hard", page.rules.too_hard}};
+  const std::pair<const char*, double> lines[] = {{"light", page.rules.levels[0]},
+                                                  {"medium", page.rules.levels[1]},
+                                                  {"deep", page.rules.levels[2]},
+                                                  {"too hard", page.rules.too_hard}};
   double above = y.to_px + kLineOfText;
   for (std::size_t i = 0; i < 4; ++i) {
     const double at = y.at(lines[i].second);
-    svgLine(svg, i < 3 ? "threshold level-" + std::to_string(i + 1) : "threshold hard", x.from_px, at, x.to_px, at);
+    svgLine(svg, i < 3 ? "threshold level-" + std::to_string(i + 1) : "threshold hard", x.from_px,
+            at, x.to_px, at);
     if (above - at < kLineOfText) continue;
     svgText(svg, "words end", x.to_px - 4, at - 3, lines[i].first);
     above = at;
@@ -62,7 +65,10 @@ void drawPressing(Html& html, const PalpationPage& page, const ChartFrame& frame
   const Axis x = pressingTime(page, frame);
   const PlotPanel panel = pressingPanel(page, frame.wide);
   const double top = kMarksHeight + headingHeight(frame) + 4, bottom = top + panel.height;
-  const auto svg = openSvg(html, frame, bottom + 44, "Pressing force in newtons over " + trimmed(x.to - x.from, 1) + " seconds; at most " + trimmed(page.assessment.score.peak, 1) + " N");
+  const auto svg =
+      openSvg(html, frame, bottom + 44,
+              "Pressing force in newtons over " + trimmed(x.to - x.from, 1) + " seconds; at most " +
+                  trimmed(page.assessment.score.peak, 1) + " N");
   drawPanel(html, frame, x, top, panel);
   drawThresholds(html, page, x, {panel.y_top, 0, top, bottom});
   drawMarkTimes(html, page, x, bottom);
@@ -77,8 +83,11 @@ void writePressingChart(Html& html, const PalpationPage& page) {
   drawPressing(html, page, kWide);
   drawPressing(html, page, kNarrow);
   const assess::PalpationRules& rules = page.rules;
-  html.element("figcaption", "Lines: light from " + trimmed(rules.levels[0], 2) + " N, medium from " + trimmed(rules.levels[1], 2) + " N, deep from " + trimmed(rules.levels[2], 2) +
-                                 " N, too hard above " + trimmed(rules.too_hard, 2) + " N. Numbers on top: the marks, when they were made.");
+  html.element("figcaption", "Lines: light from " + trimmed(rules.levels[0], 2) +
+                                 " N, medium from " + trimmed(rules.levels[1], 2) +
+                                 " N, deep from " + trimmed(rules.levels[2], 2) +
+                                 " N, too hard above " + trimmed(rules.too_hard, 2) +
+                                 " N. Numbers on top: the marks, when they were made.");
 }
 
 }  // namespace palpa::report

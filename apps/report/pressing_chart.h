@@ -5,7 +5,8 @@
 
 namespace palpa::report {
 
-/// How hard it was pressed, over time, with the levels as lines and the marks at their moments. Drawn wide and narrow.
+/// How hard it was pressed, over time, with the levels as lines and the marks at their moments.
+/// Drawn wide and narrow.
 void writePressingChart(Html& html, const PalpationPage& page);
 
 }  // namespace palpa::report

@@ -7,12 +7,14 @@
 namespace palpa::report {
 namespace {
 
-constexpr double kPlotRow = 30, kNameRow = 17, kRowsTop = 8, kMeanRadius = 5.5, kValueRadius = 3.2, kNameGap = 14;   // px
+constexpr double kPlotRow = 30, kNameRow = 17, kRowsTop = 8, kMeanRadius = 5.5, kValueRadius = 3.2,
+                 kNameGap = 14;  // px
 constexpr double kWidestNames = 330, kWordsRoom = 92;
 
 double nameRoom(const RowPlot& plot, const ChartFrame& frame) {
   double widest = 100;
-  for (const PlotRow& row : plot.rows) widest = std::max(widest, textWidth(row.name, frame.font) + kNameGap);
+  for (const PlotRow& row : plot.rows)
+    widest = std::max(widest, textWidth(row.name, frame.font) + kNameGap);
   return std::min(widest, kWidestNames);
 }
 
@@ -24,18 +26,26 @@ void drawPlotRow(Html& html, const PlotRow& row, const Axis& x, double y) {
 
 void drawRows(Html& html, const RowPlot& plot, bool wide) {
   ChartFrame frame = practiceFrame(wide);
-  const double above = wide ? 0 : kNameRow, high = kPlotRow + above, bottom = kRowsTop + high * static_cast<double>(plot.rows.size());
+  const double above = wide ? 0 : kNameRow, high = kPlotRow + above,
+               bottom = kRowsTop + high * static_cast<double>(plot.rows.size());
   frame.left = wide ? nameRoom(plot, frame) : 12;
   const Axis x{plot.from, plot.to, frame.left + 8, frame.width - frame.right - kWordsRoom};
   const auto svg = openSvg(html, frame, bottom + 44, plot.label);
-  for (std::size_t i = 0; i < plot.rows.size(); ++i) svgRect(html, i % 2 ? "row-back odd" : "row-back", 0, kRowsTop + high * static_cast<double>(i), frame.width, high);
-  for (const double value : niceTicks(plot.from, plot.to, wide ? 10 : 5).values) svgLine(html, "grid", x.at(value), kRowsTop, x.at(value), bottom);
-  if (plot.middle) svgLine(html, "group-mean", x.at(*plot.middle), kRowsTop, x.at(*plot.middle), bottom);
+  for (std::size_t i = 0; i < plot.rows.size(); ++i)
+    svgRect(html, i % 2 ? "row-back odd" : "row-back", 0, kRowsTop + high * static_cast<double>(i),
+            frame.width, high);
+  for (const double value : niceTicks(plot.from, plot.to, wide ? 10 : 5).values)
+    svgLine(html, "grid", x.at(value), kRowsTop, x.at(value), bottom);
+  if (plot.middle)
+    svgLine(html, "group-mean", x.at(*plot.middle), kRowsTop, x.at(*plot.middle), bottom);
   for (std::size_t i = 0; i < plot.rows.size(); ++i) {
     const PlotRow& row = plot.rows[i];
-    const double top = kRowsTop + high * static_cast<double>(i), y = top + above + (high - above) / 2;
-    if (wide) svgText(html, "label", 4, y + 4, fitted(row.name, frame.left - kNameGap + 6, frame.font));
-    else svgText(html, "label", 6, top + 14, fitted(row.name, frame.width - 12, frame.font));
+    const double top = kRowsTop + high * static_cast<double>(i),
+                 y = top + above + (high - above) / 2;
+    if (wide)
+      svgText(html, "label", 4, y + 4, fitted(row.name, frame.left - kNameGap + 6, frame.font));
+    else
+      svgText(html, "label", 6, top + 14, fitted(row.name, frame.width - 12, frame.font));
     drawPlotRow(html, row, x, y);
     svgText(html, "label", x.to_px + 12, y + 4, row.words);
   }

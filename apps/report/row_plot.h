@@ -9,7 +9,8 @@
 
 namespace palpa::report {
 
-/// A row of a dot plot: its name, its values as hollow dots, their mean with an interval, words at the right.
+/// A row of a dot plot: its name, its values as hollow dots, their mean with an interval, words at
+/// the right.
 struct PlotRow {
   std::string name;
   std::vector<double> values;
@@ -20,10 +21,10 @@ struct PlotRow {
 
 /// Rows over one axis, drawn wide and narrow.
 struct RowPlot {
-  std::string label;                 ///< what a person who cannot see it is told
-  std::string axis;                  ///< "time, s"
+  std::string label;  ///< what a person who cannot see it is told
+  std::string axis;   ///< "time, s"
   double from = 0, to = 1;
-  std::optional<double> middle;      ///< a line through all rows: the group's mean
+  std::optional<double> middle;  ///< a line through all rows: the group's mean
   std::vector<PlotRow> rows;
 };
 void drawRowPlot(Html& html, const RowPlot& plot);

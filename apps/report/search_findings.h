@@ -12,7 +12,8 @@ namespace palpa::report {
 /// "full stiffness", "degraded", "augmented".
 const char* stiffnessWords(assess::SearchMode mode);
 
-/// "In 10 of 10 episodes with full stiffness the target was found, 95 % interval 72 % to 100 %. The choice took 21 s (median)."
+/// "In 10 of 10 episodes with full stiffness the target was found, 95 % interval 72 % to 100 %. The
+/// choice took 21 s (median)."
 std::string foundSentence(const assess::SearchTally& tally);
 
 /// What the cues gave back, in words; "" where there were no cues.

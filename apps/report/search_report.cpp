@@ -43,7 +43,9 @@ void writeSearchHeader(Html& html, const SearchReport& report) {
   const auto header = html.in("header");
   html.element("h1", report.title);
   writeWho(html, report.trainee, "", report.trials.size());
-  const bool simulated = report.simulated || std::any_of(report.trials.begin(), report.trials.end(), [](const assess::SearchTrial& t) { return t.simulated; });
+  const bool simulated =
+      report.simulated || std::any_of(report.trials.begin(), report.trials.end(),
+                                      [](const assess::SearchTrial& t) { return t.simulated; });
   if (simulated) writeSimulatedBanner(html);
 }
 
@@ -67,7 +69,8 @@ std::string searchHtml(const SearchReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, report.title, report.trainee, std::string(kSearchStyle) + std::string(subtaskTableStyle()));
+    writeHeadElement(html, report.title, report.trainee,
+                     std::string(kSearchStyle) + std::string(subtaskTableStyle()));
     const auto body = html.in("body");
     writeSearchHeader(html, report);
     writeSearchMain(html, report);
@@ -83,6 +86,8 @@ std::string searchHtml(const SearchReport& report) {
 
 }  // namespace
 
-void writeSearchReport(const SearchReport& report, const std::filesystem::path& file) { writeWhole(file, searchHtml(report)); }
+void writeSearchReport(const SearchReport& report, const std::filesystem::path& file) {
+  writeWhole(file, searchHtml(report));
+}
 
 }  // namespace palpa::report

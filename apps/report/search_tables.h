@@ -5,10 +5,12 @@
 
 namespace palpa::report {
 
-/// The three elements from above, in their true places: the target filled, the chosen one ringed. Words for those who do not see it.
+/// The three elements from above, in their true places: the target filled, the chosen one ringed.
+/// Words for those who do not see it.
 void writePlaceSign(Html& html, const assess::SearchTrial& trial);
 
-/// Every episode: how it was rendered, where its target lay, what was chosen, and with how much time, way and force.
+/// Every episode: how it was rendered, where its target lay, what was chosen, and with how much
+/// time, way and force.
 void writeEpisodes(Html& html, const SearchReport& report);
 
 /// What each part of the task was given, by stiffness, over all episodes but the void.

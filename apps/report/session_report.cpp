@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "anatomy/geometry/whole_file.h"
 #include "apps/report/competence_section.h"
 #include "apps/report/glossary.h"
 #include "apps/report/html.h"
@@ -9,7 +10,6 @@
 #include "apps/report/page_parts.h"
 #include "apps/report/trial_section.h"
 #include "apps/report/verdict.h"
-#include "anatomy/geometry/whole_file.h"
 
 namespace palpa::report {
 namespace {
@@ -20,7 +20,8 @@ bool isSimulated(const SessionReport& report) {
 }
 
 bool byPath(const SessionReport& report) {
-  return std::all_of(report.trials.begin(), report.trials.end(), [](const auto& t) { return t.assessment.by_path; });
+  return std::all_of(report.trials.begin(), report.trials.end(),
+                     [](const auto& t) { return t.assessment.by_path; });
 }
 
 void writeLinks(Html& html, const SessionReport& report) {
@@ -59,7 +60,8 @@ std::string page(const SessionReport& report) {
   html.raw("<!doctype html>\n");
   {
     const auto root = html.in("html", {{"lang", "en"}});
-    writeHeadElement(html, report.title, report.trainee, std::string(subtaskTableStyle()) + std::string(competenceStyle()));
+    writeHeadElement(html, report.title, report.trainee,
+                     std::string(subtaskTableStyle()) + std::string(competenceStyle()));
     const auto body = html.in("body");
     writeHeader(html, report);
     {

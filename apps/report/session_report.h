@@ -29,9 +29,9 @@ struct TrialPage {
   assess::TrialAssessment assessment;
   std::vector<assess::TrialSample> samples;  ///< about 100 Hz is plenty for the plots
   std::vector<Picture> pictures;
-  std::optional<competence::Verdict> verdict = {};   ///< its checklist must outlive the page
-  std::string certification = {};            ///< what so few trials cannot certify; beside a verdict
-  BesideTrial beside = {};                   ///< without samples: none
+  std::optional<competence::Verdict> verdict = {};  ///< its checklist must outlive the page
+  std::string certification = {};  ///< what so few trials cannot certify; beside a verdict
+  BesideTrial beside = {};         ///< without samples: none
 };
 
 /// A figure with its name, for tables of facts ("Registration error at the entry point, median":
@@ -48,9 +48,9 @@ struct SessionReport {
   std::vector<TrialPage> trials;
   std::vector<Fact> station;  ///< device, camera, display, rates
   std::vector<Fact>
-      registration;         ///< registration error and its source, simulated truth named as such
-  std::vector<Fact> notes;  ///< lateness, lost tracking, safety trips
-  std::vector<Fact> taxonomy;   ///< "Where this task stands"
+      registration;            ///< registration error and its source, simulated truth named as such
+  std::vector<Fact> notes;     ///< lateness, lost tracking, safety trips
+  std::vector<Fact> taxonomy;  ///< "Where this task stands"
   SubtaskSection parts;
 };
 
@@ -60,8 +60,8 @@ void writeReport(const SessionReport& report, const std::filesystem::path& file)
 
 /// trials.csv: header row, then one row a trial: USER_ID FF COL_LUNG COL_RIB COL_ART COL_VEIN
 /// PHASE_1 PHASE_2 ECON_MEAN ECON_VAR TIME SUCCESS TRIAL SEED SIMULATED TOTAL AUGMENTED (cues were
-/// added to the forces), then of each part of the task what subtask_csv.h says; empty: what a task with a
-/// goal of its own has not. No date, path or host timing.
+/// added to the forces), then of each part of the task what subtask_csv.h says; empty: what a task
+/// with a goal of its own has not. No date, path or host timing.
 void writeTrialsCsv(const std::string& user_id, const std::vector<assess::TrialAssessment>& trials,
                     const std::filesystem::path& file);
 

@@ -28,7 +28,9 @@ svg .threshold.level-2{stroke-dasharray:4 4}
 .wrong-word{color:var(--bad-ink);font-weight:600}
 )css";
 
-bool countsIn(const assess::SqueezeTrial& trial) { return assess::countsAsScored(trial.role) && trial.outcome != "void"; }
+bool countsIn(const assess::SqueezeTrial& trial) {
+  return assess::countsAsScored(trial.role) && trial.outcome != "void";
+}
 
 std::vector<assess::SqueezeTrial> counted(const std::vector<assess::SqueezeTrial>& trials) {
   std::vector<assess::SqueezeTrial> all;
@@ -39,21 +41,28 @@ std::vector<assess::SqueezeTrial> counted(const std::vector<assess::SqueezeTrial
 /// "Three of four answers are right from a difference of 21 % on (95 %: 14 % to 44 %)."
 std::string thresholdSentence(const assess::Discrimination& answers) {
   if (answers.of == 0) return "";
-  if (answers.right == answers.of) return "All answers were right: what is just noticeable is smaller than these differences, or too few were asked.";
-  if (!answers.threshold) return "These answers do not tell what is just noticeable: too few, or no better than chance.";
+  if (answers.right == answers.of)
+    return "All answers were right: what is just noticeable is smaller than these differences, or "
+           "too few were asked.";
+  if (!answers.threshold)
+    return "These answers do not tell what is just noticeable: too few, or no better than chance.";
   const assess::Threshold& t = *answers.threshold;
   if (const double asked = answers.shares.back().ratio; t.ratio > asked * asked)
-    return "Three of four answers would be right only from a difference well above those asked" + (t.low ? ": " + percentMore(*t.low) + " or more (95 %)." : std::string("."));
-  return "Three of four answers are right from a difference of about " + percentMore(t.ratio) + " on (95 % interval: " + (t.low ? percentMore(*t.low) : std::string("from nothing")) + " to " +
-         (t.high ? percentMore(*t.high) : std::string("unbounded")) + ").";
+    return "Three of four answers would be right only from a difference well above those asked" +
+           (t.low ? ": " + percentMore(*t.low) + " or more (95 %)." : std::string("."));
+  return "Three of four answers are right from a difference of about " + percentMore(t.ratio) +
+         " on (95 % interval: " + (t.low ? percentMore(*t.low) : std::string("from nothing")) +
+         " to " + (t.high ? percentMore(*t.high) : std::string("unbounded")) + ").";
 }
 
-void writeProperty(Html& html, const std::vector<assess::SqueezeTrial>& trials, SqueezedProperty property) {
+void writeProperty(Html& html, const std::vector<assess::SqueezeTrial>& trials,
+                   SqueezedProperty property) {
   const assess::Discrimination answers = assess::discriminationIn(trials, property);
   if (answers.of == 0) return;
   const auto section = html.in("section", {{"class", "card"}});
   html.element("h2", std::string("Which one is ") + assess::moreOf(property) + "?");
-  html.element("p", std::to_string(answers.right) + " of " + std::to_string(answers.of) + " answers were right. " + thresholdSentence(answers));
+  html.element("p", std::to_string(answers.right) + " of " + std::to_string(answers.of) +
+                        " answers were right. " + thresholdSentence(answers));
   writeSqueezeChart(html, answers, assess::moreOf(property));
 }
 
@@ -64,7 +73,9 @@ void writeAnswers(Html& html, const SqueezeReport& report) {
   {
     const auto head = html.in("thead");
     const auto row = html.in("tr");
-    for (const char* name : {"Trial", "Answer", "First", "Second", "Held", "Squeezed up to", "Time"}) html.element("th", name);
+    for (const char* name :
+         {"Trial", "Answer", "First", "Second", "Held", "Squeezed up to", "Time"})
+      html.element("th", name);
   }
   const auto body = html.in("tbody");
   for (const assess::SqueezeTrial& t : report.trials) {
@@ -72,8 +83,10 @@ void writeAnswers(Html& html, const SqueezeReport& report) {
     html.element("td", std::to_string(t.trial) + (countsIn(t) ? "" : " (not counted)"));
     html.element("td", {{"class", t.answered() && !t.right() ? "wrong-word" : ""}}, summaryOf(t));
     for (const double factor : t.factors) html.element("td", "x " + trimmed(factor, 2));
-    html.element("td", std::to_string(t.grips[0]) + " and " + std::to_string(t.grips[1]) + " times");
-    html.element("td", fixed(t.peak_N, 1) + " N" + (t.peak_N > report.too_hard_N ? ": too hard" : ""));
+    html.element("td",
+                 std::to_string(t.grips[0]) + " and " + std::to_string(t.grips[1]) + " times");
+    html.element("td",
+                 fixed(t.peak_N, 1) + " N" + (t.peak_N > report.too_hard_N ? ": too hard" : ""));
     html.element("td", fixed(t.seconds, 0) + " s");
   }
 }
@@ -82,7 +95,9 @@ void writeSqueezeHeader(Html& html, const SqueezeReport& report) {
   const auto header = html.in("header");
   html.element("h1", report.title);
   writeWho(html, report.trainee, "", report.trials.size());
-  const bool simulated = report.simulated || std::any_of(report.trials.begin(), report.trials.end(), [](const assess::SqueezeTrial& t) { return t.simulated; });
+  const bool simulated =
+      report.simulated || std::any_of(report.trials.begin(), report.trials.end(),
+                                      [](const assess::SqueezeTrial& t) { return t.simulated; });
   if (simulated) writeSimulatedBanner(html);
 }
 
@@ -110,7 +125,10 @@ std::string squeezeHtml(const SqueezeReport& report) {
       writeFacts(html, "Notes", report.notes);
     }
     const auto footer = html.in("footer");
-    html.element("p", {{"class", "muted"}}, "Shares of right answers: E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The just noticeable difference: D. M. Green, J. A. Swets, Signal Detection Theory and Psychophysics, 1966; its interval: S. S. Wilks, Ann. Math. Stat. 9, 1938.");
+    html.element("p", {{"class", "muted"}},
+                 "Shares of right answers: E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The just "
+                 "noticeable difference: D. M. Green, J. A. Swets, Signal Detection Theory and "
+                 "Psychophysics, 1966; its interval: S. S. Wilks, Ann. Math. Stat. 9, 1938.");
     writeMadeBy(html, {&report.station, &report.notes});
   }
   return html.str();
@@ -118,6 +136,8 @@ std::string squeezeHtml(const SqueezeReport& report) {
 
 }  // namespace
 
-void writeSqueezeReport(const SqueezeReport& report, const std::filesystem::path& file) { writeWhole(file, squeezeHtml(report)); }
+void writeSqueezeReport(const SqueezeReport& report, const std::filesystem::path& file) {
+  writeWhole(file, squeezeHtml(report));
+}
 
 }  // namespace palpa::report

@@ -17,13 +17,17 @@ constexpr std::string_view kSubtaskStyle = R"css(
 )css";
 
 std::string meaningOf(const SubtaskMeanings& meanings, const std::string& subtask) {
-  const auto at = std::find_if(meanings.begin(), meanings.end(), [&](const auto& meaning) { return meaning.first == subtask; });
+  const auto at = std::find_if(meanings.begin(), meanings.end(),
+                               [&](const auto& meaning) { return meaning.first == subtask; });
   return at == meanings.end() ? "" : at->second;
 }
 
-std::string shareText(double part, double of) { return of > 0 ? fixed(100 * part / of, 0) + " %" : "–"; }
+std::string shareText(double part, double of) {
+  return of > 0 ? fixed(100 * part / of, 0) + " %" : "–";
+}
 
-void writeSubtaskRow(Html& html, const assess::SubtaskDose& dose, const std::string& meaning, double seconds, bool cues) {
+void writeSubtaskRow(Html& html, const assess::SubtaskDose& dose, const std::string& meaning,
+                     double seconds, bool cues) {
   const auto row = html.in("tr");
   {
     const auto cell = html.in("th", {{"scope", "row"}});
@@ -42,11 +46,14 @@ void writeSubtaskRow(Html& html, const assess::SubtaskDose& dose, const std::str
 
 }  // namespace
 
-std::vector<assess::SubtaskDose> dosesSummed(const std::vector<std::vector<assess::SubtaskDose>>& trials) {
+std::vector<assess::SubtaskDose> dosesSummed(
+    const std::vector<std::vector<assess::SubtaskDose>>& trials) {
   std::vector<assess::SubtaskDose> sums;
   for (const std::vector<assess::SubtaskDose>& doses : trials) {
     for (const assess::SubtaskDose& dose : doses) {
-      auto sum = std::find_if(sums.begin(), sums.end(), [&](const assess::SubtaskDose& s) { return s.subtask == dose.subtask; });
+      auto sum = std::find_if(sums.begin(), sums.end(), [&](const assess::SubtaskDose& s) {
+        return s.subtask == dose.subtask;
+      });
       if (sum == sums.end()) sum = sums.insert(sums.end(), {dose.subtask, 0, 0, 0, 0});
       sum->on_s += dose.on_s;
       sum->times += dose.times;
@@ -57,25 +64,33 @@ std::vector<assess::SubtaskDose> dosesSummed(const std::vector<std::vector<asses
   return sums;
 }
 
-void writeSubtaskTable(Html& html, const std::vector<assess::SubtaskDose>& doses, const SubtaskMeanings& meanings, double seconds) {
+void writeSubtaskTable(Html& html, const std::vector<assess::SubtaskDose>& doses,
+                       const SubtaskMeanings& meanings, double seconds) {
   if (doses.empty()) return;
-  const bool cues = std::any_of(doses.begin(), doses.end(), [](const assess::SubtaskDose& dose) { return dose.augmented_s > 0; });
+  const bool cues = std::any_of(doses.begin(), doses.end(), [](const assess::SubtaskDose& dose) {
+    return dose.augmented_s > 0;
+  });
   const auto scroll = html.in("div", {{"class", "scroll"}, {"tabindex", "0"}});
   const auto table = html.in("table", {{"class", "parts"}});
   {
     const auto head = html.in("thead");
     const auto row = html.in("tr");
-    for (const char* column : {"Part of the task", "On", "Of the time", "Times"}) html.element("th", {{"scope", "col"}}, column);
+    for (const char* column : {"Part of the task", "On", "Of the time", "Times"})
+      html.element("th", {{"scope", "col"}}, column);
     if (cues)
-      for (const char* column : {"Cues felt", "Added in all", "Added on average"}) html.element("th", {{"scope", "col"}}, column);
+      for (const char* column : {"Cues felt", "Added in all", "Added on average"})
+        html.element("th", {{"scope", "col"}}, column);
   }
   const auto body = html.in("tbody");
-  for (const assess::SubtaskDose& dose : doses) writeSubtaskRow(html, dose, meaningOf(meanings, dose.subtask), seconds, cues);
+  for (const assess::SubtaskDose& dose : doses)
+    writeSubtaskRow(html, dose, meaningOf(meanings, dose.subtask), seconds, cues);
 }
 
 void writeSubtaskNote(Html& html) {
   html.element("p", {{"class", "muted small"}},
-               "On: the hand was doing that part of the task, by its place, its speed and its contact; parts may overlap. Cues felt: while a cue was pushing; no such column where none was. Added in all: force times time, 1 N s is one "
+               "On: the hand was doing that part of the task, by its place, its speed and its "
+               "contact; parts may overlap. Cues felt: while a cue was pushing; no such column "
+               "where none was. Added in all: force times time, 1 N s is one "
                "newton for one second. Added on average: while a cue was felt.");
 }
 
@@ -85,8 +100,12 @@ void writeSubtaskSection(Html& html, const SubtaskSection& parts) {
   const auto section = html.in("section", {{"class", "card"}, {"id", "parts"}});
   html.element("h2", "The parts of the task, and what the cues added");
   const std::size_t all = parts.trials.size();
-  html.element("p", parts.augmented == 0 ? std::string("No cues were added to the forces.")
-                                         : "In " + std::to_string(parts.augmented) + " of " + std::to_string(all) + (all == 1 ? " trial" : " trials") + " cues were added to the forces: what was felt is then more than the tissue's own.");
+  html.element("p", parts.augmented == 0
+                        ? std::string("No cues were added to the forces.")
+                        : "In " + std::to_string(parts.augmented) + " of " + std::to_string(all) +
+                              (all == 1 ? " trial" : " trials") +
+                              " cues were added to the forces: what was felt is then more than the "
+                              "tissue's own.");
   writeSubtaskTable(html, sums, parts.meanings, parts.seconds);
   writeSubtaskNote(html);
 }

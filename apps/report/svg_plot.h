@@ -18,7 +18,7 @@ struct Curve {
 
 /// A plot in a band of a larger picture; shares its time axis with the bands above and below.
 struct PlotPanel {
-  std::string title, unit;   ///< no title: no heading
+  std::string title, unit;  ///< no title: no heading
   std::vector<Curve> curves;
   double y_top = 1, y_bottom = 0;  ///< values at the upper and lower edge
   double height = 140;

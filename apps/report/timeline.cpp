@@ -93,7 +93,7 @@ void drawLane(Html& svg, const ChartFrame& frame, const Axis& x, double top, con
   }
   {
     const auto group = svg.in("g");
-    svg.element("title", lane.label);   // whole, where the name above had to be cut
+    svg.element("title", lane.label);  // whole, where the name above had to be cut
     svgRect(svg, "lane", x.from_px, y, x.to_px - x.from_px, bar);
   }
   for (const assess::Span& span : lane.spans) {

@@ -25,36 +25,45 @@ void item(Html& html, const char* head, const std::string& sentence) {
 std::vector<Change> changesIn(const progress::Series& series) {
   std::vector<Change> changes;
   for (const std::string& metric : progress::shownFigures(series.engine))
-    if (const auto change = progress::changeOf(metric, series.values(metric))) changes.push_back(*change);
+    if (const auto change = progress::changeOf(metric, series.values(metric)))
+      changes.push_back(*change);
   return changes;
 }
 
 std::string titlesOf(const std::vector<Change>& changes) {
   std::string words;
-  for (const Change& change : changes) words += (words.empty() ? "" : ", ") + titleWithin(change.metric);
+  for (const Change& change : changes)
+    words += (words.empty() ? "" : ", ") + titleWithin(change.metric);
   return words.empty() ? words : words + '.';
 }
 
 /// The most telling ones with their figures, the others by name.
-void writeChangesThat(Html& html, Change::Verdict verdict, const char* head, const char* more, const std::vector<Change>& changes) {
+void writeChangesThat(Html& html, Change::Verdict verdict, const char* head, const char* more,
+                      const std::vector<Change>& changes) {
   std::vector<Change> others;
   std::size_t said = 0;
   for (const Change& change : changes) {
     if (change.verdict != verdict) continue;
-    if (said++ < kSaidInFull) item(html, head, changeWords(change) + '.');
-    else others.push_back(change);
+    if (said++ < kSaidInFull)
+      item(html, head, changeWords(change) + '.');
+    else
+      others.push_back(change);
   }
   item(html, more, titlesOf(others));
 }
 
 void writeChanges(Html& html, const progress::Series& series) {
   const std::vector<Change> changes = changesIn(series);
-  if (changes.empty()) return item(html, "Change:", "too few trials to say what changed; six or more tell.");
+  if (changes.empty())
+    return item(html, "Change:", "too few trials to say what changed; six or more tell.");
   writeChangesThat(html, Change::Verdict::better, "Better:", "Also better:", changes);
   writeChangesThat(html, Change::Verdict::worse, "Worse:", "Also worse:", changes);
   std::vector<Change> unclear;
-  std::copy_if(changes.begin(), changes.end(), std::back_inserter(unclear), [](const Change& c) { return c.verdict == Change::Verdict::unclear; });
-  if (unclear.size() == changes.size()) return item(html, "No clear change:", changeWords(unclear.front()) + (unclear.size() > 1 ? ". Nor in the others." : "."));
+  std::copy_if(changes.begin(), changes.end(), std::back_inserter(unclear),
+               [](const Change& c) { return c.verdict == Change::Verdict::unclear; });
+  if (unclear.size() == changes.size())
+    return item(html, "No clear change:",
+                changeWords(unclear.front()) + (unclear.size() > 1 ? ". Nor in the others." : "."));
   item(html, "No clear change:", titlesOf(unclear));
 }
 
@@ -63,17 +72,24 @@ std::string costSentence(const progress::Series& series) {
   if (costs.empty()) return "";
   double all = 0;
   for (const progress::Cost& cost : costs) all += cost.points;
-  std::string words = titleWithin(costs[0].metric) + ", " + fixed(costs[0].points, 0) + " of " + fixed(all, 0) + " points a trial";
-  for (std::size_t i = 1; i < std::min<std::size_t>(costs.size(), 3); ++i) words += std::string(i == 1 ? "; then " : " and ") + titleWithin(costs[i].metric) + ", " + fixed(costs[i].points, 0);
-  return words + " (means of the last " + std::to_string(std::min<std::size_t>(5, series.trials.size())) + " trials).";
+  std::string words = titleWithin(costs[0].metric) + ", " + fixed(costs[0].points, 0) + " of " +
+                      fixed(all, 0) + " points a trial";
+  for (std::size_t i = 1; i < std::min<std::size_t>(costs.size(), 3); ++i)
+    words += std::string(i == 1 ? "; then " : " and ") + titleWithin(costs[i].metric) + ", " +
+             fixed(costs[i].points, 0);
+  return words + " (means of the last " +
+         std::to_string(std::min<std::size_t>(5, series.trials.size())) + " trials).";
 }
 
 std::string missSentence(const progress::Series& series) {
   std::string words;
-  for (const auto& [organ, name] : {std::pair{"pleura", "the pleura"}, std::pair{"artery", "an artery"}}) {
+  for (const auto& [organ, name] :
+       {std::pair{"pleura", "the pleura"}, std::pair{"artery", "an artery"}}) {
     const auto misses = progress::nearestMisses(series, organ, 1);
     if (misses.empty()) continue;
-    words += (words.empty() ? "" : " ") + fixed(misses[0].distance_mm, 1) + " mm from " + name + " in trial " + std::to_string(misses[0].trial) + ", at " + fixed(misses[0].at_s, 1) + " s.";
+    words += (words.empty() ? "" : " ") + fixed(misses[0].distance_mm, 1) + " mm from " + name +
+             " in trial " + std::to_string(misses[0].trial) + ", at " + fixed(misses[0].at_s, 1) +
+             " s.";
   }
   return words;
 }
@@ -81,11 +97,15 @@ std::string missSentence(const progress::Series& series) {
 std::string recurringSentence(const std::vector<progress::ErrorCount>& errors) {
   std::string words;
   for (const progress::ErrorCount& e : errors)
-    if (e.recurs()) words += (words.empty() ? "" : "; ") + std::string(e.kind->words) + " (" + std::to_string(e.lately) + " of the last " + std::to_string(e.lately_of) + " trials)";
+    if (e.recurs())
+      words += (words.empty() ? "" : "; ") + std::string(e.kind->words) + " (" +
+               std::to_string(e.lately) + " of the last " + std::to_string(e.lately_of) +
+               " trials)";
   return words.empty() ? "no error happened twice in the last five trials." : words + '.';
 }
 
-void writePractice(Html& html, const progress::Series& series, const std::vector<progress::ErrorCount>& errors) {
+void writePractice(Html& html, const progress::Series& series,
+                   const std::vector<progress::ErrorCount>& errors) {
   std::set<std::string> said;
   for (const progress::ErrorCount& e : errors) {
     if (!e.recurs() || said.size() == 2 || !said.insert(e.kind->practise).second) continue;
@@ -93,7 +113,9 @@ void writePractice(Html& html, const progress::Series& series, const std::vector
   }
   if (!said.empty()) return;
   const bool success = series.trials.back().succeeded();
-  item(html, "Practise next:", success ? "the same on other patients and on the other side." : "the same again, until it succeeds several times in a row.");
+  item(html, "Practise next:",
+       success ? "the same on other patients and on the other side."
+               : "the same again, until it succeeds several times in a row.");
 }
 
 }  // namespace
@@ -108,20 +130,26 @@ std::string extentOf(const progress::Series& series) {
     if (from.empty() || day < from) from = day;
     to = std::max(to, day);
   }
-  std::string words = counted(series.trials.size(), "scored trial") + " in " + counted(sessions.size(), "session");
+  std::string words =
+      counted(series.trials.size(), "scored trial") + " in " + counted(sessions.size(), "session");
   if (from.empty()) return words;
   if (from == to) return words + ", on " + from;
-  return words + ", " + from + " to " + to + " (" + counted(static_cast<std::size_t>(progress::daysBetween(from, to).value_or(0)), "day") + ')';
+  return words + ", " + from + " to " + to + " (" +
+         counted(static_cast<std::size_t>(progress::daysBetween(from, to).value_or(0)), "day") +
+         ')';
 }
 
 void writeTraineeSummary(Html& html, const progress::Series& series) {
   const std::vector<progress::ErrorCount> errors = progress::errorsIn(series);
   const auto list = html.in("ul", {{"class", "short"}});
   item(html, "Practice:", extentOf(series) + '.');
-  const auto successes = std::count_if(series.trials.begin(), series.trials.end(), [](const auto& t) { return t.succeeded(); });
+  const auto successes = std::count_if(series.trials.begin(), series.trials.end(),
+                                       [](const auto& t) { return t.succeeded(); });
   const auto failures = std::count_if(series.trials.begin(), series.trials.end(), progress::failed);
   std::string counts = std::to_string(successes) + " of " + std::to_string(series.trials.size());
-  if (series.engine == "needle") counts += "; without touching lung or artery and within three passes " + std::to_string(static_cast<std::ptrdiff_t>(series.trials.size()) - failures);
+  if (series.engine == "needle")
+    counts += "; without touching lung or artery and within three passes " +
+              std::to_string(static_cast<std::ptrdiff_t>(series.trials.size()) - failures);
   item(html, "Success:", counts + '.');
   writeChanges(html, series);
   item(html, "Costs most now:", costSentence(series));

@@ -33,11 +33,15 @@ double largest(const std::vector<Curve>& curves) {
 }
 
 double forceOf(const assess::TrialSample& s) { return s.f_contact; }
-double depthOf(const assess::TrialSample& s) { return std::isfinite(s.depth) ? std::max(0.0, 1000 * s.depth) : s.depth; }
+double depthOf(const assess::TrialSample& s) {
+  return std::isfinite(s.depth) ? std::max(0.0, 1000 * s.depth) : s.depth;
+}
 
 /// The other trial's line comes last, so that it lies on top.
-void addBeside(const BesideTrial& beside, double (*value)(const assess::TrialSample&), PlotPanel* panel) {
-  if (!beside.samples.empty()) panel->curves.push_back(curveOf(beside.samples, beside.label.c_str(), "beside", value));
+void addBeside(const BesideTrial& beside, double (*value)(const assess::TrialSample&),
+               PlotPanel* panel) {
+  if (!beside.samples.empty())
+    panel->curves.push_back(curveOf(beside.samples, beside.label.c_str(), "beside", value));
 }
 
 PlotPanel forcePanel(const TrialPage& page, bool wide) {
@@ -52,9 +56,9 @@ PlotPanel forcePanel(const TrialPage& page, bool wide) {
 }
 
 PlotPanel depthPanel(const TrialPage& page, bool wide) {
-  PlotPanel panel{
-      wide ? "Depth" : "Depth of the tip", "mm", {}, 0, 1, wide ? 120.0 : 110.0};
-  panel.curves.push_back(curveOf(page.samples, page.beside.samples.empty() ? "depth" : "this trial", "depth", depthOf));
+  PlotPanel panel{wide ? "Depth" : "Depth of the tip", "mm", {}, 0, 1, wide ? 120.0 : 110.0};
+  panel.curves.push_back(curveOf(page.samples, page.beside.samples.empty() ? "depth" : "this trial",
+                                 "depth", depthOf));
   panel.curves.back().filled = true;
   addBeside(page.beside, depthOf, &panel);
   panel.y_bottom = niceCeiling(std::max(largest(panel.curves), 1.0));  // deeper is lower
@@ -97,7 +101,8 @@ void drawPanels(Html& svg, const ChartFrame& frame, const Axis& x, const Bands& 
   for (const PlotPanel& panel : bands.panels) {
     top += kBetween + headingHeight(frame);
     drawPanel(svg, frame, x, top, panel);
-    if (frame.wide && panel.title != "Force" && panel.curves.size() == 1) svgText(svg, "legend", 0, top + 31, "of the tip");
+    if (frame.wide && panel.title != "Force" && panel.curves.size() == 1)
+      svgText(svg, "legend", 0, top + 31, "of the tip");
     top += panel.height;
   }
   drawTimeAxis(svg, frame, x, top + 2, "time since the start of the trial, s");

@@ -1,9 +1,9 @@
 #include <string>
 
+#include "anatomy/geometry/whole_file.h"
 #include "apps/report/numbers.h"
 #include "apps/report/session_report.h"
 #include "apps/report/subtask_csv.h"
-#include "anatomy/geometry/whole_file.h"
 
 namespace palpa::report {
 namespace {
@@ -30,16 +30,19 @@ std::string row(const std::string& user_id, const assess::TrialAssessment& trial
   line += ',' + shortest(v.time_ms);
   line += v.success ? ",1," : ",0,";
   return line + std::to_string(trial.trial) + ',' + std::to_string(trial.seed) +
-         (trial.simulated ? ",1," : ",0,") + (trial.by_path ? shortest(trial.total) : "") + (trial.augmented ? ",1" : ",0");
+         (trial.simulated ? ",1," : ",0,") + (trial.by_path ? shortest(trial.total) : "") +
+         (trial.augmented ? ",1" : ",0");
 }
 
 }  // namespace
 
 void writeTrialsCsv(const std::string& user_id, const std::vector<assess::TrialAssessment>& trials,
                     const std::filesystem::path& file) {
-  const std::vector<assess::SubtaskDose> parts = trials.empty() ? std::vector<assess::SubtaskDose>() : trials.front().doses;
+  const std::vector<assess::SubtaskDose> parts =
+      trials.empty() ? std::vector<assess::SubtaskDose>() : trials.front().doses;
   std::string csv = kHeader + subtaskColumns(parts) + '\n';
-  for (const auto& trial : trials) csv += row(user_id, trial) + subtaskFields(parts, trial.doses) + '\n';
+  for (const auto& trial : trials)
+    csv += row(user_id, trial) + subtaskFields(parts, trial.doses) + '\n';
   writeWhole(file, csv);
 }
 

@@ -75,12 +75,16 @@ std::string outcomeWords(const assess::TrialAssessment& trial) {
 
 std::string shortOutcome(const assess::TrialAssessment& trial) {
   if (trial.outcome == "success") return hasComplication(trial) ? "complication" : "success";
-  return trial.outcome == "time" ? "time limit" : trial.outcome == "passes" ? "too many passes" : trial.outcome;
+  return trial.outcome == "time"     ? "time limit"
+         : trial.outcome == "passes" ? "too many passes"
+                                     : trial.outcome;
 }
 
 Tone toneOfOutcome(const assess::TrialAssessment& trial) {
   if (trial.outcome == "success") return hasComplication(trial) ? Tone::guide : Tone::good;
-  return trial.outcome == "aborted" || trial.outcome == "time" || trial.outcome == "passes" ? Tone::bad : Tone::neutral;
+  return trial.outcome == "aborted" || trial.outcome == "time" || trial.outcome == "passes"
+             ? Tone::bad
+             : Tone::neutral;
 }
 
 std::string largestReasons(const assess::TrialAssessment& assessment) {

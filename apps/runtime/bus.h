@@ -18,7 +18,7 @@ namespace palpa::runtime {
 struct ToolState {
   std::int64_t t_ns = 0;
   PackedPose X_DT;
-  Packed3 v_D{};               ///< of the tip, m/s
+  Packed3 v_D{};  ///< of the tip, m/s
   Packed3 f_contact_D{}, f_command_D{};
   Packed3 entry_D{};
   double depth = 0, plunger = 0, bone_force = 0;
@@ -27,7 +27,7 @@ struct ToolState {
   Organ wall = Organ::none, bone = Organ::none;
   haptics::SafetyCause safety = haptics::SafetyCause::none;
   bool homed = false;
-  Packed3 f_sensed_D{};        ///< of a real object on the tool, N; zero where no sensor can say
+  Packed3 f_sensed_D{};  ///< of a real object on the tool, N; zero where no sensor can say
 };
 
 /// What the camera saw last, as it came (distorted).
@@ -36,35 +36,44 @@ struct CameraView {
   std::uint64_t number = 0;
   std::string source;
   std::shared_ptr<const cv::Mat> picture;
-  std::optional<ar::BoardPose> pose;      ///< as measured in this picture; empty when the board is not seen in it
-  std::optional<Pose> X_CW;               ///< of the board at the exposure: filtered over the pictures, or foretold where it is hidden for a moment
+  std::optional<ar::BoardPose>
+      pose;  ///< as measured in this picture; empty when the board is not seen in it
+  std::optional<Pose> X_CW;  ///< of the board at the exposure: filtered over the pictures, or
+                             ///< foretold where it is hidden for a moment
   ar::TrackState tracking = ar::TrackState::searching;
-  bool by_tracker = false;   ///< X_CW and `tracking` are of another tracking system than the pictures
-  ar::PictureFault fault = ar::PictureFault::none;   ///< gone: `source` says why
-  std::vector<std::optional<Pose>> others;   ///< X_CB of the boards besides the table's, as `X_CW`, in the order of the camera's settings; empty: not seen
+  bool by_tracker =
+      false;  ///< X_CW and `tracking` are of another tracking system than the pictures
+  ar::PictureFault fault = ar::PictureFault::none;  ///< gone: `source` says why
+  std::vector<std::optional<Pose>>
+      others;  ///< X_CB of the boards besides the table's, as `X_CW`, in the order of the camera's
+               ///< settings; empty: not seen
 };
 
 /// What a person at the display sees, as far as a simulated person may know it.
 struct Displayed {
   std::int64_t t_ns = 0;
-  Pose X_AT = Pose::Identity();   ///< the needle as drawn on the drawn patient
+  Pose X_AT = Pose::Identity();  ///< the needle as drawn on the drawn patient
   int trial = 0;
   bool running = false;
-  bool blood_flows = false;       ///< blood enters the syringe
-  bool injury = false;            ///< lung or artery: the screen says so
-  Pose second_X_AT = Pose::Identity();   ///< another tool, where there is one
-  enum class Question : std::uint8_t { none, harder, heavier } question = Question::none;   ///< that the screen asks
+  bool blood_flows = false;             ///< blood enters the syringe
+  bool injury = false;                  ///< lung or artery: the screen says so
+  Pose second_X_AT = Pose::Identity();  ///< another tool, where there is one
+  enum class Question : std::uint8_t {
+    none,
+    harder,
+    heavier
+  } question = Question::none;  ///< that the screen asks
 };
 
 /// Where the camera was, without its picture.
 struct CameraPose {
-  std::int64_t t_ns = 0;          ///< of the exposure
-  std::optional<Pose> X_CW;       ///< as in CameraView
+  std::int64_t t_ns = 0;     ///< of the exposure
+  std::optional<Pose> X_CW;  ///< as in CameraView
 };
 
 /// The camera's pose as a tracking system measured it, in place of the table's board.
 struct TrackedPose {
-  std::int64_t t_ns = 0;          ///< session time of the measurement
+  std::int64_t t_ns = 0;  ///< session time of the measurement
   Pose X_CW = Pose::Identity();
 };
 
@@ -93,10 +102,12 @@ struct Bus {
 
   StateChannel<LocalGeometry> geometry_to_haptic;
   StateChannel<ToolState> haptic_to_geometry, haptic_to_scene;
-  StateChannel<ToolState> second_to_scene;   ///< of the second of two devices; silent where there is one
+  StateChannel<ToolState>
+      second_to_scene;  ///< of the second of two devices; silent where there is one
   StateChannel<haptics::TickCommands> task_to_haptic;
   StateChannel<CameraView> camera_to_scene, camera_to_task;
-  StateChannel<ToolState> haptic_to_link, second_to_link;   ///< link: other programs that listen; nobody reads where none may
+  StateChannel<ToolState> haptic_to_link,
+      second_to_link;  ///< link: other programs that listen; nobody reads where none may
   StateChannel<CameraPose> camera_to_link;
   StateChannel<Displayed> scene_to_operator;
 
@@ -104,7 +115,7 @@ struct Bus {
   EventQueue<Keyframe> keyframes_to_recorder{128};
   EventQueue<LocalGeometry> geometry_to_recorder{512};
   EventQueue<EvidenceMessage> task_to_recorder{1024};
-  EventQueue<Event> device_to_task{64};   ///< what a driver has to tell
+  EventQueue<Event> device_to_task{64};  ///< what a driver has to tell
   EventQueue<EvidenceMessage> recorder_to_link{256};
   EventQueue<TrackedPose> tracker_to_camera{512};
 };

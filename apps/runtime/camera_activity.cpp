@@ -5,7 +5,7 @@
 namespace palpa::runtime {
 namespace {
 
-constexpr std::int64_t kAskAgain = kSecond;   // after a source has failed
+constexpr std::int64_t kAskAgain = kSecond;  // after a source has failed
 
 std::optional<Pose> poseAt(const ar::PoseTrack& track, std::int64_t t_ns) {
   const ar::PoseTrack::Answer there = track.at(t_ns);
@@ -30,7 +30,9 @@ CameraActivity::CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
       tracked_(trackOf(settings.tracked)),
       health_({camera.width, camera.height}),
       observer_(std::move(observer)) {
-  for (const auto& other : settings_.others) other_trackers_.emplace_back(*other, camera, ar::BoardTracker::Settings{{}, !settings_.photographs});
+  for (const auto& other : settings_.others)
+    other_trackers_.emplace_back(*other, camera,
+                                 ar::BoardTracker::Settings{{}, !settings_.photographs});
 }
 
 CameraActivity::~CameraActivity() {
@@ -45,7 +47,8 @@ CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std:
   std::optional<ar::Frame> frame;
   try {
     frame = exposure();
-  } catch (const std::exception& e) {   // of the source alone: what goes wrong in the tracking is told to the executive
+  } catch (const std::exception& e) {  // of the source alone: what goes wrong in the tracking is
+                                       // told to the executive
     view.fault = ar::PictureFault::gone;
     view.source = e.what();
     return view;
@@ -79,11 +82,14 @@ void CameraActivity::track(const cv::Mat& image, CameraView* view) {
   }
 }
 
-/// What another tracking system says of the camera's place at the exposure. On the camera's thread alone.
+/// What another tracking system says of the camera's place at the exposure. On the camera's thread
+/// alone.
 void CameraActivity::follow(CameraView* view) {
   ar::Matrix6 covariance = ar::Matrix6::Zero();
-  covariance.topLeftCorner<3, 3>().diagonal().setConstant(settings_.tracked->sigma_rad * settings_.tracked->sigma_rad);
-  covariance.bottomRightCorner<3, 3>().diagonal().setConstant(settings_.tracked->sigma * settings_.tracked->sigma);
+  covariance.topLeftCorner<3, 3>().diagonal().setConstant(settings_.tracked->sigma_rad *
+                                                          settings_.tracked->sigma_rad);
+  covariance.bottomRightCorner<3, 3>().diagonal().setConstant(settings_.tracked->sigma *
+                                                              settings_.tracked->sigma);
   TrackedPose pose;
   while (bus_.tracker_to_camera.pop(&pose)) {
     tracked_.add(pose.X_CW, covariance, pose.t_ns);
@@ -91,17 +97,21 @@ void CameraActivity::follow(CameraView* view) {
   }
   view->by_tracker = true;
   view->X_CW = poseAt(tracked_, view->t_exposure_ns);
-  view->tracking = view->X_CW ? ar::TrackState::tracked : tracked_before_ ? ar::TrackState::lost : ar::TrackState::searching;
+  view->tracking = view->X_CW        ? ar::TrackState::tracked
+                   : tracked_before_ ? ar::TrackState::lost
+                                     : ar::TrackState::searching;
 }
 
 /// When the next picture is due.
-std::int64_t CameraActivity::publish(const CameraView& view, std::int64_t exposed_ns, std::int64_t now_ns) {
+std::int64_t CameraActivity::publish(const CameraView& view, std::int64_t exposed_ns,
+                                     std::int64_t now_ns) {
   bus_.camera_to_scene.publish(view, now_ns);
   bus_.camera_to_task.publish(view, now_ns);
   bus_.camera_to_link.publish({view.t_exposure_ns, view.X_CW}, now_ns);
   if (observer_) observer_(view);
   if (view.fault == ar::PictureFault::ended) return kNever;
-  return view.fault == ar::PictureFault::gone ? now_ns + kAskAgain : exposed_ns + settings_.period_ns;
+  return view.fault == ar::PictureFault::gone ? now_ns + kAskAgain
+                                              : exposed_ns + settings_.period_ns;
 }
 
 std::int64_t CameraActivity::step(std::int64_t now_ns) {
@@ -110,12 +120,13 @@ std::int64_t CameraActivity::step(std::int64_t now_ns) {
     ++number_;
     return publish(view, now_ns, now_ns);
   }
-  if (pending_.valid()) return publish(pending_.get(), exposed_ns_, now_ns);   // time to show what was exposed `latency_ns` ago
+  if (pending_.valid())
+    return publish(pending_.get(), exposed_ns_,
+                   now_ns);  // time to show what was exposed `latency_ns` ago
   exposed_ns_ = now_ns;
-  pending_ = std::async(std::launch::async,
-                        [this, exposure = expose_(now_ns, number_), now_ns, number = number_] {
-                          return see(exposure, now_ns, number);
-                        });
+  pending_ =
+      std::async(std::launch::async, [this, exposure = expose_(now_ns, number_), now_ns,
+                                      number = number_] { return see(exposure, now_ns, number); });
   ++number_;
   return now_ns + settings_.latency_ns;
 }

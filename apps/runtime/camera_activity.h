@@ -11,30 +11,35 @@
 
 namespace palpa::runtime {
 
-/// CAMERA: exposes, tracks the board, publishes its pose stamped with the time of exposure. A source that fails is asked again once a second; whatever
-/// happens to it is told (`CameraView::fault`) and stops nobody.
-/// In virtual time the work of one picture runs beside the simulation: its inputs are frozen at the
-/// exposure and it is joined when the result becomes visible, so the outcome does not depend on speed.
+/// CAMERA: exposes, tracks the board, publishes its pose stamped with the time of exposure. A
+/// source that fails is asked again once a second; whatever happens to it is told
+/// (`CameraView::fault`) and stops nobody. In virtual time the work of one picture runs beside the
+/// simulation: its inputs are frozen at the exposure and it is joined when the result becomes
+/// visible, so the outcome does not depend on speed.
 class CameraActivity final : public Activity {
  public:
-  /// How good a tracking system is, and how long after its last pose the camera's place is foretold; beyond, it is lost.
+  /// How good a tracking system is, and how long after its last pose the camera's place is
+  /// foretold; beyond, it is lost.
   struct Tracking {
-    double sigma = 0.3e-3, sigma_rad = 2e-3;   ///< m and rad, of each component
-    double stale = 0.1;                        ///< s
+    double sigma = 0.3e-3, sigma_rad = 2e-3;  ///< m and rad, of each component
+    double stale = 0.1;                       ///< s
   };
   struct Settings {
     std::int64_t period_ns = 66'666'667;
-    std::int64_t latency_ns = 50'000'000;   ///< exposure to published pose; at most the period
+    std::int64_t latency_ns = 50'000'000;  ///< exposure to published pose; at most the period
     TimeMode mode = TimeMode::virtual_time;
-    bool photographs = false;               ///< each picture stands for itself: no motion between them
-    std::optional<Tracking> tracked{};      ///< X_CW comes by `Bus::tracker_to_camera`; the table's board is not looked for
-    std::vector<std::shared_ptr<const ar::Board>> others{};   ///< looked for besides the table's, each with a motion of its own
+    bool photographs = false;  ///< each picture stands for itself: no motion between them
+    std::optional<Tracking>
+        tracked{};  ///< X_CW comes by `Bus::tracker_to_camera`; the table's board is not looked for
+    std::vector<std::shared_ptr<const ar::Board>>
+        others{};  ///< looked for besides the table's, each with a motion of its own
   };
   /// Freezes the inputs of a picture exposed now, and returns what takes it (run on any thread).
-  /// The inner function returns nothing when the source has ended; the frame's time of exposure is session time.
+  /// The inner function returns nothing when the source has ended; the frame's time of exposure is
+  /// session time.
   using Exposure = std::function<std::optional<ar::Frame>()>;
   using Exposer = std::function<Exposure(std::int64_t now_ns, std::uint64_t number)>;
-  using Observer = std::function<void(const CameraView&)>;   ///< called with every result
+  using Observer = std::function<void(const CameraView&)>;  ///< called with every result
 
   CameraActivity(Bus& bus, Exposer expose, const ar::Board& board,
                  const calibration::CameraModel& camera, const Settings& settings,
@@ -51,10 +56,10 @@ class CameraActivity final : public Activity {
 
   Bus& bus_;
   Exposer expose_;
-  ar::BoardTracker tracker_;   ///< used by one picture at a time
+  ar::BoardTracker tracker_;  ///< used by one picture at a time
   std::vector<ar::BoardTracker> other_trackers_;
   Settings settings_;
-  ar::PoseTrack tracked_;      ///< by another tracking system, where there is one
+  ar::PoseTrack tracked_;  ///< by another tracking system, where there is one
   bool tracked_before_ = false;
   ar::PictureHealth health_;
   Observer observer_;

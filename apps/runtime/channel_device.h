@@ -9,8 +9,9 @@
 namespace palpa::runtime {
 
 /// A haptic device whose readings and commands cross to another activity (a driver's thread, the
-/// virtual bench, the mouse): the tick only exchanges latest values with it. The other side is the haptic loop's
-/// watchdog: where the loop has not commanded for `command_life_ns`, the force is zero.
+/// virtual bench, the mouse): the tick only exchanges latest values with it. The other side is the
+/// haptic loop's watchdog: where the loop has not commanded for `command_life_ns`, the force is
+/// zero.
 class ChannelDevice final : public haptics::HapticDevice {
  public:
   ChannelDevice(haptics::DeviceCapabilities capabilities, TimeMode mode,
@@ -54,7 +55,7 @@ class ChannelDevice final : public haptics::HapticDevice {
   const std::int64_t command_life_ns_;
   StateChannel<haptics::DeviceReading> readings_;
   StateChannel<Command> commands_;
-  bool overdue_ = false;   // the other side's
+  bool overdue_ = false;  // the other side's
   std::atomic<std::uint64_t> timeouts_{0};
 };
 

@@ -5,11 +5,12 @@
 
 namespace palpa::runtime {
 
-/// A force sensor whose samples cross from another activity (the virtual bench): latest wins. Older than
-/// `silent_ns`: kSilent.
+/// A force sensor whose samples cross from another activity (the virtual bench): latest wins. Older
+/// than `silent_ns`: kSilent.
 class ChannelSensor final : public haptics::ForceSensor {
  public:
-  ChannelSensor(haptics::ForceSensorCapabilities capabilities, TimeMode mode, std::int64_t silent_ns = 10'000'000)
+  ChannelSensor(haptics::ForceSensorCapabilities capabilities, TimeMode mode,
+                std::int64_t silent_ns = 10'000'000)
       : capabilities_(std::move(capabilities)), silent_ns_(silent_ns), samples_(mode) {}
   const haptics::ForceSensorCapabilities& capabilities() const override { return capabilities_; }
   haptics::WrenchSample read(std::int64_t now_ns) noexcept override {
@@ -21,7 +22,9 @@ class ChannelSensor final : public haptics::ForceSensor {
     }
     return sample;
   }
-  void publish(const haptics::WrenchSample& sample, std::int64_t now_ns) { samples_.publish(sample, now_ns); }
+  void publish(const haptics::WrenchSample& sample, std::int64_t now_ns) {
+    samples_.publish(sample, now_ns);
+  }
 
  private:
   haptics::ForceSensorCapabilities capabilities_;

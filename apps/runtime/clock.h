@@ -12,7 +12,8 @@ class Clock {
  public:
   virtual ~Clock() = default;
   virtual std::int64_t now() const noexcept = 0;
-  /// Session time of a stamp of CLOCK_MONOTONIC, as drivers give them; in virtual time nothing real has one: now.
+  /// Session time of a stamp of CLOCK_MONOTONIC, as drivers give them; in virtual time nothing real
+  /// has one: now.
   virtual std::int64_t ofMonotonic(std::int64_t) const noexcept { return now(); }
 };
 
@@ -29,7 +30,9 @@ class SteadyClock final : public Clock {
   std::int64_t start_ns_;
 };
 
-/// The computer's date in nanoseconds since 1970 (UTC); somebody may set it at any moment. For asking how the clocks are and for stamps that leave the program, never for what happens in a session.
+/// The computer's date in nanoseconds since 1970 (UTC); somebody may set it at any moment. For
+/// asking how the clocks are and for stamps that leave the program, never for what happens in a
+/// session.
 std::int64_t dateNow() noexcept;
 
 /// The smallest step of CLOCK_MONOTONIC, in nanoseconds.

@@ -17,10 +17,11 @@ struct Lateness {
   std::string name;
   std::uint64_t steps = 0;
   double median_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
-  Spread cost;                      ///< from the step's beginning to its end, wherever the thread was meanwhile
-  std::uint64_t missed_ticks = 0;   ///< later than one period; 0 for an activity without a steady period
-  std::string scheduling;           ///< "SCHED_FIFO; memory locked", or why not
-  TimeHistogram late;               ///< the lateness itself
+  Spread cost;  ///< from the step's beginning to its end, wherever the thread was meanwhile
+  std::uint64_t missed_ticks =
+      0;                   ///< later than one period; 0 for an activity without a steady period
+  std::string scheduling;  ///< "SCHED_FIFO; memory locked", or why not
+  TimeHistogram late;      ///< the lateness itself
 };
 
 /// Runs activities until one of them finishes `run` by stop(), or all are done.
@@ -30,7 +31,7 @@ class Executive {
   virtual TimeMode mode() const = 0;
   virtual const Clock& clock() const = 0;
   virtual void add(Activity& activity, const ThreadPolicy& policy) = 0;
-  virtual void run() = 0;    ///< rethrows the first exception of an activity, after stopping all
+  virtual void run() = 0;  ///< rethrows the first exception of an activity, after stopping all
   virtual void stop() noexcept = 0;
   virtual std::vector<Lateness> lateness() const { return {}; }
 };

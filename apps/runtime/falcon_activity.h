@@ -7,14 +7,16 @@
 
 namespace palpa::runtime {
 
-/// DEVICE: a Falcon's own thread. Opens it, exchanges packets when they are due, tells what the person at the
-/// station has to know (kind "device", at every change); its end, whatever the reason, sends zero force.
+/// DEVICE: a Falcon's own thread. Opens it, exchanges packets when they are due, tells what the
+/// person at the station has to know (kind "device", at every change); its end, whatever the
+/// reason, sends zero force.
 class FalconActivity final : public Activity {
  public:
-  FalconActivity(haptics::FalconDriver& driver, EventQueue<Event>& notices) : driver_(driver), notices_(notices) {}
+  FalconActivity(haptics::FalconDriver& driver, EventQueue<Event>& notices)
+      : driver_(driver), notices_(notices) {}
   const char* name() const override { return "falcon"; }
   std::int64_t step(std::int64_t now_ns) override;
-  void end() noexcept override;   ///< zero force, closed
+  void end() noexcept override;  ///< zero force, closed
 
  private:
   haptics::FalconDriver& driver_;

@@ -14,26 +14,26 @@ namespace palpa::runtime {
 inline constexpr const char* kForceIsBack = "Force is back";
 
 struct Event {
-  std::int64_t t_ns = 0;    ///< session time
-  int trial = 0;            ///< 0: outside a trial
-  std::string kind;         ///< stable identifier: "puncture", "vein_entered", "safety", "note", ...
-  std::string text;         ///< clinical words
+  std::int64_t t_ns = 0;  ///< session time
+  int trial = 0;          ///< 0: outside a trial
+  std::string kind;       ///< stable identifier: "puncture", "vein_entered", "safety", "note", ...
+  std::string text;       ///< clinical words
   double value = 0;
 };
 
 struct TrialHeader {
-  int trial = 0;            ///< 1, 2, ...; unique in the session
+  int trial = 0;  ///< 1, 2, ...; unique in the session
   std::int64_t t_ns = 0;
   std::uint64_t seed = 0;
-  std::string role;         ///< "scored", "assessed", "familiarisation", "demonstration"
+  std::string role;  ///< "scored", "assessed", "familiarisation", "demonstration"
   bool force_feedback = true;
   double puncture_force_N = 0;
 };
 
 struct TrialEnd {
   int trial = 0;
-  std::int64_t t_ns = 0;    ///< session time of the last tick that was judged
-  std::string outcome;      ///< "success", "aborted", "time", "passes", "void", "not scored"
+  std::int64_t t_ns = 0;  ///< session time of the last tick that was judged
+  std::string outcome;    ///< "success", "aborted", "time", "passes", "void", "not scored"
   std::string reason;
   std::string scores_json;  ///< as the assessment wrote them; empty when void
 };

@@ -6,7 +6,8 @@
 
 namespace palpa::runtime {
 
-/// Floors by number, asked for by the haptic thread: what is given stays as it is while a tick may name its number.
+/// Floors by number, asked for by the haptic thread: what is given stays as it is while a tick may
+/// name its number.
 class FloorSource {
  public:
   virtual ~FloorSource() = default;

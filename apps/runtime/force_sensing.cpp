@@ -2,7 +2,8 @@
 
 namespace palpa::runtime {
 
-haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading, std::int64_t now_ns) noexcept {
+haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading,
+                                         std::int64_t now_ns) noexcept {
   haptics::SensedForce sensed;
   sensed.state = haptics::SensorState::unusable;
   const haptics::WrenchSample sample = sensor_.read(now_ns);
@@ -15,7 +16,9 @@ haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading, 
   const Pose X_DS = makePose(q_DE.toRotationMatrix(), unpack(reading.p_DE)) * setup_.X_ES;
   const haptics::ContactWrench contact =
       haptics::step(setup_.filter, state_, sample, pack(Pose(setup_.X_WD * X_DS)), reading.t_ns);
-  if (!state_.held) last_ns_ = -kGoodFor_ns - 1;   // the sensor is not well: what it said before is no word for after
+  if (!state_.held)
+    last_ns_ =
+        -kGoodFor_ns - 1;  // the sensor is not well: what it said before is no word for after
   if (!contact.valid) return now_ns - last_ns_ <= kGoodFor_ns ? last_ : sensed;
   sensed.state = haptics::SensorState::valid;
   sensed.f_D = pack(Vec3(X_DS.linear() * unpack(contact.contact.f_S)));

@@ -2,7 +2,7 @@
 
 namespace palpa::runtime {
 namespace {
-constexpr double kLargestLookAhead = 0.008;     // m: a fast hand is not predicted beyond this
+constexpr double kLargestLookAhead = 0.008;  // m: a fast hand is not predicted beyond this
 
 /// The middle of the time in which the snapshot will be used, s.
 double lookAhead(const GeometryActivity::Settings& s) {
@@ -18,7 +18,8 @@ std::int64_t GeometryActivity::step(std::int64_t now_ns) {
   if (ahead.norm() > kLargestLookAhead) ahead *= kLargestLookAhead / ahead.norm();
   ToolState near = *tool;
   near.X_DT.p = pack(Vec3(unpack(tool->X_DT.p) + ahead));
-  if (!unpack(near.X_DT).matrix().allFinite()) return now_ns + settings_.period_ns;  // the old one grows stale and fades
+  if (!unpack(near.X_DT).matrix().allFinite())
+    return now_ns + settings_.period_ns;  // the old one grows stale and fades
   bus_.geometry_to_haptic.publish(make(near, now_ns), now_ns + settings_.latency_ns);
   return now_ns + settings_.period_ns;
 }

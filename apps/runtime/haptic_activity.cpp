@@ -8,13 +8,15 @@ namespace palpa::runtime {
 std::int64_t HapticActivity::step(std::int64_t now_ns) {
   const haptics::DeviceReading reading = device_.read(now_ns);
   const LocalGeometry* latest = geometryFor(reading, now_ns);
-  const haptics::SensedForce sensed = sensing_ ? sensing_->sense(reading, now_ns) : haptics::SensedForce{};
+  const haptics::SensedForce sensed =
+      sensing_ ? sensing_->sense(reading, now_ns) : haptics::SensedForce{};
   const haptics::TickCommands* commands = bus_.task_to_haptic.read(now_ns);
   if (state_.tick % kKeyframeTicks == 0)
     bus_.keyframes_to_recorder.push(Keyframe{state_.tick, state_});
   const haptics::TickCommands told = commands ? *commands : haptics::TickCommands{};
   const haptics::Floor* floor = floors_ && told.floor ? floors_->floor(told.floor) : nullptr;
-  haptics::FlightRecord record = haptics::tick(config_, state_, reading, latest, told, now_ns, sensed, floor);
+  haptics::FlightRecord record =
+      haptics::tick(config_, state_, reading, latest, told, now_ns, sensed, floor);
   device_.command(now_ns, record.f_command_D);
   record.late_ns = due_ns_ < 0 ? 0 : now_ns - due_ns_;
   tell(record, now_ns);
@@ -23,7 +25,8 @@ std::int64_t HapticActivity::step(std::int64_t now_ns) {
   return due_ns_;
 }
 
-const LocalGeometry* HapticActivity::geometryFor(const haptics::DeviceReading& reading, std::int64_t now_ns) {
+const LocalGeometry* HapticActivity::geometryFor(const haptics::DeviceReading& reading,
+                                                 std::int64_t now_ns) {
   if (!exact_) return bus_.geometry_to_haptic.read(now_ns);
   haptics::FlightRecord record;
   record.reading = reading;

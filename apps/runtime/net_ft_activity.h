@@ -5,8 +5,8 @@
 
 namespace palpa::runtime {
 
-/// DEVICE: the thread that waits for a Net F/T's datagrams; `sensor` has been started. Real time only: a step
-/// lasts until something comes, or the sensor's `wait_ms`.
+/// DEVICE: the thread that waits for a Net F/T's datagrams; `sensor` has been started. Real time
+/// only: a step lasts until something comes, or the sensor's `wait_ms`.
 class NetFtActivity final : public Activity {
  public:
   explicit NetFtActivity(haptics::NetFtSensor& sensor) : sensor_(sensor) {}

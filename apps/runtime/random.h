@@ -7,11 +7,13 @@
 
 namespace palpa::runtime {
 
-/// Counter-based random numbers: one stream per (seed, component), so that one component's draws never
-/// shift another's. SplitMix64 (Steele, Lea, Flood 2014) over a hashed key; the same on every machine.
+/// Counter-based random numbers: one stream per (seed, component), so that one component's draws
+/// never shift another's. SplitMix64 (Steele, Lea, Flood 2014) over a hashed key; the same on every
+/// machine.
 class RandomStream {
  public:
-  RandomStream(std::uint64_t seed, std::string_view component) : key_(mix(seed ^ hash(component))) {}
+  RandomStream(std::uint64_t seed, std::string_view component)
+      : key_(mix(seed ^ hash(component))) {}
 
   std::uint64_t bits() { return mix(key_ + 0x9e3779b97f4a7c15ull * ++counter_); }
   /// Uniform in [0, 1), 53 bits.

@@ -7,7 +7,7 @@ namespace palpa::runtime {
 
 /// Three independent standard normals.
 inline Vec3 normal3(RandomStream& random) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();   // in this order
+  const double x = random.normal(), y = random.normal(), z = random.normal();  // in this order
   return {x, y, z};
 }
 

@@ -25,7 +25,8 @@ class RealExecutive final : public Executive {
   void run() override {
     stopped_.store(false);
     std::optional<MemoryLock> memory;
-    if (std::any_of(entries_.begin(), entries_.end(), [](const auto& e) { return e->policy.real_time; }))
+    if (std::any_of(entries_.begin(), entries_.end(),
+                    [](const auto& e) { return e->policy.real_time; }))
       memory.emplace();
     std::vector<std::thread> threads;
     for (auto& entry : entries_)
@@ -42,8 +43,9 @@ class RealExecutive final : public Executive {
     std::vector<Lateness> all;
     for (const auto& e : entries_) {
       const Spread late = spreadOf(e->late);
-      all.push_back({e->activity->name(), e->late.count(), late.median_us, late.p99_us, late.p999_us,
-                     late.max_us, spreadOf(e->cost), e->missed, e->scheduling, e->late});
+      all.push_back({e->activity->name(), e->late.count(), late.median_us, late.p99_us,
+                     late.p999_us, late.max_us, spreadOf(e->cost), e->missed, e->scheduling,
+                     e->late});
     }
     return all;
   }

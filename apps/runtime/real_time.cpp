@@ -14,9 +14,10 @@
 namespace palpa::runtime {
 namespace {
 
-constexpr int kFifoPriority = 80;               // over normal threads and most of the kernel's own, under its watchdogs
-constexpr std::size_t kStack = 256 * 1024;      // a tick uses a few KiB of the 8 MiB
-constexpr std::size_t kPage = 4096;             // the smallest there is
+constexpr int kFifoPriority =
+    80;  // over normal threads and most of the kernel's own, under its watchdogs
+constexpr std::size_t kStack = 256 * 1024;  // a tick uses a few KiB of the 8 MiB
+constexpr std::size_t kPage = 4096;         // the smallest there is
 
 std::string because(int error) { return std::string(" (") + std::strerror(error) + ")"; }
 
@@ -54,9 +55,12 @@ std::string askForCpu(int cpu) {
 MemoryLock::MemoryLock() {
   const bool whole = mayLockWithoutBound();
   locked_ = mlockall(whole ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0;
-  if (!locked_) words_ = "memory not locked: refused" + because(errno);
-  else if (whole) words_ = "memory locked";
-  else words_ = "memory of the start locked: the limit (ulimit -l) leaves out what comes later";
+  if (!locked_)
+    words_ = "memory not locked: refused" + because(errno);
+  else if (whole)
+    words_ = "memory locked";
+  else
+    words_ = "memory of the start locked: the limit (ulimit -l) leaves out what comes later";
 }
 
 MemoryLock::~MemoryLock() {

@@ -5,10 +5,12 @@
 
 namespace palpa::runtime {
 
-/// RECORDER: drains what the others queued into the session's evidence and commits it every 100 ticks.
+/// RECORDER: drains what the others queued into the session's evidence and commits it every 100
+/// ticks.
 class RecorderActivity final : public Activity {
  public:
-  RecorderActivity(Bus& bus, FlightSink& sink, std::int64_t tick_period_ns = haptics::TickConfig{}.period_ns)
+  RecorderActivity(Bus& bus, FlightSink& sink,
+                   std::int64_t tick_period_ns = haptics::TickConfig{}.period_ns)
       : bus_(bus), sink_(sink), period_ns_(kTicks * tick_period_ns) {}
   const char* name() const override { return "recorder"; }
   std::int64_t step(std::int64_t now_ns) override;
@@ -22,7 +24,8 @@ class RecorderActivity final : public Activity {
   }
 
  private:
-  static constexpr std::int64_t kTicks = 100;   ///< half of what a killed process may lose; the queue holds 8192
+  static constexpr std::int64_t kTicks =
+      100;  ///< half of what a killed process may lose; the queue holds 8192
   void drain();
   Bus& bus_;
   FlightSink& sink_;

@@ -5,7 +5,8 @@
 
 namespace palpa::runtime {
 
-/// CLOCK_MONOTONIC in the shape the standard library's waits take: for servers and sockets, which live outside sessions and their clock.
+/// CLOCK_MONOTONIC in the shape the standard library's waits take: for servers and sockets, which
+/// live outside sessions and their clock.
 struct ServingClock {
   using duration = std::chrono::nanoseconds;
   using rep = duration::rep;

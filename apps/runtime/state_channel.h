@@ -22,7 +22,9 @@ class StateChannel {
     if (mode_ == TimeMode::real) return latest_.write({true, value});
     pending_.push_back({visible_ns, value});
     if (pending_.size() <= kMostPending) return;
-    latest_.write({true, pending_.front().value});  // nobody has read for long: it has been visible long since
+    latest_.write(
+        {true,
+         pending_.front().value});  // nobody has read for long: it has been visible long since
     pending_.pop_front();
   }
 
@@ -43,10 +45,11 @@ class StateChannel {
     std::int64_t visible_ns;
     T value;
   };
-  static constexpr std::size_t kMostPending = 1024;   ///< more than a second of ticks: beyond every latency
+  static constexpr std::size_t kMostPending =
+      1024;  ///< more than a second of ticks: beyond every latency
   TimeMode mode_;
   haptics::LatestValue<Slot> latest_;
-  std::deque<Pending> pending_;   ///< virtual time only
+  std::deque<Pending> pending_;  ///< virtual time only
 };
 
 }  // namespace palpa::runtime

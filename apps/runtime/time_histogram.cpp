@@ -35,7 +35,8 @@ void TimeHistogram::add(const TimeHistogram& other) noexcept {
 
 double TimeHistogram::quantile(double q) const noexcept {
   const auto rank = static_cast<std::uint64_t>(
-      std::clamp(std::ceil(q * static_cast<double>(count_)), 1.0, static_cast<double>(std::max<std::uint64_t>(count_, 1))));
+      std::clamp(std::ceil(q * static_cast<double>(count_)), 1.0,
+                 static_cast<double>(std::max<std::uint64_t>(count_, 1))));
   std::uint64_t up_to = 0;
   for (std::size_t i = 0; i < bins_.size(); ++i)
     if ((up_to += bins_[i]) >= rank)

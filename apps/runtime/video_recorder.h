@@ -8,15 +8,17 @@
 
 namespace palpa::runtime {
 
-/// A session's pictures beside their poses: "camera.mjpeg", JPEG after JPEG (any player shows it; what is on the disk stays readable if the program is
-/// killed), and "camera.mjpeg.csv": number, time of exposure (session, ns), source ("virtual camera": simulated), fault, tracking, pose of the board in the camera (m, quaternion), as
-/// measured. One writer, on the camera's thread. A full disk ends the recording, not the session: `trouble`.
+/// A session's pictures beside their poses: "camera.mjpeg", JPEG after JPEG (any player shows it;
+/// what is on the disk stays readable if the program is killed), and "camera.mjpeg.csv": number,
+/// time of exposure (session, ns), source ("virtual camera": simulated), fault, tracking, pose of
+/// the board in the camera (m, quaternion), as measured. One writer, on the camera's thread. A full
+/// disk ends the recording, not the session: `trouble`.
 class VideoRecorder {
  public:
   explicit VideoRecorder(const std::filesystem::path& folder);
   void add(const CameraView& view);
   std::uint64_t pictures() const { return pictures_; }
-  const std::string& trouble() const { return trouble_; }   ///< empty: everything was kept
+  const std::string& trouble() const { return trouble_; }  ///< empty: everything was kept
 
  private:
   std::filesystem::path film_;

@@ -39,11 +39,10 @@ class VirtualExecutive final : public Executive {
     stopped_ = false;
     while (!stopped_) {
       // A handful of activities: a scan is simpler than a heap, and the order is plain to see.
-      const auto next = std::min_element(entries_.begin(), entries_.end(),
-                                         [](const Entry& a, const Entry& b) {
-                                           return a.due_ns != b.due_ns ? a.due_ns < b.due_ns
-                                                                       : a.priority < b.priority;
-                                         });
+      const auto next =
+          std::min_element(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+            return a.due_ns != b.due_ns ? a.due_ns < b.due_ns : a.priority < b.priority;
+          });
       if (next == entries_.end() || next->due_ns == kNever) return;
       clock_.now_ns = std::max(clock_.now_ns, next->due_ns);
       next->due_ns = next->activity->step(clock_.now_ns);

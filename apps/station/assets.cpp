@@ -26,12 +26,16 @@ fs::path assetsFolder(const fs::path& program) {
   const char* given = std::getenv("PALPA_ASSETS");
   if (given && *given) {
     if (areAssets(given)) return given;
-    throw Error("is not the program's data folder (there is no materials/ in it)", std::string("PALPA_ASSETS=") + given, "Correct PALPA_ASSETS, or unset it: then the program looks where it was installed");
+    throw Error("is not the program's data folder (there is no materials/ in it)",
+                std::string("PALPA_ASSETS=") + given,
+                "Correct PALPA_ASSETS, or unset it: then the program looks where it was installed");
   }
   const fs::path beside = program.parent_path().parent_path() / "share/palpa/assets";
-  for (const fs::path& candidate : {beside, fs::path(PALPA_SOURCE_ASSETS), fs::path(PALPA_INSTALL_ASSETS)})
+  for (const fs::path& candidate :
+       {beside, fs::path(PALPA_SOURCE_ASSETS), fs::path(PALPA_INSTALL_ASSETS)})
     if (areAssets(candidate)) return candidate;
-  throw Error("the program's data folder is missing", beside.string(), "Install palpa again, or set PALPA_ASSETS to the assets folder of this version");
+  throw Error("the program's data folder is missing", beside.string(),
+              "Install palpa again, or set PALPA_ASSETS to the assets folder of this version");
 }
 
 fs::path assetsFolder() { return assetsFolder(programFile()); }

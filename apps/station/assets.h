@@ -5,8 +5,9 @@
 
 namespace palpa::station {
 
-/// Where the program's data lie: PALPA_ASSETS where it is set; else beside the program (its folder's ../share/palpa/assets), so that an installed tree may be moved;
-/// else the source tree it was built from, else where it was installed. Throws Error when they are not there.
+/// Where the program's data lie: PALPA_ASSETS where it is set; else beside the program (its
+/// folder's ../share/palpa/assets), so that an installed tree may be moved; else the source tree it
+/// was built from, else where it was installed. Throws Error when they are not there.
 std::filesystem::path assetsFolder();
 /// The same for a program that lies elsewhere.
 std::filesystem::path assetsFolder(const std::filesystem::path& program);

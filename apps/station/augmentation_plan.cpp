@@ -18,7 +18,8 @@ using haptics::Cue;
 constexpr double kMilli = 1e-3;
 
 template <typename Value, std::size_t N>
-Value chosen(const JsonFile& file, const std::string& at, const std::array<std::pair<const char*, Value>, N>& known) {
+Value chosen(const JsonFile& file, const std::string& at,
+             const std::array<std::pair<const char*, Value>, N>& known) {
   const std::string said = file.text(at);
   std::string all;
   for (const auto& [name, value] : known) {
@@ -55,8 +56,13 @@ double countedIn(const JsonFile& file, Cue cue) {
 
 /// A learned state that there is.
 void needState(const JsonFile& file, const Condition& c, std::uint32_t states) {
-  if (states == 0) file.refuse("cue", "is \"learned\", but the task has no \"learned\": name what palpa calibrate subtasks made");
-  if (c.compare != Condition::Compare::equal || c.threshold < 1 || c.threshold > states) file.refuse("cue", "is \"learned\": say beside it which state it \"is\", 1 to " + std::to_string(states));
+  if (states == 0)
+    file.refuse(
+        "cue",
+        "is \"learned\", but the task has no \"learned\": name what palpa calibrate subtasks made");
+  if (c.compare != Condition::Compare::equal || c.threshold < 1 || c.threshold > states)
+    file.refuse("cue", "is \"learned\": say beside it which state it \"is\", 1 to " +
+                           std::to_string(states));
 }
 
 Condition conditionIn(const JsonFile& file, double hysteresis, std::uint32_t states) {
@@ -65,10 +71,15 @@ Condition conditionIn(const JsonFile& file, double hysteresis, std::uint32_t sta
   c.cue = cueIn(file);
   c.hysteresis = hysteresis;
   const double unit = haptics::cueName(c.cue).si;
-  if (file.has("at_least")) c.threshold = unit * file.number("at_least", -kLargest, kLargest);
-  else if (file.has("below")) c.compare = Condition::Compare::below, c.threshold = unit * file.number("below", -kLargest, kLargest);
-  else if (file.has("is")) c.compare = Condition::Compare::equal, c.threshold = countedIn(file, c.cue);
-  else file.refuse("cue", "needs \"at_least\", \"below\" or \"is\" beside it");
+  if (file.has("at_least"))
+    c.threshold = unit * file.number("at_least", -kLargest, kLargest);
+  else if (file.has("below"))
+    c.compare = Condition::Compare::below,
+    c.threshold = unit * file.number("below", -kLargest, kLargest);
+  else if (file.has("is"))
+    c.compare = Condition::Compare::equal, c.threshold = countedIn(file, c.cue);
+  else
+    file.refuse("cue", "needs \"at_least\", \"below\" or \"is\" beside it");
   if (c.cue == Cue::learned) needState(file, c, states);
   return c;
 }
@@ -76,48 +87,58 @@ Condition conditionIn(const JsonFile& file, double hysteresis, std::uint32_t sta
 haptics::Subtask subtaskIn(const JsonFile& file, double hysteresis, std::uint32_t states) {
   haptics::Subtask subtask;
   const std::vector<JsonFile> conditions = file.entries("on");
-  if (conditions.empty() || conditions.size() > haptics::kMostConditions) file.refuse("on", "must hold 1 to " + std::to_string(haptics::kMostConditions) + " conditions");
-  for (const JsonFile& condition : conditions) subtask.conditions[subtask.count++] = conditionIn(condition, hysteresis, states);
+  if (conditions.empty() || conditions.size() > haptics::kMostConditions)
+    file.refuse("on", "must hold 1 to " + std::to_string(haptics::kMostConditions) + " conditions");
+  for (const JsonFile& condition : conditions)
+    subtask.conditions[subtask.count++] = conditionIn(condition, hysteresis, states);
   return subtask;
 }
 
 void readTrigger(const JsonFile& file, Augmentation* a) {
   using Trigger = Augmentation::Trigger;
   using Known = std::pair<const char*, std::pair<Trigger, std::uint32_t>>;
-  static constexpr std::array<Known, 8> kTriggers{{{"begin", {Trigger::begin, 0}},
-                                                   {"rise", {Trigger::rise, 0}},
-                                                   {"bump", {Trigger::bump, 0}},
-                                                   {"skin_punctured", {Trigger::event, haptics::kSkinPunctured}},
-                                                   {"withdrawn", {Trigger::event, haptics::kWithdrawn}},
-                                                   {"wall_punctured", {Trigger::event, haptics::kWallPunctured}},
-                                                   {"bone_touched", {Trigger::event, haptics::kBoneTouched}},
-                                                   {"bone_left", {Trigger::event, haptics::kBoneLeft}}}};
+  static constexpr std::array<Known, 8> kTriggers{
+      {{"begin", {Trigger::begin, 0}},
+       {"rise", {Trigger::rise, 0}},
+       {"bump", {Trigger::bump, 0}},
+       {"skin_punctured", {Trigger::event, haptics::kSkinPunctured}},
+       {"withdrawn", {Trigger::event, haptics::kWithdrawn}},
+       {"wall_punctured", {Trigger::event, haptics::kWallPunctured}},
+       {"bone_touched", {Trigger::event, haptics::kBoneTouched}},
+       {"bone_left", {Trigger::event, haptics::kBoneLeft}}}};
   if (!file.has("trigger")) return;
   std::tie(a->trigger, a->events) = chosen(file, "trigger", kTriggers);
 }
 
 void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
   using Kind = Augmentation::Kind;
-  constexpr double kStrongest = 50;   // N
+  constexpr double kStrongest = 50;  // N
   switch (a->kind) {
     case Kind::none:
       return;
     case Kind::pulse:
       a->amplitude = file.number("force_N", 0, kStrongest);
       a->width_s = kMilli * file.number("width_ms", 1, 200);
-      if (a->trigger == Augmentation::Trigger::none) file.refuse("kind", "is \"pulse\": say what triggers it, \"trigger\"");
+      if (a->trigger == Augmentation::Trigger::none)
+        file.refuse("kind", "is \"pulse\": say what triggers it, \"trigger\"");
       return;
     case Kind::vibration:
       a->amplitude = file.number("force_N", 0, kStrongest);
-      if (file.has("wavelength_mm")) a->wavelength = kMilli * file.number("wavelength_mm", 0.01, 100);
-      else a->frequency_Hz = file.number("frequency_Hz", 1, 500);
-      if (a->trigger != Augmentation::Trigger::none) a->tau_s = kMilli * file.number("decay_ms", 1, 2000);
-      else if (file.has("decay_ms")) file.refuse("decay_ms", "needs \"trigger\" beside it: after what does it decay?");
+      if (file.has("wavelength_mm"))
+        a->wavelength = kMilli * file.number("wavelength_mm", 0.01, 100);
+      else
+        a->frequency_Hz = file.number("frequency_Hz", 1, 500);
+      if (a->trigger != Augmentation::Trigger::none)
+        a->tau_s = kMilli * file.number("decay_ms", 1, 2000);
+      else if (file.has("decay_ms"))
+        file.refuse("decay_ms", "needs \"trigger\" beside it: after what does it decay?");
       return;
     case Kind::attraction:
       a->amplitude = file.number("force_N", 0, kStrongest);
-      if (file.has("reach_U")) *reach_U = file.number("reach_U", 0.1, 1000);
-      else a->reach = kMilli * file.number("reach_mm", 0.01, 100);
+      if (file.has("reach_U"))
+        *reach_U = file.number("reach_U", 0.1, 1000);
+      else
+        a->reach = kMilli * file.number("reach_mm", 0.01, 100);
       return;
     case Kind::exaggeration:
       a->amplitude = file.number("times", 0, 5);
@@ -125,7 +146,8 @@ void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
       return;
     case Kind::relief:
       a->amplitude = file.number("force_N", 0, kStrongest);
-      if (a->trigger != Augmentation::Trigger::none) file.refuse("trigger", "has no meaning for a relief: it is felt wherever a bump is");
+      if (a->trigger != Augmentation::Trigger::none)
+        file.refuse("trigger", "has no meaning for a relief: it is felt wherever a bump is");
       a->trigger = Augmentation::Trigger::bump;
       return;
     case Kind::fixture:
@@ -137,18 +159,31 @@ void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
 Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double* reach_U) {
   using Kind = Augmentation::Kind;
   using Way = Augmentation::Way;
-  static constexpr std::array<std::pair<const char*, Kind>, 6> kKinds{{{"pulse", Kind::pulse}, {"vibration", Kind::vibration}, {"attraction", Kind::attraction}, {"exaggeration", Kind::exaggeration}, {"fixture", Kind::fixture}, {"relief", Kind::relief}}};
-  static constexpr std::array<std::pair<const char*, Way>, 4> kWays{{{"up", Way::up}, {"against_motion", Way::against_motion}, {"along_tool", Way::along_tool}, {"against_tool", Way::against_tool}}};
+  static constexpr std::array<std::pair<const char*, Kind>, 6> kKinds{
+      {{"pulse", Kind::pulse},
+       {"vibration", Kind::vibration},
+       {"attraction", Kind::attraction},
+       {"exaggeration", Kind::exaggeration},
+       {"fixture", Kind::fixture},
+       {"relief", Kind::relief}}};
+  static constexpr std::array<std::pair<const char*, Way>, 4> kWays{
+      {{"up", Way::up},
+       {"against_motion", Way::against_motion},
+       {"along_tool", Way::along_tool},
+       {"against_tool", Way::against_tool}}};
   Augmentation a;
   a.kind = chosen(file, "kind", kKinds);
-  const bool heeds_way = a.kind == Kind::pulse || a.kind == Kind::vibration || a.kind == Kind::relief;
+  const bool heeds_way =
+      a.kind == Kind::pulse || a.kind == Kind::vibration || a.kind == Kind::relief;
   if (heeds_way) a.way = chosen(file, "way", kWays);
   const std::string subtask = file.text("subtask");
   for (std::size_t i = 0; i < named.subtasks.size(); ++i)
     if (named.subtasks[i].name == subtask) a.subtask = static_cast<std::uint8_t>(i);
-  if (a.subtask == haptics::kAnySubtask && subtask != "any") file.refuse("subtask", "is \"" + subtask + "\", which \"subtasks\" does not name");
+  if (a.subtask == haptics::kAnySubtask && subtask != "any")
+    file.refuse("subtask", "is \"" + subtask + "\", which \"subtasks\" does not name");
   readTrigger(file, &a);
-  if (a.trigger == Augmentation::Trigger::begin && a.subtask == haptics::kAnySubtask) file.refuse("trigger", "is \"begin\", but of no part: name one in \"subtask\"");
+  if (a.trigger == Augmentation::Trigger::begin && a.subtask == haptics::kAnySubtask)
+    file.refuse("trigger", "is \"begin\", but of no part: name one in \"subtask\"");
   if (file.has("blend_ms")) a.blend_s = kMilli * file.number("blend_ms", 0, 1000);
   readShape(file, &a, reach_U);
   return a;
@@ -159,17 +194,22 @@ Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double
 NamedPlan readPlan(const JsonFile& task) {
   NamedPlan named;
   if (!task.has("subtasks")) {
-    if (task.has("augmentations")) task.refuse("augmentations", "needs \"subtasks\" beside it: in which parts of the task?");
+    if (task.has("augmentations"))
+      task.refuse("augmentations", "needs \"subtasks\" beside it: in which parts of the task?");
     return named;
   }
   named.plan.learned = learnedIn(task);
   const double hysteresis = task.number("hysteresis", 0, 0.9);
-  const std::vector<JsonFile> subtasks = task.entries("subtasks"), augmentations = task.entries("augmentations");
-  if (subtasks.size() > haptics::kMostSubtasks) task.refuse("subtasks", "holds more than " + std::to_string(haptics::kMostSubtasks));
-  if (augmentations.size() > haptics::kMostAugmentations) task.refuse("augmentations", "holds more than " + std::to_string(haptics::kMostAugmentations));
+  const std::vector<JsonFile> subtasks = task.entries("subtasks"),
+                              augmentations = task.entries("augmentations");
+  if (subtasks.size() > haptics::kMostSubtasks)
+    task.refuse("subtasks", "holds more than " + std::to_string(haptics::kMostSubtasks));
+  if (augmentations.size() > haptics::kMostAugmentations)
+    task.refuse("augmentations", "holds more than " + std::to_string(haptics::kMostAugmentations));
   for (const JsonFile& subtask : subtasks) {
     named.subtasks.push_back({subtask.text("name"), subtask.text("means")});
-    named.plan.subtasks.each[named.plan.subtasks.count++] = subtaskIn(subtask, hysteresis, named.plan.learned.states);
+    named.plan.subtasks.each[named.plan.subtasks.count++] =
+        subtaskIn(subtask, hysteresis, named.plan.learned.states);
   }
   for (const JsonFile& augmentation : augmentations) {
     double reach_U = 0;
@@ -181,13 +221,16 @@ NamedPlan readPlan(const JsonFile& task) {
   return named;
 }
 
-haptics::AugmentationPlan onDevice(const NamedPlan& named, double max_force_N, double stiffness, double unit) {
+haptics::AugmentationPlan onDevice(const NamedPlan& named, double max_force_N, double stiffness,
+                                   double unit) {
   haptics::AugmentationPlan plan = named.plan;
   plan.largest = named.limit_share * max_force_N;
   plan.steepest = stiffness;
   for (std::size_t i = 0; i < named.reach_U.size(); ++i) {
     if (named.reach_U[i] <= 0) continue;
-    if (unit <= 0) throw UsageError("is given in units of a floor, and this task has none", "augmentations/" + std::to_string(i) + "/reach_U", "Give reach_mm");
+    if (unit <= 0)
+      throw UsageError("is given in units of a floor, and this task has none",
+                       "augmentations/" + std::to_string(i) + "/reach_U", "Give reach_mm");
     plan.each[i].reach = unit * named.reach_U[i];
   }
   return plan;

@@ -22,7 +22,8 @@ std::vector<double> numbersOf(const JsonFile& file, const json& list, const std:
   if (!list.is_array() || list.size() > kMostNumbers) file.refuse(at, "must be a list of numbers");
   std::vector<double> values;
   for (const json& item : list) {
-    if (!item.is_number() || !std::isfinite(item.get<double>())) file.refuse(at, "must hold numbers only");
+    if (!item.is_number() || !std::isfinite(item.get<double>()))
+      file.refuse(at, "must hold numbers only");
     values.push_back(item.get<double>());
   }
   return values;
@@ -30,7 +31,8 @@ std::vector<double> numbersOf(const JsonFile& file, const json& list, const std:
 
 const json& listAt(const JsonFile& file, const std::string& at) {
   const json::json_pointer place("/" + at);
-  if (!file.json().contains(place) || !file.json().at(place).is_array()) file.refuse(at, "must be a list");
+  if (!file.json().contains(place) || !file.json().at(place).is_array())
+    file.refuse(at, "must be a list");
   return file.json().at(place);
 }
 
@@ -42,7 +44,9 @@ bool isCovariance(const Eigen::MatrixXd& m) {
   if ((m.diagonal().array() < 0).any()) return false;
   for (Eigen::Index i = 0; i < m.rows(); ++i)
     for (Eigen::Index j = 0; j < m.cols(); ++j)
-      if (std::abs(m(i, j) - m(j, i)) > 1e-6 * sd[i] * sd[j] + 1e-300 || std::abs(m(i, j)) > 1.000001 * sd[i] * sd[j] + 1e-300) return false;
+      if (std::abs(m(i, j) - m(j, i)) > 1e-6 * sd[i] * sd[j] + 1e-300 ||
+          std::abs(m(i, j)) > 1.000001 * sd[i] * sd[j] + 1e-300)
+        return false;
   return true;
 }
 
@@ -56,7 +60,12 @@ json bodyOf(const CalibrationFile& c) {
     matrix.push_back(row);
   }
   json checks = json::array(), rests = json::array(), files = json::array();
-  for (const auto& k : c.checks) checks.push_back({{"name", k.name}, {"value", k.value}, {"limit", k.limit}, {"unit", k.unit}, {"passed", k.passed()}});
+  for (const auto& k : c.checks)
+    checks.push_back({{"name", k.name},
+                      {"value", k.value},
+                      {"limit", k.limit},
+                      {"unit", k.unit},
+                      {"passed", k.passed()}});
   for (const auto& r : c.rests_on) rests.push_back({{"kind", r.kind}, {"sha256", r.sha256}});
   for (const auto& f : c.data.files) files.push_back({{"name", f.name}, {"sha256", f.sha256}});
   return {{"format", kCalibrationFormat},
@@ -69,8 +78,16 @@ json bodyOf(const CalibrationFile& c) {
           {"valid_days", c.valid_days},
           {"parameters", parameters},
           {"covariance", {{"coordinates", c.coordinates}, {"matrix", matrix}}},
-          {"residuals", {{"unit", c.residuals.unit}, {"rms", c.residuals.rms}, {"values", c.residuals.values}, {"left_out", c.residuals.left_out}}},
-          {"data", {{"samples", c.data.samples}, {"used", c.data.used}, {"source", c.data.source}, {"files", files}}},
+          {"residuals",
+           {{"unit", c.residuals.unit},
+            {"rms", c.residuals.rms},
+            {"values", c.residuals.values},
+            {"left_out", c.residuals.left_out}}},
+          {"data",
+           {{"samples", c.data.samples},
+            {"used", c.data.used},
+            {"source", c.data.source},
+            {"files", files}}},
           {"checks", checks},
           {"rests_on", rests},
           {"verdict", c.verdict}};
@@ -82,19 +99,23 @@ bool allFinite(const CalibrationFile& c) {
     if (!std::all_of(p.values.begin(), p.values.end(), finite)) return false;
   for (const auto& k : c.checks)
     if (!finite(k.value) || !finite(k.limit)) return false;
-  return finite(c.residuals.rms) && std::all_of(c.residuals.values.begin(), c.residuals.values.end(), finite);
+  return finite(c.residuals.rms) &&
+         std::all_of(c.residuals.values.begin(), c.residuals.values.end(), finite);
 }
 
 /// What is in it, so that damage is told from a file that is none.
 void requireOurs(const JsonFile& file) {
-  if (!file.json().is_object() || !file.json().contains("format") || file.json().at("format") != kCalibrationFormat)
-    throw UsageError("is no calibration of this program", file.name(), "Give a file that `palpa calibrate` has written");
+  if (!file.json().is_object() || !file.json().contains("format") ||
+      file.json().at("format") != kCalibrationFormat)
+    throw UsageError("is no calibration of this program", file.name(),
+                     "Give a file that `palpa calibrate` has written");
   file.needVersion(kCalibrationVersion);
   json body = file.json();
   const std::string said = file.text("sha256");
   body.erase("sha256");
   if (sha256(body.dump()) != said)
-    throw UsageError("was damaged or changed after it was written: its checksum does not fit", file.name(), "Calibrate again");
+    throw UsageError("was damaged or changed after it was written: its checksum does not fit",
+                     file.name(), "Calibrate again");
 }
 
 void readCovariance(const JsonFile& file, CalibrationFile& c) {
@@ -106,10 +127,12 @@ void readCovariance(const JsonFile& file, CalibrationFile& c) {
   }
   const json matrix = covariance.value("matrix", json::array());
   const auto n = static_cast<Eigen::Index>(c.coordinates.size());
-  if (!matrix.is_array() || matrix.size() != c.coordinates.size()) file.refuse("covariance/matrix", "must be as large as its coordinates");
+  if (!matrix.is_array() || matrix.size() != c.coordinates.size())
+    file.refuse("covariance/matrix", "must be as large as its coordinates");
   c.covariance.resize(n, n);
   for (Eigen::Index i = 0; i < n; ++i) {
-    const std::vector<double> row = numbersOf(file, matrix[static_cast<std::size_t>(i)], "covariance/matrix");
+    const std::vector<double> row =
+        numbersOf(file, matrix[static_cast<std::size_t>(i)], "covariance/matrix");
     if (row.size() != c.coordinates.size()) file.refuse("covariance/matrix", "must be square");
     for (Eigen::Index j = 0; j < n; ++j) c.covariance(i, j) = row[static_cast<std::size_t>(j)];
   }
@@ -120,9 +143,12 @@ void readResiduals(const JsonFile& file, CalibrationFile& c) {
   c.residuals.unit = file.text("residuals/unit");
   c.residuals.rms = file.number("residuals/rms", 0, 1e9);
   const json& residuals = file.json().at("residuals");
-  c.residuals.values = numbersOf(file, residuals.value("values", json::array()), "residuals/values");
-  for (const double index : numbersOf(file, residuals.value("left_out", json::array()), "residuals/left_out")) {
-    if (index < 0 || index >= 1e6) file.refuse("residuals/left_out", "must hold places in the list");
+  c.residuals.values =
+      numbersOf(file, residuals.value("values", json::array()), "residuals/values");
+  for (const double index :
+       numbersOf(file, residuals.value("left_out", json::array()), "residuals/left_out")) {
+    if (index < 0 || index >= 1e6)
+      file.refuse("residuals/left_out", "must hold places in the list");
     c.residuals.left_out.push_back(static_cast<int>(index));
   }
 }
@@ -130,7 +156,8 @@ void readResiduals(const JsonFile& file, CalibrationFile& c) {
 void readLists(const JsonFile& file, CalibrationFile& c) {
   for (const json& item : listAt(file, "checks")) {
     const JsonFile check(item, file.name() + ", \"checks\"");
-    c.checks.push_back({check.text("name"), check.number("value"), check.number("limit"), check.text("unit")});
+    c.checks.push_back(
+        {check.text("name"), check.number("value"), check.number("limit"), check.text("unit")});
   }
   for (const json& item : listAt(file, "rests_on")) {
     const JsonFile rest(item, file.name() + ", \"rests_on\"");
@@ -142,7 +169,8 @@ CalibrationFile read(const JsonFile& file) {
   requireOurs(file);
   CalibrationFile c;
   c.kind = file.text("kind");
-  if (std::find(kCalibrationKinds.begin(), kCalibrationKinds.end(), c.kind) == kCalibrationKinds.end())
+  if (std::find(kCalibrationKinds.begin(), kCalibrationKinds.end(), c.kind) ==
+      kCalibrationKinds.end())
     file.refuse("kind", "is \"" + c.kind + "\", which this program does not know");
   c.station = file.text("station");
   c.date = file.text("date");
@@ -151,7 +179,8 @@ CalibrationFile read(const JsonFile& file) {
   c.valid_days = file.integer("valid_days", 0, 100'000);
   const json& parameters = file.json().value("parameters", json());
   if (!parameters.is_object()) file.refuse("parameters", "must be an object");
-  for (const auto& [name, list] : parameters.items()) c.parameters.push_back({name, numbersOf(file, list, "parameters/" + name)});
+  for (const auto& [name, list] : parameters.items())
+    c.parameters.push_back({name, numbersOf(file, list, "parameters/" + name)});
   readCovariance(file, c);
   readResiduals(file, c);
   readLists(file, c);
@@ -180,19 +209,24 @@ CalibrationFile readCalibration(const std::filesystem::path& path) {
 const std::vector<double>& CalibrationFile::at(const std::string& name, std::size_t size) const {
   for (const Numbers& p : parameters)
     if (p.name == name && p.values.size() == size) return p.values;
-  throw Error("has no \"" + name + "\" of " + std::to_string(size) + " numbers", kind + " calibration", "Calibrate again");
+  throw Error("has no \"" + name + "\" of " + std::to_string(size) + " numbers",
+              kind + " calibration", "Calibrate again");
 }
 
 std::string textOf(const CalibrationFile& calibration) {
   const auto n = static_cast<Eigen::Index>(calibration.coordinates.size());
-  if (!allFinite(calibration) || calibration.covariance.rows() != n || !isCovariance(calibration.covariance))
-    throw Error("the result is not finite", calibration.kind + " calibration", "Record the data again");
+  if (!allFinite(calibration) || calibration.covariance.rows() != n ||
+      !isCovariance(calibration.covariance))
+    throw Error("the result is not finite", calibration.kind + " calibration",
+                "Record the data again");
   json body = bodyOf(calibration);
   body["sha256"] = sha256(body.dump());
   return body.dump(1) + "\n";
 }
 
-void writeCalibration(const CalibrationFile& calibration, const std::filesystem::path& file) { writeWhole(file, textOf(calibration)); }
+void writeCalibration(const CalibrationFile& calibration, const std::filesystem::path& file) {
+  writeWhole(file, textOf(calibration));
+}
 
 void addPose(CalibrationFile& calibration, const std::string& name, const Pose& X) {
   const Vec3 p = X.translation(), w = calibration::rotationVector(X.rotation());
@@ -210,7 +244,8 @@ void addCamera(CalibrationFile& calibration, const calibration::CameraModel& cam
   calibration.parameters.push_back({"size_px", {double(camera.width), double(camera.height)}});
   calibration.parameters.push_back({"focal_px", {camera.fx, camera.fy}});
   calibration.parameters.push_back({"centre_px", {camera.cx, camera.cy}});
-  calibration.parameters.push_back({"distortion_k1k2p1p2k3", {camera.distortion.begin(), camera.distortion.end()}});
+  calibration.parameters.push_back(
+      {"distortion_k1k2p1p2k3", {camera.distortion.begin(), camera.distortion.end()}});
 }
 
 calibration::CameraModel cameraAt(const CalibrationFile& calibration) {

@@ -10,61 +10,65 @@
 
 namespace palpa::station {
 
-/// What a calibration routine leaves behind: parameters, how sure they are, what is left over, from which data, when, and the
-/// verdict. JSON, format "palpa calibration"; the unit is the end of a number's name ("position_m", "fx_px"). The file
-/// carries a checksum of itself, so that a damaged or edited one is told from a true one.
+/// What a calibration routine leaves behind: parameters, how sure they are, what is left over, from
+/// which data, when, and the verdict. JSON, format "palpa calibration"; the unit is the end of a
+/// number's name ("position_m", "fx_px"). The file carries a checksum of itself, so that a damaged
+/// or edited one is told from a true one.
 struct CalibrationFile {
   struct Numbers {
-    std::string name;             ///< ends with the unit
+    std::string name;  ///< ends with the unit
     std::vector<double> values;
   };
   struct Residuals {
     std::string unit;
     double rms = 0;
-    std::vector<double> values;   ///< one a measurement
-    std::vector<int> left_out;    ///< measurements that did not fit the others, from 0
+    std::vector<double> values;  ///< one a measurement
+    std::vector<int> left_out;   ///< measurements that did not fit the others, from 0
   };
   struct Data {
     int samples = 0, used = 0;
-    std::string source;           ///< "virtual bench, seed 5", "recorded files"
+    std::string source;  ///< "virtual bench, seed 5", "recorded files"
     struct File {
       std::string name, sha256;
     };
-    std::vector<File> files;      ///< that the samples were recorded in
+    std::vector<File> files;  ///< that the samples were recorded in
   };
   struct Check {
-    std::string name;             ///< in words: "tip at points not used"
+    std::string name;  ///< in words: "tip at points not used"
     double value = 0, limit = 0;
     std::string unit;
     bool passed() const { return value <= limit; }
   };
   struct Rest {
-    std::string kind, sha256;     ///< another calibration that this one was computed with
+    std::string kind, sha256;  ///< another calibration that this one was computed with
   };
 
-  std::string kind;               ///< one of kCalibrationKinds
-  std::string station;            ///< its id
-  std::string date;               ///< UTC, "2026-03-01T12:30:00Z"
-  std::string made_by;            ///< the command
+  std::string kind;     ///< one of kCalibrationKinds
+  std::string station;  ///< its id
+  std::string date;     ///< UTC, "2026-03-01T12:30:00Z"
+  std::string made_by;  ///< the command
   bool simulated = false;
   int valid_days = 0;
   std::vector<Numbers> parameters;
-  std::vector<std::string> coordinates;   ///< of the covariance: name and unit of each
-  Eigen::MatrixXd covariance;             ///< SI units, px for what is in px
+  std::vector<std::string> coordinates;  ///< of the covariance: name and unit of each
+  Eigen::MatrixXd covariance;            ///< SI units, px for what is in px
   Residuals residuals;
   Data data;
   std::vector<Check> checks;
   std::vector<Rest> rests_on;
-  std::string verdict;            ///< "pass", or what is wrong
+  std::string verdict;  ///< "pass", or what is wrong
 
   bool passed() const { return verdict == "pass"; }
   /// Throws Error when there is none of that name and size.
   const std::vector<double>& at(const std::string& name, std::size_t size) const;
 };
 
-inline const std::vector<std::string> kCalibrationKinds{"camera", "tool", "workspace", "registration", "latency", "force-sensor", "material", "friction", "inclusion", "subtasks"};
+inline const std::vector<std::string> kCalibrationKinds{
+    "camera",       "tool",     "workspace", "registration", "latency",
+    "force-sensor", "material", "friction",  "inclusion",    "subtasks"};
 
-/// Throws Error naming file and field: foreign, newer, damaged, changed by hand, or with figures that are none.
+/// Throws Error naming file and field: foreign, newer, damaged, changed by hand, or with figures
+/// that are none.
 CalibrationFile readCalibration(const std::filesystem::path& file);
 
 /// The file's text. Throws Error for figures that are not finite or a covariance that is none.
@@ -77,7 +81,8 @@ void writeCalibration(const CalibrationFile& calibration, const std::filesystem:
 void addPose(CalibrationFile& calibration, const std::string& name, const Pose& X);
 Pose poseAt(const CalibrationFile& calibration, const std::string& name);
 
-/// The camera's nine figures and its picture's size. The reader validates as every camera is validated.
+/// The camera's nine figures and its picture's size. The reader validates as every camera is
+/// validated.
 void addCamera(CalibrationFile& calibration, const calibration::CameraModel& camera);
 calibration::CameraModel cameraAt(const CalibrationFile& calibration);
 

@@ -16,7 +16,8 @@ std::optional<std::chrono::sys_days> dayOf(const std::string& utc) {
   int year = 0;
   unsigned month = 0, day = 0;
   if (std::sscanf(utc.c_str(), "%4d-%2u-%2u", &year, &month, &day) != 3) return std::nullopt;
-  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month), std::chrono::day(day)};
+  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month),
+                                         std::chrono::day(day)};
   if (!date.ok()) return std::nullopt;
   return std::chrono::sys_days(date);
 }
@@ -38,7 +39,8 @@ void applyTo(haptics::WrenchFilter& filter, const CalibrationFile& file) {
 haptics::WorkspaceCorrection correctionIn(const CalibrationFile& file) {
   haptics::WorkspaceCorrection correction;
   const double order = file.at("order", 1)[0];
-  if (!(order >= 0 && order <= haptics::WorkspaceCorrection::kHighestOrder)) throw Error("is of an order that is not known", "workspace calibration", "Calibrate again");
+  if (!(order >= 0 && order <= haptics::WorkspaceCorrection::kHighestOrder))
+    throw Error("is of an order that is not known", "workspace calibration", "Calibrate again");
   correction.order = static_cast<int>(order);
   const int terms = (correction.order + 1) * (correction.order + 2) * (correction.order + 3) / 6;
   correction.centre = packedAt(file, "centre_m");
@@ -46,13 +48,15 @@ haptics::WorkspaceCorrection correctionIn(const CalibrationFile& file) {
   for (const double half : correction.half)
     if (!(half > 0)) throw Error("has no size", "workspace calibration", "Calibrate again");
   const std::vector<double>& c = file.at("coefficients_m", static_cast<std::size_t>(3 * terms));
-  for (std::size_t k = 0; k < static_cast<std::size_t>(terms); ++k) correction.coefficients[k] = {c[3 * k], c[3 * k + 1], c[3 * k + 2]};
+  for (std::size_t k = 0; k < static_cast<std::size_t>(terms); ++k)
+    correction.coefficients[k] = {c[3 * k], c[3 * k + 1], c[3 * k + 2]};
   return correction;
 }
 
 }  // namespace
 
-std::vector<AppliedCalibration> readCalibrations(const JsonFile& file, const std::filesystem::path& folder) {
+std::vector<AppliedCalibration> readCalibrations(const JsonFile& file,
+                                                 const std::filesystem::path& folder) {
   std::vector<AppliedCalibration> calibrations;
   if (!file.has("calibrations")) return calibrations;
   if (!file.json().at("calibrations").is_array()) file.refuse("calibrations", "must be a list");
@@ -63,20 +67,24 @@ std::vector<AppliedCalibration> readCalibrations(const JsonFile& file, const std
     c.sha256_wanted = entry.text("sha256");
     c.file = readCalibration(c.path);
     c.sha256 = sha256OfFile(c.path);
-    if (c.file.kind != entry.text("kind")) entry.refuse("kind", "is \"" + entry.text("kind") + "\", but the file is a " + c.file.kind + " calibration");
+    if (c.file.kind != entry.text("kind"))
+      entry.refuse("kind", "is \"" + entry.text("kind") + "\", but the file is a " + c.file.kind +
+                               " calibration");
     if (calibrationOf(calibrations, c.file.kind)) entry.refuse("kind", "stands twice");
     calibrations.push_back(std::move(c));
   }
   return calibrations;
 }
 
-const AppliedCalibration* calibrationOf(const std::vector<AppliedCalibration>& calibrations, const std::string& kind) {
+const AppliedCalibration* calibrationOf(const std::vector<AppliedCalibration>& calibrations,
+                                        const std::string& kind) {
   for (const AppliedCalibration& c : calibrations)
     if (c.file.kind == kind) return &c;
   return nullptr;
 }
 
-nlohmann::json toJson(const std::vector<AppliedCalibration>& calibrations, const std::filesystem::path& folder) {
+nlohmann::json toJson(const std::vector<AppliedCalibration>& calibrations,
+                      const std::filesystem::path& folder) {
   nlohmann::json list = nlohmann::json::array();
   for (const AppliedCalibration& c : calibrations)
     list.push_back({{"kind", c.file.kind},
@@ -87,30 +95,38 @@ nlohmann::json toJson(const std::vector<AppliedCalibration>& calibrations, const
   return list;
 }
 
-std::string faultIn(const AppliedCalibration& c, const std::vector<AppliedCalibration>& calibrations, const std::string& station) {
+std::string faultIn(const AppliedCalibration& c,
+                    const std::vector<AppliedCalibration>& calibrations,
+                    const std::string& station) {
   if (!c.file.passed()) return nameOf(c) + " failed: " + c.file.verdict;
-  if (c.file.station != station) return nameOf(c) + " belongs to station \"" + c.file.station + "\"";
-  if (c.sha256 != c.sha256_wanted) return nameOf(c) + " was replaced after the station's file was written";
+  if (c.file.station != station)
+    return nameOf(c) + " belongs to station \"" + c.file.station + "\"";
+  if (c.sha256 != c.sha256_wanted)
+    return nameOf(c) + " was replaced after the station's file was written";
   for (const CalibrationFile::Rest& rest : c.file.rests_on) {
     const AppliedCalibration* other = calibrationOf(calibrations, rest.kind);
-    if (!other || other->sha256 != rest.sha256) return nameOf(c) + " is outdated: it was made with another " + rest.kind + " calibration";
+    if (!other || other->sha256 != rest.sha256)
+      return nameOf(c) + " is outdated: it was made with another " + rest.kind + " calibration";
   }
   return "";
 }
 
-std::string faultOf(const std::vector<AppliedCalibration>& calibrations, const std::string& station) {
+std::string faultOf(const std::vector<AppliedCalibration>& calibrations,
+                    const std::string& station) {
   for (const AppliedCalibration& c : calibrations)
     if (const std::string fault = faultIn(c, calibrations, station); !fault.empty()) return fault;
   return "";
 }
 
-std::string outdatedOn(const std::vector<AppliedCalibration>& calibrations, const std::string& date) {
+std::string outdatedOn(const std::vector<AppliedCalibration>& calibrations,
+                       const std::string& date) {
   const auto today = dayOf(date);
   for (const AppliedCalibration& c : calibrations) {
     const auto made = dayOf(c.file.date);
     if (!made) return nameOf(c) + " has no date";
     if (today && (*today - *made).count() > c.file.valid_days)
-      return nameOf(c) + " is outdated: made on " + c.file.date.substr(0, 10) + ", good for " + std::to_string(c.file.valid_days) + " days";
+      return nameOf(c) + " is outdated: made on " + c.file.date.substr(0, 10) + ", good for " +
+             std::to_string(c.file.valid_days) + " days";
   }
   return "";
 }
@@ -119,7 +135,8 @@ void applyCalibrations(Station& s) {
   if (s.calibrations.empty()) return;
   s.calibration_date.clear();
   for (const AppliedCalibration& c : s.calibrations) {
-    if (s.calibration_date.empty() || c.file.date < s.calibration_date) s.calibration_date = c.file.date;
+    if (s.calibration_date.empty() || c.file.date < s.calibration_date)
+      s.calibration_date = c.file.date;
     if (c.file.kind == "camera") s.camera = cameraAt(c.file);
     if (c.file.kind == "workspace") s.workspace = correctionIn(c.file);
     if (c.file.kind == "tool") s.X_ET = poseAt(c.file, "X_ET");
@@ -131,7 +148,8 @@ void applyCalibrations(Station& s) {
   s.calibration_verdict = fault.empty() ? "pass" : fault;
 }
 
-Station withCalibrations(const Station& station, const std::vector<AppliedCalibration>& calibrations) {
+Station withCalibrations(const Station& station,
+                         const std::vector<AppliedCalibration>& calibrations) {
   Station s = station;
   s.camera = s.design.camera;
   s.X_WD = s.design.X_WD;

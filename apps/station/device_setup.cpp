@@ -46,7 +46,8 @@ void readNetFt(const JsonFile& file, haptics::NetFtSettings& net_ft) {
   if (file.has("force_sensor/port"))
     net_ft.port = static_cast<std::uint16_t>(file.integer("force_sensor/port", 1, 65'535));
   if (file.has("force_sensor/start_code"))
-    net_ft.start_code = static_cast<std::uint16_t>(file.integer("force_sensor/start_code", 1, 65'535));
+    net_ft.start_code =
+        static_cast<std::uint16_t>(file.integer("force_sensor/start_code", 1, 65'535));
   net_ft.scale.counts_per_N = file.number("force_sensor/counts_per_N", 1, 1e9);
   net_ft.scale.counts_per_Nm = file.number("force_sensor/counts_per_Nm", 1, 1e9);
 }
@@ -56,7 +57,8 @@ void readNetFt(const JsonFile& file, haptics::NetFtSettings& net_ft) {
 Pose readPose(const JsonFile& file, const std::string& at) {
   const Vec3 turn = file.vector(at + "/rotation_vector_deg") * (std::numbers::pi / 180);
   const double angle = turn.norm();
-  const Mat3 R = angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Mat3::Identity();
+  const Mat3 R =
+      angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Mat3::Identity();
   return makePose(R, kToMetres * file.vector(at + "/position_mm"));
 }
 
@@ -70,10 +72,12 @@ DeviceSetup readDevice(const JsonFile& file, const std::filesystem::path& folder
   } else {
     readAll(file, device.capabilities);
   }
-  if (device.driver == DeviceDriver::replay) device.recording = folder / file.text("device/recording");
+  if (device.driver == DeviceDriver::replay)
+    device.recording = folder / file.text("device/recording");
   device.capabilities.simulated = device.driver == DeviceDriver::bench;
   if (file.has("device/continuous_force_N")) {
-    device.continuous_force_N = file.number("device/continuous_force_N", 0.05, device.capabilities.max_force_N);
+    device.continuous_force_N =
+        file.number("device/continuous_force_N", 0.05, device.capabilities.max_force_N);
     device.thermal_tau = file.number("device/thermal_tau_s", 0.1, 3600);
   }
   device.plunger_button = readButton(file, "device/plunger_button");

@@ -11,13 +11,16 @@ namespace palpa::station {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 4 << 20;
-constexpr int kDeepest = 32;   // nested deeper is damage, and would exhaust the stack of who writes it out
+constexpr int kDeepest =
+    32;  // nested deeper is damage, and would exhaust the stack of who writes it out
 
 nlohmann::json parse(const std::filesystem::path& file) {
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
-  if (error) throw UsageError("cannot be read (" + error.message() + ")", file.string(), "Check the name");
-  if (size > kLargestFile) throw UsageError("is too large for a settings file", file.string(), "Check the name");
+  if (error)
+    throw UsageError("cannot be read (" + error.message() + ")", file.string(), "Check the name");
+  if (size > kLargestFile)
+    throw UsageError("is too large for a settings file", file.string(), "Check the name");
   std::ifstream stream(file);
   std::stringstream text;
   text << stream.rdbuf();
@@ -38,14 +41,16 @@ nlohmann::json parse(const std::filesystem::path& file) {
 JsonFile::JsonFile(const std::filesystem::path& file) : json_(parse(file)), name_(file.string()) {}
 
 void JsonFile::refuse(const std::string& path, const std::string& what) const {
-  throw UsageError("field \"" + path.substr(std::min(path.size(), path.find_first_not_of('/'))) + "\" " + what, name_, "Correct the file");
+  throw UsageError(
+      "field \"" + path.substr(std::min(path.size(), path.find_first_not_of('/'))) + "\" " + what,
+      name_, "Correct the file");
 }
 
 const nlohmann::json* JsonFile::find(const std::string& path) const {
   const nlohmann::json* here = &json_;
   std::stringstream parts(path);
   for (std::string part; std::getline(parts, part, '/');) {
-    if (part.empty()) continue;   // "/columns" is "columns": of an entry itself
+    if (part.empty()) continue;  // "/columns" is "columns": of an entry itself
     if (!here->is_object() || !here->contains(part)) return nullptr;
     here = &(*here)[part];
   }
@@ -63,7 +68,8 @@ std::vector<JsonFile> JsonFile::entries(const std::string& list) const {
   if (!items) return {};
   if (!items->is_array()) refuse(list, "must be a list");
   std::vector<JsonFile> each;
-  for (const nlohmann::json& item : *items) each.emplace_back(item, name_ + ", \"" + list + "\", entry " + std::to_string(each.size() + 1));
+  for (const nlohmann::json& item : *items)
+    each.emplace_back(item, name_ + ", \"" + list + "\", entry " + std::to_string(each.size() + 1));
   return each;
 }
 
@@ -78,7 +84,8 @@ double JsonFile::number(const std::string& path) const {
   const double x = value->get<double>();
   if (!std::isfinite(x)) refuse(path, "is not finite");
   if (range) {
-    if (!range->is_array() || range->size() != 2 || !(*range)[0].is_number() || !(*range)[1].is_number())
+    if (!range->is_array() || range->size() != 2 || !(*range)[0].is_number() ||
+        !(*range)[1].is_number())
       refuse(path, "has a range that is not [low, high]");
     if (x < (*range)[0].get<double>() || x > (*range)[1].get<double>())
       refuse(path, "is " + value->dump() + ", outside its range " + range->dump());
@@ -118,7 +125,8 @@ Vec3 JsonFile::vector(const std::string& path) const {
   if (!value.is_array() || value.size() != 3) refuse(path, "is not a list of three numbers");
   Vec3 v;
   for (int i = 0; i < 3; ++i) {
-    if (!value[static_cast<std::size_t>(i)].is_number()) refuse(path, "is not a list of three numbers");
+    if (!value[static_cast<std::size_t>(i)].is_number())
+      refuse(path, "is not a list of three numbers");
     v[i] = value[static_cast<std::size_t>(i)].get<double>();
   }
   if (!v.allFinite()) refuse(path, "is not finite");

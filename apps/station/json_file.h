@@ -26,7 +26,8 @@ class JsonFile {
   std::string text(const std::string& path) const;
   Vec3 vector(const std::string& path) const;
   bool has(const std::string& path) const { return find(path) != nullptr; }
-  /// The entries of a list, each a file of its own that is named for the list; none where the field is missing.
+  /// The entries of a list, each a file of its own that is named for the list; none where the field
+  /// is missing.
   std::vector<JsonFile> entries(const std::string& list) const;
 
   const nlohmann::json& json() const { return json_; }

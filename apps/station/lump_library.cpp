@@ -14,23 +14,35 @@ struct PowerRange {
 constexpr PowerRange kSurfacePower{1, 2}, kBedPower{0.5, 3};
 
 /// A calibration that passed.
-CalibrationFile calibrationAt(const JsonFile& list, const std::string& field, const std::string& kind, const std::filesystem::path& folder) {
+CalibrationFile calibrationAt(const JsonFile& list, const std::string& field,
+                              const std::string& kind, const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / list.text(field);
   CalibrationFile file = readCalibration(path);
-  if (file.kind != kind) throw Error("is a calibration of \"" + file.kind + "\", not of \"" + kind + "\"", path.string(), "See " + list.name() + ", " + field);
-  if (!file.passed()) throw Error("did not pass: " + file.verdict, path.string(), "Identify it again: palpa calibrate " + kind);
+  if (file.kind != kind)
+    throw Error("is a calibration of \"" + file.kind + "\", not of \"" + kind + "\"", path.string(),
+                "See " + list.name() + ", " + field);
+  if (!file.passed())
+    throw Error("did not pass: " + file.verdict, path.string(),
+                "Identify it again: palpa calibrate " + kind);
   return file;
 }
 
 /// `name` "" or "H_T_".
-haptics::HuntCrossley lawAt(const CalibrationFile& file, const std::string& name, const PowerRange& power, const std::string& path) {
-  const haptics::HuntCrossley law{file.at(name + "k_N_per_m_to_the_m", 1)[0], file.at(name + "b_Ns_per_m_to_the_m_plus_1", 1)[0], file.at(name + "m", 1)[0]};
+haptics::HuntCrossley lawAt(const CalibrationFile& file, const std::string& name,
+                            const PowerRange& power, const std::string& path) {
+  const haptics::HuntCrossley law{file.at(name + "k_N_per_m_to_the_m", 1)[0],
+                                  file.at(name + "b_Ns_per_m_to_the_m_plus_1", 1)[0],
+                                  file.at(name + "m", 1)[0]};
   const auto refuse = [&](const std::string& what, double value) {
-    throw Error("has " + name + what + " = " + std::to_string(value), path, "No soft thing is like that: identify it again");
+    throw Error("has " + name + what + " = " + std::to_string(value), path,
+                "No soft thing is like that: identify it again");
   };
   if (law.k < 0) refuse("k below zero,", law.k);
   if (law.b < 0) refuse("b below zero,", law.b);
-  if (law.m < power.least || law.m > power.most) refuse("m that is not within " + std::to_string(power.least).substr(0, 3) + " to " + std::to_string(power.most).substr(0, 3) + ",", law.m);
+  if (law.m < power.least || law.m > power.most)
+    refuse("m that is not within " + std::to_string(power.least).substr(0, 3) + " to " +
+               std::to_string(power.most).substr(0, 3) + ",",
+           law.m);
   return law;
 }
 
@@ -40,15 +52,20 @@ void setSoftness(LumpLibrary& library, const CalibrationFile& file, const std::s
 }
 
 void setFriction(LumpLibrary& library, const CalibrationFile& file, const std::string& path) {
-  library.friction = {file.at("mu", 1)[0], file.at("sigma_N_per_m", 1)[0], file.at("B_Ns_per_m", 1)[0]};
+  library.friction = {file.at("mu", 1)[0], file.at("sigma_N_per_m", 1)[0],
+                      file.at("B_Ns_per_m", 1)[0]};
   const haptics::Dahl& law = library.friction;
-  if (!(law.mu >= 0 && law.sigma > 0 && law.B >= 0)) throw Error("has mu or B below zero, or no sigma", path, "Nothing rubs like that: identify it again");
+  if (!(law.mu >= 0 && law.sigma > 0 && law.B >= 0))
+    throw Error("has mu or B below zero, or no sigma", path,
+                "Nothing rubs like that: identify it again");
 }
 
 /// A word for one of two grades, from 1.
-int gradeAt(const JsonFile& kind, const std::string& field, const std::string& one, const std::string& two) {
+int gradeAt(const JsonFile& kind, const std::string& field, const std::string& one,
+            const std::string& two) {
   const std::string word = kind.text(field);
-  if (word != one && word != two) kind.refuse(field, "is \"" + word + "\"; known: " + one + ", " + two);
+  if (word != one && word != two)
+    kind.refuse(field, "is \"" + word + "\"; known: " + one + ", " + two);
   return word == one ? 1 : 2;
 }
 
@@ -59,7 +76,8 @@ LumpKind kindAt(const JsonFile& entry, const std::filesystem::path& folder, bool
   LumpKind kind;
   kind.name = entry.text("name");
   kind.law.H_T = lawAt(file, "H_T_", kSurfacePower, path);
-  kind.law.G = {lawAt(file, "G_x_", kBedPower, path), lawAt(file, "G_y_", kBedPower, path), lawAt(file, "G_z_", kBedPower, path)};
+  kind.law.G = {lawAt(file, "G_x_", kBedPower, path), lawAt(file, "G_y_", kBedPower, path),
+                lawAt(file, "G_z_", kBedPower, path)};
   kind.law.l0 = file.at("l0_m", 1)[0];
   kind.depth = file.at("depth_m", 1)[0];
   kind.contrast = 0.01 * file.at("contrast_percent", 1)[0];
@@ -77,28 +95,34 @@ LumpLibrary readLumps(const std::filesystem::path& path) {
   file.needVersion(1);
   const std::filesystem::path folder = path.parent_path();
   LumpLibrary library;
-  const CalibrationFile surface = calibrationAt(file, "surface", "material", folder), friction = calibrationAt(file, "friction", "friction", folder);
+  const CalibrationFile surface = calibrationAt(file, "surface", "material", folder),
+                        friction = calibrationAt(file, "friction", "friction", folder);
   setSoftness(library, surface, (folder / file.text("surface")).string());
   setFriction(library, friction, (folder / file.text("friction")).string());
   library.of_surface = "the library of lumps";
   library.tip_radius = 1e-3 * file.number("tip_radius_mm", 1, 30);
   library.simulated = surface.simulated || friction.simulated;
-  for (const JsonFile& entry : file.entries("kinds")) library.kinds.push_back(kindAt(entry, folder, &library.simulated));
-  if (library.kinds.empty() || library.kinds.size() > haptics::kMostLumpKinds) file.refuse("kinds", "must hold 1 to " + std::to_string(haptics::kMostLumpKinds) + " lumps");
+  for (const JsonFile& entry : file.entries("kinds"))
+    library.kinds.push_back(kindAt(entry, folder, &library.simulated));
+  if (library.kinds.empty() || library.kinds.size() > haptics::kMostLumpKinds)
+    file.refuse("kinds", "must hold 1 to " + std::to_string(haptics::kMostLumpKinds) + " lumps");
   return library;
 }
 
 LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>& calibrations) {
   const std::string shipped = library.of_surface;
-  const auto own = [&](const char* kind, void (*set)(LumpLibrary&, const CalibrationFile&, const std::string&)) -> std::string {
+  const auto own = [&](const char* kind, void (*set)(LumpLibrary&, const CalibrationFile&,
+                                                     const std::string&)) -> std::string {
     const AppliedCalibration* found = calibrationOf(calibrations, kind);
     if (!found) return shipped;
     set(library, found->file, found->path.string());
     library.simulated = library.simulated || found->file.simulated;
     return "this station's calibration of " + found->file.date.substr(0, 10);
   };
-  const std::string softness = own("material", setSoftness), friction = own("friction", setFriction);
-  library.of_surface = softness == friction ? softness : "softness: " + softness + "; friction: " + friction;
+  const std::string softness = own("material", setSoftness),
+                    friction = own("friction", setFriction);
+  library.of_surface =
+      softness == friction ? softness : "softness: " + softness + "; friction: " + friction;
   return library;
 }
 

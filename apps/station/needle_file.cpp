@@ -63,9 +63,10 @@ void readWalls(const JsonFile& file, haptics::NeedleMaterials& m) {
       file.refuse("walls/" + part, "is not an organ that is known");
   for (const Organ organ : {Organ::fascia, Organ::vein, Organ::artery, Organ::lung}) {
     const std::string at = std::string("walls/") + name(organ);
-    m.walls[static_cast<int>(organ)] = {kPerMm * file.number(at + "/stiffness_N_per_mm", 0.001, 100),
-                                        file.number(at + "/peak_N", 0, 20),
-                                        file.number(at + "/peak_spread", 0, 1), readRelaxation(file, at)};
+    m.walls[static_cast<int>(organ)] = {
+        kPerMm * file.number(at + "/stiffness_N_per_mm", 0.001, 100),
+        file.number(at + "/peak_N", 0, 20), file.number(at + "/peak_spread", 0, 1),
+        readRelaxation(file, at)};
   }
 }
 

@@ -9,7 +9,7 @@ namespace {
 constexpr double kMm = 1e-3;
 constexpr int kStationVersion = 1;
 constexpr double kLongestPeriod = 1e-3;  // s: the loop runs at 1 kHz or faster
-constexpr double kDampedShare = 0.2;     // of m / T: more would make a sampled damper unstable itself
+constexpr double kDampedShare = 0.2;  // of m / T: more would make a sampled damper unstable itself
 
 calibration::CameraModel readCamera(const JsonFile& file) {
   calibration::CameraModel camera;
@@ -31,7 +31,8 @@ CameraSetup readCameraSetup(const JsonFile& file) {
   if (!file.has("camera/driver")) return setup;
   const std::string driver = file.text("camera/driver");
   if (driver == "bench") return setup;
-  if (driver != "webcam") file.refuse("camera/driver", "is \"" + driver + "\"; known are bench and webcam");
+  if (driver != "webcam")
+    file.refuse("camera/driver", "is \"" + driver + "\"; known are bench and webcam");
   setup.driver = CameraSetup::Driver::webcam;
   setup.device = file.text("camera/device");
   setup.exposure_ms = file.number("camera/exposure_ms", 0.1, 1000);
@@ -65,13 +66,19 @@ std::vector<Landmark> readLandmarks(const JsonFile& file) {
 std::vector<Landmark> readGrid(const JsonFile& file) {
   std::vector<Landmark> grid;
   if (!file.has("grid")) return grid;
-  const Vec3 origin = placeIn(file, "grid/origin_W_mm"), spacing = placeIn(file, "grid/spacing_mm"), counts = file.vector("grid/counts");
-  if ((spacing.array() < 1e-3).any()) file.refuse("grid/spacing_mm", "must be 1 mm or more each way");
-  if ((counts.array() < 1).any() || (counts.array() > 10).any() || counts != Vec3(counts.array().round())) file.refuse("grid/counts", "must be whole numbers from 1 to 10");
+  const Vec3 origin = placeIn(file, "grid/origin_W_mm"), spacing = placeIn(file, "grid/spacing_mm"),
+             counts = file.vector("grid/counts");
+  if ((spacing.array() < 1e-3).any())
+    file.refuse("grid/spacing_mm", "must be 1 mm or more each way");
+  if ((counts.array() < 1).any() || (counts.array() > 10).any() ||
+      counts != Vec3(counts.array().round()))
+    file.refuse("grid/counts", "must be whole numbers from 1 to 10");
   for (int k = 0; k < static_cast<int>(counts.z()); ++k)
     for (int j = 0; j < static_cast<int>(counts.y()); ++j)
       for (int i = 0; i < static_cast<int>(counts.x()); ++i)
-        grid.push_back({std::to_string(i + 1) + "-" + std::to_string(j + 1) + "-" + std::to_string(k + 1), origin + spacing.cwiseProduct(Vec3(i, j, k)), false});
+        grid.push_back(
+            {std::to_string(i + 1) + "-" + std::to_string(j + 1) + "-" + std::to_string(k + 1),
+             origin + spacing.cwiseProduct(Vec3(i, j, k)), false});
   return grid;
 }
 
@@ -112,8 +119,11 @@ Station readStation(const std::filesystem::path& path) {
   s.camera_setup = readCameraSetup(file);
   s.tracker = readTracker(file);
   s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
-  const bool on_bench = s.camera_setup.driver == CameraSetup::Driver::bench;   // where a picture is seen before the next is taken
-  s.camera_latency_s = 1e-3 * file.number("camera/latency_ms", 0, on_bench ? 1000 / s.camera_rate_Hz : 1000);
+  const bool on_bench =
+      s.camera_setup.driver ==
+      CameraSetup::Driver::bench;  // where a picture is seen before the next is taken
+  s.camera_latency_s =
+      1e-3 * file.number("camera/latency_ms", 0, on_bench ? 1000 / s.camera_rate_Hz : 1000);
   s.simulated = on_bench || s.device.driver == DeviceDriver::bench;
   s.board = readBoard(file, "board");
   if (file.has("marker")) s.marker = readBoard(file, "marker");
@@ -122,8 +132,12 @@ Station readStation(const std::filesystem::path& path) {
   s.boards = readOtherBoards(file, grids);
   s.things = readRealThings(file, path.parent_path(), s.boards);
   s.landmarks = readLandmarks(file);
-  if (file.has("sample")) s.sample = Sample{readPose(file, "sample/X_WP"), 1e-3 * file.number("sample/tip_radius_mm", 1, 30)};
-  if (file.has("floor")) s.floor = FloorSetup{readPose(file, "floor/X_WF"), kMm * file.number("floor/unit_mm", 0.01, 2), file.number("floor/handle_weight_N", 0, 10)};
+  if (file.has("sample"))
+    s.sample =
+        Sample{readPose(file, "sample/X_WP"), 1e-3 * file.number("sample/tip_radius_mm", 1, 30)};
+  if (file.has("floor"))
+    s.floor = FloorSetup{readPose(file, "floor/X_WF"), kMm * file.number("floor/unit_mm", 0.01, 2),
+                         file.number("floor/handle_weight_N", 0, 10)};
   s.grid = readGrid(file);
   s.decimate = file.number("camera/decimate", 1, 4);
   s.X_WD = readPose(file, "registration/X_WD");
@@ -140,7 +154,8 @@ Station readStation(const std::filesystem::path& path) {
   s.safety.thermal_tau = s.device.thermal_tau;
   const double stable = haptics::couplingStiffness(can, kLongestPeriod);
   s.coupling.stiffness = file.number("coupling/stiffness_N_per_m", 10, stable);
-  if (file.has("coupling/velocity_tau_ms")) s.coupling.velocity_tau = 1e-3 * file.number("coupling/velocity_tau_ms", 0.1, 50);
+  if (file.has("coupling/velocity_tau_ms"))
+    s.coupling.velocity_tau = 1e-3 * file.number("coupling/velocity_tau_ms", 0.1, 50);
   s.passivity.max_damping = kDampedShare * can.apparent_mass / kLongestPeriod;
   s.passivity.coulomb = can.coulomb_friction;
   s.calibration_verdict = file.text("calibration/verdict");

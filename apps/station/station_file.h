@@ -16,24 +16,28 @@
 
 namespace palpa::station {
 
-/// A point that a tip can be put on, and whether it serves to fit or, untouched by the fit, to judge it.
+/// A point that a tip can be put on, and whether it serves to fit or, untouched by the fit, to
+/// judge it.
 struct Landmark {
   std::string name;
   Vec3 p_W = Vec3::Zero();
   bool for_check = false;
 };
 
-/// A soft sample on the table, and the round tip that feels it. P: origin in the middle of its top, z up.
+/// A soft sample on the table, and the round tip that feels it. P: origin in the middle of its top,
+/// z up.
 struct Sample {
   Pose X_WP = Pose::Identity();
-  double tip_radius = 0.008;       ///< m
+  double tip_radius = 0.008;  ///< m
 };
 
-/// Where a floor to be searched lies in the workspace, and what the device must carry. F: origin in its middle, z up.
+/// Where a floor to be searched lies in the workspace, and what the device must carry. F: origin in
+/// its middle, z up.
 struct FloorSetup {
   Pose X_WF = Pose::Identity();
-  double unit = 60e-6;             ///< m in the hand for one unit of the floor; coarse devices need a larger one
-  double handle_weight_N = 0;      ///< held up by the device
+  double unit =
+      60e-6;  ///< m in the hand for one unit of the floor; coarse devices need a larger one
+  double handle_weight_N = 0;  ///< held up by the device
 };
 
 /// Whose pictures the station watches.
@@ -42,10 +46,11 @@ struct CameraSetup {
   Driver driver = Driver::bench;
   std::string device = "/dev/video0";
   double exposure_ms = 10;
-  double gain = -1, focus = -1;    ///< the driver's units; negative: as it is
+  double gain = -1, focus = -1;  ///< the driver's units; negative: as it is
 };
 
-/// What a station's file says of its geometry before anything was calibrated. The virtual bench draws its truth around these.
+/// What a station's file says of its geometry before anything was calibrated. The virtual bench
+/// draws its truth around these.
 struct Design {
   calibration::CameraModel camera;
   Pose X_WD = Pose::Identity(), X_ET = Pose::Identity();
@@ -53,57 +58,66 @@ struct Design {
   std::optional<ForceSensorSetup> force_sensor;
 };
 
-/// One training place: its devices and what is believed about them. Relative paths in the file start at
-/// the file. A virtual bench draws its truth around these figures.
+/// One training place: its devices and what is believed about them. Relative paths in the file
+/// start at the file. A virtual bench draws its truth around these figures.
 struct Station {
   std::string id, title;
-  bool simulated = true;           ///< something that is seen or felt is the bench's
+  bool simulated = true;  ///< something that is seen or felt is the bench's
   DeviceSetup device;
   std::optional<ForceSensorSetup> force_sensor;
   calibration::CameraModel camera;
   CameraSetup camera_setup;
-  std::optional<TrackerSetup> tracker;     ///< says where the camera is, in place of the board
+  std::optional<TrackerSetup> tracker;  ///< says where the camera is, in place of the board
   ar::TagGridSpec board;
   double decimate = 2;
   double camera_rate_Hz = 15;
   double camera_latency_s = 0.05;
-  std::vector<OtherBoard> boards;          ///< besides the table's
-  std::vector<RealThing> things;           ///< that hide virtual ones in the picture
-  std::optional<ar::TagGridSpec> marker;   ///< a small grid of tags on the end effector, for registration and latency
-  std::optional<Sample> sample;            ///< what palpation, squeezing and their calibrations touch
-  std::optional<FloorSetup> floor;         ///< what a search explores
-  std::vector<Landmark> landmarks;         ///< known points that a tip can be put on
-  std::vector<Landmark> grid;              ///< more of them, evenly through the workspace: for the device's position error
+  std::vector<OtherBoard> boards;  ///< besides the table's
+  std::vector<RealThing> things;   ///< that hide virtual ones in the picture
+  std::optional<ar::TagGridSpec>
+      marker;  ///< a small grid of tags on the end effector, for registration and latency
+  std::optional<Sample> sample;     ///< what palpation, squeezing and their calibrations touch
+  std::optional<FloorSetup> floor;  ///< what a search explores
+  std::vector<Landmark> landmarks;  ///< known points that a tip can be put on
+  std::vector<Landmark>
+      grid;  ///< more of them, evenly through the workspace: for the device's position error
   haptics::WorkspaceCorrection workspace;  ///< of the device's readings
-  Pose X_WD = Pose::Identity();    ///< haptic base on the table: registration
-  Pose X_ET = Pose::Identity();    ///< needle tip in the end effector: tool calibration
-  std::optional<Pose> second_X_WD; ///< of another device of the same make, for what takes two tools
-  Vec3 entry_W = Vec3::Zero();     ///< where the patient's entry point lies: within the hand's reach, whoever the patient is
+  Pose X_WD = Pose::Identity();            ///< haptic base on the table: registration
+  Pose X_ET = Pose::Identity();            ///< needle tip in the end effector: tool calibration
+  std::optional<Pose>
+      second_X_WD;              ///< of another device of the same make, for what takes two tools
+  Vec3 entry_W = Vec3::Zero();  ///< where the patient's entry point lies: within the hand's reach,
+                                ///< whoever the patient is
   haptics::SafetyLimits safety;
   haptics::CouplingLimits coupling;
-  haptics::PassivityLimits passivity;   ///< sized from the device's mass and friction
-  std::string calibration_verdict; ///< "pass", or what is wrong: a session is then "not scored"
-  std::string calibration_date;    ///< of the oldest
-  std::vector<AppliedCalibration> calibrations;   ///< in the order of the file; what they found stands in the figures above
+  haptics::PassivityLimits passivity;  ///< sized from the device's mass and friction
+  std::string calibration_verdict;     ///< "pass", or what is wrong: a session is then "not scored"
+  std::string calibration_date;        ///< of the oldest
+  std::vector<AppliedCalibration>
+      calibrations;  ///< in the order of the file; what they found stands in the figures above
   Design design;
-  JsonFile file;                   ///< for parts that only others read (the twin's spreads)
+  JsonFile file;  ///< for parts that only others read (the twin's spreads)
 };
 
 /// Throws UsageError naming file and field.
 Station readStation(const std::filesystem::path& file);
 
-/// Puts what the station's calibrations found into its figures, and their verdict into `calibration_verdict`: the first that failed, belongs to
-/// another station, was replaced since the station's file was written, or rests on another calibration than the station's.
+/// Puts what the station's calibrations found into its figures, and their verdict into
+/// `calibration_verdict`: the first that failed, belongs to another station, was replaced since the
+/// station's file was written, or rests on another calibration than the station's.
 void applyCalibrations(Station& station);
 
 /// The station with these in place of its calibrations of the same kind.
-Station withCalibrations(const Station& station, const std::vector<AppliedCalibration>& calibrations);
+Station withCalibrations(const Station& station,
+                         const std::vector<AppliedCalibration>& calibrations);
 
-/// Finds the first calibration that is older than it is good for on `date` (UTC, as in a calibration file).
+/// Finds the first calibration that is older than it is good for on `date` (UTC, as in a
+/// calibration file).
 void judgeAge(Station& station, const std::string& date);
 
-/// Supine, head away from the reader (+y_W), the entry point at `entry_W` (its mirror image across x = 0 for the left
-/// side): a device that stands still reaches it in every patient. Throws Error when the patient has none.
+/// Supine, head away from the reader (+y_W), the entry point at `entry_W` (its mirror image across
+/// x = 0 for the left side): a device that stands still reaches it in every patient. Throws Error
+/// when the patient has none.
 Pose placePatient(const anatomy::Patient& patient, const Vec3& entry_W);
 
 /// Supine on the board, back at z_W = 0, centred.

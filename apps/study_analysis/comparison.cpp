@@ -112,7 +112,7 @@ void correctTogether(const std::vector<Comparison*>& family) {
 PlotPoint meanPoint(double x, const std::vector<double>& values) {
   const statistics::Description d = statistics::describe(values);
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  if (d.n < 2) return {x, d.mean, kNone, kNone};   // of one nothing is known about the next
+  if (d.n < 2) return {x, d.mean, kNone, kNone};  // of one nothing is known about the next
   const double n = static_cast<double>(d.n),
                half = d.sd / std::sqrt(n) *
                       boost::math::quantile(boost::math::students_t(n - 1), 0.975);

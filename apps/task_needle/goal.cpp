@@ -18,14 +18,16 @@ void GoalTrial::add(const assess::TrialSample& sample) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const bool is = on >> i & 1u, was = on_ >> i & 1u;
     if (is && !was) since_s_[i] = t_s_;
-    if (was && !is) spans_.push_back({parts_[i], i == goal_.part ? "good" : "guide", since_s_[i], t_s_});
+    if (was && !is)
+      spans_.push_back({parts_[i], i == goal_.part ? "good" : "guide", since_s_[i], t_s_});
   }
   on_ = on;
   if (sample.events & haptics::kSkinPunctured) {
     ++punctures_;
     moments_.push_back({t_s_, "puncture", "Through the surface of the " + words_.of(Organ::skin)});
   }
-  if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none) moments_.push_back({t_s_, "bone", "Through the " + words_.of(sample.wall)});
+  if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none)
+    moments_.push_back({t_s_, "bone", "Through the " + words_.of(sample.wall)});
 }
 
 std::string GoalTrial::step() const {
@@ -41,11 +43,15 @@ void GoalTrial::tell(assess::TrialAssessment* a) const {
   a->skin_punctures = punctures_;
   a->spans = spans_;
   for (std::size_t i = 0; i < since_s_.size(); ++i)
-    if (on_ >> i & 1u) a->spans.push_back({parts_[i], i == goal_.part ? "good" : "guide", since_s_[i], t_s_});
+    if (on_ >> i & 1u)
+      a->spans.push_back({parts_[i], i == goal_.part ? "good" : "guide", since_s_[i], t_s_});
   a->moments = moments_;
   if (a->values.success) a->moments.push_back({t_s_, "success", "Done: " + goal_.means});
-  const std::string after = std::to_string(std::lround(t_s_)) + " s", deepest = std::to_string(std::lround(1e3 * deepest_)) + " mm";
-  a->summary = (a->values.success ? "Done after " + after + ": " + goal_.means : "Not done after " + after + "; the goal: " + goal_.means) + ". It went " + deepest + " deep at most.";
+  const std::string after = std::to_string(std::lround(t_s_)) + " s",
+                    deepest = std::to_string(std::lround(1e3 * deepest_)) + " mm";
+  a->summary = (a->values.success ? "Done after " + after + ": " + goal_.means
+                                  : "Not done after " + after + "; the goal: " + goal_.means) +
+               ". It went " + deepest + " deep at most.";
 }
 
 }  // namespace palpa::task_needle

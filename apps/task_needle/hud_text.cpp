@@ -18,11 +18,15 @@ std::string format(const char* pattern, Numbers... numbers) {
 std::string depthText(const runtime::ToolState& tool, const TaskWords& words) {
   const std::string surface = "the " + words.of(Organ::skin);
   switch (tool.phase) {
-    case haptics::NeedlePhase::outside: return "outside " + surface;
-    case haptics::NeedlePhase::indenting: return "on " + surface;
-    case haptics::NeedlePhase::inserted: break;
+    case haptics::NeedlePhase::outside:
+      return "outside " + surface;
+    case haptics::NeedlePhase::indenting:
+      return "on " + surface;
+    case haptics::NeedlePhase::inserted:
+      break;
   }
-  return format("%.0f mm under ", tool.depth * 1e3) + surface + ", in " + (tool.tissue == Tissue::vein_lumen ? "the vein" : words.of(tool.tissue));
+  return format("%.0f mm under ", tool.depth * 1e3) + surface + ", in " +
+         (tool.tissue == Tissue::vein_lumen ? "the vein" : words.of(tool.tissue));
 }
 
 std::string touchedText(const runtime::ToolState& tool) {
@@ -41,24 +45,30 @@ bool injury(const runtime::ToolState& tool) {
          tool.tissue == Tissue::artery_lumen || tool.wall == Organ::artery;
 }
 
-scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool, const std::string& camera,
-                   const std::string& mark, const TaskWords& words) {
+scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
+                   const std::string& camera, const std::string& mark, const TaskWords& words) {
   scene::Hud hud;
-  const bool active = status.active(), told = !assess::inAssessment(status.role);   // what a patient would not tell is an aid
+  const bool active = status.active(),
+             told = !assess::inAssessment(status.role);  // what a patient would not tell is an aid
   hud.phase = active && told ? status.step : "";
   if (status.trials > 1 && status.trial > 0)
     hud.phase = format("Trial %d of %d  ", status.trial, status.trials) + hud.phase;
   if (active) {
     if (told) hud.depth = depthText(tool, words);
-    if (told) hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) + (status.force_feedback ? "" : " (force feedback off)");
+    if (told)
+      hud.force = format("%.1f N", unpack(tool.f_contact_D).norm()) +
+                  (status.force_feedback ? "" : " (force feedback off)");
     const int seconds = static_cast<int>(status.elapsed_s);
     hud.time = format("%d:%02d", seconds / 60, seconds % 60);
     if (told) hud.touched = touchedText(tool);
   }
   const bool hurts = active && told && injury(tool);
   std::string own;
-  if (hurts) own = "The needle touches the " + std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery");
-  else if (status.blood_flows) own = "Blood flows into the syringe";
+  if (hurts)
+    own = "The needle touches the " +
+          std::string(tool.tissue == Tissue::lung || tool.wall == Organ::lung ? "lung" : "artery");
+  else if (status.blood_flows)
+    own = "Blood flows into the syringe";
   trial::noticeOf(status, tool.safety, own, camera, &hud);
   hud.alarm = hud.alarm || (hurts && hud.notice == own);
   hud.mark = mark;

@@ -10,10 +10,13 @@ constexpr double kNear_mm = 1e3 * kNearMiss, kNothingTold = 1e9;
 
 }  // namespace
 
-NearMissWatch::NearMissWatch(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query) : query_(query) {
+NearMissWatch::NearMissWatch(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query)
+    : query_(query) {
   for (std::size_t i = 0; i < patient.organs.size(); ++i) {
     const Organ organ = patient.organs[i].organ;
-    if (organ == Organ::lung || organ == Organ::artery) watched_.push_back({static_cast<int>(i), organ == Organ::lung ? "the pleura" : "an artery", kNothingTold});
+    if (organ == Organ::lung || organ == Organ::artery)
+      watched_.push_back(
+          {static_cast<int>(i), organ == Organ::lung ? "the pleura" : "an artery", kNothingTold});
   }
 }
 
@@ -26,7 +29,8 @@ std::string NearMissWatch::look(const Vec3& tip_A, bool inserted, std::uint32_t 
   double least_mm = kNear_mm;
   for (Watched& one : watched_) {
     const double distance_mm = 1e3 * query_.closest(one.surface, tip_A).distance;
-    if (!(distance_mm > 0 && distance_mm < kNear_mm) || std::ceil(distance_mm) >= one.told) continue;
+    if (!(distance_mm > 0 && distance_mm < kNear_mm) || std::ceil(distance_mm) >= one.told)
+      continue;
     one.told = std::ceil(distance_mm);
     if (distance_mm < least_mm) {
       least_mm = distance_mm;

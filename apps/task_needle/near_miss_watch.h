@@ -12,8 +12,10 @@ namespace palpa::task_needle {
 /// Nearer than this to pleura or artery is a near miss, m.
 inline constexpr double kNearMiss = 5e-3;
 
-/// Tells near misses while they happen: how far an inserted tip is from pleura or artery, once below kNearMiss and again at every whole millimetre nearer, until the needle is out or the next trial
-/// begins. Contact itself is another's to tell. For whoever looks on; scores take the exact distances of the whole trial. One thread.
+/// Tells near misses while they happen: how far an inserted tip is from pleura or artery, once
+/// below kNearMiss and again at every whole millimetre nearer, until the needle is out or the next
+/// trial begins. Contact itself is another's to tell. For whoever looks on; scores take the exact
+/// distances of the whole trial. One thread.
 class NearMissWatch {
  public:
   NearMissWatch(const anatomy::Patient& patient, const anatomy::SurfaceQuery& query);
@@ -24,7 +26,7 @@ class NearMissWatch {
   struct Watched {
     int surface;
     const char* words;
-    double told;              ///< whole millimetres that were told last
+    double told;  ///< whole millimetres that were told last
   };
   const anatomy::SurfaceQuery& query_;
   std::vector<Watched> watched_;

@@ -8,17 +8,16 @@
 namespace palpa::task_needle {
 namespace {
 
-constexpr double kContactPause = 0.5;   // s without contact before the next one is news
-constexpr double kFillRate = 0.25;                     // syringes a second through a freely bleeding needle
+constexpr double kContactPause = 0.5;  // s without contact before the next one is news
+constexpr double kFillRate = 0.25;     // syringes a second through a freely bleeding needle
 
 std::string scoresJson(const assess::TrialAssessment& a) {
   const assess::ParacentesisValues& v = a.values;
-  return nlohmann::json{{"COL_LUNG", v.col_lung},   {"COL_RIB", v.col_rib},
-                        {"COL_ART", v.col_art},     {"COL_VEIN", v.col_vein},
-                        {"PHASE_1", v.phase_1},     {"PHASE_2", v.phase_2},
-                        {"ECON_MEAN", v.econ_mean}, {"ECON_VAR", v.econ_var},
-                        {"TIME", v.time_ms},        {"SUCCESS", v.success ? 1 : 0},
-                        {"TOTAL", a.total}}
+  return nlohmann::json{
+      {"COL_LUNG", v.col_lung},       {"COL_RIB", v.col_rib},   {"COL_ART", v.col_art},
+      {"COL_VEIN", v.col_vein},       {"PHASE_1", v.phase_1},   {"PHASE_2", v.phase_2},
+      {"ECON_MEAN", v.econ_mean},     {"ECON_VAR", v.econ_var}, {"TIME", v.time_ms},
+      {"SUCCESS", v.success ? 1 : 0}, {"TOTAL", a.total}}
       .dump();
 }
 
@@ -28,8 +27,11 @@ bool aspirating(const assess::TrialSample& sample, const assess::ScoringRules& r
 
 }  // namespace
 
-NeedleTask::NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& channels, runtime::Executive& executive)
-    : TrialTask({static_cast<int>(setup.plan.size()), setup.automatic, setup.calibration_problem, setup.places}, bus, channels, executive),
+NeedleTask::NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& channels,
+                       runtime::Executive& executive)
+    : TrialTask({static_cast<int>(setup.plan.size()), setup.automatic, setup.calibration_problem,
+                 setup.places},
+                bus, channels, executive),
       setup_(setup),
       channels_(channels),
       sampler_(setup.X_AD, setup.X_ET),
@@ -38,14 +40,18 @@ NeedleTask::NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& chan
 }
 
 std::string NeedleTask::notReady(const haptics::FlightRecord& last) const {
-  return last.phase != haptics::NeedlePhase::outside || last.depth > 0 ? "the needle is in the skin: take it out" : "";
+  return last.phase != haptics::NeedlePhase::outside || last.depth > 0
+             ? "the needle is in the skin: take it out"
+             : "";
 }
 
 runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
   shown_ = {};
   if (!setup_.settings.goal) shown_.step = assess::clinicalName(shown_.phase);
   sampler_.begin(static_cast<std::uint32_t>(status().trial));
-  if (setup_.settings.goal) goal_ = GoalTrial(*setup_.settings.goal, setup_.settings.augmentations.subtaskNames(), setup_.settings.words);
+  if (setup_.settings.goal)
+    goal_ = GoalTrial(*setup_.settings.goal, setup_.settings.augmentations.subtaskNames(),
+                      setup_.settings.words);
   doses_.begin(static_cast<std::uint32_t>(status().trial));
   phases_ = {};
   passes_ = {};
@@ -54,15 +60,19 @@ runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
   touched_s_.fill(-kContactPause);
   entered_vein_ = false;
   picture("start", "Before the needle touches the " + setup_.settings.words.of(Organ::skin));
-  return {status().trial, now_ns, plan().seed, plan().role, plan().force_feedback, plan().puncture_force_N};
+  return {status().trial,         now_ns, plan().seed, plan().role, plan().force_feedback,
+          plan().puncture_force_N};
 }
 
-trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome, const std::string& reason) {
+trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome,
+                                                  const std::string& reason) {
   CompletedTrial trial;
   trial.reason = reason;
-  assess::TrialFacts facts{status().trial, plan().role, setup_.simulated, plan().force_feedback, plan().seed, outcome};
+  assess::TrialFacts facts{status().trial,        plan().role, setup_.simulated,
+                           plan().force_feedback, plan().seed, outcome};
   if (setup_.expert_path) {
-    trial.assessment = assess::assessTrial(facts, samples_, setup_.patient, setup_.query, *setup_.expert_path, setup_.settings.rules);
+    trial.assessment = assess::assessTrial(facts, samples_, setup_.patient, setup_.query,
+                                           *setup_.expert_path, setup_.settings.rules);
   } else {
     trial.assessment.trial = status().trial;
     trial.assessment.role = plan().role;
@@ -72,7 +82,8 @@ trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome, co
     trial.assessment.force_feedback = plan().force_feedback;
     trial.assessment.values.success = outcome == "success";
     if (setup_.settings.goal) goal_.tell(&trial.assessment);
-    trial.assessment.metrics = assess::goalMetrics(trial.assessment, samples_, setup_.settings.rules);
+    trial.assessment.metrics =
+        assess::goalMetrics(trial.assessment, samples_, setup_.settings.rules);
   }
   trial.assessment.augmented = plan().augmented;
   trial.assessment.doses = doses_.doses();
@@ -81,9 +92,13 @@ trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome, co
   shown_.blood_flows = false;
   const bool success = outcome == "success";
   completed_.push_back(std::move(trial));
-  const std::string reached = setup_.settings.goal ? "Done: " + setup_.settings.goal->means : "Blood flows freely: the vein is reached";
+  const std::string reached = setup_.settings.goal ? "Done: " + setup_.settings.goal->means
+                                                   : "Blood flows freely: the vein is reached";
   return {scoresJson(completed_.back().assessment), completed_.back().assessment.summary,
-          !success ? "Trial ended: " + outcome : setup_.settings.goal ? "Done. Trial ended" : "Vein reached. Trial ended", success ? reached : "The end of the trial"};
+          !success               ? "Trial ended: " + outcome
+          : setup_.settings.goal ? "Done. Trial ended"
+                                 : "Vein reached. Trial ended",
+          success ? reached : "The end of the trial"};
 }
 
 void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
@@ -102,9 +117,15 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   shown_.blood_flows = aspirating(sample, setup_.settings.rules);
   in_lumen_s_ = shown_.blood_flows ? in_lumen_s_ + dt : 0;
   if (shown_.blood_flows) shown_.blood = std::min(sample.plunger, shown_.blood + kFillRate * dt);
-  if (setup_.settings.goal ? goal_.reached() : in_lumen_s_ >= setup_.settings.rules.dwell_s) return endTrial("success", "", now_ns);
-  if (const int most = plan().most_passes; most > 0 && passes_.passes() > most) return endTrial("passes", "Ended at needle pass " + std::to_string(most + 1) + ": no more than " + std::to_string(most) + " are allowed", now_ns);
-  if (sample.t_s >= setup_.settings.time_limit_s) return endTrial("time", "The time limit was reached", now_ns);
+  if (setup_.settings.goal ? goal_.reached() : in_lumen_s_ >= setup_.settings.rules.dwell_s)
+    return endTrial("success", "", now_ns);
+  if (const int most = plan().most_passes; most > 0 && passes_.passes() > most)
+    return endTrial("passes",
+                    "Ended at needle pass " + std::to_string(most + 1) + ": no more than " +
+                        std::to_string(most) + " are allowed",
+                    now_ns);
+  if (sample.t_s >= setup_.settings.time_limit_s)
+    return endTrial("time", "The time limit was reached", now_ns);
 }
 
 /// Events in clinical words, and pictures of the moments that the report shows.
@@ -121,11 +142,14 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
     tell(now_ns, "puncture", punctured);
     picture("puncture", punctured);
   }
-  if (sample.events & haptics::kWithdrawn) tell(now_ns, "withdrawn", "The needle is out of the " + words.of(Organ::skin));
-  if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none) tell(now_ns, "wall", "Wall punctured: " + words.of(sample.wall));
+  if (sample.events & haptics::kWithdrawn)
+    tell(now_ns, "withdrawn", "The needle is out of the " + words.of(Organ::skin));
+  if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none)
+    tell(now_ns, "wall", "Wall punctured: " + words.of(sample.wall));
   Organ touching = sample.bone;
   if (sample.tissue == Tissue::lung || sample.wall == Organ::lung) touching = Organ::lung;
-  if (sample.tissue == Tissue::artery_lumen || sample.wall == Organ::artery) touching = Organ::artery;
+  if (sample.tissue == Tissue::artery_lumen || sample.wall == Organ::artery)
+    touching = Organ::artery;
   if (sample.tissue == Tissue::vein_lumen && !entered_vein_) {
     entered_vein_ = true;
     tell(now_ns, "vein", "The tip is in the vein");
@@ -137,8 +161,10 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
   last_s = sample.t_s;
   if (again) return;
   tell(now_ns, "touched", std::string("Touched: ") + palpa::name(touching));
-  if (touching == Organ::lung || touching == Organ::artery || (isBone(touching) && touching != Organ::clavicle))
-    picture(palpa::name(touching), std::string("Error: the needle touches the ") + palpa::name(touching));
+  if (touching == Organ::lung || touching == Organ::artery ||
+      (isBone(touching) && touching != Organ::clavicle))
+    picture(palpa::name(touching),
+            std::string("Error: the needle touches the ") + palpa::name(touching));
 }
 
 void NeedleTask::command(haptics::TickCommands& commands) const {

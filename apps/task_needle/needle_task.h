@@ -18,16 +18,17 @@ struct TrialPlan {
   std::string role = "scored";
   std::uint64_t seed = 1;
   bool force_feedback = true;
-  bool augmented = false;                              ///< the task's augmentations add force
-  double puncture_force_N = 1.5;                       ///< of the skin
-  std::array<float, kOrganCount> wall_scale = haptics::TickCommands{}.wall_scale;   ///< of the walls' median peaks
-  int most_passes = 0;                                 ///< of the needle: the next one ends the trial; 0: no limit
+  bool augmented = false;         ///< the task's augmentations add force
+  double puncture_force_N = 1.5;  ///< of the skin
+  std::array<float, kOrganCount> wall_scale =
+      haptics::TickCommands{}.wall_scale;  ///< of the walls' median peaks
+  int most_passes = 0;  ///< of the needle: the next one ends the trial; 0: no limit
 };
 
 struct CompletedTrial {
   assess::TrialAssessment assessment;
-  std::vector<assess::TrialSample> samples;   ///< every tick of the trial
-  std::string reason;                         ///< why aborted or void
+  std::vector<assess::TrialSample> samples;  ///< every tick of the trial
+  std::string reason;                        ///< why aborted or void
 };
 
 /// Task channels beside the bus: one writer, one reader each.
@@ -43,17 +44,19 @@ class NeedleTask final : public trial::TrialTask {
     const anatomy::Patient& patient;
     const anatomy::SurfaceQuery& query;
     const TaskSettings& settings;
-    const calibration::ExpertPath* expert_path;   ///< null: not scored against a path (experts record one)
+    const calibration::ExpertPath*
+        expert_path;  ///< null: not scored against a path (experts record one)
     Pose X_AD = Pose::Identity();
     PackedPose X_ET;
     bool simulated = false;
     bool automatic = true;            ///< starts trials by itself
     std::string calibration_problem;  ///< not empty: sessions are "not scored"
     std::vector<TrialPlan> plan;
-    std::vector<runtime::BoardPlace> places;   ///< of the boards besides the table's
-    haptics::AugmentationPlan augmentations;   ///< as on this device
+    std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
+    haptics::AugmentationPlan augmentations;  ///< as on this device
   };
-  NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& channels, runtime::Executive& executive);
+  NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& channels,
+             runtime::Executive& executive);
 
   const std::vector<CompletedTrial>& completed() const { return completed_; }
 
@@ -65,20 +68,22 @@ class NeedleTask final : public trial::TrialTask {
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;
   void announce(const assess::TrialSample& sample, std::int64_t now_ns);
-  const TrialPlan& plan() const { return setup_.plan[static_cast<std::size_t>(status().trial - 1)]; }
+  const TrialPlan& plan() const {
+    return setup_.plan[static_cast<std::size_t>(status().trial - 1)];
+  }
 
   Setup setup_;
   TaskChannels& channels_;
   assess::TrialSampler sampler_;
   assess::PhaseDetector phases_;
   assess::PassCounter passes_;
-  GoalTrial goal_;                     ///< where the task has a goal of its own
-  TaskStatus shown_;                   ///< its own part; the base is filled in when it is published
+  GoalTrial goal_;    ///< where the task has a goal of its own
+  TaskStatus shown_;  ///< its own part; the base is filled in when it is published
   std::vector<assess::TrialSample> samples_;
   assess::TrialDoses doses_;
   std::vector<CompletedTrial> completed_;
-  double in_lumen_s_ = 0;              ///< dwell with the plunger drawn
-  std::array<double, kOrganCount> touched_s_{};   ///< trial time of the last contact, by Organ
+  double in_lumen_s_ = 0;                        ///< dwell with the plunger drawn
+  std::array<double, kOrganCount> touched_s_{};  ///< trial time of the last contact, by Organ
   bool entered_vein_ = false;
 };
 

@@ -21,7 +21,8 @@ class SceneActivity final : public trial::TrialScene {
 
  private:
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
-  void compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) override;
+  void compose(scene::SceneState& state, const runtime::ToolState& tool,
+               const std::string& trouble) override;
   void tell(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
   void pulse(runtime::HeadDisplay& head, const runtime::ToolState& tool) override;
   bool mayWait(const runtime::ToolState& tool) const override;
@@ -32,7 +33,7 @@ class SceneActivity final : public trial::TrialScene {
   TaskChannels& channels_;
   TaskStatus status_;
   std::optional<SkinFollower> skin_;
-  runtime::ToolState felt_;    ///< what the hand in a headset was last told
+  runtime::ToolState felt_;  ///< what the hand in a headset was last told
   int trail_trial_ = 0;
 };
 

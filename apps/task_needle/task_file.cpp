@@ -6,7 +6,9 @@ namespace palpa::task_needle {
 namespace {
 
 /// A penalty an error: never a reward.
-double weight(const station::JsonFile& file, const char* field) { return file.number(field, 0, 1e6); }
+double weight(const station::JsonFile& file, const char* field) {
+  return file.number(field, 0, 1e6);
+}
 
 assess::ScoringRules readRules(const station::JsonFile& file) {
   assess::ScoringRules rules;
@@ -53,15 +55,20 @@ Goal goalIn(const station::JsonFile& file, const station::NamedPlan& parts) {
   Goal goal;
   const std::string part = file.text("goal/part");
   while (goal.part < parts.subtasks.size() && parts.subtasks[goal.part].name != part) ++goal.part;
-  if (goal.part == parts.subtasks.size()) file.refuse("goal/part", "is \"" + part + "\", which \"subtasks\" does not name");
+  if (goal.part == parts.subtasks.size())
+    file.refuse("goal/part", "is \"" + part + "\", which \"subtasks\" does not name");
   goal.for_s = file.number("goal/for_s", 0, 60);
   goal.means = file.text("goal/means");
   return goal;
 }
 
 PuncturedBlock blockIn(const station::JsonFile& file) {
-  const auto mm = [&](const std::string& field, double low, double high) { return kFileMm * file.number("phantom/" + field, low, high); };
-  return {{mm("across_mm", 20, 500), mm("away_mm", 20, 500), mm("high_mm", 20, 300)}, {mm("layers/skin_mm", 0.1, 100), mm("layers/fat_mm", 0, 200), mm("layers/muscle_mm", 0, 200)}};
+  const auto mm = [&](const std::string& field, double low, double high) {
+    return kFileMm * file.number("phantom/" + field, low, high);
+  };
+  return {{mm("across_mm", 20, 500), mm("away_mm", 20, 500), mm("high_mm", 20, 300)},
+          {mm("layers/skin_mm", 0.1, 100), mm("layers/fat_mm", 0, 200),
+           mm("layers/muscle_mm", 0, 200)}};
 }
 
 }  // namespace
@@ -75,13 +82,16 @@ TaskSettings readTask(const std::filesystem::path& path) {
   task.id = file.text("id");
   task.title = file.text("title");
   task.time_limit_s = file.number("end/time_limit_s", 1, 3600);
-  if (file.has("end/most_passes")) task.most_passes = {file.integer("end/most_passes/assessed", 0, 100), file.integer("end/most_passes/practice", 0, 100)};
+  if (file.has("end/most_passes"))
+    task.most_passes = {file.integer("end/most_passes/assessed", 0, 100),
+                        file.integer("end/most_passes/practice", 0, 100)};
   task.materials = path.parent_path() / file.text("materials");
   task.source = file.json().dump();
   task.augmentations = station::readPlan(file);
   task.words = wordsIn(file);
   if (file.has("phantom")) task.block = blockIn(file);
-  if (task.block && !file.has("goal")) file.refuse("phantom", "needs \"goal\" beside it: no optimal path leads through a block");
+  if (task.block && !file.has("goal"))
+    file.refuse("phantom", "needs \"goal\" beside it: no optimal path leads through a block");
   if (file.has("goal")) {
     task.goal = goalIn(file, task.augmentations);
   } else {
@@ -89,7 +99,8 @@ TaskSettings readTask(const std::filesystem::path& path) {
     task.rules.errors = readErrors(file);
     task.expert_path = path.parent_path() / file.text("expert_path");
   }
-  if (file.has("taxonomy")) task.taxonomy = station::taxonomyOf(file);   // older recordings carry none
+  if (file.has("taxonomy"))
+    task.taxonomy = station::taxonomyOf(file);  // older recordings carry none
   return task;
 }
 

@@ -14,9 +14,10 @@
 
 namespace palpa::task_needle {
 
-/// What is punctured where it is no patient: a block whose layers lie as a patient's do, entry in the middle of its top.
+/// What is punctured where it is no patient: a block whose layers lie as a patient's do, entry in
+/// the middle of its top.
 struct PuncturedBlock {
-  Vec3 size;                           ///< m, x right, y away, z up
+  Vec3 size;  ///< m, x right, y away, z up
   anatomy::SoftLayers layers;
 };
 
@@ -25,19 +26,20 @@ struct PassLimit {
   int assessed = 0, practice = 0;
 };
 
-/// A needle task as its file says it (assets/tasks/*.json). A new site needs a file, not code. It has an optimal path ("expert_path", "scoring") or a goal of its own ("goal").
+/// A needle task as its file says it (assets/tasks/*.json). A new site needs a file, not code. It
+/// has an optimal path ("expert_path", "scoring") or a goal of its own ("goal").
 struct TaskSettings {
   std::string id, title;
   double time_limit_s = 300;
   PassLimit most_passes;
   assess::ScoringRules rules;
-  std::filesystem::path expert_path;   ///< where the optimal path is; empty: there is none
+  std::filesystem::path expert_path;  ///< where the optimal path is; empty: there is none
   std::filesystem::path materials;
-  std::string source;                  ///< the file's text, for the evidence
+  std::string source;  ///< the file's text, for the evidence
   station::Taxonomy taxonomy;
-  station::NamedPlan augmentations;    ///< empty: the task has no parts
-  std::optional<Goal> goal;            ///< none: the vein
-  std::optional<PuncturedBlock> block; ///< none: a patient
+  station::NamedPlan augmentations;     ///< empty: the task has no parts
+  std::optional<Goal> goal;             ///< none: the vein
+  std::optional<PuncturedBlock> block;  ///< none: a patient
   TaskWords words;
 };
 

@@ -6,7 +6,8 @@ namespace palpa::task_needle {
 namespace {
 
 template <typename Thing, std::size_t N>
-void readNames(const station::JsonFile& task, const std::string& group, std::array<std::string, N>* words) {
+void readNames(const station::JsonFile& task, const std::string& group,
+               std::array<std::string, N>* words) {
   if (!task.has("words/" + group)) return;
   for (const auto& [key, value] : task.json().at("words").at(group).items()) {
     std::size_t i = 0;

@@ -12,7 +12,7 @@ namespace palpa::task_needle {
 ///   "words": {"tissues": {"fat": "cancellous bone"}, "organs": {"skin": "bone"}}
 /// Those not named keep their names.
 struct TaskWords {
-  std::array<std::string, kTissueCount> tissue;   ///< empty: its own name
+  std::array<std::string, kTissueCount> tissue;  ///< empty: its own name
   std::array<std::string, kOrganCount> organ;
   std::string of(Tissue t) const;
   std::string of(Organ o) const;

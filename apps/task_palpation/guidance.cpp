@@ -6,7 +6,7 @@ namespace palpa::task_palpation {
 namespace {
 
 constexpr double kWait_s = 2, kLess = 0.34, kMore = 0.17;
-constexpr int kStripCells = 3;   // 12 mm
+constexpr int kStripCells = 3;  // 12 mm
 
 /// Of a strip's three columns the middle one, where there is one.
 int middleOf(int strip, int columns) { return std::min(strip * kStripCells + 1, columns - 1); }
@@ -18,7 +18,8 @@ std::optional<Vec3> nextInStrips(const assess::CoverageMap& map) {
   for (int strip = 0; strip < strips; ++strip) {
     for (int i = 0; i < map.rows(); ++i) {
       const int row = strip % 2 == 0 ? i : map.rows() - 1 - i;
-      for (int column = strip * kStripCells; column < std::min((strip + 1) * kStripCells, map.columns()); ++column)
+      for (int column = strip * kStripCells;
+           column < std::min((strip + 1) * kStripCells, map.columns()); ++column)
         if (map.level(column, row) == 0) return map.middle(middleOf(strip, map.columns()), row);
     }
   }

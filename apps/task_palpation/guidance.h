@@ -6,9 +6,11 @@
 
 namespace palpa::task_palpation {
 
-/// Help that fades: a ring on the phantom leads the hand along vertical strips to the next place that was not felt, once nothing new was felt for a while. The better the trials, the longer
-/// the wait; every second trial has no help at all (it is the unaided ones that count).
-///     wait = 2 s / g,   g = 1 at first; after an aided or unaided trial g - 0.34 where the area was covered as the standard asks, g + 0.17 where it was not; within 0 (never) and 1
+/// Help that fades: a ring on the phantom leads the hand along vertical strips to the next place
+/// that was not felt, once nothing new was felt for a while. The better the trials, the longer the
+/// wait; every second trial has no help at all (it is the unaided ones that count).
+///     wait = 2 s / g,   g = 1 at first; after an aided or unaided trial g - 0.34 where the area
+///     was covered as the standard asks, g + 0.17 where it was not; within 0 (never) and 1
 /// [chosen, after the finding that help as needed served retention and constant help hurt it]
 class Guidance {
  public:
@@ -22,7 +24,7 @@ class Guidance {
   void end(bool covered);
 
   double amount() const { return amount_; }
-  double shown_s() const { return shown_s_; }   ///< how long it led in this trial
+  double shown_s() const { return shown_s_; }  ///< how long it led in this trial
 
  private:
   bool on_;

@@ -10,12 +10,15 @@ constexpr int kPlacesTried = 400, kBegunAnew = 200;
 
 std::size_t countOf(const std::vector<double>& shares, double u) {
   std::size_t count = 0;
-  for (double sum = shares.front(); count + 1 < shares.size() && u >= sum; sum += shares[count]) ++count;
+  for (double sum = shares.front(); count + 1 < shares.size() && u >= sum; sum += shares[count])
+    ++count;
   return count;
 }
 
 bool farFromAll(const Case& others, const Vec3& p_P, double apart) {
-  return std::all_of(others.begin(), others.end(), [&](const LumpInCase& other) { return (other.p_P - p_P).head<2>().norm() >= apart; });
+  return std::all_of(others.begin(), others.end(), [&](const LumpInCase& other) {
+    return (other.p_P - p_P).head<2>().norm() >= apart;
+  });
 }
 
 }  // namespace
@@ -26,19 +29,28 @@ Case drawCase(const PalpationSettings& settings, std::uint64_t seed) {
   return placeLumps(settings, count, random);
 }
 
-Case placeLumps(const PalpationSettings& settings, std::size_t count, runtime::RandomStream& random) {
+Case placeLumps(const PalpationSettings& settings, std::size_t count,
+                runtime::RandomStream& random) {
   const CaseRules& rules = settings.cases;
-  const double x = settings.scoring.rules.area.half_x - rules.margin, y = settings.scoring.rules.area.half_y - rules.margin;
+  const double x = settings.scoring.rules.area.half_x - rules.margin,
+               y = settings.scoring.rules.area.half_y - rules.margin;
   Case drawn;
   for (int tried = 0, anew = 0; drawn.size() < count; ++tried) {
-    if (tried == kPlacesTried) {   // the first ones stand in the way of the rest
-      if (++anew == kBegunAnew) throw Error("lumps so far apart find no room in the area", "\"" + settings.id + "\", " + std::to_string(count) + " lumps", "Make cases/apart_mm or the number of lumps smaller");
+    if (tried == kPlacesTried) {  // the first ones stand in the way of the rest
+      if (++anew == kBegunAnew)
+        throw Error("lumps so far apart find no room in the area",
+                    "\"" + settings.id + "\", " + std::to_string(count) + " lumps",
+                    "Make cases/apart_mm or the number of lumps smaller");
       drawn.clear();
       tried = 0;
     }
-    const std::size_t kind = rules.kinds[std::min(static_cast<std::size_t>(random.uniform() * static_cast<double>(rules.kinds.size())), rules.kinds.size() - 1)];
-    const Vec3 p_P(random.uniform(-x, x), random.uniform(-y, y), -settings.library.kinds[kind].depth);
-    if (farFromAll(drawn, p_P, rules.apart) && farFromAll(settings.anatomy, p_P, rules.apart)) drawn.push_back({kind, p_P});
+    const std::size_t kind = rules.kinds[std::min(
+        static_cast<std::size_t>(random.uniform() * static_cast<double>(rules.kinds.size())),
+        rules.kinds.size() - 1)];
+    const Vec3 p_P(random.uniform(-x, x), random.uniform(-y, y),
+                   -settings.library.kinds[kind].depth);
+    if (farFromAll(drawn, p_P, rules.apart) && farFromAll(settings.anatomy, p_P, rules.apart))
+      drawn.push_back({kind, p_P});
   }
   return drawn;
 }
@@ -57,7 +69,8 @@ haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy) {
   std::size_t next = 0;
   for (const Case* some : {&in_case, &anatomy})
     for (const LumpInCase& lump : *some)
-      if (next < lumps.size()) lumps[next++] = {pack(lump.p_P), static_cast<std::uint32_t>(lump.kind) + 1, 0};
+      if (next < lumps.size())
+        lumps[next++] = {pack(lump.p_P), static_cast<std::uint32_t>(lump.kind) + 1, 0};
   return lumps;
 }
 

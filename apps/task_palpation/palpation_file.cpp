@@ -10,20 +10,29 @@ namespace {
 
 constexpr double kFileMm = 1e-3;
 
-double finiteIn(const station::JsonFile& file, const nlohmann::json& value, double low, double high) {
-  if (!value.is_number() || !(value.get<double>() >= low && value.get<double>() <= high)) file.refuse("anatomy", "holds " + value.dump() + " where a number from " + std::to_string(std::lround(low)) + " to " + std::to_string(std::lround(high)) + " must be");
+double finiteIn(const station::JsonFile& file, const nlohmann::json& value, double low,
+                double high) {
+  if (!value.is_number() || !(value.get<double>() >= low && value.get<double>() <= high))
+    file.refuse("anatomy", "holds " + value.dump() + " where a number from " +
+                               std::to_string(std::lround(low)) + " to " +
+                               std::to_string(std::lround(high)) + " must be");
   return value.get<double>();
 }
 
-/// "anatomy": [{"name": ..., "kind": ..., "width_mm": ..., "line_mm": [[x, y], ...]}, ...]; none of it: an empty list.
+/// "anatomy": [{"name": ..., "kind": ..., "width_mm": ..., "line_mm": [[x, y], ...]}, ...]; none of
+/// it: an empty list.
 const nlohmann::json& anatomyIn(const station::JsonFile& file) {
   static const nlohmann::json kNone = nlohmann::json::array();
   const auto all = file.json().find("anatomy");
   if (all == file.json().end()) return kNone;
   if (!all->is_array()) file.refuse("anatomy", "must be a list");
   for (const nlohmann::json& one : *all) {
-    const bool named = one.is_object() && one.contains("name") && one["name"].is_string() && one.contains("kind") && one["kind"].is_string();
-    if (!named || !one.contains("line_mm") || !one["line_mm"].is_array() || one["line_mm"].empty()) file.refuse("anatomy", "must name \"name\", \"kind\" (of the library), \"width_mm\" and \"line_mm\" of each");
+    const bool named = one.is_object() && one.contains("name") && one["name"].is_string() &&
+                       one.contains("kind") && one["kind"].is_string();
+    if (!named || !one.contains("line_mm") || !one["line_mm"].is_array() || one["line_mm"].empty())
+      file.refuse(
+          "anatomy",
+          "must name \"name\", \"kind\" (of the library), \"width_mm\" and \"line_mm\" of each");
   }
   return *all;
 }
@@ -31,10 +40,15 @@ const nlohmann::json& anatomyIn(const station::JsonFile& file) {
 std::vector<assess::NormalAnatomy> normalIn(const station::JsonFile& file) {
   std::vector<assess::NormalAnatomy> all;
   for (const nlohmann::json& one : anatomyIn(file)) {
-    assess::NormalAnatomy normal{one["name"].get<std::string>(), {}, kFileMm * finiteIn(file, one.value("width_mm", nlohmann::json()), 1, 200)};
+    assess::NormalAnatomy normal{
+        one["name"].get<std::string>(),
+        {},
+        kFileMm * finiteIn(file, one.value("width_mm", nlohmann::json()), 1, 200)};
     for (const nlohmann::json& point : one["line_mm"]) {
-      if (!point.is_array() || point.size() != 2) file.refuse("anatomy", "holds " + point.dump() + " where a point [across, away] must be");
-      normal.line_P.emplace_back(kFileMm * finiteIn(file, point[0], -200, 200), kFileMm * finiteIn(file, point[1], -200, 200), 0);
+      if (!point.is_array() || point.size() != 2)
+        file.refuse("anatomy", "holds " + point.dump() + " where a point [across, away] must be");
+      normal.line_P.emplace_back(kFileMm * finiteIn(file, point[0], -200, 200),
+                                 kFileMm * finiteIn(file, point[1], -200, 200), 0);
     }
     all.push_back(std::move(normal));
   }
@@ -46,30 +60,43 @@ std::vector<assess::NormalAnatomy> normalIn(const station::JsonFile& file) {
 Scoring scoringOf(const station::JsonFile& file) {
   Scoring scoring;
   assess::PalpationRules& rules = scoring.rules;
-  rules.area = {kFileMm * file.number("area/half_across_mm", 5, 200), kFileMm * file.number("area/half_away_mm", 5, 200)};
-  rules.levels = {file.number("pressure/light_N", 0.05, 20), file.number("pressure/medium_N", 0.05, 20), file.number("pressure/deep_N", 0.05, 20)};
-  if (!(rules.levels[0] < rules.levels[1] && rules.levels[1] < rules.levels[2])) file.refuse("pressure", "must rise from light to deep");
+  rules.area = {kFileMm * file.number("area/half_across_mm", 5, 200),
+                kFileMm * file.number("area/half_away_mm", 5, 200)};
+  rules.levels = {file.number("pressure/light_N", 0.05, 20),
+                  file.number("pressure/medium_N", 0.05, 20),
+                  file.number("pressure/deep_N", 0.05, 20)};
+  if (!(rules.levels[0] < rules.levels[1] && rules.levels[1] < rules.levels[2]))
+    file.refuse("pressure", "must rise from light to deep");
   rules.too_hard = file.number("pressure/too_hard_N", 0.1, 50);
-  if (rules.too_hard <= rules.levels[2]) file.refuse("pressure/too_hard_N", "must be more than deep");
+  if (rules.too_hard <= rules.levels[2])
+    file.refuse("pressure/too_hard_N", "must be more than deep");
   rules.reach = kFileMm * file.number("scoring/reach_mm", 1, 30);
   rules.touch = file.number("scoring/touch_N", 0.02, 5);
   rules.found_within = kFileMm * file.number("scoring/found_within_mm", 1, 50);
   rules.normal = normalIn(file);
-  scoring.standard = {file.number("scoring/pass_sensitivity", 0, 1), file.number("scoring/pass_coverage", 0, 1)};
+  scoring.standard = {file.number("scoring/pass_sensitivity", 0, 1),
+                      file.number("scoring/pass_coverage", 0, 1)};
   return scoring;
 }
 
 namespace {
 
-std::size_t kindNamed(const station::JsonFile& file, const char* field, const nlohmann::json& name, const station::LumpLibrary& library) {
-  const auto one = std::find_if(library.kinds.begin(), library.kinds.end(), [&](const station::LumpKind& kind) { return name.is_string() && kind.name == name.get<std::string>(); });
-  if (one == library.kinds.end()) file.refuse(field, "names " + name.dump() + ", which the library of lumps does not hold");
+std::size_t kindNamed(const station::JsonFile& file, const char* field, const nlohmann::json& name,
+                      const station::LumpLibrary& library) {
+  const auto one =
+      std::find_if(library.kinds.begin(), library.kinds.end(), [&](const station::LumpKind& kind) {
+        return name.is_string() && kind.name == name.get<std::string>();
+      });
+  if (one == library.kinds.end())
+    file.refuse(field, "names " + name.dump() + ", which the library of lumps does not hold");
   return static_cast<std::size_t>(one - library.kinds.begin());
 }
 
-std::vector<std::size_t> kindsOf(const station::JsonFile& file, const station::LumpLibrary& library) {
+std::vector<std::size_t> kindsOf(const station::JsonFile& file,
+                                 const station::LumpLibrary& library) {
   std::vector<std::size_t> kinds;
-  for (const nlohmann::json& name : file.json().at("cases").value("kinds", nlohmann::json::array())) kinds.push_back(kindNamed(file, "cases/kinds", name, library));
+  for (const nlohmann::json& name : file.json().at("cases").value("kinds", nlohmann::json::array()))
+    kinds.push_back(kindNamed(file, "cases/kinds", name, library));
   if (kinds.empty()) file.refuse("cases/kinds", "must name one lump at least");
   return kinds;
 }
@@ -77,8 +104,10 @@ std::vector<std::size_t> kindsOf(const station::JsonFile& file, const station::L
 std::vector<double> sharesOf(const station::JsonFile& file) {
   std::vector<double> shares;
   double all = 0;
-  for (const nlohmann::json& share : file.json().at("cases").value("lumps", nlohmann::json::array())) {
-    if (!share.is_number() || share.get<double>() < 0) file.refuse("cases/lumps", "must hold probabilities");
+  for (const nlohmann::json& share :
+       file.json().at("cases").value("lumps", nlohmann::json::array())) {
+    if (!share.is_number() || share.get<double>() < 0)
+      file.refuse("cases/lumps", "must hold probabilities");
     shares.push_back(share.get<double>());
     all += shares.back();
   }
@@ -87,39 +116,53 @@ std::vector<double> sharesOf(const station::JsonFile& file) {
 }
 
 /// A lump at each point of its line, as deep as it was identified.
-Case piecesOf(const station::JsonFile& file, const std::vector<assess::NormalAnatomy>& normal, const station::LumpLibrary& library) {
+Case piecesOf(const station::JsonFile& file, const std::vector<assess::NormalAnatomy>& normal,
+              const station::LumpLibrary& library) {
   Case pieces;
   for (std::size_t i = 0; i < normal.size(); ++i) {
     const std::size_t kind = kindNamed(file, "anatomy", anatomyIn(file)[i]["kind"], library);
-    for (const Vec3& p : normal[i].line_P) pieces.push_back({kind, Vec3(p.x(), p.y(), -library.kinds[kind].depth)});
+    for (const Vec3& p : normal[i].line_P)
+      pieces.push_back({kind, Vec3(p.x(), p.y(), -library.kinds[kind].depth)});
   }
   return pieces;
 }
 
 void requireFew(const station::JsonFile& file, const PalpationSettings& settings) {
   if (settings.cases.lumps.size() - 1 + settings.anatomy.size() <= haptics::kMostLumps) return;
-  file.refuse("cases/lumps", "allows more than " + std::to_string(haptics::kMostLumps) + " lumps, the points of \"anatomy\" among them");
+  file.refuse("cases/lumps", "allows more than " + std::to_string(haptics::kMostLumps) +
+                                 " lumps, the points of \"anatomy\" among them");
 }
 
 /// Lumps lie wholly inside.
 void requireInside(const station::JsonFile& file, const PalpationSettings& settings) {
   const assess::SearchArea& area = settings.scoring.rules.area;
-  if (2 * area.half_x > settings.size.x() || 2 * area.half_y > settings.size.y()) file.refuse("area", "is larger than the phantom");
+  if (2 * area.half_x > settings.size.x() || 2 * area.half_y > settings.size.y())
+    file.refuse("area", "is larger than the phantom");
   for (const std::size_t k : settings.cases.kinds) {
     const station::LumpKind& kind = settings.library.kinds[k];
     const double beyond = kind.diameter / 2 - settings.cases.margin;
-    if (area.half_x + beyond > settings.size.x() / 2 || area.half_y + beyond > settings.size.y() / 2 || kind.depth - kind.diameter / 2 < 0 || kind.depth + kind.diameter / 2 > settings.size.z())
-      file.refuse("cases/kinds", "holds \"" + kind.name + "\", which would stick out of the phantom: its middle lies " + std::to_string(std::lround(1e3 * kind.depth)) + " mm deep, it measures " +
+    if (area.half_x + beyond > settings.size.x() / 2 ||
+        area.half_y + beyond > settings.size.y() / 2 || kind.depth - kind.diameter / 2 < 0 ||
+        kind.depth + kind.diameter / 2 > settings.size.z())
+      file.refuse("cases/kinds", "holds \"" + kind.name +
+                                     "\", which would stick out of the phantom: its middle lies " +
+                                     std::to_string(std::lround(1e3 * kind.depth)) +
+                                     " mm deep, it measures " +
                                      std::to_string(std::lround(1e3 * kind.diameter)) + " mm");
   }
   for (const LumpInCase& piece : settings.anatomy) {
     const double r = settings.library.kinds[piece.kind].diameter / 2;
-    if (std::abs(piece.p_P.x()) + r > settings.size.x() / 2 || std::abs(piece.p_P.y()) + r > settings.size.y() / 2) file.refuse("anatomy", "would stick out of the phantom");
+    if (std::abs(piece.p_P.x()) + r > settings.size.x() / 2 ||
+        std::abs(piece.p_P.y()) + r > settings.size.y() / 2)
+      file.refuse("anatomy", "would stick out of the phantom");
   }
-  const double free_x = area.half_x - settings.cases.margin, free_y = area.half_y - settings.cases.margin;
+  const double free_x = area.half_x - settings.cases.margin,
+               free_y = area.half_y - settings.cases.margin;
   if (free_x <= 0 || free_y <= 0) file.refuse("cases/margin_mm", "leaves no room");
-  const double rooms = (1 + std::floor(2 * free_x / settings.cases.apart)) * (1 + std::floor(2 * free_y / settings.cases.apart));
-  if (rooms < static_cast<double>(settings.cases.lumps.size()) - 1) file.refuse("cases/apart_mm", "leaves no room for so many lumps");
+  const double rooms = (1 + std::floor(2 * free_x / settings.cases.apart)) *
+                       (1 + std::floor(2 * free_y / settings.cases.apart));
+  if (rooms < static_cast<double>(settings.cases.lumps.size()) - 1)
+    file.refuse("cases/apart_mm", "leaves no room for so many lumps");
 }
 
 }  // namespace
@@ -127,15 +170,21 @@ void requireInside(const station::JsonFile& file, const PalpationSettings& setti
 PalpationSettings readPalpation(const std::filesystem::path& path) {
   const station::JsonFile file = station::readTaskFile(path);
   file.needVersion(1);
-  if (const std::string engine = file.text("engine"); engine != "palpation") file.refuse("engine", "is \"" + engine + "\"; here it must be palpation");
+  if (const std::string engine = file.text("engine"); engine != "palpation")
+    file.refuse("engine", "is \"" + engine + "\"; here it must be palpation");
   PalpationSettings settings;
   settings.id = file.text("id");
   settings.title = file.text("title");
-  settings.size = kFileMm * Vec3(file.number("phantom/across_mm", 10, 500), file.number("phantom/away_mm", 10, 500), file.number("phantom/high_mm", 5, 300));
+  settings.size = kFileMm * Vec3(file.number("phantom/across_mm", 10, 500),
+                                 file.number("phantom/away_mm", 10, 500),
+                                 file.number("phantom/high_mm", 5, 300));
   settings.library = station::readLumps(path.parent_path() / file.text("lumps"));
   settings.scoring = scoringOf(file);
-  if (!file.has("cases/lumps") || !file.has("cases/kinds")) file.refuse("cases", "must hold \"lumps\" and \"kinds\"");
-  settings.cases = {sharesOf(file), kindsOf(file, settings.library), kFileMm * file.number("cases/apart_mm", 5, 200), kFileMm * file.number("cases/margin_mm", 0, 200)};
+  if (!file.has("cases/lumps") || !file.has("cases/kinds"))
+    file.refuse("cases", "must hold \"lumps\" and \"kinds\"");
+  settings.cases = {sharesOf(file), kindsOf(file, settings.library),
+                    kFileMm * file.number("cases/apart_mm", 5, 200),
+                    kFileMm * file.number("cases/margin_mm", 0, 200)};
   settings.anatomy = piecesOf(file, settings.scoring.rules.normal, settings.library);
   settings.clinical_force_N = file.number("pressure/clinical_deep_N", 0, 50);
   settings.time_limit_s = file.number("end/time_limit_s", 10, 3600);
@@ -144,7 +193,8 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   requireFew(file, settings);
   requireInside(file, settings);
   runtime::RandomStream trial(0, "palpation.rooms");
-  placeLumps(settings, settings.cases.lumps.size() - 1, trial);   // refused now, not in the middle of a session
+  placeLumps(settings, settings.cases.lumps.size() - 1,
+             trial);  // refused now, not in the middle of a session
   settings.source = file.json().dump();
   return settings;
 }

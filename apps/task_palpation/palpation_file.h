@@ -14,9 +14,9 @@ namespace palpa::task_palpation {
 
 /// How cases are drawn: how many lumps, where, of which kinds.
 struct CaseRules {
-  std::vector<double> lumps;           ///< probability of 0, 1, 2, ... lumps
-  std::vector<std::size_t> kinds;      ///< of the library, from 0; each equally likely
-  double apart = 0, margin = 0;        ///< m, between lumps' middles; from the area's edge
+  std::vector<double> lumps;       ///< probability of 0, 1, 2, ... lumps
+  std::vector<std::size_t> kinds;  ///< of the library, from 0; each equally likely
+  double apart = 0, margin = 0;    ///< m, between lumps' middles; from the area's edge
 };
 
 /// How a search is judged.
@@ -29,33 +29,38 @@ Scoring scoringOf(const station::JsonFile& task);
 
 /// A lump at a place: P, m.
 struct LumpInCase {
-  std::size_t kind = 0;                ///< of the library, from 0
+  std::size_t kind = 0;  ///< of the library, from 0
   Vec3 p_P = Vec3::Zero();
 };
 using Case = std::vector<LumpInCase>;
 
-/// A palpation task as its file says it (assets/tasks/palpation_*.json). Another phantom, other lumps, other rules need a file, not code.
+/// A palpation task as its file says it (assets/tasks/palpation_*.json). Another phantom, other
+/// lumps, other rules need a file, not code.
 struct PalpationSettings {
   std::string id, title;
-  Vec3 size = Vec3(0.1, 0.1, 0.05);    ///< m, of the phantom: across, away from the trainee, high
+  Vec3 size = Vec3(0.1, 0.1, 0.05);  ///< m, of the phantom: across, away from the trainee, high
   station::LumpLibrary library;
   CaseRules cases;
   Scoring scoring;
-  Case anatomy;                        ///< normal anatomy, in pieces, in every case: a library lump at each point of its line (named and judged by scoring.rules.normal)
-  double clinical_force_N = 0;         ///< that deep palpation takes on a patient; where the device gives less, the screen says "scaled force"
+  Case anatomy;  ///< normal anatomy, in pieces, in every case: a library lump at each point of its
+                 ///< line (named and judged by scoring.rules.normal)
+  double clinical_force_N = 0;  ///< that deep palpation takes on a patient; where the device gives
+                                ///< less, the screen says "scaled force"
   double time_limit_s = 300;
   station::Taxonomy taxonomy;
-  station::NamedPlan augmentations;    ///< empty: the task has no parts
-  std::string source;                  ///< the file's text, for the evidence
+  station::NamedPlan augmentations;  ///< empty: the task has no parts
+  std::string source;                ///< the file's text, for the evidence
 };
 
-/// Throws UsageError naming file and field, Error for a library that cannot be used or a lump that would stick out of the phantom.
+/// Throws UsageError naming file and field, Error for a library that cannot be used or a lump that
+/// would stick out of the phantom.
 PalpationSettings readPalpation(const std::filesystem::path& file);
 
 /// The same for the same seed.
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed);
 /// So many lumps, drawn by the rules. Throws Error where they find no room.
-Case placeLumps(const PalpationSettings& settings, std::size_t count, runtime::RandomStream& random);
+Case placeLumps(const PalpationSettings& settings, std::size_t count,
+                runtime::RandomStream& random);
 std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLibrary& library);
 /// Together they are no more than haptics::kMostLumps.
 haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy);

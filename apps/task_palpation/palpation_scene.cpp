@@ -18,14 +18,16 @@ std::string lineOf(const char* pattern, Numbers... numbers) {
 
 }  // namespace
 
-PalpationScene::PalpationScene(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels) : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {}
+PalpationScene::PalpationScene(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels)
+    : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {}
 
 const trial::TrialStatus& PalpationScene::readStatus(std::int64_t now_ns) {
   if (const PalpationStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
   return status_;
 }
 
-void PalpationScene::compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) {
+void PalpationScene::compose(scene::SceneState& state, const runtime::ToolState& tool,
+                             const std::string& trouble) {
   state.tool = scene::Tool::probe;
   state.hud = words(tool, trouble);
   showFelt(state);
@@ -42,26 +44,32 @@ void PalpationScene::showFelt(scene::SceneState& state) const {
     grid.cell_x = 2 * setup_.area.half_x / grid.columns;
     grid.cell_y = 2 * setup_.area.half_y / grid.rows;
     grid.levels = status_.levels;
-    grid.levels.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows), 0);
+    grid.levels.resize(static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows),
+                       0);
     state.coverage = grid;
   }
   state.lumps.clear();
-  for (const PalpationStatus::Shown& lump : status_.lumps) state.lumps.push_back({setup_.X_AP * lump.p_P, lump.radius, lump.found, lump.normal});
+  for (const PalpationStatus::Shown& lump : status_.lumps)
+    state.lumps.push_back({setup_.X_AP * lump.p_P, lump.radius, lump.found, lump.normal});
   state.marks_A.clear();
-  for (const Vec3& p_P : status_.marks_P) state.marks_A.push_back(setup_.X_AP * Vec3(p_P.x(), p_P.y(), 0));
+  for (const Vec3& p_P : status_.marks_P)
+    state.marks_A.push_back(setup_.X_AP * Vec3(p_P.x(), p_P.y(), 0));
   state.lead_A = status_.lead_P ? std::optional<Vec3>(setup_.X_AP * *status_.lead_P) : std::nullopt;
 }
 
 scene::Hud PalpationScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
   scene::Hud hud;
-  if (status_.trials > 1 && status_.trial > 0) hud.phase = lineOf("Trial %d of %d  ", status_.trial, status_.trials);
+  if (status_.trials > 1 && status_.trial > 0)
+    hud.phase = lineOf("Trial %d of %d  ", status_.trial, status_.trials);
   if (status_.active()) {
     hud.phase += "Search for lumps";
-    hud.force = lineOf("%.1f N ", status_.pressed_N) + kPressures[status_.level] + (status_.force_feedback ? "" : " (force feedback off)");
+    hud.force = lineOf("%.1f N ", status_.pressed_N) + kPressures[status_.level] +
+                (status_.force_feedback ? "" : " (force feedback off)");
     const int seconds = static_cast<int>(status_.elapsed_s);
     hud.time = lineOf("%d:%02d", seconds / 60, seconds % 60);
     hud.note = setup_.force_note;
-    if (!status_.marks_P.empty()) hud.marked = lineOf("%d", static_cast<int>(status_.marks_P.size()));
+    if (!status_.marks_P.empty())
+      hud.marked = lineOf("%d", static_cast<int>(status_.marks_P.size()));
   }
   trial::noticeOf(status_, tool.safety, "", trouble, &hud);
   hud.mark = mark();

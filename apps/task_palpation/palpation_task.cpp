@@ -14,7 +14,8 @@ int levelOf(const assess::PressureLevels& levels, double f) {
 std::vector<std::uint8_t> levelsOf(const assess::CoverageMap& map) {
   std::vector<std::uint8_t> levels;
   for (int row = 0; row < map.rows(); ++row)
-    for (int column = 0; column < map.columns(); ++column) levels.push_back(static_cast<std::uint8_t>(map.level(column, row)));
+    for (int column = 0; column < map.columns(); ++column)
+      levels.push_back(static_cast<std::uint8_t>(map.level(column, row)));
   return levels;
 }
 
@@ -33,7 +34,10 @@ std::string scoreJson(const assess::PalpationAssessment& a) {
 std::string caseText(const std::vector<assess::CaseLump>& lumps) {
   nlohmann::json list = nlohmann::json::array();
   for (const assess::CaseLump& lump : lumps)
-    list.push_back({{"p_P_m", pack(lump.p_P)}, {"diameter_m", lump.diameter}, {"hardness", lump.hardness}, {"mobility", lump.mobility}});
+    list.push_back({{"p_P_m", pack(lump.p_P)},
+                    {"diameter_m", lump.diameter},
+                    {"hardness", lump.hardness},
+                    {"mobility", lump.mobility}});
   return list.dump();
 }
 
@@ -41,21 +45,27 @@ std::vector<assess::CaseLump> caseOf(const std::string& text) {
   try {
     std::vector<assess::CaseLump> lumps;
     for (const nlohmann::json& lump : nlohmann::json::parse(text))
-      lumps.push_back({unpack(lump.at("p_P_m").get<Packed3>()), lump.at("diameter_m").get<double>(), lump.at("hardness").get<int>(), lump.at("mobility").get<int>()});
+      lumps.push_back({unpack(lump.at("p_P_m").get<Packed3>()), lump.at("diameter_m").get<double>(),
+                       lump.at("hardness").get<int>(), lump.at("mobility").get<int>()});
     return lumps;
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("does not describe lumps (") + e.what() + ")", "event \"case\"", "Restore the file from a backup");
+    throw Error(std::string("does not describe lumps (") + e.what() + ")", "event \"case\"",
+                "Restore the file from a backup");
   }
 }
 
-PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels, runtime::Executive& executive)
-    : TrialTask({static_cast<int>(setup.plan.size()), setup.automatic, setup.not_scored, setup.places}, bus, channels, executive),
+PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels,
+                             runtime::Executive& executive)
+    : TrialTask(
+          {static_cast<int>(setup.plan.size()), setup.automatic, setup.not_scored, setup.places},
+          bus, channels, executive),
       setup_(setup),
       channels_(channels),
       listener_(setup.tick),
       doses_(setup.tick.augmentations, setup.settings.augmentations.subtaskNames()),
       sensor_(setup.tick),
-      map_(setup.settings.scoring.rules.area, setup.settings.scoring.rules.levels, setup.settings.scoring.rules.reach),
+      map_(setup.settings.scoring.rules.area, setup.settings.scoring.rules.levels,
+           setup.settings.scoring.rules.reach),
       guidance_(setup.guided) {
   completed_.reserve(setup.plan.size());
   shown_.columns = map_.columns();
@@ -63,10 +73,12 @@ PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationCha
 }
 
 std::string PalpationTask::notReady(const haptics::FlightRecord& last) const {
-  if (last.sensed.state != haptics::SensorState::valid) return "the force sensor says nothing that could be used";
+  if (last.sensed.state != haptics::SensorState::valid)
+    return "the force sensor says nothing that could be used";
   if (unpack(last.sensed.f_D).norm() < setup_.settings.scoring.rules.touch) return "";
   if (sensor_.inTheAir(last) == 0) return "the tool touches something: lift it";
-  return "the force sensor shows a force though nothing is touched: it has drifted, or its scale is wrong. Take its zero anew";
+  return "the force sensor shows a force though nothing is touched: it has drifted, or its scale "
+         "is wrong. Take its zero anew";
 }
 
 runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
@@ -75,14 +87,18 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   listener_.begin(static_cast<std::uint32_t>(status().trial));
   doses_.begin(static_cast<std::uint32_t>(status().trial));
   sensor_.reset();
-  map_ = assess::CoverageMap(setup_.settings.scoring.rules.area, setup_.settings.scoring.rules.levels, setup_.settings.scoring.rules.reach);
+  map_ =
+      assess::CoverageMap(setup_.settings.scoring.rules.area, setup_.settings.scoring.rules.levels,
+                          setup_.settings.scoring.rules.reach);
   guidance_.begin(status().trial);
   shown_.levels.clear();
   shown_.marks_P.clear();
   showLumps(nullptr);
   tell(now_ns, "case", caseText(lumpsOf(case_, setup_.settings.library)));
   picture("start", "Before anything was felt");
-  const std::string role = plan().role == "scored" && guidance_.helps(status().trial) ? "guided" : plan().role;   // trials without any help are those that count
+  const std::string role = plan().role == "scored" && guidance_.helps(status().trial)
+                               ? "guided"
+                               : plan().role;  // trials without any help are those that count
   return {status().trial, now_ns, plan().seed, role, plan().force_feedback, 0};
 }
 
@@ -91,25 +107,41 @@ void PalpationTask::showLumps(const assess::PalpationAssessment* judged) {
   shown_.lumps.clear();
   if (!judged && !setup_.see_through) return;
   const std::vector<assess::CaseLump> lumps = lumpsOf(case_, setup_.settings.library);
-  for (std::size_t i = 0; i < lumps.size(); ++i) shown_.lumps.push_back({lumps[i].p_P, lumps[i].diameter / 2, judged && judged->score.lumps[i].mark >= 0, false});
-  for (const assess::CaseLump& piece : lumpsOf(setup_.settings.anatomy, setup_.settings.library)) shown_.lumps.push_back({piece.p_P, piece.diameter / 2, false, true});
+  for (std::size_t i = 0; i < lumps.size(); ++i)
+    shown_.lumps.push_back(
+        {lumps[i].p_P, lumps[i].diameter / 2, judged && judged->score.lumps[i].mark >= 0, false});
+  for (const assess::CaseLump& piece : lumpsOf(setup_.settings.anatomy, setup_.settings.library))
+    shown_.lumps.push_back({piece.p_P, piece.diameter / 2, false, true});
 }
 
-trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome, const std::string& reason) {
+trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome,
+                                                     const std::string& reason) {
   CompletedPalpation trial;
   trial.reason = reason;
   const double seconds = listener_.seconds();
-  const assess::PalpationFacts facts{status().trial, status().role, setup_.simulated, plan().force_feedback, plan().seed, outcome, seconds > 0 ? guidance_.shown_s() / seconds : 0, plan().augmented};
-  trial.assessment = assess::assessPalpation(facts, setup_.settings.scoring.rules, setup_.settings.scoring.standard, lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
+  const assess::PalpationFacts facts{status().trial,
+                                     status().role,
+                                     setup_.simulated,
+                                     plan().force_feedback,
+                                     plan().seed,
+                                     outcome,
+                                     seconds > 0 ? guidance_.shown_s() / seconds : 0,
+                                     plan().augmented};
+  trial.assessment = assess::assessPalpation(
+      facts, setup_.settings.scoring.rules, setup_.settings.scoring.standard,
+      lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
   trial.assessment.doses = doses_.doses();
   trial.samples = listener_.samples();
-  if (outcome == "done" || outcome == "time") guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
+  if (outcome == "done" || outcome == "time")
+    guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
   showLumps(&trial.assessment);
   shown_.levels = levelsOf(map_);
   shown_.lead_P.reset();
   completed_.push_back(std::move(trial));
   const assess::PalpationAssessment& judged = completed_.back().assessment;
-  return {scoreJson(judged), judged.summary, outcome == "done" ? judged.summary : "Trial ended: " + outcome, "What was felt and marked, and what lies inside"};
+  return {scoreJson(judged), judged.summary,
+          outcome == "done" ? judged.summary : "Trial ended: " + outcome,
+          "What was felt and marked, and what lies inside"};
 }
 
 void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
@@ -132,7 +164,8 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
   shown_.pressed_N = listener_.samples().back().f_n;
   shown_.level = levelOf(setup_.settings.scoring.rules.levels, shown_.pressed_N);
   status().elapsed_s = listener_.seconds();
-  if (status().elapsed_s >= setup_.settings.time_limit_s) endTrial("time", "The time limit was reached", now_ns);
+  if (status().elapsed_s >= setup_.settings.time_limit_s)
+    endTrial("time", "The time limit was reached", now_ns);
 }
 
 void PalpationTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
@@ -140,7 +173,8 @@ void PalpationTask::hear(const trial::UserRequest& request, std::int64_t now_ns)
   if (request.command != trial::UserCommand::grade || listener_.marks().empty()) return;
   const trial::Grade grade = trial::gradeOf(request.reason);
   listener_.grade(grade.diameter, grade.hardness, grade.mobility);
-  tell(now_ns, "grade", trial::gradeText(grade.diameter, grade.hardness, grade.mobility), static_cast<double>(listener_.marks().size()));
+  tell(now_ns, "grade", trial::gradeText(grade.diameter, grade.hardness, grade.mobility),
+       static_cast<double>(listener_.marks().size()));
 }
 
 void PalpationTask::command(haptics::TickCommands& commands) const {

@@ -6,7 +6,7 @@
 namespace palpa::task_palpation {
 namespace {
 
-constexpr double kInAir = 4e-3, kBelow = -2e-3, kPressed = 3e-3;   // m
+constexpr double kInAir = 4e-3, kBelow = -2e-3, kPressed = 3e-3;  // m
 constexpr double kAir_s = 0.1, kReversed_s = 0.1, kGap_s = 0.1;
 constexpr std::size_t kPresses = 5;
 constexpr double kLeast = 0.5, kMost = 2;
@@ -20,7 +20,11 @@ std::string with(const char* pattern, double number) {
 }  // namespace
 
 SensorCheck::SensorCheck(const haptics::TickConfig& config)
-    : X_PD_(unpack(config.X_DP).inverse()), radius_(config.touch.tip_radius), x0_(config.touch.surface.contact.x0), least_N_(config.touch.surface.contact.least_contact), law_(config.touch.surface.contact.real) {}
+    : X_PD_(unpack(config.X_DP).inverse()),
+      radius_(config.touch.tip_radius),
+      x0_(config.touch.surface.contact.x0),
+      least_N_(config.touch.surface.contact.least_contact),
+      law_(config.touch.surface.contact.real) {}
 
 void SensorCheck::reset() {
   air_s_ = reversed_s_ = deepest_ = ratio_ = 0;
@@ -29,7 +33,8 @@ void SensorCheck::reset() {
 }
 
 SensorCheck::Sensed SensorCheck::sensedIn(const haptics::FlightRecord& record) const {
-  return {(X_PD_ * unpack(record.sensed.p_DK)).z() - radius_, X_PD_.linear() * unpack(record.sensed.f_D)};
+  return {(X_PD_ * unpack(record.sensed.p_DK)).z() - radius_,
+          X_PD_.linear() * unpack(record.sensed.f_D)};
 }
 
 double SensorCheck::inTheAir(const haptics::FlightRecord& record) const {
@@ -53,7 +58,10 @@ std::string SensorCheck::pressed(const Sensed& now) {
   std::nth_element(sorted.begin(), sorted.begin() + kPresses / 2, sorted.end());
   const double ratio = sorted[kPresses / 2];
   if (ratio >= kLeast && ratio <= kMost) return "";
-  return with("the force sensor shows %.1f times what this silicone gives: wrong scale, or another phantom, or it lies elsewhere. Look at the sensor's settings, register the phantom again", ratio);
+  return with(
+      "the force sensor shows %.1f times what this silicone gives: wrong scale, or another "
+      "phantom, or it lies elsewhere. Look at the sensor's settings, register the phantom again",
+      ratio);
 }
 
 std::string SensorCheck::add(const haptics::FlightRecord& record) {
@@ -62,9 +70,15 @@ std::string SensorCheck::add(const haptics::FlightRecord& record) {
   if (record.sensed.state != haptics::SensorState::valid || dt <= 0 || dt > kGap_s) return "";
   const Sensed now = sensedIn(record);
   air_s_ = now.height > kInAir && now.f_P.norm() > least_N_ ? air_s_ + dt : 0;
-  if (air_s_ > kAir_s) return with("the force sensor shows %.1f N though nothing is touched: it has drifted, or its scale is wrong. Take its zero anew", now.f_P.norm());
+  if (air_s_ > kAir_s)
+    return with(
+        "the force sensor shows %.1f N though nothing is touched: it has drifted, or its scale is "
+        "wrong. Take its zero anew",
+        now.f_P.norm());
   reversed_s_ = now.height < kBelow && now.f_P.z() < -least_N_ ? reversed_s_ + dt : 0;
-  if (reversed_s_ > kReversed_s) return "the force sensor says that the phantom pulls where it is pressed: its sign is wrong. Look at the sensor's settings";
+  if (reversed_s_ > kReversed_s)
+    return "the force sensor says that the phantom pulls where it is pressed: its sign is wrong. "
+           "Look at the sensor's settings";
   return pressed(now);
 }
 

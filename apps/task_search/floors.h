@@ -16,24 +16,31 @@ struct MadeFloor {
   haptics::SearchSurface surface;
   std::optional<haptics::GaborTable> rises;
   std::optional<haptics::ValleyMap> valleys;
-  haptics::Floor floor() const { return {&surface, rises ? &*rises : nullptr, valleys ? &*valleys : nullptr}; }
+  haptics::Floor floor() const {
+    return {&surface, rises ? &*rises : nullptr, valleys ? &*valleys : nullptr};
+  }
 };
 /// Seconds of work where the episode is augmented, else none to speak of.
 std::unique_ptr<MadeFloor> makeFloor(const SearchSettings& task, const Episode& episode);
 
-/// The floors of a session, numbered from 1 as its trials are: each made beside the session, one ahead, and kept until the one after the next is asked for. One thread prepares, the haptic thread reads.
+/// The floors of a session, numbered from 1 as its trials are: each made beside the session, one
+/// ahead, and kept until the one after the next is asked for. One thread prepares, the haptic
+/// thread reads.
 class Floors final : public runtime::FloorSource {
  public:
-  Floors(const SearchSettings& task, const std::vector<Episode>& episodes) : task_(task), episodes_(episodes) {}
+  Floors(const SearchSettings& task, const std::vector<Episode>& episodes)
+      : task_(task), episodes_(episodes) {}
 
-  /// Begins to make a floor, unless that was asked for before; nothing for numbers beyond the session's.
+  /// Begins to make a floor, unless that was asked for before; nothing for numbers beyond the
+  /// session's.
   void prepare(std::uint32_t number);
   /// Whether it is there; `wait`: it is, afterwards.
   bool ready(std::uint32_t number, bool wait);
   const haptics::Floor* floor(std::uint32_t number) const noexcept override;
 
  private:
-  /// Three: the one that is felt, the one before it, which a late tick may still name, and the next.
+  /// Three: the one that is felt, the one before it, which a late tick may still name, and the
+  /// next.
   struct Slot {
     std::atomic<std::uint32_t> number{0};
     std::uint32_t coming = 0;

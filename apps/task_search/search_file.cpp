@@ -8,7 +8,8 @@
 namespace palpa::task_search {
 namespace {
 
-haptics::BumpSpec bumpsIn(const station::JsonFile& file, const std::string& which, const haptics::SearchSpec& spec) {
+haptics::BumpSpec bumpsIn(const station::JsonFile& file, const std::string& which,
+                          const haptics::SearchSpec& spec) {
   const std::string at = "stimulus/" + which;
   haptics::BumpSpec bumps;
   bumps.radius = file.number(at + "/radius_U", 0.1, 20);
@@ -38,7 +39,9 @@ haptics::SearchSpec specIn(const station::JsonFile& file) {
 
 std::vector<SearchBlock> blocksIn(const station::JsonFile& file) {
   std::vector<SearchBlock> blocks;
-  for (const station::JsonFile& block : file.entries("blocks")) blocks.push_back({block.text("name"), block.integer("episodes", 1, 1000), block.integer("training", 0, 1) == 1});
+  for (const station::JsonFile& block : file.entries("blocks"))
+    blocks.push_back({block.text("name"), block.integer("episodes", 1, 1000),
+                      block.integer("training", 0, 1) == 1});
   return blocks;
 }
 
@@ -55,13 +58,15 @@ void needFloor(const station::JsonFile& file, const haptics::SearchSpec& spec) {
 
 SearchSettings readSearch(const station::JsonFile& file) {
   file.needVersion(1);
-  if (const std::string engine = file.text("engine"); engine != "surface") file.refuse("engine", "is \"" + engine + "\"; here it must be surface");
+  if (const std::string engine = file.text("engine"); engine != "surface")
+    file.refuse("engine", "is \"" + engine + "\"; here it must be surface");
   SearchSettings s;
   s.id = file.text("id");
   s.title = file.text("title");
   s.spec = specIn(file);
   needFloor(file, s.spec);
-  s.rendering.real = {file.number("interaction/stiffness_N_per_m", 10, 1e5), file.number("interaction/damping_Ns_per_m", 0, 500)};
+  s.rendering.real = {file.number("interaction/stiffness_N_per_m", 10, 1e5),
+                      file.number("interaction/damping_Ns_per_m", 0, 500)};
   s.rendering.degraded.damping = file.number("interaction/degraded_damping_Ns_per_m", 0, 500);
   s.degraded_share = file.number("interaction/degraded_share", 0.01, 1);
   s.rendering.start_height = file.number("interaction/start_height_U", 0, 1000);
@@ -70,7 +75,8 @@ SearchSettings readSearch(const station::JsonFile& file) {
   s.hold_s = file.number("interaction/hold_s", 0, 10);
   s.dwell_s = file.number("interaction/dwell_s", 0.05, 10);
   s.map_px = file.integer("rises/map_px", 64, 1024);
-  if (s.map_px % haptics::GaborTable::kTile != 0) file.refuse("rises/map_px", "must be a multiple of 8");
+  if (s.map_px % haptics::GaborTable::kTile != 0)
+    file.refuse("rises/map_px", "must be a multiple of 8");
   s.rise_share = file.number("rises/threshold_share", 0.01, 1);
   s.augmentations = station::readPlan(file);
   s.time_limit_s = file.number("end/time_limit_s", 5, 3600);
@@ -81,10 +87,15 @@ SearchSettings readSearch(const station::JsonFile& file) {
   return s;
 }
 
-SearchSettings readSearch(const std::filesystem::path& path) { return readSearch(station::readTaskFile(path)); }
+SearchSettings readSearch(const std::filesystem::path& path) {
+  return readSearch(station::readTaskFile(path));
+}
 
 haptics::FloorRendering renderingOn(const SearchSettings& task, const station::Station& station) {
-  if (!station.floor) throw UsageError("has no \"floor\"", station.file.name(), "Say where the floor lies and how large its unit is in the hand: floor/X_WF, floor/unit_mm, floor/handle_weight_N");
+  if (!station.floor)
+    throw UsageError("has no \"floor\"", station.file.name(),
+                     "Say where the floor lies and how large its unit is in the hand: floor/X_WF, "
+                     "floor/unit_mm, floor/handle_weight_N");
   haptics::FloorRendering r = task.rendering;
   r.unit = station.floor->unit;
   r.weight_N = station.floor->handle_weight_N;

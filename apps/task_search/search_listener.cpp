@@ -5,11 +5,12 @@
 namespace palpa::task_search {
 namespace {
 
-constexpr double kLongestGap_s = 0.1;   // longer: it was paused
+constexpr double kLongestGap_s = 0.1;  // longer: it was paused
 
 }  // namespace
 
-SearchListener::SearchListener(const SearchSettings& task, const haptics::AugmentationPlan& plan) : task_(&task), plan_(plan) {}
+SearchListener::SearchListener(const SearchSettings& task, const haptics::AugmentationPlan& plan)
+    : task_(&task), plan_(plan) {}
 
 void SearchListener::begin(std::uint32_t trial) {
   *this = SearchListener(*task_, plan_);
@@ -37,7 +38,8 @@ void SearchListener::add(const haptics::FlightRecord& record, const Vec3& p_DT) 
     force_Ns_ += N * dt;
     contact_s_ += dt;
   }
-  const bool in_pit = (record.place & haptics::kPlacePit) && (record.place & haptics::kPlaceTouching);
+  const bool in_pit =
+      (record.place & haptics::kPlacePit) && (record.place & haptics::kPlaceTouching);
   dwell_s_ = in_pit && element == dwells_ ? dwell_s_ + dt : 0;
   dwells_ = in_pit ? element : -1;
   if (chosen_ < 0 && dwell_s_ >= task_->dwell_s) chosen_ = element;

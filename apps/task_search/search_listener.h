@@ -9,7 +9,9 @@
 
 namespace palpa::task_search {
 
-/// Makes of the recorded ticks what an episode is judged by; the same for a session and for its replay. The time runs from when the handle is let go. Dwelling: in contact, within a pit's radius of its middle.
+/// Makes of the recorded ticks what an episode is judged by; the same for a session and for its
+/// replay. The time runs from when the handle is let go. Dwelling: in contact, within a pit's
+/// radius of its middle.
 class SearchListener {
  public:
   /// `plan`: the session's, as the loop runs with it.
@@ -17,10 +19,12 @@ class SearchListener {
   void begin(std::uint32_t trial);
   void add(const haptics::FlightRecord& record, const Vec3& p_DT);
 
-  bool released() const { return released_; }           ///< the handle has been let go
+  bool released() const { return released_; }  ///< the handle has been let go
   double seconds() const { return seconds_; }
-  int chosen() const { return chosen_; }                ///< element where the probe has stayed long enough; -1: none yet
-  std::uint8_t subtasks() const { return subtasks_; }   ///< bits, of the last tick
+  int chosen() const {
+    return chosen_;
+  }  ///< element where the probe has stayed long enough; -1: none yet
+  std::uint8_t subtasks() const { return subtasks_; }  ///< bits, of the last tick
   /// What was heard, into a trial's facts.
   assess::SearchTrial heard(assess::SearchTrial facts) const;
 

@@ -4,16 +4,20 @@
 
 namespace palpa::task_search {
 
-Vec3 shownPoint(const Pose& X_AF, double magnification, const Vec3& p_F) { return X_AF * Vec3(magnification * p_F); }
+Vec3 shownPoint(const Pose& X_AF, double magnification, const Vec3& p_F) {
+  return X_AF * Vec3(magnification * p_F);
+}
 
-SearchScene::SearchScene(const Setup& setup, runtime::Bus& bus, SearchChannels& channels) : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {}
+SearchScene::SearchScene(const Setup& setup, runtime::Bus& bus, SearchChannels& channels)
+    : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {}
 
 const trial::TrialStatus& SearchScene::readStatus(std::int64_t now_ns) {
   if (const SearchStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
   return status_;
 }
 
-void SearchScene::compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) {
+void SearchScene::compose(scene::SceneState& state, const runtime::ToolState& tool,
+                          const std::string& trouble) {
   const Vec3 p_F = setup_.X_AF.inverse() * state.X_AT.translation();
   state.X_AT.translation() = shownPoint(setup_.X_AF, setup_.magnification, p_F);
   state.tool = scene::Tool::probe;
@@ -36,7 +40,8 @@ scene::Hud SearchScene::words(const runtime::ToolState& tool, const std::string&
     hud.phase = text;
   }
   if (status_.active()) {
-    hud.phase += status_.held ? "The handle is held: it is let go in a moment" : "Find the rough one; stay in its middle";
+    hud.phase += status_.held ? "The handle is held: it is let go in a moment"
+                              : "Find the rough one; stay in its middle";
     const int seconds = static_cast<int>(status_.elapsed_s);
     std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
     hud.time = text;

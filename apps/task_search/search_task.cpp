@@ -7,11 +7,13 @@ namespace palpa::task_search {
 namespace {
 
 constexpr double kNearStart_U = 10;
-constexpr double kPatience_s = 5;      // then the handle is let go wherever it is
+constexpr double kPatience_s = 5;  // then the handle is let go wherever it is
 
 }  // namespace
 
-Vec3 tipOf(const haptics::TickConfig& config, const haptics::DeviceReading& reading) { return unpack(reading.p_DE) + unpack(reading.q_DE).normalized() * unpack(config.X_ET.p); }
+Vec3 tipOf(const haptics::TickConfig& config, const haptics::DeviceReading& reading) {
+  return unpack(reading.p_DE) + unpack(reading.q_DE).normalized() * unpack(config.X_ET.p);
+}
 
 void tellLoop(const Episode& episode, haptics::TickCommands* commands) {
   commands->floor = commands->trial;
@@ -19,7 +21,8 @@ void tellLoop(const Episode& episode, haptics::TickCommands* commands) {
   commands->augmented = episode.mode == assess::SearchMode::augmented;
 }
 
-assess::SearchTrial judged(assess::SearchTrial facts, const Episode& episode, const SearchListener& listener) {
+assess::SearchTrial judged(assess::SearchTrial facts, const Episode& episode,
+                           const SearchListener& listener) {
   facts.block = episode.block;
   facts.mode = episode.mode;
   facts.orientation_deg = episode.stimulus.orientation * 180 / std::numbers::pi;
@@ -29,12 +32,27 @@ assess::SearchTrial judged(assess::SearchTrial facts, const Episode& episode, co
 
 std::string scoreJson(const assess::SearchTrial& trial) {
   nlohmann::json doses = nlohmann::json::array();
-  for (const assess::SubtaskDose& dose : trial.doses) doses.push_back({{"SUBTASK", dose.subtask}, {"ON_S", dose.on_s}, {"TIMES", dose.times}, {"AUGMENTED_S", dose.augmented_s}, {"IMPULSE_NS", dose.impulse_Ns}});
-  return nlohmann::json{{"FOUND", trial.found() ? 1 : 0}, {"CHOSEN", trial.chosen}, {"TARGET", trial.target}, {"MODE", assess::name(trial.mode)}, {"TIME_S", trial.seconds}, {"PATH_M", trial.path_m}, {"DOSES", doses}}.dump();
+  for (const assess::SubtaskDose& dose : trial.doses)
+    doses.push_back({{"SUBTASK", dose.subtask},
+                     {"ON_S", dose.on_s},
+                     {"TIMES", dose.times},
+                     {"AUGMENTED_S", dose.augmented_s},
+                     {"IMPULSE_NS", dose.impulse_Ns}});
+  return nlohmann::json{{"FOUND", trial.found() ? 1 : 0},
+                        {"CHOSEN", trial.chosen},
+                        {"TARGET", trial.target},
+                        {"MODE", assess::name(trial.mode)},
+                        {"TIME_S", trial.seconds},
+                        {"PATH_M", trial.path_m},
+                        {"DOSES", doses}}
+      .dump();
 }
 
-SearchTask::SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus, SearchChannels& channels, runtime::Executive& executive)
-    : TrialTask({static_cast<int>(setup.episodes.size()), setup.automatic, setup.not_scored, setup.places}, bus, channels, executive),
+SearchTask::SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus,
+                       SearchChannels& channels, runtime::Executive& executive)
+    : TrialTask({static_cast<int>(setup.episodes.size()), setup.automatic, setup.not_scored,
+                 setup.places},
+                bus, channels, executive),
       setup_(setup),
       floors_(floors),
       channels_(channels),
@@ -44,7 +62,9 @@ SearchTask::SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus, Se
 }
 
 std::string SearchTask::notReady(const haptics::FlightRecord&) const {
-  return floors_.ready(static_cast<std::uint32_t>(status().trial + 1), setup_.waits) ? "" : "the floor is being prepared";
+  return floors_.ready(static_cast<std::uint32_t>(status().trial + 1), setup_.waits)
+             ? ""
+             : "the floor is being prepared";
 }
 
 runtime::TrialHeader SearchTask::begin(std::int64_t now_ns) {
@@ -55,10 +75,13 @@ runtime::TrialHeader SearchTask::begin(std::int64_t now_ns) {
   floors_.prepare(number + 1);
   tell(now_ns, "case", episodeText(episode()));
   picture("start", "The handle is held over the middle");
-  return {status().trial, now_ns, episode().seed, setup_.not_scored.empty() ? setup_.role : "not scored", setup_.force_feedback, 0};
+  return {status().trial,        now_ns,
+          episode().seed,        setup_.not_scored.empty() ? setup_.role : "not scored",
+          setup_.force_feedback, 0};
 }
 
-trial::TrialTask::Conclusion SearchTask::conclude(const std::string& outcome, const std::string& reason) {
+trial::TrialTask::Conclusion SearchTask::conclude(const std::string& outcome,
+                                                  const std::string& reason) {
   assess::SearchTrial facts;
   facts.trial = status().trial;
   facts.role = status().role;
@@ -69,7 +92,8 @@ trial::TrialTask::Conclusion SearchTask::conclude(const std::string& outcome, co
   completed_.push_back({judged(facts, episode(), listener_), reason});
   const assess::SearchTrial& trial = completed_.back().trial;
   const std::string summary = summaryOf(trial);
-  return {scoreJson(trial), summary, outcome == "done" ? summary : "Episode ended: " + outcome, "Where the probe stayed"};
+  return {scoreJson(trial), summary, outcome == "done" ? summary : "Episode ended: " + outcome,
+          "Where the probe stayed"};
 }
 
 /// Once it has been held for a while and is where an episode starts.
@@ -88,8 +112,10 @@ void SearchTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   if (held_) letGo(record, now_ns);
   listener_.add(record, tipOf(setup_.tick, record.reading));
   status().elapsed_s = listener_.seconds();
-  if (listener_.chosen() >= 0) endTrial("done", "", now_ns);
-  else if (status().elapsed_s >= setup_.settings.time_limit_s) endTrial("time", "The time limit was reached", now_ns);
+  if (listener_.chosen() >= 0)
+    endTrial("done", "", now_ns);
+  else if (status().elapsed_s >= setup_.settings.time_limit_s)
+    endTrial("time", "The time limit was reached", now_ns);
 }
 
 void SearchTask::command(haptics::TickCommands& commands) const {

@@ -10,14 +10,14 @@ namespace palpa::task_search {
 
 struct CompletedSearch {
   assess::SearchTrial trial;
-  std::string reason;                  ///< why aborted or void
+  std::string reason;  ///< why aborted or void
 };
 
 /// What the task tells the scene.
 struct SearchStatus : trial::TrialStatus {
   assess::SearchMode mode = assess::SearchMode::real;
   std::string block;
-  bool held = false;                   ///< the handle is still held at its start
+  bool held = false;  ///< the handle is still held at its start
 };
 
 struct SearchChannels : trial::Channels {
@@ -25,20 +25,22 @@ struct SearchChannels : trial::Channels {
   runtime::StateChannel<SearchStatus> status_to_scene;
 };
 
-/// The search's episodes: the handle is held over the middle, let go, and the episode ends when the probe has stayed in an element's pit.
+/// The search's episodes: the handle is held over the middle, let go, and the episode ends when the
+/// probe has stayed in an element's pit.
 class SearchTask final : public trial::TrialTask {
  public:
   struct Setup {
     const SearchSettings& settings;
     haptics::TickConfig tick;
     bool simulated = false, automatic = true, force_feedback = true;
-    bool waits = false;                ///< for a floor that is being made: in virtual time
-    std::string not_scored;            ///< why; empty: scored
+    bool waits = false;      ///< for a floor that is being made: in virtual time
+    std::string not_scored;  ///< why; empty: scored
     const std::vector<Episode>& episodes;
     std::vector<runtime::BoardPlace> places;
-    std::string role = "scored";       ///< of the episodes, where nothing speaks against it
+    std::string role = "scored";  ///< of the episodes, where nothing speaks against it
   };
-  SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus, SearchChannels& channels, runtime::Executive& executive);
+  SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus, SearchChannels& channels,
+             runtime::Executive& executive);
 
   const std::vector<CompletedSearch>& completed() const { return completed_; }
 
@@ -50,7 +52,9 @@ class SearchTask final : public trial::TrialTask {
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;
   void letGo(const haptics::FlightRecord& record, std::int64_t now_ns);
-  const Episode& episode() const { return setup_.episodes[static_cast<std::size_t>(status().trial - 1)]; }
+  const Episode& episode() const {
+    return setup_.episodes[static_cast<std::size_t>(status().trial - 1)];
+  }
 
   Setup setup_;
   Floors& floors_;
@@ -66,8 +70,10 @@ class SearchTask final : public trial::TrialTask {
 Vec3 tipOf(const haptics::TickConfig& config, const haptics::DeviceReading& reading);
 /// What the loop is told of an episode.
 void tellLoop(const Episode& episode, haptics::TickCommands* commands);
-/// What a trial was, from its facts and what was heard of it; the same for a session and for its replay.
-assess::SearchTrial judged(assess::SearchTrial facts, const Episode& episode, const SearchListener& listener);
+/// What a trial was, from its facts and what was heard of it; the same for a session and for its
+/// replay.
+assess::SearchTrial judged(assess::SearchTrial facts, const Episode& episode,
+                           const SearchListener& listener);
 /// What is recorded of it.
 std::string scoreJson(const assess::SearchTrial& trial);
 

@@ -11,11 +11,16 @@ namespace {
 using assess::SqueezedProperty;
 
 std::vector<double> factorsIn(const station::JsonFile& file, const char* property) {
-  constexpr double kLeast = 0.3, kMost = 3;   // beyond, neither the device nor what was identified follows
+  constexpr double kLeast = 0.3,
+                   kMost = 3;  // beyond, neither the device nor what was identified follows
   const std::string place = std::string("compare/") + property;
   std::vector<double> factors;
-  for (const nlohmann::json& factor : file.json().value("compare", nlohmann::json::object()).value(property, nlohmann::json::array())) {
-    if (!factor.is_number() || factor.get<double>() < kLeast || factor.get<double>() > kMost || std::abs(factor.get<double>() - 1) < 1e-3) file.refuse(place, "must hold numbers from 0.3 to 3, but not 1");
+  for (const nlohmann::json& factor : file.json()
+                                          .value("compare", nlohmann::json::object())
+                                          .value(property, nlohmann::json::array())) {
+    if (!factor.is_number() || factor.get<double>() < kLeast || factor.get<double>() > kMost ||
+        std::abs(factor.get<double>() - 1) < 1e-3)
+      file.refuse(place, "must hold numbers from 0.3 to 3, but not 1");
     factors.push_back(factor.get<double>());
   }
   return factors;
@@ -26,7 +31,8 @@ std::vector<double> factorsIn(const station::JsonFile& file, const char* propert
 SqueezeSettings readSqueeze(const std::filesystem::path& path) {
   const station::JsonFile file(path);
   file.needVersion(1);
-  if (const std::string engine = file.text("engine"); engine != "squeeze") file.refuse("engine", "is \"" + engine + "\"; here it must be squeeze");
+  if (const std::string engine = file.text("engine"); engine != "squeeze")
+    file.refuse("engine", "is \"" + engine + "\"; here it must be squeeze");
   SqueezeSettings s;
   s.id = file.text("id");
   s.title = file.text("title");
@@ -35,7 +41,8 @@ SqueezeSettings readSqueeze(const std::filesystem::path& path) {
   s.mass = 1e-3 * file.number("object/mass_g", 1, 200);
   s.stiffness = factorsIn(file, "stiffness");
   s.weight = factorsIn(file, "weight");
-  if (s.stiffness.empty() && s.weight.empty()) file.refuse("compare", "must hold \"stiffness\" or \"weight\"");
+  if (s.stiffness.empty() && s.weight.empty())
+    file.refuse("compare", "must hold \"stiffness\" or \"weight\"");
   s.touch = file.number("force/touch_N", 0.02, 5);
   s.too_hard = file.number("force/too_hard_N", 0.1, 50);
   s.time_limit_s = file.number("end/time_limit_s", 10, 3600);
@@ -44,7 +51,8 @@ SqueezeSettings readSqueeze(const std::filesystem::path& path) {
   return s;
 }
 
-std::vector<Comparison> comparisonsOf(const SqueezeSettings& settings, std::uint64_t seed, int count) {
+std::vector<Comparison> comparisonsOf(const SqueezeSettings& settings, std::uint64_t seed,
+                                      int count) {
   std::vector<Comparison> round;
   const auto add = [&round](SqueezedProperty property, const std::vector<double>& factors) {
     for (const double factor : factors) {
@@ -57,7 +65,9 @@ std::vector<Comparison> comparisonsOf(const SqueezeSettings& settings, std::uint
   runtime::RandomStream random(seed, "squeeze.comparisons");
   std::vector<Comparison> all;
   while (static_cast<int>(all.size()) < count) {
-    for (std::size_t i = round.size(); i > 1; --i) std::swap(round[i - 1], round[static_cast<std::size_t>(random.uniform() * static_cast<double>(i)) % i]);
+    for (std::size_t i = round.size(); i > 1; --i)
+      std::swap(round[i - 1],
+                round[static_cast<std::size_t>(random.uniform() * static_cast<double>(i)) % i]);
     all.insert(all.end(), round.begin(), round.end());
   }
   all.resize(static_cast<std::size_t>(count));
@@ -65,15 +75,21 @@ std::vector<Comparison> comparisonsOf(const SqueezeSettings& settings, std::uint
 }
 
 std::string comparisonText(const Comparison& comparison) {
-  return nlohmann::json{{"property", comparison.property == SqueezedProperty::stiffness ? "stiffness" : "weight"}, {"factors", comparison.factors}}.dump();
+  return nlohmann::json{
+      {"property", comparison.property == SqueezedProperty::stiffness ? "stiffness" : "weight"},
+      {"factors", comparison.factors}}
+      .dump();
 }
 
 Comparison comparisonIn(const std::string& text) {
   try {
     const nlohmann::json said = nlohmann::json::parse(text);
-    return {said.at("property").get<std::string>() == "weight" ? SqueezedProperty::weight : SqueezedProperty::stiffness, said.at("factors").get<std::array<double, 2>>()};
+    return {said.at("property").get<std::string>() == "weight" ? SqueezedProperty::weight
+                                                               : SqueezedProperty::stiffness,
+            said.at("factors").get<std::array<double, 2>>()};
   } catch (const nlohmann::json::exception& e) {
-    throw Error(std::string("does not describe two things (") + e.what() + ")", "event \"case\"", "Restore the file from a backup");
+    throw Error(std::string("does not describe two things (") + e.what() + ")", "event \"case\"",
+                "Restore the file from a backup");
   }
 }
 

@@ -5,11 +5,16 @@
 namespace palpa::task_squeeze {
 
 Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, bool held) {
-  return held ? makePose(Mat3::Identity(), 0.5 * (first_A + second_A) - middle_A) : Pose::Identity();
+  return held ? makePose(Mat3::Identity(), 0.5 * (first_A + second_A) - middle_A)
+              : Pose::Identity();
 }
 
 SqueezeScene::SqueezeScene(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels)
-    : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels), bus_(bus), X_AD2_((setup.X_WD2.inverse() * setup.stage.X_WA).inverse()) {}
+    : TrialScene(setup.stage, bus, channels),
+      setup_(setup),
+      channels_(channels),
+      bus_(bus),
+      X_AD2_((setup.X_WD2.inverse() * setup.stage.X_WA).inverse()) {}
 
 const trial::TrialStatus& SqueezeScene::readStatus(std::int64_t now_ns) {
   if (const SqueezeStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
@@ -17,17 +22,20 @@ const trial::TrialStatus& SqueezeScene::readStatus(std::int64_t now_ns) {
   return status_;
 }
 
-void SqueezeScene::compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) {
+void SqueezeScene::compose(scene::SceneState& state, const runtime::ToolState& tool,
+                           const std::string& trouble) {
   constexpr double kShown_N = 0.05;
   state.tool = scene::Tool::probe;
   state.skin = scene::SkinStyle::solid;
   state.second_X_AT = X_AD2_ * unpack(second_.X_DT);
-  state.X_AB = heldPlace(state.X_AT.translation(), state.second_X_AT->translation(), setup_.middle_A, status_.held);
+  state.X_AB = heldPlace(state.X_AT.translation(), state.second_X_AT->translation(),
+                         setup_.middle_A, status_.held);
   state.hud = words(tool, trouble);
   state.forces.clear();
   const auto show = [&](const runtime::ToolState& of, const Pose& X_AD, const Pose& X_AT) {
     const Vec3 felt_A = X_AD.rotation() * (unpack(of.f_sensed_D) + unpack(of.f_command_D));
-    if (felt_A.norm() > kShown_N) state.forces.push_back({scene::ForceKind::reaction, X_AT.translation(), felt_A});
+    if (felt_A.norm() > kShown_N)
+      state.forces.push_back({scene::ForceKind::reaction, X_AT.translation(), felt_A});
   };
   show(tool, X_AD(), state.X_AT);
   show(second_, X_AD2_, *state.second_X_AT);
@@ -35,7 +43,9 @@ void SqueezeScene::compose(scene::SceneState& state, const runtime::ToolState& t
 
 void SqueezeScene::tell(runtime::Displayed& displayed, const runtime::ToolState&) {
   displayed.second_X_AT = X_AD2_ * unpack(second_.X_DT);
-  displayed.question = status_.property == assess::SqueezedProperty::stiffness ? runtime::Displayed::Question::harder : runtime::Displayed::Question::heavier;
+  displayed.question = status_.property == assess::SqueezedProperty::stiffness
+                           ? runtime::Displayed::Question::harder
+                           : runtime::Displayed::Question::heavier;
 }
 
 scene::Hud SqueezeScene::words(const runtime::ToolState& tool, const std::string& trouble) const {
@@ -46,14 +56,17 @@ scene::Hud SqueezeScene::words(const runtime::ToolState& tool, const std::string
     hud.phase = text;
   }
   if (status_.active()) {
-    hud.phase += std::string("Which one is ") + moreOf(status_.property) + "? " + (status_.thing == 0 ? "The first" : "The second");
-    std::snprintf(text, sizeof text, "%.1f N%s", status_.squeezed_N, status_.force_feedback ? "" : " (force feedback off)");
+    hud.phase += std::string("Which one is ") + moreOf(status_.property) + "? " +
+                 (status_.thing == 0 ? "The first" : "The second");
+    std::snprintf(text, sizeof text, "%.1f N%s", status_.squeezed_N,
+                  status_.force_feedback ? "" : " (force feedback off)");
     hud.force = text;
     const int seconds = static_cast<int>(status_.elapsed_s);
     std::snprintf(text, sizeof text, "%d:%02d", seconds / 60, seconds % 60);
     hud.time = text;
   }
-  const haptics::SafetyCause safety = second_.safety != haptics::SafetyCause::none ? second_.safety : tool.safety;
+  const haptics::SafetyCause safety =
+      second_.safety != haptics::SafetyCause::none ? second_.safety : tool.safety;
   trial::noticeOf(status_, safety, "", trouble, &hud);
   hud.mark = mark();
   return hud;

@@ -5,19 +5,21 @@
 
 namespace palpa::task_squeeze {
 
-/// What is seen of a comparison: the object, moving with the fingers that hold it, both tools, what each finger feels.
+/// What is seen of a comparison: the object, moving with the fingers that hold it, both tools, what
+/// each finger feels.
 class SqueezeScene final : public trial::TrialScene {
  public:
   struct Setup {
     Stage stage;
-    Pose X_WD2 = Pose::Identity();     ///< the second device's base
-    Vec3 middle_A = Vec3::Zero();      ///< of the object at rest
+    Pose X_WD2 = Pose::Identity();  ///< the second device's base
+    Vec3 middle_A = Vec3::Zero();   ///< of the object at rest
   };
   SqueezeScene(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels);
 
  private:
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
-  void compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) override;
+  void compose(scene::SceneState& state, const runtime::ToolState& tool,
+               const std::string& trouble) override;
   void tell(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
   scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
 

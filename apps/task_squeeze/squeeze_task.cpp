@@ -4,7 +4,8 @@
 
 namespace palpa::task_squeeze {
 
-assess::SqueezeTrial judged(assess::SqueezeTrial facts, const Comparison& comparison, const SqueezeListener& listener, int said) {
+assess::SqueezeTrial judged(assess::SqueezeTrial facts, const Comparison& comparison,
+                            const SqueezeListener& listener, int said) {
   facts.property = comparison.property;
   facts.factors = comparison.factors;
   facts.said = said;
@@ -15,11 +16,19 @@ assess::SqueezeTrial judged(assess::SqueezeTrial facts, const Comparison& compar
 }
 
 std::string scoreJson(const assess::SqueezeTrial& trial) {
-  return nlohmann::json{{"RIGHT", trial.right() ? 1 : 0}, {"SAID", trial.said}, {"PEAK_N", trial.peak_N}, {"TIME_S", trial.seconds}, {"GRIPS", trial.grips}}.dump();
+  return nlohmann::json{{"RIGHT", trial.right() ? 1 : 0},
+                        {"SAID", trial.said},
+                        {"PEAK_N", trial.peak_N},
+                        {"TIME_S", trial.seconds},
+                        {"GRIPS", trial.grips}}
+      .dump();
 }
 
-SqueezeTask::SqueezeTask(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels, runtime::Executive& executive)
-    : TrialTask({static_cast<int>(setup.comparisons.size()), setup.automatic, setup.not_scored, setup.places}, bus, channels, executive),
+SqueezeTask::SqueezeTask(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels,
+                         runtime::Executive& executive)
+    : TrialTask({static_cast<int>(setup.comparisons.size()), setup.automatic, setup.not_scored,
+                 setup.places},
+                bus, channels, executive),
       setup_(setup),
       channels_(channels),
       listener_(setup.settings.touch) {
@@ -30,8 +39,10 @@ std::string SqueezeTask::notReady(const haptics::FlightRecord&) const {
   for (std::size_t t = 0; t < 2; ++t) {
     const std::string which = t == 0 ? "the first" : "the second";
     if (!last_of_[t].reading.homed) return which + " device is not homed";
-    if (last_of_[t].sensed.state != haptics::SensorState::valid) return which + " force sensor says nothing that could be used";
-    if (unpack(last_of_[t].sensed.f_D).norm() >= setup_.settings.touch) return which + " tool touches something: let go";
+    if (last_of_[t].sensed.state != haptics::SensorState::valid)
+      return which + " force sensor says nothing that could be used";
+    if (unpack(last_of_[t].sensed.f_D).norm() >= setup_.settings.touch)
+      return which + " tool touches something: let go";
   }
   return "";
 }
@@ -41,10 +52,13 @@ runtime::TrialHeader SqueezeTask::begin(std::int64_t now_ns) {
   listener_.begin(static_cast<std::uint32_t>(status().trial), comparison());
   tell(now_ns, "case", comparisonText(comparison()));
   picture("start", "Before anything was held");
-  return {status().trial, now_ns, setup_.seed, setup_.not_scored.empty() ? setup_.role : "not scored", setup_.force_feedback, 0};
+  return {status().trial,        now_ns,
+          setup_.seed,           setup_.not_scored.empty() ? setup_.role : "not scored",
+          setup_.force_feedback, 0};
 }
 
-trial::TrialTask::Conclusion SqueezeTask::conclude(const std::string& outcome, const std::string& reason) {
+trial::TrialTask::Conclusion SqueezeTask::conclude(const std::string& outcome,
+                                                   const std::string& reason) {
   assess::SqueezeTrial facts;
   facts.trial = status().trial;
   facts.role = status().role;
@@ -55,20 +69,24 @@ trial::TrialTask::Conclusion SqueezeTask::conclude(const std::string& outcome, c
   completed_.push_back({judged(facts, comparison(), listener_, said_), reason});
   const assess::SqueezeTrial& trial = completed_.back().trial;
   const std::string summary = summaryOf(trial);
-  return {scoreJson(trial), summary, outcome == "done" ? summary : "Trial ended: " + outcome, "After the answer"};
+  return {scoreJson(trial), summary, outcome == "done" ? summary : "Trial ended: " + outcome,
+          "After the answer"};
 }
 
 void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
   const int grips = listener_.grips()[0] + listener_.grips()[1];
   listener_.add(record);
-  if (listener_.grips()[0] + listener_.grips()[1] > grips) picture("held", thing_ == 0 ? "The first thing is held" : "The second thing is held");
+  if (listener_.grips()[0] + listener_.grips()[1] > grips)
+    picture("held", thing_ == 0 ? "The first thing is held" : "The second thing is held");
   status().elapsed_s = listener_.seconds();
-  if (status().elapsed_s >= setup_.settings.time_limit_s) endTrial("time", "The time limit was reached", now_ns);
+  if (status().elapsed_s >= setup_.settings.time_limit_s)
+    endTrial("time", "The time limit was reached", now_ns);
 }
 
 void SqueezeTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
   if (request.command == trial::UserCommand::done) return otherThing(now_ns);
-  if (request.command == trial::UserCommand::grade) answer(trial::gradeOf(request.reason).hardness, now_ns);
+  if (request.command == trial::UserCommand::grade)
+    answer(trial::gradeOf(request.reason).hardness, now_ns);
 }
 
 /// What is held must not change in the hand.
@@ -79,7 +97,8 @@ void SqueezeTask::otherThing(std::int64_t now_ns) {
   }
   thing_ = 1 - thing_;
   status().notice.clear();
-  tell(now_ns, "thing", thing_ == 0 ? "The first thing lies there" : "The second thing lies there", thing_ + 1);
+  tell(now_ns, "thing", thing_ == 0 ? "The first thing lies there" : "The second thing lies there",
+       thing_ + 1);
 }
 
 void SqueezeTask::answer(int said, std::int64_t now_ns) {
@@ -93,7 +112,9 @@ void SqueezeTask::answer(int said, std::int64_t now_ns) {
   endTrial("done", "", now_ns);
 }
 
-void SqueezeTask::command(haptics::TickCommands& commands) const { tellLoop(comparison(), thing_, &commands); }
+void SqueezeTask::command(haptics::TickCommands& commands) const {
+  tellLoop(comparison(), thing_, &commands);
+}
 
 void SqueezeTask::publishStatus(std::int64_t now_ns) {
   if (status().trial > 0) shown_.property = comparison().property;

@@ -10,13 +10,13 @@ namespace palpa::task_squeeze {
 
 struct CompletedSqueeze {
   assess::SqueezeTrial trial;
-  std::string reason;                  ///< why aborted or void
+  std::string reason;  ///< why aborted or void
 };
 
 /// What the task tells the scene.
 struct SqueezeStatus : trial::TrialStatus {
   assess::SqueezedProperty property = assess::SqueezedProperty::stiffness;
-  int thing = 0;                       ///< 0 or 1: which of the two is felt now
+  int thing = 0;  ///< 0 or 1: which of the two is felt now
   double squeezed_N = 0;
   bool held = false;
 };
@@ -26,19 +26,21 @@ struct SqueezeChannels : trial::Channels {
   runtime::StateChannel<SqueezeStatus> status_to_scene;
 };
 
-/// The comparison's trials: two things, one after the other and as often as one likes ("done": the other one, once the object is let go); then which has more ("grade": 1 or 2).
+/// The comparison's trials: two things, one after the other and as often as one likes ("done": the
+/// other one, once the object is let go); then which has more ("grade": 1 or 2).
 class SqueezeTask final : public trial::TrialTask {
  public:
   struct Setup {
     const SqueezeSettings& settings;
     bool simulated = false, automatic = true, force_feedback = true;
-    std::string not_scored;            ///< why; empty: scored
+    std::string not_scored;  ///< why; empty: scored
     std::uint64_t seed = 1;
     std::vector<Comparison> comparisons;
     std::vector<runtime::BoardPlace> places;
-    std::string role = "scored";       ///< of the comparisons, where nothing speaks against it
+    std::string role = "scored";  ///< of the comparisons, where nothing speaks against it
   };
-  SqueezeTask(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels, runtime::Executive& executive);
+  SqueezeTask(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels,
+              runtime::Executive& executive);
 
   const std::vector<CompletedSqueeze>& completed() const { return completed_; }
 
@@ -53,7 +55,9 @@ class SqueezeTask final : public trial::TrialTask {
   void hear(const trial::UserRequest& request, std::int64_t now_ns) override;
   void otherThing(std::int64_t now_ns);
   void answer(int said, std::int64_t now_ns);
-  const Comparison& comparison() const { return setup_.comparisons[static_cast<std::size_t>(status().trial - 1)]; }
+  const Comparison& comparison() const {
+    return setup_.comparisons[static_cast<std::size_t>(status().trial - 1)];
+  }
 
   Setup setup_;
   SqueezeChannels& channels_;
@@ -64,8 +68,10 @@ class SqueezeTask final : public trial::TrialTask {
   std::vector<CompletedSqueeze> completed_;
 };
 
-/// What a trial was, from its facts and what was heard of it; the same for a session and for its replay.
-assess::SqueezeTrial judged(assess::SqueezeTrial facts, const Comparison& comparison, const SqueezeListener& listener, int said);
+/// What a trial was, from its facts and what was heard of it; the same for a session and for its
+/// replay.
+assess::SqueezeTrial judged(assess::SqueezeTrial facts, const Comparison& comparison,
+                            const SqueezeListener& listener, int said);
 /// What is recorded of it.
 std::string scoreJson(const assess::SqueezeTrial& trial);
 

@@ -9,7 +9,10 @@
 namespace palpa::trial {
 namespace {
 
-constexpr std::int64_t kFramePeriod = 33'333'333, kBesideHeadset = 100'000'000;   // ns, of the desktop's view: beside a headset it is for whoever looks on
+constexpr std::int64_t
+    kFramePeriod = 33'333'333,
+    kBesideHeadset =
+        100'000'000;  // ns, of the desktop's view: beside a headset it is for whoever looks on
 
 scene::Image toImage(const cv::Mat& picture) {
   cv::Mat rgb;
@@ -22,7 +25,11 @@ scene::Image toImage(const cv::Mat& picture) {
 }  // namespace
 
 TrialScene::TrialScene(const Stage& stage, runtime::Bus& bus, Channels& channels)
-    : stage_(stage), bus_(bus), channels_(channels), undistorter_(stage.camera), X_AD_((stage.X_WD.inverse() * stage.X_WA).inverse()) {
+    : stage_(stage),
+      bus_(bus),
+      channels_(channels),
+      undistorter_(stage.camera),
+      X_AD_((stage.X_WD.inverse() * stage.X_WA).inverse()) {
   const calibration::CameraModel& p = undistorter_.pinhole();
   state_.camera = {p.width, p.height, p.fx, p.fy, p.cx, p.cy};
 }
@@ -35,7 +42,8 @@ void TrialScene::cycleSkin() {
 
 std::int64_t TrialScene::step(std::int64_t now_ns) {
   now_ns_ = now_ns;
-  if (stage_.view && stage_.input) stage_.input(stage_.view->poll(), now_ns);   // before whatever makes it wait
+  if (stage_.view && stage_.input)
+    stage_.input(stage_.view->poll(), now_ns);  // before whatever makes it wait
   const bool worn = stage_.head && stage_.head->wait(mayWait(tool_));
   follow(now_ns);
   composeAll();
@@ -94,7 +102,9 @@ void TrialScene::composeAll() {
 }
 
 void TrialScene::showEllipse(bool camera_good) {
-  state_.tip_covariance_A = stage_.tip_covariance_A && stage_.view && camera_good ? stage_.tip_covariance_A(unpack(tool_.X_DT)) : std::nullopt;
+  state_.tip_covariance_A = stage_.tip_covariance_A && stage_.view && camera_good
+                                ? stage_.tip_covariance_A(unpack(tool_.X_DT))
+                                : std::nullopt;
   state_.hud.overlay = state_.tip_covariance_A ? overlayText(*state_.tip_covariance_A) : "";
 }
 
@@ -108,8 +118,12 @@ void TrialScene::hideBehindRealThings() {
     } else if (place.on == station::RealThing::On::tool) {
       state_.occluders.push_back({thing.mesh, state_.X_AT * place.X});
     } else {
-      const bool seen = camera_ && place.board < camera_->others.size() && camera_->others[place.board];
-      state_.occluders.push_back({seen ? thing.mesh : nullptr, seen ? state_.X_CA.inverse() * *camera_->others[place.board] * place.X : Pose::Identity()});
+      const bool seen =
+          camera_ && place.board < camera_->others.size() && camera_->others[place.board];
+      state_.occluders.push_back(
+          {seen ? thing.mesh : nullptr,
+           seen ? state_.X_CA.inverse() * *camera_->others[place.board] * place.X
+                : Pose::Identity()});
     }
   }
 }
@@ -136,7 +150,7 @@ void TrialScene::render() {
 void TrialScene::keepPictures() {
   PictureRequest moment;
   while (channels_.pictures_to_scene.pop(&moment)) {
-    follow(now_ns_);   // what was asked for after this frame was composed
+    follow(now_ns_);  // what was asked for after this frame was composed
     composeAll();
     char stem[96];
     std::snprintf(stem, sizeof stem, "view-%02d-%02zu-%s", moment.trial, pictures_.size() + 1,
@@ -147,8 +161,9 @@ void TrialScene::keepPictures() {
   const std::string source = std::filesystem::path(camera_->source).stem().string();
   if (std::find(kept_sources_.begin(), kept_sources_.end(), source) != kept_sources_.end()) return;
   kept_sources_.push_back(source);
-  save("view-" + source, {status_->trial, status_->elapsed_s, source,
-                          camera_->pose ? "Registered on " + source : "No board found in " + source});
+  save("view-" + source,
+       {status_->trial, status_->elapsed_s, source,
+        camera_->pose ? "Registered on " + source : "No board found in " + source});
 }
 
 void TrialScene::save(const std::string& stem, const PictureRequest& moment) {

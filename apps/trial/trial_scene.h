@@ -16,7 +16,8 @@
 
 namespace palpa::trial {
 
-/// A real thing in the camera's picture; both outlive the session. Boards: of the camera's other boards.
+/// A real thing in the camera's picture; both outlive the session. Boards: of the camera's other
+/// boards.
 struct RealThing {
   const anatomy::TriangleMesh* mesh = nullptr;
   const station::RealThing* place = nullptr;
@@ -27,26 +28,30 @@ struct SavedPicture {
   PictureRequest moment;
 };
 
-/// SCENE, 30 Hz (as often as a headset asks): puts together what is seen, shows it (or only when a picture is wanted, or never), and
-/// tells a simulated person what is on the screen. Keys and mouse of a window come back through here. What is particular to a task adds whoever derives from this.
+/// SCENE, 30 Hz (as often as a headset asks): puts together what is seen, shows it (or only when a
+/// picture is wanted, or never), and tells a simulated person what is on the screen. Keys and mouse
+/// of a window come back through here. What is particular to a task adds whoever derives from this.
 class TrialScene : public runtime::Activity {
  public:
   enum class Views { none, pictures, continuous };
   struct Stage {
     Views views = Views::none;
-    scene::SceneView* view = nullptr;      ///< null without views
-    runtime::HeadDisplay* head = nullptr;  ///< null without one; while it shows, its frames set the pace
+    scene::SceneView* view = nullptr;  ///< null without views
+    runtime::HeadDisplay* head =
+        nullptr;  ///< null without one; while it shows, its frames set the pace
     calibration::CameraModel camera;
     Pose X_WA = Pose::Identity(), X_WD = Pose::Identity();
-    std::string mark;                      ///< "SIMULATED OPERATOR", ...
-    std::filesystem::path folder;          ///< where view-*.png go
-    bool every_source_picture = false;     ///< recorded pictures: keep one overlay for each of them
+    std::string mark;                   ///< "SIMULATED OPERATOR", ...
+    std::filesystem::path folder;       ///< where view-*.png go
+    bool every_source_picture = false;  ///< recorded pictures: keep one overlay for each of them
     std::int64_t display_latency_ns = 33'000'000;
-    /// Covariance in A of the drawn tip against the real one, at X_DT: shown as an ellipse, and told; empty, or nothing: it is not known.
+    /// Covariance in A of the drawn tip against the real one, at X_DT: shown as an ellipse, and
+    /// told; empty, or nothing: it is not known.
     std::function<std::optional<Mat3>(const Pose& X_DT)> tip_covariance_A;
     std::vector<RealThing> things;
-    std::vector<runtime::BoardPlace> places;   ///< of the boards besides the table's
-    std::function<void(scene::SceneState&)> more;   ///< adds last what no task shows: a replay's strip
+    std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
+    std::function<void(scene::SceneState&)>
+        more;  ///< adds last what no task shows: a replay's strip
     /// Told after every frame what is on the screen, and where the trials stand.
     std::function<void(const scene::SceneState&, const TrialStatus&, std::int64_t now_ns)> watch;
     /// Keys and mouse of a window, once a frame.
@@ -67,8 +72,10 @@ class TrialScene : public runtime::Activity {
  protected:
   /// Reads the task's status; told before anything is composed.
   virtual const TrialStatus& readStatus(std::int64_t now_ns) = 0;
-  /// Adds to the state what only this task shows; camera, tool, real things and the tip's ellipse are in it. `trouble`: of camera or headset, in words.
-  virtual void compose(scene::SceneState& state, const runtime::ToolState& tool, const std::string& trouble) = 0;
+  /// Adds to the state what only this task shows; camera, tool, real things and the tip's ellipse
+  /// are in it. `trouble`: of camera or headset, in words.
+  virtual void compose(scene::SceneState& state, const runtime::ToolState& tool,
+                       const std::string& trouble) = 0;
   /// Adds to what a simulated person sees.
   virtual void tell(runtime::Displayed&, const runtime::ToolState&) {}
   /// What a controller of a headset can make felt.
@@ -109,7 +116,7 @@ class TrialScene : public runtime::Activity {
   scene::SceneState state_;
   std::vector<SavedPicture> pictures_;
   std::vector<std::string> kept_sources_;
-  std::optional<std::size_t> displaced_;   ///< the board that is told to be
+  std::optional<std::size_t> displaced_;  ///< the board that is told to be
 };
 
 /// "within 0.4 mm": how far off the overlay may be, for 95 of 100 moments.
@@ -118,7 +125,9 @@ std::string overlayText(const Mat3& covariance);
 std::string forceText(haptics::SafetyCause cause);
 /// Why force was taken away, as part of a sentence: "the device was silent".
 std::string whyText(haptics::SafetyCause cause);
-/// The line of advice that every task has: its own, trouble with force, device, camera; in this order. Sets the alarm.
-void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std::string& own, const std::string& camera, scene::Hud* hud);
+/// The line of advice that every task has: its own, trouble with force, device, camera; in this
+/// order. Sets the alarm.
+void noticeOf(const TrialStatus& status, haptics::SafetyCause safety, const std::string& own,
+              const std::string& camera, scene::Hud* hud);
 
 }  // namespace palpa::trial

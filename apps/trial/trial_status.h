@@ -15,13 +15,14 @@ struct TrialStatus {
   TrialState state = TrialState::checking;
   int trial = 0;
   int trials = 0;
-  std::string role;                    ///< "scored", "assessed", "familiarisation", "demonstration"
+  std::string role;  ///< "scored", "assessed", "familiarisation", "demonstration"
   bool force_feedback = true;
   double elapsed_s = 0;
   bool emergency_stop = false;
-  std::string device;                  ///< what the device's driver has to say; empty: nothing
-  haptics::SafetyCause trip = haptics::SafetyCause::none;   ///< the last one, for some seconds: many last a tick only
-  std::string notice;                  ///< one line for the person
+  std::string device;  ///< what the device's driver has to say; empty: nothing
+  haptics::SafetyCause trip =
+      haptics::SafetyCause::none;  ///< the last one, for some seconds: many last a tick only
+  std::string notice;              ///< one line for the person
   bool alarm = false;
   bool active() const { return state == TrialState::running || state == TrialState::paused; }
 };
@@ -30,27 +31,38 @@ struct TrialStatus {
 struct PictureRequest {
   int trial = 0;
   double t_s = 0;
-  std::string label;     ///< part of the file name
+  std::string label;  ///< part of the file name
   std::string caption;
 };
 
 /// What the person in charge wants (keys, console), or whoever is being trained.
 enum class UserCommand : std::uint8_t {
-  start, pause, abort, void_trial, emergency_stop, rearm, quit, done, grade, note
+  start,
+  pause,
+  abort,
+  void_trial,
+  emergency_stop,
+  rearm,
+  quit,
+  done,
+  grade,
+  note
 };
 struct UserRequest {
   UserCommand command = UserCommand::start;
-  std::string reason;    ///< of a void; of a grade: what was said, as the task writes it down; of a note: its text
-  double at_s = 0;       ///< of a note: the session time it is about
+  std::string reason;  ///< of a void; of a grade: what was said, as the task writes it down; of a
+                       ///< note: its text
+  double at_s = 0;     ///< of a note: the session time it is about
 };
 
 /// Between task, scene and whoever asks for something: one writer, one reader each.
 struct Channels {
   runtime::EventQueue<PictureRequest> pictures_to_scene{64};
-  runtime::EventQueue<UserRequest> requests_to_task{64};   ///< from the scene: keys
-  runtime::EventQueue<UserRequest> signals_to_task{4};     ///< from the system: the session shall end
-  runtime::EventQueue<UserRequest> operator_to_task{8};    ///< from a simulated operator
-  runtime::EventQueue<UserRequest> console_to_task{64};    ///< from whoever looks on through the console
+  runtime::EventQueue<UserRequest> requests_to_task{64};  ///< from the scene: keys
+  runtime::EventQueue<UserRequest> signals_to_task{4};   ///< from the system: the session shall end
+  runtime::EventQueue<UserRequest> operator_to_task{8};  ///< from a simulated operator
+  runtime::EventQueue<UserRequest> console_to_task{
+      64};  ///< from whoever looks on through the console
 };
 
 }  // namespace palpa::trial

@@ -9,13 +9,15 @@ namespace {
 using runtime::kMillisecond;
 using runtime::kSecond;
 constexpr std::int64_t kTaskPeriod = 16'666'667;
-constexpr std::int64_t kBetweenTrials = 3 * kSecond;   // the trainee takes the tool back
+constexpr std::int64_t kBetweenTrials = 3 * kSecond;  // the trainee takes the tool back
 constexpr std::int64_t kReadyPatience = 15 * kSecond;
 constexpr std::int64_t kTripShown = 2 * kSecond;
 
 }  // namespace
 
-TrialTask::TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels, runtime::Executive& executive) : lead_(lead), bus_(bus), channels_(channels), executive_(executive) {
+TrialTask::TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels,
+                     runtime::Executive& executive)
+    : lead_(lead), bus_(bus), channels_(channels), executive_(executive) {
   status_.trials = lead.trials;
 }
 
@@ -33,7 +35,8 @@ std::int64_t TrialTask::step(std::int64_t now_ns) {
       break;
     case TrialState::ended:
       if (now_ns - since_ns_ >= kBetweenTrials) {
-        status_.state = status_.trial >= status_.trials ? TrialState::finished : TrialState::checking;
+        status_.state =
+            status_.trial >= status_.trials ? TrialState::finished : TrialState::checking;
         since_ns_ = now_ns;
       }
       break;
@@ -48,7 +51,8 @@ std::int64_t TrialTask::step(std::int64_t now_ns) {
   return now_ns + kTaskPeriod;
 }
 
-/// What is wrong with what the camera sees; of a board that is displaced the words stay the same while it moves on.
+/// What is wrong with what the camera sees; of a board that is displaced the words stay the same
+/// while it moves on.
 std::string TrialTask::sightTrouble(const runtime::CameraView* view, std::int64_t now_ns) {
   const std::string trouble = runtime::cameraTrouble(view, now_ns);
   if (!trouble.empty()) {
@@ -67,8 +71,11 @@ void TrialTask::watchCamera(std::int64_t now_ns) {
   if (!view) return;
   const std::string trouble = sightTrouble(view, now_ns);
   if (trouble == camera_) return;
-  if (!trouble.empty()) tell(now_ns, "camera", trouble, 1);
-  else tell(now_ns, "camera", view->by_tracker ? "the tracking system sees the camera" : "the camera sees the board", 0);
+  if (!trouble.empty())
+    tell(now_ns, "camera", trouble, 1);
+  else
+    tell(now_ns, "camera",
+         view->by_tracker ? "the tracking system sees the camera" : "the camera sees the board", 0);
   camera_ = trouble;
 }
 
@@ -76,14 +83,17 @@ void TrialTask::checkReady(std::int64_t now_ns) {
   if (status_.emergency_stop) return;
   const runtime::CameraView* view = bus_.camera_to_task.read(now_ns);
   std::string missing;
-  if (!last_.reading.homed) missing = status_.device.empty() ? "the haptic device is not homed" : status_.device;
-  else if (const std::string tool = notReady(last_); !tool.empty()) missing = tool;
-  else if (const std::string trouble = sightTrouble(view, now_ns); !trouble.empty()) missing = trouble;
+  if (!last_.reading.homed)
+    missing = status_.device.empty() ? "the haptic device is not homed" : status_.device;
+  else if (const std::string tool = notReady(last_); !tool.empty())
+    missing = tool;
+  else if (const std::string trouble = sightTrouble(view, now_ns); !trouble.empty())
+    missing = trouble;
   status_.notice = missing.empty() ? "" : "Not ready: " + missing;
   if (missing.empty()) {
-    tell(now_ns, "ready", lead_.calibration_problem.empty()
-                              ? "Ready: device homed, board seen, calibration valid"
-                              : "Ready, but not scored: " + lead_.calibration_problem);
+    tell(now_ns, "ready",
+         lead_.calibration_problem.empty() ? "Ready: device homed, board seen, calibration valid"
+                                           : "Ready, but not scored: " + lead_.calibration_problem);
     status_.state = TrialState::waiting;
     since_ns_ = now_ns;
     if (!lead_.automatic) status_.notice = "Press Enter to start";
@@ -105,10 +115,12 @@ void TrialTask::startTrial(std::int64_t now_ns) {
   tell(now_ns, "start", "Trial " + std::to_string(status_.trial) + " starts");
 }
 
-void TrialTask::endTrial(const std::string& outcome, const std::string& reason, std::int64_t now_ns) {
+void TrialTask::endTrial(const std::string& outcome, const std::string& reason,
+                         std::int64_t now_ns) {
   const Conclusion end = conclude(outcome, reason);
   tell(now_ns, outcome, reason.empty() ? end.sentence : reason);
-  bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, last_.t_ns, outcome, reason, outcome == "void" ? "" : end.scores_json});
+  bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, last_.t_ns, outcome, reason,
+                                               outcome == "void" ? "" : end.scores_json});
   picture("end", end.caption);
   status_.state = TrialState::ended;
   status_.notice = end.notice;
@@ -133,8 +145,8 @@ void TrialTask::listen(std::int64_t now_ns) {
   }
 }
 
-/// Trips and what limits the force become events, and stay on the screen long enough to be read. A device that has lost
-/// its position pauses the trial: force comes back when somebody asks for it.
+/// Trips and what limits the force become events, and stay on the screen long enough to be read. A
+/// device that has lost its position pauses the trial: force comes back when somebody asks for it.
 void TrialTask::watchSafety(const haptics::FlightRecord& record) {
   using haptics::SafetyCause;
   if (record.events & haptics::kSafetyTripped) {
@@ -143,7 +155,8 @@ void TrialTask::watchSafety(const haptics::FlightRecord& record) {
     trip_ns_ = record.t_ns;
   }
   if (record.events & haptics::kSafetyCleared) tell(record.t_ns, "safety", runtime::kForceIsBack);
-  if (record.events & haptics::kSnapshotRefused) tell(record.t_ns, "safety", "Damaged geometry was refused");
+  if (record.events & haptics::kSnapshotRefused)
+    tell(record.t_ns, "safety", "Damaged geometry was refused");
   if (record.t_ns - trip_ns_ > kTripShown) status_.trip = SafetyCause::none;
   if (record.safety == SafetyCause::duty) {
     if (warm_ns_ < 0 || record.t_ns - warm_ns_ > kTripShown)
@@ -168,7 +181,9 @@ void TrialTask::hearDevice() {
 
 void TrialTask::obey(std::int64_t now_ns) {
   UserRequest request;
-  while (channels_.requests_to_task.pop(&request) || channels_.operator_to_task.pop(&request) || channels_.signals_to_task.pop(&request) || channels_.console_to_task.pop(&request)) obey(request, now_ns);
+  while (channels_.requests_to_task.pop(&request) || channels_.operator_to_task.pop(&request) ||
+         channels_.signals_to_task.pop(&request) || channels_.console_to_task.pop(&request))
+    obey(request, now_ns);
 }
 
 void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
@@ -182,7 +197,8 @@ void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
       status_.notice = "Paused: Enter goes on";
       return tell(now_ns, "pause", "The trial is paused");
     case UserCommand::abort:
-      if (status_.active()) endTrial("aborted", reason.empty() ? "Aborted by the person in charge" : reason, now_ns);
+      if (status_.active())
+        endTrial("aborted", reason.empty() ? "Aborted by the person in charge" : reason, now_ns);
       return;
     case UserCommand::void_trial:
       if (status_.active()) endTrial("void", reason, now_ns);
@@ -208,7 +224,8 @@ void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
 /// In practice nobody's failure; from an examination one does not slip away.
 void TrialTask::leave(const std::string& reason, std::int64_t now_ns) {
   if (!status_.active()) return;
-  endTrial(status_.role == "assessed" ? "aborted" : "void", reason.empty() ? "The session was closed" : reason, now_ns);
+  endTrial(status_.role == "assessed" ? "aborted" : "void",
+           reason.empty() ? "The session was closed" : reason, now_ns);
 }
 
 void TrialTask::goOn(std::int64_t now_ns) {
@@ -230,14 +247,19 @@ void TrialTask::stopAll(std::int64_t now_ns) {
 
 void TrialTask::rearm(std::int64_t now_ns) {
   status_.emergency_stop = status_.alarm = false;
-  if (status_.state == TrialState::running) status_.state = TrialState::paused;  // disarms: clears a trip
-  status_.notice = status_.state == TrialState::paused || status_.state == TrialState::waiting ? "Re-armed: Enter goes on" : "";
+  if (status_.state == TrialState::running)
+    status_.state = TrialState::paused;  // disarms: clears a trip
+  status_.notice = status_.state == TrialState::paused || status_.state == TrialState::waiting
+                       ? "Re-armed: Enter goes on"
+                       : "";
   tell(now_ns, "rearm", "Re-armed");
 }
 
-void TrialTask::tell(std::int64_t now_ns, const std::string& kind, const std::string& text, double value) {
+void TrialTask::tell(std::int64_t now_ns, const std::string& kind, const std::string& text,
+                     double value) {
   const runtime::Event event{now_ns, status_.trial, kind, text, value};
-  if (kind == "safety" || kind == "device" || (kind == "camera" && value > 0)) safety_events_.push_back(event);
+  if (kind == "safety" || kind == "device" || (kind == "camera" && value > 0))
+    safety_events_.push_back(event);
   bus_.task_to_recorder.push(event);
 }
 

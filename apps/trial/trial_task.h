@@ -12,15 +12,17 @@
 
 namespace palpa::trial {
 
-/// TASK, 60 Hz: leads through trials, whatever is trained in them: ready check, start, pause, limits, end; what safety, device and camera have to say. What a trial is about says the task
-/// that derives from this; it judges by the recorded ticks alone, so that a replay comes to the same verdict.
+/// TASK, 60 Hz: leads through trials, whatever is trained in them: ready check, start, pause,
+/// limits, end; what safety, device and camera have to say. What a trial is about says the task
+/// that derives from this; it judges by the recorded ticks alone, so that a replay comes to the
+/// same verdict.
 class TrialTask : public runtime::Activity {
  public:
   struct Lead {
     int trials = 1;
-    bool automatic = true;            ///< starts trials by itself
-    std::string calibration_problem;  ///< not empty: sessions are "not scored"
-    std::vector<runtime::BoardPlace> places;   ///< of the boards besides the table's
+    bool automatic = true;                    ///< starts trials by itself
+    std::string calibration_problem;          ///< not empty: sessions are "not scored"
+    std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
   };
   TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels, runtime::Executive& executive);
 
@@ -53,9 +55,11 @@ class TrialTask : public runtime::Activity {
   virtual void hear(const UserRequest&, std::int64_t) {}
 
   void endTrial(const std::string& outcome, const std::string& reason, std::int64_t now_ns);
-  /// What is measured cannot be meant: no more force. Paused until somebody has looked after it; where nobody is there, the trial is void. `trouble`: a clause.
+  /// What is measured cannot be meant: no more force. Paused until somebody has looked after it;
+  /// where nobody is there, the trial is void. `trouble`: a clause.
   void hold(const std::string& trouble, std::int64_t now_ns);
-  void tell(std::int64_t now_ns, const std::string& kind, const std::string& text, double value = 0);
+  void tell(std::int64_t now_ns, const std::string& kind, const std::string& text,
+            double value = 0);
   void picture(const std::string& label, const std::string& caption);
   TrialStatus& status() { return status_; }
   const TrialStatus& status() const { return status_; }
@@ -82,11 +86,12 @@ class TrialTask : public runtime::Activity {
   runtime::Executive& executive_;
   TrialStatus status_;
   std::vector<runtime::Event> safety_events_;
-  haptics::FlightRecord last_;         ///< newest tick seen
-  std::string camera_ = runtime::cameraTrouble(nullptr, 0);   ///< what was last said of it
-  std::optional<runtime::Displaced> displaced_;   ///< as it was last said
-  std::int64_t trip_ns_ = 0, warm_ns_ = -1;   ///< of the last trip, of the last tick with warm drives
-  std::int64_t since_ns_ = 0;          ///< the current state began
+  haptics::FlightRecord last_;                               ///< newest tick seen
+  std::string camera_ = runtime::cameraTrouble(nullptr, 0);  ///< what was last said of it
+  std::optional<runtime::Displaced> displaced_;              ///< as it was last said
+  std::int64_t trip_ns_ = 0,
+               warm_ns_ = -1;  ///< of the last trip, of the last tick with warm drives
+  std::int64_t since_ns_ = 0;  ///< the current state began
   bool quit_ = false;
 };
 

@@ -23,20 +23,27 @@ Pose perturbed(const Pose& X, double sd_m, double sd_rad, RandomStream& random) 
 }
 
 /// A spread that a station need not state.
-double spreadOr0(const station::JsonFile& file, const std::string& at, double most) { return file.has(at) ? file.number(at, 0, most) : 0; }
+double spreadOr0(const station::JsonFile& file, const std::string& at, double most) {
+  return file.has(at) ? file.number(at, 0, most) : 0;
+}
 
 }  // namespace
 
 WorldTruth drawWorld(const station::Station& station, std::uint64_t seed) {
   const station::JsonFile& file = station.file;
-  RandomStream random(seed, "bench.registration"), clocks(seed, "bench.clocks"), needle(seed, "bench.needle");
+  RandomStream random(seed, "bench.registration"), clocks(seed, "bench.clocks"),
+      needle(seed, "bench.needle");
   WorldTruth truth;
-  truth.X_WD = perturbed(station.design.X_WD, kTruthMm * file.number("twin/registration_spread_mm", 0, 50),
-                         kTruthDeg * file.number("twin/registration_spread_deg", 0, 10), random);
-  truth.X_ET = perturbed(station.design.X_ET, kTruthMm * file.number("twin/tool_spread_mm", 0, 50), 0, random);
-  truth.X_ET = perturbed(truth.X_ET, 0, kTruthDeg * spreadOr0(file, "twin/tool_spread_deg", 10), needle);
+  truth.X_WD =
+      perturbed(station.design.X_WD, kTruthMm * file.number("twin/registration_spread_mm", 0, 50),
+                kTruthDeg * file.number("twin/registration_spread_deg", 0, 10), random);
+  truth.X_ET = perturbed(station.design.X_ET, kTruthMm * file.number("twin/tool_spread_mm", 0, 50),
+                         0, random);
+  truth.X_ET =
+      perturbed(truth.X_ET, 0, kTruthDeg * spreadOr0(file, "twin/tool_spread_deg", 10), needle);
   const double latency = 1e-3 * spreadOr0(file, "twin/camera_latency_spread_ms", 50);
-  truth.camera_latency_s = std::max(station.design.camera_latency_s + latency * clocks.normal(), 0.001);
+  truth.camera_latency_s =
+      std::max(station.design.camera_latency_s + latency * clocks.normal(), 0.001);
   truth.clock_drift = 1e-6 * spreadOr0(file, "twin/clock_drift_ppm", 1000) * clocks.normal();
   return truth;
 }
@@ -67,12 +74,16 @@ DeviceTruth trueDevice(const station::Station& station, std::uint64_t seed) {
   truth.encoder_angle = kTruthDeg * file.number("twin/device/encoder_angle_deg", 1e-6, 5);
   truth.actuator_tau = 1e-3 * file.number("twin/device/actuator_tau_ms", 0, 100);
   if (file.has("twin/device/weight_N")) truth.weight_N = file.number("twin/device/weight_N", 0, 10);
-  if (const double error = kTruthMm * spreadOr0(file, "twin/device/position_error_mm", 10); error > 0) {
-    constexpr double kLongestWave = 0.5, kShortestWave = 0.3;   // m
+  if (const double error = kTruthMm * spreadOr0(file, "twin/device/position_error_mm", 10);
+      error > 0) {
+    constexpr double kLongestWave = 0.5, kShortestWave = 0.3;  // m
     RandomStream random(seed, "bench.position_error");
     for (int i = 0; i < 3; ++i) {
-      truth.position_error.amplitude[i] = error * (random.uniform() < 0.5 ? -1 : 1) * random.uniform(0.7, 1.3);
-      truth.position_error.wave.row(i) = 2 * std::numbers::pi / random.uniform(kShortestWave, kLongestWave) * normal3(random).normalized().transpose();
+      truth.position_error.amplitude[i] =
+          error * (random.uniform() < 0.5 ? -1 : 1) * random.uniform(0.7, 1.3);
+      truth.position_error.wave.row(i) = 2 * std::numbers::pi /
+                                         random.uniform(kShortestWave, kLongestWave) *
+                                         normal3(random).normalized().transpose();
       truth.position_error.phase[i] = random.uniform(0, 2 * std::numbers::pi);
     }
   }
@@ -101,16 +112,17 @@ SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
 Pose trueSample(const station::Station& station, std::uint64_t seed) {
   RandomStream random(seed, "bench.sample");
   Pose X = station.sample->X_WP;
-  X.translation() += kTruthMm * spreadOr0(station.file, "twin/sample_spread_mm", 10) * normal3(random);
+  X.translation() +=
+      kTruthMm * spreadOr0(station.file, "twin/sample_spread_mm", 10) * normal3(random);
   return X;
 }
 
 /// A camera on a boom on the trainee's side, looking between board and patient.
 Pose cameraOnBoom(const station::Station& station, std::uint64_t seed) {
   RandomStream random(seed, "bench.boom");
-  const double distance = kTruthMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
-                                 station.file.number("twin/camera_distance_spread_mm", 0, 500) *
-                                     random.normal());
+  const double distance =
+      kTruthMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
+                  station.file.number("twin/camera_distance_spread_mm", 0, 500) * random.normal());
   const Vec3 p_WC = distance * Vec3(0.04 * random.normal(), -0.48, 0.877).normalized();
   const Vec3 forward = (Vec3(0, 0.125, 0.02) - p_WC).normalized();
   const Vec3 right = forward.cross(Vec3::UnitZ()).normalized();

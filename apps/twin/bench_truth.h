@@ -9,12 +9,13 @@
 
 namespace palpa::twin {
 
-/// Where things truly are: drawn around the station's design (what its file says before anything was calibrated) with the
-/// spreads of its section "twin", the same for a session and for a set-up with one seed. Only the twin and reports on accuracy may see it.
+/// Where things truly are: drawn around the station's design (what its file says before anything
+/// was calibrated) with the spreads of its section "twin", the same for a session and for a set-up
+/// with one seed. Only the twin and reports on accuracy may see it.
 struct WorldTruth {
   Pose X_WD = Pose::Identity(), X_ET = Pose::Identity();
-  double camera_latency_s = 0;   ///< from exposure to delivery
-  double clock_drift = 0;        ///< of the device's clock against the program's, s per s
+  double camera_latency_s = 0;  ///< from exposure to delivery
+  double clock_drift = 0;       ///< of the device's clock against the program's, s per s
 };
 WorldTruth drawWorld(const station::Station& station, std::uint64_t seed);
 

@@ -17,8 +17,10 @@ std::vector<BoardMove> readBoardMoves(const station::Station& station) {
     const station::JsonFile entry(item, file.name() + ", \"twin/board_moves\"");
     const std::string name = entry.text("board");
     BoardMove move;
-    while (move.board < station.boards.size() && station.boards[move.board].name != name) ++move.board;
-    if (move.board == station.boards.size() || !station.boards[move.board].X_WB) entry.refuse("board", "is \"" + name + "\", which is no board with an X_WB");
+    while (move.board < station.boards.size() && station.boards[move.board].name != name)
+      ++move.board;
+    if (move.board == station.boards.size() || !station.boards[move.board].X_WB)
+      entry.refuse("board", "is \"" + name + "\", which is no board with an X_WB");
     move.from = entry.number("from_s", 0, kLongest_s);
     move.by = kMillimetre * entry.vector("by_mm");
     moves.push_back(move);
@@ -26,7 +28,8 @@ std::vector<BoardMove> readBoardMoves(const station::Station& station) {
   return moves;
 }
 
-std::vector<std::pair<std::size_t, Pose>> boardsAt(const station::Station& station, const std::vector<BoardMove>& moves, double t) {
+std::vector<std::pair<std::size_t, Pose>> boardsAt(const station::Station& station,
+                                                   const std::vector<BoardMove>& moves, double t) {
   std::vector<std::pair<std::size_t, Pose>> boards;
   for (std::size_t i = 0; i < station.boards.size(); ++i) {
     if (!station.boards[i].X_WB) continue;

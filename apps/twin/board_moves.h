@@ -6,7 +6,8 @@
 
 namespace palpa::twin {
 
-/// A push that a board on the table gets: "twin/board_moves" of a station's file, a list of {"board", "from_s", "by_mm"}; session time.
+/// A push that a board on the table gets: "twin/board_moves" of a station's file, a list of
+/// {"board", "from_s", "by_mm"}; session time.
 struct BoardMove {
   std::size_t board = 0;   ///< of the station's other boards
   double from = 0;         ///< s
@@ -17,6 +18,7 @@ struct BoardMove {
 std::vector<BoardMove> readBoardMoves(const station::Station& station);
 
 /// Where the station's boards that belong somewhere truly are at a time, in W, each with its index.
-std::vector<std::pair<std::size_t, Pose>> boardsAt(const station::Station& station, const std::vector<BoardMove>& moves, double t);
+std::vector<std::pair<std::size_t, Pose>> boardsAt(const station::Station& station,
+                                                   const std::vector<BoardMove>& moves, double t);
 
 }  // namespace palpa::twin

@@ -8,13 +8,15 @@
 
 namespace palpa::twin {
 
-/// What shall go wrong with the virtual camera, and when: "twin/camera_faults" of a station's file, a list of {"kind", "from_s", "to_s"}; session time.
-///   hidden      something lies over the board     black       the lens is covered         frozen   the same picture over and over
-///   wrong_size  pictures of half the size         gone        the driver reports an error ended    no more pictures, also afterwards
+/// What shall go wrong with the virtual camera, and when: "twin/camera_faults" of a station's file,
+/// a list of {"kind", "from_s", "to_s"}; session time.
+///   hidden      something lies over the board     black       the lens is covered         frozen
+///   the same picture over and over wrong_size  pictures of half the size         gone        the
+///   driver reports an error ended    no more pictures, also afterwards
 struct CameraFault {
   enum class Kind { hidden, black, frozen, wrong_size, gone, ended };
   Kind kind = Kind::black;
-  double from = 0, to = 0;   ///< s
+  double from = 0, to = 0;  ///< s
 };
 
 /// Throws UsageError for a kind that is not known and for spans that are none.

@@ -16,8 +16,8 @@ double quantised(double value, double step) { return std::round(value / step) * 
 DeviceTwin::DeviceTwin(const DeviceTruth& truth, const Pose& X_DE_start)
     : truth_(truth), X_DE_(X_DE_start), p_hand_last_D_(X_DE_start.translation()) {}
 
-void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
-                         const Vec3& f_command_D, const Vec3& f_touch_D) {
+void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip, const Vec3& f_command_D,
+                         const Vec3& f_touch_D) {
   const double h = dt / kSubsteps;
   const double mass = truth_.apparent_mass + grip.mass;
   const double size = f_command_D.norm();
@@ -31,8 +31,7 @@ void DeviceTwin::advance(double dt, const Pose& X_DH, const HandGrip& grip,
     f_drive_D_ += (f_target - f_drive_D_) * (h / (truth_.actuator_tau + h));
     const Vec3 p_now = p_hand_last_D_ + (p_hand - p_hand_last_D_) * ((i + 1.0) / kSubsteps);
     f_grip_D_ = grip.stiffness * (p_now - p) + grip.damping * (v_hand - v_D_);
-    const Vec3 friction =
-        -v_D_ * (truth_.coulomb / (v_D_.norm() + kSlidingSpeed) + truth_.viscous);
+    const Vec3 friction = -v_D_ * (truth_.coulomb / (v_D_.norm() + kSlidingSpeed) + truth_.viscous);
     const Vec3 a_D = (f_grip_D_ + f_drive_D_ + f_touch_D + friction) / mass;
     f_fingers_D_ = f_grip_D_ - grip.mass * a_D;
     f_fingers_mean_D_ += f_fingers_D_ / kSubsteps;

@@ -7,35 +7,38 @@
 
 namespace palpa::twin {
 
-/// A mechanism that is not as its maker's equations have it: a smooth error of position, waves as long as the workspace. Not a polynomial, for
-/// what corrects it is one.
+/// A mechanism that is not as its maker's equations have it: a smooth error of position, waves as
+/// long as the workspace. Not a polynomial, for what corrects it is one.
 struct PositionError {
-  Vec3 amplitude = Vec3::Zero(), phase = Vec3::Zero();   ///< m, rad; of each coordinate
-  Mat3 wave = Mat3::Zero();                              ///< rad/m; rows: of each coordinate
-  Vec3 at(const Vec3& p_D) const { return amplitude.cwiseProduct((wave * p_D + phase).array().sin().matrix()); }
+  Vec3 amplitude = Vec3::Zero(), phase = Vec3::Zero();  ///< m, rad; of each coordinate
+  Mat3 wave = Mat3::Zero();                             ///< rad/m; rows: of each coordinate
+  Vec3 at(const Vec3& p_D) const {
+    return amplitude.cwiseProduct((wave * p_D + phase).array().sin().matrix());
+  }
 };
 
 /// The mechanical truth of a simulated haptic device. SI units.
 struct DeviceTruth {
-  double apparent_mass = 0.045;     ///< kg at the end effector
-  double coulomb = 0.06;            ///< N, friction of the drives
-  double viscous = 0.2;             ///< N s/m
-  double encoder_step = 23e-6;      ///< m
-  double encoder_angle = 0.0006;    ///< rad
-  double max_force_N = 7.9;         ///< the drives saturate here
-  double actuator_tau = 0.001;      ///< s, first-order lag of the drives
-  PositionError position_error;     ///< what it says less what is
-  double weight_N = 0;              ///< of the handle; 0: the mechanism carries it itself
+  double apparent_mass = 0.045;   ///< kg at the end effector
+  double coulomb = 0.06;          ///< N, friction of the drives
+  double viscous = 0.2;           ///< N s/m
+  double encoder_step = 23e-6;    ///< m
+  double encoder_angle = 0.0006;  ///< rad
+  double max_force_N = 7.9;       ///< the drives saturate here
+  double actuator_tau = 0.001;    ///< s, first-order lag of the drives
+  PositionError position_error;   ///< what it says less what is
+  double weight_N = 0;            ///< of the handle; 0: the mechanism carries it itself
 };
 
 /// How a hand holds the tool: a spring and a damper toward where it wants to be.
 struct HandGrip {
-  double stiffness = 500;           ///< N/m
-  double damping = 6;               ///< N s/m
-  double mass = 0.15;               ///< kg
+  double stiffness = 500;  ///< N/m
+  double damping = 6;      ///< N s/m
+  double mass = 0.15;      ///< kg
 };
 
-/// What the electronics of a device show whose end effector truly is at X_DE: every coordinate in whole encoder steps.
+/// What the electronics of a device show whose end effector truly is at X_DE: every coordinate in
+/// whole encoder steps.
 PackedPose encoderReading(const DeviceTruth& truth, const Pose& X_DE);
 
 /// Point mass of device and hand, moved by grip, drives and friction; orientation follows the hand.
@@ -45,22 +48,32 @@ class DeviceTwin {
  public:
   DeviceTwin(const DeviceTruth& truth, const Pose& X_DE_start);
 
-  /// Advances by dt toward the hand's wanted pose; `f_command_D` from the controller, `f_touch_D` of a real object on the tool.
-  void advance(double dt, const Pose& X_DH, const HandGrip& grip, const Vec3& f_command_D, const Vec3& f_touch_D = Vec3::Zero());
+  /// Advances by dt toward the hand's wanted pose; `f_command_D` from the controller, `f_touch_D`
+  /// of a real object on the tool.
+  void advance(double dt, const Pose& X_DH, const HandGrip& grip, const Vec3& f_command_D,
+               const Vec3& f_touch_D = Vec3::Zero());
 
-  const Vec3& trueVelocity() const { return v_D_; }        ///< m/s, for accuracy reports only
-  const Pose& truePose() const { return X_DE_; }   ///< for accuracy reports only
-  const Vec3& gripForce() const { return f_grip_D_; }   ///< what moves hand and tool: of the arm on both
-  const Vec3& fingerForce() const { return f_fingers_D_; }   ///< between hand and tool: of the fingers on the tool: f_grip - m_hand a
-  /// What force cells that average over the last `advance` see: the fingers' force on the tool, and the device's, drives and friction.
+  const Vec3& trueVelocity() const { return v_D_; }  ///< m/s, for accuracy reports only
+  const Pose& truePose() const { return X_DE_; }     ///< for accuracy reports only
+  const Vec3& gripForce() const {
+    return f_grip_D_;
+  }  ///< what moves hand and tool: of the arm on both
+  const Vec3& fingerForce() const {
+    return f_fingers_D_;
+  }  ///< between hand and tool: of the fingers on the tool: f_grip - m_hand a
+  /// What force cells that average over the last `advance` see: the fingers' force on the tool, and
+  /// the device's, drives and friction.
   const Vec3& meanFingerForce() const { return f_fingers_mean_D_; }
   const Vec3& meanDeviceForce() const { return f_device_mean_D_; }
-  PackedPose encoderPose() const { return encoderReading(truth_, X_DE_); }   ///< what the device's electronics say
+  PackedPose encoderPose() const {
+    return encoderReading(truth_, X_DE_);
+  }  ///< what the device's electronics say
 
  private:
   DeviceTruth truth_;
   Pose X_DE_;
-  Vec3 v_D_ = Vec3::Zero(), p_hand_last_D_, f_drive_D_ = Vec3::Zero(), f_grip_D_ = Vec3::Zero(), f_fingers_D_ = Vec3::Zero();
+  Vec3 v_D_ = Vec3::Zero(), p_hand_last_D_, f_drive_D_ = Vec3::Zero(), f_grip_D_ = Vec3::Zero(),
+       f_fingers_D_ = Vec3::Zero();
   Vec3 f_fingers_mean_D_ = Vec3::Zero(), f_device_mean_D_ = Vec3::Zero();
 };
 

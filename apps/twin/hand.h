@@ -7,25 +7,27 @@
 
 namespace palpa::twin {
 
-/// A simulated person's hand at a simulated device. Knows what is on the screen and what it feels; nothing else.
+/// A simulated person's hand at a simulated device. Knows what is on the screen and what it feels;
+/// nothing else.
 class Hand {
  public:
   struct Senses {
     std::int64_t now_ns = 0;
-    Pose X_DE = Pose::Identity();   ///< where the own hand is (proprioception)
-    Vec3 f_grip_D = Vec3::Zero();   ///< force of the hand on the tool
+    Pose X_DE = Pose::Identity();  ///< where the own hand is (proprioception)
+    Vec3 f_grip_D = Vec3::Zero();  ///< force of the hand on the tool
     const runtime::Displayed* seen = nullptr;
-    Vec3 f_fingers_D = Vec3::Zero();   ///< of the fingers on the tool: without what moves the hand itself
+    Vec3 f_fingers_D =
+        Vec3::Zero();  ///< of the fingers on the tool: without what moves the hand itself
   };
   /// What whoever leads the hand says, once.
   struct Word {
     enum class Kind { none, gives_up, done, grade };
     Kind kind = Kind::none;
-    double diameter = 0;            ///< m; of a grade: of the lump marked last
-    int hardness = 0, mobility = 0; ///< 1 soft, 2 hard; 1 fixed, 2 mobile; 0: not said
+    double diameter = 0;             ///< m; of a grade: of the lump marked last
+    int hardness = 0, mobility = 0;  ///< 1 soft, 2 hard; 1 fixed, 2 mobile; 0: not said
   };
   struct Action {
-    Pose X_DH = Pose::Identity();   ///< where the hand wants the tool
+    Pose X_DH = Pose::Identity();  ///< where the hand wants the tool
     double plunger = 0;
     std::uint32_t buttons = 0;
     Word says;

@@ -13,19 +13,20 @@
 
 namespace palpa::twin {
 
-/// One simulated device on the bench with whoever holds it, its force sensor and two force cells at the tool. The rest of the program sees what is published: readings and samples.
+/// One simulated device on the bench with whoever holds it, its force sensor and two force cells at
+/// the tool. The rest of the program sees what is published: readings and samples.
 class HeldTool {
  public:
   struct Setup {
     std::unique_ptr<Hand> hand;
     DeviceTruth truth;
-    Pose X_WD, X_ET;                             ///< as they truly are
+    Pose X_WD, X_ET;  ///< as they truly are
     Pose X_DE_start;
     runtime::ChannelDevice* device = nullptr;
-    runtime::ChannelSensor* sensor = nullptr;    ///< none: nothing measures what is touched
+    runtime::ChannelSensor* sensor = nullptr;  ///< none: nothing measures what is touched
     SensorTruth sensor_truth;
     Pose X_ES = Pose::Identity();
-    haptics::Wrench zero;                        ///< what the station takes off as bias
+    haptics::Wrench zero;  ///< what the station takes off as bias
     std::vector<SensorFault> faults;
     std::uint64_t seed = 1;
   };
@@ -53,7 +54,8 @@ class HeldTool {
   std::optional<SensorTwin> felt_;
   Hand::Action action_;
   Touch touch_;
-  Vec3 f_command_D_ = Vec3::Zero(), f_hand_D_ = Vec3::Zero(), f_device_D_ = Vec3::Zero();   // the last two: means over the step
+  Vec3 f_command_D_ = Vec3::Zero(), f_hand_D_ = Vec3::Zero(),
+       f_device_D_ = Vec3::Zero();  // the last two: means over the step
   std::uint64_t sequence_ = 0;
 };
 

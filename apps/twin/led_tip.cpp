@@ -6,7 +6,7 @@
 namespace palpa::twin {
 namespace {
 
-constexpr double kLedAbove = 2e-3;   // m
+constexpr double kLedAbove = 2e-3;  // m
 
 }  // namespace
 
@@ -29,20 +29,26 @@ Vec3 LedTip::at(double t) const {
   while (i + 1 < stops_.size() && t >= stops_[i].until) ++i;
   if (i == 0 || t >= stops_[i].arrival) return stops_[i].p;
   const Stop& from = stops_[i - 1];
-  return MinJerk(makePose(Mat3::Identity(), from.p), makePose(Mat3::Identity(), stops_[i].p), from.until, stops_[i].arrival - from.until).at(t).translation();
+  return MinJerk(makePose(Mat3::Identity(), from.p), makePose(Mat3::Identity(), stops_[i].p),
+                 from.until, stops_[i].arrival - from.until)
+      .at(t)
+      .translation();
 }
 
 LedTip pressing(const Vec3& place, double deep, std::uint64_t seed) {
   runtime::RandomStream random(seed, "bench.pressing");
   LedTip tip(Vec3(place.x(), place.y(), kLedAbove));
-  for (int i = 0; i < 10; ++i) tip.press(place, deep * random.uniform(0.5, 1.0), random.uniform(0.15, 0.8), random.uniform(0.0, 0.3));
+  for (int i = 0; i < 10; ++i)
+    tip.press(place, deep * random.uniform(0.5, 1.0), random.uniform(0.15, 0.8),
+              random.uniform(0.0, 0.3));
   return tip;
 }
 
 LedTip tapping(const Vec3& place, double deep, std::uint64_t seed) {
   runtime::RandomStream random(seed, "bench.tapping");
   LedTip tip(Vec3(place.x(), place.y(), kLedAbove));
-  for (int i = 0; i < 16; ++i) tip.press(place, deep * random.uniform(0.4, 0.8), random.uniform(0.08, 0.14));
+  for (int i = 0; i < 16; ++i)
+    tip.press(place, deep * random.uniform(0.4, 0.8), random.uniform(0.08, 0.14));
   return tip;
 }
 
@@ -53,7 +59,8 @@ LedTip stroking(const Vec3& place, double deep, double reach, const Vec3& way, s
   for (int i = 0; i < 4; ++i) {
     const Vec3 below(0, 0, -deep * random.uniform(0.5, 1.0));
     tip.go(before + below, 0.4);
-    for (int j = 0; j < 2; ++j) tip.go(beyond + below, random.uniform(0.4, 1.2)).go(before + below, random.uniform(0.4, 1.2));
+    for (int j = 0; j < 2; ++j)
+      tip.go(beyond + below, random.uniform(0.4, 1.2)).go(before + below, random.uniform(0.4, 1.2));
     tip.go(before + kLedAbove * Vec3::UnitZ(), 0.4);
   }
   return tip;

@@ -6,7 +6,8 @@
 
 namespace palpa::twin {
 
-/// A tool's tip that is led from place to place, each time with minimum jerk, and held there. Frame P of twin::SoftBlock.
+/// A tool's tip that is led from place to place, each time with minimum jerk, and held there. Frame
+/// P of twin::SoftBlock.
 class LedTip {
  public:
   explicit LedTip(const Vec3& start) : at_(start) { stops_.push_back({start, 0, 0}); }
@@ -19,7 +20,7 @@ class LedTip {
  private:
   struct Stop {
     Vec3 p;
-    double arrival, until;   // s
+    double arrival, until;  // s
   };
   std::vector<Stop> stops_;
   Vec3 at_;

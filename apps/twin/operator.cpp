@@ -10,13 +10,13 @@ namespace {
 constexpr std::int64_t kThoughtPeriod = 10'000'000;  // decisions at 100 Hz
 constexpr double kThought = Reaction::kStep;         // s
 constexpr std::int64_t kLookPeriod = 100'000'000;    // a glance at the needle, 10 Hz
-constexpr double kAbove = 0.020;        // m above the skin, where the approach ends
-constexpr double kHover = 0.002;        // m above the skin, where the push begins
-constexpr double kBackFromBone = 0.006; // m
-constexpr double kPatience = 1.5;       // s of interrupted flow before the needle goes a little deeper
-constexpr double kNudge = 0.001;        // m
-constexpr int kNudges = 2;              // then this is the edge of the vein: try elsewhere
-constexpr double kDrawn = 0.4;          // plunger held under suction while advancing
+constexpr double kAbove = 0.020;                     // m above the skin, where the approach ends
+constexpr double kHover = 0.002;                     // m above the skin, where the push begins
+constexpr double kBackFromBone = 0.006;              // m
+constexpr double kPatience = 1.5;  // s of interrupted flow before the needle goes a little deeper
+constexpr double kNudge = 0.001;   // m
+constexpr int kNudges = 2;         // then this is the edge of the vein: try elsewhere
+constexpr double kDrawn = 0.4;     // plunger held under suction while advancing
 constexpr double kDeepestPush = 0.020;  // m the hand goes below the skin in search of the puncture
 constexpr double kFirstGrip = 0.4;      // share of peak force below which resistance counts as lost
 
@@ -24,7 +24,8 @@ Vec3 withoutAlong(const Vec3& v, const Vec3& unit) { return v - v.dot(unit) * un
 
 }  // namespace
 
-Pose needlePickedUp(const station::Station& station, const Pose& X_WA, const Vec3& entry_A, bool left_handed) {
+Pose needlePickedUp(const station::Station& station, const Pose& X_WA, const Vec3& entry_A,
+                    bool left_handed) {
   const Vec3 tip_W = X_WA * entry_A + Vec3(left_handed ? -0.02 : 0.02, -0.05, 0.07);
   const Vec3 axis_W = Vec3(0, 0.35, -1).normalized();
   return station.X_WD.inverse() * makePose(rotationWithZ(axis_W), tip_W) * station.X_ET.inverse();
@@ -68,12 +69,13 @@ void Operator::look(const Senses& senses) {
 }
 
 void Operator::feel(const Senses& senses) {
-  reaction_.perceive(bearings_.X_DA().rotation().transpose() * senses.f_grip_D, senses.seen && senses.seen->blood_flows,
-                     senses.seen && senses.seen->injury);
+  reaction_.perceive(bearings_.X_DA().rotation().transpose() * senses.f_grip_D,
+                     senses.seen && senses.seen->blood_flows, senses.seen && senses.seen->injury);
 }
 
 void Operator::begin(Step step, double now_s, double pause_s) {
-  if (step == Step::leave && moving_) {  // a turn that is broken off: out along the needle from where it is
+  if (step == Step::leave &&
+      moving_) {  // a turn that is broken off: out along the needle from where it is
     insertion_ = (tip_A_ - entry_seen_A_).dot(axis_A_);
     moving_ = false;
   }
@@ -110,7 +112,8 @@ void Operator::moveTo(const Pose& X_AT, double now_s, double speed) {
   moving_ = true;
 }
 
-/// By the landmarks, as well as one can judge; experts lean toward the clavicle and let it guide them.
+/// By the landmarks, as well as one can judge; experts lean toward the clavicle and let it guide
+/// them.
 Vec3 Operator::firstAim() {
   const Vec3 aim = (anatomy_.aim_A - entry_seen_A_).normalized();
   const Vec3 to_bone = (anatomy_.cephalad_A - anatomy_.posterior_A).normalized();
@@ -122,8 +125,8 @@ Vec3 Operator::firstAim() {
 
 /// Turns about the entry, keeping the insertion.
 void Operator::aimAt(const Vec3& axis_A, double now_s, double duration_s) {
-  move_ = MinJerk(needleAt(entry_seen_A_, axis_A_), needleAt(entry_seen_A_, axis_A), now_s,
-                  duration_s);
+  move_ =
+      MinJerk(needleAt(entry_seen_A_, axis_A_), needleAt(entry_seen_A_, axis_A), now_s, duration_s);
   moving_ = true;
 }
 
@@ -132,7 +135,8 @@ void Operator::holdHere() {
   insertion_ = (tip_A_ - entry_seen_A_).dot(axis_A_);
 }
 
-/// Along the skin's normal until the resistance is lost, or, without feeling, until it looks deep enough.
+/// Along the skin's normal until the resistance is lost, or, without feeling, until it looks deep
+/// enough.
 void Operator::pushing(double now_s) {
   insertion_ += skill_.push_speed * kThought;
   const Vec3& felt = reaction_.felt();
@@ -244,9 +248,9 @@ void Operator::think(const Senses& senses) {
     case Step::push:
       return pushing(now_s);
     case Step::settle:
-      entry_seen_A_ = bearings_.X_AT().translation() -
-                      std::max((bearings_.X_AT().translation() - plan_entry_A_).dot(axis_A_), 0.0) *
-                          axis_A_;
+      entry_seen_A_ =
+          bearings_.X_AT().translation() -
+          std::max((bearings_.X_AT().translation() - plan_entry_A_).dot(axis_A_), 0.0) * axis_A_;
       return begin(Step::deepen, now_s, 0);
     case Step::deepen:
       if (seenInsertion() < skill_.first_depth) {
@@ -273,7 +277,8 @@ void Operator::think(const Senses& senses) {
       plunger_wanted_ = 0;
       if (insertion_ > -kHover) return;
       // Out of the skin: up and away from it, since behind a flat needle the chest may bulge.
-      moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s, skill_.travel_speed);
+      moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s,
+             skill_.travel_speed);
       begin(Step::rest, now_s, 0);
       return;
   }

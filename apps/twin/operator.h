@@ -15,18 +15,20 @@ namespace palpa::twin {
 
 /// What anybody can see or palpate on the displayed patient.
 struct VisibleAnatomy {
-  Vec3 entry_A;             ///< 1 cm below the junction of medial and middle thirds
-  Vec3 normal_A;            ///< of the skin there
-  Vec3 aim_A;               ///< where the needle is pointed: by the landmarks
-  double vein_distance;     ///< m, entry to vein along the needle, as far as he knows
-  Vec3 medial_A, posterior_A, cephalad_A;   ///< unit directions by the landmarks
+  Vec3 entry_A;          ///< 1 cm below the junction of medial and middle thirds
+  Vec3 normal_A;         ///< of the skin there
+  Vec3 aim_A;            ///< where the needle is pointed: by the landmarks
+  double vein_distance;  ///< m, entry to vein along the needle, as far as he knows
+  Vec3 medial_A, posterior_A, cephalad_A;  ///< unit directions by the landmarks
 };
 
-/// E above the entry, the needle pointing down and a little ahead: where a trainee picks it up, on the side of the hand.
-Pose needlePickedUp(const station::Station& station, const Pose& X_WA, const Vec3& entry_A, bool left_handed);
+/// E above the entry, the needle pointing down and a little ahead: where a trainee picks it up, on
+/// the side of the hand.
+Pose needlePickedUp(const station::Station& station, const Pose& X_WA, const Vec3& entry_A,
+                    bool left_handed);
 
-/// A simulated person who performs the procedure. Knows what is on the screen (with a delay, with noise)
-/// and what the hand feels; nothing else. Moves a hand; the device's mechanics do the rest.
+/// A simulated person who performs the procedure. Knows what is on the screen (with a delay, with
+/// noise) and what the hand feels; nothing else. Moves a hand; the device's mechanics do the rest.
 class Operator final : public Hand {
  public:
   Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, const Pose& X_ET,
@@ -36,8 +38,20 @@ class Operator final : public Hand {
   const HandGrip& grip() const override { return skill_.grip; }
 
  private:
-  enum class Step { rest, approach, lower, push, settle, deepen, turn, advance, retreat, redirect,
-                    dwell, leave };
+  enum class Step {
+    rest,
+    approach,
+    lower,
+    push,
+    settle,
+    deepen,
+    turn,
+    advance,
+    retreat,
+    redirect,
+    dwell,
+    leave
+  };
 
   void look(const Senses& senses);
   void feel(const Senses& senses);
@@ -75,22 +89,22 @@ class Operator final : public Hand {
 
   // What he is doing.
   Step step_ = Step::rest;
-  double ready_s_ = 0;              ///< the current step's pause is over
+  double ready_s_ = 0;  ///< the current step's pause is over
   int trial_ = 0;
   bool running_ = false;
   int passes_ = 0;
   bool gives_up_ = false;
   Vec3 plan_entry_A_ = Vec3::Zero(), plan_normal_A_ = Vec3::UnitZ(), axis_A_ = Vec3::UnitZ();
-  Vec3 tip_A_ = Vec3::Zero();       ///< wanted
-  double insertion_ = 0;            ///< wanted, along axis_A_ from the entry
+  Vec3 tip_A_ = Vec3::Zero();  ///< wanted
+  double insertion_ = 0;       ///< wanted, along axis_A_ from the entry
   double retreat_to_ = 0;
   Vec3 turn_toward_A_ = Vec3::Zero();
   bool moving_ = false;
   MinJerk move_;
   double plunger_ = 0, plunger_wanted_ = 0;
   double dwell_since_s_ = 0, dwell_begun_s_ = 0;
-  int nudges_ = 0;                  ///< since the last redirection
-  bool going_back_ = false;         ///< this place is given up: blood on the way back stops nobody
+  int nudges_ = 0;           ///< since the last redirection
+  bool going_back_ = false;  ///< this place is given up: blood on the way back stops nobody
   std::int64_t next_thought_ns_ = 0, last_look_ns_ = 0;
   Vec3 p_last_D_ = Vec3::Zero();
   double hand_speed_ = 0;

@@ -7,24 +7,30 @@
 namespace palpa::twin {
 namespace {
 
-constexpr std::int64_t kThink_ns = 10'000'000, kGlance_ns = 100'000'000;   // 100 Hz, 10 Hz
+constexpr std::int64_t kThink_ns = 10'000'000, kGlance_ns = 100'000'000;  // 100 Hz, 10 Hz
 constexpr double kThink_s = 0.01;
-constexpr double kSharp = 0.3;          // touch is not sharper than about 25 ms
-constexpr double kOverTop = 0.005;      // m, from where a press begins
-constexpr double kMoves = 0.003, kNear = 0.0008;   // m above the top: between them the hand learns what moving takes
-constexpr double kTouch_N = 0.06, kDeepest = 0.009;   // N above the air's, m below the top: a hand that feels nothing stops there
-constexpr double kLift = 0.05;          // m/s
-constexpr double kCross = 0.0035;       // m, of a closer look: its presses lie within 5 mm of each other; the search itself has felt the flanks
-constexpr double kKnown = 0.020;        // m: nobody looks twice at the same lump or its flank
-constexpr double kAround = 0.016;       // m: as far as a lump is felt
-constexpr double kBelongs = 0.017;      // m from the middle of what belongs there: farther off a lump would be felt as one
-constexpr double kSame = 0.008;         // m, of a place that was dismissed
+constexpr double kSharp = 0.3;      // touch is not sharper than about 25 ms
+constexpr double kOverTop = 0.005;  // m, from where a press begins
+constexpr double kMoves = 0.003,
+                 kNear = 0.0008;  // m above the top: between them the hand learns what moving takes
+constexpr double
+    kTouch_N = 0.06,
+    kDeepest = 0.009;  // N above the air's, m below the top: a hand that feels nothing stops there
+constexpr double kLift = 0.05;     // m/s
+constexpr double kCross = 0.0035;  // m, of a closer look: its presses lie within 5 mm of each
+                                   // other; the search itself has felt the flanks
+constexpr double kKnown = 0.020;   // m: nobody looks twice at the same lump or its flank
+constexpr double kAround = 0.016;  // m: as far as a lump is felt
+constexpr double kBelongs =
+    0.017;  // m from the middle of what belongs there: farther off a lump would be felt as one
+constexpr double kSame = 0.008;  // m, of a place that was dismissed
 constexpr double kMarkFor_s = 0.3;
-constexpr double kHome = 0.04;          // m above the top
+constexpr double kHome = 0.04;  // m above the top
 
 }  // namespace
 
-PalpatingHand::PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& phantom, const Pose& X_ET, std::uint64_t seed)
+PalpatingHand::PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& phantom,
+                             const Pose& X_ET, std::uint64_t seed)
     : skill_(skill),
       phantom_(phantom),
       X_ET_(X_ET),
@@ -37,14 +43,18 @@ PalpatingHand::PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& 
 
 void PalpatingHand::planStrips() {
   places_.clear();
-  const int strips = std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_x / skill_.strip - 1e-9)));
-  const int steps = std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_y / skill_.step - 1e-9)));
+  const int strips =
+      std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_x / skill_.strip - 1e-9)));
+  const int steps =
+      std::max(1, static_cast<int>(std::ceil(2 * phantom_.half_y / skill_.step - 1e-9)));
   for (int i = 0; i < strips; ++i) {
     for (int k = 0; k < steps; ++k) {
       const int j = i % 2 == 0 ? k : steps - 1 - k;
-      const Vec3 planned(phantom_.half_x * ((2 * i + 1.0) / strips - 1), phantom_.half_y * ((2 * j + 1.0) / steps - 1), 0);
+      const Vec3 planned(phantom_.half_x * ((2 * i + 1.0) / strips - 1),
+                         phantom_.half_y * ((2 * j + 1.0) / steps - 1), 0);
       if (judgement_.uniform() < skill_.skip) continue;
-      places_.push_back(planned + skill_.wander * Vec3(judgement_.normal(), judgement_.normal(), 0));
+      places_.push_back(planned +
+                        skill_.wander * Vec3(judgement_.normal(), judgement_.normal(), 0));
     }
   }
   std::reverse(places_.begin(), places_.end());
@@ -67,7 +77,8 @@ void PalpatingHand::beginTrial(int trial, double now_s) {
 
 void PalpatingHand::goTo(const Vec3& p_P, double now_s, Step next) {
   const Vec3 over(p_P.x(), p_P.y(), p_P.z() + kOverTop);
-  move_ = MinJerk(makePose(Mat3::Identity(), tip_P_), makePose(Mat3::Identity(), over), now_s, std::max(0.15, (over - tip_P_).norm() / skill_.travel_speed));
+  move_ = MinJerk(makePose(Mat3::Identity(), tip_P_), makePose(Mat3::Identity(), over), now_s,
+                  std::max(0.15, (over - tip_P_).norm() / skill_.travel_speed));
   step_ = Step::travel;
   after_travel_ = next;
 }
@@ -75,34 +86,39 @@ void PalpatingHand::goTo(const Vec3& p_P, double now_s, Step next) {
 /// Down evenly; what it takes to move in the air is no resistance of the phantom.
 void PalpatingHand::pressing(double now_s) {
   tip_P_.z() -= skill_.press_speed * kThink_s;
-  if (tip_now_P_.z() > kMoves) air_N_ = felt_N_;
-  else if (tip_now_P_.z() > kNear) air_N_ += kSharp * (felt_N_ - air_N_);
+  if (tip_now_P_.z() > kMoves)
+    air_N_ = felt_N_;
+  else if (tip_now_P_.z() > kNear)
+    air_N_ += kSharp * (felt_N_ - air_N_);
   const double resistance = felt_N_ - air_N_;
   if (!touched_ && resistance > kTouch_N) {
     touched_ = true;
     touched_z_ = tip_now_P_.z();
   }
-  while (touched_ && depths_.size() < skill_.pressures.size() && resistance >= skill_.pressures[depths_.size()]) {
+  while (touched_ && depths_.size() < skill_.pressures.size() &&
+         resistance >= skill_.pressures[depths_.size()]) {
     if (depths_.empty()) light_z_ = tip_now_P_.z();
     depths_.push_back((depths_.empty() ? touched_z_ : light_z_) - tip_now_P_.z());
   }
   const double enough = skill_.pressures.back() * (suspect_P_ ? skill_.closer_force : 1);
   if (resistance < enough && tip_now_P_.z() > -kDeepest) return;
   since_s_ = now_s;
-  step_ = Step::overshoot;   // it goes on for as long as it takes to react
+  step_ = Step::overshoot;  // it goes on for as long as it takes to react
 }
 
 /// As far as it matters: where nothing of it is felt any more, one place is like another.
 double PalpatingHand::fromNormal(const Vec3& p_P) const {
-  constexpr double kFelt = 0.026;   // m
-  return skill_.knows_anatomy && phantom_.from_normal ? std::min(kFelt, phantom_.from_normal(p_P)) : kFelt;
+  constexpr double kFelt = 0.026;  // m
+  return skill_.knows_anatomy && phantom_.from_normal ? std::min(kFelt, phantom_.from_normal(p_P))
+                                                      : kFelt;
 }
 
 bool PalpatingHand::known(const Vec3& p_P) const {
   if (fromNormal(p_P) < kBelongs) return true;
   const auto near = [&](const Vec3& other) { return across(other, p_P) < kKnown; };
   const auto same = [&](const Vec3& other) { return across(other, p_P) < kSame; };
-  return std::any_of(marked_P_.begin(), marked_P_.end(), near) || std::any_of(dismissed_P_.begin(), dismissed_P_.end(), same);
+  return std::any_of(marked_P_.begin(), marked_P_.end(), near) ||
+         std::any_of(dismissed_P_.begin(), dismissed_P_.end(), same);
 }
 
 void PalpatingHand::judge(double now_s) {
@@ -111,16 +127,18 @@ void PalpatingHand::judge(double now_s) {
   if (suspect_P_) {
     (look_ == Look::climb ? closer_ : fresh_).push_back(felt);
   } else {
-    felt.firm = memory_.firmness(felt) > skill_.looks_closer;   // what is firm is no measure of the rest
+    felt.firm =
+        memory_.firmness(felt) > skill_.looks_closer;  // what is firm is no measure of the rest
     memory_.add(felt);
     waiting_.push_back(felt);
   }
   next(now_s);
 }
 
-/// Where the hill about a place has its top, by what the search has told; a hand that looked closer on the flank would mark the flank.
+/// Where the hill about a place has its top, by what the search has told; a hand that looked closer
+/// on the flank would mark the flank.
 Vec3 PalpatingHand::thoughtOver(Vec3 p_P) const {
-  constexpr int kTimes = 3;   // of a centimetre at most
+  constexpr int kTimes = 3;  // of a centimetre at most
   for (int i = 0; i < kTimes && skill_.feels_around; ++i) p_P = inArea(memory_.hillTop({}, p_P));
   return p_P;
 }
@@ -129,7 +147,8 @@ Vec3 PalpatingHand::thoughtOver(Vec3 p_P) const {
 bool PalpatingHand::lookCloser() {
   while (!waiting_.empty()) {
     const FeltPress felt = waiting_.front();
-    if (skill_.feels_around && !places_.empty() && places_.back().x() < felt.p_P.x() + kAround) return false;
+    if (skill_.feels_around && !places_.empty() && places_.back().x() < felt.p_P.x() + kAround)
+      return false;
     waiting_.erase(waiting_.begin());
     if (memory_.firmness(felt) <= skill_.looks_closer || known(felt.p_P)) continue;
     const Vec3 top = thoughtOver(felt.p_P);
@@ -145,11 +164,17 @@ bool PalpatingHand::lookCloser() {
 }
 
 void PalpatingHand::planCross(const Vec3& p_P) {
-  for (const Vec3& off : {Vec3(0, -kCross, 0), Vec3(0, kCross, 0), Vec3(kCross, 0, 0), Vec3(-kCross, 0, 0), Vec3(0, 0, 0)}) closer_places_.push_back(inArea(Vec3(p_P.x(), p_P.y(), 0) + off));
+  for (const Vec3& off : {Vec3(0, -kCross, 0), Vec3(0, kCross, 0), Vec3(kCross, 0, 0),
+                          Vec3(-kCross, 0, 0), Vec3(0, 0, 0)})
+    closer_places_.push_back(inArea(Vec3(p_P.x(), p_P.y(), 0) + off));
 }
 
-/// Nobody asks what lies beyond the outline; and toward the edge of a block it gives way less by itself.
-Vec3 PalpatingHand::inArea(const Vec3& p_P) const { return {std::clamp(p_P.x(), -phantom_.half_x, phantom_.half_x), std::clamp(p_P.y(), -phantom_.half_y, phantom_.half_y), p_P.z()}; }
+/// Nobody asks what lies beyond the outline; and toward the edge of a block it gives way less by
+/// itself.
+Vec3 PalpatingHand::inArea(const Vec3& p_P) const {
+  return {std::clamp(p_P.x(), -phantom_.half_x, phantom_.half_x),
+          std::clamp(p_P.y(), -phantom_.half_y, phantom_.half_y), p_P.z()};
+}
 
 /// At one place, so often: what led there was chosen for being firm, only fresh presses tell.
 void PalpatingHand::pressAfresh(const Vec3& p_P, int times, Look look) {
@@ -161,14 +186,15 @@ void PalpatingHand::pressAfresh(const Vec3& p_P, int times, Look look) {
 
 /// The presses of a look are done: was it chance, where is it firmest, is it a lump?
 void PalpatingHand::decide(double now_s) {
-  constexpr double kNotChance = 0.7;   // of what made one look
-  constexpr double kOnTop = 2.4e-3;    // m
-  if (look_ == Look::again && memory_.meanFirmness(fresh_) < kNotChance * skill_.looks_closer) return dismiss(now_s);
+  constexpr double kNotChance = 0.7;  // of what made one look
+  constexpr double kOnTop = 2.4e-3;   // m
+  if (look_ == Look::again && memory_.meanFirmness(fresh_) < kNotChance * skill_.looks_closer)
+    return dismiss(now_s);
   if (look_ != Look::confirm) {
     const bool begins = closer_.size() == 1;
     look_ = Look::climb;
     const Vec3 top = begins ? *suspect_P_ : inArea(memory_.hillTop(closer_, *suspect_P_));
-    if (known(top)) return dismiss(now_s);   // the flank of one that was marked
+    if (known(top)) return dismiss(now_s);  // the flank of one that was marked
     if ((begins || across(top, *suspect_P_) > kOnTop) && rounds_left_-- > 0) {
       suspect_P_ = top;
       planCross(top);
@@ -198,10 +224,12 @@ void PalpatingHand::dismiss(double now_s) {
 
 /// As wide as where it was felt to be firm.
 Hand::Word PalpatingHand::grade(const Vec3& p_P, double firmest) {
-  constexpr double kAcross = 3, kSmallest = 0.006, kLargest = 0.035;   // of the spread; m
+  constexpr double kAcross = 3, kSmallest = 0.006, kLargest = 0.035;  // of the spread; m
   Word word;
   word.kind = Word::Kind::grade;
-  word.diameter = std::clamp(kAcross * memory_.spreadAbout(p_P, closer_) * (1 + skill_.size_sd * judgement_.normal()), kSmallest, kLargest);
+  word.diameter = std::clamp(
+      kAcross * memory_.spreadAbout(p_P, closer_) * (1 + skill_.size_sd * judgement_.normal()),
+      kSmallest, kLargest);
   word.hardness = firmest >= skill_.hard_from ? 2 : 1;
   return word;
 }
@@ -224,13 +252,17 @@ void PalpatingHand::think(const Senses& senses) {
   tip_now_P_ = X_PD * (senses.X_DE * X_ET_).translation();
   felt_N_ += kSharp * (-(X_PD.linear() * senses.f_fingers_D).z() - felt_N_);
   if (!senses.seen) return;
-  if (senses.seen->running && senses.seen->trial != trial_) return beginTrial(senses.seen->trial, now_s);
-  if (!senses.seen->running && step_ != Step::rest && step_ != Step::travel) {   // paused or over: away from it
+  if (senses.seen->running && senses.seen->trial != trial_)
+    return beginTrial(senses.seen->trial, now_s);
+  if (!senses.seen->running && step_ != Step::rest &&
+      step_ != Step::travel) {  // paused or over: away from it
     return goTo(Vec3(tip_P_.x(), tip_P_.y(), kHome), now_s, Step::rest);
   }
-  if (senses.seen->running && step_ == Step::rest && trial_ > 0 && !done_) return next(now_s);   // after a pause
+  if (senses.seen->running && step_ == Step::rest && trial_ > 0 && !done_)
+    return next(now_s);  // after a pause
   switch (step_) {
-    case Step::rest: return;
+    case Step::rest:
+      return;
     case Step::travel:
       tip_P_ = move_.at(now_s).translation();
       if (!move_.done(now_s)) return;
@@ -240,7 +272,8 @@ void PalpatingHand::think(const Senses& senses) {
       air_N_ = felt_N_;
       depths_.clear();
       return;
-    case Step::press: return pressing(now_s);
+    case Step::press:
+      return pressing(now_s);
     case Step::overshoot:
       tip_P_.z() -= skill_.press_speed * kThink_s;
       if (now_s - since_s_ >= skill_.reaction) step_ = Step::lift;
@@ -275,9 +308,13 @@ Hand::Action PalpatingHand::act(const Senses& senses, double dt) {
   }
   const Vec3 tip_P = tip_P_ + tremor_.next(dt);
   Action action;
-  action.X_DH = bearings_.X_DA() * phantom_.X_AP * makePose(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix(), tip_P) * X_TE_;
+  action.X_DH =
+      bearings_.X_DA() * phantom_.X_AP *
+      makePose(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix(), tip_P) *
+      X_TE_;
   action.buttons = step_ == Step::mark ? 1u : 0u;
-  const bool says_now = word_.kind == Word::Kind::done ? step_ == Step::travel : step_ == Step::release;
+  const bool says_now =
+      word_.kind == Word::Kind::done ? step_ == Step::travel : step_ == Step::release;
   if (says_now && word_.kind != Word::Kind::none) std::swap(action.says, word_);
   return action;
 }

@@ -15,47 +15,62 @@
 
 namespace palpa::twin {
 
-/// How a simulated person palpates; fixed beforehand in assets/operators/palpation_*.json, each figure with unit and source. SI units here.
+/// How a simulated person palpates; fixed beforehand in assets/operators/palpation_*.json, each
+/// figure with unit and source. SI units here.
 struct PalpatingSkill {
   std::string name;
   HandGrip grip;
-  double tremor_rms = 0, look_sd = 0;   ///< m
-  double strip = 0, step = 0;           ///< m, between vertical strips, between presses along one
-  double wander = 0;                    ///< m, how far from the planned place a press is
-  double skip = 0;                      ///< share of places that are left out
-  double travel_speed = 0, press_speed = 0;   ///< m/s
-  std::vector<double> pressures;        ///< N, rising, at each of which it is judged how far the surface gave way
-  double reaction = 0;                  ///< s
-  double weber = 0;                     ///< standard deviation of ln of a judged depth
-  double looks_closer = 0, marks_from = 0;    ///< ln of how much less it gives way than around
-  int again = 0;                        ///< presses of a place that seemed firm, before a closer look
-  int rounds = 0, confirms = 0;         ///< of five presses about the place, at most, in a closer look that follows what is firmer; presses at the firmest place by which it is decided, 0: by those that led there
-  double closer_force = 1;              ///< how much harder a closer look presses
-  double size_sd = 0;                   ///< share
-  double hard_from = 0;                 ///< ln, as `marks_from`: from here on a lump is called hard
-  bool feels_around = false;            ///< what seemed firm waits until all about it has been felt; else a closer look begins at once
-  bool knows_anatomy = false;           ///< what belongs there is not taken for a lump
+  double tremor_rms = 0, look_sd = 0;  ///< m
+  double strip = 0, step = 0;          ///< m, between vertical strips, between presses along one
+  double wander = 0;                   ///< m, how far from the planned place a press is
+  double skip = 0;                     ///< share of places that are left out
+  double travel_speed = 0, press_speed = 0;  ///< m/s
+  std::vector<double>
+      pressures;        ///< N, rising, at each of which it is judged how far the surface gave way
+  double reaction = 0;  ///< s
+  double weber = 0;     ///< standard deviation of ln of a judged depth
+  double looks_closer = 0, marks_from = 0;  ///< ln of how much less it gives way than around
+  int again = 0;                 ///< presses of a place that seemed firm, before a closer look
+  int rounds = 0, confirms = 0;  ///< of five presses about the place, at most, in a closer look
+                                 ///< that follows what is firmer; presses at the firmest place by
+                                 ///< which it is decided, 0: by those that led there
+  double closer_force = 1;       ///< how much harder a closer look presses
+  double size_sd = 0;            ///< share
+  double hard_from = 0;          ///< ln, as `marks_from`: from here on a lump is called hard
+  bool feels_around = false;   ///< what seemed firm waits until all about it has been felt; else a
+                               ///< closer look begins at once
+  bool knows_anatomy = false;  ///< what belongs there is not taken for a lump
 };
 PalpatingSkill readPalpatingSkill(const std::filesystem::path& file);
 
-/// What anybody sees of the phantom: where it lies on the screen, and the area that is to be searched. P: origin in the middle of the top, z up.
+/// What anybody sees of the phantom: where it lies on the screen, and the area that is to be
+/// searched. P: origin in the middle of the top, z up.
 struct VisiblePhantom {
   Pose X_AP = Pose::Identity();
-  double half_x = 0, half_y = 0;        ///< m
-  std::function<double(const Vec3& p_P)> from_normal;   ///< m, to where something firm belongs in such a body: what books teach, not what this case holds; empty: nowhere
+  double half_x = 0, half_y = 0;  ///< m
+  std::function<double(const Vec3& p_P)>
+      from_normal;  ///< m, to where something firm belongs in such a body: what books teach, not
+                    ///< what this case holds; empty: nowhere
 };
 
-/// A simulated person who searches a soft thing for lumps, in vertical strips: presses, judges how far it gave way at each pressure against what the nearest ordinary places gave, looks closer where it
-/// gave less, marks by holding still with the button, grades. Knows what is on the screen and what the hand feels; nothing else.
+/// A simulated person who searches a soft thing for lumps, in vertical strips: presses, judges how
+/// far it gave way at each pressure against what the nearest ordinary places gave, looks closer
+/// where it gave less, marks by holding still with the button, grades. Knows what is on the screen
+/// and what the hand feels; nothing else.
 class PalpatingHand final : public Hand {
  public:
-  PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& phantom, const Pose& X_ET, std::uint64_t seed);
+  PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& phantom, const Pose& X_ET,
+                std::uint64_t seed);
 
   Action act(const Senses& senses, double dt) override;
   const HandGrip& grip() const override { return skill_.grip; }
 
  private:
-  enum class Look { again, climb, confirm };   ///< of a closer look: was it chance, where is it firmest, is it a lump
+  enum class Look {
+    again,
+    climb,
+    confirm
+  };  ///< of a closer look: was it chance, where is it firmest, is it a lump
   enum class Step { rest, travel, press, overshoot, lift, mark, release };
   void think(const Senses& senses);
   void beginTrial(int trial, double now_s);
@@ -88,17 +103,18 @@ class PalpatingHand final : public Hand {
 
   Step step_ = Step::rest, after_travel_ = Step::rest;
   int trial_ = 0;
-  Vec3 tip_P_ = Vec3::Zero(), tip_now_P_ = Vec3::Zero();   ///< wanted, and where it is
+  Vec3 tip_P_ = Vec3::Zero(), tip_now_P_ = Vec3::Zero();  ///< wanted, and where it is
   MinJerk move_;
   double since_s_ = 0;
   double felt_N_ = 0, air_N_ = 0, touched_z_ = 0, light_z_ = 0;
   bool touched_ = false;
-  std::vector<double> depths_;           ///< of this press so far
-  std::vector<Vec3> places_, closer_places_;   ///< still to be pressed, the next one last: in the search, in the closer look that is on
+  std::vector<double> depths_;                ///< of this press so far
+  std::vector<Vec3> places_, closer_places_;  ///< still to be pressed, the next one last: in the
+                                              ///< search, in the closer look that is on
   TouchMemory memory_;
   std::vector<FeltPress> closer_, fresh_;
-  std::vector<FeltPress> waiting_;       ///< of the search, still to be thought about
-  std::optional<Vec3> suspect_P_;        ///< a closer look is on
+  std::vector<FeltPress> waiting_;  ///< of the search, still to be thought about
+  std::optional<Vec3> suspect_P_;   ///< a closer look is on
   int rounds_left_ = 0;
   Look look_ = Look::climb;
   std::vector<Vec3> marked_P_, dismissed_P_;

@@ -12,7 +12,8 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   file.needVersion(1);
   PalpatingSkill s;
   s.name = file.text("name");
-  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000), file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
+  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
+            file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
   s.tremor_rms = kPalpatingMm * file.number("tremor_rms_mm", 0, 5);
   s.look_sd = kPalpatingMm * file.number("look_sd_mm", 0, 50);
   s.strip = kPalpatingMm * file.number("strip_mm", 1, 200);
@@ -22,10 +23,13 @@ PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
   s.travel_speed = kPalpatingMm * file.number("travel_speed_mm_per_s", 1, 2000);
   s.press_speed = kPalpatingMm * file.number("press_speed_mm_per_s", 0.1, 500);
   for (const nlohmann::json& pressure : file.json().value("pressures_N", nlohmann::json::array())) {
-    if (!pressure.is_number() || pressure.get<double>() <= (s.pressures.empty() ? 0 : s.pressures.back())) file.refuse("pressures_N", "must hold rising numbers above 0");
+    if (!pressure.is_number() ||
+        pressure.get<double>() <= (s.pressures.empty() ? 0 : s.pressures.back()))
+      file.refuse("pressures_N", "must hold rising numbers above 0");
     s.pressures.push_back(pressure.get<double>());
   }
-  if (s.pressures.empty() || s.pressures.size() > kMostPressures) file.refuse("pressures_N", "must hold one to three numbers");
+  if (s.pressures.empty() || s.pressures.size() > kMostPressures)
+    file.refuse("pressures_N", "must hold one to three numbers");
   s.reaction = file.number("reaction_s", 0, 0.6);
   s.weber = file.number("weber", 0, 1);
   s.looks_closer = file.number("looks_closer", 0, 2);

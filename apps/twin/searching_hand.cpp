@@ -15,22 +15,23 @@ namespace palpa::twin {
 namespace {
 
 constexpr double kFullTurn = 2 * std::numbers::pi, kThirdTurn = kFullTurn / 3;
-constexpr double kDecision_s = 0.01;                       // 100 Hz
-constexpr std::int64_t kOverview_ns = 100'000'000;       // 10 Hz
-constexpr double kLetGo_s = 1.4;                       // after the episode begins on the screen the handle is free
-constexpr double kDescent = 0.010;        // m/s
-constexpr double kPressGain = 0.004;                   // m/s more for every newton too little
-constexpr double kStay_s = 0.9;                        // in a middle, before looking round
-constexpr double kStroke_U = 18;                       // amplitude: within the texture
+constexpr double kDecision_s = 0.01;                // 100 Hz
+constexpr std::int64_t kOverview_ns = 100'000'000;  // 10 Hz
+constexpr double kLetGo_s = 1.4;      // after the episode begins on the screen the handle is free
+constexpr double kDescent = 0.010;    // m/s
+constexpr double kPressGain = 0.004;  // m/s more for every newton too little
+constexpr double kStay_s = 0.9;       // in a middle, before looking round
+constexpr double kStroke_U = 18;      // amplitude: within the texture
 constexpr double kSpiral_U = 12, kSpiralPitch_U = 4;
 
 double wrapped(double angle, double period) { return angle - period * std::round(angle / period); }
 
-/// Where the hand wants to be, as a hand can: no corners. Critically damped, so that the acceleration is known beforehand.
+/// Where the hand wants to be, as a hand can: no corners. Critically damped, so that the
+/// acceleration is known beforehand.
 struct SmoothWay {
   Vec3 p = Vec3::Zero(), v = Vec3::Zero(), a = Vec3::Zero();
   void follow(const Vec3& goal, double dt) {
-    constexpr double kTau = 0.015;                     // s
+    constexpr double kTau = 0.015;  // s
     a = (goal - p) / (kTau * kTau) - 2 * v / kTau;
     v += a * dt;
     p += v * dt;
@@ -39,14 +40,21 @@ struct SmoothWay {
 
 class SearchingHand final : public Hand {
  public:
-  SearchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET, std::uint64_t seed)
-      : skill_(skill), floor_(floor), X_ET_(X_ET), judgement_(seed, "searching.judgement"), glance_(seed, "searching.glance"), tremor_(skill.tremor_rms, runtime::RandomStream(seed, "searching.tremor")),
+  SearchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET,
+                std::uint64_t seed)
+      : skill_(skill),
+        floor_(floor),
+        X_ET_(X_ET),
+        judgement_(seed, "searching.judgement"),
+        glance_(seed, "searching.glance"),
+        tremor_(skill.tremor_rms, runtime::RandomStream(seed, "searching.tremor")),
         jolts_(skill.jolt, runtime::RandomStream(seed, "searching.jolts")) {}
 
   Action act(const Senses& senses, double dt) override {
     look(senses, dt);
     if (!bearings_.taken()) return {senses.X_DE, 0, 0, {}};
-    if (jolts_.feel(v_F_ - way_.v, dt) && step_ == Step::round) angles_.push_back(std::atan2(p_U_.y(), p_U_.x()));
+    if (jolts_.feel(v_F_ - way_.v, dt) && step_ == Step::round)
+      angles_.push_back(std::atan2(p_U_.y(), p_U_.x()));
     if (senses.now_ns >= next_ns_) {
       next_ns_ = senses.now_ns + static_cast<std::int64_t>(kDecision_s * 1e9);
       think(senses);
@@ -55,7 +63,8 @@ class SearchingHand final : public Hand {
     move(dt);
     way_.follow(floor_.unit * goal_U_, dt);
     Action action;
-    action.X_DH = bearings_.X_DA() * makePose(R_FT_, way_.p + lead(dt) + tremor_.next(dt)) * X_ET_.inverse();
+    action.X_DH =
+        bearings_.X_DA() * makePose(R_FT_, way_.p + lead(dt) + tremor_.next(dt)) * X_ET_.inverse();
     return action;
   }
   const HandGrip& grip() const override { return skill_.grip; }
@@ -65,13 +74,14 @@ class SearchingHand final : public Hand {
 
   void look(const Senses& senses, double dt) {
     const Pose X_DT = senses.X_DE * X_ET_;
-    const Vec3 p_D = X_DT.translation(), v_D = last_ ? Vec3((p_D - *last_) / dt) : Vec3(Vec3::Zero());
+    const Vec3 p_D = X_DT.translation(),
+               v_D = last_ ? Vec3((p_D - *last_) / dt) : Vec3(Vec3::Zero());
     last_ = p_D;
     speed_ += (v_D.norm() - speed_) * std::min(1.0, dt / 0.05);
     if (senses.seen && (senses.now_ns - last_glance_ns_ >= kOverview_ns || !bearings_.taken())) {
       last_glance_ns_ = senses.now_ns;
       Pose X_FT = floor_.X_AF.inverse() * senses.seen->X_AT;
-      X_FT.translation() /= floor_.magnification;      // as it is in the hand
+      X_FT.translation() /= floor_.magnification;  // as it is in the hand
       if (!bearings_.taken()) {
         R_FT_ = X_FT.rotation();
         goal_U_ = X_FT.translation() / floor_.unit;
@@ -86,10 +96,12 @@ class SearchingHand final : public Hand {
     pressed_N_ += (-f_F_.z() - pressed_N_) * std::min(1.0, dt / 0.03);
   }
 
-  /// How far the hand goes before the handle, so that the grip gives all that the handle and the hand need: k e + b de/dt = M a.
+  /// How far the hand goes before the handle, so that the grip gives all that the handle and the
+  /// hand need: k e + b de/dt = M a.
   const Vec3& lead(double dt) {
     const auto& [stiffness, damping, mass] = skill_.grip;
-    lead_ = (damping * lead_ + (floor_.handle_mass + mass) * dt * way_.a) / (damping + stiffness * dt);
+    lead_ =
+        (damping * lead_ + (floor_.handle_mass + mass) * dt * way_.a) / (damping + stiffness * dt);
     return lead_;
   }
 
@@ -102,13 +114,18 @@ class SearchingHand final : public Hand {
   /// On the floor the hand keeps its pressure, whatever lies under it.
   void press(double dt) {
     if (step_ == Step::rest || step_ == Step::wait) return;
-    const double rate = step_ == Step::descend ? -kDescent : kPressGain * (pressed_N_ - (light() ? skill_.stroke_press : skill_.press));
+    const double rate =
+        step_ == Step::descend
+            ? -kDescent
+            : kPressGain * (pressed_N_ - (light() ? skill_.stroke_press : skill_.press));
     goal_U_.z() += rate * dt / floor_.unit;
   }
 
   bool light() const { return step_ == Step::go || step_ == Step::stroke; }
 
-  Vec3 onCircle(double angle) const { return {floor_.circle * std::cos(angle), floor_.circle * std::sin(angle), 0}; }
+  Vec3 onCircle(double angle) const {
+    return {floor_.circle * std::cos(angle), floor_.circle * std::sin(angle), 0};
+  }
   double angleOf(int element) const { return orientation_ + kThirdTurn * element; }
 
   /// Straight on at a speed (m/s) until there; across the floor only.
@@ -137,21 +154,29 @@ class SearchingHand final : public Hand {
         return;
       }
       case Step::go:
-        arrived_ = toward(onCircle(angleOf(element_)) + kStroke_U * strokeWay(), skill_.scan_speed, dt);
+        arrived_ =
+            toward(onCircle(angleOf(element_)) + kStroke_U * strokeWay(), skill_.scan_speed, dt);
         return;
       case Step::stroke: {
-        travelled_ += skill_.stroke_speed * dt / floor_.unit / kStroke_U;   // of the phase; the peak speed is the stroke's
-        const Vec3 there = onCircle(angleOf(element_)) + kStroke_U * std::cos(travelled_) * strokeWay();
+        travelled_ += skill_.stroke_speed * dt / floor_.unit /
+                      kStroke_U;  // of the phase; the peak speed is the stroke's
+        const Vec3 there =
+            onCircle(angleOf(element_)) + kStroke_U * std::cos(travelled_) * strokeWay();
         goal_U_.head<2>() = there.head<2>();
         return;
       }
       case Step::middle:
-        arrived_ = toward(onCircle(angleOf(element_)), (p_U_ - onCircle(angleOf(element_))).head<2>().norm() > floor_.disc ? skill_.scan_speed : skill_.settle_speed, dt);
+        arrived_ = toward(onCircle(angleOf(element_)),
+                          (p_U_ - onCircle(angleOf(element_))).head<2>().norm() > floor_.disc
+                              ? skill_.scan_speed
+                              : skill_.settle_speed,
+                          dt);
         return;
       case Step::spiral: {
         const double r = kSpiralPitch_U * travelled_ / kFullTurn;
         travelled_ += skill_.settle_speed * dt / floor_.unit / std::max(r, 1.0);
-        const Vec3 there = onCircle(angleOf(element_)) + r * Vec3(std::cos(travelled_), std::sin(travelled_), 0);
+        const Vec3 there =
+            onCircle(angleOf(element_)) + r * Vec3(std::cos(travelled_), std::sin(travelled_), 0);
         goal_U_.head<2>() = there.head<2>();
         arrived_ = r > kSpiral_U;
         return;
@@ -175,7 +200,7 @@ class SearchingHand final : public Hand {
     }
     switch (step_) {
       case Step::rest:
-        return begin(Step::descend, now_s);           // after a pause
+        return begin(Step::descend, now_s);  // after a pause
       case Step::wait:
         if (been_s > kLetGo_s) begin(Step::descend, now_s);
         return;
@@ -196,11 +221,11 @@ class SearchingHand final : public Hand {
         if (been_s >= skill_.stroke_s) afterStroke(now_s);
         return;
       case Step::middle:
-        if (!arrived_) since_s_ = now_s;                 // the stay counts from there
+        if (!arrived_) since_s_ = now_s;  // the stay counts from there
         if (been_s > kStay_s) begin(Step::spiral, now_s);
         return;
       case Step::spiral:
-        if (arrived_) startRounds(now_s);             // not there: all over again
+        if (arrived_) startRounds(now_s);  // not there: all over again
         return;
     }
   }
@@ -215,16 +240,21 @@ class SearchingHand final : public Hand {
   /// Round once more while too little was noticed.
   void afterRound(double now_s) {
     ++round_;
-    if (round_ < 2 || (static_cast<int>(angles_.size()) < skill_.jolts * round_ && round_ < skill_.rounds)) return;
-    orientation_ = orientationBy(angles_, floor_.groove / floor_.circle, wrapped(judgement_.uniform(0, kThirdTurn), kThirdTurn));
+    if (round_ < 2 ||
+        (static_cast<int>(angles_.size()) < skill_.jolts * round_ && round_ < skill_.rounds))
+      return;
+    orientation_ = orientationBy(angles_, floor_.groove / floor_.circle,
+                                 wrapped(judgement_.uniform(0, kThirdTurn), kThirdTurn));
     element_ = times_ = 0;
     felt_ = {};
     begin(Step::go, now_s);
   }
 
-  /// Every texture so many times, one after the other; what is remembered is the mean of what was felt.
+  /// Every texture so many times, one after the other; what is remembered is the mean of what was
+  /// felt.
   void afterStroke(double now_s) {
-    felt_[static_cast<std::size_t>(element_)] += std::log(jolts_.roughness()) + skill_.weber_roughness * judgement_.normal();
+    felt_[static_cast<std::size_t>(element_)] +=
+        std::log(jolts_.roughness()) + skill_.weber_roughness * judgement_.normal();
     element_ = (element_ + 1) % 3;
     if (element_ == 0) ++times_;
     if (times_ < skill_.strokes) return begin(Step::go, now_s);
@@ -242,7 +272,8 @@ class SearchingHand final : public Hand {
   SmoothWay way_;
   Mat3 R_FT_ = Mat3::Identity();
   std::optional<Vec3> last_;
-  Vec3 v_F_ = Vec3::Zero(), p_U_ = Vec3::Zero(), goal_U_ = Vec3::Zero(), f_F_ = Vec3::Zero(), lead_ = Vec3::Zero();
+  Vec3 v_F_ = Vec3::Zero(), p_U_ = Vec3::Zero(), goal_U_ = Vec3::Zero(), f_F_ = Vec3::Zero(),
+       lead_ = Vec3::Zero();
   double speed_ = 0, pressed_N_ = 0, since_s_ = 0, travelled_ = 0, orientation_ = 0;
   std::int64_t next_ns_ = 0, last_glance_ns_ = -kOverview_ns;
   Step step_ = Step::rest;
@@ -255,11 +286,13 @@ class SearchingHand final : public Hand {
 }  // namespace
 
 double orientationBy(const std::vector<double>& angles, double half, double start) {
-  constexpr int kSteps = 240;                          // half a degree
+  constexpr int kSteps = 240;  // half a degree
   std::array<int, kSteps> within{};
   int most = 0;
   for (int i = 0; i < kSteps; ++i) {
-    for (const double angle : angles) within[static_cast<std::size_t>(i)] += std::abs(wrapped(angle - kThirdTurn * i / kSteps, kThirdTurn)) <= half;
+    for (const double angle : angles)
+      within[static_cast<std::size_t>(i)] +=
+          std::abs(wrapped(angle - kThirdTurn * i / kSteps, kThirdTurn)) <= half;
     most = std::max(most, within[static_cast<std::size_t>(i)]);
   }
   if (most == 0) return start;
@@ -268,15 +301,20 @@ double orientationBy(const std::vector<double>& angles, double half, double star
   int longest = 0;
   for (int i = 0; i < kSteps; ++i) {
     int length = 0;
-    while (length < kSteps && within[static_cast<std::size_t>((i + length) % kSteps)] == most) ++length;
+    while (length < kSteps && within[static_cast<std::size_t>((i + length) % kSteps)] == most)
+      ++length;
     const double middle = kThirdTurn * std::fmod((i + 0.5 * (length - 1)) / kSteps, 1.0);
-    const bool nearer = std::abs(wrapped(middle - start, kThirdTurn)) < std::abs(wrapped(best - start, kThirdTurn));
+    const bool nearer =
+        std::abs(wrapped(middle - start, kThirdTurn)) < std::abs(wrapped(best - start, kThirdTurn));
     if (length > longest || (length == longest && nearer)) best = middle, longest = length;
   }
   return longest < kSteps ? best : start;
 }
 
-std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET, std::uint64_t seed) { return std::make_unique<SearchingHand>(skill, floor, X_ET, seed); }
+std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFloor& floor,
+                                    const Pose& X_ET, std::uint64_t seed) {
+  return std::make_unique<SearchingHand>(skill, floor, X_ET, seed);
+}
 
 SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
   constexpr double kMillimetre = 1e-3;
@@ -284,7 +322,8 @@ SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
   file.needVersion(1);
   SearchingSkill s;
   s.name = file.text("name");
-  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000), file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
+  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
+            file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
   s.tremor_rms = kMillimetre * file.number("tremor_rms_mm", 0, 5);
   s.look_sd = kMillimetre * file.number("look_sd_mm", 0, 50);
   s.press = file.number("press_N", 0.05, 20);
@@ -297,7 +336,9 @@ SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
   s.stroke_s = file.number("stroke_s", 0.1, 10);
   s.strokes = file.integer("strokes", 1, 10);
   s.weber_roughness = file.number("weber_roughness", 0, 2);
-  s.jolt = {kMillimetre * file.number("jolt_least_mm_per_s", 0, 100), file.number("jolt_contrast", 0, 20), file.number("jolt_spread", 0, 1), kMillimetre * file.number("rough_floor_mm_per_s", 0, 100)};
+  s.jolt = {kMillimetre * file.number("jolt_least_mm_per_s", 0, 100),
+            file.number("jolt_contrast", 0, 20), file.number("jolt_spread", 0, 1),
+            kMillimetre * file.number("rough_floor_mm_per_s", 0, 100)};
   return s;
 }
 

@@ -10,36 +10,46 @@
 
 namespace palpa::twin {
 
-/// How a simulated person searches a floor; fixed beforehand in assets/operators/search_*.json, each figure with unit and source. SI units here.
+/// How a simulated person searches a floor; fixed beforehand in assets/operators/search_*.json,
+/// each figure with unit and source. SI units here.
 struct SearchingSkill {
   std::string name;
   HandGrip grip;
-  double tremor_rms = 0, look_sd = 0;   ///< m, in the hand
-  double press = 0, stroke_press = 0;   ///< N, on the floor: to find edges, to tell a texture
-  double scan_speed = 0, stroke_speed = 0, settle_speed = 0;   ///< m/s: going round, stroking over a texture, looking for a pit
-  int rounds = 0;                       ///< at most, before deciding where the elements are
-  int jolts = 0;                        ///< that make a round worth deciding by
-  double stroke_s = 0;                  ///< on each texture, each time
-  int strokes = 0;                      ///< times over each texture before deciding
-  double weber_roughness = 0;           ///< standard deviation of ln of what is felt
+  double tremor_rms = 0, look_sd = 0;  ///< m, in the hand
+  double press = 0, stroke_press = 0;  ///< N, on the floor: to find edges, to tell a texture
+  double scan_speed = 0, stroke_speed = 0,
+         settle_speed = 0;     ///< m/s: going round, stroking over a texture, looking for a pit
+  int rounds = 0;              ///< at most, before deciding where the elements are
+  int jolts = 0;               ///< that make a round worth deciding by
+  double stroke_s = 0;         ///< on each texture, each time
+  int strokes = 0;             ///< times over each texture before deciding
+  double weber_roughness = 0;  ///< standard deviation of ln of what is felt
   JoltSense::Limits jolt;
 };
 SearchingSkill readSearchingSkill(const std::filesystem::path& file);
 
-/// What anybody sees and has been told: the floor's outline, magnified; that three elements lie equally spaced on a circle, each with a pit in its middle.
+/// What anybody sees and has been told: the floor's outline, magnified; that three elements lie
+/// equally spaced on a circle, each with a pit in its middle.
 struct VisibleFloor {
   Pose X_AF = Pose::Identity();
   double magnification = 10;
-  double unit = 60e-6;                  ///< m in the hand
-  double handle_mass = 0;               ///< kg, that the hand has got used to
-  double start_height = 20, circle = 200.0 / 3, disc = 25, groove = 35;   ///< U; groove: its outer rim
+  double unit = 60e-6;     ///< m in the hand
+  double handle_mass = 0;  ///< kg, that the hand has got used to
+  double start_height = 20, circle = 200.0 / 3, disc = 25,
+         groove = 35;  ///< U; groove: its outer rim
 };
 
-/// One simulated person searching: goes down to the floor, round the circle, notices jolts, takes the elements to lie where most jolts were, strokes over each, and stays in the middle of the one that felt
-/// roughest; from there looks for its pit. Knows what is on the screen and what it feels; nothing else.
-std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFloor& floor, const Pose& X_ET, std::uint64_t seed);
+/// One simulated person searching: goes down to the floor, round the circle, notices jolts, takes
+/// the elements to lie where most jolts were, strokes over each, and stays in the middle of the one
+/// that felt roughest; from there looks for its pit. Knows what is on the screen and what it feels;
+/// nothing else.
+std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFloor& floor,
+                                    const Pose& X_ET, std::uint64_t seed);
 
-/// Where three elements lie, equally spaced, by the angles (rad) at which jolts were noticed: the direction of one of them, 0 to 2 pi / 3, about which most jolts are within `half` of an element's middle; of several, the middle of the widest range of them, of equals the one nearest `start`, which is the answer where nothing tells.
+/// Where three elements lie, equally spaced, by the angles (rad) at which jolts were noticed: the
+/// direction of one of them, 0 to 2 pi / 3, about which most jolts are within `half` of an
+/// element's middle; of several, the middle of the widest range of them, of equals the one nearest
+/// `start`, which is the answer where nothing tells.
 double orientationBy(const std::vector<double>& angles, double half, double start);
 
 }  // namespace palpa::twin

@@ -13,12 +13,13 @@ namespace palpa::twin {
 namespace {
 
 using runtime::Request;
-constexpr double kStep = 0.001;          // s
-constexpr int kStepsAReading = 10;       // 100 Hz
-constexpr double kSeenLump = 2e-5;       // m, how well a camera tells where a lump is in a clear sample: a tenth of a pixel of 0.2 mm [chosen]
-constexpr double kSameLandmark = 1e-4;   // m
+constexpr double kStep = 0.001;     // s
+constexpr int kStepsAReading = 10;  // 100 Hz
+constexpr double kSeenLump = 2e-5;  // m, how well a camera tells where a lump is in a clear sample:
+                                    // a tenth of a pixel of 0.2 mm [chosen]
+constexpr double kSameLandmark = 1e-4;  // m
 constexpr double kSetupMm = 1e-3;
-constexpr double kBoardTravel = 0.7;     // s from one view to the next
+constexpr double kBoardTravel = 0.7;  // s from one view to the next
 const Vec3 kRestTip_W(0.03, 0.2, 0.12);
 
 double spread(const station::JsonFile& file, const std::string& at, double otherwise, double most) {
@@ -26,12 +27,16 @@ double spread(const station::JsonFile& file, const std::string& at, double other
 }
 
 /// The board's middle at a depth at which it takes its share of the picture's width.
-Pose boardPose(const runtime::BoardView& view, const calibration::CameraModel& camera, const ar::TagGridSpec& board, const SetupHandTruth& hand,
+Pose boardPose(const runtime::BoardView& view, const calibration::CameraModel& camera,
+               const ar::TagGridSpec& board, const SetupHandTruth& hand,
                runtime::RandomStream& random) {
-  const double depth = camera.fx * sheetSize(board).x() / (view.share * camera.width) * (1 + 0.03 * random.normal());
+  const double depth =
+      camera.fx * sheetSize(board).x() / (view.share * camera.width) * (1 + 0.03 * random.normal());
   const Vec3 p_CB(view.across * camera.width / 2 / camera.fx * depth + hand.aim * random.normal(),
-                  view.down * camera.height / 2 / camera.fy * depth + hand.aim * random.normal(), depth);
-  const Vec3 lean(view.lean + hand.lean * random.normal(), view.turn + hand.lean * random.normal(), hand.lean * random.normal());
+                  view.down * camera.height / 2 / camera.fy * depth + hand.aim * random.normal(),
+                  depth);
+  const Vec3 lean(view.lean + hand.lean * random.normal(), view.turn + hand.lean * random.normal(),
+                  hand.lean * random.normal());
   return makePose(calibration::rotationOf(lean) * calibration::halfTurnAboutX(), p_CB);
 }
 
@@ -52,12 +57,15 @@ struct SetupBench::Impl {
     VirtualScene at_table;
     if (s.marker) at_table.plates = {*s.marker};
     over_table.emplace(lens, s.board, VirtualCameraSettings{}, seed, at_table);
-    at_wall.emplace(lens, s.board, VirtualCameraSettings{}, seed, VirtualScene{VirtualScene::Ground::kWall, {s.board}});
+    at_wall.emplace(lens, s.board, VirtualCameraSettings{}, seed,
+                    VirtualScene{VirtualScene::Ground::kWall, {s.board}});
     const double off = kSetupMm * spread(s.file, "twin/landmark_spread_mm", 0.1, 10);
     for (const auto* list : {&s.landmarks, &s.grid})
-      for (const station::Landmark& landmark : *list) holes_W.push_back({landmark.p_W, landmark.p_W + off * runtime::normal3(holes)});
+      for (const station::Landmark& landmark : *list)
+        holes_W.push_back({landmark.p_W, landmark.p_W + off * runtime::normal3(holes)});
     if (s.marker) X_EM = station::readPose(s.file, "twin/X_EM");
-    if (s.design.force_sensor && s.design.force_sensor->driver == station::ForceSensorSetup::Driver::bench)
+    if (s.design.force_sensor &&
+        s.design.force_sensor->driver == station::ForceSensorSetup::Driver::bench)
       felt.emplace(trueSensor(s, seed), seed);
     X_WT = makePose(calibration::halfTurnAboutX(), kRestTip_W);
     X_CB = makePose(calibration::halfTurnAboutX(), Vec3(0, 0, 0.5));
@@ -96,13 +104,16 @@ struct SetupBench::Impl {
     moment.reading = reading();
     if (felt) {
       const Pose X_WS = X_WE() * station.design.force_sensor->X_ES;
-      moment.wrench = felt->measure(X_WS, touched.f_W, touched.p_W, stepsAReading() * kStep, moment.reading->t_ns);
+      moment.wrench = felt->measure(X_WS, touched.f_W, touched.p_W, stepsAReading() * kStep,
+                                    moment.reading->t_ns);
     }
     if (touched.lump_W) moment.lump_W = *touched.lump_W + kSeenLump * runtime::normal3(imaging);
     return moment;
   }
 
-  int stepsAReading() const { return sample ? static_cast<int>(1 / (kStep * runtime::kFeltRate_Hz)) : kStepsAReading; }
+  int stepsAReading() const {
+    return sample ? static_cast<int>(1 / (kStep * runtime::kFeltRate_Hz)) : kStepsAReading;
+  }
 
   /// What was before the camera when the shutter opened.
   struct Exposure {
@@ -122,7 +133,8 @@ struct SetupBench::Impl {
     if (e.board_held || station.marker) plates.push_back({0, e.board_held ? e.X_CB : e.X_CM});
     ar::Frame frame;
     frame.number = e.number;
-    frame.t_exposure_ns = std::llround(1e9 * (e.t + world.camera_latency_s - station.camera_latency_s));
+    frame.t_exposure_ns =
+        std::llround(1e9 * (e.t + world.camera_latency_s - station.camera_latency_s));
     frame.image = (e.board_held ? *at_wall : *over_table).render(X_CW_boom, plates, e.number);
     frame.source = "virtual camera";
     return frame;
@@ -133,7 +145,9 @@ struct SetupBench::Impl {
       if (!exposures.empty() && exposures.front().t + world.camera_latency_s <= t) {
         runtime::Moment moment;
         moment.t = t;
-        moment.picture = [this, e = exposures.front()]() -> std::optional<ar::Frame> { return take(e); };
+        moment.picture = [this, e = exposures.front()]() -> std::optional<ar::Frame> {
+          return take(e);
+        };
         exposures.pop_front();
         return moment;
       }
@@ -151,10 +165,10 @@ struct SetupBench::Impl {
   SetupHandTruth hand;
   SetupMotion motion;
   runtime::RandomStream views, holes;
-  std::vector<std::pair<Vec3, Vec3>> holes_W;   ///< where they are said to be, where they are
+  std::vector<std::pair<Vec3, Vec3>> holes_W;  ///< where they are said to be, where they are
   std::optional<VirtualCamera> over_table, at_wall;
   std::optional<SensorTwin> felt;
-  std::optional<SampleTwin> sample;   // while one is felt
+  std::optional<SampleTwin> sample;  // while one is felt
   SampleTwin::Touch touched;
   runtime::RandomStream imaging;
   Pose X_WT = Pose::Identity(), X_CB = Pose::Identity();
@@ -166,25 +180,32 @@ struct SetupBench::Impl {
   std::deque<Exposure> exposures;
 };
 
-SetupBench::SetupBench(const station::Station& station, std::uint64_t seed) : impl_(std::make_unique<Impl>(station, seed)) {}
+SetupBench::SetupBench(const station::Station& station, std::uint64_t seed)
+    : impl_(std::make_unique<Impl>(station, seed)) {}
 SetupBench::~SetupBench() = default;
 
 void SetupBench::ask(const Request& request) {
   Impl& b = *impl_;
   b.showing = request.what == Request::What::show_board;
   if (b.showing) {
-    b.board_way = MinJerk(b.X_CB, boardPose(request.view, b.over_table->truth(), b.station.board, b.hand, b.views), b.t, kBoardTravel);
+    b.board_way = MinJerk(
+        b.X_CB, boardPose(request.view, b.over_table->truth(), b.station.board, b.hand, b.views),
+        b.t, kBoardTravel);
   }
   b.sample.reset();
   b.touched = {};
-  if (request.what == Request::What::press || request.what == Request::What::stroke) b.sample.emplace(b.station, request.sample, b.seed);
-  b.motion.begin(request, b.X_WT, b.hole(request.p_W), b.t, b.station.sample ? b.station.sample->X_WP : Pose::Identity());
+  if (request.what == Request::What::press || request.what == Request::What::stroke)
+    b.sample.emplace(b.station, request.sample, b.seed);
+  b.motion.begin(request, b.X_WT, b.hole(request.p_W), b.t,
+                 b.station.sample ? b.station.sample->X_WP : Pose::Identity());
 }
 
 std::optional<runtime::Moment> SetupBench::next() { return impl_->next(); }
 const DeviceTruth& SetupBench::device() const { return impl_->device; }
 const WorldTruth& SetupBench::truth() const { return impl_->world; }
-const calibration::CameraModel& SetupBench::trueCamera() const { return impl_->over_table->truth(); }
+const calibration::CameraModel& SetupBench::trueCamera() const {
+  return impl_->over_table->truth();
+}
 Pose SetupBench::X_CW() const { return impl_->X_CW_boom; }
 
 }  // namespace palpa::twin

@@ -12,25 +12,28 @@
 namespace palpa::twin {
 namespace {
 
-constexpr std::int64_t kThought_ns = 10'000'000, kLook_ns = 100'000'000;   // 100 Hz, 10 Hz
+constexpr std::int64_t kThought_ns = 10'000'000, kLook_ns = 100'000'000;  // 100 Hz, 10 Hz
 constexpr double kThought_s = 0.01;
-constexpr double kFingertip = 0.3;                    // touch is not sharper than about 25 ms
-constexpr double kOpen = 0.012, kLifted = 0.025;      // m: of each finger beside the object; above its stand
+constexpr double kFingertip = 0.3;  // touch is not sharper than about 25 ms
+constexpr double kOpen = 0.012,
+                 kLifted = 0.025;  // m: of each finger beside the object; above its stand
 constexpr double kMoves_s = 0.8, kWeighs_s = 0.5, kPause_s = 0.5;
-constexpr double kFarthestIn = 0.014;                 // m: a finger that feels nothing stops there
+constexpr double kFarthestIn = 0.014;  // m: a finger that feels nothing stops there
 
 }  // namespace
 
 /// The person behind both fingers.
 class SqueezingMind {
  public:
-  SqueezingMind(const SqueezingSkill& skill, const VisibleObject& object, const Pose& X_ET, std::uint64_t seed)
+  SqueezingMind(const SqueezingSkill& skill, const VisibleObject& object, const Pose& X_ET,
+                std::uint64_t seed)
       : skill_(skill),
         object_(object),
         X_ET_(X_ET),
         judgement_(seed, "squeezing.judgement"),
         noise_(seed, "squeezing.noise"),
-        tremors_{Tremor(skill.tremor_rms, runtime::RandomStream(seed, "squeezing.tremor.0")), Tremor(skill.tremor_rms, runtime::RandomStream(seed, "squeezing.tremor.1"))},
+        tremors_{Tremor(skill.tremor_rms, runtime::RandomStream(seed, "squeezing.tremor.0")),
+                 Tremor(skill.tremor_rms, runtime::RandomStream(seed, "squeezing.tremor.1"))},
         in_(object.half + kOpen) {}
 
   Hand::Action act(std::size_t finger, const Hand::Senses& senses, double dt) {
@@ -44,7 +47,8 @@ class SqueezingMind {
     const double side = finger == 0 ? 1 : -1;
     const Vec3 p_O = Vec3(side * in_, 0, up_) + tremors_[finger].next(dt);
     Hand::Action action;
-    action.X_DH = f.bearings.X_DA() * object_.X_AO * makePose(rotationWithZ(Vec3(-side, 0, 0)), p_O) * X_ET_.inverse();
+    action.X_DH = f.bearings.X_DA() * object_.X_AO *
+                  makePose(rotationWithZ(Vec3(-side, 0, 0)), p_O) * X_ET_.inverse();
     if (finger == 0) std::swap(action.says, word_);
     return action;
   }
@@ -53,13 +57,13 @@ class SqueezingMind {
   enum class Step { rest, come, close, lift, weigh, squeeze, relax, lower, open, think };
   /// What one thing felt like.
   struct Felt {
-    double weight = 0, stiffness = 0;     ///< N; N/m
+    double weight = 0, stiffness = 0;  ///< N; N/m
   };
   struct Finger {
     Bearings bearings;
     std::int64_t last_look_ns = -kLook_ns;
     Vec3 p_last_D = Vec3::Zero(), tip_O = Vec3::Zero();
-    double speed = 0, pushes_N = 0, carries_N = 0;   ///< inward, up
+    double speed = 0, pushes_N = 0, carries_N = 0;  ///< inward, up
   };
 
   void look(std::size_t finger, Finger& f, const Hand::Senses& senses, double dt) {
@@ -68,7 +72,8 @@ class SqueezingMind {
     f.p_last_D = p_D;
     if (senses.seen && (senses.now_ns - f.last_look_ns >= kLook_ns || !f.bearings.taken())) {
       f.last_look_ns = senses.now_ns;
-      f.bearings.look(finger == 0 ? senses.seen->X_AT : senses.seen->second_X_AT, senses.X_DE * X_ET_, skill_.look_sd, f.speed, noise_);
+      f.bearings.look(finger == 0 ? senses.seen->X_AT : senses.seen->second_X_AT,
+                      senses.X_DE * X_ET_, skill_.look_sd, f.speed, noise_);
     }
     if (!f.bearings.taken()) return;
     const Pose X_OD = (f.bearings.X_DA() * object_.X_AO).inverse();
@@ -97,7 +102,8 @@ class SqueezingMind {
   }
   /// Minimum jerk between where a step began and where it ends.
   bool moved(double now_s, double in, double up) {
-    const double s = std::clamp((now_s - since_s_) / kMoves_s, 0.0, 1.0), part = s * s * s * (10 - 15 * s + 6 * s * s);
+    const double s = std::clamp((now_s - since_s_) / kMoves_s, 0.0, 1.0),
+                 part = s * s * s * (10 - 15 * s + 6 * s * s);
     in_ = from_in_ + part * (in - from_in_);
     up_ = from_up_ + part * (up - from_up_);
     return s >= 1;
@@ -112,14 +118,17 @@ class SqueezingMind {
   void think(const Hand::Senses& senses) {
     const double now_s = 1e-9 * static_cast<double>(senses.now_ns);
     if (!senses.seen) return;
-    if (senses.seen->running && senses.seen->trial != trial_) return begin(senses.seen->trial, now_s);
-    if (!senses.seen->running) {   // over, or paused: let go
-      if (step_ != Step::rest && step_ != Step::open) go(Step::open, now_s), trial_ = senses.seen->trial;
+    if (senses.seen->running && senses.seen->trial != trial_)
+      return begin(senses.seen->trial, now_s);
+    if (!senses.seen->running) {  // over, or paused: let go
+      if (step_ != Step::rest && step_ != Step::open)
+        go(Step::open, now_s), trial_ = senses.seen->trial;
       if (step_ == Step::open && moved(now_s, object_.half + kOpen, 0)) step_ = Step::rest;
       return;
     }
     switch (step_) {
-      case Step::rest: return;
+      case Step::rest:
+        return;
       case Step::come:
         air_N_ = 0;
         if (!moved(now_s, object_.half + kOpen, 0)) return;
@@ -138,13 +147,15 @@ class SqueezingMind {
         weight_sum_ += carries();
         weight_count_ += 1;
         if (now_s - since_s_ < kWeighs_s) return;
-        now().weight = weight_sum_ / weight_count_ * std::exp(skill_.weber_weight * judgement_.normal());
+        now().weight =
+            weight_sum_ / weight_count_ * std::exp(skill_.weber_weight * judgement_.normal());
         held_N_ = pushes();
         held_apart_ = apart();
         return go(Step::squeeze, now_s);
       case Step::squeeze:
         if (!closed(skill_.squeeze)) return;
-        now().stiffness = (pushes() - held_N_) / std::max(held_apart_ - apart(), 1e-4) * std::exp(skill_.weber_stiffness * judgement_.normal());
+        now().stiffness = (pushes() - held_N_) / std::max(held_apart_ - apart(), 1e-4) *
+                          std::exp(skill_.weber_stiffness * judgement_.normal());
         return go(Step::relax, now_s);
       case Step::relax:
         if (!moved(now_s, held_in(), from_up_)) return;
@@ -154,7 +165,7 @@ class SqueezingMind {
         return go(Step::open, now_s);
       case Step::open:
         if (!moved(now_s, object_.half + kOpen, 0)) return;
-        if (thing_ == 0) word_.kind = Hand::Word::Kind::done;   // the other one
+        if (thing_ == 0) word_.kind = Hand::Word::Kind::done;  // the other one
         return go(Step::think, now_s);
       case Step::think:
         if (now_s - since_s_ < kPause_s) return;
@@ -171,7 +182,8 @@ class SqueezingMind {
   double held_in() const { return std::min(object_.half, held_apart_); }
 
   void say(bool heavier) {
-    const bool second = heavier ? felt_[1].weight > felt_[0].weight : felt_[1].stiffness > felt_[0].stiffness;
+    const bool second =
+        heavier ? felt_[1].weight > felt_[0].weight : felt_[1].stiffness > felt_[0].stiffness;
     word_.kind = Hand::Word::Kind::grade;
     word_.hardness = second ? 2 : 1;
   }
@@ -185,7 +197,8 @@ class SqueezingMind {
   std::int64_t next_thought_ns_ = 0;
   Step step_ = Step::rest;
   int trial_ = 0, thing_ = 0;
-  double in_, up_ = 0;                  ///< of each finger's tip from the object's middle; above where it rests: wanted, m
+  double in_,
+      up_ = 0;  ///< of each finger's tip from the object's middle; above where it rests: wanted, m
   double from_in_ = 0, from_up_ = 0, since_s_ = 0;
   double air_N_ = 0, held_N_ = 0, held_apart_ = 0, weight_sum_ = 0, weight_count_ = 0;
   std::array<Felt, 2> felt_;
@@ -196,7 +209,8 @@ namespace {
 
 class SqueezingFinger final : public Hand {
  public:
-  SqueezingFinger(std::shared_ptr<SqueezingMind> mind, const HandGrip& grip, std::size_t finger) : mind_(std::move(mind)), grip_(grip), finger_(finger) {}
+  SqueezingFinger(std::shared_ptr<SqueezingMind> mind, const HandGrip& grip, std::size_t finger)
+      : mind_(std::move(mind)), grip_(grip), finger_(finger) {}
   Action act(const Senses& senses, double dt) override { return mind_->act(finger_, senses, dt); }
   const HandGrip& grip() const override { return grip_; }
 
@@ -208,9 +222,12 @@ class SqueezingFinger final : public Hand {
 
 }  // namespace
 
-std::array<std::unique_ptr<Hand>, 2> squeezingHands(const SqueezingSkill& skill, const VisibleObject& object, const Pose& X_ET, std::uint64_t seed) {
+std::array<std::unique_ptr<Hand>, 2> squeezingHands(const SqueezingSkill& skill,
+                                                    const VisibleObject& object, const Pose& X_ET,
+                                                    std::uint64_t seed) {
   const auto mind = std::make_shared<SqueezingMind>(skill, object, X_ET, seed);
-  return {std::make_unique<SqueezingFinger>(mind, skill.grip, 0), std::make_unique<SqueezingFinger>(mind, skill.grip, 1)};
+  return {std::make_unique<SqueezingFinger>(mind, skill.grip, 0),
+          std::make_unique<SqueezingFinger>(mind, skill.grip, 1)};
 }
 
 SqueezingSkill readSqueezingSkill(const std::filesystem::path& path) {
@@ -219,7 +236,8 @@ SqueezingSkill readSqueezingSkill(const std::filesystem::path& path) {
   file.needVersion(1);
   SqueezingSkill s;
   s.name = file.text("name");
-  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000), file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
+  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
+            file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
   s.tremor_rms = kMillimetre * file.number("tremor_rms_mm", 0, 5);
   s.look_sd = kMillimetre * file.number("look_sd_mm", 0, 50);
   s.close_speed = kMillimetre * file.number("close_speed_mm_per_s", 0.1, 500);

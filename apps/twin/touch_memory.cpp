@@ -6,11 +6,12 @@
 namespace palpa::twin {
 namespace {
 
-constexpr std::size_t kCompared = 12, kFewest = 6;   // presses
-constexpr double kBeside = 0.004, kOneLump = 0.015, kAlike = 0.007;   // m
+constexpr std::size_t kCompared = 12, kFewest = 6;                   // presses
+constexpr double kBeside = 0.004, kOneLump = 0.015, kAlike = 0.007;  // m
 
 double medianOf(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2), values.end());
+  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
+                   values.end());
   return values[values.size() / 2];
 }
 
@@ -22,12 +23,15 @@ double across(const Vec3& a, const Vec3& b) { return (a - b).head<2>().norm(); }
 std::vector<double> TouchMemory::ordinaryAbout(const FeltPress& press, std::size_t pressure) const {
   std::vector<std::pair<double, double>> near;
   for (const FeltPress& other : presses_) {
-    const bool comparable = !other.firm && other.depths.size() > pressure && std::abs(other.from_normal - press.from_normal) < kAlike;
-    if (const double apart = across(other.p_P, press.p_P); comparable && apart > kBeside) near.emplace_back(apart, other.depths[pressure]);
+    const bool comparable = !other.firm && other.depths.size() > pressure &&
+                            std::abs(other.from_normal - press.from_normal) < kAlike;
+    if (const double apart = across(other.p_P, press.p_P); comparable && apart > kBeside)
+      near.emplace_back(apart, other.depths[pressure]);
   }
   std::sort(near.begin(), near.end());
   std::vector<double> depths;
-  for (std::size_t i = 0; i < std::min(near.size(), kCompared); ++i) depths.push_back(near[i].second);
+  for (std::size_t i = 0; i < std::min(near.size(), kCompared); ++i)
+    depths.push_back(near[i].second);
   return depths;
 }
 
@@ -45,19 +49,20 @@ double TouchMemory::firmness(const FeltPress& press) const {
 
 double TouchMemory::meanFirmness(const std::vector<FeltPress>& presses) const {
   double sum = 0;
-  for (const FeltPress& press : presses) sum += firmness(press) / static_cast<double>(presses.size());
+  for (const FeltPress& press : presses)
+    sum += firmness(press) / static_cast<double>(presses.size());
   return sum;
 }
 
 Vec3 TouchMemory::hillTop(const std::vector<FeltPress>& presses, const Vec3& centre) const {
-  constexpr double kWide = 8.5e-3, kFelt = 0.016, kStep = 1e-3;   // m
-  constexpr int kFarthest = 10;                                    // steps
+  constexpr double kWide = 8.5e-3, kFelt = 0.016, kStep = 1e-3;  // m
+  constexpr int kFarthest = 10;                                  // steps
   std::vector<std::pair<Vec3, double>> felt;
   for (const std::vector<FeltPress>* some : {&presses_, &presses})
     for (const FeltPress& press : *some)
       if (across(press.p_P, centre) < kFelt) felt.emplace_back(press.p_P, firmness(press));
   Vec3 top = centre;
-  double most = 0;   // of what the hill explains
+  double most = 0;  // of what the hill explains
   for (int i = -kFarthest; i <= kFarthest; ++i) {
     for (int j = -kFarthest; j <= kFarthest; ++j) {
       const Vec3 at = centre + kStep * Vec3(i, j, 0);

@@ -8,8 +8,8 @@
 
 namespace palpa::twin {
 
-/// Physiological tremor: white noise through a resonator at 10 Hz (8-12 Hz band), scaled to a stated rms.
-/// x'' + 2 z w x' + w^2 x = w^2 n; with z = 0.15 the half-power band is 8.5-11.5 Hz.
+/// Physiological tremor: white noise through a resonator at 10 Hz (8-12 Hz band), scaled to a
+/// stated rms. x'' + 2 z w x' + w^2 x = w^2 n; with z = 0.15 the half-power band is 8.5-11.5 Hz.
 class Tremor {
  public:
   Tremor(double rms, runtime::RandomStream stream) : rms_(rms), stream_(stream) {}

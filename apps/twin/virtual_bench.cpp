@@ -40,19 +40,37 @@ struct VirtualBench::Impl final : public runtime::Activity {
     VirtualCameraSettings settings;
     settings.latency_ns = static_cast<std::int64_t>(setup.station.camera_latency_s * 1e9);
     VirtualScene scene;
-    for (const station::OtherBoard& board : setup.station.boards) scene.plates.push_back(board.grid);
-    camera.emplace(trueCamera(setup.station, setup.seed), setup.station.board, settings, setup.seed, scene);
+    for (const station::OtherBoard& board : setup.station.boards)
+      scene.plates.push_back(board.grid);
+    camera.emplace(trueCamera(setup.station, setup.seed), setup.station.board, settings, setup.seed,
+                   scene);
     errors_mm.reserve(4096);
-    tools.emplace_back(toolSetup(std::move(setup.hand), setup.X_DE_start, X_WD_true, device_in, setup.sensor, setup.seed));
+    tools.emplace_back(toolSetup(std::move(setup.hand), setup.X_DE_start, X_WD_true, device_in,
+                                 setup.sensor, setup.seed));
     if (setup.second) {
       // As far off its place as the first one is: one table, one registration.
       const Pose X_WD2_true = X_WD_true * X_WD_believed.inverse() * setup.second->X_WD;
-      tools.emplace_back(toolSetup(std::move(setup.second->hand), setup.second->X_DE_start, X_WD2_true, *setup.second->device, setup.second->sensor, setup.seed + 1));
+      tools.emplace_back(toolSetup(std::move(setup.second->hand), setup.second->X_DE_start,
+                                   X_WD2_true, *setup.second->device, setup.second->sensor,
+                                   setup.seed + 1));
     }
   }
 
-  HeldTool::Setup toolSetup(std::unique_ptr<Hand> hand, const Pose& X_DE_start, const Pose& X_WD, runtime::ChannelDevice& device, runtime::ChannelSensor* sensor, std::uint64_t seed) const {
-    HeldTool::Setup tool{std::move(hand), trueDevice(station, seed), X_WD, X_ET_true, X_DE_start, &device, sensor, {}, Pose::Identity(), {}, readSensorFaults(station.file), seed};
+  HeldTool::Setup toolSetup(std::unique_ptr<Hand> hand, const Pose& X_DE_start, const Pose& X_WD,
+                            runtime::ChannelDevice& device, runtime::ChannelSensor* sensor,
+                            std::uint64_t seed) const {
+    HeldTool::Setup tool{std::move(hand),
+                         trueDevice(station, seed),
+                         X_WD,
+                         X_ET_true,
+                         X_DE_start,
+                         &device,
+                         sensor,
+                         {},
+                         Pose::Identity(),
+                         {},
+                         readSensorFaults(station.file),
+                         seed};
     if (!sensor) return tool;
     tool.sensor_truth = trueSensor(station, seed);
     tool.X_ES = station.force_sensor->X_ES;
@@ -63,8 +81,9 @@ struct VirtualBench::Impl final : public runtime::Activity {
   const char* name() const override { return "bench"; }
 
   std::int64_t step(std::int64_t now_ns) override {
-    const double dt =
-        last_ns < 0 ? 1e-3 : std::clamp(static_cast<double>(now_ns - last_ns) * 1e-9, 1e-4, kLongestBenchStep);
+    const double dt = last_ns < 0 ? 1e-3
+                                  : std::clamp(static_cast<double>(now_ns - last_ns) * 1e-9, 1e-4,
+                                               kLongestBenchStep);
     last_ns = now_ns;
     const runtime::Displayed* seen = bus.scene_to_operator.read(now_ns);
     for (HeldTool& tool : tools) {
@@ -90,7 +109,10 @@ struct VirtualBench::Impl final : public runtime::Activity {
   /// Where nothing real lies its touch is none, at the tip.
   void touchAll(double dt) {
     std::array<Pose, 2> X_WT{tools.front().X_WT(), tools.back().X_WT()};
-    const std::array<Touch, 2> touches = real_thing ? real_thing(X_WT, dt) : std::array<Touch, 2>{{{Vec3::Zero(), X_WT[0].translation()}, {Vec3::Zero(), X_WT[1].translation()}}};
+    const std::array<Touch, 2> touches =
+        real_thing ? real_thing(X_WT, dt)
+                   : std::array<Touch, 2>{{{Vec3::Zero(), X_WT[0].translation()},
+                                           {Vec3::Zero(), X_WT[1].translation()}}};
     for (std::size_t t = 0; t < tools.size(); ++t) tools[t].touch(touches[t]);
   }
 
@@ -114,7 +136,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
   RealThing real_thing;
   std::function<void(const Hand::Word&)> on_word;
   std::optional<VirtualCamera> camera;
-  std::vector<HeldTool> tools;   // one or two
+  std::vector<HeldTool> tools;  // one or two
   std::int64_t last_ns = -1, due_ns = -1;
   std::size_t pictures = 0;
   std::vector<double> errors_mm;
@@ -133,9 +155,12 @@ runtime::CameraActivity::Exposer VirtualBench::exposer() const {
     const std::int64_t seen_ns = frozen ? std::llround(1e9 * fault->from) : now_ns;
     const Pose X_CW = impl->X_CW(seen_ns);
     std::vector<PlatePose> plates;
-    for (const auto& [i, X_WB] : boardsAt(impl->station, impl->board_moves, 1e-9 * static_cast<double>(seen_ns))) plates.push_back({i, X_CW * X_WB});
+    for (const auto& [i, X_WB] :
+         boardsAt(impl->station, impl->board_moves, 1e-9 * static_cast<double>(seen_ns)))
+      plates.push_back({i, X_CW * X_WB});
     return [impl, X_CW, plates, now_ns, number, fault, frozen]() -> std::optional<ar::Frame> {
-      ar::Frame frame{number, now_ns, impl->camera->render(X_CW, plates, frozen ? 0 : number), "virtual camera"};
+      ar::Frame frame{number, now_ns, impl->camera->render(X_CW, plates, frozen ? 0 : number),
+                      "virtual camera"};
       return fault ? spoilt(std::move(frame), *fault) : std::optional(std::move(frame));
     };
   };

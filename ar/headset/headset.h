@@ -9,24 +9,27 @@
 
 #include "anatomy/geometry/pose.h"
 
-/// A display on the head. L: where the headset was when it began (or was recentred by its own system), +x right, +y away from the
-/// person, **+z up**. H: the head; E: an eye, +z the way it looks, +y down, as cameras are. G: a hand's controller, +z the way it points.
+/// A display on the head. L: where the headset was when it began (or was recentred by its own
+/// system), +x right, +y away from the person, **+z up**. H: the head; E: an eye, +z the way it
+/// looks, +y down, as cameras are. G: a hand's controller, +z the way it points.
 namespace palpa::ar {
 
-/// The OpenGL context that the pictures are drawn in, as GLX or EGL have it. It stays current on the thread that uses the headset.
+/// The OpenGL context that the pictures are drawn in, as GLX or EGL have it. It stays current on
+/// the thread that uses the headset.
 struct GlBinding {
   enum class Kind { glx, egl } kind = Kind::egl;
   void* display = nullptr;
-  void* config = nullptr;          ///< GLXFBConfig or EGLConfig
+  void* config = nullptr;  ///< GLXFBConfig or EGLConfig
   void* context = nullptr;
-  unsigned long drawable = 0;      ///< GLX
-  unsigned visual = 0;             ///< GLX
-  void (*(*address)(const char*))() = nullptr;   ///< of OpenGL's functions (EGL)
+  unsigned long drawable = 0;                   ///< GLX
+  unsigned visual = 0;                          ///< GLX
+  void (*(*address)(const char*))() = nullptr;  ///< of OpenGL's functions (EGL)
 };
 
-/// What one eye sees: tangents of the angles to the picture's edges (left and down negative as a rule), and where the eye is.
+/// What one eye sees: tangents of the angles to the picture's edges (left and down negative as a
+/// rule), and where the eye is.
 struct EyeView {
-  int width = 0, height = 0;       ///< pixels that the runtime recommends
+  int width = 0, height = 0;  ///< pixels that the runtime recommends
   double left = -1, right = 1, up = 1, down = -1;
   Pose X_LE = Pose::Identity();
 };
@@ -34,7 +37,7 @@ struct EyeView {
 struct HandInput {
   bool tracked = false;
   Pose X_LG = Pose::Identity();
-  double trigger = 0;              ///< 0..1
+  double trigger = 0;  ///< 0..1
 };
 
 struct HeadsetFrame {
@@ -49,34 +52,42 @@ struct HeadsetFrame {
 /// A picture to draw into: a two-dimensional texture of the context, rows from the bottom.
 struct EyeTexture {
   std::uint32_t texture = 0;
-  std::int64_t format = 0;         ///< OpenGL's internal format
+  std::int64_t format = 0;  ///< OpenGL's internal format
   int width = 0, height = 0;
 };
 
-/// What is really there behind the drawn picture. opaque: nothing. additive: half-silvered glass, black is clear. alpha: the picture's alpha, premultiplied.
+/// What is really there behind the drawn picture. opaque: nothing. additive: half-silvered glass,
+/// black is clear. alpha: the picture's alpha, premultiplied.
 enum class Blend { opaque, additive, alpha };
 
-/// How a frame is made:  begin() waits for its time and says what is to be seen;  end(draw) has both eyes drawn and shown.
-/// What goes wrong with a headset in use is never thrown: its state is `lost`, `trouble` says why, and whoever uses it goes on without. One thread.
+/// How a frame is made:  begin() waits for its time and says what is to be seen;  end(draw) has
+/// both eyes drawn and shown. What goes wrong with a headset in use is never thrown: its state is
+/// `lost`, `trouble` says why, and whoever uses it goes on without. One thread.
 class Headset {
  public:
-  enum class State { waiting, running, lost };   ///< waiting: not on a head yet, or its system shows something else
+  enum class State {
+    waiting,
+    running,
+    lost
+  };  ///< waiting: not on a head yet, or its system shows something else
   using Draw = std::function<void(std::size_t eye, const EyeTexture& picture)>;
 
   virtual ~Headset() = default;
-  /// Nothing while it is not running, and where its next frame is not due within a tenth of a second.
+  /// Nothing while it is not running, and where its next frame is not due within a tenth of a
+  /// second.
   virtual std::optional<HeadsetFrame> begin() = 0;
   /// After every begin() that gave a frame; an empty `draw` shows nothing.
   virtual void end(const Draw& draw) = 0;
-  virtual void vibrate(std::size_t hand, double seconds, double strength) = 0;   ///< strength 0..1
+  virtual void vibrate(std::size_t hand, double seconds, double strength) = 0;  ///< strength 0..1
   virtual State state() const = 0;
   virtual Blend blend() const = 0;
-  virtual const std::array<EyeView, 2>& eyes() const = 0;      ///< sizes are known from the beginning
-  virtual std::string describe() const = 0;                    ///< the runtime's and the system's names
-  virtual std::string trouble() const = 0;                     ///< why it was lost, in words; empty: it was not
+  virtual const std::array<EyeView, 2>& eyes() const = 0;  ///< sizes are known from the beginning
+  virtual std::string describe() const = 0;                ///< the runtime's and the system's names
+  virtual std::string trouble() const = 0;  ///< why it was lost, in words; empty: it was not
 };
 
-/// Opens the headset of the computer's OpenXR runtime. Throws Error when there is no runtime, no headset, or nothing that both sides can do.
+/// Opens the headset of the computer's OpenXR runtime. Throws Error when there is no runtime, no
+/// headset, or nothing that both sides can do.
 std::unique_ptr<Headset> openHeadset(const GlBinding& gl);
 
 }  // namespace palpa::ar

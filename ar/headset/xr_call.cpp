@@ -12,13 +12,14 @@ std::string nameOf(XrResult result) {
     return #name;
     XR_LIST_ENUM_XrResult(PALPA_CASE)
 #undef PALPA_CASE
-    default: return std::to_string(result);
+        default : return std::to_string(result);
   }
 }
 
 }  // namespace
 
-XrFailure::XrFailure(XrResult result, const std::string& call) : std::runtime_error(call + ": " + nameOf(result)), result_(result) {}
+XrFailure::XrFailure(XrResult result, const std::string& call)
+    : std::runtime_error(call + ": " + nameOf(result)), result_(result) {}
 
 XrResult xrCheck(XrResult result, const char* call) {
   if (XR_FAILED(result)) throw XrFailure(result, call);
@@ -27,16 +28,30 @@ XrResult xrCheck(XrResult result, const char* call) {
 
 XrWords inWords(const XrFailure& failure) {
   switch (failure.result()) {
-    case XR_ERROR_RUNTIME_UNAVAILABLE: return {"no OpenXR runtime is there", "Install and start the headset's own (Monado, SteamVR, ...), or set XR_RUNTIME_JSON"};
-    case XR_ERROR_RUNTIME_FAILURE: return {"the OpenXR runtime does not work", "Start the headset's own software again"};
-    case XR_ERROR_FORM_FACTOR_UNAVAILABLE: return {"no headset is connected", "Connect it, switch it on, and start again"};
-    case XR_ERROR_FORM_FACTOR_UNSUPPORTED: return {"the OpenXR runtime drives no headset", "Start the runtime of the headset"};
+    case XR_ERROR_RUNTIME_UNAVAILABLE:
+      return {"no OpenXR runtime is there",
+              "Install and start the headset's own (Monado, SteamVR, ...), or set XR_RUNTIME_JSON"};
+    case XR_ERROR_RUNTIME_FAILURE:
+      return {"the OpenXR runtime does not work", "Start the headset's own software again"};
+    case XR_ERROR_FORM_FACTOR_UNAVAILABLE:
+      return {"no headset is connected", "Connect it, switch it on, and start again"};
+    case XR_ERROR_FORM_FACTOR_UNSUPPORTED:
+      return {"the OpenXR runtime drives no headset", "Start the runtime of the headset"};
     case XR_ERROR_SESSION_LOST:
-    case XR_ERROR_INSTANCE_LOST: return {"the headset was lost", "Look at its cable and at its own software"};
-    case XR_ERROR_EXTENSION_NOT_PRESENT: return {"the headset's runtime takes no pictures from OpenGL, or not without a desktop (EGL)", "Start it from a desktop session, or use another runtime"};
-    case XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED: return {"the headset's runtime takes pictures of no format that is known here", "Use another runtime"};
-    case XR_ERROR_GRAPHICS_DEVICE_INVALID: return {"the headset cannot take pictures from this graphics driver", "Connect it to the graphics card that draws"};
-    default: return {std::string("the headset's runtime refused a call (") + failure.what() + ")", "Start the headset's own software again"};
+    case XR_ERROR_INSTANCE_LOST:
+      return {"the headset was lost", "Look at its cable and at its own software"};
+    case XR_ERROR_EXTENSION_NOT_PRESENT:
+      return {"the headset's runtime takes no pictures from OpenGL, or not without a desktop (EGL)",
+              "Start it from a desktop session, or use another runtime"};
+    case XR_ERROR_SWAPCHAIN_FORMAT_UNSUPPORTED:
+      return {"the headset's runtime takes pictures of no format that is known here",
+              "Use another runtime"};
+    case XR_ERROR_GRAPHICS_DEVICE_INVALID:
+      return {"the headset cannot take pictures from this graphics driver",
+              "Connect it to the graphics card that draws"};
+    default:
+      return {std::string("the headset's runtime refused a call (") + failure.what() + ")",
+              "Start the headset's own software again"};
   }
 }
 

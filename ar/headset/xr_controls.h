@@ -12,15 +12,16 @@ struct Asked {
   bool recentre = false, start = false;
 };
 
-/// The controllers in both hands: where they point, the trigger, the buttons that recentre and start, vibration. Actions and bindings by the profiles of the
-/// OpenXR 1.0 specification, section 6.4; a runtime binds what it has.
+/// The controllers in both hands: where they point, the trigger, the buttons that recentre and
+/// start, vibration. Actions and bindings by the profiles of the OpenXR 1.0 specification,
+/// section 6.4; a runtime binds what it has.
 class XrControls {
  public:
   XrControls(XrInstance instance, XrSession session);
 
   /// Reads all at a time of the runtime's. `base`: the space that poses are in.
   Asked read(XrSession session, XrSpace base, XrTime time, std::array<HandInput, 2>* hands);
-  void leave();   ///< gives nothing back
+  void leave();  ///< gives nothing back
   void vibrate(XrSession session, std::size_t hand, double seconds, double strength);
 
  private:
@@ -30,7 +31,8 @@ class XrControls {
 
   XrOwnedActionSet set_;
   std::array<XrPath, 2> hands_{};
-  XrAction pose_ = XR_NULL_HANDLE, trigger_ = XR_NULL_HANDLE, recentre_ = XR_NULL_HANDLE, start_ = XR_NULL_HANDLE, vibration_ = XR_NULL_HANDLE;   // go with their set
+  XrAction pose_ = XR_NULL_HANDLE, trigger_ = XR_NULL_HANDLE, recentre_ = XR_NULL_HANDLE,
+           start_ = XR_NULL_HANDLE, vibration_ = XR_NULL_HANDLE;  // go with their set
   std::array<XrOwnedSpace, 2> spaces_;
 };
 

@@ -17,7 +17,7 @@ class XrEye {
   int width() const { return width_; }
   int height() const { return height_; }
   XrSwapchainSubImage shown() const;
-  void leave() { swapchain_.leave(); }   ///< gives nothing back
+  void leave() { swapchain_.leave(); }  ///< gives nothing back
 
  private:
   XrOwnedSwapchain swapchain_;

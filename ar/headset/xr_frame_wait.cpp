@@ -52,7 +52,8 @@ XrFrameWait::~XrFrameWait() {
 
 bool XrFrameWait::settled() {
   std::unique_lock lock(shared_->mutex);
-  return shared_->changed.wait_for(lock, 10 * kPatienceForFrame, [this] { return shared_->at != Shared::At::asked; });
+  return shared_->changed.wait_for(lock, 10 * kPatienceForFrame,
+                                   [this] { return shared_->at != Shared::At::asked; });
 }
 
 void XrFrameWait::forget() {
@@ -67,7 +68,9 @@ std::optional<XrFrameState> XrFrameWait::next() {
     shared_->at = Shared::At::asked;
     shared_->changed.notify_all();
   }
-  if (!shared_->changed.wait_for(lock, kPatienceForFrame, [this] { return shared_->at == Shared::At::done; })) return std::nullopt;
+  if (!shared_->changed.wait_for(lock, kPatienceForFrame,
+                                 [this] { return shared_->at == Shared::At::done; }))
+    return std::nullopt;
   shared_->at = Shared::At::idle;
   xrCheck(shared_->result, "xrWaitFrame");
   return shared_->state;

@@ -4,7 +4,8 @@
 
 #include "anatomy/geometry/pose.h"
 
-/// The one place where OpenXR's axes (+x right, +y up, +z toward the person; everything looks along -z) meet ours.
+/// The one place where OpenXR's axes (+x right, +y up, +z toward the person; everything looks along
+/// -z) meet ours.
 namespace palpa::ar {
 
 /// Pose in L (+z up) of something that looks along its own +z (eye, head, hand).

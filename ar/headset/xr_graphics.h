@@ -17,8 +17,9 @@ XrOwnedSession makeSession(XrInstance instance, XrSystemId system, const GlBindi
 /// OpenGL's names of a swapchain's pictures.
 std::vector<std::uint32_t> texturesOf(XrSwapchain swapchain);
 
-/// Which of the formats that the runtime offers we draw into; 0: none. Encoded (sRGB) colours with alpha before all; with alpha before without, which does not serve where the
-/// picture's alpha is needed; otherwise in the runtime's own order.
+/// Which of the formats that the runtime offers we draw into; 0: none. Encoded (sRGB) colours with
+/// alpha before all; with alpha before without, which does not serve where the picture's alpha is
+/// needed; otherwise in the runtime's own order.
 std::int64_t chooseFormat(const std::vector<std::int64_t>& offered, Blend blend);
 
 }  // namespace palpa::ar

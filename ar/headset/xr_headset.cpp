@@ -14,10 +14,12 @@
 namespace palpa::ar {
 namespace {
 
-constexpr XrViewStateFlags kTurned = XR_VIEW_STATE_ORIENTATION_VALID_BIT, kPlaced = XR_VIEW_STATE_POSITION_VALID_BIT;
+constexpr XrViewStateFlags kTurned = XR_VIEW_STATE_ORIENTATION_VALID_BIT,
+                           kPlaced = XR_VIEW_STATE_POSITION_VALID_BIT;
 
 XrOwnedSpace localSpace(XrSession session) {
-  const XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr, XR_REFERENCE_SPACE_TYPE_LOCAL, identityXr()};
+  const XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO, nullptr,
+                                        XR_REFERENCE_SPACE_TYPE_LOCAL, identityXr()};
   XrSpace space = XR_NULL_HANDLE;
   xrCheck(xrCreateReferenceSpace(session, &info, &space), "xrCreateReferenceSpace");
   return XrOwnedSpace(space);
@@ -25,7 +27,9 @@ XrOwnedSpace localSpace(XrSession session) {
 
 class XrHeadset final : public Headset {
  public:
-  explicit XrHeadset(const GlBinding& gl) : runtime_(openRuntime(gl.kind)), session_(makeSession(runtime_.instance.get(), runtime_.system, gl)) {
+  explicit XrHeadset(const GlBinding& gl)
+      : runtime_(openRuntime(gl.kind)),
+        session_(makeSession(runtime_.instance.get(), runtime_.system, gl)) {
     const std::int64_t format = formatFor(session_.get(), blendOf(runtime_.blend));
     for (std::size_t i = 0; i < 2; ++i) {
       pictures_[i].emplace(session_.get(), runtime_.views[i], format);
@@ -73,12 +77,18 @@ class XrHeadset final : public Headset {
       std::array<XrCompositionLayerProjectionView, 2> seen;
       for (std::size_t i = 0; i < 2 && shown; ++i) {
         pictures_[i]->draw([&](const EyeTexture& picture) { draw(i, picture); });
-        seen[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, nullptr, views_[i].pose, views_[i].fov, pictures_[i]->shown()};
+        seen[i] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW, nullptr, views_[i].pose,
+                   views_[i].fov, pictures_[i]->shown()};
       }
-      const XrCompositionLayerFlags alpha = runtime_.blend == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT : 0;
-      const XrCompositionLayerProjection layer{XR_TYPE_COMPOSITION_LAYER_PROJECTION, nullptr, alpha, local_.get(), 2, seen.data()};
+      const XrCompositionLayerFlags alpha =
+          runtime_.blend == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND
+              ? XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT
+              : 0;
+      const XrCompositionLayerProjection layer{
+          XR_TYPE_COMPOSITION_LAYER_PROJECTION, nullptr, alpha, local_.get(), 2, seen.data()};
       const auto* const layers = reinterpret_cast<const XrCompositionLayerBaseHeader*>(&layer);
-      const XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO, nullptr, time_, runtime_.blend, shown ? 1u : 0u, shown ? &layers : nullptr};
+      const XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO, nullptr,         time_,
+                                runtime_.blend,         shown ? 1u : 0u, shown ? &layers : nullptr};
       xrCheck(xrEndFrame(session_.get(), &info), "xrEndFrame");
       return std::nullopt;
     });
@@ -105,7 +115,7 @@ class XrHeadset final : public Headset {
       return act();
     } catch (const XrFailure& failure) {
       lose(inWords(failure).what);
-    } catch (const std::exception& failure) {   // of whoever draws
+    } catch (const std::exception& failure) {  // of whoever draws
       lose(failure.what());
     }
     return std::nullopt;
@@ -118,17 +128,22 @@ class XrHeadset final : public Headset {
 
   void followEvents() {
     XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER, nullptr, {}};
-    while (state_ != State::lost && xrCheck(xrPollEvent(runtime_.instance.get(), &event), "xrPollEvent") == XR_SUCCESS) {
+    while (state_ != State::lost &&
+           xrCheck(xrPollEvent(runtime_.instance.get(), &event), "xrPollEvent") == XR_SUCCESS) {
       const auto* const base = reinterpret_cast<const XrEventDataBaseHeader*>(&event);
-      if (base->type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING) lose("the headset's runtime is being closed");
-      if (base->type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING) follow(*reinterpret_cast<const XrEventDataReferenceSpaceChangePending*>(&event));
-      if (base->type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED) follow(reinterpret_cast<const XrEventDataSessionStateChanged*>(&event)->state);
+      if (base->type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING)
+        lose("the headset's runtime is being closed");
+      if (base->type == XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING)
+        follow(*reinterpret_cast<const XrEventDataReferenceSpaceChangePending*>(&event));
+      if (base->type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED)
+        follow(reinterpret_cast<const XrEventDataSessionStateChanged*>(&event)->state);
       event = {XR_TYPE_EVENT_DATA_BUFFER, nullptr, {}};
     }
   }
 
   void follow(const XrEventDataReferenceSpaceChangePending& change) {
-    if (change.referenceSpaceType == XR_REFERENCE_SPACE_TYPE_LOCAL) moves_at_ = std::min(moves_at_.value_or(change.changeTime), change.changeTime);
+    if (change.referenceSpaceType == XR_REFERENCE_SPACE_TYPE_LOCAL)
+      moves_at_ = std::min(moves_at_.value_or(change.changeTime), change.changeTime);
   }
 
   void follow(XrSessionState next) {
@@ -142,11 +157,14 @@ class XrHeadset final : public Headset {
       case XR_SESSION_STATE_STOPPING:
         state_ = State::waiting;
         xrCheck(xrEndSession(session_.get()), "xrEndSession");
-        wait_->forget();   // it may still have been waited for
+        wait_->forget();  // it may still have been waited for
         break;
-      case XR_SESSION_STATE_EXITING: return lose("the headset's session was ended there");
-      case XR_SESSION_STATE_LOSS_PENDING: return lose("the headset was lost");
-      default: break;
+      case XR_SESSION_STATE_EXITING:
+        return lose("the headset's session was ended there");
+      case XR_SESSION_STATE_LOSS_PENDING:
+        return lose("the headset was lost");
+      default:
+        break;
     }
   }
 
@@ -174,14 +192,20 @@ class XrHeadset final : public Headset {
     }
   }
 
-  /// Where a runtime knows how the head is turned but not where it is: it stays where it was, and the eyes turn about its middle.
+  /// Where a runtime knows how the head is turned but not where it is: it stays where it was, and
+  /// the eyes turn about its middle.
   void stayInPlace(std::array<XrView, 2>* views) const {
     const Pose before[] = {poseFromXr(views_[0].pose), poseFromXr(views_[1].pose)};
-    const Vec3 middle = ever_located_ ? Vec3(0.5 * (before[0].translation() + before[1].translation())) : Vec3(Vec3::Zero());
-    const double half = ever_located_ ? 0.5 * (before[1].translation() - before[0].translation()).norm() : kHalfApart;
+    const Vec3 middle = ever_located_
+                            ? Vec3(0.5 * (before[0].translation() + before[1].translation()))
+                            : Vec3(Vec3::Zero());
+    const double half = ever_located_
+                            ? 0.5 * (before[1].translation() - before[0].translation()).norm()
+                            : kHalfApart;
     for (std::size_t i = 0; i < 2; ++i) {
       (*views)[i].pose.position = {0, 0, 0};
-      const Vec3 p = middle + poseFromXr((*views)[i].pose).linear() * Vec3(i == 0 ? -half : half, 0, 0);
+      const Vec3 p =
+          middle + poseFromXr((*views)[i].pose).linear() * Vec3(i == 0 ? -half : half, 0, 0);
       (*views)[i].pose.position = positionToXr(p);
     }
   }
@@ -193,7 +217,7 @@ class XrHeadset final : public Headset {
       for (int i = 0; i < kPollsAtEnd && state_ == State::running; ++i) {
         followEvents();
         if (state_ != State::running) break;
-        if (const auto frame = begin()) {   // a runtime may wait for frames before it stops
+        if (const auto frame = begin()) {  // a runtime may wait for frames before it stops
           frame_.draw = false;
           end({});
         }
@@ -212,8 +236,9 @@ class XrHeadset final : public Headset {
     runtime_.instance.leave();
   }
 
-  static constexpr double kHalfApart = 0.0315;   // m, half the mean distance of adults' eyes (Dodgson 2004)
-  static constexpr int kMostUnanswered = 20;   // of XrFrameWait's patience
+  static constexpr double kHalfApart =
+      0.0315;  // m, half the mean distance of adults' eyes (Dodgson 2004)
+  static constexpr int kMostUnanswered = 20;  // of XrFrameWait's patience
   static constexpr int kPollsAtEnd = 30;
 
   XrRuntime runtime_;
@@ -226,7 +251,7 @@ class XrHeadset final : public Headset {
   State state_ = State::waiting;
   bool ever_located_ = false, ever_placed_ = false, first_place_ = false;
   XrTime time_ = 0;
-  std::optional<XrTime> moves_at_;   // when L will be somewhere else
+  std::optional<XrTime> moves_at_;  // when L will be somewhere else
   std::array<XrView, 2> views_{};
   HeadsetFrame frame_;
   std::string trouble_;

@@ -36,12 +36,21 @@ std::string namesOf(XrInstance instance, XrSystemId system) {
 
 std::array<XrViewConfigurationView, 2> stereoViews(XrInstance instance, XrSystemId system) {
   const auto kinds = xrListed<XrViewConfigurationType>(
-      [&](std::uint32_t n, std::uint32_t* count, XrViewConfigurationType* out) { return xrEnumerateViewConfigurations(instance, system, n, count, out); }, "xrEnumerateViewConfigurations");
-  if (std::find(kinds.begin(), kinds.end(), kTwoEyes) == kinds.end()) throw Error("the headset does not show two eyes' pictures", kWhere, kOther);
+      [&](std::uint32_t n, std::uint32_t* count, XrViewConfigurationType* out) {
+        return xrEnumerateViewConfigurations(instance, system, n, count, out);
+      },
+      "xrEnumerateViewConfigurations");
+  if (std::find(kinds.begin(), kinds.end(), kTwoEyes) == kinds.end())
+    throw Error("the headset does not show two eyes' pictures", kWhere, kOther);
   const auto views = xrListed<XrViewConfigurationView>(
-      [&](std::uint32_t n, std::uint32_t* count, XrViewConfigurationView* out) { return xrEnumerateViewConfigurationViews(instance, system, kTwoEyes, n, count, out); },
-      "xrEnumerateViewConfigurationViews", {XR_TYPE_VIEW_CONFIGURATION_VIEW, nullptr, 0, 0, 0, 0, 0, 0});
-  if (views.size() != 2) throw Error("the headset has " + std::to_string(views.size()) + " views for two eyes", kWhere, kOther);
+      [&](std::uint32_t n, std::uint32_t* count, XrViewConfigurationView* out) {
+        return xrEnumerateViewConfigurationViews(instance, system, kTwoEyes, n, count, out);
+      },
+      "xrEnumerateViewConfigurationViews",
+      {XR_TYPE_VIEW_CONFIGURATION_VIEW, nullptr, 0, 0, 0, 0, 0, 0});
+  if (views.size() != 2)
+    throw Error("the headset has " + std::to_string(views.size()) + " views for two eyes", kWhere,
+                kOther);
   return {views[0], views[1]};
 }
 
@@ -52,18 +61,22 @@ XrEnvironmentBlendMode preferredBlend(XrInstance instance, XrSystemId system) {
       },
       "xrEnumerateEnvironmentBlendModes");
   for (const XrEnvironmentBlendMode mode : modes)
-    if (mode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE || mode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE || mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND) return mode;
+    if (mode == XR_ENVIRONMENT_BLEND_MODE_OPAQUE || mode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE ||
+        mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND)
+      return mode;
   throw Error("the headset shows pictures in no way that is known here", kWhere, kOther);
 }
 
 }  // namespace
 
 Blend blendOf(XrEnvironmentBlendMode mode) {
-  return mode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE ? Blend::additive : mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND ? Blend::alpha : Blend::opaque;
+  return mode == XR_ENVIRONMENT_BLEND_MODE_ADDITIVE      ? Blend::additive
+         : mode == XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND ? Blend::alpha
+                                                         : Blend::opaque;
 }
 
 XrRuntime openRuntime(GlBinding::Kind kind) try {
-  setenv("XR_LOADER_DEBUG", "none", 0);   // what it would print is said in our words
+  setenv("XR_LOADER_DEBUG", "none", 0);  // what it would print is said in our words
   XrRuntime runtime;
   runtime.instance = makeInstance(graphicsExtensions(kind));
   const XrInstance instance = runtime.instance.get();

@@ -14,9 +14,10 @@ constexpr XrViewConfigurationType kTwoEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_
 struct XrRuntime {
   XrOwnedInstance instance;
   XrSystemId system = XR_NULL_SYSTEM_ID;
-  std::string name;                                   ///< "<headset> by <runtime>"
+  std::string name;  ///< "<headset> by <runtime>"
   std::array<XrViewConfigurationView, 2> views;
-  XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;   ///< the one that it prefers of those that we know
+  XrEnvironmentBlendMode blend =
+      XR_ENVIRONMENT_BLEND_MODE_OPAQUE;  ///< the one that it prefers of those that we know
 };
 
 /// Throws Error, in words.

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kTwoPi = 2 * std::numbers::pi;
 constexpr std::uint32_t kElapsedStarted = 1u << 31;
-constexpr double kStill = 1e-4;        // m/s: below, motion has no direction
-constexpr double kDecayed = 5;         // time constants after which a vibration is over
+constexpr double kStill = 1e-4;  // m/s: below, motion has no direction
+constexpr double kDecayed = 5;   // time constants after which a vibration is over
 
 /// One of them, in this tick.
 struct Part {
@@ -87,8 +87,11 @@ Vec3 vibration(const Part& p) noexcept {
 Vec3 attraction(const Part& p, double steepest) noexcept {
   const double d = p.in.to_valley.norm();
   if (p.in.valley_radius <= 0 || d <= 0 || p.a.reach <= 0) return Vec3::Zero();
-  const double held = steepest * p.a.reach * p.in.valley_radius / kTwoPi;   // the amplitude that rises just so steeply
-  return p.weight() * attractionForce(std::min(p.a.amplitude, held), d, p.a.reach, p.in.valley_radius) * p.in.to_valley / d;
+  const double held = steepest * p.a.reach * p.in.valley_radius /
+                      kTwoPi;  // the amplitude that rises just so steeply
+  return p.weight() *
+         attractionForce(std::min(p.a.amplitude, held), d, p.a.reach, p.in.valley_radius) *
+         p.in.to_valley / d;
 }
 
 Vec3 exaggeration(const Part& p) noexcept {
@@ -120,7 +123,10 @@ Vec3 forceOf(const Part& p, double steepest) noexcept {
   return Vec3::Zero();
 }
 
-bool heedsMotion(Augmentation::Kind kind) noexcept { return kind != Augmentation::Kind::pulse && kind != Augmentation::Kind::vibration && kind != Augmentation::Kind::relief; }
+bool heedsMotion(Augmentation::Kind kind) noexcept {
+  return kind != Augmentation::Kind::pulse && kind != Augmentation::Kind::vibration &&
+         kind != Augmentation::Kind::relief;
+}
 
 void advance(const Part& p, bool on) noexcept {
   const double step = p.a.blend_s > 0 ? p.in.dt / p.a.blend_s : 1;
@@ -129,20 +135,26 @@ void advance(const Part& p, bool on) noexcept {
 }
 
 /// A pulse that is on is not begun anew: its width is what is felt.
-bool running(const Part& p) noexcept { return p.a.kind == Augmentation::Kind::pulse && p.state.elapsed[p.i] >= 0 && p.state.elapsed[p.i] < p.a.width_s; }
+bool running(const Part& p) noexcept {
+  return p.a.kind == Augmentation::Kind::pulse && p.state.elapsed[p.i] >= 0 &&
+         p.state.elapsed[p.i] < p.a.width_s;
+}
 
 }  // namespace
 
-double attractionForce(double amplitude, double d, double d_max, double radius) noexcept { return d < 0 || d > d_max ? 0 : amplitude * (1 - std::cos(kTwoPi * d / d_max)) / radius; }
+double attractionForce(double amplitude, double d, double d_max, double radius) noexcept {
+  return d < 0 || d > d_max ? 0 : amplitude * (1 - std::cos(kTwoPi * d / d_max)) / radius;
+}
 
-Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in, AugmentationState* state) noexcept {
+Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in,
+                  AugmentationState* state) noexcept {
   Augmented out;
   const std::uint32_t begun = detect(plan.subtasks, in.cues, in.now_ns, &state->subtasks);
   out.subtasks = state->subtasks.on;
   if (!(state->started & kElapsedStarted)) state->elapsed.fill(-1);
   state->started |= kElapsedStarted;
   if (!in.allowed) {
-    AugmentationState told;   // parts are told all the same
+    AugmentationState told;  // parts are told all the same
     told.subtasks = state->subtasks;
     told.learned = state->learned;
     *state = told;

@@ -9,32 +9,43 @@ namespace palpa::haptics {
 inline constexpr int kMostAugmentations = 8;
 inline constexpr std::uint8_t kAnySubtask = 0xff;
 
-/// What is added to the force while a part of the task is on, so that the cue that matters for it is felt. Source of the method: Edmunds and Pai, Perceptually augmented simulator design (2012).
+/// What is added to the force while a part of the task is on, so that the cue that matters for it
+/// is felt. Source of the method: Edmunds and Pai, Perceptually augmented simulator design (2012).
 struct Augmentation {
   enum class Kind : std::uint8_t {
     none,
-    pulse,          ///< A along the way, for `width`, whatever the hand does meanwhile; one ends before the next begins
-    vibration,      ///< A sin(2 pi f t), or A sin(2 pi s / wavelength) of the way s along the surface
-    attraction,     ///< A (1 - cos(2 pi d / reach)) / r toward the nearest valley at the distance d <= reach, r its radius of curvature in U: smooth, 0 at both ends, 2 A / r at reach / 2
-    exaggeration,   ///< A (f - low-pass f) of the contact force, time constant tau: what changes fast feels stronger
-    fixture,        ///< spring of stiffness A toward a line, across it
-    relief          ///< A h / h_max along the way while over a bump of height h, however deep the probe is: a texture that the device is too soft for
+    pulse,  ///< A along the way, for `width`, whatever the hand does meanwhile; one ends before the
+            ///< next begins
+    vibration,   ///< A sin(2 pi f t), or A sin(2 pi s / wavelength) of the way s along the surface
+    attraction,  ///< A (1 - cos(2 pi d / reach)) / r toward the nearest valley at the distance d <=
+                 ///< reach, r its radius of curvature in U: smooth, 0 at both ends, 2 A / r at
+                 ///< reach / 2
+    exaggeration,  ///< A (f - low-pass f) of the contact force, time constant tau: what changes
+                   ///< fast feels stronger
+    fixture,       ///< spring of stiffness A toward a line, across it
+    relief  ///< A h / h_max along the way while over a bump of height h, however deep the probe is:
+            ///< a texture that the device is too soft for
   };
   /// When a pulse or a decaying vibration begins; `none`: a vibration goes on as long as its part.
   enum class Trigger : std::uint8_t { none, begin, event, rise, bump };
-  enum class Way : std::uint8_t { up, against_motion, along_tool, against_tool };   ///< up: outward from the surface
+  enum class Way : std::uint8_t {
+    up,
+    against_motion,
+    along_tool,
+    against_tool
+  };  ///< up: outward from the surface
   Kind kind = Kind::none;
   Trigger trigger = Trigger::none;
   Way way = Way::up;
   std::uint8_t subtask = kAnySubtask;
-  std::uint32_t events = 0;          ///< TickEvent bits that trigger it
-  double amplitude = 0;              ///< A: N; of an exaggeration times; of a fixture N/m
-  double width_s = 0.010;            ///< of a pulse
-  double frequency_Hz = 0;           ///< f of a vibration
-  double wavelength = 0;             ///< m; where given, in place of f
-  double reach = 0;                  ///< m, of an attraction
-  double tau_s = 0;                  ///< a vibration's decay after its trigger, an exaggeration's low-pass
-  double blend_s = 0.02;             ///< in and out with its part, evenly
+  std::uint32_t events = 0;  ///< TickEvent bits that trigger it
+  double amplitude = 0;      ///< A: N; of an exaggeration times; of a fixture N/m
+  double width_s = 0.010;    ///< of a pulse
+  double frequency_Hz = 0;   ///< f of a vibration
+  double wavelength = 0;     ///< m; where given, in place of f
+  double reach = 0;          ///< m, of an attraction
+  double tau_s = 0;          ///< a vibration's decay after its trigger, an exaggeration's low-pass
+  double blend_s = 0.02;     ///< in and out with its part, evenly
 };
 static_assert(std::is_trivially_copyable_v<Augmentation>);
 
@@ -44,10 +55,11 @@ struct AugmentationPlan {
   std::array<Augmentation, kMostAugmentations> each{};
   std::uint32_t count = 0;
   std::uint32_t reserved = 0;
-  double largest = 0;                ///< N, of all together
-  double steepest = 1000;            ///< N/m: attraction and fixture rise no steeper, so that the device can hold them
-  double speed_tau = 0.005;          ///< s, of the speed that parts are told by
-  LearnedModel learned;              ///< by which Cue::learned tells
+  double largest = 0;  ///< N, of all together
+  double steepest =
+      1000;  ///< N/m: attraction and fixture rise no steeper, so that the device can hold them
+  double speed_tau = 0.005;  ///< s, of the speed that parts are told by
+  LearnedModel learned;      ///< by which Cue::learned tells
 };
 static_assert(std::is_trivially_copyable_v<AugmentationPlan>);
 
@@ -55,42 +67,50 @@ static_assert(std::is_trivially_copyable_v<AugmentationPlan>);
 struct AugmentationInput {
   CueValues cues;
   std::uint32_t events = 0;
-  bool allowed = true;               ///< false: this session or trial goes without
-  bool rise = false, bump = false;   ///< a rise, a bump that the probe's way enters
-  double footprint = 0;              ///< 0 to 1: height of the bump that the probe is over, or came across since the last tick, of the highest's
-  Vec3 f_contact = Vec3::Zero(), v = Vec3::Zero(), dp = Vec3::Zero();   ///< dp: way since the last tick
-  Vec3 up = Vec3::Zero(), tool = Vec3::Zero();                          ///< unit: outward normal; the tool's axis toward its tip; 0: none
-  Vec3 to_valley = Vec3::Zero();     ///< m, along the surface
-  double valley_radius = 0;          ///< U; 0: no valley is near
-  Vec3 to_line = Vec3::Zero();       ///< m, across the line; 0: none
+  bool allowed = true;              ///< false: this session or trial goes without
+  bool rise = false, bump = false;  ///< a rise, a bump that the probe's way enters
+  double footprint = 0;  ///< 0 to 1: height of the bump that the probe is over, or came across
+                         ///< since the last tick, of the highest's
+  Vec3 f_contact = Vec3::Zero(), v = Vec3::Zero(),
+       dp = Vec3::Zero();  ///< dp: way since the last tick
+  Vec3 up = Vec3::Zero(),
+       tool = Vec3::Zero();       ///< unit: outward normal; the tool's axis toward its tip; 0: none
+  Vec3 to_valley = Vec3::Zero();  ///< m, along the surface
+  double valley_radius = 0;       ///< U; 0: no valley is near
+  Vec3 to_line = Vec3::Zero();    ///< m, across the line; 0: none
   double dt = 0.001;
   std::int64_t now_ns = 0;
 };
 
 struct AugmentationState {
   SubtaskState subtasks;
-  std::array<double, kMostAugmentations> weight{};      ///< 0 to 1
-  std::array<double, kMostAugmentations> elapsed{};     ///< s since its trigger, below 0: not triggered
-  std::array<double, kMostAugmentations> way{};         ///< s or m, of a vibration
-  std::array<Packed3, kMostAugmentations> slow{};       ///< N, low-passed contact force
-  std::uint32_t was = 0;             ///< bit i: the trigger of i was there in the last tick
-  std::uint32_t started = 0;         ///< bit i: `slow` is there; bit 31: `elapsed` is
+  std::array<double, kMostAugmentations> weight{};  ///< 0 to 1
+  std::array<double, kMostAugmentations>
+      elapsed{};                                   ///< s since its trigger, below 0: not triggered
+  std::array<double, kMostAugmentations> way{};    ///< s or m, of a vibration
+  std::array<Packed3, kMostAugmentations> slow{};  ///< N, low-passed contact force
+  std::uint32_t was = 0;      ///< bit i: the trigger of i was there in the last tick
+  std::uint32_t started = 0;  ///< bit i: `slow` is there; bit 31: `elapsed` is
   LearnedState learned;
 };
 static_assert(std::is_trivially_copyable_v<AugmentationState>);
 
 struct Augmented {
-  Vec3 f = Vec3::Zero();             ///< N, on the tool
-  double work_J = 0;                 ///< that pulses and vibrations, which heed no motion, give to the hand in this tick: declared to the passivity observer
-  std::uint32_t subtasks = 0;        ///< bit i: part i is on
-  std::uint32_t active = 0;          ///< bit i: augmentation i adds a force
-  std::uint32_t began = 0;           ///< bit i: triggered in this tick
+  Vec3 f = Vec3::Zero();  ///< N, on the tool
+  double work_J = 0;      ///< that pulses and vibrations, which heed no motion, give to the hand in
+                          ///< this tick: declared to the passivity observer
+  std::uint32_t subtasks = 0;  ///< bit i: part i is on
+  std::uint32_t active = 0;    ///< bit i: augmentation i adds a force
+  std::uint32_t began = 0;     ///< bit i: triggered in this tick
 };
 
-/// Detects the parts, advances and adds the augmentations, at most `largest` together. Exactly zero where it is not allowed or nothing is on. Never allocates, never throws.
-Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in, AugmentationState* state) noexcept;
+/// Detects the parts, advances and adds the augmentations, at most `largest` together. Exactly zero
+/// where it is not allowed or nothing is on. Never allocates, never throws.
+Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in,
+                  AugmentationState* state) noexcept;
 
-/// A (1 - cos(2 pi d / d_max)) / r, N; 0 beyond d_max. Its steepest slope is 2 pi A / (d_max r), at d_max / 4.
+/// A (1 - cos(2 pi d / d_max)) / r, N; 0 beyond d_max. Its steepest slope is 2 pi A / (d_max r), at
+/// d_max / 4.
 double attractionForce(double amplitude, double d, double d_max, double radius) noexcept;
 
 }  // namespace palpa::haptics

@@ -35,9 +35,12 @@ void believe(const LearnedModel& model, const LearnedRow& x, LearnedState* state
   double sum = 0;
   Belief next{};
   for (std::size_t j = 0; j < count; ++j) sum += next[j] = before[j] * std::exp(seen[j] - most);
-  if (!std::isfinite(sum) || sum <= 0) return;   // what no state can explain, or no number: as before
+  if (!std::isfinite(sum) || sum <= 0)
+    return;  // what no state can explain, or no number: as before
   for (std::size_t j = 0; j < count; ++j) state->belief[j] = next[j] / sum;
-  state->state = static_cast<std::int32_t>(std::max_element(next.begin(), next.begin() + static_cast<std::ptrdiff_t>(count)) - next.begin());
+  state->state = static_cast<std::int32_t>(
+      std::max_element(next.begin(), next.begin() + static_cast<std::ptrdiff_t>(count)) -
+      next.begin());
 }
 
 }  // namespace
@@ -66,7 +69,8 @@ LearnedRow StepSums::close() noexcept {
   return row;
 }
 
-int learnedState(const LearnedModel& model, double tip_speed, const Vec3& f, std::int64_t elapsed_ns, LearnedState* state) noexcept {
+int learnedState(const LearnedModel& model, double tip_speed, const Vec3& f,
+                 std::int64_t elapsed_ns, LearnedState* state) noexcept {
   if (model.states == 0) return -1;
   if (elapsed_ns <= 0 || !std::isfinite(tip_speed) || !f.allFinite()) return state->state;
   const bool first = state->state < 0 && state->step_ns == 0;

@@ -5,7 +5,8 @@ namespace palpa::haptics {
 DeviceCapabilities falconCapabilities() {
   DeviceCapabilities falcon;
   falcon.name = "Novint Falcon";
-  falcon.max_force_N = 6.2;  // in every direction at the centre; the published 8 N and more along the axis only
+  falcon.max_force_N =
+      6.2;  // in every direction at the centre; the published 8 N and more along the axis only
   falcon.stable_stiffness = 3000;
   falcon.position_resolution = falconResolution();
   falcon.delay = 1e-3;  // one exchange on the cable

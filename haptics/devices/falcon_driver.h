@@ -22,7 +22,8 @@ DeviceCapabilities falconCapabilities();
 ///   watcher  status(), one thread
 /// All of them count the same time. A reading is stamped with the beginning of its exchange, when
 /// the device looks at its encoders; its sequence grows only with a position that is known, or
-/// before homing with each answer. A force is rendered while the command is younger than `command_life_ns`.
+/// before homing with each answer. A force is rendered while the command is younger than
+/// `command_life_ns`.
 class FalconDriver final : public HapticDevice {
  public:
   /// `firmware` from readFalconFirmware(), or empty.

@@ -8,12 +8,13 @@ namespace palpa::haptics {
 
 /// What the loop read from a device in one of its ticks.
 struct RecordedReading {
-  std::int64_t t_ns = 0;   ///< session time of the tick
+  std::int64_t t_ns = 0;  ///< session time of the tick
   DeviceReading reading;
 };
 
-/// Plays a recorded hand: the reading of the newest recorded tick whose time has come, the last one from then
-/// on (which the loop takes for a silent device). Forces go nowhere: the hand does what it did.
+/// Plays a recorded hand: the reading of the newest recorded tick whose time has come, the last one
+/// from then on (which the loop takes for a silent device). Forces go nowhere: the hand does what
+/// it did.
 class ReplayDevice final : public HapticDevice {
  public:
   /// Throws UsageError when there is nothing to play, or times go back.

@@ -17,7 +17,8 @@ Vec3 turnedInto(const Vec3& F, const Vec3& n) noexcept {
 
 }  // namespace
 
-Vec3 dragOf(const Dahl& law, const Vec3& dp, const Vec3& n, double f_n, double dt, DahlState* state) noexcept {
+Vec3 dragOf(const Dahl& law, const Vec3& dp, const Vec3& n, double f_n, double dt,
+            DahlState* state) noexcept {
   const double limit = law.mu * f_n;
   if (!(limit > 0)) {
     *state = {};

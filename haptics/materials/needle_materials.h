@@ -27,16 +27,16 @@ struct SkinLaw {
 
 /// What the needle feels in one tissue (after Okamura, Simone, O'Leary, IEEE TBME 51(10), 2004).
 struct LayerLaw {
-  double viscosity = 0;   ///< b, N s/m, on the tip's axial velocity
-  double cutting = 0;     ///< N, constant while advancing
-  double friction = 0;    ///< N/m, shaft friction per inserted length
+  double viscosity = 0;  ///< b, N s/m, on the tip's axial velocity
+  double cutting = 0;    ///< N, constant while advancing
+  double friction = 0;   ///< N/m, shaft friction per inserted length
 };
 
 /// Wall that must be punctured: elastic and relaxing, up to `peak`, then it gives way.
 struct WallLaw {
-  double stiffness = 0;    ///< N/m
-  double peak = 0;         ///< N, median over patients and places; 0: no wall
-  double spread = 0;       ///< of ln(peak) from trial to trial, standard deviation
+  double stiffness = 0;  ///< N/m
+  double peak = 0;       ///< N, median over patients and places; 0: no wall
+  double spread = 0;     ///< of ln(peak) from trial to trial, standard deviation
   Relaxation relaxation;
 };
 
@@ -44,9 +44,9 @@ struct NeedleMaterials {
   SkinLaw skin;
   LayerLaw layers[kTissueCount];
   WallLaw walls[kOrganCount];
-  double lateral_stiffness = 300;    ///< k_t of the tissue about the entry, N/m
-  double lateral_per_depth = 4000;   ///< more with inserted length, N/m per m
-  double needle_radius = 0.000635;   ///< 18G: outer diameter 1.27 mm
+  double lateral_stiffness = 300;   ///< k_t of the tissue about the entry, N/m
+  double lateral_per_depth = 4000;  ///< more with inserted length, N/m per m
+  double needle_radius = 0.000635;  ///< 18G: outer diameter 1.27 mm
   double needle_length = 0.070;
 };
 static_assert(std::is_trivially_copyable_v<NeedleMaterials>);

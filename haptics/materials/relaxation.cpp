@@ -21,7 +21,8 @@ double relaxed(const Relaxation& law, RelaxationState& state, double elastic, do
     force -= law.g[i] * elastic - state.held[i];
   }
   state.elastic = elastic;
-  return std::max(force, 0.0);  // drawn back fast, the tissue lags behind the tool: it does not pull
+  return std::max(force,
+                  0.0);  // drawn back fast, the tissue lags behind the tool: it does not pull
 }
 
 }  // namespace palpa::haptics

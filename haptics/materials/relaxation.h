@@ -15,12 +15,14 @@ struct Relaxation {
 
 /// What a contact remembers of it. Zero at first touch.
 struct RelaxationState {
-  double held[Relaxation::kTerms]{};   ///< N, of each term
-  double elastic = 0;                  ///< F_e of the last tick, N
+  double held[Relaxation::kTerms]{};  ///< N, of each term
+  double elastic = 0;                 ///< F_e of the last tick, N
 };
-static_assert(std::is_trivially_copyable_v<Relaxation> && std::is_trivially_copyable_v<RelaxationState>);
+static_assert(std::is_trivially_copyable_v<Relaxation> &&
+              std::is_trivially_copyable_v<RelaxationState>);
 
-/// Force after relaxation. Exact for an F_e that grows evenly within dt (Taylor, Pister, Goudreau 1970):
+/// Force after relaxation. Exact for an F_e that grows evenly within dt (Taylor, Pister, Goudreau
+/// 1970):
 ///     h_i <- exp(-dt/tau_i) h_i + g_i (tau_i/dt) (1 - exp(-dt/tau_i)) (F_e - F_e last)
 /// so it is stable for any step. `elastic` <= 0 forgets everything: the contact is over.
 double relaxed(const Relaxation& law, RelaxationState& state, double elastic, double dt) noexcept;

@@ -5,8 +5,8 @@
 #include <functional>
 #include <string>
 
-#include "haptics/sensors/force_sensor.h"
 #include "haptics/latest_value.h"
+#include "haptics/sensors/force_sensor.h"
 #include "haptics/sensors/rdt_protocol.h"
 #include "haptics/sensors/rdt_sequence.h"
 #include "haptics/sensors/udp_socket.h"
@@ -19,10 +19,10 @@ struct NetFtSettings {
   std::uint16_t local_port = 0;  ///< 0: any; a firewall may want a fixed one
   std::uint16_t start_code = kRdtStart;
   RdtScale scale;
-  std::uint32_t saturation_bits = 0;  ///< of the status word, that mean saturated; models differ
-  int wait_ms = 20;                   ///< longest wait of a step
-  int answer_tries = 5;               ///< starts sent before `start` gives up
-  int answer_wait_ms = 200;           ///< wait for an answer to each
+  std::uint32_t saturation_bits = 0;    ///< of the status word, that mean saturated; models differ
+  int wait_ms = 20;                     ///< longest wait of a step
+  int answer_tries = 5;                 ///< starts sent before `start` gives up
+  int answer_wait_ms = 200;             ///< wait for an answer to each
   std::int64_t silent_ns = 10'000'000;  ///< older than this: kSilent. As the tick's silent device
   std::int64_t restart_ns = 200'000'000;  ///< start again whenever nothing new came for so long
   ForceSensorCapabilities capabilities;

@@ -45,7 +45,9 @@ ContactWrench step(const WrenchFilter& filter, WrenchFilterState& state, const W
   state.settled = ready;
   if (!ready) return {{}, false, pack(place)};
   const auto y = apply(filter.low_pass, state.low_pass, raw);
-  return {{{y[0], y[1], y[2]}, {y[3], y[4], y[5]}}, true, apply(filter.low_pass, state.place, place_before)};
+  return {{{y[0], y[1], y[2]}, {y[3], y[4], y[5]}},
+          true,
+          apply(filter.low_pass, state.place, place_before)};
 }
 
 }  // namespace palpa::haptics

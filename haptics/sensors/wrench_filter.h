@@ -15,13 +15,14 @@ namespace palpa::haptics {
 ///
 /// (f, tau)_tool from the motion of S one call ago, so the measurement of one call ago is taken; L
 /// is one low-pass over the difference, so that what is measured and what is computed are delayed
-/// alike, and so is the place where it touches: who sets force against depth must take both of one time. Delay of the whole: one call + sqrt(2)/(2 pi f_c).
+/// alike, and so is the place where it touches: who sets force against depth must take both of one
+/// time. Delay of the whole: one call + sqrt(2)/(2 pi f_c).
 struct WrenchFilter {
   LowPass low_pass;
   MotionSettings motion;
   ToolLoad tool;
   Wrench bias;
-  Packed3 p_SK{};             ///< m: the point that touches things
+  Packed3 p_SK{};  ///< m: the point that touches things
 };
 
 struct WrenchFilterState {
@@ -31,7 +32,7 @@ struct WrenchFilterState {
   std::uint32_t held = 0;     ///< `before` is there
   std::uint32_t settled = 0;  ///< the low-pass has begun
   LowPassState<3> place;
-  Packed3 place_before{};     ///< of K one call ago, m
+  Packed3 place_before{};  ///< of K one call ago, m
 };
 static_assert(std::is_trivially_copyable_v<WrenchFilterState>);
 
@@ -39,7 +40,8 @@ static_assert(std::is_trivially_copyable_v<WrenchFilterState>);
 struct ContactWrench {
   Wrench contact;
   bool valid = false;  ///< false: sample unusable, or motion not known yet; zero
-  Packed3 p_WK{};      ///< m, where K was, as late as the wrench is; while that is not valid, where it is
+  Packed3
+      p_WK{};  ///< m, where K was, as late as the wrench is; while that is not valid, where it is
 };
 
 /// Flags of samples that are not used. An overload is used: it is large, if not exact.

@@ -9,15 +9,26 @@ namespace palpa::haptics {
 namespace {
 
 constexpr int kMostBalls = 24;
-constexpr double kHolds = 1e-10;     // U: what is on a sphere, to rounding, is not in it
-constexpr double kSameBall = 1e-9;   // U: middles as near as this have no circle in common that could be told
-constexpr std::array<double, 2> kLooks{3, 5};   // radii. The second only where nothing is bare within 2 radii: not in a pattern of the search task
+constexpr double kHolds = 1e-10;  // U: what is on a sphere, to rounding, is not in it
+constexpr double kSameBall =
+    1e-9;  // U: middles as near as this have no circle in common that could be told
+constexpr std::array<double, 2> kLooks{3,
+                                       5};  // radii. The second only where nothing is bare within 2
+                                            // radii: not in a pattern of the search task
 
-/// The balls around p, in a frame with its origin at p's (x, y): nothing in here depends on where on the disc that is.
+/// The balls around p, in a frame with its origin at p's (x, y): nothing in here depends on where
+/// on the disc that is.
 class Balls {
  public:
-  Balls(const BumpPattern& pattern, double x, double y, double z, double reach) noexcept : radius_(pattern.spec().radius), r2_(radius_ * radius_), x_(x), y_(y), z_(z), complete2_(reach * reach) {
-    pattern.near(x, y, reach, [this](const BumpPattern::Bump& bump) { insert(bump.x - x_, bump.y - y_); });
+  Balls(const BumpPattern& pattern, double x, double y, double z, double reach) noexcept
+      : radius_(pattern.spec().radius),
+        r2_(radius_ * radius_),
+        x_(x),
+        y_(y),
+        z_(z),
+        complete2_(reach * reach) {
+    pattern.near(x, y, reach,
+                 [this](const BumpPattern::Bump& bump) { insert(bump.x - x_, bump.y - y_); });
     const double within = std::sqrt(complete2_) - radius_;
     within2_ = within > 0 ? within * within : -1;
   }
@@ -31,7 +42,8 @@ class Balls {
       for (int j = i + 1; j < count_; ++j) betweenTwo(i, j, best);
   }
 
-  /// Whether nothing farther across the disc than what was looked at can be nearer: all of the bumps is at z >= 0.
+  /// Whether nothing farther across the disc than what was looked at can be nearer: all of the
+  /// bumps is at z >= 0.
   bool decide(const SurfacePoint& best) const noexcept {
     const double below = std::min(z_, 0.0);
     return best.distance2 - below * below <= within2_;
@@ -45,7 +57,8 @@ class Balls {
   const Ball& at(int i) const noexcept { return balls_[static_cast<std::size_t>(i)]; }
   Ball& at(int i) noexcept { return balls_[static_cast<std::size_t>(i)]; }
 
-  /// Nearest first. Where there are too many the farthest falls out, and only what is nearer than that is known completely.
+  /// Nearest first. Where there are too many the farthest falls out, and only what is nearer than
+  /// that is known completely.
   void insert(double x, double y) noexcept {
     const Ball ball{x, y, x * x + y * y};
     if (ball.far2 > complete2_) return;
@@ -73,7 +86,7 @@ class Balls {
   void onSphere(const Ball& ball, SurfacePoint* best) const noexcept {
     const double n2 = ball.far2 + z_ * z_;
     if (n2 >= r2_) return;
-    if (n2 <= 0) return offer(ball.x, ball.y, radius_, best);   // from the middle all are as near
+    if (n2 <= 0) return offer(ball.x, ball.y, radius_, best);  // from the middle all are as near
     const double stretch = radius_ / std::sqrt(n2);
     offer(ball.x - stretch * ball.x, ball.y - stretch * ball.y, stretch * z_, best);
   }
@@ -87,7 +100,8 @@ class Balls {
   void betweenTwo(int i, int j, SurfacePoint* best) const noexcept {
     const double dx = at(j).x - at(i).x, dy = at(j).y - at(i).y, d2 = dx * dx + dy * dy;
     if (d2 >= 4 * r2_ || d2 < kSameBall * kSameBall) return;
-    const double mx = 0.5 * (at(i).x + at(j).x), my = 0.5 * (at(i).y + at(j).y);   // of their circle, which stands upright
+    const double mx = 0.5 * (at(i).x + at(j).x),
+                 my = 0.5 * (at(i).y + at(j).y);  // of their circle, which stands upright
     const double d = std::sqrt(d2), rho = std::sqrt(r2_ - 0.25 * d2), ux = -dy / d, uy = dx / d;
     offer(mx + rho * ux, my + rho * uy, 0, best);
     offer(mx - rho * ux, my - rho * uy, 0, best);
@@ -99,13 +113,16 @@ class Balls {
     for (int k = j + 1; k < count_; ++k) amongThree(at(i), dx, dy, d2, at(k), best);
   }
 
-  /// Three equal spheres around points of one plane meet over the middle of those points' circle. (dx, dy): from the first to the second.
-  void amongThree(const Ball& a, double dx, double dy, double d2, const Ball& c, SurfacePoint* best) const noexcept {
-    const double ex = c.x - a.x, ey = c.y - a.y, e2 = ex * ex + ey * ey, area = 2 * (dx * ey - dy * ex);
+  /// Three equal spheres around points of one plane meet over the middle of those points' circle.
+  /// (dx, dy): from the first to the second.
+  void amongThree(const Ball& a, double dx, double dy, double d2, const Ball& c,
+                  SurfacePoint* best) const noexcept {
+    const double ex = c.x - a.x, ey = c.y - a.y, e2 = ex * ex + ey * ey,
+                 area = 2 * (dx * ey - dy * ex);
     if (e2 >= 4 * r2_) return;
     const double x = (ey * d2 - dy * e2) / area, y = (dx * e2 - ex * d2) / area;
     const double z2 = r2_ - x * x - y * y;
-    if (z2 > 0) offer(a.x + x, a.y + y, std::sqrt(z2), best);   // false for what lies on one line
+    if (z2 > 0) offer(a.x + x, a.y + y, std::sqrt(z2), best);  // false for what lies on one line
   }
 
   const double radius_, r2_, x_, y_, z_;
@@ -116,7 +133,8 @@ class Balls {
 
 }  // namespace
 
-void closestOnBumps(const BumpPattern& pattern, double x, double y, double z, SurfacePoint* best) noexcept {
+void closestOnBumps(const BumpPattern& pattern, double x, double y, double z,
+                    SurfacePoint* best) noexcept {
   for (const double look : kLooks) {
     const Balls balls(pattern, x, y, z, look * pattern.spec().radius);
     balls.improve(best);

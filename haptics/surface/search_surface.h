@@ -9,37 +9,43 @@
 
 namespace palpa::haptics {
 
-/// The floor of the haptic search task: a square, level at height 0, with three scene elements equally spaced on a circle. A scene element: a textured disc, a groove around it, an untextured pit in its middle. F: origin in the
-/// floor's middle, z up; lengths in U throughout this folder. Source: Edmunds and Pai, Perceptually augmented simulator design (IEEE Trans. Haptics, 2012).
+/// The floor of the haptic search task: a square, level at height 0, with three scene elements
+/// equally spaced on a circle. A scene element: a textured disc, a groove around it, an untextured
+/// pit in its middle. F: origin in the floor's middle, z up; lengths in U throughout this folder.
+/// Source: Edmunds and Pai, Perceptually augmented simulator design (IEEE Trans. Haptics, 2012).
 struct SearchSpec {
-  double side = 240;                 ///< of the floor
-  double circle = 200.0 / 3;         ///< radius on which the elements' middles lie
-  double disc = 25;                  ///< radius of the textured disc
-  double groove = 30;                ///< radius at which the groove is deepest
+  double side = 240;          ///< of the floor
+  double circle = 200.0 / 3;  ///< radius on which the elements' middles lie
+  double disc = 25;           ///< radius of the textured disc
+  double groove = 30;         ///< radius at which the groove is deepest
   double groove_half_width = 5, groove_depth = 2;
-  double pit = 5, pit_depth = 1;     ///< radius, depth
-  double bottom_radius = 2, lip_radius = 3;   ///< of the troughs' arcs
+  double pit = 5, pit_depth = 1;             ///< radius, depth
+  double bottom_radius = 2, lip_radius = 3;  ///< of the troughs' arcs
   BumpSpec target{2, 7, 5.6, 5, 25}, distractor{1, 3, 2.4, 5, 25};
 };
 
 /// What varies from episode to episode.
 struct SearchStimulus {
-  double orientation = 0;            ///< rad: direction in which the first element lies, from x
-  int target = 0;                    ///< which element, 0 to 2, has the target's texture
+  double orientation = 0;  ///< rad: direction in which the first element lies, from x
+  int target = 0;          ///< which element, 0 to 2, has the target's texture
 };
 
 class SearchSurface {
  public:
   static constexpr int kElements = 3;
-  /// `uniform` draws evenly from [0, 1): the target's bumps come of it first, then those of both distractors, which are alike. Throws Error for figures that do not fit each other.
-  SearchSurface(const SearchSpec& spec, const SearchStimulus& stimulus, const std::function<double()>& uniform);
+  /// `uniform` draws evenly from [0, 1): the target's bumps come of it first, then those of both
+  /// distractors, which are alike. Throws Error for figures that do not fit each other.
+  SearchSurface(const SearchSpec& spec, const SearchStimulus& stimulus,
+                const std::function<double()>& uniform);
 
   const SearchSpec& spec() const noexcept { return spec_; }
   const SearchStimulus& stimulus() const noexcept { return stimulus_; }
   const TroughProfile& groove() const noexcept { return groove_; }
   const TroughProfile& pit() const noexcept { return pit_; }
-  const BumpPattern& texture(int element) const noexcept { return element == stimulus_.target ? target_ : distractor_; }
-  std::array<double, 2> middle(int element) const noexcept;   ///< x, y of an element
+  const BumpPattern& texture(int element) const noexcept {
+    return element == stimulus_.target ? target_ : distractor_;
+  }
+  std::array<double, 2> middle(int element) const noexcept;  ///< x, y of an element
 
   /// The height field, with its bumps or without them.
   double height(double x, double y) const noexcept;
@@ -49,15 +55,17 @@ class SearchSurface {
 
   /// Where a point is over the floor's plane.
   struct Place {
-    int element = -1;                ///< whose disc, groove or pit; -1: none
-    bool texture = false;            ///< on the textured disc, outside of the pit
+    int element = -1;      ///< whose disc, groove or pit; -1: none
+    bool texture = false;  ///< on the textured disc, outside of the pit
     bool pit = false;
-    double x = 0, y = 0;             ///< in that element's frame: middle to place, F's directions
+    double x = 0, y = 0;  ///< in that element's frame: middle to place, F's directions
   };
   Place place(double x, double y) const noexcept;
 
-  /// Closest point of the free space over the floor and within its walls to p: p itself where that is free. Of the union of smooth floor and hemispheres, edges included (closest_bump.h); exact to rounding, however deep p is.
-  /// The walls are smooth and come first: a point beyond one is taken straight to it, and from there to the floor. What is not finite comes back as it is.
+  /// Closest point of the free space over the floor and within its walls to p: p itself where that
+  /// is free. Of the union of smooth floor and hemispheres, edges included (closest_bump.h); exact
+  /// to rounding, however deep p is. The walls are smooth and come first: a point beyond one is
+  /// taken straight to it, and from there to the floor. What is not finite comes back as it is.
   Vec3 closestFree(const Vec3& p) const noexcept;
   /// Within the walls, and no deeper than 1e-9 in the floor: what closestFree gives is free.
   bool isFree(const Vec3& p) const noexcept;
@@ -69,7 +77,8 @@ class SearchSurface {
  private:
   double smoothHeight(const Place& at) const noexcept;
   bool overFloor(const Vec3& p) const noexcept;
-  int bumpEntered(double ax, double ay, double bx, double by) const noexcept;   ///< whose: an element; -1: none
+  int bumpEntered(double ax, double ay, double bx,
+                  double by) const noexcept;  ///< whose: an element; -1: none
   Vec3 closestOnFloor(const Vec3& p) const noexcept;
 
   SearchSpec spec_;

@@ -9,19 +9,25 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr int kMostValleyCells = 1024;   // a side
+constexpr int kMostValleyCells = 1024;  // a side
 constexpr double kUnitTangent = 1e-6;
-// A point's piece of the line ends half a reach from it at most, so the middle of what is within reach lies within this many.
+// A point's piece of the line ends half a reach from it at most, so the middle of what is within
+// reach lies within this many.
 constexpr double kCellOfReach = 1.5;
-constexpr double kSameLine = 3;          // usual spacings: a wider gap is a line's end
-constexpr double kSameCourse = 0.7;      // cosine between the tangents of one line's neighbours
+constexpr double kSameLine = 3;      // usual spacings: a wider gap is a line's end
+constexpr double kSameCourse = 0.7;  // cosine between the tangents of one line's neighbours
 
 void checkValleys(const std::vector<ValleyPoint>& points, double side, double reach) {
-  if (!(side > 0 && reach > 0 && std::isfinite(side) && std::isfinite(reach))) throw Error("side and reach must be positive", "valley map", "Give the floor's side, and how far its valleys are felt");
+  if (!(side > 0 && reach > 0 && std::isfinite(side) && std::isfinite(reach)))
+    throw Error("side and reach must be positive", "valley map",
+                "Give the floor's side, and how far its valleys are felt");
   for (const ValleyPoint& p : points) {
     const double t2 = p.tx * p.tx + p.ty * p.ty;
-    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.radius) && (t2 <= 0 || std::abs(t2 - 1) < kUnitTangent)))
-      throw Error("a valley point is not finite, or its tangent is neither unit nor zero", "valley map", "Divide tangents by their length, and leave out points without a place");
+    if (!(std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.radius) &&
+          (t2 <= 0 || std::abs(t2 - 1) < kUnitTangent)))
+      throw Error("a valley point is not finite, or its tangent is neither unit nor zero",
+                  "valley map",
+                  "Divide tangents by their length, and leave out points without a place");
   }
 }
 
@@ -29,14 +35,16 @@ bool directed(const ValleyPoint& p) noexcept { return p.tx * p.tx + p.ty * p.ty 
 
 }  // namespace
 
-ValleyMap::ValleyMap(std::vector<ValleyPoint> points, double side, double reach) : side_(side), reach_(reach), width_(std::max(kCellOfReach * reach, side / kMostValleyCells)) {
+ValleyMap::ValleyMap(std::vector<ValleyPoint> points, double side, double reach)
+    : side_(side), reach_(reach), width_(std::max(kCellOfReach * reach, side / kMostValleyCells)) {
   checkValleys(points, side, reach);
   cells_ = std::clamp(static_cast<int>(std::ceil(side / width_)), 1, kMostValleyCells);
   sortByCell(points);
   measureExtents();
 }
 
-/// Clamped: what lies beyond the floor is in its outermost cells, where whoever is there looks as well.
+/// Clamped: what lies beyond the floor is in its outermost cells, where whoever is there looks as
+/// well.
 int ValleyMap::cell(double x) const noexcept {
   const double at = (x + 0.5 * side_) / width_;
   if (!(at > 0)) return 0;
@@ -44,7 +52,9 @@ int ValleyMap::cell(double x) const noexcept {
 }
 
 void ValleyMap::sortByCell(const std::vector<ValleyPoint>& points) {
-  const auto cellOf = [this](const ValleyPoint& p) { return static_cast<std::size_t>(cell(p.y) * cells_ + cell(p.x)); };
+  const auto cellOf = [this](const ValleyPoint& p) {
+    return static_cast<std::size_t>(cell(p.y) * cells_ + cell(p.x));
+  };
   first_.assign(static_cast<std::size_t>(cells_) * static_cast<std::size_t>(cells_) + 1, 0);
   for (const ValleyPoint& p : points) ++first_[cellOf(p) + 1];
   for (std::size_t c = 1; c < first_.size(); ++c) first_[c] += first_[c - 1];
@@ -57,7 +67,9 @@ template <typename Visit>
 void ValleyMap::around(double x, double y, Visit visit) const noexcept {
   const int i = cell(x), j = cell(y);
   for (int row = std::max(j - 1, 0); row <= std::min(j + 1, cells_ - 1); ++row) {
-    const int begin = first_[static_cast<std::size_t>(row * cells_ + std::max(i - 1, 0))], end = first_[static_cast<std::size_t>(row * cells_ + std::min(i + 1, cells_ - 1)) + 1];
+    const int begin = first_[static_cast<std::size_t>(row * cells_ + std::max(i - 1, 0))],
+              end =
+                  first_[static_cast<std::size_t>(row * cells_ + std::min(i + 1, cells_ - 1)) + 1];
     for (int k = begin; k < end; ++k) visit(static_cast<std::size_t>(k));
   }
 }
@@ -87,7 +99,8 @@ void ValleyMap::measureExtents() {
   const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
   std::nth_element(all.begin(), middle, all.end());
   const double widest = kSameLine * *middle;
-  for (Extent& e : extents_) e = {e.behind > widest ? 0 : 0.5 * e.behind, e.ahead > widest ? 0 : 0.5 * e.ahead};
+  for (Extent& e : extents_)
+    e = {e.behind > widest ? 0 : 0.5 * e.behind, e.ahead > widest ? 0 : 0.5 * e.ahead};
 }
 
 ValleyMap::Nearest ValleyMap::nearest(double x, double y) const noexcept {
@@ -96,7 +109,8 @@ ValleyMap::Nearest ValleyMap::nearest(double x, double y) const noexcept {
   around(x, y, [&](std::size_t k) {
     const ValleyPoint& p = points_[k];
     const double px = p.x - x, py = p.y - y;
-    const double along = std::clamp(-(px * p.tx + py * p.ty), -extents_[k].behind, extents_[k].ahead);
+    const double along =
+        std::clamp(-(px * p.tx + py * p.ty), -extents_[k].behind, extents_[k].ahead);
     const double dx = px + along * p.tx, dy = py + along * p.ty, d2 = dx * dx + dy * dy;
     if (!(d2 <= best2)) return;
     best2 = d2;

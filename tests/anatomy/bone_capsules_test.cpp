@@ -21,10 +21,12 @@ int surfaceOf(const Patient& patient, Organ organ) {
 }
 
 /// The middles of some facets: places where the mesh is touched, and that no fit has seen.
-std::vector<SurfacePoint> places(const SurfaceQuery& query, const Patient& patient, int surface, std::size_t count) {
+std::vector<SurfacePoint> places(const SurfaceQuery& query, const Patient& patient, int surface,
+                                 std::size_t count) {
   const TriangleMesh& mesh = patient.organs[surface].mesh;
   std::vector<SurfacePoint> found;
-  for (std::size_t i = 0; i < mesh.triangles.size(); i += std::max<std::size_t>(mesh.triangles.size() / count, 1)) {
+  for (std::size_t i = 0; i < mesh.triangles.size();
+       i += std::max<std::size_t>(mesh.triangles.size() / count, 1)) {
     Vec3 middle = Vec3::Zero();
     for (const std::uint32_t corner : mesh.triangles[i]) middle += mesh.points[corner] / 3;
     found.push_back(query.closest(surface, middle));
@@ -79,7 +81,8 @@ TEST(BoneCapsules, FitRoundEveryTouchedPlace) {
   }
 }
 
-/// The force is right where the tool is: the first capsule touches with the mesh's normal, no other one covers the place.
+/// The force is right where the tool is: the first capsule touches with the mesh's normal, no other
+/// one covers the place.
 TEST(BoneCapsules, TouchTheMeshWhereItIsTouched) {
   const Patient& patient = referencePatient();
   const SurfaceQuery query(patient);
@@ -97,7 +100,8 @@ TEST(BoneCapsules, TouchTheMeshWhereItIsTouched) {
   }
 }
 
-/// A hand slides along the bone at 50 mm/s, 1 mm deep, with snapshots at 60 Hz; each takes over in 10 ticks.
+/// A hand slides along the bone at 50 mm/s, 1 mm deep, with snapshots at 60 Hz; each takes over in
+/// 10 ticks.
 TEST(BoneCapsules, ANewSnapshotHardlyMovesTheForce) {
   constexpr double kSlide = 0.05 / 60, kDeep = 1e-3, kStiffness = 1000, kBlend = 10;
   const Patient& patient = referencePatient();
@@ -116,7 +120,8 @@ TEST(BoneCapsules, ANewSnapshotHardlyMovesTheForce) {
       Vec3 n_old = Vec3::Zero(), n_new = Vec3::Zero();
       const double d_old = measure::distanceTo(old, tool, &n_old);
       const double d_new = measure::distanceTo(bone.near(next, kMost), tool, &n_new);
-      const double jump = kStiffness / kBlend * (std::min(d_old, 0.0) * n_old - std::min(d_new, 0.0) * n_new).norm();
+      const double jump = kStiffness / kBlend *
+                          (std::min(d_old, 0.0) * n_old - std::min(d_new, 0.0) * n_new).norm();
       squares += jump * jump;
       most = std::max(most, jump);
       ++count;
@@ -149,7 +154,8 @@ TEST(BoneCapsules, EndWhereTheBoneEnds) {
   const Vec3 a(-0.05, 0, 0), b(0.05, 0, 0);
   const Patient patient = patientOf(capsuleMesh(a, b, 0.006, 101, 48), Organ::rib);
   const SurfaceQuery query(patient);
-  const std::vector<Capsule> chain = BoneCapsules(patient.organs[0].mesh).near(query.closest(0, {0.049, 0.01, 0}), kMost);
+  const std::vector<Capsule> chain =
+      BoneCapsules(patient.organs[0].mesh).near(query.closest(0, {0.049, 0.01, 0}), kMost);
   ASSERT_FALSE(chain.empty());
   for (const Capsule& capsule : chain)
     for (const Packed3& end : {capsule.a, capsule.b}) EXPECT_LT(end[0] + capsule.radius, 0.0575);
@@ -157,7 +163,8 @@ TEST(BoneCapsules, EndWhereTheBoneEnds) {
 
 TEST(BoneCapsules, ARoundBoneIsTouchedFromEverySide) {
   const Vec3 middle(0.01, 0.02, 0.03);
-  const Patient patient = patientOf(capsuleMesh(middle, middle + Vec3(1e-5, 0, 0), 0.006, 2, 48), Organ::rib);
+  const Patient patient =
+      patientOf(capsuleMesh(middle, middle + Vec3(1e-5, 0, 0), 0.006, 2, 48), Organ::rib);
   const SurfaceQuery query(patient);
   const BoneCapsules bone(patient.organs[0].mesh);
   for (const Vec3& way : {Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(0.6, 0, 0.8)}) {
@@ -168,7 +175,9 @@ TEST(BoneCapsules, ARoundBoneIsTouchedFromEverySide) {
 }
 
 TEST(BoneCapsules, ALargePlateHasNone) {
-  const auto plate = [](const Vec3& p) { return (p.cwiseAbs() - Vec3(0.1, 0.1, 0.003)).maxCoeff(); };
+  const auto plate = [](const Vec3& p) {
+    return (p.cwiseAbs() - Vec3(0.1, 0.1, 0.003)).maxCoeff();
+  };
   const Vec3 corner(0.104, 0.104, 0.007);
   const Patient patient = patientOf(surfaceNets(plate, {-corner, corner}, 0.003), Organ::scapula);
   const SurfaceQuery query(patient);

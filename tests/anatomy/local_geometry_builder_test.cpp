@@ -44,7 +44,10 @@ TEST(LocalGeometryBuilder, TaughtLineCrossesTheLayersInOrderWhereRaysSay) {
       const Boundary& b = g.boundaries[i];
       EXPECT_EQ(b.from, order[i]);
       EXPECT_EQ(b.to, order[i + 1]);
-      EXPECT_EQ(b.wall, i == 0 ? Organ::skin : i == 2 ? Organ::fascia : i >= 4 ? Organ::vein : Organ::none);
+      EXPECT_EQ(b.wall, i == 0   ? Organ::skin
+                        : i == 2 ? Organ::fascia
+                        : i >= 4 ? Organ::vein
+                                 : Organ::none);
       EXPECT_EQ(b.leaving, i == 5);
       EXPECT_LT(unpack(b.n).dot(scene.direction), 0);
       EXPECT_NEAR(unpack(b.n).norm(), 1, 1e-9);
@@ -52,13 +55,14 @@ TEST(LocalGeometryBuilder, TaughtLineCrossesTheLayersInOrderWhereRaysSay) {
         EXPECT_GT(along(scene, b), along(scene, g.boundaries[i - 1]));
       }
     }
-    // The landmark lies on a facet of the skin; the skin is rounded over it by less than 0.1 mm. Once punctured
-    // the snapshot's skin is the plane there.
+    // The landmark lies on a facet of the skin; the skin is rounded over it by less than 0.1 mm.
+    // Once punctured the snapshot's skin is the plane there.
     const double skin = along(scene, g.boundaries[0]);
     const double sine = -scene.direction.dot(unpack(g.skin.n));
     const SurfacePoint rounded = scene.query.rounded(0, scene.entry);
     EXPECT_LT((rounded.p_A - scene.entry).norm(), 1e-4);
-    const double plane = (rounded.p_A - scene.entry).dot(rounded.n_A) / scene.direction.dot(rounded.n_A);
+    const double plane =
+        (rounded.p_A - scene.entry).dot(rounded.n_A) / scene.direction.dot(rounded.n_A);
     EXPECT_NEAR(skin, plane, 1e-9);
     EXPECT_NEAR(along(scene, g.boundaries[1]) - skin, scene.patient.layers.skin / sine, 1e-9);
     EXPECT_NEAR(along(scene, g.boundaries[2]) - skin,
@@ -125,7 +129,8 @@ TEST(LocalGeometryBuilder, EveryBoneInReachHasAPlaceTheNearestFirst) {
     double before = 0;
     for (int i = 0; i < g.bone_count; ++i) {
       if (!bones.empty() && bones.back() == g.bones[i].bone) continue;
-      EXPECT_EQ(std::count(bones.begin(), bones.end(), g.bones[i].bone), 0);  // a bone's capsules lie together
+      EXPECT_EQ(std::count(bones.begin(), bones.end(), g.bones[i].bone),
+                0);  // a bone's capsules lie together
       bones.push_back(g.bones[i].bone);
       const Vec3 tip = start.X_AT.translation(), back = depth > 0 ? scene.entry : tip;
       const double distance = scene.query.nearSegment(g.bones[i].bone, tip, back).distance;
@@ -135,8 +140,10 @@ TEST(LocalGeometryBuilder, EveryBoneInReachHasAPlaceTheNearestFirst) {
     for (std::size_t i = 0; i < scene.patient.organs.size(); ++i) {
       const Organ organ = scene.patient.organs[i].organ;
       if (organ != Organ::clavicle && organ != Organ::rib) continue;
-      if (scene.query.closest(static_cast<int>(i), start.X_AT.translation()).distance > 0.039) continue;
-      EXPECT_EQ(std::count(bones.begin(), bones.end(), static_cast<int>(i)), 1) << scene.patient.organs[i].id;
+      if (scene.query.closest(static_cast<int>(i), start.X_AT.translation()).distance > 0.039)
+        continue;
+      EXPECT_EQ(std::count(bones.begin(), bones.end(), static_cast<int>(i)), 1)
+          << scene.patient.organs[i].id;
     }
     shared += bones.size() > 1 && g.bone_count > static_cast<int>(bones.size());
   }
@@ -170,21 +177,28 @@ TEST(LocalGeometryBuilder, MirroredSideGivesTheMirroredSnapshot) {
     for (int i = 0; i < r.boundary_count; ++i) {
       EXPECT_EQ(r.boundaries[i].to, l.boundaries[i].to);
       // Vessels and lungs of the two sides differ toward the midline, so their grids lie otherwise.
-      const bool twin = r.boundaries[i].wall == Organ::none || r.boundaries[i].wall == Organ::skin || r.boundaries[i].wall == Organ::fascia;
-      EXPECT_LT((unpack(r.boundaries[i].p) - mirrored(l.boundaries[i].p)).norm(), twin ? kRounding : 5e-5);
-      EXPECT_LT((unpack(r.boundaries[i].n) - mirrored(l.boundaries[i].n)).norm(), twin ? kRounding : 0.05);
+      const bool twin = r.boundaries[i].wall == Organ::none ||
+                        r.boundaries[i].wall == Organ::skin ||
+                        r.boundaries[i].wall == Organ::fascia;
+      EXPECT_LT((unpack(r.boundaries[i].p) - mirrored(l.boundaries[i].p)).norm(),
+                twin ? kRounding : 5e-5);
+      EXPECT_LT((unpack(r.boundaries[i].n) - mirrored(l.boundaries[i].n)).norm(),
+                twin ? kRounding : 0.05);
     }
     ASSERT_EQ(r.bone_count, l.bone_count);
     // Neither the ends of a capsule nor the sides of a chain have an order.
     const auto apart = [&](const Capsule& a, const Capsule& b) {
-      const double straight = (unpack(a.a) - mirrored(b.a)).norm() + (unpack(a.b) - mirrored(b.b)).norm();
-      const double crossed = (unpack(a.a) - mirrored(b.b)).norm() + (unpack(a.b) - mirrored(b.a)).norm();
+      const double straight =
+          (unpack(a.a) - mirrored(b.a)).norm() + (unpack(a.b) - mirrored(b.b)).norm();
+      const double crossed =
+          (unpack(a.a) - mirrored(b.b)).norm() + (unpack(a.b) - mirrored(b.a)).norm();
       return std::min(straight, crossed) + std::abs(a.radius - b.radius);
     };
     for (int i = 0; i < r.bone_count; ++i) {
       double least = 1;
       for (int k = 0; k < l.bone_count; ++k)
-        if (r.bones[i].bone == l.bones[k].bone) least = std::min(least, apart(r.bones[i], l.bones[k]));
+        if (r.bones[i].bone == l.bones[k].bone)
+          least = std::min(least, apart(r.bones[i], l.bones[k]));
       EXPECT_LT(least, kRounding);
     }
   }

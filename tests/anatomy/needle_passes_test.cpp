@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "tests/support/allocation_guard.h"
 #include "test_shapes.h"
+#include "tests/support/allocation_guard.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -15,7 +15,8 @@ double onionSag(double radius) { return 6.25 * kOnionCell * kOnionCell / (8 * ra
 /// Spheres about the origin, one in the other: skin 50 mm, muscle 40 mm, lung 30 mm.
 Patient onion() {
   Patient patient;
-  for (const auto& [organ, radius] : {std::pair(Organ::muscle, 0.04), {Organ::skin, 0.05}, {Organ::lung, 0.03}})
+  for (const auto& [organ, radius] :
+       {std::pair(Organ::muscle, 0.04), {Organ::skin, 0.05}, {Organ::lung, 0.03}})
     patient.organs.push_back({name(organ), organ, sphereMesh(radius, kOnionCell), {1, 1, 1, 1}});
   return patient;
 }
@@ -57,7 +58,7 @@ TEST(Needle, ThatLiesInsideFromEndToEndSaysSo) {
   const SurfaceQuery query(onion());
   NeedlePasses passes;
   query.needle({-0.035, 0, 0}, {-0.033, 0, 0}, &passes);
-  ASSERT_EQ(passes.count, 2);   // in skin and muscle, short of the lung
+  ASSERT_EQ(passes.count, 2);  // in skin and muscle, short of the lung
   for (const NeedlePass& pass : passes) {
     EXPECT_TRUE(pass.starts_inside && pass.ends_inside);
     EXPECT_EQ(pass.enter, 0);
@@ -80,7 +81,8 @@ TEST(Needle, StretchesAgreeWithInsideAskedPointByPoint) {
     const Vec3 start = centre + randomIn(random, 0.12), tip = centre + randomIn(random, 0.03);
     NeedlePasses passes;
     query.needle(start, tip, &passes);
-    for (int k = 1; k < passes.count; ++k) EXPECT_LE(passes.pass[k - 1].enter, passes.pass[k].enter);
+    for (int k = 1; k < passes.count; ++k)
+      EXPECT_LE(passes.pass[k - 1].enter, passes.pass[k].enter);
     for (int j = 0; j <= 50; ++j) {
       const double s = passes.length * j / 50;
       const Vec3 p = start + (tip - start) * j / 50;
@@ -114,7 +116,8 @@ TEST(Needle, RoomIsFixedAndWhatDoesNotFitIsTold) {
 TEST(GeometricQueries, AllocateNothing) {
   const Patient& patient = referencePatient();
   const SurfaceQuery query(patient);
-  const Vec3 entry = patient.landmark(landmark::kEntry), target = patient.landmark(landmark::kVeinTarget);
+  const Vec3 entry = patient.landmark(landmark::kEntry),
+             target = patient.landmark(landmark::kVeinTarget);
   NeedlePasses passes;
   std::array<NearMiss, 64> misses;
   SurfaceQuery::Tube tube;

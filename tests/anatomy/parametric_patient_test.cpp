@@ -30,12 +30,14 @@ void expectTeachable(const PatientParameters& p) {
     EXPECT_TRUE(f.ok) << patient.name << ": " << f.name << " is " << f.value << " " << f.unit
                       << ", wanted " << f.wanted;
   // The agreed accuracies of the drawn figures on the meshes.
-  EXPECT_NEAR(value(findings, "vein depth under the skin"), 1e3 * p.vein_depth, 0.2) << patient.name;
+  EXPECT_NEAR(value(findings, "vein depth under the skin"), 1e3 * p.vein_depth, 0.2)
+      << patient.name;
   EXPECT_NEAR(value(findings, "vein diameter"), 1e3 * p.vein_diameter, 0.2) << patient.name;
   EXPECT_NEAR(value(findings, "vein to pleura"), 1e3 * p.pleura_distance, 0.3) << patient.name;
   const double chord =
       (patient.landmark(landmark::kAcromialEnd) - patient.landmark(landmark::kSternalEnd)).norm();
-  EXPECT_NEAR(1e3 * chord, 1e3 * p.clavicle_length, 0.3) << patient.name;  // the blunt ends point off the chord
+  EXPECT_NEAR(1e3 * chord, 1e3 * p.clavicle_length, 0.3)
+      << patient.name;  // the blunt ends point off the chord
   EXPECT_LE(value(findings, "triangles"), 300'000) << patient.name;
 }
 
@@ -60,16 +62,19 @@ TEST_P(Drawn, IsTeachable) {
   constexpr int kAll = 200, kSome = 8;
   const int chunk = (fullCounts() ? kAll : kSome) / 4;
   for (int i = GetParam() * chunk + 1; i <= (GetParam() + 1) * chunk; ++i) {
-    PatientParameters p = drawParameters(reference(), i % 3 ? Side::right : Side::left, static_cast<std::uint64_t>(i), personNumber(i));
+    PatientParameters p = drawParameters(reference(), i % 3 ? Side::right : Side::left,
+                                         static_cast<std::uint64_t>(i), personNumber(i));
     p.extent = i % 4 == 1 ? Extent::bust : Extent::torso;
     expectTeachable(p);
   }
 }
 INSTANTIATE_TEST_SUITE_P(Quarters, Drawn, testing::Range(0, 4));
 
-// What lies in the middle or differs between a body's own sides (great vessels, airway, lungs) does not.
+// What lies in the middle or differs between a body's own sides (great vessels, airway, lungs) does
+// not.
 bool mirrors(Organ organ) {
-  return organ != Organ::vein && organ != Organ::artery && organ != Organ::airway && organ != Organ::lung;
+  return organ != Organ::vein && organ != Organ::artery && organ != Organ::airway &&
+         organ != Organ::lung;
 }
 
 TEST(ParametricPatient, PuncturedSidesAreExactMirrorImages) {
@@ -86,9 +91,11 @@ TEST(ParametricPatient, PuncturedSidesAreExactMirrorImages) {
     }
     EXPECT_NEAR(signedVolume(a), signedVolume(b), 1e-12);
   }
-  // The window is solved for, to 0.02 mm, in the veins' field, which is not alike on both sides of a body.
+  // The window is solved for, to 0.02 mm, in the veins' field, which is not alike on both sides of
+  // a body.
   for (const auto& [key, p] : right.landmarks)
-    EXPECT_LT((p - mirrored(left.landmark(key))).norm(), key == landmark::kWindow ? 2e-5 : 1e-12) << key;
+    EXPECT_LT((p - mirrored(left.landmark(key))).norm(), key == landmark::kWindow ? 2e-5 : 1e-12)
+        << key;
   EXPECT_LT(right.landmark(landmark::kAcromialEnd).x(), -0.1);  // +x is the patient's left
 }
 
@@ -97,22 +104,25 @@ TEST(ParametricPatient, TheCavaIsOnTheRightAndTheArchOnTheLeftWhicheverSideIsPun
     const Patient& patient = referencePatient(side);
     const auto lowest = [&](Organ organ) {
       const auto& points = patient.organ(organ).mesh.points;
-      return *std::min_element(points.begin(), points.end(), [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
+      return *std::min_element(points.begin(), points.end(),
+                               [](const Vec3& a, const Vec3& b) { return a.z() < b.z(); });
     };
-    EXPECT_LT(lowest(Organ::vein).x(), -0.01);     // superior vena cava
-    EXPECT_GT(lowest(Organ::artery).x(), 0.01);    // descending aorta
+    EXPECT_LT(lowest(Organ::vein).x(), -0.01);   // superior vena cava
+    EXPECT_GT(lowest(Organ::artery).x(), 0.01);  // descending aorta
   }
 }
 
 TEST(ParametricPatient, OriginIsTheNotchOnTheSkin) {
   const Patient& patient = referencePatient();
   EXPECT_EQ(patient.landmark(landmark::kNotch), Vec3::Zero());
-  EXPECT_LT(std::abs(TriangleTree(patient.organ(Organ::skin).mesh).closest(Vec3::Zero()).signed_distance), 5e-4);
+  EXPECT_LT(
+      std::abs(TriangleTree(patient.organ(Organ::skin).mesh).closest(Vec3::Zero()).signed_distance),
+      5e-4);
 }
 
 TEST(ParametricPatient, NormalsAreUnitAndFaceOutward) {
   for (const OrganSurface& o : referencePatient().organs) {
-    for (const Vec3& n : o.mesh.normals) ASSERT_NEAR(n.norm(), 1, 1e-7) << o.id;   // in floats
+    for (const Vec3& n : o.mesh.normals) ASSERT_NEAR(n.norm(), 1, 1e-7) << o.id;  // in floats
     for (const auto& t : o.mesh.triangles) {
       const Vec3& a = o.mesh.points[t[0]];
       const Vec3 face = (o.mesh.points[t[1]] - a).cross(o.mesh.points[t[2]] - a);
@@ -167,7 +177,8 @@ TEST(DrawParameters, SeedZeroIsTheMeansAndOthersSpread) {
   EXPECT_NEAR(mean.layers.skin + mean.layers.fat + mean.layers.muscle, 0.016, 5e-5);
 }
 
-// The published means within 5 % and spreads within 10 %, of women and men drawn without statements.
+// The published means within 5 % and spreads within 10 %, of women and men drawn without
+// statements.
 TEST(DrawParameters, PopulationHasThePublishedMeansAndSpreads) {
   const int draws = fullCounts() ? 1000 : 120;
   struct Figure {
@@ -180,7 +191,8 @@ TEST(DrawParameters, PopulationHasThePublishedMeansAndSpreads) {
                       {"pleura distance", 0.006, 0.002, &PatientParameters::pleura_distance},
                       {"clavicle length", 0.1494, 0.0103, &PatientParameters::clavicle_length}};
   for (int seed = 1; seed <= draws; ++seed) {
-    const PatientParameters p = drawParameters(reference(), Side::right, static_cast<std::uint64_t>(seed));
+    const PatientParameters p =
+        drawParameters(reference(), Side::right, static_cast<std::uint64_t>(seed));
     for (Figure& f : figures) {
       f.sum += p.*f.field;
       f.squares += (p.*f.field) * (p.*f.field);

@@ -15,7 +15,8 @@ namespace {
 Patient smallPatient() {
   Patient patient = patientOf(sphereMesh(0.05, 0.02), Organ::skin);
   OrganSurface& skin = patient.organs.front();
-  for (std::size_t i = 0; i < skin.mesh.points.size(); ++i) skin.mesh.uvs.push_back({0.01f * static_cast<float>(i), 0.25f});
+  for (std::size_t i = 0; i < skin.mesh.points.size(); ++i)
+    skin.mesh.uvs.push_back({0.01f * static_cast<float>(i), 0.25f});
   skin.texture = {6, 4, std::vector<std::uint8_t>(72, 130)};
   patient.organs.push_back({"bone",
                             Organ::clavicle,
@@ -182,10 +183,12 @@ TEST(PatientFile, NamesWhatIsWrong) {
     return message(changed);
   };
   EXPECT_NE(renamed("clavicle", "clavicoe").find("unknown organ"), std::string::npos);
-  EXPECT_EQ(renamed("entry_point", "entry_poinx"), "no error") << "a patient may be there to be looked at";
+  EXPECT_EQ(renamed("entry_point", "entry_poinx"), "no error")
+      << "a patient may be there to be looked at";
   EXPECT_NE(renamed("tissue\":\"bone", "tissue\":\"bome").find("tissue"), std::string::npos);
   EXPECT_NE(renamed("NORMAL", "NORMAX").find("NORMAL"), std::string::npos);
-  EXPECT_NE(renamed("TEXCOORD_0", "TEXCOORD_7").find("TEXCOORD_0"), std::string::npos) << "a picture needs coordinates";
+  EXPECT_NE(renamed("TEXCOORD_0", "TEXCOORD_7").find("TEXCOORD_0"), std::string::npos)
+      << "a picture needs coordinates";
   std::string no_png = whole;
   no_png.replace(no_png.find("\x89PNG") + 1, 3, "PNX");
   EXPECT_NE(message(no_png).find("not a PNG"), std::string::npos);

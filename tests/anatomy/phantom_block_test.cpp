@@ -24,11 +24,13 @@ TEST(PhantomBlock, IsClosedWithUnitNormalsThatLookOut) {
   EXPECT_TRUE(isClosed(mesh));
   ASSERT_EQ(mesh.normals.size(), mesh.points.size());
   for (const auto& t : mesh.triangles) {
-    const Vec3 n = (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]);
+    const Vec3 n =
+        (mesh.points[t[1]] - mesh.points[t[0]]).cross(mesh.points[t[2]] - mesh.points[t[0]]);
     ASSERT_GT(n.norm(), 1e-9) << "a triangle without area";
     for (const std::uint32_t corner : t) {
       ASSERT_NEAR(mesh.normals[corner].norm(), 1, 1e-12);
-      ASSERT_GT(mesh.normals[corner].dot(n.normalized()), 0.9);   // cos of half an arc's step is 0.99
+      ASSERT_GT(mesh.normals[corner].dot(n.normalized()),
+                0.9);  // cos of half an arc's step is 0.99
     }
   }
 }
@@ -39,15 +41,19 @@ TEST(PhantomBlock, HasItsSizeAndRoundEdges) {
   for (const Vec3& p : block.organs[0].mesh.points) box.extend(p);
   EXPECT_LT((box.min() - Vec3(-0.060, 0, -0.050)).norm(), 1e-12);
   EXPECT_LT((box.max() - Vec3(0.060, 0.050, 0.050)).norm(), 1e-12);
-  // A box of flat parts grown by a ball (Steiner): V = abc + 2 (ab + bc + ca) r + pi (a + b + c) r^2 + 4/3 pi r^3. Facets of
-  // t = 15 degrees cut 3 (t - sin t) r^2 off along each of the twelve edges: 2.4e-4 of the whole.
+  // A box of flat parts grown by a ball (Steiner): V = abc + 2 (ab + bc + ca) r + pi (a + b + c)
+  // r^2 + 4/3 pi r^3. Facets of t = 15 degrees cut 3 (t - sin t) r^2 off along each of the twelve
+  // edges: 2.4e-4 of the whole.
   const double r = kBlockEdge;
   const Vec3 f = kSize - Vec3::Constant(2 * r);
   const double faces = f.x() * f.y() + f.y() * f.z() + f.z() * f.x();
-  const double whole = f.prod() + 2 * faces * r + std::numbers::pi * f.sum() * r * r + 4.0 / 3 * std::numbers::pi * r * r * r;
+  const double whole = f.prod() + 2 * faces * r + std::numbers::pi * f.sum() * r * r +
+                       4.0 / 3 * std::numbers::pi * r * r * r;
   EXPECT_NEAR(signedVolume(block.organs[0].mesh), whole, 3e-4 * whole);
   EXPECT_LT(signedVolume(block.organs[0].mesh), whole);
-  EXPECT_NEAR(SurfaceQuery(block).closest(0, Vec3(0.060, 0, 0)).distance, (std::sqrt(2.0) - 1) * r, 5e-5) << "the edge is cut";
+  EXPECT_NEAR(SurfaceQuery(block).closest(0, Vec3(0.060, 0, 0)).distance, (std::sqrt(2.0) - 1) * r,
+              5e-5)
+      << "the edge is cut";
 }
 
 TEST(PhantomBlock, LiesOnItsBackWithTheMiddleOfItsTopAsEntry) {
@@ -58,14 +64,16 @@ TEST(PhantomBlock, LiesOnItsBackWithTheMiddleOfItsTopAsEntry) {
   EXPECT_NEAR(X_AP().linear().determinant(), 1, 1e-12);
   const SurfaceQuery query(block);
   EXPECT_NEAR(query.closest(0, entry).distance, 0, 1e-9);
-  EXPECT_NEAR(query.closest(0, X_AP() * Vec3(0.01, 0.02, -0.005)).distance, -0.005, 1e-9) << "under the top is inside";
+  EXPECT_NEAR(query.closest(0, X_AP() * Vec3(0.01, 0.02, -0.005)).distance, -0.005, 1e-9)
+      << "under the top is inside";
   EXPECT_NEAR(query.closest(0, X_AP() * Vec3(0.01, 0.02, 0.005)).distance, 0.005, 1e-9);
   EXPECT_LT(block.landmark(landmark::kNearEdge).z(), entry.z());
 }
 
 TEST(PhantomBlock, RefusesWhatIsNoBlockAndMakesTheSmallest) {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (const Vec3& size : {Vec3(0.009, 0.1, 0.05), Vec3(0.1, 0.1, -0.05), Vec3(0.1, 2.1, 0.05), Vec3(0.1, none, 0.05), Vec3(none, 0.1, 0.05)})
+  for (const Vec3& size : {Vec3(0.009, 0.1, 0.05), Vec3(0.1, 0.1, -0.05), Vec3(0.1, 2.1, 0.05),
+                           Vec3(0.1, none, 0.05), Vec3(none, 0.1, 0.05)})
     EXPECT_THROW(phantomBlock(size, "none"), Error) << size.transpose();
   const Patient least = phantomBlock(Vec3::Constant(0.010), "die");
   EXPECT_TRUE(isClosed(least.organs[0].mesh));
@@ -78,7 +86,8 @@ TEST(PhantomBlock, GoesThroughAFile) {
   writePatient(written, folder / "b.glb");
   const Patient read = readPatient(folder / "b.glb");
   EXPECT_EQ(read.organ(Organ::skin).mesh.triangles, written.organs[0].mesh.triangles);
-  EXPECT_LT((read.landmark(landmark::kNearEdge) - written.landmark(landmark::kNearEdge)).norm(), 1e-6);
+  EXPECT_LT((read.landmark(landmark::kNearEdge) - written.landmark(landmark::kNearEdge)).norm(),
+            1e-6);
 }
 
 }  // namespace

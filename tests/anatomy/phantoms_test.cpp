@@ -45,16 +45,20 @@ TEST(BreastPhantom, HasTheSizeOfItsDomeAndAFlatBase) {
   EXPECT_NEAR(box.sizes().y(), 0.045, 1e-3);
   EXPECT_NEAR(box.max().y(), 0, 2e-4);
   // Half an ellipsoid, less its rounded edge.
-  EXPECT_NEAR(signedVolume(patient.organ(Organ::skin).mesh), 2.0 / 3 * std::numbers::pi * 0.06 * 0.06 * 0.045, 4e-6);
+  EXPECT_NEAR(signedVolume(patient.organ(Organ::skin).mesh),
+              2.0 / 3 * std::numbers::pi * 0.06 * 0.06 * 0.045, 4e-6);
 }
 
 TEST(BreastPhantom, InclusionHasItsDiameterAndDepthOnTheMeshes) {
-  const PhantomInclusion cases[] = {{0.020, 0.015, 0, 0}, {0.008, 0.004, 0.02, -0.015}, {0.012, 0.010, -0.025, 0.01}};
+  const PhantomInclusion cases[] = {
+      {0.020, 0.015, 0, 0}, {0.008, 0.004, 0.02, -0.015}, {0.012, 0.010, -0.025, 0.01}};
   for (const PhantomInclusion& inclusion : cases) {
     const Patient patient = buildPhantom({PhantomKind::breast, inclusion});
     expectSound(patient);
     ASSERT_EQ(patient.organs.size(), 2u);
-    for (int axis = 0; axis < 3; ++axis) EXPECT_NEAR(boxOf(patient.organs[1].mesh).sizes()[axis], inclusion.diameter, 0.02 * inclusion.diameter);
+    for (int axis = 0; axis < 3; ++axis)
+      EXPECT_NEAR(boxOf(patient.organs[1].mesh).sizes()[axis], inclusion.diameter,
+                  0.02 * inclusion.diameter);
     EXPECT_NEAR(thinnestSilicone(patient), inclusion.depth, 3e-4);
     const Vec3& over = patient.landmark(landmark::kInclusionSkin);
     EXPECT_NEAR(over.x(), inclusion.left, 1e-9);
@@ -64,11 +68,13 @@ TEST(BreastPhantom, InclusionHasItsDiameterAndDepthOnTheMeshes) {
 }
 
 TEST(BreastPhantom, RefusesWhatDoesNotFit) {
-  const auto breast = [](const PhantomInclusion& inclusion) { return buildPhantom({PhantomKind::breast, inclusion}); };
+  const auto breast = [](const PhantomInclusion& inclusion) {
+    return buildPhantom({PhantomKind::breast, inclusion});
+  };
   EXPECT_NO_THROW(breast({0.020, 0.020}));
-  EXPECT_THROW(breast({0.020, 0.024}), Error);         // through the base
+  EXPECT_THROW(breast({0.020, 0.024}), Error);  // through the base
   EXPECT_THROW(breast({0.040, 0.015}), Error);
-  EXPECT_THROW(breast({0.010, 0.005, 0.09, 0}), Error);   // beside it
+  EXPECT_THROW(breast({0.010, 0.005, 0.09, 0}), Error);  // beside it
   EXPECT_THROW(breast({0.001, 0.005}), Error);
   EXPECT_THROW(breast({std::nan(""), 0.005}), Error);
   EXPECT_THROW(breast({0.010, std::nan("")}), Error);
@@ -89,12 +95,15 @@ TEST(AbdomenPhantom, HasItsSizeAndAnUmbilicus) {
 }
 
 TEST(AbdomenPhantom, LiverEdgeLiesAtItsDepth) {
-  for (const PhantomInclusion& inclusion : {PhantomInclusion{0.020, 0.015}, PhantomInclusion{0.016, 0.010}}) {
+  for (const PhantomInclusion& inclusion :
+       {PhantomInclusion{0.020, 0.015}, PhantomInclusion{0.016, 0.010}}) {
     const Patient patient = buildPhantom({PhantomKind::abdomen, inclusion});
     expectSound(patient);
     EXPECT_EQ(patient.organs.at(1).organ, Organ::inclusion);
-    // From the skin inward: the liver begins at its depth; a diameter above its edge it is about that thick.
-    const Vec3 skin = patient.landmark(landmark::kInclusionSkin), inward = (patient.landmark(landmark::kInclusion) - skin).normalized();
+    // From the skin inward: the liver begins at its depth; a diameter above its edge it is about
+    // that thick.
+    const Vec3 skin = patient.landmark(landmark::kInclusionSkin),
+               inward = (patient.landmark(landmark::kInclusion) - skin).normalized();
     std::vector<double> liver;
     for (const RayHit& hit : SurfaceQuery(patient).cast(skin - 0.01 * inward, inward, 0.1))
       if (hit.surface == 1) liver.push_back(hit.s - 0.01);

@@ -11,7 +11,8 @@
 namespace palpa::anatomy {
 namespace {
 
-/// Unconnected triangles of every size and shape, thin ones too, about a point away from the origin.
+/// Unconnected triangles of every size and shape, thin ones too, about a point away from the
+/// origin.
 TriangleMesh triangleSoup(RandomStream& random, int count) {
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
@@ -32,8 +33,8 @@ std::array<Vec3, 3> cornersOf(const TriangleMesh& mesh, std::size_t i) {
   return {mesh.points[t[0]], mesh.points[t[1]], mesh.points[t[2]]};
 }
 
-/// Segment against triangle by nested golden sections over the segment: convex, and nothing shared with the exact one
-/// but the point-triangle distance.
+/// Segment against triangle by nested golden sections over the segment: convex, and nothing shared
+/// with the exact one but the point-triangle distance.
 double searched(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t) {
   const auto at = [&](double s) {
     const Vec3 p = a + s * (b - a), w = closestWeights(p, t[0], t[1], t[2]);
@@ -42,7 +43,8 @@ double searched(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t) {
   double low = 0, high = 1;
   for (int i = 0; i < 80; ++i) {
     const double third = (high - low) / 3;
-    (at(low + third) < at(high - third) ? high : low) = at(low + third) < at(high - third) ? high - third : low + third;
+    (at(low + third) < at(high - third) ? high : low) =
+        at(low + third) < at(high - third) ? high - third : low + third;
   }
   return at(0.5 * (low + high));
 }
@@ -68,13 +70,15 @@ TEST(SegmentDistance, OfAMeshIsThatOfEveryTriangleTried) {
     const TriangleTree tree(mesh);
     for (int i = 0; i < 60; ++i) {
       const double reach = std::pow(10, -3 + 3 * random.uniform());
-      const Vec3 a = Vec3(0.3, -0.2, 0.1) + randomIn(random, reach), b = a + randomIn(random, i % 4 ? reach : 1e-9);
+      const Vec3 a = Vec3(0.3, -0.2, 0.1) + randomIn(random, reach),
+                 b = a + randomIn(random, i % 4 ? reach : 1e-9);
       double least = std::numeric_limits<double>::infinity(), least_point = least;
       for (std::size_t k = 0; k < mesh.triangles.size(); ++k) {
         const std::array<Vec3, 3> t = cornersOf(mesh, k);
         least = std::min(least, segmentToTriangle(a, b, t).squared);
         const Vec3 w = closestWeights(a, t[0], t[1], t[2]);
-        least_point = std::min(least_point, (a - w[0] * t[0] - w[1] * t[1] - w[2] * t[2]).squaredNorm());
+        least_point =
+            std::min(least_point, (a - w[0] * t[0] - w[1] * t[1] - w[2] * t[2]).squaredNorm());
       }
       const TriangleTree::SegmentDistance found = tree.nearSegment(a, b);
       EXPECT_EQ(std::abs(found.signed_distance), std::sqrt(least));
@@ -85,7 +89,8 @@ TEST(SegmentDistance, OfAMeshIsThatOfEveryTriangleTried) {
 }
 
 TEST(SegmentDistance, OfASphereIsTheClosedForm) {
-  constexpr double kBall = 0.05, kBallCell = 0.002, kBallSag = 6.25 * kBallCell * kBallCell / (8 * kBall);
+  constexpr double kBall = 0.05, kBallCell = 0.002,
+                   kBallSag = 6.25 * kBallCell * kBallCell / (8 * kBall);
   const SurfaceQuery query(patientOf(sphereMesh(kBall, kBallCell), Organ::lung));
   RandomStream random(13);
   int outside = 0, through = 0, within = 0;
@@ -125,7 +130,8 @@ TEST(NearMiss, TellsTipAndShaftApartForEveryOrgan) {
     EXPECT_EQ(misses[i].tip, query.closest(i, tip).distance);
     double sampled = std::numeric_limits<double>::infinity();
     for (int k = 0; k <= 2000; ++k)
-      sampled = std::min(sampled, std::abs(query.closest(i, tip + (back - tip) * k / 2000).distance));
+      sampled =
+          std::min(sampled, std::abs(query.closest(i, tip + (back - tip) * k / 2000).distance));
     EXPECT_LE(std::abs(misses[i].shaft), sampled + 1e-12);
     EXPECT_GE(std::abs(misses[i].shaft), sampled - (back - tip).norm() / 4000);
   }

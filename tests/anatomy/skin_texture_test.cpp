@@ -13,8 +13,11 @@ namespace palpa::anatomy {
 namespace {
 
 std::array<int, 3> pixelAt(const Texture& texture, const std::array<float, 2>& uv) {
-  const auto pick = [](float t, int size) { return std::min(size - 1, static_cast<int>(t * static_cast<float>(size))); };
-  const std::size_t i = 3 * (std::size_t(pick(uv[1], texture.height)) * texture.width + pick(uv[0], texture.width));
+  const auto pick = [](float t, int size) {
+    return std::min(size - 1, static_cast<int>(t * static_cast<float>(size)));
+  };
+  const std::size_t i =
+      3 * (std::size_t(pick(uv[1], texture.height)) * texture.width + pick(uv[0], texture.width));
   return {texture.rgb[i], texture.rgb[i + 1], texture.rgb[i + 2]};
 }
 
@@ -34,7 +37,9 @@ std::array<double, 3> meanNear(const OrganSurface& skin, double x, double z, dou
   return sum;
 }
 
-double luminance(const std::array<double, 3>& rgb) { return 0.3 * rgb[0] + 0.6 * rgb[1] + 0.1 * rgb[2]; }
+double luminance(const std::array<double, 3>& rgb) {
+  return 0.3 * rgb[0] + 0.6 * rgb[1] + 0.1 * rgb[2];
+}
 
 TEST(SkinTexture, LiesOnAClosedMeshWithOneCoordinateAVertexAlikeOnBothSides) {
   const OrganSurface& skin = referencePatient().organ(Organ::skin);
@@ -47,13 +52,15 @@ TEST(SkinTexture, LiesOnAClosedMeshWithOneCoordinateAVertexAlikeOnBothSides) {
     ASSERT_TRUE(u >= 0 && u <= 1 && v >= 0 && v <= 1) << i;
     const Vec3& p = skin.mesh.points[i];
     // By the definition in skin_map.h, computed another way: the cosine of the angle.
-    ASSERT_NEAR(std::cos(std::numbers::pi * u), (0.066 - p.y()) / std::hypot(p.x(), 0.066 - p.y()), 2e-5);
+    ASSERT_NEAR(std::cos(std::numbers::pi * u), (0.066 - p.y()) / std::hypot(p.x(), 0.066 - p.y()),
+                2e-5);
     if (p.y() < 0.0) front = std::min<double>(front, u);
     if (p.y() > 0.15) back = std::max<double>(back, u);
   }
   EXPECT_LT(front, 0.02);
   EXPECT_GT(back, 0.98);
-  // No edge jumps across the picture, as it would at a seam, except at the crown and on the cut, near the axis.
+  // No edge jumps across the picture, as it would at a seam, except at the crown and on the cut,
+  // near the axis.
   for (const auto& t : skin.mesh.triangles)
     for (std::size_t k = 0; k < 3; ++k) {
       const Vec3& p = skin.mesh.points[t[k]];
@@ -63,16 +70,20 @@ TEST(SkinTexture, LiesOnAClosedMeshWithOneCoordinateAVertexAlikeOnBothSides) {
 }
 
 TEST(SkinTexture, MapFindsTheVerticesAgain) {
-  TriangleMesh skin = buildPatient(drawParameters(reference(), Side::left, 0)).organ(Organ::skin).mesh;
+  TriangleMesh skin =
+      buildPatient(drawParameters(reference(), Side::left, 0)).organ(Organ::skin).mesh;
   for (Vec3& p : skin.points) p *= 1000;
   const SkinMap map = mapOfSkin(skin, 512, 512);
   int good = 0, all = 0;
   for (std::size_t i = 0; i < skin.points.size(); ++i) {
     const Vec3& p = skin.points[i];
-    if (p.y() > 20 || p.z() < -150 || p.z() > 60 || std::abs(p.x()) > 90) continue;   // the chest's front
-    const auto& q = map.points[static_cast<std::size_t>(skin.uvs[i][1] * 511) * 512 + static_cast<std::size_t>(skin.uvs[i][0] * 511)];
+    if (p.y() > 20 || p.z() < -150 || p.z() > 60 || std::abs(p.x()) > 90)
+      continue;  // the chest's front
+    const auto& q = map.points[static_cast<std::size_t>(skin.uvs[i][1] * 511) * 512 +
+                               static_cast<std::size_t>(skin.uvs[i][0] * 511)];
     ++all;
-    good += (Vec3(q[0], q[1], q[2]) - Vec3(std::abs(p.x()), p.y(), p.z())).norm() < 5;   // mm; a texel is up to 1.5
+    good += (Vec3(q[0], q[1], q[2]) - Vec3(std::abs(p.x()), p.y(), p.z())).norm() <
+            5;  // mm; a texel is up to 1.5
   }
   EXPECT_GT(all, 500);
   EXPECT_GT(good, 0.97 * all);
@@ -81,13 +92,14 @@ TEST(SkinTexture, MapFindsTheVerticesAgain) {
 TEST(SkinTexture, SameSeedSameBytesAnotherSeedAnotherTone) {
   TriangleMesh skin = sphereMesh(100, 12);
   layPicture(&skin);
-  const Texture one = paintSkin(skin, Build{}, 7), again = paintSkin(skin, Build{}, 7), other = paintSkin(skin, Build{}, 8);
+  const Texture one = paintSkin(skin, Build{}, 7), again = paintSkin(skin, Build{}, 7),
+                other = paintSkin(skin, Build{}, 8);
   EXPECT_EQ(one.rgb, again.rgb);
   EXPECT_NE(one.rgb, other.rgb);
   float darkest = 1, lightest = 0;
   for (std::uint64_t seed = 0; seed < 200; ++seed) {
     const auto tone = skinTone(seed);
-    EXPECT_GT(tone[0], tone[1]);   // skin is reddish in every tone
+    EXPECT_GT(tone[0], tone[1]);  // skin is reddish in every tone
     EXPECT_GT(tone[1], tone[2]);
     darkest = std::min(darkest, tone[0]);
     lightest = std::max(lightest, tone[0]);
@@ -104,12 +116,14 @@ TEST(SkinTexture, AreolaeAreDarkerThanTheSkinRoundThemAndLipsAreRedder) {
     const Patient patient = buildPatient(p);
     const Build build = buildOf(p);
     const OrganSurface& skin = patient.organ(Organ::skin);
-    const Vec3 nipple = 1e-3 * build.place(sex == Sex::female ? Vec3(90, 0, -134) : Vec3(92, 0, -112));
+    const Vec3 nipple =
+        1e-3 * build.place(sex == Sex::female ? Vec3(90, 0, -134) : Vec3(92, 0, -112));
     for (const double side : {-1.0, 1.0})
       EXPECT_LT(luminance(meanNear(skin, side * nipple.x(), nipple.z(), 0.006)),
                 0.85 * luminance(meanNear(skin, side * nipple.x(), nipple.z() + 0.035, 0.006)));
     const Vec3 mouth = 1e-3 * build.place({0, 0, 160}), chin = 1e-3 * build.place({0, 0, 138});
-    const auto lips = meanNear(skin, 0, mouth.z(), 0.006), skin_there = meanNear(skin, 0, chin.z(), 0.006);
+    const auto lips = meanNear(skin, 0, mouth.z(), 0.006),
+               skin_there = meanNear(skin, 0, chin.z(), 0.006);
     EXPECT_GT(lips[0] / lips[1], 1.15 * skin_there[0] / skin_there[1]);
   }
 }
@@ -139,9 +153,11 @@ TEST(Picture, ClaimsAreCheckedBeforeDecoding) {
     bytes[at] = to;
     return bytes;
   };
-  for (const auto& bytes : {changed(0, 'x'), changed(16, 0x7f) /* 2 billion wide */, changed(22, 0x7f) /* 32 515 high */, changed(24, 16)})
+  for (const auto& bytes : {changed(0, 'x'), changed(16, 0x7f) /* 2 billion wide */,
+                            changed(22, 0x7f) /* 32 515 high */, changed(24, 16)})
     EXPECT_THROW(textureOfPng(bytes.data(), bytes.size(), "test"), Error);
-  for (std::size_t size = 0; size < png.size() - 12; ++size) EXPECT_THROW(textureOfPng(png.data(), size, "test"), Error) << size;
+  for (std::size_t size = 0; size < png.size() - 12; ++size)
+    EXPECT_THROW(textureOfPng(png.data(), size, "test"), Error) << size;
   auto padded = png;
   padded.resize(png.size() + (1 << 20));
   EXPECT_THROW(textureOfPng(padded.data(), padded.size(), "test"), Error);

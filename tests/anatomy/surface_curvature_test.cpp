@@ -9,9 +9,10 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kTorusBig = 0.05, kTorusSmall = 0.02;   // of the torus
+constexpr double kTorusBig = 0.05, kTorusSmall = 0.02;  // of the torus
 
-/// A closed grid over two angles, its points pushed about by `uneven` of a cell so that no triangle is regular.
+/// A closed grid over two angles, its points pushed about by `uneven` of a cell so that no triangle
+/// is regular.
 template <class Point, class Normal>
 TriangleMesh grid(int rows, int columns, double uneven, Point point, Normal normal) {
   TriangleMesh mesh;
@@ -23,7 +24,9 @@ TriangleMesh grid(int rows, int columns, double uneven, Point point, Normal norm
       mesh.points.push_back(point(u, v));
       mesh.normals.push_back(normal(u, v));
     }
-  const auto at = [&](int i, int j) { return static_cast<std::uint32_t>((i % rows) * columns + j % columns); };
+  const auto at = [&](int i, int j) {
+    return static_cast<std::uint32_t>((i % rows) * columns + j % columns);
+  };
   for (int i = 0; i < rows; ++i)
     for (int j = 0; j < columns; ++j) {
       mesh.triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
@@ -32,11 +35,16 @@ TriangleMesh grid(int rows, int columns, double uneven, Point point, Normal norm
   return mesh;
 }
 
-Vec3 torusNormal(double u, double v) { return {std::cos(u) * std::cos(v), std::sin(u) * std::cos(v), std::sin(v)}; }
-Vec3 torusPoint(double u, double v) {
-  return Vec3(kTorusBig * std::cos(u), kTorusBig * std::sin(u), 0) + kTorusSmall * torusNormal(u, v);
+Vec3 torusNormal(double u, double v) {
+  return {std::cos(u) * std::cos(v), std::sin(u) * std::cos(v), std::sin(v)};
 }
-TriangleMesh torus(int rows, double uneven) { return grid(rows, rows / 2, uneven, torusPoint, torusNormal); }
+Vec3 torusPoint(double u, double v) {
+  return Vec3(kTorusBig * std::cos(u), kTorusBig * std::sin(u), 0) +
+         kTorusSmall * torusNormal(u, v);
+}
+TriangleMesh torus(int rows, double uneven) {
+  return grid(rows, rows / 2, uneven, torusPoint, torusNormal);
+}
 
 /// Largest error of k1 and k2 at random points of the torus, as a part of 1 / r.
 double torusError(const TriangleMesh& mesh) {
@@ -47,7 +55,8 @@ double torusError(const TriangleMesh& mesh) {
     const double u = 2 * M_PI * random.uniform(), v = 2 * M_PI * random.uniform();
     const CurvedPoint at = query.curved(0, torusPoint(u, v));
     const double across = std::cos(v) / (kTorusBig + kTorusSmall * std::cos(v));
-    worst = std::max({worst, std::abs(at.curvature.k1 - 1 / kTorusSmall), std::abs(at.curvature.k2 - across)});
+    worst = std::max(
+        {worst, std::abs(at.curvature.k1 - 1 / kTorusSmall), std::abs(at.curvature.k2 - across)});
   }
   return worst * kTorusSmall;
 }
@@ -67,7 +76,8 @@ TEST(Curvature, OfASphereIsOneOverItsRadius) {
     };
     RecordProperty("as_meshed_percent", std::to_string(100 * worst()));
     EXPECT_LT(worst(), 0.03);
-    for (std::size_t i = 0; i < mesh.points.size(); ++i) mesh.normals[i] = mesh.points[i].normalized();
+    for (std::size_t i = 0; i < mesh.points.size(); ++i)
+      mesh.normals[i] = mesh.points[i].normalized();
     RecordProperty("with_exact_normals_percent", std::to_string(100 * worst()));
     EXPECT_LT(worst(), 0.01);
   }
@@ -82,7 +92,8 @@ TEST(Curvature, OfATubeIsOneOverItsRadiusAndNothingAlongIt) {
   for (int i = 0; i < 500; ++i) {
     const double turn = 2 * M_PI * random.uniform(), x = 0.04 * (random.uniform() - 0.5);
     const CurvedPoint at = query.curved(0, {x, radius * std::cos(turn), radius * std::sin(turn)});
-    worst = std::max({worst, std::abs(at.curvature.k1 * radius - 1), std::abs(at.curvature.k2 * radius)});
+    worst = std::max(
+        {worst, std::abs(at.curvature.k1 * radius - 1), std::abs(at.curvature.k2 * radius)});
     EXPECT_GT(std::abs(at.curvature.d2.x()), 0.999);
     EXPECT_NEAR(at.curvature.d1.dot(at.n_A), 0, 1e-12);
     EXPECT_NEAR(at.curvature.d1.cross(at.curvature.d2).dot(at.n_A), 1, 1e-12);
@@ -122,7 +133,8 @@ TEST(TangentPlane, OfASphereIsAcrossItsRadiusAndMissesItByTheSag) {
     const Vec3 out = randomDirection(random);
     const SurfaceQuery::TangentPlane plane = query.tangentPlane(0, 1.2 * radius * out, reach);
     EXPECT_GT(plane.n_A.dot(out), 0.9999);
-    // Height r^2 / 2R with weights (1 - r^2/reach^2)^2: its weighted deviation is reach^2 / 2R sqrt(3/80).
+    // Height r^2 / 2R with weights (1 - r^2/reach^2)^2: its weighted deviation is reach^2 / 2R
+    // sqrt(3/80).
     EXPECT_NEAR(plane.rms, reach * reach / (2 * radius) * std::sqrt(3.0 / 80), 0.05e-3);
   }
 }

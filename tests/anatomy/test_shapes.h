@@ -13,7 +13,8 @@
 namespace palpa::anatomy {
 
 inline const Population& reference() {
-  static const Population population = readPopulation(PALPA_SOURCE_DIR "/assets/patients/reference.json");
+  static const Population population =
+      readPopulation(PALPA_SOURCE_DIR "/assets/patients/reference.json");
   return population;
 }
 

@@ -18,12 +18,14 @@ double membrane(double r, double a, double R) {
   return (outside + (r < a ? (1 - r * r / (a * a)) / 2 : 0)) / (2 * std::numbers::pi);
 }
 
-/// The same on a foundation, lambda = 1 / q: w'' + w' / r - q^2 w = -p. Inside p / q^2 + B I0(q r), outside
-/// C K0(q r) + D I0(q r); value and slope meet at a, w(R) = 0; p = 1 / pi a^2.
+/// The same on a foundation, lambda = 1 / q: w'' + w' / r - q^2 w = -p. Inside p / q^2 + B I0(q r),
+/// outside C K0(q r) + D I0(q r); value and slope meet at a, w(R) = 0; p = 1 / pi a^2.
 class OnFoundation {
  public:
-  OnFoundation(double a, double R, double lambda) : a_(a), q_(1 / lambda), p_(1 / (std::numbers::pi * a * a)) {
-    // With I0 K1 + I1 K0 = 1 / x the conditions at a give C = p a / q I1(q a), B - D = -p a / q K1(q a).
+  OnFoundation(double a, double R, double lambda)
+      : a_(a), q_(1 / lambda), p_(1 / (std::numbers::pi * a * a)) {
+    // With I0 K1 + I1 K0 = 1 / x the conditions at a give C = p a / q I1(q a), B - D = -p a / q
+    // K1(q a).
     C_ = p_ * a / q_ * I(1, q_ * a);
     D_ = -C_ * K(0, q_ * R) / I(0, q_ * R);
     B_ = D_ - p_ * a / q_ * K(1, q_ * a);
@@ -62,7 +64,8 @@ double nodalError(const SkinDeflection& skin, W w) {
 
 double membraneError(int per_ring) {
   const SkinDeflection skin(settings(0, per_ring));
-  return nodalError(skin, [&](double r) { return membrane(r, skin.settings().contact, skin.settings().patch); });
+  return nodalError(
+      skin, [&](double r) { return membrane(r, skin.settings().contact, skin.settings().patch); });
 }
 
 double foundationError(int per_ring) {
@@ -77,7 +80,8 @@ TEST(ClosedForm, MeetsItsOwnEquationAndRim) {
   EXPECT_NEAR(w.at(0.0015 - 1e-12), w.at(0.0015), 1e-9);
   EXPECT_NEAR(w.slope(0.0015 - 1e-12), w.slope(0.0015), 1e-6 * std::abs(w.slope(0.0015)));
   for (const double r : {0.0007, 0.004, 0.02}) {
-    const double h = 1e-3 * r, laplace = (w.slope(r + h) - w.slope(r - h)) / (2 * h) + w.slope(r) / r;
+    const double h = 1e-3 * r,
+                 laplace = (w.slope(r + h) - w.slope(r - h)) / (2 * h) + w.slope(r) / r;
     const double p = r < 0.0015 ? 1 / (std::numbers::pi * 0.0015 * 0.0015) : 0;
     EXPECT_NEAR(laplace - w.at(r) / (0.012 * 0.012), -p, 1e-4 * (p + w.at(r) / (0.012 * 0.012)));
   }

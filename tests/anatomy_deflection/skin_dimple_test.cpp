@@ -9,7 +9,8 @@ namespace palpa::anatomy {
 namespace {
 
 TriangleMesh curvedSkin() {
-  return test::sheet(0.15, [](double x, double z) { return 0.9 * x * x + 0.35 * z * z; }, 101);
+  return test::sheet(
+      0.15, [](double x, double z) { return 0.9 * x * x + 0.35 * z * z; }, 101);
 }
 
 TriangleMesh applied(const TriangleMesh& skin, std::span<const SkinDimple::Vertex> moved) {
@@ -28,7 +29,8 @@ TEST(SkinDimple, TheFacetItselfMeetsTheTip) {
   for (int i = 0; i < 40; ++i) {
     const TriangleTree::Closest foot = tree.closest({0.001 * i - 0.02, -0.01, 0.0007 * i});
     const double depth = i % 3 == 0 ? -0.001 : 0.003;
-    const TriangleMesh now = applied(skin, dimple.press({foot.p, foot.normal, depth, Vec3::Zero()}));
+    const TriangleMesh now =
+        applied(skin, dimple.press({foot.p, foot.normal, depth, Vec3::Zero()}));
     Vec3 carried = Vec3::Zero();
     for (int k = 0; k < 3; ++k) carried += foot.weights[k] * now.points[foot.corners[k]];
     EXPECT_LT((carried - (foot.p - depth * foot.normal)).norm(), 1e-9);
@@ -50,9 +52,11 @@ TEST(SkinDimple, MovesOnlyThePatchAndAllOfItOneWay) {
 }
 
 TEST(SkinDimple, NormalsAreThoseOfTheMovedFacets) {
-  const TriangleMesh skin = test::sheet(0.1, [](double, double) { return 0.0; }, 401);
+  const TriangleMesh skin = test::sheet(
+      0.1, [](double, double) { return 0.0; }, 401);
   SkinDimple dimple(skin);
-  const TriangleMesh now = applied(skin, dimple.press({{0, 0, 0}, {0, -1, 0}, 0.002, Vec3::Zero()}));
+  const TriangleMesh now =
+      applied(skin, dimple.press({{0, 0, 0}, {0, -1, 0}, 0.002, Vec3::Zero()}));
   double worst = 1;
   for (const auto& t : now.triangles) {
     const Vec3 &a = now.points[t[0]], &b = now.points[t[1]], &c = now.points[t[2]];

@@ -24,11 +24,12 @@ double toSegment(const Vec3& p, const Vec3& a, const Vec3& b) {
   return (p - a - t * (b - a)).norm();
 }
 
-/// By the plane where the foot is inside, else by the edges: nothing of the program's own search is in it.
+/// By the plane where the foot is inside, else by the edges: nothing of the program's own search is
+/// in it.
 double toTriangle(const Vec3& p, const Vec3& a, const Vec3& b, const Vec3& c) {
   const Vec3 n = (b - a).cross(c - a);
-  const bool inside = n.squaredNorm() > 0 && (b - a).cross(p - a).dot(n) >= 0 && (c - b).cross(p - b).dot(n) >= 0 &&
-                      (a - c).cross(p - c).dot(n) >= 0;
+  const bool inside = n.squaredNorm() > 0 && (b - a).cross(p - a).dot(n) >= 0 &&
+                      (c - b).cross(p - b).dot(n) >= 0 && (a - c).cross(p - c).dot(n) >= 0;
   if (inside) return std::abs((p - a).dot(n)) / n.norm();
   return std::min({toSegment(p, a, b), toSegment(p, b, c), toSegment(p, c, a)});
 }
@@ -46,7 +47,8 @@ void statesItsError(const TriangleMesh& mesh, std::size_t budget) {
   for (const Vec3& p : mesh.points) {
     double least = 1;
     for (const auto& t : coarse.triangles)
-      least = std::min(least, toTriangle(p, coarse.points[t[0]], coarse.points[t[1]], coarse.points[t[2]]));
+      least = std::min(
+          least, toTriangle(p, coarse.points[t[0]], coarse.points[t[1]], coarse.points[t[2]]));
     farthest = std::max(farthest, least);
     squares += least * least;
   }
@@ -56,7 +58,9 @@ void statesItsError(const TriangleMesh& mesh, std::size_t budget) {
   for (const Vec3& n : coarse.normals) EXPECT_NEAR(n.norm(), 1, 1e-6);
 }
 
-TEST(Decimate, ABallKeepsClosedWithinItsBudgetAndTellsItsError) { statesItsError(inMetres(ball(50, 40, 60)), 600); }
+TEST(Decimate, ABallKeepsClosedWithinItsBudgetAndTellsItsError) {
+  statesItsError(inMetres(ball(50, 40, 60)), 600);
+}
 
 TEST(Decimate, SoDoesAThinPlate) {
   RawMesh plate = ball(50, 30, 60);

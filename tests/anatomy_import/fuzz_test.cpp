@@ -7,8 +7,9 @@
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"
 
-/// Files that nobody vouches for: sound ones with bits flipped, bytes replaced, ends cut off, numbers blown up, parts
-/// swapped. Each gives a surface or a clear word; under the sanitizers nothing else is seen either.
+/// Files that nobody vouches for: sound ones with bits flipped, bytes replaced, ends cut off,
+/// numbers blown up, parts swapped. Each gives a surface or a clear word; under the sanitizers
+/// nothing else is seen either.
 namespace palpa::anatomy {
 namespace {
 
@@ -16,10 +17,16 @@ using namespace test;
 using namespace palpa::test;
 
 std::string damaged(std::string bytes, DamageDice& dice) {
-  static const char* const kAbsurd[] = {"4294967295", "-1", "1e999", "nan", "inf", "99999999999999999999", "0", "\xff\xff\xff\xff", "[[[[[[[[", "{"};
+  static const char* const kAbsurd[] = {
+      "4294967295",       "-1",       "1e999", "nan", "inf", "99999999999999999999", "0",
+      "\xff\xff\xff\xff", "[[[[[[[[", "{"};
   switch (dice.below(7)) {
-    case 0: bytes.resize(dice.below(bytes.size())); break;
-    case 1: bytes.insert(dice.below(bytes.size()), kAbsurd[dice.below(std::size(kAbsurd))]); break;
+    case 0:
+      bytes.resize(dice.below(bytes.size()));
+      break;
+    case 1:
+      bytes.insert(dice.below(bytes.size()), kAbsurd[dice.below(std::size(kAbsurd))]);
+      break;
     case 2: {
       const std::size_t from = dice.below(bytes.size()), length = dice.below(64);
       bytes.erase(from, length);
@@ -32,9 +39,12 @@ std::string damaged(std::string bytes, DamageDice& dice) {
     }
     default:
       for (std::size_t i = 0, n = 1 + dice.below(8); i < n && !bytes.empty(); ++i) {
-        char& byte = bytes[dice.below(dice.below(2) ? bytes.size() : std::min<std::size_t>(bytes.size(), 300))];
-        if (dice.below(2)) byte = static_cast<char>(byte ^ (1 << dice.below(8)));
-        else byte = static_cast<char>(dice.below(256));
+        char& byte = bytes[dice.below(dice.below(2) ? bytes.size()
+                                                    : std::min<std::size_t>(bytes.size(), 300))];
+        if (dice.below(2))
+          byte = static_cast<char>(byte ^ (1 << dice.below(8)));
+        else
+          byte = static_cast<char>(dice.below(256));
       }
   }
   return bytes;
@@ -45,8 +55,9 @@ int casesAFormat() { return palpa::test::counted(400, 4000); }
 TEST(MeshFuzz, DamageGivesASurfaceOrAClearWord) {
   const RawMesh mesh = box();
   const std::pair<MeshFormat, std::string> sound[] = {
-      {MeshFormat::obj, asObj(mesh)},      {MeshFormat::stl, asStl(mesh, true)}, {MeshFormat::stl, asStl(mesh, false)},
-      {MeshFormat::ply, asPly(mesh, 't')}, {MeshFormat::ply, asPly(mesh, 'l')},  {MeshFormat::ply, asPly(mesh, 'b')},
+      {MeshFormat::obj, asObj(mesh)},        {MeshFormat::stl, asStl(mesh, true)},
+      {MeshFormat::stl, asStl(mesh, false)}, {MeshFormat::ply, asPly(mesh, 't')},
+      {MeshFormat::ply, asPly(mesh, 'l')},   {MeshFormat::ply, asPly(mesh, 'b')},
       {MeshFormat::gltf, asGlb(mesh)}};
   DamageDice dice(20'261'121);
   int read = 0, refused = 0;

@@ -35,12 +35,13 @@ TEST(Axes, OfTheFortyEightTripletsHalfAreRightHanded) {
 
 TEST(Axes, LettersSayWhereTheFilesAxesPoint) {
   EXPECT_EQ(axesNamed("LPS")->A_from_file, Mat3(Mat3::Identity()));
-  const Mat3 gltf = axesNamed("LSA")->A_from_file;   // y up, z front
+  const Mat3 gltf = axesNamed("LSA")->A_from_file;  // y up, z front
   EXPECT_EQ(gltf * Vec3(1, 2, 3), Vec3(1, -3, 2));
   EXPECT_EQ(axesNamed("RIP")->A_from_file * Vec3(1, 2, 3), Vec3(-1, 3, -2));
 }
 
-const char* const kWhole = R"({"format":"palpa-import-map","version":1,"name":"n","side":"left","unit":"mm","axes":"LPS",
+const char* const kWhole =
+    R"({"format":"palpa-import-map","version":1,"name":"n","side":"left","unit":"mm","axes":"LPS",
  "licence":"CC0-1.0","source":"made here","entries":[{"file":"a.stl","id":"a","organ":"rib"},
  {"file":"b/c.glb","id":"b","organ":"airway","mesh":2,"unit":"m","axes":"LSA","scale":2,"translate_mm":[1,2,3],
   "colour":[0.5,0.25,1],"licence":"x","pieces":"largest","why":"w"}],
@@ -102,8 +103,10 @@ TEST(ImportMap, MistakesAreNamedByTheirField) {
   refused(R"("scale":2)", R"("scale":"2")", "\"entries[1].scale\"");
   refused(R"("scale":2)", R"("sclae":2)", "sclae");
   refused(R"([1,2,3],
-  "colour")", R"([1,2],
-  "colour")", "\"entries[1].translate_mm\"");
+  "colour")",
+          R"([1,2],
+  "colour")",
+          "\"entries[1].translate_mm\"");
   refused("[0.5,0.25,1]", "[0.5,0.25,2]", "\"entries[1].colour\"");
   refused(R"("mesh":2)", R"("mesh":-2)", "\"entries[1].mesh\"");
   refused(R"("pieces":"largest")", R"("pieces":"some")", "\"entries[1].pieces\"");

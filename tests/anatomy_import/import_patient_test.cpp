@@ -21,7 +21,9 @@ using namespace test;
 using namespace palpa::test;
 namespace fs = std::filesystem;
 
-void put(const fs::path& file, const std::string& bytes) { std::ofstream(file, std::ios::binary) << bytes; }
+void put(const fs::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
 
 /// An ellipsoid; sizes are half axes.
 RawMesh lump(const Vec3& half, const Vec3& centre, int rings = 24) {
@@ -30,21 +32,24 @@ RawMesh lump(const Vec3& half, const Vec3& centre, int rings = 24) {
   return mesh;
 }
 
-/// Two clavicles, a sternum and a rib, each in another format, unit or set of axes. Frame LPS, the notch at (0, 100, 1400) mm.
+/// Two clavicles, a sternum and a rib, each in another format, unit or set of axes. Frame LPS, the
+/// notch at (0, 100, 1400) mm.
 class Import : public testing::Test {
  protected:
   void SetUp() override {
     put(folder / "right.obj", asObj(lump({70, 6, 6}, {-90, 100, 1402})));
     put(folder / "left.stl", asStl(lump({7.0, 0.6, 0.6}, {9.0, 140.2, -10.0}), false));   // cm, LSA
-    put(folder / "sternum.ply", asPly(lump({0.020, 0.004, 0.08}, {0, 0.1, 1.32}), 'l'));   // m
+    put(folder / "sternum.ply", asPly(lump({0.020, 0.004, 0.08}, {0, 0.1, 1.32}), 'l'));  // m
     RawMesh rib = lump({60, 40, 8}, {-60, 60, 1300});
-    for (Vec3& p : rib.points) p = Vec3(p.x() / 2, -p.y() / 2, -p.z() / 2 - 5);   // what its nodes turn it back from
+    for (Vec3& p : rib.points)
+      p = Vec3(p.x() / 2, -p.y() / 2, -p.z() / 2 - 5);  // what its nodes turn it back from
     put(folder / "rib.glb", asGlb(rib));
   }
 
   static std::string map(const std::string& right_unit = "mm") {
     return R"({"format":"palpa-import-map","version":1,"name":"small","side":"right","unit":"mm","axes":"LPS","licence":"CC0-1.0",)"
-           R"("source":"made by a test","entries":[{"file":"right.obj","id":"clavicle_right","organ":"clavicle","unit":")" + right_unit +
+           R"("source":"made by a test","entries":[{"file":"right.obj","id":"clavicle_right","organ":"clavicle","unit":")" +
+           right_unit +
            R"("},{"file":"left.stl","id":"clavicle_left","organ":"clavicle","unit":"cm","axes":"LSA","licence":"CC-BY-4.0","source":"somebody"},)"
            R"({"file":"sternum.ply","id":"sternum","organ":"sternum","unit":"m","colour":[1,0,0]},)"
            R"({"file":"rib.glb","id":"rib","organ":"rib","mesh":"box"}]})";
@@ -91,7 +96,9 @@ TEST_F(Import, LandmarksComeFromTheClavicleOfThePuncturedSide) {
 
 TEST_F(Import, WhatTheMapSaysIsNotProposed) {
   std::string text = map();
-  text.insert(text.size() - 1, R"(,"landmarks":{"clavicle_sternal_end":{"at":[-20,100,1400]}},"origin":{"at":[0,100,1300]})");
+  text.insert(
+      text.size() - 1,
+      R"(,"landmarks":{"clavicle_sternal_end":{"at":[-20,100,1400]}},"origin":{"at":[0,100,1300]})");
   const Patient patient = importPatient(parseImportMap(text, "map"), folder.path(), {}, &report);
   EXPECT_LT((patient.landmark(landmark::kSternalEnd) - Vec3(-0.02, 0, 0.1)).norm(), 1e-12);
   EXPECT_LT((patient.landmark(landmark::kNotch) - Vec3(0, 0, 0.1)).norm(), 1e-6);
@@ -103,7 +110,8 @@ TEST_F(Import, AWrongUnitIsRefusedWithTheLikelyOne) {
     FAIL() << "a clavicle of 140 m";
   } catch (const UsageError& error) {
     const std::string words = error.what();
-    EXPECT_NE(words.find("would be a clavicle of 140 m, read in metres"), std::string::npos) << words;
+    EXPECT_NE(words.find("would be a clavicle of 140 m, read in metres"), std::string::npos)
+        << words;
     EXPECT_NE(words.find("--unit mm"), std::string::npos) << words;
   }
 }
@@ -115,7 +123,8 @@ TEST_F(Import, AFileOrSurfaceThatIsNotThereIsNamed) {
     importPatient(parseImportMap(text, "map"), folder.path(), {}, &report);
     FAIL();
   } catch (const UsageError& error) {
-    EXPECT_NE(std::string(error.what()).find("\"bag\". It has box"), std::string::npos) << error.what();
+    EXPECT_NE(std::string(error.what()).find("\"bag\". It has box"), std::string::npos)
+        << error.what();
   }
   fs::remove(folder / "left.stl");
   EXPECT_THROW(importPatient(parseImportMap(map(), "map"), folder.path(), {}, &report), Error);
@@ -124,14 +133,17 @@ TEST_F(Import, AFileOrSurfaceThatIsNotThereIsNamed) {
 TEST_F(Import, AMirroredPatientIsMirroredWholeAndStaysClosed) {
   std::string text = map();
   text.replace(text.find(R"("axes":"LPS")"), 12, R"("axes":"RPS","left_handed":true)");
-  text.replace(text.find(R"("unit":"cm","axes":"LSA")"), 24, R"("unit":"cm","axes":"RSA","left_handed":true)");
+  text.replace(text.find(R"("unit":"cm","axes":"LSA")"), 24,
+               R"("unit":"cm","axes":"RSA","left_handed":true)");
   const Patient patient = importPatient(parseImportMap(text, "map"), folder.path(), {}, &report);
   EXPECT_GT(middleOf(patient.organs[0]).x(), 0);
-  for (const OrganSurface& organ : patient.organs) EXPECT_GT(signedVolume(organ.mesh), 0) << organ.id;
+  for (const OrganSurface& organ : patient.organs)
+    EXPECT_GT(signedVolume(organ.mesh), 0) << organ.id;
 }
 
 TEST_F(Import, TheBudgetIsSharedAndKept) {
-  const Patient patient = importPatient(parseImportMap(map(), "map"), folder.path(), {2000, kWeldTolerance}, &report);
+  const Patient patient =
+      importPatient(parseImportMap(map(), "map"), folder.path(), {2000, kWeldTolerance}, &report);
   std::size_t count = 0;
   for (std::size_t i = 0; i < patient.organs.size(); ++i) {
     count += patient.organs[i].mesh.triangles.size();
@@ -140,7 +152,8 @@ TEST_F(Import, TheBudgetIsSharedAndKept) {
     EXPECT_LT(report.surfaces[i].decimation.farthest, 3e-3);
   }
   EXPECT_LE(count, 2000u);
-  EXPECT_THROW(importPatient(parseImportMap(map(), "map"), folder.path(), {500, 0}, &report), UsageError);
+  EXPECT_THROW(importPatient(parseImportMap(map(), "map"), folder.path(), {500, 0}, &report),
+               UsageError);
 }
 
 TEST_F(Import, TheFileCarriesLicencesTissueAndSourceAndIsNotForTheNeedle) {
@@ -154,8 +167,9 @@ TEST_F(Import, TheFileCarriesLicencesTissueAndSourceAndIsNotForTheNeedle) {
   EXPECT_EQ(read.organs[0].licence, "");
   EXPECT_EQ(read.landmarks.size(), patient.landmarks.size());
   const std::vector<std::string> missing = missingForNeedle(read);
-  EXPECT_EQ(missing, (std::vector<std::string>{"the organ skin", "the organ vein", "the organ lung", "the landmark entry_point",
-                                               "the landmark vein_target"}));
+  EXPECT_EQ(missing,
+            (std::vector<std::string>{"the organ skin", "the organ vein", "the organ lung",
+                                      "the landmark entry_point", "the landmark vein_target"}));
   EXPECT_THROW(requireForNeedle(read, "p.glb"), Error);
 }
 

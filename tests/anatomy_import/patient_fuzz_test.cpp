@@ -14,10 +14,10 @@
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
 
-/// Patient files and import maps that nobody vouches for: bits flipped, ends cut off, values of their JSON swapped for
-/// absurd counts, numbers that are none, rings of nodes, nests of brackets. Each is read or refused in one line, and no
-/// more than kMemory is taken: the address space is limited while they are read (not under the sanitizers, which need
-/// terabytes of it).
+/// Patient files and import maps that nobody vouches for: bits flipped, ends cut off, values of
+/// their JSON swapped for absurd counts, numbers that are none, rings of nodes, nests of brackets.
+/// Each is read or refused in one line, and no more than kMemory is taken: the address space is
+/// limited while they are read (not under the sanitizers, which need terabytes of it).
 namespace palpa::anatomy {
 namespace {
 
@@ -25,7 +25,7 @@ using namespace test;
 using namespace palpa::test;
 using Json = nlohmann::json;
 
-constexpr rlim_t kMemory = 256u << 20;   // beyond what the process has already
+constexpr rlim_t kMemory = 256u << 20;  // beyond what the process has already
 
 class LittleMemory {
  public:
@@ -56,15 +56,36 @@ std::string nest(std::size_t depth) { return std::string(depth, '[') + std::stri
 
 /// JSON text in which one value, wherever it stands, has become something else.
 std::string absurd(const Json& sound, DamageDice& dice) {
-  static const std::string kInstead[] = {
-      "4294967295", "18446744073709551615", "-1", "1e308", "1e999", "NaN", "null", "true", "\"\"", "\"\\u0000\\n\"", "[]", "{}", "0.5", "\"nan\"",
-      "[0,0,0,0]", "[1e39,0,0]", "{\"a\":{\"a\":{}}}", nest(20), nest(3000), "\"" + std::string(5000, 'x') + "\"", "[0,1,2,3]", "7", "5126"};
+  static const std::string kInstead[] = {"4294967295",
+                                         "18446744073709551615",
+                                         "-1",
+                                         "1e308",
+                                         "1e999",
+                                         "NaN",
+                                         "null",
+                                         "true",
+                                         "\"\"",
+                                         "\"\\u0000\\n\"",
+                                         "[]",
+                                         "{}",
+                                         "0.5",
+                                         "\"nan\"",
+                                         "[0,0,0,0]",
+                                         "[1e39,0,0]",
+                                         "{\"a\":{\"a\":{}}}",
+                                         nest(20),
+                                         nest(3000),
+                                         "\"" + std::string(5000, 'x') + "\"",
+                                         "[0,1,2,3]",
+                                         "7",
+                                         "5126"};
   Json changed = sound;
   const Json flat = sound.flatten();
   auto at = flat.begin();
   std::advance(at, static_cast<std::ptrdiff_t>(dice.below(flat.size())));
   Json::json_pointer where(at.key());
-  for (std::size_t up = dice.below(3); up > 0 && !where.parent_pointer().empty(); --up) where = where.parent_pointer();
+  for (std::size_t up = dice.below(3); up > 0 && !where.parent_pointer().empty(); --up)
+    where = where.parent_pointer();
   const std::size_t way = dice.below(8);
   if (way == 0) {
     Json& parent = changed[where.parent_pointer()];
@@ -154,7 +175,7 @@ bool patientReads(const ScratchFolder& folder, const std::string& bytes) {
         for (const auto c : t) ASSERT_LT(c, organ.mesh.points.size());
     }
   });
-  readOrRefused("", [&] { readMesh(MeshFormat::gltf, bytes, "harmed"); });   // as a file of surfaces
+  readOrRefused("", [&] { readMesh(MeshFormat::gltf, bytes, "harmed"); });  // as a file of surfaces
   return read;
 }
 
@@ -188,8 +209,10 @@ TEST(PatientFuzz, RingsOfNodesAndAbsurdCountsAreRefused) {
   Json ring = sound;
   ring["nodes"][0]["children"] = {1};
   ring["nodes"][1]["children"] = {0};
-  EXPECT_FALSE(readOrRefused("", [&] { readMesh(MeshFormat::gltf, withJson(whole, ring.dump()), "ring"); }));
-  for (const std::uint64_t count : {std::uint64_t{1} << 31, std::uint64_t{1} << 40, std::uint64_t{0xffffffffffffffff}}) {
+  EXPECT_FALSE(
+      readOrRefused("", [&] { readMesh(MeshFormat::gltf, withJson(whole, ring.dump()), "ring"); }));
+  for (const std::uint64_t count :
+       {std::uint64_t{1} << 31, std::uint64_t{1} << 40, std::uint64_t{0xffffffffffffffff}}) {
     Json many = sound;
     many["accessors"][0]["count"] = count;
     EXPECT_FALSE(patientReads(folder, withJson(whole, many.dump()))) << count;
@@ -207,9 +230,13 @@ TEST(MapFuzz, HarmedMapsAreReadOrRefused) {
   int read = 0, refused = 0;
   for (int i = 0; i < cases(); ++i) {
     const std::string harmed = i % 2 ? absurd(sound, dice) : flipped(whole, dice, whole.size());
-    ++(readOrRefused("map: ", [&] {
-      for (const MapEntry& entry : parseImportMap(harmed, "map").entries) ASSERT_TRUE(entry.place(Vec3::Ones()).allFinite());
-    }) ? read : refused);
+    ++(readOrRefused("map: ",
+                     [&] {
+                       for (const MapEntry& entry : parseImportMap(harmed, "map").entries)
+                         ASSERT_TRUE(entry.place(Vec3::Ones()).allFinite());
+                     })
+           ? read
+           : refused);
     if (HasFatalFailure()) return;
   }
   EXPECT_GT(read, 0);

@@ -53,7 +53,8 @@ void refused(MeshFormat format, const std::string& bytes, const std::string& wor
     readMesh(format, bytes, "the file");
     FAIL() << word;
   } catch (const Error& error) {
-    EXPECT_NE(std::string(error.what()).find(word), std::string::npos) << word << " | " << error.what();
+    EXPECT_NE(std::string(error.what()).find(word), std::string::npos)
+        << word << " | " << error.what();
     EXPECT_EQ(std::string(error.what()).rfind("the file: ", 0), 0u) << error.what();
   }
 }
@@ -66,7 +67,9 @@ TEST(MeshReaders, LiesAreToldInPlainWords) {
   std::string stl = asStl(box(), false);
   stl[80] = stl[81] = stl[82] = stl[83] = '\x7f';
   refused(MeshFormat::stl, stl, "claims 2139062143 facets and has room for 12");
-  refused(MeshFormat::ply, "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n", "claims 4000000000");
+  refused(MeshFormat::ply,
+          "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n",
+          "claims 4000000000");
   refused(MeshFormat::ply, "ply\nformat ascii 1.0\nelement vertex 1\nproperty float x\n", "no end");
   std::string glb = asGlb(box());
   glb.resize(glb.size() - 4);

@@ -47,8 +47,8 @@ TEST(Repair, EveryTurnedTriangleIsTurnedBack) {
 
 TEST(Repair, HolesAreClosedWhateverTheirSize) {
   RawMesh mesh = box();
-  mesh.triangles.erase(mesh.triangles.begin() + 8);    // a triangle of the left side
-  mesh.triangles.erase(mesh.triangles.begin() + 9, mesh.triangles.end());   // the whole right side
+  mesh.triangles.erase(mesh.triangles.begin() + 8);  // a triangle of the left side
+  mesh.triangles.erase(mesh.triangles.begin() + 9, mesh.triangles.end());  // the whole right side
   RepairReport report;
   const RawMesh whole = repaired(mesh, &report);
   isTheBoxAgain(whole);

@@ -14,7 +14,8 @@ namespace {
 
 using namespace test;
 
-/// A ball cut at its equator; the points of the cut stand there twice, each thrown by up to `throw_by` a coordinate.
+/// A ball cut at its equator; the points of the cut stand there twice, each thrown by up to
+/// `throw_by` a coordinate.
 RawMesh cutBall(double throw_by) {
   const RawMesh whole = ball(10, 12, 24);
   RawMesh cut = whole;
@@ -22,7 +23,9 @@ RawMesh cutBall(double throw_by) {
   std::map<std::uint32_t, std::uint32_t> lower;
   std::mt19937_64 bits(7);
   std::uniform_real_distribution<double> dice(-throw_by, throw_by);
-  const auto thrown = [&](const Vec3& p) { return Vec3(p + Vec3(dice(bits), dice(bits), dice(bits))); };
+  const auto thrown = [&](const Vec3& p) {
+    return Vec3(p + Vec3(dice(bits), dice(bits), dice(bits)));
+  };
   for (auto t : whole.triangles) {
     if ((whole.points[t[0]] + whole.points[t[1]] + whole.points[t[2]]).z() < 0)
       for (auto& c : t) {
@@ -49,12 +52,14 @@ TEST(Weld, ACutAndJitteredBallIsWholeAgain) {
   EXPECT_GT(report.farthest_weld, 0);
   EXPECT_LE(report.farthest_weld, 0.01) << "half the tolerance, for two points at their mean";
   EXPECT_NEAR(check.volume, checkSurface(ball(10, 12, 24)).volume, 1);
-  EXPECT_NE(words(report, 1e-3)[0].find("24 points of seams joined, none moved by more than "), std::string::npos);
+  EXPECT_NE(words(report, 1e-3)[0].find("24 points of seams joined, none moved by more than "),
+            std::string::npos);
 }
 
 TEST(Weld, WithoutAToleranceNothingNearIsJoined) {
   RepairReport report;
-  EXPECT_EQ(checkSurface(repaired(cutBall(0.005), &report)).pieces, 2u) << "two caps, each closed for itself";
+  EXPECT_EQ(checkSurface(repaired(cutBall(0.005), &report)).pieces, 2u)
+      << "two caps, each closed for itself";
   EXPECT_EQ(report.welded_points, 0u);
   EXPECT_EQ(report.closed_holes, 2u);
 }
@@ -89,7 +94,7 @@ TEST(Weld, SheetsThatMeetAreJoinedAlongTheirSeamOnly) {
 
 TEST(Weld, PointsOfOneEdgeAreNeverJoined) {
   RawMesh fine = sheet(6, 0, 0, false);
-  for (Vec3& p : fine.points) p *= 0.01;   // every edge is shorter than the tolerance
+  for (Vec3& p : fine.points) p *= 0.01;  // every edge is shorter than the tolerance
   WeldReport report;
   const RawMesh after = welded(fine, 0.02, &report);
   EXPECT_EQ(after.triangles.size(), fine.triangles.size());
@@ -101,7 +106,8 @@ TEST(Repair, RingsThatMeetInAPointAreBothClosed) {
   // Two quads that touch in one corner only.
   const Vec3 corner = mesh.points[1 + 5 * 24 + 6];
   const auto hasCorner = [&](const auto& t) {
-    return mesh.points[t[0]] == corner || mesh.points[t[1]] == corner || mesh.points[t[2]] == corner;
+    return mesh.points[t[0]] == corner || mesh.points[t[1]] == corner ||
+           mesh.points[t[2]] == corner;
   };
   std::vector<std::array<std::uint32_t, 3>> around, kept;
   for (const auto& t : mesh.triangles) (hasCorner(t) ? around : kept).push_back(t);

@@ -16,11 +16,13 @@
 namespace palpa::anatomy {
 namespace {
 
-/// Slices of a series in a folder of its own; slice n is filled with n * 10 - 1000 and counts up along rows.
+/// Slices of a series in a folder of its own; slice n is filled with n * 10 - 1000 and counts up
+/// along rows.
 class DicomSeries : public testing::Test {
  protected:
   void SetUp() override {
-    folder_ = std::filesystem::temp_directory_path() / ("palpa_dicom_" + std::to_string(::getpid()));
+    folder_ =
+        std::filesystem::temp_directory_path() / ("palpa_dicom_" + std::to_string(::getpid()));
     std::filesystem::remove_all(folder_);
     std::filesystem::create_directories(folder_);
   }
@@ -42,7 +44,8 @@ class DicomSeries : public testing::Test {
 
   void write(int n, const std::string& series, const std::string& name) {
     std::vector<std::int16_t> voxels(30);
-    for (std::size_t i = 0; i < voxels.size(); ++i) voxels[i] = static_cast<std::int16_t>(5 * n + static_cast<int>(i % 6));
+    for (std::size_t i = 0; i < voxels.size(); ++i)
+      voxels[i] = static_cast<std::int16_t>(5 * n + static_cast<int>(i % 6));
     gdcm::Writer writer;
     gdcm::DataSet& data = writer.GetFile().GetDataSet();
     put<0x0008, 0x0016>(&data, "1.2.840.10008.5.1.4.1.1.2");  // CT
@@ -63,9 +66,11 @@ class DicomSeries : public testing::Test {
     put<0x0028, 0x1052>(&data, -1000);
     put<0x0028, 0x1053>(&data, 2);
     gdcm::DataElement pixels(gdcm::Tag(0x7fe0, 0x0010), 0, gdcm::VR::OW);
-    pixels.SetByteValue(reinterpret_cast<const char*>(voxels.data()), static_cast<std::uint32_t>(2 * voxels.size()));
+    pixels.SetByteValue(reinterpret_cast<const char*>(voxels.data()),
+                        static_cast<std::uint32_t>(2 * voxels.size()));
     data.Insert(pixels);
-    writer.GetFile().GetHeader().SetDataSetTransferSyntax(gdcm::TransferSyntax::ExplicitVRLittleEndian);
+    writer.GetFile().GetHeader().SetDataSetTransferSyntax(
+        gdcm::TransferSyntax::ExplicitVRLittleEndian);
     writer.SetFileName((folder_ / name).string().c_str());
     ASSERT_TRUE(writer.Write());
   }
@@ -90,18 +95,24 @@ TEST_F(DicomSeries, ShuffledFilesComeBackInOrderWithSpacingAndHounsfield) {
   EXPECT_EQ(axesOf(v), "LPS");
   EXPECT_LT((1e3 * v.spacing() - Vec3(0.8, 0.9, 2.5)).norm(), 1e-9);
   EXPECT_LT((1e3 * v.origin_S - Vec3(-12, 30, 100)).norm(), 1e-9);
-  for (int k = 0; k < 4; ++k) EXPECT_EQ(v.at(2, 1, k), -1000.f + 2 * (5 * static_cast<float>(k) + 2));
+  for (int k = 0; k < 4; ++k)
+    EXPECT_EQ(v.at(2, 1, k), -1000.f + 2 * (5 * static_cast<float>(k) + 2));
   EXPECT_EQ(readVolume(folder_ / "a.dcm").values, v.values);
 }
 
 TEST_F(DicomSeries, AMissingSliceIsNamed) {
   for (const int n : {0, 1, 2, 4, 5}) write(n, "1.2.3.4", std::to_string(n) + ".dcm");
-  EXPECT_NE(complaint().find("lacks a slice or is uneven between 2.dcm and 4.dcm"), std::string::npos) << complaint();
+  EXPECT_NE(complaint().find("lacks a slice or is uneven between 2.dcm and 4.dcm"),
+            std::string::npos)
+      << complaint();
 }
 
 TEST_F(DicomSeries, TwoSeriesAreNamedAndOneCanBeChosen) {
-  for (int n = 0; n < 3; ++n) write(n, "1.2.3.4", "x" + std::to_string(n)), write(n + 7, "1.2.3.5", "y" + std::to_string(n));
-  EXPECT_NE(complaint().find("holds 2 series (1: \"chest\", 3 slices; 2: \"chest\", 3 slices)"), std::string::npos) << complaint();
+  for (int n = 0; n < 3; ++n)
+    write(n, "1.2.3.4", "x" + std::to_string(n)), write(n + 7, "1.2.3.5", "y" + std::to_string(n));
+  EXPECT_NE(complaint().find("holds 2 series (1: \"chest\", 3 slices; 2: \"chest\", 3 slices)"),
+            std::string::npos)
+      << complaint();
   EXPECT_EQ(readVolume(folder_, "2").at(0, 0, 0), -1000.f + 2 * 35);
   EXPECT_EQ(readVolume(folder_, "1.2.3.4").at(0, 0, 0), -1000.f);
   EXPECT_NE(complaint("3").find("has no series \"3\""), std::string::npos);
@@ -117,11 +128,14 @@ TEST_F(DicomSeries, DamageGivesAVolumeOrAClearWord) {
   for (int i = 0; i < cases; ++i) {
     std::string bytes = sound;
     if (i % 5 == 0) bytes.resize(bits() % bytes.size());
-    for (std::uint64_t n = 0, flips = 1 + bits() % 4; i % 5 && n < flips; ++n) bytes[bits() % bytes.size()] ^= static_cast<char>(1 << bits() % 8);
+    for (std::uint64_t n = 0, flips = 1 + bits() % 4; i % 5 && n < flips; ++n)
+      bytes[bits() % bytes.size()] ^= static_cast<char>(1 << bits() % 8);
     std::ofstream(folder_ / "1.dcm", std::ios::binary) << bytes;
     try {
       const Volume v = readVolume(folder_);
-      ASSERT_EQ(v.values.size(), static_cast<std::size_t>(v.size[0]) * static_cast<std::size_t>(v.size[1]) * static_cast<std::size_t>(v.size[2]));
+      ASSERT_EQ(v.values.size(), static_cast<std::size_t>(v.size[0]) *
+                                     static_cast<std::size_t>(v.size[1]) *
+                                     static_cast<std::size_t>(v.size[2]));
       ++read;
     } catch (const Error&) {
       ++refused;
@@ -132,7 +146,9 @@ TEST_F(DicomSeries, DamageGivesAVolumeOrAClearWord) {
   palpa::test::expectLessThan2GiB();
 }
 
-TEST_F(DicomSeries, AFolderWithoutSlicesIsSaid) { EXPECT_NE(complaint().find("holds no DICOM slices"), std::string::npos); }
+TEST_F(DicomSeries, AFolderWithoutSlicesIsSaid) {
+  EXPECT_NE(complaint().find("holds no DICOM slices"), std::string::npos);
+}
 
 }  // namespace
 }  // namespace palpa::anatomy

@@ -52,7 +52,8 @@ TEST(BoardSpec, SaysWhatIsKnownWhenItDoesNotUnderstand) {
                            "tags:6x4:0.03:0,01",
                            "chessboard:9x6",
                            "chessboard:9x6:0",
-                           "chessboard:9x6:0.025:x", "chessboard:9x6:0.025:5:1",
+                           "chessboard:9x6:0.025:x",
+                           "chessboard:9x6:0.025:5:1",
                            "tag36h11",
                            "tag36h11:",
                            "tag36h11:0.05:3",
@@ -82,11 +83,12 @@ TEST(BoardSpec, SaysWhatIsKnownWhenItDoesNotUnderstand) {
 TEST(BoardSpec, RefusesBoardsThatCannotWork) {
   for (const char* spec :
        {"tags:30x30:0.03:0.0075", "tags:6x4:0.03:0.0075:570", "tags:0x4:0.03:0.01",
-        "tags:6x4:0.03:0.001", "tags:6x4:0.03:0.0075:-1", "chessboard:6x6:0.02", "chessboard:9x6:0.02:-1",
-        "aprilgrid:6x6:0.088:0.05", "aprilgrid:6x6:0.088:nan", "aprilgrid:6x6:0.088:0.3:3",
-        "aprilgrid:1x1:0.088:0.3", "aprilgrid:30x30:0.088:0.3", "charuco:2x5:0.03:0.02",
-        "charuco:7x5:0.03:0.03", "charuco:7x5:0.03:0.005", "charuco:20x20:0.03:0.02:DICT_4X4_50",
-        "charuco:7x5:0.03:0.02:DICT_9X9_50", "chessboard:9x1:0.02", "chessboard:999x6:0.02"})
+        "tags:6x4:0.03:0.001", "tags:6x4:0.03:0.0075:-1", "chessboard:6x6:0.02",
+        "chessboard:9x6:0.02:-1", "aprilgrid:6x6:0.088:0.05", "aprilgrid:6x6:0.088:nan",
+        "aprilgrid:6x6:0.088:0.3:3", "aprilgrid:1x1:0.088:0.3", "aprilgrid:30x30:0.088:0.3",
+        "charuco:2x5:0.03:0.02", "charuco:7x5:0.03:0.03", "charuco:7x5:0.03:0.005",
+        "charuco:20x20:0.03:0.02:DICT_4X4_50", "charuco:7x5:0.03:0.02:DICT_9X9_50",
+        "chessboard:9x1:0.02", "chessboard:999x6:0.02"})
     EXPECT_THROW(makeBoard(spec), UsageError) << spec;
   EXPECT_THROW(makeBoard("tag36h11:0.05", 0.5), UsageError);
 }

@@ -27,7 +27,8 @@ TEST(BoardTracker, SeesInThePartWhatItSeesInTheWhole) {
     // Same corners, found in a part that is thresholded alike: a few thousandths of a pixel.
     EXPECT_LT((part->X_CW.translation() - whole->X_CW.translation()).norm(), 2e-5);
     EXPECT_EQ(tracker.region().empty(), i == 0);
-    EXPECT_LT(tracker.region().area(), (i > 2 ? 0.6 : 1.0) * picture.total());   // at first its speed is not known
+    EXPECT_LT(tracker.region().area(),
+              (i > 2 ? 0.6 : 1.0) * picture.total());  // at first its speed is not known
   }
 }
 
@@ -50,7 +51,8 @@ TEST(BoardTracker, FindsTheBoardAgainAnywhereInTwoPictures) {
 TEST(BoardTracker, HiddenLostAndFoundAgainInPicturesOfAnySize) {
   const auto board = makeBoard(TagGridSpec{});
   BoardTracker tracker(*board, pinhole());
-  const cv::Mat seen = pictureOf(viewOf(0.6, rad(30), 0)), nothing(480, 640, CV_8U, cv::Scalar(128));
+  const cv::Mat seen = pictureOf(viewOf(0.6, rad(30), 0)),
+                nothing(480, 640, CV_8U, cv::Scalar(128));
   EXPECT_FALSE(tracker.see(nothing, 0));
   EXPECT_EQ(tracker.state(), TrackState::searching);
   ASSERT_TRUE(tracker.see(seen, 1 * kFrame));
@@ -66,7 +68,9 @@ TEST(BoardTracker, HiddenLostAndFoundAgainInPicturesOfAnySize) {
 TEST(BoardTracker, PhotographsStandForThemselves) {
   const auto board = makeBoard(TagGridSpec{});
   BoardTracker tracker(*board, pinhole(), {{}, false});
-  for (int i = 0; i < 4; ++i) EXPECT_TRUE(tracker.see(pictureOf(viewOf(0.5 + 0.1 * i, rad(15 * i), rad(80 * i))), i * kFrame)) << i;
+  for (int i = 0; i < 4; ++i)
+    EXPECT_TRUE(tracker.see(pictureOf(viewOf(0.5 + 0.1 * i, rad(15 * i), rad(80 * i))), i * kFrame))
+        << i;
 }
 
 /// One tag of a grid is believed where the grid is expected, and nowhere else.
@@ -78,7 +82,8 @@ TEST(BoardTracker, ALoneTagIsBelievedOnlyWhereItIsExpected) {
   cv::Mat lone(whole.size(), CV_8U, cv::Scalar(120));
   Eigen::AlignedBox2d box;
   for (const Vec3& p_W : tagCorners({}, 9)) box.extend(pinhole().project(X_CW * p_W));
-  const cv::Rect around(cv::Point(int(box.min().x()) - 6, int(box.min().y()) - 6), cv::Point(int(box.max().x()) + 7, int(box.max().y()) + 7));
+  const cv::Rect around(cv::Point(int(box.min().x()) - 6, int(box.min().y()) - 6),
+                        cv::Point(int(box.max().x()) + 7, int(box.max().y()) + 7));
   whole(around).copyTo(lone(around));
   ASSERT_EQ(board->detect(lone).size(), 4u);
   BoardTracker stranger(*board, pinhole());

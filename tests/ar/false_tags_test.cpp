@@ -60,12 +60,15 @@ TEST(FalseTags, NoneInRandomGrids) {  // the worst case: squares with white marg
 cv::Mat sheetOf(const std::string& family, int count) {
   cv::Mat sheet(480, 640, CV_8U, cv::Scalar(255));
   for (int i = 0; i < count; ++i)
-    cv::resize(drawForeignTag(family, i), sheet(cv::Rect(20 + 125 * (i % 5), 15 + 120 * (i / 5), 90, 90)), {90, 90}, 0, 0, cv::INTER_NEAREST);
+    cv::resize(drawForeignTag(family, i),
+               sheet(cv::Rect(20 + 125 * (i % 5), 15 + 120 * (i / 5), 90, 90)), {90, 90}, 0, 0,
+               cv::INTER_NEAREST);
   return sheet;
 }
 
 TEST(FalseTags, NoneInOtherFamilies) {
-  for (const std::string& family : foreignTagFamilies()) EXPECT_EQ(claimed(sheetOf(family, 20)), 0) << family;
+  for (const std::string& family : foreignTagFamilies())
+    EXPECT_EQ(claimed(sheetOf(family, 20)), 0) << family;
   EXPECT_THROW(drawForeignTag("tag36h11", 0), UsageError);
 }
 

@@ -6,7 +6,8 @@
 #include "ar/pose_upsampler.h"
 #include "tests/ar/views.h"
 
-/// The pose filter against motions known in closed form: what jitter it leaves, how far it lags, what it takes for an error.
+/// The pose filter against motions known in closed form: what jitter it leaves, how far it lags,
+/// what it takes for an error.
 namespace palpa::ar {
 namespace {
 
@@ -29,11 +30,14 @@ Pose measured(const Pose& X, std::mt19937* random) {
   return stepped(X, e);
 }
 
-Pose placeAt(const Vec3& p, double turn = 0) { return makePose(Eigen::AngleAxisd(turn, Vec3(1, -1, 2).normalized()).toRotationMatrix(), p); }
+Pose placeAt(const Vec3& p, double turn = 0) {
+  return makePose(Eigen::AngleAxisd(turn, Vec3(1, -1, 2).normalized()).toRotationMatrix(), p);
+}
 
 /// There and back at a hand's pace, 2 s a way: minimum jerk, peak 0.2 m/s.
 Pose reaching(double t) {
-  const double u = std::abs(std::fmod(t, 4.0) - 2) / 2, s = u * u * u * (10 - 15 * u + 6 * u * u), way = 0.2 * 2 / 1.875;
+  const double u = std::abs(std::fmod(t, 4.0) - 2) / 2, s = u * u * u * (10 - 15 * u + 6 * u * u),
+               way = 0.2 * 2 / 1.875;
   return placeAt(Vec3(way * s, 0.3 * way * s, 0.5), 0.5 * s);
 }
 
@@ -47,7 +51,8 @@ TEST(PoseFilter, AStillPoseStaysToTheLastBits) {
   EXPECT_LT(filter.moving(), 0.05);
 }
 
-/// The jitter that is left of white noise where nothing moves, and that what the filter says of it is true.
+/// The jitter that is left of white noise where nothing moves, and that what the filter says of it
+/// is true.
 TEST(PoseFilter, JitterOfAStillPoseIsAsSmallAsItsCovarianceSays) {
   std::mt19937 random(1);
   PoseFilter filter;
@@ -60,13 +65,17 @@ TEST(PoseFilter, JitterOfAStillPoseIsAsSmallAsItsCovarianceSays) {
     squares += difference(filter.now().X, X).tail<3>().squaredNorm() / (3 * count);
     said += filter.now().covariance.block<3, 3>(3, 3).trace() / (3 * count);
   }
-  // A random walk of q in white noise: the gain settles at k with k^2 / (1 - k) = q^2 dt / sigma^2, and leaves k / (2 - k) of the variance where nothing walks.
+  // A random walk of q in white noise: the gain settles at k with k^2 / (1 - k) = q^2 dt / sigma^2,
+  // and leaves k / (2 - k) of the variance where nothing walks.
   const PoseFilter::Settings settings;
   const double ratio = std::pow(settings.models[0].walk_m / kNoise_m, 2) * kPeriod;
   const double gain = 0.5 * (-ratio + std::sqrt(ratio * ratio + 4 * ratio));
-  EXPECT_LT(std::sqrt(squares), 1.3 * std::sqrt(gain / (2 - gain)) * kNoise_m);   // 0.28 of the noise; the other models are never quite disbelieved
+  EXPECT_LT(std::sqrt(squares),
+            1.3 * std::sqrt(gain / (2 - gain)) *
+                kNoise_m);  // 0.28 of the noise; the other models are never quite disbelieved
   EXPECT_LT(squares, 1.5 * said);
-  EXPECT_GT(squares, 0.25 * said);   // it allows for a walk and for motions that are not there: too careful by less than two in the deviation
+  EXPECT_GT(squares, 0.25 * said);  // it allows for a walk and for motions that are not there: too
+                                    // careful by less than two in the deviation
 }
 
 TEST(PoseFilter, ASteadyMotionHasNoLag) {
@@ -83,7 +92,8 @@ TEST(PoseFilter, ASteadyMotionHasNoLag) {
   }
 }
 
-/// In a hand's motion the filtered pose is no worse than the measured one, and 50 ms later it is where it was foretold.
+/// In a hand's motion the filtered pose is no worse than the measured one, and 50 ms later it is
+/// where it was foretold.
 TEST(PoseFilter, FollowsAndForetellsAHand) {
   std::mt19937 random(2);
   PoseFilter filter;
@@ -104,7 +114,8 @@ TEST(PoseFilter, FollowsAndForetellsAHand) {
 TEST(PoseFilter, OneWildPoseIsLeftOutTwoAlikeAreAJump) {
   PoseFilter filter;
   const Pose X = placeAt({0, 0, 0.5}), away = placeAt({0.2, 0, 0.5}, 0.4);
-  for (int i = 0; i < 30; ++i) ASSERT_NE(filter.update(X, noiseCovariance(), ns(kPeriod * i)), Taken::left_out);
+  for (int i = 0; i < 30; ++i)
+    ASSERT_NE(filter.update(X, noiseCovariance(), ns(kPeriod * i)), Taken::left_out);
   EXPECT_EQ(filter.update(away, noiseCovariance(), ns(kPeriod * 30)), Taken::left_out);
   EXPECT_LT(difference(filter.now().X, X).norm(), 1e-9);
   EXPECT_EQ(filter.update(X, noiseCovariance(), ns(kPeriod * 31)), Taken::taken);
@@ -155,7 +166,8 @@ TEST(PoseMotion, PredictionIsTheSameInOneStepAsInMany) {
 TEST(PoseTrack, RemembersInterpolatesForetellsAndKnowsWhenItDoesNot) {
   PoseTrack track;
   EXPECT_EQ(track.at(0).how, PoseTrack::Lookup::none);
-  for (int i = 0; i < 60; ++i) track.add(reaching(1 + kPeriod * i), noiseCovariance(), ns(1 + kPeriod * i));
+  for (int i = 0; i < 60; ++i)
+    track.add(reaching(1 + kPeriod * i), noiseCovariance(), ns(1 + kPeriod * i));
   const double last = 1 + kPeriod * 59;
   EXPECT_EQ(track.at(ns(0.9)).how, PoseTrack::Lookup::none);
   EXPECT_EQ(track.at(ns(1 + 30 * kPeriod)).how, PoseTrack::Lookup::exact);
@@ -165,11 +177,13 @@ TEST(PoseTrack, RemembersInterpolatesForetellsAndKnowsWhenItDoesNot) {
     EXPECT_LT(difference(between.X, reaching(t)).tail<3>().norm(), 2e-4) << t;
   }
   EXPECT_EQ(track.at(ns(last + 0.05)).how, PoseTrack::Lookup::predicted);
-  EXPECT_GT(track.at(ns(last + 0.1)).covariance.trace(), track.at(ns(last + 0.01)).covariance.trace());
+  EXPECT_GT(track.at(ns(last + 0.1)).covariance.trace(),
+            track.at(ns(last + 0.01)).covariance.trace());
   EXPECT_EQ(track.at(ns(last + 0.3)).how, PoseTrack::Lookup::none);
 }
 
-/// At 1 kHz: no step larger than the motion itself makes, though a new pose comes only 30 times a second and is noisy.
+/// At 1 kHz: no step larger than the motion itself makes, though a new pose comes only 30 times a
+/// second and is noisy.
 TEST(PoseUpsampler, IsSmoothAndNear) {
   std::mt19937 random(4);
   PoseFilter filter;
@@ -182,7 +196,8 @@ TEST(PoseUpsampler, IsSmoothAndNear) {
   for (int tick = 0; tick < 8000; ++tick) {
     const double t = 1e-3 * tick;
     if (tick % 33 == 0) {
-      filter.update(measured(reaching(t - kLatency), &random), noiseCovariance(), ns(t - kLatency) + 1'000'000'000);
+      filter.update(measured(reaching(t - kLatency), &random), noiseCovariance(),
+                    ns(t - kLatency) + 1'000'000'000);
       upsampler.take(filter.now(), ns(t - kLatency), ns(t));
     }
     const Pose X = upsampler.at(ns(t));
@@ -193,8 +208,11 @@ TEST(PoseUpsampler, IsSmoothAndNear) {
     }
     before = X;
   }
-  EXPECT_LT(worst_step, 3e-4);   // at 0.2 m/s a tick is 0.21 mm; a jump to each new pose would be up to 0.8 mm
-  EXPECT_LT(std::sqrt(squares / n), 7e-4);   // foretold over 30 to 63 ms: as FollowsAndForetellsAHand has it at 50 ms, and smoothing on top
+  EXPECT_LT(worst_step,
+            3e-4);  // at 0.2 m/s a tick is 0.21 mm; a jump to each new pose would be up to 0.8 mm
+  EXPECT_LT(std::sqrt(squares / n),
+            7e-4);  // foretold over 30 to 63 ms: as FollowsAndForetellsAHand has it at 50 ms, and
+                    // smoothing on top
 }
 
 }  // namespace

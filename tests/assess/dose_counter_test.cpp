@@ -34,7 +34,7 @@ void addFor(DoseCounter& counter, const haptics::FlightRecord& record, int ticks
 TEST(DoseCounter, CountsSecondsAndTimesOfEachPart) {
   DoseCounter counter = twoParts();
   addFor(counter, dosed(0b01), 300);
-  addFor(counter, dosed(0b11), 200);   // both at once
+  addFor(counter, dosed(0b11), 200);  // both at once
   addFor(counter, dosed(0b00), 100);
   addFor(counter, dosed(0b01), 50);
   addFor(counter, dosed(0b10), 70);
@@ -54,7 +54,7 @@ TEST(DoseCounter, WhatIsAddedIsThePartsItBelongsTo) {
   DoseCounter counter = twoParts();
   addFor(counter, dosed(0b11, 0b0001, 2), 100);
   addFor(counter, dosed(0b11, 0b0010, 1), 50);
-  addFor(counter, dosed(0b11, 0b0011, 4), 10);   // two of one part: felt once, together
+  addFor(counter, dosed(0b11, 0b0011, 4), 10);  // two of one part: felt once, together
   addFor(counter, dosed(0b11, 0b0100, 3), 40);
   addFor(counter, dosed(0b11), 500);
   const SubtaskDose &look = counter.doses()[0], &press = counter.doses()[1];
@@ -116,9 +116,9 @@ TEST(TrialDoses, AreOfTheirTrialWhileForcesMayBeRendered) {
   session.doses.begin(2);
   session.ticks(100, 1, true, 0b01);
   session.ticks(50, 2, false, 0b01);
-  session.ticks(201, 2, true, 0b01, 0b0001);   // the first only says when it begins
+  session.ticks(201, 2, true, 0b01, 0b0001);  // the first only says when it begins
   session.ticks(300, 2, false, 0b01);
-  session.ticks(101, 2, true, 0b10);           // after the pause likewise
+  session.ticks(101, 2, true, 0b10);  // after the pause likewise
   session.ticks(100, 3, true, 0b01);
   EXPECT_NEAR(session.doses.doses()[0].on_s, 0.2, 1e-9);
   EXPECT_NEAR(session.doses.doses()[0].impulse_Ns, 0.4, 1e-9);
@@ -131,7 +131,8 @@ TEST(TrialDoses, BeginAnewWithEveryTrial) {
   session.doses.begin(1);
   session.ticks(500, 1, true, 0b11, 0b0111);
   session.doses.begin(2);
-  for (const SubtaskDose& dose : session.doses.doses()) EXPECT_EQ(dose.on_s + dose.times + dose.augmented_s + dose.impulse_Ns, 0);
+  for (const SubtaskDose& dose : session.doses.doses())
+    EXPECT_EQ(dose.on_s + dose.times + dose.augmented_s + dose.impulse_Ns, 0);
   session.ticks(11, 2, true, 0b01);
   EXPECT_NEAR(session.doses.doses()[0].on_s, 0.010, 1e-12);
   EXPECT_EQ(session.doses.doses()[0].times, 1);

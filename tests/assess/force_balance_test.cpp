@@ -9,12 +9,13 @@ namespace palpa::assess {
 namespace {
 
 constexpr double kMass = 0.05, kTick = 1e-3;
-constexpr int kLate = 5;   // ticks
+constexpr int kLate = 5;  // ticks
 
 double wayAt(double t) { return 0.01 * std::sin(12 * t); }
 double objectAt(double t) { return 0.5 * (1 - std::cos(3 * t)); }
 
-/// A tool that obeys Newton: a reaction that comes late, its sign and scale as given; the hand does the rest.
+/// A tool that obeys Newton: a reaction that comes late, its sign and scale as given; the hand does
+/// the rest.
 std::vector<haptics::FlightRecord> recorded(double sign, double scale) {
   std::mt19937 random(4);
   std::normal_distribution<double> noise(0, 0.01);
@@ -27,8 +28,12 @@ std::vector<haptics::FlightRecord> recorded(double sign, double scale) {
     r.reading.homed = r.reading.instrumented = 1;
     r.reading.p_DE = {0, 0, 23e-6 * std::round(wayAt(t) / 23e-6)};
     r.reading.f_device_D = {noise(random), 0, 0.2 + noise(random)};
-    r.reading.f_hand_D = {0, noise(random), kMass * acceleration - 0.2 - objectAt(t) + noise(random)};
-    r.sensed = {{0, 0, sign * scale * objectAt(late)}, {0.1, 0, wayAt(late)}, haptics::SensorState::valid, {}};
+    r.reading.f_hand_D = {0, noise(random),
+                          kMass * acceleration - 0.2 - objectAt(t) + noise(random)};
+    r.sensed = {{0, 0, sign * scale * objectAt(late)},
+                {0.1, 0, wayAt(late)},
+                haptics::SensorState::valid,
+                {}};
     ticks.push_back(r);
   }
   return ticks;

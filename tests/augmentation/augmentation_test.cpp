@@ -50,21 +50,27 @@ int felt(const AugmentationPlan& plan, int ticks, Each each) {
 TEST(Augmentation, APulseHasItsWidthWhateverTriggeredIt) {
   const AugmentationPlan plan = planOf(pulseOn(Augmentation::Trigger::bump));
   EXPECT_EQ(felt(plan, 100, [](int i, AugmentationInput& in) { in.bump = i == 20; }), 10);
-  EXPECT_EQ(felt(plan, 100, [](int i, AugmentationInput& in) { in.bump = i == 20 || i == 25; }), 10);   // one ends before the next begins
-  EXPECT_EQ(felt(plan, 100, [](int i, AugmentationInput& in) { in.bump = i == 20 || i == 40; }), 20);
+  EXPECT_EQ(felt(plan, 100, [](int i, AugmentationInput& in) { in.bump = i == 20 || i == 25; }),
+            10);  // one ends before the next begins
+  EXPECT_EQ(felt(plan, 100, [](int i, AugmentationInput& in) { in.bump = i == 20 || i == 40; }),
+            20);
 }
 
 TEST(Augmentation, ARiseThatLastsIsOnePulse) {
   const AugmentationPlan plan = planOf(pulseOn(Augmentation::Trigger::rise));
-  EXPECT_EQ(felt(plan, 200, [](int i, AugmentationInput& in) { in.rise = i >= 20 && i < 120; }), 10);
-  EXPECT_EQ(felt(plan, 200, [](int i, AugmentationInput& in) { in.rise = i >= 20 && i % 50 < 25; }), 40);   // at 20 (still on), 50, 100, 150
+  EXPECT_EQ(felt(plan, 200, [](int i, AugmentationInput& in) { in.rise = i >= 20 && i < 120; }),
+            10);
+  EXPECT_EQ(felt(plan, 200, [](int i, AugmentationInput& in) { in.rise = i >= 20 && i % 50 < 25; }),
+            40);  // at 20 (still on), 50, 100, 150
 }
 
 TEST(Augmentation, AnEventTriggersOnlyItsOwn) {
   Augmentation a = pulseOn(Augmentation::Trigger::event);
   a.events = 4;
-  EXPECT_EQ(felt(planOf(a), 50, [](int i, AugmentationInput& in) { in.events = i == 5 ? 2u : 0u; }), 0);
-  EXPECT_EQ(felt(planOf(a), 50, [](int i, AugmentationInput& in) { in.events = i == 5 ? 6u : 0u; }), 10);
+  EXPECT_EQ(felt(planOf(a), 50, [](int i, AugmentationInput& in) { in.events = i == 5 ? 2u : 0u; }),
+            0);
+  EXPECT_EQ(felt(planOf(a), 50, [](int i, AugmentationInput& in) { in.events = i == 5 ? 6u : 0u; }),
+            10);
 }
 
 TEST(Augmentation, APulseBelongsToItsPart) {
@@ -72,9 +78,15 @@ TEST(Augmentation, APulseBelongsToItsPart) {
   plan.each[0].subtask = 0;
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
-  plan.subtasks.each[0].conditions[0] = {Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+  plan.subtasks.each[0].conditions[0] = {
+      Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
   EXPECT_EQ(felt(plan, 50, [](int i, AugmentationInput& in) { in.bump = i == 5; }), 0);
-  EXPECT_EQ(felt(plan, 50, [](int i, AugmentationInput& in) { in.bump = i == 5; in.cues[Cue::floor_texture] = 1; }), 10);
+  EXPECT_EQ(felt(plan, 50,
+                 [](int i, AugmentationInput& in) {
+                   in.bump = i == 5;
+                   in.cues[Cue::floor_texture] = 1;
+                 }),
+            10);
 }
 
 TEST(Augmentation, APulseOfAPartsBeginning) {
@@ -82,8 +94,13 @@ TEST(Augmentation, APulseOfAPartsBeginning) {
   plan.each[0].subtask = 0;
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
-  plan.subtasks.each[0].conditions[0] = {Cue::bone_force, Condition::Compare::at_least, {}, 0.5, 0.05};
-  EXPECT_EQ(felt(plan, 100, [](int i, AugmentationInput& in) { in.cues[Cue::bone_force] = i > 30 && i < 60 ? 1 : 0; }), 10);
+  plan.subtasks.each[0].conditions[0] = {
+      Cue::bone_force, Condition::Compare::at_least, {}, 0.5, 0.05};
+  EXPECT_EQ(felt(plan, 100,
+                 [](int i, AugmentationInput& in) {
+                   in.cues[Cue::bone_force] = i > 30 && i < 60 ? 1 : 0;
+                 }),
+            10);
 }
 
 TEST(Augmentation, TheAttractionIsTheFormula) {
@@ -93,8 +110,11 @@ TEST(Augmentation, TheAttractionIsTheFormula) {
   EXPECT_EQ(attractionForce(kF, 1.001 * kReach, kReach, kRadius), 0);
   EXPECT_NEAR(attractionForce(kF, kReach / 2, kReach, kRadius), 2 * kF / kRadius, 1e-12);
   const double h = 1e-9, steepest = 2 * std::numbers::pi * kF / (kReach * kRadius);
-  EXPECT_NEAR((attractionForce(kF, kReach / 4 + h, kReach, kRadius) - attractionForce(kF, kReach / 4 - h, kReach, kRadius)) / (2 * h), steepest, 1e-3 * steepest);
-  EXPECT_NEAR(steepest, 104'720, 1);   // N/m, as printed: no device holds it
+  EXPECT_NEAR((attractionForce(kF, kReach / 4 + h, kReach, kRadius) -
+               attractionForce(kF, kReach / 4 - h, kReach, kRadius)) /
+                  (2 * h),
+              steepest, 1e-3 * steepest);
+  EXPECT_NEAR(steepest, 104'720, 1);  // N/m, as printed: no device holds it
   double last = 0, bend = 0;
   for (int i = 1; i <= 1000; ++i) {
     const double f = attractionForce(kF, kReach * i / 1000, kReach, kRadius);
@@ -130,10 +150,14 @@ TEST(Augmentation, TheAttractionPullsTowardTheValleyNoSteeperThanTheDeviceHolds)
     EXPECT_EQ(attractionAt(printed, d).z(), 0);
   }
   double steepest = 0;
-  for (int i = 0; i < 300; ++i) steepest = std::max(steepest, std::abs(attractionAt(held, (i + 1) * 1e-6).x() - attractionAt(held, i * 1e-6).x()) / 1e-6);
+  for (int i = 0; i < 300; ++i)
+    steepest = std::max(
+        steepest,
+        std::abs(attractionAt(held, (i + 1) * 1e-6).x() - attractionAt(held, i * 1e-6).x()) / 1e-6);
   EXPECT_LT(steepest, 5000.001);
   EXPECT_GT(steepest, 4900);
-  EXPECT_NEAR(-attractionAt(held, 0.15e-3).x(), 2 * (5000 * 0.3e-3 * 2 / (2 * std::numbers::pi)) / 2, 1e-9);
+  EXPECT_NEAR(-attractionAt(held, 0.15e-3).x(),
+              2 * (5000 * 0.3e-3 * 2 / (2 * std::numbers::pi)) / 2, 1e-9);
 }
 
 TEST(Augmentation, BlendsInAndOutEvenly) {
@@ -142,7 +166,8 @@ TEST(Augmentation, BlendsInAndOutEvenly) {
   plan.each[0].subtask = 0;
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
-  plan.subtasks.each[0].conditions[0] = {Cue::floor_contact, Condition::Compare::at_least, {}, 1, 0};
+  plan.subtasks.each[0].conditions[0] = {
+      Cue::floor_contact, Condition::Compare::at_least, {}, 1, 0};
   AugmentationState state;
   double last = 0, jump = 0;
   for (int i = 0; i < 200; ++i) {
@@ -153,8 +178,12 @@ TEST(Augmentation, BlendsInAndOutEvenly) {
     const double f = augment(plan, in, &state).f.norm();
     jump = std::max(jump, std::abs(f - last));
     last = f;
-    if (i == 100) { EXPECT_NEAR(f, 10, 1e-9); }
-    if (i == 199) { EXPECT_EQ(f, 0); }
+    if (i == 100) {
+      EXPECT_NEAR(f, 10, 1e-9);
+    }
+    if (i == 199) {
+      EXPECT_EQ(f, 0);
+    }
   }
   EXPECT_NEAR(jump, 10 * 0.05, 1e-9);
 }
@@ -176,9 +205,10 @@ TEST(Augmentation, AVibrationFollowsTimeOrPlace) {
   EXPECT_NEAR(sum, 0, 0.01);
   a.wavelength = 1e-3;
   state = {};
-  for (int i = 0; i < 50; ++i) EXPECT_NEAR(augment(planOf(a), upward(), &state).f.z(), 0, 1e-12);   // it stands still
+  for (int i = 0; i < 50; ++i)
+    EXPECT_NEAR(augment(planOf(a), upward(), &state).f.z(), 0, 1e-12);  // it stands still
   AugmentationInput in = upward();
-  in.dp = Vec3(0.25e-3, 0, 0.5);   // up and down does not count
+  in.dp = Vec3(0.25e-3, 0, 0.5);  // up and down does not count
   EXPECT_NEAR(augment(planOf(a), in, &state).f.z(), 0.5, 1e-9);
 }
 
@@ -192,7 +222,7 @@ TEST(Augmentation, AnExaggerationAddsOnlyWhatChangesFast) {
   AugmentationInput in = upward();
   in.f_contact = Vec3(0, 0, 1);
   EXPECT_NEAR(augment(planOf(a), in, &state).f.norm(), 0, 1e-12);
-  in.f_contact = Vec3(0, 0, 0.2);   // a wall gives way
+  in.f_contact = Vec3(0, 0, 0.2);  // a wall gives way
   const Vec3 f = augment(planOf(a), in, &state).f;
   EXPECT_NEAR(f.z(), -2 * 0.8 * (0.05 / 0.051), 1e-9);
   for (int i = 0; i < 500; ++i) augment(planOf(a), in, &state);
@@ -258,13 +288,16 @@ TEST(Augmentation, AReliefBlendsInAndOutWithItsPart) {
   plan.each[0].subtask = 0;
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
-  plan.subtasks.each[0].conditions[0] = {Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+  plan.subtasks.each[0].conditions[0] = {
+      Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
   AugmentationState state;
   for (int i = 0; i < 100; ++i) {
     AugmentationInput in = upward();
     in.footprint = 0.5;
     in.cues[Cue::floor_texture] = i >= 10 && i < 60;
-    const double weight = i < 10 ? 0 : i < 60 ? std::min(1.0, (i - 9) / 20.0) : std::max(0.0, 1 - (i - 59) / 20.0);
+    const double weight = i < 10   ? 0
+                          : i < 60 ? std::min(1.0, (i - 9) / 20.0)
+                                   : std::max(0.0, 1 - (i - 59) / 20.0);
     EXPECT_NEAR(augment(plan, in, &state).f.z(), weight * 0.4, 1e-12) << i;
   }
 }
@@ -274,7 +307,8 @@ TEST(Augmentation, AReliefBeginsOnEachBumpThatIsEntered) {
   plan.each[0].subtask = 0;
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
-  plan.subtasks.each[0].conditions[0] = {Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+  plan.subtasks.each[0].conditions[0] = {
+      Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
   AugmentationState state;
   for (int i = 0; i < 60; ++i) {
     AugmentationInput in = upward();
@@ -294,7 +328,7 @@ TEST(Augmentation, AReliefDeclaresItsWork) {
   EXPECT_NEAR(augment(plan, in, &state).work_J, 0.4e-4, 1e-15);
   in.dp = Vec3(0.1, 0, -1e-4);
   EXPECT_NEAR(augment(plan, in, &state).work_J, -0.4e-4, 1e-15);
-  plan.largest = 0.1;   // of what is felt
+  plan.largest = 0.1;  // of what is felt
   EXPECT_NEAR(augment(plan, in, &state).work_J, -0.1e-4, 1e-15);
 }
 
@@ -339,7 +373,7 @@ TEST(Augmentation, NotAllowedIsExactlyNothingAndForgets) {
   in.allowed = true;
   in.bump = false;
   in.valley_radius = 0;
-  EXPECT_EQ(augment(plan, in, &state).f, Vec3(Vec3::Zero()));   // the pulse was over
+  EXPECT_EQ(augment(plan, in, &state).f, Vec3(Vec3::Zero()));  // the pulse was over
 }
 
 TEST(Augmentation, DeclaresTheWorkOfWhatHeedsNoMotion) {
@@ -354,7 +388,8 @@ TEST(Augmentation, DeclaresTheWorkOfWhatHeedsNoMotion) {
   pulled.to_valley = Vec3(1e-4, 0, 0);
   pulled.valley_radius = 2;
   pulled.dp = Vec3(1e-4, 0, 0);
-  EXPECT_EQ(augment(attractionPlan(1e9), pulled, &other).work_J, 0);   // a field is watched like any contact
+  EXPECT_EQ(augment(attractionPlan(1e9), pulled, &other).work_J,
+            0);  // a field is watched like any contact
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ LearnedModel threeStates() {
   model.transition[1] = {0.1, 0.7, 0.2};
   model.transition[2] = {0.3, 0.3, 0.4};
   for (std::size_t j = 0; j < 3; ++j) {
-    model.mean[j] = {-4 + static_cast<double>(j), -1 + 0.5 * static_cast<double>(j), 0.4 * static_cast<double>(j), -4};
+    model.mean[j] = {-4 + static_cast<double>(j), -1 + 0.5 * static_cast<double>(j),
+                     0.4 * static_cast<double>(j), -4};
     model.variance[j] = {0.5, 0.4, 0.1, 1 + static_cast<double>(j)};
   }
   return model;
@@ -28,16 +29,21 @@ LearnedModel threeStates() {
 
 double likelihood(const LearnedModel& model, std::size_t j, const LearnedRow& x) {
   double p = 1;
-  for (std::size_t d = 0; d < x.size(); ++d) p *= std::exp(-0.5 * std::pow(x[d] - model.mean[j][d], 2) / model.variance[j][d]) / std::sqrt(model.variance[j][d]);
+  for (std::size_t d = 0; d < x.size(); ++d)
+    p *= std::exp(-0.5 * std::pow(x[d] - model.mean[j][d], 2) / model.variance[j][d]) /
+         std::sqrt(model.variance[j][d]);
   return p;
 }
 
 /// P(last state, steps), by every path there is.
-double pathsTo(const LearnedModel& model, const std::vector<LearnedRow>& steps, std::size_t t, std::size_t j) {
+double pathsTo(const LearnedModel& model, const std::vector<LearnedRow>& steps, std::size_t t,
+               std::size_t j) {
   double before = 0;
-  if (t == 0) before = model.start[j];
+  if (t == 0)
+    before = model.start[j];
   else
-    for (std::size_t i = 0; i < 3; ++i) before += pathsTo(model, steps, t - 1, i) * model.transition[i][j];
+    for (std::size_t i = 0; i < 3; ++i)
+      before += pathsTo(model, steps, t - 1, i) * model.transition[i][j];
   return before * likelihood(model, j, steps[t]);
 }
 
@@ -49,7 +55,9 @@ std::vector<Felt> feltFor(int ticks) {
   std::mt19937 bits(5);
   std::uniform_real_distribution<double> even(0, 1);
   std::vector<Felt> felt;
-  for (int i = 0; i < ticks; ++i) felt.push_back({0.08 * even(bits), (i / 40 % 2) * 2 * even(bits) * Vec3(even(bits), even(bits), 1)});
+  for (int i = 0; i < ticks; ++i)
+    felt.push_back(
+        {0.08 * even(bits), (i / 40 % 2) * 2 * even(bits) * Vec3(even(bits), even(bits), 1)});
   return felt;
 }
 
@@ -73,7 +81,8 @@ TEST(LearnedPart, TheBeliefIsThatOfEveryPath) {
         all += p[j] = pathsTo(model, steps, steps.size() - 1, j);
         if (p[j] > most) most = p[j], best = static_cast<int>(j);
       }
-      for (std::size_t j = 0; j < 3; ++j) EXPECT_NEAR(state.belief[j], p[j] / all, 1e-12) << steps.size();
+      for (std::size_t j = 0; j < 3; ++j)
+        EXPECT_NEAR(state.belief[j], p[j] / all, 1e-12) << steps.size();
       EXPECT_EQ(said, best);
     }
   }
@@ -87,7 +96,7 @@ TEST(LearnedPart, AStepIsWhatItsTicksSumUpTo) {
   const std::vector<Felt> felt = feltFor(60);
   for (std::size_t i = 0; i < 60; ++i) {
     sums.add(felt[i].speed, felt[i].f, 1e-3);
-    slow += (felt[i].f - slow) / 9;                    // 1 ms of 1 + 8 ms
+    slow += (felt[i].f - slow) / 9;  // 1 ms of 1 + 8 ms
     speed += felt[i].speed;
     force += felt[i].f.norm();
     contact += felt[i].f.norm() >= 0.02;
@@ -113,7 +122,9 @@ TEST(LearnedPart, WithoutAModelOrANumberNothingIsLearnt) {
   EXPECT_EQ(learnedState({}, 0.1, Vec3::UnitZ(), 20'000'000, &state), -1);
   const LearnedModel model = threeStates();
   const double none = std::numeric_limits<double>::quiet_NaN();
-  for (int i = 0; i < 30; ++i) learnedState(model, i % 2 ? none : 0.1, i % 2 ? Vec3::UnitZ() : Vec3(none, 0, 0), 1'000'000, &state);
+  for (int i = 0; i < 30; ++i)
+    learnedState(model, i % 2 ? none : 0.1, i % 2 ? Vec3::UnitZ() : Vec3(none, 0, 0), 1'000'000,
+                 &state);
   EXPECT_EQ(state.state, -1);
   EXPECT_EQ(state.sums.ticks, 0u);
   EXPECT_EQ(learnedState(model, 0.1, Vec3::UnitZ(), -5, &state), -1);

@@ -101,7 +101,8 @@ TEST(Subtasks, ASpeedThatTremblesAboutItsThresholdDoesNotChatter) {
 
 TEST(Cues, EveryOneHasANameOfItsOwn) {
   std::set<std::string> names;
-  for (int i = 0; i < kCues; ++i) EXPECT_TRUE(names.insert(cueName(static_cast<Cue>(i)).name).second) << i;
+  for (int i = 0; i < kCues; ++i)
+    EXPECT_TRUE(names.insert(cueName(static_cast<Cue>(i)).name).second) << i;
   EXPECT_EQ(cueName(static_cast<Cue>(200)).name, std::string("none"));
 }
 

@@ -7,8 +7,8 @@
 #include "apps/bench/study_figures.h"
 #include "tests/support/counts.h"
 
-/// The estimators beside the bound that the data set them (500 sets each in the full run: then the bars themselves; of fewer
-/// sets three standard errors more).
+/// The estimators beside the bound that the data set them (500 sets each in the full run: then the
+/// bars themselves; of fewer sets three standard errors more).
 namespace palpa::bench {
 namespace {
 
@@ -32,15 +32,19 @@ TEST_P(Estimator, IsNotMisledByATenthOfGrossErrors) {
   EXPECT_LE(figures.ratio, 1.5 + (test::fullCounts() ? 0 : 3 / std::sqrt(2.0 * sets)));
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Estimator, testing::ValuesIn(estimatorStudies()), [](const auto& study) {
-  std::string name;
-  for (const char c : study.param.name) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
-  return name;
-});
+INSTANTIATE_TEST_SUITE_P(Every, Estimator, testing::ValuesIn(estimatorStudies()),
+                         [](const auto& study) {
+                           std::string name;
+                           for (const char c : study.param.name)
+                             name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+                           return name;
+                         });
 
 // The bound itself, where it is known: the mean of n numbers has sd / sqrt(n).
 TEST(CramerRaoBound, OfAMeanIsTheOneOfTheBook) {
-  const MatrixX bound = cramerRaoBound({25, 1, [](int, const VectorX& dx, const VectorX& e) -> VectorX { return dx - e; }, VectorX::Constant(1, 0.5)});
+  const MatrixX bound = cramerRaoBound(
+      {25, 1, [](int, const VectorX& dx, const VectorX& e) -> VectorX { return dx - e; },
+       VectorX::Constant(1, 0.5)});
   EXPECT_NEAR(std::sqrt(bound(0, 0)), 0.1, 1e-9);
 }
 

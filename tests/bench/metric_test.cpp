@@ -17,7 +17,9 @@ nlohmann::json printed(double value) {
 
 TEST(Print, IsOneJsonObjectALine) {
   const nlohmann::json line = printed(12.5);
-  EXPECT_EQ(line, nlohmann::json({{"metric", "lateness_p99"}, {"value", 12.5}, {"unit", "us"},
+  EXPECT_EQ(line, nlohmann::json({{"metric", "lateness_p99"},
+                                  {"value", 12.5},
+                                  {"unit", "us"},
                                   {"params", {{"noise", "none"}}}}));
   EXPECT_TRUE(printed(std::numeric_limits<double>::quiet_NaN()).at("value").is_null());
 }

@@ -14,7 +14,8 @@ TEST(AbbaOrder, ASteadyDriftAddsTheSameToBothInEveryBlock) {
   ASSERT_EQ(order.size(), 40u);
   for (std::size_t block = 0; block < 10; ++block) {
     std::size_t places_a = 0, places_b = 0;
-    for (std::size_t i = 4 * block; i < 4 * block + 4; ++i) (order[i] == Turn::a ? places_a : places_b) += i;
+    for (std::size_t i = 4 * block; i < 4 * block + 4; ++i)
+      (order[i] == Turn::a ? places_a : places_b) += i;
     EXPECT_EQ(places_a, places_b) << block;
     EXPECT_EQ(order[4 * block], Turn::a);
   }
@@ -35,11 +36,13 @@ TEST(BootstrapMedian, OfEqualValuesIsThatValue) {
 }
 
 TEST(BootstrapMedian, OfTwoValuesHasTheKnownQuantiles) {
-  // Draws of {0, 1}: both 0 with 1/4, both 1 with 1/4, else 0.5. So the 2.5 % quantile is 0, the 97.5 % one 1.
+  // Draws of {0, 1}: both 0 with 1/4, both 1 with 1/4, else 0.5. So the 2.5 % quantile is 0,
+  // the 97.5 % one 1.
   const Interval two = bootstrapMedian({0, 1}, 2000, 3);
   EXPECT_EQ(two.low, 0);
   EXPECT_EQ(two.high, 1);
-  // Of one 1 among nine 0 the median of a draw is 1 with P(Bin(9, 1/9) >= 5) = 0.0013: outside the interval.
+  // Of one 1 among nine 0 the median of a draw is 1 with P(Bin(9, 1/9) >= 5) = 0.0013: outside the
+  // interval.
   const Interval nine = bootstrapMedian({0, 0, 0, 0, 1, 0, 0, 0, 0}, 2000, 3);
   EXPECT_EQ(nine.low, 0);
   EXPECT_EQ(nine.high, 0);
@@ -55,8 +58,9 @@ TEST(BootstrapMedian, SameSeedSameIntervalAndNothingGivesNothing) {
   EXPECT_TRUE(std::isnan(bootstrapMedian({}, 2000, 5).low));
 }
 
-/// The percentile bootstrap of a median of 10 stands, by the order statistics of the binomial, for about 0.95 to
-/// 0.98 coverage; 400 trials know a share of 0.95 to +-0.033 at three standard deviations.
+/// The percentile bootstrap of a median of 10 stands, by the order statistics of the binomial, for
+/// about 0.95 to 0.98 coverage; 400 trials know a share of 0.95 to +-0.033 at three standard
+/// deviations.
 TEST(BootstrapMedian, HoldsTheTrueMedianAboutAsOftenAsItSays) {
   runtime::RandomStream random(11, "coverage");
   int inside = 0;

@@ -31,7 +31,8 @@ TEST(PointLocators, OursAndEmbreesGiveTheSameDistance) {
 
 TEST(CompareQueries, AsksBothTheSameNumberOfTimes) {
   int a = 0, b = 0;
-  const Ratio ratio = compareQueries(3, 7, [&](int) { ++a; }, [&](int) { ++b; });
+  const Ratio ratio = compareQueries(
+      3, 7, [&](int) { ++a; }, [&](int) { ++b; });
   EXPECT_EQ(a, 7 + 3 * 2 * 7);
   EXPECT_EQ(b, a);
   EXPECT_LE(ratio.interval.low, ratio.median);

@@ -22,7 +22,8 @@ std::string decoded(const std::string& base64) {
   unsigned held = 0;
   int bits = 0;
   for (const char c : base64) {
-    const std::string_view alphabet = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    const std::string_view alphabet =
+        "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
     const std::size_t value = alphabet.find(c);
     if (value == std::string_view::npos) continue;
     held = held << 6 | static_cast<unsigned>(value);
@@ -38,9 +39,11 @@ std::string decoded(const std::string& base64) {
 int portSaidIn(const fs::path& log) {
   for (int tries = 300; tries > 0; --tries) {
     std::ifstream stream(log);
-    const std::string said((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+    const std::string said((std::istreambuf_iterator<char>(stream)),
+                           std::istreambuf_iterator<char>());
     const std::size_t at = said.find("successfully on port ");
-    if (at != std::string::npos && said.find('.', at) != std::string::npos) return std::stoi(said.substr(at + 21));
+    if (at != std::string::npos && said.find('.', at) != std::string::npos)
+      return std::stoi(said.substr(at + 21));
     ::usleep(100'000);
   }
   throw std::runtime_error("chromedriver did not start");
@@ -52,22 +55,37 @@ pid_t startDriver(const fs::path& log) {
   const int output = ::open(log.c_str(), O_CREAT | O_WRONLY | O_TRUNC, 0600);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
-  ::setpgid(0, 0);   // its browsers end with it
+  ::setpgid(0, 0);  // its browsers end with it
   ::execl(kDriver, kDriver, "--port=0", static_cast<char*>(nullptr));
   ::_exit(127);
 }
 
 json wanted(const fs::path& profile) {
-  const json arguments{"--headless=new", "--no-sandbox", "--disable-gpu", "--disable-quic", "--no-first-run", "--disable-background-networking", "--disable-component-update", "--disable-sync", "--disable-dev-shm-usage",
-                       "--hide-scrollbars", "--force-color-profile=srgb", "--user-data-dir=" + profile.string()};
-  return {{"capabilities", {{"alwaysMatch", {{"browserName", "chrome"}, {"goog:loggingPrefs", {{"browser", "ALL"}}}, {"goog:chromeOptions", {{"binary", kChromium}, {"args", arguments}}}}}}}};
+  const json arguments{"--headless=new",
+                       "--no-sandbox",
+                       "--disable-gpu",
+                       "--disable-quic",
+                       "--no-first-run",
+                       "--disable-background-networking",
+                       "--disable-component-update",
+                       "--disable-sync",
+                       "--disable-dev-shm-usage",
+                       "--hide-scrollbars",
+                       "--force-color-profile=srgb",
+                       "--user-data-dir=" + profile.string()};
+  return {{"capabilities",
+           {{"alwaysMatch",
+             {{"browserName", "chrome"},
+              {"goog:loggingPrefs", {{"browser", "ALL"}}},
+              {"goog:chromeOptions", {{"binary", kChromium}, {"args", arguments}}}}}}}};
 }
 
 }  // namespace
 
 std::string Browser::whyNot() {
   for (const char* program : {kDriver, kChromium})
-    if (::access(program, X_OK) != 0) return std::string("no ") + program + " (Debian: chromium, chromium-driver)";
+    if (::access(program, X_OK) != 0)
+      return std::string("no ") + program + " (Debian: chromium, chromium-driver)";
   return "";
 }
 
@@ -92,27 +110,41 @@ Browser::~Browser() {
 }
 
 json Browser::post(const std::string& what, const json& body) {
-  const auto answer = client_->Post("/session" + (session_.empty() ? "" : "/" + session_) + what, body.dump(), "application/json");
+  const auto answer = client_->Post("/session" + (session_.empty() ? "" : "/" + session_) + what,
+                                    body.dump(), "application/json");
   if (!answer) throw std::runtime_error("the browser does not answer (" + what + ")");
   const json value = json::parse(answer->body).at("value");
   if (answer->status != 200) throw std::runtime_error(what + ": " + value.dump());
   return value;
 }
 
-json Browser::devtools(const std::string& command, const json& parameters) { return post("/goog/cdp/execute", {{"cmd", command}, {"params", parameters}}); }
-
-void Browser::show(int width, const std::string& scheme, const std::string& media) {
-  devtools("Emulation.setDeviceMetricsOverride", {{"width", width}, {"height", 900}, {"deviceScaleFactor", 1}, {"mobile", width < 600}});
-  devtools("Emulation.setEmulatedMedia", {{"media", media}, {"features", json::array({{{"name", "prefers-color-scheme"}, {"value", scheme}}})}});
+json Browser::devtools(const std::string& command, const json& parameters) {
+  return post("/goog/cdp/execute", {{"cmd", command}, {"params", parameters}});
 }
 
-void Browser::open(const fs::path& page) { post("/url", {{"url", "file://" + fs::absolute(page).string()}}); }
+void Browser::show(int width, const std::string& scheme, const std::string& media) {
+  devtools("Emulation.setDeviceMetricsOverride",
+           {{"width", width}, {"height", 900}, {"deviceScaleFactor", 1}, {"mobile", width < 600}});
+  devtools("Emulation.setEmulatedMedia",
+           {{"media", media},
+            {"features", json::array({{{"name", "prefers-color-scheme"}, {"value", scheme}}})}});
+}
 
-json Browser::run(const std::string& script) { return post("/execute/sync", {{"script", script}, {"args", json::array()}}); }
+void Browser::open(const fs::path& page) {
+  post("/url", {{"url", "file://" + fs::absolute(page).string()}});
+}
+
+json Browser::run(const std::string& script) {
+  return post("/execute/sync", {{"script", script}, {"args", json::array()}});
+}
 
 void Browser::screenshot(const fs::path& png) {
-  const json size = run("const e = document.documentElement; return [e.clientWidth, e.scrollHeight]");
-  const json picture = devtools("Page.captureScreenshot", {{"captureBeyondViewport", true}, {"clip", {{"x", 0}, {"y", 0}, {"width", size[0]}, {"height", size[1]}, {"scale", 1}}}});
+  const json size =
+      run("const e = document.documentElement; return [e.clientWidth, e.scrollHeight]");
+  const json picture = devtools(
+      "Page.captureScreenshot",
+      {{"captureBeyondViewport", true},
+       {"clip", {{"x", 0}, {"y", 0}, {"width", size[0]}, {"height", size[1]}, {"scale", 1}}}});
   std::ofstream(png, std::ios::binary) << decoded(picture.at("data").get<std::string>());
 }
 

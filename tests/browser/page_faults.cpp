@@ -3,7 +3,8 @@
 namespace palpa::test {
 namespace {
 
-// Within the page; answers with a list of sentences. Contrast after WCAG 2.1 (relative luminance), 3:1 at least: large type's bound, since axis labels are gray on purpose.
+// Within the page; answers with a list of sentences. Contrast after WCAG 2.1 (relative luminance),
+// 3:1 at least: large type's bound, since axis labels are gray on purpose.
 constexpr char kLook[] = R"js(
 const faults = [];
 const wide = document.documentElement.scrollWidth, room = document.documentElement.clientWidth;
@@ -46,20 +47,29 @@ struct Look {
   int width;
   const char *scheme, *media;
 };
-constexpr Look kLooks[] = {{1100, "light", "screen"}, {800, "light", "screen"}, {400, "light", "screen"}, {1100, "dark", "screen"}, {794, "light", "print"}};
+constexpr Look kLooks[] = {{1100, "light", "screen"},
+                           {800, "light", "screen"},
+                           {400, "light", "screen"},
+                           {1100, "dark", "screen"},
+                           {794, "light", "print"}};
 
 }  // namespace
 
 std::vector<std::string> faultsOf(Browser& browser, const std::filesystem::path& page) {
   std::vector<std::string> all;
   for (const Look& look : kLooks) {
-    const std::string name = std::to_string(look.width) + (look.media == std::string("print") ? "-print" : look.scheme == std::string("dark") ? "-dark" : "");
+    const std::string name =
+        std::to_string(look.width) + (look.media == std::string("print")   ? "-print"
+                                      : look.scheme == std::string("dark") ? "-dark"
+                                                                           : "");
     browser.show(look.width, look.scheme, look.media);
     browser.open(page);
-    for (const auto& fault : browser.run(kLook)) all.push_back(page.filename().string() + " at " + name + ": " + fault.get<std::string>());
+    for (const auto& fault : browser.run(kLook))
+      all.push_back(page.filename().string() + " at " + name + ": " + fault.get<std::string>());
     browser.screenshot(page.parent_path() / (page.stem().string() + "-" + name + ".png"));
   }
-  if (const std::string said = browser.complaints(); !said.empty()) all.push_back(page.filename().string() + ": " + said);
+  if (const std::string said = browser.complaints(); !said.empty())
+    all.push_back(page.filename().string() + ": " + said);
   return all;
 }
 

@@ -48,7 +48,8 @@ TEST_F(Pages, OfPractice) {
   writeTraineeReport(test::madeUpTrainee(5), folder / "few.html");
   writeTraineeReport(test::madeUpTrainee(30), folder / "trainee.html");
   writeCohortReport(test::madeUpCohort(8, 20), folder / "cohort.html");
-  for (const char* page : {"few.html", "trainee.html", "cohort.html"}) expectNoFaults(folder / page);
+  for (const char* page : {"few.html", "trainee.html", "cohort.html"})
+    expectNoFaults(folder / page);
 }
 
 TEST_F(Pages, OfPalpationAndSearch) {
@@ -61,13 +62,16 @@ TEST_F(Pages, OfPalpationAndSearch) {
 /// The judge itself: it finds each of these.
 TEST_F(Pages, FaultsAreFound) {
   const auto file = test::freshFolder("browser_faults") / "bad.html";
-  std::ofstream(file) << R"(<!doctype html><meta charset="utf-8"><title>x</title><body style="margin:0">
+  std::ofstream(file)
+      << R"(<!doctype html><meta charset="utf-8"><title>x</title><body style="margin:0">
 <div style="width:3000px">broad</div><p style="font-size:6px">tiny</p><p style="color:#eee">pale</p>
 <svg width="300" height="50" viewBox="0 0 300 50"><text x="10" y="20">one</text><text x="14" y="20">two</text><text x="290" y="40">outside</text></svg>
 <script>console.error('broken')</script></body>)";
   std::string all;
   for (const std::string& fault : palpa::test::faultsOf(*browser_, file)) all += fault + "\n";
-  for (const char* expected : {"wider than the screen", "type of 6.0 px: tiny", "hardly legible: pale", "run into each other: \"one\" and \"two\"", "runs out of its drawing: outside", "broken"})
+  for (const char* expected :
+       {"wider than the screen", "type of 6.0 px: tiny", "hardly legible: pale",
+        "run into each other: \"one\" and \"two\"", "runs out of its drawing: outside", "broken"})
     EXPECT_NE(all.find(expected), std::string::npos) << expected << " in\n" << all;
 }
 

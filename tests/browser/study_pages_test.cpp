@@ -13,8 +13,8 @@ TEST(StudyPages, HaveNoFaults) {
   if (const std::string why = palpa::test::Browser::whyNot(); !why.empty()) GTEST_SKIP() << why;
   palpa::test::Browser browser;
   const auto folder = palpa::test::freshFolder("browser", "studies");
-  for (const auto& [name, result] :
-       {std::pair{"pilot.html", test::pilotResult()}, std::pair{"search.html", test::searchResult()}}) {
+  for (const auto& [name, result] : {std::pair{"pilot.html", test::pilotResult()},
+                                     std::pair{"search.html", test::searchResult()}}) {
     writeStudyReport({result, {{"Protocol", "protocol.json", ""}}}, folder / name);
     for (const std::string& fault : palpa::test::faultsOf(browser, folder / name))
       ADD_FAILURE() << fault;

@@ -4,7 +4,9 @@
 
 namespace palpa::test {
 
-inline bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+inline bool says(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
 
 /// A tool calibration that is in order.
 inline station::CalibrationFile aCalibration() {
@@ -15,8 +17,12 @@ inline station::CalibrationFile aCalibration() {
   c.made_by = "palpa calibrate tool";
   c.simulated = true;
   c.valid_days = 90;
-  addPose(c, "X_ET", makePose(Mat3(Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix()), Vec3(0.001, -0.002, 0.11)));
-  for (const char* name : {"turn_x_rad", "turn_y_rad", "turn_z_rad", "shift_x_m", "shift_y_m", "shift_z_m"}) c.coordinates.push_back(name);
+  addPose(c, "X_ET",
+          makePose(Mat3(Eigen::AngleAxisd(0.3, Vec3(1, 2, 3).normalized()).toRotationMatrix()),
+                   Vec3(0.001, -0.002, 0.11)));
+  for (const char* name :
+       {"turn_x_rad", "turn_y_rad", "turn_z_rad", "shift_x_m", "shift_y_m", "shift_z_m"})
+    c.coordinates.push_back(name);
   c.covariance = 1e-9 * Eigen::MatrixXd::Identity(6, 6);
   c.covariance(0, 3) = c.covariance(3, 0) = 2e-10;
   c.residuals = {"m", 1.5e-4, {1e-4, 2e-4, 0.1 / 3}, {2}};

@@ -16,7 +16,9 @@ namespace {
 using test::aCalibration;
 using test::says;
 
-void write(const std::filesystem::path& file, const std::string& text) { std::ofstream(file, std::ios::binary) << text; }
+void write(const std::filesystem::path& file, const std::string& text) {
+  std::ofstream(file, std::ios::binary) << text;
+}
 
 std::string whyRefused(const std::filesystem::path& file) {
   try {
@@ -45,7 +47,8 @@ TEST(CalibrationFile, ReadsBackToTheBit) {
 
 TEST(CalibrationFile, CameraReadsBack) {
   CalibrationFile c = aCalibration();
-  calibration::CameraModel camera{640, 480, 602.125, 601.25, 322.5, 237.0625, {-0.21, 0.09, 0.0006, -0.0004, 0.001}, 0};
+  calibration::CameraModel camera{
+      640, 480, 602.125, 601.25, 322.5, 237.0625, {-0.21, 0.09, 0.0006, -0.0004, 0.001}, 0};
   c.kind = "camera";
   c.parameters.clear();
   addCamera(c, camera);
@@ -66,7 +69,8 @@ TEST(CalibrationFile, ForeignNewerEditedAndCutFilesAreTold) {
     write(file, text);
     return whyRefused(file);
   };
-  EXPECT_TRUE(says(replaced("palpa calibration", "another program's"), "is no calibration of this program"));
+  EXPECT_TRUE(says(replaced("palpa calibration", "another program's"),
+                   "is no calibration of this program"));
   EXPECT_TRUE(says(replaced("\"version\": 1", "\"version\": 9"), "version"));
   EXPECT_TRUE(says(replaced("\"verdict\": \"pass\"", "\"verdict\": \"good\""), "checksum"));
   EXPECT_TRUE(says(replaced("0.11", "0.12"), "checksum"));
@@ -93,7 +97,8 @@ TEST(CalibrationFile, WhatIsNoResultIsNotWritten) {
   refused([](CalibrationFile& c) { c.checks[0].value = std::nan(""); });
 }
 
-/// Any damage is told in one line that names the file, or leaves what is read as it was (a blank more or less).
+/// Any damage is told in one line that names the file, or leaves what is read as it was (a blank
+/// more or less).
 TEST(CalibrationFile, DamageIsToldAndNeverBelieved) {
   const test::ScratchFolder folder("calibration_file_damage");
   const std::filesystem::path file = folder / "tool.json";
@@ -105,9 +110,12 @@ TEST(CalibrationFile, DamageIsToldAndNeverBelieved) {
     std::string text = good;
     for (std::size_t hits = 1 + dice.below(3); hits > 0; --hits) {
       const std::size_t at = dice.below(text.size());
-      if (dice.below(4) == 0) text.erase(at, 1 + dice.below(40));
-      else if (dice.below(4) == 0) text.insert(at, text.substr(dice.below(text.size()), dice.below(60)));
-      else text[at] = static_cast<char>(dice.below(256));
+      if (dice.below(4) == 0)
+        text.erase(at, 1 + dice.below(40));
+      else if (dice.below(4) == 0)
+        text.insert(at, text.substr(dice.below(text.size()), dice.below(60)));
+      else
+        text[at] = static_cast<char>(dice.below(256));
     }
     write(file, text);
     try {

@@ -53,7 +53,8 @@ TEST(Calibrations, TellWhatIsWrong) {
 
 TEST(Calibrations, GrowOld) {
   EXPECT_EQ(outdatedOn(goodSet(), "2026-05-30T00:00:00Z"), "");
-  EXPECT_TRUE(says(outdatedOn(goodSet(), "2026-05-31T00:00:00Z"), "is outdated: made on 2026-03-01, good for 90 days"));
+  EXPECT_TRUE(says(outdatedOn(goodSet(), "2026-05-31T00:00:00Z"),
+                   "is outdated: made on 2026-03-01, good for 90 days"));
   std::vector<AppliedCalibration> set = goodSet();
   set[0].file.date = "yesterday";
   EXPECT_TRUE(says(outdatedOn(set, "2026-03-02T00:00:00Z"), "has no date"));
@@ -79,13 +80,17 @@ TEST(Calibrations, OfAForceSensorSetItsFilter) {
   CalibrationFile sensor = test::aCalibration();
   sensor.kind = "force-sensor";
   sensor.rests_on.clear();
-  sensor.parameters = {{"bias_force_N", {0.1, -0.2, 0.3}}, {"bias_torque_Nm", {0.01, 0.02, 0.03}}, {"tool_mass_kg", {0.031}}, {"tool_centre_m", {0, 0.001, 0.05}}};
+  sensor.parameters = {{"bias_force_N", {0.1, -0.2, 0.3}},
+                       {"bias_torque_Nm", {0.01, 0.02, 0.03}},
+                       {"tool_mass_kg", {0.031}},
+                       {"tool_centre_m", {0, 0.001, 0.05}}};
   const Station calibrated = withCalibrations(station, {applied(sensor, "abc")});
   EXPECT_EQ(calibrated.force_sensor->filter.bias.f_S, (Packed3{0.1, -0.2, 0.3}));
   EXPECT_EQ(calibrated.force_sensor->filter.bias.tau_S, (Packed3{0.01, 0.02, 0.03}));
   EXPECT_EQ(calibrated.force_sensor->filter.tool.mass, 0.031);
   EXPECT_EQ(calibrated.force_sensor->filter.tool.p_SM, (Packed3{0, 0.001, 0.05}));
-  EXPECT_EQ(calibrated.design.force_sensor->filter.tool.mass, station.force_sensor->filter.tool.mass);
+  EXPECT_EQ(calibrated.design.force_sensor->filter.tool.mass,
+            station.force_sensor->filter.tool.mass);
 }
 
 }  // namespace

@@ -7,7 +7,8 @@
 #include "calibration/hidden_markov.h"
 #include "haptics/tick.h"
 
-/// What was learned from recordings, in the loop that they come from: the tick's belief against the calibration's own recursion over what the tick recorded.
+/// What was learned from recordings, in the loop that they come from: the tick's belief against the
+/// calibration's own recursion over what the tick recorded.
 namespace palpa::calibrate {
 namespace {
 
@@ -36,9 +37,11 @@ calibration::HiddenMarkov asFitted(const LearnedModel& model) {
   m.variance.resize(kStates, kSubtaskFeatures);
   for (std::size_t k = 0; k < kStates; ++k) {
     const auto row = static_cast<Eigen::Index>(k);
-    m.transition.row(row) = Eigen::Map<const Eigen::RowVectorXd>(model.transition[k].data(), kStates);
+    m.transition.row(row) =
+        Eigen::Map<const Eigen::RowVectorXd>(model.transition[k].data(), kStates);
     m.mean.row(row) = Eigen::Map<const Eigen::RowVectorXd>(model.mean[k].data(), kSubtaskFeatures);
-    m.variance.row(row) = Eigen::Map<const Eigen::RowVectorXd>(model.variance[k].data(), kSubtaskFeatures);
+    m.variance.row(row) =
+        Eigen::Map<const Eigen::RowVectorXd>(model.variance[k].data(), kSubtaskFeatures);
   }
   return m;
 }
@@ -56,7 +59,8 @@ haptics::TickConfig learnedConfig() {
   haptics::Subtasks& parts = config.augmentations.subtasks;
   for (; parts.count < kStates; ++parts.count) {
     parts.each[parts.count].count = 1;
-    parts.each[parts.count].conditions[0] = {haptics::Cue::learned, haptics::Condition::Compare::equal, {}, 1.0 + parts.count, 0};
+    parts.each[parts.count].conditions[0] = {
+        haptics::Cue::learned, haptics::Condition::Compare::equal, {}, 1.0 + parts.count, 0};
   }
   return config;
 }
@@ -90,7 +94,8 @@ Flown fly(const haptics::TickConfig& config, int held_for, bool allowed) {
     reading.sequence = static_cast<std::uint64_t>(ms);
     reading.homed = 1;
     reading.p_DE = pack(wayAt(std::max(0, ms - held_for), config.floor.unit));
-    flown.ticks.push_back(haptics::tick(config, state, reading, nullptr, commands, reading.t_ns, {}, &floor));
+    flown.ticks.push_back(
+        haptics::tick(config, state, reading, nullptr, commands, reading.t_ns, {}, &floor));
     steps.add(flown.ticks.back());
   }
   flown.sequences = steps.take();
@@ -101,7 +106,7 @@ Flown fly(const haptics::TickConfig& config, int held_for, bool allowed) {
 int stateIn(const haptics::FlightRecord& record) {
   int state = -1;
   for (int k = 0; k < kStates; ++k)
-    if (record.subtasks >> k & 1) state = state < 0 ? k : kStates;   // never two
+    if (record.subtasks >> k & 1) state = state < 0 ? k : kStates;  // never two
   return state;
 }
 
@@ -115,7 +120,9 @@ TEST_P(LearnedTick, BelievesWhatTheCalibrationWould) {
   ASSERT_EQ(flown.sequences.size(), 1u);
   const Eigen::MatrixXd& steps = flown.sequences[0].features;
   ASSERT_GE(steps.rows(), 395);
-  for (int ms = 0; ms < kHeld + 9; ++ms) EXPECT_EQ(stateIn(flown.ticks[static_cast<std::size_t>(ms)]), -1) << "nothing is known yet: " << ms;
+  for (int ms = 0; ms < kHeld + 9; ++ms)
+    EXPECT_EQ(stateIn(flown.ticks[static_cast<std::size_t>(ms)]), -1)
+        << "nothing is known yet: " << ms;
   Eigen::VectorXd belief;
   std::array<int, kStates> seen{};
   int agree = 0;
@@ -129,7 +136,7 @@ TEST_P(LearnedTick, BelievesWhatTheCalibrationWould) {
     agree += said == expected;
   }
   for (const int times : seen) EXPECT_GT(times, 20);
-  EXPECT_GE(agree, steps.rows() - 2);   // the recording begins with a tick that has no velocity yet
+  EXPECT_GE(agree, steps.rows() - 2);  // the recording begins with a tick that has no velocity yet
 }
 
 INSTANTIATE_TEST_SUITE_P(CuesOffAndOn, LearnedTick, testing::Bool());

@@ -18,7 +18,8 @@ std::vector<calibration::TouchedPoint> touchedGrid() {
     for (int j = 0; j < 4; ++j)
       for (int k = 0; k < 4; ++k) {
         const Vec3 p(0.04 * i - 0.06, 0.04 * j - 0.06, 0.03 * k - 0.045), lever(0, 0, -0.11);
-        const Vec3 error(0.002 * std::sin(9 * p.y()), 0.001 * std::sin(12 * p.x() + 1), 0.0015 * std::cos(10 * p.z()));
+        const Vec3 error(0.002 * std::sin(9 * p.y()), 0.001 * std::sin(12 * p.x() + 1),
+                         0.0015 * std::cos(10 * p.z()));
         points.push_back({p + lever, p + error + lever, lever});
       }
   return points;
@@ -31,10 +32,14 @@ TEST(WorkspaceCorrection, InTheLoopIsTheMapThatWasFitted) {
     map.centre_D = Vec3(0.01, -0.02, 0.03);
     map.half_D = Vec3(0.06, 0.07, 0.05);
     map.coefficients.resize((order + 1) * (order + 2) * (order + 3) / 6, 3);
-    for (Eigen::Index k = 0; k < map.coefficients.rows(); ++k) map.coefficients.row(k) = 1e-3 * Vec3(std::sin(1.0 + 3.0 * static_cast<double>(k)), std::cos(2.0 * static_cast<double>(k)), 0.3).transpose();
+    for (Eigen::Index k = 0; k < map.coefficients.rows(); ++k)
+      map.coefficients.row(k) = 1e-3 * Vec3(std::sin(1.0 + 3.0 * static_cast<double>(k)),
+                                            std::cos(2.0 * static_cast<double>(k)), 0.3)
+                                           .transpose();
     const haptics::WorkspaceCorrection correction = CorrectedRig::asCorrection(map);
     for (const Vec3& p : {Vec3(0, 0, 0), Vec3(0.03, -0.05, 0.02), Vec3(-0.08, 0.01, 0.06)})
-      EXPECT_LT((unpack(haptics::corrected(correction, pack(p))) - map.corrected(p)).norm(), 1e-15) << order;
+      EXPECT_LT((unpack(haptics::corrected(correction, pack(p))) - map.corrected(p)).norm(), 1e-15)
+          << order;
   }
 }
 

@@ -17,15 +17,19 @@ using test::says;
 using Labels = std::vector<int>;
 
 double kappaOf(const Labels& a, const Labels& b) { return cohensKappa(contingencyOf(a, b)); }
-double randIndexOf(const Labels& a, const Labels& b) { return adjustedRandIndex(contingencyOf(a, b)); }
+double randIndexOf(const Labels& a, const Labels& b) {
+  return adjustedRandIndex(contingencyOf(a, b));
+}
 
 /// Two labelings whose contingency is that table.
 std::pair<Labels, Labels> labelsOf(const std::vector<std::vector<int>>& table) {
   std::pair<Labels, Labels> both;
   for (std::size_t i = 0; i < table.size(); ++i)
     for (std::size_t j = 0; j < table[i].size(); ++j) {
-      both.first.insert(both.first.end(), static_cast<std::size_t>(table[i][j]), static_cast<int>(i));
-      both.second.insert(both.second.end(), static_cast<std::size_t>(table[i][j]), static_cast<int>(j));
+      both.first.insert(both.first.end(), static_cast<std::size_t>(table[i][j]),
+                        static_cast<int>(i));
+      both.second.insert(both.second.end(), static_cast<std::size_t>(table[i][j]),
+                         static_cast<int>(j));
     }
   return both;
 }
@@ -53,7 +57,8 @@ TEST(Agreement, OfTablesCountedByHand) {
   // Of pairs: 190 + 10 + 45 + 105 = 350; 300 + 300 of rows; 435 + 190 of columns; 1225 of all.
   const double by_chance = 600.0 * 625 / 1225;
   EXPECT_NEAR(randIndexOf(a, b), (350 - by_chance) / (612.5 - by_chance), 1e-12);
-  // A textbook's six: {1,1,1,2,2,2} beside {1,1,2,2,3,3}: 2 pairs together, 6 and 3, 15 of all: E = 1.2.
+  // A textbook's six: {1,1,1,2,2,2} beside {1,1,2,2,3,3}: 2 pairs together, 6 and 3, 15 of all: E
+  // = 1.2.
   EXPECT_NEAR(randIndexOf({1, 1, 1, 2, 2, 2}, {1, 1, 2, 2, 3, 3}), (2 - 1.2) / (4.5 - 1.2), 1e-12);
   // There labels 1 and 3 have partners: p_o = 4/6, p_e = 2 * (3 * 2) / 36 = 1/3.
   EXPECT_NEAR(kappaOf({1, 1, 1, 2, 2, 2}, {1, 1, 2, 2, 3, 3}), 0.5, 1e-12);
@@ -64,7 +69,8 @@ TEST(Agreement, OfTablesCountedByHand) {
 TEST(Agreement, TheMatchingIsTheBestOfAll) {
   for (const std::uint64_t seed : {1u, 2u, 3u, 4u, 5u, 6u, 7u, 8u}) {
     const int rows = 2 + static_cast<int>(seed % 4), columns = 5;
-    const Contingency table = contingencyOf(randomLabels(rows, 60, seed), randomLabels(columns, 60, seed + 100));
+    const Contingency table =
+        contingencyOf(randomLabels(rows, 60, seed), randomLabels(columns, 60, seed + 100));
     const Labels matching = bestMatching(table);
     std::vector<bool> taken(static_cast<std::size_t>(columns), false);
     int met = 0, most = 0;
@@ -78,11 +84,14 @@ TEST(Agreement, TheMatchingIsTheBestOfAll) {
     std::iota(order.begin(), order.end(), 0);
     do {
       int sum = 0;
-      for (std::size_t i = 0; i < matching.size(); ++i) sum += table.counts(static_cast<Eigen::Index>(i), order[i]);
+      for (std::size_t i = 0; i < matching.size(); ++i)
+        sum += table.counts(static_cast<Eigen::Index>(i), order[i]);
       most = std::max(most, sum);
     } while (std::next_permutation(order.begin(), order.end()));
     EXPECT_EQ(met, most) << seed;
-    const Contingency other_way = contingencyOf(randomLabels(columns, 60, seed + 100), randomLabels(rows, 60, seed));   // more rows than columns
+    const Contingency other_way =
+        contingencyOf(randomLabels(columns, 60, seed + 100),
+                      randomLabels(rows, 60, seed));  // more rows than columns
     const Labels other_matching = bestMatching(other_way);
     EXPECT_EQ(std::count(other_matching.begin(), other_matching.end(), -1), columns - rows);
     EXPECT_NEAR(cohensKappa(other_way), cohensKappa(table), 1e-12);
@@ -94,7 +103,9 @@ TEST(Agreement, NamesDoNotMatter) {
   const Labels a = randomLabels(4, 500, 1);
   Labels b = a, renamed(a.size());
   for (std::size_t i = 0; i < a.size(); i += 7) b[i] = (b[i] + 1) % 4;
-  std::transform(b.begin(), b.end(), renamed.begin(), [](int label) { return std::vector<int>{30, -4, 12, 7}[static_cast<std::size_t>(label)]; });
+  std::transform(b.begin(), b.end(), renamed.begin(), [](int label) {
+    return std::vector<int>{30, -4, 12, 7}[static_cast<std::size_t>(label)];
+  });
   EXPECT_GT(kappaOf(a, b), 0.7);
   EXPECT_NEAR(kappaOf(a, renamed), kappaOf(a, b), 1e-12);
   EXPECT_NEAR(randIndexOf(a, renamed), randIndexOf(a, b), 1e-12);
@@ -107,7 +118,7 @@ TEST(Agreement, ByChanceIsNothing) {
   for (std::uint64_t seed = 0; seed < 20; ++seed) {
     const Labels a = randomLabels(4, 5000, seed), b = randomLabels(3, 5000, 50 + seed);
     EXPECT_LT(std::abs(randIndexOf(a, b)), 0.01);
-    EXPECT_GT(kappaOf(a, b), 0);   // the matching looks for it
+    EXPECT_GT(kappaOf(a, b), 0);  // the matching looks for it
     EXPECT_LT(kappaOf(a, b), 4 / std::sqrt(5000.0));
     index += randIndexOf(a, b) / 20;
   }
@@ -129,7 +140,10 @@ TEST(Agreement, WhereThereIsOneLabelOrAsManyAsSteps) {
 /// Labels that change at each of these steps.
 Labels changingAt(const Labels& boundaries, int steps) {
   Labels labels;
-  for (int t = 0; t < steps; ++t) labels.push_back(static_cast<int>(std::count_if(boundaries.begin(), boundaries.end(), [&](int b) { return b <= t; })) % 2);
+  for (int t = 0; t < steps; ++t)
+    labels.push_back(static_cast<int>(std::count_if(boundaries.begin(), boundaries.end(),
+                                                    [&](int b) { return b <= t; })) %
+                     2);
   return labels;
 }
 
@@ -154,13 +168,15 @@ TEST(Agreement, OfBoundaries) {
 
 TEST(Agreement, ABoundaryIsMetOnce) {
   EXPECT_EQ(boundaryAgreement(changingAt({48, 50, 52}, 100), changingAt({50}, 100), 5).met, 1);
-  EXPECT_EQ(boundaryAgreement(changingAt({48, 54}, 100), changingAt({44, 50}, 100), 4).met, 2);   // not 48 to 50, which is nearer
+  EXPECT_EQ(boundaryAgreement(changingAt({48, 54}, 100), changingAt({44, 50}, 100), 4).met,
+            2);  // not 48 to 50, which is nearer
 }
 
 TEST(Agreement, OfNoBoundaries) {
   const Labels none(100, 4), some = changingAt({30}, 100);
   EXPECT_EQ(boundaryAgreement(none, none, 3).f(), 1);
-  const BoundaryAgreement missed = boundaryAgreement(none, some, 3), wrong = boundaryAgreement(some, none, 3);
+  const BoundaryAgreement missed = boundaryAgreement(none, some, 3),
+                          wrong = boundaryAgreement(some, none, 3);
   EXPECT_EQ(missed.precision(), 1);
   EXPECT_EQ(missed.recall(), 0);
   EXPECT_EQ(missed.f(), 0);

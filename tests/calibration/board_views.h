@@ -13,7 +13,9 @@
 
 namespace palpa::calibration::test {
 
-inline CameraModel webcam() { return {640, 480, 540, 538, 331, 236, {-0.28, 0.09, 0.001, -0.0005, -0.01}, 0}; }
+inline CameraModel webcam() {
+  return {640, 480, 540, 538, 331, 236, {-0.28, 0.09, 0.001, -0.0005, -0.01}, 0};
+}
 
 /// 9 by 6 inner corners, `square` metres apart.
 inline std::vector<Vec3> chessboardCorners(double square = 0.025) {
@@ -39,9 +41,12 @@ inline std::vector<BoardView> boardViews(const ViewSetting& setting) {
   std::vector<BoardView> all;
   for (int i = 0; i < setting.count; ++i) {
     const double around = 2.4 * i, tilt = setting.tilt * (1 + 0.7 * std::sin(1.0 * i));
-    const Mat3 R = rotationOf(tilt * Vec3(std::cos(around), std::sin(around), 0)) * rotationOf(0.2 * std::sin(2.0 * i) * Vec3::UnitZ());
+    const Mat3 R = rotationOf(tilt * Vec3(std::cos(around), std::sin(around), 0)) *
+                   rotationOf(0.2 * std::sin(2.0 * i) * Vec3::UnitZ());
     const double far = setting.distance + 0.08 * std::sin(0.8 * i), aside = setting.wander * far;
-    const Pose X_CW = makePose(R, Vec3(aside * std::sin(1.7 * i), 0.8 * aside * std::cos(2.9 * i), far) - R * Vec3(0.1, 0.0625, 0));
+    const Pose X_CW =
+        makePose(R, Vec3(aside * std::sin(1.7 * i), 0.8 * aside * std::cos(2.9 * i), far) -
+                        R * Vec3(0.1, 0.0625, 0));
     BoardView view{"view " + std::to_string(i + 1), chessboardCorners(), {}};
     for (const Vec3& p : view.p_W) {
       const double du = normal(bits), dv = normal(bits);
@@ -69,20 +74,25 @@ inline void spoilView(BoardView* view) {
   for (auto& p : view->pixels) p += Eigen::Vector2d(3 * std::sin(p.x()), 4 * std::cos(p.y()));
 }
 
-/// cv::calibrateCamera of the same corners, with the same five coefficients; its rms as it reports it.
+/// cv::calibrateCamera of the same corners, with the same five coefficients; its rms as it reports
+/// it.
 inline CameraModel calibratedByOpenCv(const std::vector<BoardView>& views, int width, int height) {
   std::vector<std::vector<cv::Point3f>> boards;
   std::vector<std::vector<cv::Point2f>> pictures;
   for (const BoardView& view : views) {
     boards.emplace_back();
     pictures.emplace_back();
-    for (const Vec3& p : view.p_W) boards.back().emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.f);
-    for (const auto& p : view.pixels) pictures.back().emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
+    for (const Vec3& p : view.p_W)
+      boards.back().emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()), 0.f);
+    for (const auto& p : view.pixels)
+      pictures.back().emplace_back(static_cast<float>(p.x()), static_cast<float>(p.y()));
   }
   cv::Mat K, k;
   std::vector<cv::Mat> turns, shifts;
   const double rms = cv::calibrateCamera(boards, pictures, {width, height}, K, k, turns, shifts);
-  CameraModel model{width, height, K.at<double>(0, 0), K.at<double>(1, 1), K.at<double>(0, 2), K.at<double>(1, 2), {}, rms};
+  CameraModel model{
+      width, height, K.at<double>(0, 0), K.at<double>(1, 1), K.at<double>(0, 2), K.at<double>(1, 2),
+      {},    rms};
   for (int i = 0; i < 5; ++i) model.distortion[static_cast<std::size_t>(i)] = k.at<double>(i);
   return model;
 }

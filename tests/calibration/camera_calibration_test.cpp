@@ -14,19 +14,30 @@ using test::complaint;
 using test::says;
 using test::webcam;
 
-CameraCalibration calibrated(const std::vector<BoardView>& views) { return calibrateCamera(views, 640, 480); }
+CameraCalibration calibrated(const std::vector<BoardView>& views) {
+  return calibrateCamera(views, 640, 480);
+}
 
 std::string complaintOf(const std::vector<BoardView>& views) {
   return complaint([&] { calibrated(views); });
 }
 
 std::array<double, kLensNumbers> numbersOf(const CameraModel& m) {
-  return {m.fx, m.fy, m.cx, m.cy, m.distortion[0], m.distortion[1], m.distortion[2], m.distortion[3], m.distortion[4]};
+  return {m.fx,
+          m.fy,
+          m.cx,
+          m.cy,
+          m.distortion[0],
+          m.distortion[1],
+          m.distortion[2],
+          m.distortion[3],
+          m.distortion[4]};
 }
 
 TEST(CameraCalibration, OfPerfectCornersIsExact) {
   const CameraCalibration found = calibrated(boardViews({}));
-  for (std::size_t k = 0; k < kLensNumbers; ++k) EXPECT_NEAR(numbersOf(found.model)[k], numbersOf(webcam())[k], 1e-6) << k;
+  for (std::size_t k = 0; k < kLensNumbers; ++k)
+    EXPECT_NEAR(numbersOf(found.model)[k], numbersOf(webcam())[k], 1e-6) << k;
   EXPECT_LT(found.model.rms_px, 1e-8);
   EXPECT_EQ(found.fit.outliers(), 0);
   EXPECT_TRUE(found.leftOut().empty());
@@ -39,11 +50,13 @@ TEST(CameraCalibration, StatesItsErrorRightly) {
     EXPECT_EQ(found.determined, kLensNumbers);
     for (std::size_t k = 0; k < kLensNumbers; ++k, ++all) {
       inside += std::abs(numbersOf(found.model)[k] - numbersOf(webcam())[k]) <= found.half95[k];
-      EXPECT_DOUBLE_EQ(found.sd[k] * found.sd[k], found.covariance(static_cast<int>(k), static_cast<int>(k)));
+      EXPECT_DOUBLE_EQ(found.sd[k] * found.sd[k],
+                       found.covariance(static_cast<int>(k), static_cast<int>(k)));
     }
     EXPECT_NEAR(found.model.rms_px, 0.1 * std::sqrt(2), 0.015);
   }
-  EXPECT_GE(inside, 0.86 * all);   // the nine are correlated: about as many as 80 free ones, so three standard errors less than 95 %
+  EXPECT_GE(inside, 0.86 * all);  // the nine are correlated: about as many as 80 free ones, so
+                                  // three standard errors less than 95 %
 }
 
 TEST(CameraCalibration, ABadViewIsLeftOutAndNamed) {
@@ -65,11 +78,12 @@ TEST(CameraCalibration, SingleWrongCornersAreLeftOutAndTheirViewsKept) {
   const CameraCalibration found = calibrated(views);
   EXPECT_TRUE(found.leftOut().empty());
   for (const std::size_t v : {0u, 3u, 7u}) {
-    for (const std::size_t i : {5u, 20u, 41u}) EXPECT_FALSE(found.fit.good[54 * v + i]) << v << ' ' << i;
+    for (const std::size_t i : {5u, 20u, 41u})
+      EXPECT_FALSE(found.fit.good[54 * v + i]) << v << ' ' << i;
     EXPECT_GE(found.views[v].outliers, 3);
     EXPECT_LT(found.views[v].rms_px, 0.2);
   }
-  EXPECT_LE(found.fit.outliers(), 9 + 5);   // of 639 good ones a thousandth lies beyond the cut
+  EXPECT_LE(found.fit.outliers(), 9 + 5);  // of 639 good ones a thousandth lies beyond the cut
   EXPECT_GT(found.rms_all_px, 3 * found.model.rms_px);
   EXPECT_NEAR(found.model.fx, 540, 2);
 }
@@ -91,16 +105,21 @@ TEST(CameraCalibration, TellsWhereCornersWereSeenAndHowTheBoardWasTilted) {
     for (const int n : row) counted += n, cells += n > 0;
   int inside = 0;
   for (std::size_t v = 0, corner = 0; v < views.size(); ++v)
-    for (const auto& p : views[v].pixels) inside += found.fit.good[corner++] && p.x() >= -0.5 && p.y() >= -0.5 && p.x() < 639.5 && p.y() < 479.5;
+    for (const auto& p : views[v].pixels)
+      inside += found.fit.good[corner++] && p.x() >= -0.5 && p.y() >= -0.5 && p.x() < 639.5 &&
+                p.y() < 479.5;
   EXPECT_EQ(counted, inside);
   EXPECT_DOUBLE_EQ(found.covered, cells / 48.0);
   EXPECT_TRUE(found.warnings.empty()) << found.warnings.front();
-  for (std::size_t v = 0; v < views.size(); ++v) EXPECT_NEAR(found.views[v].tilt, 0.3 * (1 + 0.7 * std::sin(1.0 * static_cast<double>(v))), 0.01) << v;
+  for (std::size_t v = 0; v < views.size(); ++v)
+    EXPECT_NEAR(found.views[v].tilt, 0.3 * (1 + 0.7 * std::sin(1.0 * static_cast<double>(v))), 0.01)
+        << v;
   EXPECT_GT(found.tilt_spread, 0.2);
 }
 
 TEST(CameraCalibration, CornersInTheMiddleOnlyAreNoErrorButAWarning) {
-  const CameraCalibration found = calibrated(boardViews({.noise = 0.1, .tilt = 0.4, .distance = 0.8, .wander = 0.05, .count = 20}));
+  const CameraCalibration found = calibrated(
+      boardViews({.noise = 0.1, .tilt = 0.4, .distance = 0.8, .wander = 0.05, .count = 20}));
   ASSERT_FALSE(found.warnings.empty());
   EXPECT_TRUE(says(found.warnings.front(), "of the picture only")) << found.warnings.front();
   EXPECT_EQ(found.coverage[0][0], 0);

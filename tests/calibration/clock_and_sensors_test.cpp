@@ -12,7 +12,10 @@ namespace {
 using test::complaint;
 using test::says;
 
-Vec3 unsteady(double t) { return 0.03 * Vec3(std::sin(2.1 * t) + std::sin(5.3 * t + 1), std::cos(3.3 * t + 0.5), std::sin(1.3 * t) * std::cos(4.1 * t)); }
+Vec3 unsteady(double t) {
+  return 0.03 * Vec3(std::sin(2.1 * t) + std::sin(5.3 * t + 1), std::cos(3.3 * t + 0.5),
+                     std::sin(1.3 * t) * std::cos(4.1 * t));
+}
 
 template <class F>
 std::vector<TimedPoint> recorded(F path, double from, double to, double step) {
@@ -24,7 +27,8 @@ std::vector<TimedPoint> recorded(F path, double from, double to, double step) {
 TEST(ClockOffset, OfPerfectRecordingsAtUnequalRatesIsExact) {
   const Pose X_CD = makePose(rotationOf(Vec3(1, 2, -0.5)), Vec3(0, 0, 0.5));
   for (const double offset : {0.0413, -0.7, 1.2}) {
-    const auto camera = recorded([&](double t) -> Vec3 { return X_CD * unsteady(t + offset); }, 0.0, 15, 1 / 29.97);
+    const auto camera =
+        recorded([&](double t) -> Vec3 { return X_CD * unsteady(t + offset); }, 0.0, 15, 1 / 29.97);
     const auto device = recorded(unsteady, -2, 18, 0.001);
     const ClockOffset found = estimateClockOffset(camera, device);
     EXPECT_NEAR(found.offset, offset, 1e-6);
@@ -37,20 +41,37 @@ TEST(ClockOffset, WhatTheRecordingsCannotTellIsNamed) {
   const auto device = recorded(unsteady, 0, 15, 0.002);
   const auto still = recorded([](double) -> Vec3 { return {0.1, 0.2, 0.3}; }, 0, 15, 1 / 30.0);
   EXPECT_TRUE(says(complaint([&] { estimateClockOffset(still, device); }), "hardly any motion"));
-  const auto other = recorded([](double t) -> Vec3 { return 0.05 * Vec3(std::sin(0.9 * t * t / 5), std::cos(1.7 * t), std::sin(7 * t)); }, 0, 15, 1 / 30.0);
-  EXPECT_TRUE(says(complaint([&] { estimateClockOffset(other, device); }), "did not see the same motion")) << complaint([&] { estimateClockOffset(other, device); });
-  const auto swing = [](double t) -> Vec3 { return 0.05 * Vec3(std::sin(6 * t), 0.3 * std::cos(6 * t), 0); };
-  EXPECT_TRUE(says(complaint([&] { estimateClockOffset(recorded(swing, 3, 12, 1 / 30.0), recorded(swing, 0, 15, 0.002)); }), "repeats itself"));
-  EXPECT_TRUE(says(complaint([&] { estimateClockOffset(recorded(unsteady, 0, 1, 1 / 30.0), device); }), "too few"));
+  const auto other = recorded(
+      [](double t) -> Vec3 {
+        return 0.05 * Vec3(std::sin(0.9 * t * t / 5), std::cos(1.7 * t), std::sin(7 * t));
+      },
+      0, 15, 1 / 30.0);
+  EXPECT_TRUE(
+      says(complaint([&] { estimateClockOffset(other, device); }), "did not see the same motion"))
+      << complaint([&] { estimateClockOffset(other, device); });
+  const auto swing = [](double t) -> Vec3 {
+    return 0.05 * Vec3(std::sin(6 * t), 0.3 * std::cos(6 * t), 0);
+  };
+  EXPECT_TRUE(says(complaint([&] {
+                     estimateClockOffset(recorded(swing, 3, 12, 1 / 30.0),
+                                         recorded(swing, 0, 15, 0.002));
+                   }),
+                   "repeats itself"));
+  EXPECT_TRUE(
+      says(complaint([&] { estimateClockOffset(recorded(unsteady, 0, 1, 1 / 30.0), device); }),
+           "too few"));
   auto backwards = recorded(unsteady, 0, 15, 1 / 30.0);
   std::swap(backwards[5], backwards[6]);
   EXPECT_TRUE(says(complaint([&] { estimateClockOffset(backwards, device); }), "backwards"));
-  EXPECT_TRUE(says(complaint([&] { estimateClockOffset(recorded(unsteady, 100, 115, 1 / 30.0), device); }), "share too little time"));
+  EXPECT_TRUE(
+      says(complaint([&] { estimateClockOffset(recorded(unsteady, 100, 115, 1 / 30.0), device); }),
+           "share too little time"));
 }
 
 StaticReading reading(const Mat3& R, double mass = 0.15) {
   const Vec3 w = 9.80665 * mass * R.transpose() * -Vec3::UnitZ();
-  return {R, Vec3(0.3, -0.2, 0.5) + w, Vec3(0.01, 0.02, -0.005) + Vec3(0.002, -0.003, 0.06).cross(w)};
+  return {R, Vec3(0.3, -0.2, 0.5) + w,
+          Vec3(0.01, 0.02, -0.005) + Vec3(0.002, -0.003, 0.06).cross(w)};
 }
 Mat3 turned(int i) { return rotationOf(Vec3(1.1 * i, std::sin(2.0 * i), 0.4 * i)); }
 
@@ -81,11 +102,19 @@ TEST(ForceSensor, WhatTheReadingsCannotTellIsNamed) {
     for (int i = 0; i < 12; ++i) readings.push_back(make(i));
     return complaint([&] { calibrateForceSensor(readings, -Vec3::UnitZ()); });
   };
-  EXPECT_TRUE(says(of([](int i) { return reading(rotationOf(Vec3(0, 0, 0.5 * i))); }), "against the vertical"));
-  EXPECT_TRUE(says(of([](int i) { return reading(rotationOf(Vec3(0.35 * std::sin(1.0 * i), 0, 0))); }), "small arc"));
+  EXPECT_TRUE(says(of([](int i) { return reading(rotationOf(Vec3(0, 0, 0.5 * i))); }),
+                   "against the vertical"));
+  EXPECT_TRUE(
+      says(of([](int i) { return reading(rotationOf(Vec3(0.35 * std::sin(1.0 * i), 0, 0))); }),
+           "small arc"));
   EXPECT_TRUE(says(of([](int i) { return reading(turned(i), -0.15); }), "less than nothing"));
   EXPECT_TRUE(says(of([](int i) { return reading(turned(i), 0); }), "feels no weight"));
-  EXPECT_TRUE(says(of([](int i) { auto r = reading(turned(i)); if (i == 4) r.f_S.x() = std::nan(""); return r; }), "not a number"));
+  EXPECT_TRUE(says(of([](int i) {
+                     auto r = reading(turned(i));
+                     if (i == 4) r.f_S.x() = std::nan("");
+                     return r;
+                   }),
+                   "not a number"));
 }
 
 std::vector<TouchedPoint> grid(double bend, int heights = 3) {
@@ -112,7 +141,8 @@ TEST(WorkspaceMap, ADeviceThatIsRightIsLeftAsItIs) {
   auto points = grid(0);
   unsigned state = 5;
   for (TouchedPoint& p : points)
-    for (int k = 0; k < 3; ++k) p.p_G[k] += 2e-4 * (((state = state * 1664525u + 1013904223u) >> 16) % 2001 / 1000.0 - 1);
+    for (int k = 0; k < 3; ++k)
+      p.p_G[k] += 2e-4 * (((state = state * 1664525u + 1013904223u) >> 16) % 2001 / 1000.0 - 1);
   EXPECT_EQ(mapWorkspace(points).order, 0);
 }
 

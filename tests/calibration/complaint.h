@@ -21,6 +21,8 @@ std::string complaint(F f) {
   return "";
 }
 
-inline bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+inline bool says(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
 
 }  // namespace palpa::calibration::test

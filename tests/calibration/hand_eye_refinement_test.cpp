@@ -10,25 +10,32 @@
 namespace palpa::calibration {
 namespace {
 
-/// A tool with four tags, held before a webcam; pixel noise of `sigma_px`, the tag's pose as the corners tell it: noisy along the view.
+/// A tool with four tags, held before a webcam; pixel noise of `sigma_px`, the tag's pose as the
+/// corners tell it: noisy along the view.
 struct TagStation {
   CameraModel camera{640, 480, 602, 601, 322, 237, {-0.21, 0.09, 0, 0, 0}, 0};
-  Pose X_DW = makePose(rotationOf({1.5, 0.1, -0.1}), Vec3(0.01, 0.15, 0.2)), X_EM = makePose(rotationOf({-2.0, 0.05, 0}), Vec3(0, 0.03, -0.025));
+  Pose X_DW = makePose(rotationOf({1.5, 0.1, -0.1}), Vec3(0.01, 0.15, 0.2)),
+       X_EM = makePose(rotationOf({-2.0, 0.05, 0}), Vec3(0, 0.03, -0.025));
   std::vector<TagView> views;
   std::vector<HandEyeSample> poses;
 
   TagStation(int seed, double sigma_px, int count = 20) {
     std::mt19937_64 bits(static_cast<std::uint64_t>(seed));
-    const auto normal = [&bits] {   // sum of twelve: near enough, and the same on every machine
+    const auto normal = [&bits] {  // sum of twelve: near enough, and the same on every machine
       double sum = -6;
       for (int i = 0; i < 12; ++i) sum += static_cast<double>(bits() >> 11) * 0x1p-53;
       return sum;
     };
-    const auto normal3 = [&] { const double x = normal(), y = normal(), z = normal(); return Vec3(x, y, z); };
+    const auto normal3 = [&] {
+      const double x = normal(), y = normal(), z = normal();
+      return Vec3(x, y, z);
+    };
     const Pose X_CW = makePose(rotationOf({2.4, 0.05, 0.02}), Vec3(0, -0.05, 0.5));
     for (int i = 0; i < count; ++i) {
       // Where the marker is before the camera, facing it roughly.
-      const Pose X_CM = makePose(rotationOf(Vec3(3.14159 - 0.1, 0, 0)) * rotationOf(0.25 * normal3()), Vec3(0.05 * normal(), 0.04 * normal(), 0.5 + 0.04 * normal()));
+      const Pose X_CM =
+          makePose(rotationOf(Vec3(3.14159 - 0.1, 0, 0)) * rotationOf(0.25 * normal3()),
+                   Vec3(0.05 * normal(), 0.04 * normal(), 0.5 + 0.04 * normal()));
       TagView view;
       view.X_CW = X_CW;
       view.X_DE = X_DW * X_CW.inverse() * X_CM * X_EM.inverse();
@@ -36,10 +43,12 @@ struct TagStation {
         for (const double y : {-0.033, -0.003, 0.003, 0.033}) {
           view.p_M.push_back({x, y, 0});
           const double du = normal(), dv = normal();
-          view.pixels.push_back(camera.project(X_CM * view.p_M.back()) + sigma_px * Eigen::Vector2d(du, dv));
+          view.pixels.push_back(camera.project(X_CM * view.p_M.back()) +
+                                sigma_px * Eigen::Vector2d(du, dv));
         }
       Pose seen = X_CM;
-      seen.translation() += 2e-3 * sigma_px * normal() * X_CM.translation().normalized() + 1e-4 * sigma_px * normal3();
+      seen.translation() += 2e-3 * sigma_px * normal() * X_CM.translation().normalized() +
+                            1e-4 * sigma_px * normal3();
       seen.linear() = seen.linear() * rotationOf(0.01 * sigma_px * normal3());
       poses.push_back({view.X_DE, X_CW.inverse() * seen});
       views.push_back(std::move(view));
@@ -64,11 +73,13 @@ TEST(HandEyeRefinement, IsBetterThanThePosesAndSaysHowGood) {
     const RefinedHandEye found = refineHandEye(s.views, s.poses, s.camera);
     by_poses += (begun.X_DC * tip_W - s.X_DW * tip_W).squaredNorm();
     by_corners += (found.X_DW * tip_W - s.X_DW * tip_W).squaredNorm();
-    predicted += pointCovariance(found.X_DW, found.covariance.bottomRightCorner<6, 6>(), tip_W).trace();
+    predicted +=
+        pointCovariance(found.X_DW, found.covariance.bottomRightCorner<6, 6>(), tip_W).trace();
     EXPECT_LT(found.left_out_px, found.left_out_start_px);
   }
   EXPECT_LT(by_corners, by_poses);
-  EXPECT_LT(std::abs(std::log(by_corners / predicted)), 2 * std::log(1.5)) << std::sqrt(by_corners / predicted);
+  EXPECT_LT(std::abs(std::log(by_corners / predicted)), 2 * std::log(1.5))
+      << std::sqrt(by_corners / predicted);
 }
 
 TEST(HandEyeRefinement, AWrongPoseIsLeftOut) {

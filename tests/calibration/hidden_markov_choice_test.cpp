@@ -28,14 +28,15 @@ TEST(HiddenMarkovChoice, ProposesAsManyStatesAsWerePlanted) {
     for (const HeldOut& one : proposal.curve) {
       EXPECT_GT(one.standard_error, 0);
       EXPECT_LE(one.mean, proposal.curve[static_cast<std::size_t>(proposal.best - 1)].mean);
-      EXPECT_GE(one.bic, proposal.curve[static_cast<std::size_t>(states - 1)].bic);   // these steps are what BIC asks for
+      EXPECT_GE(one.bic, proposal.curve[static_cast<std::size_t>(states - 1)]
+                             .bic);  // these steps are what BIC asks for
     }
   }
 }
 
 /// Features that wander about their state's mean: first-order autoregressive.
 PlantedTrials wandering(HiddenMarkov m, double correlation, std::uint64_t seed) {
-  m.transition.diagonal().array() += 4;   // held for 100 steps
+  m.transition.diagonal().array() += 4;  // held for 100 steps
   m.transition /= 5;
   PlantedTrials planted = simulated(m, seed, 8, 1000);
   anatomy::RandomStream random(seed + 1);
@@ -67,10 +68,13 @@ TEST(HiddenMarkovChoice, StepsThatTellEachOtherNeedThinningAndRepeating) {
 }
 
 TEST(HiddenMarkovChoice, HalvesOfFewTrialsAreNeverEmpty) {
-  const std::size_t smallest[] = {1, 1, 2, 2, 2, 3, 4, 4, 4};   // of 2, 3 ... 10 trials
-  for (std::size_t trials = 2; trials <= 10; ++trials) EXPECT_EQ(smallestHalf(trials), smallest[trials - 2]) << trials;
+  const std::size_t smallest[] = {1, 1, 2, 2, 2, 3, 4, 4, 4};  // of 2, 3 ... 10 trials
+  for (std::size_t trials = 2; trials <= 10; ++trials)
+    EXPECT_EQ(smallestHalf(trials), smallest[trials - 2]) << trials;
   std::vector<int> begun;
-  const StatesProposal two = proposeStates(simulated(plantedModel(2, 4), 21, 2, 300).trials, 3, 7, 0, quick(), [&](int states) { begun.push_back(states); });
+  const StatesProposal two =
+      proposeStates(simulated(plantedModel(2, 4), 21, 2, 300).trials, 3, 7, 0, quick(),
+                    [&](int states) { begun.push_back(states); });
   EXPECT_EQ(begun, (std::vector<int>{1, 2, 3}));
   EXPECT_EQ(two.repeatable, 2);
   EXPECT_GT(two.curve[1].repeated, 0.8);
@@ -78,7 +82,12 @@ TEST(HiddenMarkovChoice, HalvesOfFewTrialsAreNeverEmpty) {
 
 TEST(HiddenMarkovChoice, WhatTheTrialsCannotTellIsNamed) {
   const std::vector<Eigen::MatrixXd> good = simulated(plantedModel(2, 3), 13, 4, 50).trials;
-  const auto proposalOf = [&](std::size_t trials, int most, int folds) { return complaint([&] { proposeStates({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(trials)}, most, 1, folds); }); };
+  const auto proposalOf = [&](std::size_t trials, int most, int folds) {
+    return complaint([&] {
+      proposeStates({good.begin(), good.begin() + static_cast<std::ptrdiff_t>(trials)}, most, 1,
+                    folds);
+    });
+  };
   EXPECT_EQ(proposalOf(4, 2, 0), "");
   EXPECT_EQ(proposalOf(2, 2, 0), "");
   EXPECT_TRUE(says(proposalOf(1, 2, 0), "1 trial is too few"));

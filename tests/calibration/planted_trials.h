@@ -20,8 +20,8 @@ struct PlantedTrials {
   }
 };
 
-/// States held for 20 steps in the mean, mostly left for the next one. Their features lie `apart` standard deviations from each other, the first about 0,
-/// the second in other units about 7.
+/// States held for 20 steps in the mean, mostly left for the next one. Their features lie `apart`
+/// standard deviations from each other, the first about 0, the second in other units about 7.
 inline HiddenMarkov plantedModel(int states, double apart) {
   HiddenMarkov m;
   m.start = Eigen::VectorXd::Constant(states, states > 1 ? 0.1 / (states - 1) : 1);
@@ -32,7 +32,8 @@ inline HiddenMarkov plantedModel(int states, double apart) {
   for (Eigen::Index k = 0; k < states; ++k) {
     m.transition(k, k) = 0.95;
     m.transition(k, (k + 1) % states) = states > 2 ? 0.04 : 0.05;
-    m.mean.row(k) << apart * static_cast<double>(k % 2), 7 + 1e-3 * apart * static_cast<double>(k / 2);
+    m.mean.row(k) << apart * static_cast<double>(k % 2),
+        7 + 1e-3 * apart * static_cast<double>(k / 2);
     m.variance.row(k) << 1, 1e-6;
   }
   return m;
@@ -45,15 +46,18 @@ inline int plantedDraw(const Eigen::VectorXd& chances, anatomy::RandomStream* ra
   return k;
 }
 
-inline PlantedTrials simulated(const HiddenMarkov& m, std::uint64_t seed, int trials = 8, int steps = 250) {
+inline PlantedTrials simulated(const HiddenMarkov& m, std::uint64_t seed, int trials = 8,
+                               int steps = 250) {
   anatomy::RandomStream random(seed);
   PlantedTrials all;
   for (int i = 0; i < trials; ++i) {
     Eigen::MatrixXd x(steps, m.mean.cols());
     std::vector<int> path;
     for (int t = 0; t < steps; ++t) {
-      path.push_back(plantedDraw(t == 0 ? m.start : Eigen::VectorXd(m.transition.row(path.back()).transpose()), &random));
-      for (Eigen::Index d = 0; d < x.cols(); ++d) x(t, d) = m.mean(path.back(), d) + std::sqrt(m.variance(path.back(), d)) * random.normal();
+      path.push_back(plantedDraw(
+          t == 0 ? m.start : Eigen::VectorXd(m.transition.row(path.back()).transpose()), &random));
+      for (Eigen::Index d = 0; d < x.cols(); ++d)
+        x(t, d) = m.mean(path.back(), d) + std::sqrt(m.variance(path.back(), d)) * random.normal();
     }
     all.trials.push_back(x);
     all.paths.push_back(path);
@@ -61,7 +65,8 @@ inline PlantedTrials simulated(const HiddenMarkov& m, std::uint64_t seed, int tr
   return all;
 }
 
-inline std::vector<int> mostLikelyOfAll(const HiddenMarkov& m, const std::vector<Eigen::MatrixXd>& trials) {
+inline std::vector<int> mostLikelyOfAll(const HiddenMarkov& m,
+                                        const std::vector<Eigen::MatrixXd>& trials) {
   std::vector<int> all;
   for (const Eigen::MatrixXd& t : trials) {
     const std::vector<int> path = mostLikely(m, t);

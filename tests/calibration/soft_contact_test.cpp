@@ -13,8 +13,8 @@ namespace {
 using haptics::HuntCrossley;
 
 struct Recording {
-  double depth = 0.012, slow = 0.5, fast = 3;   ///< m; Hz of the slowest and the fastest press
-  double offset = 0;                            ///< m that the surface is thought too high
+  double depth = 0.012, slow = 0.5, fast = 3;  ///< m; Hz of the slowest and the fastest press
+  double offset = 0;                           ///< m that the surface is thought too high
   double noise_N = 0, noise_m = 0;
   double seconds = 8;
 };
@@ -29,9 +29,11 @@ std::vector<PressSample> pressed(const HuntCrossley& law, const Recording& how, 
     const double t = 1e-3 * i, rate_Hz = how.slow + (how.fast - how.slow) * t / how.seconds;
     phase += 2 * std::numbers::pi * rate_Hz * 1e-3;
     const double depth = how.depth * (0.7 + 0.3 * std::sin(0.9 * t));
-    const double x = depth * 0.5 * (1 - std::cos(phase)) - 0.0005, speed = depth * 0.5 * std::sin(phase) * 2 * std::numbers::pi * rate_Hz;
+    const double x = depth * 0.5 * (1 - std::cos(phase)) - 0.0005,
+                 speed = depth * 0.5 * std::sin(phase) * 2 * std::numbers::pi * rate_Hz;
     const double f = x > 0 ? law.k * std::pow(x, law.m) * (1 + law.b / law.k * speed) : 0;
-    samples.push_back({x + how.offset + how.noise_m * normal(random), speed, f + how.noise_N * normal(random)});
+    samples.push_back(
+        {x + how.offset + how.noise_m * normal(random), speed, f + how.noise_N * normal(random)});
   }
   return samples;
 }
@@ -68,7 +70,8 @@ TEST(SoftContact, KnowsHowWellItIsTold) {
   int within = 0;
   const int runs = 40;
   for (int run = 0; run < runs; ++run) {
-    const SoftContact found = identifySoftContact(pressed(kSoft, how, 100u + static_cast<unsigned>(run)));
+    const SoftContact found =
+        identifySoftContact(pressed(kSoft, how, 100u + static_cast<unsigned>(run)));
     const Eigen::Vector4d half = 1.96 * found.covariance.diagonal().cwiseSqrt();
     within += std::abs(found.law.k - kSoft.k) < half[0];
     within += std::abs(found.law.b - kSoft.b) < half[1];
@@ -76,12 +79,13 @@ TEST(SoftContact, KnowsHowWellItIsTold) {
     within += std::abs(found.x0) < half[3];
     EXPECT_NEAR(found.rms, how.noise_N, 0.002);
   }
-  EXPECT_GE(within, 4 * runs * 88 / 100);   // binomial, 160 draws at 0.95: 0.88 is four standard deviations off
+  EXPECT_GE(within, 4 * runs * 88 /
+                        100);  // binomial, 160 draws at 0.95: 0.88 is four standard deviations off
 }
 
 TEST(SoftContact, WhileItIsPressedTheLawComesNear) {
   PressEstimator estimator(1);
-  const HuntCrossley gentle{2000, 300, 1.4};   // b x'/k below 0.03: there the linearisation holds
+  const HuntCrossley gentle{2000, 300, 1.4};  // b x'/k below 0.03: there the linearisation holds
   for (const PressSample& s : pressed(gentle, {})) estimator.add(s);
   EXPECT_NEAR(estimator.law().k, gentle.k, 0.02 * gentle.k);
   EXPECT_NEAR(estimator.law().m, gentle.m, 0.01);
@@ -107,7 +111,9 @@ std::string refusal(const std::vector<PressSample>& samples) {
 }
 
 TEST(SoftContact, DataThatCannotTellAreRefusedInWords) {
-  const auto says = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
+  const auto says = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
   const std::vector<PressSample> good = pressed(kSoft, {});
   Recording noisy;
   noisy.noise_N = 0.02;
@@ -130,7 +136,8 @@ TEST(SoftContact, DataThatCannotTellAreRefusedInWords) {
   Recording creeping = noisy;
   creeping.slow = creeping.fast = 0.05;
   creeping.seconds = 20;
-  EXPECT_TRUE(says(refusal(pressed(kSoft, creeping)), "speeds are too alike")) << refusal(pressed(kSoft, creeping));
+  EXPECT_TRUE(says(refusal(pressed(kSoft, creeping)), "speeds are too alike"))
+      << refusal(pressed(kSoft, creeping));
   for (PressSample& s : backwards) s.rate = -s.rate;
   EXPECT_TRUE(says(refusal(backwards), "gives back more")) << refusal(backwards);
 }

@@ -14,10 +14,12 @@ using haptics::Dahl;
 constexpr double kTick = 1e-3;
 
 struct Strokes {
-  double way = 0.03, slow_Hz = 0.4, fast_Hz = 1.5, seconds = 6, f_n = 1, swing_N = 0.3, noise_N = 0, noise_m = 0;
+  double way = 0.03, slow_Hz = 0.4, fast_Hz = 1.5, seconds = 6, f_n = 1, swing_N = 0.3, noise_N = 0,
+         noise_m = 0;
 };
 
-/// Back and forth along a line that is askew, over a surface whose normal force swings; the drag by Dahl's law in its differential form, in steps of a hundredth of a tick.
+/// Back and forth along a line that is askew, over a surface whose normal force swings; the drag by
+/// Dahl's law in its differential form, in steps of a hundredth of a tick.
 std::vector<SlideSample> stroked(const Dahl& law, const Strokes& how, unsigned seed = 1) {
   std::mt19937 random(seed);
   std::normal_distribution<double> normal;
@@ -25,11 +27,13 @@ std::vector<SlideSample> stroked(const Dahl& law, const Strokes& how, unsigned s
   std::vector<SlideSample> samples;
   double F = 0, phase = 0, x = 0;
   for (int i = 0; i < static_cast<int>(how.seconds / kTick); ++i) {
-    const double t = kTick * i, f_n = how.f_n + how.swing_N * std::sin(2.1 * t), limit = law.mu * f_n;
+    const double t = kTick * i, f_n = how.f_n + how.swing_N * std::sin(2.1 * t),
+                 limit = law.mu * f_n;
     constexpr int kParts = 100;
     const double from = x;
     for (int part = 0; part < kParts; ++part) {
-      phase += 2 * std::numbers::pi * (how.slow_Hz + (how.fast_Hz - how.slow_Hz) * t / how.seconds) * kTick / kParts;
+      phase += 2 * std::numbers::pi *
+               (how.slow_Hz + (how.fast_Hz - how.slow_Hz) * t / how.seconds) * kTick / kParts;
       const double to = 0.5 * how.way * (1 - std::cos(phase)), dx = to - x;
       F = std::clamp(F + law.sigma * dx * (1 - F / limit * (dx > 0 ? 1 : -1)), -limit, limit);
       x = to;
@@ -64,14 +68,17 @@ TEST(SurfaceFriction, KnowsHowWellItIsToldInNoise) {
   int within = 0;
   const int runs = 20;
   for (int run = 0; run < runs; ++run) {
-    const SurfaceFriction found = identifySurfaceFriction(stroked(kRubber, how, 10u + static_cast<unsigned>(run)), kTick);
+    const SurfaceFriction found =
+        identifySurfaceFriction(stroked(kRubber, how, 10u + static_cast<unsigned>(run)), kTick);
     const Vec3 half = 1.96 * found.covariance.diagonal().cwiseSqrt();
-    within += std::abs(found.law.mu - kRubber.mu) < half[0] + 0.001 * kRubber.mu;   // the difference of the two forms of the law
+    within += std::abs(found.law.mu - kRubber.mu) <
+              half[0] + 0.001 * kRubber.mu;  // the difference of the two forms of the law
     within += std::abs(found.law.sigma - kRubber.sigma) < half[1] + 0.005 * kRubber.sigma;
     within += std::abs(found.law.B - kRubber.B) < half[2] + 0.005 * kRubber.B;
     EXPECT_NEAR(found.rms, how.noise_N, 0.003);
   }
-  EXPECT_GE(within, 51);   // binomial, 60 draws at 0.95: three and a half standard deviations below 57
+  EXPECT_GE(within,
+            51);  // binomial, 60 draws at 0.95: three and a half standard deviations below 57
 }
 
 std::string refusalOf(const std::vector<SlideSample>& samples) {
@@ -84,7 +91,9 @@ std::string refusalOf(const std::vector<SlideSample>& samples) {
 }
 
 TEST(SurfaceFriction, DataThatCannotTellAreRefusedInWords) {
-  const auto says = [](const std::string& text, const char* words) { return text.find(words) != std::string::npos; };
+  const auto says = [](const std::string& text, const char* words) {
+    return text.find(words) != std::string::npos;
+  };
   EXPECT_TRUE(says(refusalOf({}), "too few"));
   Strokes once;
   once.slow_Hz = once.fast_Hz = 0.08;

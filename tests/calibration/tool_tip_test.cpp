@@ -33,15 +33,21 @@ TEST(TipCalibration, FindsTheTipOfPerfectDataExactly) {
 }
 
 TEST(TipCalibration, MotionAboutOneAxisIsNamedWithTheAxis) {
-  const std::string words = complaint([] { calibrateTip(pivoting({0, 0, 0.13}, 30 * kDegree, true)); });
+  const std::string words = complaint([] {
+    calibrateTip(pivoting({0, 0, 0.13}, 30 * kDegree, true));
+  });
   EXPECT_TRUE(says(words, "one axis only")) << words;
   EXPECT_TRUE(says(words, "(1.00, ") || says(words, "(-1.00, ")) << words;
 }
 
 TEST(TipCalibration, TooFewSamplesWanderingTipsAndNumbersThatAreNoneAreNamed) {
-  EXPECT_TRUE(says(complaint([] { calibrateTip(pivoting({0, 0, 0.1}, 0.5, false, 5)); }), "too few"));
+  EXPECT_TRUE(says(complaint([] {
+                     calibrateTip(pivoting({0, 0, 0.1}, 0.5, false, 5));
+                   }),
+                   "too few"));
   std::vector<Pose> wandering = pivoting({0, 0, 0.1}, 0.5);
-  for (std::size_t i = 0; i < wandering.size(); ++i) wandering[i].translation().x() += 0.02 * std::sin(static_cast<double>(i));
+  for (std::size_t i = 0; i < wandering.size(); ++i)
+    wandering[i].translation().x() += 0.02 * std::sin(static_cast<double>(i));
   EXPECT_TRUE(says(complaint([&] { calibrateTip(wandering); }), "wandered"));
   std::vector<Pose> broken = pivoting({0, 0, 0.1}, 0.5);
   broken[7].translation().y() = std::nan("");
@@ -61,16 +67,21 @@ TEST(TipCalibration, FourOfTenGrossErrorsAreNamed) {
   std::vector<Pose> poses = pivoting({0, 0, 0.1}, 0.5, false, 100);
   for (std::size_t i = 0; i < poses.size(); ++i) {
     poses[i].translation() += Vec3(noise(bits), noise(bits), noise(bits));
-    if (i % 5 < 2) poses[i].translation() += Vec3(0.03 * std::sin(3.1 * static_cast<double>(i)), 0.03 * std::cos(1.7 * static_cast<double>(i)), 0.02);
+    if (i % 5 < 2)
+      poses[i].translation() += Vec3(0.03 * std::sin(3.1 * static_cast<double>(i)),
+                                     0.03 * std::cos(1.7 * static_cast<double>(i)), 0.02);
   }
   EXPECT_TRUE(says(complaint([&] { calibrateTip(poses); }), "do not fit the others"));
 }
 
 std::vector<Pose> spinning(const Vec3& axis_E, double arc, double wander = 0) {
   std::vector<Pose> poses;
-  const Mat3 up = rotationWithZ(Vec3(0.3, 0.2, -1).normalized()) * rotationWithZ(axis_E).transpose();
+  const Mat3 up =
+      rotationWithZ(Vec3(0.3, 0.2, -1).normalized()) * rotationWithZ(axis_E).transpose();
   for (int i = 0; i < 50; ++i)
-    poses.push_back(makePose(rotationOf(wander * Vec3(std::sin(1.3 * i), std::cos(2.1 * i), 0)) * up * rotationOf(arc * i / 49 * axis_E), Vec3::Zero()));
+    poses.push_back(makePose(rotationOf(wander * Vec3(std::sin(1.3 * i), std::cos(2.1 * i), 0)) *
+                                 up * rotationOf(arc * i / 49 * axis_E),
+                             Vec3::Zero()));
   return poses;
 }
 
@@ -84,8 +95,11 @@ TEST(AxisCalibration, FindsTheNeedlesDirectionAndWhichWayItPoints) {
 }
 
 TEST(AxisCalibration, ShortArcsAndWobblesAreNamed) {
-  EXPECT_TRUE(says(complaint([] { calibrateAxis(spinning(Vec3::UnitZ(), 0.5), Vec3::UnitZ()); }), "spun by 29 degrees only"));
-  EXPECT_TRUE(says(complaint([] { calibrateAxis(spinning(Vec3::UnitZ(), 4, 0.15), Vec3::UnitZ()); }), "wandered"));
+  EXPECT_TRUE(says(complaint([] { calibrateAxis(spinning(Vec3::UnitZ(), 0.5), Vec3::UnitZ()); }),
+                   "spun by 29 degrees only"));
+  EXPECT_TRUE(
+      says(complaint([] { calibrateAxis(spinning(Vec3::UnitZ(), 4, 0.15), Vec3::UnitZ()); }),
+           "wandered"));
 }
 
 }  // namespace

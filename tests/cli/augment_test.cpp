@@ -6,17 +6,21 @@
 #include "csv_rows.h"
 #include "program.h"
 
-/// Cues added to the forces of needle and palpation: off by default, recorded, and no part of what is scored.
+/// Cues added to the forces of needle and palpation: off by default, recorded, and no part of what
+/// is scored.
 namespace palpa::cli_test {
 namespace {
 
 Row only(const std::vector<std::string>& arguments, const Folder& here, const std::string& out) {
   std::vector<std::string> all = arguments;
-  for (const char* word : {"--fast", "--no-views", "--quiet", "--operator", "expert", "--seed", "3", "--out"}) all.push_back(word);
+  for (const char* word :
+       {"--fast", "--no-views", "--quiet", "--operator", "expert", "--seed", "3", "--out"})
+    all.push_back(word);
   all.push_back(out);
   const Outcome outcome = palpa(all, here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  const std::vector<Row> rows = outcome.exit_code == 0 ? rowsOf(contentOf(here / (out + "/trials.csv"))) : std::vector<Row>{};
+  const std::vector<Row> rows =
+      outcome.exit_code == 0 ? rowsOf(contentOf(here / (out + "/trials.csv"))) : std::vector<Row>{};
   EXPECT_EQ(rows.size(), 1u);
   return rows.empty() ? Row{} : rows.front();
 }
@@ -32,16 +36,22 @@ double added(const Row& row) {
 std::string withoutParts(const std::string& name, const Folder& here) {
   const std::filesystem::path assets = std::filesystem::path(PALPA_SOURCE_DIR) / "assets";
   nlohmann::json task = nlohmann::json::parse(contentOf(assets / "tasks" / name));
-  for (const char* field : {"subtasks", "augmentations", "hysteresis", "limit_share"}) task.erase(field);
+  for (const char* field : {"subtasks", "augmentations", "hysteresis", "limit_share"})
+    task.erase(field);
   for (const char* field : {"materials", "expert_path", "lumps"})
-    if (task.contains(field)) task[field] = std::filesystem::weakly_canonical(assets / "tasks" / task[field].get<std::string>()).string();
+    if (task.contains(field))
+      task[field] =
+          std::filesystem::weakly_canonical(assets / "tasks" / task[field].get<std::string>())
+              .string();
   return here.file(name, task.dump());
 }
 
-/// Off, the parts are told and nothing is added: all else is as in a task that has none, to the last digit.
+/// Off, the parts are told and nothing is added: all else is as in a task that has none, to the
+/// last digit.
 void offIsAsIfTheyWereNot(const std::string& command, const std::string& task) {
   const Folder here;
-  const Row off = only({command, "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/" + task}, here, "off");
+  const Row off = only({command, "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/" + task},
+                       here, "off");
   const Row bare = only({command, "--task", withoutParts(task, here)}, here, "bare");
   EXPECT_EQ(off.at("AUGMENTED"), "0");
   EXPECT_EQ(added(off), 0);
@@ -52,10 +62,13 @@ void offIsAsIfTheyWereNot(const std::string& command, const std::string& task) {
 
 void onIsFeltAndRepeats(const std::string& command, const std::string& task) {
   const Folder here;
-  const Row on = only({command, "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/" + task, "--augment", "on"}, here, "on");
+  const Row on = only({command, "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/" + task,
+                       "--augment", "on"},
+                      here, "on");
   EXPECT_EQ(on.at("AUGMENTED"), "1");
   EXPECT_GT(added(on), 0.05);
-  EXPECT_TRUE(says(contentOf(here / "on/report.html"), "In 1 of 1 trial cues were added to the forces"));
+  EXPECT_TRUE(
+      says(contentOf(here / "on/report.html"), "In 1 of 1 trial cues were added to the forces"));
   const Outcome replay = palpa({"replay", "on/session.palpa"}, here.path());
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
   EXPECT_TRUE(says(replay.out, "The replay equals the record")) << replay.out;
@@ -63,13 +76,16 @@ void onIsFeltAndRepeats(const std::string& command, const std::string& task) {
 
 TEST(Augment, OffTheNeedleFeelsAsEver) { offIsAsIfTheyWereNot("train", "paracentesis.json"); }
 TEST(Augment, OnTheNeedleFeelsMore) { onIsFeltAndRepeats("train", "paracentesis.json"); }
-TEST(Augment, OffAPalpationFeelsAsEver) { offIsAsIfTheyWereNot("palpation", "palpation_prostate.json"); }
+TEST(Augment, OffAPalpationFeelsAsEver) {
+  offIsAsIfTheyWereNot("palpation", "palpation_prostate.json");
+}
 TEST(Augment, OnAPalpationFeelsMore) { onIsFeltAndRepeats("palpation", "palpation_prostate.json"); }
 
 TEST(Augment, OneTrialWithCuesCountsForNoStandard) {
   const Folder here;
   only({"palpation", "--preset", "prostate", "--augment", "on"}, here, "on");
-  EXPECT_TRUE(says(contentOf(here / "on/report.html"), "Not counted")) << "with cues more is felt than the tissue's own";
+  EXPECT_TRUE(says(contentOf(here / "on/report.html"), "Not counted"))
+      << "with cues more is felt than the tissue's own";
 }
 
 }  // namespace

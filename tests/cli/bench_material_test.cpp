@@ -21,7 +21,8 @@ Lines judgedLines(const Outcome& outcome) {
   for (std::string line; std::getline(text, line);) {
     lines.push_back(nlohmann::json::parse(line));
     EXPECT_EQ(lines.back()["params"]["data"], "simulated");
-    if (lines.back()["params"]["noise"] != "none" && !lines.back()["params"].contains("hands")) lines.pop_back();
+    if (lines.back()["params"]["noise"] != "none" && !lines.back()["params"].contains("hands"))
+      lines.pop_back();
   }
   return lines;
 }
@@ -30,7 +31,8 @@ Lines judgedLines(const Outcome& outcome) {
 std::vector<double> valuesOf(const Lines& lines, const std::string& metric, int contacts = 0) {
   std::vector<double> values;
   for (const auto& line : lines)
-    if (line["metric"] == metric && (contacts == 0 || line["params"]["contacts"] == contacts)) values.push_back(line["value"]);
+    if (line["metric"] == metric && (contacts == 0 || line["params"]["contacts"] == contacts))
+      values.push_back(line["value"]);
   return values;
 }
 
@@ -41,7 +43,8 @@ double worst(const Lines& lines, const std::string& metric) {
 
 /// One tool or two over every mock-up: of eight at most two err by more than 0.07.
 void expectLumps(const Lines& lines, int contacts) {
-  const std::vector<double> errors = valuesOf(lines, "inclusion_force_rel_rms", contacts), unrendered = valuesOf(lines, "inclusion_none_rel_rms", contacts);
+  const std::vector<double> errors = valuesOf(lines, "inclusion_force_rel_rms", contacts),
+                            unrendered = valuesOf(lines, "inclusion_none_rel_rms", contacts);
   ASSERT_EQ(errors.size(), test::counted<std::size_t>(3, 8));
   EXPECT_LE(std::count_if(errors.begin(), errors.end(), [](double e) { return e > 0.07; }), 2);
   for (std::size_t i = 0; i < errors.size(); ++i) {
@@ -73,10 +76,11 @@ TEST(BenchMaterial, HoldsWhatIsPromised) {
   EXPECT_EQ(valuesOf(lines, "har_tick_hot_median").size(), 1u);
   ASSERT_EQ(valuesOf(lines, "har_tick_pushed").size(), 1u);
   EXPECT_GE(valuesOf(lines, "har_tick_pushed")[0], 0.9) << "what was timed did something";
-  EXPECT_EQ(valuesOf(lines, "hand_still_mm_s").size(), 26u);   // two devices; seven modulations under one tool, six between two
+  EXPECT_EQ(valuesOf(lines, "hand_still_mm_s").size(),
+            26u);  // two devices; seven modulations under one tool, six between two
   ASSERT_EQ(valuesOf(lines, "held_object_slid_mm").size(), 1u);
   EXPECT_LE(worst(lines, "held_object_slid_mm"), 6) << "it was held";
-  EXPECT_LE(worst(lines, "hand_still_mm_s"), 2);               // nothing swings on and on: that would be tens
+  EXPECT_LE(worst(lines, "hand_still_mm_s"), 2);  // nothing swings on and on: that would be tens
   EXPECT_LE(worst(lines, "hand_gained_mJ"), 0.1);
   EXPECT_LE(worst(lines, "hand_largest_force"), 8);
 }

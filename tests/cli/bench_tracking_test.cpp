@@ -7,7 +7,8 @@
 #include "program.h"
 #include "tests/support/counts.h"
 
-/// What the tracker promises, measured as anyone can. Costs are no promises: they are not looked at here.
+/// What the tracker promises, measured as anyone can. Costs are no promises: they are not looked at
+/// here.
 namespace palpa::cli_test {
 namespace {
 
@@ -33,7 +34,7 @@ TEST(BenchTracking, HoldsWhatIsPromised) {
   EXPECT_LE(value.at("recovery_frames"), 2);
   EXPECT_EQ(value.at("false_poses"), 0);
   EXPECT_EQ(value.at("flip_rate"), 0);
-  EXPECT_TRUE(value.contains("roi_speedup"));   // a cost: shown, not judged here
+  EXPECT_TRUE(value.contains("roi_speedup"));  // a cost: shown, not judged here
 }
 
 }  // namespace

@@ -15,11 +15,15 @@ namespace {
 
 constexpr int kFrames = 12;
 
-nlohmann::json shippedStation(const std::string& name) { return nlohmann::json::parse(contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/stations/" + name)); }
+nlohmann::json shippedStation(const std::string& name) {
+  return nlohmann::json::parse(
+      contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/stations/" + name));
+}
 
 /// What the bench's camera sees before anybody does anything.
 std::vector<cv::Mat> benchPictures() {
-  twin::SetupBench bench(station::readStation(station::assetFile("stations/virtual_bench.json")), 3);
+  twin::SetupBench bench(station::readStation(station::assetFile("stations/virtual_bench.json")),
+                         3);
   std::vector<cv::Mat> taken;
   while (taken.size() < kFrames)
     if (const auto moment = bench.next(); moment && moment->picture)
@@ -30,7 +34,7 @@ std::vector<cv::Mat> benchPictures() {
 }  // namespace
 
 BrokenBench::BrokenBench() {
-  set("LC_ALL", "C.UTF-8");   // of this computer's own state only what a test is about
+  set("LC_ALL", "C.UTF-8");  // of this computer's own state only what a test is about
   set("XDG_STATE_HOME", (here_ / "state").string());
   set("XDG_CONFIG_HOME", (here_ / "config").string());
 }
@@ -56,7 +60,8 @@ void BrokenBench::computer(const std::string& fault) {
   set("PALPA_FAULT", fault);
 }
 
-void BrokenBench::station(const std::function<void(nlohmann::json&)>& change, const std::string& shipped) {
+void BrokenBench::station(const std::function<void(nlohmann::json&)>& change,
+                          const std::string& shipped) {
   nlohmann::json station = shippedStation(shipped);
   change(station);
   ask("--station", here_.file("station.json", station.dump()));
@@ -79,7 +84,8 @@ void BrokenBench::film(const std::function<std::int64_t(int)>& exposed_ns) {
   for (const cv::Mat& picture : benchPictures()) {
     std::vector<std::uint8_t> jpeg;
     cv::imencode(".jpg", picture, jpeg, {cv::IMWRITE_JPEG_QUALITY, 98});
-    film.write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
+    film.write(reinterpret_cast<const char*>(jpeg.data()),
+               static_cast<std::streamsize>(jpeg.size()));
     table << i << ',' << exposed_ns(i) << '\n';
     ++i;
   }
@@ -90,9 +96,11 @@ void BrokenBench::sensor(std::uint32_t step, std::uint32_t status) {
   sensor_ = std::make_unique<haptics::FakeNetFt>(haptics::recordBytes(1, 100, status));
   sender_ = std::thread([this, step, status] {
     const runtime::SteadyClock clock;
-    while (!over_ && sensor_->requests().empty()) clock.sleepUntil(clock.now() + runtime::kMillisecond);
-    std::uint32_t number = 1;   // what it answered to the request
-    for (std::int64_t due = clock.now() + 5 * runtime::kMillisecond; !over_; due += runtime::kMillisecond) {
+    while (!over_ && sensor_->requests().empty())
+      clock.sleepUntil(clock.now() + runtime::kMillisecond);
+    std::uint32_t number = 1;  // what it answered to the request
+    for (std::int64_t due = clock.now() + 5 * runtime::kMillisecond; !over_;
+         due += runtime::kMillisecond) {
       clock.sleepUntil(due);
       number += step;
       sensor_->send(haptics::recordBytes(number, 100 + number, status));
@@ -104,18 +112,30 @@ void BrokenBench::sensor(std::uint32_t step, std::uint32_t status) {
 void BrokenBench::sensorAt(int port) {
   const nlohmann::json nowhere = {0, 0, 0};
   station([&](nlohmann::json& s) {
-    s["force_sensor"] = {{"driver", "net_ft"}, {"name", "six axes"}, {"address", "127.0.0.1"}, {"port", port}, {"counts_per_N", 1000000}, {"counts_per_Nm", 1000000},
-                         {"max_force_N", {40, 40, 120}}, {"cutoff_Hz", 60}, {"X_ES", {{"position_mm", {0, 0, 80}}, {"rotation_vector_deg", nowhere}}},
-                         {"tool", {{"mass_g", 30}, {"centre_mm", {0, 0, 20}}}}, {"bias", {{"force_N", nowhere}, {"torque_Nm", nowhere}}}};
+    s["force_sensor"] = {{"driver", "net_ft"},
+                         {"name", "six axes"},
+                         {"address", "127.0.0.1"},
+                         {"port", port},
+                         {"counts_per_N", 1000000},
+                         {"counts_per_Nm", 1000000},
+                         {"max_force_N", {40, 40, 120}},
+                         {"cutoff_Hz", 60},
+                         {"X_ES", {{"position_mm", {0, 0, 80}}, {"rotation_vector_deg", nowhere}}},
+                         {"tool", {{"mass_g", 30}, {"centre_mm", {0, 0, 20}}}},
+                         {"bias", {{"force_N", nowhere}, {"torque_Nm", nowhere}}}};
   });
 }
 
-std::filesystem::path BrokenBench::calibration(const std::function<void(station::CalibrationFile&)>& change) {
+std::filesystem::path BrokenBench::calibration(
+    const std::function<void(station::CalibrationFile&)>& change) {
   station::AppliedCalibration tool;
   station::CalibrationFile& file = tool.file;
-  file.kind = "tool", file.station = "virtual-bench", file.date = "2026-03-01T12:30:00Z", file.made_by = "palpa calibrate tool", file.valid_days = 36'500, file.verdict = "pass";
+  file.kind = "tool", file.station = "virtual-bench", file.date = "2026-03-01T12:30:00Z",
+  file.made_by = "palpa calibrate tool", file.valid_days = 36'500, file.verdict = "pass";
   station::addPose(file, "X_ET", makePose(Mat3::Identity(), Vec3(0, 0, 0.11)));
-  for (const char* name : {"turn_x_rad", "turn_y_rad", "turn_z_rad", "shift_x_m", "shift_y_m", "shift_z_m"}) file.coordinates.push_back(name);
+  for (const char* name :
+       {"turn_x_rad", "turn_y_rad", "turn_z_rad", "shift_x_m", "shift_y_m", "shift_z_m"})
+    file.coordinates.push_back(name);
   file.covariance = 1e-9 * Eigen::MatrixXd::Identity(6, 6);
   file.residuals = {"m", 1e-4, {1e-4, 1e-4}, {}};
   file.data = {300, 300, "recorded files", {}};

@@ -15,7 +15,8 @@
 
 namespace palpa::cli_test {
 
-/// A bench on which something is broken before `palpa doctor` is asked: files, pictures, a sensor on the loopback, the system's own answers.
+/// A bench on which something is broken before `palpa doctor` is asked: files, pictures, a sensor
+/// on the loopback, the system's own answers.
 class BrokenBench {
  public:
   BrokenBench();
@@ -24,21 +25,26 @@ class BrokenBench {
   BrokenBench& operator=(const BrokenBench&) = delete;
 
   const Folder& here() const { return here_; }
-  void ask(const std::string& option, const std::string& value);   ///< of doctor
-  void records(const std::string& url) { records_ = url; }         ///< in place of records.sqlite in its folder
-  void set(const std::string& variable, const std::string& value); ///< of the environment, to this bench's end
+  void ask(const std::string& option, const std::string& value);  ///< of doctor
+  void records(const std::string& url) {
+    records_ = url;
+  }  ///< in place of records.sqlite in its folder
+  void set(const std::string& variable,
+           const std::string& value);  ///< of the environment, to this bench's end
 
   /// One of the answers of tests/computer_faults.
   void computer(const std::string& fault);
   /// The virtual bench's station file with a change, or a shipped one.
-  void station(const std::function<void(nlohmann::json&)>& change, const std::string& shipped = "virtual_bench.json");
-  /// The bench's pictures in place of its camera's, spoilt by `change` (0: the first of twelve), as files.
+  void station(const std::function<void(nlohmann::json&)>& change,
+               const std::string& shipped = "virtual_bench.json");
+  /// The bench's pictures in place of its camera's, spoilt by `change` (0: the first of twelve), as
+  /// files.
   void pictures(const std::function<void(cv::Mat&, int)>& change);
   /// The same as a film whose pictures were exposed at these times.
   void film(const std::function<std::int64_t(int)>& exposed_ns);
   /// A Net F/T that sends a thousand records a second: every `step`th number, with this status.
   void sensor(std::uint32_t step, std::uint32_t status);
-  void sensorAt(int port);   ///< where nobody need answer
+  void sensorAt(int port);  ///< where nobody need answer
   /// A tool calibration, in order but for `change`, to which the station's file refers; its file.
   std::filesystem::path calibration(const std::function<void(station::CalibrationFile&)>& change);
 

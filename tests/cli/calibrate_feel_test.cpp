@@ -27,14 +27,17 @@ json found(const std::string& kind, const std::vector<std::string>& more, const 
   return json::parse(contentOf(here / (kind + "/" + kind + ".json")));
 }
 
-/// Judged by presses and strokes that were not used; and the figures are those of silicone of 7 kPa under a tip of 8 mm, whose surface rubs with 0.35.
+/// Judged by presses and strokes that were not used; and the figures are those of silicone of 7 kPa
+/// under a tip of 8 mm, whose surface rubs with 0.35.
 TEST(CalibrateFeel, OnTheVirtualBench) {
   for (int seed = 1; seed <= test::counted(1, 8); ++seed) {
     const Folder here;
     const std::string number = std::to_string(seed);
-    const json material = found("material", {"--seed", number}, here), friction = found("friction", {"--seed", number}, here);
+    const json material = found("material", {"--seed", number}, here),
+               friction = found("friction", {"--seed", number}, here);
     ASSERT_FALSE(material.is_null() || friction.is_null());
-    const double at_5_mm = parameter(material, "k_N_per_m_to_the_m") * std::pow(5e-3, parameter(material, "m"));
+    const double at_5_mm =
+        parameter(material, "k_N_per_m_to_the_m") * std::pow(5e-3, parameter(material, "m"));
     EXPECT_GT(at_5_mm, 0.3) << seed;
     EXPECT_LT(at_5_mm, 0.7) << seed;
     EXPECT_GE(parameter(material, "m"), 1) << seed;
@@ -49,9 +52,11 @@ TEST(CalibrateFeel, OnTheVirtualBench) {
 TEST(CalibrateFeel, SessionsGoByTheStationsOwnSample) {
   const Folder here;
   ASSERT_FALSE(found("material", {"--seed", "2"}, here).is_null());
-  ASSERT_FALSE(found("friction", {"--seed", "2", "--station", "material/station.json"}, here).is_null());
+  ASSERT_FALSE(
+      found("friction", {"--seed", "2", "--station", "material/station.json"}, here).is_null());
   const auto report = [&here](const std::string& out, std::vector<std::string> more) {
-    std::vector<std::string> arguments{"squeeze", "--operator", "expert", "--fast", "--no-views", "--quiet", "--out", out};
+    std::vector<std::string> arguments{"squeeze",    "--operator", "expert", "--fast",
+                                       "--no-views", "--quiet",    "--out",  out};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = palpa(arguments, here.path());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
@@ -73,7 +78,10 @@ TEST(CalibrateFeel, ALumpOnTheVirtualBench) {
     if (!test::fullCounts()) break;
   }
   const Folder here;
-  EXPECT_EQ(palpa({"calibrate", "inclusion", "--mockup", "plain", "--out", "A", "--quiet"}, here.path()).exit_code, 2);
+  EXPECT_EQ(
+      palpa({"calibrate", "inclusion", "--mockup", "plain", "--out", "A", "--quiet"}, here.path())
+          .exit_code,
+      2);
 }
 
 /// Presses by a law of Hunt and Crossley: f(x, x') z, times rising evenly by a millisecond.
@@ -86,7 +94,10 @@ struct Presses {
     double before = 0;
     for (int i = 0; i < 12000; ++i) {
       const double t = 1e-3 * i, f_Hz = slow_only > 0 ? slow_only : 0.5 + 0.1 * t;
-      const double depth = (slow_only > 0 ? 5e-3 : 3e-3 + 4e-4 * t) * 0.5 * (1 - std::cos(6.2831853 * f_Hz * t)) - 2e-4, rate = (depth - before) / 1e-3;
+      const double depth = (slow_only > 0 ? 5e-3 : 3e-3 + 4e-4 * t) * 0.5 *
+                               (1 - std::cos(6.2831853 * f_Hz * t)) -
+                           2e-4,
+                   rate = (depth - before) / 1e-3;
       before = depth;
       const double f = depth > 0 ? std::max(0.0, std::pow(depth, m) * (k + b * rate)) : 0;
       csv << t << ",0,0," << -1e3 * depth << ",0,0," << sign * std::min(f, most_N) << '\n';
@@ -98,7 +109,8 @@ struct Presses {
 TEST(CalibrateFeel, MaterialFromRecordedPresses) {
   const Folder here;
   here.file("presses.csv", Presses{}.table());
-  const Outcome outcome = palpa({"calibrate", "material", "--presses", "presses.csv", "--out", "A", "--quiet"}, here.path());
+  const Outcome outcome = palpa(
+      {"calibrate", "material", "--presses", "presses.csv", "--out", "A", "--quiet"}, here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_FALSE(says(outcome.out, "simulated"));
   const json file = json::parse(contentOf(here / "A/material.json"));
@@ -113,7 +125,9 @@ TEST(CalibrateFeel, RefusesWhatCannotTellALaw) {
     const Folder here;
     here.file("presses.csv", table);
     const std::vector<std::string> before = here.files();
-    const Outcome outcome = palpa({"calibrate", "material", "--presses", "presses.csv", "--out", "A", "--quiet"}, here.path());
+    const Outcome outcome =
+        palpa({"calibrate", "material", "--presses", "presses.csv", "--out", "A", "--quiet"},
+              here.path());
     EXPECT_EQ(outcome.exit_code, 1) << words;
     EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
     EXPECT_TRUE(says(outcome.err, words)) << outcome.err;
@@ -127,7 +141,10 @@ TEST(CalibrateFeel, RefusesWhatCannotTellALaw) {
   refused(saturated.table(), "saturated");
   refused(flipped.table(), "sign");
   refused("t_s,x_mm,y_mm,z_mm,force_x_N,force_y_N,force_z_N\n0,0,0,0,0,0,0\n", "fewer than two");
-  refused("t_s,x_mm,y_mm,z_mm,force_x_N,force_y_N,force_z_N\n0,0,0,0,0,0,0\n0.001,0,0,0,0,0,0\n0.010,0,0,0,0,0,0\n", "not even");
+  refused(
+      "t_s,x_mm,y_mm,z_mm,force_x_N,force_y_N,force_z_N\n0,0,0,0,0,0,0\n0.001,0,0,0,0,0,0\n0.010,0,"
+      "0,0,0,0,0\n",
+      "not even");
   refused("t_s,x,y,z,force_x_N,force_y_N,force_z_N\n0,0,0,0,0,0,0\n0.001,0,0,0,0,0,0\n", "x_m");
 }
 
@@ -135,7 +152,9 @@ TEST(CalibrateFeel, ALumpThatNobodySawMoveIsRefused) {
   const Folder here;
   const std::string table = Presses{}.table();
   for (const char* name : {"without.csv", "above.csv", "check.csv"}) here.file(name, table);
-  const std::vector<std::string> arguments{"calibrate", "inclusion", "--without", "without.csv", "--above", "above.csv", "--check", "check.csv", "--depth-mm", "14", "--out", "A", "--quiet"};
+  const std::vector<std::string> arguments{
+      "calibrate", "inclusion",  "--without", "without.csv", "--above", "above.csv", "--check",
+      "check.csv", "--depth-mm", "14",        "--out",       "A",       "--quiet"};
   const Outcome outcome = palpa(arguments, here.path());
   EXPECT_EQ(outcome.exit_code, 1);
   EXPECT_EQ(outcome.errLines(), 1) << outcome.err;

@@ -5,7 +5,8 @@
 
 #include "program.h"
 
-/// A task's parts proposed from sessions that the program itself has recorded, as an educator has them proposed.
+/// A task's parts proposed from sessions that the program itself has recorded, as an educator has
+/// them proposed.
 namespace palpa::cli_test {
 namespace {
 
@@ -13,41 +14,65 @@ using nlohmann::json;
 
 TEST(CalibrateSubtasks, FromARecordedSearch) {
   const Folder here;
-  const Outcome search = palpa({"search", "--operator", "expert", "--mode", "real", "--trials", "3", "--seed", "70001", "--fast", "--no-views", "--quiet", "--out", "search"}, here.path());
+  const Outcome search =
+      palpa({"search", "--operator", "expert", "--mode", "real", "--trials", "3", "--seed", "70001",
+             "--fast", "--no-views", "--quiet", "--out", "search"},
+            here.path());
   ASSERT_EQ(search.exit_code, 0) << search.err;
-  const auto proposed = [&](const std::string& out) { return palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "4", "--seed", "3", "--quiet", "--out", out}, here.path()); };
+  const auto proposed = [&](const std::string& out) {
+    return palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "4", "--seed", "3",
+                  "--quiet", "--out", out},
+                 here.path());
+  };
   const Outcome outcome = proposed("parts");
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(outcome.errLines(), 0) << outcome.err;
-  for (const char* words : {"(SIMULATED)", ": 4 states.", "State 1", "kappa", "The hand-written parts change", "Neither segmentation is the truth"}) EXPECT_TRUE(says(outcome.out, words)) << words << "\n" << outcome.out;
+  for (const char* words : {"(SIMULATED)", ": 4 states.", "State 1", "kappa",
+                            "The hand-written parts change", "Neither segmentation is the truth"})
+    EXPECT_TRUE(says(outcome.out, words)) << words << "\n" << outcome.out;
   const std::string page = contentOf(here / "parts/calibration.html");
-  for (const char* words : {"SIMULATED", "How many states?", "Cohen&#39;s kappa", "state 4", "identify", "trial 3"}) EXPECT_TRUE(says(page, words)) << words;
-  for (const char* words : {"src=\"http", "href=\"http", "<script", "url("}) EXPECT_FALSE(says(page, words)) << words;   // one file
+  for (const char* words :
+       {"SIMULATED", "How many states?", "Cohen&#39;s kappa", "state 4", "identify", "trial 3"})
+    EXPECT_TRUE(says(page, words)) << words;
+  for (const char* words : {"src=\"http", "href=\"http", "<script", "url("})
+    EXPECT_FALSE(says(page, words)) << words;  // one file
   const json file = json::parse(contentOf(here / "parts/calibration.json"));
   EXPECT_EQ(file["kind"], "subtasks");
   EXPECT_EQ(file["simulated"], true);
   EXPECT_EQ(file["parameters"]["states"][0], 4);
   ASSERT_EQ(proposed("again").exit_code, 0);
-  EXPECT_EQ(json::parse(contentOf(here / "again/calibration.json"))["parameters"], file["parameters"]);
+  EXPECT_EQ(json::parse(contentOf(here / "again/calibration.json"))["parameters"],
+            file["parameters"]);
 }
 
 TEST(CalibrateSubtasks, ATaskMayAskForWhatWasLearned) {
   const Folder here;
-  const auto search = [&](const std::string& trials, const std::string& out, const std::string& task) {
-    std::vector<std::string> arguments{"search", "--operator", "expert", "--mode", "real", "--trials", trials, "--seed", "70001", "--fast", "--no-views", "--quiet", "--out", out};
+  const auto search = [&](const std::string& trials, const std::string& out,
+                          const std::string& task) {
+    std::vector<std::string> arguments{"search",     "--operator", "expert", "--mode", "real",
+                                       "--trials",   trials,       "--seed", "70001",  "--fast",
+                                       "--no-views", "--quiet",    "--out",  out};
     if (!task.empty()) arguments.insert(arguments.end(), {"--task", task});
     return palpa(arguments, here.path());
   };
   ASSERT_EQ(search("3", "search", "").exit_code, 0);
-  ASSERT_EQ(palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "2", "--seed", "3", "--quiet", "--out", "parts"}, here.path()).exit_code, 0);
-  json task = json::parse(contentOf(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/tasks/search.json"));
+  ASSERT_EQ(palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "2", "--seed", "3",
+                   "--quiet", "--out", "parts"},
+                  here.path())
+                .exit_code,
+            0);
+  json task =
+      json::parse(contentOf(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/tasks/search.json"));
   task["learned"] = "parts/calibration.json";
-  for (int state : {1, 2}) task["subtasks"].push_back({{"name", "learned " + std::to_string(state)}, {"means", "as learned"}, {"on", {{{"cue", "learned"}, {"is", state}}}}});
+  for (int state : {1, 2})
+    task["subtasks"].push_back({{"name", "learned " + std::to_string(state)},
+                                {"means", "as learned"},
+                                {"on", {{{"cue", "learned"}, {"is", state}}}}});
   here.file("task.json", task.dump());
   const Outcome learned = search("1", "learned", "task.json");
   ASSERT_EQ(learned.exit_code, 0) << learned.err;
   EXPECT_TRUE(says(contentOf(here / "learned/report.html"), "learned 2"));
-  std::filesystem::remove_all(here / "parts");   // the recording has the model itself
+  std::filesystem::remove_all(here / "parts");  // the recording has the model itself
   const Outcome again = palpa({"replay", "learned/session.palpa"}, here.path());
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_TRUE(says(again.out, "equals the record")) << again.out;
@@ -58,7 +83,8 @@ TEST(CalibrateSubtasks, ATaskMayAskForWhatWasLearned) {
 
 TEST(CalibrateSubtasks, RefusesWhatHasNoPartsOrTooFewTrials) {
   const Folder here;
-  const auto refused = [&](const std::vector<std::string>& more, const std::string& words, int exit_code = 1) {
+  const auto refused = [&](const std::vector<std::string>& more, const std::string& words,
+                           int exit_code = 1) {
     std::vector<std::string> arguments{"calibrate", "subtasks", "--out", "parts", "--quiet"};
     arguments.insert(arguments.end(), more.begin(), more.end());
     const Outcome outcome = palpa(arguments, here.path());
@@ -69,9 +95,17 @@ TEST(CalibrateSubtasks, RefusesWhatHasNoPartsOrTooFewTrials) {
   here.file("text.palpa", "a text that is long enough to be looked at");
   refused({"text.palpa"}, "text.palpa: is no session file");
   refused({"none.palpa"}, "none.palpa: no such file");
-  ASSERT_EQ(palpa({"search", "--operator", "expert", "--mode", "real", "--trials", "1", "--seed", "70001", "--fast", "--no-views", "--quiet", "--out", "one"}, here.path()).exit_code, 0);
+  ASSERT_EQ(palpa({"search", "--operator", "expert", "--mode", "real", "--trials", "1", "--seed",
+                   "70001", "--fast", "--no-views", "--quiet", "--out", "one"},
+                  here.path())
+                .exit_code,
+            0);
   refused({"one/session.palpa"}, "1 trial is too few");
-  ASSERT_EQ(palpa({"squeeze", "--operator", "expert", "--trials", "1", "--seed", "70001", "--fast", "--no-views", "--quiet", "--out", "squeeze"}, here.path()).exit_code, 0);
+  ASSERT_EQ(palpa({"squeeze", "--operator", "expert", "--trials", "1", "--seed", "70001", "--fast",
+                   "--no-views", "--quiet", "--out", "squeeze"},
+                  here.path())
+                .exit_code,
+            0);
   refused({"squeeze/session.palpa"}, "names no parts (\"subtasks\")");
   EXPECT_FALSE(std::filesystem::exists(here / "parts"));
 }

@@ -29,7 +29,8 @@ inline std::vector<Row> rowsOf(const std::string& csv) {
     const std::vector<std::string> values = cellsOf(line);
     EXPECT_LE(values.size(), header.size()) << line;
     Row row;
-    for (std::size_t i = 0; i < std::min(values.size(), header.size()); ++i) row[header[i]] = values[i];
+    for (std::size_t i = 0; i < std::min(values.size(), header.size()); ++i)
+      row[header[i]] = values[i];
     rows.push_back(row);
   }
   return rows;

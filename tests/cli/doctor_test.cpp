@@ -70,12 +70,17 @@ TEST(Doctor, WhatIsIllKeepsASessionFromStarting) {
   EXPECT_EQ(damaged.of("station")["state"], "ill");
   EXPECT_TRUE(says(damaged.err, "station")) << damaged.err;
 
-  const Answer no_camera = asked(here, {"--station", stationWith(here, [](nlohmann::json& s) { s["camera"]["driver"] = "webcam", s["camera"]["device"] = "/dev/video99", s["camera"]["exposure_ms"] = 10; })});
+  const Answer no_camera = asked(here, {"--station", stationWith(here, [](nlohmann::json& s) {
+                                          s["camera"]["driver"] = "webcam",
+                                          s["camera"]["device"] = "/dev/video99",
+                                          s["camera"]["exposure_ms"] = 10;
+                                        })});
   EXPECT_EQ(no_camera.exit_code, 1);
   EXPECT_EQ(no_camera.of("camera")["state"], "ill") << no_camera.json.dump(1);
   EXPECT_TRUE(says(no_camera.of("camera")["verdict"], "/dev/video99")) << no_camera.json.dump(1);
 
-  const Answer no_falcon = asked(here, {"--station", PALPA_SOURCE_DIR "/assets/stations/falcon.json"});
+  const Answer no_falcon =
+      asked(here, {"--station", PALPA_SOURCE_DIR "/assets/stations/falcon.json"});
   EXPECT_EQ(no_falcon.of("haptic device")["state"], "ill") << no_falcon.json.dump(1);
   EXPECT_NE(no_falcon.of("haptic device")["fix"], "");
 }

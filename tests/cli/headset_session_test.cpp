@@ -8,12 +8,14 @@
 #include "program.h"
 #include "tests/support/test_xr.h"
 
-/// Sessions with a headset, and with one that is not there or does not stay: in real time, by a simulated expert.
+/// Sessions with a headset, and with one that is not there or does not stay: in real time, by a
+/// simulated expert.
 namespace palpa::cli_test {
 namespace {
 
 std::vector<std::string> onHeadset(std::vector<std::string> more) {
-  std::vector<std::string> all{"paracentesis", "--display", "openxr", "--quiet", "--seed", "3", "--out", "A"};
+  std::vector<std::string> all{"paracentesis", "--display", "openxr", "--quiet",
+                               "--seed",       "3",         "--out",  "A"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }
@@ -68,19 +70,23 @@ TEST(HeadsetSession, IsNowOrNotAtAll) {
   }
 }
 
-/// The farthest that two of these points are apart, the first third left out: there the tool comes to the hand.
+/// The farthest that two of these points are apart, the first third left out: there the tool comes
+/// to the hand.
 double widthOf(std::vector<Vec3> path) {
   path.erase(path.begin(), path.begin() + static_cast<std::ptrdiff_t>(path.size() / 3));
   double width = 0;
   for (std::size_t i = 0; i < path.size(); i += 1 + path.size() / 200)
-    for (std::size_t j = 0; j < i; j += 1 + path.size() / 200) width = std::max(width, (path[i] - path[j]).norm());
+    for (std::size_t j = 0; j < i; j += 1 + path.size() / 200)
+      width = std::max(width, (path[i] - path[j]).norm());
   return width;
 }
 
-/// Until the runtime has kept so many pictures of an eye, one a frame, and eight seconds have passed; two minutes at most, on a computer that is busy.
+/// Until the runtime has kept so many pictures of an eye, one a frame, and eight seconds have
+/// passed; two minutes at most, on a computer that is busy.
 void awaitFrames(const std::filesystem::path& picture, int frames, Running& running) {
   std::filesystem::file_time_type last{};
-  for (int seen = 0, tries = 0; tries < 12'000 && !running.ended() && (seen < frames || tries < 800); ++tries) {
+  for (int seen = 0, tries = 0;
+       tries < 12'000 && !running.ended() && (seen < frames || tries < 800); ++tries) {
     usleep(10'000);
     std::error_code none;
     const auto time = std::filesystem::last_write_time(picture, none);
@@ -89,7 +95,8 @@ void awaitFrames(const std::filesystem::path& picture, int frames, Running& runn
   }
 }
 
-/// A person's needle goes as far as the controller goes, which does not turn. (To a millimetre: test_headset, Controller.)
+/// A person's needle goes as far as the controller goes, which does not turn. (To a millimetre:
+/// test_headset, Controller.)
 TEST(HeadsetSession, TheControllerHoldsTheNeedle) {
   const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64;rate=200;stands=1000000");
   const Folder here;
@@ -100,11 +107,13 @@ TEST(HeadsetSession, TheControllerHoldsTheNeedle) {
   EXPECT_EQ(report.complaints, std::vector<std::string>{});
   std::vector<Vec3> hand, tool;
   for (const test::XrReport::Hand& h : report.hands) hand.push_back(h.p);
-  record::SessionReader(here / "A/session.palpa").ticks([&](const haptics::FlightRecord& tick) { tool.push_back(unpack(tick.reading.p_DE)); });
+  record::SessionReader(here / "A/session.palpa").ticks([&](const haptics::FlightRecord& tick) {
+    tool.push_back(unpack(tick.reading.p_DE));
+  });
   ASSERT_GT(hand.size(), 20u);
   ASSERT_GT(tool.size(), 1000u);
   EXPECT_GT(widthOf(hand), 0.005);
-  EXPECT_NEAR(widthOf(tool), widthOf(hand), 0.003);   // both have lost about the same third
+  EXPECT_NEAR(widthOf(tool), widthOf(hand), 0.003);  // both have lost about the same third
 }
 
 }  // namespace

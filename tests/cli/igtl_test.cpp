@@ -14,7 +14,8 @@
 #include "program.h"
 #include "tests/igtl/library_peer.h"
 
-/// Whole sessions that are listened to by OpenIGTLink, and one whose camera's place a tracking system tells.
+/// Whole sessions that are listened to by OpenIGTLink, and one whose camera's place a tracking
+/// system tells.
 namespace palpa::cli_test {
 namespace {
 
@@ -27,7 +28,8 @@ std::uint16_t freePort() { return igt::TcpListener("127.0.0.1", 0).port(); }
 std::unique_ptr<LibraryClient> connectWhenThere(std::uint16_t port) {
   for (int i = 0; i < 400; ++i) {
     igt::TcpSocket probe = igt::TcpSocket::connecting("127.0.0.1", port);
-    if (probe.connected(50) == igt::TcpSocket::Progress::done) return std::make_unique<LibraryClient>(port);
+    if (probe.connected(50) == igt::TcpSocket::Progress::done)
+      return std::make_unique<LibraryClient>(port);
     poll(nullptr, 0, 50);
   }
   return nullptr;
@@ -49,7 +51,7 @@ struct WrittenDown {
     X_WD = poseOf(nlohmann::json::parse(reader.info().session_json).at("X_WD"));
   }
   const haptics::FlightRecord* at(std::int64_t t_ns) const {
-    const auto tick = ticks.lower_bound(t_ns - 100);   // the library's fractions are good to some ns
+    const auto tick = ticks.lower_bound(t_ns - 100);  // the library's fractions are good to some ns
     return tick != ticks.end() && tick->first <= t_ns + 100 ? &tick->second : nullptr;
   }
 };
@@ -62,7 +64,8 @@ std::int64_t startOf(const std::vector<Got>& heard, const WrittenDown& recorded)
     if (m.device != "PalpaEvent") continue;
     const nlohmann::json told = eventOf(m);
     for (const runtime::Event& event : recorded.events)
-      if (event.kind == told.at("kind") && event.text == told.at("text")) return m.utc_ns - event.t_ns;
+      if (event.kind == told.at("kind") && event.text == told.at("text"))
+        return m.utc_ns - event.t_ns;
   }
   return 0;
 }
@@ -77,7 +80,8 @@ void expectAsRecorded(const std::vector<Got>& heard, const WrittenDown& recorded
     if (m.device == "NeedleToReference") {
       ASSERT_TRUE(tick) << m.utc_ns - start_ns << " ns: no tick was then";
       const Pose X_WE = recorded.X_WD * unpack(PackedPose{tick->reading.p_DE, tick->reading.q_DE});
-      EXPECT_LT((m.X_mm - igt::toWire(X_WE)).cwiseAbs().maxCoeff(), 1e-3) << "mm, at " << tick->tick;
+      EXPECT_LT((m.X_mm - igt::toWire(X_WE)).cwiseAbs().maxCoeff(), 1e-3)
+          << "mm, at " << tick->tick;
       ++poses;
     } else if (m.device == "NeedleDeviceForce") {
       ASSERT_TRUE(tick);
@@ -98,13 +102,15 @@ TEST(Igtl, WhatIsToldIsWhatIsRecordedAndListeningChangesNothing) {
     const auto client = connectWhenThere(port);
     while (auto got = client ? client->next(5000) : std::nullopt) heard.push_back(std::move(*got));
   });
-  const Outcome told = palpa(session({"--seed", "1", "--out", "A", "--igtl", std::to_string(port)}), here.path());
+  const Outcome told =
+      palpa(session({"--seed", "1", "--out", "A", "--igtl", std::to_string(port)}), here.path());
   slicer.join();
   ASSERT_EQ(told.exit_code, 0) << told.err;
   const WrittenDown recorded(here / "A/session.palpa");
   expectAsRecorded(heard, recorded);
   ASSERT_TRUE(igt_test::lastOf(heard, "PalpaEvent"));
-  EXPECT_EQ(eventOf(*igt_test::lastOf(heard, "PalpaEvent")).at("kind"), "trial_end") << "what is recorded last is told as well";
+  EXPECT_EQ(eventOf(*igt_test::lastOf(heard, "PalpaEvent")).at("kind"), "trial_end")
+      << "what is recorded last is told as well";
   EXPECT_TRUE(says(contentOf(here / "A/report.html"), "Listeners by OpenIGTLink"));
   const Outcome alone = palpa(session({"--seed", "1", "--out", "B"}), here.path());
   ASSERT_EQ(alone.exit_code, 0) << alone.err;
@@ -114,12 +120,16 @@ TEST(Igtl, WhatIsToldIsWhatIsRecordedAndListeningChangesNothing) {
 TEST(Igtl, WrongPortsAndAddressesAreToldInOneLine) {
   Folder here;
   const igt::TcpListener taken("127.0.0.1", 0);
-  const Outcome held = palpa(session({"--igtl", std::to_string(taken.port()), "--out", "A"}), here.path());
+  const Outcome held =
+      palpa(session({"--igtl", std::to_string(taken.port()), "--out", "A"}), here.path());
   EXPECT_EQ(held.exit_code, 1);
   EXPECT_EQ(held.errLines(), 1) << held.err;
   EXPECT_TRUE(says(held.err, "another port")) << held.err;
   EXPECT_FALSE(std::filesystem::exists(here / "A/session.palpa")) << "nothing was begun";
-  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--igtl", "0"}, {"--igtl", "70000"}, {"--igtl-listen", "127.0.0.1"}, {"--igtl", "18945", "--igtl-listen", "here"}}) {
+  for (const std::vector<std::string>& wrong : {std::vector<std::string>{"--igtl", "0"},
+                                                {"--igtl", "70000"},
+                                                {"--igtl-listen", "127.0.0.1"},
+                                                {"--igtl", "18945", "--igtl-listen", "here"}}) {
     std::vector<std::string> arguments = wrong;
     arguments.insert(arguments.end(), {"--out", "B"});
     const Outcome outcome = palpa(session(arguments), here.path());
@@ -132,7 +142,12 @@ std::string stationWithTracker(int port, const std::string& transform = "Referen
   std::ifstream shipped(std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json");
   nlohmann::json station = nlohmann::json::parse(shipped);
   const nlohmann::json nowhere{{"position_mm", {0, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}};
-  station["tracker"] = {{"driver", "plus"}, {"host", "127.0.0.1"}, {"port", port}, {"transform", transform}, {"X_CK", {{"position_mm", {10, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}}}, {"X_RW", nowhere}};
+  station["tracker"] = {{"driver", "plus"},
+                        {"host", "127.0.0.1"},
+                        {"port", port},
+                        {"transform", transform},
+                        {"X_CK", {{"position_mm", {10, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}}},
+                        {"X_RW", nowhere}};
   return station.dump();
 }
 
@@ -141,7 +156,10 @@ class Followed {
  public:
   Followed() {
     here_.file("station.json", stationWithTracker(plus.port()));
-    run_.emplace(std::vector<std::string>{"paracentesis", "--station", "station.json", "--operator", "expert", "--no-views", "--quiet", "--out", "A", "--igtl", std::to_string(port_)}, here_.path());
+    run_.emplace(std::vector<std::string>{"paracentesis", "--station", "station.json", "--operator",
+                                          "expert", "--no-views", "--quiet", "--out", "A", "--igtl",
+                                          std::to_string(port_)},
+                 here_.path());
   }
   bool begins() { return plus.accept(60'000) && (client_ = connectWhenThere(port_)); }
   /// Sends, if it is to, and listens until `done` is said; nothing after 20 s.
@@ -154,7 +172,10 @@ class Followed {
     return std::nullopt;
   }
   std::optional<Got> hearsEvent(bool sending, const std::string& kind, double value) {
-    return hears(sending, [&](const Got& got) { return got.device == "PalpaEvent" && eventOf(got).at("kind") == kind && eventOf(got).at("value") == value; });
+    return hears(sending, [&](const Got& got) {
+      return got.device == "PalpaEvent" && eventOf(got).at("kind") == kind &&
+             eventOf(got).at("value") == value;
+    });
   }
   /// Ends it as Ctrl-C does; its page.
   std::string ended() {
@@ -163,7 +184,8 @@ class Followed {
   }
 
   igt_test::LibraryServer plus;
-  const Pose X_KR = makePose(Eigen::AngleAxisd(3, Vec3::UnitX()).toRotationMatrix(), Vec3(0.03, -0.02, 0.5));
+  const Pose X_KR =
+      makePose(Eigen::AngleAxisd(3, Vec3::UnitX()).toRotationMatrix(), Vec3(0.03, -0.02, 0.5));
 
  private:
   Folder here_;
@@ -175,7 +197,8 @@ class Followed {
 TEST(Igtl, CameraIsWhereTheTrackingSystemSaysUntilItIsLost) {
   Followed session;
   ASSERT_TRUE(session.begins());
-  ASSERT_TRUE(session.hearsEvent(true, "ready", 0)) << "the tracking system's word is enough for the ready check";
+  ASSERT_TRUE(session.hearsEvent(true, "ready", 0))
+      << "the tracking system's word is enough for the ready check";
   const auto toldCamera = [](const Got& got) { return got.device == "CameraToReference"; };
   const auto camera = session.hears(true, toldCamera);
   ASSERT_TRUE(camera);
@@ -188,7 +211,7 @@ TEST(Igtl, CameraIsWhereTheTrackingSystemSaysUntilItIsLost) {
   EXPECT_TRUE(says(eventOf(*lost).at("text"), "tracking system has lost")) << lost->text;
 
   ASSERT_TRUE(session.plus.accept(10'000)) << "the session tries again";
-  session.plus.send(igt::Bytes(3000, 0x5a));   // a server that sends nonsense is left
+  session.plus.send(igt::Bytes(3000, 0x5a));  // a server that sends nonsense is left
   ASSERT_TRUE(session.plus.accept(10'000)) << "and again";
   ASSERT_TRUE(session.hearsEvent(true, "camera", 0)) << "it is found again";
   ASSERT_TRUE(session.hears(true, toldCamera));
@@ -204,7 +227,8 @@ TEST(Igtl, TrackersOfAStationAreChecked) {
   const Outcome fast = palpa(session({"--station", "station.json", "--out", "A"}), here.path());
   EXPECT_EQ(fast.exit_code, 2);
   EXPECT_TRUE(says(fast.err, "real time")) << fast.err;
-  const Outcome nameless = palpa(session({"--station", "nameless.json", "--out", "A"}), here.path());
+  const Outcome nameless =
+      palpa(session({"--station", "nameless.json", "--out", "A"}), here.path());
   EXPECT_EQ(nameless.exit_code, 2);
   EXPECT_TRUE(says(nameless.err, "tracker/transform")) << nameless.err;
 }

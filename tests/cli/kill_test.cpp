@@ -9,12 +9,17 @@
 #include "program.h"
 #include "tests/support/counts.h"
 
-/// The whole program is killed (SIGKILL) at random moments of a session. What is proven, without a hook in it:
-///   1. what was committed before the kill is there after it: the file is read while the program writes it;
-///   2. what is there is a prefix of the same session run to its end (same seed, same numbers), without a gap;
-///   3. the prefix ends where a commit belongs, on a grid of 100 ticks. In virtual time one thread does
-///      everything in order of session time, so no tick beyond the next point of the grid can have been
-///      made before the commit that belongs there: at most 200 ticks are lost, two points of the grid.
+/// The whole program is killed (SIGKILL) at random moments of a session. What is proven, without a
+/// hook in it:
+///   1. what was committed before the kill is there after it: the file is read while the program
+///   writes it;
+///   2. what is there is a prefix of the same session run to its end (same seed, same numbers),
+///   without a gap;
+///   3. the prefix ends where a commit belongs, on a grid of 100 ticks. In virtual time one thread
+///   does
+///      everything in order of session time, so no tick beyond the next point of the grid can have
+///      been made before the commit that belongs there: at most 200 ticks are lost, two points of
+///      the grid.
 /// How many ticks had been made at the kill is not known from outside; 3 bounds it.
 namespace palpa::cli_test {
 namespace {
@@ -91,11 +96,13 @@ TEST(Kill, AKilledSessionLeavesItsEvidenceUpToTheLastCommit) {
   EXPECT_GT(in_the_middle, 0) << "no kill fell into the recording";
 }
 
-/// Interrupted in the middle; how the trial that was running ended then, or how the last before it did, where the signal came between two.
+/// Interrupted in the middle; how the trial that was running ended then, or how the last before it
+/// did, where the signal came between two.
 void expectClosed(const std::vector<std::string>& more, const std::string& outcome) {
   Folder here;
   const runtime::SteadyClock clock;
-  std::vector<std::string> arguments = session({"--trials", "500", "--out", "A"});  // minutes of work
+  std::vector<std::string> arguments =
+      session({"--trials", "500", "--out", "A"});  // minutes of work
   arguments.insert(arguments.end(), more.begin(), more.end());
   Running running(arguments, here.path());
   const fs::path file = here / "A/session.palpa";
@@ -111,8 +118,10 @@ void expectClosed(const std::vector<std::string>& more, const std::string& outco
   EXPECT_LT(left.trials().size(), 500u);
   const record::RecordedTrial last = left.trials().back();
   EXPECT_TRUE(last.ended);
-  if (last.end.reason == "Interrupted") EXPECT_EQ(last.end.outcome, outcome);
-  else EXPECT_EQ(last.end.outcome, "success") << last.end.reason;
+  if (last.end.reason == "Interrupted")
+    EXPECT_EQ(last.end.outcome, outcome);
+  else
+    EXPECT_EQ(last.end.outcome, "success") << last.end.reason;
   EXPECT_TRUE(fs::exists(here / "A/report.html"));
   EXPECT_TRUE(fs::exists(here / "A/trials.csv"));
 }

@@ -9,13 +9,15 @@
 namespace palpa::cli_test {
 namespace {
 
-nlohmann::json palpationStation() { return nlohmann::json::parse(contentOf(PALPA_SOURCE_DIR "/assets/stations/palpation_bench.json")); }
+nlohmann::json palpationStation() {
+  return nlohmann::json::parse(contentOf(PALPA_SOURCE_DIR "/assets/stations/palpation_bench.json"));
+}
 
 struct SensorFailure {
   const char* name;
   nlohmann::json fault;
   const char* words;
-  bool ends;               ///< the trial; else force comes back with the sensor
+  bool ends;  ///< the trial; else force comes back with the sensor
 };
 
 class PalpationFault : public testing::TestWithParam<SensorFailure> {};
@@ -28,7 +30,10 @@ TEST_P(PalpationFault, IsNamedAndTakesTheForceAway) {
   fault["from_s"] = 6;
   fault["to_s"] = GetParam().ends ? 1000 : 8;
   station["twin"]["sensor_faults"] = {fault};
-  const Outcome outcome = palpa({"palpation", "--fast", "--no-views", "--quiet", "--operator", "expert", "--preset", "prostate", "--seed", "3", "--station", here.file("faulty.json", station.dump()), "--out", "A"}, here.path());
+  const Outcome outcome = palpa({"palpation", "--fast", "--no-views", "--quiet", "--operator",
+                                 "expert", "--preset", "prostate", "--seed", "3", "--station",
+                                 here.file("faulty.json", station.dump()), "--out", "A"},
+                                here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const record::SessionReader reader(here / "A/session.palpa");
   std::int64_t off_ns = -1, back_ns = -1;
@@ -43,9 +48,10 @@ TEST_P(PalpationFault, IsNamedAndTakesTheForceAway) {
     EXPECT_NEAR(1e-9 * static_cast<double>(back_ns), 8, 0.2);
   }
   double most_N = 0;
-  const std::int64_t settled_ns = off_ns + 40'000'000;   // the task is told, and tells the loop
+  const std::int64_t settled_ns = off_ns + 40'000'000;  // the task is told, and tells the loop
   reader.ticks([&](const haptics::FlightRecord& tick) {
-    if (tick.t_ns > settled_ns && (back_ns < 0 || tick.t_ns < back_ns)) most_N = std::max(most_N, unpack(tick.f_command_D).norm());
+    if (tick.t_ns > settled_ns && (back_ns < 0 || tick.t_ns < back_ns))
+      most_N = std::max(most_N, unpack(tick.f_command_D).norm());
   });
   EXPECT_EQ(most_N, 0);
   EXPECT_EQ(reader.trials().at(0).end.outcome, GetParam().ends ? "void" : "done");
@@ -53,19 +59,31 @@ TEST_P(PalpationFault, IsNamedAndTakesTheForceAway) {
   EXPECT_EQ(palpa({"replay", "A/session.palpa"}, here.path()).exit_code, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, PalpationFault,
-                         testing::Values(SensorFailure{"unplugged", {}, "the force sensor said nothing that could be believed", false}, SensorFailure{"saturated", {}, "the force sensor said nothing that could be believed", false},
-                                         SensorFailure{"drifting", {{"rate_N_per_s", 0.05}}, "it has drifted", true}, SensorFailure{"reversed", nlohmann::json::object(), "its sign is wrong", true},
-                                         SensorFailure{"wrong_scale", {{"factor", 3}}, "its scale is wrong", true}, SensorFailure{"wrong_scale", {{"factor", 0.3}}, "wrong scale", true}),
-                         [](const auto& one) { return one.param.name + std::to_string(one.index); });
+INSTANTIATE_TEST_SUITE_P(
+    Every, PalpationFault,
+    testing::Values(
+        SensorFailure{
+            "unplugged", {}, "the force sensor said nothing that could be believed", false},
+        SensorFailure{
+            "saturated", {}, "the force sensor said nothing that could be believed", false},
+        SensorFailure{"drifting", {{"rate_N_per_s", 0.05}}, "it has drifted", true},
+        SensorFailure{"reversed", nlohmann::json::object(), "its sign is wrong", true},
+        SensorFailure{"wrong_scale", {{"factor", 3}}, "its scale is wrong", true},
+        SensorFailure{"wrong_scale", {{"factor", 0.3}}, "wrong scale", true}),
+    [](const auto& one) { return one.param.name + std::to_string(one.index); });
 
 TEST(PalpationFaults, OneThatIsNoneIsRefused) {
   const Folder here;
   nlohmann::json station = palpationStation();
   station["twin"]["sensor_faults"] = {{{"kind", "tired"}, {"from_s", 1}, {"to_s", 2}}};
-  const Outcome outcome = palpa({"palpation", "--fast", "--no-views", "--quiet", "--operator", "expert", "--station", here.file("faulty.json", station.dump()), "--out", "A"}, here.path());
+  const Outcome outcome =
+      palpa({"palpation", "--fast", "--no-views", "--quiet", "--operator", "expert", "--station",
+             here.file("faulty.json", station.dump()), "--out", "A"},
+            here.path());
   EXPECT_EQ(outcome.exit_code, 2);
-  EXPECT_TRUE(says(outcome.err, "sensor_faults") && says(outcome.err, "unplugged, saturated, drifting, reversed, wrong_scale")) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "sensor_faults") &&
+              says(outcome.err, "unplugged, saturated, drifting, reversed, wrong_scale"))
+      << outcome.err;
 }
 
 }  // namespace

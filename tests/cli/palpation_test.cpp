@@ -23,25 +23,33 @@ std::vector<std::string> palpation(std::vector<std::string> more) {
   return all;
 }
 
-std::vector<Row> searched(const std::string& who, int trials, const Folder& here, const std::string& preset = "breast", const std::string& seed = "1") {
-  const Outcome outcome = palpa(palpation({"--preset", preset, "--operator", who, "--seed", seed, "--trials", std::to_string(trials), "--out", who}), here.path());
+std::vector<Row> searched(const std::string& who, int trials, const Folder& here,
+                          const std::string& preset = "breast", const std::string& seed = "1") {
+  const Outcome outcome = palpa(palpation({"--preset", preset, "--operator", who, "--seed", seed,
+                                           "--trials", std::to_string(trials), "--out", who}),
+                                here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  return outcome.exit_code == 0 ? rowsOf(contentOf(here / (who + "/trials.csv"))) : std::vector<Row>{};
+  return outcome.exit_code == 0 ? rowsOf(contentOf(here / (who + "/trials.csv")))
+                                : std::vector<Row>{};
 }
 
 double wilsonLower(double hits, double of) {
   constexpr double z = 1.96;
   const double p = hits / of;
-  return (p + z * z / (2 * of) - z * std::sqrt(p * (1 - p) / of + z * z / (4 * of * of))) / (1 + z * z / of);
+  return (p + z * z / (2 * of) - z * std::sqrt(p * (1 - p) / of + z * z / (4 * of * of))) /
+         (1 + z * z / of);
 }
 
-/// Experts find what is there and little else; novices do clearly worse. Few cases bound less, so they are bound less tightly.
+/// Experts find what is there and little else; novices do clearly worse. Few cases bound less, so
+/// they are bound less tightly.
 TEST(Palpation, ExpertsFindLumpsAndNovicesMissThem) {
   const Folder here;
   const int trials = test::counted(4, 100);
-  const std::vector<Row> expert = searched("expert", trials, here), novice = searched("novice", trials, here);
+  const std::vector<Row> expert = searched("expert", trials, here),
+                         novice = searched("novice", trials, here);
   ASSERT_EQ(expert.size(), static_cast<std::size_t>(trials));
-  const double lumps = sum(expert, "LUMPS"), found = sum(expert, "FOUND"), clear = sum(expert, "CLEAR_QUADRANTS"), wrong = sum(expert, "WRONG_QUADRANTS");
+  const double lumps = sum(expert, "LUMPS"), found = sum(expert, "FOUND"),
+               clear = sum(expert, "CLEAR_QUADRANTS"), wrong = sum(expert, "WRONG_QUADRANTS");
   EXPECT_EQ(lumps, sum(novice, "LUMPS")) << "the same cases";
   if (test::fullCounts()) {
     EXPECT_GE(lumps, 100);
@@ -66,24 +74,31 @@ TEST(Palpation, ExpertsFindLumpsAndNovicesMissThem) {
 TEST(Palpation, TheLiversEdgeIsNoLump) {
   const Folder here;
   const int trials = test::counted(2, 24);
-  const std::vector<Row> expert = searched("expert", trials, here, "abdomen", "2001"), novice = searched("novice", trials, here, "abdomen", "2001");
+  const std::vector<Row> expert = searched("expert", trials, here, "abdomen", "2001"),
+                         novice = searched("novice", trials, here, "abdomen", "2001");
   ASSERT_EQ(expert.size(), static_cast<std::size_t>(trials));
   ASSERT_EQ(novice.size(), static_cast<std::size_t>(trials));
   EXPECT_LE(sum(expert, "FALSE_ALARMS"), 0.34 * trials);
   EXPECT_GE(sum(novice, "FALSE_ALARMS"), 0.5 * trials);
   EXPECT_GT(sum(expert, "FOUND"), sum(novice, "FOUND"));
   EXPECT_GE(sum(expert, "FOUND"), 0.6 * sum(expert, "LUMPS"));
-  EXPECT_TRUE(says(contentOf(here / "novice/report.html"), "What belongs there runs on to both sides"));
+  EXPECT_TRUE(
+      says(contentOf(here / "novice/report.html"), "What belongs there runs on to both sides"));
 }
 
 TEST(Palpation, ReplayJudgesItAgain) {
   const Folder here;
-  ASSERT_EQ(palpa(palpation({"--operator", "expert", "--preset", "prostate", "--seed", "3", "--out", "A"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa(palpation({"--operator", "expert", "--preset", "prostate", "--seed", "3", "--out",
+                             "A"}),
+                  here.path())
+                .exit_code,
+            0);
   const Outcome outcome = palpa({"replay", "A/session.palpa"}, here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "The replay equals the record"));
   EXPECT_TRUE(says(outcome.out, ": 0 differ"));
-  // Cells of 10 mN of noise, a sensor whose bias is known to 5 mN an axis (standard deviations), a phantom that gives some 0.9 N.
+  // Cells of 10 mN of noise, a sensor whose bias is known to 5 mN an axis (standard deviations), a
+  // phantom that gives some 0.9 N.
   const std::string words = "add up to m a: within ";
   const std::size_t at = outcome.out.find(words);
   ASSERT_NE(at, std::string::npos) << outcome.out;
@@ -92,11 +107,21 @@ TEST(Palpation, ReplayJudgesItAgain) {
 
 TEST(Palpation, TheSameSeedGivesTheSameNumbersAndViewsChangeNone) {
   const Folder here;
-  ASSERT_EQ(palpa(palpation({"--operator", "novice", "--preset", "prostate", "--seed", "5", "--out", "A"}), here.path()).exit_code, 0);
-  ASSERT_EQ(palpa({"palpation", "--fast", "--quiet", "--operator", "novice", "--preset", "prostate", "--seed", "5", "--out", "B"}, here.path()).exit_code, 0);
+  ASSERT_EQ(palpa(palpation({"--operator", "novice", "--preset", "prostate", "--seed", "5", "--out",
+                             "A"}),
+                  here.path())
+                .exit_code,
+            0);
+  ASSERT_EQ(palpa({"palpation", "--fast", "--quiet", "--operator", "novice", "--preset", "prostate",
+                   "--seed", "5", "--out", "B"},
+                  here.path())
+                .exit_code,
+            0);
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
   const std::string page = contentOf(here / "B/report.html");
-  for (const char* words : {"SIMULATED", "Scaled force", "Where this task stands", "real silicone, a virtual lump"}) EXPECT_TRUE(says(page, words)) << words;
+  for (const char* words :
+       {"SIMULATED", "Scaled force", "Where this task stands", "real silicone, a virtual lump"})
+    EXPECT_TRUE(says(page, words)) << words;
   bool pictures = false;
   for (const std::string& file : here.files()) pictures = pictures || says(file, "-end.png");
   EXPECT_TRUE(pictures);
@@ -104,7 +129,11 @@ TEST(Palpation, TheSameSeedGivesTheSameNumbersAndViewsChangeNone) {
 
 TEST(Palpation, SeeingTheLumpsDoesNotCount) {
   const Folder here;
-  ASSERT_EQ(palpa(palpation({"--operator", "novice", "--preset", "prostate", "--see-through", "on", "--out", "A"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa(palpation({"--operator", "novice", "--preset", "prostate", "--see-through", "on",
+                             "--out", "A"}),
+                  here.path())
+                .exit_code,
+            0);
   EXPECT_TRUE(says(contentOf(here / "A/report.html"), "Not counted: not scored"));
   EXPECT_TRUE(rowsOf(contentOf(here / "A/trials.csv")).empty());
 }
@@ -112,20 +141,34 @@ TEST(Palpation, SeeingTheLumpsDoesNotCount) {
 TEST(Palpation, ATaskFileIsEnough) {
   const Folder here;
   const std::string task = std::string(PALPA_SOURCE_DIR) + "/assets/tasks/palpation_prostate.json";
-  ASSERT_EQ(palpa(palpation({"--task", task, "--operator", "novice", "--seed", "5", "--out", "A"}), here.path()).exit_code, 0);
-  ASSERT_EQ(palpa({"train", "--task", task, "--fast", "--no-views", "--quiet", "--operator", "novice", "--seed", "5", "--out", "B"}, here.path()).exit_code, 0);
+  ASSERT_EQ(palpa(palpation({"--task", task, "--operator", "novice", "--seed", "5", "--out", "A"}),
+                  here.path())
+                .exit_code,
+            0);
+  ASSERT_EQ(palpa({"train", "--task", task, "--fast", "--no-views", "--quiet", "--operator",
+                   "novice", "--seed", "5", "--out", "B"},
+                  here.path())
+                .exit_code,
+            0);
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
-  const Outcome outcome = palpa({"train", "--task", task, "--fast", "--operator", "novice", "--side", "left"}, here.path());
+  const Outcome outcome = palpa(
+      {"train", "--task", task, "--fast", "--operator", "novice", "--side", "left"}, here.path());
   EXPECT_EQ(outcome.exit_code, 2);
   EXPECT_TRUE(says(outcome.err, "--side")) << outcome.err;
 }
 
 TEST(Palpation, WrongUsageIsNamed) {
   const Folder here;
-  const Outcome station = palpa(palpation({"--station", std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json", "--operator", "expert"}), here.path());
+  const Outcome station = palpa(
+      palpation({"--station", std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json",
+                 "--operator", "expert"}),
+      here.path());
   EXPECT_EQ(station.exit_code, 2);
   EXPECT_TRUE(says(station.err, "\"sample\"")) << station.err;
-  const Outcome needle = palpa(palpation({"--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/paracentesis.json", "--operator", "expert"}), here.path());
+  const Outcome needle =
+      palpa(palpation({"--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/paracentesis.json",
+                       "--operator", "expert"}),
+            here.path());
   EXPECT_EQ(needle.exit_code, 2);
   EXPECT_TRUE(says(needle.err, "engine")) << needle.err;
   EXPECT_EQ(palpa({"palpation", "--display", "openxr"}, here.path()).exit_code, 2);

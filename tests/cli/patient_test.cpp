@@ -20,7 +20,8 @@ std::string spindleObj(double length) {
   for (int r = 1; r < kRings; ++r)
     for (int s = 0; s < kSides; ++s) {
       const double at = std::numbers::pi * r / kRings, round = 2 * std::numbers::pi * s / kSides;
-      obj << "v " << -length / 2 * std::cos(at) << ' ' << length / 12 * std::sin(at) * std::cos(round) << ' '
+      obj << "v " << -length / 2 * std::cos(at) << ' '
+          << length / 12 * std::sin(at) * std::cos(round) << ' '
           << length / 12 * std::sin(at) * std::sin(round) << '\n';
     }
   const int last = 2 + (kRings - 1) * kSides;
@@ -38,19 +39,29 @@ std::string spindleObj(double length) {
 }
 
 std::string mapOf(const std::string& unit) {
-  return nlohmann::json{{"format", "palpa-import-map"}, {"version", 1}, {"name", "one bone"}, {"side", "right"},
-                        {"unit", unit}, {"axes", "LPS"}, {"licence", "CC0-1.0"}, {"source", "this test"},
-                        {"entries", {{{"file", "bone.obj"}, {"id", "clavicle_right"}, {"organ", "clavicle"}}}}}
+  return nlohmann::json{
+      {"format", "palpa-import-map"},
+      {"version", 1},
+      {"name", "one bone"},
+      {"side", "right"},
+      {"unit", unit},
+      {"axes", "LPS"},
+      {"licence", "CC0-1.0"},
+      {"source", "this test"},
+      {"entries", {{{"file", "bone.obj"}, {"id", "clavicle_right"}, {"organ", "clavicle"}}}}}
       .dump();
 }
 
 TEST(Patient, ThatWasDescribedIsBuiltAndTold) {
   const Folder here;
-  const Outcome built = palpa({"patient", "build", "--sex", "f", "--height", "1.68", "--bmi", "24", "--side", "left", "--seed", "3", "--out", "p.glb"}, here.path());
+  const Outcome built = palpa({"patient", "build", "--sex", "f", "--height", "1.68", "--bmi", "24",
+                               "--side", "left", "--seed", "3", "--out", "p.glb"},
+                              here.path());
   ASSERT_EQ(built.exit_code, 0) << built.err;
   const Outcome told = palpa({"patient", "info", "p.glb"}, here.path());
   ASSERT_EQ(told.exit_code, 0) << told.err;
-  for (const char* words : {"left side", "clavicle_left", "vein_target", "vein depth under the skin"})
+  for (const char* words :
+       {"left side", "clavicle_left", "vein_target", "vein depth under the skin"})
     EXPECT_TRUE(says(told.out, words)) << words << "\n" << told.out;
   EXPECT_FALSE(says(told.out, "BAD")) << told.out;
 }
@@ -67,7 +78,8 @@ TEST(Patient, IsNotPuncturedOnASideThatWasNotBuilt) {
 TEST(Patient, WhoCannotBeIsRefusedInOneLine) {
   const Folder here;
   for (const auto& stated : {std::pair{"--height", "3"}, std::pair{"--bmi", "90"}}) {
-    const Outcome refused = palpa({"patient", "build", stated.first, stated.second, "--out", "p.glb"}, here.path());
+    const Outcome refused =
+        palpa({"patient", "build", stated.first, stated.second, "--out", "p.glb"}, here.path());
     EXPECT_NE(refused.exit_code, 0);
     EXPECT_EQ(refused.errLines(), 1) << refused.err;
     EXPECT_TRUE(here.files().empty());
@@ -77,12 +89,15 @@ TEST(Patient, WhoCannotBeIsRefusedInOneLine) {
 TEST(Patient, PhantomIsBuiltWithItsInclusionAndIsNotToBePunctured) {
   const Folder here;
   for (const char* kind : {"breast", "abdomen"}) {
-    const Outcome built = palpa({"patient", "build", "--phantom", kind, "--inclusion-mm", "20", "--depth-mm", "15", "--out", "b.glb"}, here.path());
+    const Outcome built = palpa({"patient", "build", "--phantom", kind, "--inclusion-mm", "20",
+                                 "--depth-mm", "15", "--out", "b.glb"},
+                                here.path());
     ASSERT_EQ(built.exit_code, 0) << built.err;
     const Outcome told = palpa({"patient", "info", "b.glb"}, here.path());
     EXPECT_TRUE(says(told.out, "inclusion")) << told.out;
     EXPECT_TRUE(says(told.out, "not to be punctured")) << told.out;
-    const Outcome session = palpa({"paracentesis", "--patient", "b.glb", "--fast", "--quiet"}, here.path());
+    const Outcome session =
+        palpa({"paracentesis", "--patient", "b.glb", "--fast", "--quiet"}, here.path());
     EXPECT_NE(session.exit_code, 0);
     EXPECT_EQ(session.errLines(), 1) << session.err;
   }
@@ -92,7 +107,8 @@ TEST(Patient, IsImportedFromFilesByAMap) {
   const Folder here;
   here.file("bone.obj", spindleObj(150));
   here.file("map.json", mapOf("mm"));
-  const Outcome imported = palpa({"patient", "import", "--map", "map.json", ".", "--out", "p.glb"}, here.path());
+  const Outcome imported =
+      palpa({"patient", "import", "--map", "map.json", ".", "--out", "p.glb"}, here.path());
   ASSERT_EQ(imported.exit_code, 0) << imported.err;
   EXPECT_TRUE(says(imported.out, "CC0-1.0")) << imported.out;
   const Outcome told = palpa({"patient", "info", "p.glb"}, here.path());
@@ -106,11 +122,13 @@ TEST(Patient, InTheWrongUnitIsRefusedWithTheLikelyOneNamed) {
   const Folder here;
   here.file("bone.obj", spindleObj(150));
   here.file("map.json", mapOf("m"));
-  const Outcome refused = palpa({"patient", "import", "--map", "map.json", ".", "--out", "p.glb"}, here.path());
+  const Outcome refused =
+      palpa({"patient", "import", "--map", "map.json", ".", "--out", "p.glb"}, here.path());
   EXPECT_NE(refused.exit_code, 0);
   EXPECT_EQ(refused.errLines(), 1) << refused.err;
   EXPECT_TRUE(says(refused.err, "millimetre")) << refused.err;
-  const Outcome looked = palpa({"patient", "info", "bone.obj", "--unit", "m", "--organ", "clavicle"}, here.path());
+  const Outcome looked =
+      palpa({"patient", "info", "bone.obj", "--unit", "m", "--organ", "clavicle"}, here.path());
   EXPECT_NE(looked.exit_code, 0);
   EXPECT_TRUE(says(looked.err, "--unit mm")) << looked.err;
 }
@@ -119,11 +137,15 @@ TEST(Patient, OfARealCtIsPunctured) {
   const std::filesystem::path volume = testData("ct/chest_contrast_lidc2.mha");
   PALPA_NEED_DATA(volume);
   const Folder here;
-  const Outcome built = palpa({"patient", "build", "--ct", volume.string(), "--ct-axes", "LAI", "--out", "ct.glb"}, here.path());
+  const Outcome built =
+      palpa({"patient", "build", "--ct", volume.string(), "--ct-axes", "LAI", "--out", "ct.glb"},
+            here.path());
   ASSERT_EQ(built.exit_code, 0) << built.err;
   EXPECT_TRUE(says(built.out + built.err, "leaves the volume"));
-  const Outcome session = palpa({"paracentesis", "--patient", "ct.glb", "--operator", "expert", "--operator-knows", "patient",
-                                 "--fast", "--no-views", "--quiet", "--out", "A"}, here.path());
+  const Outcome session =
+      palpa({"paracentesis", "--patient", "ct.glb", "--operator", "expert", "--operator-knows",
+             "patient", "--fast", "--no-views", "--quiet", "--out", "A"},
+            here.path());
   ASSERT_EQ(session.exit_code, 0) << session.err;
   EXPECT_TRUE(says(session.out, "Vein reached")) << session.out;
 }

@@ -23,11 +23,14 @@ void redirect(const fs::path& file, int stream) {
   ::close(fd);
 }
 
-/// From whoever runs the tests: their records and what waits to be sent. A test that means records by the environment names them in PALPA_TEST_RECORDS.
+/// From whoever runs the tests: their records and what waits to be sent. A test that means records
+/// by the environment names them in PALPA_TEST_RECORDS.
 void keepApart(const fs::path& folder) {
   ::setenv("XDG_STATE_HOME", (folder / "state").c_str(), 0);
-  if (const char* records = std::getenv("PALPA_TEST_RECORDS")) ::setenv("PALPA_RECORDS", records, 1);
-  else ::unsetenv("PALPA_RECORDS");
+  if (const char* records = std::getenv("PALPA_TEST_RECORDS"))
+    ::setenv("PALPA_RECORDS", records, 1);
+  else
+    ::unsetenv("PALPA_RECORDS");
 }
 
 [[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder,

@@ -17,7 +17,8 @@ struct Outcome {
 /// Runs the built `palpa` with these arguments, in `folder`, without a display; waits for its end.
 Outcome palpa(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
-/// A run of `palpa` that goes on while the test does; killed at the end of its life, if it still runs.
+/// A run of `palpa` that goes on while the test does; killed at the end of its life, if it still
+/// runs.
 class Running {
  public:
   Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
@@ -25,9 +26,10 @@ class Running {
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
-  bool ended();  ///< by itself
-  void kill();   ///< with SIGKILL, and waits until it is gone
-  int interrupt();   ///< as Ctrl-C does, and waits for its end; its exit code, 128 + signal when that killed it
+  bool ended();     ///< by itself
+  void kill();      ///< with SIGKILL, and waits until it is gone
+  int interrupt();  ///< as Ctrl-C does, and waits for its end; its exit code, 128 + signal when
+                    ///< that killed it
 
  private:
   int child_ = -1;
@@ -52,7 +54,9 @@ class Folder {
   std::filesystem::path path_;
 };
 
-inline bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+inline bool says(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
 
 std::string contentOf(const std::filesystem::path& file);
 

@@ -289,7 +289,8 @@ TEST_F(SessionIntoRecords, OneThatCannotBeSentKeepsNoOtherBack) {
   EXPECT_TRUE(says(first.out, "Session 0 waits on")) << first.out;
   EXPECT_EQ(trials(), 1u);
   EXPECT_EQ(palpa({"records", "deliver", "--forget", "0"}, here_.path()).exit_code, 0);
-  EXPECT_EQ(palpa({"records", "deliver", "--forget", "0"}, here_.path()).exit_code, 2) << "nothing of that name waits";
+  EXPECT_EQ(palpa({"records", "deliver", "--forget", "0"}, here_.path()).exit_code, 2)
+      << "nothing of that name waits";
 }
 
 }  // namespace

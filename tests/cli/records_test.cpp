@@ -19,11 +19,17 @@ Outcome records(std::vector<std::string> words, const Folder& here) {
 
 TEST(Records, ASessionComesInOnceWithEveryFigure) {
   const Folder here;
-  const Outcome added = records({"trainee", "add", "--id", "T007", "--group", "novice", "--experience", "3rd year"}, here);
+  const Outcome added = records(
+      {"trainee", "add", "--id", "T007", "--group", "novice", "--experience", "3rd year"}, here);
   EXPECT_EQ(added.exit_code, 0) << added.err;
   EXPECT_TRUE(says(added.out, "Consent to keeping training records is not noted")) << added.out;
-  ASSERT_EQ(palpa({"paracentesis", "--operator", "novice", "--fast", "--no-views", "--quiet", "--trials", "2", "--seed", "5", "--trainee", "T007", "--out", "A"}, here.path()).exit_code, 0);
-  const Outcome first = records({"add", "A"}, here), again = records({"add", "A/session.palpa"}, here);
+  ASSERT_EQ(palpa({"paracentesis", "--operator", "novice", "--fast", "--no-views", "--quiet",
+                   "--trials", "2", "--seed", "5", "--trainee", "T007", "--out", "A"},
+                  here.path())
+                .exit_code,
+            0);
+  const Outcome first = records({"add", "A"}, here),
+                again = records({"add", "A/session.palpa"}, here);
   EXPECT_EQ(first.exit_code, 0) << first.err;
   EXPECT_TRUE(says(first.out, "2 trials added, 0 there already")) << first.out;
   EXPECT_TRUE(says(again.out, "0 trials added, 2 there already")) << again.out;
@@ -48,7 +54,10 @@ TEST(Records, ASessionComesInOnceWithEveryFigure) {
 
 TEST(Records, APersonIsDeletedWithTheEvidence) {
   const Folder here;
-  ASSERT_EQ(records({"trainee", "add", "--id", "T007", "--consent", "--keep-until", "2030-01-01"}, here).exit_code, 0);
+  ASSERT_EQ(
+      records({"trainee", "add", "--id", "T007", "--consent", "--keep-until", "2030-01-01"}, here)
+          .exit_code,
+      0);
   ASSERT_EQ(palpa(session({"--trainee", "T007", "--out", "A"}), here.path()).exit_code, 0);
   ASSERT_EQ(records({"add", "A"}, here).exit_code, 0);
   EXPECT_TRUE(says(records({"trainee", "list"}, here).out, "1 session"));
@@ -67,14 +76,17 @@ TEST(Records, WhatCannotBeSentNowIsSentLater) {
   const Folder here;
   ::setenv("XDG_STATE_HOME", here.path().c_str(), 1);
   ASSERT_EQ(palpa(session({"--trainee", "T007", "--out", "A"}), here.path()).exit_code, 0);
-  // A server that is not there: noted. Then the note is pointed at a file, as if the server were back under that address.
-  const Outcome away = palpa({"records", "add", "A", "--records", "postgresql://nobody@127.0.0.1:1/palpa"}, here.path());
+  // A server that is not there: noted. Then the note is pointed at a file, as if the server were
+  // back under that address.
+  const Outcome away = palpa(
+      {"records", "add", "A", "--records", "postgresql://nobody@127.0.0.1:1/palpa"}, here.path());
   EXPECT_EQ(away.exit_code, 1);
   EXPECT_TRUE(says(away.out, "palpa records deliver sends it")) << away.out;
   EXPECT_TRUE(says(away.err, "cannot be reached")) << away.err;
   const auto noted = record::PendingList(here / "palpa/pending").sessions();
   ASSERT_EQ(noted.size(), 1u);
-  record::PendingList(here / "palpa/pending").note({noted[0].uuid, noted[0].evidence, (here / "records.sqlite").string()});
+  record::PendingList(here / "palpa/pending")
+      .note({noted[0].uuid, noted[0].evidence, (here / "records.sqlite").string()});
   ASSERT_EQ(records({"trainee", "add", "--id", "T007"}, here).exit_code, 0);
   const Outcome sent = palpa({"records", "deliver"}, here.path());
   EXPECT_EQ(sent.exit_code, 0) << sent.err;
@@ -114,10 +126,12 @@ TEST(Records, WrongUsageIsNamed) {
   complains({"delete", "--id", "B", "--yes"}, 2, "is not in the records");
   complains({"add", "nowhere"}, 1, "no such file");
   here.file("other.sqlite", "no database, and long enough");
-  const Outcome other = palpa({"records", "trainee", "list", "--records", "other.sqlite"}, here.path());
+  const Outcome other =
+      palpa({"records", "trainee", "list", "--records", "other.sqlite"}, here.path());
   EXPECT_EQ(other.exit_code, 1);
   EXPECT_TRUE(says(other.err, "is no records file")) << other.err;
-  const Outcome secret = palpa({"records", "trainee", "list", "--records", "postgresql://me:geheim@host/db"}, here.path());
+  const Outcome secret = palpa(
+      {"records", "trainee", "list", "--records", "postgresql://me:geheim@host/db"}, here.path());
   EXPECT_EQ(secret.exit_code, 2);
   EXPECT_FALSE(says(secret.err, "geheim")) << secret.err;
 }
@@ -126,7 +140,9 @@ TEST(Records, EveryFigureIsExplained) {
   const Folder here;
   const Outcome table = palpa({"records", "metrics"}, here.path());
   EXPECT_EQ(table.exit_code, 0) << table.err;
-  for (const char* words : {"| path_length_mm | Length of the tip's path | mm | lower |", "does not apply when"}) EXPECT_TRUE(says(table.out, words)) << words;
+  for (const char* words :
+       {"| path_length_mm | Length of the tip's path | mm | lower |", "does not apply when"})
+    EXPECT_TRUE(says(table.out, words)) << words;
 }
 
 }  // namespace

@@ -43,7 +43,8 @@ int playedColumns(const cv::Mat& frame) {
 }
 
 TEST(ReplayView, AFilmHasItsPicturesTheirMotionAndTheStrip) {
-  const Outcome outcome = film({"--video", "a.avi", "--from", "4", "--to", "6", "--size", "320x240"});
+  const Outcome outcome =
+      film({"--video", "a.avi", "--from", "4", "--to", "6", "--size", "320x240"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "a.avi (50 pictures, 2.0 s)")) << outcome.out;
   const std::vector<cv::Mat> frames = framesOf(recordedNeedle() / "a.avi");
@@ -58,27 +59,38 @@ TEST(ReplayView, AFilmHasItsPicturesTheirMotionAndTheStrip) {
 }
 
 TEST(ReplayView, HalfTheSpeedIsTwiceThePictures) {
-  const Outcome outcome = film({"--video", "b.mp4", "--from", "4", "--to", "4.4", "--speed", "0.5", "--size", "320x240"});
+  const Outcome outcome = film(
+      {"--video", "b.mp4", "--from", "4", "--to", "4.4", "--speed", "0.5", "--size", "320x240"});
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(framesOf(recordedNeedle() / "b.mp4").size(), 20u);
 }
 
 /// Seen again: the picture moves, and the strip with it.
 TEST(ReplayView, EveryTaskIsSeenAgain) {
-  for (const std::vector<std::string>& task : {std::vector<std::string>{"palpation", "--preset", "prostate"}, {"search", "--mode", "augmented"}, {"squeeze"}}) {
+  for (const std::vector<std::string>& task :
+       {std::vector<std::string>{"palpation", "--preset", "prostate"},
+        {"search", "--mode", "augmented"},
+        {"squeeze"}}) {
     const Folder here;
     std::vector<std::string> arguments = task;
-    arguments.insert(arguments.end(), {"--operator", "expert", "--seed", "3", "--trials", "1", "--fast", "--no-views", "--quiet", "--out", "A"});
+    arguments.insert(arguments.end(), {"--operator", "expert", "--seed", "3", "--trials", "1",
+                                       "--fast", "--no-views", "--quiet", "--out", "A"});
     ASSERT_EQ(palpa(arguments, here.path()).exit_code, 0) << task[0];
-    const Outcome outcome = palpa({"replay", "A/session.palpa", "--video", "a.avi", "--from", "2", "--to", "6", "--speed", "4", "--size", "320x240"}, here.path());
+    const Outcome outcome = palpa({"replay", "A/session.palpa", "--video", "a.avi", "--from", "2",
+                                   "--to", "6", "--speed", "4", "--size", "320x240"},
+                                  here.path());
     ASSERT_EQ(outcome.exit_code, 0) << task[0] << outcome.err;
     const std::vector<cv::Mat> frames = framesOf(here / "a.avi");
     ASSERT_EQ(frames.size(), 25u) << task[0];
     cv::Mat difference;
     cv::absdiff(frames.front(), frames.back(), difference);
-    EXPECT_GT(cv::norm(difference, cv::NORM_L1) / static_cast<double>(difference.total()), 0.1) << task[0];
+    EXPECT_GT(cv::norm(difference, cv::NORM_L1) / static_cast<double>(difference.total()), 0.1)
+        << task[0];
     EXPECT_GT(playedColumns(frames.back()), playedColumns(frames.front()) + 3) << task[0];
-    EXPECT_EQ(palpa({"replay", "A/session.palpa", "--video", "b.avi", "--trial", "7"}, here.path()).exit_code, 2) << task[0];
+    EXPECT_EQ(palpa({"replay", "A/session.palpa", "--video", "b.avi", "--trial", "7"}, here.path())
+                  .exit_code,
+              2)
+        << task[0];
   }
 }
 

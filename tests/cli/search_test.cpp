@@ -22,7 +22,8 @@ std::vector<Row> episodes(const std::vector<std::string>& more, const Folder& he
   const Outcome outcome = palpa(search(more), here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const auto out = std::find(more.begin(), more.end(), "--out");
-  return outcome.exit_code == 0 ? rowsOf(contentOf(here / (*(out + 1) + "/trials.csv"))) : std::vector<Row>{};
+  return outcome.exit_code == 0 ? rowsOf(contentOf(here / (*(out + 1) + "/trials.csv")))
+                                : std::vector<Row>{};
 }
 
 std::vector<assess::SearchTrial> episodesOf(const std::vector<Row>& rows) {
@@ -30,9 +31,11 @@ std::vector<assess::SearchTrial> episodesOf(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     assess::SearchTrial trial;
     trial.trial = static_cast<int>(trials.size()) + 1;
-    trial.role = "scored";   // the table has no others
+    trial.role = "scored";  // the table has no others
     trial.outcome = row.at("OUTCOME");
-    trial.mode = row.at("MODE") == "real" ? assess::SearchMode::real : row.at("MODE") == "degraded" ? assess::SearchMode::degraded : assess::SearchMode::augmented;
+    trial.mode = row.at("MODE") == "real"       ? assess::SearchMode::real
+                 : row.at("MODE") == "degraded" ? assess::SearchMode::degraded
+                                                : assess::SearchMode::augmented;
     trial.target = std::stoi(row.at("TARGET"));
     trial.chosen = std::stoi(row.at("CHOSEN"));
     trials.push_back(trial);
@@ -50,28 +53,37 @@ double foundShare(const std::vector<Row>& rows, const std::string& mode) {
   return found / all;
 }
 
-/// The searchers' figures and the task's were fixed before these episodes were ever searched (seeds 20001 to 60099 served to choose them, 910001 to 910100 to find an error).
+/// The searchers' figures and the task's were fixed before these episodes were ever searched (seeds
+/// 20001 to 60099 served to choose them, 910001 to 910100 to find an error).
 TEST(Search, ADegradedFloorLosesTheTargetAndCuesGiveItBack) {
   const Folder here;
   const int trials = test::counted(5, 100);
-  const std::vector<Row> rows = episodes({"--operator", "expert", "--mode", "all", "--seed", "920001", "--trials", std::to_string(trials), "--out", "A"}, here);
+  const std::vector<Row> rows =
+      episodes({"--operator", "expert", "--mode", "all", "--seed", "920001", "--trials",
+                std::to_string(trials), "--out", "A"},
+               here);
   ASSERT_EQ(rows.size(), 3 * static_cast<std::size_t>(trials));
   for (const Row& row : rows) EXPECT_EQ(row.at("SIMULATED"), "1");
-  const double real = foundShare(rows, "real"), degraded = foundShare(rows, "degraded"), augmented = foundShare(rows, "augmented");
+  const double real = foundShare(rows, "real"), degraded = foundShare(rows, "degraded"),
+               augmented = foundShare(rows, "augmented");
   EXPECT_GT(real, degraded);
   EXPECT_GT(augmented, degraded);
   if (!test::fullCounts()) return;
   const std::optional<assess::Recovery> recovery = assess::recoveryOf(episodesOf(rows), 1);
   ASSERT_TRUE(recovery);
   EXPECT_GT(recovery->low, 0) << real << " " << degraded << " " << augmented;
-  RecordProperty("real_degraded_augmented", std::to_string(real) + " " + std::to_string(degraded) + " " + std::to_string(augmented));
-  RecordProperty("recovered", std::to_string(recovery->share) + " (" + std::to_string(recovery->low) + ", " + std::to_string(recovery->high) + ")");
+  RecordProperty("real_degraded_augmented", std::to_string(real) + " " + std::to_string(degraded) +
+                                                " " + std::to_string(augmented));
+  RecordProperty("recovered", std::to_string(recovery->share) + " (" +
+                                  std::to_string(recovery->low) + ", " +
+                                  std::to_string(recovery->high) + ")");
 }
 
 /// The same floors in every mode; cues are felt in one of them only.
 TEST(Search, ModesDifferInTheFloorsStiffnessAndInCuesOnly) {
   const Folder here;
-  const std::vector<Row> rows = episodes({"--operator", "expert", "--mode", "all", "--seed", "20001", "--out", "A"}, here);
+  const std::vector<Row> rows =
+      episodes({"--operator", "expert", "--mode", "all", "--seed", "20001", "--out", "A"}, here);
   ASSERT_EQ(rows.size(), 3u);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const Row& row = rows[i];
@@ -92,7 +104,10 @@ TEST(Search, ModesDifferInTheFloorsStiffnessAndInCuesOnly) {
 
 TEST(Search, ReplayFeelsAndJudgesItAgain) {
   const Folder here;
-  ASSERT_EQ(palpa(search({"--operator", "novice", "--mode", "all", "--seed", "3", "--out", "A"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa(search({"--operator", "novice", "--mode", "all", "--seed", "3", "--out", "A"}),
+                  here.path())
+                .exit_code,
+            0);
   const Outcome outcome = palpa({"replay", "A/session.palpa"}, here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "The replay equals the record")) << outcome.out;
@@ -100,20 +115,34 @@ TEST(Search, ReplayFeelsAndJudgesItAgain) {
 
 TEST(Search, TheSameSeedGivesTheSameNumbersAndViewsChangeNone) {
   const Folder here;
-  ASSERT_EQ(palpa(search({"--operator", "expert", "--mode", "augmented", "--seed", "5", "--out", "A"}), here.path()).exit_code, 0);
-  ASSERT_EQ(palpa({"search", "--fast", "--quiet", "--operator", "expert", "--mode", "augmented", "--seed", "5", "--out", "B"}, here.path()).exit_code, 0);
+  ASSERT_EQ(
+      palpa(search({"--operator", "expert", "--mode", "augmented", "--seed", "5", "--out", "A"}),
+            here.path())
+          .exit_code,
+      0);
+  ASSERT_EQ(palpa({"search", "--fast", "--quiet", "--operator", "expert", "--mode", "augmented",
+                   "--seed", "5", "--out", "B"},
+                  here.path())
+                .exit_code,
+            0);
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
   const std::string page = contentOf(here / "B/report.html");
-  for (const char* words : {"SIMULATED", "Was the target found?", "The parts of the task, and what the cues added", "Where this task stands"}) EXPECT_TRUE(says(page, words)) << words;
+  for (const char* words :
+       {"SIMULATED", "Was the target found?", "The parts of the task, and what the cues added",
+        "Where this task stands"})
+    EXPECT_TRUE(says(page, words)) << words;
 }
 
 /// Baseline, training, evaluation: the task's blocks; here a task with short ones.
 TEST(Search, BlocksComeInTheirOrderAndTrainInTheModeGiven) {
   const Folder here;
-  nlohmann::json task = nlohmann::json::parse(contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json"));
+  nlohmann::json task =
+      nlohmann::json::parse(contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json"));
   for (nlohmann::json& block : task["blocks"]) block["episodes"] = 1;
   const std::string file = here.file("short.json", task.dump());
-  const std::vector<Row> rows = episodes({"--task", file, "--operator", "expert", "--mode", "augmented", "--blocks", "--seed", "20001", "--out", "A"}, here);
+  const std::vector<Row> rows = episodes({"--task", file, "--operator", "expert", "--mode",
+                                          "augmented", "--blocks", "--seed", "20001", "--out", "A"},
+                                         here);
   ASSERT_EQ(rows.size(), 3u);
   const char* blocks[] = {"baseline", "training", "evaluation"};
   const char* modes[] = {"real", "augmented", "real"};
@@ -126,8 +155,14 @@ TEST(Search, BlocksComeInTheirOrderAndTrainInTheModeGiven) {
 TEST(Search, ATaskFileIsEnough) {
   const Folder here;
   const std::string task = std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json";
-  ASSERT_EQ(palpa(search({"--operator", "novice", "--seed", "5", "--out", "A"}), here.path()).exit_code, 0);
-  ASSERT_EQ(palpa({"train", "--task", task, "--fast", "--no-views", "--quiet", "--operator", "novice", "--seed", "5", "--out", "B"}, here.path()).exit_code, 0);
+  ASSERT_EQ(
+      palpa(search({"--operator", "novice", "--seed", "5", "--out", "A"}), here.path()).exit_code,
+      0);
+  ASSERT_EQ(palpa({"train", "--task", task, "--fast", "--no-views", "--quiet", "--operator",
+                   "novice", "--seed", "5", "--out", "B"},
+                  here.path())
+                .exit_code,
+            0);
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
 }
 
@@ -139,10 +174,15 @@ TEST(Search, WrongUsageIsNamed) {
     EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
     EXPECT_TRUE(says(outcome.err, word)) << outcome.err;
   };
-  refused({"--station", std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json", "--operator", "expert"}, "\"floor\"");
-  refused({"--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/paracentesis.json", "--operator", "expert"}, "engine");
+  refused({"--station", std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json",
+           "--operator", "expert"},
+          "\"floor\"");
+  refused({"--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/paracentesis.json",
+           "--operator", "expert"},
+          "engine");
   refused({"--mode", "stiff"}, "--mode");
-  nlohmann::json task = nlohmann::json::parse(contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json"));
+  nlohmann::json task =
+      nlohmann::json::parse(contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json"));
   task["stimulus"]["groove_U"]["value"] = 10;
   refused({"--task", here.file("groove.json", task.dump()), "--operator", "expert"}, "is no floor");
 }

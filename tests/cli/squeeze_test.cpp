@@ -17,20 +17,25 @@ Outcome squeeze(std::vector<std::string> more, const Folder& here) {
 }
 
 int rightIn(const std::vector<Row>& rows) {
-  return static_cast<int>(std::count_if(rows.begin(), rows.end(), [](const Row& row) { return row.at("RIGHT") == "1"; }));
+  return static_cast<int>(std::count_if(rows.begin(), rows.end(),
+                                        [](const Row& row) { return row.at("RIGHT") == "1"; }));
 }
 
-std::vector<Row> compared(const std::string& who, int trials, const Folder& here, std::vector<std::string> more = {}) {
-  more.insert(more.end(), {"--operator", who, "--seed", "1", "--trials", std::to_string(trials), "--out", who});
+std::vector<Row> compared(const std::string& who, int trials, const Folder& here,
+                          std::vector<std::string> more = {}) {
+  more.insert(more.end(),
+              {"--operator", who, "--seed", "1", "--trials", std::to_string(trials), "--out", who});
   const Outcome outcome = squeeze(more, here);
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
-  return outcome.exit_code == 0 ? rowsOf(contentOf(here / (who + "/trials.csv"))) : std::vector<Row>{};
+  return outcome.exit_code == 0 ? rowsOf(contentOf(here / (who + "/trials.csv")))
+                                : std::vector<Row>{};
 }
 
 TEST(Squeeze, ExpertsTellThingsApartAndNovicesLessWell) {
   const Folder here;
   const int trials = test::counted(6, 64);
-  const std::vector<Row> expert = compared("expert", trials, here), novice = compared("novice", trials, here);
+  const std::vector<Row> expert = compared("expert", trials, here),
+                         novice = compared("novice", trials, here);
   ASSERT_EQ(expert.size(), static_cast<std::size_t>(trials));
   EXPECT_GE(rightIn(expert), 0.85 * trials);
   EXPECT_GE(rightIn(novice), 0.5 * trials);
@@ -72,11 +77,20 @@ TEST(Squeeze, ReplayJudgesItAgainAndForcesAddUp) {
 
 TEST(Squeeze, ViewsChangeNothingAndTheReportSaysWhatItIs) {
   const Folder here;
-  ASSERT_EQ(squeeze({"--operator", "expert", "--trials", "1", "--seed", "3", "--out", "A"}, here).exit_code, 0);
-  ASSERT_EQ(palpa({"train", "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/squeeze.json", "--fast", "--quiet", "--operator", "expert", "--trials", "1", "--seed", "3", "--out", "B"}, here.path()).exit_code, 0);
+  ASSERT_EQ(squeeze({"--operator", "expert", "--trials", "1", "--seed", "3", "--out", "A"}, here)
+                .exit_code,
+            0);
+  ASSERT_EQ(palpa({"train", "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/squeeze.json",
+                   "--fast", "--quiet", "--operator", "expert", "--trials", "1", "--seed", "3",
+                   "--out", "B"},
+                  here.path())
+                .exit_code,
+            0);
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
   const std::string page = contentOf(here / "B/report.html");
-  for (const char* words : {"SIMULATED", "Where this task stands", "another stiffness and weight", "Every answer"}) EXPECT_TRUE(says(page, words)) << words;
+  for (const char* words :
+       {"SIMULATED", "Where this task stands", "another stiffness and weight", "Every answer"})
+    EXPECT_TRUE(says(page, words)) << words;
   bool pictures = false;
   for (const std::string& file : here.files()) pictures = pictures || says(file, "-held.png");
   EXPECT_TRUE(pictures);
@@ -86,10 +100,16 @@ TEST(Squeeze, WrongUsageIsNamed) {
   const Folder here;
   const Outcome person = squeeze({"--operator", "person"}, here);
   EXPECT_EQ(person.exit_code, 2);
-  const Outcome station = squeeze({"--operator", "expert", "--station", std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json"}, here);
+  const Outcome station =
+      squeeze({"--operator", "expert", "--station",
+               std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json"},
+              here);
   EXPECT_EQ(station.exit_code, 2);
   EXPECT_TRUE(says(station.err, "sample")) << station.err;
-  const Outcome needle = squeeze({"--operator", "expert", "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/paracentesis.json"}, here);
+  const Outcome needle =
+      squeeze({"--operator", "expert", "--task",
+               std::string(PALPA_SOURCE_DIR) + "/assets/tasks/paracentesis.json"},
+              here);
   EXPECT_EQ(needle.exit_code, 2);
   EXPECT_TRUE(says(needle.err, "engine")) << needle.err;
 }

@@ -48,12 +48,16 @@ Ordinary& ordinary() {
   return one;
 }
 
-/// Whatever becomes of the camera: the hand feels the same, the session ends as it would have, and the record says what was lost from when to when.
+/// Whatever becomes of the camera: the hand feels the same, the session ends as it would have, and
+/// the record says what was lost from when to when.
 TEST(StationSession, NothingThatBefallsTheCameraStopsASession) {
   nlohmann::json station = benchStation();
   nlohmann::json& faults = station["twin"]["camera_faults"];
-  const std::vector<std::pair<std::string, std::string>> kinds{{"hidden", "lost the board"}, {"black", "is black"}, {"frozen", "stands still: look"},
-                                                               {"wrong_size", "another size"}, {"gone", "is gone"}};
+  const std::vector<std::pair<std::string, std::string>> kinds{{"hidden", "lost the board"},
+                                                               {"black", "is black"},
+                                                               {"frozen", "stands still: look"},
+                                                               {"wrong_size", "another size"},
+                                                               {"gone", "is gone"}};
   double t = 0.8;
   for (const auto& [kind, words] : kinds) {
     faults.push_back({{"kind", kind}, {"from_s", t}, {"to_s", t + 1}});
@@ -62,7 +66,8 @@ TEST(StationSession, NothingThatBefallsTheCameraStopsASession) {
   faults.push_back({{"kind", "ended"}, {"from_s", t}, {"to_s", t + 1}});
   Folder here;
   const std::string file = here.file("faulty.json", station.dump());
-  const Outcome outcome = palpa(session({"--station", file, "--seed", "5", "--out", "A"}), here.path());
+  const Outcome outcome =
+      palpa(session({"--station", file, "--seed", "5", "--out", "A"}), here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(ordinary().here / "A/trials.csv"));
   const std::string report = contentOf(here / "A/report.html");
@@ -74,11 +79,13 @@ TEST(StationSession, NothingThatBefallsTheCameraStopsASession) {
   for (const auto& [kind, words] : kinds) {
     while (at < events.size() && !says(events[at].text, words)) ++at;
     ASSERT_LT(at, events.size()) << kind;
-    EXPECT_NEAR(1e-9 * static_cast<double>(events[at].t_ns), begins + 0.4, 0.4) << kind;   // a frozen picture is one after half a second
+    EXPECT_NEAR(1e-9 * static_cast<double>(events[at].t_ns), begins + 0.4, 0.4)
+        << kind;  // a frozen picture is one after half a second
     EXPECT_TRUE(says(report, words)) << kind;
     while (at < events.size() && events[at].value > 0) ++at;
     ASSERT_LT(at, events.size()) << kind;
-    EXPECT_NEAR(1e-9 * static_cast<double>(events[at].t_ns), begins + 1 + 0.6, 0.6) << kind;   // one that failed is asked again once a second
+    EXPECT_NEAR(1e-9 * static_cast<double>(events[at].t_ns), begins + 1 + 0.6, 0.6)
+        << kind;  // one that failed is asked again once a second
     begins += 1.4;
   }
   EXPECT_TRUE(says(events.back().text, "have ended")) << events.back().text;
@@ -86,18 +93,26 @@ TEST(StationSession, NothingThatBefallsTheCameraStopsASession) {
 
 nlohmann::json withPhantomBoard() {
   nlohmann::json station = benchStation();
-  station["boards"] = {{{"name", "phantom"}, {"columns", 2}, {"rows", 2}, {"tag_size_mm", 25}, {"spacing_mm", 6}, {"first_id", 200},
-                        {"X_WB", {{"position_mm", {160, 10, 0}}, {"rotation_vector_deg", {0, 0, 20}}}}}};
+  station["boards"] = {
+      {{"name", "phantom"},
+       {"columns", 2},
+       {"rows", 2},
+       {"tag_size_mm", 25},
+       {"spacing_mm", 6},
+       {"first_id", 200},
+       {"X_WB", {{"position_mm", {160, 10, 0}}, {"rotation_vector_deg", {0, 0, 20}}}}}};
   return station;
 }
 
-/// A phantom that is pushed is told, on the screen and in the record; what is drawn and felt stays, and so does the score.
+/// A phantom that is pushed is told, on the screen and in the record; what is drawn and felt stays,
+/// and so does the score.
 TEST(StationSession, APhantomThatMovesIsTold) {
   Folder here;
   nlohmann::json station = withPhantomBoard();
   station["twin"]["board_moves"] = {{{"board", "phantom"}, {"from_s", 4}, {"by_mm", {8, 6, 0}}}};
   here.file("station.json", station.dump());
-  const Outcome outcome = palpa(session({"--seed", "5", "--station", "station.json", "--out", "A"}), here.path());
+  const Outcome outcome =
+      palpa(session({"--seed", "5", "--station", "station.json", "--out", "A"}), here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(ordinary().here / "A/trials.csv"));
   std::vector<runtime::Event> told;
@@ -116,18 +131,25 @@ TEST(StationSession, RealThingsHideWhatIsDrawnBehindThem) {
     nlohmann::json station = withPhantomBoard();
     station["real_things"] = things;
     here.file(name + ".json", station.dump());
-    const Outcome outcome = palpa({"paracentesis", "--fast", "--quiet", "--operator", "expert", "--seed", "5", "--station", name + ".json", "--out", name}, here.path());
+    const Outcome outcome = palpa({"paracentesis", "--fast", "--quiet", "--operator", "expert",
+                                   "--seed", "5", "--station", name + ".json", "--out", name},
+                                  here.path());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return cv::imread((here / (name + "/view-01-01-start.png")).string());
   };
   here.file("plate.obj", "v -450 -450 0\nv 450 -450 0\nv 450 450 0\nv -450 450 0\nf 1 2 3 4\n");
-  const nlohmann::json over_patient{{"mesh", "plate.obj"}, {"unit", "mm"}, {"on", "table"}, {"X", {{"position_mm", {0, 260, 200}}, {"rotation_vector_deg", {0, 0, 0}}}}};
+  const nlohmann::json over_patient{
+      {"mesh", "plate.obj"},
+      {"unit", "mm"},
+      {"on", "table"},
+      {"X", {{"position_mm", {0, 260, 200}}, {"rotation_vector_deg", {0, 0, 0}}}}};
   nlohmann::json under_board = over_patient;
   under_board["on"] = "phantom";
   under_board["X"]["position_mm"] = {0, 0, -20};
-  const cv::Mat bare = picture("bare", nlohmann::json::array()), hidden = picture("hidden", {over_patient, under_board});
+  const cv::Mat bare = picture("bare", nlohmann::json::array()),
+                hidden = picture("hidden", {over_patient, under_board});
   ASSERT_EQ(bare.size(), hidden.size());
-  const auto coloured = [](const cv::Mat& view) {   // the camera's picture is gray
+  const auto coloured = [](const cv::Mat& view) {  // the camera's picture is gray
     const cv::Rect large(0, 60, view.cols * 65 / 100, view.rows / 2);
     std::vector<cv::Mat> bgr;
     cv::split(view(large), bgr);
@@ -141,16 +163,21 @@ TEST(StationSession, BoardsAndThingsThatCannotBeAreRefused) {
   Folder here;
   const auto refused = [&](const std::string& words, const auto& spoil) {
     nlohmann::json station = withPhantomBoard();
-    station["real_things"] = {{{"mesh", "plate.obj"}, {"unit", "mm"}, {"on", "phantom"}, {"X", {{"position_mm", {0, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}}}}};
+    station["real_things"] = {
+        {{"mesh", "plate.obj"},
+         {"unit", "mm"},
+         {"on", "phantom"},
+         {"X", {{"position_mm", {0, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}}}}};
     spoil(station);
     here.file("station.json", station.dump());
-    const Outcome outcome = palpa(session({"--station", "station.json", "--out", "A"}), here.path());
+    const Outcome outcome =
+        palpa(session({"--station", "station.json", "--out", "A"}), here.path());
     EXPECT_NE(outcome.exit_code, 0) << words;
     EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
     EXPECT_TRUE(says(outcome.err, words)) << outcome.err;
   };
   using nlohmann::json;
-  refused("plate.obj", [](json&) {});   // is not there
+  refused("plate.obj", [](json&) {});  // is not there
   refused("another board has", [](json& s) { s["boards"][0]["first_id"] = 20; });
   refused("another's name", [](json& s) { s["boards"][0]["name"] = "table"; });
   refused("known are table, tool", [](json& s) { s["real_things"][0]["on"] = "shelf"; });
@@ -172,10 +199,18 @@ TEST(StationSession, ARecordedVideoIsACameraAgain) {
   const nlohmann::json camera = benchStation()["camera"];
   const auto number = [&](const char* name) { return std::to_string(camera[name].get<double>()); };
   const nlohmann::json& k = camera["distortion"];
-  here.file("lens.yml", "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n  rows: 3\n  cols: 3\n  dt: d\n  data: [" + number("fx_px") + ", 0., " + number("cx_px") +
-                            ", 0., " + number("fy_px") + ", " + number("cy_px") + ", 0., 0., 1.]\ndistortion_coefficients: !!opencv-matrix\n  rows: 5\n  cols: 1\n  dt: d\n  data: [" +
-                            k["k1"].dump() + ", " + k["k2"].dump() + ", " + k["p1"].dump() + ", " + k["p2"].dump() + ", " + k["k3"].dump() + "]\n");
-  outcome = palpa(session({"--seed", "5", "--camera", "A/camera.mjpeg", "--intrinsics", "lens.yml", "--board", "tags:6x4:0.030:0.0075", "--out", "B"}), here.path());
+  here.file("lens.yml",
+            "%YAML:1.0\n---\nimage_width: 640\nimage_height: 480\ncamera_matrix: !!opencv-matrix\n "
+            " rows: 3\n  cols: 3\n  dt: d\n  data: [" +
+                number("fx_px") + ", 0., " + number("cx_px") + ", 0., " + number("fy_px") + ", " +
+                number("cy_px") +
+                ", 0., 0., 1.]\ndistortion_coefficients: !!opencv-matrix\n  rows: 5\n  cols: 1\n  "
+                "dt: d\n  data: [" +
+                k["k1"].dump() + ", " + k["k2"].dump() + ", " + k["p1"].dump() + ", " +
+                k["p2"].dump() + ", " + k["k3"].dump() + "]\n");
+  outcome = palpa(session({"--seed", "5", "--camera", "A/camera.mjpeg", "--intrinsics", "lens.yml",
+                           "--board", "tags:6x4:0.030:0.0075", "--out", "B"}),
+                  here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   std::size_t lost = 0;
   for (const runtime::Event& event : record::SessionReader(here / "B/session.palpa").events())
@@ -183,23 +218,28 @@ TEST(StationSession, ARecordedVideoIsACameraAgain) {
       ++lost;
       EXPECT_TRUE(says(event.text, "ended") || says(event.text, "does not see")) << event.text;
     }
-  EXPECT_LE(lost, 2u);   // before the first picture, and where the film ends
+  EXPECT_LE(lost, 2u);  // before the first picture, and where the film ends
 }
 
 TEST(StationSession, AGuidedTrialIsNotScored) {
   Folder here;
-  const Outcome outcome = palpa(session({"--seed", "5", "--guide", "on", "--out", "A"}), here.path());
+  const Outcome outcome =
+      palpa(session({"--seed", "5", "--guide", "on", "--out", "A"}), here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_TRUE(says(outcome.out, "not scored")) << outcome.out;
   EXPECT_EQ(contentOf(here / "A/trials.csv").find("T000"), std::string::npos);
 }
 
 TEST(StationSession, ACameraFaultThatIsNoneIsRefused) {
-  for (const char* fault : {R"({"kind": "tired", "from_s": 1, "to_s": 2})", R"({"kind": "black", "from_s": 3, "to_s": 2})", R"({"kind": "black", "from_s": -1, "to_s": 2})"}) {
+  for (const char* fault : {R"({"kind": "tired", "from_s": 1, "to_s": 2})",
+                            R"({"kind": "black", "from_s": 3, "to_s": 2})",
+                            R"({"kind": "black", "from_s": -1, "to_s": 2})"}) {
     nlohmann::json station = benchStation();
     station["twin"]["camera_faults"].push_back(nlohmann::json::parse(fault));
     Folder here;
-    const Outcome outcome = palpa(session({"--station", here.file("faulty.json", station.dump()), "--out", "A"}), here.path());
+    const Outcome outcome =
+        palpa(session({"--station", here.file("faulty.json", station.dump()), "--out", "A"}),
+              here.path());
     EXPECT_EQ(outcome.exit_code, 2) << fault;
     EXPECT_TRUE(says(outcome.err, "camera_faults")) << outcome.err;
   }
@@ -212,7 +252,8 @@ TEST(StationSession, ARecordedHandScoresWhatItScored) {
   station["device"]["recording"] = (ordinary().here / "A/session.palpa").string();
   Folder here;
   const std::string file = here.file("replay.json", station.dump());
-  const Outcome again = palpa(ofTheStation({"--station", file, "--seed", "5", "--out", "B"}), here.path());
+  const Outcome again =
+      palpa(ofTheStation({"--station", file, "--seed", "5", "--out", "B"}), here.path());
   ASSERT_EQ(again.exit_code, 0) << again.err;
   EXPECT_EQ(totalOf(here / "B/trials.csv"), totalOf(ordinary().here / "A/trials.csv"));
   EXPECT_NE(contentOf(here / "B/report.html").find("recorded hand"), std::string::npos);
@@ -232,8 +273,8 @@ TEST(StationSession, RealDevicesAreForPersons) {
   nlohmann::json mouse = benchStation();
   mouse["device"]["driver"] = "mouse";
   Folder here;
-  for (const std::string& file :
-       {here.file("mouse.json", mouse.dump()), std::string(PALPA_SOURCE_DIR "/assets/stations/falcon.json")}) {
+  for (const std::string& file : {here.file("mouse.json", mouse.dump()),
+                                  std::string(PALPA_SOURCE_DIR "/assets/stations/falcon.json")}) {
     const Outcome o = palpa(session({"--station", file}), here.path());
     EXPECT_EQ(o.exit_code, 2) << file;
     EXPECT_NE(o.err.find("simulated operator cannot hold"), std::string::npos) << o.err;
@@ -246,30 +287,39 @@ TEST(StationSession, RealDevicesAreForPersons) {
 TEST(StationSession, AFasterLoopAndTheFullMeshComeToTheSameVerdict) {
   ASSERT_EQ(ordinary().outcome.exit_code, 0) << ordinary().outcome.err;
   const double total = std::stod(totalOf(ordinary().here / "A/trials.csv"));
-  for (const std::vector<std::string>& how :
-       {std::vector<std::string>{"--rate", "4000"}, std::vector<std::string>{"--geometry", "exact"}}) {
+  for (const std::vector<std::string>& how : {std::vector<std::string>{"--rate", "4000"},
+                                              std::vector<std::string>{"--geometry", "exact"}}) {
     Folder here;
     std::vector<std::string> arguments{"--seed", "5", "--out", "A"};
     arguments.insert(arguments.end(), how.begin(), how.end());
     const Outcome o = palpa(session(arguments), here.path());
     ASSERT_EQ(o.exit_code, 0) << o.err;
-    // The operator answers what he feels, so small differences of force lead to small ones of the score.
+    // The operator answers what he feels, so small differences of force lead to small ones of the
+    // score.
     EXPECT_NEAR(std::stod(totalOf(here / "A/trials.csv")), total, 0.05 * total) << how[0];
     EXPECT_EQ(palpa({"replay", "A/session.palpa"}, here.path()).exit_code, 0) << how[0];
   }
   Folder here;
-  EXPECT_EQ(palpa({"paracentesis", "--geometry", "exact", "--operator", "expert", "--no-views"}, here.path()).exit_code, 2)
+  EXPECT_EQ(palpa({"paracentesis", "--geometry", "exact", "--operator", "expert", "--no-views"},
+                  here.path())
+                .exit_code,
+            2)
       << "the full mesh takes longer than a tick: virtual time only";
 }
 
 TEST(StationSession, AForceSensorIsRecordedWithEveryTick) {
   nlohmann::json station = benchStation();
-  station["force_sensor"] = {{"driver", "virtual"}, {"name", "six axes"}, {"max_force_N", {40, 40, 120}},
-      {"X_ES", {{"position_mm", {0, 0, 30}}, {"rotation_vector_deg", {0, 0, 0}}}}, {"cutoff_Hz", 30},
+  station["force_sensor"] = {
+      {"driver", "virtual"},
+      {"name", "six axes"},
+      {"max_force_N", {40, 40, 120}},
+      {"X_ES", {{"position_mm", {0, 0, 30}}, {"rotation_vector_deg", {0, 0, 0}}}},
+      {"cutoff_Hz", 30},
       {"tool", {{"mass_g", 30}, {"centre_mm", {0, 0, 40}}}},
       {"bias", {{"force_N", {0.2, -0.1, 0.4}}, {"torque_Nm", {0, 0, 0}}}}};
-  station["twin"]["force_sensor"] = {{"tool_mass_spread_percent", 2}, {"centre_spread_mm", 0.5},
-      {"bias_spread_N", 0.01}, {"bias_spread_Nm", 0.0005}, {"noise_N", 0.01}, {"noise_Nm", 0.0003}};
+  station["twin"]["force_sensor"] = {
+      {"tool_mass_spread_percent", 2}, {"centre_spread_mm", 0.5}, {"bias_spread_N", 0.01},
+      {"bias_spread_Nm", 0.0005},      {"noise_N", 0.01},         {"noise_Nm", 0.0003}};
   Folder here;
   const std::string file = here.file("station.json", station.dump());
   const Outcome o = palpa(session({"--station", file, "--seed", "5", "--out", "A"}), here.path());
@@ -279,7 +329,9 @@ TEST(StationSession, AForceSensorIsRecordedWithEveryTick) {
   std::string line;
   std::getline(csv, line);
   const std::vector<std::string> header = cellsOf(line);
-  const auto at = [&](const char* name) { return std::find(header.begin(), header.end(), name) - header.begin(); };
+  const auto at = [&](const char* name) {
+    return std::find(header.begin(), header.end(), name) - header.begin();
+  };
   int valid = 0, ticks = 0;
   double squares = 0;
   for (; std::getline(csv, line); ++ticks) {
@@ -291,19 +343,22 @@ TEST(StationSession, AForceSensorIsRecordedWithEveryTick) {
   }
   EXPECT_GT(ticks, 5000);
   EXPECT_GT(valid, ticks - 20);
-  // Nothing real is touched: what is left of a 30 g tool (0.3 N) is calibration, noise and the encoders' steps.
+  // Nothing real is touched: what is left of a 30 g tool (0.3 N) is calibration, noise and the
+  // encoders' steps.
   EXPECT_LT(std::sqrt(squares / valid), 0.06);
   EXPECT_EQ(palpa({"replay", "A/session.palpa"}, here.path()).exit_code, 0);
 }
 
 TEST(StationSession, WhatADeviceLacksIsSaidInOneLine) {
-  const std::pair<const char*, nlohmann::json> wrong[] = {
-      {"device/driver", "gamepad"}, {"device/max_force_N", "much"}, {"device/continuous_force_N", 50}};
+  const std::pair<const char*, nlohmann::json> wrong[] = {{"device/driver", "gamepad"},
+                                                          {"device/max_force_N", "much"},
+                                                          {"device/continuous_force_N", 50}};
   for (const auto& [field, value] : wrong) {
     nlohmann::json station = benchStation();
     station[nlohmann::json::json_pointer("/" + std::string(field))] = value;
     Folder here;
-    const Outcome o = palpa(session({"--station", here.file("s.json", station.dump())}), here.path());
+    const Outcome o =
+        palpa(session({"--station", here.file("s.json", station.dump())}), here.path());
     EXPECT_EQ(o.exit_code, 2) << field;
     EXPECT_EQ(o.errLines(), 1) << o.err;
     EXPECT_NE(o.err.find(field), std::string::npos) << o.err;

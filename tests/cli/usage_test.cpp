@@ -124,7 +124,8 @@ TEST(Usage, ASurfaceInTheWrongUnitIsRefusedWithTheLikelyOne) {
   // A bar 149 x 12 x 12, as a clavicle would be in millimetres.
   std::string obj;
   for (int i = 0; i < 8; ++i)
-    obj += "v " + std::to_string(i & 1 ? 149 : 0) + " " + std::to_string(i & 2 ? 12 : 0) + " " + std::to_string(i & 4 ? 12 : 0) + "\n";
+    obj += "v " + std::to_string(i & 1 ? 149 : 0) + " " + std::to_string(i & 2 ? 12 : 0) + " " +
+           std::to_string(i & 4 ? 12 : 0) + "\n";
   obj += "f 1 3 4 2\nf 5 6 8 7\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\nf 2 4 8 6\n";
   Folder here;
   const std::string file = here.file("bar.obj", obj);
@@ -138,7 +139,8 @@ TEST(Usage, ASurfaceInTheWrongUnitIsRefusedWithTheLikelyOne) {
   EXPECT_EQ(unknown.exit_code, 2);
   EXPECT_EQ(unknown.errLines(), 1) << unknown.err;
   EXPECT_NE(unknown.err.find("furlong"), std::string::npos);
-  const Outcome right = palpa({"patient", "info", file, "--organ", "clavicle", "--unit", "mm"}, here.path());
+  const Outcome right =
+      palpa({"patient", "info", file, "--organ", "clavicle", "--unit", "mm"}, here.path());
   EXPECT_EQ(right.exit_code, 0) << right.err;
   EXPECT_NE(right.out.find("149 mm x 12 mm x 12 mm  sound"), std::string::npos) << right.out;
 }

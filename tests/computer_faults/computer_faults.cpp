@@ -12,7 +12,8 @@
 #include <cstring>
 #include <ctime>
 
-/// Answers of the system and of libusb with one thing wrong: PALPA_FAULT says which. Everything else goes through to whom it was meant for.
+/// Answers of the system and of libusb with one thing wrong: PALPA_FAULT says which. Everything
+/// else goes through to whom it was meant for.
 namespace {
 
 bool isFault(const char* name) {
@@ -25,13 +26,13 @@ Function* original(const char* name) {
   return reinterpret_cast<Function*>(dlsym(RTLD_NEXT, name));
 }
 
-constexpr time_t kLongAgo = 100'000'000;   // 1973
+constexpr time_t kLongAgo = 100'000'000;  // 1973
 
 bool hasUsbDevice() { return isFault("usb denied") || isFault("usb busy") || isFault("usb mute"); }
-thread_local timespec promised;   // what a thread was promised when it went to sleep
+thread_local timespec promised;  // what a thread was promised when it went to sleep
 thread_local bool wakes = false;
 bool wakesInTime() { return isFault("no real time") || isFault("no locked memory"); }
-int device, handle;   // only their places are used
+int device, handle;  // only their places are used
 
 }  // namespace
 
@@ -41,7 +42,7 @@ extern "C" {
 int clock_gettime(clockid_t clock, timespec* t) noexcept {
   static auto* real = original<int(clockid_t, timespec*)>("clock_gettime");
   const int result = real(clock, t);
-  if (clock == CLOCK_MONOTONIC && wakes) *t = promised;   // a busy computer is another fault
+  if (clock == CLOCK_MONOTONIC && wakes) *t = promised;  // a busy computer is another fault
   wakes = false;
   if (clock != CLOCK_REALTIME) return result;
   static std::atomic<int> asked{0};
@@ -109,9 +110,11 @@ int access(const char* path, int mode) noexcept {
   return -1;
 }
 
-// A Falcon on a cable: its kernel node belongs to somebody else, or another program has it, or it says nothing.
+// A Falcon on a cable: its kernel node belongs to somebody else, or another program has it, or it
+// says nothing.
 ssize_t libusb_get_device_list(libusb_context* context, libusb_device*** list) {
-  static auto* real = original<ssize_t(libusb_context*, libusb_device***)>("libusb_get_device_list");
+  static auto* real =
+      original<ssize_t(libusb_context*, libusb_device***)>("libusb_get_device_list");
   if (!hasUsbDevice()) return real(context, list);
   *list = static_cast<libusb_device**>(std::calloc(2, sizeof(libusb_device*)));
   (*list)[0] = reinterpret_cast<libusb_device*>(&device);
@@ -122,7 +125,8 @@ void libusb_free_device_list(libusb_device** list, int unref) {
   hasUsbDevice() ? std::free(list) : real(list, unref);
 }
 int libusb_get_device_descriptor(libusb_device* one, libusb_device_descriptor* descriptor) {
-  static auto* real = original<int(libusb_device*, libusb_device_descriptor*)>("libusb_get_device_descriptor");
+  static auto* real =
+      original<int(libusb_device*, libusb_device_descriptor*)>("libusb_get_device_descriptor");
   if (!hasUsbDevice()) return real(one, descriptor);
   *descriptor = {};
   descriptor->idVendor = 0x0403;
@@ -136,7 +140,8 @@ int libusb_open(libusb_device* one, libusb_device_handle** opened) {
   return isFault("usb denied") ? LIBUSB_ERROR_ACCESS : LIBUSB_SUCCESS;
 }
 int libusb_set_auto_detach_kernel_driver(libusb_device_handle* opened, int enable) {
-  static auto* real = original<int(libusb_device_handle*, int)>("libusb_set_auto_detach_kernel_driver");
+  static auto* real =
+      original<int(libusb_device_handle*, int)>("libusb_set_auto_detach_kernel_driver");
   return hasUsbDevice() ? LIBUSB_SUCCESS : real(opened, enable);
 }
 int libusb_claim_interface(libusb_device_handle* opened, int interface) {
@@ -152,12 +157,19 @@ void libusb_close(libusb_device_handle* opened) {
   static auto* real = original<void(libusb_device_handle*)>("libusb_close");
   if (!hasUsbDevice()) real(opened);
 }
-int libusb_control_transfer(libusb_device_handle* opened, std::uint8_t type, std::uint8_t request, std::uint16_t value, std::uint16_t index, unsigned char* data, std::uint16_t length, unsigned timeout) {
-  static auto* real = original<int(libusb_device_handle*, std::uint8_t, std::uint8_t, std::uint16_t, std::uint16_t, unsigned char*, std::uint16_t, unsigned)>("libusb_control_transfer");
+int libusb_control_transfer(libusb_device_handle* opened, std::uint8_t type, std::uint8_t request,
+                            std::uint16_t value, std::uint16_t index, unsigned char* data,
+                            std::uint16_t length, unsigned timeout) {
+  static auto* real =
+      original<int(libusb_device_handle*, std::uint8_t, std::uint8_t, std::uint16_t, std::uint16_t,
+                   unsigned char*, std::uint16_t, unsigned)>("libusb_control_transfer");
   return hasUsbDevice() ? length : real(opened, type, request, value, index, data, length, timeout);
 }
-int libusb_bulk_transfer(libusb_device_handle* opened, unsigned char endpoint, unsigned char* data, int length, int* moved, unsigned timeout) {
-  static auto* real = original<int(libusb_device_handle*, unsigned char, unsigned char*, int, int*, unsigned)>("libusb_bulk_transfer");
+int libusb_bulk_transfer(libusb_device_handle* opened, unsigned char endpoint, unsigned char* data,
+                         int length, int* moved, unsigned timeout) {
+  static auto* real =
+      original<int(libusb_device_handle*, unsigned char, unsigned char*, int, int*, unsigned)>(
+          "libusb_bulk_transfer");
   if (!hasUsbDevice()) return real(opened, endpoint, data, length, moved, timeout);
   const bool in = endpoint & LIBUSB_ENDPOINT_IN;
   *moved = in ? 0 : length;

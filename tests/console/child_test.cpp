@@ -18,13 +18,15 @@ namespace {
 
 bool ends(const ProcessId& process) {
   const auto until = runtime::ServingClock::now() + std::chrono::seconds(60);
-  while (runs(process) && runtime::ServingClock::now() < until) runtime::rest(std::chrono::milliseconds(5));
+  while (runs(process) && runtime::ServingClock::now() < until)
+    runtime::rest(std::chrono::milliseconds(5));
   return !runs(process);
 }
 
 TEST(Child, NothingOfOursStaysOpenAndItIsItsOwnMaster) {
   const test::ScratchFolder folder("child");
-  const int file = ::open("/dev/null", O_RDONLY), high = ::fcntl(file, F_DUPFD, 200);   // without O_CLOEXEC: as a library forgets it
+  const int file = ::open("/dev/null", O_RDONLY),
+            high = ::fcntl(file, F_DUPFD, 200);  // without O_CLOEXEC: as a library forgets it
   int line[2];
   ASSERT_EQ(::socketpair(AF_UNIX, SOCK_STREAM, 0, line), 0);
   sigset_t term, old;
@@ -50,7 +52,8 @@ TEST(Child, ItsLogIsTheUsersAlone) {
   const ProcessId child = start({"facts"}, folder / "log.txt", false);
   ::umask(mask);
   ASSERT_TRUE(ends(child));
-  EXPECT_EQ(std::filesystem::status(folder / "log.txt").permissions(), std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
+  EXPECT_EQ(std::filesystem::status(folder / "log.txt").permissions(),
+            std::filesystem::perms::owner_read | std::filesystem::perms::owner_write);
 }
 
 TEST(Child, IsAskedToEndAndGone) {
@@ -58,10 +61,11 @@ TEST(Child, IsAskedToEndAndGone) {
   const ProcessId child = start({"wait"}, folder / "log.txt", true);
   EXPECT_TRUE(runs(child));
   const auto until = runtime::ServingClock::now() + std::chrono::seconds(30);
-  while (lastLines(folder / "log.txt", 1).empty() && runtime::ServingClock::now() < until) runtime::rest(std::chrono::milliseconds(5));   // it waits for Ctrl-C now
+  while (lastLines(folder / "log.txt", 1).empty() && runtime::ServingClock::now() < until)
+    runtime::rest(std::chrono::milliseconds(5));  // it waits for Ctrl-C now
   askToEnd(child);
   EXPECT_TRUE(ends(child));
-  askToEnd(child);   // nobody is there: nobody is hit
+  askToEnd(child);  // nobody is there: nobody is hit
 }
 
 /// A later process with the same number is not taken for it, and not asked to end.
@@ -69,13 +73,16 @@ TEST(Child, AnotherProcessWithTheSameNumberIsNotIt) {
   const ProcessId self{::getpid(), 1};
   EXPECT_FALSE(runs(self));
   askToEnd(self);
-  for (const ProcessId none : {ProcessId{0, 0}, ProcessId{-1, 5}, ProcessId{1 << 30, 5}, ProcessId{::getpid(), 0}}) {
+  for (const ProcessId none :
+       {ProcessId{0, 0}, ProcessId{-1, 5}, ProcessId{1 << 30, 5}, ProcessId{::getpid(), 0}}) {
     EXPECT_FALSE(runs(none));
     askToEnd(none);
   }
 }
 
-TEST(Child, ALogInAFolderThatIsNotThereIsAnError) { EXPECT_THROW(start({"facts"}, "/proc/there/is/none/log.txt", false), Error); }
+TEST(Child, ALogInAFolderThatIsNotThereIsAnError) {
+  EXPECT_THROW(start({"facts"}, "/proc/there/is/none/log.txt", false), Error);
+}
 
 TEST(Child, LastLinesOfAnyLog) {
   const test::ScratchFolder folder("lines");

@@ -23,13 +23,17 @@ struct Line {
     if (ends[1] >= 0) ::close(ends[1]);
     ends[1] = -1;
   }
-  void say(const std::string& bytes) { EXPECT_EQ(::send(ends[1], bytes.data(), bytes.size(), MSG_NOSIGNAL), static_cast<ssize_t>(bytes.size())); }
+  void say(const std::string& bytes) {
+    EXPECT_EQ(::send(ends[1], bytes.data(), bytes.size(), MSG_NOSIGNAL),
+              static_cast<ssize_t>(bytes.size()));
+  }
   int ends[2] = {-1, -1};
 };
 
 std::string readAll(DeadlineStream& stream, std::size_t piece) {
   std::string all, bytes(piece, '\0');
-  for (ssize_t count; (count = stream.read(bytes.data(), piece)) > 0;) all.append(bytes.data(), static_cast<std::size_t>(count));
+  for (ssize_t count; (count = stream.read(bytes.data(), piece)) > 0;)
+    all.append(bytes.data(), static_cast<std::size_t>(count));
   return all;
 }
 
@@ -68,7 +72,7 @@ TEST(DeadlineStream, EndsAtItsMomentHoweverSlowlyBytesCome) {
     }
   });
   stream.begin(Clock::now() + 200ms, 1 << 20);
-  const std::string got = readAll(stream, 1);   // returns, although it never ends
+  const std::string got = readAll(stream, 1);  // returns, although it never ends
   ending.store(true);
   drip.join();
   EXPECT_TRUE(stream.cut());

@@ -17,8 +17,21 @@ std::string nextNumber() {
 }
 
 struct Door {
-  explicit Door(const std::string& token = "") : guard(token) { guard.answerTo({kHere, "localhost:8123", "[::1]:8123"}); }
-  Asked get(const std::string& path = "/api/sessions") const { return {.remote = "127.0.0.1", .method = "GET", .path = path, .host = kHere, .origin = {}, .fetch_site = {}, .content_type = {}, .cookie = {}, .page_key = {}, .write_id = {}}; }
+  explicit Door(const std::string& token = "") : guard(token) {
+    guard.answerTo({kHere, "localhost:8123", "[::1]:8123"});
+  }
+  Asked get(const std::string& path = "/api/sessions") const {
+    return {.remote = "127.0.0.1",
+            .method = "GET",
+            .path = path,
+            .host = kHere,
+            .origin = {},
+            .fetch_site = {},
+            .content_type = {},
+            .cookie = {},
+            .page_key = {},
+            .write_id = {}};
+  }
   Asked post(const std::string& path = "/api/sessions") const {
     Asked asked = get(path);
     asked.method = "POST";
@@ -47,8 +60,11 @@ TEST(Guard, OnlyItsOwnNames) {
     asked.host = host;
     EXPECT_EQ(door.guard.judge(asked).status, 200) << host;
   }
-  for (const std::string host : {"", "127.0.0.1", "localhost", "127.0.0.1:8124", "127.0.0.1:81230", "evil.example", "evil.example:8123", "localhost.evil.example:8123", "127.0.0.1.evil.example:8123", "evil@127.0.0.1:8123",
-                                 "127.0.0.1:8123, evil", " 127.0.0.1:8123", "127.0.0.1:8123 ", "127.1:8123", "2130706433:8123", "0.0.0.0:8123", "::1:8123"}) {
+  for (const std::string host :
+       {"", "127.0.0.1", "localhost", "127.0.0.1:8124", "127.0.0.1:81230", "evil.example",
+        "evil.example:8123", "localhost.evil.example:8123", "127.0.0.1.evil.example:8123",
+        "evil@127.0.0.1:8123", "127.0.0.1:8123, evil", " 127.0.0.1:8123", "127.0.0.1:8123 ",
+        "127.1:8123", "2130706433:8123", "0.0.0.0:8123", "::1:8123"}) {
     Asked asked = door.get("/");
     asked.host = host;
     EXPECT_EQ(door.guard.judge(asked).status, 421) << host;
@@ -60,7 +76,10 @@ TEST(Guard, OnlyItsOwnNames) {
 
 TEST(Guard, NoOtherOrigin) {
   Door door;
-  for (const char* origin : {"null", "https://127.0.0.1:8123", "http://evil.example", "http://127.0.0.1", "http://127.0.0.1:8124", "http://127.0.0.1:8123/", "HTTP://127.0.0.1:8123", "http://127.0.0.1:8123.evil.example", "file://"}) {
+  for (const char* origin :
+       {"null", "https://127.0.0.1:8123", "http://evil.example", "http://127.0.0.1",
+        "http://127.0.0.1:8124", "http://127.0.0.1:8123/", "HTTP://127.0.0.1:8123",
+        "http://127.0.0.1:8123.evil.example", "file://"}) {
     for (Asked asked : {door.get(), door.get("/"), door.post()}) {
       asked.origin = origin;
       EXPECT_EQ(door.guard.judge(asked).status, 403) << origin << ' ' << asked.method << asked.path;
@@ -93,7 +112,8 @@ TEST(Guard, WhatABrowserSaysOfTheAskingSite) {
 
 TEST(Guard, OnlyGetAndPost) {
   Door door;
-  for (const char* method : {"", "HEAD", "PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT", "PRI", "get"}) {
+  for (const char* method :
+       {"", "HEAD", "PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT", "PRI", "get"}) {
     Asked asked = door.get();
     asked.method = method;
     EXPECT_EQ(door.guard.judge(asked).status, 405) << method;
@@ -104,12 +124,15 @@ TEST(Guard, AWriteNeedsThePagesKeyAndItsType) {
   Door door;
   Asked right = door.post();
   EXPECT_EQ(door.guard.judge(right).status, 200);
-  for (const std::string& key : {std::string(), std::string("0"), Door().guard.pageKey(), door.guard.pageKey() + "0", door.guard.pageKey().substr(1)}) {
+  for (const std::string& key : {std::string(), std::string("0"), Door().guard.pageKey(),
+                                 door.guard.pageKey() + "0", door.guard.pageKey().substr(1)}) {
     Asked asked = door.post();
     asked.page_key = key;
     EXPECT_EQ(door.guard.judge(asked).status, 403) << key;
   }
-  for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded", "multipart/form-data; boundary=application/json", " application/json", "text/plain;application/json"}) {
+  for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded",
+                           "multipart/form-data; boundary=application/json", " application/json",
+                           "text/plain;application/json"}) {
     Asked asked = door.post();
     asked.content_type = type;
     EXPECT_EQ(door.guard.judge(asked).status, 415) << type;
@@ -124,7 +147,10 @@ TEST(Guard, ANumberCountsOnce) {
   asked.path = "/api/trainees";
   asked.remote = "10.0.0.9";
   EXPECT_EQ(door.guard.judge(asked).status, 409) << "from elsewhere, for something else";
-  for (const std::string& number : {std::string(), std::string("1"), std::string(31, 'a'), std::string(33, 'a'), std::string(32, 'A'), std::string(32, 'g'), std::string(32, '\0'), std::string(1 << 20, 'a')}) {
+  for (const std::string& number :
+       {std::string(), std::string("1"), std::string(31, 'a'), std::string(33, 'a'),
+        std::string(32, 'A'), std::string(32, 'g'), std::string(32, '\0'),
+        std::string(1 << 20, 'a')}) {
     Asked bad = door.post();
     bad.write_id = number;
     EXPECT_EQ(door.guard.judge(bad).status, 400) << number.substr(0, 40);
@@ -174,9 +200,12 @@ TEST(Guard, NumbersAreKeptUpToABound) {
 
 TEST(Guard, WithATokenOnlyThePageAndTheDoorAreOpen) {
   Door door(kToken);
-  for (const char* path : {"/", "/static/console.js", "/api/me"}) EXPECT_EQ(door.guard.judge(door.get(path)).status, 200) << path;
+  for (const char* path : {"/", "/static/console.js", "/api/me"})
+    EXPECT_EQ(door.guard.judge(door.get(path)).status, 200) << path;
   EXPECT_EQ(door.guard.judge(door.post("/api/enter")).status, 200);
-  for (const char* path : {"/api/sessions", "/api/trainees", "/api/me/", "/api/me/../sessions", "/api/enter/", "/API/ME", "//", "", "/api/sessions/x/live", "/api/sessions/x/file/report.html", "/api/pages/x", "/static"}) {
+  for (const char* path : {"/api/sessions", "/api/trainees", "/api/me/", "/api/me/../sessions",
+                           "/api/enter/", "/API/ME", "//", "", "/api/sessions/x/live",
+                           "/api/sessions/x/file/report.html", "/api/pages/x", "/static"}) {
     EXPECT_EQ(door.guard.judge(door.get(path)).status, 401) << path;
     EXPECT_EQ(door.guard.judge(door.post(path)).status, 401) << path;
   }
@@ -188,11 +217,15 @@ TEST(Guard, TheCookieComesForTheTokenAndOpens) {
   ASSERT_EQ(cookie.size(), 32u);
   EXPECT_EQ(cookie.find(kToken), std::string::npos);
   Asked asked = door.get();
-  for (const std::string& header : {"palpa=" + cookie, "a=b; palpa=" + cookie, "palpa=" + cookie + "; a=b"}) {
+  for (const std::string& header :
+       {"palpa=" + cookie, "a=b; palpa=" + cookie, "palpa=" + cookie + "; a=b"}) {
     asked.cookie = header;
     EXPECT_EQ(door.guard.judge(asked).status, 200) << header;
   }
-  for (const std::string& header : {std::string("palpa="), "palpa=" + cookie + "0", "palpa=" + cookie.substr(1), "xpalpa=" + cookie, "Palpa=" + cookie, cookie, std::string("palpa=") + kToken, "palpa=" + door.guard.pageKey(), "palpa=; palpa=" + cookie}) {
+  for (const std::string& header :
+       {std::string("palpa="), "palpa=" + cookie + "0", "palpa=" + cookie.substr(1),
+        "xpalpa=" + cookie, "Palpa=" + cookie, cookie, std::string("palpa=") + kToken,
+        "palpa=" + door.guard.pageKey(), "palpa=; palpa=" + cookie}) {
     asked.cookie = header;
     EXPECT_EQ(door.guard.judge(asked).status, 401) << header;
   }
@@ -201,7 +234,9 @@ TEST(Guard, TheCookieComesForTheTokenAndOpens) {
 
 TEST(Guard, FiveWrongTokensThenNotEvenTheRightOneFromThere) {
   Door door(kToken);
-  for (const char* wrong : {"", "x", "correct-horse-battery-stapl", "correct-horse-battery-staple ", "Correct-horse-battery-staple"}) EXPECT_EQ(door.guard.enter("10.0.0.1", wrong), "");
+  for (const char* wrong : {"", "x", "correct-horse-battery-stapl", "correct-horse-battery-staple ",
+                            "Correct-horse-battery-staple"})
+    EXPECT_EQ(door.guard.enter("10.0.0.1", wrong), "");
   EXPECT_EQ(door.guard.enter("10.0.0.1", kToken), "");
   EXPECT_NE(door.guard.enter("10.0.0.2", kToken), "");
 }
@@ -216,14 +251,16 @@ TEST(Guard, WithoutATokenNobodyIsGivenACookie) {
 TEST(Guard, AnswersTellNothingOfWhatWouldBeRight) {
   Door door(kToken);
   std::set<std::string> words;
-  for (const std::string& cookie : {std::string(), std::string("palpa="), "palpa=" + std::string(32, '0'), std::string(10'000, 'x')}) {
+  for (const std::string& cookie : {std::string(), std::string("palpa="),
+                                    "palpa=" + std::string(32, '0'), std::string(10'000, 'x')}) {
     Asked asked = door.get();
     asked.cookie = cookie;
     words.insert(door.guard.judge(asked).words);
   }
   EXPECT_EQ(words.size(), 1u);
   words.clear();
-  for (const std::string& key : {std::string(), std::string("0"), std::string(32, '0'), door.guard.pageKey().substr(0, 31) + "x"}) {
+  for (const std::string& key : {std::string(), std::string("0"), std::string(32, '0'),
+                                 door.guard.pageKey().substr(0, 31) + "x"}) {
     Asked asked = door.post();
     asked.page_key = key;
     words.insert(door.guard.judge(asked).words);
@@ -235,7 +272,8 @@ TEST(Guard, KeysAreDrawnAnew) {
   std::set<std::string> keys;
   for (int i = 0; i < 1000; ++i) keys.insert(randomKey());
   EXPECT_EQ(keys.size(), 1000u);
-  for (const std::string& key : keys) EXPECT_EQ(key.find_first_not_of("0123456789abcdef"), std::string::npos);
+  for (const std::string& key : keys)
+    EXPECT_EQ(key.find_first_not_of("0123456789abcdef"), std::string::npos);
 }
 
 TEST(SafeHeaders, NoPageMayRunOrFrameAnythingElses) {
@@ -250,7 +288,8 @@ TEST(SafeHeaders, NoPageMayRunOrFrameAnythingElses) {
     EXPECT_EQ(one.find("http"), std::string::npos);
   }
   EXPECT_EQ(std::string(kReportPolicy).find("allow-scripts"), std::string::npos);
-  EXPECT_EQ(std::string(kReportPolicy).find("script-src"), std::string::npos) << "default-src 'none' covers it";
+  EXPECT_EQ(std::string(kReportPolicy).find("script-src"), std::string::npos)
+      << "default-src 'none' covers it";
 }
 
 }  // namespace

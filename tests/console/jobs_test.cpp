@@ -21,12 +21,14 @@ struct Workshop {
   }
   std::string settled(const std::string& id) const {
     const auto until = runtime::ServingClock::now() + std::chrono::seconds(60);
-    while (jobs->one(id)["state"] == "working" && runtime::ServingClock::now() < until) runtime::rest(std::chrono::milliseconds(5));
+    while (jobs->one(id)["state"] == "working" && runtime::ServingClock::now() < until)
+      runtime::rest(std::chrono::milliseconds(5));
     return jobs->one(id)["state"];
   }
   bool says(const std::string& id, const std::string& line) const {
     const auto until = runtime::ServingClock::now() + std::chrono::seconds(60);
-    while (jobs->one(id)["lines"] != nlohmann::json{line} && runtime::ServingClock::now() < until) runtime::rest(std::chrono::milliseconds(5));
+    while (jobs->one(id)["lines"] != nlohmann::json{line} && runtime::ServingClock::now() < until)
+      runtime::rest(std::chrono::milliseconds(5));
     return jobs->one(id)["lines"] == nlohmann::json{line};
   }
   const test::ScratchFolder folder;
@@ -34,7 +36,9 @@ struct Workshop {
   std::unique_ptr<Jobs> jobs;
 };
 
-Jobs::Wish report(const std::string& key) { return {key, "Report", {"report", "trainee", "--out", "{}/report"}, "report/trainee.html", {}}; }
+Jobs::Wish report(const std::string& key) {
+  return {key, "Report", {"report", "trainee", "--out", "{}/report"}, "report/trainee.html", {}};
+}
 Jobs::Wish waiting(const std::string& key) { return {key, "Long", {"wait"}, "", {}}; }
 
 TEST(Jobs, APageIsMadeAndHandedOut) {
@@ -52,14 +56,16 @@ TEST(Jobs, APageIsMadeAndHandedOut) {
 
 TEST(Jobs, WhatFailsSaysWhy) {
   const Workshop w("jobs-fail");
-  const std::string id = w.jobs->add({"a", "Nothing", {"nonsense"}, "", {}}), pageless = w.jobs->add({"b", "No page", {"facts"}, "report/none.html", {}});
+  const std::string id = w.jobs->add({"a", "Nothing", {"nonsense"}, "", {}}),
+                    pageless = w.jobs->add({"b", "No page", {"facts"}, "report/none.html", {}});
   EXPECT_EQ(w.settled(id), "failed");
   EXPECT_EQ(w.jobs->one(id)["message"], "nonsense: is played by nobody. Ask for something else");
   EXPECT_EQ(w.settled(pageless), "failed");
   EXPECT_EQ(w.jobs->one(pageless)["page"], "");
 }
 
-/// A page that asks again and again is told how it is; a failure is told, not hidden by another try, and the next who asks begins anew.
+/// A page that asks again and again is told how it is; a failure is told, not hidden by another
+/// try, and the next who asks begins anew.
 TEST(Jobs, WhatIsAskedForIsBegunOnceAndItsFailureToldOnce) {
   const Workshop w("jobs-ask");
   const auto settled = [&](const Jobs::Wish& wish) {
@@ -68,7 +74,7 @@ TEST(Jobs, WhatIsAskedForIsBegunOnceAndItsFailureToldOnce) {
     return id;
   };
   const std::string page = settled(report("a"));
-  EXPECT_EQ(w.jobs->ask(report("a"))["id"], page);      // done long ago: not made again
+  EXPECT_EQ(w.jobs->ask(report("a"))["id"], page);  // done long ago: not made again
   EXPECT_EQ(w.jobs->ask(report("a"))["state"], "done");
   const Jobs::Wish bad{"b", "Nothing", {"nonsense"}, "", {}};
   const std::string failed = settled(bad);
@@ -110,7 +116,9 @@ TEST(Jobs, WhatWaitsCanBeStopped) {
 TEST(Jobs, WhatFailsAfterwardsFailsTheJobAlone) {
   const Workshop w("jobs-then");
   Jobs::Wish wish = report("a");
-  wish.then = [](const std::filesystem::path&, bool) { throw Error("cannot be written", "settings.json", "Make room"); };
+  wish.then = [](const std::filesystem::path&, bool) {
+    throw Error("cannot be written", "settings.json", "Make room");
+  };
   EXPECT_EQ(w.settled(w.jobs->add(std::move(wish))), "failed");
   EXPECT_EQ(w.settled(w.jobs->add(report("b"))), "done");
 }
@@ -120,7 +128,7 @@ TEST(Jobs, EndWithTheConsoleWhateverRunsOrWaits) {
   const std::string id = w.jobs->add(waiting("a"));
   for (int i = 0; i < 20; ++i) w.jobs->add(waiting("more " + std::to_string(i)));
   EXPECT_TRUE(w.says(id, "3 of 20"));
-  w.jobs.reset();   // the first would wait a minute, the others one after the other as long
+  w.jobs.reset();  // the first would wait a minute, the others one after the other as long
 }
 
 TEST(Jobs, UnknownOnesAreRefused) {
@@ -136,7 +144,9 @@ TEST(Jobs, OldFoldersGoAndNothingElse) {
   const test::ScratchFolder folder("jobs-old");
   Place place;
   place.home = folder.path();
-  for (int i = 0; i < 250; ++i) std::filesystem::create_directories(place.jobs() / ("20200101-000000-" + std::to_string(1000 + i)));
+  for (int i = 0; i < 250; ++i)
+    std::filesystem::create_directories(place.jobs() /
+                                        ("20200101-000000-" + std::to_string(1000 + i)));
   std::filesystem::create_directories(place.jobs() / "not an id");
   const Jobs jobs(place);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(place.jobs()), {}), 201);
@@ -164,7 +174,8 @@ TEST(Jobs, ManyAskAtOnce) {
 TEST(Jobs, HowFarItIsOfAnyLine) {
   EXPECT_EQ(fractionOf({"3 of 20"}), 0.15);
   EXPECT_EQ(fractionOf({"1 of 2", "2 of 2 pictures"}), 1);
-  for (const char* line : {"", " of ", "of", "3 of", "of 3", "x of y", "3 of 0", "5 of 4", "-1 of 4x", "99999999999999999999 of 1"}) {
+  for (const char* line : {"", " of ", "of", "3 of", "of 3", "x of y", "3 of 0", "5 of 4",
+                           "-1 of 4x", "99999999999999999999 of 1"}) {
     const nlohmann::json far = fractionOf({line});
     EXPECT_TRUE(far.is_null() || (far >= 0 && far <= 1)) << line;
   }

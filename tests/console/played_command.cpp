@@ -23,31 +23,40 @@ std::string after(const std::vector<std::string>& arguments, const std::string& 
   return found == arguments.end() || found + 1 == arguments.end() ? "" : found[1];
 }
 
-/// Open descriptors beside the one that looks, whose process group and session it is, where its input comes from.
+/// Open descriptors beside the one that looks, whose process group and session it is, where its
+/// input comes from.
 int tellFacts() {
   DIR* const folder = ::opendir("/proc/self/fd");
   std::string open;
   while (const dirent* entry = ::readdir(folder))
-    if (entry->d_name[0] != '.' && std::stoi(entry->d_name) != ::dirfd(folder)) open += std::string(" ") + entry->d_name;
+    if (entry->d_name[0] != '.' && std::stoi(entry->d_name) != ::dirfd(folder))
+      open += std::string(" ") + entry->d_name;
   ::closedir(folder);
   std::error_code none;
   sigset_t blocked;
   ::sigprocmask(SIG_BLOCK, nullptr, &blocked);
-  std::printf("open%s\nown_group %d\nown_session %d\ninput %s\nblocked %d\n", open.c_str(), ::getpgrp() == ::getpid(), ::getsid(0) == ::getpid(), fs::read_symlink("/proc/self/fd/0", none).c_str(), ::sigismember(&blocked, SIGTERM));
+  std::printf("open%s\nown_group %d\nown_session %d\ninput %s\nblocked %d\n", open.c_str(),
+              ::getpgrp() == ::getpid(), ::getsid(0) == ::getpid(),
+              fs::read_symlink("/proc/self/fd/0", none).c_str(), ::sigismember(&blocked, SIGTERM));
   return 0;
 }
 
 /// A session of one trial: an entry each 10 ms, until told to leave.
 int playSession(const std::vector<std::string>& arguments) {
   trial::Channels channels;
-  live::LiveSession session(after(arguments, "--live"), {"uuid", "paracentesis", after(arguments, "--trainee"), true, false, 1}, channels);
+  live::LiveSession session(after(arguments, "--live"),
+                            {"uuid", "paracentesis", after(arguments, "--trainee"), true, false, 1},
+                            channels);
   const auto until = runtime::ServingClock::now() + kLongestPlay;
   for (int number = 1; runtime::ServingClock::now() < until; ++number) {
     session.log().add("{\"kind\":\"event\",\"number\":" + std::to_string(number) + "}");
-    if (session.wantsPicture(number * 100'000'000ll)) session.picture({32, 32, 3, std::vector<std::uint8_t>(32 * 32 * 3, 128)}, number * 100'000'000ll);
+    if (session.wantsPicture(number * 100'000'000ll))
+      session.picture({32, 32, 3, std::vector<std::uint8_t>(32 * 32 * 3, 128)},
+                      number * 100'000'000ll);
     trial::UserRequest request;
     while (channels.console_to_task.pop(&request)) {
-      session.log().add("{\"kind\":\"event\",\"heard\":" + std::to_string(static_cast<int>(request.command)) + "}");
+      session.log().add("{\"kind\":\"event\",\"heard\":" +
+                        std::to_string(static_cast<int>(request.command)) + "}");
       if (request.command != trial::UserCommand::quit) continue;
       std::ofstream(fs::path(after(arguments, "--out")) / "report.html") << "<p>done</p>";
       return 0;
@@ -72,7 +81,8 @@ int waitForEnd() {
 int writePage(const std::vector<std::string>& arguments) {
   const fs::path folder = after(arguments, "--out");
   fs::create_directories(folder);
-  std::ofstream(folder / (arguments.size() > 1 ? arguments[1] + ".html" : "page.html")) << "<!doctype html><p>page</p>";
+  std::ofstream(folder / (arguments.size() > 1 ? arguments[1] + ".html" : "page.html"))
+      << "<!doctype html><p>page</p>";
   return 0;
 }
 

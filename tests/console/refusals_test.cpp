@@ -34,7 +34,9 @@ TEST(Refusals, OneLineWhateverWasSent) {
   ASSERT_EQ(lines.size(), 500u);
   for (const std::string& line : lines) {
     EXPECT_LT(line.size(), 540u);
-    EXPECT_TRUE(std::all_of(line.begin(), line.end(), [](unsigned char c) { return c >= 0x20 && c < 0x7f; })) << line;
+    EXPECT_TRUE(std::all_of(line.begin(), line.end(), [](unsigned char c) {
+      return c >= 0x20 && c < 0x7f;
+    })) << line;
   }
 }
 
@@ -42,26 +44,33 @@ TEST(Refusals, OneLineWhateverWasSent) {
 TEST(Refusals, WhatWasSentStaysOneWord) {
   const test::ScratchFolder folder("forged");
   Refusals refusals(folder / "refused.log");
-  refusals.note("127.0.0.1", "GET", "/x 200 fine\n2026-01-01T00:00:00Z 10.0.0.1 GET / 403 forged", 404, "no such path");
+  refusals.note("127.0.0.1", "GET", "/x 200 fine\n2026-01-01T00:00:00Z 10.0.0.1 GET / 403 forged",
+                404, "no such path");
   refusals.note("", "", "", 400, "was not understood");
   const auto lines = linesOf(folder / "refused.log");
   ASSERT_EQ(lines.size(), 2u);
-  EXPECT_EQ(lines[0].substr(20), " 127.0.0.1 GET /x?200?fine?2026-01-01T00:00:00Z?10.0.0.1?GET?/?403?forged 404 no such path");
+  EXPECT_EQ(
+      lines[0].substr(20),
+      " 127.0.0.1 GET /x?200?fine?2026-01-01T00:00:00Z?10.0.0.1?GET?/?403?forged 404 no such path");
   EXPECT_EQ(lines[1].substr(20), " - - - 400 was not understood");
 }
 
 TEST(Refusals, NoQuery) {
   const test::ScratchFolder folder("query");
   Refusals refusals(folder / "refused.log");
-  refusals.note("127.0.0.1", "GET", "/api/enter?token=correct-horse-battery-staple", 401, "give the console's token first");
+  refusals.note("127.0.0.1", "GET", "/api/enter?token=correct-horse-battery-staple", 401,
+                "give the console's token first");
   EXPECT_EQ(linesOf(folder / "refused.log")[0].find("horse"), std::string::npos);
 }
 
 TEST(Refusals, TheFileDoesNotGrowBeyondTwoMegabytes) {
   const test::ScratchFolder folder("long");
   Refusals refusals(folder / "refused.log");
-  for (int i = 0; i < 20'000; ++i) refusals.note("127.0.0.1", "GET", "/" + std::string(200, 'x'), 404, "no such path");
-  EXPECT_LT(std::filesystem::file_size(folder / "refused.log") + std::filesystem::file_size(folder / "refused.log.1"), 5u << 19);
+  for (int i = 0; i < 20'000; ++i)
+    refusals.note("127.0.0.1", "GET", "/" + std::string(200, 'x'), 404, "no such path");
+  EXPECT_LT(std::filesystem::file_size(folder / "refused.log") +
+                std::filesystem::file_size(folder / "refused.log.1"),
+            5u << 19);
   EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder.path()), {}), 2);
 }
 
@@ -76,11 +85,14 @@ TEST(Refusals, FromManyThreadsEachLineIsWhole) {
   for (std::thread& thread : threads) thread.join();
   const auto lines = linesOf(folder / "refused.log");
   EXPECT_EQ(lines.size(), 800u);
-  for (const std::string& line : lines) EXPECT_EQ(line.substr(20), " 127.0.0.1 GET /x 404 no such path");
+  for (const std::string& line : lines)
+    EXPECT_EQ(line.substr(20), " 127.0.0.1 GET /x 404 no such path");
 }
 
 /// A folder that is gone or full: who was refused stays refused, nothing else happens.
-TEST(Refusals, WhereNothingCanBeWrittenNothingBreaks) { Refusals("/proc/there/is/none").note("127.0.0.1", "GET", "/", 403, "words"); }
+TEST(Refusals, WhereNothingCanBeWrittenNothingBreaks) {
+  Refusals("/proc/there/is/none").note("127.0.0.1", "GET", "/", 403, "words");
+}
 
 }  // namespace
 }  // namespace palpa::console

@@ -1,4 +1,5 @@
-// The console whole, in this process: what its threads share is under the sanitizers; sessions and commands are played.
+// The console whole, in this process: what its threads share is under the sanitizers; sessions and
+// commands are played.
 #include <gtest/gtest.h>
 #include <signal.h>
 #include <unistd.h>
@@ -44,7 +45,7 @@ class Served {
     settings_.place.records = (home.parent_path() / "records.sqlite").string();
     settings_.place.sockets = sockets;
     settings_.place.version = "test";
-    settings_.place.display = true;   // a person may perform; none does here
+    settings_.place.display = true;  // a person may perform; none does here
     thread_ = std::thread([this] {
       try {
         serveConsole(settings_, [this](const std::string& url) { say(url); });
@@ -75,24 +76,32 @@ class Served {
   }
   int post(const std::string& path, const json& body, json* told = nullptr) {
     if (key_.empty()) key_ = get("/api/me").value("page_key", "");
-    const auto answer = client().Post(path, {{"X-Palpa-Page", key_}, {"X-Palpa-Write", randomKey()}}, body.dump(), "application/json");
+    const auto answer =
+        client().Post(path, {{"X-Palpa-Page", key_}, {"X-Palpa-Write", randomKey()}}, body.dump(),
+                      "application/json");
     if (answer && told) *told = json::parse(answer->body, nullptr, false);
     return answer ? answer->status : 0;
   }
   /// Events from after `last`, until `count` have come or the stream has ended.
-  std::vector<std::pair<std::size_t, json>> events(const std::string& id, const std::string& last, std::size_t count) {
+  std::vector<std::pair<std::size_t, json>> events(const std::string& id, const std::string& last,
+                                                   std::size_t count) {
     std::vector<std::pair<std::size_t, json>> all;
     std::string text;
     httplib::Headers headers;
     if (!last.empty()) headers.emplace("Last-Event-ID", last);
-    client().Get("/api/sessions/" + id + "/live", headers, [&](const char* bytes, std::size_t size) {
-      text.append(bytes, size);
-      for (std::size_t end; (end = text.find("\n\n")) != std::string::npos; text.erase(0, end + 2)) {
-        if (text.rfind("id: ", 0) != 0) continue;
-        all.emplace_back(std::stoul(text.substr(4)), json::parse(text.substr(text.find("data: ") + 6, end - text.find("data: ") - 6), nullptr, false));
-      }
-      return all.size() < count;
-    });
+    client().Get(
+        "/api/sessions/" + id + "/live", headers, [&](const char* bytes, std::size_t size) {
+          text.append(bytes, size);
+          for (std::size_t end; (end = text.find("\n\n")) != std::string::npos;
+               text.erase(0, end + 2)) {
+            if (text.rfind("id: ", 0) != 0) continue;
+            all.emplace_back(
+                std::stoul(text.substr(4)),
+                json::parse(text.substr(text.find("data: ") + 6, end - text.find("data: ") - 6),
+                            nullptr, false));
+          }
+          return all.size() < count;
+        });
     return all;
   }
 
@@ -108,10 +117,15 @@ class Served {
 };
 
 struct Desk {
-  explicit Desk(const std::string& name) : folder(name) { console = std::make_unique<Served>(folder / "home", sockets.path()); }
+  explicit Desk(const std::string& name) : folder(name) {
+    console = std::make_unique<Served>(folder / "home", sockets.path());
+  }
   std::string begin() {
     json told;
-    EXPECT_EQ(console->post("/api/sessions", {{"task", "paracentesis"}, {"operator", "expert"}}, &told), 201) << told.dump();
+    EXPECT_EQ(
+        console->post("/api/sessions", {{"task", "paracentesis"}, {"operator", "expert"}}, &told),
+        201)
+        << told.dump();
     return told.value("id", "");
   }
   void restart() {
@@ -149,7 +163,8 @@ TEST(Served, ASessionIsBegunLookedAtSteeredAndOver) {
 
 /// A Falcon before a webcam.
 std::filesystem::path realStation(const std::filesystem::path& folder) {
-  json station = json::parse(std::ifstream(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/stations/falcon.json"));
+  json station = json::parse(
+      std::ifstream(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/stations/falcon.json"));
   station["camera"]["driver"] = "webcam";
   station["camera"]["device"] = "0";
   station["camera"]["exposure_ms"] = 10;
@@ -168,21 +183,27 @@ TEST(Served, ItIsSimulatedByWhoPerformsAndByWhere) {
     chooseStation(place, station.string());
     Served console(place.home, sockets.path());
     json told;
-    EXPECT_EQ(console.post("/api/sessions", {{"task", "paracentesis"}, {"operator", performer}}, &told), 201) << told.dump();
+    EXPECT_EQ(
+        console.post("/api/sessions", {{"task", "paracentesis"}, {"operator", performer}}, &told),
+        201)
+        << told.dump();
     const std::string path = "/api/sessions/" + told.value("id", "");
     EXPECT_TRUE(inTime([&] { return console.get(path)["state"] == "running"; }));
     EXPECT_EQ(console.post(path + "/command", {{"command", "leave"}}), 202);
     EXPECT_TRUE(inTime([&] { return console.get(path)["state"] == "finished"; }));
     return console.get(path)["simulated"] == true;
   };
-  const std::filesystem::path bench = std::filesystem::path(PALPA_SOURCE_DIR) / "assets/stations/virtual_bench.json", real = realStation(folder.path());
+  const std::filesystem::path bench = std::filesystem::path(PALPA_SOURCE_DIR) /
+                                      "assets/stations/virtual_bench.json",
+                              real = realStation(folder.path());
   EXPECT_TRUE(simulated(bench, "person"));
   EXPECT_TRUE(simulated(bench, "expert"));
   EXPECT_TRUE(simulated(real, "expert"));
   EXPECT_FALSE(simulated(real, "person"));
 }
 
-/// The console ends and comes back: the session has gone on, and whoever was away reads on where he was.
+/// The console ends and comes back: the session has gone on, and whoever was away reads on where he
+/// was.
 TEST(Served, ASessionOutlivesItsConsole) {
   Desk desk("outlives");
   const std::string id = desk.begin();
@@ -193,7 +214,8 @@ TEST(Served, ASessionOutlivesItsConsole) {
   ASSERT_GE(after.size(), 30u);
   EXPECT_EQ(after.front().first, 21u);
   for (std::size_t i = 20; i < before.size(); ++i) EXPECT_EQ(after[i - 20], before[i]);
-  for (std::size_t i = 1; i < after.size(); ++i) EXPECT_EQ(after[i].second["number"], after[i - 1].second["number"].get<int>() + 1);
+  for (std::size_t i = 1; i < after.size(); ++i)
+    EXPECT_EQ(after[i].second["number"], after[i - 1].second["number"].get<int>() + 1);
   const auto anew = desk.console->events(id, "999999", 5);
   ASSERT_FALSE(anew.empty());
   EXPECT_EQ(anew.front().first, 1u) << "a number beyond the log: told from its beginning";
@@ -205,7 +227,8 @@ TEST(Served, AKilledSessionIsSaidInWords) {
   Desk desk("killed");
   const std::string id = desk.begin();
   ASSERT_GE(desk.console->events(id, "", 3).size(), 3u);
-  const json facts = json::parse(std::ifstream(desk.folder / "home" / "sessions" / id / "console.json"));
+  const json facts =
+      json::parse(std::ifstream(desk.folder / "home" / "sessions" / id / "console.json"));
   ::kill(facts["pid"].get<int>(), SIGKILL);
   const auto all = desk.console->events(id, "", 1'000'000);
   ASSERT_FALSE(all.empty());
@@ -213,7 +236,7 @@ TEST(Served, AKilledSessionIsSaidInWords) {
   EXPECT_NE(all.back().second["state"], "finished");
   EXPECT_NE(all.back().second["message"], "") << "nobody is told what happened";
   EXPECT_NE(desk.console->get("/api/sessions/" + id)["message"], "");
-  const std::string next = desk.begin();   // the next can begin
+  const std::string next = desk.begin();  // the next can begin
   ASSERT_GE(desk.console->events(next, "", 3).size(), 3u);
   EXPECT_EQ(desk.console->post("/api/sessions/" + next + "/command", {{"command", "leave"}}), 202);
   EXPECT_TRUE(desk.isState(next, "finished"));
@@ -234,14 +257,28 @@ TEST(Served, ManyAskForEverythingAtOnce) {
   desk.console->post("/api/trainees", {{"id", "T1"}});
   std::atomic<int> unanswered{0};
   std::vector<std::thread> threads;
-  const std::string paths[] = {"/", "/api/me", "/api/health", "/api/tasks", "/api/trainees", "/api/sessions", "/api/sessions/" + id, "/api/sessions/" + id + "/picture", "/api/calibration", "/api/studies", "/api/trainees/T1/report", "/api/cohort"};
+  const std::string paths[] = {"/",
+                               "/api/me",
+                               "/api/health",
+                               "/api/tasks",
+                               "/api/trainees",
+                               "/api/sessions",
+                               "/api/sessions/" + id,
+                               "/api/sessions/" + id + "/picture",
+                               "/api/calibration",
+                               "/api/studies",
+                               "/api/trainees/T1/report",
+                               "/api/cohort"};
   for (int t = 0; t < 8; ++t)
     threads.emplace_back([&, t] {
-      for (std::size_t i = 0; i < std::size(paths); ++i) unanswered += !desk.console->client().Get(paths[(i + static_cast<std::size_t>(t)) % std::size(paths)]);
+      for (std::size_t i = 0; i < std::size(paths); ++i)
+        unanswered += !desk.console->client().Get(
+            paths[(i + static_cast<std::size_t>(t)) % std::size(paths)]);
       unanswered += desk.console->events(id, "", 50).size() < 50;
     });
   threads.emplace_back([&] {
-    for (int i = 0; i < 10; ++i) desk.console->post("/api/sessions/" + id + "/command", {{"command", "pause"}});
+    for (int i = 0; i < 10; ++i)
+      desk.console->post("/api/sessions/" + id + "/command", {{"command", "pause"}});
     desk.console->post("/api/health", json::object());
   });
   for (std::thread& thread : threads) thread.join();
@@ -251,13 +288,18 @@ TEST(Served, ManyAskForEverythingAtOnce) {
 }
 
 TEST(Served, OpenToOthersOnlyWithAToken) {
-  for (const std::string address : {"0.0.0.0", "::", "192.168.1.20", "", "127.evil.example", "127.0.0.1.evil.example", "127.0.0", "localhost.evil.example", "0"}) {
+  for (const std::string address :
+       {"0.0.0.0", "::", "192.168.1.20", "", "127.evil.example", "127.0.0.1.evil.example",
+        "127.0.0", "localhost.evil.example", "0"}) {
     ConsoleSettings settings;
     settings.address = address;
     EXPECT_FALSE(isLoopback(address)) << address;
-    EXPECT_THROW(serveConsole(settings, [](const std::string&) { ADD_FAILURE() << "it served"; }), UsageError) << address;
+    EXPECT_THROW(serveConsole(settings, [](const std::string&) { ADD_FAILURE() << "it served"; }),
+                 UsageError)
+        << address;
   }
-  for (const char* address : {"127.0.0.1", "127.1.2.3", "localhost", "::1"}) EXPECT_TRUE(isLoopback(address)) << address;
+  for (const char* address : {"127.0.0.1", "127.1.2.3", "localhost", "::1"})
+    EXPECT_TRUE(isLoopback(address)) << address;
 }
 
 TEST(ConsolePort, IsSharedWithNobody) {
@@ -267,7 +309,7 @@ TEST(ConsolePort, IsSharedWithNobody) {
   WebServer first(guard, refusals), second(guard, refusals);
   const int port = first.bind_to_any_port("127.0.0.1");
   ASSERT_GT(port, 0);
-  EXPECT_FALSE(second.bind_to_port("127.0.0.1", port));   // else two consoles would answer in turn
+  EXPECT_FALSE(second.bind_to_port("127.0.0.1", port));  // else two consoles would answer in turn
 }
 
 }  // namespace

@@ -19,7 +19,8 @@ constexpr std::chrono::milliseconds kLong = 30s;
 
 /// A session's end of the line.
 struct Session {
-  explicit Session(const std::string& path, const std::string& hello = "{\"kind\":\"hello\"}") : path_(path) {
+  explicit Session(const std::string& path, const std::string& hello = "{\"kind\":\"hello\"}")
+      : path_(path) {
     log.add(hello);
     open();
   }
@@ -45,7 +46,8 @@ struct Session {
   const std::string path_;
 };
 
-/// Entries from `from` on, as a page reads them: asking again for what comes next, until there are `count`.
+/// Entries from `from` on, as a page reads them: asking again for what comes next, until there are
+/// `count`.
 std::vector<std::string> read(SessionLink& link, std::size_t from, std::size_t count) {
   std::vector<std::string> all;
   const auto until = runtime::ServingClock::now() + kLong;
@@ -79,7 +81,8 @@ TEST(SessionLink, TellsTheWholeLogInOrderToWhoeverAsksFromAnywhere) {
   EXPECT_TRUE(link.wait(3001, 0ms).entries.empty());
 }
 
-/// The line breaks and comes back: what is known is passed over, nothing is told twice, nothing is lost.
+/// The line breaks and comes back: what is known is passed over, nothing is told twice, nothing is
+/// lost.
 TEST(SessionLink, AfterABrokenLineEachEntryIsThereOnce) {
   const test::ShortFolder here;
   Session session(here / "s");
@@ -111,7 +114,8 @@ TEST(SessionLink, AnotherSessionAtTheSameSocketGoesOnAfterTheFirst) {
   EXPECT_EQ(all[11], "{\"kind\":\"hello\",\"uuid\":\"2\"}");
 }
 
-/// A page that knows more than there is knows another log: it is told this one from its beginning, but not before all of it is here.
+/// A page that knows more than there is knows another log: it is told this one from its beginning,
+/// but not before all of it is here.
 TEST(SessionLink, ANumberBeyondTheLogIsAnotherLogs) {
   const test::ShortFolder here;
   {
@@ -136,7 +140,8 @@ TEST(SessionLink, TheEndIsToldOnce) {
   EXPECT_TRUE(link.send("{}"));
   session.reset();
   for (int i = 0; i < 3; ++i) link.close("{\"kind\":\"end\"}");
-  EXPECT_EQ(read(link, 0, 5), (std::vector<std::string>{"{\"kind\":\"hello\"}", "{\"kind\":\"end\"}"}));
+  EXPECT_EQ(read(link, 0, 5),
+            (std::vector<std::string>{"{\"kind\":\"hello\"}", "{\"kind\":\"end\"}"}));
   EXPECT_TRUE(link.wait(2, 0ms).over);
   EXPECT_FALSE(link.send("{}"));
   EXPECT_EQ(link.picture(0, 0ms).jpeg, nullptr);
@@ -167,7 +172,8 @@ TEST(SessionLink, PicturesAreDrawnWhileSomebodyLooks) {
   EXPECT_EQ(link.picture(picture.number, 0ms).jpeg, nullptr);
 }
 
-/// Whatever sits at the socket and talks nonsense: no entry comes of it, and the link lives on for the session that comes then.
+/// Whatever sits at the socket and talks nonsense: no entry comes of it, and the link lives on for
+/// the session that comes then.
 TEST(SessionLink, NonsenseAtTheOtherEndHurtsNothing) {
   const test::ShortFolder here;
   SessionLink link(here / "s");
@@ -177,8 +183,12 @@ TEST(SessionLink, NonsenseAtTheOtherEndHurtsNothing) {
     for (int i = 0; i < 8; ++i) {
       int caller = -1;
       ASSERT_TRUE(soon([&] { return (caller = ::accept(listener, nullptr, nullptr)) >= 0; }));
-      std::string bytes = i % 4 == 0 ? "HTTP/1.1 200 OK\r\n\r\n" : i % 4 == 1 ? std::string("L\xff\xff\xff\xff", 5) : i % 4 == 2 ? std::string("L\x10\0\0\0half", 9) : std::string("K\x03\0\0\0-9x", 8);
-      for (std::size_t more = dice.below(50); i % 4 == 0 && more > 0; --more) bytes += static_cast<char>(dice.below(256));
+      std::string bytes = i % 4 == 0   ? "HTTP/1.1 200 OK\r\n\r\n"
+                          : i % 4 == 1 ? std::string("L\xff\xff\xff\xff", 5)
+                          : i % 4 == 2 ? std::string("L\x10\0\0\0half", 9)
+                                       : std::string("K\x03\0\0\0-9x", 8);
+      for (std::size_t more = dice.below(50); i % 4 == 0 && more > 0; --more)
+        bytes += static_cast<char>(dice.below(256));
       ::send(caller, bytes.data(), bytes.size(), MSG_NOSIGNAL);
       ::close(caller);
     }
@@ -194,7 +204,7 @@ TEST(SessionLink, NonsenseAtTheOtherEndHurtsNothing) {
 TEST(SessionLink, APathThatNoSocketCanHave) {
   SessionLink link("/" + std::string(300, 'x'));
   EXPECT_FALSE(link.send("{}"));
-  runtime::rest(200ms);   // its thread has tried
+  runtime::rest(200ms);  // its thread has tried
   EXPECT_TRUE(link.wait(0, 0ms).entries.empty());
 }
 

@@ -29,7 +29,16 @@ json with(const char* field, const json& value) {
 }
 
 TEST(SessionWish, WhatIsAskedForIsTaken) {
-  const SessionWish wish = wishOf({{"task", "palpation"}, {"trainee", "T017"}, {"operator", "novice"}, {"side", "left"}, {"assess", true}, {"force_feedback", false}, {"trials", 50}, {"seed", 1'000'000'000}, {"patient_seed", 7}, {"more", {1, 2}}});
+  const SessionWish wish = wishOf({{"task", "palpation"},
+                                   {"trainee", "T017"},
+                                   {"operator", "novice"},
+                                   {"side", "left"},
+                                   {"assess", true},
+                                   {"force_feedback", false},
+                                   {"trials", 50},
+                                   {"seed", 1'000'000'000},
+                                   {"patient_seed", 7},
+                                   {"more", {1, 2}}});
   EXPECT_EQ(wish.task, "palpation");
   EXPECT_EQ(wish.trainee, "T017");
   EXPECT_EQ(wish.performer, "novice");
@@ -47,13 +56,19 @@ TEST(SessionWish, WhatIsAskedForIsTaken) {
 TEST(SessionWish, EveryBadWishIsRefusedInWords) {
   const std::string many(100'000, 'x');
   const std::pair<const char*, std::vector<json>> bad[] = {
-      {"task", {nullptr, 1, true, json::array(), json::object(), "", "..", "../x", "a/b", "a b", many, "a\n", "\u00e4"}},
-      {"trainee", {nullptr, 1, json::array(), "..", "-x", "--records", "_x", "a b", "Anna M\u00fcller", "<script>", "a'; DROP TABLE trainees; --", std::string("a\0b", 3), many}},
+      {"task",
+       {nullptr, 1, true, json::array(), json::object(), "", "..", "../x", "a/b", "a b", many,
+        "a\n", "\u00e4"}},
+      {"trainee",
+       {nullptr, 1, json::array(), "..", "-x", "--records", "_x", "a b", "Anna M\u00fcller",
+        "<script>", "a'; DROP TABLE trainees; --", std::string("a\0b", 3), many}},
       {"operator", {nullptr, 1, "", "Person", "learner", "recorded", "automatic", "--fast", many}},
       {"side", {nullptr, 1, "", "both", "Right"}},
       {"assess", {nullptr, 0, 1, "true", ""}},
       {"force_feedback", {nullptr, 0, 1, "on"}},
-      {"trials", {nullptr, 0, -1, 51, 1.0, 1.5, "1", true, 4294967297ll, -9223372036854775807ll, 18446744073709551615ull, 1e300}},
+      {"trials",
+       {nullptr, 0, -1, 51, 1.0, 1.5, "1", true, 4294967297ll, -9223372036854775807ll,
+        18446744073709551615ull, 1e300}},
       {"seed", {nullptr, -1, 1'000'000'001, 1.5, "1", "1; rm -rf /", 18446744073709551615ull}},
       {"patient_seed", {nullptr, -1, 1'000'000'001, 1e30}}};
   for (const auto& [field, values] : bad)
@@ -68,11 +83,15 @@ TEST(SessionWish, EveryBadWishIsRefusedInWords) {
 
 TEST(SessionWish, DamagedWishesAreWishesOrRefused) {
   test::DamageDice dice(8);
-  const std::string whole = json{{"task", "paracentesis"}, {"trainee", "T017"}, {"operator", "expert"}, {"side", "right"}, {"trials", 3}, {"seed", 12}}.dump();
+  const std::string whole =
+      json{{"task", "paracentesis"}, {"trainee", "T017"}, {"operator", "expert"},
+           {"side", "right"},        {"trials", 3},       {"seed", 12}}
+          .dump();
   int taken = 0;
   for (int round = 0; round < test::counted(20'000, 500'000); ++round) {
     std::string text = whole;
-    for (std::size_t hits = 1 + dice.below(3); hits > 0; --hits) text[dice.below(text.size())] = static_cast<char>(32 + dice.below(95));
+    for (std::size_t hits = 1 + dice.below(3); hits > 0; --hits)
+      text[dice.below(text.size())] = static_cast<char>(32 + dice.below(95));
     const json asked = json::parse(text, nullptr, false);
     if (!asked.is_object()) continue;
     try {

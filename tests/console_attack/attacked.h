@@ -8,12 +8,14 @@ namespace palpa::console_attack {
 
 inline constexpr char kMarkup[] = "<script>alert(1)</script><img src=x onerror=alert(2)>\"'&";
 
-/// One console and one session for all tests of this program; a test that ends one of them begins it anew.
+/// One console and one session for all tests of this program; a test that ends one of them begins
+/// it anew.
 class Attacked : public ::testing::Test {
  protected:
   friend class Ending;
   void SetUp() override;
-  /// The session that runs; begun where none does: a simulated expert in real time, many trials, for a trainee with markup in every field.
+  /// The session that runs; begun where none does: a simulated expert in real time, many trials,
+  /// for a trainee with markup in every field.
   static const std::string& session();
   /// It tells more than before: new entries, and a later second of the session.
   static ::testing::AssertionResult goesOn();

@@ -17,8 +17,10 @@ namespace {
 
 using namespace std::chrono_literals;
 
-[[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder, const fs::path& out) {
-  const int words = ::open(out.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600), nothing = ::open("/dev/null", O_RDONLY);
+[[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder,
+                         const fs::path& out) {
+  const int words = ::open(out.c_str(), O_WRONLY | O_CREAT | O_APPEND, 0600),
+            nothing = ::open("/dev/null", O_RDONLY);
   ::dup2(nothing, STDIN_FILENO);
   ::dup2(words, STDOUT_FILENO);
   ::dup2(words, STDERR_FILENO);
@@ -62,7 +64,8 @@ double residentMiB(pid_t pid) {
   return 0;
 }
 
-pid_t startProgram(const std::vector<std::string>& arguments, const fs::path& folder, const fs::path& out) {
+pid_t startProgram(const std::vector<std::string>& arguments, const fs::path& folder,
+                   const fs::path& out) {
   fs::create_directories(folder / "run");
   fs::permissions(folder / "run", fs::perms::owner_all);
   const pid_t pid = ::fork();
@@ -78,7 +81,10 @@ int waitFor(pid_t pid) {
   return WIFSIGNALED(status) ? 128 + WTERMSIG(status) : WEXITSTATUS(status);
 }
 
-Console::Console(const fs::path& folder, std::vector<std::string> more) : folder_(folder), more_(std::move(more)) { begin(); }
+Console::Console(const fs::path& folder, std::vector<std::string> more)
+    : folder_(folder), more_(std::move(more)) {
+  begin();
+}
 
 Console::~Console() { kill(); }
 
@@ -86,11 +92,17 @@ void Console::begin() {
   std::error_code none;
   fs::remove(folder_ / "console.out", none);
   key_.clear();
-  std::vector<std::string> arguments{"console", "--no-open", "--home", home().string(), "--records", (folder_ / "records.sqlite").string()};
+  std::vector<std::string> arguments{"console",   "--no-open",
+                                     "--home",    home().string(),
+                                     "--records", (folder_ / "records.sqlite").string()};
   arguments.insert(arguments.end(), more_.begin(), more_.end());
   pid_ = startProgram(arguments, folder_, folder_ / "console.out");
   const std::string before = "The console: http://127.0.0.1:";
-  if (!inTime([&] { return words().find(before) != std::string::npos && words().find("Ctrl-C") != std::string::npos; })) throw std::runtime_error("no console: " + words());
+  if (!inTime([&] {
+        return words().find(before) != std::string::npos &&
+               words().find("Ctrl-C") != std::string::npos;
+      }))
+    throw std::runtime_error("no console: " + words());
   port_ = std::atoi(words().c_str() + words().find(before) + before.size());
 }
 
@@ -129,7 +141,12 @@ Headers Console::readHeaders() const {
 Headers Console::writeHeaders(const std::string& body) {
   const std::string key = pageKey();
   Headers all = readHeaders();
-  for (const auto& [name, value] : Headers{{"Origin", "http://" + host()}, {"Content-Type", "application/json"}, {"X-Palpa-Page", key}, {"X-Palpa-Write", newNumber()}, {"Content-Length", std::to_string(body.size())}}) all.emplace_back(name, value);
+  for (const auto& [name, value] : Headers{{"Origin", "http://" + host()},
+                                           {"Content-Type", "application/json"},
+                                           {"X-Palpa-Page", key},
+                                           {"X-Palpa-Write", newNumber()},
+                                           {"Content-Length", std::to_string(body.size())}})
+    all.emplace_back(name, value);
   return all;
 }
 
@@ -157,7 +174,8 @@ Answer Console::post(const std::string& path, const nlohmann::json& body) {
   return answer;
 }
 
-std::vector<Event> Console::events(const std::string& session, const std::string& last, const std::function<bool(const std::vector<Event>&)>& enough) {
+std::vector<Event> Console::events(const std::string& session, const std::string& last,
+                                   const std::function<bool(const std::vector<Event>&)>& enough) {
   Headers headers = readHeaders();
   if (!last.empty()) headers.emplace_back("Last-Event-ID", last);
   const std::string request = requestOf("GET", "/api/sessions/" + session + "/live", headers);
@@ -167,7 +185,7 @@ std::vector<Event> Console::events(const std::string& session, const std::string
   std::string bytes;
   inTime([&] {
     bytes += wire.readSome(1s);
-    if (wire.closed() && answerIn(bytes).status == 503) {   // no place yet
+    if (wire.closed() && answerIn(bytes).status == 503) {  // no place yet
       bytes.clear();
       wire = Wire(port_);
       wire.send(request);

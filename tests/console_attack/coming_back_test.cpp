@@ -20,9 +20,10 @@ TEST_F(ComingBack, TwoPagesGetTheSameAndWhoComesBackGetsTheRestOnce) {
   ASSERT_GE(other.size(), 60u);
   expectNumbered(one, 1);
   for (std::size_t i = 0; i < 60; ++i) EXPECT_EQ(one[i], other[i]) << i;
-  std::vector<Event> pieces;                                   // dropped after every few, back with the last number that came
+  std::vector<Event> pieces;  // dropped after every few, back with the last number that came
   while (pieces.size() < 60) {
-    const auto more = console().events(id, pieces.empty() ? "" : std::to_string(pieces.back().id), until(7));
+    const auto more =
+        console().events(id, pieces.empty() ? "" : std::to_string(pieces.back().id), until(7));
     ASSERT_FALSE(more.empty());
     pieces.insert(pieces.end(), more.begin(), more.end());
   }

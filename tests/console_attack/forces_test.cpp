@@ -20,7 +20,10 @@ constexpr char kId[] = "20260301-123000-1a2b3c4d";
 
 /// Virtual time: every tick follows from the seed alone, however the computer is loaded.
 std::vector<std::string> sessionIn(const fs::path& out, const std::string& live) {
-  std::vector<std::string> all{"paracentesis", "--operator", "expert", "--fast", "--no-views", "--quiet", "--seed", "7", "--trials", std::to_string(test::counted(1, 10)), "--out", out.string()};
+  std::vector<std::string> all{
+      "paracentesis", "--operator", "expert", "--fast",   "--no-views",
+      "--quiet",      "--seed",     "7",      "--trials", std::to_string(test::counted(1, 10)),
+      "--out",        out.string()};
   if (!live.empty()) all.insert(all.end(), {"--live", live});
   return all;
 }
@@ -36,7 +39,9 @@ std::string beganOf(pid_t pid) {
 
 std::vector<haptics::FlightRecord> ticksOf(const fs::path& folder) {
   std::vector<haptics::FlightRecord> all;
-  record::SessionReader(folder / "session.palpa").ticks([&](const haptics::FlightRecord& record) { all.push_back(record); });
+  record::SessionReader(folder / "session.palpa").ticks([&](const haptics::FlightRecord& record) {
+    all.push_back(record);
+  });
   return all;
 }
 
@@ -46,10 +51,15 @@ TEST(Forces, AreTheSameTickByTickUnderAttack) {
   fs::create_directories(attacked);
   fs::create_directories(folder / "run" / "palpa");
   fs::permissions(folder / "run" / "palpa", fs::perms::owner_all);
-  ASSERT_EQ(waitFor(startProgram(sessionIn(calm, ""), folder.path(), folder / "calm.out")), 0) << contentOf(folder / "calm.out");
+  ASSERT_EQ(waitFor(startProgram(sessionIn(calm, ""), folder.path(), folder / "calm.out")), 0)
+      << contentOf(folder / "calm.out");
 
-  const pid_t pid = startProgram(sessionIn(attacked, (folder / "run" / "palpa" / (std::string(kId) + ".sock")).string()), folder.path(), folder / "attacked.out");
-  std::ofstream(attacked / "console.json") << "{\"task\":\"paracentesis\",\"trainee\":\"\",\"pid\":" << pid << ",\"began\":" << beganOf(pid) << "}\n";
+  const pid_t pid = startProgram(
+      sessionIn(attacked, (folder / "run" / "palpa" / (std::string(kId) + ".sock")).string()),
+      folder.path(), folder / "attacked.out");
+  std::ofstream(attacked / "console.json")
+      << "{\"task\":\"paracentesis\",\"trainee\":\"\",\"pid\":" << pid
+      << ",\"began\":" << beganOf(pid) << "}\n";
   Console console(folder.path());
   ASSERT_EQ(console.get("/api/sessions").json()[0]["id"], kId);
   std::atomic<bool> over{false};
@@ -57,25 +67,37 @@ TEST(Forces, AreTheSameTickByTickUnderAttack) {
   std::vector<std::thread> attackers;
   const std::string path = std::string("/api/sessions/") + kId;
   for (int i = 0; i < 3; ++i)
-    attackers.emplace_back([&] {                                     // looks on, comes back
-      while (!over) events += static_cast<int>(console.events(kId, "", [&](const auto& all) { return over || all.size() > 50; }).size());
+    attackers.emplace_back([&] {  // looks on, comes back
+      while (!over)
+        events += static_cast<int>(
+            console.events(kId, "", [&](const auto& all) { return over || all.size() > 50; })
+                .size());
     });
   const std::string key = console.pageKey();
-  attackers.emplace_back([&] {                                       // steers with nonsense, floods with what is refused
+  attackers.emplace_back([&] {  // steers with nonsense, floods with what is refused
     while (!over) {
-      for (const std::string body : {"{\"command\":\"grade\"}", "{\"command\":\"void\"}", "{\"command\":\"note\",\"reason\":\"\"}", "{", "{\"command\":\"stop\",\"reason\":5}"})
-        refused += console.raw(requestOf("POST", path + "/command", console.writeHeaders(body), body)).status / 100 == 4;
+      for (const std::string body :
+           {"{\"command\":\"grade\"}", "{\"command\":\"void\"}",
+            "{\"command\":\"note\",\"reason\":\"\"}", "{", "{\"command\":\"stop\",\"reason\":5}"})
+        refused +=
+            console.raw(requestOf("POST", path + "/command", console.writeHeaders(body), body))
+                    .status /
+                100 ==
+            4;
       Headers foreign = console.writeHeaders("{\"command\":\"stop\"}");
       foreign[0].second = "evil.example";
-      refused += console.raw(requestOf("POST", path + "/command", foreign, "{\"command\":\"stop\"}")).status == 421;
+      refused +=
+          console.raw(requestOf("POST", path + "/command", foreign, "{\"command\":\"stop\"}"))
+              .status == 421;
     }
   });
-  attackers.emplace_back([&] {                                       // a crowd that opens and drops
+  attackers.emplace_back([&] {  // a crowd that opens and drops
     while (!over) {
       std::vector<Wire> crowd;
       for (int i = 0; i < 40; ++i) {
         crowd.emplace_back(console.port());
-        crowd.back().send(requestOf("GET", i % 2 ? path + "/live" : path + "/view", console.readHeaders()));
+        crowd.back().send(
+            requestOf("GET", i % 2 ? path + "/live" : path + "/view", console.readHeaders()));
       }
       asked += 40;
     }
@@ -96,13 +118,20 @@ TEST(Forces, AreTheSameTickByTickUnderAttack) {
   std::size_t differ = 0;
   for (std::size_t i = 0; i < before.size(); ++i) {
     const auto &a = before[i], &b = under[i];
-    differ += a.t_ns != b.t_ns || std::memcmp(&a.f_command_D, &b.f_command_D, sizeof a.f_command_D) != 0 || std::memcmp(&a.f_contact_D, &b.f_contact_D, sizeof a.f_contact_D) != 0 || a.depth != b.depth || a.safety != b.safety ||
-              a.events != b.events || a.snapshot != b.snapshot;
+    differ += a.t_ns != b.t_ns ||
+              std::memcmp(&a.f_command_D, &b.f_command_D, sizeof a.f_command_D) != 0 ||
+              std::memcmp(&a.f_contact_D, &b.f_contact_D, sizeof a.f_contact_D) != 0 ||
+              a.depth != b.depth || a.safety != b.safety || a.events != b.events ||
+              a.snapshot != b.snapshot;
   }
   EXPECT_EQ(differ, 0u) << "of " << before.size() << " ticks";
-  const auto told = record::SessionReader(calm / "session.palpa").events(), told_under = record::SessionReader(attacked / "session.palpa").events();
+  const auto told = record::SessionReader(calm / "session.palpa").events(),
+             told_under = record::SessionReader(attacked / "session.palpa").events();
   ASSERT_EQ(told.size(), told_under.size());
-  for (std::size_t i = 0; i < told.size(); ++i) EXPECT_TRUE(told[i].kind == told_under[i].kind && told[i].t_ns == told_under[i].t_ns && told[i].text == told_under[i].text) << told_under[i].text;
+  for (std::size_t i = 0; i < told.size(); ++i)
+    EXPECT_TRUE(told[i].kind == told_under[i].kind && told[i].t_ns == told_under[i].t_ns &&
+                told[i].text == told_under[i].text)
+        << told_under[i].text;
 }
 
 }  // namespace

@@ -23,11 +23,15 @@ sockaddr_in addressOf(const std::string& ip, int port) {
   return address;
 }
 
-int untilOver(Clock::time_point until) { return static_cast<int>(std::max<std::int64_t>(0, std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count())); }
+int untilOver(Clock::time_point until) {
+  return static_cast<int>(std::max<std::int64_t>(
+      0, std::chrono::duration_cast<std::chrono::milliseconds>(until - Clock::now()).count()));
+}
 
 }  // namespace
 
-Wire::Wire(int port, const std::string& from) : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
+Wire::Wire(int port, const std::string& from)
+    : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
   const sockaddr_in there = addressOf("127.0.0.1", port), here = addressOf(from, 0);
   if (!from.empty()) ::bind(socket_, reinterpret_cast<const sockaddr*>(&here), sizeof here);
   if (::connect(socket_, reinterpret_cast<const sockaddr*>(&there), sizeof there) != 0) leave();
@@ -45,7 +49,8 @@ std::size_t Wire::send(const std::string& bytes, std::chrono::milliseconds patie
   while (sent < bytes.size()) {
     pollfd one{socket_, POLLOUT, 0};
     if (::poll(&one, 1, static_cast<int>(patience.count())) != 1) break;
-    const ssize_t count = ::send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
+    const ssize_t count =
+        ::send(socket_, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL | MSG_DONTWAIT);
     if (count < 0) break;
     sent += static_cast<std::size_t>(count);
   }
@@ -64,7 +69,8 @@ std::string Wire::readSome(std::chrono::milliseconds patience) {
 std::string Wire::read(std::chrono::milliseconds patience, std::size_t most) {
   const auto until = Clock::now() + patience;
   std::string all;
-  while (all.size() < most && !closed_ && Clock::now() < until) all += readSome(std::chrono::milliseconds(untilOver(until)));
+  while (all.size() < most && !closed_ && Clock::now() < until)
+    all += readSome(std::chrono::milliseconds(untilOver(until)));
   return all;
 }
 
@@ -85,7 +91,8 @@ Answer answerIn(const std::string& bytes) {
   return answer;
 }
 
-std::string requestOf(const std::string& method, const std::string& path, const Headers& headers, const std::string& body) {
+std::string requestOf(const std::string& method, const std::string& path, const Headers& headers,
+                      const std::string& body) {
   std::string request = method + " " + path + " HTTP/1.1\r\n";
   for (const auto& [name, value] : headers) request += name + ": " + value + "\r\n";
   return request + "\r\n" + body;
@@ -96,7 +103,8 @@ std::vector<Event> eventsIn(std::string& bytes) {
   for (std::size_t begin; (begin = bytes.find("id: ")) != std::string::npos;) {
     const std::size_t data = bytes.find("\ndata: ", begin), end = bytes.find("\n\n", begin);
     if (data == std::string::npos || end == std::string::npos) break;
-    all.push_back({std::stoul(bytes.substr(begin + 4)), nlohmann::json::parse(bytes.substr(data + 7, end - data - 7), nullptr, false)});
+    all.push_back({std::stoul(bytes.substr(begin + 4)),
+                   nlohmann::json::parse(bytes.substr(data + 7, end - data - 7), nullptr, false)});
     bytes.erase(0, end + 2);
   }
   return all;

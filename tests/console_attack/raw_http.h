@@ -25,13 +25,15 @@ class Wire {
   }
 
   bool connected() const { return socket_ >= 0; }
-  /// How many bytes were taken; fewer than all: the other side has gone, or took nothing for `patience`.
-  std::size_t send(const std::string& bytes, std::chrono::milliseconds patience = std::chrono::seconds(20));
+  /// How many bytes were taken; fewer than all: the other side has gone, or took nothing for
+  /// `patience`.
+  std::size_t send(const std::string& bytes,
+                   std::chrono::milliseconds patience = std::chrono::seconds(20));
   /// What comes until the other side closes, or there are `most` bytes, or `patience` is over.
   std::string read(std::chrono::milliseconds patience, std::size_t most = 64u << 20);
   /// What comes next; empty: closed, or nothing came within `patience`.
   std::string readSome(std::chrono::milliseconds patience);
-  bool closed() const { return closed_; }   ///< by the other side, as far as was read
+  bool closed() const { return closed_; }  ///< by the other side, as far as was read
   void leave();
 
  private:
@@ -40,15 +42,16 @@ class Wire {
 };
 
 struct Answer {
-  int status = 0;                ///< 0: none came
+  int status = 0;  ///< 0: none came
   std::string head, body;
-  std::string header(const std::string& name) const;   ///< empty: none
+  std::string header(const std::string& name) const;  ///< empty: none
   nlohmann::json json() const { return nlohmann::json::parse(body, nullptr, false); }
 };
 Answer answerIn(const std::string& bytes);
 
 using Headers = std::vector<std::pair<std::string, std::string>>;
-std::string requestOf(const std::string& method, const std::string& path, const Headers& headers, const std::string& body = "");
+std::string requestOf(const std::string& method, const std::string& path, const Headers& headers,
+                      const std::string& body = "");
 
 struct Event {
   std::size_t id = 0;

@@ -11,12 +11,13 @@ namespace {
 
 using namespace std::chrono_literals;
 constexpr std::size_t kGiB = 1u << 30;
-constexpr double kMoreMiB = 100;    // than before: 100 threads' own memory, never what was sent
+constexpr double kMoreMiB = 100;  // than before: 100 threads' own memory, never what was sent
 
 class Sizes : public Attacked {
  protected:
   /// Sends `head`, then `piece` again and again, `total` bytes; says how many were taken.
-  std::size_t flood(const std::string& head, const std::string& piece, std::size_t total, Answer* answer) {
+  std::size_t flood(const std::string& head, const std::string& piece, std::size_t total,
+                    Answer* answer) {
     Wire wire(console().port());
     std::size_t taken = wire.send(head);
     for (std::size_t sent = 0; sent < total; sent += piece.size()) {
@@ -46,20 +47,25 @@ TEST_F(Sizes, AGigabyteIsNotTaken) {
   struct Try {
     const char* what;
     std::string head, piece;
-    int status;      // 0: the connection ends without an answer that arrives
+    int status;  // 0: the connection ends without an answer that arrives
   };
-  const Try tries[] = {{"body announced", requestOf("POST", "/api/trainees", announced), piece, 413},
-                       {"body in chunks", requestOf("POST", "/api/trainees", chunked), "10000\r\n" + piece + "\r\n", 411},
-                       {"one header", "GET / HTTP/1.1\r\nHost: " + console().host() + "\r\nX-A: ", piece, 400},
-                       {"many headers", "GET / HTTP/1.1\r\nHost: " + console().host() + "\r\n", lines, 400},
-                       {"one path", "GET /", piece, 400},
-                       {"one method", "", piece, 400},
-                       {"line ends", "", std::string(1 << 16, '\n'), 400}};
+  const Try tries[] = {
+      {"body announced", requestOf("POST", "/api/trainees", announced), piece, 413},
+      {"body in chunks", requestOf("POST", "/api/trainees", chunked), "10000\r\n" + piece + "\r\n",
+       411},
+      {"one header", "GET / HTTP/1.1\r\nHost: " + console().host() + "\r\nX-A: ", piece, 400},
+      {"many headers", "GET / HTTP/1.1\r\nHost: " + console().host() + "\r\n", lines, 400},
+      {"one path", "GET /", piece, 400},
+      {"one method", "", piece, 400},
+      {"line ends", "", std::string(1 << 16, '\n'), 400}};
   for (const Try& one : tries) {
     Answer answer;
     const std::size_t taken = flood(one.head, one.piece, total, &answer);
-    EXPECT_LT(taken, std::size_t{32} << 20) << one.what << ": beyond what the kernel's buffers hold somebody took it";
-    EXPECT_TRUE(answer.status == one.status || answer.status == 414 || answer.status == 400 || answer.status == 0) << one.what << ' ' << answer.status;
+    EXPECT_LT(taken, std::size_t{32} << 20)
+        << one.what << ": beyond what the kernel's buffers hold somebody took it";
+    EXPECT_TRUE(answer.status == one.status || answer.status == 414 || answer.status == 400 ||
+                answer.status == 0)
+        << one.what << ' ' << answer.status;
     RecordProperty(std::string(one.what) + ", bytes taken", std::to_string(taken));
   }
   EXPECT_TRUE(isNoted("413 is longer than 64 KiB"));
@@ -76,7 +82,10 @@ TEST_F(Sizes, NothingGrowsWhenItIsUnpackedOrRepeated) {
   for (const char* coding : {"gzip", "br", "deflate", "gzip, gzip"}) {
     Headers headers = console().writeHeaders(std::string(60'000, 'x'));
     headers.emplace_back("Content-Encoding", coding);
-    EXPECT_EQ(console().raw(requestOf("POST", "/api/trainees", headers, std::string(60'000, 'x'))).status, 415) << coding;
+    EXPECT_EQ(
+        console().raw(requestOf("POST", "/api/trainees", headers, std::string(60'000, 'x'))).status,
+        415)
+        << coding;
   }
   std::string parts = "bytes=0-";
   for (int i = 0; i < 2000; ++i) parts += ",0-";
@@ -89,16 +98,24 @@ TEST_F(Sizes, NothingGrowsWhenItIsUnpackedOrRepeated) {
 }
 
 TEST_F(Sizes, DeepAndDamagedJsonIsRefused) {
-  for (const std::string& body : {std::string(60'000, '['), std::string("{\"id\":") + std::string(60'000, '['), std::string("\xff\xfe"), std::string("{\"id\":\"\xc3\"}"), std::string(), std::string("null"), std::string("{}{}"), std::string("{\"id\":1e999}"), std::string("\0", 1)})
-    for (const std::string path : {"/api/trainees", "/api/sessions", "/api/enter", "/api/calibration", "/api/studies/x/run"}) {
-      const Answer answer = console().raw(requestOf("POST", path, console().writeHeaders(body), body));
-      EXPECT_TRUE((answer.status >= 400 && answer.status < 500)) << path << ' ' << answer.status << ' ' << body.substr(0, 20);
+  for (const std::string& body :
+       {std::string(60'000, '['), std::string("{\"id\":") + std::string(60'000, '['),
+        std::string("\xff\xfe"), std::string("{\"id\":\"\xc3\"}"), std::string(),
+        std::string("null"), std::string("{}{}"), std::string("{\"id\":1e999}"),
+        std::string("\0", 1)})
+    for (const std::string path : {"/api/trainees", "/api/sessions", "/api/enter",
+                                   "/api/calibration", "/api/studies/x/run"}) {
+      const Answer answer =
+          console().raw(requestOf("POST", path, console().writeHeaders(body), body));
+      EXPECT_TRUE((answer.status >= 400 && answer.status < 500))
+          << path << ' ' << answer.status << ' ' << body.substr(0, 20);
       if (answer.status == 429) runtime::rest(1s);
     }
   EXPECT_TRUE(goesOn());
 }
 
-/// Headers and bodies that never end, byte by byte: each connection is over after ten seconds, and there is room for others meanwhile.
+/// Headers and bodies that never end, byte by byte: each connection is over after ten seconds, and
+/// there is room for others meanwhile.
 TEST_F(Sizes, SlowOnesAreCutAndOthersAnswered) {
   session();
   std::vector<Wire> slow;
@@ -110,10 +127,10 @@ TEST_F(Sizes, SlowOnesAreCutAndOthersAnswered) {
     return headers;
   }());
   for (int i = 0; i < each; ++i) {
-    slow.emplace_back(console().port());               // not a byte
-    slow.emplace_back(console().port());               // headers
+    slow.emplace_back(console().port());  // not a byte
+    slow.emplace_back(console().port());  // headers
     slow.back().send("GET / HTTP/1.1\r\nHost: " + console().host() + "\r\nX-Slow: ");
-    slow.emplace_back(console().port());               // a body
+    slow.emplace_back(console().port());  // a body
     slow.back().send(start);
   }
   const double before = residentMiB(console().pid());
@@ -135,14 +152,16 @@ TEST_F(Sizes, SlowOnesAreCutAndOthersAnswered) {
   EXPECT_TRUE(goesOn());
 }
 
-/// 500 that say nothing: those beyond the console's places are told so at once; the others are let go, the sooner the more there are, and it answers.
+/// 500 that say nothing: those beyond the console's places are told so at once; the others are let
+/// go, the sooner the more there are, and it answers.
 TEST_F(Sizes, ACrowdIsToldToWaitAndPasses) {
   session();
   std::vector<Wire> crowd;
   for (int i = 0; i < 500; ++i) crowd.emplace_back(console().port());
   int told = 0;
   for (Wire& one : crowd)
-    if (const std::string bytes = one.readSome(20ms); !bytes.empty()) told += answerIn(bytes).status == 503;
+    if (const std::string bytes = one.readSome(20ms); !bytes.empty())
+      told += answerIn(bytes).status == 503;
   EXPECT_GT(told, 0);
   const int meanwhile = console().raw(requestOf("GET", "/api/me", console().readHeaders())).status;
   EXPECT_TRUE(meanwhile == 503 || meanwhile == 200) << meanwhile;
@@ -153,7 +172,8 @@ TEST_F(Sizes, ACrowdIsToldToWaitAndPasses) {
   EXPECT_TRUE(goesOn());
 }
 
-/// More pages than there are places for streams: the rest is told so, and a place that is left is free again.
+/// More pages than there are places for streams: the rest is told so, and a place that is left is
+/// free again.
 TEST_F(Sizes, StreamsAreCounted) {
   const std::string path = "/api/sessions/" + session() + "/live";
   std::vector<Wire> streams;
@@ -163,7 +183,8 @@ TEST_F(Sizes, StreamsAreCounted) {
     streams.back().send(requestOf("GET", path, console().readHeaders()));
   }
   for (Wire& one : streams) refused += answerIn(one.readSome(30s)).status == 503;
-  EXPECT_TRUE(refused >= 16 && refused <= 20) << refused;   // 24 places; of an earlier test one or two may not be free yet
+  EXPECT_TRUE(refused >= 16 && refused <= 20)
+      << refused;  // 24 places; of an earlier test one or two may not be free yet
   EXPECT_EQ(console().get("/api/me").status, 200) << "all else is answered";
   streams.clear();
   EXPECT_TRUE(goesOn());

@@ -26,18 +26,30 @@ TEST_F(Strangers, WhoIsNotItsPageIsRefusedNotedAndChangesNothing) {
   session();
   struct Try {
     const char *header, *value;
-    int read, write;      // 200: may pass
+    int read, write;  // 200: may pass
     const char* noted;
   };
-  const Try tries[] = {{"Host", "evil.example", 421, 421, "421 this console is not called"}, {"Host", "-", 421, 421, "421 this console is not called"}, {"Host", "127.0.0.1:1", 421, 421, "421 this console is not called"},
-                       {"Origin", "http://evil.example", 403, 403, "403 asked for by another site"}, {"Origin", "null", 403, 403, "403 asked for by another site"}, {"Sec-Fetch-Site", "cross-site", 403, 403, "403 asked for by another site"},
-                       {"Sec-Fetch-Site", "same-site", 403, 403, "403 asked for by another site"}, {"X-Palpa-Page", "-", 200, 403, "403 not asked for by a page"}, {"X-Palpa-Page", "00000000000000000000000000000000", 200, 403, "403 not asked for by a page"},
-                       {"X-Palpa-Write", "-", 200, 400, "400 a write needs a number"}, {"X-Palpa-Write", "1", 200, 400, "400 a write needs a number"}, {"Content-Type", "text/plain", 200, 415, "415 a write is JSON"},
-                       {"Content-Type", "application/x-www-form-urlencoded", 200, 415, "415 a write is JSON"}};
-  const std::string stop = "{\"command\":\"stop\"}", path = "/api/sessions/" + session() + "/command";
+  const Try tries[] = {
+      {"Host", "evil.example", 421, 421, "421 this console is not called"},
+      {"Host", "-", 421, 421, "421 this console is not called"},
+      {"Host", "127.0.0.1:1", 421, 421, "421 this console is not called"},
+      {"Origin", "http://evil.example", 403, 403, "403 asked for by another site"},
+      {"Origin", "null", 403, 403, "403 asked for by another site"},
+      {"Sec-Fetch-Site", "cross-site", 403, 403, "403 asked for by another site"},
+      {"Sec-Fetch-Site", "same-site", 403, 403, "403 asked for by another site"},
+      {"X-Palpa-Page", "-", 200, 403, "403 not asked for by a page"},
+      {"X-Palpa-Page", "00000000000000000000000000000000", 200, 403, "403 not asked for by a page"},
+      {"X-Palpa-Write", "-", 200, 400, "400 a write needs a number"},
+      {"X-Palpa-Write", "1", 200, 400, "400 a write needs a number"},
+      {"Content-Type", "text/plain", 200, 415, "415 a write is JSON"},
+      {"Content-Type", "application/x-www-form-urlencoded", 200, 415, "415 a write is JSON"}};
+  const std::string stop = "{\"command\":\"stop\"}",
+                    path = "/api/sessions/" + session() + "/command";
   for (const Try& one : tries) {
-    const Answer read = console().raw(requestOf("GET", "/api/sessions", changed(console().readHeaders(), one.header, one.value)));
-    const Answer write = console().raw(requestOf("POST", path, changed(console().writeHeaders(stop), one.header, one.value), stop));
+    const Answer read = console().raw(
+        requestOf("GET", "/api/sessions", changed(console().readHeaders(), one.header, one.value)));
+    const Answer write = console().raw(requestOf(
+        "POST", path, changed(console().writeHeaders(stop), one.header, one.value), stop));
     EXPECT_EQ(read.status, one.read) << one.header << ' ' << one.value;
     EXPECT_EQ(write.status, one.write) << one.header << ' ' << one.value;
     EXPECT_TRUE(isNoted(one.noted));
@@ -50,12 +62,17 @@ TEST_F(Strangers, WhoIsNotItsPageIsRefusedNotedAndChangesNothing) {
 
 TEST_F(Strangers, AWriteThatIsSentAgainIsRefused) {
   const std::string body = "{\"command\":\"note\",\"reason\":\"once\"}";
-  const std::string request = requestOf("POST", "/api/sessions/" + session() + "/command", console().writeHeaders(body), body);
+  const std::string request = requestOf("POST", "/api/sessions/" + session() + "/command",
+                                        console().writeHeaders(body), body);
   EXPECT_EQ(console().raw(request).status, 202);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(console().raw(request).status, 409);
   EXPECT_TRUE(isNoted("409 this was asked for before"));
   const std::string other = "{\"command\":\"note\",\"reason\":\"last\"}";
-  EXPECT_EQ(console().post("/api/sessions/" + session() + "/command", {{"command", "note"}, {"reason", "last"}}).status, 202);
+  EXPECT_EQ(console()
+                .post("/api/sessions/" + session() + "/command",
+                      {{"command", "note"}, {"reason", "last"}})
+                .status,
+            202);
   int once = 0;
   console().events(session(), "", [&](const auto& all) {
     once = 0;
@@ -71,7 +88,8 @@ TEST_F(Strangers, AWriteThatIsSentAgainIsRefused) {
 
 TEST_F(Strangers, OtherMethodsAreNotUnderstood) {
   for (const char* method : {"HEAD", "PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT"}) {
-    const Answer answer = console().raw(requestOf(method, "/api/sessions", console().readHeaders()));
+    const Answer answer =
+        console().raw(requestOf(method, "/api/sessions", console().readHeaders()));
     EXPECT_TRUE(answer.status == 405 || answer.status == 400) << method << ' ' << answer.status;
     expectSafe(answer);
   }
@@ -88,18 +106,25 @@ TEST_F(Strangers, NoRequestHidesInAnother) {
     return all;
   };
   const std::string length = std::to_string(hidden.size());
-  const std::string tries[] = {requestOf("GET", "/api/me", with({{"Content-Length", length}}), hidden),
-                               requestOf("POST", "/api/trainees", changed(with({{"Content-Length", length}}), "Host", "evil.example"), hidden),
-                               requestOf("POST", "/api/trainees", with({{"Content-Length", length}, {"Content-Type", "text/plain"}}), hidden),
-                               requestOf("POST", "/api/trainees", with({{"Content-Length", "0"}, {"Content-Length", length}}), hidden),
-                               requestOf("POST", "/api/trainees", with({{"Content-Length", length}, {"Transfer-Encoding", "chunked"}}), "0\r\n\r\n" + hidden),
-                               requestOf("POST", "/api/trainees", with({{"Transfer-Encoding", "chunked"}}), "0\r\n\r\n" + hidden),
-                               requestOf("OPTIONS", "/api/trainees", with({{"Content-Length", length}}), hidden),
-                               "garbage\r\n\r\n" + hidden,
-                               "GET  /api/me HTTP/1.1\r\n\r\n" + hidden,
-                               "GET /api/me HTTP/9.9\r\n\r\n" + hidden,
-                               std::string("\0\xff\x16\x03\x01\x02", 6) + "\r\n\r\n" + hidden,
-                               "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + hidden};
+  const std::string tries[] = {
+      requestOf("GET", "/api/me", with({{"Content-Length", length}}), hidden),
+      requestOf("POST", "/api/trainees",
+                changed(with({{"Content-Length", length}}), "Host", "evil.example"), hidden),
+      requestOf("POST", "/api/trainees",
+                with({{"Content-Length", length}, {"Content-Type", "text/plain"}}), hidden),
+      requestOf("POST", "/api/trainees",
+                with({{"Content-Length", "0"}, {"Content-Length", length}}), hidden),
+      requestOf("POST", "/api/trainees",
+                with({{"Content-Length", length}, {"Transfer-Encoding", "chunked"}}),
+                "0\r\n\r\n" + hidden),
+      requestOf("POST", "/api/trainees", with({{"Transfer-Encoding", "chunked"}}),
+                "0\r\n\r\n" + hidden),
+      requestOf("OPTIONS", "/api/trainees", with({{"Content-Length", length}}), hidden),
+      "garbage\r\n\r\n" + hidden,
+      "GET  /api/me HTTP/1.1\r\n\r\n" + hidden,
+      "GET /api/me HTTP/9.9\r\n\r\n" + hidden,
+      std::string("\0\xff\x16\x03\x01\x02", 6) + "\r\n\r\n" + hidden,
+      "PRI * HTTP/2.0\r\n\r\nSM\r\n\r\n" + hidden};
   for (const std::string& bytes : tries) {
     Wire wire(console().port());
     wire.send(bytes);

@@ -1,4 +1,5 @@
-// Consoles and sessions that are killed, and what is left of them. Last in name and order: it ends the session of the others.
+// Consoles and sessions that are killed, and what is left of them. Last in name and order: it ends
+// the session of the others.
 #include <gtest/gtest.h>
 #include <signal.h>
 
@@ -13,7 +14,8 @@ using nlohmann::json;
 
 class TheEnd : public Attacked {};
 
-/// Killed in the middle of a trial and begun again: the session has gone on, is found, is told on, is steered; its trial is finished and in the records; nothing anybody wrote is markup there.
+/// Killed in the middle of a trial and begun again: the session has gone on, is found, is told on,
+/// is steered; its trial is finished and in the records; nothing anybody wrote is markup there.
 TEST_F(TheEnd, AConsoleThatIsKilledFindsItsSessionAgain) {
   const std::string id = session();
   const auto before = console().events(id, "", until(40));
@@ -27,16 +29,29 @@ TEST_F(TheEnd, AConsoleThatIsKilledFindsItsSessionAgain) {
   ASSERT_GE(after.size(), 40u);
   expectNumbered(after, 41);
   for (std::size_t i = 40; i < before.size(); ++i) EXPECT_EQ(before[i], after[i - 40]);
-  EXPECT_EQ(console().post("/api/sessions", {{"task", "paracentesis"}, {"operator", "expert"}}).status, 409) << "a second one on the same station";
-  EXPECT_EQ(console().post("/api/sessions/" + id + "/command", {{"command", "note"}, {"reason", kMarkup}, {"at_s", 1.5}}).status, 202);
+  EXPECT_EQ(
+      console().post("/api/sessions", {{"task", "paracentesis"}, {"operator", "expert"}}).status,
+      409)
+      << "a second one on the same station";
+  EXPECT_EQ(console()
+                .post("/api/sessions/" + id + "/command",
+                      {{"command", "note"}, {"reason", kMarkup}, {"at_s", 1.5}})
+                .status,
+            202);
 
-  const auto noted = [](const Event& e) { return e.data.value("event", "") == "note" && e.data.value("text", "") == kMarkup; };
+  const auto noted = [](const Event& e) {
+    return e.data.value("event", "") == "note" && e.data.value("text", "") == kMarkup;
+  };
   const auto trialOver = [](const Event& e) { return e.data.value("kind", "") == "trial_end"; };
-  const auto all = console().events(id, "", [&](const std::vector<Event>& seen) { return std::any_of(seen.begin(), seen.end(), noted) && std::any_of(seen.begin(), seen.end(), trialOver); });
+  const auto all = console().events(id, "", [&](const std::vector<Event>& seen) {
+    return std::any_of(seen.begin(), seen.end(), noted) &&
+           std::any_of(seen.begin(), seen.end(), trialOver);
+  });
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), noted)) << "as it was written";
   EXPECT_TRUE(std::any_of(all.begin(), all.end(), trialOver));
   EXPECT_EQ(console().post("/api/sessions/" + id + "/command", {{"command", "leave"}}).status, 202);
-  const auto end = console().events(id, std::to_string(all.back().id), [](const auto&) { return false; });
+  const auto end =
+      console().events(id, std::to_string(all.back().id), [](const auto&) { return false; });
   ASSERT_FALSE(end.empty());
   EXPECT_EQ(end.back().data["kind"], "end");
   EXPECT_EQ(end.back().data["state"], "finished");
@@ -47,7 +62,8 @@ TEST_F(TheEnd, AConsoleThatIsKilledFindsItsSessionAgain) {
   EXPECT_GE(trainee["trials"].get<int>(), 1);
   EXPECT_EQ(trainee["group"], kMarkup);
 
-  const Answer report = console().get("/api/sessions/" + id + "/file/report.html"), table = console().get("/api/sessions/" + id + "/file/trials.csv");
+  const Answer report = console().get("/api/sessions/" + id + "/file/report.html"),
+               table = console().get("/api/sessions/" + id + "/file/trials.csv");
   EXPECT_EQ(report.status, 200);
   EXPECT_NE(report.header("Content-Security-Policy").find("sandbox"), std::string::npos);
   EXPECT_EQ(report.header("X-Content-Type-Options"), "nosniff");
@@ -68,11 +84,15 @@ TEST_F(TheEnd, MarkupIsTextInReports) {
     std::snprintf(hex, sizeof hex, "%%%02X", c);
     group += hex;
   }
-  for (const std::string& path : {std::string("/api/trainees/T017/report"), std::string("/api/cohort"), "/api/cohort?group=" + group}) {
+  for (const std::string& path : {std::string("/api/trainees/T017/report"),
+                                  std::string("/api/cohort"), "/api/cohort?group=" + group}) {
     json made;
-    ASSERT_TRUE(inTime([&] { return (made = console().get(path).json()).value("state", "") != "working"; })) << path;
+    ASSERT_TRUE(inTime([&] {
+      return (made = console().get(path).json()).value("state", "") != "working";
+    })) << path;
     if (made["state"] != "done") {
-      EXPECT_NE(made["message"], "") << path;      // a trainee without trials has no report yet: said in words
+      EXPECT_NE(made["message"], "")
+          << path;  // a trainee without trials has no report yet: said in words
       continue;
     }
     const Answer page = console().get(made["page"].get<std::string>());
@@ -80,18 +100,27 @@ TEST_F(TheEnd, MarkupIsTextInReports) {
     EXPECT_NE(page.header("Content-Security-Policy").find("sandbox"), std::string::npos);
     EXPECT_EQ(page.body.find("<script"), std::string::npos) << path;
     EXPECT_EQ(page.body.find("<img src=x"), std::string::npos) << path;
-    EXPECT_TRUE(path == "/api/cohort" || page.body.find("&lt;script") != std::string::npos) << path << ": nothing of it is shown";
+    EXPECT_TRUE(path == "/api/cohort" || page.body.find("&lt;script") != std::string::npos)
+        << path << ": nothing of it is shown";
   }
-  for (const json& bad : {json{{"id", kMarkup}}, json{{"id", "T2"}, {"handedness", kMarkup}}, json{{"id", "T2"}, {"group", "a\nb"}}, json{{"id", "T2"}, {"experience", std::string(81, 'a')}}, json{{"id", "-x"}}, json{{"id", "T2"}, {"group", 5}}}) {
+  for (const json& bad : {json{{"id", kMarkup}}, json{{"id", "T2"}, {"handedness", kMarkup}},
+                          json{{"id", "T2"}, {"group", "a\nb"}},
+                          json{{"id", "T2"}, {"experience", std::string(81, 'a')}},
+                          json{{"id", "-x"}}, json{{"id", "T2"}, {"group", 5}}}) {
     const Answer answer = console().post("/api/trainees", bad);
     EXPECT_EQ(answer.status, 422) << bad.dump();
     EXPECT_EQ(answer.header("Content-Type"), "application/json");
   }
-  for (const json& bad : {json{{"task", kMarkup}}, json{{"task", "paracentesis"}, {"trainee", kMarkup}}, json{{"task", "paracentesis"}, {"operator", kMarkup}}, json{{"task", "nothing-like-it"}, {"operator", "expert"}}}) {
+  for (const json& bad :
+       {json{{"task", kMarkup}}, json{{"task", "paracentesis"}, {"trainee", kMarkup}},
+        json{{"task", "paracentesis"}, {"operator", kMarkup}},
+        json{{"task", "nothing-like-it"}, {"operator", "expert"}}}) {
     const int status = console().post("/api/sessions", bad).status;
     EXPECT_TRUE(status == 422 || status == 409) << bad.dump() << status;
   }
-  for (const json& bad : {json{{"trainee", kMarkup}, {"operator", "expert"}}, json{{"trainee", "T017"}, {"operator", kMarkup}}}) EXPECT_EQ(console().post("/api/studies/no-such-study/run", bad).status, 422);
+  for (const json& bad : {json{{"trainee", kMarkup}, {"operator", "expert"}},
+                          json{{"trainee", "T017"}, {"operator", kMarkup}}})
+    EXPECT_EQ(console().post("/api/studies/no-such-study/run", bad).status, 422);
   EXPECT_EQ(console().post("/api/calibration", {{"step", kMarkup}}).status, 422);
 }
 
@@ -104,7 +133,8 @@ TEST_F(TheEnd, ASessionThatIsKilledIsSaidInWords) {
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all.back().data["kind"], "end");
   EXPECT_EQ(all.back().data["state"], "interrupted");
-  EXPECT_NE(all.back().data["message"].get<std::string>().find("killed"), std::string::npos) << all.back().data.dump();
+  EXPECT_NE(all.back().data["message"].get<std::string>().find("killed"), std::string::npos)
+      << all.back().data.dump();
   const Answer one = console().get("/api/sessions/" + id);
   EXPECT_EQ(one.status, 200);
   EXPECT_EQ(one.json()["state"], "interrupted");

@@ -58,26 +58,27 @@ struct Session {
   std::int64_t end_ns = 0;
   LocalGeometry geometry_now = haptics::NeedleBench{}.geometry;
   haptics::FlightRecord last;
-  Doing world{"world", [this](std::int64_t now) {
-                haptics::TickCommands commands;
-                commands.armed = commands.trial = 1;
-                bus.task_to_haptic.publish(commands, now);
-                geometry_now.number += 1;
-                geometry_now.t_ns = now;
-                geometry_now.skin.p = {0, 0, haptics::kFalconCentre.z() + 0.001};
-                // The grip goes in and out once a second: 3 mm above the skin to 1 mm under it.
-                const double turn = 2 * std::numbers::pi * 1e-9 * static_cast<double>(now);
-                station.rig.holdGripAt(haptics::kFalconCentre + Vec3(0, 0, 0.002 + 0.002 * std::cos(turn)));
-                bus.geometry_to_haptic.publish(geometry_now, now);
-                haptics::FlightRecord record;
-                while (bus.haptic_to_recorder.pop(&record)) {
-                  pushed_unhomed += !record.reading.homed && record.f_command_D != Packed3{0, 0, 0};
-                }
-                for (Keyframe keyframe; bus.keyframes_to_recorder.pop(&keyframe);) {
-                }
-                if (now >= end_ns) executive->stop();
-                return now + 5 * kMs;
-              }};
+  Doing world{
+      "world", [this](std::int64_t now) {
+        haptics::TickCommands commands;
+        commands.armed = commands.trial = 1;
+        bus.task_to_haptic.publish(commands, now);
+        geometry_now.number += 1;
+        geometry_now.t_ns = now;
+        geometry_now.skin.p = {0, 0, haptics::kFalconCentre.z() + 0.001};
+        // The grip goes in and out once a second: 3 mm above the skin to 1 mm under it.
+        const double turn = 2 * std::numbers::pi * 1e-9 * static_cast<double>(now);
+        station.rig.holdGripAt(haptics::kFalconCentre + Vec3(0, 0, 0.002 + 0.002 * std::cos(turn)));
+        bus.geometry_to_haptic.publish(geometry_now, now);
+        haptics::FlightRecord record;
+        while (bus.haptic_to_recorder.pop(&record)) {
+          pushed_unhomed += !record.reading.homed && record.f_command_D != Packed3{0, 0, 0};
+        }
+        for (Keyframe keyframe; bus.keyframes_to_recorder.pop(&keyframe);) {
+        }
+        if (now >= end_ns) executive->stop();
+        return now + 5 * kMs;
+      }};
   int pushed_unhomed = 0, pushed = 0, jumps = 0;
   double most = 0;
 };

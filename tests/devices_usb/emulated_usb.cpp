@@ -29,8 +29,10 @@ const std::string kDescriptors =
     "07050202400000";
 
 std::string describe(const std::string& node, const std::string& sys_path, int number) {
-  return "P: " + sys_path.substr(4) + "\nN: " + node.substr(5) + "=" + kDescriptors + "\nE: DEVNAME=" + node +
-         "\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\nE: BUSNUM=001\nE: DEVNUM=00" + std::to_string(number) +
+  return "P: " + sys_path.substr(4) + "\nN: " + node.substr(5) + "=" + kDescriptors +
+         "\nE: DEVNAME=" + node +
+         "\nE: DEVTYPE=usb_device\nE: SUBSYSTEM=usb\nE: BUSNUM=001\nE: DEVNUM=00" +
+         std::to_string(number) +
          "\nA: bConfigurationValue=1\\n\nA: busnum=1\\n\nA: devnum=" + std::to_string(number) +
          "\\n\nA: speed=12\\n\nH: descriptors=" + kDescriptors + "\n";
 }

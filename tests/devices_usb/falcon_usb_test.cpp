@@ -118,13 +118,16 @@ TEST_F(FalconOnUsb, TwoAtOnceAreTwo) {
   test::FalconRig other(std::make_unique<PatientUsb>(), other_twin, test::someImage());
   twin.startFirmware();
   other_twin.startFirmware();
-  for (int i = 0; i < 200 && (rig->state() != FalconState::ready || other.state() != FalconState::ready); ++i) {
+  for (int i = 0;
+       i < 200 && (rig->state() != FalconState::ready || other.state() != FalconState::ready);
+       ++i) {
     rig->step();
     other.step();
   }
   ASSERT_EQ(rig->state(), FalconState::ready);
   ASSERT_EQ(other.state(), FalconState::ready);
-  // Whichever driver has got which device: grips apart, forces against each other, nothing mixed up.
+  // Whichever driver has got which device: grips apart, forces against each other, nothing mixed
+  // up.
   const bool crossed = other_usb.claims == 1 && usb->claims == 1 && [&] {
     other.holdGripAt(kFalconCentre + Vec3(0.02, 0, 0));
     rig->holdGripAt(kFalconCentre - Vec3(0.02, 0, 0));
@@ -144,7 +147,8 @@ TEST_F(FalconOnUsb, TwoAtOnceAreTwo) {
   EXPECT_NEAR(unpack(other.driver.read(other.now_ns).p_DE).x(), 0.02 * side, 1e-4);
   ASSERT_TRUE(of_rig.commands.back().pushes());
   ASSERT_TRUE(of_other.commands.back().pushes());
-  const Vec3 here = kFalconCentre - Vec3(0.02 * side, 0, 0), there = kFalconCentre + Vec3(0.02 * side, 0, 0);
+  const Vec3 here = kFalconCentre - Vec3(0.02 * side, 0, 0),
+             there = kFalconCentre + Vec3(0.02 * side, 0, 0);
   EXPECT_LT(test::forceError(of_rig.commands.back(), here, {2, 0, 0}), 1.001);
   EXPECT_LT(test::forceError(of_other.commands.back(), there, {-2, 0, 0}), 1.001);
   EXPECT_EQ(usb->claims + other_usb.claims, 2);

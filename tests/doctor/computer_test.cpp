@@ -17,7 +17,8 @@ TEST(DoctorsComputer, ClocksThatDoNotAgreeAreNamed) {
   expectSays(judgeClocks({1, 1, 0.2, true}, {}, true), State::well, "kept by a time server");
   expectSays(judgeClocks({1, 1, 0.2, false}, {}, false), State::well, "the date goes with them");
   expectSays(judgeClocks({1, 1, 0.2, false}, {}, true), State::note, "no time server");
-  expectSays(judgeClocks({1, 1, -3600'000, true}, {}, false), State::note, "was set by -3600000 ms");
+  expectSays(judgeClocks({1, 1, -3600'000, true}, {}, false), State::note,
+             "was set by -3600000 ms");
   expectSays(judgeClocks({4'000'000, 1, 0, true}, {}, false), State::note, "steps by 4.0 ms");
   const ClockWatch watch;
   runtime::SteadyClock().sleepUntil(20 * runtime::kMillisecond);
@@ -27,10 +28,15 @@ TEST(DoctorsComputer, ClocksThatDoNotAgreeAreNamed) {
 
 TEST(DoctorsComputer, LoopDiskAndDateAreJudged) {
   expectSays(judgeLoop({"SCHED_FIFO", 1000, 40}, true), State::well, "in real time");
-  expectSays(judgeLoop({"normal priority: SCHED_FIFO refused (Operation not permitted)", 1000, 40}, true), State::note, "normal priority");
+  expectSays(
+      judgeLoop({"normal priority: SCHED_FIFO refused (Operation not permitted)", 1000, 40}, true),
+      State::note, "normal priority");
   expectSays(judgeLoop({"SCHED_FIFO", 640, 900}, true), State::note, "will stutter");
   expectSays(judgeLoop({"SCHED_FIFO", 640, 900}, false), State::well, "virtual bench");
-  expectSays(judgeLoop({"SCHED_FIFO", 1000, 40, "memory not locked: refused (Cannot allocate memory)"}, true), State::note, "put out to disk");
+  expectSays(
+      judgeLoop({"SCHED_FIFO", 1000, 40, "memory not locked: refused (Cannot allocate memory)"},
+                true),
+      State::note, "put out to disk");
   EXPECT_GT(measureLoop().rate_Hz, 100);
   expectSays(judgeDisk({"/data", true, 50'000'000'000}), State::well, "50.0 GB free");
   expectSays(judgeDisk({"/data", true, 1'000'000'000}), State::note, "enough for some 80 trials");
@@ -38,12 +44,17 @@ TEST(DoctorsComputer, LoopDiskAndDateAreJudged) {
   expectSays(judgeDisk({"/data", false, 50'000'000'000}), State::ill, "may not be written");
   EXPECT_GT(measureDisk("not/there/yet").free_bytes, 0u);
   expectSays(judgeDate("1970-01-01T00:03:00Z", "2026-01-01T00:00:00Z"), State::ill, "1970-01-01");
-  expectSays(judgeDate("2027-01-01T00:03:00Z", "2026-01-01T00:00:00Z"), State::well, "2027-01-01 00:03");
+  expectSays(judgeDate("2027-01-01T00:03:00Z", "2026-01-01T00:00:00Z"), State::well,
+             "2027-01-01 00:03");
 }
 
 TEST(DoctorsComputer, DrawingAndHeadset) {
-  expectSays(askDrawing([] { return std::string("surfaceless EGL"); }), State::well, "surfaceless EGL");
-  expectSays(askDrawing([]() -> std::string { throw Error("cannot be made", "OpenGL context", "Install a driver"); }), State::ill, "cannot be made");
+  expectSays(askDrawing([] { return std::string("surfaceless EGL"); }), State::well,
+             "surfaceless EGL");
+  expectSays(askDrawing([]() -> std::string {
+               throw Error("cannot be made", "OpenGL context", "Install a driver");
+             }),
+             State::ill, "cannot be made");
   const fs::path folder = test::freshFolder("doctor", "headset");
   const auto runtime = [&](const std::string& text) {
     std::ofstream(folder / "runtime.json") << text;
@@ -53,7 +64,8 @@ TEST(DoctorsComputer, DrawingAndHeadset) {
   expectSays(judgeHeadset(folder / "nowhere.json"), State::note, "cannot be read");
   expectSays(runtime("{"), State::note, "damaged");
   expectSays(runtime(R"({"runtime": {}})"), State::note, "names no library");
-  expectSays(runtime(R"({"runtime": {"library_path": "./libxr.so"}})"), State::note, "not where its file says");
+  expectSays(runtime(R"({"runtime": {"library_path": "./libxr.so"}})"), State::note,
+             "not where its file says");
   std::ofstream(folder / "libxr.so") << "";
   expectSays(runtime(R"({"runtime": {"library_path": "./libxr.so"}})"), State::well, "libxr.so");
 }
@@ -66,8 +78,10 @@ class Environment {
     ::setenv(name, value, 1);
   }
   ~Environment() {
-    if (before_) ::setenv(name_, before_->c_str(), 1);
-    else ::unsetenv(name_);
+    if (before_)
+      ::setenv(name_, before_->c_str(), 1);
+    else
+      ::unsetenv(name_);
   }
 
  private:
@@ -88,7 +102,8 @@ TEST(DoctorsComputer, ALanguageThatIsNotInstalledIsNamed) {
 }
 
 TEST(Doctor, SaysWhetherASessionCanStart) {
-  const Findings fine{{"a", State::well, "x"}, {"b", State::note, "y", "z"}, {"c", State::absent, "none"}};
+  const Findings fine{
+      {"a", State::well, "x"}, {"b", State::note, "y", "z"}, {"c", State::absent, "none"}};
   EXPECT_TRUE(canStart(fine));
   Findings ill = fine;
   ill.push_back({"d", State::ill, "broken <&\"", "mend"});
@@ -96,7 +111,9 @@ TEST(Doctor, SaysWhetherASessionCanStart) {
   const nlohmann::json json = nlohmann::json::parse(toJson(ill));
   EXPECT_EQ(json["can_start"], false);
   ASSERT_EQ(json["findings"].size(), 4u);
-  EXPECT_EQ(json["findings"][3], (nlohmann::json{{"subject", "d"}, {"state", "ill"}, {"verdict", "broken <&\""}, {"fix", "mend"}}));
+  EXPECT_EQ(json["findings"][3],
+            (nlohmann::json{
+                {"subject", "d"}, {"state", "ill"}, {"verdict", "broken <&\""}, {"fix", "mend"}}));
   const Finding torn = troubled("x", State::ill, "file a: is damaged. Restore it. Then go on");
   EXPECT_EQ(torn.verdict, "file a: is damaged");
   EXPECT_EQ(torn.fix, "Restore it. Then go on");

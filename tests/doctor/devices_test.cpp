@@ -22,8 +22,12 @@ TEST(DoctorsDevice, EveryProblemOfAFalconIsNamed) {
   expectSays(judgeFalcon(status), State::note, "does not know where its grip is");
   status.state = FalconState::opening;
   expectSays(judgeFalcon(status), State::ill, "does not answer");
-  for (const auto& [problem, words] : {std::pair{FalconProblem::absent, "is not there"}, {FalconProblem::denied, "may not be used by this user"}, {FalconProblem::busy, "in use by another program"},
-                                       {FalconProblem::needs_firmware, "no firmware"}, {FalconProblem::upload_failed, "did not take the firmware"}, {FalconProblem::silent, "stopped answering"}}) {
+  for (const auto& [problem, words] : {std::pair{FalconProblem::absent, "is not there"},
+                                       {FalconProblem::denied, "may not be used by this user"},
+                                       {FalconProblem::busy, "in use by another program"},
+                                       {FalconProblem::needs_firmware, "no firmware"},
+                                       {FalconProblem::upload_failed, "did not take the firmware"},
+                                       {FalconProblem::silent, "stopped answering"}}) {
     status.problem = problem;
     expectSays(judgeFalcon(status), State::ill, words);
   }
@@ -49,13 +53,15 @@ TEST(DoctorsDevice, TheRuleOfUdevIsLookedForWhereUdevLooks) {
   expectSays(askUdevRule(folders), State::note, "there is none");
   fs::create_directories(etc);
   fs::create_directories(lib);
-  std::ofstream(etc / "50-other.rules") << "ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"6001\", GROUP=\"plugdev\"\n# 0403 cb48\n";
+  std::ofstream(etc / "50-other.rules")
+      << "ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"6001\", GROUP=\"plugdev\"\n# 0403 cb48\n";
   expectSays(askUdevRule(folders), State::note, "there is none");
   fs::copy(station::assetFile("udev/60-palpa-falcon.rules"), lib);
   expectSays(askUdevRule(folders), State::well, (lib / "60-palpa-falcon.rules").string());
   std::ofstream{etc / "60-palpa-falcon.rules"};
   expectSays(askUdevRule(folders), State::note, "there is none");
-  std::ofstream(etc / "60-palpa-falcon.rules") << "ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", MODE=\"0600\"\n";
+  std::ofstream(etc / "60-palpa-falcon.rules")
+      << "ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", MODE=\"0600\"\n";
   expectSays(askUdevRule(folders), State::note, "nobody but root");
 }
 
@@ -68,7 +74,7 @@ TEST(DoctorsSensor, SilenceLossAndFaultsAreNamed) {
   EXPECT_EQ(askSensor(station).state, station.force_sensor ? State::well : State::absent);
   station.force_sensor.emplace();
   station.force_sensor->driver = station::ForceSensorSetup::Driver::net_ft;
-  station.force_sensor->net_ft.address = "127.0.0.1";   // nobody answers there
+  station.force_sensor->net_ft.address = "127.0.0.1";  // nobody answers there
   station.force_sensor->net_ft.port = 9;
   station.force_sensor->net_ft.answer_tries = 1;
   EXPECT_EQ(askSensor(station).state, State::ill);

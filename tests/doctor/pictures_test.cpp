@@ -10,7 +10,8 @@ namespace palpa::doctor {
 namespace {
 
 /// The bench's pictures, spoilt by `change`; taken once for all tests.
-Findings lookedAt(const std::function<std::optional<ar::Frame>(ar::Frame)>& change, int count = 12) {
+Findings lookedAt(const std::function<std::optional<ar::Frame>(ar::Frame)>& change,
+                  int count = 12) {
   static const std::vector<ar::Frame> frames = [] {
     twin::SetupBench bench(benchStation(), 3);
     std::vector<ar::Frame> taken;
@@ -32,7 +33,9 @@ Findings lookedAt(const std::function<std::optional<ar::Frame>(ar::Frame)>& chan
 }
 
 Findings spoiltBy(twin::CameraFault::Kind kind) {
-  return lookedAt([kind](ar::Frame frame) { return twin::spoilt(std::move(frame), {kind, 0, 1e9}); });
+  return lookedAt([kind](ar::Frame frame) {
+    return twin::spoilt(std::move(frame), {kind, 0, 1e9});
+  });
 }
 
 TEST(DoctorsPictures, OfAHealthyBenchAreWell) {
@@ -83,34 +86,46 @@ TEST(DoctorsPictures, EveryFaultIsNamed) {
 TEST(DoctorsPictures, AForeignCameraDoesNotFit) {
   const Findings found = lookedAt([](ar::Frame frame) {
     cv::Mat middle = frame.image.clone();
-    for (int v = 0; v < middle.rows; ++v)   // bends what is straight
-      cv::remap(frame.image.rowRange(v, v + 1), middle.rowRange(v, v + 1), [&] {
-        cv::Mat x(1, middle.cols, CV_32F);
-        for (int u = 0; u < middle.cols; ++u) x.at<float>(0, u) = static_cast<float>(u) + 8.F * static_cast<float>(std::sin(0.02 * v + 0.01 * u));
-        return x;
-      }(), cv::Mat::zeros(1, middle.cols, CV_32F), cv::INTER_LINEAR);
+    for (int v = 0; v < middle.rows; ++v)  // bends what is straight
+      cv::remap(
+          frame.image.rowRange(v, v + 1), middle.rowRange(v, v + 1),
+          [&] {
+            cv::Mat x(1, middle.cols, CV_32F);
+            for (int u = 0; u < middle.cols; ++u)
+              x.at<float>(0, u) =
+                  static_cast<float>(u) + 8.F * static_cast<float>(std::sin(0.02 * v + 0.01 * u));
+            return x;
+          }(),
+          cv::Mat::zeros(1, middle.cols, CV_32F), cv::INTER_LINEAR);
     frame.image = middle;
     return std::optional(frame);
   });
   EXPECT_NE(found[1].state, State::well) << found[1].verdict;
 }
 
-/// A real camera dates its pictures by the computer's clock; pictures that go back or come from elsewhere are told.
+/// A real camera dates its pictures by the computer's clock; pictures that go back or come from
+/// elsewhere are told.
 TEST(DoctorsPictures, TimesThatCannotBeAreNamed) {
   const station::Station& s = benchStation();
   const auto board = ar::makeBoard(s.board, s.decimate);
   const runtime::SteadyClock clock;
-  const std::int64_t start = -clock.ofMonotonic(0);   // of CLOCK_MONOTONIC
+  const std::int64_t start = -clock.ofMonotonic(0);  // of CLOCK_MONOTONIC
   const auto seen = [&](const std::function<std::int64_t(int)>& stamp) {
     int n = 0;
-    const auto grab = [&]() -> std::optional<ar::Frame> { return ar::Frame{static_cast<std::uint64_t>(n), stamp(n++), cv::Mat(480, 640, CV_8UC1, cv::Scalar(128)), "test"}; };
+    const auto grab = [&]() -> std::optional<ar::Frame> {
+      return ar::Frame{static_cast<std::uint64_t>(n), stamp(n++),
+                       cv::Mat(480, 640, CV_8UC1, cv::Scalar(128)), "test"};
+    };
     return judgeClocks({}, lookAt(grab, 5, *board, s.camera, &clock), false);
   };
   runtime::SteadyClock().sleepUntil(10 * runtime::kMillisecond);
   expectSays(seen([&](int n) { return start + n * runtime::kMillisecond; }), State::well, "date");
-  expectSays(seen([&](int n) { return start + (n == 3 ? 0 : n * runtime::kMillisecond); }), State::note, "go back in 1 of 5");
-  expectSays(seen([&](int n) { return start - 100 * runtime::kSecond + n; }), State::note, "5 of 5 pictures by another clock");
-  expectSays(seen([&](int n) { return start + 900 * runtime::kSecond + n; }), State::note, "5 of 5 pictures by another clock");
+  expectSays(seen([&](int n) { return start + (n == 3 ? 0 : n * runtime::kMillisecond); }),
+             State::note, "go back in 1 of 5");
+  expectSays(seen([&](int n) { return start - 100 * runtime::kSecond + n; }), State::note,
+             "5 of 5 pictures by another clock");
+  expectSays(seen([&](int n) { return start + 900 * runtime::kSecond + n; }), State::note,
+             "5 of 5 pictures by another clock");
 }
 
 TEST(DoctorsPictures, WhatACameraDoesNotLetBeFixedIsNamed) {

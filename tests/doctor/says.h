@@ -6,11 +6,13 @@
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
-/// Each fault that a station can have is put before the doctor's judges, and named; a healthy bench is called well. Faults from outside: tests/cli/doctor_faults_test.cpp.
+/// Each fault that a station can have is put before the doctor's judges, and named; a healthy bench
+/// is called well. Faults from outside: tests/cli/doctor_faults_test.cpp.
 namespace palpa::doctor {
 
 inline const station::Station& benchStation() {
-  static const station::Station station = station::readStation(station::assetFile("stations/virtual_bench.json"));
+  static const station::Station station =
+      station::readStation(station::assetFile("stations/virtual_bench.json"));
   return station;
 }
 

@@ -40,8 +40,10 @@ station::AppliedCalibration calibration(const std::string& kind) {
 TEST(DoctorsStation, EachCalibrationIsJudgedByItself) {
   station::Station station = benchStation();
   const std::string now = "2026-04-01T00:00:00Z";
-  const auto judgedOne = [&](const std::function<void(station::AppliedCalibration&)>& change, const std::string& at) {
-    station.calibrations = {calibration("camera"), calibration("tool"), calibration("registration")};
+  const auto judgedOne = [&](const std::function<void(station::AppliedCalibration&)>& change,
+                             const std::string& at) {
+    station.calibrations = {calibration("camera"), calibration("tool"),
+                            calibration("registration")};
     station.calibrations[1].file.rests_on = {{"camera", "camera"}};
     change(station.calibrations[1]);
     const Findings findings = judgeCalibrations(station, at);
@@ -50,11 +52,15 @@ TEST(DoctorsStation, EachCalibrationIsJudgedByItself) {
     return findings[1];
   };
   expectSays(judgedOne([](auto&) {}, now), State::well, "of 2026-03-01, good for 90 days");
-  expectSays(judgedOne([](auto& c) { c.file.verdict = "fail: the tip is off by 3 mm"; }, now), State::note, "off by 3 mm");
-  expectSays(judgedOne([](auto& c) { c.file.station = "another"; }, now), State::note, "belongs to station");
+  expectSays(judgedOne([](auto& c) { c.file.verdict = "fail: the tip is off by 3 mm"; }, now),
+             State::note, "off by 3 mm");
+  expectSays(judgedOne([](auto& c) { c.file.station = "another"; }, now), State::note,
+             "belongs to station");
   expectSays(judgedOne([](auto& c) { c.sha256 = "changed"; }, now), State::note, "was replaced");
-  expectSays(judgedOne([](auto& c) { c.file.rests_on[0].sha256 = "older"; }, now), State::note, "another camera calibration");
-  expectSays(judgedOne([](auto& c) { c.file.date = "2027-01-01T00:00:00Z"; }, now), State::note, "still to come");
+  expectSays(judgedOne([](auto& c) { c.file.rests_on[0].sha256 = "older"; }, now), State::note,
+             "another camera calibration");
+  expectSays(judgedOne([](auto& c) { c.file.date = "2027-01-01T00:00:00Z"; }, now), State::note,
+             "still to come");
   expectSays(judgedOne([](auto&) {}, "2026-12-01T00:00:00Z"), State::note, "is outdated");
 }
 
@@ -67,7 +73,8 @@ TEST(DoctorsRecords, WhatIsWrongWithThemIsNamedAndNothingIsMade) {
   expectSays(askRecords(file, 0), State::well, "0 trainees in");
   expectSays(askRecords(file, 2), State::note, "2 sessions wait");
   std::ofstream(folder / "damaged.sqlite") << "this is no database at all";
-  expectSays(askRecords((folder / "damaged.sqlite").string(), 0), State::note, "is no records file");
+  expectSays(askRecords((folder / "damaged.sqlite").string(), 0), State::note,
+             "is no records file");
   expectSays(askRecords("postgresql://nobody@127.0.0.1:9/none", 0), State::note, "127.0.0.1");
 }
 

@@ -19,17 +19,22 @@ station::TrackerSetup trackerAt(std::uint16_t port) {
   return setup;
 }
 
-TrackerFacts factsOf(std::uint64_t poses, std::uint64_t unusable, std::uint64_t not_rigid, std::uint64_t connections = 1) { return {{poses, unusable, not_rigid, 0, 0, connections}, 1, ""}; }
+TrackerFacts factsOf(std::uint64_t poses, std::uint64_t unusable, std::uint64_t not_rigid,
+                     std::uint64_t connections = 1) {
+  return {{poses, unusable, not_rigid, 0, 0, connections}, 1, ""};
+}
 
 TEST(DoctorsTracker, EachTroubleIsNamed) {
   const station::TrackerSetup setup = trackerAt(18944);
-  expectSays(judgeTracker(factsOf(0, 0, 0, 0), setup), State::ill, "does not answer at 127.0.0.1, port 18944");
+  expectSays(judgeTracker(factsOf(0, 0, 0, 0), setup), State::ill,
+             "does not answer at 127.0.0.1, port 18944");
   expectSays(judgeTracker(factsOf(0, 0, 0), setup), State::note, "sends no CameraMarkerToTable");
   expectSays(judgeTracker(factsOf(0, 40, 0), setup), State::note, "does not see");
   expectSays(judgeTracker(factsOf(0, 0, 40), setup), State::ill, "is no pose");
   expectSays(judgeTracker(factsOf(15, 0, 0), setup), State::note, "15 poses a second");
   expectSays(judgeTracker(factsOf(60, 3, 0), setup), State::well, "60 poses a second");
-  expectSays(judgeTracker({{}, 0, "\"nowhere\" is not known. Mend the name"}, setup), State::ill, "nowhere");
+  expectSays(judgeTracker({{}, 0, "\"nowhere\" is not known. Mend the name"}, setup), State::ill,
+             "nowhere");
 }
 
 TEST(DoctorsTracker, IsListenedTo) {

@@ -20,8 +20,9 @@ SurfacePatch bowl() {
 }
 
 Vec3 pointOf(const SurfacePatch& s, double a, double b) {
-  const double h = s.c[0] + s.c[1] * a + s.c[2] * b + s.c[3] * a * a + s.c[4] * a * b + s.c[5] * b * b +
-                   s.c[6] * a * a * a + s.c[7] * a * a * b + s.c[8] * a * b * b + s.c[9] * b * b * b;
+  const double h = s.c[0] + s.c[1] * a + s.c[2] * b + s.c[3] * a * a + s.c[4] * a * b +
+                   s.c[5] * b * b + s.c[6] * a * a * a + s.c[7] * a * a * b + s.c[8] * a * b * b +
+                   s.c[9] * b * b * b;
   return unpack(s.p) + a * unpack(s.x) + b * unpack(s.n).cross(unpack(s.x)) + h * unpack(s.n);
 }
 

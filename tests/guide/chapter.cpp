@@ -16,7 +16,10 @@ std::string quoted(const std::string& text) {
   return all + "'";
 }
 
-std::string told(const Command& c) { return "command_of " + std::to_string(c.line) + " " + std::to_string(c.exit_code) + " " + quoted(c.text) + "\n"; }
+std::string told(const Command& c) {
+  return "command_of " + std::to_string(c.line) + " " + std::to_string(c.exit_code) + " " +
+         quoted(c.text) + "\n";
+}
 
 }  // namespace
 
@@ -35,11 +38,16 @@ std::vector<Command> commandsOf(const Page& page) {
 
 std::string scriptOf(const Page& page, const fs::path& work) {
   std::string script;
-  for (const auto& [name, value] : {std::pair{"work", work}, {"source", top()}, {"build", fs::path(PALPA_BUILD_DIR)}, {"program", fs::path(PALPA_PROGRAM)}}) script += std::string(name) + "=" + quoted(value.string()) + "\n";
+  for (const auto& [name, value] : {std::pair{"work", work},
+                                    {"source", top()},
+                                    {"build", fs::path(PALPA_BUILD_DIR)},
+                                    {"program", fs::path(PALPA_PROGRAM)}})
+    script += std::string(name) + "=" + quoted(value.string()) + "\n";
   script += ". " + quoted((top() / "tests/guide/chapter.sh").string()) + "\n";
   for (const Block& block : page.blocks) {
     if (block.language != "sh") {
-      if (!block.rest.empty()) script += "printf %s " + quoted(block.text) + " >" + quoted(block.rest) + "\n";
+      if (!block.rest.empty())
+        script += "printf %s " + quoted(block.text) + " >" + quoted(block.rest) + "\n";
       continue;
     }
     if (block.rest == "slow" && !everything()) continue;

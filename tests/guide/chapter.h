@@ -12,7 +12,8 @@ namespace palpa::guide {
 /// Every stated count: what is marked "sh slow" is run as well.
 bool everything();
 
-/// A script of the page's commands, and of the files that its blocks hold (```json NAME), in their order.
+/// A script of the page's commands, and of the files that its blocks hold (```json NAME), in their
+/// order.
 std::string scriptOf(const Page& page, const std::filesystem::path& work);
 
 /// The commands of the blocks marked sh.

@@ -44,16 +44,21 @@ class Chapter : public testing::TestWithParam<fs::path> {
   void expectMade(const Link& link, const std::set<int>& skipped) {
     const fs::path kept = page.file.parent_path() / link.target;
     const int maker = makerOf(kept.filename().string());
-    ASSERT_NE(maker, 0) << "line " << link.line << ": no command of this chapter makes " << kept.filename();
+    ASSERT_NE(maker, 0) << "line " << link.line << ": no command of this chapter makes "
+                        << kept.filename();
     if (skipped.contains(maker)) return;
     const fs::path made = found(folder / "here", kept.filename());
     ASSERT_FALSE(made.empty()) << "line " << maker << " left no " << kept.filename();
-    if (const char* keep = std::getenv("PALPA_GUIDE_PICTURES")) fs::copy_file(made, fs::path(keep) / made.filename(), fs::copy_options::overwrite_existing);
-    else EXPECT_EQ(sizeOf(made), sizeOf(kept)) << kept << " is not what line " << maker << " makes: assets/pictures/guide.sh";
+    if (const char* keep = std::getenv("PALPA_GUIDE_PICTURES"))
+      fs::copy_file(made, fs::path(keep) / made.filename(), fs::copy_options::overwrite_existing);
+    else
+      EXPECT_EQ(sizeOf(made), sizeOf(kept))
+          << kept << " is not what line " << maker << " makes: assets/pictures/guide.sh";
   }
 };
 
-// Every command of a chapter, in order, in a folder of its own: exit codes as the chapter says, pictures as it shows.
+// Every command of a chapter, in order, in a folder of its own: exit codes as the chapter says,
+// pictures as it shows.
 TEST_P(Chapter, DoesWhatItSays) {
   std::ofstream(folder / "script") << scriptOf(page, folder.path());
   ASSERT_EQ(run("bash '" + (folder / "script").string() + "'"), 0);
@@ -72,7 +77,10 @@ int codeOf(const std::string& commands) {
 }
 
 TEST(PlantedChapter, FailsWhereACommandDoesNotDoWhatThePageSays) {
-  EXPECT_EQ(codeOf("export A=1\ntest \"$A\" = 1\nfalse   # exits with 1: as it should\npalpa --version\n"), 0);
+  EXPECT_EQ(
+      codeOf(
+          "export A=1\ntest \"$A\" = 1\nfalse   # exits with 1: as it should\npalpa --version\n"),
+      0);
   EXPECT_NE(codeOf("false\ntrue\n"), 0);
   EXPECT_NE(codeOf("true # exits with 1\n"), 0);
   EXPECT_NE(codeOf("palpa doctor --no-such-option\n"), 0);
@@ -84,7 +92,8 @@ TEST(PlantedChapter, SlowBlocksAreNamedAsSkipped) {
   Page page;
   page.blocks = {{"sh", "slow", "false\n", 7}, {"sh", "", "true\n", 12}};
   EXPECT_EQ(skippedIn(page, folder.path()), everything() ? std::set<int>{} : std::set<int>{7});
-  EXPECT_EQ(scriptOf(page, folder.path()).find("command_of 7 ") == std::string::npos, !everything());
+  EXPECT_EQ(scriptOf(page, folder.path()).find("command_of 7 ") == std::string::npos,
+            !everything());
 }
 
 INSTANTIATE_TEST_SUITE_P(Guide, Chapter, testing::ValuesIn(chapters()), nameOf);

@@ -12,10 +12,13 @@ namespace {
 
 bool isPlaceholder(const std::string& word) {
   return word.find("...") != std::string::npos || word.find('<') != std::string::npos ||
-         std::none_of(word.begin(), word.end(), [](char c) { return std::islower(static_cast<unsigned char>(c)); });
+         std::none_of(word.begin(), word.end(),
+                      [](char c) { return std::islower(static_cast<unsigned char>(c)); });
 }
 
-bool isEnd(const std::string& word) { return word == ";" || word == "&&" || word == "|" || word == "&" || word == "||"; }
+bool isEnd(const std::string& word) {
+  return word == ";" || word == "&&" || word == "|" || word == "&" || word == "||";
+}
 
 int wantedCodeOf(const std::string& text) {
   static const std::regex wanted("#.*\\bexits with ([0-9]+)");
@@ -24,7 +27,10 @@ int wantedCodeOf(const std::string& text) {
 }
 
 /// roff to text, as far as the page uses it.
-std::string withoutFonts(const std::string& roff) { return std::regex_replace(std::regex_replace(roff, std::regex("\\\\f[BIR]"), ""), std::regex("\\\\-"), "-"); }
+std::string withoutFonts(const std::string& roff) {
+  return std::regex_replace(std::regex_replace(roff, std::regex("\\\\f[BIR]"), ""),
+                            std::regex("\\\\-"), "-");
+}
 
 }  // namespace
 
@@ -41,7 +47,8 @@ std::vector<Command> commandsOf(const Block& block) {
       joined.back() = ' ';
       continue;
     }
-    if (!wordsOf(joined).empty()) all.push_back({joined, first, wantedCodeOf(joined), block.rest == "slow"});
+    if (!wordsOf(joined).empty())
+      all.push_back({joined, first, wantedCodeOf(joined), block.rest == "slow"});
     joined.clear();
   }
   return all;
@@ -50,7 +57,7 @@ std::vector<Command> commandsOf(const Block& block) {
 std::vector<std::string> wordsOf(const std::string& text) {
   std::vector<std::string> words;
   std::string word;
-  bool open = false;   // there is a word, if only an empty one
+  bool open = false;  // there is a word, if only an empty one
   char quote = 0;
   const auto close = [&] {
     if (open) words.push_back(word);
@@ -59,7 +66,10 @@ std::vector<std::string> wordsOf(const std::string& text) {
   };
   for (const char c : text) {
     if (quote) {
-      if (c == quote) quote = 0; else word += c;
+      if (c == quote)
+        quote = 0;
+      else
+        word += c;
     } else if (c == '\'' || c == '"') {
       quote = c;
       open = true;
@@ -67,7 +77,10 @@ std::vector<std::string> wordsOf(const std::string& text) {
       break;
     } else if (c == ';' || c == '|' || c == '&') {
       close();
-      if (c == '&' && !words.empty() && words.back() == "&") words.back() = "&&"; else words.push_back({c});
+      if (c == '&' && !words.empty() && words.back() == "&")
+        words.back() = "&&";
+      else
+        words.push_back({c});
     } else if (std::isspace(static_cast<unsigned char>(c))) {
       close();
     } else {
@@ -79,7 +92,9 @@ std::vector<std::string> wordsOf(const std::string& text) {
   return words;
 }
 
-Known::Known() : Known(outputOf("'" PALPA_PROGRAM "' manual")) { options_["manual"] = {"--completion"}; }   // which no page for readers names
+Known::Known() : Known(outputOf("'" PALPA_PROGRAM "' manual")) {
+  options_["manual"] = {"--completion"};
+}  // which no page for readers names
 
 Known::Known(const std::string& manual) {
   std::istringstream lines(manual);
@@ -91,16 +106,20 @@ Known::Known(const std::string& manual) {
     if (line.starts_with(".SH")) command.clear();
     if (line.starts_with(".SS palpa ")) options_[command = line.substr(10)] = {"--help"};
     if (head && line.starts_with("-") && !command.empty())
-      for (std::sregex_iterator it(line.begin(), line.end(), option), end; it != end; ++it) options_[command].insert(it->str());
+      for (std::sregex_iterator it(line.begin(), line.end(), option), end; it != end; ++it)
+        options_[command].insert(it->str());
   }
 }
 
 bool Known::anyHas(const std::string& option) const {
-  return std::any_of(options_.begin(), options_.end(), [&](const auto& one) { return one.second.contains(option); });
+  return std::any_of(options_.begin(), options_.end(),
+                     [&](const auto& one) { return one.second.contains(option); });
 }
 
 bool Known::begins(const std::string& command) const {
-  return std::any_of(options_.begin(), options_.end(), [&](const auto& one) { return one.first == command || one.first.starts_with(command + " "); });
+  return std::any_of(options_.begin(), options_.end(), [&](const auto& one) {
+    return one.first == command || one.first.starts_with(command + " ");
+  });
 }
 
 std::string Known::faultOf(const std::string& line) const {
@@ -108,9 +127,14 @@ std::string Known::faultOf(const std::string& line) const {
   const std::vector<std::string> words = wordsOf(line);
   for (auto at = words.begin(); at != words.end();) {
     const auto end = std::find_if(at, words.end(), isEnd);
-    const auto program = std::find_if(at, end, [](const std::string& word) { return word == "palpa" || word == "./run" || word.ends_with("/palpa"); });
-    const bool first = std::all_of(at, program, [](const std::string& word) { return word.find('=') != std::string::npos || word == "do" || word == "sudo" || word == "man"; });
-    if (program != end && first && !std::count(at, program, "man")) faults += faultOfOne({program + 1, end});
+    const auto program = std::find_if(at, end, [](const std::string& word) {
+      return word == "palpa" || word == "./run" || word.ends_with("/palpa");
+    });
+    const bool first = std::all_of(at, program, [](const std::string& word) {
+      return word.find('=') != std::string::npos || word == "do" || word == "sudo" || word == "man";
+    });
+    if (program != end && first && !std::count(at, program, "man"))
+      faults += faultOfOne({program + 1, end});
     at = end == words.end() ? end : end + 1;
   }
   return faults;
@@ -119,14 +143,18 @@ std::string Known::faultOf(const std::string& line) const {
 std::string Known::faultOfOne(const std::vector<std::string>& words) const {
   std::string command;
   auto at = words.begin();
-  for (; at != words.end() && begins(command.empty() ? *at : command + " " + *at); ++at) command += (command.empty() ? "" : " ") + *at;
+  for (; at != words.end() && begins(command.empty() ? *at : command + " " + *at); ++at)
+    command += (command.empty() ? "" : " ") + *at;
   const bool known = options_.contains(command);
-  if (!known && at != words.end() && !at->starts_with("-") && !isPlaceholder(*at)) return "palpa " + command + " knows no \"" + *at + "\"\n";
+  if (!known && at != words.end() && !at->starts_with("-") && !isPlaceholder(*at))
+    return "palpa " + command + " knows no \"" + *at + "\"\n";
   std::string faults;
   for (; at != words.end(); ++at) {
     const std::string option = at->substr(0, at->find('='));
     if (!option.starts_with("--") || option == "--") continue;
-    if (known ? !options_.at(command).contains(option) : option != "--help" && option != "--version" && option != "--yes") faults += "palpa " + command + " knows no option " + option + "\n";
+    if (known ? !options_.at(command).contains(option)
+              : option != "--help" && option != "--version" && option != "--yes")
+      faults += "palpa " + command + " knows no option " + option + "\n";
   }
   return faults;
 }

@@ -15,7 +15,10 @@ namespace fs = std::filesystem;
 const fs::path kPictures = top() / "assets/pictures/guide";
 constexpr std::uintmax_t kMostBytes = 200'000, kMostInAll = 1'500'000;
 
-bool isElsewhere(const std::string& target) { return target.starts_with("http:") || target.starts_with("https:") || target.starts_with("mailto:"); }
+bool isElsewhere(const std::string& target) {
+  return target.starts_with("http:") || target.starts_with("https:") ||
+         target.starts_with("mailto:");
+}
 
 /// Empty: the link leads somewhere.
 std::string whereWrong(const Link& link, const Page& page) {
@@ -25,7 +28,9 @@ std::string whereWrong(const Link& link, const Page& page) {
   if (!fs::exists(file)) return "leads nowhere";
   if (hash == std::string::npos || file.extension() != ".md") return "";
   const std::vector<std::string> anchors = readPage(file).anchors;
-  return std::count(anchors.begin(), anchors.end(), link.target.substr(hash + 1)) ? "" : "names no heading there";
+  return std::count(anchors.begin(), anchors.end(), link.target.substr(hash + 1))
+             ? ""
+             : "names no heading there";
 }
 
 TEST(Documents, LinksLeadSomewhere) {
@@ -43,11 +48,16 @@ TEST(Documents, LinksLeadSomewhere) {
 
 TEST(Documents, AChapterIsReachedFromTheIndex) {
   std::set<fs::path> named;
-  for (const Link& link : readPage(top() / "docs/README.md").links) named.insert(fs::weakly_canonical(top() / "docs" / link.target.substr(0, link.target.find('#'))));
+  for (const Link& link : readPage(top() / "docs/README.md").links)
+    named.insert(
+        fs::weakly_canonical(top() / "docs" / link.target.substr(0, link.target.find('#'))));
   for (const fs::path& chapter : chapters())
-    EXPECT_TRUE(chapter.filename() == "README.md" || named.contains(fs::weakly_canonical(chapter))) << chapter << " is not in docs/README.md";
+    EXPECT_TRUE(chapter.filename() == "README.md" || named.contains(fs::weakly_canonical(chapter)))
+        << chapter << " is not in docs/README.md";
   const Page readme = readPage(top() / "README.md");
-  EXPECT_TRUE(std::any_of(readme.links.begin(), readme.links.end(), [](const Link& link) { return link.target.starts_with("docs/"); })) << "README.md does not name docs/";
+  EXPECT_TRUE(std::any_of(readme.links.begin(), readme.links.end(), [](const Link& link) {
+    return link.target.starts_with("docs/");
+  })) << "README.md does not name docs/";
 }
 
 TEST(Documents, PicturesOfTheGuideAreShownAndSmall) {
@@ -58,7 +68,8 @@ TEST(Documents, PicturesOfTheGuideAreShownAndSmall) {
   std::uintmax_t all = 0;
   for (const auto& entry : fs::directory_iterator(kPictures)) {
     all += entry.file_size();
-    EXPECT_TRUE(shown.contains(entry.path().filename().string())) << entry.path() << " is shown nowhere";
+    EXPECT_TRUE(shown.contains(entry.path().filename().string()))
+        << entry.path() << " is shown nowhere";
     EXPECT_LE(entry.file_size(), kMostBytes) << entry.path();
     EXPECT_GT(sizeOf(entry.path()).width, 100) << entry.path();
   }
@@ -66,7 +77,8 @@ TEST(Documents, PicturesOfTheGuideAreShownAndSmall) {
 }
 
 TEST(Documents, ChaptersAreShort) {
-  for (const fs::path& file : chapters()) EXPECT_LE(fs::file_size(file), 12'000u) << file << ": more than some three pages";
+  for (const fs::path& file : chapters())
+    EXPECT_LE(fs::file_size(file), 12'000u) << file << ": more than some three pages";
 }
 
 }  // namespace

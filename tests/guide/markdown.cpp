@@ -13,17 +13,21 @@ std::string anchorOf(const std::string& heading) {
   std::string anchor;
   for (const char c : heading) {
     const auto u = static_cast<unsigned char>(c);
-    if (std::isalnum(u) || c == '-' || c == '_' || u >= 0x80) anchor += static_cast<char>(std::tolower(u));
-    else if (c == ' ') anchor += '-';
+    if (std::isalnum(u) || c == '-' || c == '_' || u >= 0x80)
+      anchor += static_cast<char>(std::tolower(u));
+    else if (c == ' ')
+      anchor += '-';
   }
   return anchor;
 }
 
 void addMatches(const std::string& line, int number, Page& page) {
   static const std::regex code("`([^`]+)`"), link(R"((!?)\[[^\]]*\]\(([^)\s]+)\))");
-  for (std::sregex_iterator it(line.begin(), line.end(), code), end; it != end; ++it) page.code.push_back({(*it)[1], number});
+  for (std::sregex_iterator it(line.begin(), line.end(), code), end; it != end; ++it)
+    page.code.push_back({(*it)[1], number});
   const std::string words = std::regex_replace(line, code, "");
-  for (std::sregex_iterator it(words.begin(), words.end(), link), end; it != end; ++it) page.links.push_back({(*it)[2], (*it)[1] == "!", number});
+  for (std::sregex_iterator it(words.begin(), words.end(), link), end; it != end; ++it)
+    page.links.push_back({(*it)[2], (*it)[1] == "!", number});
 }
 
 Block opened(const std::string& fence, int line) {
@@ -52,11 +56,14 @@ Page readPage(const std::filesystem::path& file) {
     } else if (inside) {
       page.blocks.back().text += line + "\n";
     } else {
-      if (line.starts_with("#")) page.anchors.push_back(anchorOf(line.substr(line.find_first_not_of("# "))));
+      if (line.starts_with("#"))
+        page.anchors.push_back(anchorOf(line.substr(line.find_first_not_of("# "))));
       addMatches(line, number, page);
     }
   }
-  if (inside) throw std::runtime_error(file.string() + ": a block that begins in line " + std::to_string(page.blocks.back().line) + " has no end");
+  if (inside)
+    throw std::runtime_error(file.string() + ": a block that begins in line " +
+                             std::to_string(page.blocks.back().line) + " has no end");
   return page;
 }
 

@@ -6,7 +6,8 @@
 
 namespace palpa::guide {
 
-/// A fenced block: what stands after its ```, what stands in it, and the line of the file where that begins.
+/// A fenced block: what stands after its ```, what stands in it, and the line of the file where
+/// that begins.
 struct Block {
   std::string language, rest, text;
   int line = 0;
@@ -28,8 +29,8 @@ struct Page {
   std::filesystem::path file;
   std::vector<Block> blocks;
   std::vector<Link> links;
-  std::vector<Code> code;              ///< between single `
-  std::vector<std::string> anchors;    ///< of its headings, as forges make them
+  std::vector<Code> code;            ///< between single `
+  std::vector<std::string> anchors;  ///< of its headings, as forges make them
 };
 
 /// Throws std::runtime_error for a fence without an end.

@@ -10,7 +10,8 @@ namespace {
 
 int number(const std::string& bytes, std::size_t at, int count) {
   int value = 0;
-  for (int i = 0; i < count; ++i) value = value << 8 | static_cast<unsigned char>(bytes.at(at + static_cast<std::size_t>(i)));
+  for (int i = 0; i < count; ++i)
+    value = value << 8 | static_cast<unsigned char>(bytes.at(at + static_cast<std::size_t>(i)));
   return value;
 }
 
@@ -18,7 +19,8 @@ int number(const std::string& bytes, std::size_t at, int count) {
 PictureSize sizeOfJpeg(const std::string& bytes) {
   for (std::size_t at = 2; at + 9 < bytes.size();) {
     const int kind = number(bytes, at, 2);
-    if (kind >= 0xffc0 && kind <= 0xffcf && kind != 0xffc4 && kind != 0xffc8 && kind != 0xffcc) return {number(bytes, at + 7, 2), number(bytes, at + 5, 2)};
+    if (kind >= 0xffc0 && kind <= 0xffcf && kind != 0xffc4 && kind != 0xffc8 && kind != 0xffcc)
+      return {number(bytes, at + 7, 2), number(bytes, at + 5, 2)};
     at += 2 + static_cast<std::size_t>(number(bytes, at + 2, 2));
   }
   throw std::runtime_error("a JPEG without a frame");
@@ -28,8 +30,10 @@ PictureSize sizeOfJpeg(const std::string& bytes) {
 
 PictureSize sizeOf(const std::filesystem::path& picture) {
   std::ifstream stream(picture, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (bytes.starts_with("\x89PNG\r\n") && bytes.size() > 24) return {number(bytes, 16, 4), number(bytes, 20, 4)};
+  const std::string bytes((std::istreambuf_iterator<char>(stream)),
+                          std::istreambuf_iterator<char>());
+  if (bytes.starts_with("\x89PNG\r\n") && bytes.size() > 24)
+    return {number(bytes, 16, 4), number(bytes, 20, 4)};
   if (bytes.starts_with("\xff\xd8")) return sizeOfJpeg(bytes);
   throw std::runtime_error(picture.string() + " is neither PNG nor JPEG");
 }

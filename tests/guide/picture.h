@@ -5,7 +5,7 @@
 namespace palpa::guide {
 
 struct PictureSize {
-  int width = 0, height = 0;   ///< pixels
+  int width = 0, height = 0;  ///< pixels
   bool operator==(const PictureSize&) const = default;
 };
 

@@ -9,7 +9,9 @@
 
 namespace palpa::guide {
 namespace {
-int exitCodeOf(int status) { return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status); }
+int exitCodeOf(int status) {
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status);
+}
 }  // namespace
 
 std::string outputOf(const std::string& command) {
@@ -17,8 +19,10 @@ std::string outputOf(const std::string& command) {
   if (!pipe) throw std::runtime_error("no shell");
   std::string said;
   std::array<char, 4096> some;
-  for (std::size_t n; (n = std::fread(some.data(), 1, some.size(), pipe)) > 0;) said.append(some.data(), n);
-  if (const int code = exitCodeOf(::pclose(pipe)); code != 0) throw std::runtime_error(command + " exits with " + std::to_string(code) + ":\n" + said);
+  for (std::size_t n; (n = std::fread(some.data(), 1, some.size(), pipe)) > 0;)
+    said.append(some.data(), n);
+  if (const int code = exitCodeOf(::pclose(pipe)); code != 0)
+    throw std::runtime_error(command + " exits with " + std::to_string(code) + ":\n" + said);
   return said;
 }
 

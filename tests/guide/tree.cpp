@@ -20,8 +20,11 @@ std::vector<fs::path> pagesOfTheProject() {
   std::vector<fs::path> files;
   for (fs::recursive_directory_iterator it(top()), end; it != end; ++it) {
     const std::string name = it->path().filename().string();
-    if (it->is_directory() && (name == "build" || name == "out" || name == "node_modules" || name.front() == '.')) it.disable_recursion_pending();
-    else if (it->path().extension() == ".md") files.push_back(it->path());
+    if (it->is_directory() &&
+        (name == "build" || name == "out" || name == "node_modules" || name.front() == '.'))
+      it.disable_recursion_pending();
+    else if (it->path().extension() == ".md")
+      files.push_back(it->path());
   }
   std::sort(files.begin(), files.end());
   return files;

@@ -15,7 +15,7 @@ struct Pointed {
   PointingHand::Setup setup;
   PointingHand hand;
   std::int64_t now_ns = 0;
-  Vec3 lies_P = Vec3(0, -0.02, 0.05);   ///< the tip, before anybody takes the tool
+  Vec3 lies_P = Vec3(0, -0.02, 0.05);  ///< the tip, before anybody takes the tool
   scene::ViewInput input;
   scene::ArGeometry view;
 
@@ -36,7 +36,9 @@ struct Pointed {
     g.camera.cy = 240;
     g.width = 640;
     g.height = 480;
-    const Mat3 looks_down = (Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()) * Eigen::AngleAxisd(0.3, Vec3::UnitY())).toRotationMatrix();
+    const Mat3 looks_down =
+        (Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()) * Eigen::AngleAxisd(0.3, Vec3::UnitY()))
+            .toRotationMatrix();
     const Pose X_PC = makePose(looks_down, {0, 0, 0.4});
     g.X_CA = (s.X_AP * X_PC).inverse();
     return g;
@@ -83,11 +85,11 @@ TEST(PointingHand, HoversOverWhatIsPointedAtWithinTheArea) {
 TEST(PointingHand, StaysWhereNothingIsPointedAt) {
   Pointed p;
   const Vec3 begun = p.after(0.5).first;
-  p.input.mouse_x = 700;   // another view of the window
+  p.input.mouse_x = 700;  // another view of the window
   p.say();
   EXPECT_LT((p.after(0.3).first - begun).norm(), 1e-5);
   p.input.mouse_x = 300;
-  p.view.X_CA = (p.setup.X_AP * makePose(Mat3::Identity(), {0, 0, 0.4})).inverse();   // it looks up
+  p.view.X_CA = (p.setup.X_AP * makePose(Mat3::Identity(), {0, 0, 0.4})).inverse();  // it looks up
   p.say();
   EXPECT_LT((p.after(0.3).first - begun).norm(), 1e-5);
 }

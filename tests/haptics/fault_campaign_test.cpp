@@ -6,8 +6,8 @@
 #include "fault_judge.h"
 #include "tests/support/counts.h"
 
-/// Random faults on the whole tick, one after the other and one into the other, while a tool is pushed into
-/// tissue and bone. A judge that sees only the inputs says when there must be no force.
+/// Random faults on the whole tick, one after the other and one into the other, while a tool is
+/// pushed into tissue and bone. A judge that sees only the inputs says when there must be no force.
 namespace palpa::haptics {
 namespace {
 
@@ -37,12 +37,14 @@ struct Episode {
     step(Fault::trial_changes);
     world.target = 0.0022;
     steps(Fault::none, 400);
-    EXPECT_GT(unpack(last.f_command_D).norm(), 0.03) << "after the faults; cause " << name(last.safety);
+    EXPECT_GT(unpack(last.f_command_D).norm(), 0.03)
+        << "after the faults; cause " << name(last.safety);
   }
 };
 
 int lengthOf(Fault fault, Dice& dice) {
-  if (fault == Fault::no_snapshots || fault == Fault::snapshot_damaged) return 1 + dice.below(dice.chance(0.1) ? 800 : 40);
+  if (fault == Fault::no_snapshots || fault == Fault::snapshot_damaged)
+    return 1 + dice.below(dice.chance(0.1) ? 800 : 40);
   return 1 + dice.below(dice.chance(0.1) ? 100 : 12);
 }
 
@@ -66,7 +68,8 @@ void runEpisode(Dice& dice, Engine engine, bool cues, FaultJudge& sum) {
 }
 
 bool mayHappen(SafetyCause cause, Engine engine) {
-  if (cause == SafetyCause::stale_geometry || cause == SafetyCause::corrupt_geometry) return engine == Engine::needle || engine == Engine::probe;
+  if (cause == SafetyCause::stale_geometry || cause == SafetyCause::corrupt_geometry)
+    return engine == Engine::needle || engine == Engine::probe;
   return cause != SafetyCause::no_sensor || engine == Engine::touch;
 }
 
@@ -98,10 +101,17 @@ TEST(FaultCampaign, TheForceAddedToARealThingStaysWithinItsLimitsWhateverComesIn
   campaign(Engine::touch, 20'260'103);
 }
 
-/// Cues are no exception: every limit, every fault, every cause holds with all of them on, strong and stiff as a task's file may say.
-TEST(FaultCampaign, TheNeedlesForceWithEveryCueStaysWithinItsLimits) { campaign(Engine::needle, 20'260'104, true); }
-TEST(FaultCampaign, TheForceAddedToARealThingWithEveryCueStaysWithinItsLimits) { campaign(Engine::touch, 20'260'105, true); }
-TEST(FaultCampaign, TheFloorsForceWithEveryCueStaysWithinItsLimits) { campaign(Engine::floor, 20'260'106, true); }
+/// Cues are no exception: every limit, every fault, every cause holds with all of them on, strong
+/// and stiff as a task's file may say.
+TEST(FaultCampaign, TheNeedlesForceWithEveryCueStaysWithinItsLimits) {
+  campaign(Engine::needle, 20'260'104, true);
+}
+TEST(FaultCampaign, TheForceAddedToARealThingWithEveryCueStaysWithinItsLimits) {
+  campaign(Engine::touch, 20'260'105, true);
+}
+TEST(FaultCampaign, TheFloorsForceWithEveryCueStaysWithinItsLimits) {
+  campaign(Engine::floor, 20'260'106, true);
+}
 
 }  // namespace
 }  // namespace palpa::haptics

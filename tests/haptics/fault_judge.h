@@ -15,13 +15,17 @@ class FaultJudge {
     watch(world);
     wanted_absurd_ = !unpack(record.f_wanted_D).allFinite();
     withinLimits(world.config.safety, unpack(record.f_command_D));
-    EXPECT_TRUE(std::isfinite(state.passivity.energy_J) && unpack(state.passivity.f_last_D).allFinite() &&
+    EXPECT_TRUE(std::isfinite(state.passivity.energy_J) &&
+                unpack(state.passivity.f_last_D).allFinite() &&
                 unpack(state.passivity.added_D).allFinite())
         << "what is not a number stays in the state";
-    // By number and time: random bytes may have given the number alone to an earlier one, which was plausible.
+    // By number and time: random bytes may have given the number alone to an earlier one, which was
+    // plausible.
     if (world.damaged) {
-      EXPECT_FALSE(state.now.number == world.offered.number && state.now.t_ns == world.offered.t_ns) << "a damaged snapshot was adopted";
-      EXPECT_FALSE(record.events & kSnapshotAdopted) << "the record says that a damaged snapshot was adopted";
+      EXPECT_FALSE(state.now.number == world.offered.number && state.now.t_ns == world.offered.t_ns)
+          << "a damaged snapshot was adopted";
+      EXPECT_FALSE(record.events & kSnapshotAdopted)
+          << "the record says that a damaged snapshot was adopted";
     }
     const std::string why = mustBeZero(world, state);
     const bool zero = record.f_command_D == Packed3{0, 0, 0};
@@ -56,14 +60,17 @@ class FaultJudge {
   }
 
   void watch(const FaultyWorld& w) {
-    silent_ = first_ || w.reading.sequence != last_.reading.sequence ? 0 : silent_ + std::max<std::int64_t>(elapsed_, 0);
+    silent_ = first_ || w.reading.sequence != last_.reading.sequence
+                  ? 0
+                  : silent_ + std::max<std::int64_t>(elapsed_, 0);
     steady_ += std::max<std::int64_t>(elapsed_, 0);
     homed_ += std::max<std::int64_t>(elapsed_, 0);
     if (!w.reading.homed) {
       placed_ = false;
       homed_ = 0;
     }
-    if (!w.reading_absurd && w.reading.homed) {   // where a device is that does not know where it is, says nothing of where it was
+    if (!w.reading_absurd && w.reading.homed) {  // where a device is that does not know where it
+                                                 // is, says nothing of where it was
       const Vec3 p = unpack(w.reading.p_DE);
       const Vec3 tip = p + unpack(w.reading.q_DE) * unpack(w.config.X_ET.p);
       // Farther than 5 m/s reaches in the 11 ms that count at most: 55 mm.
@@ -72,8 +79,10 @@ class FaultJudge {
       tip_ = tip;
       placed_ = true;
     }
-    if (w.commands.emergency_stop) stopped_ = true;
-    else if (!w.commands.armed) stopped_ = false;
+    if (w.commands.emergency_stop)
+      stopped_ = true;
+    else if (!w.commands.armed)
+      stopped_ = false;
   }
 
   void withinLimits(const SafetyLimits& limits, const Vec3& f) {
@@ -81,7 +90,8 @@ class FaultJudge {
     EXPECT_LE(f.norm(), limits.max_force_N * (1 + 1e-12));
     // Heat, reckoned anew: at or over what may last there is no more than what may last.
     const double lasting = limits.continuous_force_N;
-    const double step = std::clamp(static_cast<double>(elapsed_) * 1e-9, 0.0, 0.005) / limits.thermal_tau;
+    const double step =
+        std::clamp(static_cast<double>(elapsed_) * 1e-9, 0.0, 0.005) / limits.thermal_tau;
     heat_ += ((first_ ? 0 : unpack(last_.f_command_D).squaredNorm()) - heat_) * std::min(1.0, step);
     if (lasting > 0 && heat_ >= lasting * lasting) {
       EXPECT_LE(f.norm(), std::max(lasting, 0.0) * (1 + 1e-9)) << "too warm";
@@ -90,7 +100,8 @@ class FaultJudge {
     const double last2 = last.squaredNorm();
     const double kept = last2 > 0 ? std::clamp(f.dot(last) / last2, 0.0, 1.0) : 0;
     const double dt = std::clamp(static_cast<double>(elapsed_) * 1e-9, 0.0, 0.005);
-    EXPECT_LE((f - kept * last).norm(), limits.max_slew_N_per_s * dt * (1 + 1e-9) + 1e-12) << "rise";
+    EXPECT_LE((f - kept * last).norm(), limits.max_slew_N_per_s * dt * (1 + 1e-9) + 1e-12)
+        << "rise";
   }
 
   double age(const FaultyWorld& w, const TickState& state) const {
@@ -115,27 +126,43 @@ class FaultJudge {
     return "";
   }
 
-  static bool sensorLost(const FaultyWorld& w) { return w.sensor_absurd || w.sensed.state != SensorState::valid; }
+  static bool sensorLost(const FaultyWorld& w) {
+    return w.sensor_absurd || w.sensed.state != SensorState::valid;
+  }
 
   /// Whether what the record claims is the case.
   bool isSo(SafetyCause cause, const FaultyWorld& w, const TickState& state) const {
     const bool stale = state.now.number == 0 ||
                        std::abs(age(w, state)) > static_cast<double>(w.config.age_limit_ns);
     switch (cause) {
-      case SafetyCause::not_finite: return w.reading_absurd || wanted_absurd_;
-      case SafetyCause::silent_device: return silent_ >= 10'000'000;
-      case SafetyCause::stale_geometry: return stale && state.refused == 0;
-      case SafetyCause::corrupt_geometry: return stale && state.refused != 0;
-      case SafetyCause::emergency_stop: return stopped_;
-      case SafetyCause::watchdog: return elapsed_ > 10'000'000;
-      case SafetyCause::not_ready: return !w.commands.armed || !w.reading.homed || homed_ < 10'000'000 || state.homing_ns > 0;
-      case SafetyCause::jump: return steady_ < 10'000'000 || state.reading.hold_ns > 0;
-      case SafetyCause::clock: return elapsed_ <= 0;
-      case SafetyCause::deadman: return w.config.safety.deadman_button && !(w.reading.buttons & 4);
-      case SafetyCause::duty: return w.config.safety.continuous_force_N > 0;
-      case SafetyCause::no_sensor: return w.config.engine == Engine::touch && sensorLost(w);
-      case SafetyCause::energy: return state.safety.stopped;
-      default: return true;
+      case SafetyCause::not_finite:
+        return w.reading_absurd || wanted_absurd_;
+      case SafetyCause::silent_device:
+        return silent_ >= 10'000'000;
+      case SafetyCause::stale_geometry:
+        return stale && state.refused == 0;
+      case SafetyCause::corrupt_geometry:
+        return stale && state.refused != 0;
+      case SafetyCause::emergency_stop:
+        return stopped_;
+      case SafetyCause::watchdog:
+        return elapsed_ > 10'000'000;
+      case SafetyCause::not_ready:
+        return !w.commands.armed || !w.reading.homed || homed_ < 10'000'000 || state.homing_ns > 0;
+      case SafetyCause::jump:
+        return steady_ < 10'000'000 || state.reading.hold_ns > 0;
+      case SafetyCause::clock:
+        return elapsed_ <= 0;
+      case SafetyCause::deadman:
+        return w.config.safety.deadman_button && !(w.reading.buttons & 4);
+      case SafetyCause::duty:
+        return w.config.safety.continuous_force_N > 0;
+      case SafetyCause::no_sensor:
+        return w.config.engine == Engine::touch && sensorLost(w);
+      case SafetyCause::energy:
+        return state.safety.stopped;
+      default:
+        return true;
     }
   }
 

@@ -14,14 +14,17 @@ namespace palpa::haptics {
 class Dice {
  public:
   explicit Dice(std::uint64_t seed) : bits_(seed) {}
-  double uniform(double a, double b) { return a + (b - a) * static_cast<double>(bits_() >> 11) * 0x1p-53; }
+  double uniform(double a, double b) {
+    return a + (b - a) * static_cast<double>(bits_() >> 11) * 0x1p-53;
+  }
   int below(int n) { return static_cast<int>(bits_() % static_cast<std::uint64_t>(n)); }
   std::uint64_t bits() { return bits_(); }
   bool chance(double p) { return uniform(0, 1) < p; }
   /// A number that no sound sender sends.
   double absurd() {
     constexpr double kInf = std::numeric_limits<double>::infinity();
-    const double all[] = {std::numeric_limits<double>::quiet_NaN(), kInf, -kInf, 1e300, -1e300, 1e154, -50};
+    const double all[] = {
+        std::numeric_limits<double>::quiet_NaN(), kInf, -kInf, 1e300, -1e300, 1e154, -50};
     return all[below(7)];
   }
 
@@ -30,33 +33,50 @@ class Dice {
 };
 
 enum class Fault {
-  none, position_absurd, orientation_absurd, position_jump, orientation_jump, clock_still, clock_back,
-  clock_leap, packets_dropped, no_snapshots, snapshot_damaged, snapshot_random_bytes, emergency_stop,
-  not_homed, disarmed, button_released, commands_absurd, sensor_absurd, trial_changes, sensor_silent
+  none,
+  position_absurd,
+  orientation_absurd,
+  position_jump,
+  orientation_jump,
+  clock_still,
+  clock_back,
+  clock_leap,
+  packets_dropped,
+  no_snapshots,
+  snapshot_damaged,
+  snapshot_random_bytes,
+  emergency_stop,
+  not_homed,
+  disarmed,
+  button_released,
+  commands_absurd,
+  sensor_absurd,
+  trial_changes,
+  sensor_silent
 };
 inline constexpr int kFaultCount = 20;
 
 inline constexpr HuntCrossley kSoftThing{900, 300, 1.4};
 
-/// A hand that pushes a tool in and out of tissue with a bone, and a world that can be told to fail.
-/// Knows nothing of the tick: it only makes its inputs.
+/// A hand that pushes a tool in and out of tissue with a bone, and a world that can be told to
+/// fail. Knows nothing of the tick: it only makes its inputs.
 struct FaultyWorld {
   Dice& dice;
-  bool cues = false;             ///< a task's cues of every kind add force
+  bool cues = false;  ///< a task's cues of every kind add force
   TickConfig config;
   TickCommands commands;
   DeviceReading reading;
   SensedForce sensed;
   LocalGeometry sound = NeedleBench{}.geometry, offered;
   bool offers = false;
-  bool damaged = false;          ///< `offered` must not be adopted
-  bool reading_absurd = false;   ///< must not be believed
-  bool sensor_absurd = false;    ///< nor must that
+  bool damaged = false;         ///< `offered` must not be adopted
+  bool reading_absurd = false;  ///< must not be believed
+  bool sensor_absurd = false;   ///< nor must that
   std::int64_t now = 0;
   std::uint64_t numbers = 0;
   int ticks = 0;
   double depth = -0.001, target = 0.002;
-  Vec3 shift = Vec3::Zero();     ///< where a jump put the device
+  Vec3 shift = Vec3::Zero();  ///< where a jump put the device
   Quat turn = Quat::Identity();
 
   FaultyWorld(Dice& dice_in, Engine engine, bool with_cues) : dice(dice_in), cues(with_cues) {
@@ -82,7 +102,10 @@ struct FaultyWorld {
     config.touch.surface.contact = {kSoftThing, 0, {0.3, 1000, 0.5}, {0, 2}, 0.1};
     config.touch.surface.wanted = {0.5, 1000, 0.5};
     config.touch.other_friction = dice.chance(0.5);
-    config.touch.kinds[0] = {0.014, {8000, 0, 1.9}, {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
+    config.touch.kinds[0] = {
+        0.014,
+        {8000, 0, 1.9},
+        {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
     config.touch.tip_radius = 0.008;
     config.floor.weight_N = dice.uniform(0, 0.5);
     if (with_cues) nameCues();
@@ -122,7 +145,8 @@ struct FaultyWorld {
       shift = Vec3(dice.uniform(-1, 1), dice.uniform(-1, 1), dice.uniform(-1, 1)).normalized() *
               dice.uniform(0.1, 3);
     if (fault == Fault::orientation_jump)
-      turn = Quat(Eigen::AngleAxisd(dice.uniform(1.2, 3), Vec3(dice.uniform(-1, 1), 1, 0).normalized()));
+      turn = Quat(
+          Eigen::AngleAxisd(dice.uniform(1.2, 3), Vec3(dice.uniform(-1, 1), 1, 0).normalized()));
   }
   void end() {
     shift = Vec3::Zero();
@@ -136,13 +160,17 @@ struct FaultyWorld {
     AugmentationPlan& plan = config.augmentations;
     plan.subtasks.count = 1;
     plan.subtasks.each[0].count = 1;
-    plan.subtasks.each[0].conditions[0] = {Cue::contact_force, Condition::Compare::at_least, {}, dice.uniform(0.01, 0.5), 0.05};
-    for (const Kind kind : {Kind::pulse, Kind::vibration, Kind::attraction, Kind::exaggeration, Kind::fixture, Kind::relief}) {
+    plan.subtasks.each[0].conditions[0] = {
+        Cue::contact_force, Condition::Compare::at_least, {}, dice.uniform(0.01, 0.5), 0.05};
+    for (const Kind kind : {Kind::pulse, Kind::vibration, Kind::attraction, Kind::exaggeration,
+                            Kind::fixture, Kind::relief}) {
       Augmentation& a = plan.each[plan.count++];
       a.kind = kind;
       a.subtask = dice.chance(0.5) ? kAnySubtask : 0;
       a.amplitude = kind == Kind::fixture ? dice.uniform(10, 1e5) : dice.uniform(0.1, 50);
-      a.trigger = kind == Kind::pulse ? Augmentation::Trigger::begin : kind == Kind::relief ? Augmentation::Trigger::bump : Augmentation::Trigger::none;
+      a.trigger = kind == Kind::pulse    ? Augmentation::Trigger::begin
+                  : kind == Kind::relief ? Augmentation::Trigger::bump
+                                         : Augmentation::Trigger::none;
       a.frequency_Hz = dice.uniform(20, 300);
       a.reach = 0.001;
       a.tau_s = dice.uniform(0.005, 0.1);
@@ -158,7 +186,8 @@ struct FaultyWorld {
 
   /// A soft thing at z < 0, wherever a jump says that the device is.
   void sense() {
-    const Vec3 f(0, 0, config.engine == Engine::touch ? forceOf(kSoftThing, std::max(depth, 0.0), 0) : 0.1);
+    const Vec3 f(
+        0, 0, config.engine == Engine::touch ? forceOf(kSoftThing, std::max(depth, 0.0), 0) : 0.1);
     sensed = {pack(f), pack(Vec3(Vec3(0, 0, -depth) + shift)), SensorState::valid, {}};
     sensor_absurd = false;
   }
@@ -168,8 +197,9 @@ struct FaultyWorld {
     if (fault == Fault::clock_back) {
       now -= static_cast<std::int64_t>(dice.uniform(1, dice.chance(0.5) ? 1e6 : 2e9));
     } else if (fault == Fault::clock_leap) {
-      now = dice.chance(0.02) ? static_cast<std::int64_t>(dice.uniform(-1e15, 1e15))
-                              : now + static_cast<std::int64_t>(dice.uniform(1e6, dice.chance(0.5) ? 3e7 : 1e10));
+      now = dice.chance(0.02)
+                ? static_cast<std::int64_t>(dice.uniform(-1e15, 1e15))
+                : now + static_cast<std::int64_t>(dice.uniform(1e6, dice.chance(0.5) ? 3e7 : 1e10));
     } else {
       now += config.period_ns;
     }
@@ -179,15 +209,20 @@ struct FaultyWorld {
     if (fault == Fault::packets_dropped) return;
     ++reading.sequence;
     reading.t_ns = now;
-    const double across = config.engine == Engine::floor ? 0.004 + 0.0015 * std::sin(6e-9 * static_cast<double>(ticks * config.period_ns)) : 0;
+    const double across =
+        config.engine == Engine::floor
+            ? 0.004 + 0.0015 * std::sin(6e-9 * static_cast<double>(ticks * config.period_ns))
+            : 0;
     reading.p_DE = pack(Vec3(Vec3(across, 0, 0.11 - depth) + shift));
     reading.q_DE = pack(Quat(turn * Quat(0, 1, 0, 0)));  // tool down
     reading_absurd = fault == Fault::position_absurd || fault == Fault::orientation_absurd;
     if (fault == Fault::position_absurd)
       reading.p_DE[static_cast<std::size_t>(dice.below(3))] = dice.absurd();
     if (fault == Fault::orientation_absurd) {
-      if (dice.chance(0.2)) reading.q_DE = {0, 0, 0, 0};
-      else reading.q_DE[static_cast<std::size_t>(dice.below(4))] = dice.absurd();
+      if (dice.chance(0.2))
+        reading.q_DE = {0, 0, 0, 0};
+      else
+        reading.q_DE[static_cast<std::size_t>(dice.below(4))] = dice.absurd();
     }
   }
 
@@ -207,17 +242,40 @@ struct FaultyWorld {
     const auto axis = static_cast<std::size_t>(dice.below(3));
     Boundary& boundary = g.boundaries[dice.below(g.boundary_count)];
     switch (dice.below(11)) {
-      case 0: g.boundary_count = static_cast<std::int32_t>(17 + dice.below(1'000'000)); break;
-      case 1: g.boundary_count = -1 - dice.below(1'000'000); break;
-      case 2: g.bone_count = dice.chance(0.5) ? LocalGeometry::kMaxBones + 1 + dice.below(100) : std::numeric_limits<std::int32_t>::min(); break;
-      case 3: g.skin.p[axis] = dice.absurd(); break;
-      case 4: g.skin.n[axis] = dice.absurd(); break;
-      case 5: g.skin.c[dice.below(SurfacePatch::kTerms)] = dice.chance(0.5) ? 1e12 : std::nan(""); break;
-      case 6: boundary.p[axis] = dice.absurd(); break;
-      case 7: boundary.n[axis] = dice.absurd(); break;
-      case 8: boundary.to = static_cast<Tissue>(kTissueCount + dice.below(200)); break;
-      case 9: g.bones[0].a[axis] = dice.absurd(); break;
-      default: g.bones[0].organ = static_cast<Organ>(kOrganCount + dice.below(200)); break;
+      case 0:
+        g.boundary_count = static_cast<std::int32_t>(17 + dice.below(1'000'000));
+        break;
+      case 1:
+        g.boundary_count = -1 - dice.below(1'000'000);
+        break;
+      case 2:
+        g.bone_count = dice.chance(0.5) ? LocalGeometry::kMaxBones + 1 + dice.below(100)
+                                        : std::numeric_limits<std::int32_t>::min();
+        break;
+      case 3:
+        g.skin.p[axis] = dice.absurd();
+        break;
+      case 4:
+        g.skin.n[axis] = dice.absurd();
+        break;
+      case 5:
+        g.skin.c[dice.below(SurfacePatch::kTerms)] = dice.chance(0.5) ? 1e12 : std::nan("");
+        break;
+      case 6:
+        boundary.p[axis] = dice.absurd();
+        break;
+      case 7:
+        boundary.n[axis] = dice.absurd();
+        break;
+      case 8:
+        boundary.to = static_cast<Tissue>(kTissueCount + dice.below(200));
+        break;
+      case 9:
+        g.bones[0].a[axis] = dice.absurd();
+        break;
+      default:
+        g.bones[0].organ = static_cast<Organ>(kOrganCount + dice.below(200));
+        break;
     }
   }
 
@@ -238,7 +296,8 @@ struct FaultyWorld {
   }
 
   void command(Fault fault) {
-    if (fault == Fault::emergency_stop) commands.emergency_stop = static_cast<std::uint8_t>(1 + dice.below(255));
+    if (fault == Fault::emergency_stop)
+      commands.emergency_stop = static_cast<std::uint8_t>(1 + dice.below(255));
     if (fault == Fault::not_homed) reading.homed = 0;
     if (fault == Fault::disarmed) commands.armed = 0;
     if (fault == Fault::button_released) reading.buttons = 3;
@@ -250,7 +309,8 @@ struct FaultyWorld {
       commands.lumps[3].kind = static_cast<std::uint32_t>(dice.bits());
     }
     if (fault == Fault::sensor_absurd) harmSensor();
-    if (fault == Fault::sensor_silent) sensed.state = dice.chance(0.5) ? SensorState::unusable : SensorState::none;
+    if (fault == Fault::sensor_silent)
+      sensed.state = dice.chance(0.5) ? SensorState::unusable : SensorState::none;
     if (fault == Fault::trial_changes) ++commands.trial;
   }
 };

@@ -10,33 +10,42 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr double kFloorUnit = 60e-6, kAnyStiffness = 1e9;   // m; N/m
-constexpr double kFloorK = 5250, kFloorB = 20;              // N/m, N s/m
+constexpr double kFloorUnit = 60e-6, kAnyStiffness = 1e9;  // m; N/m
+constexpr double kFloorK = 5250, kFloorB = 20;             // N/m, N s/m
 
-/// A place of the surface and its outward normal, by hand. What lies straight under it is nearest to it.
+/// A place of the surface and its outward normal, by hand. What lies straight under it is nearest
+/// to it.
 struct FloorSpot {
   const char* name;
   Vec3 c_U, n;
 };
 
-/// Across a groove, at the angle `turn` on the arc of its bottom from the deepest line outward; `around`: of the element.
+/// Across a groove, at the angle `turn` on the arc of its bottom from the deepest line outward;
+/// `around`: of the element.
 FloorSpot grooveBottom(const SearchSurface& floor, double around, double turn) {
-  const Vec3 out(std::cos(around), std::sin(around), 0), middle(floor.middle(1)[0], floor.middle(1)[1], 0);
-  return {"groove's bottom", middle + (30 + 2 * std::sin(turn)) * out - 2 * std::cos(turn) * Vec3::UnitZ(), std::cos(turn) * Vec3::UnitZ() - std::sin(turn) * out};
+  const Vec3 out(std::cos(around), std::sin(around), 0),
+      middle(floor.middle(1)[0], floor.middle(1)[1], 0);
+  return {"groove's bottom",
+          middle + (30 + 2 * std::sin(turn)) * out - 2 * std::cos(turn) * Vec3::UnitZ(),
+          std::cos(turn) * Vec3::UnitZ() - std::sin(turn) * out};
 }
 
 /// Half way up the outer flank, which is straight.
 FloorSpot grooveFlank(const SearchSurface& floor, double around) {
   const TroughProfile& groove = floor.groove();
-  const double t = groove.angle(), s = groove.bottomJoint() + 0.5 * groove.flank() * std::cos(t), z = -2 + 2 * (1 - std::cos(t)) + 0.5 * groove.flank() * std::sin(t);
-  const Vec3 out(std::cos(around), std::sin(around), 0), middle(floor.middle(1)[0], floor.middle(1)[1], 0);
-  return {"groove's flank", middle + (30 + s) * out + z * Vec3::UnitZ(), std::cos(t) * Vec3::UnitZ() - std::sin(t) * out};
+  const double t = groove.angle(), s = groove.bottomJoint() + 0.5 * groove.flank() * std::cos(t),
+               z = -2 + 2 * (1 - std::cos(t)) + 0.5 * groove.flank() * std::sin(t);
+  const Vec3 out(std::cos(around), std::sin(around), 0),
+      middle(floor.middle(1)[0], floor.middle(1)[1], 0);
+  return {"groove's flank", middle + (30 + s) * out + z * Vec3::UnitZ(),
+          std::cos(t) * Vec3::UnitZ() - std::sin(t) * out};
 }
 
 /// On the first of the target's hemispheres that is bare at that side.
 FloorSpot bumpSide(const SearchSurface& floor, double around) {
   const int target = floor.stimulus().target;
-  const Vec3 n = Vec3(std::cos(around), std::sin(around), 2).normalized(), middle(floor.middle(target)[0], floor.middle(target)[1], 0);
+  const Vec3 n = Vec3(std::cos(around), std::sin(around), 2).normalized(),
+             middle(floor.middle(target)[0], floor.middle(target)[1], 0);
   for (const BumpPattern::Bump& bump : floor.texture(target).bumps()) {
     const Vec3 c = middle + Vec3(bump.x, bump.y, 0) + 2 * n;
     if (plainDepth(floor, c + 0.3 * n) <= 0 && plainDepth(floor, c) < 1e-9) return {"bump", c, n};
@@ -57,7 +66,8 @@ std::vector<FloorSpot> floorSpots(const SearchSurface& floor) {
           bumpSide(floor, 4)};
 }
 
-FloorTouch touchAt(const SearchSurface& floor, const Vec3& p_U, const Vec3& v_F = Vec3::Zero(), double stiffest = kAnyStiffness) {
+FloorTouch touchAt(const SearchSurface& floor, const Vec3& p_U, const Vec3& v_F = Vec3::Zero(),
+                   double stiffest = kAnyStiffness) {
   return touchFloor(floor, {kFloorK, kFloorB}, stiffest, kFloorUnit, kFloorUnit * p_U, v_F);
 }
 
@@ -79,19 +89,27 @@ TEST(FloorContact, IsASpringAndADamperTowardTheClosestFreePoint) {
 TEST(FloorContact, NeverPulls) {
   const SearchSurface floor = searchFloor(21);
   for (const FloorSpot& spot : floorSpots(floor)) {
-    const double holds = kFloorK * 0.3 * kFloorUnit / kFloorB;   // m/s: leaving so fast, the damper takes all of the spring
-    EXPECT_GT(touchAt(floor, spot.c_U - 0.3 * spot.n, 0.99 * holds * spot.n).f_F.dot(spot.n), 0) << spot.name;
-    for (const double times : {1.01, 3.0, 1000.0}) EXPECT_EQ(touchAt(floor, spot.c_U - 0.3 * spot.n, times * holds * spot.n).f_F, Vec3(Vec3::Zero())) << spot.name;
+    const double holds = kFloorK * 0.3 * kFloorUnit /
+                         kFloorB;  // m/s: leaving so fast, the damper takes all of the spring
+    EXPECT_GT(touchAt(floor, spot.c_U - 0.3 * spot.n, 0.99 * holds * spot.n).f_F.dot(spot.n), 0)
+        << spot.name;
+    for (const double times : {1.01, 3.0, 1000.0})
+      EXPECT_EQ(touchAt(floor, spot.c_U - 0.3 * spot.n, times * holds * spot.n).f_F,
+                Vec3(Vec3::Zero()))
+          << spot.name;
   }
 }
 
 TEST(FloorContact, HasNoFriction) {
   const SearchSurface floor = searchFloor(21);
   for (const FloorSpot& spot : floorSpots(floor)) {
-    const Vec3 p = spot.c_U - 0.3 * spot.n, along = spot.n.unitOrthogonal(), across = spot.n.cross(along);
+    const Vec3 p = spot.c_U - 0.3 * spot.n, along = spot.n.unitOrthogonal(),
+               across = spot.n.cross(along);
     const Vec3 still = touchAt(floor, p).f_F;
     EXPECT_LT((still - still.dot(spot.n) * spot.n).norm(), 1e-9) << spot.name;
-    for (const Vec3& way : {along, across, Vec3(-along - across)}) EXPECT_LT((touchAt(floor, p, 0.3 * way).f_F - still).norm(), 1e-8) << spot.name;   // N, of 6 N a damper that acts along would give
+    for (const Vec3& way : {along, across, Vec3(-along - across)})
+      EXPECT_LT((touchAt(floor, p, 0.3 * way).f_F - still).norm(), 1e-8)
+          << spot.name;  // N, of 6 N a damper that acts along would give
   }
 }
 
@@ -99,8 +117,10 @@ TEST(FloorContact, IsNoStifferThanTheCoupling) {
   const SearchSurface floor = searchFloor(21);
   for (const FloorSpot& spot : floorSpots(floor)) {
     const Vec3 p = spot.c_U - 0.5 * spot.n;
-    EXPECT_NEAR(touchAt(floor, p, Vec3::Zero(), 1000).f_F.norm(), 1000 * 0.5 * kFloorUnit, 1e-9) << spot.name;
-    EXPECT_NEAR(touchAt(floor, p, Vec3::Zero(), 9000).f_F.norm(), kFloorK * 0.5 * kFloorUnit, 1e-9) << spot.name;
+    EXPECT_NEAR(touchAt(floor, p, Vec3::Zero(), 1000).f_F.norm(), 1000 * 0.5 * kFloorUnit, 1e-9)
+        << spot.name;
+    EXPECT_NEAR(touchAt(floor, p, Vec3::Zero(), 9000).f_F.norm(), kFloorK * 0.5 * kFloorUnit, 1e-9)
+        << spot.name;
   }
 }
 
@@ -117,7 +137,8 @@ TEST(FloorContact, InTheFreeThereIsNone) {
 TEST(FloorContact, ThePlaceIsTold) {
   const SearchSurface floor = searchFloor(21);
   const auto bitsAt = [&](int element, double r, double z) {
-    const double x = element < 0 ? 0 : floor.middle(element)[0] + r, y = element < 0 ? 0 : floor.middle(element)[1];
+    const double x = element < 0 ? 0 : floor.middle(element)[0] + r,
+                 y = element < 0 ? 0 : floor.middle(element)[1];
     return static_cast<int>(placeBits(touchAt(floor, {x, y, z})));
   };
   EXPECT_EQ(placeBits(FloorTouch{}), 0);

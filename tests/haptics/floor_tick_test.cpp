@@ -8,12 +8,15 @@
 #include "tests/support/allocation_count.h"
 #include "tests/surface/surface_bench.h"
 
-/// A floor that is searched, in the loop: the handle's weight, how it is held, gains, what is added.
+/// A floor that is searched, in the loop: the handle's weight, how it is held, gains, what is
+/// added.
 namespace palpa::haptics {
 namespace {
 
 constexpr double kWeight_N = 4.9;
-const Pose kTurnedFloor = makePose(Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix(), Vec3(0.02, -0.1, 0.06));
+const Pose kTurnedFloor =
+    makePose(Eigen::AngleAxisd(0.8, Vec3(1, -2, 0.5).normalized()).toRotationMatrix(),
+             Vec3(0.02, -0.1, 0.06));
 
 /// Led by positions in U over the floor, at 1 kHz.
 struct FloorLoop {
@@ -37,7 +40,9 @@ struct FloorLoop {
     commands.armed = 1;
   }
   double unit() const { return config.floor.unit; }
-  Vec3 inF(const Packed3& f_D) const { return unpack(config.X_DF).linear().transpose() * unpack(f_D); }
+  Vec3 inF(const Packed3& f_D) const {
+    return unpack(config.X_DF).linear().transpose() * unpack(f_D);
+  }
   FlightRecord step(const Vec3& p_U) {
     DeviceReading reading;
     reading.t_ns = now += 1'000'000;
@@ -55,7 +60,9 @@ struct FloorLoop {
   }
 };
 
-void expectForce(const FloorLoop& loop, const Packed3& f_D, const Vec3& f_F) { EXPECT_LT((loop.inF(f_D) - f_F).norm(), 1e-9) << loop.inF(f_D).transpose(); }
+void expectForce(const FloorLoop& loop, const Packed3& f_D, const Vec3& f_F) {
+  EXPECT_LT((loop.inF(f_D) - f_F).norm(), 1e-9) << loop.inF(f_D).transpose();
+}
 
 TEST(FloorTick, HeldTheHandleIsOnASpringToItsStart) {
   FloorLoop loop;
@@ -71,7 +78,9 @@ TEST(FloorTick, HeldTheHandleIsOnASpringToItsStart) {
 TEST(FloorTick, ItIsHeldByNoMoreThanItsForce) {
   FloorLoop loop;
   loop.commands.held = 1;
-  for (const Vec3& away : {Vec3(60, 0, 0), Vec3(-70, 30, 90), Vec3(0, 0, -80)}) expectForce(loop, loop.rest(Vec3(0, 0, 20) + away).f_command_D, Vec3(0, 0, kWeight_N) - away.normalized());
+  for (const Vec3& away : {Vec3(60, 0, 0), Vec3(-70, 30, 90), Vec3(0, 0, -80)})
+    expectForce(loop, loop.rest(Vec3(0, 0, 20) + away).f_command_D,
+                Vec3(0, 0, kWeight_N) - away.normalized());
 }
 
 TEST(FloorTick, HeldThereIsNoFloor) {
@@ -96,13 +105,16 @@ TEST(FloorTick, TheWeightIsCarriedAndIsNoContact) {
   EXPECT_EQ(above.f_contact_D, (Packed3{0, 0, 0}));
   EXPECT_EQ(above.f_augmentation_D, (Packed3{0, 0, 0}));
   loop.commands.force_feedback = 0;
-  for (const double z : {10.0, -3.0}) EXPECT_EQ(loop.rest({0, 0, z}).f_command_D, (Packed3{0, 0, 0})) << z;
-  expectForce(loop, loop.rest({0, 0, -3}).f_contact_D, Vec3(0, 0, 5250 * 3 * loop.unit()));   // computed all the same
+  for (const double z : {10.0, -3.0})
+    EXPECT_EQ(loop.rest({0, 0, z}).f_command_D, (Packed3{0, 0, 0})) << z;
+  expectForce(loop, loop.rest({0, 0, -3}).f_contact_D,
+              Vec3(0, 0, 5250 * 3 * loop.unit()));  // computed all the same
   loop.commands.held = 1;
   EXPECT_EQ(loop.rest({30, 0, 0}).f_command_D, (Packed3{0, 0, 0}));
 }
 
-/// Lifted and lowered in the free: the weight gives and takes work, none of which the observer of the contact sees.
+/// Lifted and lowered in the free: the weight gives and takes work, none of which the observer of
+/// the contact sees.
 TEST(FloorTick, ThePassivityObserverLeavesTheWeightAlone) {
   FloorLoop loop;
   loop.config.passivity.max_damping = 50;
@@ -121,9 +133,11 @@ TEST(FloorTick, DegradedHasTheLesserGains) {
   loop.config.floor.degraded = {1050, 4};
   loop.rest({0, 0, -3});
   loop.commands.degraded = 1;
-  expectForce(loop, loop.rest({0, 0, -3}).f_command_D, Vec3(0, 0, kWeight_N + 1050 * 3 * loop.unit()));
+  expectForce(loop, loop.rest({0, 0, -3}).f_command_D,
+              Vec3(0, 0, kWeight_N + 1050 * 3 * loop.unit()));
   FlightRecord down;
-  for (int i = 0; i < 100; ++i) down = loop.step({0, 0, -3 - 0.05 * i});   // steadily: the velocity is as it is
+  for (int i = 0; i < 100; ++i)
+    down = loop.step({0, 0, -3 - 0.05 * i});  // steadily: the velocity is as it is
   const double v = -0.05 * loop.unit() / 1e-3;
   expectForce(loop, down.f_contact_D, Vec3(0, 0, 1050 * (3 + 0.05 * 99) * loop.unit() - 4 * v));
   loop.commands.degraded = 0;
@@ -144,7 +158,8 @@ TEST(FloorTick, WithoutAFloorThereIsOnlyTheWeight) {
   expectForce(loop, at.f_command_D, Vec3(0, 0, kWeight_N));
 }
 
-/// Neither the weight nor the floor comes through a stop, between trials, or on a reading that cannot be.
+/// Neither the weight nor the floor comes through a stop, between trials, or on a reading that
+/// cannot be.
 TEST(FloorTick, TheLimiterHasTheLastWord) {
   FloorLoop loop;
   loop.commands.armed = 0;
@@ -160,7 +175,8 @@ TEST(FloorTick, TheLimiterHasTheLastWord) {
   EXPECT_NEAR(unpack(weak.rest({0, 0, -60}).f_command_D).norm(), 5, 1e-9);
 }
 
-/// One of every kind, always on, and what they need to know of the floor: it rises everywhere, and every groove is a valley.
+/// One of every kind, always on, and what they need to know of the floor: it rises everywhere, and
+/// every groove is a valley.
 struct EverythingOn {
   GaborTable rises{64, 240};
   std::unique_ptr<ValleyMap> valleys;
@@ -175,25 +191,30 @@ struct EverythingOn {
     for (int e = 0; e < 3; ++e)
       for (int k = 0; k < 400; ++k) {
         const double a = k * 6.283185307179586 / 400;
-        points.push_back({surface.middle(e)[0] + 30 * std::cos(a), surface.middle(e)[1] + 30 * std::sin(a), -std::sin(a), std::cos(a), 2});
+        points.push_back({surface.middle(e)[0] + 30 * std::cos(a),
+                          surface.middle(e)[1] + 30 * std::sin(a), -std::sin(a), std::cos(a), 2});
       }
     valleys = std::make_unique<ValleyMap>(std::move(points), 240, 6);
     using Kind = Augmentation::Kind;
-    for (const Kind kind : {Kind::pulse, Kind::vibration, Kind::attraction, Kind::exaggeration, Kind::fixture, Kind::relief}) {
+    for (const Kind kind : {Kind::pulse, Kind::vibration, Kind::attraction, Kind::exaggeration,
+                            Kind::fixture, Kind::relief}) {
       Augmentation& a = plan.each[plan.count++];
       a.kind = kind;
       a.amplitude = kind == Kind::fixture ? 100 : 0.5;
       a.reach = 5 * 60e-6;
       a.tau_s = 0.05;
       a.wavelength = 1e-3;
-      a.trigger = kind == Kind::pulse ? Augmentation::Trigger::rise : kind == Kind::relief ? Augmentation::Trigger::bump : Augmentation::Trigger::none;
+      a.trigger = kind == Kind::pulse    ? Augmentation::Trigger::rise
+                  : kind == Kind::relief ? Augmentation::Trigger::bump
+                                         : Augmentation::Trigger::none;
     }
     plan.each[plan.count] = plan.each[0];
     plan.each[plan.count].way = Augmentation::Way::against_motion;
     plan.each[plan.count++].subtask = 0;
     plan.subtasks.count = 1;
     plan.subtasks.each[0].count = 1;
-    plan.subtasks.each[0].conditions[0] = {Cue::floor_speed, Condition::Compare::at_least, {}, 100, 0.05};
+    plan.subtasks.each[0].conditions[0] = {
+        Cue::floor_speed, Condition::Compare::at_least, {}, 100, 0.05};
     plan.largest = 5;
     plan.steepest = 5000;
   }
@@ -208,7 +229,10 @@ struct EverythingOn {
 };
 
 /// Over an element and its groove, up and down on the floor, at 600 U/s.
-Vec3 overTheElement(const SearchSurface& surface, int i) { return {surface.middle(1)[0] - 45 + 0.6 * (i % 150), surface.middle(1)[1] + 8, -1 + 2 * std::sin(0.05 * i)}; }
+Vec3 overTheElement(const SearchSurface& surface, int i) {
+  return {surface.middle(1)[0] - 45 + 0.6 * (i % 150), surface.middle(1)[1] + 8,
+          -1 + 2 * std::sin(0.05 * i)};
+}
 
 TEST(FloorTick, WithEverythingOnItAllocatesNothing) {
   FloorLoop loop;
@@ -224,7 +248,7 @@ TEST(FloorTick, WithEverythingOnItAllocatesNothing) {
   }
   EXPECT_EQ(none.allocations(), 0);
   EXPECT_EQ(active, 0b1111111u);
-  EXPECT_EQ(began, 0b1100001u);   // both pulses and the relief
+  EXPECT_EQ(began, 0b1100001u);  // both pulses and the relief
 }
 
 TEST(FloorTick, WhatIsAddedIsToldApartAndFelt) {
@@ -233,7 +257,8 @@ TEST(FloorTick, WhatIsAddedIsToldApartAndFelt) {
   everything.putInto(with);
   double largest = 0;
   for (int i = 0; i < 150; ++i) {
-    const FlightRecord a = with.step(overTheElement(with.surface, i)), b = without.step(overTheElement(without.surface, i));
+    const FlightRecord a = with.step(overTheElement(with.surface, i)),
+                       b = without.step(overTheElement(without.surface, i));
     ASSERT_EQ(a.f_contact_D, b.f_contact_D);
     expectForce(with, a.f_command_D, with.inF(b.f_command_D) + with.inF(a.f_augmentation_D));
     largest = std::max(largest, unpack(a.f_augmentation_D).norm());
@@ -250,7 +275,8 @@ TEST(FloorTick, NotAugmentedNothingIsAdded) {
   off.commands.augmented = 0;
   unsigned parts = 0;
   for (int i = 0; i < 150; ++i) {
-    const FlightRecord a = off.step(overTheElement(off.surface, i)), b = none.step(overTheElement(none.surface, i));
+    const FlightRecord a = off.step(overTheElement(off.surface, i)),
+                       b = none.step(overTheElement(none.surface, i));
     ASSERT_EQ(a.f_augmentation_D, (Packed3{0, 0, 0})) << i;
     ASSERT_EQ(a.augmenting | a.began, 0) << i;
     ASSERT_EQ(a.f_command_D, b.f_command_D) << i;
@@ -279,7 +305,8 @@ TEST(FloorTick, GoesOnFromAnyKeyframe) {
   for (int i = 0; i < 70; ++i) loop->step(overTheElement(loop->surface, i));
   auto copy = std::make_unique<FloorLoop>(*loop);
   for (int i = 70; i < 140; ++i) {
-    const FlightRecord a = loop->step(overTheElement(loop->surface, i)), b = copy->step(overTheElement(copy->surface, i));
+    const FlightRecord a = loop->step(overTheElement(loop->surface, i)),
+                       b = copy->step(overTheElement(copy->surface, i));
     ASSERT_EQ(a.f_command_D, b.f_command_D);
     ASSERT_EQ(a.f_augmentation_D, b.f_augmentation_D);
     ASSERT_EQ(a.began, b.began);

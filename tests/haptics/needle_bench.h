@@ -4,7 +4,8 @@
 
 namespace palpa::haptics {
 
-/// A block of tissue, skin at z = 0, needle pushed down along -z: the simplest world with all contacts.
+/// A block of tissue, skin at z = 0, needle pushed down along -z: the simplest world with all
+/// contacts.
 struct NeedleBench {
   NeedleMaterials materials;
   CouplingLimits coupling;
@@ -28,10 +29,12 @@ struct NeedleBench {
     addPlane(0.029, Tissue::vein_lumen, Tissue::muscle, Organ::vein, true);
   }
   void addPlane(double depth, Tissue from, Tissue to, Organ wall, bool leaving) {
-    geometry.boundaries[geometry.boundary_count++] = {{0, 0, -depth}, {0, 0, 1}, from, to, wall, leaving};
+    geometry.boundaries[geometry.boundary_count++] = {{0, 0, -depth}, {0, 0, 1}, from, to,
+                                                      wall,           leaving};
   }
   NeedleContact at(const Vec3& tip) {
-    return needleContact(materials, coupling, geometry, {tip, axis, tip - 0.11 * axis}, commands, kDt, state);
+    return needleContact(materials, coupling, geometry, {tip, axis, tip - 0.11 * axis}, commands,
+                         kDt, state);
   }
   NeedleContact atDepth(double depth) { return at({0, 0, -depth}); }
   /// Moves the tip straight from one depth to another at `speed`; returns the last contact.

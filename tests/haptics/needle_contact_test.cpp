@@ -21,7 +21,8 @@ TEST(NeedleContact, SkinAndCouplingAreInSeries) {
   bench.atDepth(0);
   const NeedleContact c = bench.atDepth(x);
   const double F = bench.materials.skin.force(c.indentation);
-  EXPECT_NEAR(F, bench.coupling.stiffness * (x - c.indentation), 1e-6);  // N; Newton stops at 1e-12 m
+  EXPECT_NEAR(F, bench.coupling.stiffness * (x - c.indentation),
+              1e-6);  // N; Newton stops at 1e-12 m
   EXPECT_NEAR(c.f_D.z(), F, 1e-12);
   EXPECT_GT(c.f_D.z(), 0);
 }
@@ -49,7 +50,8 @@ TEST(NeedleContact, SkinGivesWayAtItsThresholdAndReleasesWithoutAStep) {
     before = c.f_D.z();
   }
   ASSERT_TRUE(punctured);
-  EXPECT_NEAR(before, bench.commands.puncture_force_N, 0.02);  // N: one 10 um step of the steepest slope, 1000 N/m, twice
+  EXPECT_NEAR(before, bench.commands.puncture_force_N,
+              0.02);  // N: one 10 um step of the steepest slope, 1000 N/m, twice
   after = bench.atDepth(x).f_D.z();
   // The first tick after keeps exp(-1 ms / 10 ms) of the stored force; tissue adds a little.
   EXPECT_NEAR(after, before * std::exp(-0.1), 0.1);
@@ -72,9 +74,9 @@ TEST(NeedleContact, AWallHoldsTheTipUntilItsPeakThenGivesWay) {
   NeedleContact c = bench.atDepth(0.0205);
   EXPECT_EQ(c.wall, Organ::vein);
   EXPECT_FALSE(c.wall_leaving);
-  EXPECT_EQ(c.tissue, Tissue::muscle);              // still before the wall
-  EXPECT_NEAR(c.wall_force, 400 * 0.0005, 0.01);    // N: one 10 um step of the motion
-  bench.move(0.0205, 0.0215);                       // peak 0.4 N at 1 mm
+  EXPECT_EQ(c.tissue, Tissue::muscle);            // still before the wall
+  EXPECT_NEAR(c.wall_force, 400 * 0.0005, 0.01);  // N: one 10 um step of the motion
+  bench.move(0.0205, 0.0215);                     // peak 0.4 N at 1 mm
   c = bench.atDepth(0.0215);
   EXPECT_EQ(c.tissue, Tissue::vein_lumen);
   EXPECT_EQ(c.wall, Organ::none);
@@ -83,22 +85,22 @@ TEST(NeedleContact, AWallHoldsTheTipUntilItsPeakThenGivesWay) {
 TEST(NeedleContact, TheBackWallIsAnotherWallAndAWithdrawnTipHeals) {
   NeedleBench bench;
   bench.move(0, 0.0312);
-  EXPECT_EQ(bench.atDepth(0.0312).tissue, Tissue::muscle);   // through and through
+  EXPECT_EQ(bench.atDepth(0.0312).tissue, Tissue::muscle);  // through and through
   EXPECT_NE(bench.state.walls_back, 0u);
   bench.move(0.0312, 0.015);
   bench.settle(0.015, 5);
   EXPECT_EQ(bench.state.walls_front, 0u);
   EXPECT_EQ(bench.state.walls_back, 0u);
   bench.move(0.015, 0.0205);
-  EXPECT_EQ(bench.atDepth(0.0205).wall, Organ::vein);        // it has to be punctured again
+  EXPECT_EQ(bench.atDepth(0.0205).wall, Organ::vein);  // it has to be punctured again
 }
 
 TEST(NeedleContact, FrictionOpposesMotionBothWays) {
   NeedleBench bench;
   bench.move(0, 0.012);
-  EXPECT_GT(bench.move(0.012, 0.016).f_D.z(), 0.2);    // cutting 0.3 N and friction push back
+  EXPECT_GT(bench.move(0.012, 0.016).f_D.z(), 0.2);  // cutting 0.3 N and friction push back
   const double back = bench.move(0.016, 0.012).f_D.z();
-  EXPECT_LT(back, 0);                                   // withdrawing: friction only, the other way
+  EXPECT_LT(back, 0);  // withdrawing: friction only, the other way
   EXPECT_GT(back, -0.3);
 }
 
@@ -108,7 +110,8 @@ TEST(NeedleContact, HoldsTheNeedleAboutItsEntry) {
   bench.settle(0.012);
   const NeedleContact c = bench.at({0.001, 0, -0.012});
   const double k = bench.materials.lateral_stiffness + bench.materials.lateral_per_depth * 0.012;
-  EXPECT_NEAR(c.f_D.x(), -k * 0.001, 0.02 * k * 0.001);  // the insertion differs by the indentation, < 2 %
+  EXPECT_NEAR(c.f_D.x(), -k * 0.001,
+              0.02 * k * 0.001);  // the insertion differs by the indentation, < 2 %
 }
 
 TEST(NeedleContact, WithdrawalEndsTheContact) {
@@ -125,7 +128,8 @@ TEST(NeedleContact, WithdrawnAlongSkinThatBulgesTheNeedleIsFeltOnceItsPointWasCl
   NeedleBench bench;
   bench.move(0, 0.01);
   ASSERT_EQ(bench.state.phase, NeedlePhase::inserted);
-  bench.axis = Vec3::UnitX();   // it lies flat: 5 mm back along it are behind the entry, and still 2 mm below the surface
+  bench.axis = Vec3::UnitX();  // it lies flat: 5 mm back along it are behind the entry, and still 2
+                               // mm below the surface
   EXPECT_TRUE(bench.at({-0.005, 0, -0.002}).events & kWithdrawn);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.at({-0.005, 0, -0.004}).f_D.norm(), 0);
   EXPECT_EQ(bench.state.skin_punctures, 1);
@@ -136,7 +140,8 @@ TEST(NeedleContact, WithdrawnAlongSkinThatBulgesTheNeedleIsFeltOnceItsPointWasCl
 TEST(NeedleContact, APointInTheAirIsOutWhereverItEntered) {
   NeedleBench bench;
   bench.move(0, 0.01);
-  bench.axis = Vec3(1, 0, 1).normalized();   // swung out: the entry lies behind the point, along the needle
+  bench.axis =
+      Vec3(1, 0, 1).normalized();  // swung out: the entry lies behind the point, along the needle
   EXPECT_FALSE(bench.at({0.003, 0, 0.003}).events & kWithdrawn);
   EXPECT_TRUE(bench.at({0.006, 0, 0.006}).events & kWithdrawn);
   EXPECT_EQ(bench.at({0.006, 0, 0.006}).depth, 0);
@@ -146,7 +151,8 @@ TEST(NeedleContact, BonePushesTheShaftAwayAlongTheNormal) {
   NeedleBench bench;
   bench.move(0, 0.012);
   bench.settle(0.012);
-  bench.geometry.bones[0] = {{0.0065, -0.05, -0.008}, {0.0065, 0.05, -0.008}, 0.006, Organ::clavicle};
+  bench.geometry.bones[0] = {
+      {0.0065, -0.05, -0.008}, {0.0065, 0.05, -0.008}, 0.006, Organ::clavicle};
   bench.geometry.bone_count = 1;
   const NeedleContact c = bench.atDepth(0.012);
   const double penetration = 0.006 + bench.materials.needle_radius - 0.0065;
@@ -183,8 +189,9 @@ TEST(NeedleContact, NeitherSkinNorWallEverGivesMoreThanWhatBreaksIt) {
       EXPECT_LE(c.skin_force, bench.commands.puncture_force_N + 1e-12);
       EXPECT_LE(c.wall_force, 0.6 + 1e-12);
     }
-    const double friction = 0.3 + 0.2 * 0.1 + 20 * 0.002 + 5 * 0.006 + 10 * depth;  // cutting and shaft, at most
-    const double viscous = 3 * depth / 0.005;                                       // the step itself
+    const double friction =
+        0.3 + 0.2 * 0.1 + 20 * 0.002 + 5 * 0.006 + 10 * depth;  // cutting and shaft, at most
+    const double viscous = 3 * depth / 0.005;                   // the step itself
     EXPECT_LT(most, bench.commands.puncture_force_N + 0.6 + 0.4 + friction + viscous + 1) << depth;
   }
 }
@@ -205,8 +212,10 @@ TEST(NeedleContact, AChainPushesOnceTwoBonesPushTwice) {
   bench.move(0, 0.012);
   bench.settle(0.012);
   // Two links of one bone that overlap at their joint, right where the shaft touches.
-  bench.geometry.bones[0] = {{0.0065, -0.05, -0.008}, {0.0065, 0.001, -0.008}, 0.006, Organ::rib, 4, {}};
-  bench.geometry.bones[1] = {{0.0065, -0.001, -0.008}, {0.0065, 0.05, -0.008}, 0.006, Organ::rib, 4, {}};
+  bench.geometry.bones[0] = {
+      {0.0065, -0.05, -0.008}, {0.0065, 0.001, -0.008}, 0.006, Organ::rib, 4, {}};
+  bench.geometry.bones[1] = {
+      {0.0065, -0.001, -0.008}, {0.0065, 0.05, -0.008}, 0.006, Organ::rib, 4, {}};
   bench.geometry.bone_count = 2;
   NeedleBench two = bench;
   two.geometry.bones[1].bone = 5;
@@ -248,7 +257,8 @@ TEST(NeedleContact, AWallsPeakIsTheTrialsOwn) {
     NeedleBench bench = withFascia();
     bench.commands.wall_scale[static_cast<int>(Organ::fascia)] = scale;
     double peak = 0;
-    for (double d = 0; d < 0.014 && !(bench.state.walls_front); d += 1e-5) peak = bench.atDepth(d).wall_force;
+    for (double d = 0; d < 0.014 && !(bench.state.walls_front); d += 1e-5)
+      peak = bench.atDepth(d).wall_force;
     EXPECT_NEAR(peak, 0.6 * static_cast<double>(scale), 0.006);
   }
 }
@@ -261,8 +271,8 @@ TEST(NeedleContact, AHeldWallRelaxes) {
   bench.settle(0.0085, 5000);
   const double held = bench.atDepth(0.0085).wall_force;
   const double elastic = 500 * 0.0005;
-  EXPECT_GT(pushed, 0.75 * elastic);           // 50 ms of pushing: the fast fifth is mostly gone
-  EXPECT_NEAR(held, 0.5 * elastic, 0.002);     // what is left of 1 - 0.2 - 0.3
+  EXPECT_GT(pushed, 0.75 * elastic);        // 50 ms of pushing: the fast fifth is mostly gone
+  EXPECT_NEAR(held, 0.5 * elastic, 0.002);  // what is left of 1 - 0.2 - 0.3
 }
 
 TEST(NeedleContact, WhatAWallLetsGoIsBoundedByWhatWasFelt) {

@@ -16,7 +16,7 @@ constexpr double kPeriod = 1e-3, kEncoderStep = 23e-6;
 struct Drop {
   double mass = 0.1, preload_N = 1, height = 1e-3, wall = 5250, damping = 0;
   bool controlled = true;
-  int ticks_a_reading = 1;   ///< a loop faster than its device sees each reading so often
+  int ticks_a_reading = 1;  ///< a loop faster than its device sees each reading so often
 
   double highest_rebound = 0, first_rebound = 0, last_rebound = 0;
   double energy_J = 0, least_energy_J = 0;  ///< of the controller, from the true motion
@@ -110,8 +110,8 @@ TEST(Passivity, WithDampingItComesToRest) {
   EXPECT_NEAR((drop.last_high + drop.last_low) / 2, drop.preload_N / drop.wall, 2 * kEncoderStep);
 }
 
-/// Even an ideal spring makes K T v^2 / 2 of power when its force is held for a period; taking just that
-/// away needs a damping of K T / 2, which nobody feels.
+/// Even an ideal spring makes K T v^2 / 2 of power when its force is held for a period; taking just
+/// that away needs a damping of K T / 2, which nobody feels.
 TEST(Passivity, ASpringThatAHandCanHoldIsAsGoodAsUntouched) {
   PassivityLimits limits;
   limits.max_damping = 20;

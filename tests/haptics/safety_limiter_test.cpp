@@ -55,7 +55,8 @@ TEST(SafetyLimiter, WarmDrivesGiveWhatTheyCanBearForLong) {
     heat += (f.squaredNorm() - heat) * 1e-3 / 5;  // the same equation, on what came out
     if (bench.state.cause == SafetyCause::duty && first_duty_s == 0) first_duty_s = 1e-3 * i;
   }
-  // 6 N are too much from a heat of 4 (0.8 + 0.2 (7.9 - 6) / (7.9 - 2)) = 3.458 on: 36 (1 - exp(-t/5)) at t = 0.505 s.
+  // 6 N are too much from a heat of 4 (0.8 + 0.2 (7.9 - 6) / (7.9 - 2)) = 3.458 on: 36 (1 -
+  // exp(-t/5)) at t = 0.505 s.
   EXPECT_NEAR(first_duty_s, 0.505, 0.01);
   EXPECT_EQ(bench.state.cause, SafetyCause::duty);
   EXPECT_GE(f.norm(), 2 - 1e-9);  // never less than what may last
@@ -162,14 +163,17 @@ TEST(SafetyLimiter, EnergyGivenToTheHandIsBounded) {
 TEST(SafetyLimiter, NothingEverBreaksTheLimits) {
   Bench bench;
   std::mt19937_64 bits(7);
-  const auto uniform = [&](double a, double b) { return a + (b - a) * static_cast<double>(bits() >> 11) * 0x1p-53; };
+  const auto uniform = [&](double a, double b) {
+    return a + (b - a) * static_cast<double>(bits() >> 11) * 0x1p-53;
+  };
   const double step = bench.limits.max_slew_N_per_s * bench.input.dt;
   Vec3 last = Vec3::Zero();
   for (int i = 0; i < 100'000; ++i) {
     const double kind = uniform(0, 1);
     bench.input.armed = kind > 0.05;
     bench.input.emergency_stop = kind > 0.99;
-    bench.input.p_DE = Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) * (kind > 0.98 ? 1e300 : 0.01);
+    bench.input.p_DE =
+        Vec3(uniform(-1, 1), uniform(-1, 1), uniform(-1, 1)) * (kind > 0.98 ? 1e300 : 0.01);
     Vec3 wanted(uniform(-30, 30), uniform(-30, 30), uniform(-30, 30));
     if (kind > 0.96 && kind < 0.97) wanted *= std::numeric_limits<double>::infinity();
     const Vec3 f = bench.step(wanted);

@@ -17,8 +17,8 @@ TEST(SkinLaw, PunctureForcesAreReachedWhereTheSourceSays) {
   EXPECT_GT(skin.force(0.00206), 1.0);
   EXPECT_LT(skin.force(0.00241), 2.5);
   EXPECT_GT(skin.force(0.00243), 2.5);
-  EXPECT_NEAR(skin.stiffness(0.00205), 2500, 100);   // N/m at 1 N
-  EXPECT_NEAR(skin.stiffness(0.00242), 6100, 200);   // at 2.5 N
+  EXPECT_NEAR(skin.stiffness(0.00205), 2500, 100);  // N/m at 1 N
+  EXPECT_NEAR(skin.stiffness(0.00242), 6100, 200);  // at 2.5 N
 }
 
 TEST(SkinLaw, StiffnessIsTheDerivativeOfForce) {

@@ -7,10 +7,11 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr double kWidth = 0.05;   // m
+constexpr double kWidth = 0.05;  // m
 const HuntCrossley kFoam{3000, 0, 1.3};
 
-/// An object held between two tools, its axis tilted from the horizontal, squeezed by `depth` at each side. Each tool carries half of the weight.
+/// An object held between two tools, its axis tilted from the horizontal, squeezed by `depth` at
+/// each side. Each tool carries half of the weight.
 struct Held {
   std::array<Vec3, 2> f_r, p;
   double F = 0;
@@ -48,7 +49,8 @@ TEST(SqueezeModulation, TheSqueezeIsFoundWhateverTheWeightTheTiltAndTheOrder) {
           EXPECT_NEAR(s.x, 0.008, 1e-12);
           for (std::size_t i = 0; i < 2; ++i) {
             const Vec3 u = h.p[i].normalized(), felt = h.f_r[i] + s.f_d[i];
-            EXPECT_LT((felt - (factor * h.F * u - Vec3(0, 0, 0.5 * weight))).norm(), 1e-9) << "the weight stays";
+            EXPECT_LT((felt - (factor * h.F * u - Vec3(0, 0, 0.5 * weight))).norm(), 1e-9)
+                << "the weight stays";
             EXPECT_LT((s.f_w[i] - Vec3(0, 0, -0.5 * weight)).norm(), 1e-9);
           }
         }
@@ -63,7 +65,8 @@ TEST(SqueezeModulation, AConstantStiffnessIsASpringAtEachSide) {
   }
 }
 
-/// A soft thing is deep when it is felt first: where it begins is told by its law, or everything is felt too soft.
+/// A soft thing is deep when it is felt first: where it begins is told by its law, or everything is
+/// felt too soft.
 TEST(SqueezeModulation, BeginsWhereTheSurfacesAreNotWhereTheyAreFelt) {
   SqueezeModulation law;
   law.real = kFoam;
@@ -107,10 +110,12 @@ TEST(SqueezeModulation, NonsenseGivesNothingAndNothingAllocates) {
   bad.f_r[0].x() = std::nan("");
   one.p[1] = one.p[0];
   const NoAllocation guard;
-  const Squeezed from_bad = modulateSqueeze({{0, 2}, 2, 0.1}, bad.f_r, bad.p, &state), from_one = modulateSqueeze({{0, 2}, 2, 0.1}, one.f_r, one.p, &state);
+  const Squeezed from_bad = modulateSqueeze({{0, 2}, 2, 0.1}, bad.f_r, bad.p, &state),
+                 from_one = modulateSqueeze({{0, 2}, 2, 0.1}, one.f_r, one.p, &state);
   modulateSqueeze({{0, 2}, 2, 0.1}, good.f_r, good.p, &state);
   EXPECT_EQ(guard.allocations(), 0);
-  EXPECT_EQ(from_bad.f_d[0] + from_bad.f_d[1] + from_one.f_d[0] + from_one.f_d[1], Vec3(Vec3::Zero()));
+  EXPECT_EQ(from_bad.f_d[0] + from_bad.f_d[1] + from_one.f_d[0] + from_one.f_d[1],
+            Vec3(Vec3::Zero()));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ struct Loop {
   DeviceReading reading;
   LocalGeometry geometry = NeedleBench{}.geometry;
   std::int64_t now = 0;
-  bool refresh = true;   // a new snapshot every 16 ms
+  bool refresh = true;  // a new snapshot every 16 ms
   Loop() {
     config.materials = NeedleBench{}.materials;
     config.X_ET.p = {0, 0, 0.11};
@@ -79,8 +79,8 @@ TEST(Tick, ASnapshotRefreshIsNotFelt) {
     largest = std::max(largest, std::abs(final - last));
     last = final;
   }
-  EXPECT_GT(final - before, 0.05);                     // the refresh matters ...
-  EXPECT_LT(largest, 0.15 * (final - before));         // ... and comes in ten steps
+  EXPECT_GT(final - before, 0.05);              // the refresh matters ...
+  EXPECT_LT(largest, 0.15 * (final - before));  // ... and comes in ten steps
 }
 
 TEST(Tick, AStaleSnapshotFadesToZeroWithinTheStatedTime) {
@@ -109,7 +109,8 @@ TEST(Tick, ANotFiniteReadingGivesZeroAndDoesNotPoisonTheState) {
   DeviceReading good = loop.reading;
   loop.reading.p_DE[1] = std::numeric_limits<double>::quiet_NaN();
   loop.now += 1'000'000;
-  FlightRecord r = tick(loop.config, loop.state, loop.reading, &loop.geometry, loop.commands, loop.now);
+  FlightRecord r =
+      tick(loop.config, loop.state, loop.reading, &loop.geometry, loop.commands, loop.now);
   EXPECT_EQ(r.f_command_D, (Packed3{0, 0, 0}));
   EXPECT_EQ(r.safety, SafetyCause::not_finite);
   loop.reading = good;

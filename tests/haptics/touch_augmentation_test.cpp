@@ -11,7 +11,10 @@ constexpr double kTouchTick = 1e-3;
 const HuntCrossley kTouched{900, 300, 1.4};
 const Dahl kTouchedSurface{0.35, 1500, 0.4};
 
-const VirtualInclusion kLumpOf{0.014, {8000, 0, 1.9}, {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
+const VirtualInclusion kLumpOf{
+    0.014,
+    {8000, 0, 1.9},
+    {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
 
 TouchAugmentation lumpy() {
   TouchAugmentation law;
@@ -29,10 +32,13 @@ PlacedLumps placed(int count) {
 }
 
 /// A tool pressed straight down at `x`, as deep as `depth`.
-ToolTouch pressed(double x, double depth, double rate = 0) { return {true, Vec3(x, 0, 0.008 - depth), Vec3(0, 0, forceOf(kTouched, depth, rate))}; }
+ToolTouch pressed(double x, double depth, double rate = 0) {
+  return {true, Vec3(x, 0, 0.008 - depth), Vec3(0, 0, forceOf(kTouched, depth, rate))};
+}
 
 /// Pressed slowly to `depth` at `places`; the last answer.
-AugmentedTouch pressedTo(const TouchAugmentation& law, int lumps, double depth, const std::array<double, 2>& places, bool second) {
+AugmentedTouch pressedTo(const TouchAugmentation& law, int lumps, double depth,
+                         const std::array<double, 2>& places, bool second) {
   TouchAugmentationState state;
   AugmentedTouch now;
   for (double x = 0; x < depth; x += 1e-5) {
@@ -49,9 +55,11 @@ TEST(TouchAugmentation, WithoutLumpsAndChangesTheDevicesStayQuiet) {
   EXPECT_LT(now.f_d[0].norm() + now.f_d[1].norm(), 1e-9);
 }
 
-/// A tool feels the lump below it as the lump's own law has it; a second lump that is far away adds little, a second tool on it feels the same mirrored.
+/// A tool feels the lump below it as the lump's own law has it; a second lump that is far away adds
+/// little, a second tool on it feels the same mirrored.
 TEST(TouchAugmentation, EveryToolFeelsItsLump) {
-  const AugmentedTouch one = pressedTo(lumpy(), 1, 0.006, {0, 0.03}, false), both = pressedTo(lumpy(), 2, 0.006, {0, 0.03}, true);
+  const AugmentedTouch one = pressedTo(lumpy(), 1, 0.006, {0, 0.03}, false),
+                       both = pressedTo(lumpy(), 2, 0.006, {0, 0.03}, true);
   EXPECT_GT(one.f_d[0].z(), 0.1);
   EXPECT_LT(one.d[0][2], -0.5e-3);
   EXPECT_EQ(one.f_d[1], Vec3(Vec3::Zero()));
@@ -65,7 +73,8 @@ TEST(TouchAugmentation, EveryToolFeelsItsLump) {
 TEST(TouchAugmentation, StiffnessAndLumpAddUp) {
   TouchAugmentation hard = lumpy();
   hard.surface.contact.target.factor = 2;
-  const AugmentedTouch soft = pressedTo(lumpy(), 1, 0.006, {0, 0.03}, false), harder = pressedTo(hard, 1, 0.006, {0, 0.03}, false);
+  const AugmentedTouch soft = pressedTo(lumpy(), 1, 0.006, {0, 0.03}, false),
+                       harder = pressedTo(hard, 1, 0.006, {0, 0.03}, false);
   EXPECT_NEAR(harder.f_d[0].z() - soft.f_d[0].z(), soft.touch[0].f_n, 1e-6);
 }
 
@@ -73,7 +82,9 @@ TEST(TouchAugmentation, AToolThatIsNotThereOrTellsNonsenseIsForgotten) {
   const NoAllocation none;
   TouchAugmentationState state;
   AugmentedTouch now;
-  for (int i = 0; i < 200; ++i) now = augmentTouch(lumpy(), placed(2), {pressed(0, 0.006), pressed(0.03, 0.006)}, kTouchTick, &state);
+  for (int i = 0; i < 200; ++i)
+    now = augmentTouch(lumpy(), placed(2), {pressed(0, 0.006), pressed(0.03, 0.006)}, kTouchTick,
+                       &state);
   ToolTouch lost = pressed(0, 0.006);
   lost.p_M.x() = NAN;
   now = augmentTouch(lumpy(), placed(2), {lost, pressed(0.03, 0.006)}, kTouchTick, &state);

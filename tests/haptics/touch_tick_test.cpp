@@ -5,7 +5,8 @@
 #include "haptics/tick.h"
 #include "tests/support/allocation_count.h"
 
-/// Haptic augmented reality in the loop: a real soft thing with a flat top, a tool with a force sensor on it.
+/// Haptic augmented reality in the loop: a real soft thing with a flat top, a tool with a force
+/// sensor on it.
 namespace palpa::haptics {
 namespace {
 
@@ -26,7 +27,10 @@ struct TouchLoop {
     config.object_at_port = 1;
     config.touch.surface.contact = {kRealThing, 0, kRealThingsSurface, {}, 0.1};
     config.touch.surface.wanted = kRealThingsSurface;
-    config.touch.kinds[0] = {0.014, {8000, 0, 1.9}, {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
+    config.touch.kinds[0] = {
+        0.014,
+        {8000, 0, 1.9},
+        {HuntCrossley{600, 0, 1}, HuntCrossley{600, 0, 1}, HuntCrossley{300, 0, 1.1}}};
     config.touch.tip_radius = 0.008;
     config.safety.max_slew_N_per_s = 1e5;
     commands.armed = 1;
@@ -41,13 +45,17 @@ struct TouchLoop {
     reading.sequence = ++readings;
     reading.homed = 1;
     reading.p_DE = pack(Vec3(X_DP * tip_P));
-    const SensedForce sensed{pack(Vec3(X_DP.linear() * f_P)), pack(Vec3(X_DP * (tip_P + 0.008 * Vec3::UnitZ()))), sensor, {}};
+    const SensedForce sensed{pack(Vec3(X_DP.linear() * f_P)),
+                             pack(Vec3(X_DP * (tip_P + 0.008 * Vec3::UnitZ()))),
+                             sensor,
+                             {}};
     return tick(config, state, reading, nullptr, commands, now, sensed);
   }
   /// Pressed straight down at `x` to `depth`, at 2 cm/s, and held there.
   FlightRecord press(double x, double depth) {
     FlightRecord last;
-    for (double d = -1e-3; d < depth; d += 2e-5) last = step({x, 0, -d}, {0, 0, forceOf(kRealThing, std::max(d, 0.0), d > 0 ? 0.02 : 0)});
+    for (double d = -1e-3; d < depth; d += 2e-5)
+      last = step({x, 0, -d}, {0, 0, forceOf(kRealThing, std::max(d, 0.0), d > 0 ? 0.02 : 0)});
     for (int i = 0; i < 30; ++i) last = step({x, 0, -depth}, {0, 0, forceOf(kRealThing, depth, 0)});
     return last;
   }
@@ -57,7 +65,7 @@ TEST(TouchTick, TheRealThingAsItIsTakesNoForce) {
   TouchLoop loop;
   const FlightRecord last = loop.press(0, 0.006);
   EXPECT_LT(unpack(last.f_command_D).norm(), 1e-9);
-  EXPECT_EQ(last.safety, SafetyCause::none);   // without any snapshot
+  EXPECT_EQ(last.safety, SafetyCause::none);  // without any snapshot
   EXPECT_NEAR(last.indentation, 0.006, 1e-5);
   EXPECT_NEAR(last.skin_force, forceOf(kRealThing, 0.006, 0), 1e-6);
 }
@@ -77,7 +85,9 @@ TEST(TouchTick, ALumpIsFeltWhereItLies) {
     loop.commands.lumps[2] = {{0.02, 0, -0.014}, 1};
     return Vec3(X_DP.linear().transpose() * unpack(loop.press(x, 0.006).f_command_D));
   };
-  const Pose turned = makePose(Eigen::AngleAxisd(1.1, Vec3(1, 2, -1).normalized()).toRotationMatrix(), Vec3(0.1, -0.2, 0.05));
+  const Pose turned =
+      makePose(Eigen::AngleAxisd(1.1, Vec3(1, 2, -1).normalized()).toRotationMatrix(),
+               Vec3(0.1, -0.2, 0.05));
   const Vec3 above = at(0.02, Pose::Identity());
   EXPECT_GT(above.z(), 0.15);
   EXPECT_LT(at(-0.02, Pose::Identity()).norm(), 0.2 * above.norm());

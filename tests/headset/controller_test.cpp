@@ -9,22 +9,30 @@
 namespace palpa::headset {
 namespace {
 
-/// The patient's frame lies as the head is level: OpenXR's x, -z, y are A's x, y, z, from a point 0.45 m ahead and 0.25 m below the eyes.
-Vec3 inPatient(const Vec3& p_xr) { return Vec3(p_xr.x(), -p_xr.z(), p_xr.y()) - Vec3(0, 0.45, -0.25); }
+/// The patient's frame lies as the head is level: OpenXR's x, -z, y are A's x, y, z, from a point
+/// 0.45 m ahead and 0.25 m below the eyes.
+Vec3 inPatient(const Vec3& p_xr) {
+  return Vec3(p_xr.x(), -p_xr.z(), p_xr.y()) - Vec3(0, 0.45, -0.25);
+}
 
 TEST(Controller, MovesTheToolToAMillimetre) {
   Worn worn("eyes=64x64,64x64;rate=300");
   runtime::ChannelDevice device(haptics::DeviceCapabilities{}, runtime::TimeMode::real);
   trial::Channels channels;
   cli::MouseHand::Setup setup;
-  setup.X_DA = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), {0.1, 0.2, -0.3});
+  setup.X_DA = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
+                        {0.1, 0.2, -0.3});
   setup.X_ET = makePose(Eigen::AngleAxisd(-0.4, Vec3::UnitY()).toRotationMatrix(), {0.01, 0, 0.12});
-  setup.anatomy = {Vec3::Zero(), -Vec3::UnitY(), Vec3(0, 0.03, 0), 0.03, Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  setup.anatomy = {Vec3::Zero(),  -Vec3::UnitY(), Vec3(0, 0.03, 0), 0.03,
+                   Vec3::UnitX(), Vec3::UnitY(),  Vec3::UnitZ()};
   cli::MouseHand hand(setup, device, channels);
   std::int64_t now = 0;
   const auto tip = [&] {
     const haptics::DeviceReading reading = device.read(now);
-    return Vec3(setup.X_DA.inverse() * (makePose(unpack(reading.q_DE).toRotationMatrix(), unpack(reading.p_DE)) * setup.X_ET).translation());
+    return Vec3(
+        setup.X_DA.inverse() *
+        (makePose(unpack(reading.q_DE).toRotationMatrix(), unpack(reading.p_DE)) * setup.X_ET)
+            .translation());
   };
   HeldTool last;
   worn.view->onHeld([&](const HeldTool& held) {
@@ -32,7 +40,7 @@ TEST(Controller, MovesTheToolToAMillimetre) {
     hand.hold(held, now);
   });
   double worst_moving = 0;
-  const double pitch = -1.1;   // of the test runtime's hand, about x
+  const double pitch = -1.1;  // of the test runtime's hand, about x
   const Vec3 reach_xr(0, 0.10 * std::sin(pitch), -0.10 * std::cos(pitch));
   for (int frame = 0; frame < 450; ++frame) {
     ASSERT_TRUE(worn.view->wait(true));
@@ -45,15 +53,17 @@ TEST(Controller, MovesTheToolToAMillimetre) {
   const test::XrReport report = worn.over();
   ASSERT_GE(report.hands.size(), 450u);
   EXPECT_LT((reached - inPatient(report.hands.back().p + reach_xr)).norm(), 1e-3);
-  EXPECT_LT((reached - inPatient(report.hands.back().p + reach_xr)).norm(), 1e-5) << "in fact to rounding, once it stands";
+  EXPECT_LT((reached - inPatient(report.hands.back().p + reach_xr)).norm(), 1e-5)
+      << "in fact to rounding, once it stands";
   // It follows as the mouse does, 30 ms behind: 0.063 m/s of the circle by 0.03 s.
   EXPECT_LT(worst_moving, 1.2 * 0.03 * 0.07);
-  EXPECT_NEAR(plunger, 1, 0.01);   // the trigger, slowly drawn
+  EXPECT_NEAR(plunger, 1, 0.01);  // the trigger, slowly drawn
   expectClean(report, "controller");
 }
 
 TEST(Controller, EveryKnownKindIsBound) {
-  for (const char* kind : {"khr/simple_controller", "oculus/touch_controller", "htc/vive_controller", "microsoft/motion_controller"}) {
+  for (const char* kind : {"khr/simple_controller", "oculus/touch_controller",
+                           "htc/vive_controller", "microsoft/motion_controller"}) {
     Worn worn(std::string("eyes=64x64,64x64;controller=/interaction_profiles/") + kind);
     bool tracked = false;
     double trigger = 0;
@@ -76,7 +86,7 @@ TEST(Controller, LeftHandedPeopleHoldItInTheLeft) {
   bool tracked = false;
   worn.view->onHeld([&](const HeldTool& held) { tracked |= held.tracked; });
   worn.show(5);
-  EXPECT_FALSE(tracked);   // the test runtime has only a right hand
+  EXPECT_FALSE(tracked);  // the test runtime has only a right hand
 }
 
 std::vector<HeldTool> toldBy(const std::string& plan, bool may_place = true) {
@@ -100,8 +110,9 @@ TEST(Controller, OneThatIsSwitchedOffOrOnlyGuessedIsNotTracked) {
   }
 }
 
-/// The head moves by 5 mm to the right from frame to frame. Placed anew, the patient is before it again: the hand is then so much further left of him. While the tool is in him
-/// he stays, whatever is asked.
+/// The head moves by 5 mm to the right from frame to frame. Placed anew, the patient is before it
+/// again: the hand is then so much further left of him. While the tool is in him he stays, whatever
+/// is asked.
 TEST(Controller, ThePatientComesWhenAskedAndOnlyWhenHeMay) {
   const auto jump = [](const std::string& fault, bool may_place) {
     const std::vector<HeldTool> told = toldBy("drift=5;fault=" + fault, may_place);
@@ -114,7 +125,7 @@ TEST(Controller, ThePatientComesWhenAskedAndOnlyWhenHeMay) {
   };
   for (const char* fault : {"recentred@8", "menu_pressed@8"}) {
     const Vec3 step = jump(fault, true);
-    EXPECT_NEAR(step.x(), -0.035, 0.006) << fault;   // 7 or 8 frames, and the hand's own millimetre
+    EXPECT_NEAR(step.x(), -0.035, 0.006) << fault;  // 7 or 8 frames, and the hand's own millimetre
     EXPECT_LT(jump(fault, false).norm(), 2e-3) << fault;
   }
   EXPECT_LT(jump("stage_moved@8", true).norm(), 2e-3) << "the room's own origin is nothing to us";
@@ -122,8 +133,10 @@ TEST(Controller, ThePatientComesWhenAskedAndOnlyWhenHeMay) {
 }
 
 TEST(Controller, TheStartButtonStarts) {
-  const std::vector<HeldTool> told = toldBy("controller=/interaction_profiles/oculus/touch_controller;fault=start_pressed@8");
-  EXPECT_EQ(std::count_if(told.begin(), told.end(), [](const HeldTool& held) { return held.start; }), 1);
+  const std::vector<HeldTool> told =
+      toldBy("controller=/interaction_profiles/oculus/touch_controller;fault=start_pressed@8");
+  EXPECT_EQ(
+      std::count_if(told.begin(), told.end(), [](const HeldTool& held) { return held.start; }), 1);
 }
 
 /// A hand that takes over from a controller takes over where the needle is.
@@ -132,14 +145,17 @@ TEST(Controller, TheMouseTakesOverWhereItWas) {
   trial::Channels channels;
   cli::MouseHand::Setup setup;
   setup.X_DA = setup.X_ET = Pose::Identity();
-  setup.anatomy = {Vec3::Zero(), -Vec3::UnitY(), Vec3(0, 0.03, 0), 0.03, Vec3::UnitX(), Vec3::UnitY(), Vec3::UnitZ()};
+  setup.anatomy = {Vec3::Zero(),  -Vec3::UnitY(), Vec3(0, 0.03, 0), 0.03,
+                   Vec3::UnitX(), Vec3::UnitY(),  Vec3::UnitZ()};
   cli::MouseHand hand(setup, device, channels);
   std::int64_t now = runtime::kSecond;
   const auto settle = [&] {
     for (int i = 0; i < 500; ++i) hand.step(now += runtime::kMillisecond);
     return unpack(device.read(now).p_DE);
   };
-  HeldTool held{true, makePose(Eigen::AngleAxisd(0.8, Vec3::UnitX()).toRotationMatrix(), {0.05, 0.01, -0.02}), 0.5, false};
+  HeldTool held{
+      true, makePose(Eigen::AngleAxisd(0.8, Vec3::UnitX()).toRotationMatrix(), {0.05, 0.01, -0.02}),
+      0.5, false};
   hand.hold(held, now);
   const Vec3 there = settle();
   EXPECT_LT((there - held.X_AT.translation()).norm(), 1e-5);

@@ -16,13 +16,19 @@ std::string refusalOf(const std::string& plan) {
   return "none";
 }
 
-bool says(const std::string& text, const std::string& word) { return text.find(word) != std::string::npos; }
+bool says(const std::string& text, const std::string& word) {
+  return text.find(word) != std::string::npos;
+}
 
 TEST(HeadsetFaults, WhatIsNotThereIsSaid) {
-  const std::pair<const char*, const char*> kinds[] = {{"fault=runtime_failure", "does not work"},
-                                                      {"fault=no_headset", "no headset is connected"}, {"fault=no_headset_kind", "drives no headset"},
-                                                      {"fault=one_eye", "two eyes"},               {"fault=no_graphics", "graphics"},
-                                                      {"formats=1234", "format"},              {"fault=no_opengl", "OpenGL"}};
+  const std::pair<const char*, const char*> kinds[] = {
+      {"fault=runtime_failure", "does not work"},
+      {"fault=no_headset", "no headset is connected"},
+      {"fault=no_headset_kind", "drives no headset"},
+      {"fault=one_eye", "two eyes"},
+      {"fault=no_graphics", "graphics"},
+      {"formats=1234", "format"},
+      {"fault=no_opengl", "OpenGL"}};
   for (const auto& [plan, word] : kinds) {
     const std::string refusal = refusalOf(plan);
     EXPECT_TRUE(says(refusal, word)) << plan << ": " << refusal;
@@ -40,10 +46,14 @@ TEST(HeadsetFaults, NoRuntimeIsSaid) {
   }
 }
 
-/// From the frame of the fault on nothing is shown, it is said why, and all goes back to the runtime.
+/// From the frame of the fault on nothing is shown, it is said why, and all goes back to the
+/// runtime.
 TEST(HeadsetFaults, WhatGoesIsSaidAndTheRestGoesOn) {
-  const std::pair<const char*, const char*> kinds[] = {{"session_lost", "was lost"}, {"loss_pending", "was lost"}, {"instance_lost", "was lost"},
-                                                      {"ended_there", "ended there"}, {"stuck_picture", "was lost"}};
+  const std::pair<const char*, const char*> kinds[] = {{"session_lost", "was lost"},
+                                                       {"loss_pending", "was lost"},
+                                                       {"instance_lost", "was lost"},
+                                                       {"ended_there", "ended there"},
+                                                       {"stuck_picture", "was lost"}};
   for (const auto& [fault, word] : kinds) {
     Worn worn(std::string("eyes=64x64,64x64;fault=") + fault + "@6");
     const int shown = worn.show(12);
@@ -70,10 +80,11 @@ TEST(HeadsetFaults, WhatPassesPasses) {
   EXPECT_EQ(run("slow_picture@10"), std::pair(30, 30));
   EXPECT_EQ(run("not_focused@10"), std::pair(30, 30));
   EXPECT_EQ(run("never_worn"), std::pair(0, 0));
-  const auto [shown, layers] = run("taken_off@10");   // and put on again
+  const auto [shown, layers] = run("taken_off@10");  // and put on again
   EXPECT_GE(shown, 28);
   EXPECT_GE(layers, 28);
-  EXPECT_GE(run("taken_off@3;rate=6").first, 5);   // so slow that a frame is still waited for when it ends
+  EXPECT_GE(run("taken_off@3;rate=6").first,
+            5);  // so slow that a frame is still waited for when it ends
 }
 
 }  // namespace

@@ -15,8 +15,10 @@ struct Ended {
 };
 Ended interruptedAfter(int seconds, const std::string& arguments, const test::TestXr& xr) {
   const std::string folder = xr.folder().string();
-  const std::string command = "timeout --foreground --preserve-status -s INT " + std::to_string(seconds) + " " + PALPA_PROGRAM + " paracentesis --display openxr --operator person --quiet --out " + folder + "/out " + arguments + " >/dev/null 2>" +
-                              folder + "/said.txt";
+  const std::string command =
+      "timeout --foreground --preserve-status -s INT " + std::to_string(seconds) + " " +
+      PALPA_PROGRAM + " paracentesis --display openxr --operator person --quiet --out " + folder +
+      "/out " + arguments + " >/dev/null 2>" + folder + "/said.txt";
   Ended run;
   run.code = std::system(command.c_str());
   std::ifstream file(folder + "/said.txt");
@@ -35,7 +37,8 @@ TEST(HeadsetDesktop, APersonHasAWindowAndAHeadset) {
   EXPECT_GT(calls(report, "layers"), 5);
 }
 
-/// The demonstration is made without display, and must not decide the kind of context for the window after it.
+/// The demonstration is made without display, and must not decide the kind of context for the
+/// window after it.
 TEST(HeadsetDesktop, TheDemonstrationComesBefore) {
   if (!std::getenv("DISPLAY")) GTEST_SKIP() << "no DISPLAY: run under xvfb-run";
   const test::TestXr xr(PALPA_TEST_XR_JSON, "eyes=64x64,64x64");

@@ -23,7 +23,8 @@ bool contains(const std::string& text, const std::string& word) {
 std::vector<Forbidden> makeForbidden() {
   const std::string chance = "randomness comes from apps/runtime/random.h: same seed, same bits";
   const std::string time = "time comes from Clock (apps/runtime/clock.h)";
-  const std::vector<std::string> clocks{"apps/runtime/clock.cpp", "tests/computer_faults/computer_faults.cpp"};
+  const std::vector<std::string> clocks{"apps/runtime/clock.cpp",
+                                        "tests/computer_faults/computer_faults.cpp"};
   std::vector<Forbidden> all{
       {"random_"
        "device",

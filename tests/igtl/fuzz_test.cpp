@@ -9,19 +9,24 @@
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"
 
-/// What a network may bring: sound messages with bits flipped, bytes replaced, added and lost, sizes blown up; with the checksum made right afterwards, or not. Each is a message, or
-/// dropped, or the end of the connection; under the sanitizers nothing else is seen either.
+/// What a network may bring: sound messages with bits flipped, bytes replaced, added and lost,
+/// sizes blown up; with the checksum made right afterwards, or not. Each is a message, or dropped,
+/// or the end of the connection; under the sanitizers nothing else is seen either.
 namespace palpa::igt {
 namespace {
 
 using test::DamageDice;
 
-const Pose kSound = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(0.012, -0.345, 0.678));
+const Pose kSound = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
+                             Vec3(0.012, -0.345, 0.678));
 
 std::vector<Bytes> soundMessages() {
   const Mat4 X_mm = toWire(kSound);
   const std::vector<NamedMatrix> tools{{"AToB", X_mm}, {"ReferenceToCamera", X_mm}, {"CToB", X_mm}};
-  const std::vector<std::pair<std::string, std::string>> metadata{{"TransformStatus", "OK"}, {"IGTL_DEVICE_NAME", "ReferenceToCamera"}, {"ReferenceToCameraStatus", "OK"}};
+  const std::vector<std::pair<std::string, std::string>> metadata{
+      {"TransformStatus", "OK"},
+      {"IGTL_DEVICE_NAME", "ReferenceToCamera"},
+      {"ReferenceToCameraStatus", "OK"}};
   return {transformMessage("ReferenceToCamera", X_mm, 5),
           trackingMessage("Plus", tools, 5),
           startTrackingMessage("X", {20, "Patient"}, 5),
@@ -38,19 +43,33 @@ void spoil(Bytes& bytes, std::size_t from, DamageDice& dice) {
   static constexpr std::uint8_t kAbsurd[] = {0x00, 0xff, 0x7f, 0x80, 0x01};
   if (from >= bytes.size()) return;
   for (std::size_t i = 0, n = 1 + dice.below(6); i < n; ++i) {
-    std::uint8_t& byte = bytes[from + dice.below(dice.below(2) ? bytes.size() - from : std::min<std::size_t>(bytes.size() - from, 16))];
-    if (dice.below(2)) byte = static_cast<std::uint8_t>(byte ^ (1 << dice.below(8)));
-    else byte = kAbsurd[dice.below(std::size(kAbsurd))];
+    std::uint8_t& byte =
+        bytes[from + dice.below(dice.below(2) ? bytes.size() - from
+                                              : std::min<std::size_t>(bytes.size() - from, 16))];
+    if (dice.below(2))
+      byte = static_cast<std::uint8_t>(byte ^ (1 << dice.below(8)));
+    else
+      byte = kAbsurd[dice.below(std::size(kAbsurd))];
   }
 }
 
-/// The checksum's bytes are made right in half of the cases: what comes behind it is to be met, too.
+/// The checksum's bytes are made right in half of the cases: what comes behind it is to be met,
+/// too.
 Bytes damaged(Bytes bytes, DamageDice& dice) {
   switch (dice.below(6)) {
-    case 0: spoil(bytes, 0, dice); return bytes;
-    case 1: bytes.resize(dice.below(bytes.size())); return bytes;
-    case 2: bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(dice.below(bytes.size())), 1 + dice.below(80), static_cast<std::uint8_t>(dice.below(256))); return bytes;
-    default: spoil(bytes, kHeaderSize, dice); return igt_test::withChecksum(bytes);
+    case 0:
+      spoil(bytes, 0, dice);
+      return bytes;
+    case 1:
+      bytes.resize(dice.below(bytes.size()));
+      return bytes;
+    case 2:
+      bytes.insert(bytes.begin() + static_cast<std::ptrdiff_t>(dice.below(bytes.size())),
+                   1 + dice.below(80), static_cast<std::uint8_t>(dice.below(256)));
+      return bytes;
+    default:
+      spoil(bytes, kHeaderSize, dice);
+      return igt_test::withChecksum(bytes);
   }
 }
 
@@ -63,7 +82,8 @@ int posesIn(const Message& message) {
     ++poses;
     ASSERT_TRUE(X->matrix().allFinite());
     ASSERT_NEAR(X->linear().determinant(), 1, 1e-9);
-    ASSERT_LT((X->linear().transpose() * X->linear() - Mat3::Identity()).cwiseAbs().maxCoeff(), 1e-9);
+    ASSERT_LT((X->linear().transpose() * X->linear() - Mat3::Identity()).cwiseAbs().maxCoeff(),
+              1e-9);
     ASSERT_LE(X->translation().cwiseAbs().maxCoeff(), 100);
   };
   if (const auto X_mm = readTransform(message.content)) look(*X_mm);
@@ -105,7 +125,8 @@ TEST(IgtlFuzz, DamageGivesAMessageOrNothing) {
     all.skipped += stream.counts().skipped;
   }
   EXPECT_GT(poses, cases / 4) << "some damage does no harm";
-  EXPECT_GT(whole_after, cases / 4) << "after damage that leaves sizes right the next message is read";
+  EXPECT_GT(whole_after, cases / 4)
+      << "after damage that leaves sizes right the next message is read";
   EXPECT_GT(all.damaged, static_cast<std::uint64_t>(cases) / 10);
   EXPECT_GT(all.skipped, static_cast<std::uint64_t>(cases) / 20);
   EXPECT_GT(broken, cases / 20);
@@ -149,7 +170,9 @@ TEST(IgtlFuzz, TrackerTakesPosesOnly) {
   DamageDice dice(815);
   TcpListener plus("127.0.0.1", 0);
   runtime::EventQueue<runtime::TrackedPose> poses{64};
-  TrackerClient client({"127.0.0.1", plus.port(), "ReferenceToCamera", Pose::Identity(), Pose::Identity(), 0, 0}, clock, poses);
+  TrackerClient client(
+      {"127.0.0.1", plus.port(), "ReferenceToCamera", Pose::Identity(), Pose::Identity(), 0, 0},
+      clock, poses);
   TcpSocket peer;
   int taken = 0;
   for (int i = 0, n = test::counted(1500, 20'000); i < n; ++i) {

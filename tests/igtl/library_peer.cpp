@@ -19,7 +19,8 @@ typename M::Pointer bodyOf(igtl::Socket& socket, igtl::MessageHeader& header) {
   typename M::Pointer message = M::New();
   message->SetMessageHeader(&header);
   message->AllocatePack();
-  if (message->GetPackBodySize() > 0) socket.Receive(message->GetPackBodyPointer(), message->GetPackBodySize());
+  if (message->GetPackBodySize() > 0)
+    socket.Receive(message->GetPackBodyPointer(), message->GetPackBodySize());
   return message->Unpack(1) & igtl::MessageHeader::UNPACK_BODY ? message : nullptr;
 }
 
@@ -46,14 +47,16 @@ void takeTracking(igtl::Socket& socket, igtl::MessageHeader& header, Got& got) {
 void takeSensor(igtl::Socket& socket, igtl::MessageHeader& header, Got& got) {
   const auto message = bodyOf<igtl::SensorMessage>(socket, header);
   if (!(got.whole = message)) return;
-  for (unsigned int i = 0; i < message->GetLength(); ++i) got.values.push_back(message->GetValue(i));
+  for (unsigned int i = 0; i < message->GetLength(); ++i)
+    got.values.push_back(message->GetValue(i));
   got.unit = message->GetUnit();
 }
 
 void takeRest(igtl::Socket& socket, igtl::MessageHeader& header, Got& got) {
   if (got.type == "STRING") {
     const auto message = bodyOf<igtl::StringMessage>(socket, header);
-    if ((got.whole = message)) got.text = message->GetString(), got.encoding = message->GetEncoding();
+    if ((got.whole = message))
+      got.text = message->GetString(), got.encoding = message->GetEncoding();
   } else if (got.type == "STATUS") {
     const auto message = bodyOf<igtl::StatusMessage>(socket, header);
     if ((got.whole = message)) got.text = message->GetStatusString();
@@ -87,7 +90,8 @@ std::optional<Got> LibraryClient::next(int wait_ms) {
   if (poll(&p, 1, wait_ms) <= 0) return std::nullopt;
   igtl::MessageHeader::Pointer header = igtl::MessageHeader::New();
   header->InitPack();
-  if (socket_->Receive(header->GetPackPointer(), header->GetPackSize()) != header->GetPackSize()) return std::nullopt;
+  if (socket_->Receive(header->GetPackPointer(), header->GetPackSize()) != header->GetPackSize())
+    return std::nullopt;
   Got got;
   got.header_version = static_cast<const std::uint8_t*>(header->GetPackPointer())[1];
   header->Unpack();
@@ -96,10 +100,14 @@ std::optional<Got> LibraryClient::next(int wait_ms) {
   got.type = header->GetDeviceType();
   got.device = header->GetDeviceName();
   got.utc_ns = static_cast<std::int64_t>(stamp->GetTimeStampInNanoseconds());
-  if (got.type == "TRANSFORM") takeTransform(*socket_, *header, got);
-  else if (got.type == "TDATA") takeTracking(*socket_, *header, got);
-  else if (got.type == "SENSOR") takeSensor(*socket_, *header, got);
-  else takeRest(*socket_, *header, got);
+  if (got.type == "TRANSFORM")
+    takeTransform(*socket_, *header, got);
+  else if (got.type == "TDATA")
+    takeTracking(*socket_, *header, got);
+  else if (got.type == "SENSOR")
+    takeSensor(*socket_, *header, got);
+  else
+    takeRest(*socket_, *header, got);
   return got;
 }
 
@@ -159,7 +167,8 @@ void LibraryServer::stop() {
 
 igt::Bytes headerOf(const std::string& type, std::uint64_t body_size) {
   igt::Bytes bytes = igt::transformMessage("X", Mat4::Identity(), 0);
-  for (std::size_t i = 0; i < 12; ++i) bytes[2 + i] = i < type.size() ? static_cast<std::uint8_t>(type[i]) : 0;
+  for (std::size_t i = 0; i < 12; ++i)
+    bytes[2 + i] = i < type.size() ? static_cast<std::uint8_t>(type[i]) : 0;
   bytes.resize(42);
   number(bytes, body_size, 8);
   number(bytes, 0, 8);
@@ -167,17 +176,20 @@ igt::Bytes headerOf(const std::string& type, std::uint64_t body_size) {
 }
 
 igt::Bytes withChecksum(igt::Bytes message) {
-  const std::uint64_t crc = crc64(message.data() + igt::kHeaderSize, message.size() - igt::kHeaderSize, 0);
-  for (std::size_t i = 0; i < 8; ++i) message[50 + i] = static_cast<std::uint8_t>(crc >> (8 * (7 - i)));
+  const std::uint64_t crc =
+      crc64(message.data() + igt::kHeaderSize, message.size() - igt::kHeaderSize, 0);
+  for (std::size_t i = 0; i < 8; ++i)
+    message[50 + i] = static_cast<std::uint8_t>(crc >> (8 * (7 - i)));
   return message;
 }
 
-igt::Bytes withMetadata(const igt::Bytes& version1, const std::vector<std::pair<std::string, std::string>>& metadata) {
+igt::Bytes withMetadata(const igt::Bytes& version1,
+                        const std::vector<std::pair<std::string, std::string>>& metadata) {
   igt::Bytes body, entries, texts;
   number(entries, metadata.size(), 2);
   for (const auto& [key, value] : metadata) {
     number(entries, key.size(), 2);
-    number(entries, 3, 2);   // US-ASCII
+    number(entries, 3, 2);  // US-ASCII
     number(entries, value.size(), 4);
     texts.insert(texts.end(), key.begin(), key.end());
     texts.insert(texts.end(), value.begin(), value.end());

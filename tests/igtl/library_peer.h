@@ -24,14 +24,14 @@ struct Got {
   std::string type, device;
   std::int64_t utc_ns = 0;
   int header_version = 0;
-  bool whole = false;                       ///< the library found body and checksum right
-  Mat4 X_mm = Mat4::Identity();             ///< TRANSFORM
-  std::map<std::string, Mat4> tools;        ///< TDATA
-  std::vector<double> values;               ///< SENSOR
+  bool whole = false;                 ///< the library found body and checksum right
+  Mat4 X_mm = Mat4::Identity();       ///< TRANSFORM
+  std::map<std::string, Mat4> tools;  ///< TDATA
+  std::vector<double> values;         ///< SENSOR
   std::uint64_t unit = 0;
-  std::string text;                         ///< STRING, STATUS
+  std::string text;  ///< STRING, STATUS
   int encoding = 0;
-  int answer = -1;                          ///< RTS_TDATA
+  int answer = -1;  ///< RTS_TDATA
 };
 
 class LibraryClient {
@@ -43,7 +43,9 @@ class LibraryClient {
   std::optional<Got> next(int wait_ms = 200);
   /// Everything that is there.
   std::vector<Got> all();
-  void send(const igt::Bytes& bytes) { socket_->Send(bytes.data(), static_cast<int>(bytes.size())); }
+  void send(const igt::Bytes& bytes) {
+    socket_->Send(bytes.data(), static_cast<int>(bytes.size()));
+  }
   void ask(igtl::MessageBase& message);
   void startTracking(int resolution_ms, const std::string& coordinates);
   void stopTracking();
@@ -80,7 +82,9 @@ class LibraryServer {
 igt::Bytes headerOf(const std::string& type, std::uint64_t body_size);
 /// The same message with the checksum that its body has now.
 igt::Bytes withChecksum(igt::Bytes message);
-/// A message with header version 2 and metadata, by the specification of protocol 3, made of one with version 1.
-igt::Bytes withMetadata(const igt::Bytes& version1, const std::vector<std::pair<std::string, std::string>>& metadata);
+/// A message with header version 2 and metadata, by the specification of protocol 3, made of one
+/// with version 1.
+igt::Bytes withMetadata(const igt::Bytes& version1,
+                        const std::vector<std::pair<std::string, std::string>>& metadata);
 
 }  // namespace palpa::igt_test

@@ -10,7 +10,8 @@
 #include "apps/link/igtl/conventions.h"
 #include "library_peer.h"
 
-/// The server on loopback, listened to by the library's own client. One thread: what is sent waits in the connection until it is read.
+/// The server on loopback, listened to by the library's own client. One thread: what is sent waits
+/// in the connection until it is read.
 namespace palpa::igt {
 namespace {
 
@@ -20,8 +21,10 @@ using igt_test::lastOf;
 using igt_test::LibraryClient;
 
 constexpr std::int64_t kMs = 1'000'000, kUtc = 1'788'000'000'250'000'000;
-const Pose kX_WA = makePose(Eigen::AngleAxisd(-1.2, Vec3::UnitX()).toRotationMatrix(), Vec3(0.01, 0.2, 0.1));
-const Pose kX_WT = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(0.012, -0.345, 0.678));
+const Pose kX_WA =
+    makePose(Eigen::AngleAxisd(-1.2, Vec3::UnitX()).toRotationMatrix(), Vec3(0.01, 0.2, 0.1));
+const Pose kX_WT = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
+                            Vec3(0.012, -0.345, 0.678));
 
 Moment momentAt(std::int64_t t_ns) {
   Moment moment;
@@ -52,7 +55,7 @@ void expectPose(const Mat4& X_mm, const Pose& X, const std::string& what) {
 TEST_F(IgtlServerTest, PosesComeInMillimetresWithNameAndTime) {
   LibraryClient slicer(server_.port());
   ASSERT_TRUE(slicer.connected());
-  serve();      // accepts
+  serve();  // accepts
   now_ns_ = 70 * kMs;
   serve();
   const auto messages = slicer.all();
@@ -65,18 +68,21 @@ TEST_F(IgtlServerTest, PosesComeInMillimetresWithNameAndTime) {
   EXPECT_NEAR(static_cast<double>(tip->utc_ns - kUtc - 70 * kMs), 0, 20);
   const auto camera = lastOf(messages, "CameraToReference");
   ASSERT_TRUE(camera);
-  EXPECT_NEAR(static_cast<double>(camera->utc_ns - kUtc - 30 * kMs), 0, 20) << "each pose has a time of its own";
+  EXPECT_NEAR(static_cast<double>(camera->utc_ns - kUtc - 30 * kMs), 0, 20)
+      << "each pose has a time of its own";
 }
 
 TEST_F(IgtlServerTest, AnatomyIsRas) {
   LibraryClient slicer(server_.port());
   serve(2);
   const auto messages = slicer.all();
-  const auto to_ras = lastOf(messages, "ReferenceToRas"), to_reference = lastOf(messages, "PatientToReference");
+  const auto to_ras = lastOf(messages, "ReferenceToRas"),
+             to_reference = lastOf(messages, "PatientToReference");
   ASSERT_TRUE(to_ras && to_reference);
   const Vec3 left_posterior_superior(0.03, -0.04, 0.05);
   const Vec3 p_W = kX_WA * left_posterior_superior;
-  const Vec3 ras_mm = (to_ras->X_mm * Eigen::Vector4d(1e3 * p_W.x(), 1e3 * p_W.y(), 1e3 * p_W.z(), 1)).head<3>();
+  const Vec3 ras_mm =
+      (to_ras->X_mm * Eigen::Vector4d(1e3 * p_W.x(), 1e3 * p_W.y(), 1e3 * p_W.z(), 1)).head<3>();
   EXPECT_TRUE(ras_mm.isApprox(Vec3(-30, 40, 50), 1e-5)) << ras_mm.transpose();
   EXPECT_TRUE((to_ras->X_mm * to_reference->X_mm).isApprox(Mat4::Identity(), 1e-4));
 }
@@ -85,7 +91,8 @@ TEST_F(IgtlServerTest, ForcesSayTheirUnit) {
   LibraryClient slicer(server_.port());
   serve(2);
   const auto messages = slicer.all();
-  const auto force = lastOf(messages, "NeedleContactForce"), depth = lastOf(messages, "NeedleDepth");
+  const auto force = lastOf(messages, "NeedleContactForce"),
+             depth = lastOf(messages, "NeedleDepth");
   ASSERT_TRUE(force && depth);
   EXPECT_EQ(force->values, (std::vector<double>{0.5, -1.25, 2})) << "doubles on the wire";
   EXPECT_EQ(depth->values, std::vector<double>{12.5});
@@ -124,7 +131,7 @@ TEST_F(IgtlServerTest, TrackingDataComeFromStartToStopAtTheirResolution) {
   serve();
   asks.all();
   asks.startTracking(50, "Reference");
-  serve(50, false);   // half a second
+  serve(50, false);  // half a second
   const auto started = asks.all();
   const auto answer = lastOf(started, "Palpa");
   ASSERT_TRUE(answer);
@@ -150,7 +157,8 @@ TEST_F(IgtlServerTest, TrackingDataInAnatomyAndInWhatIsNotKnown) {
   serve(1, false);
   auto messages = asks.all();
   ASSERT_EQ(countOf(messages, "TDATA"), 1);
-  expectPose(messages.back().tools.at("NeedleTip"), (kX_WA * rasInAnatomy()).inverse() * kX_WT, "tip in RAS");
+  expectPose(messages.back().tools.at("NeedleTip"), (kX_WA * rasInAnatomy()).inverse() * kX_WT,
+             "tip in RAS");
   asks.stopTracking();
   serve(1, false);
   asks.all();
@@ -203,7 +211,7 @@ TEST_F(IgtlServerTest, WhoHangsUpInTheMiddleIsForgotten) {
   LibraryClient stays(server_.port());
   serve();
   const Bytes request = startTrackingMessage("X", {10, ""}, 0);
-  leaves->send(Bytes(request.begin(), request.begin() + 70));   // header and a part of the body
+  leaves->send(Bytes(request.begin(), request.begin() + 70));  // header and a part of the body
   serve();
   leaves.reset();
   serve(5);
@@ -217,7 +225,7 @@ TEST_F(IgtlServerTest, SlowReaderCostsNoTimeAndGetsTheNewest) {
   LibraryClient slow(server_.port());
   serve();
   const int kMoments = 20'000;
-  for (int i = 0; i < kMoments; ++i) {   // more than any connection's buffers hold
+  for (int i = 0; i < kMoments; ++i) {  // more than any connection's buffers hold
     server_.say("PalpaEvent", std::string(200, 'x'), kUtc);
     serve();
   }
@@ -228,7 +236,7 @@ TEST_F(IgtlServerTest, SlowReaderCostsNoTimeAndGetsTheNewest) {
 TEST_F(IgtlServerTest, WhoReadsAgainGetsTheNewestState) {
   LibraryClient slow(server_.port());
   serve();
-  for (int i = 0; i < 2500; ++i) {   // 25 s
+  for (int i = 0; i < 2500; ++i) {  // 25 s
     for (int k = 0; k < 4; ++k) server_.say("PalpaEvent", std::string(1000, 'x'), kUtc);
     serve();
   }
@@ -242,15 +250,17 @@ TEST_F(IgtlServerTest, WhoReadsAgainGetsTheNewestState) {
   serving.join();
   const auto tip = lastOf(messages, "NeedleTipToReference");
   ASSERT_TRUE(tip);
-  EXPECT_NEAR(static_cast<double>(tip->utc_ns - kUtc - (now_ns_ - 10 * kMs)), 0, 20) << "the last moment that was shown, none of those that waited";
+  EXPECT_NEAR(static_cast<double>(tip->utc_ns - kUtc - (now_ns_ - 10 * kMs)), 0, 20)
+      << "the last moment that was shown, none of those that waited";
   for (const Got& m : messages) EXPECT_TRUE(m.whole) << "no message is cut";
 }
 
 TEST_F(IgtlServerTest, HugeBodiesAreNeitherKeptNorWaitedFor) {
   LibraryClient good(server_.port()), promises(server_.port()), lies(server_.port());
   serve();
-  promises.send(igt_test::headerOf("IMAGE", 1ull << 30));         // 1 GiB: passed over as it comes, if ever
-  lies.send(igt_test::headerOf("STT_TDATA", (1ull << 30) + 1));   // no OpenIGTLink
+  promises.send(
+      igt_test::headerOf("IMAGE", 1ull << 30));  // 1 GiB: passed over as it comes, if ever
+  lies.send(igt_test::headerOf("STT_TDATA", (1ull << 30) + 1));  // no OpenIGTLink
   promises.send(Bytes(100'000, 0x11));
   serve(5);
   EXPECT_EQ(server_.peers(), 2u);
@@ -307,7 +317,8 @@ TEST_F(IgtlServerTest, NoTrackingDataWhereNothingIsKnown) {
 
 TEST_F(IgtlServerTest, NinthIsTurnedAway) {
   std::vector<std::unique_ptr<LibraryClient>> clients;
-  for (std::size_t i = 0; i <= IgtlServer::kMostPeers; ++i) clients.push_back(std::make_unique<LibraryClient>(server_.port()));
+  for (std::size_t i = 0; i <= IgtlServer::kMostPeers; ++i)
+    clients.push_back(std::make_unique<LibraryClient>(server_.port()));
   serve(2);
   EXPECT_EQ(server_.peers(), IgtlServer::kMostPeers);
   EXPECT_TRUE(clients.front()->next());

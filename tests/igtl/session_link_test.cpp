@@ -20,8 +20,10 @@ using igt_test::lastOf;
 using igt_test::LibraryClient;
 
 constexpr std::int64_t kStart_ns = 1'788'000'000'000'000'000;
-const Pose kX_WD = makePose(Eigen::AngleAxisd(1.1, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.1, 0.2, 0.3));
-const Pose kX_ET = makePose(Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix(), Vec3(0, 0, 0.06));
+const Pose kX_WD =
+    makePose(Eigen::AngleAxisd(1.1, Vec3::UnitZ()).toRotationMatrix(), Vec3(0.1, 0.2, 0.3));
+const Pose kX_ET =
+    makePose(Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix(), Vec3(0, 0, 0.06));
 
 SessionLink::Setup setup() {
   SessionLink::Setup setup;
@@ -34,7 +36,8 @@ SessionLink::Setup setup() {
 runtime::ToolState toolAt(std::int64_t t_ns) {
   runtime::ToolState tool;
   tool.t_ns = t_ns;
-  tool.X_DT = pack(makePose(Mat3::Identity(), Vec3(1e-12 * static_cast<double>(t_ns), 0.02, -0.03)));   // a millimetre in a second
+  tool.X_DT = pack(makePose(Mat3::Identity(), Vec3(1e-12 * static_cast<double>(t_ns), 0.02,
+                                                   -0.03)));  // a millimetre in a second
   tool.f_contact_D = {1, 2, 3};
   tool.f_command_D = {0.5, 0, 0};
   tool.depth = 0.0125;
@@ -61,19 +64,27 @@ TEST_F(IgtlSessionLink, ToolAndForcesAreToldOnTheTable) {
   const runtime::ToolState tool = toolAt(5'000'000);
   bus_.haptic_to_link.publish(tool, 0);
   const auto messages = told();
-  const auto tip = lastOf(messages, "NeedleTipToReference"), needle = lastOf(messages, "NeedleToReference"), fixed = lastOf(messages, "NeedleTipToNeedle");
+  const auto tip = lastOf(messages, "NeedleTipToReference"),
+             needle = lastOf(messages, "NeedleToReference"),
+             fixed = lastOf(messages, "NeedleTipToNeedle");
   ASSERT_TRUE(tip && needle && fixed);
   EXPECT_LT((tip->X_mm - toWire(kX_WD * unpack(tool.X_DT))).cwiseAbs().maxCoeff(), 1e-4);
   EXPECT_LT((needle->X_mm * fixed->X_mm - tip->X_mm).cwiseAbs().maxCoeff(), 1e-3) << "names chain";
-  EXPECT_NEAR(static_cast<double>(tip->utc_ns - kStart_ns - 5'000'000), 0, 20) << "when the tick was";
-  const auto contact = lastOf(messages, "NeedleContactForce"), device = lastOf(messages, "NeedleDeviceForce"), depth = lastOf(messages, "NeedleDepth");
+  EXPECT_NEAR(static_cast<double>(tip->utc_ns - kStart_ns - 5'000'000), 0, 20)
+      << "when the tick was";
+  const auto contact = lastOf(messages, "NeedleContactForce"),
+             device = lastOf(messages, "NeedleDeviceForce"),
+             depth = lastOf(messages, "NeedleDepth");
   ASSERT_TRUE(contact && device && depth);
   const Vec3 f_W = kX_WD.linear() * Vec3(1, 2, 3);
-  for (int i = 0; i < 3; ++i) EXPECT_NEAR(contact->values.at(static_cast<std::size_t>(i)), f_W[i], 1e-12);
+  for (int i = 0; i < 3; ++i)
+    EXPECT_NEAR(contact->values.at(static_cast<std::size_t>(i)), f_W[i], 1e-12);
   EXPECT_NEAR(depth->values.at(0), 12.5, 1e-12);
   const auto phase = lastOf(messages, "PalpaPhase");
   ASSERT_TRUE(phase);
-  EXPECT_EQ(nlohmann::json::parse(phase->text), (nlohmann::json{{"trial", 0}, {"phase", "indenting"}, {"tissue", name(Tissue::muscle)}}));
+  EXPECT_EQ(
+      nlohmann::json::parse(phase->text),
+      (nlohmann::json{{"trial", 0}, {"phase", "indenting"}, {"tissue", name(Tissue::muscle)}}));
 }
 
 TEST(IgtlTwoTools, EachHasItsNamesAndItsDevice) {
@@ -88,10 +99,14 @@ TEST(IgtlTwoTools, EachHasItsNamesAndItsDevice) {
   bus.second_to_link.publish(toolAt(0), 0);
   for (std::int64_t t = 0; t <= 40; t += 10) link.step(t * runtime::kMillisecond);
   const auto messages = client.all();
-  const auto first = lastOf(messages, "ProbeTipToReference"), tip = lastOf(messages, "Probe2TipToReference"), second = lastOf(messages, "Probe2ToReference"), fixed = lastOf(messages, "Probe2TipToProbe2");
+  const auto first = lastOf(messages, "ProbeTipToReference"),
+             tip = lastOf(messages, "Probe2TipToReference"),
+             second = lastOf(messages, "Probe2ToReference"),
+             fixed = lastOf(messages, "Probe2TipToProbe2");
   ASSERT_TRUE(first && tip && second && fixed) << "20 characters are not cut";
   EXPECT_LT((first->X_mm - toWire(kX_WD * unpack(toolAt(0).X_DT))).cwiseAbs().maxCoeff(), 1e-4);
-  EXPECT_LT((tip->X_mm - toWire(*two.second_X_WD * unpack(toolAt(0).X_DT))).cwiseAbs().maxCoeff(), 1e-4);
+  EXPECT_LT((tip->X_mm - toWire(*two.second_X_WD * unpack(toolAt(0).X_DT))).cwiseAbs().maxCoeff(),
+            1e-4);
   EXPECT_LT((second->X_mm * fixed->X_mm - tip->X_mm).cwiseAbs().maxCoeff(), 1e-3) << "names chain";
   EXPECT_TRUE(lastOf(messages, "Probe2ContactForce"));
   const auto phantom = lastOf(messages, "PhantomToReference");
@@ -112,7 +127,8 @@ TEST_F(IgtlSessionLink, WhatIsNotKnownIsNotTold) {
 }
 
 TEST_F(IgtlSessionLink, CameraIsToldWhileItIsFresh) {
-  const Pose X_CW = makePose(Eigen::AngleAxisd(3, Vec3::UnitX()).toRotationMatrix(), Vec3(0, 0, 0.5));
+  const Pose X_CW =
+      makePose(Eigen::AngleAxisd(3, Vec3::UnitX()).toRotationMatrix(), Vec3(0, 0, 0.5));
   bus_.camera_to_link.publish({-100'000'000, X_CW}, 0);
   auto camera = lastOf(told(), "CameraToReference");
   ASSERT_TRUE(camera);
@@ -124,10 +140,16 @@ TEST_F(IgtlSessionLink, CameraIsToldWhileItIsFresh) {
 
 TEST_F(IgtlSessionLink, EventsAreToldAsTheyWereRecorded) {
   bus_.haptic_to_link.publish(toolAt(0), 0);
-  const auto messages = told({runtime::TrialHeader{3, 1, 1, "scored", true, 1}, runtime::Event{2'000'000, 3, "puncture", "The \"skin\" is punctured", 4.5}});
+  const auto messages =
+      told({runtime::TrialHeader{3, 1, 1, "scored", true, 1},
+            runtime::Event{2'000'000, 3, "puncture", "The \"skin\" is punctured", 4.5}});
   const auto event = lastOf(messages, "PalpaEvent");
   ASSERT_TRUE(event);
-  EXPECT_EQ(nlohmann::json::parse(event->text), (nlohmann::json{{"kind", "puncture"}, {"trial", 3}, {"text", "The \"skin\" is punctured"}, {"value", 4.5}}));
+  EXPECT_EQ(nlohmann::json::parse(event->text),
+            (nlohmann::json{{"kind", "puncture"},
+                            {"trial", 3},
+                            {"text", "The \"skin\" is punctured"},
+                            {"value", 4.5}}));
   EXPECT_NEAR(static_cast<double>(event->utc_ns - kStart_ns - 2'000'000), 0, 20);
   EXPECT_EQ(nlohmann::json::parse(lastOf(messages, "PalpaPhase")->text).at("trial"), 3);
   const auto ended = told({runtime::TrialEnd{3, 5, "success", "", ""}});
@@ -175,12 +197,14 @@ TEST(IgtlThreads, SessionIsServedAndFollowsATrackerAtOnce) {
   Taker taker(bus);
   SessionLink link(setup(), bus);
   // Two sessions in one: it follows the needle that it serves itself.
-  TrackerClient tracker({"127.0.0.1", link.server().port(), "NeedleTipToReference", Pose::Identity(), Pose::Identity(), 0, 0}, executive->clock(), bus.tracker_to_camera);
+  TrackerClient tracker({"127.0.0.1", link.server().port(), "NeedleTipToReference",
+                         Pose::Identity(), Pose::Identity(), 0, 0},
+                        executive->clock(), bus.tracker_to_camera);
   std::vector<Got> heard;
   std::thread slicer([&, port = link.server().port()] {
     LibraryClient client(port);
     client.startTracking(20, "Reference");
-    while (auto got = client.next(1000)) heard.push_back(std::move(*got));   // until the link goes
+    while (auto got = client.next(1000)) heard.push_back(std::move(*got));  // until the link goes
     client.close();
   });
   executive->add(loop, {1, false, false});
@@ -189,12 +213,14 @@ TEST(IgtlThreads, SessionIsServedAndFollowsATrackerAtOnce) {
   executive->add(taker, {3, false, false});
   executive->run();
   EXPECT_GT(taker.taken, 20) << "at 50 Hz for more than a second";
-  EXPECT_NEAR(taker.last.X_CW.translation().y(), (kX_WD * unpack(toolAt(taker.last.t_ns).X_DT)).translation().y(), 2e-4);
+  EXPECT_NEAR(taker.last.X_CW.translation().y(),
+              (kX_WD * unpack(toolAt(taker.last.t_ns).X_DT)).translation().y(), 2e-4);
   EXPECT_GE(link.server().everConnected(), 2u);
   slicer.join();
   std::int64_t last = 0;
   for (const Got& m : heard) {
-    EXPECT_TRUE(m.whole) << m.type << " " << m.device << ", " << &m - heard.data() << " of " << heard.size();
+    EXPECT_TRUE(m.whole) << m.type << " " << m.device << ", " << &m - heard.data() << " of "
+                         << heard.size();
     if (m.device != "NeedleTipToReference") continue;
     EXPECT_GE(m.utc_ns, last) << "in the order of time";
     last = m.utc_ns;

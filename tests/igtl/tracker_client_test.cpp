@@ -10,7 +10,8 @@
 #include "apps/runtime/camera_words.h"
 #include "library_peer.h"
 
-/// Poses from a PLUS server, played by the library's own server on loopback; the session's time is the test's.
+/// Poses from a PLUS server, played by the library's own server on loopback; the session's time is
+/// the test's.
 namespace palpa::igt {
 namespace {
 
@@ -19,8 +20,11 @@ using igt_test::withMetadata;
 using runtime::TrackedPose;
 
 using runtime::kMillisecond;
-const Pose kX_KR = makePose(Eigen::AngleAxisd(2.9, Vec3(1, 0.1, 0.2).normalized()).toRotationMatrix(), Vec3(0.02, -0.03, 0.5));
-const Pose kX_CK = makePose(Eigen::AngleAxisd(0.3, Vec3::UnitY()).toRotationMatrix(), Vec3(0.01, 0.05, -0.02));
+const Pose kX_KR =
+    makePose(Eigen::AngleAxisd(2.9, Vec3(1, 0.1, 0.2).normalized()).toRotationMatrix(),
+             Vec3(0.02, -0.03, 0.5));
+const Pose kX_CK =
+    makePose(Eigen::AngleAxisd(0.3, Vec3::UnitY()).toRotationMatrix(), Vec3(0.01, 0.05, -0.02));
 const Pose kX_RW = makePose(Mat3::Identity(), Vec3(-0.1, 0, 0));
 
 struct HandClock final : runtime::Clock {
@@ -30,12 +34,18 @@ struct HandClock final : runtime::Clock {
 
 class IgtlTracker : public ::testing::Test {
  protected:
-  static TrackerSettings settings(int port) { return {"localhost", static_cast<std::uint16_t>(port), "ReferenceToCamera", kX_CK, kX_RW, 0, 0.015}; }
-  void make(const TrackerSettings& settings) { client_ = std::make_unique<TrackerClient>(settings, clock_, poses_); }
+  static TrackerSettings settings(int port) {
+    return {"localhost", static_cast<std::uint16_t>(port), "ReferenceToCamera", kX_CK, kX_RW, 0,
+            0.015};
+  }
+  void make(const TrackerSettings& settings) {
+    client_ = std::make_unique<TrackerClient>(settings, clock_, poses_);
+  }
   /// Steps, a step every `ms` of session time, until `done` or for that many steps.
   template <class F>
   bool stepUntil(F done, int steps = 200, int ms = 5) {
-    for (int i = 0; i < steps && !done(); ++i, clock_.t_ns += ms * kMillisecond) client_->step(clock_.t_ns);
+    for (int i = 0; i < steps && !done(); ++i, clock_.t_ns += ms * kMillisecond)
+      client_->step(clock_.t_ns);
     return done();
   }
   void together() {
@@ -47,7 +57,9 @@ class IgtlTracker : public ::testing::Test {
   bool hears(std::uint64_t poses) {
     return stepUntil([&] { return client_->counts().poses >= poses; });
   }
-  static Bytes transform(const Pose& X = kX_KR) { return transformMessage("ReferenceToCamera", toWire(X), 5); }
+  static Bytes transform(const Pose& X = kX_KR) {
+    return transformMessage("ReferenceToCamera", toWire(X), 5);
+  }
 
   HandClock clock_;
   runtime::EventQueue<TrackedPose> poses_{16};
@@ -69,7 +81,8 @@ TEST_F(IgtlTracker, TransformBecomesTheCamerasPose) {
 TEST_F(IgtlTracker, PoseComesOutOfTrackingDataAsWellAndOtherNamesAreLeft) {
   together();
   server_.send(transformMessage("StylusToReference", toWire(kX_CK), 5));
-  server_.send(trackingMessage("PLUS", {{"StylusToReference", toWire(kX_CK)}, {"ReferenceToCamera", toWire(kX_KR)}}, 5));
+  server_.send(trackingMessage(
+      "PLUS", {{"StylusToReference", toWire(kX_CK)}, {"ReferenceToCamera", toWire(kX_KR)}}, 5));
   ASSERT_TRUE(hears(1));
   TrackedPose pose;
   ASSERT_TRUE(poses_.pop(&pose));
@@ -86,16 +99,20 @@ TEST_F(IgtlTracker, TrackingDataAreAskedForWhereTheStationSaysSo) {
   ASSERT_TRUE(stepUntil([&] { return client_->counts().connections == 1; }));
   server_.peer().SetReceiveTimeout(2000);
   Bytes request(kHeaderSize + 36);
-  ASSERT_EQ(server_.peer().Receive(request.data(), static_cast<int>(request.size())), static_cast<int>(request.size()));
+  ASSERT_EQ(server_.peer().Receive(request.data(), static_cast<int>(request.size())),
+            static_cast<int>(request.size()));
   EXPECT_EQ(readHeader(View(request).first<kHeaderSize>())->type, "STT_TDATA");
   EXPECT_EQ(readTrackingRequest(View(request).subspan(kHeaderSize))->resolution_ms, 25);
 }
 
 TEST_F(IgtlTracker, WhatPlusCallsNotOkIsNotUsed) {
   together();
-  for (const char* status : {"OUT_OF_VIEW", "MISSING", "OUT_OF_VOLUME", "UNKNOWN", ""}) server_.send(withMetadata(transform(), {{"TransformStatus", status}}));
+  for (const char* status : {"OUT_OF_VIEW", "MISSING", "OUT_OF_VOLUME", "UNKNOWN", ""})
+    server_.send(withMetadata(transform(), {{"TransformStatus", status}}));
   server_.send(withMetadata(transform(), {{"TransformValid", "false"}, {"TransformStatus", "OK"}}));
-  server_.send(withMetadata(trackingMessage("TDATA_1Elem", {{"ReferenceToCamera", toWire(kX_KR)}}, 5), {{"ReferenceToCameraStatus", "OUT_OF_VIEW"}}));
+  server_.send(
+      withMetadata(trackingMessage("TDATA_1Elem", {{"ReferenceToCamera", toWire(kX_KR)}}, 5),
+                   {{"ReferenceToCameraStatus", "OUT_OF_VIEW"}}));
   server_.send(withMetadata(transform(), {{"TransformStatus", "OK"}, {"TransformValid", "true"}}));
   ASSERT_TRUE(hears(1));
   EXPECT_EQ(client_->counts().unusable, 7u);
@@ -107,9 +124,12 @@ TEST_F(IgtlTracker, LongNameIsFoundInTheMetadataOrByItsBeginning) {
   make(longer);
   client_->step(clock_.t_ns);
   ASSERT_TRUE(server_.accept(2000));
-  server_.send(transformMessage("OperatingTableToHead", toWire(kX_KR), 5));   // cut: a device's name holds 20
-  server_.send(withMetadata(transformMessage("OperatingTableToHead", toWire(kX_KR), 5), {{"IGTL_DEVICE_NAME", "OperatingTableToHeadCamera"}}));
-  server_.send(withMetadata(transformMessage("OperatingTableToHead", toWire(kX_KR), 5), {{"IGTL_DEVICE_NAME", "OperatingTableToHeadband"}}));
+  server_.send(
+      transformMessage("OperatingTableToHead", toWire(kX_KR), 5));  // cut: a device's name holds 20
+  server_.send(withMetadata(transformMessage("OperatingTableToHead", toWire(kX_KR), 5),
+                            {{"IGTL_DEVICE_NAME", "OperatingTableToHeadCamera"}}));
+  server_.send(withMetadata(transformMessage("OperatingTableToHead", toWire(kX_KR), 5),
+                            {{"IGTL_DEVICE_NAME", "OperatingTableToHeadband"}}));
   server_.send(transformMessage("OperatingTableToHead", toWire(kX_KR), 5));
   ASSERT_TRUE(hears(3));
   stepUntil([] { return false; }, 5);
@@ -148,7 +168,8 @@ TEST_F(IgtlTracker, RandomBytesEndTheConnectionAndAnotherIsMade) {
 }
 
 TEST_F(IgtlTracker, LossInTheMiddleOfAMessageAndAServerThatComesBack) {
-  auto first = std::make_unique<TcpListener>("127.0.0.1", 0);   // the library's server waits a minute before it takes a port again
+  auto first = std::make_unique<TcpListener>(
+      "127.0.0.1", 0);  // the library's server waits a minute before it takes a port again
   const std::uint16_t port = first->port();
   make(settings(port));
   TcpSocket peer;
@@ -159,9 +180,11 @@ TEST_F(IgtlTracker, LossInTheMiddleOfAMessageAndAServerThatComesBack) {
   stepUntil([] { return false; }, 3);
   peer.close();
   first.reset();
-  ASSERT_FALSE(stepUntil([&] { return client_->counts().poses > 0; }, 200, 50)) << "ten seconds without a server";
+  ASSERT_FALSE(stepUntil([&] { return client_->counts().poses > 0; }, 200, 50))
+      << "ten seconds without a server";
   TcpListener again("127.0.0.1", port);
-  ASSERT_TRUE(stepUntil([&] { return peer.open() || (peer = again.accept()).open(); }, 100, 50)) << "within the longest pause";
+  ASSERT_TRUE(stepUntil([&] { return peer.open() || (peer = again.accept()).open(); }, 100, 50))
+      << "within the longest pause";
   peer.send(transform());
   EXPECT_TRUE(hears(1));
   EXPECT_EQ(client_->counts().damaged, 0u) << "the half of before is forgotten";
@@ -175,7 +198,7 @@ TEST_F(IgtlTracker, TriesComeSlowerWhileNobodyIsThere) {
   std::int64_t last = 0;
   for (std::int64_t end = clock_.t_ns + 30 * runtime::kSecond; clock_.t_ns < end;) {
     const std::int64_t next = client_->step(clock_.t_ns);
-    if (next == clock_.t_ns && clock_.t_ns - last > 100 * kMillisecond) {   // not waiting: it tries
+    if (next == clock_.t_ns && clock_.t_ns - last > 100 * kMillisecond) {  // not waiting: it tries
       ++tries;
       last = clock_.t_ns;
     }
@@ -189,14 +212,15 @@ TEST_F(IgtlTracker, SilenceEndsTheConnection) {
   together();
   server_.send(transform());
   ASSERT_TRUE(hears(1));
-  stepUntil([] { return false; }, 70, 100);   // 7 s
+  stepUntil([] { return false; }, 70, 100);  // 7 s
   EXPECT_TRUE(server_.accept(2000)) << "a cable that was pulled says nothing: try anew";
 }
 
 TEST_F(IgtlTracker, MarkersOutOfSightForLongAreFoundAgainAtOnce) {
   together();
-  for (int again = 1; again <= 6; ++again) {   // a sender that says nothing of what it does not see
-    stepUntil([&] { return client_->counts().connections > static_cast<std::uint64_t>(again); }, 80, 100);
+  for (int again = 1; again <= 6; ++again) {  // a sender that says nothing of what it does not see
+    stepUntil([&] { return client_->counts().connections > static_cast<std::uint64_t>(again); }, 80,
+              100);
     ASSERT_TRUE(server_.accept(0)) << "try " << again << " came within 8 s of session time";
   }
   server_.send(transform());
@@ -209,7 +233,7 @@ TEST_F(IgtlTracker, PromisedBodiesThatNeverComeEndInAnotherTry) {
   stepUntil([&] { return client_->counts().connections == 2; });
   ASSERT_TRUE(server_.accept(2000)) << "no such size: at once";
   server_.send(igt_test::headerOf("IMAGE", 1ull << 30));
-  server_.send(transform());   // a part of that picture
+  server_.send(transform());  // a part of that picture
   ASSERT_FALSE(hears(1));
   stepUntil([&] { return client_->counts().connections == 3; }, 80, 100);
   ASSERT_TRUE(server_.accept(2000)) << "no message in 5 s";
@@ -240,7 +264,8 @@ TEST_F(IgtlTracker, QueueThatNobodyEmptiesStopsNothing) {
 TEST(IgtlTrackerSettings, UnknownHostAndMissingNameAreRefused) {
   HandClock clock;
   runtime::EventQueue<TrackedPose> poses{4};
-  EXPECT_THROW(TrackerClient({"no.such.host.invalid", 1, "AToB", {}, {}, 0, 0}, clock, poses), UsageError);
+  EXPECT_THROW(TrackerClient({"no.such.host.invalid", 1, "AToB", {}, {}, 0, 0}, clock, poses),
+               UsageError);
   EXPECT_THROW(TrackerClient({"127.0.0.1", 1, "", {}, {}, 0, 0}, clock, poses), UsageError);
 }
 
@@ -251,14 +276,18 @@ TEST(IgtlTrackedCamera, PoseIsTakenAtTheExposureAndGoesStale) {
   const calibration::CameraModel camera{64, 64, 60, 60, 31.5, 31.5, {}, 0};
   runtime::CameraActivity::Settings settings{10 * kMillisecond, 0, runtime::TimeMode::real};
   settings.tracked = runtime::CameraActivity::Tracking{0.3e-3, 2e-3, 0.1};
-  runtime::CameraActivity activity(bus, [](std::int64_t now, std::uint64_t number) -> runtime::CameraActivity::Exposure {
-    return [=]() -> std::optional<ar::Frame> {
-      ar::Frame frame;
-      frame.t_exposure_ns = now;
-      frame.image = cv::Mat(64, 64, CV_8UC1, cv::Scalar(100 + static_cast<double>(number % 100)));
-      return frame;
-    };
-  }, *board, camera, settings);
+  runtime::CameraActivity activity(
+      bus,
+      [](std::int64_t now, std::uint64_t number) -> runtime::CameraActivity::Exposure {
+        return [=]() -> std::optional<ar::Frame> {
+          ar::Frame frame;
+          frame.t_exposure_ns = now;
+          frame.image =
+              cv::Mat(64, 64, CV_8UC1, cv::Scalar(100 + static_cast<double>(number % 100)));
+          return frame;
+        };
+      },
+      *board, camera, settings);
   activity.step(0);
   const runtime::CameraView* view = bus.camera_to_task.read(0);
   ASSERT_TRUE(view);
@@ -282,7 +311,9 @@ TEST(IgtlTrackedCamera, PoseIsTakenAtTheExposureAndGoesStale) {
   view = bus.camera_to_task.read(t);
   EXPECT_FALSE(view->X_CW) << "then stale";
   EXPECT_EQ(view->tracking, ar::TrackState::lost);
-  EXPECT_NE(runtime::cameraTrouble(view, last + 110 * kMillisecond).find("tracking system has lost"), std::string::npos);
+  EXPECT_NE(
+      runtime::cameraTrouble(view, last + 110 * kMillisecond).find("tracking system has lost"),
+      std::string::npos);
 }
 
 }  // namespace

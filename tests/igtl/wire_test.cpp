@@ -8,14 +8,16 @@
 #include "apps/link/igtl/message_stream.h"
 #include "library_peer.h"
 
-/// Messages as bytes, poses in the conventions of 3D Slicer and PLUS, and what of a stream is believed.
+/// Messages as bytes, poses in the conventions of 3D Slicer and PLUS, and what of a stream is
+/// believed.
 namespace palpa::igt {
 namespace {
 
 using igt_test::headerOf;
 using igt_test::withMetadata;
 
-const Pose kPose = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(), Vec3(0.012, -0.345, 0.678));
+const Pose kPose = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
+                            Vec3(0.012, -0.345, 0.678));
 
 std::vector<Message> messagesIn(MessageStream& stream, const Bytes& bytes, std::size_t piece) {
   std::vector<Message> messages;
@@ -77,7 +79,8 @@ TEST(IgtlWire, HeaderAndTransformComeBack) {
   EXPECT_EQ(read->version, 1);
   EXPECT_EQ(read->type, "TRANSFORM");
   EXPECT_EQ(read->device, "NeedleTipToReference") << "twenty characters fill the field";
-  EXPECT_NEAR(static_cast<double>(read->utc_ns - utc_ns), 0, 10) << "ns: as good as the library turns them into fractions and back";
+  EXPECT_NEAR(static_cast<double>(read->utc_ns - utc_ns), 0, 10)
+      << "ns: as good as the library turns them into fractions and back";
   EXPECT_TRUE(crcFits(*read, View(bytes).subspan(kHeaderSize)));
   const auto X_mm = readTransform(View(bytes).subspan(kHeaderSize));
   ASSERT_TRUE(X_mm);
@@ -94,7 +97,9 @@ TEST(IgtlWire, TrackingRequestComesBack) {
 }
 
 TEST(IgtlStream, MessagesComeWholeHoweverTheBytesCome) {
-  const Bytes bytes = transformMessage("AToB", toWire(kPose), 1) + stopTrackingMessage("Q", 2) + trackingMessage("T", {{"AToB", toWire(kPose)}, {"CToB", Mat4::Identity()}}, 3);
+  const Bytes bytes =
+      transformMessage("AToB", toWire(kPose), 1) + stopTrackingMessage("Q", 2) +
+      trackingMessage("T", {{"AToB", toWire(kPose)}, {"CToB", Mat4::Identity()}}, 3);
   for (const std::size_t piece : {1u, 7u, 58u, 10000u}) {
     MessageStream stream;
     const auto messages = messagesIn(stream, bytes, piece);
@@ -108,7 +113,11 @@ TEST(IgtlStream, MessagesComeWholeHoweverTheBytesCome) {
 
 TEST(IgtlStream, MetadataOfVersion2AreRead) {
   MessageStream stream;
-  const auto messages = messagesIn(stream, withMetadata(transformMessage("AToB", toWire(kPose), 1), {{"TransformStatus", "OUT_OF_VIEW"}, {"Empty", ""}}), 5);
+  const auto messages =
+      messagesIn(stream,
+                 withMetadata(transformMessage("AToB", toWire(kPose), 1),
+                              {{"TransformStatus", "OUT_OF_VIEW"}, {"Empty", ""}}),
+                 5);
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_EQ(messages[0].metadata.at("TransformStatus"), "OUT_OF_VIEW");
   EXPECT_EQ(messages[0].metadata.at("Empty"), "");
@@ -116,13 +125,15 @@ TEST(IgtlStream, MetadataOfVersion2AreRead) {
 }
 
 TEST(IgtlStream, SizesInsideABodyAreNotBelieved) {
-  const Bytes good = withMetadata(transformMessage("AToB", toWire(kPose), 1), {{"TransformStatus", "OK"}});
+  const Bytes good =
+      withMetadata(transformMessage("AToB", toWire(kPose), 1), {{"TransformStatus", "OK"}});
   for (std::size_t at = kHeaderSize; at < kHeaderSize + 12; ++at) {
     const Header read = *readHeader(View(good).first<kHeaderSize>());
     Bytes body(good.begin() + kHeaderSize, good.end());
     body[at - kHeaderSize] = 0xff;
     const auto content = contentOf(read, body);
-    EXPECT_EQ(content.has_value(), at >= kHeaderSize + 8) << "byte " << at << ": sizes reach beyond the body; the message's number does not matter";
+    EXPECT_EQ(content.has_value(), at >= kHeaderSize + 8)
+        << "byte " << at << ": sizes reach beyond the body; the message's number does not matter";
   }
   Bytes short_body(5, 0);
   EXPECT_FALSE(contentOf(*readHeader(View(good).first<kHeaderSize>()), short_body));
@@ -132,7 +143,8 @@ TEST(IgtlStream, WrongChecksumIsDroppedAndTheNextIsRead) {
   Bytes damaged = transformMessage("AToB", toWire(kPose), 1);
   damaged[kHeaderSize + 3] ^= 1;
   MessageStream stream;
-  const auto messages = messagesIn(stream, damaged + transformMessage("CToB", toWire(kPose), 1), 100);
+  const auto messages =
+      messagesIn(stream, damaged + transformMessage("CToB", toWire(kPose), 1), 100);
   ASSERT_EQ(messages.size(), 1u);
   EXPECT_EQ(messages[0].header.device, "CToB");
   EXPECT_EQ(stream.counts().damaged, 1u);
@@ -141,7 +153,9 @@ TEST(IgtlStream, WrongChecksumIsDroppedAndTheNextIsRead) {
 
 TEST(IgtlStream, UnknownTypesAndPicturesArePassedOverBySize) {
   const std::uint64_t picture = 3 * MessageStream::kLargestBody;
-  const Bytes bytes = headerOf("COLORT", 20) + Bytes(20, 0xab) + headerOf("IMAGE", picture) + Bytes(picture, 0xcd) + headerOf("TRANSFORM", picture) + Bytes(picture, 0xef) + transformMessage("AToB", toWire(kPose), 1);
+  const Bytes bytes = headerOf("COLORT", 20) + Bytes(20, 0xab) + headerOf("IMAGE", picture) +
+                      Bytes(picture, 0xcd) + headerOf("TRANSFORM", picture) + Bytes(picture, 0xef) +
+                      transformMessage("AToB", toWire(kPose), 1);
   MessageStream stream;
   const auto messages = messagesIn(stream, bytes, 1000);
   ASSERT_EQ(messages.size(), 1u);
@@ -182,7 +196,8 @@ TEST(IgtlStream, GibibyteIsPassedOverWithoutBeingKept) {
 TEST(IgtlWire, TextTooLongForItsFieldIsCutBetweenCharacters) {
   const Bytes bytes = stringMessage("Text", std::string(65534, 'x') + "\xc3\xa4\xc3\xa4", 1);
   EXPECT_EQ(bytes.size(), kHeaderSize + 4 + 65534);
-  EXPECT_TRUE(crcFits(*readHeader(View(bytes).first<kHeaderSize>()), View(bytes).subspan(kHeaderSize)));
+  EXPECT_TRUE(
+      crcFits(*readHeader(View(bytes).first<kHeaderSize>()), View(bytes).subspan(kHeaderSize)));
   EXPECT_EQ(stringMessage("Text", "\xc3\xa4", 1).size(), kHeaderSize + 4 + 2);
 }
 
@@ -191,7 +206,8 @@ TEST(IgtlStream, HugeBodyOrNoHeaderEndsIt) {
   messagesIn(huge, headerOf("TRANSFORM", ~0ull), 100);
   EXPECT_TRUE(huge.broken());
   MessageStream http;
-  const std::string request = "GET / HTTP/1.1\r\nHost: localhost:18944\r\nUser-Agent: somebody\r\nAccept: */*\r\n\r\n";
+  const std::string request =
+      "GET / HTTP/1.1\r\nHost: localhost:18944\r\nUser-Agent: somebody\r\nAccept: */*\r\n\r\n";
   messagesIn(http, Bytes(request.begin(), request.end()), 100);
   EXPECT_TRUE(http.broken());
   EXPECT_FALSE(http.next());
@@ -199,12 +215,15 @@ TEST(IgtlStream, HugeBodyOrNoHeaderEndsIt) {
 
 TEST(IgtlStream, RandomBytesNeverBecomeMessages) {
   std::uint64_t state = 88172645463325252ull;
-  const auto chance = [&] { return state ^= state << 13, state ^= state >> 7, state ^= state << 17; };
+  const auto chance = [&] {
+    return state ^= state << 13, state ^= state >> 7, state ^= state << 17;
+  };
   for (int run = 0; run < 200; ++run) {
     Bytes bytes = run % 2 ? Bytes() : transformMessage("AToB", toWire(kPose), 1);
     const std::size_t from = run % 2 ? 0 : chance() % bytes.size();
     bytes.resize(400);
-    for (std::size_t i = from; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(chance());
+    for (std::size_t i = from; i < bytes.size(); ++i)
+      bytes[i] = static_cast<std::uint8_t>(chance());
     MessageStream stream;
     EXPECT_EQ(messagesIn(stream, bytes, 1 + chance() % 90).size(), 0u) << run;
   }

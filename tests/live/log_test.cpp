@@ -26,7 +26,7 @@ haptics::FlightRecord tickAt(std::int64_t t_ns, double force_N, std::uint32_t tr
 TEST(Curve, OneTickOf20MsStays_TheOneWithTheGreatestForce) {
   Curve curve;
   for (int ms = 0; ms < 1000; ++ms) curve.add(tickAt(ms * 1'000'000ll, ms % 20 == 7 ? 3 : 1));
-  ASSERT_EQ(curve.points().size(), 49u);   // the last 20 ms are not over yet
+  ASSERT_EQ(curve.points().size(), 49u);  // the last 20 ms are not over yet
   for (std::size_t i = 0; i < curve.points().size(); ++i) {
     EXPECT_NEAR(curve.points()[i].t_s, 0.02 * static_cast<double>(i) + 0.007, 1e-9);
     EXPECT_NEAR(curve.points()[i].force_N, 3, 1e-6);
@@ -41,7 +41,12 @@ TEST(Curve, OneTickOf20MsStays_TheOneWithTheGreatestForce) {
 
 TEST(Curve, WhatIsNoNumberIsToldAsNone) {
   Curve curve;
-  for (const double force : {std::nan(""), std::numeric_limits<double>::infinity(), 2.0}) curve.add(tickAt(static_cast<std::int64_t>(curve.points().size()) * 20'000'000 + (std::isnan(force) ? 0 : std::isinf(force) ? 20'000'000 : 40'000'000), force));
+  for (const double force : {std::nan(""), std::numeric_limits<double>::infinity(), 2.0})
+    curve.add(tickAt(static_cast<std::int64_t>(curve.points().size()) * 20'000'000 +
+                         (std::isnan(force)   ? 0
+                          : std::isinf(force) ? 20'000'000
+                                              : 40'000'000),
+                     force));
   const json entry = json::parse(curve.take());
   for (const json& value : entry["force_N"]) EXPECT_TRUE(value.is_number());
 }
@@ -91,7 +96,12 @@ struct Session {
   Evidence evidence;
   LiveLog log;
   std::string near;
-  LiveSink sink{evidence, log, [this](const haptics::FlightRecord&) { return near; }, [](const runtime::Event& event) { return std::string(event.kind == "puncture" ? "good" : event.kind == "note" ? "note" : "neutral"); }};
+  LiveSink sink{evidence, log, [this](const haptics::FlightRecord&) { return near; },
+                [](const runtime::Event& event) {
+                  return std::string(event.kind == "puncture" ? "good"
+                                     : event.kind == "note"   ? "note"
+                                                              : "neutral");
+                }};
   std::vector<json> told() const {
     std::vector<json> all;
     for (const std::string& entry : log.since(0, 1'000'000)) all.push_back(json::parse(entry));
@@ -142,7 +152,9 @@ TEST(LiveSink, ANearMissIsToldWhenItsWordsChange) {
     s.sink.tick(tickAt(0, 0));
     s.sink.commit();
   };
-  for (const char* near : {"", "2 mm from the pleura", "2 mm from the pleura", "1 mm from the pleura", "", "1 mm from the pleura"}) commit(near);
+  for (const char* near : {"", "2 mm from the pleura", "2 mm from the pleura",
+                           "1 mm from the pleura", "", "1 mm from the pleura"})
+    commit(near);
   EXPECT_EQ(s.log.size(), 3u);
 }
 
@@ -158,7 +170,7 @@ TEST(LiveSink, WhatTheEvidenceRefusesIsNotTold) {
 TEST(LiveSink, WordsThatAreNoUtf8AreToldReadably) {
   Session s;
   s.sink.event({0, 1, "note", "\xff\xfe\x80 caf\xe9\n\t\"", 0});
-  EXPECT_EQ(s.told().size(), 1u);   // it parses
+  EXPECT_EQ(s.told().size(), 1u);  // it parses
 }
 
 }  // namespace

@@ -29,7 +29,9 @@ inline bool eventually(const std::function<bool()>& seen) {
 class Peer {
  public:
   explicit Peer(const std::string& path) {
-    eventually([&] { return (socket_ = connectTo(path)) >= 0 || errno != EAGAIN; });   // EAGAIN: the kernel's queue of callers is full
+    eventually([&] {
+      return (socket_ = connectTo(path)) >= 0 || errno != EAGAIN;
+    });  // EAGAIN: the kernel's queue of callers is full
   }
   ~Peer() { leave(); }
   Peer(const Peer&) = delete;
@@ -41,7 +43,9 @@ class Peer {
     socket_ = -1;
   }
   /// What the socket takes now, at most all of it; -1: it is broken.
-  ssize_t send(const std::string& bytes) { return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT); }
+  ssize_t send(const std::string& bytes) {
+    return ::send(socket_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  }
   /// All of it; false: the other end has gone.
   bool sendAll(const std::string& bytes) {
     for (std::size_t sent = 0; sent < bytes.size();) {
@@ -72,7 +76,8 @@ class Peer {
     return eventually([this] { return !read(); });
   }
   bool getsEntries(std::size_t count) {
-    return eventually([&] { return entries.size() >= count || !read(); }) && entries.size() >= count;
+    return eventually([&] { return entries.size() >= count || !read(); }) &&
+           entries.size() >= count;
   }
 
   std::string known;

@@ -43,15 +43,20 @@ long residentKiB() {
 }
 
 scene::Image pictureOf(int width, int height) {
-  scene::Image image{width, height, 3, std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height))};
+  scene::Image image{width, height, 3,
+                     std::vector<std::uint8_t>(3 * static_cast<std::size_t>(width) *
+                                               static_cast<std::size_t>(height))};
   test::DamageDice dice(5);
-  for (auto& value : image.pixels) value = static_cast<std::uint8_t>(dice.below(256));   // noise: what packs worst
+  for (auto& value : image.pixels)
+    value = static_cast<std::uint8_t>(dice.below(256));  // noise: what packs worst
   return image;
 }
 
 /// A log with its port, and what was asked of it.
 struct Told {
-  explicit Told(std::chrono::milliseconds patience = 10s) : port(path, log, [this](const std::string& command) { hear(command); }, patience) {}
+  explicit Told(std::chrono::milliseconds patience = 10s)
+      : port(
+            path, log, [this](const std::string& command) { hear(command); }, patience) {}
   void hear(const std::string& command) {
     if (slow) runtime::rest(2ms);
     const std::lock_guard lock(mutex);
@@ -109,8 +114,13 @@ TEST(Port, APeerThatNeverReadsIsLeft) {
   const int entries = test::counted(20'000, 100'000);
   fill(told.log, entries, 200);
   ASSERT_TRUE(reader.getsEntries(static_cast<std::size_t>(entries)));
-  ASSERT_TRUE(eventually([&] { return stuck.send(encoded(FrameKind::watch, "1")) < 0 && errno == EPIPE; })) << "it was not left";
-  EXPECT_LT(residentKiB() - before, 300L * entries / 1024 * 6 + (64 << 10));   // log, reader's copy, this test's; not another for the stuck one's queue
+  ASSERT_TRUE(eventually([&] {
+    return stuck.send(encoded(FrameKind::watch, "1")) < 0 && errno == EPIPE;
+  })) << "it was not left";
+  EXPECT_LT(
+      residentKiB() - before,
+      300L * entries / 1024 * 6 +
+          (64 << 10));  // log, reader's copy, this test's; not another for the stuck one's queue
   fill(told.log, 10);
   EXPECT_TRUE(reader.getsEntries(static_cast<std::size_t>(entries) + 10));
 }
@@ -140,9 +150,12 @@ TEST(Port, PicturesOnlyToWhoWatchesAndNeverAQueueOfThem) {
     watcher.pictures.clear();
     ASSERT_TRUE(eventually([&] { return !watcher.pictures.empty() || !watcher.read(); }));
   }
-  const cv::Mat shown = cv::imdecode(std::vector<std::uint8_t>(watcher.pictures[0].begin(), watcher.pictures[0].end()), cv::IMREAD_COLOR);
+  const cv::Mat shown = cv::imdecode(
+      std::vector<std::uint8_t>(watcher.pictures[0].begin(), watcher.pictures[0].end()),
+      cv::IMREAD_COLOR);
   EXPECT_EQ(shown.cols, 1280);
-  EXPECT_LT(residentKiB() - before, 128 << 10);   // one such picture is 1 MB packed: the stuck one's did not pile up
+  EXPECT_LT(residentKiB() - before,
+            128 << 10);  // one such picture is 1 MB packed: the stuck one's did not pile up
   fill(told.log, 1);
   ASSERT_TRUE(other.getsEntries(1));
   EXPECT_TRUE(other.pictures.empty());
@@ -155,7 +168,10 @@ TEST(Port, APictureThatIsNoneChangesNothing) {
   Told told;
   Peer watcher(told.path);
   ASSERT_TRUE(watcher.sendAll(encoded(FrameKind::watch, "1")));
-  for (scene::Image bad : {scene::Image{}, scene::Image{100, 100, 3, {1, 2, 3}}, scene::Image{-1, 100, 3, {1}}, scene::Image{1, 1, 4, {1, 2, 3, 4}}, scene::Image{1 << 20, 1 << 20, 3, {1}}}) told.port.offer(std::move(bad));
+  for (scene::Image bad :
+       {scene::Image{}, scene::Image{100, 100, 3, {1, 2, 3}}, scene::Image{-1, 100, 3, {1}},
+        scene::Image{1, 1, 4, {1, 2, 3, 4}}, scene::Image{1 << 20, 1 << 20, 3, {1}}})
+    told.port.offer(std::move(bad));
   fill(told.log, 1);
   EXPECT_TRUE(watcher.getsEntries(1));
   EXPECT_TRUE(watcher.pictures.empty());
@@ -170,7 +186,7 @@ TEST(Port, WhoTalksNonsenseIsLeftAndNobodyElse) {
     std::string bytes(1 + dice.below(200), '\0');
     for (char& c : bytes) c = static_cast<char>(dice.below(256));
     if (i % 3 == 0) bytes = "GET / HTTP/1.1\r\nHost: localhost\r\n\r\n";
-    if (i % 3 == 1) bytes = std::string("C\xff\xff\xff\x7f", 5) + bytes;   // 2 GiB promised
+    if (i % 3 == 1) bytes = std::string("C\xff\xff\xff\x7f", 5) + bytes;  // 2 GiB promised
     if (i % 3 == 2) bytes[0] = 'X';
     bytes.resize(std::max<std::size_t>(bytes.size(), 5), 'X');
     bad.send(bytes);
@@ -186,9 +202,14 @@ TEST(Port, EightAreHeardAndTheTwelveOthersAreLeft) {
   std::vector<std::unique_ptr<Peer>> crowd;
   for (int i = 0; i < 20; ++i) {
     crowd.push_back(std::make_unique<Peer>(told.path));
-    eventually([&] { return !crowd.back()->connected() || !crowd.back()->known.empty() || !crowd.back()->read(); });   // one after the other: the kernel's own queue is short
+    eventually([&] {
+      return !crowd.back()->connected() || !crowd.back()->known.empty() || !crowd.back()->read();
+    });  // one after the other: the kernel's own queue is short
   }
-  const auto served = [&] { return std::count_if(crowd.begin(), crowd.end(), [](const auto& peer) { return !peer->known.empty(); }); };
+  const auto served = [&] {
+    return std::count_if(crowd.begin(), crowd.end(),
+                         [](const auto& peer) { return !peer->known.empty(); });
+  };
   EXPECT_EQ(served(), 8);
   for (auto& peer : crowd) EXPECT_TRUE(peer->known.empty() || peer->getsEntries(3));
   crowd.clear();
@@ -206,14 +227,16 @@ TEST(Port, WhoLeavesInTheMiddleOfAFrameAsksForNothing) {
     ASSERT_TRUE(peer.sendAll(command.substr(0, cut)));
   }
   Peer whole(told.path);
-  ASSERT_TRUE(eventually([&] { return !whole.known.empty() || !whole.read() || !whole.connected(); }));
+  ASSERT_TRUE(
+      eventually([&] { return !whole.known.empty() || !whole.read() || !whole.connected(); }));
   if (whole.known.empty()) GTEST_FAIL() << "nobody is served any more";
   ASSERT_TRUE(whole.sendAll(command));
   ASSERT_TRUE(eventually([&] { return told.heardCount() >= 1; }));
   EXPECT_EQ(told.heardCount(), 1u);
 }
 
-/// Whoever sends without end, and faster than it is heard, holds up neither the others nor the session's end.
+/// Whoever sends without end, and faster than it is heard, holds up neither the others nor the
+/// session's end.
 TEST(Port, AFloodHoldsNobodyUp) {
   auto told = std::make_unique<Told>();
   told->slow = true;
@@ -229,7 +252,7 @@ TEST(Port, AFloodHoldsNobodyUp) {
   Peer other(told->path);
   fill(told->log, 100);
   EXPECT_TRUE(other.getsEntries(100));
-  told.reset();   // returns although it still comes
+  told.reset();  // returns although it still comes
   ending.store(true);
   flood.join();
 }
@@ -246,13 +269,14 @@ TEST(LiveSession, WhatIsNoRequestIsToldAThousandTimesAndNoMore) {
   trial::UserRequest request;
   ASSERT_TRUE(eventually([&] { return channels.console_to_task.pop(&request); }));
   EXPECT_EQ(request.command, trial::UserCommand::emergency_stop);
-  EXPECT_EQ(session.log().size(), 1001u);   // and hello
+  EXPECT_EQ(session.log().size(), 1001u);  // and hello
   ASSERT_TRUE(peer.getsEntries(1001));
   EXPECT_EQ(json::parse(peer.entries[0])["kind"], "hello");
   EXPECT_EQ(json::parse(peer.entries[1])["kind"], "refused");
 }
 
-/// 64 wait at most; the session does not take them, as while it is being made: the rest is lost, nothing waits, nothing breaks.
+/// 64 wait at most; the session does not take them, as while it is being made: the rest is lost,
+/// nothing waits, nothing breaks.
 TEST(LiveSession, MoreRequestsThanTheTaskTakesHurtNothing) {
   trial::Channels channels;
   const std::string path = newSocket();
@@ -273,7 +297,7 @@ TEST(LiveSession, WordsAreToldWhenTheyChangeAtMostFiveTimesASecond) {
   scene::Hud hud;
   for (int frame = 0; frame < 600; ++frame) {
     hud.force = std::to_string(frame);
-    session.show(hud, status, frame * 16'666'667ll);   // 10 s at 60 Hz, new words in every frame
+    session.show(hud, status, frame * 16'666'667ll);  // 10 s at 60 Hz, new words in every frame
   }
   EXPECT_LE(session.log().size(), 1u + 51);
   EXPECT_GT(session.log().size(), 1u + 40);

@@ -82,7 +82,9 @@ TEST(LocalSocket, WhatADeadSessionLeftIsTakenOver_ALivingOnesIsNot) {
 
 TEST(LocalSocket, APathThatNoSocketCanHaveIsAnErrorToListenAndNobodyToCall) {
   const ShortFolder here;
-  const std::string longest = here.path().string() + "/" + std::string(sizeof(sockaddr_un{}.sun_path) - here.path().string().size() - 2, 'x');
+  const std::string longest =
+      here.path().string() + "/" +
+      std::string(sizeof(sockaddr_un{}.sun_path) - here.path().string().size() - 2, 'x');
   ::close(listenAt(longest));
   EXPECT_THROW(listenAt(longest + "x"), Error);
   EXPECT_EQ(connectTo(longest + "x"), -1);

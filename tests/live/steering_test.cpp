@@ -26,10 +26,14 @@ std::string refusalOf(const std::string& text) {
 }
 
 TEST(Steering, EveryKindIsItself) {
-  const std::pair<const char*, UserCommand> kinds[] = {{"start", UserCommand::start}, {"pause", UserCommand::pause}, {"abort", UserCommand::abort}, {"void", UserCommand::void_trial}, {"stop", UserCommand::emergency_stop},
-                                                       {"rearm", UserCommand::rearm}, {"leave", UserCommand::quit}, {"note", UserCommand::note}};
+  const std::pair<const char*, UserCommand> kinds[] = {
+      {"start", UserCommand::start},         {"pause", UserCommand::pause},
+      {"abort", UserCommand::abort},         {"void", UserCommand::void_trial},
+      {"stop", UserCommand::emergency_stop}, {"rearm", UserCommand::rearm},
+      {"leave", UserCommand::quit},          {"note", UserCommand::note}};
   for (const auto& [name, command] : kinds) {
-    const trial::UserRequest request = parsed({{"command", name}, {"reason", "the bed moved"}, {"at_s", 12.4}});
+    const trial::UserRequest request =
+        parsed({{"command", name}, {"reason", "the bed moved"}, {"at_s", 12.4}});
     EXPECT_EQ(request.command, command) << name;
     EXPECT_EQ(request.reason, "the bed moved");
     EXPECT_EQ(request.at_s, 12.4);
@@ -38,12 +42,38 @@ TEST(Steering, EveryKindIsItself) {
   EXPECT_EQ(parsed({{"command", "start"}}).reason, "");
 }
 
-/// What a console may not ask for: marking, grading and whatever else only the trainee's own keys do.
+/// What a console may not ask for: marking, grading and whatever else only the trainee's own keys
+/// do.
 TEST(Steering, WhatIsNoRequestIsRefusedInOneLine) {
-  for (const std::string text : {"", " ", "null", "true", "1", "\"start\"", "[]", "[{\"command\":\"start\"}]", "{}", "{\"command\":null}", "{\"command\":1}", "{\"command\":[\"start\"]}", "{\"command\":\"\"}", "{\"command\":\"Start\"}",
-                                 "{\"command\":\"start \"}", "{\"command\":\"done\"}", "{\"command\":\"grade\"}", "{\"command\":\"quit\"}", "{\"command\":\"start\",\"reason\":1}", "{\"command\":\"start\",\"reason\":null}",
-                                 "{\"command\":\"start\"", "{\"command\":\"start\"}}", "{\"command\":\"st\\u0000art\"}", "{\"command\":\"void\"}", "{\"command\":\"void\",\"reason\":\"\"}", "{\"command\":\"note\"}",
-                                 "{\"command\":\"note\",\"reason\":\"\"}", "{\"command\":\"note\",\"reason\":\"\xff\xfe\"}", "{\"command\":\"note\",\"reason\":\"\\ud800\"}"}) {
+  for (const std::string text : {"",
+                                 " ",
+                                 "null",
+                                 "true",
+                                 "1",
+                                 "\"start\"",
+                                 "[]",
+                                 "[{\"command\":\"start\"}]",
+                                 "{}",
+                                 "{\"command\":null}",
+                                 "{\"command\":1}",
+                                 "{\"command\":[\"start\"]}",
+                                 "{\"command\":\"\"}",
+                                 "{\"command\":\"Start\"}",
+                                 "{\"command\":\"start \"}",
+                                 "{\"command\":\"done\"}",
+                                 "{\"command\":\"grade\"}",
+                                 "{\"command\":\"quit\"}",
+                                 "{\"command\":\"start\",\"reason\":1}",
+                                 "{\"command\":\"start\",\"reason\":null}",
+                                 "{\"command\":\"start\"",
+                                 "{\"command\":\"start\"}}",
+                                 "{\"command\":\"st\\u0000art\"}",
+                                 "{\"command\":\"void\"}",
+                                 "{\"command\":\"void\",\"reason\":\"\"}",
+                                 "{\"command\":\"note\"}",
+                                 "{\"command\":\"note\",\"reason\":\"\"}",
+                                 "{\"command\":\"note\",\"reason\":\"\xff\xfe\"}",
+                                 "{\"command\":\"note\",\"reason\":\"\\ud800\"}"}) {
     const std::string words = refusalOf(text);
     EXPECT_FALSE(words.empty()) << text;
     EXPECT_EQ(words.find('\n'), std::string::npos) << words;
@@ -52,8 +82,11 @@ TEST(Steering, WhatIsNoRequestIsRefusedInOneLine) {
 
 TEST(Steering, ControlCharactersAreRefusedWhereverTheyStand) {
   for (char c = 0; c < 0x20; ++c) {
-    EXPECT_NE(refusalOf(json{{"command", "note"}, {"reason", std::string("a") + c + "b"}}.dump()), "") << static_cast<int>(c);
-    EXPECT_NE(refusalOf(json{{"command", std::string("start") + c}}.dump()), "") << static_cast<int>(c);
+    EXPECT_NE(refusalOf(json{{"command", "note"}, {"reason", std::string("a") + c + "b"}}.dump()),
+              "")
+        << static_cast<int>(c);
+    EXPECT_NE(refusalOf(json{{"command", std::string("start") + c}}.dump()), "")
+        << static_cast<int>(c);
   }
   EXPECT_NE(refusalOf(json{{"command", "note"}, {"reason", "\x7f"}}.dump()), "");
 }
@@ -64,16 +97,22 @@ TEST(Steering, ANoteHasUpTo500Characters) {
     std::string text;
     for (int i = 0; i < 500; ++i) text += character;
     EXPECT_EQ(parsed({{"command", "note"}, {"reason", text}}).reason, text) << character;
-    EXPECT_NE(refusalOf(json{{"command", "note"}, {"reason", text + character}}.dump()), "") << character;
+    EXPECT_NE(refusalOf(json{{"command", "note"}, {"reason", text + character}}.dump()), "")
+        << character;
   }
   EXPECT_NE(refusalOf(json{{"command", "note"}, {"reason", std::string(1 << 20, 'a')}}.dump()), "");
 }
 
-/// A moment that nanoseconds cannot hold, or that is before the session, would be told as one that never was.
+/// A moment that nanoseconds cannot hold, or that is before the session, would be told as one that
+/// never was.
 TEST(Steering, AMomentIsASecondOfTheSession) {
   EXPECT_EQ(parsed({{"command", "note"}, {"reason", "x"}, {"at_s", 0}}).at_s, 0);
   EXPECT_EQ(parsed({{"command", "note"}, {"reason", "x"}, {"at_s", 3600}}).at_s, 3600);
-  for (const char* at : {"-1", "-0.001", "1e300", "1e7", "\"12\"", "null", "[]", "{}", "true", "1e999"}) EXPECT_NE(refusalOf(std::string("{\"command\":\"note\",\"reason\":\"x\",\"at_s\":") + at + "}"), "") << at;
+  for (const char* at :
+       {"-1", "-0.001", "1e300", "1e7", "\"12\"", "null", "[]", "{}", "true", "1e999"})
+    EXPECT_NE(refusalOf(std::string("{\"command\":\"note\",\"reason\":\"x\",\"at_s\":") + at + "}"),
+              "")
+        << at;
 }
 
 TEST(Steering, MarkupIsTextAndStaysWhatItIs) {
@@ -91,11 +130,13 @@ TEST(Steering, DeepAndHugeTextsAreRefusedWithoutHarm) {
 
 TEST(Steering, DamagedRequestsAreRequestsOrRefused) {
   test::DamageDice dice(4);
-  const std::string whole = json{{"command", "note"}, {"reason", "needle too steep \u00e4\u91dd"}, {"at_s", 12.5}}.dump();
+  const std::string whole =
+      json{{"command", "note"}, {"reason", "needle too steep \u00e4\u91dd"}, {"at_s", 12.5}}.dump();
   int refused = 0;
   for (int round = 0; round < test::counted(20'000, 1'000'000); ++round) {
     std::string text = whole;
-    for (std::size_t hits = 1 + dice.below(3); hits > 0; --hits) text[dice.below(text.size())] = static_cast<char>(dice.below(256));
+    for (std::size_t hits = 1 + dice.below(3); hits > 0; --hits)
+      text[dice.below(text.size())] = static_cast<char>(dice.below(256));
     if (dice.below(4) == 0) text.resize(dice.below(text.size()));
     try {
       const trial::UserRequest request = parseSteering(text);
@@ -104,7 +145,7 @@ TEST(Steering, DamagedRequestsAreRequestsOrRefused) {
       ++refused;
     }
   }
-  EXPECT_GT(refused, 1000);   // and nothing but UsageError came
+  EXPECT_GT(refused, 1000);  // and nothing but UsageError came
 }
 
 }  // namespace

@@ -25,11 +25,16 @@ std::string bodyOf(std::size_t size, test::DamageDice& dice) {
 /// A frame whose head promises `length`.
 std::string headOf(char kind, std::uint32_t length) {
   std::string head(1, kind);
-  for (int shift = 0; shift < 32; shift += 8) head.push_back(static_cast<char>(length >> shift & 0xff));
+  for (int shift = 0; shift < 32; shift += 8)
+    head.push_back(static_cast<char>(length >> shift & 0xff));
   return head;
 }
 
-constexpr std::pair<FrameKind, std::size_t> kKinds[] = {{FrameKind::entry, kLongestEntry}, {FrameKind::picture, kLongestPicture}, {FrameKind::command, kLongestCommand}, {FrameKind::known, kLongestCount}, {FrameKind::watch, 1}};
+constexpr std::pair<FrameKind, std::size_t> kKinds[] = {{FrameKind::entry, kLongestEntry},
+                                                        {FrameKind::picture, kLongestPicture},
+                                                        {FrameKind::command, kLongestCommand},
+                                                        {FrameKind::known, kLongestCount},
+                                                        {FrameKind::watch, 1}};
 
 TEST(Wire, WhatGoesInComesOutUpToTheLongest) {
   test::DamageDice dice(1);
@@ -70,7 +75,8 @@ TEST(Wire, PiecesOfAnySizeMakeTheSameFrames) {
 TEST(Wire, OneByteTooLongIsRefusedAtItsHead) {
   for (const auto& [kind, longest] : kKinds) {
     FrameDecoder decoder;
-    const std::string head = headOf(static_cast<char>(kind), static_cast<std::uint32_t>(longest + 1));
+    const std::string head =
+        headOf(static_cast<char>(kind), static_cast<std::uint32_t>(longest + 1));
     decoder.feed(head.data(), head.size());
     EXPECT_THROW(decoder.next(), Error) << static_cast<char>(kind);
   }
@@ -86,18 +92,23 @@ TEST(Wire, EveryOtherKindIsRefused) {
     FrameDecoder decoder;
     const std::string bytes = headOf(c, 0);
     decoder.feed(bytes.data(), bytes.size());
-    if (std::string("LPCWK").find(c) != std::string::npos) EXPECT_TRUE(decoder.next()) << kind;
-    else EXPECT_THROW(decoder.next(), Error) << kind;
+    if (std::string("LPCWK").find(c) != std::string::npos)
+      EXPECT_TRUE(decoder.next()) << kind;
+    else
+      EXPECT_THROW(decoder.next(), Error) << kind;
   }
 }
 
-/// Damaged streams end in an Error or in fewer frames; what came out before the damage is whole, and nothing longer than its kind may be.
+/// Damaged streams end in an Error or in fewer frames; what came out before the damage is whole,
+/// and nothing longer than its kind may be.
 TEST(Wire, DamagedStreamsNeverBreakTheDecoder) {
   test::DamageDice dice(3);
   for (int round = 0; round < test::counted(2000, 100'000); ++round) {
     std::string stream;
-    for (int i = 0; i < 8; ++i) stream += encoded(static_cast<FrameKind>("LCWK"[dice.below(4)]), bodyOf(dice.below(2), dice));
-    for (std::size_t hits = 1 + dice.below(4); hits > 0; --hits) stream[dice.below(stream.size())] ^= static_cast<char>(1u << dice.below(8));
+    for (int i = 0; i < 8; ++i)
+      stream += encoded(static_cast<FrameKind>("LCWK"[dice.below(4)]), bodyOf(dice.below(2), dice));
+    for (std::size_t hits = 1 + dice.below(4); hits > 0; --hits)
+      stream[dice.below(stream.size())] ^= static_cast<char>(1u << dice.below(8));
     if (dice.below(3) == 0) stream.resize(dice.below(stream.size()));
     FrameDecoder decoder;
     std::size_t got = 0;

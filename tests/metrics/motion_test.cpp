@@ -64,7 +64,9 @@ TEST(Motion, RefusesDamagedRecordings) {
 TEST(Motion, SensorNoiseDoesNotAddUpToPath) {
   Hand hand;
   int i = 0;
-  hand.tip = [&](double) { return Vec3(1e-4 * (++i % 2), 0, 0); };   // 0.1 mm to and fro: 1 m in 10 s when summed tick by tick
+  hand.tip = [&](double) {
+    return Vec3(1e-4 * (++i % 2), 0, 0);
+  };  // 0.1 mm to and fro: 1 m in 10 s when summed tick by tick
   EXPECT_LT(pathLength(hand.over(10)), 1e-9);
 }
 
@@ -86,10 +88,13 @@ TEST(Kinematics, OfAStraightLine) {
 
 TEST(Kinematics, OfAHalfCircle) {
   Hand hand;
-  hand.tip = [](double t) { return Vec3(0.05 * Vec3(std::cos(kPi * t / 2), std::sin(kPi * t / 2), 0)); };
+  hand.tip = [](double t) {
+    return Vec3(0.05 * Vec3(std::cos(kPi * t / 2), std::sin(kPi * t / 2), 0));
+  };
   hand.axis = [](double t) { return Vec3(std::cos(kPi * t / 2), std::sin(kPi * t / 2), 0); };
   const Motion motion = hand.over(2);
-  EXPECT_NEAR(pathLength(motion), 0.05 * 0.99 * kPi, 1e-4);   // from the middle of the first step to that of the last
+  EXPECT_NEAR(pathLength(motion), 0.05 * 0.99 * kPi,
+              1e-4);  // from the middle of the first step to that of the last
   EXPECT_NEAR(pathInefficiency(motion), 0.99 * kPi / 2 - 1, 5e-4);
   EXPECT_NEAR(rotationTotal(motion), 0.99 * kPi, 1e-3);
 }
@@ -110,8 +115,11 @@ TEST(Kinematics, AToolThatReturnsHasNoLine) {
 }
 
 TEST(Actions, ThreeMovementsAreThree) {
-  Hand hand;   // 80 mm in 0.8 s each, a second's rest between
-  hand.tip = [](double t) { return Vec3(0.08 * (minimumJerk(t, 0.8, 1) + minimumJerk(t, 0.8, 3) + minimumJerk(t, 0.8, 5)), 0, 0); };
+  Hand hand;  // 80 mm in 0.8 s each, a second's rest between
+  hand.tip = [](double t) {
+    return Vec3(0.08 * (minimumJerk(t, 0.8, 1) + minimumJerk(t, 0.8, 3) + minimumJerk(t, 0.8, 5)),
+                0, 0);
+  };
   EXPECT_EQ(translationalActions(hand.over(7)), 3);
   EXPECT_EQ(rotationalActions(hand.over(7)), 0);
 }
@@ -123,13 +131,13 @@ TEST(Actions, SlowAndShortOnesAreNone) {
   Hand quick;
   quick.tip = [](double t) { return Vec3(0.051 * t, 0, 0); };
   EXPECT_EQ(translationalActions(quick.over(3)), 1);
-  Hand jolt;   // 0.15 s
+  Hand jolt;  // 0.15 s
   jolt.tip = [](double t) { return Vec3(0.02 * minimumJerk(t, 0.15, 1), 0, 0); };
   EXPECT_EQ(translationalActions(jolt.over(3)), 0);
 }
 
 TEST(Actions, TurnsAreCountedApart) {
-  Hand hand;   // 90 degrees in 1 s, twice
+  Hand hand;  // 90 degrees in 1 s, twice
   hand.axis = [](double t) {
     const double angle = kPi / 2 * (minimumJerk(t, 1, 1) + minimumJerk(t, 1, 4));
     return Vec3(std::cos(angle), std::sin(angle), 0);
@@ -141,7 +149,7 @@ TEST(Actions, TurnsAreCountedApart) {
 
 TEST(Smoothness, OfOneMinimumJerkMovement) {
   EXPECT_NEAR(spectralArcLength(straight().over(2)), -1.41, 0.02);
-  Hand large;   // ten times the size, half as long
+  Hand large;  // ten times the size, half as long
   large.tip = [](double t) { return Vec3(0.8 * minimumJerk(t, 1), 0, 0); };
   EXPECT_NEAR(spectralArcLength(large.over(1)), spectralArcLength(straight().over(2)), 0.02);
 }
@@ -163,19 +171,23 @@ TEST(Smoothness, FallsWithEachStop) {
 }
 
 TEST(Smoothness, JerkOfAnOscillation) {
-  Hand hand;   // x = a sin(w t): the third derivative is a w^3 cos(w t); over whole periods its square integrates to a^2 w^6 T / 2
+  Hand hand;  // x = a sin(w t): the third derivative is a w^3 cos(w t); over whole periods its
+              // square integrates to a^2 w^6 T / 2
   const double a = 0.01, w = 2 * kPi;
   hand.tip = [=](double t) { return Vec3(a * std::sin(w * t), 0, 0); };
   EXPECT_NEAR(integratedJerk(hand.over(10)) / (a * w * w * w * std::sqrt(10.0 / 2)), 1, 0.01);
 }
 
-// In along z by 30 mm from 1 s to 2 s, then the tip moves 20 mm aside while the entry stays, from 3 s to 4 s; out at 5 s.
+// In along z by 30 mm from 1 s to 2 s, then the tip moves 20 mm aside while the entry stays, from 3
+// s to 4 s; out at 5 s.
 Hand needle() {
   Hand hand;
   const auto depth = [](double t) { return t < 5 ? 0.03 * minimumJerk(t, 1, 1) : 0.0; };
   const auto aside = [](double t) { return t < 5 ? 0.02 * minimumJerk(t, 1, 3) : 0.0; };
   hand.tip = [=](double t) { return Vec3(aside(t), 0, -depth(t)); };
-  hand.axis = [=](double t) { return depth(t) > 0 ? Vec3(aside(t), 0, -depth(t)).normalized() : Vec3(0, 0, -1); };
+  hand.axis = [=](double t) {
+    return depth(t) > 0 ? Vec3(aside(t), 0, -depth(t)).normalized() : Vec3(0, 0, -1);
+  };
   hand.inserted = [=](double t) { return std::hypot(aside(t), depth(t)); };
   return hand;
 }
@@ -212,8 +224,10 @@ TEST(CurveDistance, OfParallelLines) {
 }
 
 TEST(CurveDistance, AWayBackIsFarForTheLeashOnly) {
-  // There, half back and there again: every point lies on the line, but the leash must reach 25 mm back and forth.
-  const Curve line{{0, 0, 0}, {0.1, 0, 0}}, to_and_fro{{0, 0, 0}, {0.075, 0, 0}, {0.025, 0, 0}, {0.1, 0, 0}};
+  // There, half back and there again: every point lies on the line, but the leash must reach 25 mm
+  // back and forth.
+  const Curve line{{0, 0, 0}, {0.1, 0, 0}},
+      to_and_fro{{0, 0, 0}, {0.075, 0, 0}, {0.025, 0, 0}, {0.1, 0, 0}};
   EXPECT_LT(hausdorff(line, to_and_fro), 0.0005);
   EXPECT_NEAR(frechet(line, to_and_fro), 0.025, 0.0006);
   EXPECT_GT(timeWarped(line, to_and_fro), 0.001);
@@ -221,7 +235,9 @@ TEST(CurveDistance, AWayBackIsFarForTheLeashOnly) {
 }
 
 TEST(CurveDistance, WaitingDoesNotCountAndDirectionDoes) {
-  const Curve line{{0, 0, 0}, {0.1, 0, 0}}, waiting{{0, 0, 0}, {0, 0, 0}, {0.03, 0, 0}, {0.03, 0, 0}, {0.1, 0, 0}}, back{{0.1, 0, 0}, {0, 0, 0}};
+  const Curve line{{0, 0, 0}, {0.1, 0, 0}},
+      waiting{{0, 0, 0}, {0, 0, 0}, {0.03, 0, 0}, {0.03, 0, 0}, {0.1, 0, 0}},
+      back{{0.1, 0, 0}, {0, 0, 0}};
   EXPECT_NEAR(frechet(line, waiting), 0, 1e-9);
   EXPECT_NEAR(frechet(line, back), 0.1, 1e-9);
   EXPECT_NEAR(hausdorff(line, back), 0, 1e-9);
@@ -236,13 +252,13 @@ TEST(CurveDistance, PointsAndNothing) {
 }
 
 TEST(ForceUse, OfARampAndAPlateau) {
-  Hand hand;   // 0 to 4 N in 1 s, then 4 N for 1 s, then nothing
+  Hand hand;  // 0 to 4 N in 1 s, then 4 N for 1 s, then nothing
   hand.force = [](double t) { return t < 1 ? 4 * t : t < 2 ? 4.0 : 0.0; };
   const Motion motion = hand.over(3);
   EXPECT_NEAR(peakForce(motion), 4, 1e-12);
   EXPECT_NEAR(meanForce(motion), 3, 0.03);
   EXPECT_NEAR(overForceTime(motion, 3), 1.25, 0.02);
-  EXPECT_NEAR(forceJerk(motion), 4 / std::sqrt(2.0), 0.06);   // 4 N/s for half of the contact
+  EXPECT_NEAR(forceJerk(motion), 4 / std::sqrt(2.0), 0.06);  // 4 N/s for half of the contact
   EXPECT_TRUE(std::isnan(meanForce(straight().over(1))));
   EXPECT_TRUE(std::isnan(forceJerk(straight().over(1))));
   EXPECT_EQ(peakForce(straight().over(1)), 0);

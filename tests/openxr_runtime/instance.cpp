@@ -12,9 +12,13 @@ XrExtensionProperties extension(const char* name, std::uint32_t version) {
   return e;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char*, std::uint32_t capacity, std::uint32_t* count, XrExtensionProperties* out) {
+XRAPI_ATTR XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char*,
+                                                                    std::uint32_t capacity,
+                                                                    std::uint32_t* count,
+                                                                    XrExtensionProperties* out) {
   std::vector<XrExtensionProperties> all{extension(XR_MNDX_EGL_ENABLE_EXTENSION_NAME, 1)};
-  if (!planFromEnvironment().failsFromTheStart("no_opengl")) all.push_back(extension(XR_KHR_OPENGL_ENABLE_EXTENSION_NAME, 10));
+  if (!planFromEnvironment().failsFromTheStart("no_opengl"))
+    all.push_back(extension(XR_KHR_OPENGL_ENABLE_EXTENSION_NAME, 10));
   return give(all, capacity, count, out);
 }
 
@@ -53,25 +57,30 @@ XRAPI_ATTR XrResult XRAPI_CALL PollEvent(XrInstance, XrEventDataBuffer* event) {
   return XR_SUCCESS;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL ResultToString(XrInstance, XrResult value, char buffer[XR_MAX_RESULT_STRING_SIZE]) {
+XRAPI_ATTR XrResult XRAPI_CALL ResultToString(XrInstance, XrResult value,
+                                              char buffer[XR_MAX_RESULT_STRING_SIZE]) {
   std::strncpy(buffer, std::to_string(value).c_str(), XR_MAX_RESULT_STRING_SIZE - 1);
   return XR_SUCCESS;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL StructureTypeToString(XrInstance, XrStructureType value, char buffer[XR_MAX_STRUCTURE_NAME_SIZE]) {
+XRAPI_ATTR XrResult XRAPI_CALL StructureTypeToString(XrInstance, XrStructureType value,
+                                                     char buffer[XR_MAX_STRUCTURE_NAME_SIZE]) {
   std::strncpy(buffer, std::to_string(value).c_str(), XR_MAX_STRUCTURE_NAME_SIZE - 1);
   return XR_SUCCESS;
 }
 
 XRAPI_ATTR XrResult XRAPI_CALL GetSystem(XrInstance, const XrSystemGetInfo* info, XrSystemId* id) {
   World& w = world();
-  if (info->formFactor != XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY || w.plan.failsFromTheStart("no_headset_kind")) return XR_ERROR_FORM_FACTOR_UNSUPPORTED;
+  if (info->formFactor != XR_FORM_FACTOR_HEAD_MOUNTED_DISPLAY ||
+      w.plan.failsFromTheStart("no_headset_kind"))
+    return XR_ERROR_FORM_FACTOR_UNSUPPORTED;
   if (w.plan.failsFromTheStart("no_headset")) return XR_ERROR_FORM_FACTOR_UNAVAILABLE;
   *id = 7;
   return XR_SUCCESS;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL GetSystemProperties(XrInstance, XrSystemId id, XrSystemProperties* p) {
+XRAPI_ATTR XrResult XRAPI_CALL GetSystemProperties(XrInstance, XrSystemId id,
+                                                   XrSystemProperties* p) {
   p->systemId = id;
   p->vendorId = 1;
   std::strcpy(p->systemName, "No headset at all");
@@ -80,38 +89,58 @@ XRAPI_ATTR XrResult XRAPI_CALL GetSystemProperties(XrInstance, XrSystemId id, Xr
   return XR_SUCCESS;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL EnumerateEnvironmentBlendModes(XrInstance, XrSystemId, XrViewConfigurationType, std::uint32_t capacity, std::uint32_t* count, XrEnvironmentBlendMode* out) {
+XRAPI_ATTR XrResult XRAPI_CALL EnumerateEnvironmentBlendModes(XrInstance, XrSystemId,
+                                                              XrViewConfigurationType,
+                                                              std::uint32_t capacity,
+                                                              std::uint32_t* count,
+                                                              XrEnvironmentBlendMode* out) {
   const std::string& blend = world().plan.blend;
-  const XrEnvironmentBlendMode mode = blend == "additive" ? XR_ENVIRONMENT_BLEND_MODE_ADDITIVE : blend == "alpha" ? XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND : XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+  const XrEnvironmentBlendMode mode = blend == "additive" ? XR_ENVIRONMENT_BLEND_MODE_ADDITIVE
+                                      : blend == "alpha"  ? XR_ENVIRONMENT_BLEND_MODE_ALPHA_BLEND
+                                                          : XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
   return give(std::vector{mode}, capacity, count, out);
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL EnumerateViewConfigurations(XrInstance, XrSystemId, std::uint32_t capacity, std::uint32_t* count, XrViewConfigurationType* out) {
+XRAPI_ATTR XrResult XRAPI_CALL EnumerateViewConfigurations(XrInstance, XrSystemId,
+                                                           std::uint32_t capacity,
+                                                           std::uint32_t* count,
+                                                           XrViewConfigurationType* out) {
   const bool mono = world().plan.failsFromTheStart("one_eye");
-  return give(std::vector{mono ? XR_VIEW_CONFIGURATION_TYPE_PRIMARY_MONO : XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO}, capacity, count, out);
+  return give(std::vector{mono ? XR_VIEW_CONFIGURATION_TYPE_PRIMARY_MONO
+                               : XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO},
+              capacity, count, out);
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL GetViewConfigurationProperties(XrInstance, XrSystemId, XrViewConfigurationType type, XrViewConfigurationProperties* p) {
+XRAPI_ATTR XrResult XRAPI_CALL GetViewConfigurationProperties(XrInstance, XrSystemId,
+                                                              XrViewConfigurationType type,
+                                                              XrViewConfigurationProperties* p) {
   p->viewConfigurationType = type;
   p->fovMutable = XR_FALSE;
   return XR_SUCCESS;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL EnumerateViewConfigurationViews(XrInstance, XrSystemId, XrViewConfigurationType, std::uint32_t capacity, std::uint32_t* count, XrViewConfigurationView* out) {
+XRAPI_ATTR XrResult XRAPI_CALL EnumerateViewConfigurationViews(XrInstance, XrSystemId,
+                                                               XrViewConfigurationType,
+                                                               std::uint32_t capacity,
+                                                               std::uint32_t* count,
+                                                               XrViewConfigurationView* out) {
   std::vector<XrViewConfigurationView> views;
   for (const auto& [width, height] : world().plan.eyes)
-    views.push_back({XR_TYPE_VIEW_CONFIGURATION_VIEW, nullptr, static_cast<std::uint32_t>(width), 4096, static_cast<std::uint32_t>(height), 4096, 1, 4});
+    views.push_back({XR_TYPE_VIEW_CONFIGURATION_VIEW, nullptr, static_cast<std::uint32_t>(width),
+                     4096, static_cast<std::uint32_t>(height), 4096, 1, 4});
   return give(views, capacity, count, out);
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL GetOpenGLGraphicsRequirementsKHR(XrInstance, XrSystemId, XrGraphicsRequirementsOpenGLKHR* needs) {
+XRAPI_ATTR XrResult XRAPI_CALL
+GetOpenGLGraphicsRequirementsKHR(XrInstance, XrSystemId, XrGraphicsRequirementsOpenGLKHR* needs) {
   world().ledger.called("xrGetOpenGLGraphicsRequirementsKHR");
   needs->minApiVersionSupported = XR_MAKE_VERSION(3, 2, 0);
   needs->maxApiVersionSupported = XR_MAKE_VERSION(4, 6, 0);
   return XR_SUCCESS;
 }
 
-XRAPI_ATTR XrResult XRAPI_CALL GetInstanceProcAddr(XrInstance, const char* name, PFN_xrVoidFunction* function) {
+XRAPI_ATTR XrResult XRAPI_CALL GetInstanceProcAddr(XrInstance, const char* name,
+                                                   PFN_xrVoidFunction* function) {
   const auto found = functions().find(name);
   *function = found == functions().end() ? nullptr : found->second;
   return *function ? XR_SUCCESS : XR_ERROR_FUNCTION_UNSUPPORTED;
@@ -120,7 +149,8 @@ XRAPI_ATTR XrResult XRAPI_CALL GetInstanceProcAddr(XrInstance, const char* name,
 }  // namespace
 
 World& world() {
-  static World& the_world = *new World;   // outlives everybody: a thread may hang in it when the program ends
+  static World& the_world =
+      *new World;  // outlives everybody: a thread may hang in it when the program ends
   return the_world;
 }
 
@@ -131,7 +161,8 @@ std::mutex& shared() {
 
 void World::tell(XrSessionState state) {
   XrEventDataBuffer buffer{XR_TYPE_EVENT_DATA_BUFFER, nullptr, {}};
-  const XrEventDataSessionStateChanged event{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr, session, state, now};
+  const XrEventDataSessionStateChanged event{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED, nullptr,
+                                             session, state, now};
   std::memcpy(&buffer, &event, sizeof event);
   events.push_back(buffer);
 }
@@ -169,7 +200,8 @@ const std::map<std::string, PFN_xrVoidFunction>& functions() {
 
 namespace {
 
-// The handshake of loader and runtime (OpenXR loader specification, "Runtime negotiation"); Debian ships no header for it.
+// The handshake of loader and runtime (OpenXR loader specification, "Runtime negotiation"); Debian
+// ships no header for it.
 struct LoaderInfo {
   std::uint32_t structType, structVersion;
   std::size_t structSize;
@@ -186,10 +218,13 @@ struct RuntimeRequest {
 
 }  // namespace
 
-extern "C" __attribute__((visibility("default"))) XrResult xrNegotiateLoaderRuntimeInterface(const LoaderInfo* loader, RuntimeRequest* request) {
-  if (!loader || !request || loader->minInterfaceVersion > 1 || loader->maxInterfaceVersion < 1) return XR_ERROR_INITIALIZATION_FAILED;
+extern "C" __attribute__((visibility("default"))) XrResult xrNegotiateLoaderRuntimeInterface(
+    const LoaderInfo* loader, RuntimeRequest* request) {
+  if (!loader || !request || loader->minInterfaceVersion > 1 || loader->maxInterfaceVersion < 1)
+    return XR_ERROR_INITIALIZATION_FAILED;
   request->runtimeInterfaceVersion = 1;
   request->runtimeApiVersion = XR_MAKE_VERSION(1, 0, 20);
-  request->getInstanceProcAddr = reinterpret_cast<PFN_xrGetInstanceProcAddr>(palpa::test_xr::functions().at("xrGetInstanceProcAddr"));
+  request->getInstanceProcAddr = reinterpret_cast<PFN_xrGetInstanceProcAddr>(
+      palpa::test_xr::functions().at("xrGetInstanceProcAddr"));
   return XR_SUCCESS;
 }

@@ -8,7 +8,8 @@
 
 namespace palpa::test_xr {
 
-/// What a program did: how often it called what, which handles it still holds, what it did against the specification.
+/// What a program did: how often it called what, which handles it still holds, what it did against
+/// the specification.
 class Ledger {
  public:
   void called(const std::string& function) { ++calls_[function]; }
@@ -23,14 +24,16 @@ class Ledger {
   }
   template <class Handle>
   void closed(Handle handle) {
-    if (!open_.erase(reinterpret_cast<std::uint64_t>(handle))) complain("a handle was given back twice");
+    if (!open_.erase(reinterpret_cast<std::uint64_t>(handle)))
+      complain("a handle was given back twice");
   }
   /// Children go with their parents.
   void closeAll(const std::string& kind);
   void complain(const std::string& what) { complaints_.insert(what); }
   void note(const std::string& line) { notes_.push_back(line); }
   int calls(const std::string& function) const;
-  void write(const std::string& file) const;   ///< lines: "call NAME N", "open KIND", "complaint TEXT", and the notes
+  void write(const std::string& file)
+      const;  ///< lines: "call NAME N", "open KIND", "complaint TEXT", and the notes
 
  private:
   std::uint64_t last_ = 1000;

@@ -24,36 +24,40 @@ namespace palpa::test_xr {
 struct Swapchain {
   int width = 0, height = 0;
   std::vector<GLuint> textures;
-  std::uint32_t next = 0, acquired = 0, released = 0;   ///< released: the last one
+  std::uint32_t next = 0, acquired = 0, released = 0;  ///< released: the last one
   bool held = false, waited = false, ever = false;
 };
 
-/// One program, one instance, one session, one head that looks straight ahead and one right hand that draws a circle.
+/// One program, one instance, one session, one head that looks straight ahead and one right hand
+/// that draws a circle.
 struct World {
   Plan plan;
   Ledger ledger;
   XrInstance instance = XR_NULL_HANDLE;
   XrSession session = XR_NULL_HANDLE;
   bool running = false, lost = false, frame_waited = false, frame_begun = false, exit_asked = false;
-  int frame = 0;                       ///< frames that were waited for
+  int frame = 0;  ///< frames that were waited for
   std::deque<XrEventDataBuffer> events;
   std::map<XrSwapchain, Swapchain> swapchains;
   std::map<std::string, XrPath> paths;
   std::map<XrPath, std::string> names;
   std::map<XrAction, std::pair<std::string, XrActionType>> actions;
-  std::map<XrSpace, int> spaces;       ///< 0: local, 1: view, 2: left hand, 3: right hand
-  std::map<std::string, std::vector<std::pair<XrAction, std::string>>> bindings;   ///< by profile
+  std::map<XrSpace, int> spaces;  ///< 0: local, 1: view, 2: left hand, 3: right hand
+  std::map<std::string, std::vector<std::pair<XrAction, std::string>>> bindings;  ///< by profile
   XrTime now = 1'000'000'000;
 
   void tell(XrSessionState state);
-  bool faultNow(const std::string& name) const { return plan.fault == name && frame >= plan.fault_frame; }
+  bool faultNow(const std::string& name) const {
+    return plan.fault == name && frame >= plan.fault_frame;
+  }
   const std::string& nameOf(XrPath path) { return names[path]; }
 };
 World& world();
 /// Of what a thread that waits for frames and the one that polls events both touch.
 std::mutex& shared();
 
-/// Where the right hand is in a frame, in the local space; it draws the trigger slowly and turns about its axis of pointing.
+/// Where the right hand is in a frame, in the local space; it draws the trigger slowly and turns
+/// about its axis of pointing.
 XrPosef handAt(int frame);
 float triggerAt(int frame);
 bool boundNow(XrAction action);

@@ -9,7 +9,9 @@
 namespace palpa::assess {
 namespace {
 
-CaseLump aLump(double x, double y, double diameter = 0.016) { return {Vec3(x, y, -0.014), diameter, 2, 1}; }
+CaseLump aLump(double x, double y, double diameter = 0.016) {
+  return {Vec3(x, y, -0.014), diameter, 2, 1};
+}
 LumpMark aMark(double x, double y) { return {10, Vec3(x, y, -0.004), 0.020, 2, 2}; }
 
 const Search& thorough() {
@@ -17,7 +19,9 @@ const Search& thorough() {
   return search;
 }
 
-PalpationAssessment assessed(const std::vector<CaseLump>& lumps, const std::vector<LumpMark>& marks, const Search& search = thorough(), const std::string& outcome = "done") {
+PalpationAssessment assessed(const std::vector<CaseLump>& lumps, const std::vector<LumpMark>& marks,
+                             const Search& search = thorough(),
+                             const std::string& outcome = "done") {
   PalpationFacts facts;
   facts.outcome = outcome;
   return assessPalpation(facts, {}, {}, lumps, search.samples(), marks);
@@ -32,20 +36,33 @@ int adviceWith(const PalpationAssessment& assessment, const std::string& words) 
 
 TEST(PalpationSummary, CountsInWords) {
   const std::vector<CaseLump> three{aLump(0.02, 0.02), aLump(-0.02, -0.02), aLump(0.02, -0.02)};
-  EXPECT_EQ(assessed(three, {aMark(0.02, 0.02), aMark(-0.02, -0.02), aMark(-0.02, 0.025)}).summary, "Found 2 of 3 lumps, one false alarm; 100 % of the area was felt.");
-  EXPECT_EQ(assessed(three, {}).summary, "Found none of 3 lumps, no false alarm; 100 % of the area was felt.");
-  EXPECT_EQ(assessed(three, {aMark(0.02, 0.02), aMark(-0.02, -0.02), aMark(0.02, -0.02)}).summary, "Found all 3 lumps, no false alarm; 100 % of the area was felt.");
-  EXPECT_EQ(assessed({three[0], three[1]}, {aMark(0.02, 0.02), aMark(-0.02, -0.02)}).summary, "Found both lumps, no false alarm; 100 % of the area was felt.");
-  EXPECT_EQ(assessed({three[0]}, {aMark(0.02, 0.02)}).summary, "Found the only lump, no false alarm; 100 % of the area was felt.");
-  EXPECT_EQ(assessed({three[0]}, {aMark(-0.02, 0.02), aMark(-0.02, -0.02)}).summary, "Missed the only lump, 2 false alarms; 100 % of the area was felt.");
+  EXPECT_EQ(assessed(three, {aMark(0.02, 0.02), aMark(-0.02, -0.02), aMark(-0.02, 0.025)}).summary,
+            "Found 2 of 3 lumps, one false alarm; 100 % of the area was felt.");
+  EXPECT_EQ(assessed(three, {}).summary,
+            "Found none of 3 lumps, no false alarm; 100 % of the area was felt.");
+  EXPECT_EQ(assessed(three, {aMark(0.02, 0.02), aMark(-0.02, -0.02), aMark(0.02, -0.02)}).summary,
+            "Found all 3 lumps, no false alarm; 100 % of the area was felt.");
+  EXPECT_EQ(assessed({three[0], three[1]}, {aMark(0.02, 0.02), aMark(-0.02, -0.02)}).summary,
+            "Found both lumps, no false alarm; 100 % of the area was felt.");
+  EXPECT_EQ(assessed({three[0]}, {aMark(0.02, 0.02)}).summary,
+            "Found the only lump, no false alarm; 100 % of the area was felt.");
+  EXPECT_EQ(assessed({three[0]}, {aMark(-0.02, 0.02), aMark(-0.02, -0.02)}).summary,
+            "Missed the only lump, 2 false alarms; 100 % of the area was felt.");
 }
 
 TEST(PalpationSummary, KnowsCasesWithoutLumpsAndHowItEnded) {
-  EXPECT_EQ(assessed({}, {}).summary, "There was no lump, and none was marked; 100 % of the area was felt.");
-  EXPECT_EQ(assessed({}, {aMark(0, 0)}).summary, "There was no lump, but one was marked; 100 % of the area was felt.");
-  EXPECT_EQ(assessed({}, {aMark(0, 0), aMark(0.01, 0)}).summary, "There was no lump, but 2 were marked; 100 % of the area was felt.");
-  EXPECT_EQ(assessed({}, {}, thorough(), "time").summary, "There was no lump, and none was marked; 100 % of the area was felt when time ran out.");
-  EXPECT_EQ(assessed({}, {}, thorough(), "aborted").summary, "There was no lump, and none was marked; 100 % of the area was felt when the search was stopped early.");
+  EXPECT_EQ(assessed({}, {}).summary,
+            "There was no lump, and none was marked; 100 % of the area was felt.");
+  EXPECT_EQ(assessed({}, {aMark(0, 0)}).summary,
+            "There was no lump, but one was marked; 100 % of the area was felt.");
+  EXPECT_EQ(assessed({}, {aMark(0, 0), aMark(0.01, 0)}).summary,
+            "There was no lump, but 2 were marked; 100 % of the area was felt.");
+  EXPECT_EQ(
+      assessed({}, {}, thorough(), "time").summary,
+      "There was no lump, and none was marked; 100 % of the area was felt when time ran out.");
+  EXPECT_EQ(assessed({}, {}, thorough(), "aborted").summary,
+            "There was no lump, and none was marked; 100 % of the area was felt when the search "
+            "was stopped early.");
   const PalpationAssessment none = assessed({aLump(0, 0)}, {}, thorough(), "void");
   EXPECT_EQ(none.summary, "This search is void and does not count.");
   EXPECT_TRUE(none.advice.empty());
@@ -56,19 +73,23 @@ TEST(PalpationPass, NeedsLumpsAreaAndAnEnd) {
   const LumpMark mark = aMark(0.02, 0.02);
   EXPECT_TRUE(assessed({lump}, {mark}).passed);
   EXPECT_TRUE(assessed({lump}, {mark}, thorough(), "time").passed);
-  EXPECT_TRUE(assessed({lump}, {mark, aMark(-0.02, -0.02)}).passed);   // false alarms fail nobody
+  EXPECT_TRUE(assessed({lump}, {mark, aMark(-0.02, -0.02)}).passed);  // false alarms fail nobody
   EXPECT_TRUE(assessed({}, {}).passed);
   EXPECT_FALSE(assessed({lump}, {}).passed);
   EXPECT_FALSE(assessed({lump}, {mark}, thorough(), "aborted").passed);
   EXPECT_FALSE(assessed({lump}, {mark}, thorough(), "void").passed);
-  EXPECT_FALSE(assessed({lump}, {mark}, inStrips(0.034, 0.017, 1.3)).passed);   // gaps between the strips
+  EXPECT_FALSE(
+      assessed({lump}, {mark}, inStrips(0.034, 0.017, 1.3)).passed);  // gaps between the strips
   PalpationStandard half;
   half.sensitivity = 0.5;
   half.coverage = 0.3;
-  EXPECT_TRUE(assessPalpation({}, {}, half, {lump, aLump(-0.02, -0.02)}, inStrips(0.034, 0.017, 1.3).samples(), {mark}).passed);
+  EXPECT_TRUE(assessPalpation({}, {}, half, {lump, aLump(-0.02, -0.02)},
+                              inStrips(0.034, 0.017, 1.3).samples(), {mark})
+                  .passed);
 }
 
-/// Strips of the right half at one force each: what is left is never felt, and what is felt is felt so firmly.
+/// Strips of the right half at one force each: what is left is never felt, and what is felt is felt
+/// so firmly.
 TEST(PalpationAdvice, TellsWhyALumpWasMissed) {
   const auto right = [](double force) {
     Search search;
@@ -79,11 +100,19 @@ TEST(PalpationAdvice, TellsWhyALumpWasMissed) {
   const std::vector<CaseLump> two{aLump(0.02, 0.02, 0.012), aLump(-0.02, 0.02)};
   const PalpationAssessment light = assessed(two, {}, right(0.5));
   ASSERT_GE(light.advice.size(), 2u);
-  EXPECT_EQ(light.advice[0].find("One lump (16 mm, far left) was missed: its place was never felt."), 0u) << light.advice[0];
-  EXPECT_EQ(light.advice[1].find("One lump (12 mm, far right) was missed: its place was felt, but only lightly."), 0u) << light.advice[1];
+  EXPECT_EQ(
+      light.advice[0].find("One lump (16 mm, far left) was missed: its place was never felt."), 0u)
+      << light.advice[0];
+  EXPECT_EQ(light.advice[1].find(
+                "One lump (12 mm, far right) was missed: its place was felt, but only lightly."),
+            0u)
+      << light.advice[1];
   EXPECT_GE(adviceWith(assessed(two, {}, right(0.9)), "medium pressure, but never deeply"), 0);
   EXPECT_GE(adviceWith(assessed(two, {}, right(1.5)), "felt firmly, but passed over"), 0);
-  EXPECT_EQ(assessed(two, {}).advice[0].find("2 lumps (12 mm, far right; 16 mm, far left) were missed: their places were felt firmly"), 0u);
+  EXPECT_EQ(
+      assessed(two, {}).advice[0].find(
+          "2 lumps (12 mm, far right; 16 mm, far left) were missed: their places were felt firmly"),
+      0u);
   EXPECT_EQ(adviceWith(assessed(two, {aMark(0.02, 0.02), aMark(-0.02, 0.02)}), "missed:"), -1);
 }
 
@@ -91,8 +120,11 @@ TEST(PalpationAdvice, NamesFalseAlarmsThenWhatWasNotFelt) {
   Search far;
   for (double x = -0.034; x < 0.035; x += 0.0085)
     for (double y = 0.0045; y < 0.036; y += 0.0085) far.press(x, y, 1.3);
-  const PalpationAssessment half = assessed({aLump(0.02, 0.02)}, {aMark(-0.02, 0.02), aMark(0, 0.001)}, far);
-  const int missed = adviceWith(half, "was missed"), alarms = adviceWith(half, "2 marks were no lumps (far left and in the middle)"), area = adviceWith(half, "mainly near left and near right");
+  const PalpationAssessment half =
+      assessed({aLump(0.02, 0.02)}, {aMark(-0.02, 0.02), aMark(0, 0.001)}, far);
+  const int missed = adviceWith(half, "was missed"),
+            alarms = adviceWith(half, "2 marks were no lumps (far left and in the middle)"),
+            area = adviceWith(half, "mainly near left and near right");
   EXPECT_EQ(missed, 0);
   EXPECT_EQ(alarms, 1);
   EXPECT_EQ(area, 2);
@@ -102,11 +134,18 @@ TEST(PalpationAdvice, NamesFalseAlarmsThenWhatWasNotFelt) {
 
 TEST(PalpationAdvice, TellsOfForcePatternAndCloserLooks) {
   EXPECT_TRUE(assessed({}, {}).advice.empty()) << assessed({}, {}).advice[0];
-  EXPECT_GE(adviceWith(assessed({}, {}, inStrips(0.034, 0.0085, 3.2)), "Pressed too hard: above 2.5 N"), 0);
-  EXPECT_GE(adviceWith(assessed({}, {}, inStrips(0.034, 0.0085, 0.33)), "Pressed too lightly: below 0.3 N"), 0);
-  EXPECT_GE(adviceWith(assessed({}, {}, inStrips(0.034, 0.0085, 0.9)), "Only 0 % of the area was felt deeply (1.2 N or more)"), 0);
+  EXPECT_GE(
+      adviceWith(assessed({}, {}, inStrips(0.034, 0.0085, 3.2)), "Pressed too hard: above 2.5 N"),
+      0);
+  EXPECT_GE(adviceWith(assessed({}, {}, inStrips(0.034, 0.0085, 0.33)),
+                       "Pressed too lightly: below 0.3 N"),
+            0);
+  EXPECT_GE(adviceWith(assessed({}, {}, inStrips(0.034, 0.0085, 0.9)),
+                       "Only 0 % of the area was felt deeply (1.2 N or more)"),
+            0);
   Search wild;
-  for (int i = 0; i < 40; ++i) wild.press(0.03 * std::sin(7.3 * i * i), 0.03 * std::cos(3.1 * i * i + 1), 1);
+  for (int i = 0; i < 40; ++i)
+    wild.press(0.03 * std::sin(7.3 * i * i), 0.03 * std::cos(3.1 * i * i + 1), 1);
   EXPECT_GE(adviceWith(assessed({}, {}, wild), "No pattern was recognised"), 0);
   const auto closer = [](double force) {
     Search search = thorough();
@@ -120,10 +159,12 @@ TEST(PalpationAdvice, TellsOfForcePatternAndCloserLooks) {
 /// The counts of the score are the counts of the meanings.
 TEST(MarkMeaning, AgreesWithTheScore) {
   const std::vector<CaseLump> lumps{aLump(0, 0), aLump(0.02, 0.02)};
-  const std::vector<LumpMark> marks{aMark(0.001, 0), aMark(-0.006, 0), aMark(-0.03, -0.03), aMark(0.02, 0.021)};
+  const std::vector<LumpMark> marks{aMark(0.001, 0), aMark(-0.006, 0), aMark(-0.03, -0.03),
+                                    aMark(0.02, 0.021)};
   const PalpationScore score = scorePalpation({}, lumps, {}, marks);
   std::array<int, 3> counts{};
-  for (std::size_t i = 0; i < marks.size(); ++i) ++counts[static_cast<std::size_t>(meaningOf(i, {}, score, lumps, marks))];
+  for (std::size_t i = 0; i < marks.size(); ++i)
+    ++counts[static_cast<std::size_t>(meaningOf(i, {}, score, lumps, marks))];
   EXPECT_EQ(meaningOf(1, {}, score, lumps, marks), MarkMeaning::repeated);
   EXPECT_EQ(meaningOf(2, {}, score, lumps, marks), MarkMeaning::false_alarm);
   EXPECT_EQ(counts, (std::array<int, 3>{score.found, score.repeated, score.false_alarms}));
@@ -140,7 +181,8 @@ TEST(PlaceWords, FarIsAwayFromTheTrainee) {
 
 TEST(Judgement, TakesEightCasesThatCount) {
   using Verdict = PalpationJudgement::Verdict;
-  const PalpationAssessment found = assessed({aLump(0, 0)}, {aMark(0, 0)}), missed = assessed({aLump(0, 0)}, {}), empty = assessed({}, {});
+  const PalpationAssessment found = assessed({aLump(0, 0)}, {aMark(0, 0)}),
+                            missed = assessed({aLump(0, 0)}, {}), empty = assessed({}, {});
   PalpationAssessment guided = found, interrupted = found;
   guided.facts.role = "not scored";
   interrupted.facts.outcome = "void";
@@ -157,7 +199,9 @@ TEST(Judgement, TakesEightCasesThatCount) {
   EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::passed) << "9 of 10";
   for (PalpationAssessment& trial : trials) trial.score.coverage[0] = 0.94;
   EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::not_passed);
-  EXPECT_EQ(judgementOf(std::vector<PalpationAssessment>(9, empty), {}).verdict, Verdict::too_few_cases) << "nothing could be missed";
+  EXPECT_EQ(judgementOf(std::vector<PalpationAssessment>(9, empty), {}).verdict,
+            Verdict::too_few_cases)
+      << "nothing could be missed";
 }
 
 }  // namespace

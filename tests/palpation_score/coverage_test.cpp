@@ -41,7 +41,12 @@ TEST(CoverageMap, StripsCoverAllAndAreFeltOnce) {
 
 TEST(CoverageMap, ComingBackIsFeltAnew) {
   Search search;
-  search.press(0, 0, 1).press(0.03, 0, 1).press(0.03, 0.01, 1).press(0.03, 0.02, 1).press(0.03, -0.02, 1).press(0, 0, 1);
+  search.press(0, 0, 1)
+      .press(0.03, 0, 1)
+      .press(0.03, 0.01, 1)
+      .press(0.03, 0.02, 1)
+      .press(0.03, -0.02, 1)
+      .press(0, 0, 1);
   const CoverageMap map = mapOf(search);
   EXPECT_EQ(map.visits(map.columns() / 2, map.rows() / 2), 2);
   EXPECT_EQ(map.visits(map.columns() - 1, map.rows() / 2), 1);
@@ -59,18 +64,23 @@ TEST(Presses, SearchGoesOnAndPalpationStays) {
   EXPECT_NEAR(presses[1].slid, 0, 1e-12);
 }
 
-/// Every search turned and seen from the other side keeps its name, or becomes the other one that it then is.
+/// Every search turned and seen from the other side keeps its name, or becomes the other one that
+/// it then is.
 TEST(SearchPattern, IsRecognised) {
   const SearchArea area;
-  const auto pattern = [&](const Search& search) { return patternOf(pressesIn(search.samples(), 0.1), area); };
+  const auto pattern = [&](const Search& search) {
+    return patternOf(pressesIn(search.samples(), 0.1), area);
+  };
   EXPECT_EQ(pattern(inStrips(0.034, 0.0085, 1)).pattern, SearchPattern::strips);
   EXPECT_GT(pattern(inStrips(0.034, 0.0085, 1)).kept, 0.9);
   const Search strips = inStrips(0.034, 0.0085, 1);
   Search rows, spiral, wild;
   for (const PalpationSample& s : strips.samples())
     if (s.f_n > 0.999) rows.press(s.p_P.y(), s.p_P.x(), 1);
-  for (double turn = 0; turn < 20; turn += 0.5) spiral.press(0.0016 * turn * std::cos(turn), 0.0016 * turn * std::sin(turn), 1);
-  for (int i = 0; i < 40; ++i) wild.press(0.03 * std::sin(7.3 * i * i), 0.03 * std::cos(3.1 * i * i + 1), 1);
+  for (double turn = 0; turn < 20; turn += 0.5)
+    spiral.press(0.0016 * turn * std::cos(turn), 0.0016 * turn * std::sin(turn), 1);
+  for (int i = 0; i < 40; ++i)
+    wild.press(0.03 * std::sin(7.3 * i * i), 0.03 * std::cos(3.1 * i * i + 1), 1);
   EXPECT_EQ(pattern(rows).pattern, SearchPattern::rows);
   EXPECT_EQ(pattern(spiral).pattern, SearchPattern::spiral);
   EXPECT_EQ(pattern(wild).pattern, SearchPattern::none);

@@ -44,7 +44,10 @@ TEST(PalpationMetrics, OfAScoreMadeByHand) {
   a.score = {};
   EXPECT_TRUE(std::isnan(figure("sensitivity_pct")));
   EXPECT_TRUE(std::isnan(figure("mean_force_N")));
-  for (const metrics::MetricValue& m : palpationMetrics(a)) EXPECT_TRUE(metrics::metricNamed(m.name) && metrics::belongsTo(*metrics::metricNamed(m.name), "palpation")) << m.name;
+  for (const metrics::MetricValue& m : palpationMetrics(a))
+    EXPECT_TRUE(metrics::metricNamed(m.name) &&
+                metrics::belongsTo(*metrics::metricNamed(m.name), "palpation"))
+        << m.name;
 }
 
 }  // namespace

@@ -10,7 +10,8 @@ CaseLump lumpAt(double x, double y) { return {Vec3(x, y, -0.014), 0.016, 2, 1}; 
 LumpMark markAt(double x, double y) { return {10, Vec3(x, y, -0.004), 0.020, 2, 2}; }
 
 TEST(PalpationScore, MarksFindWhatIsNear) {
-  const PalpationScore score = scorePalpation({}, {lumpAt(0.02, 0.02), lumpAt(-0.02, -0.02)}, {}, {markAt(0.02, 0.012), markAt(-0.02, -0.0351)});
+  const PalpationScore score = scorePalpation({}, {lumpAt(0.02, 0.02), lumpAt(-0.02, -0.02)}, {},
+                                              {markAt(0.02, 0.012), markAt(-0.02, -0.0351)});
   EXPECT_EQ(score.found, 1);
   EXPECT_EQ(score.missed, 1);
   EXPECT_EQ(score.false_alarms, 1);
@@ -26,7 +27,9 @@ TEST(PalpationScore, MarksFindWhatIsNear) {
 TEST(PalpationScore, NormalAnatomyThatIsMarkedIsAFalseAlarmOfItsOwn) {
   PalpationRules rules;
   rules.normal = {{"a rib", {Vec3(-0.02, 0.01, 0), Vec3(0.02, 0.01, 0)}, 0.01}};
-  const PalpationScore score = scorePalpation(rules, {lumpAt(0.01, -0.02)}, {}, {markAt(0.005, 0.0199), markAt(0.005, 0.0215), markAt(0.01, -0.02)});
+  const PalpationScore score =
+      scorePalpation(rules, {lumpAt(0.01, -0.02)}, {},
+                     {markAt(0.005, 0.0199), markAt(0.005, 0.0215), markAt(0.01, -0.02)});
   EXPECT_EQ(score.found, 1);
   EXPECT_EQ(score.false_alarms, 2);
   EXPECT_EQ(score.of_normal, 1);
@@ -35,11 +38,13 @@ TEST(PalpationScore, NormalAnatomyThatIsMarkedIsAFalseAlarmOfItsOwn) {
 
 /// Two marks between two lumps: each lump gets the mark that leaves the other its own.
 TEST(PalpationScore, EveryLumpGetsOneMarkAndAMarkOneLump) {
-  const PalpationScore both = scorePalpation({}, {lumpAt(0, 0), lumpAt(0.012, 0)}, {}, {markAt(0.001, 0), markAt(0.010, 0)});
+  const PalpationScore both = scorePalpation({}, {lumpAt(0, 0), lumpAt(0.012, 0)}, {},
+                                             {markAt(0.001, 0), markAt(0.010, 0)});
   EXPECT_EQ(both.found, 2);
   EXPECT_EQ(both.lumps[0].mark, 0);
   EXPECT_EQ(both.lumps[1].mark, 1);
-  const PalpationScore twice = scorePalpation({}, {lumpAt(0, 0)}, {}, {markAt(0.001, 0), markAt(0.010, 0)});
+  const PalpationScore twice =
+      scorePalpation({}, {lumpAt(0, 0)}, {}, {markAt(0.001, 0), markAt(0.010, 0)});
   EXPECT_EQ(twice.found, 1);
   EXPECT_EQ(twice.repeated, 1);
   EXPECT_EQ(twice.false_alarms, 0);
@@ -49,12 +54,15 @@ TEST(PalpationScore, QuartersWithoutALumpCanBeClear) {
   const PalpationScore empty = scorePalpation({}, {}, {}, {});
   EXPECT_EQ(empty.clear_quadrants, 4);
   EXPECT_EQ(empty.specificity(), 1);
-  EXPECT_EQ(empty.sensitivity(), 1);   // nothing to find
-  const PalpationScore alarmed = scorePalpation({}, {lumpAt(0.025, 0.025)}, {}, {markAt(-0.02, -0.02), markAt(-0.01, -0.03), markAt(0.025, 0.025)});
+  EXPECT_EQ(empty.sensitivity(), 1);  // nothing to find
+  const PalpationScore alarmed =
+      scorePalpation({}, {lumpAt(0.025, 0.025)}, {},
+                     {markAt(-0.02, -0.02), markAt(-0.01, -0.03), markAt(0.025, 0.025)});
   EXPECT_EQ(alarmed.clear_quadrants, 3);
   EXPECT_EQ(alarmed.wrong_quadrants, 1);
   EXPECT_NEAR(alarmed.specificity(), 2.0 / 3, 1e-12);
-  EXPECT_EQ(scorePalpation({}, {lumpAt(0, 0)}, {}, {}).clear_quadrants, 0);   // in the middle it is near all
+  EXPECT_EQ(scorePalpation({}, {lumpAt(0, 0)}, {}, {}).clear_quadrants,
+            0);  // in the middle it is near all
 }
 
 TEST(PalpationScore, ForcesAndTime) {
@@ -65,7 +73,7 @@ TEST(PalpationScore, ForcesAndTime) {
   EXPECT_NEAR(score.peak, 3, 1e-9);
   EXPECT_GT(score.too_hard, 0);
   EXPECT_LT(score.too_hard, 0.02);
-  EXPECT_GT(score.too_light, 0.1);   // every press begins and ends lightly
+  EXPECT_GT(score.too_light, 0.1);  // every press begins and ends lightly
   EXPECT_NEAR(score.closer_force, 1.2, 0.05);
   EXPECT_EQ(score.coverage[1], 1);
   EXPECT_NEAR(score.seconds, search.now(), 0.02);

@@ -8,11 +8,13 @@
 
 namespace palpa::assess {
 
-/// Somebody who presses at places, one after the other: half a second each, up to `force`, then a quarter of a second of lifting.
+/// Somebody who presses at places, one after the other: half a second each, up to `force`, then a
+/// quarter of a second of lifting.
 class Search {
  public:
   Search& press(double x, double y, double force) {
-    for (int i = 0; i <= 50; ++i, t_ += 0.01) samples_.push_back({t_, Vec3(x, y, -0.003), force * std::sin(std::numbers::pi * i / 50)});
+    for (int i = 0; i <= 50; ++i, t_ += 0.01)
+      samples_.push_back({t_, Vec3(x, y, -0.003), force * std::sin(std::numbers::pi * i / 50)});
     for (int i = 0; i < 25; ++i, t_ += 0.01) samples_.push_back({t_, Vec3(x, y, 0.003), 0});
     return *this;
   }

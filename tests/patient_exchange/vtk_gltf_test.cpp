@@ -18,7 +18,8 @@ namespace palpa::anatomy {
 namespace {
 
 Patient reference() {
-  return buildPatient(drawParameters(readPopulation(PALPA_SOURCE_DIR "/assets/patients/reference.json"), Side::right, 0));
+  return buildPatient(drawParameters(
+      readPopulation(PALPA_SOURCE_DIR "/assets/patients/reference.json"), Side::right, 0));
 }
 
 std::vector<vtkSmartPointer<vtkPolyData>> surfacesOf(const std::string& file) {
@@ -29,7 +30,8 @@ std::vector<vtkSmartPointer<vtkPolyData>> surfacesOf(const std::string& file) {
   vtkSmartPointer<vtkCompositeDataIterator> leaves;
   leaves.TakeReference(reader->GetOutput()->NewIterator());
   for (leaves->InitTraversal(); !leaves->IsDoneWithTraversal(); leaves->GoToNextItem())
-    if (auto* surface = vtkPolyData::SafeDownCast(leaves->GetCurrentDataObject())) surfaces.push_back(surface);
+    if (auto* surface = vtkPolyData::SafeDownCast(leaves->GetCurrentDataObject()))
+      surfaces.push_back(surface);
   return surfaces;
 }
 
@@ -41,10 +43,13 @@ TEST(PatientElsewhere, VtkSeesTheSamePointsInMetresWithYUp) {
   ASSERT_EQ(surfaces.size(), patient.organs.size());
   for (std::size_t i = 0; i < surfaces.size(); ++i) {
     const TriangleMesh& mesh = patient.organs[i].mesh;
-    EXPECT_EQ(surfaces[i]->GetNumberOfPoints(), static_cast<vtkIdType>(mesh.points.size())) << patient.organs[i].id;
-    EXPECT_EQ(surfaces[i]->GetNumberOfCells(), static_cast<vtkIdType>(mesh.triangles.size())) << patient.organs[i].id;
+    EXPECT_EQ(surfaces[i]->GetNumberOfPoints(), static_cast<vtkIdType>(mesh.points.size()))
+        << patient.organs[i].id;
+    EXPECT_EQ(surfaces[i]->GetNumberOfCells(), static_cast<vtkIdType>(mesh.triangles.size()))
+        << patient.organs[i].id;
     Eigen::AlignedBox3d box;
-    for (const Vec3& p : mesh.points) box.extend(Vec3(p.x(), p.z(), -p.y()));  // left, up, toward the viewer
+    for (const Vec3& p : mesh.points)
+      box.extend(Vec3(p.x(), p.z(), -p.y()));  // left, up, toward the viewer
     double bounds[6];
     surfaces[i]->GetBounds(bounds);
     for (int k = 0; k < 3; ++k) {
@@ -56,7 +61,8 @@ TEST(PatientElsewhere, VtkSeesTheSamePointsInMetresWithYUp) {
 
 TEST(PatientElsewhere, VtkFindsThePictureOnTheSkin) {
   const Patient patient = reference();
-  const std::string file = (test::freshFolder("patient_exchange", "vtk_picture") / "p.glb").string();
+  const std::string file =
+      (test::freshFolder("patient_exchange", "vtk_picture") / "p.glb").string();
   writePatient(patient, file);
   vtkNew<vtkGLTFReader> reader;
   reader->SetFileName(file.c_str());
@@ -74,7 +80,9 @@ TEST(PatientElsewhere, VtkFindsThePictureOnTheSkin) {
   ASSERT_TRUE(coordinates);
   const auto& uvs = patient.organs[0].mesh.uvs;
   ASSERT_EQ(coordinates->GetNumberOfTuples(), static_cast<vtkIdType>(uvs.size()));
-  for (std::size_t i = 0; i < uvs.size(); i += 100) EXPECT_EQ(static_cast<float>(coordinates->GetComponent(static_cast<vtkIdType>(i), 0)), uvs[i][0]);
+  for (std::size_t i = 0; i < uvs.size(); i += 100)
+    EXPECT_EQ(static_cast<float>(coordinates->GetComponent(static_cast<vtkIdType>(i), 0)),
+              uvs[i][0]);
 }
 
 }  // namespace

@@ -26,11 +26,13 @@ PhantomTable springs() {
   one.depths = 4;
   one.depth_step = 2e-3;
   for (int a = 0; a < one.aways; ++a)
-    for (int d = 1; d <= one.depths; ++d) one.cells.push_back({0, 100 * std::pow(d * one.depth_step, 1.5), 0, 0});
+    for (int d = 1; d <= one.depths; ++d)
+      one.cells.push_back({0, 100 * std::pow(d * one.depth_step, 1.5), 0, 0});
   return one;
 }
 
-/// More than alone at a shift, m, and depths, m: odd and even in the shift as two tools are that change places.
+/// More than alone at a shift, m, and depths, m: odd and even in the shift as two tools are that
+/// change places.
 PairCell more(double shift, double first, double second) {
   const double both = 1e6 * first * second;
   PairCell cell;
@@ -45,7 +47,8 @@ PairTable pairsOfLaw() {
   both.shifts = both.depths = 3;
   for (int s = 0; s < 3; ++s)
     for (int i = 1; i <= 3; ++i)
-      for (int j = 1; j <= 3; ++j) both.cells.push_back(more(s * both.shift_step, i * both.depth_step, j * both.depth_step));
+      for (int j = 1; j <= 3; ++j)
+        both.cells.push_back(more(s * both.shift_step, i * both.depth_step, j * both.depth_step));
   return both;
 }
 
@@ -55,7 +58,8 @@ TEST(PairTable, AddsToEachAloneWhatBothDo) {
   for (const double shift : {-0.0093, -0.004, 0.0, 0.0021, 0.01}) {
     const PairCell found = both.at(one, shift, {0.0031, 0.0055}), law = more(shift, 0.0031, 0.0055);
     for (std::size_t t = 0; t < 2; ++t) {
-      const PhantomTable::Cell alone = one.at(shift + (t == 0 ? 0.01 : -0.01), t == 0 ? 0.0031 : 0.0055);
+      const PhantomTable::Cell alone =
+          one.at(shift + (t == 0 ? 0.01 : -0.01), t == 0 ? 0.0031 : 0.0055);
       EXPECT_NEAR(found.f[t].x(), law.f[t].x(), 1e-9) << shift;
       EXPECT_NEAR(found.f[t].y(), alone.f_up + law.f[t].y(), 1e-9) << shift;
     }
@@ -78,8 +82,11 @@ TEST(PairTable, IsWhatTheElementsSay) {
   both.depths = 3;
   both = tabulatePairs(block, one, both, kRough);
   FiniteBlock solid(block, {-0.005, 0.015}, one.tool_radius, kRough);
-  const FiniteBlock::Answer node = solid.press({Vec3(0.015, 0, -4e-3), Vec3(-0.005, 0, -6e-3)}), between = solid.press({Vec3(0.015, 0, -5e-3), Vec3(-0.005, 0, -3e-3)});
-  const PairCell at_node = both.at(one, 0.005, {4e-3, 6e-3}), mirrored = both.at(one, -0.005, {6e-3, 4e-3}), at_between = both.at(one, 0.005, {5e-3, 3e-3});
+  const FiniteBlock::Answer node = solid.press({Vec3(0.015, 0, -4e-3), Vec3(-0.005, 0, -6e-3)}),
+                            between = solid.press({Vec3(0.015, 0, -5e-3), Vec3(-0.005, 0, -3e-3)});
+  const PairCell at_node = both.at(one, 0.005, {4e-3, 6e-3}),
+                 mirrored = both.at(one, -0.005, {6e-3, 4e-3}),
+                 at_between = both.at(one, 0.005, {5e-3, 3e-3});
   for (std::size_t t = 0; t < 2; ++t) {
     EXPECT_NEAR(at_node.f[t].y(), node.f[t].z(), 1e-4);
     EXPECT_NEAR(at_node.f[t].x(), node.f[t].x(), 1e-4);

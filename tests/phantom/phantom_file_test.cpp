@@ -19,12 +19,17 @@ constexpr char kSmall[] = R"({"version": 1, "tool_radius_mm": 8,
   "phantoms": [{"name": "plain"}, {"name": "one", "lump": {"depth_mm": 14, "diameter_mm": 16, "times_stiffer": 10}}]})";
 
 struct Written {
-  explicit Written(std::string text = kSmall) : folder("phantoms"), file(folder / "small.json"), tables(folder / "small.tables.json") { std::ofstream(file) << text; }
+  explicit Written(std::string text = kSmall)
+      : folder("phantoms"), file(folder / "small.json"), tables(folder / "small.tables.json") {
+    std::ofstream(file) << text;
+  }
   test::ScratchFolder folder;
   std::filesystem::path file, tables;
 };
 
-std::string replaced(std::string text, const std::string& what, const std::string& by) { return text.replace(text.find(what), what.size(), by); }
+std::string replaced(std::string text, const std::string& what, const std::string& by) {
+  return text.replace(text.find(what), what.size(), by);
+}
 
 std::string refusal(const std::string& text) {
   const Written written(text);
@@ -57,10 +62,15 @@ TEST(PhantomFile, TablesOfAnotherDescriptionAreRefused) {
 }
 
 TEST(PhantomFile, DamageIsNamed) {
-  EXPECT_NE(refusal(replaced(kSmall, "\"depth_mm\": 14", "\"depth_mm\": 3")).find("outside the block"), std::string::npos);
-  EXPECT_NE(refusal(replaced(kSmall, "\"shear_kPa\": 2.4", "\"shear_kPa\": -1")).find("shear_kPa"), std::string::npos);
-  EXPECT_NE(refusal(replaced(kSmall, "\"aways\": 2", "\"aways\": 9")).find("off the block"), std::string::npos);
-  EXPECT_NE(refusal(replaced(kSmall, "\"times_stiffer\": 10", "\"times\": 10")).find("entry 2"), std::string::npos);
+  EXPECT_NE(
+      refusal(replaced(kSmall, "\"depth_mm\": 14", "\"depth_mm\": 3")).find("outside the block"),
+      std::string::npos);
+  EXPECT_NE(refusal(replaced(kSmall, "\"shear_kPa\": 2.4", "\"shear_kPa\": -1")).find("shear_kPa"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kSmall, "\"aways\": 2", "\"aways\": 9")).find("off the block"),
+            std::string::npos);
+  EXPECT_NE(refusal(replaced(kSmall, "\"times_stiffer\": 10", "\"times\": 10")).find("entry 2"),
+            std::string::npos);
 }
 
 /// Bytes lost or changed: read or refused, nothing else.
@@ -71,7 +81,9 @@ TEST(PhantomFile, DamagedTablesAreRefusedInWords) {
   whole << std::ifstream(written.tables).rdbuf();
   const std::string text = whole.str();
   for (std::size_t cut = 0; cut < text.size(); cut += 37) {
-    for (const std::string& damaged : {text.substr(0, cut), replaced(text, text.substr(cut, 1), "-"), text.substr(0, cut) + "9" + text.substr(cut)}) {
+    for (const std::string& damaged :
+         {text.substr(0, cut), replaced(text, text.substr(cut, 1), "-"),
+          text.substr(0, cut) + "9" + text.substr(cut)}) {
       std::ofstream(written.tables) << damaged;
       try {
         readSolved(written.file, written.tables);
@@ -82,10 +94,12 @@ TEST(PhantomFile, DamagedTablesAreRefusedInWords) {
   }
 }
 
-/// The shipped tables are what the shipped description gives today: one cell of each phantom, all of one in full counts.
+/// The shipped tables are what the shipped description gives today: one cell of each phantom, all
+/// of one in full counts.
 TEST(PhantomFile, ShippedTablesAreThoseOfTheShippedPhantoms) {
   const std::filesystem::path file = station::assetFile("phantoms/mockups.json");
-  const std::vector<Phantom> phantoms = readSolved(file, station::assetFile("phantoms/mockups.tables.json"));
+  const std::vector<Phantom> phantoms =
+      readSolved(file, station::assetFile("phantoms/mockups.tables.json"));
   ASSERT_EQ(phantoms.size(), 9u);
   const Fineness fineness = readPhantoms(file).fineness;
   for (std::size_t i = 0; i < phantoms.size(); i += test::counted<std::size_t>(8, 1)) {
@@ -99,7 +113,8 @@ TEST(PhantomFile, ShippedTablesAreThoseOfTheShippedPhantoms) {
     FiniteBlock pressed_twice(phantoms[i].block, {-0.005, 0.015}, table.tool_radius, fineness);
     const auto both = pressed_twice.press({Vec3(0.015, 0, -4e-3), Vec3(-0.005, 0, -2e-3)}).f;
     const PairCell pair = phantoms[i].both.at(table, 0.005, {4e-3, 2e-3});
-    for (std::size_t t = 0; t < 2; ++t) EXPECT_NEAR(pair.f[t].y(), both[t].z(), 1e-4) << phantoms[i].name;
+    for (std::size_t t = 0; t < 2; ++t)
+      EXPECT_NEAR(pair.f[t].y(), both[t].z(), 1e-4) << phantoms[i].name;
   }
 }
 

@@ -11,7 +11,8 @@ namespace {
 
 /// A law that a table should give back between its cells, smooth and even about the axis.
 PhantomTable::Cell lawAt(double away, double depth) {
-  const double bump = std::exp(-away * away / (2 * 0.01 * 0.01)), f = std::pow(depth, 1.5) * (800 + 5e4 * depth);
+  const double bump = std::exp(-away * away / (2 * 0.01 * 0.01)),
+               f = std::pow(depth, 1.5) * (800 + 5e4 * depth);
   return {f * bump * 20 * away, f * (1 + bump), -0.1 * away * bump * depth, -0.2 * bump * depth};
 }
 
@@ -20,7 +21,8 @@ PhantomTable tableOfLaw() {
   table.aways = 9;
   table.depths = 8;
   for (int a = 0; a < table.aways; ++a)
-    for (int d = 1; d <= table.depths; ++d) table.cells.push_back(lawAt(a * table.away_step, d * table.depth_step));
+    for (int d = 1; d <= table.depths; ++d)
+      table.cells.push_back(lawAt(a * table.away_step, d * table.depth_step));
   return table;
 }
 
@@ -29,14 +31,16 @@ TEST(PhantomTable, GivesBackItsLawBetweenTheCells) {
   for (double away = -0.030; away < 0.030; away += 0.0013) {
     for (double depth = 0.0005; depth < 0.008; depth += 0.00037) {
       const PhantomTable::Cell found = table.at(away, depth), wanted = lawAt(away, depth);
-      const double within = depth < table.depth_step ? 0.04 : 0.015;   // before the first cell the power law alone is known
+      const double within = depth < table.depth_step
+                                ? 0.04
+                                : 0.015;  // before the first cell the power law alone is known
       EXPECT_NEAR(found.f_up, wanted.f_up, within * wanted.f_up);
       EXPECT_NEAR(found.f_out, wanted.f_out, 0.03 * wanted.f_up);
     }
   }
   EXPECT_EQ(table.at(0.003, 0).f_up, 0);
   EXPECT_EQ(table.at(0.003, -0.001).f_up, 0);
-  EXPECT_NEAR(table.at(0.5, 0.004).f_up, table.at(0.032, 0.004).f_up, 1e-12);   // as at its rim
+  EXPECT_NEAR(table.at(0.5, 0.004).f_up, table.at(0.032, 0.004).f_up, 1e-12);  // as at its rim
   EXPECT_NEAR(table.at(0, 0.016).f_up, std::pow(2, 1.5) * table.at(0, 0.008).f_up, 1e-9);
 }
 
@@ -67,13 +71,14 @@ TEST(PhantomTwin, RelaxesToItsElasticForce) {
   EXPECT_FALSE(twin.step(Vec3(0, 0, 1e-3), 1e-3).contact);
 }
 
-/// Sliding fast, it drags with mu f_n + B v against the motion; standing still it keeps what it had; off contact it forgets.
+/// Sliding fast, it drags with mu f_n + B v against the motion; standing still it keeps what it
+/// had; off contact it forgets.
 TEST(PhantomTwin, DragsAgainstTheMotion) {
   SiliconeLaw law;
   law.relaxes = {0, 0};
   law.load_power = 0;
   PhantomTable table = tableOfLaw();
-  for (PhantomTable::Cell& cell : table.cells) cell.f_out = 0;   // a plain phantom
+  for (PhantomTable::Cell& cell : table.cells) cell.f_out = 0;  // a plain phantom
   PhantomTwin twin(table, law);
   PhantomTouch touch;
   for (int i = 0; i < 400; ++i) touch = twin.step(Vec3(-0.03 + 1e-4 * i, 0, -4e-3), 1e-3);

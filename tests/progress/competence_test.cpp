@@ -12,12 +12,16 @@ struct Row {
   double acceptable, unacceptable, s, h;
   std::size_t clean;
 };
-constexpr Row kRows[] = {{0.10, 0.25, 0.166, 2.00, 13}, {0.10, 0.20, 0.145, 2.71, 19}, {0.05, 0.15, 0.092, 1.82, 20}, {0.05, 0.10, 0.072, 2.94, 41}};
+constexpr Row kRows[] = {{0.10, 0.25, 0.166, 2.00, 13},
+                         {0.10, 0.20, 0.145, 2.71, 19},
+                         {0.05, 0.15, 0.092, 1.82, 20},
+                         {0.05, 0.10, 0.072, 2.94, 41}};
 
 TEST(Competence, TheShortestCleanRunCertifiesAndOneLessDoesNot) {
   for (const Row& row : kRows) {
     const statistics::CusumRates rates{row.acceptable, row.unacceptable};
-    const Competence just = competenceOf(std::vector<bool>(row.clean, false), rates), short_of = competenceOf(std::vector<bool>(row.clean - 1, false), rates);
+    const Competence just = competenceOf(std::vector<bool>(row.clean, false), rates),
+                     short_of = competenceOf(std::vector<bool>(row.clean - 1, false), rates);
     EXPECT_NEAR(just.limits.s, row.s, 5e-4);
     EXPECT_NEAR(just.limits.h_accept, row.h, 5e-3);
     EXPECT_EQ(just.minimum, row.clean);
@@ -42,23 +46,25 @@ TEST(Competence, WhatIsStillNeededSuffices) {
 
 TEST(Competence, AnUnacceptableRateTakesItBack) {
   std::vector<bool> failures(13, false);
-  failures.insert(failures.end(), {true, true, true});   // 3 x 0.834 = 2.50 > 2.00
+  failures.insert(failures.end(), {true, true, true});  // 3 x 0.834 = 2.50 > 2.00
   const Competence c = competenceOf(failures, {});
   EXPECT_FALSE(c.reached);
   ASSERT_TRUE(c.lost);
   EXPECT_EQ(*c.lost, 16u);
-  EXPECT_EQ(c.still_clean, 13u);   // the test begins anew
+  EXPECT_EQ(c.still_clean, 13u);  // the test begins anew
   failures.insert(failures.end(), 13, false);
   const Competence again = competenceOf(failures, {});
   EXPECT_EQ(again.reached, 29u);
   EXPECT_FALSE(again.lost);
 }
 
-TEST(Competence, RatesOutOfOrderAreRefused) { EXPECT_THROW(competenceOf({false}, {0.3, 0.2}), UsageError); }
+TEST(Competence, RatesOutOfOrderAreRefused) {
+  EXPECT_THROW(competenceOf({false}, {0.3, 0.2}), UsageError);
+}
 
 TEST(Retention, DatesAreCalendarDates) {
   EXPECT_EQ(monthsLater("2027-03-01T10:00:00Z", 6), "2027-09-01");
-  EXPECT_EQ(monthsLater("2027-08-31", 6), "2028-02-29");   // a leap year
+  EXPECT_EQ(monthsLater("2027-08-31", 6), "2028-02-29");  // a leap year
   EXPECT_EQ(monthsLater("soon", 6), "");
   EXPECT_EQ(daysBetween("2027-02-27", "2027-03-01T23:00:00Z"), 2);
   EXPECT_EQ(daysBetween("2027-03-01", "2027-02-27"), -2);
@@ -73,7 +79,7 @@ Series pausedAfterSix(const std::string& later) {
   for (int i = 0; i < 12; ++i) {
     PracticeTrial t = test::cleanTrial("A", i + 1, i < 6 ? "2027-01-10T09:00:00Z" : later);
     t.arrival = i < 6 ? 1 : 2;
-    test::set(t, "time_s", i < 6 ? 10 + i % 2 : 20 + i % 2);   // 11, 10, 11 before; 20, 21, 20 after
+    test::set(t, "time_s", i < 6 ? 10 + i % 2 : 20 + i % 2);  // 11, 10, 11 before; 20, 21, 20 after
     trials.push_back(t);
   }
   return seriesOf(trials).at(0);

@@ -39,9 +39,11 @@ TEST(LearningCurve, TheBandHoldsTheTrueCurveMostOfTheTime) {
     for (double& v : y) v += 1.5 * random.normal();
     const auto curve = learningCurve(y, static_cast<std::uint64_t>(s));
     ASSERT_TRUE(curve);
-    for (std::size_t i = 0; i < y.size(); ++i, ++points) inside += curve->low[i] <= truth[i] && truth[i] <= curve->high[i];
+    for (std::size_t i = 0; i < y.size(); ++i, ++points)
+      inside += curve->low[i] <= truth[i] && truth[i] <= curve->high[i];
   }
-  // Nominal 0.95; points of one study go together, so that 60 studies say it to about +-0.05. Residual bootstraps of three parameters fall short a little.
+  // Nominal 0.95; points of one study go together, so that 60 studies say it to about +-0.05.
+  // Residual bootstraps of three parameters fall short a little.
   EXPECT_GT(static_cast<double>(inside) / points, 0.86);
   EXPECT_LT(static_cast<double>(inside) / points, 0.995);
 }
@@ -63,8 +65,9 @@ TEST(LearningCurve, TooFewOrConstantValuesHaveNone) {
   EXPECT_FALSE(learningCurve(exponential(1, 2, 3, 7)));
   EXPECT_FALSE(learningCurve(std::vector<double>(20, 5.0)));
   std::vector<double> gaps = exponential(1, 2, 3, 12);
-  for (int i = 0; i < 5; ++i) gaps[2 * static_cast<std::size_t>(i)] = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_FALSE(learningCurve(gaps));   // seven are left
+  for (int i = 0; i < 5; ++i)
+    gaps[2 * static_cast<std::size_t>(i)] = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_FALSE(learningCurve(gaps));  // seven are left
   gaps[0] = 3;
   const auto curve = learningCurve(gaps);
   ASSERT_TRUE(curve);

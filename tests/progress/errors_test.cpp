@@ -25,7 +25,8 @@ TEST(Errors, EveryKindRestsOnAFigureOfItsEngine) {
       const metrics::MetricDefinition* definition = metrics::metricNamed(kind.metric);
       ASSERT_NE(definition, nullptr) << kind.metric;
       EXPECT_TRUE(metrics::belongsTo(*definition, engine)) << kind.metric;
-      EXPECT_EQ(definition->better, kind.below ? metrics::Better::higher : metrics::Better::lower) << kind.metric;
+      EXPECT_EQ(definition->better, kind.below ? metrics::Better::higher : metrics::Better::lower)
+          << kind.metric;
     }
   }
 }
@@ -52,7 +53,7 @@ TEST(Errors, WhatHappenedAgainLatelyRecurs) {
 TEST(Costs, TheyAddUpToTheTotal) {
   Series series = practice({"A"}, 5);
   const auto costs = costsLately(series);
-  ASSERT_EQ(costs.size(), 4u);   // nothing was touched; a direction below 1000 costs nothing
+  ASSERT_EQ(costs.size(), 4u);  // nothing was touched; a direction below 1000 costs nothing
   EXPECT_STREQ(costs[0].metric, "time_s");
   EXPECT_NEAR(costs[0].points, 200, 1e-9);
   EXPECT_NEAR(costs[1].points, 80, 1e-9);
@@ -82,7 +83,7 @@ TEST(Misses, TheNearestFirstAndNoneThatTouched) {
 }
 
 TEST(Cohort, AnErrorsShareIsTheTraineesMeanNotTheTrials) {
-  Series group = practice({"A"}, 10);   // A: never; B: always, in two trials; C: never
+  Series group = practice({"A"}, 10);  // A: never; B: always, in two trials; C: never
   const Series b = practice({"B"}, 2), c = practice({"C"}, 4);
   group.trials.insert(group.trials.end(), b.trials.begin(), b.trials.end());
   group.trials.insert(group.trials.end(), c.trials.begin(), c.trials.end());
@@ -107,7 +108,7 @@ TEST(Cohort, AFigureIsOfTheLatestTrials) {
   ASSERT_TRUE(figures[0].interval);
   EXPECT_LT(figures[0].interval->first, 15);
   EXPECT_GT(figures[0].interval->second, 15);
-  EXPECT_EQ(figures[1].interval->first, 20);   // nothing varies
+  EXPECT_EQ(figures[1].interval->first, 20);  // nothing varies
 }
 
 TEST(Cohort, TheGroupsCurveEndsWhereFewAreLeft) {
@@ -123,7 +124,8 @@ TEST(Cohort, TheGroupsCurveEndsWhereFewAreLeft) {
 
 TEST(Cohort, WhoHarmsNeedsAttentionAndWhoDoesNotDoesNot) {
   Series group = practice({"A", "B"}, 14);
-  for (std::size_t i = 23; i < 28; ++i) set(group.trials[i], "col_lung", 3);   // 9 x -0.166, then 5 x 0.834: 2.68 > 2.00
+  for (std::size_t i = 23; i < 28; ++i)
+    set(group.trials[i], "col_lung", 3);  // 9 x -0.166, then 5 x 0.834: 2.68 > 2.00
   const auto attention = whoNeedsAttention(group, {});
   ASSERT_EQ(attention.size(), 1u);
   EXPECT_EQ(attention[0].trainee, "B");
@@ -134,8 +136,10 @@ TEST(Cohort, WhoHarmsNeedsAttentionAndWhoDoesNotDoesNot) {
 
 TEST(Cohort, ReliabilityNeedsEightCasesAndADifference) {
   Series group = practice({"A", "B", "C"}, 8);
-  EXPECT_FALSE(reliabilityOf(group, "time_s"));   // all alike
-  for (std::size_t i = 0; i < group.trials.size(); ++i) set(group.trials[i], "time_s", 10 * static_cast<double>(i / 8) + 0.1 * static_cast<double>(i * 7 % 5));
+  EXPECT_FALSE(reliabilityOf(group, "time_s"));  // all alike
+  for (std::size_t i = 0; i < group.trials.size(); ++i)
+    set(group.trials[i], "time_s",
+        10 * static_cast<double>(i / 8) + 0.1 * static_cast<double>(i * 7 % 5));
   const auto reliable = reliabilityOf(group, "time_s");
   ASSERT_TRUE(reliable);
   EXPECT_EQ(reliable->trainees, 3u);

@@ -42,7 +42,8 @@ TEST(History, WhatDoesNotCountIsNamed) {
 }
 
 TEST(History, TrialsStandInOrderOfArrivalWhateverTheirDates) {
-  PracticeTrial late = cleanTrial("A", 1, "2001-01-01T00:00:00Z"), early = cleanTrial("A", 2, "2027-01-01T00:00:00Z");
+  PracticeTrial late = cleanTrial("A", 1, "2001-01-01T00:00:00Z"),
+                early = cleanTrial("A", 2, "2027-01-01T00:00:00Z");
   late.arrival = 2;
   const Series series = seriesOf({late, early}).at(0);
   EXPECT_EQ(series.trials[0].number, 2);
@@ -52,7 +53,9 @@ TEST(History, TrialsStandInOrderOfArrivalWhateverTheirDates) {
 TEST(History, WhatHarmsIsAFailure) {
   const PracticeTrial clean = cleanTrial("A", 1);
   EXPECT_FALSE(failed(clean));
-  for (const auto& [metric, value] : {std::pair{"success", 0.0}, std::pair{"col_lung", 1.0}, std::pair{"col_artery", 1.0}, std::pair{"needle_passes", 4.0}}) {
+  for (const auto& [metric, value] :
+       {std::pair{"success", 0.0}, std::pair{"col_lung", 1.0}, std::pair{"col_artery", 1.0},
+        std::pair{"needle_passes", 4.0}}) {
     PracticeTrial t = clean;
     set(t, metric, value);
     EXPECT_TRUE(failed(t)) << metric;
@@ -67,7 +70,8 @@ TEST(History, EveryFigureShownIsInTheTable) {
     for (const std::string& name : shownFigures(engine)) {
       const metrics::MetricDefinition* definition = metrics::metricNamed(name);
       ASSERT_NE(definition, nullptr) << name;
-      EXPECT_TRUE(engine == std::string("another") || metrics::belongsTo(*definition, engine)) << name;
+      EXPECT_TRUE(engine == std::string("another") || metrics::belongsTo(*definition, engine))
+          << name;
     }
 }
 

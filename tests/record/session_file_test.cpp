@@ -171,7 +171,7 @@ TEST(SessionFile, TwoDevicesAreTwoRecordsATick) {
     SessionWriter writer(file, info);
     for (std::int64_t tick = 0; tick < kTicks; ++tick) {
       writer.tick(ofTool(tick, 0));
-      if (tick % 7 == 3) writer.commit();   // in the middle of a tick
+      if (tick % 7 == 3) writer.commit();  // in the middle of a tick
       writer.tick(ofTool(tick, 1));
     }
     EXPECT_THROW(writer.tick(ofTool(kTicks - 1, 0)), Error) << "that was";

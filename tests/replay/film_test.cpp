@@ -13,7 +13,8 @@ namespace {
 
 scene::Image plain(int width, int height, std::uint8_t red, std::uint8_t green, std::uint8_t blue) {
   scene::Image image{width, height, 3, {}};
-  for (int i = 0; i < width * height; ++i) image.pixels.insert(image.pixels.end(), {red, green, blue});
+  for (int i = 0; i < width * height; ++i)
+    image.pixels.insert(image.pixels.end(), {red, green, blue});
   return image;
 }
 
@@ -21,7 +22,8 @@ TEST(Film, IsThereWholeWithEveryPictureInItsColours) {
   for (const char* name : {"a.avi", "a.mp4"}) {
     const auto folder = palpa::test::freshFolder("replay", name);
     Film film(folder / name, 25, 160, 120);
-    for (int i = 0; i < 30; ++i) film.add(plain(160, 120, i < 15 ? 200 : 20, 40, i < 15 ? 20 : 200));
+    for (int i = 0; i < 30; ++i)
+      film.add(plain(160, 120, i < 15 ? 200 : 20, 40, i < 15 ? 20 : 200));
     EXPECT_FALSE(std::filesystem::exists(folder / name)) << "before it is finished";
     film.finish();
     cv::VideoCapture again((folder / name).string());
@@ -35,7 +37,8 @@ TEST(Film, IsThereWholeWithEveryPictureInItsColours) {
       EXPECT_NEAR(bgr[2], frames < 15 ? 200 : 20, 25) << name << ' ' << frames;
     }
     EXPECT_EQ(frames, 30) << name;
-    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1) << "nothing beside";
+    EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder), {}), 1)
+        << "nothing beside";
   }
 }
 
@@ -61,7 +64,8 @@ std::filesystem::path threePictures() {
   for (int i = 0; i < 3; ++i) {
     std::vector<unsigned char> jpeg;
     cv::imencode(".jpg", cv::Mat(48, 64, CV_8UC3, cv::Scalar(20 + 90 * i, 10, 10)), jpeg);
-    film.write(reinterpret_cast<const char*>(jpeg.data()), static_cast<std::streamsize>(jpeg.size()));
+    film.write(reinterpret_cast<const char*>(jpeg.data()),
+               static_cast<std::streamsize>(jpeg.size()));
     table << i << ',' << 1000 * (i + 1) << ",x\n";
   }
   return folder;
@@ -82,10 +86,11 @@ TEST(RecordedPictures, TheLastOneTakenIsShownWhicheverWayOneCame) {
 TEST(RecordedPictures, WhatIsMissingOrCutShortIsLeftOut) {
   EXPECT_TRUE(RecordedPictures(palpa::test::freshFolder("replay", "none")).empty());
   const auto folder = threePictures();
-  std::filesystem::resize_file(folder / "camera.mjpeg", std::filesystem::file_size(folder / "camera.mjpeg") / 2);
+  std::filesystem::resize_file(folder / "camera.mjpeg",
+                               std::filesystem::file_size(folder / "camera.mjpeg") / 2);
   RecordedPictures cut(folder);
   EXPECT_NE(cut.at(1000), nullptr);
-  cut.at(99999);   // whatever it is, it does not fail
+  cut.at(99999);  // whatever it is, it does not fail
   std::filesystem::resize_file(folder / "camera.mjpeg", 0);
   EXPECT_TRUE(RecordedPictures(folder).empty());
 }

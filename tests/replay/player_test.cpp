@@ -16,7 +16,7 @@ TEST(Player, GoesOnAtItsSpeedAndStopsAtTheEnd) {
   player.advance(100);
   EXPECT_EQ(player.at_s(), 10);
   EXPECT_TRUE(player.paused());
-  player.key("space", false);   // from the start again
+  player.key("space", false);  // from the start again
   EXPECT_EQ(player.at_s(), 2);
   EXPECT_FALSE(player.paused());
 }
@@ -62,7 +62,8 @@ TEST(Player, SpeedStaysWithinItsLimits) {
 }
 
 TEST(Marks, WordsStandForAWhileAndTheLatestWins) {
-  const std::vector<Mark> marks{{1, scene::TickTone::neutral, "Skin punctured"}, {2, scene::TickTone::bad, "Artery"}};
+  const std::vector<Mark> marks{{1, scene::TickTone::neutral, "Skin punctured"},
+                                {2, scene::TickTone::bad, "Artery"}};
   EXPECT_EQ(wordsAt(marks, 0.9), "");
   EXPECT_EQ(wordsAt(marks, 1), "Skin punctured");
   EXPECT_EQ(wordsAt(marks, 2.2), "Artery");
@@ -88,9 +89,10 @@ TEST(Moments, TheyAreThoseOfTheTrialAndBloodFillsAQuarterASecond) {
   haptics::FlightRecord other = tickAt(0, 0, Tissue::air);
   other.commands.trial = 1;
   reader.add(other);
-  for (int i = 0; i < 2000; ++i) reader.add(tickAt(1 + 1e-3 * i, 0.5, i < 1000 ? Tissue::air : Tissue::vein_lumen));
+  for (int i = 0; i < 2000; ++i)
+    reader.add(tickAt(1 + 1e-3 * i, 0.5, i < 1000 ? Tissue::air : Tissue::vein_lumen));
   const std::vector<Moment>& moments = reader.moments();
-  ASSERT_EQ(moments.size(), 500u);   // every 4 ms
+  ASSERT_EQ(moments.size(), 500u);  // every 4 ms
   EXPECT_FALSE(moments[249].blood_flows);
   EXPECT_TRUE(moments[251].blood_flows);
   EXPECT_NEAR(moments.back().blood, 0.25 * (moments.back().t_s - moments[249].t_s), 0.003);

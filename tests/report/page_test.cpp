@@ -80,7 +80,7 @@ TEST(Page, TellsWhereTheTaskStands) {
   const std::string page = written(report, "stands");
   EXPECT_TRUE(contains(page, "Where this task stands"));
   EXPECT_TRUE(contains(page, report.taxonomy[0].value));
-  report.taxonomy.clear();   // an older recording's
+  report.taxonomy.clear();  // an older recording's
   EXPECT_FALSE(contains(written(report, "stands_not"), "Where this task stands"));
 }
 

@@ -22,7 +22,9 @@ std::string palpationPage(const PalpationReport& report, const std::string& name
   return slurp(file);
 }
 
-bool says(const std::string& page, const std::string& text) { return page.find(text) != std::string::npos; }
+bool says(const std::string& page, const std::string& text) {
+  return page.find(text) != std::string::npos;
+}
 
 TEST(PalpationPage, IsWellFormedWithNoneOneAndThreeTrials) {
   EXPECT_EQ(faultOf(palpationPage(PalpationReport{}, "none")), "");
@@ -59,9 +61,10 @@ TEST(PalpationPage, TellsWhatWasFoundAndWhatWasNot) {
   const std::string page = palpationPage(report, "words");
   EXPECT_TRUE(says(page, escaped(trial.summary)));
   ASSERT_FALSE(trial.advice.empty());
-  for (const std::string& sentence : trial.advice) EXPECT_TRUE(says(page, "<li>" + escaped(sentence) + "</li>")) << sentence;
+  for (const std::string& sentence : trial.advice)
+    EXPECT_TRUE(says(page, "<li>" + escaped(sentence) + "</li>")) << sentence;
   EXPECT_TRUE(says(page, "found by mark 1"));
-  EXPECT_TRUE(says(page, "3.2 mm"));   // hypot(2.5, 2) of the first mark
+  EXPECT_TRUE(says(page, "3.2 mm"));  // hypot(2.5, 2) of the first mark
   EXPECT_TRUE(says(page, "4.0 mm too large"));
   EXPECT_TRUE(says(page, "right: hard"));
   EXPECT_TRUE(says(page, "wrong: said mobile, is fixed"));
@@ -81,7 +84,8 @@ std::size_t times(const std::string& page, const std::string& text) {
   return count;
 }
 
-/// Each sign stands in the legend once, and in the map as often as there is something; all that twice, wide and narrow.
+/// Each sign stands in the legend once, and in the map as often as there is something; all that
+/// twice, wide and narrow.
 TEST(PalpationPage, DrawsLumpsAndMarksByShape) {
   const std::string page = palpationPage(syntheticPalpation(1), "signs");
   EXPECT_EQ(times(page, "class=\"ring found\""), 2 * (1 + 1u));
@@ -90,28 +94,34 @@ TEST(PalpationPage, DrawsLumpsAndMarksByShape) {
   EXPECT_EQ(times(page, "class=\"cross alarm\""), 2 * (1 + 1u));
   EXPECT_EQ(times(page, ">away from you<"), 2u);
   EXPECT_EQ(times(page, ">10 mm</text>"), 2u);
-  EXPECT_TRUE(says(std::string(palpationStyle()), ".ring.missed{stroke:var(--bad-ink);stroke-dasharray"));
+  EXPECT_TRUE(
+      says(std::string(palpationStyle()), ".ring.missed{stroke:var(--bad-ink);stroke-dasharray"));
 }
 
-/// A lump of 16 mm is drawn 16 mm wide by the page's own scale bar; one to the right and away stands right and above the middle.
+/// A lump of 16 mm is drawn 16 mm wide by the page's own scale bar; one to the right and away
+/// stands right and above the middle.
 TEST(PalpationPage, DrawsLumpsInTheirPlaceAndSize) {
   const std::string page = palpationPage(syntheticPalpation(1), "scale");
   const auto bar = page.find("v10m0-5h");
   ASSERT_NE(bar, std::string::npos);
   const double px_per_mm = std::stod(page.substr(bar + 8)) / 10;
   const auto ring = page.find("class=\"ring found\"");
-  const auto attribute = [&](const std::string& name) { return std::stod(page.substr(page.find(' ' + name + "=\"", ring) + name.size() + 3)); };
-  EXPECT_NEAR(2 * attribute("r") / px_per_mm, 16, 0.05);   // both are rounded to 0.1 px
+  const auto attribute = [&](const std::string& name) {
+    return std::stod(page.substr(page.find(' ' + name + "=\"", ring) + name.size() + 3));
+  };
+  EXPECT_NEAR(2 * attribute("r") / px_per_mm, 16, 0.05);  // both are rounded to 0.1 px
   const auto edge = page.find("class=\"edge\"");
-  const auto of_edge = [&](const std::string& name) { return std::stod(page.substr(page.find(' ' + name + "=\"", edge) + name.size() + 3)); };
+  const auto of_edge = [&](const std::string& name) {
+    return std::stod(page.substr(page.find(' ' + name + "=\"", edge) + name.size() + 3));
+  };
   EXPECT_NEAR((attribute("cx") - of_edge("x") - of_edge("width") / 2) / px_per_mm, 20, 0.05);
   EXPECT_NEAR((of_edge("y") + of_edge("height") / 2 - attribute("cy")) / px_per_mm, 18, 0.05);
 }
 
 TEST(PalpationPage, AddsUpWhatCounts) {
-  const std::string page = palpationPage(syntheticPalpation(3), "totals");   // the third is void
+  const std::string page = palpationPage(syntheticPalpation(3), "totals");  // the third is void
   EXPECT_TRUE(says(page, "Found 2 of 4 lumps in 2 scored trials; 2 false alarms."));
-  EXPECT_TRUE(says(page, "95 % interval 15 % to 85 %"));   // Wilson for 2 of 4
+  EXPECT_TRUE(says(page, "95 % interval 15 % to 85 %"));  // Wilson for 2 of 4
   EXPECT_TRUE(says(page, "1 trial is not counted here"));
   EXPECT_TRUE(says(page, "Not judged: void"));
 }
@@ -119,14 +129,15 @@ TEST(PalpationPage, AddsUpWhatCounts) {
 TEST(PalpationPage, SaysSimulatedIfAndOnlyIfItIs) {
   PalpationReport report = syntheticPalpation(2);
   report.trainee = "P07";
-  report.simulated = false;   // one simulated trial is enough
+  report.simulated = false;  // one simulated trial is enough
   report.trials[0].assessment.facts.simulated = false;
   const std::string page = palpationPage(report, "simulated");
   EXPECT_TRUE(says(page, "SIMULATED"));
   EXPECT_LT(page.find("SIMULATED"), page.find("<main>"));
   report.trials[1].assessment.facts.simulated = false;
   std::string real = palpationPage(report, "real");
-  std::transform(real.begin(), real.end(), real.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(real.begin(), real.end(), real.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   EXPECT_FALSE(says(real, "simulated"));
   report.simulated = true;
   EXPECT_TRUE(says(palpationPage(report, "simulated"), "SIMULATED"));
@@ -150,15 +161,19 @@ TEST(PalpationPage, TreatsNamesAsTextNeverAsMarkup) {
 
 TEST(PalpationPage, LoadsNothing) {
   std::string page = palpationPage(syntheticPalpation(1), "loads");
-  const std::string xmlns = "xmlns=\"http://www.w3.org/2000/svg\"";   // a name, nothing is loaded
-  for (auto at = page.find(xmlns); at != std::string::npos; at = page.find(xmlns)) page.erase(at, xmlns.size());
-  for (const char* load : {"http://", "https://", "<script", "<link", "@import", "url(", "<iframe"}) EXPECT_FALSE(says(page, load)) << load;
+  const std::string xmlns = "xmlns=\"http://www.w3.org/2000/svg\"";  // a name, nothing is loaded
+  for (auto at = page.find(xmlns); at != std::string::npos; at = page.find(xmlns))
+    page.erase(at, xmlns.size());
+  for (const char* load : {"http://", "https://", "<script", "<link", "@import", "url(", "<iframe"})
+    EXPECT_FALSE(says(page, load)) << load;
 }
 
 TEST(PalpationPage, IsAllOrNothingAndTheSameEachTime) {
-  EXPECT_EQ(palpationPage(syntheticPalpation(2), "same"), palpationPage(syntheticPalpation(2), "same"));
+  EXPECT_EQ(palpationPage(syntheticPalpation(2), "same"),
+            palpationPage(syntheticPalpation(2), "same"));
   const fs::path folder = freshFolder("palpation_unwritable");
-  EXPECT_THROW(writePalpationReport(syntheticPalpation(), folder / "missing" / "report.html"), Error);
+  EXPECT_THROW(writePalpationReport(syntheticPalpation(), folder / "missing" / "report.html"),
+               Error);
   const std::string css(palpationStyle());
   EXPECT_EQ(std::count(css.begin(), css.end(), '{'), std::count(css.begin(), css.end(), '}'));
 }
@@ -169,9 +184,12 @@ TEST(PalpationPage, LeavesOneToLookAt) {
   EXPECT_LT(fs::file_size(file), 500'000u);
 }
 
-/// The closed form at the ends, and the figures for 81 of 263 in R. G. Newcombe, Statistics in Medicine 17, 1998, table I.
+/// The closed form at the ends, and the figures for 81 of 263 in R. G. Newcombe, Statistics in
+/// Medicine 17, 1998, table I.
 TEST(Wilson, IsTheScoreInterval) {
-  const statistics::ShareInterval all = statistics::wilson(10, 10), some = statistics::wilson(81, 263), none = statistics::wilson(0, 0);
+  const statistics::ShareInterval all = statistics::wilson(10, 10),
+                                  some = statistics::wilson(81, 263),
+                                  none = statistics::wilson(0, 0);
   EXPECT_NEAR(all.low, 10 / (10 + 1.959963984540054 * 1.959963984540054), 1e-12);
   EXPECT_NEAR(all.high, 1, 1e-12);
   EXPECT_NEAR(some.low, 0.2553, 5e-5);
@@ -199,11 +217,16 @@ TEST(PalpationCsv, HasAColumnForEachFigure) {
   std::getline(lines, row);
   EXPECT_FALSE(std::getline(lines, rest));
   EXPECT_EQ(header,
-            "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,LUMPS,FOUND,MISSED,FALSE_ALARMS,REPEATED,CLEAR_QUADRANTS,WRONG_QUADRANTS,COVERAGE_LIGHT,COVERAGE_MEDIUM,COVERAGE_DEEP,TWICE,"
-            "PATTERN,PATTERN_KEPT,PEAK_N,MEAN_N,TOO_LIGHT,TOO_HARD,CLOSER_FORCE,PRESSES,TIME_S,GUIDED,ERROR_MEAN_MM,SIZE_ERROR_MEAN_MM,AT_STANDARD,AUGMENTED");
+            "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,LUMPS,FOUND,MISSED,FALSE_ALARMS,REPEATED,"
+            "CLEAR_QUADRANTS,WRONG_QUADRANTS,COVERAGE_LIGHT,COVERAGE_MEDIUM,COVERAGE_DEEP,TWICE,"
+            "PATTERN,PATTERN_KEPT,PEAK_N,MEAN_N,TOO_LIGHT,TOO_HARD,CLOSER_FORCE,PRESSES,TIME_S,"
+            "GUIDED,ERROR_MEAN_MM,SIZE_ERROR_MEAN_MM,AT_STANDARD,AUGMENTED");
   const Columns names = split(header), values = split(row);
   ASSERT_EQ(values.size(), names.size());
-  const auto value = [&](const std::string& name) { return values[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) - names.begin())]; };
+  const auto value = [&](const std::string& name) {
+    return values[static_cast<std::size_t>(std::find(names.begin(), names.end(), name) -
+                                           names.begin())];
+  };
   EXPECT_EQ(row.find("P07,1,20240517,1,1,done,2,1,1,1,1,"), 0u) << row;
   EXPECT_EQ(std::stod(value("COVERAGE_DEEP")), trial.score.coverage[2]);
   EXPECT_EQ(std::stod(value("PEAK_N")), trial.score.peak);
@@ -221,7 +244,8 @@ TEST(PalpationCsv, QuotesNamesAndLeavesEmptyWhatWasNotMeasured) {
   nothing.passed = true;
   writePalpationCsv("a,\"b\"", {nothing}, folder / "trials.csv");
   const std::string csv = slurp(folder / "trials.csv"), row = csv.substr(csv.find('\n') + 1);
-  EXPECT_EQ(row, "\"a,\"\"b\"\"\",0,1,0,1,,0,0,0,0,0,0,0,0,0,0,0,no pattern,0,0,0,0,0,,0,0,0,,,1,0\n");
+  EXPECT_EQ(row,
+            "\"a,\"\"b\"\"\",0,1,0,1,,0,0,0,0,0,0,0,0,0,0,0,no pattern,0,0,0,0,0,,0,0,0,,,1,0\n");
   EXPECT_THROW(writePalpationCsv("P", {}, folder / "missing" / "trials.csv"), Error);
 }
 

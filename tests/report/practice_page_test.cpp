@@ -24,18 +24,24 @@ std::string cohortPage(const CohortReport& report) {
   return practicePage("cohort", [&](const auto& file) { writeCohortReport(report, file); });
 }
 
-bool tells(const std::string& page, const std::string& words) { return page.find(words) != std::string::npos; }
+bool tells(const std::string& page, const std::string& words) {
+  return page.find(words) != std::string::npos;
+}
 
 std::size_t occurrences(const std::string& page, const std::string& words) {
   std::size_t count = 0;
-  for (std::size_t at = page.find(words); at != std::string::npos; at = page.find(words, at + 1)) ++count;
+  for (std::size_t at = page.find(words); at != std::string::npos; at = page.find(words, at + 1))
+    ++count;
   return count;
 }
 
 TEST(TraineePage, SaysInShortWhatAnEducatorAsks) {
   const std::string page = traineePage(test::madeUpTrainee(30));
-  for (const char* words : {"Trainee T&lt;7&gt;", "30 scored trials in 6 sessions, 2027-01-10 to 2027-07-15", "time, from 56.1 s to ", "95 % interval", "Costs most now:", "points a trial", "Nearest misses:", "mm from the pleura in trial ",
-                            "Recurring:", "Practise next:", "none is established for this procedure", "exponential curve", "bootstrap"})
+  for (const char* words :
+       {"Trainee T&lt;7&gt;", "30 scored trials in 6 sessions, 2027-01-10 to 2027-07-15",
+        "time, from 56.1 s to ", "95 % interval", "Costs most now:", "points a trial",
+        "Nearest misses:", "mm from the pleura in trial ", "Recurring:", "Practise next:",
+        "none is established for this procedure", "exponential curve", "bootstrap"})
     EXPECT_TRUE(tells(page, words)) << words;
   EXPECT_FALSE(tells(page, "SIMULATED"));
   EXPECT_FALSE(tells(page, "<script"));
@@ -45,14 +51,16 @@ TEST(TraineePage, SaysInShortWhatAnEducatorAsks) {
 TEST(TraineePage, EveryPlotHasATableAndTwoDrawings) {
   const std::string page = traineePage(test::madeUpTrainee(30));
   const std::size_t wide = occurrences(page, "class=\"chart wide\"");
-  EXPECT_EQ(wide, 4u);   // total, time, success, CUSUM
+  EXPECT_EQ(wide, 4u);  // total, time, success, CUSUM
   EXPECT_EQ(occurrences(page, "class=\"chart narrow\""), wide);
   EXPECT_EQ(occurrences(page, "The figures of this plot"), wide);
 }
 
 TEST(TraineePage, FewTrialsCertifyNobody) {
   const std::string page = traineePage(test::madeUpTrainee(5));
-  EXPECT_TRUE(tells(page, "So few trials cannot certify anybody: with these rates it takes at least 13, all without failure"));
+  EXPECT_TRUE(tells(page,
+                    "So few trials cannot certify anybody: with these rates it takes at least 13, "
+                    "all without failure"));
   EXPECT_TRUE(tells(page, "no curve is fitted"));
   EXPECT_TRUE(tells(page, "too few trials to say what changed"));
   EXPECT_TRUE(tells(page, "once it is reached"));
@@ -104,24 +112,38 @@ TEST(TraineePage, PalpationIsLockedBelowEightCases) {
     t.number = i;
     t.role = "scored";
     t.outcome = "done";
-    t.metrics = {{"success", 1}, {"time_s", 100.0 + i}, {"sensitivity_pct", 80.0 + i}, {"specificity_pct", 100}, {"false_alarms", 0}, {"presses", 40}, {"coverage_deep_pct", 97}, {"coverage_light_pct", 99}};
+    t.metrics = {{"success", 1},
+                 {"time_s", 100.0 + i},
+                 {"sensitivity_pct", 80.0 + i},
+                 {"specificity_pct", 100},
+                 {"false_alarms", 0},
+                 {"presses", 40},
+                 {"coverage_deep_pct", 97},
+                 {"coverage_light_pct", 99}};
     report.trials.push_back(t);
   }
   const std::string locked = traineePage(report);
-  EXPECT_TRUE(tells(locked, "Nobody passes or fails by fewer than eight cases; so far there are 7"));
+  EXPECT_TRUE(
+      tells(locked, "Nobody passes or fails by fewer than eight cases; so far there are 7"));
   EXPECT_FALSE(tells(locked, "CUSUM"));
   report.trials.push_back(report.trials.back());
   EXPECT_TRUE(tells(traineePage(report), "CUSUM"));
 }
 
-TEST(TraineePage, WithoutTrialsItSaysSo) { EXPECT_TRUE(tells(traineePage({}), "No trial counts yet")); }
+TEST(TraineePage, WithoutTrialsItSaysSo) {
+  EXPECT_TRUE(tells(traineePage({}), "No trial counts yet"));
+}
 
 TEST(CohortPage, SaysWhoNeedsAttentionAndWhatIsCommon) {
   const std::string page = cohortPage(test::madeUpCohort(6, 12));
-  for (const char* words : {"Group: novice", "6 trainees, 72 scored trials", "Needs attention:", "T003: the pleura was touched in", "of a trainee&#39;s trials", "ICC(3,k)", "bootstrap over trainees", "Fewer than 13 trials cannot certify anybody"})
+  for (const char* words :
+       {"Group: novice", "6 trainees, 72 scored trials",
+        "Needs attention:", "T003: the pleura was touched in", "of a trainee&#39;s trials",
+        "ICC(3,k)", "bootstrap over trainees", "Fewer than 13 trials cannot certify anybody"})
     EXPECT_TRUE(tells(page, words)) << words;
   EXPECT_EQ(occurrences(page, "class=\"chart wide\""), occurrences(page, "class=\"chart narrow\""));
-  EXPECT_EQ(occurrences(page, "class=\"chart wide\""), occurrences(page, "The figures of this plot"));
+  EXPECT_EQ(occurrences(page, "class=\"chart wide\""),
+            occurrences(page, "The figures of this plot"));
   EXPECT_FALSE(tells(page, "SIMULATED"));
 }
 
@@ -130,7 +152,8 @@ TEST(CohortPage, SimulatedAndPeopleNeverShareAFigure) {
   for (progress::PracticeTrial& trial : report.trials) trial.simulated = trial.trainee > "T003";
   const std::string page = cohortPage(report);
   EXPECT_TRUE(tells(page, "SIMULATED"));
-  const std::size_t second = page.find("class=\"card series\"", page.find("class=\"card series\"") + 1);
+  const std::size_t second =
+      page.find("class=\"card series\"", page.find("class=\"card series\"") + 1);
   ASSERT_NE(second, std::string::npos);
   const std::string one = page.substr(0, second), other = page.substr(second);
   EXPECT_NE(one.find(">T001<") == std::string::npos, other.find(">T001<") == std::string::npos);
@@ -139,7 +162,8 @@ TEST(CohortPage, SimulatedAndPeopleNeverShareAFigure) {
 }
 
 TEST(CohortPage, FewerThanEightCasesHaveNoReliability) {
-  EXPECT_TRUE(tells(cohortPage(test::madeUpCohort(4, 7)), "nobody should pass or fail by these figures alone"));
+  EXPECT_TRUE(tells(cohortPage(test::madeUpCohort(4, 7)),
+                    "nobody should pass or fail by these figures alone"));
 }
 
 TEST(ProgressWords, FiguresHaveTheirUnits) {
@@ -151,9 +175,13 @@ TEST(ProgressWords, FiguresHaveTheirUnits) {
   EXPECT_EQ(intervalWords("time_s", std::nullopt), "");
   EXPECT_EQ(fieldOf("success", 1), "yes");
   progress::Change change{"time_s", 3, 40, 20, -20, -28, -12, progress::Change::Verdict::better};
-  EXPECT_EQ(changeWords(change), "time, from 40 s to 20 s (means of the first and the last 3 trials), 20 s less (95 % interval 12 s to 28 s)");
+  EXPECT_EQ(changeWords(change),
+            "time, from 40 s to 20 s (means of the first and the last 3 trials), 20 s less (95 % "
+            "interval 12 s to 28 s)");
   change = {"closest_pleura_mm", 3, 5, 6, 1, -2, 4, progress::Change::Verdict::unclear};
-  EXPECT_EQ(changeWords(change), "closest to the pleura, from 5 mm to 6 mm (means of the first and the last 3 trials); the difference's 95 % interval is −2 mm to 4 mm");
+  EXPECT_EQ(changeWords(change),
+            "closest to the pleura, from 5 mm to 6 mm (means of the first and the last 3 trials); "
+            "the difference's 95 % interval is −2 mm to 4 mm");
 }
 
 TEST(Example, PagesOfPracticeToLookAt) {

@@ -10,29 +10,40 @@ namespace {
 using assess::SearchMode;
 
 std::string searchPage(const SearchReport& report, const std::string& name = "page") {
-  const std::filesystem::path file = palpa::test::freshFolder("report", "search_" + name) / "report.html";
+  const std::filesystem::path file =
+      palpa::test::freshFolder("report", "search_" + name) / "report.html";
   writeSearchReport(report, file);
   const std::string page = palpa::test::slurp(file);
   EXPECT_EQ(test::faultOf(page), "");
   return page;
 }
 
-bool holds(const std::string& page, const std::string& words) { return page.find(words) != std::string::npos; }
+bool holds(const std::string& page, const std::string& words) {
+  return page.find(words) != std::string::npos;
+}
 
 std::size_t timesIn(const std::string& page, const std::string& words) {
   std::size_t times = 0;
-  for (std::size_t at = page.find(words); at != std::string::npos; at = page.find(words, at + 1)) ++times;
+  for (std::size_t at = page.find(words); at != std::string::npos; at = page.find(words, at + 1))
+    ++times;
   return times;
 }
 
 TEST(SearchPage, SaysWhatWasFoundAndWhatTheCuesGaveBack) {
   const std::string page = searchPage(test::searchedSession());
-  for (const char* words : {"In 10 of 10 episodes with full stiffness the target was found, 95 % interval 72 % to 100 %. The choice took 14 s (median).",
-                            "In 4 of 10 episodes with degraded stiffness the target was found, 95 % interval 17 % to 69 %. That may have been chance. The choice took 37 s (median).",
-                            "In 8 of 10 episodes with degraded stiffness and cues the target was found, 95 % interval 49 % to 94 %. The choice took 23 s (median).",
-                            "Of what is lost without full stiffness, the cues gave back 67 %, 95 % interval", "1 U = 0.06 mm in the hand", "Made by palpa 0.1.0."})
+  for (const char* words :
+       {"In 10 of 10 episodes with full stiffness the target was found, 95 % interval 72 % to 100 "
+        "%. The choice took 14 s (median).",
+        "In 4 of 10 episodes with degraded stiffness the target was found, 95 % interval 17 % to "
+        "69 %. That may have been chance. The choice took 37 s (median).",
+        "In 8 of 10 episodes with degraded stiffness and cues the target was found, 95 % interval "
+        "49 % to 94 %. The choice took 23 s (median).",
+        "Of what is lost without full stiffness, the cues gave back 67 %, 95 % interval",
+        "1 U = 0.06 mm in the hand", "Made by palpa 0.1.0."})
     EXPECT_TRUE(holds(page, words)) << words;
-  for (const char* words : {"SIMULATED", "not counted", "All blocks are taken together", "no force feedback"}) EXPECT_FALSE(holds(page, words)) << words;
+  for (const char* words :
+       {"SIMULATED", "not counted", "All blocks are taken together", "no force feedback"})
+    EXPECT_FALSE(holds(page, words)) << words;
 }
 
 TEST(SearchPage, EveryEpisodeHasARowAMarkAndASignOfItsPlace) {
@@ -41,7 +52,8 @@ TEST(SearchPage, EveryEpisodeHasARowAMarkAndASignOfItsPlace) {
   EXPECT_EQ(timesIn(page, "class=\"place\""), 30u);
   EXPECT_EQ(timesIn(page, "element target"), 30u);
   EXPECT_EQ(timesIn(page, "choice other"), 8u);
-  EXPECT_EQ(timesIn(page, "class=\"mark good\""), 2 * (22 + 1u)) << "wide and narrow, and one in the key";
+  EXPECT_EQ(timesIn(page, "class=\"mark good\""), 2 * (22 + 1u))
+      << "wide and narrow, and one in the key";
   EXPECT_EQ(timesIn(page, "class=\"mark bad\""), 2 * (8 + 1u));
 }
 
@@ -72,9 +84,11 @@ TEST(SearchPage, DosesAreSummedByStiffness) {
 
 TEST(SearchPage, SaysWhenNothingCanBeToldOfTheCues) {
   SearchReport report = test::searchedSession();
-  std::erase_if(report.trials, [](const assess::SearchTrial& t) { return t.mode == SearchMode::real; });
+  std::erase_if(report.trials,
+                [](const assess::SearchTrial& t) { return t.mode == SearchMode::real; });
   EXPECT_TRUE(holds(searchPage(report), "only by episodes of all three kinds"));
-  std::erase_if(report.trials, [](const assess::SearchTrial& t) { return t.mode == SearchMode::augmented; });
+  std::erase_if(report.trials,
+                [](const assess::SearchTrial& t) { return t.mode == SearchMode::augmented; });
   EXPECT_FALSE(holds(searchPage(report), "class=\"recovered\""));
   report = test::searchedSession();
   for (assess::SearchTrial& t : report.trials)
@@ -87,7 +101,8 @@ TEST(SearchPage, SaysWhenNothingCanBeToldOfTheCues) {
 
 TEST(SearchPage, BlocksAndUnscoredEpisodesAreTold) {
   SearchReport report = test::searchedSession();
-  for (std::size_t i = 0; i < 6; ++i) report.trials[i].block = "training", report.trials[i].role = "training";
+  for (std::size_t i = 0; i < 6; ++i)
+    report.trials[i].block = "training", report.trials[i].role = "training";
   for (std::size_t i = 6; i < 18; ++i) report.trials[i].block = "baseline";
   for (std::size_t i = 18; i < 30; ++i) report.trials[i].block = "evaluation";
   report.trials[6].outcome = "time";
@@ -139,8 +154,10 @@ TEST(SearchPage, NoTextIsMarkup) {
 TEST(SearchPage, LeavesOneToLookAt) { searchPage(test::searchedSession(), "example"); }
 
 TEST(SearchCsv, ARowAnEpisode) {
-  const std::filesystem::path file = palpa::test::freshFolder("report", "search_csv") / "trials.csv";
-  assess::SearchTrial first = test::searched(4, SearchMode::augmented, true, 20), second = test::searched(5, SearchMode::real, true, 8);
+  const std::filesystem::path file =
+      palpa::test::freshFolder("report", "search_csv") / "trials.csv";
+  assess::SearchTrial first = test::searched(4, SearchMode::augmented, true, 20),
+                      second = test::searched(5, SearchMode::real, true, 8);
   first.block = "training";
   second.outcome = "time";
   second.chosen = -1;
@@ -148,15 +165,20 @@ TEST(SearchCsv, ARowAnEpisode) {
   second.doses.erase(second.doses.begin());
   writeSearchCsv("T,7", {first, second}, file);
   EXPECT_EQ(palpa::test::slurp(file),
-            "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,BLOCK,MODE,ORIENTATION_DEG,TARGET,CHOSEN,FOUND,TIME_S,PATH_M,MEAN_N,PEAK_N,VISIT_0_S,VISIT_1_S,VISIT_2_S,"
-            "SCAN_ON_S,SCAN_TIMES,SCAN_AUGMENTED_S,SCAN_IMPULSE_NS,SHAPE_ASSESSMENT_ON_S,SHAPE_ASSESSMENT_TIMES,SHAPE_ASSESSMENT_AUGMENTED_S,SHAPE_ASSESSMENT_IMPULSE_NS,"
-            "IDENTIFICATION_ON_S,IDENTIFICATION_TIMES,IDENTIFICATION_AUGMENTED_S,IDENTIFICATION_IMPULSE_NS\n"
-            "\"T,7\",4,104,0,1,done,training,augmented,148,1,1,1,20,0.4,0.8,3.25,0,10,5,10,7,0.5,0.25,5,4,2,3,2.5,5,0,0\n"
+            "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,BLOCK,MODE,ORIENTATION_DEG,TARGET,CHOSEN,"
+            "FOUND,TIME_S,PATH_M,MEAN_N,PEAK_N,VISIT_0_S,VISIT_1_S,VISIT_2_S,"
+            "SCAN_ON_S,SCAN_TIMES,SCAN_AUGMENTED_S,SCAN_IMPULSE_NS,SHAPE_ASSESSMENT_ON_S,SHAPE_"
+            "ASSESSMENT_TIMES,SHAPE_ASSESSMENT_AUGMENTED_S,SHAPE_ASSESSMENT_IMPULSE_NS,"
+            "IDENTIFICATION_ON_S,IDENTIFICATION_TIMES,IDENTIFICATION_AUGMENTED_S,IDENTIFICATION_"
+            "IMPULSE_NS\n"
+            "\"T,7\",4,104,0,1,done,training,augmented,148,1,1,1,20,0.4,0.8,3.25,0,10,5,10,7,0.5,0."
+            "25,5,4,2,3,2.5,5,0,0\n"
             "\"T,7\",5,105,0,0,time,,real,185,2,-1,0,8,0.16,0.8,3.25,2,0,4,,,,,2,4,0,0,1,5,0,0\n");
 }
 
 TEST(SearchCsv, WithoutEpisodesItIsAHeader) {
-  const std::filesystem::path file = palpa::test::freshFolder("report", "search_csv_none") / "trials.csv";
+  const std::filesystem::path file =
+      palpa::test::freshFolder("report", "search_csv_none") / "trials.csv";
   writeSearchCsv("T7", {}, file);
   const std::string csv = palpa::test::slurp(file);
   EXPECT_TRUE(csv.ends_with("VISIT_2_S\n"));

@@ -7,7 +7,8 @@
 namespace palpa::report {
 namespace {
 
-assess::SqueezeTrial answered(int trial, assess::SqueezedProperty property, double second, int said) {
+assess::SqueezeTrial answered(int trial, assess::SqueezedProperty property, double second,
+                              int said) {
   assess::SqueezeTrial t;
   t.trial = trial;
   t.role = "scored";
@@ -28,8 +29,10 @@ SqueezeReport someAnswers() {
   report.too_hard_N = 2;
   int trial = 0;
   for (int i = 0; i < 6; ++i) {
-    report.trials.push_back(answered(++trial, assess::SqueezedProperty::stiffness, 1.5, i == 0 ? 1 : 2));
-    report.trials.push_back(answered(++trial, assess::SqueezedProperty::stiffness, 0.8, i < 2 ? 2 : 1));
+    report.trials.push_back(
+        answered(++trial, assess::SqueezedProperty::stiffness, 1.5, i == 0 ? 1 : 2));
+    report.trials.push_back(
+        answered(++trial, assess::SqueezedProperty::stiffness, 0.8, i < 2 ? 2 : 1));
   }
   report.trials.push_back(answered(++trial, assess::SqueezedProperty::weight, 2, 2));
   report.trials.back().peak_N = 2.5;
@@ -44,11 +47,16 @@ std::string pageOf(const SqueezeReport& report) {
   return page;
 }
 
-bool saysPage(const std::string& page, const std::string& words) { return page.find(words) != std::string::npos; }
+bool saysPage(const std::string& page, const std::string& words) {
+  return page.find(words) != std::string::npos;
+}
 
 TEST(SqueezePage, SaysWhatWasToldApart) {
   const std::string page = pageOf(someAnswers());
-  for (const char* words : {"9 of 12 answers were right", "Three of four answers are right from a difference of about", "1 of 1 answers were right", "Wrong: the second one was harder, by 50 %", "2.5 N: too hard", "Which is &lt;harder&gt;?"})
+  for (const char* words :
+       {"9 of 12 answers were right", "Three of four answers are right from a difference of about",
+        "1 of 1 answers were right", "Wrong: the second one was harder, by 50 %", "2.5 N: too hard",
+        "Which is &lt;harder&gt;?"})
     EXPECT_TRUE(saysPage(page, words)) << words;
   EXPECT_FALSE(saysPage(page, "SIMULATED"));
 }
@@ -56,7 +64,9 @@ TEST(SqueezePage, SaysWhatWasToldApart) {
 TEST(SqueezePage, AThresholdFarAboveWhatWasAskedIsNotGivenAsAFigure) {
   SqueezeReport report = someAnswers();
   report.trials.clear();
-  for (int i = 0; i < 40; ++i) report.trials.push_back(answered(i + 1, assess::SqueezedProperty::stiffness, 1.2, i < 22 ? 2 : 1));
+  for (int i = 0; i < 40; ++i)
+    report.trials.push_back(
+        answered(i + 1, assess::SqueezedProperty::stiffness, 1.2, i < 22 ? 2 : 1));
   const std::string page = pageOf(report);
   EXPECT_TRUE(saysPage(page, "only from a difference well above those asked"));
   EXPECT_FALSE(saysPage(page, "answers are right from a difference of about"));
@@ -73,10 +83,12 @@ TEST(SqueezePage, SimulatedIsSaidOnTopAndVoidIsNotCounted) {
 }
 
 TEST(SqueezeCsv, ARowATrial) {
-  const std::filesystem::path file = palpa::test::freshFolder("report", "squeeze_csv") / "trials.csv";
+  const std::filesystem::path file =
+      palpa::test::freshFolder("report", "squeeze_csv") / "trials.csv";
   writeSqueezeCsv("T,7", {answered(3, assess::SqueezedProperty::weight, 1.43, 2)}, file);
   EXPECT_EQ(palpa::test::slurp(file),
-            "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,PROPERTY,FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_S,GRIPS_FIRST,GRIPS_SECOND\n\"T,7\",3,0,0,1,done,weight,1,1.43,2,1,0.9,14.2,1,1\n");
+            "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,PROPERTY,FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_"
+            "S,GRIPS_FIRST,GRIPS_SECOND\n\"T,7\",3,0,0,1,done,weight,1,1.43,2,1,0.9,14.2,1,1\n");
 }
 
 }  // namespace

@@ -4,7 +4,8 @@
 
 namespace palpa::report::test {
 
-inline assess::SearchTrial searched(int trial, assess::SearchMode mode, bool found, double seconds) {
+inline assess::SearchTrial searched(int trial, assess::SearchMode mode, bool found,
+                                    double seconds) {
   assess::SearchTrial t;
   t.trial = trial;
   t.role = "scored";
@@ -21,16 +22,21 @@ inline assess::SearchTrial searched(int trial, assess::SearchMode mode, bool fou
   t.visited_s[static_cast<std::size_t>(t.target)] = 0.5 * seconds;
   t.visited_s[static_cast<std::size_t>((t.target + 1) % 3)] = 0.25 * seconds;
   const bool cues = mode == assess::SearchMode::augmented;
-  t.doses = {{"scan", 0.5 * seconds, 7, cues ? 0.5 : 0, cues ? 0.25 : 0}, {"shape assessment", 0.25 * seconds, 4, cues ? 2.0 : 0, cues ? 3.0 : 0}, {"identification", 0.125 * seconds, 5, 0, 0}};
+  t.doses = {{"scan", 0.5 * seconds, 7, cues ? 0.5 : 0, cues ? 0.25 : 0},
+             {"shape assessment", 0.25 * seconds, 4, cues ? 2.0 : 0, cues ? 3.0 : 0},
+             {"identification", 0.125 * seconds, 5, 0, 0}};
   return t;
 }
 
-/// Ten episodes with full stiffness, all found; ten degraded, four found; ten augmented, eight found.
+/// Ten episodes with full stiffness, all found; ten degraded, four found; ten augmented, eight
+/// found.
 inline SearchReport searchedSession() {
   SearchReport report;
   report.title = "Find the rough one";
   report.trainee = "T007";
-  report.subtasks = {{"scan", "the probe moves fast over the floor"}, {"shape assessment", "the probe moves slowly, along a groove or a pit"}, {"identification", "the probe strokes a rough disc"}};
+  report.subtasks = {{"scan", "the probe moves fast over the floor"},
+                     {"shape assessment", "the probe moves slowly, along a groove or a pit"},
+                     {"identification", "the probe strokes a rough disc"}};
   report.unit_note = "1 U = 0.06 mm in the hand";
   report.station = {{"Device", "virtual", "no hardware"}, {"Software", "palpa 0.1.0", ""}};
   report.notes = {{"Late ticks", "0 of 1 200 000", ""}};
@@ -38,8 +44,10 @@ inline SearchReport searchedSession() {
   int trial = 0;
   for (int i = 0; i < 10; ++i) {
     report.trials.push_back(searched(++trial, assess::SearchMode::real, true, 12 + i % 7));
-    report.trials.push_back(searched(++trial, assess::SearchMode::degraded, i % 5 < 2, 31 + 3 * (i % 6)));
-    report.trials.push_back(searched(++trial, assess::SearchMode::augmented, i % 5 < 4, 19 + 2 * (i % 5)));
+    report.trials.push_back(
+        searched(++trial, assess::SearchMode::degraded, i % 5 < 2, 31 + 3 * (i % 6)));
+    report.trials.push_back(
+        searched(++trial, assess::SearchMode::augmented, i % 5 < 4, 19 + 2 * (i % 5)));
   }
   return report;
 }

@@ -37,9 +37,9 @@ inline SessionReport judgedReport() {
       {"cephalad", "Too cephalad", "The needle was aimed 14° too far toward the head <there>.", 9.4,
        14, 10, "deg", 1},
       {"left_vein", "Needle left the vein", "Blood had come for 0.6 s.", 24, 0.6, 1, "s", 2}};
-  page.verdict = competence::judge({true, "success"}, shippedChecklist(), madeUpFigure,
-                                   {{"sterile", competence::kDone}}, &shippedGlobal(),
-                                   {{"plan", 3}}, 0.98);
+  page.verdict =
+      competence::judge({true, "success"}, shippedChecklist(), madeUpFigure,
+                        {{"sterile", competence::kDone}}, &shippedGlobal(), {{"plan", 3}}, 0.98);
   page.certification = competence::whatCannotBeCertified(1);
   page.beside = {"expert", "The dash-dotted line is an expert's.", page.samples};
   return report;

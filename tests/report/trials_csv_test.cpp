@@ -41,8 +41,9 @@ TEST(TrialsCsv, IsThisText) {
 TEST(TrialsCsv, QuotesWhatNeedsIt) {
   const fs::path file = freshFolder("csv_quotes") / "trials.csv";
   writeTrialsCsv("a,\"b\"\n", {paperRows()[1]}, file);
-  EXPECT_EQ(slurp(file), std::string(kHeader) +
-                             "\"a,\"\"b\"\"\n\",0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4,0\n");
+  EXPECT_EQ(slurp(file),
+            std::string(kHeader) +
+                "\"a,\"\"b\"\"\n\",0,0,25,0,9,4,982.5,12,51,157840,0,2,0,0,3970.4,0\n");
 }
 
 struct CommaPoint : std::numpunct<char> {

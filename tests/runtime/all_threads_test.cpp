@@ -17,9 +17,9 @@
 #include "tests/support/allocation_count.h"
 #include "tests/support/simple_patient.h"
 
-/// Every thread that a session has, for some hundred ticks in real time: a Falcon's (on a scripted cable), a force
-/// sensor's, the haptic loop's, geometry on a mesh, the camera's, the task's, the recorder's. Run under the thread
-/// sanitizer too. Nothing here says how long anything took.
+/// Every thread that a session has, for some hundred ticks in real time: a Falcon's (on a scripted
+/// cable), a force sensor's, the haptic loop's, geometry on a mesh, the camera's, the task's, the
+/// recorder's. Run under the thread sanitizer too. Nothing here says how long anything took.
 namespace palpa::runtime {
 namespace {
 
@@ -61,8 +61,10 @@ class Counting final : public FlightSink {
 
 anatomy::Patient ball() {
   anatomy::Patient patient;
-  patient.organs.push_back({"skin", Organ::skin, test::sphere({0, 0, -0.2}, Vec3::Constant(0.2)), {1, 1, 1, 1}});
-  patient.organs.push_back({"bone", Organ::rib, test::sphere({0.01, 0, -0.02}, {0.006, 0.05, 0.006}), {1, 1, 1, 1}});
+  patient.organs.push_back(
+      {"skin", Organ::skin, test::sphere({0, 0, -0.2}, Vec3::Constant(0.2)), {1, 1, 1, 1}});
+  patient.organs.push_back(
+      {"bone", Organ::rib, test::sphere({0.01, 0, -0.02}, {0.006, 0.05, 0.006}), {1, 1, 1, 1}});
   return patient;
 }
 
@@ -72,7 +74,8 @@ TEST(AllThreads, RunTogetherAndTheHapticOneNeverAllocates) {
   const anatomy::Patient patient = ball();
   const anatomy::SurfaceQuery query(patient);
   const anatomy::LocalGeometryBuilder builder(patient, query);
-  const Pose X_DA = makePose(Mat3::Identity(), haptics::kFalconCentre + Vec3(0, 0, 0.001));  // the tip 1 mm deep
+  const Pose X_DA =
+      makePose(Mat3::Identity(), haptics::kFalconCentre + Vec3(0, 0, 0.001));  // the tip 1 mm deep
 
   test::Station station;
   station.twin.startFirmware();
@@ -95,7 +98,9 @@ TEST(AllThreads, RunTogetherAndTheHapticOneNeverAllocates) {
   CameraActivity camera(
       bus,
       [](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure {
-        return [=]() -> std::optional<ar::Frame> { return ar::Frame{number, now, cv::Mat(64, 64, CV_8UC1, cv::Scalar(9)), "dark"}; };
+        return [=]() -> std::optional<ar::Frame> {
+          return ar::Frame{number, now, cv::Mat(64, 64, CV_8UC1, cv::Scalar(9)), "dark"};
+        };
       },
       *board, lens, {20 * kMillisecond, 10 * kMillisecond, TimeMode::real});
   Counting sink;
@@ -107,7 +112,9 @@ TEST(AllThreads, RunTogetherAndTheHapticOneNeverAllocates) {
     sample.sequence = ++samples;
     sensor.publish(sample, now);
     // The grip goes in and out: 1 mm under the skin to 1 mm above it, twice a second.
-    station.rig.holdGripAt(haptics::kFalconCentre + Vec3(0, 0, 0.001 + 0.001 * std::cos(4e-9 * std::numbers::pi * static_cast<double>(now))));
+    station.rig.holdGripAt(
+        haptics::kFalconCentre +
+        Vec3(0, 0, 0.001 + 0.001 * std::cos(4e-9 * std::numbers::pi * static_cast<double>(now))));
     return now + kMillisecond;
   });
   std::size_t judged = 0, notices = 0, steps = 0;
@@ -115,11 +122,13 @@ TEST(AllThreads, RunTogetherAndTheHapticOneNeverAllocates) {
     haptics::TickCommands commands;
     commands.armed = commands.trial = 1;
     bus.task_to_haptic.publish(commands, now);
-    for (haptics::FlightRecord record; bus.haptic_to_task.pop(&record);) judged += record.f_command_D != Packed3{0, 0, 0};
+    for (haptics::FlightRecord record; bus.haptic_to_task.pop(&record);)
+      judged += record.f_command_D != Packed3{0, 0, 0};
     for (Event event; bus.device_to_task.pop(&event);) ++notices;
     bus.task_to_recorder.push(Event{now, 1, "note", "a text that has to be allocated", 0});
     bus.camera_to_task.read(now);
-    if (judged >= kTicks || ++steps > 3000) executive->stop();  // the second: half a minute without force
+    if (judged >= kTicks || ++steps > 3000)
+      executive->stop();  // the second: half a minute without force
     return now + 10 * kMillisecond;
   });
   std::uint64_t pictures = 0;

@@ -128,11 +128,16 @@ struct Told {
   std::vector<std::string> words;
 };
 
-Told tellOf(const std::function<std::optional<ar::Frame>(std::int64_t, std::uint64_t)>& source, int steps) {
+Told tellOf(const std::function<std::optional<ar::Frame>(std::int64_t, std::uint64_t)>& source,
+            int steps) {
   Bus bus(TimeMode::real);
   const auto board = ar::makeBoard("tags:2x2:0.030:0.0075");
-  CameraActivity activity(bus, [&](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure { return [&source, now, number] { return source(now, number); }; }, *board,
-                          {64, 64, 60, 60, 31.5, 31.5, {}, 0}, {kPeriod, kLatency, TimeMode::real});
+  CameraActivity activity(bus,
+                          [&](std::int64_t now, std::uint64_t number) -> CameraActivity::Exposure {
+                            return [&source, now, number] { return source(now, number); };
+                          },
+                          *board, {64, 64, 60, 60, 31.5, 31.5, {}, 0},
+                          {kPeriod, kLatency, TimeMode::real});
   Told told;
   std::int64_t now = 0;
   for (int i = 0; i < steps && now != kNever; ++i) {
@@ -153,10 +158,12 @@ ar::Frame noisy(std::int64_t t, std::uint64_t number) {
 }
 
 TEST(CameraActivity, ASourceThatFailsIsToldAndAskedAgain) {
-  const Told told = tellOf([](std::int64_t t, std::uint64_t n) -> std::optional<ar::Frame> {
-    if (n == 1 || n == 2) throw std::runtime_error("lens cap");
-    return noisy(t, n);
-  }, 4);
+  const Told told = tellOf(
+      [](std::int64_t t, std::uint64_t n) -> std::optional<ar::Frame> {
+        if (n == 1 || n == 2) throw std::runtime_error("lens cap");
+        return noisy(t, n);
+      },
+      4);
   using F = ar::PictureFault;
   EXPECT_EQ(told.faults, (std::vector<F>{F::none, F::gone, F::gone, F::none}));
   EXPECT_NE(told.words[1].find("lens cap"), std::string::npos);
@@ -164,22 +171,31 @@ TEST(CameraActivity, ASourceThatFailsIsToldAndAskedAgain) {
 
 TEST(CameraActivity, BlackFrozenAndForeignPicturesAreTold) {
   using F = ar::PictureFault;
-  const auto black = tellOf([](std::int64_t t, std::uint64_t n) {
-    ar::Frame frame = noisy(t, n);
-    if (n > 0) frame.image /= 20;
-    return frame;
-  }, 2);
+  const auto black = tellOf(
+      [](std::int64_t t, std::uint64_t n) {
+        ar::Frame frame = noisy(t, n);
+        if (n > 0) frame.image /= 20;
+        return frame;
+      },
+      2);
   EXPECT_EQ(black.faults, (std::vector<F>{F::none, F::black}));
-  const auto frozen = tellOf([](std::int64_t t, std::uint64_t n) { return noisy(t, std::min<std::uint64_t>(n, 3)); }, 20);
+  const auto frozen = tellOf(
+      [](std::int64_t t, std::uint64_t n) { return noisy(t, std::min<std::uint64_t>(n, 3)); }, 20);
   EXPECT_EQ(frozen.faults[3], F::none);
   EXPECT_EQ(frozen.faults.back(), F::frozen);
-  const auto foreign = tellOf([](std::int64_t t, std::uint64_t n) {
-    ar::Frame frame = noisy(t, n);
-    if (n > 0) frame.image = frame.image(cv::Rect(0, 0, 32, 32)).clone();
-    return frame;
-  }, 2);
+  const auto foreign = tellOf(
+      [](std::int64_t t, std::uint64_t n) {
+        ar::Frame frame = noisy(t, n);
+        if (n > 0) frame.image = frame.image(cv::Rect(0, 0, 32, 32)).clone();
+        return frame;
+      },
+      2);
   EXPECT_EQ(foreign.faults[1], F::wrong_size);
-  const auto ended = tellOf([](std::int64_t t, std::uint64_t n) -> std::optional<ar::Frame> { return n == 2 ? std::nullopt : std::optional(noisy(t, n)); }, 10);
+  const auto ended = tellOf(
+      [](std::int64_t t, std::uint64_t n) -> std::optional<ar::Frame> {
+        return n == 2 ? std::nullopt : std::optional(noisy(t, n));
+      },
+      10);
   EXPECT_EQ(ended.faults, (std::vector<F>{F::none, F::none, F::ended}));
   for (const auto* told : {&black, &frozen, &foreign, &ended}) EXPECT_NE(told->words.back(), "");
 }

@@ -55,7 +55,8 @@ TEST(ForceSensing, IsTheTouchAloneInTheDevicesFrame) {
   setup.filter.low_pass = haptics::butterworth(100, 1000);
   setup.filter.tool.mass = 0.05;
   setup.filter.bias.f_S = {0.1, 0.2, 0.3};
-  setup.X_WD = makePose(Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix(), {1, 0, 0});
+  setup.X_WD =
+      makePose(Eigen::AngleAxisd(1.1, Vec3(1, 2, 3).normalized()).toRotationMatrix(), {1, 0, 0});
   setup.X_ES = makePose(Eigen::AngleAxisd(-0.4, Vec3::UnitY()).toRotationMatrix(), {0, 0, 0.03});
   ForceSensing sensing(sensor, setup);
   haptics::DeviceReading reading;
@@ -68,7 +69,9 @@ TEST(ForceSensing, IsTheTouchAloneInTheDevicesFrame) {
     haptics::WrenchSample sample;
     sample.t_ns = i * kMillisecond;
     sample.sequence = static_cast<std::uint64_t>(i + 1);
-    sample.f_S = pack(Vec3(R_DS.transpose() * (touch_D + setup.X_WD.linear().transpose() * weight_W) + Vec3(0.1, 0.2, 0.3)));
+    sample.f_S =
+        pack(Vec3(R_DS.transpose() * (touch_D + setup.X_WD.linear().transpose() * weight_W) +
+                  Vec3(0.1, 0.2, 0.3)));
     sensor.publish(sample, sample.t_ns);
     reading.t_ns = sample.t_ns;
     sensed = sensing.sense(reading, sample.t_ns);
@@ -103,7 +106,9 @@ class Gaps : public ::testing::Test {
     reading_.homed = 1;
     return sensing_.sense(reading_, now_ns_);
   }
-  static bool valid(const haptics::SensedForce& sensed) { return sensed.state == haptics::SensorState::valid; }
+  static bool valid(const haptics::SensedForce& sensed) {
+    return sensed.state == haptics::SensorState::valid;
+  }
 
  private:
   ChannelSensor sensor_{{}, TimeMode::virtual_time};
@@ -120,7 +125,8 @@ TEST_F(Gaps, AShortOneOfTheDeviceTakesNoForceAway) {
   for (int i = 0; i < 2; ++i) {
     const haptics::SensedForce held = tick(9);
     ASSERT_TRUE(valid(held)) << i;
-    EXPECT_EQ(held.f_D[2], last.f_D[2]) << "what is told while nobody knows how the tool moves is what was told last";
+    EXPECT_EQ(held.f_D[2], last.f_D[2])
+        << "what is told while nobody knows how the tool moves is what was told last";
   }
   for (int i = 0; i < 30; ++i) last = tick(2);
   ASSERT_TRUE(valid(last));
@@ -129,7 +135,8 @@ TEST_F(Gaps, AShortOneOfTheDeviceTakesNoForceAway) {
 
 TEST_F(Gaps, AFaultOfTheSensorTakesItAwayAtOnceAndNothingOldComesBack) {
   for (int i = 0; i < 3; ++i) EXPECT_FALSE(valid(tick(1, true, haptics::kFault))) << i;
-  EXPECT_FALSE(valid(tick(3))) << "the first good sample: nothing is known yet, and what was before the fault is no word for it";
+  EXPECT_FALSE(valid(tick(3))) << "the first good sample: nothing is known yet, and what was "
+                                  "before the fault is no word for it";
   haptics::SensedForce sensed;
   for (int i = 0; i < 30; ++i) sensed = tick(3);
   ASSERT_TRUE(valid(sensed));
@@ -154,7 +161,9 @@ TEST(ForceSensing, AWordIsGoodForTenMillisecondsWhenTheLoopItselfStood) {
       sensor.publish(sample, sample.t_ns);
       sensed = sensing.sense(reading, sample.t_ns);
     }
-    EXPECT_EQ(sensed.state, stood_ms < 10 ? haptics::SensorState::valid : haptics::SensorState::unusable) << stood_ms;
+    EXPECT_EQ(sensed.state,
+              stood_ms < 10 ? haptics::SensorState::valid : haptics::SensorState::unusable)
+        << stood_ms;
   }
 }
 

@@ -7,13 +7,15 @@
 #include "apps/runtime/haptic_activity.h"
 #include "tests/haptics/needle_bench.h"
 
-/// The loop at 1 kHz and at 4 kHz in virtual time, on the same hand: what is counted in ticks would show.
+/// The loop at 1 kHz and at 4 kHz in virtual time, on the same hand: what is counted in ticks would
+/// show.
 namespace palpa::runtime {
 namespace {
 
 constexpr std::int64_t kSlow = kMillisecond, kFast = kMillisecond / 4, kEnd = 800 * kMillisecond;
 
-std::vector<haptics::FlightRecord> runLoop(std::int64_t period_ns, std::int64_t silent_from_ns = kNever,
+std::vector<haptics::FlightRecord> runLoop(std::int64_t period_ns,
+                                           std::int64_t silent_from_ns = kNever,
                                            std::int64_t stale_from_ns = kNever) {
   haptics::TickConfig config;
   config.materials = haptics::NeedleBench{}.materials;
@@ -62,7 +64,8 @@ std::vector<haptics::FlightRecord> runLoop(std::int64_t period_ns, std::int64_t 
   return records;
 }
 
-std::int64_t firstWith(const std::vector<haptics::FlightRecord>& records, haptics::SafetyCause cause) {
+std::int64_t firstWith(const std::vector<haptics::FlightRecord>& records,
+                       haptics::SafetyCause cause) {
   for (const auto& r : records)
     if (r.safety == cause && r.t_ns > 100 * kMillisecond) return r.t_ns;
   return -1;
@@ -84,7 +87,8 @@ TEST(FastLoop, TheForceIsThatOfTheSlowLoop) {
     ASSERT_EQ(slow[i].t_ns, fast[4 * i].t_ns);
     const Vec3 f = unpack(slow[i].f_command_D), g = unpack(fast[4 * i].f_command_D);
     strongest = std::max(strongest, f.norm());
-    // A millisecond of this hand is 2 um, on a coupling of 1000 N/m 2 mN: so far apart may two steps be.
+    // A millisecond of this hand is 2 um, on a coupling of 1000 N/m 2 mN: so far apart may two
+    // steps be.
     EXPECT_LT((f - g).norm(), 0.002 + 0.01 * f.norm()) << slow[i].t_ns;
   }
   EXPECT_GT(strongest, 0.05) << "nothing was touched";
@@ -94,12 +98,15 @@ TEST(FastLoop, LimitsInTimeDoNotDependOnThePeriod) {
   constexpr std::int64_t kSilent = 501 * kMillisecond;
   for (const std::int64_t period : {kSlow, kFast}) {
     const std::int64_t last_reading = kSilent - kFast;
-    const std::int64_t heard = last_reading / period * period + (last_reading % period ? period : 0);
+    const std::int64_t heard =
+        last_reading / period * period + (last_reading % period ? period : 0);
     EXPECT_EQ(firstWith(runLoop(period, kSilent), haptics::SafetyCause::silent_device),
               heard + 10 * kMillisecond)
         << period;
-    const auto stale = runLoop(period, kNever, 400 * kMillisecond);  // the last snapshot is of 384 ms
-    EXPECT_EQ(firstWith(stale, haptics::SafetyCause::stale_geometry), 484 * kMillisecond + period) << period;
+    const auto stale =
+        runLoop(period, kNever, 400 * kMillisecond);  // the last snapshot is of 384 ms
+    EXPECT_EQ(firstWith(stale, haptics::SafetyCause::stale_geometry), 484 * kMillisecond + period)
+        << period;
     EXPECT_EQ(stale.back().f_command_D, (Packed3{0, 0, 0})) << period;
   }
 }

@@ -153,9 +153,9 @@ void expectReplayEquals(const Memory& sink) {
       EXPECT_EQ(keyframe->second.now.number, state.now.number);
       EXPECT_EQ(keyframe->second.contact.phase, state.contact.phase);
     }
-    haptics::FlightRecord again = haptics::tick(
-        config, state, recorded.reading, recorded.snapshot ? &snapshot->second : nullptr,
-        recorded.commands, recorded.t_ns, recorded.sensed);
+    haptics::FlightRecord again = haptics::tick(config, state, recorded.reading,
+                                                recorded.snapshot ? &snapshot->second : nullptr,
+                                                recorded.commands, recorded.t_ns, recorded.sensed);
     again.late_ns = recorded.late_ns;  // the thread's, not the tick's
     different += !sameBits(recorded, again);
   }

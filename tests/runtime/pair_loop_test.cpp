@@ -28,10 +28,13 @@ haptics::PairConfig squeezing() {
 /// Two hands hold a soft thing between their fingers; each finger has its own device and sensor.
 struct HeldThing {
   Bus bus{TimeMode::real};
-  std::array<ChannelDevice, 2> devices{ChannelDevice({}, TimeMode::real), ChannelDevice({}, TimeMode::real)};
-  std::array<ChannelSensor, 2> sensors{ChannelSensor({}, TimeMode::real), ChannelSensor({}, TimeMode::real)};
+  std::array<ChannelDevice, 2> devices{ChannelDevice({}, TimeMode::real),
+                                       ChannelDevice({}, TimeMode::real)};
+  std::array<ChannelSensor, 2> sensors{ChannelSensor({}, TimeMode::real),
+                                       ChannelSensor({}, TimeMode::real)};
   std::array<ForceSensing, 2> sensing{ForceSensing(sensors[0], {}), ForceSensing(sensors[1], {})};
-  HapticPairActivity haptic{bus, {{{devices[0], sensing[0]}, {devices[1], sensing[1]}}}, squeezing()};
+  HapticPairActivity haptic{
+      bus, {{{devices[0], sensing[0]}, {devices[1], sensing[1]}}}, squeezing()};
   std::array<bool, 2> silent{false, false};
   std::uint64_t sequence = 0;
   int allocations = 0;
@@ -73,7 +76,9 @@ struct HeldThing {
     while (bus.haptic_to_recorder.pop(&record)) all.push_back(record);
     return all;
   }
-  Vec3 commanded(std::size_t t) { return unpack(devices[t].commanded(static_cast<std::int64_t>(sequence) * kMillisecond)); }
+  Vec3 commanded(std::size_t t) {
+    return unpack(devices[t].commanded(static_cast<std::int64_t>(sequence) * kMillisecond));
+  }
 };
 
 TEST(PairLoop, EveryTickIsRecordedOfBothInTurnAndNothingIsAllocated) {

@@ -48,7 +48,8 @@ TEST(RealExecutive, RunsEveryActivityToItsEndAndCountsTheSteps) {
   EXPECT_EQ(executive->mode(), TimeMode::real);
 }
 
-bool saysGrantedOrWhyNot(const std::string& words, const std::string& granted, const std::string& refused) {
+bool saysGrantedOrWhyNot(const std::string& words, const std::string& granted,
+                         const std::string& refused) {
   const std::size_t at = words.find(refused);
   return at == std::string::npos ? words.find(granted) != std::string::npos
                                  : words.find('(', at) != std::string::npos;

@@ -27,7 +27,8 @@ TEST(TimeHistogram, QuantilesOfLongTimesAreWithinTheStatedShare) {
   std::vector<std::int64_t> all;
   RandomStream random(7, "histogram");
   for (int i = 0; i < 20'000; ++i) {  // 1 us to 1 s, even over the octaves
-    all.push_back(static_cast<std::int64_t>(std::exp(random.uniform(std::log(1e3), std::log(1e9)))));
+    all.push_back(
+        static_cast<std::int64_t>(std::exp(random.uniform(std::log(1e3), std::log(1e9)))));
     h.add(all.back());
   }
   std::sort(all.begin(), all.end());

@@ -17,9 +17,11 @@ namespace palpa::runtime {
 namespace {
 
 CameraView viewOf(int i) {
-  // A little askew, as boards lie: edges along the pixels are a degenerate case for finding corners.
+  // A little askew, as boards lie: edges along the pixels are a degenerate case for finding
+  // corners.
   static const cv::Mat board = [] {
-    const cv::Mat straight = ar::drawTagGrid({3, 2, 0.030, 0.0075, 0}, 3000), turn = (cv::Mat_<double>(2, 3) << 1, 0.05, 0, -0.04, 1, 5);
+    const cv::Mat straight = ar::drawTagGrid({3, 2, 0.030, 0.0075, 0}, 3000),
+                  turn = (cv::Mat_<double>(2, 3) << 1, 0.05, 0, -0.04, 1, 5);
     cv::Mat askew;
     cv::warpAffine(straight, askew, turn, straight.size(), cv::INTER_LINEAR, cv::BORDER_REPLICATE);
     return askew;
@@ -33,7 +35,9 @@ CameraView viewOf(int i) {
   cv::Mat noise(picture.size(), CV_32F), exposed;
   cv::RNG random(static_cast<std::uint64_t>(i) + 1);
   random.fill(noise, cv::RNG::NORMAL, 50, 3);
-  exposed = noise + 0.6 * cv::Mat_<float>(picture);   // paper is not white, ink not black, and no sensor without noise
+  exposed =
+      noise + 0.6 * cv::Mat_<float>(
+                        picture);  // paper is not white, ink not black, and no sensor without noise
   exposed.convertTo(picture, CV_8U);
   view.picture = std::make_shared<const cv::Mat>(picture);
   return view;
@@ -52,7 +56,7 @@ TEST(VideoRecorder, WhatIsKeptComesBackWithItsTimesAndItsCorners) {
     }
     CameraView gone;
     gone.fault = ar::PictureFault::gone;
-    recorder.add(gone);   // no picture: nothing to keep
+    recorder.add(gone);  // no picture: nothing to keep
     EXPECT_EQ(recorder.pictures(), static_cast<std::uint64_t>(kPictures));
     EXPECT_EQ(recorder.trouble(), "");
   }
@@ -66,16 +70,18 @@ TEST(VideoRecorder, WhatIsKeptComesBackWithItsTimesAndItsCorners) {
     ASSERT_EQ(was.size(), 24u);
     ASSERT_EQ(is.size(), was.size());
     double squares = 0;
-    for (std::size_t k = 0; k < was.size(); ++k) squares += (is[k].pixel - was[k].pixel).squaredNorm() / static_cast<double>(was.size());
-    EXPECT_LT(std::sqrt(squares), 0.1);   // measured 0.05; a tracker's own noise is 0.1 to 0.2
+    for (std::size_t k = 0; k < was.size(); ++k)
+      squares += (is[k].pixel - was[k].pixel).squaredNorm() / static_cast<double>(was.size());
+    EXPECT_LT(std::sqrt(squares), 0.1);  // measured 0.05; a tracker's own noise is 0.1 to 0.2
   }
   EXPECT_EQ(seen, kPictures);
-  EXPECT_NEAR(film.rate_Hz(), 25, 1e-9);   // by the table: pictures 40 ms apart
+  EXPECT_NEAR(film.rate_Hz(), 25, 1e-9);  // by the table: pictures 40 ms apart
   std::ifstream table(folder / "camera.mjpeg.csv");
   std::string line, text;
   while (std::getline(table, line)) text += line + "\n";
   EXPECT_NE(text.find("4,1160000000,\"virtual camera\",,searching,24,"), std::string::npos) << text;
-  EXPECT_NE(text.find("5,1200000000,\"virtual camera\",frozen,searching,0,"), std::string::npos) << text;
+  EXPECT_NE(text.find("5,1200000000,\"virtual camera\",frozen,searching,0,"), std::string::npos)
+      << text;
 }
 
 TEST(VideoRecorder, AFullDiskEndsTheRecordingOnly) {
@@ -98,7 +104,7 @@ TEST(Webcam, ACameraThatIsNotThereIsTold) {
   ar::WebcamSettings settings;
   settings.device = "/dev/video99";
   EXPECT_THROW(ar::Webcam{settings}, Error);
-  settings.device = "/dev/null";   // no camera
+  settings.device = "/dev/null";  // no camera
   EXPECT_THROW(ar::Webcam{settings}, Error);
 }
 
@@ -106,7 +112,8 @@ TEST(Clock, StampsOfDriversAreSessionTime) {
   const SteadyClock first;
   first.sleepUntil(first.now() + 5 * kMillisecond);
   const SteadyClock second;
-  const std::int64_t apart_at_least = first.now() - second.now();   // read one after the other: a little less than they are apart
+  const std::int64_t apart_at_least =
+      first.now() - second.now();  // read one after the other: a little less than they are apart
   EXPECT_GE(first.ofMonotonic(0) - second.ofMonotonic(0), apart_at_least);
   EXPECT_GE(apart_at_least, 4 * kMillisecond);
 }

@@ -82,7 +82,8 @@ TEST_F(HeldTool, ProbeIsAsWideAsAFingertipAndReplacesTheNeedle) {
   state.tool = Tool::probe;
   state.plunger = state.blood = 0.5;
   const Image with = frameOf(nobody_, state), without = frameOf(nobody_, withTool(false));
-  for (const double z : {-0.002, -0.008, -0.05, -0.10}) EXPECT_TRUE(drawnAt(with, without, {0, 0, z})) << z;
+  for (const double z : {-0.002, -0.008, -0.05, -0.10})
+    EXPECT_TRUE(drawnAt(with, without, {0, 0, z})) << z;
   EXPECT_FALSE(drawnAt(with, without, {0, 0, 0.005}));
   for (const double x : {-0.0065, 0.0065}) {
     EXPECT_TRUE(drawnAt(with, without, {x, 0, -0.008})) << "the half-sphere is 16 mm wide";
@@ -100,7 +101,8 @@ TEST_F(ArFrame, PictureOnTheSkinIsDrawnByItsCoordinatesInItsOwnColours) {
   anatomy::Patient patient = ballBehindSkin(false);
   anatomy::OrganSurface& skin = patient.organs.front();
   for (const Vec3& p : skin.mesh.points)
-    skin.mesh.uvs.push_back({static_cast<float>(0.5 + p.x() / 0.2), static_cast<float>(0.5 - p.z() / 0.2)});
+    skin.mesh.uvs.push_back(
+        {static_cast<float>(0.5 + p.x() / 0.2), static_cast<float>(0.5 - p.z() / 0.2)});
   // Rows from the top: red, green; blue, gray.
   skin.texture = {2, 2, {200, 20, 20, 20, 200, 20, 20, 20, 200, 120, 120, 120}};
   SceneState state = straightOn(dark_);
@@ -110,11 +112,13 @@ TEST_F(ArFrame, PictureOnTheSkinIsDrawnByItsCoordinatesInItsOwnColours) {
     const Eigen::Vector2d p = project(state.camera, state.X_CA * Vec3(x, 0, z));
     return at(frame, static_cast<int>(p.x()), static_cast<int>(p.y()));
   };
-  const Pixel red = seen(-0.08, 0.08), green = seen(0.08, 0.08), blue = seen(-0.08, -0.08), gray = seen(0.08, -0.08);
+  const Pixel red = seen(-0.08, 0.08), green = seen(0.08, 0.08), blue = seen(-0.08, -0.08),
+              gray = seen(0.08, -0.08);
   EXPECT_GT(red.r, 4 * std::max(red.g, red.b));
   EXPECT_GT(green.g, 4 * std::max(green.r, green.b));
   EXPECT_GT(blue.b, 4 * std::max(blue.r, blue.g));
-  EXPECT_LE(std::max({std::abs(gray.r - gray.g), std::abs(gray.g - gray.b)}), 2) << "white skin must not tint its picture";
+  EXPECT_LE(std::max({std::abs(gray.r - gray.g), std::abs(gray.g - gray.b)}), 2)
+      << "white skin must not tint its picture";
 }
 
 TEST_F(HeldTool, BloodFillsTheSyringeOnlyAsFarAsThePlungerIsDrawn) {

@@ -9,7 +9,7 @@ namespace palpa::scene {
 namespace {
 
 constexpr int kColumns = 8, kRows = 6;
-constexpr double kCellSide = 0.008;   // m, wide enough for a whole patch of pixels
+constexpr double kCellSide = 0.008;  // m, wide enough for a whole patch of pixels
 
 const anatomy::Patient& block() {
   static const anatomy::Patient patient = anatomy::phantomBlock({0.1, 0.1, 0.05}, "block");
@@ -19,12 +19,17 @@ const anatomy::Patient& block() {
 Vec3 onTop(double x, double y, double z = 0) { return anatomy::X_AP() * Vec3(x, y, z); }
 
 CoverageGrid gridOf(std::uint8_t level) {
-  return {anatomy::X_AP(), kCellSide, kCellSide, kColumns, kRows, std::vector<std::uint8_t>(kColumns * kRows, level)};
+  return {anatomy::X_AP(), kCellSide, kCellSide,
+          kColumns,        kRows,     std::vector<std::uint8_t>(kColumns * kRows, level)};
 }
 
-std::uint8_t& cell(CoverageGrid& grid, int column, int row) { return grid.levels.at(static_cast<std::size_t>(row * kColumns + column)); }
+std::uint8_t& cell(CoverageGrid& grid, int column, int row) {
+  return grid.levels.at(static_cast<std::size_t>(row * kColumns + column));
+}
 
-Vec3 middleOf(int column, int row) { return onTop((column + 0.5 - kColumns / 2.0) * kCellSide, (row + 0.5 - kRows / 2.0) * kCellSide); }
+Vec3 middleOf(int column, int row) {
+  return onTop((column + 0.5 - kColumns / 2.0) * kCellSide, (row + 0.5 - kRows / 2.0) * kCellSide);
+}
 
 class Search : public testing::Test {
  protected:
@@ -42,15 +47,18 @@ double brightness(const Pixel& p) { return 0.2126 * p.r + 0.7152 * p.g + 0.0722 
 
 TEST_F(Search, LevelsAreToldApartByBrightnessWhateverTheSkin) {
   CoverageGrid grid = gridOf(0);
-  for (int level = 0; level < 4; ++level) cell(grid, 2 * level, 4) = static_cast<std::uint8_t>(level);
+  for (int level = 0; level < 4; ++level)
+    cell(grid, 2 * level, 4) = static_cast<std::uint8_t>(level);
   for (const SkinStyle skin : {SkinStyle::translucent, SkinStyle::solid, SkinStyle::hidden}) {
     state_.skin = skin;
     state_.coverage.reset();
     const Image bare = frame();
     state_.coverage = grid;
     const Image with = frame();
-    EXPECT_EQ(difference(seenAt(with, middleOf(0, 4)), seenAt(bare, middleOf(0, 4))), 0) << "a cell not felt stays clear";
-    const Pixel light = seenAt(with, middleOf(2, 4)), medium = seenAt(with, middleOf(4, 4)), deep = seenAt(with, middleOf(6, 4));
+    EXPECT_EQ(difference(seenAt(with, middleOf(0, 4)), seenAt(bare, middleOf(0, 4))), 0)
+        << "a cell not felt stays clear";
+    const Pixel light = seenAt(with, middleOf(2, 4)), medium = seenAt(with, middleOf(4, 4)),
+                deep = seenAt(with, middleOf(6, 4));
     EXPECT_GT(difference(light, seenAt(bare, middleOf(2, 4))), 20);
     EXPECT_GT(difference(deep, seenAt(bare, middleOf(6, 4))), 40);
     EXPECT_GT(brightness(light) - brightness(medium), 20);
@@ -61,7 +69,7 @@ TEST_F(Search, LevelsAreToldApartByBrightnessWhateverTheSkin) {
 TEST_F(Search, ACellLiesWhereItsGridSaysAndNowhereElse) {
   state_.coverage = gridOf(0);
   const Image empty = frame();
-  cell(*state_.coverage, 1, 5) = 3;   // left, far
+  cell(*state_.coverage, 1, 5) = 3;  // left, far
   const Blob felt = changed(frame(), empty);
   const Eigen::Vector2d middle = project(state_.camera, state_.X_CA * middleOf(1, 5));
   const double side = kCellSide * 300 / 0.4;
@@ -91,7 +99,8 @@ TEST_F(Search, AnAreaNotYetFeltHasOnlyItsOutline) {
   const double px = 300 / 0.4;
   EXPECT_NEAR(outline.right - outline.left, kColumns * kCellSide * px, 5);
   EXPECT_NEAR(outline.bottom - outline.top, kRows * kCellSide * px, 5);
-  EXPECT_LT(outline.count, 2 * (kColumns + kRows) * kCellSide * px * 5) << "five pixels wide at most";
+  EXPECT_LT(outline.count, 2 * (kColumns + kRows) * kCellSide * px * 5)
+      << "five pixels wide at most";
 }
 
 TEST_F(Search, NothingIsDrawnWithoutAnythingToShowOrWithBadGrids) {
@@ -157,7 +166,8 @@ TEST_F(Search, LumpsAreSeenThroughEverySkinWhereTheyLie) {
     EXPECT_NEAR((ball.right - ball.left) / 2.0, radius + 1.5, 2);
     EXPECT_GT(difference(seenAt(with, lump.p_A), seenAt(bare, lump.p_A)), 25);
     // Round it a line that is brighter than what it encloses.
-    const Pixel rim = at(with, static_cast<int>(std::lround(middle.x() - radius)), static_cast<int>(std::lround(middle.y())));
+    const Pixel rim = at(with, static_cast<int>(std::lround(middle.x() - radius)),
+                         static_cast<int>(std::lround(middle.y())));
     EXPECT_GT(difference(rim, seenAt(with, lump.p_A)), 15);
   }
 }
@@ -174,13 +184,15 @@ TEST_F(Search, FoundAndMissedLumpsDifferInBrightness) {
 TEST_F(Search, AToolBeforeALumpHidesItAndTheCarpet) {
   state_.tool = Tool::probe;
   state_.show_tool = true;
-  state_.X_AT = makePose(rotationWithZ(-Vec3::UnitZ()), onTop(0, 0, 0.03) + Vec3(0, 0, -0.03));   // lies across, above the middle
+  state_.X_AT = makePose(rotationWithZ(-Vec3::UnitZ()),
+                         onTop(0, 0, 0.03) + Vec3(0, 0, -0.03));  // lies across, above the middle
   const Image bare = frame();
   state_.coverage = gridOf(3);
   state_.lumps = {{onTop(0, 0.005, -0.02), 0.004, true}};
   state_.lead_A = onTop(0, 0.005);
   const Image with = frame();
-  EXPECT_EQ(difference(seenAt(with, onTop(0, 0.005, 0.03)), seenAt(bare, onTop(0, 0.005, 0.03))), 0);
+  EXPECT_EQ(difference(seenAt(with, onTop(0, 0.005, 0.03)), seenAt(bare, onTop(0, 0.005, 0.03))),
+            0);
   EXPECT_GT(difference(seenAt(with, onTop(0.02, 0.005)), seenAt(bare, onTop(0.02, 0.005))), 30);
 }
 
@@ -196,10 +208,16 @@ TEST_F(Search, PinsPointAtTheirPlacesAndCarryTheirNumbers) {
   // The first of two is the same pin; a second one at the first's place is not.
   state_.marks_A = {onTop(-0.02, -0.02), onTop(0.02, 0.02)};
   const Image two = frame();
-  EXPECT_EQ(blobOf(two, [&](int u, int v) { return u < 155 && difference(at(two, u, v), at(one, u, v)) > 2; }).count, 0);
+  EXPECT_EQ(
+      blobOf(two,
+             [&](int u, int v) { return u < 155 && difference(at(two, u, v), at(one, u, v)) > 2; })
+          .count,
+      0);
   std::swap(state_.marks_A[0], state_.marks_A[1]);
   const Image swapped = frame();
-  const int number = blobOf(swapped, [&](int u, int v) { return u < 155 && difference(at(swapped, u, v), at(two, u, v)) > 2; }).count;
+  const int number = blobOf(swapped, [&](int u, int v) {
+                       return u < 155 && difference(at(swapped, u, v), at(two, u, v)) > 2;
+                     }).count;
   EXPECT_GT(number, 2);
   EXPECT_LT(number, pin.count / 2);
 }
@@ -214,7 +232,8 @@ TEST_F(Search, TheLeadIsARingOnTheSurface) {
   const Eigen::Vector2d middle = project(state_.camera, state_.X_CA * *state_.lead_A);
   EXPECT_NEAR((ring.left + ring.right) / 2.0, middle.x(), 1.5);
   EXPECT_NEAR((ring.top + ring.bottom) / 2.0, middle.y(), 1.5);
-  EXPECT_EQ(difference(seenAt(with, *state_.lead_A), seenAt(bare, *state_.lead_A)), 0) << "its middle is free";
+  EXPECT_EQ(difference(seenAt(with, *state_.lead_A), seenAt(bare, *state_.lead_A)), 0)
+      << "its middle is free";
   state_.lead_A = onTop(-0.01, 0.005);
   const Blob moved = changed(frame(), outline);
   EXPECT_NEAR(ring.u - moved.u, 0.02 * 300 / 0.4, 1.5);
@@ -227,13 +246,16 @@ TEST(SearchInFixedViews, FromAboveTheFarSideIsUpAndFromTheSideTheTopIs) {
   const auto frame = [&] { return (view.show(state), view.capture()); };
   const Image bare = frame();
   const auto in = [&](const Image& image, int panel) {
-    return blobOf(image, [&](int u, int v) { return u > 632 && v * 3 / 600 == panel && difference(at(image, u, v), at(bare, u, v)) > 8; });
+    return blobOf(image, [&](int u, int v) {
+      return u > 632 && v * 3 / 600 == panel && difference(at(image, u, v), at(bare, u, v)) > 8;
+    });
   };
   const auto lumpAt = [&](double x, double y, double z) {
     state.lumps = {{onTop(x, y, z), 0.006, true}};
     return frame();
   };
-  const Image middle = lumpAt(0, 0, -0.02), right = lumpAt(0.02, 0, -0.02), far = lumpAt(0, 0.02, -0.02), low = lumpAt(0, 0, -0.04);
+  const Image middle = lumpAt(0, 0, -0.02), right = lumpAt(0.02, 0, -0.02),
+              far = lumpAt(0, 0.02, -0.02), low = lumpAt(0, 0, -0.04);
   for (int panel = 0; panel < 3; ++panel) ASSERT_GT(in(middle, panel).count, 20) << panel;
   const double step = in(right, 0).u - in(middle, 0).u;
   EXPECT_GT(step, 10);
@@ -245,7 +267,8 @@ TEST(SearchInFixedViews, FromAboveTheFarSideIsUpAndFromTheSideTheTopIs) {
   EXPECT_NEAR(in(low, 2).v - in(middle, 2).v, step, 1);
   state.lumps.clear();
   state.coverage = gridOf(3);
-  EXPECT_NEAR(in(frame(), 0).count, kColumns * kRows * std::pow(0.4 * step, 2), 0.15 * kColumns * kRows * std::pow(0.4 * step, 2));   // cells of 8 mm, steps of 20
+  EXPECT_NEAR(in(frame(), 0).count, kColumns * kRows * std::pow(0.4 * step, 2),
+              0.15 * kColumns * kRows * std::pow(0.4 * step, 2));  // cells of 8 mm, steps of 20
 }
 
 /// The whole block is in every fixed view, and there is something of it to see.
@@ -266,7 +289,9 @@ TEST(SearchInFixedViews, ShowAllOfABlock) {
   view.show(state);
   const Image image = view.capture();
   for (int panel = 0; panel < 3; ++panel) {
-    const Blob warm = blobOf(image, [&](int u, int v) { return u > 632 && v * 3 / 600 == panel && at(image, u, v).r > at(image, u, v).b + 8; });
+    const Blob warm = blobOf(image, [&](int u, int v) {
+      return u > 632 && v * 3 / 600 == panel && at(image, u, v).r > at(image, u, v).b + 8;
+    });
     EXPECT_GT(warm.count, 3000) << panel;
     EXPECT_GT(warm.left, 640);
     EXPECT_LT(warm.right, 892);
@@ -289,7 +314,13 @@ TEST(SearchInStereo, BothEyesSeeIt) {
   state.marks_A = {onTop(0, 0)};
   view.show(state);
   const Image with = view.capture();
-  const auto half = [&](bool right) { return blobOf(with, [&](int u, int v) { return (u >= 320) == right && difference(at(with, u, v), at(bare, u, v)) > 8; }).count; };
+  const auto half = [&](bool right) {
+    return blobOf(with,
+                  [&](int u, int v) {
+                    return (u >= 320) == right && difference(at(with, u, v), at(bare, u, v)) > 8;
+                  })
+        .count;
+  };
   EXPECT_GT(half(false), 500);
   EXPECT_NEAR(half(true), half(false), 0.05 * half(false));
 }

@@ -13,7 +13,8 @@ namespace palpa::scene {
 namespace {
 
 anatomy::TriangleMesh bowl() {
-  return test::sheet(0.1, [](double x, double z) { return 0.9 * x * x + 0.35 * z * z; }, 101);
+  return test::sheet(
+      0.1, [](double x, double z) { return 0.9 * x * x + 0.35 * z * z; }, 101);
 }
 
 anatomy::SkinPush pushAt(double x, double depth) {
@@ -52,7 +53,8 @@ TEST_F(DrawnSkin, MovesOnlyWhatLiesInThePatch) {
   const std::vector<float> now = points();
   double deepest = 0;
   for (std::size_t i = 0; i < mesh_.points.size(); ++i) {
-    const Vec3 was(before[3 * i], before[3 * i + 1], before[3 * i + 2]), is(now[3 * i], now[3 * i + 1], now[3 * i + 2]);
+    const Vec3 was(before[3 * i], before[3 * i + 1], before[3 * i + 2]),
+        is(now[3 * i], now[3 * i + 1], now[3 * i + 2]);
     if ((mesh_.points[i] - push.p_A).norm() > 0.060) {
       EXPECT_EQ(was, is);
     }

@@ -11,7 +11,8 @@
 #include "scene/window_pixels.h"
 #include "tests/scene/offscreen.h"
 
-/// Translucent surfaces within each other, beside VTK's depth peeling, which is right whatever it costs.
+/// Translucent surfaces within each other, beside VTK's depth peeling, which is right whatever it
+/// costs.
 namespace palpa::scene {
 namespace {
 
@@ -25,7 +26,8 @@ anatomy::Patient nested() {
   test::add(patient, "arm", Organ::skin, test::sphere({0.12, -0.06, 0}, {0.03, 0.03, 0.10}));
   test::add(patient, "muscle", Organ::muscle, test::sphere({0, 0, 0.01}, {0.085, 0.058, 0.09}));
   test::add(patient, "artery", Organ::artery, test::sphere({0.02, 0, 0}, Vec3::Constant(0.025)));
-  test::add(patient, "bone", Organ::clavicle, test::sphere({-0.04, -0.01, 0.03}, {0.02, 0.02, 0.05}));
+  test::add(patient, "bone", Organ::clavicle,
+            test::sphere({-0.04, -0.01, 0.03}, {0.02, 0.02, 0.05}));
   return patient;
 }
 
@@ -86,7 +88,8 @@ TEST_F(TwoWays, TheOrderInTheFileDoesNotMatter) {
   anatomy::Patient turned = nested();
   std::reverse(turned.organs.begin(), turned.organs.end());
   const Pose X_CA = lookAt({0.2, -0.45, 0.1}, {0, 0, 0});
-  EXPECT_LT(rms(draw(nested(), X_CA, false), draw(turned, X_CA, false)), 0.002);   // half a level of 255: where two surfaces' centres are equally far
+  EXPECT_LT(rms(draw(nested(), X_CA, false), draw(turned, X_CA, false)),
+            0.002);  // half a level of 255: where two surfaces' centres are equally far
 }
 
 }  // namespace

@@ -19,8 +19,10 @@ class HeldBody : public testing::Test {
   bool drawnAt(const Vec3& p_A) {
     const Image image = (view_.show(state_), view_.capture());
     const Eigen::Vector2d px = project(state_.camera, state_.X_CA * p_A);
-    const Pixel p = at(image, static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
-    return std::abs(p.r - kBackground) + std::abs(p.g - kBackground) + std::abs(p.b - kBackground) > 30;
+    const Pixel p =
+        at(image, static_cast<int>(std::lround(px.x())), static_cast<int>(std::lround(px.y())));
+    return std::abs(p.r - kBackground) + std::abs(p.g - kBackground) + std::abs(p.b - kBackground) >
+           30;
   }
   const anatomy::Patient block_ = anatomy::phantomBlock({0.02, 0.02, 0.02}, "thing");
   const Image picture_ = plain(320, 240, kBackground);

@@ -14,11 +14,13 @@ constexpr int kLook_px = 300;
 
 const anatomy::Patient& patientOf(anatomy::Side side) {
   const auto make = [](anatomy::Side s) {
-    anatomy::PatientParameters parameters = anatomy::drawParameters(anatomy::readPopulation(PALPA_SOURCE_DIR "/assets/patients/reference.json"), s, 0);
+    anatomy::PatientParameters parameters = anatomy::drawParameters(
+        anatomy::readPopulation(PALPA_SOURCE_DIR "/assets/patients/reference.json"), s, 0);
     parameters.extent = anatomy::Extent::bust;
     return anatomy::buildPatient(parameters);
   };
-  static const anatomy::Patient right = make(anatomy::Side::right), left = make(anatomy::Side::left);
+  static const anatomy::Patient right = make(anatomy::Side::right),
+                                left = make(anatomy::Side::left);
   return side == anatomy::Side::right ? right : left;
 }
 
@@ -52,7 +54,8 @@ SceneState registered(anatomy::Side side = anatomy::Side::right) {
   state.picture = &table();
   state.registered = true;
   state.camera = {kLook_px, kLook_px, 380, 370, 152, 144};
-  state.X_CA = lookAt(entry_A + Vec3(0.1 * outward, -0.42, 0.2), entry_A + Vec3(-0.03 * outward, 0, 0));
+  state.X_CA =
+      lookAt(entry_A + Vec3(0.1 * outward, -0.42, 0.2), entry_A + Vec3(-0.03 * outward, 0, 0));
   state.X_AT = makePose(rotationWithZ(Vec3(-0.7 * outward, 0.45, 0.35).normalized()), entry_A);
   return state;
 }
@@ -66,10 +69,13 @@ SceneState with(Change change) {
 
 std::vector<Look> looks() {
   static const anatomy::TriangleMesh hand = test::sphere({0, 0, 0}, {0.03, 0.02, 0.05});
-  const Vec3 entry_A = patientOf(anatomy::Side::right).landmark(anatomy::landmark::kEntry), vein_A = patientOf(anatomy::Side::right).landmark(anatomy::landmark::kVeinTarget);
+  const Vec3 entry_A = patientOf(anatomy::Side::right).landmark(anatomy::landmark::kEntry),
+             vein_A = patientOf(anatomy::Side::right).landmark(anatomy::landmark::kVeinTarget);
   const auto pushed = [](SceneState& s) {
     const Vec3 tip = s.X_AT.translation();
-    s.forces = {{ForceKind::reaction, tip, {0.3, -1.2, -0.4}}, {ForceKind::weight, tip + Vec3(0, 0, 0.06), {0, 0, -0.8}}, {ForceKind::device, tip + Vec3(-0.07, 0, 0), {-0.2, 1.4, 0.2}}};
+    s.forces = {{ForceKind::reaction, tip, {0.3, -1.2, -0.4}},
+                {ForceKind::weight, tip + Vec3(0, 0, 0.06), {0, 0, -0.8}},
+                {ForceKind::device, tip + Vec3(-0.07, 0, 0), {-0.2, 1.4, 0.2}}};
   };
   ViewLayout safe{kLook_px, kLook_px, false, true}, all{3 * kLook_px, 2 * kLook_px, true, true};
   safe.force_colours = ForceColours::safe;
@@ -78,16 +84,47 @@ std::vector<Look> looks() {
       {"skin-solid", with([](SceneState& s) { s.skin = SkinStyle::solid; })},
       {"skin-hidden", with([](SceneState& s) { s.skin = SkinStyle::hidden; })},
       {"left-side", registered(anatomy::Side::left), anatomy::Side::left},
-      {"needle-with-blood", with([&](SceneState& s) { s.X_AT.translation() = vein_A; s.plunger = 0.6; s.blood = 0.4; })},
+      {"needle-with-blood", with([&](SceneState& s) {
+         s.X_AT.translation() = vein_A;
+         s.plunger = 0.6;
+         s.blood = 0.4;
+       })},
       {"probe", with([](SceneState& s) { s.tool = Tool::probe; })},
       {"forces-paper", with(pushed)},
       {"forces-safe", with(pushed), anatomy::Side::right, safe},
-      {"guide-and-ellipse", with([&](SceneState& s) { s.guide = Guide{entry_A, vein_A}; s.tip_covariance_A = 2e-5 * Mat3::Identity(); })},
-      {"trail", with([&](SceneState& s) { for (int i = 0; i <= 40; ++i) s.trail_A.push_back(entry_A + 0.025 * i * (vein_A - entry_A) + Vec3(0, 0, 0.004 * std::sin(0.5 * i))); })},
-      {"occluder", with([&](SceneState& s) { s.occluders = {{&hand, makePose(Mat3::Identity(), entry_A + Vec3(0.02, -0.06, 0.02))}}; })},
-      {"words", with([](SceneState& s) { s.hud = {"phase 2: advance to the vein", "12 mm under the skin, in fat", "1.2 N", "0:31", "clavicle", "within 0.4 mm", "The camera has lost the board: the overlay stands still", "SIMULATED OPERATOR", false, "2 lumps", "scaled to the device"}; })},
-      {"alarm", with([](SceneState& s) { s.hud.notice = "The needle touches the lung"; s.hud.alarm = true; })},
-      {"no-camera", with([](SceneState& s) { s.picture = nullptr; s.registered = false; })},
+      {"guide-and-ellipse", with([&](SceneState& s) {
+         s.guide = Guide{entry_A, vein_A};
+         s.tip_covariance_A = 2e-5 * Mat3::Identity();
+       })},
+      {"trail", with([&](SceneState& s) {
+         for (int i = 0; i <= 40; ++i)
+           s.trail_A.push_back(entry_A + 0.025 * i * (vein_A - entry_A) +
+                               Vec3(0, 0, 0.004 * std::sin(0.5 * i)));
+       })},
+      {"occluder", with([&](SceneState& s) {
+         s.occluders = {{&hand, makePose(Mat3::Identity(), entry_A + Vec3(0.02, -0.06, 0.02))}};
+       })},
+      {"words", with([](SceneState& s) {
+         s.hud = {"phase 2: advance to the vein",
+                  "12 mm under the skin, in fat",
+                  "1.2 N",
+                  "0:31",
+                  "clavicle",
+                  "within 0.4 mm",
+                  "The camera has lost the board: the overlay stands still",
+                  "SIMULATED OPERATOR",
+                  false,
+                  "2 lumps",
+                  "scaled to the device"};
+       })},
+      {"alarm", with([](SceneState& s) {
+         s.hud.notice = "The needle touches the lung";
+         s.hud.alarm = true;
+       })},
+      {"no-camera", with([](SceneState& s) {
+         s.picture = nullptr;
+         s.registered = false;
+       })},
       {"not-registered", with([](SceneState& s) { s.registered = false; })},
       {"all-views", registered(), anatomy::Side::right, all},
   };
@@ -95,7 +132,9 @@ std::vector<Look> looks() {
 
 cv::Mat toBgr(const Image& image) {
   cv::Mat bgr;
-  cv::cvtColor(cv::Mat(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data())), bgr, cv::COLOR_RGB2BGR);
+  cv::cvtColor(
+      cv::Mat(image.height, image.width, CV_8UC3, const_cast<std::uint8_t*>(image.pixels.data())),
+      bgr, cv::COLOR_RGB2BGR);
   return bgr;
 }
 
@@ -113,7 +152,10 @@ INSTANTIATE_TEST_SUITE_P(Every, Looks, testing::ValuesIn(looks()), [](const auto
   return name;
 });
 
-TEST(Looks, ContactSheetLikeItsBaseline) { test::expectLooksLike(toBgr(contactSheet(offscreen(), patientOf(anatomy::Side::right), 600, 600)), "contact-sheet"); }
+TEST(Looks, ContactSheetLikeItsBaseline) {
+  test::expectLooksLike(toBgr(contactSheet(offscreen(), patientOf(anatomy::Side::right), 600, 600)),
+                        "contact-sheet");
+}
 
 /// The comparison sees what a person would see.
 TEST(PictureMatch, AMissingNeedleIsSeenANoisyPixelIsNot) {

@@ -5,7 +5,8 @@
 #include "scene/lines.h"
 #include "tests/scene/offscreen.h"
 
-/// What lies over the picture besides the patient: real things that hide, lines that lead, an ellipse that owns up to an error.
+/// What lies over the picture besides the patient: real things that hide, lines that lead, an
+/// ellipse that owns up to an error.
 namespace palpa::scene {
 namespace {
 
@@ -15,7 +16,8 @@ SceneState before(const Image& picture) {
   return state;
 }
 
-Image frameOf(const anatomy::Patient& patient, const SceneState& state, ForceColours colours = ForceColours::paper) {
+Image frameOf(const anatomy::Patient& patient, const SceneState& state,
+              ForceColours colours = ForceColours::paper) {
   ViewLayout layout{320, 240, false, true};
   layout.force_colours = colours;
   SceneView view(offscreen(), patient, layout);
@@ -41,20 +43,22 @@ TEST(Occluders, ARealThingInFrontHidesAndShowsThePicture) {
   state.occluders.clear();
   const Pixel beside = at(frameOf(aBall(), state), 178, 120);
   EXPECT_GT(difference(beside, {90, 90, 90}), 40);
-  EXPECT_LE(difference(at(hidden, 178, 120), beside), 1);   // there the ball is seen as before
+  EXPECT_LE(difference(at(hidden, 178, 120), beside), 1);  // there the ball is seen as before
   state.occluders = {{&thing, makePose(Mat3::Identity(), Vec3(0, -0.1, 0))}};
-  state.occluders[0].X_A = makePose(Mat3::Identity(), Vec3(0, 0.1, 0));   // behind
+  state.occluders[0].X_A = makePose(Mat3::Identity(), Vec3(0, 0.1, 0));  // behind
   EXPECT_LE(difference(at(frameOf(aBall(), state), 160, 120), bare), 1);
   state.occluders[0].X_A = makePose(Mat3::Identity(), Vec3(0, -0.1, 0));
-  state.picture = nullptr;   // nothing real is seen
+  state.picture = nullptr;  // nothing real is seen
   EXPECT_GT(difference(at(frameOf(aBall(), state), 160, 120), {90, 90, 90}), 40);
 }
 
-/// In the corner the camera's picture as it is, in the large view the same under the patient; without a picture nothing.
+/// In the corner the camera's picture as it is, in the large view the same under the patient;
+/// without a picture nothing.
 TEST(Inset, ShowsThePictureWithoutTheOverlay) {
   Image picture = plain(320, 240, 60);
   for (int v = 0; v < 240; ++v)
-    for (int u = 160; u < 320; ++u) picture.pixels[3 * (static_cast<std::size_t>(v) * 320 + u)] = 200;   // its right half is red
+    for (int u = 160; u < 320; ++u)
+      picture.pixels[3 * (static_cast<std::size_t>(v) * 320 + u)] = 200;  // its right half is red
   const auto shown = [&](Inset inset, const Image* seen) {
     ViewLayout layout{640, 480, false, true};
     layout.inset = inset;
@@ -91,8 +95,14 @@ TEST(Ellipse, IsWhere95PercentOfThePixelsLie) {
   std::vector<Eigen::Vector2d> outline;
   for (const Vec3& q : ellipse) outline.push_back(project(camera, X_CA * q));
   std::uint64_t bits = 7;
-  const auto uniform = [&] { return static_cast<double>((bits = bits * 6364136223846793005ull + 1442695040888963407ull) >> 11) * 0x1p-53; };
-  const auto normal = [&] { return std::sqrt(-2 * std::log(1 - uniform())) * std::cos(6.283185307179586 * uniform()); };
+  const auto uniform = [&] {
+    return static_cast<double>((bits = bits * 6364136223846793005ull + 1442695040888963407ull) >>
+                               11) *
+           0x1p-53;
+  };
+  const auto normal = [&] {
+    return std::sqrt(-2 * std::log(1 - uniform())) * std::cos(6.283185307179586 * uniform());
+  };
   int inside = 0;
   const int all = 20000;
   for (int k = 0; k < all; ++k) {
@@ -101,12 +111,15 @@ TEST(Ellipse, IsWhere95PercentOfThePixelsLie) {
     bool in = false;
     for (std::size_t i = 0, j = outline.size() - 1; i < outline.size(); j = i++) {
       const auto &a = outline[i], &b = outline[j];
-      if ((a.y() > p.y()) != (b.y() > p.y()) && p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x()) in = !in;
+      if ((a.y() > p.y()) != (b.y() > p.y()) &&
+          p.x() < (b.x() - a.x()) * (p.y() - a.y()) / (b.y() - a.y()) + a.x())
+        in = !in;
     }
     inside += in;
   }
   EXPECT_NEAR(static_cast<double>(inside) / all, 0.95, 0.006);
-  EXPECT_TRUE(uncertaintyEllipse(1e-6 * S, p_A, X_CA, camera).empty()) << "smaller than a pixel: the words say it";
+  EXPECT_TRUE(uncertaintyEllipse(1e-6 * S, p_A, X_CA, camera).empty())
+      << "smaller than a pixel: the words say it";
 }
 
 TEST(Ellipse, IsDrawnAboutTheTipAndOnlyWhereTheCameraIsReal) {
@@ -114,7 +127,7 @@ TEST(Ellipse, IsDrawnAboutTheTipAndOnlyWhereTheCameraIsReal) {
   SceneState state = before(picture);
   state.X_AT.translation() = Vec3(0.05, 0, 0.03);
   const Image without = frameOf(aBall(), state);
-  state.tip_covariance_A = 4e-5 * Mat3::Identity();   // 6.3 mm
+  state.tip_covariance_A = 4e-5 * Mat3::Identity();  // 6.3 mm
   const Blob ring = changed(frameOf(aBall(), state), without);
   const Eigen::Vector2d tip = project(state.camera, state.X_CA * state.X_AT.translation());
   EXPECT_NEAR((ring.left + ring.right) / 2.0, tip.x(), 1.5);
@@ -143,15 +156,20 @@ TEST(Guide, RunsInDashesFromTheEntryToTheTargetAndIsNeverHidden) {
   EXPECT_NEAR(line.left, project(state.camera, state.X_CA * Vec3(-0.08, 0, 0)).x(), 3);
   EXPECT_NEAR(line.right, project(state.camera, state.X_CA * Vec3(0.08, 0, 0)).x(), 3);
   EXPECT_LT(std::abs(line.v - 119.5), 2);
-  const Blob inside = blobOf(with, [&](int u, int v) { return u > 145 && u < 175 && difference(at(with, u, v), at(without, u, v)) > 2; });
+  const Blob inside = blobOf(with, [&](int u, int v) {
+    return u > 145 && u < 175 && difference(at(with, u, v), at(without, u, v)) > 2;
+  });
   EXPECT_GT(inside.count, 10) << "it leads through what is opaque";
 }
 
-double luminance(const Rgb& c) { return 0.2126 * c[0] * c[0] + 0.7152 * c[1] * c[1] + 0.0722 * c[2] * c[2]; }
+double luminance(const Rgb& c) {
+  return 0.2126 * c[0] * c[0] + 0.7152 * c[1] * c[1] + 0.0722 * c[2] * c[2];
+}
 
 TEST(ForceColours, AreToldApartByBrightnessAloneInBothSchemes) {
   for (const ForceColours scheme : {ForceColours::paper, ForceColours::safe}) {
-    const double reaction = luminance(arrowColour(ForceKind::reaction, scheme)), weight = luminance(arrowColour(ForceKind::weight, scheme)),
+    const double reaction = luminance(arrowColour(ForceKind::reaction, scheme)),
+                 weight = luminance(arrowColour(ForceKind::weight, scheme)),
                  device = luminance(arrowColour(ForceKind::device, scheme));
     EXPECT_GT(weight - reaction, 0.1);
     EXPECT_GT(device - weight, 0.2);

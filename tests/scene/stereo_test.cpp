@@ -23,16 +23,20 @@ TEST(Stereo, DisparityIsThatOfTwoParallelCamerasFocusedAhead) {
   const auto eyes = stereoPair(crookedCamera(), X_CA, kApart, kFocus);
   for (const double depth : {0.2, 0.4, 0.8}) {
     const Vec3 p_A = X_CA.inverse() * Vec3(0.03, -0.02, depth);
-    const Eigen::Vector2d left = project(eyes[0].camera, eyes[0].X_CA * p_A), right = project(eyes[1].camera, eyes[1].X_CA * p_A);
-    EXPECT_NEAR(left.x() - right.x(), crookedCamera().fx * kApart * (1 / depth - 1 / kFocus), 1e-9) << depth;
+    const Eigen::Vector2d left = project(eyes[0].camera, eyes[0].X_CA * p_A),
+                          right = project(eyes[1].camera, eyes[1].X_CA * p_A);
+    EXPECT_NEAR(left.x() - right.x(), crookedCamera().fx * kApart * (1 / depth - 1 / kFocus), 1e-9)
+        << depth;
     EXPECT_NEAR(left.y(), right.y(), 1e-9);
   }
   // The eyes stand beside each other, the left one on the left.
-  const Vec3 between_C = X_CA * eyes[1].X_CA.inverse().translation() - X_CA * eyes[0].X_CA.inverse().translation();
+  const Vec3 between_C =
+      X_CA * eyes[1].X_CA.inverse().translation() - X_CA * eyes[0].X_CA.inverse().translation();
   EXPECT_LT((between_C - Vec3(kApart, 0, 0)).norm(), 1e-12);
 }
 
-/// Where the centre of a small sphere is drawn in each half, against the projection of that eye; nine shifts by thirds of a pixel, as for one camera.
+/// Where the centre of a small sphere is drawn in each half, against the projection of that eye;
+/// nine shifts by thirds of a pixel, as for one camera.
 void expectTrueEyes(Stereo layout_of_eyes) {
   const double radius = 0.012;
   const Vec3 p_A(0.03, 0.02, -0.03);
@@ -47,13 +51,13 @@ void expectTrueEyes(Stereo layout_of_eyes) {
   std::array<Eigen::Vector2d, 2> error{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   for (int i = 0; i < 9; ++i) {
     state.eyes = stereoPair(crookedCamera(), state.X_CA, kApart, kFocus);
-    (*state.eyes)[1].camera.fx = 560;   // eyes need not be alike
+    (*state.eyes)[1].camera.fx = 560;  // eyes need not be alike
     for (EyeCamera& eye : *state.eyes) {
       eye.camera.cx += i % 3 / 3.0;
       eye.camera.cy += i / 3 % 3 / 3.0;
     }
     view.show(state);
-    const ArGeometry left = view.arGeometry();   // what the mouse meets
+    const ArGeometry left = view.arGeometry();  // what the mouse meets
     EXPECT_EQ(left.X_CA.matrix(), (*state.eyes)[0].X_CA.matrix());
     EXPECT_NEAR(left.camera.cx, (*state.eyes)[0].camera.cx, 1e-9);
     EXPECT_EQ(left.width, 640);
@@ -61,12 +65,15 @@ void expectTrueEyes(Stereo layout_of_eyes) {
     const auto panels = eyePanels({0, 0, layout.width, layout.height}, layout_of_eyes);
     for (std::size_t e = 0; e < 2; ++e) {
       const int top = layout.height - panels[e].top();
-      const Blob disc = blobOf(frame, [&](int u, int v) { return panels[e].contains(u, layout.height - 1 - v) && at(frame, u, v).b > 40; });
+      const Blob disc = blobOf(frame, [&](int u, int v) {
+        return panels[e].contains(u, layout.height - 1 - v) && at(frame, u, v).b > 40;
+      });
       ASSERT_GT(disc.count, 300);
       const EyeCamera& eye = (*state.eyes)[e];
       const Vec3 c = eye.X_CA * p_A;
-      const double k = c.z() / (c.z() * c.z() - radius * radius);   // the ellipse's centre
-      const Eigen::Vector2d expected(eye.camera.fx * c.x() * k + eye.camera.cx + panels[e].x, eye.camera.fy * c.y() * k + eye.camera.cy + top);
+      const double k = c.z() / (c.z() * c.z() - radius * radius);  // the ellipse's centre
+      const Eigen::Vector2d expected(eye.camera.fx * c.x() * k + eye.camera.cx + panels[e].x,
+                                     eye.camera.fy * c.y() * k + eye.camera.cy + top);
       error[e] += (Eigen::Vector2d(disc.u, disc.v) - expected) / 9;
     }
   }
@@ -90,9 +97,11 @@ TEST(Stereo, AnAnaglyphHasTheLeftEyeInRedAndTheRightInCyan) {
   state.eyes = stereoPair(crookedCamera(), state.X_CA, kApart, kFocus);
   view.show(state);
   const Image frame = view.capture();
-  const Blob red = blobOf(frame, [&](int u, int v) { return at(frame, u, v).r > 25; }), cyan = blobOf(frame, [&](int u, int v) { return at(frame, u, v).b > 40; });
+  const Blob red = blobOf(frame, [&](int u, int v) { return at(frame, u, v).r > 25; }),
+             cyan = blobOf(frame, [&](int u, int v) { return at(frame, u, v).b > 40; });
   ASSERT_GT(red.count, 300);
-  const double expected = project((*state.eyes)[0].camera, (*state.eyes)[0].X_CA * p_A).x() - project((*state.eyes)[1].camera, (*state.eyes)[1].X_CA * p_A).x();
+  const double expected = project((*state.eyes)[0].camera, (*state.eyes)[0].X_CA * p_A).x() -
+                          project((*state.eyes)[1].camera, (*state.eyes)[1].X_CA * p_A).x();
   EXPECT_GT(expected, 5);
   EXPECT_NEAR((red.left + red.right - cyan.left - cyan.right) / 2.0, expected, 1.5);
 }

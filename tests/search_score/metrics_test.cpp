@@ -33,7 +33,10 @@ TEST(SearchMetrics, OfAnEpisodeMadeByHand) {
   trial.chosen = 0;
   EXPECT_EQ(figure(trial, "success"), 0);
   EXPECT_TRUE(std::isnan(figure(SearchTrial{}, "mean_speed_mm_s")));
-  for (const metrics::MetricValue& m : searchMetrics(trial)) EXPECT_TRUE(metrics::metricNamed(m.name) && metrics::belongsTo(*metrics::metricNamed(m.name), "search")) << m.name;
+  for (const metrics::MetricValue& m : searchMetrics(trial))
+    EXPECT_TRUE(metrics::metricNamed(m.name) &&
+                metrics::belongsTo(*metrics::metricNamed(m.name), "search"))
+        << m.name;
 }
 
 }  // namespace

@@ -20,11 +20,13 @@ inline SearchTrial episode(SearchMode mode, int target, int chosen, double secon
 /// `found` of `of` episodes with that result.
 inline std::vector<SearchTrial> episodes(SearchMode mode, int found, int of) {
   std::vector<SearchTrial> trials;
-  for (int i = 0; i < of; ++i) trials.push_back(episode(mode, i % 3, i < found ? i % 3 : (i + 1) % 3));
+  for (int i = 0; i < of; ++i)
+    trials.push_back(episode(mode, i % 3, i < found ? i % 3 : (i + 1) % 3));
   return trials;
 }
 
-inline std::vector<SearchTrial> operator+(std::vector<SearchTrial> a, const std::vector<SearchTrial>& b) {
+inline std::vector<SearchTrial> operator+(std::vector<SearchTrial> a,
+                                          const std::vector<SearchTrial>& b) {
   a.insert(a.end(), b.begin(), b.end());
   return a;
 }

@@ -17,14 +17,17 @@ SearchTrial endedBy(const std::string& outcome, int chosen) {
 }
 
 TEST(SearchMode, ReadsItsOwnNames) {
-  for (const SearchMode mode : {SearchMode::real, SearchMode::degraded, SearchMode::augmented}) EXPECT_EQ(searchModeOf(name(mode)), mode);
+  for (const SearchMode mode : {SearchMode::real, SearchMode::degraded, SearchMode::augmented})
+    EXPECT_EQ(searchModeOf(name(mode)), mode);
   EXPECT_EQ(searchModeOf("Real"), std::nullopt);
   EXPECT_EQ(searchModeOf(""), std::nullopt);
 }
 
 TEST(SearchTrial, SaysHowItEnded) {
-  EXPECT_EQ(summaryOf(endedBy("done", 1)), "Found: the probe stayed in the target's pit after 23 s.");
-  EXPECT_EQ(summaryOf(endedBy("done", 2)), "Not found: the probe stayed in the pit of another element after 23 s.");
+  EXPECT_EQ(summaryOf(endedBy("done", 1)),
+            "Found: the probe stayed in the target's pit after 23 s.");
+  EXPECT_EQ(summaryOf(endedBy("done", 2)),
+            "Not found: the probe stayed in the pit of another element after 23 s.");
   EXPECT_EQ(summaryOf(endedBy("time", -1)), "The time was over before the probe stayed in a pit.");
   EXPECT_EQ(summaryOf(endedBy("aborted", -1)), "Aborted before the probe stayed in a pit.");
   EXPECT_EQ(summaryOf(endedBy("void", 1)), "Void: it does not count.");
@@ -35,11 +38,14 @@ TEST(SearchTrial, SaysHowItEnded) {
 TEST(SearchTrial, OnlyAChoiceInTimeIsOne) {
   EXPECT_TRUE(chose(endedBy("done", 0)));
   EXPECT_FALSE(chose(endedBy("done", -1)));
-  for (const char* outcome : {"time", "aborted", "void"}) EXPECT_FALSE(chose(endedBy(outcome, 1))) << outcome;
+  for (const char* outcome : {"time", "aborted", "void"})
+    EXPECT_FALSE(chose(endedBy(outcome, 1))) << outcome;
 }
 
 TEST(SearchTally, GoesByBlockAndModeInTheOrderOfTheFirst) {
-  std::vector<SearchTrial> trials = episodes(SearchMode::augmented, 2, 3) + episodes(SearchMode::real, 3, 3) + episodes(SearchMode::augmented, 1, 1);
+  std::vector<SearchTrial> trials = episodes(SearchMode::augmented, 2, 3) +
+                                    episodes(SearchMode::real, 3, 3) +
+                                    episodes(SearchMode::augmented, 1, 1);
   for (std::size_t i = 3; i < 6; ++i) trials[i].block = "baseline";
   const std::vector<SearchTally> tallies = talliesOf(trials);
   ASSERT_EQ(tallies.size(), 2u);
@@ -54,7 +60,9 @@ TEST(SearchTally, GoesByBlockAndModeInTheOrderOfTheFirst) {
 }
 
 TEST(SearchTally, NothingChosenIsNotFoundAndVoidAndUnscoredAreLeftOut) {
-  std::vector<SearchTrial> trials{episode(SearchMode::real, 0, 0), episode(SearchMode::real, 0, -1), episode(SearchMode::real, 0, 0), episode(SearchMode::real, 0, 0), episode(SearchMode::real, 2, 2)};
+  std::vector<SearchTrial> trials{episode(SearchMode::real, 0, 0), episode(SearchMode::real, 0, -1),
+                                  episode(SearchMode::real, 0, 0), episode(SearchMode::real, 0, 0),
+                                  episode(SearchMode::real, 2, 2)};
   trials[2].outcome = "void";
   trials[3].role = "training";
   trials[4].outcome = "aborted";
@@ -66,7 +74,9 @@ TEST(SearchTally, NothingChosenIsNotFoundAndVoidAndUnscoredAreLeftOut) {
 }
 
 TEST(SearchTally, TheMedianIsOfTheChoices) {
-  const std::vector<SearchTrial> three{episode(SearchMode::real, 0, 0, 30), episode(SearchMode::real, 0, 1, 10), episode(SearchMode::real, 0, 2, 14), episode(SearchMode::real, 0, -1, 180)};
+  const std::vector<SearchTrial> three{
+      episode(SearchMode::real, 0, 0, 30), episode(SearchMode::real, 0, 1, 10),
+      episode(SearchMode::real, 0, 2, 14), episode(SearchMode::real, 0, -1, 180)};
   EXPECT_EQ(talliesOf(three).front().seconds_median, 14);
   EXPECT_EQ(talliesOf({three[0], three[1]}).front().seconds_median, 20);
   EXPECT_TRUE(std::isnan(talliesOf({three[3]}).front().seconds_median));

@@ -198,9 +198,9 @@ TEST(NetFtSensor, AReaderInAnotherThreadSeesWholeSamplesInOrder) {
       const WrenchSample s = b.sensor.read(b.now);
       back += s.sequence < seen;
       const auto sequence = static_cast<std::int64_t>(s.sequence);
-      torn += sequence > 1 && (std::llround(s.f_S[0] * 1000) != sequence ||
-                               std::llround(s.tau_S[2] * 2000) != -sequence ||
-                               s.ft_sequence != 100 + s.sequence);
+      torn += sequence > 1 &&
+              (std::llround(s.f_S[0] * 1000) != sequence ||
+               std::llround(s.tau_S[2] * 2000) != -sequence || s.ft_sequence != 100 + s.sequence);
       seen = s.sequence;
     }
   });

@@ -6,8 +6,8 @@
 #include "apps/cli/needle_session.h"
 #include "tests/support/counts.h"
 
-/// Simulated operators on the virtual bench: do the scores tell experts from novices, and does losing the
-/// sense of touch cost? These say something about the program, nothing about people.
+/// Simulated operators on the virtual bench: do the scores tell experts from novices, and does
+/// losing the sense of touch cost? These say something about the program, nothing about people.
 namespace palpa::cli {
 namespace {
 
@@ -16,12 +16,14 @@ struct Cohort {
   int successes = 0;
 };
 
-/// Twelve: with the twenty seeds' own scatter the test of 5 % then tells the groups in nine of ten draws (in three of four with eight).
+/// Twelve: with the twenty seeds' own scatter the test of 5 % then tells the groups in nine of ten
+/// draws (in three of four with eight).
 int seeds() { return palpa::test::counted(12, 20); }
 
 Cohort cohort(OperatorKind who, bool force_feedback, int seeds) {
   Cohort result;
-  const std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/cohort";
+  const std::filesystem::path folder =
+      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/cohort";
   SessionOptions options;
   options.who = who;
   options.force_feedback = force_feedback;
@@ -38,7 +40,11 @@ Cohort cohort(OperatorKind who, bool force_feedback, int seeds) {
     EXPECT_TRUE(trial.simulated);
     result.totals.push_back(trial.total);
     result.successes += trial.values.success;
-    std::printf("%s%.0f", i ? ", " : force_feedback ? "totals: " : "without force feedback: ", trial.total);
+    std::printf("%s%.0f",
+                i                ? ", "
+                : force_feedback ? "totals: "
+                                 : "without force feedback: ",
+                trial.total);
   }
   std::printf("\n");
   return result;
@@ -46,7 +52,8 @@ Cohort cohort(OperatorKind who, bool force_feedback, int seeds) {
 
 /// What a person on a Falcon is shown first: an expert on the same station, held by the bench.
 TEST(Cohort, TheExpertOfTheDemonstrationSucceedsOnTheFalconsStation) {
-  const std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/falcon";
+  const std::filesystem::path folder =
+      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/falcon";
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   SessionOptions options;
@@ -60,12 +67,15 @@ TEST(Cohort, TheExpertOfTheDemonstrationSucceedsOnTheFalconsStation) {
   world.station.camera_rate_Hz = 2;
   world.station.safety.deadman_button = 1;  // nobody holds it: it must not count here
   const SessionResult session = runNeedleSession(options, world, folder);
-  EXPECT_TRUE(session.trials.at(0).assessment.values.success) << session.trials.at(0).assessment.summary;
+  EXPECT_TRUE(session.trials.at(0).assessment.values.success)
+      << session.trials.at(0).assessment.summary;
 }
 
-/// Whatever he is doing when a trial ends, the simulated operator takes the needle out for the next one.
+/// Whatever he is doing when a trial ends, the simulated operator takes the needle out for the next
+/// one.
 TEST(Cohort, TheNeedleIsOutAgainWheneverATrialEnds) {
-  const std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/broken_off";
+  const std::filesystem::path folder =
+      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/broken_off";
   SessionOptions options;
   options.who = OperatorKind::expert;
   options.seed = 1;
@@ -78,7 +88,8 @@ TEST(Cohort, TheNeedleIsOutAgainWheneverATrialEnds) {
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     world.task.time_limit_s = limit_s;
-    EXPECT_EQ(runNeedleSession(options, world, folder).trials.size(), 2u) << limit_s;  // else the ready check throws
+    EXPECT_EQ(runNeedleSession(options, world, folder).trials.size(), 2u)
+        << limit_s;  // else the ready check throws
   }
 }
 
@@ -89,10 +100,11 @@ TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
   const Cohort numb = cohort(OperatorKind::expert, false, few);
   const statistics::TTest skill = statistics::welch(expert.totals, novice.totals);
   const statistics::TTest touch = statistics::welch(expert.totals, numb.totals);
-  std::printf("simulated operators, %d seeds: expert %.0f (success %d), novice %.0f (%d), p = %.2g; "
-              "expert without force feedback %.0f (%d), p = %.2g\n",
-              seeds(), skill.mean_a, expert.successes, skill.mean_b, novice.successes, skill.p_two_sided,
-              touch.mean_b, numb.successes, touch.p_two_sided);
+  std::printf(
+      "simulated operators, %d seeds: expert %.0f (success %d), novice %.0f (%d), p = %.2g; "
+      "expert without force feedback %.0f (%d), p = %.2g\n",
+      seeds(), skill.mean_a, expert.successes, skill.mean_b, novice.successes, skill.p_two_sided,
+      touch.mean_b, numb.successes, touch.p_two_sided);
   EXPECT_LT(skill.mean_a, skill.mean_b);
   EXPECT_LT(skill.p_two_sided, seeds() == 20 ? 0.01 : 0.05);  // fewer seeds have less power
   EXPECT_TRUE(touch.mean_b > touch.mean_a || numb.successes * seeds() < expert.successes * few);

@@ -14,40 +14,57 @@ namespace palpa::cli {
 namespace {
 
 /// Exactly. Not a number is equal to itself: the figure does not apply.
-bool sameFigure(double stored, double live) { return (std::isnan(stored) && std::isnan(live)) || stored == live; }
+bool sameFigure(double stored, double live) {
+  return (std::isnan(stored) && std::isnan(live)) || stored == live;
+}
 
 void expectSameScore(const assess::TrialAssessment& again, const std::string& scores_json) {
   const nlohmann::json stored = nlohmann::json::parse(scores_json);
   const assess::ParacentesisValues& v = again.values;
-  for (const auto& [code, value] : {std::pair{"COL_LUNG", v.col_lung}, {"COL_RIB", v.col_rib}, {"COL_ART", v.col_art}, {"COL_VEIN", v.col_vein}, {"PHASE_1", v.phase_1}, {"PHASE_2", v.phase_2}, {"ECON_MEAN", v.econ_mean},
-                                    {"ECON_VAR", v.econ_var}, {"TIME", v.time_ms}, {"SUCCESS", v.success ? 1.0 : 0.0}, {"TOTAL", again.total}})
+  for (const auto& [code, value] : {std::pair{"COL_LUNG", v.col_lung},
+                                    {"COL_RIB", v.col_rib},
+                                    {"COL_ART", v.col_art},
+                                    {"COL_VEIN", v.col_vein},
+                                    {"PHASE_1", v.phase_1},
+                                    {"PHASE_2", v.phase_2},
+                                    {"ECON_MEAN", v.econ_mean},
+                                    {"ECON_VAR", v.econ_var},
+                                    {"TIME", v.time_ms},
+                                    {"SUCCESS", v.success ? 1.0 : 0.0},
+                                    {"TOTAL", again.total}})
     EXPECT_EQ(stored.at(code).get<double>(), value) << code;
 }
 
-void expectSameMetrics(const std::vector<metrics::MetricValue>& live, const record::StoredTrial& stored) {
+void expectSameMetrics(const std::vector<metrics::MetricValue>& live,
+                       const record::StoredTrial& stored) {
   ASSERT_EQ(stored.metrics.size(), live.size());
-  for (const metrics::MetricValue& m : live) EXPECT_TRUE(sameFigure(stored.metric(m.name), m.value)) << m.name << ": " << stored.metric(m.name) << ", live " << m.value;
+  for (const metrics::MetricValue& m : live)
+    EXPECT_TRUE(sameFigure(stored.metric(m.name), m.value))
+        << m.name << ": " << stored.metric(m.name) << ", live " << m.value;
 }
 
 /// Records a session and judges it again from its file alone; answers how many trials.
-int recordAndRescore(const SessionOptions& options, NeedleWorld& world, const std::filesystem::path& folder) {
+int recordAndRescore(const SessionOptions& options, NeedleWorld& world,
+                     const std::filesystem::path& folder) {
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   const SessionResult session = runNeedleSession(options, world, folder);
   const RecordedSession recorded(folder / "session.palpa");
   int trials = 0;
-  recorded.eachTrial([&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
-    expectSameScore(recorded.rescore(trial, samples), trial.end.scores_json);
-    ++trials;
-  });
+  recorded.eachTrial(
+      [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+        expectSameScore(recorded.rescore(trial, samples), trial.end.scores_json);
+        ++trials;
+      });
   const EvidenceRecords stored = recordsOf(folder / "session.palpa");
   EXPECT_EQ(stored.trials.size(), session.trials.size());
-  for (std::size_t i = 0; i < session.trials.size(); ++i) expectSameMetrics(session.trials[i].assessment.metrics, stored.trials.at(i));
+  for (std::size_t i = 0; i < session.trials.size(); ++i)
+    expectSameMetrics(session.trials[i].assessment.metrics, stored.trials.at(i));
   return trials;
 }
 
 TEST(Rescore, RecordedTrialsHaveTheirStoredScoresExactly) {
-  const int each = palpa::test::counted(1, 13);   // 104 of all eight kinds
+  const int each = palpa::test::counted(1, 13);  // 104 of all eight kinds
   int trials = 0;
   for (const anatomy::Side side : {anatomy::Side::right, anatomy::Side::left}) {
     SessionOptions options;
@@ -56,15 +73,17 @@ TEST(Rescore, RecordedTrialsHaveTheirStoredScoresExactly) {
     options.display = scene::Display::offscreen;
     options.trials = each;
     NeedleWorld world(options);
-    world.station.camera_rate_Hz = 2;   // pictures change no score; the ready check needs some
+    world.station.camera_rate_Hz = 2;  // pictures change no score; the ready check needs some
     int kind = 0;
     for (const OperatorKind who : {OperatorKind::expert, OperatorKind::novice})
       for (const bool felt : {true, false}) {
-        if (!palpa::test::fullCounts() && kind++ != (side == anatomy::Side::left ? 3 : 0)) continue;   // the expert on the right, the numb novice on the left
+        if (!palpa::test::fullCounts() && kind++ != (side == anatomy::Side::left ? 3 : 0))
+          continue;  // the expert on the right, the numb novice on the left
         options.who = who;
         options.force_feedback = felt;
         options.seed = 300 + static_cast<std::uint64_t>(100 * trials);
-        trials += recordAndRescore(options, world, std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/rescore");
+        trials += recordAndRescore(
+            options, world, std::filesystem::path(PALPA_BUILD_DIR) / "tests/session/rescore");
       }
   }
   EXPECT_GE(trials, palpa::test::counted(2, 100));

@@ -24,7 +24,8 @@ std::vector<SqueezeTrial> answersOf(double sd, int count, unsigned seed) {
   std::vector<SqueezeTrial> trials;
   for (int i = 0; i < count; ++i) {
     const double second = ratios[i % 4];
-    trials.push_back(answer(1, second, std::log(second) + scatter(random) > scatter(random) ? 2 : 1));
+    trials.push_back(
+        answer(1, second, std::log(second) + scatter(random) > scatter(random) ? 2 : 1));
   }
   return trials;
 }
@@ -42,7 +43,9 @@ TEST(SqueezeTrial, KnowsWhatIsRight) {
 }
 
 TEST(Discrimination, CountsByRatioWhicheverCameFirst) {
-  const Discrimination d = discriminationIn({answer(1, 1.25, 2), answer(1.25, 1, 2), answer(1, 2, 2), answer(1, 2, 0)}, SqueezedProperty::stiffness);
+  const Discrimination d =
+      discriminationIn({answer(1, 1.25, 2), answer(1.25, 1, 2), answer(1, 2, 2), answer(1, 2, 0)},
+                       SqueezedProperty::stiffness);
   ASSERT_EQ(d.shares.size(), 2u);
   EXPECT_EQ(d.shares[0].right, 1);
   EXPECT_EQ(d.shares[0].of, 2);
@@ -53,7 +56,8 @@ TEST(Discrimination, CountsByRatioWhicheverCameFirst) {
 
 TEST(Discrimination, FindsTheThresholdItWasMadeWith) {
   for (const double sd : {0.08, 0.2}) {
-    const std::optional<Threshold> found = discriminationIn(answersOf(sd, 4000, 5), SqueezedProperty::stiffness).threshold;
+    const std::optional<Threshold> found =
+        discriminationIn(answersOf(sd, 4000, 5), SqueezedProperty::stiffness).threshold;
     ASSERT_TRUE(found);
     EXPECT_NEAR(std::log(found->ratio), 0.67449 * std::sqrt(2.0) * sd, 0.08 * sd);
   }
@@ -64,7 +68,8 @@ TEST(Discrimination, ItsIntervalIsHonest) {
   const double truth = std::exp(0.67449 * std::sqrt(2.0) * 0.15);
   int holds = 0, told = 0;
   for (unsigned seed = 0; seed < 300; ++seed) {
-    const std::optional<Threshold> found = discriminationIn(answersOf(0.15, 80, seed), SqueezedProperty::stiffness).threshold;
+    const std::optional<Threshold> found =
+        discriminationIn(answersOf(0.15, 80, seed), SqueezedProperty::stiffness).threshold;
     if (!found) continue;
     ++told;
     holds += (!found->low || *found->low <= truth) && (!found->high || *found->high >= truth);
@@ -78,7 +83,8 @@ TEST(Discrimination, AllRightOrChanceTellNoThreshold) {
   std::vector<SqueezeTrial> right(12, answer(1, 1.33, 2)), chance;
   for (int i = 0; i < 40; ++i) chance.push_back(answer(1, 1.33, 1 + i % 2));
   EXPECT_FALSE(discriminationIn(right, SqueezedProperty::stiffness).threshold);
-  const std::optional<Threshold> none = discriminationIn(chance, SqueezedProperty::stiffness).threshold;
+  const std::optional<Threshold> none =
+      discriminationIn(chance, SqueezedProperty::stiffness).threshold;
   EXPECT_TRUE(!none || !none->high);
 }
 

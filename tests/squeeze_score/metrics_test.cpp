@@ -13,13 +13,16 @@ TEST(SqueezeMetrics, OfAComparisonMadeByHand) {
   trial.seconds = 12;
   trial.peak_N = 4;
   trial.grips = {2, 3};
-  const std::pair<const char*, double> expected[] = {{"success", 1}, {"time_s", 12}, {"difference_pct", 25}, {"grips", 5}, {"peak_force_N", 4}};
+  const std::pair<const char*, double> expected[] = {
+      {"success", 1}, {"time_s", 12}, {"difference_pct", 25}, {"grips", 5}, {"peak_force_N", 4}};
   const auto all = squeezeMetrics(trial);
   ASSERT_EQ(all.size(), 5u);
   for (std::size_t i = 0; i < all.size(); ++i) {
     EXPECT_EQ(all[i].name, expected[i].first);
     EXPECT_NEAR(all[i].value, expected[i].second, 1e-9) << all[i].name;
-    EXPECT_TRUE(metrics::metricNamed(all[i].name) && metrics::belongsTo(*metrics::metricNamed(all[i].name), "squeeze")) << all[i].name;
+    EXPECT_TRUE(metrics::metricNamed(all[i].name) &&
+                metrics::belongsTo(*metrics::metricNamed(all[i].name), "squeeze"))
+        << all[i].name;
   }
   trial.said = 1;
   EXPECT_EQ(squeezeMetrics(trial)[0].value, 0);

@@ -50,8 +50,7 @@ inline std::vector<AssetFile> assetFiles() {
       {"operators/expert.json", skill},
       {"operators/novice.json", skill},
       {"boards/table.json", [](const auto& file) { ar::readTagGrid(file); }, false},
-      {"patients/reference.json",
-       [](const auto& file) { anatomy::readPopulation(file.string()); },
+      {"patients/reference.json", [](const auto& file) { anatomy::readPopulation(file.string()); },
        false},
       {"stations/falcon.json", [](const auto& file) { readStation(file); }},
   };

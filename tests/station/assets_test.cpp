@@ -14,9 +14,12 @@ namespace {
 namespace fs = std::filesystem;
 
 TEST(Assets, LieBesideTheProgramOrWhereTheVariableSays) {
-  const fs::path top = test::freshFolder("station", "assets"), beside = top / "usr/share/palpa/assets", elsewhere = top / "mine", program = top / "usr/bin/palpa";
+  const fs::path top = test::freshFolder("station", "assets"),
+                 beside = top / "usr/share/palpa/assets", elsewhere = top / "mine",
+                 program = top / "usr/bin/palpa";
   ::unsetenv("PALPA_ASSETS");
-  EXPECT_EQ(assetsFolder(program), PALPA_SOURCE_DIR "/assets") << "a program that was not installed uses the tree that it was built from";
+  EXPECT_EQ(assetsFolder(program), PALPA_SOURCE_DIR "/assets")
+      << "a program that was not installed uses the tree that it was built from";
   fs::create_directories(beside / "materials");
   EXPECT_EQ(assetsFolder(program), beside);
   fs::create_directories(elsewhere / "materials");

@@ -22,24 +22,35 @@ using Kind = Augmentation::Kind;
 using Trigger = Augmentation::Trigger;
 using Way = Augmentation::Way;
 
-json conditionOf(const char* cue, const char* compare, const json& value) { return {{"cue", cue}, {compare, value}}; }
+json conditionOf(const char* cue, const char* compare, const json& value) {
+  return {{"cue", cue}, {compare, value}};
+}
 
-json partOf(const char* name, const json& conditions) { return {{"name", name}, {"means", "for a test"}, {"on", conditions}}; }
+json partOf(const char* name, const json& conditions) {
+  return {{"name", name}, {"means", "for a test"}, {"on", conditions}};
+}
 
 /// Of the part "go", pushing; with what is given besides.
 json addedOf(const char* kind, const json& more = json::object()) {
-  json added{{"name", "added"}, {"means", "for a test"}, {"kind", kind}, {"subtask", "go"}, {"way", "up"}, {"force_N", 2}};
+  json added{{"name", "added"}, {"means", "for a test"}, {"kind", kind},
+             {"subtask", "go"}, {"way", "up"},           {"force_N", 2}};
   added.update(more);
   return added;
 }
 
 json planWith(const json& augmentations) {
-  return {{"subtasks", json::array({partOf("go", json::array({conditionOf("floor_speed", "at_least", 400)}))})}, {"augmentations", augmentations}, {"hysteresis", 0.05}, {"limit_share", 0.5}};
+  return {{"subtasks",
+           json::array({partOf("go", json::array({conditionOf("floor_speed", "at_least", 400)}))})},
+          {"augmentations", augmentations},
+          {"hysteresis", 0.05},
+          {"limit_share", 0.5}};
 }
 
 NamedPlan planIn(const json& task) { return readPlan(JsonFile(task, "task.json")); }
 
-Augmentation onlyOne(const char* kind, const json& more) { return planIn(planWith(json::array({addedOf(kind, more)}))).plan.each[0]; }
+Augmentation onlyOne(const char* kind, const json& more) {
+  return planIn(planWith(json::array({addedOf(kind, more)}))).plan.each[0];
+}
 
 Condition onlyCondition(const json& condition) {
   json task = planWith(json::array());
@@ -48,7 +59,8 @@ Condition onlyCondition(const json& condition) {
 }
 
 TEST(AugmentationPlan, TheShippedSearchReadsAsItIsStated) {
-  const NamedPlan named = readPlan(JsonFile(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/tasks/search.json"));
+  const NamedPlan named =
+      readPlan(JsonFile(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/tasks/search.json"));
   const haptics::AugmentationPlan& plan = named.plan;
   ASSERT_EQ(named.subtasks.size(), 3u);
   ASSERT_EQ(named.augmentations.size(), 3u);
@@ -61,9 +73,15 @@ TEST(AugmentationPlan, TheShippedSearchReadsAsItIsStated) {
     std::vector<Condition> on;
   };
   constexpr auto kAtLeast = Condition::Compare::at_least;
-  const std::vector<Stated> stated{{"scan", {{Cue::floor_speed, kAtLeast, {}, 468.75, 0.05}}},
-                                   {"shape", {{Cue::floor_speed, Condition::Compare::below, {}, 468.75, 0.05}, {Cue::floor_contact, kAtLeast, {}, 1, 0.05}}},
-                                   {"identify", {{Cue::floor_contact, kAtLeast, {}, 1, 0.05}, {Cue::floor_texture, kAtLeast, {}, 1, 0.05}, {Cue::floor_speed, kAtLeast, {}, 400, 0.05}}}};
+  const std::vector<Stated> stated{
+      {"scan", {{Cue::floor_speed, kAtLeast, {}, 468.75, 0.05}}},
+      {"shape",
+       {{Cue::floor_speed, Condition::Compare::below, {}, 468.75, 0.05},
+        {Cue::floor_contact, kAtLeast, {}, 1, 0.05}}},
+      {"identify",
+       {{Cue::floor_contact, kAtLeast, {}, 1, 0.05},
+        {Cue::floor_texture, kAtLeast, {}, 1, 0.05},
+        {Cue::floor_speed, kAtLeast, {}, 400, 0.05}}}};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(named.subtasks[i].name, stated[i].part);
     EXPECT_FALSE(named.subtasks[i].means.empty());
@@ -99,7 +117,8 @@ TEST(AugmentationPlan, ATaskWithoutPartsHasNone) {
 }
 
 TEST(AugmentationPlan, EveryKindWithItsFields) {
-  const Augmentation pulse = onlyOne("pulse", {{"trigger", "begin"}, {"width_ms", 12}, {"way", "along_tool"}, {"blend_ms", 5}});
+  const Augmentation pulse = onlyOne(
+      "pulse", {{"trigger", "begin"}, {"width_ms", 12}, {"way", "along_tool"}, {"blend_ms", 5}});
   EXPECT_EQ(pulse.kind, Kind::pulse);
   EXPECT_EQ(pulse.amplitude, 2);
   EXPECT_DOUBLE_EQ(pulse.width_s, 0.012);
@@ -112,7 +131,8 @@ TEST(AugmentationPlan, EveryKindWithItsFields) {
   EXPECT_EQ(hum.wavelength, 0);
   EXPECT_EQ(hum.way, Way::against_motion);
   EXPECT_EQ(hum.trigger, Trigger::none);
-  const Augmentation grating = onlyOne("vibration", {{"wavelength_mm", 1.5}, {"trigger", "bump"}, {"decay_ms", 40}});
+  const Augmentation grating =
+      onlyOne("vibration", {{"wavelength_mm", 1.5}, {"trigger", "bump"}, {"decay_ms", 40}});
   EXPECT_DOUBLE_EQ(grating.wavelength, 0.0015);
   EXPECT_DOUBLE_EQ(grating.tau_s, 0.040);
   const Augmentation pull = onlyOne("attraction", {{"reach_mm", 3}});
@@ -135,12 +155,17 @@ TEST(AugmentationPlan, EveryKindWithItsFields) {
 }
 
 TEST(AugmentationPlan, EveryTriggerByItsName) {
-  const auto triggered = [](const char* name) { return onlyOne("pulse", {{"trigger", name}, {"width_ms", 10}}); };
+  const auto triggered = [](const char* name) {
+    return onlyOne("pulse", {{"trigger", name}, {"width_ms", 10}});
+  };
   EXPECT_EQ(triggered("begin").trigger, Trigger::begin);
   EXPECT_EQ(triggered("rise").trigger, Trigger::rise);
   EXPECT_EQ(triggered("bump").trigger, Trigger::bump);
-  const std::pair<const char*, std::uint32_t> events[]{
-      {"skin_punctured", haptics::kSkinPunctured}, {"withdrawn", haptics::kWithdrawn}, {"wall_punctured", haptics::kWallPunctured}, {"bone_touched", haptics::kBoneTouched}, {"bone_left", haptics::kBoneLeft}};
+  const std::pair<const char*, std::uint32_t> events[]{{"skin_punctured", haptics::kSkinPunctured},
+                                                       {"withdrawn", haptics::kWithdrawn},
+                                                       {"wall_punctured", haptics::kWallPunctured},
+                                                       {"bone_touched", haptics::kBoneTouched},
+                                                       {"bone_left", haptics::kBoneLeft}};
   for (const auto& [name, bit] : events) {
     EXPECT_EQ(triggered(name).trigger, Trigger::event) << name;
     EXPECT_EQ(triggered(name).events, bit) << name;
@@ -157,7 +182,8 @@ TEST(AugmentationPlan, ConditionsAreInTheUnitsOfTheirCues) {
   const Condition inserted = onlyCondition(conditionOf("phase", "is", "inserted"));
   EXPECT_EQ(inserted.compare, Condition::Compare::equal);
   EXPECT_EQ(inserted.threshold, static_cast<double>(haptics::NeedlePhase::inserted));
-  EXPECT_EQ(onlyCondition(conditionOf("tissue", "is", "muscle")).threshold, static_cast<double>(Tissue::muscle));
+  EXPECT_EQ(onlyCondition(conditionOf("tissue", "is", "muscle")).threshold,
+            static_cast<double>(Tissue::muscle));
   EXPECT_EQ(onlyCondition(conditionOf("part", "is", 2)).threshold, 2);
 }
 
@@ -174,14 +200,19 @@ void expectNamed(const json& task, const std::string& field, const std::string& 
   }
 }
 
-void expectNamedIn(const char* kind, const json& more, const std::string& field, const std::string& said = "") { expectNamed(planWith(json::array({addedOf(kind, more)})), field, said); }
+void expectNamedIn(const char* kind, const json& more, const std::string& field,
+                   const std::string& said = "") {
+  expectNamed(planWith(json::array({addedOf(kind, more)})), field, said);
+}
 
 TEST(AugmentationPlan, WordsThatAreNoneAreNamed) {
   expectNamedIn("kick", json::object(), "kind", "kick");
   expectNamedIn("none", json::object(), "kind", "none");
   expectNamedIn("pulse", {{"trigger", "whim"}, {"width_ms", 10}}, "trigger", "whim");
-  expectNamedIn("pulse", {{"trigger", "rise"}, {"width_ms", 10}, {"way", "sideways"}}, "way", "sideways");
-  expectNamedIn("pulse", {{"trigger", "rise"}, {"width_ms", 10}, {"subtask", "sleep"}}, "subtask", "sleep");
+  expectNamedIn("pulse", {{"trigger", "rise"}, {"width_ms", 10}, {"way", "sideways"}}, "way",
+                "sideways");
+  expectNamedIn("pulse", {{"trigger", "rise"}, {"width_ms", 10}, {"subtask", "sleep"}}, "subtask",
+                "sleep");
   json task = planWith(json::array());
   task["subtasks"][0]["on"] = json::array({conditionOf("smell", "at_least", 1)});
   expectNamed(task, "cue", "smell");
@@ -220,14 +251,17 @@ TEST(AugmentationPlan, WhatIsMissingIsNamed) {
     expectNamed(task, field);
   }
   for (const char* kind : {"pulse", "vibration", "relief"}) {
-    json task = planWith(json::array({addedOf(kind, {{"frequency_Hz", 80}, {"trigger", "begin"}, {"width_ms", 10}, {"decay_ms", 10}})}));
+    json task = planWith(json::array({addedOf(
+        kind, {{"frequency_Hz", 80}, {"trigger", "begin"}, {"width_ms", 10}, {"decay_ms", 10}})}));
     task["augmentations"][0].erase("way");
     expectNamed(task, "way");
   }
   expectNamedIn("vibration", {{"frequency_Hz", 80}, {"decay_ms", 10}}, "decay_ms", "trigger");
-  expectNamed({{"augmentations", json::array()}, {"limit_share", 0.5}}, "augmentations", "subtasks");
+  expectNamed({{"augmentations", json::array()}, {"limit_share", 0.5}}, "augmentations",
+              "subtasks");
   expectNamedIn("relief", {{"trigger", "rise"}}, "trigger", "no meaning");
-  expectNamedIn("pulse", {{"trigger", "begin"}, {"width_ms", 10}, {"subtask", "any"}}, "trigger", "of no part");
+  expectNamedIn("pulse", {{"trigger", "begin"}, {"width_ms", 10}, {"subtask", "any"}}, "trigger",
+                "of no part");
   for (const char* field : {"limit_share", "hysteresis"}) {
     json task = planWith(json::array());
     task.erase(field);
@@ -256,7 +290,8 @@ TEST(AugmentationPlan, FiguresOutOfAllProportionAreNamed) {
 TEST(AugmentationPlan, TooManyOrNoneAreNamed) {
   const json relief = addedOf("relief"), condition = conditionOf("speed", "at_least", 1);
   const json part = planWith(json::array())["subtasks"][0];
-  EXPECT_EQ(planIn(planWith(json(haptics::kMostAugmentations, relief))).plan.count, haptics::kMostAugmentations);
+  EXPECT_EQ(planIn(planWith(json(haptics::kMostAugmentations, relief))).plan.count,
+            haptics::kMostAugmentations);
   expectNamed(planWith(json(haptics::kMostAugmentations + 1, relief)), "augmentations");
   json task = planWith(json::array());
   task["subtasks"] = json(haptics::kMostSubtasks, part);
@@ -273,7 +308,9 @@ TEST(AugmentationPlan, TooManyOrNoneAreNamed) {
 }
 
 TEST(AugmentationPlan, OnADeviceItHasItsLimitsAndLengths) {
-  const NamedPlan named = planIn(planWith(json::array({addedOf("attraction", {{"reach_U", 5}}), addedOf("attraction", {{"reach_mm", 3}}), addedOf("relief", {{"force_N", 30}})})));
+  const NamedPlan named = planIn(planWith(json::array({addedOf("attraction", {{"reach_U", 5}}),
+                                                       addedOf("attraction", {{"reach_mm", 3}}),
+                                                       addedOf("relief", {{"force_N", 30}})})));
   const haptics::AugmentationPlan plan = onDevice(named, 15, 5250, 60e-6);
   EXPECT_DOUBLE_EQ(plan.largest, 7.5);
   EXPECT_EQ(plan.steepest, 5250);

@@ -17,12 +17,23 @@ namespace {
 using nlohmann::json;
 
 json twoStates() {
-  return {{"states", 2},           {"step_s", 0.01},        {"least_speed_m_per_s", 1e-3},    {"least_force_N", 0.02},           {"least_shaking_N", 0.005}, {"start", {0.25, 0.75}},
-          {"move_from_state_1", {0.9, 0.1}}, {"move_from_state_2", {0.2, 0.8}}, {"mean_log_speed", {-6.0, -3.0}}, {"variance_log_speed", {0.5, 0.7}}};
+  return {{"states", 2},
+          {"step_s", 0.01},
+          {"least_speed_m_per_s", 1e-3},
+          {"least_force_N", 0.02},
+          {"least_shaking_N", 0.005},
+          {"start", {0.25, 0.75}},
+          {"move_from_state_1", {0.9, 0.1}},
+          {"move_from_state_2", {0.2, 0.8}},
+          {"mean_log_speed", {-6.0, -3.0}},
+          {"variance_log_speed", {0.5, 0.7}}};
 }
 
 json taskWith(const json& learned, const json& condition = {{"cue", "learned"}, {"is", 2}}) {
-  json task{{"subtasks", {{{"name", "go"}, {"means", "for a test"}, {"on", {condition}}}}}, {"augmentations", json::array()}, {"hysteresis", 0.05}, {"limit_share", 0.5}};
+  json task{{"subtasks", {{{"name", "go"}, {"means", "for a test"}, {"on", {condition}}}}},
+            {"augmentations", json::array()},
+            {"hysteresis", 0.05},
+            {"limit_share", 0.5}};
   if (!learned.is_null()) task["learned"] = learned;
   return task;
 }
@@ -40,7 +51,8 @@ std::string refusal(const json& task) {
 void expectRefused(const std::function<void(json*)>& change, const std::string& words) {
   json learned = twoStates();
   change(&learned);
-  EXPECT_NE(refusal(taskWith(learned)).find(words), std::string::npos) << words << ": " << refusal(taskWith(learned));
+  EXPECT_NE(refusal(taskWith(learned)).find(words), std::string::npos)
+      << words << ": " << refusal(taskWith(learned));
 }
 
 CalibrationFile calibrated() {
@@ -52,7 +64,9 @@ CalibrationFile calibrated() {
   file.valid_days = 10;
   file.verdict = "pass";
   const json model = twoStates();
-  for (const auto& [name, value] : model.items()) file.parameters.push_back({name, value.is_array() ? value.get<std::vector<double>>() : std::vector<double>{value.get<double>()}});
+  for (const auto& [name, value] : model.items())
+    file.parameters.push_back({name, value.is_array() ? value.get<std::vector<double>>()
+                                                      : std::vector<double>{value.get<double>()}});
   file.parameters.push_back({"kappa", {0.3}});
   return file;
 }
@@ -69,14 +83,17 @@ struct Task {
 };
 
 TEST(LearnedModel, ReadsWhatTheTickNeeds) {
-  const haptics::AugmentationPlan plan = readPlan(JsonFile(taskWith(twoStates()), "task.json")).plan;
+  const haptics::AugmentationPlan plan =
+      readPlan(JsonFile(taskWith(twoStates()), "task.json")).plan;
   const haptics::LearnedModel& m = plan.learned;
   ASSERT_EQ(m.states, 2u);
   EXPECT_EQ(m.start[1], 0.75);
   EXPECT_EQ(m.transition[1][0], 0.2);
   EXPECT_EQ(m.mean[1][haptics::kLogSpeed], -3.0);
   EXPECT_EQ(m.variance[0][haptics::kLogSpeed], 0.5);
-  for (const int unused : {haptics::kLogForce, haptics::kInContact, haptics::kLogShaking}) EXPECT_EQ(m.mean[0][static_cast<std::size_t>(unused)], m.mean[1][static_cast<std::size_t>(unused)]);
+  for (const int unused : {haptics::kLogForce, haptics::kInContact, haptics::kLogShaking})
+    EXPECT_EQ(m.mean[0][static_cast<std::size_t>(unused)],
+              m.mean[1][static_cast<std::size_t>(unused)]);
   EXPECT_EQ(plan.subtasks.each[0].conditions[0].cue, haptics::Cue::learned);
   EXPECT_EQ(plan.subtasks.each[0].conditions[0].threshold, 2);
   EXPECT_EQ(learnedIn(JsonFile(taskWith(nullptr), "task.json")).states, 0u);
@@ -94,9 +111,12 @@ TEST(LearnedModel, RefusesWhatCannotBe) {
   expectRefused([](json* m) { (*m)["step_s"] = 0.02; }, "another than this program's");
   expectRefused([](json* m) { *m = 3; }, "is no model");
   EXPECT_NE(refusal(taskWith(nullptr)).find("has no \"learned\""), std::string::npos);
-  EXPECT_NE(refusal(taskWith(twoStates(), {{"cue", "learned"}, {"is", 3}})).find("1 to 2"), std::string::npos);
-  EXPECT_NE(refusal(taskWith(twoStates(), {{"cue", "learned"}, {"is", 0}})).find("1 to 2"), std::string::npos);
-  EXPECT_NE(refusal(taskWith(twoStates(), {{"cue", "learned"}, {"at_least", 1}})).find("1 to 2"), std::string::npos);
+  EXPECT_NE(refusal(taskWith(twoStates(), {{"cue", "learned"}, {"is", 3}})).find("1 to 2"),
+            std::string::npos);
+  EXPECT_NE(refusal(taskWith(twoStates(), {{"cue", "learned"}, {"is", 0}})).find("1 to 2"),
+            std::string::npos);
+  EXPECT_NE(refusal(taskWith(twoStates(), {{"cue", "learned"}, {"at_least", 1}})).find("1 to 2"),
+            std::string::npos);
 }
 
 TEST(LearnedModel, ATasksFileTakesTheModelIn) {
@@ -111,7 +131,7 @@ TEST(LearnedModel, ATasksFileTakesTheModelIn) {
 
 TEST(LearnedModel, RefusesCalibrationsOfOtherThings) {
   const Task task;
-  EXPECT_THROW(task.read(), Error);   // there is none
+  EXPECT_THROW(task.read(), Error);  // there is none
   CalibrationFile file = calibrated();
   file.verdict = "its two halves differ";
   writeCalibration(file, task.folder / "parts/calibration.json");

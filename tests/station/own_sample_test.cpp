@@ -8,9 +8,13 @@
 namespace palpa::station {
 namespace {
 
-LumpLibrary library() { return readLumps(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/materials/lumps.json"); }
+LumpLibrary library() {
+  return readLumps(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/materials/lumps.json");
+}
 
-AppliedCalibration calibration(const std::string& kind, std::vector<CalibrationFile::Numbers> parameters, const std::string& date = "2026-03-01T12:30:00Z") {
+AppliedCalibration calibration(const std::string& kind,
+                               std::vector<CalibrationFile::Numbers> parameters,
+                               const std::string& date = "2026-03-01T12:30:00Z") {
   AppliedCalibration c;
   c.file.kind = kind;
   c.file.date = date;
@@ -20,8 +24,16 @@ AppliedCalibration calibration(const std::string& kind, std::vector<CalibrationF
   return c;
 }
 
-AppliedCalibration material(double k, double m = 1.5) { return calibration("material", {{"k_N_per_m_to_the_m", {k}}, {"b_Ns_per_m_to_the_m_plus_1", {90}}, {"m", {m}}, {"x0_m", {-1e-4}}}); }
-AppliedCalibration friction(double mu) { return calibration("friction", {{"mu", {mu}}, {"sigma_N_per_m", {700}}, {"B_Ns_per_m", {0.3}}}, "2026-04-02T08:00:00Z"); }
+AppliedCalibration material(double k, double m = 1.5) {
+  return calibration("material", {{"k_N_per_m_to_the_m", {k}},
+                                  {"b_Ns_per_m_to_the_m_plus_1", {90}},
+                                  {"m", {m}},
+                                  {"x0_m", {-1e-4}}});
+}
+AppliedCalibration friction(double mu) {
+  return calibration("friction", {{"mu", {mu}}, {"sigma_N_per_m", {700}}, {"B_Ns_per_m", {0.3}}},
+                     "2026-04-02T08:00:00Z");
+}
 
 TEST(OwnSample, TakesThePlaceOfTheLibrarysInTheLoop) {
   LumpLibrary shipped = library();
@@ -36,7 +48,9 @@ TEST(OwnSample, TakesThePlaceOfTheLibrarysInTheLoop) {
   EXPECT_EQ(touch.surface.wanted.sigma, 700);
   EXPECT_EQ(touch.kinds[0].H_T.k, touchOf(shipped).kinds[0].H_T.k) << "the lumps stay";
   EXPECT_TRUE(own.simulated);
-  EXPECT_EQ(own.of_surface, "softness: this station's calibration of 2026-03-01; friction: this station's calibration of 2026-04-02");
+  EXPECT_EQ(own.of_surface,
+            "softness: this station's calibration of 2026-03-01; friction: this station's "
+            "calibration of 2026-04-02");
 }
 
 TEST(OwnSample, EachByItself) {
@@ -45,7 +59,8 @@ TEST(OwnSample, EachByItself) {
   const LumpLibrary soft = onStation(shipped, {material(777)});
   EXPECT_EQ(soft.surface.k, 777);
   EXPECT_EQ(soft.friction.mu, shipped.friction.mu);
-  EXPECT_EQ(soft.of_surface, "softness: this station's calibration of 2026-03-01; friction: the library of lumps");
+  EXPECT_EQ(soft.of_surface,
+            "softness: this station's calibration of 2026-03-01; friction: the library of lumps");
   EXPECT_EQ(onStation(shipped, {friction(0.21)}).surface.k, shipped.surface.k);
 }
 

@@ -17,7 +17,9 @@ json least() {
   return {{"driver", "plus"}, {"transform", "ReferenceToCamera"}, {"X_CK", at}, {"X_RW", at}};
 }
 
-std::optional<TrackerSetup> read(const json& tracker) { return readTracker(JsonFile(json{{"tracker", tracker}}, "my_station.json")); }
+std::optional<TrackerSetup> read(const json& tracker) {
+  return readTracker(JsonFile(json{{"tracker", tracker}}, "my_station.json"));
+}
 
 TEST(TrackerSection, LeastOfItIsEnough) {
   EXPECT_FALSE(readTracker(JsonFile(json::object(), "my_station.json")));
@@ -32,7 +34,13 @@ TEST(TrackerSection, LeastOfItIsEnough) {
 
 TEST(TrackerSection, MillisecondsMillimetresAndDegreesEndHere) {
   json all = least();
-  all.update({{"host", "192.168.1.7"}, {"port", 18945}, {"latency_ms", 15}, {"stale_ms", 200}, {"sigma_mm", 0.5}, {"sigma_deg", 1}, {"ask_tdata_ms", 20}});
+  all.update({{"host", "192.168.1.7"},
+              {"port", 18945},
+              {"latency_ms", 15},
+              {"stale_ms", 200},
+              {"sigma_mm", 0.5},
+              {"sigma_deg", 1},
+              {"ask_tdata_ms", 20}});
   const auto tracker = read(all);
   ASSERT_TRUE(tracker);
   EXPECT_EQ(tracker->host, "192.168.1.7");
@@ -45,8 +53,21 @@ TEST(TrackerSection, MillisecondsMillimetresAndDegreesEndHere) {
 }
 
 TEST(TrackerSection, WhatIsWrongIsNamed) {
-  const std::pair<const char*, json> wrong[] = {{"driver", "optical"}, {"transform", "Camera"}, {"transform", "ToCamera"}, {"transform", "ReferenceTo"}, {"port", 0}, {"port", 65536}, {"port", "18944"}, {"latency_ms", -1},
-                                                {"stale_ms", 0}, {"sigma_mm", 0}, {"sigma_deg", 90}, {"ask_tdata_ms", 0}, {"X_CK", 3}, {"X_RW", json::object()}, {"host", 7}};
+  const std::pair<const char*, json> wrong[] = {{"driver", "optical"},
+                                                {"transform", "Camera"},
+                                                {"transform", "ToCamera"},
+                                                {"transform", "ReferenceTo"},
+                                                {"port", 0},
+                                                {"port", 65536},
+                                                {"port", "18944"},
+                                                {"latency_ms", -1},
+                                                {"stale_ms", 0},
+                                                {"sigma_mm", 0},
+                                                {"sigma_deg", 90},
+                                                {"ask_tdata_ms", 0},
+                                                {"X_CK", 3},
+                                                {"X_RW", json::object()},
+                                                {"host", 7}};
   for (const auto& [field, value] : wrong) {
     json changed = least();
     changed[field] = value;

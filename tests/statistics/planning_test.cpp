@@ -13,7 +13,8 @@
 namespace palpa::statistics {
 namespace {
 
-// Shrout and Fleiss 1979, table 2: six subjects, four judges; intervals as the psych package of R prints them.
+// Shrout and Fleiss 1979, table 2: six subjects, four judges; intervals as the psych package of R
+// prints them.
 TEST(Raters, ShroutAndFleiss) {
   Eigen::MatrixXd ratings(6, 4);
   ratings << 9, 2, 5, 8, 6, 1, 3, 2, 8, 4, 6, 8, 7, 1, 2, 6, 10, 5, 6, 9, 6, 2, 4, 7;
@@ -45,7 +46,8 @@ TEST(Raters, PerfectAgreementAndAStrictRater) {
 }
 
 /// Ratings whose table holds these counts.
-std::pair<std::vector<int>, std::vector<int>> ratingsOf(const std::vector<std::vector<int>>& table) {
+std::pair<std::vector<int>, std::vector<int>> ratingsOf(
+    const std::vector<std::vector<int>>& table) {
   std::pair<std::vector<int>, std::vector<int>> ratings;
   for (std::size_t r = 0; r < table.size(); ++r)
     for (std::size_t c = 0; c < table.size(); ++c)
@@ -64,17 +66,23 @@ TEST(Raters, FleissCohenEveritt) {
 
 TEST(Raters, WeightedKappaByHand) {
   const auto [one, other] = ratingsOf({{20, 5}, {10, 15}});
-  for (const KappaWeights weights : {KappaWeights::none, KappaWeights::linear, KappaWeights::quadratic}) EXPECT_NEAR(kappa(one, other, 2, weights), 0.4, 1e-12);
-  // Three categories, one off by one and one off by two of four: observed linear (1 + 2) / 4; expected by the margins 1 2 1 and 1 1 2.
+  for (const KappaWeights weights :
+       {KappaWeights::none, KappaWeights::linear, KappaWeights::quadratic})
+    EXPECT_NEAR(kappa(one, other, 2, weights), 0.4, 1e-12);
+  // Three categories, one off by one and one off by two of four: observed linear (1 + 2) / 4;
+  // expected by the margins 1 2 1 and 1 1 2.
   const std::vector<int> a{0, 1, 1, 2}, b{2, 1, 2, 0};
-  const double expected_linear = (1.0 / 16) * (1 * (1 * 0 + 1 * 1 + 2 * 2) + 2 * (1 * 1 + 1 * 0 + 2 * 1) + 1 * (1 * 2 + 1 * 1 + 2 * 0));
+  const double expected_linear =
+      (1.0 / 16) *
+      (1 * (1 * 0 + 1 * 1 + 2 * 2) + 2 * (1 * 1 + 1 * 0 + 2 * 1) + 1 * (1 * 2 + 1 * 1 + 2 * 0));
   EXPECT_NEAR(kappa(a, b, 3, KappaWeights::linear), 1 - (5.0 / 4) / expected_linear, 1e-12);
   EXPECT_TRUE(std::isnan(kappa({1, 1}, {1, 1}, 2)));
   EXPECT_THROW(kappa({0}, {0, 1}, 2), Error);
   EXPECT_THROW(kappa({2}, {0}, 2), Error);
 }
 
-// Figures of power.t.test of R 4: n = 20, delta = 1: 0.8689528; power .90: 22.02110 a group; Cohen 1988: d = .5, power .80: 64.
+// Figures of power.t.test of R 4: n = 20, delta = 1: 0.8689528; power .90: 22.02110 a group; Cohen
+// 1988: d = .5, power .80: 64.
 TEST(Power, PublishedFigures) {
   EXPECT_NEAR(powerOfTwoGroups(1, 20, 20), 0.8689528, 5e-7);
   EXPECT_EQ(subjectsPerGroup(1, 0.90), 23);
@@ -98,12 +106,19 @@ TEST(Power, IsHowOftenTheTestFindsIt) {
     for (double& v : b) v = random.normal();
     found += pooled(a, b).p_two_sided < 0.05;
   }
-  EXPECT_NEAR(found / static_cast<double>(kStudies), powerOfTwoGroups(1, 10, 10), 0.033);   // three standard deviations
+  EXPECT_NEAR(found / static_cast<double>(kStudies), powerOfTwoGroups(1, 10, 10),
+              0.033);  // three standard deviations
 }
 
 // Limits as tabulated for alpha = beta = 0.1.
 TEST(Cusum, FourRows) {
-  const struct { double p0, p1, s, h; int run; } rows[] = {{.10, .25, .166, 2.00, 13}, {.10, .20, .145, 2.71, 19}, {.05, .15, .092, 1.82, 20}, {.05, .10, .072, 2.94, 41}};
+  const struct {
+    double p0, p1, s, h;
+    int run;
+  } rows[] = {{.10, .25, .166, 2.00, 13},
+              {.10, .20, .145, 2.71, 19},
+              {.05, .15, .092, 1.82, 20},
+              {.05, .10, .072, 2.94, 41}};
   for (const auto& row : rows) {
     const CusumLimits limits = cusumLimits({row.p0, row.p1, 0.1, 0.1});
     EXPECT_NEAR(limits.s, row.s, 0.0005);
@@ -123,13 +138,14 @@ TEST(Cusum, FailuresReject) {
   EXPECT_NEAR(chart.sums[1], 2 * (1 - limits.s), 1e-12);
   EXPECT_EQ(chart.verdicts[1], CusumVerdict::undecided);
   EXPECT_EQ(chart.verdicts[2], CusumVerdict::unacceptable);
-  EXPECT_NEAR(chart.sums[3], -limits.s, 1e-12);   // starts anew
+  EXPECT_NEAR(chart.sums[3], -limits.s, 1e-12);  // starts anew
   EXPECT_EQ(chart.last, CusumVerdict::unacceptable);
   EXPECT_THROW(cusumLimits({.25, .10, .1, .1}), UsageError);
   EXPECT_THROW(cusumLimits({.1, .2, .6, .1}), UsageError);
 }
 
-/// Trainees who fail at the acceptable rate are called unacceptable about as often as alpha says, and the other way round.
+/// Trainees who fail at the acceptable rate are called unacceptable about as often as alpha says,
+/// and the other way round.
 TEST(Cusum, ErrsAsOftenAsSaid) {
   const CusumLimits limits = cusumLimits({});
   const auto wrong = [&](double rate, CusumVerdict mistake) {
@@ -146,7 +162,7 @@ TEST(Cusum, ErrsAsOftenAsSaid) {
     }
     return mistakes / 2000.0;
   };
-  EXPECT_LT(wrong(0.10, CusumVerdict::unacceptable), 0.12);   // Wald's limits are on the safe side
+  EXPECT_LT(wrong(0.10, CusumVerdict::unacceptable), 0.12);  // Wald's limits are on the safe side
   EXPECT_LT(wrong(0.25, CusumVerdict::acceptable), 0.12);
 }
 

@@ -53,7 +53,9 @@ TEST(Assumptions, ShapiroWilkForAllSizes) {
   expect({1, 2, 4, 9}, 0.8946863, 0.4051475);
   expect({1, 2, 4, 9, 10}, 0.8809645, 0.3137046);
   expect({4.17, 5.58, 5.18, 6.11, 4.50, 4.61, 5.17, 4.53, 5.33, 5.14}, 0.9566815, 0.7474745);
-  expect({0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0, 1.9, 0.8, 1.1, 0.1, -0.1, 4.4, 5.5, 1.6, 4.6, 3.4}, 0.9460727, 0.3113743);
+  expect({0.7, -1.6, -0.2, -1.2, -0.1, 3.4, 3.7, 0.8, 0.0, 2.0,
+          1.9, 0.8,  1.1,  0.1,  -0.1, 4.4, 5.5, 1.6, 4.6, 3.4},
+         0.9460727, 0.3113743);
   EXPECT_THROW(shapiroWilk({1, 2}), Error);
   EXPECT_THROW(shapiroWilk({1, 1, 1}), Error);
 }
@@ -67,7 +69,7 @@ TEST(Assumptions, NormalValuesFailAsOftenAsSaid) {
     for (double& v : values) v = random.normal();
     failed += shapiroWilk(values).p < 0.05;
   }
-  EXPECT_GT(failed, 75);    // 5 % of 2000 is 100, three standard deviations 29
+  EXPECT_GT(failed, 75);  // 5 % of 2000 is 100, three standard deviations 29
   EXPECT_LT(failed, 130);
 }
 
@@ -88,10 +90,12 @@ TEST(Assumptions, AreSaidInWords) {
   };
   EXPECT_TRUE(has({{1, 2, 3}, {2, 3, 4, 5, 6}}, "Novices: only 3 values"));
   EXPECT_TRUE(has({{1, 2, 3, 4, 5, 400}, {2, 3, 4, 5, 6}}, "not spread like a bell"));
-  EXPECT_TRUE(has({{1, 2, 3, 4, 5, 6, 7, 8, 9}, {100, 300, 500, 700, 900, 1100, 1300}}, "spread differently"));
+  EXPECT_TRUE(has({{1, 2, 3, 4, 5, 6, 7, 8, 9}, {100, 300, 500, 700, 900, 1100, 1300}},
+                  "spread differently"));
   EXPECT_TRUE(has({{1, 2, 3, 4, 5}, {2, 2, 2, 2, 2}}, "Experts: nothing varies"));
   EXPECT_FALSE(concernsAbout({{}, {1}}, names).empty());
-  EXPECT_FALSE(concernsAbout({{1, 3, 1, 3}, {1, 3, 1, 3}}, names).empty());   // as far from the median, all of them
+  EXPECT_FALSE(concernsAbout({{1, 3, 1, 3}, {1, 3, 1, 3}}, names)
+                   .empty());  // as far from the median, all of them
 }
 
 TEST(Bootstrap, SameSeedSameInterval) {
@@ -107,7 +111,8 @@ TEST(Bootstrap, SameSeedSameInterval) {
   EXPECT_THROW(bootstrapMean({1}, {.draws = 10}), Error);
 }
 
-/// Share of drawn samples of a skewed distribution (exponential, mean 1) whose interval of the mean holds 1.
+/// Share of drawn samples of a skewed distribution (exponential, mean 1) whose interval of the mean
+/// holds 1.
 TEST(Bootstrap, HoldsTheMeanOfASkewedDistributionNearlyAsOftenAsSaid) {
   anatomy::RandomStream random(11);
   int held = 0;
@@ -115,15 +120,19 @@ TEST(Bootstrap, HoldsTheMeanOfASkewedDistributionNearlyAsOftenAsSaid) {
   for (int i = 0; i < kSamples; ++i) {
     std::vector<double> values(30);
     for (double& v : values) v = -std::log(random.uniform());
-    const BootstrapInterval interval = bootstrapMean(values, {.draws = 500, .seed = static_cast<std::uint64_t>(i)});
+    const BootstrapInterval interval =
+        bootstrapMean(values, {.draws = 500, .seed = static_cast<std::uint64_t>(i)});
     held += interval.low <= 1 && 1 <= interval.high;
   }
-  EXPECT_GT(held / static_cast<double>(kSamples), 0.895);   // 95 % wanted; BCa with 30 skewed values comes to about 93
+  EXPECT_GT(held / static_cast<double>(kSamples),
+            0.895);  // 95 % wanted; BCa with 30 skewed values comes to about 93
   EXPECT_LT(held / static_cast<double>(kSamples), 0.985);
 }
 
 TEST(Bootstrap, SeveralSamples) {
-  const BootstrapInterval d = bootstrap({{1, 2, 3, 4, 5}, {11, 12, 13, 14, 15}}, [](const Samples& s) { return meanOf(s[1]) - meanOf(s[0]); });
+  const BootstrapInterval d =
+      bootstrap({{1, 2, 3, 4, 5}, {11, 12, 13, 14, 15}},
+                [](const Samples& s) { return meanOf(s[1]) - meanOf(s[0]); });
   EXPECT_EQ(d.value, 10);
   EXPECT_GT(d.low, 7);
   EXPECT_LT(d.high, 13);

@@ -52,11 +52,12 @@ TEST(TTests, RefuseWhatCannotBeTested) {
   EXPECT_THROW(welch({1, 1}, {2, 2}), Error);
   EXPECT_THROW(pooled({1, 1}, {2, 2}), Error);
   EXPECT_THROW(paired({1, 2, 3}, {1, 2}), Error);
-  EXPECT_THROW(paired({1, 2, 3}, {2, 3, 4}), Error);   // all pairs differ alike
+  EXPECT_THROW(paired({1, 2, 3}, {2, 3, 4}), Error);  // all pairs differ alike
   EXPECT_THROW(welch({1, NAN}, {1, 2}), Error);
 }
 
-// NIST Statistical Reference Datasets, SiRstv: resistivity of silicon wafers with five instruments; certified values.
+// NIST Statistical Reference Datasets, SiRstv: resistivity of silicon wafers with five instruments;
+// certified values.
 TEST(Anovas, NistSilicon) {
   const Anova a = oneWayAnova({{196.3052, 196.1240, 196.1890, 196.2569, 196.3403},
                                {196.3042, 196.3825, 196.1669, 196.3257, 196.0422},
@@ -95,12 +96,14 @@ TEST(Anovas, TwoGroupsAreASquaredTTest) {
 
 // Hollander and Wolfe 1973, pages 69 and 29.
 TEST(RankTests, HollanderAndWolfe) {
-  const RankTest u = mannWhitney({0.80, 0.83, 1.89, 1.04, 1.45, 1.38, 1.91, 1.64, 0.73, 1.46}, {1.15, 0.88, 0.90, 0.74, 1.21});
+  const RankTest u = mannWhitney({0.80, 0.83, 1.89, 1.04, 1.45, 1.38, 1.91, 1.64, 0.73, 1.46},
+                                 {1.15, 0.88, 0.90, 0.74, 1.21});
   EXPECT_EQ(u.statistic, 35);
   EXPECT_TRUE(u.exact);
   EXPECT_NEAR(u.p_greater, 0.1272, 5e-5);
   EXPECT_NEAR(u.effect, 2 * 35.0 / 50 - 1, 1e-12);
-  const RankTest v = wilcoxon({1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30}, {0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29});
+  const RankTest v = wilcoxon({1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30},
+                              {0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29});
   EXPECT_EQ(v.statistic, 40);
   EXPECT_TRUE(v.exact);
   EXPECT_NEAR(v.p_greater, 0.01953, 5e-6);
@@ -113,7 +116,7 @@ TEST(RankTests, TiesAreCorrectedFor) {
   EXPECT_FALSE(u.exact);
   EXPECT_NEAR(u.p_two_sided, 0.07934368, 1e-8);
   EXPECT_NEAR(u.p_less, 0.03967184, 1e-8);
-  const RankTest v = wilcoxon({1, 2, 3, 4, 5, 6, 9}, {2, 2, 1, 7, 1, 1, 1});   // one pair alike
+  const RankTest v = wilcoxon({1, 2, 3, 4, 5, 6, 9}, {2, 2, 1, 7, 1, 1, 1});  // one pair alike
   EXPECT_FALSE(v.exact);
   EXPECT_NEAR(v.p_two_sided, 0.20841280, 1e-8);
 }
@@ -149,7 +152,8 @@ TEST(Contingency, ChiSquare) {
   EXPECT_EQ(test.degrees, 2);
   EXPECT_NEAR(test.p, 2.954e-07, 5e-11);
   EXPECT_NEAR(test.smallest_expected, 246.3547, 5e-5);
-  EXPECT_EQ(chiSquare({{762, 0, 327, 468}, {0, 0, 0, 0}, {484, 0, 239, 477}}).chi_square, test.chi_square);
+  EXPECT_EQ(chiSquare({{762, 0, 327, 468}, {0, 0, 0, 0}, {484, 0, 239, 477}}).chi_square,
+            test.chi_square);
   EXPECT_NEAR(chiSquare({{10, 0}, {0, 10}}).cramers_v, 1, 1e-12);
   EXPECT_THROW(chiSquare({{1, 2}, {0, 0}}), Error);
   EXPECT_THROW(chiSquare({{1, 2}, {1}}), Error);
@@ -168,7 +172,8 @@ TEST(Holm, StepsDown) {
 
 /// 0.7 - 0.5 and 0.9 - 0.7 differ by rounding only: that is no spread.
 TEST(Rounding, IsNoSpread) {
-  EXPECT_THROW(oneWayAnova({{0.7 - 0.5, 0.9 - 0.7, 0.8 - 0.6}, {0.8 - 0.5, 0.9 - 0.6, 1.0 - 0.7}}), Error);
+  EXPECT_THROW(oneWayAnova({{0.7 - 0.5, 0.9 - 0.7, 0.8 - 0.6}, {0.8 - 0.5, 0.9 - 0.6, 1.0 - 0.7}}),
+               Error);
   EXPECT_THROW(welch({0.7 - 0.5, 0.9 - 0.7}, {0.8 - 0.5, 0.9 - 0.6}), Error);
   EXPECT_THROW(paired({0.7, 0.9, 0.8}, {0.5, 0.7, 0.6}), Error);
   EXPECT_NO_THROW(welch({1, 1 + 1e-12}, {2, 2}));

@@ -10,7 +10,8 @@ namespace palpa::record {
 namespace {
 
 class Delivery : public Store {};
-INSTANTIATE_TEST_SUITE_P(Server, Delivery, testing::Values("PostgreSQL"), [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Server, Delivery, testing::Values("PostgreSQL"),
+                         [](const auto& p) { return std::string(p.param); });
 
 TEST_P(Delivery, GivesUpInTheEndAndSaysThatNothingIsLost) {
   constexpr int kTrials = 25;
@@ -22,7 +23,8 @@ TEST_P(Delivery, GivesUpInTheEndAndSaysThatNothingIsLost) {
     deliver(url, sessionOf("T0", "session-0"), trials, {2, runtime::kMillisecond});
     ADD_FAILURE() << "delivered to nobody";
   } catch (const StoreUnreachable& e) {
-    EXPECT_NE(std::string(e.what()).find("kept on this station and sent later"), std::string::npos) << e.what();
+    EXPECT_NE(std::string(e.what()).find("kept on this station and sent later"), std::string::npos)
+        << e.what();
   }
   server->start();
   EXPECT_EQ(deliver(url, sessionOf("T0", "session-0"), trials).added, kTrials);

@@ -13,11 +13,13 @@ namespace {
 namespace fs = std::filesystem;
 using State = StoreLook::State;
 
-/// Every file beside the records, with its bytes; without the log's index, in which readers leave marks.
+/// Every file beside the records, with its bytes; without the log's index, in which readers leave
+/// marks.
 std::map<std::string, std::string> bytesIn(const fs::path& folder) {
   std::map<std::string, std::string> all;
   for (const auto& entry : fs::directory_iterator(folder))
-    if (!entry.path().string().ends_with("-shm")) all[entry.path().filename().string()] = test::slurp(entry.path());
+    if (!entry.path().string().ends_with("-shm"))
+      all[entry.path().filename().string()] = test::slurp(entry.path());
   return all;
 }
 
@@ -31,7 +33,9 @@ std::string refusalOf(const std::function<void()>& action) {
   return "";
 }
 
-bool tells(const std::string& message, const std::string& words) { return message.find(words) != std::string::npos; }
+bool tells(const std::string& message, const std::string& words) {
+  return message.find(words) != std::string::npos;
+}
 
 std::string tablesOf(SqlConnection& connection) {
   std::string known;
@@ -45,13 +49,17 @@ TEST_P(Store, ALookSaysWhichVersionAndChangesNothing) {
     std::string tables;
     {
       const auto connection = connect(url);
-      if (onServer()) connection->query("DROP SCHEMA public CASCADE"), connection->query("CREATE SCHEMA public");
+      if (onServer())
+        connection->query("DROP SCHEMA public CASCADE"), connection->query("CREATE SCHEMA public");
       migrate(*connection, version);
       tables = tablesOf(*connection);
     }
     const auto before = bytesIn(folder);
     const StoreLook look = lookAtStore(url);
-    EXPECT_EQ(look.state, version == 0 ? State::empty : version < newestSchema() ? State::older : State::current) << version;
+    EXPECT_EQ(look.state, version == 0               ? State::empty
+                          : version < newestSchema() ? State::older
+                                                     : State::current)
+        << version;
     EXPECT_EQ(look.schema, version);
     EXPECT_EQ(bytesIn(folder), before) << version;
     EXPECT_EQ(tablesOf(*connect(url)), tables) << version;
@@ -63,7 +71,7 @@ TEST_P(Store, ALookSeesWhoIsThereWhileOthersWriteAndCannotWriteItself) {
   RecordStore store(url);
   store.addTrainee(novice("A"));
   store.addTrainee(novice("B"));
-  const auto before = bytesIn(folder);   // of a file: what was just written stands in its log
+  const auto before = bytesIn(folder);  // of a file: what was just written stands in its log
   EXPECT_EQ(lookAtStore(url).trainees, 2u);
   EXPECT_EQ(bytesIn(folder), before);
   const auto reading = connectToRead(url);
@@ -108,7 +116,8 @@ TEST(Look, AtFilesThatAreNotThereEmptyForeignOrDamaged) {
   other->query("CREATE TABLE recipes(name TEXT)");
   other->query("PRAGMA application_id=0");
   EXPECT_TRUE(tells(refusalOf([&] { lookAtStore(file); }), "another program"));
-  EXPECT_TRUE(tells(refusalOf([&] { RecordStore store(file); }), "another program")) << "nor does a session put its tables there";
+  EXPECT_TRUE(tells(refusalOf([&] { RecordStore store(file); }), "another program"))
+      << "nor does a session put its tables there";
 }
 
 }  // namespace

@@ -29,7 +29,8 @@ fs::path programs() {
   fs::path newest;
   std::error_code none;
   for (const auto& version : fs::directory_iterator("/usr/lib/postgresql", none))
-    if (fs::exists(version.path() / "bin/postgres") && (newest.empty() || version.path() > newest)) newest = version.path();
+    if (fs::exists(version.path() / "bin/postgres") && (newest.empty() || version.path() > newest))
+      newest = version.path();
   return newest.empty() ? newest : newest / "bin";
 }
 
@@ -39,7 +40,9 @@ int freePort() {
   address.sin_family = AF_INET;
   address.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
   socklen_t size = sizeof address;
-  if (::bind(socket, reinterpret_cast<sockaddr*>(&address), size) != 0 || ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0) throw std::runtime_error("no free port");
+  if (::bind(socket, reinterpret_cast<sockaddr*>(&address), size) != 0 ||
+      ::getsockname(socket, reinterpret_cast<sockaddr*>(&address), &size) != 0)
+    throw std::runtime_error("no free port");
   ::close(socket);
   return ntohs(address.sin_port);
 }
@@ -52,7 +55,9 @@ pid_t spawn(const std::vector<std::string>& command, const fs::path& log) {
   const int output = ::open(log.c_str(), O_CREAT | O_WRONLY | O_APPEND, 0666);
   ::dup2(output, STDOUT_FILENO);
   ::dup2(output, STDERR_FILENO);
-  if (user && (::setgroups(0, nullptr) != 0 || ::setgid(user->pw_gid) != 0 || ::setuid(user->pw_uid) != 0)) ::_exit(126);
+  if (user &&
+      (::setgroups(0, nullptr) != 0 || ::setgid(user->pw_gid) != 0 || ::setuid(user->pw_uid) != 0))
+    ::_exit(126);
   ::setenv("LC_ALL", "C", 1);
   if (::chdir("/") != 0) ::_exit(126);
   std::vector<char*> arguments;
@@ -66,7 +71,8 @@ pid_t spawn(const std::vector<std::string>& command, const fs::path& log) {
 
 std::string PostgresServer::whyNot() {
   if (programs().empty()) return "no PostgreSQL server is installed (Debian: postgresql)";
-  if (::geteuid() == 0 && !::getpwnam("postgres")) return "the server refuses root and there is no user postgres";
+  if (::geteuid() == 0 && !::getpwnam("postgres"))
+    return "the server refuses root and there is no user postgres";
   return "";
 }
 
@@ -81,8 +87,13 @@ PostgresServer::PostgresServer() {
       if (::chown(p.c_str(), user->pw_uid, user->pw_gid) != 0) throw std::runtime_error("chown");
   }
   int status = 0;
-  ::waitpid(spawn({programs() / "initdb", "-D", folder_ / "data", "-U", "palpa", "-A", "scram-sha-256", "--pwfile", folder_ / "password", "--no-sync", "-E", "UTF8", "--locale=C"}, folder_ / "initdb.log"), &status, 0);
-  if (status != 0) throw std::runtime_error("initdb failed; see " + (folder_ / "initdb.log").string());
+  ::waitpid(
+      spawn({programs() / "initdb", "-D", folder_ / "data", "-U", "palpa", "-A", "scram-sha-256",
+             "--pwfile", folder_ / "password", "--no-sync", "-E", "UTF8", "--locale=C"},
+            folder_ / "initdb.log"),
+      &status, 0);
+  if (status != 0)
+    throw std::runtime_error("initdb failed; see " + (folder_ / "initdb.log").string());
   ::setenv("PGPASSWORD", kPassword, 1);
   port_ = freePort();
   start();
@@ -108,8 +119,11 @@ std::string PostgresServer::url(const std::string& user, const std::string& data
 }
 
 void PostgresServer::start() {
-  // Processes are killed here, not power: what was written is in the kernel's hands, and need not be on the disk.
-  process_ = spawn({programs() / "postgres", "-D", folder_ / "data", "-p", std::to_string(port_), "-k", "", "-h", "127.0.0.1", "-c", "fsync=off"}, folder_ / "server.log");
+  // Processes are killed here, not power: what was written is in the kernel's hands, and need not
+  // be on the disk.
+  process_ = spawn({programs() / "postgres", "-D", folder_ / "data", "-p", std::to_string(port_),
+                    "-k", "", "-h", "127.0.0.1", "-c", "fsync=off"},
+                   folder_ / "server.log");
   for (int tries = 600; tries > 0; --tries) {
     try {
       pqxx::connection connection(url("palpa", "postgres"));

@@ -10,7 +10,8 @@
 namespace palpa::record {
 namespace {
 
-INSTANTIATE_TEST_SUITE_P(Both, Store, testing::Values("SQLite", "PostgreSQL"), [](const auto& p) { return std::string(p.param); });
+INSTANTIATE_TEST_SUITE_P(Both, Store, testing::Values("SQLite", "PostgreSQL"),
+                         [](const auto& p) { return std::string(p.param); });
 
 std::string messageOf(const std::function<void()>& action) {
   try {
@@ -21,7 +22,9 @@ std::string messageOf(const std::function<void()>& action) {
   return "";
 }
 
-bool says(const std::string& message, const std::string& words) { return message.find(words) != std::string::npos; }
+bool says(const std::string& message, const std::string& words) {
+  return message.find(words) != std::string::npos;
+}
 
 TEST_P(Store, KeepsATrialAsItWas) {
   RecordStore store(url);
@@ -38,7 +41,7 @@ TEST_P(Store, KeepsATrialAsItWas) {
   EXPECT_EQ(t.seed, 0xfedcba9876543210u);
   EXPECT_EQ(t.end_ns, 32'524'000'000);
   EXPECT_TRUE(t.success);
-  EXPECT_EQ(t.metric("total"), odd);   // to the last bit
+  EXPECT_EQ(t.metric("total"), odd);  // to the last bit
   EXPECT_TRUE(std::isnan(t.metric("closest_artery")));
   EXPECT_EQ(t.metrics.size(), 2u);
   EXPECT_TRUE(std::isnan(t.metric("unheard of")));
@@ -97,13 +100,17 @@ TEST_P(Store, FiltersTrials) {
 TEST_P(Store, SaysWhatIsWrongWithATrainee) {
   RecordStore store(url);
   store.addTrainee(novice("T001"));
-  EXPECT_TRUE(says(messageOf([&] { store.addTrainee(novice("T001")); }), "is in the records already"));
+  EXPECT_TRUE(
+      says(messageOf([&] { store.addTrainee(novice("T001")); }), "is in the records already"));
   EXPECT_TRUE(says(messageOf([&] { store.addTrainee(novice("Dr. Smith")); }), "pseudonym"));
-  EXPECT_TRUE(says(messageOf([&] { store.changeTrainee(novice("T002")); }), "is not in the records"));
-  EXPECT_TRUE(says(messageOf([&] { store.addTrial(sessionOf("T002", "u1"), trialOf(1)); }), "palpa records trainee add"));
+  EXPECT_TRUE(
+      says(messageOf([&] { store.changeTrainee(novice("T002")); }), "is not in the records"));
+  EXPECT_TRUE(says(messageOf([&] { store.addTrial(sessionOf("T002", "u1"), trialOf(1)); }),
+                   "palpa records trainee add"));
   store.addTrainee(novice("T002"));
   store.addTrial(sessionOf("T001", "u1"), trialOf(1));
-  EXPECT_TRUE(says(messageOf([&] { store.addTrial(sessionOf("T002", "u1"), trialOf(2)); }), "belongs to another trainee"));
+  EXPECT_TRUE(says(messageOf([&] { store.addTrial(sessionOf("T002", "u1"), trialOf(2)); }),
+                   "belongs to another trainee"));
   Trainee left = novice("T003");
   left.handedness = "both";
   EXPECT_THROW(store.addTrainee(left), UsageError);
@@ -127,7 +134,7 @@ TEST_P(Store, DeletesAPersonForGood) {
   EXPECT_TRUE(store.trials({.trainee = "A"}).empty());
   EXPECT_TRUE(store.events("u1", 1).empty());
   EXPECT_EQ(store.trials().size(), 1u);
-  EXPECT_THROW(store.addTrial(sessionOf("A", "u1"), trialOf(1)), PersonDeleted);   // a late delivery
+  EXPECT_THROW(store.addTrial(sessionOf("A", "u1"), trialOf(1)), PersonDeleted);  // a late delivery
   EXPECT_THROW(store.addTrainee(novice("A")), UsageError);
   ASSERT_EQ(store.evidenceToDelete().size(), 1u);
   store.evidenceDeleted("u1");
@@ -159,8 +166,10 @@ TEST_P(Store, RefusesANewerStoreAndLeavesItAlone) {
 
 TEST_P(Store, MigratesFromEveryVersion) {
   for (int version = 0; version <= newestSchema(); ++version) {
-    const auto connection = connect(onServer() ? url : (folder / ("v" + std::to_string(version))).string());
-    if (onServer()) connection->query("DROP SCHEMA public CASCADE"), connection->query("CREATE SCHEMA public");
+    const auto connection =
+        connect(onServer() ? url : (folder / ("v" + std::to_string(version))).string());
+    if (onServer())
+      connection->query("DROP SCHEMA public CASCADE"), connection->query("CREATE SCHEMA public");
     migrate(*connection, version);
     EXPECT_EQ(schemaOf(*connection), version);
     EXPECT_EQ(migrate(*connection), version);
@@ -177,7 +186,7 @@ TEST_P(Store, AFailedCallLeavesNothingHalfDone) {
   EXPECT_THROW(store.addTrial(sessionOf("A", "u1"), twice), Error);
   EXPECT_TRUE(store.trials().empty());
   EXPECT_TRUE(store.sessions().empty());
-  EXPECT_TRUE(store.addTrial(sessionOf("A", "u1"), trialOf(1)));   // the connection still serves
+  EXPECT_TRUE(store.addTrial(sessionOf("A", "u1"), trialOf(1)));  // the connection still serves
 }
 
 TEST(Addresses, AreToldApart) {
@@ -203,7 +212,7 @@ TEST(DamagedFile, IsNamedAndLeftAlone) {
     store.addTrainee(novice("A"));
     for (int i = 1; i <= 200; ++i) store.addTrial(sessionOf("A", "u1"), trialOf(i));
   }
-  {   // the middle of the file, a page long
+  {  // the middle of the file, a page long
     std::fstream stream(file, std::ios::in | std::ios::out | std::ios::binary);
     stream.seekp(static_cast<std::streamoff>(std::filesystem::file_size(file) / 2 / 4096 * 4096));
     stream << std::string(4096, '\x55');
@@ -214,10 +223,12 @@ TEST(DamagedFile, IsNamedAndLeftAlone) {
   EXPECT_EQ(std::filesystem::file_size(file), size);
 }
 
-/// A flipped byte within a text may go unseen, one in the file's structure may not; a file that was cut never does. What is refused stays as it is.
+/// A flipped byte within a text may go unseen, one in the file's structure may not; a file that was
+/// cut never does. What is refused stays as it is.
 TEST(DamagedFile, FlippedBytesAndCutsAreNamed) {
   const auto folder = test::freshFolder("store", "flipped");
-  const std::string whole = (folder / "whole.sqlite").string(), file = (folder / "records.sqlite").string();
+  const std::string whole = (folder / "whole.sqlite").string(),
+                    file = (folder / "records.sqlite").string();
   {
     RecordStore store(whole);
     store.addTrainee(novice("A"));
@@ -230,8 +241,10 @@ TEST(DamagedFile, FlippedBytesAndCutsAreNamed) {
   for (int i = 0; i < rounds; ++i) {
     std::string damaged = bytes;
     const bool cut = i % 4 == 0;
-    if (cut) damaged.resize(1 + dice.below(bytes.size() - 1));
-    else damaged[dice.below(bytes.size())] ^= static_cast<char>(1 + dice.below(255));
+    if (cut)
+      damaged.resize(1 + dice.below(bytes.size() - 1));
+    else
+      damaged[dice.below(bytes.size())] ^= static_cast<char>(1 + dice.below(255));
     for (const char* beside : {"", "-wal", "-shm"}) std::filesystem::remove(file + beside);
     std::ofstream(file, std::ios::binary) << damaged;
     try {

@@ -26,13 +26,14 @@ class Store : public testing::TestWithParam<const char*> {
     url = (folder / "records.sqlite").string();
     if (!onServer()) return;
     if (const std::string why = test::PostgresServer::whyNot(); !why.empty()) GTEST_SKIP() << why;
-    static test::PostgresServer shared;   // seconds to make: one for the tests of a process, a database for each
+    static test::PostgresServer
+        shared;  // seconds to make: one for the tests of a process, a database for each
     server = &shared;
     url = server->freshDatabase();
   }
 
   std::filesystem::path folder;
-  test::PostgresServer* server = nullptr;   ///< null on SQLite
+  test::PostgresServer* server = nullptr;  ///< null on SQLite
   std::string url;
 };
 

@@ -99,7 +99,8 @@ INSTANTIATE_TEST_SUITE_P(
                "none of the protocol's conditions"},
         Damage{"DrawnTwice", [](json& p) { p["allocation"]["conditions"][1] = "A"; },
                "\"A\" twice"},
-        Damage{"OneDrawn", [](json& p) { p["allocation"]["conditions"] = json::array({"A"}); }, "at least two"},
+        Damage{"OneDrawn", [](json& p) { p["allocation"]["conditions"] = json::array({"A"}); },
+               "at least two"},
         Damage{"Unbalanced", [](json& p) { p["allocation"]["block"] = 3; },
                "multiple of the number of conditions"},
         Damage{"NoAllocation", [](json& p) { p.erase("allocation"); }, "no \"allocation\""},
@@ -141,7 +142,8 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"NoSession", [](json& p) { p.erase("sessions"); }, "\"sessions\" must be"},
         Damage{"BlindToWhom", [](json& p) { p["blind"] = json::array({"everybody"}); },
                "must be one of educator, trainee"},
-        Damage{"BarredOne", [](json& p) { p["barred"] = json::array({7}); }, "must be a list of texts"},
+        Damage{"BarredOne", [](json& p) { p["barred"] = json::array({7}); },
+               "must be a list of texts"},
         Damage{"NoTask", [](json& p) { block(p, 1)["task"] = "none.json"; }, "cannot be read"}),
     [](const auto& p) { return std::string(p.param.name); });
 

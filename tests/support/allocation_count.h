@@ -1,7 +1,7 @@
 #pragma once
 
-/// Counts allocations by operator new in the calling thread while a NoAllocation lives; one source file of the
-/// program has to include allocation_guard.h.
+/// Counts allocations by operator new in the calling thread while a NoAllocation lives; one source
+/// file of the program has to include allocation_guard.h.
 namespace palpa {
 
 class NoAllocation {

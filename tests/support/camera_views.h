@@ -13,9 +13,10 @@ inline calibration::CameraModel webcam() {
 
 inline double rad(double degrees) { return degrees * std::numbers::pi / 180; }
 
-/// X_CW: looking at `target_W` on the board from `distance`, `tilt` away from straight above, from the side
-/// `azimuth` (0: the reader's), turned by `roll` about the line of sight.
-inline Pose lookAt(const Vec3& target_W, double distance, double tilt, double azimuth, double roll) {
+/// X_CW: looking at `target_W` on the board from `distance`, `tilt` away from straight above, from
+/// the side `azimuth` (0: the reader's), turned by `roll` about the line of sight.
+inline Pose lookAt(const Vec3& target_W, double distance, double tilt, double azimuth,
+                   double roll) {
   const Mat3 down = Vec3(1, -1, -1).asDiagonal();
   const Mat3 R_WC =
       (Eigen::AngleAxisd(azimuth, Vec3::UnitZ()) * Eigen::AngleAxisd(tilt, Vec3::UnitX()) *

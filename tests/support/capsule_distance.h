@@ -46,7 +46,8 @@ inline double misfit(const anatomy::TriangleMesh& mesh, const std::vector<Capsul
 
 inline std::vector<Capsule> capsulesOf(const std::vector<anatomy::Rod>& rods) {
   std::vector<Capsule> capsules;
-  for (const anatomy::Rod& rod : rods) capsules.push_back({pack(rod.a), pack(rod.b), rod.radius, Organ::none, 0, {}});
+  for (const anatomy::Rod& rod : rods)
+    capsules.push_back({pack(rod.a), pack(rod.b), rod.radius, Organ::none, 0, {}});
   return capsules;
 }
 

@@ -12,6 +12,8 @@ inline bool fullCounts() {
 }
 
 template <class Count>
-Count counted(Count few, Count full) { return fullCounts() ? full : few; }
+Count counted(Count few, Count full) {
+  return fullCounts() ? full : few;
+}
 
 }  // namespace palpa::test

@@ -11,7 +11,8 @@ namespace palpa::test {
 class ScratchFolder {
  public:
   explicit ScratchFolder(const std::string& name)
-      : path_(std::filesystem::path(PALPA_BUILD_DIR) / "scratch" / (name + "-" + std::to_string(::getpid()))) {
+      : path_(std::filesystem::path(PALPA_BUILD_DIR) / "scratch" /
+              (name + "-" + std::to_string(::getpid()))) {
     std::filesystem::remove_all(path_);
     std::filesystem::create_directories(path_);
   }

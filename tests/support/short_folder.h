@@ -7,7 +7,8 @@
 
 namespace palpa::test {
 
-/// A folder of its own with a short name, gone at the end: a socket's path has 107 characters at most, and a build folder's may have more.
+/// A folder of its own with a short name, gone at the end: a socket's path has 107 characters at
+/// most, and a build folder's may have more.
 class ShortFolder {
  public:
   ShortFolder() {

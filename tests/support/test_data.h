@@ -14,6 +14,6 @@ inline std::filesystem::path testData(const std::string& relative) {
   return root / relative;
 }
 
-#define PALPA_NEED_DATA(path)                                                       \
-  if (!std::filesystem::exists(path))                                               \
+#define PALPA_NEED_DATA(path)         \
+  if (!std::filesystem::exists(path)) \
   GTEST_SKIP() << "no real data at " << (path) << " (set PALPA_TEST_DATA to use it)"

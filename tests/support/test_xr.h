@@ -19,7 +19,7 @@ struct XrReport {
   std::map<std::string, int> calls;
   std::vector<std::string> open, complaints;
   struct Hand {
-    Vec3 p = Vec3::Zero();   ///< in OpenXR's axes
+    Vec3 p = Vec3::Zero();  ///< in OpenXR's axes
     double trigger = 0;
   };
   std::vector<Hand> hands;
@@ -30,15 +30,22 @@ struct XrReport {
 struct XrPicture {
   int width = 0, height = 0;
   std::vector<unsigned char> rgba;
-  const unsigned char* at(int u, int v) const { return &rgba[4 * (static_cast<std::size_t>(v) * width + u)]; }
+  const unsigned char* at(int u, int v) const {
+    return &rgba[4 * (static_cast<std::size_t>(v) * width + u)];
+  }
 };
 
-/// The test runtime as the computer's, for programs and for this process, as long as it lives. `plan`: see tests/openxr_runtime/plan.h.
+/// The test runtime as the computer's, for programs and for this process, as long as it lives.
+/// `plan`: see tests/openxr_runtime/plan.h.
 class TestXr {
  public:
   TestXr(const std::string& runtime_json, const std::string& plan) : folder_("openxr") {
     setenv("XR_RUNTIME_JSON", runtime_json.c_str(), 1);
-    setenv("PALPA_TEST_XR", (plan + ";report=" + (folder_ / "report.txt").string() + ";pictures=" + folder_.path().string()).c_str(), 1);
+    setenv("PALPA_TEST_XR",
+           (plan + ";report=" + (folder_ / "report.txt").string() +
+            ";pictures=" + folder_.path().string())
+               .c_str(),
+           1);
   }
   ~TestXr() {
     unsetenv("XR_RUNTIME_JSON");
@@ -76,7 +83,8 @@ class TestXr {
     }
     file.get();
     picture.rgba.resize(static_cast<std::size_t>(4) * picture.width * picture.height);
-    file.read(reinterpret_cast<char*>(picture.rgba.data()), static_cast<std::streamsize>(picture.rgba.size()));
+    file.read(reinterpret_cast<char*>(picture.rgba.data()),
+              static_cast<std::streamsize>(picture.rgba.size()));
     return picture;
   }
 

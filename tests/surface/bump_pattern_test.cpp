@@ -16,7 +16,8 @@ namespace {
 const BumpSpec kTargetBumps{2, 7, 5.6, 5, 25}, kDistractorBumps{1, 3, 2.4, 5, 25};
 
 bool sameBumps(const BumpPattern& a, const BumpPattern& b) {
-  return std::equal(a.bumps().begin(), a.bumps().end(), b.bumps().begin(), b.bumps().end(), [](const auto& p, const auto& q) { return p.x == q.x && p.y == q.y; });
+  return std::equal(a.bumps().begin(), a.bumps().end(), b.bumps().begin(), b.bumps().end(),
+                    [](const auto& p, const auto& q) { return p.x == q.x && p.y == q.y; });
 }
 
 TEST(BumpPattern, NoFootprintCrossesARim) {
@@ -32,13 +33,14 @@ TEST(BumpPattern, NoFootprintCrossesARim) {
     }
 }
 
-/// Every cell whose draws keep the rims gives its bump, and the draws of the others are used up all the same: row by row, x first.
+/// Every cell whose draws keep the rims gives its bump, and the draws of the others are used up all
+/// the same: row by row, x first.
 TEST(BumpPattern, IsTheGridWithItsDraws) {
   for (const BumpSpec& spec : {kTargetBumps, kDistractorBumps}) {
     int drawn = 0;
     Draws draw(3), again(3);
     const BumpPattern pattern(spec, [&] { return ++drawn, draw(); });
-    const int side = spec.radius > 1 ? 8 : 17;   // of 7 or 3 U each, to cover 50
+    const int side = spec.radius > 1 ? 8 : 17;  // of 7 or 3 U each, to cover 50
     EXPECT_EQ(drawn, 2 * side * side);
     std::size_t kept = 0;
     for (int j = 0; j < side; ++j)
@@ -65,7 +67,8 @@ TEST(BumpPattern, SameDrawsSameBumpsOtherDrawsOthers) {
 
 TEST(BumpPattern, NearFindsEveryBumpWithinReachOnce) {
   Draws draw(21);
-  for (const BumpSpec& spec : {kTargetBumps, kDistractorBumps, BumpSpec{1, 4, 9, 2, 30}})   // the last: jitter over more than a cell
+  for (const BumpSpec& spec : {kTargetBumps, kDistractorBumps,
+                               BumpSpec{1, 4, 9, 2, 30}})  // the last: jitter over more than a cell
     for (int n = 0; n < 2000; ++n) {
       const BumpPattern pattern(spec, evenly(static_cast<std::uint64_t>(n / 100)));
       const double x = draw.from(-60, 60), y = draw.from(-60, 60), reach = draw.from(0, 20);
@@ -97,7 +100,7 @@ TEST(BumpPattern, HemispheresAreHemispheres) {
     Draws draw(9);
     for (int n = 0; n < 20000; ++n) {
       const double x = draw.from(-27, 27), y = draw.from(-27, 27), h = highestBump(pattern, x, y);
-      EXPECT_NEAR(pattern.height(x, y), h, 1e-7);   // a root of a rounding, at an edge
+      EXPECT_NEAR(pattern.height(x, y), h, 1e-7);  // a root of a rounding, at an edge
       EXPECT_EQ(pattern.covered(x, y), h > 0);
       highest = std::max(highest, h);
     }
@@ -108,7 +111,7 @@ TEST(BumpPattern, HemispheresAreHemispheres) {
 TEST(BumpPattern, WhereTwoOverlapTheHigherCounts) {
   const BumpSpec spec{2, 7, 7, 5, 25};
   const BumpPattern pattern(spec, placing(spec, {{6.5, 10}, {8.5, 10}}));
-  EXPECT_NEAR(pattern.height(6.6, 10), std::sqrt(4 - 0.01), 1e-12);   // the other: sqrt(4 - 3.61)
+  EXPECT_NEAR(pattern.height(6.6, 10), std::sqrt(4 - 0.01), 1e-12);  // the other: sqrt(4 - 3.61)
   EXPECT_NEAR(pattern.height(8.4, 10), std::sqrt(4 - 0.01), 1e-12);
   EXPECT_NEAR(pattern.height(7.5, 10), std::sqrt(3.0), 1e-12);
   ASSERT_NE(pattern.over(7.6, 10), nullptr);
@@ -116,7 +119,8 @@ TEST(BumpPattern, WhereTwoOverlapTheHigherCounts) {
   EXPECT_NEAR(pattern.over(7.4, 10)->x, 6.5, 1e-12);
 }
 
-/// The way in fine steps: entered where a sample lies in a footprint that does not hold the first. What only grazes a footprint, samples may miss.
+/// The way in fine steps: entered where a sample lies in a footprint that does not hold the first.
+/// What only grazes a footprint, samples may miss.
 enum class Steps { out, graze, in };
 Steps stepped(const BumpPattern& pattern, double ax, double ay, double bx, double by, int steps) {
   const double r = pattern.spec().radius;
@@ -125,11 +129,13 @@ Steps stepped(const BumpPattern& pattern, double ax, double ay, double bx, doubl
     if (std::hypot(ax - b.x, ay - b.y) < r) continue;
     double nearest2 = 1e9;
     for (int k = 1; k <= steps; ++k) {
-      const double t = static_cast<double>(k) / steps, x = ax + t * (bx - ax) - b.x, y = ay + t * (by - ay) - b.y;
+      const double t = static_cast<double>(k) / steps, x = ax + t * (bx - ax) - b.x,
+                   y = ay + t * (by - ay) - b.y;
       nearest2 = std::min(nearest2, x * x + y * y);
     }
     if (nearest2 < r * r) return Steps::in;
-    if (nearest2 < (r + 1e-4) * (r + 1e-4)) found = Steps::graze;   // 20 U in 2000 steps: 1.3e-5 of sagitta under a step
+    if (nearest2 < (r + 1e-4) * (r + 1e-4))
+      found = Steps::graze;  // 20 U in 2000 steps: 1.3e-5 of sagitta under a step
   }
   return found;
 }
@@ -142,13 +148,17 @@ TEST(BumpPattern, EnteredAgreesWithFineSteps) {
       int in = 0, out = 0;
       for (int n = 0; n < 120; ++n) {
         // From near a footprint's edge, on either side of it.
-        const BumpPattern::Bump& b = pattern.bumps()[static_cast<std::size_t>(draw() * static_cast<double>(pattern.bumps().size()))];
-        const double around = draw.from(0, 6.2832), from = spec.radius + length * draw.from(-0.3, 0.7), angle = draw.from(0, 6.2832);
+        const BumpPattern::Bump& b = pattern.bumps()[static_cast<std::size_t>(
+            draw() * static_cast<double>(pattern.bumps().size()))];
+        const double around = draw.from(0, 6.2832),
+                     from = spec.radius + length * draw.from(-0.3, 0.7),
+                     angle = draw.from(0, 6.2832);
         const double ax = b.x + from * std::cos(around), ay = b.y + from * std::sin(around);
         const double bx = ax + length * std::cos(angle), by = ay + length * std::sin(angle);
         const Steps steps = stepped(pattern, ax, ay, bx, by, 2000);
         if (steps == Steps::graze) continue;
-        EXPECT_EQ(pattern.entered(ax, ay, bx, by), steps == Steps::in) << length << ": " << ax << " " << ay << " " << bx << " " << by;
+        EXPECT_EQ(pattern.entered(ax, ay, bx, by), steps == Steps::in)
+            << length << ": " << ax << " " << ay << " " << bx << " " << by;
         ++(steps == Steps::in ? in : out);
       }
       EXPECT_GT(in, 15) << length;
@@ -158,7 +168,7 @@ TEST(BumpPattern, EnteredAgreesWithFineSteps) {
 
 TEST(BumpPattern, AWayThroughEntersATouchDoesNot) {
   const BumpSpec spec{2, 7, 7, 5, 25};
-  const BumpPattern pattern(spec, placing(spec, {{10.5, 10.5}}));   // others at 10.5 +- 7
+  const BumpPattern pattern(spec, placing(spec, {{10.5, 10.5}}));  // others at 10.5 +- 7
   EXPECT_TRUE(pattern.entered(7.4, 10.5, 13.6, 10.5)) << "past it altogether";
   EXPECT_TRUE(pattern.entered(7.4, 10.5, 9, 10.5)) << "into it";
   EXPECT_FALSE(pattern.entered(10, 10.5, 11, 10.5)) << "within it";
@@ -175,7 +185,8 @@ TEST(BumpPattern, AWayThroughEntersATouchDoesNot) {
 /// However a way is cut, each footprint on it is entered once.
 TEST(BumpPattern, PiecesOfAWayEnterAsOftenAsTheWayDoes) {
   const BumpSpec spec{2, 7, 7, 5, 25};
-  const BumpPattern pattern(spec, placing(spec, {}));   // a grid: the row at y = 10.5 has middles at -17.5, -10.5 ... 17.5
+  const BumpPattern pattern(
+      spec, placing(spec, {}));  // a grid: the row at y = 10.5 has middles at -17.5, -10.5 ... 17.5
   Draws draw(41);
   for (int n = 0; n < 200; ++n) {
     const double y = 10.5 + draw.from(-1.9, 1.9);

@@ -12,8 +12,10 @@
 #include "tests/support/allocation_guard.h"
 #include "tests/surface/surface_bench.h"
 
-/// The closest free point against many points of the boundary. Each sampled point is free, so none may be nearer than the exact one, whatever the sampling; and the exact one is free itself, so it is not too near. How near the best
-/// sample comes says that the samples were dense enough to notice.
+/// The closest free point against many points of the boundary. Each sampled point is free, so none
+/// may be nearer than the exact one, whatever the sampling; and the exact one is free itself, so it
+/// is not too near. How near the best sample comes says that the samples were dense enough to
+/// notice.
 namespace palpa::haptics {
 namespace {
 
@@ -21,7 +23,8 @@ class Samples {
  public:
   Samples(const SearchSurface& floor, const Vec3& p) : floor_(floor), p_(p) {}
 
-  /// The nearest of the boundary within `reach` across; of the bumps' edges and sides many, of the height field a grid.
+  /// The nearest of the boundary within `reach` across; of the bumps' edges and sides many, of the
+  /// height field a grid.
   double nearest(double reach) {
     for (int e = 0; e < SearchSurface::kElements; ++e) collect(e, reach);
     for (const Ball& ball : balls_) {
@@ -41,7 +44,8 @@ class Samples {
 
   void collect(int e, double reach) {
     for (const BumpPattern::Bump& b : floor_.texture(e).bumps()) {
-      const Ball ball{floor_.middle(e)[0] + b.x, floor_.middle(e)[1] + b.y, floor_.texture(e).spec().radius};
+      const Ball ball{floor_.middle(e)[0] + b.x, floor_.middle(e)[1] + b.y,
+                      floor_.texture(e).spec().radius};
       if (std::hypot(ball.x - p_.x(), ball.y - p_.y()) < reach + 2 * ball.r) balls_.push_back(ball);
     }
   }
@@ -54,12 +58,17 @@ class Samples {
     best_ = q;
   }
   void footprint(const Ball& b) {
-    for (int k = 0; k < 3600; ++k) take({b.x + b.r * std::cos(k * 0.1 * kToRad), b.y + b.r * std::sin(k * 0.1 * kToRad), 0});
+    for (int k = 0; k < 3600; ++k)
+      take({b.x + b.r * std::cos(k * 0.1 * kToRad), b.y + b.r * std::sin(k * 0.1 * kToRad), 0});
   }
   void hemisphere(const Ball& b) {
-    if (p_.z() < -0.5) return;   // then the edges are nearer, or a place where three meet, which the grid has
+    if (p_.z() < -0.5)
+      return;  // then the edges are nearer, or a place where three meet, which the grid has
     for (int up = 1; up < 90; ++up)
-      for (int k = 0; k < 360; ++k) take({b.x + b.r * std::cos(up * kToRad) * std::cos(k * kToRad), b.y + b.r * std::cos(up * kToRad) * std::sin(k * kToRad), b.r * std::sin(up * kToRad)});
+      for (int k = 0; k < 360; ++k)
+        take({b.x + b.r * std::cos(up * kToRad) * std::cos(k * kToRad),
+              b.y + b.r * std::cos(up * kToRad) * std::sin(k * kToRad),
+              b.r * std::sin(up * kToRad)});
   }
   void grid(double x, double y, double reach, int half) {
     for (int j = -half; j <= half; ++j)
@@ -68,7 +77,9 @@ class Samples {
         if (std::hypot(gx - p_.x(), gy - p_.y()) >= std::sqrt(best2_)) continue;
         double z = floor_.smoothHeight(gx, gy);
         for (const Ball& b : balls_)
-          if (const double h2 = b.r * b.r - (gx - b.x) * (gx - b.x) - (gy - b.y) * (gy - b.y); h2 > 0) z = std::max(z, std::sqrt(h2));
+          if (const double h2 = b.r * b.r - (gx - b.x) * (gx - b.x) - (gy - b.y) * (gy - b.y);
+              h2 > 0)
+            z = std::max(z, std::sqrt(h2));
         take({gx, gy, z});
       }
   }
@@ -116,14 +127,18 @@ TEST(ClosestFree, PointsInTheSolidAreNotFree) {
 }
 
 /// Within the element's radii `from` and `to`, `deepest` under the surface at most.
-void expectClosestWithin(std::uint64_t seed, bool target, double from, double to, double deepest, int count) {
+void expectClosestWithin(std::uint64_t seed, bool target, double from, double to, double deepest,
+                         int count) {
   const SearchSurface floor = searchFloor(seed);
   Draws draw(seed + 1000);
   for (int n = 0; n < count; ++n) {
     const int e = target ? 1 : 2 * (n % 2);
     const double r = draw.from(from, to), angle = draw.from(0, 7);
-    const double x = floor.middle(e)[0] + r * std::cos(angle), y = floor.middle(e)[1] + r * std::sin(angle);
-    expectClosest(floor, {x, y, plainHeight(floor, x, y) - deepest * draw()}, 0.02);   // footprints every 0.2 degrees, the rest denser than 0.1 U: squared over twice the distance
+    const double x = floor.middle(e)[0] + r * std::cos(angle),
+                 y = floor.middle(e)[1] + r * std::sin(angle);
+    expectClosest(floor, {x, y, plainHeight(floor, x, y) - deepest * draw()},
+                  0.02);  // footprints every 0.2 degrees, the rest denser than 0.1 U: squared over
+                          // twice the distance
   }
 }
 
@@ -133,12 +148,21 @@ TEST(ClosestFree, OfPitAndGrooveIsExact) {
   expectClosestWithin(33, false, 0, 5, 16, 60);
   expectClosestWithin(34, true, 22, 40, 16, 60);
 }
-TEST(ClosestFree, OfTheTargetsTextureIsExactNearTheSurface) { expectClosestWithin(35, true, 5, 25, 0.5, 150); }
-TEST(ClosestFree, OfTheTargetsTextureIsExactDeepDown) { expectClosestWithin(36, true, 5, 25, 16, 150); }
-TEST(ClosestFree, OfADistractorsTextureIsExactNearTheSurface) { expectClosestWithin(37, false, 5, 25, 0.3, 150); }
-TEST(ClosestFree, OfADistractorsTextureIsExactDeepDown) { expectClosestWithin(38, false, 5, 25, 16, 150); }
+TEST(ClosestFree, OfTheTargetsTextureIsExactNearTheSurface) {
+  expectClosestWithin(35, true, 5, 25, 0.5, 150);
+}
+TEST(ClosestFree, OfTheTargetsTextureIsExactDeepDown) {
+  expectClosestWithin(36, true, 5, 25, 16, 150);
+}
+TEST(ClosestFree, OfADistractorsTextureIsExactNearTheSurface) {
+  expectClosestWithin(37, false, 5, 25, 0.3, 150);
+}
+TEST(ClosestFree, OfADistractorsTextureIsExactDeepDown) {
+  expectClosestWithin(38, false, 5, 25, 16, 150);
+}
 
-/// Only where hemispheres overlap, which few random points meet: in and under the lens that two have in common.
+/// Only where hemispheres overlap, which few random points meet: in and under the lens that two
+/// have in common.
 TEST(ClosestFree, WhereHemispheresOverlapIsExact) {
   for (const bool target : {true, false}) {
     Draws draw(target ? 83 : 84);
@@ -152,8 +176,15 @@ TEST(ClosestFree, WhereHemispheresOverlapIsExact) {
         for (std::size_t j = 0; j < i; ++j) {
           const double dx = bumps[j].x - bumps[i].x, dy = bumps[j].y - bumps[i].y;
           if (std::hypot(dx, dy) > 1.8 * radius) continue;
-          const double t = draw.from(0.3, 0.7), x = floor.middle(e)[0] + bumps[i].x + t * dx + draw.from(-0.5, 0.5) * radius, y = floor.middle(e)[1] + bumps[i].y + t * dy + draw.from(-0.5, 0.5) * radius;
-          expectClosest(floor, {x, y, std::min(plainHeight(floor, x, y), checked % 3 ? draw() * radius : -8 * draw()) - 1e-3}, 0.02);
+          const double t = draw.from(0.3, 0.7),
+                       x = floor.middle(e)[0] + bumps[i].x + t * dx + draw.from(-0.5, 0.5) * radius,
+                       y = floor.middle(e)[1] + bumps[i].y + t * dy + draw.from(-0.5, 0.5) * radius;
+          expectClosest(
+              floor,
+              {x, y,
+               std::min(plainHeight(floor, x, y), checked % 3 ? draw() * radius : -8 * draw()) -
+                   1e-3},
+              0.02);
           ++checked;
         }
     }
@@ -164,7 +195,8 @@ TEST(ClosestFree, OfTheLevelFloorIsStraightAbove) {
   const SearchSurface floor = searchFloor(21);
   Draws draw(85);
   for (int n = 0; n < 500; ++n) {
-    const double x = draw.from(-12, 12), y = draw.from(-12, 12), z = -10 * draw() - 1e-6;   // farther from every groove than from the level
+    const double x = draw.from(-12, 12), y = draw.from(-12, 12),
+                 z = -10 * draw() - 1e-6;  // farther from every groove than from the level
     EXPECT_EQ(floor.closestFree({x, y, z}), Vec3(x, y, 0));
   }
 }
@@ -191,10 +223,12 @@ TEST(ClosestFree, BeyondAWallIsOnTheWallFirst) {
 TEST(ClosestFree, IsFreeWhereverOneIs) {
   Draws draw(87);
   for (std::uint64_t seed = 0; seed < 40; ++seed) {
-    const SearchSurface floor = searchFloor(200 + seed, {draw.from(0, 7), static_cast<int>(seed % 3)});
+    const SearchSurface floor =
+        searchFloor(200 + seed, {draw.from(0, 7), static_cast<int>(seed % 3)});
     for (int n = 0; n < 2000; ++n) {
       const int e = n % 3;
-      const Vec3 p(floor.middle(e)[0] + draw.from(-36, 36), floor.middle(e)[1] + draw.from(-36, 36), draw.from(-15, 2));
+      const Vec3 p(floor.middle(e)[0] + draw.from(-36, 36), floor.middle(e)[1] + draw.from(-36, 36),
+                   draw.from(-15, 2));
       const Vec3 q = floor.closestFree(p);
       ASSERT_LT(plainDepth(floor, q), 1e-9) << p.transpose();
       ASSERT_TRUE(floor.isFree(q)) << p.transpose();
@@ -207,7 +241,8 @@ TEST(ClosestFree, DistanceNeverJumps) {
   Draws draw(88);
   for (int n = 0; n < 300; ++n) {
     const int e = n % 3;
-    const Vec3 from(floor.middle(e)[0] + draw.from(-25, 25), floor.middle(e)[1] + draw.from(-25, 25), draw.from(-3, 1));
+    const Vec3 from(floor.middle(e)[0] + draw.from(-25, 25),
+                    floor.middle(e)[1] + draw.from(-25, 25), draw.from(-3, 1));
     const Vec3 step = 0.01 * Vec3(draw.from(-1, 1), draw.from(-1, 1), draw.from(-0.3, 0.3));
     double before = (floor.closestFree(from) - from).norm();
     for (int k = 1; k < 400; ++k) {
@@ -245,8 +280,9 @@ void expectPoint(const SurfacePoint& p, double x, double y, double z) {
 }
 
 TEST(ClosestBump, OfOneIsItsSphereOrItsEdge) {
-  const BumpPattern pattern(kWide, placing(kWide, {}));   // one stands at (10, 10)
-  expectPoint(closestOn(pattern, 10.3, 10.4, 0.5), 10 + 0.3 * 2 / std::sqrt(0.5), 10 + 0.4 * 2 / std::sqrt(0.5), 0.5 * 2 / std::sqrt(0.5));
+  const BumpPattern pattern(kWide, placing(kWide, {}));  // one stands at (10, 10)
+  expectPoint(closestOn(pattern, 10.3, 10.4, 0.5), 10 + 0.3 * 2 / std::sqrt(0.5),
+              10 + 0.4 * 2 / std::sqrt(0.5), 0.5 * 2 / std::sqrt(0.5));
   expectPoint(closestOn(pattern, 10.3, 10.4, 0), 10 + 1.2, 10 + 1.6, 0);
   expectPoint(closestOn(pattern, 10.3, 10.4, -9), 10 + 1.2, 10 + 1.6, 0);
   EXPECT_NEAR(closestOn(pattern, 10, 10, 0).distance2, 4, 1e-9) << "all are as near";
@@ -255,18 +291,26 @@ TEST(ClosestBump, OfOneIsItsSphereOrItsEdge) {
 }
 
 TEST(ClosestBump, OfTwoIsTheirCircleOrItsEnds) {
-  const BumpPattern pattern(kWide, placing(kWide, {{14, 10}, {16, 10}}));   // they meet at x = 15, on a circle with radius sqrt(3)
-  expectPoint(closestOn(pattern, 15, 10.4, 0.3), 15, 10 + 0.8 * std::sqrt(3.0), 0.6 * std::sqrt(3.0));
+  const BumpPattern pattern(
+      kWide, placing(kWide, {{14, 10},
+                             {16, 10}}));  // they meet at x = 15, on a circle with radius sqrt(3)
+  expectPoint(closestOn(pattern, 15, 10.4, 0.3), 15, 10 + 0.8 * std::sqrt(3.0),
+              0.6 * std::sqrt(3.0));
   expectPoint(closestOn(pattern, 15, 10.4, -0.3), 15, 10 + std::sqrt(3.0), 0);
   expectPoint(closestOn(pattern, 15.001, 9.9, -6), 15, 10 - std::sqrt(3.0), 0);
   EXPECT_NEAR(closestOn(pattern, 15, 10, 0).distance2, 3, 1e-9);
-  expectPoint(closestOn(pattern, 16.5, 10, 0.1), 16 + 0.5 * 2 / std::sqrt(0.26), 10, 0.1 * 2 / std::sqrt(0.26));
+  expectPoint(closestOn(pattern, 16.5, 10, 0.1), 16 + 0.5 * 2 / std::sqrt(0.26), 10,
+              0.1 * 2 / std::sqrt(0.26));
 }
 
-/// Three around (15, 15), 1.9 U from it: they leave a dent there, sqrt(4 - 3.61) high, the nearest from just below. From deep down that height counts for more than the way across to where two footprints cross.
+/// Three around (15, 15), 1.9 U from it: they leave a dent there, sqrt(4 - 3.61) high, the nearest
+/// from just below. From deep down that height counts for more than the way across to where two
+/// footprints cross.
 TEST(ClosestBump, OfThreeIsTheDentBetweenThem) {
-  const double c = 1.9 * std::cos(0.2617993877991494), s = 1.9 * std::sin(0.2617993877991494), d = 1.9 * std::sqrt(0.5);   // at 165, 285 and 45 degrees: three cells
-  const BumpPattern pattern(kWide, placing(kWide, {{15 - c, 15 + s}, {15 + s, 15 - c}, {15 + d, 15 + d}}));
+  const double c = 1.9 * std::cos(0.2617993877991494), s = 1.9 * std::sin(0.2617993877991494),
+               d = 1.9 * std::sqrt(0.5);  // at 165, 285 and 45 degrees: three cells
+  const BumpPattern pattern(kWide,
+                            placing(kWide, {{15 - c, 15 + s}, {15 + s, 15 - c}, {15 + d, 15 + d}}));
   const double dent = std::sqrt(4 - 1.9 * 1.9), across = 0.95 + std::sqrt(4 - 0.75 * 1.9 * 1.9);
   expectPoint(closestOn(pattern, 15, 15, -2), 15, 15, dent);
   expectPoint(closestOn(pattern, 15.01, 14.99, -0.5), 15, 15, dent);
@@ -274,16 +318,28 @@ TEST(ClosestBump, OfThreeIsTheDentBetweenThem) {
   EXPECT_NEAR(closestOn(pattern, 15, 15, -15).distance2, 225 + across * across, 1e-9);
 }
 
-/// Eight around one, one to a cell: bare is only what is 2.3 radii away, so the second look is needed. From below that is the nearest, from near the level the dents between three of them are.
+/// Eight around one, one to a cell: bare is only what is 2.3 radii away, so the second look is
+/// needed. From below that is the nearest, from near the level the dents between three of them are.
 TEST(ClosestBump, OfNineIsBeyondAllOfThem) {
   const BumpSpec spec{1, 2, 2, 0, 9};
   const double a = 1.7, b = a * std::sqrt(0.5), half = std::cos(0.39269908169872414);
-  const BumpPattern pattern(spec, placing(spec, {{4, 0}, {4 + a, 0}, {4 - a, 0}, {4, a}, {4, -a}, {4 + b, b}, {4 + b, -b}, {4 - b, b}, {4 - b, -b}}));
+  const BumpPattern pattern(spec, placing(spec, {{4, 0},
+                                                 {4 + a, 0},
+                                                 {4 - a, 0},
+                                                 {4, a},
+                                                 {4, -a},
+                                                 {4 + b, b},
+                                                 {4 + b, -b},
+                                                 {4 - b, b},
+                                                 {4 - b, -b}}));
   double bare2 = 1e9;
   for (const BumpPattern::Bump& bump : pattern.bumps())
     for (int k = 0; k < 7200; ++k) {
-      const double x = bump.x + std::cos(k * 8.726646259972e-4), y = bump.y + std::sin(k * 8.726646259972e-4);
-      const bool bare = std::none_of(pattern.bumps().begin(), pattern.bumps().end(), [&](const auto& other) { return std::hypot(x - other.x, y - other.y) < 1 - 1e-9; });
+      const double x = bump.x + std::cos(k * 8.726646259972e-4),
+                   y = bump.y + std::sin(k * 8.726646259972e-4);
+      const bool bare = std::none_of(
+          pattern.bumps().begin(), pattern.bumps().end(),
+          [&](const auto& other) { return std::hypot(x - other.x, y - other.y) < 1 - 1e-9; });
       if (bare) bare2 = std::min(bare2, (x - 4) * (x - 4) + y * y);
     }
   EXPECT_GT(bare2, 2.2 * 2.2);
@@ -291,20 +347,23 @@ TEST(ClosestBump, OfNineIsBeyondAllOfThem) {
     const SurfacePoint p = closestOn(pattern, 4, 0, z);
     EXPECT_EQ(p.z, 0);
     EXPECT_LE(p.distance2 - z * z, bare2 + 1e-9);
-    EXPECT_NEAR(p.distance2 - z * z, bare2, 5e-3);   // steps of 8.7e-4 U, 2.3 U away
+    EXPECT_NEAR(p.distance2 - z * z, bare2, 5e-3);  // steps of 8.7e-4 U, 2.3 U away
   }
   const double across = a / (2 * half), dent = std::sqrt(1 - across * across);
-  EXPECT_NEAR(closestOn(pattern, 4, 0, -0.01).distance2, across * across + (dent + 0.01) * (dent + 0.01), 1e-9);
+  EXPECT_NEAR(closestOn(pattern, 4, 0, -0.01).distance2,
+              across * across + (dent + 0.01) * (dent + 0.01), 1e-9);
 }
 
-/// More bumps at one place than are looked at: what comes out may not be the nearest, but it is free.
+/// More bumps at one place than are looked at: what comes out may not be the nearest, but it is
+/// free.
 TEST(ClosestBump, ACrowdStillGivesAFreePoint) {
   SearchSpec spec;
   spec.target = {2, 0.5, 0, 5, 25};
   const SearchSurface floor(spec, {0, 0}, evenly(1));
   Draws draw(89);
   for (int n = 0; n < 500; ++n) {
-    const Vec3 p(floor.middle(0)[0] + draw.from(-25, 25), floor.middle(0)[1] + draw.from(-25, 25), draw.from(-5, 2));
+    const Vec3 p(floor.middle(0)[0] + draw.from(-25, 25), floor.middle(0)[1] + draw.from(-25, 25),
+                 draw.from(-5, 2));
     EXPECT_LT(plainDepth(floor, floor.closestFree(p)), 1e-9) << p.transpose();
   }
 }
@@ -318,10 +377,12 @@ TEST(Surface, LookingUpNeverAllocates) {
   int allocated = 0;
   for (int n = 0; n < 2000; ++n) {
     const int e = n % 3;
-    const Vec3 p(floor.middle(e)[0] + draw.from(-36, 36), floor.middle(e)[1] + draw.from(-36, 36), draw.from(-10, 2));
+    const Vec3 p(floor.middle(e)[0] + draw.from(-36, 36), floor.middle(e)[1] + draw.from(-36, 36),
+                 draw.from(-10, 2));
     const NoAllocation guard;
     sum += floor.closestFree(p).z() + floor.height(p.x(), p.y()) + floor.normal(p.x(), p.y()).z();
-    sum += floor.crossesBump(p.x(), p.y(), p.x() + 3, p.y()) + table.rises(p.x(), p.y(), 3, 2) + map.nearest(p.x(), p.y()).distance;
+    sum += floor.crossesBump(p.x(), p.y(), p.x() + 3, p.y()) + table.rises(p.x(), p.y(), 3, 2) +
+           map.nearest(p.x(), p.y()).distance;
     allocated += guard.allocations();
   }
   EXPECT_EQ(allocated, 0);

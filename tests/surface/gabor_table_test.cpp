@@ -30,26 +30,33 @@ TEST(GaborTable, KeepsEveryBitApart) {
     const int i = any(64), j = any(64), direction = any(32), scale = any(5);
     const bool rises = draw() < 0.6;
     table.set(i, j, direction, scale, rises);
-    if (rises) set.insert({i, j, direction, scale});
-    else set.erase({i, j, direction, scale});
+    if (rises)
+      set.insert({i, j, direction, scale});
+    else
+      set.erase({i, j, direction, scale});
   }
   for (int j = 0; j < 64; ++j)
     for (int i = 0; i < 64; ++i)
       for (int d = 0; d < 32; ++d)
-        for (int s = 0; s < 5; ++s) ASSERT_EQ(table.pixel(i, j, d, s), set.count({i, j, d, s}) == 1) << i << " " << j << " " << d << " " << s;
+        for (int s = 0; s < 5; ++s)
+          ASSERT_EQ(table.pixel(i, j, d, s), set.count({i, j, d, s}) == 1)
+              << i << " " << j << " " << d << " " << s;
 }
 
 /// One pixel set: found all over it and nowhere else, and at its middle where the header says.
 TEST(GaborTable, RisesOverAPixelAndNotBesidesIt) {
   GaborTable table(1024, 240);
   const double pixel = 240.0 / 1024;
-  for (const auto& [i, j] : {std::pair{0, 0}, {1023, 0}, {0, 1023}, {1023, 1023}, {517, 300}, {7, 8}}) {
+  for (const auto& [i, j] :
+       {std::pair{0, 0}, {1023, 0}, {0, 1023}, {1023, 1023}, {517, 300}, {7, 8}}) {
     const double x = (i + 0.5) * pixel - 120, y = (j + 0.5) * pixel - 120;
     EXPECT_FALSE(table.rises(x, y, 31, 4));
     table.set(i, j, 31, 4, true);
     for (const double dx : {-0.49, 0.0, 0.49})
-      for (const double dy : {-0.49, 0.0, 0.49}) EXPECT_TRUE(table.rises(x + dx * pixel, y + dy * pixel, 31, 4)) << i << " " << j;
-    for (const auto& [dx, dy] : {std::pair{0.51, 0.0}, {-0.51, 0.0}, {0.0, 0.51}, {0.0, -0.51}}) EXPECT_FALSE(table.rises(x + dx * pixel, y + dy * pixel, 31, 4)) << i << " " << j;
+      for (const double dy : {-0.49, 0.0, 0.49})
+        EXPECT_TRUE(table.rises(x + dx * pixel, y + dy * pixel, 31, 4)) << i << " " << j;
+    for (const auto& [dx, dy] : {std::pair{0.51, 0.0}, {-0.51, 0.0}, {0.0, 0.51}, {0.0, -0.51}})
+      EXPECT_FALSE(table.rises(x + dx * pixel, y + dy * pixel, 31, 4)) << i << " " << j;
     EXPECT_FALSE(table.rises(x, y, 30, 4));
     EXPECT_FALSE(table.rises(x, y, 31, 3));
     table.set(i, j, 31, 4, false);
@@ -74,7 +81,8 @@ TEST(GaborTable, TakesTheNearestDirection) {
     for (const double off : {-0.499, -0.3, 0.0, 0.3, 0.499})
       for (const double speed : {1e-200, 1.0, 1e200}) {
         const double angle = (k + off) * kTurnOfDirections / 32;
-        EXPECT_EQ(GaborTable::directionOf(speed * std::cos(angle), speed * std::sin(angle)), k) << off;
+        EXPECT_EQ(GaborTable::directionOf(speed * std::cos(angle), speed * std::sin(angle)), k)
+            << off;
       }
   EXPECT_EQ(GaborTable::directionOf(1, 0), 0);
   EXPECT_EQ(GaborTable::directionOf(1, -1e-9), 0);
@@ -93,7 +101,9 @@ TEST(GaborTable, AScaleIsADoublingOfSpeed) {
     for (int k = 0; k < 9; ++k) {
       const int scale = std::min(k, 4);
       EXPECT_EQ(GaborTable::scaleOf(first * std::ldexp(1, k), first), scale) << first;
-      EXPECT_EQ(GaborTable::scaleOf(std::nextafter(first * std::ldexp(1, k), 0.0), first), std::clamp(k - 1, 0, 4)) << first;
+      EXPECT_EQ(GaborTable::scaleOf(std::nextafter(first * std::ldexp(1, k), 0.0), first),
+                std::clamp(k - 1, 0, 4))
+          << first;
       EXPECT_EQ(GaborTable::scaleOf(1.5 * first * std::ldexp(1, k), first), scale);
     }
   EXPECT_EQ(GaborTable::scaleOf(0.01, 1), 0);

@@ -23,7 +23,8 @@ TEST(TroughProfile, HasTheFlanksOfTheSearchTask) {
   for (const TroughProfile* trough : {&kGroove, &kPit}) {
     EXPECT_NEAR(trough->bottomJoint(), 2 * std::sin(trough->angle()), 1e-12);
     EXPECT_NEAR(trough->lipJoint(), 5 - 3 * std::sin(trough->angle()), 1e-12);
-    EXPECT_NEAR(trough->lipJoint() - trough->bottomJoint(), trough->flank() * std::cos(trough->angle()), 1e-12);
+    EXPECT_NEAR(trough->lipJoint() - trough->bottomJoint(),
+                trough->flank() * std::cos(trough->angle()), 1e-12);
   }
 }
 
@@ -34,13 +35,13 @@ TEST(TroughProfile, IsAsDeepAndAsWideAsAsked) {
     for (const double side : {-1.0, 1.0}) {
       EXPECT_EQ(trough->height(side * 5), 0);
       EXPECT_EQ(trough->height(side * 5.001), 0);
-      EXPECT_LT(trough->height(side * 4.999), -1e-7);   // 1e-6 / (2 * 3) deep
+      EXPECT_LT(trough->height(side * 4.999), -1e-7);  // 1e-6 / (2 * 3) deep
       EXPECT_GT(trough->height(side * 4.999), -2e-7);
     }
 }
 
 TEST(TroughProfile, HeightAndSlopeAreContinuousAtEveryJoint) {
-  const double h = 1e-10;   // the slope's own change over it is below 1e-9
+  const double h = 1e-10;  // the slope's own change over it is below 1e-9
   for (const TroughProfile* trough : {&kGroove, &kPit})
     for (const double joint : {0.0, trough->bottomJoint(), trough->lipJoint(), 5.0})
       for (const double s : {joint, -joint}) {
@@ -73,20 +74,27 @@ TEST(TroughProfile, CurvatureJumpsBetweenTheTwoRadiiAndStraight) {
 TEST(TroughProfile, SlopeIsTheDerivativeOfHeight) {
   const double h = 1e-6;
   for (const TroughProfile* trough : {&kGroove, &kPit})
-    for (double s = -6; s <= 6; s += 0.0137) EXPECT_NEAR(trough->slope(s), (trough->height(s + h) - trough->height(s - h)) / (2 * h), 1e-6) << s;   // at a joint half a jump of curvature times h
+    for (double s = -6; s <= 6; s += 0.0137)
+      EXPECT_NEAR(trough->slope(s), (trough->height(s + h) - trough->height(s - h)) / (2 * h), 1e-6)
+          << s;  // at a joint half a jump of curvature times h
 }
 
 TEST(TroughProfile, HoldsForOtherArcsToo) {
-  for (const auto& [width, depth, bottom, lip] : std::vector<std::array<double, 4>>{{8, 3, 1, 1}, {6, 5.5, 2, 3}, {10, 0.2, 4, 0.5}}) {
+  for (const auto& [width, depth, bottom, lip] :
+       std::vector<std::array<double, 4>>{{8, 3, 1, 1}, {6, 5.5, 2, 3}, {10, 0.2, 4, 0.5}}) {
     const TroughProfile trough(width, depth, bottom, lip);
     const double h = 1e-6;
-    for (double s = 0.01; s < width + 1; s += 0.0211) EXPECT_NEAR(trough.slope(s), (trough.height(s + h) - trough.height(s - h)) / (2 * h), 1e-5) << width << " " << s;
-    EXPECT_NEAR(trough.height(trough.lipJoint() - 1e-12), trough.height(trough.lipJoint() + 1e-12), 1e-9);
+    for (double s = 0.01; s < width + 1; s += 0.0211)
+      EXPECT_NEAR(trough.slope(s), (trough.height(s + h) - trough.height(s - h)) / (2 * h), 1e-5)
+          << width << " " << s;
+    EXPECT_NEAR(trough.height(trough.lipJoint() - 1e-12), trough.height(trough.lipJoint() + 1e-12),
+                1e-9);
     EXPECT_NEAR(trough.height(0), -depth, 1e-15);
   }
 }
 
-/// The curve in steps of 1e-3: the nearest sample is no nearer than the exact point, and farther by no more than the sampling allows.
+/// The curve in steps of 1e-3: the nearest sample is no nearer than the exact point, and farther by
+/// no more than the sampling allows.
 TEST(TroughProfile, ClosestAgreesWithSamples) {
   Draws draw(11);
   for (const TroughProfile* trough : {&kGroove, &kPit})
@@ -94,7 +102,9 @@ TEST(TroughProfile, ClosestAgreesWithSamples) {
       const double s = draw.from(-8, 8), z = draw.from(-12, 6);
       const TroughProfile::Point p = trough->closest(s, z);
       double sampled2 = 1e9;
-      for (double at = -9; at <= 9; at += 1e-3) sampled2 = std::min(sampled2, (at - s) * (at - s) + (trough->height(at) - z) * (trough->height(at) - z));
+      for (double at = -9; at <= 9; at += 1e-3)
+        sampled2 = std::min(
+            sampled2, (at - s) * (at - s) + (trough->height(at) - z) * (trough->height(at) - z));
       EXPECT_NEAR(p.z, trough->height(p.s), 1e-12);
       EXPECT_NEAR(p.distance2, (p.s - s) * (p.s - s) + (p.z - z) * (p.z - z), 1e-12);
       EXPECT_LE(p.distance2, sampled2 + 1e-12) << s << " " << z;
@@ -109,7 +119,9 @@ TEST(TroughProfile, ClosestInsideNeverLeavesTheTrough) {
     const double s = draw.from(-40, 40), z = draw.from(-30, 5);
     const TroughProfile::Point p = kGroove.closestInside(s, z);
     double sampled2 = 1e9;
-    for (double at = -5; at <= 5; at += 1e-3) sampled2 = std::min(sampled2, (at - s) * (at - s) + (kGroove.height(at) - z) * (kGroove.height(at) - z));
+    for (double at = -5; at <= 5; at += 1e-3)
+      sampled2 = std::min(
+          sampled2, (at - s) * (at - s) + (kGroove.height(at) - z) * (kGroove.height(at) - z));
     EXPECT_LE(std::abs(p.s), 5);
     EXPECT_NEAR(p.z, kGroove.height(p.s), 1e-12);
     EXPECT_LE(p.distance2, sampled2 + 1e-12);
@@ -123,7 +135,7 @@ TEST(TroughProfile, FromAnArcsMiddleIsARadiusAway) {
 }
 
 TEST(TroughProfile, RefusesArcsThatDoNotFit) {
-  EXPECT_NO_THROW(TroughProfile(4, 1.99));            // w^2 + (R - D)^2 = R^2 at D = 2: no flank is left
+  EXPECT_NO_THROW(TroughProfile(4, 1.99));  // w^2 + (R - D)^2 = R^2 at D = 2: no flank is left
   EXPECT_THROW(TroughProfile(4, 2.01), Error);
   EXPECT_THROW(TroughProfile(2, 1), Error);
   EXPECT_THROW(TroughProfile(5, 0), Error);
@@ -133,7 +145,7 @@ TEST(TroughProfile, RefusesArcsThatDoNotFit) {
   EXPECT_THROW(TroughProfile(5, 2, 6, -1), Error);
   EXPECT_THROW(TroughProfile(5, std::nan("")), Error);
   EXPECT_THROW(TroughProfile(std::nan(""), 1), Error);
-  EXPECT_THROW(TroughProfile(1, 20, 1, 1), Error);    // an overhang
+  EXPECT_THROW(TroughProfile(1, 20, 1, 1), Error);  // an overhang
 }
 
 }  // namespace

@@ -32,11 +32,12 @@ GoalTrial trialOf(const std::vector<std::uint32_t>& parts, double for_s = 1) {
 TEST(GoalTrial, IsReachedAfterItsPartWasOnForSoLongAtAStretch) {
   EXPECT_FALSE(trialOf({kFirst, kFirst}).reached());
   EXPECT_TRUE(trialOf({kFirst, kSeat, kSeat}).reached());
-  EXPECT_FALSE(trialOf({kSeat, kSeat, kSeat, kFirst}).reached());          // it was, and no longer is: who judges asks each tick
-  EXPECT_FALSE(trialOf({kSeat, 0, kSeat, 0, kSeat}, 1.5).reached());      // at a stretch
+  EXPECT_FALSE(trialOf({kSeat, kSeat, kSeat, kFirst})
+                   .reached());  // it was, and no longer is: who judges asks each tick
+  EXPECT_FALSE(trialOf({kSeat, 0, kSeat, 0, kSeat}, 1.5).reached());  // at a stretch
   EXPECT_TRUE(trialOf({0, kSeat}, 0).reached());
   EXPECT_FALSE(trialOf({0, kFirst}, 0).reached());
-  EXPECT_FALSE(GoalTrial({0, 0, ""}, {"one"}, {}).reached());              // nothing has happened yet
+  EXPECT_FALSE(GoalTrial({0, 0, ""}, {"one"}, {}).reached());  // nothing has happened yet
 }
 
 TEST(GoalTrial, SaysWhatIsOn) {

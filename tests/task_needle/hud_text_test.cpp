@@ -46,7 +46,8 @@ TEST(HudText, ATripOfOneTickIsShownLongEnoughToBeRead) {
   status.state = trial::TrialState::running;
   status.trip = SafetyCause::watchdog;
   const scene::Hud hud = hudText(status, {}, "", "");
-  EXPECT_NE(hud.notice.find("Force was off for a moment: the computer could not keep up"), std::string::npos);
+  EXPECT_NE(hud.notice.find("Force was off for a moment: the computer could not keep up"),
+            std::string::npos);
   EXPECT_TRUE(hud.alarm);
 }
 
@@ -60,7 +61,8 @@ TEST(HudText, SaysWhatIsWrongWithTheCameraWhereNothingWorseIs) {
 }
 
 TEST(HudText, WhatTheDriverSaysComesFirst) {
-  const scene::Hud hud = shown(SafetyCause::not_ready, "Pull the grip fully out, then push it fully in.");
+  const scene::Hud hud =
+      shown(SafetyCause::not_ready, "Pull the grip fully out, then push it fully in.");
   EXPECT_EQ(hud.notice, "Force is off: Pull the grip fully out, then push it fully in.");
   EXPECT_TRUE(hud.alarm);
 }
@@ -99,7 +101,8 @@ TEST(HudText, AssessmentTellsOnlyWhatAPatientWould) {
   status.blood_flows = true;
   const scene::Hud exam = hudText(status, tool, "", "");
   EXPECT_FALSE(exam.alarm);
-  for (const std::string& text : {exam.phase, exam.depth, exam.force, exam.touched}) EXPECT_EQ(text, "");
+  for (const std::string& text : {exam.phase, exam.depth, exam.force, exam.touched})
+    EXPECT_EQ(text, "");
   EXPECT_EQ(exam.time, "0:00");
   EXPECT_EQ(exam.notice, "Blood flows into the syringe");
 }

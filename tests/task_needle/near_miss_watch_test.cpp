@@ -24,7 +24,9 @@ anatomy::Patient twoSpheres() {
 
 class NearMissWatchTest : public testing::Test {
  protected:
-  std::string at(double from_lung_mm, bool inserted = true, std::uint32_t trial = 1) { return watch_.look(Vec3(0, 0, 0.02 + 1e-3 * from_lung_mm), inserted, trial); }
+  std::string at(double from_lung_mm, bool inserted = true, std::uint32_t trial = 1) {
+    return watch_.look(Vec3(0, 0, 0.02 + 1e-3 * from_lung_mm), inserted, trial);
+  }
   const anatomy::Patient patient_ = twoSpheres();
   const anatomy::SurfaceQuery query_{patient_};
   NearMissWatch watch_{patient_, query_};
@@ -34,18 +36,18 @@ TEST_F(NearMissWatchTest, TellsEveryWholeMillimetreNearerOnce) {
   EXPECT_EQ(at(7), "");
   EXPECT_EQ(at(5.5), "");
   EXPECT_EQ(at(4.5), "4.5 mm from the pleura");
-  EXPECT_EQ(at(4.2), "");                              // trembling tells nothing
+  EXPECT_EQ(at(4.2), "");  // trembling tells nothing
   EXPECT_EQ(at(4.6), "");
   EXPECT_EQ(at(2.5), "2.5 mm from the pleura");
-  EXPECT_EQ(at(3.5), "");                              // on the way out, neither
+  EXPECT_EQ(at(3.5), "");  // on the way out, neither
   EXPECT_EQ(at(0.5), "0.5 mm from the pleura");
-  EXPECT_EQ(at(-1), "");                               // contact is told by others
+  EXPECT_EQ(at(-1), "");  // contact is told by others
 }
 
 TEST_F(NearMissWatchTest, BeginsAnewWithTheNextPassAndTheNextTrial) {
   EXPECT_NE(at(2.5), "");
   EXPECT_EQ(at(2.5), "");
-  EXPECT_EQ(at(2.5, false), "");                       // out: not a miss
+  EXPECT_EQ(at(2.5, false), "");  // out: not a miss
   EXPECT_NE(at(2.5), "");
   EXPECT_NE(at(2.5, true, 2), "");
 }

@@ -20,7 +20,8 @@ class Follower : public testing::Test {
     return patient;
   }
   /// The tip `deep` under the skin at the origin, advancing along +y.
-  std::optional<anatomy::SkinPush> frame(haptics::NeedlePhase phase, double deep, double resisting_N = 0) {
+  std::optional<anatomy::SkinPush> frame(haptics::NeedlePhase phase, double deep,
+                                         double resisting_N = 0) {
     const Pose X_DA = X_AD_.inverse();
     runtime::ToolState tool;
     tool.phase = phase;
@@ -29,7 +30,8 @@ class Follower : public testing::Test {
     tool.f_contact_D = pack(Vec3(X_DA.rotation() * Vec3(0, -resisting_N, 0)));
     return follower_.follow(tool, X_AD_, now_ += kFrame);
   }
-  std::optional<anatomy::SkinPush> settle(haptics::NeedlePhase phase, double deep, double resisting_N) {
+  std::optional<anatomy::SkinPush> settle(haptics::NeedlePhase phase, double deep,
+                                          double resisting_N) {
     for (int i = 0; i < 60; ++i) frame(phase, deep, resisting_N);
     return frame(phase, deep, resisting_N);
   }

@@ -10,19 +10,20 @@ namespace palpa::task_palpation {
 namespace {
 
 constexpr double kRadius = 0.008;
-const Vec3 kTop_D(0.01, -0.1, 0.02);   // the phantom's frame in D, turned so that its z is D's y
+const Vec3 kTop_D(0.01, -0.1, 0.02);  // the phantom's frame in D, turned so that its z is D's y
 
 haptics::TickConfig config() {
   haptics::TickConfig c;
   c.touch.tip_radius = kRadius;
   Mat3 R;
-  R << 1, 0, 0, 0, 0, 1, 0, -1, 0;   // columns: x, y, z of P in D
+  R << 1, 0, 0, 0, 0, 1, 0, -1, 0;  // columns: x, y, z of P in D
   c.X_DP = pack(makePose(R, kTop_D));
   return c;
 }
 
 /// A tool upright in P with its end at `p_P`, a force along P's z.
-haptics::FlightRecord at(const Vec3& p_P, std::int64_t t_ns, double real_N, double device_N, std::uint32_t buttons = 0) {
+haptics::FlightRecord at(const Vec3& p_P, std::int64_t t_ns, double real_N, double device_N,
+                         std::uint32_t buttons = 0) {
   const haptics::TickConfig c = config();
   const Pose X_PT = makePose(rotationWithZ(-Vec3::UnitZ()), p_P), X_DT = unpack(c.X_DP) * X_PT;
   haptics::FlightRecord r;
@@ -65,14 +66,16 @@ TEST(PalpationListener, KeepsOneSampleInTenMillisecondsAndNoPauses) {
 TEST(PalpationListener, AMarkIsAButtonThatGoesDownOverThePhantom) {
   PalpationListener listener(config());
   listener.begin(1);
-  auto add = [&, t = std::int64_t{0}](const Vec3& p_P, bool down) mutable { listener.add(at(p_P, t += 1'000'000, 0, 0, down ? PalpationListener::kMark : 0)); };
-  add({0, 0, 0}, true);   // held since before the trial
+  auto add = [&, t = std::int64_t{0}](const Vec3& p_P, bool down) mutable {
+    listener.add(at(p_P, t += 1'000'000, 0, 0, down ? PalpationListener::kMark : 0));
+  };
+  add({0, 0, 0}, true);  // held since before the trial
   add({0, 0, 0}, false);
-  add({0, 0, 0.05}, true);   // in the air
+  add({0, 0, 0.05}, true);  // in the air
   add({0, 0, 0.05}, false);
   EXPECT_TRUE(listener.marks().empty());
   add({0.005, 0.01, 0.001}, true);
-  add({0.006, 0.01, 0.001}, true);   // the same press
+  add({0.006, 0.01, 0.001}, true);  // the same press
   add({0.006, 0.01, 0.001}, false);
   add({0.02, 0.01, 0}, true);
   ASSERT_EQ(listener.marks().size(), 2u);
@@ -83,7 +86,7 @@ TEST(PalpationListener, AMarkIsAButtonThatGoesDownOverThePhantom) {
   EXPECT_EQ(listener.marks()[1].diameter, 0.016);
   listener.grade(0.01, 0, 0, 1);
   EXPECT_EQ(listener.marks()[0].diameter, 0.01);
-  listener.grade(0.01, 0, 0, 7);   // there is none
+  listener.grade(0.01, 0, 0, 7);  // there is none
 }
 
 TEST(PalpationListener, AButtonHeldOverAPauseMarksNothing) {
@@ -108,7 +111,8 @@ TEST(Grades, GoThroughWordsAndBack) {
 }
 
 TEST(Cases, GoThroughTheRecordAndBack) {
-  const std::vector<assess::CaseLump> lumps{{{0.01, 0.02, -0.018}, 0.016, 2, 1}, {{-0.01, 0, -0.011}, 0.012, 1, 2}};
+  const std::vector<assess::CaseLump> lumps{{{0.01, 0.02, -0.018}, 0.016, 2, 1},
+                                            {{-0.01, 0, -0.011}, 0.012, 1, 2}};
   const std::vector<assess::CaseLump> again = caseOf(caseText(lumps));
   ASSERT_EQ(again.size(), 2u);
   EXPECT_EQ(again[1].p_P, lumps[1].p_P);

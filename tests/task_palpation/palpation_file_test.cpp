@@ -24,12 +24,15 @@ class Copy {
  public:
   Copy() : folder_("palpation_file") {
     std::filesystem::create_directories(folder_ / "tasks");
-    std::filesystem::copy(kAssets / "materials", folder_ / "materials", std::filesystem::copy_options::recursive);
+    std::filesystem::copy(kAssets / "materials", folder_ / "materials",
+                          std::filesystem::copy_options::recursive);
     task = jsonOf(kAssets / "tasks/palpation_breast.json");
   }
   nlohmann::json task;
   std::filesystem::path lumps() const { return folder_ / "materials/lumps.json"; }
-  void write(const std::filesystem::path& file, const nlohmann::json& json) { std::ofstream(file) << json.dump(); }
+  void write(const std::filesystem::path& file, const nlohmann::json& json) {
+    std::ofstream(file) << json.dump();
+  }
   /// What is said of it; empty: it is taken.
   std::string refusal() {
     write(folder_ / "tasks/task.json", task);
@@ -45,10 +48,13 @@ class Copy {
   test::ScratchFolder folder_;
 };
 
-bool has(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+bool has(const std::string& text, const std::string& words) {
+  return text.find(words) != std::string::npos;
+}
 
 TEST(PalpationFile, TheShippedOnesAreTaken) {
-  for (const char* name : {"palpation_breast.json", "palpation_abdomen.json", "palpation_prostate.json"}) {
+  for (const char* name :
+       {"palpation_breast.json", "palpation_abdomen.json", "palpation_prostate.json"}) {
     const PalpationSettings settings = readPalpation(kAssets / "tasks" / name);
     EXPECT_FALSE(settings.title.empty());
     EXPECT_EQ(settings.library.kinds.size(), 8u);
@@ -64,14 +70,21 @@ TEST(PalpationFile, NormalAnatomyIsInEveryCaseAndLumpsKeepAwayFromIt) {
   EXPECT_EQ(abdomen.anatomy.size(), abdomen.scoring.rules.normal[0].line_P.size());
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     const Case in_case = drawCase(abdomen, seed);
-    for (const LumpInCase& lump : in_case) EXPECT_EQ(assess::anatomyAt(abdomen.scoring.rules.normal, lump.p_P, abdomen.scoring.rules.reach), nullptr) << seed;
+    for (const LumpInCase& lump : in_case)
+      EXPECT_EQ(
+          assess::anatomyAt(abdomen.scoring.rules.normal, lump.p_P, abdomen.scoring.rules.reach),
+          nullptr)
+          << seed;
     const haptics::PlacedLumps lumps = placed(in_case, abdomen.anatomy);
-    EXPECT_EQ(std::count_if(lumps.begin(), lumps.end(), [](const haptics::PlacedLump& lump) { return lump.kind != 0; }), static_cast<std::ptrdiff_t>(in_case.size() + abdomen.anatomy.size()));
+    EXPECT_EQ(std::count_if(lumps.begin(), lumps.end(),
+                            [](const haptics::PlacedLump& lump) { return lump.kind != 0; }),
+              static_cast<std::ptrdiff_t>(in_case.size() + abdomen.anatomy.size()));
   }
 }
 
 TEST(PalpationFile, AnatomyThatCannotBeMeantIsRefused) {
-  const nlohmann::json good = {{{"name", "a rib"}, {"kind", "middle"}, {"width_mm", 10}, {"line_mm", {{-10, 0}, {10, 0}}}}};
+  const nlohmann::json good = {
+      {{"name", "a rib"}, {"kind", "middle"}, {"width_mm", 10}, {"line_mm", {{-10, 0}, {10, 0}}}}};
   const auto refusalWith = [&](const char* field, const nlohmann::json& value) {
     Copy copy;
     copy.task["cases"]["apart_mm"] = 12;
@@ -85,11 +98,13 @@ TEST(PalpationFile, AnatomyThatCannotBeMeantIsRefused) {
   EXPECT_TRUE(has(refusalWith("width_mm", -1), "anatomy"));
   EXPECT_TRUE(has(refusalWith("line_mm", {{0, 0, 0}}), "a point [across, away]"));
   EXPECT_TRUE(has(refusalWith("line_mm", {{48, 0}}), "would stick out of the phantom"));
-  EXPECT_TRUE(has(refusalWith("line_mm", {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}), "points of"));
+  EXPECT_TRUE(
+      has(refusalWith("line_mm", {{0, 0}, {1, 0}, {2, 0}, {3, 0}, {4, 0}, {5, 0}}), "points of"));
 }
 
 TEST(PalpationFile, EveryShippedLumpIsWorthFinding) {
-  for (const station::LumpKind& kind : station::readLumps(kAssets / "materials/lumps.json").kinds) EXPECT_GE(kind.contrast, 0.15) << kind.name;
+  for (const station::LumpKind& kind : station::readLumps(kAssets / "materials/lumps.json").kinds)
+    EXPECT_GE(kind.contrast, 0.15) << kind.name;
 }
 
 TEST(PalpationFile, NamesWhatIsWrong) {
@@ -192,16 +207,19 @@ TEST(PalpationCase, TheSameForASeedAndWithinTheArea) {
       EXPECT_LE(std::abs(one[i].p_P.x()), area.half_x - settings.cases.margin);
       EXPECT_LE(std::abs(one[i].p_P.y()), area.half_y - settings.cases.margin);
       EXPECT_EQ(-one[i].p_P.z(), settings.library.kinds[one[i].kind].depth);
-      for (std::size_t j = 0; j < i; ++j) EXPECT_GE((one[i].p_P - one[j].p_P).head<2>().norm(), settings.cases.apart);
+      for (std::size_t j = 0; j < i; ++j)
+        EXPECT_GE((one[i].p_P - one[j].p_P).head<2>().norm(), settings.cases.apart);
     }
   }
-  for (std::size_t n = 0; n < settings.cases.lumps.size(); ++n) EXPECT_NEAR(counts[n] / 400.0, settings.cases.lumps[n], 4 * std::sqrt(0.25 / 400)) << n;   // four standard deviations of a share
+  for (std::size_t n = 0; n < settings.cases.lumps.size(); ++n)
+    EXPECT_NEAR(counts[n] / 400.0, settings.cases.lumps[n], 4 * std::sqrt(0.25 / 400))
+        << n;  // four standard deviations of a share
 }
 
 TEST(PalpationCase, LumpsThatHardlyFitAreRefusedBeforeAnythingStarts) {
   Copy copy;
   copy.task["cases"]["lumps"] = {0.2, 0.2, 0.2, 0.2, 0.2};
-  copy.task["cases"]["apart_mm"] = 47.9;   // four would have to lie in the very corners of 48 mm
+  copy.task["cases"]["apart_mm"] = 47.9;  // four would have to lie in the very corners of 48 mm
   EXPECT_TRUE(has(copy.refusal(), "no room"));
 }
 

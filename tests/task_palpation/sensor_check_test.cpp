@@ -14,7 +14,8 @@ haptics::TickConfig checkedConfig() {
   c.touch.tip_radius = 0.008;
   c.touch.surface.contact.real = kSilicone;
   c.touch.surface.contact.least_contact = 0.1;
-  c.X_DP = pack(makePose(Eigen::AngleAxisd(0.5, Vec3::UnitX()).toRotationMatrix(), Vec3(0.1, 0, 0)));
+  c.X_DP =
+      pack(makePose(Eigen::AngleAxisd(0.5, Vec3::UnitX()).toRotationMatrix(), Vec3(0.1, 0, 0)));
   return c;
 }
 
@@ -28,17 +29,24 @@ std::string heardOf(const Shown& shown, int presses) {
     haptics::FlightRecord r;
     r.t_ns = 1'000'000LL * i;
     const Pose X_DP = unpack(config.X_DP);
-    r.sensed = {pack(Vec3(X_DP.linear() * Vec3(0.01, 0, shown(haptics::forceOf(kSilicone, -height, 0), 1e-3 * i)))), pack(Vec3(X_DP * Vec3(0, 0, height + 0.008))), haptics::SensorState::valid, {}};
+    r.sensed = {pack(Vec3(X_DP.linear() *
+                          Vec3(0.01, 0, shown(haptics::forceOf(kSilicone, -height, 0), 1e-3 * i)))),
+                pack(Vec3(X_DP * Vec3(0, 0, height + 0.008))),
+                haptics::SensorState::valid,
+                {}};
     if (const std::string words = check.add(r); !words.empty()) return words;
   }
   return "";
 }
 
-bool names(const std::string& words, const char* what) { return words.find(what) != std::string::npos; }
+bool names(const std::string& words, const char* what) {
+  return words.find(what) != std::string::npos;
+}
 
 TEST(SensorCheck, ASensorThatTellsTheTruthIsBelieved) {
   EXPECT_EQ(heardOf([](double f, double) { return f; }, 30), "");
-  EXPECT_EQ(heardOf([](double f, double) { return 1.4 * f + 0.05; }, 30), "") << "a millimetre more, a zero that is a little off";
+  EXPECT_EQ(heardOf([](double f, double) { return 1.4 * f + 0.05; }, 30), "")
+      << "a millimetre more, a zero that is a little off";
 }
 
 TEST(SensorCheck, WhatCannotBeMeantIsNamed) {
@@ -47,10 +55,13 @@ TEST(SensorCheck, WhatCannotBeMeantIsNamed) {
   EXPECT_TRUE(names(heardOf([](double f, double) { return -f; }, 2), "sign is wrong"));
   EXPECT_TRUE(names(heardOf([](double f, double) { return 0.3 * f; }, 8), "0.3 times"));
   EXPECT_TRUE(names(heardOf([](double f, double) { return 3 * f; }, 8), "3.0 times"));
-  EXPECT_TRUE(names(heardOf([](double, double) { return 0.0; }, 8), "another phantom")) << "nothing lies there";
+  EXPECT_TRUE(names(heardOf([](double, double) { return 0.0; }, 8), "another phantom"))
+      << "nothing lies there";
 }
 
-TEST(SensorCheck, OnePressIsNoReason) { EXPECT_EQ(heardOf([](double f, double t) { return t < 1 ? 3 * f : f; }, 12), ""); }
+TEST(SensorCheck, OnePressIsNoReason) {
+  EXPECT_EQ(heardOf([](double f, double t) { return t < 1 ? 3 * f : f; }, 12), "");
+}
 
 }  // namespace
 }  // namespace palpa::task_palpation

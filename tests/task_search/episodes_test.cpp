@@ -16,7 +16,9 @@ namespace {
 using assess::SearchMode;
 
 TEST(Episodes, TheSameSeedGivesTheSameStimuliInEveryMode) {
-  const auto real = episodesOf(5, 40, SearchMode::real), degraded = episodesOf(5, 40, SearchMode::degraded), other = episodesOf(6, 40, SearchMode::real);
+  const auto real = episodesOf(5, 40, SearchMode::real),
+             degraded = episodesOf(5, 40, SearchMode::degraded),
+             other = episodesOf(6, 40, SearchMode::real);
   int same = 0;
   std::array<int, 3> targets{};
   for (std::size_t i = 0; i < real.size(); ++i) {
@@ -35,7 +37,8 @@ TEST(Episodes, TheSameSeedGivesTheSameStimuliInEveryMode) {
 TEST(Episodes, BumpsAreMadeOnceForASession) {
   const SearchSettings task = shippedSearch();
   const auto episodes = episodesOf(5, 2, SearchMode::real);
-  const haptics::SearchSurface a = surfaceOf(task.spec, episodes[0]), b = surfaceOf(task.spec, episodes[1]);
+  const haptics::SearchSurface a = surfaceOf(task.spec, episodes[0]),
+                               b = surfaceOf(task.spec, episodes[1]);
   const auto& first = a.texture(a.stimulus().target).bumps();
   const auto& second = b.texture(b.stimulus().target).bumps();
   ASSERT_EQ(first.size(), second.size());
@@ -68,7 +71,10 @@ TEST(Episodes, AreReadAsTheyWereWritten) {
   EXPECT_EQ(again.stimulus.target, e.stimulus.target);
   EXPECT_EQ(again.seed, e.seed);
   EXPECT_EQ(again.mode, e.mode);
-  for (const char* damaged : {"", "{}", "[1]", R"({"block":"","mode":"odd","orientation":0,"target":0,"seed":1})", R"({"block":"","mode":"real","orientation":0,"target":3,"seed":1})"}) EXPECT_THROW(episodeIn(damaged), Error) << damaged;
+  for (const char* damaged :
+       {"", "{}", "[1]", R"({"block":"","mode":"odd","orientation":0,"target":0,"seed":1})",
+        R"({"block":"","mode":"real","orientation":0,"target":3,"seed":1})"})
+    EXPECT_THROW(episodeIn(damaged), Error) << damaged;
 }
 
 TEST(SearchFile, WhatIsShippedIsTheSource) {

@@ -8,7 +8,8 @@
 #include "tests/surface/surface_bench.h"
 #include "tests/task_search/shipped_search.h"
 
-/// The shipped task's parts and its relief, in the tick on the shipped station: against the thresholds as the task states them, and against plain loops over all bumps.
+/// The shipped task's parts and its relief, in the tick on the shipped station: against the
+/// thresholds as the task states them, and against plain loops over all bumps.
 namespace palpa::task_search {
 namespace {
 
@@ -16,9 +17,9 @@ using haptics::Draws;
 using haptics::FlightRecord;
 using haptics::SearchSurface;
 
-constexpr double kScan_U = 468.75, kIdentify_U = 400;              // U/s
-constexpr unsigned kScanOn = 1, kShapeOn = 2, kIdentifyOn = 4;     // bits of FlightRecord::subtasks
-constexpr double kPressed_U = -3, kLifted_U = 5;                   // under the deepest groove; over the highest bump
+constexpr double kScan_U = 468.75, kIdentify_U = 400;           // U/s
+constexpr unsigned kScanOn = 1, kShapeOn = 2, kIdentifyOn = 4;  // bits of FlightRecord::subtasks
+constexpr double kPressed_U = -3, kLifted_U = 5;  // under the deepest groove; over the highest bump
 constexpr double kTurn = 2 * std::numbers::pi;
 
 const SearchSettings& theTask() {
@@ -27,11 +28,13 @@ const SearchSettings& theTask() {
 }
 
 const SearchSurface& theFloor() {
-  static const SearchSurface floor = surfaceOf(theTask().spec, episodeWith(assess::SearchMode::augmented));
+  static const SearchSurface floor =
+      surfaceOf(theTask().spec, episodeWith(assess::SearchMode::augmented));
   return floor;
 }
 
-/// The shipped search on its station, led by positions in U; `quantum`: of the device's readings, m.
+/// The shipped search on its station, led by positions in U; `quantum`: of the device's readings,
+/// m.
 struct SearchLoop {
   haptics::TickConfig config;
   haptics::TickCommands commands;
@@ -41,14 +44,16 @@ struct SearchLoop {
   std::uint64_t readings = 0;
 
   explicit SearchLoop(double quantum_m = 0) : quantum(quantum_m) {
-    const station::Station station = station::readStation(station::assetFile("stations/search_bench.json"));
+    const station::Station station =
+        station::readStation(station::assetFile("stations/search_bench.json"));
     config.engine = haptics::Engine::floor;
     config.coupling = station.coupling;
     config.safety = station.safety;
     config.passivity = station.passivity;
     config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
     config.floor = renderingOn(theTask(), station);
-    config.augmentations = station::onDevice(theTask().augmentations, station.safety.max_force_N, station.coupling.stiffness, config.floor.unit);
+    config.augmentations = station::onDevice(theTask().augmentations, station.safety.max_force_N,
+                                             station.coupling.stiffness, config.floor.unit);
     commands.armed = 1;
     commands.augmented = 1;
   }
@@ -65,13 +70,15 @@ struct SearchLoop {
   }
 };
 
-Vec3 middleOf(int element) { return {theFloor().middle(element)[0], theFloor().middle(element)[1], 0}; }
+Vec3 middleOf(int element) {
+  return {theFloor().middle(element)[0], theFloor().middle(element)[1], 0};
+}
 Vec3 wayAt(double angle) { return {std::cos(angle), std::sin(angle), 0}; }
 Vec3 pressedAt(const Vec3& p_U) { return {p_U.x(), p_U.y(), kPressed_U}; }
 
 /// The speed as the task measures it: a low-pass of 5 ms on what was read.
 struct MeasuredSpeed {
-  Vec3 p = Vec3::Zero(), v = Vec3::Zero();   // U, U/s
+  Vec3 p = Vec3::Zero(), v = Vec3::Zero();  // U, U/s
   bool started = false;
   double next(const Vec3& p_U) {
     constexpr double kTau = 0.005, kTick = 0.001;
@@ -82,7 +89,8 @@ struct MeasuredSpeed {
   }
 };
 
-/// As stated: scan from 468.75 U/s on, to 5 % less; shape in contact below that, to 5 % more; identify in contact with a texture from 400 U/s on, to 5 % less.
+/// As stated: scan from 468.75 U/s on, to 5 % less; shape in contact below that, to 5 % more;
+/// identify in contact with a texture from 400 U/s on, to 5 % less.
 unsigned statedParts(unsigned was, double speed, bool contact, bool texture) {
   const bool scan = speed >= (was & kScanOn ? 0.95 : 1) * kScan_U;
   const bool shape = contact && speed < (was & kShapeOn ? 1.05 : 1) * kScan_U;
@@ -140,19 +148,22 @@ struct StrokeLine {
   int ticks = 0;
 };
 StrokeLine lineAcross(Draws& draw, int element, double speed) {
-  constexpr double kRunUp = 45;   // U: over the groove, so that the speed is measured in full
+  constexpr double kRunUp = 45;  // U: over the groove, so that the speed is measured in full
   StrokeLine line;
-  const double angle = draw.from(0, kTurn), offset = draw.from(-24, 24), begin = draw.from(0, 1e-3 * speed);
+  const double angle = draw.from(0, kTurn), offset = draw.from(-24, 24),
+               begin = draw.from(0, 1e-3 * speed);
   line.way = wayAt(angle);
   line.from = middleOf(element) + offset * wayAt(angle + kTurn / 4) - (kRunUp + begin) * line.way;
   line.ticks = static_cast<int>(2 * kRunUp / (1e-3 * speed)) + 30;
   return line;
 }
 
-/// By all that is stated: 0.8 N on the highest bumps, half as much on those half as high, at once with its part.
+/// By all that is stated: 0.8 N on the highest bumps, half as much on those half as high, at once
+/// with its part.
 double statedRelief(bool identify, double height_U) { return identify ? 0.8 * height_U / 2 : 0; }
 
-/// Where footprints are under the probe or were entered since the last tick, and nowhere else, at 400 to 20,000 U/s.
+/// Where footprints are under the probe or were entered since the last tick, and nowhere else, at
+/// 400 to 20,000 U/s.
 TEST(ShippedPlan, TheReliefPushesExactlyOverFootprints) {
   Draws draw(32);
   for (const double speed : {425.0, 1000.0, 3000.0, 8000.0, 20'000.0}) {
@@ -164,7 +175,8 @@ TEST(ShippedPlan, TheReliefPushesExactlyOverFootprints) {
       for (int i = 0; i < line.ticks; ++i) {
         const Vec3 p = pressedAt(line.from + i * 1e-3 * speed * line.way);
         const FlightRecord at = loop.step(p);
-        const haptics::WayOverBumps way = haptics::plainWay(theFloor(), before.x(), before.y(), p.x(), p.y());
+        const haptics::WayOverBumps way =
+            haptics::plainWay(theFloor(), before.x(), before.y(), p.x(), p.y());
         before = p;
         const bool identify = at.subtasks & kIdentifyOn;
         const double push = statedRelief(identify, way.heights.empty() ? 0 : way.heights[0]);
@@ -189,7 +201,7 @@ TEST(ShippedPlan, TheReliefPushesExactlyOverFootprints) {
 TEST(ShippedPlan, WithoutIdentifyingThereIsNoRelief) {
   Draws draw(33);
   for (int n = 0; n < 12; ++n) {
-    const bool slow = n % 2;   // else fast, but lifted
+    const bool slow = n % 2;  // else fast, but lifted
     const double speed = slow ? 370 : 800;
     const StrokeLine line = lineAcross(draw, n % 3, speed);
     SearchLoop loop;
@@ -242,7 +254,8 @@ TEST(ShippedPlan, NotAugmentedItAddsExactlyNothing) {
   }
 }
 
-/// Ticks from the first reading at which the true speed is there (or no longer) until the part is on; 100: not at all.
+/// Ticks from the first reading at which the true speed is there (or no longer) until the part is
+/// on; 100: not at all.
 int ticksUntil(unsigned part, SearchLoop& loop, const Vec3& from, const Vec3& v_U, bool begins) {
   constexpr int kLong = 100;
   const Vec3 still = Vec3::Zero();
@@ -258,7 +271,8 @@ int ticksUntil(unsigned part, SearchLoop& loop, const Vec3& from, const Vec3& v_
   return kLong;
 }
 
-/// A steady speed that begins, 1.3 times the threshold, read in steps: the low-pass has 1 / 1.3 of it after 9 ms.
+/// A steady speed that begins, 1.3 times the threshold, read in steps: the low-pass has 1 / 1.3 of
+/// it after 9 ms.
 TEST(ShippedPlan, APartIsOnWithinTenMilliseconds) {
   constexpr double kMargin = 1.3;
   Draws draw(35);
@@ -273,7 +287,7 @@ TEST(ShippedPlan, APartIsOnWithinTenMilliseconds) {
       const Vec3 texture = pressedAt(middleOf(n % 3) + 12 * wayAt(draw.from(0, kTurn)));
       latest[0] = std::max(latest[0], until(kScanOn, start, kMargin * kScan_U, true));
       latest[1] = std::max(latest[1], until(kIdentifyOn, texture, kMargin * kIdentify_U, true));
-      latest[2] = std::max(latest[2], until(kShapeOn, start, kMargin * kScan_U, false));   // it ends
+      latest[2] = std::max(latest[2], until(kShapeOn, start, kMargin * kScan_U, false));  // it ends
       SearchLoop landing(quantum);
       for (int i = 0; i < 20; ++i) landing.step({start.x(), start.y(), kLifted_U});
       latest[3] = std::max(latest[3], ticksUntil(kShapeOn, landing, start, Vec3::Zero(), true));
@@ -289,7 +303,9 @@ int switchesIn(unsigned part, double quantum, const Vec3& middle, double radius,
   int switches = 0;
   bool was = false;
   for (int i = 0; i < 10'000; ++i) {
-    const bool on = loop.step(pressedAt(middle + radius * wayAt(0.3 + i * 1e-3 * speed / radius))).subtasks & part;
+    const bool on =
+        loop.step(pressedAt(middle + radius * wayAt(0.3 + i * 1e-3 * speed / radius))).subtasks &
+        part;
     switches += on != was;
     was = on;
   }
@@ -301,11 +317,14 @@ TEST(ShippedPlan, ASteadySpeedDoesNotChatter) {
   for (const double quantum : {2e-6, 5e-6}) {
     EXPECT_EQ(switchesIn(kScanOn, quantum, Vec3::Zero(), 60, 1.15 * kScan_U), 1) << quantum;
     EXPECT_EQ(switchesIn(kScanOn, quantum, Vec3::Zero(), 60, 0.85 * kScan_U), 0) << quantum;
-    EXPECT_EQ(switchesIn(kShapeOn, quantum, Vec3::Zero(), 60, 1.15 * kScan_U), 2) << quantum;   // at rest it was on
+    EXPECT_EQ(switchesIn(kShapeOn, quantum, Vec3::Zero(), 60, 1.15 * kScan_U), 2)
+        << quantum;  // at rest it was on
     EXPECT_EQ(switchesIn(kShapeOn, quantum, Vec3::Zero(), 60, 0.85 * kScan_U), 1) << quantum;
     for (int e = 0; e < 3; ++e) {
-      EXPECT_EQ(switchesIn(kIdentifyOn, quantum, middleOf(e), 15, 1.15 * kIdentify_U), 1) << quantum;
-      EXPECT_EQ(switchesIn(kIdentifyOn, quantum, middleOf(e), 15, 0.85 * kIdentify_U), 0) << quantum;
+      EXPECT_EQ(switchesIn(kIdentifyOn, quantum, middleOf(e), 15, 1.15 * kIdentify_U), 1)
+          << quantum;
+      EXPECT_EQ(switchesIn(kIdentifyOn, quantum, middleOf(e), 15, 0.85 * kIdentify_U), 0)
+          << quantum;
     }
   }
 }

@@ -5,7 +5,9 @@
 
 namespace palpa::task_search {
 
-inline SearchSettings shippedSearch() { return readSearch(station::assetFile("tasks/search.json")); }
+inline SearchSettings shippedSearch() {
+  return readSearch(station::assetFile("tasks/search.json"));
+}
 
 inline Episode episodeWith(assess::SearchMode mode, double orientation = 0.4, int target = 1) {
   Episode e;

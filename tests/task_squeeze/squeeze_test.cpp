@@ -23,10 +23,12 @@ TEST(SqueezeFile, TheShippedOneIsRead) {
 TEST(SqueezeFile, EveryDifferenceAsOftenAndEveryOrder) {
   const SqueezeSettings s = readSqueeze(kTask);
   std::map<std::pair<int, std::array<double, 2>>, int> times;
-  for (const Comparison& c : comparisonsOf(s, 3, 72)) ++times[{static_cast<int>(c.property), c.factors}];
+  for (const Comparison& c : comparisonsOf(s, 3, 72))
+    ++times[{static_cast<int>(c.property), c.factors}];
   EXPECT_EQ(times.size(), 24u);
   for (const auto& [which, count] : times) EXPECT_EQ(count, 3);
-  const auto one = comparisonsOf(s, 3, 16), same = comparisonsOf(s, 3, 16), other = comparisonsOf(s, 4, 16);
+  const auto one = comparisonsOf(s, 3, 16), same = comparisonsOf(s, 3, 16),
+             other = comparisonsOf(s, 4, 16);
   bool differs = false;
   for (std::size_t i = 0; i < 16; ++i) {
     EXPECT_EQ(one[i].factors, same[i].factors);
@@ -37,7 +39,8 @@ TEST(SqueezeFile, EveryDifferenceAsOftenAndEveryOrder) {
 }
 
 TEST(SqueezeFile, AComparisonIsWrittenAndReadAgain) {
-  const Comparison c{assess::SqueezedProperty::weight, {1, 1.43}}, again = comparisonIn(comparisonText(c));
+  const Comparison c{assess::SqueezedProperty::weight, {1, 1.43}},
+      again = comparisonIn(comparisonText(c));
   EXPECT_EQ(again.property, c.property);
   EXPECT_EQ(again.factors, c.factors);
   EXPECT_THROW(comparisonIn("[]"), Error);
@@ -45,7 +48,8 @@ TEST(SqueezeFile, AComparisonIsWrittenAndReadAgain) {
 }
 
 /// What both tools tell of a tick.
-void hear(SqueezeListener& listener, const Comparison& comparison, int thing, std::int64_t t_ms, double real_N, double device_N) {
+void hear(SqueezeListener& listener, const Comparison& comparison, int thing, std::int64_t t_ms,
+          double real_N, double device_N) {
   haptics::FlightRecord r;
   r.t_ns = t_ms * 1'000'000;
   r.commands.trial = 1;
@@ -72,7 +76,7 @@ TEST(SqueezeListener, CountsGripsOfEachAndFeelsBothForces) {
   EXPECT_FALSE(listener.held());
   for (int i = 0; i < 300; ++i) hear(listener, c, 1, ++t, 0.6, 0.3);
   for (int i = 0; i < 100; ++i) hear(listener, c, 1, ++t, 0.0, 0);
-  for (int i = 0; i < 50; ++i) hear(listener, c, 1, ++t, 0.6, 0.3);   // a touch, no grip
+  for (int i = 0; i < 50; ++i) hear(listener, c, 1, ++t, 0.6, 0.3);  // a touch, no grip
   EXPECT_EQ(listener.grips(), (std::array<int, 2>{1, 1}));
   EXPECT_NEAR(listener.peak(), 0.9, 1e-12);
   EXPECT_NEAR(listener.seconds(), 0.849, 1e-9);
@@ -106,7 +110,8 @@ TEST(SqueezeListener, OneFingerIsNoGripAndAPauseIsNoTime) {
 
 TEST(SqueezeScene, WhatIsHeldMovesWithTheFingers) {
   const Vec3 middle(0, 0.03, 0), first(0.025, 0.03, 0.02), second(-0.025, 0.03, 0.02);
-  EXPECT_LT((heldPlace(first, second, middle, true).translation() - Vec3(0, 0, 0.02)).norm(), 1e-12);
+  EXPECT_LT((heldPlace(first, second, middle, true).translation() - Vec3(0, 0, 0.02)).norm(),
+            1e-12);
   EXPECT_TRUE(heldPlace(first, second, middle, false).matrix().isIdentity());
 }
 

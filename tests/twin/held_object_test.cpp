@@ -25,11 +25,15 @@ struct Gripped {
   std::array<Vec3, 2> f{Vec3::Zero(), Vec3::Zero()};
   /// Both tips in so deep, at a height, for some time.
   void hold(double depth, double z, double seconds) {
-    for (double t = 0; t < seconds; t += kStep) f = object.step({Vec3(0.03 - depth, 0, z), Vec3(-0.03 + depth, 0, z)}, kStep);
+    for (double t = 0; t < seconds; t += kStep)
+      f = object.step({Vec3(0.03 - depth, 0, z), Vec3(-0.03 + depth, 0, z)}, kStep);
   }
   void lift(double depth, double to, double seconds) {
     const double from = lifted_;
-    for (double t = 0; t < seconds; t += kStep) f = object.step({Vec3(0.03 - depth, 0, from + (to - from) * t / seconds), Vec3(-0.03 + depth, 0, from + (to - from) * t / seconds)}, kStep);
+    for (double t = 0; t < seconds; t += kStep)
+      f = object.step({Vec3(0.03 - depth, 0, from + (to - from) * t / seconds),
+                       Vec3(-0.03 + depth, 0, from + (to - from) * t / seconds)},
+                      kStep);
     lifted_ = to;
   }
 

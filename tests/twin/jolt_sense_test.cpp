@@ -10,10 +10,12 @@
 namespace palpa::twin {
 namespace {
 
-constexpr double kFeltStep = 0.001;   // s
+constexpr double kFeltStep = 0.001;  // s
 constexpr JoltSense::Limits kNoDoubt{0.002, 2, 0, 0.0005};
 
-JoltSense fingers(const JoltSense::Limits& limits = kNoDoubt, std::uint64_t seed = 1) { return {limits, runtime::RandomStream(seed, "test.jolts")}; }
+JoltSense fingers(const JoltSense::Limits& limits = kNoDoubt, std::uint64_t seed = 1) {
+  return {limits, runtime::RandomStream(seed, "test.jolts")};
+}
 
 /// How many jolts are noticed while the velocity is `v(t)`, m/s.
 template <typename Velocity>
@@ -26,7 +28,9 @@ int joltsIn(JoltSense& sense, double seconds, Velocity v, double dt = kFeltStep)
 Vec3 still(double) { return Vec3::Zero(); }
 
 auto shaking(double frequency_Hz, double amplitude) {
-  return [=](double t) { return Vec3(0, amplitude * std::sin(2 * std::numbers::pi * frequency_Hz * t), 0); };
+  return [=](double t) {
+    return Vec3(0, amplitude * std::sin(2 * std::numbers::pi * frequency_Hz * t), 0);
+  };
 }
 
 TEST(JoltSense, AStepOfVelocityIsNoticedOnce) {
@@ -38,7 +42,8 @@ TEST(JoltSense, AStepOfVelocityIsNoticedOnce) {
   }
 }
 
-/// 10 mm/s shake by 3.1 mm/s at 1 kHz, half as much again as the 2 mm/s that are just noticed: hardly ever missed, and no step of 3 mm/s noticed but by chance.
+/// 10 mm/s shake by 3.1 mm/s at 1 kHz, half as much again as the 2 mm/s that are just noticed:
+/// hardly ever missed, and no step of 3 mm/s noticed but by chance.
 TEST(JoltSense, ItsThresholdScatters) {
   const auto noticed = [](double step) {
     int count = 0;
@@ -56,12 +61,14 @@ TEST(JoltSense, ItsThresholdScatters) {
 
 TEST(JoltSense, SlowMotionIsNoJolt) {
   JoltSense sense = fingers({0.002, 2, 0.15, 0.0005});
-  EXPECT_EQ(joltsIn(sense, 10, shaking(2, 0.020)), 0);   // shakes by 2 ms x 2 pi 2 Hz x 20 mm/s: 0.5 mm/s
+  EXPECT_EQ(joltsIn(sense, 10, shaking(2, 0.020)),
+            0);  // shakes by 2 ms x 2 pi 2 Hz x 20 mm/s: 0.5 mm/s
 }
 
-/// Of the two low-passes in continuous time, root mean square of A |1 / (1 + i w 1 ms) - 1 / (1 + i w 3 ms)|; steps of 0.05 ms come near to that.
+/// Of the two low-passes in continuous time, root mean square of A |1 / (1 + i w 1 ms) - 1 / (1 + i
+/// w 3 ms)|; steps of 0.05 ms come near to that.
 TEST(JoltSense, RoughnessIsTheShakingInProportion) {
-  constexpr double kFine = 5e-5, kFloor = 0.0005, kGain = 0.4965;   // at 80 Hz
+  constexpr double kFine = 5e-5, kFloor = 0.0005, kGain = 0.4965;  // at 80 Hz
   const auto roughness = [&](double amplitude) {
     JoltSense sense = fingers();
     joltsIn(sense, 0.1, shaking(80, amplitude), kFine);
@@ -70,8 +77,11 @@ TEST(JoltSense, RoughnessIsTheShakingInProportion) {
     return sense.roughness();
   };
   EXPECT_EQ(roughness(0), kFloor);
-  const auto shakeOf = [&](double amplitude) { return std::sqrt(roughness(amplitude) * roughness(amplitude) - kFloor * kFloor); };
-  for (const double amplitude : {0.001, 0.004, 0.020}) EXPECT_NEAR(shakeOf(amplitude) / amplitude, kGain / std::sqrt(2), 0.02 * kGain) << amplitude;
+  const auto shakeOf = [&](double amplitude) {
+    return std::sqrt(roughness(amplitude) * roughness(amplitude) - kFloor * kFloor);
+  };
+  for (const double amplitude : {0.001, 0.004, 0.020})
+    EXPECT_NEAR(shakeOf(amplitude) / amplitude, kGain / std::sqrt(2), 0.02 * kGain) << amplitude;
   EXPECT_NEAR(shakeOf(0.020) / shakeOf(0.001), 20, 1e-6);
 }
 
@@ -87,7 +97,7 @@ TEST(JoltSense, RoughnessIsOfTheStrokeAlone) {
 }
 
 TEST(JoltSense, AtMostOneJoltInTwentyFiveMilliseconds) {
-  JoltSense sense = fingers({0.002, 0, 0, 0.0005});   // nobody gets used to it
+  JoltSense sense = fingers({0.002, 0, 0, 0.0005});  // nobody gets used to it
   int last = -1000, jolts = 0, closest = 1000;
   for (int i = 0; i < 2000; ++i) {
     if (!sense.feel(shaking(80, 0.100)(i * kFeltStep), kFeltStep)) continue;
@@ -113,7 +123,8 @@ TEST(JoltSense, WhatShakesAllTheTimeRaisesTheThreshold) {
   joltsIn(sense, 3, shaking(80, 0.010));
   EXPECT_EQ(joltsIn(sense, 3, shaking(80, 0.010)), 0) << "itself is no jolt any more";
   joltsIn(sense, 5, still);
-  EXPECT_EQ(joltsIn(sense, 0.05, [](double) { return Vec3(0.010, 0, 0); }), 1) << "after a rest as before";
+  EXPECT_EQ(joltsIn(sense, 0.05, [](double) { return Vec3(0.010, 0, 0); }), 1)
+      << "after a rest as before";
 }
 
 }  // namespace

@@ -12,20 +12,24 @@ namespace palpa::twin {
 namespace {
 
 constexpr double kThirdTurn_rad = 2 * std::numbers::pi / 3;
-constexpr double kSeenHalf = 35 / (200.0 / 3);          // rad: of an element's outer rim on the circle
-constexpr double kLookStep = kThirdTurn_rad / 240;      // as fine as it is looked
+constexpr double kSeenHalf = 35 / (200.0 / 3);      // rad: of an element's outer rim on the circle
+constexpr double kLookStep = kThirdTurn_rad / 240;  // as fine as it is looked
 constexpr double kNotTaken = 1.2345;
 
 /// The nearest way from one to the other, thirds of a turn being alike.
 double apart(double a, double b) { return std::abs(std::remainder(a - b, kThirdTurn_rad)); }
 
-double foundBy(const std::vector<double>& angles, double half = kSeenHalf) { return orientationBy(angles, half, kNotTaken); }
+double foundBy(const std::vector<double>& angles, double half = kSeenHalf) {
+  return orientationBy(angles, half, kNotTaken);
+}
 
 TEST(SearchOrientation, JoltsAtTheRimsTellTheMiddle) {
   for (double orientation = 0; orientation < kThirdTurn_rad; orientation += 0.1) {
     std::vector<double> angles;
     for (int e = 0; e < 3; ++e)
-      for (const double from : {-0.98, -0.8, 0.8, 0.98}) angles.push_back(std::remainder(orientation + e * kThirdTurn_rad + from * kSeenHalf, 3 * kThirdTurn_rad));
+      for (const double from : {-0.98, -0.8, 0.8, 0.98})
+        angles.push_back(std::remainder(orientation + e * kThirdTurn_rad + from * kSeenHalf,
+                                        3 * kThirdTurn_rad));
     EXPECT_LE(apart(foundBy(angles), orientation), kLookStep) << orientation;
   }
 }
@@ -44,21 +48,30 @@ TEST(SearchOrientation, SomeFalseJoltsDoNotMatter) {
   for (int n = 0; n < 50; ++n) {
     const double orientation = random.uniform(0, kThirdTurn_rad);
     std::vector<double> angles;
-    for (int i = 0; i < 24; ++i) angles.push_back(orientation + (i % 3) * kThirdTurn_rad + (i % 2 ? 0.85 : -0.85) * kSeenHalf + random.normal(0, 0.02));
+    for (int i = 0; i < 24; ++i)
+      angles.push_back(orientation + (i % 3) * kThirdTurn_rad + (i % 2 ? 0.85 : -0.85) * kSeenHalf +
+                       random.normal(0, 0.02));
     for (int i = 0; i < 5; ++i) angles.push_back(random.uniform(0, 3 * kThirdTurn_rad));
-    EXPECT_LT(apart(foundBy(angles), orientation), 0.15 * kSeenHalf) << n;   // what is left free by jolts at 0.85 of the rim
+    EXPECT_LT(apart(foundBy(angles), orientation), 0.15 * kSeenHalf)
+        << n;  // what is left free by jolts at 0.85 of the rim
   }
 }
 
-/// Wherever jolts lie, no direction has more of them about it than the one found; looked at as finely as it looks.
+/// Wherever jolts lie, no direction has more of them about it than the one found; looked at as
+/// finely as it looks.
 TEST(SearchOrientation, NoDirectionHasMoreJoltsAboutIt) {
   runtime::RandomStream random(8, "test.directions");
-  const auto about = [](const std::vector<double>& angles, double direction) { return std::count_if(angles.begin(), angles.end(), [&](double angle) { return apart(angle, direction) <= kSeenHalf + 1e-9; }); };
+  const auto about = [](const std::vector<double>& angles, double direction) {
+    return std::count_if(angles.begin(), angles.end(),
+                         [&](double angle) { return apart(angle, direction) <= kSeenHalf + 1e-9; });
+  };
   for (int n = 0; n < 200; ++n) {
     std::vector<double> angles;
     for (int i = 0; i < 8; ++i) angles.push_back(random.uniform(0, 3 * kThirdTurn_rad));
     const double found = foundBy(angles), below = kLookStep * std::floor(found / kLookStep + 1e-9);
-    const auto here = std::max(about(angles, below), about(angles, below + kLookStep));   // the middle may lie between two that are looked at
+    const auto here = std::max(
+        about(angles, below),
+        about(angles, below + kLookStep));  // the middle may lie between two that are looked at
     for (int i = 0; i < 240; ++i) EXPECT_LE(about(angles, i * kLookStep), here) << n;
   }
 }
@@ -67,8 +80,10 @@ TEST(SearchOrientation, WithoutJoltsItStaysWithItsStart) { EXPECT_EQ(foundBy({})
 
 /// As many in one place as in the one opposite, between the thirds: the one nearer the start.
 TEST(SearchOrientation, ATieGoesToWhatIsNearerTheStart) {
-  EXPECT_LE(apart(foundBy({0.4, 0.4 + kThirdTurn_rad / 2}, 0.3), 0.4 + kThirdTurn_rad / 2), kLookStep);
-  EXPECT_LE(apart(foundBy({0.4, 0.4, 0.4 + kThirdTurn_rad / 2}, 0.3), 0.4), kLookStep) << "one more decides";
+  EXPECT_LE(apart(foundBy({0.4, 0.4 + kThirdTurn_rad / 2}, 0.3), 0.4 + kThirdTurn_rad / 2),
+            kLookStep);
+  EXPECT_LE(apart(foundBy({0.4, 0.4, 0.4 + kThirdTurn_rad / 2}, 0.3), 0.4), kLookStep)
+      << "one more decides";
 }
 
 TEST(SearchOrientation, TheOrderOfTheJoltsDoesNotMatter) {

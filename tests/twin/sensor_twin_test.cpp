@@ -22,14 +22,16 @@ TEST(SensorTwin, AtRestItShowsTheToolsWeightAndItsBias) {
   SensorTruth truth = quiet();
   truth.bias_N = {0.3, -0.2, 0.1};
   SensorTwin twin(truth, 1);
-  const Pose X_WS = makePose(Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()).toRotationMatrix(), {1, 2, 3});
+  const Pose X_WS = makePose(
+      Eigen::AngleAxisd(0.5 * std::numbers::pi, Vec3::UnitX()).toRotationMatrix(), {1, 2, 3});
   haptics::WrenchSample s;
   for (int i = 0; i < 5; ++i) s = twin.measure(X_WS, Vec3::Zero(), Vec3::Zero(), 1e-3, i);
   // z of S lies along -y of W, so down is -y... of S: x stays, y of S is up.
   EXPECT_NEAR(s.f_S[0], 0.3, 1e-12);
   EXPECT_NEAR(s.f_S[1], -0.2 - truth.tool_mass * kG, 1e-9);
   EXPECT_NEAR(s.f_S[2], 0.1, 1e-9);
-  EXPECT_NEAR(s.tau_S[0], truth.p_SM[2] * truth.tool_mass * kG, 1e-9);  // (0,0,z) x (0,-w,0) = (z w, 0, 0)
+  EXPECT_NEAR(s.tau_S[0], truth.p_SM[2] * truth.tool_mass * kG,
+              1e-9);  // (0,0,z) x (0,-w,0) = (z w, 0, 0)
 }
 
 TEST(SensorTwin, ATouchIsSeenWhereItActs) {
@@ -64,18 +66,21 @@ TEST(SensorTwin, TheFilterTakesAWavedToolOffAndLeavesTheTouch) {
   double worst = 0, worst_torque = 0, shown = 0;
   for (std::int64_t i = 0; i < 4000; ++i) {
     const double t = 1e-3 * static_cast<double>(i);
-    const Pose X_WS = makePose(
-        (Eigen::AngleAxisd(0.6 * std::sin(5 * t), Vec3(1, 2, 0).normalized()) * Eigen::AngleAxisd(std::cos(3 * t), Vec3::UnitZ()))
-            .toRotationMatrix(),
-        {0.05 * std::sin(9 * t), 0.04 * std::cos(7 * t), 0.03 * std::sin(11 * t)});
+    const Pose X_WS =
+        makePose((Eigen::AngleAxisd(0.6 * std::sin(5 * t), Vec3(1, 2, 0).normalized()) *
+                  Eigen::AngleAxisd(std::cos(3 * t), Vec3::UnitZ()))
+                     .toRotationMatrix(),
+                 {0.05 * std::sin(9 * t), 0.04 * std::cos(7 * t), 0.03 * std::sin(11 * t)});
     const Vec3 touch_W(0.5, 0, 0.8);
     const Vec3 p_W = X_WS * Vec3(0, 0, 0.1);
     const haptics::WrenchSample sample = twin.measure(X_WS, touch_W, p_W, 1e-3, i * 1'000'000);
-    const haptics::ContactWrench out = haptics::step(filter, state, sample, pack(X_WS), i * 1'000'000);
+    const haptics::ContactWrench out =
+        haptics::step(filter, state, sample, pack(X_WS), i * 1'000'000);
     if (!out.valid || i < 200) continue;
     const Vec3 touch_S = X_WS.linear().transpose() * touch_W;
     worst = std::max(worst, (unpack(out.contact.f_S) - touch_S).norm());
-    worst_torque = std::max(worst_torque, (unpack(out.contact.tau_S) - Vec3(0, 0, 0.1).cross(touch_S)).norm());
+    worst_torque =
+        std::max(worst_torque, (unpack(out.contact.tau_S) - Vec3(0, 0, 0.1).cross(touch_S)).norm());
     shown = std::max(shown, (unpack(sample.f_S) - touch_S).norm());
   }
   EXPECT_GT(shown, 0.3) << "weight and inertia are there to be taken off";

@@ -7,7 +7,7 @@
 namespace palpa::twin {
 namespace {
 
-constexpr double kOrdinary = 0.004;   // m
+constexpr double kOrdinary = 0.004;  // m
 
 /// How far a place gives way with a lump at the origin that takes off up to 30 %.
 FeltPress pressAt(double x, double y) {
@@ -24,7 +24,8 @@ TouchMemory searched() {
 
 std::vector<FeltPress> crossAbout(double x, double y) {
   constexpr double d = 0.004;
-  return {pressAt(x, y), pressAt(x + d, y), pressAt(x - d, y), pressAt(x, y + d), pressAt(x, y - d)};
+  return {pressAt(x, y), pressAt(x + d, y), pressAt(x - d, y), pressAt(x, y + d),
+          pressAt(x, y - d)};
 }
 
 TEST(TouchMemory, TellsFirmFromOrdinary) {
@@ -43,7 +44,8 @@ TEST(TouchMemory, WhereItWasTouchedTellsNothing) {
 TEST(TouchMemory, FindsTheTopOfTheHill) {
   const TouchMemory memory = searched();
   EXPECT_LE(memory.hillTop(crossAbout(0.005, -0.004), {0.005, -0.004, 0}).norm(), 0.0015);
-  EXPECT_LE(memory.hillTop({}, {0.008, 0, 0}).norm(), 0.0025) << "what the search felt counts: presses 8 mm apart";
+  EXPECT_LE(memory.hillTop({}, {0.008, 0, 0}).norm(), 0.0025)
+      << "what the search felt counts: presses 8 mm apart";
   const Vec3 plain(0.024, 0.024, 0);
   EXPECT_LT((TouchMemory(3).hillTop({}, plain) - plain).norm(), 1e-12);
 }

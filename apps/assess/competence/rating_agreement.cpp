@@ -96,14 +96,20 @@ Eigen::MatrixXd meansOf(const std::vector<RatedTrial>& trials,
 }
 
 int ratedBy(const std::vector<RatedTrial>& trials, const std::string& rater) {
-  return static_cast<int>(std::count_if(trials.begin(), trials.end(), [&](const RatedTrial& t) { return t.global.count(rater) && !t.global.at(rater).empty(); }));
+  return static_cast<int>(std::count_if(trials.begin(), trials.end(), [&](const RatedTrial& t) {
+    return t.global.count(rater) && !t.global.at(rater).empty();
+  }));
 }
 
 /// Whoever rated least is left out until those who stay have two trials in common.
-std::vector<std::string> leaveOut(const std::vector<RatedTrial>& trials, std::vector<std::string>* raters) {
+std::vector<std::string> leaveOut(const std::vector<RatedTrial>& trials,
+                                  std::vector<std::string>* raters) {
   std::vector<std::string> out;
   while (raters->size() > 2 && meansOf(trials, *raters).rows() < 2) {
-    const auto least = std::min_element(raters->begin(), raters->end(), [&](const std::string& a, const std::string& b) { return ratedBy(trials, a) < ratedBy(trials, b); });
+    const auto least = std::min_element(raters->begin(), raters->end(),
+                                        [&](const std::string& a, const std::string& b) {
+                                          return ratedBy(trials, a) < ratedBy(trials, b);
+                                        });
     out.push_back(*least);
     raters->erase(least);
   }
@@ -118,12 +124,15 @@ void globals(const std::vector<RatedTrial>& trials, Agreement* agreement) {
   const std::vector<std::string> out = leaveOut(trials, &agreement->raters);
   const Eigen::MatrixXd means = meansOf(trials, agreement->raters);
   for (const std::string& rater : out)
-    if (means.rows() >= 2) agreement->missing.push_back("Rater " + rater + " is left out of the ICC: too few trials in common with the others.");
+    if (means.rows() >= 2)
+      agreement->missing.push_back(
+          "Rater " + rater + " is left out of the ICC: too few trials in common with the others.");
   agreement->trials = static_cast<int>(means.rows());
   if (means.cols() < 2 || means.rows() < 2) {
     agreement->missing.push_back(
-        "An ICC of the global rating needs two raters who rated the same two trials or more: of " + std::to_string(raters.size()) +
-        (raters.size() == 1 ? " rater" : " raters") + " no two have.");
+        "An ICC of the global rating needs two raters who rated the same two trials or more: of " +
+        std::to_string(raters.size()) + (raters.size() == 1 ? " rater" : " raters") +
+        " no two have.");
     return;
   }
   try {

@@ -7,7 +7,8 @@
 namespace palpa::metrics {
 namespace {
 
-constexpr double kNoCurve = std::numeric_limits<double>::quiet_NaN(), kFar = std::numeric_limits<double>::infinity();
+constexpr double kNoCurve = std::numeric_limits<double>::quiet_NaN(),
+                 kFar = std::numeric_limits<double>::infinity();
 
 double farthest(const Curve& a, const Curve& b) {
   double most = 0;
@@ -30,14 +31,16 @@ struct Cell {
 Curve resampled(const Curve& curve, int points) {
   if (curve.size() < 2) return curve;
   std::vector<double> at{0};
-  for (std::size_t i = 1; i < curve.size(); ++i) at.push_back(at.back() + (curve[i] - curve[i - 1]).norm());
+  for (std::size_t i = 1; i < curve.size(); ++i)
+    at.push_back(at.back() + (curve[i] - curve[i - 1]).norm());
   if (!(at.back() > 0)) return {curve.front()};
   Curve even;
   std::size_t i = 1;
   for (int k = 0; k < points; ++k) {
     const double wanted = at.back() * k / (points - 1);
     while (i + 1 < curve.size() && at[i] < wanted) ++i;
-    const double length = at[i] - at[i - 1], share = length > 0 ? std::clamp((wanted - at[i - 1]) / length, 0.0, 1.0) : 0;
+    const double length = at[i] - at[i - 1],
+                 share = length > 0 ? std::clamp((wanted - at[i - 1]) / length, 0.0, 1.0) : 0;
     even.push_back(curve[i - 1] + share * (curve[i] - curve[i - 1]));
   }
   return even;
@@ -56,7 +59,8 @@ double frechet(const Curve& one, const Curve& other) {
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) {
       const double here = (a[i] - b[j]).norm();
-      const double reached = std::min({before[j], j > 0 ? before[j - 1] : kFar, j > 0 ? row[j - 1] : kFar});
+      const double reached =
+          std::min({before[j], j > 0 ? before[j - 1] : kFar, j > 0 ? row[j - 1] : kFar});
       row[j] = i == 0 && j == 0 ? here : std::max(here, reached);
     }
     before.swap(row);

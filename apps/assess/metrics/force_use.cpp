@@ -12,7 +12,8 @@ constexpr double kNoForce = std::numeric_limits<double>::quiet_NaN();
 }  // namespace
 
 double peakForce(const Motion& motion) {
-  return motion.size() == 0 ? kNoForce : *std::max_element(motion.force.begin(), motion.force.end());
+  return motion.size() == 0 ? kNoForce
+                            : *std::max_element(motion.force.begin(), motion.force.end());
 }
 
 double meanForce(const Motion& motion) {
@@ -27,7 +28,9 @@ double meanForce(const Motion& motion) {
 }
 
 double overForceTime(const Motion& motion, double limit_N) {
-  return Motion::kStep_s * static_cast<double>(std::count_if(motion.force.begin(), motion.force.end(), [&](double f) { return f > limit_N; }));
+  return Motion::kStep_s *
+         static_cast<double>(std::count_if(motion.force.begin(), motion.force.end(),
+                                           [&](double f) { return f > limit_N; }));
 }
 
 double forceJerk(const Motion& motion) {

@@ -11,10 +11,11 @@ namespace palpa::metrics {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-constexpr double kShortestChord = 0.010;          // m
+constexpr double kShortestChord = 0.010;  // m
 constexpr double kSpectrumTo_Hz = 10, kLeastAmplitude = 0.05;
 
-/// How often a state of at least `settle_s` begins in which the speed is above the threshold; one that is on at the start counts.
+/// How often a state of at least `settle_s` begins in which the speed is above the threshold; one
+/// that is on at the start counts.
 int beginnings(const std::vector<double>& speeds, double threshold, double settle_s) {
   const auto settle = static_cast<int>(std::ceil(settle_s / Motion::kStep_s - 1e-9));
   int count = 0, differs = 0;
@@ -29,7 +30,8 @@ int beginnings(const std::vector<double>& speeds, double threshold, double settl
   return count;
 }
 
-/// Amplitude spectrum from 0 to 10 Hz; padded with zeros to 16 times the motion's length, so that its arc is smooth.
+/// Amplitude spectrum from 0 to 10 Hz; padded with zeros to 16 times the motion's length, so that
+/// its arc is smooth.
 std::vector<double> amplitudes(const std::vector<double>& speeds) {
   std::vector<double> padded = speeds;
   padded.resize(std::bit_ceil(16 * speeds.size()), 0);
@@ -37,7 +39,8 @@ std::vector<double> amplitudes(const std::vector<double>& speeds) {
   Eigen::FFT<double>().fwd(spectrum, padded);
   const double step_Hz = 1 / (Motion::kStep_s * static_cast<double>(padded.size()));
   std::vector<double> values;
-  for (std::size_t k = 0; static_cast<double>(k) * step_Hz <= kSpectrumTo_Hz; ++k) values.push_back(std::abs(spectrum[k]));
+  for (std::size_t k = 0; static_cast<double>(k) * step_Hz <= kSpectrumTo_Hz; ++k)
+    values.push_back(std::abs(spectrum[k]));
   return values;
 }
 
@@ -56,7 +59,9 @@ double pathInefficiency(const Motion& motion) {
 }
 
 double meanSpeed(const Motion& motion) {
-  return motion.size() < 2 ? kNone : pathLength(motion) / (static_cast<double>(motion.size() - 1) * Motion::kStep_s);
+  return motion.size() < 2
+             ? kNone
+             : pathLength(motion) / (static_cast<double>(motion.size() - 1) * Motion::kStep_s);
 }
 
 double boundingBoxVolume(const Motion& motion) {
@@ -75,8 +80,12 @@ double rotationTotal(const Motion& motion) {
   return sum;
 }
 
-int translationalActions(const Motion& motion, const ActionRules& rules) { return beginnings(speedsOf(motion), rules.speed, rules.settle_s); }
-int rotationalActions(const Motion& motion, const ActionRules& rules) { return beginnings(turningSpeedsOf(motion), rules.turning_speed, rules.settle_s); }
+int translationalActions(const Motion& motion, const ActionRules& rules) {
+  return beginnings(speedsOf(motion), rules.speed, rules.settle_s);
+}
+int rotationalActions(const Motion& motion, const ActionRules& rules) {
+  return beginnings(turningSpeedsOf(motion), rules.turning_speed, rules.settle_s);
+}
 
 double spectralArcLength(const Motion& motion) {
   const std::vector<double> speeds = speedsOf(motion);
@@ -89,7 +98,8 @@ double spectralArcLength(const Motion& motion) {
   if (last == 0) return kNone;
   double arc = 0;
   const double step = 1 / static_cast<double>(last);
-  for (std::size_t k = 1; k <= last; ++k) arc += std::hypot(step, (spectrum[k] - spectrum[k - 1]) / spectrum[0]);
+  for (std::size_t k = 1; k <= last; ++k)
+    arc += std::hypot(step, (spectrum[k] - spectrum[k - 1]) / spectrum[0]);
   return -arc;
 }
 
@@ -97,7 +107,8 @@ double integratedJerk(const Motion& motion) {
   if (motion.size() < 4) return kNone;
   double sum = 0;
   for (std::size_t i = 3; i < motion.size(); ++i) {
-    const Vec3 third = motion.tip[i] - 3 * motion.tip[i - 1] + 3 * motion.tip[i - 2] - motion.tip[i - 3];
+    const Vec3 third =
+        motion.tip[i] - 3 * motion.tip[i - 1] + 3 * motion.tip[i - 2] - motion.tip[i - 3];
     sum += third.squaredNorm() / std::pow(Motion::kStep_s, 6) * Motion::kStep_s;
   }
   return std::sqrt(sum);

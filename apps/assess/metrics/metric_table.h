@@ -8,20 +8,22 @@ namespace palpa::metrics {
 
 enum class Better { lower, higher, neither };
 
-/// What a figure of a trial is. Names end with their unit and never change their meaning; what means something else gets another name.
+/// What a figure of a trial is. Names end with their unit and never change their meaning; what
+/// means something else gets another name.
 struct MetricDefinition {
-  const char* name;         ///< "path_length_mm"
-  const char* title;        ///< "Length of the tip's path"
-  const char* unit;         ///< "mm"; "1": a plain number
+  const char* name;   ///< "path_length_mm"
+  const char* title;  ///< "Length of the tip's path"
+  const char* unit;   ///< "mm"; "1": a plain number
   Better better;
-  const char* tasks;        ///< "all", or the engines that have it: "needle, search"
+  const char* tasks;  ///< "all", or the engines that have it: "needle, search"
   const char* definition;
-  const char* valid;        ///< when it does not apply; "" where it always does
+  const char* valid;  ///< when it does not apply; "" where it always does
 };
 
 const std::vector<MetricDefinition>& metricTable();
-bool belongsTo(const MetricDefinition& definition, std::string_view engine);   ///< "needle", "palpation", "search", "squeeze"
-const MetricDefinition* metricNamed(std::string_view name);   ///< null: none has this name
+bool belongsTo(const MetricDefinition& definition,
+               std::string_view engine);  ///< "needle", "palpation", "search", "squeeze"
+const MetricDefinition* metricNamed(std::string_view name);  ///< null: none has this name
 
 /// A figure of a trial. Not a number: does not apply.
 struct MetricValue {

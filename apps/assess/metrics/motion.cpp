@@ -35,8 +35,11 @@ void repeatLast(Motion& motion) {
 }
 
 void require(const RawSample& s, double before_s) {
-  const bool finite = std::isfinite(s.t_s) && s.tip.allFinite() && s.axis.allFinite() && std::isfinite(s.inserted) && std::isfinite(s.force);
-  if (!finite || s.t_s < before_s) throw Error(finite ? "the time runs backward" : "a sample is not finite", "motion at " + std::to_string(s.t_s) + " s", "The recording is damaged");
+  const bool finite = std::isfinite(s.t_s) && s.tip.allFinite() && s.axis.allFinite() &&
+                      std::isfinite(s.inserted) && std::isfinite(s.force);
+  if (!finite || s.t_s < before_s)
+    throw Error(finite ? "the time runs backward" : "a sample is not finite",
+                "motion at " + std::to_string(s.t_s) + " s", "The recording is damaged");
 }
 
 }  // namespace
@@ -64,14 +67,17 @@ Motion motionOf(const std::vector<RawSample>& samples) {
 
 std::vector<double> speedsOf(const Motion& motion) {
   std::vector<double> speeds;
-  for (std::size_t i = 1; i < motion.size(); ++i) speeds.push_back((motion.tip[i] - motion.tip[i - 1]).norm() / Motion::kStep_s);
+  for (std::size_t i = 1; i < motion.size(); ++i)
+    speeds.push_back((motion.tip[i] - motion.tip[i - 1]).norm() / Motion::kStep_s);
   return speeds;
 }
 
 std::vector<double> turningSpeedsOf(const Motion& motion) {
   std::vector<double> speeds;
   for (std::size_t i = 1; i < motion.size(); ++i)
-    speeds.push_back(std::atan2(motion.axis[i].cross(motion.axis[i - 1]).norm(), motion.axis[i].dot(motion.axis[i - 1])) / Motion::kStep_s);
+    speeds.push_back(std::atan2(motion.axis[i].cross(motion.axis[i - 1]).norm(),
+                                motion.axis[i].dot(motion.axis[i - 1])) /
+                     Motion::kStep_s);
   return speeds;
 }
 

@@ -6,11 +6,13 @@
 
 namespace palpa::assess {
 
-/// What of an area has been felt, and how firmly. A cell has been felt at a level where the tip pressed at least so hard with its middle within `reach` of the cell's; it has been felt anew
-/// where that came back after `kAnew_s` away. One sample at a time: the screen shows the map while it grows, the score reads it at the end.
+/// What of an area has been felt, and how firmly. A cell has been felt at a level where the tip
+/// pressed at least so hard with its middle within `reach` of the cell's; it has been felt anew
+/// where that came back after `kAnew_s` away. One sample at a time: the screen shows the map while
+/// it grows, the score reads it at the end.
 class CoverageMap {
  public:
-  static constexpr double kCell = 4e-3;     ///< m
+  static constexpr double kCell = 4e-3;  ///< m
   static constexpr double kAnew_s = 3;
 
   CoverageMap(const SearchArea& area, const PressureLevels& levels, double reach);
@@ -19,18 +21,23 @@ class CoverageMap {
   int columns() const { return columns_; }  ///< along x
   int rows() const { return rows_; }        ///< along y, from the trainee away
   Vec3 middle(int column, int row) const;   ///< of a cell, on the top
-  int level(int column, int row) const { return cells_[index(column, row)].level; }   ///< 0: not felt, 1 light, 2 medium, 3 deep
+  int level(int column, int row) const {
+    return cells_[index(column, row)].level;
+  }  ///< 0: not felt, 1 light, 2 medium, 3 deep
   int visits(int column, int row) const { return cells_[index(column, row)].visits; }
 
-  double share(int level) const;            ///< of the cells felt at this level or a deeper one
-  double twice() const;                     ///< of the cells felt anew at least once
+  double share(int level) const;  ///< of the cells felt at this level or a deeper one
+  double twice() const;           ///< of the cells felt anew at least once
 
  private:
   struct Cell {
     std::int16_t level = 0, visits = 0;
     double last_s = -1e9;
   };
-  std::size_t index(int column, int row) const { return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) + static_cast<std::size_t>(column); }
+  std::size_t index(int column, int row) const {
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
   SearchArea area_;
   PressureLevels levels_;
   double reach_;

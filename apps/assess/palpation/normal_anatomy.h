@@ -7,7 +7,8 @@
 
 namespace palpa::assess {
 
-/// Something that belongs there and is felt in every case, such as the edge of a liver: a line along the top, as broad as `width`. P, m. It is no lump, and is not to be marked.
+/// Something that belongs there and is felt in every case, such as the edge of a liver: a line
+/// along the top, as broad as `width`. P, m. It is no lump, and is not to be marked.
 struct NormalAnatomy {
   std::string name;
   std::vector<Vec3> line_P;
@@ -18,6 +19,7 @@ struct NormalAnatomy {
 double fromLine(const NormalAnatomy& anatomy, const Vec3& p_P);
 
 /// What a place lies on, to within `reach` of its breadth; nullptr: on nothing of it.
-const NormalAnatomy* anatomyAt(const std::vector<NormalAnatomy>& all, const Vec3& p_P, double reach);
+const NormalAnatomy* anatomyAt(const std::vector<NormalAnatomy>& all, const Vec3& p_P,
+                               double reach);
 
 }  // namespace palpa::assess

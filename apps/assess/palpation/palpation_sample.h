@@ -7,14 +7,15 @@
 
 #include "anatomy/geometry/pose.h"
 
-/// What a palpation is judged by: everything in the frame P of the thing that is felt (origin in the middle of its top, x to the right, y away from the trainee, z up), metres, newtons.
+/// What a palpation is judged by: everything in the frame P of the thing that is felt (origin in
+/// the middle of its top, x to the right, y away from the trainee, z up), metres, newtons.
 namespace palpa::assess {
 
 /// One tick of the record, thinned to about 100 Hz.
 struct PalpationSample {
   double t_s = 0;
-  Vec3 p_P = Vec3::Zero();      ///< the tip's lowest point
-  double f_n = 0;               ///< how hard it is pressed
+  Vec3 p_P = Vec3::Zero();  ///< the tip's lowest point
+  double f_n = 0;           ///< how hard it is pressed
 };
 using PalpationSamples = std::span<const PalpationSample>;
 
@@ -22,14 +23,14 @@ using PalpationSamples = std::span<const PalpationSample>;
 struct LumpMark {
   double t_s = 0;
   Vec3 p_P = Vec3::Zero();
-  double diameter = 0;          ///< m
-  int hardness = 0, mobility = 0;   ///< 1 soft, 2 hard; 1 fixed, 2 mobile
+  double diameter = 0;             ///< m
+  int hardness = 0, mobility = 0;  ///< 1 soft, 2 hard; 1 fixed, 2 mobile
 };
 
 /// A lump of the case. Known to who judges, not to who is judged.
 struct CaseLump {
   Vec3 p_P = Vec3::Zero();
-  double diameter = 0;          ///< m
+  double diameter = 0;  ///< m
   int hardness = 0, mobility = 0;
 };
 
@@ -39,7 +40,7 @@ using PressureLevels = std::array<double, kPressureLevels>;
 
 /// The part of the top that must be searched: a rectangle about the origin.
 struct SearchArea {
-  double half_x = 0.036, half_y = 0.036;   ///< m
+  double half_x = 0.036, half_y = 0.036;  ///< m
 };
 
 }  // namespace palpa::assess

@@ -10,7 +10,9 @@ namespace {
 double apart(const Vec3& a, const Vec3& b) { return (a - b).head<2>().norm(); }
 
 /// Marks to lumps; returns which marks are taken, and counts the others.
-void giveMarks(const PalpationRules& rules, const std::vector<CaseLump>& lumps, const std::vector<LumpMark>& marks, PalpationScore* score, std::vector<bool>* false_alarm) {
+void giveMarks(const PalpationRules& rules, const std::vector<CaseLump>& lumps,
+               const std::vector<LumpMark>& marks, PalpationScore* score,
+               std::vector<bool>* false_alarm) {
   struct Pair {
     double distance;
     std::size_t lump, mark;
@@ -18,8 +20,11 @@ void giveMarks(const PalpationRules& rules, const std::vector<CaseLump>& lumps, 
   std::vector<Pair> pairs;
   for (std::size_t l = 0; l < lumps.size(); ++l)
     for (std::size_t m = 0; m < marks.size(); ++m)
-      if (const double d = apart(lumps[l].p_P, marks[m].p_P); d <= rules.found_within) pairs.push_back({d, l, m});
-  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) { return std::tie(a.distance, a.lump, a.mark) < std::tie(b.distance, b.lump, b.mark); });
+      if (const double d = apart(lumps[l].p_P, marks[m].p_P); d <= rules.found_within)
+        pairs.push_back({d, l, m});
+  std::sort(pairs.begin(), pairs.end(), [](const Pair& a, const Pair& b) {
+    return std::tie(a.distance, a.lump, a.mark) < std::tie(b.distance, b.lump, b.mark);
+  });
   score->lumps.assign(lumps.size(), {});
   std::vector<bool> used(marks.size(), false), near(marks.size(), false);
   for (const Pair& pair : pairs) {
@@ -29,7 +34,9 @@ void giveMarks(const PalpationRules& rules, const std::vector<CaseLump>& lumps, 
     used[pair.mark] = true;
     const CaseLump& lump = lumps[pair.lump];
     const LumpMark& mark = marks[pair.mark];
-    verdict = {static_cast<int>(pair.mark), pair.distance, mark.diameter > 0 ? mark.diameter - lump.diameter : 0, mark.hardness > 0 && mark.hardness == lump.hardness,
+    verdict = {static_cast<int>(pair.mark), pair.distance,
+               mark.diameter > 0 ? mark.diameter - lump.diameter : 0,
+               mark.hardness > 0 && mark.hardness == lump.hardness,
                mark.mobility > 0 && mark.mobility == lump.mobility};
     ++score->found;
   }
@@ -50,10 +57,14 @@ double fromQuadrant(const SearchArea& area, int side_x, int side_y, const Vec3& 
   return std::hypot(dx, dy);
 }
 
-void judgeQuadrants(const PalpationRules& rules, const std::vector<CaseLump>& lumps, const std::vector<LumpMark>& marks, const std::vector<bool>& false_alarm, PalpationScore* score) {
+void judgeQuadrants(const PalpationRules& rules, const std::vector<CaseLump>& lumps,
+                    const std::vector<LumpMark>& marks, const std::vector<bool>& false_alarm,
+                    PalpationScore* score) {
   for (const int side_x : {-1, 1}) {
     for (const int side_y : {-1, 1}) {
-      const bool ill = std::any_of(lumps.begin(), lumps.end(), [&](const CaseLump& lump) { return fromQuadrant(rules.area, side_x, side_y, lump.p_P) <= rules.found_within; });
+      const bool ill = std::any_of(lumps.begin(), lumps.end(), [&](const CaseLump& lump) {
+        return fromQuadrant(rules.area, side_x, side_y, lump.p_P) <= rules.found_within;
+      });
       if (ill) continue;
       ++score->clear_quadrants;
       for (std::size_t m = 0; m < marks.size(); ++m) {
@@ -90,19 +101,22 @@ double closerForce(const std::vector<Press>& presses) {
     (press.palpating ? closer : search) += press.peak;
     ++(press.palpating ? closer_count : search_count);
   }
-  return closer_count > 0 && search_count > 0 ? (closer / closer_count) / (search / search_count) : 0;
+  return closer_count > 0 && search_count > 0 ? (closer / closer_count) / (search / search_count)
+                                              : 0;
 }
 
 }  // namespace
 
-PalpationScore scorePalpation(const PalpationRules& rules, const std::vector<CaseLump>& lumps, PalpationSamples samples, const std::vector<LumpMark>& marks) {
+PalpationScore scorePalpation(const PalpationRules& rules, const std::vector<CaseLump>& lumps,
+                              PalpationSamples samples, const std::vector<LumpMark>& marks) {
   PalpationScore score;
   std::vector<bool> false_alarm;
   giveMarks(rules, lumps, marks, &score, &false_alarm);
   judgeQuadrants(rules, lumps, marks, false_alarm, &score);
   CoverageMap map(rules.area, rules.levels, rules.reach);
   for (const PalpationSample& sample : samples) map.add(sample);
-  for (std::size_t i = 0; i < kPressureLevels; ++i) score.coverage[i] = map.share(static_cast<int>(i) + 1);
+  for (std::size_t i = 0; i < kPressureLevels; ++i)
+    score.coverage[i] = map.share(static_cast<int>(i) + 1);
   score.twice = map.twice();
   const std::vector<Press> presses = pressesIn(samples, rules.touch);
   score.presses = static_cast<int>(presses.size());

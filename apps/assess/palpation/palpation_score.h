@@ -8,43 +8,51 @@ namespace palpa::assess {
 
 struct PalpationRules {
   SearchArea area;
-  PressureLevels levels{0.3, 0.7, 1.2};   ///< N
-  double reach = 6e-3;                    ///< m about the tip's middle that a press tells of
-  double touch = 0.1;                     ///< N
-  double too_hard = 2.5;                  ///< N
-  double found_within = 15e-3;            ///< m, of a lump's middle
-  std::vector<NormalAnatomy> normal;      ///< what is felt besides lumps
+  PressureLevels levels{0.3, 0.7, 1.2};  ///< N
+  double reach = 6e-3;                   ///< m about the tip's middle that a press tells of
+  double touch = 0.1;                    ///< N
+  double too_hard = 2.5;                 ///< N
+  double found_within = 15e-3;           ///< m, of a lump's middle
+  std::vector<NormalAnatomy> normal;     ///< what is felt besides lumps
 };
 
 /// What became of one lump of the case.
 struct LumpVerdict {
-  int mark = -1;                 ///< the mark that found it, from 0; -1: missed
-  double error = 0;              ///< m, between mark and lump along the top
-  double size_error = 0;         ///< m, graded less true; 0 where it was not graded
+  int mark = -1;          ///< the mark that found it, from 0; -1: missed
+  double error = 0;       ///< m, between mark and lump along the top
+  double size_error = 0;  ///< m, graded less true; 0 where it was not graded
   bool hardness_right = false, mobility_right = false;
 };
 
 struct PalpationScore {
   std::vector<LumpVerdict> lumps;
   int found = 0, missed = 0;
-  int false_alarms = 0;          ///< marks that are no lump's
-  int repeated = 0;              ///< marks of a lump that had been found
-  int clear_quadrants = 0, wrong_quadrants = 0;   ///< quarters of the area with no lump within `found_within`; those among them that a false alarm calls ill
-  std::array<double, kPressureLevels> coverage{};   ///< share felt at each level or deeper
-  double twice = 0;              ///< share felt again
+  int false_alarms = 0;  ///< marks that are no lump's
+  int repeated = 0;      ///< marks of a lump that had been found
+  int clear_quadrants = 0,
+      wrong_quadrants = 0;  ///< quarters of the area with no lump within `found_within`; those
+                            ///< among them that a false alarm calls ill
+  std::array<double, kPressureLevels> coverage{};  ///< share felt at each level or deeper
+  double twice = 0;                                ///< share felt again
   SearchedPattern pattern;
-  double peak = 0, mean = 0;     ///< N, while touching
-  double too_light = 0, too_hard = 0;   ///< share of the time of touching
+  double peak = 0, mean = 0;           ///< N, while touching
+  double too_light = 0, too_hard = 0;  ///< share of the time of touching
   double seconds = 0;
   int presses = 0;
-  double closer_force = 0;       ///< mean peak of palpating presses over that of searching ones; 0: one of them is missing
-  int of_normal = 0;             ///< false alarms that lie on normal anatomy
+  double closer_force =
+      0;  ///< mean peak of palpating presses over that of searching ones; 0: one of them is missing
+  int of_normal = 0;  ///< false alarms that lie on normal anatomy
 
-  double sensitivity() const { return found + missed > 0 ? static_cast<double>(found) / (found + missed) : 1; }
-  double specificity() const { return clear_quadrants > 0 ? 1 - static_cast<double>(wrong_quadrants) / clear_quadrants : 1; }
+  double sensitivity() const {
+    return found + missed > 0 ? static_cast<double>(found) / (found + missed) : 1;
+  }
+  double specificity() const {
+    return clear_quadrants > 0 ? 1 - static_cast<double>(wrong_quadrants) / clear_quadrants : 1;
+  }
 };
 
 /// Marks are given to the lumps they are nearest to, the nearest pair first, each lump one mark.
-PalpationScore scorePalpation(const PalpationRules& rules, const std::vector<CaseLump>& lumps, PalpationSamples samples, const std::vector<LumpMark>& marks);
+PalpationScore scorePalpation(const PalpationRules& rules, const std::vector<CaseLump>& lumps,
+                              PalpationSamples samples, const std::vector<LumpMark>& marks);
 
 }  // namespace palpa::assess

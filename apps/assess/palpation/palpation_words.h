@@ -11,9 +11,13 @@ namespace palpa::assess {
 std::string palpationSummary(const PalpationFacts& facts, const PalpationScore& score);
 
 /// Sentences for the trainee, the most important first; empty when there is nothing to improve.
-std::vector<std::string> palpationAdvice(const PalpationAssessment& assessment, const PalpationRules& rules, const PalpationStandard& standard, PalpationSamples samples);
+std::vector<std::string> palpationAdvice(const PalpationAssessment& assessment,
+                                         const PalpationRules& rules,
+                                         const PalpationStandard& standard,
+                                         PalpationSamples samples);
 
-/// Numbers as text, the same in every locale: "91 %" (rounded down, so that no share is said to reach a standard that it misses), "1.20 N" as "1.2 N".
+/// Numbers as text, the same in every locale: "91 %" (rounded down, so that no share is said to
+/// reach a standard that it misses), "1.20 N" as "1.2 N".
 std::string percentWords(double share);
 std::string newtonWords(double newtons);
 

@@ -5,10 +5,11 @@
 namespace palpa::assess {
 namespace {
 
-constexpr double kSamePress_s = 0.1, kNear_s = 5, kNear = 5e-3;   // s, s, m
+constexpr double kSamePress_s = 0.1, kNear_s = 5, kNear = 5e-3;  // s, s, m
 constexpr int kCloserLook = 2;
 
-void add(Press* press, const PalpationSample& sample, const PalpationSample* before, double* weight) {
+void add(Press* press, const PalpationSample& sample, const PalpationSample* before,
+         double* weight) {
   press->to_s = sample.t_s;
   press->peak = std::max(press->peak, sample.f_n);
   press->p_P += sample.f_n * sample.p_P;
@@ -37,8 +38,10 @@ std::vector<Press> pressesIn(PalpationSamples samples, double touch) {
   for (std::size_t i = 0; i < presses.size(); ++i) {
     int near = 0;
     for (std::size_t j = 0; j < presses.size(); ++j) {
-      const double apart_s = std::max(presses[j].from_s - presses[i].to_s, presses[i].from_s - presses[j].to_s);
-      near += j != i && apart_s < kNear_s && (presses[j].p_P - presses[i].p_P).head<2>().norm() < kNear;
+      const double apart_s =
+          std::max(presses[j].from_s - presses[i].to_s, presses[i].from_s - presses[j].to_s);
+      near +=
+          j != i && apart_s < kNear_s && (presses[j].p_P - presses[i].p_P).head<2>().norm() < kNear;
     }
     presses[i].palpating = near >= kCloserLook;
   }

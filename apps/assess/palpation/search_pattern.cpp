@@ -8,11 +8,12 @@ namespace palpa::assess {
 namespace {
 
 constexpr std::size_t kFewestPlaces = 8;
-constexpr double kAlongShare = 0.6;      // of the way that a strip goes along itself
-constexpr double kOnward = 0.7;          // share of the moves across that go the one way; of turning and of growing, net over all
-constexpr double kMoves = 2e-3;          // m: smaller ones are trembling
-constexpr double kWide = 0.6;            // of the area's width
-constexpr double kTurns = 2;             // of a spiral
+constexpr double kAlongShare = 0.6;  // of the way that a strip goes along itself
+constexpr double kOnward =
+    0.7;  // share of the moves across that go the one way; of turning and of growing, net over all
+constexpr double kMoves = 2e-3;  // m: smaller ones are trembling
+constexpr double kWide = 0.6;    // of the area's width
+constexpr double kTurns = 2;     // of a spiral
 
 /// How well strips along `axis` were kept; 0: they were not.
 double strips(const std::vector<Vec3>& places, int axis, double width) {
@@ -28,7 +29,8 @@ double strips(const std::vector<Vec3>& places, int axis, double width) {
     least = std::min(least, places[i][across]);
     most = std::max(most, places[i][across]);
   }
-  const double share = along_way / std::max(along_way + across_way, 1e-9), onward = static_cast<double>(std::max(up, down)) / std::max(up + down, 1);
+  const double share = along_way / std::max(along_way + across_way, 1e-9),
+               onward = static_cast<double>(std::max(up, down)) / std::max(up + down, 1);
   return share >= kAlongShare && onward >= kOnward && most - least >= kWide * width ? onward : 0;
 }
 
@@ -44,18 +46,26 @@ double spiral(const std::vector<Vec3>& places, double width) {
     outward += b.head<2>().norm() - a.head<2>().norm();
     radial += std::abs(b.head<2>().norm() - a.head<2>().norm());
   }
-  const bool round = std::abs(turned) >= kTurns * 2 * std::numbers::pi && std::abs(turned) >= kOnward * turning;
-  return round && std::abs(outward) >= kOnward * radial && std::abs(outward) >= 0.5 * kWide * width / 2 ? std::abs(turned) / turning : 0;
+  const bool round =
+      std::abs(turned) >= kTurns * 2 * std::numbers::pi && std::abs(turned) >= kOnward * turning;
+  return round && std::abs(outward) >= kOnward * radial &&
+                 std::abs(outward) >= 0.5 * kWide * width / 2
+             ? std::abs(turned) / turning
+             : 0;
 }
 
 }  // namespace
 
 const char* nameOf(SearchPattern pattern) {
   switch (pattern) {
-    case SearchPattern::strips: return "vertical strips";
-    case SearchPattern::rows: return "rows";
-    case SearchPattern::spiral: return "spiral";
-    default: return "no pattern";
+    case SearchPattern::strips:
+      return "vertical strips";
+    case SearchPattern::rows:
+      return "rows";
+    case SearchPattern::spiral:
+      return "spiral";
+    default:
+      return "no pattern";
   }
 }
 
@@ -65,8 +75,10 @@ SearchedPattern patternOf(const std::vector<Press>& presses, const SearchArea& a
     if (!press.palpating) places.push_back(press.p_P);
   if (places.size() < kFewestPlaces) return {};
   SearchedPattern best;
-  for (const auto& [pattern, kept] : {std::pair(SearchPattern::strips, strips(places, 1, 2 * area.half_x)), std::pair(SearchPattern::rows, strips(places, 0, 2 * area.half_y)),
-                                      std::pair(SearchPattern::spiral, spiral(places, 2 * std::min(area.half_x, area.half_y)))}) {
+  for (const auto& [pattern, kept] :
+       {std::pair(SearchPattern::strips, strips(places, 1, 2 * area.half_x)),
+        std::pair(SearchPattern::rows, strips(places, 0, 2 * area.half_y)),
+        std::pair(SearchPattern::spiral, spiral(places, 2 * std::min(area.half_x, area.half_y)))}) {
     if (kept > best.kept) best = {pattern, kept};
   }
   return best;

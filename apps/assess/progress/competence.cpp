@@ -26,7 +26,8 @@ Competence competenceOf(const std::vector<bool>& failures, const statistics::Cus
   if (c.reached) return c;
   const bool anew = c.chart.sums.empty() || c.chart.verdicts.back() != CusumVerdict::undecided;
   const double sum = anew ? 0 : c.chart.sums.back();
-  c.still_clean = static_cast<std::size_t>(std::ceil((sum + c.limits.h_accept) / c.limits.s - 1e-9));
+  c.still_clean =
+      static_cast<std::size_t>(std::ceil((sum + c.limits.h_accept) / c.limits.s - 1e-9));
   return c;
 }
 

@@ -12,36 +12,63 @@ constexpr std::size_t kLately = 5;
 const std::map<std::string, std::vector<ErrorKind>>& kindsOfEngines() {
   static const std::map<std::string, std::vector<ErrorKind>> kKinds{
       {"needle",
-       {{"col_lung", 0, false, "the pleura was touched", "keep the needle flat behind the clavicle and stop at the depth that was taught: the lung lies behind the vein"},
-        {"col_artery", 0, false, "an artery was touched", "advance slowly with the plunger drawn and stop at the first blood: the artery lies behind the vein"},
-        {"back_wall_punctures", 0, false, "the vein's back wall was punctured", "advance more slowly near the vein: in a porcine jugular 3 mm/s kept the needle in it best"},
-        {"needle_passes", 3, false, "more than three needle passes", "after three passes stop and ask: every further pass multiplies complications"},
-        {"needle_passes", 1, false, "more than one needle pass", "find the landmarks again before the needle goes in, rather than turning it inside"},
-        {"over_force_s", 0, false, "bone was pressed too hard", "touch the clavicle lightly: it is the guide, not a place to push on"},
-        {"col_rib", 0, false, "rib or bone was struck", "lower the syringe before the advance, so that the needle slides under the clavicle"},
-        {"col_vein", 0, false, "the vein was touched in vain", "draw the plunger before the vein is reached and stop when blood comes"},
-        {"phase_2", 1000, false, "the direction was beyond what is acceptable", "turn the needle fully toward the sternal end before the advance"},
-        {"success", 0.5, true, "the vein was not reached", "repeat entry point and direction with the three fixed views before the next trial"}}},
+       {{"col_lung", 0, false, "the pleura was touched",
+         "keep the needle flat behind the clavicle and stop at the depth that was taught: the lung "
+         "lies behind the vein"},
+        {"col_artery", 0, false, "an artery was touched",
+         "advance slowly with the plunger drawn and stop at the first blood: the artery lies "
+         "behind the vein"},
+        {"back_wall_punctures", 0, false, "the vein's back wall was punctured",
+         "advance more slowly near the vein: in a porcine jugular 3 mm/s kept the needle in it "
+         "best"},
+        {"needle_passes", 3, false, "more than three needle passes",
+         "after three passes stop and ask: every further pass multiplies complications"},
+        {"needle_passes", 1, false, "more than one needle pass",
+         "find the landmarks again before the needle goes in, rather than turning it inside"},
+        {"over_force_s", 0, false, "bone was pressed too hard",
+         "touch the clavicle lightly: it is the guide, not a place to push on"},
+        {"col_rib", 0, false, "rib or bone was struck",
+         "lower the syringe before the advance, so that the needle slides under the clavicle"},
+        {"col_vein", 0, false, "the vein was touched in vain",
+         "draw the plunger before the vein is reached and stop when blood comes"},
+        {"phase_2", 1000, false, "the direction was beyond what is acceptable",
+         "turn the needle fully toward the sternal end before the advance"},
+        {"success", 0.5, true, "the vein was not reached",
+         "repeat entry point and direction with the three fixed views before the next trial"}}},
       {"palpation",
-       {{"sensitivity_pct", 99.9, true, "a lump was missed", "feel every place lightly, then firmly, then deep"},
-        {"false_alarms", 0, false, "something was marked where nothing is", "compare with the same place on the other side before marking"},
-        {"coverage_deep_pct", 95, true, "less than 95 % was felt deep", "search in overlapping strips and press deep in each place"},
-        {"coverage_light_pct", 95, true, "less than 95 % was felt at all", "search in overlapping strips from edge to edge"},
-        {"too_hard_pct", 5, false, "pressed too hard for more than 5 % of the time", "more force than the largest sensible one finds nothing more and hurts"}}},
+       {{"sensitivity_pct", 99.9, true, "a lump was missed",
+         "feel every place lightly, then firmly, then deep"},
+        {"false_alarms", 0, false, "something was marked where nothing is",
+         "compare with the same place on the other side before marking"},
+        {"coverage_deep_pct", 95, true, "less than 95 % was felt deep",
+         "search in overlapping strips and press deep in each place"},
+        {"coverage_light_pct", 95, true, "less than 95 % was felt at all",
+         "search in overlapping strips from edge to edge"},
+        {"too_hard_pct", 5, false, "pressed too hard for more than 5 % of the time",
+         "more force than the largest sensible one finds nothing more and hurts"}}},
       {"search",
-       {{"chosen", 0.5, true, "no element was chosen in time", "visit each element once before looking closer"},
-        {"success", 0.5, true, "the target was not found", "cross each element at the same speed and compare before staying in one"}}},
-      {"squeeze", {{"success", 0.5, true, "the answer was wrong or missing", "squeeze both equally deep and equally fast before answering"}}}};
+       {{"chosen", 0.5, true, "no element was chosen in time",
+         "visit each element once before looking closer"},
+        {"success", 0.5, true, "the target was not found",
+         "cross each element at the same speed and compare before staying in one"}}},
+      {"squeeze",
+       {{"success", 0.5, true, "the answer was wrong or missing",
+         "squeeze both equally deep and equally fast before answering"}}}};
   return kKinds;
 }
 
 assess::ParacentesisValues valuesOf(const PracticeTrial& t) {
-  return {t.metric("col_lung"), t.metric("col_rib"), t.metric("col_artery"), t.metric("col_vein"), t.metric("phase_1_mm"), t.metric("phase_2"), t.metric("econ_mean_mm"), t.metric("econ_var_mm2"), 1e3 * t.metric("time_s"), t.succeeded()};
+  return {t.metric("col_lung"),     t.metric("col_rib"),
+          t.metric("col_artery"),   t.metric("col_vein"),
+          t.metric("phase_1_mm"),   t.metric("phase_2"),
+          t.metric("econ_mean_mm"), t.metric("econ_var_mm2"),
+          1e3 * t.metric("time_s"), t.succeeded()};
 }
 
 bool weighsLikeThat(const PracticeTrial& trial, const assess::ScoreWeights& weights) {
   const double stored = trial.metric("total");
-  return std::abs(assess::total(valuesOf(trial), weights) - stored) <= 1e-6 * std::max(1.0, std::abs(stored));   // false for what is no number
+  return std::abs(assess::total(valuesOf(trial), weights) - stored) <=
+         1e-6 * std::max(1.0, std::abs(stored));  // false for what is no number
 }
 
 }  // namespace
@@ -77,27 +104,38 @@ std::vector<ErrorCount> errorsIn(const Series& series) {
 }
 
 std::vector<Cost> costsLately(const Series& series, const assess::ScoreWeights& w) {
-  std::vector<Cost> costs{{"col_lung"}, {"col_rib"}, {"col_artery"}, {"col_vein"}, {"phase_1_mm"}, {"phase_2"}, {"econ_mean_mm"}, {"econ_var_mm2"}, {"time_s"}};
+  std::vector<Cost> costs{{"col_lung"},     {"col_rib"},      {"col_artery"},
+                          {"col_vein"},     {"phase_1_mm"},   {"phase_2"},
+                          {"econ_mean_mm"}, {"econ_var_mm2"}, {"time_s"}};
   const std::size_t n = std::min(series.trials.size(), kLately);
   for (std::size_t i = series.trials.size() - n; i < series.trials.size(); ++i) {
     const PracticeTrial& trial = series.trials[i];
     if (!weighsLikeThat(trial, w)) return {};
     const assess::ParacentesisValues v = valuesOf(trial);
-    const double points[] = {w.lung * v.col_lung, w.rib * v.col_rib, w.artery * v.col_art, w.vein * v.col_vein, w.phase_1 * v.phase_1, w.phase_2(v.phase_2) * v.phase_2, w.econ_mean * v.econ_mean, w.econ_var * v.econ_var, w.time * v.time_ms};
-    for (std::size_t c = 0; c < costs.size(); ++c) costs[c].points += points[c] / static_cast<double>(n);
+    const double points[] = {
+        w.lung * v.col_lung,       w.rib * v.col_rib,       w.artery * v.col_art,
+        w.vein * v.col_vein,       w.phase_1 * v.phase_1,   w.phase_2(v.phase_2) * v.phase_2,
+        w.econ_mean * v.econ_mean, w.econ_var * v.econ_var, w.time * v.time_ms};
+    for (std::size_t c = 0; c < costs.size(); ++c)
+      costs[c].points += points[c] / static_cast<double>(n);
   }
   std::erase_if(costs, [](const Cost& c) { return !(c.points > 0); });
-  std::stable_sort(costs.begin(), costs.end(), [](const Cost& a, const Cost& b) { return a.points > b.points; });
+  std::stable_sort(costs.begin(), costs.end(),
+                   [](const Cost& a, const Cost& b) { return a.points > b.points; });
   return costs;
 }
 
-std::vector<NearestMiss> nearestMisses(const Series& series, const std::string& organ, std::size_t most) {
+std::vector<NearestMiss> nearestMisses(const Series& series, const std::string& organ,
+                                       std::size_t most) {
   std::vector<NearestMiss> misses;
   for (std::size_t i = 0; i < series.trials.size(); ++i) {
     const double distance = series.trials[i].metric("closest_" + organ + "_mm");
-    if (distance > 0) misses.push_back({distance, series.trials[i].metric("closest_" + organ + "_at_s"), i + 1});
+    if (distance > 0)
+      misses.push_back({distance, series.trials[i].metric("closest_" + organ + "_at_s"), i + 1});
   }
-  std::stable_sort(misses.begin(), misses.end(), [](const NearestMiss& a, const NearestMiss& b) { return a.distance_mm < b.distance_mm; });
+  std::stable_sort(misses.begin(), misses.end(), [](const NearestMiss& a, const NearestMiss& b) {
+    return a.distance_mm < b.distance_mm;
+  });
   misses.resize(std::min(misses.size(), most));
   return misses;
 }

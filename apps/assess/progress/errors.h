@@ -11,10 +11,10 @@ namespace palpa::progress {
 /// Something that goes wrong in a trial, told by its figures.
 struct ErrorKind {
   const char* metric;
-  double above;              ///< it happened when the metric is above this ...
-  bool below;                ///< ... or, where this is true, below it
-  const char* words;         ///< "the pleura was touched"
-  const char* practise;      ///< what to practise against it
+  double above;          ///< it happened when the metric is above this ...
+  bool below;            ///< ... or, where this is true, below it
+  const char* words;     ///< "the pleura was touched"
+  const char* practise;  ///< what to practise against it
 };
 
 /// Those of an engine, the gravest first.
@@ -24,8 +24,8 @@ bool happened(const ErrorKind& kind, const PracticeTrial& trial);
 /// How often an error happened in a series.
 struct ErrorCount {
   const ErrorKind* kind = nullptr;
-  int with = 0, of = 0;             ///< trials with it, trials in which it can be told
-  int lately = 0, lately_of = 0;    ///< among the last five
+  int with = 0, of = 0;           ///< trials with it, trials in which it can be told
+  int lately = 0, lately_of = 0;  ///< among the last five
   bool recurs() const { return lately >= 2; }
 };
 /// Every kind that happened at least once, in the order of the kinds.
@@ -36,16 +36,17 @@ struct Cost {
   const char* metric;
   double points = 0;
 };
-/// Means over the last five trials, the dearest first, nothing that costs nothing. Empty where these weights do not add up to the recorded totals: the task
-/// weighs otherwise.
+/// Means over the last five trials, the dearest first, nothing that costs nothing. Empty where
+/// these weights do not add up to the recorded totals: the task weighs otherwise.
 std::vector<Cost> costsLately(const Series& series, const assess::ScoreWeights& weights = {});
 
 /// The nearest miss: the smallest distance that was kept from lung or artery without touching it.
 struct NearestMiss {
   double distance_mm = 0, at_s = 0;
-  std::size_t trial = 0;            ///< of the series, from 1
+  std::size_t trial = 0;  ///< of the series, from 1
 };
 /// `organ`: "pleura", "artery". None where there is no such distance.
-std::vector<NearestMiss> nearestMisses(const Series& series, const std::string& organ, std::size_t most = 3);
+std::vector<NearestMiss> nearestMisses(const Series& series, const std::string& organ,
+                                       std::size_t most = 3);
 
 }  // namespace palpa::progress

@@ -10,9 +10,12 @@
 namespace palpa::progress {
 namespace {
 
-constexpr double kMostPasses = 3;   // a limit of three passes gave 3.9 % failures and 0.9 % arterial punctures (PMID 16937280)
+constexpr double kMostPasses =
+    3;  // a limit of three passes gave 3.9 % failures and 0.9 % arterial punctures (PMID 16937280)
 
-bool earlier(const PracticeTrial& a, const PracticeTrial& b) { return std::tie(a.trainee, a.arrival, a.number) < std::tie(b.trainee, b.arrival, b.number); }
+bool earlier(const PracticeTrial& a, const PracticeTrial& b) {
+  return std::tie(a.trainee, a.arrival, a.number) < std::tie(b.trainee, b.arrival, b.number);
+}
 
 }  // namespace
 
@@ -22,11 +25,15 @@ double PracticeTrial::metric(const std::string& name) const {
   return std::numeric_limits<double>::quiet_NaN();
 }
 
-bool counts(const PracticeTrial& trial) { return assess::countsAsScored(trial.role) && trial.outcome != "void" && !trial.metrics.empty(); }
+bool counts(const PracticeTrial& trial) {
+  return assess::countsAsScored(trial.role) && trial.outcome != "void" && !trial.metrics.empty();
+}
 
 bool failed(const PracticeTrial& trial) {
   if (!trial.succeeded()) return true;
-  return trial.engine == "needle" && (trial.metric("col_lung") > 0 || trial.metric("col_artery") > 0 || trial.metric("needle_passes") > kMostPasses);
+  return trial.engine == "needle" &&
+         (trial.metric("col_lung") > 0 || trial.metric("col_artery") > 0 ||
+          trial.metric("needle_passes") > kMostPasses);
 }
 
 std::vector<double> Series::values(const std::string& metric) const {
@@ -36,7 +43,8 @@ std::vector<double> Series::values(const std::string& metric) const {
 }
 
 std::string Series::name() const {
-  return task + (force_feedback ? "" : ", force feedback off") + (condition.empty() ? "" : ", " + condition) + (simulated ? ", simulated" : "");
+  return task + (force_feedback ? "" : ", force feedback off") +
+         (condition.empty() ? "" : ", " + condition) + (simulated ? ", simulated" : "");
 }
 
 std::vector<Series> seriesOf(const std::vector<PracticeTrial>& trials) {
@@ -44,7 +52,9 @@ std::vector<Series> seriesOf(const std::vector<PracticeTrial>& trials) {
   for (const PracticeTrial& trial : trials) {
     if (!counts(trial)) continue;
     Series& series = all[{trial.simulated, trial.task, !trial.force_feedback, trial.condition}];
-    if (series.trials.empty()) series = {trial.task, trial.engine, trial.condition, trial.simulated, trial.force_feedback, {}};
+    if (series.trials.empty())
+      series = {trial.task,      trial.engine,         trial.condition,
+                trial.simulated, trial.force_feedback, {}};
     series.trials.push_back(trial);
   }
   std::vector<Series> sorted;
@@ -52,7 +62,9 @@ std::vector<Series> seriesOf(const std::vector<PracticeTrial>& trials) {
     std::stable_sort(series.trials.begin(), series.trials.end(), earlier);
     sorted.push_back(std::move(series));
   }
-  std::stable_sort(sorted.begin(), sorted.end(), [](const Series& a, const Series& b) { return a.trials.size() > b.trials.size(); });
+  std::stable_sort(sorted.begin(), sorted.end(), [](const Series& a, const Series& b) {
+    return a.trials.size() > b.trials.size();
+  });
   return sorted;
 }
 
@@ -71,22 +83,34 @@ std::vector<Series> byTrainee(const Series& series) {
 std::string leftOut(const std::vector<PracticeTrial>& trials) {
   std::map<std::string, int> kinds;
   for (const PracticeTrial& trial : trials)
-    if (!counts(trial)) ++kinds[trial.outcome == "void" ? "void" : assess::countsAsScored(trial.role) ? "without figures" : trial.role];
+    if (!counts(trial))
+      ++kinds[trial.outcome == "void"              ? "void"
+              : assess::countsAsScored(trial.role) ? "without figures"
+                                                   : trial.role];
   std::string words;
-  for (const auto& [kind, count] : kinds) words += (words.empty() ? "" : ", ") + std::to_string(count) + ' ' + kind;
+  for (const auto& [kind, count] : kinds)
+    words += (words.empty() ? "" : ", ") + std::to_string(count) + ' ' + kind;
   return words;
 }
 
 std::string engineOfFigures(const std::vector<metrics::MetricValue>& metrics) {
-  for (const auto& [name, engine] : {std::pair{"tissue_time_s", "needle"}, std::pair{"presses", "palpation"}, std::pair{"chosen", "search"}, std::pair{"grips", "squeeze"}})
-    if (std::any_of(metrics.begin(), metrics.end(), [&](const metrics::MetricValue& m) { return m.name == name; })) return engine;
+  for (const auto& [name, engine] :
+       {std::pair{"tissue_time_s", "needle"}, std::pair{"presses", "palpation"},
+        std::pair{"chosen", "search"}, std::pair{"grips", "squeeze"}})
+    if (std::any_of(metrics.begin(), metrics.end(),
+                    [&](const metrics::MetricValue& m) { return m.name == name; }))
+      return engine;
   return "";
 }
 
 const std::vector<std::string>& shownFigures(const std::string& engine) {
   static const std::map<std::string, std::vector<std::string>> kShown{
-      {"needle", {"total", "time_s", "success", "closest_pleura_mm", "closest_artery_mm", "needle_passes", "first_pass_success", "translational_actions", "rotational_actions", "speed_at_vein_mm_s"}},
-      {"palpation", {"sensitivity_pct", "specificity_pct", "false_alarms", "coverage_medium_pct", "coverage_deep_pct", "time_s", "too_light_pct", "too_hard_pct"}},
+      {"needle",
+       {"total", "time_s", "success", "closest_pleura_mm", "closest_artery_mm", "needle_passes",
+        "first_pass_success", "translational_actions", "rotational_actions", "speed_at_vein_mm_s"}},
+      {"palpation",
+       {"sensitivity_pct", "specificity_pct", "false_alarms", "coverage_medium_pct",
+        "coverage_deep_pct", "time_s", "too_light_pct", "too_hard_pct"}},
       {"search", {"success", "time_s", "path_length_mm", "peak_force_N"}},
       {"squeeze", {"success", "time_s", "grips", "peak_force_N"}}};
   static const std::vector<std::string> kAnyTask{"success", "time_s"};

@@ -11,33 +11,35 @@ namespace palpa::progress {
 /// A trial as the records keep it, with what its session says of it. Times are UTC, ISO 8601.
 struct PracticeTrial {
   std::string trainee, group;
-  std::string task;            ///< "paracentesis", ...
-  std::string engine;          ///< "needle", "palpation", "search", "squeeze"
-  std::string started_utc;     ///< of its session, as the station's clock had it
-  std::int64_t arrival = 0;    ///< of its session, in the order in which this trainee's came
-  std::int64_t number = 0;     ///< in its session
+  std::string task;          ///< "paracentesis", ...
+  std::string engine;        ///< "needle", "palpation", "search", "squeeze"
+  std::string started_utc;   ///< of its session, as the station's clock had it
+  std::int64_t arrival = 0;  ///< of its session, in the order in which this trainee's came
+  std::int64_t number = 0;   ///< in its session
   std::string role, outcome;
   bool simulated = false, force_feedback = true;
-  std::string condition;       ///< what else differed: "cues on", "guided"; empty: nothing
+  std::string condition;  ///< what else differed: "cues on", "guided"; empty: nothing
   std::vector<metrics::MetricValue> metrics;
-  double metric(const std::string& name) const;   ///< not a number where it has none of that name
+  double metric(const std::string& name) const;  ///< not a number where it has none of that name
   bool succeeded() const { return metric("success") == 1; }
 };
 
 /// Scored and finished: everything else is counted apart.
 bool counts(const PracticeTrial& trial);
 
-/// A trial that is a failure to whoever judges practice: without success, or of a needle one that touched lung or artery or took more than three passes.
+/// A trial that is a failure to whoever judges practice: without success, or of a needle one that
+/// touched lung or artery or took more than three passes.
 bool failed(const PracticeTrial& trial);
 
-/// Trials that may stand in one figure: of one task and condition, all simulated or none, all with force feedback or all without; in the order in which
-/// they came.
+/// Trials that may stand in one figure: of one task and condition, all simulated or none, all with
+/// force feedback or all without; in the order in which they came.
 struct Series {
   std::string task, engine, condition;
   bool simulated = false, force_feedback = true;
   std::vector<PracticeTrial> trials;
-  std::vector<double> values(const std::string& metric) const;   ///< one a trial; not a number where it does not apply
-  std::string name() const;    ///< "paracentesis, force feedback off, simulated"
+  std::vector<double> values(
+      const std::string& metric) const;  ///< one a trial; not a number where it does not apply
+  std::string name() const;              ///< "paracentesis, force feedback off, simulated"
 };
 
 /// Those that count, longest series first; trials of one series by trainee, arrival and number.

@@ -36,7 +36,7 @@ std::vector<Basis> basesFor(const std::vector<double>& n, std::size_t length) {
 }
 
 struct CurveFit {
-  double a = 0, b = 0, c = 1, left = 0;   ///< left: sum of squares about it
+  double a = 0, b = 0, c = 1, left = 0;  ///< left: sum of squares about it
   double at(double trial) const { return a + b * std::exp(-(trial - 1) / c); }
 };
 
@@ -44,7 +44,8 @@ struct CurveFit {
 CurveFit fitWith(const Basis& basis, const std::vector<double>& y, double sum, double squares) {
   double product = 0;
   for (std::size_t i = 0; i < y.size(); ++i) product += basis.e[i] * y[i];
-  const double n = static_cast<double>(y.size()), spread = basis.squares - basis.sum * basis.sum / n;
+  const double n = static_cast<double>(y.size()),
+               spread = basis.squares - basis.sum * basis.sum / n;
   const double covariance = product - basis.sum * sum / n;
   const double b = spread > 1e-12 ? covariance / spread : 0;
   return {(sum - b * basis.sum) / n, b, basis.c, squares - sum * sum / n - b * covariance};
@@ -63,17 +64,23 @@ CurveFit bestFit(const std::vector<Basis>& bases, const std::vector<double>& y) 
 }
 
 /// The curve at every trial, in every draw of the residuals.
-std::vector<std::vector<double>> drawnCurves(const std::vector<Basis>& bases, const CurveFit& fit, const std::vector<double>& n, const std::vector<double>& y, std::size_t length, std::uint64_t seed) {
+std::vector<std::vector<double>> drawnCurves(const std::vector<Basis>& bases, const CurveFit& fit,
+                                             const std::vector<double>& n,
+                                             const std::vector<double>& y, std::size_t length,
+                                             std::uint64_t seed) {
   const double count = static_cast<double>(y.size()), inflate = std::sqrt(count / (count - 3));
   std::vector<double> residuals;
   for (std::size_t i = 0; i < y.size(); ++i) residuals.push_back(inflate * (y[i] - fit.at(n[i])));
   anatomy::RandomStream random(seed);
-  std::vector<std::vector<double>> curves(length + 1);   // the last: the change
+  std::vector<std::vector<double>> curves(length + 1);  // the last: the change
   for (int d = 0; d < kCurveDraws; ++d) {
     std::vector<double> drawn;
-    for (const double trial : n) drawn.push_back(fit.at(trial) + residuals[static_cast<std::size_t>(random.uniform() * count)]);
+    for (const double trial : n)
+      drawn.push_back(fit.at(trial) +
+                      residuals[static_cast<std::size_t>(random.uniform() * count)]);
     const CurveFit again = bestFit(bases, drawn);
-    for (std::size_t i = 0; i < length; ++i) curves[i].push_back(again.at(static_cast<double>(i + 1)));
+    for (std::size_t i = 0; i < length; ++i)
+      curves[i].push_back(again.at(static_cast<double>(i + 1)));
     curves[length].push_back(again.at(static_cast<double>(length)) - again.at(1));
   }
   return curves;
@@ -89,7 +96,9 @@ std::optional<LearningCurve> learningCurve(const std::vector<double>& values, st
     curve.trials.push_back(static_cast<double>(i + 1));
     y.push_back(values[i]);
   }
-  if (y.size() < kFewestForCurve || std::all_of(y.begin(), y.end(), [&](double v) { return v == y.front(); })) return std::nullopt;
+  if (y.size() < kFewestForCurve ||
+      std::all_of(y.begin(), y.end(), [&](double v) { return v == y.front(); }))
+    return std::nullopt;
   const std::vector<Basis> bases = basesFor(curve.trials, values.size());
   const CurveFit fit = bestFit(bases, y);
   curve.asymptote = fit.a;
@@ -111,12 +120,22 @@ std::optional<LearningCurve> learningCurve(const std::vector<double>& values, st
 std::optional<Change> changeOf(const std::string& metric, const std::vector<double>& values) {
   const metrics::MetricDefinition* definition = metrics::metricNamed(metric);
   std::vector<double> known;
-  std::copy_if(values.begin(), values.end(), std::back_inserter(known), [](double v) { return std::isfinite(v); });
-  if (!definition || definition->better == metrics::Better::neither || known.size() < kFewestForChange) return std::nullopt;
-  Change change{metric, std::clamp<std::size_t>(known.size() / 3, 3, 5), 0, 0, 0, 0, 0, Change::Verdict::unclear};
+  std::copy_if(values.begin(), values.end(), std::back_inserter(known),
+               [](double v) { return std::isfinite(v); });
+  if (!definition || definition->better == metrics::Better::neither ||
+      known.size() < kFewestForChange)
+    return std::nullopt;
+  Change change{metric, std::clamp<std::size_t>(known.size() / 3, 3, 5),
+                0,      0,
+                0,      0,
+                0,      Change::Verdict::unclear};
   const auto k = static_cast<std::ptrdiff_t>(change.each);
-  const std::vector<double> first(known.begin(), known.begin() + k), last(known.end() - k, known.end());
-  const statistics::BootstrapInterval interval = statistics::bootstrap({first, last}, [](const statistics::Samples& s) { return statistics::meanOf(s[1]) - statistics::meanOf(s[0]); });
+  const std::vector<double> first(known.begin(), known.begin() + k),
+      last(known.end() - k, known.end());
+  const statistics::BootstrapInterval interval =
+      statistics::bootstrap({first, last}, [](const statistics::Samples& s) {
+        return statistics::meanOf(s[1]) - statistics::meanOf(s[0]);
+      });
   change.first = statistics::meanOf(first);
   change.last = statistics::meanOf(last);
   change.difference = interval.value;
@@ -133,8 +152,10 @@ std::vector<SuccessBlock> successBlocks(const std::vector<bool>& successes, std:
   for (std::size_t from = 0; from < successes.size();) {
     const std::size_t left = successes.size() - from, length = left < 2 * size ? left : size;
     const auto begin = successes.begin() + static_cast<std::ptrdiff_t>(from);
-    const int hits = static_cast<int>(std::count(begin, begin + static_cast<std::ptrdiff_t>(length), true));
-    blocks.push_back({from + 1, from + length, hits, static_cast<int>(length), statistics::wilson(hits, static_cast<int>(length))});
+    const int hits =
+        static_cast<int>(std::count(begin, begin + static_cast<std::ptrdiff_t>(length), true));
+    blocks.push_back({from + 1, from + length, hits, static_cast<int>(length),
+                      statistics::wilson(hits, static_cast<int>(length))});
     from += length;
   }
   return blocks;

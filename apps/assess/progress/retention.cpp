@@ -11,13 +11,15 @@
 namespace palpa::progress {
 namespace {
 
-constexpr std::size_t kAroundPause = 3;   // trials on each side: more of them would relearn what was lost
+constexpr std::size_t kAroundPause =
+    3;  // trials on each side: more of them would relearn what was lost
 
 std::optional<std::chrono::year_month_day> dateIn(const std::string& iso) {
   int year = 0;
   unsigned month = 0, day = 0;
   if (std::sscanf(iso.c_str(), "%4d-%2u-%2u", &year, &month, &day) != 3) return std::nullopt;
-  const std::chrono::year_month_day date{std::chrono::year{year}, std::chrono::month{month}, std::chrono::day{day}};
+  const std::chrono::year_month_day date{std::chrono::year{year}, std::chrono::month{month},
+                                         std::chrono::day{day}};
   return date.ok() ? std::optional(date) : std::nullopt;
 }
 
@@ -28,15 +30,27 @@ std::vector<double> finite(std::vector<double> values) {
 
 RetentionGap gapAt(const Series& series, const std::string& metric, std::size_t first, int days) {
   std::vector<double> before, after;
-  for (std::size_t i = first - std::min(first, kAroundPause); i < first; ++i) before.push_back(series.trials[i].metric(metric));
-  for (std::size_t i = first; i < std::min(series.trials.size(), first + kAroundPause); ++i) after.push_back(series.trials[i].metric(metric));
+  for (std::size_t i = first - std::min(first, kAroundPause); i < first; ++i)
+    before.push_back(series.trials[i].metric(metric));
+  for (std::size_t i = first; i < std::min(series.trials.size(), first + kAroundPause); ++i)
+    after.push_back(series.trials[i].metric(metric));
   before = finite(std::move(before));
   after = finite(std::move(after));
-  RetentionGap gap{series.trials[first - 1].started_utc, series.trials[first].started_utc, days, before.size(), after.size(), statistics::meanOf(before), statistics::meanOf(after), 0, std::nullopt};
+  RetentionGap gap{series.trials[first - 1].started_utc,
+                   series.trials[first].started_utc,
+                   days,
+                   before.size(),
+                   after.size(),
+                   statistics::meanOf(before),
+                   statistics::meanOf(after),
+                   0,
+                   std::nullopt};
   const double sign = metrics::metricNamed(metric)->better == metrics::Better::lower ? 1 : -1;
   gap.loss = sign * (gap.after - gap.before);
   if (before.size() < kAroundPause || after.size() < kAroundPause) return gap;
-  const auto interval = statistics::bootstrap({before, after}, [&](const statistics::Samples& s) { return sign * (statistics::meanOf(s[1]) - statistics::meanOf(s[0])); });
+  const auto interval = statistics::bootstrap({before, after}, [&](const statistics::Samples& s) {
+    return sign * (statistics::meanOf(s[1]) - statistics::meanOf(s[0]));
+  });
   gap.interval = {interval.low, interval.high};
   return gap;
 }
@@ -55,7 +69,8 @@ std::string monthsLater(const std::string& date, int months) {
   std::chrono::year_month_day later = *from + std::chrono::months(months);
   if (!later.ok()) later = later.year() / later.month() / std::chrono::last;
   char text[32];
-  std::snprintf(text, sizeof text, "%04d-%02u-%02u", static_cast<int>(later.year()), static_cast<unsigned>(later.month()), static_cast<unsigned>(later.day()));
+  std::snprintf(text, sizeof text, "%04d-%02u-%02u", static_cast<int>(later.year()),
+                static_cast<unsigned>(later.month()), static_cast<unsigned>(later.day()));
   return text;
 }
 
@@ -64,9 +79,12 @@ std::vector<RetentionGap> retentionGaps(const Series& series, const std::string&
   const metrics::MetricDefinition* definition = metrics::metricNamed(metric);
   if (!definition || definition->better == metrics::Better::neither) return gaps;
   for (std::size_t i = 1; i < series.trials.size(); ++i) {
-    const std::optional<int> days = daysBetween(series.trials[i - 1].started_utc, series.trials[i].started_utc);
+    const std::optional<int> days =
+        daysBetween(series.trials[i - 1].started_utc, series.trials[i].started_utc);
     if (!days || *days < kShortestPause_days) continue;
-    if (const RetentionGap gap = gapAt(series, metric, i, *days); gap.before_n > 0 && gap.after_n > 0) gaps.push_back(gap);
+    if (const RetentionGap gap = gapAt(series, metric, i, *days);
+        gap.before_n > 0 && gap.after_n > 0)
+      gaps.push_back(gap);
   }
   return gaps;
 }

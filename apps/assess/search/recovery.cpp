@@ -8,7 +8,7 @@ namespace palpa::assess {
 namespace {
 
 constexpr int kResamples = 10'000;
-constexpr std::size_t kBeyond = kResamples / 40;            // 2.5 % of the resamples lie beyond either end
+constexpr std::size_t kBeyond = kResamples / 40;  // 2.5 % of the resamples lie beyond either end
 constexpr double kNoEnd = std::numeric_limits<double>::infinity();
 
 struct FoundOf {
@@ -36,16 +36,21 @@ double resampledShare(const FoundOf& seen, anatomy::RandomStream& random) {
 }  // namespace
 
 std::optional<Recovery> recoveryOf(const std::vector<SearchTrial>& trials, std::uint64_t seed) {
-  const FoundOf real = foundIn(trials, SearchMode::real), degraded = foundIn(trials, SearchMode::degraded), augmented = foundIn(trials, SearchMode::augmented);
-  if (real.of == 0 || degraded.of == 0 || augmented.of == 0 || !(real.share() > degraded.share())) return std::nullopt;
-  Recovery recovery{(augmented.share() - degraded.share()) / (real.share() - degraded.share()), -kNoEnd, kNoEnd};
+  const FoundOf real = foundIn(trials, SearchMode::real),
+                degraded = foundIn(trials, SearchMode::degraded),
+                augmented = foundIn(trials, SearchMode::augmented);
+  if (real.of == 0 || degraded.of == 0 || augmented.of == 0 || !(real.share() > degraded.share()))
+    return std::nullopt;
+  Recovery recovery{(augmented.share() - degraded.share()) / (real.share() - degraded.share()),
+                    -kNoEnd, kNoEnd};
   anatomy::RandomStream random(seed);
   std::vector<double> shares;
   for (int i = 0; i < kResamples; ++i) {
-    const double r = resampledShare(real, random), d = resampledShare(degraded, random), a = resampledShare(augmented, random);
+    const double r = resampledShare(real, random), d = resampledShare(degraded, random),
+                 a = resampledShare(augmented, random);
     if (r > d) shares.push_back((a - d) / (r - d));
   }
-  const std::size_t without = kResamples - shares.size();   // a ratio
+  const std::size_t without = kResamples - shares.size();  // a ratio
   if (without > kBeyond) return recovery;
   std::sort(shares.begin(), shares.end());
   recovery.low = shares[kBeyond - without];

@@ -8,11 +8,14 @@
 namespace palpa::assess {
 namespace {
 
-bool sameKind(const SearchTrial& trial, const SearchTally& tally) { return counts(trial) && trial.mode == tally.mode && trial.block == tally.block; }
+bool sameKind(const SearchTrial& trial, const SearchTally& tally) {
+  return counts(trial) && trial.mode == tally.mode && trial.block == tally.block;
+}
 
 void fill(SearchTally& tally, const std::vector<SearchTrial>& trials) {
   std::vector<SearchTrial> alike;
-  std::copy_if(trials.begin(), trials.end(), std::back_inserter(alike), [&](const SearchTrial& trial) { return sameKind(trial, tally); });
+  std::copy_if(trials.begin(), trials.end(), std::back_inserter(alike),
+               [&](const SearchTrial& trial) { return sameKind(trial, tally); });
   tally.episodes = static_cast<int>(alike.size());
   for (const SearchTrial& trial : alike) {
     tally.chosen += chose(trial);
@@ -41,7 +44,9 @@ std::vector<SearchTally> talliesOf(const std::vector<SearchTrial>& trials) {
   std::vector<SearchTally> tallies;
   for (const SearchTrial& trial : trials) {
     if (!counts(trial)) continue;
-    if (std::any_of(tallies.begin(), tallies.end(), [&](const SearchTally& tally) { return sameKind(trial, tally); })) continue;
+    if (std::any_of(tallies.begin(), tallies.end(),
+                    [&](const SearchTally& tally) { return sameKind(trial, tally); }))
+      continue;
     SearchTally& tally = tallies.emplace_back();
     tally.mode = trial.mode;
     tally.block = trial.block;

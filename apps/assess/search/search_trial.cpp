@@ -5,9 +5,12 @@ namespace palpa::assess {
 
 const char* name(SearchMode mode) {
   switch (mode) {
-    case SearchMode::degraded: return "degraded";
-    case SearchMode::augmented: return "augmented";
-    default: return "real";
+    case SearchMode::degraded:
+      return "degraded";
+    case SearchMode::augmented:
+      return "augmented";
+    default:
+      return "real";
   }
 }
 
@@ -17,7 +20,9 @@ std::optional<SearchMode> searchModeOf(const std::string& text) {
   return std::nullopt;
 }
 
-bool counts(const SearchTrial& trial) { return countsAsScored(trial.role) && trial.outcome != "void"; }
+bool counts(const SearchTrial& trial) {
+  return countsAsScored(trial.role) && trial.outcome != "void";
+}
 
 bool chose(const SearchTrial& trial) { return trial.outcome == "done" && trial.chosen >= 0; }
 
@@ -27,7 +32,8 @@ std::string summaryOf(const SearchTrial& trial) {
   if (trial.outcome == "aborted") return "Aborted before the probe stayed in a pit.";
   if (!chose(trial)) return "The probe stayed in no pit.";
   const std::string after = " after " + std::to_string(std::lround(trial.seconds)) + " s.";
-  return trial.found() ? "Found: the probe stayed in the target's pit" + after : "Not found: the probe stayed in the pit of another element" + after;
+  return trial.found() ? "Found: the probe stayed in the target's pit" + after
+                       : "Not found: the probe stayed in the pit of another element" + after;
 }
 
 }  // namespace palpa::assess

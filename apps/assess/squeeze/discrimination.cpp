@@ -8,18 +8,22 @@ namespace palpa::assess {
 namespace {
 
 constexpr int kFewestAnswers = 8;
-constexpr double kLeastSd = 0.005, kMostSd = 5;   // of ln: from what nobody tells to what nobody misses
+constexpr double kLeastSd = 0.005,
+                 kMostSd = 5;  // of ln: from what nobody tells to what nobody misses
 constexpr int kSteps = 600;
-constexpr double kWilks = 1.9207;                 // half of chi-squared's 95 % for one parameter
+constexpr double kWilks = 1.9207;  // half of chi-squared's 95 % for one parameter
 
 double phi(double z) { return 0.5 * std::erfc(-z / std::numbers::sqrt2); }
 
-double sdAt(int step) { return kLeastSd * std::pow(kMostSd / kLeastSd, static_cast<double>(step) / kSteps); }
+double sdAt(int step) {
+  return kLeastSd * std::pow(kMostSd / kLeastSd, static_cast<double>(step) / kSteps);
+}
 
 double likelihood(const std::vector<SharesAtRatio>& shares, double sd) {
   double sum = 0;
   for (const SharesAtRatio& share : shares) {
-    const double p = std::clamp(phi(std::log(share.ratio) / (std::numbers::sqrt2 * sd)), 1e-12, 1 - 1e-12);
+    const double p =
+        std::clamp(phi(std::log(share.ratio) / (std::numbers::sqrt2 * sd)), 1e-12, 1 - 1e-12);
     sum += share.right * std::log(p) + (share.of - share.right) * std::log(1 - p);
   }
   return sum;
@@ -45,19 +49,24 @@ std::optional<Threshold> thresholdOf(const Discrimination& answers) {
 
 }  // namespace
 
-Discrimination discriminationIn(const std::vector<SqueezeTrial>& trials, SqueezedProperty property) {
-  constexpr double kSame = 1e-3;     // a third more, or two thirds of it: files round
+Discrimination discriminationIn(const std::vector<SqueezeTrial>& trials,
+                                SqueezedProperty property) {
+  constexpr double kSame = 1e-3;  // a third more, or two thirds of it: files round
   Discrimination all;
   for (const SqueezeTrial& trial : trials) {
     if (trial.property != property || !trial.answered()) continue;
-    const auto at = std::find_if(all.shares.begin(), all.shares.end(), [&](const SharesAtRatio& share) { return std::abs(share.ratio - trial.ratio()) < kSame; });
-    SharesAtRatio& share = at != all.shares.end() ? *at : all.shares.emplace_back(SharesAtRatio{trial.ratio(), 0, 0});
+    const auto at = std::find_if(
+        all.shares.begin(), all.shares.end(),
+        [&](const SharesAtRatio& share) { return std::abs(share.ratio - trial.ratio()) < kSame; });
+    SharesAtRatio& share =
+        at != all.shares.end() ? *at : all.shares.emplace_back(SharesAtRatio{trial.ratio(), 0, 0});
     share.right += trial.right();
     ++share.of;
     all.right += trial.right();
     ++all.of;
   }
-  std::sort(all.shares.begin(), all.shares.end(), [](const SharesAtRatio& a, const SharesAtRatio& b) { return a.ratio < b.ratio; });
+  std::sort(all.shares.begin(), all.shares.end(),
+            [](const SharesAtRatio& a, const SharesAtRatio& b) { return a.ratio < b.ratio; });
   all.threshold = thresholdOf(all);
   return all;
 }

@@ -22,14 +22,16 @@ double roundingOf(const std::vector<double>& values) {
 }  // namespace
 
 double fTail(double f, double d1, double d2) {
-  if (!(d1 > 0 && d2 > 0 && f >= 0)) throw Error("F and its degrees of freedom must be positive", kAnova, "Check the figures");
+  if (!(d1 > 0 && d2 > 0 && f >= 0))
+    throw Error("F and its degrees of freedom must be positive", kAnova, "Check the figures");
   return boost::math::cdf(boost::math::complement(boost::math::fisher_f(d1, d2), f));
 }
 
 Anova oneWayAnova(const std::vector<std::vector<double>>& groups) {
   std::vector<double> all, means;
   for (const std::vector<double>& group : groups) {
-    if (group.empty()) throw Error("a group has no values", kAnova, "Leave it out or collect trials");
+    if (group.empty())
+      throw Error("a group has no values", kAnova, "Leave it out or collect trials");
     all.insert(all.end(), group.begin(), group.end());
     means.push_back(describe(group).mean);
   }
@@ -39,13 +41,16 @@ Anova oneWayAnova(const std::vector<std::vector<double>>& groups) {
   Anova anova;
   const double grand = meanOf(all);
   for (std::size_t g = 0; g < groups.size(); ++g) {
-    anova.squares_between += static_cast<double>(groups[g].size()) * (means[g] - grand) * (means[g] - grand);
+    anova.squares_between +=
+        static_cast<double>(groups[g].size()) * (means[g] - grand) * (means[g] - grand);
     for (const double v : groups[g]) anova.squares_within += (v - means[g]) * (v - means[g]);
   }
-  if (!(anova.squares_within > roundingOf(all))) throw Error("nothing varies within the groups", kAnova, "Constant values cannot be tested");
+  if (!(anova.squares_within > roundingOf(all)))
+    throw Error("nothing varies within the groups", kAnova, "Constant values cannot be tested");
   anova.degrees_between = static_cast<double>(groups.size()) - 1;
   anova.degrees_within = static_cast<double>(all.size() - groups.size());
-  const double within = anova.squares_within / anova.degrees_within, total = anova.squares_between + anova.squares_within;
+  const double within = anova.squares_within / anova.degrees_within,
+               total = anova.squares_between + anova.squares_within;
   anova.f = anova.squares_between / anova.degrees_between / within;
   anova.p = fTail(anova.f, anova.degrees_between, anova.degrees_within);
   anova.eta_squared = anova.squares_between / total;

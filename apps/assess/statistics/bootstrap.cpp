@@ -18,13 +18,15 @@ void require(const Samples& samples, const BootstrapSettings& settings) {
   for (const std::vector<double>& sample : samples)
     if (sample.empty()) throw Error("a sample has no values", kBootstrap, "Collect more trials");
   if (settings.draws < 200 || !(settings.level > 0 && settings.level < 1))
-    throw Error("needs 200 draws or more and a level between 0 and 1", kBootstrap, "Check the settings");
+    throw Error("needs 200 draws or more and a level between 0 and 1", kBootstrap,
+                "Check the settings");
 }
 
 void draw(const Samples& samples, anatomy::RandomStream& random, Samples& drawn) {
   for (std::size_t s = 0; s < samples.size(); ++s)
     for (double& value : drawn[s])
-      value = samples[s][static_cast<std::size_t>(random.uniform() * static_cast<double>(samples[s].size()))];
+      value = samples[s][static_cast<std::size_t>(random.uniform() *
+                                                  static_cast<double>(samples[s].size()))];
 }
 
 /// Skewness of the figure's jackknife values over 6: how its spread changes with it.
@@ -51,7 +53,9 @@ double accelerationOf(const Samples& samples, const std::function<double(const S
 
 }  // namespace
 
-BootstrapInterval bootstrap(const Samples& samples, const std::function<double(const Samples&)>& figure, const BootstrapSettings& settings) {
+BootstrapInterval bootstrap(const Samples& samples,
+                            const std::function<double(const Samples&)>& figure,
+                            const BootstrapSettings& settings) {
   require(samples, settings);
   anatomy::RandomStream random(settings.seed);
   BootstrapInterval interval{figure(samples), 0, 0};
@@ -63,22 +67,28 @@ BootstrapInterval bootstrap(const Samples& samples, const std::function<double(c
     f = figure(drawn);
     below += f < interval.value ? 1 : f == interval.value ? 0.5 : 0;
   }
-  if (std::all_of(figures.begin(), figures.end(), [&](double f) { return f == interval.value; })) return {interval.value, interval.value, interval.value};
+  if (std::all_of(figures.begin(), figures.end(), [&](double f) { return f == interval.value; }))
+    return {interval.value, interval.value, interval.value};
 
   const boost::math::normal normal;
-  const double draws = settings.draws, share = std::clamp(below / draws, 0.5 / draws, 1 - 0.5 / draws);
-  const double bias = boost::math::quantile(normal, share), acceleration = accelerationOf(samples, figure);
+  const double draws = settings.draws,
+               share = std::clamp(below / draws, 0.5 / draws, 1 - 0.5 / draws);
+  const double bias = boost::math::quantile(normal, share),
+               acceleration = accelerationOf(samples, figure);
   const auto end = [&](double tail) {
     const double z = bias + boost::math::quantile(normal, tail);
-    return quantileOf(figures, boost::math::cdf(normal, bias + z / std::max(1e-3, 1 - acceleration * z)));
+    return quantileOf(figures,
+                      boost::math::cdf(normal, bias + z / std::max(1e-3, 1 - acceleration * z)));
   };
   interval.low = end((1 - settings.level) / 2);
   interval.high = end((1 + settings.level) / 2);
   return interval;
 }
 
-BootstrapInterval bootstrapMean(const std::vector<double>& values, const BootstrapSettings& settings) {
-  return bootstrap({values}, [](const Samples& s) { return meanOf(s[0]); }, settings);
+BootstrapInterval bootstrapMean(const std::vector<double>& values,
+                                const BootstrapSettings& settings) {
+  return bootstrap(
+      {values}, [](const Samples& s) { return meanOf(s[0]); }, settings);
 }
 
 }  // namespace palpa::statistics

@@ -10,7 +10,7 @@
 namespace palpa::statistics {
 namespace {
 
-constexpr double kAsLikely = 1 + 1e-7;   // probabilities of equally likely tables differ by rounding
+constexpr double kAsLikely = 1 + 1e-7;  // probabilities of equally likely tables differ by rounding
 
 void requireCounts(const std::vector<int>& counts, const char* where) {
   for (const int c : counts)
@@ -41,8 +41,10 @@ double sumOf(const std::vector<int>& counts) {
 
 FisherTest fisherExact(int a, int b, int c, int d) {
   requireCounts({a, b, c, d}, "Fisher's exact test");
-  if (a + b + c + d == 0) throw Error("the table is empty", "Fisher's exact test", "Collect more trials");
-  const auto row = static_cast<unsigned>(a + b), column = static_cast<unsigned>(a + c), all = static_cast<unsigned>(a + b + c + d);
+  if (a + b + c + d == 0)
+    throw Error("the table is empty", "Fisher's exact test", "Collect more trials");
+  const auto row = static_cast<unsigned>(a + b), column = static_cast<unsigned>(a + c),
+             all = static_cast<unsigned>(a + b + c + d);
   const boost::math::hypergeometric_distribution<> tables(row, column, all);
   const double here = boost::math::pdf(tables, static_cast<unsigned>(a));
   const auto [first, last] = boost::math::support(tables);
@@ -61,10 +63,14 @@ ChiSquareTest chiSquare(const std::vector<std::vector<int>>& table) {
   constexpr char kWhere[] = "chi-square test";
   for (const std::vector<int>& row : table) {
     requireCounts(row, kWhere);
-    if (row.size() != table[0].size()) throw Error("rows are of unlike length", kWhere, "Check the table");
+    if (row.size() != table[0].size())
+      throw Error("rows are of unlike length", kWhere, "Check the table");
   }
-  const std::vector<std::vector<int>> columns = withoutEmpty(transposed(withoutEmpty(table))), rows = transposed(columns);
-  if (rows.size() < 2 || columns.size() < 2) throw Error("needs two rows and two columns that hold something", kWhere, "Collect more trials");
+  const std::vector<std::vector<int>> columns = withoutEmpty(transposed(withoutEmpty(table))),
+                                      rows = transposed(columns);
+  if (rows.size() < 2 || columns.size() < 2)
+    throw Error("needs two rows and two columns that hold something", kWhere,
+                "Collect more trials");
 
   double all = 0;
   for (const std::vector<int>& row : rows) all += sumOf(row);
@@ -78,7 +84,8 @@ ChiSquareTest chiSquare(const std::vector<std::vector<int>>& table) {
     }
   const double smaller = static_cast<double>(std::min(rows.size(), columns.size())) - 1;
   test.degrees = static_cast<double>((rows.size() - 1) * (columns.size() - 1));
-  test.p = boost::math::cdf(boost::math::complement(boost::math::chi_squared(test.degrees), test.chi_square));
+  test.p = boost::math::cdf(
+      boost::math::complement(boost::math::chi_squared(test.degrees), test.chi_square));
   test.cramers_v = std::sqrt(test.chi_square / (all * smaller));
   return test;
 }

@@ -14,12 +14,14 @@ constexpr char kPlanning[] = "planning of a study";
 constexpr int kMostSubjects = 1000000;
 
 void requireLevel(double level) {
-  if (!(level > 0 && level < 1)) throw Error("the level must be between 0 and 1", kPlanning, "0.05 is usual");
+  if (!(level > 0 && level < 1))
+    throw Error("the level must be between 0 and 1", kPlanning, "0.05 is usual");
 }
 
 double powerOf(double shift, double degrees, double level, Tails tails) {
   const double beyond = tails == Tails::two ? level / 2 : level;
-  const double critical = boost::math::quantile(boost::math::complement(boost::math::students_t(degrees), beyond));
+  const double critical =
+      boost::math::quantile(boost::math::complement(boost::math::students_t(degrees), beyond));
   const boost::math::non_central_t distribution(degrees, std::abs(shift));
   const double found = boost::math::cdf(boost::math::complement(distribution, critical));
   return tails == Tails::two ? found + boost::math::cdf(distribution, -critical) : found;
@@ -27,8 +29,11 @@ double powerOf(double shift, double degrees, double level, Tails tails) {
 
 void requirePower(double effect, double power, double level) {
   requireLevel(level);
-  if (!(std::abs(effect) > 0)) throw Error("without an effect no number of subjects will do", kPlanning, "Say how large a difference matters");
-  if (!(power > level && power < 1)) throw Error("the power must lie between the level and 1", kPlanning, "0.8 or 0.9 is usual");
+  if (!(std::abs(effect) > 0))
+    throw Error("without an effect no number of subjects will do", kPlanning,
+                "Say how large a difference matters");
+  if (!(power > level && power < 1))
+    throw Error("the power must lie between the level and 1", kPlanning, "0.8 or 0.9 is usual");
 }
 
 }  // namespace
@@ -48,11 +53,13 @@ double powerOfPairs(double effect, double n, double level, Tails tails) {
 int subjectsPerGroup(double effect, double power, double level, Tails tails) {
   requirePower(effect, power, level);
   const auto enough = [&](int n) { return powerOfTwoGroups(effect, n, n, level, tails) >= power; };
-  int few = 1, many = 2;   // not enough, and a guess
+  int few = 1, many = 2;  // not enough, and a guess
   while (!enough(many)) {
     few = many;
     many *= 2;
-    if (many > kMostSubjects) throw Error("more than a million subjects would be needed", kPlanning, "Such an effect cannot be shown");
+    if (many > kMostSubjects)
+      throw Error("more than a million subjects would be needed", kPlanning,
+                  "Such an effect cannot be shown");
   }
   while (many - few > 1) {
     const int middle = few + (many - few) / 2;
@@ -61,14 +68,19 @@ int subjectsPerGroup(double effect, double power, double level, Tails tails) {
   return many;
 }
 
-int subjectsPerGroupForRates(double rate_a, double rate_b, double power, double level, Tails tails) {
-  if (!(rate_a >= 0 && rate_a <= 1 && rate_b >= 0 && rate_b <= 1)) throw Error("a rate must be between 0 and 1", kPlanning, "0.8 is 80 %");
+int subjectsPerGroupForRates(double rate_a, double rate_b, double power, double level,
+                             Tails tails) {
+  if (!(rate_a >= 0 && rate_a <= 1 && rate_b >= 0 && rate_b <= 1))
+    throw Error("a rate must be between 0 and 1", kPlanning, "0.8 is 80 %");
   const double h = 2 * std::asin(std::sqrt(rate_a)) - 2 * std::asin(std::sqrt(rate_b));
   requirePower(h, power, level);
   const boost::math::normal normal;
-  const double z = boost::math::quantile(normal, power) + boost::math::quantile(normal, 1 - (tails == Tails::two ? level / 2 : level));
+  const double z = boost::math::quantile(normal, power) +
+                   boost::math::quantile(normal, 1 - (tails == Tails::two ? level / 2 : level));
   const double n = std::ceil(2 * z * z / (h * h));
-  if (n > kMostSubjects) throw Error("more than a million subjects would be needed", kPlanning, "Such an effect cannot be shown");
+  if (n > kMostSubjects)
+    throw Error("more than a million subjects would be needed", kPlanning,
+                "Such an effect cannot be shown");
   return static_cast<int>(n);
 }
 

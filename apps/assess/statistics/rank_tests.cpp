@@ -12,7 +12,8 @@ namespace {
 
 constexpr std::size_t kExactBelow = 50;
 
-/// Share of all choices of `chosen` among 1 .. n whose sum is s, for each s: how U is distributed when nothing differs.
+/// Share of all choices of `chosen` among 1 .. n whose sum is s, for each s: how U is distributed
+/// when nothing differs.
 std::vector<double> sumsOfChoices(std::size_t n, std::size_t chosen) {
   const std::size_t most = n * (n + 1) / 2;
   std::vector<std::vector<double>> ways(chosen + 1, std::vector<double>(most + 1, 0));
@@ -56,7 +57,8 @@ void fillNormal(RankTest& test, double from_mean, double sd) {
 }  // namespace
 
 RankTest mannWhitney(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.empty() || b.empty()) throw Error("a sample has no values", "Mann-Whitney test", "Collect more trials");
+  if (a.empty() || b.empty())
+    throw Error("a sample has no values", "Mann-Whitney test", "Collect more trials");
   std::vector<double> all = a;
   all.insert(all.end(), b.begin(), b.end());
   const Ranks ranks = ranksOf(all);
@@ -67,18 +69,23 @@ RankTest mannWhitney(const std::vector<double>& a, const std::vector<double>& b)
   test.statistic = sum - na * (na + 1) / 2;
   test.effect = 2 * test.statistic / (na * nb) - 1;
   if (ranks.ties == 0 && a.size() < kExactBelow && b.size() < kExactBelow)
-    fillExact(test, sumsOfChoices(all.size(), a.size()), static_cast<std::size_t>(std::lround(sum)));
+    fillExact(test, sumsOfChoices(all.size(), a.size()),
+              static_cast<std::size_t>(std::lround(sum)));
   else
-    fillNormal(test, test.statistic - na * nb / 2, std::sqrt(na * nb / 12 * (n + 1 - ranks.ties / (n * (n - 1)))));
+    fillNormal(test, test.statistic - na * nb / 2,
+               std::sqrt(na * nb / 12 * (n + 1 - ranks.ties / (n * (n - 1)))));
   return test;
 }
 
 RankTest wilcoxon(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.size() != b.size()) throw Error("the samples are not pairs", "Wilcoxon test", "Leave out whoever lacks one of the two values");
+  if (a.size() != b.size())
+    throw Error("the samples are not pairs", "Wilcoxon test",
+                "Leave out whoever lacks one of the two values");
   std::vector<double> differences, sizes;
   for (std::size_t i = 0; i < a.size(); ++i)
     if (a[i] != b[i]) differences.push_back(a[i] - b[i]);
-  if (differences.empty()) throw Error("no pair differs", "Wilcoxon test", "Equal values cannot be tested");
+  if (differences.empty())
+    throw Error("no pair differs", "Wilcoxon test", "Equal values cannot be tested");
   for (const double d : differences) sizes.push_back(std::abs(d));
   const Ranks ranks = ranksOf(sizes);
   const double n = static_cast<double>(sizes.size()), most = n * (n + 1) / 2;
@@ -88,9 +95,11 @@ RankTest wilcoxon(const std::vector<double>& a, const std::vector<double>& b) {
   test.effect = 2 * test.statistic / most - 1;
   const bool none_left_out = sizes.size() == a.size();
   if (ranks.ties == 0 && none_left_out && sizes.size() < kExactBelow)
-    fillExact(test, sumsOfSigns(sizes.size()), static_cast<std::size_t>(std::lround(test.statistic)));
+    fillExact(test, sumsOfSigns(sizes.size()),
+              static_cast<std::size_t>(std::lround(test.statistic)));
   else
-    fillNormal(test, test.statistic - most / 2, std::sqrt(n * (n + 1) * (2 * n + 1) / 24 - ranks.ties / 48));
+    fillNormal(test, test.statistic - most / 2,
+               std::sqrt(n * (n + 1) * (2 * n + 1) / 24 - ranks.ties / 48));
   return test;
 }
 

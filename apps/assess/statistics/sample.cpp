@@ -14,7 +14,8 @@ constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
 void requireFinite(const std::vector<double>& values, const std::string& where) {
   for (const double v : values)
-    if (!std::isfinite(v)) throw Error("a value is not a number", where, "Leave trials without a value out");
+    if (!std::isfinite(v))
+      throw Error("a value is not a number", where, "Leave trials without a value out");
 }
 
 double sdOf(const std::vector<double>& values, double mean) {
@@ -38,7 +39,8 @@ double meanOf(const std::vector<double>& values) {
 }
 
 Moments momentsOf(const std::vector<double>& values, const std::string& where) {
-  if (values.size() < 2) throw Error("there are fewer than two values", where, "Collect more trials");
+  if (values.size() < 2)
+    throw Error("there are fewer than two values", where, "Collect more trials");
   requireFinite(values, where);
   const double mean = meanOf(values);
   return {mean, sdOf(values, mean), static_cast<double>(values.size())};
@@ -56,17 +58,23 @@ Description describe(const std::vector<double>& values) {
   std::vector<double> sorted = values;
   std::sort(sorted.begin(), sorted.end());
   const double mean = meanOf(values);
-  return {values.size(), mean, sdOf(values, mean), between(sorted, 0.5), between(sorted, 0.25), between(sorted, 0.75), sorted.front(), sorted.back()};
+  return {values.size(),         mean,
+          sdOf(values, mean),    between(sorted, 0.5),
+          between(sorted, 0.25), between(sorted, 0.75),
+          sorted.front(),        sorted.back()};
 }
 
 Ranks ranksOf(const std::vector<double>& values) {
   std::vector<std::size_t> order(values.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
-  std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return values[a] < values[b]; });
   Ranks ranks{std::vector<double>(values.size()), 0};
   for (std::size_t first = 0, last; first < order.size(); first = last) {
-    for (last = first + 1; last < order.size() && values[order[last]] == values[order[first]];) ++last;
-    const double t = static_cast<double>(last - first), shared = (static_cast<double>(first + last) + 1) / 2;
+    for (last = first + 1; last < order.size() && values[order[last]] == values[order[first]];)
+      ++last;
+    const double t = static_cast<double>(last - first),
+                 shared = (static_cast<double>(first + last) + 1) / 2;
     for (std::size_t i = first; i < last; ++i) ranks.of[order[i]] = shared;
     ranks.ties += t * t * t - t;
   }

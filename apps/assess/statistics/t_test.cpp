@@ -15,7 +15,8 @@ constexpr char kTTest[] = "t-test";
 /// `size`: of the values; what rounding alone may leave of it is no variance.
 void requireVariance(double variance, double size) {
   constexpr double kDigits = 8 * std::numeric_limits<double>::epsilon();
-  if (!(variance > kDigits * kDigits * size * size)) throw Error("nothing varies in the values", kTTest, "Constant values cannot be tested");
+  if (!(variance > kDigits * kDigits * size * size))
+    throw Error("nothing varies in the values", kTTest, "Constant values cannot be tested");
 }
 
 /// `sd`: of the values, for the effect; `error`: of the difference.
@@ -42,7 +43,8 @@ double pooledVariance(const Moments& a, const Moments& b) {
 }
 
 void require(const Moments& a, const Moments& b) {
-  if (!(a.n >= 2 && b.n >= 2)) throw Error("there are fewer than two values", kTTest, "Collect more trials");
+  if (!(a.n >= 2 && b.n >= 2))
+    throw Error("there are fewer than two values", kTTest, "Collect more trials");
   requireVariance(a.sd * a.sd + b.sd * b.sd, std::max(std::abs(a.mean), std::abs(b.mean)));
 }
 
@@ -64,7 +66,9 @@ TTest pooledFromMoments(const Moments& a, const Moments& b) {
 }
 
 TTest paired(const std::vector<double>& a, const std::vector<double>& b) {
-  if (a.size() != b.size()) throw Error("the samples are not pairs", kTTest, "Leave out whoever lacks one of the two values");
+  if (a.size() != b.size())
+    throw Error("the samples are not pairs", kTTest,
+                "Leave out whoever lacks one of the two values");
   std::vector<double> differences(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) differences[i] = a[i] - b[i];
   const Moments d = momentsOf(differences, kTTest);
@@ -72,7 +76,11 @@ TTest paired(const std::vector<double>& a, const std::vector<double>& b) {
   return testOf(meanOf(a), meanOf(b), d.sd, d.sd / std::sqrt(d.n), d.n - 1);
 }
 
-TTest welch(const std::vector<double>& a, const std::vector<double>& b) { return welchFromMoments(momentsOf(a, kTTest), momentsOf(b, kTTest)); }
-TTest pooled(const std::vector<double>& a, const std::vector<double>& b) { return pooledFromMoments(momentsOf(a, kTTest), momentsOf(b, kTTest)); }
+TTest welch(const std::vector<double>& a, const std::vector<double>& b) {
+  return welchFromMoments(momentsOf(a, kTTest), momentsOf(b, kTTest));
+}
+TTest pooled(const std::vector<double>& a, const std::vector<double>& b) {
+  return pooledFromMoments(momentsOf(a, kTTest), momentsOf(b, kTTest));
+}
 
 }  // namespace palpa::statistics

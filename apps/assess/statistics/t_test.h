@@ -10,22 +10,24 @@ namespace palpa::statistics {
 struct TTest {
   double mean_a = 0, mean_b = 0;
   double difference = 0;
-  double low = 0, high = 0;      ///< 95 % interval of the difference
+  double low = 0, high = 0;  ///< 95 % interval of the difference
   double t = 0, degrees = 0;
-  double p_less = 1;             ///< one-tailed: a is smaller than b
-  double p_greater = 1;          ///< one-tailed: a is larger than b
+  double p_less = 1;     ///< one-tailed: a is smaller than b
+  double p_greater = 1;  ///< one-tailed: a is larger than b
   double p_two_sided = 1;
-  /// Size of the effect: difference / standard deviation x (1 - 3 / (4 df - 1)), Hedges 1981; the standard deviation pooled over both
-  /// samples, for pairs that of their differences.
+  /// Size of the effect: difference / standard deviation x (1 - 3 / (4 df - 1)), Hedges 1981; the
+  /// standard deviation pooled over both samples, for pairs that of their differences.
   double effect = 0;
 };
 
-/// Two independent samples of unequal variance: t = (m_a - m_b) / sqrt(s_a^2/n_a + s_b^2/n_b), degrees after Welch and Satterthwaite.
-/// Source: Welch, Biometrika 34, 1947. All of these throw Error for fewer than two values in a sample and where nothing varies.
+/// Two independent samples of unequal variance: t = (m_a - m_b) / sqrt(s_a^2/n_a + s_b^2/n_b),
+/// degrees after Welch and Satterthwaite. Source: Welch, Biometrika 34, 1947. All of these throw
+/// Error for fewer than two values in a sample and where nothing varies.
 TTest welchFromMoments(const Moments& a, const Moments& b);
 TTest welch(const std::vector<double>& a, const std::vector<double>& b);
 
-/// Two independent samples of one variance: pooled, n_a + n_b - 2 degrees. Source: Student, Biometrika 6, 1908.
+/// Two independent samples of one variance: pooled, n_a + n_b - 2 degrees. Source: Student,
+/// Biometrika 6, 1908.
 TTest pooledFromMoments(const Moments& a, const Moments& b);
 TTest pooled(const std::vector<double>& a, const std::vector<double>& b);
 

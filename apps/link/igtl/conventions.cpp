@@ -19,9 +19,13 @@ Mat4 toWire(const Pose& X) {
 }
 
 std::optional<Pose> fromWire(const Mat4& X_mm) {
-  if (!X_mm.allFinite() || (X_mm.row(3) - Mat4::Identity().row(3)).cwiseAbs().maxCoeff() > kRotationError) return std::nullopt;
+  if (!X_mm.allFinite() ||
+      (X_mm.row(3) - Mat4::Identity().row(3)).cwiseAbs().maxCoeff() > kRotationError)
+    return std::nullopt;
   const Mat3 R = X_mm.topLeftCorner<3, 3>();
-  if ((R.transpose() * R - Mat3::Identity()).cwiseAbs().maxCoeff() > kRotationError || R.determinant() < 0) return std::nullopt;
+  if ((R.transpose() * R - Mat3::Identity()).cwiseAbs().maxCoeff() > kRotationError ||
+      R.determinant() < 0)
+    return std::nullopt;
   const Vec3 p_mm = X_mm.topRightCorner<3, 1>();
   if (p_mm.cwiseAbs().maxCoeff() > kFarthest_mm) return std::nullopt;
   const Eigen::JacobiSVD<Mat3> svd(R, Eigen::ComputeFullU | Eigen::ComputeFullV);

@@ -11,17 +11,24 @@ constexpr std::int64_t kMillisecond = 1'000'000;
 constexpr std::int64_t kLongestPeriod_ms = 60'000;
 constexpr int kMostKnocks = 16;
 
-bool isTable(const std::string& coordinates) { return coordinates.empty() || coordinates == kReference; }
-bool isAnatomy(const std::string& coordinates) { return coordinates == kPatient || coordinates == kRas || coordinates == "RAS"; }
+bool isTable(const std::string& coordinates) {
+  return coordinates.empty() || coordinates == kReference;
+}
+bool isAnatomy(const std::string& coordinates) {
+  return coordinates == kPatient || coordinates == kRas || coordinates == "RAS";
+}
 
 }  // namespace
 
-IgtlServer::IgtlServer(const std::string& ipv4, std::uint16_t port, const Pose& X_WA) : listener_(ipv4, port), X_RasW_((X_WA * rasInAnatomy()).inverse()) {
+IgtlServer::IgtlServer(const std::string& ipv4, std::uint16_t port, const Pose& X_WA)
+    : listener_(ipv4, port), X_RasW_((X_WA * rasInAnatomy()).inverse()) {
   showAlways(kReference, kRas, X_RasW_);
   showAlways(kPatient, kReference, X_RasW_.inverse());
 }
 
-void IgtlServer::showAlways(const std::string& from, const std::string& to, const Pose& X) { always_[toName(from, to)] = toWire(X); }
+void IgtlServer::showAlways(const std::string& from, const std::string& to, const Pose& X) {
+  always_[toName(from, to)] = toWire(X);
+}
 
 void IgtlServer::show(const Moment& moment) {
   for (const NamedPose& pose : moment.poses) {
@@ -34,7 +41,8 @@ void IgtlServer::show(const Moment& moment) {
     for (Peer& peer : peers_) peer.state(name, message);
   }
   for (const NamedForce& force : moment.forces) {
-    const Bytes message = sensorMessage(force.name, {force.f_W.x(), force.f_W.y(), force.f_W.z()}, Quantity::newtons, moment.utc_ns);
+    const Bytes message = sensorMessage(force.name, {force.f_W.x(), force.f_W.y(), force.f_W.z()},
+                                        Quantity::newtons, moment.utc_ns);
     for (Peer& peer : peers_) peer.state(force.name, message);
   }
   for (const auto& [name, mm] : moment.lengths_mm) {
@@ -43,7 +51,8 @@ void IgtlServer::show(const Moment& moment) {
   }
 }
 
-void IgtlServer::say(const std::string& device, const std::string& utf8, std::int64_t utc_ns, bool lasting) {
+void IgtlServer::say(const std::string& device, const std::string& utf8, std::int64_t utc_ns,
+                     bool lasting) {
   if (lasting) lasting_[device] = utf8;
   for (Peer& peer : peers_) peer.event(stringMessage(device, utf8, utc_ns));
 }
@@ -57,7 +66,7 @@ void IgtlServer::welcome(std::int64_t utc_ns, std::int64_t now_ns) {
   for (int knocks = 0; knocks < kMostKnocks; ++knocks) {
     TcpSocket socket = listener_.accept();
     if (!socket.open()) return;
-    if (peers_.size() >= kMostPeers) continue;   // turned away
+    if (peers_.size() >= kMostPeers) continue;  // turned away
     peers_.emplace_back(std::move(socket), now_ns);
     greet(peers_.back(), utc_ns);
     ++ever_;
@@ -70,7 +79,10 @@ void IgtlServer::serve(const Moment& moment, std::int64_t now_ns) {
     for (const Message& request : peer.requests()) answer(peer, request, moment, now_ns);
     if (peer.tracking.on && now_ns >= peer.tracking.next_ns) {
       peer.tracking.next_ns = now_ns + peer.tracking.period_ns;
-      if (!moment.poses.empty()) peer.state("TDATA", trackingMessage(kDevice, tools(moment, peer.tracking.coordinates), moment.utc_ns));   // receivers take one of no tool for damage
+      if (!moment.poses.empty())
+        peer.state("TDATA",
+                   trackingMessage(kDevice, tools(moment, peer.tracking.coordinates),
+                                   moment.utc_ns));  // receivers take one of no tool for damage
     }
     peer.flush(now_ns);
   }
@@ -84,9 +96,11 @@ void IgtlServer::serve(const Moment& moment, std::int64_t now_ns) {
   }
 }
 
-void IgtlServer::answer(Peer& peer, const Message& request, const Moment& moment, std::int64_t now_ns) {
+void IgtlServer::answer(Peer& peer, const Message& request, const Moment& moment,
+                        std::int64_t now_ns) {
   const std::string& type = request.header.type;
-  if (type == "GET_STATUS") return peer.event(statusMessage(kDevice, "A session is running", moment.utc_ns));
+  if (type == "GET_STATUS")
+    return peer.event(statusMessage(kDevice, "A session is running", moment.utc_ns));
   if (type == "STP_TDATA") {
     peer.tracking.on = false;
     return peer.event(trackingAnswer(kDevice, true, moment.utc_ns));
@@ -94,15 +108,21 @@ void IgtlServer::answer(Peer& peer, const Message& request, const Moment& moment
   if (type != "STT_TDATA") return;
   const auto wanted = readTrackingRequest(request.content);
   const bool granted = wanted && (isTable(wanted->coordinates) || isAnatomy(wanted->coordinates));
-  if (granted) peer.tracking = {true, kMillisecond * std::clamp<std::int64_t>(wanted->resolution_ms, 0, kLongestPeriod_ms), now_ns, wanted->coordinates};
+  if (granted)
+    peer.tracking = {
+        true, kMillisecond * std::clamp<std::int64_t>(wanted->resolution_ms, 0, kLongestPeriod_ms),
+        now_ns, wanted->coordinates};
   peer.event(trackingAnswer(kDevice, granted, moment.utc_ns));
 }
 
-/// The instrument's name alone: in which frame says the request. (The library loses names of 20 characters here.)
-std::vector<NamedMatrix> IgtlServer::tools(const Moment& moment, const std::string& coordinates) const {
+/// The instrument's name alone: in which frame says the request. (The library loses names of 20
+/// characters here.)
+std::vector<NamedMatrix> IgtlServer::tools(const Moment& moment,
+                                           const std::string& coordinates) const {
   std::vector<NamedMatrix> tools;
   for (const NamedPose& pose : moment.poses)
-    tools.push_back({pose.from, toWire(isTable(coordinates) ? pose.X_W : Pose(X_RasW_ * pose.X_W))});
+    tools.push_back(
+        {pose.from, toWire(isTable(coordinates) ? pose.X_W : Pose(X_RasW_ * pose.X_W))});
   return tools;
 }
 

@@ -7,30 +7,34 @@
 namespace palpa::igt {
 
 struct NamedPose {
-  std::string from;               ///< "NeedleTip": its pose in W
+  std::string from;  ///< "NeedleTip": its pose in W
   Pose X_W = Pose::Identity();
   std::int64_t utc_ns = 0;
 };
 struct NamedForce {
-  std::string name;               ///< "NeedleContactForce"
-  Vec3 f_W = Vec3::Zero();        ///< N, on the tool
+  std::string name;         ///< "NeedleContactForce"
+  Vec3 f_W = Vec3::Zero();  ///< N, on the tool
 };
 
-/// What is shown of a moment. What is not known at it is not in it: PLUS' way of saying that a transform is not to be used, for those who read no metadata.
+/// What is shown of a moment. What is not known at it is not in it: PLUS' way of saying that a
+/// transform is not to be used, for those who read no metadata.
 struct Moment {
-  std::int64_t utc_ns = 0;        ///< of forces, lengths and the whole
+  std::int64_t utc_ns = 0;  ///< of forces, lengths and the whole
   std::vector<NamedPose> poses;
   std::vector<NamedForce> forces;
   std::vector<std::pair<std::string, double>> lengths_mm;
 };
 
-/// Serves a session's moments to whoever connects (3D Slicer, PLUS' client, any OpenIGTLink client). One thread; no call waits for anybody.
+/// Serves a session's moments to whoever connects (3D Slicer, PLUS' client, any OpenIGTLink
+/// client). One thread; no call waits for anybody.
 ///
-/// TRANSFORM, SENSOR at the pace of `show`; STRING when something is said; TDATA, all poses in one message, to those who sent STT_TDATA, no more often than the resolution they
-/// asked for, until STP_TDATA; GET_STATUS is answered. Requests may come with header version 1 or 2; answers go out with version 1.
+/// TRANSFORM, SENSOR at the pace of `show`; STRING when something is said; TDATA, all poses in one
+/// message, to those who sent STT_TDATA, no more often than the resolution they asked for, until
+/// STP_TDATA; GET_STATUS is answered. Requests may come with header version 1 or 2; answers go out
+/// with version 1.
 class IgtlServer {
  public:
-  static constexpr std::size_t kMostPeers = 8;    ///< more are turned away
+  static constexpr std::size_t kMostPeers = 8;  ///< more are turned away
   static constexpr const char* kDevice = "Palpa";
 
   /// Throws UsageError (address), Error (port taken).
@@ -42,8 +46,10 @@ class IgtlServer {
   /// The moment as TRANSFORM and SENSOR to all.
   void show(const Moment& moment);
   /// STRING to all; one who connects later hears the last of each device that is `lasting`.
-  void say(const std::string& device, const std::string& utf8, std::int64_t utc_ns, bool lasting = false);
-  /// Accepts, answers, sends TDATA of `moment` where it is due, and what waits; forgets who is gone.
+  void say(const std::string& device, const std::string& utf8, std::int64_t utc_ns,
+           bool lasting = false);
+  /// Accepts, answers, sends TDATA of `moment` where it is due, and what waits; forgets who is
+  /// gone.
   void serve(const Moment& moment, std::int64_t now_ns);
 
   std::size_t peers() const { return peers_.size(); }
@@ -57,7 +63,7 @@ class IgtlServer {
   std::vector<NamedMatrix> tools(const Moment& moment, const std::string& coordinates) const;
 
   TcpListener listener_;
-  const Pose X_RasW_;             ///< W in the patient's RAS frame
+  const Pose X_RasW_;  ///< W in the patient's RAS frame
   std::list<Peer> peers_;
   std::map<std::string, Mat4> always_;
   std::map<std::string, std::string> lasting_;

@@ -7,8 +7,10 @@ namespace palpa::igt {
 namespace {
 
 bool isRead(const Header& header) {
-  static constexpr std::array kTypes{"TRANSFORM", "TDATA", "STT_TDATA", "STP_TDATA", "RTS_TDATA", "GET_STATUS", "STATUS"};
-  return header.version <= kNewestVersion && std::find(kTypes.begin(), kTypes.end(), header.type) != kTypes.end();
+  static constexpr std::array kTypes{"TRANSFORM", "TDATA",      "STT_TDATA", "STP_TDATA",
+                                     "RTS_TDATA", "GET_STATUS", "STATUS"};
+  return header.version <= kNewestVersion &&
+         std::find(kTypes.begin(), kTypes.end(), header.type) != kTypes.end();
 }
 
 }  // namespace
@@ -51,7 +53,9 @@ std::optional<Message> MessageStream::takeBody() {
   const View body = View(waiting_).first(header.body_size);
   std::optional<Message> message;
   if (crcFits(header, body))
-    if (auto content = contentOf(header, body)) message = Message{header, Bytes(content->bytes.begin(), content->bytes.end()), std::move(content->metadata)};
+    if (auto content = contentOf(header, body))
+      message = Message{header, Bytes(content->bytes.begin(), content->bytes.end()),
+                        std::move(content->metadata)};
   drop(header.body_size);
   ++(message ? counts_.messages : counts_.damaged);
   return message;

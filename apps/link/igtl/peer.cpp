@@ -5,7 +5,8 @@
 namespace palpa::igt {
 namespace {
 
-constexpr std::size_t kMostRequestBytes = 64 * 1024;   // taken in one call, so that nobody who floods keeps the server
+constexpr std::size_t kMostRequestBytes =
+    64 * 1024;  // taken in one call, so that nobody who floods keeps the server
 
 }  // namespace
 

@@ -9,20 +9,23 @@
 
 namespace palpa::igt {
 
-/// A running session, told to whoever connects: tool, camera, patient and phantom in W, forces, events, where the trial and the tool's tip stand. Reads the bus as any activity does
-/// and never waits. The tables of names: README.
+/// A running session, told to whoever connects: tool, camera, patient and phantom in W, forces,
+/// events, where the trial and the tool's tip stand. Reads the bus as any activity does and never
+/// waits. The tables of names: README.
 class SessionLink final : public runtime::Activity {
  public:
   struct Setup {
     std::string ipv4 = "127.0.0.1";
     std::uint16_t port = 0;
-    std::int64_t utc_start_ns = 0;              ///< UTC of session time 0
-    std::string tool = "Needle";                ///< as its names begin: "Needle", "Probe"
+    std::int64_t utc_start_ns = 0;  ///< UTC of session time 0
+    std::string tool = "Needle";    ///< as its names begin: "Needle", "Probe"
     Pose X_WA = Pose::Identity(), X_WD = Pose::Identity(), X_ET = Pose::Identity();
-    std::optional<Pose> second_X_WD{};          ///< of a second tool
-    std::optional<Pose> X_WP{};                 ///< of the phantom
+    std::optional<Pose> second_X_WD{};  ///< of a second tool
+    std::optional<Pose> X_WP{};         ///< of the phantom
   };
-  static constexpr std::int64_t kStep_ns = 10'000'000, kShow_ns = 20'000'000;   ///< TDATA at most every 10 ms; TRANSFORM and SENSOR at 50 Hz
+  static constexpr std::int64_t
+      kStep_ns = 10'000'000,
+      kShow_ns = 20'000'000;  ///< TDATA at most every 10 ms; TRANSFORM and SENSOR at 50 Hz
 
   SessionLink(const Setup& setup, runtime::Bus& bus);
   const char* name() const override { return "igtl"; }
@@ -31,7 +34,8 @@ class SessionLink final : public runtime::Activity {
   const IgtlServer& server() const { return server_; }
 
  private:
-  void addTool(const std::string& tool, const runtime::ToolState& state, const Pose& X_WD, Moment& moment) const;
+  void addTool(const std::string& tool, const runtime::ToolState& state, const Pose& X_WD,
+               Moment& moment) const;
   void tellEvidence();
   void tellPhase(const runtime::ToolState& tool, std::int64_t utc_ns);
   Moment momentAt(std::int64_t now_ns);
@@ -41,8 +45,8 @@ class SessionLink final : public runtime::Activity {
   runtime::Bus& bus_;
   IgtlServer server_;
   std::int64_t next_show_ns_ = 0;
-  std::string phase_;             ///< as it was told last
-  int running_ = 0;               ///< the trial that is on; 0: none
+  std::string phase_;  ///< as it was told last
+  int running_ = 0;    ///< the trial that is on; 0: none
 };
 
 }  // namespace palpa::igt

@@ -59,7 +59,9 @@ TcpSocket TcpSocket::connecting(const std::string& ipv4, std::uint16_t port) {
   TcpSocket made(address ? socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0) : -1);
   if (!made.open()) return made;
   prepare(made.fd_);
-  if (connect(made.fd_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 && errno != EINPROGRESS) made.close();
+  if (connect(made.fd_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 &&
+      errno != EINPROGRESS)
+    made.close();
   return made;
 }
 
@@ -68,7 +70,8 @@ TcpSocket::Progress TcpSocket::connected(int wait_ms) const {
   if (!ready(fd_, POLLOUT, wait_ms)) return Progress::pending;
   int error = 0;
   socklen_t size = sizeof error;
-  return getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0 ? Progress::done : Progress::failed;
+  return getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0 ? Progress::done
+                                                                                 : Progress::failed;
 }
 
 std::size_t TcpSocket::send(std::span<const std::uint8_t> bytes) {
@@ -89,16 +92,23 @@ std::size_t TcpSocket::receive(std::span<std::uint8_t> buffer, int wait_ms) {
 
 TcpListener::TcpListener(const std::string& ipv4, std::uint16_t port) {
   const auto address = addressOf(ipv4, port);
-  if (!address) throw UsageError("is no network address of this computer", "\"" + ipv4 + "\"", "Write it in figures: 127.0.0.1 for this computer only, 0.0.0.0 for every network");
+  if (!address)
+    throw UsageError(
+        "is no network address of this computer", "\"" + ipv4 + "\"",
+        "Write it in figures: 127.0.0.1 for this computer only, 0.0.0.0 for every network");
   fd_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   const int on = 1;
   setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
   sockaddr_in got{};
   socklen_t size = sizeof got;
-  if (fd_ < 0 || bind(fd_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 || listen(fd_, 8) != 0 || getsockname(fd_, reinterpret_cast<sockaddr*>(&got), &size) != 0) {
+  if (fd_ < 0 || bind(fd_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 ||
+      listen(fd_, 8) != 0 || getsockname(fd_, reinterpret_cast<sockaddr*>(&got), &size) != 0) {
     const std::string why = std::strerror(errno);
     if (fd_ >= 0) ::close(fd_);
-    throw Error("cannot be served (" + why + ")", "OpenIGTLink at " + ipv4 + ":" + std::to_string(port), "Choose another port, or end the program that holds it (3D Slicer's or PLUS' server use 18944 too)");
+    throw Error("cannot be served (" + why + ")",
+                "OpenIGTLink at " + ipv4 + ":" + std::to_string(port),
+                "Choose another port, or end the program that holds it (3D Slicer's or PLUS' "
+                "server use 18944 too)");
   }
   port_ = ntohs(got.sin_port);
 }
@@ -116,9 +126,11 @@ std::string ipv4Of(const std::string& host, const std::string& where) {
   hints.ai_family = AF_INET;
   hints.ai_socktype = SOCK_STREAM;
   if (const int error = getaddrinfo(host.c_str(), nullptr, &hints, &found); error != 0 || !found)
-    throw UsageError("\"" + host + "\" is not known (" + gai_strerror(error) + ")", where, "Write its address in figures, as 192.168.1.1, or mend the name");
+    throw UsageError("\"" + host + "\" is not known (" + gai_strerror(error) + ")", where,
+                     "Write its address in figures, as 192.168.1.1, or mend the name");
   char text[INET_ADDRSTRLEN] = "";
-  inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(found->ai_addr)->sin_addr, text, sizeof text);
+  inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(found->ai_addr)->sin_addr, text,
+            sizeof text);
   freeaddrinfo(found);
   return text;
 }

@@ -50,7 +50,8 @@ class TcpListener {
   std::uint16_t port_ = 0;
 };
 
-/// The address of a name, in figures: asked once, since asking for a name may wait. Throws UsageError.
+/// The address of a name, in figures: asked once, since asking for a name may wait. Throws
+/// UsageError.
 std::string ipv4Of(const std::string& host, const std::string& where);
 bool isLoopback(const std::string& ipv4);
 

@@ -11,29 +11,36 @@ namespace palpa::igt {
 namespace {
 
 constexpr std::int64_t kConnectPatience_ns = 2 * runtime::kSecond;
-constexpr std::size_t kMostBytes = 1 << 20;   // taken in one step
+constexpr std::size_t kMostBytes = 1 << 20;  // taken in one step
 
-std::string valueOf(const std::map<std::string, std::string>& metadata, const std::string& key, const std::string& otherwise) {
+std::string valueOf(const std::map<std::string, std::string>& metadata, const std::string& key,
+                    const std::string& otherwise) {
   const auto found = metadata.find(key);
   return found == metadata.end() ? otherwise : found->second;
 }
 
 }  // namespace
 
-TrackerClient::TrackerClient(const TrackerSettings& settings, const runtime::Clock& clock, runtime::EventQueue<runtime::TrackedPose>& poses)
+TrackerClient::TrackerClient(const TrackerSettings& settings, const runtime::Clock& clock,
+                             runtime::EventQueue<runtime::TrackedPose>& poses)
     : settings_(settings), ipv4_(ipv4Of(settings.host, "tracker")), clock_(clock), poses_(poses) {
-  if (settings_.transform.empty()) throw UsageError("has no name", "the tracker's transform", "Name one that its server sends, as ReferenceToCamera");
+  if (settings_.transform.empty())
+    throw UsageError("has no name", "the tracker's transform",
+                     "Name one that its server sends, as ReferenceToCamera");
 }
 
 std::int64_t TrackerClient::step(std::int64_t now_ns) {
   switch (state_) {
     case State::apart:
-      if (now_ns < next_try_ns_) return std::min(next_try_ns_, now_ns + kWait_ms * runtime::kMillisecond);
+      if (now_ns < next_try_ns_)
+        return std::min(next_try_ns_, now_ns + kWait_ms * runtime::kMillisecond);
       connect(now_ns);
       break;
     case State::connecting:
-      if (const auto progress = socket_.connected(kWait_ms); progress == TcpSocket::Progress::done) greet();
-      else if (progress == TcpSocket::Progress::failed || now_ns - since_ns_ > kConnectPatience_ns) part(now_ns);
+      if (const auto progress = socket_.connected(kWait_ms); progress == TcpSocket::Progress::done)
+        greet();
+      else if (progress == TcpSocket::Progress::failed || now_ns - since_ns_ > kConnectPatience_ns)
+        part(now_ns);
       break;
     case State::together:
       hear(now_ns);
@@ -65,7 +72,8 @@ void TrackerClient::greet() {
   state_ = State::together;
   since_ns_ = clock_.now();
   ++counts_.connections;
-  if (settings_.tracking_ms > 0) socket_.send(startTrackingMessage("Palpa", {settings_.tracking_ms, ""}, 0));
+  if (settings_.tracking_ms > 0)
+    socket_.send(startTrackingMessage("Palpa", {settings_.tracking_ms, ""}, 0));
 }
 
 void TrackerClient::hear(std::int64_t now_ns) {
@@ -79,7 +87,9 @@ void TrackerClient::hear(std::int64_t now_ns) {
     while (const auto message = stream_.next()) take(*message);
   }
   const bool silent = now_ns - since_ns_ > kSilent_ns;
-  if (silent) pause_ns_ = kFirstPause_ns;   // markers may only be out of sight: be there again when they are back
+  if (silent)
+    pause_ns_ =
+        kFirstPause_ns;  // markers may only be out of sight: be there again when they are back
   if (silent || !socket_.open() || stream_.broken()) part(now_ns);
 }
 
@@ -87,21 +97,29 @@ void TrackerClient::take(const Message& message) {
   since_ns_ = clock_.now();
   pause_ns_ = kFirstPause_ns;
   if (message.header.type == "TRANSFORM") {
-    if (const auto X_mm = readTransform(message.content)) take(valueOf(message.metadata, "IGTL_DEVICE_NAME", message.header.device), *X_mm, message.metadata, false);
-    else ++counts_.damaged;
+    if (const auto X_mm = readTransform(message.content))
+      take(valueOf(message.metadata, "IGTL_DEVICE_NAME", message.header.device), *X_mm,
+           message.metadata, false);
+    else
+      ++counts_.damaged;
   }
   if (message.header.type != "TDATA") return;
   const auto tools = readTracking(message.content);
-  if (!tools) ++counts_.damaged;
-  else for (const NamedMatrix& tool : *tools) take(tool.name, tool.X_mm, message.metadata, true);
+  if (!tools)
+    ++counts_.damaged;
+  else
+    for (const NamedMatrix& tool : *tools) take(tool.name, tool.X_mm, message.metadata, true);
 }
 
 /// In TDATA a name is cut to what fits, and the status of each stands under its whole name.
-void TrackerClient::take(const std::string& name, const Mat4& X_mm, const std::map<std::string, std::string>& metadata, bool among_others) {
+void TrackerClient::take(const std::string& name, const Mat4& X_mm,
+                         const std::map<std::string, std::string>& metadata, bool among_others) {
   const std::string& wanted = settings_.transform;
   if (name != wanted && name != wanted.substr(0, kLongestName)) return;
-  const std::string status = valueOf(metadata, among_others ? wanted + "Status" : "TransformStatus", "OK");
-  if (!mayBeUsed(status) || (!among_others && valueOf(metadata, "TransformValid", "true") == "false")) {
+  const std::string status =
+      valueOf(metadata, among_others ? wanted + "Status" : "TransformStatus", "OK");
+  if (!mayBeUsed(status) ||
+      (!among_others && valueOf(metadata, "TransformValid", "true") == "false")) {
     ++counts_.unusable;
     return;
   }
@@ -111,7 +129,8 @@ void TrackerClient::take(const std::string& name, const Mat4& X_mm, const std::m
     return;
   }
   ++counts_.poses;
-  poses_.push({clock_.now() - std::llround(1e9 * settings_.latency_s), settings_.X_CK * *X_KR * settings_.X_RW});
+  poses_.push({clock_.now() - std::llround(1e9 * settings_.latency_s),
+               settings_.X_CK * *X_KR * settings_.X_RW});
 }
 
 TrackerCounts TrackerClient::counts() const {

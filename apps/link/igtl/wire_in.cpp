@@ -9,7 +9,8 @@
 
 #include "apps/link/igtl/wire.h"
 
-/// Sizes are checked here before anything is taken: the library's own unpacking believes what it is told.
+/// Sizes are checked here before anything is taken: the library's own unpacking believes what it is
+/// told.
 namespace palpa::igt {
 namespace {
 
@@ -24,7 +25,9 @@ std::uint64_t number(View bytes, std::size_t at, std::size_t size) {
 }
 
 /// Of a field that ends at its first 0, or at its end.
-std::string textOf(const char* field, std::size_t size) { return std::string(field, strnlen(field, size)); }
+std::string textOf(const char* field, std::size_t size) {
+  return std::string(field, strnlen(field, size));
+}
 
 /// Columns t, s, n, position, as floats.
 Mat4 matrixOf(const float (&columns)[12]) {
@@ -41,7 +44,8 @@ std::optional<std::map<std::string, std::string>> metadataOf(View header, View b
   if (header.size() < kCount + count * kEntry) return std::nullopt;
   std::size_t at = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const std::size_t key = number(header, kCount + i * kEntry, 2), value = number(header, kCount + i * kEntry + 4, 4);
+    const std::size_t key = number(header, kCount + i * kEntry, 2),
+                      value = number(header, kCount + i * kEntry + 4, 4);
     if (key > body.size() - at || value > body.size() - at - key) return std::nullopt;
     const auto* text = reinterpret_cast<const char*>(body.data());
     metadata[std::string(text + at, key)] = std::string(text + at + key, value);
@@ -61,25 +65,30 @@ std::optional<Header> readHeader(std::span<const std::uint8_t, kHeaderSize> byte
   header.version = raw.version;
   header.type = textOf(raw.name, IGTL_HEADER_TYPE_SIZE);
   header.device = textOf(raw.device_name, IGTL_HEADER_NAME_SIZE);
-  const bool printable = std::all_of(header.type.begin(), header.type.end(), [](unsigned char c) { return std::isprint(c); });
-  if (header.version < 1 || header.version > kNewestLikely || header.type.empty() || !printable) return std::nullopt;
+  const bool printable = std::all_of(header.type.begin(), header.type.end(),
+                                     [](unsigned char c) { return std::isprint(c); });
+  if (header.version < 1 || header.version > kNewestLikely || header.type.empty() || !printable)
+    return std::nullopt;
   const auto fraction = static_cast<std::uint32_t>(raw.timestamp & 0xffffffffu);
-  header.utc_ns = static_cast<std::int64_t>(raw.timestamp >> 32) * kSecond + igtl_frac_to_nanosec(fraction);
+  header.utc_ns =
+      static_cast<std::int64_t>(raw.timestamp >> 32) * kSecond + igtl_frac_to_nanosec(fraction);
   header.body_size = raw.body_size;
   header.crc = raw.crc;
   return header;
 }
 
 bool crcFits(const Header& header, View body) {
-  Bytes copy(body.begin(), body.end());   // the library takes no constant
+  Bytes copy(body.begin(), body.end());  // the library takes no constant
   return crc64(copy.data(), copy.size(), crc64(nullptr, 0, 0)) == header.crc;
 }
 
 std::optional<Content> contentOf(const Header& header, View body) {
   if (header.version == 1) return Content{body, {}};
   if (body.size() < kExtendedHeader) return std::nullopt;
-  const std::size_t extended = number(body, 0, 2), entries = number(body, 2, 2), metadata = number(body, 4, 4);
-  if (extended < kExtendedHeader || extended + entries + metadata > body.size()) return std::nullopt;
+  const std::size_t extended = number(body, 0, 2), entries = number(body, 2, 2),
+                    metadata = number(body, 4, 4);
+  if (extended < kExtendedHeader || extended + entries + metadata > body.size())
+    return std::nullopt;
   const std::size_t end = body.size() - entries - metadata;
   auto data = metadataOf(body.subspan(end, entries), body.subspan(end + entries));
   if (!data) return std::nullopt;
@@ -103,7 +112,8 @@ std::optional<std::vector<NamedMatrix>> readTracking(View content) {
     std::memcpy(&element, content.data() + at, sizeof element);
     igtl_tdata_convert_byte_order(&element, 1);
     float columns[12];
-    std::memcpy(columns, element.transform, sizeof columns);   // the element is packed: its floats lie anywhere
+    std::memcpy(columns, element.transform,
+                sizeof columns);  // the element is packed: its floats lie anywhere
     tools.push_back({textOf(element.name, IGTL_TDATA_LEN_NAME), matrixOf(columns)});
   }
   return tools;

@@ -14,7 +14,8 @@ std::string placeholders(std::size_t count) {
 void requireEmpty(SqlConnection& store) {
   for (const std::string& table : tableNames())
     if (!store.query("SELECT 1 FROM " + table + " LIMIT 1").empty())
-      throw UsageError("holds records already (" + table + ")", store.place(), "Choose a new file or an empty database; nothing was changed");
+      throw UsageError("holds records already (" + table + ")", store.place(),
+                       "Choose a new file or an empty database; nothing was changed");
 }
 
 }  // namespace
@@ -29,7 +30,10 @@ std::size_t copyStore(SqlConnection& from, SqlConnection& to) {
   std::size_t copied = 0;
   for (const std::string& table : tableNames()) {
     const SqlRows rows = from.query("SELECT " + columnsOf(table) + " FROM " + table);
-    for (std::size_t r = 0; r < rows.size(); ++r) to.query("INSERT INTO " + table + "(" + columnsOf(table) + ") VALUES(" + placeholders(rows.row(r).size()) + ")", rows.row(r));
+    for (std::size_t r = 0; r < rows.size(); ++r)
+      to.query("INSERT INTO " + table + "(" + columnsOf(table) + ") VALUES(" +
+                   placeholders(rows.row(r).size()) + ")",
+               rows.row(r));
     copied += rows.size();
   }
   writing.commit();

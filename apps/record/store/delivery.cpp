@@ -6,7 +6,8 @@
 
 namespace palpa::record {
 
-Delivered deliver(const std::string& url, const StoredSession& session, const std::vector<StoredTrial>& trials, const Patience& patience) {
+Delivered deliver(const std::string& url, const StoredSession& session,
+                  const std::vector<StoredTrial>& trials, const Patience& patience) {
   Delivered delivered;
   std::optional<RecordStore> store;
   int tries = patience.tries;

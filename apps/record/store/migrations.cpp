@@ -24,7 +24,8 @@ CREATE TABLE ratings(
 );
 )sql";
 
-// Step i brings version i to i + 1. A step that was published is never changed; a change of the tables is a further step.
+// Step i brings version i to i + 1. A step that was published is never changed; a change of the
+// tables is a further step.
 const char* const kSteps[] = {R"sql(
 CREATE TABLE palpa_schema(version BIGINT NOT NULL);
 INSERT INTO palpa_schema(version) VALUES(0);
@@ -112,7 +113,7 @@ CREATE TABLE events(
   FOREIGN KEY(session, number) REFERENCES trials(session, number) ON DELETE CASCADE
 );
 )sql",
-                             R"sql(
+                              R"sql(
 CREATE TABLE studies(
   study           TEXT PRIMARY KEY,     -- the protocol's id
   protocol_sha256 TEXT NOT NULL,        -- of its file when the study began
@@ -151,16 +152,20 @@ CREATE TABLE answers(
   FOREIGN KEY(study, trainee) REFERENCES enrolments(study, trainee) ON DELETE CASCADE
 );
 )sql",
-                             kRatings};
+                              kRatings};
 
 /// Of the newest version.
 const std::vector<std::pair<std::string, std::string>> kTables{
-    {"trainees", "id,group_name,experience,handedness,added_utc,consent_utc,research_utc,retain_until"},
+    {"trainees",
+     "id,group_name,experience,handedness,added_utc,consent_utc,research_utc,retain_until"},
     {"deletions", "digest,deleted_utc"},
     {"deleted_evidence", "session,evidence"},
-    {"sessions", "uuid,trainee,arrival,started_utc,software,task,station,simulated,study,slot,evidence,evidence_sha256,facts_json"},
+    {"sessions",
+     "uuid,trainee,arrival,started_utc,software,task,station,simulated,study,slot,evidence,"
+     "evidence_sha256,facts_json"},
     {"calibrations", "session,name,made_utc,sha256,verdict"},
-    {"trials", "session,number,start_ns,end_ns,role,seed,force_feedback,outcome,reason,success,score_json"},
+    {"trials",
+     "session,number,start_ns,end_ns,role,seed,force_feedback,outcome,reason,success,score_json"},
     {"metrics", "session,number,name,value"},
     {"events", "session,number,ordinal,t_ns,kind,text,value"},
     {"studies", "study,protocol_sha256,seed,began_utc"},
@@ -194,10 +199,14 @@ const std::string& columnsOf(const std::string& name) {
 int schemaOf(SqlConnection& connection) {
   if (!connection.hasTable("palpa_schema")) return 0;
   const SqlRows rows = connection.query("SELECT version FROM palpa_schema");
-  if (rows.size() != 1) throw Error("does not say its version once", connection.place(), "It is damaged or was changed by hand: restore a backup");
+  if (rows.size() != 1)
+    throw Error("does not say its version once", connection.place(),
+                "It is damaged or was changed by hand: restore a backup");
   const std::int64_t version = rows.integer(0, 0);
   if (version > kNewest)
-    throw Error("was written by a newer version of Palpa (tables " + std::to_string(version) + ", known up to " + std::to_string(kNewest) + ")", connection.place(), "Update Palpa on this station; nothing was changed");
+    throw Error("was written by a newer version of Palpa (tables " + std::to_string(version) +
+                    ", known up to " + std::to_string(kNewest) + ")",
+                connection.place(), "Update Palpa on this station; nothing was changed");
   return static_cast<int>(version);
 }
 
@@ -205,7 +214,7 @@ int migrate(SqlConnection& connection, int version) {
   if (const int found = schemaOf(connection); found >= version) return found;
   SqlTransaction transaction(connection);
   connection.lockSchema();
-  const int found = schemaOf(connection);   // again: another station may have been quicker
+  const int found = schemaOf(connection);  // again: another station may have been quicker
   for (int step = found; step < version; ++step) {
     connection.script(kSteps[step]);
     connection.query("UPDATE palpa_schema SET version=$1", {std::int64_t{step + 1}});

@@ -19,7 +19,8 @@ constexpr char kSuffix[] = ".pending";
 
 }  // namespace
 
-PendingHold::PendingHold(const fs::path& note) : descriptor_(::open(note.c_str(), O_RDONLY | O_CLOEXEC)) {
+PendingHold::PendingHold(const fs::path& note)
+    : descriptor_(::open(note.c_str(), O_RDONLY | O_CLOEXEC)) {
   if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX | LOCK_NB);
 }
 
@@ -30,7 +31,8 @@ PendingHold::~PendingHold() {
 PendingList::PendingList(fs::path folder) : folder_(std::move(folder)) {}
 
 fs::path PendingList::usualFolder() {
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/') return fs::path(state) / "palpa/pending";
+  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/')
+    return fs::path(state) / "palpa/pending";
   const char* home = std::getenv("HOME");
   return fs::path(home && *home ? home : "/tmp") / ".local/state/palpa/pending";
 }
@@ -40,8 +42,11 @@ fs::path PendingList::noteOf(const std::string& uuid) const { return folder_ / (
 void PendingList::note(const PendingSession& session) {
   std::error_code problem;
   fs::create_directories(folder_, problem);
-  if (problem) throw Error("cannot be made (" + problem.message() + ")", folder_.string(), "Make it writable, or set XDG_STATE_HOME to another folder");
-  writeWhole(noteOf(session.uuid), fs::absolute(session.evidence).string() + "\n" + session.url + "\n");
+  if (problem)
+    throw Error("cannot be made (" + problem.message() + ")", folder_.string(),
+                "Make it writable, or set XDG_STATE_HOME to another folder");
+  writeWhole(noteOf(session.uuid),
+             fs::absolute(session.evidence).string() + "\n" + session.url + "\n");
 }
 
 std::vector<PendingSession> PendingList::sessions() const {
@@ -51,9 +56,11 @@ std::vector<PendingSession> PendingList::sessions() const {
     if (entry.path().extension() != kSuffix) continue;
     std::ifstream stream(entry.path());
     std::string evidence, url;
-    if (std::getline(stream, evidence) && std::getline(stream, url) && !evidence.empty()) all.push_back({entry.path().stem().string(), evidence, url});
+    if (std::getline(stream, evidence) && std::getline(stream, url) && !evidence.empty())
+      all.push_back({entry.path().stem().string(), evidence, url});
   }
-  std::sort(all.begin(), all.end(), [](const PendingSession& a, const PendingSession& b) { return a.uuid < b.uuid; });
+  std::sort(all.begin(), all.end(),
+            [](const PendingSession& a, const PendingSession& b) { return a.uuid < b.uuid; });
   return all;
 }
 
@@ -62,7 +69,9 @@ void PendingList::forget(const std::string& uuid) {
   fs::remove(noteOf(uuid), ignored);
 }
 
-std::unique_ptr<PendingHold> PendingList::hold(const std::string& uuid) const { return std::make_unique<PendingHold>(noteOf(uuid)); }
+std::unique_ptr<PendingHold> PendingList::hold(const std::string& uuid) const {
+  return std::make_unique<PendingHold>(noteOf(uuid));
+}
 
 bool PendingList::isHeld(const std::string& uuid) const {
   const int descriptor = ::open(noteOf(uuid).c_str(), O_RDONLY | O_CLOEXEC);

@@ -10,11 +10,12 @@ namespace palpa::record {
 /// A session whose trials may not all have reached the store yet.
 struct PendingSession {
   std::string uuid;
-  std::filesystem::path evidence;   ///< its session.palpa, absolute
-  std::string url;                  ///< of the store it belongs to
+  std::filesystem::path evidence;  ///< its session.palpa, absolute
+  std::string url;                 ///< of the store it belongs to
 };
 
-/// Lives as long as a session adds to what was noted: others leave it alone meanwhile, or they would think it complete. It ends with the process, however that ends.
+/// Lives as long as a session adds to what was noted: others leave it alone meanwhile, or they
+/// would think it complete. It ends with the process, however that ends.
 class PendingHold {
  public:
   explicit PendingHold(const std::filesystem::path& note);
@@ -26,8 +27,10 @@ class PendingHold {
   int descriptor_ = -1;
 };
 
-/// This station's list of sessions still to be delivered: a small file each, in a folder that outlives the process. The evidence itself holds the trials; the list only says where to look.
-/// A session is noted before its first trial and forgotten when the store has them all, so whatever happens in between is made up for later.
+/// This station's list of sessions still to be delivered: a small file each, in a folder that
+/// outlives the process. The evidence itself holds the trials; the list only says where to look. A
+/// session is noted before its first trial and forgotten when the store has them all, so whatever
+/// happens in between is made up for later.
 class PendingList {
  public:
   /// Makes the folder when the first session is noted.
@@ -35,8 +38,8 @@ class PendingList {
   /// $XDG_STATE_HOME/palpa/pending, else ~/.local/state/palpa/pending.
   static std::filesystem::path usualFolder();
 
-  void note(const PendingSession& session);          ///< written beside, then renamed; throws Error
-  std::vector<PendingSession> sessions() const;      ///< by uuid; what is no note is passed over
+  void note(const PendingSession& session);      ///< written beside, then renamed; throws Error
+  std::vector<PendingSession> sessions() const;  ///< by uuid; what is no note is passed over
   void forget(const std::string& uuid);
   std::unique_ptr<PendingHold> hold(const std::string& uuid) const;
   bool isHeld(const std::string& uuid) const;

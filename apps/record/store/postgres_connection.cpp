@@ -8,19 +8,26 @@ namespace palpa::record {
 namespace {
 
 constexpr char kConnectSeconds[] = "10";
-constexpr char kSilent_ms[] = "20000";   // a server behind a pulled cable is away after that
-constexpr std::int64_t kSchemaLock = 0x70616c70615f72;   // any number, the same in all stations
+constexpr char kSilent_ms[] = "20000";  // a server behind a pulled cable is away after that
+constexpr std::int64_t kSchemaLock = 0x70616c70615f72;  // any number, the same in all stations
 
 std::string firstLine(const std::string& text) {
   const std::string line = text.substr(0, text.find('\n'));
   return line.empty() ? "no reason given" : line;
 }
 
-bool isRefusal(const std::string& reason) { return reason.find("password") != std::string::npos || reason.find("authentication") != std::string::npos || reason.find("does not exist") != std::string::npos; }
+bool isRefusal(const std::string& reason) {
+  return reason.find("password") != std::string::npos ||
+         reason.find("authentication") != std::string::npos ||
+         reason.find("does not exist") != std::string::npos;
+}
 
 std::string remedyFor(const std::string& reason) {
-  if (reason.find("password") != std::string::npos || reason.find("authentication") != std::string::npos) return "Check user and password (PGPASSWORD or ~/.pgpass)";
-  if (reason.find("does not exist") != std::string::npos) return "Ask whoever runs the server to make it";
+  if (reason.find("password") != std::string::npos ||
+      reason.find("authentication") != std::string::npos)
+    return "Check user and password (PGPASSWORD or ~/.pgpass)";
+  if (reason.find("does not exist") != std::string::npos)
+    return "Ask whoever runs the server to make it";
   return "Check network and server; trials are kept on this station and sent later";
 }
 
@@ -34,9 +41,13 @@ class PostgresConnection final : public SqlConnection {
  public:
   PostgresConnection(std::string url, Access access) : url_(std::move(url)) {
     guarded([&] {
-      const char* only_read = access == Access::read ? "&options=-c%20default_transaction_read_only%3Don" : "";
+      const char* only_read =
+          access == Access::read ? "&options=-c%20default_transaction_read_only%3Don" : "";
       const bool has_options = url_.find('?') != std::string::npos;
-      connection_ = std::make_unique<pqxx::connection>(url_ + (has_options ? "&" : "?") + "connect_timeout=" + kConnectSeconds + "&tcp_user_timeout=" + kSilent_ms + "&client_encoding=UTF8&application_name=palpa" + only_read);
+      connection_ = std::make_unique<pqxx::connection>(
+          url_ + (has_options ? "&" : "?") + "connect_timeout=" + kConnectSeconds +
+          "&tcp_user_timeout=" + kSilent_ms + "&client_encoding=UTF8&application_name=palpa" +
+          only_read);
     });
   }
 
@@ -44,8 +55,11 @@ class PostgresConnection final : public SqlConnection {
     return guarded([&] {
       const std::vector<std::string> texts = textsOf(values);
       std::vector<const char*> parameters;
-      for (std::size_t i = 0; i < values.size(); ++i) parameters.push_back(isNothing(values[i]) ? nullptr : texts[i].c_str());
-      const auto ask = [&](pqxx::transaction_base& transaction) { return transaction.exec_params(sql, pqxx::prepare::make_dynamic_params(parameters)); };
+      for (std::size_t i = 0; i < values.size(); ++i)
+        parameters.push_back(isNothing(values[i]) ? nullptr : texts[i].c_str());
+      const auto ask = [&](pqxx::transaction_base& transaction) {
+        return transaction.exec_params(sql, pqxx::prepare::make_dynamic_params(parameters));
+      };
       if (work_) return rowsOf(ask(*work_));
       pqxx::nontransaction alone(*connection_);
       return rowsOf(ask(alone));
@@ -65,12 +79,18 @@ class PostgresConnection final : public SqlConnection {
   void rollback() noexcept override {
     try {
       work_.reset();
-    } catch (...) {   // the server rolls back by itself
+    } catch (...) {  // the server rolls back by itself
     }
   }
   void lockSchema() override { query("SELECT pg_advisory_xact_lock($1)", {kSchemaLock}); }
   void freeze() override { script("SET TRANSACTION ISOLATION LEVEL REPEATABLE READ"); }
-  bool hasTable(const std::string& name) override { return !query("SELECT 1 FROM information_schema.tables WHERE table_schema=current_schema() AND table_name=$1", {name}).empty(); }
+  bool hasTable(const std::string& name) override {
+    return !query(
+                "SELECT 1 FROM information_schema.tables WHERE table_schema=current_schema() AND "
+                "table_name=$1",
+                {name})
+                .empty();
+  }
   std::string place() const override { return "records server " + url_; }
 
  private:
@@ -82,10 +102,14 @@ class PostgresConnection final : public SqlConnection {
   static std::vector<std::string> textsOf(const std::vector<SqlValue>& values) {
     std::vector<std::string> texts;
     for (const SqlValue& v : values) {
-      if (const auto* whole = std::get_if<std::int64_t>(&v)) texts.push_back(std::to_string(*whole));
-      else if (const auto* real = std::get_if<double>(&v)) texts.push_back(exactly(*real));
-      else if (const auto* text = std::get_if<std::string>(&v)) texts.push_back(*text);
-      else texts.emplace_back();
+      if (const auto* whole = std::get_if<std::int64_t>(&v))
+        texts.push_back(std::to_string(*whole));
+      else if (const auto* real = std::get_if<double>(&v))
+        texts.push_back(exactly(*real));
+      else if (const auto* text = std::get_if<std::string>(&v))
+        texts.push_back(*text);
+      else
+        texts.emplace_back();
     }
     return texts;
   }
@@ -97,10 +121,14 @@ class PostgresConnection final : public SqlConnection {
       std::vector<SqlValue> values;
       for (const pqxx::field& field : row) {
         const pqxx::oid type = field.type();
-        if (field.is_null()) values.emplace_back(std::monostate{});
-        else if (type == kInt8 || type == kInt4 || type == kInt2) values.emplace_back(field.as<std::int64_t>());
-        else if (type == kFloat8) values.emplace_back(field.as<double>());
-        else values.emplace_back(std::string(field.c_str(), field.size()));
+        if (field.is_null())
+          values.emplace_back(std::monostate{});
+        else if (type == kInt8 || type == kInt4 || type == kInt2)
+          values.emplace_back(field.as<std::int64_t>());
+        else if (type == kFloat8)
+          values.emplace_back(field.as<double>());
+        else
+          values.emplace_back(std::string(field.c_str(), field.size()));
       }
       rows.add(std::move(values));
     }
@@ -114,22 +142,31 @@ class PostgresConnection final : public SqlConnection {
       return action();
     } catch (const pqxx::broken_connection& e) {
       const std::string reason = firstLine(e.what());
-      if (isRefusal(reason)) throw Error("refuses the connection (" + reason + ")", place(), remedyFor(reason));
+      if (isRefusal(reason))
+        throw Error("refuses the connection (" + reason + ")", place(), remedyFor(reason));
       throw StoreUnreachable("cannot be reached (" + reason + ")", place(), remedyFor(reason));
-    } catch (const pqxx::in_doubt_error& e) {   // the server may have it; asking again does no harm
-      throw StoreUnreachable("was lost while it confirmed (" + firstLine(e.what()) + ")", place(), remedyFor(""));
+    } catch (const pqxx::in_doubt_error& e) {  // the server may have it; asking again does no harm
+      throw StoreUnreachable("was lost while it confirmed (" + firstLine(e.what()) + ")", place(),
+                             remedyFor(""));
     } catch (const pqxx::transaction_rollback& e) {
-      throw StoreUnreachable("was asked for the same by another station (" + firstLine(e.what()) + ")", place(), "It is tried again");
+      throw StoreUnreachable(
+          "was asked for the same by another station (" + firstLine(e.what()) + ")", place(),
+          "It is tried again");
     } catch (const pqxx::disk_full& e) {
-      throw StoreUnreachable("has a full disk (" + firstLine(e.what()) + ")", place(), "Free space there; trials are kept on this station and sent later");
+      throw StoreUnreachable("has a full disk (" + firstLine(e.what()) + ")", place(),
+                             "Free space there; trials are kept on this station and sent later");
     } catch (const pqxx::sql_error& e) {
       const std::string reason = firstLine(e.what());
-      if (e.sqlstate().starts_with("57P") || e.sqlstate().starts_with("08")) throw StoreUnreachable("went away (" + reason + ")", place(), remedyFor(""));
-      throw Error("answered with an error (" + reason + ")", place(), "Check that this user may read and write there");
+      if (e.sqlstate().starts_with("57P") || e.sqlstate().starts_with("08"))
+        throw StoreUnreachable("went away (" + reason + ")", place(), remedyFor(""));
+      throw Error("answered with an error (" + reason + ")", place(),
+                  "Check that this user may read and write there");
     } catch (const pqxx::failure& e) {
-      throw Error("answered with an error (" + firstLine(e.what()) + ")", place(), "Check that this user may read and write there");
+      throw Error("answered with an error (" + firstLine(e.what()) + ")", place(),
+                  "Check that this user may read and write there");
     } catch (const pqxx::pqxx_exception& e) {
-      throw Error("could not be understood (" + firstLine(e.base().what()) + ")", place(), "Report this");
+      throw Error("could not be understood (" + firstLine(e.base().what()) + ")", place(),
+                  "Report this");
     }
   }
 
@@ -140,6 +177,8 @@ class PostgresConnection final : public SqlConnection {
 
 }  // namespace
 
-std::unique_ptr<SqlConnection> openPostgres(const std::string& url, Access access) { return std::make_unique<PostgresConnection>(url, access); }
+std::unique_ptr<SqlConnection> openPostgres(const std::string& url, Access access) {
+  return std::make_unique<PostgresConnection>(url, access);
+}
 
 }  // namespace palpa::record

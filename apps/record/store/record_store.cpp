@@ -12,12 +12,18 @@ namespace {
 constexpr std::size_t kSessionColumnCount = 13;
 
 Trainee traineeOf(const SqlRows& r, std::size_t i) {
-  return {r.text(i, 0), r.text(i, 1), r.text(i, 2), r.text(i, 3), r.text(i, 4), r.text(i, 5), r.text(i, 6), r.text(i, 7)};
+  return {r.text(i, 0), r.text(i, 1), r.text(i, 2), r.text(i, 3),
+          r.text(i, 4), r.text(i, 5), r.text(i, 6), r.text(i, 7)};
 }
 
 StoredSession sessionOf(const SqlRows& r, std::size_t i) {
-  return {r.text(i, 0), r.text(i, 1), r.integer(i, 2), r.text(i, 3), r.text(i, 4), r.text(i, 5), r.text(i, 6), r.integer(i, 7) != 0,
-          r.text(i, 8), r.integer(i, 9), r.text(i, 10), r.text(i, 11), r.text(i, 12), {}};
+  return {r.text(i, 0),    r.text(i, 1),
+          r.integer(i, 2), r.text(i, 3),
+          r.text(i, 4),    r.text(i, 5),
+          r.text(i, 6),    r.integer(i, 7) != 0,
+          r.text(i, 8),    r.integer(i, 9),
+          r.text(i, 10),   r.text(i, 11),
+          r.text(i, 12),   {}};
 }
 
 std::vector<Trainee> traineesOf(const SqlRows& rows) {
@@ -26,18 +32,25 @@ std::vector<Trainee> traineesOf(const SqlRows& rows) {
   return all;
 }
 
-std::vector<SqlValue> valuesOf(const Trainee& t) { return {t.id, t.group, t.experience, t.handedness, t.added_utc, t.consent_utc, t.research_utc, t.retain_until}; }
+std::vector<SqlValue> valuesOf(const Trainee& t) {
+  return {t.id,        t.group,       t.experience,   t.handedness,
+          t.added_utc, t.consent_utc, t.research_utc, t.retain_until};
+}
 
 std::uint64_t seedOf(const std::string& digits, const SqlConnection& store) {
   std::uint64_t seed = 0;
   const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
-  if (problem != std::errc() || end != digits.data() + digits.size()) throw Error("is damaged (a seed is no number)", store.place(), "Restore a backup: palpa records restore");
+  if (problem != std::errc() || end != digits.data() + digits.size())
+    throw Error("is damaged (a seed is no number)", store.place(),
+                "Restore a backup: palpa records restore");
   return seed;
 }
 
 void require(const Trainee& trainee) {
-  if (const std::string why = whyNoPseudonym(trainee.id); !why.empty()) throw UsageError(why, "trainee \"" + trainee.id + "\"", "Choose another pseudonym");
-  if (trainee.handedness != "right" && trainee.handedness != "left") throw UsageError("must be right or left", "handedness of " + trainee.id, "Give one of them");
+  if (const std::string why = whyNoPseudonym(trainee.id); !why.empty())
+    throw UsageError(why, "trainee \"" + trainee.id + "\"", "Choose another pseudonym");
+  if (trainee.handedness != "right" && trainee.handedness != "left")
+    throw UsageError("must be right or left", "handedness of " + trainee.id, "Give one of them");
 }
 
 }  // namespace
@@ -49,20 +62,34 @@ double StoredTrial::metric(const std::string& name) const {
 }
 
 std::string whyNoPseudonym(const std::string& id) {
-  const bool fits = !id.empty() && id[0] != '-' && id[0] != '_' && id.size() <= 32 && id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") == std::string::npos;
-  return fits ? "" : "a pseudonym has 1 to 32 letters, digits, - or _, and begins with a letter or a digit";
+  const bool fits =
+      !id.empty() && id[0] != '-' && id[0] != '_' && id.size() <= 32 &&
+      id.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-_") ==
+          std::string::npos;
+  return fits ? ""
+              : "a pseudonym has 1 to 32 letters, digits, - or _, and begins with a letter or a "
+                "digit";
 }
 
-RecordStore::RecordStore(std::unique_ptr<SqlConnection> connection) : connection_(std::move(connection)) { migrate(*connection_); }
+RecordStore::RecordStore(std::unique_ptr<SqlConnection> connection)
+    : connection_(std::move(connection)) {
+  migrate(*connection_);
+}
 RecordStore::RecordStore(const std::string& url) : RecordStore(connect(url)) {}
 
 void RecordStore::addTrainee(const Trainee& trainee) {
   require(trainee);
   SqlTransaction transaction(*connection_);
   if (wasDeleted(station::sha256(trainee.id)))
-    throw UsageError("was deleted on request, and late deliveries under this name are refused", "trainee " + trainee.id, "Choose another pseudonym");
-  const SqlRows added = connection_->query("INSERT INTO trainees(" + columnsOf("trainees") + ") VALUES($1,$2,$3,$4,$5,$6,$7,$8) ON CONFLICT(id) DO NOTHING RETURNING id", valuesOf(trainee));
-  if (added.empty()) throw UsageError("is in the records already", "trainee " + trainee.id, "Choose another pseudonym, or change this one: palpa records trainee change");
+    throw UsageError("was deleted on request, and late deliveries under this name are refused",
+                     "trainee " + trainee.id, "Choose another pseudonym");
+  const SqlRows added = connection_->query(
+      "INSERT INTO trainees(" + columnsOf("trainees") +
+          ") VALUES($1,$2,$3,$4,$5,$6,$7,$8) ON CONFLICT(id) DO NOTHING RETURNING id",
+      valuesOf(trainee));
+  if (added.empty())
+    throw UsageError("is in the records already", "trainee " + trainee.id,
+                     "Choose another pseudonym, or change this one: palpa records trainee change");
   transaction.commit();
 }
 
@@ -70,121 +97,206 @@ void RecordStore::changeTrainee(const Trainee& trainee) {
   require(trainee);
   SqlTransaction transaction(*connection_);
   const SqlRows changed = connection_->query(
-      "UPDATE trainees SET group_name=$2,experience=$3,handedness=$4,added_utc=$5,consent_utc=$6,research_utc=$7,retain_until=$8 WHERE id=$1 RETURNING id", valuesOf(trainee));
-  if (changed.empty()) throw UsageError("is not in the records", "trainee " + trainee.id, "Add it: palpa records trainee add");
+      "UPDATE trainees SET "
+      "group_name=$2,experience=$3,handedness=$4,added_utc=$5,consent_utc=$6,research_utc=$7,"
+      "retain_until=$8 WHERE id=$1 RETURNING id",
+      valuesOf(trainee));
+  if (changed.empty())
+    throw UsageError("is not in the records", "trainee " + trainee.id,
+                     "Add it: palpa records trainee add");
   transaction.commit();
 }
 
 std::optional<Trainee> RecordStore::trainee(const std::string& id) {
-  const SqlRows rows = connection_->query("SELECT " + columnsOf("trainees") + " FROM trainees WHERE id=$1", {id});
+  const SqlRows rows =
+      connection_->query("SELECT " + columnsOf("trainees") + " FROM trainees WHERE id=$1", {id});
   return rows.empty() ? std::nullopt : std::optional(traineeOf(rows, 0));
 }
 
-std::vector<Trainee> RecordStore::trainees() { return traineesOf(connection_->query("SELECT " + columnsOf("trainees") + " FROM trainees ORDER BY id")); }
-
-bool RecordStore::wasDeleted(const std::string& digest) { return !connection_->query("SELECT 1 FROM deletions WHERE digest=$1", {digest}).empty(); }
-
-std::vector<Trainee> RecordStore::overdue(const std::string& date) {
-  return traineesOf(connection_->query("SELECT " + columnsOf("trainees") + " FROM trainees WHERE retain_until<>'' AND retain_until<$1 ORDER BY id", {date}));
+std::vector<Trainee> RecordStore::trainees() {
+  return traineesOf(
+      connection_->query("SELECT " + columnsOf("trainees") + " FROM trainees ORDER BY id"));
 }
 
-/// The trainee's row is locked by the update, so two stations number his sessions one after the other.
+bool RecordStore::wasDeleted(const std::string& digest) {
+  return !connection_->query("SELECT 1 FROM deletions WHERE digest=$1", {digest}).empty();
+}
+
+std::vector<Trainee> RecordStore::overdue(const std::string& date) {
+  return traineesOf(connection_->query(
+      "SELECT " + columnsOf("trainees") +
+          " FROM trainees WHERE retain_until<>'' AND retain_until<$1 ORDER BY id",
+      {date}));
+}
+
+/// The trainee's row is locked by the update, so two stations number his sessions one after the
+/// other.
 void RecordStore::requireSession(const StoredSession& s) {
-  if (connection_->query("UPDATE trainees SET id=id WHERE id=$1 RETURNING id", {s.trainee}).empty()) {
+  if (connection_->query("UPDATE trainees SET id=id WHERE id=$1 RETURNING id", {s.trainee})
+          .empty()) {
     if (wasDeleted(station::sha256(s.trainee)))
-      throw PersonDeleted("was deleted on request; the trial is refused", "trainee " + s.trainee, "Its evidence is to be removed, too");
-    throw UsageError("is not in the records", "trainee " + s.trainee, "Add it: palpa records trainee add --id " + s.trainee);
+      throw PersonDeleted("was deleted on request; the trial is refused", "trainee " + s.trainee,
+                          "Its evidence is to be removed, too");
+    throw UsageError("is not in the records", "trainee " + s.trainee,
+                     "Add it: palpa records trainee add --id " + s.trainee);
   }
   const SqlRows owner = connection_->query("SELECT trainee FROM sessions WHERE uuid=$1", {s.uuid});
-  if (owner.empty()) insertSession(s);
-  else if (owner.text(0, 0) != s.trainee) throw UsageError("belongs to another trainee", "session " + s.uuid, "Two people cannot share a session; give each one of his own");
+  if (owner.empty())
+    insertSession(s);
+  else if (owner.text(0, 0) != s.trainee)
+    throw UsageError("belongs to another trainee", "session " + s.uuid,
+                     "Two people cannot share a session; give each one of his own");
 }
 
 void RecordStore::insertSession(const StoredSession& s) {
-  const std::int64_t arrival = 1 + connection_->query("SELECT COALESCE(MAX(arrival),0) FROM sessions WHERE trainee=$1", {s.trainee}).integer(0, 0);
-  connection_->query("INSERT INTO sessions(" + columnsOf("sessions") + ") VALUES($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13)",
-                     {s.uuid, s.trainee, arrival, s.started_utc, s.software, s.task, s.station, std::int64_t{s.simulated}, s.study, s.slot, s.evidence, s.evidence_sha256, s.facts_json});
+  const std::int64_t arrival =
+      1 + connection_
+              ->query("SELECT COALESCE(MAX(arrival),0) FROM sessions WHERE trainee=$1", {s.trainee})
+              .integer(0, 0);
+  connection_->query(
+      "INSERT INTO sessions(" + columnsOf("sessions") +
+          ") VALUES($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11,$12,$13)",
+      {s.uuid, s.trainee, arrival, s.started_utc, s.software, s.task, s.station,
+       std::int64_t{s.simulated}, s.study, s.slot, s.evidence, s.evidence_sha256, s.facts_json});
   for (const StoredCalibration& c : s.calibrations)
-    connection_->query("INSERT INTO calibrations(" + columnsOf("calibrations") + ") VALUES($1,$2,$3,$4,$5) ON CONFLICT(session,name) DO NOTHING", {s.uuid, c.name, c.made_utc, c.sha256, c.verdict});
+    connection_->query("INSERT INTO calibrations(" + columnsOf("calibrations") +
+                           ") VALUES($1,$2,$3,$4,$5) ON CONFLICT(session,name) DO NOTHING",
+                       {s.uuid, c.name, c.made_utc, c.sha256, c.verdict});
 }
 
 bool RecordStore::addTrial(const StoredSession& session, const StoredTrial& t) {
   SqlTransaction transaction(*connection_);
   requireSession(session);
   const SqlRows added = connection_->query(
-      "INSERT INTO trials(session,number,start_ns,end_ns,role,seed,force_feedback,outcome,reason,success,score_json) VALUES($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11) ON CONFLICT(session,number) DO NOTHING RETURNING number",
-      {session.uuid, t.number, t.start_ns, t.end_ns, t.role, std::to_string(t.seed), std::int64_t{t.force_feedback}, t.outcome, t.reason, std::int64_t{t.success}, t.score_json});
+      "INSERT INTO "
+      "trials(session,number,start_ns,end_ns,role,seed,force_feedback,outcome,reason,success,score_"
+      "json) VALUES($1,$2,$3,$4,$5,$6,$7,$8,$9,$10,$11) ON CONFLICT(session,number) DO NOTHING "
+      "RETURNING number",
+      {session.uuid, t.number, t.start_ns, t.end_ns, t.role, std::to_string(t.seed),
+       std::int64_t{t.force_feedback}, t.outcome, t.reason, std::int64_t{t.success}, t.score_json});
   if (added.empty()) {
     transaction.commit();
     return false;
   }
-  for (const Metric& m : t.metrics) connection_->query("INSERT INTO metrics(session,number,name,value) VALUES($1,$2,$3,$4)", {session.uuid, t.number, m.name, m.value});
+  for (const Metric& m : t.metrics)
+    connection_->query("INSERT INTO metrics(session,number,name,value) VALUES($1,$2,$3,$4)",
+                       {session.uuid, t.number, m.name, m.value});
   std::int64_t ordinal = 0;
   for (const StoredEvent& e : t.events)
-    connection_->query("INSERT INTO events(session,number,ordinal,t_ns,kind,text,value) VALUES($1,$2,$3,$4,$5,$6,$7)", {session.uuid, t.number, ++ordinal, e.t_ns, e.kind, e.text, e.value});
+    connection_->query(
+        "INSERT INTO events(session,number,ordinal,t_ns,kind,text,value) "
+        "VALUES($1,$2,$3,$4,$5,$6,$7)",
+        {session.uuid, t.number, ++ordinal, e.t_ns, e.kind, e.text, e.value});
   transaction.commit();
   return true;
 }
 
 std::vector<StoredSession> RecordStore::sessions(const std::string& trainee) {
-  const SqlRows rows = connection_->query("SELECT " + columnsOf("sessions") + " FROM sessions WHERE $1='' OR trainee=$1 ORDER BY trainee,arrival", {trainee});
+  const SqlRows rows =
+      connection_->query("SELECT " + columnsOf("sessions") +
+                             " FROM sessions WHERE $1='' OR trainee=$1 ORDER BY trainee,arrival",
+                         {trainee});
   std::vector<StoredSession> all;
   for (std::size_t i = 0; i < rows.size(); ++i) all.push_back(sessionOf(rows, i));
   return all;
 }
 
 std::optional<StoredSession> RecordStore::session(const std::string& uuid) {
-  const SqlRows rows = connection_->query("SELECT " + columnsOf("sessions") + " FROM sessions WHERE uuid=$1", {uuid});
+  const SqlRows rows = connection_->query(
+      "SELECT " + columnsOf("sessions") + " FROM sessions WHERE uuid=$1", {uuid});
   if (rows.empty()) return std::nullopt;
   StoredSession session = sessionOf(rows, 0);
-  const SqlRows calibrations = connection_->query("SELECT name,made_utc,sha256,verdict FROM calibrations WHERE session=$1 ORDER BY name", {uuid});
-  for (std::size_t i = 0; i < calibrations.size(); ++i) session.calibrations.push_back({calibrations.text(i, 0), calibrations.text(i, 1), calibrations.text(i, 2), calibrations.text(i, 3)});
+  const SqlRows calibrations = connection_->query(
+      "SELECT name,made_utc,sha256,verdict FROM calibrations WHERE session=$1 ORDER BY name",
+      {uuid});
+  for (std::size_t i = 0; i < calibrations.size(); ++i)
+    session.calibrations.push_back({calibrations.text(i, 0), calibrations.text(i, 1),
+                                    calibrations.text(i, 2), calibrations.text(i, 3)});
   return session;
 }
 
 std::vector<TrialWithSession> RecordStore::trials(const TrialFilter& f) {
-  const std::string where = " WHERE ($1='' OR s.trainee=$1) AND ($2='' OR s.task=$2) AND ($3='' OR s.study=$3) AND ($4='' OR s.uuid=$4) AND ($5=-1 OR s.simulated=$5)";
-  const std::vector<SqlValue> values{f.trainee, f.task, f.study, f.session, std::int64_t{f.simulated}};
-  SqlTransaction moment(*connection_);   // trials and their metrics must match
+  const std::string where =
+      " WHERE ($1='' OR s.trainee=$1) AND ($2='' OR s.task=$2) AND ($3='' OR s.study=$3) AND "
+      "($4='' OR s.uuid=$4) AND ($5=-1 OR s.simulated=$5)";
+  const std::vector<SqlValue> values{f.trainee, f.task, f.study, f.session,
+                                     std::int64_t{f.simulated}};
+  SqlTransaction moment(*connection_);  // trials and their metrics must match
   connection_->freeze();
   const SqlRows rows = connection_->query(
-      "SELECT s.uuid,s.trainee,s.arrival,s.started_utc,s.software,s.task,s.station,s.simulated,s.study,s.slot,s.evidence,s.evidence_sha256,s.facts_json,"
-      "t.number,t.start_ns,t.end_ns,t.role,t.seed,t.force_feedback,t.outcome,t.reason,t.success,t.score_json FROM sessions s JOIN trials t ON t.session=s.uuid" + where + " ORDER BY s.trainee,s.arrival,t.number", values);
-  const SqlRows metrics = connection_->query("SELECT m.session,m.number,m.name,m.value FROM sessions s JOIN metrics m ON m.session=s.uuid" + where + " ORDER BY s.trainee,s.arrival,m.number,m.name", values);
+      "SELECT "
+      "s.uuid,s.trainee,s.arrival,s.started_utc,s.software,s.task,s.station,s.simulated,s.study,s."
+      "slot,s.evidence,s.evidence_sha256,s.facts_json,"
+      "t.number,t.start_ns,t.end_ns,t.role,t.seed,t.force_feedback,t.outcome,t.reason,t.success,t."
+      "score_json FROM sessions s JOIN trials t ON t.session=s.uuid" +
+          where + " ORDER BY s.trainee,s.arrival,t.number",
+      values);
+  const SqlRows metrics = connection_->query(
+      "SELECT m.session,m.number,m.name,m.value FROM sessions s JOIN metrics m ON "
+      "m.session=s.uuid" +
+          where + " ORDER BY s.trainee,s.arrival,m.number,m.name",
+      values);
   std::vector<TrialWithSession> all;
   std::size_t m = 0;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     constexpr std::size_t c = kSessionColumnCount;
     TrialWithSession entry{sessionOf(rows, i),
-                           {rows.integer(i, c), rows.integer(i, c + 1), rows.integer(i, c + 2), rows.text(i, c + 3), seedOf(rows.text(i, c + 4), *connection_), rows.integer(i, c + 5) != 0, rows.text(i, c + 6), rows.text(i, c + 7),
-                            rows.integer(i, c + 8) != 0, rows.text(i, c + 9), {}, {}}};
-    for (; m < metrics.size() && metrics.text(m, 0) == entry.session.uuid && metrics.integer(m, 1) == entry.trial.number; ++m) entry.trial.metrics.push_back({metrics.text(m, 2), metrics.real(m, 3)});
+                           {rows.integer(i, c),
+                            rows.integer(i, c + 1),
+                            rows.integer(i, c + 2),
+                            rows.text(i, c + 3),
+                            seedOf(rows.text(i, c + 4), *connection_),
+                            rows.integer(i, c + 5) != 0,
+                            rows.text(i, c + 6),
+                            rows.text(i, c + 7),
+                            rows.integer(i, c + 8) != 0,
+                            rows.text(i, c + 9),
+                            {},
+                            {}}};
+    for (; m < metrics.size() && metrics.text(m, 0) == entry.session.uuid &&
+           metrics.integer(m, 1) == entry.trial.number;
+         ++m)
+      entry.trial.metrics.push_back({metrics.text(m, 2), metrics.real(m, 3)});
     all.push_back(std::move(entry));
   }
   return all;
 }
 
 std::vector<StoredEvent> RecordStore::events(const std::string& session, std::int64_t number) {
-  const SqlRows rows = connection_->query("SELECT t_ns,kind,text,value FROM events WHERE session=$1 AND number=$2 ORDER BY ordinal", {session, number});
+  const SqlRows rows = connection_->query(
+      "SELECT t_ns,kind,text,value FROM events WHERE session=$1 AND number=$2 ORDER BY ordinal",
+      {session, number});
   std::vector<StoredEvent> all;
-  for (std::size_t i = 0; i < rows.size(); ++i) all.push_back({rows.integer(i, 0), rows.text(i, 1), rows.text(i, 2), rows.real(i, 3)});
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    all.push_back({rows.integer(i, 0), rows.text(i, 1), rows.text(i, 2), rows.real(i, 3)});
   return all;
 }
 
-std::vector<StoredSession> RecordStore::deletePerson(const std::string& id, const std::string& now_utc) {
+std::vector<StoredSession> RecordStore::deletePerson(const std::string& id,
+                                                     const std::string& now_utc) {
   SqlTransaction transaction(*connection_);
-  if (connection_->query("UPDATE trainees SET id=id WHERE id=$1 RETURNING id", {id}).empty()) throw UsageError("is not in the records", "trainee " + id, "palpa records trainee list shows who is");
+  if (connection_->query("UPDATE trainees SET id=id WHERE id=$1 RETURNING id", {id}).empty())
+    throw UsageError("is not in the records", "trainee " + id,
+                     "palpa records trainee list shows who is");
   const std::vector<StoredSession> theirs = sessions(id);
-  for (const StoredSession& s : theirs) connection_->query("INSERT INTO deleted_evidence(session,evidence) VALUES($1,$2) ON CONFLICT(session) DO NOTHING", {s.uuid, s.evidence});
-  connection_->query("DELETE FROM sessions WHERE trainee=$1", {id});   // trials, metrics, events, calibrations go with them
+  for (const StoredSession& s : theirs)
+    connection_->query(
+        "INSERT INTO deleted_evidence(session,evidence) VALUES($1,$2) ON CONFLICT(session) DO "
+        "NOTHING",
+        {s.uuid, s.evidence});
+  connection_->query("DELETE FROM sessions WHERE trainee=$1",
+                     {id});  // trials, metrics, events, calibrations go with them
   connection_->query("DELETE FROM trainees WHERE id=$1", {id});
-  connection_->query("INSERT INTO deletions(digest,deleted_utc) VALUES($1,$2) ON CONFLICT(digest) DO NOTHING", {station::sha256(id), now_utc});
+  connection_->query(
+      "INSERT INTO deletions(digest,deleted_utc) VALUES($1,$2) ON CONFLICT(digest) DO NOTHING",
+      {station::sha256(id), now_utc});
   transaction.commit();
   return theirs;
 }
 
 std::vector<StoredSession> RecordStore::evidenceToDelete() {
-  const SqlRows rows = connection_->query("SELECT session,evidence FROM deleted_evidence ORDER BY session");
+  const SqlRows rows =
+      connection_->query("SELECT session,evidence FROM deleted_evidence ORDER BY session");
   std::vector<StoredSession> all(rows.size());
   for (std::size_t i = 0; i < rows.size(); ++i) {
     all[i].uuid = rows.text(i, 0);
@@ -193,6 +305,8 @@ std::vector<StoredSession> RecordStore::evidenceToDelete() {
   return all;
 }
 
-void RecordStore::evidenceDeleted(const std::string& session) { connection_->query("DELETE FROM deleted_evidence WHERE session=$1", {session}); }
+void RecordStore::evidenceDeleted(const std::string& session) {
+  connection_->query("DELETE FROM deleted_evidence WHERE session=$1", {session});
+}
 
 }  // namespace palpa::record

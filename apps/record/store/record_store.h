@@ -10,7 +10,8 @@
 
 namespace palpa::record {
 
-/// A trial of somebody whose records were deleted on request: it is refused, and its evidence is to be removed.
+/// A trial of somebody whose records were deleted on request: it is refused, and its evidence is to
+/// be removed.
 class PersonDeleted : public Error {
  public:
   using Error::Error;
@@ -19,19 +20,21 @@ class PersonDeleted : public Error {
 /// Which trials; an empty text or -1 means any.
 struct TrialFilter {
   std::string trainee = {}, task = {}, study = {}, session = {};
-  int simulated = -1;                 ///< 0, 1
+  int simulated = -1;  ///< 0, 1
 };
 
 struct TrialWithSession {
-  StoredSession session;              ///< without its calibrations
-  StoredTrial trial;                  ///< without its events
+  StoredSession session;  ///< without its calibrations
+  StoredTrial trial;      ///< without its events
 };
 
-/// Trainees, sessions, trials, metrics, events of a centre: one SQLite file, or a PostgreSQL server for many stations. Every call is one transaction; what
-/// cannot be reached throws StoreUnreachable and leaves nothing half done. One thread.
+/// Trainees, sessions, trials, metrics, events of a centre: one SQLite file, or a PostgreSQL server
+/// for many stations. Every call is one transaction; what cannot be reached throws StoreUnreachable
+/// and leaves nothing half done. One thread.
 class RecordStore {
  public:
-  /// Opens, makes or migrates. Throws Error for a store that is newer, damaged, refused; UsageError for an address that is none.
+  /// Opens, makes or migrates. Throws Error for a store that is newer, damaged, refused; UsageError
+  /// for an address that is none.
   explicit RecordStore(const std::string& url);
   explicit RecordStore(std::unique_ptr<SqlConnection> connection);
 
@@ -39,30 +42,36 @@ class RecordStore {
 
   /// Throws UsageError for an id that is taken, malformed or was deleted.
   void addTrainee(const Trainee& trainee);
-  void changeTrainee(const Trainee& trainee);                 ///< throws UsageError for one who is not there
+  void changeTrainee(const Trainee& trainee);  ///< throws UsageError for one who is not there
   std::optional<Trainee> trainee(const std::string& id);
-  std::vector<Trainee> trainees();                            ///< by id
+  std::vector<Trainee> trainees();  ///< by id
 
-  /// Adds a trial, and its session with the first of them. A trial that is there already is left as it is: false. So a trial may be delivered as often as it takes.
-  /// Throws PersonDeleted; UsageError for a trainee who is not there or a session that belongs to another.
+  /// Adds a trial, and its session with the first of them. A trial that is there already is left as
+  /// it is: false. So a trial may be delivered as often as it takes. Throws PersonDeleted;
+  /// UsageError for a trainee who is not there or a session that belongs to another.
   bool addTrial(const StoredSession& session, const StoredTrial& trial);
 
-  std::vector<StoredSession> sessions(const std::string& trainee = "");   ///< by trainee and arrival
+  std::vector<StoredSession> sessions(const std::string& trainee = "");  ///< by trainee and arrival
   std::optional<StoredSession> session(const std::string& uuid);
-  std::vector<TrialWithSession> trials(const TrialFilter& filter = {});   ///< by trainee, arrival, number
+  std::vector<TrialWithSession> trials(
+      const TrialFilter& filter = {});  ///< by trainee, arrival, number
   std::vector<StoredEvent> events(const std::string& session, std::int64_t number);
 
-  /// Removes all rows of a person and remembers that he was deleted; answers where the evidence of his sessions lies. Throws UsageError for one who is not there.
+  /// Removes all rows of a person and remembers that he was deleted; answers where the evidence of
+  /// his sessions lies. Throws UsageError for one who is not there.
   std::vector<StoredSession> deletePerson(const std::string& id, const std::string& now_utc);
-  std::vector<StoredSession> evidenceToDelete();              ///< uuid and evidence only: of deleted persons, not yet removed
+  std::vector<StoredSession>
+  evidenceToDelete();  ///< uuid and evidence only: of deleted persons, not yet removed
   void evidenceDeleted(const std::string& session);
-  bool wasDeleted(const std::string& digest);                 ///< SHA-256 of a pseudonym
-  std::vector<Trainee> overdue(const std::string& date);      ///< whose retention ended before this date
+  bool wasDeleted(const std::string& digest);  ///< SHA-256 of a pseudonym
+  std::vector<Trainee> overdue(
+      const std::string& date);  ///< whose retention ended before this date
 
-  SqlConnection& connection() { return *connection_; }        ///< for what else belongs into the store
+  SqlConnection& connection() { return *connection_; }  ///< for what else belongs into the store
 
  private:
-  void requireSession(const StoredSession& session);   ///< of this trainee, made where it is not there
+  void requireSession(
+      const StoredSession& session);  ///< of this trainee, made where it is not there
   void insertSession(const StoredSession& session);
   std::unique_ptr<SqlConnection> connection_;
 };

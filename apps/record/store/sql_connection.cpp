@@ -9,7 +9,8 @@ constexpr std::string_view kSchemes[] = {"postgresql://", "postgres://"};
 
 /// user:password@ between scheme and host.
 bool hasPassword(const std::string& url) {
-  const std::size_t start = url.find("://") + 3, at = url.find('@', start), colon = url.find(':', start);
+  const std::size_t start = url.find("://") + 3, at = url.find('@', start),
+                    colon = url.find(':', start);
   const bool in_authority = at != std::string::npos && at < url.find('/', start);
   return (in_authority && colon < at) || url.find("password=") != std::string::npos;
 }
@@ -17,11 +18,13 @@ bool hasPassword(const std::string& url) {
 std::unique_ptr<SqlConnection> open(const std::string& url, Access access) {
   if (!isServer(url)) {
     if (url.empty() || url.find("://") != std::string::npos)
-      throw UsageError("is neither a file nor a postgresql:// address", "records \"" + url + "\"", "Give the path of a file, or postgresql://user@host/database");
+      throw UsageError("is neither a file nor a postgresql:// address", "records \"" + url + "\"",
+                       "Give the path of a file, or postgresql://user@host/database");
     return openSqlite(url, access);
   }
   if (hasPassword(url))
-    throw UsageError("holds a password, which others could read", "records address", "Leave it out and put it into ~/.pgpass or PGPASSWORD");
+    throw UsageError("holds a password, which others could read", "records address",
+                     "Leave it out and put it into ~/.pgpass or PGPASSWORD");
   return openPostgres(url, access);
 }
 
@@ -53,6 +56,8 @@ bool isServer(const std::string& url) {
 }
 
 std::unique_ptr<SqlConnection> connect(const std::string& url) { return open(url, Access::write); }
-std::unique_ptr<SqlConnection> connectToRead(const std::string& url) { return open(url, Access::read); }
+std::unique_ptr<SqlConnection> connectToRead(const std::string& url) {
+  return open(url, Access::read);
+}
 
 }  // namespace palpa::record

@@ -19,9 +19,9 @@ class SqlRows {
   std::size_t size() const { return rows_.size(); }
   bool empty() const { return rows_.empty(); }
   bool isNull(std::size_t row, std::size_t column) const { return at(row, column).index() == 0; }
-  std::string text(std::size_t row, std::size_t column) const;            ///< "" for null
-  std::int64_t integer(std::size_t row, std::size_t column) const;        ///< 0 for null
-  double real(std::size_t row, std::size_t column) const;                 ///< NaN for null
+  std::string text(std::size_t row, std::size_t column) const;      ///< "" for null
+  std::int64_t integer(std::size_t row, std::size_t column) const;  ///< 0 for null
+  double real(std::size_t row, std::size_t column) const;           ///< NaN for null
   const std::vector<SqlValue>& row(std::size_t row) const { return rows_.at(row); }
   void add(std::vector<SqlValue> row) { rows_.push_back(std::move(row)); }
 
@@ -36,26 +36,31 @@ class StoreUnreachable : public Error {
   using Error::Error;
 };
 
-/// The subset of SQL that SQLite and PostgreSQL share: parameters $1, $2, ... in the order of their numbers, ON CONFLICT DO NOTHING, RETURNING.
-/// One connection, one thread. Everything throws Error in words; a lost or refused connection StoreUnreachable.
+/// The subset of SQL that SQLite and PostgreSQL share: parameters $1, $2, ... in the order of their
+/// numbers, ON CONFLICT DO NOTHING, RETURNING. One connection, one thread. Everything throws Error
+/// in words; a lost or refused connection StoreUnreachable.
 class SqlConnection {
  public:
   virtual ~SqlConnection() = default;
   virtual SqlRows query(const std::string& sql, const std::vector<SqlValue>& values = {}) = 0;
-  virtual void script(const std::string& statements) = 0;   ///< several, without parameters, inside a transaction
-  virtual void begin() = 0;                                 ///< for writing
+  virtual void script(
+      const std::string& statements) = 0;  ///< several, without parameters, inside a transaction
+  virtual void begin() = 0;                ///< for writing
   virtual void commit() = 0;
   virtual void rollback() noexcept = 0;
-  virtual void lockSchema() = 0;                            ///< within a transaction, to its end: nobody else changes the tables
-  virtual void freeze() = 0;                                ///< first in a transaction: all that it reads is of one moment
+  virtual void
+  lockSchema() = 0;           ///< within a transaction, to its end: nobody else changes the tables
+  virtual void freeze() = 0;  ///< first in a transaction: all that it reads is of one moment
   virtual bool hasTable(const std::string& name) = 0;
-  virtual std::string place() const = 0;                    ///< for messages; never a password
+  virtual std::string place() const = 0;  ///< for messages; never a password
 };
 
 /// Begins; rolls back unless committed.
 class SqlTransaction {
  public:
-  explicit SqlTransaction(SqlConnection& connection) : connection_(connection) { connection_.begin(); }
+  explicit SqlTransaction(SqlConnection& connection) : connection_(connection) {
+    connection_.begin();
+  }
   ~SqlTransaction() {
     if (open_) connection_.rollback();
   }
@@ -71,12 +76,14 @@ class SqlTransaction {
   bool open_ = true;
 };
 
-/// "postgresql://[user@]host[:port]/database" or the path of an SQLite file, which is made where there is none (readable by its owner only). A URL that holds
-/// a password is refused: it would end in station files and process lists; libpq finds it in PGPASSWORD or ~/.pgpass.
+/// "postgresql://[user@]host[:port]/database" or the path of an SQLite file, which is made where
+/// there is none (readable by its owner only). A URL that holds a password is refused: it would end
+/// in station files and process lists; libpq finds it in PGPASSWORD or ~/.pgpass.
 std::unique_ptr<SqlConnection> connect(const std::string& url);
 bool isServer(const std::string& url);
 
-/// The same to read only: nothing is made, written or migrated, neither in the store nor, of a file, beside it. The file must exist and hold something.
+/// The same to read only: nothing is made, written or migrated, neither in the store nor, of a
+/// file, beside it. The file must exist and hold something.
 std::unique_ptr<SqlConnection> connectToRead(const std::string& url);
 
 enum class Access { write, read };

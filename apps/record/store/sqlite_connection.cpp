@@ -15,45 +15,57 @@
 namespace palpa::record {
 namespace {
 
-constexpr int kRecordsApplicationId = 0x70616c52;   // "palR"
-constexpr int kWaitForOthers_ms = 20'000;           // eight stations that write at once take turns
+constexpr int kRecordsApplicationId = 0x70616c52;  // "palR"
+constexpr int kWaitForOthers_ms = 20'000;          // eight stations that write at once take turns
 
 void makeFile(const std::string& file) {
   const int descriptor = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor < 0) throw Error(std::string("cannot be opened for writing (") + std::strerror(errno) + ")", "records file " + file, "Check that its folder exists and may be written");
+  if (descriptor < 0)
+    throw Error(std::string("cannot be opened for writing (") + std::strerror(errno) + ")",
+                "records file " + file, "Check that its folder exists and may be written");
   ::close(descriptor);
 }
 
-/// SQLite fills up what is missing of the last page and says nothing. With a log beside, the file may well be in the middle of being written.
+/// SQLite fills up what is missing of the last page and says nothing. With a log beside, the file
+/// may well be in the middle of being written.
 void checkWhole(const std::string& file, const char* header) {
-  const auto high = static_cast<unsigned char>(header[16]), low = static_cast<unsigned char>(header[17]);
-  const std::uintmax_t page = high == 0 && low == 1 ? 65536 : 256u * high + low;   // as the file format has it
+  const auto high = static_cast<unsigned char>(header[16]),
+             low = static_cast<unsigned char>(header[17]);
+  const std::uintmax_t page =
+      high == 0 && low == 1 ? 65536 : 256u * high + low;  // as the file format has it
   std::error_code none;
   const std::uintmax_t log = std::filesystem::file_size(file + "-wal", none);
   if (page == 0 || (!none && log > 0) || std::filesystem::file_size(file) % page == 0) return;
-  throw Error("is damaged (it was cut short)", "records file " + file, "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE .recover`");
+  throw Error(
+      "is damaged (it was cut short)", "records file " + file,
+      "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE .recover`");
 }
 
 void checkKind(const std::string& file) {
   char start[18] = {};
   std::ifstream stream(file, std::ios::binary);
   stream.read(start, sizeof start);
-  if (stream.gcount() == 0) return;   // new
+  if (stream.gcount() == 0) return;  // new
   if (stream.gcount() < 16 || std::memcmp(start, "SQLite format 3", 16) != 0)
-    throw Error("is no records file", "records file " + file, "Give the right file, or restore it from a backup");
+    throw Error("is no records file", "records file " + file,
+                "Give the right file, or restore it from a backup");
   checkWhole(file, start);
 }
 
-/// With a log and its index beside it somebody writes, or was killed: what stands in the log is read as well. Otherwise SQLite would make both: it is told that nobody writes.
+/// With a log and its index beside it somebody writes, or was killed: what stands in the log is
+/// read as well. Otherwise SQLite would make both: it is told that nobody writes.
 Database::Mode readingMode(const std::string& file) {
   std::error_code none;
-  const bool in_use = std::filesystem::file_size(file + "-wal", none) > 0 && !none && std::filesystem::exists(file + "-shm", none);
+  const bool in_use = std::filesystem::file_size(file + "-wal", none) > 0 && !none &&
+                      std::filesystem::exists(file + "-shm", none);
   return in_use ? Database::Mode::read : Database::Mode::read_immutable;
 }
 
 class SqliteConnection final : public SqlConnection {
  public:
-  SqliteConnection(const std::string& file, Access access) : database_(prepared(file, access), access == Access::write ? Database::Mode::write : readingMode(file)) {
+  SqliteConnection(const std::string& file, Access access)
+      : database_(prepared(file, access),
+                  access == Access::write ? Database::Mode::write : readingMode(file)) {
     sqlite3_busy_timeout(database_.handle(), kWaitForOthers_ms);
     guarded([&] { access == Access::write ? prepare() : check(); });
   }
@@ -66,10 +78,14 @@ class SqliteConnection final : public SqlConnection {
   }
   void begin() override { script("BEGIN IMMEDIATE"); }
   void commit() override { script("COMMIT"); }
-  void rollback() noexcept override { sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr); }
-  void lockSchema() override {}   // a transaction for writing has the file to itself
+  void rollback() noexcept override {
+    sqlite3_exec(database_.handle(), "ROLLBACK", nullptr, nullptr, nullptr);
+  }
+  void lockSchema() override {}  // a transaction for writing has the file to itself
   void freeze() override {}
-  bool hasTable(const std::string& name) override { return !query("SELECT 1 FROM sqlite_master WHERE type='table' AND name=$1", {name}).empty(); }
+  bool hasTable(const std::string& name) override {
+    return !query("SELECT 1 FROM sqlite_master WHERE type='table' AND name=$1", {name}).empty();
+  }
   std::string place() const override { return "records file " + database_.file().string(); }
 
  private:
@@ -89,21 +105,28 @@ class SqliteConnection final : public SqlConnection {
   /// 0: a file that holds nothing yet.
   std::int64_t ownId() {
     const std::int64_t id = database_.integer("PRAGMA application_id");
-    if (id == kRecordsApplicationId || (id == 0 && database_.integer("SELECT count(*) FROM sqlite_master") == 0)) return id;
-    throw Error("is a database of another program", place(), "Give the right file; a session's evidence is added by palpa records add");
+    if (id == kRecordsApplicationId ||
+        (id == 0 && database_.integer("SELECT count(*) FROM sqlite_master") == 0))
+      return id;
+    throw Error("is a database of another program", place(),
+                "Give the right file; a session's evidence is added by palpa records add");
   }
 
   void checkPages() {
-    if (const std::string verdict = database_.text("PRAGMA quick_check"); verdict != "ok") failDamaged(verdict);
+    if (const std::string verdict = database_.text("PRAGMA quick_check"); verdict != "ok")
+      failDamaged(verdict);
   }
 
   [[noreturn]] void failDamaged(const std::string& reason) const {
-    throw Error("is damaged (" + reason.substr(0, reason.find('\n')) + ")", place(), "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE .recover`");
+    throw Error("is damaged (" + reason.substr(0, reason.find('\n')) + ")", place(),
+                "Restore a backup: palpa records restore; keep the damaged file for `sqlite3 FILE "
+                ".recover`");
   }
 
   SqlRows answer(const std::string& sql, const std::vector<SqlValue>& values) {
     sqlite3_stmt* raw = nullptr;
-    if (sqlite3_prepare_v2(database_.handle(), sql.c_str(), -1, &raw, nullptr) != SQLITE_OK) database_.fail("cannot be read or written");
+    if (sqlite3_prepare_v2(database_.handle(), sql.c_str(), -1, &raw, nullptr) != SQLITE_OK)
+      database_.fail("cannot be read or written");
     const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> statement(raw, sqlite3_finalize);
     bindAll(raw, values);
     SqlRows rows;
@@ -120,15 +143,22 @@ class SqliteConnection final : public SqlConnection {
     try {
       return action();
     } catch (const DatabaseError& e) {
-      const bool later = e.code == SQLITE_BUSY || e.code == SQLITE_LOCKED || e.code == SQLITE_FULL || e.code == SQLITE_IOERR || e.code == SQLITE_PROTOCOL;
-      const bool broken = e.code == SQLITE_CORRUPT || e.code == SQLITE_NOTADB || e.code == SQLITE_ERROR;   // the last: tables are not as they were made
+      const bool later = e.code == SQLITE_BUSY || e.code == SQLITE_LOCKED ||
+                         e.code == SQLITE_FULL || e.code == SQLITE_IOERR ||
+                         e.code == SQLITE_PROTOCOL;
+      const bool broken = e.code == SQLITE_CORRUPT || e.code == SQLITE_NOTADB ||
+                          e.code == SQLITE_ERROR;  // the last: tables are not as they were made
       if (broken) failDamaged(sqlite3_errmsg(database_.handle()));
       if (!later) throw;
-      throw StoreUnreachable(std::string("cannot be written now (") + sqlite3_errstr(e.code) + ")", place(), "Free the disk or close what holds the file; trials are kept on this station and sent later");
+      throw StoreUnreachable(std::string("cannot be written now (") + sqlite3_errstr(e.code) + ")",
+                             place(),
+                             "Free the disk or close what holds the file; trials are kept on this "
+                             "station and sent later");
     }
   }
 
-  /// Readers and a writer side by side. Several programs may ask for it at once on a new file, which SQLite answers without waiting.
+  /// Readers and a writer side by side. Several programs may ask for it at once on a new file,
+  /// which SQLite answers without waiting.
   void switchToLog() {
     for (int tries = 200;; --tries) try {
         database_.text("PRAGMA journal_mode=WAL");
@@ -147,14 +177,21 @@ class SqliteConnection final : public SqlConnection {
 
   void bindAll(sqlite3_stmt* statement, const std::vector<SqlValue>& values) {
     for (std::size_t i = 0; i < values.size(); ++i) {
-      const int index = sqlite3_bind_parameter_index(statement, ("$" + std::to_string(i + 1)).c_str());
-      if (index == 0) continue;   // given, not used
+      const int index =
+          sqlite3_bind_parameter_index(statement, ("$" + std::to_string(i + 1)).c_str());
+      if (index == 0) continue;  // given, not used
       const SqlValue& v = values[i];
       int code = SQLITE_OK;
-      if (const auto* whole = std::get_if<std::int64_t>(&v)) code = sqlite3_bind_int64(statement, index, *whole);
-      else if (const auto* real = std::get_if<double>(&v)) code = std::isnan(*real) ? sqlite3_bind_null(statement, index) : sqlite3_bind_double(statement, index, *real);
-      else if (const auto* text = std::get_if<std::string>(&v)) code = sqlite3_bind_text64(statement, index, text->data(), text->size(), SQLITE_TRANSIENT, SQLITE_UTF8);
-      else code = sqlite3_bind_null(statement, index);
+      if (const auto* whole = std::get_if<std::int64_t>(&v))
+        code = sqlite3_bind_int64(statement, index, *whole);
+      else if (const auto* real = std::get_if<double>(&v))
+        code = std::isnan(*real) ? sqlite3_bind_null(statement, index)
+                                 : sqlite3_bind_double(statement, index, *real);
+      else if (const auto* text = std::get_if<std::string>(&v))
+        code = sqlite3_bind_text64(statement, index, text->data(), text->size(), SQLITE_TRANSIENT,
+                                   SQLITE_UTF8);
+      else
+        code = sqlite3_bind_null(statement, index);
       if (code != SQLITE_OK) database_.fail("cannot be read or written");
     }
   }
@@ -163,10 +200,16 @@ class SqliteConnection final : public SqlConnection {
     std::vector<SqlValue> row;
     for (int c = 0; c < sqlite3_column_count(statement); ++c) {
       const int type = sqlite3_column_type(statement, c);
-      if (type == SQLITE_INTEGER) row.emplace_back(std::int64_t{sqlite3_column_int64(statement, c)});
-      else if (type == SQLITE_FLOAT) row.emplace_back(sqlite3_column_double(statement, c));
-      else if (type == SQLITE_NULL) row.emplace_back(std::monostate{});
-      else row.emplace_back(std::string(reinterpret_cast<const char*>(sqlite3_column_text(statement, c)), static_cast<std::size_t>(sqlite3_column_bytes(statement, c))));
+      if (type == SQLITE_INTEGER)
+        row.emplace_back(std::int64_t{sqlite3_column_int64(statement, c)});
+      else if (type == SQLITE_FLOAT)
+        row.emplace_back(sqlite3_column_double(statement, c));
+      else if (type == SQLITE_NULL)
+        row.emplace_back(std::monostate{});
+      else
+        row.emplace_back(
+            std::string(reinterpret_cast<const char*>(sqlite3_column_text(statement, c)),
+                        static_cast<std::size_t>(sqlite3_column_bytes(statement, c))));
     }
     return row;
   }
@@ -176,6 +219,8 @@ class SqliteConnection final : public SqlConnection {
 
 }  // namespace
 
-std::unique_ptr<SqlConnection> openSqlite(const std::string& file, Access access) { return std::make_unique<SqliteConnection>(file, access); }
+std::unique_ptr<SqlConnection> openSqlite(const std::string& file, Access access) {
+  return std::make_unique<SqliteConnection>(file, access);
+}
 
 }  // namespace palpa::record

@@ -24,7 +24,9 @@ void requireWritable(const std::string& file) {
   const fs::path folder = fs::absolute(file, none).parent_path();
   for (const fs::path& path : {fs::path(file), folder})
     if (::access(path.c_str(), W_OK) != 0)
-      throw Error("may not be written by this user", "records file " + file, "Make the file and its folder writable (chmod u+w " + path.string() + "), or name other records: PALPA_RECORDS");
+      throw Error("may not be written by this user", "records file " + file,
+                  "Make the file and its folder writable (chmod u+w " + path.string() +
+                      "), or name other records: PALPA_RECORDS");
 }
 
 }  // namespace
@@ -42,8 +44,12 @@ StoreLook lookAtStore(const std::string& url) {
   const std::unique_ptr<SqlConnection> connection = connectToRead(url);
   look.place = connection->place();
   look.schema = schemaOf(*connection);
-  look.state = look.schema == 0 ? StoreLook::State::empty : look.schema < newestSchema() ? StoreLook::State::older : StoreLook::State::current;
-  if (look.schema > 0) look.trainees = static_cast<std::size_t>(connection->query("SELECT count(*) FROM trainees").integer(0, 0));
+  look.state = look.schema == 0               ? StoreLook::State::empty
+               : look.schema < newestSchema() ? StoreLook::State::older
+                                              : StoreLook::State::current;
+  if (look.schema > 0)
+    look.trainees =
+        static_cast<std::size_t>(connection->query("SELECT count(*) FROM trainees").integer(0, 0));
   return look;
 }
 

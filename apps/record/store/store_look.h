@@ -8,19 +8,20 @@ namespace palpa::record {
 /// What a store is, seen from outside.
 struct StoreLook {
   enum class State {
-    absent,    ///< no such file: the first trainee makes it
-    empty,     ///< a file of no bytes, or a store without tables
-    older,     ///< tables of an older version: the next program that uses it brings them to the newest
+    absent,  ///< no such file: the first trainee makes it
+    empty,   ///< a file of no bytes, or a store without tables
+    older,  ///< tables of an older version: the next program that uses it brings them to the newest
     current
   };
   State state = State::absent;
-  int schema = 0;                 ///< version of its tables
+  int schema = 0;  ///< version of its tables
   std::size_t trainees = 0;
-  std::string place;              ///< for messages; never a password
+  std::string place;  ///< for messages; never a password
 };
 
-/// Looks and changes nothing: neither migrates nor makes anything, not a byte of a file or its log. Throws Error for a store that is damaged, of another program, newer than this program,
-/// or (a file) may not be written by this user; StoreUnreachable; UsageError for an address that is none.
+/// Looks and changes nothing: neither migrates nor makes anything, not a byte of a file or its log.
+/// Throws Error for a store that is damaged, of another program, newer than this program, or (a
+/// file) may not be written by this user; StoreUnreachable; UsageError for an address that is none.
 StoreLook lookAtStore(const std::string& url);
 
 }  // namespace palpa::record

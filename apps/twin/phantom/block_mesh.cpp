@@ -10,9 +10,10 @@ namespace {
 template <class Spacing>
 std::vector<double> planes(double from, double to, Spacing wanted) {
   constexpr int kSteps = 4000;
-  std::vector<double> elements(kSteps + 1, 0.0);   // how many there are up to here
+  std::vector<double> elements(kSteps + 1, 0.0);  // how many there are up to here
   const double step = (to - from) / kSteps;
-  for (int i = 0; i < kSteps; ++i) elements[i + 1] = elements[i] + step / wanted(from + (i + 0.5) * step);
+  for (int i = 0; i < kSteps; ++i)
+    elements[i + 1] = elements[i] + step / wanted(from + (i + 0.5) * step);
   const int count = std::max(2, static_cast<int>(std::lround(elements.back())));
   std::vector<double> at(count + 1, from);
   for (int k = 1, i = 0; k < count; ++k) {
@@ -24,7 +25,9 @@ std::vector<double> planes(double from, double to, Spacing wanted) {
   return at;
 }
 
-double spacing(const Fineness& fineness, double away) { return std::min(fineness.coarsest, fineness.finest + fineness.growth * std::max(0.0, away)); }
+double spacing(const Fineness& fineness, double away) {
+  return std::min(fineness.coarsest, fineness.finest + fineness.growth * std::max(0.0, away));
+}
 
 /// A lump is seen by some six elements across, whatever is above it.
 double spacingAtLump(const SoftBlock& block, const Fineness& fineness, int axis, double at) {
@@ -35,24 +38,32 @@ double spacingAtLump(const SoftBlock& block, const Fineness& fineness, int axis,
 
 struct Grid {
   std::vector<double> x, y, z;
-  int node(std::size_t i, std::size_t j, std::size_t k) const { return static_cast<int>((k * y.size() + j) * x.size() + i); }
+  int node(std::size_t i, std::size_t j, std::size_t k) const {
+    return static_cast<int>((k * y.size() + j) * x.size() + i);
+  }
 };
 
-Grid gridOf(const SoftBlock& block, const std::vector<double>& tool_x, double reach, const Fineness& fineness) {
+Grid gridOf(const SoftBlock& block, const std::vector<double>& tool_x, double reach,
+            const Fineness& fineness) {
   Grid grid;
   grid.x = planes(-block.length / 2, block.length / 2, [&](double x) {
     double nearest = block.length;
     for (const double tool : tool_x) nearest = std::min(nearest, std::abs(x - tool));
     return std::min(spacing(fineness, nearest - reach), spacingAtLump(block, fineness, 0, x));
   });
-  grid.y = planes(0, block.width / 2, [&](double y) { return std::min(spacing(fineness, y - reach), spacingAtLump(block, fineness, 1, y)); });
-  grid.z = planes(-block.height, 0, [&](double z) { return std::min(spacing(fineness, 0.5 * -z), spacingAtLump(block, fineness, 2, z)); });
+  grid.y = planes(0, block.width / 2, [&](double y) {
+    return std::min(spacing(fineness, y - reach), spacingAtLump(block, fineness, 1, y));
+  });
+  grid.z = planes(-block.height, 0, [&](double z) {
+    return std::min(spacing(fineness, 0.5 * -z), spacingAtLump(block, fineness, 2, z));
+  });
   return grid;
 }
 
 }  // namespace
 
-BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius, const Fineness& fineness) {
+BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius,
+                 const Fineness& fineness) {
   const Grid g = gridOf(block, tool_x, 0.8 * tool_radius, fineness);
   BlockMesh mesh;
   for (const double z : g.z) {
@@ -67,9 +78,13 @@ BlockMesh meshOf(const SoftBlock& block, const std::vector<double>& tool_x, doub
   for (std::size_t k = 0; k + 1 < g.z.size(); ++k) {
     for (std::size_t j = 0; j + 1 < g.y.size(); ++j) {
       for (std::size_t i = 0; i + 1 < g.x.size(); ++i) {
-        const auto ring = [&](std::size_t at) { return std::array<int, 4>{g.node(i, j, at), g.node(i + 1, j, at), g.node(i + 1, j + 1, at), g.node(i, j + 1, at)}; };
+        const auto ring = [&](std::size_t at) {
+          return std::array<int, 4>{g.node(i, j, at), g.node(i + 1, j, at),
+                                    g.node(i + 1, j + 1, at), g.node(i, j + 1, at)};
+        };
         const auto below = ring(k), above = ring(k + 1);
-        mesh.bricks.push_back({below[0], below[1], below[2], below[3], above[0], above[1], above[2], above[3]});
+        mesh.bricks.push_back(
+            {below[0], below[1], below[2], below[3], above[0], above[1], above[2], above[3]});
         if (k + 2 == g.z.size()) mesh.top.push_back(above);
       }
     }

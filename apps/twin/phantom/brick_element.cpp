@@ -6,7 +6,8 @@
 namespace palpa::twin {
 namespace {
 
-constexpr int kCorner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1}, {-1, -1, 1}, {1, -1, 1}, {1, 1, 1}, {-1, 1, 1}};
+constexpr int kCorner[8][3] = {{-1, -1, -1}, {1, -1, -1}, {1, 1, -1}, {-1, 1, -1},
+                               {-1, -1, 1},  {1, -1, 1},  {1, 1, 1},  {-1, 1, 1}};
 
 }  // namespace
 
@@ -19,12 +20,15 @@ Brick brickOf(const std::array<Eigen::Vector3d, 8>& nodes) {
     Brick::Point& point = brick.points[g];
     point.p.setZero();
     for (int a = 0; a < 8; ++a) {
-      const Eigen::Vector3d c(kCorner[a][0], kCorner[a][1], kCorner[a][2]), one = Eigen::Vector3d::Ones() + c.cwiseProduct(xi);
+      const Eigen::Vector3d c(kCorner[a][0], kCorner[a][1], kCorner[a][2]),
+          one = Eigen::Vector3d::Ones() + c.cwiseProduct(xi);
       point.N[a] = one.prod() / 8;
-      slope.row(a) = Eigen::RowVector3d(c.x() * one.y() * one.z(), one.x() * c.y() * one.z(), one.x() * one.y() * c.z()) / 8;
+      slope.row(a) = Eigen::RowVector3d(c.x() * one.y() * one.z(), one.x() * c.y() * one.z(),
+                                        one.x() * one.y() * c.z()) /
+                     8;
       point.p += point.N[a] * nodes[a];
     }
-    Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();   // dX/dxi
+    Eigen::Matrix3d jacobian = Eigen::Matrix3d::Zero();  // dX/dxi
     for (int a = 0; a < 8; ++a) jacobian += nodes[a] * slope.row(a);
     point.volume = jacobian.determinant();
     const Eigen::Matrix<double, 8, 3> gradient = slope * jacobian.inverse();
@@ -39,7 +43,8 @@ Brick brickOf(const std::array<Eigen::Vector3d, 8>& nodes) {
   return brick;
 }
 
-bool energyOf(const Brick& brick, double bulk, const Vec24& u, double* E, Vec24* gradient, Mat24* tangent) {
+bool energyOf(const Brick& brick, double bulk, const Vec24& u, double* E, Vec24* gradient,
+              Mat24* tangent) {
   const Vec9 identity = Eigen::Map<const Vec9>(Eigen::Matrix3d::Identity().eval().data());
   std::array<Eigen::Matrix3d, 8> F;
   std::array<VolumeChange, 8> volumes;
@@ -55,15 +60,17 @@ bool energyOf(const Brick& brick, double bulk, const Vec24& u, double* E, Vec24*
   *E = 0.5 * bulk * (theta - 1) * (theta - 1) * brick.volume;
   gradient->setZero();
   if (tangent) tangent->setZero();
-  Vec24 squeeze = Vec24::Zero();   // d(volume)/du
+  Vec24 squeeze = Vec24::Zero();  // d(volume)/du
   for (int g = 0; g < 8; ++g) {
     const Brick::Point& point = brick.points[g];
     const ShapeChange shape = changeOfShape(point.shear, F[g]);
     *E += shape.W * point.volume;
-    gradient->noalias() += point.volume * (point.B.transpose() * (shape.P + pressure * volumes[g].dJ));
+    gradient->noalias() +=
+        point.volume * (point.B.transpose() * (shape.P + pressure * volumes[g].dJ));
     squeeze.noalias() += point.volume * (point.B.transpose() * volumes[g].dJ);
     if (!tangent) continue;
-    const Eigen::Matrix<double, 9, 24> AB = point.volume * (shape.A + pressure * volumes[g].d2J) * point.B;
+    const Eigen::Matrix<double, 9, 24> AB =
+        point.volume * (shape.A + pressure * volumes[g].d2J) * point.B;
     tangent->noalias() += point.B.transpose() * AB;
   }
   if (tangent) tangent->noalias() += bulk / brick.volume * squeeze * squeeze.transpose();

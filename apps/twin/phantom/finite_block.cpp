@@ -13,19 +13,22 @@ namespace palpa::twin {
 namespace {
 
 constexpr int kMostNewton = 60, kMostHalvings = 12, kMostGradients = 40;
-constexpr double kStepWithin = 1e-3;      // of the gradient: Newton's next step sees the rest
-constexpr double kGoodEnough = 1e-6;      // of the force on the tools
-constexpr double kTipStiffness = 40;      // of the tip's cover, in Young's moduli per finest element: it gives by some hundredths of a millimetre
-constexpr double kLongestStep = 1e-3;     // m that tools go at once
+constexpr double kStepWithin = 1e-3;   // of the gradient: Newton's next step sees the rest
+constexpr double kGoodEnough = 1e-6;   // of the force on the tools
+constexpr double kTipStiffness = 40;   // of the tip's cover, in Young's moduli per finest element:
+                                       // it gives by some hundredths of a millimetre
+constexpr double kLongestStep = 1e-3;  // m that tools go at once
 
 /// How much of a Gauss point's eighth of an element lies in the lump. The elements are boxes.
-double shareInLump(const SoftBlock& block, const Brick::Point& point, const std::array<Eigen::Vector3d, 8>& nodes) {
+double shareInLump(const SoftBlock& block, const Brick::Point& point,
+                   const std::array<Eigen::Vector3d, 8>& nodes) {
   if (!block.lump) return 0;
   constexpr int kEach = 6;
   const Vec3 middle = 0.5 * (nodes[0] + nodes[6]), half = 0.5 * (nodes[6] - nodes[0]);
   int inside = 0;
   for (int i = 0; i < kEach * kEach * kEach; ++i) {
-    const Vec3 share((i % kEach + 0.5) / kEach, (i / kEach % kEach + 0.5) / kEach, (i / kEach / kEach + 0.5) / kEach);
+    const Vec3 share((i % kEach + 0.5) / kEach, (i / kEach % kEach + 0.5) / kEach,
+                     (i / kEach / kEach + 0.5) / kEach);
     const Vec3 p = middle + share.cwiseProduct(half).cwiseProduct((point.p - middle).cwiseSign());
     inside += (p - block.lump->centre).norm() < block.lump->radius;
   }
@@ -39,9 +42,9 @@ struct FiniteBlock::Model {
   double tool_radius, cover;
   std::vector<Brick> bricks;
   std::vector<double> bulk;
-  std::vector<int> unknown;                 // of a coordinate of a node; -1: fixed
-  Eigen::VectorXd u, lump_share;            // per node: its share of the lump's mean displacement
-  std::vector<Vec3> tips;                   // of the last answer; none: unloaded
+  std::vector<int> unknown;       // of a coordinate of a node; -1: fixed
+  Eigen::VectorXd u, lump_share;  // per node: its share of the lump's mean displacement
+  std::vector<Vec3> tips;         // of the last answer; none: unloaded
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver;
   bool factored = false;
   int count = 0;
@@ -55,13 +58,14 @@ struct FiniteBlock::Model {
   struct State {
     bool possible = true;
     double E = 0;
-    Eigen::VectorXd gradient;               // by the unknowns
+    Eigen::VectorXd gradient;  // by the unknowns
     std::vector<Vec3> f_tips;
   };
 
   /// Scatters a small matrix into the triplets of the large one, its lower half.
   template <class Nodes, class Local>
-  void scatter(const Nodes& nodes, const Local& local, std::vector<Eigen::Triplet<double>>* out) const {
+  void scatter(const Nodes& nodes, const Local& local,
+               std::vector<Eigen::Triplet<double>>* out) const {
     for (int r = 0; r < local.rows(); ++r) {
       const int row = unknown[3 * nodes[r / 3] + r % 3];
       if (row < 0) continue;
@@ -87,7 +91,8 @@ struct FiniteBlock::Model {
     Vec24 g;
     for (std::size_t b = 0; b < bricks.size(); ++b) {
       double E = 0;
-      if (!energyOf(bricks[b], bulk[b], of(mesh.bricks[b]), &E, &g, tangent ? &K : nullptr)) return {false, 0, {}, {}};
+      if (!energyOf(bricks[b], bulk[b], of(mesh.bricks[b]), &E, &g, tangent ? &K : nullptr))
+        return {false, 0, {}, {}};
       state.E += E;
       add(mesh.bricks[b], g, &state.gradient);
       if (tangent) scatter(mesh.bricks[b], K, tangent);
@@ -96,7 +101,8 @@ struct FiniteBlock::Model {
     return state;
   }
 
-  void touch(const Vec3& tip, std::size_t t, State* state, std::vector<Eigen::Triplet<double>>* tangent) const {
+  void touch(const Vec3& tip, std::size_t t, State* state,
+             std::vector<Eigen::Triplet<double>>* tangent) const {
     const RoundTip round{tip + Vec3(0, 0, tool_radius), tool_radius};
     for (const std::array<int, 4>& face : mesh.top) {
       std::array<Vec3, 4> before, now;
@@ -109,7 +115,7 @@ struct FiniteBlock::Model {
       state->E += pressure.E;
       add(face, pressure.gradient, &state->gradient);
       if (tangent) scatter(face, pressure.tangent, tangent);
-      state->f_tips[t] += 2 * Vec3(pressure.f_tip.x(), 0, pressure.f_tip.z());   // the other half
+      state->f_tips[t] += 2 * Vec3(pressure.f_tip.x(), 0, pressure.f_tip.z());  // the other half
     }
   }
 
@@ -119,8 +125,10 @@ struct FiniteBlock::Model {
     }
   }
 
-  /// Newton's step: conjugate gradients, preconditioned by the factors of an earlier matrix, which are made anew where they do not serve (any more).
-  Eigen::VectorXd newtonStep(std::vector<Eigen::Triplet<double>> tangent, const Eigen::VectorXd& gradient) {
+  /// Newton's step: conjugate gradients, preconditioned by the factors of an earlier matrix, which
+  /// are made anew where they do not serve (any more).
+  Eigen::VectorXd newtonStep(std::vector<Eigen::Triplet<double>> tangent,
+                             const Eigen::VectorXd& gradient) {
     Eigen::SparseMatrix<double> K(count, count);
     for (int i = 0; i < count; ++i) tangent.emplace_back(i, i, 0.0);
     K.setFromTriplets(tangent.begin(), tangent.end());
@@ -129,7 +137,7 @@ struct FiniteBlock::Model {
     }
     factor(K);
     if (const auto step = byOldFactors(K, gradient)) return *step;
-    return solver.solve(-gradient);   // of a matrix that had to be shifted: still downhill
+    return solver.solve(-gradient);  // of a matrix that had to be shifted: still downhill
   }
 
   /// Factors of K, shifted where it is not positive definite.
@@ -137,14 +145,16 @@ struct FiniteBlock::Model {
     if (!factored) solver.analyzePattern(K);
     factored = true;
     solver.factorize(K);
-    for (double shift = 1e-3 * K.diagonal().mean(); solver.info() != Eigen::Success || solver.vectorD().minCoeff() <= 0; shift *= 4) {
+    for (double shift = 1e-3 * K.diagonal().mean();
+         solver.info() != Eigen::Success || solver.vectorD().minCoeff() <= 0; shift *= 4) {
       for (int i = 0; i < count; ++i) K.coeffRef(i, i) += shift;
       solver.factorize(K);
     }
   }
 
   /// Nothing where that takes too long, or K is not positive definite along the way.
-  std::optional<Eigen::VectorXd> byOldFactors(const Eigen::SparseMatrix<double>& K, const Eigen::VectorXd& gradient) const {
+  std::optional<Eigen::VectorXd> byOldFactors(const Eigen::SparseMatrix<double>& K,
+                                              const Eigen::VectorXd& gradient) const {
     const auto lower = K.selfadjointView<Eigen::Lower>();
     Eigen::VectorXd x = Eigen::VectorXd::Zero(count), r = -gradient, z = solver.solve(r), p = z;
     double rz = r.dot(z);
@@ -177,7 +187,9 @@ FiniteBlock::Answer FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
     if (here.gradient.norm() < kGoodEnough * force) {
       answer.f = here.f_tips;
       answer.energy = 2 * here.E;
-      for (std::size_t a = 0; a < mesh.nodes.size(); ++a) answer.lump += lump_share[static_cast<Eigen::Index>(a)] * u.segment<3>(3 * static_cast<Eigen::Index>(a));
+      for (std::size_t a = 0; a < mesh.nodes.size(); ++a)
+        answer.lump += lump_share[static_cast<Eigen::Index>(a)] *
+                       u.segment<3>(3 * static_cast<Eigen::Index>(a));
       answer.lump.y() = 0;
       return answer;
     }
@@ -187,15 +199,19 @@ FiniteBlock::Answer FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
     move(step, share);
     for (int h = 0; h < kMostHalvings; ++h) {
       const State there = evaluate(at, nullptr);
-      if (there.possible && there.E <= here.E + 1e-4 * share * falls + 1e-12 * std::abs(here.E)) break;
+      if (there.possible && there.E <= here.E + 1e-4 * share * falls + 1e-12 * std::abs(here.E))
+        break;
       move(step, -share / 2);
       share /= 2;
     }
   }
-  throw Error("no equilibrium of the block under the tools", "phantom", "press less deep, or use finer elements");
+  throw Error("no equilibrium of the block under the tools", "phantom",
+              "press less deep, or use finer elements");
 }
 
-FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius, const Fineness& fineness) : model_(std::make_unique<Model>()) {
+FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool_x,
+                         double tool_radius, const Fineness& fineness)
+    : model_(std::make_unique<Model>()) {
   Model& m = *model_;
   m.mesh = meshOf(block, tool_x, tool_radius, fineness);
   m.tool_radius = tool_radius;
@@ -230,7 +246,8 @@ FiniteBlock::Answer FiniteBlock::press(const std::vector<Vec3>& tips) {
     for (Vec3& tip : from) tip.z() = std::max(0.0, tip.z());
   }
   double longest = 0;
-  for (std::size_t t = 0; t < tips.size(); ++t) longest = std::max(longest, (tips[t] - from[t]).norm());
+  for (std::size_t t = 0; t < tips.size(); ++t)
+    longest = std::max(longest, (tips[t] - from[t]).norm());
   const int steps = std::max(1, static_cast<int>(std::ceil(longest / kLongestStep)));
   Answer answer;
   for (int s = 1; s <= steps; ++s) {

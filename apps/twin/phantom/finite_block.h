@@ -6,43 +6,49 @@
 
 #include "anatomy/geometry/pose.h"
 
-/// What pressing a block of silicone takes: finite elements, large displacements. The truth about simulated phantoms; nothing that renders forces may see it.
+/// What pressing a block of silicone takes: finite elements, large displacements. The truth about
+/// simulated phantoms; nothing that renders forces may see it.
 namespace palpa::twin {
 
-/// A block on a plate to which it is glued. Frame P: origin in the middle of its top, z up, so that the block lies at z < 0.
+/// A block on a plate to which it is glued. Frame P: origin in the middle of its top, z up, so that
+/// the block lies at z < 0.
 struct SoftBlock {
-  double length = 0.10, width = 0.10, height = 0.05;   ///< m, along x, y, z
-  double shear = 2.4e3;                                ///< Pa, of small strains
-  double bulk_over_shear = 50;                         ///< 50: Poisson's ratio 0.49
+  double length = 0.10, width = 0.10, height = 0.05;  ///< m, along x, y, z
+  double shear = 2.4e3;                               ///< Pa, of small strains
+  double bulk_over_shear = 50;                        ///< 50: Poisson's ratio 0.49
   struct Lump {
-    Vec3 centre{0, 0, -0.015};                         ///< m; y = 0
-    double radius = 0.008, shear = 24e3;               ///< m, Pa
+    Vec3 centre{0, 0, -0.015};            ///< m; y = 0
+    double radius = 0.008, shear = 24e3;  ///< m, Pa
   };
   std::optional<Lump> lump;
 };
 
 /// How fine the elements are where a tool presses, and how they grow from there.
 struct Fineness {
-  double finest = 2e-3, growth = 0.35, coarsest = 12e-3;   ///< m, m/m, m
+  double finest = 2e-3, growth = 0.35, coarsest = 12e-3;  ///< m, m/m, m
 };
 
-/// The block under one or two round, frictionless tool tips that press in its plane y = 0; half of it is computed. Hexahedra with mean dilatation (Simo, Taylor and Pister 1985),
-/// which do not lock; neo-Hookean; contact by a penalty, integrated over the surface; Newton's method with steps halved until the energy falls.
+/// The block under one or two round, frictionless tool tips that press in its plane y = 0; half of
+/// it is computed. Hexahedra with mean dilatation (Simo, Taylor and Pister 1985), which do not
+/// lock; neo-Hookean; contact by a penalty, integrated over the surface; Newton's method with steps
+/// halved until the energy falls.
 class FiniteBlock {
  public:
   /// `tool_x`: where tools will press, about which elements are fine.
-  FiniteBlock(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius, const Fineness& fineness = {});
+  FiniteBlock(const SoftBlock& block, const std::vector<double>& tool_x, double tool_radius,
+              const Fineness& fineness = {});
   ~FiniteBlock();
 
   struct Answer {
-    std::vector<Vec3> f;        ///< N, of the block on each tool
-    Vec3 lump = Vec3::Zero();   ///< m, how far the lump has moved: mean over its volume
-    double energy = 0;          ///< J
+    std::vector<Vec3> f;       ///< N, of the block on each tool
+    Vec3 lump = Vec3::Zero();  ///< m, how far the lump has moved: mean over its volume
+    double energy = 0;         ///< J
     int iterations = 0;
   };
-  /// At rest with the tools' lowest points at `tips`; starts from the last answer. Throws Error where it finds no equilibrium.
+  /// At rest with the tools' lowest points at `tips`; starts from the last answer. Throws Error
+  /// where it finds no equilibrium.
   Answer press(const std::vector<Vec3>& tips);
-  void release();               ///< as it was made
+  void release();  ///< as it was made
 
  private:
   struct Model;

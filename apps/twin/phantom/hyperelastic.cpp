@@ -12,7 +12,7 @@ Vec9 flat(const Eigen::Matrix3d& m) { return Eigen::Map<const Vec9>(m.data()); }
 Mat9 turnedByInverse(const Eigen::Matrix3d& H) {
   Mat9 T;
   for (int k = 0; k < 3; ++k) {
-    for (int l = 0; l < 3; ++l) {   // dF = e_k e_l^T: H e_l e_k^T H
+    for (int l = 0; l < 3; ++l) {  // dF = e_k e_l^T: H e_l e_k^T H
       const Eigen::Matrix3d image = H.col(l) * H.row(k);
       T.col(3 * l + k) = flat(image);
     }
@@ -29,7 +29,8 @@ ShapeChange changeOfShape(double mu, const Eigen::Matrix3d& F) {
   ShapeChange s;
   s.W = 0.5 * (scale * I1 - 3 * mu);
   s.P = scale * (f - I1 / 3 * h);
-  s.A = scale * (Mat9::Identity() - 2.0 / 3.0 * (f * h.transpose() + h * f.transpose()) + 2.0 / 9.0 * I1 * h * h.transpose() + I1 / 3 * turnedByInverse(H));
+  s.A = scale * (Mat9::Identity() - 2.0 / 3.0 * (f * h.transpose() + h * f.transpose()) +
+                 2.0 / 9.0 * I1 * h * h.transpose() + I1 / 3 * turnedByInverse(H));
   return s;
 }
 

@@ -16,9 +16,10 @@ struct Phantom {
   PairTable both;
 };
 
-/// Phantoms of one kind of silicone, in millimetres and kilopascal (see assets/phantoms/mockups.json).
+/// Phantoms of one kind of silicone, in millimetres and kilopascal (see
+/// assets/phantoms/mockups.json).
 struct PhantomFile {
-  PhantomTable shape;             ///< of the tables; no cells
+  PhantomTable shape;  ///< of the tables; no cells
   PairTable both;
   Fineness fineness;
   std::vector<Phantom> phantoms;  ///< without their tables
@@ -26,10 +27,14 @@ struct PhantomFile {
 /// Throws UsageError for fields that are missing or out of range.
 PhantomFile readPhantoms(const std::filesystem::path& file);
 
-/// Solves every phantom of a file and writes the tables, with the description they were made of. Takes minutes for each. Throws Error.
-void solvePhantoms(const std::filesystem::path& file, const std::filesystem::path& out, const std::function<void(const std::string& name, int done, int of)>& progress);
+/// Solves every phantom of a file and writes the tables, with the description they were made of.
+/// Takes minutes for each. Throws Error.
+void solvePhantoms(const std::filesystem::path& file, const std::filesystem::path& out,
+                   const std::function<void(const std::string& name, int done, int of)>& progress);
 
-/// A file's phantoms with their tables from `tables`. Throws UsageError where these were made of another description.
-std::vector<Phantom> readSolved(const std::filesystem::path& file, const std::filesystem::path& tables);
+/// A file's phantoms with their tables from `tables`. Throws UsageError where these were made of
+/// another description.
+std::vector<Phantom> readSolved(const std::filesystem::path& file,
+                                const std::filesystem::path& tables);
 
 }  // namespace palpa::twin

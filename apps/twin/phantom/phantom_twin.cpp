@@ -16,11 +16,14 @@ PhantomTouch PhantomTwin::step(const Vec3& tip, double dt) {
 }
 
 std::array<PhantomTouch, 2> PhantomPairTwin::step(const std::array<Vec3, 2>& tips, double dt) {
-  constexpr double kLevel = 1e-6;   // m
+  constexpr double kLevel = 1e-6;  // m
   const Vec3 between = tips[0] - tips[1];
-  if (std::abs(between.x() - both_.apart) > kLevel || std::abs(between.y()) > kLevel || std::abs(tips[0].y()) > kLevel)
-    throw Error("two tools on a simulated phantom must stay side by side over its middle", "phantom", "lead them so");
-  const PairCell cell = both_.at(one_, 0.5 * (tips[0].x() + tips[1].x()), {std::max(0.0, -tips[0].z()), std::max(0.0, -tips[1].z())});
+  if (std::abs(between.x() - both_.apart) > kLevel || std::abs(between.y()) > kLevel ||
+      std::abs(tips[0].y()) > kLevel)
+    throw Error("two tools on a simulated phantom must stay side by side over its middle",
+                "phantom", "lead them so");
+  const PairCell cell = both_.at(one_, 0.5 * (tips[0].x() + tips[1].x()),
+                                 {std::max(0.0, -tips[0].z()), std::max(0.0, -tips[1].z())});
   std::array<PhantomTouch, 2> touches;
   for (std::size_t t = 0; t < 2; ++t) {
     touches[t] = contacts_[t].step(Vec3(cell.f[t].x(), 0, cell.f[t].y()), tips[t], dt);

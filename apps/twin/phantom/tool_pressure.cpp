@@ -6,14 +6,17 @@
 namespace palpa::twin {
 namespace {
 
-constexpr int kPoints = 4;   // Gauss points each way: the edge of contact runs through faces
-constexpr double kAt[kPoints] = {-0.861136311594053, -0.339981043584856, 0.339981043584856, 0.861136311594053};
-constexpr double kWeight[kPoints] = {0.347854845137454, 0.652145154862546, 0.652145154862546, 0.347854845137454};
+constexpr int kPoints = 4;  // Gauss points each way: the edge of contact runs through faces
+constexpr double kAt[kPoints] = {-0.861136311594053, -0.339981043584856, 0.339981043584856,
+                                 0.861136311594053};
+constexpr double kWeight[kPoints] = {0.347854845137454, 0.652145154862546, 0.652145154862546,
+                                     0.347854845137454};
 constexpr int kFaceCorner[4][2] = {{-1, -1}, {1, -1}, {1, 1}, {-1, 1}};
 
 }  // namespace
 
-FacePressure pressureOn(const std::array<Vec3, 4>& before, const std::array<Vec3, 4>& now, const RoundTip& tip, double stiffness) {
+FacePressure pressureOn(const std::array<Vec3, 4>& before, const std::array<Vec3, 4>& now,
+                        const RoundTip& tip, double stiffness) {
   FacePressure face;
   for (int gu = 0; gu < kPoints; ++gu) {
     for (int gv = 0; gv < kPoints; ++gv) {
@@ -34,7 +37,9 @@ FacePressure pressureOn(const std::array<Vec3, 4>& before, const std::array<Vec3
       const Vec3 n = away / distance;
       face.E += 0.5 * e * g * g;
       face.f_tip += e * g * n;
-      const Mat3 T = e * n * n.transpose();   // without the turn of n, which is small and would make it indefinite
+      const Mat3 T =
+          e * n *
+          n.transpose();  // without the turn of n, which is small and would make it indefinite
       for (int a = 0; a < 4; ++a) {
         face.gradient.segment<3>(3 * a) += N[a] * e * g * n;
         for (int b = 0; b < 4; ++b) face.tangent.block<3, 3>(3 * a, 3 * b) += N[a] * N[b] * T;
