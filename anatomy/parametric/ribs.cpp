@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "anatomy/shapes/spline.h"
 #include "anatomy/shapes/sweep.h"
@@ -12,99 +13,107 @@ namespace {
 constexpr int kAlongRib = 96, kAroundRib = 16;
 constexpr double kJointGap = 0.7;  // mm between bone and cartilage
 
-// Points of the middle line from the sternum to the vertebra; the cartilage ends at point `joint`.
+// Middle line of a rib from the sternum to the vertebra, mm; the cartilage ends at `joint`.
 struct Course {
-  std::vector<Vec3> points;
   double joint;         // as a fraction of the course
   double broad, thick;  // half-axes, mm
+  std::size_t count;    // of points
+  double points[9][3];
 };
 
-const std::vector<Course>& courses() {
-  static const std::vector<Course> seven{{{{25.5, 12, -19},
-                                           {40, 21, -20},
-                                           {52, 32, -17.5},
-                                           {59.5, 47, -10},
-                                           {61, 62, -1},
-                                           {55, 76, 9},
-                                           {42, 86, 17},
-                                           {26, 88, 22}},
-                                          0.20,
-                                          6.5,
-                                          3.0},
-                                         {{{19, 2.2, -50},
-                                           {40, 6.5, -51},
-                                           {64, 15, -50},
-                                           {84, 31, -45},
-                                           {94, 54, -33},
-                                           {92, 78, -18},
-                                           {78, 98, -5},
-                                           {56, 107, 2},
-                                           {28, 96, 6}},
-                                          0.17,
-                                          6.5,
-                                          3.0},
-                                         {{{21, -2.2, -82},
-                                           {44, 0.5, -86},
-                                           {72, 9, -87},
-                                           {97, 28, -83},
-                                           {110, 54, -71},
-                                           {109, 82, -55},
-                                           {95, 106, -39},
-                                           {67, 119, -24},
-                                           {28, 106, -16}},
-                                          0.17,
-                                          6.6,
-                                          3.1},
-                                         {{{21, -6, -106},
-                                           {46, -6, -114},
-                                           {78, 4, -119},
-                                           {106, 24, -117},
-                                           {121, 54, -106},
-                                           {120, 86, -89},
-                                           {105, 114, -71},
-                                           {74, 129, -53},
-                                           {28, 115, -40}},
-                                          0.18,
-                                          6.8,
-                                          3.2},
-                                         {{{21.5, -8.5, -126},
-                                           {46, -10, -139},
-                                           {80, 0, -148},
-                                           {110, 22, -148},
-                                           {127, 54, -138},
-                                           {127, 90, -121},
-                                           {111, 121, -102},
-                                           {78, 137, -83},
-                                           {28, 122, -66}},
-                                          0.21,
-                                          7.0,
-                                          3.3},
-                                         {{{20.5, -10, -141},
-                                           {42, -13, -155.5},
-                                           {74, -6, -172},
-                                           {106, 14, -177},
-                                           {128, 50, -169},
-                                           {130, 92, -152},
-                                           {114, 126, -132},
-                                           {80, 143, -112},
-                                           {28, 128, -94}},
-                                          0.26,
-                                          7.0,
-                                          3.3},
-                                         {{{17.5, -10, -154},
-                                           {36, -14, -174.5},
-                                           {66, -8, -192},
-                                           {100, 10, -202},
-                                           {126, 48, -198},
-                                           {131, 92, -182},
-                                           {116, 129, -162},
-                                           {82, 146, -142},
-                                           {28, 132, -122}},
-                                          0.31,
-                                          7.0,
-                                          3.3}};
-  return seven;
-}
+// Ribs 1 to 7.
+constexpr Course kCourses[] = {
+    {0.20,
+     6.5,
+     3.0,
+     8,
+     {{25.5, 12, -19},
+      {40, 21, -20},
+      {52, 32, -17.5},
+      {59.5, 47, -10},
+      {61, 62, -1},
+      {55, 76, 9},
+      {42, 86, 17},
+      {26, 88, 22}}},
+    {0.17,
+     6.5,
+     3.0,
+     9,
+     {{19, 2.2, -50},
+      {40, 6.5, -51},
+      {64, 15, -50},
+      {84, 31, -45},
+      {94, 54, -33},
+      {92, 78, -18},
+      {78, 98, -5},
+      {56, 107, 2},
+      {28, 96, 6}}},
+    {0.17,
+     6.6,
+     3.1,
+     9,
+     {{21, -2.2, -82},
+      {44, 0.5, -86},
+      {72, 9, -87},
+      {97, 28, -83},
+      {110, 54, -71},
+      {109, 82, -55},
+      {95, 106, -39},
+      {67, 119, -24},
+      {28, 106, -16}}},
+    {0.18,
+     6.8,
+     3.2,
+     9,
+     {{21, -6, -106},
+      {46, -6, -114},
+      {78, 4, -119},
+      {106, 24, -117},
+      {121, 54, -106},
+      {120, 86, -89},
+      {105, 114, -71},
+      {74, 129, -53},
+      {28, 115, -40}}},
+    {0.21,
+     7.0,
+     3.3,
+     9,
+     {{21.5, -8.5, -126},
+      {46, -10, -139},
+      {80, 0, -148},
+      {110, 22, -148},
+      {127, 54, -138},
+      {127, 90, -121},
+      {111, 121, -102},
+      {78, 137, -83},
+      {28, 122, -66}}},
+    {0.26,
+     7.0,
+     3.3,
+     9,
+     {{20.5, -10, -141},
+      {42, -13, -155.5},
+      {74, -6, -172},
+      {106, 14, -177},
+      {128, 50, -169},
+      {130, 92, -152},
+      {114, 126, -132},
+      {80, 143, -112},
+      {28, 128, -94}}},
+    {0.31,
+     7.0,
+     3.3,
+     9,
+     {{17.5, -10, -154},
+      {36, -14, -174.5},
+      {66, -8, -192},
+      {100, 10, -202},
+      {126, 48, -198},
+      {131, 92, -182},
+      {116, 129, -162},
+      {82, 146, -142},
+      {28, 132, -122}}},
+};
 
 // The bar's broad side stands upright at the flank and leans with the chest wall in front; the
 // first lies flat.
@@ -155,13 +164,16 @@ Rib makeRib(const Course& course, const std::vector<Vec3>& points, const Vec3& b
 std::vector<Rib> makeRibs(const Build& build, double vein_radius_mm) {
   const double drop = 1.4 * std::max(0.0, vein_radius_mm - 4.5);
   std::vector<Rib> ribs;
-  const std::size_t count = build.bust() ? 4 : courses().size();
+  const std::size_t count = build.bust() ? 4 : std::size(kCourses);
   for (std::size_t i = 0; i < count; ++i) {
     std::vector<Vec3> points;
-    for (const Vec3& p : courses()[i].points) points.push_back(i == 0 ? p : build.place(p));
+    for (std::size_t k = 0; k < kCourses[i].count; ++k) {
+      const Vec3 p(kCourses[i].points[k]);
+      points.push_back(i == 0 ? p : build.place(p));
+    }
     if (i == 0)
       for (const std::size_t low : {1, 2, 3}) points[low].z() -= drop;
-    ribs.push_back(makeRib(courses()[i], points, broadSide(i)));
+    ribs.push_back(makeRib(kCourses[i], points, broadSide(i)));
   }
   return ribs;
 }

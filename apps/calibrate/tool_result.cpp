@@ -45,16 +45,46 @@ double inflation(const std::vector<Pose>& samples, const calibration::TipCalibra
   return (1 + r) / (1 - r);
 }
 
+struct Split {
+  std::vector<Pose> fitted, left_out;
+  std::vector<std::size_t> place;  // of each fitted one among all
+};
+
+Split split(const std::vector<Pose>& all) {
+  Split s;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const bool judge = all.size() >= 50 && judges(i, all.size());
+    (judge ? s.left_out : s.fitted).push_back(all[i]);
+    if (!judge) s.place.push_back(i);
+  }
+  return s;
+}
+
+// Of the turn about T's axes; about the needle itself it is 0.
+Mat3 turnCovariance(const calibration::AxisCalibration& axis, const Mat3& R_ET) {
+  const Eigen::Matrix<double, 3, 2> across_T = R_ET.transpose() * axis.across_E;
+  Eigen::Matrix<double, 3, 2> turn = Eigen::Matrix<double, 3, 2>::Zero();
+  turn.row(0) = -across_T.row(1);
+  turn.row(1) = across_T.row(0);
+  return turn * axis.covariance * turn.transpose();
+}
+
+void addDistances(Result& r, const std::vector<Pose>& fitted, const std::vector<std::size_t>& place,
+                  const calibration::TipCalibration& tip) {
+  Plot plot{"Distance of the tip from its hole", "sample", "mm", {}};
+  for (std::size_t i = 0; i < fitted.size(); ++i) {
+    const double off = (fitted[i] * tip.tip_E - tip.pivot_D).norm();
+    r.file.residuals.values.push_back(off);
+    if (!tip.fit.good[i]) r.file.residuals.left_out.push_back(static_cast<int>(i));
+    plot.dots.push_back({static_cast<double>(place[i]), 1e3 * off, !tip.fit.good[i]});
+  }
+  r.plots.push_back(plot);
+}
+
 }  // namespace
 
 Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Origin& origin) {
-  std::vector<Pose> fitted, left_out;
-  std::vector<std::size_t> place;
-  for (std::size_t i = 0; i < samples.pivot.size(); ++i) {
-    const bool judge = samples.pivot.size() >= 50 && judges(i, samples.pivot.size());
-    (judge ? left_out : fitted).push_back(samples.pivot[i]);
-    if (!judge) place.push_back(i);
-  }
+  const auto [fitted, left_out, place] = split(samples.pivot);
   const calibration::TipCalibration tip = calibration::calibrateTip(fitted);
   Result r;
   r.title = "Needle tip";
@@ -69,24 +99,20 @@ Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Ori
   if (!left_out.empty())
     r.file.checks.push_back({"the tip's distance from its hole in samples not used",
                              1e3 * leftOutRms(left_out, tip), kTipLeftOut_mm, "mm"});
-  if (!samples.spin.empty()) {
+  if (samples.spin.empty()) {
+    covariance(0, 0) = covariance(1, 1) = kUnknownDirection * kUnknownDirection;
+    r.advice.push_back(
+        "The needle's direction was not calibrated: it is taken from the station's file. Spin the "
+        "needle in a hole to calibrate it.");
+  } else {
     const calibration::AxisCalibration axis = calibration::calibrateAxis(samples.spin, R.col(2));
     R = pointedAlong(R, axis.axis_E);
-    const Eigen::Matrix<double, 3, 2> across_T = R.transpose() * axis.across_E;
-    Eigen::Matrix<double, 3, 2> turn = Eigen::Matrix<double, 3, 2>::Zero();
-    turn.row(0) = -across_T.row(1);
-    turn.row(1) = across_T.row(0);
-    covariance.topLeftCorner<3, 3>() = turn * axis.covariance * turn.transpose();
+    covariance.topLeftCorner<3, 3>() = turnCovariance(axis, R);
     const double axis_sd = std::sqrt(axis.covariance.trace()) / calibration::kDegree;
     r.file.checks.push_back(
         {"the uncertainty of the needle's direction", axis_sd, kNeedleSpread_deg, "degrees"});
     r.sentences.push_back("The needle's direction is known to " + quantity(axis_sd, "degrees") +
                           ".");
-  } else {
-    covariance(0, 0) = covariance(1, 1) = kUnknownDirection * kUnknownDirection;
-    r.advice.push_back(
-        "The needle's direction was not calibrated: it is taken from the station's file. Spin the "
-        "needle in a hole to calibrate it.");
   }
   addPose(r.file, "X_ET", makePose(R, tip.tip_E));
   r.file.coordinates = {"turn_x_rad", "turn_y_rad", "turn_z_rad",
@@ -94,14 +120,7 @@ Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Ori
   r.file.covariance = covariance;
   r.file.residuals.unit = "m";
   r.file.residuals.rms = tip.rms;
-  Plot plot{"Distance of the tip from its hole", "sample", "mm", {}};
-  for (std::size_t i = 0; i < fitted.size(); ++i) {
-    const double off = (fitted[i] * tip.tip_E - tip.pivot_D).norm();
-    r.file.residuals.values.push_back(off);
-    if (!tip.fit.good[i]) r.file.residuals.left_out.push_back(static_cast<int>(i));
-    plot.dots.push_back({static_cast<double>(place[i]), 1e3 * off, !tip.fit.good[i]});
-  }
-  r.plots.push_back(plot);
+  addDistances(r, fitted, place, tip);
   r.file.data.samples = static_cast<int>(samples.pivot.size() + samples.spin.size());
   r.file.data.used = static_cast<int>(fitted.size() + samples.spin.size()) - tip.fit.outliers();
   r.file.verdict = verdictOf(r.file.checks);

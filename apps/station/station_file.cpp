@@ -104,6 +104,24 @@ Mat3 supine() {
   return R;
 }
 
+// Of force: what the device can do bounds what the file may ask for.
+void readLimits(const JsonFile& file, Station& s) {
+  const haptics::DeviceCapabilities& can = s.device.capabilities;
+  s.safety.max_force_N = file.number("safety/max_force_N", 0.1, can.max_force_N);
+  s.safety.max_slew_N_per_s = file.number("safety/max_slew_N_per_s", 10, 1e5);
+  s.safety.max_energy_J = file.number("safety/max_energy_J", 1e-3, 5);
+  if (file.has("safety/deadman_button"))  // number of the button, from 0
+    s.safety.deadman_button = 1u << file.integer("safety/deadman_button", 0, 31);
+  s.safety.continuous_force_N = s.device.continuous_force_N;
+  s.safety.thermal_tau = s.device.thermal_tau;
+  const double stable = haptics::couplingStiffness(can, kLongestPeriod);
+  s.coupling.stiffness = file.number("coupling/stiffness_N_per_m", 10, stable);
+  if (file.has("coupling/velocity_tau_ms"))
+    s.coupling.velocity_tau = 1e-3 * file.number("coupling/velocity_tau_ms", 0.1, 50);
+  s.passivity.max_damping = kDampedShare * can.apparent_mass / kLongestPeriod;
+  s.passivity.coulomb = can.coulomb_friction;
+}
+
 }  // namespace
 
 Station readStation(const std::filesystem::path& path) {
@@ -144,20 +162,7 @@ Station readStation(const std::filesystem::path& path) {
   s.X_ET = readPose(file, "tool/X_ET");
   if (file.has("second_device")) s.second_X_WD = readPose(file, "second_device/X_WD");
   s.entry_W = kMm * file.vector("patient/entry_mm");
-  const haptics::DeviceCapabilities& can = s.device.capabilities;
-  s.safety.max_force_N = file.number("safety/max_force_N", 0.1, can.max_force_N);
-  s.safety.max_slew_N_per_s = file.number("safety/max_slew_N_per_s", 10, 1e5);
-  s.safety.max_energy_J = file.number("safety/max_energy_J", 1e-3, 5);
-  if (file.has("safety/deadman_button"))  // number of the button, from 0
-    s.safety.deadman_button = 1u << file.integer("safety/deadman_button", 0, 31);
-  s.safety.continuous_force_N = s.device.continuous_force_N;
-  s.safety.thermal_tau = s.device.thermal_tau;
-  const double stable = haptics::couplingStiffness(can, kLongestPeriod);
-  s.coupling.stiffness = file.number("coupling/stiffness_N_per_m", 10, stable);
-  if (file.has("coupling/velocity_tau_ms"))
-    s.coupling.velocity_tau = 1e-3 * file.number("coupling/velocity_tau_ms", 0.1, 50);
-  s.passivity.max_damping = kDampedShare * can.apparent_mass / kLongestPeriod;
-  s.passivity.coulomb = can.coulomb_friction;
+  readLimits(file, s);
   s.calibration_verdict = file.text("calibration/verdict");
   s.calibration_date = file.text("calibration/date");
   s.design = {s.camera, s.X_WD, s.X_ET, s.camera_latency_s, s.force_sensor};

@@ -48,11 +48,6 @@ Pose Operator::needleAt(const Vec3& tip_A, const Vec3& axis_A) const {
   return makePose(rotationWithZ(axis_A), tip_A);
 }
 
-Vec3 Operator::perpendicular(const Vec3& axis) {
-  const Vec3 draw(noise_.normal(), noise_.normal(), noise_.normal());
-  return withoutAlong(draw, axis).normalized();
-}
-
 double Operator::seenInsertion() const {
   return (bearings_.X_AT().translation() - entry_seen_A_).dot(axis_A_) + depth_error_;
 }
@@ -231,6 +226,10 @@ void Operator::think(const Senses& senses) {
   if (!running_ && step_ != Step::rest && step_ != Step::leave)
     return begin(Step::leave, now_s, skill_.pause);
   if (now_s < ready_s_) return;
+  step(now_s);
+}
+
+void Operator::step(double now_s) {
   const bool arrived = !moving_ || move_.done(now_s);
   switch (step_) {
     case Step::rest:
@@ -273,15 +272,18 @@ void Operator::think(const Senses& senses) {
     case Step::dwell:
       return dwelling(now_s);
     case Step::leave:
-      insertion_ -= skill_.withdraw_speed * kThought;
-      plunger_wanted_ = 0;
-      if (insertion_ > -kHover) return;
-      // Out of the skin: up and away from it, since behind a flat needle the chest may bulge.
-      moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s,
-             skill_.travel_speed);
-      begin(Step::rest, now_s, 0);
-      return;
+      return leaving(now_s);
   }
+}
+
+void Operator::leaving(double now_s) {
+  insertion_ -= skill_.withdraw_speed * kThought;
+  plunger_wanted_ = 0;
+  if (insertion_ > -kHover) return;
+  // Out of the skin: up and away from it, since behind a flat needle the chest may bulge.
+  moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s,
+         skill_.travel_speed);
+  begin(Step::rest, now_s, 0);
 }
 
 Operator::Action Operator::act(const Senses& senses, double dt) {

@@ -56,6 +56,8 @@ class Operator final : public Hand {
   void look(const Senses& senses);
   void feel(const Senses& senses);
   void think(const Senses& senses);
+  void step(double now_s);
+  void leaving(double now_s);
   void begin(Step step, double now_s, double pause_s);
   void beginTrial(int trial, double now_s);
   void moveTo(const Pose& X_AT, double now_s, double speed);
@@ -71,7 +73,6 @@ class Operator final : public Hand {
   Vec3 firstAim();
   Pose needleAt(const Vec3& tip_A, const Vec3& axis_A) const;
   double seenInsertion() const;
-  Vec3 perpendicular(const Vec3& axis);
 
   OperatorSkill skill_;
   VisibleAnatomy anatomy_;

@@ -120,12 +120,20 @@ class SqueezingMind {
     if (!senses.seen) return;
     if (senses.seen->running && senses.seen->trial != trial_)
       return begin(senses.seen->trial, now_s);
-    if (!senses.seen->running) {  // over, or paused: let go
-      if (step_ != Step::rest && step_ != Step::open)
-        go(Step::open, now_s), trial_ = senses.seen->trial;
-      if (step_ == Step::open && moved(now_s, object_.half + kOpen, 0)) step_ = Step::rest;
-      return;
+    if (!senses.seen->running) return letGo(senses.seen->trial, now_s);
+    step(*senses.seen, now_s);
+  }
+
+  /// The trial is over, or paused.
+  void letGo(int trial, double now_s) {
+    if (step_ != Step::rest && step_ != Step::open) {
+      go(Step::open, now_s);
+      trial_ = trial;
     }
+    if (step_ == Step::open && moved(now_s, object_.half + kOpen, 0)) step_ = Step::rest;
+  }
+
+  void step(const runtime::Displayed& seen, double now_s) {
     switch (step_) {
       case Step::rest:
         return;
@@ -173,7 +181,7 @@ class SqueezingMind {
           thing_ = 1;
           return go(Step::come, now_s);
         }
-        say(senses.seen->question == runtime::Displayed::Question::heavier);
+        say(seen.question == runtime::Displayed::Question::heavier);
         step_ = Step::rest;
         return;
     }

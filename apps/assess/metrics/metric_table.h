@@ -1,8 +1,8 @@
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
-#include <vector>
 
 namespace palpa::metrics {
 
@@ -20,7 +20,7 @@ struct MetricDefinition {
   const char* valid;  ///< when it does not apply; "" where it always does
 };
 
-const std::vector<MetricDefinition>& metricTable();
+std::span<const MetricDefinition> metricTable();
 bool belongsTo(const MetricDefinition& definition,
                std::string_view engine);  ///< "needle", "palpation", "search", "squeeze"
 const MetricDefinition* metricNamed(std::string_view name);  ///< null: none has this name

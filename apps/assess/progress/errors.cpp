@@ -9,53 +9,50 @@ namespace {
 
 constexpr std::size_t kLately = 5;
 
-const std::map<std::string, std::vector<ErrorKind>>& kindsOfEngines() {
-  static const std::map<std::string, std::vector<ErrorKind>> kKinds{
-      {"needle",
-       {{"col_lung", 0, false, "the pleura was touched",
-         "keep the needle flat behind the clavicle and stop at the depth that was taught: the lung "
-         "lies behind the vein"},
-        {"col_artery", 0, false, "an artery was touched",
-         "advance slowly with the plunger drawn and stop at the first blood: the artery lies "
-         "behind the vein"},
-        {"back_wall_punctures", 0, false, "the vein's back wall was punctured",
-         "advance more slowly near the vein: in a porcine jugular 3 mm/s kept the needle in it "
-         "best"},
-        {"needle_passes", 3, false, "more than three needle passes",
-         "after three passes stop and ask: every further pass multiplies complications"},
-        {"needle_passes", 1, false, "more than one needle pass",
-         "find the landmarks again before the needle goes in, rather than turning it inside"},
-        {"over_force_s", 0, false, "bone was pressed too hard",
-         "touch the clavicle lightly: it is the guide, not a place to push on"},
-        {"col_rib", 0, false, "rib or bone was struck",
-         "lower the syringe before the advance, so that the needle slides under the clavicle"},
-        {"col_vein", 0, false, "the vein was touched in vain",
-         "draw the plunger before the vein is reached and stop when blood comes"},
-        {"phase_2", 1000, false, "the direction was beyond what is acceptable",
-         "turn the needle fully toward the sternal end before the advance"},
-        {"success", 0.5, true, "the vein was not reached",
-         "repeat entry point and direction with the three fixed views before the next trial"}}},
-      {"palpation",
-       {{"sensitivity_pct", 99.9, true, "a lump was missed",
-         "feel every place lightly, then firmly, then deep"},
-        {"false_alarms", 0, false, "something was marked where nothing is",
-         "compare with the same place on the other side before marking"},
-        {"coverage_deep_pct", 95, true, "less than 95 % was felt deep",
-         "search in overlapping strips and press deep in each place"},
-        {"coverage_light_pct", 95, true, "less than 95 % was felt at all",
-         "search in overlapping strips from edge to edge"},
-        {"too_hard_pct", 5, false, "pressed too hard for more than 5 % of the time",
-         "more force than the largest sensible one finds nothing more and hurts"}}},
-      {"search",
-       {{"chosen", 0.5, true, "no element was chosen in time",
-         "visit each element once before looking closer"},
-        {"success", 0.5, true, "the target was not found",
-         "cross each element at the same speed and compare before staying in one"}}},
-      {"squeeze",
-       {{"success", 0.5, true, "the answer was wrong or missing",
-         "squeeze both equally deep and equally fast before answering"}}}};
-  return kKinds;
-}
+const std::map<std::string, std::vector<ErrorKind>> kKindsOfEngines{
+    {"needle",
+     {{"col_lung", 0, false, "the pleura was touched",
+       "keep the needle flat behind the clavicle and stop at the depth that was taught: the lung "
+       "lies behind the vein"},
+      {"col_artery", 0, false, "an artery was touched",
+       "advance slowly with the plunger drawn and stop at the first blood: the artery lies "
+       "behind the vein"},
+      {"back_wall_punctures", 0, false, "the vein's back wall was punctured",
+       "advance more slowly near the vein: in a porcine jugular 3 mm/s kept the needle in it "
+       "best"},
+      {"needle_passes", 3, false, "more than three needle passes",
+       "after three passes stop and ask: every further pass multiplies complications"},
+      {"needle_passes", 1, false, "more than one needle pass",
+       "find the landmarks again before the needle goes in, rather than turning it inside"},
+      {"over_force_s", 0, false, "bone was pressed too hard",
+       "touch the clavicle lightly: it is the guide, not a place to push on"},
+      {"col_rib", 0, false, "rib or bone was struck",
+       "lower the syringe before the advance, so that the needle slides under the clavicle"},
+      {"col_vein", 0, false, "the vein was touched in vain",
+       "draw the plunger before the vein is reached and stop when blood comes"},
+      {"phase_2", 1000, false, "the direction was beyond what is acceptable",
+       "turn the needle fully toward the sternal end before the advance"},
+      {"success", 0.5, true, "the vein was not reached",
+       "repeat entry point and direction with the three fixed views before the next trial"}}},
+    {"palpation",
+     {{"sensitivity_pct", 99.9, true, "a lump was missed",
+       "feel every place lightly, then firmly, then deep"},
+      {"false_alarms", 0, false, "something was marked where nothing is",
+       "compare with the same place on the other side before marking"},
+      {"coverage_deep_pct", 95, true, "less than 95 % was felt deep",
+       "search in overlapping strips and press deep in each place"},
+      {"coverage_light_pct", 95, true, "less than 95 % was felt at all",
+       "search in overlapping strips from edge to edge"},
+      {"too_hard_pct", 5, false, "pressed too hard for more than 5 % of the time",
+       "more force than the largest sensible one finds nothing more and hurts"}}},
+    {"search",
+     {{"chosen", 0.5, true, "no element was chosen in time",
+       "visit each element once before looking closer"},
+      {"success", 0.5, true, "the target was not found",
+       "cross each element at the same speed and compare before staying in one"}}},
+    {"squeeze",
+     {{"success", 0.5, true, "the answer was wrong or missing",
+       "squeeze both equally deep and equally fast before answering"}}}};
 
 assess::ParacentesisValues valuesOf(const PracticeTrial& t) {
   return {t.metric("col_lung"),     t.metric("col_rib"),
@@ -75,8 +72,8 @@ bool weighsLikeThat(const PracticeTrial& trial, const assess::ScoreWeights& weig
 
 const std::vector<ErrorKind>& errorKinds(const std::string& engine) {
   static const std::vector<ErrorKind> kNone;
-  const auto known = kindsOfEngines().find(engine);
-  return known == kindsOfEngines().end() ? kNone : known->second;
+  const auto known = kKindsOfEngines.find(engine);
+  return known == kKindsOfEngines.end() ? kNone : known->second;
 }
 
 bool happened(const ErrorKind& kind, const PracticeTrial& trial) {
