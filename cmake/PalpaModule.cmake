@@ -1,7 +1,7 @@
 # palpa_module(NAME [PUBLIC libs...] [PRIVATE libs...])
 # One folder, one static library named palpa_NAME. Includes start at the top of the tree
 # ("haptics/tick.h"). PUBLIC libraries may appear in the folder's headers, PRIVATE ones only in its
-# sources: that is how the build refuses an arrow that ARCHITECTURE forbids.
+# sources: that is how the build refuses an arrow that runs the wrong way.
 function(palpa_module NAME)
   cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp)

@@ -38,7 +38,6 @@ class StudyParticipant {
     bool sent = false;
   };
   void fromRecords();
-  void fromCopy();
   void sendWaiting();
   void addWaiting();
   void readCopy();

@@ -42,7 +42,6 @@ class Guard {
   /// there.
   std::string enter(const std::string& remote, const std::string& token);
   bool entered(const std::string& cookie_header) const;
-  bool asksToken() const { return !token_.empty(); }
   const std::string& pageKey() const { return page_key_; }
 
  private:

@@ -81,11 +81,6 @@ std::vector<double> lastOf(const std::vector<Learning>& all) {
   return values;
 }
 
-double learningRate(const std::vector<Learning>& all) {
-  const double first = meanOf(firstOf(all));
-  return first != 0 ? 1 - meanOf(lastOf(all)) / first : std::numeric_limits<double>::quiet_NaN();
-}
-
 std::string metricTitle(const std::string& metric) {
   const metrics::MetricDefinition* known = metrics::metricNamed(metric);
   if (!known) return metric;
@@ -96,11 +91,6 @@ std::string metricTitle(const std::string& metric) {
 std::string metricUnit(const std::string& metric) {
   const metrics::MetricDefinition* known = metrics::metricNamed(metric);
   return known && std::string(known->unit) != "1" ? known->unit : "";
-}
-
-bool lowerIsBetter(const std::string& metric) {
-  const metrics::MetricDefinition* known = metrics::metricNamed(metric);
-  return !known || known->better != metrics::Better::higher;
 }
 
 }  // namespace palpa::study_analysis

@@ -44,13 +44,8 @@ std::vector<Learning> learningOf(const std::vector<Series>& series);
 std::vector<double> firstOf(const std::vector<Learning>& all);
 std::vector<double> lastOf(const std::vector<Learning>& all);
 
-/// Of means over subjects: 1 - mean(last) / mean(first), Tzafestas 2008. Positive: less at the end.
-/// Not a number where the first mean is 0.
-double learningRate(const std::vector<Learning>& all);
-
-/// What a figure is called in tables and sentences: "Time, s"; and whether less of it is better.
+/// What a figure is called in tables and sentences: "Time, s".
 std::string metricTitle(const std::string& metric);
 std::string metricUnit(const std::string& metric);  ///< "s"; "" for a plain number
-bool lowerIsBetter(const std::string& metric);  ///< true of what the table of metrics does not know
 
 }  // namespace palpa::study_analysis

@@ -86,7 +86,6 @@ class TrialScene : public runtime::Activity {
   std::int64_t now_ns() const { return now_ns_; }
   const Pose& X_AD() const { return X_AD_; }
   const std::string& mark() const { return stage_.mark; }
-  bool hasView() const { return stage_.view != nullptr; }
 
  private:
   void follow(std::int64_t now_ns);

@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "anatomy/geometry/error.h"
-#include "haptics/sensors/wrench_bias.h"
 #include "moving_tool.h"
 
 namespace palpa::haptics {
@@ -238,26 +237,6 @@ TEST(SensorMotion, AfterAGapOrATimeThatGoesBackThereIsGravityAlone) {
     EXPECT_EQ(motion.alpha_S, (Packed3{0, 0, 0}));
     EXPECT_LT((unpack(motion.g_S) - unpack(X_WS.q).conjugate() * kGravity_W).norm(), 1e-12);
   }
-}
-
-TEST(WrenchBias, IsTheMeanWithoutTheToolsWeight) {
-  const ToolLoad tool{0.15, {0.01, 0.02, 0.08}, {}};
-  const Packed3 g_S{3, -4, 8};
-  runtime::RandomStream random(6, "bias");
-  SensorMotion rest;
-  rest.g_S = g_S;
-  std::vector<WrenchSample> samples;
-  for (int i = 0; i < 10'000; ++i) {
-    samples.push_back(sampleOf(toolWrench(tool, rest), kBias));
-    for (double& f : samples.back().f_S) f += random.normal(0, 0.02);
-  }
-  const BiasEstimate got = wrenchBias(samples, tool, g_S);
-  EXPECT_LT(distance(got.bias.f_S, kBias.f_S), 4 * 0.02 / 100 * std::sqrt(3));  // 4 standard errors
-  EXPECT_LT(distance(got.bias.tau_S, kBias.tau_S), 1e-9);
-  EXPECT_NEAR(got.sd.f_S[1], 0.02, 0.001);
-  samples[3].flags = kSilent;
-  EXPECT_THROW(wrenchBias(samples, tool, g_S), Error);
-  EXPECT_THROW(wrenchBias(std::span(samples).first(1), tool, g_S), Error);
 }
 
 }  // namespace

@@ -5,9 +5,7 @@
 
 #include "anatomy/geometry/error.h"
 #include "apps/assess/statistics/anova.h"
-#include "apps/assess/statistics/contingency.h"
 #include "apps/assess/statistics/holm.h"
-#include "apps/assess/statistics/rank_tests.h"
 #include "apps/assess/statistics/t_test.h"
 #include "apps/assess/statistics/wilson.h"
 
@@ -92,72 +90,6 @@ TEST(Anovas, TwoGroupsAreASquaredTTest) {
   EXPECT_THROW(oneWayAnova({{1, 1}, {2, 2}}), Error);
   EXPECT_THROW(oneWayAnova({{1, 2}, {}}), Error);
   EXPECT_THROW(fTail(1, 0, 3), Error);
-}
-
-// Hollander and Wolfe 1973, pages 69 and 29.
-TEST(RankTests, HollanderAndWolfe) {
-  const RankTest u = mannWhitney({0.80, 0.83, 1.89, 1.04, 1.45, 1.38, 1.91, 1.64, 0.73, 1.46},
-                                 {1.15, 0.88, 0.90, 0.74, 1.21});
-  EXPECT_EQ(u.statistic, 35);
-  EXPECT_TRUE(u.exact);
-  EXPECT_NEAR(u.p_greater, 0.1272, 5e-5);
-  EXPECT_NEAR(u.effect, 2 * 35.0 / 50 - 1, 1e-12);
-  const RankTest v = wilcoxon({1.83, 0.50, 1.62, 2.48, 1.68, 1.88, 1.55, 3.06, 1.30},
-                              {0.878, 0.647, 0.598, 2.05, 1.06, 1.29, 1.06, 3.14, 1.29});
-  EXPECT_EQ(v.statistic, 40);
-  EXPECT_TRUE(v.exact);
-  EXPECT_NEAR(v.p_greater, 0.01953, 5e-6);
-}
-
-TEST(RankTests, TiesAreCorrectedFor) {
-  // Ranks of a: 1, 3, 3, 5, 8, less 15; p as scipy 1.10 gives it.
-  const RankTest u = mannWhitney({1, 2, 2, 3, 5}, {2, 4, 4, 6, 7, 8});
-  EXPECT_EQ(u.statistic, 5);
-  EXPECT_FALSE(u.exact);
-  EXPECT_NEAR(u.p_two_sided, 0.07934368, 1e-8);
-  EXPECT_NEAR(u.p_less, 0.03967184, 1e-8);
-  const RankTest v = wilcoxon({1, 2, 3, 4, 5, 6, 9}, {2, 2, 1, 7, 1, 1, 1});  // one pair alike
-  EXPECT_FALSE(v.exact);
-  EXPECT_NEAR(v.p_two_sided, 0.20841280, 1e-8);
-}
-
-TEST(RankTests, ExactAgreesWithCounting) {
-  // a below all of b: one of C(6, 3) = 20 orders.
-  EXPECT_NEAR(mannWhitney({1, 2, 3}, {4, 5, 6}).p_less, 1.0 / 20, 1e-12);
-  EXPECT_NEAR(mannWhitney({1, 2, 3}, {4, 5, 6}).p_two_sided, 2.0 / 20, 1e-12);
-  EXPECT_EQ(mannWhitney({1, 2, 3}, {4, 5, 6}).effect, -1);
-  EXPECT_NEAR(wilcoxon({2, 4, 6, 9}, {1, 2, 3, 4}).p_greater, 1.0 / 16, 1e-12);
-  EXPECT_THROW(mannWhitney({}, {1}), Error);
-  EXPECT_THROW(mannWhitney({1, 1}, {1, 1}), Error);
-  EXPECT_THROW(wilcoxon({1, 2}, {1, 2}), Error);
-  EXPECT_THROW(wilcoxon({1, 2}, {1}), Error);
-}
-
-// Fisher 1935: the lady who tastes tea. Fisher 1962: convictions of twins.
-TEST(Contingency, Fisher) {
-  EXPECT_NEAR(fisherExact(3, 1, 1, 3).p_two_sided, 0.4857, 5e-5);
-  EXPECT_NEAR(fisherExact(3, 1, 1, 3).p_greater, 0.2429, 5e-5);
-  EXPECT_EQ(fisherExact(3, 1, 1, 3).odds_ratio, 9);
-  EXPECT_NEAR(fisherExact(2, 10, 15, 3).p_two_sided, 0.0005367, 5e-8);
-  EXPECT_NEAR(fisherExact(2, 10, 15, 3).p_less, 0.0004652, 5e-8);
-  EXPECT_EQ(fisherExact(5, 0, 5, 0).p_two_sided, 1);
-  EXPECT_THROW(fisherExact(-1, 1, 1, 1), Error);
-  EXPECT_THROW(fisherExact(0, 0, 0, 0), Error);
-}
-
-// Agresti 2007, page 39: gender and party.
-TEST(Contingency, ChiSquare) {
-  const ChiSquareTest test = chiSquare({{762, 327, 468}, {484, 239, 477}});
-  EXPECT_NEAR(test.chi_square, 30.07, 5e-3);
-  EXPECT_EQ(test.degrees, 2);
-  EXPECT_NEAR(test.p, 2.954e-07, 5e-11);
-  EXPECT_NEAR(test.smallest_expected, 246.3547, 5e-5);
-  EXPECT_EQ(chiSquare({{762, 0, 327, 468}, {0, 0, 0, 0}, {484, 0, 239, 477}}).chi_square,
-            test.chi_square);
-  EXPECT_NEAR(chiSquare({{10, 0}, {0, 10}}).cramers_v, 1, 1e-12);
-  EXPECT_THROW(chiSquare({{1, 2}, {0, 0}}), Error);
-  EXPECT_THROW(chiSquare({{1, 2}, {1}}), Error);
-  EXPECT_THROW(chiSquare({}), Error);
 }
 
 // The step-down by hand: .005 x 4, .01 x 3, .03 x 2, then .04 x 1 lifted to .06.
