@@ -1,18 +1,31 @@
-// The server in sentences: reads, writes (page key, a nonce for each), and whether it answers at all.
-const kPatience_ms = 15000, kDoubt_ms = 1500;
-let pageKey = '';
+// The server in sentences: reads, writes (page key, a nonce for each), and
+// whether it answers at all.
+const kPatience_ms = 15000,
+  kDoubt_ms = 1500;
+let pageKey = "";
 let known = null;
-let lostAt = 0, heardAt = 0;
+let lostAt = 0,
+  heardAt = 0;
 const watchers = new Set();
 
 export class Trouble extends Error {
-  constructor(message, status = 0) { super(message); this.status = status; }
-  get offline() { return this.status === 0; }
+  constructor(message, status = 0) {
+    super(message);
+    this.status = status;
+  }
+  get offline() {
+    return this.status === 0;
+  }
 }
 
 /** Calls back with the time (ms) since when nobody answers, 0 when somebody does again. */
-export function watchConnection(callback) { watchers.add(callback); return () => watchers.delete(callback); }
-export function lostSince() { return lostAt; }
+export function watchConnection(callback) {
+  watchers.add(callback);
+  return () => watchers.delete(callback);
+}
+export function lostSince() {
+  return lostAt;
+}
 
 /** A failure right after an answer or a live message is not yet a lost connection. */
 export function reportConnection(answers) {
@@ -25,26 +38,46 @@ export function reportConnection(answers) {
 }
 
 function nonce() {
-  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) => byte.toString(16).padStart(2, '0')).join('');
+  return Array.from(crypto.getRandomValues(new Uint8Array(16)), (byte) =>
+    byte.toString(16).padStart(2, "0"),
+  ).join("");
 }
 
 async function sentence(response) {
   try {
     const answer = await response.json();
-    if (answer && typeof answer.error === 'string' && answer.error) return answer.error;
-  } catch { /* no JSON: the status must do */ }
-  if (response.status === 404) return 'The console knows nothing of this. It may have been removed; go back and choose again.';
-  return `The console could not do this (answer ${response.status}). Try again; if it stays so, look at the Station page.`;
+    if (answer && typeof answer.error === "string" && answer.error) return answer.error;
+  } catch {
+    /* no JSON: the status must do */
+  }
+  if (response.status === 404)
+    return "The console knows nothing of this. It may have been removed; go back and choose again.";
+  return (
+    `The console could not do this (answer ${response.status}). ` +
+    "Try again; if it stays so, look at the Station page."
+  );
 }
 
 async function send(method, path, body) {
-  const headers = method === 'POST' ? {'Content-Type': 'application/json', 'X-Palpa-Page': pageKey, 'X-Palpa-Write': nonce()} : {};
+  const headers =
+    method === "POST"
+      ? { "Content-Type": "application/json", "X-Palpa-Page": pageKey, "X-Palpa-Write": nonce() }
+      : {};
   let response;
   try {
-    response = await fetch(path, {method, headers, cache: 'no-store', body: method === 'POST' ? JSON.stringify(body ?? {}) : undefined, signal: AbortSignal.timeout(kPatience_ms)});
+    response = await fetch(path, {
+      method,
+      headers,
+      cache: "no-store",
+      body: method === "POST" ? JSON.stringify(body ?? {}) : undefined,
+      signal: AbortSignal.timeout(kPatience_ms),
+    });
   } catch {
     reportConnection(false);
-    throw new Trouble('No connection to the console. What you asked for has not been confirmed; it is tried again only when you ask again.');
+    throw new Trouble(
+      "No connection to the console. What you asked for has not been confirmed; " +
+        "it is tried again only when you ask again.",
+    );
   }
   reportConnection(true);
   return response;
@@ -54,37 +87,50 @@ async function answerOf(response) {
   if (!response.ok) throw new Trouble(await sentence(response), response.status);
   const text = await response.text();
   if (!text) return {};
-  try { return JSON.parse(text); } catch { throw new Trouble('The console answered something that cannot be read. Reload this page.', response.status); }
+  try {
+    return JSON.parse(text);
+  } catch {
+    throw new Trouble(
+      "The console answered something that cannot be read. Reload this page.",
+      response.status,
+    );
+  }
 }
 
-/** After a refusal: who one is may have changed (a restart, a new token); who is outside is sent to the door. True when the page key is another one. */
+/**
+ * After a refusal: who one is may have changed (a restart, a new token); who is outside is sent to
+ * the door. True when the page key is another one.
+ */
 async function renewed(path) {
-  if (path === '/api/me' || path === '/api/enter') return false;
+  if (path === "/api/me" || path === "/api/enter") return false;
   const before = pageKey;
   const now = await me(true);
-  if (!now.entered) location.hash = '#/enter';
+  if (!now.entered) location.hash = "#/enter";
   return now.entered && pageKey !== before;
 }
 const refused = (response) => response.status === 401 || response.status === 403;
 
 export async function get(path) {
-  const response = await send('GET', path);
+  const response = await send("GET", path);
   if (refused(response)) await renewed(path);
   return answerOf(response);
 }
 
-/** A write. A page key from before the server's last start is renewed once: what was refused has not been done. */
+/**
+ * A write. A page key from before the server's last start is renewed once: what was
+ * refused has not been done.
+ */
 export async function post(path, body) {
-  let response = await send('POST', path, body);
-  if (refused(response) && await renewed(path)) response = await send('POST', path, body);
+  let response = await send("POST", path, body);
+  if (refused(response) && (await renewed(path))) response = await send("POST", path, body);
   return answerOf(response);
 }
 
 /** Who and where: asked once, and again after entering or a restart. */
 export async function me(again = false) {
   if (!known || again) {
-    known = await get('/api/me');
-    pageKey = known.page_key || '';
+    known = await get("/api/me");
+    pageKey = known.page_key || "";
   }
   return known;
 }
@@ -95,4 +141,5 @@ export async function list(path) {
   return Array.isArray(answer) ? answer : [];
 }
 
-export const url = (...parts) => parts.map((part, at) => (at === 0 ? part : encodeURIComponent(part))).join('/');
+export const url = (...parts) =>
+  parts.map((part, at) => (at === 0 ? part : encodeURIComponent(part))).join("/");

@@ -1,42 +1,75 @@
 // Figures and states in words.
-const kDay = new Intl.DateTimeFormat('en-GB', {day: 'numeric', month: 'short', year: 'numeric'});
-const kMoment = new Intl.DateTimeFormat('en-GB', {day: 'numeric', month: 'short', year: 'numeric', hour: '2-digit', minute: '2-digit'});
+const kDay = new Intl.DateTimeFormat("en-GB", { day: "numeric", month: "short", year: "numeric" });
+const kMoment = new Intl.DateTimeFormat("en-GB", {
+  day: "numeric",
+  month: "short",
+  year: "numeric",
+  hour: "2-digit",
+  minute: "2-digit",
+});
 
 function dated(utc, form) {
   const at = utc ? new Date(utc) : null;
-  return at && !Number.isNaN(at.getTime()) ? form.format(at) : '';
+  return at && !Number.isNaN(at.getTime()) ? form.format(at) : "";
 }
-export const day = (utc) => dated(utc, kDay) || '–';
-export const moment = (utc) => dated(utc, kMoment) || '–';
+export const day = (utc) => dated(utc, kDay) || "–";
+export const moment = (utc) => dated(utc, kMoment) || "–";
 
 /** 83.4 -> "1:23.4" */
 export function clock(seconds, digits = 1) {
   const t = Math.max(0, Number(seconds) || 0);
   const minutes = Math.floor(t / 60);
   const rest = (t - minutes * 60).toFixed(digits);
-  return `${minutes}:${rest.padStart(digits ? 3 + digits : 2, '0')}`;
+  return `${minutes}:${rest.padStart(digits ? 3 + digits : 2, "0")}`;
 }
 
 export const plural = (n, one, many = `${one}s`) => `${n} ${n === 1 ? one : many}`;
-export const figure = (x, digits = 1) => (Number.isFinite(x) ? x.toFixed(digits) : '–');
-export const capital = (text) => (text ? text[0].toUpperCase() + text.slice(1) : '');
-export const who = (trainee) => trainee || 'nobody (T000)';
+export const figure = (x, digits = 1) => (Number.isFinite(x) ? x.toFixed(digits) : "–");
+export const capital = (text) => (text ? text[0].toUpperCase() + text.slice(1) : "");
+export const who = (trainee) => trainee || "nobody (T000)";
 
-const kTasks = {paracentesis: 'Paracentesis', palpation: 'Palpation', squeeze: 'Squeeze', search: 'Search'};
-export const taskName = (id) => kTasks[id] || capital(String(id || 'task'));
+const kTasks = {
+  paracentesis: "Paracentesis",
+  palpation: "Palpation",
+  squeeze: "Squeeze",
+  search: "Search",
+};
+export const taskName = (id) => kTasks[id] || capital(String(id || "task"));
 
-const kSessionStates = {starting: ['work', 'starting'], running: ['work', 'on now'], finished: ['good', 'finished'], failed: ['bad', 'failed'], interrupted: ['note', 'interrupted']};
-export const sessionState = (state) => kSessionStates[state] || ['none', String(state || 'unknown')];
-export const isOn = (session) => session.state === 'starting' || session.state === 'running';
+const kSessionStates = {
+  starting: ["work", "starting"],
+  running: ["work", "on now"],
+  finished: ["good", "finished"],
+  failed: ["bad", "failed"],
+  interrupted: ["note", "interrupted"],
+};
+export const sessionState = (state) =>
+  kSessionStates[state] || ["none", String(state || "unknown")];
+export const isOn = (session) => session.state === "starting" || session.state === "running";
 
-const kOutcomes = {success: ['good', 'success'], aborted: ['note', 'aborted'], time: ['bad', 'time was up'], passes: ['bad', 'too many passes'], void: ['none', 'void, does not count'], 'not scored': ['none', 'not scored']};
-export const outcome = (name) => kOutcomes[name] || ['neutral', String(name || 'no outcome')];
+const kOutcomes = {
+  success: ["good", "success"],
+  aborted: ["note", "aborted"],
+  time: ["bad", "time was up"],
+  passes: ["bad", "too many passes"],
+  void: ["none", "void, does not count"],
+  "not scored": ["none", "not scored"],
+};
+export const outcome = (name) => kOutcomes[name] || ["neutral", String(name || "no outcome")];
 
-const kLiveStates = {checking: ['work', 'Checking the station'], waiting: ['note', 'Waiting for you to start'], running: ['good', 'Trial is running'], paused: ['note', 'Paused'], ended: ['none', 'Trial has ended'], finished: ['none', 'Session is over']};
-export const liveState = (state) => kLiveStates[state] || ['neutral', capital(String(state || 'unknown'))];
+const kLiveStates = {
+  checking: ["work", "Checking the station"],
+  waiting: ["note", "Waiting for you to start"],
+  running: ["good", "Trial is running"],
+  paused: ["note", "Paused"],
+  ended: ["none", "Trial has ended"],
+  finished: ["none", "Session is over"],
+};
+export const liveState = (state) =>
+  kLiveStates[state] || ["neutral", capital(String(state || "unknown"))];
 
 /** view-01-02-puncture.png -> "Trial 1: puncture" */
 export function pictureName(file) {
   const parts = /^view-0*(\d+)-\d+-(.+)\.png$/.exec(file);
-  return parts ? `Trial ${parts[1]}: ${parts[2].replace(/-/g, ' ')}` : file;
+  return parts ? `Trial ${parts[1]}: ${parts[2].replace(/-/g, " ")}` : file;
 }

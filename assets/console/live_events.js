@@ -1,33 +1,122 @@
 // What happened, newest first, and the educator's own notes with the moment they are about.
-import {post, url} from './api.js';
-import {announce, h, mark, put, say} from './dom.js';
-import {clock} from './format.js';
-import {joined, momentOf} from './moments.js';
-import {during, tick} from './parts.js';
+import { post, url } from "./api.js";
+import { announce, h, mark, put, say } from "./dom.js";
+import { clock } from "./format.js";
+import { joined, momentOf } from "./moments.js";
+import { during, tick } from "./parts.js";
 
-const kWords = {good: 'good', bad: 'error', near: 'near miss', note: 'note', neutral: ''};
+const kWords = { good: "good", bad: "error", near: "near miss", note: "note", neutral: "" };
 let keyMarks = true;
 
-const typing = (target) => target instanceof Element && target.closest('input:not([type=checkbox]):not([type=radio]), textarea, select, dialog, [contenteditable]');
+const typing = (target) =>
+  target instanceof Element &&
+  target.closest(
+    "input:not([type=checkbox]):not([type=radio]), textarea, select, dialog, [contenteditable]",
+  );
 
 export class LiveEvents {
   /** now(): the session's second at this moment. */
   constructor(life, id, now) {
-    this.path = url('/api/sessions', id, 'command');
-    this.now = now; this.notes = new Set(); this.at_s = NaN;
-    this.list = h('ol', {class: 'events'}, h('li', {class: 'muted none-yet'}, 'Nothing has happened yet.'));
-    this.mark = h('button', {type: 'button', class: 'wide', id: 'mark-moment', 'aria-keyshortcuts': 'M', onclick: () => this.#stamp()}, 'Mark this moment', h('kbd', {}, 'M'));
-    this.label = h('label', {for: 'note-text'}, 'Note');
-    this.text = h('input', {type: 'text', id: 'note-text', maxlength: '300', autocomplete: 'off'});
-    this.save = h('button', {type: 'submit', class: 'primary'}, 'Save the note');
-    this.said = h('div', {class: 'said'});
-    this.form = h('form', {class: 'note-form', hidden: true, novalidate: true, onsubmit: (e) => { e.preventDefault(); during(this.save, this.said, () => this.#keep()); }, onkeydown: (e) => { if (e.key === 'Escape') this.#close(); }},
-      this.label, this.text, this.said, h('div', {class: 'row'}, this.save, h('button', {type: 'button', onclick: () => this.#close()}, 'Leave it')));
-    const key = tick('The key M marks', keyMarks);
-    key.box.addEventListener('change', () => { keyMarks = key.box.checked; });
-    this.writing = h('section', {class: 'card notes', 'aria-label': 'Notes'}, this.mark, this.form, key.node);
-    this.node = h('div', {class: 'stack'}, this.writing, h('section', {class: 'card events-card', 'aria-label': 'Events'}, h('h2', {}, 'Events'), h('div', {class: 'events-scroll', role: 'log', 'aria-label': 'Events, newest first', tabindex: '0'}, this.list)));
-    life.listen(window, 'keydown', (e) => { if (keyMarks && !this.over && e.key.toLowerCase() === 'm' && !e.ctrlKey && !e.metaKey && !e.altKey && !e.repeat && !typing(e.target)) { e.preventDefault(); this.#stamp(); } });
+    this.path = url("/api/sessions", id, "command");
+    this.now = now;
+    this.notes = new Set();
+    this.at_s = NaN;
+    this.list = h(
+      "ol",
+      { class: "events" },
+      h("li", { class: "muted none-yet" }, "Nothing has happened yet."),
+    );
+    this.mark = h(
+      "button",
+      {
+        type: "button",
+        class: "wide",
+        id: "mark-moment",
+        "aria-keyshortcuts": "M",
+        onclick: () => this.#stamp(),
+      },
+      "Mark this moment",
+      h("kbd", {}, "M"),
+    );
+    this.label = h("label", { for: "note-text" }, "Note");
+    this.text = h("input", {
+      type: "text",
+      id: "note-text",
+      maxlength: "300",
+      autocomplete: "off",
+    });
+    this.save = h("button", { type: "submit", class: "primary" }, "Save the note");
+    this.said = h("div", { class: "said" });
+    this.form = h(
+      "form",
+      {
+        class: "note-form",
+        hidden: true,
+        novalidate: true,
+        onsubmit: (e) => {
+          e.preventDefault();
+          during(this.save, this.said, () => this.#keep());
+        },
+        onkeydown: (e) => {
+          if (e.key === "Escape") this.#close();
+        },
+      },
+      this.label,
+      this.text,
+      this.said,
+      h(
+        "div",
+        { class: "row" },
+        this.save,
+        h("button", { type: "button", onclick: () => this.#close() }, "Leave it"),
+      ),
+    );
+    const key = tick("The key M marks", keyMarks);
+    key.box.addEventListener("change", () => {
+      keyMarks = key.box.checked;
+    });
+    this.writing = h(
+      "section",
+      { class: "card notes", "aria-label": "Notes" },
+      this.mark,
+      this.form,
+      key.node,
+    );
+    this.node = h(
+      "div",
+      { class: "stack" },
+      this.writing,
+      h(
+        "section",
+        { class: "card events-card", "aria-label": "Events" },
+        h("h2", {}, "Events"),
+        h(
+          "div",
+          {
+            class: "events-scroll",
+            role: "log",
+            "aria-label": "Events, newest first",
+            tabindex: "0",
+          },
+          this.list,
+        ),
+      ),
+    );
+    life.listen(window, "keydown", (e) => {
+      if (
+        keyMarks &&
+        !this.over &&
+        e.key.toLowerCase() === "m" &&
+        !e.ctrlKey &&
+        !e.metaKey &&
+        !e.altKey &&
+        !e.repeat &&
+        !typing(e.target)
+      ) {
+        e.preventDefault();
+        this.#stamp();
+      }
+    });
   }
 
   #stamp() {
@@ -37,33 +126,62 @@ export class LiveEvents {
     this.text.focus();
   }
 
-  #close() { this.form.hidden = true; this.text.value = ''; put(this.said); this.mark.focus(); }
+  #close() {
+    this.form.hidden = true;
+    this.text.value = "";
+    put(this.said);
+    this.mark.focus();
+  }
 
   async #keep() {
-    const text = this.text.value.trim(), at_s = Number(this.at_s.toFixed(2));
-    if (!text) { this.text.focus(); throw new Error('Write a word or two, or leave it.'); }
-    await post(this.path, {command: 'note', reason: text, at_s});
-    announce('The note is saved.');
-    this.add({t_s: at_s, event: 'note', text, tone: 'note'}, 'note');
+    const text = this.text.value.trim(),
+      at_s = Number(this.at_s.toFixed(2));
+    if (!text) {
+      this.text.focus();
+      throw new Error("Write a word or two, or leave it.");
+    }
+    await post(this.path, { command: "note", reason: text, at_s });
+    announce("The note is saved.");
+    this.add({ t_s: at_s, event: "note", text, tone: "note" }, "note");
     this.#close();
   }
 
-  /** A note comes twice, from here and from the station: it is shown once. False: it belongs to what stands there already. */
+  /**
+   * A note comes twice, from here and from the station: it is shown once. False: it belongs to what
+   * stands there already.
+   */
   add(message, tone) {
-    if (message.event === 'note' || tone === 'note') {
-      const key = String(message.text || '').replace(/^note:\s*/i, '');
-      if (this.notes.has(key)) { this.notes.delete(key); return false; }
-      if (message.event === 'note') this.notes.add(key);
+    if (message.event === "note" || tone === "note") {
+      const key = String(message.text || "").replace(/^note:\s*/i, "");
+      if (this.notes.has(key)) {
+        this.notes.delete(key);
+        return false;
+      }
+      if (message.event === "note") this.notes.add(key);
     }
-    this.list.querySelector('.none-yet')?.remove();
+    this.list.querySelector(".none-yet")?.remove();
     const more = joined(this.last, message);
-    this.last = more || momentOf({...message, tone});
-    if (more) { say(this.lastText, more.text); return false; }
-    const word = kWords[tone] ?? '';
-    this.lastText = h('span', {}, this.last.text);
-    this.list.prepend(h('li', {class: `event ${tone}`}, mark(tone), h('span', {class: 'event-time'}, clock(message.t_s)), h('span', {}, word ? h('strong', {}, `${word}: `) : null, this.lastText)));
+    this.last = more || momentOf({ ...message, tone });
+    if (more) {
+      say(this.lastText, more.text);
+      return false;
+    }
+    const word = kWords[tone] ?? "";
+    this.lastText = h("span", {}, this.last.text);
+    this.list.prepend(
+      h(
+        "li",
+        { class: `event ${tone}` },
+        mark(tone),
+        h("span", { class: "event-time" }, clock(message.t_s)),
+        h("span", {}, word ? h("strong", {}, `${word}: `) : null, this.lastText),
+      ),
+    );
     return true;
   }
 
-  end() { this.over = true; this.writing.hidden = true; }
+  end() {
+    this.over = true;
+    this.writing.hidden = true;
+  }
 }

@@ -1,30 +1,36 @@
 // The console: routes, who and where, and what stands on every page.
-import {get, list, lostSince, me, watchConnection} from './api.js';
-import {announce, h, mark, put, say} from './dom.js';
-import {isOn} from './format.js';
-import {simulatedBadge} from './parts.js';
-import {startRouter} from './router.js';
+import { get, list, lostSince, me, watchConnection } from "./api.js";
+import { announce, h, mark, put, say } from "./dom.js";
+import { isOn } from "./format.js";
+import { simulatedBadge } from "./parts.js";
+import { startRouter } from "./router.js";
 
 const routes = [
-  ['station', () => import('./page_station.js')],
-  ['calibrate', () => import('./page_calibrate.js')],
-  ['trainees', () => import('./page_trainees.js')],
-  ['trainees/:id', () => import('./page_trainee.js')],
-  ['session', () => import('./page_session.js')],
-  ['session/:id', () => import('./page_live.js')],
-  ['results', () => import('./page_results.js')],
-  ['results/:id', () => import('./page_result.js')],
-  ['cohort', () => import('./page_cohort.js')],
-  ['replay/:id/:n', () => import('./page_replay.js')],
-  ['studies', () => import('./page_studies.js')],
-  ['enter', () => import('./page_enter.js')],
+  ["station", () => import("./page_station.js")],
+  ["calibrate", () => import("./page_calibrate.js")],
+  ["trainees", () => import("./page_trainees.js")],
+  ["trainees/:id", () => import("./page_trainee.js")],
+  ["session", () => import("./page_session.js")],
+  ["session/:id", () => import("./page_live.js")],
+  ["results", () => import("./page_results.js")],
+  ["results/:id", () => import("./page_result.js")],
+  ["cohort", () => import("./page_cohort.js")],
+  ["replay/:id/:n", () => import("./page_replay.js")],
+  ["studies", () => import("./page_studies.js")],
+  ["enter", () => import("./page_enter.js")],
 ];
 
 /** Nobody goes further than the door without the token; who is in need not stand at it. */
 async function guard(first) {
   const here = await me(!lastKnown());
-  if (!here.entered && first !== 'enter') { location.replace('#/enter'); return null; }
-  if (here.entered && first === 'enter') { location.replace('#/station'); return null; }
+  if (!here.entered && first !== "enter") {
+    location.replace("#/enter");
+    return null;
+  }
+  if (here.entered && first === "enter") {
+    location.replace("#/station");
+    return null;
+  }
   remember(here);
   return here;
 }
@@ -33,37 +39,60 @@ let entered = false;
 const lastKnown = () => entered;
 function remember(here) {
   entered = !!here.entered;
-  put(document.getElementById('where'), here.station ? [h('span', {title: here.station}, here.station.replace(/ \(.*\)$/, '')), here.simulated ? simulatedBadge() : null] : []);
-  say(document.getElementById('foot'), `Palpa ${here.version || ''} · Records stay on this station${here.records ? `: ${here.records}` : ''} · Pseudonyms only, nothing leaves this computer.`);
+  put(
+    document.getElementById("where"),
+    here.station
+      ? [
+          h("span", { title: here.station }, here.station.replace(/ \(.*\)$/, "")),
+          here.simulated ? simulatedBadge() : null,
+        ]
+      : [],
+  );
+  const records = here.records ? `: ${here.records}` : "";
+  say(
+    document.getElementById("foot"),
+    `Palpa ${here.version || ""} · Records stay on this station${records} · ` +
+      "Pseudonyms only, nothing leaves this computer.",
+  );
 }
 
 /** The banner counts; only its coming and going is announced. */
 function showConnection() {
-  const banner = document.getElementById('lost');
+  const banner = document.getElementById("lost");
   const since = lostSince();
   const was = banner.hidden;
   banner.hidden = !since;
   if (since) {
     const seconds = Math.round((Date.now() - since) / 1000);
-    const goesOn = document.body.dataset.sessionOn === 'yes' ? '; the session goes on' : '';
-    put(banner, mark('note'), h('span', {}, `No connection to the console for ${seconds} s${goesOn}. Trying again…`));
+    const goesOn = document.body.dataset.sessionOn === "yes" ? "; the session goes on" : "";
+    put(
+      banner,
+      mark("note"),
+      h("span", {}, `No connection to the console for ${seconds} s${goesOn}. Trying again…`),
+    );
   }
-  if (was && since) announce('No connection to the console. Trying again.');
-  if (!was && !since) announce('The connection is back.');
+  if (was && since) announce("No connection to the console. Trying again.");
+  if (!was && !since) announce("The connection is back.");
 }
 
 async function lookForSession() {
   if (!entered) return;
-  const on = (await list('/api/sessions')).find(isOn);
-  document.body.dataset.sessionOn = on ? 'yes' : 'no';
-  const link = document.getElementById('nav-session');
-  put(link, 'Session', on ? h('span', {class: 'on'}, mark('work'), 'on') : null);
+  const on = (await list("/api/sessions")).find(isOn);
+  document.body.dataset.sessionOn = on ? "yes" : "no";
+  const link = document.getElementById("nav-session");
+  put(link, "Session", on ? h("span", { class: "on" }, mark("work"), "on") : null);
 }
 
 watchConnection(showConnection);
-watchConnection((since) => { if (!since && document.querySelector('main [data-waits]')) location.reload(); });
+watchConnection((since) => {
+  if (!since && document.querySelector("main [data-waits]")) location.reload();
+});
 setInterval(showConnection, 1000);
-setInterval(() => { if (lostSince()) get('/api/me').catch(() => {}); }, 2000);
-setInterval(() => { if (!lostSince() && !document.hidden) lookForSession().catch(() => {}); }, 4000);
-if (!location.hash) history.replaceState(null, '', '#/station');
+setInterval(() => {
+  if (lostSince()) get("/api/me").catch(() => {});
+}, 2000);
+setInterval(() => {
+  if (!lostSince() && !document.hidden) lookForSession().catch(() => {});
+}, 4000);
+if (!location.hash) history.replaceState(null, "", "#/station");
 startRouter(routes, guard).then(() => lookForSession().catch(() => {}));

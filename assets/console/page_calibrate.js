@@ -1,77 +1,171 @@
-// Calibration step by step: what each one is, how old it is, run it, watch it, read what came of it.
-import {get, post, url} from './api.js';
-import {announce, h, put} from './dom.js';
-import {day, plural} from './format.js';
-import {badge, button, notice, progress, simulatedBadge} from './parts.js';
-import {reportFrame} from './report_frame.js';
+// Calibration step by step: what each one is, how old it is, run it,
+// watch it, read what came of it.
+import { get, post, url } from "./api.js";
+import { announce, h, put } from "./dom.js";
+import { day, plural } from "./format.js";
+import { badge, button, notice, progress, simulatedBadge } from "./parts.js";
+import { reportFrame } from "./report_frame.js";
 
 function toneOf(verdict) {
-  if (/^(pass|good|well|in order|ok)/i.test(verdict)) return 'good';
-  if (/^(fail|ill|bad|refus)/i.test(verdict)) return 'bad';
-  return 'note';
+  if (/^(pass|good|well|in order|ok)/i.test(verdict)) return "good";
+  if (/^(fail|ill|bad|refus)/i.test(verdict)) return "bad";
+  return "note";
 }
 
 function age(made) {
-  if (!made) return [badge('none', 'not done yet')];
+  if (!made) return [badge("none", "not done yet")];
   const days = Math.floor((Date.now() - Date.parse(made.made_utc)) / 86_400_000);
-  return [badge(toneOf(String(made.verdict || '')), String(made.verdict || 'made')), made.simulated ? simulatedBadge() : null,
-    h('span', {class: 'muted'}, `made ${day(made.made_utc)}${Number.isFinite(days) ? (days < 1 ? ', today' : `, ${plural(days, 'day')} ago`) : ''}`)];
+  const ago = days < 1 ? ", today" : `, ${plural(days, "day")} ago`;
+  return [
+    badge(toneOf(String(made.verdict || "")), String(made.verdict || "made")),
+    made.simulated ? simulatedBadge() : null,
+    h("span", { class: "muted" }, `made ${day(made.made_utc)}${Number.isFinite(days) ? ago : ""}`),
+  ];
 }
 
 /** How the station stands, in words. */
 function standing(all) {
-  if (!(all.calibrations || []).length) return all.verdict === 'pass' ? 'sessions are scored with the figures in the station\'s file; nothing has been measured here yet' : all.verdict || 'not judged yet';
-  return all.verdict === 'pass' ? 'calibrated, sessions are scored' : all.verdict || 'not judged yet';
+  if (!(all.calibrations || []).length)
+    return all.verdict === "pass"
+      ? "sessions are scored with the figures in the station's file; " +
+          "nothing has been measured here yet"
+      : all.verdict || "not judged yet";
+  return all.verdict === "pass"
+    ? "calibrated, sessions are scored"
+    : all.verdict || "not judged yet";
 }
 
 function step(one, at, made, run) {
-  return h('li', {class: 'step'}, h('span', {class: 'step-number', 'aria-hidden': 'true'}, String(at + 1)), h('div', {}, h('h3', {}, one.title || one.id), h('p', {}, one.what || ''), h('p', {class: 'row tight'}, age(made))),
-    button(['Run this step', h('span', {class: 'unseen'}, `: ${one.title || one.id}`)], () => run(one.id)));
+  return h(
+    "li",
+    { class: "step" },
+    h("span", { class: "step-number", "aria-hidden": "true" }, String(at + 1)),
+    h(
+      "div",
+      {},
+      h("h3", {}, one.title || one.id),
+      h("p", {}, one.what || ""),
+      h("p", { class: "row tight" }, age(made)),
+    ),
+    button(["Run this step", h("span", { class: "unseen" }, `: ${one.title || one.id}`)], () =>
+      run(one.id),
+    ),
+  );
 }
 
 /** Follows a job to its end, drawing it into `place`. */
 async function follow(life, job, place, done) {
-  const lines = h('ol', {class: 'lines', 'aria-live': 'polite'}), picture = h('img', {class: 'job-picture', alt: 'What the camera sees at this moment', hidden: true});
-  const title = h('h2', {}, 'Calibration is running'), bar = h('div', {});
-  const stop = button('Stop', () => post(url('/api/jobs', job, 'stop'), {}));
-  put(place, h('div', {class: 'card'}, title, bar, lines, picture, h('div', {class: 'row'}, stop)));
-  let count = 0, shown = '';
+  const lines = h("ol", { class: "lines", "aria-live": "polite" }),
+    picture = h("img", {
+      class: "job-picture",
+      alt: "What the camera sees at this moment",
+      hidden: true,
+    });
+  const title = h("h2", {}, "Calibration is running"),
+    bar = h("div", {});
+  const stop = button("Stop", () => post(url("/api/jobs", job, "stop"), {}));
+  put(
+    place,
+    h("div", { class: "card" }, title, bar, lines, picture, h("div", { class: "row" }, stop)),
+  );
+  let count = 0,
+    shown = "";
   await life.every(700, async () => {
-    const now = await get(url('/api/jobs', job));
-    put(title, now.title || 'Calibration');
-    if (now.state !== 'working') {
-      const good = now.state === 'done';
-      put(place, h('div', {class: 'card'}, notice(good ? 'good' : 'bad', now.message || (good ? 'Done.' : 'It did not work; nothing was changed.')), now.page ? reportFrame(now.page, 'Result of the calibration') : null));
-      announce(now.message || (good ? 'Calibration done.' : 'Calibration failed.'));
+    const now = await get(url("/api/jobs", job));
+    put(title, now.title || "Calibration");
+    if (now.state !== "working") {
+      const good = now.state === "done";
+      put(
+        place,
+        h(
+          "div",
+          { class: "card" },
+          notice(
+            good ? "good" : "bad",
+            now.message || (good ? "Done." : "It did not work; nothing was changed."),
+          ),
+          now.page ? reportFrame(now.page, "Result of the calibration") : null,
+        ),
+      );
+      announce(now.message || (good ? "Calibration done." : "Calibration failed."));
       done();
       return false;
     }
-    put(bar, progress('How far the calibration is', now.done), h('span', {class: 'muted'}, Number.isFinite(now.done) ? ` ${Math.round(now.done * 100)} %` : ' under way'));
+    put(
+      bar,
+      progress("How far the calibration is", now.done),
+      h(
+        "span",
+        { class: "muted" },
+        Number.isFinite(now.done) ? ` ${Math.round(now.done * 100)} %` : " under way",
+      ),
+    );
     const text = (now.lines || []).slice(-4);
-    if (text.join('\n') !== shown) { shown = text.join('\n'); put(lines, text.map((line) => h('li', {}, String(line)))); }
+    if (text.join("\n") !== shown) {
+      shown = text.join("\n");
+      put(
+        lines,
+        text.map((line) => h("li", {}, String(line))),
+      );
+    }
     picture.hidden = !now.picture;
-    if (now.picture) picture.src = `${url('/api/jobs', job, 'picture')}?n=${++count}`;
+    if (now.picture) picture.src = `${url("/api/jobs", job, "picture")}?n=${++count}`;
     return true;
   });
 }
 
-export async function show({root, life, open}) {
-  open('Calibrate');
-  const head = h('div', {}), work = h('div', {id: 'calibration-work'}), list = h('div', {});
+export async function show({ root, life, open }) {
+  open("Calibrate");
+  const head = h("div", {}),
+    work = h("div", { id: "calibration-work" }),
+    list = h("div", {});
   root.append(head, work, list);
   const run = async (id) => {
-    const started = await post('/api/calibration', {step: id});
+    const started = await post("/api/calibration", { step: id });
     window.scrollTo(0, 0);
-    announce('The calibration has started.');
+    announce("The calibration has started.");
     follow(life, started.job, work, draw);
   };
   const draw = async () => {
-    const all = await get('/api/calibration');
+    const all = await get("/api/calibration");
     const made = new Map((all.calibrations || []).map((c) => [c.name, c]));
-    put(head, h('p', {class: 'lead'}, `${all.station || 'This station'}: ${standing(all)}.`), h('p', {class: 'muted'}, 'Each step takes a minute or less. What a step measures replaces what was there only when it is good enough.'));
-    const others = (all.calibrations || []).filter((c) => !(all.steps || []).some((s) => s.id === c.name));
-    put(list, h('div', {class: 'row between'}, h('h2', {}, 'Steps'), button('Run all steps', () => run('all'), {class: 'primary'})), h('ol', {class: 'steps'}, (all.steps || []).map((one, at) => step(one, at, made.get(one.id), run))),
-      others.length ? [h('h2', {}, 'Also in use'), h('ul', {class: 'plain'}, others.map((c) => h('li', {class: 'row tight'}, h('strong', {}, c.name), age(c))))] : null);
+    put(
+      head,
+      h("p", { class: "lead" }, `${all.station || "This station"}: ${standing(all)}.`),
+      h(
+        "p",
+        { class: "muted" },
+        "Each step takes a minute or less. " +
+          "What a step measures replaces what was there only when it is good enough.",
+      ),
+    );
+    const others = (all.calibrations || []).filter(
+      (c) => !(all.steps || []).some((s) => s.id === c.name),
+    );
+    put(
+      list,
+      h(
+        "div",
+        { class: "row between" },
+        h("h2", {}, "Steps"),
+        button("Run all steps", () => run("all"), { class: "primary" }),
+      ),
+      h(
+        "ol",
+        { class: "steps" },
+        (all.steps || []).map((one, at) => step(one, at, made.get(one.id), run)),
+      ),
+      others.length
+        ? [
+            h("h2", {}, "Also in use"),
+            h(
+              "ul",
+              { class: "plain" },
+              others.map((c) => h("li", { class: "row tight" }, h("strong", {}, c.name), age(c))),
+            ),
+          ]
+        : null,
+    );
     return all;
   };
   const all = await draw();

@@ -1,45 +1,191 @@
 // One session that is over: verdict, trials, pictures, report; ways to replay and print.
-import {get, url} from './api.js';
-import {h} from './dom.js';
-import {capital, clock, figure, isOn, moment, outcome, pictureName, sessionState, taskName, who} from './format.js';
-import {badge, facts, notice, simulatedBadge, table} from './parts.js';
-import {reportFrame} from './report_frame.js';
+import { get, url } from "./api.js";
+import { h } from "./dom.js";
+import {
+  capital,
+  clock,
+  figure,
+  isOn,
+  moment,
+  outcome,
+  pictureName,
+  sessionState,
+  taskName,
+  who,
+} from "./format.js";
+import { badge, facts, notice, simulatedBadge, table } from "./parts.js";
+import { reportFrame } from "./report_frame.js";
 
 /** The one sentence that comes first. */
 function verdict(session) {
   const results = session.results || [];
-  if (session.state === 'failed') return ['bad', session.message || 'The session failed.'];
-  if (session.state === 'interrupted') return ['note', `The session was interrupted. ${session.message || ''}`];
-  const counting = results.filter((r) => r.outcome !== 'void'), good = counting.filter((r) => r.outcome === 'success');
-  if (counting.length === 0) return ['none', results.length ? 'No trial counts: all are void.' : 'No trial was held.'];
-  if (counting.length === 1) return [outcome(counting[0].outcome)[0], counting[0].summary || capital(outcome(counting[0].outcome)[1])];
-  return [good.length === counting.length ? 'good' : 'note', `${good.length} of ${counting.length} trials that count succeeded.`];
+  if (session.state === "failed") return ["bad", session.message || "The session failed."];
+  if (session.state === "interrupted")
+    return ["note", `The session was interrupted. ${session.message || ""}`];
+  const counting = results.filter((r) => r.outcome !== "void"),
+    good = counting.filter((r) => r.outcome === "success");
+  if (counting.length === 0)
+    return ["none", results.length ? "No trial counts: all are void." : "No trial was held."];
+  if (counting.length === 1)
+    return [
+      outcome(counting[0].outcome)[0],
+      counting[0].summary || capital(outcome(counting[0].outcome)[1]),
+    ];
+  return [
+    good.length === counting.length ? "good" : "note",
+    `${good.length} of ${counting.length} trials that count succeeded.`,
+  ];
 }
 
 function trialRow(session, r) {
   const [tone, word] = outcome(r.outcome);
-  return [`Trial ${r.number}`, r.role || '–', [h('span', {class: 'row tight'}, badge(tone, word), r.reason ? h('span', {class: 'muted'}, r.reason) : null), r.summary ? h('p', {class: 'hint'}, r.summary) : null], r.outcome === 'void' ? '–' : figure(r.total), Number.isFinite(r.length_s) ? clock(r.length_s) : '–',
-    session.blind ? '–' : h('a', {class: 'no-print', href: `#/replay/${encodeURIComponent(session.id)}/${r.number}`, 'aria-label': `Replay of trial ${r.number}`}, 'Replay')];
+  return [
+    `Trial ${r.number}`,
+    r.role || "–",
+    [
+      h(
+        "span",
+        { class: "row tight" },
+        badge(tone, word),
+        r.reason ? h("span", { class: "muted" }, r.reason) : null,
+      ),
+      r.summary ? h("p", { class: "hint" }, r.summary) : null,
+    ],
+    r.outcome === "void" ? "–" : figure(r.total),
+    Number.isFinite(r.length_s) ? clock(r.length_s) : "–",
+    session.blind
+      ? "–"
+      : h(
+          "a",
+          {
+            class: "no-print",
+            href: `#/replay/${encodeURIComponent(session.id)}/${r.number}`,
+            "aria-label": `Replay of trial ${r.number}`,
+          },
+          "Replay",
+        ),
+  ];
 }
 
 function pictures(session, files) {
   const shown = files.filter((f) => /^view-[\w-]+\.png$/.test(f)).sort();
   if (shown.length === 0) return null;
-  return [h('h2', {}, 'Moments'), h('ul', {class: 'gallery'}, shown.map((f) => h('li', {}, h('figure', {}, h('img', {src: url('/api/sessions', session.id, 'file', f), alt: '', loading: 'lazy', width: 1280, height: 720}), h('figcaption', {}, pictureName(f))))))];
+  return [
+    h("h2", {}, "Moments"),
+    h(
+      "ul",
+      { class: "gallery" },
+      shown.map((f) =>
+        h(
+          "li",
+          {},
+          h(
+            "figure",
+            {},
+            h("img", {
+              src: url("/api/sessions", session.id, "file", f),
+              alt: "",
+              loading: "lazy",
+              width: 1280,
+              height: 720,
+            }),
+            h("figcaption", {}, pictureName(f)),
+          ),
+        ),
+      ),
+    ),
+  ];
 }
 
-export async function show({root, params: [id], open}) {
-  const session = await get(url('/api/sessions', id));
-  if (isOn(session)) { location.replace(`#/session/${encodeURIComponent(id)}`); return; }
-  open(`${taskName(session.task)}, ${moment(session.started_utc)}`, h('button', {type: 'button', class: 'no-print', id: 'print-page', onclick: () => window.print()}, 'Print this page'));
-  const [tone, text] = verdict(session), files = Array.isArray(session.files) ? session.files : [], results = Array.isArray(session.results) ? session.results : [];
-  root.append(h('div', {class: 'verdict'}, notice(tone === 'bad' ? 'bad' : tone, text)));
-  root.append(h('div', {class: 'card'}, facts([['Trainee', session.trainee ? h('a', {href: `#/trainees/${encodeURIComponent(session.trainee)}`}, session.trainee) : who('')], ['Kind', session.assessed ? 'assessed' : 'practice'], ['State', badge(...sessionState(session.state))],
-    ['Data', session.simulated ? simulatedBadge() : 'of a person']])));
-  root.append(h('h2', {}, 'Trials'), results.length ? h('div', {class: 'card flush'}, table('Trials of this session', ['Trial', 'Kind', 'Outcome', session.task === 'paracentesis' ? 'Penalty (lower is better)' : 'Total', 'Length', h('span', {class: 'no-print'}, 'Look')], results.map((r) => trialRow(session, r)), true)) : h('p', {class: 'muted'}, 'None.'));
-  if (session.blind) { root.append(notice('note', 'This session belongs to a study whose educators are blind: report, figures and replay are not shown here. They are read with the study\'s, when it is over.')); return; }
+export async function show({ root, params: [id], open }) {
+  const session = await get(url("/api/sessions", id));
+  if (isOn(session)) {
+    location.replace(`#/session/${encodeURIComponent(id)}`);
+    return;
+  }
+  open(
+    `${taskName(session.task)}, ${moment(session.started_utc)}`,
+    h(
+      "button",
+      { type: "button", class: "no-print", id: "print-page", onclick: () => window.print() },
+      "Print this page",
+    ),
+  );
+  const [tone, text] = verdict(session),
+    files = Array.isArray(session.files) ? session.files : [],
+    results = Array.isArray(session.results) ? session.results : [];
+  root.append(h("div", { class: "verdict" }, notice(tone === "bad" ? "bad" : tone, text)));
+  root.append(
+    h(
+      "div",
+      { class: "card" },
+      facts([
+        [
+          "Trainee",
+          session.trainee
+            ? h("a", { href: `#/trainees/${encodeURIComponent(session.trainee)}` }, session.trainee)
+            : who(""),
+        ],
+        ["Kind", session.assessed ? "assessed" : "practice"],
+        ["State", badge(...sessionState(session.state))],
+        ["Data", session.simulated ? simulatedBadge() : "of a person"],
+      ]),
+    ),
+  );
+  root.append(
+    h("h2", {}, "Trials"),
+    results.length
+      ? h(
+          "div",
+          { class: "card flush" },
+          table(
+            "Trials of this session",
+            [
+              "Trial",
+              "Kind",
+              "Outcome",
+              session.task === "paracentesis" ? "Penalty (lower is better)" : "Total",
+              "Length",
+              h("span", { class: "no-print" }, "Look"),
+            ],
+            results.map((r) => trialRow(session, r)),
+            true,
+          ),
+        )
+      : h("p", { class: "muted" }, "None."),
+  );
+  if (session.blind) {
+    root.append(
+      notice(
+        "note",
+        "This session belongs to a study whose educators are blind: " +
+          "report, figures and replay are not shown here. " +
+          "They are read with the study's, when it is over.",
+      ),
+    );
+    return;
+  }
   const more = pictures(session, files);
   if (more) root.append(...more);
-  root.append(h('h2', {}, 'Report'), files.includes('report.html') ? reportFrame(url('/api/sessions', id, 'file', 'report.html'), `Report on the session of ${moment(session.started_utc)}`) : h('p', {class: 'muted'}, 'This session left no report.'));
-  if (files.includes('trials.csv')) root.append(h('p', {class: 'no-print'}, h('a', {href: url('/api/sessions', id, 'file', 'trials.csv'), download: `${id}-trials.csv`}, 'Figures of all trials as a table (CSV)')));
+  root.append(
+    h("h2", {}, "Report"),
+    files.includes("report.html")
+      ? reportFrame(
+          url("/api/sessions", id, "file", "report.html"),
+          `Report on the session of ${moment(session.started_utc)}`,
+        )
+      : h("p", { class: "muted" }, "This session left no report."),
+  );
+  if (files.includes("trials.csv"))
+    root.append(
+      h(
+        "p",
+        { class: "no-print" },
+        h(
+          "a",
+          { href: url("/api/sessions", id, "file", "trials.csv"), download: `${id}-trials.csv` },
+          "Figures of all trials as a table (CSV)",
+        ),
+      ),
+    );
 }

@@ -1,52 +1,167 @@
 // A new session: a few choices, all with a default. When one is on already, it is shown instead.
-import {list, post} from './api.js';
-import {h} from './dom.js';
-import {isOn, taskName} from './format.js';
-import {choice, during, field, notice, radios, tick} from './parts.js';
+import { list, post } from "./api.js";
+import { h } from "./dom.js";
+import { isOn, taskName } from "./format.js";
+import { choice, during, field, notice, radios, tick } from "./parts.js";
 
 function whole(input, low, high, what) {
   const value = Number(input.value);
-  if (!Number.isInteger(value) || value < low || value > high) { input.focus(); throw new Error(`${what}: a whole number from ${low} to ${high}.`); }
+  if (!Number.isInteger(value) || value < low || value > high) {
+    input.focus();
+    throw new Error(`${what}: a whole number from ${low} to ${high}.`);
+  }
   return value;
 }
-const number = (value, low, high) => h('input', {type: 'number', value: String(value), min: low, max: high, step: 1, inputmode: 'numeric'});
+const number = (value, low, high) =>
+  h("input", {
+    type: "number",
+    value: String(value),
+    min: low,
+    max: high,
+    step: 1,
+    inputmode: "numeric",
+  });
 
 function form(tasks, trainees, me, chosenTrainee) {
-  const first = tasks.find((t) => t.id === 'paracentesis') || tasks[0];
-  const task = radios('Task', tasks.map((t) => [t.id, t.title || taskName(t.id), t.about || '']), first?.id, () => follow());
-  const trainee = choice([['', 'nobody (T000)'], ...trainees.map((t) => [t.id, `${t.id}${t.group ? `, ${t.group}` : ''}`])], trainees.some((t) => t.id === chosenTrainee) ? chosenTrainee : '');
-  const side = radios('Side of the patient', [['right', 'right'], ['left', 'left']], 'right');
-  const kind = radios('Kind', [['practice', 'practice', 'Aids as the task sets them.'], ['assess', 'assessed', 'Every aid is off, as in an examination.']], 'practice');
-  const operator = radios('Who performs', [['person', 'a person', me.display ? '' : 'This station has no display: a person cannot train here now.'], ['expert', 'simulated expert', 'Shows how it goes; marked as simulated.'], ['novice', 'simulated novice', 'Makes the common errors; marked as simulated.']], me.display ? 'person' : 'expert');
-  const force = tick('Force feedback', true, 'Off: the needle is seen, not felt.');
-  const trials = number(1, 1, 100), patient = number(0, 0, 1000000), seed = number(1, 0, 1000000);
-  const patientField = field('Patient', patient, '0 is the average patient; any other number is another one, always the same.');
+  const first = tasks.find((t) => t.id === "paracentesis") || tasks[0];
+  const task = radios(
+    "Task",
+    tasks.map((t) => [t.id, t.title || taskName(t.id), t.about || ""]),
+    first?.id,
+    () => follow(),
+  );
+  const trainee = choice(
+    [
+      ["", "nobody (T000)"],
+      ...trainees.map((t) => [t.id, `${t.id}${t.group ? `, ${t.group}` : ""}`]),
+    ],
+    trainees.some((t) => t.id === chosenTrainee) ? chosenTrainee : "",
+  );
+  const side = radios(
+    "Side of the patient",
+    [
+      ["right", "right"],
+      ["left", "left"],
+    ],
+    "right",
+  );
+  const kind = radios(
+    "Kind",
+    [
+      ["practice", "practice", "Aids as the task sets them."],
+      ["assess", "assessed", "Every aid is off, as in an examination."],
+    ],
+    "practice",
+  );
+  const operator = radios(
+    "Who performs",
+    [
+      [
+        "person",
+        "a person",
+        me.display ? "" : "This station has no display: a person cannot train here now.",
+      ],
+      ["expert", "simulated expert", "Shows how it goes; marked as simulated."],
+      ["novice", "simulated novice", "Makes the common errors; marked as simulated."],
+    ],
+    me.display ? "person" : "expert",
+  );
+  const force = tick("Force feedback", true, "Off: the needle is seen, not felt.");
+  const trials = number(1, 1, 100),
+    patient = number(0, 0, 1000000),
+    seed = number(1, 0, 1000000);
+  const patientField = field(
+    "Patient",
+    patient,
+    "0 is the average patient; any other number is another one, always the same.",
+  );
   const follow = () => {
-    const now = tasks.find((t) => t.id === task.value()), options = now?.options || [];
-    force.node.hidden = !options.includes('force_feedback');
-    side.node.hidden = !options.includes('side');
-    patientField.hidden = !options.includes('patient_seed');
-    const assess = kind.node.querySelector('input[value=assess]');
+    const now = tasks.find((t) => t.id === task.value()),
+      options = now?.options || [];
+    force.node.hidden = !options.includes("force_feedback");
+    side.node.hidden = !options.includes("side");
+    patientField.hidden = !options.includes("patient_seed");
+    const assess = kind.node.querySelector("input[value=assess]");
     assess.disabled = now?.assessable === false;
-    if (assess.disabled && assess.checked) kind.node.querySelector('input[value=practice]').checked = true;
+    if (assess.disabled && assess.checked)
+      kind.node.querySelector("input[value=practice]").checked = true;
   };
   follow();
-  const said = h('div', {class: 'said'}), go = h('button', {type: 'submit', class: 'primary big', id: 'begin'}, 'Begin the session');
+  const said = h("div", { class: "said" }),
+    go = h("button", { type: "submit", class: "primary big", id: "begin" }, "Begin the session");
   const begin = async () => {
-    const begun = await post('/api/sessions', {task: task.value(), trainee: trainee.value, assess: kind.value() === 'assess', force_feedback: force.box.checked, operator: operator.value(), trials: whole(trials, 1, 100, 'Trials'), seed: whole(seed, 0, 1000000, 'Seed'),
-      side: side.value(), patient_seed: whole(patient, 0, 1000000, 'Patient')});
+    const begun = await post("/api/sessions", {
+      task: task.value(),
+      trainee: trainee.value,
+      assess: kind.value() === "assess",
+      force_feedback: force.box.checked,
+      operator: operator.value(),
+      trials: whole(trials, 1, 100, "Trials"),
+      seed: whole(seed, 0, 1000000, "Seed"),
+      side: side.value(),
+      patient_seed: whole(patient, 0, 1000000, "Patient"),
+    });
     location.hash = `#/session/${encodeURIComponent(begun.id)}`;
   };
-  return h('form', {class: 'card form session-form', novalidate: true, onsubmit: (e) => { e.preventDefault(); during(go, said, begin); }}, h('div', {class: 'grid two'}, h('div', {}, task.node),
-    h('div', {}, field('Trainee', trainee, 'Without a trainee nothing is added to anybody\'s record.'), operator.node)), h('div', {class: 'grid two'}, kind.node, h('div', {}, side.node, force.node)),
-  h('details', {}, h('summary', {}, 'More: number of trials, another patient'), h('div', {class: 'grid three'}, field('Trials', trials), patientField, field('Seed', seed, 'The same seed gives the same simulated hand again.'))), said,
-  h('div', {class: 'row'}, go, h('span', {class: 'muted'}, 'You watch and lead it from the next page.')));
+  return h(
+    "form",
+    {
+      class: "card form session-form",
+      novalidate: true,
+      onsubmit: (e) => {
+        e.preventDefault();
+        during(go, said, begin);
+      },
+    },
+    h(
+      "div",
+      { class: "grid two" },
+      h("div", {}, task.node),
+      h(
+        "div",
+        {},
+        field("Trainee", trainee, "Without a trainee nothing is added to anybody's record."),
+        operator.node,
+      ),
+    ),
+    h("div", { class: "grid two" }, kind.node, h("div", {}, side.node, force.node)),
+    h(
+      "details",
+      {},
+      h("summary", {}, "More: number of trials, another patient"),
+      h(
+        "div",
+        { class: "grid three" },
+        field("Trials", trials),
+        patientField,
+        field("Seed", seed, "The same seed gives the same simulated hand again."),
+      ),
+    ),
+    said,
+    h(
+      "div",
+      { class: "row" },
+      go,
+      h("span", { class: "muted" }, "You watch and lead it from the next page."),
+    ),
+  );
 }
 
-export async function show({root, open, me, query}) {
-  open('Start a session');
-  const [tasks, trainees, sessions] = await Promise.all([list('/api/tasks'), list('/api/trainees'), list('/api/sessions')]);
+export async function show({ root, open, me, query }) {
+  open("Start a session");
+  const [tasks, trainees, sessions] = await Promise.all([
+    list("/api/tasks"),
+    list("/api/trainees"),
+    list("/api/sessions"),
+  ]);
   const on = sessions.find(isOn);
-  if (on) { location.replace(`#/session/${encodeURIComponent(on.id)}`); return; }
-  root.append(tasks.length ? form(tasks, trainees, me, query.get('trainee') || '') : notice('bad', 'The station knows no task. Look at the Station page.'));
+  if (on) {
+    location.replace(`#/session/${encodeURIComponent(on.id)}`);
+    return;
+  }
+  root.append(
+    tasks.length
+      ? form(tasks, trainees, me, query.get("trainee") || "")
+      : notice("bad", "The station knows no task. Look at the Station page."),
+  );
 }

@@ -1,44 +1,120 @@
 // Is the station well? One sentence first, then what was found, then the way to a session.
-import {get, post} from './api.js';
-import {announce, h, mark, put} from './dom.js';
-import {capital, moment, plural} from './format.js';
-import {badge, button} from './parts.js';
+import { get, post } from "./api.js";
+import { announce, h, mark, put } from "./dom.js";
+import { capital, moment, plural } from "./format.js";
+import { badge, button } from "./parts.js";
 
-const kStates = {well: ['good', 'well'], none: ['none', 'not there'], note: ['note', 'note'], ill: ['bad', 'needs you']};
-const kOrder = ['ill', 'note', 'well', 'none'];
+const kStates = {
+  well: ["good", "well"],
+  none: ["none", "not there"],
+  note: ["note", "note"],
+  ill: ["bad", "needs you"],
+};
+const kOrder = ["ill", "note", "well", "none"];
 
 function sentence(health) {
   const findings = health.findings || [];
-  const ill = findings.filter((f) => f.state === 'ill'), notes = findings.filter((f) => f.state === 'note');
-  if (health.state === 'checking') return ['work', 'The station is being checked…', 'This takes a few seconds. You need not wait: the checks go on.'];
-  if (ill.length > 0 || health.can_start === false) return ['bad', 'The station needs you first.', ill.length > 0 ? ill.map((f) => f.fix || f.verdict).join(' ') : 'No session can start; what was found stands below.'];
-  if (notes.length > 0) return ['good', 'The station is well.', `${notes.length === 1 ? 'One thing' : plural(notes.length, 'thing')} to know, below; a session can start.`];
-  return ['good', 'The station is well.', 'Everything that a session needs was found and works.'];
+  const ill = findings.filter((f) => f.state === "ill"),
+    notes = findings.filter((f) => f.state === "note");
+  if (health.state === "checking")
+    return [
+      "work",
+      "The station is being checked…",
+      "This takes a few seconds. You need not wait: the checks go on.",
+    ];
+  if (ill.length > 0 || health.can_start === false)
+    return [
+      "bad",
+      "The station needs you first.",
+      ill.length > 0
+        ? ill.map((f) => f.fix || f.verdict).join(" ")
+        : "No session can start; what was found stands below.",
+    ];
+  if (notes.length > 0)
+    return [
+      "good",
+      "The station is well.",
+      `${notes.length === 1 ? "One thing" : plural(notes.length, "thing")} to know, below; ` +
+        "a session can start.",
+    ];
+  return ["good", "The station is well.", "Everything that a session needs was found and works."];
 }
 
 function finding(f) {
-  const [tone, word] = kStates[f.state] || ['neutral', String(f.state)];
-  return h('li', {class: `finding ${tone}`}, h('div', {class: 'finding-state'}, badge(tone, word)), h('div', {}, h('h3', {}, String(f.subject || '')), h('p', {}, capital(String(f.verdict || ''))), f.fix ? h('p', {class: 'fix'}, h('strong', {}, 'What to do: '), f.fix) : null));
+  const [tone, word] = kStates[f.state] || ["neutral", String(f.state)];
+  return h(
+    "li",
+    { class: `finding ${tone}` },
+    h("div", { class: "finding-state" }, badge(tone, word)),
+    h(
+      "div",
+      {},
+      h("h3", {}, String(f.subject || "")),
+      h("p", {}, capital(String(f.verdict || ""))),
+      f.fix ? h("p", { class: "fix" }, h("strong", {}, "What to do: "), f.fix) : null,
+    ),
+  );
 }
 
-export async function show({root, life, open}) {
-  open('Station');
-  const hero = h('section', {class: 'hero', 'aria-labelledby': 'health-sentence'}), list = h('div', {});
+export async function show({ root, life, open }) {
+  open("Station");
+  const hero = h("section", { class: "hero", "aria-labelledby": "health-sentence" }),
+    list = h("div", {});
   root.append(hero, list);
-  let shown = '';
+  let shown = "";
   const look = async () => {
-    const health = await get('/api/health');
+    const health = await get("/api/health");
     const key = JSON.stringify(health);
-    if (key === shown) return health.state === 'checking';
+    if (key === shown) return health.state === "checking";
     shown = key;
     const [tone, first, then] = sentence(health);
-    const again = button('Check again', async () => { await post('/api/health', {}); life.every(700, look); }, {class: 'quiet'});
-    put(hero, h('div', {class: `hero-mark ${tone}`}, mark(tone)), h('div', {class: 'hero-words'}, h('p', {class: 'hero-sentence', id: 'health-sentence'}, first), h('p', {}, then)),
-      h('div', {class: 'hero-go'}, h('a', {class: `button big ${tone === 'bad' ? '' : 'primary'}`, href: '#/session', id: 'start-session'}, 'Start a session'), again));
+    const again = button(
+      "Check again",
+      async () => {
+        await post("/api/health", {});
+        life.every(700, look);
+      },
+      { class: "quiet" },
+    );
+    put(
+      hero,
+      h("div", { class: `hero-mark ${tone}` }, mark(tone)),
+      h(
+        "div",
+        { class: "hero-words" },
+        h("p", { class: "hero-sentence", id: "health-sentence" }, first),
+        h("p", {}, then),
+      ),
+      h(
+        "div",
+        { class: "hero-go" },
+        h(
+          "a",
+          {
+            class: `button big ${tone === "bad" ? "" : "primary"}`,
+            href: "#/session",
+            id: "start-session",
+          },
+          "Start a session",
+        ),
+        again,
+      ),
+    );
     announce(first);
-    const findings = [...(health.findings || [])].sort((a, b) => kOrder.indexOf(a.state) - kOrder.indexOf(b.state));
-    put(list, h('h2', {}, 'What was found'), findings.length > 0 ? h('ul', {class: 'findings'}, findings.map(finding)) : h('p', {class: 'muted'}, 'Nothing yet.'), health.checked_utc ? h('p', {class: 'muted under'}, `Checked ${moment(health.checked_utc)}`) : null);
-    return health.state === 'checking';
+    const findings = [...(health.findings || [])].sort(
+      (a, b) => kOrder.indexOf(a.state) - kOrder.indexOf(b.state),
+    );
+    put(
+      list,
+      h("h2", {}, "What was found"),
+      findings.length > 0
+        ? h("ul", { class: "findings" }, findings.map(finding))
+        : h("p", { class: "muted" }, "Nothing yet."),
+      health.checked_utc
+        ? h("p", { class: "muted under" }, `Checked ${moment(health.checked_utc)}`)
+        : null,
+    );
+    return health.state === "checking";
   };
   await look();
   life.every(700, look);

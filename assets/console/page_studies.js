@@ -1,38 +1,120 @@
-// Studies: how far each one is, and the next block for a trainee. What a trainee was allocated is not known to these pages.
-import {list, me as whoAmI, post, url} from './api.js';
-import {h} from './dom.js';
-import {plural} from './format.js';
-import {badge, choice, during, field, notice, simulatedBadge, table} from './parts.js';
+// Studies: how far each one is, and the next block for a trainee. What a trainee was allocated is
+// not known to these pages.
+import { list, me as whoAmI, post, url } from "./api.js";
+import { h } from "./dom.js";
+import { plural } from "./format.js";
+import { badge, choice, during, field, notice, simulatedBadge, table } from "./parts.js";
 
-const kOperators = [['person', 'the trainee (a person)'], ['expert', 'simulated expert'], ['novice', 'simulated novice']];
+const kOperators = [
+  ["person", "the trainee (a person)"],
+  ["expert", "simulated expert"],
+  ["novice", "simulated novice"],
+];
 
 function enrolled(study) {
-  const rows = (study.enrolled || []).map((e) => [e.trainee, e.group || '–', h('span', {class: 'row tight'}, e.where || '–', e.simulated ? simulatedBadge() : null), e.next || (e.finished ? badge('good', 'nothing more') : 'nothing now'), (e.remarks || []).map((r) => h('div', {}, badge('note', String(r))))]);
-  return rows.length ? table(`Trainees enrolled in ${study.id}`, ['Trainee', 'Group', 'Where', 'Next', 'Remarks'], rows, true) : h('p', {class: 'muted'}, 'Nobody is enrolled yet.');
+  const rows = (study.enrolled || []).map((e) => [
+    e.trainee,
+    e.group || "–",
+    h("span", { class: "row tight" }, e.where || "–", e.simulated ? simulatedBadge() : null),
+    e.next || (e.finished ? badge("good", "nothing more") : "nothing now"),
+    (e.remarks || []).map((r) => h("div", {}, badge("note", String(r)))),
+  ]);
+  return rows.length
+    ? table(
+        `Trainees enrolled in ${study.id}`,
+        ["Trainee", "Group", "Where", "Next", "Remarks"],
+        rows,
+        true,
+      )
+    : h("p", { class: "muted" }, "Nobody is enrolled yet.");
 }
 
 function nextBlock(study, trainees, me) {
-  const waiting = (study.enrolled || []).filter((e) => e.next), known = new Set((study.enrolled || []).map((e) => e.trainee));
+  const waiting = (study.enrolled || []).filter((e) => e.next),
+    known = new Set((study.enrolled || []).map((e) => e.trainee));
   const fresh = trainees.filter((t) => !known.has(t.id) && (study.groups || []).includes(t.group));
-  const options = [...waiting.map((e) => [e.trainee, `${e.trainee}: ${e.next}`]), ...fresh.map((t) => [t.id, `${t.id}, ${t.group}: not enrolled yet, is enrolled by this`])];
-  if (options.length === 0) return h('p', {class: 'muted'}, `Nobody can begin a block now. Somebody new is enrolled by the first block: add a trainee of the group ${(study.groups || []).join(' or ')} on the page Trainees.`);
-  const trainee = choice(options), operator = choice(kOperators, me.display ? 'person' : 'expert');
-  const said = h('div', {class: 'said'}), go = h('button', {type: 'submit', class: 'primary'}, 'Start the next block');
+  const options = [
+    ...waiting.map((e) => [e.trainee, `${e.trainee}: ${e.next}`]),
+    ...fresh.map((t) => [t.id, `${t.id}, ${t.group}: not enrolled yet, is enrolled by this`]),
+  ];
+  if (options.length === 0)
+    return h(
+      "p",
+      { class: "muted" },
+      "Nobody can begin a block now. Somebody new is enrolled by the first block: " +
+        `add a trainee of the group ${(study.groups || []).join(" or ")} on the page Trainees.`,
+    );
+  const trainee = choice(options),
+    operator = choice(kOperators, me.display ? "person" : "expert");
+  const said = h("div", { class: "said" }),
+    go = h("button", { type: "submit", class: "primary" }, "Start the next block");
   const start = async () => {
-    const begun = await post(url('/api/studies', study.id, 'run'), {trainee: trainee.value, operator: operator.value});
+    const begun = await post(url("/api/studies", study.id, "run"), {
+      trainee: trainee.value,
+      operator: operator.value,
+    });
     location.hash = `#/session/${encodeURIComponent(begun.session)}`;
   };
-  return h('form', {class: 'form', novalidate: true, onsubmit: (e) => { e.preventDefault(); during(go, said, start); }}, h('h3', {}, 'Next block'),
-    h('div', {class: 'grid two'}, field('Trainee', trainee), field('Who performs', operator, me.display ? null : 'This station has no display: a person cannot train here now.')), said, h('div', {class: 'row'}, go));
+  return h(
+    "form",
+    {
+      class: "form",
+      novalidate: true,
+      onsubmit: (e) => {
+        e.preventDefault();
+        during(go, said, start);
+      },
+    },
+    h("h3", {}, "Next block"),
+    h(
+      "div",
+      { class: "grid two" },
+      field("Trainee", trainee),
+      field(
+        "Who performs",
+        operator,
+        me.display ? null : "This station has no display: a person cannot train here now.",
+      ),
+    ),
+    said,
+    h("div", { class: "row" }, go),
+  );
 }
 
-export async function show({root, open}) {
-  open('Studies');
-  const [studies, trainees, me] = await Promise.all([list('/api/studies'), list('/api/trainees'), whoAmI()]);
-  root.append(h('p', {class: 'lead'}, 'What a trainee was allocated to is not shown here, so that nobody who teaches knows it.'));
-  if (studies.length === 0) root.append(notice('none', 'There is no study on this station. A study is planned with the command "palpa study".'));
+export async function show({ root, open }) {
+  open("Studies");
+  const [studies, trainees, me] = await Promise.all([
+    list("/api/studies"),
+    list("/api/trainees"),
+    whoAmI(),
+  ]);
+  root.append(
+    h(
+      "p",
+      { class: "lead" },
+      "What a trainee was allocated to is not shown here, so that nobody who teaches knows it.",
+    ),
+  );
+  if (studies.length === 0)
+    root.append(
+      notice(
+        "none",
+        'There is no study on this station. A study is planned with the command "palpa study".',
+      ),
+    );
   for (const study of studies) {
-    const places = (study.places || []).map((p) => `${p.group}: ${plural(Number(p.given) || 0, 'place')} given`).join(' · ');
-    root.append(h('section', {class: 'card', 'aria-label': study.title || study.id}, h('h2', {}, study.title || study.id), h('p', {class: 'muted'}, places), enrolled(study), nextBlock(study, trainees, me)));
+    const places = (study.places || [])
+      .map((p) => `${p.group}: ${plural(Number(p.given) || 0, "place")} given`)
+      .join(" · ");
+    root.append(
+      h(
+        "section",
+        { class: "card", "aria-label": study.title || study.id },
+        h("h2", {}, study.title || study.id),
+        h("p", { class: "muted" }, places),
+        enrolled(study),
+        nextBlock(study, trainees, me),
+      ),
+    );
   }
 }

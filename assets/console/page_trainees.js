@@ -1,49 +1,159 @@
 // Who trains here, under pseudonyms; and how somebody new is added.
-import {list, post} from './api.js';
-import {announce, h, put} from './dom.js';
-import {day} from './format.js';
-import {badge, choice, during, field, radios, table, tick} from './parts.js';
+import { list, post } from "./api.js";
+import { announce, h, put } from "./dom.js";
+import { day } from "./format.js";
+import { badge, choice, during, field, radios, table, tick } from "./parts.js";
 
 /** The next free T-number, so that nothing need be invented. */
 function freePseudonym(trainees) {
-  const taken = trainees.map((t) => /^T(\d+)$/.exec(t.id)).filter(Boolean).map((m) => Number(m[1]));
-  return `T${String(Math.max(0, ...taken) + 1).padStart(3, '0')}`;
+  const taken = trainees
+    .map((t) => /^T(\d+)$/.exec(t.id))
+    .filter(Boolean)
+    .map((m) => Number(m[1]));
+  return `T${String(Math.max(0, ...taken) + 1).padStart(3, "0")}`;
 }
 
 function rows(trainees) {
-  return trainees.map((t) => [h('a', {href: `#/trainees/${encodeURIComponent(t.id)}`}, t.id), t.group || '–', t.experience || '–', String(Number(t.sessions) || 0), String(Number(t.trials) || 0),
-    t.consent_utc ? badge('good', 'noted') : badge('note', 'missing'), t.retain_until ? day(t.retain_until) : '–']);
+  return trainees.map((t) => [
+    h("a", { href: `#/trainees/${encodeURIComponent(t.id)}` }, t.id),
+    t.group || "–",
+    t.experience || "–",
+    String(Number(t.sessions) || 0),
+    String(Number(t.trials) || 0),
+    t.consent_utc ? badge("good", "noted") : badge("note", "missing"),
+    t.retain_until ? day(t.retain_until) : "–",
+  ]);
 }
 
 function form(trainees, groups, done) {
-  const id = h('input', {type: 'text', value: freePseudonym(trainees), pattern: '[A-Za-z0-9_-]{1,64}', maxlength: '64', autocomplete: 'off', spellcheck: 'false', required: true});
-  const group = choice(groups.map((g) => [g, g])), experience = h('input', {type: 'text', maxlength: '200', autocomplete: 'off'});
-  const hand = radios('Writes with the', [['right', 'right hand'], ['left', 'left hand']], 'right');
-  const consent = tick('The trainee agrees that training records are kept here', false, 'Ask first. Without this nothing can be kept.', {required: true});
-  const research = tick('The trainee also agrees to the use for research', false, 'Separate and free: training does not depend on it.');
-  const said = h('div', {class: 'said'}), go = h('button', {type: 'submit', class: 'primary'}, 'Add the trainee');
+  const id = h("input", {
+    type: "text",
+    value: freePseudonym(trainees),
+    pattern: "[A-Za-z0-9_-]{1,64}",
+    maxlength: "64",
+    autocomplete: "off",
+    spellcheck: "false",
+    required: true,
+  });
+  const group = choice(groups.map((g) => [g, g])),
+    experience = h("input", { type: "text", maxlength: "200", autocomplete: "off" });
+  const hand = radios(
+    "Writes with the",
+    [
+      ["right", "right hand"],
+      ["left", "left hand"],
+    ],
+    "right",
+  );
+  const consent = tick(
+    "The trainee agrees that training records are kept here",
+    false,
+    "Ask first. Without this nothing can be kept.",
+    { required: true },
+  );
+  const research = tick(
+    "The trainee also agrees to the use for research",
+    false,
+    "Separate and free: training does not depend on it.",
+  );
+  const said = h("div", { class: "said" }),
+    go = h("button", { type: "submit", class: "primary" }, "Add the trainee");
   const add = async () => {
     const pseudonym = id.value.trim();
-    if (!/^[A-Za-z0-9_-]{1,64}$/.test(pseudonym)) { id.focus(); throw new Error('A pseudonym is made of letters, digits, - and _, at most 64.'); }
-    if (!consent.box.checked) { consent.box.focus(); throw new Error('Tick the agreement to keeping records; without it the trainee cannot be added. A session can still be held with nobody as trainee.'); }
-    await post('/api/trainees', {id: pseudonym, group: group.value, experience: experience.value.trim(), handedness: hand.value(), consent: true, research: research.box.checked});
+    if (!/^[A-Za-z0-9_-]{1,64}$/.test(pseudonym)) {
+      id.focus();
+      throw new Error("A pseudonym is made of letters, digits, - and _, at most 64.");
+    }
+    if (!consent.box.checked) {
+      consent.box.focus();
+      throw new Error(
+        "Tick the agreement to keeping records; without it the trainee cannot be added. " +
+          "A session can still be held with nobody as trainee.",
+      );
+    }
+    await post("/api/trainees", {
+      id: pseudonym,
+      group: group.value,
+      experience: experience.value.trim(),
+      handedness: hand.value(),
+      consent: true,
+      research: research.box.checked,
+    });
     await done(pseudonym);
   };
-  return h('form', {class: 'card form', novalidate: true, 'aria-labelledby': 'add-heading', onsubmit: (e) => { e.preventDefault(); during(go, said, add); }},
-    h('h2', {id: 'add-heading'}, 'Add a trainee'), h('div', {class: 'grid two'}, field('Pseudonym', id, 'Never a name, initials or a student number. Keep the list of who is who on paper, elsewhere.'), field('Group', group, 'Groups are compared with each other in the cohort report.'),
-      field('Experience', experience, 'In a few words, such as "two simple injections". Nothing that tells who it is.'), hand.node), consent.node, research.node, said, h('div', {class: 'row'}, go));
+  return h(
+    "form",
+    {
+      class: "card form",
+      novalidate: true,
+      "aria-labelledby": "add-heading",
+      onsubmit: (e) => {
+        e.preventDefault();
+        during(go, said, add);
+      },
+    },
+    h("h2", { id: "add-heading" }, "Add a trainee"),
+    h(
+      "div",
+      { class: "grid two" },
+      field(
+        "Pseudonym",
+        id,
+        "Never a name, initials or a student number. " +
+          "Keep the list of who is who on paper, elsewhere.",
+      ),
+      field("Group", group, "Groups are compared with each other in the cohort report."),
+      field(
+        "Experience",
+        experience,
+        'In a few words, such as "two simple injections". Nothing that tells who it is.',
+      ),
+      hand.node,
+    ),
+    consent.node,
+    research.node,
+    said,
+    h("div", { class: "row" }, go),
+  );
 }
 
-export async function show({root, open}) {
-  open('Trainees');
-  const place = h('div', {}), adding = h('div', {});
+export async function show({ root, open }) {
+  open("Trainees");
+  const place = h("div", {}),
+    adding = h("div", {});
   root.append(place, adding);
-  const studies = await list('/api/studies').catch(() => []);
-  const groups = [...new Set(['novice', 'experienced', ...studies.flatMap((s) => s.groups || [])])];
+  const studies = await list("/api/studies").catch(() => []);
+  const groups = [...new Set(["novice", "experienced", ...studies.flatMap((s) => s.groups || [])])];
   const draw = async () => {
-    const trainees = await list('/api/trainees');
-    put(place, trainees.length ? h('div', {class: 'card flush'}, table('Trainees of this station', ['Pseudonym', 'Group', 'Experience', 'Sessions', 'Trials', 'Agreement', 'Keep until'], rows(trainees), true)) : h('p', {class: 'lead'}, 'Nobody has been added yet. A first try needs nobody: start a session without a trainee.'));
-    put(adding, form(trainees, groups, async (id) => { await draw(); announce(`${id} was added.`); place.querySelector(`a[href="#/trainees/${id}"]`)?.focus(); }));
+    const trainees = await list("/api/trainees");
+    put(
+      place,
+      trainees.length
+        ? h(
+            "div",
+            { class: "card flush" },
+            table(
+              "Trainees of this station",
+              ["Pseudonym", "Group", "Experience", "Sessions", "Trials", "Agreement", "Keep until"],
+              rows(trainees),
+              true,
+            ),
+          )
+        : h(
+            "p",
+            { class: "lead" },
+            "Nobody has been added yet. " +
+              "A first try needs nobody: start a session without a trainee.",
+          ),
+    );
+    put(
+      adding,
+      form(trainees, groups, async (id) => {
+        await draw();
+        announce(`${id} was added.`);
+        place.querySelector(`a[href="#/trainees/${id}"]`)?.focus();
+      }),
+    );
   };
   await draw();
 }

@@ -1,22 +1,36 @@
 // A trial to look at again: fetched, and waited for while its pictures are drawn.
-import {get, list, url} from './api.js';
-import {isOn, moment, taskName, who} from './format.js';
-import {momentsIn} from './moments.js';
+import { get, list, url } from "./api.js";
+import { isOn, moment, taskName, who } from "./format.js";
+import { momentsIn } from "./moments.js";
 
 const known = (x) => (Number.isFinite(x) ? x : NaN);
 const numbers = (x) => (Array.isArray(x) ? x : []);
 
-/** Curves are there at once; `changed(replay)` is called then, as the pictures grow, and when they are ready. */
+/**
+ * Curves are there at once; `changed(replay)` is called then, as the pictures
+ * grow, and when they are ready.
+ */
 export async function loadReplay(life, session, trial, changed) {
   await life.every(1000, async () => {
     let answer;
-    try { answer = await get(url('/api/sessions', session, 'trials', String(trial), 'replay')); } catch (error) {
+    try {
+      answer = await get(url("/api/sessions", session, "trials", String(trial), "replay"));
+    } catch (error) {
       if (error.offline) throw error;
-      changed({failed: error.message});
+      changed({ failed: error.message });
       return false;
     }
     const t = numbers(answer.t_s);
-    const replay = {...answer, t, force: numbers(answer.force_N).map(known), depth: numbers(answer.depth_mm).map(known), events: numbers(answer.events), phases: numbers(answer.phases), near: numbers(answer.near), length: Number(answer.length_s) || t.at(-1) || 1};
+    const replay = {
+      ...answer,
+      t,
+      force: numbers(answer.force_N).map(known),
+      depth: numbers(answer.depth_mm).map(known),
+      events: numbers(answer.events),
+      phases: numbers(answer.phases),
+      near: numbers(answer.near),
+      length: Number(answer.length_s) || t.at(-1) || 1,
+    };
     changed(replay);
     return !replay.ready;
   });
@@ -24,19 +38,25 @@ export async function loadReplay(life, session, trial, changed) {
 
 /** Moments of a replay in the order of time; near misses among them. */
 export function momentsOf(replay) {
-  const all = momentsIn(replay.events).concat(replay.near.map((n) => ({t: n.t_s, tone: 'near', text: n.text || 'near miss'})));
+  const all = momentsIn(replay.events).concat(
+    replay.near.map((n) => ({ t: n.t_s, tone: "near", text: n.text || "near miss" })),
+  );
   return all.filter((m) => Number.isFinite(m.t)).sort((a, b) => a.t - b.t);
 }
 
 /** Trials that can stand beside: [value "ID/N", words]. */
 export async function trialsBeside(session, trial) {
-  const sessions = (await list('/api/sessions')).filter((s) => !isOn(s) && s.state !== 'failed');
+  const sessions = (await list("/api/sessions")).filter((s) => !isOn(s) && s.state !== "failed");
   const same = sessions.find((s) => s.id === session)?.task;
   const options = [];
   for (const s of sessions.filter((one) => !same || one.task === same)) {
     for (let n = 1; n <= (Number(s.trials) || 1); ++n) {
       if (s.id === session && n === trial) continue;
-      options.push([`${s.id}/${n}`, `${taskName(s.task)}, ${moment(s.started_utc)}, ${who(s.trainee)}, trial ${n}${s.simulated ? ', simulated' : ''}`]);
+      options.push([
+        `${s.id}/${n}`,
+        `${taskName(s.task)}, ${moment(s.started_utc)}, ${who(s.trainee)}, trial ${n}` +
+          (s.simulated ? ", simulated" : ""),
+      ]);
     }
   }
   return options;

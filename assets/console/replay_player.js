@@ -1,15 +1,31 @@
-// Time of a replay: plays, stops, seeks; tells its listeners. And the pictures that belong to a time.
-import {url} from './api.js';
+// Time of a replay: plays, stops, seeks; tells its listeners. And the
+// pictures that belong to a time.
+import { url } from "./api.js";
 
 export class Player {
-  constructor(length_s) { this.length = length_s; this.t = 0; this.playing = false; this.listeners = new Set(); }
-  onChange(listener) { this.listeners.add(listener); }
-  #tell() { for (const listener of this.listeners) listener(this.t, this.playing); }
+  constructor(length_s) {
+    this.length = length_s;
+    this.t = 0;
+    this.playing = false;
+    this.listeners = new Set();
+  }
+  onChange(listener) {
+    this.listeners.add(listener);
+  }
+  #tell() {
+    for (const listener of this.listeners) listener(this.t, this.playing);
+  }
 
-  seek(t) { this.t = Math.min(this.length, Math.max(0, t)); this.#tell(); }
+  seek(t) {
+    this.t = Math.min(this.length, Math.max(0, t));
+    this.#tell();
+  }
 
   toggle() {
-    if (this.playing) { this.stop(); return; }
+    if (this.playing) {
+      this.stop();
+      return;
+    }
     if (this.t >= this.length) this.t = 0;
     this.playing = true;
     let before = performance.now();
@@ -17,7 +33,10 @@ export class Player {
       if (!this.playing) return;
       this.t += (now - before) / 1000;
       before = now;
-      if (this.t >= this.length) { this.t = this.length; this.playing = false; }
+      if (this.t >= this.length) {
+        this.t = this.length;
+        this.playing = false;
+      }
       this.#tell();
       if (this.playing) requestAnimationFrame(go);
     };
@@ -25,27 +44,48 @@ export class Player {
     requestAnimationFrame(go);
   }
 
-  stop() { this.playing = false; this.#tell(); }
+  stop() {
+    this.playing = false;
+    this.#tell();
+  }
 }
 
-/** Shows the picture of a time in `img`: one at a time is fetched, the newest wish wins, so scrubbing does not queue. */
+/**
+ * Shows the picture of a time in `img`: one at a time is fetched, the newest wish wins, so
+ * scrubbing does not queue.
+ */
 export class Pictures {
   constructor(img, session, trial, replay) {
-    this.img = img; this.replay = replay; this.base = url('/api/sessions', session, 'trials', String(trial), 'frame'); this.shown = -1; this.wanted = -1; this.busy = false; this.kept = new Map();
+    this.img = img;
+    this.replay = replay;
+    this.base = url("/api/sessions", session, "trials", String(trial), "frame");
+    this.shown = -1;
+    this.wanted = -1;
+    this.busy = false;
+    this.kept = new Map();
   }
 
   at(t) {
     if (!this.replay.ready || !(this.replay.frames > 0)) return;
-    this.wanted = Math.min(this.replay.frames - 1, Math.max(0, Math.round(t * (this.replay.fps || 5))));
+    this.wanted = Math.min(
+      this.replay.frames - 1,
+      Math.max(0, Math.round(t * (this.replay.fps || 5))),
+    );
     if (!this.busy) this.#load();
   }
 
   async #load() {
     this.busy = true;
     while (this.wanted !== this.shown) {
-      const k = this.wanted, next = this.#fetched(k);
-      this.#fetched(Math.min(k + 1, this.replay.frames - 1));   // the one after it, for playing
-      try { await next.decode(); this.img.src = next.src; } catch { this.kept.delete(k); }
+      const k = this.wanted,
+        next = this.#fetched(k);
+      this.#fetched(Math.min(k + 1, this.replay.frames - 1)); // the one after it, for playing
+      try {
+        await next.decode();
+        this.img.src = next.src;
+      } catch {
+        this.kept.delete(k);
+      }
       this.shown = k;
     }
     this.busy = false;

@@ -10,16 +10,19 @@ export function roundStep(span, count) {
 export function ticks(low, high, count) {
   const step = roundStep(high - low, count);
   const all = [];
-  for (let k = Math.ceil(low / step - 1e-6); k * step <= high + step * 1e-6; ++k) all.push(Number((k * step).toPrecision(12)));
+  for (let k = Math.ceil(low / step - 1e-6); k * step <= high + step * 1e-6; ++k)
+    all.push(Number((k * step).toPrecision(12)));
   return all;
 }
 
 /** The first index of the ascending `t` that is not before `at`. */
 export function firstFrom(t, at) {
-  let low = 0, high = t.length;
+  let low = 0,
+    high = t.length;
   while (low < high) {
     const middle = (low + high) >> 1;
-    if (t[middle] < at) low = middle + 1; else high = middle;
+    if (t[middle] < at) low = middle + 1;
+    else high = middle;
   }
   return low;
 }
@@ -33,31 +36,52 @@ export function valueAt(t, v, at) {
 }
 
 export function span(v, from = 0, to = v.length) {
-  let low = Infinity, high = -Infinity;
-  for (let k = from; k < to; ++k) { if (v[k] < low) low = v[k]; if (v[k] > high) high = v[k]; }
+  let low = Infinity,
+    high = -Infinity;
+  for (let k = from; k < to; ++k) {
+    if (v[k] < low) low = v[k];
+    if (v[k] > high) high = v[k];
+  }
   return [low, high];
 }
 
-/** A path through (t, v) between two times. Where several points fall in one pixel, its lowest and highest are drawn. A gap longer than `gap_s` is left open. */
+/**
+ * A path through (t, v) between two times. Where several points fall in one pixel, its lowest and
+ * highest are drawn. A gap longer than `gap_s` is left open.
+ */
 export function pathOf(t, v, from, to, x, y, gap_s = 1.5) {
-  const begin = Math.max(0, firstFrom(t, from) - 1), end = Math.min(t.length, firstFrom(t, to) + 1);
+  const begin = Math.max(0, firstFrom(t, from) - 1),
+    end = Math.min(t.length, firstFrom(t, to) + 1);
   const parts = [];
-  let pen = 'M', column = NaN, low = 0, high = 0, last = NaN;
+  let pen = "M",
+    column = NaN,
+    low = 0,
+    high = 0,
+    last = NaN;
   const flush = () => {
     if (Number.isNaN(column)) return;
     parts.push(`${pen}${column} ${y(low).toFixed(1)}`);
     if (high !== low) parts.push(`L${column} ${y(high).toFixed(1)}`);
-    pen = 'L';
+    pen = "L";
   };
   for (let k = begin; k < end; ++k) {
     if (!Number.isFinite(v[k])) continue;
     const place = Math.round(x(t[k]) * 2) / 2;
-    if (t[k] - last > gap_s) { flush(); pen = 'M'; column = NaN; }
+    if (t[k] - last > gap_s) {
+      flush();
+      pen = "M";
+      column = NaN;
+    }
     last = t[k];
-    if (place === column) { if (v[k] < low) low = v[k]; if (v[k] > high) high = v[k]; continue; }
+    if (place === column) {
+      if (v[k] < low) low = v[k];
+      if (v[k] > high) high = v[k];
+      continue;
+    }
     flush();
-    column = place; low = high = v[k];
+    column = place;
+    low = high = v[k];
   }
   flush();
-  return parts.join('');
+  return parts.join("");
 }

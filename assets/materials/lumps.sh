@@ -13,7 +13,8 @@ keep() {  # kind, name, further arguments
 }
 keep material material
 keep friction friction
-for lump in "middle" "soft lump" "deep" "large" "large, soft lump" "small, shallow" "large, deep" "hard"; do
+for lump in "middle" "soft lump" "deep" "large" \
+  "large, soft lump" "small, shallow" "large, deep" "hard"; do
   name=${lump//,/}
   keep inclusion "${name// /-}" --mockup "$lump"
 done

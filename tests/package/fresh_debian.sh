@@ -1,22 +1,38 @@
 #!/usr/bin/env bash
-# fresh_debian.sh BUILD: the package in a Debian 12 that holds nothing else: installed, used, removed without a trace. Needs root (or user namespaces), mmdebstrap and a network.
+# fresh_debian.sh BUILD: the package in a Debian 12 that holds nothing else: installed, used,
+# removed without a trace. Needs root (or user namespaces), mmdebstrap and a network.
 set -euo pipefail
 build=$(cd "$1" && pwd)
 here=$(cd "$(dirname "$0")" && pwd)
-[ "${PALPA_FULL:-}" = 1 ] || { echo "skipped: only with PALPA_FULL=1 (./check --full)"; exit 77; }
-command -v mmdebstrap >/dev/null || { echo "skipped: mmdebstrap is not installed"; exit 77; }
+skip() {
+  echo "skipped: $*"
+  exit 77
+}
+fail() {
+  echo "FAIL  $*"
+  exit 1
+}
+
+[ "${PALPA_FULL:-}" = 1 ] || skip "only with PALPA_FULL=1 (./check --full)"
+command -v mmdebstrap >/dev/null || skip "mmdebstrap is not installed"
 mode=unshare
 [ "$(id -u)" = 0 ] && mode=root
-[ $mode = root ] || command -v newuidmap >/dev/null || { echo "skipped: without root it takes the package uidmap"; exit 77; }
+[ $mode = root ] || command -v newuidmap >/dev/null ||
+  skip "without root it takes the package uidmap"
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 chmod 755 "$work"
 
-(cd "$work" && cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work" >cpack.log 2>&1) || { tail -n 20 "$work/cpack.log"; echo "FAIL  packing"; exit 1; }
+(cd "$work" && cpack --config "$build/CPackConfig.cmake" -G DEB -B "$work" >cpack.log 2>&1) || {
+  tail -n 20 "$work/cpack.log"
+  fail "packing"
+}
 deb=$(ls "$work"/palpa_*.deb)
-echo "package: $(basename "$deb"), $(stat -c %s "$deb") bytes, $(dpkg-deb -f "$deb" Installed-Size) kB installed"
+installed=$(dpkg-deb -f "$deb" Installed-Size)
+echo "package: $(basename "$deb"), $(stat -c %s "$deb") bytes, $installed kB installed"
 if command -v lintian >/dev/null; then
-  lintian --no-cfg --allow-root --fail-on error --suppress-tags "$(grep -v '^#' "$here/lintian_known.txt" | cut -d' ' -f1 | paste -sd,)" "$deb" || { echo "FAIL  lintian"; exit 1; }
+  known=$(grep -v '^#' "$here/lintian_known.txt" | cut -d' ' -f1 | paste -sd,)
+  lintian --no-cfg --allow-root --fail-on error --suppress-tags "$known" "$deb" || fail "lintian"
   echo "ok    lintian finds no error"
 fi
 
@@ -29,5 +45,8 @@ HOOK
 chmod 755 "$work/hook"
 echo "Debian 12 is made (mmdebstrap --mode=$mode) ..."
 mirror=${PALPA_DEBIAN_MIRROR:-http://deb.debian.org}
-mmdebstrap --quiet --mode=$mode --variant=minbase --format=null --customize-hook="$work/hook" bookworm - \
-  "deb $mirror/debian bookworm main" "deb $mirror/debian bookworm-updates main" "deb $mirror/debian-security bookworm-security main"
+mmdebstrap --quiet --mode=$mode --variant=minbase --format=null \
+  --customize-hook="$work/hook" bookworm - \
+  "deb $mirror/debian bookworm main" \
+  "deb $mirror/debian bookworm-updates main" \
+  "deb $mirror/debian-security bookworm-security main"

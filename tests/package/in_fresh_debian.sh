@@ -1,23 +1,38 @@
 #!/bin/bash
-# Run as root in a fresh Debian 12 with /opt/palpa_*.deb and /opt/expect.sh: installs, uses and removes the package.
+# Run as root in a fresh Debian 12 with /opt/palpa_*.deb and /opt/expect.sh: installs, uses and
+# removes the package.
 . /opt/expect.sh
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8
 mountpoint -q /proc || mount -t proc proc /proc
 answer=
 
-# Everything but what apt and dpkg keep for themselves, what lives in memory, and what belongs to a user: results, records, the graphics library's cache.
-files() { find / -xdev \( -path /home -o -path /proc -o -path /sys -o -path /dev -o -path /run -o -path /tmp -o -path /opt -o -path /var/cache -o -path /var/log -o -path /var/lib/apt -o -path /var/lib/dpkg \) -prune -o -print | sort; }
-as_user() { (cd /home/teacher && setpriv --reuid=teacher --regid=teacher --init-groups --reset-env env LC_ALL=C.UTF-8 "$@"); }
+# Everything but what apt and dpkg keep for themselves, what lives in memory, and what belongs to a
+# user: results, records, the graphics library's cache.
+files() {
+  find / -xdev \( -path /home -o -path /proc -o -path /sys -o -path /dev -o -path /run \
+    -o -path /tmp -o -path /opt -o -path /var/cache -o -path /var/log \
+    -o -path /var/lib/apt -o -path /var/lib/dpkg \) -prune -o -print |
+    sort
+}
+as_user() {
+  (
+    cd /home/teacher &&
+      setpriv --reuid=teacher --regid=teacher --init-groups --reset-env env LC_ALL=C.UTF-8 "$@"
+  )
+}
 
 useradd --create-home teacher
 apt-get update -qq
 files >/opt/before
 packages_before=$(dpkg-query -W | wc -l)
 deb=$(ls /opt/palpa_*.deb)
-# Without recommendations: what this bare system's own packages recommend as well, autoremove would keep.
+# Without recommendations: what this bare system's own packages recommend as
+# well, autoremove would keep.
 timed "apt install ./$(basename "$deb")" apt-get install -y -q --no-install-recommends "$deb"
 [ "$failures" = 0 ] || finish
-echo "      $(($(dpkg-query -W | wc -l) - packages_before)) packages came with it, $(($(files | wc -l) - $(wc -l </opt/before))) files"
+packages_came=$(($(dpkg-query -W | wc -l) - packages_before))
+files_came=$(($(files | wc -l) - $(wc -l </opt/before)))
+echo "      $packages_came packages came with it, $files_came files"
 expect "no package is broken" bash -c '[ -z "$(dpkg --audit)" ]'
 expect "no library is missing" bash -c '! ldd /usr/bin/palpa | grep "not found"'
 
@@ -28,28 +43,45 @@ expect "  a session can start" grep -q '"can_start": true' <<<"$answer"
 expect "  its data are the package's" grep -q '"/usr/share/palpa/assets"' <<<"$answer"
 expect "  pictures are drawn by OpenGL" grep -q 'drawn by OpenGL' <<<"$answer"
 sed -n 's/^ *"verdict": "\(.*\)"$/      \1/p' <<<"$answer"
-timed "a demonstration without pictures" as_user palpa paracentesis --operator expert --fast --no-views --trials 1 --quiet --out /tmp/x
-expect "  left its report, its table and its evidence" test -s /tmp/x/report.html -a -s /tmp/x/trials.csv -a -s /tmp/x/session.palpa
+timed "a demonstration without pictures" as_user \
+  palpa paracentesis --operator expert --fast --no-views --trials 1 --quiet --out /tmp/x
+expect "  left its report, its table and its evidence" \
+  test -s /tmp/x/report.html -a -s /tmp/x/trials.csv -a -s /tmp/x/session.palpa
 timed "  and gives the same forces when it is replayed" as_user palpa replay /tmp/x/session.palpa
-timed "a demonstration with pictures" as_user palpa paracentesis --operator expert --fast --trials 1 --quiet --out /tmp/y
+timed "a demonstration with pictures" as_user \
+  palpa paracentesis --operator expert --fast --trials 1 --quiet --out /tmp/y
 expect "  left pictures" bash -c 'ls /tmp/y/view-*.png'
 as_user timeout --signal=INT 12 palpa console --no-open --port 8765 >/tmp/console.txt 2>&1 &
-for _ in $(seq 50); do grep -q 'The console: ' /tmp/console.txt && break; sleep 0.2; done
-page() { exec 3<>/dev/tcp/127.0.0.1/8765 && printf 'GET / HTTP/1.1\r\nHost: 127.0.0.1:8765\r\nConnection: close\r\n\r\n' >&3 && timeout 5 cat <&3; }
+for _ in $(seq 50); do
+  grep -q 'The console: ' /tmp/console.txt && break
+  sleep 0.2
+done
+page() {
+  exec 3<>/dev/tcp/127.0.0.1/8765 &&
+    printf 'GET / HTTP/1.1\r\nHost: 127.0.0.1:8765\r\nConnection: close\r\n\r\n' >&3 &&
+    timeout 5 cat <&3
+}
 timed "palpa console gives its page" page
 expect "  which is HTML" grep -qi '<html' <<<"$answer"
 wait   # until its time is over
 expect "manual page" test -s /usr/share/man/man1/palpa.1.gz
-expect "completion" bash -c '. /usr/share/bash-completion/completions/palpa && complete -p palpa'
-expect "desktop entry, icon, udev rule, licence" test -s /usr/share/applications/palpa.desktop -a -s /usr/share/icons/hicolor/scalable/apps/palpa.svg -a -s /usr/lib/udev/rules.d/60-palpa-falcon.rules -a -s /usr/share/doc/palpa/copyright
+expect "completion" \
+  bash -c '. /usr/share/bash-completion/completions/palpa && complete -p palpa'
+expect "desktop entry, icon, udev rule, licence" \
+  test -s /usr/share/applications/palpa.desktop \
+  -a -s /usr/share/icons/hicolor/scalable/apps/palpa.svg \
+  -a -s /usr/lib/udev/rules.d/60-palpa-falcon.rules \
+  -a -s /usr/share/doc/palpa/copyright
 expect "all files as they were packed" dpkg --verify palpa
 
 dpkg -L palpa | sort >/opt/listed
-timed "apt purge and autoremove" bash -c 'apt-get purge -y -q palpa && apt-get autoremove --purge -y -q'
+timed "apt purge and autoremove" \
+  bash -c 'apt-get purge -y -q palpa && apt-get autoremove --purge -y -q'
 files >/opt/after
 expect "  as many packages as before" [ "$(dpkg-query -W | wc -l)" = "$packages_before" ]
 comm -13 /opt/before /opt/after >/opt/left
-expect "  no file of the package is left" bash -c '[ -z "$(comm -12 /opt/left /opt/listed)" ] && ! grep -i palpa /opt/left'
+expect "  no file of the package is left" \
+  bash -c '[ -z "$(comm -12 /opt/left /opt/listed)" ] && ! grep -i palpa /opt/left'
 echo "      left by other packages: $(wc -l </opt/left) files"
 sed 's/^/        /' /opt/left | head -n 20
 expect "  no file went that was there before" bash -c '[ -z "$(comm -23 /opt/before /opt/after)" ]'

@@ -23,7 +23,8 @@ record() {
     (
       cd "$here/../.."
       # shellcheck disable=SC2086  # a line holds several words
-      "$palpa" $arguments --fast --no-views --quiet --out "$out/$number" >/dev/null 2>"$out/$number.log"
+      "$palpa" $arguments --fast --no-views --quiet --out "$out/$number" \
+        >/dev/null 2>"$out/$number.log"
     ) && touch "$out/$number/done" || echo "failed: $arguments ($out/$number.log)"
   done < <(sessions)
 }
@@ -32,7 +33,10 @@ compare() {
   local palpa=$1 a=$2 b=$3 number=0 different=0 arguments
   while read -r arguments; do
     number=$((number + 1))
-    same "$palpa" "$a/$number" "$b/$number" || { different=$((different + 1)); echo "differs: $arguments"; }
+    same "$palpa" "$a/$number" "$b/$number" || {
+      different=$((different + 1))
+      echo "differs: $arguments"
+    }
   done < <(sessions)
   echo "$number sessions, $different differ"
   [ "$different" = 0 ]
@@ -42,7 +46,8 @@ compare() {
 same() {
   local palpa=$1 a=$2 b=$3 folder
   for folder in "$a" "$b"; do
-    [ -e "$folder/ticks.csv" ] || "$palpa" export "$folder/session.palpa" --out "$folder/ticks.csv" >/dev/null
+    [ -e "$folder/ticks.csv" ] ||
+      "$palpa" export "$folder/session.palpa" --out "$folder/ticks.csv" >/dev/null
   done
   cmp "$a/trials.csv" "$b/trials.csv" && cmp "$a/ticks.csv" "$b/ticks.csv" &&
     "$palpa" replay "$a/session.palpa" >/dev/null
@@ -51,5 +56,8 @@ same() {
 case "${1:-}" in
   record) record "$2" "$3" ;;
   compare) compare "$2" "$3" "$4" ;;
-  *) sed -n '2,11s/^# \{0,1\}//p' "$0"; exit 2 ;;
+  *)
+    sed -n '2,11s/^# \{0,1\}//p' "$0"
+    exit 2
+    ;;
 esac

@@ -1,28 +1,57 @@
-// The educator's browser: Debian's Chromium, what it complains of, what axe finds, pictures of pages.
-import assert from 'node:assert/strict';
-import fs from 'node:fs';
-import {createRequire} from 'node:module';
-import path from 'node:path';
-import {chromium} from 'playwright-core';
+// The educator's browser: Debian's Chromium, what it complains of, what
+// axe finds, pictures of pages.
+import assert from "node:assert/strict";
+import fs from "node:fs";
+import { createRequire } from "node:module";
+import path from "node:path";
+import { chromium } from "playwright-core";
 
-const kArguments = ['--no-sandbox', '--headless', '--disable-gpu', '--disable-quic', '--no-first-run', '--disable-background-networking', '--disable-component-update', '--disable-sync'];
-const kAxe = fs.readFileSync(createRequire(import.meta.url).resolve('axe-core/axe.min.js'), 'utf8');
-const kHighest = 6000;   // px
-export const kDesktop = {width: 1366, height: 900}, kTablet = {width: 820, height: 1180};
+const kArguments = [
+  "--no-sandbox",
+  "--headless",
+  "--disable-gpu",
+  "--disable-quic",
+  "--no-first-run",
+  "--disable-background-networking",
+  "--disable-component-update",
+  "--disable-sync",
+];
+const kAxe = fs.readFileSync(createRequire(import.meta.url).resolve("axe-core/axe.min.js"), "utf8");
+const kHighest = 6000; // px
+export const kDesktop = { width: 1366, height: 900 },
+  kTablet = { width: 820, height: 1180 };
 
 export class Educator {
   static async come(base, shots, token) {
     const e = new Educator();
-    Object.assign(e, {base: base.replace(/#.*$/, '').replace(/\/?$/, '/'), shots, complaints: [], faults: [], away: false});
-    if (shots) fs.mkdirSync(shots, {recursive: true});
-    e.browser = await chromium.launch({executablePath: process.env.PALPA_CHROMIUM || '/usr/bin/chromium', args: kArguments});
-    e.context = await e.browser.newContext({viewport: kDesktop, locale: 'en-GB'});
-    await e.context.addInitScript(() => { const Native = window.EventSource; window.streams = []; window.EventSource = class extends Native { constructor(...given) { super(...given); window.streams.push(this); } }; });
+    Object.assign(e, {
+      base: base.replace(/#.*$/, "").replace(/\/?$/, "/"),
+      shots,
+      complaints: [],
+      faults: [],
+      away: false,
+    });
+    if (shots) fs.mkdirSync(shots, { recursive: true });
+    e.browser = await chromium.launch({
+      executablePath: process.env.PALPA_CHROMIUM || "/usr/bin/chromium",
+      args: kArguments,
+    });
+    e.context = await e.browser.newContext({ viewport: kDesktop, locale: "en-GB" });
+    await e.context.addInitScript(() => {
+      const Native = window.EventSource;
+      window.streams = [];
+      window.EventSource = class extends Native {
+        constructor(...given) {
+          super(...given);
+          window.streams.push(this);
+        }
+      };
+    });
     e.page = await e.newPage();
     if (token) {
-      await e.go('#/enter');
-      await e.page.getByLabel('Token').fill(token);
-      await e.page.getByRole('button', {name: 'Enter'}).click();
+      await e.go("#/enter");
+      await e.page.getByLabel("Token").fill(token);
+      await e.page.getByRole("button", { name: "Enter" }).click();
       await e.page.waitForURL(/#\/station/);
     }
     return e;
@@ -31,83 +60,151 @@ export class Educator {
   async newPage() {
     const page = await this.context.newPage();
     page.setDefaultTimeout(60_000);
-    page.on('console', (m) => { if (['error', 'warning'].includes(m.type()) && !this.away) this.complaints.push(`${page.url()}: ${m.text()}`); });
-    page.on('pageerror', (x) => this.complaints.push(`${page.url()}: ${x.stack}`));
-    page.on('dialog', (d) => { this.complaints.push(`a dialog: ${d.message()}`); d.dismiss(); });
+    page.on("console", (m) => {
+      if (["error", "warning"].includes(m.type()) && !this.away)
+        this.complaints.push(`${page.url()}: ${m.text()}`);
+    });
+    page.on("pageerror", (x) => this.complaints.push(`${page.url()}: ${x.stack}`));
+    page.on("dialog", (d) => {
+      this.complaints.push(`a dialog: ${d.message()}`);
+      d.dismiss();
+    });
     return page;
   }
 
-  /** No network, streams included: those that are open survive the browser's being offline, so they are ended as a lost one ends. */
+  /**
+   * No network, streams included: those that are open survive the browser's being offline, so they
+   * are ended as a lost one ends.
+   */
   async cut() {
     this.away = true;
     await this.context.setOffline(true);
-    await this.page.evaluate(() => { for (const stream of window.streams) { stream.close(); stream.dispatchEvent(new Event('error')); } });
+    await this.page.evaluate(() => {
+      for (const stream of window.streams) {
+        stream.close();
+        stream.dispatchEvent(new Event("error"));
+      }
+    });
   }
 
-  leave() { return this.browser.close(); }
+  leave() {
+    return this.browser.close();
+  }
 
   async go(hash, page = this.page) {
     await page.goto(this.base + hash);
-    await page.locator('main h1').waitFor();
+    await page.locator("main h1").waitFor();
   }
 
-  /** The whole page on a screen as high as it: a browser does not draw a frame that is out of sight. */
+  /**
+   * The whole page on a screen as high as it: a browser does not draw a frame that is out of
+   * sight.
+   */
   async picture(name, page = this.page) {
     if (!this.shots) return;
     const before = page.viewportSize();
-    await page.setViewportSize({width: before.width, height: Math.max(before.height, Math.min(kHighest, await page.evaluate(() => document.documentElement.scrollHeight)))});
+    await page.setViewportSize({
+      width: before.width,
+      height: Math.max(
+        before.height,
+        Math.min(kHighest, await page.evaluate(() => document.documentElement.scrollHeight)),
+      ),
+    });
     await page.waitForTimeout(200);
-    await page.screenshot({path: path.join(this.shots, `${name}.png`)});
+    await page.screenshot({ path: path.join(this.shots, `${name}.png`) });
     await page.setViewportSize(before);
   }
 
-  /** Pictures and axe at both widths; serious and critical findings are kept for the end. Nothing may be wider than the screen, no type smaller than 14 px. */
+  /**
+   * Pictures and axe at both widths; serious and critical findings are kept for the end. Nothing
+   * may be wider than the screen, no type smaller than 14 px.
+   */
   async examine(name, page = this.page) {
-    for (const [width, size] of [['desktop', kDesktop], ['tablet', kTablet]]) {
+    for (const [width, size] of [
+      ["desktop", kDesktop],
+      ["tablet", kTablet],
+    ]) {
       await page.setViewportSize(size);
       await page.waitForTimeout(300);
-      for (const frame of page.frames()) await frame.waitForLoadState('load');
+      for (const frame of page.frames()) await frame.waitForLoadState("load");
       await this.picture(`${name}-${width}`, page);
       await page.evaluate(kAxe);
-      const found = await page.evaluate(async () => (await window.axe.run(document, {iframes: false})).violations.map((v) => ({id: v.id, impact: v.impact, where: v.nodes.slice(0, 3).map((n) => `${n.target}: ${n.any[0]?.message || ''}`)})));
-      for (const v of found.filter((one) => ['serious', 'critical'].includes(one.impact))) this.faults.push(`${name}, ${width}: ${v.impact} ${v.id} ${v.where.join(' | ')}`);
-      const wide = await page.evaluate(() => document.documentElement.scrollWidth - window.innerWidth);
+      const found = await page.evaluate(async () =>
+        (await window.axe.run(document, { iframes: false })).violations.map((v) => ({
+          id: v.id,
+          impact: v.impact,
+          where: v.nodes.slice(0, 3).map((n) => `${n.target}: ${n.any[0]?.message || ""}`),
+        })),
+      );
+      for (const v of found.filter((one) => ["serious", "critical"].includes(one.impact)))
+        this.faults.push(`${name}, ${width}: ${v.impact} ${v.id} ${v.where.join(" | ")}`);
+      const wide = await page.evaluate(
+        () => document.documentElement.scrollWidth - window.innerWidth,
+      );
       if (wide > 0) this.faults.push(`${name}, ${width}: ${wide} px wider than the screen`);
-      const small = await page.evaluate(() => [...document.querySelectorAll('body *')].filter((x) => [...x.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()) && x.getClientRects().length > 0 && parseFloat(getComputedStyle(x).fontSize) < 14).map((x) => x.textContent.slice(0, 30)));
-      if (small.length > 0) this.faults.push(`${name}, ${width}: smaller than 14 px: ${small.slice(0, 3).join(', ')}`);
+      const small = await page.evaluate(() =>
+        [...document.querySelectorAll("body *")]
+          .filter(
+            (x) =>
+              [...x.childNodes].some((n) => n.nodeType === 3 && n.textContent.trim()) &&
+              x.getClientRects().length > 0 &&
+              parseFloat(getComputedStyle(x).fontSize) < 14,
+          )
+          .map((x) => x.textContent.slice(0, 30)),
+      );
+      if (small.length > 0)
+        this.faults.push(`${name}, ${width}: smaller than 14 px: ${small.slice(0, 3).join(", ")}`);
     }
     await page.setViewportSize(kDesktop);
   }
 
   /** Pictures a second in the stream that the live page shows, counted for `seconds`. */
   picturesPerSecond(id, seconds, page = this.page) {
-    return page.evaluate(async ([session, span]) => {
-      const stop = new AbortController();
-      const answer = await fetch(`/api/sessions/${session}/view`, {signal: stop.signal});
-      const reader = answer.body.getReader();
-      let count = 0, begun = 0, before = 0;
-      const end = () => performance.now() - begun > span * 1000;
-      while (!begun || !end()) {
-        const {value, done} = await reader.read();
-        if (done) break;
-        for (const byte of value) {
-          if (before === 0xff && byte === 0xd8) { if (!begun) begun = performance.now(); else ++count; }   // a JPEG begins; 0xff in its data is followed by 0
-          before = byte;
+    return page.evaluate(
+      async ([session, span]) => {
+        const stop = new AbortController();
+        const answer = await fetch(`/api/sessions/${session}/view`, { signal: stop.signal });
+        const reader = answer.body.getReader();
+        let count = 0,
+          begun = 0,
+          before = 0;
+        const end = () => performance.now() - begun > span * 1000;
+        while (!begun || !end()) {
+          const { value, done } = await reader.read();
+          if (done) break;
+          for (const byte of value) {
+            if (before === 0xff && byte === 0xd8) {
+              if (!begun) begun = performance.now();
+              else ++count;
+            } // a JPEG begins; 0xff in its data is followed by 0
+            before = byte;
+          }
         }
-      }
-      const took = (performance.now() - begun) / 1000;
-      stop.abort();
-      return count / took;
-    }, [id, seconds]);
+        const took = (performance.now() - begun) / 1000;
+        stop.abort();
+        return count / took;
+      },
+      [id, seconds],
+    );
   }
 }
 
 /** Presses Tab until the element has the focus, and checks that the focus can be seen. */
 export async function tabTo(page, selector, most = 80) {
   for (let n = 0; n < most; ++n) {
-    await page.keyboard.press('Tab');
-    const at = await page.evaluate((s) => { const e = document.activeElement; const style = getComputedStyle(e); return {there: e.matches(s), seen: style.outlineStyle !== 'none' && parseFloat(style.outlineWidth) > 0}; }, selector);
-    if (at.there) { assert.ok(at.seen, `the focus on ${selector} can be seen`); return; }
+    await page.keyboard.press("Tab");
+    const at = await page.evaluate((s) => {
+      const e = document.activeElement;
+      const style = getComputedStyle(e);
+      return {
+        there: e.matches(s),
+        seen: style.outlineStyle !== "none" && parseFloat(style.outlineWidth) > 0,
+      };
+    }, selector);
+    if (at.there) {
+      assert.ok(at.seen, `the focus on ${selector} can be seen`);
+      return;
+    }
   }
   assert.fail(`${selector} cannot be reached by Tab`);
 }

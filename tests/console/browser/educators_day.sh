@@ -1,35 +1,56 @@
 #!/usr/bin/env bash
-# educators_day.sh PALPA WORK: starts a console of the program PALPA on an empty virtual bench in the folder WORK and plays an educator's day at it in Chromium.
+# educators_day.sh PALPA WORK: starts a console of the program PALPA on an empty virtual bench in
+# the folder WORK and plays an educator's day at it in Chromium.
 # Exits with 77 (skipped) and says why where Chromium, Node or the two libraries cannot be had.
 set -euo pipefail
 palpa=$(realpath "$1") work=$(realpath -m "$2")
 here=$(cd "$(dirname "$0")" && pwd)
-skip() { echo "skipped: $*"; exit 77; }
+top=$(cd "$here/../../.." && pwd)
+. "$top/cmake/npm_package.sh"
+
+skip() {
+  echo "skipped: $*"
+  exit 77
+}
 
 [ -x "${PALPA_CHROMIUM:-/usr/bin/chromium}" ] || skip "no Chromium (Debian: chromium)"
 command -v node >/dev/null || skip "no Node (Debian: nodejs)"
 rm -rf "$work" && mkdir -p "$work/run" && chmod 700 "$work/run"
 cp "$here"/*.mjs "$here/package.json" "$work"
 
-# The browser's driver and axe: each one file of the registry, without further libraries, known by its sum.
+# The browser's driver and axe: each one file of the registry, without further
+# libraries, known by its sum.
+mkdir -p "$work/node_modules"
 while read -r name version sum; do
   place=$work/node_modules/$name
-  if [ -f "$here/node_modules/$name/package.json" ]; then mkdir -p "$work/node_modules" && cp -r "$here/node_modules/$name" "$place" && continue; fi
-  curl -fsS --retry 3 --max-time 120 -o "$work/$name.tgz" "https://registry.npmjs.org/$name/-/$name-$version.tgz" || skip "$name $version could not be fetched from registry.npmjs.org"
-  [ "$(openssl dgst -sha512 -binary "$work/$name.tgz" | base64 -w0)" = "$sum" ] || { echo "$name $version is not what it should be"; exit 1; }
-  mkdir -p "$place" && tar xzf "$work/$name.tgz" -C "$place" --strip-components=1
+  if [ -f "$here/node_modules/$name/package.json" ]; then
+    cp -r "$here/node_modules/$name" "$place"
+    continue
+  fi
+  fetch_npm_package "$name" "$version" "$work/$name.tgz" ||
+    skip "$name $version could not be fetched from registry.npmjs.org"
+  is_npm_package "$work/$name.tgz" "$sum" || {
+    echo "$name $version is not what it should be"
+    exit 1
+  }
+  unpack_npm_package "$work/$name.tgz" "$place"
 done <"$here/libraries.txt"
 
 export HOME=$work XDG_RUNTIME_DIR=$work/run LC_ALL=C.UTF-8
 unset DISPLAY PALPA_RECORDS XDG_DATA_HOME XDG_STATE_HOME
-# begin.sh [--port N]: starts the console and waits until it is there. Kills the one before, as a power cut would.
+# begin.sh [--port N]: starts the console and waits until it is there. Kills the one before, as a
+# power cut would.
 cat >"$work/begin.sh" <<BEGIN
 [ -f "$work/pid" ] && kill -KILL \$(cat "$work/pid")
-setsid "$palpa" console --no-open --home "$work/home" --records "$work/records.sqlite" "\$@" >"$work/console.txt" 2>&1 </dev/null &
+setsid "$palpa" console --no-open --home "$work/home" --records "$work/records.sqlite" "\$@" \\
+  >"$work/console.txt" 2>&1 </dev/null &
 echo \$! >"$work/pid"
 for _ in \$(seq 300); do
   grep -q '^The console: ' "$work/console.txt" && exit 0
-  kill -0 \$(cat "$work/pid") 2>/dev/null || { cat "$work/console.txt"; exit 1; }
+  kill -0 \$(cat "$work/pid") 2>/dev/null || {
+    cat "$work/console.txt"
+    exit 1
+  }
   sleep 0.1
 done
 exit 1
@@ -38,6 +59,8 @@ trap 'kill $(cat "$work/pid") 2>/dev/null || true' EXIT
 bash "$work/begin.sh"
 url=$(sed -n 's/^The console: //p' "$work/console.txt")
 cd "$work"
-cp "$here/../../../assets/console/moments.js" "$work"   # beside a package.json that says what kind of module it is
+# Beside a package.json that says what kind of module it is.
+cp "$top/assets/console/moments.js" "$work"
 PALPA_CONSOLE_PAGES=$work node --test moments.test.mjs
-PALPA_CONSOLE_BEGIN=$work/begin.sh PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures node --test console.test.mjs
+PALPA_CONSOLE_BEGIN=$work/begin.sh PALPA_CONSOLE_URL=$url PALPA_CONSOLE_SHOTS=$work/pictures \
+  node --test console.test.mjs
