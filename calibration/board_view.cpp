@@ -1,10 +1,10 @@
-#include "calibration/board_view.h"
+#include "calibration/camera_calibration.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 
 namespace palpa::calibration {
 namespace {
@@ -40,8 +40,7 @@ bool onOneLine(const Points& points) {
   Eigen::Matrix2d spread = Eigen::Matrix2d::Zero();
   for (const auto& p : points)
     spread += (p.template head<2>() - mean) * (p.template head<2>() - mean).transpose();
-  const Eigen::Vector2d sizes =
-      Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(spread).eigenvalues();
+  const Eigen::Vector2d sizes = symmetricEigen(spread).values;
   return !(sizes[0] > kLine * sizes[1]);
 }
 

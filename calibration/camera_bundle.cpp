@@ -1,13 +1,14 @@
-#include "calibration/camera_bundle.h"
+#include "calibration/camera_calibration.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <opencv2/calib3d.hpp>
 #include <utility>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {
@@ -45,7 +46,7 @@ void findFocalLengths(const std::vector<Mat3>& homographies, CameraModel* model)
       b -= row.head<2>() * row.z();
     }
   }
-  const Eigen::Vector2d w = A.completeOrthogonalDecomposition().solve(b);
+  const Eigen::Vector2d w = minimumNorm(A, b);
   const double usual = std::max(model->width, model->height);
   const auto focal = [&](double inverse_square) {
     return inverse_square > 0 ? std::clamp(1 / std::sqrt(inverse_square), 0.3 * usual, 20 * usual)

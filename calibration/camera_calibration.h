@@ -4,12 +4,46 @@
 #include <string>
 #include <vector>
 
-#include "calibration/board_view.h"
-#include "calibration/camera_bundle.h"
+#include <Eigen/Core>
+
+#include "anatomy/geometry/pose.h"
 #include "calibration/camera_model.h"
 #include "calibration/robust_fit.h"
 
 namespace palpa::calibration {
+
+/// A picture of a flat board: its corners on the board (frame W, z = 0, m) and in the picture (px),
+/// in the same order. A part of the board's corners is enough.
+struct BoardView {
+  std::string name;  ///< for messages, usually the file
+  std::vector<Vec3> p_W;
+  std::vector<Eigen::Vector2d> pixels;
+};
+
+/// Throws Error (in `where`), with the view's name, for lists of unlike length, fewer than 8
+/// corners, figures that are none, a board that is not flat, corners on one line, and views whose
+/// boards differ (most of their corners are none of the others').
+void requireBoardViews(const std::vector<BoardView>& views, const std::string& where);
+
+/// A camera, and where the board W was in each of its views.
+struct CameraBundle {
+  CameraModel model;
+  std::vector<Pose> X_CW;
+};
+
+/// Zhang 2000 without distortion and with the centre in the middle of the picture: homographies H ~
+/// K [r1 r2 t] of the views (least median of squares: half of a view's corners may be wrong), both
+/// focal lengths from r1' r2 = 0 and |r1| = |r2|, then the poses. Throws Error (in `where`) for
+/// corners that are no picture of their board.
+CameraBundle startBundle(const std::vector<BoardView>& views, int width, int height,
+                         const std::string& where);
+
+/// Moves the lens and all poses to where the corners fit best: robust (`robust_fit.h`), blocks are
+/// the corners of one view after the other, residuals projected less seen, px. Only the first
+/// `lens_numbers` of the lens move. The fit's parameters are these, then turn and shift of each
+/// pose (`moved`). `keep_all`: plain least squares.
+Fit adjustBundle(const std::vector<BoardView>& views, int lens_numbers, bool keep_all,
+                 CameraBundle* bundle, const std::string& where);
 
 /// What became of one view.
 struct ViewResult {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::calibration {
 namespace {

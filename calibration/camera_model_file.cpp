@@ -6,8 +6,8 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <vector>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "calibration/camera_model.h"
 
 namespace palpa::calibration {

@@ -1,12 +1,11 @@
 #include "calibration/clock_offset.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <optional>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <map>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {

@@ -2,8 +2,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/units.h"
+#include "anatomy/base/whole_file.h"
 #include "calibration/expert_path.h"
 
 namespace palpa::calibration {
@@ -13,7 +14,6 @@ using Json = nlohmann::ordered_json;
 
 constexpr int kPathVersion = 1;
 constexpr const char* kFormat = "palpa expert path";
-constexpr double kMm = 1e-3, kDeg = M_PI / 180;
 
 /// Reads fields of one file; every complaint names file and field.
 class FieldReader {
@@ -120,8 +120,8 @@ Json toJson(const ExpertPath& path) {
           {"depth_mm", path.depth / kMm},
           {"depth_sd_mm", path.depth_sd / kMm},
           {"direction_L", {path.direction_L.x(), path.direction_L.y(), path.direction_L.z()}},
-          {"direction_sd_deg", path.direction_sd / kDeg},
-          {"direction_acceptable_deg", path.direction_acceptable / kDeg},
+          {"direction_sd_deg", path.direction_sd / kDegree},
+          {"direction_acceptable_deg", path.direction_acceptable / kDegree},
           {"line_from_L_mm", inMm(path.line_from_L)},
           {"line_to_L_mm", inMm(path.line_to_L)}};
 }
@@ -151,8 +151,8 @@ ExpertPath readExpertPath(const std::filesystem::path& file) {
   path.depth = kMm * reader.number("depth_mm", 0, 100);
   path.depth_sd = kMm * reader.number("depth_sd_mm", 0, 10);
   path.direction_L = reader.unitVector("direction_L");
-  path.direction_sd = kDeg * reader.number("direction_sd_deg", 0, 10);
-  path.direction_acceptable = kDeg * reader.number("direction_acceptable_deg", 0.1, 45);
+  path.direction_sd = kDegree * reader.number("direction_sd_deg", 0, 10);
+  path.direction_acceptable = kDegree * reader.number("direction_acceptable_deg", 0.1, 45);
   path.line_from_L = kMm * reader.vector("line_from_L_mm", kFar_mm);
   path.line_to_L = kMm * reader.vector("line_to_L_mm", kFar_mm);
   if ((path.line_to_L - path.line_from_L).norm() < 0.001)

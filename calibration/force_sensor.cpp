@@ -1,16 +1,18 @@
 #include "calibration/force_sensor.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/units.h"
+#include "anatomy/geometry/dense_solvers.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {
 namespace {
 
 const char kForceSensor[] = "force sensor";
-constexpr double kGravity = 9.80665, kNoMass = 1e-3;  // m/s^2, kg
+constexpr double kNoMass = 1e-3;  // kg
 using Vec10 = Eigen::Matrix<double, 10, 1>;
 
 Vec3 weightOf(const StaticReading& reading, const Vec3& down_D) {
@@ -34,8 +36,8 @@ Vec10 linearStart(const std::vector<StaticReading>& readings, const Vec3& down_D
     C += torque.transpose() * torque;
     d += torque.transpose() * reading.m_S;
   }
-  const Eigen::Vector4d f = A.ldlt().solve(b);
-  const Eigen::Matrix<double, 6, 1> m = C.completeOrthogonalDecomposition().solve(d);
+  const Eigen::Vector4d f = solveSymmetric(A, b);
+  const Eigen::Matrix<double, 6, 1> m = minimumNorm(C, d);
   Vec10 x;
   x << f.head<3>(), m.head<3>(), f[3], m.tail<3>() / (std::abs(f[3]) > 1e-6 ? f[3] : 1e-6);
   return x;
@@ -50,8 +52,7 @@ void requireTurning(const std::vector<StaticReading>& readings, const Vec3& down
     const Vec3 off = reading.R_DS.transpose() * down_D - mean;
     spread += off * off.transpose() / static_cast<double>(readings.size());
   }
-  const Vec3 sizes =
-      Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Vec3 sizes = symmetricEigen(spread).values.cwiseMax(0).cwiseSqrt();
   if (sizes[2] < 0.2)
     throw Error(
         "the sensor was hardly turned against the vertical: its tool's weight and its bias look "

@@ -1,13 +1,14 @@
 #include "calibration/hand_eye.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 #include <random>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {
@@ -34,7 +35,7 @@ void solveShifts(const std::vector<HandEyeSample>& samples, Both* both) {
     A += rows.transpose() * rows;
     b += rows.transpose() * (both->Z.linear() * s.X_CM.translation() - s.X_DE.translation());
   }
-  const Eigen::Matrix<double, 6, 1> t = A.completeOrthogonalDecomposition().solve(b);
+  const Eigen::Matrix<double, 6, 1> t = minimumNorm(A, b);
   both->X.translation() = t.head<3>();
   both->Z.translation() = t.tail<3>();
 }
@@ -49,13 +50,13 @@ Both byKroneckerProduct(const std::vector<HandEyeSample>& samples) {
     for (int i = 0; i < 3; ++i)
       for (int j = 0; j < 3; ++j) K.block<3, 3>(3 * i, 3 * j) += B(i, j) * A;
   }
-  const Eigen::JacobiSVD<Mat9> svd(K, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  const SingularValues<9> singular = singularValues(K);
   const auto rotation = [](Mat3 m) { return nearestRotation(m.determinant() < 0 ? Mat3(-m) : m); };
   Both both{Pose::Identity(), Pose::Identity()};
   both.X.linear() = rotation(
-      Eigen::Map<const Mat3>(Eigen::Matrix<double, 9, 1>(svd.matrixV().col(0)).data()).eval());
+      Eigen::Map<const Mat3>(Eigen::Matrix<double, 9, 1>(singular.V.col(0)).data()).eval());
   both.Z.linear() = rotation(
-      Eigen::Map<const Mat3>(Eigen::Matrix<double, 9, 1>(svd.matrixU().col(0)).data()).eval());
+      Eigen::Map<const Mat3>(Eigen::Matrix<double, 9, 1>(singular.U.col(0)).data()).eval());
   solveShifts(samples, &both);
   return both;
 }

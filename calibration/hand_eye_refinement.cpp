@@ -1,10 +1,10 @@
-#include "calibration/hand_eye_refinement.h"
+#include "calibration/hand_eye.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {
@@ -57,7 +57,7 @@ MatrixX clusteredCovariance(const std::vector<TagView>& views, const std::vector
     meat += g * g.transpose();
     ++clusters;
   }
-  const MatrixX inverse = bread.inverse();
+  const MatrixX inverse = inverseOf(bread);
   const double numbers = 6.0 * clusters;
   const MatrixX covariance =
       numbers / std::max(numbers - kUnknowns, 1.0) * inverse * meat * inverse;

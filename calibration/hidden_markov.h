@@ -1,9 +1,10 @@
 #pragma once
 
-#include <Eigen/Core>
 #include <cstdint>
 #include <functional>
 #include <vector>
+
+#include <Eigen/Core>
 
 /// Subtasks proposed from recorded trials: a hidden Markov model whose states give Gaussian
 /// features.
@@ -119,5 +120,33 @@ StatesProposal proposeStates(const std::vector<Eigen::MatrixXd>& trials, int mos
 /// How many trials the smaller half of so many may hold: what each number of states must be fitted
 /// to.
 std::size_t smallestHalf(std::size_t trials);
+
+}  // namespace palpa::calibration
+
+/// Inside hidden_markov: the scaled sweeps (Rabiner 1989, section V.A) that fit and inference
+/// share.
+namespace palpa::calibration {
+
+inline constexpr char kHmmWhere[] = "hidden Markov model";
+
+struct ForwardSweep {
+  Eigen::MatrixXd belief;  ///< P(state | steps so far), a step a column
+  Eigen::MatrixXd ratio;   ///< density of the step in the state / P(step | steps before)
+  double log_likelihood = 0;
+};
+
+/// x: a feature a row, a step a column.
+ForwardSweep forwardSweep(const HiddenMarkov& m, const Eigen::MatrixXd& x);
+
+struct BackwardSweep {
+  Eigen::MatrixXd
+      after;  ///< P(steps after t | state) / P(steps after t | steps up to t), a step a column
+  Eigen::MatrixXd onward;  ///< the same from step t on: ratio times after, but in the first column
+};
+
+BackwardSweep backwardSweep(const HiddenMarkov& m, const ForwardSweep& forward);
+
+/// Free parameters of so many states of so many features.
+int hiddenMarkovParameters(Eigen::Index states, Eigen::Index features);
 
 }  // namespace palpa::calibration

@@ -3,9 +3,8 @@
 #include <numeric>
 #include <string>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "calibration/hidden_markov.h"
-#include "calibration/hidden_markov_sweeps.h"
 
 namespace palpa::calibration {
 namespace {

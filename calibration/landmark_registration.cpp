@@ -1,10 +1,11 @@
-#include "calibration/landmark_registration.h"
+#include "calibration/registration.h"
 
-#include <Eigen/Dense>
+#include <Eigen/LU>
 #include <cmath>
 #include <cstdio>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {
@@ -42,8 +43,7 @@ Spread spreadOf(const std::vector<TouchedLandmark>& landmarks) {
 }
 
 void requireSpread(const Spread& s) {
-  const Vec3 sizes =
-      Eigen::SelfAdjointEigenSolver<Mat3>(s.of_A).eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Vec3 sizes = symmetricEigen(s.of_A).values.cwiseMax(0).cwiseSqrt();
   if (sizes[2] < kOnePlace)
     throw Error("the landmarks lie within " +
                     std::to_string(static_cast<int>(std::ceil(1e3 * sizes[2]))) + " mm",
@@ -67,8 +67,7 @@ void requireLikeness(const Spread& s, double scale) {
     throw Error(words, kLandmarks,
                 "One of the lists is in another unit, or landmarks are mixed up");
   }
-  const Vec3 sizes =
-      Eigen::SelfAdjointEigenSolver<Mat3>(s.of_A).eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Vec3 sizes = symmetricEigen(s.of_A).values.cwiseMax(0).cwiseSqrt();
   const bool solid = sizes[0] > 0.2 * sizes[2];
   if (solid && s.cross.determinant() < 0)
     throw Error("the touched landmarks are the mirror image of the known ones", kLandmarks,

@@ -1,9 +1,9 @@
-#include "calibration/lump_contact.h"
+#include "calibration/contact_laws.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "calibration/robust_fit.h"
 
 namespace palpa::calibration {

@@ -1,14 +1,13 @@
 #include "calibration/robust_fit.h"
 
-#include <Eigen/Cholesky>
-#include <Eigen/QR>
 #include <algorithm>
 #include <boost/math/distributions/chi_squared.hpp>
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <limits>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 
 namespace palpa::calibration {
 namespace {
@@ -115,7 +114,7 @@ class RobustFitter {
     for (; damping_ < 1e12; damping_ *= 10) {
       MatrixX damped = scaled;
       damped.diagonal().array() += damping_;
-      const VectorX dx = unit.cwiseProduct(damped.ldlt().solve(-unit.cwiseProduct(normal.g)));
+      const VectorX dx = unit.cwiseProduct(solveSymmetric(damped, -unit.cwiseProduct(normal.g)));
       if (!dx.allFinite()) continue;
       const VectorX r = problem_.residuals(dx);
       const double after =
@@ -199,8 +198,8 @@ class RobustFitter {
     const MatrixX information = normalOf(goodWeights()).A;
     const VectorX unit = unitsOf(information);
     const MatrixX scaled = unit.asDiagonal() * information * unit.asDiagonal();
-    fit.covariance = fit.sigma * fit.sigma * unit.asDiagonal() *
-                     scaled.completeOrthogonalDecomposition().pseudoInverse() * unit.asDiagonal();
+    fit.covariance =
+        fit.sigma * fit.sigma * unit.asDiagonal() * pseudoInverse(scaled) * unit.asDiagonal();
     return fit;
   }
 

@@ -1,17 +1,28 @@
 #include "calibration/rotation.h"
 
-#include <Eigen/Eigenvalues>
-#include <Eigen/SVD>
+#include <Eigen/LU>
 #include <algorithm>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 
 namespace palpa::calibration {
 
+Mat3 rotationOf(const Vec3& w) {
+  const double angle = w.norm();
+  return angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix()
+                   : Mat3(Mat3::Identity());
+}
+
+Vec3 rotationVector(const Mat3& R) {
+  const Eigen::AngleAxisd turn(R);
+  return turn.angle() * turn.axis();
+}
+
 Mat3 nearestRotation(const Mat3& m) {
-  const Eigen::JacobiSVD<Mat3> svd(m, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  const double mirror = (svd.matrixU() * svd.matrixV().transpose()).determinant();
-  return svd.matrixU() * Vec3(1, 1, mirror).asDiagonal() * svd.matrixV().transpose();
+  const SingularValues<3> svd = singularValues(m);
+  const double mirror = (svd.U * svd.V.transpose()).determinant();
+  return svd.U * Vec3(1, 1, mirror).asDiagonal() * svd.V.transpose();
 }
 
 void requirePose(const Pose& X, const std::string& where) {
@@ -25,9 +36,9 @@ void requirePose(const Pose& X, const std::string& where) {
 LeastTilted leastTilted(const std::vector<Pose>& poses) {
   Mat3 mean = Mat3::Zero();
   for (const Pose& X : poses) mean += X.linear() / static_cast<double>(poses.size());
-  const Eigen::SelfAdjointEigenSolver<Mat3> solver(Mat3::Identity() - mean.transpose() * mean);
-  return {solver.eigenvectors().col(0), std::sqrt(std::max(solver.eigenvalues()[0], 0.0)),
-          std::sqrt(std::max(solver.eigenvalues()[2], 0.0))};
+  const SymmetricEigen<3> tilt = symmetricEigen(Mat3(Mat3::Identity() - mean.transpose() * mean));
+  return {tilt.vectors.col(0), std::sqrt(std::max(tilt.values[0], 0.0)),
+          std::sqrt(std::max(tilt.values[2], 0.0))};
 }
 
 Mat3 pointCovariance(const Pose& X, const Eigen::Matrix<double, 6, 6>& covariance, const Vec3& p) {

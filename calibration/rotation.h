@@ -5,11 +5,10 @@
 #include <string>
 #include <vector>
 
+#include "anatomy/base/units.h"
 #include "anatomy/geometry/pose.h"
 
 namespace palpa::calibration {
-
-inline constexpr double kDegree = std::numbers::pi / 180;  ///< rad
 
 inline Mat3 crossMatrix(const Vec3& v) {
   Mat3 m;
@@ -18,20 +17,13 @@ inline Mat3 crossMatrix(const Vec3& v) {
 }
 
 /// Rotation by |w| about w.
-inline Mat3 rotationOf(const Vec3& w) {
-  const double angle = w.norm();
-  return angle > 0 ? Eigen::AngleAxisd(angle, w / angle).toRotationMatrix()
-                   : Mat3(Mat3::Identity());
-}
+Mat3 rotationOf(const Vec3& w);
 
 /// What points up points down after it, x stays: a needle upright, a board that faces a camera.
 inline Mat3 halfTurnAboutX() { return Vec3(1, -1, -1).asDiagonal(); }
 
 /// w of a rotation; |w| is 0 to pi.
-inline Vec3 rotationVector(const Mat3& R) {
-  const Eigen::AngleAxisd turn(R);
-  return turn.angle() * turn.axis();
-}
+Vec3 rotationVector(const Mat3& R);
 
 /// The pose moved by dx: turned by the first three in its own frame, shifted by the last three in
 /// the outer one.

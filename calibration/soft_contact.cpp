@@ -1,10 +1,9 @@
-#include "calibration/soft_contact.h"
+#include "calibration/contact_laws.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::calibration {
 namespace {

@@ -1,10 +1,10 @@
-#include "calibration/surface_friction.h"
+#include "calibration/contact_laws.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 
 namespace palpa::calibration {
 namespace {
@@ -76,7 +76,7 @@ Eigen::Vector2d slidingLaw(const std::vector<Stroke>& strokes) {
       A += row * row.transpose();
       b += row * s.drag;
     }
-  return A.completeOrthogonalDecomposition().solve(b);
+  return minimumNorm(A, b);
 }
 
 /// ln((F_c - F) / (F_c - F_0)) = -sigma way / F_c, weighted by what is left to F_c.

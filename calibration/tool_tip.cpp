@@ -1,12 +1,12 @@
 #include "calibration/tool_tip.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {
@@ -40,7 +40,7 @@ Vec6 algebraicPivot(const std::vector<Pose>& poses) {
     A += rows.transpose() * rows;
     b -= rows.transpose() * X.translation();
   }
-  return A.completeOrthogonalDecomposition().solve(b);
+  return minimumNorm(A, b);
 }
 
 /// Residuals in E, along the lever and across it, each divided by its spread.
@@ -142,8 +142,7 @@ TipCalibration calibrateTip(const std::vector<Pose>& X_DE, const TipLimits& limi
   tip.covariance = tip.fit.covariance.topLeftCorner<3, 3>();
   for (int k = 0; k < 3; ++k) tip.half95[k] = tip.fit.halfWidth95(k);
   tip.rms = pivot.rms(tip.fit);
-  const double worst =
-      std::sqrt(Eigen::SelfAdjointEigenSolver<Mat3>(tip.covariance).eigenvalues()[2]);
+  const double worst = std::sqrt(symmetricEigen(tip.covariance).values[2]);
   if (tip.rms > limits.largest_rms)
     throw Error(text("the tip wandered: it is %.1f mm rms away from one place", 1e3 * tip.rms),
                 kPivot,
@@ -177,8 +176,8 @@ struct Axes {
 Axes commonAxis(const std::vector<Pose>& poses) {
   Mat3 mean = Mat3::Zero();
   for (const Pose& X : poses) mean += X.linear();
-  const Eigen::JacobiSVD<Mat3> svd(mean, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  return {svd.matrixV().col(0), svd.matrixU().col(0)};
+  const SingularValues<3> singular = singularValues(mean);
+  return {singular.V.col(0), singular.U.col(0)};
 }
 
 /// The smallest arc that holds every angle of the spin.

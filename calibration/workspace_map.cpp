@@ -1,12 +1,11 @@
-#include "calibration/workspace_map.h"
+#include "calibration/registration.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <optional>
 
-#include "anatomy/geometry/error.h"
-#include "calibration/landmark_registration.h"
+#include "anatomy/base/error.h"
+#include "anatomy/geometry/dense_solvers.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {
@@ -138,8 +137,7 @@ void requirePoints(const std::vector<TouchedPoint>& points) {
   Mat3 spread = Mat3::Zero();
   for (const TouchedPoint& p : points)
     spread += (p.p_D - mean) * (p.p_D - mean).transpose() / static_cast<double>(points.size());
-  const Vec3 sizes =
-      Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvalues().cwiseMax(0).cwiseSqrt();
+  const Vec3 sizes = symmetricEigen(spread).values.cwiseMax(0).cwiseSqrt();
   if (sizes[0] < 0.1 * sizes[2])
     throw Error("the points lie in one plane: above and below it nothing would be known",
                 kWorkspace, "Touch the grid at two heights more");

@@ -21,7 +21,8 @@ pkg_check_modules(LIBUSB REQUIRED IMPORTED_TARGET libusb-1.0)
 find_path(IGTL_HEADERS igtlTransformMessage.h PATH_SUFFIXES openigtlink REQUIRED)
 find_library(IGTL_LIBRARY OpenIGTLink REQUIRED)
 add_library(OpenIGTLink::OpenIGTLink INTERFACE IMPORTED)
-target_include_directories(OpenIGTLink::OpenIGTLink INTERFACE ${IGTL_HEADERS})  # imported: warnings in them are not ours
+# Imported: warnings in its headers are not ours.
+target_include_directories(OpenIGTLink::OpenIGTLink INTERFACE ${IGTL_HEADERS})
 target_link_libraries(OpenIGTLink::OpenIGTLink INTERFACE ${IGTL_LIBRARY})
 find_package(VTK 9 REQUIRED COMPONENTS
   CommonCore CommonDataModel CommonMath CommonTransforms CommonExecutionModel

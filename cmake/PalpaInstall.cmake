@@ -1,4 +1,5 @@
-# What `cmake --install` puts where. The program finds its data beside itself (../share/palpa/assets), so the tree may be moved; the Debian package is this tree below /usr.
+# What `cmake --install` puts where. The program finds its data beside itself
+# (../share/palpa/assets), so the tree may be moved; the Debian package is this tree below /usr.
 include(GNUInstallDirs)
 set(made ${PROJECT_BINARY_DIR}/package)
 
@@ -10,13 +11,19 @@ add_custom_command(OUTPUT ${made}/palpa.1.gz ${made}/palpa.bash ${made}/changelo
   COMMAND palpa manual --completion > ${made}/palpa.bash
   COMMAND ${GZIP_PROGRAM} -9nc ${PROJECT_SOURCE_DIR}/CHANGELOG.md > ${made}/changelog.gz
   DEPENDS palpa ${PROJECT_SOURCE_DIR}/CHANGELOG.md VERBATIM)
-add_custom_target(palpa_manual ALL DEPENDS ${made}/palpa.1.gz ${made}/palpa.bash ${made}/changelog.gz)
+add_custom_target(palpa_manual ALL
+  DEPENDS ${made}/palpa.1.gz ${made}/palpa.bash ${made}/changelog.gz)
 
 install(TARGETS palpa RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
-install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/palpa/assets PATTERN pictures EXCLUDE PATTERN "*.sh" EXCLUDE)
+install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/palpa/assets
+  PATTERN pictures EXCLUDE
+  PATTERN "*.sh" EXCLUDE)
 install(FILES assets/udev/60-palpa-falcon.rules DESTINATION lib/udev/rules.d)
 install(FILES cmake/package/palpa.desktop DESTINATION ${CMAKE_INSTALL_DATADIR}/applications)
-install(FILES cmake/package/palpa.svg DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
+install(FILES cmake/package/palpa.svg
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/icons/hicolor/scalable/apps)
 install(FILES ${made}/palpa.1.gz DESTINATION ${CMAKE_INSTALL_MANDIR}/man1)
-install(FILES ${made}/palpa.bash DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME palpa)
-install(FILES cmake/package/copyright ${made}/changelog.gz DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/palpa)
+install(FILES ${made}/palpa.bash
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/bash-completion/completions RENAME palpa)
+install(FILES cmake/package/copyright ${made}/changelog.gz
+  DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/palpa)

@@ -14,14 +14,17 @@ if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
 endif()
 
-# Same binary, same seed, same bits: no fused multiply-add behind our back, no fast-math, no -march=native.
+# Same binary, same seed, same bits: no fused multiply-add behind our back, no
+# fast-math, no -march=native.
 add_compile_options(-ffp-contract=off)
 add_compile_options(-Wall -Wextra -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual)
 if(PALPA_WERROR)
   add_compile_options(-Werror)
 endif()
-# GCC gives memory back and asks for it again all the time; where that is slow (virtual machines) it takes a third of the build.
-set(PALPA_COMPILER_HEAP_MB 256 CACHE STRING "Memory that one run of GCC takes before it tidies up; times the number of jobs it must fit")
+# GCC gives memory back and asks for it again all the time; where that is slow (virtual machines) it
+# takes a third of the build.
+set(PALPA_COMPILER_HEAP_MB 256 CACHE STRING
+  "Memory that one run of GCC takes before it tidies up; times the number of jobs it must fit")
 if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
   math(EXPR heap_kB "${PALPA_COMPILER_HEAP_MB} * 1024")
   add_compile_options("SHELL:--param ggc-min-heapsize=${heap_kB}")
@@ -34,9 +37,10 @@ endif()
 find_program(CCACHE_PROGRAM ccache)
 if(CCACHE_PROGRAM)
   set(CMAKE_C_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
-  set(CMAKE_CXX_COMPILER_LAUNCHER ${CCACHE_PROGRAM})
+  set(CMAKE_CXX_COMPILER_LAUNCHER env CCACHE_SLOPPINESS=pch_defines,time_macros ${CCACHE_PROGRAM})
 endif()
-# Not mold: 1.10 lays out some programs so that the loader refuses them ("cannot apply additional memory protection after relocation").
+# Not mold: 1.10 lays out some programs so that the loader refuses them ("cannot apply additional
+# memory protection after relocation").
 find_program(LLD_PROGRAM ld.lld)
 if(LLD_PROGRAM)
   add_link_options(-fuse-ld=lld)

@@ -1,5 +1,7 @@
-# The Debian package: cmake/package.sh, or target `package` of a release build. What it needs to run is found by dpkg-shlibdeps; the rest is loaded by name while it runs.
-set(PALPA_MAINTAINER "Palpa <palpa@localhost.localdomain>" CACHE STRING "Who answers for the package that is built here: name and address")
+# The Debian package: cmake/package.sh, or target `package` of a release build. What it needs to run
+# is found by dpkg-shlibdeps; the rest is loaded by name while it runs.
+set(PALPA_MAINTAINER "Palpa <palpa@localhost.localdomain>" CACHE STRING
+  "Who answers for the package that is built here: name and address")
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME palpa)
 set(CPACK_PACKAGE_VERSION ${PROJECT_VERSION})
@@ -14,7 +16,8 @@ everything runs on a simulated bench.
 .
 Not a medical device: it has not been validated on people.")
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
-set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
+set(CPACK_INSTALL_DEFAULT_DIRECTORY_PERMISSIONS
+  OWNER_READ OWNER_WRITE OWNER_EXECUTE GROUP_READ GROUP_EXECUTE WORLD_READ WORLD_EXECUTE)
 set(CPACK_STRIP_FILES ON)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
@@ -22,7 +25,8 @@ set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core, libgl1-mesa-dri")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "xdg-utils")   # opens the console in the browser
 set(CPACK_DEBIAN_PACKAGE_SUGGESTS "www-browser")
-set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA ${PROJECT_SOURCE_DIR}/cmake/package/postinst ${PROJECT_SOURCE_DIR}/cmake/package/postrm)
+set(CPACK_DEBIAN_PACKAGE_CONTROL_EXTRA
+  ${PROJECT_SOURCE_DIR}/cmake/package/postinst ${PROJECT_SOURCE_DIR}/cmake/package/postrm)
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
 include(CPack)

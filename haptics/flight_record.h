@@ -5,10 +5,21 @@
 #include <type_traits>
 
 #include "anatomy/geometry/local_geometry.h"
+#include "anatomy/geometry/pose.h"
 #include "haptics/device.h"
-#include "haptics/placed_lumps.h"
 
 namespace palpa::haptics {
+
+inline constexpr int kMostLumps = 6, kMostLumpKinds = 8;
+
+/// A virtual lump of one of a session's kinds, at a place.
+struct PlacedLump {
+  Packed3 p_T0{};          ///< m, where it rests
+  std::uint32_t kind = 0;  ///< 1 to kMostLumpKinds; else there is none
+  std::uint32_t reserved = 0;
+};
+using PlacedLumps = std::array<PlacedLump, kMostLumps>;
+static_assert(std::is_trivially_copyable_v<PlacedLumps>);
 
 /// Where the needle is in the manoeuvre, as the contact model knows it.
 enum class NeedlePhase : std::uint8_t { outside, indenting, inserted };

@@ -8,7 +8,7 @@
 
 #include "anatomy/geometry/pose.h"
 #include "anatomy/patient.h"
-#include "anatomy/skin_dimple.h"
+#include "anatomy/query/skin_dimple.h"
 
 /// Everything the scene needs for one frame: plain numbers and pixels, no devices, no trackers.
 namespace palpa::scene {

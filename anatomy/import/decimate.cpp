@@ -10,10 +10,9 @@
 #include <cmath>
 
 #include "anatomy/import/repair.h"
-#include "anatomy/import/surface_check.h"
 #include "anatomy/import/surface_topology.h"
+#include "anatomy/query/triangle_tree.h"
 #include "anatomy/shapes/mesh_tools.h"
-#include "anatomy/triangle_tree.h"
 
 namespace palpa::anatomy {
 namespace {

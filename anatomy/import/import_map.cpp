@@ -4,7 +4,7 @@
 #include <iterator>
 #include <set>
 
-#include "anatomy/import/json_fields.h"
+#include "anatomy/base/json_fields.h"
 
 namespace palpa::anatomy {
 namespace {

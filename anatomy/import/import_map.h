@@ -6,8 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "anatomy/import/axes.h"
-#include "anatomy/import/unit.h"
+#include "anatomy/import/units_and_axes.h"
 #include "anatomy/patient.h"
 
 namespace palpa::anatomy {

@@ -3,7 +3,7 @@
 #include "anatomy/import/decimate.h"
 #include "anatomy/import/import_map.h"
 #include "anatomy/import/repair.h"
-#include "anatomy/import/surface_check.h"
+#include "anatomy/import/surface_topology.h"
 
 namespace palpa::anatomy {
 

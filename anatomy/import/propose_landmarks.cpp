@@ -1,10 +1,11 @@
 #include "anatomy/import/propose_landmarks.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
+
+#include "anatomy/geometry/dense_solvers.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -63,7 +64,7 @@ LongAxis longAxisOf(const TriangleMesh& mesh, double midplane) {
   eachTriangle([&](const Vec3& centre, double weight) {
     spread += weight * (centre - mean) * (centre - mean).transpose();
   });
-  LongAxis axis{mean, Eigen::SelfAdjointEigenSolver<Mat3>(spread).eigenvectors().col(2)};
+  LongAxis axis{mean, symmetricEigen(spread).vectors.col(2)};
   if (std::abs(mean.x() + 0.05 * axis.direction.x() - midplane) <
       std::abs(mean.x() - 0.05 * axis.direction.x() - midplane))
     axis.direction = -axis.direction;

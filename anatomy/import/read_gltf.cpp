@@ -1,7 +1,7 @@
 #include <Eigen/Geometry>
 
-#include "anatomy/gltf_container.h"
-#include "anatomy/import/readers.h"
+#include "anatomy/import/mesh_file.h"
+#include "anatomy/patient/gltf.h"
 
 namespace palpa::anatomy {
 namespace {

@@ -1,6 +1,6 @@
 #include <optional>
 
-#include "anatomy/import/readers.h"
+#include "anatomy/import/mesh_file.h"
 
 namespace palpa::anatomy {
 namespace {

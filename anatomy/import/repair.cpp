@@ -3,9 +3,8 @@
 #include <map>
 #include <set>
 
-#include "anatomy/import/close_ring.h"
 #include "anatomy/import/surface_topology.h"
-#include "anatomy/import/unit.h"
+#include "anatomy/import/units_and_axes.h"
 #include "anatomy/import/weld.h"
 
 namespace palpa::anatomy {

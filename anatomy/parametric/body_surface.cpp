@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/shapes/implicit_surface.h"
 #include "anatomy/shapes/root.h"
 #include "anatomy/shapes/spline.h"
-#include "anatomy/shapes/surface_nets.h"
 
 namespace palpa::anatomy {
 namespace {

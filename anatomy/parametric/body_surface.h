@@ -1,7 +1,7 @@
 #pragma once
 
+#include "anatomy/parametric/bones.h"
 #include "anatomy/parametric/build.h"
-#include "anatomy/parametric/clavicle.h"
 
 namespace palpa::anatomy {
 

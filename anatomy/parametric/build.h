@@ -1,6 +1,6 @@
 #pragma once
 
-#include "anatomy/parametric_patient.h"
+#include "anatomy/parametric/parametric_patient.h"
 
 namespace palpa::anatomy {
 
@@ -35,5 +35,26 @@ struct Build {
 };
 
 Build buildOf(const PatientParameters& parameters);
+
+}  // namespace palpa::anatomy
+
+/// The parametric shapes are written in frame B, in **millimetres**, as anatomy books give them:
+/// +x = l lateral (toward the punctured side), +y posterior, +z superior, origin at the
+/// suprasternal notch. For the left side B is A in millimetres; for the right side x is mirrored.
+namespace palpa::anatomy {
+
+inline Vec3 fromB(const Vec3& p_B_mm, Side side) {
+  const double sign = side == Side::left ? 1 : -1;
+  return 1e-3 * Vec3(sign * p_B_mm.x(), p_B_mm.y(), p_B_mm.z());
+}
+
+/// Mesh in B (mm) to A (m); a mirrored mesh is turned so that it still faces outward.
+TriangleMesh fromB(const TriangleMesh& mesh_B_mm, Side side);
+
+/// How skin, fat and muscle together go with the vein's depth, mm. All [chosen]: the vein lies in
+/// loose tissue behind the muscle, and from person to person the layers vary less at the entry,
+/// where the muscle thins out, than at the window.
+inline double softAtWindow(double vein_depth) { return 0.92 * vein_depth - 2; }
+inline double softAtEntry(double at_window) { return 6.5 + 0.58 * at_window; }
 
 }  // namespace palpa::anatomy

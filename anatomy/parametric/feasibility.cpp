@@ -4,10 +4,18 @@
 #include <cmath>
 #include <optional>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/parametric/soft_tissue.h"
+#include "anatomy/base/error.h"
+#include "anatomy/parametric/build.h"
+#include "anatomy/shapes/mesh_tools.h"
 
 namespace palpa::anatomy {
+
+TriangleMesh fromB(const TriangleMesh& mesh_B_mm, Side side) {
+  TriangleMesh mesh = mesh_B_mm;
+  for (Vec3& p : mesh.points) p = fromB(p, Side::left);
+  return side == Side::left ? mesh : mirroredMesh(std::move(mesh));
+}
+
 namespace {
 
 constexpr double kDepthError = 0.02;  // mm, of the fields

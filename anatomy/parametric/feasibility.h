@@ -1,7 +1,7 @@
 #pragma once
 
+#include "anatomy/parametric/parametric_patient.h"
 #include "anatomy/parametric/vessels.h"
-#include "anatomy/parametric_patient.h"
 
 namespace palpa::anatomy {
 

@@ -1,11 +1,10 @@
-#include "anatomy/parametric/muscles.h"
+#include "anatomy/parametric/thorax.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "anatomy/parametric/thorax.h"
-#include "anatomy/shapes/sheet.h"
+#include "anatomy/shapes/mesh_tools.h"
 #include "anatomy/shapes/spline.h"
 
 namespace palpa::anatomy {

@@ -6,7 +6,7 @@
 #include <limits>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "anatomy/shapes/root.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "anatomy/parametric/body_surface.h"
-#include "anatomy/triangle_tree.h"
+#include "anatomy/query/triangle_tree.h"
 
 namespace palpa::anatomy {
 

@@ -1,6 +1,7 @@
 #pragma once
 
-#include "anatomy/parametric/ribs.h"
+#include "anatomy/parametric/body_surface.h"
+#include "anatomy/parametric/bones.h"
 #include "anatomy/parametric/vessels.h"
 
 namespace palpa::anatomy {
@@ -31,5 +32,18 @@ Vec3 coracoid(const Clavicle& clavicle);  ///< its tip
 TriangleMesh makeLung(const Vessels& vessels, const std::vector<Rib>& ribs, const Build& build,
                       double sign, double shift_y, double groove_mm,
                       const Eigen::AlignedBox3d& part = {});
+
+/// Muscles of the +l side that the needle may meet (frame B, mm), closed.
+
+/// A fan under the skin and fat, from the clavicle's medial half and the sternum to the upper arm;
+/// between its rounded borders as thick as the muscle layer.
+TriangleMesh makePectoralisMajor(const BodySurface& skin, const Clavicle& clavicle);
+
+/// From the third to fifth rib near their cartilages to the coracoid.
+TriangleMesh makePectoralisMinor(const BodySurface& skin, const Clavicle& clavicle,
+                                 const Build& build);
+
+/// From the first rib's cartilage to the clavicle's lower side.
+TriangleMesh makeSubclavius(const BodySurface& skin, const Clavicle& clavicle);
 
 }  // namespace palpa::anatomy

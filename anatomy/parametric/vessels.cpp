@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/shapes/implicit_surface.h"
 #include "anatomy/shapes/spline.h"
-#include "anatomy/shapes/surface_nets.h"
 
 namespace palpa::anatomy {
 namespace {

@@ -1,10 +1,10 @@
-#include "anatomy/volume/clavicles.h"
+#include "anatomy/volume/segmentation.h"
 
-#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/volume/voxel_path.h"
+#include "anatomy/geometry/dense_solvers.h"
+#include "anatomy/volume/scan.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -22,7 +22,7 @@ struct Shape {
   Vec3 low = Vec3::Constant(1e9), high = Vec3::Constant(-1e9);
 };
 
-std::vector<Shape> shapesOf(const Scan& scan, const Pieces& pieces) {
+std::vector<Shape> shapesOf(const Scan& scan, const VoxelPieces& pieces) {
   std::vector<Shape> shapes(pieces.voxels.size());
   std::vector<Mat3> second(shapes.size(), Mat3::Zero());
   for (std::size_t n = 0; n < pieces.label.size(); ++n) {
@@ -39,9 +39,9 @@ std::vector<Shape> shapesOf(const Scan& scan, const Pieces& pieces) {
     const double count = static_cast<double>(shapes[i].voxels);
     shapes[i].mean /= count;
     const Mat3 covariance = second[i] / count - shapes[i].mean * shapes[i].mean.transpose();
-    const Eigen::SelfAdjointEigenSolver<Mat3> eigen(covariance);
-    shapes[i].spread = eigen.eigenvalues().reverse().cwiseMax(0).cwiseSqrt();
-    shapes[i].along = eigen.eigenvectors().col(2);
+    const SymmetricEigen<3> eigen = symmetricEigen(covariance);
+    shapes[i].spread = eigen.values.reverse().cwiseMax(0).cwiseSqrt();
+    shapes[i].along = eigen.vectors.col(2);
   }
   return shapes;
 }
@@ -58,7 +58,7 @@ bool looksLikeClavicle(const Shape& s, double midline, double body_middle_y) {
 
 /// All bone at one threshold, and which piece of it is meant.
 struct Choice {
-  Pieces pieces;
+  VoxelPieces pieces;
   int piece = 0;
 };
 
@@ -81,7 +81,7 @@ class Search {
   }
 
  private:
-  Pieces piecesAt(int step) const {
+  VoxelPieces piecesAt(int step) const {
     const double soft = scan_.levels.soft, bone = scan_.levels.bone;
     const double level = bone + (kHighest - 1) * (bone - soft) * step / (kThresholds - 1);
     Mask mask = scan_.above(level);
@@ -124,7 +124,7 @@ class Search {
     return loosest;
   }
 
-  int pieceNear(const Pieces& pieces, const Vec3& seed_S) const {
+  int pieceNear(const VoxelPieces& pieces, const Vec3& seed_S) const {
     const Index3 at = scan_.cellAt(seed_S);
     int found = 0;
     double nearest = kSeedReach;

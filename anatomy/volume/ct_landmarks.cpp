@@ -1,4 +1,4 @@
-#include "anatomy/volume/ct_landmarks.h"
+#include "anatomy/volume/ct_patient.h"
 
 #include <algorithm>
 #include <cmath>
@@ -6,8 +6,8 @@
 #include <limits>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/surface_query.h"
+#include "anatomy/base/error.h"
+#include "anatomy/query/surface_query.h"
 #include "anatomy/volume/seed_file.h"
 
 namespace palpa::anatomy {

@@ -4,9 +4,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/volume/ct_landmarks.h"
-#include "anatomy/volume/envelope.h"
+#include "anatomy/base/error.h"
+#include "anatomy/volume/segmentation.h"
 
 namespace palpa::anatomy {
 namespace {

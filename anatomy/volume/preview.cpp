@@ -1,4 +1,4 @@
-#include "anatomy/volume/preview.h"
+#include "anatomy/volume/ct_patient.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 #include <cstring>
 #include <limits>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::anatomy {
 namespace {

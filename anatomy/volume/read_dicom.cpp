@@ -11,9 +11,9 @@
 #include <map>
 #include <string_view>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "anatomy/volume/raw_voxels.h"
-#include "anatomy/volume/readers.h"
+#include "anatomy/volume/volume.h"
 
 namespace palpa::anatomy {
 namespace {

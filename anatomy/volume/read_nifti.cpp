@@ -3,9 +3,9 @@
 #include <cmath>
 #include <map>
 
-#include "anatomy/import/byte_reader.h"
+#include "anatomy/base/bytes.h"
 #include "anatomy/volume/raw_voxels.h"
-#include "anatomy/volume/readers.h"
+#include "anatomy/volume/volume.h"
 
 namespace palpa::anatomy {
 namespace {

@@ -1,4 +1,4 @@
-#include "anatomy/volume/ribs.h"
+#include "anatomy/volume/segmentation.h"
 
 #include <algorithm>
 #include <cmath>
@@ -162,7 +162,7 @@ class RibCage {
 
 void addRibs(const Scan& scan, const Mask& ribs, const std::vector<LabelledOrgan>& lungs,
              double midline_x, std::vector<LabelledOrgan>* organs) {
-  const Pieces pieces = piecesOf(scan.grid, ribs);
+  const VoxelPieces pieces = piecesOf(scan.grid, ribs);
   std::vector<std::vector<std::size_t>> voxels(pieces.voxels.size());
   for (std::size_t n = 0; n < ribs.size(); ++n)
     if (pieces.label[n]) voxels[static_cast<std::size_t>(pieces.label[n])].push_back(n);

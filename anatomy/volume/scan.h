@@ -44,4 +44,24 @@ struct Scan {
 };
 Scan prepareScan(const Volume& volume, const Levels& levels);
 
+/// The way from voxel to voxel (26 neighbours) whose sum of length times `cost` is least (Dijkstra
+/// 1959); cost > 0, in [1/m] of no meaning, infinite where no way may lead. Empty when there is
+/// none.
+std::vector<std::size_t> cheapestPath(const VoxelGrid& grid, const Values& cost, std::size_t from,
+                                      std::size_t to);
+
+/// Points of a path in S, rounded by a running mean over `reach` metres to either side, about 2 mm
+/// apart; ends stay.
+std::vector<Vec3> smoothLine(const std::vector<Vec3>& points, double reach);
+
+/// Line through the middle of a long piece, from end to end: between the two voxels whose way
+/// inside it is longest, by the way that keeps off its border. Needs a non-empty mask of one piece.
+std::vector<Vec3> centreLine(const Scan& scan, const Mask& mask);
+
+/// A sentence with the option to give when the volume seems to lie otherwise than its header says;
+/// empty otherwise. Looked at: the bone near the midline (spine) lies behind the body's middle;
+/// beside it there is more bone at the shoulders' end than at the other. Either must be clear (3
+/// mm; a factor of 1.6) to be said.
+std::string probableFlip(const Volume& volume, const Levels& levels);
+
 }  // namespace palpa::anatomy

@@ -6,9 +6,9 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
-#include "anatomy/import/byte_reader.h"
+#include "anatomy/base/bytes.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::anatomy {
 namespace {

@@ -1,11 +1,11 @@
-#include "anatomy/volume/vein.h"
+#include "anatomy/volume/segmentation.h"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/volume/voxel_path.h"
+#include "anatomy/base/error.h"
+#include "anatomy/volume/scan.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -187,7 +187,7 @@ class VeinSearch {
   const Scan& scan_;
   Mask dense_;
   Values depth_;
-  Pieces cores_;
+  VoxelPieces cores_;
 };
 
 }  // namespace

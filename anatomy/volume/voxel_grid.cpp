@@ -174,8 +174,8 @@ Values blurred(const VoxelGrid& grid, Values values, double sigma) {
   return values;
 }
 
-Pieces piecesOf(const VoxelGrid& grid, const Mask& mask) {
-  Pieces pieces{std::vector<std::int32_t>(mask.size(), 0), {0}};
+VoxelPieces piecesOf(const VoxelGrid& grid, const Mask& mask) {
+  VoxelPieces pieces{std::vector<std::int32_t>(mask.size(), 0), {0}};
   std::vector<std::size_t> stack;
   for (std::size_t first = 0; first < mask.size(); ++first) {
     if (!mask[first] || pieces.label[first]) continue;
@@ -201,7 +201,7 @@ Pieces piecesOf(const VoxelGrid& grid, const Mask& mask) {
 }
 
 Mask largestPiece(const VoxelGrid& grid, const Mask& mask) {
-  const Pieces pieces = piecesOf(grid, mask);
+  const VoxelPieces pieces = piecesOf(grid, mask);
   const auto most =
       std::max_element(pieces.voxels.begin(), pieces.voxels.end()) - pieces.voxels.begin();
   Mask out(mask.size(), 0);
@@ -223,7 +223,7 @@ Mask filled(const VoxelGrid& grid, const Mask& mask, bool by_slices) {
         fillSlice(grid, mask, axis, slice, &out);
     return out;
   }
-  const Pieces outside = piecesOf(grid, inverted(mask));
+  const VoxelPieces outside = piecesOf(grid, inverted(mask));
   std::vector<bool> open(outside.voxels.size(), false);
   for (std::size_t n = 0; n < mask.size(); ++n)
     if (outside.label[n] && grid.atBorder(grid.cell(n)))

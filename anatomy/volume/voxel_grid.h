@@ -66,11 +66,11 @@ Mask inverted(const Mask& mask);
 Values blurred(const VoxelGrid& grid, Values values, double sigma);
 
 /// Pieces joined by faces, numbered from 1 in order of their first voxel; 0 outside the mask.
-struct Pieces {
+struct VoxelPieces {
   std::vector<std::int32_t> label;
   std::vector<std::size_t> voxels;  ///< how many each has; [0] is nothing
 };
-Pieces piecesOf(const VoxelGrid& grid, const Mask& mask);
+VoxelPieces piecesOf(const VoxelGrid& grid, const Mask& mask);
 
 /// The largest piece (the first of equals); all zero for an empty mask.
 Mask largestPiece(const VoxelGrid& grid, const Mask& mask);

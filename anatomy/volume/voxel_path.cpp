@@ -1,4 +1,4 @@
-#include "anatomy/volume/voxel_path.h"
+#include "anatomy/volume/scan.h"
 
 #include <algorithm>
 #include <cmath>

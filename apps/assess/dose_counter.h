@@ -6,7 +6,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/assess/subtask_dose.h"
+#include "apps/assess/trial.h"
 #include "haptics/augmentation/augmentation.h"
 #include "haptics/flight_record.h"
 

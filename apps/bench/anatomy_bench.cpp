@@ -1,18 +1,18 @@
-#include "apps/bench/anatomy_bench.h"
+#include "apps/bench/bench.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "anatomy/parametric_patient.h"
-#include "anatomy/skin_dimple.h"
-#include "anatomy/surface_query.h"
-#include "apps/bench/bumpy_torso.h"
+#include "anatomy/base/random.h"
+#include "anatomy/parametric/parametric_patient.h"
+#include "anatomy/query/skin_dimple.h"
+#include "anatomy/query/surface_query.h"
+#include "apps/bench/bench_patients.h"
 #include "apps/bench/metric.h"
 #include "apps/bench/point_locators.h"
-#include "apps/bench/query_timing.h"
+#include "apps/bench/timing.h"
 #include "apps/runtime/clock.h"
-#include "apps/runtime/random.h"
 #include "apps/station/assets.h"
 
 namespace palpa::bench {

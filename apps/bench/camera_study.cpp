@@ -1,11 +1,10 @@
-#include "apps/bench/camera_study.h"
+#include "apps/bench/estimator_studies.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <string>
 
-#include "apps/bench/study_draws.h"
 #include "calibration/camera_calibration.h"
 #include "calibration/rotation.h"
 

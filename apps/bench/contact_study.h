@@ -3,9 +3,9 @@
 #include <vector>
 
 #include "apps/bench/phantom_recording.h"
-#include "calibration/soft_contact.h"
-#include "calibration/surface_friction.h"
-#include "haptics/stiffness_modulation.h"
+#include "calibration/contact_laws.h"
+#include "haptics/materials/force_laws.h"
+#include "haptics/modulation/modulation.h"
 
 namespace palpa::bench {
 
@@ -60,5 +60,18 @@ StiffnessFigures stiffnessFigures(const KnownPhantom& known, const TouchRun& run
 /// that has it.
 double frictionModulationError(const KnownPhantom& known, const twin::PhantomTable& phantom,
                                const std::vector<TouchRun>& runs);
+
+/// An object of simulated silicone between two tools, lifted free of its support and squeezed: its
+/// weight hangs on both, and where the line between them is tilted the lower tool presses deeper.
+struct SqueezeCase {
+  double mass = 0;       ///< kg
+  double tilt = 0;       ///< rad, of the line between the tools against the horizontal
+  double factor = 1;     ///< of the true stiffness
+  bool swapped = false;  ///< the tools' numbers
+};
+/// The hands' forces against k~ x on both, k~ = factor f_true(x)/x at the mean depth, with the true
+/// weight: rms over rms.
+double squeezeError(const twin::PhantomTable& side, const haptics::HuntCrossley& known,
+                    const SqueezeCase& squeeze);
 
 }  // namespace palpa::bench

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "anatomy/triangle_distance.h"
+#include "anatomy/query/triangle_distance.h"
 
 namespace palpa::bench {
 namespace {

@@ -3,15 +3,13 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/bench/camera_study.h"
-#include "apps/bench/study_draws.h"
+#include "anatomy/base/units.h"
 #include "calibration/clock_offset.h"
 #include "calibration/force_sensor.h"
 #include "calibration/hand_eye.h"
-#include "calibration/landmark_registration.h"
+#include "calibration/registration.h"
 #include "calibration/rotation.h"
 #include "calibration/tool_tip.h"
-#include "calibration/workspace_map.h"
 
 namespace palpa::bench {
 namespace {
@@ -205,7 +203,7 @@ EstimateCheck clocks(std::uint64_t seed, double outliers) {
 
 EstimateCheck forceSensor(std::uint64_t seed, double outliers) {
   constexpr int kReadings = 30;
-  constexpr double kForce = 0.02, kTorque = 0.001, kGravity = 9.80665;
+  constexpr double kForce = 0.02, kTorque = 0.001;
   Random random(seed, "study.force");
   const std::vector<bool> gross = grossErrors(random, kReadings, outliers);
   VectorX x(10);

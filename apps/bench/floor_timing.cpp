@@ -1,12 +1,12 @@
-#include "apps/bench/floor_timing.h"
+#include "apps/bench/search_floor.h"
 
 #include <bit>
 #include <cmath>
 #include <numbers>
 
+#include "anatomy/base/quantile.h"
+#include "anatomy/base/random.h"
 #include "apps/runtime/clock.h"
-#include "apps/runtime/quantile.h"
-#include "apps/runtime/random.h"
 #include "apps/station/assets.h"
 
 namespace palpa::bench {

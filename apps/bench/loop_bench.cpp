@@ -1,15 +1,14 @@
-#include "apps/bench/loop_bench.h"
+#include "apps/bench/bench.h"
 
 #include <array>
 #include <cmath>
 #include <limits>
 
-#include "anatomy/geometry/error.h"
-#include "apps/bench/bumpy_torso.h"
+#include "anatomy/base/error.h"
+#include "apps/bench/bench_patients.h"
 #include "apps/bench/loop_segment.h"
 #include "apps/bench/metric.h"
-#include "apps/bench/onlookers.h"
-#include "apps/bench/paired.h"
+#include "apps/bench/timing.h"
 
 namespace palpa::bench {
 namespace {

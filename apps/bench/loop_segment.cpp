@@ -1,13 +1,124 @@
 #include "apps/bench/loop_segment.h"
 
-#include <thread>
+#include <unistd.h>
 
-#include "apps/bench/led_device.h"
+#include <algorithm>
+#include <cmath>
+#include <thread>
+#include <utility>
+
+#include "apps/bench/bench_patients.h"
+#include "apps/bench/stroke.h"
+#include "apps/os/local_socket.h"
+#include "apps/os/real_time.h"
+#include "apps/runtime/clock.h"
 #include "apps/runtime/executive.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/haptic_activity.h"
+#include "scene/view/scene_view.h"
 
 namespace palpa::bench {
+
+LoopTimes runBareLoop(std::int64_t period_ns, std::int64_t length_ns, int cpu) {
+  LoopTimes times;
+  const os::MemoryLock memory;
+  times.scheduling = os::becomeRealTime(cpu) + "; " + memory.words();
+  const runtime::SteadyClock clock;
+  std::int64_t due = clock.now();
+  for (const std::int64_t end = due + length_ns; due < end;) {
+    clock.sleepUntil(due);
+    const std::int64_t now = clock.now();
+    times.late.add(now - due);
+    times.missed += now - due > period_ns;
+    due = std::max(due + period_ns, now);
+  }
+  return times;
+}
+
+namespace {
+
+constexpr std::int64_t kPicture = 66'000'000;  // ns, as a session tells them
+
+}  // namespace
+
+Onlookers::Onlookers(int pages)
+    : path_(os::socketFolder() + "/bench-" + std::to_string(::getpid()) + ".sock"),
+      port_(path_, log_, [](const std::string&) {}),
+      link_(path_) {
+  for (int i = 0; i < pages; ++i) pages_.emplace_back([this] { look(); });
+}
+
+Onlookers::~Onlookers() {
+  ending_ = true;
+  for (std::thread& page : pages_) page.join();
+}
+
+void Onlookers::show(scene::Image picture) {
+  next_ns_ = clock_.now() + kPicture;
+  port_.offer(std::move(picture));
+  log_.addCurve(
+      R"({"kind":"curve","t_s":[1.02,1.04,1.06],"force_N":[0.51,0.52,0.53],"depth_mm":[12.1,12.2,12.3]})");
+}
+
+void Onlookers::look() {
+  os::giveWay();
+  std::string page;
+  for (std::uint64_t last = 0; !ending_;) {
+    const console::SessionLink::Picture picture =
+        link_.picture(last, std::chrono::milliseconds(200));
+    if (!picture.jpeg) continue;
+    last = picture.number;
+    page = *picture.jpeg;
+    ++pictures_;
+  }
+}
+
+namespace {
+
+constexpr std::int64_t kFrame = 33'333'333;
+
+void paint(scene::Image& image, int frame) {
+  for (std::size_t i = 0; i < image.pixels.size(); ++i)
+    image.pixels[i] = static_cast<std::uint8_t>(i / 96 + static_cast<std::size_t>(frame));
+}
+
+}  // namespace
+
+struct SceneLoad::Impl {
+  anatomy::Patient patient = referenceBust();
+  scene::ViewLayout layout;
+  std::unique_ptr<scene::GlContextProvider> context =
+      scene::makeGlContext(scene::Display::offscreen, layout.width, layout.height, "Palpa");
+  scene::SceneView view{*context, patient, layout};
+  scene::Image picture{640, 480, 3, std::vector<std::uint8_t>(640 * 480 * 3)};
+  scene::SceneState state;
+  int frames = 0;
+};
+
+SceneLoad::SceneLoad() : impl_(std::make_unique<Impl>()) {}
+SceneLoad::~SceneLoad() = default;
+int SceneLoad::frames() const { return impl_->frames; }
+std::string SceneLoad::drawnOn() const { return impl_->context->describe(); }
+
+std::int64_t SceneLoad::step(std::int64_t now_ns) {
+  Impl& own = *impl_;
+  const Vec3 entry_A = own.patient.landmark(anatomy::landmark::kEntry);
+  const double sway = std::sin(1e-9 * static_cast<double>(now_ns));
+  paint(own.picture, own.frames);
+  own.state.picture = &own.picture;
+  own.state.registered = true;
+  own.state.X_CA = lookAt(entry_A + Vec3(0.02 * sway, -0.45, 0.10), entry_A);
+  own.state.X_AT = makePose(Quat(Eigen::AngleAxisd(-1.2, Vec3::UnitX())).toRotationMatrix(),
+                            entry_A + Vec3(0, 0.01 * sway, 0));
+  own.state.forces = {
+      {scene::ForceKind::reaction, own.state.X_AT.translation(), Vec3(0, -1 - sway, 0)}};
+  own.state.hud.force = std::to_string(1 + sway) + " N";
+  own.view.show(own.state);
+  if (onlookers_ && onlookers_->wantPicture()) onlookers_->show(own.view.capture());
+  ++own.frames;
+  return now_ns + kFrame;
+}
+
 namespace {
 
 using runtime::kMillisecond;

@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "calibration/lump_contact.h"
-#include "haptics/tick_pair.h"
+#include "calibration/contact_laws.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::bench {
 namespace {

@@ -1,9 +1,9 @@
 #pragma once
 
 #include "apps/bench/contact_study.h"
-#include "apps/bench/query_timing.h"
+#include "apps/bench/timing.h"
 #include "apps/twin/phantom/phantom_file.h"
-#include "haptics/touch_augmentation.h"
+#include "haptics/modulation/touch_augmentation.h"
 
 namespace palpa::bench {
 

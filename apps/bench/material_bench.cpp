@@ -1,15 +1,14 @@
-#include "apps/bench/material_bench.h"
+#include "apps/bench/bench.h"
 
 #include <algorithm>
 #include <map>
 #include <numbers>
 #include <string>
 
-#include "apps/bench/grip_study.h"
+#include "apps/bench/contact_study.h"
 #include "apps/bench/hand_study.h"
 #include "apps/bench/lump_study.h"
 #include "apps/bench/metric.h"
-#include "apps/bench/squeeze_study.h"
 #include "apps/station/assets.h"
 
 namespace palpa::bench {

@@ -2,12 +2,47 @@
 
 #include <array>
 #include <cstdint>
+#include <utility>
 #include <vector>
 
-#include "apps/bench/led_pair.h"
+#include "apps/twin/device_twin.h"
+#include "apps/twin/hand_motion.h"
 #include "apps/twin/phantom/phantom_twin.h"
+#include "haptics/sensors/wrench_filter.h"
 
 namespace palpa::bench {
+
+/// A tool's tip and the reaction on it, as a station knows them: a device's encoders; a sensor on
+/// its last link that carries the tool, whose mass was identified to 1 % and whose bias to 5 mN
+/// [chosen]. Both through one low-pass, so that they are late by the same.
+class SensedTouch {
+ public:
+  explicit SensedTouch(std::uint64_t seed, const twin::DeviceTruth& device = {});
+  /// The next tick: measured tip, m, and reaction, N, in P. The tool stands upright.
+  std::pair<Vec3, Vec3> feel(const Vec3& true_tip, const Vec3& f_touch, double dt);
+
+ private:
+  twin::DeviceTruth device_;
+  twin::SensorTwin sensor_;
+  haptics::WrenchFilter filter_;
+  haptics::WrenchFilterState state_;
+  std::int64_t t_ns_ = 0;
+};
+
+/// Two tools that keep side by side along x, `apart` from each other, the first beyond: led to the
+/// same places in the same time, each to its own depth, m. They start above the surface.
+class LedPair {
+ public:
+  LedPair(double shift, double apart);
+  /// `shift`: of the middle between them.
+  LedPair& go(double shift, const std::array<double, 2>& depths, double seconds, double hold = 0);
+  double duration() const { return tips_[0].duration(); }
+  std::array<Vec3, 2> at(double t) const { return {tips_[0].at(t), tips_[1].at(t)}; }
+
+ private:
+  double half_;
+  std::array<twin::LedTip, 2> tips_;
+};
 
 /// How the phantom is felt: as it is, or through a device's encoders and a force sensor that
 /// carries a tool.

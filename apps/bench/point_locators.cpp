@@ -7,7 +7,7 @@
 #include <vtkPolyData.h>
 #include <vtkStaticCellLocator.h>
 
-#include "anatomy/triangle_tree.h"
+#include "anatomy/query/triangle_tree.h"
 
 namespace palpa::bench {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/bench/render_bench.h"
+#include "apps/bench/bench.h"
 
 #include <vtkCamera.h>
 #include <vtkImageData.h>
@@ -13,16 +13,16 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "apps/bench/bench_patients.h"
 #include "apps/bench/metric.h"
-#include "apps/bench/query_timing.h"
-#include "apps/bench/reference_bust.h"
+#include "apps/bench/timing.h"
 #include "apps/bench/tracking_scene.h"
-#include "ar/board_tracker.h"
-#include "scene/ar_camera.h"
-#include "scene/organ_actors.h"
+#include "ar/tracking/board_tracker.h"
+#include "scene/actors/organ_actors.h"
 #include "scene/renderer_setup.h"
-#include "scene/scene_view.h"
-#include "scene/window_pixels.h"
+#include "scene/view/ar_camera.h"
+#include "scene/view/scene_view.h"
+#include "scene/window/pixels.h"
 
 namespace palpa::bench {
 namespace {

@@ -2,8 +2,10 @@
 
 #include <vector>
 
-#include "anatomy/local_geometry_builder.h"
-#include "haptics/tick.h"
+#include "anatomy/query/local_geometry_builder.h"
+#include "apps/runtime/bus.h"
+#include "apps/runtime/device_adapters.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::bench {
 
@@ -29,5 +31,34 @@ struct StrokeResult {
 };
 StrokeResult runStroke(const StrokeSettings& settings,
                        const anatomy::LocalGeometryBuilder& builder);
+
+/// A device that is led along a stroke: its reading at `now_ns`.
+class LedDevice {
+ public:
+  LedDevice(const StrokeSettings& stroke, runtime::ChannelDevice& device)
+      : stroke_(stroke), device_(device) {}
+  haptics::DeviceReading lead(std::int64_t now_ns);
+
+ private:
+  StrokeSettings stroke_;
+  runtime::ChannelDevice& device_;
+  std::uint64_t sequence_ = 0;
+};
+
+/// Lets the haptic loop render: what a task would say when a trial runs.
+void arm(runtime::Bus& bus);
+
+/// Takes off the bus what recorder and task would; records and snapshots go to `result` where there
+/// is one. Returns how many of the ticks felt a contact.
+std::uint64_t drain(runtime::Bus& bus, StrokeResult* result);
+
+struct TickTiming {
+  double median_us = 0, p99_us = 0;
+};
+
+/// The recorded stroke run through the tick again, as fast as it goes: mean of 16 ticks at a time.
+TickTiming timeHot(const StrokeSettings& settings, const StrokeResult& stroke, int ticks);
+/// The same, one tick a millisecond, each timed alone: caches have cooled in between.
+TickTiming timePaced(const StrokeSettings& settings, const StrokeResult& stroke, double seconds);
 
 }  // namespace palpa::bench

@@ -1,4 +1,4 @@
-#include "apps/bench/study_draws.h"
+#include "apps/bench/estimator_studies.h"
 
 #include <cmath>
 #include <numbers>

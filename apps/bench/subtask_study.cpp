@@ -1,13 +1,13 @@
-#include "apps/bench/subtask_study.h"
+#include "apps/bench/search_floor.h"
 
 #include <algorithm>
 #include <cmath>
 #include <memory>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
-#include "apps/runtime/quantile.h"
-#include "apps/runtime/random.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/quantile.h"
+#include "anatomy/base/random.h"
 #include "apps/twin/device_twin.h"
 
 namespace palpa::bench {

@@ -1,16 +1,15 @@
-#include "apps/bench/tracking_bench.h"
+#include "apps/bench/bench.h"
 
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "apps/bench/false_pictures.h"
 #include "apps/bench/metric.h"
-#include "apps/bench/query_timing.h"
+#include "apps/bench/timing.h"
 #include "apps/bench/tracking_scene.h"
-#include "ar/board_tracker.h"
-#include "ar/pose_refinement.h"
+#include "ar/tracking/board_pose.h"
+#include "ar/tracking/board_tracker.h"
 #include "calibration/rotation.h"
 
 namespace palpa::bench {
@@ -20,7 +19,6 @@ using ar::BoardTracker;
 using ar::Matrix6;
 using ar::Vector6;
 using nlohmann::json;
-constexpr double kDegree = calibration::kDegree;
 const Vec3 kTarget_W(0, 0.12, 0.04);  // where a patient's entry point lies from the board
 constexpr double kViewTilt = 35 * kDegree;
 

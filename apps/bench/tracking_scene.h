@@ -1,12 +1,14 @@
 #pragma once
 
+#include <cstdint>
 #include <memory>
+
 #include <opencv2/core.hpp>
 
-#include "apps/bench/tracking_bench.h"
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
+#include "apps/bench/bench.h"
 #include "apps/twin/virtual_camera.h"
-#include "ar/board.h"
+#include "ar/boards/board.h"
 
 namespace palpa::bench {
 
@@ -60,5 +62,10 @@ class HandMotion {
   Pose X_CW_;
   double peak_;
 };
+
+/// Picture `i` of a series without any board of ours: noise of fine and coarse grain, lines of
+/// text, sheets of tags of other families, and random cells in black squares, which look most like
+/// tags; in turn.
+cv::Mat falsePicture(int i, cv::Size size, std::uint64_t seed);
 
 }  // namespace palpa::bench

@@ -4,8 +4,7 @@
 #include <map>
 #include <utility>
 
-#include "anatomy/geometry/error.h"
-#include "apps/calibrate/watch.h"
+#include "anatomy/base/error.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibrate {

@@ -1,15 +1,38 @@
 #pragma once
 
+#include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "anatomy/base/error.h"
 #include "apps/calibrate/results.h"
 #include "apps/runtime/rig.h"
 #include "apps/station/station_file.h"
-#include "ar/board_pose.h"
-#include "calibration/board_view.h"
+#include "ar/tracking/board_pose.h"
 #include "calibration/camera_calibration.h"
-#include "calibration/hand_eye_refinement.h"
+#include "calibration/hand_eye.h"
+
+/// What every collector does with a station's moments.
+namespace palpa::calibrate {
+
+inline constexpr double kPatience = 60;  ///< s without an answer: the person has left
+
+inline runtime::Moment need(runtime::Rig& rig, const char* what) {
+  std::optional<runtime::Moment> moment = rig.next();
+  if (!moment) throw Error("the station ended while it was set up", what, "Begin again");
+  return *moment;
+}
+
+inline Pose poseOf(const haptics::DeviceReading& reading) {
+  return unpack(PackedPose{reading.p_DE, reading.q_DE});
+}
+
+inline bool pressed(const haptics::DeviceReading& reading) {
+  return (reading.buttons & runtime::kMarkButton) != 0;
+}
+
+}  // namespace palpa::calibrate
 
 /// Collects what a calibration needs from a station: asks, watches, takes what is good, asks again
 /// for what is not.
@@ -67,5 +90,21 @@ std::vector<HeldPose> collectHeld(const Scene& scene, const calibration::CameraM
 /// R_DE p_EM by the device's.
 LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& camera,
                            const Vec3& p_EM, double seconds = 12);
+
+/// Where the tip is put on the sample, m across P, and what for.
+struct FeltPlace {
+  double across = 0, along = 0;
+};
+
+/// Pressed slowly and quickly, at one place; `sample` as in a Request. Throws Error, and UsageError
+/// for a station without force sensor or sample.
+FeltSamples collectPresses(const Scene& scene, const std::string& sample, const FeltPlace& place,
+                           double seconds);
+/// Stroked to and fro over the middle.
+FeltSamples collectStrokes(const Scene& scene, const std::string& sample, double seconds);
+
+/// A table: t_s; x_, y_, z_ (m or mm) of the tip's lowest point, z up from the sample's top;
+/// force_x_N, ...; optional lump_x_, .... Times must be even. Throws Error.
+FeltSamples readFelt(const std::filesystem::path& file);
 
 }  // namespace palpa::calibrate

@@ -1,12 +1,11 @@
-#include "apps/calibrate/collect_feel.h"
+#include "apps/calibrate/collect.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "apps/calibrate/sample_table.h"
-#include "apps/calibrate/watch.h"
-#include "calibration/soft_contact.h"
+#include "anatomy/base/error.h"
+#include "apps/calibrate/recorded.h"
+#include "calibration/contact_laws.h"
 #include "haptics/sensors/wrench_filter.h"
 
 namespace palpa::calibrate {

@@ -1,7 +1,7 @@
 #include <cmath>
 #include <map>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/calibrate/collect.h"
 
 namespace palpa::calibrate {

@@ -1,7 +1,7 @@
 #include <cmath>
 
 #include "apps/calibrate/results.h"
-#include "haptics/virtual_inclusion.h"
+#include "haptics/modulation/virtual_inclusion.h"
 
 namespace palpa::calibrate {
 namespace {

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/calibrate/results.h"
-#include "calibration/landmark_registration.h"
+#include "calibration/registration.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibrate {

@@ -5,13 +5,38 @@
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
-#include "apps/calibrate/felt_samples.h"
 #include "apps/calibrate/result.h"
+#include "calibration/camera_calibration.h"
+#include "calibration/camera_model.h"
 #include "calibration/clock_offset.h"
+#include "calibration/contact_laws.h"
 #include "calibration/force_sensor.h"
 #include "calibration/hand_eye.h"
-#include "calibration/hand_eye_refinement.h"
-#include "calibration/workspace_map.h"
+#include "calibration/registration.h"
+
+namespace palpa::calibrate {
+
+/// A round tip on a soft sample: where its lowest point was in P, what the sample did to it, how
+/// far a lump had moved (where something tells that). At even times, `dt` apart.
+struct FeltSample {
+  Vec3 p_P = Vec3::Zero(), f_P = Vec3::Zero();  ///< m, N
+  std::optional<Vec3> lump_P;                   ///< m
+};
+struct FeltSamples {
+  double dt = 1e-3;  ///< s
+  std::vector<FeltSample> samples;
+};
+
+/// The same as the estimators want them: depth along -z, its rate over the last step.
+std::vector<calibration::PressSample> pressesOf(const FeltSamples& felt);
+std::vector<calibration::SlideSample> slidesOf(const FeltSamples& felt);
+std::vector<calibration::LumpSample> lumpTouchesOf(const FeltSamples& felt);
+
+/// The first three quarters, to fit; the last, to judge.
+FeltSamples toFit(const FeltSamples& felt);
+FeltSamples toJudge(const FeltSamples& felt);
+
+}  // namespace palpa::calibrate
 
 /// From samples to what a station keeps, with a verdict from samples that the fit has not seen. All
 /// throw Error, in plain words, for data that cannot tell the answer.
@@ -78,5 +103,12 @@ Result inclusionResult(const LumpSamples& samples, double tip_radius, const Orig
 /// goes; may be null.
 Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin,
                        calibration::WorkspaceMap* found = nullptr);
+
+/// The lens from views of a board, all of them; how good it is from every fifth view, predicted by
+/// what the others tell (its pose from half of its corners, the error from the other half).
+/// `found`: where the model goes. `keep_all`: plain least squares, as in programs that know no
+/// outliers. Throws Error for views that cannot tell a lens.
+Result cameraResult(const std::vector<calibration::BoardView>& views, int width, int height,
+                    const Origin& origin, calibration::CameraModel* found, bool keep_all = false);
 
 }  // namespace palpa::calibrate

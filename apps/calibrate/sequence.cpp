@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <map>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
-#include "apps/calibrate/camera_result.h"
-#include "apps/calibrate/corrected_rig.h"
-#include "apps/station/sha256.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/sha256.h"
+#include "anatomy/base/whole_file.h"
+#include "apps/calibrate/results.h"
+#include "apps/calibrate/rig_adapters.h"
 
 namespace palpa::calibrate {
 namespace {

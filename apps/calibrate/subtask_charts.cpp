@@ -1,14 +1,13 @@
-#include "apps/calibrate/subtask_charts.h"
+#include "apps/calibrate/subtask_page.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
 
-#include "apps/report/axis.h"
-#include "apps/report/chart_frame.h"
-#include "apps/report/numbers.h"
-#include "apps/report/palette.h"
+#include "apps/report/page/numbers.h"
+#include "apps/report/page/style.h"
+#include "apps/report/plot/chart_frame.h"
 
 namespace palpa::calibrate {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "haptics/augmentation/learned_part.h"
-#include "haptics/contact_parts.h"
-#include "haptics/tick.h"
+#include "haptics/contact/contact_parts.h"
+#include "haptics/loop/tick.h"
 
 /// Recorded ticks as steps of what was felt and done, with the hand-written parts of the task
 /// beside them.

@@ -2,10 +2,9 @@
 
 #include <algorithm>
 
-#include "apps/calibrate/page_frame.h"
-#include "apps/calibrate/subtask_charts.h"
-#include "apps/calibrate/subtask_words.h"
-#include "apps/report/numbers.h"
+#include "apps/calibrate/page.h"
+#include "apps/calibrate/subtask_result.h"
+#include "apps/report/page/numbers.h"
 
 namespace palpa::calibrate {
 namespace {

@@ -5,9 +5,9 @@
 #include <nlohmann/json.hpp>
 #include <utility>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/sha256.h"
 #include "apps/record/session_file.h"
-#include "apps/station/sha256.h"
 
 namespace palpa::calibrate {
 namespace {

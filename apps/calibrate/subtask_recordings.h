@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "apps/calibrate/subtask_features.h"
-#include "apps/station/augmentation_plan.h"
 #include "apps/station/calibration_file.h"
+#include "apps/station/task_sections.h"
 
 /// Recorded sessions of one task as sequences of steps.
 namespace palpa::calibrate {

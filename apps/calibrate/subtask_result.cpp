@@ -1,7 +1,5 @@
 #include "apps/calibrate/subtask_result.h"
 
-#include "apps/calibrate/subtask_words.h"
-
 namespace palpa::calibrate {
 namespace {
 

@@ -1,9 +1,9 @@
-#include "apps/calibrate/subtask_words.h"
+#include "apps/calibrate/subtask_result.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "apps/report/numbers.h"
+#include "apps/report/page/numbers.h"
 
 namespace palpa::calibrate {
 namespace {

@@ -1,10 +1,4 @@
-#include "apps/bench/anatomy_bench.h"
-#include "apps/bench/calibration_bench.h"
-#include "apps/bench/haptics_bench.h"
-#include "apps/bench/loop_bench.h"
-#include "apps/bench/material_bench.h"
-#include "apps/bench/render_bench.h"
-#include "apps/bench/tracking_bench.h"
+#include "apps/bench/bench.h"
 #include "apps/cli/commands.h"
 
 namespace palpa::cli {

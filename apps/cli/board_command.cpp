@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "apps/cli/commands.h"
-#include "apps/report/board_page.h"
+#include "apps/report/paper/board_page.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 

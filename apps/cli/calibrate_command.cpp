@@ -1,15 +1,98 @@
 #include <cstdio>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
-#include "apps/cli/calibrate_station.h"
-#include "apps/cli/calibrate_subtasks.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/units.h"
+#include "apps/calibrate/subtask_page.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/needle_session.h"
-#include "apps/cli/output_folder.h"
-#include "apps/cli/recorded_session.h"
+#include "apps/evidence/recorded_session.h"
+#include "apps/runtime/clock.h"
+#include "apps/session/needle_session.h"
+#include "apps/session/output_folder.h"
 
 namespace palpa::cli {
+namespace {
+
+constexpr const char* kSubtaskExamples = R"(Examples:
+  palpa calibrate subtasks out/expert-a/session.palpa out/expert-b/session.palpa --out parts
+      what experts did, cut by a hidden Markov model, beside the parts that the task's file names
+  palpa calibrate subtasks out/expert-a/session.palpa --states 3
+      into three states, however many are proposed
+The sessions are of one task whose file names its parts. Six trials or more, better of several experts.)";
+
+constexpr std::int64_t kSilent_ns = 2'000'000'000, kBetween_ns = 1'000'000'000;
+
+struct SubtaskCommand {
+  std::vector<std::string> recordings;
+  std::string task, out;
+  std::uint64_t seed = 1;
+  int states = 0;
+  bool quiet = false;
+};
+
+/// Says what is being done once it has taken two seconds, then each second.
+class PatientNotes {
+ public:
+  explicit PatientNotes(bool quiet) : quiet_(quiet) {}
+  void operator()(const std::string& stage) {
+    const std::int64_t now = wall_.now();
+    if (quiet_ || now < next_ns_) return;
+    std::fprintf(stderr, "%s\n", stage.c_str());
+    next_ns_ = now + kBetween_ns;
+  }
+
+ private:
+  bool quiet_;
+  runtime::SteadyClock wall_;
+  std::int64_t next_ns_ = kSilent_ns;
+};
+
+void calibrateSubtasks(const SubtaskCommand& o) {
+  using namespace calibrate;
+  const SubtaskRecordings recordings =
+      readSubtaskRecordings({o.recordings.begin(), o.recordings.end()}, o.task);
+  PatientNotes notes(o.quiet);
+  const SubtaskSegmentation found = segment(
+      recordings.sequences, {o.seed, o.states, [&](const std::string& stage) { notes(stage); }});
+  const std::string command = "palpa calibrate subtasks" +
+                              std::string(o.states ? " --states " + std::to_string(o.states) : "") +
+                              " --seed " + std::to_string(o.seed);
+  const Origin origin{recordings.station,   command,         "recorded sessions", runtime::utcNow(),
+                      recordings.simulated, recordings.files};
+  const Result result = subtaskResult(recordings, found, origin);
+  const std::filesystem::path folder = session::makeOutputFolder(o.out, "calibrate-subtasks");
+  station::writeCalibration(result.file, folder / "calibration.json");
+  writeSubtaskPage(recordings, found, result, folder / "calibration.html");
+  std::printf("%s%s\n", result.title.c_str(), recordings.simulated ? " (SIMULATED)" : "");
+  for (const std::string& sentence : result.sentences) std::printf("  %s\n", sentence.c_str());
+  for (const std::string& advice : result.advice) std::printf("  Mind: %s\n", advice.c_str());
+  std::printf("Written: %s\n", (folder / "calibration.html").c_str());
+}
+
+}  // namespace
+
+void addSubtaskCalibration(CLI::App& calibrate) {
+  CLI::App* command = calibrate.add_subcommand(
+      "subtasks",
+      "A task's parts proposed from experts' recorded sessions, beside the hand-written ones");
+  command->footer(kSubtaskExamples);
+  const auto o = std::make_shared<SubtaskCommand>();
+  command->add_option("RECORDING", o->recordings, "Recorded sessions (session.palpa) of one task")
+      ->required()
+      ->type_name("FILE...");
+  command
+      ->add_option("--task", o->task,
+                   "Task file to take the parts' names from; otherwise what was recorded")
+      ->type_name("FILE");
+  command
+      ->add_option("--states", o->states, "Take so many states; otherwise as many as are proposed")
+      ->check(CLI::Range(2, calibrate::kMostProposed));
+  command->add_option("--seed", o->seed, "Seed of the fits' starts")->check(CLI::NonNegativeNumber);
+  command->add_option("--out", o->out, "Folder for the results")->type_name("DIR");
+  command->add_flag("--quiet", o->quiet, "No progress");
+  command->callback([o] { calibrateSubtasks(*o); });
+}
+
 namespace {
 
 constexpr const char* kExpertExamples = R"(Examples:
@@ -28,22 +111,23 @@ struct ExpertOptions {
 
 /// Records trials of simulated experts; returns the session files.
 std::vector<std::string> simulateExperts(const ExpertOptions& o) {
-  const std::filesystem::path folder = makeOutputFolder(o.sessions, "calibrate-experts");
+  const std::filesystem::path folder = session::makeOutputFolder(o.sessions, "calibrate-experts");
   std::vector<std::string> files;
   for (int expert = 0; expert < o.experts; ++expert) {
-    SessionOptions session;
+    session::SessionOptions session;
     session.command = "calibrate experts";
-    session.who = OperatorKind::expert;
+    session.who = session::OperatorKind::expert;
     session.seed = o.seed + 1000 * static_cast<std::uint64_t>(expert);
     session.trials = o.simulate;
     session.trainee = "simulated-expert-" + std::to_string(expert + 1);
     session.fast = session.no_views = session.record_only = true;
     session.display = scene::Display::offscreen;
-    NeedleWorld world(session);
+    session::NeedleWorld world(session);
     world.station.camera_rate_Hz = 2;  // pictures serve the ready check only: fewer save time
-    const std::filesystem::path place = makeOutputFolder((folder / session.trainee).string(), "");
+    const std::filesystem::path place =
+        session::makeOutputFolder((folder / session.trainee).string(), "");
     std::fprintf(stderr, "%s: %d trials\n", session.trainee.c_str(), o.simulate);
-    if (runNeedleSession(session, world, place).quit)
+    if (session::runNeedleSession(session, world, place).quit)
       throw Error("was interrupted", "palpa calibrate experts", "Start it again");
     files.push_back((place / "session.palpa").string());
   }
@@ -52,8 +136,8 @@ std::vector<std::string> simulateExperts(const ExpertOptions& o) {
 
 /// Who takes part in no study that uses the path: the pseudonym; of simulated experts without one
 /// the folder of their session.
-std::string expertOf(const RecordedSession& session, const std::string& file) {
-  static const std::string kNobody = SessionOptions().trainee;
+std::string expertOf(const evidence::RecordedSession& session, const std::string& file) {
+  static const std::string kNobody = session::SessionOptions().trainee;
   if (session.trainee() != kNobody && !session.trainee().empty()) return session.trainee();
   return session.simulated() ? std::filesystem::path(file).parent_path().filename().string()
                              : session.operatorName();
@@ -68,11 +152,11 @@ void calibrateExperts(ExpertOptions o) {
   bool simulated = false;
   std::size_t seen = 0;
   for (const std::string& file : o.from) {
-    const RecordedSession session(file);
+    const evidence::RecordedSession session(file);
     const anatomy::LandmarkFrame frame(session.patient());
     simulated = simulated || session.simulated();
     session.eachTrial(
-        [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+        [&](const record::RecordedTrial& trial, const evidence::RecordedSession::Samples& samples) {
           ++seen;
           calibration::ExpertTrial expert;
           if (trial.end.outcome == "success" &&
@@ -88,14 +172,13 @@ void calibrateExperts(ExpertOptions o) {
                                   std::to_string(o.seed)
                             : "palpa calibrate experts --from ...";
   calibration::writeExpertPath(path, o.out);
-  constexpr double kDeg = 57.29577951308232;
   std::printf("%zu of %zu trials were complete; %d agree and make the path%s\n", trials.size(),
               seen, path.trials, simulated ? " (simulated experts)" : "");
   std::printf(
       "Entry +- %.1f mm, depth of phase 1 %.1f +- %.1f mm, direction +- %.1f degrees (acceptable "
       "%.1f)\n",
-      1e3 * path.entry_sd, 1e3 * path.depth, 1e3 * path.depth_sd, kDeg * path.direction_sd,
-      kDeg * path.direction_acceptable);
+      1e3 * path.entry_sd, 1e3 * path.depth, 1e3 * path.depth_sd, path.direction_sd / kDegree,
+      path.direction_acceptable / kDegree);
   std::printf("Written: %s\n", o.out.c_str());
 }
 

@@ -29,4 +29,23 @@ void addManual(
     CLI::App& program,
     const std::string& welcome);  ///< manual page and completion, from all that were added before
 
+/// `palpa console` with nothing said: what `palpa` alone does where there is a display.
+void runConsole();
+
+/// `palpa report trial`: one trial of a needle session, judged, as a page.
+void addReportTrial(CLI::App& report);
+
+/// camera, tool, workspace, registration, latency, force-sensor, material, friction, inclusion,
+/// all.
+void addStationCalibrations(CLI::App& calibrate);
+
+/// subtasks: a task's parts proposed from recorded sessions.
+void addSubtaskCalibration(CLI::App& calibrate);
+
+/// `palpa study analyse`: tables, figures and a page of a study from its records.
+void addStudyAnalyse(CLI::App& study);
+
+/// `palpa study plan`: what a study of some size would find, from the learning model alone.
+void addStudyPlan(CLI::App& study);
+
 }  // namespace palpa::cli

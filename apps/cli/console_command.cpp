@@ -1,4 +1,4 @@
-#include "apps/cli/console_command.h"
+#include "apps/cli/commands.h"
 
 #include <spawn.h>
 #include <sys/stat.h>
@@ -9,12 +9,11 @@
 #include <fstream>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
-#include "apps/cli/commands.h"
-#include "apps/cli/event_tone.h"
-#include "apps/cli/records_place.h"
+#include "anatomy/base/error.h"
+#include "apps/cli/arguments.h"
 #include "apps/console/console.h"
-#include "apps/live/local_socket.h"
+#include "apps/os/local_socket.h"
+#include "apps/session/event_tone.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
@@ -70,14 +69,14 @@ console::ConsoleSettings settingsOf(const ConsoleOptions& o) {
   s.place.home = fs::absolute(o.home.empty() ? usualHome() : fs::path(o.home));
   s.place.pages = station::assetFile("console");
   s.place.records = o.records;
-  s.place.sockets = live::socketFolder();
+  s.place.sockets = os::socketFolder();
   s.place.version = PALPA_VERSION;
   s.place.display = std::getenv("DISPLAY") != nullptr;
   s.address = o.listen;
   s.port = o.port;
   s.token = tokenIn(o.token_file);
   s.names = o.names;
-  s.tone = toneOfEvent;
+  s.tone = session::toneOfEvent;
   if (!o.station.empty()) {
     station::readStation(o.station);  // refused here, where somebody reads it
     s.station = fs::absolute(o.station).string();

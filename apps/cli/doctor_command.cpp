@@ -1,24 +1,22 @@
 #include <cstdio>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/output_folder.h"
-#include "apps/cli/records_place.h"
-#include "apps/doctor/clock_check.h"
 #include "apps/doctor/computer_check.h"
 #include "apps/doctor/device_check.h"
 #include "apps/doctor/picture_facts.h"
 #include "apps/doctor/station_check.h"
-#include "apps/doctor/tracker_check.h"
-#include "apps/record/store/pending.h"
+#include "apps/record/store/delivery.h"
 #include "apps/record/store/sql_connection.h"
+#include "apps/runtime/clock.h"
+#include "apps/session/output_folder.h"
 #include "apps/station/assets.h"
 #include "apps/twin/setup_bench.h"
-#include "ar/image_sequence.h"
-#include "ar/video_file.h"
-#include "ar/webcam.h"
-#include "scene/gl_context.h"
+#include "ar/cameras/recorded_pictures.h"
+#include "ar/cameras/webcam.h"
+#include "scene/window/gl_context.h"
 
 namespace palpa::cli {
 namespace {
@@ -99,7 +97,7 @@ Findings table(const station::Station& station, const PictureFacts& pictures,
   if (falcon) append(all, {askFirmware(station.device), askUdevRule(udevFolders())});
   all.push_back(askSensor(station));
   if (station.tracker) all.push_back(askTracker(*station.tracker));
-  append(all, judgeCalibrations(station, utcNow()));
+  append(all, judgeCalibrations(station, runtime::utcNow()));
   const ClockWatch watch;
   all.push_back(judgeLoop(measureLoop(), falcon));
   all.push_back(judgeClocks(watch.facts(), pictures, record::isServer(o.records)));
@@ -123,7 +121,7 @@ Findings examined(const DoctorOptions& o) {
   all.push_back(askRecords(
       o.records, record::PendingList(record::PendingList::usualFolder()).sessions().size()));
   all.push_back(judgeDisk(measureDisk(o.out)));
-  all.push_back(judgeDate(utcNow(), kMade_utc));
+  all.push_back(judgeDate(runtime::utcNow(), kMade_utc));
   all.push_back(askLocale());
   return all;
 }

@@ -5,9 +5,8 @@
 #include <opencv2/core/utils/logger.hpp>
 #include <string>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/console_command.h"
 
 namespace {
 

@@ -1,18 +1,19 @@
 #include <cstdio>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "anatomy/import/import_patient.h"
 #include "anatomy/import/repair.h"
-#include "anatomy/import/surface_check.h"
-#include "anatomy/import/unit.h"
-#include "anatomy/parametric_patient.h"
-#include "anatomy/patient_check.h"
-#include "anatomy/patient_file.h"
+#include "anatomy/import/surface_topology.h"
+#include "anatomy/import/units_and_axes.h"
+#include "anatomy/parametric/parametric_patient.h"
+#include "anatomy/patient/patient_check.h"
+#include "anatomy/patient/patient_file.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/ct_patient.h"
-#include "apps/cli/phantom_options.h"
+#include "apps/cli/patient_sources.h"
 #include "apps/station/assets.h"
+#include "scene/view/contact_sheet.h"
+#include "scene/view/scene_view.h"
 
 namespace palpa::cli {
 namespace {
@@ -240,6 +241,40 @@ void addPatient(CLI::App& program) {
   tells->add_option("--organ", o->organ, "What the surfaces are, to check their size")
       ->type_name("ORGAN");
   tells->callback([o] { info(*o); });
+}
+
+namespace {
+
+struct RenderOptions {
+  std::string patient, out = "patient.png";
+  int size = 1500;
+};
+
+void render(const RenderOptions& o) {
+  const anatomy::Patient patient =
+      o.patient.empty()
+          ? anatomy::buildPatient(anatomy::drawParameters(
+                anatomy::readPopulation(station::assetFile("patients/reference.json").string()),
+                anatomy::Side::right, 0))
+          : anatomy::readPatient(o.patient);
+  const auto context = scene::makeGlContext(scene::Display::offscreen, o.size, o.size, "Palpa");
+  scene::writePng(scene::contactSheet(*context, patient, o.size, o.size), o.out);
+  std::printf("Written: %s (%s)\n", o.out.c_str(), patient.name.c_str());
+}
+
+}  // namespace
+
+void addRender(CLI::App& program) {
+  const auto o = std::make_shared<RenderOptions>();
+  CLI::App* command = program.add_subcommand(
+      "render", "A patient on one page: solid, translucent, bones and vessels, from three sides");
+  command->footer(
+      "Example:\n  palpa render --patient p.glb --out p.png      (without a file: the reference "
+      "patient)");
+  command->add_option("--patient", o->patient, "Patient file (.glb)")->type_name("FILE");
+  command->add_option("--out", o->out, "Picture to write (.png)")->type_name("FILE");
+  command->add_option("--size", o->size, "Pixels a side")->check(CLI::Range(300, 8192));
+  command->callback([o] { render(*o); });
 }
 
 }  // namespace palpa::cli

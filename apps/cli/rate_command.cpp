@@ -2,15 +2,16 @@
 #include <cstdio>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/assess/competence/rating_agreement.h"
+#include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/output_folder.h"
-#include "apps/cli/rating_forms.h"
-#include "apps/cli/records_place.h"
+#include "apps/evidence/rating_forms.h"
 #include "apps/record/session_file.h"
-#include "apps/report/rating_form.h"
+#include "apps/report/paper/rating_form.h"
+#include "apps/runtime/clock.h"
+#include "apps/session/output_folder.h"
 
 namespace palpa::cli {
 namespace {
@@ -55,13 +56,13 @@ std::filesystem::path sheetFor(const std::string& page, const std::string& blank
     throw UsageError("must end with .html", "--out " + page,
                      "The sheet to fill in lies beside it and ends with .csv");
   std::filesystem::path sheet = std::filesystem::path(page).replace_extension("csv");
-  if (std::filesystem::exists(sheet) && textOf(sheet.string()) != blank)
+  if (std::filesystem::exists(sheet) && evidence::textOf(sheet.string()) != blank)
     throw UsageError("is there already and may hold answers", sheet.string(), "Give another --out");
   return sheet;
 }
 
 void writeForm(const RateOptions& o) {
-  const RatingForms forms = readForms(o.checklist, o.global);
+  const evidence::RatingForms forms = evidence::readForms(o.checklist, o.global);
   report::RatingForm form;
   form.checklist = &forms.checklist;
   form.global = o.no_global ? nullptr : &forms.global;
@@ -73,7 +74,7 @@ void writeForm(const RateOptions& o) {
     form.when = t.session.started_utc.substr(0, 10);
     form.trial = static_cast<int>(o.trial);
     form.simulated = t.session.simulated;
-    form.marks = competence::marked(forms.checklist, figuresOf(t.trial), {});
+    form.marks = competence::marked(forms.checklist, evidence::figuresOf(t.trial), {});
   }
   const std::string blank = report::answerSheet(forms.checklist, form.global);
   const std::filesystem::path sheet = sheetFor(o.out, blank);
@@ -84,13 +85,13 @@ void writeForm(const RateOptions& o) {
 }
 
 void enter(const RateOptions& o) {
-  const RatingForms forms = readForms(o.checklist, o.global);
-  const competence::FormAnswers answers =
-      competence::parseAnswers(textOf(o.answers), o.answers, forms.checklist, &forms.global);
+  const evidence::RatingForms forms = evidence::readForms(o.checklist, o.global);
+  const competence::FormAnswers answers = competence::parseAnswers(
+      evidence::textOf(o.answers), o.answers, forms.checklist, &forms.global);
   if (answers.checklist.empty() && answers.global.empty())
     throw UsageError("answers nothing", o.answers, "Fill in the values");
   record::RecordStore store(o.records);
-  const std::string uuid = uuidOf(o.session), now = utcNow();
+  const std::string uuid = uuidOf(o.session), now = runtime::utcNow();
   const auto sheet = [&](const competence::Answers& said, const std::string& form,
                          const std::string& sha) {
     std::vector<record::Rating> ratings;
@@ -107,8 +108,8 @@ void enter(const RateOptions& o) {
 
 /// Every trial in the records that somebody rated on these editions of the forms.
 std::vector<competence::RatedTrial> ratedTrials(record::RecordStore& store,
-                                                const RatingForms& forms, int* other_editions,
-                                                bool* simulated) {
+                                                const evidence::RatingForms& forms,
+                                                int* other_editions, bool* simulated) {
   std::map<std::pair<std::string, std::int64_t>, competence::RatedTrial> trials;
   for (const record::Rating& r : record::ratingsIn(store)) {
     const bool of_list = r.form == forms.checklist.id;
@@ -122,7 +123,7 @@ std::vector<competence::RatedTrial> ratedTrials(record::RecordStore& store,
   std::vector<competence::RatedTrial> all;
   for (auto& [key, trial] : trials) {
     const record::TrialWithSession t = storedTrial(store, key.first, key.second);
-    trial.simulator = competence::marked(forms.checklist, figuresOf(t.trial), {});
+    trial.simulator = competence::marked(forms.checklist, evidence::figuresOf(t.trial), {});
     if (const double total = t.trial.metric("total"); std::isfinite(total)) trial.total = total;
     *simulated = *simulated || t.session.simulated;
     all.push_back(std::move(trial));
@@ -159,7 +160,7 @@ void print(const competence::Agreement& a) {
 }
 
 void tellAgreement(const RateOptions& o) {
-  const RatingForms forms = readForms(o.checklist, o.global);
+  const evidence::RatingForms forms = evidence::readForms(o.checklist, o.global);
   record::RecordStore store(o.records);
   int other_editions = 0;
   bool simulated = false;

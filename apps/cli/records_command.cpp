@@ -4,15 +4,16 @@
 #include <filesystem>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/assess/metrics/metric_table.h"
+#include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/deliver_evidence.h"
-#include "apps/cli/output_folder.h"
 #include "apps/cli/records_actions.h"
-#include "apps/cli/records_place.h"
-#include "apps/record/store/pending.h"
+#include "apps/evidence/evidence_records.h"
+#include "apps/record/store/delivery.h"
+#include "apps/runtime/clock.h"
+#include "apps/session/output_folder.h"
 
 namespace palpa::cli {
 namespace {
@@ -34,7 +35,7 @@ void addTrainee(RecordsOptions o) {
   o.trainee.experience = o.experience;
   o.trainee.handedness = o.handedness.empty() ? "right" : o.handedness;
   o.trainee.retain_until = o.retain_until;
-  o.trainee.added_utc = utcNow();
+  o.trainee.added_utc = runtime::utcNow();
   if (o.consent) o.trainee.consent_utc = o.trainee.added_utc;
   if (o.research) o.trainee.research_utc = o.trainee.added_utc;
   store.addTrainee(o.trainee);
@@ -53,8 +54,8 @@ void changeTrainee(const RecordsOptions& o) {
   if (!o.experience.empty()) t.experience = o.experience;
   if (!o.handedness.empty()) t.handedness = o.handedness;
   if (!o.retain_until.empty()) t.retain_until = o.retain_until;
-  if (o.consent) t.consent_utc = utcNow();
-  if (o.research) t.research_utc = utcNow();
+  if (o.consent) t.consent_utc = runtime::utcNow();
+  if (o.research) t.research_utc = runtime::utcNow();
   store.changeTrainee(t);
   print(t, store.sessions(t.id).size());
 }
@@ -69,7 +70,7 @@ void listTrainees(const RecordsOptions& o) {
 
 void bring(const fs::path& file, const std::string& url) {
   try {
-    const EvidenceDelivery done = deliverEvidence(file, url);
+    const evidence::EvidenceDelivery done = evidence::deliverEvidence(file, url);
     std::printf("%s: trainee %s, %s added, %d there already%s\n", file.string().c_str(),
                 done.trainee.c_str(),
                 counted(static_cast<std::size_t>(done.trials.added), "trial").c_str(),

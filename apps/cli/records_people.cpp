@@ -2,14 +2,15 @@
 #include <cstdio>
 #include <filesystem>
 
-#include "anatomy/geometry/error.h"
-#include "apps/cli/deliver_evidence.h"
-#include "apps/cli/output_folder.h"
+#include "anatomy/base/error.h"
+#include "apps/cli/arguments.h"
 #include "apps/cli/records_actions.h"
-#include "apps/cli/records_place.h"
-#include "apps/cli/study_copy.h"
+#include "apps/evidence/evidence_records.h"
 #include "apps/link/tell.h"
 #include "apps/record/session_file.h"
+#include "apps/runtime/clock.h"
+#include "apps/session/output_folder.h"
+#include "apps/study/run/station_copy.h"
 
 namespace palpa::cli {
 namespace {
@@ -33,7 +34,7 @@ bool removeEvidence(const record::StoredSession& session) {
 void takeBack(record::RecordStore& store, const std::string& url) {
   if (!fs::exists(link::Outbox::usualFile())) return;
   link::Outbox outbox(link::Outbox::usualFile());
-  const std::string records = absoluteRecords(url);
+  const std::string records = evidence::absoluteRecords(url);
   for (const std::string& endpoint : outbox.endpoints(records))
     if (const int count = link::takeBackDeleted(store, {endpoint, records}, outbox); count > 0)
       std::printf("%s will be taken back there by: palpa records xapi --to %s\n",
@@ -41,8 +42,8 @@ void takeBack(record::RecordStore& store, const std::string& url) {
 }
 
 void deleteOne(record::RecordStore& store, const std::string& id) {
-  removeStudyCopies(id);
-  const std::vector<record::StoredSession> sessions = store.deletePerson(id, utcNow());
+  study::removeStudyCopies(id);
+  const std::vector<record::StoredSession> sessions = store.deletePerson(id, runtime::utcNow());
   for (const record::StoredSession& session : sessions) {
     if (!removeEvidence(session)) continue;
     store.evidenceDeleted(session.uuid);
@@ -125,7 +126,7 @@ void showTrainee(const RecordsOptions& o) {
 
 void listOverdue(const RecordsOptions& o) {
   record::RecordStore store(o.url);
-  const std::string date = o.date.empty() ? utcNow().substr(0, 10) : o.date;
+  const std::string date = o.date.empty() ? runtime::utcNow().substr(0, 10) : o.date;
   const std::vector<record::Trainee> over = store.overdue(date);
   std::printf("On %s the time of %s is over\n", date.c_str(),
               counted(over.size(), "trainee").c_str());

@@ -4,15 +4,12 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/force_check.h"
-#include "apps/cli/recorded_palpation.h"
-#include "apps/cli/recorded_search.h"
-#include "apps/cli/recorded_session.h"
-#include "apps/cli/recorded_squeeze.h"
 #include "apps/cli/replay_view.h"
-#include "apps/record/tick_export.h"
+#include "apps/evidence/recorded_session.h"
+#include "apps/evidence/recorded_trials.h"
+#include "apps/record/session_file.h"
 
 namespace palpa::cli {
 namespace {
@@ -28,10 +25,10 @@ bool hasScore(const record::RecordedTrial& trial) {
 }
 
 bool sameNeedleScores(const std::string& file) {
-  const RecordedSession session(file);
+  const evidence::RecordedSession session(file);
   bool same = true;
   session.eachTrial(
-      [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+      [&](const record::RecordedTrial& trial, const evidence::RecordedSession::Samples& samples) {
         if (!hasScore(trial)) return;
         const nlohmann::json scores = nlohmann::json::parse(trial.end.scores_json);
         if (session.hasGoal()) {
@@ -55,7 +52,7 @@ bool sameNeedleScores(const std::string& file) {
 
 bool samePalpationScores(const record::SessionReader& reader) {
   bool same = true;
-  for (const RecordedPalpation& trial : recordedPalpations(reader)) {
+  for (const evidence::RecordedPalpation& trial : evidence::recordedPalpations(reader)) {
     if (!hasScore(trial.recorded)) continue;
     const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) ==
                        nlohmann::json::parse(task_palpation::scoreJson(trial.assessment));
@@ -68,7 +65,7 @@ bool samePalpationScores(const record::SessionReader& reader) {
 
 bool sameSqueezeScores(const record::SessionReader& reader) {
   bool same = true;
-  for (const RecordedSqueeze& trial : recordedSqueezes(reader)) {
+  for (const evidence::RecordedSqueeze& trial : evidence::recordedSqueezes(reader)) {
     if (!hasScore(trial.recorded)) continue;
     const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) ==
                        nlohmann::json::parse(task_squeeze::scoreJson(trial.again));
@@ -81,7 +78,7 @@ bool sameSqueezeScores(const record::SessionReader& reader) {
 
 bool sameSearchScores(const record::SessionReader& reader) {
   bool same = true;
-  for (const RecordedSearch& trial : recordedSearches(reader)) {
+  for (const evidence::RecordedSearch& trial : evidence::recordedSearches(reader)) {
     if (!hasScore(trial.recorded)) continue;
     const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) ==
                        nlohmann::json::parse(task_search::scoreJson(trial.again));
@@ -93,14 +90,14 @@ bool sameSearchScores(const record::SessionReader& reader) {
 }
 
 bool sameScores(const record::SessionReader& reader, const std::string& file) {
-  const std::string engine = engineOf(reader);
+  const std::string engine = evidence::engineOf(reader);
   if (engine == "palpation") return samePalpationScores(reader);
   if (engine == "surface") return sameSearchScores(reader);
   return engine == "squeeze" ? sameSqueezeScores(reader) : sameNeedleScores(file);
 }
 
 void tellForces(const record::SessionReader& reader) {
-  const std::optional<assess::ForceBalance> balance = recordedBalance(reader);
+  const std::optional<assess::ForceBalance> balance = evidence::recordedBalance(reader);
   if (!balance) return;
   std::printf(
       "Hand, device and phantom, each measured by itself, add up to m a: within %.3f N (rms %.4f "
@@ -110,7 +107,7 @@ void tellForces(const record::SessionReader& reader) {
 
 void replay(const std::string& file) {
   const record::SessionReader reader(file);
-  const ReplayCheck check = replayTicks(reader, recordedFloors(reader));
+  const evidence::ReplayCheck check = evidence::replayTicks(reader, evidence::recordedFloors(reader));
   std::printf("%lld ticks run again: %lld differ%s\n", static_cast<long long>(check.ticks),
               static_cast<long long>(check.different), check.gaps ? " (records are missing)" : "");
   bool same = check.different == 0 && check.ticks > 0;

@@ -5,16 +5,15 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
-#include "apps/cli/interrupt.h"
-#include "apps/cli/output_folder.h"
-#include "apps/cli/recorded_trial.h"
-#include "apps/cli/work_progress.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
+#include "apps/evidence/recorded_show.h"
 #include "apps/live/jpeg.h"
 #include "apps/replay/film.h"
 #include "apps/replay/player.h"
 #include "apps/runtime/clock.h"
+#include "apps/session/output_folder.h"
+#include "apps/session/terminal.h"
 
 namespace palpa::cli {
 namespace {
@@ -61,7 +60,7 @@ struct ReplayStage {
   std::unique_ptr<scene::SceneView> view;
 };
 
-ReplayStage stageFor(const RecordedShow& recorded, scene::Display display, Picture size) {
+ReplayStage stageFor(const evidence::RecordedShow& recorded, scene::Display display, Picture size) {
   ReplayStage stage;
   stage.context = scene::makeGlContext(display, size.width, size.height, "Palpa: replay");
   scene::ViewLayout layout;
@@ -73,7 +72,7 @@ ReplayStage stageFor(const RecordedShow& recorded, scene::Display display, Pictu
   return stage;
 }
 
-void playInWindow(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
+void playInWindow(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
   const ReplayStage stage = stageFor(recorded, scene::Display::window, {1280, 720});
   const std::unique_ptr<replay::TrialReplay> shown = recorded.on(*stage.view);
   replay::Player player(cut.from_s, cut.to_s, o.speed);
@@ -92,7 +91,7 @@ void playInWindow(RecordedShow& recorded, const Cut& cut, const ReplayViewOption
 }
 
 /// Draws picture after picture of the cut.
-void draw(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o,
+void draw(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o,
           const std::function<void(int number, const scene::Image&)>& keep) {
   const Picture size = sizeOf(o.size);
   const ReplayStage stage = stageFor(recorded, scene::Display::offscreen, size);
@@ -100,8 +99,8 @@ void draw(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o,
   const int frames = std::max(
       1, static_cast<int>(std::lround((cut.to_s - cut.from_s) / o.speed * o.frames_per_second)));
   replay::Player speed(cut.from_s, cut.to_s, o.speed);
-  WorkProgress progress("pictures", frames);
-  const InterruptNote interrupt;
+  session::WorkProgress progress("pictures", frames);
+  const session::InterruptNote interrupt;
   for (int i = 0; i < frames; ++i) {
     if (interrupt.noted())
       throw Error("was interrupted: nothing is written", o.video.empty() ? o.pictures : o.video,
@@ -112,7 +111,7 @@ void draw(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o,
   }
 }
 
-void writeFilm(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
+void writeFilm(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
   const Picture size = sizeOf(o.size);
   replay::codecOf(o.video);  // refused before the scene is made
   replay::Film film(o.video, o.frames_per_second, size.width, size.height);
@@ -124,8 +123,8 @@ void writeFilm(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& 
 
 /// Beside the pictures stands what they show: length, rate, and what happened when. It comes last:
 /// with it they are complete.
-void writePictures(RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
-  const std::filesystem::path folder = makeOutputFolder(o.pictures, "pictures");
+void writePictures(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
+  const std::filesystem::path folder = session::makeOutputFolder(o.pictures, "pictures");
   int count = 0;
   draw(recorded, cut, o, [&](int number, const scene::Image& picture) {
     char name[32];
@@ -175,7 +174,7 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
 }
 
 void viewReplay(const std::string& file, const ReplayViewOptions& o) {
-  const std::unique_ptr<RecordedShow> recorded = recordedShow(file, o.trial);
+  const std::unique_ptr<evidence::RecordedShow> recorded = evidence::recordedShow(file, o.trial);
   const Cut cut = cutOf(o, recorded->length_s());
   if (o.view)
     playInWindow(*recorded, cut, o);

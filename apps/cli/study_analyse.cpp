@@ -1,15 +1,15 @@
-#include "apps/cli/study_analyse.h"
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
-#include "apps/cli/output_folder.h"
-#include "apps/cli/records_place.h"
-#include "apps/cli/study_source.h"
-#include "apps/report/study_report.h"
+#include "anatomy/base/error.h"
+#include "apps/cli/arguments.h"
+#include "apps/cli/commands.h"
+#include "apps/report/study/study_report.h"
+#include "apps/session/output_folder.h"
+#include "apps/study/analysis/power_analysis.h"
+#include "apps/study/run/study_rows.h"
 
 namespace palpa::cli {
 namespace {
@@ -32,7 +32,7 @@ struct AnalyseInput {
 study_analysis::StudyDesign designOf(const AnalyseOptions& o, std::string& study) {
   study_analysis::StudyDesign design;
   if (!o.protocol.empty()) {
-    ProtocolFacts facts = protocolFacts(o.protocol);
+    study::ProtocolFacts facts = study::protocolFacts(o.protocol);
     design = std::move(facts.design);
     if (study.empty()) study = facts.id;
   } else {
@@ -53,12 +53,12 @@ AnalyseInput inputOf(const AnalyseOptions& o) {
   if (!o.protocol.empty())
     input.sources.push_back({"Protocol", fs::path(o.protocol).filename().string(), ""});
   if (!o.csv.empty()) {
-    input.rows = studyRowsOfFile(o.csv);
+    input.rows = study::studyRowsOfFile(o.csv);
     input.sources.push_back({"Table", fs::path(o.csv).filename().string(), ""});
     return input;
   }
   record::RecordStore store(o.records.empty() ? usualRecords() : o.records);
-  input.rows = studyRows(store, study);
+  input.rows = study::studyRows(store, study);
   input.sources.push_back({"Study in the records", study, ""});
   return input;
 }
@@ -85,7 +85,7 @@ void analyse(const AnalyseOptions& o) {
   requireNames(o.conditions, input.rows, "--conditions",
                [](const StudyRow& row) { return row.condition; });
   const study_analysis::StudyResult result = study_analysis::analyseStudy(input.rows, input.design);
-  const fs::path folder = makeOutputFolder(o.out, "study");
+  const fs::path folder = session::makeOutputFolder(o.out, "study");
   const std::vector<fs::path> files = report::writeStudyTables(result, folder);
   report::writeStudyReport({result, input.sources}, folder / "report.html");
   if (result.simulated_trials > 0)
@@ -139,6 +139,66 @@ void addStudyAnalyse(CLI::App& study) {
       "Examples:\n  palpa study analyse --protocol assets/protocols/paracentesis_pilot.json "
       "--as-published\n  palpa study analyse --csv trials.csv --kind \"search study\" --out A");
   command->callback([o] { analyse(*o); });
+}
+
+namespace {
+
+struct PlanOptions {
+  study_analysis::DrawnStudies drawn;
+  std::string metric = "total";
+};
+
+study_analysis::LearningModel modelOf(const std::vector<study_analysis::LearningModel>& all,
+                                      const std::string& metric) {
+  for (const study_analysis::LearningModel& m : all)
+    if (m.metric == metric) return m;
+  return all.front();
+}
+
+void printDetections(const char* what, const study_analysis::Detections& found) {
+  const auto share = [&](int hits) { return 100.0 * hits / found.studies; };
+  std::printf(
+      "%s\n  experienced below novices, with force feedback: %5.1f %%  (as published: %5.1f %%)\n  "
+      "novices learn, with force feedback:             %5.1f %%  (as published: %5.1f %%)\n",
+      what, share(found.groups), share(found.groups_published), share(found.learning),
+      share(found.learning_published));
+}
+
+void planStudy(const PlanOptions& o) {
+  std::printf(
+      "SIMULATED: %d studies drawn from a learning model, figure %s, %d subjects in each group and "
+      "condition, %d trials each, level %g\n",
+      o.drawn.studies, o.metric.c_str(), o.drawn.subjects, o.drawn.trials, o.drawn.level);
+  printDetections("Studies that find the effects of Tzafestas 2008 (power):",
+                  detectionsIn(modelOf(study_analysis::pilotModels(), o.metric), o.drawn));
+  printDetections("Studies that find effects where there are none (false positives):",
+                  detectionsIn(modelOf(study_analysis::nullModels(), o.metric), o.drawn));
+  const study_analysis::Band band = study_analysis::binomialBand(o.drawn.studies, o.drawn.level);
+  std::printf("A fair test has false positives between %.1f and %.1f %% here (95 %% band).\n",
+              100.0 * band.low / o.drawn.studies, 100.0 * band.high / o.drawn.studies);
+}
+
+}  // namespace
+
+void addStudyPlan(CLI::App& study) {
+  CLI::App* command = study.add_subcommand(
+      "plan", "How many subjects? Power and false positives of simulated studies");
+  const auto o = std::make_shared<PlanOptions>();
+  command
+      ->add_option("--subjects", o->drawn.subjects,
+                   "In each group and condition (default 5, as in the paper)")
+      ->check(CLI::Range(2, 1000));
+  command->add_option("--trials", o->drawn.trials, "Of each subject (default 10)")
+      ->check(CLI::Range(4, 1000));
+  command->add_option("--simulate", o->drawn.studies, "Studies to draw (default 2000)")
+      ->check(CLI::Range(1, 1000000));
+  command->add_option("--level", o->drawn.level, "Level of each test (default 0.05)")
+      ->check(CLI::Range(0.0001, 0.5));
+  command->add_option("--metric", o->metric, "total (default) or time_s")
+      ->check(CLI::IsMember({"total", "time_s"}));
+  command->add_option("--seed", o->drawn.seed, "Random seed (default 1)");
+  command->footer("Example:\n  palpa study plan --subjects 12 --simulate 2000");
+  command->callback([o] { planStudy(*o); });
 }
 
 }  // namespace palpa::cli

@@ -1,13 +1,11 @@
 #include <filesystem>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/records_place.h"
-#include "apps/cli/session_arguments.h"
-#include "apps/cli/study_analyse.h"
-#include "apps/cli/study_run.h"
 #include "apps/record/store/record_store.h"
+#include "apps/study/run/study_run.h"
 
 namespace palpa::cli {
 namespace {
@@ -26,7 +24,7 @@ std::string fromAnywhere(const std::string& url) {
   return record::isServer(url) ? url : std::filesystem::absolute(url).string();
 }
 
-void run(StudyOptions o) {
+void run(study::StudyOptions o) {
   o.url = fromAnywhere(o.url);
   if (o.simulate) {
     if (!o.trainee.empty())
@@ -35,22 +33,22 @@ void run(StudyOptions o) {
     if (o.learners.empty())
       throw UsageError("needs --learning: who learns how", "--simulate",
                        "E.g. --learning assets/protocols/learners/paracentesis_learners.json");
-    return simulateStudy(o);
+    return study::simulateStudy(o);
   }
   if (o.trainee.empty())
     throw UsageError("needs --trainee or --simulate", "palpa study run", "See its --help");
   if (!o.learners.empty())
     throw UsageError("goes with --simulate only", "--learning", "Leave it out, or add --simulate");
-  runStudySession(o);
+  study::runStudySession(o);
 }
 
-void addProtocol(CLI::App& command, StudyOptions& o) {
+void addProtocol(CLI::App& command, study::StudyOptions& o) {
   command.add_option("--protocol", o.protocol, "Protocol file")->required()->type_name("FILE");
   addRecordsArgument(command, o.url);
 }
 
 void addRun(CLI::App& study) {
-  const auto o = std::make_shared<StudyOptions>();
+  const auto o = std::make_shared<study::StudyOptions>();
   CLI::App* command = study.add_subcommand(
       "run", "Lead a trainee through the next session of a protocol; or fill it with virtual ones");
   command->footer(kRunExamples);
@@ -96,11 +94,11 @@ void addStudy(CLI::App& program) {
       "Examples:\n  palpa study run --protocol assets/protocols/paracentesis_pilot.json --trainee "
       "T001\n  palpa study status --protocol assets/protocols/paracentesis_pilot.json");
   addRun(*study);
-  const auto o = std::make_shared<StudyOptions>();
+  const auto o = std::make_shared<study::StudyOptions>();
   CLI::App* status = study->add_subcommand(
       "status", "Who is enrolled, who is next, how far everybody is; never a condition");
   addProtocol(*status, *o);
-  status->callback([o] { tellStudy(*o); });
+  status->callback([o] { study::tellStudy(*o); });
   addStudyAnalyse(*study);
   addStudyPlan(*study);
 }

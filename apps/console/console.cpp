@@ -11,11 +11,11 @@
 #include <fstream>
 #include <thread>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/console/routes.h"
-#include "apps/live/local_socket.h"
-#include "apps/runtime/serving_clock.h"
+#include "apps/os/local_socket.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::console {
 namespace {
@@ -139,7 +139,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   addReplayRoutes(server, console);
   checkHealth(console);
   std::thread serving([&] {
-    live::giveWay();
+    os::giveWay();
     server.listen_after_bind();
   });
   const std::string url = "http://" + bracketed(s.address == "0.0.0.0" ? "127.0.0.1" : s.address) +

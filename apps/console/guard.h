@@ -2,13 +2,14 @@
 
 #include <chrono>
 #include <deque>
+#include <filesystem>
 #include <map>
 #include <mutex>
 #include <string>
 #include <unordered_set>
 #include <vector>
 
-#include "apps/runtime/serving_clock.h"
+#include "apps/runtime/clock.h"
 
 /// Who may ask the console what. Judged from the request alone, before anything is done for it.
 namespace palpa::console {
@@ -64,5 +65,18 @@ std::string randomKey();
 const std::vector<std::pair<std::string, std::string>>& safeHeaders();
 /// Of a report, which is a page of its own: no script, no network.
 extern const char* const kReportPolicy;
+
+/// What was refused, to whom and why, in a file that does not grow beyond a megabyte or two; never
+/// a token, cookie, query or body.
+class Refusals {
+ public:
+  explicit Refusals(std::filesystem::path file) : file_(std::move(file)) {}
+  void note(const std::string& remote, const std::string& method, const std::string& path,
+            int status, const std::string& words);
+
+ private:
+  const std::filesystem::path file_;
+  std::mutex mutex_;
+};
 
 }  // namespace palpa::console

@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cstdio>
 
-#include "anatomy/geometry/error.h"
-#include "apps/runtime/serving_clock.h"
+#include "anatomy/base/error.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::console {
 namespace {
@@ -52,7 +52,7 @@ Jobs::~Jobs() {
     const std::lock_guard lock(mutex_);
     ending_ = true;
     for (auto& [id, job] : jobs_)
-      if (job.state == State::running) askToEnd(job.process);
+      if (job.state == State::running) os::askToEnd(job.process);
   }
   changed_.notify_all();
   thread_.join();
@@ -108,7 +108,7 @@ void Jobs::perform(const std::string& id) {
   const fs::path folder = place_.jobs() / id;
   std::error_code none;
   fs::create_directories(folder, none);
-  ProcessId process;
+  os::ProcessId process;
   Wish wish;
   {
     const std::lock_guard lock(mutex_);
@@ -119,15 +119,15 @@ void Jobs::perform(const std::string& id) {
         argument.replace(at, 2, folder.string());
     if (!jobs_[id].stopped && !ending_) {
       try {
-        process = jobs_[id].process = start(arguments, folder / "log.txt", true);
+        process = jobs_[id].process = os::start(arguments, folder / "log.txt", true);
       } catch (const Error&) {
         process = {};
       }
     }
     jobs_[id].state = State::running;
   }
-  while (runs(process)) runtime::rest(kLook);
-  bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() &&
+  while (os::runs(process)) runtime::rest(kLook);
+  bool good = process.pid > 0 && os::complaintIn(folder / "log.txt").empty() &&
               (wish.page.empty() || fs::exists(folder / wish.page, none));
   try {
     if (wish.then) wish.then(folder, good);
@@ -145,7 +145,7 @@ nlohmann::json Jobs::one(const std::string& id) {
     throw UsageError("is not known", "job " + id.substr(0, 64), "Start it again");
   const Job& job = found->second;
   const fs::path log = place_.jobs() / id / "log.txt";
-  const auto lines = lastLines(log, kShownLines);
+  const auto lines = os::lastLines(log, kShownLines);
   std::error_code none;
   nlohmann::json one{{"id", id},
                      {"title", job.wish.title},
@@ -158,7 +158,7 @@ nlohmann::json Jobs::one(const std::string& id) {
                      {"picture", nullptr},
                      {"page", ""}};
   if (job.state == State::failed)
-    one["message"] = job.stopped ? "It was stopped." : complaintIn(log);
+    one["message"] = job.stopped ? "It was stopped." : os::complaintIn(log);
   if (!job.wish.picture.empty() && fs::exists(place_.jobs() / id / job.wish.picture, none))
     one["picture"] = "/api/jobs/" + id + "/picture";
   if (!job.wish.page.empty() && fs::exists(place_.jobs() / id / job.wish.page, none))
@@ -172,7 +172,7 @@ void Jobs::stop(const std::string& id) {
   if (found == jobs_.end())
     throw UsageError("is not known", "job " + id.substr(0, 64), "It is over already");
   found->second.stopped = true;
-  askToEnd(found->second.process);
+  os::askToEnd(found->second.process);
 }
 
 fs::path Jobs::picture(const std::string& id) {

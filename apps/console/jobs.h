@@ -10,8 +10,8 @@
 #include <thread>
 #include <vector>
 
-#include "apps/console/child.h"
 #include "apps/console/place.h"
+#include "apps/os/child_process.h"
 
 namespace palpa::console {
 
@@ -53,7 +53,7 @@ class Jobs {
   struct Job {
     Wish wish;
     State state = State::waiting;
-    ProcessId process;
+    os::ProcessId process;
     bool stopped = false;
   };
   std::string addLocked(Wish wish);

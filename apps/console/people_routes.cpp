@@ -1,7 +1,7 @@
 #include <algorithm>
 #include <map>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/console/routes.h"
 #include "apps/record/store/record_store.h"
 #include "apps/record/store/study_store.h"

@@ -3,11 +3,11 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/console/guard.h"
-#include "apps/runtime/serving_clock.h"
-#include "apps/station/json_file.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::console {
 namespace {

@@ -3,7 +3,7 @@
 #include <filesystem>
 #include <string>
 
-#include "apps/runtime/serving_clock.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::console {
 

@@ -4,11 +4,11 @@
 #include <mutex>
 #include <string>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
 #include "apps/console/routes.h"
-#include "apps/live/curve.h"
+#include "apps/live/live_sink.h"
 #include "apps/record/session_file.h"
-#include "apps/station/json_file.h"
 
 namespace palpa::console {
 namespace {

@@ -7,8 +7,8 @@
 #include <cerrno>
 #include <cstdlib>
 
-#include "apps/live/local_socket.h"
 #include "apps/live/wire.h"
+#include "apps/os/local_socket.h"
 
 namespace palpa::console {
 
@@ -50,9 +50,9 @@ SessionLink::~SessionLink() {
 }
 
 void SessionLink::run() {
-  live::giveWay();
+  os::giveWay();
   while (!ending_.load()) {
-    if (const int socket = live::connectTo(path_); socket >= 0) {
+    if (const int socket = os::connectTo(path_); socket >= 0) {
       speak(socket);
       ::close(socket);
     }

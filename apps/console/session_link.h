@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "apps/runtime/serving_clock.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::console {
 

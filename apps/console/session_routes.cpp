@@ -1,12 +1,74 @@
 #include <algorithm>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
 #include "apps/console/routes.h"
-#include "apps/live/steering.h"
+#include "apps/console/sessions.h"
+#include "apps/live/wire.h"
+#include "apps/record/store/record_store.h"
 #include "apps/station/assets.h"
-#include "apps/station/json_file.h"
 
 namespace palpa::console {
+namespace {
+
+std::string textIn(const nlohmann::json& asked, const char* field, const std::string& otherwise) {
+  if (!asked.contains(field)) return otherwise;
+  if (!asked[field].is_string()) throw UsageError("is no text", field, "Load the page again");
+  return asked[field];
+}
+
+bool flagIn(const nlohmann::json& asked, const char* field, bool otherwise) {
+  if (!asked.contains(field)) return otherwise;
+  if (!asked[field].is_boolean())
+    throw UsageError("is neither true nor false", field, "Load the page again");
+  return asked[field];
+}
+
+std::uint64_t numberIn(const nlohmann::json& asked, const char* field, std::uint64_t otherwise,
+                       std::uint64_t least, std::uint64_t most) {
+  if (!asked.contains(field)) return otherwise;
+  const auto& value = asked[field];
+  if (!value.is_number_unsigned() || value.get<std::uint64_t>() < least ||
+      value.get<std::uint64_t>() > most)
+    throw UsageError(
+        "is no whole number from " + std::to_string(least) + " to " + std::to_string(most), field,
+        "Change it");
+  return value;
+}
+
+void requireOneOf(const std::string& value, const char* field,
+                  std::initializer_list<const char*> known) {
+  std::string names;
+  for (const char* name : known) {
+    if (value == name) return;
+    names += names.empty() ? name : std::string(", ") + name;
+  }
+  throw UsageError("is none of " + names, field, "Choose one of them");
+}
+
+}  // namespace
+
+SessionWish readWish(const nlohmann::json& asked) {
+  constexpr std::uint64_t kMostSeed = 1'000'000'000;
+  SessionWish wish;
+  wish.task = textIn(asked, "task", "");
+  if (!isId(wish.task)) throw UsageError("was not chosen", "task", "Choose one");
+  wish.trainee = textIn(asked, "trainee", "");
+  if (!wish.trainee.empty())
+    if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty())
+      throw UsageError(why, "trainee", "Choose one of the list");
+  wish.performer = textIn(asked, "operator", "person");
+  requireOneOf(wish.performer, "operator", {"person", "expert", "novice"});
+  wish.side = textIn(asked, "side", "right");
+  requireOneOf(wish.side, "side", {"right", "left"});
+  wish.assess = flagIn(asked, "assess", false);
+  wish.force_feedback = flagIn(asked, "force_feedback", true);
+  wish.trials = static_cast<int>(numberIn(asked, "trials", 1, 1, 50));
+  wish.seed = numberIn(asked, "seed", 1, 0, kMostSeed);
+  wish.patient_seed = numberIn(asked, "patient_seed", 0, 0, kMostSeed);
+  return wish;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -138,6 +200,92 @@ void addSessionRoutes(WebServer& server, Console& c) {
                const std::string name = q.matches[2];
                if (!isShown(name)) return refuse(r, 404, "is not here");
                sendFile(r, c.sessions.shown(q.matches[1]) / name, mediaTypeOf(name));
+             });
+}
+
+namespace {
+
+constexpr std::chrono::milliseconds kPatience{1000};
+constexpr char kBoundary[] = "palpa-picture";
+
+bool write(httplib::DataSink& sink, const std::string& bytes) {
+  return sink.is_writable() && sink.write(bytes.data(), bytes.size());
+}
+
+/// Server-sent events: every entry with its number; whoever was away says the last that he has
+/// (Last-Event-ID) and gets the rest.
+void sendEvents(WebServer& server, const std::shared_ptr<SessionLink>& link, std::size_t from,
+                httplib::Response& response) {
+  response.set_header("X-Accel-Buffering", "no");
+  response.set_chunked_content_provider(
+      "text/event-stream",
+      [&server, link, next = from](std::size_t, httplib::DataSink& sink) mutable {
+        if (server.ending()) return false;
+        const SessionLink::News news = link->wait(next, kPatience);
+        next = news.from;
+        std::string out;
+        for (const std::string& entry : news.entries)
+          out += "id: " + std::to_string(++next) + "\ndata: " + entry + "\n\n";
+        if (out.empty()) out = ": here\n\n";
+        if (!write(sink, out)) return false;
+        if (news.over && news.entries.empty()) sink.done();
+        return true;
+      },
+      [&server](bool) { server.leaveStream(); });
+}
+
+void sendPictures(WebServer& server, const std::shared_ptr<SessionLink>& link,
+                  httplib::Response& response) {
+  response.set_content_provider(
+      std::string("multipart/x-mixed-replace; boundary=") + kBoundary,
+      [&server, link, last = std::uint64_t{0}](std::size_t, httplib::DataSink& sink) mutable {
+        if (server.ending()) return false;
+        const SessionLink::Picture picture = link->picture(last, kPatience);
+        if (!picture.jpeg)
+          return sink.is_writable() && !link->wait(0, std::chrono::milliseconds(0)).over;
+        last = picture.number;
+        return write(sink, std::string("--") + kBoundary +
+                               "\r\nContent-Type: image/jpeg\r\nContent-Length: " +
+                               std::to_string(picture.jpeg->size()) + "\r\n\r\n" + *picture.jpeg +
+                               "\r\n");
+      },
+      [&server](bool) { server.leaveStream(); });
+}
+
+std::shared_ptr<SessionLink> linkFor(WebServer& server, Console& c, const std::string& id,
+                                     httplib::Response& response) {
+  auto link = c.sessions.link(id);
+  if (!link) {
+    c.sessions.folder(id);
+    response.status =
+        204;  // over before this console began: nothing live to tell, and no reason to ask again
+    return nullptr;
+  }
+  if (server.enterStream()) return link;
+  refuse(response, 503, "too many pages look on at once: close some");
+  return nullptr;
+}
+
+}  // namespace
+
+void addLiveRoutes(WebServer& server, Console& c) {
+  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/live)",
+             [&server, &c](const httplib::Request& q, httplib::Response& r) {
+               if (const auto link = linkFor(server, c, q.matches[1], r))
+                 sendEvents(server, link, wholeNumber(q.get_header_value("Last-Event-ID"), 0), r);
+             });
+  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/view)",
+             [&server, &c](const httplib::Request& q, httplib::Response& r) {
+               if (const auto link = linkFor(server, c, q.matches[1], r))
+                 sendPictures(server, link, r);
+             });
+  server.Get(R"(/api/sessions/([A-Za-z0-9_-]{1,64})/picture)",
+             [&c](const httplib::Request& q, httplib::Response& r) {
+               const auto link = c.sessions.link(q.matches[1]);
+               const SessionLink::Picture picture =
+                   link ? link->picture(0, kPatience) : SessionLink::Picture{};
+               if (!picture.jpeg) return refuse(r, 404, "there is no picture yet");
+               r.set_content(*picture.jpeg, "image/jpeg");
              });
 }
 

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/record/session_file.h"
-#include "apps/station/json_file.h"
 
 namespace palpa::console {
 namespace {
@@ -26,7 +26,7 @@ std::string textOf(const json& facts, const char* field) {
   return facts.value(field, json()).is_string() ? facts[field].get<std::string>() : "";
 }
 
-ProcessId processOf(const json& facts) {
+os::ProcessId processOf(const json& facts) {
   const auto number = [&](const char* field) {
     return facts.value(field, json()).is_number() ? facts[field].get<std::int64_t>() : 0;
   };
@@ -101,7 +101,7 @@ json filesIn(const fs::path& folder) {
 /// Why it ended as it did; empty: as it should.
 std::string messageOf(const std::string& state, const fs::path& folder) {
   if (state != "failed" && state != "interrupted") return "";
-  const std::string complaint = complaintIn(folder / kLog);
+  const std::string complaint = os::complaintIn(folder / kLog);
   if (!complaint.empty()) return complaint;
   return state == "failed" ? "The session ended before it began, without a word: it was killed, or "
                              "the computer stopped. Begin it again"
@@ -141,8 +141,8 @@ void Sessions::find() {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(place_.sessions(), none)) {
     const std::string id = entry.path().filename().string();
-    const ProcessId process = processOf(factsOf(entry.path()));
-    if (isId(id) && runs(process))
+    const os::ProcessId process = processOf(factsOf(entry.path()));
+    if (isId(id) && os::runs(process))
       running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
   }
 }
@@ -164,7 +164,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
              {"simulated", wish.simulated}, {"study", !wish.protocol.empty()},
              {"blind", wish.blind},         {"trials", wish.trials}};
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
-  const ProcessId process = start(arguments, folder / kLog, false);
+  const os::ProcessId process = os::start(arguments, folder / kLog, false);
   facts["pid"] = process.pid;
   facts["began"] = process.began;
   writeWhole(folder / kFacts, facts.dump(1) + "\n");
@@ -175,7 +175,7 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
 void Sessions::look() {
   const std::lock_guard lock(mutex_);
   for (auto& [id, one] : running_) {
-    if (one.over || runs(one.process)) continue;
+    if (one.over || os::runs(one.process)) continue;
     one.over = true;
     const fs::path folder = place_.sessions() / id;
     const std::string state = stateOf(id, folder);

@@ -8,9 +8,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/console/child.h"
 #include "apps/console/place.h"
 #include "apps/console/session_link.h"
+#include "apps/os/child_process.h"
 
 namespace palpa::console {
 
@@ -57,7 +57,7 @@ class Sessions {
 
  private:
   struct Running {
-    ProcessId process;
+    os::ProcessId process;
     std::shared_ptr<SessionLink> link;
     bool over = false;
   };

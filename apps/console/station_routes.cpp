@@ -1,10 +1,10 @@
 #include <fstream>
 #include <sstream>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
 #include "apps/console/routes.h"
 #include "apps/station/assets.h"
-#include "apps/station/json_file.h"
 #include "apps/station/station_file.h"
 
 namespace palpa::console {
@@ -159,7 +159,7 @@ void checkHealth(Console& c) {
                {"findings",
                 {{{"subject", "doctor"},
                   {"state", "ill"},
-                  {"verdict", complaintIn(folder / "log.txt")},
+                  {"verdict", os::complaintIn(folder / "log.txt")},
                   {"fix", "Run palpa doctor in a terminal"}}}}};
     const std::lock_guard lock(c.health.mutex);
     c.health.findings = std::move(found);

@@ -7,10 +7,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
-#include "apps/console/deadline_stream.h"
-#include "apps/console/framing.h"
-#include "apps/live/local_socket.h"
+#include "anatomy/base/error.h"
+#include "apps/console/http_framing.h"
+#include "apps/os/local_socket.h"
 
 namespace palpa::console {
 namespace {
@@ -30,7 +29,7 @@ class LowPriorityPool final : public httplib::TaskQueue {
   LowPriorityPool() : pool_(WebServer::kMostConnections + kThreadsToRefuse) {}
   void enqueue(std::function<void()> work) override {
     pool_.enqueue([work = std::move(work)] {
-      thread_local const bool gave = (live::giveWay(), true);
+      thread_local const bool gave = (os::giveWay(), true);
       (void)gave;
       work();
     });

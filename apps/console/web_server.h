@@ -7,7 +7,6 @@
 
 #include "apps/console/guard.h"
 #include "apps/console/http.h"
-#include "apps/console/refusals.h"
 
 namespace palpa::console {
 

@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdio>
 #include <string>
 #include <vector>
 
@@ -31,5 +32,13 @@ Finding troubled(const std::string& subject, State state, const std::string& err
 
 /// As JSON: {"can_start": true, "findings": [{"subject", "state", "verdict", "fix"}]}.
 std::string toJson(const Findings& findings);
+
+/// As printf, at most 191 bytes: for figures within a verdict.
+template <class... Numbers>
+std::string text(const char* pattern, Numbers... numbers) {
+  char line[192];
+  std::snprintf(line, sizeof line, pattern, numbers...);
+  return line;
+}
 
 }  // namespace palpa::doctor

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "anatomy/geometry/error.h"
-#include "apps/doctor/words.h"
-#include "ar/board_pose.h"
+#include "anatomy/base/error.h"
+#include "apps/doctor/finding.h"
+#include "ar/tracking/board_pose.h"
 
 namespace palpa::doctor {
 namespace {

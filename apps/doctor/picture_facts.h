@@ -5,8 +5,8 @@
 
 #include "apps/doctor/finding.h"
 #include "apps/runtime/clock.h"
-#include "ar/board.h"
-#include "ar/camera.h"
+#include "ar/boards/board.h"
+#include "ar/cameras/camera.h"
 #include "calibration/camera_model.h"
 
 namespace palpa::doctor {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "apps/doctor/words.h"
+#include "anatomy/base/error.h"
+#include "apps/doctor/finding.h"
 #include "apps/record/store/store_look.h"
 #include "apps/station/calibrations.h"
 

@@ -1,13 +1,24 @@
 #pragma once
 
+#include <array>
 #include <functional>
 #include <memory>
 
 #include "apps/runtime/head_display.h"
 #include "ar/headset/headset.h"
-#include "scene/scene_view.h"
+#include "scene/scene_state.h"
+#include "scene/view/scene_view.h"
 
 namespace palpa::headset {
+
+/// The camera of an eye for a picture of `width` x `height` pixels: u = fx X/Z + cx with pixel
+/// centres at whole numbers, so that the tangents `left` .. `right` lie at -1/2 .. width - 1/2, and
+/// `up` .. `down` at -1/2 .. height - 1/2.
+scene::Pinhole pinholeOf(const ar::EyeView& eye, int width, int height);
+
+/// Pose of W (+z up, +y away from the person) in L for a person whose eyes are there: `focus_W`,
+/// what the work is about, lies before and below them, W's +y along the way they look, level.
+Pose placeBefore(const std::array<ar::EyeView, 2>& eyes, const Vec3& focus_W);
 
 /// What a controller says, in the patient's frame.
 struct HeldTool {

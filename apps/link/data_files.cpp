@@ -1,7 +1,7 @@
-#include "apps/link/data_files.h"
+#include "apps/link/data_tables.h"
 
-#include "anatomy/geometry/csv_field.h"
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/csv.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::link {
 namespace {

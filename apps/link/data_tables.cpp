@@ -5,7 +5,6 @@
 #include <set>
 
 #include "apps/assess/metrics/metric_table.h"
-#include "apps/link/further_tables.h"
 
 namespace palpa::link {
 namespace {

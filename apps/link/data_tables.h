@@ -1,8 +1,10 @@
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <filesystem>
 #include <string>
 #include <vector>
+
+#include <nlohmann/json.hpp>
 
 #include "apps/record/store/record_store.h"
 
@@ -45,5 +47,27 @@ struct DataTable {
 /// records hold), events. People appear by pseudonym, places of this computer (where evidence lies)
 /// only `with_paths`.
 std::vector<DataTable> tablesOf(const Dataset& data, bool with_paths);
+
+/// Every table of the store, but those that are exported by name, that says whose each row is: a
+/// person's export has everything, whatever the store learnt to keep.
+std::vector<FurtherTable> furtherTables(record::RecordStore& store,
+                                        const std::vector<record::Trainee>& who);
+
+DataTable asTable(const FurtherTable& further);
+
+/// RFC 4180, a header row, lines end with LF; the same in every locale. JSON cells are JSON texts.
+std::string asCsv(const DataTable& table);
+/// All tables in one object, each a list of rows by column name.
+std::string asJson(const std::vector<DataTable>& tables);
+/// What every column of every table is: as a table itself, and for people.
+DataTable dictionaryOf(const std::vector<DataTable>& tables);
+std::string dictionaryAsMarkdown(const std::vector<DataTable>& tables);
+
+enum class DataFormat { csv, json, both };
+
+/// <table>.csv, records.json; dictionary.csv and dictionary.md beside them. Answers with the files'
+/// names. Throws Error.
+std::vector<std::string> writeTables(const std::vector<DataTable>& tables, DataFormat format,
+                                     const std::filesystem::path& folder);
 
 }  // namespace palpa::link

@@ -1,4 +1,4 @@
-#include "apps/link/further_tables.h"
+#include "apps/link/data_tables.h"
 
 #include <algorithm>
 #include <map>

@@ -1,9 +1,9 @@
-#include "apps/link/outbox.h"
+#include "apps/link/tell.h"
 
 #include <cstdlib>
 #include <fstream>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::link {
 namespace {

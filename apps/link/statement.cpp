@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/link/statement_id.h"
+#include "anatomy/base/uuid.h"
 
 namespace palpa::link {
 namespace {

@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/record/store/rows.h"
+#include "apps/record/store/record_store.h"
 
 /// Trials as statements of the Experience API (xAPI 1.0.3, IEEE 9274.1.1 before its renaming).
 namespace palpa::link {

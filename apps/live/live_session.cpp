@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "apps/live/entry.h"
-#include "apps/live/steering.h"
+#include "apps/live/wire.h"
 
 namespace palpa::live {
 namespace {

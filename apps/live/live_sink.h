@@ -1,14 +1,59 @@
 #pragma once
 
 #include <functional>
+#include <mutex>
 #include <optional>
 #include <string>
+#include <vector>
 
-#include "apps/live/curve.h"
-#include "apps/live/live_log.h"
 #include "apps/runtime/flight_sink.h"
+#include "haptics/flight_record.h"
 
 namespace palpa::live {
+
+/// What a session has told so far, entry by entry (JSON objects): whoever comes late, or was away,
+/// reads on from where he was. Any thread but the haptic one.
+class LiveLog {
+ public:
+  static constexpr std::size_t kMostCurves =
+      200'000;  ///< 5 h of curves at 10 entries a second; what happens is told beyond it, too
+
+  void add(std::string entry);
+  void addCurve(std::string entry);  ///< left out beyond kMostCurves
+  std::size_t size() const;
+  /// At most `most` entries from number `from` (0 is the first).
+  std::vector<std::string> since(std::size_t from, std::size_t most) const;
+
+ private:
+  mutable std::mutex mutex_;
+  std::vector<std::string> entries_;
+};
+
+/// What the hand feels, N: of a real thing (where a sensor can say) and of what is rendered,
+/// together; without a sensor the computed contact.
+double feltForce(const haptics::FlightRecord& record);
+
+/// Force and depth of a trial, thinned for a picture: of every 20 ms the tick with the greatest
+/// force.
+class Curve {
+ public:
+  struct Point {
+    double t_s = 0;  ///< session time
+    double force_N = 0;
+    double depth_mm = 0;  ///< under the skin; 0 for what has no needle
+  };
+  void add(const haptics::FlightRecord& record);
+  /// The points that are complete since the last call, as an entry: {"kind": "curve", "trial",
+  /// "t_s", "force_N", "depth_mm"}; empty: none.
+  std::string take();
+  const std::vector<Point>& points() const { return points_; }
+
+ private:
+  std::vector<Point> points_;
+  std::int64_t slot_ = -1;
+  Point best_;
+  std::uint32_t trial_ = 0;
+};
 
 /// What came too near, in words ("1.8 mm from the pleura"); empty: nothing. Asked a few times a
 /// second, on the recorder's thread.

@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "apps/live/jpeg.h"
-#include "apps/live/local_socket.h"
-#include "apps/runtime/serving_clock.h"
+#include "apps/os/local_socket.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::live {
 namespace {
@@ -43,7 +43,7 @@ Port::Port(std::string path, const LiveLog& log, Heard heard, std::chrono::milli
       log_(log),
       heard_(std::move(heard)),
       patience_(patience),
-      listener_(listenAt(path_)) {
+      listener_(os::listenAt(path_)) {
   thread_ = std::thread([this] { run(); });
 }
 
@@ -65,7 +65,7 @@ void Port::offer(scene::Image picture) {
 }
 
 void Port::run() {
-  giveWay();
+  os::giveWay();
   runtime::ServingClock::time_point leave{};
   for (;;) {
     waitForPeers(kLook_ms);
@@ -96,7 +96,7 @@ void Port::accept() {
        callers < kCallersAtOnce &&
        (socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0;
        ++callers) {
-    if (peers_.size() >= kMostPeers || !sameUser(socket)) {
+    if (peers_.size() >= kMostPeers || !os::sameUser(socket)) {
       ::close(socket);
     } else {
       peers_.push_back(std::make_unique<Peer>(socket));

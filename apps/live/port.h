@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "apps/live/live_log.h"
+#include "apps/live/live_sink.h"
 #include "apps/live/wire.h"
 #include "scene/scene_state.h"
 

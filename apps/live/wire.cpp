@@ -1,6 +1,12 @@
 #include "apps/live/wire.h"
 
+#include <algorithm>
 #include <cstdint>
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/base/error.h"
 
 namespace palpa::live {
 namespace {
@@ -45,6 +51,65 @@ std::optional<Frame> FrameDecoder::next() {
   Frame frame{static_cast<FrameKind>(pending_[0]), pending_.substr(kHead, length)};
   pending_.erase(0, kHead + length);
   return frame;
+}
+
+namespace {
+
+using trial::UserCommand;
+constexpr std::size_t kLongestReason = 500;
+constexpr double kLongestSession_s =
+    1e6;  // beyond it nanoseconds and a table's cells would not hold it
+
+const std::map<std::string, UserCommand> kCommands{
+    {"start", UserCommand::start},         {"pause", UserCommand::pause},
+    {"abort", UserCommand::abort},         {"void", UserCommand::void_trial},
+    {"stop", UserCommand::emergency_stop}, {"rearm", UserCommand::rearm},
+    {"leave", UserCommand::quit},          {"note", UserCommand::note}};
+
+/// Of UTF-8: bytes that do not go on with a character.
+std::size_t characters(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0) != 0x80; }));
+}
+
+std::string textIn(const nlohmann::json& json, const char* field) {
+  if (!json.contains(field)) return "";
+  if (!json[field].is_string()) throw UsageError("is no text", field, "Send it as a text");
+  const std::string text = json[field];
+  if (characters(text) > kLongestReason)
+    throw UsageError("is longer than 500 characters", field, "Shorten it");
+  if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))
+    throw UsageError("holds control characters", field, "Write it in one line");
+  return text;
+}
+
+double momentIn(const nlohmann::json& at) {
+  const double seconds = at.is_number() ? at.get<double>() : -1;
+  if (!(seconds >= 0 && seconds <= kLongestSession_s))
+    throw UsageError("is no second of a session", "at_s",
+                     "Send the session's second, or leave it out");
+  return seconds;
+}
+
+}  // namespace
+
+trial::UserRequest parseSteering(const std::string& text) {
+  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  if (!json.is_object())
+    throw UsageError("is no JSON object", "command to the session", "Send {\"command\": ...}");
+  const std::string name = textIn(json, "command");
+  const auto found = kCommands.find(name);
+  if (found == kCommands.end())
+    throw UsageError("is none that a session knows", "command \"" + name.substr(0, 32) + "\"",
+                     "start, pause, abort, void, stop, rearm, leave, note");
+  trial::UserRequest request{found->second, textIn(json, "reason"), 0};
+  if (request.reason.empty() &&
+      (request.command == UserCommand::void_trial || request.command == UserCommand::note))
+    throw UsageError("needs words", "command \"" + name + "\"",
+                     request.command == UserCommand::note ? "Write what is to be noted"
+                                                          : "Say why the trial shall not count");
+  if (json.contains("at_s")) request.at_s = momentIn(json["at_s"]);
+  return request;
 }
 
 }  // namespace palpa::live

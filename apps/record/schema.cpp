@@ -3,7 +3,7 @@
 #include <bit>
 
 #include "haptics/flight_record.h"
-#include "haptics/tick_pair.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::record {
 

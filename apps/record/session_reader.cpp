@@ -1,8 +1,7 @@
 #include <cstring>
 
-#include "apps/record/column_codec.h"
 #include "apps/record/evidence.h"
-#include "apps/record/row_checksum.h"
+#include "apps/record/record_codec.h"
 #include "apps/record/schema.h"
 #include "apps/record/session_file.h"
 

@@ -7,11 +7,10 @@
 #include <optional>
 #include <span>
 
-#include "apps/record/pending.h"
+#include "anatomy/base/uuid.h"
 #include "apps/record/schema.h"
 #include "apps/record/session_file.h"
 #include "apps/record/table_writer.h"
-#include "apps/record/uuid.h"
 
 namespace palpa::record {
 namespace {

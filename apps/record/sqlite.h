@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
-#include "anatomy/geometry/error.h"
-#include "apps/record/bytes.h"
+#include "anatomy/base/bytes.h"
+#include "anatomy/base/error.h"
 
 struct sqlite3;
 struct sqlite3_stmt;

@@ -2,8 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/record/column_codec.h"
-#include "apps/record/row_checksum.h"
+#include "apps/record/record_codec.h"
 #include "apps/record/schema.h"
 
 namespace palpa::record {

@@ -1,11 +1,11 @@
-#include "apps/record/tick_export.h"
+#include "apps/record/session_file.h"
 
 #include <algorithm>
 #include <charconv>
 #include <functional>
 #include <string_view>
 
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::record {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::replay {
 namespace {

@@ -1,8 +1,123 @@
 #include "apps/replay/needle_replay.h"
 
-#include "apps/task_needle/scene_activity.h"
+#include <algorithm>
+#include <charconv>
+#include <string>
+
+#include <opencv2/imgcodecs.hpp>
+#include <opencv2/imgproc.hpp>
+
+#include "apps/replay/trial_replay.h"
+#include "apps/task_needle/needle_scene.h"
 
 namespace palpa::replay {
+namespace {
+
+constexpr double kDrawn = 0.25, kFill = 0.25;  // of the syringe: drawn enough to aspirate; a second
+
+}  // namespace
+
+MomentReader::MomentReader(const Pose& X_AD, const PackedPose& X_ET, int trial)
+    : X_ET_(unpack(X_ET)), sampler_(X_AD, X_ET) {
+  sampler_.begin(static_cast<std::uint32_t>(trial));
+}
+
+void MomentReader::add(const haptics::FlightRecord& record) {
+  assess::TrialSample sample;
+  if (!sampler_.add(record, &sample)) return;
+  phases_.add(sample);
+  const bool flows = sample.tissue == Tissue::vein_lumen && sample.plunger >= kDrawn;
+  if (flows) blood_ = std::min(sample.plunger, blood_ + kFill * (sample.t_s - last_s_));
+  last_s_ = sample.t_s;
+  if (!moments_.empty() && sample.t_s - moments_.back().t_s < kMomentStep - 1e-9) return;
+  moments_.push_back({sample.t_s, toolIn(record, X_ET_), phases_.phase(), blood_, flows});
+}
+
+task_needle::TaskStatus statusAt(const Moment& moment, int trial, bool force_feedback) {
+  task_needle::TaskStatus status;
+  status.state = trial::TrialState::running;
+  status.trial = trial;
+  status.trials = 1;
+  status.force_feedback = force_feedback;
+  status.elapsed_s = moment.t_s;
+  status.phase = moment.phase;
+  status.step = assess::clinicalName(moment.phase);
+  status.plunger = moment.tool.plunger;
+  status.blood = moment.blood;
+  status.blood_flows = moment.blood_flows;
+  return status;
+}
+
+namespace {
+
+constexpr unsigned char kEscape = 0xff, kBegin = 0xd8;  // JPEG's start of image; a byte 0xff in the
+                                                        // data is followed by 0 (ITU T.81, B.1.1.5)
+
+/// Second field of every line after the first.
+std::vector<std::int64_t> timesIn(const std::filesystem::path& table) {
+  std::vector<std::int64_t> times;
+  std::ifstream lines(table);
+  std::string line;
+  std::getline(lines, line);
+  while (std::getline(lines, line)) {
+    const std::size_t comma = line.find(',');
+    std::int64_t t = 0;
+    if (comma == std::string::npos ||
+        std::from_chars(line.data() + comma + 1, line.data() + line.size(), t).ec != std::errc())
+      break;
+    times.push_back(t);
+  }
+  return times;
+}
+
+}  // namespace
+
+RecordedPictures::RecordedPictures(const std::filesystem::path& folder)
+    : film_(folder / "camera.mjpeg", std::ios::binary) {
+  if (!film_) return;
+  findPictures();
+  times_ns_ = timesIn(folder / "camera.mjpeg.csv");
+  times_ns_.resize(std::min(times_ns_.size(), begins_.size() - 1));
+}
+
+void RecordedPictures::findPictures() {
+  std::vector<char> block(1 << 16);
+  std::streamoff at = 0;
+  unsigned char before = 0;
+  while (film_.read(block.data(), static_cast<std::streamsize>(block.size())), film_.gcount() > 0) {
+    for (std::streamsize i = 0; i < film_.gcount(); ++i) {
+      const auto byte = static_cast<unsigned char>(block[static_cast<std::size_t>(i)]);
+      if (before == kEscape && byte == kBegin) begins_.push_back(at + i - 1);
+      before = byte;
+    }
+    at += film_.gcount();
+  }
+  begins_.push_back(at);
+  film_.clear();
+}
+
+void RecordedPictures::read(std::size_t number) {
+  shown_ = number;
+  std::vector<char> jpeg(static_cast<std::size_t>(begins_[number + 1] - begins_[number]));
+  film_.seekg(begins_[number]);
+  film_.read(jpeg.data(), static_cast<std::streamsize>(jpeg.size()));
+  film_.clear();
+  const cv::Mat picture = cv::imdecode(jpeg, cv::IMREAD_COLOR);
+  if (picture.empty()) return;
+  cv::Mat rgb;
+  cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);
+  image_ = {rgb.cols, rgb.rows, 3, {}};
+  image_.pixels.assign(rgb.data, rgb.data + rgb.total() * 3);
+}
+
+const scene::Image* RecordedPictures::at(std::int64_t t_ns) {
+  const auto after = std::upper_bound(times_ns_.begin(), times_ns_.end(), t_ns);
+  if (after == times_ns_.begin()) return nullptr;
+  const auto number = static_cast<std::size_t>(after - times_ns_.begin()) - 1;
+  if (number != shown_) read(number);
+  return image_.pixels.empty() ? nullptr : &image_;
+}
+
 namespace {
 
 constexpr double kTrailPoint = 0.0005;  // m between points of the trail

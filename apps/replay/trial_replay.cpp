@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstdio>
 
-#include "apps/runtime/tool_state.h"
+#include "apps/runtime/haptic_activity.h"
 
 namespace palpa::replay {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "apps/runtime/bus.h"
 #include "apps/trial/trial_scene.h"
-#include "scene/scene_view.h"
+#include "scene/view/scene_view.h"
 
 namespace palpa::replay {
 

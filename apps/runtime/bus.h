@@ -4,13 +4,11 @@
 #include <variant>
 #include <vector>
 
-#include "apps/runtime/event_queue.h"
+#include "apps/runtime/channels.h"
 #include "apps/runtime/flight_sink.h"
-#include "apps/runtime/state_channel.h"
-#include "ar/board_tracker.h"
-#include "ar/camera.h"
-#include "ar/picture_health.h"
-#include "haptics/tick.h"
+#include "ar/cameras/camera.h"
+#include "ar/tracking/board_tracker.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::runtime {
 

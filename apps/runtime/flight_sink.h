@@ -5,7 +5,7 @@
 
 #include "anatomy/geometry/local_geometry.h"
 #include "haptics/flight_record.h"
-#include "haptics/tick.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::runtime {
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "anatomy/local_geometry_builder.h"
+#include "anatomy/query/local_geometry_builder.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
 

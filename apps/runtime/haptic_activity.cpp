@@ -2,9 +2,63 @@
 
 #include <algorithm>
 
-#include "apps/runtime/tool_state.h"
-
 namespace palpa::runtime {
+
+haptics::SensedForce ForceSensing::sense(const haptics::DeviceReading& reading,
+                                         std::int64_t now_ns) noexcept {
+  haptics::SensedForce sensed;
+  sensed.state = haptics::SensorState::unusable;
+  const haptics::WrenchSample sample = sensor_.read(now_ns);
+  if (!reading.homed) {  // nobody knows which way is down
+    state_ = {};
+    last_ns_ = -kGoodFor_ns - 1;
+    return sensed;
+  }
+  const Quat q_DE = unpack(reading.q_DE).normalized();
+  const Pose X_DS = makePose(q_DE.toRotationMatrix(), unpack(reading.p_DE)) * setup_.X_ES;
+  const haptics::ContactWrench contact =
+      haptics::step(setup_.filter, state_, sample, pack(Pose(setup_.X_WD * X_DS)), reading.t_ns);
+  if (!state_.held)
+    last_ns_ =
+        -kGoodFor_ns - 1;  // the sensor is not well: what it said before is no word for after
+  if (!contact.valid) return now_ns - last_ns_ <= kGoodFor_ns ? last_ : sensed;
+  sensed.state = haptics::SensorState::valid;
+  sensed.f_D = pack(Vec3(X_DS.linear() * unpack(contact.contact.f_S)));
+  sensed.p_DK = pack(Vec3(setup_.X_WD.inverse() * unpack(contact.p_WK)));
+  last_ = sensed;
+  last_ns_ = now_ns;
+  return sensed;
+}
+
+ToolState toolStateOf(const PackedPose& X_DT, const haptics::FlightRecord& record) {
+  ToolState tool;
+  tool.t_ns = record.t_ns;
+  tool.X_DT = X_DT;
+  tool.f_contact_D = record.f_contact_D;
+  tool.f_command_D = record.f_command_D;
+  tool.depth = record.depth;
+  tool.plunger = record.reading.plunger;
+  tool.bone_force = record.bone_force;
+  tool.phase = record.phase;
+  tool.tissue = record.tissue;
+  tool.wall = record.wall;
+  tool.bone = record.bone;
+  tool.safety = record.safety;
+  tool.homed = record.reading.homed;
+  if (record.sensed.state == haptics::SensorState::valid) tool.f_sensed_D = record.sensed.f_D;
+  return tool;
+}
+
+ToolState toolStateOf(const haptics::TickConfig& config, const haptics::TickState& state,
+                      const haptics::FlightRecord& record, std::int64_t now_ns) {
+  ToolState tool = toolStateOf(haptics::toolPose(config, state, record.reading), record);
+  tool.t_ns = now_ns;
+  tool.v_D =
+      config.engine == haptics::Engine::probe ? state.probe.motion.v_D : state.contact.motion.v_D;
+  tool.entry_D = state.contact.entry_D;
+  return tool;
+}
+
 std::int64_t HapticActivity::step(std::int64_t now_ns) {
   const haptics::DeviceReading reading = device_.read(now_ns);
   const LocalGeometry* latest = geometryFor(reading, now_ns);
@@ -44,6 +98,33 @@ void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_
   if (!exact_) bus_.haptic_to_geometry.publish(tool, now_ns);
   bus_.haptic_to_scene.publish(tool, now_ns);
   bus_.haptic_to_link.publish(tool, now_ns);
+}
+
+std::int64_t HapticPairActivity::step(std::int64_t now_ns) {
+  std::array<haptics::DeviceReading, 2> readings;
+  std::array<haptics::SensedForce, 2> sensed;
+  for (std::size_t t = 0; t < 2; ++t) {
+    readings[t] = tools_[t].device.read(now_ns);
+    sensed[t] = tools_[t].sensing.sense(readings[t], now_ns);
+  }
+  const haptics::TickCommands* commands = bus_.task_to_haptic.read(now_ns);
+  std::array<haptics::FlightRecord, 2> records = haptics::tickPair(
+      config_, state_, readings, commands ? *commands : haptics::TickCommands{}, now_ns, sensed);
+  for (std::size_t t = 0; t < 2; ++t) {
+    tools_[t].device.command(now_ns, records[t].f_command_D);
+    records[t].late_ns = due_ns_ < 0 ? 0 : now_ns - due_ns_;
+    bus_.haptic_to_recorder.push(records[t]);
+    bus_.haptic_to_task.push(records[t]);
+  }
+  const std::array<ToolState, 2> told{
+      toolStateOf(config_.tools[0], state_.tools[0], records[0], now_ns),
+      toolStateOf(config_.tools[1], state_.tools[1], records[1], now_ns)};
+  bus_.haptic_to_scene.publish(told[0], now_ns);
+  bus_.second_to_scene.publish(told[1], now_ns);
+  bus_.haptic_to_link.publish(told[0], now_ns);
+  bus_.second_to_link.publish(told[1], now_ns);
+  due_ns_ = std::max((due_ns_ < 0 ? now_ns : due_ns_) + period_ns(), now_ns);
+  return due_ns_;
 }
 
 }  // namespace palpa::runtime

@@ -1,14 +1,61 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
+
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
-#include "apps/runtime/floor_source.h"
-#include "apps/runtime/force_sensing.h"
 #include "apps/runtime/geometry_activity.h"
 #include "haptics/device.h"
-#include "haptics/tick.h"
+#include "haptics/flight_record.h"
+#include "haptics/loop/tick.h"
+#include "haptics/sensors/wrench_filter.h"
+#include "haptics/surface/floor.h"
 
 namespace palpa::runtime {
+
+/// Floors by number, asked for by the haptic thread: what is given stays as it is while a tick may
+/// name its number.
+class FloorSource {
+ public:
+  virtual ~FloorSource() = default;
+  /// Null: there is none (yet). Neither waits nor allocates.
+  virtual const haptics::Floor* floor(std::uint32_t number) const noexcept = 0;
+};
+
+/// A force sensor on the tool, read in the haptic thread: its newest sample, cleared of bias, tool
+/// and noise (WrenchFilter), as the force of a real object on the tool, in D. The tool's motion is
+/// that of the device's readings at their own times, however often the loop asks; unusable until
+/// the device is homed. After a gap in the readings the motion takes three of them to be known
+/// again: so long the last force holds, but no longer than `kGoodFor_ns` and only while the sensor
+/// itself is well. Never allocates, never throws.
+class ForceSensing {
+ public:
+  static constexpr std::int64_t kGoodFor_ns = 10'000'000;  ///< as old as a sample may be
+
+  struct Setup {
+    haptics::WrenchFilter filter;  ///< its motion at the device's rate, its low-pass at the loop's;
+                                   ///< K: the tool's tip, or a round tip's middle
+    Pose X_WD = Pose::Identity();  ///< which way is down
+    Pose X_ES = Pose::Identity();  ///< the sensor on the end effector
+  };
+  ForceSensing(haptics::ForceSensor& sensor, const Setup& setup) : sensor_(sensor), setup_(setup) {}
+
+  haptics::SensedForce sense(const haptics::DeviceReading& reading, std::int64_t now_ns) noexcept;
+
+ private:
+  haptics::ForceSensor& sensor_;
+  Setup setup_;
+  haptics::WrenchFilterState state_;
+  haptics::SensedForce last_;  // valid
+  std::int64_t last_ns_ = -kGoodFor_ns - 1;
+};
+
+/// What a recorded tick alone tells of the tool at X_DT: no speed, no point of entry.
+ToolState toolStateOf(const PackedPose& X_DT, const haptics::FlightRecord& record);
+/// What the slower activities are told of a tool after a tick.
+ToolState toolStateOf(const haptics::TickConfig& config, const haptics::TickState& state,
+                      const haptics::FlightRecord& record, std::int64_t now_ns);
 
 inline constexpr std::int64_t kKeyframeTicks = 200;
 
@@ -44,6 +91,29 @@ class HapticActivity final : public Activity {
   const FloorSource* floors_;
   LocalGeometry made_;
   haptics::TickState state_;
+  std::int64_t due_ns_ = -1;
+};
+
+/// HAPTIC where two devices touch one real thing, every `TickConfig::period_ns` of the first: both
+/// devices and their sensors -> tickPair -> both devices. Never allocates (in real time), locks,
+/// logs or throws. Every tick is recorded twice, the first device's record before the second's.
+class HapticPairActivity final : public Activity {
+ public:
+  struct Tool {
+    haptics::HapticDevice& device;
+    ForceSensing& sensing;
+  };
+  HapticPairActivity(Bus& bus, const std::array<Tool, 2>& tools, const haptics::PairConfig& config)
+      : bus_(bus), tools_(tools), config_(config) {}
+  const char* name() const override { return "haptic"; }
+  std::int64_t step(std::int64_t now_ns) override;
+  std::int64_t period_ns() const override { return config_.tools[0].period_ns; }
+
+ private:
+  Bus& bus_;
+  std::array<Tool, 2> tools_;
+  const haptics::PairConfig config_;
+  haptics::PairState state_;
   std::int64_t due_ns_ = -1;
 };
 

@@ -1,7 +1,7 @@
 #pragma once
 
+#include "anatomy/base/random.h"
 #include "anatomy/geometry/pose.h"
-#include "apps/runtime/random.h"
 
 namespace palpa::runtime {
 

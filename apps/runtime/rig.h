@@ -5,7 +5,7 @@
 #include <string>
 
 #include "anatomy/geometry/pose.h"
-#include "ar/camera.h"
+#include "ar/cameras/camera.h"
 #include "haptics/device.h"
 #include "haptics/sensors/force_sensor.h"
 

@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::station {
 namespace {

@@ -1,11 +1,10 @@
-#include "apps/station/augmentation_plan.h"
+#include "apps/station/task_sections.h"
 
 #include <array>
 #include <tuple>
 #include <utility>
 
-#include "anatomy/geometry/error.h"
-#include "apps/station/learned_model.h"
+#include "anatomy/base/error.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::station {

@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/geometry/whole_file.h"
-#include "apps/station/json_file.h"
-#include "apps/station/sha256.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/sha256.h"
+#include "anatomy/base/whole_file.h"
 #include "calibration/rotation.h"
 
 namespace palpa::station {

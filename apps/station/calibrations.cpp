@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <optional>
 
-#include "anatomy/geometry/error.h"
-#include "apps/station/sha256.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/sha256.h"
 #include "apps/station/station_file.h"
 
 namespace palpa::station {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "anatomy/base/json_file.h"
 #include "apps/station/calibration_file.h"
-#include "apps/station/json_file.h"
 
 namespace palpa::station {
 

@@ -3,7 +3,7 @@
 #include <optional>
 
 #include "apps/station/station_file.h"
-#include "ar/board_pose.h"
+#include "ar/tracking/board_pose.h"
 
 /// How far off the overlay is expected to be at the needle's tip: root mean squares, by the
 /// covariances of the station's calibrations. Nothing for a station without calibrated tool and

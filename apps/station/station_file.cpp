@@ -1,12 +1,12 @@
 #include "apps/station/station_file.h"
 
-#include "anatomy/geometry/error.h"
-#include "haptics/virtual_coupling.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/units.h"
+#include "haptics/safety/passivity.h"
 
 namespace palpa::station {
 namespace {
 
-constexpr double kMm = 1e-3;
 constexpr int kStationVersion = 1;
 constexpr double kLongestPeriod = 1e-3;  // s: the loop runs at 1 kHz or faster
 constexpr double kDampedShare = 0.2;  // of m / T: more would make a sampled damper unstable itself

@@ -6,13 +6,11 @@
 
 #include "anatomy/patient.h"
 #include "apps/station/calibrations.h"
-#include "apps/station/device_setup.h"
-#include "apps/station/real_things.h"
-#include "apps/station/tracker_setup.h"
-#include "ar/board.h"
+#include "apps/station/station_sections.h"
+#include "ar/boards/board.h"
 #include "calibration/camera_model.h"
-#include "haptics/tick.h"
-#include "haptics/workspace_correction.h"
+#include "haptics/loop/tick.h"
+#include "haptics/loop/workspace_correction.h"
 
 namespace palpa::station {
 

@@ -2,8 +2,8 @@
 
 #include <string>
 
+#include "anatomy/base/json_file.h"
 #include "apps/record/store/record_store.h"
-#include "apps/station/json_file.h"
 
 namespace palpa::study {
 

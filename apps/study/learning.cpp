@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/runtime/random.h"
-#include "apps/station/json_file.h"
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/random.h"
 #include "apps/study/json_fields.h"
 
 namespace palpa::study {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "apps/study/utc.h"
+#include "anatomy/base/utc.h"
 
 namespace palpa::study {
 namespace {

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/record/store/rows.h"
+#include "apps/record/store/record_store.h"
 #include "apps/study/protocol.h"
 
 namespace palpa::study {

@@ -1,6 +1,14 @@
 #include "apps/study/protocol.h"
 
-#include "anatomy/geometry/error.h"
+#include <algorithm>
+#include <set>
+#include <utility>
+
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/random.h"
+#include "anatomy/base/sha256.h"
+#include "apps/study/json_fields.h"
 
 namespace palpa::study {
 namespace {
@@ -34,6 +42,202 @@ int Protocol::sessionOf(std::int64_t step) const {
     if (!session.blocks.empty() && step <= session.blocks.back().step) return number;
   }
   return number;
+}
+
+namespace {
+
+using station::JsonFile;
+
+constexpr const char* kDrawn = "drawn";  // a block's condition: the one that the trainee drew
+constexpr int kMostTrials = 1000, kMostDays = 3650, kMostPlaces = 64;
+constexpr double kLongestRest_s = 24 * 3600;
+const std::set<std::string> kEngines{"needle", "palpation", "squeeze", "surface"};
+const std::set<std::string> kModes{"real", "degraded", "augmented"};
+const std::set<std::string> kRoles{"scored", "familiarisation"};
+
+void needOneOf(const JsonFile& file, const std::string& field, const std::string& value,
+               const std::set<std::string>& known) {
+  if (known.count(value)) return;
+  std::string names;
+  for (const std::string& name : known) names += (names.empty() ? "" : ", ") + name;
+  file.refuse(field, "is \"" + value + "\"; it must be one of " + names);
+}
+
+/// What `file` says, over what `before` says. A misspelt field would be a condition that is none,
+/// so unknown ones are refused.
+Presentation presentationIn(const JsonFile& file, Presentation before) {
+  if (!file.json().is_object()) file.refuse("", "must be fields of what is shown and felt");
+  static const std::set<std::string> kKnown{
+      "force_feedback", "augment", "skin_deflection", "guide", "guidance", "navigation", "mode"};
+  for (const auto& [field, ignored] : file.json().items()) needOneOf(file, field, field, kKnown);
+  Presentation p = before;
+  p.force_feedback = flag(file, "force_feedback", p.force_feedback);
+  p.augment = flag(file, "augment", p.augment);
+  p.skin_deflection = flag(file, "skin_deflection", p.skin_deflection);
+  p.guide = flag(file, "guide", p.guide);
+  p.guidance = flag(file, "guidance", p.guidance);
+  p.navigation = flag(file, "navigation", p.navigation);
+  if (file.has("mode")) p.mode = file.text("mode");
+  needOneOf(file, "mode", p.mode, kModes);
+  return p;
+}
+
+/// The fields of an object within `file`; none where it is missing.
+JsonFile partOf(const JsonFile& file, const std::string& field) {
+  return {file.has(field) ? file.json().at(field) : nlohmann::json::object(),
+          file.name() + ", \"" + field + "\""};
+}
+
+template <class Named, class Read>
+std::vector<Named> namedIn(const JsonFile& file, const std::string& list, Read read) {
+  std::vector<Named> all;
+  std::set<std::string> names;
+  for (const JsonFile& entry : file.entries(list)) {
+    all.push_back(read(entry));
+    if (!names.insert(all.back().name).second)
+      entry.refuse("name", "is \"" + all.back().name + "\", as that of another one");
+  }
+  if (all.empty()) file.refuse(list, "must be a list of at least one");
+  return all;
+}
+
+std::vector<std::string> textsIn(const JsonFile& file, const std::string& list) {
+  std::vector<std::string> all;
+  for (const JsonFile& entry : file.entries(list)) {
+    if (!entry.json().is_string()) file.refuse(list, "must be a list of texts");
+    all.push_back(entry.json().get<std::string>());
+  }
+  return all;
+}
+
+std::filesystem::path besides(const Protocol& protocol, const std::string& relative) {
+  return (protocol.file.parent_path() / relative).lexically_normal();
+}
+
+Block blockIn(const JsonFile& file, const Protocol& protocol) {
+  Block block;
+  block.name = needName(file, "name");
+  block.task = besides(protocol, file.text("task"));
+  block.engine = JsonFile(block.task).text("engine");
+  needOneOf(file, "task", block.engine, kEngines);
+  block.role = file.has("role") ? file.text("role") : "scored";
+  needOneOf(file, "role", block.role, kRoles);
+  block.trials = file.integer("trials", 1, kMostTrials);
+  if (file.has("rest_s")) block.rest_s = file.number("rest_s", 0, kLongestRest_s);
+  if (file.has("rest_after")) block.rest_after = file.integer("rest_after", 1, kMostTrials);
+  if (block.rest_after && block.rest_s == 0) file.refuse("rest_after", "needs rest_s: how long");
+  const std::string condition = file.text("condition");
+  if (condition == kDrawn && !protocol.allocation)
+    file.refuse("condition", "is \"drawn\", but the protocol has no \"allocation\"");
+  if (condition != kDrawn && !protocol.condition(condition))
+    file.refuse("condition",
+                "is \"" + condition + "\", which is none of the protocol's conditions");
+  block.condition = condition == kDrawn ? "" : condition;
+  return block;
+}
+
+Session sessionIn(const JsonFile& file, const Protocol& protocol) {
+  Session session;
+  session.name = needName(file, "name");
+  if (file.has("days_after")) session.days_after = file.integer("days_after", 0, kMostDays);
+  session.blocks = namedIn<Block>(file, "blocks",
+                                  [&](const JsonFile& entry) { return blockIn(entry, protocol); });
+  if (file.has("questionnaire"))
+    session.questionnaire = readQuestionnaire(besides(protocol, file.text("questionnaire")));
+  return session;
+}
+
+Allocation allocationIn(const JsonFile& file, const Protocol& protocol) {
+  Allocation a{textsIn(file, "conditions"), 0};
+  if (a.conditions.size() < 2)
+    file.refuse("conditions", "must name at least two conditions, one of which is drawn");
+  for (const std::string& name : a.conditions) {
+    if (!protocol.condition(name))
+      file.refuse("conditions", "has \"" + name + "\", which is none of the protocol's conditions");
+    if (std::count(a.conditions.begin(), a.conditions.end(), name) > 1)
+      file.refuse("conditions", "has \"" + name + "\" twice");
+  }
+  a.block = file.integer("block", 2, kMostPlaces);
+  if (a.block % static_cast<int>(a.conditions.size()))
+    file.refuse("block",
+                "must be a multiple of the number of conditions, or it could not be balanced");
+  return a;
+}
+
+/// Throws where the file says something that no trainee would ever meet.
+void needAllUsed(const JsonFile& file, const Protocol& protocol) {
+  std::set<std::string> used;
+  bool drawn = false;
+  for (const Session& session : protocol.sessions)
+    for (const Block& block : session.blocks)
+      block.condition.empty() ? static_cast<void>(drawn = true)
+                              : static_cast<void>(used.insert(block.condition));
+  if (protocol.allocation && !drawn)
+    file.refuse("allocation", "is used by no block: none has the condition \"drawn\"");
+  if (protocol.allocation)
+    used.insert(protocol.allocation->conditions.begin(), protocol.allocation->conditions.end());
+  for (const Condition& condition : protocol.conditions)
+    if (!used.count(condition.name))
+      file.refuse("conditions",
+                  "has \"" + condition.name + "\", which no block and no allocation uses");
+}
+
+void readBlindness(const JsonFile& file, Protocol* protocol) {
+  for (const std::string& who : textsIn(file, "blind")) {
+    needOneOf(file, "blind", who, {"trainee", "educator"});
+    (who == "trainee" ? protocol->blind_trainee : protocol->blind_educator) = true;
+  }
+}
+
+}  // namespace
+
+Protocol readProtocol(const std::filesystem::path& path) {
+  const JsonFile file(path);
+  file.needVersion(1);
+  Protocol p;
+  p.file = path;
+  p.sha256 = station::sha256OfFile(path);
+  p.id = needName(file, "id");
+  p.title = file.text("title");
+  p.source = file.text("source");
+  const auto named = [](const JsonFile& f) {
+    return std::pair{needName(f, "name"), f.text("means")};
+  };
+  p.groups = namedIn<Group>(
+      file, "groups", [&](const JsonFile& f) { return std::make_from_tuple<Group>(named(f)); });
+  const Presentation always = presentationIn(partOf(file, "always"), {});
+  p.conditions = namedIn<Condition>(file, "conditions", [&](const JsonFile& f) {
+    if (f.text("name") == kDrawn)
+      f.refuse("name", "is \"drawn\", which means the condition that a trainee draws");
+    return Condition{needName(f, "name"), f.text("means"),
+                     presentationIn(partOf(f, "sets"), always)};
+  });
+  if (file.has("allocation")) p.allocation = allocationIn(partOf(file, "allocation"), p);
+  p.sessions =
+      namedIn<Session>(file, "sessions", [&](const JsonFile& f) { return sessionIn(f, p); });
+  std::int64_t step = 0;
+  for (Session& session : p.sessions)
+    for (Block& block : session.blocks) block.step = ++step;
+  needAllUsed(file, p);
+  p.trial_seed = static_cast<std::uint64_t>(file.integer("trial_seed", 0, 1'000'000'000));
+  readBlindness(file, &p);
+  p.bars_experts = flag(file, "bars_experts", true);
+  p.barred = textsIn(file, "barred");
+  return p;
+}
+
+std::string conditionOf(const Allocation& allocation, const std::string& group, std::uint64_t seed,
+                        std::int64_t place) {
+  const auto size = static_cast<std::size_t>(allocation.block);
+  const std::size_t index = static_cast<std::size_t>(place - 1);
+  std::vector<std::size_t> order(size);
+  for (std::size_t i = 0; i < size; ++i) order[i] = i % allocation.conditions.size();
+  runtime::RandomStream random(seed,
+                               "study.allocation." + group + "." + std::to_string(index / size));
+  for (std::size_t i = size; i > 1; --i)
+    std::swap(order[i - 1], order[static_cast<std::size_t>(
+                                random.uniform() * static_cast<double>(i))]);  // Fisher and Yates
+  return allocation.conditions[order[index % size]];
 }
 
 }  // namespace palpa::study

@@ -2,7 +2,7 @@
 
 #include <set>
 
-#include "apps/station/json_file.h"
+#include "anatomy/base/json_file.h"
 #include "apps/study/json_fields.h"
 
 namespace palpa::study {

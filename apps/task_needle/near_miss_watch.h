@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "anatomy/patient.h"
-#include "anatomy/surface_query.h"
+#include "anatomy/query/surface_query.h"
 
 namespace palpa::task_needle {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "apps/assess/needle_metrics.h"
+#include "apps/assess/needle/needle_metrics.h"
 
 namespace palpa::task_needle {
 namespace {

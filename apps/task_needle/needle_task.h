@@ -3,16 +3,24 @@
 #include <array>
 #include <vector>
 
-#include "anatomy/surface_query.h"
+#include "anatomy/query/surface_query.h"
 #include "apps/assess/dose_counter.h"
-#include "apps/assess/passes.h"
-#include "apps/assess/trial_sampler.h"
+#include "apps/assess/needle/phases.h"
+#include "apps/assess/needle/trial_sampler.h"
 #include "apps/task_needle/task_file.h"
-#include "apps/task_needle/task_status.h"
+#include "apps/trial/trial_status.h"
 #include "apps/trial/trial_task.h"
 #include "calibration/expert_path.h"
 
 namespace palpa::task_needle {
+
+/// What the task tells the scene: for the HUD, the syringe, the pictures.
+struct TaskStatus : trial::TrialStatus {
+  assess::ProcedurePhase phase = assess::ProcedurePhase::approach;
+  std::string step;               ///< what is being done, in words
+  double plunger = 0, blood = 0;  ///< drawn, filled; fractions of the syringe
+  bool blood_flows = false;
+};
 
 struct TrialPlan {
   std::string role = "scored";

@@ -1,8 +1,95 @@
 #include "apps/task_needle/task_file.h"
 
-#include "apps/station/learned_model.h"
+#include <algorithm>
+#include <cmath>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/base/units.h"
+#include "apps/station/task_sections.h"
+#include "haptics/flight_record.h"
 
 namespace palpa::task_needle {
+namespace {
+
+template <typename Thing, std::size_t N>
+void readNames(const station::JsonFile& task, const std::string& group,
+               std::array<std::string, N>* words) {
+  if (!task.has("words/" + group)) return;
+  for (const auto& [key, value] : task.json().at("words").at(group).items()) {
+    std::size_t i = 0;
+    while (i < N && key != name(static_cast<Thing>(i))) ++i;
+    if (i == N) task.refuse("words/" + group + "/" + key, "names what there is not");
+    (*words)[i] = task.text("words/" + group + "/" + key);
+  }
+}
+
+}  // namespace
+
+std::string TaskWords::of(Tissue t) const {
+  const std::string& own = tissue[static_cast<std::size_t>(t)];
+  return own.empty() ? name(t) : own;
+}
+
+std::string TaskWords::of(Organ o) const {
+  const std::string& own = organ[static_cast<std::size_t>(o)];
+  return own.empty() ? name(o) : own;
+}
+
+TaskWords wordsIn(const station::JsonFile& task) {
+  TaskWords words;
+  readNames<Tissue>(task, "tissues", &words.tissue);
+  readNames<Organ>(task, "organs", &words.organ);
+  return words;
+}
+
+void GoalTrial::add(const assess::TrialSample& sample) {
+  const std::uint32_t on = sample.subtasks;
+  since_s_.resize(parts_.size());
+  const bool in_goal = on >> goal_.part & 1u;
+  held_s_ = in_goal && in_goal_ ? held_s_ + sample.t_s - t_s_ : 0;
+  in_goal_ = in_goal;
+  t_s_ = sample.t_s;
+  deepest_ = std::max(deepest_, sample.depth);
+  for (std::size_t i = 0; i < parts_.size(); ++i) {
+    const bool is = on >> i & 1u, was = on_ >> i & 1u;
+    if (is && !was) since_s_[i] = t_s_;
+    if (was && !is)
+      spans_.push_back({parts_[i], i == goal_.part ? "good" : "guide", since_s_[i], t_s_});
+  }
+  on_ = on;
+  if (sample.events & haptics::kSkinPunctured) {
+    ++punctures_;
+    moments_.push_back({t_s_, "puncture", "Through the surface of the " + words_.of(Organ::skin)});
+  }
+  if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none)
+    moments_.push_back({t_s_, "bone", "Through the " + words_.of(sample.wall)});
+}
+
+std::string GoalTrial::step() const {
+  for (std::size_t i = parts_.size(); i-- > 0;)
+    if (on_ >> i & 1u) return parts_[i];
+  return {};
+}
+
+void GoalTrial::tell(assess::TrialAssessment* a) const {
+  a->by_path = false;
+  a->values.success = reached();
+  a->values.time_ms = std::round(1e3 * t_s_);
+  a->skin_punctures = punctures_;
+  a->spans = spans_;
+  for (std::size_t i = 0; i < since_s_.size(); ++i)
+    if (on_ >> i & 1u)
+      a->spans.push_back({parts_[i], i == goal_.part ? "good" : "guide", since_s_[i], t_s_});
+  a->moments = moments_;
+  if (a->values.success) a->moments.push_back({t_s_, "success", "Done: " + goal_.means});
+  const std::string after = std::to_string(std::lround(t_s_)) + " s",
+                    deepest = std::to_string(std::lround(1e3 * deepest_)) + " mm";
+  a->summary = (a->values.success ? "Done after " + after + ": " + goal_.means
+                                  : "Not done after " + after + "; the goal: " + goal_.means) +
+               ". It went " + deepest + " deep at most.";
+}
+
 namespace {
 
 /// A penalty an error: never a reward.
@@ -32,19 +119,16 @@ assess::ScoringRules readRules(const station::JsonFile& file) {
   return rules;
 }
 
-constexpr double kFileMm = 1e-3;
-constexpr double kFileDeg = 0.017453292519943295;
-
 /// Recordings made before the errors were named carry no figures for them: the usual ones.
 assess::ErrorRules readErrors(const station::JsonFile& file) {
   assess::ErrorRules rules;
   if (!file.has("errors")) return rules;
-  rules.site_off = kFileMm * file.number("errors/site_off_mm", 1, 100);
-  rules.landmark_off = kFileMm * file.number("errors/landmark_off_mm", 1, 100);
-  rules.too_shallow = kFileDeg * file.number("errors/too_shallow_deg", 1, 90);
-  rules.too_cephalad = kFileDeg * file.number("errors/too_cephalad_deg", 1, 90);
-  rules.too_caudal = kFileDeg * file.number("errors/too_caudal_deg", 1, 90);
-  rules.aim_travel = kFileMm * file.number("errors/aim_travel_mm", 0, 50);
+  rules.site_off = kMm * file.number("errors/site_off_mm", 1, 100);
+  rules.landmark_off = kMm * file.number("errors/landmark_off_mm", 1, 100);
+  rules.too_shallow = kDegree * file.number("errors/too_shallow_deg", 1, 90);
+  rules.too_cephalad = kDegree * file.number("errors/too_cephalad_deg", 1, 90);
+  rules.too_caudal = kDegree * file.number("errors/too_caudal_deg", 1, 90);
+  rules.aim_travel = kMm * file.number("errors/aim_travel_mm", 0, 50);
   rules.periosteum_N = file.number("errors/periosteum_N", 0, 100);
   rules.periosteum_s = file.number("errors/periosteum_s", 0, 10);
   rules.blood_s = file.number("errors/blood_s", 0, 10);
@@ -64,7 +148,7 @@ Goal goalIn(const station::JsonFile& file, const station::NamedPlan& parts) {
 
 PuncturedBlock blockIn(const station::JsonFile& file) {
   const auto mm = [&](const std::string& field, double low, double high) {
-    return kFileMm * file.number("phantom/" + field, low, high);
+    return kMm * file.number("phantom/" + field, low, high);
   };
   return {{mm("across_mm", 20, 500), mm("away_mm", 20, 500), mm("high_mm", 20, 300)},
           {mm("layers/skin_mm", 0.1, 100), mm("layers/fat_mm", 0, 200),

@@ -1,18 +1,69 @@
 #pragma once
 
+#include <array>
+#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include "anatomy/base/json_file.h"
+#include "anatomy/geometry/local_geometry.h"
 #include "anatomy/patient.h"
-#include "apps/assess/assess_trial.h"
-#include "apps/station/augmentation_plan.h"
-#include "apps/station/json_file.h"
-#include "apps/station/taxonomy.h"
-#include "apps/task_needle/goal.h"
-#include "apps/task_needle/task_words.h"
+#include "apps/assess/needle/assess_trial.h"
+#include "apps/assess/needle/trial_assessment.h"
+#include "apps/station/task_sections.h"
 
 namespace palpa::task_needle {
+
+/// What tissues and surfaces are called where the thing that is punctured is no patient:
+///   "words": {"tissues": {"fat": "cancellous bone"}, "organs": {"skin": "bone"}}
+/// Those not named keep their names.
+struct TaskWords {
+  std::array<std::string, kTissueCount> tissue;  ///< empty: its own name
+  std::array<std::string, kOrganCount> organ;
+  std::string of(Tissue t) const;
+  std::string of(Organ o) const;
+};
+
+/// Throws UsageError for tissues and organs that there are not.
+TaskWords wordsIn(const station::JsonFile& task);
+
+/// What a trial is for, where no optimal path is known: a part of the task to be in for a while.
+///   "goal": {"part": "seated", "for_s": 1, "means": "the pin is seated in cancellous bone"}
+struct Goal {
+  std::size_t part = 0;  ///< of the task's subtasks
+  double for_s = 0;      ///< at a stretch
+  std::string means;
+};
+
+/// Follows a trial toward its goal, and tells its course: when which part was on, what was
+/// punctured.
+class GoalTrial {
+ public:
+  GoalTrial() = default;
+  GoalTrial(const Goal& goal, std::vector<std::string> parts, const TaskWords& words)
+      : goal_(goal), parts_(std::move(parts)), words_(words) {}
+
+  void add(const assess::TrialSample& sample);  ///< every tick of the trial
+  bool reached() const { return held_s_ >= goal_.for_s && in_goal_; }
+  /// Of the parts that are on the last in the file; empty: none is.
+  std::string step() const;
+  /// Success and time, course, summary.
+  void tell(assess::TrialAssessment* assessment) const;
+
+ private:
+  Goal goal_;
+  std::vector<std::string> parts_;
+  TaskWords words_;
+  std::uint32_t on_ = 0;
+  bool in_goal_ = false;
+  double held_s_ = 0, t_s_ = 0, deepest_ = 0;
+  int punctures_ = 0;
+  std::vector<double> since_s_;
+  std::vector<assess::Span> spans_;
+  std::vector<assess::Moment> moments_;
+};
 
 /// What is punctured where it is no patient: a block whose layers lie as a patient's do, entry in
 /// the middle of its top.

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/station/learned_model.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/units.h"
+#include "apps/station/task_sections.h"
 
 namespace palpa::task_palpation {
 namespace {
-
-constexpr double kFileMm = 1e-3;
 
 double finiteIn(const station::JsonFile& file, const nlohmann::json& value, double low,
                 double high) {
@@ -43,12 +43,12 @@ std::vector<assess::NormalAnatomy> normalIn(const station::JsonFile& file) {
     assess::NormalAnatomy normal{
         one["name"].get<std::string>(),
         {},
-        kFileMm * finiteIn(file, one.value("width_mm", nlohmann::json()), 1, 200)};
+        kMm * finiteIn(file, one.value("width_mm", nlohmann::json()), 1, 200)};
     for (const nlohmann::json& point : one["line_mm"]) {
       if (!point.is_array() || point.size() != 2)
         file.refuse("anatomy", "holds " + point.dump() + " where a point [across, away] must be");
-      normal.line_P.emplace_back(kFileMm * finiteIn(file, point[0], -200, 200),
-                                 kFileMm * finiteIn(file, point[1], -200, 200), 0);
+      normal.line_P.emplace_back(kMm * finiteIn(file, point[0], -200, 200),
+                                 kMm * finiteIn(file, point[1], -200, 200), 0);
     }
     all.push_back(std::move(normal));
   }
@@ -60,8 +60,8 @@ std::vector<assess::NormalAnatomy> normalIn(const station::JsonFile& file) {
 Scoring scoringOf(const station::JsonFile& file) {
   Scoring scoring;
   assess::PalpationRules& rules = scoring.rules;
-  rules.area = {kFileMm * file.number("area/half_across_mm", 5, 200),
-                kFileMm * file.number("area/half_away_mm", 5, 200)};
+  rules.area = {kMm * file.number("area/half_across_mm", 5, 200),
+                kMm * file.number("area/half_away_mm", 5, 200)};
   rules.levels = {file.number("pressure/light_N", 0.05, 20),
                   file.number("pressure/medium_N", 0.05, 20),
                   file.number("pressure/deep_N", 0.05, 20)};
@@ -70,9 +70,9 @@ Scoring scoringOf(const station::JsonFile& file) {
   rules.too_hard = file.number("pressure/too_hard_N", 0.1, 50);
   if (rules.too_hard <= rules.levels[2])
     file.refuse("pressure/too_hard_N", "must be more than deep");
-  rules.reach = kFileMm * file.number("scoring/reach_mm", 1, 30);
+  rules.reach = kMm * file.number("scoring/reach_mm", 1, 30);
   rules.touch = file.number("scoring/touch_N", 0.02, 5);
-  rules.found_within = kFileMm * file.number("scoring/found_within_mm", 1, 50);
+  rules.found_within = kMm * file.number("scoring/found_within_mm", 1, 50);
   rules.normal = normalIn(file);
   scoring.standard = {file.number("scoring/pass_sensitivity", 0, 1),
                       file.number("scoring/pass_coverage", 0, 1)};
@@ -175,16 +175,16 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   PalpationSettings settings;
   settings.id = file.text("id");
   settings.title = file.text("title");
-  settings.size = kFileMm * Vec3(file.number("phantom/across_mm", 10, 500),
-                                 file.number("phantom/away_mm", 10, 500),
-                                 file.number("phantom/high_mm", 5, 300));
+  settings.size =
+      kMm * Vec3(file.number("phantom/across_mm", 10, 500), file.number("phantom/away_mm", 10, 500),
+                 file.number("phantom/high_mm", 5, 300));
   settings.library = station::readLumps(path.parent_path() / file.text("lumps"));
   settings.scoring = scoringOf(file);
   if (!file.has("cases/lumps") || !file.has("cases/kinds"))
     file.refuse("cases", "must hold \"lumps\" and \"kinds\"");
   settings.cases = {sharesOf(file), kindsOf(file, settings.library),
-                    kFileMm * file.number("cases/apart_mm", 5, 200),
-                    kFileMm * file.number("cases/margin_mm", 0, 200)};
+                    kMm * file.number("cases/apart_mm", 5, 200),
+                    kMm * file.number("cases/margin_mm", 0, 200)};
   settings.anatomy = piecesOf(file, settings.scoring.rules.normal, settings.library);
   settings.clinical_force_N = file.number("pressure/clinical_deep_N", 0, 50);
   settings.time_limit_s = file.number("end/time_limit_s", 10, 3600);
@@ -197,6 +197,76 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
              trial);  // refused now, not in the middle of a session
   settings.source = file.json().dump();
   return settings;
+}
+
+namespace {
+
+constexpr int kPlacesTried = 400, kBegunAnew = 200;
+
+std::size_t countOf(const std::vector<double>& shares, double u) {
+  std::size_t count = 0;
+  for (double sum = shares.front(); count + 1 < shares.size() && u >= sum; sum += shares[count])
+    ++count;
+  return count;
+}
+
+bool farFromAll(const Case& others, const Vec3& p_P, double apart) {
+  return std::all_of(others.begin(), others.end(), [&](const LumpInCase& other) {
+    return (other.p_P - p_P).head<2>().norm() >= apart;
+  });
+}
+
+}  // namespace
+
+Case drawCase(const PalpationSettings& settings, std::uint64_t seed) {
+  runtime::RandomStream random(seed, "palpation.case");
+  const std::size_t count = countOf(settings.cases.lumps, random.uniform());
+  return placeLumps(settings, count, random);
+}
+
+Case placeLumps(const PalpationSettings& settings, std::size_t count,
+                runtime::RandomStream& random) {
+  const CaseRules& rules = settings.cases;
+  const double x = settings.scoring.rules.area.half_x - rules.margin,
+               y = settings.scoring.rules.area.half_y - rules.margin;
+  Case drawn;
+  for (int tried = 0, anew = 0; drawn.size() < count; ++tried) {
+    if (tried == kPlacesTried) {  // the first ones stand in the way of the rest
+      if (++anew == kBegunAnew)
+        throw Error("lumps so far apart find no room in the area",
+                    "\"" + settings.id + "\", " + std::to_string(count) + " lumps",
+                    "Make cases/apart_mm or the number of lumps smaller");
+      drawn.clear();
+      tried = 0;
+    }
+    const std::size_t kind = rules.kinds[std::min(
+        static_cast<std::size_t>(random.uniform() * static_cast<double>(rules.kinds.size())),
+        rules.kinds.size() - 1)];
+    const Vec3 p_P(random.uniform(-x, x), random.uniform(-y, y),
+                   -settings.library.kinds[kind].depth);
+    if (farFromAll(drawn, p_P, rules.apart) && farFromAll(settings.anatomy, p_P, rules.apart))
+      drawn.push_back({kind, p_P});
+  }
+  return drawn;
+}
+
+std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLibrary& library) {
+  std::vector<assess::CaseLump> lumps;
+  for (const LumpInCase& lump : in_case) {
+    const station::LumpKind& kind = library.kinds[lump.kind];
+    lumps.push_back({lump.p_P, kind.diameter, kind.hardness, kind.mobility});
+  }
+  return lumps;
+}
+
+haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy) {
+  haptics::PlacedLumps lumps{};
+  std::size_t next = 0;
+  for (const Case* some : {&in_case, &anatomy})
+    for (const LumpInCase& lump : *some)
+      if (next < lumps.size())
+        lumps[next++] = {pack(lump.p_P), static_cast<std::uint32_t>(lump.kind) + 1, 0};
+  return lumps;
 }
 
 }  // namespace palpa::task_palpation

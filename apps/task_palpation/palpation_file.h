@@ -4,11 +4,10 @@
 #include <string>
 #include <vector>
 
+#include "anatomy/base/random.h"
 #include "apps/assess/palpation/palpation_assessment.h"
-#include "apps/runtime/random.h"
-#include "apps/station/augmentation_plan.h"
-#include "apps/station/lump_library.h"
-#include "apps/station/taxonomy.h"
+#include "apps/station/material_files.h"
+#include "apps/station/task_sections.h"
 
 namespace palpa::task_palpation {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "haptics/tick.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::task_palpation {
 

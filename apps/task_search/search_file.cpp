@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "anatomy/geometry/error.h"
-#include "apps/station/learned_model.h"
+#include "anatomy/base/error.h"
+#include "apps/station/task_sections.h"
 
 namespace palpa::task_search {
 namespace {

@@ -5,10 +5,9 @@
 #include <vector>
 
 #include "apps/assess/search/search_trial.h"
-#include "apps/station/augmentation_plan.h"
 #include "apps/station/station_file.h"
-#include "apps/station/taxonomy.h"
-#include "haptics/floor_contact.h"
+#include "apps/station/task_sections.h"
+#include "haptics/contact/probe_contact.h"
 
 namespace palpa::task_search {
 

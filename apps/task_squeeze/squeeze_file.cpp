@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "apps/runtime/random.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/random.h"
 
 namespace palpa::task_squeeze {
 namespace {

@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "apps/assess/squeeze/squeeze_trial.h"
-#include "apps/station/lump_library.h"
-#include "apps/station/taxonomy.h"
+#include "apps/station/material_files.h"
+#include "apps/station/task_sections.h"
 
 namespace palpa::task_squeeze {
 

@@ -6,13 +6,13 @@
 #include <optional>
 
 #include "apps/runtime/activity.h"
-#include "apps/runtime/board_places.h"
 #include "apps/runtime/bus.h"
+#include "apps/runtime/camera_trouble.h"
 #include "apps/runtime/head_display.h"
-#include "apps/station/real_things.h"
+#include "apps/station/station_sections.h"
 #include "apps/trial/trial_status.h"
-#include "ar/undistort.h"
-#include "scene/scene_view.h"
+#include "ar/cameras/undistort.h"
+#include "scene/view/scene_view.h"
 
 namespace palpa::trial {
 

@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string>
 
-#include "apps/runtime/event_queue.h"
+#include "apps/runtime/channels.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::trial {
@@ -64,5 +64,19 @@ struct Channels {
   runtime::EventQueue<UserRequest> console_to_task{
       64};  ///< from whoever looks on through the console
 };
+
+}  // namespace palpa::trial
+
+/// What a trainee says of something that was felt.
+namespace palpa::trial {
+
+/// A grade as it is recorded in an event's text, and read again: "diameter 16 mm, hard, fixed";
+/// nothing for words that are none.
+std::string gradeText(double diameter, int hardness, int mobility);
+struct Grade {
+  double diameter = 0;
+  int hardness = 0, mobility = 0;
+};
+Grade gradeOf(const std::string& text);
 
 }  // namespace palpa::trial

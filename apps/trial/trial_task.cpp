@@ -1,6 +1,6 @@
 #include "apps/trial/trial_task.h"
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/trial/trial_scene.h"
 
 namespace palpa::trial {

@@ -4,9 +4,8 @@
 #include <vector>
 
 #include "apps/runtime/activity.h"
-#include "apps/runtime/board_places.h"
 #include "apps/runtime/bus.h"
-#include "apps/runtime/camera_words.h"
+#include "apps/runtime/camera_trouble.h"
 #include "apps/runtime/executive.h"
 #include "apps/trial/trial_status.h"
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "anatomy/base/units.h"
 #include "apps/runtime/random_vector.h"
 
 namespace palpa::twin {
@@ -10,8 +11,6 @@ namespace {
 
 using runtime::normal3;
 using runtime::RandomStream;
-constexpr double kTruthMm = 1e-3;
-constexpr double kTruthDeg = std::numbers::pi / 180;
 
 Pose perturbed(const Pose& X, double sd_m, double sd_rad, RandomStream& random) {
   const Vec3 turn = sd_rad * normal3(random);
@@ -35,12 +34,12 @@ WorldTruth drawWorld(const station::Station& station, std::uint64_t seed) {
       needle(seed, "bench.needle");
   WorldTruth truth;
   truth.X_WD =
-      perturbed(station.design.X_WD, kTruthMm * file.number("twin/registration_spread_mm", 0, 50),
-                kTruthDeg * file.number("twin/registration_spread_deg", 0, 10), random);
-  truth.X_ET = perturbed(station.design.X_ET, kTruthMm * file.number("twin/tool_spread_mm", 0, 50),
-                         0, random);
+      perturbed(station.design.X_WD, kMm * file.number("twin/registration_spread_mm", 0, 50),
+                kDegree * file.number("twin/registration_spread_deg", 0, 10), random);
   truth.X_ET =
-      perturbed(truth.X_ET, 0, kTruthDeg * spreadOr0(file, "twin/tool_spread_deg", 10), needle);
+      perturbed(station.design.X_ET, kMm * file.number("twin/tool_spread_mm", 0, 50), 0, random);
+  truth.X_ET =
+      perturbed(truth.X_ET, 0, kDegree * spreadOr0(file, "twin/tool_spread_deg", 10), needle);
   const double latency = 1e-3 * spreadOr0(file, "twin/camera_latency_spread_ms", 50);
   truth.camera_latency_s =
       std::max(station.design.camera_latency_s + latency * clocks.normal(), 0.001);
@@ -70,12 +69,11 @@ DeviceTruth trueDevice(const station::Station& station, std::uint64_t seed) {
   truth.max_force_N = station.device.capabilities.max_force_N;
   truth.coulomb = file.number("twin/device/coulomb_N", 0, 10);
   truth.viscous = file.number("twin/device/viscous_Ns_per_m", 0, 100);
-  truth.encoder_step = kTruthMm * file.number("twin/device/encoder_step_mm", 1e-6, 1);
-  truth.encoder_angle = kTruthDeg * file.number("twin/device/encoder_angle_deg", 1e-6, 5);
+  truth.encoder_step = kMm * file.number("twin/device/encoder_step_mm", 1e-6, 1);
+  truth.encoder_angle = kDegree * file.number("twin/device/encoder_angle_deg", 1e-6, 5);
   truth.actuator_tau = 1e-3 * file.number("twin/device/actuator_tau_ms", 0, 100);
   if (file.has("twin/device/weight_N")) truth.weight_N = file.number("twin/device/weight_N", 0, 10);
-  if (const double error = kTruthMm * spreadOr0(file, "twin/device/position_error_mm", 10);
-      error > 0) {
+  if (const double error = kMm * spreadOr0(file, "twin/device/position_error_mm", 10); error > 0) {
     constexpr double kLongestWave = 0.5, kShortestWave = 0.3;  // m
     RandomStream random(seed, "bench.position_error");
     for (int i = 0; i < 3; ++i) {
@@ -96,7 +94,7 @@ SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
   const station::ForceSensorSetup& believed = *station.design.force_sensor;
   SensorTruth truth;
   const double mass = 0.01 * file.number("twin/force_sensor/tool_mass_spread_percent", 0, 50);
-  const double centre = kTruthMm * file.number("twin/force_sensor/centre_spread_mm", 0, 50);
+  const double centre = kMm * file.number("twin/force_sensor/centre_spread_mm", 0, 50);
   const double bias = file.number("twin/force_sensor/bias_spread_N", 0, 5);
   const double bias_Nm = file.number("twin/force_sensor/bias_spread_Nm", 0, 1);
   truth.tool_mass = believed.filter.tool.mass * (1 + mass * random.normal());
@@ -112,8 +110,7 @@ SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
 Pose trueSample(const station::Station& station, std::uint64_t seed) {
   RandomStream random(seed, "bench.sample");
   Pose X = station.sample->X_WP;
-  X.translation() +=
-      kTruthMm * spreadOr0(station.file, "twin/sample_spread_mm", 10) * normal3(random);
+  X.translation() += kMm * spreadOr0(station.file, "twin/sample_spread_mm", 10) * normal3(random);
   return X;
 }
 
@@ -121,8 +118,8 @@ Pose trueSample(const station::Station& station, std::uint64_t seed) {
 Pose cameraOnBoom(const station::Station& station, std::uint64_t seed) {
   RandomStream random(seed, "bench.boom");
   const double distance =
-      kTruthMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
-                  station.file.number("twin/camera_distance_spread_mm", 0, 500) * random.normal());
+      kMm * (station.file.number("twin/camera_distance_mm", 100, 3000) +
+             station.file.number("twin/camera_distance_spread_mm", 0, 500) * random.normal());
   const Vec3 p_WC = distance * Vec3(0.04 * random.normal(), -0.48, 0.877).normalized();
   const Vec3 forward = (Vec3(0, 0.125, 0.02) - p_WC).normalized();
   const Vec3 right = forward.cross(Vec3::UnitZ()).normalized();

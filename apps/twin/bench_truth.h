@@ -4,7 +4,6 @@
 
 #include "apps/station/station_file.h"
 #include "apps/twin/device_twin.h"
-#include "apps/twin/sensor_twin.h"
 #include "calibration/camera_model.h"
 
 namespace palpa::twin {

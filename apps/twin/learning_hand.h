@@ -4,7 +4,7 @@
 #include <memory>
 
 #include "apps/twin/hand.h"
-#include "apps/twin/operator_skill.h"
+#include "apps/twin/operator.h"
 #include "apps/twin/searching_hand.h"
 
 namespace palpa::twin {

@@ -6,10 +6,11 @@
 #include <numbers>
 #include <optional>
 
-#include "apps/runtime/random.h"
-#include "apps/station/json_file.h"
-#include "apps/twin/bearings.h"
-#include "apps/twin/tremor.h"
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/random.h"
+#include "anatomy/base/units.h"
+#include "apps/twin/hand_motion.h"
+#include "apps/twin/hand_senses.h"
 
 namespace palpa::twin {
 namespace {
@@ -317,28 +318,26 @@ std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFl
 }
 
 SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
-  constexpr double kMillimetre = 1e-3;
   const station::JsonFile file(path);
   file.needVersion(1);
   SearchingSkill s;
   s.name = file.text("name");
   s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
             file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
-  s.tremor_rms = kMillimetre * file.number("tremor_rms_mm", 0, 5);
-  s.look_sd = kMillimetre * file.number("look_sd_mm", 0, 50);
+  s.tremor_rms = kMm * file.number("tremor_rms_mm", 0, 5);
+  s.look_sd = kMm * file.number("look_sd_mm", 0, 50);
   s.press = file.number("press_N", 0.05, 20);
   s.stroke_press = file.number("stroke_press_N", 0.05, 20);
-  s.scan_speed = kMillimetre * file.number("scan_speed_mm_per_s", 1, 500);
-  s.stroke_speed = kMillimetre * file.number("stroke_speed_mm_per_s", 1, 500);
-  s.settle_speed = kMillimetre * file.number("settle_speed_mm_per_s", 0.1, 100);
+  s.scan_speed = kMm * file.number("scan_speed_mm_per_s", 1, 500);
+  s.stroke_speed = kMm * file.number("stroke_speed_mm_per_s", 1, 500);
+  s.settle_speed = kMm * file.number("settle_speed_mm_per_s", 0.1, 100);
   s.rounds = file.integer("rounds", 2, 20);
   s.jolts = file.integer("jolts", 1, 100);
   s.stroke_s = file.number("stroke_s", 0.1, 10);
   s.strokes = file.integer("strokes", 1, 10);
   s.weber_roughness = file.number("weber_roughness", 0, 2);
-  s.jolt = {kMillimetre * file.number("jolt_least_mm_per_s", 0, 100),
-            file.number("jolt_contrast", 0, 20), file.number("jolt_spread", 0, 1),
-            kMillimetre * file.number("rough_floor_mm_per_s", 0, 100)};
+  s.jolt = {kMm * file.number("jolt_least_mm_per_s", 0, 100), file.number("jolt_contrast", 0, 20),
+            file.number("jolt_spread", 0, 1), kMm * file.number("rough_floor_mm_per_s", 0, 100)};
   return s;
 }
 

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/twin/hand.h"
-#include "apps/twin/jolt_sense.h"
+#include "apps/twin/hand_senses.h"
 
 namespace palpa::twin {
 

@@ -3,9 +3,9 @@
 #include <cmath>
 #include <deque>
 
+#include "anatomy/base/units.h"
 #include "apps/runtime/random_vector.h"
-#include "apps/twin/sample_twin.h"
-#include "apps/twin/setup_motion.h"
+#include "apps/twin/soft_samples.h"
 #include "apps/twin/virtual_camera.h"
 #include "calibration/rotation.h"
 
@@ -18,8 +18,7 @@ constexpr int kStepsAReading = 10;  // 100 Hz
 constexpr double kSeenLump = 2e-5;  // m, how well a camera tells where a lump is in a clear sample:
                                     // a tenth of a pixel of 0.2 mm [chosen]
 constexpr double kSameLandmark = 1e-4;  // m
-constexpr double kSetupMm = 1e-3;
-constexpr double kBoardTravel = 0.7;  // s from one view to the next
+constexpr double kBoardTravel = 0.7;    // s from one view to the next
 const Vec3 kRestTip_W(0.03, 0.2, 0.12);
 
 double spread(const station::JsonFile& file, const std::string& at, double otherwise, double most) {
@@ -59,7 +58,7 @@ struct SetupBench::Impl {
     over_table.emplace(lens, s.board, VirtualCameraSettings{}, seed, at_table);
     at_wall.emplace(lens, s.board, VirtualCameraSettings{}, seed,
                     VirtualScene{VirtualScene::Ground::kWall, {s.board}});
-    const double off = kSetupMm * spread(s.file, "twin/landmark_spread_mm", 0.1, 10);
+    const double off = kMm * spread(s.file, "twin/landmark_spread_mm", 0.1, 10);
     for (const auto* list : {&s.landmarks, &s.grid})
       for (const station::Landmark& landmark : *list)
         holes_W.push_back({landmark.p_W, landmark.p_W + off * runtime::normal3(holes)});

@@ -1,4 +1,4 @@
-#include "apps/twin/setup_motion.h"
+#include "apps/twin/setup_bench.h"
 
 #include <algorithm>
 #include <cmath>

@@ -4,10 +4,11 @@
 #include <cmath>
 #include <optional>
 
-#include "apps/runtime/random.h"
-#include "apps/station/json_file.h"
-#include "apps/twin/bearings.h"
-#include "apps/twin/tremor.h"
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/random.h"
+#include "anatomy/base/units.h"
+#include "apps/twin/hand_motion.h"
+#include "apps/twin/hand_senses.h"
 
 namespace palpa::twin {
 namespace {
@@ -239,16 +240,15 @@ std::array<std::unique_ptr<Hand>, 2> squeezingHands(const SqueezingSkill& skill,
 }
 
 SqueezingSkill readSqueezingSkill(const std::filesystem::path& path) {
-  constexpr double kMillimetre = 1e-3;
   const station::JsonFile file(path);
   file.needVersion(1);
   SqueezingSkill s;
   s.name = file.text("name");
   s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
             file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
-  s.tremor_rms = kMillimetre * file.number("tremor_rms_mm", 0, 5);
-  s.look_sd = kMillimetre * file.number("look_sd_mm", 0, 50);
-  s.close_speed = kMillimetre * file.number("close_speed_mm_per_s", 0.1, 500);
+  s.tremor_rms = kMm * file.number("tremor_rms_mm", 0, 5);
+  s.look_sd = kMm * file.number("look_sd_mm", 0, 50);
+  s.close_speed = kMm * file.number("close_speed_mm_per_s", 0.1, 500);
   s.hold = file.number("hold_N", 0.05, 20);
   s.squeeze = file.number("squeeze_N", 0.05, 20);
   if (s.squeeze <= s.hold) file.refuse("squeeze_N", "must be more than hold_N");

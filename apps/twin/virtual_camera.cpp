@@ -4,9 +4,8 @@
 #include <cmath>
 #include <opencv2/imgproc.hpp>
 
-#include "anatomy/geometry/error.h"
-#include "apps/twin/virtual_camera_noise.h"
-#include "apps/twin/virtual_camera_table.h"
+#include "anatomy/base/error.h"
+#include "apps/twin/virtual_camera_picture.h"
 
 namespace palpa::twin {
 namespace {

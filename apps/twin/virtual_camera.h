@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
-#include "apps/twin/virtual_camera_plane.h"
-#include "ar/board.h"
+#include "apps/twin/virtual_camera_picture.h"
+#include "ar/boards/board.h"
 #include "calibration/camera_model.h"
 
 namespace palpa::twin {

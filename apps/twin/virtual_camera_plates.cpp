@@ -3,9 +3,9 @@
 #include <limits>
 #include <string>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/twin/virtual_camera.h"
-#include "apps/twin/virtual_camera_table.h"
+#include "apps/twin/virtual_camera_picture.h"
 
 /// The virtual camera's free plates. A plane's nearness, one over its depth Z in C, is linear in
 /// the ray (x, y, 1), and so is w times the distance from a straight edge on it

@@ -1,11 +1,13 @@
 #pragma once
 
-#include <openxr/openxr.h>
-
 #include <stdexcept>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <openxr/openxr.h>
+
+#include "anatomy/geometry/pose.h"
 
 namespace palpa::ar {
 
@@ -65,5 +67,16 @@ using XrOwnedSession = XrOwned<XrSession, xrDestroySession>;
 using XrOwnedSpace = XrOwned<XrSpace, xrDestroySpace>;
 using XrOwnedSwapchain = XrOwned<XrSwapchain, xrDestroySwapchain>;
 using XrOwnedActionSet = XrOwned<XrActionSet, xrDestroyActionSet>;
+
+}  // namespace palpa::ar
+
+/// The one place where OpenXR's axes (+x right, +y up, +z toward the person; everything looks along
+/// -z) meet ours.
+namespace palpa::ar {
+
+/// Pose in L (+z up) of something that looks along its own +z (eye, head, hand).
+Pose poseFromXr(const XrPosef& pose_in_space);
+XrVector3f positionToXr(const Vec3& p_L);
+XrPosef identityXr();
 
 }  // namespace palpa::ar

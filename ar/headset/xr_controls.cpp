@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ar/headset/xr_frames.h"
+#include "ar/headset/xr_call.h"
 
 namespace palpa::ar {
 namespace {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "ar/headset/xr_graphics.h"
+#include "ar/headset/xr_runtime.h"
 
 namespace palpa::ar {
 namespace {

@@ -7,6 +7,10 @@
 
 namespace palpa::ar {
 
+/// From now on no library of this process is unloaded, not even at its end: a thread that never
+/// comes back runs in one of them, and would run on where no code is any more.
+void keepLibrariesLoaded();
+
 /// Waits for the runtime's next frame on a thread of its own, since xrWaitFrame has no end where a
 /// compositor hangs: keys and the emergency stop must be heard meanwhile. (It may be called from
 /// any thread; of OpenGL it needs nothing.)

@@ -1,10 +1,10 @@
-#include "ar/headset/xr_graphics.h"
+#include "ar/headset/xr_runtime.h"
 
 #include <algorithm>
 #include <iterator>
 #include <string>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 // X11's headers define macros with everyday names: after all others.
 #include <EGL/egl.h>
 #include <GL/gl.h>

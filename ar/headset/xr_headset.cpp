@@ -2,13 +2,11 @@
 #include <cmath>
 #include <utility>
 
-#include "anatomy/geometry/error.h"
-#include "ar/headset/keep_loaded.h"
+#include "anatomy/base/error.h"
+#include "ar/headset/xr_call.h"
 #include "ar/headset/xr_controls.h"
 #include "ar/headset/xr_eye.h"
 #include "ar/headset/xr_frame_wait.h"
-#include "ar/headset/xr_frames.h"
-#include "ar/headset/xr_graphics.h"
 #include "ar/headset/xr_runtime.h"
 
 namespace palpa::ar {

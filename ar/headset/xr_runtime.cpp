@@ -5,8 +5,7 @@
 #include <cstring>
 #include <vector>
 
-#include "anatomy/geometry/error.h"
-#include "ar/headset/xr_graphics.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::ar {
 namespace {

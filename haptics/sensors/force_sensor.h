@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 #include <type_traits>
+#include <vector>
 
 #include "anatomy/geometry/pose.h"
 
@@ -53,6 +54,20 @@ class ForceSensor {
   virtual ~ForceSensor() = default;
   virtual const ForceSensorCapabilities& capabilities() const = 0;
   virtual WrenchSample read(std::int64_t now_ns) noexcept = 0;
+};
+
+/// Plays recorded samples: the newest whose time has come, the last one from then on; before the
+/// first, kNothingYet. Time may also run backwards (a replay that is wound back).
+class ReplaySensor final : public ForceSensor {
+ public:
+  /// Throws UsageError when times go back.
+  ReplaySensor(ForceSensorCapabilities capabilities, std::vector<WrenchSample> samples);
+  const ForceSensorCapabilities& capabilities() const override { return capabilities_; }
+  WrenchSample read(std::int64_t now_ns) noexcept override;
+
+ private:
+  ForceSensorCapabilities capabilities_;
+  std::vector<WrenchSample> samples_;
 };
 
 }  // namespace palpa::haptics

@@ -8,7 +8,6 @@
 #include "haptics/latest_value.h"
 #include "haptics/sensors/force_sensor.h"
 #include "haptics/sensors/rdt_protocol.h"
-#include "haptics/sensors/rdt_sequence.h"
 #include "haptics/sensors/udp_socket.h"
 
 namespace palpa::haptics {

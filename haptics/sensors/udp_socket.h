@@ -4,7 +4,7 @@
 #include <span>
 #include <string>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::haptics {
 

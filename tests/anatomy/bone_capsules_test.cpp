@@ -1,4 +1,4 @@
-#include "anatomy/bone_capsules.h"
+#include "anatomy/query/bone_capsules.h"
 
 #include <gtest/gtest.h>
 

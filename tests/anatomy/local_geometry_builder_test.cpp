@@ -1,4 +1,4 @@
-#include "anatomy/local_geometry_builder.h"
+#include "anatomy/query/local_geometry_builder.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "anatomy/needle_passes.h"
+#include "anatomy/query/needle_passes.h"
 
 #include <gtest/gtest.h>
 

@@ -1,14 +1,14 @@
-#include "anatomy/parametric_patient.h"
+#include "anatomy/parametric/parametric_patient.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/patient_check.h"
+#include "anatomy/base/error.h"
+#include "anatomy/patient/patient_check.h"
+#include "anatomy/query/triangle_tree.h"
 #include "anatomy/shapes/mesh_tools.h"
-#include "anatomy/triangle_tree.h"
 #include "test_shapes.h"
 #include "tests/support/counts.h"
 

@@ -1,8 +1,8 @@
-#include "anatomy/patient_check.h"
+#include "anatomy/patient/patient_check.h"
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "test_shapes.h"
 
 namespace palpa::anatomy {

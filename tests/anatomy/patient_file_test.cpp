@@ -1,11 +1,11 @@
-#include "anatomy/patient_file.h"
+#include "anatomy/patient/patient_file.h"
 
 #include <gtest/gtest.h>
 
 #include <algorithm>
 #include <fstream>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "test_shapes.h"
 
 namespace palpa::anatomy {

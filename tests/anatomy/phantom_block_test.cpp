@@ -1,13 +1,13 @@
-#include "anatomy/phantom_block.h"
+#include "anatomy/parametric/phantoms.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/patient_file.h"
+#include "anatomy/base/error.h"
+#include "anatomy/patient/patient_file.h"
+#include "anatomy/query/surface_query.h"
 #include "anatomy/shapes/mesh_tools.h"
-#include "anatomy/surface_query.h"
 #include "test_shapes.h"
 
 namespace palpa::anatomy {

@@ -2,9 +2,9 @@
 
 #include <limits>
 
-#include "anatomy/surface_query.h"
-#include "anatomy/triangle_distance.h"
-#include "anatomy/triangle_tree.h"
+#include "anatomy/query/surface_query.h"
+#include "anatomy/query/triangle_distance.h"
+#include "anatomy/query/triangle_tree.h"
 #include "test_shapes.h"
 #include "tests/support/counts.h"
 

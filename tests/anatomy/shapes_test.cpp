@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/parametric/clavicle.h"
-#include "anatomy/shapes/field.h"
+#include "anatomy/parametric/bones.h"
+#include "anatomy/shapes/implicit_surface.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "anatomy/shapes/root.h"
 #include "anatomy/shapes/spline.h"

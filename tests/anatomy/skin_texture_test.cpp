@@ -2,10 +2,9 @@
 
 #include <map>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/gltf_picture.h"
-#include "anatomy/parametric/skin_map.h"
+#include "anatomy/base/error.h"
 #include "anatomy/parametric/skin_texture.h"
+#include "anatomy/patient/gltf_picture.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "test_shapes.h"
 

@@ -1,9 +1,9 @@
-#include "anatomy/surface_curvature.h"
+#include "anatomy/query/surface_curvature.h"
 
 #include <gtest/gtest.h>
 
+#include "anatomy/query/surface_query.h"
 #include "anatomy/shapes/mesh_tools.h"
-#include "anatomy/surface_query.h"
 #include "test_shapes.h"
 
 namespace palpa::anatomy {

@@ -1,14 +1,14 @@
-#include "anatomy/surface_query.h"
+#include "anatomy/query/surface_query.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 #include <thread>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
+#include "anatomy/query/triangle_distance.h"
+#include "anatomy/query/triangle_tree.h"
 #include "anatomy/shapes/mesh_tools.h"
-#include "anatomy/triangle_distance.h"
-#include "anatomy/triangle_tree.h"
 #include "test_shapes.h"
 
 namespace palpa::anatomy {

@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <string>
 
-#include "anatomy/parametric_patient.h"
-#include "anatomy/random_stream.h"
-#include "anatomy/shapes/surface_nets.h"
-#include "anatomy/shapes/sweep.h"
+#include "anatomy/base/random.h"
+#include "anatomy/parametric/parametric_patient.h"
+#include "anatomy/shapes/implicit_surface.h"
+#include "anatomy/shapes/mesh_tools.h"
 #include "tests/support/scratch_folder.h"
 
 namespace palpa::anatomy {

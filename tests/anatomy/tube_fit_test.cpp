@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/surface_query.h"
+#include "anatomy/query/surface_query.h"
 #include "test_shapes.h"
 
 namespace palpa::anatomy {

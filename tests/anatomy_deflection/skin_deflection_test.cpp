@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::anatomy {
 namespace {

@@ -1,8 +1,8 @@
-#include "anatomy/skin_dimple.h"
+#include "anatomy/query/skin_dimple.h"
 
 #include <gtest/gtest.h>
 
-#include "anatomy/triangle_tree.h"
+#include "anatomy/query/triangle_tree.h"
 #include "tests/support/simple_patient.h"
 
 namespace palpa::anatomy {

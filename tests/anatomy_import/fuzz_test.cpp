@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "anatomy/import/repair.h"
-#include "anatomy/import/surface_check.h"
+#include "anatomy/import/surface_topology.h"
 #include "sample_meshes.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"

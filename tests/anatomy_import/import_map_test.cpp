@@ -4,7 +4,7 @@
 
 #include <set>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::anatomy {
 namespace {

@@ -5,10 +5,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "anatomy/import/propose_landmarks.h"
-#include "anatomy/patient_check.h"
-#include "anatomy/patient_file.h"
+#include "anatomy/patient/patient_check.h"
+#include "anatomy/patient/patient_file.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "round_meshes.h"
 #include "sample_meshes.h"

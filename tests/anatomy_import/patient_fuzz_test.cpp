@@ -4,9 +4,9 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "anatomy/import/import_map.h"
-#include "anatomy/patient_file.h"
+#include "anatomy/patient/patient_file.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "round_meshes.h"
 #include "sample_meshes.h"

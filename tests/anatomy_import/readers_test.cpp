@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/import/surface_check.h"
+#include "anatomy/base/error.h"
+#include "anatomy/import/surface_topology.h"
 #include "sample_meshes.h"
 
 namespace palpa::anatomy {

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/bone_capsules.h"
 #include "anatomy/import/import_patient.h"
+#include "anatomy/query/bone_capsules.h"
+#include "anatomy/query/surface_query.h"
 #include "anatomy/shapes/mesh_tools.h"
-#include "anatomy/surface_patch_fit.h"
 #include "tests/support/capsule_distance.h"
 #include "tests/support/counts.h"
 #include "tests/support/test_data.h"

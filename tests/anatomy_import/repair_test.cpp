@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "anatomy/import/surface_check.h"
+#include "anatomy/import/surface_topology.h"
 #include "sample_meshes.h"
 
 namespace palpa::anatomy {

@@ -1,8 +1,8 @@
-#include "anatomy/import/surface_check.h"
+#include "anatomy/import/surface_topology.h"
 
 #include <gtest/gtest.h>
 
-#include "anatomy/import/unit.h"
+#include "anatomy/import/units_and_axes.h"
 #include "sample_meshes.h"
 
 namespace palpa::anatomy {

@@ -6,7 +6,7 @@
 #include <random>
 
 #include "anatomy/import/repair.h"
-#include "anatomy/import/surface_check.h"
+#include "anatomy/import/surface_topology.h"
 #include "round_meshes.h"
 
 namespace palpa::anatomy {

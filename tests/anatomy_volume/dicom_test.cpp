@@ -8,8 +8,8 @@
 #include <iterator>
 #include <random>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/volume/readers.h"
+#include "anatomy/base/error.h"
+#include "anatomy/volume/volume.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"
 

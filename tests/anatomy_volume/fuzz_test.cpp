@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/volume/readers.h"
+#include "anatomy/base/error.h"
+#include "anatomy/volume/volume.h"
 #include "sample_volumes.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"

@@ -2,8 +2,8 @@
 
 #include <Eigen/Geometry>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/volume/readers.h"
+#include "anatomy/base/error.h"
+#include "anatomy/volume/volume.h"
 #include "sample_volumes.h"
 
 namespace palpa::anatomy {

@@ -5,13 +5,13 @@
 
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/shapes/field.h"
+#include "anatomy/base/error.h"
+#include "anatomy/shapes/implicit_surface.h"
 #include "anatomy/shapes/mesh_tools.h"
 #include "anatomy/volume/ct_patient.h"
-#include "anatomy/volume/orientation_check.h"
-#include "anatomy/volume/readers.h"
+#include "anatomy/volume/scan.h"
 #include "anatomy/volume/seed_file.h"
+#include "anatomy/volume/volume.h"
 #include "sample_volumes.h"
 #include "tests/support/test_data.h"
 

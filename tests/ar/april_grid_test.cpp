@@ -1,11 +1,11 @@
-#include "ar/april_grid.h"
+#include "ar/boards/april_grid.h"
 
 #include <gtest/gtest.h>
 
 #include <set>
 
-#include "anatomy/geometry/error.h"
-#include "ar/tag_family.h"
+#include "anatomy/base/error.h"
+#include "ar/boards/tag_family.h"
 #include "tests/ar/lens.h"
 
 namespace palpa::ar {

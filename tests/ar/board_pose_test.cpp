@@ -1,11 +1,10 @@
-#include "ar/board_pose.h"
+#include "ar/tracking/board_pose.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "anatomy/geometry/error.h"
-#include "ar/pose_refinement.h"
+#include "anatomy/base/error.h"
 #include "tests/ar/views.h"
 
 namespace palpa::ar {

@@ -6,8 +6,8 @@
 #include <opencv2/imgproc.hpp>
 #include <set>
 
-#include "anatomy/geometry/error.h"
-#include "ar/board.h"
+#include "anatomy/base/error.h"
+#include "ar/boards/board.h"
 
 namespace palpa::ar {
 namespace {

@@ -1,4 +1,4 @@
-#include "ar/board_tracker.h"
+#include "ar/tracking/board_tracker.h"
 
 #include <gtest/gtest.h>
 

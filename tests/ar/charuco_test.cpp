@@ -1,9 +1,9 @@
-#include "ar/charuco.h"
+#include "ar/boards/charuco.h"
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
-#include "ar/charuco_layout.h"
+#include "anatomy/base/error.h"
+#include "ar/boards/charuco_layout.h"
 #include "tests/ar/lens.h"
 
 namespace palpa::ar {

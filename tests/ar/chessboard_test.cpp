@@ -1,8 +1,8 @@
-#include "ar/chessboard.h"
+#include "ar/boards/chessboard.h"
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/ar/views.h"
 
 namespace palpa::ar {

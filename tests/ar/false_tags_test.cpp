@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/ar/views.h"
 
 /// Nothing that is not ours may be claimed: a false corner would enter a registration.

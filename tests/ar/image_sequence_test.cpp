@@ -1,4 +1,4 @@
-#include "ar/image_sequence.h"
+#include "ar/cameras/recorded_pictures.h"
 
 #include <gtest/gtest.h>
 #include <unistd.h>
@@ -6,7 +6,7 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::ar {
 namespace {

@@ -1,9 +1,8 @@
-#include "ar/pose_filter.h"
+#include "ar/tracking/pose_filter.h"
 
 #include <gtest/gtest.h>
 
-#include "ar/pose_track.h"
-#include "ar/pose_upsampler.h"
+#include "ar/tracking/pose_track.h"
 #include "tests/ar/views.h"
 
 /// The pose filter against motions known in closed form: what jitter it leaves, how far it lags,

@@ -6,8 +6,8 @@
 #include <regex>
 #include <vector>
 
-#include "ar/board_pose.h"
-#include "ar/image_sequence.h"
+#include "ar/cameras/recorded_pictures.h"
+#include "ar/tracking/board_pose.h"
 #include "tests/support/test_data.h"
 
 namespace palpa::ar {

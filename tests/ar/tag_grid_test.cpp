@@ -1,10 +1,10 @@
-#include "ar/tag_grid.h"
+#include "ar/boards/tag_grid.h"
 
 #include <gtest/gtest.h>
 
 #include <map>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/ar/views.h"
 
 namespace palpa::ar {

@@ -1,8 +1,8 @@
-#include "ar/undistort.h"
+#include "ar/cameras/undistort.h"
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/ar/views.h"
 
 namespace palpa::ar {

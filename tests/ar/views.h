@@ -5,9 +5,9 @@
 #include <opencv2/imgproc.hpp>
 #include <random>
 
-#include "ar/board.h"
-#include "ar/board_pose.h"
-#include "ar/pose_motion.h"
+#include "ar/boards/board.h"
+#include "ar/tracking/board_pose.h"
+#include "ar/tracking/pose_filter.h"
 #include "tests/support/camera_views.h"
 
 /// Known truth for the tests of ar/: a camera, where it stands, and what it then sees.

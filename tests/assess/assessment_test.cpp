@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/assess/motions.h"
 
 namespace palpa::assess::test {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/assess/contacts.h"
+#include "apps/assess/needle/contacts.h"
 #include "tests/assess/motions.h"
 
 namespace palpa::assess::test {

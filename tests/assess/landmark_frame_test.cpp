@@ -1,10 +1,10 @@
-#include "anatomy/landmark_frame.h"
+#include "anatomy/patient.h"
 
 #include <gtest/gtest.h>
 
 #include <limits>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::anatomy {
 namespace {

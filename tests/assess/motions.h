@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/assess/assess_trial.h"
+#include "apps/assess/needle/assess_trial.h"
 
 /// Hand-made motions with known answers. The patient has landmarks only; L is parallel to A on the
 /// right side (medial +x, posterior +y, cephalad +z), so numbers can be checked by eye.

@@ -1,4 +1,4 @@
-#include "apps/assess/needle_metrics.h"
+#include "apps/assess/needle/needle_metrics.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/assess/passes.h"
+#include "apps/assess/needle/phases.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/assess/path_errors.h"
+#include "apps/assess/needle/trial_review.h"
 #include "tests/assess/motions.h"
 
 namespace palpa::assess::test {

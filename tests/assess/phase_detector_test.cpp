@@ -1,8 +1,7 @@
-#include "apps/assess/phase_detector.h"
+#include "apps/assess/needle/phases.h"
 
 #include <gtest/gtest.h>
 
-#include "apps/assess/passes.h"
 #include "tests/assess/motions.h"
 
 namespace palpa::assess::test {

@@ -1,4 +1,4 @@
-#include "apps/assess/paracentesis_score.h"
+#include "apps/assess/needle/paracentesis_score.h"
 
 #include <gtest/gtest.h>
 

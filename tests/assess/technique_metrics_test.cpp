@@ -1,5 +1,5 @@
 // Figures of technique on motions made by hand.
-#include "apps/assess/technique_metrics.h"
+#include "apps/assess/needle/needle_metrics.h"
 
 #include <gtest/gtest.h>
 

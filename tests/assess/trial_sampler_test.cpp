@@ -1,4 +1,4 @@
-#include "apps/assess/trial_sampler.h"
+#include "apps/assess/needle/trial_sampler.h"
 
 #include <gtest/gtest.h>
 

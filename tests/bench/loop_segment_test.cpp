@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/bench/bumpy_torso.h"
+#include "apps/bench/bench_patients.h"
 #include "apps/runtime/clock.h"
 
 /// How late either loop was is the machine's affair; that they can be compared is ours.

@@ -1,10 +1,10 @@
-#include "apps/bench/paired.h"
+#include "apps/bench/timing.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 
 namespace palpa::bench {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/bench/bumpy_torso.h"
-#include "apps/bench/query_timing.h"
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
+#include "apps/bench/bench_patients.h"
+#include "apps/bench/timing.h"
 
 namespace palpa::bench {
 namespace {

@@ -2,9 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "apps/bench/false_pictures.h"
-#include "ar/board_pose.h"
-#include "ar/pose_motion.h"
+#include "ar/tracking/board_pose.h"
+#include "ar/tracking/pose_filter.h"
 
 /// What the tracking bench shows is what it says it shows.
 namespace palpa::bench {

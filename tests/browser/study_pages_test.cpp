@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/report/study_report.h"
+#include "apps/report/study/study_report.h"
 #include "tests/browser/page_faults.h"
 #include "tests/report/synthetic_study.h"
 #include "tests/support/files.h"

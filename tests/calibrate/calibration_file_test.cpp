@@ -5,7 +5,7 @@
 #include <fstream>
 
 #include "a_calibration.h"
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"

@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "a_calibration.h"
+#include "anatomy/base/sha256.h"
 #include "apps/station/assets.h"
-#include "apps/station/sha256.h"
 #include "apps/station/station_file.h"
 
 namespace palpa::station {

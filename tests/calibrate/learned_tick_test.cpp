@@ -5,7 +5,7 @@
 
 #include "apps/calibrate/subtask_features.h"
 #include "calibration/hidden_markov.h"
-#include "haptics/tick.h"
+#include "haptics/loop/tick.h"
 
 /// What was learned from recordings, in the loop that they come from: the tick's belief against the
 /// calibration's own recursion over what the tick recorded.

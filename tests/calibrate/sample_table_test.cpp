@@ -1,12 +1,11 @@
-#include "apps/calibrate/sample_table.h"
+#include "apps/calibrate/recorded.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
 #include "a_calibration.h"
-#include "anatomy/geometry/error.h"
-#include "apps/calibrate/recorded.h"
+#include "anatomy/base/error.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"

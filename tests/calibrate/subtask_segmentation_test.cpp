@@ -5,9 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/random_stream.h"
+#include "anatomy/base/random.h"
 #include "apps/calibrate/subtask_result.h"
-#include "apps/calibrate/subtask_words.h"
 #include "tests/calibrate/a_calibration.h"
 #include "tests/calibration/complaint.h"
 

@@ -1,11 +1,11 @@
-#include "apps/calibrate/corrected_rig.h"
+#include "apps/calibrate/rig_adapters.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "apps/runtime/corrected_device.h"
-#include "calibration/workspace_map.h"
+#include "apps/runtime/device_adapters.h"
+#include "calibration/registration.h"
 #include "tests/support/allocation_guard.h"
 
 namespace palpa::calibrate {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <numeric>
 
-#include "anatomy/random_stream.h"
+#include "anatomy/base/random.h"
 #include "tests/calibration/complaint.h"
 
 namespace palpa::calibration {

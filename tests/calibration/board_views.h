@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "calibration/board_view.h"
+#include "calibration/camera_calibration.h"
 #include "calibration/camera_model.h"
 #include "calibration/rotation.h"
 

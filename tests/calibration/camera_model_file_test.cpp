@@ -7,7 +7,7 @@
 #include <opencv2/core.hpp>
 #include <random>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "calibration/camera_model.h"
 #include "tests/calibration/sample_cameras.h"
 #include "tests/support/test_data.h"

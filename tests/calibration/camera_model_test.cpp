@@ -6,7 +6,7 @@
 #include <opencv2/calib3d.hpp>
 #include <random>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/calibration/sample_cameras.h"
 
 namespace palpa::calibration {

@@ -2,8 +2,8 @@
 
 #include "calibration/clock_offset.h"
 #include "calibration/force_sensor.h"
+#include "calibration/registration.h"
 #include "calibration/rotation.h"
-#include "calibration/workspace_map.h"
 #include "complaint.h"
 
 namespace palpa::calibration {

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::calibration::test {
 

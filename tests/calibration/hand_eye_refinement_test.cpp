@@ -1,10 +1,10 @@
-#include "calibration/hand_eye_refinement.h"
+#include "calibration/hand_eye.h"
 
 #include <gtest/gtest.h>
 
 #include <random>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {

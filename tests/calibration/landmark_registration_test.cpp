@@ -1,4 +1,4 @@
-#include "calibration/landmark_registration.h"
+#include "calibration/registration.h"
 
 #include <cmath>
 

@@ -1,11 +1,11 @@
-#include "calibration/lump_contact.h"
+#include "calibration/contact_laws.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "haptics/virtual_inclusion.h"
+#include "anatomy/base/error.h"
+#include "haptics/modulation/virtual_inclusion.h"
 
 namespace palpa::calibration {
 namespace {

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "anatomy/random_stream.h"
+#include "anatomy/base/random.h"
 #include "calibration/hidden_markov.h"
 
 /// Trials of which the states are known.

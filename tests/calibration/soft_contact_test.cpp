@@ -1,11 +1,11 @@
-#include "calibration/soft_contact.h"
+#include "calibration/contact_laws.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::calibration {
 namespace {

@@ -1,11 +1,11 @@
-#include "calibration/surface_friction.h"
+#include "calibration/contact_laws.h"
 
 #include <gtest/gtest.h>
 
 #include <numbers>
 #include <random>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::calibration {
 namespace {

@@ -4,10 +4,10 @@
 #include <fstream>
 #include <opencv2/imgcodecs.hpp>
 
+#include "anatomy/base/sha256.h"
 #include "apps/runtime/clock.h"
 #include "apps/station/assets.h"
 #include "apps/station/calibrations.h"
-#include "apps/station/sha256.h"
 #include "apps/twin/setup_bench.h"
 
 namespace palpa::cli_test {

@@ -6,7 +6,7 @@
 #include <random>
 #include <sstream>
 
-#include "apps/station/sha256.h"
+#include "anatomy/base/sha256.h"
 #include "program.h"
 #include "tests/support/counts.h"
 #include "tests/support/test_data.h"

@@ -5,8 +5,8 @@
 #include <fstream>
 #include <opencv2/imgproc.hpp>
 
+#include "apps/record/store/delivery.h"
 #include "apps/record/store/migrations.h"
-#include "apps/record/store/pending.h"
 #include "apps/record/store/record_store.h"
 #include "broken_bench.h"
 

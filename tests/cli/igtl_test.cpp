@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "apps/link/igtl/conventions.h"
-#include "apps/link/igtl/tcp_socket.h"
+#include "apps/os/tcp_socket.h"
 #include "apps/record/session_file.h"
 #include "program.h"
 #include "tests/igtl/library_peer.h"
@@ -22,13 +22,13 @@ namespace {
 using igt_test::Got;
 using igt_test::LibraryClient;
 
-std::uint16_t freePort() { return igt::TcpListener("127.0.0.1", 0).port(); }
+std::uint16_t freePort() { return os::TcpListener("127.0.0.1", 0).port(); }
 
 /// As soon as somebody serves there; gives up after 20 s.
 std::unique_ptr<LibraryClient> connectWhenThere(std::uint16_t port) {
   for (int i = 0; i < 400; ++i) {
-    igt::TcpSocket probe = igt::TcpSocket::connecting("127.0.0.1", port);
-    if (probe.connected(50) == igt::TcpSocket::Progress::done)
+    os::TcpSocket probe = os::TcpSocket::connecting("127.0.0.1", port);
+    if (probe.connected(50) == os::TcpSocket::Progress::done)
       return std::make_unique<LibraryClient>(port);
     poll(nullptr, 0, 50);
   }
@@ -119,7 +119,7 @@ TEST(Igtl, WhatIsToldIsWhatIsRecordedAndListeningChangesNothing) {
 
 TEST(Igtl, WrongPortsAndAddressesAreToldInOneLine) {
   Folder here;
-  const igt::TcpListener taken("127.0.0.1", 0);
+  const os::TcpListener taken("127.0.0.1", 0);
   const Outcome held =
       palpa(session({"--igtl", std::to_string(taken.port()), "--out", "A"}), here.path());
   EXPECT_EQ(held.exit_code, 1);

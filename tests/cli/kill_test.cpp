@@ -3,7 +3,7 @@
 #include <optional>
 #include <random>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/record/session_file.h"
 #include "apps/runtime/clock.h"
 #include "program.h"

@@ -4,8 +4,8 @@
 #include <fstream>
 
 #include "apps/record/session_file.h"
+#include "apps/record/store/delivery.h"
 #include "apps/record/store/migrations.h"
-#include "apps/record/store/pending.h"
 #include "apps/record/store/record_store.h"
 #include "apps/runtime/clock.h"
 #include "program.h"

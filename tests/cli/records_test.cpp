@@ -2,7 +2,7 @@
 
 #include <cstdlib>
 
-#include "apps/record/store/pending.h"
+#include "apps/record/store/delivery.h"
 #include "apps/record/store/record_store.h"
 #include "csv_rows.h"
 #include "program.h"

@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/record/store/record_store.h"
-#include "apps/study_analysis/learning_model.h"
+#include "apps/study/analysis/power_analysis.h"
 #include "program.h"
 
 /// From the records of a study, or a table, to its page.

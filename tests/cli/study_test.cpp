@@ -2,10 +2,10 @@
 
 #include <set>
 
-#include "apps/record/store/pending.h"
+#include "anatomy/base/sha256.h"
+#include "apps/record/store/delivery.h"
 #include "apps/record/store/study_store.h"
 #include "apps/runtime/clock.h"
-#include "apps/station/sha256.h"
 #include "study_bench.h"
 
 /// Studies, as an educator runs them: one trainee's way, whatever interrupts it.

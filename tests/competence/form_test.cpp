@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/competence/reference.h"
 
 namespace palpa::competence::test {

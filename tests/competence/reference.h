@@ -4,7 +4,7 @@
 #include <limits>
 #include <optional>
 
-#include "anatomy/parametric_patient.h"
+#include "anatomy/parametric/parametric_patient.h"
 #include "apps/assess/competence/verdict.h"
 #include "tests/support/files.h"
 #include "tests/support/scripted_trial.h"

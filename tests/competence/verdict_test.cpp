@@ -2,8 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
-#include "apps/assess/competence/certification.h"
+#include "anatomy/base/error.h"
 #include "tests/competence/reference.h"
 #include "tests/support/counts.h"
 

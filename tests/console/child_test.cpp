@@ -1,4 +1,4 @@
-#include "apps/console/child.h"
+#include "apps/os/child_process.h"
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
@@ -8,19 +8,19 @@
 
 #include <fstream>
 
-#include "anatomy/geometry/error.h"
-#include "apps/runtime/serving_clock.h"
+#include "anatomy/base/error.h"
+#include "apps/runtime/clock.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
 
 namespace palpa::console {
 namespace {
 
-bool ends(const ProcessId& process) {
+bool ends(const os::ProcessId& process) {
   const auto until = runtime::ServingClock::now() + std::chrono::seconds(60);
-  while (runs(process) && runtime::ServingClock::now() < until)
+  while (os::runs(process) && runtime::ServingClock::now() < until)
     runtime::rest(std::chrono::milliseconds(5));
-  return !runs(process);
+  return !os::runs(process);
 }
 
 TEST(Child, NothingOfOursStaysOpenAndItIsItsOwnMaster) {
@@ -33,10 +33,10 @@ TEST(Child, NothingOfOursStaysOpenAndItIsItsOwnMaster) {
   sigemptyset(&term);
   sigaddset(&term, SIGTERM);
   ::pthread_sigmask(SIG_BLOCK, &term, &old);
-  const ProcessId child = start({"facts"}, folder / "log.txt", false);
+  const os::ProcessId child = os::start({"facts"}, folder / "log.txt", false);
   ::pthread_sigmask(SIG_SETMASK, &old, nullptr);
   ASSERT_TRUE(ends(child));
-  const auto lines = lastLines(folder / "log.txt", 10);
+  const auto lines = os::lastLines(folder / "log.txt", 10);
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_EQ(lines[0], "open 0 1 2");
   EXPECT_EQ(lines[1], "own_group 1");
@@ -49,7 +49,7 @@ TEST(Child, NothingOfOursStaysOpenAndItIsItsOwnMaster) {
 TEST(Child, ItsLogIsTheUsersAlone) {
   const test::ScratchFolder folder("log");
   const mode_t mask = ::umask(0);
-  const ProcessId child = start({"facts"}, folder / "log.txt", false);
+  const os::ProcessId child = os::start({"facts"}, folder / "log.txt", false);
   ::umask(mask);
   ASSERT_TRUE(ends(child));
   EXPECT_EQ(std::filesystem::status(folder / "log.txt").permissions(),
@@ -58,43 +58,43 @@ TEST(Child, ItsLogIsTheUsersAlone) {
 
 TEST(Child, IsAskedToEndAndGone) {
   const test::ScratchFolder folder("end");
-  const ProcessId child = start({"wait"}, folder / "log.txt", true);
-  EXPECT_TRUE(runs(child));
+  const os::ProcessId child = os::start({"wait"}, folder / "log.txt", true);
+  EXPECT_TRUE(os::runs(child));
   const auto until = runtime::ServingClock::now() + std::chrono::seconds(30);
-  while (lastLines(folder / "log.txt", 1).empty() && runtime::ServingClock::now() < until)
+  while (os::lastLines(folder / "log.txt", 1).empty() && runtime::ServingClock::now() < until)
     runtime::rest(std::chrono::milliseconds(5));  // it waits for Ctrl-C now
-  askToEnd(child);
+  os::askToEnd(child);
   EXPECT_TRUE(ends(child));
-  askToEnd(child);  // nobody is there: nobody is hit
+  os::askToEnd(child);  // nobody is there: nobody is hit
 }
 
 /// A later process with the same number is not taken for it, and not asked to end.
 TEST(Child, AnotherProcessWithTheSameNumberIsNotIt) {
-  const ProcessId self{::getpid(), 1};
-  EXPECT_FALSE(runs(self));
-  askToEnd(self);
-  for (const ProcessId none :
-       {ProcessId{0, 0}, ProcessId{-1, 5}, ProcessId{1 << 30, 5}, ProcessId{::getpid(), 0}}) {
-    EXPECT_FALSE(runs(none));
-    askToEnd(none);
+  const os::ProcessId self{::getpid(), 1};
+  EXPECT_FALSE(os::runs(self));
+  os::askToEnd(self);
+  for (const os::ProcessId none : {os::ProcessId{0, 0}, os::ProcessId{-1, 5},
+                                   os::ProcessId{1 << 30, 5}, os::ProcessId{::getpid(), 0}}) {
+    EXPECT_FALSE(os::runs(none));
+    os::askToEnd(none);
   }
 }
 
 TEST(Child, ALogInAFolderThatIsNotThereIsAnError) {
-  EXPECT_THROW(start({"facts"}, "/proc/there/is/none/log.txt", false), Error);
+  EXPECT_THROW(os::start({"facts"}, "/proc/there/is/none/log.txt", false), Error);
 }
 
 TEST(Child, LastLinesOfAnyLog) {
   const test::ScratchFolder folder("lines");
-  EXPECT_TRUE(lastLines(folder / "none", 5).empty());
+  EXPECT_TRUE(os::lastLines(folder / "none", 5).empty());
   std::ofstream(folder / "a") << "one\n\ntwo\rthree\n10 %\r20 %\r\nfour";
-  EXPECT_EQ(lastLines(folder / "a", 5), (std::vector<std::string>{"one", "three", "four"}));
-  EXPECT_EQ(lastLines(folder / "a", 1), (std::vector<std::string>{"four"}));
+  EXPECT_EQ(os::lastLines(folder / "a", 5), (std::vector<std::string>{"one", "three", "four"}));
+  EXPECT_EQ(os::lastLines(folder / "a", 1), (std::vector<std::string>{"four"}));
   std::ofstream(folder / "b") << std::string(1 << 20, 'x');
-  EXPECT_LE(lastLines(folder / "b", 5).at(0).size(), 16u << 10);
+  EXPECT_LE(os::lastLines(folder / "b", 5).at(0).size(), 16u << 10);
   std::ofstream(folder / "c") << "palpa: first: a. b\nmore\npalpa: last: c. d\nfar more\n";
-  EXPECT_EQ(complaintIn(folder / "c"), "last: c. d");
-  EXPECT_EQ(complaintIn(folder / "a"), "");
+  EXPECT_EQ(os::complaintIn(folder / "c"), "last: c. d");
+  EXPECT_EQ(os::complaintIn(folder / "a"), "");
 }
 
 }  // namespace

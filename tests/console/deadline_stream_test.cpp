@@ -1,4 +1,4 @@
-#include "apps/console/deadline_stream.h"
+#include "apps/console/http_framing.h"
 
 #include <gtest/gtest.h>
 #include <sys/socket.h>

@@ -1,4 +1,4 @@
-#include "apps/console/framing.h"
+#include "apps/console/http_framing.h"
 
 #include <gtest/gtest.h>
 

@@ -6,8 +6,8 @@
 #include <fstream>
 #include <memory>
 
-#include "anatomy/geometry/error.h"
-#include "apps/runtime/serving_clock.h"
+#include "anatomy/base/error.h"
+#include "apps/runtime/clock.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
 

@@ -5,7 +5,7 @@
 #include <fstream>
 #include <set>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/support/scratch_folder.h"
 
 namespace palpa::console {

@@ -10,7 +10,7 @@
 #include <fstream>
 
 #include "apps/live/live_session.h"
-#include "apps/runtime/serving_clock.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::console {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/console/refusals.h"
+#include "apps/console/guard.h"
 
 #include <gtest/gtest.h>
 

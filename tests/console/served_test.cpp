@@ -11,12 +11,12 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/console/console.h"
 #include "apps/console/guard.h"
 #include "apps/console/http.h"
 #include "apps/console/web_server.h"
-#include "apps/runtime/serving_clock.h"
+#include "apps/runtime/clock.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
 #include "tests/support/short_folder.h"

@@ -6,8 +6,8 @@
 
 #include <memory>
 
-#include "apps/live/local_socket.h"
 #include "apps/live/port.h"
+#include "apps/os/local_socket.h"
 #include "tests/support/damage.h"
 #include "tests/support/short_folder.h"
 
@@ -178,7 +178,7 @@ TEST(SessionLink, NonsenseAtTheOtherEndHurtsNothing) {
   const test::ShortFolder here;
   SessionLink link(here / "s");
   {
-    const int listener = live::listenAt(here / "s");
+    const int listener = os::listenAt(here / "s");
     test::DamageDice dice(9);
     for (int i = 0; i < 8; ++i) {
       int caller = -1;

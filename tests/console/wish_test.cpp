@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/console/sessions.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"

@@ -1,6 +1,6 @@
 #include "attacked.h"
 
-#include "apps/runtime/serving_clock.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::console_attack {
 

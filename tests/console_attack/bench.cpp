@@ -10,7 +10,7 @@
 #include <iterator>
 #include <stdexcept>
 
-#include "apps/runtime/serving_clock.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::console_attack {
 namespace {

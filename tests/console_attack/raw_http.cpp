@@ -8,7 +8,7 @@
 
 #include <algorithm>
 
-#include "apps/runtime/serving_clock.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::console_attack {
 namespace {

@@ -2,7 +2,7 @@
 #include <atomic>
 #include <thread>
 
-#include "apps/runtime/serving_clock.h"
+#include "apps/runtime/clock.h"
 #include "attacked.h"
 #include "tests/support/counts.h"
 

@@ -1,4 +1,4 @@
-#include "haptics/devices/falcon_driver.h"
+#include "haptics/devices/falcon/falcon_driver.h"
 
 #include <gtest/gtest.h>
 

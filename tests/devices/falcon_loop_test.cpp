@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/runtime/falcon_activity.h"
+#include "apps/runtime/device_activity.h"
 #include "apps/runtime/haptic_activity.h"
 #include "scripted_station.h"
 #include "tests/haptics/needle_bench.h"

@@ -6,9 +6,9 @@
 #include <memory>
 #include <numbers>
 
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 #include "falcon_twin.h"
-#include "haptics/devices/falcon_driver.h"
+#include "haptics/devices/falcon/falcon_driver.h"
 
 namespace palpa::test {
 

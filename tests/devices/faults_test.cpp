@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "haptics/devices/falcon_driver.h"
+#include "haptics/devices/falcon/falcon_driver.h"
 #include "scripted_station.h"
 
 namespace palpa::haptics {

@@ -1,4 +1,4 @@
-#include "haptics/devices/falcon_kinematics.h"
+#include "haptics/devices/falcon/falcon_kinematics.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,8 @@
 #include <numbers>
 #include <vector>
 
-#include "apps/runtime/random.h"
-#include "haptics/devices/falcon_driver.h"
+#include "anatomy/base/random.h"
+#include "haptics/devices/falcon/falcon_driver.h"
 
 namespace palpa::haptics {
 namespace {

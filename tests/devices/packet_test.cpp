@@ -1,10 +1,10 @@
-#include "haptics/devices/falcon_packet.h"
+#include "haptics/devices/falcon/falcon_protocol.h"
 
 #include <gtest/gtest.h>
 
 #include <vector>
 
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 #include "falcon_twin.h"
 
 namespace palpa::haptics {

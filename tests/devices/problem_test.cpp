@@ -1,4 +1,4 @@
-#include "haptics/devices/falcon_problem.h"
+#include "haptics/devices/falcon/falcon_link.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::haptics {
 namespace {

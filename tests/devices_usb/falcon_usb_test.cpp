@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "emulated_usb.h"
-#include "haptics/devices/libusb_transport.h"
+#include "haptics/devices/usb_transport.h"
 #include "tests/devices/falcon_rig.h"
 
 /// The driver, unchanged, on the real libusb and an emulated kernel: requests, states and faults.

@@ -2,8 +2,7 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "anatomy/geometry/error.h"
-#include "apps/doctor/clock_check.h"
+#include "anatomy/base/error.h"
 #include "apps/doctor/computer_check.h"
 #include "says.h"
 #include "tests/support/files.h"

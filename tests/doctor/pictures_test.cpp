@@ -1,8 +1,8 @@
 #include <opencv2/imgproc.hpp>
 
-#include "apps/doctor/clock_check.h"
+#include "apps/doctor/computer_check.h"
 #include "apps/doctor/picture_facts.h"
-#include "apps/twin/camera_faults.h"
+#include "apps/twin/bench_faults.h"
 #include "apps/twin/setup_bench.h"
 #include "says.h"
 

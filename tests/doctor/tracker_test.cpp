@@ -1,4 +1,4 @@
-#include "apps/doctor/tracker_check.h"
+#include "apps/doctor/device_check.h"
 
 #include <atomic>
 #include <thread>
@@ -60,7 +60,7 @@ TEST(DoctorsTracker, IsListenedTo) {
 }
 
 TEST(DoctorsTracker, NobodyThereAndNoSuchHostAreIll) {
-  const std::uint16_t port = igt::TcpListener("127.0.0.1", 0).port();
+  const std::uint16_t port = os::TcpListener("127.0.0.1", 0).port();
   expectSays(askTracker(trackerAt(port), 0.5), State::ill, "does not answer");
   station::TrackerSetup nowhere = trackerAt(port);
   nowhere.host = "no.such.host.invalid";

@@ -3,7 +3,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/expert_path/trials.h"
 
 namespace palpa::calibration::test {

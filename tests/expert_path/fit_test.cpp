@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/expert_path/trials.h"
 
 namespace palpa::calibration::test {

@@ -1,4 +1,4 @@
-#include "anatomy/geometry/surface_patch.h"
+#include "anatomy/geometry/local_geometry.h"
 
 #include <gtest/gtest.h>
 

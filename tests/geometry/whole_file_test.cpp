@@ -1,8 +1,8 @@
-#include "anatomy/geometry/whole_file.h"
+#include "anatomy/base/whole_file.h"
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/support/files.h"
 
 namespace palpa {

@@ -1,4 +1,4 @@
-#include "apps/cli/pointing_hand.h"
+#include "apps/session/mouse_hands.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include "apps/runtime/clock.h"
 
 /// What a mouse says becomes what the bench's hand wants.
-namespace palpa::cli {
+namespace palpa::session {
 namespace {
 
 struct Pointed {
@@ -168,4 +168,4 @@ TEST(PointingHand, StaysWhileTheViewIsTurned) {
 }
 
 }  // namespace
-}  // namespace palpa::cli
+}  // namespace palpa::session

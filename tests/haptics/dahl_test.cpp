@@ -1,8 +1,7 @@
-#include "haptics/materials/dahl.h"
+#include "haptics/materials/force_laws.h"
 
 #include <gtest/gtest.h>
 
-#include "haptics/materials/hunt_crossley.h"
 #include "tests/support/allocation_count.h"
 
 namespace palpa::haptics {

@@ -1,4 +1,4 @@
-#include "haptics/floor_contact.h"
+#include "haptics/contact/probe_contact.h"
 
 #include <gtest/gtest.h>
 

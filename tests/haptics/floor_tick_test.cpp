@@ -4,7 +4,7 @@
 #include <memory>
 #include <vector>
 
-#include "haptics/tick.h"
+#include "haptics/loop/tick.h"
 #include "tests/support/allocation_count.h"
 #include "tests/surface/surface_bench.h"
 

@@ -1,6 +1,6 @@
 #pragma once
 
-#include "haptics/needle_contact.h"
+#include "haptics/contact/needle_contact.h"
 
 namespace palpa::haptics {
 

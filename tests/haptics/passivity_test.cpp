@@ -1,10 +1,8 @@
-#include "haptics/passivity.h"
+#include "haptics/safety/passivity.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
-
-#include "haptics/virtual_coupling.h"
 
 namespace palpa::haptics {
 namespace {

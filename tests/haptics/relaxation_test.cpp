@@ -1,4 +1,4 @@
-#include "haptics/materials/relaxation.h"
+#include "haptics/materials/force_laws.h"
 
 #include <gtest/gtest.h>
 

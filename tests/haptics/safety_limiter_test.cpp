@@ -1,4 +1,4 @@
-#include "haptics/safety_limiter.h"
+#include "haptics/safety/safety_limiter.h"
 
 #include <gtest/gtest.h>
 

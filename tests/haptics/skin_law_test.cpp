@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "haptics/materials/needle_materials.h"
+#include "haptics/contact/needle_materials.h"
 
 namespace palpa::haptics {
 namespace {

@@ -1,4 +1,4 @@
-#include "haptics/stiffness_modulation.h"
+#include "haptics/modulation/modulation.h"
 
 #include <gtest/gtest.h>
 

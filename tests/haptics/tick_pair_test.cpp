@@ -1,4 +1,4 @@
-#include "haptics/tick_pair.h"
+#include "haptics/loop/tick.h"
 
 #include <gtest/gtest.h>
 

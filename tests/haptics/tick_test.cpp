@@ -1,4 +1,4 @@
-#include "haptics/tick.h"
+#include "haptics/loop/tick.h"
 
 #include <gtest/gtest.h>
 

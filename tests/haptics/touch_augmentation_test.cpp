@@ -1,4 +1,4 @@
-#include "haptics/touch_augmentation.h"
+#include "haptics/modulation/touch_augmentation.h"
 
 #include <gtest/gtest.h>
 

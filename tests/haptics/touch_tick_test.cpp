@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "haptics/tick.h"
+#include "haptics/loop/tick.h"
 #include "tests/support/allocation_count.h"
 
 /// Haptic augmented reality in the loop: a real soft thing with a flat top, a tool with a force

@@ -1,4 +1,4 @@
-#include "haptics/virtual_inclusion.h"
+#include "haptics/modulation/virtual_inclusion.h"
 
 #include <gtest/gtest.h>
 

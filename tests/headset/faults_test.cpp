@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/headset/worn.h"
 
 /// Headsets that are not there, and headsets that go: a word each, and nothing left open.

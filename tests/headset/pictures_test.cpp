@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/headset/placement.h"
+#include "apps/headset/headset_view.h"
 #include "tests/headset/worn.h"
 
 /// What each eye is shown, against the geometry in OpenXR's own axes: the eyes at (-+0.032, 0, 0),

@@ -2,7 +2,7 @@
 
 #include <filesystem>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/headset/worn.h"
 
 /// 500 frames under OpenXR's own core validation layer, in a context of GLX.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <sstream>
-#include <utility>
 
 namespace palpa::house {
 namespace {
@@ -24,22 +23,6 @@ bool withinAny(const std::string& path, const Names& folders) {
 
 /// The folder a file lies in: apps/task_needle for apps/task_needle/hud_text.cpp.
 std::string folderOf(const std::string& path) { return path.substr(0, path.rfind('/')); }
-
-std::vector<std::pair<std::string, bool>> includesOf(const std::string& code) {
-  std::vector<std::pair<std::string, bool>> headers;
-  std::istringstream lines(withoutComments(code));
-  for (std::string line; std::getline(lines, line);) {
-    const std::size_t hash = line.find_first_not_of(" \t");
-    if (hash == std::string::npos || line[hash] != '#') continue;
-    if (line.find("include", hash) == std::string::npos) continue;
-    const std::size_t open = line.find_first_of("<\"", hash);
-    const std::size_t close =
-        open == std::string::npos ? open : line.find_first_of(">\"", open + 1);
-    if (close == std::string::npos) continue;
-    headers.emplace_back(line.substr(open + 1, close - open - 1), line[open] == '"');
-  }
-  return headers;
-}
 
 const Names kLibraries{"anatomy", "haptics", "calibration", "ar", "scene"};
 
@@ -154,6 +137,22 @@ bool allowed(const Layer& layer, const std::string& path, const std::string& hea
 }
 
 }  // namespace
+
+std::vector<std::pair<std::string, bool>> includesOf(const std::string& code) {
+  std::vector<std::pair<std::string, bool>> headers;
+  std::istringstream lines(withoutComments(code));
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t hash = line.find_first_not_of(" \t");
+    if (hash == std::string::npos || line[hash] != '#') continue;
+    if (line.find("include", hash) == std::string::npos) continue;
+    const std::size_t open = line.find_first_of("<\"", hash);
+    const std::size_t close =
+        open == std::string::npos ? open : line.find_first_of(">\"", open + 1);
+    if (close == std::string::npos) continue;
+    headers.emplace_back(line.substr(open + 1, close - open - 1), line[open] == '"');
+  }
+  return headers;
+}
 
 const std::vector<Layer>& layers() {
   static const std::vector<Layer> all = makeLayers();

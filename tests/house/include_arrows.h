@@ -1,6 +1,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "source_tree.h"
@@ -24,6 +25,9 @@ const std::vector<Layer>& layers();
 /// Every include of `file` that its layer does not allow, in words; empty: none. Files that belong
 /// to no layer (tests) are free.
 std::vector<std::string> wrongIncludes(const SourceFile& file);
+
+/// Headers that the code includes, and whether in quotes.
+std::vector<std::pair<std::string, bool>> includesOf(const std::string& code);
 
 /// "VTK", "OpenCV", "Eigen", ...; empty for the language's and the system's headers.
 std::string libraryOf(const std::string& header);

@@ -144,8 +144,8 @@ TEST(IgtlFuzz, ServerGoesOnForTheOthers) {
   std::int64_t now_ns = 0;
   server.serve(moment, now_ns);
   for (int i = 0, n = test::counted(400, 4000); i < n; ++i) {
-    TcpSocket bad = TcpSocket::connecting("127.0.0.1", server.port());
-    ASSERT_EQ(bad.connected(2000), TcpSocket::Progress::done);
+    os::TcpSocket bad = os::TcpSocket::connecting("127.0.0.1", server.port());
+    ASSERT_EQ(bad.connected(2000), os::TcpSocket::Progress::done);
     for (std::size_t k = 0, messages = 1 + dice.below(5); k < messages; ++k) {
       bad.send(damaged(sound[dice.below(sound.size())], dice));
       if (dice.below(2)) server.serve(moment, now_ns += kStep_ns);
@@ -168,15 +168,15 @@ TEST(IgtlFuzz, TrackerTakesPosesOnly) {
   } clock;
   const std::vector<Bytes> sound = soundMessages();
   DamageDice dice(815);
-  TcpListener plus("127.0.0.1", 0);
+  os::TcpListener plus("127.0.0.1", 0);
   runtime::EventQueue<runtime::TrackedPose> poses{64};
   TrackerClient client(
       {"127.0.0.1", plus.port(), "ReferenceToCamera", Pose::Identity(), Pose::Identity(), 0, 0},
       clock, poses);
-  TcpSocket peer;
+  os::TcpSocket peer;
   int taken = 0;
   for (int i = 0, n = test::counted(1500, 20'000); i < n; ++i) {
-    if (TcpSocket next = plus.accept(); next.open()) peer = std::move(next);
+    if (os::TcpSocket next = plus.accept(); next.open()) peer = std::move(next);
     const Bytes& message = sound[dice.below(sound.size())];
     peer.send(dice.below(4) ? damaged(message, dice) : message);
     client.step(clock.t_ns);

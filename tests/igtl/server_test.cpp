@@ -6,7 +6,7 @@
 #include <atomic>
 #include <thread>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/link/igtl/conventions.h"
 #include "library_peer.h"
 

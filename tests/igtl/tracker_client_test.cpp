@@ -4,10 +4,10 @@
 
 #include <limits>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/link/igtl/conventions.h"
 #include "apps/runtime/camera_activity.h"
-#include "apps/runtime/camera_words.h"
+#include "apps/runtime/camera_trouble.h"
 #include "library_peer.h"
 
 /// Poses from a PLUS server, played by the library's own server on loopback; the session's time is
@@ -168,11 +168,11 @@ TEST_F(IgtlTracker, RandomBytesEndTheConnectionAndAnotherIsMade) {
 }
 
 TEST_F(IgtlTracker, LossInTheMiddleOfAMessageAndAServerThatComesBack) {
-  auto first = std::make_unique<TcpListener>(
+  auto first = std::make_unique<os::TcpListener>(
       "127.0.0.1", 0);  // the library's server waits a minute before it takes a port again
   const std::uint16_t port = first->port();
   make(settings(port));
-  TcpSocket peer;
+  os::TcpSocket peer;
   ASSERT_TRUE(stepUntil([&] { return peer.open() || (peer = first->accept()).open(); }));
   Bytes half = transform();
   half.resize(80);
@@ -182,7 +182,7 @@ TEST_F(IgtlTracker, LossInTheMiddleOfAMessageAndAServerThatComesBack) {
   first.reset();
   ASSERT_FALSE(stepUntil([&] { return client_->counts().poses > 0; }, 200, 50))
       << "ten seconds without a server";
-  TcpListener again("127.0.0.1", port);
+  os::TcpListener again("127.0.0.1", port);
   ASSERT_TRUE(stepUntil([&] { return peer.open() || (peer = again.accept()).open(); }, 100, 50))
       << "within the longest pause";
   peer.send(transform());

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "apps/link/igtl/conventions.h"
-#include "apps/link/igtl/message_stream.h"
 #include "library_peer.h"
 
 /// Messages as bytes, poses in the conventions of 3D Slicer and PLUS, and what of a stream is

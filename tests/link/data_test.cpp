@@ -1,4 +1,4 @@
-#include "apps/link/data_files.h"
+#include "apps/link/data_tables.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,6 @@
 #include <sstream>
 
 #include "apps/assess/metrics/metric_table.h"
-#include "apps/link/further_tables.h"
 #include "apps/record/store/migrations.h"
 #include "tests/link/trials.h"
 #include "tests/support/files.h"

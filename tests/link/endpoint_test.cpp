@@ -1,10 +1,10 @@
-#include "apps/link/endpoint.h"
+#include "apps/link/lrs_client.h"
 
 #include <gtest/gtest.h>
 
 #include <fstream>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/support/files.h"
 
 namespace palpa::link {

@@ -2,8 +2,8 @@
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
-#include "apps/link/statement_id.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/uuid.h"
 #include "tests/link/trials.h"
 #include "tests/link/xapi_rules.h"
 

@@ -9,10 +9,10 @@
 
 #include <fstream>
 
+#include "anatomy/base/random.h"
+#include "anatomy/base/uuid.h"
 #include "apps/link/statement.h"
-#include "apps/link/statement_id.h"
 #include "apps/runtime/clock.h"
-#include "apps/runtime/random.h"
 #include "tests/link/loopback_lrs.h"
 #include "tests/link/trials.h"
 #include "tests/support/counts.h"

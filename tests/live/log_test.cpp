@@ -5,8 +5,6 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "apps/live/curve.h"
-#include "apps/live/live_log.h"
 #include "apps/live/live_sink.h"
 
 namespace palpa::live {

@@ -9,9 +9,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/live/local_socket.h"
 #include "apps/live/wire.h"
-#include "apps/runtime/serving_clock.h"
+#include "apps/os/local_socket.h"
+#include "apps/runtime/clock.h"
 
 namespace palpa::live {
 
@@ -30,7 +30,7 @@ class Peer {
  public:
   explicit Peer(const std::string& path) {
     eventually([&] {
-      return (socket_ = connectTo(path)) >= 0 || errno != EAGAIN;
+      return (socket_ = os::connectTo(path)) >= 0 || errno != EAGAIN;
     });  // EAGAIN: the kernel's queue of callers is full
   }
   ~Peer() { leave(); }

@@ -7,7 +7,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "peer.h"
 #include "tests/support/short_folder.h"
 
@@ -32,14 +32,14 @@ TEST(LocalSocket, FolderAndSocketAreTheUsersAlone) {
   const ShortFolder here;
   const RuntimeFolder runtime(here.path());
   const mode_t mask = ::umask(0);
-  const std::string folder = socketFolder();
+  const std::string folder = os::socketFolder();
   EXPECT_EQ(folder, (here / "palpa").string());
   EXPECT_EQ(modeOf(folder), 0700u);
-  const int listener = listenAt(folder + "/a.sock");
+  const int listener = os::listenAt(folder + "/a.sock");
   EXPECT_EQ(modeOf(folder + "/a.sock"), 0600u);
   EXPECT_EQ(::umask(mask), 0u) << "it was left changed";
   ::close(listener);
-  EXPECT_EQ(socketFolder(), folder);
+  EXPECT_EQ(os::socketFolder(), folder);
 }
 
 TEST(LocalSocket, AFolderThatOthersMayEnterIsRefused) {
@@ -48,10 +48,10 @@ TEST(LocalSocket, AFolderThatOthersMayEnterIsRefused) {
   fs::create_directory(here / "palpa");
   for (const unsigned mode : {0750u, 0701u, 0777u, 0720u}) {
     ASSERT_EQ(::chmod((here / "palpa").c_str(), mode), 0);
-    EXPECT_THROW(socketFolder(), Error) << std::oct << mode;
+    EXPECT_THROW(os::socketFolder(), Error) << std::oct << mode;
   }
   ASSERT_EQ(::chmod((here / "palpa").c_str(), 0700), 0);
-  EXPECT_NO_THROW(socketFolder());
+  EXPECT_NO_THROW(os::socketFolder());
 }
 
 TEST(LocalSocket, AFolderThatIsALinkOrAFileIsRefused) {
@@ -60,22 +60,22 @@ TEST(LocalSocket, AFolderThatIsALinkOrAFileIsRefused) {
   fs::create_directory(here / "elsewhere");
   ASSERT_EQ(::chmod((here / "elsewhere").c_str(), 0700), 0);
   fs::create_symlink(here / "elsewhere", here / "palpa");
-  EXPECT_THROW(socketFolder(), Error);
+  EXPECT_THROW(os::socketFolder(), Error);
   fs::remove(here / "palpa");
   std::ofstream(here / "palpa") << "x";
-  EXPECT_THROW(socketFolder(), Error);
+  EXPECT_THROW(os::socketFolder(), Error);
 }
 
 TEST(LocalSocket, WhatADeadSessionLeftIsTakenOver_ALivingOnesIsNot) {
   const ShortFolder here;
   const std::string path = here / "s.sock";
-  const int dead = listenAt(path);
+  const int dead = os::listenAt(path);
   ::close(dead);
   EXPECT_TRUE(fs::exists(path)) << "as a killed session leaves it";
   EXPECT_FALSE(Peer(path).connected());
-  const int living = listenAt(path);
+  const int living = os::listenAt(path);
   EXPECT_TRUE(Peer(path).connected());
-  EXPECT_THROW(listenAt(path), Error);
+  EXPECT_THROW(os::listenAt(path), Error);
   EXPECT_TRUE(Peer(path).connected()) << "the living one's socket was taken away";
   ::close(living);
 }
@@ -85,18 +85,18 @@ TEST(LocalSocket, APathThatNoSocketCanHaveIsAnErrorToListenAndNobodyToCall) {
   const std::string longest =
       here.path().string() + "/" +
       std::string(sizeof(sockaddr_un{}.sun_path) - here.path().string().size() - 2, 'x');
-  ::close(listenAt(longest));
-  EXPECT_THROW(listenAt(longest + "x"), Error);
-  EXPECT_EQ(connectTo(longest + "x"), -1);
-  EXPECT_EQ(connectTo(std::string(10'000, 'x')), -1);
-  EXPECT_THROW(listenAt(here / "not/there.sock"), Error);
-  EXPECT_EQ(connectTo(here / "not/there.sock"), -1);
+  ::close(os::listenAt(longest));
+  EXPECT_THROW(os::listenAt(longest + "x"), Error);
+  EXPECT_EQ(os::connectTo(longest + "x"), -1);
+  EXPECT_EQ(os::connectTo(std::string(10'000, 'x')), -1);
+  EXPECT_THROW(os::listenAt(here / "not/there.sock"), Error);
+  EXPECT_EQ(os::connectTo(here / "not/there.sock"), -1);
 }
 
 TEST(LocalSocket, NothingOfItStaysOpenInAChild) {
   const ShortFolder here;
-  const int listener = listenAt(here / "s.sock");
-  const int caller = connectTo(here / "s.sock");
+  const int listener = os::listenAt(here / "s.sock");
+  const int caller = os::connectTo(here / "s.sock");
   for (const int socket : {listener, caller}) EXPECT_TRUE(::fcntl(socket, F_GETFD) & FD_CLOEXEC);
   ::close(listener);
   ::close(caller);

@@ -1,10 +1,10 @@
-#include "apps/live/steering.h"
+#include "apps/live/wire.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"
 

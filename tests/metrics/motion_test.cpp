@@ -5,11 +5,9 @@
 #include <functional>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/assess/metrics/curve_distance.h"
-#include "apps/assess/metrics/force_use.h"
-#include "apps/assess/metrics/kinematics.h"
-#include "apps/assess/metrics/tissue.h"
+#include "apps/assess/metrics/motion.h"
 
 namespace palpa::metrics {
 namespace {

@@ -1,9 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "apps/assess/palpation/mark_meaning.h"
+#include "apps/assess/palpation/coverage_map.h"
 #include "apps/assess/palpation/palpation_assessment.h"
-#include "apps/assess/palpation/palpation_judgement.h"
-#include "apps/assess/palpation/place_words.h"
+#include "apps/assess/palpation/palpation_score.h"
 #include "searches.h"
 
 namespace palpa::assess {

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 
 #include "apps/assess/palpation/coverage_map.h"
-#include "apps/assess/palpation/presses.h"
 #include "apps/assess/palpation/search_pattern.h"
 #include "searches.h"
 

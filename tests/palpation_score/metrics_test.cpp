@@ -1,4 +1,4 @@
-#include "apps/assess/palpation/palpation_metrics.h"
+#include "apps/assess/palpation/palpation_assessment.h"
 
 #include <gtest/gtest.h>
 

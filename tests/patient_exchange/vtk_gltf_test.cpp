@@ -9,8 +9,8 @@
 #include <vtkPolyData.h>
 #include <vtkSmartPointer.h>
 
-#include "anatomy/parametric_patient.h"
-#include "anatomy/patient_file.h"
+#include "anatomy/parametric/parametric_patient.h"
+#include "anatomy/patient/patient_file.h"
 #include "tests/support/files.h"
 
 /// Patient files as another program opens them: VTK's glTF reader, which shares nothing with ours.

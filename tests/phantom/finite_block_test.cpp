@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/support/counts.h"
 
 namespace palpa::twin {

@@ -1,11 +1,9 @@
-#include "apps/twin/phantom/hyperelastic.h"
+#include "apps/twin/phantom/finite_elements.h"
 
 #include <gtest/gtest.h>
 
 #include <Eigen/LU>
 #include <cmath>
-
-#include "apps/twin/phantom/brick_element.h"
 
 namespace palpa::twin {
 namespace {

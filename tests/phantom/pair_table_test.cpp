@@ -1,10 +1,10 @@
-#include "apps/twin/phantom/pair_table.h"
+#include "apps/twin/phantom/phantom_table.h"
 
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/twin/phantom/phantom_twin.h"
 #include "tests/support/counts.h"
 

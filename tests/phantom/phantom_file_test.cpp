@@ -5,7 +5,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/station/assets.h"
 #include "tests/support/counts.h"
 #include "tests/support/scratch_folder.h"

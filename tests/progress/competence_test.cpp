@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/assess/progress/competence.h"
-#include "apps/assess/progress/retention.h"
 #include "practice.h"
 
 namespace palpa::progress {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "anatomy/random_stream.h"
+#include "anatomy/base/random.h"
 #include "apps/assess/progress/learning_curve.h"
 #include "tests/support/counts.h"
 

@@ -1,9 +1,8 @@
-#include "apps/record/column_codec.h"
+#include "apps/record/record_codec.h"
 
 #include <gtest/gtest.h>
 
-#include "apps/record/row_checksum.h"
-#include "apps/record/uuid.h"
+#include "anatomy/base/uuid.h"
 #include "synthetic_session.h"
 
 namespace palpa::record {

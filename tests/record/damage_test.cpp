@@ -5,7 +5,7 @@
 #include <csignal>
 #include <fstream>
 
-#include "apps/record/row_checksum.h"
+#include "apps/record/record_codec.h"
 #include "synthetic_session.h"
 
 namespace palpa::record {

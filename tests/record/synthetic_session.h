@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/record/session_file.h"
 #include "tests/support/files.h"
 

@@ -1,4 +1,4 @@
-#include "apps/record/tick_export.h"
+#include "apps/record/session_file.h"
 
 #include <gtest/gtest.h>
 

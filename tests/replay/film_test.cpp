@@ -3,9 +3,9 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/videoio.hpp>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/replay/film.h"
-#include "apps/replay/recorded_pictures.h"
+#include "apps/replay/needle_replay.h"
 #include "tests/support/files.h"
 
 namespace palpa::replay {

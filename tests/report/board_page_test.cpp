@@ -1,4 +1,4 @@
-#include "apps/report/board_page.h"
+#include "apps/report/paper/board_page.h"
 
 #include <gtest/gtest.h>
 
@@ -6,8 +6,8 @@
 #include <cstdlib>
 #include <opencv2/imgcodecs.hpp>
 
-#include "anatomy/geometry/error.h"
-#include "ar/board.h"
+#include "anatomy/base/error.h"
+#include "ar/boards/board.h"
 #include "tests/support/scratch_folder.h"
 
 /// Printed boards, measured: what the camera will rely on.

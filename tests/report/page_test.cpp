@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
-#include "apps/report/html.h"
-#include "apps/report/style.h"
+#include "anatomy/base/error.h"
+#include "apps/report/page/html.h"
+#include "apps/report/page/style.h"
 #include "synthetic_report.h"
 #include "well_formed.h"
 

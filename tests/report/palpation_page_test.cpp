@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <sstream>
 
-#include "anatomy/geometry/error.h"
-#include "apps/assess/statistics/wilson.h"
-#include "apps/report/html.h"
-#include "apps/report/palpation_style.h"
+#include "anatomy/base/error.h"
+#include "apps/assess/statistics/sample.h"
+#include "apps/report/page/html.h"
+#include "apps/report/palpation/palpation_sections.h"
 #include "synthetic_palpation.h"
 #include "well_formed.h"
 

@@ -5,11 +5,11 @@
 #include <limits>
 #include <set>
 
-#include "apps/report/axis.h"
-#include "apps/report/base64.h"
-#include "apps/report/html.h"
-#include "apps/report/numbers.h"
-#include "apps/report/polyline.h"
+#include "anatomy/base/base64.h"
+#include "apps/report/page/html.h"
+#include "apps/report/page/numbers.h"
+#include "apps/report/plot/chart_frame.h"
+#include "apps/report/plot/svg_plot.h"
 
 namespace palpa::report {
 namespace {

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/report/progress_words.h"
+#include "apps/report/practice/progress_words.h"
 #include "synthetic_practice.h"
 #include "tests/support/files.h"
 #include "well_formed.h"

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/report/squeeze_report.h"
+#include "apps/report/squeeze/squeeze_report.h"
 #include "tests/support/files.h"
 #include "well_formed.h"
 

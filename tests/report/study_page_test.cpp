@@ -4,8 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/report/study_report.h"
-#include "apps/report/study_table.h"
+#include "apps/report/study/study_exhibits.h"
+#include "apps/report/study/study_report.h"
 #include "synthetic_study.h"
 #include "tests/support/files.h"
 #include "well_formed.h"

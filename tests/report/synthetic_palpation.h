@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/report/palpation_report.h"
+#include "apps/report/palpation/palpation_report.h"
 #include "synthetic_report.h"
 
 /// Made-up searches for the tests and for looking at the page.

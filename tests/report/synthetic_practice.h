@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "anatomy/random_stream.h"
-#include "apps/report/cohort_report.h"
-#include "apps/report/trainee_report.h"
+#include "anatomy/base/random.h"
+#include "apps/report/practice/cohort_report.h"
+#include "apps/report/practice/trainee_report.h"
 
 namespace palpa::report::test {
 

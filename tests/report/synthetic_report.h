@@ -4,7 +4,7 @@
 #include <cmath>
 #include <string>
 
-#include "apps/report/session_report.h"
+#include "apps/report/needle/session_report.h"
 #include "tests/support/files.h"
 
 /// A made-up but plausible session for the tests and for looking at the page.

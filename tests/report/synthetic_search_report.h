@@ -1,6 +1,6 @@
 #pragma once
 
-#include "apps/report/search_report.h"
+#include "apps/report/search/search_report.h"
 
 namespace palpa::report::test {
 

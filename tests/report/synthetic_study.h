@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
-#include "anatomy/random_stream.h"
-#include "apps/study_analysis/learning_model.h"
-#include "apps/study_analysis/study_design.h"
+#include "anatomy/base/random.h"
+#include "apps/study/analysis/power_analysis.h"
+#include "apps/study/analysis/study_design.h"
 #include "tests/study_analysis/rows.h"
 
 /// Results of studies that never were, for pages to be made of.

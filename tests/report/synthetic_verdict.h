@@ -1,8 +1,7 @@
 #pragma once
 
-#include "apps/assess/competence/certification.h"
 #include "apps/assess/competence/verdict.h"
-#include "apps/report/rating_form.h"
+#include "apps/report/paper/rating_form.h"
 #include "tests/report/synthetic_report.h"
 
 /// A made-up verdict on a made-up trial, by the shipped forms.

@@ -1,4 +1,4 @@
-#include "apps/report/timeline.h"
+#include "apps/report/needle/trial_chart.h"
 
 #include <gtest/gtest.h>
 

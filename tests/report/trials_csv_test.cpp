@@ -2,7 +2,7 @@
 
 #include <locale>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "synthetic_report.h"
 
 namespace palpa::report {

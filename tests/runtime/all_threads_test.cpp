@@ -5,13 +5,13 @@
 #include <numbers>
 
 #include "activities.h"
-#include "anatomy/local_geometry_builder.h"
+#include "anatomy/query/local_geometry_builder.h"
 #include "apps/runtime/camera_activity.h"
-#include "apps/runtime/channel_sensor.h"
-#include "apps/runtime/falcon_activity.h"
+#include "apps/runtime/device_activity.h"
+#include "apps/runtime/device_adapters.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/haptic_activity.h"
-#include "apps/runtime/recorder_activity.h"
+#include "apps/runtime/recorders.h"
 #include "tests/devices/scripted_station.h"
 #include "tests/haptics/needle_bench.h"
 #include "tests/support/allocation_count.h"

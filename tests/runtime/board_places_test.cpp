@@ -1,4 +1,4 @@
-#include "apps/runtime/board_places.h"
+#include "apps/runtime/camera_trouble.h"
 
 #include <gtest/gtest.h>
 

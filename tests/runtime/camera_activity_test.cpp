@@ -1,5 +1,5 @@
 #include "apps/runtime/camera_activity.h"
-#include "apps/runtime/camera_words.h"
+#include "apps/runtime/camera_trouble.h"
 
 #include <gtest/gtest.h>
 

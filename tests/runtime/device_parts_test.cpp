@@ -2,10 +2,8 @@
 
 #include <cmath>
 
-#include "apps/runtime/button_plunger.h"
-#include "apps/runtime/channel_device.h"
-#include "apps/runtime/channel_sensor.h"
-#include "apps/runtime/force_sensing.h"
+#include "apps/runtime/device_adapters.h"
+#include "apps/runtime/haptic_activity.h"
 
 namespace palpa::runtime {
 namespace {

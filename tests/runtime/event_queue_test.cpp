@@ -1,4 +1,4 @@
-#include "apps/runtime/event_queue.h"
+#include "apps/runtime/channels.h"
 
 #include <gtest/gtest.h>
 

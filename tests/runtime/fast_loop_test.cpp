@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "activities.h"
-#include "apps/runtime/channel_device.h"
+#include "apps/runtime/device_adapters.h"
 #include "apps/runtime/haptic_activity.h"
 #include "tests/haptics/needle_bench.h"
 

@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "activities.h"
-#include "apps/runtime/channel_device.h"
+#include "apps/runtime/device_adapters.h"
 #include "apps/runtime/haptic_activity.h"
-#include "apps/runtime/recorder_activity.h"
+#include "apps/runtime/recorders.h"
 #include "tests/haptics/needle_bench.h"
 
 /// The haptic and the recorder activity with all threads, and what the recorder got: run again, the

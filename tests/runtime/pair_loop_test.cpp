@@ -1,8 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "apps/runtime/channel_device.h"
-#include "apps/runtime/channel_sensor.h"
-#include "apps/runtime/haptic_pair_activity.h"
+#include "apps/runtime/device_adapters.h"
+#include "apps/runtime/haptic_activity.h"
 #include "tests/support/allocation_count.h"
 
 /// Two devices and their sensors through one activity, as the haptic thread runs it.

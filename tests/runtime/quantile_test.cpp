@@ -1,4 +1,4 @@
-#include "apps/runtime/quantile.h"
+#include "anatomy/base/quantile.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/runtime/state_channel.h"
+#include "apps/runtime/channels.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/runtime/time_histogram.h"
+#include "apps/runtime/executive.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 #include "tests/support/allocation_guard.h"
 
 namespace palpa::runtime {

@@ -1,4 +1,4 @@
-#include "apps/runtime/video_recorder.h"
+#include "apps/runtime/recorders.h"
 
 #include <gtest/gtest.h>
 
@@ -6,11 +6,11 @@
 #include <fstream>
 #include <opencv2/imgproc.hpp>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/runtime/clock.h"
-#include "ar/board.h"
-#include "ar/video_file.h"
-#include "ar/webcam.h"
+#include "ar/boards/board.h"
+#include "ar/cameras/recorded_pictures.h"
+#include "ar/cameras/webcam.h"
 #include "tests/support/scratch_folder.h"
 
 namespace palpa::runtime {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "scene/force_arrows.h"
-#include "scene/instrument_shape.h"
+#include "scene/actors/force_arrows.h"
+#include "scene/actors/instrument.h"
 #include "tests/scene/offscreen.h"
 
 namespace palpa::scene {

@@ -1,4 +1,4 @@
-#include "scene/contact_sheet.h"
+#include "scene/view/contact_sheet.h"
 
 #include <gtest/gtest.h>
 

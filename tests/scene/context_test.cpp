@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "scene/glew_without_glx.h"
+#include "scene/window/egl_window.h"
 #include "tests/scene/offscreen.h"
 
 namespace palpa::scene {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/phantom_block.h"
-#include "scene/region.h"
+#include "anatomy/parametric/phantoms.h"
+#include "scene/view/framing.h"
 #include "tests/scene/offscreen.h"
 
 /// What a search by hand has felt and found, as pixels: a carpet, balls, pins, a ring.

@@ -1,4 +1,4 @@
-#include "scene/deflected_skin.h"
+#include "scene/actors/organ_actors.h"
 
 #include <gtest/gtest.h>
 #include <vtkFloatArray.h>
@@ -6,7 +6,6 @@
 #include <vtkPoints.h>
 #include <vtkPolyData.h>
 
-#include "scene/organ_actors.h"
 #include "tests/scene/offscreen.h"
 
 namespace palpa::scene {

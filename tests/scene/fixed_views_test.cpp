@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 #include <vtkRenderWindow.h>
 
-#include "scene/view_layout.h"
+#include "scene/panels.h"
 #include "tests/scene/offscreen.h"
 
 namespace palpa::scene {

@@ -1,14 +1,14 @@
-#include "scene/glass.h"
+#include "scene/actors/glass.h"
 
 #include <gtest/gtest.h>
 #include <vtkCamera.h>
 #include <vtkRenderWindow.h>
 #include <vtkRenderer.h>
 
-#include "scene/ar_camera.h"
-#include "scene/organ_actors.h"
+#include "scene/actors/organ_actors.h"
 #include "scene/renderer_setup.h"
-#include "scene/window_pixels.h"
+#include "scene/view/ar_camera.h"
+#include "scene/window/pixels.h"
 #include "tests/scene/offscreen.h"
 
 /// Translucent surfaces within each other, beside VTK's depth peeling, which is right whatever it

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/phantom_block.h"
+#include "anatomy/parametric/phantoms.h"
 #include "tests/scene/offscreen.h"
 
 /// A thing in the hands: it is drawn where it is held, between two probes.

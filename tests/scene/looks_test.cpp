@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/parametric_patient.h"
-#include "scene/contact_sheet.h"
-#include "scene/scene_view.h"
+#include "anatomy/parametric/parametric_patient.h"
+#include "scene/view/contact_sheet.h"
+#include "scene/view/scene_view.h"
 #include "tests/scene/offscreen.h"
 #include "tests/support/picture_match.h"
 

@@ -1,4 +1,4 @@
-#include "scene/navigation.h"
+#include "scene/view/navigation.h"
 
 #include <gtest/gtest.h>
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "scene/scene_view.h"
+#include "anatomy/base/error.h"
+#include "scene/view/scene_view.h"
 #include "tests/support/simple_patient.h"
 
 /// What the tests of this folder share: one context for the program, and ways to look at frames.

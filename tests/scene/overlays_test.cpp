@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "scene/force_arrows.h"
-#include "scene/inset.h"
-#include "scene/lines.h"
+#include "scene/actors/camera_picture.h"
+#include "scene/actors/force_arrows.h"
+#include "scene/actors/lines.h"
 #include "tests/scene/offscreen.h"
 
 /// What lies over the picture besides the patient: real things that hide, lines that lead, an

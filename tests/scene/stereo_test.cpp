@@ -1,8 +1,7 @@
-#include "scene/stereo.h"
+#include "scene/view/ar_camera.h"
 
 #include <gtest/gtest.h>
 
-#include "scene/ar_camera.h"
 #include "tests/scene/offscreen.h"
 
 /// Two eyes, each with a projection of its own.

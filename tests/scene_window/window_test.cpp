@@ -5,8 +5,8 @@
 #include <set>
 #include <string>
 
-#include "anatomy/geometry/error.h"
-#include "scene/scene_view.h"
+#include "anatomy/base/error.h"
+#include "scene/view/scene_view.h"
 #include "tests/support/simple_patient.h"
 // X11's headers define macros with everyday names: after all others.
 #include <X11/Xatom.h>

@@ -1,4 +1,4 @@
-#include "apps/assess/search/search_metrics.h"
+#include "apps/assess/search/search_trial.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/random_stream.h"
+#include "anatomy/base/random.h"
 #include "synthetic_search.h"
 
 namespace palpa::assess {

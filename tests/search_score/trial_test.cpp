@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/assess/statistics/wilson.h"
+#include "apps/assess/statistics/sample.h"
 #include "synthetic_search.h"
 
 namespace palpa::assess {

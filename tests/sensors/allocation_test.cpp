@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "fake_net_ft.h"
+#include "haptics/sensors/force_sensor.h"
 #include "haptics/sensors/net_ft_sensor.h"
-#include "haptics/sensors/replay_sensor.h"
 #include "haptics/sensors/wrench_filter.h"
 #include "moving_tool.h"
 

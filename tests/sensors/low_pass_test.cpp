@@ -1,4 +1,4 @@
-#include "haptics/sensors/low_pass.h"
+#include "haptics/sensors/wrench_filter.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <complex>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::haptics {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 #include "haptics/sensors/tool_load.h"
 
 namespace palpa::haptics {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <memory>
 
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 #include "fake_net_ft.h"
 
 namespace palpa::haptics {

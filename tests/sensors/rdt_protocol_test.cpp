@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 #include "fake_net_ft.h"
 
 namespace palpa::haptics {

@@ -1,4 +1,4 @@
-#include "haptics/sensors/rdt_sequence.h"
+#include "haptics/sensors/rdt_protocol.h"
 
 #include <gtest/gtest.h>
 

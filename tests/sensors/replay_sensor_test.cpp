@@ -1,8 +1,8 @@
-#include "haptics/sensors/replay_sensor.h"
+#include "haptics/sensors/force_sensor.h"
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::haptics {
 namespace {

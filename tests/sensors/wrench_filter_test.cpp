@@ -6,7 +6,7 @@
 #include <limits>
 #include <vector>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "moving_tool.h"
 
 namespace palpa::haptics {

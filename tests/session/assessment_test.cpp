@@ -2,16 +2,16 @@
 
 #include <filesystem>
 
-#include "anatomy/geometry/error.h"
-#include "apps/cli/needle_session.h"
-#include "apps/cli/palpation_session.h"
-#include "apps/cli/recorded_session.h"
-#include "apps/cli/search_session.h"
-#include "apps/cli/session_arguments.h"
+#include "anatomy/base/error.h"
+#include "apps/evidence/recorded_session.h"
 #include "apps/record/session_file.h"
+#include "apps/session/needle_session.h"
+#include "apps/session/palpation_session.h"
+#include "apps/session/search_session.h"
+#include "apps/session/session_options.h"
 
 /// Assessment: no aid adds force in any tick, and a needle's trial ends at the fourth pass.
-namespace palpa::cli {
+namespace palpa::session {
 namespace {
 
 SessionOptions quick(bool assess, std::uint64_t seed = 3) {
@@ -73,7 +73,8 @@ Aids ofNeedle(SessionOptions options, const std::string& name) {
 
 TEST(Assessment, NoAidAddsForceToANeedle) {
   expectNoAid(ofNeedle(quick(true), "assessed_needle"));
-  SessionOptions practice = quick(false);  // the same trial with cues: the test would see them
+  SessionOptions practice =
+      quick(false);  // the same trial with cues: the test would see them
   practice.augment = true;
   const Aids aids = ofNeedle(practice, "practice_needle");
   EXPECT_GT(aids.with_force, 0);
@@ -147,10 +148,10 @@ TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
   EXPECT_FALSE(limited.values.success);
   EXPECT_EQ(figureOf(limited, "needle_passes"), 2);
   EXPECT_NE(limited.summary.find("a pass too many"), std::string::npos) << limited.summary;
-  const RecordedSession recorded(folder / "session.palpa");
+  const evidence::RecordedSession recorded(folder / "session.palpa");
   int trials = 0;
   recorded.eachTrial(
-      [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+      [&](const record::RecordedTrial& trial, const evidence::RecordedSession::Samples& samples) {
         ++trials;
         EXPECT_EQ(trial.end.outcome, "passes");
         EXPECT_EQ(recorded.rescore(trial, samples).total, limited.total);  // to the last bit
@@ -159,4 +160,4 @@ TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
 }
 
 }  // namespace
-}  // namespace palpa::cli
+}  // namespace palpa::session

@@ -2,13 +2,13 @@
 
 #include <filesystem>
 
-#include "apps/assess/statistics/t_test.h"
-#include "apps/cli/needle_session.h"
+#include "apps/assess/statistics/tests_of_means.h"
+#include "apps/session/needle_session.h"
 #include "tests/support/counts.h"
 
 /// Simulated operators on the virtual bench: do the scores tell experts from novices, and does
 /// losing the sense of touch cost? These say something about the program, nothing about people.
-namespace palpa::cli {
+namespace palpa::session {
 namespace {
 
 struct Cohort {
@@ -111,4 +111,4 @@ TEST(Cohort, ScoresTellExpertsFromNovicesAndTouchMatters) {
 }
 
 }  // namespace
-}  // namespace palpa::cli
+}  // namespace palpa::session

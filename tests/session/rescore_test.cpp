@@ -4,13 +4,13 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "apps/cli/evidence_records.h"
-#include "apps/cli/needle_session.h"
-#include "apps/cli/recorded_session.h"
+#include "apps/evidence/evidence_records.h"
+#include "apps/evidence/recorded_session.h"
+#include "apps/session/needle_session.h"
 #include "tests/support/counts.h"
 
 /// What a trial was worth is what its record says, for ever.
-namespace palpa::cli {
+namespace palpa::session {
 namespace {
 
 /// Exactly. Not a number is equal to itself: the figure does not apply.
@@ -49,14 +49,14 @@ int recordAndRescore(const SessionOptions& options, NeedleWorld& world,
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   const SessionResult session = runNeedleSession(options, world, folder);
-  const RecordedSession recorded(folder / "session.palpa");
+  const evidence::RecordedSession recorded(folder / "session.palpa");
   int trials = 0;
   recorded.eachTrial(
-      [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {
+      [&](const record::RecordedTrial& trial, const evidence::RecordedSession::Samples& samples) {
         expectSameScore(recorded.rescore(trial, samples), trial.end.scores_json);
         ++trials;
       });
-  const EvidenceRecords stored = recordsOf(folder / "session.palpa");
+  const evidence::EvidenceRecords stored = evidence::recordsOf(folder / "session.palpa");
   EXPECT_EQ(stored.trials.size(), session.trials.size());
   for (std::size_t i = 0; i < session.trials.size(); ++i)
     expectSameMetrics(session.trials[i].assessment.metrics, stored.trials.at(i));
@@ -75,7 +75,8 @@ TEST(Rescore, RecordedTrialsHaveTheirStoredScoresExactly) {
     NeedleWorld world(options);
     world.station.camera_rate_Hz = 2;  // pictures change no score; the ready check needs some
     int kind = 0;
-    for (const OperatorKind who : {OperatorKind::expert, OperatorKind::novice})
+    for (const OperatorKind who :
+         {OperatorKind::expert, OperatorKind::novice})
       for (const bool felt : {true, false}) {
         if (!palpa::test::fullCounts() && kind++ != (side == anatomy::Side::left ? 3 : 0))
           continue;  // the expert on the right, the numb novice on the left
@@ -90,4 +91,4 @@ TEST(Rescore, RecordedTrialsHaveTheirStoredScoresExactly) {
 }
 
 }  // namespace
-}  // namespace palpa::cli
+}  // namespace palpa::session

@@ -1,4 +1,4 @@
-#include "apps/assess/squeeze/squeeze_metrics.h"
+#include "apps/assess/squeeze/squeeze_trial.h"
 
 #include <gtest/gtest.h>
 

@@ -11,13 +11,13 @@
 #include <string>
 #include <vector>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/population.h"
-#include "apps/station/needle_file.h"
+#include "anatomy/base/error.h"
+#include "anatomy/parametric/population.h"
+#include "apps/station/material_files.h"
 #include "apps/station/station_file.h"
 #include "apps/task_needle/task_file.h"
-#include "apps/twin/operator_skill.h"
-#include "ar/board.h"
+#include "apps/twin/operator.h"
+#include "ar/boards/board.h"
 
 /// Every settings file the program is shipped with, and who reads it.
 namespace palpa::station {

@@ -4,7 +4,7 @@
 
 #include <cstdlib>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/support/files.h"
 
 /// The program's data are found wherever the program was put.

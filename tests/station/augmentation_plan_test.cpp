@@ -1,4 +1,4 @@
-#include "apps/station/augmentation_plan.h"
+#include "apps/station/task_sections.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "anatomy/geometry/local_geometry.h"
 #include "haptics/flight_record.h"
 

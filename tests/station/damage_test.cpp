@@ -1,6 +1,6 @@
 #include <gtest/gtest.h>
 
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 #include "asset_files.h"
 
 /// Damaged settings files: told in words or still valid, never a crash. Seeded: a failure can be

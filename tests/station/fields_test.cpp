@@ -4,7 +4,7 @@
 #include <cctype>
 #include <set>
 
-#include "apps/station/json_file.h"
+#include "anatomy/base/json_file.h"
 #include "asset_files.h"
 
 /// Each field of each settings file in turn: taken away, of the wrong kind, out of all proportion.

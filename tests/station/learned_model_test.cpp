@@ -1,4 +1,4 @@
-#include "apps/station/learned_model.h"
+#include "apps/station/task_sections.h"
 
 #include <gtest/gtest.h>
 
@@ -7,8 +7,7 @@
 #include <functional>
 #include <string>
 
-#include "anatomy/geometry/error.h"
-#include "apps/station/augmentation_plan.h"
+#include "anatomy/base/error.h"
 #include "apps/station/calibration_file.h"
 
 namespace palpa::station {

@@ -1,7 +1,7 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
-#include "apps/station/lump_library.h"
+#include "anatomy/base/error.h"
+#include "apps/station/material_files.h"
 #include "asset_files.h"
 
 /// What a station's own calibrations of the sample do to the library of lumps.

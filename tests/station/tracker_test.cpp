@@ -1,11 +1,11 @@
-#include "apps/station/tracker_setup.h"
+#include "apps/station/station_sections.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::station {
 namespace {

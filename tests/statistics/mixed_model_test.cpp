@@ -5,10 +5,10 @@
 #include <Eigen/Core>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/random_stream.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/random.h"
 #include "apps/assess/statistics/mixed_model.h"
-#include "apps/assess/statistics/t_test.h"
+#include "apps/assess/statistics/tests_of_means.h"
 
 namespace palpa::statistics {
 namespace {

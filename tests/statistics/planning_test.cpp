@@ -3,12 +3,12 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/random_stream.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/random.h"
 #include "apps/assess/statistics/cusum.h"
 #include "apps/assess/statistics/power.h"
 #include "apps/assess/statistics/raters.h"
-#include "apps/assess/statistics/t_test.h"
+#include "apps/assess/statistics/tests_of_means.h"
 
 namespace palpa::statistics {
 namespace {

@@ -3,8 +3,7 @@
 // standard deviations and counts give.
 #include <gtest/gtest.h>
 
-#include "apps/assess/statistics/anova.h"
-#include "apps/assess/statistics/t_test.h"
+#include "apps/assess/statistics/tests_of_means.h"
 
 namespace palpa::statistics {
 namespace {

@@ -4,8 +4,8 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "anatomy/random_stream.h"
+#include "anatomy/base/error.h"
+#include "anatomy/base/random.h"
 #include "apps/assess/statistics/assumptions.h"
 #include "apps/assess/statistics/bootstrap.h"
 

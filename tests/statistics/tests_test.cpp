@@ -3,11 +3,10 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "apps/assess/statistics/anova.h"
-#include "apps/assess/statistics/holm.h"
-#include "apps/assess/statistics/t_test.h"
-#include "apps/assess/statistics/wilson.h"
+#include "anatomy/base/error.h"
+#include "apps/assess/statistics/assumptions.h"
+#include "apps/assess/statistics/sample.h"
+#include "apps/assess/statistics/tests_of_means.h"
 
 namespace palpa::statistics {
 namespace {

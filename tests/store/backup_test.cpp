@@ -1,9 +1,8 @@
-#include "apps/record/store/backup.h"
+#include "apps/record/store/migrations.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "apps/record/store/migrations.h"
 #include "tests/store/stores.h"
 
 namespace palpa::record {

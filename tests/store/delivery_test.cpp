@@ -2,7 +2,6 @@
 
 #include <fstream>
 
-#include "apps/record/store/pending.h"
 #include "apps/runtime/clock.h"
 #include "tests/store/stores.h"
 

@@ -1,4 +1,4 @@
-#include "apps/record/store/ratings.h"
+#include "apps/record/store/study_store.h"
 
 #include "tests/store/stores.h"
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <set>
 
+#include "anatomy/base/random.h"
 #include "apps/runtime/clock.h"
-#include "apps/runtime/random.h"
 #include "tests/store/stores.h"
 #include "tests/store/writer_process.h"
 #include "tests/support/counts.h"

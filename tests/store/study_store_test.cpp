@@ -4,7 +4,7 @@
 #include <set>
 #include <thread>
 
-#include "apps/record/store/backup.h"
+#include "apps/record/store/migrations.h"
 #include "tests/store/stores.h"
 
 namespace palpa::record {

@@ -3,7 +3,7 @@
 #include <limits>
 #include <string>
 
-#include "apps/record/store/rows.h"
+#include "apps/record/store/record_store.h"
 
 /// People, sessions and trials as tests store them.
 namespace palpa::record {

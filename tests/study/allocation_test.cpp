@@ -1,4 +1,4 @@
-#include "apps/study/allocation.h"
+#include "apps/study/protocol.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 #include "apps/study/progress.h"
 
-#include "apps/study/utc.h"
+#include "anatomy/base/utc.h"
 #include "small_protocol.h"
 
 namespace palpa::study {

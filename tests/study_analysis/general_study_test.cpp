@@ -1,8 +1,8 @@
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
-#include "apps/assess/statistics/t_test.h"
-#include "apps/study_analysis/study_design.h"
+#include "anatomy/base/error.h"
+#include "apps/assess/statistics/tests_of_means.h"
+#include "apps/study/analysis/study_design.h"
 #include "rows.h"
 
 namespace palpa::study_analysis {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "apps/study_analysis/null_studies.h"
+#include "anatomy/base/error.h"
+#include "apps/study/analysis/power_analysis.h"
 #include "tests/support/counts.h"
 
 namespace palpa::study_analysis {

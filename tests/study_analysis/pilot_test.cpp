@@ -4,9 +4,9 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "apps/study_analysis/learning_model.h"
-#include "apps/study_analysis/pilot.h"
+#include "anatomy/base/error.h"
+#include "apps/study/analysis/pilot.h"
+#include "apps/study/analysis/power_analysis.h"
 #include "rows.h"
 
 namespace palpa::study_analysis {

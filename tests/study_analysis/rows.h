@@ -5,7 +5,7 @@
 #include <variant>
 #include <vector>
 
-#include "apps/study_analysis/study_design.h"
+#include "apps/study/analysis/study_design.h"
 
 namespace palpa::study_analysis::test {
 

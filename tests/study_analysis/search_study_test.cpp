@@ -5,8 +5,8 @@
 #include <array>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "apps/study_analysis/search_study.h"
+#include "anatomy/base/error.h"
+#include "apps/study/analysis/search_study.h"
 #include "rows.h"
 
 namespace palpa::study_analysis {

@@ -2,8 +2,8 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "apps/study_analysis/study_row.h"
+#include "anatomy/base/error.h"
+#include "apps/study/analysis/study_row.h"
 
 namespace palpa::study_analysis {
 namespace {

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <vector>
 
-#include "anatomy/bone_capsules.h"
+#include "anatomy/query/bone_capsules.h"
 
 /// What capsules say of a surface, worked out beside the program's own.
 namespace palpa::measure {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <string>
 
-#include "anatomy/landmark_frame.h"
-#include "anatomy/random_stream.h"
+#include "anatomy/base/random.h"
+#include "anatomy/patient.h"
 #include "tests/assess/motions.h"
 
 /// Hand-made needle trials on a patient's landmarks, as the taught path has them, with one thing

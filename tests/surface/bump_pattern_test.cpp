@@ -7,7 +7,7 @@
 #include <cmath>
 #include <set>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/surface/surface_bench.h"
 
 namespace palpa::haptics {

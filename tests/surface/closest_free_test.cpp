@@ -5,10 +5,9 @@
 #include <limits>
 #include <vector>
 
-#include "haptics/surface/closest_bump.h"
-#include "haptics/surface/gabor_table.h"
+#include "haptics/surface/bump_pattern.h"
+#include "haptics/surface/floor.h"
 #include "haptics/surface/search_surface.h"
-#include "haptics/surface/valley_map.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/surface/surface_bench.h"
 

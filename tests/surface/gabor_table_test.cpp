@@ -1,4 +1,4 @@
-#include "haptics/surface/gabor_table.h"
+#include "haptics/surface/floor.h"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <tuple>
 #include <utility>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/surface/surface_bench.h"
 
 namespace palpa::haptics {

@@ -1,4 +1,4 @@
-#include "haptics/surface/valley_map.h"
+#include "haptics/surface/floor.h"
 
 #include <gtest/gtest.h>
 
@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/surface/surface_bench.h"
 
 namespace palpa::haptics {

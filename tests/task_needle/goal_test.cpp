@@ -1,4 +1,4 @@
-#include "apps/task_needle/goal.h"
+#include "apps/task_needle/task_file.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/task_needle/hud_text.h"
+#include "apps/task_needle/needle_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,10 +1,9 @@
-#include "apps/task_palpation/palpation_listener.h"
+#include "apps/task_palpation/palpation_task.h"
 
 #include <gtest/gtest.h>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/task_palpation/guidance.h"
-#include "apps/task_palpation/palpation_task.h"
 
 namespace palpa::task_palpation {
 namespace {

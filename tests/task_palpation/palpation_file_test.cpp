@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <fstream>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/station/calibration_file.h"
 #include "tests/support/scratch_folder.h"
 

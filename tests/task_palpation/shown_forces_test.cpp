@@ -1,4 +1,4 @@
-#include "apps/task_palpation/shown_forces.h"
+#include "apps/task_palpation/palpation_scene.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/task_search/episodes.h"
+#include "apps/task_search/floors.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +7,7 @@
 #include <numbers>
 #include <set>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/task_search/shipped_search.h"
 
 namespace palpa::task_search {

@@ -1,4 +1,4 @@
-#include "apps/task_search/gabor_filter.h"
+#include "apps/task_search/valley_lines.h"
 
 #include <gtest/gtest.h>
 

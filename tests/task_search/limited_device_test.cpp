@@ -6,7 +6,7 @@
 #include <ostream>
 
 #include "apps/twin/device_twin.h"
-#include "haptics/tick.h"
+#include "haptics/loop/tick.h"
 #include "tests/task_search/shipped_search.h"
 
 /// The shipped search with every cue on, on devices that are weak and coarse: forces scaled and

@@ -2,7 +2,7 @@
 
 #include <map>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/task_squeeze/squeeze_scene.h"
 #include "tests/support/files.h"
 

@@ -5,8 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "apps/twin/min_jerk.h"
-#include "apps/twin/tremor.h"
+#include "apps/twin/hand_motion.h"
 
 namespace palpa::twin {
 namespace {

@@ -1,4 +1,4 @@
-#include "apps/twin/held_object.h"
+#include "apps/twin/soft_samples.h"
 
 #include <gtest/gtest.h>
 

@@ -1,4 +1,4 @@
-#include "apps/twin/jolt_sense.h"
+#include "apps/twin/hand_senses.h"
 
 #include <gtest/gtest.h>
 

@@ -2,7 +2,7 @@
 
 #include <vector>
 
-#include "ar/tag_detector.h"
+#include "ar/boards/tag_detector.h"
 #include "tests/twin_camera/bench_views.h"
 
 /// Boards, lenses and places for tests of the virtual camera's free plates.

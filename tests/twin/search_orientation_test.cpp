@@ -5,7 +5,7 @@
 #include <numbers>
 #include <vector>
 
-#include "apps/runtime/random.h"
+#include "anatomy/base/random.h"
 #include "apps/twin/searching_hand.h"
 
 namespace palpa::twin {

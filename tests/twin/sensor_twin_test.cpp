@@ -1,4 +1,4 @@
-#include "apps/twin/sensor_twin.h"
+#include "apps/twin/device_twin.h"
 
 #include <gtest/gtest.h>
 

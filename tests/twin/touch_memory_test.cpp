@@ -1,4 +1,4 @@
-#include "apps/twin/touch_memory.h"
+#include "apps/twin/palpating_hand.h"
 
 #include <gtest/gtest.h>
 

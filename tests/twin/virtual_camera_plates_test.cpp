@@ -2,7 +2,7 @@
 
 #include <opencv2/imgproc.hpp>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/twin/plate_views.h"
 
 /// Several boards in one picture: the nearest sheet is seen, and only what is there.

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "apps/twin/virtual_camera.h"
-#include "apps/twin/virtual_camera_noise.h"
+#include "apps/twin/virtual_camera_picture.h"
 #include "tests/support/camera_views.h"
 
 /// Where the bench's camera stands in these tests.

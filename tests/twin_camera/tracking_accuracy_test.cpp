@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "ar/board_pose.h"
+#include "ar/tracking/board_pose.h"
 #include "tests/twin_camera/bench_views.h"
 
 /// The virtual camera and the tracker against each other: the pictures must be honest (no corner

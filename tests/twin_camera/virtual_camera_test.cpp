@@ -6,7 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "tests/twin_camera/bench_views.h"
 
 namespace palpa::twin {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <set>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/assess/statistics/sample.h"
 
 namespace palpa::competence {

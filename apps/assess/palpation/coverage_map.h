@@ -1,6 +1,9 @@
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string>
+#include <vector>
 
 #include "apps/assess/palpation/palpation_sample.h"
 
@@ -44,5 +47,18 @@ class CoverageMap {
   int columns_, rows_;
   std::vector<Cell> cells_;
 };
+
+}  // namespace palpa::assess
+
+/// Places in the words of the trainee, who stands at the near side: "far" is away from the trainee,
+/// right is right.
+namespace palpa::assess {
+
+/// "far left", "near right", ...; "in the middle" within a quarter of the way to the edges.
+std::string placeWords(const SearchArea& area, const Vec3& p_P);
+
+/// The quarters that hold most of what has not been felt: the worst, and those at least half as
+/// bad. Empty when all has been felt.
+std::vector<std::string> unfeltQuarters(const CoverageMap& map);
 
 }  // namespace palpa::assess

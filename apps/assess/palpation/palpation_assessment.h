@@ -2,9 +2,11 @@
 
 #include <cstdint>
 #include <string>
+#include <vector>
 
+#include "apps/assess/metrics/metric_table.h"
 #include "apps/assess/palpation/palpation_score.h"
-#include "apps/assess/subtask_dose.h"
+#include "apps/assess/trial.h"
 
 namespace palpa::assess {
 
@@ -41,5 +43,27 @@ PalpationAssessment assessPalpation(const PalpationFacts& facts, const Palpation
                                     const PalpationStandard& standard,
                                     const std::vector<CaseLump>& lumps, PalpationSamples samples,
                                     const std::vector<LumpMark>& marks);
+
+/// Cases that it takes before anybody passes or fails: two simulators of the abdomen measured with
+/// a reliability of 0.35 and -0.41, as few cases do.
+constexpr int kEnoughCases = 8;
+
+/// Of somebody, over all trials that count: scored, and neither void nor unfinished.
+struct PalpationJudgement {
+  enum class Verdict { too_few_cases, passed, not_passed };
+  Verdict verdict = Verdict::too_few_cases;
+  int cases = 0, found = 0, lumps = 0;
+  double coverage = 0;  ///< mean share of the area that was felt
+};
+
+bool counts(const PalpationAssessment& trial);
+
+/// Passed: `kEnoughCases` or more, of all lumps the standard's share found, on average the
+/// standard's share of the area felt. How reliable that is is not measured here.
+PalpationJudgement judgementOf(const std::vector<PalpationAssessment>& trials,
+                               const PalpationStandard& standard);
+
+/// All figures of a palpation, as metric_table defines them.
+std::vector<metrics::MetricValue> palpationMetrics(const PalpationAssessment& assessment);
 
 }  // namespace palpa::assess

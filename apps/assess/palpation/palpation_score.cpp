@@ -2,9 +2,35 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 namespace palpa::assess {
+
+double fromLine(const NormalAnatomy& anatomy, const Vec3& p_P) {
+  double nearest = std::numeric_limits<double>::infinity();
+  const Eigen::Vector2d p = p_P.head<2>();
+  for (std::size_t i = 0; i < anatomy.line_P.size(); ++i) {
+    const Eigen::Vector2d from = anatomy.line_P[i].head<2>(),
+                          along =
+                              anatomy.line_P[std::min(i + 1, anatomy.line_P.size() - 1)].head<2>() -
+                              from;
+    const double length2 = along.squaredNorm(),
+                 part = length2 > 0 ? std::clamp((p - from).dot(along) / length2, 0.0, 1.0) : 0;
+    nearest = std::min(nearest, (p - from - part * along).norm());
+  }
+  return nearest;
+}
+
+const NormalAnatomy* anatomyAt(const std::vector<NormalAnatomy>& all, const Vec3& p_P,
+                               double reach) {
+  const auto on = [&](const NormalAnatomy& one) {
+    return fromLine(one, p_P) <= one.width / 2 + reach;
+  };
+  const auto found = std::find_if(all.begin(), all.end(), on);
+  return found == all.end() ? nullptr : &*found;
+}
+
 namespace {
 
 double apart(const Vec3& a, const Vec3& b) { return (a - b).head<2>().norm(); }
@@ -125,6 +151,18 @@ PalpationScore scorePalpation(const PalpationRules& rules, const std::vector<Cas
   judgeForces(rules, samples, &score);
   if (!samples.empty()) score.seconds = samples.back().t_s - samples.front().t_s;
   return score;
+}
+
+MarkMeaning meaningOf(std::size_t mark, const PalpationRules& rules, const PalpationScore& score,
+                      const std::vector<CaseLump>& lumps, const std::vector<LumpMark>& marks) {
+  const bool found = std::any_of(
+      score.lumps.begin(), score.lumps.end(),
+      [&](const LumpVerdict& verdict) { return verdict.mark == static_cast<int>(mark); });
+  if (found) return MarkMeaning::found;
+  const bool near = std::any_of(lumps.begin(), lumps.end(), [&](const CaseLump& lump) {
+    return (lump.p_P - marks[mark].p_P).head<2>().norm() <= rules.found_within;
+  });
+  return near ? MarkMeaning::repeated : MarkMeaning::false_alarm;
 }
 
 }  // namespace palpa::assess

@@ -1,10 +1,29 @@
 #pragma once
 
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "anatomy/geometry/pose.h"
 #include "apps/assess/palpation/coverage_map.h"
-#include "apps/assess/palpation/normal_anatomy.h"
 #include "apps/assess/palpation/search_pattern.h"
 
 namespace palpa::assess {
+
+/// Something that belongs there and is felt in every case, such as the edge of a liver: a line
+/// along the top, as broad as `width`. P, m. It is no lump, and is not to be marked.
+struct NormalAnatomy {
+  std::string name;
+  std::vector<Vec3> line_P;
+  double width = 0;
+};
+
+/// m along the top from the middle of the line; infinite where it has no points.
+double fromLine(const NormalAnatomy& anatomy, const Vec3& p_P);
+
+/// What a place lies on, to within `reach` of its breadth; nullptr: on nothing of it.
+const NormalAnatomy* anatomyAt(const std::vector<NormalAnatomy>& all, const Vec3& p_P,
+                               double reach);
 
 struct PalpationRules {
   SearchArea area;
@@ -54,5 +73,13 @@ struct PalpationScore {
 /// Marks are given to the lumps they are nearest to, the nearest pair first, each lump one mark.
 PalpationScore scorePalpation(const PalpationRules& rules, const std::vector<CaseLump>& lumps,
                               PalpationSamples samples, const std::vector<LumpMark>& marks);
+
+/// What became of a mark: it found a lump, it said again what had been said, or there was nothing.
+enum class MarkMeaning { found, repeated, false_alarm };
+
+/// Of mark `mark` (from 0) of a search that has been scored. The counts of the score are the counts
+/// of these.
+MarkMeaning meaningOf(std::size_t mark, const PalpationRules& rules, const PalpationScore& score,
+                      const std::vector<CaseLump>& lumps, const std::vector<LumpMark>& marks);
 
 }  // namespace palpa::assess

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/assess/progress/competence.h"
 #include "apps/assess/statistics/sample.h"
 

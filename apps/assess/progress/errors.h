@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/assess/paracentesis_score.h"
+#include "apps/assess/needle/paracentesis_score.h"
 #include "apps/assess/progress/history.h"
 
 namespace palpa::progress {

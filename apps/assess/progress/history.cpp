@@ -5,7 +5,7 @@
 #include <map>
 #include <tuple>
 
-#include "apps/assess/trial_role.h"
+#include "apps/assess/trial.h"
 
 namespace palpa::progress {
 namespace {

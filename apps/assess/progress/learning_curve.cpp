@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/random_stream.h"
+#include "anatomy/base/random.h"
 #include "apps/assess/statistics/bootstrap.h"
 #include "apps/assess/statistics/sample.h"
 

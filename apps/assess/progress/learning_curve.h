@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "apps/assess/metrics/metric_table.h"
-#include "apps/assess/statistics/wilson.h"
+#include "apps/assess/statistics/sample.h"
 
 namespace palpa::progress {
 

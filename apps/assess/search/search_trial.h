@@ -7,7 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/assess/subtask_dose.h"
+#include "apps/assess/metrics/metric_table.h"
+#include "apps/assess/trial.h"
 
 namespace palpa::assess {
 
@@ -77,5 +78,8 @@ struct Recovery {
 /// Nothing where a mode is missing or the real device is not better than the degraded one. The
 /// blocks are taken together. Same seed, same interval.
 std::optional<Recovery> recoveryOf(const std::vector<SearchTrial>& trials, std::uint64_t seed);
+
+/// All figures of an episode, as metric_table defines them.
+std::vector<metrics::MetricValue> searchMetrics(const SearchTrial& trial);
 
 }  // namespace palpa::assess

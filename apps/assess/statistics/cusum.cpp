@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::statistics {
 

@@ -9,7 +9,7 @@
 #include <map>
 #include <numbers>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::statistics {
 namespace {

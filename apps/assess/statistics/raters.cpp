@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <limits>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::statistics {
 namespace {

@@ -5,7 +5,7 @@
 #include <limits>
 #include <numeric>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::statistics {
 namespace {

@@ -2,10 +2,11 @@
 
 #include <Eigen/SVD>
 
+#include "anatomy/base/units.h"
+
 namespace palpa::igt {
 namespace {
 
-constexpr double kMm = 1e-3;
 constexpr double kFarthest_mm = 1e5;
 
 }  // namespace

@@ -1,4 +1,4 @@
-#include "apps/link/igtl/message_stream.h"
+#include "apps/link/igtl/wire.h"
 
 #include <algorithm>
 #include <array>

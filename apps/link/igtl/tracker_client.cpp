@@ -4,7 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 #include "apps/link/igtl/conventions.h"
 
 namespace palpa::igt {
@@ -23,7 +23,10 @@ std::string valueOf(const std::map<std::string, std::string>& metadata, const st
 
 TrackerClient::TrackerClient(const TrackerSettings& settings, const runtime::Clock& clock,
                              runtime::EventQueue<runtime::TrackedPose>& poses)
-    : settings_(settings), ipv4_(ipv4Of(settings.host, "tracker")), clock_(clock), poses_(poses) {
+    : settings_(settings),
+      ipv4_(os::ipv4Of(settings.host, "tracker")),
+      clock_(clock),
+      poses_(poses) {
   if (settings_.transform.empty())
     throw UsageError("has no name", "the tracker's transform",
                      "Name one that its server sends, as ReferenceToCamera");
@@ -37,9 +40,11 @@ std::int64_t TrackerClient::step(std::int64_t now_ns) {
       connect(now_ns);
       break;
     case State::connecting:
-      if (const auto progress = socket_.connected(kWait_ms); progress == TcpSocket::Progress::done)
+      if (const auto progress = socket_.connected(kWait_ms);
+          progress == os::TcpSocket::Progress::done)
         greet();
-      else if (progress == TcpSocket::Progress::failed || now_ns - since_ns_ > kConnectPatience_ns)
+      else if (progress == os::TcpSocket::Progress::failed ||
+               now_ns - since_ns_ > kConnectPatience_ns)
         part(now_ns);
       break;
     case State::together:
@@ -52,7 +57,7 @@ std::int64_t TrackerClient::step(std::int64_t now_ns) {
 void TrackerClient::end() noexcept { socket_.close(); }
 
 void TrackerClient::connect(std::int64_t now_ns) {
-  socket_ = TcpSocket::connecting(ipv4_, settings_.port);
+  socket_ = os::TcpSocket::connecting(ipv4_, settings_.port);
   state_ = State::connecting;
   since_ns_ = now_ns;
 }

@@ -4,8 +4,8 @@
 #include <memory>
 #include <string>
 
-#include "apps/link/igtl/message_stream.h"
-#include "apps/link/igtl/tcp_socket.h"
+#include "apps/link/igtl/wire.h"
+#include "apps/os/tcp_socket.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
 #include "apps/runtime/clock.h"
@@ -70,7 +70,7 @@ class TrackerClient final : public runtime::Activity {
   const runtime::Clock& clock_;
   runtime::EventQueue<runtime::TrackedPose>& poses_;
   State state_ = State::apart;
-  TcpSocket socket_;
+  os::TcpSocket socket_;
   MessageStream stream_;
   std::int64_t next_try_ns_ = 0, pause_ns_ = kFirstPause_ns,
                since_ns_ = 0;  ///< since: began to connect, or heard last

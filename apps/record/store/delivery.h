@@ -1,12 +1,56 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "apps/record/store/record_store.h"
 
 namespace palpa::record {
+
+/// A session whose trials may not all have reached the store yet.
+struct PendingSession {
+  std::string uuid;
+  std::filesystem::path evidence;  ///< its session.palpa, absolute
+  std::string url;                 ///< of the store it belongs to
+};
+
+/// Lives as long as a session adds to what was noted: others leave it alone meanwhile, or they
+/// would think it complete. It ends with the process, however that ends.
+class PendingHold {
+ public:
+  explicit PendingHold(const std::filesystem::path& note);
+  ~PendingHold();
+  PendingHold(const PendingHold&) = delete;
+  PendingHold& operator=(const PendingHold&) = delete;
+
+ private:
+  int descriptor_ = -1;
+};
+
+/// This station's list of sessions still to be delivered: a small file each, in a folder that
+/// outlives the process. The evidence itself holds the trials; the list only says where to look. A
+/// session is noted before its first trial and forgotten when the store has them all, so whatever
+/// happens in between is made up for later.
+class PendingList {
+ public:
+  /// Makes the folder when the first session is noted.
+  explicit PendingList(std::filesystem::path folder);
+  /// $XDG_STATE_HOME/palpa/pending, else ~/.local/state/palpa/pending.
+  static std::filesystem::path usualFolder();
+
+  void note(const PendingSession& session);      ///< written beside, then renamed; throws Error
+  std::vector<PendingSession> sessions() const;  ///< by uuid; what is no note is passed over
+  void forget(const std::string& uuid);
+  std::unique_ptr<PendingHold> hold(const std::string& uuid) const;
+  bool isHeld(const std::string& uuid) const;
+
+ private:
+  std::filesystem::path noteOf(const std::string& uuid) const;
+  std::filesystem::path folder_;
+};
 
 /// How often to try a store that cannot be reached, and how long to wait in between.
 struct Patience {

@@ -3,8 +3,8 @@
 #include <charconv>
 #include <limits>
 
+#include "anatomy/base/sha256.h"
 #include "apps/record/store/migrations.h"
-#include "apps/station/sha256.h"
 
 namespace palpa::record {
 namespace {

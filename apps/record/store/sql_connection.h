@@ -6,7 +6,7 @@
 #include <variant>
 #include <vector>
 
-#include "anatomy/geometry/error.h"
+#include "anatomy/base/error.h"
 
 namespace palpa::record {
 

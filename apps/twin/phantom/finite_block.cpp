@@ -4,10 +4,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/error.h"
-#include "apps/twin/phantom/block_mesh.h"
-#include "apps/twin/phantom/brick_element.h"
-#include "apps/twin/phantom/tool_pressure.h"
+#include "anatomy/base/error.h"
+#include "apps/twin/phantom/finite_elements.h"
 
 namespace palpa::twin {
 namespace {

@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-#include "anatomy/geometry/whole_file.h"
-#include "apps/station/json_file.h"
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/units.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::twin {
 namespace {
 
-constexpr double kMm = 1e-3, kMicrometre = 1e-6, kMicronewton = 1e-6;
+constexpr double kMicrometre = 1e-6, kMicronewton = 1e-6;
 
 SoftBlock::Lump lumpOf(const station::JsonFile& phantom, const SoftBlock& block) {
   SoftBlock::Lump lump;

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/twin/phantom/pair_table.h"
+#include "apps/twin/phantom/phantom_table.h"
 
 namespace palpa::twin {
 

@@ -2,10 +2,50 @@
 
 #include <array>
 
-#include "apps/twin/phantom/pair_table.h"
-#include "apps/twin/phantom/silicone_contact.h"
+#include "anatomy/geometry/pose.h"
+#include "apps/twin/phantom/phantom_table.h"
 
 namespace palpa::twin {
+
+/// What silicone does beside being elastic.
+struct SiliconeLaw {
+  std::array<double, 2> relaxes{
+      0.06, 0.05};  ///< of the elastic force; what comes on top at once and goes
+  std::array<double, 2> relaxation_time{0.05, 1.5};  ///< s
+  double mu = 0.35;                           ///< of Coulomb friction, sliding fast under 1 N
+  double sticks = 0.05, sticks_below = 0.02;  ///< of mu, more when it hardly slides; m/s (Stribeck;
+                                              ///< steeper, a light hand would squeal)
+  double load_power = -0.05;  ///< mu ~ f_n^this: rubber's contact grows less than its load
+  double sigma = 1500;        ///< N/m, before it slides
+  double B = 0.4;             ///< N s/m, while it slides
+};
+
+/// A tool on a simulated phantom, as it truly is. Frame P of SoftBlock.
+struct PhantomTouch {
+  bool contact = false;
+  Vec3 f = Vec3::Zero();     ///< N, on the tool: normal and friction
+  Vec3 n = Vec3::UnitZ();    ///< outward: the way of the force without friction
+  double f_n = 0, x = 0;     ///< N, without friction; m, how far the surface is pushed in
+  Vec3 lump = Vec3::Zero();  ///< m, how far the lump has moved
+};
+
+/// One tool on silicone, from the elastic force on: relaxation (a Prony series on it), friction by
+/// Dahl's differential equation taken in small parts.
+class SiliconeContact {
+ public:
+  explicit SiliconeContact(const SiliconeLaw& law) : law_(law) {}
+  /// The tool's lowest point is at `tip` after another `dt`, where `elastic`, N, pushes it back;
+  /// all but the lump is told.
+  PhantomTouch step(const Vec3& elastic, const Vec3& tip, double dt);
+
+ private:
+  Vec3 drag(const PhantomTouch& touch, const Vec3& dp, double dt);
+  SiliconeLaw law_;
+  double elastic_ = 0;
+  std::array<double, 2> extra_{0, 0};  // N
+  Vec3 last_ = Vec3::Zero(), drag_ = Vec3::Zero();
+  bool started_ = false;
+};
 
 /// A simulated phantom under a moving tool: elasticity from finite elements, what else silicone
 /// does on top. Frame P of SoftBlock.

@@ -1,0 +1,136 @@
+#include "anatomy/base/json_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "anatomy/base/error.h"
+
+namespace palpa::station {
+namespace {
+
+constexpr std::uintmax_t kLargestFile = 4 << 20;
+constexpr int kDeepest =
+    32;  // nested deeper is damage, and would exhaust the stack of who writes it out
+
+nlohmann::json parse(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto size = std::filesystem::file_size(file, error);
+  if (error)
+    throw UsageError("cannot be read (" + error.message() + ")", file.string(), "Check the name");
+  if (size > kLargestFile)
+    throw UsageError("is too large for a settings file", file.string(), "Check the name");
+  std::ifstream stream(file);
+  std::stringstream text;
+  text << stream.rdbuf();
+  if (!stream) throw UsageError("cannot be read", file.string(), "Check its permissions");
+  try {
+    return nlohmann::json::parse(text.str(), [&](int depth, auto, auto&) {
+      if (depth > kDeepest) throw UsageError("is nested too deep", file.string(), "Restore it");
+      return true;
+    });
+  } catch (const nlohmann::json::exception& e) {
+    throw UsageError(std::string("is not valid JSON (") + e.what() + ")", file.string(),
+                     "Restore it or correct the line named");
+  }
+}
+
+}  // namespace
+
+JsonFile::JsonFile(const std::filesystem::path& file) : json_(parse(file)), name_(file.string()) {}
+
+void JsonFile::refuse(const std::string& path, const std::string& what) const {
+  throw UsageError(
+      "field \"" + path.substr(std::min(path.size(), path.find_first_not_of('/'))) + "\" " + what,
+      name_, "Correct the file");
+}
+
+const nlohmann::json* JsonFile::find(const std::string& path) const {
+  const nlohmann::json* here = &json_;
+  std::stringstream parts(path);
+  for (std::string part; std::getline(parts, part, '/');) {
+    if (part.empty()) continue;  // "/columns" is "columns": of an entry itself
+    if (!here->is_object() || !here->contains(part)) return nullptr;
+    here = &(*here)[part];
+  }
+  return here;
+}
+
+const nlohmann::json& JsonFile::need(const std::string& path) const {
+  const nlohmann::json* found = find(path);
+  if (!found) refuse(path, "is missing");
+  return *found;
+}
+
+std::vector<JsonFile> JsonFile::entries(const std::string& list) const {
+  const nlohmann::json* items = find(list);
+  if (!items) return {};
+  if (!items->is_array()) refuse(list, "must be a list");
+  std::vector<JsonFile> each;
+  for (const nlohmann::json& item : *items)
+    each.emplace_back(item, name_ + ", \"" + list + "\", entry " + std::to_string(each.size() + 1));
+  return each;
+}
+
+double JsonFile::number(const std::string& path) const {
+  const nlohmann::json* value = &need(path);
+  const nlohmann::json* range = nullptr;
+  if (value->is_object()) {
+    range = value->contains("range") ? &(*value)["range"] : nullptr;
+    value = value->contains("value") ? &(*value)["value"] : value;
+  }
+  if (!value->is_number()) refuse(path, "is not a number");
+  const double x = value->get<double>();
+  if (!std::isfinite(x)) refuse(path, "is not finite");
+  if (range) {
+    if (!range->is_array() || range->size() != 2 || !(*range)[0].is_number() ||
+        !(*range)[1].is_number())
+      refuse(path, "has a range that is not [low, high]");
+    if (x < (*range)[0].get<double>() || x > (*range)[1].get<double>())
+      refuse(path, "is " + value->dump() + ", outside its range " + range->dump());
+  }
+  return x;
+}
+
+double JsonFile::number(const std::string& path, double low, double high) const {
+  const double x = number(path);
+  if (x < low || x > high) {
+    std::ostringstream text;
+    text << "is " << x << ", outside " << low << " to " << high;
+    refuse(path, text.str());
+  }
+  return x;
+}
+
+int JsonFile::integer(const std::string& path, int low, int high) const {
+  const double x = number(path, low, high);
+  if (x != std::floor(x)) refuse(path, "is not a whole number");
+  return static_cast<int>(x);
+}
+
+void JsonFile::needVersion(int newest) const {
+  if (integer("version", 1, 1'000'000) > newest)
+    refuse("version", "is newer than this program knows (" + std::to_string(newest) + ")");
+}
+
+std::string JsonFile::text(const std::string& path) const {
+  const nlohmann::json& value = need(path);
+  if (!value.is_string()) refuse(path, "is not a text");
+  return value.get<std::string>();
+}
+
+Vec3 JsonFile::vector(const std::string& path) const {
+  const nlohmann::json& value = need(path);
+  if (!value.is_array() || value.size() != 3) refuse(path, "is not a list of three numbers");
+  Vec3 v;
+  for (int i = 0; i < 3; ++i) {
+    if (!value[static_cast<std::size_t>(i)].is_number())
+      refuse(path, "is not a list of three numbers");
+    v[i] = value[static_cast<std::size_t>(i)].get<double>();
+  }
+  if (!v.allFinite()) refuse(path, "is not finite");
+  return v;
+}
+
+}  // namespace palpa::station

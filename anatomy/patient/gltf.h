@@ -1,0 +1,23 @@
+#pragma once
+
+#include <tiny_gltf.h>
+
+#include <string>
+
+#include "anatomy/geometry/pose.h"
+
+/// The one place where anatomy meets glTF's axes: glTF has +y up and +z toward the viewer of the
+/// model's front, so x_G = x_A, y_G = z_A, z_G = -y_A (a turn, no mirror). Both are in metres.
+namespace palpa::anatomy {
+
+inline Vec3 gltfFromA(const Vec3& v_A) { return {v_A.x(), v_A.z(), -v_A.y()}; }
+inline Vec3 aFromGltf(const Vec3& v_G) { return {v_G.x(), -v_G.z(), v_G.y()}; }
+
+/// Loads a glTF binary file that nobody vouches for. Magic, version, lengths and depth of nesting
+/// are checked before the parser sees it, and the parser may open no other file. What the model
+/// refers to (indices, accessors, ranges) is still to be checked by the reader. Throws Error.
+tinygltf::Model readGltfBinary(const std::string& file);
+/// The same from bytes; `where` begins every message.
+tinygltf::Model parseGltfBinary(const std::string& bytes, const std::string& where);
+
+}  // namespace palpa::anatomy

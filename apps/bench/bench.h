@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cstdint>
+
+namespace palpa::bench {
+
+struct AnatomyBenchOptions {
+  bool quick = false;  ///< a smaller mesh and few queries, to try it out
+};
+
+/// Cost of the geometric questions: closest point on a mesh of 100 000 triangles beside VTK's and
+/// Embree's, a needle and a tool's near misses against all organs of the reference patient, the
+/// skin's deflection. One JSON object a line.
+void benchAnatomy(const AnatomyBenchOptions& options);
+
+struct CalibrationBenchOptions {
+  int sets = 500;  ///< synthetic sets for each estimator
+};
+
+/// How near each estimator comes to what the data permit: rmse_over_crlb (root mean square error
+/// over the Cramer-Rao bound; median over the parameters), coverage95 (share of truths inside the
+/// stated 95 % intervals, all parameters), and the same with a tenth of gross errors. One JSON
+/// object a line. Simulated data.
+void benchCalibration(const CalibrationBenchOptions& options);
+
+/// The floor of the shipped search task: making it, looking things up on it, the tick with every
+/// augmentation beside the tick with none, and how soon and how calmly the tick tells that a part
+/// of the task has begun. One JSON object a line. `quick`: a small height map and few repetitions.
+/// Throws Error.
+void benchFloor(bool quick);
+
+struct HapticsBenchOptions {
+  bool quick = false;  ///< two meshes, short strokes, a small height map, to try it out
+  int most_triangles = 1'000'000;
+};
+
+/// Cost of the tick, fidelity of its force and smoothness at a refresh, over meshes of 1e3 to 1e6
+/// triangles: one JSON object a line on standard output. Then the search task's floor
+/// (floor_bench.h). The shape is known in closed form and stays with the judge; the tick sees the
+/// meshes' snapshots only.
+void benchHaptics(const HapticsBenchOptions& options);
+
+struct LoopBenchOptions {
+  double seconds = 20;  ///< of measurement, in 40 segments
+  double rate_Hz = 1000;
+  int cpu = -1;   ///< of the measured thread; -1: any
+  int pages = 0;  ///< that look on through a console, in a second measurement
+};
+
+/// How late the haptic loop's ticks are, and how late a bare timer loop of the same priority is
+/// with the same beside it, in turn in 10 blocks A B B A: one JSON object a line on standard
+/// output. What the ratio of the two 99 % quantiles has above 1 is ours; the rest is the machine's.
+/// With `pages` the same again while so many look on.
+void benchLoop(const LoopBenchOptions& options);
+
+struct MaterialBenchOptions {
+  bool quick = false;  ///< without noise only, and three of the mock-ups
+};
+
+/// How true haptic augmented reality is on simulated phantoms, whose forces come from finite
+/// elements: one JSON object a line on standard output. Throws Error.
+void benchMaterial(const MaterialBenchOptions& options);
+
+struct RenderBenchOptions {
+  int width = 1280, height = 720;
+  bool quick = false;  ///< fewer blocks
+};
+
+/// What our frame costs beside VTK's own of the same actors, where its time goes, and translucent
+/// surfaces beside depth peeling. One JSON object a line. Throws Error where nothing can be drawn.
+void benchRender(const RenderBenchOptions& options);
+
+struct TrackingBenchOptions {
+  double distance = 0.5;   ///< m, from camera to board
+  double speed = 0.2;      ///< m/s, the peak of a hand's motion there and back
+  double horizon_ms = 50;  ///< from an exposure to when its pose is drawn
+  int width = 1280, height = 720;
+  double rate_Hz = 30;
+  bool quick = false;  ///< a tenth of the pictures
+  std::uint64_t seed = 1;
+};
+
+/// How true, still and quick the tracker is, on pictures of the virtual camera (lens, blur, noise,
+/// 5 ms of exposure in motion) whose truth is known. One JSON object a line; simulated data.
+void benchTracking(const TrackingBenchOptions& options);
+
+}  // namespace palpa::bench

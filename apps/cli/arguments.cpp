@@ -1,0 +1,240 @@
+#include "apps/cli/arguments.h"
+
+#include <cstdlib>
+#include <filesystem>
+#include <map>
+
+#include "anatomy/base/error.h"
+#include "apps/record/store/record_store.h"
+#include "apps/record/store/sql_connection.h"
+
+namespace palpa::cli {
+namespace {
+
+const std::map<std::string, session::OperatorKind> kOperators{
+    {"auto", session::OperatorKind::automatic},
+    {"person", session::OperatorKind::person},
+    {"expert", session::OperatorKind::expert},
+    {"novice", session::OperatorKind::novice}};
+const std::map<std::string, scene::Display> kDisplays{{"auto", scene::Display::automatic},
+                                                      {"window", scene::Display::window},
+                                                      {"offscreen", scene::Display::offscreen}};
+constexpr const char* kHeadset = "openxr";
+const std::map<std::string, anatomy::Side> kSides{{"right", anatomy::Side::right},
+                                                  {"left", anatomy::Side::left}};
+const std::map<std::string, scene::ForceColours> kForceColours{
+    {"paper", scene::ForceColours::paper}, {"safe", scene::ForceColours::safe}};
+const std::map<std::string, scene::Stereo> kStereos{{"none", scene::Stereo::none},
+                                                    {"side-by-side", scene::Stereo::side_by_side},
+                                                    {"top-bottom", scene::Stereo::top_bottom},
+                                                    {"anaglyph", scene::Stereo::anaglyph}};
+const std::map<std::string, scene::Inset> kInsets{{"none", scene::Inset::none},
+                                                  {"camera", scene::Inset::camera}};
+const std::map<std::string, bool> kOnOff{{"on", true}, {"off", false}};
+const std::map<std::string, bool> kGeometries{{"local", false}, {"exact", true}};
+const std::map<std::string, bool> kKnowledge{{"mean", false}, {"patient", true}};
+const std::map<std::string, bool> kHands{{"right", false}, {"left", true}};
+
+template <class T>
+CLI::Option* choice(CLI::App& command, const std::string& name, T& value,
+                    const std::map<std::string, T>& choices, const std::string& help) {
+  std::string names;
+  for (const auto& [text, ignored] : choices) names += (names.empty() ? "" : "|") + text;
+  return command
+      .add_option_function<std::string>(
+          name, [&value, &choices](const std::string& text) { value = choices.at(text); }, help)
+      ->check(CLI::IsMember(choices))
+      ->type_name(names);
+}
+
+void addRecordedPictures(CLI::App& command, session::SessionOptions& o) {
+  command
+      .add_option("--camera", o.camera,
+                  "Recorded pictures or a film instead of the station's camera, e.g. "
+                  "'shots/left*.jpg', camera.mjpeg")
+      ->type_name("GLOB|FILM");
+  command
+      .add_option("--intrinsics", o.intrinsics,
+                  "Camera calibration of those pictures (OpenCV's YAML or ours)")
+      ->type_name("FILE");
+  command
+      .add_option("--board", o.board,
+                  "Board in the pictures: tags:6x4:0.030:0.0075 or chessboard:9x6:0.025 (metres)")
+      ->type_name("SPEC");
+}
+
+}  // namespace
+
+void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
+  command.add_option("--station", o.station, "Station file; default: the virtual bench")
+      ->type_name("FILE");
+  choice(command, "--operator", o.who, kOperators,
+         "Who performs: you, or a simulated expert or novice");
+  command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can, repeats exactly");
+  command.add_flag("--record-video", o.record_video,
+                   "Keep the camera's pictures beside their poses: camera.mjpeg and a table");
+  command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");
+  choice(
+      command, "--force-colours", o.force_colours, kForceColours,
+      "Of the force arrows: grays (paper, the default), or told apart by colour-blind eyes (safe)");
+  choice(command, "--stereo", o.stereo, kStereos,
+         "The large view for two eyes (default none); anaglyph: for red and cyan glasses");
+  choice(command, "--inset", o.inset, kInsets,
+         "A small picture in the corner (default none); camera: what it sees, without the overlay");
+  command
+      .add_option_function<std::string>(
+          "--display",
+          [&o](const std::string& text) {
+            o.headset = text == kHeadset,
+            o.display = o.headset ? scene::Display::automatic : kDisplays.at(text);
+          },
+          "Where to show it; openxr: on a headset, and on the desktop beside it")
+      ->check(CLI::IsMember({"auto", "window", "offscreen", kHeadset}))
+      ->type_name("auto|offscreen|openxr|window");
+  command.add_flag("--assess", o.assess,
+                   "Assessment: every aid is off, as for an examination; a needle's trial ends at "
+                   "the fourth pass");
+  command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")
+      ->type_name("DIR");
+  command
+      .add_option(
+          "--bench-seed", o.bench_seed,
+          "Of the virtual bench's truth: that with which it was calibrated (default: as --seed)")
+      ->check(CLI::PositiveNumber);
+  command
+      .add_option("--live", o.live,
+                  "Let a console look on and steer, through a local socket at this path")
+      ->type_name("SOCKET");
+  command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop a second (default 1000)")
+      ->check(CLI::Range(1000.0, 4000.0));
+  command.add_option("--cpu", o.cpu, "Keep the haptic thread on this processor")
+      ->check(CLI::Range(0, 1023));
+  command.add_flag("--quiet", o.quiet, "No progress on standard error");
+}
+
+void addRunArguments(CLI::App& command, session::SessionOptions& o) {
+  addPlaceArguments(command, o);
+  command.add_option("--seed", o.seed, "Everything random follows from it (default 1)")
+      ->check(CLI::NonNegativeNumber);
+  choice(command, "--force-feedback", o.force_feedback, kOnOff, "Render forces on the device");
+  command.add_option("--trials", o.trials, "Number of trials (default 1)")
+      ->check(CLI::Range(1, 1000));
+  command
+      .add_option("--trainee", o.trainee, "Pseudonym of the trainee, never a name (default T000)")
+      ->check(record::whyNoPseudonym);
+  command
+      .add_option(
+          "--records", o.records,
+          "Bring finished trials into these records: a file, or postgresql://user@host/database "
+          "(default: $PALPA_RECORDS, else nobody is recorded)")
+      ->envname("PALPA_RECORDS")
+      ->type_name("FILE|URL");
+  CLI::Option* igtl =
+      command
+          .add_option(
+              "--igtl", o.igtl_port,
+              "Let 3D Slicer and other programs follow this session live, by OpenIGTLink: where "
+              "tool and patient are, forces, events. They connect to this port (usual: 18944)")
+          ->check(CLI::Range(1, 65535))
+          ->type_name("PORT");
+  command
+      .add_option(
+          "--igtl-listen", o.igtl_listen,
+          "Who may follow: 127.0.0.1, programs on this computer (default); this computer's own "
+          "address, or 0.0.0.0: whoever reaches it by network, without password or encryption")
+      ->type_name("ADDRESS")
+      ->needs(igtl);
+  command.add_flag_callback(
+      "--no-navigation", [&o] { o.navigation = false; }, "The view stays fixed");
+}
+
+void addAugmentArgument(CLI::App& command, session::SessionOptions& o) {
+  choice(command, "--augment", o.augment, kOnOff,
+         "Add the task's own cues to the forces, each in its part of the task (default off)");
+}
+
+void addSessionArguments(CLI::App& command, session::SessionOptions& o) {
+  addRunArguments(command, o);
+  addAugmentArgument(command, o);
+  command
+      .add_option("--patient", o.patient,
+                  "Patient file (.glb); default: built from reference figures")
+      ->type_name("FILE");
+  command
+      .add_option("--patient-seed", o.patient_seed,
+                  "Draw another patient; 0: the reference patient")
+      ->check(CLI::NonNegativeNumber);
+  choice(command, "--side", o.side, kSides, "Side that is punctured");
+  choice(command, "--handedness", o.left_handed, kHands, "The trainee's hand");
+  choice(command, "--operator-knows", o.knows_patient, kKnowledge,
+         "Where a simulated one expects the vein: as in most people (mean, the default), or as in "
+         "this patient's images");
+  choice(
+      command, "--skin-deflection", o.skin_deflection, kOnOff,
+      "Show the skin giving way under the needle (default off: seeing must not replace feeling)");
+  choice(command, "--guide", o.guide, kOnOff,
+         "Show a line from the entry point to the vein (default off); such trials are not scored");
+  command.add_flag_callback(
+      "--no-demonstration", [&o] { o.demonstration = false; },
+      "A person starts without an expert's demonstration");
+  command.add_flag_callback(
+      "--no-familiarisation", [&o] { o.familiarisation = false; },
+      "A person starts without a first unscored trial");
+  command.add_option("--expert-path", o.expert_path, "Optimal path; default: the task's")
+      ->type_name("FILE");
+  choice(command, "--geometry", o.exact_geometry, kGeometries,
+         "What the tick knows of the shape: snapshots at 60 Hz, or the full mesh in every tick "
+         "(slow; with --fast)");
+  addRecordedPictures(command, o);
+}
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void makeFolderOf(const std::string& url) {
+  std::error_code ignored;  // opening says what is wrong
+  if (!record::isServer(url) && url.find("://") == std::string::npos)
+    fs::create_directories(fs::absolute(url).parent_path(), ignored);
+}
+
+}  // namespace
+
+std::string usualRecords() {
+  if (const char* url = std::getenv("PALPA_RECORDS"); url && *url) return url;
+  if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data == '/')
+    return (fs::path(data) / "palpa/records.sqlite").string();
+  const char* home = std::getenv("HOME");
+  return (fs::path(home && *home ? home : ".") / ".local/share/palpa/records.sqlite").string();
+}
+
+std::string usualRecordsMade() {
+  const std::string url = usualRecords();
+  makeFolderOf(url);
+  return url;
+}
+
+void requireRecords(const std::string& url) {
+  if (record::isServer(url)) return;
+  std::error_code none;
+  const bool there = fs::exists(url, none);
+  if (there && (fs::is_directory(url, none) || fs::file_size(url, none) > 0)) return;
+  throw UsageError(there ? "is empty" : "is not there", "records file " + url,
+                   there ? "Restore it from a backup: palpa records restore"
+                         : "Give the right one: --records; the first trainee makes one: palpa "
+                           "records trainee add");
+}
+
+void addRecordsArgument(CLI::App& command, std::string& url) {
+  command
+      .add_option("--records", url,
+                  "Records: a file, or postgresql://user@host/database (default: $PALPA_RECORDS, "
+                  "else ~/.local/share/palpa/records.sqlite)")
+      ->type_name("FILE|URL");
+  command.parse_complete_callback([&url] {
+    if (!url.empty()) return;
+    url = usualRecordsMade();
+  });
+}
+
+}  // namespace palpa::cli

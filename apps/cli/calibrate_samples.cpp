@@ -1,0 +1,166 @@
+#include "apps/cli/calibrate_samples.h"
+
+#include "anatomy/base/error.h"
+#include "apps/calibrate/results.h"
+#include "apps/calibrate/collect.h"
+#include "apps/calibrate/recorded.h"
+#include "apps/station/assets.h"
+#include "apps/twin/phantom/phantom_file.h"
+
+namespace palpa::cli {
+
+using namespace calibrate;
+
+namespace {
+
+Result fromCameraPictures(const CalibrateOptions& o, const station::Station& station,
+                          const Origin& origin) {
+  const std::unique_ptr<ar::Board> board =
+      o.board.empty() ? ar::makeBoard(station.board, 1.0) : ar::makeBoard(o.board, 1.0);
+  RecordedViews recorded = readViews(o.images, *board);
+  if (recorded.views.size() < 4 && recorded.unseen.size() > recorded.views.size())
+    throw Error("the board (" + board->describe() + ") was found in " +
+                    std::to_string(recorded.views.size()) + " of " +
+                    std::to_string(recorded.views.size() + recorded.unseen.size()) + " pictures",
+                o.images, "Is it the board that --board says?");
+  calibration::CameraModel camera;
+  Result result =
+      cameraResult(recorded.views, recorded.width, recorded.height, origin, &camera, o.all_corners);
+  for (const std::string& name : recorded.unseen)
+    result.advice.push_back("The board was not found in " + name + ".");
+  return result;
+}
+
+ToolSamples toolSamples(const CalibrateOptions& o) {
+  ToolSamples samples;
+  if (o.pivot.empty())
+    throw UsageError("is missing", "--pivot",
+                     "Give the poses recorded while the tip rested in a hole");
+  samples.pivot = readPoses(o.pivot);
+  if (!o.spin.empty()) samples.spin = readPoses(o.spin);
+  return samples;
+}
+
+/// The error is predicted where the station has its patient; without a station in the middle of
+/// what was touched or seen.
+Result fromTouchesAndPairs(const CalibrateOptions& o, const station::Station& station,
+                           const Origin& origin) {
+  std::vector<Touch> touches;
+  TagSamples tag;
+  std::vector<calibration::HandEyeSample>& pairs = tag.poses;
+  if (!o.landmarks.empty()) touches = readTouches(o.landmarks);
+  if (!o.pairs.empty()) pairs = readPosePairs(o.pairs);
+  Vec3 middle = Vec3::Zero();
+  for (const Touch& t : touches) middle += t.p_W / static_cast<double>(touches.size());
+  if (touches.empty())
+    for (const calibration::HandEyeSample& pair : pairs)
+      middle += pair.X_CM.translation() / static_cast<double>(pairs.size());
+  return registrationResult(touches, tag, o.station.empty() ? middle : station.entry_W, origin);
+}
+
+LumpSamples lumpSamples(const CalibrateOptions& o) {
+  for (const auto& [name, file] : {std::pair("--without", &o.without),
+                                   std::pair("--above", &o.above), std::pair("--check", &o.check)})
+    if (file->empty())
+      throw UsageError("is missing", name,
+                       "An inclusion needs presses without the lump, above it, and at a place to "
+                       "judge by; see --help");
+  if (o.depth_mm <= 0)
+    throw UsageError("is missing", "--depth-mm",
+                     "Say how deep the middle of the lump lies below the top");
+  LumpSamples samples;
+  samples.without = readFelt(o.without);
+  if (!o.strokes.empty()) samples.strokes = readFelt(o.strokes);
+  samples.above = readFelt(o.above);
+  if (!samples.above.samples.front().lump_P)
+    throw Error("has no columns lump_x_mm, ...", o.above,
+                "How far the lump moved must be recorded, too: by ultrasound, or by a camera "
+                "through a clear sample");
+  if (!o.beside.empty()) samples.beside.push_back(readFelt(o.beside));
+  samples.check = readFelt(o.check);
+  samples.depth = 1e-3 * o.depth_mm;
+  return samples;
+}
+
+constexpr double kPressFor_s = 20, kStrokeFor_s = 25, kPressLumpFor_s = 6, kStrokeLumpFor_s = 12;
+
+/// Where the simulated sample's lump lies: known to whoever cast it.
+double lumpDepthOf(const station::Station& station, const std::string& mockup) {
+  const twin::PhantomFile file = twin::readPhantoms(
+      station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json"));
+  for (const twin::Phantom& phantom : file.phantoms)
+    if (phantom.name == mockup && phantom.block.lump) return -phantom.block.lump->centre.z();
+  throw UsageError(
+      "is no simulated sample with a lump", "\"" + mockup + "\"",
+      "See " +
+          station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json").string());
+}
+
+/// Without the lump, above it, on four sides of it, and beside it once more to judge by.
+LumpSamples collectLump(const Scene& scene, const std::string& mockup) {
+  constexpr double kBeside = 8e-3, kJudgedAt = 5e-3;  // m
+  LumpSamples samples;
+  samples.depth = lumpDepthOf(scene.station, mockup);
+  samples.without = collectPresses(scene, "", {}, kPressLumpFor_s);
+  samples.strokes = collectStrokes(scene, "", kStrokeLumpFor_s);
+  samples.above = collectPresses(scene, mockup, {}, kPressLumpFor_s);
+  for (const FeltPlace& place : {FeltPlace{kBeside, 0}, FeltPlace{0, kBeside},
+                                 FeltPlace{-kBeside, 0}, FeltPlace{0, -kBeside}})
+    samples.beside.push_back(collectPresses(scene, mockup, place, kPressLumpFor_s));
+  samples.check =
+      collectPresses(scene, mockup, {kJudgedAt * 0.8, kJudgedAt * 0.6}, kPressLumpFor_s);
+  return samples;
+}
+
+}  // namespace
+
+Result fromFiles(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
+  if (o.kind == "camera") return fromCameraPictures(o, station, origin);
+  if (o.kind == "tool") return toolResult(toolSamples(o), station.design.X_ET, origin);
+  if (o.kind == "workspace") return workspaceResult(readTouches(o.touches), origin);
+  if (o.kind == "registration") return fromTouchesAndPairs(o, station, origin);
+  if (o.kind == "latency") {
+    if (o.camera_track.empty() || o.device_track.empty())
+      throw UsageError("needs both", "--camera-track and --device-track",
+                       "Give the same motion as both saw it");
+    return latencyResult({readTrack(o.camera_track), readTrack(o.device_track)},
+                         station.camera_latency_s, origin);
+  }
+  if (o.kind == "material") return materialResult(readFelt(o.presses), origin);
+  if (o.kind == "friction") return frictionResult(readFelt(o.strokes), origin);
+  if (o.kind == "inclusion")
+    return inclusionResult(
+        lumpSamples(o), station.sample ? station.sample->tip_radius : station::Sample{}.tip_radius,
+        origin);
+  return forceSensorResult(readStaticReadings(o.readings),
+                           Vec3(o.down[0], o.down[1], o.down[2]).normalized(), origin);
+}
+
+/// One routine on the bench: what it needs of the others is taken from the station.
+Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& origin) {
+  const station::Station& station = scene.station;
+  if (o.kind == "camera") {
+    calibration::CameraModel camera;
+    return cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin,
+                        &camera);
+  }
+  if (o.kind == "tool") return toolResult(collectTool(scene), station.design.X_ET, origin);
+  if (o.kind == "workspace") return collectedWorkspace(scene, station.X_ET.translation(), origin);
+  if (o.kind == "registration")
+    return collectedRegistration(
+        scene, station.marker ? collectHeld(scene, station.camera) : std::vector<HeldPose>{},
+        station.camera, station.X_ET.translation(), origin);
+  if (o.kind == "latency")
+    return collectedLatency(scene, station.camera, markerOf(collectHeld(scene, station.camera)),
+                            origin);
+  if (o.kind == "force-sensor")
+    return forceSensorOf(scene, collectHeld(scene, station.camera), station.X_WD, origin);
+  if (o.kind == "material")
+    return materialResult(collectPresses(scene, "", {}, kPressFor_s), origin);
+  if (o.kind == "friction") return frictionResult(collectStrokes(scene, "", kStrokeFor_s), origin);
+  if (o.kind == "inclusion")
+    return inclusionResult(collectLump(scene, o.mockup), station.sample->tip_radius, origin);
+  throw UsageError("is no routine", "palpa calibrate " + o.kind, "See palpa calibrate --help");
+}
+
+}  // namespace palpa::cli

@@ -1,0 +1,173 @@
+#include "apps/cli/patient_sources.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "anatomy/base/error.h"
+#include "anatomy/patient/patient_check.h"
+#include "anatomy/volume/ct_patient.h"
+#include "anatomy/volume/scan.h"
+#include "anatomy/volume/seed_file.h"
+#include "anatomy/volume/volume.h"
+
+namespace palpa::cli {
+namespace {
+
+void writePicture(const anatomy::Picture& picture, const std::filesystem::path& file) {
+  cv::Mat bgr(picture.height, picture.width, CV_8UC3);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) {
+      const std::uint8_t* p =
+          &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
+                            static_cast<std::size_t>(x))];
+      bgr.at<cv::Vec3b>(y, x) = {p[2], p[1], p[0]};
+    }
+  std::filesystem::path beside = file;
+  beside.replace_extension(".part.png");
+  if (!cv::imwrite(beside.string(), bgr))
+    throw Error("cannot be written", file.string(), "Check that the folder may be written to");
+  std::filesystem::rename(beside, file);
+}
+
+/// One picture a step: what was found, over the brightest of the scan.
+void writePreviews(const anatomy::CtPatient& ct, const std::filesystem::path& folder) {
+  std::filesystem::create_directories(folder);
+  using Labels = std::vector<const anatomy::LabelledOrgan*>;
+  const auto those = [&](std::initializer_list<Organ> organs) {
+    Labels labels;
+    for (const anatomy::LabelledOrgan& label : ct.labels)
+      if (std::find(organs.begin(), organs.end(), label.organ) != organs.end())
+        labels.push_back(&label);
+    return labels;
+  };
+  const std::pair<const char*, Labels> steps[] = {
+      {"1-seeds", {}},
+      {"2-vein", those({Organ::vein})},
+      {"3-clavicles", those({Organ::clavicle})},
+      {"4-thorax", those({Organ::sternum, Organ::rib})},
+      {"5-envelope", those({Organ::skin, Organ::lung})},
+      {"6-all", those({Organ::vein, Organ::clavicle, Organ::sternum, Organ::rib})}};
+  for (const auto& [name, labels] : steps)
+    writePicture(anatomy::projections(ct.scan, labels, ct.seeds),
+                 folder / (std::string(name) + ".png"));
+  std::printf("Previews: %s (red crosses: the points below)\n", folder.string().c_str());
+}
+
+void tellStep(const std::string& step, double done) {
+  const bool terminal = isatty(STDERR_FILENO) != 0;
+  std::fprintf(stderr, terminal ? "\r%3.0f %%  %s \033[K" : "%3.0f %%  %s\n", 100 * done,
+               step.c_str());
+  std::fflush(stderr);
+}
+
+void tellResult(const anatomy::CtPatient& ct) {
+  if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);
+  for (const std::string& words : ct.remarks) std::printf("%s.\n", words.c_str());
+  std::printf("Points (mm in the volume's frame); change one and run again:\n");
+  for (const auto& [name, p] : ct.seeds)
+    std::printf("  %s\n", anatomy::seedOption(name, p).c_str());
+  for (const anatomy::Finding& finding : anatomy::checkPatient(ct.patient))
+    if (!finding.ok)
+      std::printf("Not as it is taught: %s is %.1f %s, wanted %s.\n", finding.name.c_str(),
+                  finding.value, finding.unit.c_str(), finding.wanted.c_str());
+}
+
+anatomy::Seeds seedsFrom(const CtArguments& a) {
+  anatomy::Seeds seeds;
+  if (!a.seeds.empty() && std::filesystem::exists(a.seeds)) seeds = anatomy::readSeeds(a.seeds);
+  for (const std::string& point : a.points) anatomy::addSeed(point, &seeds);
+  return seeds;
+}
+
+}  // namespace
+
+std::shared_ptr<CtArguments> addCtOptions(CLI::App& command) {
+  const auto a = std::make_shared<CtArguments>();
+  CLI::Option* ct = command
+                        .add_option("--ct", a->ct,
+                                    "Build from a contrast CT: .mha, .mhd, .nii, .nii.gz, or a "
+                                    "folder with a DICOM series")
+                        ->type_name("FILE|FOLDER");
+  const auto only = [&](CLI::Option* option) { return option->needs(ct); };
+  only(command.add_option("--ct-axes", a->axes,
+                          "Where columns, rows, slices point, when the header lies: three of L/R, "
+                          "A/P, S/I, e.g. LAI"))
+      ->type_name("AXES");
+  only(command.add_flag("--ct-mirrored", a->mirrored, "Allow --ct-axes that make left right"));
+  only(command.add_option("--ct-series", a->series,
+                          "Which DICOM series of the folder: number or UID"))
+      ->type_name("N|UID");
+  only(command.add_option("--seeds", a->seeds,
+                          "File of points to start from; written with what was used"))
+      ->type_name("FILE");
+  only(command.add_option("--seed-point", a->points,
+                          "Moves one point: name=x,y,z (mm); may be repeated"))
+      ->type_name("NAME=X,Y,Z");
+  only(command.add_option("--previews", a->previews, "Folder for pictures of each step"))
+      ->type_name("DIR");
+  a->bone_given = only(command.add_option(
+      "--bone-level", a->bone, "Value at which bone begins (Hounsfield, or the volume's own)"));
+  a->dense_given = only(command.add_option("--vein-level", a->dense,
+                                           "Value at which the contrast-filled vein begins"));
+  return a;
+}
+
+anatomy::Patient buildFromCt(const CtArguments& a, const std::string& side) {
+  tellStep("reading", 0);
+  anatomy::Volume volume = anatomy::readVolume(a.ct, a.series);
+  if (!a.axes.empty()) anatomy::overrideAxes(a.axes, a.mirrored, &volume);
+  anatomy::CtOptions options;
+  options.name = "CT " + std::filesystem::path(a.ct).stem().string();
+  options.seeds = seedsFrom(a);
+  if (!side.empty()) options.side = side == "left" ? anatomy::Side::left : anatomy::Side::right;
+  if (a.bone_given->count()) options.bone_level = a.bone;
+  if (a.dense_given->count()) options.dense_level = a.dense;
+  const std::string flip = anatomy::probableFlip(volume, anatomy::levelsOf(volume));
+  if (!flip.empty()) std::fprintf(stderr, "%s.\n", flip.c_str());
+  anatomy::CtPatient ct = anatomy::buildCtPatient(volume, options, tellStep);
+  if (!a.previews.empty()) writePreviews(ct, a.previews);
+  tellResult(ct);
+  if (!a.seeds.empty()) {
+    anatomy::writeSeeds(ct.seeds, a.seeds);
+    std::printf("Written: %s\n", a.seeds.c_str());
+  }
+  return std::move(ct.patient);
+}
+
+void addPhantomOptions(CLI::App& command, PhantomOptions* options) {
+  CLI::Option* phantom = command
+                             .add_option("--phantom", options->kind,
+                                         "Instead of a person, to be palpated: breast or abdomen")
+                             ->check(CLI::IsMember({"breast", "abdomen"}));
+  command
+      .add_option(
+          "--inclusion-mm", options->inclusion_mm,
+          "Something hard in it: diameter; abdomen: thickness of a liver's edge (default: none)")
+      ->check(CLI::Range(2.0, 200.0))
+      ->needs(phantom);
+  command.add_option("--depth-mm", options->depth_mm, "Silicone over it")
+      ->check(CLI::Range(1.0, 100.0))
+      ->needs(phantom);
+  command.add_option("--left-mm", options->left_mm, "Breast: so far to the left of the middle")
+      ->needs(phantom);
+  command.add_option("--up-mm", options->up_mm, "Breast: so far above the middle")->needs(phantom);
+}
+
+anatomy::Patient buildPhantom(const PhantomOptions& o) {
+  anatomy::PhantomSpec spec;
+  spec.kind = o.kind == "breast" ? anatomy::PhantomKind::breast : anatomy::PhantomKind::abdomen;
+  if (spec.kind == anatomy::PhantomKind::abdomen && (o.left_mm != 0 || o.up_mm != 0))
+    throw UsageError("are for the breast", "--left-mm and --up-mm",
+                     "The liver's edge has its place");
+  if (o.inclusion_mm > 0)
+    spec.inclusion = anatomy::PhantomInclusion{1e-3 * o.inclusion_mm, 1e-3 * o.depth_mm,
+                                               1e-3 * o.left_mm, 1e-3 * o.up_mm};
+  return anatomy::buildPhantom(spec);
+}
+
+}  // namespace palpa::cli

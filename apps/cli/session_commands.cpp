@@ -1,0 +1,190 @@
+#include <map>
+#include <memory>
+
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
+#include "apps/cli/arguments.h"
+#include "apps/cli/commands.h"
+#include "apps/session/whole_session.h"
+#include "apps/station/assets.h"
+
+namespace palpa::cli {
+namespace {
+
+constexpr const char* kSessionExamples = R"(Examples:
+  palpa paracentesis
+      a session; with a display you hold the needle (mouse: drag = over the skin, wheel = along the
+      needle, arrows = turn, Z/X (left-handed: period/comma) = plunger, T = skin, space = EMERGENCY STOP)
+  palpa paracentesis --operator expert --seed 1 --fast --out A
+      a simulated expert, in virtual time: the same command gives the same numbers
+  palpa paracentesis --operator novice --force-feedback off --trials 5 --fast
+      the same without force feedback, five trials
+  palpa paracentesis --camera 'shots/left*.jpg' --intrinsics left.yml --board chessboard:9x6:0.025 --fast
+      the patient on your own recorded pictures
+  palpa paracentesis --igtl 18944
+      the same session in 3D Slicer: there, an OpenIGTLink connector, client, localhost, port 18944
+Keys in a session: Enter start or go on, P pause, A abort, F1-F4 void (interrupted, technical fault,
+trainee stopped, other), space emergency stop, R re-arm, Escape leave.)";
+
+}  // namespace
+
+void addParacentesis(CLI::App& program) {
+  const auto options = std::make_shared<session::SessionOptions>();
+  CLI::App* command = program.add_subcommand(
+      "paracentesis", "A training session: paracentesis of the subclavian vein");
+  command->footer(kSessionExamples);
+  addSessionArguments(*command, *options);
+  command->callback([options] { session::holdNeedleSession(*options); });
+}
+
+namespace {
+
+constexpr const char* kPalpationExamples = R"(Examples:
+  palpa palpation --operator expert --fast --out A
+      a simulated examiner searches silicone for lumps that are not there; open A/report.html
+  palpa palpation --preset abdomen --operator expert --fast
+      the liver's edge is felt in every case, and is no lump
+  palpa palpation --preset prostate --operator novice --trials 8 --fast
+      a smaller phantom, eight cases: so many it takes to pass or fail
+  palpa palpation --station my_station.json --guidance on --trials 16
+      you, on a station with a haptic device and a force sensor; help that fades, every other case without
+  palpa palpation
+      you, with a display and a mouse, on the virtual bench: nothing is felt, but what a sensor feels is drawn; not scored
+Button 1 of the device: here is a lump. With a mouse: move it over the phantom, hold the left button to press, M: here is a lump. Then grade it: 1 soft, 2 hard, 3 fixed, 4 mobile, 5-8: 10, 15, 20,
+25 mm. Keys: Enter start or go on, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+
+const std::map<std::string, std::string> kPresets{{"abdomen", "tasks/palpation_abdomen.json"},
+                                                  {"breast", "tasks/palpation_breast.json"},
+                                                  {"prostate", "tasks/palpation_prostate.json"}};
+
+}  // namespace
+
+void addPalpation(CLI::App& program) {
+  const auto options = std::make_shared<session::SessionOptions>();
+  options->command = "palpation";
+  CLI::App* command =
+      program.add_subcommand("palpation", "A training session: search soft tissue for lumps");
+  command->footer(kPalpationExamples);
+  const auto preset = std::make_shared<std::string>("breast");
+  command
+      ->add_option("--preset", *preset, "Phantom and cases: breast (default), abdomen or prostate")
+      ->check(CLI::IsMember(kPresets))
+      ->type_name("abdomen|breast|prostate");
+  command->add_option("--task", options->task, "Task file, in place of a preset")
+      ->type_name("FILE");
+  const auto on_off = [command](const char* name, bool& value, const char* help) {
+    command
+        ->add_option_function<std::string>(
+            name, [&value](const std::string& text) { value = text == "on"; }, help)
+        ->check(CLI::IsMember({"on", "off"}))
+        ->type_name("on|off");
+  };
+  on_off("--guidance", options->guidance,
+         "A ring and the map of what was felt, in every other case, fading (default off)");
+  on_off("--see-through", options->see_through,
+         "Show the lumps (default off); such trials are not scored");
+  addAugmentArgument(*command, *options);
+  addRunArguments(*command, *options);
+  command->callback([options, preset] {
+    if (options->task.empty()) options->task = station::assetFile(kPresets.at(*preset)).string();
+    session::holdPalpation(*options);
+  });
+}
+
+namespace {
+
+constexpr const char* kSqueezeExamples = R"(Examples:
+  palpa squeeze --operator expert --fast --trials 16 --out A
+      a simulated person compares two things in the hand, one after the other; open A/report.html
+  palpa squeeze --operator novice --fast --trials 16 --force-feedback off
+      the same without force feedback: both feel alike, and the answers are guesses
+Two devices are simulated only, so far: a person cannot take part yet.)";
+
+}  // namespace
+
+void addSqueeze(CLI::App& program) {
+  const auto options = std::make_shared<session::SessionOptions>();
+  options->command = "squeeze";
+  CLI::App* command = program.add_subcommand(
+      "squeeze",
+      "A training session: which of two things in the hand is harder, which is heavier?");
+  command->footer(kSqueezeExamples);
+  command->add_option("--task", options->task, "Task file (default: the shipped one)")
+      ->type_name("FILE");
+  addRunArguments(*command, *options);
+  command->callback([options] { session::holdSqueeze(*options); });
+}
+
+namespace {
+
+constexpr const char* kSearchExamples = R"(Examples:
+  palpa search --operator expert --mode all --trials 8 --fast --out A
+      a simulated person searches the same floors with full stiffness, with a fifth of it, and with that augmented; open A/report.html
+  palpa search --operator novice --mode augmented --trials 20 --fast
+      one mode alone
+  palpa search --operator expert --mode augmented --blocks --fast
+      the task's blocks: baseline, training in this mode, evaluation
+  palpa search --station my_station.json --mode real --trials 20
+      you, on a station with a haptic device and a "floor"
+Three things lie hidden on a floor; one is rougher than the others. Find it, and stay in its middle. Keys: Enter start or go on, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+
+}  // namespace
+
+void addSearch(CLI::App& program) {
+  const auto options = std::make_shared<session::SessionOptions>();
+  options->command = "search";
+  CLI::App* command = program.add_subcommand(
+      "search", "A training session: find the rough one of three hidden things by touch");
+  command->footer(kSearchExamples);
+  command->add_option("--task", options->task, "Task file (default: the shipped one)")
+      ->type_name("FILE");
+  command
+      ->add_option(
+          "--mode", options->mode,
+          "How the floor is rendered: as stiff as the device bears (real, the default), a fifth of "
+          "that (degraded), that with cues added (augmented), or each episode in all three")
+      ->check(CLI::IsMember({"real", "degraded", "augmented", "all"}))
+      ->type_name("all|augmented|degraded|real");
+  command->add_flag("--blocks", options->blocks,
+                    "The task's blocks in place of --trials; training in the mode given");
+  addRunArguments(*command, *options);
+  command->callback([options] { session::holdSearch(*options); });
+}
+
+namespace {
+
+/// An option that means nothing here is a misunderstanding, not a wish.
+void refuseNeedleOptions(const CLI::App& given, const std::string& engine) {
+  CLI::App known;
+  session::SessionOptions unused;
+  addRunArguments(known, unused);
+  if (engine == "palpation") addAugmentArgument(known, unused);
+  for (const CLI::Option* option : given.get_options()) {
+    const std::string name = option->get_name();
+    if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name))
+      throw UsageError("has no meaning for this task", name,
+                       "Leave it out; palpa " + engine + " --help lists what there is");
+  }
+}
+
+}  // namespace
+
+void addTrain(CLI::App& program) {
+  const auto options = std::make_shared<session::SessionOptions>();
+  CLI::App* command = program.add_subcommand("train", "A training session from a task file");
+  command->footer(
+      "Examples:\n  palpa train --task assets/tasks/paracentesis.json --operator expert --fast\n  "
+      "palpa train --task assets/tasks/palpation_prostate.json --operator expert --fast\n  palpa "
+      "train --task assets/tasks/bone_pin.json --augment on --operator expert --fast");
+  command->add_option("--task", options->task, "Task file")->required()->type_name("FILE");
+  addSessionArguments(*command, *options);
+  command->callback([options, command] {
+    options->command = "train";
+    const std::string engine = station::JsonFile(options->task).text("engine");
+    if (engine == "palpation" || engine == "squeeze" || engine == "surface")
+      refuseNeedleOptions(*command, engine == "surface" ? "search" : engine);
+    session::holdSession(engine, *options);
+  });
+}
+
+}  // namespace palpa::cli

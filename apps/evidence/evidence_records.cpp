@@ -1,0 +1,229 @@
+#include "apps/evidence/evidence_records.h"
+
+#include <map>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/base/error.h"
+#include "anatomy/base/sha256.h"
+#include "apps/assess/needle/needle_metrics.h"
+#include "apps/assess/palpation/palpation_assessment.h"
+#include "apps/assess/search/search_trial.h"
+#include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/evidence/recorded_session.h"
+#include "apps/evidence/recorded_trials.h"
+#include "apps/record/store/delivery.h"
+
+namespace palpa::evidence {
+namespace {
+
+using Figures = std::map<int, std::vector<metrics::MetricValue>>;  ///< by trial
+
+Figures needleFigures(const std::filesystem::path& evidence) {
+  const RecordedSession session(evidence);
+  Figures figures;
+  session.eachTrial([&](const record::RecordedTrial& trial,
+                        const RecordedSession::Samples& samples) {
+    const bool judged = trial.ended && trial.end.outcome != "void" &&
+                        (session.hasGoal() || !session.reader().info().expert_path_json.empty());
+    if (judged) figures[trial.header.trial] = session.rescore(trial, samples).metrics;
+  });
+  return figures;
+}
+
+template <class Trials, class Judge>
+Figures figuresOf(const Trials& trials, Judge judge) {
+  Figures figures;
+  for (const auto& trial : trials)
+    if (trial.recorded.ended && trial.recorded.end.outcome != "void")
+      figures[trial.recorded.header.trial] = judge(trial);
+  return figures;
+}
+
+Figures figuresIn(const record::SessionReader& reader, const std::filesystem::path& evidence) {
+  const std::string engine = engineOf(reader);
+  if (engine == "palpation")
+    return figuresOf(recordedPalpations(reader), [](const RecordedPalpation& t) {
+      return assess::palpationMetrics(t.assessment);
+    });
+  if (engine == "surface")
+    return figuresOf(recordedSearches(reader),
+                     [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
+  if (engine == "squeeze")
+    return figuresOf(recordedSqueezes(reader),
+                     [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
+  return needleFigures(evidence);
+}
+
+/// Of the station's calibrations, as the station's file had them.
+std::vector<record::StoredCalibration> calibrationsIn(const nlohmann::json& station) {
+  std::vector<record::StoredCalibration> all;
+  for (const nlohmann::json& c : station.value("calibrations", nlohmann::json::array()))
+    all.push_back(
+        {c.value("kind", ""), c.value("date", ""), c.value("sha256", ""), c.value("verdict", "")});
+  return all;
+}
+
+/// What was trained, whichever command led to it: a needle's task by its id, other tasks by the
+/// command of their kind.
+std::string taskOf(const record::SessionReader& reader) {
+  const std::string engine = engineOf(reader), command = reader.info().command;
+  if (engine == "palpation" || engine == "squeeze") return engine;
+  if (engine == "surface") return "search";
+  const nlohmann::json task = nlohmann::json::parse(reader.info().task_json, nullptr, false);
+  return task.is_object() && task.contains("id") && task["id"].is_string()
+             ? task["id"].get<std::string>()
+             : command;
+}
+
+record::StoredSession sessionIn(const record::SessionReader& reader,
+                                const std::filesystem::path& evidence) {
+  const record::SessionInfo& info = reader.info();
+  const nlohmann::json session = nlohmann::json::parse(info.session_json),
+                       station = nlohmann::json::parse(info.station_json);
+  record::StoredSession s;
+  s.uuid = info.uuid;
+  s.trainee = session.value("trainee", "");
+  s.started_utc = info.started_utc;
+  s.software = info.software;
+  s.task = taskOf(reader);
+  s.station = station.value("id", "");
+  s.simulated = session.value("simulated", false);
+  if (const nlohmann::json study = session.value("study", nlohmann::json::object());
+      !study.empty()) {
+    s.study = study.at("id");
+    s.slot = study.at("slot");
+  }
+  s.evidence = std::filesystem::absolute(evidence).string();
+  s.evidence_sha256 = station::sha256OfFile(evidence);
+  s.facts_json = info.session_json;
+  s.calibrations = calibrationsIn(station);
+  return s;
+}
+
+record::StoredTrial trialIn(const record::RecordedTrial& t, const Figures& figures) {
+  record::StoredTrial trial;
+  trial.number = t.header.trial;
+  trial.start_ns = t.header.t_ns;
+  trial.end_ns = t.end.t_ns;
+  trial.role = t.header.role;
+  trial.seed = t.header.seed;
+  trial.force_feedback = t.header.force_feedback;
+  trial.outcome = t.end.outcome;
+  trial.reason = t.end.reason;
+  trial.score_json = t.end.scores_json;
+  if (const auto known = figures.find(t.header.trial); known != figures.end())
+    for (const metrics::MetricValue& m : known->second) trial.metrics.push_back({m.name, m.value});
+  trial.success = trial.metric("success") == 1;
+  return trial;
+}
+
+}  // namespace
+
+EvidenceRecords recordsOf(const std::filesystem::path& evidence) {
+  const record::SessionReader reader(evidence);
+  EvidenceRecords records;
+  try {
+    records.session = sessionIn(reader, evidence);
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(std::string("the session's description is damaged (") + e.what() + ")",
+                evidence.string(), "Restore the file from a backup");
+  }
+  const Figures figures = figuresIn(reader, evidence);
+  for (const record::RecordedTrial& t : reader.trials()) {
+    if (t.ended)
+      records.trials.push_back(trialIn(t, figures));
+    else
+      ++records.unfinished;
+  }
+  for (const runtime::Event& e : reader.events())
+    for (record::StoredTrial& trial : records.trials)
+      if (trial.number == e.trial) trial.events.push_back({e.t_ns, e.kind, e.text, e.value});
+  return records;
+}
+
+std::string absoluteRecords(const std::string& url) {
+  return record::isServer(url) || url.find("://") != std::string::npos
+             ? url
+             : std::filesystem::absolute(url).lexically_normal().string();
+}
+
+EvidenceDelivery deliverEvidence(const std::filesystem::path& evidence, const std::string& url,
+                                 const record::Patience& patience) {
+  const EvidenceRecords records = recordsOf(evidence);
+  record::PendingList pending(record::PendingList::usualFolder());
+  pending.note({records.session.uuid, evidence, absoluteRecords(url)});
+  EvidenceDelivery done{records.session.trainee, {}, records.unfinished};
+  try {
+    done.trials = record::deliver(url, records.session, records.trials, patience);
+  } catch (const record::PersonDeleted&) {
+    pending.forget(records.session.uuid);
+    throw;
+  }
+  pending.forget(records.session.uuid);
+  return done;
+}
+
+namespace {
+
+/// What makes a trial unlike others of its task: a search's stiffness, cues, guidance.
+std::string conditionOf(const record::TrialWithSession& stored) {
+  const nlohmann::json facts = nlohmann::json::parse(stored.session.facts_json),
+                       score = stored.trial.score_json.empty()
+                                   ? nlohmann::json::object()
+                                   : nlohmann::json::parse(stored.trial.score_json);
+  std::string condition = score.value("MODE", "");
+  const auto also = [&](const char* words) {
+    condition += (condition.empty() ? "" : ", ") + std::string(words);
+  };
+  if (facts.value("augment", false)) also("cues on");
+  if (const auto guided = score.find("GUIDED");
+      guided != score.end() &&
+      (guided->is_boolean() ? guided->get<bool>() : guided->get<double>() > 0))
+    also("guided");
+  return condition;
+}
+
+}  // namespace
+
+progress::PracticeTrial practiceOf(const record::TrialWithSession& stored,
+                                   const std::string& group) {
+  progress::PracticeTrial t;
+  for (const record::Metric& m : stored.trial.metrics) t.metrics.push_back({m.name, m.value});
+  t.trainee = stored.session.trainee;
+  t.group = group;
+  t.engine = progress::engineOfFigures(t.metrics);
+  t.task = stored.session.task;
+  t.started_utc = stored.session.started_utc;
+  t.arrival = stored.session.arrival;
+  t.number = stored.trial.number;
+  t.role = stored.trial.role;
+  t.outcome = stored.trial.outcome;
+  t.simulated = stored.session.simulated;
+  t.force_feedback = stored.trial.force_feedback;
+  try {
+    t.condition = conditionOf(stored);
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(std::string("a session's description is damaged (") + e.what() + ")",
+                "session " + stored.session.uuid, "Restore the records from a backup");
+  }
+  return t;
+}
+
+std::vector<progress::PracticeTrial> practiceIn(record::RecordStore& store,
+                                                const PracticeChoice& choice) {
+  std::map<std::string, std::string> groups;
+  for (const record::Trainee& trainee : store.trainees()) groups[trainee.id] = trainee.group;
+  record::TrialFilter filter;
+  filter.trainee = choice.trainee;
+  filter.task = choice.task;
+  std::vector<progress::PracticeTrial> practice;
+  for (const record::TrialWithSession& stored : store.trials(filter)) {
+    const std::string& group = groups[stored.session.trainee];
+    if (choice.group.empty() || group == choice.group)
+      practice.push_back(practiceOf(stored, group));
+  }
+  return practice;
+}
+
+}  // namespace palpa::evidence

@@ -1,0 +1,51 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "apps/assess/progress/history.h"
+#include "apps/record/store/delivery.h"
+#include "apps/record/store/record_store.h"
+
+namespace palpa::evidence {
+
+/// A session as the records of a centre keep it, made from its evidence alone.
+struct EvidenceRecords {
+  record::StoredSession session;
+  std::vector<record::StoredTrial> trials;  ///< that ended, each with every figure, judged again
+  int unfinished =
+      0;  ///< trials in whose middle the program stopped: they stay in the evidence only
+};
+
+/// Throws Error for a file that is none or damaged.
+EvidenceRecords recordsOf(const std::filesystem::path& evidence);
+
+struct EvidenceDelivery {
+  std::string trainee;
+  record::Delivered trials;
+  int unfinished = 0;  ///< trials in whose middle the program stopped: left out
+};
+
+/// A session's trials into the records at `url`, noted on this station until the store has all of
+/// them. What fails stays noted for `palpa records deliver`, but for evidence of a person who was
+/// deleted. Throws Error.
+EvidenceDelivery deliverEvidence(const std::filesystem::path& evidence, const std::string& url,
+                                 const record::Patience& patience = {});
+
+/// Of an address, as it stays true in another folder: files as absolute paths.
+std::string absoluteRecords(const std::string& url);
+
+/// Trials as the pages of practice take them. `group`: the trainee's. Throws Error for a session
+/// whose description is damaged.
+progress::PracticeTrial practiceOf(const record::TrialWithSession& stored,
+                                   const std::string& group);
+
+/// Which trials a page is about; an empty text means any.
+struct PracticeChoice {
+  std::string trainee, group, task;
+};
+std::vector<progress::PracticeTrial> practiceIn(record::RecordStore& store,
+                                                const PracticeChoice& choice);
+
+}  // namespace palpa::evidence

@@ -1,0 +1,266 @@
+#include "apps/evidence/recorded_session.h"
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <fstream>
+#include <unordered_map>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
+#include "anatomy/patient/patient_check.h"
+#include "anatomy/patient/patient_file.h"
+#include "apps/assess/needle/needle_metrics.h"
+
+namespace palpa::evidence {
+namespace {
+
+/// A text or bytes as a temporary file, for readers that take a path; removed at the end of its
+/// life.
+class TemporaryFile {
+ public:
+  TemporaryFile(const std::string& bytes, const char* extension) {
+    std::string pattern =
+        (std::filesystem::temp_directory_path() / "palpa-XXXXXX").string() + extension;
+    const int fd = mkstemps(pattern.data(), static_cast<int>(std::strlen(extension)));
+    if (fd < 0) throw Error("cannot be made", pattern, "Is the disk full?");
+    path_ = pattern;
+    std::ofstream(path_, std::ios::binary) << bytes;
+    ::close(fd);
+  }
+  ~TemporaryFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+Pose poseFrom(const nlohmann::json& json) {
+  return unpack(PackedPose{json.at("p_m").get<Packed3>(), json.at("q_wxyz").get<Packed4>()});
+}
+
+}  // namespace
+
+RecordedSession::RecordedSession(const std::filesystem::path& file)
+    : reader_(std::make_unique<record::SessionReader>(file)) {
+  const record::SessionInfo& info = reader_->info();
+  try {
+    const nlohmann::json session = nlohmann::json::parse(info.session_json);
+    X_DA_ = poseFrom(session.at("X_DA"));
+    simulated_ = session.at("simulated").get<bool>();
+    operator_ = session.at("operator").get<std::string>();
+    trainee_ = session.value("trainee", "");
+  } catch (const nlohmann::json::exception& e) {
+    throw Error(std::string("the session's description is damaged (") + e.what() + ")",
+                file.string(), "Restore the file from a backup");
+  }
+  patient_ = anatomy::readPatient(TemporaryFile(info.patient_glb, ".glb").path());
+  query_ = std::make_unique<anatomy::SurfaceQuery>(patient_);
+  task_ = task_needle::readTask(TemporaryFile(info.task_json, ".json").path());
+  if (!task_.block) anatomy::requireForNeedle(patient_, file.string() + ", its patient");
+  if (!info.expert_path_json.empty())
+    expert_path_ = std::make_unique<calibration::ExpertPath>(
+        calibration::readExpertPath(TemporaryFile(info.expert_path_json, ".json").path()));
+  trials_ = reader_->trials();
+}
+
+void RecordedSession::eachTrial(
+    const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const {
+  assess::TrialSampler sampler(X_DA_.inverse(), reader_->info().tick_config.X_ET);
+  auto trial = trials_.begin();
+  Samples samples;
+  const auto next = [&] {
+    if (trial == trials_.end()) return;
+    samples.clear();
+    sampler.begin(static_cast<std::uint32_t>(trial->header.trial));
+  };
+  next();
+  reader_->ticks([&](const haptics::FlightRecord& record) {
+    while (trial != trials_.end() &&
+           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial)) {
+      visit(*trial, samples);
+      ++trial;
+      next();
+    }
+    assess::TrialSample sample;
+    if (trial == trials_.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
+    if (sampler.add(record, &sample)) samples.push_back(sample);
+  });
+  for (; trial != trials_.end(); ++trial, next()) visit(*trial, samples);
+}
+
+assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& trial,
+                                                 const Samples& samples) const {
+  if (task_.goal) {
+    task_needle::GoalTrial goal(*task_.goal, task_.augmentations.subtaskNames(), task_.words);
+    for (const assess::TrialSample& sample : samples) goal.add(sample);
+    assess::TrialAssessment again;
+    again.trial = trial.header.trial;
+    again.outcome = trial.end.outcome;
+    goal.tell(&again);
+    again.metrics = assess::goalMetrics(again, samples, task_.rules);
+    return again;
+  }
+  if (!expert_path_)
+    throw Error("no optimal path was recorded", "session",
+                "It was made to calibrate experts, not to be scored");
+  const assess::TrialFacts facts{trial.header.trial,          trial.header.role, simulated_,
+                                 trial.header.force_feedback, trial.header.seed, trial.end.outcome};
+  return assess::assessTrial(facts, samples, patient_, *query_, *expert_path_, task_.rules);
+}
+
+namespace {
+
+bool sameForces(const haptics::FlightRecord& a, const haptics::FlightRecord& b) {
+  return a.f_contact_D == b.f_contact_D && a.f_command_D == b.f_command_D &&
+         a.tau_missing_D == b.tau_missing_D && a.depth == b.depth && a.events == b.events &&
+         a.f_augmentation_D == b.f_augmentation_D && a.subtasks == b.subtasks &&
+         a.place == b.place && a.phase == b.phase && a.tissue == b.tissue && a.bone == b.bone &&
+         a.wall == b.wall && a.safety == b.safety;
+}
+
+}  // namespace
+
+namespace {
+
+void count(const haptics::FlightRecord& recorded, const haptics::FlightRecord& again,
+           ReplayCheck* check) {
+  ++check->ticks;
+  if (sameForces(recorded, again)) return;
+  if (check->different++ == 0) check->first_difference = recorded.tick;
+}
+
+/// Two devices in one tick: from the first tick on, while none is missing.
+ReplayCheck replayPairs(const record::SessionReader& reader) {
+  const haptics::PairConfig& config = *reader.info().pair_config;
+  ReplayCheck check;
+  const auto state = std::make_unique<haptics::PairState>();
+  std::optional<haptics::FlightRecord> first;
+  reader.ticks([&](const haptics::FlightRecord& recorded) {
+    if (check.gaps > 0) return;
+    if (recorded.tool == 0) {
+      if (first || recorded.tick != state->tools[0].tick) ++check.gaps;
+      first = recorded;
+      return;
+    }
+    if (!first || first->tick != recorded.tick) {
+      ++check.gaps;
+      return;
+    }
+    const std::array<haptics::FlightRecord, 2> again =
+        haptics::tickPair(config, *state, {first->reading, recorded.reading}, recorded.commands,
+                          recorded.t_ns, {first->sensed, recorded.sensed});
+    count(*first, again[0], &check);
+    count(recorded, again[1], &check);
+    first.reset();
+  });
+  return check;
+}
+
+ReplayCheck replaySingle(const record::SessionReader& reader,
+                         const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
+  std::unordered_map<std::uint64_t, LocalGeometry> snapshots;
+  reader.snapshots([&](const LocalGeometry& g) { snapshots[g.number] = g; });
+  std::unordered_map<std::int64_t, haptics::TickState> keyframes;
+  reader.keyframes(
+      [&](std::int64_t tick, const haptics::TickState& state) { keyframes[tick] = state; });
+
+  const haptics::TickConfig config = reader.info().tick_config;
+  ReplayCheck check;
+  haptics::TickState state;
+  bool aligned = false;
+  reader.ticks([&](const haptics::FlightRecord& recorded) {
+    if (!aligned || state.tick != recorded.tick) {
+      if (aligned) ++check.gaps;
+      const auto keyframe = keyframes.find(recorded.tick);
+      aligned = keyframe != keyframes.end();
+      if (!aligned) return;  // wait for the next keyframe
+      state = keyframe->second;
+    }
+    const auto snapshot = snapshots.find(recorded.snapshot);
+    const haptics::FlightRecord again = haptics::tick(
+        config, state, recorded.reading, snapshot == snapshots.end() ? nullptr : &snapshot->second,
+        recorded.commands, recorded.t_ns, recorded.sensed,
+        floors && recorded.commands.floor ? floors(recorded.commands.floor) : nullptr);
+    count(recorded, again, &check);
+  });
+  return check;
+}
+
+}  // namespace
+
+ReplayCheck replayTicks(const record::SessionReader& reader,
+                        const std::function<const haptics::Floor*(std::uint32_t number)>& floors) {
+  return reader.info().pair_config ? replayPairs(reader) : replaySingle(reader, floors);
+}
+
+namespace {
+
+/// The parts of a session one after the other: their figures together.
+class Together {
+ public:
+  void add(const assess::ForceBalance& part) {
+    if (part.samples == 0) return;
+    sum2_ += part.rms_N * part.rms_N * static_cast<double>(part.samples);
+    all_.samples += part.samples;
+    all_.largest_N = std::max(all_.largest_N, part.largest_N);
+    all_.object_N = std::max(all_.object_N, part.object_N);
+    all_.delay_s = part.delay_s;
+    all_.rms_N = std::sqrt(sum2_ / static_cast<double>(all_.samples));
+  }
+  const assess::ForceBalance& all() const { return all_; }
+
+ private:
+  assess::ForceBalance all_;
+  double sum2_ = 0;
+};
+
+}  // namespace
+
+std::optional<assess::ForceBalance> recordedBalance(const record::SessionReader& reader) {
+  constexpr std::size_t kPart = 200'000;  // ticks: what is held in memory at once
+  const double mass =
+      station::JsonFile(nlohmann::json::parse(reader.info().station_json), "the recorded station")
+          .number("device/apparent_mass_kg", 0, 5);
+  Together together;
+  std::array<std::vector<haptics::FlightRecord>, 2> parts;  // of each tool
+  const auto finish = [&] {
+    for (std::vector<haptics::FlightRecord>& part : parts) {
+      together.add(assess::balanceOf(part, mass));
+      part.clear();
+    }
+  };
+  reader.ticks([&](const haptics::FlightRecord& tick) {
+    if (tick.reading.instrumented && tick.sensed.state == haptics::SensorState::valid)
+      parts[tick.tool & 1].push_back(tick);
+    if (parts[0].size() >= kPart) finish();
+  });
+  finish();
+  if (together.all().samples == 0) return std::nullopt;
+  return together.all();
+}
+
+std::vector<assess::TrialSample> thinned(const std::vector<assess::TrialSample>& samples) {
+  constexpr std::size_t kKeep = 10;
+  std::vector<assess::TrialSample> kept;
+  std::uint32_t events = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    events |= samples[i].events;
+    if (i % kKeep != 0 && i + 1 != samples.size()) continue;
+    kept.push_back(samples[i]);
+    kept.back().events = events;
+    events = 0;
+  }
+  return kept;
+}
+
+}  // namespace palpa::evidence

@@ -1,0 +1,72 @@
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "anatomy/query/surface_query.h"
+#include "apps/assess/force_balance.h"
+#include "apps/assess/needle/assess_trial.h"
+#include "apps/assess/needle/trial_assessment.h"
+#include "apps/assess/needle/trial_sampler.h"
+#include "apps/record/session_file.h"
+#include "apps/task_needle/task_file.h"
+#include "calibration/expert_path.h"
+
+namespace palpa::evidence {
+
+/// A session as its evidence tells it; needs nothing but the file.
+class RecordedSession {
+ public:
+  explicit RecordedSession(const std::filesystem::path& file);  ///< throws Error
+
+  const record::SessionReader& reader() const { return *reader_; }
+  const anatomy::Patient& patient() const { return patient_; }
+  const task_needle::TaskWords& words() const { return task_.words; }
+  const Pose& X_DA() const { return X_DA_; }
+  bool simulated() const { return simulated_; }
+  const std::string& operatorName() const { return operator_; }
+  const std::string& trainee() const { return trainee_; }  ///< pseudonym of who performed
+  const std::vector<record::RecordedTrial>& trials() const { return trials_; }
+  using Samples = std::vector<assess::TrialSample>;
+  /// Calls `visit` with every trial and all its judged ticks, in A: one pass over the record.
+  void eachTrial(
+      const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const;
+  bool hasGoal() const { return task_.goal.has_value(); }  ///< else the vein, by an optimal path
+  /// The trial scored again, from the evidence alone: of a task with a goal of its own success,
+  /// time and course. Throws Error when no expert path was recorded.
+  assess::TrialAssessment rescore(const record::RecordedTrial& trial, const Samples& samples) const;
+
+ private:
+  std::unique_ptr<record::SessionReader> reader_;
+  anatomy::Patient patient_;
+  std::unique_ptr<anatomy::SurfaceQuery> query_;
+  std::unique_ptr<calibration::ExpertPath> expert_path_;
+  task_needle::TaskSettings task_;
+  Pose X_DA_ = Pose::Identity();
+  bool simulated_ = false;
+  std::string operator_, trainee_;
+  std::vector<record::RecordedTrial> trials_;
+};
+
+/// Outcome of running every recorded tick again.
+struct ReplayCheck {
+  std::int64_t ticks = 0, different = 0, first_difference = -1;
+  std::int64_t gaps = 0;  ///< ticks missing in the record; the state is then taken from a keyframe
+};
+/// `floors`: of a search, by number; null where there are none.
+ReplayCheck replayTicks(
+    const record::SessionReader& reader,
+    const std::function<const haptics::Floor*(std::uint32_t number)>& floors = {});
+
+/// Whether the forces in a record add up, over all its trials; none where the device measured
+/// neither hand nor itself. Throws Error for a description that is damaged.
+std::optional<assess::ForceBalance> recordedBalance(const record::SessionReader& reader);
+
+/// Every tenth tick for the plots; what happened in between is merged into the one kept.
+std::vector<assess::TrialSample> thinned(const std::vector<assess::TrialSample>& samples);
+
+}  // namespace palpa::evidence

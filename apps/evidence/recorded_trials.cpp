@@ -1,0 +1,236 @@
+#include "apps/evidence/recorded_trials.h"
+
+#include <map>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/base/error.h"
+
+namespace palpa::evidence {
+namespace {
+
+/// One field of what a record describes; `otherwise` where it has none.
+template <class Value>
+Value fieldOf(const std::string& text, const char* field, const Value& otherwise,
+              const char* what) {
+  try {
+    return nlohmann::json::parse(text).value(field, otherwise);
+  } catch (const nlohmann::json::exception&) {
+    throw Error("the session's description is damaged", what, "Restore the file from a backup");
+  }
+}
+
+/// What the record says of a trial besides its ticks.
+struct Said {
+  std::vector<assess::CaseLump> lumps;
+  std::vector<runtime::Event> grades;
+};
+
+Said saidIn(const std::vector<runtime::Event>& events, int trial) {
+  Said said;
+  for (const runtime::Event& event : events) {
+    if (event.trial != trial) continue;
+    if (event.kind == "case") said.lumps = task_palpation::caseOf(event.text);
+    if (event.kind == "grade") said.grades.push_back(event);
+  }
+  return said;
+}
+
+}  // namespace
+
+std::string engineOf(const record::SessionReader& reader) {
+  return fieldOf(reader.info().task_json, "engine", std::string("needle"), "its task");
+}
+
+std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
+  const task_palpation::Scoring scoring = task_palpation::scoringOf(
+      station::JsonFile(nlohmann::json::parse(reader.info().task_json), "the recorded task"));
+  const bool simulated = fieldOf(reader.info().session_json, "simulated", false, "its session");
+  const std::vector<runtime::Event> events = reader.events();
+  std::vector<RecordedPalpation> trials;
+  task_palpation::PalpationListener listener(reader.info().tick_config);
+  std::vector<record::RecordedTrial> recorded = reader.trials();
+  auto trial = recorded.begin();
+  Said said;
+  const auto begin = [&] {
+    if (trial == recorded.end()) return;
+    said = saidIn(events, trial->header.trial);
+    listener.begin(static_cast<std::uint32_t>(trial->header.trial));
+  };
+  const auto finish = [&] {
+    const runtime::TrialHeader& header = trial->header;
+    for (const runtime::Event& grade : said.grades) {
+      const trial::Grade told = trial::gradeOf(grade.text);
+      if (grade.value >= 1 && grade.value <= static_cast<double>(listener.marks().size()))
+        listener.grade(told.diameter, told.hardness, told.mobility,
+                       static_cast<std::size_t>(grade.value));
+    }
+    const double guided = trial->ended && !trial->end.scores_json.empty()
+                              ? fieldOf(trial->end.scores_json, "GUIDED", 0.0, "a trial's score")
+                              : 0;
+    const assess::PalpationFacts facts{
+        header.trial, header.role,        simulated, header.force_feedback,
+        header.seed,  trial->end.outcome, guided};
+    trials.push_back(
+        {*trial, assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
+                                         listener.samples(), listener.marks())});
+    ++trial;
+    begin();
+  };
+  begin();
+  reader.ticks([&](const haptics::FlightRecord& record) {
+    while (trial != recorded.end() &&
+           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial))
+      finish();
+    if (trial == recorded.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
+    listener.add(record);
+  });
+  while (trial != recorded.end()) finish();
+  return trials;
+}
+
+namespace {
+
+task_search::SearchSettings recordedTask(const record::SessionReader& reader) {
+  return task_search::readSearch(
+      station::JsonFile(nlohmann::json::parse(reader.info().task_json), "the recorded task"));
+}
+
+std::map<int, task_search::Episode> recordedEpisodes(const record::SessionReader& reader) {
+  std::map<int, task_search::Episode> episodes;
+  for (const runtime::Event& event : reader.events())
+    if (event.kind == "case") episodes[event.trial] = task_search::episodeIn(event.text);
+  return episodes;
+}
+
+/// The floor that was asked for last, and what it is made of.
+struct LastFloor {
+  task_search::SearchSettings task;
+  std::map<int, task_search::Episode> episodes;
+  std::uint32_t number = 0;
+  std::unique_ptr<task_search::MadeFloor> made;
+  haptics::Floor floor;
+
+  const haptics::Floor* of(std::uint32_t asked) {
+    if (asked == number) return &floor;
+    const auto episode = episodes.find(static_cast<int>(asked));
+    if (episode == episodes.end())
+      throw Error("names floor " + std::to_string(asked) + ", of which nothing is said", "session",
+                  "Restore the file from a backup");
+    made = makeFloor(task, episode->second);
+    floor = made->floor();
+    number = asked;
+    return &floor;
+  }
+};
+
+}  // namespace
+
+std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader) {
+  const task_search::SearchSettings task = recordedTask(reader);
+  const haptics::TickConfig& tick = reader.info().tick_config;
+  const std::map<int, task_search::Episode> episodes = recordedEpisodes(reader);
+  const bool simulated = nlohmann::json::parse(reader.info().session_json).value("simulated", true);
+  task_search::SearchListener listener(task, tick.augmentations);
+  std::vector<RecordedSearch> trials;
+  const std::vector<record::RecordedTrial> recorded = reader.trials();
+  auto trial = recorded.begin();
+  const auto begin = [&] {
+    if (trial != recorded.end()) listener.begin(static_cast<std::uint32_t>(trial->header.trial));
+  };
+  const auto finish = [&] {
+    const auto episode = episodes.find(trial->header.trial);
+    if (episode == episodes.end())
+      throw Error("says nothing of episode " + std::to_string(trial->header.trial), "session",
+                  "Restore the file from a backup");
+    assess::SearchTrial facts;
+    facts.trial = trial->header.trial;
+    facts.role = trial->header.role;
+    facts.simulated = simulated;
+    facts.force_feedback = trial->header.force_feedback;
+    facts.seed = trial->header.seed;
+    facts.outcome = trial->end.outcome;
+    trials.push_back({*trial, task_search::judged(facts, episode->second, listener)});
+    ++trial;
+    begin();
+  };
+  begin();
+  reader.ticks([&](const haptics::FlightRecord& record) {
+    while (trial != recorded.end() &&
+           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial))
+      finish();
+    if (trial == recorded.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
+    listener.add(record, task_search::tipOf(tick, record.reading));
+  });
+  while (trial != recorded.end()) finish();
+  return trials;
+}
+
+std::function<const haptics::Floor*(std::uint32_t number)> recordedFloors(
+    const record::SessionReader& reader) {
+  if (engineOf(reader) != "surface") return {};
+  const auto last = std::make_shared<LastFloor>();
+  last->task = recordedTask(reader);
+  last->episodes = recordedEpisodes(reader);
+  return [last](std::uint32_t number) { return last->of(number); };
+}
+
+namespace {
+
+/// What the record says of a trial besides its ticks.
+struct SaidOfSqueeze {
+  task_squeeze::Comparison comparison;
+  int answer = 0;
+};
+
+SaidOfSqueeze saidOf(const std::vector<runtime::Event>& events, int trial) {
+  SaidOfSqueeze said;
+  for (const runtime::Event& event : events) {
+    if (event.trial != trial) continue;
+    if (event.kind == "case") said.comparison = task_squeeze::comparisonIn(event.text);
+    if (event.kind == "answer") said.answer = event.value == 1 ? 1 : event.value == 2 ? 2 : 0;
+  }
+  return said;
+}
+
+}  // namespace
+
+std::vector<RecordedSqueeze> recordedSqueezes(const record::SessionReader& reader) {
+  const station::JsonFile task(nlohmann::json::parse(reader.info().task_json), "the recorded task");
+  task_squeeze::SqueezeListener listener(task.number("force/touch_N", 0.02, 5));
+  const std::vector<runtime::Event> events = reader.events();
+  std::vector<RecordedSqueeze> trials;
+  const std::vector<record::RecordedTrial> recorded = reader.trials();
+  auto trial = recorded.begin();
+  SaidOfSqueeze said;
+  const auto begin = [&] {
+    if (trial == recorded.end()) return;
+    said = saidOf(events, trial->header.trial);
+    listener.begin(static_cast<std::uint32_t>(trial->header.trial), said.comparison);
+  };
+  const auto finish = [&] {
+    assess::SqueezeTrial facts;
+    facts.trial = trial->header.trial;
+    facts.role = trial->header.role;
+    facts.simulated = true;
+    facts.force_feedback = trial->header.force_feedback;
+    facts.seed = trial->header.seed;
+    facts.outcome = trial->end.outcome;
+    trials.push_back({*trial, task_squeeze::judged(facts, said.comparison, listener, said.answer)});
+    ++trial;
+    begin();
+  };
+  begin();
+  reader.ticks([&](const haptics::FlightRecord& record) {
+    while (trial != recorded.end() &&
+           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial))
+      finish();
+    if (trial == recorded.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
+    listener.add(record);
+  });
+  while (trial != recorded.end()) finish();
+  return trials;
+}
+
+}  // namespace palpa::evidence

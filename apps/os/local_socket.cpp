@@ -1,0 +1,100 @@
+#include "apps/os/local_socket.h"
+
+#include <sys/resource.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+
+#include "anatomy/base/error.h"
+
+namespace palpa::os {
+namespace {
+
+constexpr int kBacklog = 8, kServerNice = 15;
+
+bool fits(const std::string& path) {
+  return path.size() < sizeof sockaddr_un{}.sun_path && path.find('\0') == std::string::npos;
+}
+
+sockaddr_un addressOf(const std::string& path) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  if (!fits(path))
+    throw Error("is too long for a socket", path, "Set XDG_RUNTIME_DIR to a shorter one");
+  std::memcpy(address.sun_path, path.c_str(), path.size());
+  return address;
+}
+
+int unixSocket() { return ::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
+
+}  // namespace
+
+int connectTo(const std::string& path) {
+  if (!fits(path)) return -1;
+  const sockaddr_un address = addressOf(path);
+  const int socket = unixSocket();
+  if (socket < 0) return -1;
+  if (::connect(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
+      sameUser(socket))
+    return socket;
+  ::close(socket);
+  return -1;
+}
+
+int listenAt(const std::string& path) {
+  const sockaddr_un address = addressOf(path);
+  if (const int there = connectTo(path); there >= 0) {
+    ::close(there);
+    throw Error("is in use by another session", path, "End that one first");
+  }
+  ::unlink(path.c_str());
+  const int socket = unixSocket();
+  const mode_t mask = ::umask(0177);
+  const bool good =
+      socket >= 0 &&
+      ::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0 &&
+      ::listen(socket, kBacklog) == 0;
+  const int error = errno;
+  ::umask(mask);
+  if (good) return socket;
+  if (socket >= 0) ::close(socket);
+  throw Error(std::string("cannot be made (") + std::strerror(error) + ")", "local socket " + path,
+              "Give a folder that can be written to, or leave out --live");
+}
+
+bool sameUser(int socket) {
+  ucred peer{};
+  socklen_t size = sizeof peer;
+  return ::getsockopt(socket, SOL_SOCKET, SO_PEERCRED, &peer, &size) == 0 &&
+         peer.uid == ::geteuid();
+}
+
+std::string socketFolder() {
+  const char* runtime = std::getenv("XDG_RUNTIME_DIR");
+  std::error_code none;
+  const std::filesystem::path temporary = std::filesystem::temp_directory_path(none);
+  const std::string folder =
+      runtime && *runtime == '/'
+          ? std::string(runtime) + "/palpa"
+          : ((none ? "/tmp" : temporary) / ("palpa-" + std::to_string(::geteuid()))).string();
+  if (::mkdir(folder.c_str(), 0700) != 0 && errno != EEXIST)
+    throw Error(std::string("cannot be made (") + std::strerror(errno) + ")", folder,
+                "Set XDG_RUNTIME_DIR to a folder of yours");
+  struct stat facts {};
+  if (::lstat(folder.c_str(), &facts) != 0 || !S_ISDIR(facts.st_mode) ||
+      facts.st_uid != ::geteuid() || (facts.st_mode & 0077) != 0)
+    throw Error("is not a folder of this user's alone", folder,
+                "Remove it, or set XDG_RUNTIME_DIR to a folder of yours");
+  return folder;
+}
+
+void giveWay() { ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), kServerNice); }
+
+}  // namespace palpa::os

@@ -1,0 +1,77 @@
+#include "apps/os/real_time.h"
+
+#include <linux/capability.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+
+namespace palpa::os {
+namespace {
+
+constexpr int kFifoPriority =
+    80;  // over normal threads and most of the kernel's own, under its watchdogs
+constexpr std::size_t kStack = 256 * 1024;  // a tick uses a few KiB of the 8 MiB
+constexpr std::size_t kPage = 4096;         // the smallest there is
+
+std::string because(int error) { return std::string(" (") + std::strerror(error) + ")"; }
+
+bool mayLockWithoutBound() {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) return true;
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct data[_LINUX_CAPABILITY_U32S_3]{};
+  return syscall(SYS_capget, &header, data) == 0 && (data[0].effective >> CAP_IPC_LOCK & 1u);
+}
+
+std::string askForFifo() {
+  sched_param param{};
+  param.sched_priority = kFifoPriority;
+  const int error = pthread_setschedparam(pthread_self(), SCHED_FIFO, &param);
+  return error == 0 ? "SCHED_FIFO" : "normal priority: SCHED_FIFO refused" + because(error);
+}
+
+std::string askForCpu(int cpu) {
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (cpu >= CPU_SETSIZE) return "CPU " + std::to_string(cpu) + " refused" + because(EINVAL);
+  CPU_SET(static_cast<std::size_t>(cpu), &set);
+  const int error = pthread_setaffinity_np(pthread_self(), sizeof set, &set);
+  return "CPU " + std::to_string(cpu) + (error == 0 ? "" : " refused" + because(error));
+}
+
+[[gnu::noinline]] void touchStack() {
+  [[maybe_unused]] volatile unsigned char stack[kStack];
+  for (std::size_t i = 0; i < kStack; i += kPage) stack[i] = 0;
+}
+
+}  // namespace
+
+MemoryLock::MemoryLock() {
+  const bool whole = mayLockWithoutBound();
+  locked_ = mlockall(whole ? MCL_CURRENT | MCL_FUTURE : MCL_CURRENT) == 0;
+  if (!locked_)
+    words_ = "memory not locked: refused" + because(errno);
+  else if (whole)
+    words_ = "memory locked";
+  else
+    words_ = "memory of the start locked: the limit (ulimit -l) leaves out what comes later";
+}
+
+MemoryLock::~MemoryLock() {
+  if (locked_) munlockall();
+}
+
+std::string becomeRealTime(int cpu) {
+  touchStack();
+  std::string words = askForFifo();
+  if (cpu >= 0) words += "; " + askForCpu(cpu);
+  return words;
+}
+
+}  // namespace palpa::os

@@ -1,0 +1,31 @@
+#pragma once
+
+#include <string>
+
+namespace palpa::os {
+
+/// Keeps the whole process in memory while it lives, so that no tick waits for a page: what is
+/// there, and what comes later where the kernel sets no bound on it. Where it does, only what is
+/// there: locking what comes would make a later allocation fail. One at a time.
+class MemoryLock {
+ public:
+  MemoryLock();
+  ~MemoryLock();
+  MemoryLock(const MemoryLock&) = delete;
+  MemoryLock& operator=(const MemoryLock&) = delete;
+  /// "memory locked", "memory of the start locked: ...", "memory not locked: ...".
+  const std::string& words() const { return words_; }
+
+ private:
+  std::string words_;
+  bool locked_ = false;
+};
+
+/// Prepares the calling thread for steps in time: SCHED_FIFO where allowed, `cpu` where one is
+/// wanted
+/// (-1: any), 256 KiB of its stack touched beforehand. Says what it got, and why not what it did
+/// not get: "SCHED_FIFO", "normal priority: SCHED_FIFO refused (Operation not permitted); CPU 3
+/// refused (Invalid argument)".
+std::string becomeRealTime(int cpu);
+
+}  // namespace palpa::os

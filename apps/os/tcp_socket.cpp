@@ -1,0 +1,140 @@
+#include "apps/os/tcp_socket.h"
+
+#include <arpa/inet.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <poll.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+
+#include "anatomy/base/error.h"
+
+namespace palpa::os {
+namespace {
+
+bool wouldWait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
+
+std::optional<sockaddr_in> addressOf(const std::string& ipv4, std::uint16_t port) {
+  sockaddr_in address{};
+  address.sin_family = AF_INET;
+  address.sin_port = htons(port);
+  if (inet_pton(AF_INET, ipv4.c_str(), &address.sin_addr) != 1) return std::nullopt;
+  return address;
+}
+
+/// Small messages leave at once; a peer whose cable is pulled is noticed.
+void prepare(int fd) {
+  const int on = 1;
+  setsockopt(fd, IPPROTO_TCP, TCP_NODELAY, &on, sizeof on);
+  setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
+}
+
+bool ready(int fd, short what, int wait_ms) {
+  pollfd p{fd, what, 0};
+  return poll(&p, 1, wait_ms) > 0;
+}
+
+}  // namespace
+
+TcpSocket& TcpSocket::operator=(TcpSocket&& other) noexcept {
+  if (this == &other) return *this;
+  close();
+  fd_ = other.fd_;
+  other.fd_ = -1;
+  return *this;
+}
+
+void TcpSocket::close() {
+  if (fd_ >= 0) ::close(fd_);
+  fd_ = -1;
+}
+
+TcpSocket TcpSocket::connecting(const std::string& ipv4, std::uint16_t port) {
+  const auto address = addressOf(ipv4, port);
+  TcpSocket made(address ? socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0) : -1);
+  if (!made.open()) return made;
+  prepare(made.fd_);
+  if (connect(made.fd_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 &&
+      errno != EINPROGRESS)
+    made.close();
+  return made;
+}
+
+TcpSocket::Progress TcpSocket::connected(int wait_ms) const {
+  if (!open()) return Progress::failed;
+  if (!ready(fd_, POLLOUT, wait_ms)) return Progress::pending;
+  int error = 0;
+  socklen_t size = sizeof error;
+  return getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0 ? Progress::done
+                                                                                 : Progress::failed;
+}
+
+std::size_t TcpSocket::send(std::span<const std::uint8_t> bytes) {
+  if (!open()) return 0;
+  const ssize_t sent = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  if (sent >= 0) return static_cast<std::size_t>(sent);
+  if (!wouldWait(errno)) close();
+  return 0;
+}
+
+std::size_t TcpSocket::receive(std::span<std::uint8_t> buffer, int wait_ms) {
+  if (!open() || (wait_ms > 0 && !ready(fd_, POLLIN, wait_ms))) return 0;
+  const ssize_t got = recv(fd_, buffer.data(), buffer.size(), MSG_DONTWAIT);
+  if (got > 0) return static_cast<std::size_t>(got);
+  if (got == 0 || !wouldWait(errno)) close();
+  return 0;
+}
+
+TcpListener::TcpListener(const std::string& ipv4, std::uint16_t port) {
+  const auto address = addressOf(ipv4, port);
+  if (!address)
+    throw UsageError(
+        "is no network address of this computer", "\"" + ipv4 + "\"",
+        "Write it in figures: 127.0.0.1 for this computer only, 0.0.0.0 for every network");
+  fd_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
+  const int on = 1;
+  setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  sockaddr_in got{};
+  socklen_t size = sizeof got;
+  if (fd_ < 0 || bind(fd_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 ||
+      listen(fd_, 8) != 0 || getsockname(fd_, reinterpret_cast<sockaddr*>(&got), &size) != 0) {
+    const std::string why = std::strerror(errno);
+    if (fd_ >= 0) ::close(fd_);
+    throw Error("cannot be served (" + why + ")",
+                "OpenIGTLink at " + ipv4 + ":" + std::to_string(port),
+                "Choose another port, or end the program that holds it (3D Slicer's or PLUS' "
+                "server use 18944 too)");
+  }
+  port_ = ntohs(got.sin_port);
+}
+
+TcpListener::~TcpListener() { ::close(fd_); }
+
+TcpSocket TcpListener::accept() {
+  TcpSocket peer(accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  if (peer.open()) prepare(peer.descriptor());
+  return peer;
+}
+
+std::string ipv4Of(const std::string& host, const std::string& where) {
+  addrinfo hints{}, *found = nullptr;
+  hints.ai_family = AF_INET;
+  hints.ai_socktype = SOCK_STREAM;
+  if (const int error = getaddrinfo(host.c_str(), nullptr, &hints, &found); error != 0 || !found)
+    throw UsageError("\"" + host + "\" is not known (" + gai_strerror(error) + ")", where,
+                     "Write its address in figures, as 192.168.1.1, or mend the name");
+  char text[INET_ADDRSTRLEN] = "";
+  inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(found->ai_addr)->sin_addr, text,
+            sizeof text);
+  freeaddrinfo(found);
+  return text;
+}
+
+bool isLoopback(const std::string& ipv4) { return ipv4.rfind("127.", 0) == 0; }
+
+}  // namespace palpa::os

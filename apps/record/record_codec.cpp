@@ -1,0 +1,85 @@
+#include "apps/record/record_codec.h"
+
+#include <zlib.h>
+
+#include <cmath>
+#include <limits>
+#include <new>
+
+namespace palpa::record {
+
+Bytes transposed(ByteView records, std::size_t record_size) {
+  const std::size_t count = records.size() / record_size;
+  Bytes columns(records.size());
+  for (std::size_t row = 0; row < count; ++row) {
+    const std::uint8_t* from = records.data() + row * record_size;
+    std::uint8_t* to = columns.data() + row;
+    for (std::size_t k = 0; k < record_size; ++k) to[k * count] = from[k];
+  }
+  return columns;
+}
+
+Bytes untransposed(ByteView columns, std::size_t record_size) {
+  const std::size_t count = columns.size() / record_size;
+  Bytes records(columns.size());
+  for (std::size_t row = 0; row < count; ++row) {
+    const std::uint8_t* from = columns.data() + row;
+    std::uint8_t* to = records.data() + row * record_size;
+    for (std::size_t k = 0; k < record_size; ++k) to[k] = from[k * count];
+  }
+  return records;
+}
+
+Bytes packRecords(ByteView records, std::size_t record_size) {
+  const Bytes columns = transposed(records, record_size);
+  uLongf size = compressBound(static_cast<uLong>(columns.size()));
+  Bytes blob(size);
+  if (compress2(blob.data(), &size, columns.data(), static_cast<uLong>(columns.size()),
+                Z_BEST_SPEED) != Z_OK) {
+    throw std::bad_alloc();  // the only way left for compress2 to fail
+  }
+  blob.resize(size);
+  return blob;
+}
+
+std::optional<Bytes> unpackRecords(ByteView blob, std::size_t record_size, std::size_t count) {
+  Bytes columns(count * record_size);
+  uLongf size = static_cast<uLongf>(columns.size());
+  uLong used = static_cast<uLong>(blob.size());
+  if (uncompress2(columns.data(), &size, blob.data(), &used) != Z_OK) return std::nullopt;
+  if (size != columns.size() || used != blob.size()) return std::nullopt;
+  return untransposed(columns, record_size);
+}
+
+void RowChecksum::update(const void* data, std::size_t size) {
+  const std::uint64_t length = size;
+  crc_ = static_cast<std::uint32_t>(
+      crc32_z(crc_, reinterpret_cast<const Bytef*>(&length), sizeof(length)));
+  if (size > 0) {
+    crc_ = static_cast<std::uint32_t>(crc32_z(crc_, static_cast<const Bytef*>(data), size));
+  }
+}
+
+RowChecksum& RowChecksum::add(std::int64_t value) {
+  update(&value, sizeof(value));
+  return *this;
+}
+
+RowChecksum& RowChecksum::add(double value) {
+  if (std::isnan(value)) value = std::numeric_limits<double>::quiet_NaN();
+  if (value == 0) value = 0;  // SQLite keeps no sign of zero
+  update(&value, sizeof(value));
+  return *this;
+}
+
+RowChecksum& RowChecksum::add(std::string_view value) {
+  update(value.data(), value.size());
+  return *this;
+}
+
+RowChecksum& RowChecksum::add(ByteView value) {
+  update(value.data(), value.size());
+  return *this;
+}
+
+}  // namespace palpa::record

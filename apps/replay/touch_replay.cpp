@@ -1,0 +1,195 @@
+#include "apps/replay/touch_replay.h"
+
+#include "anatomy/parametric/phantoms.h"
+#include "apps/task_palpation/palpation_scene.h"
+#include "apps/task_search/search_scene.h"
+#include "apps/task_squeeze/squeeze_scene.h"
+
+namespace palpa::replay {
+namespace {
+
+class PalpationReplay final : public TrialReplay {
+ public:
+  PalpationReplay(const PalpationTrial& trial, scene::SceneView& view)
+      : TrialReplay(trial, trial.length_s()),
+        recorded_(trial),
+        map_(emptyMap()),
+        scene_({stage(view), anatomy::X_AP(), trial.rules.area, trial.tip_radius, ""}, bus_,
+               channels_) {}
+
+ private:
+  assess::CoverageMap emptyMap() const {
+    return {recorded_.rules.area, recorded_.rules.levels, recorded_.rules.reach};
+  }
+
+  /// What had been felt up to a moment: going back begins anew.
+  void feelUpTo(std::size_t samples) {
+    if (samples < felt_) {
+      map_ = emptyMap();
+      felt_ = 0;
+    }
+    for (; felt_ < samples; ++felt_) map_.add(recorded_.samples[felt_]);
+  }
+
+  void tell(double t_s, std::int64_t now_ns) override {
+    const PalpationMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
+    feelUpTo(moment.samples);
+    task_palpation::PalpationStatus status;
+    fill(status, t_s);
+    status.columns = map_.columns();
+    status.rows = map_.rows();
+    status.levels = task_palpation::levelsOf(map_);
+    for (std::size_t i = 0; i < moment.marks; ++i)
+      status.marks_P.push_back(recorded_.pressed[i].p_P);
+    status.lumps = recorded_.lumps;
+    status.pressed_N = moment.samples > 0 ? recorded_.samples[moment.samples - 1].f_n : 0;
+    status.level = task_palpation::levelOf(recorded_.rules.levels, status.pressed_N);
+    bus_.haptic_to_scene.publish(moment.tool, now_ns);
+    channels_.status_to_scene.publish(status, now_ns);
+  }
+
+  trial::TrialScene& scene() override { return scene_; }
+
+  const PalpationTrial& recorded_;
+  assess::CoverageMap map_;
+  std::size_t felt_ = 0;
+  task_palpation::PalpationChannels channels_{runtime::TimeMode::virtual_time};
+  task_palpation::PalpationScene scene_;
+};
+
+}  // namespace
+
+PalpationReader::PalpationReader(const haptics::TickConfig& config, int trial)
+    : X_ET_(unpack(config.X_ET)), listener_(config) {
+  listener_.begin(static_cast<std::uint32_t>(trial));
+}
+
+void PalpationReader::add(const haptics::FlightRecord& record) {
+  if (!listener_.add(record)) return;
+  moments_.push_back({listener_.seconds(), toolIn(record, X_ET_), listener_.samples().size(),
+                      listener_.marks().size()});
+}
+
+void PalpationReader::into(PalpationTrial& trial) const {
+  trial.moments = moments_;
+  trial.samples = listener_.samples();
+  trial.pressed = listener_.marks();
+}
+
+std::unique_ptr<TrialReplay> palpationReplay(const PalpationTrial& trial, scene::SceneView& view) {
+  return std::make_unique<PalpationReplay>(trial, view);
+}
+
+namespace {
+
+constexpr double kLongestGap = 0.1;  // s; longer: it was paused
+
+class SearchReplay final : public TrialReplay {
+ public:
+  SearchReplay(const SearchTrial& trial, scene::SceneView& view)
+      : TrialReplay(trial, trial.length_s()),
+        recorded_(trial),
+        scene_({stage(view), Pose::Identity(), anatomy::X_AP(), trial.side, trial.magnification},
+               bus_, channels_) {}
+
+ private:
+  void tell(double t_s, std::int64_t now_ns) override {
+    const SearchMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
+    task_search::SearchStatus status;
+    fill(status, moment.searched_s);
+    status.held = moment.held;
+    bus_.haptic_to_scene.publish(moment.tool, now_ns);
+    channels_.status_to_scene.publish(status, now_ns);
+  }
+
+  trial::TrialScene& scene() override { return scene_; }
+
+  const SearchTrial& recorded_;
+  task_search::SearchChannels channels_{runtime::TimeMode::virtual_time};
+  task_search::SearchScene scene_;
+};
+
+}  // namespace
+
+SearchReader::SearchReader(const task_search::SearchSettings& task,
+                           const haptics::TickConfig& config, int trial)
+    : config_(config),
+      listener_(task, config.augmentations),
+      trial_(static_cast<std::uint32_t>(trial)) {
+  listener_.begin(trial_);
+}
+
+void SearchReader::add(const haptics::FlightRecord& record) {
+  if (record.commands.trial != trial_ || !record.commands.armed) return;
+  listener_.add(record, task_search::tipOf(config_, record.reading));
+  const double dt = last_ns_ < 0 ? 0 : 1e-9 * static_cast<double>(record.t_ns - last_ns_);
+  last_ns_ = record.t_ns;
+  if (dt <= kLongestGap) seconds_ += dt;
+  if (!moments_.empty() && seconds_ - moments_.back().t_s < kMomentStep - 1e-9) return;
+  moments_.push_back(
+      {seconds_, toolIn(record, unpack(config_.X_ET)), !listener_.released(), listener_.seconds()});
+}
+
+std::unique_ptr<TrialReplay> searchReplay(const SearchTrial& trial, scene::SceneView& view) {
+  return std::make_unique<SearchReplay>(trial, view);
+}
+
+namespace {
+
+class SqueezeReplay final : public TrialReplay {
+ public:
+  SqueezeReplay(const SqueezeTrial& trial, scene::SceneView& view)
+      : TrialReplay(trial, trial.length_s()),
+        recorded_(trial),
+        scene_({stage(view), trial.X_AD2, trial.middle_A}, bus_, channels_) {}
+
+ private:
+  void tell(double t_s, std::int64_t now_ns) override {
+    const SqueezeMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
+    task_squeeze::SqueezeStatus status;
+    fill(status, t_s);
+    status.property = recorded_.comparison.property;
+    status.thing = moment.thing;
+    status.squeezed_N = moment.squeezed_N;
+    status.held = moment.held;
+    bus_.haptic_to_scene.publish(moment.tools[0], now_ns);
+    bus_.second_to_scene.publish(moment.tools[1], now_ns);
+    channels_.status_to_scene.publish(status, now_ns);
+  }
+
+  trial::TrialScene& scene() override { return scene_; }
+
+  const SqueezeTrial& recorded_;
+  task_squeeze::SqueezeChannels channels_{runtime::TimeMode::virtual_time};
+  task_squeeze::SqueezeScene scene_;
+};
+
+}  // namespace
+
+SqueezeReader::SqueezeReader(double touch_N, const std::array<Pose, 2>& X_ET,
+                             const task_squeeze::Comparison& comparison, int trial)
+    : X_ET_(X_ET), listener_(touch_N), trial_(static_cast<std::uint32_t>(trial)) {
+  listener_.begin(trial_, comparison);
+}
+
+void SqueezeReader::add(const haptics::FlightRecord& record) {
+  if (record.commands.trial != trial_ || !record.commands.armed) return;
+  listener_.add(record);
+  if (record.tool == 0) {
+    first_ = toolIn(record, X_ET_[0]);
+    return;
+  }
+  const double t_s = listener_.seconds();
+  if (!moments_.empty() && t_s - moments_.back().t_s < kMomentStep - 1e-9) return;
+  moments_.push_back({t_s,
+                      {first_, toolIn(record, X_ET_[1])},
+                      listener_.thing(record.commands),
+                      listener_.now_N(),
+                      listener_.held()});
+}
+
+std::unique_ptr<TrialReplay> squeezeReplay(const SqueezeTrial& trial, scene::SceneView& view) {
+  return std::make_unique<SqueezeReplay>(trial, view);
+}
+
+}  // namespace palpa::replay

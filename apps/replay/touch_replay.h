@@ -1,0 +1,121 @@
+#pragma once
+
+#include <array>
+#include <memory>
+#include <vector>
+
+#include "apps/replay/trial_replay.h"
+#include "apps/task_palpation/palpation_task.h"
+#include "apps/task_search/search_task.h"
+#include "apps/task_squeeze/squeeze_task.h"
+
+namespace palpa::replay {
+
+/// One in 10 ms of a palpation; so many samples were felt and marks made up to it.
+struct PalpationMoment {
+  double t_s = 0;  ///< since the trial's start; pauses do not count
+  runtime::ToolState tool;
+  std::size_t samples = 0, marks = 0;
+};
+
+/// A recorded palpation, ready to be shown at any moment. What lies inside is seen from the start:
+/// who looks back may know it.
+struct PalpationTrial : ShownTrial {
+  assess::PalpationRules rules;
+  double tip_radius = 0.008;             ///< m
+  std::vector<PalpationMoment> moments;  ///< not empty
+  std::vector<assess::PalpationSample> samples;
+  std::vector<assess::LumpMark> pressed;  ///< the lumps that were marked
+  std::vector<task_palpation::PalpationStatus::Shown> lumps;
+  double length_s() const { return moments.back().t_s; }
+};
+
+/// Takes a session's ticks in their order and keeps those of one trial.
+class PalpationReader {
+ public:
+  PalpationReader(const haptics::TickConfig& config, int trial);
+  void add(const haptics::FlightRecord& record);
+  double seconds() const { return listener_.seconds(); }
+  void into(PalpationTrial& trial) const;  ///< moments, samples, marks
+
+ private:
+  Pose X_ET_;
+  task_palpation::PalpationListener listener_;
+  std::vector<PalpationMoment> moments_;
+};
+
+/// The trial and the view outlive what is answered.
+std::unique_ptr<TrialReplay> palpationReplay(const PalpationTrial& trial, scene::SceneView& view);
+
+struct SearchMoment {
+  double t_s = 0;  ///< since the trial's start, the holding included; pauses do not count
+  runtime::ToolState tool;
+  bool held = false;
+  double searched_s = 0;  ///< since the handle was let go
+};
+
+/// A recorded episode of a search, ready to be shown at any moment.
+struct SearchTrial : ShownTrial {
+  double side = 0.0144;               ///< m, of the floor in the hand
+  double magnification = 10;          ///< of what is shown
+  std::vector<SearchMoment> moments;  ///< not empty
+  double length_s() const { return moments.back().t_s; }
+};
+
+/// Takes a session's ticks in their order and keeps of one trial a moment every 4 ms.
+class SearchReader {
+ public:
+  SearchReader(const task_search::SearchSettings& task, const haptics::TickConfig& config,
+               int trial);
+  void add(const haptics::FlightRecord& record);
+  const std::vector<SearchMoment>& moments() const { return moments_; }
+
+ private:
+  const haptics::TickConfig& config_;
+  task_search::SearchListener listener_;
+  std::uint32_t trial_;
+  std::int64_t last_ns_ = -1;
+  double seconds_ = 0;
+  std::vector<SearchMoment> moments_;
+};
+
+/// The trial and the view outlive what is answered.
+std::unique_ptr<TrialReplay> searchReplay(const SearchTrial& trial, scene::SceneView& view);
+
+struct SqueezeMoment {
+  double t_s = 0;  ///< since the trial's start; pauses do not count
+  std::array<runtime::ToolState, 2> tools;
+  int thing = 0;  ///< 0 or 1: which of the two is felt
+  double squeezed_N = 0;
+  bool held = false;
+};
+
+/// A recorded comparison, ready to be shown at any moment.
+struct SqueezeTrial : ShownTrial {
+  Pose X_AD2 = Pose::Identity();  ///< the second device's base
+  Vec3 middle_A = Vec3::Zero();   ///< of the object at rest
+  task_squeeze::Comparison comparison;
+  std::vector<SqueezeMoment> moments;  ///< not empty
+  double length_s() const { return moments.back().t_s; }
+};
+
+/// Takes both tools' ticks in their order and keeps of one trial a moment every 4 ms.
+class SqueezeReader {
+ public:
+  SqueezeReader(double touch_N, const std::array<Pose, 2>& X_ET,
+                const task_squeeze::Comparison& comparison, int trial);
+  void add(const haptics::FlightRecord& record);
+  const std::vector<SqueezeMoment>& moments() const { return moments_; }
+
+ private:
+  std::array<Pose, 2> X_ET_;
+  task_squeeze::SqueezeListener listener_;
+  std::uint32_t trial_;
+  runtime::ToolState first_;
+  std::vector<SqueezeMoment> moments_;
+};
+
+/// The trial and the view outlive what is answered.
+std::unique_ptr<TrialReplay> squeezeReplay(const SqueezeTrial& trial, scene::SceneView& view);
+
+}  // namespace palpa::replay

@@ -1,0 +1,155 @@
+#include <algorithm>
+#include <cmath>
+
+#include "apps/report/needle/trial_sections.h"
+#include "apps/report/page/numbers.h"
+
+namespace palpa::report {
+namespace {
+
+constexpr std::size_t kMostMoments = 6;
+
+double finiteOrZero(double value) { return std::isfinite(value) ? value : 0; }
+
+std::string momentsText(const std::vector<double>& moments_s) {
+  std::string text;
+  for (std::size_t i = 0; i < std::min(moments_s.size(), kMostMoments); ++i) {
+    text += (i ? ", " : "at ") + fixed(moments_s[i], 1) + " s";
+  }
+  if (moments_s.size() > kMostMoments) {
+    text += " and " + std::to_string(moments_s.size() - kMostMoments) + " more";
+  }
+  return text;
+}
+
+std::string valueText(const assess::Penalty& penalty) {
+  const double size = std::fabs(finiteOrZero(penalty.value));
+  const std::string unit(unitOf(penalty.code));
+  return trimmed(penalty.value, size >= 1000  ? 0
+                                : size >= 100 ? 1
+                                              : 2) +
+         (unit.empty() ? "" : " " + unit);
+}
+
+void writeReason(Html& html, const assess::Penalty& penalty) {
+  const auto cell = html.in("td", {{"class", "reason"}});
+  html.element("strong", penalty.title);
+  html.element("code", penalty.code);
+  html.element("p", penalty.sentence);
+  // One moment usually stands in the sentence; several are listed.
+  if (penalty.moments_s.size() > 1) {
+    html.element("p", {{"class", "muted"}}, momentsText(penalty.moments_s));
+  }
+}
+
+void writePoints(Html& html, const assess::Penalty& penalty, double most) {
+  const auto cell = html.in("td", {{"class", "points"}});
+  html.element("strong", fixed(penalty.points, 1));
+  const double share =
+      most > 0 ? 100 * std::clamp(finiteOrZero(penalty.points) / most, 0.0, 1.0) : 0;
+  const auto bar = html.in("svg", {{"class", "bar"},
+                                   {"viewBox", "0 0 100 6"},
+                                   {"preserveAspectRatio", "none"},
+                                   {"role", "img"},
+                                   {"aria-label", fixed(penalty.points, 1) + " points"}});
+  html.empty("rect", {{"class", "lane"}, {"width", "100"}, {"height", "6"}});
+  html.empty("rect", {{"class", "span bad"}, {"width", coordinate(share)}, {"height", "6"}});
+}
+
+void writeRow(Html& html, const assess::Penalty& penalty, double most) {
+  const auto row = html.in("tr", {{"class", penalty.points > 0 ? "charged" : "clear"}});
+  writeReason(html, penalty);
+  html.element("td", {{"class", "sum"}}, valueText(penalty) + " × " + trimmed(penalty.weight, 3));
+  writePoints(html, penalty, most);
+}
+
+void writeHead(Html& html) {
+  const auto head = html.in("thead");
+  const auto row = html.in("tr");
+  html.element("th", {{"scope", "col"}}, "What was charged, and why");
+  html.element("th", {{"scope", "col"}, {"class", "sum"}}, "value × weight");
+  html.element("th", {{"scope", "col"}, {"class", "points"}}, "= points");
+}
+
+}  // namespace
+
+std::vector<assess::Penalty> byPoints(std::vector<assess::Penalty> penalties) {
+  std::stable_sort(penalties.begin(), penalties.end(), [](const auto& a, const auto& b) {
+    return finiteOrZero(a.points) > finiteOrZero(b.points);
+  });
+  return penalties;
+}
+
+void writeScoreTable(Html& html, const assess::TrialAssessment& assessment) {
+  const auto penalties = byPoints(assessment.penalties);
+  if (penalties.empty()) {
+    html.element("p", {{"class", "muted"}}, "This trial was not scored.");
+    return;
+  }
+  const auto table = html.in("table", {{"class", "score"}});
+  writeHead(html);
+  {
+    const auto body = html.in("tbody");
+    for (const auto& penalty : penalties) writeRow(html, penalty, penalties.front().points);
+  }
+  const auto foot = html.in("tfoot");
+  const auto row = html.in("tr");
+  html.element("td", "Total penalty (lower is better)");
+  html.element("td", {{"class", "sum"}}, "");
+  const auto cell = html.in("td", {{"class", "points"}});
+  html.element("strong", fixed(assessment.total, 1));
+}
+
+namespace {
+
+constexpr Code kCodes[] = {
+    {"COL_LUNG", "samples",
+     "Scoring samples, 20 a second, in which the needle was in contact with the lung."},
+    {"COL_RIB", "samples",
+     "The same for ribs and skeleton. Touching the clavicle lightly to find the way beneath it "
+     "does "
+     "not count."},
+    {"COL_ART", "samples", "The same for arteries."},
+    {"COL_VEIN", "samples",
+     "Contact with the vein other than the successful entry and aspiration; its back wall always "
+     "counts."},
+    {"PHASE_1", "mm",
+     "Insertion: distance of the entry point from the optimum, plus the error in depth before the "
+     "needle is turned."},
+    {"PHASE_2", "",
+     "Direction: deviation of the turned needle from the optimum. 1000 is the edge of what is "
+     "acceptable; below it nothing is charged."},
+    {"ECON_MEAN", "mm",
+     "Economy of movement: mean distance of the needle from the optimal line while it is "
+     "advanced."},
+    {"ECON_VAR", "mm²",
+     "Economy of movement: variance of that distance; a steady hand has little."},
+    {"TIME", "ms", "From the start of the trial to its end."},
+    {"TOTAL", "points", "Sum of weight × value over all of the above. Lower is better."}};
+
+}  // namespace
+
+std::string_view unitOf(const std::string& code) {
+  for (const Code& entry : kCodes) {
+    if (entry.code == code) return entry.unit;
+  }
+  return "";
+}
+
+void writeGlossary(Html& html) {
+  html.element("h2", "What these numbers mean");
+  {
+    const auto list = html.in("dl", {{"class", "glossary"}});
+    for (const Code& entry : kCodes) {
+      html.element("dt", entry.code);
+      html.element("dd", entry.meaning);
+    }
+  }
+  html.element(
+      "p", {{"class", "muted"}},
+      "Source: C. S. Tzafestas, K. Birbas, Y. Koumpouros, D. Christopoulos: Pilot Evaluation "
+      "Study of a Virtual Paracentesis Simulator for Skill Training and Assessment: The "
+      "Beneficial Effect of Haptic Display. Presence 17(2), 212–229, 2008.");
+}
+
+}  // namespace palpa::report

@@ -1,0 +1,149 @@
+#include "apps/report/needle/session_report.h"
+
+#include <algorithm>
+#include <string>
+
+#include "anatomy/base/whole_file.h"
+#include "apps/report/needle/trial_chart.h"
+#include "apps/report/needle/trial_sections.h"
+#include "apps/report/page/html.h"
+#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
+#include "apps/report/page/subtask_table.h"
+
+namespace palpa::report {
+namespace {
+
+bool isSimulated(const SessionReport& report) {
+  return report.simulated || std::any_of(report.trials.begin(), report.trials.end(),
+                                         [](const auto& t) { return t.assessment.simulated; });
+}
+
+bool byPath(const SessionReport& report) {
+  return std::all_of(report.trials.begin(), report.trials.end(),
+                     [](const auto& t) { return t.assessment.by_path; });
+}
+
+void writeLinks(Html& html, const SessionReport& report) {
+  if (report.trials.size() < 2) return;
+  const auto nav = html.in("nav", {{"aria-label", "Trials"}});
+  for (const TrialPage& page : report.trials) {
+    const std::string number = std::to_string(page.assessment.trial);
+    html.element("a",
+                 {{"href", "#trial-" + number},
+                  {"class", std::string("dot ") + cssClass(toneOfOutcome(page.assessment))},
+                  {"title", outcomeWords(page.assessment)}},
+                 "Trial " + number);
+  }
+  html.element("a", {{"href", "#all-trials"}}, "All trials");
+}
+
+void writeHeader(Html& html, const SessionReport& report) {
+  const auto header = html.in("header");
+  html.element("h1", report.title);
+  writeWho(html, report.trainee, report.when, report.trials.size());
+  if (isSimulated(report)) writeSimulatedBanner(html);
+  writeLinks(html, report);
+}
+
+void writeFooter(Html& html, const SessionReport& report) {
+  const auto footer = html.in("footer");
+  if (byPath(report)) {
+    const auto card = html.in("div", {{"class", "card"}});
+    writeGlossary(html);
+  }
+  writeMadeBy(html, {&report.station, &report.notes, &report.registration});
+}
+
+std::string page(const SessionReport& report) {
+  Html html;
+  html.raw("<!doctype html>\n");
+  {
+    const auto root = html.in("html", {{"lang", "en"}});
+    writeHeadElement(html, report.title, report.trainee,
+                     std::string(subtaskTableStyle()) + std::string(competenceStyle()));
+    const auto body = html.in("body");
+    writeHeader(html, report);
+    {
+      const auto main = html.in("main");
+      for (const TrialPage& trial : report.trials) writeTrialSection(html, trial);
+      writeOverview(html, report.trials);
+      writeSubtaskSection(html, report.parts);
+      writeFacts(html, "Where this task stands", report.taxonomy);
+      writeFacts(html, "Registration", report.registration);
+      writeFacts(html, "Station", report.station);
+      writeFacts(html, "Notes", report.notes);
+    }
+    writeFooter(html, report);
+  }
+  return html.str();
+}
+
+}  // namespace
+
+void writeReport(const SessionReport& report, const std::filesystem::path& file) {
+  writeWhole(file, page(report));
+}
+
+void writeTrialSection(Html& html, const TrialPage& page) {
+  const assess::TrialAssessment& trial = page.assessment;
+  const std::string id = "trial-" + std::to_string(trial.trial);
+  const auto section = html.in("section", {{"class", "card trial"}, {"id", id}});
+  {
+    const auto heading = html.in("h2");
+    html.text("Trial " + std::to_string(trial.trial));
+    if (!trial.role.empty()) html.element("span", {{"class", "role"}}, trial.role);
+  }
+  writeVerdict(html, trial);
+  writeCompetence(html, page);
+  if (trial.by_path) {
+    html.element("h3", "Score");
+    writeScoreTable(html, trial);
+  }
+  html.element("h3", "Course of the trial");
+  writeTrialChart(html, page);
+  if (trial.by_path) writeNearMisses(html, trial);
+  writePictures(html, page.pictures);
+}
+
+namespace {
+
+constexpr const char* kHeader =
+    "USER_ID,FF,COL_LUNG,COL_RIB,COL_ART,COL_VEIN,PHASE_1,PHASE_2,ECON_MEAN,ECON_VAR,TIME,SUCCESS,"
+    "TRIAL,SEED,SIMULATED,TOTAL,AUGMENTED";
+
+/// RFC 4180: quoted only where needed, quotes doubled.
+std::string field(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string quoted = "\"";
+  for (const char c : text) quoted += c == '"' ? std::string("\"\"") : std::string(1, c);
+  return quoted + '"';
+}
+
+std::string row(const std::string& user_id, const assess::TrialAssessment& trial) {
+  const assess::ParacentesisValues& v = trial.values;
+  std::string line = field(user_id) + (trial.force_feedback ? ",1" : ",0");
+  for (const double value : {v.col_lung, v.col_rib, v.col_art, v.col_vein, v.phase_1, v.phase_2,
+                             v.econ_mean, v.econ_var}) {
+    line += ',' + (trial.by_path ? shortest(value) : "");
+  }
+  line += ',' + shortest(v.time_ms);
+  line += v.success ? ",1," : ",0,";
+  return line + std::to_string(trial.trial) + ',' + std::to_string(trial.seed) +
+         (trial.simulated ? ",1," : ",0,") + (trial.by_path ? shortest(trial.total) : "") +
+         (trial.augmented ? ",1" : ",0");
+}
+
+}  // namespace
+
+void writeTrialsCsv(const std::string& user_id, const std::vector<assess::TrialAssessment>& trials,
+                    const std::filesystem::path& file) {
+  const std::vector<assess::SubtaskDose> parts =
+      trials.empty() ? std::vector<assess::SubtaskDose>() : trials.front().doses;
+  std::string csv = kHeader + subtaskColumns(parts) + '\n';
+  for (const auto& trial : trials)
+    csv += row(user_id, trial) + subtaskFields(parts, trial.doses) + '\n';
+  writeWhole(file, csv);
+}
+
+}  // namespace palpa::report

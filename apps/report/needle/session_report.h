@@ -1,0 +1,57 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "apps/assess/competence/verdict.h"
+#include "apps/assess/needle/trial_assessment.h"
+#include "apps/report/page/page_parts.h"
+#include "apps/report/page/subtask_table.h"
+
+namespace palpa::report {
+
+/// Another trial, drawn beside this one.
+struct BesideTrial {
+  std::string label;                         ///< "expert": in the legend
+  std::string words;                         ///< whose trial it is, a sentence
+  std::vector<assess::TrialSample> samples;  ///< as below
+};
+
+struct TrialPage {
+  assess::TrialAssessment assessment;
+  std::vector<assess::TrialSample> samples;  ///< about 100 Hz is plenty for the plots
+  std::vector<Picture> pictures;
+  std::optional<competence::Verdict> verdict = {};  ///< its checklist must outlive the page
+  std::string certification = {};  ///< what so few trials cannot certify; beside a verdict
+  BesideTrial beside = {};         ///< without samples: none
+};
+
+struct SessionReport {
+  std::string title;       ///< "Paracentesis of the subclavian vein, right side"
+  std::string trainee;     ///< pseudonym, "simulated expert", ...
+  bool simulated = false;  ///< operator or bench are simulated: said on top and beside results
+  std::string when;        ///< date and time, empty in virtual time
+  std::vector<TrialPage> trials;
+  std::vector<Fact> station;  ///< device, camera, display, rates
+  std::vector<Fact>
+      registration;            ///< registration error and its source, simulated truth named as such
+  std::vector<Fact> notes;     ///< lateness, lost tracking, safety trips
+  std::vector<Fact> taxonomy;  ///< "Where this task stands"
+  SubtaskSection parts;
+};
+
+/// Writes one self-contained HTML page (no network, no script needed to read it). Beside, then
+/// renamed.
+void writeReport(const SessionReport& report, const std::filesystem::path& file);
+
+/// trials.csv: header row, then one row a trial: USER_ID FF COL_LUNG COL_RIB COL_ART COL_VEIN
+/// PHASE_1 PHASE_2 ECON_MEAN ECON_VAR TIME SUCCESS TRIAL SEED SIMULATED TOTAL AUGMENTED (cues were
+/// added to the forces), then of each part of the task what subtask_csv.h says; empty: what a task
+/// with a goal of its own has not. No date, path or host timing.
+void writeTrialsCsv(const std::string& user_id, const std::vector<assess::TrialAssessment>& trials,
+                    const std::filesystem::path& file);
+
+}  // namespace palpa::report

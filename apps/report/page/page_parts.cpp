@@ -1,0 +1,154 @@
+#include "apps/report/page/page_parts.h"
+
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include "anatomy/base/base64.h"
+#include "apps/report/page/numbers.h"
+#include "apps/report/page/style.h"
+
+namespace palpa::report {
+namespace {
+
+std::string softwareAmong(std::initializer_list<const std::vector<Fact>*> groups) {
+  for (const auto* facts : groups) {
+    for (const Fact& fact : *facts) {
+      std::string name = fact.name;
+      std::transform(name.begin(), name.end(), name.begin(),
+                     [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+      if (name == "software" || name == "software version") return fact.value;
+    }
+  }
+  return "";
+}
+
+}  // namespace
+
+void writeHeadElement(Html& html, const std::string& title, const std::string& trainee,
+                      std::string_view more_style) {
+  const auto head = html.in("head");
+  html.empty("meta", {{"charset", "utf-8"}});
+  html.empty("meta", {{"name", "viewport"}, {"content", "width=device-width, initial-scale=1"}});
+  html.empty("meta", {{"name", "color-scheme"}, {"content", "light dark"}});
+  html.element("title", title + (trainee.empty() ? "" : " · " + trainee));
+  const auto style = html.in("style");
+  html.raw(styleSheet());
+  html.raw(more_style);
+}
+
+void writeWho(Html& html, const std::string& trainee, const std::string& when, std::size_t trials) {
+  const auto who = html.in("p", {{"class", "who"}});
+  const auto item = [&](const char* name, const std::string& value) {
+    if (value.empty()) return;
+    const auto span = html.in("span");
+    html.text(std::string(name) + ' ');
+    html.element("strong", value);
+  };
+  item("Trainee", trainee);
+  item("Date", when);
+  item("Trials", std::to_string(trials));
+}
+
+void writeSimulatedBanner(Html& html) {
+  const auto banner = html.in("p", {{"class", "banner"}, {"role", "note"}});
+  html.element("strong", "SIMULATED");
+  html.text("The operator or the bench is simulated. These results say nothing about a person.");
+}
+
+void writeFactTable(Html& html, const std::vector<Fact>& facts) {
+  if (facts.empty()) return;
+  const auto table = html.in("table", {{"class", "facts"}});
+  const auto body = html.in("tbody");
+  for (const Fact& fact : facts) {
+    const auto row = html.in("tr");
+    html.element("th", {{"scope", "row"}}, fact.name);
+    html.element("td", {{"class", "value"}}, fact.value);
+    html.element("td", {{"class", "muted"}}, fact.remark);
+  }
+}
+
+void writeFacts(Html& html, const char* title, const std::vector<Fact>& facts) {
+  if (facts.empty()) return;
+  const auto section = html.in("section", {{"class", "card"}});
+  html.element("h2", title);
+  writeFactTable(html, facts);
+}
+
+void writeMadeBy(Html& html, std::initializer_list<const std::vector<Fact>*> groups) {
+  const std::string software = softwareAmong(groups);
+  if (!software.empty()) html.element("p", {{"class", "muted small"}}, "Made by " + software + ".");
+}
+
+namespace {
+
+void writeRows(Html& html, const DataTable& data) {
+  const auto scroll = html.in("div", {{"class", "scroll"}, {"tabindex", "0"}});
+  const auto table = html.in("table", {{"class", "data"}});
+  {
+    const auto head = html.in("thead"), row = html.in("tr");
+    for (std::size_t i = 0; i < data.columns.size(); ++i)
+      html.element("th", {{"scope", "col"}, {"class", i >= data.words_from ? "words" : ""}},
+                   data.columns[i]);
+  }
+  const auto body = html.in("tbody");
+  for (const std::vector<std::string>& cells : data.rows) {
+    const auto row = html.in("tr");
+    for (std::size_t i = 0; i < cells.size(); ++i) {
+      if (i == 0)
+        html.element("th", {{"scope", "row"}}, cells[i]);
+      else
+        html.element("td", {{"class", i >= data.words_from ? "words" : ""}}, cells[i]);
+    }
+  }
+}
+
+}  // namespace
+
+void writeDataTable(Html& html, const DataTable& table) {
+  if (table.rows.empty()) return;
+  const auto details = html.in("details", {{"class", "behind"}});
+  html.element("summary", table.title);
+  writeRows(html, table);
+}
+
+void writeOpenTable(Html& html, const DataTable& table) {
+  if (!table.rows.empty()) writeRows(html, table);
+}
+
+namespace {
+
+/// The file's bytes if it is a PNG, else "".
+std::string readPng(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  return bytes.starts_with("\x89PNG\r\n\x1a\n") ? bytes : "";
+}
+
+void writeOne(Html& html, const Picture& picture) {
+  const auto figure = html.in("figure", {{"class", "picture"}});
+  const std::string bytes = readPng(picture.file);
+  if (bytes.empty()) {
+    html.element("p", {{"class", "missing"}},
+                 "The picture " + picture.file.filename().string() + " could not be read.");
+  } else {
+    html.empty("img",
+               {{"src", "data:image/png;base64," + base64(bytes)}, {"alt", picture.caption}});
+  }
+  const auto caption = html.in("figcaption");
+  if (picture.t_s >= 0) html.element("span", {{"class", "time"}}, fixed(picture.t_s, 1) + " s");
+  html.text(picture.caption);
+}
+
+}  // namespace
+
+void writePictures(Html& html, const std::vector<Picture>& pictures) {
+  if (pictures.empty()) return;
+  html.element("h3", "Pictures");
+  const auto grid = html.in("div", {{"class", "pictures"}});
+  for (const Picture& picture : pictures) writeOne(html, picture);
+}
+
+}  // namespace palpa::report

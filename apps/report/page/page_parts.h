@@ -1,0 +1,63 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <initializer_list>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/report/page/html.h"
+
+/// What the page of any session is made of, besides its trials.
+namespace palpa::report {
+
+/// A figure with its name, for tables of facts ("Registration error at the entry point, median":
+/// "0.4 mm").
+struct Fact {
+  std::string name, value, remark;
+};
+
+struct Picture {
+  std::filesystem::path file;  ///< PNG beside the report; embedded into it
+  std::string caption;
+  double t_s = -1;  ///< moment in the trial; < 0: none
+};
+
+/// <head> with title ("Paracentesis · P07") and style sheet; `more_style` is CSS of a page's own.
+void writeHeadElement(Html& html, const std::string& title, const std::string& trainee,
+                      std::string_view more_style = {});
+
+/// Trainee, date, number of trials; what is empty is left out.
+void writeWho(Html& html, const std::string& trainee, const std::string& when, std::size_t trials);
+
+/// "SIMULATED", on top of a page whose operator or bench is.
+void writeSimulatedBanner(Html& html);
+
+/// Name, value and remark, one fact a row; nothing where there are none.
+void writeFactTable(Html& html, const std::vector<Fact>& facts);
+/// The same in a card with a title.
+void writeFacts(Html& html, const char* title, const std::vector<Fact>& facts);
+
+/// "Made by ...": from the first fact named "software" or "software version", in whatever group it
+/// stands.
+void writeMadeBy(Html& html, std::initializer_list<const std::vector<Fact>*> groups);
+
+/// The figures behind a plot: closed until asked for, the first column names the rows. On paper it
+/// stays closed.
+struct DataTable {
+  std::string title;  ///< "The figures of this plot"
+  std::vector<std::string> columns;
+  std::vector<std::vector<std::string>> rows;  ///< as long as `columns`
+  std::size_t words_from = SIZE_MAX;           ///< from this column on they are words, not figures
+};
+void writeDataTable(Html& html, const DataTable& table);
+
+/// The same always open.
+void writeOpenTable(Html& html, const DataTable& table);
+
+/// The pictures with caption and moment, embedded. One that cannot be read (or is no PNG) is named
+/// in its place: a lost picture must not cost the report.
+void writePictures(Html& html, const std::vector<Picture>& pictures);
+
+}  // namespace palpa::report

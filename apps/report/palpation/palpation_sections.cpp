@@ -1,0 +1,248 @@
+#include "apps/report/palpation/palpation_sections.h"
+
+#include <cmath>
+#include <utility>
+
+#include "apps/assess/palpation/palpation_assessment.h"
+#include "apps/assess/statistics/sample.h"
+#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
+#include "apps/report/palpation/palpation_charts.h"
+
+namespace palpa::report {
+namespace {
+
+void drawVerdictSign(Html& html, Tone tone) {
+  const auto svg =
+      html.in("svg", {{"class", "sign"}, {"viewBox", "0 0 40 40"}, {"aria-hidden", "true"}});
+  html.empty("circle", {{"cx", "20"}, {"cy", "20"}, {"r", "19"}});
+  html.empty("path", {{"d", tone == Tone::good  ? "M10 21l7 7 13-15"
+                            : tone == Tone::bad ? "M12 12l16 16M28 12l-16 16"
+                                                : "M11 20h18"}});
+}
+
+void writeLumpsFound(Html& html, const assess::PalpationAssessment& trial) {
+  const auto box = html.in("div", {{"class", "total"}});
+  const int lumps = trial.score.found + trial.score.missed;
+  const bool counts = trial.facts.outcome != "void" && lumps > 0;
+  html.element("strong",
+               counts ? std::to_string(trial.score.found) + " of " + std::to_string(lumps) : "–");
+  html.element("span", counts       ? (lumps == 1 ? "lump found" : "lumps found")
+                       : lumps == 0 ? "no lump to find"
+                                    : "not judged");
+}
+
+void writePalpationTiles(Html& html, const assess::PalpationAssessment& trial) {
+  const auto tiles = html.in("ul", {{"class", "tiles"}});
+  const auto tile = [&](const char* name, const std::string& value) {
+    const auto item = html.in("li");
+    html.element("span", name);
+    html.element("strong", value);
+  };
+  tile("Duration", fixed(trial.score.seconds, 1) + " s");
+  tile("Area felt", fixed(100 * trial.score.coverage[0], 1) + " %");
+  tile("False alarms", std::to_string(trial.score.false_alarms));
+  tile("Force feedback", trial.facts.force_feedback ? "on" : "off");
+  tile("Seed", std::to_string(trial.facts.seed));
+}
+
+void writePalpationVerdict(Html& html, const assess::PalpationAssessment& trial) {
+  const Tone tone = toneOfPalpation(trial);
+  const auto box = html.in("div", {{"class", std::string("verdict ") + cssClass(tone)}});
+  drawVerdictSign(html, tone);
+  {
+    const auto words = html.in("div", {{"class", "finding"}});
+    {
+      const auto line = html.in("p", {{"class", "outcome"}});
+      html.text(palpationVerdict(trial));
+      if (trial.facts.simulated) html.element("span", {{"class", "badge"}}, "simulated");
+    }
+    html.element("p", trial.summary);
+  }
+  writeLumpsFound(html, trial);
+}
+
+void writeAdvice(Html& html, const assess::PalpationAssessment& trial) {
+  if (trial.facts.outcome == "void") return;
+  html.element("h3", "What to do better");
+  if (trial.advice.empty()) {
+    html.element("p", "Nothing that these measures show.");
+    return;
+  }
+  const auto list = html.in("ol", {{"class", "advice"}});
+  for (const std::string& sentence : trial.advice) html.element("li", sentence);
+}
+
+}  // namespace
+
+std::string palpationVerdict(const assess::PalpationAssessment& trial) {
+  const std::string& outcome = trial.facts.outcome;
+  if (outcome == "void") return "Not judged: void";
+  if (outcome.empty()) return "Not judged: not finished";
+  if (!assess::counts(trial))
+    return "Not counted: " + (trial.facts.augmented ? std::string("cues were added to the forces")
+                                                    : trial.facts.role);
+  if (trial.passed) return "At the standard";
+  if (outcome == "aborted") return "Below the standard: stopped early";
+  return outcome == "time" ? "Below the standard: time limit reached" : "Below the standard";
+}
+
+Tone toneOfPalpation(const assess::PalpationAssessment& trial) {
+  if (!assess::counts(trial)) return Tone::neutral;
+  return trial.passed ? Tone::good : Tone::bad;
+}
+
+void writePalpationSection(Html& html, const PalpationPage& page) {
+  const assess::PalpationAssessment& trial = page.assessment;
+  const std::string number = std::to_string(trial.facts.trial);
+  const auto section = html.in("section", {{"class", "card trial"}, {"id", "trial-" + number}});
+  {
+    const auto heading = html.in("h2");
+    html.text("Trial " + number);
+    if (!trial.facts.role.empty()) html.element("span", {{"class", "role"}}, trial.facts.role);
+  }
+  writePalpationVerdict(html, trial);
+  writePalpationTiles(html, trial);
+  writeAdvice(html, trial);
+  html.element("h3", "What was felt, and where the lumps are");
+  html.element("p",
+               "The searched area from above, with you at its lower edge. The stronger the colour "
+               "of a cell and the more dots in it, the more firmly it was felt.");
+  writeCoverageChart(html, page);
+  writeLumpTable(html, page);
+  html.element("h3", "Pressing force");
+  writePressingChart(html, page);
+  html.element("h3", "Figures");
+  writePalpationFigures(html, page);
+  writePictures(html, page.pictures);
+}
+
+namespace {
+
+struct PalpationSums {
+  int trials = 0, left_out = 0, passed = 0, found = 0, lumps = 0, false_alarms = 0, clear = 0,
+      wrong = 0;
+};
+
+PalpationSums sumsOf(const std::vector<PalpationPage>& trials) {
+  PalpationSums sums;
+  for (const PalpationPage& page : trials) {
+    const assess::PalpationAssessment& trial = page.assessment;
+    if (!assess::counts(trial)) {
+      ++sums.left_out;
+      continue;
+    }
+    ++sums.trials;
+    sums.passed += trial.passed;
+    sums.found += trial.score.found;
+    sums.lumps += trial.score.found + trial.score.missed;
+    sums.false_alarms += trial.score.false_alarms;
+    sums.clear += trial.score.clear_quadrants;
+    sums.wrong += trial.score.wrong_quadrants;
+  }
+  return sums;
+}
+
+std::string numberOf(int n, const char* one, const char* many) {
+  return std::to_string(n) + ' ' + (n == 1 ? one : many);
+}
+
+/// "71 %" and "95 % interval: 36 % to 92 %".
+Fact shareFact(const char* name, int hits, int of, const std::string& what) {
+  if (of == 0) return {name, "–", "nothing to tell it from"};
+  const statistics::ShareInterval share = statistics::wilson(hits, of);
+  const auto percent = [](double value) { return fixed(100 * value, 0) + " %"; };
+  return {name, percent(share.share),
+          "95 % interval " + percent(share.low) + " to " + percent(share.high) + "; " + what};
+}
+
+std::string totalsSentence(const PalpationSums& sums) {
+  const std::string trials = numberOf(sums.trials, "scored trial", "scored trials"),
+                    alarms = numberOf(sums.false_alarms, "false alarm", "false alarms");
+  const std::string found = sums.lumps == 0 ? "No lump was to be found in " + trials + "; "
+                                            : "Found " + std::to_string(sums.found) + " of " +
+                                                  numberOf(sums.lumps, "lump", "lumps") + " in " +
+                                                  trials + "; ";
+  return found + alarms + ".";
+}
+
+Fact judgementFact(const std::vector<PalpationPage>& pages,
+                   const assess::PalpationStandard& standard) {
+  std::vector<assess::PalpationAssessment> trials;
+  for (const PalpationPage& page : pages) trials.push_back(page.assessment);
+  const assess::PalpationJudgement judgement = assess::judgementOf(trials, standard);
+  using Verdict = assess::PalpationJudgement::Verdict;
+  if (judgement.lumps == 0) return {"Passed?", "not judged", "no lump was there to be found"};
+  if (judgement.verdict == Verdict::too_few_cases)
+    return {"Passed?", "not judged",
+            "that takes " + std::to_string(assess::kEnoughCases) + " cases or more; here " +
+                std::to_string(judgement.cases) + ": so few tell little of a person"};
+  const auto percent = [](double value) { return fixed(100 * value, 0) + " %"; };
+  return {"Passed?", judgement.verdict == Verdict::passed ? "yes" : "no",
+          percent(standard.sensitivity) + " of the lumps and " + percent(standard.coverage) +
+              " of the area are asked for; felt on average: " +
+              percent(std::floor(100 * judgement.coverage) / 100)};
+}
+
+}  // namespace
+
+void writePalpationTotals(Html& html, const std::vector<PalpationPage>& trials,
+                          const assess::PalpationStandard& standard) {
+  const PalpationSums sums = sumsOf(trials);
+  const auto section = html.in("section", {{"class", "card"}, {"id", "totals"}});
+  html.element("h2", "All trials");
+  if (sums.trials == 0) {
+    html.element("p", "No trial counts: none was both scored and finished.");
+    return;
+  }
+  html.element("p", totalsSentence(sums));
+  writeFactTable(
+      html, {{"Lumps found", std::to_string(sums.found) + " of " + std::to_string(sums.lumps), ""},
+             shareFact("Sensitivity", sums.found, sums.lumps, "of the lumps, those found"),
+             shareFact("Specificity", sums.clear - sums.wrong, sums.clear,
+                       "of the quarters without a lump, those left clear"),
+             {"False alarms", std::to_string(sums.false_alarms), "marks where no lump is"},
+             {"At the standard",
+              std::to_string(sums.passed) + " of " + numberOf(sums.trials, "trial", "trials"), ""},
+             judgementFact(trials, standard)});
+  std::string note =
+      "The intervals take all lumps, and all quarters, as independent of each other: read them as "
+      "a lower bound of the doubt.";
+  if (sums.left_out > 0)
+    note = numberOf(sums.left_out, "trial is", "trials are") +
+           " not counted here: void, not finished, or not scored. " + note;
+  html.element("p", {{"class", "muted small"}}, note);
+}
+
+void writePalpationGlossary(Html& html) {
+  static constexpr std::pair<const char*, const char*> kWords[] = {
+      {"Sensitivity",
+       "Of the lumps that were there, the share that was found. Every lump missed lowers it."},
+      {"Specificity",
+       "Of the quarters of the area without a lump near them, the share in which none was marked. "
+       "False alarms lower it."},
+      {"Coverage",
+       "The share of the area that was felt, at each pressure or a deeper one. Where nothing was "
+       "felt, nothing can be found."},
+      {"False alarm", "A mark with no lump near it."},
+      {"At the standard",
+       "In this trial enough lumps were found and enough of the area was felt, as the task asks. "
+       "One trial passes or fails nobody."},
+      {"Closer look", "Several presses about one place, in contrast to the search, which goes on."},
+      {"95 % interval", "What the true share may well be, as few trials tell little (Wilson)."}};
+  html.element("h2", "What these words mean");
+  {
+    const auto list = html.in("dl", {{"class", "glossary"}});
+    for (const auto& [word, meaning] : kWords) {
+      html.element("dt", word);
+      html.element("dd", meaning);
+    }
+  }
+  html.element(
+      "p", {{"class", "muted"}},
+      "Sources: vertical strips miss least: M. B. Barton, R. Harris, S. W. Fletcher, JAMA 282, "
+      "1999. Clinicians who find press about 15 % more when they look closer: PMC10980574. "
+      "The interval: E. B. Wilson, J. Am. Stat. Assoc. 22, 1927.");
+}
+
+}  // namespace palpa::report

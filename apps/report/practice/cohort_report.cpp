@@ -1,0 +1,178 @@
+#include "apps/report/practice/cohort_report.h"
+
+#include <algorithm>
+#include <set>
+
+#include "anatomy/base/whole_file.h"
+#include "apps/assess/progress/cohort.h"
+#include "apps/assess/progress/competence.h"
+#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
+#include "apps/report/practice/practice_charts.h"
+#include "apps/report/practice/practice_page.h"
+#include "apps/report/practice/progress_words.h"
+
+namespace palpa::report {
+namespace {
+
+struct ShownMetrics {
+  std::vector<std::string> distributions, curves;
+  std::string reliability;
+};
+
+ShownMetrics metricsOf(const std::string& engine) {
+  if (engine == "needle")
+    return {
+        {"total", "time_s", "closest_pleura_mm", "needle_passes"}, {"total", "time_s"}, "total"};
+  if (engine == "palpation")
+    return {{"sensitivity_pct", "specificity_pct", "coverage_deep_pct", "time_s"},
+            {"sensitivity_pct", "time_s"},
+            "sensitivity_pct"};
+  return {{"success", "time_s"}, {"time_s"}, "time_s"};
+}
+
+void shortItem(Html& html, const std::string& head, const std::string& words) {
+  if (words.empty()) return;
+  const auto li = html.in("li");
+  html.element("strong", head);
+  html.text(' ' + words);
+}
+
+std::string commonWords(const std::vector<progress::CommonError>& errors) {
+  if (errors.empty()) return "none of the errors that figures can tell happened.";
+  std::string words;
+  for (std::size_t i = 0; i < std::min<std::size_t>(3, errors.size()); ++i)
+    words += (i ? "; " : "") + std::string(errors[i].kind->words) + " in " +
+             fixed(100 * errors[i].share.mean, 0) + " % of a trainee's trials (" +
+             std::to_string(errors[i].trainees_with) + " of " + std::to_string(errors[i].trainees) +
+             " trainees)";
+  return words + '.';
+}
+
+std::string reliabilityWords(const progress::Series& group, const std::string& metric) {
+  const auto r = progress::reliabilityOf(group, metric);
+  const std::string cases = std::to_string(progress::kFewestCases);
+  if (!r)
+    return "can be told from two trainees with " + cases +
+           " trials each on, who differ: nobody should pass or fail by these figures alone.";
+  const std::string words = titleWithin(metric) + " over the last " + cases + " trials of " +
+                            counted(r->trainees, "trainee") + ": ICC(3,k) " +
+                            fixed(r->icc.value, 2) + " (95 % interval " + fixed(r->icc.low, 2) +
+                            " to " + fixed(r->icc.high, 2) + ").";
+  return words + (r->icc.value < progress::kReliable
+                      ? " Below 0.7: nobody should pass or fail by it."
+                      : " 0.7 or more: it tells trainees apart well enough to go by.");
+}
+
+void writeAttention(Html& html, const std::vector<progress::Attention>& attention,
+                    std::size_t trainees) {
+  if (attention.empty())
+    return shortItem(html, "Needs attention:",
+                     "nobody of " + counted(trainees, "trainee") + ", by these figures.");
+  const auto li = html.in("li");
+  html.element("strong", "Needs attention:");
+  html.text(' ' + std::to_string(attention.size()) + " of " + counted(trainees, "trainee") + '.');
+  const auto list = html.in("ul");
+  for (const progress::Attention& a : attention) {
+    std::string words = a.trainee + ": ";
+    for (std::size_t i = 0; i < a.reasons.size(); ++i) words += (i ? "; " : "") + a.reasons[i];
+    html.element("li", words + '.');
+  }
+}
+
+void writeCohortSummary(Html& html, const progress::Series& group,
+                        const std::vector<progress::Series>& trainees,
+                        const statistics::CusumRates& rates) {
+  const auto list = html.in("ul", {{"class", "short"}});
+  const auto successes = std::count_if(group.trials.begin(), group.trials.end(),
+                                       [](const auto& t) { return t.succeeded(); });
+  std::vector<double> shares;
+  for (const progress::Series& own : trainees)
+    shares.push_back(
+        static_cast<double>(std::count_if(own.trials.begin(), own.trials.end(),
+                                          [](const auto& t) { return t.succeeded(); })) /
+        static_cast<double>(own.trials.size()));
+  const progress::GroupMean success = progress::groupMean(shares);
+  shortItem(html, "Practice:",
+            counted(trainees.size(), "trainee") + ", " +
+                counted(group.trials.size(), "scored trial") + '.');
+  shortItem(html, "Success:",
+            std::to_string(successes) + " of " + std::to_string(group.trials.size()) + " trials; " +
+                figureOf("success", success.mean) + " of a trainee's" +
+                intervalWords("success", success.interval) + '.');
+  writeAttention(html, progress::whoNeedsAttention(group, rates), trainees.size());
+  shortItem(html, "Common errors:", commonWords(progress::commonErrors(group)));
+  shortItem(html, "Reliability:", reliabilityWords(group, metricsOf(group.engine).reliability));
+}
+
+std::string stateOf(const progress::Competence& c) {
+  if (c.reached) return "acceptable rate accepted at trial " + std::to_string(*c.reached);
+  return (c.lost ? "unacceptable rate found at trial " + std::to_string(*c.lost)
+                 : std::string("undecided")) +
+         "; at least " + std::to_string(c.still_clean) + " more without failure";
+}
+
+void writeCompetences(Html& html, const progress::Series& group,
+                      const std::vector<progress::Series>& trainees,
+                      const statistics::CusumRates& rates) {
+  const int fewest = statistics::cusumLimits(rates).shortest_clean_run;
+  html.element("h3", "Competence");
+  if (group.engine == "palpation" &&
+      std::none_of(trainees.begin(), trainees.end(),
+                   [](const auto& own) { return own.trials.size() >= progress::kFewestCases; })) {
+    html.element("p", "Nobody passes or fails by fewer than eight cases.");
+    return;
+  }
+  html.element("p", "Rates set by the educator: " + trimmed(100 * rates.acceptable, 1) +
+                        " % acceptable, " + trimmed(100 * rates.unacceptable, 1) +
+                        " % unacceptable; none is established for this procedure. Fewer than " +
+                        std::to_string(fewest) + " trials cannot certify anybody.");
+  DataTable table{"", {"Trainee", "Trials", "Failures", "CUSUM"}, {}, 3};
+  for (const progress::Series& own : trainees) {
+    std::vector<bool> failures;
+    for (const progress::PracticeTrial& trial : own.trials)
+      failures.push_back(progress::failed(trial));
+    const bool locked = own.engine == "palpation" && own.trials.size() < progress::kFewestCases;
+    table.rows.push_back(
+        {own.trials.front().trainee, std::to_string(own.trials.size()),
+         std::to_string(std::count(failures.begin(), failures.end(), true)),
+         locked ? "fewer than eight cases" : stateOf(progress::competenceOf(failures, rates))});
+  }
+  writeOpenTable(html, table);
+}
+
+void writeGroup(Html& html, const progress::Series& group, const statistics::CusumRates& rates) {
+  const std::vector<progress::Series> trainees = progress::byTrainee(group);
+  const ShownMetrics shown = metricsOf(group.engine);
+  writeCohortSummary(html, group, trainees, rates);
+  html.element("h3", "Common errors");
+  writeCommonErrors(html, progress::commonErrors(group));
+  html.element("h3", "Trainee by trainee");
+  for (const std::string& metric : shown.distributions) writeTraineeFigures(html, group, metric);
+  html.element("h3", "Learning");
+  for (const std::string& metric : shown.curves) writeGroupCurve(html, group, metric);
+  writeCompetences(html, group, trainees, rates);
+}
+
+}  // namespace
+
+void writeCohortReport(const CohortReport& report, const std::filesystem::path& file) {
+  std::set<std::string> trainees;
+  for (const progress::PracticeTrial& trial : report.trials) trainees.insert(trial.trainee);
+  const PracticePage page{
+      "Cohort",
+      report.group,
+      report.group.empty() ? "All trainees" : "Group: " + report.group,
+      {{"Trainees", std::to_string(trainees.size())},
+       {"Trials", std::to_string(report.trials.size())},
+       {"Page of", report.made_utc.substr(0, 10)}},
+      "Intervals of the group are over trainees, since a trainee's trials are not independent. "
+      "Reliability: Shrout and Fleiss, Psychol. Bull. 86, 1979.",
+      report.software};
+  writeWhole(file,
+             practiceHtml(page, report.trials, [&](Html& html, const progress::Series& group) {
+               writeGroup(html, group, report.rates);
+             }));
+}
+
+}  // namespace palpa::report

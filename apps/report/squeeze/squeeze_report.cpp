@@ -1,0 +1,209 @@
+#include "apps/report/squeeze/squeeze_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "anatomy/base/csv.h"
+#include "anatomy/base/whole_file.h"
+#include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/assess/statistics/sample.h"
+#include "apps/assess/trial.h"
+#include "apps/report/page/html.h"
+#include "apps/report/page/numbers.h"
+#include "apps/report/page/page_parts.h"
+#include "apps/report/plot/chart_frame.h"
+
+namespace palpa::report {
+namespace {
+
+using assess::SqueezedProperty;
+
+constexpr std::string_view kSqueezeStyle = R"css(
+svg .grid{stroke:var(--line);stroke-width:1}
+svg .whisker{stroke:var(--ink);stroke-width:2;stroke-linecap:round}
+svg .dot-share{fill:var(--blue);stroke:var(--card);stroke-width:2}
+svg .threshold{stroke:var(--ink);stroke-width:1.2;stroke-opacity:.75}
+svg .threshold.level-2{stroke-dasharray:4 4}
+.answers{border-collapse:collapse;width:100%;font-size:.9rem}
+.answers th,.answers td{text-align:left;padding:.4rem .9rem .4rem 0;border-bottom:1px solid var(--line)}
+.answers thead th{font-weight:400;color:var(--muted)}
+.wrong-word{color:var(--bad-ink);font-weight:600}
+)css";
+
+bool countsIn(const assess::SqueezeTrial& trial) {
+  return assess::countsAsScored(trial.role) && trial.outcome != "void";
+}
+
+std::vector<assess::SqueezeTrial> counted(const std::vector<assess::SqueezeTrial>& trials) {
+  std::vector<assess::SqueezeTrial> all;
+  std::copy_if(trials.begin(), trials.end(), std::back_inserter(all), countsIn);
+  return all;
+}
+
+/// "Three of four answers are right from a difference of 21 % on (95 %: 14 % to 44 %)."
+std::string thresholdSentence(const assess::Discrimination& answers) {
+  if (answers.of == 0) return "";
+  if (answers.right == answers.of)
+    return "All answers were right: what is just noticeable is smaller than these differences, or "
+           "too few were asked.";
+  if (!answers.threshold)
+    return "These answers do not tell what is just noticeable: too few, or no better than chance.";
+  const assess::Threshold& t = *answers.threshold;
+  if (const double asked = answers.shares.back().ratio; t.ratio > asked * asked)
+    return "Three of four answers would be right only from a difference well above those asked" +
+           (t.low ? ": " + percentMore(*t.low) + " or more (95 %)." : std::string("."));
+  return "Three of four answers are right from a difference of about " + percentMore(t.ratio) +
+         " on (95 % interval: " + (t.low ? percentMore(*t.low) : std::string("from nothing")) +
+         " to " + (t.high ? percentMore(*t.high) : std::string("unbounded")) + ").";
+}
+
+void writeProperty(Html& html, const std::vector<assess::SqueezeTrial>& trials,
+                   SqueezedProperty property) {
+  const assess::Discrimination answers = assess::discriminationIn(trials, property);
+  if (answers.of == 0) return;
+  const auto section = html.in("section", {{"class", "card"}});
+  html.element("h2", std::string("Which one is ") + assess::moreOf(property) + "?");
+  html.element("p", std::to_string(answers.right) + " of " + std::to_string(answers.of) +
+                        " answers were right. " + thresholdSentence(answers));
+  writeSqueezeChart(html, answers, assess::moreOf(property));
+}
+
+void writeAnswers(Html& html, const SqueezeReport& report) {
+  const auto section = html.in("section", {{"class", "card"}});
+  html.element("h2", "Every answer");
+  const auto table = html.in("table", {{"class", "answers"}});
+  {
+    const auto head = html.in("thead");
+    const auto row = html.in("tr");
+    for (const char* name :
+         {"Trial", "Answer", "First", "Second", "Held", "Squeezed up to", "Time"})
+      html.element("th", name);
+  }
+  const auto body = html.in("tbody");
+  for (const assess::SqueezeTrial& t : report.trials) {
+    const auto row = html.in("tr", {{"id", "trial-" + std::to_string(t.trial)}});
+    html.element("td", std::to_string(t.trial) + (countsIn(t) ? "" : " (not counted)"));
+    html.element("td", {{"class", t.answered() && !t.right() ? "wrong-word" : ""}}, summaryOf(t));
+    for (const double factor : t.factors) html.element("td", "x " + trimmed(factor, 2));
+    html.element("td",
+                 std::to_string(t.grips[0]) + " and " + std::to_string(t.grips[1]) + " times");
+    html.element("td",
+                 fixed(t.peak_N, 1) + " N" + (t.peak_N > report.too_hard_N ? ": too hard" : ""));
+    html.element("td", fixed(t.seconds, 0) + " s");
+  }
+}
+
+void writeSqueezeHeader(Html& html, const SqueezeReport& report) {
+  const auto header = html.in("header");
+  html.element("h1", report.title);
+  writeWho(html, report.trainee, "", report.trials.size());
+  const bool simulated =
+      report.simulated || std::any_of(report.trials.begin(), report.trials.end(),
+                                      [](const assess::SqueezeTrial& t) { return t.simulated; });
+  if (simulated) writeSimulatedBanner(html);
+}
+
+std::string squeezeHtml(const SqueezeReport& report) {
+  Html html;
+  html.raw("<!doctype html>\n");
+  {
+    const auto root = html.in("html", {{"lang", "en"}});
+    writeHeadElement(html, report.title, report.trainee, kSqueezeStyle);
+    const auto body = html.in("body");
+    writeSqueezeHeader(html, report);
+    {
+      const auto main = html.in("main");
+      const std::vector<assess::SqueezeTrial> trials = counted(report.trials);
+      if (trials.empty()) html.element("p", "No trial counts: none was both scored and finished.");
+      writeProperty(html, trials, SqueezedProperty::stiffness);
+      writeProperty(html, trials, SqueezedProperty::weight);
+      writeAnswers(html, report);
+      if (!report.pictures.empty()) {
+        const auto section = html.in("section", {{"class", "card"}});
+        writePictures(html, report.pictures);
+      }
+      writeFacts(html, "Where this task stands", report.taxonomy);
+      writeFacts(html, "Station", report.station);
+      writeFacts(html, "Notes", report.notes);
+    }
+    const auto footer = html.in("footer");
+    html.element("p", {{"class", "muted"}},
+                 "Shares of right answers: E. B. Wilson, J. Am. Stat. Assoc. 22, 1927. The just "
+                 "noticeable difference: D. M. Green, J. A. Swets, Signal Detection Theory and "
+                 "Psychophysics, 1966; its interval: S. S. Wilks, Ann. Math. Stat. 9, 1938.");
+    writeMadeBy(html, {&report.station, &report.notes});
+  }
+  return html.str();
+}
+
+}  // namespace
+
+void writeSqueezeReport(const SqueezeReport& report, const std::filesystem::path& file) {
+  writeWhole(file, squeezeHtml(report));
+}
+
+namespace {
+
+constexpr double kTop = 16, kHigh = 170, kDot = 6, kWhisker = 7;  // px
+
+void drawShares(Html& html, const assess::Discrimination& answers, const char* what,
+                const ChartFrame& frame) {
+  const auto svg = openSvg(html, frame, kTop + kHigh + 46,
+                           std::string("Share of right answers to which one was ") + what);
+  const Axis y{0, 1, kTop + kHigh, kTop};
+  const double left = frame.left, right = frame.width - frame.right,
+               column = (right - left) / static_cast<double>(answers.shares.size());
+  for (const double share : {0.0, 0.5, 1.0}) {
+    svgLine(html, share == 0.5 ? "threshold level-2" : "grid", left, y.at(share), right,
+            y.at(share));
+    svgText(html, "words end", left - 8, y.at(share) + 4, fixed(100 * share, 0) + " %");
+  }
+  svgText(html, "words end", right, y.at(0.5) - 5, "chance");
+  for (std::size_t i = 0; i < answers.shares.size(); ++i) {
+    const assess::SharesAtRatio& share = answers.shares[i];
+    const statistics::ShareInterval interval = statistics::wilson(share.right, share.of);
+    const double x = left + (static_cast<double>(i) + 0.5) * column;
+    svgLine(html, "whisker", x, y.at(interval.low), x, y.at(interval.high));
+    for (const double end : {interval.low, interval.high})
+      svgLine(html, "whisker", x - kWhisker, y.at(end), x + kWhisker, y.at(end));
+    html.empty("circle", {{"class", "dot-share"},
+                          {"cx", coordinate(x)},
+                          {"cy", coordinate(y.at(interval.share))},
+                          {"r", coordinate(kDot)}});
+    svgText(html, "words mid", x, y.from_px + 18, percentMore(share.ratio));
+    svgText(html, "words mid", x, y.from_px + 34,
+            std::to_string(share.right) + " of " + std::to_string(share.of));
+  }
+}
+
+}  // namespace
+
+std::string percentMore(double ratio) { return fixed(100 * (ratio - 1), 0) + " %"; }
+
+void writeSqueezeChart(Html& html, const assess::Discrimination& answers, const char* what) {
+  if (answers.shares.empty()) return;
+  const auto figure = html.in("figure", {{"class", "course"}});
+  drawShares(html, answers, what, kWide);
+  drawShares(html, answers, what, kNarrow);
+  html.element("figcaption", std::string("Right answers by how much ") + what +
+                                 " the one was; the bars are 95 % intervals (Wilson): where they "
+                                 "reach below the dotted line, it may have been chance.");
+}
+
+void writeSqueezeCsv(const std::string& user_id, const std::vector<assess::SqueezeTrial>& trials,
+                     const std::filesystem::path& file) {
+  std::string csv =
+      "USER_ID,TRIAL,SEED,SIMULATED,FF,OUTCOME,PROPERTY,FIRST,SECOND,SAID,RIGHT,PEAK_N,TIME_S,"
+      "GRIPS_FIRST,GRIPS_SECOND\n";
+  for (const assess::SqueezeTrial& t : trials) {
+    csv += csvField(user_id) + ',' + std::to_string(t.trial) + ',' + std::to_string(t.seed) +
+           (t.simulated ? ",1" : ",0") + (t.force_feedback ? ",1," : ",0,") + csvField(t.outcome);
+    csv += t.property == assess::SqueezedProperty::stiffness ? ",stiffness," : ",weight,";
+    csv += shortest(t.factors[0]) + ',' + shortest(t.factors[1]) + ',' + std::to_string(t.said) +
+           (t.right() ? ",1," : ",0,") + shortest(t.peak_N) + ',' + shortest(t.seconds) + ',' +
+           std::to_string(t.grips[0]) + ',' + std::to_string(t.grips[1]) + '\n';
+  }
+  writeWhole(file, csv);
+}
+
+}  // namespace palpa::report

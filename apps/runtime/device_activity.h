@@ -1,0 +1,45 @@
+#pragma once
+
+#include "apps/runtime/activity.h"
+#include "apps/runtime/channels.h"
+#include "apps/runtime/flight_sink.h"
+#include "haptics/devices/falcon/falcon_driver.h"
+#include "haptics/sensors/net_ft_sensor.h"
+
+namespace palpa::runtime {
+
+/// DEVICE: a Falcon's own thread. Opens it, exchanges packets when they are due, tells what the
+/// person at the station has to know (kind "device", at every change); its end, whatever the
+/// reason, sends zero force.
+class FalconActivity final : public Activity {
+ public:
+  FalconActivity(haptics::FalconDriver& driver, EventQueue<Event>& notices)
+      : driver_(driver), notices_(notices) {}
+  const char* name() const override { return "falcon"; }
+  std::int64_t step(std::int64_t now_ns) override;
+  void end() noexcept override;  ///< zero force, closed
+
+ private:
+  haptics::FalconDriver& driver_;
+  EventQueue<Event>& notices_;
+  haptics::FalconState told_state_ = haptics::FalconState::closed;
+  haptics::FalconProblem told_problem_ = haptics::FalconProblem::none;
+  bool opened_ = false;
+};
+
+/// DEVICE: the thread that waits for a Net F/T's datagrams; `sensor` has been started. Real time
+/// only: a step lasts until something comes, or the sensor's `wait_ms`.
+class NetFtActivity final : public Activity {
+ public:
+  explicit NetFtActivity(haptics::NetFtSensor& sensor) : sensor_(sensor) {}
+  const char* name() const override { return "force sensor"; }
+  std::int64_t step(std::int64_t now_ns) override {
+    sensor_.step();
+    return now_ns;
+  }
+
+ private:
+  haptics::NetFtSensor& sensor_;
+};
+
+}  // namespace palpa::runtime

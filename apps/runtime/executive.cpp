@@ -1,0 +1,203 @@
+#include "apps/runtime/executive.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <thread>
+
+#include "apps/os/real_time.h"
+
+namespace palpa::runtime {
+
+int TimeHistogram::binOf(std::int64_t t_ns) noexcept {
+  const auto t = static_cast<std::uint64_t>(
+      std::clamp<std::int64_t>(t_ns, 0, (std::int64_t{1} << kLongest) - 1));
+  const int octave = std::max(static_cast<int>(std::bit_width(t)) - kFine, 0);
+  return octave * (1 << (kFine - 1)) + static_cast<int>(t >> octave);
+}
+
+double TimeHistogram::middleOf(int bin) noexcept {
+  constexpr int kHalf = 1 << (kFine - 1);
+  if (bin < 2 * kHalf) return bin;
+  const int octave = bin / kHalf - 1;
+  const auto low = static_cast<std::int64_t>(bin - octave * kHalf) << octave;
+  return static_cast<double>(low) + 0.5 * static_cast<double>((std::int64_t{1} << octave) - 1);
+}
+
+void TimeHistogram::add(std::int64_t t_ns) noexcept {
+  ++bins_[static_cast<std::size_t>(binOf(t_ns))];
+  ++count_;
+  max_ns_ = std::max(max_ns_, t_ns);
+}
+
+void TimeHistogram::add(const TimeHistogram& other) noexcept {
+  for (std::size_t i = 0; i < bins_.size(); ++i) bins_[i] += other.bins_[i];
+  count_ += other.count_;
+  max_ns_ = std::max(max_ns_, other.max_ns_);
+}
+
+double TimeHistogram::quantile(double q) const noexcept {
+  const auto rank = static_cast<std::uint64_t>(
+      std::clamp(std::ceil(q * static_cast<double>(count_)), 1.0,
+                 static_cast<double>(std::max<std::uint64_t>(count_, 1))));
+  std::uint64_t up_to = 0;
+  for (std::size_t i = 0; i < bins_.size(); ++i)
+    if ((up_to += bins_[i]) >= rank)
+      return std::min(middleOf(static_cast<int>(i)), static_cast<double>(max_ns_));
+  return 0;
+}
+
+Spread spreadOf(const TimeHistogram& h) noexcept {
+  return {1e-3 * h.quantile(0.5), 1e-3 * h.quantile(0.99), 1e-3 * h.quantile(0.999),
+          1e-3 * static_cast<double>(h.max_ns())};
+}
+
+namespace {
+
+class VirtualClock final : public Clock {
+ public:
+  std::int64_t now() const noexcept override { return now_ns; }
+  std::int64_t now_ns = 0;
+};
+
+class VirtualExecutive final : public Executive {
+ public:
+  TimeMode mode() const override { return TimeMode::virtual_time; }
+  const Clock& clock() const override { return clock_; }
+  void add(Activity& activity, const ThreadPolicy& policy) override {
+    entries_.push_back({0, policy.priority, &activity});
+  }
+  void stop() noexcept override { stopped_ = true; }
+
+  void run() override {
+    try {
+      steps();
+    } catch (...) {
+      endAll();
+      throw;
+    }
+    endAll();
+  }
+
+ private:
+  void endAll() noexcept {
+    for (const Entry& entry : entries_) entry.activity->end();
+  }
+
+  void steps() {
+    stopped_ = false;
+    while (!stopped_) {
+      // A handful of activities: a scan is simpler than a heap, and the order is plain to see.
+      const auto next =
+          std::min_element(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+            return a.due_ns != b.due_ns ? a.due_ns < b.due_ns : a.priority < b.priority;
+          });
+      if (next == entries_.end() || next->due_ns == kNever) return;
+      clock_.now_ns = std::max(clock_.now_ns, next->due_ns);
+      next->due_ns = next->activity->step(clock_.now_ns);
+    }
+  }
+
+  struct Entry {
+    std::int64_t due_ns;
+    int priority;
+    Activity* activity;
+  };
+  VirtualClock clock_;
+  std::vector<Entry> entries_;
+  bool stopped_ = false;
+};
+
+}  // namespace
+
+std::unique_ptr<Executive> makeVirtualExecutive() { return std::make_unique<VirtualExecutive>(); }
+
+namespace {
+
+class RealExecutive final : public Executive {
+ public:
+  TimeMode mode() const override { return TimeMode::real; }
+  const Clock& clock() const override { return clock_; }
+  void add(Activity& activity, const ThreadPolicy& policy) override {
+    auto entry = std::make_unique<Entry>();
+    entry->activity = &activity;
+    entry->policy = policy;
+    entries_.push_back(std::move(entry));
+  }
+  void stop() noexcept override { stopped_.store(true); }
+
+  void run() override {
+    stopped_.store(false);
+    std::optional<os::MemoryLock> memory;
+    if (std::any_of(entries_.begin(), entries_.end(),
+                    [](const auto& e) { return e->policy.real_time; }))
+      memory.emplace();
+    std::vector<std::thread> threads;
+    for (auto& entry : entries_)
+      if (!entry->policy.on_caller) threads.emplace_back([this, &entry] { loop(*entry); });
+    for (auto& entry : entries_)
+      if (entry->policy.on_caller) loop(*entry);
+    for (auto& thread : threads) thread.join();
+    for (auto& entry : entries_)
+      if (memory && entry->policy.real_time) entry->scheduling += "; " + memory->words();
+    if (failure_) std::rethrow_exception(failure_);
+  }
+
+  std::vector<Lateness> lateness() const override {
+    std::vector<Lateness> all;
+    for (const auto& e : entries_) {
+      const Spread late = spreadOf(e->late);
+      all.push_back({e->activity->name(), e->late.count(), late.median_us, late.p99_us,
+                     late.p999_us, late.max_us, spreadOf(e->cost), e->missed, e->scheduling,
+                     e->late});
+    }
+    return all;
+  }
+
+ private:
+  struct Entry {
+    Activity* activity = nullptr;
+    ThreadPolicy policy;
+    TimeHistogram late, cost;
+    std::uint64_t missed = 0;
+    std::string scheduling = "normal priority";
+  };
+
+  void loop(Entry& entry) {
+    try {
+      if (entry.policy.real_time) entry.scheduling = os::becomeRealTime(entry.policy.cpu);
+      const std::int64_t period = entry.activity->period_ns();
+      std::int64_t due = clock_.now();
+      while (!stopped_.load(std::memory_order_relaxed)) {
+        clock_.sleepUntil(due);
+        const std::int64_t now = clock_.now();
+        const std::int64_t next = entry.activity->step(now);
+        entry.cost.add(clock_.now() - now);
+        entry.late.add(now - due);
+        entry.missed += period > 0 && now - due > period;
+        if (next == kNever) break;
+        due = next;
+      }
+    } catch (...) {
+      const std::lock_guard lock(failure_mutex_);
+      if (!failure_) failure_ = std::current_exception();
+      stop();
+    }
+    entry.activity->end();
+  }
+
+  SteadyClock clock_;
+  std::vector<std::unique_ptr<Entry>> entries_;
+  std::atomic<bool> stopped_{false};
+  std::mutex failure_mutex_;
+  std::exception_ptr failure_;
+};
+
+}  // namespace
+
+std::unique_ptr<Executive> makeRealExecutive() { return std::make_unique<RealExecutive>(); }
+
+}  // namespace palpa::runtime

@@ -1,0 +1,108 @@
+#include "apps/runtime/recorders.h"
+
+#include <cstdio>
+#include <vector>
+
+#include <opencv2/imgcodecs.hpp>
+
+#include "anatomy/base/error.h"
+
+namespace palpa::runtime {
+
+std::int64_t RecorderActivity::step(std::int64_t now_ns) {
+  drain();
+  return now_ns + period_ns_;
+}
+
+void RecorderActivity::drain() {
+  EvidenceMessage message;
+  while (bus_.task_to_recorder.pop(&message)) {
+    if (const auto* event = std::get_if<Event>(&message)) sink_.event(*event);
+    if (const auto* header = std::get_if<TrialHeader>(&message)) sink_.beginTrial(*header);
+    if (const auto* end = std::get_if<TrialEnd>(&message)) sink_.endTrial(*end);
+    bus_.recorder_to_link.push(message);
+  }
+  LocalGeometry geometry;
+  while (bus_.geometry_to_recorder.pop(&geometry)) sink_.snapshot(geometry);
+  Keyframe keyframe;
+  while (bus_.keyframes_to_recorder.pop(&keyframe)) sink_.keyframe(keyframe.tick, keyframe.state);
+  haptics::FlightRecord record;
+  while (bus_.haptic_to_recorder.pop(&record)) sink_.tick(record);
+  sink_.commit();
+}
+
+namespace {
+
+constexpr int kQuality =
+    95;  // corners found again in such pictures are where they were to a twentieth of a pixel
+
+const char* nameOf(ar::PictureFault fault) {
+  switch (fault) {
+    case ar::PictureFault::black:
+      return "black";
+    case ar::PictureFault::frozen:
+      return "frozen";
+    case ar::PictureFault::wrong_size:
+      return "wrong_size";
+    case ar::PictureFault::gone:
+      return "gone";
+    case ar::PictureFault::ended:
+      return "ended";
+    case ar::PictureFault::none:
+      break;
+  }
+  return "";
+}
+
+const char* nameOf(ar::TrackState state) {
+  switch (state) {
+    case ar::TrackState::searching:
+      return "searching";
+    case ar::TrackState::tracked:
+      return "tracked";
+    case ar::TrackState::coasting:
+      return "coasting";
+    case ar::TrackState::lost:
+      break;
+  }
+  return "lost";
+}
+
+}  // namespace
+
+VideoRecorder::VideoRecorder(const std::filesystem::path& folder)
+    : film_(folder / "camera.mjpeg"),
+      pictures_file_(film_, std::ios::binary),
+      table_(film_.string() + ".csv") {
+  if (!pictures_file_ || !table_)
+    throw Error("cannot be written", film_.string(), "Choose another --out");
+  table_ << "number,t_exposure_ns,source,fault,tracking,points,rms_px,t_x_m,t_y_m,t_z_m,q_w,q_x,q_"
+            "y,q_z\n";
+}
+
+void VideoRecorder::add(const CameraView& view) {
+  if (!trouble_.empty() || !view.picture || view.picture->empty()) return;
+  std::vector<unsigned char> jpeg;
+  cv::imencode(".jpg", *view.picture, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  pictures_file_.write(reinterpret_cast<const char*>(jpeg.data()),
+                       static_cast<std::streamsize>(jpeg.size()));
+  table_ << pictures_ << ',' << view.t_exposure_ns << ",\"" << view.source << "\","
+         << nameOf(view.fault) << ',' << nameOf(view.tracking);
+  if (view.pose) {
+    const PackedPose X = pack(view.pose->X_CW);
+    char pose[200];
+    std::snprintf(pose, sizeof pose, ",%d,%.4f,%.7f,%.7f,%.7f,%.9f,%.9f,%.9f,%.9f",
+                  view.pose->points, view.pose->rms_px, X.p[0], X.p[1], X.p[2], X.q[0], X.q[1],
+                  X.q[2], X.q[3]);
+    table_ << pose;
+  } else {
+    table_ << ",0,,,,,,,,";
+  }
+  table_ << '\n';
+  if (!pictures_file_.flush() || !table_.flush())
+    trouble_ = "the video could not be written to its end: is the disk full?";
+  else
+    ++pictures_;
+}
+
+}  // namespace palpa::runtime

@@ -1,0 +1,58 @@
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+
+#include "apps/runtime/activity.h"
+#include "apps/runtime/bus.h"
+
+namespace palpa::runtime {
+
+/// RECORDER: drains what the others queued into the session's evidence and commits it every 100
+/// ticks.
+class RecorderActivity final : public Activity {
+ public:
+  RecorderActivity(Bus& bus, FlightSink& sink,
+                   std::int64_t tick_period_ns = haptics::TickConfig{}.period_ns)
+      : bus_(bus), sink_(sink), period_ns_(kTicks * tick_period_ns) {}
+  const char* name() const override { return "recorder"; }
+  std::int64_t step(std::int64_t now_ns) override;
+  /// After the executive has stopped: the rest.
+  void finish() { drain(); }
+
+  /// Records lost because the recorder could not keep up; 0 in virtual time.
+  std::uint64_t dropped() const {
+    return bus_.haptic_to_recorder.overflows() + bus_.geometry_to_recorder.overflows() +
+           bus_.keyframes_to_recorder.overflows() + bus_.task_to_recorder.overflows();
+  }
+
+ private:
+  static constexpr std::int64_t kTicks =
+      100;  ///< half of what a killed process may lose; the queue holds 8192
+  void drain();
+  Bus& bus_;
+  FlightSink& sink_;
+  const std::int64_t period_ns_;
+};
+
+/// A session's pictures beside their poses: "camera.mjpeg", JPEG after JPEG (any player shows it;
+/// what is on the disk stays readable if the program is killed), and "camera.mjpeg.csv": number,
+/// time of exposure (session, ns), source ("virtual camera": simulated), fault, tracking, pose of
+/// the board in the camera (m, quaternion), as measured. One writer, on the camera's thread. A full
+/// disk ends the recording, not the session: `trouble`.
+class VideoRecorder {
+ public:
+  explicit VideoRecorder(const std::filesystem::path& folder);
+  void add(const CameraView& view);
+  std::uint64_t pictures() const { return pictures_; }
+  const std::string& trouble() const { return trouble_; }  ///< empty: everything was kept
+
+ private:
+  std::filesystem::path film_;
+  std::ofstream pictures_file_, table_;
+  std::uint64_t pictures_ = 0;
+  std::string trouble_;
+};
+
+}  // namespace palpa::runtime

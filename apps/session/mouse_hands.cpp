@@ -1,0 +1,224 @@
+#include "apps/session/mouse_hands.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <utility>
+
+#include "apps/runtime/clock.h"
+
+namespace palpa::session {
+namespace {
+
+using trial::UserCommand;
+constexpr double kMetresPerPixel = 0.00025;
+constexpr double kMetresPerNotch = 0.001;
+constexpr double kTurnPerKey = 0.035;  // rad, 2 degrees
+constexpr double kSteepestTurn = 1.4;  // rad from the skin's normal
+constexpr double kPlungerPerKey = 0.1;
+constexpr double kAboveSkin = 0.015;  // m, where the needle waits
+constexpr double kSmoothing = 0.03;   // s, the mouse's steps become motion
+constexpr std::int64_t kControllerGone = 300 * runtime::kMillisecond;
+constexpr std::int64_t kMousePeriod = runtime::kMillisecond;
+
+constexpr const char* kGrades[] = {"soft",           "hard",           "fixed",
+                                   "mobile",         "diameter 10 mm", "diameter 15 mm",
+                                   "diameter 20 mm", "diameter 25 mm"};  // keys 1 to 8
+constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped",
+                                        "other"};
+
+void request(trial::Channels& channels, UserCommand command, const std::string& reason = "") {
+  channels.requests_to_task.push({command, reason});
+}
+
+}  // namespace
+
+void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
+  if (input.closed) request(channels, UserCommand::quit);
+  for (const std::string& key : input.keys) {
+    if (key == "Return" || key == "KP_Enter")
+      request(channels, UserCommand::start);
+    else if (key == "p" || key == "P")
+      request(channels, UserCommand::pause);
+    else if (key == "a" || key == "A")
+      request(channels, UserCommand::abort);
+    else if (key == "space")
+      request(channels, UserCommand::emergency_stop);
+    else if (key == "r" || key == "R")
+      request(channels, UserCommand::rearm);
+    else if (key == "Escape")
+      request(channels, UserCommand::quit);
+    else if (key == "d" || key == "D")
+      request(channels, UserCommand::done);
+    else if (key.size() == 1 && key[0] >= '1' && key[0] <= '8')
+      request(channels, UserCommand::grade, kGrades[key[0] - '1']);
+    else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '1' && key[1] <= '4')
+      request(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);
+  }
+}
+
+MouseHand::MouseHand(const Setup& setup, runtime::ChannelDevice& device, trial::Channels& channels)
+    : setup_(setup), device_(device), channels_(channels) {
+  wish_.tip_A = pack(setup.anatomy.entry_A);
+  wish_.along = -kAboveSkin;
+  X_AT_ = pointedByMouse(wish_);
+}
+
+void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
+  handleKeys(input, channels_);
+  const auto leads = [](const std::string& key) {
+    return key == "Left" || key == "Right" || key == "Up" || key == "Down";
+  };
+  const bool moved = (input.left_button && dragging_) || input.wheel != 0 ||
+                     std::any_of(input.keys.begin(), input.keys.end(), leads);
+  if (moved && now_ns - seen_ns_ > kControllerGone) letGo(now_ns);
+  if (input.left_button && dragging_) {
+    const double right = (input.mouse_x - mouse_x_) * kMetresPerPixel;
+    const double up = -(input.mouse_y - mouse_y_) * kMetresPerPixel;
+    // The screen's right is the patient's left in a supine view from the feet.
+    wish_.tip_A = pack(Vec3(unpack(wish_.tip_A) + right * Vec3::UnitX() + up * Vec3::UnitZ()));
+  }
+  dragging_ = input.left_button;
+  mouse_x_ = input.mouse_x;
+  mouse_y_ = input.mouse_y;
+  wish_.along = std::clamp(wish_.along + kMetresPerNotch * input.wheel, -0.05, 0.07);
+  // The free hand is on the keyboard: Z and X for a right-handed trainee, comma and period for a
+  // left.
+  const std::string draw = setup_.left_handed ? "period" : "z";
+  const std::string push = setup_.left_handed ? "comma" : "x";
+  for (const std::string& key : input.keys) {
+    if (key == "Left") wish_.turn_medial -= kTurnPerKey;
+    if (key == "Right") wish_.turn_medial += kTurnPerKey;
+    if (key == "Up") wish_.turn_cephalad += kTurnPerKey;
+    if (key == "Down") wish_.turn_cephalad -= kTurnPerKey;
+    if (key == draw || (key == "Z" && !setup_.left_handed))
+      wish_.plunger = std::min(1.0, wish_.plunger + kPlungerPerKey);
+    if (key == push || (key == "X" && !setup_.left_handed))
+      wish_.plunger = std::max(0.0, wish_.plunger - kPlungerPerKey);
+    if ((key == "t" || key == "T") && skin_key_) skin_key_();
+  }
+  wish_.turn_medial = std::clamp(wish_.turn_medial, -kSteepestTurn, kSteepestTurn);
+  wish_.turn_cephalad = std::clamp(wish_.turn_cephalad, -kSteepestTurn, kSteepestTurn);
+  wishes_.publish(wish_, now_ns);
+}
+
+void MouseHand::hold(const headset::HeldTool& held, std::int64_t now_ns) {
+  if (held.start) request(channels_, UserCommand::start);
+  if (held.tracked) {
+    seen_ns_ = now_ns;
+    wish_.held = true;
+    wish_.plunger = held.plunger;
+    wish_.X_AT = pack(held.X_AT);
+  }
+  wishes_.publish(wish_, now_ns);
+}
+
+void MouseHand::letGo(std::int64_t now_ns) {
+  if (!std::exchange(wish_.held, false)) return;
+  wish_.off = pack(Pose(unpack(wish_.X_AT) * pointedByMouse(wish_).inverse()));
+  wishes_.publish(wish_, now_ns);
+}
+
+Pose MouseHand::pointedByMouse(const Wish& wish) const {
+  const twin::VisibleAnatomy& a = setup_.anatomy;
+  // "Right" turns the tip to the right of the screen, whichever side is punctured.
+  const Vec3 screen_right = Vec3::UnitX() - Vec3::UnitX().dot(a.normal_A) * a.normal_A;
+  const Vec3 axis_A = (-a.normal_A + std::tan(wish.turn_medial) * screen_right.normalized() +
+                       std::tan(wish.turn_cephalad) * a.cephalad_A)
+                          .normalized();
+  return makePose(rotationWithZ(axis_A), unpack(wish.tip_A) + wish.along * axis_A);
+}
+
+std::int64_t MouseHand::step(std::int64_t now_ns) {
+  if (const Wish* wish = wishes_.read(now_ns)) {
+    const double share = 1e-3 / kSmoothing;
+    const Pose wanted = wish->held ? unpack(wish->X_AT) : unpack(wish->off) * pointedByMouse(*wish);
+    const Quat turned = Quat(X_AT_.rotation()).slerp(share, Quat(wanted.rotation())).normalized();
+    X_AT_ = makePose(turned.toRotationMatrix(),
+                     X_AT_.translation() + share * (wanted.translation() - X_AT_.translation()));
+    plunger_ += share * (wish->plunger - plunger_);
+  }
+  const Pose X_DE = setup_.X_DA * X_AT_ * setup_.X_ET.inverse();
+  haptics::DeviceReading reading;
+  reading.t_ns = now_ns;
+  reading.sequence = ++sequence_;
+  reading.p_DE = pack(Vec3(X_DE.translation()));
+  reading.q_DE = pack(Quat(X_DE.rotation()));
+  reading.plunger = plunger_;
+  reading.homed = 1;
+  device_.publish(reading, now_ns);
+  due_ns_ = std::max((due_ns_ < 0 ? now_ns : due_ns_) + kMousePeriod, now_ns);
+  return due_ns_;
+}
+
+namespace {
+
+constexpr double kOver = 0.006, kDeepest = 0.009;              // m above and below the top
+constexpr double kPress = 0.012, kLift = 0.05, kAcross = 0.3;  // m/s
+constexpr double kFingerSmoothing = 0.03;                      // s, the mouse's steps become motion
+constexpr double kMarkFor_s = 0.2;
+constexpr std::int64_t kRepeats =
+    800 * runtime::kMillisecond;  // a key that is held comes again sooner
+
+/// The place of the plane z = 0 of P that is seen at the mouse; none outside the view, or where the
+/// plane is seen from the side or from below.
+std::optional<Vec3> pointedAt(const scene::ViewInput& input, const scene::ArGeometry& view,
+                              const Pose& X_AP) {
+  const double u = input.mouse_x, v = input.mouse_y;
+  if (u < view.x || v < view.y || u >= view.x + view.width || v >= view.y + view.height)
+    return std::nullopt;
+  const Pose X_PC = (view.X_CA * X_AP).inverse();
+  const Vec3 ray_P = X_PC.linear() * Vec3((u - view.camera.cx) / view.camera.fx,
+                                          (v - view.camera.cy) / view.camera.fy, 1);
+  const Vec3 eye_P = X_PC.translation();
+  if (ray_P.z() > -1e-3 * ray_P.norm() || eye_P.z() <= 0) return std::nullopt;
+  return Vec3(eye_P - eye_P.z() / ray_P.z() * ray_P);
+}
+
+}  // namespace
+
+PointingHand::PointingHand(const Setup& setup) : setup_(setup) { wish_.y = -setup.half_y; }
+
+void PointingHand::handle(const scene::ViewInput& input, const scene::ArGeometry& view,
+                          std::int64_t now_ns) {
+  const bool turns_view = input.right_button || input.middle_button;
+  if (const std::optional<Vec3> p_P = pointedAt(input, view, setup_.X_AP); p_P && !turns_view) {
+    wish_.x = std::clamp(p_P->x(), -setup_.half_x, setup_.half_x);
+    wish_.y = std::clamp(p_P->y(), -setup_.half_y, setup_.half_y);
+  }
+  wish_.press = input.left_button;
+  if (std::any_of(input.keys.begin(), input.keys.end(),
+                  [](const std::string& key) { return key == "m" || key == "M"; })) {
+    wish_.marks += now_ns - mark_key_ns_ > kRepeats;
+    mark_key_ns_ = now_ns;
+  }
+  wishes_.publish(wish_, now_ns);
+}
+
+void PointingHand::move(const Wish& wish, double dt) {
+  const Vec3 across(wish.x - tip_P_.x(), wish.y - tip_P_.y(), 0);
+  const Vec3 step = std::min(1.0, dt / kFingerSmoothing) * across;
+  tip_P_ += std::min(1.0, kAcross * dt / std::max(step.norm(), 1e-12)) * step;
+  const double wanted = wish.press ? -kDeepest : kOver,
+               speed = wish.press && tip_P_.z() <= kOver ? kPress : kLift;
+  tip_P_.z() += std::clamp(wanted - tip_P_.z(), -speed * dt, speed * dt);
+}
+
+twin::Hand::Action PointingHand::act(const Senses& senses, double dt) {
+  if (!std::exchange(begun_, true))
+    tip_P_ = setup_.X_DP.inverse() * (senses.X_DE * setup_.X_ET).translation();
+  if (const Wish* wish = wishes_.read(senses.now_ns)) {
+    move(*wish, dt);
+    if (wish->marks != marked_) mark_left_s_ = kMarkFor_s;
+    marked_ = wish->marks;
+  }
+  mark_left_s_ = std::max(0.0, mark_left_s_ - dt);
+  Action action;
+  action.buttons = mark_left_s_ > 0 ? 1u : 0u;
+  const Mat3 down = Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix();
+  action.X_DH = setup_.X_DP * makePose(down, tip_P_) * setup_.X_ET.inverse();
+  return action;
+}
+
+}  // namespace palpa::session

@@ -1,0 +1,109 @@
+#pragma once
+
+#include <functional>
+
+#include "apps/headset/headset_view.h"
+#include "apps/runtime/activity.h"
+#include "apps/runtime/channels.h"
+#include "apps/runtime/clock.h"
+#include "apps/runtime/device_adapters.h"
+#include "apps/trial/trial_status.h"
+#include "apps/twin/hand.h"
+#include "apps/twin/operator.h"
+#include "scene/view/scene_view.h"
+
+namespace palpa::session {
+
+/// Keys that every session understands: Enter, P, A, V + 1..4, space, R, Escape.
+void handleKeys(const scene::ViewInput& input, trial::Channels& channels);
+
+/// A person's hand without a haptic device: the mouse, or the controller of a headset, moves the
+/// needle; what it would feel is drawn. Moving the mouse with the left button held shifts the tip
+/// along the frontal plane, the wheel moves along the needle, the arrow keys turn it about its
+/// entry, Z and X (left-handed: period and comma) draw and push the plunger, T changes the skin.
+class MouseHand final : public runtime::Activity {
+ public:
+  struct Setup {
+    Pose X_DA, X_ET;
+    twin::VisibleAnatomy anatomy;
+    bool left_handed = false;
+  };
+  MouseHand(const Setup& setup, runtime::ChannelDevice& device, trial::Channels& channels);
+
+  const char* name() const override { return "mouse"; }
+  std::int64_t step(std::int64_t now_ns) override;  ///< 1 kHz: publishes the smoothed pose
+  /// Called by the scene's thread with what the window reports.
+  void handle(const scene::ViewInput& input, std::int64_t now_ns);
+  /// Called by the scene's thread once a frame of a headset: its controller leads while it is
+  /// tracked. One that is not seen any more holds the needle where it was, until the mouse is
+  /// moved: from there the mouse leads on.
+  void hold(const headset::HeldTool& held, std::int64_t now_ns);
+  void letGo(std::int64_t now_ns);  ///< the mouse leads again
+  void onSkinKey(std::function<void()> action) { skin_key_ = std::move(action); }
+
+ private:
+  struct Wish {
+    Packed3 tip_A{};
+    double turn_medial = 0, turn_cephalad = 0;  ///< rad, from the skin's normal
+    double along = 0;                           ///< m, from the wheel
+    double plunger = 0;
+    bool held = false;  ///< by a controller: X_AT instead of what the mouse says
+    PackedPose X_AT;
+    PackedPose off = pack(
+        Pose(Pose::Identity()));  ///< of the mouse's needle, since it took over from a controller
+  };
+  Pose pointedByMouse(const Wish& wish) const;
+  Setup setup_;
+  runtime::ChannelDevice& device_;
+  trial::Channels& channels_;
+  runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
+  Wish wish_;  // the scene thread's
+  double mouse_x_ = 0, mouse_y_ = 0;
+  bool dragging_ = false;
+  std::int64_t seen_ns_ = 0;  // the controller
+  std::function<void()> skin_key_;
+  // The mouse thread's, smoothed.
+  Pose X_AT_;
+  double plunger_ = 0;
+  std::uint64_t sequence_ = 0;
+  std::int64_t due_ns_ = -1;
+};
+
+/// A person's finger at the virtual bench, led by the mouse: it hovers over the place of the
+/// phantom's top that is pointed at in the AR view, goes down evenly while the left button is held,
+/// and M marks. Nobody feels with a mouse: what the bench's sensor measures is drawn.
+class PointingHand final : public twin::Hand {
+ public:
+  struct Setup {
+    Pose X_DP, X_ET;  ///< as the station knows them: what is pointed at is on the screen
+    Pose X_AP;
+    double half_x = 0, half_y = 0;  ///< m, P: it stays over the area
+    twin::HandGrip grip;
+  };
+  explicit PointingHand(const Setup& setup);
+
+  /// Called by the scene's thread with what the window reports and how it looks.
+  void handle(const scene::ViewInput& input, const scene::ArGeometry& view, std::int64_t now_ns);
+
+  Action act(const Senses& senses, double dt) override;  ///< the bench's thread
+  const twin::HandGrip& grip() const override { return setup_.grip; }
+
+ private:
+  struct Wish {
+    double x = 0, y = 0;  ///< m, P
+    bool press = false;
+    int marks = 0;  ///< asked for so far
+  };
+  void move(const Wish& wish, double dt);
+
+  const Setup setup_;
+  runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
+  Wish wish_;  // the scene thread's
+  std::int64_t mark_key_ns_ = -1'000'000'000;
+  Vec3 tip_P_ = Vec3::Zero();  // the bench thread's
+  bool begun_ = false;
+  int marked_ = 0;
+  double mark_left_s_ = 0;
+};
+
+}  // namespace palpa::session

@@ -1,0 +1,172 @@
+#include "apps/session/needle_session.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <optional>
+#include <sstream>
+#include <tuple>
+
+#include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
+#include "apps/assess/trial.h"
+#include "apps/evidence/rating_forms.h"
+#include "apps/evidence/recorded_session.h"
+#include "apps/report/needle/session_report.h"
+#include "apps/session/needle_world.h"
+#include "apps/session/session_facts.h"
+#include "apps/station/overlay_error.h"
+
+namespace palpa::session {
+namespace {
+
+/// `forms`: of an assessment, whose trials are judged; null: practice.
+std::vector<report::TrialPage> pages(const SessionResult& result,
+                                     const evidence::RatingForms* forms) {
+  std::vector<report::TrialPage> all;
+  for (const auto& trial : result.trials) {
+    report::TrialPage page{trial.assessment, evidence::thinned(trial.samples), {}};
+    for (const auto& p : result.pictures)
+      if (p.moment.trial == trial.assessment.trial)
+        page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
+    if (forms && assess::inAssessment(trial.assessment.role) && trial.assessment.by_path) {
+      page.verdict = evidence::verdictOf(trial.assessment, *forms, {},
+                                         evidence::standardOf(forms->checklist, 0));
+      page.certification =
+          competence::whatCannotBeCertified(static_cast<int>(result.trials.size()));
+    }
+    all.push_back(std::move(page));
+  }
+  return all;
+}
+
+/// With the needle's tip at the entry point, upright.
+report::Fact predictedOverlay(const SessionResult& result, const NeedleWorld& world) {
+  const char* const name = "Overlay at the needle's tip, predicted error";
+  if (!result.board || world.station.calibrations.empty())
+    return {name, "not known",
+            "the station was not calibrated by this program: palpa calibrate all"};
+  const Pose X_WT = makePose(rotationWithZ(-Vec3::UnitZ()),
+                             world.X_WA * world.patient.landmark(anatomy::landmark::kEntry));
+  const auto error = station::predictOverlayError(
+      world.station, world.station.X_WD.inverse() * X_WT * world.station.X_ET.inverse(),
+      *result.board);
+  if (!error) return {name, "not known", "tool or registration is not calibrated"};
+  const auto& all = world.station.calibrations;
+  const bool simulated =
+      std::any_of(all.begin(), all.end(), [](const auto& c) { return c.file.simulated; });
+  return {name, format("%.2f mm, %.2f px", error->mm, error->px),
+          std::string("root mean square, at the entry point, by the spreads of the calibrations") +
+              (simulated ? " (simulated)" : "")};
+}
+
+std::vector<report::Fact> registrationFacts(const SessionResult& result, const NeedleWorld& world) {
+  std::vector<report::Fact> facts{predictedOverlay(result, world)};
+  if (result.accuracy) {
+    const twin::BenchAccuracy& a = *result.accuracy;
+    facts.push_back({"Registration error at the entry point, median",
+                     format("%.2f mm", a.entry_median_mm),
+                     format("camera at %.2f m; simulated truth against estimate", a.distance_m)});
+    facts.push_back(
+        {"The same, 95 % of pictures below", format("%.2f mm", a.entry_p95_mm), "simulated truth"});
+    facts.push_back({"Needle tip's registration at the entry point", format("%.2f mm", a.tool_mm),
+                     "haptic base and tool calibration; simulated truth"});
+    facts.push_back(
+        {"Pictures with the board found", format("%zu of %zu", a.registered, a.pictures), ""});
+  }
+  for (const RegistrationRow& row : result.registration)
+    facts.push_back({row.source, row.points ? format("rms %.2f px", row.rms_px) : "no board found",
+                     row.points ? format("%d points, camera at %.2f m", row.points,
+                                         row.X_CW.translation().norm())
+                                : ""});
+  return facts;
+}
+
+std::vector<report::Fact> stationFacts(const SessionOptions& options, const NeedleWorld& world) {
+  std::vector<report::Fact> facts = stationFactsOf(options, world.station);
+  if (world.task.block)
+    facts.insert(facts.begin() + 3,
+                 {"Phantom", "a block",
+                  format("%.0f x %.0f x %.0f mm", 1e3 * world.task.block->size.x(),
+                         1e3 * world.task.block->size.y(), 1e3 * world.task.block->size.z())});
+  else
+    facts.insert(facts.begin() + 3, {"Patient", world.patient.name,
+                                     std::string(anatomy::name(world.patient.side)) + " side"});
+  if (world.expert_path)
+    facts.push_back({"Optimal path", format("from %d expert trials", world.expert_path->trials),
+                     world.expert_path->simulated ? "simulated experts" : ""});
+  return facts;
+}
+
+void writeRegistration(const std::vector<RegistrationRow>& rows,
+                       const std::filesystem::path& file) {
+  std::ostringstream csv;
+  csv << "picture,found,points,rms_px,t_x_m,t_y_m,t_z_m,q_w,q_x,q_y,q_z\n";
+  for (const RegistrationRow& row : rows) {
+    const PackedPose X = pack(row.X_CW);
+    csv << std::filesystem::path(row.source).filename().string() << ',' << (row.points ? 1 : 0)
+        << ',' << row.points
+        << format(",%.4f,%.6f,%.6f,%.6f,%.8f,%.8f,%.8f,%.8f\n", row.rms_px, X.p[0], X.p[1], X.p[2],
+                  X.q[0], X.q[1], X.q[2], X.q[3]);
+  }
+  writeWhole(file, csv.str());
+}
+
+void sayResult(const SessionResult& result) {
+  for (const auto& trial : result.trials) {
+    const assess::TrialAssessment& a = trial.assessment;
+    const std::string total =
+        a.by_path ? format(" Total penalty %.1f (lower is better)", a.total) : "";
+    std::printf("Trial %d (%s%s): %s%s\n", a.trial, a.role.c_str(),
+                a.simulated ? ", simulated" : "",
+                a.summary.empty() ? a.outcome.c_str() : a.summary.c_str(), total.c_str());
+  }
+}
+
+}  // namespace
+
+void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
+                  const SessionResult& result, const std::filesystem::path& folder) {
+  std::vector<assess::TrialAssessment> scored;
+  for (const auto& trial : result.trials)
+    if (assess::countsAsScored(trial.assessment.role) && trial.assessment.outcome != "void")
+      scored.push_back(trial.assessment);
+  report::writeTrialsCsv(options.trainee, scored, folder / "trials.csv");
+  report::SessionReport page;
+  page.title = world.task.title +
+               (world.task.block ? std::string()
+                                 : std::string(", ") + anatomy::name(world.patient.side) + " side");
+  page.trainee = whoPerformed(options);
+  page.simulated = isSimulated(options, world);
+  const std::optional<evidence::RatingForms> forms =
+      options.assess ? std::optional(evidence::readForms("", "")) : std::nullopt;
+  page.trials = pages(result, forms ? &*forms : nullptr);
+  page.taxonomy = taxonomyFacts(world.task.taxonomy);
+  page.station = stationFacts(options, world);
+  page.registration = registrationFacts(result, world);
+  page.notes = runNotes(result);
+  page.parts = partsOf(world.task.augmentations, result.trials, [](const auto& t) {
+    return std::tuple(t.assessment.doses, t.assessment.augmented,
+                      1e-3 * t.assessment.values.time_ms);
+  });
+  report::writeReport(page, folder / "report.html");
+  if (!result.registration.empty())
+    writeRegistration(result.registration, folder / "registration.csv");
+
+  sayResult(result);
+  std::printf("Written to %s:\n", folder.string().c_str());
+  std::printf("  report.html     what happened, with reasons and pictures: open this first\n");
+  std::printf(
+      "  trials.csv      one row a trial\n  session.palpa   the evidence: every tick, for "
+      "replay\n");
+  if (!result.registration.empty())
+    std::printf("  registration.csv  how the board was found in each picture\n");
+  if (result.video)
+    std::printf(
+        "  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, "
+        "and where the board was\n",
+        static_cast<unsigned long long>(result.video->pictures));
+  if (!result.pictures.empty())
+    std::printf("  view-*.png      %zu pictures of the marked moments\n", result.pictures.size());
+}
+
+}  // namespace palpa::session

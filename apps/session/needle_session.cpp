@@ -1,0 +1,160 @@
+#include "apps/session/needle_session.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <memory>
+
+#include "apps/runtime/geometry_activity.h"
+#include "apps/session/needle_world.h"
+#include "apps/session/stage.h"
+#include "apps/station/overlay_error.h"
+#include "apps/task_needle/near_miss_watch.h"
+
+namespace palpa::session {
+namespace {
+
+constexpr std::uint64_t kFamiliarisationSeed = 1'000'000;  // another skin than the scored trials
+
+/// Empty: trials count.
+std::string whyNotScored(const SessionOptions& options, const NeedleWorld& world) {
+  if (world.station.calibration_verdict != "pass") return world.station.calibration_verdict;
+  if (!world.station.device.capabilities.has_orientation)
+    return "the device does not measure how the needle is held";
+  if (options.guide) return "the guide line to the vein was shown";
+  return "";
+}
+
+std::vector<task_needle::TrialPlan> plan(const SessionOptions& options, const NeedleWorld& world,
+                                         bool person) {
+  const bool scored = whyNotScored(options, world).empty();
+  std::vector<task_needle::TrialPlan> trials;
+  if (person && options.familiarisation)
+    trials.push_back(world.trial("familiarisation", options.seed + kFamiliarisationSeed,
+                                 options.force_feedback, false));
+  for (int i = 0; i < options.trials; ++i) {
+    const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
+    trials.push_back(world.trial(scored ? options.role : "not scored", seed, options.force_feedback,
+                                 options.augment));
+    trials.back().most_passes =
+        options.assess ? world.task.most_passes.assessed : world.task.most_passes.practice;
+  }
+  return trials;
+}
+
+int skinOf(const anatomy::Patient& patient) {
+  const anatomy::OrganSurface& skin = patient.organ(Organ::skin);
+  return static_cast<int>(&skin - patient.organs.data());
+}
+
+/// What is the needle's in a session.
+class NeedleSession {
+ public:
+  NeedleSession(const SessionOptions& options, NeedleWorld& world,
+                const std::filesystem::path& folder)
+      : options_(options), world_(world), folder_(folder) {
+    MouseHand* mouse = frame_.devices().mouse();
+    if (mouse && !options_.assess) mouse->onSkinKey([this] { scene_.cycleSkin(); });
+    if (mouse && head_.view)
+      head_.view->onHeld([this, mouse](const headset::HeldTool& held) {
+        mouse->hold(held, frame_.executive().clock().now());
+      });
+  }
+
+  SessionResult run() {
+    SessionResult result;
+    static_cast<SessionRun&>(result) =
+        frame_.run(task_, scene_, sessionInfo(options_, world_, folder_), &geometry_);
+    result.trials = task_.completed();
+    if (options_.headset) result.devices.push_back(head_.fact());
+    return result;
+  }
+
+ private:
+  task_needle::NeedleTask::Setup taskSetup() const {
+    const bool person = options_.who == OperatorKind::person;
+    return {world_.patient,
+            world_.query,
+            world_.task,
+            world_.expert_path ? &*world_.expert_path : nullptr,
+            world_.X_DA.inverse(),
+            pack(world_.station.X_ET),
+            isSimulated(options_, world_),
+            !person,
+            whyNotScored(options_, world_),
+            plan(options_, world_, person),
+            frame_.places(),
+            world_.tickConfig().augmentations};
+  }
+
+  task_needle::SceneActivity::Setup sceneSetup() {
+    task_needle::SceneActivity::Setup setup{stageSetup(),
+                                            options_.skin_deflection ? &world_.query : nullptr,
+                                            skinOf(world_.patient),
+                                            {},
+                                            world_.task.words};
+    if (options_.guide)
+      setup.guide = scene::Guide{world_.patient.landmark(anatomy::landmark::kEntry),
+                                 world_.patient.landmark(anatomy::landmark::kVeinTarget)};
+    return setup;
+  }
+
+  trial::TrialScene::Stage stageSetup() {
+    trial::TrialScene::Stage setup = frame_.stage(head_.view.get());
+    for (std::size_t i = 0; i < world_.real_things.size(); ++i)
+      setup.things.push_back({&world_.real_things[i], &world_.station.things[i]});
+    if (station::calibrationOf(world_.station.calibrations, "registration"))
+      setup.tip_covariance_A = [this](const Pose& X_DT) { return tipCovariance(X_DT); };
+    if (MouseHand* mouse = frame_.devices().mouse(); mouse && setup.input)
+      setup.input = [this, mouse](const scene::ViewInput& input, std::int64_t now_ns) {
+        if (head_.view && !head_.view->trouble().empty()) mouse->letGo(now_ns);
+        mouse->handle(input, now_ns);
+      };
+    return setup;
+  }
+
+  /// Of the drawn tip against the real one, in A.
+  std::optional<Mat3> tipCovariance(const Pose& X_DT) const {
+    const auto S_W =
+        station::predictTipCovariance(world_.station, X_DT * world_.station.X_ET.inverse());
+    const Mat3 R_AW = world_.X_WA.rotation().transpose();
+    return S_W ? std::optional<Mat3>(R_AW * *S_W * R_AW.transpose()) : std::nullopt;
+  }
+
+  /// Of the evidence's records as they come.
+  std::string nearMiss(const haptics::FlightRecord& record) {
+    const Pose X_DT =
+        unpack(PackedPose{record.reading.p_DE, record.reading.q_DE}) * world_.station.X_ET;
+    return near_.look(world_.X_DA.inverse() * X_DT.translation(),
+                      record.phase == haptics::NeedlePhase::inserted, record.commands.trial);
+  }
+
+  const SessionOptions& options_;
+  NeedleWorld& world_;
+  const std::filesystem::path folder_;
+  task_needle::TaskChannels channels_{options_.fast ? runtime::TimeMode::virtual_time
+                                                    : runtime::TimeMode::real};
+  task_needle::NearMissWatch near_{world_.patient, world_.query};
+  SessionFrame frame_{
+      options_,
+      {.station = world_.station,
+       .patient = world_.patient,
+       .X_WA = world_.X_WA,
+       .tick = tickConfig(options_, world_),
+       .near = [this](const haptics::FlightRecord& record) { return nearMiss(record); }},
+      needleHands(options_, world_),
+      channels_,
+      folder_};
+  const HeadStage head_ = makeHeadStage(options_, world_.patient, world_.X_WA, frame_.desktop());
+  runtime::GeometryActivity geometry_{frame_.bus(), world_.geometry, world_.X_DA};
+  task_needle::NeedleTask task_{taskSetup(), frame_.bus(), channels_, frame_.executive()};
+  task_needle::SceneActivity scene_{sceneSetup(), frame_.bus(), channels_};
+};
+
+}  // namespace
+
+SessionResult runNeedleSession(const SessionOptions& options, NeedleWorld& world,
+                               const std::filesystem::path& folder) {
+  return std::make_unique<NeedleSession>(options, world, folder)->run();
+}
+
+}  // namespace palpa::session

@@ -1,0 +1,139 @@
+#include <cmath>
+#include <fstream>
+#include <iterator>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/patient/patient_file.h"
+#include "apps/runtime/clock.h"
+#include "apps/session/needle_world.h"
+#include "apps/session/output_folder.h"
+#include "apps/station/assets.h"
+#include "apps/twin/learning_hand.h"
+#include "apps/twin/operator.h"
+
+namespace palpa::session {
+namespace {
+
+twin::OperatorSkill skillOf(OperatorKind who) {
+  return twin::readOperatorSkill(station::assetFile(
+      who == OperatorKind::novice ? "operators/novice.json" : "operators/expert.json"));
+}
+
+/// A learner at a trial. The clavicle guides whoever feels it: nobody learns to lean on it where it
+/// is not felt.
+twin::OperatorSkill learnt(const SessionOptions& options, const twin::OperatorSkill& from,
+                           const twin::OperatorSkill& to, double level) {
+  twin::OperatorSkill skill = between(from, to, level);
+  if (!options.force_feedback) skill.guide = from.guide;
+  return skill;
+}
+
+std::unique_ptr<twin::Hand> operatorOf(const SessionOptions& options,
+                                       const twin::OperatorSkill& skill,
+                                       const twin::VisibleAnatomy& anatomy, const Pose& X_ET) {
+  if (options.who != OperatorKind::learner)
+    return std::make_unique<twin::Operator>(skill, anatomy, X_ET, options.seed);
+  return std::make_unique<twin::LearningHand>(
+      [options, from = twin::readOperatorSkill(options.learner.from),
+       to = twin::readOperatorSkill(options.learner.to), anatomy, X_ET](int trial) {
+        const LearnerOptions& learner = options.learner;
+        return std::make_unique<twin::Operator>(
+            learnt(options, from, to, learner.level(trial)), anatomy, X_ET,
+            learner.seed + static_cast<std::uint64_t>(trial - 1));
+      });
+}
+
+}  // namespace
+
+SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWorld& world) {
+  const twin::OperatorSkill skill = skillOf(options.who);
+  const twin::VisibleAnatomy anatomy = world.visible(skill, options.knows_patient);
+  twin::VirtualBench::Setup bench{
+      world.station,
+      operatorOf(options, skill, anatomy, world.station.X_ET),
+      twin::needlePickedUp(world.station, world.X_WA, anatomy.entry_A, options.left_handed),
+      world.X_WA * anatomy.entry_A,
+      world.X_WA.rotation() * anatomy.normal_A,
+      options.benchSeed(),
+      {},
+      nullptr,
+      {}};
+  const MouseHand::Setup mouse{world.X_DA, world.station.X_ET,
+                               world.visible(skillOf(OperatorKind::expert), false),
+                               options.left_handed};
+  return {std::move(bench), mouse};
+}
+
+namespace {
+
+std::string bytesOf(const anatomy::Patient& patient, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / ".patient.glb";
+  anatomy::writePatient(patient, file);
+  std::ifstream stream(file, std::ios::binary);
+  std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::filesystem::remove(file);
+  return bytes;
+}
+
+nlohmann::json json(const Pose& X) {
+  const PackedPose p = pack(X);
+  return {{"p_m", p.p}, {"q_wxyz", p.q}};
+}
+
+}  // namespace
+
+bool isSimulated(const SessionOptions& options, const NeedleWorld& world) {
+  return isSimulated(options.who) || world.station.simulated;
+}
+
+haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld& world) {
+  haptics::TickConfig config = world.tickConfig();
+  config.period_ns = std::llround(1e9 / options.rate_Hz);
+  if (options.exact_geometry) config.blend_ns = 0;  // every tick has its own
+  const station::DeviceSetup& device = world.station.device;
+  const bool has_buttons =
+      !isSimulated(options.who) && device.driver != station::DeviceDriver::mouse;
+  if (!has_buttons) config.safety.deadman_button = 0;  // nobody could hold it
+  config.device_turns = isSimulated(options.who) || device.capabilities.has_orientation;
+  return config;
+}
+
+record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world,
+                                const std::filesystem::path& folder) {
+  record::SessionInfo info;
+  info.uuid = options.uuid;
+  info.started_utc = runtime::utcNow();
+  info.software = std::string("palpa ") + PALPA_VERSION;
+  info.command = options.command;
+  info.session_json = sessionText({{"seed", options.seed},
+                                   {"bench_seed", options.benchSeed()},
+                                   {"operator", nameOf(options.who)},
+                                   {"knows_patient", options.knows_patient},
+                                   {"simulated", isSimulated(options, world)},
+                                   {"trainee", options.trainee},
+                                   {"force_feedback", options.force_feedback},
+                                   {"side", anatomy::name(world.patient.side)},
+                                   {"augment", options.augment},
+                                   {"skin_deflection", options.skin_deflection},
+                                   {"handedness", options.left_handed ? "left" : "right"},
+                                   {"virtual_time", options.fast},
+                                   {"camera_rate_Hz", world.station.camera_rate_Hz},
+                                   {"assessed", options.assess},
+                                   {"X_DA", json(world.X_DA)},
+                                   {"X_WA", json(world.X_WA)},
+                                   {"X_WD", json(world.station.X_WD)}},
+                                  options);
+  info.station_json = world.station.file.json().dump();
+  info.task_json = world.task.source;
+  info.patient_glb = bytesOf(world.patient, folder);
+  if (world.expert_path) {
+    std::ifstream stream(world.task.expert_path);
+    info.expert_path_json.assign(std::istreambuf_iterator<char>(stream),
+                                 std::istreambuf_iterator<char>());
+  }
+  info.tick_config = tickConfig(options, world);
+  return info;
+}
+
+}  // namespace palpa::session

@@ -1,0 +1,169 @@
+#include "apps/session/needle_world.h"
+#include "apps/runtime/clock.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <sstream>
+#include <utility>
+
+#include "anatomy/base/random.h"
+#include "anatomy/import/decimate.h"
+#include "anatomy/import/mesh_file.h"
+#include "anatomy/parametric/parametric_patient.h"
+#include "anatomy/parametric/phantoms.h"
+#include "anatomy/patient/patient_check.h"
+#include "anatomy/patient/patient_file.h"
+#include "apps/session/output_folder.h"
+#include "apps/station/assets.h"
+
+namespace palpa::session {
+namespace {
+
+/// The needle's way is straight down.
+anatomy::Patient makeBlock(const SessionOptions& options, const task_needle::TaskSettings& task) {
+  const SessionOptions as_made;
+  const std::pair<const char*, bool> not_here[]{
+      {"--patient", !options.patient.empty()},
+      {"--patient-seed", options.patient_seed != as_made.patient_seed},
+      {"--guide", options.guide}};
+  for (const auto& [option, given] : not_here)
+    if (given)
+      throw UsageError("has no meaning for this task: a block is punctured, no patient", option,
+                       "Leave it out");
+  anatomy::Patient block = anatomy::phantomBlock(task.block->size, task.title);
+  block.layers = task.block->layers;
+  return block;
+}
+
+anatomy::Patient makePatient(const SessionOptions& options, const task_needle::TaskSettings& task) {
+  if (task.block) return makeBlock(options, task);
+  if (!options.patient.empty()) {
+    anatomy::Patient patient = anatomy::readPatient(options.patient);
+    anatomy::requireForNeedle(patient, options.patient);
+    if (options.side == anatomy::Side::left &&
+        patient.side != options.side)  // right is what is meant where nothing is said
+      throw UsageError("is left, and this patient was built for the right side", "--side",
+                       "Leave it out, or build the patient anew: palpa patient build --side left");
+    return patient;
+  }
+  anatomy::PatientParameters parameters = anatomy::drawParameters(
+      anatomy::readPopulation(station::assetFile("patients/reference.json").string()), options.side,
+      options.patient_seed);
+  parameters.extent = anatomy::Extent::bust;  // as the phantom that lies behind the board
+  return anatomy::buildPatient(parameters);
+}
+
+task_needle::TaskSettings makeTask(const SessionOptions& options) {
+  task_needle::TaskSettings task =
+      task_needle::readTask(options.task.empty() ? station::assetFile("tasks/paracentesis.json")
+                                                 : std::filesystem::path(options.task));
+  if (options.expert_path.empty()) return task;
+  if (task.goal)
+    throw UsageError("has no meaning for this task: it has a goal of its own, no optimal path",
+                     "--expert-path", "Leave it out");
+  task.expert_path = options.expert_path;
+  return task;
+}
+
+station::Station makeStation(const SessionOptions& options) {
+  station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/virtual_bench.json")
+                              : std::filesystem::path(options.station));
+  station::judgeAge(station, runtime::utcNow());
+  if (!options.intrinsics.empty())
+    station.camera = station.design.camera = calibration::readCameraModel(options.intrinsics);
+  return station;
+}
+
+constexpr double kFarthestWall = 2;  // standard deviations: no wall that no needle passes
+
+int surfaceIndex(const anatomy::Patient& patient, Organ organ) {
+  for (std::size_t i = 0; i < patient.organs.size(); ++i)
+    if (patient.organs[i].organ == organ) return static_cast<int>(i);
+  return -1;
+}
+
+/// All surfaces of the file as one.
+anatomy::TriangleMesh meshOf(const station::RealThing& thing) {
+  anatomy::TriangleMesh mesh;
+  for (const anatomy::RawMesh& part : anatomy::readMeshFile(thing.mesh)) {
+    const auto first = static_cast<std::uint32_t>(mesh.points.size());
+    for (const Vec3& p : part.points) mesh.points.push_back(thing.metres * p);
+    for (auto t : part.triangles)
+      mesh.triangles.push_back({first + t[0], first + t[1], first + t[2]});
+  }
+  anatomy::computeUnitNormals(&mesh);
+  return mesh;
+}
+
+}  // namespace
+
+NeedleWorld::NeedleWorld(const SessionOptions& options)
+    : station(makeStation(options)),
+      task(makeTask(options)),
+      needle(station::readNeedleFile(task.materials)),
+      patient(makePatient(options, task)),
+      query(patient),
+      geometry(patient, query),
+      landmarks(task.block ? std::nullopt : std::make_optional<anatomy::LandmarkFrame>(patient)) {
+  for (const station::RealThing& thing : station.things) real_things.push_back(meshOf(thing));
+  if (!options.record_only && !task.expert_path.empty())
+    expert_path = calibration::readExpertPath(task.expert_path);
+  X_WA = options.camera.empty() ? station::placePatient(patient, station.entry_W)
+                                : station::placePatientOnBoard(patient);
+  if (!options.camera.empty())  // the bench's device stands where it stood, relative to the patient
+    for (Pose* X_WD : {&station.X_WD, &station.design.X_WD})
+      *X_WD = X_WA * station::placePatient(patient, station.entry_W).inverse() * *X_WD;
+  X_DA = station.X_WD.inverse() * X_WA;
+}
+
+haptics::TickConfig NeedleWorld::tickConfig() const {
+  haptics::TickConfig config;
+  config.materials = needle.materials;
+  config.coupling = station.coupling;
+  config.safety = station.safety;
+  config.passivity = station.passivity;
+  config.X_ET = pack(station.X_ET);
+  config.augmentations =
+      station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
+  return config;
+}
+
+twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill,
+                                          bool knows_patient) const {
+  twin::VisibleAnatomy v;
+  v.entry_A = patient.landmark(anatomy::landmark::kEntry);
+  v.normal_A = query.closest(surfaceIndex(patient, Organ::skin), v.entry_A).n_A;
+  if (!landmarks) {
+    v.aim_A = v.entry_A - skill.vein_distance * v.normal_A;
+    v.vein_distance = skill.vein_distance;
+    v.medial_A = Vec3::UnitX();
+    v.posterior_A = Vec3::UnitY();
+    v.cephalad_A = Vec3::UnitZ();
+    return v;
+  }
+  v.aim_A = knows_patient ? patient.landmark(anatomy::landmark::kVeinTarget)
+                          : Vec3(patient.landmark(anatomy::landmark::kSternalEndPosteriorSuperior) +
+                                 landmarks->vectorToA(skill.aim_offset_L));
+  v.vein_distance = knows_patient ? (v.aim_A - v.entry_A).norm() : skill.vein_distance;
+  v.medial_A = landmarks->vectorToA(Vec3::UnitX());
+  v.posterior_A = landmarks->vectorToA(Vec3::UnitY());
+  v.cephalad_A = landmarks->vectorToA(Vec3::UnitZ());
+  return v;
+}
+
+task_needle::TrialPlan NeedleWorld::trial(const std::string& role, std::uint64_t seed,
+                                          bool force_feedback, bool augmented) const {
+  task_needle::TrialPlan plan{role, seed, force_feedback, augmented, 0, {}};
+  plan.puncture_force_N = runtime::RandomStream(seed, "skin.puncture")
+                              .uniform(needle.puncture_low_N, needle.puncture_high_N);
+  runtime::RandomStream walls(seed, "walls.puncture");
+  for (std::size_t i = 0; i < plan.wall_scale.size(); ++i) {
+    const double z = std::clamp(walls.normal(), -kFarthestWall, kFarthestWall);
+    plan.wall_scale[i] = static_cast<float>(std::exp(needle.materials.walls[i].spread * z));
+  }
+  return plan;
+}
+
+}  // namespace palpa::session

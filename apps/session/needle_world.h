@@ -1,0 +1,64 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "anatomy/patient.h"
+#include "anatomy/query/local_geometry_builder.h"
+#include "anatomy/query/surface_query.h"
+#include "apps/record/session_file.h"
+#include "apps/session/session_devices.h"
+#include "apps/session/session_options.h"
+#include "apps/station/material_files.h"
+#include "apps/station/station_file.h"
+#include "apps/task_needle/needle_task.h"
+#include "apps/task_needle/task_file.h"
+#include "apps/twin/operator.h"
+#include "calibration/expert_path.h"
+
+namespace palpa::session {
+
+/// Everything a needle session rests on, read and checked before anything starts. Immovable: parts
+/// refer to each other.
+struct NeedleWorld {
+  explicit NeedleWorld(const SessionOptions& options);  ///< throws UsageError / Error
+  NeedleWorld(const NeedleWorld&) = delete;
+  NeedleWorld& operator=(const NeedleWorld&) = delete;
+
+  station::Station station;
+  task_needle::TaskSettings task;
+  station::NeedleFile needle;
+  anatomy::Patient patient;
+  anatomy::SurfaceQuery query;
+  anatomy::LocalGeometryBuilder geometry;
+  std::optional<anatomy::LandmarkFrame> landmarks;  ///< none: it is no patient
+  std::optional<calibration::ExpertPath> expert_path;
+  std::vector<anatomy::TriangleMesh> real_things;  ///< the station's, in its order; metres
+  Pose X_WA, X_DA;
+
+  haptics::TickConfig tickConfig() const;
+  /// What a simulated operator knows: the landmarks, and where the vein lies in the mean anatomy
+  /// or, where he has studied this patient's images, in the patient as he is shown.
+  twin::VisibleAnatomy visible(const twin::OperatorSkill& skill, bool knows_patient) const;
+  /// A trial with this seed's skin and walls.
+  task_needle::TrialPlan trial(const std::string& role, std::uint64_t seed, bool force_feedback,
+                               bool augmented) const;
+};
+
+/// Who may hold the needle: a simulated operator, as the options ask for one, or somebody with a
+/// mouse.
+SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWorld& world);
+
+/// Whether anything in the session is simulated: the operator, or what is seen and felt.
+bool isSimulated(const SessionOptions& options, const NeedleWorld& world);
+
+/// What the loop runs with: materials, safety, coupling, rate; what the device and whoever holds it
+/// can do.
+haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld& world);
+
+/// What the evidence says of the session. `folder`: for a passing file.
+record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world,
+                                const std::filesystem::path& folder);
+
+}  // namespace palpa::session

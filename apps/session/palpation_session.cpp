@@ -1,0 +1,288 @@
+#include "apps/session/palpation_session.h"
+#include "apps/runtime/clock.h"
+
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <tuple>
+
+#include <nlohmann/json.hpp>
+
+#include "apps/assess/trial.h"
+#include "apps/report/palpation/palpation_report.h"
+#include "apps/session/mouse_hands.h"
+#include "apps/session/output_folder.h"
+#include "apps/session/session_facts.h"
+#include "apps/station/assets.h"
+#include "apps/task_palpation/palpation_scene.h"
+#include "apps/task_palpation/palpation_task.h"
+#include "apps/twin/palpating_hand.h"
+#include "apps/twin/soft_samples.h"
+
+namespace palpa::session {
+namespace {
+
+constexpr double kPickedUp = 0.05;  // m above the phantom
+
+station::Station palpationStation(const SessionOptions& options) {
+  station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/palpation_bench.json")
+                              : std::filesystem::path(options.station));
+  station::judgeAge(station, runtime::utcNow());
+  if (!station.sample)
+    throw UsageError("has no \"sample\"", station.file.name(),
+                     "Say where the phantom lies: sample/X_WP, sample/tip_radius_mm");
+  if (!station.force_sensor)
+    throw UsageError("has no \"force_sensor\"", station.file.name(),
+                     "Lumps are added to what is felt of the phantom: that must be measured. "
+                     "Describe the sensor");
+  if (station.device.driver == station::DeviceDriver::bench &&
+      station.force_sensor->driver != station::ForceSensorSetup::Driver::bench)
+    station.file.refuse("force_sensor/driver",
+                        "is a real sensor, but the device is simulated and touches simulated "
+                        "silicone; it must be \"virtual\", too");
+  return station;
+}
+
+/// What anybody sees or has learnt of the phantom.
+twin::VisiblePhantom visible(const task_palpation::PalpationSettings& task) {
+  const auto from_normal = [normal = task.scoring.rules.normal](const Vec3& p_P) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const assess::NormalAnatomy& one : normal)
+      nearest = std::min(nearest, assess::fromLine(one, p_P));
+    return nearest;
+  };
+  return {anatomy::X_AP(), task.scoring.rules.area.half_x, task.scoring.rules.area.half_y,
+          from_normal};
+}
+
+}  // namespace
+
+PalpationWorld::PalpationWorld(const SessionOptions& options)
+    : station(palpationStation(options)),
+      task(task_palpation::readPalpation(options.task.empty()
+                                             ? station::assetFile("tasks/palpation_breast.json")
+                                             : std::filesystem::path(options.task))),
+      phantom(anatomy::phantomBlock(task.size, task.title)),
+      X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
+  task.library = station::onStation(std::move(task.library), station.calibrations);
+  if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
+    station.file.refuse("sample/tip_radius_mm",
+                        "is not that of the tip with which the task's lumps were identified");
+  if (!onBench() && (station.safety.deadman_button & task_palpation::PalpationListener::kMark))
+    station.file.refuse("safety/deadman_button", "is the button that marks a lump; give another");
+}
+
+haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) const {
+  haptics::TickConfig config;
+  config.engine = haptics::Engine::touch;
+  config.object_at_port = 1;
+  config.coupling = station.coupling;
+  config.safety = station.safety;
+  config.passivity = station.passivity;
+  config.X_ET = pack(station.X_ET);
+  config.touch = station::touchOf(task.library);
+  config.X_DP = pack(Pose(station.X_WD.inverse() * station.sample->X_WP));
+  config.augmentations =
+      station::onDevice(task.augmentations, station.safety.max_force_N, station.coupling.stiffness);
+  for (std::size_t i = 0; i < task.library.kinds.size(); ++i)
+    config.lump_radius[i] = task.library.kinds[i].diameter / 2;
+  config.period_ns = std::llround(1e9 / options.rate_Hz);
+  if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
+  config.device_turns = onBench() || station.device.capabilities.has_orientation;
+  return config;
+}
+
+SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const {
+  const twin::PalpatingSkill skill = twin::readPalpatingSkill(
+      station::assetFile(options.who == OperatorKind::novice ? "operators/palpation_novice.json"
+                                                             : "operators/palpation_expert.json"));
+  const twin::VisiblePhantom seen = visible(task);
+  const Pose& X_WP = station.sample->X_WP;
+  auto person = options.who == OperatorKind::person && onBench()
+                    ? std::make_unique<PointingHand>(PointingHand::Setup{
+                          station.X_WD.inverse() * X_WP, station.X_ET, anatomy::X_AP(), seen.half_x,
+                          seen.half_y, skill.grip})
+                    : nullptr;
+  PointingHand* const pointing = person.get();
+  std::unique_ptr<twin::Hand> hand = std::move(person);
+  if (!hand) hand = std::make_unique<twin::PalpatingHand>(skill, seen, station.X_ET, options.seed);
+  const Pose X_WT =
+      X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(),
+                      Vec3(0, -task.scoring.rules.area.half_y, kPickedUp));
+  twin::VirtualBench::Setup bench{station,
+                                  std::move(hand),
+                                  station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
+                                  X_WP.translation(),
+                                  X_WP.linear() * Vec3::UnitZ(),
+                                  options.benchSeed(),
+                                  {},
+                                  nullptr,
+                                  {},
+                                  {}};
+  if (onBench()) {
+    const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
+    bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
+      const twin::SampleTwin::Touch touch = sample->step(X_WT_true[0], dt);
+      return std::array<twin::VirtualBench::Touch, 2>{{{touch.f_W, touch.p_W}, {}}};
+    };
+  }
+  return {std::move(bench), std::nullopt, task.library.tip_radius, pointing};
+}
+
+record::SessionInfo PalpationWorld::info(const SessionOptions& options) const {
+  record::SessionInfo info;
+  info.uuid = options.uuid;
+  info.started_utc = runtime::utcNow();
+  info.software = std::string("palpa ") + PALPA_VERSION;
+  info.command = options.command;
+  info.session_json = sessionText({{"seed", options.seed},
+                                   {"bench_seed", options.benchSeed()},
+                                   {"operator", nameOf(options.who)},
+                                   {"simulated", simulated(options)},
+                                   {"trainee", options.trainee},
+                                   {"force_feedback", options.force_feedback},
+                                   {"guidance", options.guidance},
+                                   {"see_through", options.see_through},
+                                   {"augment", options.augment},
+                                   {"virtual_time", options.fast},
+                                   {"assessed", options.assess}},
+                                  options);
+  info.station_json = station.file.json().dump();
+  info.task_json = task.source;
+  info.tick_config = tickConfig(options);
+  return info;
+}
+
+std::string PalpationWorld::forceNote() const {
+  if (station.safety.max_force_N >= task.clinical_force_N &&
+      task.scoring.rules.levels[2] >= task.clinical_force_N)
+    return "";
+  char text[128];
+  std::snprintf(text, sizeof text, "Scaled force: deep is %.1f N here, about %.0f N on a patient",
+                task.scoring.rules.levels[2], task.clinical_force_N);
+  return text;
+}
+
+namespace {
+
+/// Empty: trials count.
+std::string whyUnscored(const SessionOptions& options, const PalpationWorld& world) {
+  if (world.station.calibration_verdict != "pass") return world.station.calibration_verdict;
+  if (options.see_through) return "the lumps were shown";
+  if (options.who == OperatorKind::person && world.onBench())
+    return "led with a mouse: nothing was felt";
+  return "";
+}
+
+std::vector<task_palpation::PalpationPlan> planOf(const SessionOptions& options,
+                                                  const PalpationWorld& world) {
+  const bool scored = whyUnscored(options, world).empty();
+  std::vector<task_palpation::PalpationPlan> plan;
+  for (int i = 0; i < options.trials; ++i) {
+    plan.push_back({scored ? options.role : "not scored",
+                    options.seed + static_cast<std::uint64_t>(i), options.force_feedback,
+                    options.augment});
+  }
+  return plan;
+}
+
+}  // namespace
+
+PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& world,
+                          const std::filesystem::path& folder) {
+  task_palpation::PalpationChannels channels(options.fast ? runtime::TimeMode::virtual_time
+                                                          : runtime::TimeMode::real);
+  const haptics::TickConfig tick = world.tickConfig(options);
+  SessionFrame frame(options, {world.station, world.phantom, world.X_WA, tick},
+                     world.hands(options), channels, folder);
+  task_palpation::PalpationTask task(
+      {world.task, tick, world.simulated(options), options.who != OperatorKind::person,
+       options.see_through, options.guidance, whyUnscored(options, world), planOf(options, world),
+       frame.places()},
+      frame.bus(), channels, frame.executive());
+  task_palpation::PalpationScene scene(
+      {frame.stage(), anatomy::X_AP(), world.task.scoring.rules.area, world.task.library.tip_radius,
+       world.forceNote()},
+      frame.bus(), channels);
+  PalpationRun run;
+  static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
+  run.trials = task.completed();
+  return run;
+}
+
+namespace {
+
+std::vector<report::PalpationPage> pagesOf(const PalpationWorld& world, const PalpationRun& run) {
+  std::vector<report::PalpationPage> pages;
+  for (const auto& trial : run.trials) {
+    report::PalpationPage page{trial.assessment, trial.samples, world.task.scoring.rules, {}};
+    for (const trial::SavedPicture& p : run.pictures)
+      if (p.moment.trial == trial.assessment.facts.trial)
+        page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
+    pages.push_back(std::move(page));
+  }
+  return pages;
+}
+
+std::vector<report::Fact> lumpFacts(const station::LumpLibrary& library) {
+  std::vector<report::Fact> facts;
+  for (const station::LumpKind& kind : library.kinds)
+    facts.push_back({"Lump \"" + kind.name + "\"",
+                     format("%.0f mm across, %.0f mm deep, %s", 1e3 * kind.diameter,
+                            1e3 * kind.depth, kind.hardness == 1 ? "soft" : "hard"),
+                     format("changes the force by %.0f %% where it is felt%s", 100 * kind.contrast,
+                            library.simulated ? "; identified in simulated silicone" : "")});
+  return facts;
+}
+
+}  // namespace
+
+void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world,
+                           const PalpationRun& run, const std::filesystem::path& folder) {
+  std::vector<assess::PalpationAssessment> judged;
+  for (const auto& trial : run.trials)
+    if (trial.assessment.facts.outcome != "void" &&
+        assess::countsAsScored(trial.assessment.facts.role))
+      judged.push_back(trial.assessment);
+  report::writePalpationCsv(options.trainee, judged, folder / "trials.csv");
+  report::PalpationReport page;
+  page.title = world.task.title;
+  page.trainee = whoPerformed(options);
+  page.simulated = world.simulated(options);
+  page.force_note = world.forceNote();
+  page.trials = pagesOf(world, run);
+  page.standard = world.task.scoring.standard;
+  page.taxonomy = taxonomyFacts(world.task.taxonomy);
+  page.station = stationFactsOf(options, world.station);
+  page.station.push_back(surfaceFact(world.task.library));
+  for (report::Fact& fact : lumpFacts(world.task.library)) page.station.push_back(std::move(fact));
+  page.notes = runNotes(run);
+  page.parts = partsOf(world.task.augmentations, run.trials, [](const auto& t) {
+    return std::tuple(t.assessment.doses, t.assessment.facts.augmented, t.assessment.score.seconds);
+  });
+  report::writePalpationReport(page, folder / "report.html");
+
+  for (const auto& trial : run.trials) {
+    const assess::PalpationAssessment& a = trial.assessment;
+    std::printf("Trial %d (%s%s): %s\n", a.facts.trial, a.facts.role.c_str(),
+                a.facts.simulated ? ", simulated" : "",
+                trial.reason.empty() ? a.summary.c_str() : trial.reason.c_str());
+  }
+  std::printf("Written to %s:\n", folder.string().c_str());
+  std::printf(
+      "  report.html     what was found and felt, with reasons and pictures: open this first\n");
+  std::printf(
+      "  trials.csv      one row a scored trial\n  session.palpa   the evidence: every tick, for "
+      "replay\n");
+  if (run.video)
+    std::printf(
+        "  camera.mjpeg    the camera's %llu pictures; camera.mjpeg.csv: when each was exposed, "
+        "and where the board was\n",
+        static_cast<unsigned long long>(run.video->pictures));
+  if (!run.pictures.empty())
+    std::printf("  view-*.png      %zu pictures of the marked moments\n", run.pictures.size());
+}
+
+}  // namespace palpa::session

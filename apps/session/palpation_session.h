@@ -1,0 +1,54 @@
+#pragma once
+
+#include <filesystem>
+
+#include "anatomy/parametric/phantoms.h"
+#include "apps/record/session_file.h"
+#include "apps/session/session_devices.h"
+#include "apps/session/session_frame.h"
+#include "apps/session/session_options.h"
+#include "apps/station/station_file.h"
+#include "apps/task_palpation/palpation_file.h"
+#include "apps/task_palpation/palpation_task.h"
+
+namespace palpa::session {
+
+/// Everything a palpation session rests on, read and checked before anything starts. Immovable:
+/// parts refer to each other.
+struct PalpationWorld {
+  explicit PalpationWorld(const SessionOptions& options);  ///< throws UsageError / Error
+  PalpationWorld(const PalpationWorld&) = delete;
+  PalpationWorld& operator=(const PalpationWorld&) = delete;
+
+  station::Station station;
+  task_palpation::PalpationSettings task;
+  anatomy::Patient phantom;  ///< as it is shown
+  Pose X_WA = Pose::Identity();
+
+  bool simulated(const SessionOptions& options) const {
+    return isSimulated(options.who) || station.simulated || task.library.simulated;
+  }
+  bool onBench() const { return station.device.driver == station::DeviceDriver::bench; }
+  haptics::TickConfig tickConfig(const SessionOptions& options) const;
+  /// Who may hold the tool: on the bench's silicone a simulated person, or one with a mouse, who
+  /// sees what is felt there.
+  SessionDevices::Hands hands(const SessionOptions& options) const;
+  record::SessionInfo info(const SessionOptions& options) const;
+  /// "Scaled force: ..." where the device cannot give what deep palpation takes on a patient;
+  /// empty: it can.
+  std::string forceNote() const;
+};
+
+struct PalpationRun : SessionRun {
+  std::vector<task_palpation::CompletedPalpation> trials;
+};
+
+/// Runs the trials; leaves session.palpa and view-*.png in `folder`.
+PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& world,
+                          const std::filesystem::path& folder);
+
+/// trials.csv and report.html; the last lines on standard output say what was written.
+void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& world,
+                           const PalpationRun& run, const std::filesystem::path& folder);
+
+}  // namespace palpa::session

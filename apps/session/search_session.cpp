@@ -1,0 +1,225 @@
+#include "apps/session/search_session.h"
+#include "apps/runtime/clock.h"
+
+#include <cstdio>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/base/error.h"
+#include "anatomy/parametric/phantoms.h"
+#include "apps/report/search/search_report.h"
+#include "apps/session/output_folder.h"
+#include "apps/session/session_facts.h"
+#include "apps/station/assets.h"
+#include "apps/task_search/search_scene.h"
+#include "apps/twin/learning_hand.h"
+
+namespace palpa::session {
+namespace {
+
+using assess::SearchMode;
+
+constexpr double kPlateThick = 0.02;  // m, as shown
+constexpr SearchMode kModes[] = {SearchMode::real, SearchMode::degraded, SearchMode::augmented};
+
+station::Station searchStation(const SessionOptions& options) {
+  station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/search_bench.json")
+                              : std::filesystem::path(options.station));
+  station::judgeAge(station, runtime::utcNow());
+  return station;
+}
+
+/// "all": the same episodes in every mode, one mode after the other for each.
+std::vector<task_search::Episode> episodesFor(const SessionOptions& options,
+                                              const task_search::SearchSettings& task) {
+  if (options.mode != "all") {
+    const SearchMode mode = *assess::searchModeOf(options.mode);
+    return options.blocks ? task_search::blocksOf(task, options.seed, mode)
+                          : task_search::episodesOf(options.seed, options.trials, mode);
+  }
+  if (options.blocks)
+    throw UsageError("go with one mode", "--blocks, --mode all",
+                     "Say in which mode training goes: --mode degraded or augmented");
+  std::vector<task_search::Episode> all;
+  for (task_search::Episode episode :
+       task_search::episodesOf(options.seed, options.trials, SearchMode::real))
+    for (const SearchMode mode : kModes) {
+      episode.mode = mode;
+      all.push_back(episode);
+    }
+  return all;
+}
+
+Vec3 plateSize(const task_search::SearchSettings& task) {
+  const double side = task.spec.side * task.shown_per_U;
+  return {side, side, kPlateThick};
+}
+
+std::unique_ptr<twin::Hand> searchingHandOf(const SessionOptions& options,
+                                            const twin::VisibleFloor& seen, const Pose& X_ET) {
+  if (options.who != OperatorKind::learner)
+    return twin::searchingHand(
+        twin::readSearchingSkill(station::assetFile(options.who == OperatorKind::novice
+                                                        ? "operators/search_novice.json"
+                                                        : "operators/search_expert.json")),
+        seen, X_ET, options.seed);
+  return std::make_unique<twin::LearningHand>(
+      [learner = options.learner, from = twin::readSearchingSkill(options.learner.from),
+       to = twin::readSearchingSkill(options.learner.to), seen, X_ET](int trial) {
+        return twin::searchingHand(between(from, to, learner.level(trial)), seen, X_ET,
+                                   learner.seed + static_cast<std::uint64_t>(trial - 1));
+      });
+}
+
+/// The probe points down.
+Mat3 downward() { return Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(); }
+
+}  // namespace
+
+SearchWorld::SearchWorld(const SessionOptions& options)
+    : station(searchStation(options)),
+      task(task_search::readSearch(options.task.empty() ? station::assetFile("tasks/search.json")
+                                                        : std::filesystem::path(options.task))),
+      rendering(task_search::renderingOn(task, station)),
+      plate(anatomy::phantomBlock(plateSize(task), task.title)),
+      X_WA(station.floor->X_WF * anatomy::X_AP().inverse()),
+      X_AF(anatomy::X_AP()),
+      episodes(episodesFor(options, task)) {}
+
+haptics::TickConfig SearchWorld::tickConfig(const SessionOptions& options) const {
+  haptics::TickConfig config;
+  config.engine = haptics::Engine::floor;
+  config.coupling = station.coupling;
+  config.safety = station.safety;
+  config.passivity = station.passivity;
+  config.X_ET = pack(station.X_ET);
+  config.X_DF = pack(Pose(station.X_WD.inverse() * station.floor->X_WF));
+  config.floor = rendering;
+  config.augmentations = station::onDevice(task.augmentations, station.safety.max_force_N,
+                                           station.coupling.stiffness, rendering.unit);
+  config.period_ns = std::llround(1e9 / options.rate_Hz);
+  if (onBench()) config.safety.deadman_button = 0;  // nobody could hold it
+  config.device_turns = 1;
+  return config;
+}
+
+SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
+  twin::VisibleFloor seen;
+  seen.X_AF = X_AF;
+  seen.magnification = magnification();
+  seen.unit = rendering.unit;
+  seen.handle_mass = station.device.capabilities.apparent_mass;
+  seen.start_height = rendering.start_height;
+  seen.circle = task.spec.circle;
+  seen.disc = task.spec.disc;
+  seen.groove = task.spec.groove + task.spec.groove_half_width;
+  const Pose X_WF = station.floor->X_WF,
+             X_WT =
+                 X_WF * makePose(downward(), Vec3(0, 0, rendering.start_height * rendering.unit));
+  twin::VirtualBench::Setup bench{station,
+                                  searchingHandOf(options, seen, station.X_ET),
+                                  station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
+                                  X_WF.translation(),
+                                  X_WF.linear() * Vec3::UnitZ(),
+                                  options.benchSeed(),
+                                  {},
+                                  nullptr,
+                                  {},
+                                  {}};
+  return {std::move(bench), std::nullopt, 0};
+}
+
+record::SessionInfo SearchWorld::info(const SessionOptions& options) const {
+  record::SessionInfo info;
+  info.uuid = options.uuid;
+  info.started_utc = runtime::utcNow();
+  info.software = std::string("palpa ") + PALPA_VERSION;
+  info.command = options.command;
+  info.session_json = sessionText({{"seed", options.seed},
+                                   {"bench_seed", options.benchSeed()},
+                                   {"operator", nameOf(options.who)},
+                                   {"simulated", simulated(options)},
+                                   {"mode", options.mode},
+                                   {"trainee", options.trainee},
+                                   {"force_feedback", options.force_feedback},
+                                   {"virtual_time", options.fast},
+                                   {"assessed", options.assess}},
+                                  options);
+  info.station_json = station.file.json().dump();
+  info.task_json = task.source;
+  info.tick_config = tickConfig(options);
+  return info;
+}
+
+SearchRun runSearch(const SessionOptions& options, const SearchWorld& world,
+                    const std::filesystem::path& folder) {
+  task_search::SearchChannels channels(options.fast ? runtime::TimeMode::virtual_time
+                                                    : runtime::TimeMode::real);
+  const haptics::TickConfig tick = world.tickConfig(options);
+  task_search::Floors floors(world.task, world.episodes);
+  SessionFrame frame(options, {world.station, world.plate, world.X_WA, tick, {}, false, &floors},
+                     world.hands(options), channels, folder);
+  const std::string not_scored =
+      world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict;
+  task_search::SearchTask task(
+      {world.task, tick, world.simulated(options), options.who != OperatorKind::person,
+       options.force_feedback, options.fast, not_scored, world.episodes, frame.places(),
+       options.role},
+      floors, frame.bus(), channels, frame.executive());
+  task_search::SearchScene scene(
+      {frame.stage(), world.station.floor->X_WF, world.X_AF,
+       world.task.spec.side * world.rendering.unit, world.magnification()},
+      frame.bus(), channels);
+  SearchRun run;
+  static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
+  run.trials = task.completed();
+  return run;
+}
+
+void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
+                        const SearchRun& run, const std::filesystem::path& folder) {
+  report::SearchReport page;
+  std::vector<assess::SearchTrial> written;
+  for (const task_search::CompletedSearch& trial : run.trials) {
+    page.trials.push_back(trial.trial);
+    if (counts(trial.trial)) written.push_back(trial.trial);
+  }
+  report::writeSearchCsv(options.trainee, written, folder / "trials.csv");
+  page.title = world.task.title;
+  page.trainee = whoPerformed(options);
+  page.simulated = world.simulated(options);
+  for (const station::NamedPlan::Part& part : world.task.augmentations.subtasks)
+    page.subtasks.push_back({part.name, part.means});
+  for (const trial::SavedPicture& p : run.pictures)
+    page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
+  page.taxonomy = taxonomyFacts(world.task.taxonomy);
+  page.station = stationFactsOf(options, world.station);
+  page.station.push_back({"Stiffness of the floor",
+                          format("%.0f N/m, degraded %.0f N/m", world.rendering.real.stiffness,
+                                 world.rendering.degraded.stiffness),
+                          ""});
+  page.notes = runNotes(run);
+  page.unit_note =
+      format("1 U = %.3g mm in the hand: the floor is %.1f mm wide", 1e3 * world.rendering.unit,
+             1e3 * world.rendering.unit * world.task.spec.side);
+  report::writeSearchReport(page, folder / "report.html");
+
+  const char* simulated = page.simulated ? ", simulated" : "";
+  for (const task_search::CompletedSearch& trial : run.trials)
+    std::printf("Episode %d (%s, %s%s): %s\n", trial.trial.trial, name(trial.trial.mode),
+                trial.trial.role.c_str(), simulated,
+                trial.reason.empty() ? summaryOf(trial.trial).c_str() : trial.reason.c_str());
+  for (const assess::SearchTally& tally : assess::talliesOf(page.trials))
+    std::printf("%s%s%s: found in %d of %d episodes\n", tally.block.c_str(),
+                tally.block.empty() ? "" : ", ", name(tally.mode), tally.found, tally.episodes);
+  std::printf("Written to %s:\n", folder.string().c_str());
+  std::printf("  report.html     how often and how fast the target was found: open this first\n");
+  std::printf(
+      "  trials.csv      one row a scored episode\n  session.palpa   the evidence: every tick, for "
+      "replay\n");
+  if (!run.pictures.empty())
+    std::printf("  view-*.png      %zu pictures of the marked moments\n", run.pictures.size());
+}
+
+}  // namespace palpa::session

@@ -1,0 +1,172 @@
+#include "apps/session/session_devices.h"
+
+#include "apps/record/session_file.h"
+#include "apps/trial/trial_status.h"
+#include "haptics/devices/falcon/falcon_protocol.h"
+#include "haptics/devices/usb_transport.h"
+
+namespace palpa::session {
+namespace {
+
+using station::DeviceDriver;
+using station::ForceSensorSetup;
+
+std::vector<haptics::RecordedReading> readingsOf(const std::filesystem::path& session) {
+  std::vector<haptics::RecordedReading> readings;
+  record::SessionReader(session).ticks([&](const haptics::FlightRecord& tick) {
+    readings.push_back({tick.t_ns, tick.reading});
+  });
+  return readings;
+}
+
+/// The bench's sensor, where the station has one and it is not a real one.
+std::unique_ptr<runtime::ChannelSensor> benchSensor(const station::Station& station,
+                                                    runtime::TimeMode mode) {
+  if (!station.force_sensor || station.force_sensor->driver != ForceSensorSetup::Driver::bench)
+    return nullptr;
+  return std::make_unique<runtime::ChannelSensor>(station.force_sensor->net_ft.capabilities, mode);
+}
+
+trial::UserRequest requestOf(const twin::Hand::Word& word) {
+  using Kind = twin::Hand::Word::Kind;
+  if (word.kind == Kind::grade)
+    return {trial::UserCommand::grade,
+            trial::gradeText(word.diameter, word.hardness, word.mobility)};
+  if (word.kind == Kind::done) return {trial::UserCommand::done, ""};
+  return {trial::UserCommand::abort, "The simulated operator gave up"};
+}
+
+}  // namespace
+
+SessionDevices::SessionDevices(const SessionOptions& options, const station::Station& station,
+                               Hands hands, runtime::Bus& bus, trial::Channels& channels,
+                               const runtime::Clock& clock, runtime::TimeMode mode)
+    : station_(station),
+      bench_moves_(isSimulated(options.who) || hands.pointing),
+      pointing_(hands.pointing),
+      channel_(station.device.capabilities, mode) {
+  if (bench_moves_) bench_sensor_ = benchSensor(station, mode);
+  if (hands.bench.second) {
+    second_ = std::make_unique<Second>(station.device.capabilities, mode);
+    second_->sensor = benchSensor(station, mode);
+    if (!bench_moves_ || !second_->sensor)
+      throw UsageError("has no two devices with force sensors that this program can drive",
+                       station.file.name(),
+                       "Two tools are simulated only, so far: leave out --station, take --operator "
+                       "expert or novice");
+    hands.bench.second->device = &second_->device;
+    hands.bench.second->sensor = second_->sensor.get();
+    second_->sensing.emplace(*second_->sensor, sensingSetup(options.rate_Hz, hands.tip_radius,
+                                                            hands.bench.second->X_WD));
+  }
+  if (bench_moves_ || (options.camera.empty() &&
+                       station.camera_setup.driver == station::CameraSetup::Driver::bench))
+    makeBench(std::move(hands.bench), bus, channels);
+  openDevice(hands.mouse, bus, channels);
+  openSensor(options, hands.tip_radius, clock, mode);
+}
+
+SessionDevices::~SessionDevices() = default;
+
+void SessionDevices::makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bus,
+                               trial::Channels& channels) {
+  setup.sensor = bench_sensor_.get();
+  setup.on_word = [&channels](const twin::Hand::Word& word) {
+    channels.operator_to_task.push(requestOf(word));
+  };
+  bench_ = std::make_unique<twin::VirtualBench>(std::move(setup), bus, channel_);
+}
+
+void SessionDevices::openDevice(const std::optional<MouseHand::Setup>& mouse, runtime::Bus& bus,
+                                trial::Channels& channels) {
+  const station::DeviceSetup& setup = station_.device;
+  haptics::HapticDevice* device = &channel_;
+  if (bench_moves_) {
+    // the bench's own
+  } else if (setup.driver == DeviceDriver::falcon) {
+    falcon_ = std::make_unique<haptics::FalconDriver>(
+        std::make_unique<haptics::LibusbTransport>(haptics::kFalconUsb),
+        setup.firmware.empty() ? std::vector<std::uint8_t>{}
+                               : haptics::readFalconFirmware(setup.firmware));
+    falcon_activity_ = std::make_unique<runtime::FalconActivity>(*falcon_, bus.device_to_task);
+    device = falcon_.get();
+  } else if (setup.driver == DeviceDriver::replay) {
+    replay_ =
+        std::make_unique<haptics::ReplayDevice>(setup.capabilities, readingsOf(setup.recording));
+    device = replay_.get();
+  } else if (mouse) {
+    mouse_ = std::make_unique<MouseHand>(*mouse, channel_, channels);
+  } else {
+    throw UsageError(
+        "is no device that could feel anything", station_.file.name() + ", device",
+        "Give a station with a haptic device, or one whose device/driver is \"virtual\"");
+  }
+  if (station_.workspace.order > 0) {
+    corrected_.emplace(*device, station_.workspace);
+    device = &*corrected_;
+  }
+  plunger_.emplace(*device, falcon_ ? setup.plunger_button : 0);
+}
+
+void SessionDevices::openSensor(const SessionOptions& options, double tip_radius,
+                                const runtime::Clock& clock, runtime::TimeMode mode) {
+  if (!station_.force_sensor) return;
+  // A simulated operator has no part in what a real sensor measures, nor a real hand in what the
+  // bench's does.
+  if (bench_moves_ == (station_.force_sensor->driver == ForceSensorSetup::Driver::net_ft)) return;
+  const ForceSensorSetup& setup = *station_.force_sensor;
+  haptics::ForceSensor* sensor = bench_sensor_.get();
+  if (setup.driver == ForceSensorSetup::Driver::net_ft) {
+    if (mode == runtime::TimeMode::virtual_time)
+      throw UsageError("needs real time", "force_sensor \"" + setup.net_ft.capabilities.name + "\"",
+                       "Leave out --fast");
+    net_ft_ =
+        std::make_unique<haptics::NetFtSensor>(setup.net_ft, [&clock] { return clock.now(); });
+    net_ft_->start();
+    net_ft_activity_ = std::make_unique<runtime::NetFtActivity>(*net_ft_);
+    sensor = net_ft_.get();
+  }
+  sensing_.emplace(*sensor, sensingSetup(options.rate_Hz, tip_radius, station_.X_WD));
+}
+
+runtime::ForceSensing::Setup SessionDevices::sensingSetup(double rate_Hz, double tip_radius,
+                                                          const Pose& X_WD) const {
+  const ForceSensorSetup& setup = *station_.force_sensor;
+  runtime::ForceSensing::Setup sensing{setup.filter, X_WD, setup.X_ES};
+  sensing.filter.low_pass = haptics::butterworth(setup.cutoff_Hz, rate_Hz);
+  sensing.filter.p_SK =
+      pack(Vec3(setup.X_ES.inverse() * (station_.X_ET * Vec3(0, 0, -tip_radius))));
+  return sensing;
+}
+
+void SessionDevices::addTo(runtime::Executive& executive) {
+  if (bench_moves_)
+    executive.add(bench_->activity(),
+                  {0, true, false});  // a device moves in time, whatever the computer does
+  if (mouse_) executive.add(*mouse_, {0, false, false});
+  if (falcon_activity_) executive.add(*falcon_activity_, {0, true, false});
+  if (net_ft_activity_) executive.add(*net_ft_activity_, {0, false, false});
+}
+
+std::vector<SessionDevices::Fact> SessionDevices::facts() const {
+  std::vector<Fact> facts;
+  if (const std::uint64_t late = channel_.timeouts())
+    facts.push_back({"Forces taken away by the device's watchdog", std::to_string(late),
+                     "the haptic loop had not commanded for 10 ms"});
+  if (falcon_) {
+    const haptics::FalconStatus status = falcon_->status();
+    facts.push_back({"Packets exchanged with the Falcon", std::to_string(status.exchanges),
+                     std::to_string(status.missed) + " without an answer; opened " +
+                         std::to_string(status.opened) + " times"});
+  }
+  if (net_ft_) {
+    using haptics::NetFtCount;
+    facts.push_back({"Samples of the force sensor",
+                     std::to_string(net_ft_->count(NetFtCount::records)),
+                     std::to_string(net_ft_->count(NetFtCount::lost)) + " lost on the way, " +
+                         std::to_string(net_ft_->count(NetFtCount::faults)) + " with a fault"});
+  }
+  return facts;
+}
+
+}  // namespace palpa::session

@@ -1,0 +1,90 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <vector>
+
+#include "apps/runtime/device_activity.h"
+#include "apps/runtime/device_adapters.h"
+#include "apps/runtime/executive.h"
+#include "apps/runtime/haptic_activity.h"
+#include "apps/session/mouse_hands.h"
+#include "apps/session/session_options.h"
+#include "apps/twin/virtual_bench.h"
+#include "haptics/devices/replay_device.h"
+
+namespace palpa::session {
+
+/// Who or what holds the tool, behind HapticDevice, and what measures the force on it: the bench's
+/// twins, a person's mouse, a Falcon, a recorded hand; the station file and the operator decide.
+/// Their threads are its own. Throws UsageError / Error when something that the station names is
+/// not there.
+class SessionDevices {
+ public:
+  /// Who may hold the tool: a simulated person on the bench, and somebody with a mouse (none: a
+  /// task that must be felt).
+  struct Hands {
+    twin::VirtualBench::Setup
+        bench;  ///< what is simulated; sensor and how one gives up are put in here
+    std::optional<MouseHand::Setup> mouse;
+    double tip_radius =
+        0;  ///< m: the point whose place goes with the sensed force lies so far behind the tip
+    PointingHand* pointing = nullptr;  ///< it holds the bench's device, for a person
+  };
+  SessionDevices(const SessionOptions& options, const station::Station& station, Hands hands,
+                 runtime::Bus& bus, trial::Channels& channels, const runtime::Clock& clock,
+                 runtime::TimeMode mode);
+  ~SessionDevices();
+
+  haptics::HapticDevice& device() { return *plunger_; }
+  /// Another device beside the first, with its sensor; null where the task takes one.
+  struct Second {
+    Second(const haptics::DeviceCapabilities& capabilities, runtime::TimeMode mode)
+        : device(capabilities, mode) {}
+    runtime::ChannelDevice device;
+    std::unique_ptr<runtime::ChannelSensor> sensor;
+    std::optional<runtime::ForceSensing> sensing;
+  };
+  Second* second() { return second_.get(); }
+  runtime::ForceSensing* sensing() { return sensing_ ? &*sensing_ : nullptr; }
+  twin::VirtualBench* bench() {
+    return bench_.get();
+  }  ///< for its camera; null where recorded pictures stand for it
+  MouseHand* mouse() { return mouse_.get(); }     ///< null: nobody leads with the mouse
+  PointingHand* pointing() { return pointing_; }  ///< null: nobody points at the bench
+
+  void addTo(runtime::Executive& executive);  ///< what has to run beside the loop
+
+  struct Fact {
+    std::string name, value, remark;
+  };
+  std::vector<Fact> facts() const;  ///< what a driver has counted, for the report
+
+ private:
+  void makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bus, trial::Channels& channels);
+  void openDevice(const std::optional<MouseHand::Setup>& mouse, runtime::Bus& bus,
+                  trial::Channels& channels);
+  void openSensor(const SessionOptions& options, double tip_radius, const runtime::Clock& clock,
+                  runtime::TimeMode mode);
+  runtime::ForceSensing::Setup sensingSetup(double rate_Hz, double tip_radius,
+                                            const Pose& X_WD) const;
+
+  const station::Station& station_;
+  const bool bench_moves_;        // the bench's device is the one that is held
+  PointingHand* const pointing_;  // the bench's
+  runtime::ChannelDevice channel_;
+  std::unique_ptr<runtime::ChannelSensor> bench_sensor_;
+  std::unique_ptr<Second> second_;
+  std::unique_ptr<haptics::NetFtSensor> net_ft_;
+  std::unique_ptr<runtime::NetFtActivity> net_ft_activity_;
+  std::optional<runtime::ForceSensing> sensing_;
+  std::unique_ptr<twin::VirtualBench> bench_;
+  std::unique_ptr<MouseHand> mouse_;
+  std::unique_ptr<haptics::FalconDriver> falcon_;
+  std::unique_ptr<runtime::FalconActivity> falcon_activity_;
+  std::unique_ptr<haptics::ReplayDevice> replay_;
+  std::optional<runtime::CorrectedDevice> corrected_;  ///< where the workspace was calibrated
+  std::optional<runtime::ButtonPlunger> plunger_;      // around whichever it is
+};
+
+}  // namespace palpa::session

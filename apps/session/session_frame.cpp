@@ -1,0 +1,163 @@
+#include "apps/session/session_frame.h"
+
+#include "anatomy/base/uuid.h"
+#include "apps/runtime/geometry_activity.h"
+#include "apps/runtime/recorders.h"
+#include "apps/session/event_tone.h"
+#include "apps/session/session_igtl.h"
+#include "apps/session/session_records.h"
+#include "apps/session/terminal.h"
+
+namespace palpa::session {
+namespace {
+
+live::Hello helloOf(const SessionOptions& o, const station::Station& station,
+                    const std::string& uuid) {
+  return {uuid,      o.task.empty() ? o.command : std::filesystem::path(o.task).stem().string(),
+          o.trainee, isSimulated(o.who) || station.simulated,
+          o.assess,  o.trials};
+}
+
+}  // namespace
+
+std::string markFor(OperatorKind who, const station::Station& station) {
+  if (isSimulated(who)) return "SIMULATED OPERATOR";
+  if (who == OperatorKind::recorded) return "RECORDED HAND";
+  if (!station.simulated) return "";
+  return station.device.driver == station::DeviceDriver::bench ? "VIRTUAL BENCH" : "VIRTUAL CAMERA";
+}
+
+SessionFrame::SessionFrame(const SessionOptions& options, const World& world,
+                           SessionDevices::Hands hands, trial::Channels& channels,
+                           const std::filesystem::path& folder)
+    : options_(options),
+      world_(world),
+      channels_(channels),
+      folder_(folder),
+      window_(options.display == scene::Display::window && !options.no_views),
+      pictures_(options, world.station),
+      stage_(options.no_views ? Stage{}
+                              : makeStage(options, world.patient, window_, world.fixed_views)),
+      executive_(options.fast ? runtime::makeVirtualExecutive() : runtime::makeRealExecutive()),
+      mode_(executive_->mode()),
+      bus_(mode_),
+      devices_(options, world.station, std::move(hands), bus_, channels, executive_->clock(),
+               mode_) {}
+
+std::vector<runtime::BoardPlace> SessionFrame::places() const {
+  std::vector<runtime::BoardPlace> all;
+  for (const station::OtherBoard& board : world_.station.boards)
+    all.push_back({board.name, board.X_WB, board.tolerance});
+  return all;
+}
+
+trial::TrialScene::Stage SessionFrame::stage(runtime::HeadDisplay* head) {
+  using Views = trial::TrialScene::Views;
+  trial::TrialScene::Stage stage;
+  stage.views = !stage_.view ? Views::none : options_.fast ? Views::pictures : Views::continuous;
+  stage.view = stage_.view.get();
+  stage.head = head;
+  stage.camera = pictures_.camera();
+  stage.X_WA = world_.X_WA;
+  stage.X_WD = world_.station.X_WD;
+  stage.mark = markFor(options_.who, world_.station);
+  stage.folder = folder_;
+  stage.every_source_picture = pictures_.photographs();
+  stage.places = places();
+  if (!options_.live.empty())
+    stage.watch = [this](const scene::SceneState& state, const trial::TrialStatus& status,
+                         std::int64_t now_ns) { tell(state, status, now_ns); };
+  if (!window_) return stage;
+  stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
+    handleKeys(input, channels_);
+    if (PointingHand* hand = devices_.pointing())
+      hand->handle(input, stage_.view->arGeometry(), now_ns);
+  };
+  return stage;
+}
+
+/// To whoever looks on; without views, in words only.
+void SessionFrame::tell(const scene::SceneState& state, const trial::TrialStatus& status,
+                        std::int64_t now_ns) {
+  if (!live_) return;
+  live_->show(state.hud, status, now_ns);
+  if (stage_.view && !options_.fast && live_->wantsPicture(now_ns))
+    live_->picture(stage_.view->capture(), now_ns);
+}
+
+/// HAPTIC, for one device or for two.
+std::unique_ptr<runtime::Activity> SessionFrame::loop(runtime::GeometryActivity* geometry) {
+  if (!world_.pair)
+    return std::make_unique<runtime::HapticActivity>(
+        bus_, devices_.device(), world_.tick, devices_.sensing(),
+        options_.exact_geometry ? geometry : nullptr, world_.floors);
+  using Tool = runtime::HapticPairActivity::Tool;
+  return std::make_unique<runtime::HapticPairActivity>(
+      bus_,
+      std::array<Tool, 2>{Tool{devices_.device(), *devices_.sensing()},
+                          Tool{devices_.second()->device, *devices_.second()->sensing}},
+      *world_.pair);
+}
+
+SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
+                             record::SessionInfo info, runtime::GeometryActivity* geometry) {
+  const std::unique_ptr<runtime::Activity> haptic = loop(geometry);
+  runtime::CameraActivity camera(
+      bus_, pictures_.exposer(devices_.bench(), executive_->clock()), pictures_.board(),
+      pictures_.camera(), pictures_.settings(mode_),
+      [this, look = pictures_.observer(devices_.bench())](const runtime::CameraView& view) {
+        look(view);
+        if (video_) video_->add(view);
+      });
+  SessionIgtl igtl(options_, world_.station,
+                   {world_.X_WA, unpack(world_.tick.X_ET),
+                    world_.tick.engine == haptics::Engine::needle, world_.pair.has_value()},
+                   bus_, executive_->clock());
+  if (info.uuid.empty()) info.uuid = record::newUuid();
+  record::SessionWriter writer(folder_ / "session.palpa", info);
+  const auto noted = noteForRecords(options_, info.uuid, folder_ / "session.palpa");
+  if (options_.record_video) video_.emplace(folder_);
+  std::optional<live::LiveSink> told;
+  if (!options_.live.empty()) {
+    live_ = std::make_unique<live::LiveSession>(
+        options_.live, helloOf(options_, world_.station, info.uuid), channels_);
+    told.emplace(writer, live_->log(), world_.near, toneOfEvent);
+  }
+  runtime::RecorderActivity recorder(bus_, told ? static_cast<runtime::FlightSink&>(*told) : writer,
+                                     world_.tick.period_ns);
+  Progress progress(options_.quiet);
+  Interrupt interrupt(channels_);
+  devices_.addTo(*executive_);
+  executive_->add(*haptic, {1, true, false, options_.cpu});
+  if (geometry && !options_.exact_geometry) executive_->add(*geometry, {2, false, false});
+  executive_->add(camera, {3, false, false});
+  executive_->add(task, {4, false, false});
+  executive_->add(scene, {5, false, true});
+  executive_->add(recorder, {6, false, false});
+  executive_->add(progress, {7, false, false});
+  executive_->add(interrupt, {8, false, false});
+  igtl.addTo(*executive_);
+  executive_->run();
+  scene.finish(executive_->clock().now());
+  recorder.finish();
+  igtl.finish(executive_->clock().now());
+  writer.close();
+  live_.reset();
+  SessionRun run;
+  run.pictures = scene.pictures();
+  run.lateness = executive_->lateness();
+  if (pictures_.fromBench()) run.accuracy = devices_.bench()->accuracy();
+  if (video_) run.video = {video_->pictures(), video_->trouble()};
+  run.registration = pictures_.registration();
+  run.camera_remarks = pictures_.remarks();
+  run.board = scene.board();
+  run.devices = devices_.facts();
+  for (SessionDevices::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));
+  run.safety_events = task.safetyEvents();
+  run.dropped = recorder.dropped() + task.lostTicks();
+  run.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;
+  run.quit = task.quit();
+  return run;
+}
+
+}  // namespace palpa::session

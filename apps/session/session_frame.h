@@ -1,0 +1,97 @@
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <vector>
+
+#include "apps/live/live_session.h"
+#include "apps/record/session_file.h"
+#include "apps/runtime/camera_activity.h"
+#include "apps/runtime/executive.h"
+#include "apps/runtime/haptic_activity.h"
+#include "apps/runtime/recorders.h"
+#include "apps/session/session_devices.h"
+#include "apps/session/session_pictures.h"
+#include "apps/session/stage.h"
+#include "apps/trial/trial_scene.h"
+#include "apps/trial/trial_task.h"
+#include "apps/twin/virtual_bench.h"
+
+namespace palpa::session {
+
+/// What a session leaves besides what its task judged.
+struct SessionRun {
+  std::vector<trial::SavedPicture> pictures;
+  std::vector<runtime::Lateness> lateness;
+  std::optional<twin::BenchAccuracy> accuracy;
+  std::vector<RegistrationRow> registration;  ///< recorded pictures only
+  std::vector<std::string> camera_remarks;    ///< settings that it did not accept
+  struct Video {
+    std::uint64_t pictures = 0;
+    std::string trouble;  ///< empty: everything was kept
+  };
+  std::optional<Video> video;          ///< where one was recorded
+  std::optional<ar::BoardPose> board;  ///< as it was seen last
+  std::vector<runtime::Event>
+      safety_events;  ///< what took the force away, what a driver had to say
+  std::vector<SessionDevices::Fact> devices;  ///< what their drivers counted
+  std::uint64_t dropped = 0;                  ///< records lost by the recorder
+  double simulated_s = 0;
+  bool quit = false;
+};
+
+/// Every part of a session but its task and what that shows, made in the order in which one needs
+/// the other. A task makes its own activities with these parts, and runs.
+class SessionFrame {
+ public:
+  struct World {
+    const station::Station& station;
+    const anatomy::Patient& patient;  ///< what is shown
+    Pose X_WA;
+    haptics::TickConfig tick;
+    std::optional<haptics::PairConfig> pair =
+        {};  ///< of two devices in one tick, in place of `tick`
+    bool fixed_views = true;
+    const runtime::FloorSource* floors = nullptr;  ///< of a search
+    live::NearMiss near = {};  ///< told to whoever looks on; empty: nothing is near
+  };
+  SessionFrame(const SessionOptions& options, const World& world, SessionDevices::Hands hands,
+               trial::Channels& channels, const std::filesystem::path& folder);
+
+  /// Adds the activities and runs them until the task ends the session; `geometry` null: the tick
+  /// asks for none. The evidence file is made last: a mistake in the set-up leaves none behind.
+  SessionRun run(trial::TrialTask& task, trial::TrialScene& scene, record::SessionInfo info,
+                 runtime::GeometryActivity* geometry = nullptr);
+
+  /// Where and how the scene shows; with a window its keys are obeyed.
+  trial::TrialScene::Stage stage(runtime::HeadDisplay* head = nullptr);
+  std::vector<runtime::BoardPlace> places() const;
+
+  runtime::Bus& bus() { return bus_; }
+  runtime::Executive& executive() { return *executive_; }
+  SessionDevices& devices() { return devices_; }
+  const Stage& desktop() const { return stage_; }
+
+ private:
+  std::unique_ptr<runtime::Activity> loop(runtime::GeometryActivity* geometry);
+  void tell(const scene::SceneState& state, const trial::TrialStatus& status, std::int64_t now_ns);
+
+  const SessionOptions& options_;
+  const World world_;
+  trial::Channels& channels_;
+  const std::filesystem::path folder_;
+  const bool window_;
+  SessionPictures pictures_;
+  const Stage stage_;
+  const std::unique_ptr<runtime::Executive> executive_;
+  const runtime::TimeMode mode_;
+  runtime::Bus bus_;
+  SessionDevices devices_;
+  std::optional<runtime::VideoRecorder> video_;
+  std::unique_ptr<live::LiveSession> live_;  ///< while somebody may look on
+};
+
+/// Words on the picture that say what is not a person on a real station.
+std::string markFor(OperatorKind who, const station::Station& station);
+
+}  // namespace palpa::session

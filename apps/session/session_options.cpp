@@ -1,0 +1,123 @@
+#include "apps/session/session_options.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <nlohmann/json.hpp>
+
+#include "anatomy/base/error.h"
+#include "apps/station/station_file.h"
+
+namespace palpa::session {
+namespace {
+
+void checkPerson(const SessionOptions& o) {
+  if (o.fast)
+    throw UsageError("cannot go with --operator person", "--fast", "A person needs real time");
+  if (o.no_views || (o.display != scene::Display::window && !o.headset))
+    throw UsageError("needs a window", "--operator person",
+                     "Set DISPLAY, or choose --operator expert or novice on the virtual bench");
+}
+
+/// What was asked for is refused; what is on by default is taken away, with a word.
+void settleAssessment(SessionOptions& o) {
+  const std::pair<const char*, bool> aids[]{
+      {"--guide on", o.guide},
+      {"--guidance on", o.guidance},
+      {"--see-through on", o.see_through},
+      {"--augment on", o.augment},
+      {"--skin-deflection on", o.skin_deflection},
+      {"--mode augmented", o.mode == "augmented" || o.mode == "all"},
+      {"--blocks", o.blocks}};
+  for (const auto& [option, given] : aids)
+    if (given)
+      throw UsageError("is an aid or practice, and in an assessment every aid is off",
+                       std::string(option) + " with --assess", "Leave one of them out");
+  o.role = "assessed";
+  o.navigation = o.demonstration = false;
+  if (!o.quiet)
+    std::puts(
+        "Assessment: every aid is off: the view stays fixed, the screen tells neither tissue nor "
+        "force, no demonstration");
+}
+
+}  // namespace
+
+const char* nameOf(OperatorKind who) {
+  switch (who) {
+    case OperatorKind::person:
+      return "person";
+    case OperatorKind::recorded:
+      return "recorded";
+    case OperatorKind::novice:
+      return "novice";
+    case OperatorKind::learner:
+      return "learner";
+    default:
+      return "expert";
+  }
+}
+
+std::string sessionText(nlohmann::json session, const SessionOptions& options) {
+  const StudyStep& s = options.study;
+  if (!s.id.empty())
+    session["study"] = {{"id", s.id},
+                        {"slot", s.slot},
+                        {"group", s.group},
+                        {"condition", s.condition},
+                        {"block", s.block},
+                        {"step", s.step},
+                        {"protocol_sha256", s.protocol_sha256}};
+  return session.dump();
+}
+
+void settleOperator(SessionOptions& o, const station::Station& station) {
+  const station::DeviceDriver driver = station.device.driver;
+  const std::string where = station.file.name() + ", device/driver";
+  if (driver == station::DeviceDriver::replay) {
+    if (o.who != OperatorKind::automatic)
+      throw UsageError("is \"replay\": the recorded hand performs", where, "Leave out --operator");
+    o.who = OperatorKind::recorded;
+    return;
+  }
+  if (driver != station::DeviceDriver::bench && isSimulated(o.who))
+    throw UsageError("is a real device, which a simulated operator cannot hold", where,
+                     "Leave out --operator, or use the virtual bench");
+  if (o.who == OperatorKind::automatic) {
+    const bool person =
+        driver != station::DeviceDriver::bench || o.display == scene::Display::window || o.headset;
+    o.who = person ? OperatorKind::person : OperatorKind::expert;
+  }
+  if (o.knows_patient && !isSimulated(o.who))
+    throw UsageError("is for a simulated operator", "--operator-knows",
+                     "Add --operator expert or novice, or leave it out");
+  if (o.who == OperatorKind::person) checkPerson(o);
+  if (o.display != scene::Display::window) o.demonstration = false;  // it is shown in a window
+}
+
+void settle(SessionOptions& o) {
+  if (o.display == scene::Display::automatic)
+    o.display = std::getenv("DISPLAY") && !o.fast && !o.no_views ? scene::Display::window
+                                                                 : scene::Display::offscreen;
+  if (o.who == OperatorKind::person) checkPerson(o);
+  if (o.headset && (o.fast || o.no_views))
+    throw UsageError("cannot go with --display openxr", o.fast ? "--fast" : "--no-views",
+                     "Leave one of them out: a headset shows what is now");
+  if (o.inset != scene::Inset::none &&
+      (o.stereo == scene::Stereo::side_by_side || o.stereo == scene::Stereo::top_bottom))
+    throw UsageError("would be seen by one eye only", "--inset with --stereo",
+                     "Leave one of them out");
+  if (o.assess) settleAssessment(o);
+  if (o.exact_geometry && !o.fast)
+    throw UsageError("needs virtual time", "--geometry exact",
+                     "Add --fast: the full mesh takes longer than a tick");
+  if (o.display == scene::Display::window && o.fast)
+    throw UsageError("cannot go with --display window", "--fast", "Leave one of them out");
+  if (!o.camera.empty() && (o.intrinsics.empty() || o.board.empty()))
+    throw UsageError("needs --intrinsics and --board", "--camera",
+                     "Say which camera took the pictures and which board they show");
+  if (o.camera.empty() && (!o.intrinsics.empty() || !o.board.empty()))
+    throw UsageError("go with --camera only", "--intrinsics, --board",
+                     "The station's camera has its own");
+}
+
+}  // namespace palpa::session

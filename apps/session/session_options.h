@@ -1,0 +1,116 @@
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <nlohmann/json_fwd.hpp>
+#include <string>
+
+#include "anatomy/patient.h"
+#include "scene/scene_state.h"
+#include "scene/window/gl_context.h"
+
+namespace palpa::station {
+struct Station;
+}
+
+namespace palpa::session {
+
+enum class OperatorKind {
+  automatic,
+  person,
+  expert,
+  novice,
+  learner,
+  recorded
+};  // learner: simulated, better from trial to trial; recorded: a replayed hand
+
+inline bool isSimulated(OperatorKind who) {
+  return who == OperatorKind::expert || who == OperatorKind::novice || who == OperatorKind::learner;
+}
+
+/// Of which study a session is part.
+struct StudyStep {
+  std::string id;         ///< the protocol's; empty: none
+  std::int64_t slot = 0;  ///< 1, 2, ...: which block on the trainee's way through the study
+  std::string group, condition, block;
+  int step = 0;  ///< of the block: its trial with which the session begins, 1, 2, ...
+  std::string protocol_sha256;
+};
+
+/// Who learns, where the operator is a simulated learner.
+struct LearnerOptions {
+  std::string from, to;  ///< operator files: whose figures he has at level 0 and at level 1
+  std::function<double(int)> level;  ///< at the session's nth trial
+  std::uint64_t seed = 0;            ///< of the hand's own chances; at the nth trial n - 1 more
+};
+
+/// What every session command understands.
+struct SessionOptions {
+  std::string command = "paracentesis";
+  std::string task;                ///< task file; empty: the shipped one
+  std::string station;             ///< station file; empty: the virtual bench
+  std::string patient;             ///< patient file; empty: built from the reference figures
+  std::uint64_t patient_seed = 0;  ///< 0: the reference patient
+  anatomy::Side side = anatomy::Side::right;
+  bool left_handed = false;
+  std::uint64_t seed = 1;
+  std::uint64_t bench_seed =
+      0;  ///< of the virtual bench's truth, which a calibration of it belongs to; 0: as `seed`
+  std::uint64_t benchSeed() const { return bench_seed ? bench_seed : seed; }
+  OperatorKind who = OperatorKind::automatic;
+  bool knows_patient =
+      false;  ///< a simulated operator aims by this patient's images, not by the mean anatomy
+  bool force_feedback = true;
+  int trials = 1;
+  std::string trainee = "T000";
+  std::string records;  ///< where finished trials go; empty: nobody is recorded
+  bool fast = false;
+  bool no_views = false;
+  bool record_video = false;     ///< keep the camera's pictures
+  bool navigation = true;        ///< free navigation of the view
+  bool skin_deflection = false;  ///< the skin is shown to give way
+  bool guide = false;            ///< a line from the entry point to the vein: not scored
+  scene::ForceColours force_colours = scene::ForceColours::paper;
+  scene::Stereo stereo = scene::Stereo::none;
+  scene::Inset inset = scene::Inset::none;
+  bool demonstration = true;    ///< a person first watches an expert's recorded trial
+  bool familiarisation = true;  ///< and then tries once, unscored
+  scene::Display display = scene::Display::automatic;
+  bool headset = false;                   ///< beside the desktop's view
+  std::string camera, intrinsics, board;  ///< recorded pictures instead of the station's camera
+  std::string expert_path;                ///< overrides the task's
+  std::string role = "scored";            ///< of the trials
+  bool record_only = false;               ///< no expert path needed: trials that will make one
+  std::string live;                       ///< local socket where others may look on; empty: nobody
+  std::string out;
+  double rate_Hz = 1000;        ///< ticks a second
+  int cpu = -1;                 ///< of the haptic thread; -1: any
+  bool exact_geometry = false;  ///< from the full mesh in every tick
+  bool quiet = false;
+  int igtl_port = 0;                      ///< served by OpenIGTLink; 0: not
+  std::string igtl_listen = "127.0.0.1";  ///< to whom: an address of this computer
+  bool guidance = false;                  ///< palpation: help that fades, in every other trial
+  bool see_through = false;               ///< palpation: the lumps are shown; not scored
+  std::string mode =
+      "real";            ///< search: real, degraded, augmented, or all of them one after the other
+  bool blocks = false;   ///< search: the task's blocks; training in `mode`
+  bool assess = false;   ///< assessment: every aid is off
+  bool augment = false;  ///< needle, palpation: the task's augmentations add force
+  StudyStep study;
+  std::string uuid;  ///< of the session; empty: made when it begins
+  LearnerOptions learner;
+};
+
+/// "person", "recorded", "novice", "learner", "expert".
+const char* nameOf(OperatorKind who);
+
+/// What a session says of itself, with the study that it is part of, if any.
+std::string sessionText(nlohmann::json session, const SessionOptions& options);
+
+/// After parsing: what "auto" means here, and contradictions (UsageError).
+void settle(SessionOptions& options);
+
+/// With the station read: who can hold its device. Throws UsageError.
+void settleOperator(SessionOptions& options, const station::Station& station);
+
+}  // namespace palpa::session

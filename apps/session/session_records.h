@@ -1,0 +1,29 @@
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+
+#include "apps/record/store/delivery.h"
+#include "apps/session/session_options.h"
+
+/// What a session owes to the records of a centre, where `options.records` names some; without,
+/// nobody is recorded.
+namespace palpa::session {
+
+/// Before anything starts: the trainee must be in the records (UsageError). Records that cannot be
+/// reached now are named in one line and do not stop a session. The usual T000 who is not in the
+/// records is nobody: `options.records` is emptied, with a word.
+void checkTrainee(SessionOptions& options);
+
+/// With the evidence made and before its first trial, so that a killed session is delivered later;
+/// held as long as the session goes on. Null: nobody is recorded.
+std::unique_ptr<record::PendingHold> noteForRecords(const SessionOptions& options,
+                                                    const std::string& uuid,
+                                                    const std::filesystem::path& evidence);
+
+/// After the session: one line says what arrived, or what is sent later. Throws nothing: a session
+/// that was made is done.
+void deliverSession(const SessionOptions& options, const std::filesystem::path& folder);
+
+}  // namespace palpa::session

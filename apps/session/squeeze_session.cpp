@@ -1,0 +1,212 @@
+#include "apps/session/squeeze_session.h"
+#include "apps/runtime/clock.h"
+
+#include <cstdio>
+#include <memory>
+
+#include <nlohmann/json.hpp>
+
+#include "anatomy/parametric/phantoms.h"
+#include "apps/assess/trial.h"
+#include "apps/report/squeeze/squeeze_report.h"
+#include "apps/session/output_folder.h"
+#include "apps/session/session_facts.h"
+#include "apps/station/assets.h"
+#include "apps/task_squeeze/squeeze_scene.h"
+#include "apps/twin/bench_truth.h"
+#include "apps/twin/phantom/phantom_file.h"
+#include "apps/twin/soft_samples.h"
+#include "apps/twin/squeezing_hands.h"
+
+namespace palpa::session {
+namespace {
+
+constexpr double kOpenBeside = 0.05;  // m from the object's middle, where the tools are picked up
+
+station::Station squeezeStation(const SessionOptions& options) {
+  station::Station station = station::readStation(
+      options.station.empty() ? station::assetFile("stations/palpation_bench.json")
+                              : std::filesystem::path(options.station));
+  station::judgeAge(station, runtime::utcNow());
+  if (!station.sample)
+    throw UsageError("has no \"sample\"", station.file.name(),
+                     "Say where the object stands: sample/X_WP, the middle of its top, and "
+                     "sample/tip_radius_mm");
+  if (!station.force_sensor)
+    throw UsageError("has no \"force_sensor\"", station.file.name(),
+                     "What is held must be felt by the station: describe the sensor");
+  if (!station.second_X_WD)
+    throw UsageError("has no \"second_device\"", station.file.name(),
+                     "It takes two tools to hold something: say where the other device stands, "
+                     "second_device/X_WD");
+  return station;
+}
+
+Vec3 sizeOf(const task_squeeze::SqueezeSettings& task) { return Vec3::Constant(2 * task.half); }
+
+/// What is held truly is: a mass with sides of simulated silicone.
+twin::VirtualBench::RealThing realObject(const SqueezeWorld& world, std::uint64_t seed) {
+  const std::string file = "phantoms/" + world.station.file.text("twin/samples");
+  const std::vector<twin::Phantom> samples = twin::readSolved(
+      station::assetFile(file + ".json"), station::assetFile(file + ".tables.json"));
+  const auto object =
+      std::make_shared<twin::HeldObject>(twin::HeldObject::Shape{world.task.half, world.task.mass},
+                                         samples.front().table, twin::SiliconeLaw{});
+  const Pose X_WO =
+      twin::trueSample(world.station, seed) * world.station.sample->X_WP.inverse() * world.X_WO;
+  return [object, X_WO, r = world.station.sample->tip_radius](const std::array<Pose, 2>& X_WT,
+                                                              double dt) {
+    std::array<Vec3, 2> p_O;
+    for (std::size_t t = 0; t < 2; ++t)
+      p_O[t] = X_WO.inverse() * (X_WT[t] * Vec3(0, 0, -r)) - (t == 0 ? r : -r) * Vec3::UnitX();
+    const std::array<Vec3, 2> f_O = object->step(p_O, dt);
+    return std::array<twin::VirtualBench::Touch, 2>{
+        {{X_WO.linear() * f_O[0], X_WO * p_O[0]}, {X_WO.linear() * f_O[1], X_WO * p_O[1]}}};
+  };
+}
+
+}  // namespace
+
+SqueezeWorld::SqueezeWorld(const SessionOptions& options)
+    : station(squeezeStation(options)),
+      task(task_squeeze::readSqueeze(options.task.empty() ? station::assetFile("tasks/squeeze.json")
+                                                          : std::filesystem::path(options.task))),
+      object(anatomy::phantomBlock(sizeOf(task), task.title)),
+      X_WO(station.sample->X_WP * makePose(Mat3::Identity(), Vec3(0, 0, -task.half))),
+      X_WA(station.sample->X_WP * anatomy::X_AP().inverse()) {
+  task.library = station::onStation(std::move(task.library), station.calibrations);
+  if (std::abs(station.sample->tip_radius - task.library.tip_radius) > 1e-6)
+    station.file.refuse("sample/tip_radius_mm",
+                        "is not that of the tip with which the object's sides were identified");
+}
+
+haptics::PairConfig SqueezeWorld::pairConfig(const SessionOptions& options) const {
+  haptics::PairConfig pair;
+  const Pose X_WP = station.sample->X_WP;
+  for (std::size_t t = 0; t < 2; ++t) {
+    haptics::TickConfig& tick = pair.tools[t];
+    tick.engine = haptics::Engine::touch;
+    tick.object_at_port = 1;
+    tick.coupling = station.coupling;
+    tick.safety = station.safety;
+    tick.safety.deadman_button = 0;  // two simulated fingers: nobody could hold it
+    tick.passivity = station.passivity;
+    tick.X_ET = pack(station.X_ET);
+    tick.touch = station::touchOf(task.library);
+    tick.X_DP = pack(Pose((t == 0 ? station.X_WD : *station.second_X_WD).inverse() * X_WP));
+    tick.period_ns = std::llround(1e9 / options.rate_Hz);
+  }
+  pair.squeezing = 1;
+  pair.squeeze.real = task.library.surface;
+  pair.squeeze.least_contact = task.touch;
+  return pair;
+}
+
+SessionDevices::Hands SqueezeWorld::hands(const SessionOptions& options) const {
+  const twin::SqueezingSkill skill = twin::readSqueezingSkill(
+      station::assetFile(options.who == OperatorKind::novice ? "operators/squeeze_novice.json"
+                                                             : "operators/squeeze_expert.json"));
+  auto fingers =
+      twin::squeezingHands(skill, {X_WA.inverse() * X_WO, task.half}, station.X_ET, options.seed);
+  const auto pickedUp = [&](const Pose& X_WD, double side) {
+    const Pose X_WT =
+        X_WO * makePose(rotationWithZ(Vec3(-side, 0, 0)), Vec3(side * kOpenBeside, 0, 0));
+    return Pose(X_WD.inverse() * X_WT * station.X_ET.inverse());
+  };
+  twin::VirtualBench::Setup bench{station,
+                                  std::move(fingers[0]),
+                                  pickedUp(station.X_WD, 1),
+                                  X_WO.translation(),
+                                  X_WO.linear() * Vec3::UnitZ(),
+                                  options.benchSeed(),
+                                  {},
+                                  nullptr,
+                                  {},
+                                  {}};
+  bench.second =
+      twin::VirtualBench::SecondTool{std::move(fingers[1]), *station.second_X_WD,
+                                     pickedUp(*station.second_X_WD, -1), nullptr, nullptr};
+  if (isSimulated(options.who)) bench.real_thing = realObject(*this, options.benchSeed());
+  return {std::move(bench), std::nullopt, task.library.tip_radius};
+}
+
+record::SessionInfo SqueezeWorld::info(const SessionOptions& options) const {
+  record::SessionInfo info;
+  info.uuid = options.uuid;
+  info.started_utc = runtime::utcNow();
+  info.software = std::string("palpa ") + PALPA_VERSION;
+  info.command = options.command;
+  info.session_json = sessionText({{"seed", options.seed},
+                                   {"bench_seed", options.benchSeed()},
+                                   {"operator", nameOf(options.who)},
+                                   {"simulated", true},
+                                   {"trainee", options.trainee},
+                                   {"force_feedback", options.force_feedback},
+                                   {"virtual_time", options.fast},
+                                   {"assessed", options.assess}},
+                                  options);
+  info.station_json = station.file.json().dump();
+  info.task_json = task.source;
+  info.pair_config = pairConfig(options);
+  info.tick_config = info.pair_config->tools[0];
+  return info;
+}
+
+SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
+                      const std::filesystem::path& folder) {
+  task_squeeze::SqueezeChannels channels(options.fast ? runtime::TimeMode::virtual_time
+                                                      : runtime::TimeMode::real);
+  const haptics::PairConfig pair = world.pairConfig(options);
+  SessionFrame frame(options, {world.station, world.object, world.X_WA, pair.tools[0], pair, false},
+                     world.hands(options), channels, folder);
+  const std::string not_scored =
+      world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict;
+  task_squeeze::SqueezeTask task(
+      {world.task, true, true, options.force_feedback, not_scored, options.seed,
+       task_squeeze::comparisonsOf(world.task, options.seed, options.trials), frame.places(),
+       options.role},
+      frame.bus(), channels, frame.executive());
+  task_squeeze::SqueezeScene scene({frame.stage(), *world.station.second_X_WD,
+                                    (world.X_WA.inverse() * world.X_WO).translation()},
+                                   frame.bus(), channels);
+  SqueezeRun run;
+  static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
+  run.trials = task.completed();
+  return run;
+}
+
+void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world,
+                         const SqueezeRun& run, const std::filesystem::path& folder) {
+  report::SqueezeReport page;
+  std::vector<assess::SqueezeTrial> scored;
+  for (const task_squeeze::CompletedSqueeze& trial : run.trials) {
+    page.trials.push_back(trial.trial);
+    if (assess::countsAsScored(trial.trial.role) && trial.trial.outcome != "void")
+      scored.push_back(trial.trial);
+  }
+  report::writeSqueezeCsv(options.trainee, scored, folder / "trials.csv");
+  page.title = world.task.title;
+  page.trainee = whoPerformed(options);
+  page.simulated = true;
+  page.too_hard_N = world.task.too_hard;
+  for (const trial::SavedPicture& p : run.pictures)
+    page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
+  page.taxonomy = taxonomyFacts(world.task.taxonomy);
+  page.station = stationFactsOf(options, world.station);
+  page.station.push_back(surfaceFact(world.task.library));
+  page.notes = runNotes(run);
+  report::writeSqueezeReport(page, folder / "report.html");
+
+  for (const task_squeeze::CompletedSqueeze& trial : run.trials)
+    std::printf("Trial %d (%s, simulated): %s\n", trial.trial.trial, trial.trial.role.c_str(),
+                trial.reason.empty() ? summaryOf(trial.trial).c_str() : trial.reason.c_str());
+  std::printf("Written to %s:\n", folder.string().c_str());
+  std::printf("  report.html     what was told apart, and how well: open this first\n");
+  std::printf(
+      "  trials.csv      one row a scored trial\n  session.palpa   the evidence: every tick of "
+      "both tools, for replay\n");
+  if (!run.pictures.empty())
+    std::printf("  view-*.png      %zu pictures of the marked moments\n", run.pictures.size());
+}
+
+}  // namespace palpa::session

@@ -1,0 +1,41 @@
+#pragma once
+
+#include <filesystem>
+
+#include "apps/session/session_frame.h"
+#include "apps/task_squeeze/squeeze_task.h"
+
+namespace palpa::session {
+
+/// Everything a comparison session rests on, read and checked before anything starts. Immovable:
+/// parts refer to each other.
+struct SqueezeWorld {
+  explicit SqueezeWorld(const SessionOptions& options);  ///< throws UsageError / Error
+  SqueezeWorld(const SqueezeWorld&) = delete;
+  SqueezeWorld& operator=(const SqueezeWorld&) = delete;
+
+  station::Station station;
+  task_squeeze::SqueezeSettings task;
+  anatomy::Patient object;  ///< as it is shown
+  Pose X_WO = Pose::Identity(),
+       X_WA =
+           Pose::Identity();  ///< its middle at rest, x from the second tool to the first; as shown
+
+  haptics::PairConfig pairConfig(const SessionOptions& options) const;
+  SessionDevices::Hands hands(const SessionOptions& options) const;
+  record::SessionInfo info(const SessionOptions& options) const;
+};
+
+struct SqueezeRun : SessionRun {
+  std::vector<task_squeeze::CompletedSqueeze> trials;
+};
+
+/// Runs the trials; leaves session.palpa and view-*.png in `folder`.
+SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
+                      const std::filesystem::path& folder);
+
+/// trials.csv and report.html; the last lines on standard output say what was written.
+void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& world,
+                         const SqueezeRun& run, const std::filesystem::path& folder);
+
+}  // namespace palpa::session

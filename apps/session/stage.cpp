@@ -1,0 +1,53 @@
+#include "apps/session/stage.h"
+
+#include <cstdio>
+
+#include "anatomy/base/error.h"
+
+namespace palpa::session {
+
+Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
+                bool fixed_views) {
+  scene::ViewLayout layout;
+  layout.orthographic = fixed_views;
+  layout.free_navigation = options.navigation;
+  layout.skin_deflection = options.skin_deflection;
+  layout.force_colours = options.force_colours;
+  layout.stereo = options.stereo;
+  layout.inset = options.inset;
+  Stage stage;
+  stage.context = scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
+                                       layout.width, layout.height, "Palpa");
+  stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
+  return stage;
+}
+
+SessionDevices::Fact HeadStage::fact() const {
+  if (!view) return {"Headset", "none", refusal};
+  return {"Headset", view->describe(),
+          std::to_string(view->frames()) + " pictures shown to each eye" +
+              (view->trouble().empty() ? "" : "; then " + view->trouble())};
+}
+
+HeadStage makeHeadStage(const SessionOptions& options, const anatomy::Patient& patient,
+                        const Pose& X_WA, const Stage& desktop) {
+  HeadStage stage;
+  if (!options.headset) return stage;
+  headset::HeadsetView::Setup setup;
+  setup.X_WA = X_WA;
+  setup.focus_A = patient.landmark(anatomy::landmark::kEntry);
+  setup.left_handed = options.left_handed;
+  setup.force_colours = options.force_colours;
+  setup.skin_deflection = options.skin_deflection;
+  try {
+    stage.view = std::make_unique<headset::HeadsetView>(patient, std::move(setup));
+    if (desktop.context) desktop.context->neverWait();
+  } catch (const Error& error) {
+    if (options.who == OperatorKind::person && options.display != scene::Display::window) throw;
+    stage.refusal = error.what();
+    std::fprintf(stderr, "palpa: %s; the session goes on on the desktop\n", error.what());
+  }
+  return stage;
+}
+
+}  // namespace palpa::session

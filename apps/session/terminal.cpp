@@ -1,0 +1,94 @@
+#include "apps/session/terminal.h"
+
+#include <unistd.h>
+
+#include <csignal>
+#include <cstdio>
+#include <utility>
+
+#include "apps/runtime/clock.h"
+
+namespace palpa::session {
+namespace {
+constexpr std::int64_t kStep = 250'000'000;      // session time between looks
+constexpr std::int64_t kTerminal = 200'000'000;  // wall time between lines
+constexpr std::int64_t kPlain = 5'000'000'000;
+}  // namespace
+
+Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+Progress::~Progress() {
+  if (!quiet_ && terminal_) std::fputs("\r\033[K", stderr);
+}
+
+std::int64_t Progress::step(std::int64_t now_ns) {
+  const std::int64_t wall = wall_.now();
+  if (!quiet_ && wall - last_wall_ns_ >= (terminal_ ? kTerminal : kPlain)) {
+    last_wall_ns_ = wall;
+    std::fprintf(stderr, terminal_ ? "\rsession time %.0f s \033[K" : "session time %.0f s\n",
+                 static_cast<double>(now_ns) * 1e-9);
+    std::fflush(stderr);
+  }
+  return now_ns + kStep;
+}
+
+namespace {
+
+constexpr std::int64_t kRenewed_ns = 200'000'000, kALine_ns = 5'000'000'000;
+constexpr int kBar = 30;  // letters
+
+}  // namespace
+
+WorkProgress::WorkProgress(std::string what, int of)
+    : what_(std::move(what)), of_(of), terminal_(isatty(STDERR_FILENO) != 0) {}
+
+WorkProgress::~WorkProgress() {
+  if (terminal_) std::fputs("\r\033[K", stderr);
+}
+
+void WorkProgress::done(int count) {
+  const std::int64_t now_ns = clock_.now();
+  if (now_ns - last_ns_ < (terminal_ ? kRenewed_ns : kALine_ns)) return;
+  last_ns_ = now_ns;
+  const int full = of_ > 0 ? kBar * count / of_ : kBar;
+  const std::string bar = std::string(static_cast<std::size_t>(full), '#') +
+                          std::string(static_cast<std::size_t>(kBar - full), '.');
+  std::fprintf(stderr, terminal_ ? "\r[%s] %d of %d %s\033[K" : "[%s] %d of %d %s\n", bar.c_str(),
+               count, of_, what_.c_str());
+  std::fflush(stderr);
+}
+
+namespace {
+
+constexpr std::int64_t kLookPeriod = 50 * runtime::kMillisecond;
+constexpr int kSignals[] = {SIGINT, SIGTERM};
+volatile std::sig_atomic_t interrupted = 0;
+struct sigaction old_actions[std::size(kSignals)];
+
+void note(int) { interrupted = 1; }
+
+}  // namespace
+
+InterruptNote::InterruptNote() {
+  interrupted = 0;
+  struct sigaction action {};
+  action.sa_handler = note;
+  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
+  for (std::size_t i = 0; i < std::size(kSignals); ++i)
+    sigaction(kSignals[i], &action, &old_actions[i]);
+}
+
+InterruptNote::~InterruptNote() {
+  for (std::size_t i = 0; i < std::size(kSignals); ++i)
+    sigaction(kSignals[i], &old_actions[i], nullptr);
+}
+
+bool InterruptNote::noted() const { return interrupted != 0; }
+
+std::int64_t Interrupt::step(std::int64_t now_ns) {
+  if (!note_.noted()) return now_ns + kLookPeriod;
+  channels_.signals_to_task.push({trial::UserCommand::quit, "Interrupted"});
+  return runtime::kNever;
+}
+
+}  // namespace palpa::session

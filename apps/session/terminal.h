@@ -1,0 +1,69 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "apps/runtime/activity.h"
+#include "apps/runtime/clock.h"
+#include "apps/trial/trial_status.h"
+
+namespace palpa::session {
+
+/// Says on standard error how a session goes: a line that renews itself on a terminal, a line every
+/// five seconds otherwise.
+class Progress final : public runtime::Activity {
+ public:
+  explicit Progress(bool quiet);
+  ~Progress() override;
+  const char* name() const override { return "progress"; }
+  std::int64_t step(std::int64_t now_ns) override;
+
+ private:
+  bool quiet_, terminal_;
+  std::int64_t last_wall_ns_ = 0;
+  runtime::SteadyClock wall_;
+};
+
+/// How far a piece of work is, on standard error: a line that renews itself on a terminal, a line
+/// every five seconds otherwise.
+class WorkProgress {
+ public:
+  WorkProgress(std::string what, int of);
+  ~WorkProgress();
+  WorkProgress(const WorkProgress&) = delete;
+  WorkProgress& operator=(const WorkProgress&) = delete;
+  void done(int count);
+
+ private:
+  std::string what_;
+  int of_;
+  bool terminal_;
+  std::int64_t last_ns_ = 0;
+  runtime::SteadyClock clock_;
+};
+
+/// While it lives, the first Ctrl-C or SIGTERM is noted instead of ending the program; a second one
+/// kills. One at a time; the old handlers come back at its end.
+class InterruptNote {
+ public:
+  InterruptNote();
+  ~InterruptNote();
+  InterruptNote(const InterruptNote&) = delete;
+  InterruptNote& operator=(const InterruptNote&) = delete;
+  bool noted() const;
+};
+
+/// Ctrl-C and SIGTERM close a session as Escape does: the trial is ended, devices get zero force,
+/// files are written.
+class Interrupt final : public runtime::Activity {
+ public:
+  explicit Interrupt(trial::Channels& channels) : channels_(channels) {}
+  const char* name() const override { return "interrupt"; }
+  std::int64_t step(std::int64_t now_ns) override;
+
+ private:
+  trial::Channels& channels_;
+  InterruptNote note_;
+};
+
+}  // namespace palpa::session

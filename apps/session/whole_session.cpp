@@ -1,0 +1,85 @@
+#include "apps/session/whole_session.h"
+
+#include "anatomy/base/error.h"
+#include "apps/session/needle_session.h"
+#include "apps/session/output_folder.h"
+#include "apps/session/palpation_session.h"
+#include "apps/session/search_session.h"
+#include "apps/session/session_records.h"
+#include "apps/session/squeeze_session.h"
+
+namespace palpa::session {
+
+SessionLeft holdNeedleSession(SessionOptions options) {
+  settle(options);
+  NeedleWorld world(options);
+  settleOperator(options, world.station);
+  checkTrainee(options);
+  const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
+  if (options.who == OperatorKind::person && options.demonstration)
+    showDemonstration(options, world, folder);
+  const SessionResult result = runNeedleSession(options, world, folder);
+  writeOutcome(options, world, result, folder);
+  deliverSession(options, folder);
+  return {folder, result.quit};
+}
+
+SessionLeft holdPalpation(SessionOptions options) {
+  settle(options);
+  if (options.headset)
+    throw UsageError("does not show palpation yet", "--display openxr",
+                     "Choose window or offscreen");
+  const PalpationWorld world(options);
+  settleOperator(options, world.station);
+  checkTrainee(options);
+  const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
+  const PalpationRun run = runPalpation(options, world, folder);
+  writePalpationOutcome(options, world, run, folder);
+  deliverSession(options, folder);
+  return {folder, run.quit};
+}
+
+SessionLeft holdSqueeze(SessionOptions options) {
+  settle(options);
+  if (!isSimulated(options.who))
+    throw UsageError("cannot hold something with one device", "--operator",
+                     "Two devices are simulated only, so far: --operator expert or novice");
+  if (options.headset)
+    throw UsageError("does not show squeezing yet", "--display openxr",
+                     "Choose window or offscreen");
+  const SqueezeWorld world(options);
+  checkTrainee(options);
+  const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
+  const SqueezeRun run = runSqueeze(options, world, folder);
+  writeSqueezeOutcome(options, world, run, folder);
+  deliverSession(options, folder);
+  return {folder, run.quit};
+}
+
+SessionLeft holdSearch(SessionOptions options) {
+  settle(options);
+  if (options.headset)
+    throw UsageError("does not show a search yet", "--display openxr",
+                     "Choose window or offscreen");
+  const SearchWorld world(options);
+  settleOperator(options, world.station);
+  if (options.who == OperatorKind::person && world.onBench())
+    throw UsageError(
+        "cannot be felt with a mouse", "--operator person",
+        "Give a station with a haptic device (--station), or take --operator expert or novice");
+  checkTrainee(options);
+  const std::filesystem::path folder = makeOutputFolder(options.out, options.command);
+  const SearchRun run = runSearch(options, world, folder);
+  writeSearchOutcome(options, world, run, folder);
+  deliverSession(options, folder);
+  return {folder, run.quit};
+}
+
+SessionLeft holdSession(const std::string& engine, SessionOptions options) {
+  if (engine == "palpation") return holdPalpation(std::move(options));
+  if (engine == "surface") return holdSearch(std::move(options));
+  if (engine == "squeeze") return holdSqueeze(std::move(options));
+  return holdNeedleSession(std::move(options));
+}
+
+}  // namespace palpa::session

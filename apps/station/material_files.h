@@ -1,0 +1,59 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "anatomy/base/json_file.h"
+#include "apps/station/calibrations.h"
+#include "haptics/contact/needle_materials.h"
+#include "haptics/modulation/touch_augmentation.h"
+
+namespace palpa::station {
+
+/// What the needle feels, with the spread of the skin's strength over trials.
+struct NeedleFile {
+  haptics::NeedleMaterials materials;
+  double puncture_low_N = 1.0, puncture_high_N = 2.5;  ///< uniform between the two, per trial
+};
+
+/// assets/materials/needle.json: every figure with unit, source and range. Throws UsageError.
+NeedleFile readNeedleFile(const std::filesystem::path& file);
+
+/// A lump that can be put into a sample, as it was identified (`palpa calibrate inclusion`) and as
+/// whoever cast it describes it.
+struct LumpKind {
+  std::string name;
+  haptics::VirtualInclusion law;
+  double depth = 0, diameter = 0;  ///< m, of its middle below the top; its own
+  int hardness = 0, mobility = 0;  ///< 1 soft, 2 hard; 1 fixed, 2 mobile
+  double contrast = 0;  ///< what it adds beside and above it, rms, over the force: 0.24 is 24 %
+};
+
+/// What a sample is made of, and the lumps that were identified in its like, all felt with one
+/// round tip.
+struct LumpLibrary {
+  haptics::HuntCrossley surface;
+  double x0 = 0;  ///< m
+  haptics::Dahl friction;
+  double tip_radius = 0;   ///< m
+  bool simulated = false;  ///< identified on the virtual bench
+  std::string of_surface;  ///< by what the surface is known: "the library of lumps", "this
+                           ///< station's calibration of 2026-11-02"
+  std::vector<LumpKind> kinds;
+};
+
+/// Throws UsageError or Error naming file and field: no kinds or more than eight, a law with k < 0,
+/// b < 0 or m outside 1 to 2 (0.5 to 3 for a lump's bed), a calibration that failed, one of another
+/// kind.
+LumpLibrary readLumps(const std::filesystem::path& file);
+
+/// The same with the surface as this station's own "material" and "friction" calibrations found it,
+/// where it has them: the sample that lies there is touched, not the library's. Throws as
+/// `readLumps` for a law that cannot be; whether a calibration passed, the station's verdict says.
+LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>& calibrations);
+
+/// What the loop has to know of the library.
+haptics::TouchAugmentation touchOf(const LumpLibrary& library);
+
+}  // namespace palpa::station

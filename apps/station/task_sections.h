@@ -1,0 +1,82 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "anatomy/base/json_file.h"
+#include "haptics/augmentation/augmentation.h"
+#include "haptics/augmentation/learned_part.h"
+
+namespace palpa::station {
+
+/// Where a task stands among visual and haptic augmented realities, in words (Jeon, Choi & Harders
+/// 2015, their section 2): its file's "taxonomy".
+struct Taxonomy {
+  std::string visual, haptic;  ///< how much of what is seen, of what is felt, is real
+  std::string purpose;         ///< artificial recreation, or augmented perception
+  std::string property;        ///< within a property or between properties
+};
+
+/// Throws UsageError naming a field that is missing.
+Taxonomy taxonomyOf(const JsonFile& task);
+
+}  // namespace palpa::station
+
+/// Parts of a task that were learned from recordings: a task's file names what `palpa calibrate
+/// subtasks` left,
+///   "learned": "../parts/calibration.json"
+/// and the conditions of its parts may ask for one of its states, numbered as the page shows them:
+/// {"cue": "learned", "is": 2}.
+namespace palpa::station {
+
+/// A task's file with the model itself where it named one, so that a recording has it whole. Paths
+/// are relative to the task's file. Throws UsageError or Error: no such file, damaged, not of this
+/// kind, one whose states do not repeat.
+JsonFile readTaskFile(const std::filesystem::path& path);
+
+/// No states where the task has no "learned". Throws UsageError naming the field.
+haptics::LearnedModel learnedIn(const JsonFile& task);
+
+/// A task's parts and what is added to the force in each, as its file says it:
+///   "subtasks": [{"name": "scan", "means": "...", "on": [{"cue": "floor_speed", "at_least":
+///   468.75}]}]
+///       each condition: a cue (haptics/augmentation/cues.h, in its unit) with "at_least", "below"
+///       or "is" (a number, or the phase's or tissue's name)
+///   "learned": a model that parts may be told by (apps/station/learned_model.h)
+///   "hysteresis": 0.05: a part is off again so far below its thresholds
+///   "augmentations": [{"name": "edge", "kind": "pulse", "subtask": "scan", "trigger": "rise",
+///   "way": "up", "force_N": 0.8, "width_ms": 10}]
+///       kind: pulse, vibration (frequency_Hz or wavelength_mm, decay_ms), attraction (reach_mm or
+///       reach_U), exaggeration (times, tau_ms), fixture (stiffness_N_per_m), relief (force_N, at
+///       the highest bumps); trigger: begin, rise, bump, or an event (skin_punctured, withdrawn,
+///       wall_punctured, bone_touched, bone_left);  way (of pulse, vibration, relief): up,
+///       against_motion, along_tool, against_tool
+///   "limit_share": 0.5 of the device's force, for all together
+struct NamedPlan {
+  haptics::AugmentationPlan plan;  ///< forces as in the file, for no device yet
+  struct Part {
+    std::string name, means;
+  };
+  std::vector<Part> subtasks, augmentations;
+  double limit_share = 0.5;
+  std::vector<double>
+      reach_U;  ///< of each augmentation, where it is given in units of a floor; else 0
+  bool empty() const { return subtasks.empty(); }
+  std::vector<std::string> subtaskNames() const {
+    std::vector<std::string> names;
+    for (const Part& part : subtasks) names.push_back(part.name);
+    return names;
+  }
+};
+
+/// Empty where the file names no "subtasks". Throws UsageError naming the field.
+NamedPlan readPlan(const JsonFile& task);
+
+/// The plan for a device: never more than its share of `max_force_N`, nothing steeper than
+/// `stiffness` (N/m); lengths in units of a floor become metres by `unit`. Throws UsageError where
+/// there are some and `unit` is 0.
+haptics::AugmentationPlan onDevice(const NamedPlan& named, double max_force_N, double stiffness,
+                                   double unit = 0);
+
+}  // namespace palpa::station

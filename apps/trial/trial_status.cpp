@@ -1,0 +1,32 @@
+#include "apps/trial/trial_status.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace palpa::trial {
+
+std::string gradeText(double diameter, int hardness, int mobility) {
+  std::string text;
+  const auto add = [&text](const std::string& words) {
+    text += (text.empty() ? "" : ", ") + words;
+  };
+  if (diameter > 0) add("diameter " + std::to_string(std::lround(1e3 * diameter)) + " mm");
+  if (hardness > 0) add(hardness == 1 ? "soft" : "hard");
+  if (mobility > 0) add(mobility == 1 ? "fixed" : "mobile");
+  return text;
+}
+
+Grade gradeOf(const std::string& text) {
+  Grade grade;
+  double mm = 0;
+  if (const auto at = text.find("diameter ");
+      at != std::string::npos && std::sscanf(text.c_str() + at, "diameter %lf mm", &mm) == 1 &&
+      mm > 0 && mm < 1000)
+    grade.diameter = 1e-3 * mm;
+  const auto says = [&](const char* word) { return text.find(word) != std::string::npos; };
+  grade.hardness = says("soft") ? 1 : says("hard") ? 2 : 0;
+  grade.mobility = says("fixed") ? 1 : says("mobile") ? 2 : 0;
+  return grade;
+}
+
+}  // namespace palpa::trial

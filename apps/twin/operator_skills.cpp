@@ -1,0 +1,87 @@
+#include <numbers>
+
+#include "anatomy/base/json_file.h"
+#include "anatomy/base/units.h"
+#include "apps/twin/operator.h"
+#include "apps/twin/palpating_hand.h"
+
+namespace palpa::twin {
+namespace {}  // namespace
+
+OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
+  const station::JsonFile file(path);
+  file.needVersion(1);
+  OperatorSkill s;
+  s.name = file.text("name");
+  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
+            file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
+  s.tremor_rms = kMm * file.number("tremor_rms_mm", 0, 5);
+  s.turn_tremor_rms = kDegree * file.number("turn_tremor_rms_deg", 0, 10);
+  s.look_sd = kMm * file.number("look_sd_mm", 0, 50);
+  s.depth_sd = kMm * file.number("depth_sd_mm", 0, 50);
+  s.entry_sd = kMm * file.number("entry_sd_mm", 0, 50);
+  s.normal_sd = kDegree * file.number("normal_sd_deg", 0, 90);
+  s.direction_sd = kDegree * file.number("direction_sd_deg", 0, 90);
+  s.travel_speed = kMm * file.number("travel_speed_mm_per_s", 1, 2000);
+  s.push_speed = kMm * file.number("push_speed_mm_per_s", 0.1, 500);
+  s.advance_speed = kMm * file.number("advance_speed_mm_per_s", 0.1, 500);
+  s.withdraw_speed = kMm * file.number("withdraw_speed_mm_per_s", 0.1, 500);
+  s.turn_time = file.number("turn_time_s", 0.1, 60);
+  s.pause = file.number("pause_s", 0, 60);
+  s.reaction = file.number("reaction_s", 0, 0.6);
+  s.notice_puncture_N = file.number("notice_puncture_N", 0, 20);
+  s.notice_bone_N = file.number("notice_bone_N", 0, 20);
+  s.redirect = kDegree * file.number("redirect_deg", 0.1, 45);
+  s.redirect_sd = kDegree * file.number("redirect_sd_deg", 0, 45);
+  s.guide = kDegree * file.number("guide_deg", 0, 45);
+  s.redirections = file.integer("redirections", 0, 50);
+  s.first_depth = kMm * file.number("first_depth_mm", 0.5, 70);
+  s.vein_distance = kMm * file.number("vein_distance_mm", 1, 150);
+  s.search_margin = kMm * file.number("search_margin_mm", 0, 100);
+  s.aim_offset_L = kMm * file.vector("aim_offset_mm");
+  return s;
+}
+
+namespace {
+constexpr std::size_t kMostPressures = 3;
+}  // namespace
+
+PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
+  const station::JsonFile file(path);
+  file.needVersion(1);
+  PalpatingSkill s;
+  s.name = file.text("name");
+  s.grip = {file.number("grip_stiffness_N_per_m", 1, 10000),
+            file.number("grip_damping_Ns_per_m", 0, 100), file.number("grip_mass_kg", 0.01, 5)};
+  s.tremor_rms = kMm * file.number("tremor_rms_mm", 0, 5);
+  s.look_sd = kMm * file.number("look_sd_mm", 0, 50);
+  s.strip = kMm * file.number("strip_mm", 1, 200);
+  s.step = kMm * file.number("step_mm", 1, 200);
+  s.wander = kMm * file.number("wander_mm", 0, 50);
+  s.skip = file.number("skip", 0, 0.9);
+  s.travel_speed = kMm * file.number("travel_speed_mm_per_s", 1, 2000);
+  s.press_speed = kMm * file.number("press_speed_mm_per_s", 0.1, 500);
+  for (const nlohmann::json& pressure : file.json().value("pressures_N", nlohmann::json::array())) {
+    if (!pressure.is_number() ||
+        pressure.get<double>() <= (s.pressures.empty() ? 0 : s.pressures.back()))
+      file.refuse("pressures_N", "must hold rising numbers above 0");
+    s.pressures.push_back(pressure.get<double>());
+  }
+  if (s.pressures.empty() || s.pressures.size() > kMostPressures)
+    file.refuse("pressures_N", "must hold one to three numbers");
+  s.reaction = file.number("reaction_s", 0, 0.6);
+  s.weber = file.number("weber", 0, 1);
+  s.looks_closer = file.number("looks_closer", 0, 2);
+  s.marks_from = file.number("marks_from", 0, 2);
+  s.again = file.integer("again", 0, 10);
+  s.rounds = file.integer("rounds", 0, 10);
+  s.confirms = file.integer("confirms", 0, 10);
+  s.closer_force = file.number("closer_force", 1, 2);
+  s.size_sd = file.number("size_sd", 0, 1);
+  s.hard_from = file.number("hard_from", 0, 2);
+  s.feels_around = file.integer("feels_around", 0, 1) == 1;
+  s.knows_anatomy = file.integer("knows_anatomy", 0, 1) == 1;
+  return s;
+}
+
+}  // namespace palpa::twin

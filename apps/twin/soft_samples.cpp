@@ -1,0 +1,83 @@
+#include "apps/twin/soft_samples.h"
+
+#include <algorithm>
+
+#include "anatomy/base/error.h"
+#include "anatomy/base/units.h"
+#include "apps/station/assets.h"
+#include "apps/twin/bench_truth.h"
+#include "apps/twin/phantom/phantom_file.h"
+
+namespace palpa::twin {
+
+SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
+                       std::uint64_t seed) {
+  if (!station.sample)
+    throw UsageError("has no \"sample\"", station.file.name(),
+                     "Say where it lies: sample/X_WP, sample/tip_radius_mm");
+  X_WP_ = trueSample(station, seed);
+  radius_ = station.sample->tip_radius;
+  const std::string file = "phantoms/" + station.file.text("twin/samples");
+  const std::vector<Phantom> samples =
+      readSolved(station::assetFile(file + ".json"), station::assetFile(file + ".tables.json"));
+  const auto one = name.empty() ? samples.begin()
+                                : std::find_if(samples.begin(), samples.end(),
+                                               [&](const Phantom& p) { return p.name == name; });
+  if (one == samples.end()) {
+    std::string known;
+    for (const Phantom& p : samples) known += (known.empty() ? "" : ", ") + p.name;
+    throw UsageError("is none of the simulated samples", "\"" + name + "\"", "Known are " + known);
+  }
+  if (std::abs(one->table.tool_radius - radius_) > 1e-6)
+    station.file.refuse("sample/tip_radius_mm", "is not that of the simulated samples");
+  has_lump_ = one->block.lump.has_value();
+  phantom_.emplace(one->table, SiliconeLaw{});
+}
+
+SampleTwin::Touch SampleTwin::step(const Pose& X_WT, double dt) {
+  const Vec3 middle_P = X_WP_.inverse() * (X_WT * Vec3(0, 0, -radius_)),
+             lowest_P = middle_P - radius_ * Vec3::UnitZ();
+  const PhantomTouch touch = phantom_->step(lowest_P, dt);
+  Touch told;
+  told.f_W = X_WP_.linear() * touch.f;
+  told.p_W = X_WP_ * lowest_P;
+  if (has_lump_) told.lump_W = X_WP_.linear() * touch.lump;
+  return told;
+}
+
+namespace {
+
+constexpr double kStand = 2000, kStandDamping = 6,
+                 kNest = 1e-3;  // N/m, N s/m; m: so deep it sits in the stand [chosen: it rests
+                                // within 0.1 mm, and does not bounce]
+
+Vec3 mirrored(const Vec3& p) { return {-p.x(), p.y(), p.z()}; }
+
+}  // namespace
+
+/// Pushes up what comes down on it, and toward its middle what still sits in it.
+Vec3 HeldObject::onStand() const {
+  Vec3 f = Vec3::Zero();
+  if (p_.z() < 0) f.z() = std::max(-kStand * p_.z() - kStandDamping * v_.z(), 0.0);
+  if (p_.z() < kNest) f.head<2>() = -kStand * p_.head<2>() - kStandDamping * v_.head<2>();
+  return f;
+}
+
+std::array<Vec3, 2> HeldObject::step(const std::array<Vec3, 2>& p_O, double dt, bool held) {
+  std::array<Vec3, 2> f;
+  Vec3 on_object(0, 0, -shape_.mass * kGravity);
+  for (std::size_t t = 0; t < 2; ++t) {
+    const Vec3 from = p_O[t] - p_,
+               out = t == 0 ? from : mirrored(from);  // in the side's frame its outward normal is z
+    const Vec3 touch = sides_[t].step({-out.z(), out.y(), out.x() - shape_.half}, dt).f;
+    const Vec3 on_tool(touch.z(), touch.y(), -touch.x());
+    f[t] = t == 0 ? on_tool : mirrored(on_tool);
+    on_object -= f[t];
+  }
+  if (held) return f;
+  v_ += (on_object + onStand()) / shape_.mass * dt;
+  p_ += v_ * dt;
+  return f;
+}
+
+}  // namespace palpa::twin

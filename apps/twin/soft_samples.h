@@ -1,0 +1,59 @@
+#pragma once
+
+#include <array>
+#include <optional>
+#include <string>
+
+#include "apps/station/station_file.h"
+#include "apps/twin/phantom/phantom_twin.h"
+
+namespace palpa::twin {
+
+/// The soft sample on the virtual bench's table, and a round tip on it. W: the world.
+class SampleTwin {
+ public:
+  /// One of the station's simulated samples ("twin/samples": a file of assets/phantoms without its
+  /// ending); "" is the first. Throws UsageError for a station without samples, or a name that is
+  /// none of theirs.
+  SampleTwin(const station::Station& station, const std::string& name, std::uint64_t seed);
+
+  /// The tool (z along it, T on its end) is there after another `dt`. Told in W: the force on it,
+  /// and where that acts.
+  struct Touch {
+    Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
+    std::optional<Vec3> lump_W;  ///< m, how far its lump has moved; none without one
+  };
+  Touch step(const Pose& X_WT, double dt);
+
+ private:
+  Pose X_WP_;
+  double radius_ = 0;
+  bool has_lump_ = false;
+  std::optional<PhantomTwin> phantom_;
+};
+
+/// A mass with a soft side toward each of two tools, on a stand from which it can be lifted: free
+/// to move, not to turn. Frame O of the stand: origin in the object's middle while it rests, x from
+/// the second tool to the first, z up.
+class HeldObject {
+ public:
+  struct Shape {
+    double half = 0.03;  ///< m, from its middle to a side
+    double mass = 0.02;  ///< kg
+  };
+  HeldObject(const Shape& shape, const PhantomTable& side, const SiliconeLaw& law)
+      : shape_(shape), sides_{PhantomTwin(side, law), PhantomTwin(side, law)} {}
+
+  /// The tools' innermost points p_O, m, after another `dt`; the object's forces on the tools, N.
+  /// `held`: something keeps it where it rests.
+  std::array<Vec3, 2> step(const std::array<Vec3, 2>& p_O, double dt, bool held = false);
+  const Vec3& place() const { return p_; }  ///< of its middle, m
+
+ private:
+  Vec3 onStand() const;
+  Shape shape_;
+  std::array<PhantomTwin, 2> sides_;
+  Vec3 p_ = Vec3::Zero(), v_ = Vec3::Zero();
+};
+
+}  // namespace palpa::twin

@@ -1,0 +1,132 @@
+#include "haptics/loop/tick.h"
+
+#include <algorithm>
+
+#include "haptics/loop/tick_frame.h"
+
+namespace palpa::haptics {
+namespace {
+
+/// One of the two descriptions of the contact: on the newest snapshot, or on the one before it.
+struct View {
+  const LocalGeometry& geometry;
+  NeedleState& needle;
+  ProbeState& probe;
+};
+
+NeedleContact contactOn(const TickConfig& config, const View& view, const NeedlePose& pose,
+                        const TickCommands& commands, double dt) {
+  if (config.engine == Engine::probe)
+    return probeContact(config.probe, config.coupling, view.geometry, pose.p_DT, dt, view.probe);
+  return needleContact(config.materials, config.coupling, view.geometry, pose, commands, dt,
+                       view.needle);
+}
+
+/// Force on the newest snapshot, faded in from the one before it. The old one only lends its force:
+/// what happened (punctures, contacts) is told by the new one.
+NeedleContact blendedContact(const TickConfig& config, TickState& state, const NeedlePose& pose,
+                             const TickCommands& commands, double dt, std::int64_t now_ns) {
+  NeedleContact contact =
+      contactOn(config, {state.now, state.contact, state.probe}, pose, commands, dt);
+  if (!state.blending) return contact;
+  const NeedleContact old =
+      contactOn(config, {state.old, state.contact_old, state.probe_old}, pose, commands, dt);
+  if (state.contact_old.phase != state.contact.phase) {
+    state.blending = 0;  // a puncture in one of them: the two no longer describe the same contact
+    return contact;
+  }
+  const double u = std::clamp(
+      between(state.t_adopted_ns, now_ns) / static_cast<double>(config.blend_ns), 0.0, 1.0);
+  contact.f_D = (1 - u) * old.f_D + u * contact.f_D;
+  contact.tau_D = (1 - u) * old.tau_D + u * contact.tau_D;
+  return contact;
+}
+
+/// What is added to a real thing.
+NeedleContact touchedContact(const TickConfig& config, TickState& state, const FlightRecord& record,
+                             double dt) {
+  const AugmentedTouch now = augmentTouch(config.touch, record.commands.lumps,
+                                          {touchIn(config, record.sensed), {}}, dt, &state.touch);
+  return addedIn(config, now.f_d[0], now.touch[0].x, now.touch[0].f_n);
+}
+
+NeedleContact contactNow(const TickConfig& config, TickState& state, const TickCommands& commands,
+                         std::int64_t now_ns, TickFrame& frame) {
+  if (config.engine == Engine::touch)
+    return touchedContact(config, state, frame.record, frame.input.dt);
+  return blendedContact(config, state, frame.pose, commands, frame.input.dt, now_ns);
+}
+
+}  // namespace
+
+FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
+                  const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
+                  const SensedForce& sensed, const Floor* floor) noexcept {
+  TickFrame frame = beginTick(config, state, reading, latest, commands, now_ns, sensed);
+  NeedleContact contact;
+  if (frame.felt) {
+    FloorTouch touch;
+    const bool on_floor = config.engine == Engine::floor;
+    contact = on_floor ? floorContact(config, state, floor, &frame, &touch)
+                       : contactNow(config, state, commands, now_ns, frame);
+    addAugmentations(config, state, contact, floor, on_floor ? &touch : nullptr, &frame);
+  }
+  return finishTick(config, state, contact, frame);
+}
+
+namespace {
+
+/// What is added under each tool, in P.
+struct Added {
+  std::array<Vec3, 2> f_d{Vec3::Zero(), Vec3::Zero()};
+  std::array<double, 2> x{}, f_n{};
+};
+
+Added pressed(const PairConfig& config, PairState& state, const std::array<ToolTouch, 2>& tools,
+              const PlacedLumps& lumps, double dt) noexcept {
+  const AugmentedTouch now = augmentTouch(config.tools[0].touch, lumps, tools, dt, &state.touch);
+  return {now.f_d, {now.touch[0].x, now.touch[1].x}, {now.touch[0].f_n, now.touch[1].f_n}};
+}
+
+/// Where one of the tools is not believed it feels nothing: no contact.
+Added squeezed(const PairConfig& config, PairState& state, const std::array<ToolTouch, 2>& tools,
+               const TickCommands& commands) noexcept {
+  SqueezeModulation law = config.squeeze;
+  law.target.factor *= static_cast<double>(commands.squeeze_stiffness);
+  law.weight_factor *= static_cast<double>(commands.squeeze_weight);
+  const Squeezed now = modulateSqueeze(law, {tools[0].f_r, tools[1].f_r},
+                                       {tools[0].p_M, tools[1].p_M}, &state.squeeze);
+  return {now.f_d, {now.x, now.x}, {now.F, now.F}};
+}
+
+}  // namespace
+
+std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
+                                     const std::array<DeviceReading, 2>& readings,
+                                     const TickCommands& commands, std::int64_t now_ns,
+                                     const std::array<SensedForce, 2>& sensed) noexcept {
+  if (commands.trial != state.trial) {
+    state.trial = commands.trial;
+    state.touch = {};
+    state.squeeze = {};
+  }
+  std::array<TickFrame, 2> frames;
+  std::array<ToolTouch, 2> tools;
+  for (std::size_t t = 0; t < 2; ++t) {
+    frames[t] = beginTick(config.tools[t], state.tools[t], readings[t], nullptr, commands, now_ns,
+                          sensed[t]);
+    if (frames[t].felt) tools[t] = touchIn(config.tools[t], sensed[t]);
+  }
+  const Added added = config.squeezing
+                          ? squeezed(config, state, tools, commands)
+                          : pressed(config, state, tools, commands.lumps, frames[0].input.dt);
+  std::array<FlightRecord, 2> records;
+  for (std::size_t t = 0; t < 2; ++t)
+    records[t] =
+        finishTick(config.tools[t], state.tools[t],
+                   addedIn(config.tools[t], added.f_d[t], added.x[t], added.f_n[t]), frames[t]);
+  records[1].tool = 1;
+  return records;
+}
+
+}  // namespace palpa::haptics

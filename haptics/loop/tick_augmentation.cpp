@@ -1,0 +1,183 @@
+#include "haptics/loop/tick_frame.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace palpa::haptics {
+namespace {
+
+constexpr double kFarAway = 1;        // m: there is no lump
+constexpr double kFirstScale = 2000;  // px/s: 2 px in a millisecond, half the finest wavelength.
+                                      // 468.75 U/s where 1024 px are 240 U
+
+struct FloorFrame {
+  Pose X_DF;
+  explicit FloorFrame(const TickConfig& config) : X_DF(unpack(config.X_DF)) {}
+  Vec3 toF(const Vec3& v_D) const { return X_DF.linear().transpose() * v_D; }
+  Vec3 toD(const Vec3& v_F) const { return X_DF.linear() * v_F; }
+};
+
+/// The handle before an episode: a weak spring to its start, so that the hand follows it.
+Vec3 holdForce(const FloorRendering& law, const Vec3& p_F, const Vec3& v_F) noexcept {
+  constexpr double kDamping = 5;  // N s/m
+  const Vec3 f =
+      law.hold_stiffness * (Vec3(0, 0, law.start_height * law.unit) - p_F) - kDamping * v_F;
+  const double size = f.norm();
+  return size > law.hold_force_N ? Vec3(f * (law.hold_force_N / size)) : f;
+}
+
+/// From the nearest lump's edge, across the phantom's top; below 0: over the lump.
+double lumpEdge(const TickConfig& config, const TickFrame& frame) noexcept {
+  double nearest = kFarAway;
+  const Vec3 p_P = touchIn(config, frame.record.sensed).p_M;
+  for (const PlacedLump& lump : frame.record.commands.lumps) {
+    if (lump.kind < 1 || lump.kind > kMostLumpKinds) continue;
+    const double across = std::hypot(p_P.x() - lump.p_T0[0], p_P.y() - lump.p_T0[1]);
+    nearest = std::min(nearest, across - config.lump_radius[lump.kind - 1]);
+  }
+  return nearest;
+}
+
+/// Computed, or sensed of a real thing.
+Vec3 feltForce(const TickConfig& config, const NeedleContact& contact,
+               const SensedForce& sensed) noexcept {
+  return config.engine == Engine::touch && sensed.state == SensorState::valid ? unpack(sensed.f_D)
+                                                                              : contact.f_D;
+}
+
+/// The belief of a learned model goes on; while the handle is held, nothing is done that it knows.
+void believeLearned(const TickConfig& config, TickState& state, const Vec3& f,
+                    const TickFrame& frame) noexcept {
+  LearnedState& learned = state.augmentation.learned;
+  if (frame.record.commands.held)
+    learned = {};
+  else
+    learnedState(config.augmentations.learned, unpack(state.tip.v_D).norm(), f,
+                 static_cast<std::int64_t>(1e9 * frame.input.dt + 0.5), &learned);
+}
+
+CueValues cuesOf(const TickConfig& config, const TickState& state, const NeedleContact& contact,
+                 const FloorTouch* touch, const TickFrame& frame) noexcept {
+  CueValues cues;
+  const FlightRecord& record = frame.record;
+  cues[Cue::speed] = unpack(state.tip.v_D).norm();
+  cues[Cue::advance] = contact.v_axial;
+  const bool sensed = config.engine == Engine::touch && record.sensed.state == SensorState::valid;
+  cues[Cue::contact_force] = feltForce(config, contact, record.sensed).norm();
+  cues[Cue::skin_force] = contact.skin_force;
+  cues[Cue::wall_force] = contact.wall_force;
+  cues[Cue::bone_force] = contact.bone_force;
+  cues[Cue::indentation] = contact.indentation;
+  cues[Cue::depth] = contact.depth;
+  cues[Cue::phase] = static_cast<double>(state.contact.phase);
+  cues[Cue::tissue] = static_cast<double>(contact.tissue);
+  cues[Cue::part] = record.commands.subtask;
+  cues[Cue::learned] = 1 + state.augmentation.learned.state;
+  cues[Cue::lump_edge] = sensed ? lumpEdge(config, frame) : kFarAway;
+  if (!touch) return cues;
+  cues[Cue::floor_contact] = touch->touching;
+  cues[Cue::floor_texture] = touch->place.texture;
+  const Vec3 v_F = FloorFrame(config).toF(unpack(state.tip.v_D));
+  cues[Cue::floor_speed] = std::hypot(v_F.x(), v_F.y()) / config.floor.unit;
+  return cues;
+}
+
+/// What the floor itself tells: rises and bumps under the probe's way, the valley nearby.
+void lookAtFloor(const TickConfig& config, const Floor& floor, const FloorTouch& touch,
+                 const Vec3& dp_F, AugmentationInput* in) noexcept {
+  const Vec3 p = touch.p_U, before = p - dp_F / config.floor.unit,
+             v_F = FloorFrame(config).toF(in->v);
+  const double speed = in->cues[Cue::floor_speed];
+  if (floor.rises && touch.touching && speed > 0)
+    in->rise = floor.rises->rises(
+        p.x(), p.y(), GaborTable::directionOf(v_F.x(), v_F.y()),
+        GaborTable::scaleOf(speed, kFirstScale * floor.rises->side() / floor.rises->size()));
+  in->bump = touch.touching && floor.surface->crossesBump(before.x(), before.y(), p.x(), p.y());
+  if (touch.touching)
+    in->footprint =
+        floor.surface->bumpOnWay(before.x(), before.y(), p.x(), p.y()) /
+        std::max(floor.surface->spec().target.radius, floor.surface->spec().distractor.radius);
+  if (!floor.valleys || !touch.touching) return;
+  const ValleyMap::Nearest valley = floor.valleys->nearest(p.x(), p.y());
+  if (!valley.found) return;
+  in->to_valley = FloorFrame(config).toD(config.floor.unit * Vec3(valley.dx, valley.dy, 0));
+  in->valley_radius = valley.radius;
+}
+
+Vec3 upOf(const TickConfig& config, const TickState& state) noexcept {
+  switch (config.engine) {
+    case Engine::floor:
+      return FloorFrame(config).toD(Vec3::UnitZ());
+    case Engine::touch:
+      return unpack(config.X_DP.q).normalized() * Vec3::UnitZ();
+    case Engine::needle:
+    case Engine::probe:
+      return state.now.number ? unpack(state.now.skin.n) : Vec3(Vec3::Zero());
+  }
+  return Vec3::Zero();
+}
+
+Vec3 toLine(const TickCommands& commands, const Vec3& p_D) noexcept {
+  const Vec3 a = unpack(commands.line_a_D);
+  if (!(std::abs(a.norm() - 1) < 1e-6)) return Vec3::Zero();
+  const Vec3 d = unpack(commands.line_p_D) - p_D;
+  return d - d.dot(a) * a;
+}
+
+}  // namespace
+
+NeedleContact floorContact(const TickConfig& config, TickState& state, const Floor* floor,
+                           TickFrame* frame, FloorTouch* touch) noexcept {
+  const FloorFrame f(config);
+  const Vec3 p_D = frame->pose.p_DT, p_F = f.toF(p_D - f.X_DF.translation());
+  follow(state.floor.motion, p_D, config.coupling.velocity_tau, frame->input.dt);
+  const Vec3 v_F = f.toF(unpack(state.floor.motion.v_D));
+  const TickCommands& commands = frame->record.commands;
+  Vec3 hold_F(0, 0, config.floor.weight_N);
+  NeedleContact contact;
+  if (commands.held) {
+    hold_F += holdForce(config.floor, p_F, v_F);
+  } else if (floor && floor->surface) {
+    *touch =
+        touchFloor(*floor->surface, commands.degraded ? config.floor.degraded : config.floor.real,
+                   config.coupling.stiffness, config.floor.unit, p_F, v_F);
+    contact.f_D = f.toD(touch->f_F);
+    contact.indentation = touch->penetration;
+  }
+  if (commands.force_feedback) frame->f_hold_D = f.toD(hold_F);
+  state.floor.touching = touch->touching;
+  frame->record.place = placeBits(*touch);
+  return contact;
+}
+
+void addAugmentations(const TickConfig& config, TickState& state, const NeedleContact& contact,
+                      const Floor* floor, const FloorTouch* touch, TickFrame* frame) noexcept {
+  const AugmentationPlan& plan = config.augmentations;
+  if (plan.subtasks.count == 0 && plan.count == 0) return;
+  const Vec3 p_D = frame->pose.p_DT;
+  AugmentationInput in;
+  if (state.tip.started) in.dp = p_D - unpack(state.tip.p_D);
+  follow(state.tip, p_D, plan.speed_tau, frame->input.dt);
+  believeLearned(config, state, feltForce(config, contact, frame->record.sensed), *frame);
+  in.cues = cuesOf(config, state, contact, touch, *frame);
+  in.events = contact.events;
+  in.allowed = frame->record.commands.augmented;
+  in.f_contact = contact.f_D;
+  in.v = unpack(state.tip.v_D);
+  in.up = upOf(config, state);
+  in.tool = frame->pose.a_D;
+  in.to_line = toLine(frame->record.commands, p_D);
+  in.dt = frame->input.dt;
+  in.now_ns = frame->input.now_ns;
+  if (in.allowed && touch && floor && floor->surface)
+    lookAtFloor(config, *floor, *touch, FloorFrame(config).toF(in.dp), &in);
+  const Augmented added = augment(plan, in, &state.augmentation);
+  FlightRecord& record = frame->record;
+  record.f_augmentation_D = pack(added.f);
+  record.subtasks = static_cast<std::uint8_t>(added.subtasks);
+  record.augmenting = static_cast<std::uint8_t>(added.active);
+  record.began = static_cast<std::uint8_t>(added.began);
+  frame->work_J = added.work_J;
+}
+
+}  // namespace palpa::haptics

@@ -1,0 +1,54 @@
+#include "haptics/modulation/touch_augmentation.h"
+
+namespace palpa::haptics {
+namespace {
+
+/// One tool on the real object; a tool that has just come has not moved yet.
+Modulated feel(const TouchAugmentation& law, const ToolTouch& tool, double dt, std::size_t t,
+               TouchAugmentationState* state) noexcept {
+  if (!tool.present || !tool.p_M.allFinite()) {
+    state->surface[t] = {};
+    state->held[t] = 0;
+    return {};
+  }
+  const Vec3 dp = state->held[t] ? Vec3(tool.p_M - unpack(state->p_before[t])) : Vec3(Vec3::Zero());
+  state->p_before[t] = pack(tool.p_M);
+  state->held[t] = 1;
+  if (law.other_friction)
+    return modulateFriction(law.surface, tool.f_r, dp, dt, &state->surface[t]);
+  return modulateStiffness(law.surface.contact, tool.f_r, dp, dt, &state->surface[t].contact);
+}
+
+}  // namespace
+
+AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps,
+                            const std::array<ToolTouch, 2>& tools, double dt,
+                            TouchAugmentationState* state) noexcept {
+  AugmentedTouch now;
+  std::array<InclusionContact, 2> contacts;
+  for (std::size_t t = 0; t < 2; ++t) {
+    now.touch[t] = feel(law, tools[t], dt, t, state);
+    now.f_d[t] = now.touch[t].f_d;
+    contacts[t] = {now.touch[t].contact, Vec3(tools[t].p_M - law.tip_radius * now.touch[t].u_n),
+                   now.touch[t].u_n, now.touch[t].x, law.tip_radius};
+  }
+  for (std::size_t i = 0; i < lumps.size(); ++i) {
+    if (lumps[i].kind == 0 || lumps[i].kind > law.kinds.size()) {
+      state->lumps[i] = {};
+      continue;
+    }
+    const InclusionAnswer lump = feelInclusion(law.kinds[lumps[i].kind - 1], unpack(lumps[i].p_T0),
+                                               contacts, dt, &state->lumps[i]);
+    now.d[i] = pack(lump.d);
+    now.iterations += lump.iterations;
+    for (std::size_t t = 0; t < 2; ++t) {
+      const Modulated& felt = now.touch[t];
+      if (felt.contact)
+        now.f_d[t] += lump.f_T[t] + rubbedByLump(lump.f_T[t], tools[t].f_r - felt.f_n * felt.u_n,
+                                                 felt.f_n, felt.u_n);
+    }
+  }
+  return now;
+}
+
+}  // namespace palpa::haptics

@@ -1,0 +1,56 @@
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include "haptics/flight_record.h"
+#include "haptics/modulation/modulation.h"
+#include "haptics/modulation/virtual_inclusion.h"
+
+/// What haptic augmented reality adds to a real object under one tool or two, in one tick: another
+/// stiffness and friction, lumps that are not there.
+namespace palpa::haptics {
+
+struct TouchAugmentation {
+  FrictionModulation
+      surface;  ///< of the whole object; the real friction for the wanted one leaves it as it is
+  std::array<VirtualInclusion, kMostLumpKinds> kinds;
+  double tip_radius = 0;            ///< m, of both tools: each touches at p_M - tip_radius u_n
+  std::uint8_t other_friction = 0;  ///< 0: friction stays the real one, and nothing is done for it
+  std::uint8_t reserved[7]{};
+};
+static_assert(std::is_trivially_copyable_v<TouchAugmentation>);
+
+/// One tool: the middle of its round tip, m, and the real object's reaction on it, N (tool weight
+/// and dynamics taken off), in one frame with the lumps.
+struct ToolTouch {
+  bool present = false;  ///< there is such a tool, and its readings are good
+  Vec3 p_M = Vec3::Zero(), f_r = Vec3::Zero();
+};
+
+struct TouchAugmentationState {
+  std::array<FrictionModulationState, 2> surface;
+  std::array<InclusionState, kMostLumps> lumps;
+  std::array<Packed3, 2> p_before{};    ///< m
+  std::array<std::uint32_t, 2> held{};  ///< p_before is there
+};
+static_assert(std::is_trivially_copyable_v<TouchAugmentationState>);
+
+struct AugmentedTouch {
+  std::array<Modulated, 2> touch;  ///< what was felt of the real object, and what is changed of it
+  std::array<Vec3, 2> f_d{Vec3::Zero(),
+                          Vec3::Zero()};  ///< N, of the devices on the tools, all together
+  std::array<Packed3, kMostLumps> d{};    ///< m, how far the lumps are pushed
+  int iterations = 0;  ///< of all lumps' solvers; at most kMostLumps kMostInclusionIterations
+};
+
+///     f_d* = (k~ x* - f_n*) u_n*  [+ f_targ* - f_real*]  +  sum over lumps (f_T* + f_t* (f_T* .
+///     u_n*) / f_n*)
+/// Each lump feels both tools, and no other lump. Where there is no contact there is no force. No
+/// allocation, no exception.
+AugmentedTouch augmentTouch(const TouchAugmentation& law, const PlacedLumps& lumps,
+                            const std::array<ToolTouch, 2>& tools, double dt,
+                            TouchAugmentationState* state) noexcept;
+
+}  // namespace palpa::haptics

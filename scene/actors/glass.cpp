@@ -1,0 +1,125 @@
+#include "scene/actors/glass.h"
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkMapper.h>
+#include <vtkPolyData.h>
+#include <vtkProperty.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+
+#include <algorithm>
+
+#include "scene/palette.h"
+#include "scene/renderer_setup.h"
+
+namespace palpa::scene {
+namespace {
+
+constexpr double kEyeMoved = 0.005;  // of its distance
+
+std::vector<std::array<long long, 3>> trianglesOf(vtkPolyData& surface) {
+  std::vector<std::array<long long, 3>> triangles;
+  vtkCellArray* cells = surface.GetPolys();
+  triangles.reserve(static_cast<std::size_t>(cells->GetNumberOfCells()));
+  vtkIdType count = 0;
+  const vtkIdType* corners = nullptr;
+  for (cells->InitTraversal(); cells->GetNextCell(count, corners);)
+    if (count == 3) triangles.push_back({corners[0], corners[1], corners[2]});
+  return triangles;
+}
+
+std::vector<Eigen::Vector3f> middlesOf(vtkPolyData& surface,
+                                       const std::vector<std::array<long long, 3>>& triangles) {
+  std::vector<Eigen::Vector3f> middles;
+  middles.reserve(triangles.size());
+  for (const auto& triangle : triangles) {
+    Vec3 sum = Vec3::Zero(), p;
+    for (const long long corner : triangle) {
+      surface.GetPoint(corner, p.data());
+      sum += p;
+    }
+    middles.push_back((sum / 3).cast<float>());
+  }
+  return middles;
+}
+
+/// Of the box's nearest point.
+double nearest(const Vec3& low, const Vec3& high, const Vec3& eye) {
+  return (eye.cwiseMax(low).cwiseMin(high) - eye).norm();
+}
+
+}  // namespace
+
+Glass::Glass(vtkRenderWindow& window, vtkRenderer& behind)
+    : window_(window), sorted_for_(Vec3::Zero()) {
+  setUpRenderer(*renderer_, colour::kBehindBottom);
+  renderer_->SetActiveCamera(behind.GetActiveCamera());
+  renderer_->EraseOff();  // over the colours and depths of `behind`
+  window_.AddRenderer(renderer_);
+}
+
+Glass::~Glass() { window_.RemoveRenderer(renderer_); }
+
+void Glass::add(vtkActor* actor, vtkPolyData* surface) {
+  Surface added;
+  added.actor = actor;
+  added.polys = surface;
+  added.triangles = trianglesOf(*surface);
+  added.middles = middlesOf(*surface, added.triangles);
+  const double* b = surface->GetBounds();
+  added.low = {b[0], b[2], b[4]};
+  added.high = {b[1], b[3], b[5]};
+  // VTK's own translucent pass knows no order; its opaque pass draws one actor after the other, and
+  // blends.
+  actor->ForceOpaqueOn();
+  setWrites(*actor->GetMapper(), true,
+            false);  // what is nearer by a hair must not wipe out what comes next
+  actor->GetProperty()->BackfaceCullingOn();
+  surfaces_.push_back(std::move(added));
+  sorted_ = false;
+}
+
+void Glass::remove(vtkActor* actor) {
+  std::erase_if(surfaces_, [&](const Surface& s) { return s.actor == actor; });
+  actor->ForceOpaqueOff();
+  setWrites(*actor->GetMapper(), true, true);
+  renderer_->RemoveActor(actor);
+}
+
+void Glass::sort(Surface& surface, const Vec3& eye) {
+  const Eigen::Vector3f from = eye.cast<float>();
+  std::vector<std::pair<float, std::uint32_t>> far_first(surface.triangles.size());
+  for (std::size_t i = 0; i < far_first.size(); ++i)
+    far_first[i] = {-(surface.middles[i] - from).squaredNorm(), static_cast<std::uint32_t>(i)};
+  std::sort(far_first.begin(), far_first.end());
+  vtkNew<vtkCellArray> cells;
+  cells->AllocateExact(static_cast<vtkIdType>(far_first.size()),
+                       static_cast<vtkIdType>(3 * far_first.size()));
+  for (const auto& [distance, i] : far_first) {
+    const vtkIdType corners[] = {surface.triangles[i][0], surface.triangles[i][1],
+                                 surface.triangles[i][2]};
+    cells->InsertNextCell(3, corners);
+  }
+  surface.polys->SetPolys(cells);
+}
+
+void Glass::order(const Vec3& eye) {
+  std::stable_sort(surfaces_.begin(), surfaces_.end(), [&](const Surface& a, const Surface& b) {
+    return nearest(a.low, a.high, eye) > nearest(b.low, b.high, eye);
+  });
+  renderer_->RemoveAllViewProps();
+  for (const Surface& surface : surfaces_) renderer_->AddActor(surface.actor);
+}
+
+void Glass::look(const Vec3& eye) {
+  const double distance =
+      surfaces_.empty() ? 0 : (0.5 * (surfaces_.front().low + surfaces_.front().high) - eye).norm();
+  if (sorted_ && (eye - sorted_for_).norm() < kEyeMoved * distance) return;
+  for (Surface& surface : surfaces_) sort(surface, eye);
+  order(eye);
+  sorted_for_ = eye;
+  sorted_ = true;
+}
+
+}  // namespace palpa::scene

@@ -1,0 +1,246 @@
+#include "scene/actors/organ_actors.h"
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkCutter.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPlane.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTexture.h>
+
+#include <algorithm>
+#include <cstring>
+
+#include "scene/actors/instrument.h"
+#include "scene/palette.h"
+#include "scene/renderer_setup.h"
+
+namespace palpa::scene {
+namespace {
+
+double translucentOpacity(Organ organ) {
+  if (organ == Organ::skin) return 0.28;
+  return organ == Organ::muscle ? 0.24 : 1;
+}
+
+bool isPlainWhite(const std::array<float, 4>& rgba) {
+  return rgba[0] == 1 && rgba[1] == 1 && rgba[2] == 1;
+}
+
+bool hasPicture(const anatomy::OrganSurface& organ) {
+  const anatomy::Texture& texture = organ.texture;
+  return texture.width > 0 && texture.height > 0 &&
+         organ.mesh.uvs.size() == organ.mesh.points.size() &&
+         texture.rgb.size() == std::size_t{3} * texture.width * texture.height;
+}
+
+// White under a picture means the picture's own colours.
+Rgb colourOf(const anatomy::OrganSurface& organ) {
+  if (isPlainWhite(organ.rgba) && !hasPicture(organ)) return organColour(organ.organ);
+  return {organ.rgba[0], organ.rgba[1], organ.rgba[2]};
+}
+
+// Both count rows in the direction of v, so that the first row lies at v = 0.
+vtkSmartPointer<vtkTexture> textureOf(const anatomy::Texture& picture) {
+  vtkNew<vtkImageData> image;
+  image->SetDimensions(picture.width, picture.height, 1);
+  image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);
+  std::memcpy(image->GetScalarPointer(), picture.rgb.data(), picture.rgb.size());
+  auto texture = vtkSmartPointer<vtkTexture>::New();
+  texture->SetInputData(image);
+  texture->InterpolateOn();
+  texture->MipmapOff();
+  texture->RepeatOff();
+  texture->EdgeClampOn();
+  return texture;
+}
+
+vtkSmartPointer<vtkActor> actorOf(const anatomy::OrganSurface& organ, vtkPolyData* surface) {
+  const vtkSmartPointer<vtkPolyDataMapper> mapper = makePassMapper();
+  mapper->SetInputData(surface);
+  auto actor = vtkSmartPointer<vtkActor>::New();
+  actor->SetMapper(mapper);
+  if (hasPicture(organ)) actor->SetTexture(textureOf(organ.texture));
+  Rgb colour = colourOf(organ);
+  vtkProperty* look = actor->GetProperty();
+  look->SetColor(colour.data());
+  look->SetAmbient(0.28);
+  look->SetDiffuse(0.76);
+  look->SetSpecular(organ.organ == Organ::skin ? 0.06 : 0.18);
+  look->SetSpecularPower(24);
+  return actor;
+}
+
+}  // namespace
+
+bool coversOrgans(Organ organ) { return organ == Organ::skin || organ == Organ::muscle; }
+
+vtkSmartPointer<vtkPolyData> polyDataOf(const anatomy::TriangleMesh& mesh) {
+  vtkNew<vtkPoints> points;
+  points->Allocate(static_cast<vtkIdType>(mesh.points.size()));
+  for (const Vec3& p : mesh.points) points->InsertNextPoint(p.data());
+  vtkNew<vtkCellArray> triangles;
+  for (const auto& t : mesh.triangles) {
+    const vtkIdType corners[] = {t[0], t[1], t[2]};
+    triangles->InsertNextCell(3, corners);
+  }
+  auto result = vtkSmartPointer<vtkPolyData>::New();
+  result->SetPoints(points);
+  result->SetPolys(triangles);
+  if (mesh.normals.size() == mesh.points.size()) {
+    vtkNew<vtkFloatArray> normals;
+    normals->SetNumberOfComponents(3);
+    for (const Vec3& n : mesh.normals) normals->InsertNextTuple3(n.x(), n.y(), n.z());
+    result->GetPointData()->SetNormals(normals);
+  }
+  if (!mesh.uvs.empty() && mesh.uvs.size() == mesh.points.size()) {
+    vtkNew<vtkFloatArray> coordinates;
+    coordinates->SetNumberOfComponents(2);
+    coordinates->SetName("TextureCoordinates");
+    for (const auto& [u, v] : mesh.uvs) coordinates->InsertNextTuple2(u, v);
+    result->GetPointData()->SetTCoords(coordinates);
+  }
+  return result;
+}
+
+OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient, Glass* glass)
+    : renderer_(renderer), glass_(glass) {
+  for (const anatomy::OrganSurface& organ : patient.organs) {
+    const vtkSmartPointer<vtkPolyData> surface = polyDataOf(organ.mesh);
+    if (!skin_ && organ.organ == Organ::skin) skin_ = surface;
+    Part part{actorOf(organ, surface), surface, organ.organ, false};
+    // The far side of a translucent surface would blend a second time.
+    if (coversOrgans(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
+    renderer.AddActor(part.actor);
+    parts_.push_back(std::move(part));
+  }
+  apply();
+}
+
+OrganActors::~OrganActors() = default;
+
+void OrganActors::setStyle(SkinStyle style) {
+  if (style == style_) return;
+  style_ = style;
+  apply();
+}
+
+void OrganActors::setVisible(bool visible) {
+  if (visible == visible_) return;
+  visible_ = visible;
+  apply();
+}
+
+void OrganActors::setPose(const Pose& X_AB) {
+  if (!moved_ && X_AB.matrix().isIdentity(0)) return;
+  copy(X_AB, *X_AB_);
+  if (!moved_)
+    for (Part& part : parts_) part.actor->SetUserMatrix(X_AB_);
+  moved_ = true;
+}
+
+void OrganActors::moveTo(bool glass, Part& part) {
+  if (!glass_ || glass == part.in_glass) return;
+  part.in_glass = glass;
+  if (glass) {
+    renderer_.RemoveActor(part.actor);
+    glass_->add(part.actor, part.surface);
+  } else {
+    glass_->remove(part.actor);
+    renderer_.AddActor(part.actor);
+  }
+}
+
+void OrganActors::apply() {
+  for (Part& part : parts_) {
+    const bool hidden = coversOrgans(part.organ) && style_ == SkinStyle::hidden;
+    part.actor->SetVisibility(visible_ && !hidden);
+    const double opacity = style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1;
+    part.actor->GetProperty()->SetOpacity(opacity);
+    moveTo(opacity < 1, part);
+  }
+}
+
+vtkSmartPointer<vtkActor> skinSection(const anatomy::Patient& patient, const Vec3& p_A,
+                                      const Vec3& n_A) {
+  for (const anatomy::OrganSurface& organ : patient.organs) {
+    if (organ.organ != Organ::skin) continue;
+    vtkNew<vtkPlane> plane;
+    plane->SetOrigin(p_A.x(), p_A.y(), p_A.z());
+    plane->SetNormal(n_A.x(), n_A.y(), n_A.z());
+    vtkNew<vtkCutter> cutter;
+    cutter->SetInputData(polyDataOf(organ.mesh));
+    cutter->SetCutFunction(plane);
+    cutter->Update();
+    if (cutter->GetOutput()->GetNumberOfCells() == 0) return nullptr;
+    vtkNew<vtkPolyDataMapper> mapper;
+    mapper->SetInputData(cutter->GetOutput());
+    mapper->ScalarVisibilityOff();
+    auto actor = vtkSmartPointer<vtkActor>::New();
+    actor->SetMapper(mapper);
+    Rgb colour = colour::kSection;
+    actor->GetProperty()->SetColor(colour.data());
+    actor->GetProperty()->SetLineWidth(2);
+    actor->GetProperty()->LightingOff();
+    return actor;
+  }
+  return nullptr;
+}
+
+namespace {
+
+float* floatsOf(vtkDataArray* array) {
+  vtkFloatArray* floats = vtkFloatArray::SafeDownCast(array);
+  return floats ? floats->GetPointer(0) : nullptr;
+}
+
+void put(const Vec3& from, float* to) {
+  for (int axis = 0; axis < 3; ++axis) to[axis] = static_cast<float>(from[axis]);
+}
+
+}  // namespace
+
+DeflectedSkin::DeflectedSkin(const anatomy::TriangleMesh& mesh, vtkPolyData& drawn)
+    : dimple_(mesh),
+      drawn_(drawn),
+      points_(floatsOf(drawn.GetPoints()->GetData())),
+      normals_(floatsOf(drawn.GetPointData()->GetNormals())) {}
+
+void DeflectedSkin::restore() {
+  for (const Before& was : before_) {
+    std::copy(was.p.begin(), was.p.end(), points_ + 3 * std::size_t{was.index});
+    if (normals_) std::copy(was.n.begin(), was.n.end(), normals_ + 3 * std::size_t{was.index});
+  }
+  before_.clear();
+}
+
+void DeflectedSkin::update(const std::optional<anatomy::SkinPush>& push) {
+  if (!push && before_.empty()) return;
+  restore();
+  if (push) {
+    for (const anatomy::SkinDimple::Vertex& moved : dimple_.press(*push)) {
+      float* p = points_ + 3 * std::size_t{moved.index};
+      float* n = normals_ ? normals_ + 3 * std::size_t{moved.index} : nullptr;
+      Before was{moved.index, {p[0], p[1], p[2]}, {}};
+      put(moved.p_A, p);
+      if (n) {
+        was.n = {n[0], n[1], n[2]};
+        put(moved.n_A, n);
+      }
+      before_.push_back(was);
+    }
+  }
+  drawn_.GetPoints()->GetData()->Modified();
+  drawn_.GetPoints()->Modified();
+  if (normals_) drawn_.GetPointData()->GetNormals()->Modified();
+  drawn_.Modified();
+}
+
+}  // namespace palpa::scene

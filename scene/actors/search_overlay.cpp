@@ -1,0 +1,195 @@
+#include "scene/actors/search_overlay.h"
+
+#include <vtkActor.h>
+#include <vtkCellArray.h>
+#include <vtkFloatArray.h>
+#include <vtkImageData.h>
+#include <vtkPointData.h>
+#include <vtkPoints.h>
+#include <vtkPolyData.h>
+#include <vtkPolyDataMapper.h>
+#include <vtkProperty.h>
+#include <vtkRenderer.h>
+#include <vtkTexture.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "scene/renderer_setup.h"
+
+namespace palpa::scene {
+namespace {
+
+constexpr double kOverSurface =
+    0.0004;                       // m; a surface in the same plane would show through in stripes
+constexpr int kCell_texels = 12;  // a cell's edge, less where there are many
+constexpr int kMost_texels = 2048;
+constexpr double kSeam =
+    0.62;  // opacity of a cell's rim, in parts of its own: cells can be counted
+
+bool isSound(const CoverageGrid& grid) {
+  return grid.columns > 0 && grid.rows > 0 && std::max(grid.columns, grid.rows) <= kMost_texels &&
+         grid.cell_x > 0 && grid.cell_y > 0 &&
+         grid.levels.size() ==
+             static_cast<std::size_t>(grid.columns) * static_cast<std::size_t>(grid.rows);
+}
+
+bool sameSheet(const CoverageGrid& a, const CoverageGrid& b) {
+  return a.columns == b.columns && a.rows == b.rows && a.cell_x == b.cell_x &&
+         a.cell_y == b.cell_y && a.X_AG.matrix() == b.X_AG.matrix();
+}
+
+Rgba feltColour(std::uint8_t level) {
+  switch (level) {
+    case 0:
+      return {colour::kFeltLight[0], colour::kFeltLight[1], colour::kFeltLight[2], 0};
+    case 1:
+      return colour::kFeltLight;
+    case 2:
+      return colour::kFeltMedium;
+    default:
+      return colour::kFeltDeep;
+  }
+}
+
+std::uint8_t toByte(double share) {
+  return static_cast<std::uint8_t>(std::lround(255 * std::clamp(share, 0.0, 1.0)));
+}
+
+std::array<Vec3, 4> cornersOf(const CoverageGrid& grid) {
+  const double x = 0.5 * grid.columns * grid.cell_x, y = 0.5 * grid.rows * grid.cell_y;
+  const auto at = [&](double dx, double dy) {
+    return Vec3(grid.X_AG * Vec3(dx, dy, kOverSurface));
+  };
+  return {at(-x, -y), at(x, -y), at(x, y), at(-x, y)};
+}
+
+}  // namespace
+
+CoverageCarpet::CoverageCarpet(vtkRenderer& renderer, double outline_px)
+    : outline_(((void)renderer.AddActor(carpet_), renderer), colour::kText, outline_px) {
+  vtkNew<vtkFloatArray> places;
+  places->SetNumberOfComponents(2);
+  places->SetName("TextureCoordinates");
+  for (const auto& [u, v] : {std::pair(0, 0), std::pair(1, 0), std::pair(1, 1), std::pair(0, 1)})
+    places->InsertNextTuple2(u, v);
+  vtkNew<vtkCellArray> cells;
+  for (const vtkIdType last : {2, 3}) {
+    const vtkIdType triangle[] = {0, last - 1, last};
+    cells->InsertNextCell(3, triangle);
+  }
+  sheet_->SetPolys(cells);
+  sheet_->GetPointData()->SetTCoords(places);
+  vtkNew<vtkTexture> texture;
+  texture->SetInputData(picture_);
+  texture->InterpolateOn();
+  texture->MipmapOff();
+  texture->RepeatOff();
+  texture->EdgeClampOn();
+  const vtkSmartPointer<vtkPolyDataMapper> mapper = makePassMapper();
+  mapper->SetInputData(sheet_);
+  setWrites(*mapper, true, false);  // what lies under it is drawn later, and over it
+  carpet_->SetMapper(mapper);
+  carpet_->SetTexture(texture);
+  carpet_->GetProperty()->LightingOff();
+  carpet_->ForceOpaqueOn();  // in the order of actors, and blended (see Glass)
+  carpet_->VisibilityOff();
+}
+
+CoverageCarpet::~CoverageCarpet() = default;
+
+void CoverageCarpet::lay(const CoverageGrid& grid) {
+  const std::array<Vec3, 4> corners = cornersOf(grid);
+  vtkNew<vtkPoints> points;
+  for (const Vec3& p : corners) points->InsertNextPoint(p.data());
+  sheet_->SetPoints(points);
+  outline_.show({{corners[0], corners[1], corners[2], corners[3], corners[0]}});
+}
+
+// Texels of clear cells have a colour too: sampling between two texels mixes it in.
+void CoverageCarpet::dye(const CoverageGrid& grid) {
+  const int side = std::clamp(kMost_texels / std::max(grid.columns, grid.rows), 1, kCell_texels);
+  const int width = side * grid.columns, height = side * grid.rows;
+  picture_->SetDimensions(width, height, 1);
+  picture_->AllocateScalars(VTK_UNSIGNED_CHAR, 4);
+  auto* texel = static_cast<std::uint8_t*>(picture_->GetScalarPointer());
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x, texel += 4) {
+      const Rgba ink = feltColour(
+          grid.levels[static_cast<std::size_t>(y / side) * static_cast<std::size_t>(grid.columns) +
+                      static_cast<std::size_t>(x / side)]);
+      const bool rim = side > 3 && (x % side == 0 || y % side == 0);
+      for (std::size_t k = 0; k < 3; ++k) texel[k] = toByte(ink[k]);
+      texel[3] = toByte(rim ? kSeam * ink[3] : ink[3]);
+    }
+  }
+  picture_->Modified();
+}
+
+void CoverageCarpet::update(const std::optional<CoverageGrid>& grid, bool visible) {
+  const bool shown = visible && grid && isSound(*grid);
+  if (shown && !(drawn_ && sameSheet(*drawn_, *grid))) lay(*grid);
+  if (shown && !(drawn_ && drawn_->columns == grid->columns && drawn_->levels == grid->levels))
+    dye(*grid);
+  if (shown && !(drawn_ && sameSheet(*drawn_, *grid) && drawn_->levels == grid->levels))
+    drawn_ = grid;
+  carpet_->SetVisibility(shown);
+  outline_.setVisible(shown);
+}
+
+bool CoverageCarpet::visible() const { return carpet_->GetVisibility() != 0; }
+
+namespace {
+
+constexpr double kLeadRadius = 0.010;  // m: a fingertip stands in it
+constexpr double kLeadTick = 0.004;
+constexpr double kLeadLift = 0.001;  // toward the viewer, off the surface
+
+/// A ring about the origin, and four ticks that point to its middle.
+std::vector<std::vector<Vec3>> leadShape(const Pose& X_A) {
+  constexpr int kSteps = 48;
+  const auto at = [&](double radius, double share) {
+    const double angle = 2 * std::numbers::pi * share;
+    return Vec3(X_A * Vec3(radius * std::cos(angle), radius * std::sin(angle), 0));
+  };
+  std::vector<std::vector<Vec3>> lines(1);
+  for (int i = 0; i <= kSteps; ++i)
+    lines[0].push_back(at(kLeadRadius, static_cast<double>(i) / kSteps));
+  for (const double share : {0.0, 0.25, 0.5, 0.75})
+    lines.push_back({at(kLeadRadius, share), at(kLeadRadius + kLeadTick, share)});
+  return lines;
+}
+
+}  // namespace
+
+SearchOverlay::SearchOverlay(vtkRenderer& on_skin, vtkRenderer& above, double line_px)
+    : carpet_(on_skin, 0.6 * line_px),
+      lead_(on_skin, colour::kText, line_px),
+      balls_(on_skin, above, 0.9 * line_px),
+      pins_(above) {}
+
+SearchOverlay::~SearchOverlay() = default;
+
+// In the plane of what is searched, where that is known; else toward the eye.
+void SearchOverlay::showLead(const SceneState& state, bool visible, const Sight& sight) {
+  if (!visible || !state.lead_A) return lead_.hide();
+  const Mat3 R = state.coverage ? Mat3(state.coverage->X_AG.linear()) : sight.facing();
+  const Pose at = makePose(R, *state.lead_A + kLeadLift * R.col(2));
+  if (lead_drawn_ && at.matrix() == lead_at_.matrix()) return lead_.setVisible(true);
+  lead_.show(leadShape(at));
+  lead_at_ = at;
+  lead_drawn_ = true;
+}
+
+void SearchOverlay::update(const SceneState& state, bool visible, const Sight& sight,
+                           double pin_px) {
+  balls_above_ = state.skin == SkinStyle::solid;
+  carpet_.update(state.coverage, visible);
+  balls_.update(visible ? state.lumps : std::vector<Lump>(), sight, balls_above_);
+  pins_.update(visible ? state.marks_A : std::vector<Vec3>(), sight, pin_px);
+  showLead(state, visible, sight);
+}
+
+}  // namespace palpa::scene

@@ -1,0 +1,252 @@
+#include "scene/overlay/hud.h"
+
+#include <vtkRenderer.h>
+
+#include <algorithm>
+#include <set>
+
+#include "scene/actors/force_arrows.h"
+
+namespace palpa::scene {
+namespace {
+
+std::set<ForceKind> kindsDrawn(const std::vector<ForceArrow>& forces) {
+  std::set<ForceKind> kinds;
+  for (const ForceArrow& force : forces)
+    if (force.f_A.norm() >= ForceArrows::kWeakest) kinds.insert(force.kind);
+  return kinds;
+}
+
+bool anyCut(const std::vector<ForceArrow>& forces) {
+  return std::any_of(forces.begin(), forces.end(), [](const ForceArrow& force) {
+    return force.f_A.norm() > ForceArrows::kLongest;
+  });
+}
+
+/// Colour and share of the strip's height of a mark.
+std::pair<Rgb, double> lookOf(TickTone tone) {
+  switch (tone) {
+    case TickTone::good:
+      return {colour::kTickGood, 0.5};
+    case TickTone::guide:
+      return {colour::kMark, 0.7};
+    case TickTone::bad:
+      return {colour::kTickBad, 1.0};
+    case TickTone::neutral:
+      break;
+  }
+  return {colour::kTextDim, 0.35};
+}
+
+Rgba opaque(const Rgb& c) { return {c[0], c[1], c[2], 1}; }
+
+/// Breaks a line at the space nearest its middle; unchanged when there is none.
+std::pair<std::string, std::string> halves(const std::string& text) {
+  const std::size_t middle = text.size() / 2;
+  const std::size_t before = text.rfind(' ', middle), after = text.find(' ', middle);
+  if (before == std::string::npos && after == std::string::npos) return {text, ""};
+  const bool first = after == std::string::npos ||
+                     (before != std::string::npos && middle - before <= after - middle);
+  const std::size_t at = first ? before : after;
+  return {text.substr(0, at), text.substr(at + 1)};
+}
+
+}  // namespace
+
+int textSize_px(int window_height) { return std::max(11, (window_height + 24) / 48); }
+
+int stripHeight_px(int window_height) {
+  const int text = textSize_px(window_height);
+  return lineHeight({static_cast<int>(0.85 * text + 0.5)}) + 2 * (text / 2);
+}
+
+struct HudPainter::Content {
+  Hud text;
+  std::set<ForceKind> kinds;
+  bool cut = false;
+  Rect panel;
+  int height = 0;
+  bool operator==(const Content&) const = default;
+};
+
+HudPainter::HudPainter(vtkRenderer& renderer, ForceColours colours)
+    : plates_(renderer), renderer_(renderer), colours_(colours) {}
+HudPainter::~HudPainter() = default;
+
+void HudPainter::update(const Hud& text, const std::vector<ForceArrow>& forces, const Rect& panel,
+                        int window_height) {
+  Content wanted{text, kindsDrawn(forces), anyCut(forces), panel, window_height};
+  if (content_ && *content_ == wanted) return;
+  content_ = std::make_unique<Content>(std::move(wanted));
+  build();
+}
+
+void HudPainter::build() {
+  text_ = textSize_px(content_->height);
+  margin_ = text_ * 3 / 4;
+  below_ = content_->panel.top() - margin_;
+  above_ = content_->panel.y + margin_;
+  used_ = 0;
+  plates_.clear();
+  buildMark();
+  buildPhase();
+  buildReadings();
+  buildTimeline();
+  buildLegend();
+  buildNotice();
+  for (std::size_t i = used_; i < labels_.size(); ++i) labels_[i]->hide();
+}
+
+void HudPainter::write(const std::string& text, const TextStyle& style, int x, int y, Align align) {
+  if (used_ == labels_.size()) labels_.push_back(std::make_unique<Label>(renderer_));
+  labels_[used_++]->set(text, style, x, y, align);
+}
+
+TextStyle HudPainter::style(double scale, bool bold, const Rgb& colour) const {
+  return {static_cast<int>(scale * text_ + 0.5), bold, colour};
+}
+
+TextStyle HudPainter::fitted(const std::string& text, TextStyle wish, int width) const {
+  constexpr int kSmallest_px = 9;
+  while (wish.size_px > kSmallest_px && textWidth(text, wish) > width) --wish.size_px;
+  return wish;
+}
+
+void HudPainter::buildMark() {
+  const std::string& text = content_->text.mark;
+  if (text.empty()) return;
+  const Rect& panel = content_->panel;
+  const TextStyle look = fitted(text, style(0.82, true, colour::kMark), panel.width / 2);
+  const int pad = text_ / 2, width = textWidth(text, look) + 2 * pad;
+  const int height = lineHeight(look) + pad;
+  const Rect frame{panel.right() - margin_ - width, panel.top() - margin_ - height, width, height};
+  plates_.add(frame, opaque(colour::kMark), pad);
+  plates_.add({frame.x + 1, frame.y + 1, width - 2, height - 2}, {0.06, 0.06, 0.06, 1}, pad - 1);
+  write(text, look, frame.x + width / 2, frame.y + height / 2, Align::centre);
+  if (panel.width < 40 * text_)
+    below_ -= height + margin_ / 2;  // narrow: the badge has its own line
+}
+
+void HudPainter::buildPhase() {
+  const std::string& text = content_->text.phase;
+  if (text.empty()) return;
+  const int pad = text_ * 2 / 3;
+  const TextStyle look =
+      fitted(text, style(1.15, true, colour::kText), content_->panel.width - 2 * (margin_ + pad));
+  const int height = lineHeight(look) + pad;
+  const Rect frame{content_->panel.x + margin_, below_ - height, textWidth(text, look) + 2 * pad,
+                   height};
+  plates_.add(frame, colour::kPlate, pad / 2);
+  write(text, look, frame.x + pad, frame.y + height / 2, Align::left);
+  below_ = frame.y - margin_ / 2;
+}
+
+std::vector<HudPainter::Row> HudPainter::readings() const {
+  const Hud& text = content_->text;
+  std::vector<Row> rows{{"Time", text.time},       {"Depth", text.depth},
+                        {"Force", text.force},     {"Touched", text.touched},
+                        {"Overlay", text.overlay}, {"Marked", text.marked},
+                        {"Note", text.note}};
+  std::erase_if(rows, [](const Row& row) { return row.value.empty(); });
+  return rows;
+}
+
+void HudPainter::buildReadings() {
+  const std::vector<Row> rows = readings();
+  if (rows.empty()) return;
+  const TextStyle dim = style(0.90, false, colour::kTextDim),
+                  bright = style(1, true, colour::kText);
+  int names = 0, values = 0;
+  for (const Row& row : rows) {
+    names = std::max(names, textWidth(row.name, dim));
+    values = std::max(values, textWidth(row.value, bright));
+  }
+  const int pad = text_ * 2 / 3, line = lineHeight(bright) * 11 / 10;
+  const int height = static_cast<int>(rows.size()) * line + pad;
+  const Rect frame{content_->panel.x + margin_, below_ - height, names + values + 3 * pad, height};
+  plates_.add(frame, colour::kPlate, pad / 2);
+  int y = frame.top() - pad / 2 - line / 2;
+  for (const Row& row : rows) {
+    write(row.name, dim, frame.x + pad, y, Align::left);
+    write(row.value, bright, frame.x + 2 * pad + names, y, Align::left);
+    y -= line;
+  }
+}
+
+void HudPainter::buildLegend() {
+  if (content_->kinds.empty()) return;
+  const TextStyle dim = style(0.85, false, colour::kTextDim),
+                  bright = style(0.85, false, colour::kText);
+  const int pad = text_ / 2, swatch = text_ * 2, bar = std::max(4, text_ / 3);
+  const std::string scale = content_->cut ? "30 mm = 1 N, cut at 4 N" : "30 mm = 1 N";
+  int width = pad;
+  for (ForceKind kind : content_->kinds) width += swatch + textWidth(name(kind), bright) + 3 * pad;
+  width += textWidth(scale, dim) + pad;
+  const int height = lineHeight(bright) + pad;
+  const Rect frame{content_->panel.x + margin_, above_, width, height};
+  plates_.add(frame, colour::kPlate, pad / 2);
+  int x = frame.x + pad;
+  const int y = frame.y + height / 2;
+  for (ForceKind kind : content_->kinds) {
+    plates_.add({x, y - bar / 2 - 1, swatch, bar + 2}, opaque(arrowOutline(kind)), 2);
+    plates_.add({x + 1, y - bar / 2, swatch - 2, bar}, opaque(arrowColour(kind, colours_)), 1);
+    x += swatch + pad;
+    write(name(kind), bright, x, y, Align::left);
+    x += textWidth(name(kind), bright) + 2 * pad;
+  }
+  write(scale, dim, x, y, Align::left);
+  above_ = frame.top() + margin_;
+}
+
+void HudPainter::buildTimeline() {
+  if (!content_->text.timeline) return;
+  const Timeline& strip = *content_->text.timeline;
+  const TextStyle look = style(0.85, false, colour::kText);
+  const int pad = text_ / 2, height = stripHeight_px(content_->height);
+  const Rect frame{content_->panel.x + margin_, above_, content_->panel.width - 2 * margin_,
+                   height};
+  plates_.add(frame, colour::kPlate, pad / 2);
+  const int middle = frame.y + height / 2, widest = textWidth("88:88.8 of 88:88.8", look),
+            rate = textWidth("paused", look);
+  write(strip.time, look, frame.x + pad, middle, Align::left);
+  write(strip.rate, look, frame.right() - pad, middle, Align::right);
+  const Rect track{frame.x + widest + 2 * pad, middle - 2,
+                   std::max(1, frame.width - widest - rate - 5 * pad), 4};
+  const auto across = [&](double share) { return track.x + static_cast<int>(share * track.width); };
+  plates_.add(track, opaque(colour::kTextDim), 0);
+  plates_.add({track.x, track.y, std::max(1, across(strip.at) - track.x), track.height},
+              opaque(colour::kAdvice), 0);
+  for (const Timeline::Tick& tick : strip.ticks) {
+    const auto [tone, share] = lookOf(tick.tone);
+    const int high = std::max(6, static_cast<int>(share * (height - 4)));
+    plates_.add({across(tick.at) - 1, middle - high / 2, 3, high}, opaque(tone), 0);
+  }
+  plates_.add({across(strip.at) - 2, middle - height / 2 + 2, 4, height - 4}, opaque(colour::kText),
+              1);
+  above_ = frame.top() + margin_;
+}
+
+void HudPainter::buildNotice() {
+  const std::string& text = content_->text.notice;
+  if (text.empty()) return;
+  const bool alarm = content_->text.alarm;
+  const Rect& panel = content_->panel;
+  const TextStyle wish = style(1.45, alarm, colour::kText);
+  const int pad = text_, room = panel.width - 2 * (margin_ + pad);
+  const auto [first, second] =
+      textWidth(text, wish) > room ? halves(text) : std::pair(text, std::string());
+  const TextStyle look = fitted(second, fitted(first, wish, room), room);
+  const int line = lineHeight(look), lines = second.empty() ? 1 : 2;
+  const int width = std::max(textWidth(first, look), textWidth(second, look)) + 2 * pad;
+  const Rect frame{panel.x + (panel.width - width) / 2, above_, width, lines * line + pad};
+  const Rgba edge = alarm ? opaque(colour::kText) : opaque(colour::kAdvice);
+  const int rim = std::max(1, text_ / 8);
+  plates_.add({frame.x - rim, frame.y - rim, width + 2 * rim, frame.height + 2 * rim}, edge,
+              text_ / 2 + rim);
+  plates_.add(frame, alarm ? colour::kAlarmPlate : Rgba{0.05, 0.07, 0.10, 1}, text_ / 2);
+  const int x = frame.x + width / 2, top = frame.top() - pad / 2 - line / 2;
+  write(first, look, x, top, Align::centre);
+  if (lines == 2) write(second, look, x, top - line, Align::centre);
+}
+
+}  // namespace palpa::scene

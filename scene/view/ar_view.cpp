@@ -1,0 +1,251 @@
+#include "scene/view/ar_view.h"
+
+#include <vtkActor.h>
+#include <vtkCamera.h>
+#include <vtkProp.h>
+#include <vtkPropCollection.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkTexture.h>
+
+#include <algorithm>
+#include <numbers>
+
+#include "anatomy/base/units.h"
+#include "scene/palette.h"
+#include "scene/renderer_setup.h"
+#include "scene/view/ar_camera.h"
+
+namespace palpa::scene {
+namespace {
+
+bool same(vtkPropCollection& a, vtkPropCollection& b) {
+  if (a.GetNumberOfItems() != b.GetNumberOfItems()) return false;
+  for (int i = 0; i < a.GetNumberOfItems(); ++i)
+    if (a.GetItemAsObject(i) != b.GetItemAsObject(i)) return false;
+  return true;
+}
+
+void copyProps(vtkRenderer& from, vtkRenderer& to) {
+  if (same(*from.GetViewProps(), *to.GetViewProps())) return;
+  to.RemoveAllViewProps();
+  for (int i = 0; i < from.GetViewProps()->GetNumberOfItems(); ++i)
+    to.AddViewProp(static_cast<vtkProp*>(from.GetViewProps()->GetItemAsObject(i)));
+}
+
+}  // namespace
+
+SecondEye::SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass,
+                     vtkRenderer& on_skin, vtkRenderer& above)
+    : window_(window),
+      first_behind_(behind),
+      first_glass_(glass),
+      first_on_skin_(on_skin),
+      first_above_(above) {
+  forAll([&](vtkRenderer& renderer) {
+    setUpRenderer(renderer, colour::kBehindBottom);
+    renderer.SetActiveCamera(behind_->GetActiveCamera());
+    window_.AddRenderer(&renderer);
+  });
+  behind_->SetBackground(first_behind_.GetBackground());
+  behind_->SetBackgroundAlpha(first_behind_.GetBackgroundAlpha());
+  behind_->SetBackground2(first_behind_.GetBackground2());
+  glass_->EraseOff();
+  on_skin_->EraseOff();
+  above_->SetLayer(first_above_.GetLayer());
+}
+
+SecondEye::~SecondEye() {
+  forAll([&](vtkRenderer& renderer) { window_.RemoveRenderer(&renderer); });
+}
+
+void SecondEye::mirror() {
+  copyProps(first_behind_, *behind_);
+  copyProps(first_glass_, *glass_);
+  copyProps(first_on_skin_, *on_skin_);
+  copyProps(first_above_, *above_);
+  behind_->SetBackgroundTexture(first_behind_.GetBackgroundTexture());
+  behind_->SetTexturedBackground(first_behind_.GetTexturedBackground());
+  behind_->SetGradientBackground(first_behind_.GetGradientBackground());
+  on_skin_->SetDraw(first_on_skin_.GetDraw());
+  above_->SetDraw(first_above_.GetDraw());
+}
+
+namespace {
+
+constexpr double kDistance = 0.42;  // metres from the virtual camera to the entry region
+constexpr double kElevation = 28 * kDegree;
+constexpr double kOnTable = -38 * kDegree;  // somebody who sits before it
+constexpr double kAzimuth = 18 * kDegree;   // toward the punctured side
+constexpr double kToolReach = 0.30;         // metres from the tip: the syringe, an arrow at its end
+constexpr double kEyesApart = 0.063;        // metres, the mean of adults (Dodgson 2004)
+constexpr double kNearestFocus = 0.1;
+constexpr double kNearestThing = 0.05;  // m from the camera, of what is real
+constexpr double kShaft_px = 5;         // an arrow's shaft in a window 720 pixels high
+constexpr double kPin_px = 11;          // a pin's head, likewise
+
+OrbitCamera defaultView(const anatomy::Patient& patient, const Region& region) {
+  const double azimuth = patient.side == anatomy::Side::right ? -kAzimuth : kAzimuth;
+  if (region.on_table) return {region.focus_A, 0, kOnTable, kDistance};
+  return {region.focus_A, azimuth, kElevation, kDistance};
+}
+
+}  // namespace
+
+ArView::ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
+               const ViewLayout& layout)
+    : window_(window),
+      region_(region),
+      stereo_(layout.stereo),
+      see_through_(layout.see_through),
+      orbit_(defaultView(patient, region)),
+      backdrop_(*renderer_, true),
+      glass_((window.AddRenderer(renderer_), window), *renderer_),
+      organs_(*renderer_, patient, &glass_),
+      instrument_(*renderer_),
+      other_probe_(*renderer_),
+      arrows_(*above_, layout.force_colours),
+      guide_(*above_, colour::kAdvice, 2.5),
+      ellipse_(*above_, colour::kAdvice, 1.8),
+      search_(*on_skin_, *above_, 2.5),
+      occluders_(*renderer_) {
+  if (layout.skin_deflection && organs_.skin())
+    skin_ = std::make_unique<DeflectedSkin>(patient.organ(Organ::skin).mesh, *organs_.skin());
+  setUpRenderers();
+  if (stereo_ != Stereo::none && stereo_ != Stereo::anaglyph)
+    second_ =
+        std::make_unique<SecondEye>(window_, *renderer_, glass_.renderer(), *on_skin_, *above_);
+}
+
+void ArView::setUpRenderers() {
+  setUpRenderer(*renderer_, see_through_ ? colour::kClear : colour::kBehindBottom);
+  if (see_through_) renderer_->SetBackgroundAlpha(0);
+  for (vtkRenderer* renderer : {on_skin_.Get(), above_.Get()}) {
+    setUpRenderer(*renderer, colour::kBehindBottom);
+    renderer->SetActiveCamera(renderer_->GetActiveCamera());
+    window_.AddRenderer(renderer);
+  }
+  on_skin_->EraseOff();  // over the colours and depths so far
+  above_->SetLayer(1);
+  renderer_->SetBackground2(colour::kBehindTop[0], colour::kBehindTop[1], colour::kBehindTop[2]);
+}
+
+ArView::~ArView() {
+  window_.RemoveRenderer(above_);
+  window_.RemoveRenderer(on_skin_);
+  window_.RemoveRenderer(renderer_);
+}
+
+void ArView::addTrail(Trail& trail) { trail_ = trail.addTo(*renderer_, 2.5); }
+
+void ArView::place(const Rect& panel, int window_width, int window_height) {
+  panel_ = panel;
+  window_width_ = window_width;
+  window_height_ = window_height;
+}
+
+void ArView::update(const SceneState& state) {
+  chooseCamera(state);
+  applyCameras(state);
+  if (state.picture)
+    backdrop_.show(*state.picture);
+  else
+    backdrop_.hide();
+  renderer_->SetGradientBackground(state.picture == nullptr && !see_through_);
+  shows_patient_ = state.registered || state.picture == nullptr;
+  showPatient(state, shows_patient_);
+  if (second_) second_->mirror();
+}
+
+void ArView::chooseCamera(const SceneState& state) {
+  virtual_ = !state.registered && state.picture == nullptr;
+  if (virtual_) {
+    picture_ = panel_;
+    pinhole_ = orbit_.pinhole(panel_.width, panel_.height);
+    X_CA_ = orbit_.X_CA();
+    return;
+  }
+  const Pinhole& camera = state.camera;
+  picture_ = letterbox(panel_, camera.width, camera.height);
+  pinhole_ = scaled(camera, picture_.width, picture_.height);
+  if (state.registered) X_CA_ = state.X_CA;
+}
+
+/// One camera, or two that belong to it.
+void ArView::applyCameras(const SceneState& state) {
+  tip_A_ = state.X_AT.translation();
+  real_things_ = !state.occluders.empty();
+  glass_.look(X_CA_.inverse().translation());
+  if (stereo_ == Stereo::none) return lookThrough({pinhole_, X_CA_}, picture_, *renderer_);
+  const Pinhole whole = virtual_ ? pinhole_ : state.camera;
+  eyes_ = state.eyes ? *state.eyes
+                     : stereoPair(whole, X_CA_, kEyesApart,
+                                  std::max((X_CA_ * region_.focus_A).z(), kNearestFocus));
+  eye_panels_ = eyePanels(panel_, stereo_);
+  for (std::size_t i = 0; i < 2; ++i) {
+    eye_panels_[i] = letterbox(eye_panels_[i], eyes_[i].camera.width, eyes_[i].camera.height);
+    eyes_[i].camera = scaled(eyes_[i].camera, eye_panels_[i].width, eye_panels_[i].height);
+  }
+  lookThrough(eyes_[0], eye_panels_[0], *renderer_);
+  if (!second_) return;
+  second_->forAll([&](vtkRenderer& renderer) {
+    setViewport(renderer, eye_panels_[1], window_width_, window_height_);
+  });
+  lookThrough(eyes_[1], eye_panels_[1], second_->behind());
+}
+
+void ArView::lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind) {
+  if (&behind == renderer_.Get())
+    for (vtkRenderer* renderer :
+         {renderer_.Get(), on_skin_.Get(), above_.Get(), &glass_.renderer()})
+      setViewport(*renderer, where, window_width_, window_height_);
+  DepthRange range = depthRangeOf(
+      {{eye.X_CA * region_.whole_centre_A, region_.whole_radius}, {eye.X_CA * tip_A_, kToolReach}});
+  if (real_things_)
+    range.near = std::min(range.near, kNearestThing);  // they stand anywhere before the patient
+  aim(*behind.GetActiveCamera(), eye.camera, eye.X_CA, range);
+}
+
+void ArView::showEye(std::size_t eye) { lookThrough(eyes_[eye], eye_panels_[eye], *renderer_); }
+
+void ArView::showLines(const SceneState& state, bool visible) {
+  if (visible && state.guide)
+    guide_.show(dashes(state.guide->from_A, state.guide->to_A));
+  else
+    guide_.hide();
+  std::vector<Vec3> ellipse;
+  if (visible && state.tip_covariance_A && !virtual_)
+    ellipse =
+        uncertaintyEllipse(*state.tip_covariance_A, state.X_AT.translation(), X_CA_, pinhole_);
+  if (ellipse.empty())
+    ellipse_.hide();
+  else
+    ellipse_.show({ellipse});
+}
+
+void ArView::showPatient(const SceneState& state, bool visible) {
+  if (skin_) skin_->update(state.skin_push);
+  organs_.setStyle(state.skin);
+  organs_.setVisible(visible);
+  organs_.setPose(state.X_AB);
+  other_probe_.update(state.second_X_AT.value_or(state.X_AT), 0, 0);
+  if (visible && state.second_X_AT)
+    other_probe_.show(Tool::probe);
+  else
+    other_probe_.hide();
+  instrument_.update(state.X_AT, state.plunger, state.blood);
+  if (visible && state.show_tool)
+    instrument_.show(state.tool);
+  else
+    instrument_.hide();
+  if (trail_) trail_->SetVisibility(visible);
+  const double unit_px = kShaft_px * window_height_ / 720.0;
+  arrows_.update(visible ? state.forces : std::vector<ForceArrow>(), X_CA_, pinhole_.fx, unit_px);
+  showLines(state, visible);
+  occluders_.update(state.occluders, visible && state.picture != nullptr);
+  search_.update(state, visible, {X_CA_, pinhole_.fx}, kPin_px * window_height_ / 720.0);
+  on_skin_->SetDraw(search_.anyOnSkin());
+  above_->SetDraw(search_.anyAbove() || arrows_.any() || ellipse_.visible() || guide_.visible());
+}
+
+}  // namespace palpa::scene

@@ -1,0 +1,128 @@
+#pragma once
+
+#include <vtkNew.h>
+
+#include <memory>
+
+#include "scene/actors/camera_picture.h"
+#include "scene/actors/force_arrows.h"
+#include "scene/actors/instrument.h"
+#include "scene/actors/lines.h"
+#include "scene/actors/organ_actors.h"
+#include "scene/actors/search_overlay.h"
+#include "scene/panels.h"
+#include "scene/view/ar_camera.h"
+#include "scene/view/framing.h"
+#include "scene/view/navigation.h"
+#include "scene/view/scene_view.h"
+
+class vtkRenderer;
+class vtkRenderWindow;
+
+namespace palpa::scene {
+
+/// The other eye of a view: the same actors and background as the first eye's four renderers,
+/// another camera.
+class SecondEye {
+ public:
+  SecondEye(vtkRenderWindow& window, vtkRenderer& behind, vtkRenderer& glass, vtkRenderer& on_skin,
+            vtkRenderer& above);
+  ~SecondEye();
+
+  /// After the first eye's renderers were brought up to date.
+  void mirror();
+  vtkRenderer& behind() { return *behind_; }  ///< its camera is that of all four
+
+  template <class Do>
+  void forAll(Do act) {
+    act(*behind_);
+    act(*glass_);
+    act(*on_skin_);
+    act(*above_);
+  }
+
+ private:
+  vtkRenderWindow& window_;
+  vtkRenderer &first_behind_, &first_glass_, &first_on_skin_, &first_above_;
+  vtkNew<vtkRenderer> behind_, glass_, on_skin_, above_;
+};
+
+}  // namespace palpa::scene
+
+class vtkRenderer;
+class vtkRenderWindow;
+
+namespace palpa::scene {
+
+/// The camera picture with the registered patient on it. Which camera looks:
+///
+///     registered                the real one: X_CA and its intrinsics, exactly
+///     picture, not registered   none: the picture alone, since a patient drawn anywhere would
+///     mislead neither                   a virtual one near the entry point, which a person may
+///     walk around
+class ArView {
+ public:
+  ArView(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
+         const ViewLayout& layout);
+  ~ArView();
+
+  void addTrail(Trail& trail);
+  void place(const Rect& panel, int window_width, int window_height);
+  void update(const SceneState& state);
+  /// Of an anaglyph's two eyes the one that is drawn next, 0 or 1.
+  void showEye(std::size_t eye);
+
+  bool isVirtual() const { return virtual_; }
+  bool showsPatient() const { return shows_patient_; }
+  OrbitCamera& orbit() { return orbit_; }
+  const Rect& picture() const { return picture_; }  ///< the part of the panel that is drawn on
+  const std::array<EyeCamera, 2>& eyes() const {
+    return eyes_;
+  }  ///< of a stereo view; as large as their panels
+  const std::array<Rect, 2>& panelsOfEyes() const { return eye_panels_; }
+  /// What is seen where: the camera, or the left one of two eyes, and the part of the window that
+  /// it fills.
+  EyeCamera eye() const { return stereo_ == Stereo::none ? EyeCamera{pinhole_, X_CA_} : eyes_[0]; }
+  const Rect& eyePanel() const { return stereo_ == Stereo::none ? picture_ : eye_panels_[0]; }
+
+ private:
+  void chooseCamera(const SceneState& state);
+  void applyCameras(const SceneState& state);
+  void lookThrough(const EyeCamera& eye, const Rect& where, vtkRenderer& behind);
+  void setUpRenderers();
+  void showLines(const SceneState& state, bool visible);
+  void showPatient(const SceneState& state, bool visible);
+
+  vtkRenderWindow& window_;
+  vtkNew<vtkRenderer> renderer_;  // picture, organs, needle, trail
+  vtkNew<vtkRenderer> on_skin_;   // after the translucent skin: what a search has felt
+  vtkNew<vtkRenderer> above_;     // force arrows, guide, the tip's ellipse, pins: never hidden
+  Region region_;
+  Rect panel_, picture_;
+  int window_width_ = 1, window_height_ = 1;
+  Stereo stereo_;
+  bool see_through_;
+  std::array<EyeCamera, 2> eyes_;
+  std::array<Rect, 2> eye_panels_;
+  Vec3 tip_A_ = Vec3::Zero();
+  bool virtual_ = true;
+  bool real_things_ = false;
+  bool shows_patient_ = true;
+  OrbitCamera orbit_;
+  Pinhole pinhole_;
+  Pose X_CA_ = Pose::Identity();
+  Backdrop backdrop_;
+  Glass glass_;
+  OrganActors organs_;
+  std::unique_ptr<DeflectedSkin> skin_;  // null: it does not give way
+  Instrument instrument_, other_probe_;
+  vtkSmartPointer<vtkActor> trail_;
+  ForceArrows arrows_;
+  EdgedLines guide_, ellipse_;
+  SearchOverlay search_;
+  Occluders occluders_;
+  std::unique_ptr<SecondEye>
+      second_;  // null: one camera, or an anaglyph's eyes one after the other
+};
+
+}  // namespace palpa::scene

@@ -1,0 +1,256 @@
+#include "scene/view/scene_view.h"
+
+#include <unistd.h>
+#include <vtkImageData.h>
+#include <vtkNew.h>
+#include <vtkPNGWriter.h>
+#include <vtkRenderWindow.h>
+#include <vtkRenderer.h>
+#include <vtkRendererCollection.h>
+#include <vtkUnsignedCharArray.h>
+
+#include <array>
+#include <filesystem>
+#include <fstream>
+#include <vector>
+
+#include "anatomy/base/error.h"
+#include "scene/actors/camera_picture.h"
+#include "scene/overlay/hud.h"
+#include "scene/overlay/label.h"
+#include "scene/renderer_setup.h"
+#include "scene/view/ar_view.h"
+#include "scene/view/navigation.h"
+#include "scene/view/ortho_view.h"
+#include "scene/window/pixels.h"
+
+namespace palpa::scene {
+struct SceneView::Impl {
+  Impl(GlContextProvider& provider, const anatomy::Patient& patient, const ViewLayout& wanted);
+  ~Impl();
+
+  void place();
+  void paintStills();
+  void show(const SceneState& state);
+  void writeWords(const SceneState& state);
+  void mergeEyes();
+
+  GlContextProvider& context;
+  vtkRenderWindow& window;
+  ViewLayout layout;
+  Region region;
+  vtkNew<vtkRenderer> frame;  // whole window, behind: borders, and what the picture leaves free
+  Plates margins;
+  vtkNew<vtkRenderer> words;   // whole window, in front
+  vtkNew<vtkRenderer> merged;  // alone: an anaglyph
+  Backdrop merged_backdrop{*merged, false};
+  Image anaglyph_picture;
+  Trail trail;
+  ArView ar;
+  std::vector<std::unique_ptr<OrthoView>> fixed;
+  std::unique_ptr<CameraInset> inset;  // null: none
+  HudPainter hud;
+  std::unique_ptr<HudPainter> other_hud;  // before the right eye of a headset
+  Navigation navigation;
+  std::unique_ptr<WindowInput> input;
+  EyeCopier copier{window};
+  Panels panels;
+  std::array<int, 2> size{0, 0};
+};
+
+SceneView::Impl::Impl(GlContextProvider& provider, const anatomy::Patient& patient,
+                      const ViewLayout& wanted)
+    : context(provider),
+      window(*provider.window()),
+      layout(wanted),
+      region(regionOf(patient)),
+      margins(*frame),
+      ar((window.AddRenderer(frame), window), patient, region, layout),
+      hud(*words, layout.force_colours) {
+  window.SetSize(layout.width, layout.height);
+  window.SetNumberOfLayers(3);
+  if (layout.see_through) window.SetAlphaBitPlanes(1);
+  setUpRenderer(*frame, layout.see_through ? colour::kClear : colour::kBorder);
+  if (layout.see_through) frame->SetBackgroundAlpha(0);
+  setUpRenderer(*words, colour::kBorder);
+  if (layout.stereo == Stereo::headset)
+    other_hud = std::make_unique<HudPainter>(*words, layout.force_colours);
+  words->SetLayer(2);
+  ar.addTrail(trail);
+  if (layout.orthographic) {
+    for (Plane plane : {Plane::frontal, Plane::sagittal, Plane::axial}) {
+      fixed.push_back(std::make_unique<OrthoView>(window, patient, region, plane));
+      fixed.back()->addTrail(trail);
+    }
+  }
+  if (layout.inset == Inset::camera) inset = std::make_unique<CameraInset>(window);
+  window.AddRenderer(words);
+  setUpRenderer(*merged, colour::kBorder);
+  merged->DrawOff();
+  if (layout.stereo == Stereo::anaglyph) window.AddRenderer(merged);
+}
+
+SceneView::Impl::~Impl() {
+  input.reset();
+  if (layout.stereo == Stereo::anaglyph) window.RemoveRenderer(merged);
+  window.RemoveRenderer(words);
+  window.RemoveRenderer(frame);
+}
+
+void SceneView::Impl::place() {
+  const int* now = window.GetSize();
+  if (size[0] == now[0] && size[1] == now[1]) return;
+  size = {now[0], now[1]};
+  panels = layoutPanels(size[0], size[1], layout.orthographic);
+  ar.place(panels.ar, size[0], size[1]);
+  const Rgb& dark = colour::kPanel;
+  margins.clear();
+  if (layout.stereo != Stereo::headset) margins.add(panels.ar, {dark[0], dark[1], dark[2], 1}, 0);
+  const Rect* places[] = {&panels.front, &panels.side, &panels.top};
+  for (std::size_t i = 0; i < fixed.size(); ++i) fixed[i]->place(*places[i], size[0], size[1]);
+  paintStills();
+}
+
+void SceneView::Impl::paintStills() {
+  if (fixed.empty()) return;
+  for (const auto& view : fixed) view->prepareStill();
+  words->DrawOff();
+  window.Render();
+  const Image picture = pixelsOf(window);
+  for (const auto& view : fixed) view->keepStill(picture);
+  words->DrawOn();
+}
+
+void SceneView::Impl::show(const SceneState& state) {
+  place();
+  trail.update(state.trail_A);
+  ar.update(state);
+  for (const auto& view : fixed) view->update(state);
+  Rect free = panels.ar;
+  if (state.hud.timeline) free.y += stripHeight_px(size[1]) + textSize_px(size[1]) / 2;
+  if (inset) inset->show(state.beside ? state.beside : state.picture, free, size[0], size[1]);
+  writeWords(state);
+  window.Render();
+  if (layout.stereo == Stereo::anaglyph) mergeEyes();
+}
+
+void SceneView::Impl::writeWords(const SceneState& state) {
+  const std::vector<ForceArrow> forces =
+      ar.showsPatient() ? state.forces : std::vector<ForceArrow>();
+  if (!other_hud) return hud.update(state.hud, forces, panels.ar, size[1]);
+  const std::array<Rect, 2> where = wordPanels(ar.eyes(), ar.panelsOfEyes());
+  hud.update(state.hud, forces, where[0], 2 * where[0].height);
+  other_hud->update(state.hud, forces, where[1], 2 * where[1].height);
+}
+
+/// Both eyes one after the other, and then their one picture over the whole window.
+void SceneView::Impl::mergeEyes() {
+  const Image left = pixelsOf(window);
+  ar.showEye(1);
+  window.Render();
+  anaglyph_picture = anaglyph(left, pixelsOf(window));
+  merged_backdrop.show(anaglyph_picture);
+  std::vector<vtkRenderer*> others;
+  for (int i = 0; i < window.GetRenderers()->GetNumberOfItems(); ++i) {
+    auto* renderer = static_cast<vtkRenderer*>(window.GetRenderers()->GetItemAsObject(i));
+    if (!renderer->GetDraw() || renderer == merged.Get()) continue;
+    renderer->DrawOff();
+    others.push_back(renderer);
+  }
+  merged->DrawOn();
+  window.Render();
+  merged->DrawOff();
+  for (vtkRenderer* renderer : others) renderer->DrawOn();
+}
+
+SceneView::SceneView(GlContextProvider& context, const anatomy::Patient& patient,
+                     const ViewLayout& layout)
+    : impl_(std::make_unique<Impl>(context, patient, layout)) {
+  SceneState first;  // compiles the shaders, so that the first real frame is not late
+  first.show_tool = false;
+  show(first);
+  if (context.interactive()) impl_->input = std::make_unique<WindowInput>(impl_->window);
+}
+
+SceneView::~SceneView() = default;
+
+void SceneView::show(const SceneState& state) { impl_->show(state); }
+
+Image SceneView::capture() const { return pixelsOf(impl_->window); }
+
+void SceneView::copyEye(std::size_t eye, const TextureTarget& target) const {
+  impl_->copier.copy(impl_->ar.panelsOfEyes().at(eye), target);
+}
+
+ViewInput SceneView::poll() {
+  if (!impl_->input) return {};
+  const ViewInput input = impl_->input->poll();
+  if (impl_->layout.free_navigation && impl_->ar.isVirtual())
+    impl_->navigation.apply(input, impl_->ar.picture(), impl_->size[1], impl_->ar.orbit());
+  return input;
+}
+
+ArGeometry SceneView::arGeometry() const {
+  const Rect& picture = impl_->ar.eyePanel();
+  const double top = impl_->size[1] - picture.top();
+  EyeCamera eye = impl_->ar.eye();
+  eye.camera.cx += picture.x;
+  eye.camera.cy += top;
+  return {eye.camera,
+          eye.X_CA,
+          static_cast<double>(picture.x),
+          top,
+          static_cast<double>(picture.width),
+          static_cast<double>(picture.height)};
+}
+
+void SceneView::resetNavigation() { impl_->ar.orbit().reset(); }
+
+namespace {
+
+void checkWritable(const Image& image, const std::string& file) {
+  const auto expected = static_cast<std::size_t>(image.width) * image.height * image.channels;
+  const bool sized = image.width > 0 && image.height > 0;
+  if (!sized || (image.channels != 1 && image.channels != 3) || image.pixels.size() != expected)
+    throw Error("the picture has no pixels, or their number does not fit its size", file,
+                "Capture a frame after the first SceneView::show");
+}
+
+vtkNew<vtkImageData> toVtk(const Image& image) {
+  vtkNew<vtkImageData> result;
+  result->SetDimensions(image.width, image.height, 1);
+  result->AllocateScalars(VTK_UNSIGNED_CHAR, image.channels);
+  const std::size_t row = static_cast<std::size_t>(image.width) * image.channels;
+  copyFlipped(image.pixels.data(), static_cast<std::uint8_t*>(result->GetScalarPointer()), row,
+              image.height);
+  return result;
+}
+
+[[noreturn]] void refuse(const std::string& file, const std::string& beside) {
+  std::error_code ignored;
+  std::filesystem::remove(beside, ignored);
+  throw Error("the picture cannot be written", file,
+              "Check that the folder exists, can be written and has free space");
+}
+
+}  // namespace
+
+void writePng(const Image& image, const std::string& file) {
+  checkWritable(image, file);
+  vtkNew<vtkPNGWriter> writer;
+  writer->SetInputData(toVtk(image));
+  writer->WriteToMemoryOn();
+  writer->Write();
+  const vtkUnsignedCharArray* bytes = writer->GetResult();
+  const std::string beside = file + "." + std::to_string(getpid()) + ".part";
+  std::ofstream out(beside, std::ios::binary);
+  out.write(reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray*>(bytes)->GetPointer(0)),
+            bytes->GetNumberOfValues());
+  out.close();
+  if (!out) refuse(file, beside);
+  std::error_code failure;
+  std::filesystem::rename(beside, file, failure);
+  if (failure) refuse(file, beside);
+}
+
+}  // namespace palpa::scene

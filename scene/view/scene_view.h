@@ -1,0 +1,70 @@
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "anatomy/patient.h"
+#include "scene/scene_state.h"
+#include "scene/window/gl_context.h"
+#include "scene/window/pixels.h"
+
+namespace palpa::scene {
+
+/// What a person did in the window since the last call; positions in window pixels from the top
+/// left.
+struct ViewInput {
+  bool closed = false;
+  std::vector<std::string> keys;  ///< X key symbols, e.g. "space", "Escape", "p", "Left"
+  double mouse_x = 0, mouse_y = 0;
+  double wheel = 0;  ///< notches since the last call
+  bool left_button = false, right_button = false, middle_button = false;
+  bool shift = false, control = false;
+};
+
+struct ViewLayout {
+  int width = 1280, height = 720;
+  bool orthographic = true;     ///< three fixed views (front, side, top) beside the AR view
+  bool free_navigation = true;  ///< drag the virtual camera; a protocol can switch it off
+  /// The skin gives way where it is touched (AR view). Off where people are assessed: seeing must
+  /// not replace feeling.
+  bool skin_deflection = false;
+  ForceColours force_colours = ForceColours::paper;
+  Stereo stereo = Stereo::none;  ///< of the AR view
+  Inset inset = Inset::none;
+  bool see_through = false;  ///< what is not drawn is black and clear (alpha 0): for displays that
+                             ///< one looks through
+};
+
+/// How the AR view (its left eye, in stereo) looks right now, in window pixels from the top left:
+/// the pixel (u, v) under the mouse sees the ray ((u - cx) / fx, (v - cy) / fy, 1) of C.
+struct ArGeometry {
+  Pinhole camera;  ///< cx, cy count from the window's corner
+  Pose X_CA = Pose::Identity();
+  double x = 0, y = 0, width = 0, height = 0;  ///< the part of the window it covers
+};
+
+/// The window: AR view (picture, registered patient, needle with syringe, force arrows, legend,
+/// HUD) beside three fixed orthographic views. The context must outlive it; one thread only.
+class SceneView {
+ public:
+  SceneView(GlContextProvider& context, const anatomy::Patient& patient, const ViewLayout& layout);
+  ~SceneView();
+
+  void show(const SceneState& state);  ///< updates the graph and renders one frame
+  Image capture() const;               ///< the last frame, RGB, top row first
+  /// The last frame of one eye (0 left, 1 right; a stereo view) into a texture of the same context.
+  void copyEye(std::size_t eye, const TextureTarget& target) const;
+  ViewInput poll();  ///< events of an interactive window; empty otherwise
+
+  ArGeometry arGeometry() const;
+  void resetNavigation();  ///< the virtual camera back to where it began
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+void writePng(const Image& image, const std::string& file);  ///< beside, then renamed; throws Error
+
+}  // namespace palpa::scene

@@ -1,0 +1,58 @@
+#include "scene/window/gl_context.h"
+
+#include <vtkOpenGLRenderWindow.h>
+
+#include "anatomy/base/error.h"
+#include "scene/window/egl_window.h"
+#include "scene/window/x11_window.h"
+
+namespace palpa::scene {
+namespace {
+
+// GLX and EGL cannot share a process (GLEW's function table belongs to one): the first choice
+// stays.
+enum class Kind { undecided, glx, egl };
+Kind process_kind = Kind::undecided;
+
+std::unique_ptr<GlContextProvider> remember(Kind kind, std::unique_ptr<GlContextProvider> made) {
+  process_kind = kind;
+  return made;
+}
+
+std::unique_ptr<GlContextProvider> onX11(int width, int height, const char* title, bool visible) {
+  if (process_kind == Kind::egl)
+    throw Error("this process already draws without a display (EGL)", "X11 window",
+                "Open the window in a process of its own");
+  return remember(Kind::glx, makeX11Window(width, height, title, visible));
+}
+
+std::unique_ptr<GlContextProvider> offscreen(int width, int height, const char* title) {
+  if (process_kind == Kind::glx) return onX11(width, height, title, false);
+  try {
+    return remember(Kind::egl, makeEglWindow(width, height));
+  } catch (const Error&) {
+    if (process_kind == Kind::egl || !whyNoX11().empty()) throw;
+  }
+  return onX11(width, height, title, false);
+}
+
+}  // namespace
+
+void GlContextProvider::makeCurrent() { window()->MakeCurrent(); }
+
+void GlContextProvider::neverWait() {
+  static_cast<vtkOpenGLRenderWindow*>(window())->SetSwapControl(0);
+}
+
+std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int height,
+                                                 const char* title) {
+  if (width < 1 || height < 1)
+    throw UsageError("a window needs a width and a height of at least 1 pixel", "window size",
+                     "Give for example 1280x720");
+  const bool can_show = process_kind != Kind::egl && whyNoX11().empty();
+  if (display == Display::window || (display == Display::automatic && can_show))
+    return onX11(width, height, title, true);
+  return offscreen(width, height, title);
+}
+
+}  // namespace palpa::scene

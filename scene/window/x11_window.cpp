@@ -1,0 +1,97 @@
+#include "scene/window/x11_window.h"
+
+#include <vtkRenderWindow.h>
+#include <vtkSmartPointer.h>
+
+#include <cstdlib>
+
+#include "anatomy/base/error.h"
+// X11's headers define macros with everyday names: after all others.
+#include <GL/glx.h>
+
+namespace palpa::scene {
+namespace {
+
+class X11Provider : public GlContextProvider {
+ public:
+  X11Provider(int width, int height, const char* title, bool visible) : visible_(visible) {
+    window_->SetMultiSamples(0);  // multisampling drops translucent actors
+    window_->SetWindowName(title);
+    window_->SetSize(width, height);
+    window_->SetDPI(72);  // text sizes are pixels
+    if (!visible) window_->SetOffScreenRendering(1);
+  }
+  ~X11Provider() override { window_->Finalize(); }
+
+  vtkRenderWindow* window() override { return window_; }
+  bool interactive() const override { return visible_; }
+  const char* describe() const override { return visible_ ? "X11 window" : "offscreen X11"; }
+  NativeContext native() override;
+
+ private:
+  bool visible_;
+  vtkSmartPointer<vtkRenderWindow> window_ = vtkSmartPointer<vtkRenderWindow>::New();
+};
+
+/// The GLXFBConfig of this number; VTK keeps it to itself.
+GLXFBConfig configOf(::Display* display, int id) {
+  const int wish[] = {GLX_FBCONFIG_ID, id, 0};
+  int count = 0;
+  GLXFBConfig* const found = glXChooseFBConfig(display, DefaultScreen(display), wish, &count);
+  const GLXFBConfig config = count > 0 ? found[0] : nullptr;
+  if (found) XFree(found);
+  return config;
+}
+
+NativeContext X11Provider::native() {
+  window_->Start();  // makes the context where there is none
+  makeCurrent();
+  NativeContext native;
+  native.glx = true;
+  native.display = glXGetCurrentDisplay();
+  native.context = glXGetCurrentContext();
+  native.drawable = glXGetCurrentDrawable();
+  if (native.display == nullptr || native.context == nullptr)
+    throw Error("has no OpenGL context", "X11 window", "Update the graphics driver");
+  auto* const display = static_cast<::Display*>(native.display);
+  int id = 0, visual = 0;
+  glXQueryContext(display, static_cast<GLXContext>(native.context), GLX_FBCONFIG_ID, &id);
+  native.config = configOf(display, id);
+  if (native.config)
+    glXGetFBConfigAttrib(display, static_cast<GLXFBConfig>(native.config), GLX_VISUAL_ID, &visual);
+  native.visual = static_cast<unsigned>(visual);
+  return native;
+}
+
+}  // namespace
+
+namespace {
+
+/// One connection, kept: a bare server (Xvfb) resets itself when its last client goes, and refuses
+/// the next one while it does.
+::Display* keptConnection() {
+  static ::Display* connection = nullptr;
+  if (connection == nullptr) connection = XOpenDisplay(nullptr);
+  return connection;
+}
+
+}  // namespace
+
+std::string whyNoX11() {
+  const char* name = std::getenv("DISPLAY");
+  if (name == nullptr || *name == '\0') return "DISPLAY is not set";
+  ::Display* display = keptConnection();
+  if (display == nullptr) return "the X display " + std::string(name) + " cannot be opened";
+  const bool has_glx = glXQueryExtension(display, nullptr, nullptr);
+  return has_glx ? "" : "the X display " + std::string(name) + " offers no OpenGL (GLX)";
+}
+
+std::unique_ptr<GlContextProvider> makeX11Window(int width, int height, const char* title,
+                                                 bool visible) {
+  const std::string reason = whyNoX11();
+  if (!reason.empty())
+    throw Error(reason, "X11", "Start a desktop session or use --display offscreen");
+  return std::make_unique<X11Provider>(width, height, title, visible);
+}
+
+}  // namespace palpa::scene
