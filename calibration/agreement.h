@@ -39,7 +39,7 @@ double adjustedRandIndex(const Contingency& table);
 std::vector<int> boundariesOf(const std::vector<int>& labels);
 
 /// Boundaries of several trials add up: += the answers of each. Trials joined end to end would have
-/// boundaries that are none.
+/// invalid boundaries.
 struct BoundaryAgreement {
   int met = 0;               ///< pairs within tolerance
   int found = 0;             ///< boundaries of the one that is judged

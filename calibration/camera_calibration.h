@@ -21,8 +21,8 @@ struct BoardView {
 };
 
 /// Throws Error (in `where`), with the view's name, for lists of unlike length, fewer than 8
-/// corners, figures that are none, a board that is not flat, corners on one line, and views whose
-/// boards differ (most of their corners are none of the others').
+/// corners, invalid figures, a board that is not flat, corners on one line, and views whose
+/// boards differ (most of their corners are not the others').
 void requireBoardViews(const std::vector<BoardView>& views, const std::string& where);
 
 /// A camera, and where the board W was in each of its views.
@@ -72,8 +72,8 @@ struct CameraCalibration {
   Eigen::Matrix<double, kLensNumbers, kLensNumbers> covariance = decltype(covariance)::Zero();
   std::array<double, kLensNumbers> sd{},
       half95{};  ///< standard deviations, half of the 95 % intervals; 0 for numbers held at 0
-  int determined = kLensNumbers;  ///< how many of the nine, from the first, the corners tell; the
-                                  ///< others are held at 0
+  /// How many of the nine, from the first, the corners tell; the others are held at 0
+  int determined = kLensNumbers;
   double rms_all_px = 0;          ///< of all corners of the used views, wrong ones too
   std::vector<ViewResult> views;  ///< one for each given view, in order
   double tilt_spread = 0;         ///< rms angle between the used views' normals and their mean, rad
@@ -87,8 +87,8 @@ struct CameraCalibration {
 };
 
 struct CameraOptions {
-  bool keep_all = false;  ///< every corner counts, as in programs that know no outliers: to compare
-                          ///< with their figures
+  /// Every corner counts, as in programs that know no outliers: to compare with their figures
+  bool keep_all = false;
 };
 
 /// Lens and poses together from all corners, by the least sum of squared distances in the picture

@@ -1,12 +1,11 @@
 #include <algorithm>
-#include <fstream>
-#include <iterator>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "calibration/camera_model.h"
 
@@ -25,14 +24,13 @@ constexpr std::uintmax_t kLargestFile = 4 << 20;  // bytes; a real one has a few
               "camera' writes one).");
 }
 
-std::string slurp(const fs::path& file) {
+std::string textOf(const fs::path& file) {
   std::error_code code;
   if (!fs::is_regular_file(file, code)) refuse(file, "no such file");
   if (fs::file_size(file, code) > kLargestFile || code) refuse(file, "too large for a calibration");
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in) refuse(file, "cannot be read");
-  return text;
+  std::optional<std::string> text = readWhole(file);
+  if (!text) refuse(file, "cannot be read");
+  return std::move(*text);
 }
 
 double number(const cv::FileNode& node, const std::string& field, const fs::path& file) {
@@ -138,7 +136,7 @@ int size(const json& object, const char* name, const fs::path& file) {
 }
 
 CameraModel fromJson(const std::string& text, const fs::path& file) {
-  const json root = json::parse(text, nullptr, false);
+  const json root = parsedOrDiscarded(text);
   if (!root.is_object()) refuse(file, "is damaged: not a JSON object");
   if (field<std::string>(root, "type", file) != "camera_model")
     refuse(file, "field 'type' must be \"camera_model\"");
@@ -207,7 +205,7 @@ json toJson(const CameraModel& camera) {
 }  // namespace
 
 CameraModel readCameraModel(const fs::path& file) {
-  const CameraModel camera = parse(slurp(file), file);
+  const CameraModel camera = parse(textOf(file), file);
   validate(camera, file.string());
   return camera;
 }

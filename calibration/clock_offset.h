@@ -36,7 +36,7 @@ struct ClockOffset {
 /// `most`: the largest offset looked for, s. Throws Error for too few samples (60 of the camera),
 /// times that run backwards, a hand that hardly moved, recordings that share too little time,
 /// speeds that do not look alike, paths that fit alike at several lags (a steady to and fro), and
-/// figures that are none.
+/// invalid figures.
 ClockOffset estimateClockOffset(const std::vector<TimedPoint>& camera,
                                 const std::vector<TimedPoint>& device, double most = 2.0);
 

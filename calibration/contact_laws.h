@@ -84,8 +84,8 @@ struct SurfaceFriction {
 /// Divide and conquer (after Mahvash & Okamura 2006): mu and B from the second halves of the
 /// strokes, where it slides, sigma from their beginnings, each a linear problem; then robust least
 /// squares of all three on the law itself, run over the whole recording. Throws Error, in plain
-/// words, for too few strokes, no sliding, one speed only, no beginning of a stroke, and figures
-/// that are none.
+/// words, for too few strokes, no sliding, one speed only, no beginning of a stroke, and
+/// invalid figures.
 SurfaceFriction identifySurfaceFriction(const std::vector<SlideSample>& samples, double dt);
 
 }  // namespace palpa::calibration

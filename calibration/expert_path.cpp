@@ -5,6 +5,7 @@
 #include <map>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/quantile.h"
 #include "calibration/rotation.h"
 
 namespace palpa::calibration {
@@ -16,13 +17,6 @@ constexpr double kLargestShareOut = 0.2;
 constexpr double kDisagree_rad = 10 * kDegree, kDisagree_m = 0.010;
 constexpr double kLeastAcceptable_rad = 2 * kDegree;
 constexpr const char* kWhere = "experts' trials";
-
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  if (values.size() % 2) return *middle;
-  return (*middle + *std::max_element(values.begin(), middle)) / 2;
-}
 
 double angle(const Vec3& a, const Vec3& b) { return std::atan2(a.cross(b).norm(), a.dot(b)); }
 double distance(const Vec3& a, const Vec3& b) { return (a - b).norm(); }

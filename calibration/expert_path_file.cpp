@@ -1,8 +1,8 @@
 #include <cmath>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/units.h"
 #include "anatomy/base/whole_file.h"
 #include "calibration/expert_path.h"
@@ -10,7 +10,8 @@
 namespace palpa::calibration {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Json = nlohmann::json;
+using Ordered = nlohmann::ordered_json;
 
 constexpr int kPathVersion = 1;
 constexpr const char* kFormat = "palpa expert path";
@@ -83,11 +84,11 @@ class FieldReader {
 };
 
 Json parse(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  if (!stream)
+  const std::optional<std::string> text = readWhole(file);
+  if (!text)
     throw Error("the file cannot be opened", file.string(), "Check the path, or calibrate first");
   try {
-    return Json::parse(stream);
+    return parseJson(*text);
   } catch (const Json::exception&) {
     throw Error("this is not a JSON file", file.string(), "Calibrate the experts' path again");
   }
@@ -102,9 +103,9 @@ void checkFormat(const FieldReader& reader) {
                                std::to_string(kPathVersion) + "); update the program, or");
 }
 
-Json inMm(const Vec3& v) { return {v.x() / kMm, v.y() / kMm, v.z() / kMm}; }
+Ordered inMm(const Vec3& v) { return {v.x() / kMm, v.y() / kMm, v.z() / kMm}; }
 
-Json toJson(const ExpertPath& path) {
+Ordered toJson(const ExpertPath& path) {
   return {{"format", kFormat},
           {"version", kPathVersion},
           {"simulated", path.simulated},

@@ -33,7 +33,7 @@ struct ForceSensorCalibration {
 /// Linear start, then robust with spreads of their own for forces and torques. `down_D`: unit,
 /// where weight pulls. Throws Error for fewer than 6 readings, orientations that do not tell mass
 /// and bias apart (turned about the vertical only), a tool without weight, a negative mass (down is
-/// up, or the poses are the other way round), and figures that are none.
+/// up, or the poses are the other way round), and invalid figures.
 ForceSensorCalibration calibrateForceSensor(const std::vector<StaticReading>& readings,
                                             const Vec3& down_D);
 

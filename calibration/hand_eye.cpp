@@ -8,6 +8,7 @@
 #include <random>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/quantile.h"
 #include "anatomy/geometry/dense_solvers.h"
 #include "calibration/rotation.h"
 
@@ -98,9 +99,7 @@ double medianMiss(const std::vector<HandEyeSample>& samples, const Both& both) {
     const Miss miss = missOf(s, both);
     misses.push_back(std::hypot(miss.turn.norm() / kDegree, miss.shift.norm() / 0.005));
   }
-  std::nth_element(misses.begin(), misses.begin() + static_cast<std::ptrdiff_t>(misses.size() / 2),
-                   misses.end());
-  return misses[misses.size() / 2];
+  return upperMedian(std::move(misses));
 }
 
 Both bestStart(const std::vector<HandEyeSample>& samples) {

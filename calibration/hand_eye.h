@@ -38,7 +38,7 @@ struct HandEye {
 
 /// Throws Error for fewer than 8 samples, a hand that stood still or turned about one axis only,
 /// samples that do not fit each other (and says so where one of the lists seems to hold the inverse
-/// poses), and figures that are none.
+/// poses), and invalid figures.
 HandEye calibrateHandEye(const std::vector<HandEyeSample>& samples);
 
 /// One pose of the tool as the camera saw it: the tag's corners (frame M, m) and their pixels, and

@@ -92,8 +92,9 @@ struct StatesProposal {
   int states = 0;  ///< by the one-standard-error rule
   int best =
       0;  ///< of the greatest mean; when it is the most offered, offer more before you believe it
-  int repeatable = 1;          ///< of two and more, the most whose `repeated` is within 0.05 of the
-                               ///< greatest; whether there are two it cannot tell
+  /// Of two and more, the most whose `repeated` is within 0.05 of the greatest; whether there are
+  /// two it cannot tell
+  int repeatable = 1;
   std::vector<HeldOut> curve;  ///< 1, 2 ... most states
 };
 

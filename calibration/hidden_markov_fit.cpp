@@ -4,6 +4,7 @@
 #include <string>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/random.h"
 #include "calibration/hidden_markov.h"
 
 namespace palpa::calibration {
@@ -24,10 +25,9 @@ class SeedStream {
 
  private:
   std::uint64_t next() {
-    std::uint64_t z = (state_ += 0x9e3779b97f4a7c15ull);
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
+    const std::uint64_t bits = splitMix64(state_);
+    state_ += kSplitMixStep;
+    return bits;
   }
   std::uint64_t state_;
 };

@@ -23,8 +23,9 @@ struct FitProblem {
   /// differences are taken.
   std::function<MatrixX()> jacobian = nullptr;
   bool keep_all = false;  ///< plain least squares: no block is taken for an outlier
-  int freedom = 0;  ///< independent errors of a block, where its residuals share causes (one pose
-                    ///< seen in many corners); 0: all are independent
+  /// Independent errors of a block, where its residuals share causes (one pose seen in many
+  /// corners); 0: all are independent
+  int freedom = 0;
 };
 
 struct Fit {

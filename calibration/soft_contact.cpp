@@ -173,7 +173,7 @@ SoftContact identifySoftContact(const std::vector<PressSample>& samples) {
   guess.b = std::clamp(guess.b, 0.0, 5 * guess.k);
   PressFit first(pressed, guess, 0);
   first.run();
-  // Chosen anew by what the law foretells: chosen by their own noise, samples near the bound would
+  // Chosen anew by what the law predicts: chosen by their own noise, samples near the bound would
   // all err to one side.
   const std::vector<PressSample> chosen =
       inContact(samples, first.law(), first.x0(), found.largest_f);

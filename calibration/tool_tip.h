@@ -29,12 +29,12 @@ struct TipLimits {
   double least_spread = 0.08;  ///< rad: about 5 degrees rms about every axis but the tool's own
   double largest_sd = 0.001;   ///< m, of the tip in its worst direction
   double largest_rms = 0.005;  ///< m: else the tip has not stayed in its hole
-  double longest = 0.30;  ///< m: no tool on a hand-held device is longer. Inverse poses pivot as
-                          ///< well, about another point
+  /// M: no tool on a hand-held device is longer. Inverse poses pivot as well, about another point
+  double longest = 0.30;
 };
 
 /// Throws Error, in plain words, for too few samples, motion about one axis only, a tip that
-/// wandered, and figures that are none.
+/// wandered, and invalid figures.
 TipCalibration calibrateTip(const std::vector<Pose>& X_DE, const TipLimits& limits = {});
 
 /// Which way the needle points on E: it is spun about itself in a hole or a drill guide. For every

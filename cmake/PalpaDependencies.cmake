@@ -5,10 +5,19 @@ find_package(nlohmann_json 3 REQUIRED)
 find_package(CLI11 REQUIRED)
 find_package(TinyGLTF REQUIRED)
 find_package(ZLIB REQUIRED)
-find_package(OpenSSL REQUIRED)  # SHA-256, names as UUIDs
-find_package(Boost 1.70 REQUIRED)  # headers only: Boost.Math
+find_package(OpenSSL REQUIRED)  # SHA-256, random bytes, Base64
+find_package(Boost 1.70 REQUIRED)  # headers only: Boost.Math, Boost.UUID
 find_package(apriltag REQUIRED)
-find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d aruco videoio)
+find_package(OpenCV 4 REQUIRED COMPONENTS core imgproc imgcodecs calib3d videoio)
+# ArUco: a module of its own before OpenCV 4.7, part of another since.
+if(OpenCV_VERSION VERSION_LESS 4.7)
+  set(aruco_module aruco)
+else()
+  set(aruco_module objdetect)
+endif()
+find_package(OpenCV 4 REQUIRED COMPONENTS core ${aruco_module})
+add_library(OpenCV::ArUco INTERFACE IMPORTED)
+target_link_libraries(OpenCV::ArUco INTERFACE opencv_${aruco_module})
 find_package(OpenXR 1.0 REQUIRED)
 find_package(glm REQUIRED)
 find_package(PkgConfig REQUIRED)
@@ -29,5 +38,5 @@ find_package(VTK 9 REQUIRED COMPONENTS
   FiltersCore FiltersGeneral FiltersSources FiltersModeling
   ImagingCore IOGeometry IOImage InteractionStyle
   RenderingCore RenderingOpenGL2 RenderingFreeType RenderingAnnotation RenderingUI glew)
-# Only compared with, in `palpa bench anatomy`.
+# Only compared with, in `palpa bench anatomy`. Embree 4 (Debian 13) is another interface: left out.
 find_package(embree 3 QUIET)

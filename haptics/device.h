@@ -16,11 +16,11 @@ struct DeviceReading {
   Packed4 q_DE{1, 0, 0, 0};
   double plunger = 0;  ///< drawn fraction of the syringe, 0..1
   std::uint32_t buttons = 0;
-  std::uint32_t homed = 0;      ///< 1 once positions are absolute
-  Packed3 f_hand_D{0, 0, 0};    ///< of the hand on the tool, N, by an instrumented handle; not used
-                                ///< by the loop, recorded
-  Packed3 f_device_D{0, 0, 0};  ///< of the device on the tool, N, drives and friction, by a force
-                                ///< cell before it; likewise
+  std::uint32_t homed = 0;  ///< 1 once positions are absolute
+  /// Of the hand on the tool, N, by an instrumented handle; not used by the loop, recorded
+  Packed3 f_hand_D{0, 0, 0};
+  /// Of the device on the tool, N, drives and friction, by a force cell before it; likewise
+  Packed3 f_device_D{0, 0, 0};
   std::uint32_t instrumented =
       0;  ///< 1: both are measured. No device sold measures them: simulated ones do
   std::uint32_t reserved = 0;

@@ -65,8 +65,9 @@ struct TickCommands {
   }();
   PlacedLumps lumps{};  ///< in P, of this trial
   float squeeze_stiffness = 1,
-        squeeze_weight = 1;    ///< of what is held between two tools: how many times as hard and as
-                               ///< heavy as it is, in this trial
+        /// Of what is held between two tools: how many times as hard and as heavy as it is, in this
+        /// trial
+      squeeze_weight = 1;
   std::uint32_t floor = 0;     ///< number of the floor that is searched; 0: none
   std::uint8_t degraded = 0;   ///< the floor with the lesser gains
   std::uint8_t held = 0;       ///< the handle is held where an episode starts
@@ -79,9 +80,9 @@ static_assert(std::is_trivially_copyable_v<TickCommands>);
 /// What a force sensor says of a real object that the tool touches, cleared of tool, bias and
 /// noise.
 struct SensedForce {
-  Packed3 f_D{};   ///< of the object on the tool, N
-  Packed3 p_DK{};  ///< m, where the point that touches was (a round tip's middle), as late as the
-                   ///< force is
+  Packed3 f_D{};  ///< of the object on the tool, N
+  /// M, where the point that touches was (a round tip's middle), as late as the force is
+  Packed3 p_DK{};
   SensorState state = SensorState::none;
   std::uint8_t reserved[7]{};
 };
@@ -116,12 +117,13 @@ struct FlightRecord {
   Packed3 f_command_D{};  ///< what left the safety limiter
   Packed3 tau_missing_D{};  ///< torque about E that a three-axis device cannot give, N m
   double indentation = 0;   ///< of the skin before puncture, m
-  double depth = 0;       ///< of the tip below the skin plane along the needle, m; along its normal
-                          ///< while the needle has never been outside
-  double v_axial = 0;     ///< of the tip along the needle, inward positive, m/s
-  double skin_force = 0;  ///< normal force on the skin before puncture, N
-  double bone_force = 0;  ///< largest bone contact force, N
-  double wall_force = 0;  ///< on the wall being deformed, N
+  /// Of the tip below the skin plane along the needle, m; along its normal while the needle has
+  /// never been outside
+  double depth = 0;
+  double v_axial = 0;        ///< of the tip along the needle, inward positive, m/s
+  double skin_force = 0;     ///< normal force on the skin before puncture, N
+  double bone_force = 0;     ///< largest bone contact force, N
+  double wall_force = 0;     ///< on the wall being deformed, N
   std::uint32_t events = 0;  ///< TickEvent bits
   NeedlePhase phase = NeedlePhase::outside;
   Tissue tissue = Tissue::air;  ///< at the tip; walls not yet punctured keep the tip outside

@@ -41,7 +41,7 @@ struct ForceArrow {
   Vec3 f_A = Vec3::Zero();  ///< newtons
 };
 
-/// What is held in the hand, as the tool frame T carries it (scene/instrument_shape.h).
+/// What is held in the hand, as the tool frame T carries it (scene/actors/instrument.h).
 enum class Tool { needle, probe };
 
 /// A real thing in the picture, at a place in A. The mesh outlives the view that shows it and does
@@ -152,8 +152,9 @@ struct SceneState {
       marks_A;  ///< where the trainee said "here is one": pins, numbered from 1 in this order
   std::optional<Vec3> lead_A;  ///< where guidance asks the hand to go next: a ring on the surface
   std::optional<Pose> second_X_AT;  ///< another probe beside the tool; AR view only
-  Pose X_AB = Pose::Identity();  ///< where the body is that is shown as made in A: a thing in the
-                                 ///< hands moves. AR view only, and not while it is translucent
+  /// Where the body is that is shown as made in A: a thing in the hands moves. AR view only, and
+  /// not while it is translucent
+  Pose X_AB = Pose::Identity();
 };
 
 }  // namespace palpa::scene

@@ -11,11 +11,12 @@
 #include <string>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "anatomy/base/error.h"
 
-namespace palpa::record {
+namespace palpa {
 
 using Bytes = std::vector<std::uint8_t>;
 using ByteView = std::span<const std::uint8_t>;
@@ -27,21 +28,15 @@ ByteView bytesOf(const Record* records, std::size_t count) {
   return {reinterpret_cast<const std::uint8_t*>(records), count * sizeof(Record)};
 }
 
-}  // namespace palpa::record
-
-namespace palpa::anatomy {
-
-[[noreturn]] inline void refuseMesh(const std::string& what, const std::string& where) {
-  throw Error(what, where, "Export the surface again or take another file");
-}
-
 /// Walks through bytes that nobody vouches for: lines, words, numbers, binary values. Never past
 /// the end.
 class ByteReader {
  public:
-  ByteReader(std::string_view bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
+  /// Messages name `where` and end with `remedy`.
+  ByteReader(std::string_view bytes, std::string where, std::string remedy)
+      : bytes_(bytes), where_(std::move(where)), remedy_(std::move(remedy)) {}
 
-  [[noreturn]] void fail(const std::string& what) const { refuseMesh(what, where_); }
+  [[noreturn]] void fail(const std::string& what) const { throw Error(what, where_, remedy_); }
   bool done() const { return at_ >= bytes_.size(); }
   std::size_t left() const { return bytes_.size() - at_; }
 
@@ -113,8 +108,8 @@ class ByteReader {
 
  private:
   std::string_view bytes_;
-  std::string where_;
+  std::string where_, remedy_;
   std::size_t at_ = 0;
 };
 
-}  // namespace palpa::anatomy
+}  // namespace palpa

@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
-namespace palpa::anatomy {
+#include "anatomy/base/json_text.h"
+
+namespace palpa {
 namespace {
 
 constexpr std::size_t kLargestText = 4u << 20;
@@ -21,10 +23,8 @@ std::string printable(const std::string& key) {
 nlohmann::json parseJson(const std::string& text, const std::string& file) {
   if (text.size() > kLargestText) throw UsageError("is larger than 4 MiB", file, "Check the name");
   try {
-    return nlohmann::json::parse(text, [&](int depth, auto, auto&) {
-      if (depth > kDeepest) throw UsageError("is nested too deep", file, "Correct the file");
-      return true;
-    });
+    return parseJson(text, kDeepest,
+                     [&] { throw UsageError("is nested too deep", file, "Correct the file"); });
   } catch (const nlohmann::json::exception& e) {
     std::string words = e.what();
     for (char& c : words)
@@ -92,17 +92,18 @@ bool JsonFields::flagOr(const std::string& field, bool otherwise) {
   return value->get<bool>();
 }
 
-Vec3 JsonFields::triple(const std::string& field, double most) {
+std::array<double, 3> JsonFields::triple(const std::string& field, double most) {
   const nlohmann::json& value = need(field);
   if (!value.is_array() || value.size() != 3) refuse(field, "is not three numbers");
-  Vec3 v = Vec3::Zero();
-  for (std::size_t i = 0; i < 3; ++i) {
+  std::array<double, 3> xyz{};
+  for (std::size_t i = 0; i < xyz.size(); ++i) {
     if (!value[i].is_number()) refuse(field, "is not three numbers");
-    v[static_cast<int>(i)] = value[i].get<double>();
+    xyz[i] = value[i].get<double>();
   }
-  if (!v.allFinite() || v.cwiseAbs().maxCoeff() > most)
-    refuse(field, "has a number larger than " + nlohmann::json(most).dump());
-  return v;
+  for (const double x : xyz)
+    if (!(std::abs(x) <= most))  // nor not a number
+      refuse(field, "has a number larger than " + nlohmann::json(most).dump());
+  return xyz;
 }
 
 void JsonFields::done() const {
@@ -115,4 +116,4 @@ void JsonFields::done() const {
     }
 }
 
-}  // namespace palpa::anatomy
+}  // namespace palpa

@@ -1,13 +1,13 @@
 #pragma once
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
 #include "anatomy/base/error.h"
-#include "anatomy/geometry/pose.h"
 
-namespace palpa::anatomy {
+namespace palpa {
 
 /// An object of a JSON file that nobody vouches for: every field is asked for once, `done` refuses
 /// what nobody asked for. Messages name file and field ("entries[3].unit").
@@ -27,7 +27,8 @@ class JsonFields {
   std::string textOr(const std::string& field, const std::string& otherwise);
   double numberOr(const std::string& field, double otherwise, double least, double most);
   bool flagOr(const std::string& field, bool otherwise);
-  Vec3 triple(const std::string& field, double most);  ///< three numbers of at most this size
+  /// Three numbers of at most this size.
+  std::array<double, 3> triple(const std::string& field, double most);
   void done() const;
 
  private:
@@ -42,4 +43,4 @@ std::string printable(const std::string& key);
 /// Parses text of at most 4 MiB that is not nested deeper than 16. Throws UsageError.
 nlohmann::json parseJson(const std::string& text, const std::string& file);
 
-}  // namespace palpa::anatomy
+}  // namespace palpa

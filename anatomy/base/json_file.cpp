@@ -2,17 +2,18 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <sstream>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
+#include "anatomy/base/whole_file.h"
 
-namespace palpa::station {
+namespace palpa {
 namespace {
 
 constexpr std::uintmax_t kLargestFile = 4 << 20;
-constexpr int kDeepest =
-    32;  // nested deeper is damage, and would exhaust the stack of who writes it out
+// Nested deeper is damage, and would exhaust the stack of who writes it out.
+constexpr int kDeepestFile = 32;
 
 nlohmann::json parse(const std::filesystem::path& file) {
   std::error_code error;
@@ -21,15 +22,11 @@ nlohmann::json parse(const std::filesystem::path& file) {
     throw UsageError("cannot be read (" + error.message() + ")", file.string(), "Check the name");
   if (size > kLargestFile)
     throw UsageError("is too large for a settings file", file.string(), "Check the name");
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  if (!stream) throw UsageError("cannot be read", file.string(), "Check its permissions");
+  const std::optional<std::string> text = readWhole(file);
+  if (!text) throw UsageError("cannot be read", file.string(), "Check its permissions");
   try {
-    return nlohmann::json::parse(text.str(), [&](int depth, auto, auto&) {
-      if (depth > kDeepest) throw UsageError("is nested too deep", file.string(), "Restore it");
-      return true;
-    });
+    return parseJson(*text, kDeepestFile,
+                     [&] { throw UsageError("is nested too deep", file.string(), "Restore it"); });
   } catch (const nlohmann::json::exception& e) {
     throw UsageError(std::string("is not valid JSON (") + e.what() + ")", file.string(),
                      "Restore it or correct the line named");
@@ -120,17 +117,24 @@ std::string JsonFile::text(const std::string& path) const {
   return value.get<std::string>();
 }
 
-Vec3 JsonFile::vector(const std::string& path) const {
+std::array<double, 3> JsonFile::triple(const std::string& path) const {
   const nlohmann::json& value = need(path);
   if (!value.is_array() || value.size() != 3) refuse(path, "is not a list of three numbers");
-  Vec3 v;
-  for (int i = 0; i < 3; ++i) {
-    if (!value[static_cast<std::size_t>(i)].is_number())
-      refuse(path, "is not a list of three numbers");
-    v[i] = value[static_cast<std::size_t>(i)].get<double>();
+  std::array<double, 3> xyz{};
+  for (std::size_t i = 0; i < xyz.size(); ++i) {
+    if (!value[i].is_number()) refuse(path, "is not a list of three numbers");
+    xyz[i] = value[i].get<double>();
   }
-  if (!v.allFinite()) refuse(path, "is not finite");
-  return v;
+  for (const double x : xyz)
+    if (!std::isfinite(x)) refuse(path, "is not finite");
+  return xyz;
 }
 
-}  // namespace palpa::station
+bool JsonFile::flag(const std::string& path, bool otherwise) const {
+  const nlohmann::json* value = find(path);
+  if (!value) return otherwise;
+  if (!value->is_boolean()) refuse(path, "must be true or false");
+  return value->get<bool>();
+}
+
+}  // namespace palpa

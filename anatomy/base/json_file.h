@@ -1,16 +1,16 @@
 #pragma once
 
+#include <array>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
-#include "anatomy/geometry/pose.h"
-
-namespace palpa::station {
+namespace palpa {
 
 /// A JSON file whose every access names file and field when something is wrong. All members throw
-/// UsageError: a damaged file is a set-up mistake, told in one line.
+/// UsageError: a damaged file is a set-up mistake, reported in one line.
 class JsonFile {
  public:
   JsonFile() = default;
@@ -24,7 +24,8 @@ class JsonFile {
   double number(const std::string& path, double low, double high) const;  ///< checks the range, too
   int integer(const std::string& path, int low, int high) const;
   std::string text(const std::string& path) const;
-  Vec3 vector(const std::string& path) const;
+  std::array<double, 3> triple(const std::string& path) const;  ///< a list of three numbers
+  bool flag(const std::string& path, bool otherwise) const;     ///< `otherwise` where it is missing
   bool has(const std::string& path) const { return find(path) != nullptr; }
   /// The entries of a list, each a file of its own that is named for the list; none where the field
   /// is missing.
@@ -32,8 +33,8 @@ class JsonFile {
 
   const nlohmann::json& json() const { return json_; }
   const std::string& name() const { return name_; }
-  void needVersion(
-      int newest) const;  ///< field "version" is 1 to `newest`: files of later programs are refused
+  /// Field "version" is 1 to `newest`: files of later programs are refused.
+  void needVersion(int newest) const;
   [[noreturn]] void refuse(const std::string& path, const std::string& what) const;
 
  private:
@@ -44,4 +45,4 @@ class JsonFile {
   std::string name_;
 };
 
-}  // namespace palpa::station
+}  // namespace palpa

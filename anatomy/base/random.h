@@ -5,67 +5,63 @@
 #include <numbers>
 #include <string_view>
 
-namespace palpa::anatomy {
+namespace palpa {
 
-/// Counter-based random numbers: the n-th number of a seed is splitmix64 (Steele, Lea, Flood 2014)
-/// of seed and n, the same with every compiler and library.
-class RandomStream {
- public:
-  explicit RandomStream(std::uint64_t seed) : seed_(mix(seed + 0x9e3779b97f4a7c15ull)) {}
+/// What SplitMix64 (Steele, Lea, Flood 2014) adds to its state for each number.
+inline constexpr std::uint64_t kSplitMixStep = 0x9e3779b97f4a7c15ull;
 
-  double uniform() { return (double(next() >> 11) + 0.5) * 0x1.0p-53; }  ///< in (0, 1)
-  double normal() {                                                      ///< Box and Muller 1958
-    const double radius = std::sqrt(-2 * std::log(uniform()));
-    return radius * std::cos(2 * std::numbers::pi * uniform());
-  }
+/// The mixing function of SplitMix64: one to one on 64 bits.
+constexpr std::uint64_t mixedBits(std::uint64_t z) {
+  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
+  z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
+  return z ^ (z >> 31);
+}
 
- private:
-  static std::uint64_t mix(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
-  }
-  std::uint64_t next() { return mix(seed_ + ++count_ * 0x9e3779b97f4a7c15ull); }
+/// The number that SplitMix64 gives in this state; its next state is `state` + kSplitMixStep.
+constexpr std::uint64_t splitMix64(std::uint64_t state) { return mixedBits(state + kSplitMixStep); }
 
-  std::uint64_t seed_, count_ = 0;
-};
-
-}  // namespace palpa::anatomy
-
-namespace palpa::runtime {
-
-/// Counter-based random numbers: one stream per (seed, component), so that one component's draws
-/// never shift another's. SplitMix64 (Steele, Lea, Flood 2014) over a hashed key; the same on every
-/// machine.
+/// Counter-based random numbers: the n-th number is a function of the key and n alone, the same
+/// with every compiler, library and machine. There are two recorded sequences, and neither may
+/// change, since patients and sessions are drawn again from their seeds:
+/// - RandomStream(seed, component), drawn with uniform() and normal(): one stream per component, so
+///   that one component's draws never shift another's;
+/// - RandomStream::ofSeed(seed), drawn with openUniform() and openNormal(): patients, bootstraps.
 class RandomStream {
  public:
   RandomStream(std::uint64_t seed, std::string_view component)
-      : key_(mix(seed ^ hash(component))) {}
+      : RandomStream(Key{mixedBits(seed ^ hash(component))}) {}
+  static RandomStream ofSeed(std::uint64_t seed) { return RandomStream(Key{splitMix64(seed)}); }
 
-  std::uint64_t bits() { return mix(key_ + 0x9e3779b97f4a7c15ull * ++counter_); }
-  /// Uniform in [0, 1), 53 bits.
-  double uniform() { return static_cast<double>(bits() >> 11) * 0x1p-53; }
+  std::uint64_t bits() { return splitMix64(key_ + kSplitMixStep * counter_++); }
+
+  double uniform() { return fraction(0); }  ///< in [0, 1), 53 bits
   double uniform(double low, double high) { return low + (high - low) * uniform(); }
-  /// Standard normal (Box and Muller 1958).
-  double normal() {
+  double normal() {  ///< standard normal (Box and Muller 1958)
     const double radius = std::sqrt(-2 * std::log(1 - uniform()));
     return radius * std::cos(2 * std::numbers::pi * uniform());
   }
   double normal(double mean, double sd) { return mean + sd * normal(); }
 
- private:
-  static std::uint64_t mix(std::uint64_t z) {
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ull;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebull;
-    return z ^ (z >> 31);
+  double openUniform() { return fraction(0.5); }  ///< in (0, 1)
+  double openNormal() {
+    const double radius = std::sqrt(-2 * std::log(openUniform()));
+    return radius * std::cos(2 * std::numbers::pi * openUniform());
   }
+
+ private:
+  struct Key {
+    std::uint64_t bits;
+  };
+  explicit RandomStream(Key key) : key_(key.bits) {}
+  double fraction(double offset) { return (static_cast<double>(bits() >> 11) + offset) * 0x1p-53; }
   static std::uint64_t hash(std::string_view text) {  // FNV-1a
     std::uint64_t h = 0xcbf29ce484222325ull;
     for (const char c : text) h = (h ^ static_cast<unsigned char>(c)) * 0x100000001b3ull;
     return h;
   }
+
   std::uint64_t key_;
   std::uint64_t counter_ = 0;
 };
 
-}  // namespace palpa::runtime
+}  // namespace palpa

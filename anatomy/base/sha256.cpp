@@ -3,12 +3,11 @@
 #include <openssl/evp.h>
 
 #include <array>
-#include <fstream>
-#include <iterator>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 
-namespace palpa::station {
+namespace palpa {
 
 std::string sha256(std::string_view bytes) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> digest{};
@@ -24,9 +23,9 @@ std::string sha256(std::string_view bytes) {
 }
 
 std::string sha256OfFile(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw UsageError("cannot be read", file.string(), "Check the path");
-  return sha256(std::string{std::istreambuf_iterator<char>(stream), {}});
+  const std::optional<std::string> bytes = readWhole(file);
+  if (!bytes) throw UsageError("cannot be read", file.string(), "Check the path");
+  return sha256(*bytes);
 }
 
-}  // namespace palpa::station
+}  // namespace palpa

@@ -1,8 +1,8 @@
 #include "anatomy/base/whole_file.h"
 
+#include <array>
 #include <cerrno>
 #include <cstring>
-#include <string>
 #include <system_error>
 
 #include "anatomy/base/error.h"
@@ -59,6 +59,19 @@ void writeWhole(const std::filesystem::path& file, std::string_view content) {
   WholeFile whole(file);
   whole.write(content);
   whole.finish();
+}
+
+std::optional<std::string> readWhole(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) return std::nullopt;
+  std::string bytes;
+  std::array<char, 1 << 16> part;
+  do {
+    stream.read(part.data(), part.size());
+    bytes.append(part.data(), static_cast<std::size_t>(stream.gcount()));
+  } while (stream);
+  if (stream.bad()) return std::nullopt;
+  return bytes;
 }
 
 }  // namespace palpa

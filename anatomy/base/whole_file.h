@@ -2,6 +2,8 @@
 
 #include <filesystem>
 #include <fstream>
+#include <optional>
+#include <string>
 #include <string_view>
 
 namespace palpa {
@@ -26,5 +28,9 @@ class WholeFile {
 };
 
 void writeWhole(const std::filesystem::path& file, std::string_view content);
+
+/// The bytes of a file; nullopt where it cannot be read or is a folder. How large a file may be is
+/// the caller's question.
+std::optional<std::string> readWhole(const std::filesystem::path& file);
 
 }  // namespace palpa

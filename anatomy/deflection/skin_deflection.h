@@ -65,12 +65,13 @@ GradedDisc gradedDisc(double contact, double patch, int per_ring);
 class SkinDeflection {
  public:
   struct Settings {
-    double decay = 0.012;  ///< lambda, m; [chosen], no figure found: 10 mm away a dimple is down to
-                           ///< a fifth. 0: no foundation
-    double contact = 0.0015;  ///< radius of the load, m; [chosen]: an 18 G needle's 0.6 mm, spread
-                              ///< by half the skin's 2 mm
-    double patch = 0.060;     ///< radius of the rim, m: five times lambda
-    int per_ring = 48;        ///< nodes a ring: 1700 nodes in all; 84: 5000
+    /// Lambda, m; [chosen], no figure found: 10 mm away a dimple is down to a fifth. 0: no
+    /// foundation
+    double decay = 0.012;
+    /// Radius of the load, m; [chosen]: an 18 G needle's 0.6 mm, spread by half the skin's 2 mm
+    double contact = 0.0015;
+    double patch = 0.060;  ///< radius of the rim, m: five times lambda
+    int per_ring = 48;     ///< nodes a ring: 1700 nodes in all; 84: 5000
   };
   explicit SkinDeflection(const Settings& settings);
 

@@ -11,8 +11,9 @@ struct DecimationReport {
   std::size_t before = 0, after = 0;  ///< triangles
   double farthest = 0,
          rms = 0;  ///< distance of the original's points to the decimated surface, the mesh's unit
-  std::string way = "none";  ///< "quadrics", "quadrics, mended", "edges kept manifold"; "none": few
-                             ///< enough, or nothing closed was found
+  /// "quadrics", "quadrics, mended", "edges kept manifold"; "none": few enough, or nothing closed
+  /// was found
+  std::string way = "none";
 };
 
 /// The surface with about `triangles` triangles: VTK's quadric decimation (Garland and Heckbert

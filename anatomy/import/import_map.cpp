@@ -1,10 +1,10 @@
 #include "anatomy/import/import_map.h"
 
-#include <fstream>
-#include <iterator>
 #include <set>
 
 #include "anatomy/base/json_fields.h"
+#include "anatomy/base/whole_file.h"
+#include "anatomy/geometry/pose.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -103,7 +103,7 @@ MapEntry entryFrom(JsonFields fields, const Inherited& inherited) {
   entry.axes = axesField(fields, inherited);
   entry.scale = fields.numberOr("scale", 1, 1e-6, 1e6);
   if (fields.find("translate_mm"))
-    entry.translate = 1e-3 * fields.triple("translate_mm", kFarthest_mm);
+    entry.translate = 1e-3 * unpack(fields.triple("translate_mm", kFarthest_mm));
   colourField(fields, &entry);
   const std::string pieces = fields.textOr("pieces", "all");
   if (pieces != "all" && pieces != "largest")
@@ -120,7 +120,7 @@ MapEntry entryFrom(JsonFields fields, const Inherited& inherited) {
 Vec3 pointFrom(JsonFields fields, const Inherited& inherited) {
   const Unit unit = unitField(fields, inherited);
   const FileAxes axes = axesField(fields, inherited);
-  const Vec3 at = fields.triple("at", kFarthest);
+  const Vec3 at = unpack(fields.triple("at", kFarthest));
   fields.textOr("why", "");
   fields.done();
   return axes.A_from_file * (unit.metres * at);
@@ -188,10 +188,9 @@ ImportMap readImportMap(const std::filesystem::path& file, const MapDefaults& de
   if (failure)
     throw UsageError("cannot be read (" + failure.message() + ")", file.string(), "Check the name");
   if (size > (4u << 20)) throw UsageError("is larger than 4 MiB", file.string(), "Check the name");
-  std::ifstream stream(file, std::ios::binary);
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  if (!stream) throw UsageError("cannot be read", file.string(), "Check its permissions");
-  return parseImportMap(text, file.string(), defaults);
+  const std::optional<std::string> text = readWhole(file);
+  if (!text) throw UsageError("cannot be read", file.string(), "Check its permissions");
+  return parseImportMap(*text, file.string(), defaults);
 }
 
 }  // namespace palpa::anatomy

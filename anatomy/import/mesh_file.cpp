@@ -5,6 +5,8 @@
 #include <fstream>
 #include <iterator>
 
+#include "anatomy/base/bytes.h"
+
 namespace palpa::anatomy {
 namespace {
 
@@ -69,7 +71,7 @@ std::uint32_t cornerOf(const ByteReader& in, std::string_view word, std::size_t 
 }  // namespace
 
 std::vector<RawMesh> readObj(const std::string& bytes, const std::string& where) {
-  ByteReader in(bytes, where);
+  ByteReader in(bytes, where, kMeshRemedy);
   RawMesh mesh;
   while (!in.done()) {
     std::string_view line = in.line();
@@ -152,7 +154,7 @@ bool isText(const std::string& bytes) {
 }  // namespace
 
 std::vector<RawMesh> readStl(const std::string& bytes, const std::string& where) {
-  ByteReader in(bytes, where);
+  ByteReader in(bytes, where, kMeshRemedy);
   return {isText(bytes) ? readText(in) : readBinary(in)};
 }
 

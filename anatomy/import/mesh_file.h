@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "anatomy/base/bytes.h"
+#include "anatomy/base/error.h"
 #include "anatomy/geometry/pose.h"
 
 namespace palpa::anatomy {
@@ -41,6 +41,12 @@ std::vector<RawMesh> readObj(const std::string& bytes, const std::string& where)
 std::vector<RawMesh> readStl(const std::string& bytes, const std::string& where);
 std::vector<RawMesh> readPly(const std::string& bytes, const std::string& where);
 std::vector<RawMesh> readGltf(const std::string& bytes, const std::string& where);
+
+inline constexpr const char* kMeshRemedy = "Export the surface again or take another file";
+
+[[noreturn]] inline void refuseMesh(const std::string& what, const std::string& where) {
+  throw Error(what, where, kMeshRemedy);
+}
 
 /// A polygon as triangles about its first corner.
 inline void addFan(const std::vector<std::uint32_t>& corners, RawMesh* mesh) {

@@ -1,5 +1,6 @@
 #include <optional>
 
+#include "anatomy/base/bytes.h"
 #include "anatomy/import/mesh_file.h"
 
 namespace palpa::anatomy {
@@ -170,7 +171,7 @@ class Body {
 }  // namespace
 
 std::vector<RawMesh> readPly(const std::string& bytes, const std::string& where) {
-  ByteReader in(bytes, where);
+  ByteReader in(bytes, where, kMeshRemedy);
   const Header header = readHeader(in);
   RawMesh mesh;
   Body body(in, header.coding);

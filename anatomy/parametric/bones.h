@@ -8,7 +8,7 @@
 
 namespace palpa::anatomy {
 
-/// The clavicle in frame B, mm (parametric/frame.h). Its centre line is a plane S: curvature
+/// The clavicle in frame B, mm (build.h). Its centre line is a plane S: curvature
 /// +1/66 mm (convex forward) over the medial part, -1/34 mm over the lateral part, scaled with the
 /// length so that the chord is what was asked for; thickness at midshaft as asked for, a bulky
 /// sternal and a flat acromial end.

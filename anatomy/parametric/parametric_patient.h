@@ -21,10 +21,10 @@ struct PatientParameters {
   Extent extent = Extent::torso;
   Sex sex = Sex::male;
   double height = 1.70;
-  double bmi = 25;            ///< kg/m^2
-  double vein_depth = 0.020;  ///< skin to the vein's front wall at the infraclavicular window
-                              ///< (below the middle of the clavicle, where ultrasound sees the vein
-                              ///< beside the bone), along the skin normal
+  double bmi = 25;  ///< kg/m^2
+  /// Skin to the vein's front wall at the infraclavicular window (below the middle of the clavicle,
+  /// where ultrasound sees the vein beside the bone), along the skin normal
+  double vein_depth = 0.020;
   double vein_diameter = 0.009;     ///< at the target, as the next
   double pleura_distance = 0.006;   ///< vein's back wall to the pleura
   double clavicle_length = 0.1494;  ///< chord, sternal to acromial end

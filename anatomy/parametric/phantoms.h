@@ -30,8 +30,7 @@ Patient phantomBlock(const Vec3& size, const std::string& name);
 /// What they hide is an `Organ::inclusion`.
 namespace palpa::anatomy {
 
-inline constexpr double kSiliconeModulus =
-    7e3;  ///< Pa, of the breast mock-up in the literature (MODELS.md, section 5)
+inline constexpr double kSiliconeModulus = 7e3;     ///< Pa, of the breast mock-up in the literature
 inline constexpr double kInclusionModulus = 180e3;  ///< Pa, of its 20 mm inclusion
 
 enum class PhantomKind { breast, abdomen };

@@ -2,13 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
 #include <numbers>
 
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/random.h"
+#include "anatomy/base/whole_file.h"
 #include "anatomy/parametric/build.h"
 #include "anatomy/parametric/feasibility.h"
 #include "anatomy/parametric/parametric_patient.h"
@@ -19,10 +20,10 @@ namespace {
 class Reference {
  public:
   explicit Reference(const std::string& file) : file_(file) {
-    std::ifstream in(file);
-    if (!in) fail("the file cannot be opened", "");
+    const std::optional<std::string> text = readWhole(file);
+    if (!text) fail("the file cannot be opened", "");
     try {
-      json_ = nlohmann::json::parse(in);
+      json_ = parseJson(*text);
     } catch (const nlohmann::json::exception& e) {
       fail(std::string("this is not JSON (") + e.what() + ")", "");
     }
@@ -102,10 +103,10 @@ constexpr int kMostTries = 200;
 // Normal deviate; 0 for the means.
 class Dice {
  public:
-  explicit Dice(std::uint64_t seed) : still_(seed == 0), random_(seed) {}
-  double normal() { return still_ ? 0 : random_.normal(); }
+  explicit Dice(std::uint64_t seed) : still_(seed == 0), random_(RandomStream::ofSeed(seed)) {}
+  double normal() { return still_ ? 0 : random_.openNormal(); }
   bool still() const { return still_; }
-  bool heads() { return !still_ && random_.uniform() < 0.5; }
+  bool heads() { return !still_ && random_.openUniform() < 0.5; }
 
  private:
   bool still_;

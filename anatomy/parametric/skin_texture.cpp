@@ -224,8 +224,8 @@ class SkinPainter {
 }  // namespace
 
 std::array<float, 3> skinTone(std::uint64_t seed) {
-  RandomStream random(seed ^ kToneStream);
-  const double t = seed == 0 ? 1.0 : random.uniform() * (kTones.size() - 1.0);
+  RandomStream random = RandomStream::ofSeed(seed ^ kToneStream);
+  const double t = seed == 0 ? 1.0 : random.openUniform() * (kTones.size() - 1.0);
   const auto i = std::min(static_cast<std::size_t>(t), kTones.size() - 2);
   const float share = static_cast<float>(t - static_cast<double>(i));
   Tone tone;

@@ -1,10 +1,9 @@
 #include "anatomy/patient/gltf_picture.h"
 
-#include <tiny_gltf.h>
-
 #include <cstring>
 
 #include "anatomy/base/error.h"
+#include "anatomy/patient/tinygltf_png.h"
 
 namespace palpa::anatomy {
 namespace {
@@ -21,13 +20,6 @@ constexpr std::size_t kPngOverhead = 65536;  // of a picture that cannot be pack
 std::uint32_t bigEndian(const unsigned char* at) {
   return std::uint32_t{at[0]} << 24 | std::uint32_t{at[1]} << 16 | std::uint32_t{at[2]} << 8 |
          at[3];
-}
-
-// Only what is to be written leaves through this door; nothing is read.
-bool keepBytes(std::string*, const std::string&, const std::vector<unsigned char>& bytes,
-               void* kept) {
-  *static_cast<std::vector<unsigned char>*>(kept) = bytes;
-  return true;
 }
 
 void checkPngHeader(const unsigned char* bytes, std::size_t size, const std::string& where) {
@@ -58,14 +50,8 @@ std::vector<unsigned char> pngOf(const Texture& texture, const std::string& wher
   image.bits = 8;
   image.pixel_type = TINYGLTF_COMPONENT_TYPE_UNSIGNED_BYTE;
   image.image = texture.rgb;
-  std::vector<unsigned char> png;
-  tinygltf::FsCallbacks door{};
-  door.WriteWholeFile = keepBytes;
-  door.user_data = &png;
-  const std::string folder, file = "skin.png";
-  std::string uri;
-  if (!tinygltf::WriteImageData(&folder, &file, &image, false, &uri, &door) || png.empty())
-    refusePicture("cannot be written as PNG", where);
+  std::vector<unsigned char> png = tinygltf_png::encode(image);
+  if (png.empty()) refusePicture("cannot be written as PNG", where);
   return png;
 }
 

@@ -67,9 +67,8 @@ class BoneCapsules {
   std::vector<Capsule> near(const SurfacePoint& nearest, int most) const;
 
   const std::vector<Rod>& rods() const { return rods_; }
-  double rms() const {
-    return rms_;
-  }  ///< of vertices that the fit did not see, where there are such
+  /// Of vertices that the fit did not see, where there are such
+  double rms() const { return rms_; }
 
  private:
   Rod touching(const SurfacePoint& nearest) const;

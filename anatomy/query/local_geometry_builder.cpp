@@ -11,8 +11,8 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kBendReach = 0.015;  // a bone so near may be touched before the next snapshot
-                                      // (0.25 m/s: 4 mm): its bend counts
+// A bone so near may be touched before the next snapshot (0.25 m/s: 4 mm): its bend counts
+constexpr double kBendReach = 0.015;
 constexpr double kFitAhead =
     0.060;  // bones so near to the entry are fitted at once, others when the tool comes near them
 constexpr double kBoneReach = 0.040;  // bones further from tip and shaft are left out

@@ -61,10 +61,10 @@ struct NeedlePasses {
 struct NearMiss {
   Organ organ;
   int surface;
-  double tip;      ///< signed distance of the tip, metres; negative inside
-  double shaft;    ///< of the whole segment: 0 where it runs through the surface, negative where it
-                   ///< is all inside
-  double shaft_s;  ///< where on the shaft: 0 at the tip, 1 at the other end
+  double tip;  ///< signed distance of the tip, metres; negative inside
+  /// Of the whole segment: 0 where it runs through the surface, negative where it is all inside
+  double shaft;
+  double shaft_s;       ///< where on the shaft: 0 at the tip, 1 at the other end
   Vec3 tip_A, shaft_A;  ///< the surface's points nearest to the tip, to the shaft
 };
 

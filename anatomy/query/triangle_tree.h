@@ -33,11 +33,11 @@ class TriangleTree {
   Closest rounded(const Vec3& p) const;
 
   struct SegmentDistance {
-    double signed_distance;  ///< 0 where the segment meets the surface; negative where all of it is
-                             ///< inside
-    double s;                ///< 0..1: the segment's nearest point a + s (b - a)
-    Vec3 p;                  ///< the surface's
-    Vec3 normal;             ///< interpolated there, unit
+    /// 0 where the segment meets the surface; negative where all of it is inside
+    double signed_distance;
+    double s;     ///< 0..1: the segment's nearest point a + s (b - a)
+    Vec3 p;       ///< the surface's
+    Vec3 normal;  ///< interpolated there, unit
   };
   /// Least distance between the segment a-b and the surface, exact: not sampled.
   SegmentDistance nearSegment(const Vec3& a, const Vec3& b) const;

@@ -15,7 +15,7 @@ namespace {
 constexpr std::size_t kMostInflation = 1032;  // of deflate (zlib's technical notes)
 
 [[noreturn]] void refuseVolume(const std::string& what, const std::string& where) {
-  throw Error(what, where, "Export the volume again or take another file");
+  throw Error(what, where, kVolumeRemedy);
 }
 
 template <class T>

@@ -7,6 +7,9 @@
 
 namespace palpa::anatomy {
 
+/// What to do about a file that is not read.
+inline constexpr const char* kVolumeRemedy = "Export the volume again or take another file";
+
 enum class VoxelType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 
 std::size_t bytesOf(VoxelType type);

@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <string_view>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/quantile.h"
+#include "anatomy/base/whole_file.h"
 #include "anatomy/volume/raw_voxels.h"
 #include "anatomy/volume/volume.h"
 
@@ -78,8 +78,7 @@ bool sensible(std::uint32_t tag, std::string_view value) {
 bool soundElements(const std::filesystem::path& file) {
   static constexpr std::string_view kShort = "AEASATCSDADSDTFLFDISLOLTPNSHSLSSSTTMUIULUS",
                                     kLong = "OBODOFOLOWSQUCUNURUT";
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(stream)), {});
+  const std::string bytes = readWhole(file).value_or("");
   if (bytes.size() < 140 || bytes.compare(128, 4, "DICM") != 0) return false;
   const auto among = [](std::string_view kinds, std::string_view kind) {
     for (std::size_t i = 0; i + 1 < kinds.size(); i += 2)
@@ -198,10 +197,7 @@ void checkEven(std::vector<Slice>* slices, const std::string& where) {
                    "Name one series of parallel slices");
     steps.push_back(b.place_mm - a.place_mm);
   }
-  std::vector<double> sorted = steps;
-  std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                   sorted.end());
-  const double usual = sorted[sorted.size() / 2];
+  const double usual = upperMedian(steps);
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const std::string between =
         (*slices)[i].file.filename().string() + " and " + (*slices)[i + 1].file.filename().string();

@@ -26,7 +26,7 @@ std::string trimmed(std::string_view text) {
 class MetaImage {
  public:
   MetaImage(std::string_view bytes, const std::string& where)
-      : bytes_(bytes), where_(where), words_({}, where) {
+      : bytes_(bytes), where_(where), words_({}, where, kVolumeRemedy) {
     parse();
   }
 

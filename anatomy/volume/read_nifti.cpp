@@ -16,7 +16,7 @@ constexpr int kSwappedHeader = 1543569408;  // 348 in the other byte order
 class Nifti {
  public:
   Nifti(std::string_view header, const std::string& where)
-      : header_(header), where_(where), words_({}, where) {
+      : header_(header), where_(where), words_({}, where, kVolumeRemedy) {
     if (header.size() < kHeader) words_.fail("it is too short for NIfTI-1");
     const int size = at<std::int32_t>(0);
     swapped_ = size == kSwappedHeader;
@@ -69,7 +69,7 @@ class Nifti {
  private:
   template <class T>
   T at(std::size_t byte) const {
-    ByteReader reader(header_, where_);
+    ByteReader reader(header_, where_, kVolumeRemedy);
     reader.skip(byte);
     return reader.take<T>(swapped_);
   }

@@ -54,7 +54,7 @@ class RibCage {
   }
   bool holds(const Vec3& p) const { return (p.x() - midline_x_) * side_ > 0; }
 
-  /// The two nearest ends that face each other, until there are none.
+  /// The two nearest ends that face each other, until no such pair is left.
   void join() {
     for (;;) {
       double least = std::numeric_limits<double>::infinity();

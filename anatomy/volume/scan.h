@@ -32,9 +32,9 @@ struct Scan {
   Volume volume;
   VoxelGrid grid;
   Levels levels;
-  Mask body;    ///< without table and clothes, holes filled; clipped: the closed envelope of soft
-                ///< tissue
-  Mask tissue;  ///< what of it is seen as soft tissue or brighter
+  /// Without table and clothes, holes filled; clipped: the closed envelope of soft tissue
+  Mask body;
+  Mask tissue;           ///< what of it is seen as soft tissue or brighter
   double midline_x = 0;  ///< of S: mean of the bone
 
   Vec3 place(const Index3& c) const { return volume.pointToS(Vec3(c[0], c[1], c[2])); }

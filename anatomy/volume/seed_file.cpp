@@ -2,12 +2,11 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <nlohmann/json.hpp>
-#include <sstream>
 
 #include "anatomy/base/bytes.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 
 namespace palpa::anatomy {
@@ -31,8 +30,7 @@ std::string knownNames() {
 }  // namespace
 
 Seeds readSeeds(const std::filesystem::path& file) {
-  std::ifstream stream(file);
-  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  const nlohmann::json json = parsedOrDiscarded(readWhole(file).value_or(""));
   const auto fail = [&](const std::string& what) {
     throw Error(what, file.string(), "Write it anew by a run with another --seeds name");
   };

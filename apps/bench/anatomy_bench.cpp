@@ -38,7 +38,7 @@ Points alongAWay(int count) {
 
 /// Anywhere over the skin, `low` to `high` from it.
 Points anywhere(int count, double low, double high, const char* stream) {
-  runtime::RandomStream random(1, stream);
+  RandomStream random(1, stream);
   Points points;
   for (int i = 0; i < count; ++i) {
     const TorsoPoint at = torsoAt(random.uniform(-0.1, 0.1), random.uniform(-0.08, 0.08));
@@ -105,7 +105,7 @@ struct NeedlePlace {
   Vec3 back, tip;
 };
 std::vector<NeedlePlace> needles(const anatomy::Patient& patient, int count) {
-  runtime::RandomStream random(1, "needles");
+  RandomStream random(1, "needles");
   const Vec3 entry = patient.landmark(anatomy::landmark::kEntry);
   const Vec3 way = (patient.landmark(anatomy::landmark::kVeinTarget) - entry).normalized();
   std::vector<NeedlePlace> places;

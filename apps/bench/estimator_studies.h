@@ -4,16 +4,14 @@
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
+#include "anatomy/geometry/random_vector.h"
 #include "apps/bench/estimate_check.h"
-#include "apps/runtime/random_vector.h"
 #include "calibration/robust_fit.h"
 
 /// What the studies of estimators draw, and how they read a fit.
 namespace palpa::bench::study {
 
-using Random = runtime::RandomStream;
-
-using runtime::normal3;
+using Random = RandomStream;
 Vec3 inBall(Random& random);  ///< of radius 1, evenly
 Vec3 direction(Random& random);
 Mat3 anyRotation(Random& random);

@@ -23,7 +23,7 @@ constexpr double kDeepestLook = 8;  // U
 haptics::TickConfig floorConfig(const task_search::SearchSettings& task,
                                 const station::Station& station) {
   haptics::TickConfig config;
-  config.engine = haptics::Engine::floor;
+  config.contact_mode = haptics::ContactMode::floor;
   config.coupling = station.coupling;
   config.safety = station.safety;
   config.safety.deadman_button = 0;
@@ -44,7 +44,7 @@ struct Look {
 
 /// Anywhere on the floor, or on the textured discs.
 std::vector<Look> drawLooks(const haptics::SearchSurface& surface, bool on_texture, int count) {
-  runtime::RandomStream random(1, on_texture ? "bench.floor.texture" : "bench.floor");
+  RandomStream random(1, on_texture ? "bench.floor.texture" : "bench.floor");
   const haptics::SearchSpec& spec = surface.spec();
   const double half = 0.5 * spec.side;
   std::vector<Look> looks;
@@ -75,7 +75,7 @@ double blockMedian(const std::vector<Look>& looks, Ask ask) {
     each.push_back(1e-3 * static_cast<double>(clock.now() - start) / kBlockOfLooks);
     found = found + sum;
   }
-  return runtime::quantile(each, 0.5);
+  return quantile(each, 0.5);
 }
 
 haptics::DeviceReading readingAt(const Pose& X_DF, const Vec3& p_F) {

@@ -14,9 +14,10 @@ namespace {
 using twin::LedTip;
 
 constexpr double kPressDeep = 7e-3, kHold = 3.0,
-                 kCalmAfter = 2.5;  // m; s of holding, and from when on it must be calm: a light
-                                    // grip rings for two seconds by itself
-constexpr int kStepsPerTick = 8;    // phantom, hand and mechanics do not wait for the loop
+                 // m; s of holding, and from when on it must be calm: a light grip rings for two
+                 // seconds by itself
+    kCalmAfter = 2.5;
+constexpr int kStepsPerTick = 8;  // phantom, hand and mechanics do not wait for the loop
 constexpr std::uint64_t kHandSeed = 31;
 
 /// Down, hold, across, hold, up; three times, deeper each time.
@@ -136,8 +137,8 @@ using twin::LedTip;
 // m, kg: friction holds it at 5 mm of depth, and no more than that is known of the sides
 constexpr double kHalf = 0.03, kMass = 0.02;
 constexpr double kGripDeep = 5e-3, kSqueezed = 7e-3, kLift = 0.03;  // m
-constexpr double kFalls = 1.5, kStill = 2.5;  // s: the support goes; from then on it must be calm:
-                                              // a light grip rings for two seconds by itself
+// s: the support goes; from then on it must be calm: a light grip rings for two seconds by itself
+constexpr double kFalls = 1.5, kStill = 2.5;
 constexpr int kParts = 8;  // a tick's: object, hands and mechanics do not wait for the loop
 constexpr std::uint64_t kGripSeed = 53;
 

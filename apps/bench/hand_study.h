@@ -13,8 +13,8 @@ namespace palpa::bench {
 /// A hand that presses and strokes a simulated phantom with a simulated device while a modulation
 /// runs in closed loop: is it calm, and who gives the energy?
 struct HandFigures {
-  double still_mm_s = 0;  ///< rms of the tool's speed at the ends of holds, the worst hold: where
-                          ///< it swings, it does not die
+  /// Rms of the tool's speed at the ends of holds, the worst hold: where it swings, it does not die
+  double still_mm_s = 0;
   double gained_mJ = 0;  ///< most that the hand has got back beyond what it had put in, at any time
   double largest_N = 0;  ///< that the modulation asks of the device
 };
@@ -66,8 +66,8 @@ struct GripCase {
   bool modulated = true;
 };
 struct GripFigures {
-  HandFigures hands;  ///< gained: by both, beyond what the object, as heavy as it is to feel, has
-                      ///< lost in height
+  /// Gained: by both, beyond what the object, as heavy as it is to feel, has lost in height
+  HandFigures hands;
   double dropped_mm = 0;  ///< how far the object slid down between the tools
 };
 GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one);

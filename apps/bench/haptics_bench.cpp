@@ -172,7 +172,7 @@ double proxyCost(const StrokeSettings& settings, const World& world, const Strok
     const double took_us = 1e-3 * double(clock.now() - start);
     if (f.allFinite()) each.push_back(took_us);
   }
-  return runtime::quantile(each, 0.5);
+  return quantile(each, 0.5);
 }
 
 nlohmann::json paramsOf(const World& world, const StrokeSettings& s) {

@@ -1,3 +1,4 @@
+#include "anatomy/base/quantile.h"
 #include "apps/bench/bench.h"
 
 #include <array>

@@ -1,7 +1,5 @@
 #include "apps/bench/loop_segment.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -9,6 +7,7 @@
 
 #include "apps/bench/bench_patients.h"
 #include "apps/bench/stroke.h"
+#include "apps/os/child_process.h"
 #include "apps/os/local_socket.h"
 #include "apps/os/real_time.h"
 #include "apps/runtime/clock.h"
@@ -42,7 +41,7 @@ constexpr std::int64_t kPicture = 66'000'000;  // ns, as a session tells them
 }  // namespace
 
 Onlookers::Onlookers(int pages)
-    : path_(os::socketFolder() + "/bench-" + std::to_string(::getpid()) + ".sock"),
+    : path_(os::socketFolder() + "/bench-" + std::to_string(os::processNumber()) + ".sock"),
       port_(path_, log_, [](const std::string&) {}),
       link_(path_) {
   for (int i = 0; i < pages; ++i) pages_.emplace_back([this] { look(); });

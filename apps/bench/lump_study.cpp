@@ -174,7 +174,7 @@ haptics::PairConfig everythingOn(haptics::TouchAugmentation law) {
   law.other_friction = 1;
   haptics::PairConfig config;
   for (haptics::TickConfig& tool : config.tools) {
-    tool.engine = haptics::Engine::touch;
+    tool.contact_mode = haptics::ContactMode::sensed_object;
     tool.object_at_port = 1;
     tool.touch = law;
   }

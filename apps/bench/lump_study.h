@@ -23,8 +23,8 @@ haptics::TouchAugmentation lumpOver(const twin::Phantom& lumped, const KnownPhan
 
 /// A lump rendered over the plain phantom, against the phantom that has it.
 struct LumpFigures {
-  double error = 0;  ///< rms of the combined force's error over rms of the combined force, over all
-                     ///< tools that touch
+  /// Rms of the combined force's error over rms of the combined force, over all tools that touch
+  double error = 0;
   double unrendered = 0;   ///< the same with nothing rendered
   double position_mm = 0;  ///< largest error of where the lump is
   int iterations = 0;      ///< most of the solver

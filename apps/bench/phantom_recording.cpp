@@ -16,7 +16,7 @@ const Mat3 kDown =
     (Mat3() << 1, 0, 0, 0, -1, 0, 0, 0, -1).finished();  // z of S points down the tool
 
 twin::SensorTruth biased(std::uint64_t seed) {
-  runtime::RandomStream random(seed, "bench.sensor_bias");
+  RandomStream random(seed, "bench.sensor_bias");
   twin::SensorTruth truth;
   for (double& b : truth.bias_N) b = kBias_N * random.normal();
   return truth;

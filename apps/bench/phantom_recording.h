@@ -52,8 +52,8 @@ const char* nameOf(Noise noise);
 /// One tick on a simulated phantom.
 struct PhantomTick {
   Vec3 tip = Vec3::Zero(), dp = Vec3::Zero();  ///< m, as measured
-  Vec3 f_r = Vec3::Zero();  ///< N, reaction on the tool, as measured: without the tool's weight and
-                            ///< inertia
+  /// N, reaction on the tool, as measured: without the tool's weight and inertia
+  Vec3 f_r = Vec3::Zero();
   Vec3 true_tip = Vec3::Zero();  ///< for the judge only
   twin::PhantomTouch truth;      ///< for the judge only
 };

@@ -67,7 +67,7 @@ Vec3 strokePoint(const StrokeSettings& settings, double t_s) {
 
 haptics::TickConfig strokeConfig(const StrokeSettings& settings) {
   haptics::TickConfig config;
-  config.engine = haptics::Engine::probe;
+  config.contact_mode = haptics::ContactMode::probe;
   config.probe.stiffness = settings.stiffness;
   config.coupling.stiffness = settings.coupling;
   config.passivity.max_damping = 9;  // 0.2 m / T of 45 g at 1 kHz
@@ -176,7 +176,7 @@ TickTiming timeHot(const StrokeSettings& settings, const StrokeResult& stroke, i
     for (int k = 0; k < kBatch; ++k) again.step();
     each.push_back(1e-3 * double(clock.now() - start) / kBatch);
   }
-  return {runtime::quantile(each, 0.5), runtime::quantile(each, 0.99)};
+  return {quantile(each, 0.5), quantile(each, 0.99)};
 }
 
 TickTiming timePaced(const StrokeSettings& settings, const StrokeResult& stroke, double seconds) {
@@ -190,7 +190,7 @@ TickTiming timePaced(const StrokeSettings& settings, const StrokeResult& stroke,
     again.step();
     each.push_back(1e-3 * double(clock.now() - start));
   }
-  return {runtime::quantile(each, 0.5), runtime::quantile(each, 0.99)};
+  return {quantile(each, 0.5), quantile(each, 0.99)};
 }
 
 }  // namespace palpa::bench

@@ -39,7 +39,7 @@ struct Begin {
   Vec3 p = Vec3::Zero(), way = Vec3::UnitX();
   double t = 0;  ///< s
 };
-Begin drawBegin(runtime::RandomStream& random, int run, double resolution) {
+Begin drawBegin(RandomStream& random, int run, double resolution) {
   const double angle =
       run % 4 == 0 ? 0.5 * std::numbers::pi * (run / 4) : random.uniform(0, 2 * std::numbers::pi);
   Begin begin;
@@ -109,7 +109,7 @@ SpeedPart speedPart(const SearchFloor& floor, const std::string& name) {
 }
 
 Latency subtaskLatency(const SpeedPart& part, double acceleration, double resolution, int runs) {
-  runtime::RandomStream random(1, "bench.subtask.latency");
+  RandomStream random(1, "bench.subtask.latency");
   std::vector<double> all;
   for (int run = 0; run < runs; ++run) {
     const Begin begin = drawBegin(random, run, resolution);
@@ -117,11 +117,11 @@ Latency subtaskLatency(const SpeedPart& part, double acceleration, double resolu
     all.push_back(1e3 * latencyOf(part, {slow, fast, acceleration}, begin, resolution, true));
     all.push_back(1e3 * latencyOf(part, {fast, slow, acceleration}, begin, resolution, false));
   }
-  return {runtime::quantile(all, 1), runtime::quantile(all, 0.5)};
+  return {quantile(all, 1), quantile(all, 0.5)};
 }
 
 double switchesPerSecond(const SpeedPart& part, double share, double resolution, int runs) {
-  runtime::RandomStream random(1, "bench.subtask.switches");
+  RandomStream random(1, "bench.subtask.switches");
   int most = 0;
   for (int run = 0; run < runs; ++run) {
     const Begin begin = drawBegin(random, run, resolution);

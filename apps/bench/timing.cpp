@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <limits>
 
 #include "anatomy/base/quantile.h"
 #include "anatomy/base/random.h"
@@ -16,16 +15,9 @@ std::vector<Turn> abbaOrder(int blocks) {
   return order;
 }
 
-double median(std::vector<double> values) {
-  if (values.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(values.begin(), values.end());
-  const std::size_t half = values.size() / 2;
-  return values.size() % 2 ? values[half] : 0.5 * (values[half - 1] + values[half]);
-}
-
 Interval bootstrapMedian(const std::vector<double>& values, int resamples, std::uint64_t seed) {
   if (values.empty()) return {median({}), median({})};
-  runtime::RandomStream random(seed, "bench.bootstrap");
+  RandomStream random(seed, "bench.bootstrap");
   std::vector<double> medians, drawn(values.size());
   for (int i = 0; i < resamples; ++i) {
     for (double& value : drawn)
@@ -33,7 +25,7 @@ Interval bootstrapMedian(const std::vector<double>& values, int resamples, std::
           values[static_cast<std::size_t>(random.uniform() * static_cast<double>(values.size()))];
     medians.push_back(median(drawn));
   }
-  return {runtime::quantile(medians, 0.025), runtime::quantile(medians, 0.975)};
+  return {quantile(medians, 0.025), quantile(medians, 0.975)};
 }
 
 namespace {
@@ -42,7 +34,7 @@ constexpr int kTogether = 16;
 constexpr int kTimingResamples = 2000;
 
 QueryTiming timingOf(const std::vector<double>& each_us) {
-  return {runtime::quantile(each_us, 0.5), runtime::quantile(each_us, 0.99)};
+  return {quantile(each_us, 0.5), quantile(each_us, 0.99)};
 }
 
 double timeAll(const runtime::SteadyClock& clock, int count, const std::function<void(int)>& ask) {

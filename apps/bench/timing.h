@@ -12,9 +12,6 @@ enum class Turn { a, b };
 /// A B B A, `blocks` times: within a block a steady drift adds the same to both.
 std::vector<Turn> abbaOrder(int blocks);
 
-/// Middle value, the mean of the two in the middle of an even number; NaN for none.
-double median(std::vector<double> values);
-
 struct Interval {
   double low = 0, high = 0;
 };

@@ -52,7 +52,7 @@ class TrackingBench {
   /// Errors of the pose against what corners of the noise that they truly have permit (Cramer-Rao),
   /// all views together.
   void bound() const {
-    runtime::RandomStream random(o_.seed, "bench.tracking.bound");
+    RandomStream random(o_.seed, "bench.tracking.bound");
     struct One {
       Vector6 error;
       Matrix6 information;
@@ -173,7 +173,7 @@ class TrackingBench {
   /// Pictures after an occlusion until the pose is there again and true; the board meanwhile
   /// carried elsewhere.
   void recovery() const {
-    runtime::RandomStream random(o_.seed, "bench.tracking.recovery");
+    RandomStream random(o_.seed, "bench.tracking.recovery");
     int worst = 0;
     std::uint64_t number = 0;
     const cv::Mat hidden(o_.height, o_.width, CV_8U, cv::Scalar(90));
@@ -215,7 +215,7 @@ class TrackingBench {
   /// A flip: the board's normal is nearer to its mirror image about the line of sight than to the
   /// truth.
   void flips() const {
-    runtime::RandomStream random(o_.seed, "bench.tracking.flips");
+    RandomStream random(o_.seed, "bench.tracking.flips");
     int flipped = 0, posed = 0;
     double worst_deg = 0;
     const int views = count(400);

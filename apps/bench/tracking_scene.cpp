@@ -56,8 +56,7 @@ Pose TrackingScene::view(double distance, double tilt, double azimuth, double ro
   return makePose(R, Vec3(0, 0, distance));
 }
 
-Pose TrackingScene::anyView(runtime::RandomStream& random, double distance,
-                            double most_tilt) const {
+Pose TrackingScene::anyView(RandomStream& random, double distance, double most_tilt) const {
   constexpr double kTurn = 2 * std::numbers::pi;
   const double tilt = most_tilt * random.uniform(), azimuth = kTurn * random.uniform(),
                roll = kTurn * random.uniform();
@@ -96,8 +95,6 @@ Vec3 HandMotion::velocity(double t, const Vec3& p_W) const {
 }
 
 namespace {
-
-using runtime::RandomStream;
 
 int below(RandomStream& random, int n) {
   return static_cast<int>(random.bits() % static_cast<std::uint64_t>(n));

@@ -24,7 +24,7 @@ class TrackingScene {
   /// From `distance`, `tilt` away from straight above, round the board by `azimuth`, rolled; its
   /// middle in the middle of the picture. rad, m.
   static Pose view(double distance, double tilt, double azimuth, double roll);
-  Pose anyView(runtime::RandomStream& random, double distance, double most_tilt) const;
+  Pose anyView(RandomStream& random, double distance, double most_tilt) const;
 
   cv::Mat still(const Pose& X_CW, std::uint64_t number) const;
   /// Of a motion: the mean of what was there while the shutter was open about t.

@@ -37,7 +37,7 @@ std::string sparks(const std::vector<double>& values, double most) {
   return line;
 }
 
-/// Live: what was felt in the last second or so, beside what the law so far foretells.
+/// Live: what was felt in the last second or so, beside what the law so far predicts.
 class LivePlot {
  public:
   void add(const FeltSample& sample, double dt) {
@@ -46,24 +46,24 @@ class LivePlot {
     estimator_.add({x, rate, sample.f_P.z()});
     if (++count_ % kLiveEvery != 0) return;
     felt_.push_back(std::max(sample.f_P.z(), 0.0));
-    foretold_.push_back(haptics::forceOf(estimator_.law(), x, rate));
+    predicted_.push_back(haptics::forceOf(estimator_.law(), x, rate));
     if (felt_.size() > kShownColumns) {
       felt_.erase(felt_.begin());
-      foretold_.erase(foretold_.begin());
+      predicted_.erase(predicted_.begin());
     }
   }
   std::string words() const {
     if (felt_.empty()) return "";
     const double most = std::max(*std::max_element(felt_.begin(), felt_.end()),
-                                 *std::max_element(foretold_.begin(), foretold_.end()));
-    return "felt " + sparks(felt_, most) + " foretold " + sparks(foretold_, most);
+                                 *std::max_element(predicted_.begin(), predicted_.end()));
+    return "felt " + sparks(felt_, most) + " predicted " + sparks(predicted_, most);
   }
 
  private:
   calibration::PressEstimator estimator_;
   std::optional<double> before_;
   std::size_t count_ = 0;
-  std::vector<double> felt_, foretold_;
+  std::vector<double> felt_, predicted_;
 };
 
 /// Reading and wrench as a touch of the sample.

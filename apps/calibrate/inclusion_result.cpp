@@ -35,7 +35,7 @@ Rendered render(const haptics::VirtualInclusion& lump, const calibration::SoftCo
     if (i % every == 0) {
       const double t = samples.check.dt * static_cast<double>(i);
       r.plot.dots.push_back({t, std::max(s.f_r.z(), 0.0), false});
-      r.plot.foretold.push_back({t, std::max(both.z(), 0.0), false});
+      r.plot.predicted.push_back({t, std::max(both.z(), 0.0), false});
     }
     if (s.f_r.norm() < kLeastPressed_N) continue;
     off += std::pow(both.z() - s.f_r.z(),

@@ -38,11 +38,11 @@ void drawFramed(Html& html, const ChartFrame& frame, const Plot& plot, double fi
     svgLine(html, "grid", x.from_px, y.at(value), x.to_px, y.at(value));
     svgText(html, "tick end", x.from_px - 8, y.at(value) + 4, ticks.label(value) + " " + plot.y);
   }
-  if (!plot.foretold.empty()) {
+  if (!plot.predicted.empty()) {
     std::string way;
-    for (const Plot::Dot& dot : plot.foretold)
+    for (const Plot::Dot& dot : plot.predicted)
       way += (way.empty() ? "M" : " L") + coordinate(x.at(dot.x)) + " " + coordinate(y.at(dot.y));
-    svgPath(html, "foretold", way);
+    svgPath(html, "predicted", way);
   }
   drawDots(html, plot, x, y);
   drawTimeAxis(html, roomy, x, kPlotTop + kPlotHeight, plot.x);
@@ -63,8 +63,8 @@ void drawPlot(Html& html, const Plot& plot) {
   html.element("h3", plot.title);
   for (const ChartFrame& frame : {kWide, kNarrow})
     drawFramed(html, frame, plot, first, last, niceCeiling(most));
-  if (!plot.foretold.empty())
-    html.element("figcaption", "Dots: measured. Line: what the result foretells.");
+  if (!plot.predicted.empty())
+    html.element("figcaption", "Dots: measured. Line: what the result predicts.");
   if (any_out) html.element("figcaption", "Crosses: left out, because they do not fit the others.");
 }
 
@@ -100,7 +100,7 @@ void drawCoverage(Html& html, const Coverage& coverage) {
 }
 
 std::string plotStyle() {
-  return ".seen{fill:var(--blue)}.foretold{stroke:var(--ink,currentColor);stroke-width:1.5;fill:"
+  return ".seen{fill:var(--blue)}.predicted{stroke:var(--ink,currentColor);stroke-width:1.5;fill:"
          "none}.out{stroke:var(--bad);stroke-width:2;fill:none}.end{text-anchor:end}"
          ".cell{fill:var(--blue)}.cell.none{fill:none;stroke:var(--muted);stroke-dasharray:3 "
          "3}.coverage{max-width:100%;height:auto}"

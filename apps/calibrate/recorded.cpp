@@ -9,6 +9,8 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
+#include "anatomy/base/whole_file.h"
 #include "ar/cameras/recorded_pictures.h"
 #include "calibration/rotation.h"
 
@@ -134,8 +136,7 @@ json listIn(const std::filesystem::path& file) {
     throw Error("cannot be read (" + error.message() + ")", file.string(), "Check the name");
   if (size > kLargestList)
     throw Error("is larger than 64 MB", file.string(), "Record for a shorter time");
-  std::ifstream stream(file);
-  json list = json::parse(stream, nullptr, false);
+  json list = parsedOrDiscarded(readWhole(file).value_or(""));
   if (!list.is_array() || list.empty())
     throw Error("holds no list", file.string(), "Give a list of 4x4 matrices, in metres");
   return list;

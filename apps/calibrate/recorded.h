@@ -46,7 +46,7 @@ class SampleTable {
 
 }  // namespace palpa::calibrate
 
-/// Recorded samples: tables (sample_table.h) and pictures. Columns and their units are named in
+/// Recorded samples: tables (SampleTable) and pictures. Columns and their units are named in
 /// each function. All throw Error with file and line.
 namespace palpa::calibrate {
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/quantile.h"
 #include "apps/calibrate/results.h"
 #include "calibration/registration.h"
 #include "calibration/rotation.h"
@@ -103,9 +104,7 @@ double seenScale(const std::vector<calibration::HandEyeSample>& tag, const Vec3&
         ratios.push_back((tag[i].X_CM.translation() - tag[j].X_CM.translation()).norm() / device);
     }
   if (ratios.empty()) return 1;
-  std::nth_element(ratios.begin(), ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2),
-                   ratios.end());
-  return ratios[ratios.size() / 2];
+  return upperMedian(std::move(ratios));
 }
 
 /// A board or tag that is not as large as stated makes every distance wrong alike.

@@ -15,7 +15,7 @@ struct Plot {
     bool left_out = false;
   };
   std::vector<Dot> dots;
-  std::vector<Dot> foretold = {};  ///< a line: what the found law says
+  std::vector<Dot> predicted = {};  ///< a line: what the found law says
 };
 
 /// How many times something was seen in each part of the picture, row by row from the top.

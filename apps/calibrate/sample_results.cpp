@@ -84,7 +84,7 @@ Plot forceOverDepth(const calibration::SoftContact& found,
     deepest = std::max(deepest, presses[i].x);
   }
   for (double x = std::max(found.x0, 0.0); x < deepest; x += deepest / 60)
-    plot.foretold.push_back(
+    plot.predicted.push_back(
         {1e3 * x, haptics::forceOf(found.law, x - found.x0, kSlowPress), false});
   return plot;
 }
@@ -143,15 +143,15 @@ double noiseOf(const std::vector<calibration::SlideSample>& slides) {
 }
 
 /// The law run over the whole recording, for what drags now depends on the way before; what it
-/// foretells along x from `from` on, and how much it errs there beyond the noise, in percent of the
+/// predicts along x from `from` on, and how much it errs there beyond the noise, in percent of the
 /// rms drag.
-struct Foretold {
+struct Prediction {
   std::vector<double> drag;
   double off_percent = 0;
 };
-Foretold foretell(const haptics::Dahl& law, const std::vector<calibration::SlideSample>& slides,
-                  std::size_t from, double dt) {
-  Foretold told;
+Prediction predict(const haptics::Dahl& law, const std::vector<calibration::SlideSample>& slides,
+                   std::size_t from, double dt) {
+  Prediction told;
   haptics::DahlState state;
   const double noise = noiseOf(slides);
   double off = 0, all = 0;
@@ -170,14 +170,14 @@ Foretold foretell(const haptics::Dahl& law, const std::vector<calibration::Slide
 }
 
 /// How far it has slid, against how hard it was dragged: sizes, for an axis that begins at zero.
-Plot dragOverTime(const std::vector<calibration::SlideSample>& slides, const Foretold& told,
+Plot dragOverTime(const std::vector<calibration::SlideSample>& slides, const Prediction& told,
                   double dt) {
   Plot plot{"Friction while stroking", "s", "N", {}};
   const std::size_t every = std::max<std::size_t>(1, slides.size() / kShownSlides);
   for (std::size_t i = 0; i < slides.size(); i += every) {
     const double t = dt * static_cast<double>(i);
     plot.dots.push_back({t, std::abs(slides[i].drag.x()), false});
-    plot.foretold.push_back({t, std::abs(told.drag[i]), false});
+    plot.predicted.push_back({t, std::abs(told.drag[i]), false});
   }
   return plot;
 }
@@ -188,7 +188,7 @@ Result frictionResult(const FeltSamples& felt, const Origin& origin) {
   const std::vector<calibration::SlideSample> fitted = slidesOf(toFit(felt)),
                                               judged = slidesOf(toJudge(felt));
   const calibration::SurfaceFriction found = calibration::identifySurfaceFriction(fitted, felt.dt);
-  const Foretold told = foretell(found.law, slidesOf(felt), fitted.size(), felt.dt);
+  const Prediction told = predict(found.law, slidesOf(felt), fitted.size(), felt.dt);
   Result r;
   r.title = "Friction of the sample";
   r.file = begun(origin, "friction", kFrictionGoodFor_days);

@@ -59,7 +59,7 @@ station::AppliedCalibration asFile(const Result& result) {
   station::AppliedCalibration kept;
   kept.path = result.file.kind + ".json";
   kept.file = result.file;
-  kept.sha256 = kept.sha256_wanted = station::sha256(station::textOf(result.file));
+  kept.sha256 = kept.sha256_wanted = sha256(station::textOf(result.file));
   return kept;
 }
 

@@ -155,7 +155,7 @@ void drawStatesCurve(Html& html, const SubtaskSegmentation& found) {
   html.element(
       "figcaption",
       "Above: log likelihood of trials that were held out, nats for each step; bars are standard "
-      "errors over trials. Higher foretells better. Below: whether two halves of the trials "
+      "errors over trials. Higher predicts better. Below: whether two halves of the trials "
       "find the same segmentation (1: the same). Ringed: the number taken.");
 }
 

@@ -28,7 +28,7 @@ const SubtaskFeatureName& subtaskFeatureName(int feature) {
 
 /// As the parts' cue "contact_force" has it: sensed of a real thing, else computed.
 Vec3 SubtaskSteps::forceOn(const haptics::FlightRecord& record) const {
-  const bool sensed = config_.engine == haptics::Engine::touch &&
+  const bool sensed = config_.contact_mode == haptics::ContactMode::sensed_object &&
                       record.sensed.state == haptics::SensorState::valid;
   return unpack(sensed ? record.sensed.f_D : record.f_contact_D);
 }

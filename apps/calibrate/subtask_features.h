@@ -32,8 +32,8 @@ struct SubtaskSequence {
   std::string trial;         ///< "search, trial 3"
   double begins_s = 0;       ///< of session time
   Eigen::MatrixXd features;  ///< steps x kSubtaskFeatures
-  std::vector<int> labels;   ///< bits of the parts that were on for most of the step; of equals
-                             ///< those that came first
+  /// Bits of the parts that were on for most of the step; of equals those that came first
+  std::vector<int> labels;
 };
 
 /// Gathers the steps of one trial: every tick of tool 0 that was armed, not held and told finite

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "apps/record/session_file.h"
 
@@ -15,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 json parsedText(const std::string& text, const std::string& what, const std::string& file) {
-  const json parsed = json::parse(text, nullptr, false);
+  const json parsed = parsedOrDiscarded(text);
   if (!parsed.is_object())
     throw Error("the description of its " + what + " is damaged", file,
                 "Restore the file from a backup");
@@ -23,7 +24,7 @@ json parsedText(const std::string& text, const std::string& what, const std::str
 }
 
 /// A set-up mistake in what was recorded is no mistake in the call.
-station::NamedPlan recordedPlan(const station::JsonFile& task) {
+station::NamedPlan recordedPlan(const JsonFile& task) {
   try {
     return station::readPlan(task);
   } catch (const UsageError& e) {
@@ -32,9 +33,9 @@ station::NamedPlan recordedPlan(const station::JsonFile& task) {
 }
 
 /// By what the parts are told, in order.
-json conditionsOf(const station::JsonFile& task) {
+json conditionsOf(const JsonFile& task) {
   json conditions = json::array({task.json().value("learned", json())});
-  for (const station::JsonFile& part : task.entries("subtasks"))
+  for (const JsonFile& part : task.entries("subtasks"))
     conditions.push_back(part.json().value("on", json::array()));
   return conditions;
 }
@@ -84,15 +85,14 @@ std::string recordingName(const std::vector<std::filesystem::path>& files, std::
 }
 
 struct RecordedTask {
-  station::JsonFile file;
+  JsonFile file;
   json conditions;
   station::NamedPlan plan;
 };
 
 RecordedTask recordedTaskOf(const record::SessionReader& reader, const std::string& file) {
   RecordedTask task;
-  task.file =
-      station::JsonFile(parsedText(reader.info().task_json, "task", file), file + ", its task");
+  task.file = JsonFile(parsedText(reader.info().task_json, "task", file), file + ", its task");
   task.plan = recordedPlan(task.file);
   if (task.plan.empty())
     throw Error(
@@ -147,10 +147,10 @@ SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>
       else
         all.sequences.push_back(std::move(sequence));
     }
-    all.files.push_back({files[i].filename().string(), station::sha256OfFile(files[i])});
+    all.files.push_back({files[i].filename().string(), sha256OfFile(files[i])});
   }
   if (task.empty()) return all;
-  const station::JsonFile named(task);
+  const JsonFile named(task);
   const station::NamedPlan plan = station::readPlan(named);
   if (plan.empty())
     throw UsageError("names no parts (\"subtasks\")", task.string(),

@@ -9,8 +9,9 @@
 
 namespace palpa::calibrate {
 
-inline constexpr double kRepeats = 0.8;  ///< adjusted Rand index of two halves of the trials from
-                                         ///< which on a segmentation is called repeatable [chosen]
+/// Adjusted Rand index of two halves of the trials from which on a segmentation is called
+/// repeatable [chosen]
+inline constexpr double kRepeats = 0.8;
 
 /// The segmentation as a file of kind "subtasks", and in words for an educator. Says how the
 /// proposed and the hand-written segmentation agree, not which is right. Parameters: states,

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/quantile.h"
 #include "anatomy/base/random.h"
 
 namespace palpa::calibrate {
@@ -174,12 +175,6 @@ std::vector<int> endToEnd(const std::vector<std::vector<int>>& parts) {
   return all;
 }
 
-double medianOf(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
-
 /// A feature of the steps in a state, of all sequences.
 std::vector<double> valuesOf(const std::vector<SubtaskSequence>& sequences,
                              const std::vector<std::vector<int>>& paths, int state, int feature) {
@@ -216,13 +211,13 @@ SubtaskAgreement agreementOf(const std::vector<std::vector<int>>& paths,
 /// another time.
 ChanceAgreement agreementByChance(const std::vector<std::vector<int>>& paths,
                                   const std::vector<std::vector<int>>& labels, std::uint64_t seed) {
-  anatomy::RandomStream random(seed);
+  RandomStream random = RandomStream::ofSeed(seed);
   std::vector<double> kappa, rand, f;
   for (int i = 0; i < kShiftings; ++i) {
     std::vector<std::vector<int>> shifted = labels;
     for (std::vector<int>& one : shifted)
       std::rotate(one.begin(),
-                  one.begin() + static_cast<std::ptrdiff_t>((0.1 + 0.8 * random.uniform()) *
+                  one.begin() + static_cast<std::ptrdiff_t>((0.1 + 0.8 * random.openUniform()) *
                                                             static_cast<double>(one.size())),
                   one.end());
     const SubtaskAgreement agreement = agreementOf(paths, shifted);
@@ -241,7 +236,7 @@ std::vector<StateLook> looksOf(const std::vector<SubtaskSequence>& sequences,
   for (std::size_t row = 0; row < s.steps.one.size(); ++row) {
     const int state = s.steps.one[row];
     const auto median = [&](int feature) {
-      return std::exp(medianOf(valuesOf(sequences, s.paths, state, feature)));
+      return std::exp(upperMedian(valuesOf(sequences, s.paths, state, feature)));
     };
     const Eigen::VectorXi counts = s.steps.counts.row(static_cast<Eigen::Index>(row)).transpose();
     const double steps = counts.sum();

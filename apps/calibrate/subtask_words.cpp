@@ -91,7 +91,7 @@ Sentences howMany(const SubtaskRecordings& recordings, const SubtaskSegmentation
       " s in all. " +
       (found.states == std::min(p.states, p.repeatable) ? "Proposed: " : "Taken, as asked: ") +
       many(static_cast<std::size_t>(found.states), "state") + ".");
-  s.push_back("Trials that were held out are foretold best by " +
+  s.push_back("Trials that were held out are predicted best by " +
               many(static_cast<std::size_t>(p.best), "state") +
               "; as well within one standard error by " + std::to_string(p.states) +
               ". Fits to two halves of the trials find the same for up to " +

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "anatomy/base/error.h"
+#include "apps/os/file_access.h"
 #include "apps/record/store/record_store.h"
 #include "apps/record/store/sql_connection.h"
 
@@ -202,10 +203,7 @@ void makeFolderOf(const std::string& url) {
 
 std::string usualRecords() {
   if (const char* url = std::getenv("PALPA_RECORDS"); url && *url) return url;
-  if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data == '/')
-    return (fs::path(data) / "palpa/records.sqlite").string();
-  const char* home = std::getenv("HOME");
-  return (fs::path(home && *home ? home : ".") / ".local/share/palpa/records.sqlite").string();
+  return (os::dataFolder(".") / "palpa/records.sqlite").string();
 }
 
 std::string usualRecordsMade() {

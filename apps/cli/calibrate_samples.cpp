@@ -1,9 +1,9 @@
 #include "apps/cli/calibrate_samples.h"
 
 #include "anatomy/base/error.h"
-#include "apps/calibrate/results.h"
 #include "apps/calibrate/collect.h"
 #include "apps/calibrate/recorded.h"
+#include "apps/calibrate/results.h"
 #include "apps/station/assets.h"
 #include "apps/twin/phantom/phantom_file.h"
 

@@ -1,8 +1,3 @@
-#include "apps/cli/commands.h"
-#include "apps/runtime/clock.h"
-
-#include <unistd.h>
-
 #include <cstdio>
 #include <memory>
 
@@ -14,7 +9,10 @@
 #include "apps/calibrate/sequence.h"
 #include "apps/calibrate/watched_picture.h"
 #include "apps/cli/calibrate_samples.h"
+#include "apps/cli/commands.h"
 #include "apps/cli/setup_accuracy.h"
+#include "apps/os/file_access.h"
+#include "apps/runtime/clock.h"
 #include "apps/session/output_folder.h"
 #include "apps/station/assets.h"
 #include "ar/cameras/recorded_pictures.h"
@@ -29,7 +27,7 @@ using namespace calibrate;
 class TerminalGuide final : public Guide {
  public:
   TerminalGuide(bool quiet, bool person, WatchedPicture* watched)
-      : quiet_(quiet), person_(person), watched_(watched), terminal_(isatty(STDERR_FILENO)) {}
+      : quiet_(quiet), person_(person), watched_(watched), terminal_(os::errorsGoToTerminal()) {}
   ~TerminalGuide() override {
     if (open_) std::fputs("\n", stderr);
   }
@@ -77,7 +75,7 @@ Origin originOf(const CalibrateOptions& o, const station::Station& station) {
   std::vector<std::filesystem::path> files = o.tables();
   if (!o.images.empty()) files = ar::ImageSequence(o.images, 1).files();
   for (const std::filesystem::path& file : files)
-    origin.files.push_back({file.filename().string(), station::sha256OfFile(file)});
+    origin.files.push_back({file.filename().string(), sha256OfFile(file)});
   return origin;
 }
 

@@ -1,9 +1,5 @@
 #include "apps/cli/commands.h"
 
-#include <spawn.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <cstdio>
 #include <cstdlib>
 #include <fstream>
@@ -12,12 +8,12 @@
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
 #include "apps/console/console.h"
+#include "apps/os/child_process.h"
+#include "apps/os/file_access.h"
 #include "apps/os/local_socket.h"
 #include "apps/session/event_tone.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
-
-extern char** environ;
 
 namespace palpa::cli {
 namespace {
@@ -32,21 +28,16 @@ struct ConsoleOptions {
   bool open = true;
 };
 
-fs::path usualHome() {
-  if (const char* data = std::getenv("XDG_DATA_HOME"); data && *data == '/')
-    return fs::path(data) / "palpa/console";
-  const char* home = std::getenv("HOME");
-  return fs::path(home && *home ? home : ".") / ".local/share/palpa/console";
-}
+fs::path usualHome() { return os::dataFolder(".") / "palpa/console"; }
 
 /// The first line; a file that others may read gives its token away.
 std::string tokenIn(const std::string& file) {
   if (file.empty()) return "";
-  struct stat facts {};
-  if (::stat(file.c_str(), &facts) != 0)
+  const os::Privacy privacy = os::privacyOf(file);
+  if (privacy == os::Privacy::missing)
     throw UsageError("is not there", "--token-file " + file,
                      "Write a token of at least 16 letters and digits into it");
-  if ((facts.st_mode & 0077) != 0)
+  if (privacy == os::Privacy::shared)
     throw UsageError("may be read by others", "--token-file " + file, "chmod 600 " + file);
   std::string token;
   std::getline(std::ifstream(file), token);
@@ -57,10 +48,7 @@ std::string tokenIn(const std::string& file) {
 }
 
 void openInBrowser(const std::string& url) {
-  std::string program = "xdg-open", page = url;
-  char* argv[] = {program.data(), page.data(), nullptr};
-  pid_t pid = 0;
-  if (posix_spawnp(&pid, "xdg-open", nullptr, nullptr, argv, environ) != 0)
+  if (!os::startProgram("xdg-open", {url}))
     std::fprintf(stderr, "No browser could be opened: type the address into one\n");
 }
 

@@ -1,7 +1,5 @@
 #include "apps/cli/patient_sources.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <filesystem>
@@ -14,6 +12,7 @@
 #include "anatomy/volume/scan.h"
 #include "anatomy/volume/seed_file.h"
 #include "anatomy/volume/volume.h"
+#include "apps/os/file_access.h"
 
 namespace palpa::cli {
 namespace {
@@ -59,14 +58,14 @@ void writePreviews(const anatomy::CtPatient& ct, const std::filesystem::path& fo
 }
 
 void tellStep(const std::string& step, double done) {
-  const bool terminal = isatty(STDERR_FILENO) != 0;
+  const bool terminal = os::errorsGoToTerminal();
   std::fprintf(stderr, terminal ? "\r%3.0f %%  %s \033[K" : "%3.0f %%  %s\n", 100 * done,
                step.c_str());
   std::fflush(stderr);
 }
 
 void tellResult(const anatomy::CtPatient& ct) {
-  if (isatty(STDERR_FILENO)) std::fputs("\r\033[K", stderr);
+  if (os::errorsGoToTerminal()) std::fputs("\r\033[K", stderr);
   for (const std::string& words : ct.remarks) std::printf("%s.\n", words.c_str());
   std::printf("Points (mm in the volume's frame); change one and run again:\n");
   for (const auto& [name, p] : ct.seeds)

@@ -1,9 +1,8 @@
-#include <unistd.h>
-
 #include <cstdio>
 #include <memory>
 
 #include "apps/cli/commands.h"
+#include "apps/os/file_access.h"
 #include "apps/station/assets.h"
 #include "apps/twin/phantom/phantom_file.h"
 
@@ -20,7 +19,7 @@ void solve(const SolveOptions& o) {
   const std::filesystem::path out =
       o.out.empty() ? std::filesystem::path(file).replace_extension(".tables.json")
                     : std::filesystem::path(o.out);
-  const bool terminal = isatty(STDERR_FILENO);
+  const bool terminal = os::errorsGoToTerminal();
   twin::solvePhantoms(file, out, [&](const std::string& name, int done, int of) {
     if (terminal || done == of)
       std::fprintf(stderr, "%s%s: %d of %d%s", terminal ? "\r" : "", name.c_str(), done, of,

@@ -1,4 +1,3 @@
-#include <unistd.h>
 
 #include <algorithm>
 #include <cstdio>
@@ -11,6 +10,8 @@
 #include "apps/link/data_tables.h"
 #include "apps/link/statement.h"
 #include "apps/link/tell.h"
+#include "apps/os/child_process.h"
+#include "apps/os/file_access.h"
 #include "apps/record/store/migrations.h"
 #include "apps/session/output_folder.h"
 
@@ -52,7 +53,7 @@ void backUpRecords(const RecordsOptions& o) {
   if (fs::exists(o.out))
     throw UsageError("is there already, and a backup never overwrites", o.out,
                      "Give another name, such as one with today's date");
-  const PassingFile beside(o.out + "." + std::to_string(::getpid()) + ".part");
+  const PassingFile beside(o.out + "." + std::to_string(os::processNumber()) + ".part");
   const std::size_t rows = copied(o.url, beside.name());
   std::error_code problem;
   fs::rename(beside.name(), o.out, problem);
@@ -66,11 +67,10 @@ void restoreRecords(const RecordsOptions& o) {
   if (!fs::is_regular_file(o.from))
     throw UsageError("is no file", o.from, "Give a backup that palpa records backup wrote");
   requireRecords(o.from);
-  std::string folder = (fs::temp_directory_path() / "palpa-restore-XXXXXX").string();
-  if (!::mkdtemp(folder.data()))
-    throw Error("cannot be made", folder, "Free space there, or set TMPDIR");
-  const PassingFile own{fs::path(folder)};
-  const PassingFile copy(fs::path(folder) / fs::path(o.from).filename());
+  const os::TemporaryFolder folder("palpa-restore-");
+  if (!folder.made())
+    throw Error("cannot be made", folder.path().string(), "Free space there, or set TMPDIR");
+  const PassingFile copy(folder.path() / fs::path(o.from).filename());
   std::error_code problem;
   fs::copy_file(o.from, copy.name(), fs::copy_options::overwrite_existing, problem);
   if (problem)

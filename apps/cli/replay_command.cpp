@@ -5,11 +5,13 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "apps/cli/commands.h"
 #include "apps/cli/replay_view.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/record/session_file.h"
+#include "apps/station/engine.h"
 
 namespace palpa::cli {
 namespace {
@@ -30,7 +32,7 @@ bool sameNeedleScores(const std::string& file) {
   session.eachTrial(
       [&](const record::RecordedTrial& trial, const evidence::RecordedSession::Samples& samples) {
         if (!hasScore(trial)) return;
-        const nlohmann::json scores = nlohmann::json::parse(trial.end.scores_json);
+        const nlohmann::json scores = parseJson(trial.end.scores_json);
         if (session.hasGoal()) {
           const assess::TrialAssessment reached = session.rescore(trial, samples);
           const bool equal = scores.at("TIME") == reached.values.time_ms &&
@@ -54,8 +56,8 @@ bool samePalpationScores(const record::SessionReader& reader) {
   bool same = true;
   for (const evidence::RecordedPalpation& trial : evidence::recordedPalpations(reader)) {
     if (!hasScore(trial.recorded)) continue;
-    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) ==
-                       nlohmann::json::parse(task_palpation::scoreJson(trial.assessment));
+    const bool equal = parseJson(trial.recorded.end.scores_json) ==
+                       parseJson(task_palpation::scoreJson(trial.assessment));
     std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, trial.assessment.summary.c_str(),
                 equal ? "" : "  DIFFERENT from the recorded score");
     same = same && equal;
@@ -67,8 +69,8 @@ bool sameSqueezeScores(const record::SessionReader& reader) {
   bool same = true;
   for (const evidence::RecordedSqueeze& trial : evidence::recordedSqueezes(reader)) {
     if (!hasScore(trial.recorded)) continue;
-    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) ==
-                       nlohmann::json::parse(task_squeeze::scoreJson(trial.again));
+    const bool equal = parseJson(trial.recorded.end.scores_json) ==
+                       parseJson(task_squeeze::scoreJson(trial.again));
     std::printf("Trial %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(),
                 equal ? "" : "  DIFFERENT from the recorded score");
     same = same && equal;
@@ -80,8 +82,8 @@ bool sameSearchScores(const record::SessionReader& reader) {
   bool same = true;
   for (const evidence::RecordedSearch& trial : evidence::recordedSearches(reader)) {
     if (!hasScore(trial.recorded)) continue;
-    const bool equal = nlohmann::json::parse(trial.recorded.end.scores_json) ==
-                       nlohmann::json::parse(task_search::scoreJson(trial.again));
+    const bool equal =
+        parseJson(trial.recorded.end.scores_json) == parseJson(task_search::scoreJson(trial.again));
     std::printf("Episode %d: %s%s\n", trial.recorded.header.trial, summaryOf(trial.again).c_str(),
                 equal ? "" : "  DIFFERENT from the recorded score");
     same = same && equal;
@@ -90,10 +92,17 @@ bool sameSearchScores(const record::SessionReader& reader) {
 }
 
 bool sameScores(const record::SessionReader& reader, const std::string& file) {
-  const std::string engine = evidence::engineOf(reader);
-  if (engine == "palpation") return samePalpationScores(reader);
-  if (engine == "surface") return sameSearchScores(reader);
-  return engine == "squeeze" ? sameSqueezeScores(reader) : sameNeedleScores(file);
+  switch (evidence::engineOf(reader)) {
+    case station::Engine::palpation:
+      return samePalpationScores(reader);
+    case station::Engine::search:
+      return sameSearchScores(reader);
+    case station::Engine::squeeze:
+      return sameSqueezeScores(reader);
+    case station::Engine::needle:
+      break;
+  }
+  return sameNeedleScores(file);
 }
 
 void tellForces(const record::SessionReader& reader) {
@@ -107,7 +116,8 @@ void tellForces(const record::SessionReader& reader) {
 
 void replay(const std::string& file) {
   const record::SessionReader reader(file);
-  const evidence::ReplayCheck check = evidence::replayTicks(reader, evidence::recordedFloors(reader));
+  const evidence::ReplayCheck check =
+      evidence::replayTicks(reader, evidence::recordedFloors(reader));
   std::printf("%lld ticks run again: %lld differ%s\n", static_cast<long long>(check.ticks),
               static_cast<long long>(check.different), check.gaps ? " (records are missing)" : "");
   bool same = check.different == 0 && check.ticks > 0;

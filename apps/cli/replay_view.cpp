@@ -9,6 +9,7 @@
 #include "anatomy/base/whole_file.h"
 #include "apps/evidence/recorded_show.h"
 #include "apps/live/jpeg.h"
+#include "apps/os/signals.h"
 #include "apps/replay/film.h"
 #include "apps/replay/player.h"
 #include "apps/runtime/clock.h"
@@ -100,7 +101,7 @@ void draw(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOpti
       1, static_cast<int>(std::lround((cut.to_s - cut.from_s) / o.speed * o.frames_per_second)));
   replay::Player speed(cut.from_s, cut.to_s, o.speed);
   session::WorkProgress progress("pictures", frames);
-  const session::InterruptNote interrupt;
+  const os::InterruptNote interrupt;
   for (int i = 0; i < frames; ++i) {
     if (interrupt.noted())
       throw Error("was interrupted: nothing is written", o.video.empty() ? o.pictures : o.video,

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
 #include "apps/evidence/evidence_records.h"
@@ -107,7 +108,7 @@ void reportTrial(const TrialReportOptions& o) {
   const std::string file = sessionFile(o.session);
   const evidence::RecordedSession session(file);
   needsPath(session, file);
-  const nlohmann::json facts = nlohmann::json::parse(session.reader().info().session_json);
+  const nlohmann::json facts = parseJson(session.reader().info().session_json);
   FoundTrial found = findTrial(session, o.trial, file);
   report::TrialPage page{found.assessment, evidence::thinned(found.samples), {}};
   page.verdict = evidence::verdictOf(page.assessment, forms,

@@ -7,6 +7,7 @@
 #include "apps/cli/commands.h"
 #include "apps/session/whole_session.h"
 #include "apps/station/assets.h"
+#include "apps/station/engine.h"
 
 namespace palpa::cli {
 namespace {
@@ -180,9 +181,8 @@ void addTrain(CLI::App& program) {
   addSessionArguments(*command, *options);
   command->callback([options, command] {
     options->command = "train";
-    const std::string engine = station::JsonFile(options->task).text("engine");
-    if (engine == "palpation" || engine == "squeeze" || engine == "surface")
-      refuseNeedleOptions(*command, engine == "surface" ? "search" : engine);
+    const station::Engine engine = station::engineIn(JsonFile(options->task));
+    if (engine != station::Engine::needle) refuseNeedleOptions(*command, station::nameOf(engine));
     session::holdSession(engine, *options);
   });
 }

@@ -171,7 +171,7 @@ void planStudy(const PlanOptions& o) {
       o.drawn.studies, o.metric.c_str(), o.drawn.subjects, o.drawn.trials, o.drawn.level);
   printDetections("Studies that find the effects of Tzafestas 2008 (power):",
                   detectionsIn(modelOf(study_analysis::pilotModels(), o.metric), o.drawn));
-  printDetections("Studies that find effects where there are none (false positives):",
+  printDetections("Studies that find effects where there is none (false positives):",
                   detectionsIn(modelOf(study_analysis::nullModels(), o.metric), o.drawn));
   const study_analysis::Band band = study_analysis::binomialBand(o.drawn.studies, o.drawn.level);
   std::printf("A fair test has false positives between %.1f and %.1f %% here (95 %% band).\n",

@@ -1,20 +1,17 @@
 #include "apps/console/console.h"
 
-#include <arpa/inet.h>
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <atomic>
-#include <csignal>
 #include <fstream>
+#include <memory>
 #include <thread>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/console/routes.h"
-#include "apps/os/local_socket.h"
+#include "apps/os/file_lock.h"
+#include "apps/os/real_time.h"
+#include "apps/os/signals.h"
+#include "apps/os/socket.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
@@ -22,19 +19,15 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr std::chrono::milliseconds kRound{200};
-std::atomic<bool> ended{false};  // a signal may come on any thread
-static_assert(std::atomic<bool>::is_always_lock_free);
-
-void note(int) { ended.store(true); }
 
 /// One console a place: two would start two sessions on one station. Released with the process,
 /// however it ends.
 class OnlyOne {
  public:
-  explicit OnlyOne(const fs::path& home) : url_(home / "address") {
-    descriptor_ = ::open((home / "lock").c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0600);
-    if (descriptor_ >= 0 && ::flock(descriptor_, LOCK_EX | LOCK_NB) == 0) return;
-    if (descriptor_ >= 0) ::close(descriptor_);
+  explicit OnlyOne(const fs::path& home)
+      : url_(home / "address"),
+        lock_(os::FileLock::exclusive(home / "lock", os::FileLock::Missing::is_made)) {
+    if (lock_) return;
     std::string url;
     std::getline(std::ifstream(url_), url);
     throw Error("runs already", "a console of this user" + (url.empty() ? "" : " (" + url + ")"),
@@ -43,13 +36,12 @@ class OnlyOne {
   ~OnlyOne() {
     std::error_code none;
     fs::remove(url_, none);
-    ::close(descriptor_);
   }
   void tell(const std::string& url) { writeWhole(url_, url + "\n"); }
 
  private:
   const fs::path url_;
-  int descriptor_ = -1;
+  const std::unique_ptr<os::FileLock> lock_;
 };
 
 std::string bracketed(const std::string& host) {
@@ -84,29 +76,10 @@ void prepare(const Place& place) {
                 "Give another place with --home");
 }
 
-struct Signals {
-  struct sigaction old_int {
-  }, old_term{};
-  Signals() {
-    ended.store(false);
-    struct sigaction action {};
-    action.sa_handler = note;
-    sigaction(SIGINT, &action, &old_int);
-    sigaction(SIGTERM, &action, &old_term);
-  }
-  ~Signals() {
-    sigaction(SIGINT, &old_int, nullptr);
-    sigaction(SIGTERM, &old_term, nullptr);
-  }
-};
-
 }  // namespace
 
 bool isLoopback(const std::string& address) {
-  in_addr v4{};
-  return address == "localhost" || address == "::1" ||
-         (::inet_pton(AF_INET, address.c_str(), &v4) == 1 &&
-          ntohl(v4.s_addr) >> 24 == 127);  // a name that begins with 127. may be anybody's
+  return address == "localhost" || address == "::1" || os::isLoopbackAddress(address);
 }
 
 void serveConsole(const ConsoleSettings& s, const std::function<void(const std::string&)>& ready) {
@@ -117,7 +90,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   prepare(s.place);
   OnlyOne only(s.place.home);
   if (!s.station.empty()) chooseStation(s.place, s.station);
-  const Signals signals;
+  const os::InterruptNote interrupt(os::InterruptNote::Again::noted);
   Refusals refusals(s.place.home / "refused.log");
   Guard guard(s.token);
   WebServer server(guard, refusals);
@@ -146,7 +119,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
                           ":" + std::to_string(port) + "/";
   only.tell(url);
   ready(url);
-  while (!ended.load()) {
+  while (!interrupt.noted()) {
     runtime::rest(kRound);
     console.sessions.look();
   }

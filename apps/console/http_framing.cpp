@@ -1,38 +1,26 @@
 #include "apps/console/http_framing.h"
 
-#include <poll.h>
-#include <sys/socket.h>
-
 #include <algorithm>
 #include <cstring>
 #include <optional>
 #include <string>
 
-#include <arpa/inet.h>
-#include <netinet/in.h>
+#include "apps/os/socket.h"
 
 namespace palpa::console {
 namespace {
 
 constexpr int kWrite_ms = 10'000;
 
-bool ready(int socket, short what, std::chrono::milliseconds time) {
-  pollfd one{socket, what, 0};
-  return ::poll(&one, 1, static_cast<int>(std::max<std::int64_t>(0, time.count()))) == 1;
+bool readable(int socket, std::chrono::milliseconds time) {
+  return os::ready(socket, os::Wait::to_read,
+                   static_cast<int>(std::max<std::int64_t>(0, time.count())));
 }
 
-void addressOf(const sockaddr_storage& from, std::string* ip, int* port) {
-  char text[INET6_ADDRSTRLEN] = "";
-  if (from.ss_family == AF_INET) {
-    const auto& v4 = reinterpret_cast<const sockaddr_in&>(from);
-    ::inet_ntop(AF_INET, &v4.sin_addr, text, sizeof text);
-    *port = ntohs(v4.sin_port);
-  } else if (from.ss_family == AF_INET6) {
-    const auto& v6 = reinterpret_cast<const sockaddr_in6&>(from);
-    ::inet_ntop(AF_INET6, &v6.sin6_addr, text, sizeof text);
-    *port = ntohs(v6.sin6_port);
-  }
-  *ip = text;
+void assign(const std::optional<os::Address>& address, std::string* ip, int* port) {
+  if (!address) return;
+  *ip = address->ip;
+  *port = address->port;
 }
 
 }  // namespace
@@ -48,21 +36,17 @@ void DeadlineStream::begin(Clock::time_point deadline, std::size_t most) {
 }
 
 bool DeadlineStream::waits(std::chrono::milliseconds time) const {
-  return at_ < buffer_.size() || ready(socket_, POLLIN, time);
+  return at_ < buffer_.size() || readable(socket_, time);
 }
 
 bool DeadlineStream::is_readable() const {
   return at_ < buffer_.size() ||
-         ready(socket_, POLLIN,
-               std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()));
+         readable(socket_,
+                  std::chrono::duration_cast<std::chrono::milliseconds>(deadline_ - Clock::now()));
 }
 
 /// False as soon as the other side is gone: a stream of pictures ends with its reader.
-bool DeadlineStream::is_writable() const {
-  pollfd one{socket_, POLLOUT | POLLRDHUP, 0};
-  return ::poll(&one, 1, kWrite_ms) == 1 && !(one.revents & (POLLERR | POLLHUP | POLLRDHUP)) &&
-         (one.revents & POLLOUT);
-}
+bool DeadlineStream::is_writable() const { return os::readerTakes(socket_, kWrite_ms); }
 
 bool DeadlineStream::fill() {
   if (left_ == 0 || !is_readable()) {
@@ -70,10 +54,11 @@ bool DeadlineStream::fill() {
     return false;
   }
   char bytes[4096];
-  const ssize_t count = ::recv(socket_, bytes, std::min(sizeof bytes, left_), 0);
-  if (count <= 0) return false;
-  left_ -= static_cast<std::size_t>(count);
-  buffer_.assign(bytes, static_cast<std::size_t>(count));
+  const std::size_t count =
+      os::receiveSome(socket_, bytes, std::min(sizeof bytes, left_)).value_or(0);
+  if (count == 0) return false;
+  left_ -= count;
+  buffer_.assign(bytes, count);
   at_ = 0;
   return true;
 }
@@ -88,21 +73,16 @@ ssize_t DeadlineStream::read(char* to, std::size_t size) {
 
 ssize_t DeadlineStream::write(const char* from, std::size_t size) {
   if (!is_writable()) return -1;
-  return ::send(socket_, from, size, MSG_NOSIGNAL);
+  const std::optional<std::size_t> count = os::sendWaiting(socket_, from, size);
+  return count ? static_cast<ssize_t>(*count) : -1;
 }
 
 void DeadlineStream::get_remote_ip_and_port(std::string& ip, int& port) const {
-  sockaddr_storage from{};
-  socklen_t size = sizeof from;
-  if (::getpeername(socket_, reinterpret_cast<sockaddr*>(&from), &size) == 0)
-    addressOf(from, &ip, &port);
+  assign(os::peerOf(socket_), &ip, &port);
 }
 
 void DeadlineStream::get_local_ip_and_port(std::string& ip, int& port) const {
-  sockaddr_storage from{};
-  socklen_t size = sizeof from;
-  if (::getsockname(socket_, reinterpret_cast<sockaddr*>(&from), &size) == 0)
-    addressOf(from, &ip, &port);
+  assign(os::ownOf(socket_), &ip, &port);
 }
 
 namespace {

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "anatomy/base/error.h"
+#include "apps/console/process_log.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::console {
@@ -127,7 +128,7 @@ void Jobs::perform(const std::string& id) {
     jobs_[id].state = State::running;
   }
   while (os::runs(process)) runtime::rest(kLook);
-  bool good = process.pid > 0 && os::complaintIn(folder / "log.txt").empty() &&
+  bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() &&
               (wish.page.empty() || fs::exists(folder / wish.page, none));
   try {
     if (wish.then) wish.then(folder, good);
@@ -145,7 +146,7 @@ nlohmann::json Jobs::one(const std::string& id) {
     throw UsageError("is not known", "job " + id.substr(0, 64), "Start it again");
   const Job& job = found->second;
   const fs::path log = place_.jobs() / id / "log.txt";
-  const auto lines = os::lastLines(log, kShownLines);
+  const auto lines = lastLines(log, kShownLines);
   std::error_code none;
   nlohmann::json one{{"id", id},
                      {"title", job.wish.title},
@@ -158,7 +159,7 @@ nlohmann::json Jobs::one(const std::string& id) {
                      {"picture", nullptr},
                      {"page", ""}};
   if (job.state == State::failed)
-    one["message"] = job.stopped ? "It was stopped." : os::complaintIn(log);
+    one["message"] = job.stopped ? "It was stopped." : complaintIn(log);
   if (!job.wish.picture.empty() && fs::exists(place_.jobs() / id / job.wish.picture, none))
     one["picture"] = "/api/jobs/" + id + "/picture";
   if (!job.wish.page.empty() && fs::exists(place_.jobs() / id / job.wish.page, none))

@@ -23,8 +23,8 @@ class Jobs {
     std::string key;    ///< the same piece of work has the same key: it is not done twice at once
     std::string title;  ///< "Camera"
     std::vector<std::string> arguments;  ///< of the command; "{}" stands for the job's folder
-    std::string page;  ///< the file that shows what came out, in the folder or with its whole path;
-                       ///< empty: none
+    /// The file that shows what came out, in the folder or with its whole path; empty: none
+    std::string page;
     std::function<void(const std::filesystem::path& folder, bool good)>
         then;  ///< on the jobs' thread
     std::string picture =

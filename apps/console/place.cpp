@@ -38,7 +38,7 @@ bool isShown(const std::string& name) {
 std::string stationOf(const Place& place) {
   std::error_code none;
   if (!std::filesystem::exists(place.settings(), none)) return "";
-  const station::JsonFile file(place.settings());
+  const JsonFile file(place.settings());
   if (!file.json().is_object())
     throw UsageError("holds no settings", place.settings().string(),
                      "Restore it, or remove it and calibrate anew");

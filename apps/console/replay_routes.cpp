@@ -93,7 +93,7 @@ void drawPictures(Console& c, const Recorded& trial, int number, json* told) {
   std::error_code none;
   (*told)["ready"] = fs::exists(trial.pictures / "pictures.json", none);
   if ((*told)["ready"]) {
-    const json pictures = station::JsonFile(trial.pictures / "pictures.json").json();
+    const json pictures = JsonFile(trial.pictures / "pictures.json").json();
     (*told)["frames"] = pictures.value("pictures", 0);
     (*told)["near"] = nearIn(pictures);
     (*told)["done"] = 1;

@@ -1,14 +1,11 @@
 #include "apps/console/session_link.h"
 
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
-#include <cerrno>
 #include <cstdlib>
 
 #include "apps/live/wire.h"
 #include "apps/os/local_socket.h"
+#include "apps/os/real_time.h"
+#include "apps/os/socket.h"
 
 namespace palpa::console {
 
@@ -23,17 +20,15 @@ namespace {
 
 constexpr std::chrono::seconds kWatched{3};
 constexpr std::chrono::milliseconds kTryAgain{100};
-constexpr int kLook_ms = 50;
+constexpr int kLook_ms = 50, kTakes_ms = 1000;
 
 bool sendAll(int socket, const std::string& bytes) {
   for (std::size_t sent = 0; sent < bytes.size();) {
-    const ssize_t count = ::send(socket, bytes.data() + sent, bytes.size() - sent, MSG_NOSIGNAL);
-    if (count > 0)
-      sent += static_cast<std::size_t>(count);
-    else if (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)
-      return false;
-    pollfd one{socket, POLLOUT, 0};
-    if (sent < bytes.size() && ::poll(&one, 1, 1000) != 1) return false;
+    const std::optional<std::size_t> count =
+        os::sendSome(socket, bytes.data() + sent, bytes.size() - sent);
+    if (!count) return false;
+    sent += *count;
+    if (sent < bytes.size() && !os::ready(socket, os::Wait::to_write, kTakes_ms)) return false;
   }
   return true;
 }
@@ -54,7 +49,7 @@ void SessionLink::run() {
   while (!ending_.load()) {
     if (const int socket = os::connectTo(path_); socket >= 0) {
       speak(socket);
-      ::close(socket);
+      os::closeSocket(socket);
     }
     {
       const std::lock_guard lock(mutex_);
@@ -87,16 +82,15 @@ void SessionLink::speak(int socket) {
       commands_.clear();
     }
     if (!out.empty() && !sendAll(socket, out)) return;
-    pollfd one{socket, POLLIN, 0};
-    if (::poll(&one, 1, kLook_ms) > 0 && !hear(socket, reader)) return;
+    if (os::ready(socket, os::Wait::to_read, kLook_ms) && !hear(socket, reader)) return;
   }
 }
 
 bool SessionLink::hear(int socket, LinkReader& reader) {
   char bytes[65536];
-  const ssize_t count = ::recv(socket, bytes, sizeof bytes, 0);
-  if (count <= 0) return count < 0 && (errno == EAGAIN || errno == EWOULDBLOCK || errno == EINTR);
-  reader.decoder.feed(bytes, static_cast<std::size_t>(count));
+  const std::optional<std::size_t> count = os::receiveSome(socket, bytes, sizeof bytes);
+  if (count.value_or(0) == 0) return count.has_value();
+  reader.decoder.feed(bytes, *count);
   try {
     while (const auto frame = reader.decoder.next()) {
       const std::lock_guard lock(mutex_);

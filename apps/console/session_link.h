@@ -22,8 +22,8 @@ class SessionLink {
   ~SessionLink();
 
   struct News {
-    std::size_t from = 0;  ///< number of the first of them: what was asked for, or 0 where the log
-                           ///< is shorter than that
+    /// Number of the first of them: what was asked for, or 0 where the log is shorter than that
+    std::size_t from = 0;
     std::vector<std::string> entries;  ///< at most kMostAtOnce
     bool over = false;                 ///< the session told its last
   };
@@ -56,9 +56,9 @@ class SessionLink {
   mutable std::mutex mutex_;
   std::condition_variable changed_;
   std::vector<std::string> entries_;
-  std::size_t begun_ = 0, passed_ = 0;  ///< where the present session's log begins in ours; how
-                                        ///< many of it came on this connection
-  std::size_t known_ = SIZE_MAX;        ///< how many there were when it began
+  /// Where the present session's log begins in ours; how many of it came on this connection
+  std::size_t begun_ = 0, passed_ = 0;
+  std::size_t known_ = SIZE_MAX;  ///< how many there were when it began
   std::string hello_;
   std::vector<std::string> commands_;
   Picture picture_;

@@ -7,6 +7,7 @@
 #include "apps/live/wire.h"
 #include "apps/record/store/record_store.h"
 #include "apps/station/assets.h"
+#include "apps/station/engine.h"
 
 namespace palpa::console {
 namespace {
@@ -75,39 +76,41 @@ namespace fs = std::filesystem;
 using nlohmann::json;
 
 struct Task {
-  std::string id, title, engine;
+  std::string id, title;
+  station::Engine engine;
   fs::path file;
 };
 
 /// What of a task's kind an educator may choose, and what it asks of the trainee.
 struct Kind {
-  const char *engine, *about;
+  station::Engine engine;
+  const char* about;
   bool side, person_by_mouse;
 };
 constexpr Kind kKinds[] = {
-    {"needle", "Lead a needle to a target that is felt, and seen over the camera's picture.", true,
-     true},
-    {"palpation", "Search a soft phantom for lumps: they are felt, though the silicone has none.",
-     false, true},
-    {"squeeze", "Between two fingers: which is harder, which is heavier?", false, false},
-    {"surface", "Find the rough one of three hidden things by touch.", false, false},
+    {station::Engine::needle,
+     "Lead a needle to a target that is felt, and seen over the camera's picture.", true, true},
+    {station::Engine::palpation,
+     "Search a soft phantom for lumps: they are felt, though the silicone has none.", false, true},
+    {station::Engine::squeeze, "Between two fingers: which is harder, which is heavier?", false,
+     false},
+    {station::Engine::search, "Find the rough one of three hidden things by touch.", false, false},
 };
 
-const Kind* kindOf(const std::string& engine) {
-  const Kind* found = std::find_if(std::begin(kKinds), std::end(kKinds),
-                                   [&](const Kind& kind) { return engine == kind.engine; });
-  return found == std::end(kKinds) ? nullptr : found;
+const Kind& kindOf(station::Engine engine) {
+  return *std::find_if(std::begin(kKinds), std::end(kKinds),
+                       [&](const Kind& kind) { return engine == kind.engine; });
 }
 
 std::vector<Task> tasks() {
   std::vector<Task> all;
   for (const auto& entry : fs::directory_iterator(station::assetFile("tasks"))) {
     if (entry.path().extension() != ".json") continue;
-    const station::JsonFile file(entry.path());
-    if (!file.has("engine") || !file.has("id") || !file.has("title") ||
-        !kindOf(file.text("engine")))
-      continue;
-    all.push_back({file.text("id"), file.text("title"), file.text("engine"), entry.path()});
+    const JsonFile file(entry.path());
+    if (!file.has("engine") || !file.has("id") || !file.has("title")) continue;
+    const std::optional<station::Engine> engine = station::engineNamed(file.text("engine"));
+    if (!engine) continue;
+    all.push_back({file.text("id"), file.text("title"), *engine, entry.path()});
   }
   const auto first = [](const Task& task) { return std::pair(task.id != "paracentesis", task.id); };
   std::sort(all.begin(), all.end(),
@@ -116,12 +119,12 @@ std::vector<Task> tasks() {
 }
 
 json told(const Task& task) {
-  const Kind& kind = *kindOf(task.engine);
+  const Kind& kind = kindOf(task.engine);
   json options = json::array({"force_feedback"});
   if (kind.side) options.insert(options.end(), {"side", "patient_seed"});
   return {{"id", task.id},
           {"title", task.title},
-          {"engine", task.engine},
+          {"engine", station::nameOf(task.engine)},
           {"about", kind.about},
           {"options", options},
           {"assessable", true},
@@ -152,8 +155,8 @@ std::vector<std::string> argumentsOf(const Console& c, const SessionWish& wish) 
   if (!wish.trainee.empty())
     a.insert(a.end(), {"--trainee", wish.trainee, "--records", c.place.records});
   if (wish.assess) a.push_back("--assess");
-  if (kindOf(task->engine)->side) a.insert(a.end(), {"--side", wish.side});
-  if (kindOf(task->engine)->side && wish.patient_seed > 0)
+  if (kindOf(task->engine).side) a.insert(a.end(), {"--side", wish.side});
+  if (kindOf(task->engine).side && wish.patient_seed > 0)
     a.insert(a.end(), {"--patient-seed", std::to_string(wish.patient_seed)});
   if (const std::string chosen = stationOf(c.place); !chosen.empty())
     a.insert(a.end(), {"--station", chosen, "--bench-seed",

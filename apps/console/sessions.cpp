@@ -4,7 +4,9 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/console/process_log.h"
 #include "apps/record/session_file.h"
 
 namespace palpa::console {
@@ -16,7 +18,7 @@ constexpr char kFacts[] = "console.json", kLog[] = "log.txt";
 
 json factsOf(const fs::path& folder) {
   try {
-    return station::JsonFile(folder / kFacts).json();
+    return JsonFile(folder / kFacts).json();
   } catch (const Error&) {
     return json::object();
   }
@@ -67,7 +69,7 @@ json trialOf(const record::RecordedTrial& trial, const std::vector<runtime::Even
            {"outcome", trial.ended ? trial.end.outcome : "interrupted"},
            {"reason", trial.end.reason},
            {"length_s", static_cast<double>(trial.end.t_ns - trial.header.t_ns) * 1e-9}};
-  const json scores = json::parse(trial.end.scores_json, nullptr, false);
+  const json scores = parsedOrDiscarded(trial.end.scores_json);
   if (scores.is_object() && scores.contains("TOTAL")) one["total"] = scores["TOTAL"];
   if (std::string summary = summaryOf(events, trial); !summary.empty())
     one["summary"] = std::move(summary);
@@ -101,7 +103,7 @@ json filesIn(const fs::path& folder) {
 /// Why it ended as it did; empty: as it should.
 std::string messageOf(const std::string& state, const fs::path& folder) {
   if (state != "failed" && state != "interrupted") return "";
-  const std::string complaint = os::complaintIn(folder / kLog);
+  const std::string complaint = complaintIn(folder / kLog);
   if (!complaint.empty()) return complaint;
   return state == "failed" ? "The session ended before it began, without a word: it was killed, or "
                              "the computer stopped. Begin it again"

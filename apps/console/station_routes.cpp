@@ -1,8 +1,9 @@
-#include <fstream>
-#include <sstream>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
+#include "anatomy/base/json_text.h"
+#include "anatomy/base/whole_file.h"
+#include "apps/console/process_log.h"
 #include "apps/console/routes.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
@@ -35,12 +36,7 @@ constexpr Step kSteps[] = {
      "weight."},
 };
 
-std::string textIn(const fs::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::ostringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
+std::string textIn(const fs::path& file) { return readWhole(file).value_or(""); }
 
 json me(const Console& c, bool entered) {
   json all{{"version", c.place.version}, {"entered", entered}, {"page_key", c.guard.pageKey()}};
@@ -153,13 +149,13 @@ void checkHealth(Console& c) {
     const std::size_t begin = text.find('{'), end = text.rfind('}');
     json found = begin == std::string::npos || end == std::string::npos
                      ? json()
-                     : json::parse(text.substr(begin, end - begin + 1), nullptr, false);
+                     : parsedOrDiscarded(text.substr(begin, end - begin + 1));
     if (!found.is_object())
       found = {{"can_start", false},
                {"findings",
                 {{{"subject", "doctor"},
                   {"state", "ill"},
-                  {"verdict", os::complaintIn(folder / "log.txt")},
+                  {"verdict", complaintIn(folder / "log.txt")},
                   {"fix", "Run palpa doctor in a terminal"}}}}};
     const std::lock_guard lock(c.health.mutex);
     c.health.findings = std::move(found);

@@ -1,15 +1,13 @@
 #include "apps/console/web_server.h"
 
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <memory>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "apps/console/http_framing.h"
-#include "apps/os/local_socket.h"
+#include "apps/os/real_time.h"
+#include "apps/os/socket.h"
 
 namespace palpa::console {
 namespace {
@@ -27,8 +25,8 @@ constexpr int kRequestsAConnection = 1000, kThreadsToRefuse = 8;
 class LowPriorityPool final : public httplib::TaskQueue {
  public:
   LowPriorityPool() : pool_(WebServer::kMostConnections + kThreadsToRefuse) {}
-  void enqueue(std::function<void()> work) override {
-    pool_.enqueue([work = std::move(work)] {
+  Enqueued enqueue(std::function<void()> work) override {
+    return pool_.enqueue([work = std::move(work)] {
       thread_local const bool gave = (os::giveWay(), true);
       (void)gave;
       work();
@@ -81,14 +79,13 @@ void setSafeHeaders(const httplib::Request& request, httplib::Response& response
 /// Takes off, for a moment, what is still being sent: a socket closed with bytes unread takes the
 /// answer with it.
 void linger(int socket) {
-  ::shutdown(socket, SHUT_WR);
+  os::endWriting(socket);
   char bytes[4096];
   const auto until = Clock::now() + kLinger;
   for (std::size_t left = kLongestRequest; left > sizeof bytes && Clock::now() < until;
        left -= sizeof bytes) {
-    pollfd one{socket, POLLIN, 0};
-    if (::poll(&one, 1, static_cast<int>(kLinger.count())) != 1 ||
-        ::recv(socket, bytes, sizeof bytes, MSG_DONTWAIT) <= 0)
+    if (!os::ready(socket, os::Wait::to_read, static_cast<int>(kLinger.count())) ||
+        os::receiveSome(socket, bytes, sizeof bytes).value_or(0) == 0)
       return;
   }
 }
@@ -115,11 +112,8 @@ constexpr char kFull[] =
 WebServer::WebServer(Guard& guard, Refusals& refusals) : guard_(guard), refusals_(refusals) {
   new_task_queue = [] { return new LowPriorityPool; };
   set_payload_max_length(kLongestBody);
-  set_socket_options([](socket_t socket) {  // not the library's SO_REUSEPORT: another console would
-                                            // share the port, and its pages
-    const int yes = 1;
-    ::setsockopt(socket, SOL_SOCKET, SO_REUSEADDR, &yes, sizeof yes);
-  });
+  // Not the library's SO_REUSEPORT: another console would share the port, and its pages.
+  set_socket_options([](socket_t socket) { os::reuseAddress(socket); });
   set_pre_routing_handler([this](const httplib::Request& request, httplib::Response& response) {
     return admit(request, response);
   });
@@ -151,7 +145,7 @@ void WebServer::end() {
   stop();
 }
 
-void WebServer::widen() { ::listen(svr_sock_.load(), kKnocking); }
+void WebServer::widen() { os::widenBacklog(svr_sock_.load(), kKnocking); }
 
 httplib::Server::HandlerResponse WebServer::admit(const httplib::Request& request,
                                                   httplib::Response& response) {
@@ -188,13 +182,12 @@ bool WebServer::process_and_close_socket(socket_t socket) {
     if (stream.cut())
       refusals_.note(stream.remote(), "-", "-", 408, "a request was too slow or too long");
   } else {
-    [[maybe_unused]] const ssize_t sent =
-        ::send(socket, kFull, sizeof kFull - 1, MSG_NOSIGNAL | MSG_DONTWAIT);
+    os::sendSome(socket, kFull, sizeof kFull - 1);
     refusals_.note("-", "-", "-", 503, "too many connections");
   }
   connections_.fetch_sub(1);
-  ::shutdown(socket, SHUT_RDWR);
-  ::close(socket);
+  os::endBoth(socket);
+  os::closeSocket(socket);
   return true;
 }
 
@@ -208,7 +201,7 @@ void WebServer::serve(DeadlineStream& stream) {
     const auto whole = [](httplib::Request& request) {
       request.ranges.clear();
     };  // parts are refused; the refusal is no answer in parts either
-    if (!process_request(stream, count == kRequestsAConnection, closed, whole) || closed ||
+    if (!processRequest(stream, count == kRequestsAConnection, closed, whole) || closed ||
         stream.cut())
       return;
     if (turn.closes) return linger(stream.socket());
@@ -248,7 +241,7 @@ void answer(httplib::Response& response, const nlohmann::json& json, int status)
 }
 
 nlohmann::json bodyOf(const httplib::Request& request) {
-  nlohmann::json body = nlohmann::json::parse(request.body, nullptr, false);
+  nlohmann::json body = parsedOrDiscarded(request.body);
   if (!body.is_object())
     throw UsageError("is no JSON object", "what was sent", "Load the page again");
   return body;

@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/console/guard.h"
-#include "apps/console/http.h"
+#include "apps/console/httplib_server.h"
 
 namespace palpa::console {
 
@@ -14,7 +14,7 @@ namespace palpa::console {
 /// and guard before its body is read; safe headers on every answer. What is refused is noted, and
 /// ends its connection: what may be left of its body is no next request. Its threads give way to
 /// all others.
-class WebServer final : public httplib::Server {
+class WebServer final : public HttplibServer {
  public:
   WebServer(Guard& guard, Refusals& refusals);
 

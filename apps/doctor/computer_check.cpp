@@ -1,20 +1,20 @@
 #include "apps/doctor/computer_check.h"
 
-#include <sys/timex.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <clocale>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <thread>
 
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/doctor/finding.h"
+#include "apps/os/file_access.h"
 #include "apps/os/real_time.h"
+#include "apps/os/system_time.h"
 #include "apps/runtime/clock.h"
 #include "apps/station/assets.h"
 
@@ -94,7 +94,7 @@ DiskFacts measureDisk(const fs::path& folder) {
   std::error_code failed;
   const fs::space_info space = fs::space(facts.folder, failed);
   facts.free_bytes = failed ? 0 : space.available;
-  facts.writable = ::access(facts.folder.c_str(), W_OK) == 0;
+  facts.writable = os::mayWrite(facts.folder);
   return facts;
 }
 
@@ -156,9 +156,9 @@ Finding judgeHeadset(const fs::path& file) {
                    "Install the headset's OpenXR runtime again, or correct " + file.string() +
                        ". Sessions on the desktop run without"};
   };
-  std::ifstream stream(file);
-  if (!stream) return broken("the OpenXR runtime's file cannot be read: " + file.string());
-  const nlohmann::json json = nlohmann::json::parse(stream, nullptr, false);
+  const std::optional<std::string> text = readWhole(file);
+  if (!text) return broken("the OpenXR runtime's file cannot be read: " + file.string());
+  const nlohmann::json json = parsedOrDiscarded(*text);
   if (json.is_discarded() || !json.is_object() || !json.contains("runtime") ||
       !json["runtime"].is_object())
     return broken("the OpenXR runtime's file is damaged: " + file.string());
@@ -202,11 +202,6 @@ constexpr std::int64_t kCoarse_ns = 100'000;  // a tenth of a tick of the haptic
 constexpr double kMoved_ms =
     5;  // a time server that corrects gently moves the date by less than 0.5 ms a second
 
-bool isSynchronised() {
-  timex asked{};  // no mode: nothing is set
-  return adjtimex(&asked) != TIME_ERROR;
-}
-
 }  // namespace
 
 ClockWatch::ClockWatch() : ahead_(ahead()) {}
@@ -229,7 +224,7 @@ ClockFacts ClockWatch::facts() const {
   facts.resolution_ns = runtime::clockResolution();
   facts.seconds = 1e-9 * static_cast<double>(clock_.now());
   facts.date_moved_ms = 1e-6 * static_cast<double>(ahead() - ahead_);
-  facts.synchronised = isSynchronised();
+  facts.synchronised = os::dateIsKept();
   return facts;
 }
 

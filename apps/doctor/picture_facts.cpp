@@ -5,6 +5,7 @@
 #include <opencv2/imgproc.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/quantile.h"
 #include "apps/doctor/finding.h"
 #include "ar/tracking/board_pose.h"
 
@@ -16,13 +17,6 @@ constexpr double kBlurred_px = 3.5;           // edges of a sharp picture are 2 
 constexpr double kPoorFit_px = 1.5;  // of the board's points: another board, or another camera
 constexpr double kSlow = 0.8;        // of the rate that is asked for
 constexpr double kOftenSeen = 0.8;
-
-double median(std::vector<double> values) {
-  if (values.empty()) return 0;
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
 
 /// Level below which this share of the pixels lies.
 double levelOf(const cv::Mat& gray, double share) {
@@ -93,8 +87,8 @@ class Looker {
     };
     facts_.bright = mean(bright_);
     facts_.burnt = mean(burnt_);
-    facts_.edge_px = median(edges_);
-    facts_.rms_px = median(rms_);
+    facts_.edge_px = upperMedian(edges_);
+    facts_.rms_px = upperMedian(rms_);
     return facts_;
   }
 

@@ -15,15 +15,16 @@ namespace palpa::doctor {
 struct PictureFacts {
   int pictures = 0, wrong_size = 0, alike = 0;  ///< alike: bit for bit as the one before
   double seconds = 0;                           ///< from the first to the last exposure
-  double bright = 0, burnt = 0;  ///< means over the pictures: the brightest hundredth, 0 to 255;
-                                 ///< share of pixels at 250 or more
-  double edge_px = 0;  ///< width of the sharpest edges (10 % to 90 % of the contrast) on the board:
-                       ///< median of the pictures that show it
-  int seen = 0;        ///< pictures in which the board was found
-  double rms_px = 0;   ///< of the board's points against its pose, median
-  int backward = 0;    ///< pictures that were not exposed after the one before
-  int undated = 0;     ///< pictures of a real camera whose time is not of this computer's clock
-  std::string remark;  ///< what the camera does not let be fixed, in words
+  /// Means over the pictures: the brightest hundredth, 0 to 255; share of pixels at 250 or more
+  double bright = 0, burnt = 0;
+  /// Width of the sharpest edges (10 % to 90 % of the contrast) on the board: median of the
+  /// pictures that show it
+  double edge_px = 0;
+  int seen = 0;         ///< pictures in which the board was found
+  double rms_px = 0;    ///< of the board's points against its pose, median
+  int backward = 0;     ///< pictures that were not exposed after the one before
+  int undated = 0;      ///< pictures of a real camera whose time is not of this computer's clock
+  std::string remark;   ///< what the camera does not let be fixed, in words
   std::string trouble;  ///< the source failed: its words
 };
 

@@ -64,8 +64,7 @@ Findings judgeCalibrations(const station::Station& station, const std::string& n
              "as the station's file states them" +
                  (station.calibration_date.empty() ? "" : ": " + station.calibration_date)}};
   return {{"calibrations", State::note,
-           station.calibration_verdict.empty() ? "there are none" : station.calibration_verdict,
-           kAnew}};
+           station.calibration_verdict.empty() ? "missing" : station.calibration_verdict, kAnew}};
 }
 
 Finding judgePrint(const station::Station& station, double bar_mm) {

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "apps/assess/needle/needle_metrics.h"
 #include "apps/assess/palpation/palpation_assessment.h"
@@ -13,6 +14,7 @@
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/record/store/delivery.h"
+#include "apps/station/engine.h"
 
 namespace palpa::evidence {
 namespace {
@@ -41,17 +43,20 @@ Figures figuresOf(const Trials& trials, Judge judge) {
 }
 
 Figures figuresIn(const record::SessionReader& reader, const std::filesystem::path& evidence) {
-  const std::string engine = engineOf(reader);
-  if (engine == "palpation")
-    return figuresOf(recordedPalpations(reader), [](const RecordedPalpation& t) {
-      return assess::palpationMetrics(t.assessment);
-    });
-  if (engine == "surface")
-    return figuresOf(recordedSearches(reader),
-                     [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
-  if (engine == "squeeze")
-    return figuresOf(recordedSqueezes(reader),
-                     [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
+  switch (engineOf(reader)) {
+    case station::Engine::palpation:
+      return figuresOf(recordedPalpations(reader), [](const RecordedPalpation& t) {
+        return assess::palpationMetrics(t.assessment);
+      });
+    case station::Engine::search:
+      return figuresOf(recordedSearches(reader),
+                       [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
+    case station::Engine::squeeze:
+      return figuresOf(recordedSqueezes(reader),
+                       [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
+    case station::Engine::needle:
+      break;
+  }
   return needleFigures(evidence);
 }
 
@@ -67,20 +72,19 @@ std::vector<record::StoredCalibration> calibrationsIn(const nlohmann::json& stat
 /// What was trained, whichever command led to it: a needle's task by its id, other tasks by the
 /// command of their kind.
 std::string taskOf(const record::SessionReader& reader) {
-  const std::string engine = engineOf(reader), command = reader.info().command;
-  if (engine == "palpation" || engine == "squeeze") return engine;
-  if (engine == "surface") return "search";
-  const nlohmann::json task = nlohmann::json::parse(reader.info().task_json, nullptr, false);
+  const station::Engine engine = engineOf(reader);
+  if (engine != station::Engine::needle) return station::nameOf(engine);
+  const nlohmann::json task = parsedOrDiscarded(reader.info().task_json);
   return task.is_object() && task.contains("id") && task["id"].is_string()
              ? task["id"].get<std::string>()
-             : command;
+             : reader.info().command;
 }
 
 record::StoredSession sessionIn(const record::SessionReader& reader,
                                 const std::filesystem::path& evidence) {
   const record::SessionInfo& info = reader.info();
-  const nlohmann::json session = nlohmann::json::parse(info.session_json),
-                       station = nlohmann::json::parse(info.station_json);
+  const nlohmann::json session = parseJson(info.session_json),
+                       station = parseJson(info.station_json);
   record::StoredSession s;
   s.uuid = info.uuid;
   s.trainee = session.value("trainee", "");
@@ -95,7 +99,7 @@ record::StoredSession sessionIn(const record::SessionReader& reader,
     s.slot = study.at("slot");
   }
   s.evidence = std::filesystem::absolute(evidence).string();
-  s.evidence_sha256 = station::sha256OfFile(evidence);
+  s.evidence_sha256 = sha256OfFile(evidence);
   s.facts_json = info.session_json;
   s.calibrations = calibrationsIn(station);
   return s;
@@ -168,10 +172,9 @@ namespace {
 
 /// What makes a trial unlike others of its task: a search's stiffness, cues, guidance.
 std::string conditionOf(const record::TrialWithSession& stored) {
-  const nlohmann::json facts = nlohmann::json::parse(stored.session.facts_json),
-                       score = stored.trial.score_json.empty()
-                                   ? nlohmann::json::object()
-                                   : nlohmann::json::parse(stored.trial.score_json);
+  const nlohmann::json facts = parseJson(stored.session.facts_json),
+                       score = stored.trial.score_json.empty() ? nlohmann::json::object()
+                                                               : parseJson(stored.trial.score_json);
   std::string condition = score.value("MODE", "");
   const auto also = [&](const char* words) {
     condition += (condition.empty() ? "" : ", ") + std::string(words);

@@ -1,25 +1,20 @@
 #include "apps/evidence/rating_forms.h"
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/sha256.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/assess/trial.h"
 #include "apps/station/assets.h"
 
 namespace palpa::evidence {
 
 std::string textOf(const std::filesystem::path& file) {
-  std::error_code none;
-  std::ifstream stream(file, std::ios::binary);
-  if (!stream || std::filesystem::is_directory(file, none))
-    throw UsageError("cannot be read", file.string(), "Check the path");
-  std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
-  if (stream.bad()) throw UsageError("cannot be read", file.string(), "Check the path");
-  return text.rfind("\xEF\xBB\xBF", 0) == 0 ? text.substr(3)
-                                            : text;  // a mark that spreadsheets put before UTF-8
+  const std::optional<std::string> text = readWhole(file);
+  if (!text) throw UsageError("cannot be read", file.string(), "Check the path");
+  // a mark that spreadsheets put before UTF-8
+  return text->starts_with("\xEF\xBB\xBF") ? text->substr(3) : *text;
 }
 
 RatingForms readForms(const std::string& checklist, const std::string& global) {
@@ -31,7 +26,7 @@ RatingForms readForms(const std::string& checklist, const std::string& global) {
                                            : std::filesystem::path(global);
   RatingForms forms{competence::parseChecklist(textOf(list), list.string()),
                     competence::parseGlobalRating(textOf(rating), rating.string()),
-                    station::sha256OfFile(list), station::sha256OfFile(rating)};
+                    sha256OfFile(list), sha256OfFile(rating)};
   for (const competence::RatingItem& aspect : forms.global.items)
     for (const competence::Item& item : forms.checklist.items)
       if (item.id == aspect.id)

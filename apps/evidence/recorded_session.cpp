@@ -1,48 +1,22 @@
 #include "apps/evidence/recorded_session.h"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
-#include <cstring>
-#include <fstream>
 #include <unordered_map>
 
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
 #include "apps/assess/needle/needle_metrics.h"
+#include "apps/os/file_access.h"
 
 namespace palpa::evidence {
 namespace {
-
-/// A text or bytes as a temporary file, for readers that take a path; removed at the end of its
-/// life.
-class TemporaryFile {
- public:
-  TemporaryFile(const std::string& bytes, const char* extension) {
-    std::string pattern =
-        (std::filesystem::temp_directory_path() / "palpa-XXXXXX").string() + extension;
-    const int fd = mkstemps(pattern.data(), static_cast<int>(std::strlen(extension)));
-    if (fd < 0) throw Error("cannot be made", pattern, "Is the disk full?");
-    path_ = pattern;
-    std::ofstream(path_, std::ios::binary) << bytes;
-    ::close(fd);
-  }
-  ~TemporaryFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 Pose poseFrom(const nlohmann::json& json) {
   return unpack(PackedPose{json.at("p_m").get<Packed3>(), json.at("q_wxyz").get<Packed4>()});
@@ -54,7 +28,7 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
     : reader_(std::make_unique<record::SessionReader>(file)) {
   const record::SessionInfo& info = reader_->info();
   try {
-    const nlohmann::json session = nlohmann::json::parse(info.session_json);
+    const nlohmann::json session = parseJson(info.session_json);
     X_DA_ = poseFrom(session.at("X_DA"));
     simulated_ = session.at("simulated").get<bool>();
     operator_ = session.at("operator").get<std::string>();
@@ -63,13 +37,13 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
     throw Error(std::string("the session's description is damaged (") + e.what() + ")",
                 file.string(), "Restore the file from a backup");
   }
-  patient_ = anatomy::readPatient(TemporaryFile(info.patient_glb, ".glb").path());
+  patient_ = anatomy::readPatient(os::TemporaryFile(info.patient_glb, ".glb").path());
   query_ = std::make_unique<anatomy::SurfaceQuery>(patient_);
-  task_ = task_needle::readTask(TemporaryFile(info.task_json, ".json").path());
+  task_ = task_needle::readTask(os::TemporaryFile(info.task_json, ".json").path());
   if (!task_.block) anatomy::requireForNeedle(patient_, file.string() + ", its patient");
   if (!info.expert_path_json.empty())
     expert_path_ = std::make_unique<calibration::ExpertPath>(
-        calibration::readExpertPath(TemporaryFile(info.expert_path_json, ".json").path()));
+        calibration::readExpertPath(os::TemporaryFile(info.expert_path_json, ".json").path()));
   trials_ = reader_->trials();
 }
 
@@ -228,9 +202,8 @@ class Together {
 
 std::optional<assess::ForceBalance> recordedBalance(const record::SessionReader& reader) {
   constexpr std::size_t kPart = 200'000;  // ticks: what is held in memory at once
-  const double mass =
-      station::JsonFile(nlohmann::json::parse(reader.info().station_json), "the recorded station")
-          .number("device/apparent_mass_kg", 0, 5);
+  const double mass = JsonFile(parseJson(reader.info().station_json), "the recorded station")
+                          .number("device/apparent_mass_kg", 0, 5);
   Together together;
   std::array<std::vector<haptics::FlightRecord>, 2> parts;  // of each tool
   const auto finish = [&] {

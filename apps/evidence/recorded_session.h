@@ -57,7 +57,7 @@ struct ReplayCheck {
   std::int64_t ticks = 0, different = 0, first_difference = -1;
   std::int64_t gaps = 0;  ///< ticks missing in the record; the state is then taken from a keyframe
 };
-/// `floors`: of a search, by number; null where there are none.
+/// `floors`: of a search, by number; null where there is none.
 ReplayCheck replayTicks(
     const record::SessionReader& reader,
     const std::function<const haptics::Floor*(std::uint32_t number)>& floors = {});

@@ -7,6 +7,7 @@
 #include "anatomy/base/error.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/report/page/style.h"
+#include "apps/station/engine.h"
 #include "apps/task_needle/near_miss_watch.h"
 
 namespace palpa::evidence {
@@ -77,9 +78,8 @@ const record::RecordedTrial& chosenTrial(const std::vector<record::RecordedTrial
 }
 
 std::unique_ptr<RecordedShow> recordedShow(const std::filesystem::path& file, int number) {
-  const std::string engine = engineOf(record::SessionReader(file));
-  if (engine == "palpation" || engine == "surface" || engine == "squeeze")
-    return recordedTouch(file, engine, number);
+  const station::Engine engine = engineOf(record::SessionReader(file));
+  if (engine != station::Engine::needle) return recordedTouch(file, engine, number);
   return std::make_unique<RecordedNeedleTrial>(file, number);
 }
 

@@ -6,6 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
+#include "apps/station/engine.h"
 
 namespace palpa::evidence {
 namespace {
@@ -15,7 +17,7 @@ template <class Value>
 Value fieldOf(const std::string& text, const char* field, const Value& otherwise,
               const char* what) {
   try {
-    return nlohmann::json::parse(text).value(field, otherwise);
+    return parseJson(text).value(field, otherwise);
   } catch (const nlohmann::json::exception&) {
     throw Error("the session's description is damaged", what, "Restore the file from a backup");
   }
@@ -39,13 +41,15 @@ Said saidIn(const std::vector<runtime::Event>& events, int trial) {
 
 }  // namespace
 
-std::string engineOf(const record::SessionReader& reader) {
-  return fieldOf(reader.info().task_json, "engine", std::string("needle"), "its task");
+station::Engine engineOf(const record::SessionReader& reader) {
+  const std::string name =
+      fieldOf(reader.info().task_json, "engine", std::string("needle"), "its task");
+  return station::engineNamed(name).value_or(station::Engine::needle);
 }
 
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
-  const task_palpation::Scoring scoring = task_palpation::scoringOf(
-      station::JsonFile(nlohmann::json::parse(reader.info().task_json), "the recorded task"));
+  const task_palpation::Scoring scoring =
+      task_palpation::scoringOf(JsonFile(parseJson(reader.info().task_json), "the recorded task"));
   const bool simulated = fieldOf(reader.info().session_json, "simulated", false, "its session");
   const std::vector<runtime::Event> events = reader.events();
   std::vector<RecordedPalpation> trials;
@@ -93,8 +97,7 @@ std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& r
 namespace {
 
 task_search::SearchSettings recordedTask(const record::SessionReader& reader) {
-  return task_search::readSearch(
-      station::JsonFile(nlohmann::json::parse(reader.info().task_json), "the recorded task"));
+  return task_search::readSearch(JsonFile(parseJson(reader.info().task_json), "the recorded task"));
 }
 
 std::map<int, task_search::Episode> recordedEpisodes(const record::SessionReader& reader) {
@@ -131,7 +134,7 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
   const task_search::SearchSettings task = recordedTask(reader);
   const haptics::TickConfig& tick = reader.info().tick_config;
   const std::map<int, task_search::Episode> episodes = recordedEpisodes(reader);
-  const bool simulated = nlohmann::json::parse(reader.info().session_json).value("simulated", true);
+  const bool simulated = parseJson(reader.info().session_json).value("simulated", true);
   task_search::SearchListener listener(task, tick.augmentations);
   std::vector<RecordedSearch> trials;
   const std::vector<record::RecordedTrial> recorded = reader.trials();
@@ -169,7 +172,7 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
 
 std::function<const haptics::Floor*(std::uint32_t number)> recordedFloors(
     const record::SessionReader& reader) {
-  if (engineOf(reader) != "surface") return {};
+  if (engineOf(reader) != station::Engine::search) return {};
   const auto last = std::make_shared<LastFloor>();
   last->task = recordedTask(reader);
   last->episodes = recordedEpisodes(reader);
@@ -197,7 +200,7 @@ SaidOfSqueeze saidOf(const std::vector<runtime::Event>& events, int trial) {
 }  // namespace
 
 std::vector<RecordedSqueeze> recordedSqueezes(const record::SessionReader& reader) {
-  const station::JsonFile task(nlohmann::json::parse(reader.info().task_json), "the recorded task");
+  const JsonFile task(parseJson(reader.info().task_json), "the recorded task");
   task_squeeze::SqueezeListener listener(task.number("force/touch_N", 0.02, 5));
   const std::vector<runtime::Event> events = reader.events();
   std::vector<RecordedSqueeze> trials;

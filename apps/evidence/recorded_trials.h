@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/record/session_file.h"
+#include "apps/station/engine.h"
 #include "apps/task_palpation/palpation_task.h"
 #include "apps/task_search/search_task.h"
 #include "apps/task_squeeze/squeeze_task.h"
@@ -21,7 +22,7 @@ struct RecordedPalpation {
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader);
 
 /// "needle", "palpation": of the recorded task.
-std::string engineOf(const record::SessionReader& reader);
+station::Engine engineOf(const record::SessionReader& reader);
 
 struct RecordedSearch {
   record::RecordedTrial recorded;

@@ -1,4 +1,6 @@
+#include "anatomy/base/json_text.h"
 #include "apps/evidence/recorded_show.h"
+#include "apps/station/engine.h"
 
 #include <nlohmann/json.hpp>
 
@@ -58,15 +60,13 @@ class TouchShow : public RecordedShow {
         file_(file.string()) {
     trial_.number = recorded_.header.trial;
     trial_.force_feedback = recorded_.header.force_feedback;
-    trial_.mark = nlohmann::json::parse(reader_.info().session_json).value("simulated", true)
+    trial_.mark = parseJson(reader_.info().session_json).value("simulated", true)
                       ? "REPLAY: SIMULATED"
                       : "REPLAY";
   }
 
   const haptics::TickConfig& config() const { return reader_.info().tick_config; }
-  station::JsonFile task() const {
-    return {nlohmann::json::parse(reader_.info().task_json), "the recorded task"};
-  }
+  JsonFile task() const { return {parseJson(reader_.info().task_json), "the recorded task"}; }
   std::string eventText(const char* kind) const {
     for (const runtime::Event& event : reader_.events())
       if (event.trial == trial_.number && event.kind == kind) return event.text;
@@ -108,7 +108,7 @@ double lastOf(const Moments& moments) {
 class PalpationShow final : public TouchShow<replay::PalpationTrial> {
  public:
   PalpationShow(const std::filesystem::path& file, int number) : TouchShow(file, number) {
-    const station::JsonFile json = task();
+    const JsonFile json = task();
     trial_.X_AD = anatomy::X_AP() * unpack(config().X_DP).inverse();
     trial_.rules = task_palpation::scoringOf(json).rules;
     trial_.tip_radius = config().touch.tip_radius;
@@ -168,7 +168,7 @@ class SqueezeShow final : public TouchShow<replay::SqueezeTrial> {
       throw Error("describes one device where two are needed", file_,
                   "Restore the file from a backup");
     const auto& tools = reader_.info().pair_config->tools;
-    const station::JsonFile json = task();
+    const JsonFile json = task();
     const double half = 1e-3 * json.number("object/half_mm", 10, 100);
     trial_.X_AD = anatomy::X_AP() * unpack(tools[0].X_DP).inverse();
     trial_.X_AD2 = anatomy::X_AP() * unpack(tools[1].X_DP).inverse();
@@ -190,9 +190,9 @@ class SqueezeShow final : public TouchShow<replay::SqueezeTrial> {
 }  // namespace
 
 std::unique_ptr<RecordedShow> recordedTouch(const std::filesystem::path& file,
-                                            const std::string& engine, int number) {
-  if (engine == "palpation") return std::make_unique<PalpationShow>(file, number);
-  if (engine == "surface") return std::make_unique<SearchShow>(file, number);
+                                            station::Engine engine, int number) {
+  if (engine == station::Engine::palpation) return std::make_unique<PalpationShow>(file, number);
+  if (engine == station::Engine::search) return std::make_unique<SearchShow>(file, number);
   return std::make_unique<SqueezeShow>(file, number);
 }
 

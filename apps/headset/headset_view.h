@@ -49,9 +49,8 @@ class HeadsetView final : public runtime::HeadDisplay {
   void pulse(double seconds, double strength) override;
   std::string trouble() const override;
   std::string describe() const;
-  void onHeld(std::function<void(const HeldTool&)> action) {
-    held_ = std::move(action);
-  }                                                 ///< called once a frame
+  /// Called once a frame
+  void onHeld(std::function<void(const HeldTool&)> action) { held_ = std::move(action); }
   std::uint64_t frames() const { return frames_; }  ///< shown
 
  private:

@@ -4,6 +4,7 @@
 #include <functional>
 #include <set>
 
+#include "anatomy/base/json_text.h"
 #include "apps/assess/metrics/metric_table.h"
 
 namespace palpa::link {
@@ -39,7 +40,7 @@ double inSeconds(std::int64_t ns) { return static_cast<double>(ns) / 1e9; }
 
 /// Texts that hold JSON, as objects; null where they hold none.
 json parsed(const std::string& text) {
-  json value = json::parse(text, nullptr, false);
+  json value = parsedOrDiscarded(text);
   return value.is_discarded() ? json() : value;
 }
 

@@ -33,9 +33,9 @@ Login loginIn(const std::filesystem::path& file, const std::string& host, const 
 
 /// What came back.
 struct LrsAnswer {
-  int status = 0;       ///< 0: nothing that could be understood
-  bool is_lrs = false;  ///< it named a version of the Experience API, as every answer of a learning
-                        ///< record store must
+  int status = 0;  ///< 0: nothing that could be understood
+  /// It named a version of the Experience API, as every answer of a learning record store must
+  bool is_lrs = false;
   std::string body;
   std::string trouble;  ///< of status 0, in words
 };

@@ -1,9 +1,9 @@
 #include "apps/link/tell.h"
 
-#include <cstdlib>
 #include <fstream>
 
 #include "anatomy/base/error.h"
+#include "apps/os/file_access.h"
 
 namespace palpa::link {
 namespace {
@@ -62,17 +62,12 @@ void Outbox::writeAhead() {
   try {
     if (database_.text("PRAGMA journal_mode=WAL") == "wal")
       database_.exec("PRAGMA synchronous=NORMAL");
-  } catch (const record::DatabaseError&) {  // another program is at it, or the disk does not bear
-                                            // it: slower
+    // Another program is at it, or the disk does not bear it: slower
+  } catch (const record::DatabaseError&) {
   }
 }
 
-fs::path Outbox::usualFile() {
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/')
-    return fs::path(state) / "palpa/xapi.sqlite";
-  const char* home = std::getenv("HOME");
-  return fs::path(home && *home ? home : "/tmp") / ".local/state/palpa/xapi.sqlite";
-}
+fs::path Outbox::usualFile() { return os::stateFolder("/tmp") / "palpa/xapi.sqlite"; }
 
 void Outbox::insert(const Route& r, const Letter& l) {
   record::Statement(database_, std::string("INSERT OR IGNORE INTO letters(endpoint,records,") +

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "anatomy/base/utc.h"
 #include "anatomy/base/uuid.h"
 
 namespace palpa::link {
@@ -134,5 +135,11 @@ bool saysTheSame(const json& told, const json& stored) {
     if (valueAt(told, at) != valueAt(stored, at)) return false;
   return !told.contains("timestamp") || instantOf(told) == instantOf(stored);
 }
+
+std::string statementId(const std::string& session, std::int64_t trial) {
+  return uuidOfName(session, "trial " + std::to_string(trial));
+}
+
+std::string voidingId(const std::string& statement) { return uuidOfName(statement, "voided"); }
 
 }  // namespace palpa::link

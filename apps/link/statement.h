@@ -1,5 +1,6 @@
 #pragma once
 
+#include <cstdint>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -31,9 +32,10 @@ nlohmann::json voidingOf(const std::string& statement);
 /// result, context and the instant; stores may add fields and rewrite names.
 bool saysTheSame(const nlohmann::json& told, const nlohmann::json& stored);
 
-std::string isoDuration(double seconds);  ///< "PT31.52S"
-/// `ns` after a UTC time such as "2026-03-01T10:00:00Z", to the millisecond; empty where that is no
-/// time.
-std::string isoTimestamp(const std::string& utc, std::int64_t ns);
+/// A UUID of a trial's statement, from the trial's number in the namespace of its session: what is
+/// reported twice is stored once. Throws Error where the session's UUID is invalid.
+std::string statementId(const std::string& session, std::int64_t trial);
+/// Of the statement that voids another.
+std::string voidingId(const std::string& statement);
 
 }  // namespace palpa::link

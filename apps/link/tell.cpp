@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/uuid.h"
 #include "apps/link/statement.h"
@@ -24,7 +25,7 @@ struct Verdict {
 };
 
 json parsedBody(const LrsAnswer& answer) {
-  json value = json::parse(answer.body, nullptr, false);
+  json value = parsedOrDiscarded(answer.body);
   return value.is_discarded() ? json() : value;
 }
 
@@ -66,8 +67,7 @@ Verdict compared(LrsClient& client, const Letter& letter) {
     const LrsAnswer there = client.get(letter.id, voided);
     if (isForLater(there)) return {Fate::later, troubleOf(there)};
     if (there.status != 200) continue;
-    if (saysTheSame(json::parse(letter.body, nullptr, false), parsedBody(there)))
-      return {Fate::present, ""};
+    if (saysTheSame(parsedOrDiscarded(letter.body), parsedBody(there))) return {Fate::present, ""};
     return {Fate::refused, "another statement has this id already"};
   }
   return {Fate::refused, "the store says that it has it and does not show it"};
@@ -142,7 +142,7 @@ void queueTrial(const record::TrialWithSession& t, const Route& route, const Tel
   else {
     const nlohmann::json statement = statementOf(t.session, t.trial, filter.home_page);
     const Letter letter{
-        statement.at("id"), "", t.session.uuid, t.trial.number, station::sha256(t.session.trainee),
+        statement.at("id"), "", t.session.uuid, t.trial.number, sha256(t.session.trainee),
         textOf(statement)};
     ++(outbox.put(route, letter) ? queued.added : queued.known);
   }

@@ -1,23 +1,21 @@
 #include "apps/live/port.h"
 
-#include <poll.h>
-#include <sys/socket.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cerrno>
+#include <filesystem>
 #include <utility>
 
 #include "apps/live/jpeg.h"
 #include "apps/os/local_socket.h"
+#include "apps/os/real_time.h"
+#include "apps/os/socket.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::live {
 namespace {
 
 constexpr std::size_t kMostPeers = 8, kEntriesAtOnce = 256, kEnoughWaiting = 64 << 10;
-constexpr int kCallersAtOnce = 16, kReadsAtOnce = 16;  // of one peer: another's turn comes, and the
-                                                       // session's end, whatever one sends
+// Of one peer: another's turn comes, and the session's end, whatever one sends
+constexpr int kCallersAtOnce = 16, kReadsAtOnce = 16;
 constexpr int kLook_ms = 25, kQuality = 80, kWidest = 1280;
 constexpr std::chrono::milliseconds kFarewell{500};
 
@@ -25,7 +23,7 @@ constexpr std::chrono::milliseconds kFarewell{500};
 
 struct Port::Peer {
   explicit Peer(int descriptor) : socket(descriptor) {}
-  ~Peer() { ::close(socket); }
+  ~Peer() { os::closeSocket(socket); }
   Peer(const Peer&) = delete;
   Peer& operator=(const Peer&) = delete;
 
@@ -43,15 +41,16 @@ Port::Port(std::string path, const LiveLog& log, Heard heard, std::chrono::milli
       log_(log),
       heard_(std::move(heard)),
       patience_(patience),
-      listener_(os::listenAt(path_)) {
+      listener_(os::listenAt(path_, "Give a folder that can be written to, or leave out --live")) {
   thread_ = std::thread([this] { run(); });
 }
 
 Port::~Port() {
   ending_.store(true);
   thread_.join();
-  ::close(listener_);
-  ::unlink(path_.c_str());
+  os::closeSocket(listener_);
+  std::error_code ignored;
+  std::filesystem::remove(path_, ignored);
 }
 
 void Port::offer(scene::Image picture) {
@@ -84,20 +83,16 @@ void Port::run() {
 }
 
 void Port::waitForPeers(int timeout_ms) {
-  std::vector<pollfd> all{{listener_, POLLIN, 0}};
-  for (const auto& peer : peers_)
-    all.push_back(
-        {peer->socket, static_cast<short>(peer->waiting.empty() ? POLLIN : POLLIN | POLLOUT), 0});
-  ::poll(all.data(), all.size(), timeout_ms);
+  std::vector<os::Watched> all{os::Watched{listener_}};
+  for (const auto& peer : peers_) all.push_back({peer->socket, !peer->waiting.empty()});
+  os::waitForAny(all, timeout_ms);
 }
 
 void Port::accept() {
   for (int callers = 0, socket;
-       callers < kCallersAtOnce &&
-       (socket = ::accept4(listener_, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK)) >= 0;
-       ++callers) {
+       callers < kCallersAtOnce && (socket = os::acceptOne(listener_)) >= 0; ++callers) {
     if (peers_.size() >= kMostPeers || !os::sameUser(socket)) {
-      ::close(socket);
+      os::closeSocket(socket);
     } else {
       peers_.push_back(std::make_unique<Peer>(socket));
       peers_.back()->waiting = encoded(FrameKind::known, std::to_string(log_.size()));
@@ -107,13 +102,13 @@ void Port::accept() {
 
 void Port::read(Peer& peer) {
   char bytes[4096];
-  ssize_t count = 0;
-  for (int reads = 0; (count = ::recv(peer.socket, bytes, sizeof bytes, 0)) > 0;) {
-    peer.decoder.feed(bytes, static_cast<std::size_t>(count));
+  for (int reads = 0; reads < kReadsAtOnce && !peer.lost; ++reads) {
+    const std::optional<std::size_t> count = os::receiveSome(peer.socket, bytes, sizeof bytes);
+    peer.lost = !count;
+    if (count.value_or(0) == 0) return;
+    peer.decoder.feed(bytes, *count);
     obey(peer);
-    if (peer.lost || ++reads == kReadsAtOnce) return;
   }
-  if (count == 0 || (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR)) peer.lost = true;
 }
 
 void Port::obey(Peer& peer) {
@@ -140,14 +135,13 @@ void Port::write(Peer& peer) {
   tell(peer);
   const auto now = runtime::ServingClock::now();
   while (!peer.waiting.empty()) {
-    const ssize_t count =
-        ::send(peer.socket, peer.waiting.data(), peer.waiting.size(), MSG_NOSIGNAL);
-    if (count <= 0) {
-      peer.lost |= (errno != EAGAIN && errno != EWOULDBLOCK && errno != EINTR) ||
-                   now - peer.took > patience_;
+    const std::optional<std::size_t> count =
+        os::sendSome(peer.socket, peer.waiting.data(), peer.waiting.size());
+    if (count.value_or(0) == 0) {
+      peer.lost |= !count || now - peer.took > patience_;
       return;
     }
-    peer.waiting.erase(0, static_cast<std::size_t>(count));
+    peer.waiting.erase(0, *count);
     peer.took = now;
   }
   peer.took = now;

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 
 namespace palpa::live {
 namespace {
@@ -94,7 +95,7 @@ double momentIn(const nlohmann::json& at) {
 }  // namespace
 
 trial::UserRequest parseSteering(const std::string& text) {
-  const nlohmann::json json = nlohmann::json::parse(text, nullptr, false);
+  const nlohmann::json json = parsedOrDiscarded(text);
   if (!json.is_object())
     throw UsageError("is no JSON object", "command to the session", "Send {\"command\": ...}");
   const std::string name = textIn(json, "command");

@@ -14,8 +14,9 @@ namespace palpa::live {
 enum class FrameKind : char {
   entry = 'L',    ///< session -> console: the next entry of its log, a JSON object
   picture = 'P',  ///< session -> console: what is on the screen, JPEG
-  known = 'K',  ///< session -> console, once, first: how many entries its log held when the console
-                ///< came; with as many it has caught up
+  /// Session -> console, once, first: how many entries its log held when the console came; with as
+  /// many it has caught up
+  known = 'K',
   command = 'C',  ///< console -> session: {"command", "reason", "at_s"}
   watch = 'W'     ///< console -> session: "1": pictures are wanted; "0": nobody looks
 };

@@ -7,12 +7,11 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <cstring>
-#include <fstream>
 #include <sstream>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 
 extern char** environ;
 
@@ -20,12 +19,10 @@ namespace palpa::os {
 namespace {
 
 constexpr int kNice = 10, kFirstOfOurs = 3;
-constexpr std::streamoff kTail = 16 << 10;
 
 /// 0: there is no such process, or it has ended and waits to be put away.
 std::uint64_t beganAt(int pid) {
-  std::ifstream file("/proc/" + std::to_string(pid) + "/stat");
-  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const std::string text = readWhole("/proc/" + std::to_string(pid) + "/stat").value_or("");
   const std::size_t name_end = text.rfind(')');
   if (name_end == std::string::npos) return 0;
   std::istringstream fields(text.substr(name_end + 1));
@@ -51,6 +48,14 @@ struct Spawning {
   }
 };
 
+/// As C takes a list of words, while `words` stay.
+std::vector<char*> pointersTo(std::vector<std::string>& words) {
+  std::vector<char*> all;
+  for (std::string& word : words) all.push_back(word.data());
+  all.push_back(nullptr);
+  return all;
+}
+
 }  // namespace
 
 ProcessId start(const std::vector<std::string>& arguments, const std::filesystem::path& log,
@@ -67,12 +72,9 @@ ProcessId start(const std::vector<std::string>& arguments, const std::filesystem
   posix_spawnattr_setflags(&how.attributes, POSIX_SPAWN_SETSID | POSIX_SPAWN_SETSIGMASK);
   std::vector<std::string> words{"palpa"};
   words.insert(words.end(), arguments.begin(), arguments.end());
-  std::vector<char*> argv;
-  for (std::string& word : words) argv.push_back(word.data());
-  argv.push_back(nullptr);
   pid_t pid = 0;
-  if (const int error =
-          posix_spawn(&pid, "/proc/self/exe", &how.files, &how.attributes, argv.data(), environ))
+  if (const int error = posix_spawn(&pid, "/proc/self/exe", &how.files, &how.attributes,
+                                    pointersTo(words).data(), environ))
     throw Error(std::string("cannot be started (") + std::strerror(error) + ")",
                 "palpa " + arguments.front(), "Look for memory and disk space");
   if (gives_way) ::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), kNice);
@@ -91,28 +93,13 @@ void askToEnd(const ProcessId& process) {
   if (runs(process)) ::kill(process.pid, SIGINT);
 }
 
-std::vector<std::string> lastLines(const std::filesystem::path& log, std::size_t most) {
-  std::ifstream file(log, std::ios::binary | std::ios::ate);
-  if (!file) return {};
-  const std::streamoff size = file.tellg();
-  file.seekg(std::max<std::streamoff>(0, size - kTail));
-  std::vector<std::string> lines;
-  for (std::string line; std::getline(file, line);) {
-    if (const std::size_t anew = line.rfind('\r'); anew != std::string::npos)
-      line.erase(0, anew + 1);
-    if (!line.empty()) lines.push_back(line);
-  }
-  if (lines.size() > most)
-    lines.erase(lines.begin(), lines.end() - static_cast<std::ptrdiff_t>(most));
-  return lines;
+bool startProgram(const std::string& name, const std::vector<std::string>& arguments) {
+  std::vector<std::string> words{name};
+  words.insert(words.end(), arguments.begin(), arguments.end());
+  pid_t pid = 0;
+  return posix_spawnp(&pid, name.c_str(), nullptr, nullptr, pointersTo(words).data(), environ) == 0;
 }
 
-std::string complaintIn(const std::filesystem::path& log) {
-  const std::vector<std::string> lines = lastLines(log, 50);
-  const auto found = std::find_if(lines.rbegin(), lines.rend(), [](const std::string& line) {
-    return line.rfind("palpa: ", 0) == 0;
-  });
-  return found == lines.rend() ? "" : found->substr(7);
-}
+int processNumber() { return ::getpid(); }
 
 }  // namespace palpa::os

@@ -11,8 +11,8 @@ namespace palpa::os {
 /// A process of this program, as it can be found again by another one later.
 struct ProcessId {
   int pid = 0;
-  std::uint64_t began =
-      0;  ///< of the kernel, ticks since boot: tells it from a later process with the same number
+  /// Of the kernel, ticks since boot: tells it from a later process with the same number.
+  std::uint64_t began = 0;
   bool operator==(const ProcessId&) const = default;
 };
 
@@ -25,9 +25,11 @@ bool runs(const ProcessId& process);
 /// Asks it to end, as Ctrl-C does.
 void askToEnd(const ProcessId& process);
 
-/// The last lines of a log, without what a terminal would make of them.
-std::vector<std::string> lastLines(const std::filesystem::path& log, std::size_t most);
-/// Of the last line that begins with "palpa: ": what went wrong; empty: nothing was said.
-std::string complaintIn(const std::filesystem::path& log);
+/// Starts an installed program, found as a shell finds it, and leaves it alone. False: there is
+/// none of this name.
+bool startProgram(const std::string& name, const std::vector<std::string>& arguments);
+
+/// Of this process; no other running one has it.
+int processNumber();
 
 }  // namespace palpa::os

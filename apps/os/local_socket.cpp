@@ -1,9 +1,7 @@
 #include "apps/os/local_socket.h"
 
-#include <sys/resource.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
-#include <sys/syscall.h>
 #include <sys/un.h>
 #include <unistd.h>
 
@@ -17,7 +15,7 @@
 namespace palpa::os {
 namespace {
 
-constexpr int kBacklog = 8, kServerNice = 15;
+constexpr int kBacklog = 8;
 
 bool fits(const std::string& path) {
   return path.size() < sizeof sockaddr_un{}.sun_path && path.find('\0') == std::string::npos;
@@ -48,7 +46,7 @@ int connectTo(const std::string& path) {
   return -1;
 }
 
-int listenAt(const std::string& path) {
+int listenAt(const std::string& path, const std::string& advice) {
   const sockaddr_un address = addressOf(path);
   if (const int there = connectTo(path); there >= 0) {
     ::close(there);
@@ -66,7 +64,7 @@ int listenAt(const std::string& path) {
   if (good) return socket;
   if (socket >= 0) ::close(socket);
   throw Error(std::string("cannot be made (") + std::strerror(error) + ")", "local socket " + path,
-              "Give a folder that can be written to, or leave out --live");
+              advice);
 }
 
 bool sameUser(int socket) {
@@ -94,7 +92,5 @@ std::string socketFolder() {
                 "Remove it, or set XDG_RUNTIME_DIR to a folder of yours");
   return folder;
 }
-
-void giveWay() { ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), kServerNice); }
 
 }  // namespace palpa::os

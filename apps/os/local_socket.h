@@ -5,8 +5,9 @@
 namespace palpa::os {
 
 /// A listening Unix socket at `path`, readable by this user only; what a dead process left there is
-/// removed. Throws Error.
-int listenAt(const std::string& path);
+/// removed. Throws Error; `advice`: where there can be none.
+int listenAt(const std::string& path,
+             const std::string& advice = "Give a folder that can be written to");
 /// Connected, or -1: nobody is there, or nobody can be (the path is too long for a socket).
 int connectTo(const std::string& path);
 /// The process at the other end runs as the same user.
@@ -15,8 +16,5 @@ bool sameUser(int socket);
 /// Where sockets of sessions are: $XDG_RUNTIME_DIR/palpa, else palpa-<user id> among the temporary
 /// files; made, readable by this user only. Throws Error where somebody else owns it.
 std::string socketFolder();
-
-/// The calling thread gives way to all others that want to run.
-void giveWay();
 
 }  // namespace palpa::os

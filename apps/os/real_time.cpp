@@ -14,8 +14,9 @@
 namespace palpa::os {
 namespace {
 
-constexpr int kFifoPriority =
-    80;  // over normal threads and most of the kernel's own, under its watchdogs
+// Over normal threads and most of the kernel's own, under its watchdogs.
+constexpr int kFifoPriority = 80;
+constexpr int kServerNice = 15;
 constexpr std::size_t kStack = 256 * 1024;  // a tick uses a few KiB of the 8 MiB
 constexpr std::size_t kPage = 4096;         // the smallest there is
 
@@ -73,5 +74,7 @@ std::string becomeRealTime(int cpu) {
   if (cpu >= 0) words += "; " + askForCpu(cpu);
   return words;
 }
+
+void giveWay() { setpriority(PRIO_PROCESS, static_cast<id_t>(syscall(SYS_gettid)), kServerNice); }
 
 }  // namespace palpa::os

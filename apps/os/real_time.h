@@ -22,10 +22,12 @@ class MemoryLock {
 };
 
 /// Prepares the calling thread for steps in time: SCHED_FIFO where allowed, `cpu` where one is
-/// wanted
-/// (-1: any), 256 KiB of its stack touched beforehand. Says what it got, and why not what it did
-/// not get: "SCHED_FIFO", "normal priority: SCHED_FIFO refused (Operation not permitted); CPU 3
+/// named (-1: any), 256 KiB of its stack touched beforehand. Says what it got, and why not what it
+/// did not get: "SCHED_FIFO", "normal priority: SCHED_FIFO refused (Operation not permitted); CPU 3
 /// refused (Invalid argument)".
 std::string becomeRealTime(int cpu);
+
+/// The calling thread gives way to all others that want to run.
+void giveWay();
 
 }  // namespace palpa::os

@@ -4,20 +4,17 @@
 #include <netdb.h>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
-#include <poll.h>
 #include <sys/socket.h>
-#include <unistd.h>
 
 #include <cerrno>
 #include <cstring>
 #include <optional>
 
 #include "anatomy/base/error.h"
+#include "apps/os/socket.h"
 
 namespace palpa::os {
 namespace {
-
-bool wouldWait(int error) { return error == EAGAIN || error == EWOULDBLOCK || error == EINTR; }
 
 std::optional<sockaddr_in> addressOf(const std::string& ipv4, std::uint16_t port) {
   sockaddr_in address{};
@@ -34,11 +31,6 @@ void prepare(int fd) {
   setsockopt(fd, SOL_SOCKET, SO_KEEPALIVE, &on, sizeof on);
 }
 
-bool ready(int fd, short what, int wait_ms) {
-  pollfd p{fd, what, 0};
-  return poll(&p, 1, wait_ms) > 0;
-}
-
 }  // namespace
 
 TcpSocket& TcpSocket::operator=(TcpSocket&& other) noexcept {
@@ -50,7 +42,7 @@ TcpSocket& TcpSocket::operator=(TcpSocket&& other) noexcept {
 }
 
 void TcpSocket::close() {
-  if (fd_ >= 0) ::close(fd_);
+  if (fd_ >= 0) closeSocket(fd_);
   fd_ = -1;
 }
 
@@ -67,7 +59,7 @@ TcpSocket TcpSocket::connecting(const std::string& ipv4, std::uint16_t port) {
 
 TcpSocket::Progress TcpSocket::connected(int wait_ms) const {
   if (!open()) return Progress::failed;
-  if (!ready(fd_, POLLOUT, wait_ms)) return Progress::pending;
+  if (!ready(fd_, Wait::to_write, wait_ms)) return Progress::pending;
   int error = 0;
   socklen_t size = sizeof error;
   return getsockopt(fd_, SOL_SOCKET, SO_ERROR, &error, &size) == 0 && error == 0 ? Progress::done
@@ -76,47 +68,43 @@ TcpSocket::Progress TcpSocket::connected(int wait_ms) const {
 
 std::size_t TcpSocket::send(std::span<const std::uint8_t> bytes) {
   if (!open()) return 0;
-  const ssize_t sent = ::send(fd_, bytes.data(), bytes.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-  if (sent >= 0) return static_cast<std::size_t>(sent);
-  if (!wouldWait(errno)) close();
-  return 0;
+  const std::optional<std::size_t> sent = sendSome(fd_, bytes.data(), bytes.size());
+  if (!sent) close();
+  return sent.value_or(0);
 }
 
 std::size_t TcpSocket::receive(std::span<std::uint8_t> buffer, int wait_ms) {
-  if (!open() || (wait_ms > 0 && !ready(fd_, POLLIN, wait_ms))) return 0;
-  const ssize_t got = recv(fd_, buffer.data(), buffer.size(), MSG_DONTWAIT);
-  if (got > 0) return static_cast<std::size_t>(got);
-  if (got == 0 || !wouldWait(errno)) close();
-  return 0;
+  if (!open() || (wait_ms > 0 && !ready(fd_, Wait::to_read, wait_ms))) return 0;
+  const std::optional<std::size_t> got = receiveSome(fd_, buffer.data(), buffer.size());
+  if (!got) close();
+  return got.value_or(0);
 }
 
-TcpListener::TcpListener(const std::string& ipv4, std::uint16_t port) {
+TcpListener::TcpListener(const std::string& ipv4, std::uint16_t port, const std::string& what,
+                         const std::string& advice) {
   const auto address = addressOf(ipv4, port);
   if (!address)
     throw UsageError(
         "is no network address of this computer", "\"" + ipv4 + "\"",
         "Write it in figures: 127.0.0.1 for this computer only, 0.0.0.0 for every network");
   fd_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
-  const int on = 1;
-  setsockopt(fd_, SOL_SOCKET, SO_REUSEADDR, &on, sizeof on);
+  reuseAddress(fd_);
   sockaddr_in got{};
   socklen_t size = sizeof got;
   if (fd_ < 0 || bind(fd_, reinterpret_cast<const sockaddr*>(&*address), sizeof *address) != 0 ||
       listen(fd_, 8) != 0 || getsockname(fd_, reinterpret_cast<sockaddr*>(&got), &size) != 0) {
     const std::string why = std::strerror(errno);
-    if (fd_ >= 0) ::close(fd_);
-    throw Error("cannot be served (" + why + ")",
-                "OpenIGTLink at " + ipv4 + ":" + std::to_string(port),
-                "Choose another port, or end the program that holds it (3D Slicer's or PLUS' "
-                "server use 18944 too)");
+    if (fd_ >= 0) closeSocket(fd_);
+    throw Error("cannot be served (" + why + ")", what + " at " + ipv4 + ":" + std::to_string(port),
+                advice);
   }
   port_ = ntohs(got.sin_port);
 }
 
-TcpListener::~TcpListener() { ::close(fd_); }
+TcpListener::~TcpListener() { closeSocket(fd_); }
 
 TcpSocket TcpListener::accept() {
-  TcpSocket peer(accept4(fd_, nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
+  TcpSocket peer(acceptOne(fd_));
   if (peer.open()) prepare(peer.descriptor());
   return peer;
 }
@@ -134,7 +122,5 @@ std::string ipv4Of(const std::string& host, const std::string& where) {
   freeaddrinfo(found);
   return text;
 }
-
-bool isLoopback(const std::string& ipv4) { return ipv4.rfind("127.", 0) == 0; }
 
 }  // namespace palpa::os

@@ -36,8 +36,10 @@ class TcpSocket {
 /// Waits for whoever connects.
 class TcpListener {
  public:
-  /// IPv4 in figures; port 0: any that is free. Throws UsageError (address), Error (port taken).
-  TcpListener(const std::string& ipv4, std::uint16_t port);
+  /// IPv4 in figures; port 0: any that is free. Throws UsageError (address), or Error (port taken)
+  /// with the name of `what` is served there and `advice`.
+  TcpListener(const std::string& ipv4, std::uint16_t port, const std::string& what = "a server",
+              const std::string& advice = "Choose another port");
   ~TcpListener();
   TcpListener(const TcpListener&) = delete;
   TcpListener& operator=(const TcpListener&) = delete;
@@ -53,6 +55,5 @@ class TcpListener {
 /// The address of a name, in figures: asked once, since asking for a name may wait. Throws
 /// UsageError.
 std::string ipv4Of(const std::string& host, const std::string& where);
-bool isLoopback(const std::string& ipv4);
 
 }  // namespace palpa::os

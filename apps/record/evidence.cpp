@@ -2,10 +2,10 @@
 
 #include <sqlite3.h>
 
-#include <cstdlib>
 #include <cstring>
 #include <fstream>
 
+#include "apps/os/file_access.h"
 #include "apps/record/schema.h"
 
 namespace palpa::record {
@@ -59,19 +59,13 @@ bool hasLog(const fs::path& file) {
 
 }  // namespace
 
-void Evidence::RemoveFolder::operator()(fs::path* folder) const noexcept {
-  std::error_code ignored;
-  fs::remove_all(*folder, ignored);
-  delete folder;
-}
-
 void Evidence::openCopy(const fs::path& file) {
-  std::string name = (fs::temp_directory_path() / "palpa-XXXXXX").string();
-  if (!mkdtemp(name.data())) {
-    throw Error("no temporary folder can be made", name, "Set TMPDIR to a folder with free space");
+  copy_ = std::make_unique<os::TemporaryFolder>("palpa-");
+  if (!copy_->made()) {
+    throw Error("no temporary folder can be made", copy_->path().string(),
+                "Set TMPDIR to a folder with free space");
   }
-  copy_.reset(new fs::path(name));
-  const fs::path target = *copy_ / "session.palpa";
+  const fs::path target = copy_->path() / "session.palpa";
   fs::copy_file(file, target);
   fs::copy_file(file.string() + "-wal", target.string() + "-wal");
   database_ = std::make_unique<Database>(target, Database::Mode::read);
@@ -93,5 +87,7 @@ Evidence::Evidence(const fs::path& file) {
   }
   checkIdentity(*database_);
 }
+
+Evidence::~Evidence() = default;
 
 }  // namespace palpa::record

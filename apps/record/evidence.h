@@ -5,6 +5,10 @@
 
 #include "apps/record/sqlite.h"
 
+namespace palpa::os {
+class TemporaryFolder;
+}
+
 namespace palpa::record {
 
 /// A session file opened for reading, in the gentlest way that works:
@@ -17,15 +21,13 @@ namespace palpa::record {
 class Evidence {
  public:
   explicit Evidence(const std::filesystem::path& file);
+  ~Evidence();
   Database& database() { return *database_; }
 
  private:
-  struct RemoveFolder {
-    void operator()(std::filesystem::path* folder) const noexcept;
-  };
   void openCopy(const std::filesystem::path& file);
 
-  std::unique_ptr<std::filesystem::path, RemoveFolder> copy_;  // outlives the connection
+  std::unique_ptr<os::TemporaryFolder> copy_;  // outlives the connection
   std::unique_ptr<Database> database_;
 };
 

@@ -18,7 +18,7 @@ inline constexpr int kLayoutVersion = 5;
 /// Ticks in one chunk at most: what a killed process can lose.
 inline constexpr std::size_t kChunkTicks = 200;
 
-/// All tables. Every row ends with `crc`: CRC-32 of its other columns (see row_checksum.h).
+/// All tables. Every row ends with `crc`: CRC-32 of its other columns (record_codec.h).
 const char* schemaSql();
 
 /// Byte order, layout version and size of every recorded struct: equal text, equal layout.

@@ -1,13 +1,10 @@
-#include <fcntl.h>
-#include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
 #include <map>
 #include <optional>
 #include <span>
 
 #include "anatomy/base/uuid.h"
+#include "apps/os/file_access.h"
 #include "apps/record/schema.h"
 #include "apps/record/session_file.h"
 #include "apps/record/table_writer.h"
@@ -17,14 +14,12 @@ namespace {
 
 /// Claims the name: evidence is never overwritten, not even by two processes at once.
 void createEmpty(const std::filesystem::path& file) {
-  const int descriptor = ::open(file.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC, 0644);
-  if (descriptor < 0) {
-    throw Error(errno == EEXIST
+  if (const std::error_code problem = os::createNew(file)) {
+    throw Error(problem == std::errc::file_exists
                     ? "a file of this name is there already; evidence is never overwritten"
-                    : std::string("cannot be created: ") + std::strerror(errno),
+                    : "cannot be created: " + problem.message(),
                 file.string(), "Choose another folder with --out");
   }
-  ::close(descriptor);
 }
 
 void removeAll(const std::filesystem::path& file) noexcept {

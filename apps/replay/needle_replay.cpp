@@ -50,8 +50,8 @@ task_needle::TaskStatus statusAt(const Moment& moment, int trial, bool force_fee
 
 namespace {
 
-constexpr unsigned char kEscape = 0xff, kBegin = 0xd8;  // JPEG's start of image; a byte 0xff in the
-                                                        // data is followed by 0 (ITU T.81, B.1.1.5)
+// JPEG's start of image; a byte 0xff in the data is followed by 0 (ITU T.81, B.1.1.5)
+constexpr unsigned char kEscape = 0xff, kBegin = 0xd8;
 
 /// Second field of every line after the first.
 std::vector<std::int64_t> timesIn(const std::filesystem::path& table) {

@@ -47,7 +47,7 @@ class MomentReader {
 task_needle::TaskStatus statusAt(const Moment& moment, int trial, bool force_feedback);
 
 /// The camera's pictures that a session left beside its evidence ("camera.mjpeg": JPEG after JPEG;
-/// "camera.mjpeg.csv": when each was taken), any of them at once. Nothing where there are none, or
+/// "camera.mjpeg.csv": when each was taken), any of them at once. Nothing where there is none, or
 /// where the table names fewer than one; a picture that cannot be read is passed over.
 class RecordedPictures {
  public:

@@ -14,9 +14,8 @@ class Activity {
   virtual const char* name() const = 0;
   virtual std::int64_t step(std::int64_t now_ns) = 0;  ///< next due time; kNever: finished
   virtual void end() noexcept {}  ///< its last step is over, whatever ended it; on its own thread
-  virtual std::int64_t period_ns() const {
-    return 0;
-  }  ///< of a steady step; 0: none, none can be missed
+  /// Of a steady step; 0: none, none can be missed
+  virtual std::int64_t period_ns() const { return 0; }
 };
 
 /// How a thread runs an activity in real time.

@@ -36,15 +36,17 @@ struct CameraView {
   std::shared_ptr<const cv::Mat> picture;
   std::optional<ar::BoardPose>
       pose;  ///< as measured in this picture; empty when the board is not seen in it
-  std::optional<Pose> X_CW;  ///< of the board at the exposure: filtered over the pictures, or
-                             ///< foretold where it is hidden for a moment
+  /// Of the board at the exposure: filtered over the pictures, or predicted where it is hidden for
+  /// a moment
+  std::optional<Pose> X_CW;
   ar::TrackState tracking = ar::TrackState::searching;
   bool by_tracker =
       false;  ///< X_CW and `tracking` are of another tracking system than the pictures
   ar::PictureFault fault = ar::PictureFault::none;  ///< gone: `source` says why
   std::vector<std::optional<Pose>>
-      others;  ///< X_CB of the boards besides the table's, as `X_CW`, in the order of the camera's
-               ///< settings; empty: not seen
+      /// X_CB of the boards besides the table's, as `X_CW`, in the order of the camera's settings;
+      /// empty: not seen
+      others;
 };
 
 /// What a person at the display sees, as far as a simulated person may know it.

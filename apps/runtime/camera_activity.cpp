@@ -47,8 +47,8 @@ CameraView CameraActivity::see(const Exposure& exposure, std::int64_t t_ns, std:
   std::optional<ar::Frame> frame;
   try {
     frame = exposure();
-  } catch (const std::exception& e) {  // of the source alone: what goes wrong in the tracking is
-                                       // told to the executive
+    // Of the source alone: what goes wrong in the tracking is told to the executive
+  } catch (const std::exception& e) {
     view.fault = ar::PictureFault::gone;
     view.source = e.what();
     return view;

@@ -19,7 +19,7 @@ namespace palpa::runtime {
 class CameraActivity final : public Activity {
  public:
   /// How good a tracking system is, and how long after its last pose the camera's place is
-  /// foretold; beyond, it is lost.
+  /// predicted; beyond, it is lost.
   struct Tracking {
     double sigma = 0.3e-3, sigma_rad = 2e-3;  ///< m and rad, of each component
     double stale = 0.1;                       ///< s

@@ -1,35 +1,21 @@
 #include "apps/runtime/clock.h"
 
-#include <cerrno>
 #include <ctime>
 
+#include "apps/os/system_time.h"
+
 namespace palpa::runtime {
-namespace {
-std::int64_t timeOf(clockid_t clock) {
-  timespec t{};
-  clock_gettime(clock, &t);
-  return t.tv_sec * kSecond + t.tv_nsec;
-}
-std::int64_t monotonic() { return timeOf(CLOCK_MONOTONIC); }
-}  // namespace
 
-std::int64_t dateNow() noexcept { return timeOf(CLOCK_REALTIME); }
+std::int64_t dateNow() noexcept { return os::date_ns(); }
 
-std::int64_t clockResolution() noexcept {
-  timespec t{};
-  clock_getres(CLOCK_MONOTONIC, &t);
-  return t.tv_sec * kSecond + t.tv_nsec;
-}
+std::int64_t clockResolution() noexcept { return os::monotonicResolution_ns(); }
 
-SteadyClock::SteadyClock() : start_ns_(monotonic()) {}
+SteadyClock::SteadyClock() : start_ns_(os::monotonic_ns()) {}
 
-std::int64_t SteadyClock::now() const noexcept { return monotonic() - start_ns_; }
+std::int64_t SteadyClock::now() const noexcept { return os::monotonic_ns() - start_ns_; }
 
 void SteadyClock::sleepUntil(std::int64_t t_ns) const noexcept {
-  const std::int64_t t = start_ns_ + t_ns;
-  const timespec until{static_cast<time_t>(t / kSecond), static_cast<long>(t % kSecond)};
-  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &until, nullptr) == EINTR) {
-  }
+  os::sleepUntilMonotonic(start_ns_ + t_ns);
 }
 
 ServingClock::time_point ServingClock::now() noexcept {

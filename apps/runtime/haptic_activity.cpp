@@ -53,8 +53,8 @@ ToolState toolStateOf(const haptics::TickConfig& config, const haptics::TickStat
                       const haptics::FlightRecord& record, std::int64_t now_ns) {
   ToolState tool = toolStateOf(haptics::toolPose(config, state, record.reading), record);
   tool.t_ns = now_ns;
-  tool.v_D =
-      config.engine == haptics::Engine::probe ? state.probe.motion.v_D : state.contact.motion.v_D;
+  tool.v_D = config.contact_mode == haptics::ContactMode::probe ? state.probe.motion.v_D
+                                                                : state.contact.motion.v_D;
   tool.entry_D = state.contact.entry_D;
   return tool;
 }

@@ -34,8 +34,9 @@ class ForceSensing {
   static constexpr std::int64_t kGoodFor_ns = 10'000'000;  ///< as old as a sample may be
 
   struct Setup {
-    haptics::WrenchFilter filter;  ///< its motion at the device's rate, its low-pass at the loop's;
-                                   ///< K: the tool's tip, or a round tip's middle
+    /// Its motion at the device's rate, its low-pass at the loop's; K: the tool's tip, or a round
+    /// tip's middle
+    haptics::WrenchFilter filter;
     Pose X_WD = Pose::Identity();  ///< which way is down
     Pose X_ES = Pose::Identity();  ///< the sensor on the end effector
   };

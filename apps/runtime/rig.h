@@ -31,8 +31,9 @@ struct Request {
     hold,  ///< hold the tool still where `p_W` is, leaning by `lean`, its marker toward the camera,
            ///< and press the button
     wave,  ///< wave the tool, its marker toward the camera
-    press,   ///< press a soft sample with the round tip at `p_W` and let go, slowly and quickly, as
-             ///< deep as `depth`
+    /// Press a soft sample with the round tip at `p_W` and let go, slowly and quickly, as deep as
+    /// `depth`
+    press,
     stroke,  ///< stroke over it, to and fro, as far as `reach`, at different depths and speeds
   };
   What what = What::show_board;

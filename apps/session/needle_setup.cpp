@@ -1,9 +1,8 @@
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/whole_file.h"
 #include "anatomy/patient/patient_file.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/needle_world.h"
@@ -70,8 +69,7 @@ namespace {
 std::string bytesOf(const anatomy::Patient& patient, const std::filesystem::path& folder) {
   const std::filesystem::path file = folder / ".patient.glb";
   anatomy::writePatient(patient, file);
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  std::string bytes = readWhole(file).value_or("");
   std::filesystem::remove(file);
   return bytes;
 }
@@ -127,11 +125,7 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
   info.station_json = world.station.file.json().dump();
   info.task_json = world.task.source;
   info.patient_glb = bytesOf(world.patient, folder);
-  if (world.expert_path) {
-    std::ifstream stream(world.task.expert_path);
-    info.expert_path_json.assign(std::istreambuf_iterator<char>(stream),
-                                 std::istreambuf_iterator<char>());
-  }
+  if (world.expert_path) info.expert_path_json = readWhole(world.task.expert_path).value_or("");
   info.tick_config = tickConfig(options, world);
   return info;
 }

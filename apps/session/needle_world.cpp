@@ -156,9 +156,9 @@ twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill,
 task_needle::TrialPlan NeedleWorld::trial(const std::string& role, std::uint64_t seed,
                                           bool force_feedback, bool augmented) const {
   task_needle::TrialPlan plan{role, seed, force_feedback, augmented, 0, {}};
-  plan.puncture_force_N = runtime::RandomStream(seed, "skin.puncture")
-                              .uniform(needle.puncture_low_N, needle.puncture_high_N);
-  runtime::RandomStream walls(seed, "walls.puncture");
+  plan.puncture_force_N =
+      RandomStream(seed, "skin.puncture").uniform(needle.puncture_low_N, needle.puncture_high_N);
+  RandomStream walls(seed, "walls.puncture");
   for (std::size_t i = 0; i < plan.wall_scale.size(); ++i) {
     const double z = std::clamp(walls.normal(), -kFarthestWall, kFarthestWall);
     plan.wall_scale[i] = static_cast<float>(std::exp(needle.materials.walls[i].spread * z));

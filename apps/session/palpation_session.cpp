@@ -76,7 +76,7 @@ PalpationWorld::PalpationWorld(const SessionOptions& options)
 
 haptics::TickConfig PalpationWorld::tickConfig(const SessionOptions& options) const {
   haptics::TickConfig config;
-  config.engine = haptics::Engine::touch;
+  config.contact_mode = haptics::ContactMode::sensed_object;
   config.object_at_port = 1;
   config.coupling = station.coupling;
   config.safety = station.safety;

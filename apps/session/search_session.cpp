@@ -89,7 +89,7 @@ SearchWorld::SearchWorld(const SessionOptions& options)
 
 haptics::TickConfig SearchWorld::tickConfig(const SessionOptions& options) const {
   haptics::TickConfig config;
-  config.engine = haptics::Engine::floor;
+  config.contact_mode = haptics::ContactMode::floor;
   config.coupling = station.coupling;
   config.safety = station.safety;
   config.passivity = station.passivity;

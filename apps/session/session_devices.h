@@ -47,9 +47,8 @@ class SessionDevices {
   };
   Second* second() { return second_.get(); }
   runtime::ForceSensing* sensing() { return sensing_ ? &*sensing_ : nullptr; }
-  twin::VirtualBench* bench() {
-    return bench_.get();
-  }  ///< for its camera; null where recorded pictures stand for it
+  /// For its camera; null where recorded pictures stand for it
+  twin::VirtualBench* bench() { return bench_.get(); }
   MouseHand* mouse() { return mouse_.get(); }     ///< null: nobody leads with the mouse
   PointingHand* pointing() { return pointing_; }  ///< null: nobody points at the bench
 

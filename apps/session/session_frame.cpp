@@ -109,11 +109,12 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
         look(view);
         if (video_) video_->add(view);
       });
-  SessionIgtl igtl(options_, world_.station,
-                   {world_.X_WA, unpack(world_.tick.X_ET),
-                    world_.tick.engine == haptics::Engine::needle, world_.pair.has_value()},
-                   bus_, executive_->clock());
-  if (info.uuid.empty()) info.uuid = record::newUuid();
+  SessionIgtl igtl(
+      options_, world_.station,
+      {world_.X_WA, unpack(world_.tick.X_ET),
+       world_.tick.contact_mode == haptics::ContactMode::needle, world_.pair.has_value()},
+      bus_, executive_->clock());
+  if (info.uuid.empty()) info.uuid = newUuid();
   record::SessionWriter writer(folder_ / "session.palpa", info);
   const auto noted = noteForRecords(options_, info.uuid, folder_ / "session.palpa");
   if (options_.record_video) video_.emplace(folder_);

@@ -4,6 +4,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/parametric/phantoms.h"
+#include "apps/os/socket.h"
 
 namespace palpa::session {
 namespace {
@@ -43,7 +44,7 @@ SessionIgtl::SessionIgtl(const SessionOptions& options, const station::Station& 
   if (options.quiet) return;
   std::printf("OpenIGTLink: this session is served at %s, port %d\n", options.igtl_listen.c_str(),
               link_->server().port());
-  if (!os::isLoopback(options.igtl_listen))
+  if (!os::isLoopbackAddress(options.igtl_listen))
     std::puts(
         "Whoever reaches this computer there can listen: what is served holds no names, but it is "
         "not encrypted");

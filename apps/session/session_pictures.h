@@ -37,9 +37,8 @@ class SessionPictures {
   /// `bench` is asked only where its camera is watched; `clock`: the session's.
   runtime::CameraActivity::Exposer exposer(twin::VirtualBench* bench, const runtime::Clock& clock);
   runtime::CameraActivity::Observer observer(twin::VirtualBench* bench);
-  const std::vector<RegistrationRow>& registration() const {
-    return registration_;
-  }                                          ///< of photographs
+  /// Of photographs
+  const std::vector<RegistrationRow>& registration() const { return registration_; }
   std::vector<std::string> remarks() const;  ///< what a webcam's driver did not accept, in words
 
  private:

@@ -85,7 +85,7 @@ haptics::PairConfig SqueezeWorld::pairConfig(const SessionOptions& options) cons
   const Pose X_WP = station.sample->X_WP;
   for (std::size_t t = 0; t < 2; ++t) {
     haptics::TickConfig& tick = pair.tools[t];
-    tick.engine = haptics::Engine::touch;
+    tick.contact_mode = haptics::ContactMode::sensed_object;
     tick.object_at_port = 1;
     tick.coupling = station.coupling;
     tick.safety = station.safety;

@@ -1,11 +1,9 @@
 #include "apps/session/terminal.h"
 
-#include <unistd.h>
-
-#include <csignal>
 #include <cstdio>
 #include <utility>
 
+#include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::session {
@@ -15,7 +13,7 @@ constexpr std::int64_t kTerminal = 200'000'000;  // wall time between lines
 constexpr std::int64_t kPlain = 5'000'000'000;
 }  // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(isatty(STDERR_FILENO) != 0) {}
+Progress::Progress(bool quiet) : quiet_(quiet), terminal_(os::errorsGoToTerminal()) {}
 
 Progress::~Progress() {
   if (!quiet_ && terminal_) std::fputs("\r\033[K", stderr);
@@ -40,7 +38,7 @@ constexpr int kBar = 30;  // letters
 }  // namespace
 
 WorkProgress::WorkProgress(std::string what, int of)
-    : what_(std::move(what)), of_(of), terminal_(isatty(STDERR_FILENO) != 0) {}
+    : what_(std::move(what)), of_(of), terminal_(os::errorsGoToTerminal()) {}
 
 WorkProgress::~WorkProgress() {
   if (terminal_) std::fputs("\r\033[K", stderr);
@@ -61,29 +59,8 @@ void WorkProgress::done(int count) {
 namespace {
 
 constexpr std::int64_t kLookPeriod = 50 * runtime::kMillisecond;
-constexpr int kSignals[] = {SIGINT, SIGTERM};
-volatile std::sig_atomic_t interrupted = 0;
-struct sigaction old_actions[std::size(kSignals)];
-
-void note(int) { interrupted = 1; }
 
 }  // namespace
-
-InterruptNote::InterruptNote() {
-  interrupted = 0;
-  struct sigaction action {};
-  action.sa_handler = note;
-  action.sa_flags = SA_RESTART | static_cast<int>(SA_RESETHAND);
-  for (std::size_t i = 0; i < std::size(kSignals); ++i)
-    sigaction(kSignals[i], &action, &old_actions[i]);
-}
-
-InterruptNote::~InterruptNote() {
-  for (std::size_t i = 0; i < std::size(kSignals); ++i)
-    sigaction(kSignals[i], &old_actions[i], nullptr);
-}
-
-bool InterruptNote::noted() const { return interrupted != 0; }
 
 std::int64_t Interrupt::step(std::int64_t now_ns) {
   if (!note_.noted()) return now_ns + kLookPeriod;

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "apps/os/signals.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/clock.h"
 #include "apps/trial/trial_status.h"
@@ -42,17 +43,6 @@ class WorkProgress {
   runtime::SteadyClock clock_;
 };
 
-/// While it lives, the first Ctrl-C or SIGTERM is noted instead of ending the program; a second one
-/// kills. One at a time; the old handlers come back at its end.
-class InterruptNote {
- public:
-  InterruptNote();
-  ~InterruptNote();
-  InterruptNote(const InterruptNote&) = delete;
-  InterruptNote& operator=(const InterruptNote&) = delete;
-  bool noted() const;
-};
-
 /// Ctrl-C and SIGTERM close a session as Escape does: the trial is ended, devices get zero force,
 /// files are written.
 class Interrupt final : public runtime::Activity {
@@ -63,7 +53,7 @@ class Interrupt final : public runtime::Activity {
 
  private:
   trial::Channels& channels_;
-  InterruptNote note_;
+  os::InterruptNote note_;
 };
 
 }  // namespace palpa::session

@@ -75,10 +75,17 @@ SessionLeft holdSearch(SessionOptions options) {
   return {folder, run.quit};
 }
 
-SessionLeft holdSession(const std::string& engine, SessionOptions options) {
-  if (engine == "palpation") return holdPalpation(std::move(options));
-  if (engine == "surface") return holdSearch(std::move(options));
-  if (engine == "squeeze") return holdSqueeze(std::move(options));
+SessionLeft holdSession(station::Engine engine, SessionOptions options) {
+  switch (engine) {
+    case station::Engine::palpation:
+      return holdPalpation(std::move(options));
+    case station::Engine::search:
+      return holdSearch(std::move(options));
+    case station::Engine::squeeze:
+      return holdSqueeze(std::move(options));
+    case station::Engine::needle:
+      break;
+  }
   return holdNeedleSession(std::move(options));
 }
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 
 #include "apps/session/session_options.h"
+#include "apps/station/engine.h"
 
 namespace palpa::session {
 
@@ -19,7 +20,7 @@ SessionLeft holdPalpation(SessionOptions options);
 SessionLeft holdSqueeze(SessionOptions options);
 SessionLeft holdSearch(SessionOptions options);
 
-/// The one for a task file's engine: "palpation", "surface", "squeeze", or a needle's.
-SessionLeft holdSession(const std::string& engine, SessionOptions options);
+/// The one for a task file's engine.
+SessionLeft holdSession(station::Engine engine, SessionOptions options);
 
 }  // namespace palpa::session

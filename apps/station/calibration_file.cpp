@@ -8,6 +8,7 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/whole_file.h"
+#include "anatomy/geometry/pose.h"
 #include "calibration/rotation.h"
 
 namespace palpa::station {

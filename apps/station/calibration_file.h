@@ -67,8 +67,8 @@ inline const std::vector<std::string> kCalibrationKinds{
     "camera",       "tool",     "workspace", "registration", "latency",
     "force-sensor", "material", "friction",  "inclusion",    "subtasks"};
 
-/// Throws Error naming file and field: foreign, newer, damaged, changed by hand, or with figures
-/// that are none.
+/// Throws Error naming file and field: foreign, newer, damaged, changed by hand, or with
+/// invalid figures.
 CalibrationFile readCalibration(const std::filesystem::path& file);
 
 /// The file's text. Throws Error for figures that are not finite or a covariance that is none.

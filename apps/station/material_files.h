@@ -38,8 +38,9 @@ struct LumpLibrary {
   haptics::Dahl friction;
   double tip_radius = 0;   ///< m
   bool simulated = false;  ///< identified on the virtual bench
-  std::string of_surface;  ///< by what the surface is known: "the library of lumps", "this
-                           ///< station's calibration of 2026-11-02"
+  /// By what the surface is known: "the library of lumps", "this station's calibration of
+  /// 2026-11-02"
+  std::string of_surface;
   std::vector<LumpKind> kinds;
 };
 

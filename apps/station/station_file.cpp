@@ -2,6 +2,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/units.h"
+#include "anatomy/geometry/pose.h"
 #include "haptics/safety/passivity.h"
 
 namespace palpa::station {
@@ -44,7 +45,7 @@ CameraSetup readCameraSetup(const JsonFile& file) {
 /// A place that an arm may reach, metres.
 Vec3 placeIn(const JsonFile& file, const std::string& at) {
   constexpr double kFarthest_mm = 5000;
-  const Vec3 p_mm = file.vector(at);
+  const Vec3 p_mm = unpack(file.triple(at));
   if (p_mm.cwiseAbs().maxCoeff() > kFarthest_mm) file.refuse(at, "is more than 5 m away");
   return kMm * p_mm;
 }
@@ -67,7 +68,7 @@ std::vector<Landmark> readGrid(const JsonFile& file) {
   std::vector<Landmark> grid;
   if (!file.has("grid")) return grid;
   const Vec3 origin = placeIn(file, "grid/origin_W_mm"), spacing = placeIn(file, "grid/spacing_mm"),
-             counts = file.vector("grid/counts");
+             counts = unpack(file.triple("grid/counts"));
   if ((spacing.array() < 1e-3).any())
     file.refuse("grid/spacing_mm", "must be 1 mm or more each way");
   if ((counts.array() < 1).any() || (counts.array() > 10).any() ||
@@ -161,7 +162,7 @@ Station readStation(const std::filesystem::path& path) {
   s.X_WD = readPose(file, "registration/X_WD");
   s.X_ET = readPose(file, "tool/X_ET");
   if (file.has("second_device")) s.second_X_WD = readPose(file, "second_device/X_WD");
-  s.entry_W = kMm * file.vector("patient/entry_mm");
+  s.entry_W = kMm * unpack(file.triple("patient/entry_mm"));
   readLimits(file, s);
   s.calibration_verdict = file.text("calibration/verdict");
   s.calibration_date = file.text("calibration/date");

@@ -83,9 +83,9 @@ struct Station {
   Pose X_WD = Pose::Identity();            ///< haptic base on the table: registration
   Pose X_ET = Pose::Identity();            ///< needle tip in the end effector: tool calibration
   std::optional<Pose>
-      second_X_WD;              ///< of another device of the same make, for what takes two tools
-  Vec3 entry_W = Vec3::Zero();  ///< where the patient's entry point lies: within the hand's reach,
-                                ///< whoever the patient is
+      second_X_WD;  ///< of another device of the same make, for what takes two tools
+  /// Where the patient's entry point lies: within the hand's reach, whoever the patient is
+  Vec3 entry_W = Vec3::Zero();
   haptics::SafetyLimits safety;
   haptics::CouplingLimits coupling;
   haptics::PassivityLimits passivity;  ///< sized from the device's mass and friction

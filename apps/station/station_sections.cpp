@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "anatomy/base/units.h"
+#include "anatomy/geometry/pose.h"
 #include "haptics/devices/falcon/falcon_driver.h"
 
 namespace palpa::station {
@@ -38,7 +39,7 @@ DeviceDriver readDriver(const JsonFile& file) {
 }
 
 Packed3 readPacked(const JsonFile& file, const std::string& at, double unit) {
-  return pack(Vec3(unit * file.vector(at)));
+  return pack(Vec3(unit * unpack(file.triple(at))));
 }
 
 void readNetFt(const JsonFile& file, haptics::NetFtSettings& net_ft) {
@@ -55,11 +56,11 @@ void readNetFt(const JsonFile& file, haptics::NetFtSettings& net_ft) {
 }  // namespace
 
 Pose readPose(const JsonFile& file, const std::string& at) {
-  const Vec3 turn = file.vector(at + "/rotation_vector_deg") * (std::numbers::pi / 180);
+  const Vec3 turn = unpack(file.triple(at + "/rotation_vector_deg")) * (std::numbers::pi / 180);
   const double angle = turn.norm();
   const Mat3 R =
       angle > 0 ? Eigen::AngleAxisd(angle, turn / angle).toRotationMatrix() : Mat3::Identity();
-  return makePose(R, kMm * file.vector(at + "/position_mm"));
+  return makePose(R, kMm * unpack(file.triple(at + "/position_mm")));
 }
 
 DeviceSetup readDevice(const JsonFile& file, const std::filesystem::path& folder) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anatomy/base/json_file.h"
+#include "anatomy/geometry/pose.h"
 #include "ar/boards/board.h"
 #include "haptics/device.h"
 #include "haptics/sensors/net_ft_sensor.h"

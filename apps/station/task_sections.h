@@ -41,9 +41,9 @@ haptics::LearnedModel learnedIn(const JsonFile& task);
 /// A task's parts and what is added to the force in each, as its file says it:
 ///   "subtasks": [{"name": "scan", "means": "...", "on": [{"cue": "floor_speed", "at_least":
 ///   468.75}]}]
-///       each condition: a cue (haptics/augmentation/cues.h, in its unit) with "at_least", "below"
-///       or "is" (a number, or the phase's or tissue's name)
-///   "learned": a model that parts may be told by (apps/station/learned_model.h)
+///       each condition: a cue (haptics/augmentation/subtasks.h, in its unit) with "at_least",
+///       "below" or "is" (a number, or the phase's or tissue's name)
+///   "learned": a model that parts may be told by (learnedIn)
 ///   "hysteresis": 0.05: a part is off again so far below its thresholds
 ///   "augmentations": [{"name": "edge", "kind": "pulse", "subtask": "scan", "trigger": "rise",
 ///   "way": "up", "force_N": 0.8, "width_ms": 10}]

@@ -5,12 +5,10 @@
 
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
-#include "apps/study/json_fields.h"
+#include "apps/station/engine.h"
 
 namespace palpa::study {
 namespace {
-
-using station::JsonFile;
 
 constexpr int kMostSubjects = 1000;
 
@@ -52,9 +50,10 @@ Learners readLearners(const std::filesystem::path& path, const Protocol& protoco
   l.id = needName(file, "id");
   l.title = file.text("title");
   l.planted = file.text("planted");
-  l.engine = file.text("engine");
-  if (l.engine != "needle" && l.engine != "surface")
-    file.refuse("engine", "is \"" + l.engine + "\"; virtual trainees know needle and surface");
+  l.engine = station::engineIn(file);
+  if (l.engine != station::Engine::needle && l.engine != station::Engine::search)
+    file.refuse("engine", "is \"" + station::nameOf(l.engine) +
+                              "\"; virtual trainees know needle and search");
   l.from = path.parent_path() / file.text("from");
   l.to = path.parent_path() / file.text("to");
   for (const JsonFile& entry : file.entries("groups"))
@@ -65,8 +64,9 @@ Learners readLearners(const std::filesystem::path& path, const Protocol& protoco
   for (const Session& session : protocol.sessions)
     for (const Block& block : session.blocks)
       if (block.engine != l.engine)
-        file.refuse("engine", "is \"" + l.engine + "\", but the block \"" + block.name +
-                                  "\" of the protocol is of \"" + block.engine + "\"");
+        file.refuse("engine", "is \"" + station::nameOf(l.engine) + "\", but the block \"" +
+                                  block.name + "\" of the protocol is of \"" +
+                                  station::nameOf(block.engine) + "\"");
   return l;
 }
 
@@ -74,7 +74,7 @@ VirtualTrainee::VirtualTrainee(const Learners& learners, const std::string& grou
                                std::uint64_t seed)
     : learners_(learners) {
   const GroupLearning& g = learners.groups.at(group);
-  runtime::RandomStream random(seed, "study.learner");
+  RandomStream random(seed, "study.learner");
   start_ = random.normal(g.start, g.start_sd);
   asymptote_ = random.normal(g.asymptote, g.asymptote_sd);
   rate_ = g.rate * std::exp(random.normal(0, g.rate_sd));

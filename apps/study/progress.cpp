@@ -20,10 +20,10 @@ std::vector<std::string> clockRemarks(const std::vector<DoneTrial>& trials,
     if (remarks.empty() || remarks.back() != remark) remarks.push_back(remark);
   };
   for (std::size_t i = 1; i < trials.size(); ++i)
-    if (secondsOf(trials[i].began_utc) < secondsOf(trials[i - 1].began_utc))
+    if (utcSecondsOf(trials[i].began_utc) < utcSecondsOf(trials[i - 1].began_utc))
       add("A session is dated " + trials[i].began_utc + ", before the one that came before it (" +
           trials[i - 1].began_utc + "): a clock was changed; the order in which they came counts");
-  if (!trials.empty() && secondsOf(now_utc) < secondsOf(trials.back().began_utc))
+  if (!trials.empty() && utcSecondsOf(now_utc) < utcSecondsOf(trials.back().began_utc))
     add("This station's clock says " + now_utc + ", which is before the last session (" +
         trials.back().began_utc + "): check the clock");
   return remarks;
@@ -32,7 +32,7 @@ std::vector<std::string> clockRemarks(const std::vector<DoneTrial>& trials,
 /// s. A clock that went back makes no rest longer than it is.
 double restDue(const Block& block, const DoneTrial& last, const std::string& now_utc) {
   const double since =
-      static_cast<double>(secondsOf(now_utc) - secondsOf(last.began_utc)) - last.ended_s;
+      static_cast<double>(utcSecondsOf(now_utc) - utcSecondsOf(last.began_utc)) - last.ended_s;
   return std::clamp(block.rest_s - std::max(0.0, since), 0.0, block.rest_s);
 }
 
@@ -53,8 +53,8 @@ double restAfter(const Protocol& protocol, const std::vector<DoneTrial>& trials,
 std::string earliest(const Session& session, const std::vector<DoneTrial>& trials,
                      const std::string& now_utc) {
   if (session.days_after == 0 || trials.empty()) return "";
-  const std::int64_t first = dayOf(trials.back().began_utc) + session.days_after;
-  return dayOf(now_utc) < first ? dateText(first) : "";
+  const std::int64_t first = utcDayOf(trials.back().began_utc) + session.days_after;
+  return utcDayOf(now_utc) < first ? isoDate(first) : "";
 }
 
 Next blockNext(const Protocol& protocol, const std::string& drawn,

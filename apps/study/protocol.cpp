@@ -8,7 +8,8 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
 #include "anatomy/base/sha256.h"
-#include "apps/study/json_fields.h"
+#include "apps/record/store/record_store.h"
+#include "apps/station/engine.h"
 
 namespace palpa::study {
 namespace {
@@ -46,12 +47,9 @@ int Protocol::sessionOf(std::int64_t step) const {
 
 namespace {
 
-using station::JsonFile;
-
 constexpr const char* kDrawn = "drawn";  // a block's condition: the one that the trainee drew
 constexpr int kMostTrials = 1000, kMostDays = 3650, kMostPlaces = 64;
 constexpr double kLongestRest_s = 24 * 3600;
-const std::set<std::string> kEngines{"needle", "palpation", "squeeze", "surface"};
 const std::set<std::string> kModes{"real", "degraded", "augmented"};
 const std::set<std::string> kRoles{"scored", "familiarisation"};
 
@@ -71,12 +69,12 @@ Presentation presentationIn(const JsonFile& file, Presentation before) {
       "force_feedback", "augment", "skin_deflection", "guide", "guidance", "navigation", "mode"};
   for (const auto& [field, ignored] : file.json().items()) needOneOf(file, field, field, kKnown);
   Presentation p = before;
-  p.force_feedback = flag(file, "force_feedback", p.force_feedback);
-  p.augment = flag(file, "augment", p.augment);
-  p.skin_deflection = flag(file, "skin_deflection", p.skin_deflection);
-  p.guide = flag(file, "guide", p.guide);
-  p.guidance = flag(file, "guidance", p.guidance);
-  p.navigation = flag(file, "navigation", p.navigation);
+  p.force_feedback = file.flag("force_feedback", p.force_feedback);
+  p.augment = file.flag("augment", p.augment);
+  p.skin_deflection = file.flag("skin_deflection", p.skin_deflection);
+  p.guide = file.flag("guide", p.guide);
+  p.guidance = file.flag("guidance", p.guidance);
+  p.navigation = file.flag("navigation", p.navigation);
   if (file.has("mode")) p.mode = file.text("mode");
   needOneOf(file, "mode", p.mode, kModes);
   return p;
@@ -118,8 +116,7 @@ Block blockIn(const JsonFile& file, const Protocol& protocol) {
   Block block;
   block.name = needName(file, "name");
   block.task = besides(protocol, file.text("task"));
-  block.engine = JsonFile(block.task).text("engine");
-  needOneOf(file, "task", block.engine, kEngines);
+  block.engine = station::engineIn(JsonFile(block.task));
   block.role = file.has("role") ? file.text("role") : "scored";
   needOneOf(file, "role", block.role, kRoles);
   block.trials = file.integer("trials", 1, kMostTrials);
@@ -191,12 +188,19 @@ void readBlindness(const JsonFile& file, Protocol* protocol) {
 
 }  // namespace
 
+std::string needName(const JsonFile& file, const std::string& field) {
+  const std::string name = file.text(field);
+  if (!record::whyNoPseudonym(name).empty())
+    file.refuse(field, "is \"" + name + "\"; a name here has 1 to 32 letters, digits, - or _");
+  return name;
+}
+
 Protocol readProtocol(const std::filesystem::path& path) {
   const JsonFile file(path);
   file.needVersion(1);
   Protocol p;
   p.file = path;
-  p.sha256 = station::sha256OfFile(path);
+  p.sha256 = sha256OfFile(path);
   p.id = needName(file, "id");
   p.title = file.text("title");
   p.source = file.text("source");
@@ -221,7 +225,7 @@ Protocol readProtocol(const std::filesystem::path& path) {
   needAllUsed(file, p);
   p.trial_seed = static_cast<std::uint64_t>(file.integer("trial_seed", 0, 1'000'000'000));
   readBlindness(file, &p);
-  p.bars_experts = flag(file, "bars_experts", true);
+  p.bars_experts = file.flag("bars_experts", true);
   p.barred = textsIn(file, "barred");
   return p;
 }
@@ -232,8 +236,7 @@ std::string conditionOf(const Allocation& allocation, const std::string& group, 
   const std::size_t index = static_cast<std::size_t>(place - 1);
   std::vector<std::size_t> order(size);
   for (std::size_t i = 0; i < size; ++i) order[i] = i % allocation.conditions.size();
-  runtime::RandomStream random(seed,
-                               "study.allocation." + group + "." + std::to_string(index / size));
+  RandomStream random(seed, "study.allocation." + group + "." + std::to_string(index / size));
   for (std::size_t i = size; i > 1; --i)
     std::swap(order[i - 1], order[static_cast<std::size_t>(
                                 random.uniform() * static_cast<double>(i))]);  // Fisher and Yates

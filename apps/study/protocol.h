@@ -6,7 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "apps/station/engine.h"
 #include "apps/study/questionnaire.h"
+
+namespace palpa {
+class JsonFile;
+}
 
 namespace palpa::study {
 
@@ -34,8 +39,8 @@ struct Group {
 struct Block {
   std::string name;
   std::filesystem::path task;
-  std::string engine;           ///< of the task: "needle", "palpation", "squeeze", "surface"
-  std::string role = "scored";  ///< of the trials
+  station::Engine engine = station::Engine::needle;  ///< of the task
+  std::string role = "scored";                       ///< of the trials
   int trials = 1;
   std::string condition;  ///< by name; empty: the one that was drawn for the trainee
   int rest_after = 0;     ///< trials; 0: no rest within the block
@@ -80,6 +85,10 @@ struct Protocol {
 /// Throws UsageError naming file and field: version, names, conditions that are unknown, double or
 /// not used, counts, rests, task files and their engines.
 Protocol readProtocol(const std::filesystem::path& file);
+
+/// A short word that stands in files, tables and folders: as a pseudonym, 1 to 32 letters, digits,
+/// - or _. Throws UsageError.
+std::string needName(const JsonFile& file, const std::string& field);
 
 /// The condition of a group's place 1, 2, ...: every `block` places hold each condition equally
 /// often, in an order drawn anew for each block from (seed, group, block) alone. So the groups are

@@ -3,7 +3,7 @@
 #include <set>
 
 #include "anatomy/base/json_file.h"
-#include "apps/study/json_fields.h"
+#include "apps/study/protocol.h"
 
 namespace palpa::study {
 namespace {
@@ -11,11 +11,11 @@ namespace {
 constexpr int kFewestPoints = 2, kMostPoints = 11;
 constexpr std::size_t kLongestAnswer = 2000;
 
-Item itemIn(const station::JsonFile& file) {
+Item itemIn(const JsonFile& file) {
   Item item;
   item.id = needName(file, "id");
   item.question = file.text("question");
-  item.may_be_left = flag(file, "may_be_left", false);
+  item.may_be_left = file.flag("may_be_left", false);
   const std::string kind = file.text("kind");
   if (kind == "text") {
     item.kind = Item::Kind::text;
@@ -31,11 +31,11 @@ Item itemIn(const station::JsonFile& file) {
 }  // namespace
 
 Questionnaire readQuestionnaire(const std::filesystem::path& path) {
-  const station::JsonFile file(path);
+  const JsonFile file(path);
   file.needVersion(1);
   Questionnaire q{needName(file, "id"), file.text("title"), file.text("source"), {}};
   std::set<std::string> ids;
-  for (const station::JsonFile& entry : file.entries("items")) {
+  for (const JsonFile& entry : file.entries("items")) {
     q.items.push_back(itemIn(entry));
     if (!ids.insert(q.items.back().id).second)
       entry.refuse("id", "is \"" + q.items.back().id + "\", as that of another item");

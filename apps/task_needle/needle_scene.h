@@ -18,7 +18,7 @@ bool injury(const runtime::ToolState& tool);
 
 /// The HUD's lines in clinical words; in assessment only what is there without a simulator: the
 /// trial, the time, the blood. `camera`: what is wrong with the camera
-/// (apps/runtime/camera_words.h); empty: nothing.
+/// (apps/runtime/camera_trouble.h); empty: nothing.
 scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
                    const std::string& camera, const std::string& mark, const TaskWords& words = {});
 

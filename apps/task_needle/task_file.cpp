@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/units.h"
+#include "apps/station/engine.h"
 #include "apps/station/task_sections.h"
 #include "haptics/flight_record.h"
 
@@ -13,8 +14,7 @@ namespace palpa::task_needle {
 namespace {
 
 template <typename Thing, std::size_t N>
-void readNames(const station::JsonFile& task, const std::string& group,
-               std::array<std::string, N>* words) {
+void readNames(const JsonFile& task, const std::string& group, std::array<std::string, N>* words) {
   if (!task.has("words/" + group)) return;
   for (const auto& [key, value] : task.json().at("words").at(group).items()) {
     std::size_t i = 0;
@@ -36,7 +36,7 @@ std::string TaskWords::of(Organ o) const {
   return own.empty() ? name(o) : own;
 }
 
-TaskWords wordsIn(const station::JsonFile& task) {
+TaskWords wordsIn(const JsonFile& task) {
   TaskWords words;
   readNames<Tissue>(task, "tissues", &words.tissue);
   readNames<Organ>(task, "organs", &words.organ);
@@ -93,11 +93,9 @@ void GoalTrial::tell(assess::TrialAssessment* a) const {
 namespace {
 
 /// A penalty an error: never a reward.
-double weight(const station::JsonFile& file, const char* field) {
-  return file.number(field, 0, 1e6);
-}
+double weight(const JsonFile& file, const char* field) { return file.number(field, 0, 1e6); }
 
-assess::ScoringRules readRules(const station::JsonFile& file) {
+assess::ScoringRules readRules(const JsonFile& file) {
   assess::ScoringRules rules;
   rules.sample_rate_Hz = file.number("scoring/sample_rate_Hz", 1, 1000);
   rules.clavicle_guide_N = file.number("scoring/clavicle_guide_N", 0, 100);
@@ -120,7 +118,7 @@ assess::ScoringRules readRules(const station::JsonFile& file) {
 }
 
 /// Recordings made before the errors were named carry no figures for them: the usual ones.
-assess::ErrorRules readErrors(const station::JsonFile& file) {
+assess::ErrorRules readErrors(const JsonFile& file) {
   assess::ErrorRules rules;
   if (!file.has("errors")) return rules;
   rules.site_off = kMm * file.number("errors/site_off_mm", 1, 100);
@@ -135,7 +133,7 @@ assess::ErrorRules readErrors(const station::JsonFile& file) {
   return rules;
 }
 
-Goal goalIn(const station::JsonFile& file, const station::NamedPlan& parts) {
+Goal goalIn(const JsonFile& file, const station::NamedPlan& parts) {
   Goal goal;
   const std::string part = file.text("goal/part");
   while (goal.part < parts.subtasks.size() && parts.subtasks[goal.part].name != part) ++goal.part;
@@ -146,7 +144,7 @@ Goal goalIn(const station::JsonFile& file, const station::NamedPlan& parts) {
   return goal;
 }
 
-PuncturedBlock blockIn(const station::JsonFile& file) {
+PuncturedBlock blockIn(const JsonFile& file) {
   const auto mm = [&](const std::string& field, double low, double high) {
     return kMm * file.number("phantom/" + field, low, high);
   };
@@ -158,10 +156,9 @@ PuncturedBlock blockIn(const station::JsonFile& file) {
 }  // namespace
 
 TaskSettings readTask(const std::filesystem::path& path) {
-  const station::JsonFile file = station::readTaskFile(path);
+  const JsonFile file = station::readTaskFile(path);
   file.needVersion(1);
-  if (const std::string engine = file.text("engine"); engine != "needle")
-    file.refuse("engine", "is \"" + engine + "\"; known: needle");
+  station::needEngine(file, station::Engine::needle);
   TaskSettings task;
   task.id = file.text("id");
   task.title = file.text("title");

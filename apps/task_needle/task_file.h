@@ -9,6 +9,7 @@
 
 #include "anatomy/base/json_file.h"
 #include "anatomy/geometry/local_geometry.h"
+#include "anatomy/geometry/pose.h"
 #include "anatomy/patient.h"
 #include "apps/assess/needle/assess_trial.h"
 #include "apps/assess/needle/trial_assessment.h"
@@ -27,7 +28,7 @@ struct TaskWords {
 };
 
 /// Throws UsageError for tissues and organs that there are not.
-TaskWords wordsIn(const station::JsonFile& task);
+TaskWords wordsIn(const JsonFile& task);
 
 /// What a trial is for, where no optimal path is known: a part of the task to be in for a while.
 ///   "goal": {"part": "seated", "for_s": 1, "means": "the pin is seated in cancellous bone"}

@@ -5,13 +5,13 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/units.h"
+#include "apps/station/engine.h"
 #include "apps/station/task_sections.h"
 
 namespace palpa::task_palpation {
 namespace {
 
-double finiteIn(const station::JsonFile& file, const nlohmann::json& value, double low,
-                double high) {
+double finiteIn(const JsonFile& file, const nlohmann::json& value, double low, double high) {
   if (!value.is_number() || !(value.get<double>() >= low && value.get<double>() <= high))
     file.refuse("anatomy", "holds " + value.dump() + " where a number from " +
                                std::to_string(std::lround(low)) + " to " +
@@ -21,7 +21,7 @@ double finiteIn(const station::JsonFile& file, const nlohmann::json& value, doub
 
 /// "anatomy": [{"name": ..., "kind": ..., "width_mm": ..., "line_mm": [[x, y], ...]}, ...]; none of
 /// it: an empty list.
-const nlohmann::json& anatomyIn(const station::JsonFile& file) {
+const nlohmann::json& anatomyIn(const JsonFile& file) {
   static const nlohmann::json kNone = nlohmann::json::array();
   const auto all = file.json().find("anatomy");
   if (all == file.json().end()) return kNone;
@@ -37,7 +37,7 @@ const nlohmann::json& anatomyIn(const station::JsonFile& file) {
   return *all;
 }
 
-std::vector<assess::NormalAnatomy> normalIn(const station::JsonFile& file) {
+std::vector<assess::NormalAnatomy> normalIn(const JsonFile& file) {
   std::vector<assess::NormalAnatomy> all;
   for (const nlohmann::json& one : anatomyIn(file)) {
     assess::NormalAnatomy normal{
@@ -57,7 +57,7 @@ std::vector<assess::NormalAnatomy> normalIn(const station::JsonFile& file) {
 
 }  // namespace
 
-Scoring scoringOf(const station::JsonFile& file) {
+Scoring scoringOf(const JsonFile& file) {
   Scoring scoring;
   assess::PalpationRules& rules = scoring.rules;
   rules.area = {kMm * file.number("area/half_across_mm", 5, 200),
@@ -81,7 +81,7 @@ Scoring scoringOf(const station::JsonFile& file) {
 
 namespace {
 
-std::size_t kindNamed(const station::JsonFile& file, const char* field, const nlohmann::json& name,
+std::size_t kindNamed(const JsonFile& file, const char* field, const nlohmann::json& name,
                       const station::LumpLibrary& library) {
   const auto one =
       std::find_if(library.kinds.begin(), library.kinds.end(), [&](const station::LumpKind& kind) {
@@ -92,8 +92,7 @@ std::size_t kindNamed(const station::JsonFile& file, const char* field, const nl
   return static_cast<std::size_t>(one - library.kinds.begin());
 }
 
-std::vector<std::size_t> kindsOf(const station::JsonFile& file,
-                                 const station::LumpLibrary& library) {
+std::vector<std::size_t> kindsOf(const JsonFile& file, const station::LumpLibrary& library) {
   std::vector<std::size_t> kinds;
   for (const nlohmann::json& name : file.json().at("cases").value("kinds", nlohmann::json::array()))
     kinds.push_back(kindNamed(file, "cases/kinds", name, library));
@@ -101,7 +100,7 @@ std::vector<std::size_t> kindsOf(const station::JsonFile& file,
   return kinds;
 }
 
-std::vector<double> sharesOf(const station::JsonFile& file) {
+std::vector<double> sharesOf(const JsonFile& file) {
   std::vector<double> shares;
   double all = 0;
   for (const nlohmann::json& share :
@@ -116,7 +115,7 @@ std::vector<double> sharesOf(const station::JsonFile& file) {
 }
 
 /// A lump at each point of its line, as deep as it was identified.
-Case piecesOf(const station::JsonFile& file, const std::vector<assess::NormalAnatomy>& normal,
+Case piecesOf(const JsonFile& file, const std::vector<assess::NormalAnatomy>& normal,
               const station::LumpLibrary& library) {
   Case pieces;
   for (std::size_t i = 0; i < normal.size(); ++i) {
@@ -127,14 +126,14 @@ Case piecesOf(const station::JsonFile& file, const std::vector<assess::NormalAna
   return pieces;
 }
 
-void requireFew(const station::JsonFile& file, const PalpationSettings& settings) {
+void requireFew(const JsonFile& file, const PalpationSettings& settings) {
   if (settings.cases.lumps.size() - 1 + settings.anatomy.size() <= haptics::kMostLumps) return;
   file.refuse("cases/lumps", "allows more than " + std::to_string(haptics::kMostLumps) +
                                  " lumps, the points of \"anatomy\" among them");
 }
 
 /// Lumps lie wholly inside.
-void requireInside(const station::JsonFile& file, const PalpationSettings& settings) {
+void requireInside(const JsonFile& file, const PalpationSettings& settings) {
   const assess::SearchArea& area = settings.scoring.rules.area;
   if (2 * area.half_x > settings.size.x() || 2 * area.half_y > settings.size.y())
     file.refuse("area", "is larger than the phantom");
@@ -168,10 +167,9 @@ void requireInside(const station::JsonFile& file, const PalpationSettings& setti
 }  // namespace
 
 PalpationSettings readPalpation(const std::filesystem::path& path) {
-  const station::JsonFile file = station::readTaskFile(path);
+  const JsonFile file = station::readTaskFile(path);
   file.needVersion(1);
-  if (const std::string engine = file.text("engine"); engine != "palpation")
-    file.refuse("engine", "is \"" + engine + "\"; here it must be palpation");
+  station::needEngine(file, station::Engine::palpation);
   PalpationSettings settings;
   settings.id = file.text("id");
   settings.title = file.text("title");
@@ -192,7 +190,7 @@ PalpationSettings readPalpation(const std::filesystem::path& path) {
   settings.augmentations = station::readPlan(file);
   requireFew(file, settings);
   requireInside(file, settings);
-  runtime::RandomStream trial(0, "palpation.rooms");
+  RandomStream trial(0, "palpation.rooms");
   placeLumps(settings, settings.cases.lumps.size() - 1,
              trial);  // refused now, not in the middle of a session
   settings.source = file.json().dump();
@@ -219,13 +217,12 @@ bool farFromAll(const Case& others, const Vec3& p_P, double apart) {
 }  // namespace
 
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed) {
-  runtime::RandomStream random(seed, "palpation.case");
+  RandomStream random(seed, "palpation.case");
   const std::size_t count = countOf(settings.cases.lumps, random.uniform());
   return placeLumps(settings, count, random);
 }
 
-Case placeLumps(const PalpationSettings& settings, std::size_t count,
-                runtime::RandomStream& random) {
+Case placeLumps(const PalpationSettings& settings, std::size_t count, RandomStream& random) {
   const CaseRules& rules = settings.cases;
   const double x = settings.scoring.rules.area.half_x - rules.margin,
                y = settings.scoring.rules.area.half_y - rules.margin;

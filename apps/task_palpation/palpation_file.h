@@ -24,7 +24,7 @@ struct Scoring {
   assess::PalpationStandard standard;
 };
 /// Of a task's text alone, without its lumps. Throws UsageError naming the field.
-Scoring scoringOf(const station::JsonFile& task);
+Scoring scoringOf(const JsonFile& task);
 
 /// A lump at a place: P, m.
 struct LumpInCase {
@@ -41,10 +41,12 @@ struct PalpationSettings {
   station::LumpLibrary library;
   CaseRules cases;
   Scoring scoring;
-  Case anatomy;  ///< normal anatomy, in pieces, in every case: a library lump at each point of its
-                 ///< line (named and judged by scoring.rules.normal)
-  double clinical_force_N = 0;  ///< that deep palpation takes on a patient; where the device gives
-                                ///< less, the screen says "scaled force"
+  /// Normal anatomy, in pieces, in every case: a library lump at each point of its line (named and
+  /// judged by scoring.rules.normal)
+  Case anatomy;
+  /// That deep palpation takes on a patient; where the device gives less, the screen says "scaled
+  /// force"
+  double clinical_force_N = 0;
   double time_limit_s = 300;
   station::Taxonomy taxonomy;
   station::NamedPlan augmentations;  ///< empty: the task has no parts
@@ -58,8 +60,7 @@ PalpationSettings readPalpation(const std::filesystem::path& file);
 /// The same for the same seed.
 Case drawCase(const PalpationSettings& settings, std::uint64_t seed);
 /// So many lumps, drawn by the rules. Throws Error where they find no room.
-Case placeLumps(const PalpationSettings& settings, std::size_t count,
-                runtime::RandomStream& random);
+Case placeLumps(const PalpationSettings& settings, std::size_t count, RandomStream& random);
 std::vector<assess::CaseLump> lumpsOf(const Case& in_case, const station::LumpLibrary& library);
 /// Together they are no more than haptics::kMostLumps.
 haptics::PlacedLumps placed(const Case& in_case, const Case& anatomy);

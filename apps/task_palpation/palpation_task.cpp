@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 
 namespace palpa::task_palpation {
 namespace {
@@ -97,7 +98,7 @@ std::string caseText(const std::vector<assess::CaseLump>& lumps) {
 std::vector<assess::CaseLump> caseOf(const std::string& text) {
   try {
     std::vector<assess::CaseLump> lumps;
-    for (const nlohmann::json& lump : nlohmann::json::parse(text))
+    for (const nlohmann::json& lump : parseJson(text))
       lumps.push_back({unpack(lump.at("p_P_m").get<Packed3>()), lump.at("diameter_m").get<double>(),
                        lump.at("hardness").get<int>(), lump.at("mobility").get<int>()});
     return lumps;

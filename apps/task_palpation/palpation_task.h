@@ -139,7 +139,7 @@ std::vector<std::uint8_t> levelsOf(const assess::CoverageMap& map);
 std::string scoreJson(const assess::PalpationAssessment& assessment);
 
 /// The lumps of a case as its event in the record says them, and read again; the replay's truth.
-/// Throws Error for words that are none.
+/// Throws Error for invalid words.
 std::string caseText(const std::vector<assess::CaseLump>& lumps);
 std::vector<assess::CaseLump> caseOf(const std::string& text);
 

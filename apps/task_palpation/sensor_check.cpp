@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "anatomy/base/quantile.h"
+
 namespace palpa::task_palpation {
 namespace {
 
@@ -54,9 +56,7 @@ std::string SensorCheck::pressed(const Sensed& now) {
   deepest_ = 0;
   if (ratios_.size() > kPresses) ratios_.erase(ratios_.begin());
   if (ratios_.size() < kPresses) return "";
-  std::vector<double> sorted = ratios_;
-  std::nth_element(sorted.begin(), sorted.begin() + kPresses / 2, sorted.end());
-  const double ratio = sorted[kPresses / 2];
+  const double ratio = upperMedian(ratios_);
   if (ratio >= kLeast && ratio <= kMost) return "";
   return with(
       "the force sensor shows %.1f times what this silicone gives: wrong scale, or another "

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/random.h"
 #include "apps/task_search/valley_lines.h"
 
@@ -13,7 +14,7 @@ namespace palpa::task_search {
 namespace {
 
 /// Draws go on from block to block: no stimulus comes twice.
-std::vector<Episode> drawn(runtime::RandomStream& random, std::uint64_t seed, int count,
+std::vector<Episode> drawn(RandomStream& random, std::uint64_t seed, int count,
                            assess::SearchMode mode, const std::string& block) {
   std::vector<Episode> episodes;
   for (int i = 0; i < count; ++i) {
@@ -30,13 +31,13 @@ std::vector<Episode> drawn(runtime::RandomStream& random, std::uint64_t seed, in
 }  // namespace
 
 std::vector<Episode> episodesOf(std::uint64_t seed, int count, assess::SearchMode mode) {
-  runtime::RandomStream random(seed, "search.episodes");
+  RandomStream random(seed, "search.episodes");
   return drawn(random, seed, count, mode, "");
 }
 
 std::vector<Episode> blocksOf(const SearchSettings& task, std::uint64_t seed,
                               assess::SearchMode mode) {
-  runtime::RandomStream random(seed, "search.episodes");
+  RandomStream random(seed, "search.episodes");
   std::vector<Episode> all;
   for (const SearchBlock& block : task.blocks) {
     const std::vector<Episode> some = drawn(
@@ -61,7 +62,7 @@ Episode episodeIn(const std::string& text) {
                  "Restore the file from a backup");
   };
   try {
-    const nlohmann::json said = nlohmann::json::parse(text);
+    const nlohmann::json said = parseJson(text);
     const auto mode = assess::searchModeOf(said.at("mode").get<std::string>());
     const int target = said.at("target").get<int>();
     if (!mode || target < 0 || target >= haptics::SearchSurface::kElements)
@@ -76,7 +77,7 @@ Episode episodeIn(const std::string& text) {
 }
 
 haptics::SearchSurface surfaceOf(const haptics::SearchSpec& spec, const Episode& episode) {
-  runtime::RandomStream random(episode.seed, "search.bumps");
+  RandomStream random(episode.seed, "search.bumps");
   return haptics::SearchSurface(spec, episode.stimulus, [&random] { return random.uniform(); });
 }
 

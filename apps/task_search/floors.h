@@ -29,7 +29,7 @@ std::vector<Episode> episodesOf(std::uint64_t seed, int count, assess::SearchMod
 std::vector<Episode> blocksOf(const SearchSettings& task, std::uint64_t seed,
                               assess::SearchMode mode);
 
-/// As its event in the record says it, and read again. Throws Error for words that are none.
+/// As its event in the record says it, and read again. Throws Error for invalid words.
 std::string episodeText(const Episode& episode);
 Episode episodeIn(const std::string& text);
 

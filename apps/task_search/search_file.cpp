@@ -3,12 +3,13 @@
 #include <algorithm>
 
 #include "anatomy/base/error.h"
+#include "apps/station/engine.h"
 #include "apps/station/task_sections.h"
 
 namespace palpa::task_search {
 namespace {
 
-haptics::BumpSpec bumpsIn(const station::JsonFile& file, const std::string& which,
+haptics::BumpSpec bumpsIn(const JsonFile& file, const std::string& which,
                           const haptics::SearchSpec& spec) {
   const std::string at = "stimulus/" + which;
   haptics::BumpSpec bumps;
@@ -20,7 +21,7 @@ haptics::BumpSpec bumpsIn(const station::JsonFile& file, const std::string& whic
   return bumps;
 }
 
-haptics::SearchSpec specIn(const station::JsonFile& file) {
+haptics::SearchSpec specIn(const JsonFile& file) {
   haptics::SearchSpec spec;
   spec.side = file.number("stimulus/side_U", 50, 2000);
   spec.circle = file.number("stimulus/circle_U", 5, 1000);
@@ -37,16 +38,16 @@ haptics::SearchSpec specIn(const station::JsonFile& file) {
   return spec;
 }
 
-std::vector<SearchBlock> blocksIn(const station::JsonFile& file) {
+std::vector<SearchBlock> blocksIn(const JsonFile& file) {
   std::vector<SearchBlock> blocks;
-  for (const station::JsonFile& block : file.entries("blocks"))
+  for (const JsonFile& block : file.entries("blocks"))
     blocks.push_back({block.text("name"), block.integer("episodes", 1, 1000),
                       block.integer("training", 0, 1) == 1});
   return blocks;
 }
 
 /// Refused now, not at the first episode.
-void needFloor(const station::JsonFile& file, const haptics::SearchSpec& spec) {
+void needFloor(const JsonFile& file, const haptics::SearchSpec& spec) {
   try {
     haptics::SearchSurface(spec, {}, [] { return 0.5; });
   } catch (const Error& e) {
@@ -56,10 +57,9 @@ void needFloor(const station::JsonFile& file, const haptics::SearchSpec& spec) {
 
 }  // namespace
 
-SearchSettings readSearch(const station::JsonFile& file) {
+SearchSettings readSearch(const JsonFile& file) {
   file.needVersion(1);
-  if (const std::string engine = file.text("engine"); engine != "surface")
-    file.refuse("engine", "is \"" + engine + "\"; here it must be surface");
+  station::needEngine(file, station::Engine::search);
   SearchSettings s;
   s.id = file.text("id");
   s.title = file.text("title");

@@ -38,7 +38,7 @@ struct SearchSettings {
 
 /// Throws UsageError naming file and field.
 SearchSettings readSearch(const std::filesystem::path& file);
-SearchSettings readSearch(const station::JsonFile& file);
+SearchSettings readSearch(const JsonFile& file);
 
 /// As the station can render it: `real` as stiff as its coupling bears, up to the task's;
 /// `degraded` its share of that; the damping with the stiffness. Throws UsageError where the

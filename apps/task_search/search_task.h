@@ -23,9 +23,8 @@ class SearchListener {
 
   bool released() const { return released_; }  ///< the handle has been let go
   double seconds() const { return seconds_; }
-  int chosen() const {
-    return chosen_;
-  }  ///< element where the probe has stayed long enough; -1: none yet
+  /// Element where the probe has stayed long enough; -1: none yet
+  int chosen() const { return chosen_; }
   std::uint8_t subtasks() const { return subtasks_; }  ///< bits, of the last tick
   /// What was heard, into a trial's facts.
   assess::SearchTrial heard(assess::SearchTrial facts) const;

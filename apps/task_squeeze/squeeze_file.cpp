@@ -3,14 +3,16 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/random.h"
+#include "apps/station/engine.h"
 
 namespace palpa::task_squeeze {
 namespace {
 
 using assess::SqueezedProperty;
 
-std::vector<double> factorsIn(const station::JsonFile& file, const char* property) {
+std::vector<double> factorsIn(const JsonFile& file, const char* property) {
   constexpr double kLeast = 0.3,
                    kMost = 3;  // beyond, neither the device nor what was identified follows
   const std::string place = std::string("compare/") + property;
@@ -29,10 +31,9 @@ std::vector<double> factorsIn(const station::JsonFile& file, const char* propert
 }  // namespace
 
 SqueezeSettings readSqueeze(const std::filesystem::path& path) {
-  const station::JsonFile file(path);
+  const JsonFile file(path);
   file.needVersion(1);
-  if (const std::string engine = file.text("engine"); engine != "squeeze")
-    file.refuse("engine", "is \"" + engine + "\"; here it must be squeeze");
+  station::needEngine(file, station::Engine::squeeze);
   SqueezeSettings s;
   s.id = file.text("id");
   s.title = file.text("title");
@@ -62,7 +63,7 @@ std::vector<Comparison> comparisonsOf(const SqueezeSettings& settings, std::uint
   };
   add(SqueezedProperty::stiffness, settings.stiffness);
   add(SqueezedProperty::weight, settings.weight);
-  runtime::RandomStream random(seed, "squeeze.comparisons");
+  RandomStream random(seed, "squeeze.comparisons");
   std::vector<Comparison> all;
   while (static_cast<int>(all.size()) < count) {
     for (std::size_t i = round.size(); i > 1; --i)
@@ -83,7 +84,7 @@ std::string comparisonText(const Comparison& comparison) {
 
 Comparison comparisonIn(const std::string& text) {
   try {
-    const nlohmann::json said = nlohmann::json::parse(text);
+    const nlohmann::json said = parseJson(text);
     return {said.at("property").get<std::string>() == "weight" ? SqueezedProperty::weight
                                                                : SqueezedProperty::stiffness,
             said.at("factors").get<std::array<double, 2>>()};

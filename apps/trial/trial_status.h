@@ -50,9 +50,9 @@ enum class UserCommand : std::uint8_t {
 };
 struct UserRequest {
   UserCommand command = UserCommand::start;
-  std::string reason;  ///< of a void; of a grade: what was said, as the task writes it down; of a
-                       ///< note: its text
-  double at_s = 0;     ///< of a note: the session time it is about
+  /// Of a void; of a grade: what was said, as the task writes it down; of a note: its text
+  std::string reason;
+  double at_s = 0;  ///< of a note: the session time it is about
 };
 
 /// Between task, scene and whoever asks for something: one writer, one reader each.
@@ -71,7 +71,7 @@ struct Channels {
 namespace palpa::trial {
 
 /// A grade as it is recorded in an event's text, and read again: "diameter 16 mm, hard, fixed";
-/// nothing for words that are none.
+/// nothing for invalid words.
 std::string gradeText(double diameter, int hardness, int mobility);
 struct Grade {
   double diameter = 0;

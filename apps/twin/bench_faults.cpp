@@ -4,6 +4,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/units.h"
+#include "anatomy/geometry/pose.h"
 
 namespace palpa::twin {
 namespace {
@@ -14,12 +15,12 @@ constexpr double kLongest_s = 86'400;
 
 std::vector<BoardMove> readBoardMoves(const station::Station& station) {
   std::vector<BoardMove> moves;
-  const station::JsonFile& file = station.file;
+  const JsonFile& file = station.file;
   if (!file.has("twin/board_moves")) return moves;
   const nlohmann::json& list = file.json().at("twin").at("board_moves");
   if (!list.is_array()) file.refuse("twin/board_moves", "must be a list");
   for (const nlohmann::json& item : list) {
-    const station::JsonFile entry(item, file.name() + ", \"twin/board_moves\"");
+    const JsonFile entry(item, file.name() + ", \"twin/board_moves\"");
     const std::string name = entry.text("board");
     BoardMove move;
     while (move.board < station.boards.size() && station.boards[move.board].name != name)
@@ -27,7 +28,7 @@ std::vector<BoardMove> readBoardMoves(const station::Station& station) {
     if (move.board == station.boards.size() || !station.boards[move.board].X_WB)
       entry.refuse("board", "is \"" + name + "\", which is no board with an X_WB");
     move.from = entry.number("from_s", 0, kLongest_s);
-    move.by = kMm * entry.vector("by_mm");
+    move.by = kMm * unpack(entry.triple("by_mm"));
     moves.push_back(move);
   }
   return moves;
@@ -57,9 +58,9 @@ constexpr std::pair<const char*, Kind> kCameraFaults[] = {
 
 }  // namespace
 
-std::vector<CameraFault> readCameraFaults(const station::JsonFile& file) {
+std::vector<CameraFault> readCameraFaults(const JsonFile& file) {
   return readFaults<CameraFault>(
-      file, "camera_faults", [](const station::JsonFile& entry, double from, double to) {
+      file, "camera_faults", [](const JsonFile& entry, double from, double to) {
         return CameraFault{faultKind<Kind>(entry, kCameraFaults), from, to};
       });
 }
@@ -109,9 +110,9 @@ void scale(double factor, const haptics::Wrench& zero, haptics::WrenchSample* sa
 
 }  // namespace
 
-std::vector<SensorFault> readSensorFaults(const station::JsonFile& file) {
+std::vector<SensorFault> readSensorFaults(const JsonFile& file) {
   return readFaults<SensorFault>(
-      file, "sensor_faults", [](const station::JsonFile& entry, double from, double to) {
+      file, "sensor_faults", [](const JsonFile& entry, double from, double to) {
         SensorFault fault{faultKind<SensorFault::Kind>(entry, kSensorFaults), from, to, 0};
         if (fault.kind == SensorFault::Kind::drifting)
           fault.amount = entry.number("rate_N_per_s", -10, 10);

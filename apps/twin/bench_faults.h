@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "anatomy/base/json_file.h"
+#include "anatomy/geometry/pose.h"
 #include "apps/station/station_file.h"
 #include "ar/cameras/camera.h"
 #include "haptics/sensors/force_sensor.h"
@@ -13,11 +14,10 @@
 /// {"kind", "from_s", "to_s", ...}; session time.
 namespace palpa::twin {
 
-/// `entryOf(entry, from, to)` makes a fault of each entry of "twin/<field>"; without the field
-/// there are none. Throws UsageError for spans that are none.
+/// `entryOf(entry, from, to)` makes a fault of each entry of "twin/<field>"; none without
+/// the field. Throws UsageError for invalid spans.
 template <class Fault, class EntryOf>
-std::vector<Fault> readFaults(const station::JsonFile& file, const char* field,
-                              const EntryOf& entryOf) {
+std::vector<Fault> readFaults(const JsonFile& file, const char* field, const EntryOf& entryOf) {
   constexpr double kLongestSession = 86'400;  // s
   const std::string place = std::string("twin/") + field;
   std::vector<Fault> faults;
@@ -25,7 +25,7 @@ std::vector<Fault> readFaults(const station::JsonFile& file, const char* field,
   const nlohmann::json& list = file.json().at("twin").at(field);
   if (!list.is_array()) file.refuse(place, "must be a list");
   for (const nlohmann::json& item : list) {
-    const station::JsonFile entry(item, file.name() + ", \"" + place + "\"");
+    const JsonFile entry(item, file.name() + ", \"" + place + "\"");
     const double from = entry.number("from_s", 0, kLongestSession),
                  to = entry.number("to_s", 0, kLongestSession);
     if (to <= from) entry.refuse("to_s", "must be later than from_s");
@@ -36,7 +36,7 @@ std::vector<Fault> readFaults(const station::JsonFile& file, const char* field,
 
 /// The kind that "kind" names. `names`: {name, kind} each.
 template <class Kind, class Names>
-Kind faultKind(const station::JsonFile& entry, const Names& names) {
+Kind faultKind(const JsonFile& entry, const Names& names) {
   const std::string said = entry.text("kind");
   std::string known;
   for (const auto& [name, kind] : names) {
@@ -72,8 +72,8 @@ struct CameraFault {
   double from = 0, to = 0;  ///< s
 };
 
-/// Throws UsageError for a kind that is not known and for spans that are none.
-std::vector<CameraFault> readCameraFaults(const station::JsonFile& file);
+/// Throws UsageError for a kind that is not known and for invalid spans.
+std::vector<CameraFault> readCameraFaults(const JsonFile& file);
 
 /// The one that holds at a time; nullptr: none.
 const CameraFault* faultAt(const std::vector<CameraFault>& faults, double t);
@@ -93,8 +93,8 @@ struct SensorFault {
   double amount = 0;        ///< N/s; of the true force
 };
 
-/// Throws UsageError for a kind that is not known and for spans that are none.
-std::vector<SensorFault> readSensorFaults(const station::JsonFile& file);
+/// Throws UsageError for a kind that is not known and for invalid spans.
+std::vector<SensorFault> readSensorFaults(const JsonFile& file);
 
 /// The sample as the faults of time `t`, s, leave it; false: there is none. `zero`: what the
 /// station takes off as bias.

@@ -4,13 +4,10 @@
 #include <numbers>
 
 #include "anatomy/base/units.h"
-#include "apps/runtime/random_vector.h"
+#include "anatomy/geometry/random_vector.h"
 
 namespace palpa::twin {
 namespace {
-
-using runtime::normal3;
-using runtime::RandomStream;
 
 Pose perturbed(const Pose& X, double sd_m, double sd_rad, RandomStream& random) {
   const Vec3 turn = sd_rad * normal3(random);
@@ -22,14 +19,14 @@ Pose perturbed(const Pose& X, double sd_m, double sd_rad, RandomStream& random) 
 }
 
 /// A spread that a station need not state.
-double spreadOr0(const station::JsonFile& file, const std::string& at, double most) {
+double spreadOr0(const JsonFile& file, const std::string& at, double most) {
   return file.has(at) ? file.number(at, 0, most) : 0;
 }
 
 }  // namespace
 
 WorldTruth drawWorld(const station::Station& station, std::uint64_t seed) {
-  const station::JsonFile& file = station.file;
+  const JsonFile& file = station.file;
   RandomStream random(seed, "bench.registration"), clocks(seed, "bench.clocks"),
       needle(seed, "bench.needle");
   WorldTruth truth;
@@ -49,7 +46,7 @@ WorldTruth drawWorld(const station::Station& station, std::uint64_t seed) {
 
 calibration::CameraModel trueCamera(const station::Station& station, std::uint64_t seed) {
   RandomStream random(seed, "bench.camera");
-  const station::JsonFile& file = station.file;
+  const JsonFile& file = station.file;
   const double focal = 0.01 * file.number("twin/focal_spread_percent", 0, 10);
   const double centre = file.number("twin/centre_spread_px", 0, 50);
   const double bend = 0.01 * file.number("twin/distortion_spread_percent", 0, 50);
@@ -63,7 +60,7 @@ calibration::CameraModel trueCamera(const station::Station& station, std::uint64
 }
 
 DeviceTruth trueDevice(const station::Station& station, std::uint64_t seed) {
-  const station::JsonFile& file = station.file;
+  const JsonFile& file = station.file;
   DeviceTruth truth;
   truth.apparent_mass = station.device.capabilities.apparent_mass;
   truth.max_force_N = station.device.capabilities.max_force_N;
@@ -90,7 +87,7 @@ DeviceTruth trueDevice(const station::Station& station, std::uint64_t seed) {
 
 SensorTruth trueSensor(const station::Station& station, std::uint64_t seed) {
   RandomStream random(seed, "bench.force_sensor.truth");
-  const station::JsonFile& file = station.file;
+  const JsonFile& file = station.file;
   const station::ForceSensorSetup& believed = *station.design.force_sensor;
   SensorTruth truth;
   const double mass = 0.01 * file.number("twin/force_sensor/tool_mass_spread_percent", 0, 50);

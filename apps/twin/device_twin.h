@@ -57,19 +57,16 @@ class DeviceTwin {
 
   const Vec3& trueVelocity() const { return v_D_; }  ///< m/s, for accuracy reports only
   const Pose& truePose() const { return X_DE_; }     ///< for accuracy reports only
-  const Vec3& gripForce() const {
-    return f_grip_D_;
-  }  ///< what moves hand and tool: of the arm on both
-  const Vec3& fingerForce() const {
-    return f_fingers_D_;
-  }  ///< between hand and tool: of the fingers on the tool: f_grip - m_hand a
+  /// What moves hand and tool: of the arm on both
+  const Vec3& gripForce() const { return f_grip_D_; }
+  /// Between hand and tool: of the fingers on the tool: f_grip - m_hand a
+  const Vec3& fingerForce() const { return f_fingers_D_; }
   /// What force cells that average over the last `advance` see: the fingers' force on the tool, and
   /// the device's, drives and friction.
   const Vec3& meanFingerForce() const { return f_fingers_mean_D_; }
   const Vec3& meanDeviceForce() const { return f_device_mean_D_; }
-  PackedPose encoderPose() const {
-    return encoderReading(truth_, X_DE_);
-  }  ///< what the device's electronics say
+  /// What the device's electronics say
+  PackedPose encoderPose() const { return encoderReading(truth_, X_DE_); }
 
  private:
   DeviceTruth truth_;
@@ -106,7 +103,7 @@ class SensorTwin {
  private:
   static constexpr std::size_t kPoints = 3;
   SensorTruth truth_;
-  runtime::RandomStream noise_;
+  RandomStream noise_;
   std::array<Vec3, kPoints> p_S_, p_W_0_, p_W_1_;  // in the tool; one and two steps ago
   double dt_last_ = 0;
   int seen_ = 0;

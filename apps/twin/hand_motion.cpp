@@ -35,7 +35,7 @@ Vec3 LedTip::at(double t) const {
 }
 
 LedTip pressing(const Vec3& place, double deep, std::uint64_t seed) {
-  runtime::RandomStream random(seed, "bench.pressing");
+  RandomStream random(seed, "bench.pressing");
   LedTip tip(Vec3(place.x(), place.y(), kLedAbove));
   for (int i = 0; i < 10; ++i)
     tip.press(place, deep * random.uniform(0.5, 1.0), random.uniform(0.15, 0.8),
@@ -44,7 +44,7 @@ LedTip pressing(const Vec3& place, double deep, std::uint64_t seed) {
 }
 
 LedTip tapping(const Vec3& place, double deep, std::uint64_t seed) {
-  runtime::RandomStream random(seed, "bench.tapping");
+  RandomStream random(seed, "bench.tapping");
   LedTip tip(Vec3(place.x(), place.y(), kLedAbove));
   for (int i = 0; i < 16; ++i)
     tip.press(place, deep * random.uniform(0.4, 0.8), random.uniform(0.08, 0.14));
@@ -52,7 +52,7 @@ LedTip tapping(const Vec3& place, double deep, std::uint64_t seed) {
 }
 
 LedTip stroking(const Vec3& place, double deep, double reach, const Vec3& way, std::uint64_t seed) {
-  runtime::RandomStream random(seed, "bench.stroking");
+  RandomStream random(seed, "bench.stroking");
   const Vec3 before = place - reach * way, beyond = place + reach * way;
   LedTip tip(Vec3(before.x(), before.y(), kLedAbove));
   for (int i = 0; i < 4; ++i) {

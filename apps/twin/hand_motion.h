@@ -36,7 +36,7 @@ class MinJerk {
 /// stated rms. x'' + 2 z w x' + w^2 x = w^2 n; with z = 0.15 the half-power band is 8.5-11.5 Hz.
 class Tremor {
  public:
-  Tremor(double rms, runtime::RandomStream stream) : rms_(rms), stream_(stream) {}
+  Tremor(double rms, RandomStream stream) : rms_(rms), stream_(stream) {}
 
   /// The next displacement, `dt` later.
   Vec3 next(double dt) {
@@ -53,7 +53,7 @@ class Tremor {
 
  private:
   double rms_;
-  runtime::RandomStream stream_;
+  RandomStream stream_;
   Vec3 x_ = Vec3::Zero(), v_ = Vec3::Zero();
 };
 

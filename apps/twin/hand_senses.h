@@ -16,8 +16,7 @@ class Bearings {
  public:
   /// One look: the tool as drawn (with a delay), the tool as the hand holds it, how well one look
   /// tells (m), how fast the hand is (m/s).
-  void look(Pose X_AT, const Pose& X_DT, double look_sd, double hand_speed,
-            runtime::RandomStream& noise) {
+  void look(Pose X_AT, const Pose& X_DT, double look_sd, double hand_speed, RandomStream& noise) {
     constexpr double kStillEnough =
         0.010;  // m/s: the picture lags, so only a slow hand is compared with it
     constexpr double kTrust = 0.2;  // weight of one look against what is believed
@@ -86,7 +85,7 @@ class JoltSense {
     double spread = 0.15;         ///< s
     double rough_floor = 0.0005;  ///< r_0, m/s
   };
-  JoltSense(const Limits& limits, runtime::RandomStream noise) : limits_(limits), noise_(noise) {}
+  JoltSense(const Limits& limits, RandomStream noise) : limits_(limits), noise_(noise) {}
 
   /// The next `dt` seconds; true: a jolt is noticed now.
   bool feel(const Vec3& v, double dt) {
@@ -112,7 +111,7 @@ class JoltSense {
 
  private:
   Limits limits_;
-  runtime::RandomStream noise_;
+  RandomStream noise_;
   Vec3 fast_ = Vec3::Zero(), slow_ = Vec3::Zero();
   double background_ = 0, squares_ = 0, seconds_ = 0, rest_ = 0;
 };

@@ -40,8 +40,8 @@ Operator::Operator(const OperatorSkill& skill, const VisibleAnatomy& anatomy, co
       seed_(seed),
       judgement_(seed, "operator.judgement.0"),
       noise_(seed, "operator.noise"),
-      tremor_(skill.tremor_rms, runtime::RandomStream(seed, "operator.tremor")),
-      turn_tremor_(skill.turn_tremor_rms, runtime::RandomStream(seed, "operator.turn_tremor")),
+      tremor_(skill.tremor_rms, RandomStream(seed, "operator.tremor")),
+      turn_tremor_(skill.turn_tremor_rms, RandomStream(seed, "operator.turn_tremor")),
       reaction_(skill.reaction) {}
 
 Pose Operator::needleAt(const Vec3& tip_A, const Vec3& axis_A) const {
@@ -83,7 +83,7 @@ void Operator::beginTrial(int trial, double now_s) {
   trial_ = trial;
   passes_ = nudges_ = 0;
   going_back_ = false;
-  judgement_ = runtime::RandomStream(seed_, "operator.judgement." + std::to_string(trial));
+  judgement_ = RandomStream(seed_, "operator.judgement." + std::to_string(trial));
   auto& j = judgement_;
   plan_entry_A_ = anatomy_.entry_A + skill_.entry_sd * (j.normal() * anatomy_.medial_A +
                                                         j.normal() * anatomy_.cephalad_A);

@@ -112,7 +112,7 @@ class Operator final : public Hand {
   VisibleAnatomy anatomy_;
   Pose X_ET_, X_TE_;
   std::uint64_t seed_;
-  runtime::RandomStream judgement_, noise_;
+  RandomStream judgement_, noise_;
   Tremor tremor_, turn_tremor_;
 
   // What he believes: where the patient on the screen is for his hand, where the needle is.

@@ -2,6 +2,7 @@
 
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/units.h"
+#include "anatomy/geometry/pose.h"
 #include "apps/twin/operator.h"
 #include "apps/twin/palpating_hand.h"
 
@@ -9,7 +10,7 @@ namespace palpa::twin {
 namespace {}  // namespace
 
 OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
-  const station::JsonFile file(path);
+  const JsonFile file(path);
   file.needVersion(1);
   OperatorSkill s;
   s.name = file.text("name");
@@ -38,7 +39,7 @@ OperatorSkill readOperatorSkill(const std::filesystem::path& path) {
   s.first_depth = kMm * file.number("first_depth_mm", 0.5, 70);
   s.vein_distance = kMm * file.number("vein_distance_mm", 1, 150);
   s.search_margin = kMm * file.number("search_margin_mm", 0, 100);
-  s.aim_offset_L = kMm * file.vector("aim_offset_mm");
+  s.aim_offset_L = kMm * unpack(file.triple("aim_offset_mm"));
   return s;
 }
 
@@ -47,7 +48,7 @@ constexpr std::size_t kMostPressures = 3;
 }  // namespace
 
 PalpatingSkill readPalpatingSkill(const std::filesystem::path& path) {
-  const station::JsonFile file(path);
+  const JsonFile file(path);
   file.needVersion(1);
   PalpatingSkill s;
   s.name = file.text("name");

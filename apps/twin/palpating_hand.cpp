@@ -16,9 +16,10 @@ constexpr double kMoves = 0.003,
 constexpr double
     kTouch_N = 0.06,
     kDeepest = 0.009;  // N above the air's, m below the top: a hand that feels nothing stops there
-constexpr double kLift = 0.05;     // m/s
-constexpr double kCross = 0.0035;  // m, of a closer look: its presses lie within 5 mm of each
-                                   // other; the search itself has felt the flanks
+constexpr double kLift = 0.05;  // m/s
+// m, of a closer look: its presses lie within 5 mm of each other; the search itself has felt the
+// flanks
+constexpr double kCross = 0.0035;
 constexpr double kKnown = 0.020;   // m: nobody looks twice at the same lump or its flank
 constexpr double kAround = 0.016;  // m: as far as a lump is felt
 constexpr double kBelongs =
@@ -38,7 +39,7 @@ PalpatingHand::PalpatingHand(const PalpatingSkill& skill, const VisiblePhantom& 
       seed_(seed),
       judgement_(seed, "palpating.judgement.0"),
       noise_(seed, "palpating.noise"),
-      tremor_(skill.tremor_rms, runtime::RandomStream(seed, "palpating.tremor")),
+      tremor_(skill.tremor_rms, RandomStream(seed, "palpating.tremor")),
       memory_(skill.pressures.size()) {}
 
 void PalpatingHand::planStrips() {
@@ -62,7 +63,7 @@ void PalpatingHand::planStrips() {
 
 void PalpatingHand::beginTrial(int trial, double now_s) {
   trial_ = trial;
-  judgement_ = runtime::RandomStream(seed_, "palpating.judgement." + std::to_string(trial));
+  judgement_ = RandomStream(seed_, "palpating.judgement." + std::to_string(trial));
   memory_.forget();
   closer_.clear();
   closer_places_.clear();

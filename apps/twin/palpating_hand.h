@@ -18,11 +18,12 @@ namespace palpa::twin {
 /// A press as a simulated examiner remembers it. Frame P of the phantom, m.
 struct FeltPress {
   Vec3 p_P = Vec3::Zero();
-  std::vector<double> depths;  ///< judged: how far it gave way to the first pressure, and from
-                               ///< there to each of the others
-  bool firm = false;           ///< it seemed to be when it was pressed
-  double from_normal = 0;  ///< m to what belongs there and is felt, as far as one knows of it; the
-                           ///< same everywhere: one knows of none
+  /// Judged: how far it gave way to the first pressure, and from there to each of the others
+  std::vector<double> depths;
+  bool firm = false;  ///< it seemed to be when it was pressed
+  /// M to what belongs there and is felt, as far as one knows of it; the same everywhere: one knows
+  /// of none
+  double from_normal = 0;
 };
 
 double across(const Vec3& a, const Vec3& b);  ///< m, along the top
@@ -72,15 +73,15 @@ struct PalpatingSkill {
   double reaction = 0;  ///< s
   double weber = 0;     ///< standard deviation of ln of a judged depth
   double looks_closer = 0, marks_from = 0;  ///< ln of how much less it gives way than around
-  int again = 0;                 ///< presses of a place that seemed firm, before a closer look
-  int rounds = 0, confirms = 0;  ///< of five presses about the place, at most, in a closer look
-                                 ///< that follows what is firmer; presses at the firmest place by
-                                 ///< which it is decided, 0: by those that led there
-  double closer_force = 1;       ///< how much harder a closer look presses
-  double size_sd = 0;            ///< share
-  double hard_from = 0;          ///< ln, as `marks_from`: from here on a lump is called hard
-  bool feels_around = false;   ///< what seemed firm waits until all about it has been felt; else a
-                               ///< closer look begins at once
+  int again = 0;  ///< presses of a place that seemed firm, before a closer look
+  /// Of five presses about the place, at most, in a closer look that follows what is firmer;
+  /// presses at the firmest place by which it is decided, 0: by those that led there
+  int rounds = 0, confirms = 0;
+  double closer_force = 1;  ///< how much harder a closer look presses
+  double size_sd = 0;       ///< share
+  double hard_from = 0;     ///< ln, as `marks_from`: from here on a lump is called hard
+  /// What seemed firm waits until all about it has been felt; else a closer look begins at once
+  bool feels_around = false;
   bool knows_anatomy = false;  ///< what belongs there is not taken for a lump
 };
 PalpatingSkill readPalpatingSkill(const std::filesystem::path& file);
@@ -91,8 +92,9 @@ struct VisiblePhantom {
   Pose X_AP = Pose::Identity();
   double half_x = 0, half_y = 0;  ///< m
   std::function<double(const Vec3& p_P)>
-      from_normal;  ///< m, to where something firm belongs in such a body: what books teach, not
-                    ///< what this case holds; empty: nowhere
+      /// M, to where something firm belongs in such a body: what books teach, not what this case
+      /// holds; empty: nowhere
+      from_normal;
 };
 
 /// A simulated person who searches a soft thing for lumps, in vertical strips: presses, judges how
@@ -136,7 +138,7 @@ class PalpatingHand final : public Hand {
   VisiblePhantom phantom_;
   Pose X_ET_, X_TE_;
   std::uint64_t seed_;
-  runtime::RandomStream judgement_, noise_;
+  RandomStream judgement_, noise_;
   Tremor tremor_;
   Bearings bearings_;
   double hand_speed_ = 0;
@@ -150,9 +152,9 @@ class PalpatingHand final : public Hand {
   double since_s_ = 0;
   double felt_N_ = 0, air_N_ = 0, touched_z_ = 0, light_z_ = 0;
   bool touched_ = false;
-  std::vector<double> depths_;                ///< of this press so far
-  std::vector<Vec3> places_, closer_places_;  ///< still to be pressed, the next one last: in the
-                                              ///< search, in the closer look that is on
+  std::vector<double> depths_;  ///< of this press so far
+  /// Still to be pressed, the next one last: in the search, in the closer look that is on
+  std::vector<Vec3> places_, closer_places_;
   TouchMemory memory_;
   std::vector<FeltPress> closer_, fresh_;
   std::vector<FeltPress> waiting_;  ///< of the search, still to be thought about

@@ -9,6 +9,7 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
 #include "anatomy/base/units.h"
+#include "anatomy/geometry/pose.h"
 #include "apps/twin/hand_motion.h"
 #include "apps/twin/hand_senses.h"
 
@@ -48,8 +49,8 @@ class SearchingHand final : public Hand {
         X_ET_(X_ET),
         judgement_(seed, "searching.judgement"),
         glance_(seed, "searching.glance"),
-        tremor_(skill.tremor_rms, runtime::RandomStream(seed, "searching.tremor")),
-        jolts_(skill.jolt, runtime::RandomStream(seed, "searching.jolts")) {}
+        tremor_(skill.tremor_rms, RandomStream(seed, "searching.tremor")),
+        jolts_(skill.jolt, RandomStream(seed, "searching.jolts")) {}
 
   Action act(const Senses& senses, double dt) override {
     look(senses, dt);
@@ -266,7 +267,7 @@ class SearchingHand final : public Hand {
   const SearchingSkill skill_;
   const VisibleFloor floor_;
   const Pose X_ET_;
-  runtime::RandomStream judgement_, glance_;
+  RandomStream judgement_, glance_;
   Tremor tremor_;
   JoltSense jolts_;
   Bearings bearings_;
@@ -318,7 +319,7 @@ std::unique_ptr<Hand> searchingHand(const SearchingSkill& skill, const VisibleFl
 }
 
 SearchingSkill readSearchingSkill(const std::filesystem::path& path) {
-  const station::JsonFile file(path);
+  const JsonFile file(path);
   file.needVersion(1);
   SearchingSkill s;
   s.name = file.text("name");

@@ -4,7 +4,7 @@
 #include <deque>
 
 #include "anatomy/base/units.h"
-#include "apps/runtime/random_vector.h"
+#include "anatomy/geometry/random_vector.h"
 #include "apps/twin/soft_samples.h"
 #include "apps/twin/virtual_camera.h"
 #include "calibration/rotation.h"
@@ -15,20 +15,20 @@ namespace {
 using runtime::Request;
 constexpr double kStep = 0.001;     // s
 constexpr int kStepsAReading = 10;  // 100 Hz
-constexpr double kSeenLump = 2e-5;  // m, how well a camera tells where a lump is in a clear sample:
-                                    // a tenth of a pixel of 0.2 mm [chosen]
+// m, how well a camera tells where a lump is in a clear sample: a tenth of a pixel of 0.2 mm
+// [chosen]
+constexpr double kSeenLump = 2e-5;
 constexpr double kSameLandmark = 1e-4;  // m
 constexpr double kBoardTravel = 0.7;    // s from one view to the next
 const Vec3 kRestTip_W(0.03, 0.2, 0.12);
 
-double spread(const station::JsonFile& file, const std::string& at, double otherwise, double most) {
+double spread(const JsonFile& file, const std::string& at, double otherwise, double most) {
   return file.has(at) ? file.number(at, 0, most) : otherwise;
 }
 
 /// The board's middle at a depth at which it takes its share of the picture's width.
 Pose boardPose(const runtime::BoardView& view, const calibration::CameraModel& camera,
-               const ar::TagGridSpec& board, const SetupHandTruth& hand,
-               runtime::RandomStream& random) {
+               const ar::TagGridSpec& board, const SetupHandTruth& hand, RandomStream& random) {
   const double depth =
       camera.fx * sheetSize(board).x() / (view.share * camera.width) * (1 + 0.03 * random.normal());
   const Vec3 p_CB(view.across * camera.width / 2 / camera.fx * depth + hand.aim * random.normal(),
@@ -61,7 +61,7 @@ struct SetupBench::Impl {
     const double off = kMm * spread(s.file, "twin/landmark_spread_mm", 0.1, 10);
     for (const auto* list : {&s.landmarks, &s.grid})
       for (const station::Landmark& landmark : *list)
-        holes_W.push_back({landmark.p_W, landmark.p_W + off * runtime::normal3(holes)});
+        holes_W.push_back({landmark.p_W, landmark.p_W + off * normal3(holes)});
     if (s.marker) X_EM = station::readPose(s.file, "twin/X_EM");
     if (s.design.force_sensor &&
         s.design.force_sensor->driver == station::ForceSensorSetup::Driver::bench)
@@ -106,7 +106,7 @@ struct SetupBench::Impl {
       moment.wrench = felt->measure(X_WS, touched.f_W, touched.p_W, stepsAReading() * kStep,
                                     moment.reading->t_ns);
     }
-    if (touched.lump_W) moment.lump_W = *touched.lump_W + kSeenLump * runtime::normal3(imaging);
+    if (touched.lump_W) moment.lump_W = *touched.lump_W + kSeenLump * normal3(imaging);
     return moment;
   }
 
@@ -163,13 +163,13 @@ struct SetupBench::Impl {
   Pose X_CW_boom, X_EM = Pose::Identity();
   SetupHandTruth hand;
   SetupMotion motion;
-  runtime::RandomStream views, holes;
+  RandomStream views, holes;
   std::vector<std::pair<Vec3, Vec3>> holes_W;  ///< where they are said to be, where they are
   std::optional<VirtualCamera> over_table, at_wall;
   std::optional<SensorTwin> felt;
   std::optional<SampleTwin> sample;  // while one is felt
   SampleTwin::Touch touched;
-  runtime::RandomStream imaging;
+  RandomStream imaging;
   Pose X_WT = Pose::Identity(), X_CB = Pose::Identity();
   MinJerk board_way;
   bool showing = false;

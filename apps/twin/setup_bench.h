@@ -11,7 +11,7 @@
 
 namespace palpa::twin {
 
-/// How well a person does what a calibration asks. Standard deviations; [chosen], after MODELS's
+/// How well a person does what a calibration asks. Standard deviations, [chosen] for
 /// hands: braced tremor, a tip that seats in a conical hole, a pose that is met roughly.
 struct SetupHandTruth {
   double seat = 0.00008;       ///< m per coordinate, where the tip comes to rest in its hole
@@ -43,7 +43,7 @@ class SetupMotion {
   LedTip wayOver(const Vec3& p_P);
 
   SetupHandTruth hand_;
-  runtime::RandomStream choices_, jitter_;
+  RandomStream choices_, jitter_;
   Tremor tremor_, turn_tremor_;
   runtime::Request request_;
   MinJerk approach_;

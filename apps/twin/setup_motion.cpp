@@ -1,16 +1,14 @@
+#include "anatomy/geometry/random_vector.h"
 #include "apps/twin/setup_bench.h"
 
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
-#include "apps/runtime/random_vector.h"
 #include "calibration/rotation.h"
 
 namespace palpa::twin {
 namespace {
-
-using runtime::normal3;
 using What = runtime::Request::What;
 constexpr double kTravelSpeed = 0.15;  // m/s
 constexpr double kShortestWay = 0.5;   // s
@@ -30,8 +28,8 @@ SetupMotion::SetupMotion(const SetupHandTruth& hand, std::uint64_t seed)
     : hand_(hand),
       choices_(seed, "setup.hand"),
       jitter_(seed, "setup.jitter"),
-      tremor_(hand.tremor, runtime::RandomStream(seed, "setup.tremor")),
-      turn_tremor_(hand.turn_tremor, runtime::RandomStream(seed, "setup.turn_tremor")) {}
+      tremor_(hand.tremor, RandomStream(seed, "setup.tremor")),
+      turn_tremor_(hand.turn_tremor, RandomStream(seed, "setup.turn_tremor")) {}
 
 /// What a person does who is asked to press, or to stroke, for so long: never twice the same.
 LedTip SetupMotion::wayOver(const Vec3& p_P) {

@@ -48,8 +48,9 @@ SampleTwin::Touch SampleTwin::step(const Pose& X_WT, double dt) {
 namespace {
 
 constexpr double kStand = 2000, kStandDamping = 6,
-                 kNest = 1e-3;  // N/m, N s/m; m: so deep it sits in the stand [chosen: it rests
-                                // within 0.1 mm, and does not bounce]
+                 // N/m, N s/m; m: so deep it sits in the stand [chosen: it rests within 0.1 mm, and
+                 // does not bounce]
+    kNest = 1e-3;
 
 Vec3 mirrored(const Vec3& p) { return {-p.x(), p.y(), p.z()}; }
 

@@ -7,6 +7,7 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
 #include "anatomy/base/units.h"
+#include "anatomy/geometry/pose.h"
 #include "apps/twin/hand_motion.h"
 #include "apps/twin/hand_senses.h"
 
@@ -33,8 +34,8 @@ class SqueezingMind {
         X_ET_(X_ET),
         judgement_(seed, "squeezing.judgement"),
         noise_(seed, "squeezing.noise"),
-        tremors_{Tremor(skill.tremor_rms, runtime::RandomStream(seed, "squeezing.tremor.0")),
-                 Tremor(skill.tremor_rms, runtime::RandomStream(seed, "squeezing.tremor.1"))},
+        tremors_{Tremor(skill.tremor_rms, RandomStream(seed, "squeezing.tremor.0")),
+                 Tremor(skill.tremor_rms, RandomStream(seed, "squeezing.tremor.1"))},
         in_(object.half + kOpen) {}
 
   Hand::Action act(std::size_t finger, const Hand::Senses& senses, double dt) {
@@ -200,7 +201,7 @@ class SqueezingMind {
   SqueezingSkill skill_;
   VisibleObject object_;
   Pose X_ET_;
-  runtime::RandomStream judgement_, noise_;
+  RandomStream judgement_, noise_;
   std::array<Tremor, 2> tremors_;
   std::array<Finger, 2> fingers_;
   std::int64_t next_thought_ns_ = 0;
@@ -240,7 +241,7 @@ std::array<std::unique_ptr<Hand>, 2> squeezingHands(const SqueezingSkill& skill,
 }
 
 SqueezingSkill readSqueezingSkill(const std::filesystem::path& path) {
-  const station::JsonFile file(path);
+  const JsonFile file(path);
   file.needVersion(1);
   SqueezingSkill s;
   s.name = file.text("name");

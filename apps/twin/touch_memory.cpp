@@ -1,3 +1,4 @@
+#include "anatomy/base/quantile.h"
 #include "apps/twin/palpating_hand.h"
 
 #include <algorithm>
@@ -8,12 +9,6 @@ namespace {
 
 constexpr std::size_t kCompared = 12, kFewest = 6;                   // presses
 constexpr double kBeside = 0.004, kOneLump = 0.015, kAlike = 0.007;  // m
-
-double medianOf(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
-}
 
 }  // namespace
 
@@ -41,7 +36,7 @@ double TouchMemory::firmness(const FeltPress& press) const {
   for (std::size_t l = first_told_; l < press.depths.size(); ++l) {
     const std::vector<double> around = ordinaryAbout(press, l);
     if (around.size() < kFewest) continue;
-    sum += std::log(medianOf(around) / std::max(press.depths[l], 1e-4));
+    sum += std::log(upperMedian(around) / std::max(press.depths[l], 1e-4));
     ++count;
   }
   return count > 0 ? sum / count : 0;

@@ -242,8 +242,8 @@ BenchAccuracy VirtualBench::accuracy() const {
   BenchAccuracy a;
   a.pictures = impl_->pictures;
   a.registered = impl_->errors_mm.size();
-  a.entry_median_mm = runtime::quantile(impl_->errors_mm, 0.5);
-  a.entry_p95_mm = runtime::quantile(impl_->errors_mm, 0.95);
+  a.entry_median_mm = quantile(impl_->errors_mm, 0.5);
+  a.entry_p95_mm = quantile(impl_->errors_mm, 0.95);
   a.distance_m = impl_->X_CW_boom.translation().norm();
   // The reading that puts the believed tip on the entry point, needle along the skin's normal.
   const Pose X_WT = makePose(rotationWithZ(-impl_->normal_W), impl_->watched_W);

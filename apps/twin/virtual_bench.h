@@ -53,7 +53,7 @@ class HeldTool {
 
   Setup setup_;
   DeviceTwin mechanics_;
-  runtime::RandomStream cell_noise_;
+  RandomStream cell_noise_;
   std::optional<SensorTwin> felt_;
   Hand::Action action_;
   Touch touch_;
@@ -91,9 +91,9 @@ class VirtualBench {
   struct Setup {
     const station::Station& station;
     std::unique_ptr<Hand> hand;
-    Pose X_DE_start;           ///< where the tool is picked up
-    Vec3 watched_W, normal_W;  ///< where the overlay's accuracy is measured: a point, the surface's
-                               ///< outward normal
+    Pose X_DE_start;  ///< where the tool is picked up
+    /// Where the overlay's accuracy is measured: a point, the surface's outward normal
+    Vec3 watched_W, normal_W;
     std::uint64_t seed = 1;
     std::function<void(const Hand::Word&)> on_word;  ///< the simulated person says something
     runtime::ChannelSensor* sensor = nullptr;  ///< where the station has a virtual force sensor

@@ -32,7 +32,8 @@ struct VirtualScene {
       plates;  ///< free sheets, known by their index; a single tag is 1 x 1
 };
 
-/// Where one of the scene's plates is. B: the frame of its grid, as W is the board's (ar/board.h).
+/// Where one of the scene's plates is. B: the frame of its grid, as W is the board's
+/// (ar/boards/board.h).
 struct PlatePose {
   std::size_t plate = 0;
   Pose X_CB = Pose::Identity();

@@ -6,16 +6,12 @@
 
 #include <opencv2/imgproc.hpp>
 
+#include "anatomy/base/random.h"
+
 namespace palpa::twin::picture {
 
 std::uint64_t randomBits(std::uint64_t stream, std::uint64_t counter) {
-  const auto mix = [](std::uint64_t z) {
-    z += 0x9e3779b97f4a7c15ULL;
-    z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9ULL;
-    z = (z ^ (z >> 27)) * 0x94d049bb133111ebULL;
-    return z ^ (z >> 31);
-  };
-  return mix(mix(stream) ^ counter);
+  return splitMix64(splitMix64(stream) ^ counter);
 }
 
 double uniform(std::uint64_t stream, std::uint64_t counter) {

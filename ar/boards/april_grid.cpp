@@ -32,11 +32,11 @@ Eigen::Vector2d middle(const Tag& tag) {
   return (tag.corners[0] + tag.corners[1] + tag.corners[2] + tag.corners[3]) / 4;
 }
 
-bool foretells(const cv::Matx33d& H, const Tag& tag, const Tag& other, const Vec3& other_W) {
+bool predicts(const cv::Matx33d& H, const Tag& tag, const Tag& other, const Vec3& other_W) {
   const cv::Vec3d p = H * cv::Vec3d(other_W.x(), other_W.y(), 1);
   if (!(p[2] > 0)) return false;  // beyond the horizon
-  const Eigen::Vector2d foretold(p[0] / p[2], p[1] / p[2]), seen = middle(other);
-  return (foretold - seen).norm() < 0.5 * (seen - middle(tag)).norm();
+  const Eigen::Vector2d predicted(p[0] / p[2], p[1] / p[2]), seen = middle(other);
+  return (predicted - seen).norm() < 0.5 * (seen - middle(tag)).norm();
 }
 
 /// For each tag, how many of the others it agrees with, both ways, after `quarters` turns.
@@ -51,8 +51,8 @@ std::vector<int> agreements(const std::vector<Tag>& tags, const TagGridSpec& spe
   std::vector<int> count(tags.size(), 0);
   for (std::size_t i = 0; i < tags.size(); ++i)
     for (std::size_t j = 0; j < i; ++j)
-      if (foretells(H[i], tags[i], tags[j], middle_W[j]) &&
-          foretells(H[j], tags[j], tags[i], middle_W[i])) {
+      if (predicts(H[i], tags[i], tags[j], middle_W[j]) &&
+          predicts(H[j], tags[j], tags[i], middle_W[i])) {
         ++count[i];
         ++count[j];
       }

@@ -32,7 +32,7 @@ std::vector<PlacedTag> placeTags(const std::vector<Tag>& tags, const TagGridSpec
 /// quarters round them (a hand, a sheet cut off at its outer tags).
 ///
 /// Sheets come from many printers: their tags may be turned by quarter turns. The turn is that for
-/// which each tag foretells where the others are; tags that contradict it are left out. One tag
+/// which each tag predicts where the others are; tags that contradict it are left out. One tag
 /// alone cannot tell: nothing is returned then.
 class AprilGridBoard : public Board {
  public:

@@ -1,6 +1,4 @@
 #include <charconv>
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <sstream>
 
@@ -8,6 +6,7 @@
 #include <opencv2/core/utils/logger.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "ar/boards/board.h"
 #include "ar/boards/board_spec.h"
 
@@ -127,14 +126,13 @@ int wholeNumberOr(int otherwise, const cv::FileNode& root, const char* name, con
   return root[name].empty() ? otherwise : wholeNumber(root, name, file);
 }
 
-std::string slurp(const fs::path& file) {
+std::string textOf(const fs::path& file) {
   std::error_code code;
   if (!fs::is_regular_file(file, code)) refuse(file, "no such file");
   if (fs::file_size(file, code) > (1U << 20) || code) refuse(file, "too large for a board");
-  std::ifstream in(file, std::ios::binary);
-  std::string text{std::istreambuf_iterator<char>(in), {}};
-  if (!in || text.find('\0') != std::string::npos) refuse(file, "is not text");
-  return text;
+  std::optional<std::string> text = readWhole(file);
+  if (!text || text->find('\0') != std::string::npos) refuse(file, "is not text");
+  return std::move(*text);
 }
 
 bool isYaml(const fs::path& file) {
@@ -161,7 +159,7 @@ TagGridSpec parseJson(const std::string& text, const fs::path& file) {
 }  // namespace
 
 TagGridSpec readTagGrid(const fs::path& file) {
-  const std::string text = slurp(file);
+  const std::string text = textOf(file);
   if (isYaml(file)) return parseKalibrTarget(text, file.string());
   const auto level = cv::utils::logging::setLogLevel(cv::utils::logging::LOG_LEVEL_SILENT);
   try {

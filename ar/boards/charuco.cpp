@@ -30,9 +30,9 @@ void requireCharuco(bool good, const std::string& what, const std::string& where
                      "DICT_5X5_100.");
 }
 
-cv::Ptr<cv::aruco::Dictionary> dictionaryNamed(const std::string& name, const std::string& where) {
+aruco::Dictionary dictionaryNamed(const std::string& name, const std::string& where) {
   for (std::size_t i = 0; i < kDictionaries.size(); ++i)
-    if (name == kDictionaries[i]) return cv::aruco::getPredefinedDictionary(int(i));
+    if (name == kDictionaries[i]) return aruco::predefined(int(i));
   throw UsageError("unknown dictionary '" + name + "'", where,
                    "Known are OpenCV's DICT_4X4_50 to DICT_7X7_1000 (4X4 to 7X7; 50, 100, 250, "
                    "1000), DICT_ARUCO_ORIGINAL and DICT_APRILTAG_16h5, 25h9, 36h10, 36h11.");
@@ -48,15 +48,14 @@ void validate(const CharucoSpec& spec, const std::string& where) {
   requireCharuco(spec.marker >= 0.3 * spec.square && spec.marker <= 0.9 * spec.square,
                  "the marker must be 0.3 to 0.9 of the square", where);
   const int markers = spec.columns * spec.rows / 2;
-  requireCharuco(dictionaryNamed(spec.dictionary, where)->bytesList.rows >= markers,
+  requireCharuco(dictionaryNamed(spec.dictionary, where).bytesList.rows >= markers,
                  "the dictionary has fewer than " + std::to_string(markers) + " markers", where);
 }
 
-cv::Ptr<cv::aruco::CharucoBoard> charucoLayout(const CharucoSpec& spec) {
+aruco::Board charucoLayout(const CharucoSpec& spec) {
   validate(spec, "ChArUco board");
-  return cv::aruco::CharucoBoard::create(spec.columns, spec.rows, float(spec.square),
-                                         float(spec.marker),
-                                         dictionaryNamed(spec.dictionary, "ChArUco board"));
+  return aruco::makeBoard({spec.columns, spec.rows}, float(spec.square), float(spec.marker),
+                          dictionaryNamed(spec.dictionary, "ChArUco board"));
 }
 
 std::vector<cv::Point2d> charucoMarkersBefore46(const CharucoSpec& spec) {
@@ -69,17 +68,13 @@ std::vector<cv::Point2d> charucoMarkersBefore46(const CharucoSpec& spec) {
 }
 
 struct CharucoBoard::Layout {
-  cv::Ptr<cv::aruco::CharucoBoard> board;
+  aruco::Board board;
   std::vector<cv::Point2d> middles, middles_before_46;  ///< of the markers, metres, OpenCV's frame
-  cv::Ptr<cv::aruco::DetectorParameters> parameters = cv::aruco::DetectorParameters::create();
 };
 
 namespace {
 
-struct Markers {
-  std::vector<std::vector<cv::Point2f>> corners;
-  std::vector<int> ids;
-};
+using aruco::Markers;
 
 /// Each of the board's markers once; none of an id that is seen at two places.
 Markers once(const Markers& all, int count) {
@@ -100,22 +95,22 @@ cv::Matx33d markerToPicture(const std::vector<cv::Point3f>& marker,
   return cv::getPerspectiveTransform(plane, picture.data());
 }
 
-/// Moves a corner, as foretold by the markers, to the saddle point; false where there is none with
+/// Moves a corner, as predicted by the markers, to the saddle point; false where there is none with
 /// the colours of this board round it. OpenCV 4.6 has refined its corners already, but leaves them
 /// half a pixel off both ways.
-bool refineCharuco(const cv::Mat& gray, const cv::aruco::CharucoBoard& board,
-                   const Markers& markers, int id, Eigen::Vector2d* pixel) {
+bool refineCharuco(const cv::Mat& gray, const aruco::Board& board, const Markers& markers, int id,
+                   Eigen::Vector2d* pixel) {
   const std::size_t corner = std::size_t(id);
-  const std::size_t nearest = std::size_t(board.nearestMarkerIdx[corner][0]);
+  const std::size_t nearest = std::size_t(board.nearest[corner][0]);
   const auto seen = std::find(markers.ids.begin(), markers.ids.end(), board.ids[nearest]);
   if (seen == markers.ids.end()) return false;
   const std::vector<cv::Point2f>& marker = markers.corners[std::size_t(seen - markers.ids.begin())];
-  const double side = double(board.getMarkerLength());
-  const double margin = (double(board.getSquareLength()) - side) / 2;
+  const double side = double(board.opencv->getMarkerLength());
+  const double margin = (double(board.opencv->getSquareLength()) - side) / 2;
   if (!refineSaddle(gray, margin / side * outlineHeight(marker), pixel)) return false;
-  const cv::Matx33d H = markerToPicture(board.objPoints[nearest], marker);
-  const Eigen::Vector2d p(board.chessboardCorners[corner].x, board.chessboardCorners[corner].y);
-  const int columns = board.getChessboardSize().width - 1;
+  const cv::Matx33d H = markerToPicture(board.markers[nearest], marker);
+  const Eigen::Vector2d p(board.corners[corner].x, board.corners[corner].y);
+  const int columns = board.opencv->getChessboardSize().width - 1;
   const double sign = (id / columns + id % columns) % 2 == 0 ? 1 : -1;
   return isCrossing(gray, *pixel, stepInPicture(H, p, {sign * margin / 2, 0}),
                     stepInPicture(H, p, {0, margin / 2}));
@@ -125,7 +120,7 @@ cv::Point2d middleOf(const std::vector<cv::Point2f>& corners) {
   return cv::Point2d(corners[0] + corners[1] + corners[2] + corners[3]) / 4;
 }
 
-/// How many pairs of markers stand to each other as a layout has them: one foretells the other's
+/// How many pairs of markers stand to each other as a layout has them: one predicts the other's
 /// middle to within half their distance.
 int agreeingPairs(const Markers& markers, double side, const std::vector<cv::Point2d>& middles) {
   const float h = float(side) / 2;
@@ -137,10 +132,10 @@ int agreeingPairs(const Markers& markers, double side, const std::vector<cv::Poi
     for (std::size_t j = 0; j < markers.ids.size(); ++j) {
       const cv::Point2d step =
           middles[std::size_t(markers.ids[j])] - middles[std::size_t(markers.ids[i])];
-      const Eigen::Vector2d foretold = stepInPicture(H, {0, 0}, {step.x, step.y});
+      const Eigen::Vector2d predicted = stepInPicture(H, {0, 0}, {step.x, step.y});
       const cv::Point2d seen = middleOf(markers.corners[j]) - here;
       const double distance = cv::norm(seen);
-      count += cv::norm(cv::Point2d(foretold.x(), foretold.y()) - seen) < 0.5 * distance;
+      count += cv::norm(cv::Point2d(predicted.x(), predicted.y()) - seen) < 0.5 * distance;
     }
   }
   return count;
@@ -162,7 +157,7 @@ bool spread(const std::vector<BoardPoint>& points) {
 CharucoBoard::CharucoBoard(const CharucoSpec& spec)
     : spec_(spec), layout_(std::make_unique<Layout>()) {
   layout_->board = charucoLayout(spec);
-  for (const auto& marker : layout_->board->objPoints) {
+  for (const auto& marker : layout_->board.markers) {
     const cv::Point3d middle = cv::Point3d(marker[0] + marker[2]) / 2;
     layout_->middles.emplace_back(middle.x, middle.y);
   }
@@ -174,23 +169,20 @@ CharucoBoard::~CharucoBoard() = default;
 std::vector<BoardPoint> CharucoBoard::detect(const cv::Mat& image) const {
   const cv::Mat gray = grayPicture(image);
   if (std::min(gray.cols, gray.rows) < 32) return {};
-  Markers all;
-  cv::aruco::detectMarkers(gray, layout_->board->dictionary, all.corners, all.ids,
-                           layout_->parameters);
-  const Markers markers = once(all, int(layout_->board->ids.size()));
+  const Markers all = aruco::detectMarkers(gray, layout_->board.dictionary);
+  const Markers markers = once(all, int(layout_->board.ids.size()));
   if (markers.ids.size() < 2) return {};
   if (agreeingPairs(markers, spec_.marker, layout_->middles) <
       agreeingPairs(markers, spec_.marker, layout_->middles_before_46))
     return {};
   std::vector<cv::Point2f> pixels;
   std::vector<int> ids;
-  cv::aruco::interpolateCornersCharuco(markers.corners, markers.ids, gray, layout_->board, pixels,
-                                       ids);
+  aruco::interpolateCorners(gray, layout_->board, markers, &pixels, &ids);
   std::vector<BoardPoint> points;
   for (std::size_t i = 0; i < ids.size(); ++i) {
     Eigen::Vector2d pixel(pixels[i].x, pixels[i].y);
-    if (!refineCharuco(gray, *layout_->board, markers, ids[i], &pixel)) continue;
-    const cv::Point3f& corner = layout_->board->chessboardCorners[std::size_t(ids[i])];
+    if (!refineCharuco(gray, layout_->board, markers, ids[i], &pixel)) continue;
+    const cv::Point3f& corner = layout_->board.corners[std::size_t(ids[i])];
     points.push_back({charucoPointW(spec_, corner), pixel});
   }
   if (!spread(points)) points.clear();
@@ -231,15 +223,15 @@ void drawMarker(const cv::Mat& bits, double left, double top, double side, Sheet
 }  // namespace
 
 Sheet sheetOf(const CharucoSpec& spec) {
-  const auto layout = charucoLayout(spec);
-  const cv::aruco::Dictionary& dictionary = *layout->dictionary;
+  const aruco::Board layout = charucoLayout(spec);
+  const aruco::Dictionary& dictionary = layout.dictionary;
   const Eigen::Vector2d size = Eigen::Vector2d(spec.columns + 2, spec.rows + 2) * spec.square;
   Sheet sheet{"ChArUco board", size, spec.marker / (dictionary.markerSize + 2), {}};
   drawSquares(spec, &sheet);
-  for (std::size_t i = 0; i < layout->ids.size(); ++i) {
-    const Vec3 upper_left = charucoPointW(spec, layout->objPoints[i][0]);
-    const cv::Mat bits = cv::aruco::Dictionary::getBitsFromByteList(
-        dictionary.bytesList.row(layout->ids[i]), dictionary.markerSize);
+  for (std::size_t i = 0; i < layout.ids.size(); ++i) {
+    const Vec3 upper_left = charucoPointW(spec, layout.markers[i][0]);
+    const cv::Mat bits = aruco::Dictionary::getBitsFromByteList(
+        dictionary.bytesList.row(layout.ids[i]), dictionary.markerSize);
     drawMarker(bits, upper_left.x(), upper_left.y(), spec.marker, &sheet);
   }
   return sheet;

@@ -1,14 +1,13 @@
 #pragma once
 
-#include <opencv2/aruco/charuco.hpp>
-
 #include "ar/boards/charuco.h"
+#include "ar/boards/opencv_aruco.h"
 
 namespace palpa::ar {
 
 /// OpenCV's own board for a valid spec. Its frame: origin at the upper left corner of the pattern,
 /// x right, y towards the reader, z into the board.
-cv::Ptr<cv::aruco::CharucoBoard> charucoLayout(const CharucoSpec& spec);
+aruco::Board charucoLayout(const CharucoSpec& spec);
 
 /// The middles of the markers by id, metres, in OpenCV's frame, as OpenCV before 4.6 laid them out:
 /// the lower left square black, ids row by row from the upper left all the same.

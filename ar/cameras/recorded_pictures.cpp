@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
-#include <iterator>
 #include <string>
 #include <vector>
 
@@ -14,6 +13,7 @@
 #include <opencv2/videoio.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::ar {
 namespace {
@@ -47,8 +47,7 @@ cv::Mat load(const fs::path& file) {
   if (!fs::is_regular_file(file))
     throw Error("the picture has gone since the sequence was opened", file.string(),
                 "Put it back, or open the sequence again.");
-  std::ifstream stream(file, std::ios::binary);
-  const std::string bytes{std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+  const std::string bytes = readWhole(file).value_or("");
   if (isCutShort(bytes))
     throw Error("is cut short", file.string(), "Copy the picture again, or narrow the pattern.");
   cv::Mat image;

@@ -28,7 +28,7 @@ class ImageSequence : public Camera {
 };
 
 /// A film as a camera: its pictures in order, stamped with the film's own times from zero. Where
-/// "<film>.csv" lies beside it, as this program records it (apps/runtime/video_recorder.h), the
+/// "<film>.csv" lies beside it, as this program records it (apps/runtime/recorders.h), the
 /// times of exposure stand there.
 class VideoFile : public Camera {
  public:
@@ -36,8 +36,8 @@ class VideoFile : public Camera {
   explicit VideoFile(const std::filesystem::path& file);
   ~VideoFile() override;
   std::optional<Frame> grab() override;
-  double rate_Hz() const;  ///< pictures a second: by the times beside it, otherwise as the film
-                           ///< says; 30 where neither does
+  /// Pictures a second: by the times beside it, otherwise as the film says; 30 where neither does
+  double rate_Hz() const;
 
  private:
   struct Impl;

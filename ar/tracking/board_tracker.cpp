@@ -11,8 +11,8 @@ namespace {
 constexpr int kTile = 8;
 constexpr double kMargin = 0.12;  // of the board's width and height in the picture: its white edge
 constexpr double kMargin_px = 12, kSpreads = 4;
-constexpr double kWorstFit_px = 2.5;  // [chosen] of real boards: 0.1 to 0.4 px, blurred and bent
-                                      // ones to 1; what is no board fits by tens
+// [chosen] of real boards: 0.1 to 0.4 px, blurred and bent ones to 1; what is no board fits by tens
+constexpr double kWorstFit_px = 2.5;
 constexpr double kTellsApart =
     16;  // chi-squared by which one planar solution must fit better than the other
 constexpr double kSigmaAtFirst_px = 0.2, kLeastSigma_px = 0.03, kLearns = 0.05;
@@ -117,9 +117,9 @@ std::optional<BoardPose> BoardTracker::see(const cv::Mat& image, std::int64_t t_
   }
   if (pose && !track_.add(pose->X_CW, scaled(*pose), t_ns)) pose.reset();
   if (pose) learn(points, *pose);
-  const bool foretold = track_.at(t_ns).how != PoseTrack::Lookup::none;
+  const bool predicted = track_.at(t_ns).how != PoseTrack::Lookup::none;
   state_ = pose                              ? TrackState::tracked
-           : foretold                        ? TrackState::coasting
+           : predicted                       ? TrackState::coasting
            : state_ == TrackState::searching ? TrackState::searching
                                              : TrackState::lost;
   return pose;

@@ -10,7 +10,7 @@
 namespace palpa::ar {
 
 /// searching: not seen so far. tracked: seen in the last picture. coasting: not seen in it, but so
-/// recently that its pose is foretold. lost: neither.
+/// recently that its pose is predicted. lost: neither.
 enum class TrackState { searching, tracked, coasting, lost };
 
 /// Finds one board in picture after picture: first around where its motion takes it, in the whole

@@ -54,7 +54,7 @@ double surprise(const PoseMotion& motion, const Pose& X_measured, const Matrix6&
 /// jitter while it stands, no lag while it moves. An interacting multiple model filter (Blom &
 /// Bar-Shalom 1988): three Kalman filters that believe it stands, is carried gently, is swung
 /// briskly
-/// (`MotionModel`); how well each foretold the measurements decides how much each is believed, and
+/// (`MotionModel`); how well each predicted the measurements decides how much each is believed, and
 /// each starts every step from a mixture of all.
 ///
 /// A measurement that is too surprising for the briskest (chi-squared, 1 in a million) is left out;

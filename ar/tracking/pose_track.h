@@ -29,7 +29,7 @@ class PoseTrack {
     Matrix6 covariance = Matrix6::Zero();
   };
   /// At any time: as it was filtered then, between two such by Hermite's cubic (poses and rates),
-  /// or foretold.
+  /// or predicted.
   Answer at(std::int64_t t_ns) const;
 
   const PoseFilter& filter() const { return filter_; }

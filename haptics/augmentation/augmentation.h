@@ -14,17 +14,19 @@ inline constexpr std::uint8_t kAnySubtask = 0xff;
 struct Augmentation {
   enum class Kind : std::uint8_t {
     none,
-    pulse,  ///< A along the way, for `width`, whatever the hand does meanwhile; one ends before the
-            ///< next begins
-    vibration,   ///< A sin(2 pi f t), or A sin(2 pi s / wavelength) of the way s along the surface
-    attraction,  ///< A (1 - cos(2 pi d / reach)) / r toward the nearest valley at the distance d <=
-                 ///< reach, r its radius of curvature in U: smooth, 0 at both ends, 2 A / r at
-                 ///< reach / 2
-    exaggeration,  ///< A (f - low-pass f) of the contact force, time constant tau: what changes
-                   ///< fast feels stronger
-    fixture,       ///< spring of stiffness A toward a line, across it
-    relief  ///< A h / h_max along the way while over a bump of height h, however deep the probe is:
-            ///< a texture that the device is too soft for
+    /// A along the way, for `width`, whatever the hand does meanwhile; one ends before the next
+    /// begins
+    pulse,
+    vibration,  ///< A sin(2 pi f t), or A sin(2 pi s / wavelength) of the way s along the surface
+    /// A (1 - cos(2 pi d / reach)) / r toward the nearest valley at the distance d <= reach, r its
+    /// radius of curvature in U: smooth, 0 at both ends, 2 A / r at reach / 2
+    attraction,
+    /// A (f - low-pass f) of the contact force, time constant tau: what changes fast feels stronger
+    exaggeration,
+    fixture,  ///< spring of stiffness A toward a line, across it
+    /// A h / h_max along the way while over a bump of height h, however deep the probe is: a
+    /// texture that the device is too soft for
+    relief
   };
   /// When a pulse or a decaying vibration begins; `none`: a vibration goes on as long as its part.
   enum class Trigger : std::uint8_t { none, begin, event, rise, bump };
@@ -69,8 +71,9 @@ struct AugmentationInput {
   std::uint32_t events = 0;
   bool allowed = true;              ///< false: this session or trial goes without
   bool rise = false, bump = false;  ///< a rise, a bump that the probe's way enters
-  double footprint = 0;  ///< 0 to 1: height of the bump that the probe is over, or came across
-                         ///< since the last tick, of the highest's
+  /// 0 to 1: height of the bump that the probe is over, or came across since the last tick, of the
+  /// highest's
+  double footprint = 0;
   Vec3 f_contact = Vec3::Zero(), v = Vec3::Zero(),
        dp = Vec3::Zero();  ///< dp: way since the last tick
   Vec3 up = Vec3::Zero(),
@@ -97,8 +100,9 @@ static_assert(std::is_trivially_copyable_v<AugmentationState>);
 
 struct Augmented {
   Vec3 f = Vec3::Zero();  ///< N, on the tool
-  double work_J = 0;      ///< that pulses and vibrations, which heed no motion, give to the hand in
-                          ///< this tick: declared to the passivity observer
+  /// That pulses and vibrations, which heed no motion, give to the hand in this tick: declared to
+  /// the passivity observer
+  double work_J = 0;
   std::uint32_t subtasks = 0;  ///< bit i: part i is on
   std::uint32_t active = 0;    ///< bit i: augmentation i adds a force
   std::uint32_t began = 0;     ///< bit i: triggered in this tick

@@ -18,7 +18,7 @@ double logDensity(const LearnedModel& model, std::size_t state, const LearnedRow
   return sum;
 }
 
-Belief foretold(const LearnedModel& model, const LearnedState& state, std::size_t count) noexcept {
+Belief predicted(const LearnedModel& model, const LearnedState& state, std::size_t count) noexcept {
   if (state.state < 0) return model.start;
   Belief next{};
   for (std::size_t i = 0; i < count; ++i)
@@ -28,7 +28,7 @@ Belief foretold(const LearnedModel& model, const LearnedState& state, std::size_
 
 void believe(const LearnedModel& model, const LearnedRow& x, LearnedState* state) noexcept {
   const std::size_t count = std::min<std::size_t>(model.states, kMostLearnedStates);
-  const Belief before = foretold(model, *state, count);
+  const Belief before = predicted(model, *state, count);
   Belief seen{};
   double most = -HUGE_VAL;
   for (std::size_t j = 0; j < count; ++j) most = std::max(most, seen[j] = logDensity(model, j, x));

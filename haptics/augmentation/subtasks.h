@@ -25,8 +25,9 @@ enum class Cue : std::uint8_t {
   floor_contact,  ///< 1: the probe is in contact with a floor
   floor_texture,  ///< 1: over a textured disc
   floor_speed,    ///< of the probe along the floor, in U a second
-  learned,  ///< the most probable state of a model learned from recordings, from 1 as they are
-            ///< reported; 0: not known yet
+  /// The most probable state of a model learned from recordings, from 1 as they are reported; 0:
+  /// not known yet
+  learned,
   count
 };
 inline constexpr int kCues = static_cast<int>(Cue::count);

@@ -16,7 +16,7 @@ struct View {
 
 NeedleContact contactOn(const TickConfig& config, const View& view, const NeedlePose& pose,
                         const TickCommands& commands, double dt) {
-  if (config.engine == Engine::probe)
+  if (config.contact_mode == ContactMode::probe)
     return probeContact(config.probe, config.coupling, view.geometry, pose.p_DT, dt, view.probe);
   return needleContact(config.materials, config.coupling, view.geometry, pose, commands, dt,
                        view.needle);
@@ -52,7 +52,7 @@ NeedleContact touchedContact(const TickConfig& config, TickState& state, const F
 
 NeedleContact contactNow(const TickConfig& config, TickState& state, const TickCommands& commands,
                          std::int64_t now_ns, TickFrame& frame) {
-  if (config.engine == Engine::touch)
+  if (config.contact_mode == ContactMode::sensed_object)
     return touchedContact(config, state, frame.record, frame.input.dt);
   return blendedContact(config, state, frame.pose, commands, frame.input.dt, now_ns);
 }
@@ -66,7 +66,7 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
   NeedleContact contact;
   if (frame.felt) {
     FloorTouch touch;
-    const bool on_floor = config.engine == Engine::floor;
+    const bool on_floor = config.contact_mode == ContactMode::floor;
     contact = on_floor ? floorContact(config, state, floor, &frame, &touch)
                        : contactNow(config, state, commands, now_ns, frame);
     addAugmentations(config, state, contact, floor, on_floor ? &touch : nullptr, &frame);

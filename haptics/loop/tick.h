@@ -14,16 +14,16 @@
 
 namespace palpa::haptics {
 
-/// What the tool is for: a needle or a probe on a virtual patient, a tool with a force sensor on a
-/// real thing whose feel is changed, or a probe on a virtual floor.
-enum class Engine : std::uint8_t { needle, probe, touch, floor };
+/// What the tool touches: a virtual patient, as a needle or a probe, a real thing with a force
+/// sensor, whose feel is changed, or a virtual floor, as a probe.
+enum class ContactMode : std::uint8_t { needle, probe, sensed_object, floor };
 
 /// Constant during a session; stored in its file. Trivially copyable, so that a replay has it
 /// whole.
 struct TickConfig {
   NeedleMaterials materials;
   ProbeMaterials probe;
-  Engine engine = Engine::needle;
+  ContactMode contact_mode = ContactMode::needle;
   /// 1: a real object is touched beyond the force sensor, the hand holds the tool before it:
   /// passivity is kept at the hand's port, device and object together. 0: what is sensed is only
   /// recorded.
@@ -81,11 +81,11 @@ PackedPose toolPose(const TickConfig& config, const TickState& state,
 /// limiter -> command. Pure: same inputs, same bits. `latest` is the newest snapshot or null; it is
 /// adopted when the last blend is over, unless it is damaged. Whatever comes in, the command is
 /// finite and within the limits. Never allocates, locks, logs or throws. `sensed` is what a force
-/// sensor says of a real object at the tool: it counts at the hand's port. Engine::touch asks for
-/// no snapshots, and gives no force while the sensor is not valid; Engine::floor asks for none
-/// either, `floor` is the one whose number the commands say. Zero force in the same tick for
-/// readings that cannot be, jumps, a clock that stood still or went back, and after a pause of the
-/// loop (watchdog). A device that is not homed touches nothing.
+/// sensor says of a real object at the tool: it counts at the hand's port.
+/// ContactMode::sensed_object asks for no snapshots, and gives no force while the sensor is not
+/// valid; ContactMode::floor asks for none either, `floor` is the one whose number the commands
+/// say. Zero force in the same tick for readings that cannot be, jumps, a clock that stood still or
+/// went back, and after a pause of the loop (watchdog). A device that is not homed touches nothing.
 FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReading& reading,
                   const LocalGeometry* latest, const TickCommands& commands, std::int64_t now_ns,
                   const SensedForce& sensed = {}, const Floor* floor = nullptr) noexcept;
@@ -97,8 +97,9 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
 namespace palpa::haptics {
 
 struct PairConfig {
-  std::array<TickConfig, 2> tools;  ///< both Engine::touch, each with its own X_DP; what is added
-                                    ///< is the first one's `touch`
+  /// Both ContactMode::sensed_object, each with its own X_DP; what is added is the first one's
+  /// `touch`
+  std::array<TickConfig, 2> tools;
   SqueezeModulation squeeze;
   std::uint8_t squeezing = 0;  ///< 1: held between the tools, in place of pressed
   std::uint8_t reserved[7]{};

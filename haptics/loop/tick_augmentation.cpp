@@ -6,9 +6,9 @@
 namespace palpa::haptics {
 namespace {
 
-constexpr double kFarAway = 1;        // m: there is no lump
-constexpr double kFirstScale = 2000;  // px/s: 2 px in a millisecond, half the finest wavelength.
-                                      // 468.75 U/s where 1024 px are 240 U
+constexpr double kFarAway = 1;  // m: there is no lump
+// px/s: 2 px in a millisecond, half the finest wavelength. 468.75 U/s where 1024 px are 240 U
+constexpr double kFirstScale = 2000;
 
 struct FloorFrame {
   Pose X_DF;
@@ -41,8 +41,9 @@ double lumpEdge(const TickConfig& config, const TickFrame& frame) noexcept {
 /// Computed, or sensed of a real thing.
 Vec3 feltForce(const TickConfig& config, const NeedleContact& contact,
                const SensedForce& sensed) noexcept {
-  return config.engine == Engine::touch && sensed.state == SensorState::valid ? unpack(sensed.f_D)
-                                                                              : contact.f_D;
+  return config.contact_mode == ContactMode::sensed_object && sensed.state == SensorState::valid
+             ? unpack(sensed.f_D)
+             : contact.f_D;
 }
 
 /// The belief of a learned model goes on; while the handle is held, nothing is done that it knows.
@@ -62,7 +63,8 @@ CueValues cuesOf(const TickConfig& config, const TickState& state, const NeedleC
   const FlightRecord& record = frame.record;
   cues[Cue::speed] = unpack(state.tip.v_D).norm();
   cues[Cue::advance] = contact.v_axial;
-  const bool sensed = config.engine == Engine::touch && record.sensed.state == SensorState::valid;
+  const bool sensed = config.contact_mode == ContactMode::sensed_object &&
+                      record.sensed.state == SensorState::valid;
   cues[Cue::contact_force] = feltForce(config, contact, record.sensed).norm();
   cues[Cue::skin_force] = contact.skin_force;
   cues[Cue::wall_force] = contact.wall_force;
@@ -105,13 +107,13 @@ void lookAtFloor(const TickConfig& config, const Floor& floor, const FloorTouch&
 }
 
 Vec3 upOf(const TickConfig& config, const TickState& state) noexcept {
-  switch (config.engine) {
-    case Engine::floor:
+  switch (config.contact_mode) {
+    case ContactMode::floor:
       return FloorFrame(config).toD(Vec3::UnitZ());
-    case Engine::touch:
+    case ContactMode::sensed_object:
       return unpack(config.X_DP.q).normalized() * Vec3::UnitZ();
-    case Engine::needle:
-    case Engine::probe:
+    case ContactMode::needle:
+    case ContactMode::probe:
       return state.now.number ? unpack(state.now.skin.n) : Vec3(Vec3::Zero());
   }
   return Vec3::Zero();

@@ -80,7 +80,8 @@ void forgetMotion(TickState& state) {
 /// 1 while the snapshot is young, then falling to 0 within the fade. One from the future is as bad
 /// as an old one: the clock went back, or its time is wrong.
 double freshness(const TickConfig& config, const TickState& state, std::int64_t now_ns) {
-  if (config.engine == Engine::touch || config.engine == Engine::floor)
+  if (config.contact_mode == ContactMode::sensed_object ||
+      config.contact_mode == ContactMode::floor)
     return 1;  // a real thing, a floor are always where they are
   if (state.now.number == 0) return 0;
   const double over =
@@ -183,7 +184,7 @@ void describe(const TickConfig& config, FlightRecord& record, const NeedleContac
   record.tissue = contact.tissue;
   record.wall = contact.wall;
   record.wall_leaving = contact.wall_leaving;
-  record.bone = config.engine == Engine::probe ? state.probe.bone : state.contact.bone;
+  record.bone = config.contact_mode == ContactMode::probe ? state.probe.bone : state.contact.bone;
   record.skin_punctures = state.contact.skin_punctures;
   record.damped = state.passivity.injecting;
 }
@@ -254,8 +255,8 @@ TickFrame beginTick(const TickConfig& config, TickState& state, const DeviceRead
   record.events |= adopt(config, state, latest, now_ns);
   frame.pose = needlePose(config, state.contact, reading);
   SafetyCause fault = faultOf(config, state, reading, frame.pose, elapsed);
-  if (fault == SafetyCause::none && config.engine == Engine::touch && reading.homed &&
-      !sensorBelieved(sensed))
+  if (fault == SafetyCause::none && config.contact_mode == ContactMode::sensed_object &&
+      reading.homed && !sensorBelieved(sensed))
     fault = commands.armed ? SafetyCause::no_sensor : SafetyCause::not_ready;
   frame.input =
       safetyInput(reading, commands, fault, now_ns, std::clamp(elapsed * 1e-9, 0.0, kLongestStep));

@@ -22,8 +22,8 @@ struct StiffnessModulation {
   double x0 = 0;      ///< m, how far below the surface its contact begins, as identified with it
   Dahl friction;      ///< as identified on its surface
   TargetStiffness target;
-  double least_contact = 0.1;  ///< N: a smaller reaction is no contact [chosen: several times a
-                               ///< sensor's noise after its filter]
+  /// N: a smaller reaction is no contact [chosen: several times a sensor's noise after its filter]
+  double least_contact = 0.1;
 };
 
 struct StiffnessModulationState {
@@ -67,9 +67,9 @@ Modulated modulateStiffness(const StiffnessModulation& law, const Vec3& f_r, con
 namespace palpa::haptics {
 
 struct FrictionModulation {
-  StiffnessModulation contact;  ///< what finds the normal: the real object's law and friction, and
-                                ///< the stiffness to be felt
-  Dahl wanted;                  ///< of the surface that is to be felt, from a library or identified
+  /// What finds the normal: the real object's law and friction, and the stiffness to be felt
+  StiffnessModulation contact;
+  Dahl wanted;  ///< of the surface that is to be felt, from a library or identified
 };
 
 struct FrictionModulationState {
@@ -123,8 +123,8 @@ struct Squeezed {
 ///     shares of the weight along l cancel) x = (d0 - |p1 - p2|) / 2 (10.15) d0 = |p1 - p2| + 2
 ///     H^-1(F, 0)   at the first tick beyond `least_contact`: a soft thing is some millimetres deep
 ///     by then f_w* = f_r* - F u_* f_d* = (k~ x - F) u_* + (weight factor - 1) f_w* (10.11)
-/// Which tool is the first does not matter. Zero where one of them does not touch, or for figures
-/// that are none. No allocation, no exception.
+/// Which tool is the first does not matter. Zero where one of them does not touch, or for
+/// invalid figures. No allocation, no exception.
 Squeezed modulateSqueeze(const SqueezeModulation& law, const std::array<Vec3, 2>& f_r,
                          const std::array<Vec3, 2>& p, SqueezeState* state) noexcept;
 

@@ -50,7 +50,7 @@ inline constexpr int kMostInclusionIterations = 24;
 ///     sgn(d_i) G_i(|d_i|, sgn(d_i) d_i') = - sum f_T,i                     (10.20)
 /// Rates are backward differences over dt, so all is solved together in every tick: an explicit
 /// rate is unstable from b d / (m k dt) = 0.67 on. Newton's method on the balance of the lump,
-/// steps halved until they help, bounded. Starts from the last tick. Figures that are none give
+/// steps halved until they help, bounded. Starts from the last tick. Invalid figures give
 /// zero and forget. No allocation, no exception.
 InclusionAnswer feelInclusion(const VirtualInclusion& lump, const Vec3& p_T0,
                               const std::array<InclusionContact, 2>& tools, double dt,

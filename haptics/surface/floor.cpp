@@ -6,6 +6,7 @@
 #include <string>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/quantile.h"
 
 namespace palpa::haptics {
 namespace {
@@ -136,9 +137,7 @@ void ValleyMap::measureExtents() {
       if (gap > 0) all.push_back(gap);
   }
   if (all.empty()) return;
-  const auto middle = all.begin() + static_cast<std::ptrdiff_t>(all.size() / 2);
-  std::nth_element(all.begin(), middle, all.end());
-  const double widest = kSameLine * *middle;
+  const double widest = kSameLine * upperMedian(std::move(all));
   for (Extent& e : extents_)
     e = {e.behind > widest ? 0 : 0.5 * e.behind, e.ahead > widest ? 0 : 0.5 * e.ahead};
 }

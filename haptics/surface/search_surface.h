@@ -39,9 +39,8 @@ class TroughProfile {
   double depth() const noexcept { return depth_; }
   double angle() const noexcept { return theta_; }  ///< rad, of the flank
   double flank() const noexcept { return flank_; }  ///< its length
-  double bottomJoint() const noexcept {
-    return s_bottom_;
-  }  ///< distance from the middle where the bottom's arc ends
+  /// Distance from the middle where the bottom's arc ends
+  double bottomJoint() const noexcept { return s_bottom_; }
   double lipJoint() const noexcept { return s_lip_; }  ///< and where the lip's begins
 
  private:
@@ -103,7 +102,7 @@ class SearchSurface {
   Place place(double x, double y) const noexcept;
 
   /// Closest point of the free space over the floor and within its walls to p: p itself where that
-  /// is free. Of the union of smooth floor and hemispheres, edges included (closest_bump.h); exact
+  /// is free. Of the union of smooth floor and hemispheres, edges included (bump_pattern.h); exact
   /// to rounding, however deep p is. The walls are smooth and come first: a point beyond one is
   /// taken straight to it, and from there to the floor. What is not finite comes back as it is.
   Vec3 closestFree(const Vec3& p) const noexcept;

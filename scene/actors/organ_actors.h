@@ -37,11 +37,10 @@ class OrganActors {
 
   void setStyle(SkinStyle style);
   void setVisible(bool visible);
-  void setPose(const Pose& X_AB);  ///< where the body is that was made in A: a thing that is held
-                                   ///< moves. Only what is not translucent
-  vtkPolyData* skin() const {
-    return skin_;
-  }  ///< the first skin's points as they are drawn; null without one
+  /// Where the body is that was made in A: a thing that is held moves. Only what is not translucent
+  void setPose(const Pose& X_AB);
+  /// The first skin's points as they are drawn; null without one
+  vtkPolyData* skin() const { return skin_; }
 
  private:
   struct Part {

@@ -15,8 +15,9 @@ namespace palpa::scene {
 struct Sight {
   Pose X_CA = Pose::Identity();
   double focal_px = 1000;  ///< in window pixels
-  double before = 0;  ///< metres by which what must never be hidden is drawn nearer to the eye; for
-                      ///< parallel views, where nobody sees it
+  /// Metres by which what must never be hidden is drawn nearer to the eye; for parallel views,
+  /// where nobody sees it
+  double before = 0;
 
   Vec3 eye() const { return X_CA.inverse().translation(); }
   /// Of C in A, turned so that x is right, y up, z toward the eye.

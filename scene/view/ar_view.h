@@ -76,9 +76,8 @@ class ArView {
   bool showsPatient() const { return shows_patient_; }
   OrbitCamera& orbit() { return orbit_; }
   const Rect& picture() const { return picture_; }  ///< the part of the panel that is drawn on
-  const std::array<EyeCamera, 2>& eyes() const {
-    return eyes_;
-  }  ///< of a stereo view; as large as their panels
+  /// Of a stereo view; as large as their panels
+  const std::array<EyeCamera, 2>& eyes() const { return eyes_; }
   const std::array<Rect, 2>& panelsOfEyes() const { return eye_panels_; }
   /// What is seen where: the camera, or the left one of two eyes, and the part of the window that
   /// it fills.

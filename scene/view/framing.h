@@ -33,8 +33,8 @@ struct Aspect {
 };
 Aspect aspectOf(Plane plane, anatomy::Side side);
 
-/// Of a thing that lies on a table (anatomy/phantom_block.h), for who sits before it: from above,
-/// from the front, from the right; up is up.
+/// Of a thing that lies on a table (anatomy/parametric/phantoms.h), for who sits before it: from
+/// above, from the front, from the right; up is up.
 Aspect aspectOnTable(Plane plane);
 
 }  // namespace palpa::scene

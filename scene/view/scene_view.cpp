@@ -1,6 +1,5 @@
 #include "scene/view/scene_view.h"
 
-#include <unistd.h>
 #include <vtkImageData.h>
 #include <vtkNew.h>
 #include <vtkPNGWriter.h>
@@ -10,11 +9,10 @@
 #include <vtkUnsignedCharArray.h>
 
 #include <array>
-#include <filesystem>
-#include <fstream>
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 #include "scene/actors/camera_picture.h"
 #include "scene/overlay/hud.h"
 #include "scene/overlay/label.h"
@@ -226,9 +224,7 @@ vtkNew<vtkImageData> toVtk(const Image& image) {
   return result;
 }
 
-[[noreturn]] void refuse(const std::string& file, const std::string& beside) {
-  std::error_code ignored;
-  std::filesystem::remove(beside, ignored);
+[[noreturn]] void refuse(const std::string& file) {
   throw Error("the picture cannot be written", file,
               "Check that the folder exists, can be written and has free space");
 }
@@ -241,16 +237,13 @@ void writePng(const Image& image, const std::string& file) {
   writer->SetInputData(toVtk(image));
   writer->WriteToMemoryOn();
   writer->Write();
-  const vtkUnsignedCharArray* bytes = writer->GetResult();
-  const std::string beside = file + "." + std::to_string(getpid()) + ".part";
-  std::ofstream out(beside, std::ios::binary);
-  out.write(reinterpret_cast<const char*>(const_cast<vtkUnsignedCharArray*>(bytes)->GetPointer(0)),
-            bytes->GetNumberOfValues());
-  out.close();
-  if (!out) refuse(file, beside);
-  std::error_code failure;
-  std::filesystem::rename(beside, file, failure);
-  if (failure) refuse(file, beside);
+  vtkUnsignedCharArray* bytes = writer->GetResult();
+  try {
+    writeWhole(file, {reinterpret_cast<const char*>(bytes->GetPointer(0)),
+                      static_cast<std::size_t>(bytes->GetNumberOfValues())});
+  } catch (const Error&) {
+    refuse(file);
+  }
 }
 
 }  // namespace palpa::scene

@@ -32,8 +32,8 @@ struct ViewLayout {
   ForceColours force_colours = ForceColours::paper;
   Stereo stereo = Stereo::none;  ///< of the AR view
   Inset inset = Inset::none;
-  bool see_through = false;  ///< what is not drawn is black and clear (alpha 0): for displays that
-                             ///< one looks through
+  /// What is not drawn is black and clear (alpha 0): for displays that one looks through
+  bool see_through = false;
 };
 
 /// How the AR view (its left eye, in stereo) looks right now, in window pixels from the top left:

@@ -206,7 +206,7 @@ TEST(LocalGeometryBuilder, MirroredSideGivesTheMirroredSnapshot) {
 
 TEST(LocalGeometryBuilder, IsExpressedInTheDeviceFrame) {
   const Scene scene(Side::right);
-  RandomStream random(31);
+  RandomStream random = RandomStream::ofSeed(31);
   for (int i = 0; i < 5; ++i) {
     const Pose X_DA = makePose(rotationWithZ(randomDirection(random)), randomIn(random, 1));
     const LocalGeometry a = scene.build(0.02), d = scene.build(0.02, X_DA);

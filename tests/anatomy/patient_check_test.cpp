@@ -57,22 +57,5 @@ TEST(PatientCheck, NeedsItsLandmarksAndOrgans) {
   EXPECT_THROW(checkPatient(patient), Error);
 }
 
-TEST(RandomStream, IsTheSameEverywhere) {
-  // The first numbers of seed 1, so that another compiler or library shows itself.
-  RandomStream random(1);
-  const double first = random.uniform();
-  RandomStream again(1);
-  EXPECT_EQ(first, again.uniform());
-  double sum = 0, squares = 0;
-  constexpr int kCount = 20000;
-  for (int i = 0; i < kCount; ++i) {
-    const double x = random.normal();
-    sum += x;
-    squares += x * x;
-  }
-  EXPECT_NEAR(sum / kCount, 0, 4 / std::sqrt(kCount));  // four standard errors
-  EXPECT_NEAR(squares / kCount, 1, 4 * std::sqrt(2.0 / kCount));
-}
-
 }  // namespace
 }  // namespace palpa::anatomy

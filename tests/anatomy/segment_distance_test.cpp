@@ -17,7 +17,7 @@ TriangleMesh triangleSoup(RandomStream& random, int count) {
   TriangleMesh mesh;
   for (int i = 0; i < count; ++i) {
     const Vec3 middle = Vec3(0.3, -0.2, 0.1) + randomIn(random, 0.05);
-    const double size = std::pow(10, -4 + 3 * random.uniform());
+    const double size = std::pow(10, -4 + 3 * random.openUniform());
     for (int k = 0; k < 3; ++k) {
       mesh.points.push_back(middle + randomIn(random, size));
       mesh.normals.push_back(Vec3::UnitZ());
@@ -50,7 +50,7 @@ double searched(const Vec3& a, const Vec3& b, const std::array<Vec3, 3>& t) {
 }
 
 TEST(SegmentDistance, ToATriangleIsTheLeastOverTheSegment) {
-  RandomStream random(11);
+  RandomStream random = RandomStream::ofSeed(11);
   for (int i = 0; i < test::counted(3000, 100'000); ++i) {
     const std::array<Vec3, 3> t{randomIn(random, 1), randomIn(random, 1), randomIn(random, 1)};
     const Vec3 a = randomIn(random, 2), b = i % 10 == 0 ? a : randomIn(random, 2);
@@ -64,12 +64,12 @@ TEST(SegmentDistance, ToATriangleIsTheLeastOverTheSegment) {
 }
 
 TEST(SegmentDistance, OfAMeshIsThatOfEveryTriangleTried) {
-  RandomStream random(12);
+  RandomStream random = RandomStream::ofSeed(12);
   for (int round = 0; round < test::counted(8, 200); ++round) {
     const TriangleMesh mesh = triangleSoup(random, 1 + 90 * round);
     const TriangleTree tree(mesh);
     for (int i = 0; i < 60; ++i) {
-      const double reach = std::pow(10, -3 + 3 * random.uniform());
+      const double reach = std::pow(10, -3 + 3 * random.openUniform());
       const Vec3 a = Vec3(0.3, -0.2, 0.1) + randomIn(random, reach),
                  b = a + randomIn(random, i % 4 ? reach : 1e-9);
       double least = std::numeric_limits<double>::infinity(), least_point = least;
@@ -92,7 +92,7 @@ TEST(SegmentDistance, OfASphereIsTheClosedForm) {
   constexpr double kBall = 0.05, kBallCell = 0.002,
                    kBallSag = 6.25 * kBallCell * kBallCell / (8 * kBall);
   const SurfaceQuery query(patientOf(sphereMesh(kBall, kBallCell), Organ::lung));
-  RandomStream random(13);
+  RandomStream random = RandomStream::ofSeed(13);
   int outside = 0, through = 0, within = 0;
   for (int i = 0; i < 1500; ++i) {
     const Vec3 a = randomIn(random, 0.09), b = a + randomIn(random, i % 2 ? 0.1 : 0.01);

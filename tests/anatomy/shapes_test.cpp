@@ -23,7 +23,7 @@ TEST(SurfaceNets, SphereIsClosedAndOfTheRightVolume) {
 
 // Two sheets in one cell, as where grooves meet: the mesh must stay a closed surface.
 TEST(SurfaceNets, StaysClosedWhereTheFieldIsFinerThanTheCells) {
-  RandomStream random(41);
+  RandomStream random = RandomStream::ofSeed(41);
   for (int i = 0; i < 30; ++i) {
     std::vector<Vec3> centres;
     for (int k = 0; k < 40; ++k) centres.push_back(randomIn(random, 3));

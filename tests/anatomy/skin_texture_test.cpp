@@ -50,7 +50,7 @@ TEST(SkinTexture, LiesOnAClosedMeshWithOneCoordinateAVertexAlikeOnBothSides) {
     const auto& [u, v] = skin.mesh.uvs[i];
     ASSERT_TRUE(u >= 0 && u <= 1 && v >= 0 && v <= 1) << i;
     const Vec3& p = skin.mesh.points[i];
-    // By the definition in skin_map.h, computed another way: the cosine of the angle.
+    // By the definition in skin_texture.h, computed another way: the cosine of the angle.
     ASSERT_NEAR(std::cos(std::numbers::pi * u), (0.066 - p.y()) / std::hypot(p.x(), 0.066 - p.y()),
                 2e-5);
     if (p.y() < 0.0) front = std::min<double>(front, u);

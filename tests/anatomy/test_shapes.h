@@ -58,12 +58,12 @@ inline Patient patientOf(const TriangleMesh& mesh, Organ organ) {
 }
 
 inline Vec3 randomIn(RandomStream& random, double half) {
-  const double x = random.uniform(), y = random.uniform(), z = random.uniform();
+  const double x = random.openUniform(), y = random.openUniform(), z = random.openUniform();
   return 2 * half * (Vec3(x, y, z) - Vec3::Constant(0.5));
 }
 
 inline Vec3 randomDirection(RandomStream& random) {
-  const double x = random.normal(), y = random.normal(), z = random.normal();
+  const double x = random.openNormal(), y = random.openNormal(), z = random.openNormal();
   return Vec3(x, y, z).normalized();
 }
 

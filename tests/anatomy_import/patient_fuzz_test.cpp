@@ -15,7 +15,7 @@
 #include "tests/support/scratch_folder.h"
 
 /// Patient files and import maps that nobody vouches for: bits flipped, ends cut off, values of
-/// their JSON swapped for absurd counts, numbers that are none, rings of nodes, nests of brackets.
+/// their JSON swapped for absurd counts, invalid numbers, rings of nodes, nests of brackets.
 /// Each is read or refused in one line, and no more than kMemory is taken: the address space is
 /// limited while they are read (not under the sanitizers, which need terabytes of it).
 namespace palpa::anatomy {

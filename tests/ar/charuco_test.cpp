@@ -18,7 +18,7 @@ TEST(Charuco, IsDrawnAsOpenCVDrawsIt) {
        {CharucoSpec{7, 5, 0.030, 0.021, "DICT_5X5_100"}, CharucoSpec{6, 8, 0.030, 0.018}}) {
     const cv::Mat ours = pictureOf(sheetOf(spec), 1000);  // 3 px a cell, 30 px a square
     cv::Mat theirs;
-    charucoLayout(spec)->draw(ours.size(), theirs, 30);
+    aruco::draw(charucoLayout(spec), ours.size(), 30, &theirs);
     ASSERT_EQ(ours.size(), theirs.size());
     // OpenCV rounds a marker's place on the sheet; ours is shared between two pixels there.
     cv::Mat different;
@@ -84,14 +84,14 @@ TEST(Charuco, SeesWhatIsNotCovered) {
 cv::Mat drawnBefore46(const CharucoSpec& spec, double px_per_m) {
   const int square = int(spec.square * px_per_m), marker = int(spec.marker * px_per_m);
   const int gap = (square - marker) / 2;
-  const auto layout = charucoLayout(spec);
+  const aruco::Board layout = charucoLayout(spec);
   cv::Mat sheet((spec.rows + 2) * square, (spec.columns + 2) * square, CV_8U, cv::Scalar(255));
   int id = 0;
   for (int row = 0; row < spec.rows; ++row)
     for (int col = 0; col < spec.columns; ++col) {
       cv::Mat here = sheet(cv::Rect((col + 1) * square, (row + 1) * square, square, square));
       cv::Mat drawn;
-      layout->dictionary->drawMarker(id, marker, drawn);
+      aruco::drawMarker(layout.dictionary, id, marker, &drawn);
       if ((spec.rows - 1 - row + col) % 2 == 0)
         here = 0;
       else

@@ -73,8 +73,9 @@ TEST(PoseFilter, JitterOfAStillPoseIsAsSmallAsItsCovarianceSays) {
             1.3 * std::sqrt(gain / (2 - gain)) *
                 kNoise_m);  // 0.28 of the noise; the other models are never quite disbelieved
   EXPECT_LT(squares, 1.5 * said);
-  EXPECT_GT(squares, 0.25 * said);  // it allows for a walk and for motions that are not there: too
-                                    // careful by less than two in the deviation
+  // It allows for a walk and for motions that are not there: too careful by less than two in the
+  // deviation
+  EXPECT_GT(squares, 0.25 * said);
 }
 
 TEST(PoseFilter, ASteadyMotionHasNoLag) {
@@ -92,8 +93,8 @@ TEST(PoseFilter, ASteadyMotionHasNoLag) {
 }
 
 /// In a hand's motion the filtered pose is no worse than the measured one, and 50 ms later it is
-/// where it was foretold.
-TEST(PoseFilter, FollowsAndForetellsAHand) {
+/// where it was predicted.
+TEST(PoseFilter, FollowsAndPredictsAHand) {
   std::mt19937 random(2);
   PoseFilter filter;
   double now2 = 0, later2 = 0;
@@ -162,7 +163,7 @@ TEST(PoseMotion, PredictionIsTheSameInOneStepAsInMany) {
   EXPECT_LT((steps.covariance - once.covariance).norm(), 1e-6 * once.covariance.norm());
 }
 
-TEST(PoseTrack, RemembersInterpolatesForetellsAndKnowsWhenItDoesNot) {
+TEST(PoseTrack, RemembersInterpolatesPredictsAndKnowsWhenItDoesNot) {
   PoseTrack track;
   EXPECT_EQ(track.at(0).how, PoseTrack::Lookup::none);
   for (int i = 0; i < 60; ++i)
@@ -210,8 +211,9 @@ TEST(PoseUpsampler, IsSmoothAndNear) {
   EXPECT_LT(worst_step,
             3e-4);  // at 0.2 m/s a tick is 0.21 mm; a jump to each new pose would be up to 0.8 mm
   EXPECT_LT(std::sqrt(squares / n),
-            7e-4);  // foretold over 30 to 63 ms: as FollowsAndForetellsAHand has it at 50 ms, and
-                    // smoothing on top
+            // Predicted over 30 to 63 ms: as FollowsAndPredictsAHand has it at 50 ms, and smoothing
+            // on top
+            7e-4);
 }
 
 }  // namespace

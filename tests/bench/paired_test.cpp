@@ -1,3 +1,4 @@
+#include "anatomy/base/quantile.h"
 #include "apps/bench/timing.h"
 
 #include <gtest/gtest.h>
@@ -62,7 +63,7 @@ TEST(BootstrapMedian, SameSeedSameIntervalAndNothingGivesNothing) {
 /// about 0.95 to 0.98 coverage; 400 trials know a share of 0.95 to +-0.033 at three standard
 /// deviations.
 TEST(BootstrapMedian, HoldsTheTrueMedianAboutAsOftenAsItSays) {
-  runtime::RandomStream random(11, "coverage");
+  RandomStream random(11, "coverage");
   int inside = 0;
   constexpr int kTrials = 400;
   for (int trial = 0; trial < kTrials; ++trial) {

@@ -10,7 +10,7 @@ namespace palpa::bench {
 namespace {
 
 void expectSameAnswers(PointLocator& a, PointLocator& b) {
-  runtime::RandomStream random(3, "locators");
+  RandomStream random(3, "locators");
   for (int i = 0; i < 300; ++i) {
     const TorsoPoint at = torsoAt(random.uniform(-0.1, 0.1), random.uniform(-0.08, 0.08));
     const Vec3 p = at.p + random.uniform(-0.1, 0.1) * at.n;

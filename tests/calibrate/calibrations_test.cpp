@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "a_calibration.h"
-#include "anatomy/base/sha256.h"
 #include "apps/station/assets.h"
 #include "apps/station/station_file.h"
 
@@ -24,11 +23,6 @@ std::vector<AppliedCalibration> goodSet() {
   camera.kind = "camera";
   camera.rests_on.clear();
   return {applied(camera, "abc"), applied(test::aCalibration(), "def")};
-}
-
-TEST(Sha256, OfTheStandardsExample) {
-  EXPECT_EQ(sha256("abc"), "ba7816bf8f01cfea414140de5dae2223b00361a396177a9cb410ff61f20015ad");
-  EXPECT_EQ(sha256(""), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
 }
 
 TEST(Calibrations, AreFaultlessWhenAllFits) {

@@ -49,7 +49,7 @@ calibration::HiddenMarkov asFitted(const LearnedModel& model) {
 /// A part for each state, on while the model says so.
 haptics::TickConfig learnedConfig() {
   haptics::TickConfig config;
-  config.engine = haptics::Engine::floor;
+  config.contact_mode = haptics::ContactMode::floor;
   config.coupling = {2000, 0.001};
   config.floor.real = {2000, 1};
   config.floor.unit = 240e-6;

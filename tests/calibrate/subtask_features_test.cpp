@@ -76,7 +76,7 @@ TEST(SubtaskFeatures, ForceContactAndShaking) {
 
 TEST(SubtaskFeatures, OfARealThingWhatTheSensorSays) {
   haptics::TickConfig config;
-  config.engine = haptics::Engine::touch;
+  config.contact_mode = haptics::ContactMode::sensed_object;
   const auto all = gathered(config, 21, [](int ms, haptics::FlightRecord* r) {
     r->sensed.f_D = {3, 0, 4};
     r->sensed.state = ms < 10 ? haptics::SensorState::valid : haptics::SensorState::unusable;

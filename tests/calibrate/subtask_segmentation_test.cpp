@@ -25,7 +25,7 @@ constexpr int kRegimeBits[] = {0, 1, 6};
 
 /// Regimes held for 20 to 60 steps, one after the other; features scatter by a fifth.
 std::vector<SubtaskSequence> plantedSequences(int trials, int steps, std::uint64_t seed) {
-  anatomy::RandomStream random(seed);
+  RandomStream random = RandomStream::ofSeed(seed);
   std::vector<SubtaskSequence> all;
   for (int i = 0; i < trials; ++i) {
     SubtaskSequence q{
@@ -33,13 +33,13 @@ std::vector<SubtaskSequence> plantedSequences(int trials, int steps, std::uint64
     int regime = i % 3, left = 40;
     for (int t = 0; t < steps; ++t, --left) {
       if (left == 0) {
-        regime = (regime + (random.uniform() < 0.7 ? 1 : 2)) % 3;
-        left = 20 + static_cast<int>(40 * random.uniform());
+        regime = (regime + (random.openUniform() < 0.7 ? 1 : 2)) % 3;
+        left = 20 + static_cast<int>(40 * random.openUniform());
       }
       const Regime& r = kRegimes[regime];
-      q.features.row(t) << std::log(r.speed) + 0.2 * random.normal(),
-          std::log(r.force) + (r.contact > 0 ? 0.2 * random.normal() : 0), r.contact,
-          std::log(r.shaking) + (r.contact > 0 ? 0.2 * random.normal() : 0);
+      q.features.row(t) << std::log(r.speed) + 0.2 * random.openNormal(),
+          std::log(r.force) + (r.contact > 0 ? 0.2 * random.openNormal() : 0), r.contact,
+          std::log(r.shaking) + (r.contact > 0 ? 0.2 * random.openNormal() : 0);
       q.labels.push_back(kRegimeBits[regime]);
     }
     all.push_back(q);
@@ -94,11 +94,11 @@ TEST(SubtaskSegmentation, FindsTheRegimesAndAgreesWithTheirLabels) {
 
 TEST(SubtaskSegmentation, LabelsThatHaveNothingToDoWithItAgreeByChance) {
   std::vector<SubtaskSequence> sequences = plantedSequences(5, 240, 4);
-  anatomy::RandomStream random(5);
+  RandomStream random = RandomStream::ofSeed(5);
   for (SubtaskSequence& q : sequences)
     for (std::size_t i = q.labels.size(); i > 1; --i)
       std::swap(q.labels[i - 1],
-                q.labels[static_cast<std::size_t>(random.uniform() * static_cast<double>(i))]);
+                q.labels[static_cast<std::size_t>(random.openUniform() * static_cast<double>(i))]);
   const SubtaskSegmentation found = segment(sequences, {7, 3, {}});
   EXPECT_LT(found.agreement.kappa,
             0.12);  // the matching is in favour: above 0 by about 3 / sqrt(1200)

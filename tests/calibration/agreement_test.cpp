@@ -35,9 +35,9 @@ std::pair<Labels, Labels> labelsOf(const std::vector<std::vector<int>>& table) {
 }
 
 Labels randomLabels(int labels, std::size_t steps, std::uint64_t seed) {
-  anatomy::RandomStream random(seed);
+  RandomStream random = RandomStream::ofSeed(seed);
   Labels all(steps);
-  for (int& one : all) one = static_cast<int>(random.uniform() * labels);
+  for (int& one : all) one = static_cast<int>(random.openUniform() * labels);
   return all;
 }
 

@@ -55,8 +55,8 @@ TEST(CameraCalibration, StatesItsErrorRightly) {
     }
     EXPECT_NEAR(found.model.rms_px, 0.1 * std::sqrt(2), 0.015);
   }
-  EXPECT_GE(inside, 0.86 * all);  // the nine are correlated: about as many as 80 free ones, so
-                                  // three standard errors less than 95 %
+  // The nine are correlated: about as many as 80 free ones, so three standard errors less than 95 %
+  EXPECT_GE(inside, 0.86 * all);
 }
 
 TEST(CameraCalibration, ABadViewIsLeftOutAndNamed) {

@@ -39,13 +39,13 @@ PlantedTrials wandering(HiddenMarkov m, double correlation, std::uint64_t seed) 
   m.transition.diagonal().array() += 4;  // held for 100 steps
   m.transition /= 5;
   PlantedTrials planted = simulated(m, seed, 8, 1000);
-  anatomy::RandomStream random(seed + 1);
+  RandomStream random = RandomStream::ofSeed(seed + 1);
   for (std::size_t i = 0; i < planted.trials.size(); ++i)
     for (Eigen::Index d = 0; d < 2; ++d) {
-      double e = random.normal();
+      double e = random.openNormal();
       for (Eigen::Index t = 0; t < planted.trials[i].rows(); ++t) {
         const int k = planted.paths[i][static_cast<std::size_t>(t)];
-        e = correlation * e + std::sqrt(1 - correlation * correlation) * random.normal();
+        e = correlation * e + std::sqrt(1 - correlation * correlation) * random.openNormal();
         planted.trials[i](t, d) = m.mean(k, d) + std::sqrt(m.variance(k, d)) * e;
       }
     }

@@ -39,8 +39,8 @@ inline HiddenMarkov plantedModel(int states, double apart) {
   return m;
 }
 
-inline int plantedDraw(const Eigen::VectorXd& chances, anatomy::RandomStream* random) {
-  double left = random->uniform();
+inline int plantedDraw(const Eigen::VectorXd& chances, RandomStream* random) {
+  double left = random->openUniform();
   int k = 0;
   while (k + 1 < chances.size() && (left -= chances[k]) > 0) ++k;
   return k;
@@ -48,7 +48,7 @@ inline int plantedDraw(const Eigen::VectorXd& chances, anatomy::RandomStream* ra
 
 inline PlantedTrials simulated(const HiddenMarkov& m, std::uint64_t seed, int trials = 8,
                                int steps = 250) {
-  anatomy::RandomStream random(seed);
+  RandomStream random = RandomStream::ofSeed(seed);
   PlantedTrials all;
   for (int i = 0; i < trials; ++i) {
     Eigen::MatrixXd x(steps, m.mean.cols());
@@ -57,7 +57,8 @@ inline PlantedTrials simulated(const HiddenMarkov& m, std::uint64_t seed, int tr
       path.push_back(plantedDraw(
           t == 0 ? m.start : Eigen::VectorXd(m.transition.row(path.back()).transpose()), &random));
       for (Eigen::Index d = 0; d < x.cols(); ++d)
-        x(t, d) = m.mean(path.back(), d) + std::sqrt(m.variance(path.back(), d)) * random.normal();
+        x(t, d) =
+            m.mean(path.back(), d) + std::sqrt(m.variance(path.back(), d)) * random.openNormal();
     }
     all.trials.push_back(x);
     all.paths.push_back(path);

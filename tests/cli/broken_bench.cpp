@@ -143,7 +143,7 @@ std::filesystem::path BrokenBench::calibration(
   change(file);
   tool.path = here_ / "tool.json";
   station::writeCalibration(file, tool.path);
-  tool.sha256 = station::sha256OfFile(tool.path);
+  tool.sha256 = sha256OfFile(tool.path);
   station([&](nlohmann::json& s) { s["calibrations"] = station::toJson({tool}, here_.path()); });
   return tool.path;
 }

@@ -26,9 +26,8 @@ class BrokenBench {
 
   const Folder& here() const { return here_; }
   void ask(const std::string& option, const std::string& value);  ///< of doctor
-  void records(const std::string& url) {
-    records_ = url;
-  }  ///< in place of records.sqlite in its folder
+  /// In place of records.sqlite in its folder
+  void records(const std::string& url) { records_ = url; }
   void set(const std::string& variable,
            const std::string& value);  ///< of the environment, to this bench's end
 

@@ -100,7 +100,7 @@ TEST(Calibrate, ToolFromRecordedPoses) {
   EXPECT_EQ(file["verdict"], "pass");
   EXPECT_TRUE(says(contentOf(here / "tool/calibration.html"), "The tip lies 110 mm"));
   EXPECT_EQ(file["data"]["files"], json::parse(R"([{"name": "pivot.csv", "sha256": ")" +
-                                               station::sha256OfFile(here / "pivot.csv") + "\"}]"));
+                                               sha256OfFile(here / "pivot.csv") + "\"}]"));
 }
 
 TEST(Calibrate, ToolRefusesWhatCannotTellATip) {
@@ -362,9 +362,8 @@ TEST(Calibrate, ASessionUsesItAndIsNotScoredOnABadOne) {
                 .exit_code,
             0);
   const json tool = json::parse(contentOf(here / "tool/tool.json"));
-  EXPECT_EQ(tool["rests_on"],
-            json::parse(R"([{"kind": "workspace", "sha256": ")" +
-                        station::sha256OfFile(here / "all/workspace.json") + "\"}]"));
+  EXPECT_EQ(tool["rests_on"], json::parse(R"([{"kind": "workspace", "sha256": ")" +
+                                          sha256OfFile(here / "all/workspace.json") + "\"}]"));
   outcome = palpa(session({"--station", "tool/station.json", "--seed", "3", "--out", "outdated"}),
                   here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;

@@ -26,10 +26,10 @@ class Running {
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
 
-  bool ended();     ///< by itself
-  void kill();      ///< with SIGKILL, and waits until it is gone
-  int interrupt();  ///< as Ctrl-C does, and waits for its end; its exit code, 128 + signal when
-                    ///< that killed it
+  bool ended();  ///< by itself
+  void kill();   ///< with SIGKILL, and waits until it is gone
+  /// As Ctrl-C does, and waits for its end; its exit code, 128 + signal when that killed it
+  int interrupt();
 
  private:
   int child_ = -1;

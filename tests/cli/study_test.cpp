@@ -105,7 +105,7 @@ TEST_F(Study, GoesOnWithoutItsRecords) {
 
   // As if the records had been on that server, which is gone now.
   const auto copy = [&](const std::string& url) {
-    return here / ("palpa/studies/small-T001-" + station::sha256(url).substr(0, 12) + ".json");
+    return here / ("palpa/studies/small-T001-" + sha256(url).substr(0, 12) + ".json");
   };
   const std::string records_here = (here / "records.sqlite").string();
   std::filesystem::rename(copy(records_here), copy(away));

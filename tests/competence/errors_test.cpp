@@ -16,10 +16,10 @@ using palpa::test::Script;
 
 int variants() { return palpa::test::counted(50, 500); }
 
-double between(anatomy::RandomStream& draw, double low, double high) {
-  return low + (high - low) * draw.uniform();
+double between(RandomStream& draw, double low, double high) {
+  return low + (high - low) * draw.openUniform();
 }
-double sign(anatomy::RandomStream& draw) { return draw.uniform() < 0.5 ? -1 : 1; }
+double sign(RandomStream& draw) { return draw.openUniform() < 0.5 ? -1 : 1; }
 
 bool names(const assess::TrialAssessment& a, const std::string& code) {
   return std::any_of(a.errors.begin(), a.errors.end(),
@@ -36,7 +36,7 @@ Recognised recognised(const std::string& code, std::uint64_t first_seed, Wrong w
   Recognised r;
   for (int i = 0; i < variants(); ++i) {
     const std::uint64_t seed = first_seed + static_cast<std::uint64_t>(i);
-    anatomy::RandomStream draw(seed);
+    RandomStream draw = RandomStream::ofSeed(seed);
     Script script;
     wrong(script, draw);
     const assess::TrialAssessment a =
@@ -76,26 +76,26 @@ TEST(SixErrors, ThroughThePeriosteum) {
   isRecognised(recognised("periosteum", 40'000, [](Script& s, auto& draw) {
     s.clavicle_N = between(draw, 12, 20),
     s.clavicle_s = between(draw, 0.4, 2);  // halved at worst by the scatter
-    s.finds_vein = draw.uniform() < 0.5;
+    s.finds_vein = draw.openUniform() < 0.5;
   }));
 }
 
 TEST(SixErrors, TooShallow) {
   isRecognised(recognised("shallow", 50'000, [](Script& s, auto& draw) {
-    s.steeper = -between(draw, 15, 28) * kDeg, s.finds_vein = draw.uniform() < 0.3;
+    s.steeper = -between(draw, 15, 28) * kDeg, s.finds_vein = draw.openUniform() < 0.3;
   }));
 }
 
 TEST(SixErrors, TooCephalad) {
   isRecognised(recognised("cephalad", 60'000, [](Script& s, auto& draw) {
-    s.cephalad = between(draw, 15, 35) * kDeg, s.finds_vein = draw.uniform() < 0.3;
+    s.cephalad = between(draw, 15, 35) * kDeg, s.finds_vein = draw.openUniform() < 0.3;
   }));
 }
 
 TEST(SixErrors, NeedleLeavesTheVein) {
   isRecognised(recognised("left_vein", 70'000, [](Script& s, auto& draw) {
     s.loses_after_s = between(draw, 0.25, 0.85), s.lost_s = between(draw, 0.3, 3);
-    s.through = draw.uniform() < 0.5, s.found_again = draw.uniform() < 0.5;
+    s.through = draw.openUniform() < 0.5, s.found_again = draw.openUniform() < 0.5;
   }));
 }
 
@@ -104,9 +104,9 @@ TEST(SixErrors, AreNotNamedInCleanTrials) {
   const int trials = 4 * variants();
   for (int i = 0; i < trials; ++i) {
     const std::uint64_t seed = 80'000 + static_cast<std::uint64_t>(i);
-    anatomy::RandomStream draw(seed);
+    RandomStream draw = RandomStream::ofSeed(seed);
     Script script;
-    script.redirections = static_cast<int>(3 * draw.uniform());
+    script.redirections = static_cast<int>(3 * draw.openUniform());
     const assess::TrialAssessment a =
         judged(palpa::test::scattered(draw, shippedPath(), script), seed, draw);
     EXPECT_TRUE(a.values.success);
@@ -117,7 +117,7 @@ TEST(SixErrors, AreNotNamedInCleanTrials) {
 }
 
 TEST(SixErrors, SayTheirMomentFigureAndThresholdInClinicalWords) {
-  anatomy::RandomStream draw(1);
+  RandomStream draw = RandomStream::ofSeed(1);
   Script script;
   script.cephalad = 14 * kDeg;
   const assess::TrialAssessment a = judged(script, 2, draw);
@@ -136,7 +136,7 @@ TEST(SixErrors, SayTheirMomentFigureAndThresholdInClinicalWords) {
 }
 
 TEST(SixErrors, AreFiguresToo) {
-  anatomy::RandomStream draw(1);
+  RandomStream draw = RandomStream::ofSeed(1);
   Script script;
   script.across = 0.015;
   const assess::TrialAssessment a = judged(script, 2, draw);
@@ -151,7 +151,7 @@ TEST(SixErrors, AreFiguresToo) {
 
 /// Several errors in one trial are each named, and the worst of two occurrences is told.
 TEST(SixErrors, TogetherAreAllNamed) {
-  anatomy::RandomStream draw(3);
+  RandomStream draw = RandomStream::ofSeed(3);
   Script script;
   script.across = 0.015, script.along = -0.025, script.steeper = -18 * kDeg,
   script.cephalad = 20 * kDeg, script.clavicle_N = 9, script.loses_after_s = 0.5;

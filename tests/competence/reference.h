@@ -40,7 +40,7 @@ inline GlobalRating shippedGlobal() {
 
 /// A scripted trial, judged as a session judges it; `seed` even: on the right side.
 inline assess::TrialAssessment judged(const palpa::test::Script& script, std::uint64_t seed,
-                                      anatomy::RandomStream& draw) {
+                                      RandomStream& draw) {
   const anatomy::Patient& patient =
       referencePatient(seed % 2 ? anatomy::Side::left : anatomy::Side::right);
   const anatomy::LandmarkFrame frame(patient);

@@ -48,7 +48,7 @@ Answers ratersItemsDone(const Checklist& list) {
 
 Verdict verdictOf(const Script& script, std::uint64_t seed, const Checklist& list,
                   double standard = 0.98) {
-  anatomy::RandomStream draw(seed);
+  RandomStream draw = RandomStream::ofSeed(seed);
   const assess::TrialAssessment a = judged(script, seed, draw);
   const GlobalRating global = shippedGlobal();
   return judge({true, a.outcome}, list, figuresOf(a), ratersItemsDone(list), &global,
@@ -113,7 +113,7 @@ TEST(Verdict, WithoutSuctionTheItemIsNotDone) {
 TEST(Verdict, NobodyPassesWithoutARaterOrInPractice) {
   const Checklist list = shippedChecklist();
   const GlobalRating global = shippedGlobal();
-  anatomy::RandomStream draw(2);
+  RandomStream draw = RandomStream::ofSeed(2);
   const assess::TrialAssessment a = judged({}, 2, draw);
   const auto judgedWith = [&](const VerdictFacts& facts, const Answers& items,
                               const Answers& rating) {

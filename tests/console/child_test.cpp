@@ -9,6 +9,7 @@
 #include <fstream>
 
 #include "anatomy/base/error.h"
+#include "apps/console/process_log.h"
 #include "apps/runtime/clock.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
@@ -36,7 +37,7 @@ TEST(Child, NothingOfOursStaysOpenAndItIsItsOwnMaster) {
   const os::ProcessId child = os::start({"facts"}, folder / "log.txt", false);
   ::pthread_sigmask(SIG_SETMASK, &old, nullptr);
   ASSERT_TRUE(ends(child));
-  const auto lines = os::lastLines(folder / "log.txt", 10);
+  const auto lines = lastLines(folder / "log.txt", 10);
   ASSERT_EQ(lines.size(), 5u);
   EXPECT_EQ(lines[0], "open 0 1 2");
   EXPECT_EQ(lines[1], "own_group 1");
@@ -61,7 +62,7 @@ TEST(Child, IsAskedToEndAndGone) {
   const os::ProcessId child = os::start({"wait"}, folder / "log.txt", true);
   EXPECT_TRUE(os::runs(child));
   const auto until = runtime::ServingClock::now() + std::chrono::seconds(30);
-  while (os::lastLines(folder / "log.txt", 1).empty() && runtime::ServingClock::now() < until)
+  while (lastLines(folder / "log.txt", 1).empty() && runtime::ServingClock::now() < until)
     runtime::rest(std::chrono::milliseconds(5));  // it waits for Ctrl-C now
   os::askToEnd(child);
   EXPECT_TRUE(ends(child));
@@ -86,15 +87,15 @@ TEST(Child, ALogInAFolderThatIsNotThereIsAnError) {
 
 TEST(Child, LastLinesOfAnyLog) {
   const test::ScratchFolder folder("lines");
-  EXPECT_TRUE(os::lastLines(folder / "none", 5).empty());
+  EXPECT_TRUE(lastLines(folder / "none", 5).empty());
   std::ofstream(folder / "a") << "one\n\ntwo\rthree\n10 %\r20 %\r\nfour";
-  EXPECT_EQ(os::lastLines(folder / "a", 5), (std::vector<std::string>{"one", "three", "four"}));
-  EXPECT_EQ(os::lastLines(folder / "a", 1), (std::vector<std::string>{"four"}));
+  EXPECT_EQ(lastLines(folder / "a", 5), (std::vector<std::string>{"one", "three", "four"}));
+  EXPECT_EQ(lastLines(folder / "a", 1), (std::vector<std::string>{"four"}));
   std::ofstream(folder / "b") << std::string(1 << 20, 'x');
-  EXPECT_LE(os::lastLines(folder / "b", 5).at(0).size(), 16u << 10);
+  EXPECT_LE(lastLines(folder / "b", 5).at(0).size(), 16u << 10);
   std::ofstream(folder / "c") << "palpa: first: a. b\nmore\npalpa: last: c. d\nfar more\n";
-  EXPECT_EQ(os::complaintIn(folder / "c"), "last: c. d");
-  EXPECT_EQ(os::complaintIn(folder / "a"), "");
+  EXPECT_EQ(complaintIn(folder / "c"), "last: c. d");
+  EXPECT_EQ(complaintIn(folder / "a"), "");
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ namespace palpa::test {
 
 /// No real image, only bytes of its size.
 inline Bytes someImage() {
-  runtime::RandomStream random(8492, "firmware");
+  RandomStream random(8492, "firmware");
   Bytes image(8492);
   for (auto& byte : image) byte = static_cast<std::uint8_t>(random.bits());
   return image;

@@ -83,7 +83,7 @@ TEST(FalconKinematics, JacobianIsTheDerivativeOfTheInverse) {
   // Central differences, extrapolated once: their error goes with the fourth power of the step and
   // is lost in the rounding of angles, 1e-16 rad / 1e-5 m against slopes of 10 rad/m.
   constexpr double kStep = 1e-5;
-  runtime::RandomStream random(7, "falcon poses");
+  RandomStream random(7, "falcon poses");
   double worst = 0;
   for (int pose = 0; pose < 300; ++pose) {
     const Vec3 p = kFalconCentre +
@@ -103,7 +103,7 @@ TEST(FalconKinematics, JacobianIsTheDerivativeOfTheInverse) {
 }
 
 TEST(FalconKinematics, TorquesDoTheWorkOfTheForce) {
-  runtime::RandomStream random(8, "falcon work");
+  RandomStream random(8, "falcon work");
   const auto direction = [&] { return Vec3(random.normal(), random.normal(), random.normal()); };
   for (int i = 0; i < 200; ++i) {
     const Vec3 p = kFalconCentre +

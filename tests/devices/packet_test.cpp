@@ -20,7 +20,7 @@ std::vector<FalconReport> reports(FalconParser& parser, const Bytes& stream) {
   return found;
 }
 
-test::TwinReply randomReply(runtime::RandomStream& random) {
+test::TwinReply randomReply(RandomStream& random) {
   const std::uint64_t bits = random.bits();
   const auto number = [&](int shift) { return static_cast<std::int16_t>(bits >> shift); };
   return {{number(0), number(16), number(32)},
@@ -53,7 +53,7 @@ TEST(FalconPacket, CommandsAreReadAsTheyWereMeant) {
 }
 
 TEST(FalconParser, ReportsAreReadAsTheyWereSent) {
-  runtime::RandomStream random(1, "falcon reports");
+  RandomStream random(1, "falcon reports");
   FalconParser parser;
   for (int i = 0; i < 5000; ++i) {
     const test::TwinReply sent = randomReply(random);
@@ -65,7 +65,7 @@ TEST(FalconParser, ReportsAreReadAsTheyWereSent) {
 }
 
 TEST(FalconParser, CutAtEveryByteThePacketsAfterTheCutAreFound) {
-  runtime::RandomStream random(2, "falcon cuts");
+  RandomStream random(2, "falcon cuts");
   for (std::size_t cut = 0; cut <= kFalconPacketSize; ++cut) {
     FalconParser parser;
     Bytes stream = test::writeReply(randomReply(random));
@@ -85,7 +85,7 @@ TEST(FalconParser, CutAtEveryByteThePacketsAfterTheCutAreFound) {
 }
 
 TEST(FalconParser, GarbageBetweenPacketsIsCountedAndCostsNone) {
-  runtime::RandomStream random(3, "falcon garbage");
+  RandomStream random(3, "falcon garbage");
   FalconParser parser;
   std::uint64_t garbage = 0;
   for (int i = 0; i < 2000; ++i) {
@@ -107,7 +107,7 @@ TEST(FalconParser, GarbageBetweenPacketsIsCountedAndCostsNone) {
 TEST(FalconParser, AfterAnyBytesItFindsThePacketsAgain) {
   int longest_wait = 0;
   for (std::uint64_t seed = 0; seed < 100'000; ++seed) {
-    runtime::RandomStream random(seed, "falcon fuzz");
+    RandomStream random(seed, "falcon fuzz");
     FalconParser parser;
     const std::size_t length = random.bits() % 70;
     const bool near = random.bits() & 1;  // every second run looks much like packets
@@ -127,7 +127,7 @@ TEST(FalconParser, AfterAnyBytesItFindsThePacketsAgain) {
 
 TEST(FalconParser, EveryByteIsEitherInAReportOrSkipped) {
   for (std::uint64_t seed = 0; seed < 2000; ++seed) {
-    runtime::RandomStream random(seed, "falcon count");
+    RandomStream random(seed, "falcon count");
     FalconParser parser;
     std::uint64_t pushed = 0, used = 0;
     for (; pushed < 300; ++pushed)

@@ -17,7 +17,7 @@ struct Command {
   bool slow = false;  ///< of a block "sh slow"
 };
 
-/// Of one block; empty lines and comments are none.
+/// Of one block; empty lines and comments do not count.
 std::vector<Command> commandsOf(const Block& block);
 
 /// Words as a shell would part them: quotes are taken off, a comment is left out; ";", "&&", "|"

@@ -48,9 +48,9 @@ int lengthOf(Fault fault, Dice& dice) {
   return 1 + dice.below(dice.chance(0.1) ? 100 : 12);
 }
 
-void runEpisode(Dice& dice, Engine engine, bool cues, FaultJudge& sum) {
+void runEpisode(Dice& dice, ContactMode contact_mode, bool cues, FaultJudge& sum) {
   FaultJudge judge;
-  auto e = std::make_unique<Episode>(Episode{FaultyWorld(dice, engine, cues), {}, judge, {}});
+  auto e = std::make_unique<Episode>(Episode{FaultyWorld(dice, contact_mode, cues), {}, judge, {}});
   e->steps(Fault::none, 100);
   for (int k = 0; k < kFaultsInEpisode; ++k) {
     const auto fault = static_cast<Fault>(1 + dice.below(kFaultCount - 1));
@@ -67,50 +67,51 @@ void runEpisode(Dice& dice, Engine engine, bool cues, FaultJudge& sum) {
   sum.pushed += judge.pushed;
 }
 
-bool mayHappen(SafetyCause cause, Engine engine) {
+bool mayHappen(SafetyCause cause, ContactMode contact_mode) {
   if (cause == SafetyCause::stale_geometry || cause == SafetyCause::corrupt_geometry)
-    return engine == Engine::needle || engine == Engine::probe;
-  return cause != SafetyCause::no_sensor || engine == Engine::touch;
+    return contact_mode == ContactMode::needle || contact_mode == ContactMode::probe;
+  return cause != SafetyCause::no_sensor || contact_mode == ContactMode::sensed_object;
 }
 
-void campaign(Engine engine, std::uint64_t seed, bool cues = false) {
+void campaign(ContactMode contact_mode, std::uint64_t seed, bool cues = false) {
   const int faults = test::counted(20'000, 100'000) / 2;
   Dice dice(seed);
   FaultJudge sum;
   for (int i = 0; i < faults / kFaultsInEpisode; ++i) {
-    runEpisode(dice, engine, cues, sum);
+    runEpisode(dice, contact_mode, cues, sum);
     if (testing::Test::HasFailure()) FAIL() << "in episode " << i;
   }
   EXPECT_GT(sum.pushed, 5 * faults) << "a campaign without force proves nothing";
   EXPECT_GT(sum.taken_away, faults / 10);
   for (int c = 0; c < kSafetyCauseCount; ++c) {
     const auto cause = static_cast<SafetyCause>(c);
-    EXPECT_EQ(sum.seen[c] > 20, mayHappen(cause, engine)) << name(cause) << ": " << sum.seen[c];
+    EXPECT_EQ(sum.seen[c] > 20, mayHappen(cause, contact_mode))
+        << name(cause) << ": " << sum.seen[c];
   }
 }
 
 TEST(FaultCampaign, TheNeedlesForceStaysWithinItsLimitsWhateverComesIn) {
-  campaign(Engine::needle, 20'260'101);
+  campaign(ContactMode::needle, 20'260'101);
 }
 
 TEST(FaultCampaign, TheProbesForceStaysWithinItsLimitsWhateverComesIn) {
-  campaign(Engine::probe, 20'260'102);
+  campaign(ContactMode::probe, 20'260'102);
 }
 
 TEST(FaultCampaign, TheForceAddedToARealThingStaysWithinItsLimitsWhateverComesIn) {
-  campaign(Engine::touch, 20'260'103);
+  campaign(ContactMode::sensed_object, 20'260'103);
 }
 
 /// Cues are no exception: every limit, every fault, every cause holds with all of them on, strong
 /// and stiff as a task's file may say.
 TEST(FaultCampaign, TheNeedlesForceWithEveryCueStaysWithinItsLimits) {
-  campaign(Engine::needle, 20'260'104, true);
+  campaign(ContactMode::needle, 20'260'104, true);
 }
 TEST(FaultCampaign, TheForceAddedToARealThingWithEveryCueStaysWithinItsLimits) {
-  campaign(Engine::touch, 20'260'105, true);
+  campaign(ContactMode::sensed_object, 20'260'105, true);
 }
 TEST(FaultCampaign, TheFloorsForceWithEveryCueStaysWithinItsLimits) {
-  campaign(Engine::floor, 20'260'106, true);
+  campaign(ContactMode::floor, 20'260'106, true);
 }
 
 }  // namespace

@@ -69,8 +69,8 @@ class FaultJudge {
       placed_ = false;
       homed_ = 0;
     }
-    if (!w.reading_absurd && w.reading.homed) {  // where a device is that does not know where it
-                                                 // is, says nothing of where it was
+    // Where a device is that does not know where it is, says nothing of where it was
+    if (!w.reading_absurd && w.reading.homed) {
       const Vec3 p = unpack(w.reading.p_DE);
       const Vec3 tip = p + unpack(w.reading.q_DE) * unpack(w.config.X_ET.p);
       // Farther than 5 m/s reaches in the 11 ms that count at most: 55 mm.
@@ -119,8 +119,9 @@ class FaultJudge {
     if (silent_ >= 10'000'000) return "silent device";
     if (!w.commands.armed || !w.reading.homed) return "not ready";
     if (w.config.safety.deadman_button && !(w.reading.buttons & 4)) return "button released";
-    if (w.config.engine == Engine::floor) return "";
-    if (w.config.engine == Engine::touch) return sensorLost(w) ? "no force sensor" : "";
+    if (w.config.contact_mode == ContactMode::floor) return "";
+    if (w.config.contact_mode == ContactMode::sensed_object)
+      return sensorLost(w) ? "no force sensor" : "";
     const double limit = static_cast<double>(w.config.age_limit_ns + w.config.fade_ns);
     if (state.now.number == 0 || std::abs(age(w, state)) >= limit) return "stale geometry";
     return "";
@@ -158,7 +159,7 @@ class FaultJudge {
       case SafetyCause::duty:
         return w.config.safety.continuous_force_N > 0;
       case SafetyCause::no_sensor:
-        return w.config.engine == Engine::touch && sensorLost(w);
+        return w.config.contact_mode == ContactMode::sensed_object && sensorLost(w);
       case SafetyCause::energy:
         return state.safety.stopped;
       default:

@@ -79,9 +79,10 @@ struct FaultyWorld {
   Vec3 shift = Vec3::Zero();  ///< where a jump put the device
   Quat turn = Quat::Identity();
 
-  FaultyWorld(Dice& dice_in, Engine engine, bool with_cues) : dice(dice_in), cues(with_cues) {
+  FaultyWorld(Dice& dice_in, ContactMode contact_mode, bool with_cues)
+      : dice(dice_in), cues(with_cues) {
     config.materials = NeedleBench{}.materials;
-    config.engine = engine;
+    config.contact_mode = contact_mode;
     config.X_ET.p = {0, 0, 0.11};
     config.period_ns = dice.chance(0.5) ? 1'000'000 : 250'000;
     config.blend_ns = 1'000'000 * (1 + dice.below(20));
@@ -115,7 +116,7 @@ struct FaultyWorld {
   const Floor* floor() const {
     static const SearchSurface surface = searchFloor(5);
     static const Floor there{&surface, nullptr, nullptr};
-    return config.engine == Engine::floor ? &there : nullptr;
+    return config.contact_mode == ContactMode::floor ? &there : nullptr;
   }
 
   /// The inputs of the next tick, with this fault.
@@ -186,8 +187,10 @@ struct FaultyWorld {
 
   /// A soft thing at z < 0, wherever a jump says that the device is.
   void sense() {
-    const Vec3 f(
-        0, 0, config.engine == Engine::touch ? forceOf(kSoftThing, std::max(depth, 0.0), 0) : 0.1);
+    const Vec3 f(0, 0,
+                 config.contact_mode == ContactMode::sensed_object
+                     ? forceOf(kSoftThing, std::max(depth, 0.0), 0)
+                     : 0.1);
     sensed = {pack(f), pack(Vec3(Vec3(0, 0, -depth) + shift)), SensorState::valid, {}};
     sensor_absurd = false;
   }
@@ -210,7 +213,7 @@ struct FaultyWorld {
     ++reading.sequence;
     reading.t_ns = now;
     const double across =
-        config.engine == Engine::floor
+        config.contact_mode == ContactMode::floor
             ? 0.004 + 0.0015 * std::sin(6e-9 * static_cast<double>(ticks * config.period_ns))
             : 0;
     reading.p_DE = pack(Vec3(Vec3(across, 0, 0.11 - depth) + shift));

@@ -31,7 +31,7 @@ struct FloorLoop {
   std::uint64_t readings = 0;
 
   explicit FloorLoop(const Pose& X_DF = kTurnedFloor) {
-    config.engine = Engine::floor;
+    config.contact_mode = ContactMode::floor;
     config.X_DF = pack(X_DF);
     config.coupling = {5250, 0.001};
     config.floor.weight_N = kWeight_N;

@@ -128,8 +128,8 @@ TEST(NeedleContact, WithdrawnAlongSkinThatBulgesTheNeedleIsFeltOnceItsPointWasCl
   NeedleBench bench;
   bench.move(0, 0.01);
   ASSERT_EQ(bench.state.phase, NeedlePhase::inserted);
-  bench.axis = Vec3::UnitX();  // it lies flat: 5 mm back along it are behind the entry, and still 2
-                               // mm below the surface
+  // It lies flat: 5 mm back along it are behind the entry, and still 2 mm below the surface
+  bench.axis = Vec3::UnitX();
   EXPECT_TRUE(bench.at({-0.005, 0, -0.002}).events & kWithdrawn);
   for (int i = 0; i < 100; ++i) EXPECT_EQ(bench.at({-0.005, 0, -0.004}).f_D.norm(), 0);
   EXPECT_EQ(bench.state.skin_punctures, 1);

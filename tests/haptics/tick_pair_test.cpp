@@ -28,7 +28,7 @@ struct PairLoop {
                        Vec3(0.2, 0.1, 0));
     for (std::size_t t = 0; t < 2; ++t) {
       TickConfig& tool = config.tools[t];
-      tool.engine = Engine::touch;
+      tool.contact_mode = ContactMode::sensed_object;
       tool.object_at_port = 1;
       tool.touch.surface.contact = {kSoftSide, 0, kSideFriction, {}, 0.1};
       tool.touch.kinds[0] = {

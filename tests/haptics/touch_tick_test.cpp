@@ -23,7 +23,7 @@ struct TouchLoop {
   SensorState sensor = SensorState::valid;
 
   TouchLoop() {
-    config.engine = Engine::touch;
+    config.contact_mode = ContactMode::sensed_object;
     config.object_at_port = 1;
     config.touch.surface.contact = {kRealThing, 0, kRealThingsSurface, {}, 0.1};
     config.touch.surface.wanted = kRealThingsSurface;

@@ -21,9 +21,9 @@ bool contains(const std::string& text, const std::string& word) {
 
 // Every word is written in two pieces, so that this file does not hold it.
 std::vector<Forbidden> makeForbidden() {
-  const std::string chance = "randomness comes from apps/runtime/random.h: same seed, same bits";
+  const std::string chance = "randomness comes from anatomy/base/random.h: same seed, same bits";
   const std::string time = "time comes from Clock (apps/runtime/clock.h)";
-  const std::vector<std::string> clocks{"apps/runtime/clock.cpp",
+  const std::vector<std::string> clocks{"apps/os/system_time.cpp",
                                         "tests/computer_faults/computer_faults.cpp"};
   std::vector<Forbidden> all{
       {"random_"

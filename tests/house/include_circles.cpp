@@ -14,20 +14,16 @@ using Graph = std::map<std::string, std::map<std::string, std::string>>;
 
 std::string folderOf(const std::string& path) { return path.substr(0, path.rfind('/')); }
 
-std::string besides(const std::string& path, const std::string& header) {
-  return header.find('/') == std::string::npos ? folderOf(path) + '/' + header : header;
-}
-
 template <typename NodeOf>
 Graph graphOf(const std::vector<SourceFile>& tree, bool headers_only, const NodeOf& node) {
   std::set<std::string> known;
   for (const SourceFile& file : tree)
-    if (file.isCode() && file.path.rfind("tests/", 0) != 0) known.insert(file.path);
+    if (file.isProduct()) known.insert(file.path);
   Graph graph;
   for (const SourceFile& file : tree) {
     if (!known.count(file.path) || (headers_only && !file.path.ends_with(".h"))) continue;
     for (const auto& [header, quoted] : includesOf(file.text)) {
-      const std::string path = besides(file.path, header);
+      const std::string path = pathOfHeader(file.path, header);
       if (!quoted || !known.count(path) || node(path) == node(file.path)) continue;
       graph[node(file.path)].emplace(node(path), file.path + " includes " + path);
     }

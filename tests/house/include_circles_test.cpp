@@ -6,7 +6,7 @@ namespace palpa::house {
 namespace {
 
 TEST(IncludeCircles, TheTreeHasNone) {
-  const std::vector<SourceFile> tree = sourceTree(PALPA_SOURCE_DIR);
+  const std::vector<SourceFile>& tree = sourceTree(PALPA_SOURCE_DIR);
   for (const std::string& circle : folderCircles(tree)) ADD_FAILURE() << circle;
   for (const std::string& circle : headerCircles(tree)) ADD_FAILURE() << circle;
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <fstream>
 #include <iterator>
+#include <map>
 
 namespace palpa::house {
 namespace {
@@ -19,14 +20,7 @@ std::string textOf(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-}  // namespace
-
-bool SourceFile::isCode() const {
-  const std::string extension = fs::path(path).extension().string();
-  return extension == ".h" || extension == ".cpp";
-}
-
-std::vector<SourceFile> sourceTree(const fs::path& top) {
+std::vector<SourceFile> readTree(const fs::path& top) {
   std::vector<SourceFile> files;
   for (fs::recursive_directory_iterator it(top), end; it != end; ++it) {
     if (it.depth() == 0 && isMade(it->path())) {
@@ -39,6 +33,21 @@ std::vector<SourceFile> sourceTree(const fs::path& top) {
   std::sort(files.begin(), files.end(),
             [](const auto& a, const auto& b) { return a.path < b.path; });
   return files;
+}
+
+}  // namespace
+
+bool SourceFile::isCode() const {
+  const std::string extension = fs::path(path).extension().string();
+  return extension == ".h" || extension == ".cpp";
+}
+
+bool SourceFile::isProduct() const { return isCode() && path.rfind("tests/", 0) != 0; }
+
+const std::vector<SourceFile>& sourceTree(const fs::path& top) {
+  static std::map<fs::path, std::vector<SourceFile>> trees;
+  const auto known = trees.find(top);
+  return known != trees.end() ? known->second : trees.emplace(top, readTree(top)).first->second;
 }
 
 std::string withoutComments(const std::string& code) {

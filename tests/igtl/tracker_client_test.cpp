@@ -306,7 +306,7 @@ TEST(IgtlTrackedCamera, PoseIsTakenAtTheExposureAndGoesStale) {
   EXPECT_EQ(runtime::cameraTrouble(view, t), "");
   const std::int64_t last = t - 20 * kMillisecond;
   activity.step(last + 90 * kMillisecond);
-  EXPECT_TRUE(bus.camera_to_task.read(t)->X_CW) << "foretold for 100 ms";
+  EXPECT_TRUE(bus.camera_to_task.read(t)->X_CW) << "predicted for 100 ms";
   activity.step(last + 110 * kMillisecond);
   view = bus.camera_to_task.read(t);
   EXPECT_FALSE(view->X_CW) << "then stale";

@@ -3,7 +3,6 @@
 #include <gtest/gtest.h>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/uuid.h"
 #include "tests/link/trials.h"
 #include "tests/link/xapi_rules.h"
 
@@ -15,16 +14,6 @@ using nlohmann::json;
 constexpr char kHome[] = "https://centre.example/palpa";
 
 json statement() { return link::statementOf(sessionOf("T017", 1), trialOf(3), kHome); }
-
-TEST(Uuid5, IsTheStandards) {
-  // RFC 9562, appendix A.4: www.example.com in the namespace of domain names.
-  EXPECT_EQ(link::uuidOfName("6ba7b810-9dad-11d1-80b4-00c04fd430c8", "www.example.com"),
-            "2ed6657d-e927-568b-95e1-2665a8aea6a2");
-  EXPECT_THROW(link::uuidOfName("u1", "x"), Error);
-  EXPECT_TRUE(link::isUuid(uuidOf(7)));
-  EXPECT_FALSE(link::isUuid(uuidOf(7) + "0"));
-  EXPECT_FALSE(link::isUuid("0a1b2c3d-4e5f-4a6b-8c7d+000000000007"));
-}
 
 TEST(Statement, FollowsTheRules) {
   EXPECT_EQ(whyNoStatement(statement()), "");
@@ -108,14 +97,7 @@ TEST(Statement, IsRecognisedInWhatAStoreMadeOfIt) {
   EXPECT_FALSE(link::saysTheSame(told, nullptr));
 }
 
-TEST(IsoTimes, OfClocksThatJumpedAndOfDamage) {
-  EXPECT_EQ(link::isoTimestamp("2026-12-31T23:59:59Z", 1'500'000'000), "2027-01-01T00:00:00.500Z");
-  EXPECT_EQ(link::isoTimestamp("1970-01-01T00:00:00Z", -1'000'000'000), "1969-12-31T23:59:59.000Z");
-  for (const char* none :
-       {"", "yesterday", "2026-13-01T00:00:00Z", "2026-03-01T10:00:00", "2026-03-01 10:00:00+1"})
-    EXPECT_EQ(link::isoTimestamp(none, 0), "") << none;
-  EXPECT_EQ(link::isoDuration(-1), "PT0.00S");
-  EXPECT_EQ(link::isoDuration(3600.999), "PT3601.00S");
+TEST(Statement, OfASessionWithoutATime) {
   record::StoredSession lost = sessionOf("A", 1);
   lost.started_utc = "";
   EXPECT_EQ(whyNoStatement(link::statementOf(lost, trialOf(1), kHome)),

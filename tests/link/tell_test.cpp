@@ -114,7 +114,7 @@ TEST_F(Tell, OfflineItWaits) {
 TEST_F(Tell, MishapsOfEveryKind) {
   using enum Mishap;
   lrs_.stop();
-  runtime::RandomStream dice(7, "mishaps");
+  RandomStream dice(7, "mishaps");
   std::vector<Mishap> plan;
   for (int i = 0; i < 40; ++i)
     plan.push_back(std::vector<Mishap>{none, drop_before, drop_after, error_500, login_page,
@@ -134,7 +134,7 @@ TEST_F(Tell, MishapsOfEveryKind) {
 }
 
 TEST_F(Tell, KilledSendersAndAServerThatComesAndGoes) {
-  runtime::RandomStream dice(11, "kills");
+  RandomStream dice(11, "kills");
   lrs_.stop();
   lrs_.mishap = [](int) {
     runtime::SteadyClock().sleepUntil(4 * runtime::kMillisecond);  // so that kills fall in between

@@ -169,8 +169,9 @@ TEST(Smoothness, FallsWithEachStop) {
 }
 
 TEST(Smoothness, JerkOfAnOscillation) {
-  Hand hand;  // x = a sin(w t): the third derivative is a w^3 cos(w t); over whole periods its
-              // square integrates to a^2 w^6 T / 2
+  // X = a sin(w t): the third derivative is a w^3 cos(w t); over whole periods its square
+  // integrates to a^2 w^6 T / 2
+  Hand hand;
   const double a = 0.01, w = 2 * kPi;
   hand.tip = [=](double t) { return Vec3(a * std::sin(w * t), 0, 0); };
   EXPECT_NEAR(integratedJerk(hand.over(10)) / (a * w * w * w * std::sqrt(10.0 / 2)), 1, 0.01);

@@ -286,7 +286,7 @@ XRAPI_ATTR XrResult XRAPI_CALL EndFrame(XrSession, const XrFrameEndInfo* info) {
   if (!w.frame_begun) return XR_ERROR_CALL_ORDER_INVALID;
   w.frame_begun = false;
   if (info->displayTime != w.now)
-    w.ledger.complain("a frame was shown at another time than foretold");
+    w.ledger.complain("a frame was shown at another time than predicted");
   for (std::uint32_t i = 0; i < info->layerCount; ++i) {
     w.ledger.called("layers");
     checkLayer(w, *reinterpret_cast<const XrCompositionLayerProjection*>(info->layers[i]));
@@ -299,7 +299,7 @@ XRAPI_ATTR XrResult XRAPI_CALL LocateViews(XrSession, const XrViewLocateInfo* in
                                            std::uint32_t* count, XrView* views) {
   World& w = world();
   if (info->displayTime != w.now)
-    w.ledger.complain("views were asked for at another time than foretold");
+    w.ledger.complain("views were asked for at another time than predicted");
   *count = 2;
   if (capacity < 2) return capacity == 0 ? XR_SUCCESS : XR_ERROR_SIZE_INSUFFICIENT;
   state->viewStateFlags =

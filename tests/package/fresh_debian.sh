@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# fresh_debian.sh BUILD: the package in a Debian 12 that holds nothing else: installed, used,
-# removed without a trace. Needs root (or user namespaces), mmdebstrap and a network.
+# fresh_debian.sh BUILD: the package in a Debian that holds nothing else, of the version that
+# it was built on: installed, used, removed without a trace. Needs root (or user namespaces), mmdebstrap and a network.
 set -euo pipefail
 build=$(cd "$1" && pwd)
 here=$(cd "$(dirname "$0")" && pwd)
@@ -43,10 +43,11 @@ cp "$deb" "$here/expect.sh" "$here/in_fresh_debian.sh" "\$1/opt/"
 exec chroot "\$1" /bin/bash /opt/in_fresh_debian.sh
 HOOK
 chmod 755 "$work/hook"
-echo "Debian 12 is made (mmdebstrap --mode=$mode) ..."
+suite=$(. /etc/os-release && echo "${VERSION_CODENAME:-bookworm}")
+echo "Debian ($suite) is made (mmdebstrap --mode=$mode) ..."
 mirror=${PALPA_DEBIAN_MIRROR:-http://deb.debian.org}
 mmdebstrap --quiet --mode=$mode --variant=minbase --format=null \
-  --customize-hook="$work/hook" bookworm - \
-  "deb $mirror/debian bookworm main" \
-  "deb $mirror/debian bookworm-updates main" \
-  "deb $mirror/debian-security bookworm-security main"
+  --customize-hook="$work/hook" "$suite" - \
+  "deb $mirror/debian $suite main" \
+  "deb $mirror/debian $suite-updates main" \
+  "deb $mirror/debian-security $suite-security main"

@@ -1,5 +1,5 @@
 #!/bin/bash
-# Run as root in a fresh Debian 12 with /opt/palpa_*.deb and /opt/expect.sh: installs, uses and
+# Run as root in a fresh Debian with /opt/palpa_*.deb and /opt/expect.sh: installs, uses and
 # removes the package.
 . /opt/expect.sh
 export DEBIAN_FRONTEND=noninteractive LC_ALL=C.UTF-8

@@ -33,10 +33,10 @@ TEST(LearningCurve, TheBandHoldsTheTrueCurveMostOfTheTime) {
   const int studies = palpa::test::counted(60, 400);
   int inside = 0, points = 0;
   for (int s = 0; s < studies; ++s) {
-    anatomy::RandomStream random(static_cast<std::uint64_t>(s) + 1);
+    RandomStream random = RandomStream::ofSeed(static_cast<std::uint64_t>(s) + 1);
     const std::vector<double> truth = exponential(10, 8, 5, 20);
     std::vector<double> y = truth;
-    for (double& v : y) v += 1.5 * random.normal();
+    for (double& v : y) v += 1.5 * random.openNormal();
     const auto curve = learningCurve(y, static_cast<std::uint64_t>(s));
     ASSERT_TRUE(curve);
     for (std::size_t i = 0; i < y.size(); ++i, ++points)
@@ -52,9 +52,9 @@ TEST(LearningCurve, NoiseIsNoLearning) {
   const int studies = palpa::test::counted(60, 400);
   int found = 0;
   for (int s = 0; s < studies; ++s) {
-    anatomy::RandomStream random(1000 + static_cast<std::uint64_t>(s));
+    RandomStream random = RandomStream::ofSeed(1000 + static_cast<std::uint64_t>(s));
     std::vector<double> y;
-    for (int i = 0; i < 15; ++i) y.push_back(100 + 10 * random.normal());
+    for (int i = 0; i < 15; ++i) y.push_back(100 + 10 * random.openNormal());
     found += learningCurve(y, static_cast<std::uint64_t>(s))->changed();
   }
   // Nominal 0.05; as the curve bends freely at its ends, up to a fifth.

@@ -68,7 +68,7 @@ TEST(Damage, FlippedBitIsAnErrorOrHarmless) {
     std::string flipped = whole;
     // Half of them among the first two pages: header and schema.
     const std::uint64_t range = k % 2 ? whole.size() : 8192;
-    flipped[mix(2 * k) % range] ^= static_cast<char>(1u << mix(2 * k + 1) % 8);
+    flipped[splitMix64(2 * k) % range] ^= static_cast<char>(1u << splitMix64(2 * k + 1) % 8);
     const fs::path file = folder / "flipped.palpa";
     spill(file, flipped);
     const std::string read = readAll(file);

@@ -57,7 +57,8 @@ TEST(Kill, LosesAtMostTwoHundredTicks) {
   const int kills = palpa::test::counted(10, 50);
   for (int k = 0; k < kills; ++k) {
     const fs::path file = folder / ("session" + std::to_string(k) + ".palpa");
-    const auto target = static_cast<std::int64_t>(1 + mix(static_cast<std::uint64_t>(k)) % 6000);
+    const auto target =
+        static_cast<std::int64_t>(1 + splitMix64(static_cast<std::uint64_t>(k)) % 6000);
     const std::int64_t written = killAfter(target, file, progress);
     const std::string evidence = slurp(file), log = slurp(file.string() + "-wal");
 

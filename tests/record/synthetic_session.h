@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/random.h"
 #include "apps/record/session_file.h"
 #include "tests/support/files.h"
 
@@ -14,16 +15,8 @@
 /// in the last bits, forces, events. Everything follows from the tick number.
 namespace palpa::record::test {
 
-/// Counter-based random bits (SplitMix64, Steele et al. 2014): the same on every machine.
-inline std::uint64_t mix(std::uint64_t x) {
-  x += 0x9e3779b97f4a7c15u;
-  x = (x ^ (x >> 30)) * 0xbf58476d1ce4e5b9u;
-  x = (x ^ (x >> 27)) * 0x94d049bb133111ebu;
-  return x ^ (x >> 31);
-}
-
 inline double noise(std::uint64_t counter) {  // uniform in +-1
-  return static_cast<double>(mix(counter) >> 11) * 0x1p-52 - 1;
+  return static_cast<double>(splitMix64(counter) >> 11) * 0x1p-52 - 1;
 }
 
 /// A record whose padding is zero, so that whole records can be compared bit by bit.

@@ -5,7 +5,6 @@
 #include <limits>
 #include <set>
 
-#include "anatomy/base/base64.h"
 #include "apps/report/page/html.h"
 #include "apps/report/page/numbers.h"
 #include "apps/report/plot/chart_frame.h"
@@ -116,15 +115,6 @@ TEST(Numbers, AreForPeople) {
   EXPECT_EQ(shortest(0.1), "0.1");
   EXPECT_EQ(coordinate(-12.04), "-12");
   EXPECT_EQ(coordinate(1e300).find('e'), std::string::npos);
-}
-
-TEST(Base64, KnowsTheVectorsOfRfc4648) {
-  EXPECT_EQ(base64(""), "");
-  EXPECT_EQ(base64("f"), "Zg==");
-  EXPECT_EQ(base64("fo"), "Zm8=");
-  EXPECT_EQ(base64("foo"), "Zm9v");
-  EXPECT_EQ(base64("foobar"), "Zm9vYmFy");
-  EXPECT_EQ(base64(std::string("\xff\xfe\x00", 3)), "//4A");
 }
 
 TEST(Escaping, LeavesNoMarkupAndNoBrokenBytes) {

@@ -10,8 +10,8 @@ namespace palpa::report::test {
 
 /// A made-up needle trial of somebody who gets better: seeded, nobody's. Its total is what the
 /// usual weights give.
-inline progress::PracticeTrial madeUpTrial(const std::string& trainee, int n,
-                                           anatomy::RandomStream& random, double skill) {
+inline progress::PracticeTrial madeUpTrial(const std::string& trainee, int n, RandomStream& random,
+                                           double skill) {
   const double left = std::exp(-(n - 1) / 6.0), wild = (0.15 + left) / skill;
   progress::PracticeTrial t;
   t.trainee = trainee;
@@ -22,16 +22,17 @@ inline progress::PracticeTrial madeUpTrial(const std::string& trainee, int n,
   t.started_utc = n <= 15 ? "2027-01-1" + std::to_string((n - 1) / 5) + "T09:00:00Z"
                           : "2027-07-1" + std::to_string((n - 1) / 5 % 9) + "T09:00:00Z";
   t.role = "scored";
-  const double time = 20 + 45 * left + 4 * random.uniform(),
-               lung = random.uniform() < 0.5 * wild ? std::ceil(4 * random.uniform()) : 0,
-               rib = random.uniform() < wild ? std::ceil(9 * random.uniform()) : 0;
-  const double vein = std::floor(4 * random.uniform()), phase_1 = 3 + 8 * wild * random.uniform(),
-               phase_2 = 500 + 900 * wild * random.uniform(), mean = 2 + 3 * wild,
-               variance = 2 + 9 * wild * random.uniform();
-  const bool success = random.uniform() > 0.6 * wild;
+  const double time = 20 + 45 * left + 4 * random.openUniform(),
+               lung = random.openUniform() < 0.5 * wild ? std::ceil(4 * random.openUniform()) : 0,
+               rib = random.openUniform() < wild ? std::ceil(9 * random.openUniform()) : 0;
+  const double vein = std::floor(4 * random.openUniform()),
+               phase_1 = 3 + 8 * wild * random.openUniform(),
+               phase_2 = 500 + 900 * wild * random.openUniform(), mean = 2 + 3 * wild,
+               variance = 2 + 9 * wild * random.openUniform();
+  const bool success = random.openUniform() > 0.6 * wild;
   t.outcome = success ? "success" : "aborted";
   const double direction = phase_2 < 1000 ? 0 : 0.2 * phase_2;
-  const double passes = 1 + std::floor(4 * wild * random.uniform());
+  const double passes = 1 + std::floor(4 * wild * random.openUniform());
   t.metrics = {{"success", success ? 1.0 : 0.0},
                {"time_s", time},
                {"total", 500 * lung + 50 * rib + 10 * vein + 2 * phase_1 + direction + 2 * mean +
@@ -46,15 +47,15 @@ inline progress::PracticeTrial madeUpTrial(const std::string& trainee, int n,
                {"econ_var_mm2", variance},
                {"needle_passes", passes},
                {"first_pass_success", success && passes == 1 ? 1.0 : 0.0},
-               {"back_wall_punctures", random.uniform() < 0.2 ? 1.0 : 0.0},
+               {"back_wall_punctures", random.openUniform() < 0.2 ? 1.0 : 0.0},
                {"over_force_s", 0},
                {"tissue_time_s", 0.5 * time},
                {"translational_actions", 3 + 6 * wild},
                {"rotational_actions", 2 + 4 * wild},
                {"speed_at_vein_mm_s", 3 + 8 * wild},
-               {"closest_pleura_mm", lung > 0 ? -1 : 2 + 7 * random.uniform()},
+               {"closest_pleura_mm", lung > 0 ? -1 : 2 + 7 * random.openUniform()},
                {"closest_pleura_at_s", 0.7 * time},
-               {"closest_artery_mm", 1 + 6 * random.uniform()},
+               {"closest_artery_mm", 1 + 6 * random.openUniform()},
                {"closest_artery_at_s", 0.8 * time}};
   return t;
 }
@@ -66,7 +67,7 @@ inline TraineeReport madeUpTrainee(int trials, std::uint64_t seed = 5, double sk
   report.experience = "3rd year";
   report.made_utc = "2027-08-01T10:00:00Z";
   report.software = "palpa test";
-  anatomy::RandomStream random(seed);
+  RandomStream random = RandomStream::ofSeed(seed);
   for (int n = 1; n <= trials; ++n)
     report.trials.push_back(madeUpTrial(report.trainee, n, random, skill));
   return report;
@@ -77,7 +78,7 @@ inline CohortReport madeUpCohort(int trainees, int trials) {
   report.group = "novice";
   report.made_utc = "2027-08-01T10:00:00Z";
   for (int i = 0; i < trainees; ++i) {
-    anatomy::RandomStream random(static_cast<std::uint64_t>(i) + 40);
+    RandomStream random = RandomStream::ofSeed(static_cast<std::uint64_t>(i) + 40);
     char name[16];
     std::snprintf(name, sizeof name, "T%03d", i + 1);
     for (int n = 1; n <= trials; ++n)

@@ -26,17 +26,17 @@ inline StudyResult pilotResult() {
 /// Twenty-one subjects who search; times that fall, success that rises more with cues.
 inline StudyResult searchResult() {
   std::vector<StudyRow> rows;
-  anatomy::RandomStream random(4);
+  RandomStream random = RandomStream::ofSeed(4);
   for (int s = 0; s < 21; ++s) {
     const bool cues = s % 2 != 0;
-    const double own = 3 * random.normal(), skill = 0.5 + 0.1 * random.normal(),
-                 gained = (cues ? 0.12 : 0.05) + 0.1 * random.normal(),
-                 hurry = (cues ? 3 : 1) + 2 * random.normal();
+    const double own = 3 * random.openNormal(), skill = 0.5 + 0.1 * random.openNormal(),
+                 gained = (cues ? 0.12 : 0.05) + 0.1 * random.openNormal(),
+                 hurry = (cues ? 3 : 1) + 2 * random.openNormal();
     for (int t = 0; t < 160; ++t) {
       const bool training = t >= 60 && t < 100, after = t >= 100;
       const double seconds = std::max(3.0, 14 + own + 20.0 / (1 + 0.04 * t) + (training ? 6 : 0) -
-                                               (after ? hurry : 0) + 4 * random.normal());
-      const bool found = random.uniform() < skill + (after ? gained : 0);
+                                               (after ? hurry : 0) + 4 * random.openNormal());
+      const bool found = random.openUniform() < skill + (after ? gained : 0);
       rows.push_back({"S" + std::to_string(s + 1),
                       "trainee",
                       training ? (cues ? "augmented" : "degraded") : "full",

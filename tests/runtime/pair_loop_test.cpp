@@ -16,7 +16,7 @@ haptics::PairConfig squeezing() {
   config.squeezing = true;
   config.squeeze.real = kSides;
   for (haptics::TickConfig& tool : config.tools) {
-    tool.engine = haptics::Engine::touch;
+    tool.contact_mode = haptics::ContactMode::sensed_object;
     tool.object_at_port = 1;
     tool.touch.surface.contact = {kSides, 0, {0.35, 1500, 0}, {}, 0.1};
     tool.touch.tip_radius = kTip;

@@ -13,9 +13,9 @@ std::vector<SearchTrial> session(int real, int degraded, int augmented, int of) 
          episodes(SearchMode::augmented, augmented, of);
 }
 
-int drawn(double share, int of, anatomy::RandomStream& random) {
+int drawn(double share, int of, RandomStream& random) {
   int found = 0;
-  for (int i = 0; i < of; ++i) found += random.uniform() < share;
+  for (int i = 0; i < of; ++i) found += random.openUniform() < share;
   return found;
 }
 
@@ -81,7 +81,7 @@ TEST(Recovery, ItsIntervalIsHonest) {
   };
   for (const Planted& p :
        {Planted{0.95, 0.4, 0.8, 20}, Planted{0.99, 0.35, 0.97, 12}, Planted{0.9, 0.5, 0.5, 30}}) {
-    anatomy::RandomStream random(17);
+    RandomStream random = RandomStream::ofSeed(17);
     const double truth = (p.augmented - p.degraded) / (p.real - p.degraded);
     int holds = 0, told = 0;
     for (int i = 0; i < 300; ++i) {

@@ -23,7 +23,7 @@ inline Jet<Mat3> operator*(const Jet<Mat3>& l, const Jet<Mat3>& r) {
 struct Sway {
   std::array<double, 3> amplitude{}, omega{}, phase{};
   Sway() = default;
-  Sway(double size, runtime::RandomStream& random) {
+  Sway(double size, RandomStream& random) {
     for (std::size_t i = 0; i < 3; ++i) {
       amplitude[i] = size * random.uniform(0.2, 1) / 3;
       omega[i] = 2 * std::numbers::pi * random.uniform(0.3, 4);
@@ -54,7 +54,7 @@ inline Jet<Mat3> turn(const Vec3& axis, const Jet<double>& angle) {
 class MovingTool {
  public:
   explicit MovingTool(std::uint64_t seed) {
-    runtime::RandomStream random(seed, "moving tool");
+    RandomStream random(seed, "moving tool");
     for (Sway& s : place_) s = Sway(0.06, random);
     for (Sway& s : angle_) s = Sway(2.0, random);
     for (std::size_t i = 0; i < kPoints; ++i) {

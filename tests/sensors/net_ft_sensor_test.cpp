@@ -165,7 +165,7 @@ TEST(NetFtSensor, TheBiasRequestArrivesOnceAndTheStopOnClose) {
 
 TEST(NetFtSensor, DamagedDatagramsAreSurvivedAndEachIsAccountedFor) {
   Bench b;
-  runtime::RandomStream random(11, "net ft fuzz");
+  RandomStream random(11, "net ft fuzz");
   std::uint64_t whole = 0, broken = 0;
   for (int i = 0; i < 20'000; ++i) {
     std::size_t length = random.bits() % 200;

@@ -66,7 +66,7 @@ TEST(RdtRecord, OnlyWholeRecordsOfOneFrameCount) {
 }
 
 TEST(RdtRecord, AnyDatagramIsSurvivedAndNoBitIsLost) {
-  runtime::RandomStream random(7, "rdt fuzz");
+  RandomStream random(7, "rdt fuzz");
   int whole = 0;
   for (int i = 0; i < 100'000; ++i) {
     std::size_t length = random.bits() % 1600;

@@ -155,7 +155,7 @@ TEST(WrenchFilter, NoiseOfThePoseGrowsAsTheSecondDifferencePredicts) {
     const double y = apply(filter.low_pass, impulse, std::array{d})[0];
     gain += y * y;
   }
-  runtime::RandomStream random(1, "pose noise");
+  RandomStream random(1, "pose noise");
   WrenchFilterState state;
   const WrenchSample still = sampleOf({{0, 0, -0.1 * 9.80665}, {}});
   double squares = 0;

@@ -73,8 +73,7 @@ Aids ofNeedle(SessionOptions options, const std::string& name) {
 
 TEST(Assessment, NoAidAddsForceToANeedle) {
   expectNoAid(ofNeedle(quick(true), "assessed_needle"));
-  SessionOptions practice =
-      quick(false);  // the same trial with cues: the test would see them
+  SessionOptions practice = quick(false);  // the same trial with cues: the test would see them
   practice.augment = true;
   const Aids aids = ofNeedle(practice, "practice_needle");
   EXPECT_GT(aids.with_force, 0);

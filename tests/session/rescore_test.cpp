@@ -75,8 +75,7 @@ TEST(Rescore, RecordedTrialsHaveTheirStoredScoresExactly) {
     NeedleWorld world(options);
     world.station.camera_rate_Hz = 2;  // pictures change no score; the ready check needs some
     int kind = 0;
-    for (const OperatorKind who :
-         {OperatorKind::expert, OperatorKind::novice})
+    for (const OperatorKind who : {OperatorKind::expert, OperatorKind::novice})
       for (const bool felt : {true, false}) {
         if (!palpa::test::fullCounts() && kind++ != (side == anatomy::Side::left ? 3 : 0))
           continue;  // the expert on the right, the numb novice on the left

@@ -10,7 +10,7 @@ namespace {
 
 constexpr int kMutations = 2000;
 
-std::string mutated(std::string text, runtime::RandomStream& random) {
+std::string mutated(std::string text, RandomStream& random) {
   const auto somewhere = [&] {
     return static_cast<std::size_t>(random.uniform() * static_cast<double>(text.size()));
   };
@@ -54,7 +54,7 @@ class Damage : public testing::TestWithParam<AssetFile> {
 TEST_P(Damage, ChangedBytesAreToldOrValid) {
   const std::string text = GetParam().text();
   for (int i = 0; i < kMutations; ++i) {
-    runtime::RandomStream random(static_cast<std::uint64_t>(i), "damage." + GetParam().name);
+    RandomStream random(static_cast<std::uint64_t>(i), "damage." + GetParam().name);
     survive(mutated(text, random), "mutation " + std::to_string(i));
   }
   EXPECT_GT(refused_, kMutations / 10);  // the damage is real ...

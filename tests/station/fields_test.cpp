@@ -4,7 +4,6 @@
 #include <cctype>
 #include <set>
 
-#include "anatomy/base/json_file.h"
 #include "asset_files.h"
 
 /// Each field of each settings file in turn: taken away, of the wrong kind, out of all proportion.
@@ -176,55 +175,6 @@ TEST(StationFile, LimitsFollowTheDevice) {
   json stiff = station.json();
   stiff["coupling"]["stiffness_N_per_m"] = 1001;  // stable to 1000
   EXPECT_TRUE(judge(station, stiff.dump()).usage_error);
-}
-
-void expectUsageError(const std::string& text, const std::string& words) {
-  const Scratch file(text);
-  try {
-    JsonFile(file.path()).number("x");
-    ADD_FAILURE() << text << " was taken for valid";
-  } catch (const UsageError& e) {
-    EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
-    EXPECT_NE(std::string(e.what()).find(file.path().string()), std::string::npos) << e.what();
-  }
-}
-
-TEST(JsonFile, WhatIsNoNumberIsRefused) {
-  expectUsageError("", "not valid JSON");
-  expectUsageError("{\"x\": NaN}", "not valid JSON");
-  expectUsageError("{\"x\": Infinity}", "not valid JSON");
-  expectUsageError("{\"x\": 1e999}", "not valid JSON");
-  expectUsageError("{\"x\": \"1\"}", "not a number");
-  expectUsageError("{\"x\": {\"value\": null}}", "not a number");
-  expectUsageError("{\"x\": {\"value\": 3, \"range\": [0, 2]}}", "outside its range");
-  expectUsageError("{\"x\": {\"value\": 3, \"range\": [0]}}", "not [low, high]");
-  expectUsageError("{\"x\": {\"value\": 3, \"range\": [0, \"2\"]}}", "not [low, high]");
-  expectUsageError("[1, 2]", "is missing");
-  expectUsageError("{\"x\": \"\xff\"}", "not valid JSON");
-  expectUsageError(std::string(100'000, '[') + std::string(100'000, ']'), "nested too deep");
-}
-
-TEST(JsonFile, WhatIsNoFileIsRefused) {
-  EXPECT_THROW(JsonFile("/nowhere/at.json"), UsageError);
-  EXPECT_THROW(JsonFile(std::filesystem::temp_directory_path()), UsageError);
-  EXPECT_THROW(JsonFile("/dev/zero"), UsageError);
-}
-
-TEST(JsonFile, NumbersVectorsTextsRoundTrip) {
-  const JsonFile file(json{{"a", {{"value", 2.5}, {"range", {2, 3}}}},
-                           {"v", {1, 2, 3}},
-                           {"t", {{"u", "w"}}},
-                           {"n", 7}},
-                      "here");
-  EXPECT_EQ(file.number("a"), 2.5);
-  EXPECT_EQ(file.integer("n", 0, 10), 7);
-  EXPECT_EQ(file.vector("v"), Vec3(1, 2, 3));
-  EXPECT_EQ(file.text("t/u"), "w");
-  EXPECT_TRUE(file.has("t/u"));
-  EXPECT_FALSE(file.has("t/u/v"));
-  EXPECT_THROW(file.integer("a", 0, 10), UsageError);
-  EXPECT_THROW(file.vector("t"), UsageError);
-  EXPECT_THROW(file.text("n"), UsageError);
 }
 
 }  // namespace

@@ -111,15 +111,15 @@ TEST(MixedModel, OfJawsWithTheInteractionIsThePublishedOne) {
 /// A question that differs between subjects only, with equally many trials each, is the pooled
 /// t-test of the subjects' means.
 TEST(MixedModel, BetweenSubjectsIsTheTestOfTheirMeans) {
-  anatomy::RandomStream random(3);
+  RandomStream random = RandomStream::ofSeed(3);
   Trials t{Eigen::VectorXd(60), Eigen::MatrixXd::Ones(60, 2), {}};
   std::vector<double> a, b;
   for (int s = 0; s < 12; ++s) {
-    const double own = 3 * random.normal();
+    const double own = 3 * random.openNormal();
     double sum = 0;
     for (int k = 0; k < 5; ++k) {
       const int i = 5 * s + k;
-      sum += t.y[i] = 1000 + own + (s < 6 ? 0 : 2) + random.normal();
+      sum += t.y[i] = 1000 + own + (s < 6 ? 0 : 2) + random.openNormal();
       t.x(i, 1) = s >= 6;
       t.subject.push_back(7 * s);
     }

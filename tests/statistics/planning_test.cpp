@@ -97,13 +97,13 @@ TEST(Power, PublishedFigures) {
 }
 
 TEST(Power, IsHowOftenTheTestFindsIt) {
-  anatomy::RandomStream random(3);
+  RandomStream random = RandomStream::ofSeed(3);
   int found = 0;
   constexpr int kStudies = 2000;
   for (int s = 0; s < kStudies; ++s) {
     std::vector<double> a(10), b(10);
-    for (double& v : a) v = random.normal() + 1;
-    for (double& v : b) v = random.normal();
+    for (double& v : a) v = random.openNormal() + 1;
+    for (double& v : b) v = random.openNormal();
     found += pooled(a, b).p_two_sided < 0.05;
   }
   EXPECT_NEAR(found / static_cast<double>(kStudies), powerOfTwoGroups(1, 10, 10),
@@ -149,13 +149,13 @@ TEST(Cusum, FailuresReject) {
 TEST(Cusum, ErrsAsOftenAsSaid) {
   const CusumLimits limits = cusumLimits({});
   const auto wrong = [&](double rate, CusumVerdict mistake) {
-    anatomy::RandomStream random(static_cast<std::uint64_t>(1000 * rate));
+    RandomStream random = RandomStream::ofSeed(static_cast<std::uint64_t>(1000 * rate));
     int mistakes = 0;
     for (int trainee = 0; trainee < 2000; ++trainee) {
       std::vector<bool> failures;
       CusumVerdict verdict = CusumVerdict::undecided;
       while (verdict == CusumVerdict::undecided) {
-        failures.push_back(random.uniform() < rate);
+        failures.push_back(random.openUniform() < rate);
         verdict = cusum(failures, limits).verdicts.back();
       }
       mistakes += verdict == mistake;

@@ -22,7 +22,7 @@ TEST(Sample, Describes) {
   EXPECT_EQ(d.q3, 4);
   EXPECT_EQ(d.min, 1);
   EXPECT_EQ(d.max, 10);
-  EXPECT_EQ(quantileOf({1, 2}, 0.25), 1.25);
+  EXPECT_EQ(interpolatedQuantile({1, 2}, 0.25), 1.25);
   EXPECT_EQ(describe({}).n, 0u);
   EXPECT_TRUE(std::isnan(describe({}).mean));
   EXPECT_TRUE(std::isnan(describe({7}).sd));
@@ -61,12 +61,12 @@ TEST(Assumptions, ShapiroWilkForAllSizes) {
 }
 
 TEST(Assumptions, NormalValuesFailAsOftenAsSaid) {
-  anatomy::RandomStream random(7);
+  RandomStream random = RandomStream::ofSeed(7);
   int failed = 0;
   constexpr int kDraws = 2000;
   for (int i = 0; i < kDraws; ++i) {
     std::vector<double> values(20);
-    for (double& v : values) v = random.normal();
+    for (double& v : values) v = random.openNormal();
     failed += shapiroWilk(values).p < 0.05;
   }
   EXPECT_GT(failed, 75);  // 5 % of 2000 is 100, three standard deviations 29
@@ -114,12 +114,12 @@ TEST(Bootstrap, SameSeedSameInterval) {
 /// Share of drawn samples of a skewed distribution (exponential, mean 1) whose interval of the mean
 /// holds 1.
 TEST(Bootstrap, HoldsTheMeanOfASkewedDistributionNearlyAsOftenAsSaid) {
-  anatomy::RandomStream random(11);
+  RandomStream random = RandomStream::ofSeed(11);
   int held = 0;
   constexpr int kSamples = 400;
   for (int i = 0; i < kSamples; ++i) {
     std::vector<double> values(30);
-    for (double& v : values) v = -std::log(random.uniform());
+    for (double& v : values) v = -std::log(random.openUniform());
     const BootstrapInterval interval =
         bootstrapMean(values, {.draws = 500, .seed = static_cast<std::uint64_t>(i)});
     held += interval.low <= 1 && 1 <= interval.high;

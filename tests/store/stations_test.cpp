@@ -55,7 +55,7 @@ class Stations : public Store {
     }
   }
 
-  runtime::RandomStream dice_{2026, "stations"};
+  RandomStream dice_{2026, "stations"};
 };
 
 INSTANTIATE_TEST_SUITE_P(Both, Stations, testing::Values("SQLite", "PostgreSQL"),

@@ -91,9 +91,9 @@ TEST(Learning, SaysWhatIsWrong) {
     return text.find(words) != std::string::npos && text.find("learners.json") != std::string::npos;
   };
   EXPECT_TRUE(has(complaint([](json& l) { l["version"] = 2; }), "newer"));
-  EXPECT_TRUE(has(complaint([](json& l) { l["engine"] = "squeeze"; }), "needle and surface"));
+  EXPECT_TRUE(has(complaint([](json& l) { l["engine"] = "squeeze"; }), "needle and search"));
   EXPECT_TRUE(
-      has(complaint([](json& l) { l["engine"] = "surface"; }), "of the protocol is of \"needle\""));
+      has(complaint([](json& l) { l["engine"] = "search"; }), "of the protocol is of \"needle\""));
   EXPECT_TRUE(has(complaint([](json& l) { l["groups"].erase(1); }), "lacks \"experienced\""));
   EXPECT_TRUE(
       has(complaint([](json& l) { l["groups"][1]["name"] = "masters"; }), "\"experienced\""));

@@ -1,6 +1,5 @@
 #include "apps/study/progress.h"
 
-#include "anatomy/base/utc.h"
 #include "small_protocol.h"
 
 namespace palpa::study {
@@ -92,17 +91,6 @@ TEST_F(Progress, DaysAreCountedFromWhatArrivedLast) {
   EXPECT_EQ(next("2026-04-01T00:00:00Z").not_before, "2026-04-02");
   add(3, 1, "2026-04-02T08:00:00Z");
   EXPECT_EQ(next("2026-04-02T08:30:00Z").not_before, "");  // it has begun
-}
-
-TEST(Utc, Days) {
-  EXPECT_EQ(dayOf("1970-01-01"), 0);
-  EXPECT_EQ(dayOf("2000-03-01T00:00:00Z"), 11017);
-  EXPECT_EQ(dayOf("2026-02-30"), 0);
-  EXPECT_EQ(dayOf("soon"), 0);
-  EXPECT_EQ(secondsOf("1970-01-02T01:02:03Z"), 86400 + 3723);
-  EXPECT_EQ(secondsOf("yesterday"), 0);
-  for (const char* date : {"1970-01-01", "2024-02-29", "2026-12-31"})
-    EXPECT_EQ(dateText(dayOf(date)), date);
 }
 
 }  // namespace

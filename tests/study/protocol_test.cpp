@@ -19,7 +19,7 @@ TEST(Protocol, IsReadAsWritten) {
   EXPECT_EQ(train.condition, "");
   EXPECT_EQ(train.rest_after, 2);
   EXPECT_EQ(train.rest_s, 100);
-  EXPECT_EQ(train.engine, "needle");
+  EXPECT_EQ(train.engine, station::Engine::needle);
   EXPECT_EQ(train.task, file.parent_path() / "task.json");
   EXPECT_EQ(p.block(1).role, "familiarisation");
   EXPECT_EQ(p.block(3).condition, "plain");

@@ -15,8 +15,8 @@ using assess::test::kDeg;
 
 /// What is done, in the terms of the six errors. As it stands: nothing wrong.
 struct Script {
-  double along = 0, across = 0;  ///< m, of the puncture from the taught one: toward the breastbone,
-                                 ///< toward the clavicle
+  /// M, of the puncture from the taught one: toward the breastbone, toward the clavicle
+  double along = 0, across = 0;
   double steeper = 0, cephalad = 0;           ///< rad, of the advance from the taught direction
   double clavicle_N = 1.5, clavicle_s = 0.6;  ///< the guide's touch
   bool finds_vein = true;
@@ -31,20 +31,21 @@ struct Script {
 
 /// What of a good trial differs from one to the next: figures of the shipped path, "palpa calibrate
 /// experts".
-inline Script scattered(anatomy::RandomStream& draw, const calibration::ExpertPath& path,
+inline Script scattered(RandomStream& draw, const calibration::ExpertPath& path,
                         Script script = {}) {
-  script.along += path.entry_sd * draw.normal();
-  script.across += path.entry_sd * draw.normal();
-  script.steeper += path.direction_sd * draw.normal();
-  script.cephalad += path.direction_sd * draw.normal();
-  script.clavicle_N *= 0.5 + draw.uniform();
-  script.clavicle_s *= 0.5 + draw.uniform();
+  script.along += path.entry_sd * draw.openNormal();
+  script.across += path.entry_sd * draw.openNormal();
+  script.steeper += path.direction_sd * draw.openNormal();
+  script.cephalad += path.direction_sd * draw.openNormal();
+  script.clavicle_N *= 0.5 + draw.openUniform();
+  script.clavicle_s *= 0.5 + draw.openUniform();
   return script;
 }
 
 /// A hand's tremor: 8 to 12 Hz, 0.1 mm and 0.2 degrees.
-inline void tremble(std::vector<assess::TrialSample>* samples, anatomy::RandomStream& draw) {
-  const double turn = 2 * M_PI * (8 + 4 * draw.uniform()), phase = 2 * M_PI * draw.uniform();
+inline void tremble(std::vector<assess::TrialSample>* samples, RandomStream& draw) {
+  const double turn = 2 * M_PI * (8 + 4 * draw.openUniform()),
+               phase = 2 * M_PI * draw.openUniform();
   for (assess::TrialSample& s : *samples) {
     const double c = std::cos(turn * s.t_s + phase), n = std::sin(turn * s.t_s + phase);
     s.tip_A += 1e-4 * Vec3(c, n, 0.7 * c);
@@ -64,17 +65,17 @@ inline Vec3 turned_L(const Vec3& taught_L, double steeper, double cephalad) {
 class ScriptedHand {
  public:
   ScriptedHand(const Script& script, const anatomy::LandmarkFrame& frame,
-               const calibration::ExpertPath& path, anatomy::RandomStream& draw)
+               const calibration::ExpertPath& path, RandomStream& draw)
       : script_(script), frame_(frame), path_(path), draw_(draw) {
     const Vec3 entry_L = path.entry_L + Vec3(script.along, 0, script.across);
     motion_.now().axis_A = frame.vectorToA(Vec3(0, 0.97, 0.24).normalized());
     motion_.now().tip_A = frame.pointToA(entry_L) - 0.010 * motion_.now().axis_A;
   }
   std::vector<assess::TrialSample> trial() {
-    motion_.push(0.010).puncture().push(path_.depth * (0.9 + 0.2 * draw_.uniform()));
+    motion_.push(0.010).puncture().push(path_.depth * (0.9 + 0.2 * draw_.openUniform()));
     const Vec3 direction_A =
         frame_.vectorToA(turned_L(path_.direction_L, script_.steeper, script_.cephalad));
-    motion_.hold(0.3).turnTo(direction_A, (20 + 15 * draw_.uniform()) * kDeg);
+    motion_.hold(0.3).turnTo(direction_A, (20 + 15 * draw_.openUniform()) * kDeg);
     motion_.now().plunger = script_.suction ? 0.4 : 0;
     advance();
     tremble(&motion_.samples(), draw_);
@@ -82,7 +83,7 @@ class ScriptedHand {
   }
 
  private:
-  double speed() { return 0.003 + 0.005 * draw_.uniform(); }
+  double speed() { return 0.003 + 0.005 * draw_.openUniform(); }
   void advance() {
     motion_.push(0.006, speed())
         .bone(Organ::clavicle, script_.clavicle_N)
@@ -130,7 +131,7 @@ class ScriptedHand {
   Script script_;
   const anatomy::LandmarkFrame& frame_;
   const calibration::ExpertPath& path_;
-  anatomy::RandomStream& draw_;
+  RandomStream& draw_;
   assess::test::Motion motion_{200};
 };
 

@@ -136,8 +136,9 @@ void expectClosestWithin(std::uint64_t seed, bool target, double from, double to
     const double x = floor.middle(e)[0] + r * std::cos(angle),
                  y = floor.middle(e)[1] + r * std::sin(angle);
     expectClosest(floor, {x, y, plainHeight(floor, x, y) - deepest * draw()},
-                  0.02);  // footprints every 0.2 degrees, the rest denser than 0.1 U: squared over
-                          // twice the distance
+                  // Footprints every 0.2 degrees, the rest denser than 0.1 U: squared over twice
+                  // the distance
+                  0.02);
   }
 }
 

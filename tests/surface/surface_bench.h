@@ -71,7 +71,7 @@ inline double toWay(double x, double y, double ax, double ay, double bx, double 
   return (p - a - share * way).norm();
 }
 
-/// Heights of the bumps whose footprints b is in; where there are none, of those that the way from
+/// Heights of the bumps whose footprints b is in; where there is none, of those that the way from
 /// a to b enters from outside. `unsure`: rounding decides.
 struct WayOverBumps {
   std::vector<double> heights;

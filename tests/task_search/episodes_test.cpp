@@ -109,10 +109,10 @@ TEST(SearchFile, OnADeviceThatHoldsLessRealIsWhatItHoldsAndDegradedAFifth) {
 
 /// The shipped task with one field changed.
 void refuses(const std::string& pointer, const nlohmann::json& value, const std::string& named) {
-  nlohmann::json json = station::JsonFile(station::assetFile("tasks/search.json")).json();
+  nlohmann::json json = JsonFile(station::assetFile("tasks/search.json")).json();
   json[nlohmann::json::json_pointer(pointer)] = value;
   try {
-    readSearch(station::JsonFile(json, "task.json"));
+    readSearch(JsonFile(json, "task.json"));
     ADD_FAILURE() << pointer;
   } catch (const UsageError& e) {
     EXPECT_NE(std::string(e.what()).find(named), std::string::npos) << e.what();

@@ -35,7 +35,7 @@ class WeakLoop {
   explicit WeakLoop(const WeakDevice& device)
       : device_(device), twin_(truthOf(device), Pose(Eigen::Translation3d(0, 0, 0))) {
     const SearchSettings task = shippedSearch();
-    config_.engine = haptics::Engine::floor;
+    config_.contact_mode = haptics::ContactMode::floor;
     config_.coupling.stiffness = device.stable;
     config_.safety.max_force_N = device.max_force_N;
     config_.safety.max_energy_J = 0.25;
@@ -68,9 +68,8 @@ class WeakLoop {
   }
   Vec3 at_U() const { return twin_.truePose().translation() / device_.unit; }
   double speed() const { return twin_.trueVelocity().norm(); }  ///< m/s
-  double press_U(double f) const {
-    return -f / 300 / device_.unit;
-  }  ///< how far under the floor a hand aims that presses with f
+  /// How far under the floor a hand aims that presses with f
+  double press_U(double f) const { return -f / 300 / device_.unit; }
 
  private:
   static twin::DeviceTruth truthOf(const WeakDevice& device) {

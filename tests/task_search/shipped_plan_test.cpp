@@ -46,7 +46,7 @@ struct SearchLoop {
   explicit SearchLoop(double quantum_m = 0) : quantum(quantum_m) {
     const station::Station station =
         station::readStation(station::assetFile("stations/search_bench.json"));
-    config.engine = haptics::Engine::floor;
+    config.contact_mode = haptics::ContactMode::floor;
     config.coupling = station.coupling;
     config.safety = station.safety;
     config.passivity = station.passivity;

@@ -67,7 +67,7 @@ TEST(MinJerk, WithoutDurationItJumpsAndDoesNotDivideByZero) {
 constexpr double kRms = 60e-6;
 
 std::vector<Vec3> tremor(double seconds, double dt) {
-  Tremor source(kRms, runtime::RandomStream(11, "test.tremor"));
+  Tremor source(kRms, RandomStream(11, "test.tremor"));
   for (int i = 0; i < static_cast<int>(1 / dt); ++i)
     source.next(dt);  // 1 s: ten time constants to settle
   std::vector<Vec3> path;
@@ -120,7 +120,7 @@ TEST(Tremor, AxesAreIndependentAndTheSameSeedRepeats) {
 }
 
 TEST(Tremor, WithoutAmplitudeTheHandIsStill) {
-  Tremor still(0, runtime::RandomStream(1, "x"));
+  Tremor still(0, RandomStream(1, "x"));
   for (int i = 0; i < 100; ++i) EXPECT_EQ(still.next(0.001), Vec3(Vec3::Zero()));
 }
 

@@ -14,7 +14,7 @@ constexpr double kFeltStep = 0.001;  // s
 constexpr JoltSense::Limits kNoDoubt{0.002, 2, 0, 0.0005};
 
 JoltSense fingers(const JoltSense::Limits& limits = kNoDoubt, std::uint64_t seed = 1) {
-  return {limits, runtime::RandomStream(seed, "test.jolts")};
+  return {limits, RandomStream(seed, "test.jolts")};
 }
 
 /// How many jolts are noticed while the velocity is `v(t)`, m/s.

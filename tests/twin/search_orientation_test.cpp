@@ -44,7 +44,7 @@ TEST(SearchOrientation, OneElementIsEnoughWhereverItIs) {
 }
 
 TEST(SearchOrientation, SomeFalseJoltsDoNotMatter) {
-  runtime::RandomStream random(7, "test.orientation");
+  RandomStream random(7, "test.orientation");
   for (int n = 0; n < 50; ++n) {
     const double orientation = random.uniform(0, kThirdTurn_rad);
     std::vector<double> angles;
@@ -60,7 +60,7 @@ TEST(SearchOrientation, SomeFalseJoltsDoNotMatter) {
 /// Wherever jolts lie, no direction has more of them about it than the one found; looked at as
 /// finely as it looks.
 TEST(SearchOrientation, NoDirectionHasMoreJoltsAboutIt) {
-  runtime::RandomStream random(8, "test.directions");
+  RandomStream random(8, "test.directions");
   const auto about = [](const std::vector<double>& angles, double direction) {
     return std::count_if(angles.begin(), angles.end(),
                          [&](double angle) { return apart(angle, direction) <= kSeenHalf + 1e-9; });

@@ -1,8 +1,8 @@
 #pragma once
 
-#include <algorithm>
 #include <vector>
 
+#include "anatomy/base/quantile.h"
 #include "apps/twin/virtual_camera.h"
 #include "apps/twin/virtual_camera_picture.h"
 #include "tests/support/camera_views.h"
@@ -19,12 +19,6 @@ inline Pose benchView(std::uint64_t i, double distance) {
   const auto draw = [&](std::uint64_t n) { return picture::uniform(99, 16 * i + n); };
   return lookAt({0.02 * draw(0) - 0.01, 0.02 * draw(1) - 0.01, 0}, distance, rad(30 + 15 * draw(2)),
                 rad(360 * draw(3)), rad(30 * draw(4) - 15));
-}
-
-inline double median(std::vector<double> values) {
-  std::nth_element(values.begin(), values.begin() + std::ptrdiff_t(values.size() / 2),
-                   values.end());
-  return values[values.size() / 2];
 }
 
 }  // namespace palpa::twin

@@ -97,10 +97,10 @@ PoseErrors poseErrors(const std::vector<CameraModel>& believed) {
 TEST(TrackingAccuracy, BelowATenthOfAMillimetreWithTrueIntrinsics) {
   const PoseErrors errors = poseErrors({benchLens()});
   ASSERT_EQ(errors.reach_mm.size(), 100U);
-  EXPECT_LT(median(errors.origin_mm), 0.1);
-  EXPECT_LT(median(errors.reach_mm), 0.1);
-  RecordProperty("median_origin_mm", std::to_string(median(errors.origin_mm)));
-  RecordProperty("median_reach_mm", std::to_string(median(errors.reach_mm)));
+  EXPECT_LT(upperMedian(errors.origin_mm), 0.1);
+  EXPECT_LT(upperMedian(errors.reach_mm), 0.1);
+  RecordProperty("median_origin_mm", std::to_string(upperMedian(errors.origin_mm)));
+  RecordProperty("median_reach_mm", std::to_string(upperMedian(errors.reach_mm)));
 }
 
 /// As a good calibration leaves them: focal length off by 0.05 % (0.25 mm in depth at 0.5 m),
@@ -119,10 +119,10 @@ TEST(TrackingAccuracy, BelowAMillimetreWithCalibratedIntrinsics) {
       }
   const PoseErrors errors = poseErrors(believed);
   ASSERT_EQ(errors.reach_mm.size(), 100U);
-  EXPECT_LT(median(errors.origin_mm), 0.6);
-  EXPECT_LT(median(errors.reach_mm), 0.6);
-  RecordProperty("median_origin_mm", std::to_string(median(errors.origin_mm)));
-  RecordProperty("median_reach_mm", std::to_string(median(errors.reach_mm)));
+  EXPECT_LT(upperMedian(errors.origin_mm), 0.6);
+  EXPECT_LT(upperMedian(errors.reach_mm), 0.6);
+  RecordProperty("median_origin_mm", std::to_string(upperMedian(errors.origin_mm)));
+  RecordProperty("median_reach_mm", std::to_string(upperMedian(errors.reach_mm)));
 }
 
 /// The covariance must cover what the pictures really do (corner noise is about 0.06 px here).

@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "apps/assess/metrics/metric_table.h"
 
 namespace palpa::competence {
@@ -19,7 +20,7 @@ using Json = nlohmann::json;
 class FormFile {
  public:
   FormFile(const std::string& text, std::string where) : where_(std::move(where)) {
-    json_ = Json::parse(text, nullptr, false);
+    json_ = parsedOrDiscarded(text);
     if (json_.is_discarded() || !json_.is_object())
       throw UsageError("is not JSON", where_, "Restore it from the program's assets");
     if (const double version = number(json_, "version", 1, 1e9); version != 1)

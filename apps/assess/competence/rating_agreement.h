@@ -29,8 +29,9 @@ struct Agreement {
   int trials = 0;                                    ///< rated by all of them
   std::optional<statistics::RaterAgreement> global;  ///< of the means of the global rating
   int scored = 0;
-  std::optional<double> with_total;  ///< Spearman's correlation of the raters' mean global rating
-                                     ///< with the total; negative is what is hoped for
+  /// Spearman's correlation of the raters' mean global rating with the total; negative is what is
+  /// hoped for
+  std::optional<double> with_total;
   std::vector<std::string> missing;  ///< what could not be computed, and why
 };
 

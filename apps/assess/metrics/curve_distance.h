@@ -17,9 +17,10 @@ Curve resampled(const Curve& curve, int points = kCurvePoints);
 double hausdorff(const Curve& a,
                  const Curve& b);  ///< the farthest that a point of the one lies from the other
 double frechet(const Curve& a,
-               const Curve& b);  ///< shortest leash for two that walk the curves without turning
-                                 ///< back: discrete, Eiter and Mannila 1994
-double timeWarped(const Curve& a, const Curve& b);  ///< mean distance along the best alignment:
-                                                    ///< dynamic time warping, Sakoe and Chiba 1978
+               /// Shortest leash for two that walk the curves without turning back: discrete, Eiter
+               /// and Mannila 1994
+               const Curve& b);
+/// Mean distance along the best alignment: dynamic time warping, Sakoe and Chiba 1978
+double timeWarped(const Curve& a, const Curve& b);
 
 }  // namespace palpa::metrics

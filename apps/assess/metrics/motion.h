@@ -75,13 +75,14 @@ double peakForce(const Motion& motion);  ///< N
 double meanForce(const Motion& motion);  ///< N, in contact; not a number without contact
 double overForceTime(const Motion& motion, double limit_N);  ///< s above the limit
 double forceJerk(
-    const Motion& motion);  ///< N/s: root mean square of the force's rate between neighbouring
-                            ///< steps in contact; not a number without them
+    /// N/s: root mean square of the force's rate between neighbouring steps in contact; not a
+    /// number without them
+    const Motion& motion);
 
 /// What the tool did inside. All 0 where it was never inserted.
 double tissueTime(const Motion& motion);  ///< s with any of the shaft inside
-double tissuePath(const Motion& motion);  ///< m of the tip's path while inserted in both of two
-                                          ///< neighbouring steps
+/// M of the tip's path while inserted in both of two neighbouring steps
+double tissuePath(const Motion& motion);
 
 /// m^2 that the inserted part of the shaft sweeps over: for each step the quadrilateral from
 /// (entry, tip) before to (entry, tip) after, as two triangles. A needle that goes straight in

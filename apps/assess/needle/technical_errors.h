@@ -6,9 +6,10 @@ namespace palpa::assess {
 
 /// How far the needle was aimed from the taught direction, in the parts that have names.
 struct Aim {
-  double steeper = 0;        ///< rad, more toward the back
-  double more_cephalad = 0;  ///< rad, in the frontal plane, scaled to a true angle; 0 where the
-                             ///< needle is so steep that it points nowhere there
+  double steeper = 0;  ///< rad, more toward the back
+  /// Rad, in the frontal plane, scaled to a true angle; 0 where the needle is so steep that it
+  /// points nowhere there
+  double more_cephalad = 0;
 };
 Aim aimOf(const Vec3& axis_A, const anatomy::LandmarkFrame& frame,
           const calibration::ExpertPath& path);

@@ -45,10 +45,10 @@ struct Penalty {
 
 /// One of the six common errors of subclavian access that was made.
 struct TechnicalError {
-  std::string code;      ///< "site", "landmarks", "periosteum", "shallow", "cephalad", "left_vein"
-  std::string title;     ///< "Too cephalad"
-  std::string sentence;  ///< "The needle was aimed 14° too far toward the head over 12.0 mm,
-                         ///< from 8.2 s on (...): ..."
+  std::string code;   ///< "site", "landmarks", "periosteum", "shallow", "cephalad", "left_vein"
+  std::string title;  ///< "Too cephalad"
+  /// "The needle was aimed 14° too far toward the head over 12.0 mm, from 8.2 s on (...): ..."
+  std::string sentence;
   double t_s = 0;
   double value = 0, threshold = 0;
   std::string unit;  ///< of both

@@ -24,9 +24,8 @@ class CoverageMap {
   int columns() const { return columns_; }  ///< along x
   int rows() const { return rows_; }        ///< along y, from the trainee away
   Vec3 middle(int column, int row) const;   ///< of a cell, on the top
-  int level(int column, int row) const {
-    return cells_[index(column, row)].level;
-  }  ///< 0: not felt, 1 light, 2 medium, 3 deep
+  /// 0: not felt, 1 light, 2 medium, 3 deep
+  int level(int column, int row) const { return cells_[index(column, row)].level; }
   int visits(int column, int row) const { return cells_[index(column, row)].visits; }
 
   double share(int level) const;  ///< of the cells felt at this level or a deeper one

@@ -49,8 +49,9 @@ struct PalpationScore {
   int false_alarms = 0;  ///< marks that are no lump's
   int repeated = 0;      ///< marks of a lump that had been found
   int clear_quadrants = 0,
-      wrong_quadrants = 0;  ///< quarters of the area with no lump within `found_within`; those
-                            ///< among them that a false alarm calls ill
+      /// Quarters of the area with no lump within `found_within`; those among them that a false
+      /// alarm calls ill
+      wrong_quadrants = 0;
   std::array<double, kPressureLevels> coverage{};  ///< share felt at each level or deeper
   double twice = 0;                                ///< share felt again
   SearchedPattern pattern;

@@ -71,8 +71,9 @@ std::string palpationSummary(const PalpationFacts& facts, const PalpationScore& 
 namespace {
 
 constexpr double kTooHard = 0.01,
-                 kTooLight = 0.4;  // of the time of touching [chosen: every press begins and ends
-                                   // lightly, that alone is about 0.15]
+                 // Of the time of touching [chosen: every press begins and ends lightly, that alone
+                 // is about 0.15]
+    kTooLight = 0.4;
 constexpr double kDeeply = 0.5;    // of the area felt at the deepest level [chosen]
 constexpr double kCloser = 1.05;   // times the force of searching
 constexpr int kFewestPresses = 8;  // below it nothing can be said of a pattern

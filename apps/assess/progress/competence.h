@@ -15,13 +15,14 @@ struct Competence {
   statistics::CusumLimits limits;
   statistics::Cusum chart;
   std::optional<std::size_t>
-      reached;  ///< trial (from 1) at which the acceptable rate was accepted; none: never, or an
-                ///< unacceptable rate was found after it
+      /// Trial (from 1) at which the acceptable rate was accepted; none: never, or an unacceptable
+      /// rate was found after it
+      reached;
   std::optional<std::size_t>
       lost;  ///< trial at which an unacceptable rate was found, and no acceptable one since
-  std::size_t minimum = 0;      ///< fewest trials that can certify anybody: the shortest clean run
-  std::size_t still_clean = 0;  ///< trials without failure from now on until the acceptable rate is
-                                ///< accepted; 0 once it was
+  std::size_t minimum = 0;  ///< fewest trials that can certify anybody: the shortest clean run
+  /// Trials without failure from now on until the acceptable rate is accepted; 0 once it was
+  std::size_t still_clean = 0;
   bool tooFew() const { return chart.sums.size() < minimum; }
 };
 

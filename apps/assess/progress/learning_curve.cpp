@@ -71,13 +71,13 @@ std::vector<std::vector<double>> drawnCurves(const std::vector<Basis>& bases, co
   const double count = static_cast<double>(y.size()), inflate = std::sqrt(count / (count - 3));
   std::vector<double> residuals;
   for (std::size_t i = 0; i < y.size(); ++i) residuals.push_back(inflate * (y[i] - fit.at(n[i])));
-  anatomy::RandomStream random(seed);
+  RandomStream random = RandomStream::ofSeed(seed);
   std::vector<std::vector<double>> curves(length + 1);  // the last: the change
   for (int d = 0; d < kCurveDraws; ++d) {
     std::vector<double> drawn;
     for (const double trial : n)
       drawn.push_back(fit.at(trial) +
-                      residuals[static_cast<std::size_t>(random.uniform() * count)]);
+                      residuals[static_cast<std::size_t>(random.openUniform() * count)]);
     const CurveFit again = bestFit(bases, drawn);
     for (std::size_t i = 0; i < length; ++i)
       curves[i].push_back(again.at(static_cast<double>(i + 1)));
@@ -108,12 +108,12 @@ std::optional<LearningCurve> learningCurve(const std::vector<double>& values, st
   const auto drawn = drawnCurves(bases, fit, curve.trials, y, values.size(), seed);
   for (std::size_t i = 0; i < values.size(); ++i) {
     curve.fitted.push_back(fit.at(static_cast<double>(i + 1)));
-    curve.low.push_back(statistics::quantileOf(drawn[i], 0.025));
-    curve.high.push_back(statistics::quantileOf(drawn[i], 0.975));
+    curve.low.push_back(statistics::interpolatedQuantile(drawn[i], 0.025));
+    curve.high.push_back(statistics::interpolatedQuantile(drawn[i], 0.975));
   }
   curve.change = curve.fitted.back() - curve.fitted.front();
-  curve.change_low = statistics::quantileOf(drawn.back(), 0.025);
-  curve.change_high = statistics::quantileOf(drawn.back(), 0.975);
+  curve.change_low = statistics::interpolatedQuantile(drawn.back(), 0.025);
+  curve.change_high = statistics::interpolatedQuantile(drawn.back(), 0.975);
   return curve;
 }
 

@@ -4,6 +4,7 @@
 #include <iterator>
 #include <limits>
 
+#include "anatomy/base/quantile.h"
 #include "anatomy/base/random.h"
 #include "apps/assess/statistics/sample.h"
 #include "apps/assess/trial.h"
@@ -71,10 +72,7 @@ double medianSeconds(const std::vector<SearchTrial>& trials) {
   std::vector<double> seconds;
   for (const SearchTrial& trial : trials)
     if (chose(trial)) seconds.push_back(trial.seconds);
-  if (seconds.empty()) return std::numeric_limits<double>::quiet_NaN();
-  std::sort(seconds.begin(), seconds.end());
-  const std::size_t half = seconds.size() / 2;
-  return seconds.size() % 2 ? seconds[half] : 0.5 * (seconds[half - 1] + seconds[half]);
+  return median(std::move(seconds));
 }
 
 std::vector<SearchTally> talliesOf(const std::vector<SearchTrial>& trials) {
@@ -113,10 +111,10 @@ FoundOf foundIn(const std::vector<SearchTrial>& trials, SearchMode mode) {
   return sum;
 }
 
-double resampledShare(const FoundOf& seen, anatomy::RandomStream& random) {
+double resampledShare(const FoundOf& seen, RandomStream& random) {
   const double likely = (seen.found + 0.5) / (seen.of + 1);
   FoundOf drawn{0, seen.of};
-  for (int i = 0; i < seen.of; ++i) drawn.found += random.uniform() < likely;
+  for (int i = 0; i < seen.of; ++i) drawn.found += random.openUniform() < likely;
   return drawn.share();
 }
 
@@ -130,7 +128,7 @@ std::optional<Recovery> recoveryOf(const std::vector<SearchTrial>& trials, std::
     return std::nullopt;
   Recovery recovery{(augmented.share() - degraded.share()) / (real.share() - degraded.share()),
                     -kNoEnd, kNoEnd};
-  anatomy::RandomStream random(seed);
+  RandomStream random = RandomStream::ofSeed(seed);
   std::vector<double> shares;
   for (int i = 0; i < kResamples; ++i) {
     const double r = resampledShare(real, random), d = resampledShare(degraded, random),

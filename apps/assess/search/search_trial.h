@@ -28,10 +28,11 @@ struct SearchTrial {
   std::string outcome;  ///< "done", "time", "aborted", "void"
   std::string block;    ///< "baseline", "training", "evaluation"; empty: none
   SearchMode mode = SearchMode::real;
-  double orientation_deg = 0;  ///< of the triangle: where element 0 lies, seen from above, counted
-                               ///< from x toward y; the next follow by 120 each
-  int target = 0;              ///< element, 0 to 2
-  int chosen = -1;             ///< element; -1: none
+  /// Of the triangle: where element 0 lies, seen from above, counted from x toward y; the next
+  /// follow by 120 each
+  double orientation_deg = 0;
+  int target = 0;   ///< element, 0 to 2
+  int chosen = -1;  ///< element; -1: none
   bool found() const { return chosen == target; }
   double seconds = 0;  ///< pauses left out
   double path_m = 0;   ///< of the probe, in the hand

@@ -29,9 +29,10 @@ struct SqueezeTrial {
 
   bool answered() const { return outcome == "done" && (said == 1 || said == 2); }
   bool right() const { return answered() && (said == 2) == (factors[1] > factors[0]); }
+  /// Above 1
   double ratio() const {
     return factors[1] > factors[0] ? factors[1] / factors[0] : factors[0] / factors[1];
-  }  ///< above 1
+  }
 };
 
 /// "Right: the second one was harder, by 33 %."

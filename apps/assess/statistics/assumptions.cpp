@@ -110,7 +110,7 @@ NormalityTest shapiroWilk(const std::vector<double>& values) {
 double spreadDiffers(const std::vector<std::vector<double>>& groups) {
   std::vector<std::vector<double>> distances = groups;
   for (std::vector<double>& group : distances) {
-    const double median = quantileOf(group, 0.5);
+    const double median = interpolatedQuantile(group, 0.5);
     for (double& v : group) v = std::abs(v - median);
   }
   return oneWayAnova(distances).p;

@@ -22,10 +22,10 @@ void require(const Samples& samples, const BootstrapSettings& settings) {
                 "Check the settings");
 }
 
-void draw(const Samples& samples, anatomy::RandomStream& random, Samples& drawn) {
+void draw(const Samples& samples, RandomStream& random, Samples& drawn) {
   for (std::size_t s = 0; s < samples.size(); ++s)
     for (double& value : drawn[s])
-      value = samples[s][static_cast<std::size_t>(random.uniform() *
+      value = samples[s][static_cast<std::size_t>(random.openUniform() *
                                                   static_cast<double>(samples[s].size()))];
 }
 
@@ -57,7 +57,7 @@ BootstrapInterval bootstrap(const Samples& samples,
                             const std::function<double(const Samples&)>& figure,
                             const BootstrapSettings& settings) {
   require(samples, settings);
-  anatomy::RandomStream random(settings.seed);
+  RandomStream random = RandomStream::ofSeed(settings.seed);
   BootstrapInterval interval{figure(samples), 0, 0};
   std::vector<double> figures(static_cast<std::size_t>(settings.draws));
   Samples drawn = samples;
@@ -77,8 +77,8 @@ BootstrapInterval bootstrap(const Samples& samples,
                acceleration = accelerationOf(samples, figure);
   const auto end = [&](double tail) {
     const double z = bias + boost::math::quantile(normal, tail);
-    return quantileOf(figures,
-                      boost::math::cdf(normal, bias + z / std::max(1e-3, 1 - acceleration * z)));
+    return interpolatedQuantile(
+        figures, boost::math::cdf(normal, bias + z / std::max(1e-3, 1 - acceleration * z)));
   };
   interval.low = end((1 - settings.level) / 2);
   interval.high = end((1 + settings.level) / 2);

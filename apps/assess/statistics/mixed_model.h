@@ -21,8 +21,8 @@ struct MixedModel {
   std::vector<FixedEffect> effects;
   double sd_subject = 0, sd_residual = 0;
   double log_likelihood = 0;  ///< restricted
-  double alike = 0;           ///< share of the spread that is the subjects' own: sd_subject^2 /
-                              ///< (sd_subject^2 + sd_residual^2)
+  /// Share of the spread that is the subjects' own: sd_subject^2 / (sd_subject^2 + sd_residual^2)
+  double alike = 0;
   std::size_t subjects = 0, trials = 0;
 };
 

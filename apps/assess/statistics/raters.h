@@ -13,9 +13,9 @@ struct Icc {
 /// How far raters agree on numbers; subjects x raters, no gap. Names after Shrout and Fleiss,
 /// Psychol. Bull. 86, 1979; intervals after McGraw and Wong 1996.
 struct RaterAgreement {
-  Icc one_way;      ///< ICC(1,1): each subject had raters of its own
-  Icc agreement;    ///< ICC(2,1): the same raters, drawn from many; a strict rater counts as
-                    ///< disagreement
+  Icc one_way;  ///< ICC(1,1): each subject had raters of its own
+  /// ICC(2,1): the same raters, drawn from many; a strict rater counts as disagreement
+  Icc agreement;
   Icc consistency;  ///< ICC(3,1): the same raters, these only; a strict rater does not count
   Icc one_way_mean, agreement_mean,
       consistency_mean;  ///< ICC(1,k), (2,k), (3,k): of the raters' mean

@@ -46,7 +46,7 @@ Moments momentsOf(const std::vector<double>& values, const std::string& where) {
   return {mean, sdOf(values, mean), static_cast<double>(values.size())};
 }
 
-double quantileOf(std::vector<double> values, double q) {
+double interpolatedQuantile(std::vector<double> values, double q) {
   if (values.empty()) return kNone;
   std::sort(values.begin(), values.end());
   return between(values, std::clamp(q, 0.0, 1.0));

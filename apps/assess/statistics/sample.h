@@ -22,7 +22,7 @@ double meanOf(const std::vector<double>& values);  ///< not a number for none
 
 /// The share q of the values lies below: linear between the two nearest (type 7 of Hyndman and Fan
 /// 1996). Not a number for none.
-double quantileOf(std::vector<double> values, double q);
+double interpolatedQuantile(std::vector<double> values, double q);
 
 struct Description {
   std::size_t n = 0;

@@ -75,7 +75,10 @@ bool isAnatomy(const std::string& coordinates) {
 }  // namespace
 
 IgtlServer::IgtlServer(const std::string& ipv4, std::uint16_t port, const Pose& X_WA)
-    : listener_(ipv4, port), X_RasW_((X_WA * rasInAnatomy()).inverse()) {
+    : listener_(ipv4, port, "OpenIGTLink",
+                "Choose another port, or end the program that holds it (3D Slicer's or PLUS' "
+                "server use 18944 too)"),
+      X_RasW_((X_WA * rasInAnatomy()).inverse()) {
   showAlways(kReference, kRas, X_RasW_);
   showAlways(kPatient, kReference, X_RasW_.inverse());
 }

@@ -15,12 +15,12 @@ namespace palpa::igt {
 struct TrackerSettings {
   std::string host = "localhost";
   std::uint16_t port = 18944;
-  std::string transform;  ///< "ReferenceToCamera": the pose of the table's marker R in the camera's
-                          ///< marker K
+  /// "ReferenceToCamera": the pose of the table's marker R in the camera's marker K
+  std::string transform;
   Pose X_CK = Pose::Identity();  ///< the camera's marker in the camera
   Pose X_RW = Pose::Identity();  ///< the board in the table's marker
-  int tracking_ms = 0;   ///< ask for TDATA at this resolution, for senders that do not send by
-                         ///< themselves; 0: do not ask
+  /// Ask for TDATA at this resolution, for senders that do not send by themselves; 0: do not ask
+  int tracking_ms = 0;
   double latency_s = 0;  ///< from the measurement to the arrival here
 };
 

@@ -1,16 +1,13 @@
 #include "apps/record/store/delivery.h"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdlib>
 #include <fstream>
 #include <optional>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/os/file_access.h"
+#include "apps/os/file_lock.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::record {
@@ -22,22 +19,13 @@ constexpr char kSuffix[] = ".pending";
 }  // namespace
 
 PendingHold::PendingHold(const fs::path& note)
-    : descriptor_(::open(note.c_str(), O_RDONLY | O_CLOEXEC)) {
-  if (descriptor_ >= 0) ::flock(descriptor_, LOCK_EX | LOCK_NB);
-}
+    : lock_(os::FileLock::exclusive(note, os::FileLock::Missing::fails)) {}
 
-PendingHold::~PendingHold() {
-  if (descriptor_ >= 0) ::close(descriptor_);
-}
+PendingHold::~PendingHold() = default;
 
 PendingList::PendingList(fs::path folder) : folder_(std::move(folder)) {}
 
-fs::path PendingList::usualFolder() {
-  if (const char* state = std::getenv("XDG_STATE_HOME"); state && *state == '/')
-    return fs::path(state) / "palpa/pending";
-  const char* home = std::getenv("HOME");
-  return fs::path(home && *home ? home : "/tmp") / ".local/state/palpa/pending";
-}
+fs::path PendingList::usualFolder() { return os::stateFolder("/tmp") / "palpa/pending"; }
 
 fs::path PendingList::noteOf(const std::string& uuid) const { return folder_ / (uuid + kSuffix); }
 
@@ -75,13 +63,7 @@ std::unique_ptr<PendingHold> PendingList::hold(const std::string& uuid) const {
   return std::make_unique<PendingHold>(noteOf(uuid));
 }
 
-bool PendingList::isHeld(const std::string& uuid) const {
-  const int descriptor = ::open(noteOf(uuid).c_str(), O_RDONLY | O_CLOEXEC);
-  if (descriptor < 0) return false;
-  const bool held = ::flock(descriptor, LOCK_SH | LOCK_NB) != 0;
-  ::close(descriptor);
-  return held;
-}
+bool PendingList::isHeld(const std::string& uuid) const { return os::isLocked(noteOf(uuid)); }
 
 Delivered deliver(const std::string& url, const StoredSession& session,
                   const std::vector<StoredTrial>& trials, const Patience& patience) {

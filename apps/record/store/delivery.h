@@ -8,6 +8,10 @@
 
 #include "apps/record/store/record_store.h"
 
+namespace palpa::os {
+class FileLock;
+}
+
 namespace palpa::record {
 
 /// A session whose trials may not all have reached the store yet.
@@ -27,7 +31,7 @@ class PendingHold {
   PendingHold& operator=(const PendingHold&) = delete;
 
  private:
-  int descriptor_ = -1;
+  std::unique_ptr<os::FileLock> lock_;  ///< null: there is no note, or another holds it
 };
 
 /// This station's list of sessions still to be delivered: a small file each, in a folder that

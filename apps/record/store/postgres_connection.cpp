@@ -1,7 +1,7 @@
 #include <cmath>
 #include <cstdio>
-#include <pqxx/pqxx>
 
+#include "apps/record/store/postgres_library.h"
 #include "apps/record/store/sql_connection.h"
 
 namespace palpa::record {
@@ -57,12 +57,9 @@ class PostgresConnection final : public SqlConnection {
       std::vector<const char*> parameters;
       for (std::size_t i = 0; i < values.size(); ++i)
         parameters.push_back(isNothing(values[i]) ? nullptr : texts[i].c_str());
-      const auto ask = [&](pqxx::transaction_base& transaction) {
-        return transaction.exec_params(sql, pqxx::prepare::make_dynamic_params(parameters));
-      };
-      if (work_) return rowsOf(ask(*work_));
+      if (work_) return rowsOf(postgres::execute(*work_, sql, parameters));
       pqxx::nontransaction alone(*connection_);
-      return rowsOf(ask(alone));
+      return rowsOf(postgres::execute(alone, sql, parameters));
     });
   }
 
@@ -164,8 +161,8 @@ class PostgresConnection final : public SqlConnection {
     } catch (const pqxx::failure& e) {
       throw Error("answered with an error (" + firstLine(e.what()) + ")", place(),
                   "Check that this user may read and write there");
-    } catch (const pqxx::pqxx_exception& e) {
-      throw Error("could not be understood (" + firstLine(e.base().what()) + ")", place(),
+    } catch (const postgres::LogicFailure& e) {
+      throw Error("could not be understood (" + firstLine(postgres::reasonOf(e)) + ")", place(),
                   "Report this");
     }
   }

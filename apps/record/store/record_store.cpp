@@ -80,7 +80,7 @@ RecordStore::RecordStore(const std::string& url) : RecordStore(connect(url)) {}
 void RecordStore::addTrainee(const Trainee& trainee) {
   require(trainee);
   SqlTransaction transaction(*connection_);
-  if (wasDeleted(station::sha256(trainee.id)))
+  if (wasDeleted(sha256(trainee.id)))
     throw UsageError("was deleted on request, and late deliveries under this name are refused",
                      "trainee " + trainee.id, "Choose another pseudonym");
   const SqlRows added = connection_->query(
@@ -134,7 +134,7 @@ std::vector<Trainee> RecordStore::overdue(const std::string& date) {
 void RecordStore::requireSession(const StoredSession& s) {
   if (connection_->query("UPDATE trainees SET id=id WHERE id=$1 RETURNING id", {s.trainee})
           .empty()) {
-    if (wasDeleted(station::sha256(s.trainee)))
+    if (wasDeleted(sha256(s.trainee)))
       throw PersonDeleted("was deleted on request; the trial is refused", "trainee " + s.trainee,
                           "Its evidence is to be removed, too");
     throw UsageError("is not in the records", "trainee " + s.trainee,
@@ -289,7 +289,7 @@ std::vector<StoredSession> RecordStore::deletePerson(const std::string& id,
   connection_->query("DELETE FROM trainees WHERE id=$1", {id});
   connection_->query(
       "INSERT INTO deletions(digest,deleted_utc) VALUES($1,$2) ON CONFLICT(digest) DO NOTHING",
-      {station::sha256(id), now_utc});
+      {sha256(id), now_utc});
   transaction.commit();
   return theirs;
 }

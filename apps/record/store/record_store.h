@@ -34,8 +34,9 @@ struct StoredCalibration {
 struct StoredSession {
   std::string uuid;
   std::string trainee;
-  std::int64_t arrival = 0;  ///< 1, 2, ... of this trainee: the order in which sessions came,
-                             ///< whatever clocks said; 0: not yet stored
+  /// 1, 2, ... of this trainee: the order in which sessions came, whatever clocks said; 0: not yet
+  /// stored
+  std::int64_t arrival = 0;
   std::string started_utc;
   std::string software, task, station;
   bool simulated = false;

@@ -1,13 +1,11 @@
-#include <fcntl.h>
 #include <sqlite3.h>
-#include <unistd.h>
 
-#include <cerrno>
 #include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
 
+#include "apps/os/file_access.h"
 #include "apps/record/sqlite.h"
 #include "apps/record/store/sql_connection.h"
 #include "apps/runtime/clock.h"
@@ -19,11 +17,9 @@ constexpr int kRecordsApplicationId = 0x70616c52;  // "palR"
 constexpr int kWaitForOthers_ms = 20'000;          // eight stations that write at once take turns
 
 void makeFile(const std::string& file) {
-  const int descriptor = ::open(file.c_str(), O_CREAT | O_RDWR | O_CLOEXEC, 0600);
-  if (descriptor < 0)
-    throw Error(std::string("cannot be opened for writing (") + std::strerror(errno) + ")",
-                "records file " + file, "Check that its folder exists and may be written");
-  ::close(descriptor);
+  if (const std::error_code problem = os::createPrivate(file))
+    throw Error("cannot be opened for writing (" + problem.message() + ")", "records file " + file,
+                "Check that its folder exists and may be written");
 }
 
 /// SQLite fills up what is missing of the last page and says nothing. With a log beside, the file

@@ -1,9 +1,8 @@
 #include "apps/record/store/store_look.h"
 
-#include <unistd.h>
-
 #include <filesystem>
 
+#include "apps/os/file_access.h"
 #include "apps/record/store/migrations.h"
 #include "apps/record/store/sql_connection.h"
 
@@ -23,7 +22,7 @@ void requireWritable(const std::string& file) {
   std::error_code none;
   const fs::path folder = fs::absolute(file, none).parent_path();
   for (const fs::path& path : {fs::path(file), folder})
-    if (::access(path.c_str(), W_OK) != 0)
+    if (!os::mayWrite(path))
       throw Error("may not be written by this user", "records file " + file,
                   "Make the file and its folder writable (chmod u+w " + path.string() +
                       "), or name other records: PALPA_RECORDS");

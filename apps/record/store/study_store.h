@@ -58,8 +58,8 @@ class StudyStore {
                               const std::string& trainee = "");  ///< by trainee, session, item
 
  private:
-  std::uint64_t seedOf(const StudyBeginning& beginning);  ///< within a transaction; throws
-                                                          ///< UsageError for another protocol
+  /// Within a transaction; throws UsageError for another protocol
+  std::uint64_t seedOf(const StudyBeginning& beginning);
   SqlConnection& connection_;
 };
 

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cctype>
-#include <fstream>
-#include <iterator>
 #include <string>
 
 #include "anatomy/base/base64.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/report/page/numbers.h"
 #include "apps/report/page/style.h"
 
@@ -122,8 +121,7 @@ namespace {
 
 /// The file's bytes if it is a PNG, else "".
 std::string readPng(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
-  std::string bytes{std::istreambuf_iterator<char>(stream), {}};
+  const std::string bytes = readWhole(file).value_or("");
   return bytes.starts_with("\x89PNG\r\n\x1a\n") ? bytes : "";
 }
 

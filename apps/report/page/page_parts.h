@@ -34,7 +34,7 @@ void writeWho(Html& html, const std::string& trainee, const std::string& when, s
 /// "SIMULATED", on top of a page whose operator or bench is.
 void writeSimulatedBanner(Html& html);
 
-/// Name, value and remark, one fact a row; nothing where there are none.
+/// Name, value and remark, one fact a row; nothing where there is none.
 void writeFactTable(Html& html, const std::vector<Fact>& facts);
 /// The same in a card with a title.
 void writeFacts(Html& html, const char* title, const std::vector<Fact>& facts);

@@ -45,7 +45,7 @@ void writePalpationReport(const PalpationReport& report, const std::filesystem::
 ///   TIME_S GUIDED (of the time) ERROR_MEAN_MM (between mark and lump, of the lumps found)
 ///   SIZE_ERROR_MEAN_MM (said less true, with sign, of those graded) AT_STANDARD (this trial;
 ///   nobody passes by one) AUGMENTED (cues were added to the forces), then of each part of the task
-///   what subtask_csv.h says
+///   what subtaskColumns says
 void writePalpationCsv(const std::string& user_id,
                        const std::vector<assess::PalpationAssessment>& trials,
                        const std::filesystem::path& file);

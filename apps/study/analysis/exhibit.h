@@ -77,9 +77,9 @@ struct StudyResult {
   std::vector<std::string> software;
   std::vector<std::string> findings;  ///< plain sentences, most important first
   std::vector<Exhibit> exhibits;
-  std::vector<std::string> cautions;         ///< what cannot be said, and why
-  std::vector<std::string> published_words;  ///< why the figures after the published way are not to
-                                             ///< be trusted; empty: not asked for
+  std::vector<std::string> cautions;  ///< what cannot be said, and why
+  /// Why the figures after the published way are not to be trusted; empty: not asked for
+  std::vector<std::string> published_words;
 };
 
 }  // namespace palpa::study_analysis

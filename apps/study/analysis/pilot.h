@@ -19,9 +19,8 @@ struct LearningCell {
   Comparison test;                     ///< last two against first two, paired, one value a subject
   statistics::BootstrapInterval rate;  ///< 1 - last / first, subjects resampled
   std::vector<double> rates;           ///< a subject each
-  double rateLow() const {
-    return -test.high / test.b.mean;
-  }  ///< 95 % interval of the fall by Student's t, over the mean of the first two
+  /// 95 % interval of the fall by Student's t, over the mean of the first two
+  double rateLow() const { return -test.high / test.b.mean; }
   double rateHigh() const { return -test.low / test.b.mean; }
 };
 

@@ -61,14 +61,14 @@ std::vector<StudyRow> drawStudy(const std::vector<LearningModel>& models, int su
   if (models.empty() || subjects < 1 || trials < 1)
     throw UsageError("a drawn study needs a model, subjects and trials", "learning model",
                      "Ask for at least one of each");
-  anatomy::RandomStream random(seed);
+  RandomStream random = RandomStream::ofSeed(seed);
   std::vector<StudyRow> rows;
   int person = 0;
   for (std::size_t cell = 0; cell < models[0].curves.size(); ++cell)
     for (int s = 0; s < subjects; ++s) {
       const std::string id = "S" + std::to_string(1000 + ++person).substr(1);
       std::vector<double> own;
-      for (const LearningModel& m : models) own.push_back(m.subject_sd * random.normal());
+      for (const LearningModel& m : models) own.push_back(m.subject_sd * random.openNormal());
       for (int trial = 1; trial <= trials; ++trial) {
         StudyRow row{id,
                      models[0].curves[cell].group,
@@ -83,7 +83,7 @@ std::vector<StudyRow> drawStudy(const std::vector<LearningModel>& models, int su
         for (std::size_t m = 0; m < models.size(); ++m) {
           const LearningCurve& c = models[m].curves.at(cell);
           row.metrics[models[m].metric] = c.asymptote + c.gain * std::exp(-c.rate * (trial - 1)) +
-                                          own[m] + models[m].residual_sd * random.normal();
+                                          own[m] + models[m].residual_sd * random.openNormal();
         }
         rows.push_back(std::move(row));
       }

@@ -46,8 +46,9 @@ struct Detections {
   int groups = 0,
       learning = 0;  ///< one value a subject, two-sided: Welch between groups, paired within
   int groups_published = 0,
-      learning_published = 0;  ///< trials pooled, one-tailed: experienced people have smaller
-                               ///< figures, figures fall with practice
+      /// Trials pooled, one-tailed: experienced people have smaller figures, figures fall with
+      /// practice
+      learning_published = 0;
 };
 
 struct DrawnStudies {

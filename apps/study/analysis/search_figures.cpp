@@ -92,7 +92,7 @@ const SearchSubject* typicalOf(const SearchStudy& study, const std::string& trai
   for (const SearchSubject& s : study.subjects)
     if (s.training == training) sums.push_back(s.sum());
   if (sums.empty()) return nullptr;
-  const double median = statistics::quantileOf(sums, 0.5);
+  const double median = statistics::interpolatedQuantile(sums, 0.5);
   const SearchSubject* nearest = nullptr;
   for (const SearchSubject& s : study.subjects)
     if (s.training == training &&

@@ -1,4 +1,5 @@
 #include "apps/study/run/participant.h"
+#include "anatomy/base/json_text.h"
 #include "apps/runtime/clock.h"
 
 #include <algorithm>
@@ -40,8 +41,7 @@ void needFit(const record::Trainee& trainee, const study::Protocol& protocol, bo
 /// Whose session it is; empty where that cannot be read, as `palpa records deliver` says.
 std::string traineeIn(const fs::path& evidence) {
   try {
-    return nlohmann::json::parse(record::SessionReader(evidence).info().session_json)
-        .value("trainee", "");
+    return parseJson(record::SessionReader(evidence).info().session_json).value("trainee", "");
   } catch (const std::exception&) {
     return "";
   }
@@ -197,7 +197,7 @@ namespace {
 
 void addExpertsOf(const study::Block& block,
                   std::vector<std::pair<std::string, std::string>>* barred) {
-  if (block.engine != "needle") return;
+  if (block.engine != station::Engine::needle) return;
   const task_needle::TaskSettings task = task_needle::readTask(block.task);
   if (task.expert_path.empty()) return;
   for (const std::string& expert : calibration::readExpertPath(task.expert_path).experts)

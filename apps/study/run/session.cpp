@@ -8,6 +8,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/uuid.h"
+#include "apps/station/engine.h"
 
 namespace palpa::study {
 namespace {
@@ -15,10 +16,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t kSeedsOfStep = 10'000;  // more than a block can have trials
-
-std::string commandOf(const std::string& engine) {
-  return engine == "surface" ? "search" : engine == "needle" ? "paracentesis" : engine;
-}
 
 void present(const study::Presentation& p, session::SessionOptions* o) {
   o->force_feedback = p.force_feedback;
@@ -37,7 +34,7 @@ session::SessionOptions studySession(const session::SessionOptions& place,
                                      const record::Enrolment& enrolment, const study::Next& next) {
   const study::Block& block = protocol.block(next.step);
   session::SessionOptions o = place;
-  o.command = commandOf(block.engine);
+  o.command = station::commandOf(block.engine);
   o.task = block.task.string();
   o.trainee = enrolment.trainee;
   o.role = block.role;
@@ -46,7 +43,7 @@ session::SessionOptions studySession(const session::SessionOptions& place,
            static_cast<std::uint64_t>(next.done);
   o.demonstration = o.familiarisation = false;
   present(protocol.condition(next.condition)->shows, &o);
-  o.uuid = record::newUuid();
+  o.uuid = newUuid();
   o.study = {protocol.id, block.step,    enrolment.group, next.condition,
              block.name,  next.done + 1, protocol.sha256};
   return o;
@@ -111,7 +108,7 @@ bool askQuestions(const study::Questionnaire& questionnaire, const study::Next& 
 
 bool takeAnswers(const std::string& path, const study::Questionnaire& questionnaire,
                  const study::Next& next, StudyParticipant& participant) {
-  const station::JsonFile file(path);
+  const JsonFile file(path);
   if (!file.json().is_object()) file.refuse("", "must be items and answers");
   for (const auto& [id, answer] : file.json().items()) {
     const auto item = std::find_if(questionnaire.items.begin(), questionnaire.items.end(),

@@ -49,7 +49,8 @@ constexpr double kPicturesOfCohort_Hz = 0.8;
 void buildWorlds(Shared& shared) {
   for (const study::Session& session : shared.protocol.sessions)
     for (const study::Block& block : session.blocks) {
-      if (block.engine != "needle" || shared.needle_worlds.count(block.task)) continue;
+      if (block.engine != station::Engine::needle || shared.needle_worlds.count(block.task))
+        continue;
       session::SessionOptions options = shared.options.session;
       options.task = block.task.string();
       auto& world = shared.needle_worlds[block.task] =
@@ -88,8 +89,7 @@ std::vector<Subject> enrolAll(const StudyOptions& o, const study::Protocol& prot
       };
       subjects.push_back(
           {studies.enrol({protocol.id, protocol.sha256, o.seed, now}, wanted, draw),
-           runtime::RandomStream(o.seed, "study.person." + group.name + "." + std::to_string(i))
-               .bits()});
+           RandomStream(o.seed, "study.person." + group.name + "." + std::to_string(i)).bits()});
       if (subjects.back().enrolment.group != group.name)
         throw UsageError(
             "is enrolled in another group", "trainee " + id,
@@ -120,7 +120,7 @@ session::LearnerOptions learnerAt(const Shared& shared, const Subject& subject,
 
 bool runTrials(const Shared& shared, const session::SessionOptions& session,
                const study::Block& block, const fs::path& folder) {
-  if (block.engine == "needle")
+  if (block.engine == station::Engine::needle)
     return !session::runNeedleSession(session, *shared.needle_worlds.at(block.task), folder).quit;
   return !session::runSearch(session, session::SearchWorld(session), folder).quit;
 }

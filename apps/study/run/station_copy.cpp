@@ -1,9 +1,9 @@
 #include "apps/study/run/station_copy.h"
 
-#include <fstream>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/record/store/delivery.h"
@@ -21,14 +21,14 @@ constexpr std::size_t kTellApart = 12;  // digits of a digest
 fs::path studyCopyFile(const std::string& study, const std::string& trainee,
                        const std::string& url) {
   return record::PendingList::usualFolder().parent_path() / "studies" /
-         (study + "-" + trainee + "-" + station::sha256(url).substr(0, kTellApart) + ".json");
+         (study + "-" + trainee + "-" + sha256(url).substr(0, kTellApart) + ".json");
 }
 
 std::optional<StudyCopy> readStudyCopy(const fs::path& file) {
-  std::ifstream stream(file);
-  if (!stream) return std::nullopt;
+  const std::optional<std::string> text = readWhole(file);
+  if (!text) return std::nullopt;
   try {
-    const Json json = Json::parse(stream);
+    const Json json = parseJson(*text);
     StudyCopy copy;
     copy.protocol_sha256 = json.at("protocol_sha256");
     const Json& e = json.at("enrolment");

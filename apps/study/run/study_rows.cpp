@@ -1,11 +1,11 @@
 #include "apps/study/run/study_rows.h"
 
-#include <fstream>
-#include <iterator>
 #include <map>
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/json_file.h"
+#include "anatomy/base/json_text.h"
+#include "anatomy/base/whole_file.h"
 #include "apps/assess/trial.h"
 
 namespace palpa::study {
@@ -16,7 +16,7 @@ using study_analysis::StudyRow;
 /// What a session says of the study it belongs to.
 nlohmann::json studyFacts(const record::StoredSession& session) {
   try {
-    const nlohmann::json facts = nlohmann::json::parse(session.facts_json);
+    const nlohmann::json facts = parseJson(session.facts_json);
     if (facts.is_object() && facts.contains("study") && facts.at("study").is_object())
       return facts.at("study");
   } catch (const nlohmann::json::exception&) {  // said below
@@ -52,16 +52,15 @@ StudyRow rowOf(const record::TrialWithSession& t, int session_number) {
   return row;
 }
 
-std::string optionalText(const station::JsonFile& file, const char* field,
-                         const std::string& otherwise) {
+std::string optionalText(const JsonFile& file, const char* field, const std::string& otherwise) {
   return file.has(field) ? file.text(field) : otherwise;
 }
 
 /// Names in their order; their meaning into `words`.
-std::vector<std::string> namesOf(const station::JsonFile& protocol, const char* list,
+std::vector<std::string> namesOf(const JsonFile& protocol, const char* list,
                                  std::map<std::string, std::string>& words) {
   std::vector<std::string> names;
-  for (const station::JsonFile& entry : protocol.entries(list)) {
+  for (const JsonFile& entry : protocol.entries(list)) {
     names.push_back(entry.text("name"));
     words[names.back()] = std::string(list) == "conditions" ? optionalText(entry, "means", "") : "";
   }
@@ -95,16 +94,13 @@ std::vector<StudyRow> studyRows(record::RecordStore& store, const std::string& s
 }
 
 std::vector<StudyRow> studyRowsOfFile(const std::string& csv) {
-  std::ifstream stream(csv, std::ios::binary);
-  std::error_code none;
-  if (!stream || std::filesystem::is_directory(csv, none))
-    throw UsageError("cannot be read", csv, "Check name and permissions");
-  const std::string text{std::istreambuf_iterator<char>(stream), {}};
-  return study_analysis::rowsOfCsv(text, csv);
+  const std::optional<std::string> text = readWhole(csv);
+  if (!text) throw UsageError("cannot be read", csv, "Check name and permissions");
+  return study_analysis::rowsOfCsv(*text, csv);
 }
 
 ProtocolFacts protocolFacts(const std::string& file) {
-  const station::JsonFile protocol{std::filesystem::path(file)};
+  const JsonFile protocol{std::filesystem::path(file)};
   ProtocolFacts facts;
   facts.id = protocol.text("id");
   study_analysis::StudyDesign& design = facts.design;

@@ -133,10 +133,8 @@ void sayFarewell(const Next& next, const study::Protocol& protocol, int session)
               next.not_before.empty() ? " can begin" : (": not before " + next.not_before).c_str());
 }
 
-/// Nobody's to foretell, and kept in the records, where everything follows from it.
-std::uint64_t drawnSeed() {
-  return std::stoull(station::sha256(record::newUuid()).substr(0, 16), nullptr, 16);
-}
+/// Nobody's to predict, and kept in the records, where everything follows from it.
+std::uint64_t drawnSeed() { return std::stoull(sha256(newUuid()).substr(0, 16), nullptr, 16); }
 
 }  // namespace
 

@@ -1,19 +1,12 @@
 #include "apps/study/run/workers.h"
 
-#include <sys/mman.h>
-#include <sys/prctl.h>
-#include <sys/wait.h>
-#include <unistd.h>
-
 #include <atomic>
-#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <exception>
-#include <new>
-#include <vector>
 
 #include "anatomy/base/error.h"
+#include "apps/os/worker_processes.h"
 #include "apps/runtime/clock.h"
 
 namespace palpa::study {
@@ -26,24 +19,6 @@ constexpr std::int64_t kSay = 5 * runtime::kSecond;
 struct Board {
   std::atomic<int> next{0}, done{0}, failed{0};
   char message[512] = {};
-};
-
-class SharedBoard {
- public:
-  SharedBoard() {
-    void* memory =
-        ::mmap(nullptr, sizeof(Board), PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
-    if (memory == MAP_FAILED)
-      throw Error("cannot be shared among processes", "memory", "Use --workers 1");
-    board_ = new (memory) Board;
-  }
-  ~SharedBoard() { ::munmap(board_, sizeof(Board)); }
-  SharedBoard(const SharedBoard&) = delete;
-  SharedBoard& operator=(const SharedBoard&) = delete;
-  Board& operator*() const { return *board_; }
-
- private:
-  Board* board_ = nullptr;
 };
 
 using Work = std::function<void(int, const std::function<void()>&)>;
@@ -62,16 +37,14 @@ void say(const Board& board, int steps) {
 }
 
 /// Until all have ended; true: somebody was killed.
-bool watchOver(const std::vector<pid_t>& children, const Board& board, int steps, bool quiet) {
+bool watchOver(int children, const Board& board, int steps, bool quiet) {
   runtime::SteadyClock clock;
   std::int64_t said_ns = 0;
   bool killed = false;
-  for (std::size_t ended = 0; ended < children.size();) {
-    int status = 0;
-    const pid_t child = ::waitpid(-1, &status, WNOHANG);
-    if (child > 0) {
+  for (int ended = 0; ended < children;) {
+    if (const std::optional<os::EndedWorker> worker = os::takeEnded()) {
       ++ended;
-      killed = killed || !WIFEXITED(status) || WEXITSTATUS(status) != 0;
+      killed = killed || !worker->clean;
       continue;
     }
     const std::int64_t now = clock.now();
@@ -86,21 +59,12 @@ bool watchOver(const std::vector<pid_t>& children, const Board& board, int steps
 }  // namespace
 
 void shareWork(int items, int workers, int steps, bool quiet, const Work& work) {
-  const SharedBoard shared;
+  const os::SharedMemory<Board> shared("Use --workers 1");
   Board& board = *shared;
-  std::fflush(stdout);
-  std::vector<pid_t> children;
-  for (int i = 0; i < workers && i < items; ++i) {
-    const pid_t child = ::fork();
-    if (child == 0) {
-      ::prctl(PR_SET_PDEATHSIG, SIGTERM);  // nobody works on for a parent that was killed
-      workThrough(board, items, work);
-      std::fflush(stdout);
-      ::_exit(0);
-    }
-    if (child > 0) children.push_back(child);
-  }
-  if (children.empty()) workThrough(board, items, work);  // no process to be had
+  int children = 0;
+  for (int i = 0; i < workers && i < items; ++i)
+    children += os::forkWorker([&] { workThrough(board, items, work); });
+  if (children == 0) workThrough(board, items, work);  // no process to be had
   const bool killed = watchOver(children, board, steps, quiet);
   if (!quiet) say(board, steps);
   if (board.failed)

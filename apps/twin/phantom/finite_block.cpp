@@ -11,10 +11,11 @@ namespace palpa::twin {
 namespace {
 
 constexpr int kMostNewton = 60, kMostHalvings = 12, kMostGradients = 40;
-constexpr double kStepWithin = 1e-3;   // of the gradient: Newton's next step sees the rest
-constexpr double kGoodEnough = 1e-6;   // of the force on the tools
-constexpr double kTipStiffness = 40;   // of the tip's cover, in Young's moduli per finest element:
-                                       // it gives by some hundredths of a millimetre
+constexpr double kStepWithin = 1e-3;  // of the gradient: Newton's next step sees the rest
+constexpr double kGoodEnough = 1e-6;  // of the force on the tools
+// Of the tip's cover, in Young's moduli per finest element: it gives by some hundredths of a
+// millimetre
+constexpr double kTipStiffness = 40;
 constexpr double kLongestStep = 1e-3;  // m that tools go at once
 
 /// How much of a Gauss point's eighth of an element lies in the lump. The elements are boxes.

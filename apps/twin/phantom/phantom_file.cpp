@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kMicrometre = 1e-6, kMicronewton = 1e-6;
 
-SoftBlock::Lump lumpOf(const station::JsonFile& phantom, const SoftBlock& block) {
+SoftBlock::Lump lumpOf(const JsonFile& phantom, const SoftBlock& block) {
   SoftBlock::Lump lump;
   lump.radius = 0.5 * kMm * phantom.number("lump/diameter_mm", 4, 40);
   lump.centre = {0, 0, -kMm * phantom.number("lump/depth_mm", 3, 100)};
@@ -43,7 +43,7 @@ nlohmann::json written(const PairTable& table) {
 }
 
 /// The cells of one phantom, each of the same number of whole figures.
-std::vector<std::vector<double>> readCells(const station::JsonFile& tables, const char* list,
+std::vector<std::vector<double>> readCells(const JsonFile& tables, const char* list,
                                            std::size_t phantom, std::size_t count,
                                            std::size_t figures) {
   const nlohmann::json& cells = tables.json()[list][phantom];
@@ -68,7 +68,7 @@ std::vector<std::vector<double>> readCells(const station::JsonFile& tables, cons
 }  // namespace
 
 PhantomFile readPhantoms(const std::filesystem::path& name) {
-  const station::JsonFile file(name);
+  const JsonFile file(name);
   file.needVersion(1);
   PhantomFile all;
   SoftBlock block;
@@ -96,7 +96,7 @@ PhantomFile readPhantoms(const std::filesystem::path& name) {
     file.refuse("pairs/shifts", "leads a tool off the block");
   if (all.shape.aways * all.shape.away_step + all.shape.tool_radius > block.length / 2)
     file.refuse("table/aways", "leads the tool off the block");
-  for (const station::JsonFile& one : file.entries("phantoms")) {
+  for (const JsonFile& one : file.entries("phantoms")) {
     Phantom phantom{one.text("name"), block, all.shape, all.both};
     if (one.has("lump")) phantom.block.lump = lumpOf(one, block);
     all.phantoms.push_back(phantom);
@@ -123,7 +123,7 @@ void solvePhantoms(const std::filesystem::path& name, const std::filesystem::pat
                                           [&](int done, int) { tell(ones + done); })));
   }
   const nlohmann::json all{{"version", 1},
-                           {"made_of", station::JsonFile(name).json()},
+                           {"made_of", JsonFile(name).json()},
                            {"columns", {"f_out_uN", "f_up_uN", "lump_out_um", "lump_up_um"}},
                            {"tables", tables},
                            {"pair_columns",
@@ -137,9 +137,9 @@ void solvePhantoms(const std::filesystem::path& name, const std::filesystem::pat
 std::vector<Phantom> readSolved(const std::filesystem::path& name,
                                 const std::filesystem::path& tables_name) {
   PhantomFile file = readPhantoms(name);
-  const station::JsonFile tables(tables_name);
+  const JsonFile tables(tables_name);
   tables.needVersion(1);
-  if (!tables.has("made_of") || tables.json()["made_of"] != station::JsonFile(name).json())
+  if (!tables.has("made_of") || tables.json()["made_of"] != JsonFile(name).json())
     tables.refuse("made_of", "is not " + name.string() + " (solve it anew: palpa phantom solve)");
   for (const char* list : {"tables", "pairs"}) {
     if (!tables.has(list) || !tables.json()[list].is_array() ||

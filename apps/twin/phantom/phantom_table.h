@@ -42,9 +42,9 @@ struct PairCell {
 /// second along x, the middle between them shifted from above the lump. Solved once.
 struct PairTable {
   double apart = 0.02, shift_step = 0.005, depth_step = 2e-3;  ///< m
-  int shifts = 0, depths = 0;   ///< shift 0, 1, ... steps; depth of each tool 1, 2, ... steps
-  std::vector<PairCell> cells;  ///< [shift][depth of the first][depth of the second]: what both do
-                                ///< more than each alone
+  int shifts = 0, depths = 0;  ///< shift 0, 1, ... steps; depth of each tool 1, 2, ... steps
+  /// [shift][depth of the first][depth of the second]: what both do more than each alone
+  std::vector<PairCell> cells;
 
   /// What each tool does alone, from `one`, and what both do more, by polynomials through all
   /// cells; that is nothing where one does not press. A shift the other way is the mirror image

@@ -12,9 +12,9 @@ struct SiliconeLaw {
   std::array<double, 2> relaxes{
       0.06, 0.05};  ///< of the elastic force; what comes on top at once and goes
   std::array<double, 2> relaxation_time{0.05, 1.5};  ///< s
-  double mu = 0.35;                           ///< of Coulomb friction, sliding fast under 1 N
-  double sticks = 0.05, sticks_below = 0.02;  ///< of mu, more when it hardly slides; m/s (Stribeck;
-                                              ///< steeper, a light hand would squeal)
+  double mu = 0.35;  ///< of Coulomb friction, sliding fast under 1 N
+  /// Of mu, more when it hardly slides; m/s (Stribeck; steeper, a light hand would squeal)
+  double sticks = 0.05, sticks_below = 0.02;
   double load_power = -0.05;  ///< mu ~ f_n^this: rubber's contact grows less than its load
   double sigma = 1500;        ///< N/m, before it slides
   double B = 0.4;             ///< N s/m, while it slides

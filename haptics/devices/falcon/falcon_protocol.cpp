@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <array>
-#include <fstream>
-#include <iterator>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
 
 namespace palpa::haptics {
 namespace {
@@ -151,12 +150,13 @@ FalconUploadResult failed(FalconUpload why, UsbStatus status) {
 
 std::vector<std::uint8_t> readFalconFirmware(const std::filesystem::path& path) {
   std::error_code nothing;
-  std::ifstream file(path, std::ios::binary);
-  if (!file || !std::filesystem::is_regular_file(path, nothing))
+  std::optional<std::string> bytes;
+  if (std::filesystem::is_regular_file(path, nothing)) bytes = readWhole(path);
+  if (!bytes)
     throw Error("cannot be read", "the Falcon's firmware " + path.string(),
                 "Give the path of a firmware file; it comes with Novint's drivers "
                 "(nvent_firmware.bin) and is not part of Palpa.");
-  std::vector<std::uint8_t> image{std::istreambuf_iterator<char>(file), {}};
+  std::vector<std::uint8_t> image(bytes->begin(), bytes->end());
   if (image.size() < kSmallestImage || image.size() > kLargestImage)
     throw Error("has " + std::to_string(image.size()) + " bytes; firmware has 6,000 to 12,000",
                 "the Falcon's firmware " + path.string(),

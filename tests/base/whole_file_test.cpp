@@ -9,7 +9,7 @@ namespace palpa {
 namespace {
 
 TEST(WholeFile, IsThereWholeOrNotAtAll) {
-  const auto folder = test::freshFolder("geometry", "whole");
+  const auto folder = test::freshFolder("base", "whole");
   writeWhole(folder / "a.txt", "first");
   {
     WholeFile left(folder / "a.txt");
@@ -24,13 +24,25 @@ TEST(WholeFile, IsThereWholeOrNotAtAll) {
 
 /// A page that is given the name of a session or of a centre's records.
 TEST(WholeFile, NeverTakesThePlaceOfADatabase) {
-  const auto folder = test::freshFolder("geometry", "database");
+  const auto folder = test::freshFolder("base", "database");
   const std::string evidence = std::string("SQLite format 3\0", 16) + "and all that a trainee did";
   std::ofstream(folder / "session.palpa", std::ios::binary) << evidence;
   EXPECT_THROW(writeWhole(folder / "session.palpa", "<!doctype html>"), Error);
   EXPECT_EQ(test::slurp(folder / "session.palpa"), evidence);
   std::ofstream(folder / "short.txt") << "SQLite";
   EXPECT_NO_THROW(writeWhole(folder / "short.txt", "text"));
+}
+
+TEST(ReadWhole, GivesEveryByteAndNothingWhereThereIsNoFile) {
+  const auto folder = test::freshFolder("base", "read");
+  std::string bytes;
+  for (int i = 0; i < 200'000; ++i) bytes += static_cast<char>(i % 251);
+  writeWhole(folder / "a.bin", bytes);
+  writeWhole(folder / "empty", "");
+  EXPECT_EQ(readWhole(folder / "a.bin"), bytes);
+  EXPECT_EQ(readWhole(folder / "empty"), "");
+  EXPECT_EQ(readWhole(folder / "missing"), std::nullopt);
+  EXPECT_EQ(readWhole(folder), std::nullopt);
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include "anatomy/base/random.h"
 #include "anatomy/geometry/pose.h"
 
-namespace palpa::runtime {
+namespace palpa {
 
 /// Three independent standard normals.
 inline Vec3 normal3(RandomStream& random) {
@@ -11,4 +11,4 @@ inline Vec3 normal3(RandomStream& random) {
   return {x, y, z};
 }
 
-}  // namespace palpa::runtime
+}  // namespace palpa

@@ -2,9 +2,10 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numeric>
 
-namespace palpa::runtime {
+namespace palpa {
 namespace {
 
 TEST(Quantile, IsTheNearestRankWhateverTheOrder) {
@@ -19,5 +20,15 @@ TEST(Quantile, IsTheNearestRankWhateverTheOrder) {
   EXPECT_EQ(quantile({}, 0.5), 0);
 }
 
+TEST(Median, OfAnEvenCountIsTheMeanOrTheUpperOfTheMiddleTwo) {
+  EXPECT_EQ(median({3, 1, 2}), 2);
+  EXPECT_EQ(median({4, 1, 3, 2}), 2.5);
+  EXPECT_EQ(median({5}), 5);
+  EXPECT_TRUE(std::isnan(median({})));
+  EXPECT_EQ(upperMedian({3, 1, 2}), 2);
+  EXPECT_EQ(upperMedian({4, 1, 3, 2}), 3);
+  EXPECT_EQ(upperMedian({}), 0);
+}
+
 }  // namespace
-}  // namespace palpa::runtime
+}  // namespace palpa

@@ -1,0 +1,83 @@
+#include "apps/os/file_access.h"
+
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstdlib>
+#include <fstream>
+
+#include "anatomy/base/error.h"
+
+namespace palpa::os {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr mode_t kAllMayRead = 0644, kUserAlone = 0600, kOthers = 0077;
+
+std::error_code created(const fs::path& file, int flags, mode_t mode) {
+  const int descriptor = ::open(file.c_str(), flags | O_CREAT | O_CLOEXEC, mode);
+  if (descriptor < 0) return {errno, std::system_category()};
+  ::close(descriptor);
+  return {};
+}
+
+fs::path folderOf(const char* variable, const char* in_home, const fs::path& homeless) {
+  if (const char* folder = std::getenv(variable); folder && *folder == '/') return folder;
+  const char* home = std::getenv("HOME");
+  return (home && *home ? fs::path(home) : homeless) / in_home;
+}
+
+}  // namespace
+
+std::error_code createNew(const fs::path& file) {
+  return created(file, O_EXCL | O_WRONLY, kAllMayRead);
+}
+
+std::error_code createPrivate(const fs::path& file) { return created(file, O_RDWR, kUserAlone); }
+
+bool mayWrite(const fs::path& path) { return ::access(path.c_str(), W_OK) == 0; }
+
+Privacy privacyOf(const fs::path& file) {
+  struct stat facts {};
+  if (::stat(file.c_str(), &facts) != 0) return Privacy::missing;
+  return (facts.st_mode & kOthers) != 0 ? Privacy::shared : Privacy::own;
+}
+
+TemporaryFile::TemporaryFile(const std::string& bytes, const std::string& extension) {
+  std::string pattern = (fs::temp_directory_path() / "palpa-XXXXXX").string() + extension;
+  const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(extension.size()));
+  if (descriptor < 0) throw Error("cannot be made", pattern, "Is the disk full?");
+  path_ = pattern;
+  std::ofstream(path_, std::ios::binary) << bytes;
+  ::close(descriptor);
+}
+
+TemporaryFile::~TemporaryFile() {
+  std::error_code ignored;
+  fs::remove(path_, ignored);
+}
+
+TemporaryFolder::TemporaryFolder(const std::string& prefix) {
+  std::string name = (fs::temp_directory_path() / (prefix + "XXXXXX")).string();
+  made_ = ::mkdtemp(name.data()) != nullptr;
+  path_ = name;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+  std::error_code ignored;
+  if (made_) fs::remove_all(path_, ignored);
+}
+
+fs::path dataFolder(const fs::path& homeless) {
+  return folderOf("XDG_DATA_HOME", ".local/share", homeless);
+}
+
+fs::path stateFolder(const fs::path& homeless) {
+  return folderOf("XDG_STATE_HOME", ".local/state", homeless);
+}
+
+bool errorsGoToTerminal() { return ::isatty(STDERR_FILENO) != 0; }
+
+}  // namespace palpa::os

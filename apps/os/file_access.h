@@ -1,0 +1,63 @@
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <system_error>
+
+namespace palpa::os {
+
+/// Makes an empty file that others may read. std::errc::file_exists where the name is taken, also
+/// by another process a moment ago: what is there stays as it is.
+std::error_code createNew(const std::filesystem::path& file);
+/// Makes an empty file that this user alone may read, unless there is one: that stays as it is, and
+/// must be writable.
+std::error_code createPrivate(const std::filesystem::path& file);
+
+/// This user may write to the file, or into the folder.
+bool mayWrite(const std::filesystem::path& path);
+enum class Privacy { missing, shared, own };
+/// `own`: nobody but its owner may read or write it.
+Privacy privacyOf(const std::filesystem::path& file);
+
+/// Bytes as a file among the temporary ones, for readers that take a path; removed at the end of
+/// its life. Throws Error.
+class TemporaryFile {
+ public:
+  /// `extension`: with its dot.
+  TemporaryFile(const std::string& bytes, const std::string& extension);
+  ~TemporaryFile();
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// A folder among the temporary files that this user alone may enter; removed at the end of its
+/// life with all that is in it.
+class TemporaryFolder {
+ public:
+  /// Its name begins with `prefix`. Where it cannot be made, `made` says so.
+  explicit TemporaryFolder(const std::string& prefix);
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  bool made() const { return made_; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+  bool made_ = false;
+};
+
+/// This user's folder for what programs must not lose: $XDG_DATA_HOME, else ~/.local/share; below
+/// `homeless` where there is no home. Not made.
+std::filesystem::path dataFolder(const std::filesystem::path& homeless);
+/// For what a program remembers between its runs: $XDG_STATE_HOME, else ~/.local/state.
+std::filesystem::path stateFolder(const std::filesystem::path& homeless);
+
+/// Standard error is a terminal: a line may renew itself there.
+bool errorsGoToTerminal();
+
+}  // namespace palpa::os

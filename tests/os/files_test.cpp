@@ -1,0 +1,116 @@
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+
+#include "apps/os/file_access.h"
+#include "apps/os/file_lock.h"
+#include "tests/support/scratch_folder.h"
+
+namespace palpa::os {
+namespace {
+
+namespace fs = std::filesystem;
+
+void write(const fs::path& file, const std::string& text) { std::ofstream(file) << text; }
+
+std::string textOf(const fs::path& file) {
+  std::string text;
+  std::getline(std::ifstream(file), text);
+  return text;
+}
+
+/// An environment variable, as it was again at the end.
+class Setting {
+ public:
+  Setting(const char* name, const char* value) : name_(name) {
+    if (const char* before = std::getenv(name)) before_ = before;
+    value ? ::setenv(name, value, 1) : ::unsetenv(name);
+  }
+  ~Setting() { before_.empty() ? ::unsetenv(name_) : ::setenv(name_, before_.c_str(), 1); }
+  Setting(const Setting&) = delete;
+  Setting& operator=(const Setting&) = delete;
+
+ private:
+  const char* const name_;
+  std::string before_;
+};
+
+TEST(Files, ANewOneNeverTakesAnothersPlace) {
+  const test::ScratchFolder folder("os-new");
+  EXPECT_FALSE(createNew(folder / "a"));
+  write(folder / "a", "evidence");
+  EXPECT_EQ(createNew(folder / "a"), std::errc::file_exists);
+  EXPECT_EQ(textOf(folder / "a"), "evidence");
+  EXPECT_EQ(createNew(folder / "not/there"), std::errc::no_such_file_or_directory);
+}
+
+TEST(Files, APrivateOneIsTheUsersAloneAndKeepsWhatItHolds) {
+  const test::ScratchFolder folder("os-private");
+  EXPECT_EQ(privacyOf(folder / "a"), Privacy::missing);
+  EXPECT_FALSE(createPrivate(folder / "a"));
+  EXPECT_EQ(privacyOf(folder / "a"), Privacy::own);
+  write(folder / "a", "records");
+  EXPECT_FALSE(createPrivate(folder / "a"));
+  EXPECT_EQ(textOf(folder / "a"), "records");
+  EXPECT_TRUE(createPrivate(folder / "not/there"));
+  for (const fs::perms one : {fs::perms::group_read, fs::perms::others_read,
+                              fs::perms::others_write, fs::perms::group_exec}) {
+    fs::permissions(folder / "a", fs::perms::owner_read | one);
+    EXPECT_EQ(privacyOf(folder / "a"), Privacy::shared);
+  }
+}
+
+TEST(Files, WhatIsNotThereMayNotBeWritten) {
+  const test::ScratchFolder folder("os-write");
+  EXPECT_TRUE(mayWrite(folder.path()));
+  EXPECT_FALSE(mayWrite(folder / "not"));
+}
+
+TEST(Files, TemporaryOnesGoWithAllThatIsInThem) {
+  fs::path file, inside;
+  {
+    const TemporaryFile one("{}", ".json");
+    const TemporaryFolder two("palpa-os-");
+    ASSERT_TRUE(two.made());
+    file = one.path();
+    inside = two.path() / "deep/er";
+    fs::create_directories(inside);
+    EXPECT_EQ(textOf(file), "{}");
+    EXPECT_EQ(file.extension(), ".json");
+    EXPECT_EQ(privacyOf(two.path()), Privacy::own);
+    EXPECT_NE(TemporaryFile("", ".json").path(), file);
+  }
+  EXPECT_FALSE(fs::exists(file));
+  EXPECT_FALSE(fs::exists(inside.parent_path().parent_path()));
+}
+
+TEST(Files, AUsersFoldersFollowTheSettingsThenTheHome) {
+  const Setting data("XDG_DATA_HOME", "/d"), state("XDG_STATE_HOME", "not/whole"),
+      home("HOME", "/home/x");
+  EXPECT_EQ(dataFolder("."), "/d");
+  EXPECT_EQ(stateFolder("/tmp"), "/home/x/.local/state") << "a relative one does not count";
+  const Setting none("HOME", nullptr), unset("XDG_DATA_HOME", nullptr);
+  EXPECT_EQ(dataFolder("."), "./.local/share");
+  EXPECT_EQ(stateFolder("/tmp"), "/tmp/.local/state");
+}
+
+TEST(FileLock, OneHolderAtATime) {
+  const test::ScratchFolder folder("os-lock");
+  const fs::path file = folder / "lock";
+  EXPECT_FALSE(FileLock::exclusive(file, FileLock::Missing::fails));
+  EXPECT_FALSE(isLocked(file));
+  {
+    const auto first = FileLock::exclusive(file, FileLock::Missing::is_made);
+    ASSERT_TRUE(first);
+    EXPECT_EQ(privacyOf(file), Privacy::own);
+    EXPECT_TRUE(isLocked(file));
+    EXPECT_FALSE(FileLock::exclusive(file, FileLock::Missing::is_made));
+    EXPECT_FALSE(FileLock::exclusive(file, FileLock::Missing::fails));
+  }
+  EXPECT_FALSE(isLocked(file));
+  EXPECT_TRUE(FileLock::exclusive(file, FileLock::Missing::fails));
+}
+
+}  // namespace
+}  // namespace palpa::os

@@ -1,0 +1,80 @@
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <atomic>
+
+#include "apps/os/child_process.h"
+#include "apps/os/signals.h"
+#include "apps/os/system_time.h"
+#include "apps/os/worker_processes.h"
+
+namespace palpa::os {
+namespace {
+
+/// Until one has ended.
+EndedWorker endedOne() {
+  for (;;) {
+    if (const auto worker = takeEnded()) return *worker;
+    sleepUntilMonotonic(monotonic_ns() + 1'000'000);
+  }
+}
+
+TEST(Workers, WriteIntoMemoryThatAllSee) {
+  constexpr int kWorkers = 4, kSteps = 1000;
+  const SharedMemory<std::atomic<int>> count("");
+  for (int i = 0; i < kWorkers; ++i)
+    ASSERT_TRUE(forkWorker([&] {
+      for (int step = 0; step < kSteps; ++step) ++*count;
+    }));
+  for (int i = 0; i < kWorkers; ++i) EXPECT_TRUE(endedOne().clean);
+  EXPECT_EQ(*count, kWorkers * kSteps);
+  EXPECT_FALSE(takeEnded()) << "none is left";
+}
+
+TEST(Workers, AKilledOneIsNotClean) {
+  ASSERT_TRUE(forkWorker([] { ::raise(SIGKILL); }));
+  EXPECT_FALSE(endedOne().clean);
+}
+
+TEST(Interrupt, IsNotedAndTheOldHandlerComesBack) {
+  static std::atomic<int> old{0};
+  const auto before = ::signal(SIGTERM, [](int) { ++old; });
+  {
+    const InterruptNote note(InterruptNote::Again::noted);
+    EXPECT_FALSE(note.noted());
+    for (int i = 0; i < 2; ++i) ::raise(SIGTERM);
+    EXPECT_TRUE(note.noted());
+  }
+  EXPECT_EQ(old, 0);
+  ::raise(SIGTERM);
+  EXPECT_EQ(old, 1);
+  EXPECT_FALSE(InterruptNote().noted()) << "a new one begins anew";
+  ::signal(SIGTERM, before);
+}
+
+TEST(Interrupt, ASecondOneKills) {
+  EXPECT_EXIT(
+      {
+        const InterruptNote note;
+        ::raise(SIGINT);
+        if (note.noted()) ::raise(SIGINT);
+      },
+      ::testing::KilledBySignal(SIGINT), "");
+}
+
+TEST(SystemTime, GoesOnAndSleepsUntilThen) {
+  const std::int64_t until = monotonic_ns() + 2'000'000;
+  sleepUntilMonotonic(until);
+  EXPECT_GE(monotonic_ns(), until);
+  sleepUntilMonotonic(0);  // long past: at once
+  EXPECT_GT(monotonicResolution_ns(), 0);
+  EXPECT_GT(date_ns(), 1'600'000'000'000'000'000) << "after 2020";
+}
+
+TEST(Program, OneThatIsNotInstalledIsNotStarted) {
+  EXPECT_FALSE(startProgram("palpa-no-such-program", {}));
+  EXPECT_GT(processNumber(), 1);
+}
+
+}  // namespace
+}  // namespace palpa::os
