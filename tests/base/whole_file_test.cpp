@@ -25,7 +25,8 @@ TEST(WholeFile, IsThereWholeOrNotAtAll) {
 /// A page that is given the name of a session or of a centre's records.
 TEST(WholeFile, NeverTakesThePlaceOfADatabase) {
   const auto folder = test::freshFolder("base", "database");
-  const std::string evidence = std::string("SQLite format 3\0", 16) + "and all that a trainee did";
+  std::string evidence("SQLite format 3\0", 16);
+  evidence.append("and all that a trainee did");
   std::ofstream(folder / "session.palpa", std::ios::binary) << evidence;
   EXPECT_THROW(writeWhole(folder / "session.palpa", "<!doctype html>"), Error);
   EXPECT_EQ(test::slurp(folder / "session.palpa"), evidence);

@@ -35,7 +35,7 @@ struct Door {
   Asked post(const std::string& path = "/api/sessions") const {
     Asked asked = get(path);
     asked.method = "POST";
-    asked.origin = std::string("http://") + kHere;
+    asked.origin.assign("http://").append(kHere);
     asked.fetch_site = "same-origin";
     asked.content_type = "application/json";
     asked.page_key = guard.pageKey();
