@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# fresh_debian.sh BUILD: the package in a Debian that holds nothing else, of the version that
-# it was built on: installed, used, removed without a trace. Needs root (or user namespaces), mmdebstrap and a network.
+# fresh_debian.sh BUILD: the package in a Debian that holds nothing else, of the version that it was
+# built on: installed, used, removed without a trace. Needs root (or user namespaces), mmdebstrap
+# and a network.
 set -euo pipefail
 build=$(cd "$1" && pwd)
 here=$(cd "$(dirname "$0")" && pwd)
