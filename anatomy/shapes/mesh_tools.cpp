@@ -68,7 +68,7 @@ TriangleMesh sheet(const std::function<SheetPoint(double u, double v)>& at, int 
     for (int i = 0; i < along; ++i) {
       const std::size_t a = std::size_t(j) * (along + 1) + i, b = a + 1, c = b + along + 1,
                         d = c - 1;
-      // At two corners the diagonal turns, lest front and back share a whole triangle.
+      // At two corners the diagonal turns, so that front and back share no whole triangle.
       const bool corner = (i == along - 1 && j == 0) || (i == 0 && j == across - 1);
       if (corner) {
         quad(front[b], front[c], front[d], front[a]);

@@ -107,11 +107,11 @@ void Port::read(Peer& peer) {
     peer.lost = !count;
     if (count.value_or(0) == 0) return;
     peer.decoder.feed(bytes, *count);
-    obey(peer);
+    apply(peer);
   }
 }
 
-void Port::obey(Peer& peer) {
+void Port::apply(Peer& peer) {
   try {
     while (const auto frame = peer.decoder.next()) {
       if (frame->kind == FrameKind::watch) peer.watches = frame->body == "1";

@@ -43,7 +43,7 @@ class Port {
   void waitForPeers(int timeout_ms);
   void accept();
   void read(Peer& peer);
-  void obey(Peer& peer);
+  void apply(Peer& peer);
   void write(Peer& peer);
   void tell(Peer& peer);
   void encodePicture();

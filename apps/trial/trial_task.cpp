@@ -22,7 +22,7 @@ TrialTask::TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels,
 }
 
 std::int64_t TrialTask::step(std::int64_t now_ns) {
-  obey(now_ns);
+  apply(now_ns);
   hearDevice();
   watchCamera(now_ns);
   listen(now_ns);
@@ -179,14 +179,14 @@ void TrialTask::hearDevice() {
   }
 }
 
-void TrialTask::obey(std::int64_t now_ns) {
+void TrialTask::apply(std::int64_t now_ns) {
   UserRequest request;
   while (channels_.requests_to_task.pop(&request) || channels_.operator_to_task.pop(&request) ||
          channels_.signals_to_task.pop(&request) || channels_.console_to_task.pop(&request))
-    obey(request, now_ns);
+    apply(request, now_ns);
 }
 
-void TrialTask::obey(const UserRequest& request, std::int64_t now_ns) {
+void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
   const std::string& reason = request.reason;
   switch (request.command) {
     case UserCommand::start:

@@ -64,8 +64,8 @@ class TrialTask : public runtime::Activity {
   const TrialStatus& status() const { return status_; }
 
  private:
-  void obey(std::int64_t now_ns);
-  void obey(const UserRequest& request, std::int64_t now_ns);
+  void apply(std::int64_t now_ns);
+  void apply(const UserRequest& request, std::int64_t now_ns);
   void stopAll(std::int64_t now_ns);
   void rearm(std::int64_t now_ns);
   void leave(const std::string& reason, std::int64_t now_ns);
