@@ -35,7 +35,10 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND PALPA_COMPILER_HEAP_MB)
   math(EXPR heap_kB "${PALPA_COMPILER_HEAP_MB} * 1024")
   add_compile_options("SHELL:--param ggc-min-heapsize=${heap_kB}")
 endif()
+# Eigen picks its allocator by whether a source is looked into: what one source allocates, the
+# next would free in another way.
 if(PALPA_SANITIZE)
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=0)
   add_compile_options(-fsanitize=${PALPA_SANITIZE} -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=${PALPA_SANITIZE})
 endif()
