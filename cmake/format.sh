@@ -30,7 +30,8 @@ tracked() {
 
 cpp_files() { tracked '*.cpp' '*.h'; }
 page_files() {
-  tracked 'assets/*.js' 'assets/*.css' 'assets/*.html' 'tests/*.mjs' 'tests/*.js' 'tests/*.css'
+  tracked 'assets/*.js' 'assets/*.css' 'assets/*.html'
+  tracked 'cmake/*.mjs' 'tests/*.mjs' 'tests/*.js' 'tests/*.css'
 }
 script_files() {
   local file
