@@ -2,6 +2,7 @@
 
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
@@ -33,6 +34,7 @@ struct ExpertPath {
   Vec3 line_from_L = Vec3::Zero();  ///< optimal line of phase 2: where the tip starts ...
   Vec3 line_to_L = Vec3::Zero();    ///< ... and where it ends (mean end of the tip)
   std::string made_by;              ///< the command that remakes the file
+  std::string source;  ///< the file's text, for the evidence; empty where there is none
 };
 
 /// Fits the taught path. With the component-wise median as centre and r a trial's distance from it,
@@ -50,6 +52,8 @@ ExpertPath fitExpertPath(const std::vector<ExpertTrial>& trials, int least = 20)
 /// JSON, millimetres and degrees inside, named so. Throws Error naming file and field when one is
 /// missing, not finite or out of range, or when the file is from a newer version.
 ExpertPath readExpertPath(const std::filesystem::path& file);
+/// The same from the file's text, as a recording holds it; `where` instead of the file's name.
+ExpertPath parseExpertPath(std::string_view text, const std::string& where);
 
 /// Writes beside the file, then renames: never half a file. Throws Error.
 void writeExpertPath(const ExpertPath& path, const std::filesystem::path& file);

@@ -19,7 +19,7 @@ constexpr const char* kFormat = "palpa expert path";
 /// Reads fields of one file; every complaint names file and field.
 class FieldReader {
  public:
-  FieldReader(const std::filesystem::path& file, const Json& root) : file_(file), root_(root) {}
+  FieldReader(const std::string& where, const Json& root) : where_(where), root_(root) {}
 
   const Json& field(const std::string& key) const {
     if (!root_.is_object() || !root_.contains(key)) fail(key, "the field is missing");
@@ -66,8 +66,7 @@ class FieldReader {
     return result;
   }
   [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-    throw Error(what, file_.string() + ", field \"" + key + "\"",
-                "Calibrate the experts' path again");
+    throw Error(what, where_ + ", field \"" + key + "\"", "Calibrate the experts' path again");
   }
 
  private:
@@ -79,18 +78,15 @@ class FieldReader {
     return x;
   }
 
-  const std::filesystem::path& file_;
+  const std::string& where_;
   const Json& root_;
 };
 
-Json parse(const std::filesystem::path& file) {
-  const std::optional<std::string> text = readWhole(file);
-  if (!text)
-    throw Error("the file cannot be opened", file.string(), "Check the path, or calibrate first");
+Json parse(std::string_view text, const std::string& where) {
   try {
-    return parseJson(*text);
+    return parseJson(text);
   } catch (const Json::exception&) {
-    throw Error("this is not a JSON file", file.string(), "Calibrate the experts' path again");
+    throw Error("this is not a JSON file", where, "Calibrate the experts' path again");
   }
 }
 
@@ -137,11 +133,19 @@ bool allFinite(const ExpertPath& path) {
 }  // namespace
 
 ExpertPath readExpertPath(const std::filesystem::path& file) {
-  const Json root = parse(file);
-  const FieldReader reader(file, root);
+  const std::optional<std::string> text = readWhole(file);
+  if (!text)
+    throw Error("the file cannot be opened", file.string(), "Check the path, or calibrate first");
+  return parseExpertPath(*text, file.string());
+}
+
+ExpertPath parseExpertPath(std::string_view text, const std::string& where) {
+  const Json root = parse(text, where);
+  const FieldReader reader(where, root);
   checkFormat(reader);
   constexpr double kFar_mm = 500;  // nothing that is taught lies farther from the clavicle
   ExpertPath path;
+  path.source = text;
   path.simulated = reader.flag("simulated");
   path.made_by = reader.text("made_by");
   path.trials = reader.count("trials", 1);

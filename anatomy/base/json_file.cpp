@@ -15,27 +15,38 @@ constexpr std::uintmax_t kLargestFile = 4 << 20;
 // Nested deeper is damage, and would exhaust the stack of who writes it out.
 constexpr int kDeepestFile = 32;
 
-nlohmann::json parse(const std::filesystem::path& file) {
+void refuseLarge(std::uintmax_t size, const std::string& name) {
+  if (size > kLargestFile)
+    throw UsageError("is too large for a settings file", name, "Check the name");
+}
+
+std::string textOf(const std::filesystem::path& file) {
   std::error_code error;
   const auto size = std::filesystem::file_size(file, error);
   if (error)
     throw UsageError("cannot be read (" + error.message() + ")", file.string(), "Check the name");
-  if (size > kLargestFile)
-    throw UsageError("is too large for a settings file", file.string(), "Check the name");
-  const std::optional<std::string> text = readWhole(file);
+  refuseLarge(size, file.string());
+  std::optional<std::string> text = readWhole(file);
   if (!text) throw UsageError("cannot be read", file.string(), "Check its permissions");
-  try {
-    return parseJson(*text, kDeepestFile,
-                     [&] { throw UsageError("is nested too deep", file.string(), "Restore it"); });
-  } catch (const nlohmann::json::exception& e) {
-    throw UsageError(std::string("is not valid JSON (") + e.what() + ")", file.string(),
-                     "Restore it or correct the line named");
-  }
+  return *std::move(text);
 }
 
 }  // namespace
 
-JsonFile::JsonFile(const std::filesystem::path& file) : json_(parse(file)), name_(file.string()) {}
+JsonFile::JsonFile(const std::filesystem::path& file)
+    : JsonFile(ofText(textOf(file), file.string())) {}
+
+JsonFile JsonFile::ofText(std::string_view text, std::string name) {
+  refuseLarge(text.size(), name);
+  try {
+    nlohmann::json json = parseJson(
+        text, kDeepestFile, [&] { throw UsageError("is nested too deep", name, "Restore it"); });
+    return {std::move(json), std::move(name)};
+  } catch (const nlohmann::json::exception& e) {
+    throw UsageError(std::string("is not valid JSON (") + e.what() + ")", name,
+                     "Restore it or correct the line named");
+  }
+}
 
 void JsonFile::refuse(const std::string& path, const std::string& what) const {
   throw UsageError(

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -15,6 +16,8 @@ class JsonFile {
  public:
   JsonFile() = default;
   explicit JsonFile(const std::filesystem::path& file);
+  /// The same from the file's text, as a recording holds it; messages name `name` instead.
+  static JsonFile ofText(std::string_view text, std::string name);
   JsonFile(nlohmann::json json, std::string name)
       : json_(std::move(json)), name_(std::move(name)) {}
 

@@ -9,8 +9,6 @@
 namespace palpa::anatomy {
 namespace {
 
-using Bytes = std::vector<unsigned char>;
-
 constexpr std::size_t kHeader = 12, kChunkHeader = 8;
 constexpr std::uintmax_t kLargestFile = 1u << 30;  // 1 GiB: no patient comes near it
 constexpr int kDeepest = 32;                       // nesting of the JSON part; glTF needs about 8
@@ -19,30 +17,30 @@ constexpr int kDeepest = 32;                       // nesting of the JSON part; 
   throw Error(what, file, "Write the patient again or take another file");
 }
 
-Bytes load(const std::string& file) {
+std::string load(const std::string& file) {
   std::error_code failure;
   const std::uintmax_t size = std::filesystem::file_size(file, failure);
   if (failure) fail("the file cannot be opened (" + failure.message() + ")", file);
   if (size > kLargestFile) fail("the file is larger than 1 GiB", file);
-  Bytes bytes(size);
+  std::string bytes(size, '\0');
   std::ifstream in(file, std::ios::binary);
-  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size));
+  in.read(bytes.data(), static_cast<std::streamsize>(size));
   if (!in) fail("the file cannot be read", file);
   return bytes;
 }
 
-std::uint32_t word(const Bytes& bytes, std::size_t at) {
+std::uint32_t word(std::string_view bytes, std::size_t at) {
   std::uint32_t value;
   std::memcpy(&value, bytes.data() + at, sizeof value);
   return value;
 }
 
 // The parser recurses into arrays and objects: a file of brackets would overflow the stack.
-bool nestedTooDeep(const unsigned char* json, std::size_t size) {
+bool nestedTooDeep(std::string_view json) {
   int depth = 0;
   bool text = false;
-  for (std::size_t i = 0; i < size; ++i) {
-    const unsigned char c = json[i];
+  for (std::size_t i = 0; i < json.size(); ++i) {
+    const char c = json[i];
     if (text && c == '\\')
       ++i;
     else if (c == '"')
@@ -56,7 +54,7 @@ bool nestedTooDeep(const unsigned char* json, std::size_t size) {
   return false;
 }
 
-void checkContainer(const Bytes& bytes, const std::string& file) {
+void checkContainer(std::string_view bytes, const std::string& file) {
   if (bytes.size() < kHeader + kChunkHeader || std::memcmp(bytes.data(), "glTF", 4) != 0)
     fail("this is not a glTF binary file", file);
   if (word(bytes, 4) != 2) fail("this is not glTF version 2", file);
@@ -68,7 +66,7 @@ void checkContainer(const Bytes& bytes, const std::string& file) {
   if (std::memcmp(bytes.data() + kHeader + 4, "JSON", 4) != 0 ||
       json > bytes.size() - kHeader - kChunkHeader)
     fail("the JSON part is damaged", file);
-  if (nestedTooDeep(bytes.data() + kHeader + kChunkHeader, json))
+  if (nestedTooDeep(bytes.substr(kHeader + kChunkHeader, json)))
     fail("the JSON part is nested too deep", file);
 }
 
@@ -77,6 +75,7 @@ tinygltf::FsCallbacks closedDoors() {
   tinygltf::FsCallbacks closed{};
   closed.FileExists = [](const std::string&, void*) { return false; };
   closed.ExpandFilePath = [](const std::string& path, void*) { return path; };
+  using Bytes = std::vector<unsigned char>;
   closed.ReadWholeFile = [](Bytes*, std::string*, const std::string&, void*) { return false; };
   closed.WriteWholeFile = [](std::string*, const std::string&, const Bytes&, void*) {
     return false;
@@ -84,8 +83,14 @@ tinygltf::FsCallbacks closedDoors() {
   return closed;
 }
 
-tinygltf::Model parse(const Bytes& bytes, const std::string& file) {
-  checkContainer(bytes, file);
+}  // namespace
+
+tinygltf::Model readGltfBinary(const std::string& file) {
+  return parseGltfBinary(load(file), file);
+}
+
+tinygltf::Model parseGltfBinary(std::string_view bytes, const std::string& where) {
+  checkContainer(bytes, where);
   tinygltf::TinyGLTF loader;
   loader.SetFsCallbacks(closedDoors());
   loader.SetImageLoader([](tinygltf::Image*, const int, std::string*, std::string*, int, int,
@@ -95,22 +100,15 @@ tinygltf::Model parse(const Bytes& bytes, const std::string& file) {
   std::string error, warning;
   bool good = false;
   try {
-    good = loader.LoadBinaryFromMemory(&model, &error, &warning, bytes.data(),
+    good = loader.LoadBinaryFromMemory(&model, &error, &warning,
+                                       reinterpret_cast<const unsigned char*>(bytes.data()),
                                        static_cast<unsigned int>(bytes.size()), "");
   } catch (const std::exception& e) {
     error = e.what();
   }
   while (!error.empty() && (error.back() == '\n' || error.back() == '.')) error.pop_back();
-  if (!good) fail("the glTF is damaged (" + error + ")", file);
+  if (!good) fail("the glTF is damaged (" + error + ")", where);
   return model;
-}
-
-}  // namespace
-
-tinygltf::Model readGltfBinary(const std::string& file) { return parse(load(file), file); }
-
-tinygltf::Model parseGltfBinary(const std::string& bytes, const std::string& where) {
-  return parse(Bytes(bytes.begin(), bytes.end()), where);
 }
 
 }  // namespace palpa::anatomy

@@ -3,6 +3,7 @@
 #include <tiny_gltf.h>
 
 #include <string>
+#include <string_view>
 
 #include "anatomy/geometry/pose.h"
 
@@ -17,7 +18,7 @@ inline Vec3 aFromGltf(const Vec3& v_G) { return {v_G.x(), -v_G.z(), v_G.y()}; }
 /// are checked before the parser sees it, and the parser may open no other file. What the model
 /// refers to (indices, accessors, ranges) is still to be checked by the reader. Throws Error.
 tinygltf::Model readGltfBinary(const std::string& file);
-/// The same from bytes; `where` begins every message.
-tinygltf::Model parseGltfBinary(const std::string& bytes, const std::string& where);
+/// The same from the file's bytes; `where` begins every message.
+tinygltf::Model parseGltfBinary(std::string_view bytes, const std::string& where);
 
 }  // namespace palpa::anatomy

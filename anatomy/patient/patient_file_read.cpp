@@ -15,10 +15,10 @@ constexpr float kLargestRepeat = 100;       // of a picture over a surface
 
 class PatientReader {
  public:
-  explicit PatientReader(const std::filesystem::path& file) : file_(file.string()) {}
+  PatientReader(tinygltf::Model model, std::string where)
+      : where_(std::move(where)), model_(std::move(model)) {}
 
   Patient read() {
-    model_ = readGltfBinary(file_);
     readExtras();
     for (const tinygltf::Node& node : model_.nodes)
       if (node.mesh >= 0) readNode(node);
@@ -28,7 +28,7 @@ class PatientReader {
 
  private:
   [[noreturn]] void fail(const std::string& what) const {
-    throw Error(what, file_, "Write the patient again or take another file");
+    throw Error(what, where_, "Write the patient again or take another file");
   }
 
   double number(const tinygltf::Value& value, const std::string& what) const {
@@ -271,17 +271,23 @@ class PatientReader {
       fail("the surface \"" + surface->id + "\" has a picture but no TEXCOORD_0");
     const tinygltf::BufferView& view = viewOf(model_.images[source].bufferView);
     surface->texture = textureOfPng(model_.buffers[view.buffer].data.data() + view.byteOffset,
-                                    view.byteLength, file_);
+                                    view.byteLength, where_);
   }
 
-  std::string file_;
+  std::string where_;
   tinygltf::Model model_;
   Patient patient_;
 };
 
 }  // namespace
 
-Patient readPatient(const std::filesystem::path& file) { return PatientReader(file).read(); }
+Patient readPatient(const std::filesystem::path& file) {
+  return PatientReader(readGltfBinary(file.string()), file.string()).read();
+}
+
+Patient patientOfGlb(std::string_view bytes, const std::string& where) {
+  return PatientReader(parseGltfBinary(bytes, where), where).read();
+}
 
 bool isPatientFile(const std::filesystem::path& file) {
   const tinygltf::Model model = readGltfBinary(file.string());

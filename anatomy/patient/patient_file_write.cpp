@@ -21,7 +21,7 @@ Value triple(const Vec3& v) {
 
 class ModelWriter {
  public:
-  explicit ModelWriter(std::string file) : file_(std::move(file)) {}
+  explicit ModelWriter(std::string where) : where_(std::move(where)) {}
 
   tinygltf::Model write(const Patient& patient) {
     model_.asset.version = "2.0";
@@ -116,7 +116,7 @@ class ModelWriter {
 
   // The picture stays in the one buffer, packed, so that the patient is one file.
   int addPicture(const OrganSurface& surface) {
-    const std::vector<unsigned char> png = pngOf(surface.texture, file_);
+    const std::vector<unsigned char> png = pngOf(surface.texture, where_);
     tinygltf::Image image;
     image.name = surface.id;
     image.mimeType = "image/png";
@@ -181,7 +181,7 @@ class ModelWriter {
     model_.scenes[0].nodes.push_back(static_cast<int>(model_.nodes.size()) - 1);
   }
 
-  std::string file_;
+  std::string where_;
   tinygltf::Model model_;
 };
 
@@ -206,13 +206,16 @@ void roundAsInFile(Patient& patient) {
       throughFloats(*vectors);
 }
 
-void writePatient(const Patient& patient, const std::filesystem::path& file) {
-  const tinygltf::Model model = ModelWriter(file.string()).write(patient);
+std::string glbOf(const Patient& patient, const std::string& where) {
+  const tinygltf::Model model = ModelWriter(where).write(patient);
   std::ostringstream bytes;
   if (!tinygltf::TinyGLTF().WriteGltfSceneToStream(&model, bytes, false, true))
-    throw Error("the patient cannot be written as glTF", file.string(), "Check its surfaces");
+    throw Error("the patient cannot be written as glTF", where, "Check its surfaces");
+  return bytes.str();
+}
 
-  writeWhole(file, bytes.str());
+void writePatient(const Patient& patient, const std::filesystem::path& file) {
+  writeWhole(file, glbOf(patient, file.string()));
 }
 
 }  // namespace palpa::anatomy

@@ -13,7 +13,6 @@
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
 #include "apps/assess/needle/needle_metrics.h"
-#include "apps/os/file_access.h"
 
 namespace palpa::evidence {
 namespace {
@@ -37,13 +36,14 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
     throw Error(std::string("the session's description is damaged (") + e.what() + ")",
                 file.string(), "Restore the file from a backup");
   }
-  patient_ = anatomy::readPatient(os::TemporaryFile(info.patient_glb, ".glb").path());
+  const std::string patient = file.string() + ", its patient";
+  patient_ = anatomy::patientOfGlb(info.patient_glb, patient);
   query_ = std::make_unique<anatomy::SurfaceQuery>(patient_);
-  task_ = task_needle::readTask(os::TemporaryFile(info.task_json, ".json").path());
-  if (!task_.block) anatomy::requireForNeedle(patient_, file.string() + ", its patient");
+  task_ = task_needle::readTask(JsonFile::ofText(info.task_json, file.string() + ", its task"));
+  if (!task_.block) anatomy::requireForNeedle(patient_, patient);
   if (!info.expert_path_json.empty())
     expert_path_ = std::make_unique<calibration::ExpertPath>(
-        calibration::readExpertPath(os::TemporaryFile(info.expert_path_json, ".json").path()));
+        calibration::parseExpertPath(info.expert_path_json, file.string() + ", its optimal path"));
   trials_ = reader_->trials();
 }
 

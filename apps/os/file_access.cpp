@@ -6,9 +6,6 @@
 
 #include <cerrno>
 #include <cstdlib>
-#include <fstream>
-
-#include "anatomy/base/error.h"
 
 namespace palpa::os {
 namespace {
@@ -43,20 +40,6 @@ Privacy privacyOf(const fs::path& file) {
   struct stat facts {};
   if (::stat(file.c_str(), &facts) != 0) return Privacy::missing;
   return (facts.st_mode & kOthers) != 0 ? Privacy::shared : Privacy::own;
-}
-
-TemporaryFile::TemporaryFile(const std::string& bytes, const std::string& extension) {
-  std::string pattern = (fs::temp_directory_path() / "palpa-XXXXXX").string() + extension;
-  const int descriptor = ::mkstemps(pattern.data(), static_cast<int>(extension.size()));
-  if (descriptor < 0) throw Error("cannot be made", pattern, "Is the disk full?");
-  path_ = pattern;
-  std::ofstream(path_, std::ios::binary) << bytes;
-  ::close(descriptor);
-}
-
-TemporaryFile::~TemporaryFile() {
-  std::error_code ignored;
-  fs::remove(path_, ignored);
 }
 
 TemporaryFolder::TemporaryFolder(const std::string& prefix) {

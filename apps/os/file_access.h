@@ -19,21 +19,6 @@ enum class Privacy { missing, shared, own };
 /// `own`: nobody but its owner may read or write it.
 Privacy privacyOf(const std::filesystem::path& file);
 
-/// Bytes as a file among the temporary ones, for readers that take a path; removed at the end of
-/// its life. Throws Error.
-class TemporaryFile {
- public:
-  /// `extension`: with its dot.
-  TemporaryFile(const std::string& bytes, const std::string& extension);
-  ~TemporaryFile();
-  TemporaryFile(const TemporaryFile&) = delete;
-  TemporaryFile& operator=(const TemporaryFile&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
 /// A folder among the temporary files that this user alone may enter; removed at the end of its
 /// life with all that is in it.
 class TemporaryFolder {

@@ -63,7 +63,7 @@ class NeedleSession {
   SessionResult run() {
     SessionResult result;
     static_cast<SessionRun&>(result) =
-        frame_.run(task_, scene_, sessionInfo(options_, world_, folder_), &geometry_);
+        frame_.run(task_, scene_, sessionInfo(options_, world_), &geometry_);
     result.trials = task_.completed();
     if (options_.headset) result.devices.push_back(head_.fact());
     return result;

@@ -2,7 +2,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "anatomy/base/whole_file.h"
 #include "anatomy/patient/patient_file.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/needle_world.h"
@@ -66,14 +65,6 @@ SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWor
 
 namespace {
 
-std::string bytesOf(const anatomy::Patient& patient, const std::filesystem::path& folder) {
-  const std::filesystem::path file = folder / ".patient.glb";
-  anatomy::writePatient(patient, file);
-  std::string bytes = readWhole(file).value_or("");
-  std::filesystem::remove(file);
-  return bytes;
-}
-
 nlohmann::json json(const Pose& X) {
   const PackedPose p = pack(X);
   return {{"p_m", p.p}, {"q_wxyz", p.q}};
@@ -97,8 +88,7 @@ haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld&
   return config;
 }
 
-record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world,
-                                const std::filesystem::path& folder) {
+record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world) {
   record::SessionInfo info;
   info.uuid = options.uuid;
   info.started_utc = runtime::utcNow();
@@ -124,8 +114,8 @@ record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld
                                   options);
   info.station_json = world.station.file.json().dump();
   info.task_json = world.task.source;
-  info.patient_glb = bytesOf(world.patient, folder);
-  if (world.expert_path) info.expert_path_json = readWhole(world.task.expert_path).value_or("");
+  info.patient_glb = anatomy::glbOf(world.patient, "the session's patient");
+  if (world.expert_path) info.expert_path_json = world.expert_path->source;
   info.tick_config = tickConfig(options, world);
   return info;
 }

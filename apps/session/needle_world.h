@@ -1,6 +1,5 @@
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <optional>
 
@@ -57,8 +56,7 @@ bool isSimulated(const SessionOptions& options, const NeedleWorld& world);
 /// can do.
 haptics::TickConfig tickConfig(const SessionOptions& options, const NeedleWorld& world);
 
-/// What the evidence says of the session. `folder`: for a passing file.
-record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world,
-                                const std::filesystem::path& folder);
+/// What the evidence says of the session.
+record::SessionInfo sessionInfo(const SessionOptions& options, const NeedleWorld& world);
 
 }  // namespace palpa::session

@@ -156,7 +156,10 @@ PuncturedBlock blockIn(const JsonFile& file) {
 }  // namespace
 
 TaskSettings readTask(const std::filesystem::path& path) {
-  const JsonFile file = station::readTaskFile(path);
+  return readTask(station::readTaskFile(path), path.parent_path());
+}
+
+TaskSettings readTask(const JsonFile& file, const std::filesystem::path& folder) {
   file.needVersion(1);
   station::needEngine(file, station::Engine::needle);
   TaskSettings task;
@@ -166,7 +169,7 @@ TaskSettings readTask(const std::filesystem::path& path) {
   if (file.has("end/most_passes"))
     task.most_passes = {file.integer("end/most_passes/assessed", 0, 100),
                         file.integer("end/most_passes/practice", 0, 100)};
-  task.materials = path.parent_path() / file.text("materials");
+  task.materials = folder / file.text("materials");
   task.source = file.json().dump();
   task.augmentations = station::readPlan(file);
   task.words = wordsIn(file);
@@ -178,7 +181,7 @@ TaskSettings readTask(const std::filesystem::path& path) {
   } else {
     task.rules = readRules(file);
     task.rules.errors = readErrors(file);
-    task.expert_path = path.parent_path() / file.text("expert_path");
+    task.expert_path = folder / file.text("expert_path");
   }
   if (file.has("taxonomy"))
     task.taxonomy = station::taxonomyOf(file);  // older recordings carry none

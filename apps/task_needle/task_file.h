@@ -97,5 +97,8 @@ struct TaskSettings {
 
 /// Throws UsageError naming file and field.
 TaskSettings readTask(const std::filesystem::path& file);
+/// The same from what was read of the file, as a recording holds it (with the model where the task
+/// names one). Paths of other files are relative to `folder`; without one they stay as they stand.
+TaskSettings readTask(const JsonFile& file, const std::filesystem::path& folder = {});
 
 }  // namespace palpa::task_needle

@@ -104,6 +104,22 @@ TEST(PatientFile, SmallPatientKeepsALargeSeedAndQuotes) {
   EXPECT_EQ(read.side, Side::left);
 }
 
+TEST(PatientFile, ItsBytesAreReadAndWrittenWithoutAFile) {
+  const ScratchFolder folder("bytes");
+  writePatient(smallPatient(), folder / "p.glb");
+  const std::string bytes = glbOf(smallPatient(), "here");
+  EXPECT_TRUE(bytes == bytesOf(folder / "p.glb"));
+  const Patient read = readPatient(folder / "p.glb"), parsed = patientOfGlb(bytes, "here");
+  EXPECT_TRUE(glbOf(parsed, "here") == glbOf(read, "here"));
+  EXPECT_EQ(parsed.landmarks, read.landmarks);
+  try {
+    patientOfGlb(std::string_view(bytes).substr(0, bytes.size() / 2), "the record, its patient");
+    ADD_FAILURE() << "half a patient was taken for a whole one";
+  } catch (const Error& error) {
+    EXPECT_EQ(std::string(error.what()).rfind("the record, its patient: ", 0), 0u) << error.what();
+  }
+}
+
 TEST(PatientFile, LeavesOnlyTheFinishedFile) {
   const ScratchFolder folder("atomic");
   writePatient(smallPatient(), folder / "p.glb");

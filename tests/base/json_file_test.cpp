@@ -39,6 +39,23 @@ TEST(JsonFile, WhatIsNoNumberIsRefused) {
   expectUsageError(std::string(100'000, '[') + std::string(100'000, ']'), "nested too deep");
 }
 
+TEST(JsonFile, TextIsReadAsItsFileIs) {
+  const std::string text = R"({"x": {"value": 3, "range": [0, 4]}, "t": "u"})";
+  const auto name = test::freshFolder("base", "json") / "a.json";
+  std::ofstream(name) << text;
+  const JsonFile file(name), same = JsonFile::ofText(text, "the record, its task");
+  EXPECT_EQ(same.json(), file.json());
+  EXPECT_EQ(same.name(), "the record, its task");
+  for (const std::string& wrong :
+       {std::string(), std::string("{"), std::string(100'000, '['), std::string(5'000'000, ' ')})
+    try {
+      JsonFile::ofText(wrong, "the record, its task");
+      ADD_FAILURE() << wrong.size() << " bytes were taken for valid";
+    } catch (const UsageError& e) {
+      EXPECT_EQ(std::string(e.what()).rfind("the record, its task: ", 0), 0u) << e.what();
+    }
+}
+
 TEST(JsonFile, WhatIsNoFileIsRefused) {
   EXPECT_THROW(JsonFile("/nowhere/at.json"), UsageError);
   EXPECT_THROW(JsonFile(std::filesystem::temp_directory_path()), UsageError);

@@ -24,13 +24,15 @@ void redirect(const fs::path& file, int stream) {
 }
 
 /// From whoever runs the tests: their records and what waits to be sent. A test that means records
-/// by the environment names them in PALPA_TEST_RECORDS.
+/// by the environment names them in PALPA_TEST_RECORDS; one that means the program's place for
+/// temporary files, and not its own, in PALPA_TEST_TMPDIR.
 void keepApart(const fs::path& folder) {
   ::setenv("XDG_STATE_HOME", (folder / "state").c_str(), 0);
   if (const char* records = std::getenv("PALPA_TEST_RECORDS"))
     ::setenv("PALPA_RECORDS", records, 1);
   else
     ::unsetenv("PALPA_RECORDS");
+  if (const char* temporary = std::getenv("PALPA_TEST_TMPDIR")) ::setenv("TMPDIR", temporary, 1);
 }
 
 [[noreturn]] void become(std::vector<std::string> arguments, const fs::path& folder,

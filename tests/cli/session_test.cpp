@@ -5,6 +5,7 @@
 
 #include "csv_rows.h"
 #include "program.h"
+#include "tests/support/setting.h"
 
 /// Whole sessions of a simulated expert, from the arguments to the files. Each takes a few seconds.
 namespace palpa::cli_test {
@@ -85,6 +86,18 @@ TEST(Session, ReplayEqualsTheRecord) {
   EXPECT_EQ(replay.exit_code, 0) << replay.err;
   EXPECT_NE(replay.out.find(": 0 differ"), std::string::npos) << replay.out;
   EXPECT_NE(replay.out.find("same score"), std::string::npos) << replay.out;
+}
+
+TEST(Session, NothingIsWrittenOnlyToBeReadAgain) {
+  const test::Setting nowhere("PALPA_TEST_TMPDIR", "/nowhere");
+  const Recorded again({"--seed", "1", "--trainee", "T042"});
+  ASSERT_EQ(again.outcome.exit_code, 0) << again.outcome.err;
+  EXPECT_EQ(again.csv(), first().csv());
+  const Outcome replay = palpa({"replay", "A/session.palpa"}, again.here.path()),
+                page = palpa({"report", "trial", "A", "--out", "page.html"}, again.here.path());
+  EXPECT_EQ(replay.exit_code, 0) << replay.err;
+  EXPECT_NE(replay.out.find("same score"), std::string::npos) << replay.out;
+  EXPECT_EQ(page.exit_code, 0) << page.err;
 }
 
 TEST(Session, ViewsChangeNoScore) {

@@ -78,6 +78,24 @@ TEST_F(ExpertPathFile, RoundTrips) {
   EXPECT_TRUE(back.simulated);
 }
 
+TEST_F(ExpertPathFile, ItsTextGivesTheSamePath) {
+  const ExpertPath file = readExpertPath(file_), same = parseExpertPath(text(), "the record");
+  EXPECT_EQ(same.source, text());
+  EXPECT_EQ(file.source, text());
+  EXPECT_EQ(same.entry_L, file.entry_L);
+  EXPECT_EQ(same.line_to_L, file.line_to_L);
+  EXPECT_EQ(same.direction_acceptable, file.direction_acceptable);
+  EXPECT_EQ(same.experts, file.experts);
+  for (const auto& [wrong, where] : {std::pair{"{}", "the record, field \"format\": "},
+                                     {"{", "the record: this is not a JSON file"}})
+    try {
+      parseExpertPath(wrong, "the record");
+      ADD_FAILURE() << wrong;
+    } catch (const Error& error) {
+      EXPECT_EQ(std::string(error.what()).rfind(where, 0), 0u) << error.what();
+    }
+}
+
 TEST_F(ExpertPathFile, StatesUnitsInItsNames) {
   for (const char* key : {"entry_L_mm", "depth_mm", "direction_sd_deg", "line_to_L_mm"})
     EXPECT_NE(text().find(key), std::string::npos) << key;

@@ -181,7 +181,7 @@ Layers trialLayers() {
        .never = {"apps/record", "apps/report", "apps/twin"},
        .libraries = {"Eigen", "OpenCV", "JSON"}},
       {.folder = "apps/evidence",
-       .ours = librariesAnd({"apps/os", "apps/record", "apps/runtime", "apps/station", "apps/trial",
+       .ours = librariesAnd({"apps/record", "apps/runtime", "apps/station", "apps/trial",
                              "apps/task_*", "apps/assess", "apps/replay", "apps/report"}),
        .never = {"apps/session", "apps/twin"},
        .libraries = {"Eigen", "JSON"}},

@@ -6,6 +6,7 @@
 #include "apps/os/file_access.h"
 #include "apps/os/file_lock.h"
 #include "tests/support/scratch_folder.h"
+#include "tests/support/setting.h"
 
 namespace palpa::os {
 namespace {
@@ -20,21 +21,7 @@ std::string textOf(const fs::path& file) {
   return text;
 }
 
-/// An environment variable, as it was again at the end.
-class Setting {
- public:
-  Setting(const char* name, const char* value) : name_(name) {
-    if (const char* before = std::getenv(name)) before_ = before;
-    value ? ::setenv(name, value, 1) : ::unsetenv(name);
-  }
-  ~Setting() { before_.empty() ? ::unsetenv(name_) : ::setenv(name_, before_.c_str(), 1); }
-  Setting(const Setting&) = delete;
-  Setting& operator=(const Setting&) = delete;
-
- private:
-  const char* const name_;
-  std::string before_;
-};
+using test::Setting;
 
 TEST(Files, ANewOneNeverTakesAnothersPlace) {
   const test::ScratchFolder folder("os-new");
@@ -67,21 +54,17 @@ TEST(Files, WhatIsNotThereMayNotBeWritten) {
   EXPECT_FALSE(mayWrite(folder / "not"));
 }
 
-TEST(Files, TemporaryOnesGoWithAllThatIsInThem) {
-  fs::path file, inside;
+TEST(Files, ATemporaryFolderGoesWithAllThatIsInIt) {
+  fs::path inside;
   {
-    const TemporaryFile one("{}", ".json");
-    const TemporaryFolder two("palpa-os-");
-    ASSERT_TRUE(two.made());
-    file = one.path();
-    inside = two.path() / "deep/er";
+    const TemporaryFolder folder("palpa-os-");
+    ASSERT_TRUE(folder.made());
+    inside = folder.path() / "deep/er";
     fs::create_directories(inside);
-    EXPECT_EQ(textOf(file), "{}");
-    EXPECT_EQ(file.extension(), ".json");
-    EXPECT_EQ(privacyOf(two.path()), Privacy::own);
-    EXPECT_NE(TemporaryFile("", ".json").path(), file);
+    write(folder.path() / "file", "{}");
+    EXPECT_EQ(privacyOf(folder.path()), Privacy::own);
+    EXPECT_NE(TemporaryFolder("palpa-os-").path(), folder.path());
   }
-  EXPECT_FALSE(fs::exists(file));
   EXPECT_FALSE(fs::exists(inside.parent_path().parent_path()));
 }
 

@@ -8,6 +8,7 @@
 #include "apps/evidence/recorded_session.h"
 #include "apps/session/needle_session.h"
 #include "tests/support/counts.h"
+#include "tests/support/setting.h"
 
 /// What a trial was worth is what its record says, for ever.
 namespace palpa::session {
@@ -43,9 +44,11 @@ void expectSameMetrics(const std::vector<metrics::MetricValue>& live,
         << m.name << ": " << stored.metric(m.name) << ", live " << m.value;
 }
 
-/// Records a session and judges it again from its file alone; answers how many trials.
+/// Records a session and judges it again from its file alone, with no place for other ones; answers
+/// how many trials.
 int recordAndRescore(const SessionOptions& options, NeedleWorld& world,
                      const std::filesystem::path& folder) {
+  const test::Setting nowhere("TMPDIR", "/nowhere");
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   const SessionResult session = runNeedleSession(options, world, folder);
