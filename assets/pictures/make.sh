@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Makes every picture of the README with the commands that stand beside it there.
+# Makes the pictures beside this script, which READMEs show, with the commands printed there.
 #   assets/pictures/make.sh                     with the program that ./run has built
 #   PALPA=/path/to/palpa assets/pictures/make.sh
 # Needs ImageMagick (package imagemagick). The picture of the report needs chromium
@@ -47,9 +47,6 @@ moment() {
 cd "$work"
 "$palpa" paracentesis --operator expert --seed 1 --fast --out out/readme
 moment out/readme phase-2 session.png
-
-"$palpa" board print --out board.png
-small board.png board.png -resize 700x
 
 root=()
 [ "$(id -u)" = 0 ] && root=(--no-sandbox)  # chromium refuses its sandbox to root

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <regex>
 #include <set>
 
 #include "markdown.h"
@@ -74,6 +75,18 @@ TEST(Documents, PicturesOfTheGuideAreShownAndSmall) {
     EXPECT_GT(sizeOf(entry.path()).width, 100) << entry.path();
   }
   EXPECT_LE(all, kMostInAll);
+}
+
+// A drawing says where things are: below its boxes stand folders.
+TEST(Documents, FoldersInADrawingExist) {
+  const std::string drawing = bytesOf(kPictures / "data-flow.svg");
+  const std::regex folder("<text class=\"folder\"[^>]*>([^<]+)<");
+  int looked = 0;
+  for (std::sregex_iterator it(drawing.begin(), drawing.end(), folder), end; it != end; ++it) {
+    ++looked;
+    EXPECT_TRUE(fs::is_directory(top() / (*it)[1].str())) << (*it)[1] << " is no folder";
+  }
+  EXPECT_GE(looked, 20);
 }
 
 TEST(Documents, ChaptersAreShort) {

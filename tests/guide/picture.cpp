@@ -1,5 +1,6 @@
 #include "picture.h"
 
+#include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
@@ -26,16 +27,27 @@ PictureSize sizeOfJpeg(const std::string& bytes) {
   throw std::runtime_error("a JPEG without a frame");
 }
 
+/// The number in `name="..."` of the first tag; 0: it has none.
+int attribute(const std::string& svg, const std::string& name) {
+  const std::string head = svg.substr(0, svg.find('>'));
+  const std::size_t at = head.find(" " + name + "=\"");
+  return at == std::string::npos ? 0 : std::atoi(head.c_str() + at + name.size() + 3);
+}
+
 }  // namespace
 
+std::string bytesOf(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
+}
+
 PictureSize sizeOf(const std::filesystem::path& picture) {
-  std::ifstream stream(picture, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(stream)),
-                          std::istreambuf_iterator<char>());
+  const std::string bytes = bytesOf(picture);
   if (bytes.starts_with("\x89PNG\r\n") && bytes.size() > 24)
     return {number(bytes, 16, 4), number(bytes, 20, 4)};
   if (bytes.starts_with("\xff\xd8")) return sizeOfJpeg(bytes);
-  throw std::runtime_error(picture.string() + " is neither PNG nor JPEG");
+  if (bytes.starts_with("<svg ")) return {attribute(bytes, "width"), attribute(bytes, "height")};
+  throw std::runtime_error(picture.string() + " is neither PNG nor JPEG nor SVG");
 }
 
 }  // namespace palpa::guide

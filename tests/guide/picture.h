@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace palpa::guide {
 
@@ -9,7 +10,11 @@ struct PictureSize {
   bool operator==(const PictureSize&) const = default;
 };
 
-/// Of a PNG or JPEG, by its head; throws std::runtime_error for anything else.
+/// Empty: there is no such file.
+std::string bytesOf(const std::filesystem::path& file);
+
+/// Of a PNG, a JPEG or an SVG that begins with its tag, by its head; throws std::runtime_error for
+/// anything else.
 PictureSize sizeOf(const std::filesystem::path& picture);
 
 }  // namespace palpa::guide
