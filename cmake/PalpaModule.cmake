@@ -1,7 +1,7 @@
 # palpa_module(NAME [ROOMS folders...] [PUBLIC libs...] [PRIVATE libs...])
 # One folder with the rooms named, one static library named palpa_NAME. Includes start at the top of
 # the tree ("haptics/loop/tick.h"). PUBLIC libraries may appear in the folder's headers, PRIVATE
-# ones only in its sources: that is how the build refuses an arrow that runs the wrong way.
+# ones only in its sources: that is how the build refuses what docs/architecture.md does not allow.
 function(palpa_module NAME)
   cmake_parse_arguments(ARG "" "" "ROOMS;PUBLIC;PRIVATE" ${ARGN})
   list(TRANSFORM ARG_ROOMS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE folders)

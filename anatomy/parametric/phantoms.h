@@ -30,9 +30,6 @@ Patient phantomBlock(const Vec3& size, const std::string& name);
 /// What they hide is an `Organ::inclusion`.
 namespace palpa::anatomy {
 
-inline constexpr double kSiliconeModulus = 7e3;     ///< Pa, of the breast mock-up in the literature
-inline constexpr double kInclusionModulus = 180e3;  ///< Pa, of its 20 mm inclusion
-
 enum class PhantomKind { breast, abdomen };
 
 /// Breast: a sphere. Abdomen: an enlarged liver below the right costal margin, so thick a diameter

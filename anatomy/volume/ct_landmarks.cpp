@@ -13,8 +13,9 @@
 namespace palpa::anatomy {
 namespace {
 
-constexpr double kMeanLength = 0.1494,
-                 kShortestWhole = 0.130;  // clavicle, model sheet 5: 149.4 +- 10.3 mm
+// m, of a clavicle: 149.4 +- 10.3 mm (`clavicle_length` in assets/patients/reference.json); what is
+// shorter by 1.9 of these spreads is taken for cut off.
+constexpr double kMeanLength = 0.1494, kShortestWhole = 0.130;
 constexpr double kSuggestStep = 0.008;
 constexpr double kBelow = 0.010, kSternalRegion = 0.012;
 constexpr double kSteepest = 30 * std::numbers::pi / 180, kLeastClearance = 1e-3, kNeedle = 0.060,

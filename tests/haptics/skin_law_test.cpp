@@ -6,7 +6,7 @@ namespace palpa::haptics {
 namespace {
 
 TEST(SkinLaw, FiveGramForceAtOneMillimetre) {
-  const SkinLaw skin;  // the paper's parameters
+  const SkinLaw skin;  // Tzafestas et al. 2008
   constexpr double kGramForce = 9.80665e-3;
   EXPECT_NEAR(skin.force(0.001) / kGramForce, 5.15, 0.01);  // 5.15 gf by hand
 }

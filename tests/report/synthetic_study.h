@@ -17,7 +17,7 @@ using study_analysis::StudyKind;
 using study_analysis::StudyResult;
 using study_analysis::StudyRow;
 
-/// Twenty simulated subjects, as many as the paper had.
+/// Twenty simulated subjects, as many as Tzafestas et al. 2008 had.
 inline StudyResult pilotResult() {
   return analyseStudy(study_analysis::drawStudy(study_analysis::pilotModels(), 5, 10, 1),
                       study_analysis::test::pilotDesign());

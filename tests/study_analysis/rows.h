@@ -46,7 +46,7 @@ inline double at(const Exhibit& e, std::size_t row, const std::string& column) {
   return std::nan("");
 }
 
-/// The pilot as the paper had it, the published way beside.
+/// The pilot as Tzafestas et al. 2008 had it, the published way beside.
 inline StudyDesign pilotDesign() {
   StudyDesign design;
   design.kind = StudyKind::paracentesis_pilot;

@@ -24,7 +24,8 @@ struct ErrorRules {
   double blood_s = 0.2;          ///< plunger drawn in the lumen: the vein was reached
 };
 
-/// Settings that are ours; the paper is silent. Every figure can be set in the task's file.
+/// Settings that are ours, where Tzafestas et al. 2008 are silent. Every figure can be set in the
+/// task's file.
 struct ScoringRules {
   double sample_rate_Hz = 20;  ///< COL_* counts samples at this rate
   double clavicle_guide_N =

@@ -12,7 +12,8 @@ namespace palpa::assess {
 enum class ProcedurePhase { approach, puncture, reorient, advance };
 const char* clinicalName(ProcedurePhase phase);
 
-/// Thresholds of the phases, metres, radians, seconds. Ours; the paper names the two phases only.
+/// Thresholds of the phases, metres, radians, seconds. Ours; Tzafestas et al. 2008
+/// name the two phases only.
 struct PhaseRules {
   double smoothing_s = 0.1;     ///< first-order; leaves 1/6 of a 10 Hz tremor
   double turn_begins = 0.0873;  ///< 5 deg from the puncture's direction: the needle is being turned

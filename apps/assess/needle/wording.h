@@ -24,8 +24,8 @@ std::string offsetWords(const Vec3& offset_L);
 /// "a", "a and b", "a, b and c".
 std::string list(const std::vector<std::string>& parts);
 
-/// The nine lines of the score, in the paper's order, each with its reason in clinical words. A
-/// line without penalty says briefly what was right.
+/// The nine lines of the score, in the order of Tzafestas et al. 2008, each with its reason in
+/// clinical words. A line without penalty says briefly what was right.
 std::vector<Penalty> explain(const TrialReview& review, const calibration::ExpertPath& path,
                              const ScoringRules& rules);
 

@@ -16,7 +16,7 @@ struct StudyPage {
 
 /// One self-contained HTML page of a study: what was found in sentences, what cannot be said,
 /// figures with their tables, tests with their doubts, and beside them, where it was asked for, the
-/// way of the paper. All or nothing on disk.
+/// published way. All or nothing on disk.
 void writeStudyReport(const StudyPage& page, const std::filesystem::path& file);
 
 /// Tables of the page for other programs: <id>.csv and <id>.json of every table and figure, in

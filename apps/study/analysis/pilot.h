@@ -9,7 +9,7 @@
 
 namespace palpa::study_analysis {
 
-/// The two figures that the pilot looks at, in the paper's order.
+/// The two figures that the pilot looks at, in the order of Tzafestas et al. 2008.
 inline const std::vector<std::string> kPilotMetrics{"time_s", "total"};
 
 /// How one group learned under one condition, in one figure.

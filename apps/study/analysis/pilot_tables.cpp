@@ -9,7 +9,7 @@ namespace {
 
 double countOf(std::size_t n) { return static_cast<double>(n); }
 
-/// "table_3" for the paper's without, "table_4" for its with force feedback.
+/// As Tzafestas et al. 2008 number them: "table_3" without, "table_4" with force feedback.
 std::string learningId(std::size_t condition) {
   return condition < 2 ? "table_" + std::to_string(3 + condition)
                        : "learning_" + std::to_string(condition + 1);

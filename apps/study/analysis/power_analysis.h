@@ -53,7 +53,7 @@ struct Detections {
 
 struct DrawnStudies {
   int studies = 2000;
-  int subjects = 5;  ///< in each group and condition: 20 in all, as in the paper
+  int subjects = 5;  ///< in each group and condition: 20 in all, as Tzafestas 2008
   int trials = 10;
   double level = 0.05;  ///< of each test
   std::uint64_t seed = 1;

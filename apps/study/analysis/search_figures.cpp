@@ -165,7 +165,7 @@ std::vector<Exhibit> searchFigures(const std::vector<StudyRow>& rows, const Stud
       slopes(design, study, "figure_7", "Duration of a trial before and after training",
              "mean duration, s", 1, &SearchSubject::seconds_before, &SearchSubject::seconds_after),
       scatter(design, study)};
-  int number = 9;  // the paper shows the augmented simulator first, the second kind of training
+  int number = 9;  // Edmunds and Pai 2012 show the augmented simulator first, the second kind
   for (auto training = study.trainings.rbegin(); training != study.trainings.rend(); ++training)
     if (const SearchSubject* typical = typicalOf(study, *training))
       all.push_back(durations(rows, design, *typical, "figure_" + std::to_string(number++)));

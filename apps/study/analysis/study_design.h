@@ -25,7 +25,7 @@ struct StudyDesign {
   std::map<std::string, std::string>
       words;  ///< how groups, conditions and blocks are called in sentences; default: by their name
   std::vector<std::string> metrics;  ///< of the general analysis; empty: all that vary
-  bool as_published = false;         ///< beside: the way of the paper
+  bool as_published = false;         ///< beside: as the published study did
   std::uint64_t seed = 1;            ///< of the bootstrap
 };
 
