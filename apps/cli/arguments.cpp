@@ -71,17 +71,18 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
       ->type_name("FILE");
   choice(command, "--operator", o.who, kOperators,
          "Who performs: you, or a simulated expert or novice");
-  command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can, repeats exactly");
+  command.add_flag("--fast", o.fast, "Virtual time: as fast as the computer can; repeats exactly");
   command.add_flag("--record-video", o.record_video,
-                   "Keep the camera's pictures beside their poses: camera.mjpeg and a table");
+                   "Keep the camera's pictures and their poses: camera.mjpeg and a table");
   command.add_flag("--no-views", o.no_views, "Render nothing; changes no score");
-  choice(
-      command, "--force-colours", o.force_colours, kForceColours,
-      "Of the force arrows: grays (paper, the default), or told apart by colour-blind eyes (safe)");
+  choice(command, "--force-colours", o.force_colours, kForceColours,
+         "Colours of the force arrows: grays (paper, the default), or ones that colour-blind "
+         "people can tell apart (safe)");
   choice(command, "--stereo", o.stereo, kStereos,
          "The large view for two eyes (default none); anaglyph: for red and cyan glasses");
   choice(command, "--inset", o.inset, kInsets,
-         "A small picture in the corner (default none); camera: what it sees, without the overlay");
+         "A small picture in the corner (default none); camera: what the camera sees, without the "
+         "overlay");
   command
       .add_option_function<std::string>(
           "--display",
@@ -93,20 +94,21 @@ void addPlaceArguments(CLI::App& command, session::SessionOptions& o) {
       ->check(CLI::IsMember({"auto", "window", "offscreen", kHeadset}))
       ->type_name("auto|offscreen|openxr|window");
   command.add_flag("--assess", o.assess,
-                   "Assessment: every aid is off, as for an examination; a needle's trial ends at "
+                   "Assessment: every aid is off, as in an examination; a needle trial ends at "
                    "the fourth pass");
   command.add_option("--out", o.out, "Folder for the results (default out/<command>-<time>)")
       ->type_name("DIR");
   command
       .add_option(
           "--bench-seed", o.bench_seed,
-          "Of the virtual bench's truth: that with which it was calibrated (default: as --seed)")
+          "Seed of the virtual bench's truth: the one it was calibrated with (default: as --seed)")
       ->check(CLI::PositiveNumber);
   command
-      .add_option("--live", o.live,
-                  "Let a console look on and steer, through a local socket at this path")
+      .add_option(
+          "--live", o.live,
+          "Let a console watch and control the session, through a local socket at this path")
       ->type_name("SOCKET");
-  command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop a second (default 1000)")
+  command.add_option("--rate", o.rate_Hz, "Ticks of the haptic loop per second (default 1000)")
       ->check(CLI::Range(1000.0, 4000.0));
   command.add_option("--cpu", o.cpu, "Keep the haptic thread on this processor")
       ->check(CLI::Range(0, 1023));
@@ -126,7 +128,7 @@ void addRunArguments(CLI::App& command, session::SessionOptions& o) {
   command
       .add_option(
           "--records", o.records,
-          "Bring finished trials into these records: a file, or postgresql://user@host/database "
+          "Add finished trials to these records: a file, or postgresql://user@host/database "
           "(default: $PALPA_RECORDS, else nobody is recorded)")
       ->envname("PALPA_RECORDS")
       ->type_name("FILE|URL");
@@ -142,7 +144,8 @@ void addRunArguments(CLI::App& command, session::SessionOptions& o) {
       .add_option(
           "--igtl-listen", o.igtl_listen,
           "Who may follow: 127.0.0.1, programs on this computer (default); this computer's own "
-          "address, or 0.0.0.0: whoever reaches it by network, without password or encryption")
+          "address, or 0.0.0.0: anyone who can reach it over the network, without password or "
+          "encryption")
       ->type_name("ADDRESS")
       ->needs(igtl);
   command.add_flag_callback(
@@ -168,8 +171,8 @@ void addSessionArguments(CLI::App& command, session::SessionOptions& o) {
   choice(command, "--side", o.side, kSides, "Side that is punctured");
   choice(command, "--handedness", o.left_handed, kHands, "The trainee's hand");
   choice(command, "--operator-knows", o.knows_patient, kKnowledge,
-         "Where a simulated one expects the vein: as in most people (mean, the default), or as in "
-         "this patient's images");
+         "Where a simulated operator expects the vein: as in most people (mean, the default), or "
+         "as in this patient's images");
   choice(
       command, "--skin-deflection", o.skin_deflection, kOnOff,
       "Show the skin giving way under the needle (default off: seeing must not replace feeling)");
@@ -183,9 +186,10 @@ void addSessionArguments(CLI::App& command, session::SessionOptions& o) {
       "A person starts without a first unscored trial");
   command.add_option("--expert-path", o.expert_path, "Optimal path; default: the task's")
       ->type_name("FILE");
-  choice(command, "--geometry", o.exact_geometry, kGeometries,
-         "What the tick knows of the shape: snapshots at 60 Hz, or the full mesh in every tick "
-         "(slow; with --fast)");
+  choice(
+      command, "--geometry", o.exact_geometry, kGeometries,
+      "What the haptic loop knows of the shape: snapshots at 60 Hz, or the full mesh in every tick "
+      "(slow; with --fast)");
   addRecordedPictures(command, o);
 }
 

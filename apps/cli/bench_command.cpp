@@ -22,13 +22,14 @@ void addLoop(CLI::App& bench) {
       "Example:\n  palpa bench loop > loop.jsonl\n  palpa bench loop --rate 4000 --cpu 1\n  palpa "
       "bench loop --pages 2\n      the same again while two pages of the console look on");
   const auto options = std::make_shared<bench::LoopBenchOptions>();
-  loop->add_option("--seconds", options->seconds, "Of measurement, in 40 segments")
+  loop->add_option("--seconds", options->seconds, "Duration of the measurement, in 40 segments")
       ->check(CLI::Range(1.0, 3600.0));
-  loop->add_option("--rate", options->rate_Hz, "Ticks a second")->check(CLI::Range(1000.0, 4000.0));
+  loop->add_option("--rate", options->rate_Hz, "Ticks per second")
+      ->check(CLI::Range(1000.0, 4000.0));
   loop->add_option("--cpu", options->cpu, "Keep the measured thread on this processor")
       ->check(CLI::Range(0, 1023));
   loop->add_option("--pages", options->pages,
-                   "Measure again while so many pages of the console look on")
+                   "Measure again while this many pages of the console are open")
       ->check(CLI::Range(0, 8));
   loop->callback([options] { bench::benchLoop(*options); });
 }
@@ -36,7 +37,7 @@ void addLoop(CLI::App& bench) {
 void addAnatomy(CLI::App& bench) {
   CLI::App* anatomy = bench.add_subcommand(
       "anatomy",
-      "Cost of the geometric questions and of the skin's deflection, beside other libraries'");
+      "Cost of geometric queries and of the skin's deflection, compared with other libraries");
   anatomy->footer("Example:\n  palpa bench anatomy > anatomy.jsonl\n  palpa bench anatomy --quick");
   const auto options = std::make_shared<bench::AnatomyBenchOptions>();
   anatomy->add_flag("--quick", options->quick, "A smaller mesh and few queries");
@@ -45,7 +46,7 @@ void addAnatomy(CLI::App& bench) {
 
 void addCalibration(CLI::App& bench) {
   CLI::App* calibration = bench.add_subcommand(
-      "calibration", "How near the estimators come to what the data permit (simulated data)");
+      "calibration", "How close the estimators come to what the data permit (simulated data)");
   calibration->footer(
       "Example:\n  palpa bench calibration > calibration.jsonl\n  palpa bench calibration --sets "
       "50");
@@ -58,8 +59,8 @@ void addCalibration(CLI::App& bench) {
 
 void addMaterial(CLI::App& bench) {
   CLI::App* material = bench.add_subcommand("material",
-                                            "How true stiffness, friction, squeezing and lumps are "
-                                            "that are not there (simulated phantoms)");
+                                            "How accurate rendered stiffness, friction, squeezing "
+                                            "and virtual lumps are (simulated phantoms)");
   material->footer(
       "Example:\n  palpa bench material > material.jsonl\n  palpa bench material --quick");
   const auto options = std::make_shared<bench::MaterialBenchOptions>();
@@ -75,8 +76,9 @@ void addRenderBench(CLI::App& bench) {
       "Example:\n  palpa bench render > render.jsonl\n  palpa bench render --width 1920 --height "
       "1080");
   const auto options = std::make_shared<bench::RenderBenchOptions>();
-  render->add_option("--width", options->width, "Of the window, px")->check(CLI::Range(320, 4096));
-  render->add_option("--height", options->height, "Of the window, px")
+  render->add_option("--width", options->width, "Width of the window, px")
+      ->check(CLI::Range(320, 4096));
+  render->add_option("--height", options->height, "Height of the window, px")
       ->check(CLI::Range(240, 4096));
   render->add_flag("--quick", options->quick, "Fewer repetitions");
   render->callback([options] { bench::benchRender(*options); });
@@ -84,7 +86,7 @@ void addRenderBench(CLI::App& bench) {
 
 void addTracking(CLI::App& bench) {
   CLI::App* tracking = bench.add_subcommand(
-      "tracking", "How true, still and quick the board's tracking is (simulated pictures)");
+      "tracking", "How accurate, steady and fast the board's tracking is (simulated pictures)");
   tracking->footer(
       "Example:\n  palpa bench tracking > tracking.jsonl\n  palpa bench tracking --distance 1 "
       "--speed 0.1 --quick");
@@ -97,13 +99,13 @@ void addTracking(CLI::App& bench) {
       ->add_option("--horizon", options->horizon_ms,
                    "From an exposure to when its pose is drawn, ms")
       ->check(CLI::Range(0.0, 200.0));
-  tracking->add_option("--width", options->width, "Of the picture, px")
+  tracking->add_option("--width", options->width, "Width of the picture, px")
       ->check(CLI::Range(320, 4096));
-  tracking->add_option("--height", options->height, "Of the picture, px")
+  tracking->add_option("--height", options->height, "Height of the picture, px")
       ->check(CLI::Range(240, 4096));
-  tracking->add_option("--rate", options->rate_Hz, "Pictures a second")
+  tracking->add_option("--rate", options->rate_Hz, "Pictures per second")
       ->check(CLI::Range(5.0, 240.0));
-  tracking->add_option("--seed", options->seed, "Of the simulated noise");
+  tracking->add_option("--seed", options->seed, "Seed of the simulated noise");
   tracking->add_flag("--quick", options->quick, "A tenth of the pictures");
   tracking->callback([options] { bench::benchTracking(*options); });
 }

@@ -38,7 +38,7 @@ void addBoard(CLI::App& program) {
   CLI::App* board = program.add_subcommand("board", "The board that the camera looks for");
   board->require_subcommand(1);
   CLI::App* command = board->add_subcommand(
-      "print", "A board to print in its true size, with bars to check the print");
+      "print", "A board to print at its true size, with bars to check the print");
   command->footer(
       "Examples:\n  palpa board print                       the station's board, as board.pdf\n"
       "  palpa board print --board charuco:7x5:0.030:0.022 --out charuco.pdf\n"
@@ -54,11 +54,9 @@ void addBoard(CLI::App& program) {
       ->excludes(file);
   command->add_option("--out", o->out, "PDF or PNG to write (default board.pdf)")
       ->type_name("FILE");
-  command
-      ->add_option("--paper", o->page.paper,
-                   "What it is printed on (default a4); fit: as large as needed")
+  command->add_option("--paper", o->page.paper, "Paper size (default a4); fit: as large as needed")
       ->check(CLI::IsMember(report::papers()));
-  command->add_option("--dpi", o->page.dpi, "Dots an inch of a PNG (default 300)")
+  command->add_option("--dpi", o->page.dpi, "Dots per inch of a PNG (default 300)")
       ->check(CLI::Range(72, 1200));
   command->callback([o] { print(*o); });
 }

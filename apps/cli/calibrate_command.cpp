@@ -15,10 +15,10 @@ namespace {
 
 constexpr const char* kSubtaskExamples = R"(Examples:
   palpa calibrate subtasks out/expert-a/session.palpa out/expert-b/session.palpa --out parts
-      what experts did, cut by a hidden Markov model, beside the parts that the task's file names
+      what experts did, divided by a hidden Markov model, beside the parts that the task's file names
   palpa calibrate subtasks out/expert-a/session.palpa --states 3
       into three states, however many are proposed
-The sessions are of one task whose file names its parts. Six trials or more, better of several experts.)";
+All sessions must be of one task whose file names its parts. Use six trials or more, best of several experts.)";
 
 constexpr std::int64_t kSilent_ns = 2'000'000'000, kBetween_ns = 1'000'000'000;
 
@@ -85,7 +85,7 @@ void addSubtaskCalibration(CLI::App& calibrate) {
                    "Task file to take the parts' names from; otherwise what was recorded")
       ->type_name("FILE");
   command
-      ->add_option("--states", o->states, "Take so many states; otherwise as many as are proposed")
+      ->add_option("--states", o->states, "Use this many states; otherwise as many as are proposed")
       ->check(CLI::Range(2, calibrate::kMostProposed));
   command->add_option("--seed", o->seed, "Seed of the fits' starts")->check(CLI::NonNegativeNumber);
   command->add_option("--out", o->out, "Folder for the results")->type_name("DIR");
@@ -99,8 +99,8 @@ constexpr const char* kExpertExamples = R"(Examples:
   palpa calibrate experts --from out/expert-a/session.palpa out/expert-b/session.palpa --out path.json
       the optimal path from experts' recorded trials
   palpa calibrate experts --simulate 50 --experts 3 --seed 900001 --out assets/tasks/paracentesis_expert_path.json
-      the shipped path, remade: three simulated experts, fifty trials each
-Experts who calibrate take no part in a study that uses the path.)";
+      the shipped path, made again: three simulated experts, fifty trials each
+Experts who calibrate must not take part in a study that uses the path.)";
 
 struct ExpertOptions {
   std::vector<std::string> from;

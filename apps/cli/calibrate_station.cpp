@@ -179,15 +179,14 @@ constexpr Routine kRoutines[] = {
      "hand presses the silicone\n  palpa calibrate material --presses presses.csv\n"
      "Columns: t_s; x_mm (or x_m), y_, z_ of the tip's lowest point, z up from the sample's top; "
      "force_x_N, ..."},
-    {"friction", "What a sample's surface rubs with: from strokes",
+    {"friction", "How a sample's surface rubs: from strokes",
      "Examples:\n  palpa calibrate friction\n  palpa calibrate friction --strokes "
-     "strokes.csv\nColumns as of material"},
-    {"inclusion",
-     "What a lump adds to a sample: from presses of one that has it and one that has not",
+     "strokes.csv\nColumns as for material"},
+    {"inclusion", "What a lump adds to a sample: from presses of one with it and one without",
      "Examples:\n  palpa calibrate inclusion --mockup hard\n"
      "  palpa calibrate inclusion --without plain.csv --strokes strokes.csv --above above.csv "
      "--beside beside.csv --check check.csv --depth-mm 15\n"
-     "Columns as of material, and lump_x_mm, ...: how far the lump has moved"},
+     "Columns as for material, and lump_x_mm, ...: how far the lump has moved"},
     {"all", "Everything, one after the other, with a page that says whether the station is ready",
      "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: "
      "palpa paracentesis --station station3/station.json --seed 3"}};
@@ -206,7 +205,7 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
   }
   if (kind == "tool") {
     file("--pivot", &o->pivot, "Recorded poses, the tip in a hole");
-    file("--spin", &o->spin, "Recorded poses, the needle spun about itself");
+    file("--spin", &o->spin, "Recorded poses, the needle spun about its axis");
   }
   if (kind == "workspace") file("--touches", &o->touches, "Recorded touches of a grid");
   if (kind == "registration") {
@@ -214,7 +213,7 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
     file("--pairs", &o->pairs, "Recorded poses of end effector and tag");
   }
   if (kind == "latency") {
-    file("--camera-track", &o->camera_track, "A point's way as the camera saw it");
+    file("--camera-track", &o->camera_track, "A point's path as the camera saw it");
     file("--device-track", &o->device_track, "The same as the device saw it");
   }
   if (kind == "material") file("--presses", &o->presses, "Recorded presses");
@@ -224,7 +223,7 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
     file("--strokes", &o->strokes, "Recorded strokes of it: for a hand that is not quite still");
     file("--above", &o->above, "Recorded presses above the lump");
     file("--beside", &o->beside, "Recorded presses beside it");
-    file("--check", &o->check, "Recorded presses at a place to judge by");
+    file("--check", &o->check, "Recorded presses at another place, to check the result");
     command->add_option("--depth-mm", o->depth_mm, "How deep the lump's middle lies")
         ->check(CLI::Range(1.0, 200.0));
     command->add_option("--mockup", o->mockup, "Simulated sample on the virtual bench")

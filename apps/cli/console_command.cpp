@@ -102,14 +102,14 @@ void addConsole(CLI::App& program) {
   command
       ->add_option(
           "--listen", o->listen,
-          "Address to listen at (default 127.0.0.1: this computer alone); others need --token-file")
+          "Address to listen on (default 127.0.0.1: this computer only); others need --token-file")
       ->type_name("ADDRESS");
-  command->add_option("--port", o->port, "Port (default: any that is free)")
+  command->add_option("--port", o->port, "Port (default: any free one)")
       ->check(CLI::Range(1, 65535));
   command
-      ->add_option(
-          "--token-file", o->token_file,
-          "File with the token that whoever opens the pages must give; readable by you alone")
+      ->add_option("--token-file", o->token_file,
+                   "File with the token that anyone who opens the pages must enter; only you may "
+                   "be able to read it")
       ->type_name("FILE");
   command
       ->add_option("--name", o->names,
@@ -121,7 +121,7 @@ void addConsole(CLI::App& program) {
       ->type_name("DIR");
   command
       ->add_option("--station", o->station,
-                   "Station file of this place, from now on (default: as last time; at first the "
+                   "Station file to use from now on (default: the last one used; at first the "
                    "virtual bench)")
       ->type_name("FILE");
   command->add_flag_callback(

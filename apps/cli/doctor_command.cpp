@@ -166,8 +166,8 @@ void examine(DoctorOptions o) {
 
 void addDoctor(CLI::App& program) {
   auto o = std::make_shared<DoctorOptions>();
-  CLI::App* command =
-      program.add_subcommand("doctor", "Is this station well? What is wrong, and what to do");
+  CLI::App* command = program.add_subcommand(
+      "doctor", "Is this station ready? What is wrong, and what to do about it");
   command->add_option("--station", o->station, "Station file; default: the virtual bench")
       ->type_name("FILE");
   command
@@ -178,13 +178,11 @@ void addDoctor(CLI::App& program) {
       ->add_option("--camera", o->camera,
                    "Instead of the station's camera: recorded pictures or a film of it")
       ->type_name("GLOB|FILM");
-  command
-      ->add_option("--bar", o->bar_mm,
-                   "What a ruler says of the printed board's bar of 100 mm, in mm")
+  command->add_option("--bar", o->bar_mm, "Length of the printed board's 100 mm bar by a ruler, mm")
       ->check(CLI::Range(50.0, 200.0));
   command->add_option("--out", o->out, "Where results of sessions will go (default out)")
       ->type_name("DIR");
-  command->add_option("--seed", o->seed, "Of the virtual bench")->check(CLI::PositiveNumber);
+  command->add_option("--seed", o->seed, "Seed of the virtual bench")->check(CLI::PositiveNumber);
   command->add_flag("--json", o->json,
                     "For programs: {\"can_start\", \"findings\": [{\"subject\", \"state\", "
                     "\"verdict\", \"fix\"}]}");

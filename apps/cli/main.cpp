@@ -17,16 +17,16 @@ Nothing is connected? Everything runs on the virtual bench. What you can do now:
 
   palpa console                            the educator's pages in a browser: everything below by mouse
                                            (palpa alone opens them where there is a display)
-  palpa paracentesis                       a session: with a display you hold the needle by the mouse,
+  palpa paracentesis                       a session: with a display you hold the needle with the mouse,
                                            without one a simulated expert performs it
   palpa paracentesis --operator novice     watch a simulated novice; read the report's reasons
   palpa paracentesis --trials 10 --fast    ten trials, as fast as this computer can
-  palpa palpation --operator expert --fast search a soft phantom for lumps that are felt, not there
+  palpa palpation --operator expert --fast search a soft phantom for virtual lumps that can be felt
   palpa search --operator expert --fast    find the rough one of three things on a floor that is felt, not seen
   palpa replay out/.../session.palpa       run a recorded session again: same forces, same score
-  palpa patient info                       what the patient holds
+  palpa patient info                       what the patient contains
   palpa calibrate all                      set the station up; a page says whether it is ready
-  palpa doctor                             is everything well? what to do where it is not
+  palpa doctor                             is the station ready? what to do if it is not
   palpa board print --out board.png        the board that the camera looks for
 
 A session leaves its results in out/<command>-<time>/: open report.html first.

@@ -14,7 +14,7 @@ struct Named {
 
 constexpr Named kFiles[] = {
     {"out/<command>-<time>/",
-     "what a session leaves, unless --out says another folder: report.html, trials.csv, "
+     "what a session leaves, unless --out names another folder: report.html, trials.csv, "
      "session.palpa (the evidence), pictures"},
     {"~/.local/share/palpa/records.sqlite",
      "the usual records of trainees; nobody is recorded unless records and a trainee are named"},
@@ -26,7 +26,7 @@ constexpr Named kFiles[] = {
 };
 
 constexpr Named kVariables[] = {
-    {"PALPA_ASSETS", "another folder of the program's data"},
+    {"PALPA_ASSETS", "another folder with the program's data"},
     {"PALPA_RECORDS",
      "the records of trainees: a file, or postgresql://user@host/database (the password in "
      "~/.pgpass)"},
@@ -41,7 +41,7 @@ constexpr Named kVariables[] = {
 };
 
 constexpr Named kCodes[] = {{"0", "done; a trial without success is done as well"},
-                            {"1", "failed in work"},
+                            {"1", "the work failed"},
                             {"2", "wrong usage, or a wrong settings file"}};
 
 /// Plain text for roff: no dash becomes a hyphen, no leading dot a request.

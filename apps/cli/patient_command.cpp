@@ -168,8 +168,8 @@ void import(const ImportCommand& o) {
 
 void addImport(CLI::App& patient) {
   const auto o = std::make_shared<ImportCommand>();
-  CLI::App* command =
-      patient.add_subcommand("import", "A patient from many mesh files, as a map file says");
+  CLI::App* command = patient.add_subcommand(
+      "import", "A patient from many mesh files, as a map file describes them");
   command->footer(
       "Example:\n  palpa patient import --map assets/patients/bodyparts3d_hra.json DATA --out "
       "p.glb\n"
@@ -179,15 +179,17 @@ void addImport(CLI::App& patient) {
   command->add_option("folder", o->folder, "Folder of the mesh files")
       ->required()
       ->type_name("DIR");
-  command->add_option("--map", o->map, "What the files are (.json)")->required()->type_name("FILE");
+  command->add_option("--map", o->map, "Map: what each file is (.json)")
+      ->required()
+      ->type_name("FILE");
   command->add_option("--out", o->out, "File to write (.glb)")->type_name("FILE");
   command->add_option("--unit", o->unit, "Instead of the map's default: " + anatomy::knownUnits())
       ->type_name("UNIT");
   command->add_option("--axes", o->axes, "Instead of the map's default, for example LSA")
       ->type_name("AXES");
-  command->add_option("--triangles", o->triangles, "Of the whole patient at most; 0: all")
+  command->add_option("--triangles", o->triangles, "At most so many in the whole patient; 0: all")
       ->check(CLI::Range(0, 20'000'000));
-  command->add_option("--weld", o->weld_mm, "Seams so wide are joined, mm")
+  command->add_option("--weld", o->weld_mm, "Join seams up to this width, mm")
       ->check(CLI::Range(0.0, 1.0));
   command->callback([o] { import(*o); });
 }
@@ -203,7 +205,7 @@ void addPatient(CLI::App& program) {
   make->footer(
       "Examples:\n  palpa patient build --sex f --height 1.68 --bmi 24 --side right --seed 3 --out "
       "p.glb\n  palpa patient build --bmi 38 --seed 4 --out heavy.glb      (what is not stated is "
-      "drawn, too)\n  palpa patient build --ct chest.mha --previews look --out p.glb\n  palpa "
+      "drawn at random)\n  palpa patient build --ct chest.mha --previews look --out p.glb\n  palpa "
       "patient build --phantom breast --inclusion-mm 20 --depth-mm 15 --out b.glb");
   const CLI::Option* side =
       make->add_option("--side", o->side,
@@ -228,15 +230,15 @@ void addPatient(CLI::App& program) {
   });
   addImport(*patient);
   CLI::App* tells = patient->add_subcommand(
-      "info", "Organs, sizes, landmarks, checks; or what a file of surfaces is worth");
+      "info", "Organs, sizes, landmarks, checks; or how good a file of surfaces is");
   tells->footer(
       "Examples:\n  palpa patient info p.glb      (without a file: the reference patient)\n"
       "  palpa patient info clavicle.stl --unit mm --organ clavicle\n"
-      "      size, holes, triangles that look to different sides; a length that no clavicle has is "
+      "      size, holes, triangles that face different ways; a length that no clavicle has is "
       "refused");
   tells->add_option("file", o->file, "Patient file (.glb), or surfaces (.glb, .obj, .stl, .ply)")
       ->type_name("FILE");
-  tells->add_option("--unit", o->unit, "Of a file of surfaces: " + anatomy::knownUnits())
+  tells->add_option("--unit", o->unit, "Unit of a file of surfaces: " + anatomy::knownUnits())
       ->type_name("UNIT");
   tells->add_option("--organ", o->organ, "What the surfaces are, to check their size")
       ->type_name("ORGAN");

@@ -93,11 +93,13 @@ std::shared_ptr<CtArguments> addCtOptions(CLI::App& command) {
                                     "folder with a DICOM series")
                         ->type_name("FILE|FOLDER");
   const auto only = [&](CLI::Option* option) { return option->needs(ct); };
-  only(command.add_option("--ct-axes", a->axes,
-                          "Where columns, rows, slices point, when the header lies: three of L/R, "
-                          "A/P, S/I, e.g. LAI"))
+  only(command.add_option(
+           "--ct-axes", a->axes,
+           "Where columns, rows, slices point, when the header is wrong: three of L/R, "
+           "A/P, S/I, e.g. LAI"))
       ->type_name("AXES");
-  only(command.add_flag("--ct-mirrored", a->mirrored, "Allow --ct-axes that make left right"));
+  only(command.add_flag("--ct-mirrored", a->mirrored,
+                        "Allow --ct-axes that exchange left and right"));
   only(command.add_option("--ct-series", a->series,
                           "Which DICOM series of the folder: number or UID"))
       ->type_name("N|UID");
@@ -105,7 +107,7 @@ std::shared_ptr<CtArguments> addCtOptions(CLI::App& command) {
                           "File of points to start from; written with what was used"))
       ->type_name("FILE");
   only(command.add_option("--seed-point", a->points,
-                          "Moves one point: name=x,y,z (mm); may be repeated"))
+                          "Move one point: name=x,y,z (mm); may be repeated"))
       ->type_name("NAME=X,Y,Z");
   only(command.add_option("--previews", a->previews, "Folder for pictures of each step"))
       ->type_name("DIR");
@@ -139,22 +141,26 @@ anatomy::Patient buildFromCt(const CtArguments& a, const std::string& side) {
 }
 
 void addPhantomOptions(CLI::App& command, PhantomOptions* options) {
-  CLI::Option* phantom = command
-                             .add_option("--phantom", options->kind,
-                                         "Instead of a person, to be palpated: breast or abdomen")
-                             ->check(CLI::IsMember({"breast", "abdomen"}));
+  CLI::Option* phantom =
+      command
+          .add_option("--phantom", options->kind,
+                      "A phantom to palpate, instead of a person: breast or abdomen")
+          ->check(CLI::IsMember({"breast", "abdomen"}));
   command
       .add_option(
           "--inclusion-mm", options->inclusion_mm,
-          "Something hard in it: diameter; abdomen: thickness of a liver's edge (default: none)")
+          "Diameter of something hard in it; abdomen: thickness of a liver's edge (default: none)")
       ->check(CLI::Range(2.0, 200.0))
       ->needs(phantom);
   command.add_option("--depth-mm", options->depth_mm, "Silicone over it")
       ->check(CLI::Range(1.0, 100.0))
       ->needs(phantom);
-  command.add_option("--left-mm", options->left_mm, "Breast: so far to the left of the middle")
+  command
+      .add_option("--left-mm", options->left_mm,
+                  "Breast: how far it lies to the left of the middle")
       ->needs(phantom);
-  command.add_option("--up-mm", options->up_mm, "Breast: so far above the middle")->needs(phantom);
+  command.add_option("--up-mm", options->up_mm, "Breast: how far it lies above the middle")
+      ->needs(phantom);
 }
 
 anatomy::Patient buildPhantom(const PhantomOptions& o) {

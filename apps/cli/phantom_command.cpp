@@ -33,11 +33,11 @@ void solve(const SolveOptions& o) {
 void addPhantom(CLI::App& program) {
   CLI::App* phantom = program.add_subcommand("phantom", "Simulated silicone phantoms");
   phantom->require_subcommand(1);
-  CLI::App* command = phantom->add_subcommand(
-      "solve",
-      "What pressing the phantoms of a file takes, by finite elements (some minutes each)");
+  CLI::App* command = phantom->add_subcommand("solve",
+                                              "The force that it takes to press the phantoms of a "
+                                              "file, by finite elements (a few minutes each)");
   command->footer(
-      "Examples:\n  palpa phantom solve                          the shipped mock-ups anew\n  "
+      "Examples:\n  palpa phantom solve                          the shipped mock-ups again\n  "
       "palpa phantom solve --file mine.json --out mine.tables.json");
   const auto o = std::make_shared<SolveOptions>();
   command->add_option("--file", o->file, "Phantoms (default: assets/phantoms/mockups.json)")

@@ -18,9 +18,9 @@ namespace {
 
 constexpr const char* kRateExamples = R"(Examples:
   palpa rate form --out form.html
-      a blank form to print; form.csv beside it is what is typed in afterwards
+      a blank form to print; type the marks into form.csv beside it afterwards
   palpa rate form --session out/A --trial 1 --records records.sqlite --out form-A1.html
-      for one trial, with what the simulator says standing faintly beside
+      for one trial, with the simulator's own marks faintly beside
   palpa rate enter --session out/A --trial 1 --rater R1 --answers form.csv
   palpa rate agreement
       how far raters agree with each other and with the simulator
@@ -205,12 +205,12 @@ void addRate(CLI::App& program) {
   addTrial(form, *o);
   form->add_flag("--no-global", o->no_global, "The checklist alone");
   form->add_option("--out", o->out, "Page to write (default form.html)")->type_name("FILE");
-  CLI::App* typed = sub(command, o, "enter", "Bring into the records what a rater marked", enter);
+  CLI::App* typed = sub(command, o, "enter", "Enter a rater's marks into the records", enter);
   addTrial(typed, *o)->required();
   typed->add_option("--rater", o->rater, "The rater's pseudonym")
       ->required()
       ->check(record::whyNoPseudonym);
-  typed->add_option("--answers", o->answers, "item,value lines, typed in from the paper")
+  typed->add_option("--answers", o->answers, "Lines of item,value, typed in from the printed form")
       ->required()
       ->type_name("FILE");
   sub(command, o, "agreement", "Agreement of raters with each other and with the simulator",

@@ -178,8 +178,8 @@ void addTrainees(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   trainee->require_subcommand(1);
   CLI::App* add =
       sub(trainee, o, "add", "Add a trainee", [](const RecordsOptions& r) { addTrainee(r); });
-  CLI::App* change =
-      sub(trainee, o, "change", "Change what is given; note a consent", changeTrainee);
+  CLI::App* change = sub(trainee, o, "change", "Change the fields that are given; record a consent",
+                         changeTrainee);
   for (CLI::App* one : {add, change}) {
     addId(one, *o);
     addTraineeOptions(one, *o);
@@ -187,9 +187,10 @@ void addTrainees(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   sub(trainee, o, "list", "Who is in the records", listTrainees);
   addId(sub(command, o, "show", "Sessions and trials of a person, in plain words", showTrainee),
         *o);
-  CLI::App* overdue = sub(command, o, "overdue",
-                          "Whose records were to be kept until a day that is past", listOverdue);
-  overdue->add_option("--date", o->date, "In place of today")
+  CLI::App* overdue =
+      sub(command, o, "overdue", "Whose records were to be kept until a date that has passed",
+          listOverdue);
+  overdue->add_option("--date", o->date, "Instead of today")
       ->type_name("YYYY-MM-DD")
       ->check(whyNoDate);
   overdue->add_flag("--delete", o->remove, "Delete them, with their evidence");
@@ -200,7 +201,7 @@ void addTrainees(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
 }
 
 void addStore(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
-  sub(command, o, "add", "Bring finished sessions into the records; as often as you like",
+  sub(command, o, "add", "Add finished sessions to the records; adding one again does no harm",
       addSessions)
       ->add_option("sessions", o->sessions, "session.palpa, or a session's folder")
       ->required()
@@ -210,15 +211,16 @@ void addStore(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
       ->type_name("UUID");
   waiting->callback([o] { deliverPending(*o); });
   sub(command, o, "backup", "Everything into one file", backUpRecords)
-      ->add_option("--out", o->out, "File to be made")
+      ->add_option("--out", o->out, "File to write")
       ->required()
       ->type_name("FILE");
   sub(command, o, "restore",
-      "A backup into empty records: a new file, or an empty database on a server", restoreRecords)
+      "Restore a backup into empty records: a new file, or an empty database on a server",
+      restoreRecords)
       ->add_option("--from", o->from, "File that palpa records backup wrote")
       ->required()
       ->type_name("FILE");
-  sub(command, o, "migrate", "Bring the tables to the newest version, and say from which",
+  sub(command, o, "migrate", "Update the tables to the newest version, and say from which",
       migrateRecords);
 }
 
@@ -231,10 +233,10 @@ void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   data->add_option("--format", o->format, "csv, json, or both (default)")
       ->check(CLI::IsMember({"csv", "json", "both"}))
       ->type_name("csv|json|both");
-  data->add_flag("--research", o->research, "For a study: only who has agreed to that");
-  data->add_flag("--paths", o->paths, "With the places of evidence on this computer");
+  data->add_flag("--research", o->research, "For a study: only people who have agreed to that");
+  data->add_flag("--paths", o->paths, "Include the paths of evidence on this computer");
   CLI::App* tell = sub(command, o, "xapi",
-                       "Tell a learning record store of trials (xAPI); what cannot be sent now "
+                       "Report trials to a learning record store (xAPI); what cannot be sent now "
                        "waits and is sent next time",
                        tellRecords);
   tell->add_option("--to", o->to, "Its address, without user and password")
@@ -246,10 +248,10 @@ void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   tell->add_option("--home-page", o->home_page,
                    "Whose pseudonyms these are: an address of your centre")
       ->type_name("IRI");
-  tell->add_flag("--simulated", o->simulated, "Tell of simulated sessions, too");
+  tell->add_flag("--simulated", o->simulated, "Report simulated sessions as well");
   tell->add_flag("--insecure", o->insecure, "Allow http to another computer");
   CLI::App* table = command->add_subcommand(
-      "metrics", "What every figure of a trial is: definition, unit, direction");
+      "metrics", "What every figure of a trial means: definition, unit, direction");
   table->add_option("--out", o->out, "Markdown file; default: standard output")->type_name("FILE");
   table->callback([o] { writeMetrics(*o); });
 }

@@ -163,15 +163,15 @@ void addReplayViewOptions(CLI::App& command, ReplayViewOptions& o) {
       ->type_name("DIR");
   command.add_option("--trial", o.trial, "Which trial; default: the first that was finished")
       ->check(CLI::PositiveNumber);
-  command.add_option("--speed", o.speed, "1: as fast as it was")
+  command.add_option("--speed", o.speed, "1: as fast as recorded")
       ->check(CLI::Range(replay::kSlowest, replay::kFastest));
-  command.add_option("--from", o.from_s, "Second of the trial to begin with")
+  command.add_option("--from", o.from_s, "Second of the trial to start at")
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--to", o.to_s, "Second of the trial to end with; default: its end")
+  command.add_option("--to", o.to_s, "Second of the trial to stop at; default: its end")
       ->check(CLI::NonNegativeNumber);
-  command.add_option("--fps", o.frames_per_second, "Pictures a second of the film")
+  command.add_option("--fps", o.frames_per_second, "Pictures per second")
       ->check(CLI::Range(1.0, 120.0));
-  command.add_option("--size", o.size, "Of the film, pixels")->type_name("WxH");
+  command.add_option("--size", o.size, "Size of the pictures, pixels")->type_name("WxH");
 }
 
 void viewReplay(const std::string& file, const ReplayViewOptions& o) {

@@ -22,12 +22,12 @@ namespace {
 
 constexpr const char* kTrialExamples = R"(Examples:
   palpa report trial out/A/session.palpa --out trial-1.html
-      what happened, the errors of technique, what the simulator can say of pass or fail
+      what happened, the errors of technique, what the simulator can say about pass or fail
   palpa report trial out/A/session.palpa --trial 2 --beside out/expert/session.palpa --out trial-2.html
       the same with an expert's trial in the same picture
   palpa report trial out/A/session.palpa --answers rater-1.csv --standard 90 --out trial-1.html
       with a rater's checklist and global rating (palpa rate form), by the lower standard
-Pass takes a trial in assessment (--assess), the checklist at its standard, a global rating, and no critical error.)";
+A pass needs a trial in assessment (--assess), the checklist at its standard, a global rating, and no critical error.)";
 
 struct TrialReportOptions {
   std::string session, beside, checklist, global, answers, records, rater, out = "trial.html";
@@ -154,7 +154,7 @@ void addReportTrial(CLI::App& report) {
       ->check(CLI::Range(1, 100000));
   command->add_option(
       "--standard", o->standard,
-      "Share of items asked for, per cent, as the checklist has them (default: its first)");
+      "Share of items required, per cent: a standard of the checklist (default: its first)");
   command->add_option("--checklist", o->checklist, "Checklist (default: the shipped one)")
       ->type_name("FILE");
   command->add_option("--global", o->global, "Global rating (default: the shipped one)")
@@ -233,7 +233,7 @@ void addPageArguments(CLI::App& command, ReportOptions& o) {
                      "(with --unacceptable: 0.10/0.25, 0.10/0.20, 0.05/0.15, 0.05/0.10 need 13, "
                      "19, 20, 41 trials without failure)");
   command.add_option("--unacceptable", o.rates.unacceptable, "Failure rate that is not");
-  command.add_option("--out", o.out, "Folder of the page; default: out/report-...")
+  command.add_option("--out", o.out, "Folder for the page; default: out/report-...")
       ->type_name("DIR");
 }
 

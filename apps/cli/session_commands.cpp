@@ -24,7 +24,7 @@ constexpr const char* kSessionExamples = R"(Examples:
       the patient on your own recorded pictures
   palpa paracentesis --igtl 18944
       the same session in 3D Slicer: there, an OpenIGTLink connector, client, localhost, port 18944
-Keys in a session: Enter start or go on, P pause, A abort, F1-F4 void (interrupted, technical fault,
+Keys in a session: Enter start or continue, P pause, A abort, F1-F4 void (interrupted, technical fault,
 trainee stopped, other), space emergency stop, R re-arm, Escape leave.)";
 
 }  // namespace
@@ -44,15 +44,15 @@ constexpr const char* kPalpationExamples = R"(Examples:
   palpa palpation --operator expert --fast --out A
       a simulated examiner searches silicone for lumps that are not there; open A/report.html
   palpa palpation --preset abdomen --operator expert --fast
-      the liver's edge is felt in every case, and is no lump
+      the liver's edge is felt in every case, and is not a lump
   palpa palpation --preset prostate --operator novice --trials 8 --fast
-      a smaller phantom, eight cases: so many it takes to pass or fail
+      a smaller phantom, eight cases: the fewest on which a trainee passes or fails
   palpa palpation --station my_station.json --guidance on --trials 16
-      you, on a station with a haptic device and a force sensor; help that fades, every other case without
+      you, on a station with a haptic device and a force sensor; help that fades; every other case is without it
   palpa palpation
       you, with a display and a mouse, on the virtual bench: nothing is felt, but what a sensor feels is drawn; not scored
 Button 1 of the device: here is a lump. With a mouse: move it over the phantom, hold the left button to press, M: here is a lump. Then grade it: 1 soft, 2 hard, 3 fixed, 4 mobile, 5-8: 10, 15, 20,
-25 mm. Keys: Enter start or go on, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+25 mm. Keys: Enter start or continue, D done, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
 
 const std::map<std::string, std::string> kPresets{{"abdomen", "tasks/palpation_abdomen.json"},
                                                   {"breast", "tasks/palpation_breast.json"},
@@ -99,7 +99,7 @@ constexpr const char* kSqueezeExamples = R"(Examples:
       a simulated person compares two things in the hand, one after the other; open A/report.html
   palpa squeeze --operator novice --fast --trials 16 --force-feedback off
       the same without force feedback: both feel alike, and the answers are guesses
-Two devices are simulated only, so far: a person cannot take part yet.)";
+So far two devices can only be simulated: a person cannot take part yet.)";
 
 }  // namespace
 
@@ -122,12 +122,12 @@ constexpr const char* kSearchExamples = R"(Examples:
   palpa search --operator expert --mode all --trials 8 --fast --out A
       a simulated person searches the same floors with full stiffness, with a fifth of it, and with that augmented; open A/report.html
   palpa search --operator novice --mode augmented --trials 20 --fast
-      one mode alone
+      one mode only
   palpa search --operator expert --mode augmented --blocks --fast
       the task's blocks: baseline, training in this mode, evaluation
   palpa search --station my_station.json --mode real --trials 20
       you, on a station with a haptic device and a "floor"
-Three things lie hidden on a floor; one is rougher than the others. Find it, and stay in its middle. Keys: Enter start or go on, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
+Three things lie hidden on a floor; one is rougher than the others. Find it, and stay in its middle. Keys: Enter start or continue, P pause, A abort, F1-F4 void, space EMERGENCY STOP, R re-arm, Escape leave.)";
 
 }  // namespace
 
@@ -142,12 +142,13 @@ void addSearch(CLI::App& program) {
   command
       ->add_option(
           "--mode", options->mode,
-          "How the floor is rendered: as stiff as the device bears (real, the default), a fifth of "
-          "that (degraded), that with cues added (augmented), or each episode in all three")
+          "How the floor is rendered: as stiff as the device can render (real, the default), a "
+          "fifth of that (degraded), that with cues added (augmented), or each episode in all "
+          "three")
       ->check(CLI::IsMember({"real", "degraded", "augmented", "all"}))
       ->type_name("all|augmented|degraded|real");
   command->add_flag("--blocks", options->blocks,
-                    "The task's blocks in place of --trials; training in the mode given");
+                    "The task's blocks in place of --trials; training in the chosen mode");
   addRunArguments(*command, *options);
   command->callback([options] { session::holdSearch(*options); });
 }

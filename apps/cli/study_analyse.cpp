@@ -130,9 +130,8 @@ void addStudyAnalyse(CLI::App& study) {
       ->add_option("--metrics", o->metrics, "Figures of a general analysis; default: all that vary")
       ->delimiter(',')
       ->type_name("NAME,...");
-  command->add_flag(
-      "--as-published", o->as_published,
-      "Beside: the paper's way, trials taken as independent, and why not to trust it");
+  command->add_flag("--as-published", o->as_published,
+                    "Also the published way: trials taken as independent, and why not to trust it");
   command->add_option("--out", o->out, "Folder for the results; default: out/study-<time>")
       ->type_name("FOLDER");
   command->footer(
@@ -186,9 +185,9 @@ void addStudyPlan(CLI::App& study) {
   const auto o = std::make_shared<PlanOptions>();
   command
       ->add_option("--subjects", o->drawn.subjects,
-                   "In each group and condition (default 5, as in the paper)")
+                   "Subjects in each group and condition (default 5, as in the published pilot)")
       ->check(CLI::Range(2, 1000));
-  command->add_option("--trials", o->drawn.trials, "Of each subject (default 10)")
+  command->add_option("--trials", o->drawn.trials, "Trials of each subject (default 10)")
       ->check(CLI::Range(4, 1000));
   command->add_option("--simulate", o->drawn.studies, "Studies to draw (default 2000)")
       ->check(CLI::Range(1, 1000000));

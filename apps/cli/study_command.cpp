@@ -13,11 +13,11 @@ namespace {
 constexpr const char* kRunExamples = R"(Examples:
   palpa records trainee add --id T001 --group novice --consent --research
   palpa study run --protocol assets/protocols/paracentesis_pilot.json --trainee T001
-      enrols, draws the condition, leads through the session; after an interruption the same command goes on
+      enrols, draws the condition, leads through the session; after an interruption the same command continues
   palpa study run --protocol assets/protocols/paracentesis_pilot.json --trainee T001 --answers answers.json
       takes the questionnaire's answers from a file: {"useful": 4, "remarks": "..."}
   palpa study run --protocol assets/protocols/paracentesis_pilot.json --simulate --learning assets/protocols/learners/paracentesis_learners.json --records cohort.sqlite
-      virtual trainees who learn, to test the whole chain; simulated, and called so)";
+      virtual trainees who learn, to test the whole chain; marked as simulated)";
 
 /// Notes of this station name the records; they must mean the same from any folder.
 std::string fromAnywhere(const std::string& url) {
@@ -50,7 +50,7 @@ void addProtocol(CLI::App& command, study::StudyOptions& o) {
 void addRun(CLI::App& study) {
   const auto o = std::make_shared<study::StudyOptions>();
   CLI::App* command = study.add_subcommand(
-      "run", "Lead a trainee through the next session of a protocol; or fill it with virtual ones");
+      "run", "Lead a trainee through the next session of a protocol; or simulate virtual trainees");
   command->footer(kRunExamples);
   addProtocol(*command, *o);
   command->add_option("--trainee", o->trainee, "Pseudonym, as in the records")
@@ -61,14 +61,14 @@ void addRun(CLI::App& study) {
       ->type_name("FILE");
   command
       ->add_option("--seed", o->seed,
-                   "Of the study, where it begins with this trainee (default: drawn and kept in "
+                   "Seed of the study, if it begins with this trainee (default: drawn and kept in "
                    "the records; 1 for virtual trainees)")
       ->check(CLI::PositiveNumber);
   CLI::Option* simulate =
       command
           ->add_option(
               "--simulate", o->subjects,
-              "Virtual trainees, so many of each group (default: as the learners' file says)")
+              "Number of virtual trainees in each group (default: as in the learners' file)")
           ->expected(0, 1)
           ->check(CLI::Range(0, 1000));
   command->add_option("--learning", o->learners, "How virtual trainees learn")->type_name("FILE");

@@ -170,7 +170,8 @@ rect, path { stroke-width: 1.5; }
 .queue { stroke-width: 3; }
 </style>
 <defs><marker id="head" viewBox="0 0 10 10" refX="8" refY="5" markerWidth="9" markerHeight="9"
-markerUnits="userSpaceOnUse" orient="auto"><path d="M0,0 L10,5 L0,10 z" fill="#333"/></marker></defs>
+markerUnits="userSpaceOnUse" orient="auto"><path d="M0,0 L10,5 L0,10 z" fill="#333"/></marker>
+</defs>
 <rect width="900" height="838" fill="#fff"/>
 SVG
 picture_to_overlay
