@@ -9,6 +9,7 @@
 #include "apps/runtime/clock.h"
 #include "apps/session/needle_session.h"
 #include "apps/session/output_folder.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::cli {
 namespace {
@@ -159,7 +160,7 @@ void calibrateExperts(ExpertOptions o) {
         [&](const record::RecordedTrial& trial, const evidence::RecordedSession::Samples& samples) {
           ++seen;
           calibration::ExpertTrial expert;
-          if (trial.end.outcome == "success" &&
+          if (training::outcomeNamed(trial.end.outcome) == training::Outcome::success &&
               assess::expertTrial(samples, frame, expertOf(session, file), &expert)) {
             trials.push_back(std::move(expert));
           }

@@ -11,7 +11,7 @@
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/record/session_file.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 namespace palpa::cli {
 namespace {
@@ -93,13 +93,13 @@ bool sameSearchScores(const record::SessionReader& reader) {
 
 bool sameScores(const record::SessionReader& reader, const std::string& file) {
   switch (evidence::engineOf(reader)) {
-    case station::Engine::palpation:
+    case training::Engine::palpation:
       return samePalpationScores(reader);
-    case station::Engine::search:
+    case training::Engine::search:
       return sameSearchScores(reader);
-    case station::Engine::squeeze:
+    case training::Engine::squeeze:
       return sameSqueezeScores(reader);
-    case station::Engine::needle:
+    case training::Engine::needle:
       break;
   }
   return sameNeedleScores(file);

@@ -7,7 +7,7 @@
 #include "apps/cli/commands.h"
 #include "apps/session/whole_session.h"
 #include "apps/station/assets.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 namespace palpa::cli {
 namespace {
@@ -182,8 +182,8 @@ void addTrain(CLI::App& program) {
   addSessionArguments(*command, *options);
   command->callback([options, command] {
     options->command = "train";
-    const station::Engine engine = station::engineIn(JsonFile(options->task));
-    if (engine != station::Engine::needle) refuseNeedleOptions(*command, station::nameOf(engine));
+    const training::Engine engine = training::engineIn(JsonFile(options->task));
+    if (engine != training::Engine::needle) refuseNeedleOptions(*command, training::nameOf(engine));
     session::holdSession(engine, *options);
   });
 }

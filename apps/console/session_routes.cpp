@@ -7,7 +7,7 @@
 #include "apps/live/wire.h"
 #include "apps/record/store/record_store.h"
 #include "apps/station/assets.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 namespace palpa::console {
 namespace {
@@ -77,27 +77,27 @@ using nlohmann::json;
 
 struct Task {
   std::string id, title;
-  station::Engine engine;
+  training::Engine engine;
   fs::path file;
 };
 
 /// What of a task's kind an educator may choose, and what it asks of the trainee.
 struct Kind {
-  station::Engine engine;
+  training::Engine engine;
   const char* about;
   bool side, person_by_mouse;
 };
 constexpr Kind kKinds[] = {
-    {station::Engine::needle,
+    {training::Engine::needle,
      "Lead a needle to a target that is felt, and seen over the camera's picture.", true, true},
-    {station::Engine::palpation,
+    {training::Engine::palpation,
      "Search a soft phantom for lumps: they are felt, though the silicone has none.", false, true},
-    {station::Engine::squeeze, "Between two fingers: which is harder, which is heavier?", false,
+    {training::Engine::squeeze, "Between two fingers: which is harder, which is heavier?", false,
      false},
-    {station::Engine::search, "Find the rough one of three hidden things by touch.", false, false},
+    {training::Engine::search, "Find the rough one of three hidden things by touch.", false, false},
 };
 
-const Kind& kindOf(station::Engine engine) {
+const Kind& kindOf(training::Engine engine) {
   return *std::find_if(std::begin(kKinds), std::end(kKinds),
                        [&](const Kind& kind) { return engine == kind.engine; });
 }
@@ -108,7 +108,7 @@ std::vector<Task> tasks() {
     if (entry.path().extension() != ".json") continue;
     const JsonFile file(entry.path());
     if (!file.has("engine") || !file.has("id") || !file.has("title")) continue;
-    const std::optional<station::Engine> engine = station::engineNamed(file.text("engine"));
+    const std::optional<training::Engine> engine = training::engineNamed(file.text("engine"));
     if (!engine) continue;
     all.push_back({file.text("id"), file.text("title"), *engine, entry.path()});
   }
@@ -124,7 +124,7 @@ json told(const Task& task) {
   if (kind.side) options.insert(options.end(), {"side", "patient_seed"});
   return {{"id", task.id},
           {"title", task.title},
-          {"engine", station::nameOf(task.engine)},
+          {"engine", training::nameOf(task.engine)},
           {"about", kind.about},
           {"options", options},
           {"assessable", true},

@@ -14,7 +14,8 @@
 #include "apps/evidence/recorded_session.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/record/store/delivery.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::evidence {
 namespace {
@@ -26,7 +27,7 @@ Figures needleFigures(const std::filesystem::path& evidence) {
   Figures figures;
   session.eachTrial([&](const record::RecordedTrial& trial,
                         const RecordedSession::Samples& samples) {
-    const bool judged = trial.ended && trial.end.outcome != "void" &&
+    const bool judged = trial.ended && !training::isVoid(trial.end.outcome) &&
                         (session.hasGoal() || !session.reader().info().expert_path_json.empty());
     if (judged) figures[trial.header.trial] = session.rescore(trial, samples).metrics;
   });
@@ -37,24 +38,24 @@ template <class Trials, class Judge>
 Figures figuresOf(const Trials& trials, Judge judge) {
   Figures figures;
   for (const auto& trial : trials)
-    if (trial.recorded.ended && trial.recorded.end.outcome != "void")
+    if (trial.recorded.ended && !training::isVoid(trial.recorded.end.outcome))
       figures[trial.recorded.header.trial] = judge(trial);
   return figures;
 }
 
 Figures figuresIn(const record::SessionReader& reader, const std::filesystem::path& evidence) {
   switch (engineOf(reader)) {
-    case station::Engine::palpation:
+    case training::Engine::palpation:
       return figuresOf(recordedPalpations(reader), [](const RecordedPalpation& t) {
         return assess::palpationMetrics(t.assessment);
       });
-    case station::Engine::search:
+    case training::Engine::search:
       return figuresOf(recordedSearches(reader),
                        [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
-    case station::Engine::squeeze:
+    case training::Engine::squeeze:
       return figuresOf(recordedSqueezes(reader),
                        [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
-    case station::Engine::needle:
+    case training::Engine::needle:
       break;
   }
   return needleFigures(evidence);
@@ -72,8 +73,8 @@ std::vector<record::StoredCalibration> calibrationsIn(const nlohmann::json& stat
 /// What was trained, whichever command led to it: a needle's task by its id, other tasks by the
 /// command of their kind.
 std::string taskOf(const record::SessionReader& reader) {
-  const station::Engine engine = engineOf(reader);
-  if (engine != station::Engine::needle) return station::nameOf(engine);
+  const training::Engine engine = engineOf(reader);
+  if (engine != training::Engine::needle) return training::nameOf(engine);
   const nlohmann::json task = parsedOrDiscarded(reader.info().task_json);
   return task.is_object() && task.contains("id") && task["id"].is_string()
              ? task["id"].get<std::string>()
@@ -200,8 +201,8 @@ progress::PracticeTrial practiceOf(const record::TrialWithSession& stored,
   t.started_utc = stored.session.started_utc;
   t.arrival = stored.session.arrival;
   t.number = stored.trial.number;
-  t.role = stored.trial.role;
-  t.outcome = stored.trial.outcome;
+  t.role = training::roleNamed(stored.trial.role);
+  t.outcome = training::outcomeNamed(stored.trial.outcome);
   t.simulated = stored.session.simulated;
   t.force_feedback = stored.trial.force_feedback;
   try {

@@ -5,8 +5,8 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/assess/trial.h"
 #include "apps/station/assets.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::evidence {
 
@@ -79,8 +79,9 @@ competence::Figures figuresOf(const record::StoredTrial& trial) {
 
 competence::Verdict verdictOf(const assess::TrialAssessment& a, const RatingForms& forms,
                               const competence::FormAnswers& answers, double standard) {
-  return competence::judge({assess::inAssessment(a.role), a.outcome}, forms.checklist, figuresOf(a),
-                           answers.checklist, &forms.global, answers.global, standard);
+  return competence::judge({training::inAssessment(a.role), a.outcome}, forms.checklist,
+                           figuresOf(a), answers.checklist, &forms.global, answers.global,
+                           standard);
 }
 
 }  // namespace palpa::evidence

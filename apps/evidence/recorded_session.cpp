@@ -13,6 +13,7 @@
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
 #include "apps/assess/needle/needle_metrics.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::evidence {
 namespace {
@@ -79,7 +80,7 @@ assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& tr
     for (const assess::TrialSample& sample : samples) goal.add(sample);
     assess::TrialAssessment again;
     again.trial = trial.header.trial;
-    again.outcome = trial.end.outcome;
+    again.outcome = training::outcomeNamed(trial.end.outcome);
     goal.tell(&again);
     again.metrics = assess::goalMetrics(again, samples, task_.rules);
     return again;
@@ -87,8 +88,9 @@ assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& tr
   if (!expert_path_)
     throw Error("no optimal path was recorded", "session",
                 "It was made to calibrate experts, not to be scored");
-  const assess::TrialFacts facts{trial.header.trial,          trial.header.role, simulated_,
-                                 trial.header.force_feedback, trial.header.seed, trial.end.outcome};
+  const assess::TrialFacts facts{trial.header.trial, training::roleNamed(trial.header.role),
+                                 simulated_,         trial.header.force_feedback,
+                                 trial.header.seed,  training::outcomeNamed(trial.end.outcome)};
   return assess::assessTrial(facts, samples, patient_, *query_, *expert_path_, task_.rules);
 }
 

@@ -7,8 +7,8 @@
 #include "anatomy/base/error.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/report/page/style.h"
-#include "apps/station/engine.h"
 #include "apps/task_needle/near_miss_watch.h"
+#include "apps/training/engine.h"
 
 namespace palpa::evidence {
 namespace {
@@ -78,8 +78,8 @@ const record::RecordedTrial& chosenTrial(const std::vector<record::RecordedTrial
 }
 
 std::unique_ptr<RecordedShow> recordedShow(const std::filesystem::path& file, int number) {
-  const station::Engine engine = engineOf(record::SessionReader(file));
-  if (engine != station::Engine::needle) return recordedTouch(file, engine, number);
+  const training::Engine engine = engineOf(record::SessionReader(file));
+  if (engine != training::Engine::needle) return recordedTouch(file, engine, number);
   return std::make_unique<RecordedNeedleTrial>(file, number);
 }
 

@@ -6,7 +6,7 @@
 #include "anatomy/patient.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/replay/needle_replay.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 namespace palpa::evidence {
 
@@ -51,6 +51,6 @@ const record::RecordedTrial& chosenTrial(const std::vector<record::RecordedTrial
 /// A trial of a palpation, a search or a comparison, ready to be shown. `engine`: of the recorded
 /// task. Throws as recordedShow.
 std::unique_ptr<RecordedShow> recordedTouch(const std::filesystem::path& file,
-                                            station::Engine engine, int number);
+                                            training::Engine engine, int number);
 
 }  // namespace palpa::evidence

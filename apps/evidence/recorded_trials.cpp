@@ -7,7 +7,8 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::evidence {
 namespace {
@@ -41,10 +42,10 @@ Said saidIn(const std::vector<runtime::Event>& events, int trial) {
 
 }  // namespace
 
-station::Engine engineOf(const record::SessionReader& reader) {
+training::Engine engineOf(const record::SessionReader& reader) {
   const std::string name =
       fieldOf(reader.info().task_json, "engine", std::string("needle"), "its task");
-  return station::engineNamed(name).value_or(station::Engine::needle);
+  return training::engineNamed(name).value_or(training::Engine::needle);
 }
 
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
@@ -74,8 +75,8 @@ std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& r
                               ? fieldOf(trial->end.scores_json, "GUIDED", 0.0, "a trial's score")
                               : 0;
     const assess::PalpationFacts facts{
-        header.trial, header.role,        simulated, header.force_feedback,
-        header.seed,  trial->end.outcome, guided};
+        header.trial, training::roleNamed(header.role),           simulated, header.force_feedback,
+        header.seed,  training::outcomeNamed(trial->end.outcome), guided};
     trials.push_back(
         {*trial, assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
                                          listener.samples(), listener.marks())});
@@ -149,11 +150,11 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
                   "Restore the file from a backup");
     assess::SearchTrial facts;
     facts.trial = trial->header.trial;
-    facts.role = trial->header.role;
+    facts.role = training::roleNamed(trial->header.role);
     facts.simulated = simulated;
     facts.force_feedback = trial->header.force_feedback;
     facts.seed = trial->header.seed;
-    facts.outcome = trial->end.outcome;
+    facts.outcome = training::outcomeNamed(trial->end.outcome);
     trials.push_back({*trial, task_search::judged(facts, episode->second, listener)});
     ++trial;
     begin();
@@ -172,7 +173,7 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
 
 std::function<const haptics::Floor*(std::uint32_t number)> recordedFloors(
     const record::SessionReader& reader) {
-  if (engineOf(reader) != station::Engine::search) return {};
+  if (engineOf(reader) != training::Engine::search) return {};
   const auto last = std::make_shared<LastFloor>();
   last->task = recordedTask(reader);
   last->episodes = recordedEpisodes(reader);
@@ -215,11 +216,11 @@ std::vector<RecordedSqueeze> recordedSqueezes(const record::SessionReader& reade
   const auto finish = [&] {
     assess::SqueezeTrial facts;
     facts.trial = trial->header.trial;
-    facts.role = trial->header.role;
+    facts.role = training::roleNamed(trial->header.role);
     facts.simulated = true;
     facts.force_feedback = trial->header.force_feedback;
     facts.seed = trial->header.seed;
-    facts.outcome = trial->end.outcome;
+    facts.outcome = training::outcomeNamed(trial->end.outcome);
     trials.push_back({*trial, task_squeeze::judged(facts, said.comparison, listener, said.answer)});
     ++trial;
     begin();

@@ -4,10 +4,10 @@
 #include <vector>
 
 #include "apps/record/session_file.h"
-#include "apps/station/engine.h"
 #include "apps/task_palpation/palpation_task.h"
 #include "apps/task_search/search_task.h"
 #include "apps/task_squeeze/squeeze_task.h"
+#include "apps/training/engine.h"
 
 namespace palpa::evidence {
 
@@ -22,7 +22,7 @@ struct RecordedPalpation {
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader);
 
 /// "needle", "palpation": of the recorded task.
-station::Engine engineOf(const record::SessionReader& reader);
+training::Engine engineOf(const record::SessionReader& reader);
 
 struct RecordedSearch {
   record::RecordedTrial recorded;

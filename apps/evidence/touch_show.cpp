@@ -1,6 +1,6 @@
 #include "anatomy/base/json_text.h"
 #include "apps/evidence/recorded_show.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 #include <nlohmann/json.hpp>
 
@@ -190,9 +190,9 @@ class SqueezeShow final : public TouchShow<replay::SqueezeTrial> {
 }  // namespace
 
 std::unique_ptr<RecordedShow> recordedTouch(const std::filesystem::path& file,
-                                            station::Engine engine, int number) {
-  if (engine == station::Engine::palpation) return std::make_unique<PalpationShow>(file, number);
-  if (engine == station::Engine::search) return std::make_unique<SearchShow>(file, number);
+                                            training::Engine engine, int number) {
+  if (engine == training::Engine::palpation) return std::make_unique<PalpationShow>(file, number);
+  if (engine == training::Engine::search) return std::make_unique<SearchShow>(file, number);
   return std::make_unique<SqueezeShow>(file, number);
 }
 

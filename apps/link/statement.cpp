@@ -4,6 +4,7 @@
 
 #include "anatomy/base/utc.h"
 #include "anatomy/base/uuid.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::link {
 namespace {
@@ -30,9 +31,11 @@ bool harmed(const record::StoredTrial& t) {
 }
 
 std::string verbOf(const record::StoredTrial& t) {
-  const bool judged = t.role == "scored" || t.role == "assessed";
-  if (t.outcome == "aborted") return "terminated";
-  if (!judged || t.outcome == "not scored") return "completed";
+  const training::Outcome outcome = training::outcomeNamed(t.outcome);
+  if (outcome == training::Outcome::aborted) return "terminated";
+  if (!training::countsAsScored(training::roleNamed(t.role)) ||
+      outcome == training::Outcome::not_scored)
+    return "completed";
   return t.success && !harmed(t) ? "passed" : "failed";
 }
 
@@ -57,7 +60,7 @@ json scoreOf(const record::StoredTrial& t) {
 json resultOf(const record::StoredTrial& t) {
   const double seconds = t.metric("time_s");
   json result{{"success", t.success},
-              {"completion", t.outcome != "aborted"},
+              {"completion", training::outcomeNamed(t.outcome) != training::Outcome::aborted},
               {"duration", isoDuration(std::isfinite(seconds)
                                            ? seconds
                                            : 1e-9 * static_cast<double>(t.end_ns - t.start_ns))}};

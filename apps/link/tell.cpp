@@ -11,6 +11,7 @@
 #include "anatomy/base/uuid.h"
 #include "apps/link/statement.h"
 #include "apps/runtime/clock.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::link {
 namespace {
@@ -125,8 +126,6 @@ Sent sendWaiting(Outbox& outbox, const Endpoint& endpoint, LrsClient& client, co
 
 namespace {
 
-bool isVoid(const record::StoredTrial& trial) { return trial.outcome == "void"; }
-
 std::string textOf(const nlohmann::json& statement) {
   return statement.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
@@ -135,7 +134,7 @@ void queueTrial(const record::TrialWithSession& t, const Route& route, const Tel
                 Outbox& outbox, Queued& queued) {
   if (t.session.simulated && !filter.simulated)
     ++queued.simulated;
-  else if (isVoid(t.trial))
+  else if (training::isVoid(t.trial.outcome))
     ++queued.void_trials;
   else if (!isUuid(t.session.uuid))
     ++queued.no_uuid;
@@ -170,7 +169,7 @@ int takeBackDeleted(record::RecordStore& store, const Route& route, Outbox& outb
   std::set<std::pair<std::string, std::int64_t>> void_now;
   if (!told.empty())
     for (const record::TrialWithSession& t : store.trials())
-      if (isVoid(t.trial)) void_now.insert({t.session.uuid, t.trial.number});
+      if (training::isVoid(t.trial.outcome)) void_now.insert({t.session.uuid, t.trial.number});
   int taken = 0;
   for (const Letter& letter : told) {
     if (!wasDeleted(letter.person) && !void_now.contains({letter.session, letter.trial})) continue;

@@ -4,6 +4,7 @@
 
 #include "apps/live/entry.h"
 #include "apps/live/wire.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::live {
 namespace {
@@ -61,7 +62,7 @@ void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
       {"state", nameOf(status.state)},
       {"trial", status.trial},
       {"trials", status.trials},
-      {"role", status.role},
+      {"role", training::nameOf(status.role)},
       {"notice", hud.notice},
       {"alarm", hud.alarm},
       {"emergency_stop", status.emergency_stop},

@@ -1,4 +1,5 @@
 #include "apps/session/needle_session.h"
+#include "apps/training/trial_words.h"
 
 #include <cstdio>
 
@@ -43,7 +44,7 @@ class Playback final : public runtime::Activity {
  private:
   void publish(const replay::Moment& moment, std::int64_t now_ns) {
     task_needle::TaskStatus status = replay::statusAt(moment, 1, true);
-    status.role = "demonstration";
+    status.role = training::Role::demonstration;
     status.notice = "Demonstration by a simulated expert. Enter: your turn";
     bus_.haptic_to_scene.publish(moment.tool, now_ns);
     channels_.status_to_scene.publish(status, now_ns);
@@ -63,7 +64,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   std::fprintf(stderr, "Preparing the expert's demonstration ...\n");
   SessionOptions expert = options;
   expert.command = "demonstration";
-  expert.role = "demonstration";
+  expert.role = training::Role::demonstration;
   expert.who = OperatorKind::expert;
   expert.knows_patient = !options.patient.empty();  // one shows what one has prepared
   expert.seed = kDemonstrationSeed;

@@ -1,4 +1,5 @@
 #include "apps/session/needle_session.h"
+#include "apps/training/trial_words.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -8,7 +9,6 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/assess/trial.h"
 #include "apps/evidence/rating_forms.h"
 #include "apps/evidence/recorded_session.h"
 #include "apps/report/needle/session_report.h"
@@ -28,7 +28,7 @@ std::vector<report::TrialPage> pages(const SessionResult& result,
     for (const auto& p : result.pictures)
       if (p.moment.trial == trial.assessment.trial)
         page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});
-    if (forms && assess::inAssessment(trial.assessment.role) && trial.assessment.by_path) {
+    if (forms && training::inAssessment(trial.assessment.role) && trial.assessment.by_path) {
       page.verdict = evidence::verdictOf(trial.assessment, *forms, {},
                                          evidence::standardOf(forms->checklist, 0));
       page.certification =
@@ -116,9 +116,10 @@ void sayResult(const SessionResult& result) {
     const assess::TrialAssessment& a = trial.assessment;
     const std::string total =
         a.by_path ? format(" Total penalty %.1f (lower is better)", a.total) : "";
-    std::printf("Trial %d (%s%s): %s%s\n", a.trial, a.role.c_str(),
+    std::printf("Trial %d (%s%s): %s%s\n", a.trial, training::nameOf(a.role).c_str(),
                 a.simulated ? ", simulated" : "",
-                a.summary.empty() ? a.outcome.c_str() : a.summary.c_str(), total.c_str());
+                a.summary.empty() ? training::nameOf(a.outcome).c_str() : a.summary.c_str(),
+                total.c_str());
   }
 }
 
@@ -128,7 +129,8 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
                   const SessionResult& result, const std::filesystem::path& folder) {
   std::vector<assess::TrialAssessment> scored;
   for (const auto& trial : result.trials)
-    if (assess::countsAsScored(trial.assessment.role) && trial.assessment.outcome != "void")
+    if (training::countsAsScored(trial.assessment.role) &&
+        trial.assessment.outcome != training::Outcome::voided)
       scored.push_back(trial.assessment);
   report::writeTrialsCsv(options.trainee, scored, folder / "trials.csv");
   report::SessionReport page;

@@ -9,6 +9,7 @@
 #include "apps/session/stage.h"
 #include "apps/station/overlay_error.h"
 #include "apps/task_needle/near_miss_watch.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::session {
 namespace {
@@ -29,12 +30,13 @@ std::vector<task_needle::TrialPlan> plan(const SessionOptions& options, const Ne
   const bool scored = whyNotScored(options, world).empty();
   std::vector<task_needle::TrialPlan> trials;
   if (person && options.familiarisation)
-    trials.push_back(world.trial("familiarisation", options.seed + kFamiliarisationSeed,
-                                 options.force_feedback, false));
+    trials.push_back(world.trial(training::Role::familiarisation,
+                                 options.seed + kFamiliarisationSeed, options.force_feedback,
+                                 false));
   for (int i = 0; i < options.trials; ++i) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(i);
-    trials.push_back(world.trial(scored ? options.role : "not scored", seed, options.force_feedback,
-                                 options.augment));
+    trials.push_back(world.trial(scored ? options.role : training::Role::not_scored, seed,
+                                 options.force_feedback, options.augment));
     trials.back().most_passes =
         options.assess ? world.task.most_passes.assessed : world.task.most_passes.practice;
   }

@@ -153,7 +153,7 @@ twin::VisibleAnatomy NeedleWorld::visible(const twin::OperatorSkill& skill,
   return v;
 }
 
-task_needle::TrialPlan NeedleWorld::trial(const std::string& role, std::uint64_t seed,
+task_needle::TrialPlan NeedleWorld::trial(training::Role role, std::uint64_t seed,
                                           bool force_feedback, bool augmented) const {
   task_needle::TrialPlan plan{role, seed, force_feedback, augmented, 0, {}};
   plan.puncture_force_N =

@@ -13,6 +13,7 @@
 #include "apps/station/station_file.h"
 #include "apps/task_needle/needle_task.h"
 #include "apps/task_needle/task_file.h"
+#include "apps/training/trial_words.h"
 #include "apps/twin/operator.h"
 #include "calibration/expert_path.h"
 
@@ -41,7 +42,7 @@ struct NeedleWorld {
   /// or, where he has studied this patient's images, in the patient as he is shown.
   twin::VisibleAnatomy visible(const twin::OperatorSkill& skill, bool knows_patient) const;
   /// A trial with this seed's skin and walls.
-  task_needle::TrialPlan trial(const std::string& role, std::uint64_t seed, bool force_feedback,
+  task_needle::TrialPlan trial(training::Role role, std::uint64_t seed, bool force_feedback,
                                bool augmented) const;
 };
 

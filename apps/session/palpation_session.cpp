@@ -1,5 +1,6 @@
 #include "apps/session/palpation_session.h"
 #include "apps/runtime/clock.h"
+#include "apps/training/trial_words.h"
 
 #include <cmath>
 #include <cstdio>
@@ -9,7 +10,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "apps/assess/trial.h"
 #include "apps/report/palpation/palpation_report.h"
 #include "apps/session/mouse_hands.h"
 #include "apps/session/output_folder.h"
@@ -181,7 +181,7 @@ std::vector<task_palpation::PalpationPlan> planOf(const SessionOptions& options,
   const bool scored = whyUnscored(options, world).empty();
   std::vector<task_palpation::PalpationPlan> plan;
   for (int i = 0; i < options.trials; ++i) {
-    plan.push_back({scored ? options.role : "not scored",
+    plan.push_back({scored ? options.role : training::Role::not_scored,
                     options.seed + static_cast<std::uint64_t>(i), options.force_feedback,
                     options.augment});
   }
@@ -243,8 +243,8 @@ void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& 
                            const PalpationRun& run, const std::filesystem::path& folder) {
   std::vector<assess::PalpationAssessment> judged;
   for (const auto& trial : run.trials)
-    if (trial.assessment.facts.outcome != "void" &&
-        assess::countsAsScored(trial.assessment.facts.role))
+    if (trial.assessment.facts.outcome != training::Outcome::voided &&
+        training::countsAsScored(trial.assessment.facts.role))
       judged.push_back(trial.assessment);
   report::writePalpationCsv(options.trainee, judged, folder / "trials.csv");
   report::PalpationReport page;
@@ -266,7 +266,7 @@ void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& 
 
   for (const auto& trial : run.trials) {
     const assess::PalpationAssessment& a = trial.assessment;
-    std::printf("Trial %d (%s%s): %s\n", a.facts.trial, a.facts.role.c_str(),
+    std::printf("Trial %d (%s%s): %s\n", a.facts.trial, training::nameOf(a.facts.role).c_str(),
                 a.facts.simulated ? ", simulated" : "",
                 trial.reason.empty() ? a.summary.c_str() : trial.reason.c_str());
   }

@@ -1,5 +1,6 @@
 #include "apps/session/search_session.h"
 #include "apps/runtime/clock.h"
+#include "apps/training/trial_words.h"
 
 #include <cstdio>
 
@@ -208,7 +209,7 @@ void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
   const char* simulated = page.simulated ? ", simulated" : "";
   for (const task_search::CompletedSearch& trial : run.trials)
     std::printf("Episode %d (%s, %s%s): %s\n", trial.trial.trial, name(trial.trial.mode),
-                trial.trial.role.c_str(), simulated,
+                training::nameOf(trial.trial.role).c_str(), simulated,
                 trial.reason.empty() ? summaryOf(trial.trial).c_str() : trial.reason.c_str());
   for (const assess::SearchTally& tally : assess::talliesOf(page.trials))
     std::printf("%s%s%s: found in %d of %d episodes\n", tally.block.c_str(),

@@ -32,7 +32,7 @@ void settleAssessment(SessionOptions& o) {
     if (given)
       throw UsageError("is an aid or practice, and in an assessment every aid is off",
                        std::string(option) + " with --assess", "Leave one of them out");
-  o.role = "assessed";
+  o.role = training::Role::assessed;
   o.navigation = o.demonstration = false;
   if (!o.quiet)
     std::puts(

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "anatomy/patient.h"
+#include "apps/training/trial_words.h"
 #include "scene/scene_state.h"
 #include "scene/window/gl_context.h"
 
@@ -79,9 +80,9 @@ struct SessionOptions {
   bool headset = false;                   ///< beside the desktop's view
   std::string camera, intrinsics, board;  ///< recorded pictures instead of the station's camera
   std::string expert_path;                ///< overrides the task's
-  std::string role = "scored";            ///< of the trials
-  bool record_only = false;               ///< no expert path needed: trials that will make one
-  std::string live;                       ///< local socket where others may look on; empty: nobody
+  training::Role role = training::Role::scored;  ///< of the trials
+  bool record_only = false;  ///< no expert path needed: trials that will make one
+  std::string live;          ///< local socket where others may look on; empty: nobody
   std::string out;
   double rate_Hz = 1000;        ///< ticks a second
   int cpu = -1;                 ///< of the haptic thread; -1: any

@@ -1,5 +1,6 @@
 #include "apps/session/squeeze_session.h"
 #include "apps/runtime/clock.h"
+#include "apps/training/trial_words.h"
 
 #include <cstdio>
 #include <memory>
@@ -7,7 +8,6 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/parametric/phantoms.h"
-#include "apps/assess/trial.h"
 #include "apps/report/squeeze/squeeze_report.h"
 #include "apps/session/output_folder.h"
 #include "apps/session/session_facts.h"
@@ -181,7 +181,8 @@ void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& worl
   std::vector<assess::SqueezeTrial> scored;
   for (const task_squeeze::CompletedSqueeze& trial : run.trials) {
     page.trials.push_back(trial.trial);
-    if (assess::countsAsScored(trial.trial.role) && trial.trial.outcome != "void")
+    if (training::countsAsScored(trial.trial.role) &&
+        trial.trial.outcome != training::Outcome::voided)
       scored.push_back(trial.trial);
   }
   report::writeSqueezeCsv(options.trainee, scored, folder / "trials.csv");
@@ -198,7 +199,8 @@ void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& worl
   report::writeSqueezeReport(page, folder / "report.html");
 
   for (const task_squeeze::CompletedSqueeze& trial : run.trials)
-    std::printf("Trial %d (%s, simulated): %s\n", trial.trial.trial, trial.trial.role.c_str(),
+    std::printf("Trial %d (%s, simulated): %s\n", trial.trial.trial,
+                training::nameOf(trial.trial.role).c_str(),
                 trial.reason.empty() ? summaryOf(trial.trial).c_str() : trial.reason.c_str());
   std::printf("Written to %s:\n", folder.string().c_str());
   std::printf("  report.html     what was told apart, and how well: open this first\n");

@@ -75,15 +75,15 @@ SessionLeft holdSearch(SessionOptions options) {
   return {folder, run.quit};
 }
 
-SessionLeft holdSession(station::Engine engine, SessionOptions options) {
+SessionLeft holdSession(training::Engine engine, SessionOptions options) {
   switch (engine) {
-    case station::Engine::palpation:
+    case training::Engine::palpation:
       return holdPalpation(std::move(options));
-    case station::Engine::search:
+    case training::Engine::search:
       return holdSearch(std::move(options));
-    case station::Engine::squeeze:
+    case training::Engine::squeeze:
       return holdSqueeze(std::move(options));
-    case station::Engine::needle:
+    case training::Engine::needle:
       break;
   }
   return holdNeedleSession(std::move(options));

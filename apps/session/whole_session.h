@@ -3,7 +3,7 @@
 #include <filesystem>
 
 #include "apps/session/session_options.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 namespace palpa::session {
 
@@ -21,6 +21,6 @@ SessionLeft holdSqueeze(SessionOptions options);
 SessionLeft holdSearch(SessionOptions options);
 
 /// The one for a task file's engine.
-SessionLeft holdSession(station::Engine engine, SessionOptions options);
+SessionLeft holdSession(training::Engine engine, SessionOptions options);
 
 }  // namespace palpa::session

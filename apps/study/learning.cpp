@@ -5,7 +5,7 @@
 
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 namespace palpa::study {
 namespace {
@@ -50,9 +50,9 @@ Learners readLearners(const std::filesystem::path& path, const Protocol& protoco
   l.id = needName(file, "id");
   l.title = file.text("title");
   l.planted = file.text("planted");
-  l.engine = station::engineIn(file);
-  if (l.engine != station::Engine::needle && l.engine != station::Engine::search)
-    file.refuse("engine", "is \"" + station::nameOf(l.engine) +
+  l.engine = training::engineIn(file);
+  if (l.engine != training::Engine::needle && l.engine != training::Engine::search)
+    file.refuse("engine", "is \"" + training::nameOf(l.engine) +
                               "\"; virtual trainees know needle and search");
   l.from = path.parent_path() / file.text("from");
   l.to = path.parent_path() / file.text("to");
@@ -64,9 +64,9 @@ Learners readLearners(const std::filesystem::path& path, const Protocol& protoco
   for (const Session& session : protocol.sessions)
     for (const Block& block : session.blocks)
       if (block.engine != l.engine)
-        file.refuse("engine", "is \"" + station::nameOf(l.engine) + "\", but the block \"" +
+        file.refuse("engine", "is \"" + training::nameOf(l.engine) + "\", but the block \"" +
                                   block.name + "\" of the protocol is of \"" +
-                                  station::nameOf(block.engine) + "\"");
+                                  training::nameOf(block.engine) + "\"");
   return l;
 }
 

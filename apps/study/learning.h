@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "apps/station/engine.h"
 #include "apps/study/protocol.h"
+#include "apps/training/engine.h"
 
 namespace palpa::study {
 
@@ -22,9 +22,9 @@ struct GroupLearning {
 
 /// Simulated learners, as a file describes them. Nobody's real skill.
 struct Learners {
-  std::string id, title, planted;                    ///< planted: the effects, in words
-  station::Engine engine = station::Engine::needle;  ///< of the tasks that they can do
-  std::filesystem::path from, to;                    ///< operator files: level 0 and level 1
+  std::string id, title, planted;                      ///< planted: the effects, in words
+  training::Engine engine = training::Engine::needle;  ///< of the tasks that they can do
+  std::filesystem::path from, to;                      ///< operator files: level 0 and level 1
   std::map<std::string, GroupLearning> groups;
   std::map<std::string, double>
       rate_times;  ///< by condition: how much faster a trial in it is learned from

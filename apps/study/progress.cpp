@@ -9,7 +9,7 @@ namespace {
 
 int countOf(const std::vector<DoneTrial>& trials, std::int64_t step) {
   return static_cast<int>(std::count_if(trials.begin(), trials.end(), [&](const DoneTrial& t) {
-    return t.step == step && t.outcome != "void";
+    return t.step == step && t.counts();
   }));
 }
 

@@ -6,6 +6,7 @@
 
 #include "apps/record/store/record_store.h"
 #include "apps/study/protocol.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::study {
 
@@ -15,7 +16,9 @@ struct DoneTrial {
   std::string session;    ///< UUID
   std::string began_utc;  ///< of its session, by the station's clock
   double ended_s = 0;     ///< after that
-  std::string outcome;    ///< "void": does not count
+  std::string outcome;    ///< as it is recorded
+  /// A void one does not.
+  bool counts() const { return !training::isVoid(outcome); }
 };
 DoneTrial doneTrial(const record::StoredSession& session, const record::StoredTrial& trial);
 

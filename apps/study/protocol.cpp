@@ -9,7 +9,7 @@
 #include "anatomy/base/random.h"
 #include "anatomy/base/sha256.h"
 #include "apps/record/store/record_store.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 namespace palpa::study {
 namespace {
@@ -116,9 +116,11 @@ Block blockIn(const JsonFile& file, const Protocol& protocol) {
   Block block;
   block.name = needName(file, "name");
   block.task = besides(protocol, file.text("task"));
-  block.engine = station::engineIn(JsonFile(block.task));
-  block.role = file.has("role") ? file.text("role") : "scored";
-  needOneOf(file, "role", block.role, kRoles);
+  block.engine = training::engineIn(JsonFile(block.task));
+  if (file.has("role")) {
+    needOneOf(file, "role", file.text("role"), kRoles);
+    block.role = training::roleNamed(file.text("role"));
+  }
   block.trials = file.integer("trials", 1, kMostTrials);
   if (file.has("rest_s")) block.rest_s = file.number("rest_s", 0, kLongestRest_s);
   if (file.has("rest_after")) block.rest_after = file.integer("rest_after", 1, kMostTrials);

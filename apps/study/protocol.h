@@ -6,8 +6,9 @@
 #include <string>
 #include <vector>
 
-#include "apps/station/engine.h"
 #include "apps/study/questionnaire.h"
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa {
 class JsonFile;
@@ -39,8 +40,8 @@ struct Group {
 struct Block {
   std::string name;
   std::filesystem::path task;
-  station::Engine engine = station::Engine::needle;  ///< of the task
-  std::string role = "scored";                       ///< of the trials
+  training::Engine engine = training::Engine::needle;  ///< of the task
+  training::Role role = training::Role::scored;        ///< of the trials
   int trials = 1;
   std::string condition;  ///< by name; empty: the one that was drawn for the trainee
   int rest_after = 0;     ///< trials; 0: no rest within the block

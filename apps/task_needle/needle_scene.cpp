@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "apps/assess/trial.h"
+#include "apps/training/trial_words.h"
 #include "apps/trial/trial_scene.h"
 
 namespace palpa::task_needle {
@@ -51,7 +51,8 @@ scene::Hud hudText(const TaskStatus& status, const runtime::ToolState& tool,
                    const std::string& camera, const std::string& mark, const TaskWords& words) {
   scene::Hud hud;
   const bool active = status.active(),
-             told = !assess::inAssessment(status.role);  // what a patient would not tell is an aid
+             told =
+                 !training::inAssessment(status.role);  // what a patient would not tell is an aid
   hud.phase = active && told ? status.step : "";
   if (status.trials > 1 && status.trial > 0)
     hud.phase = format("Trial %d of %d  ", status.trial, status.trials) + hud.phase;

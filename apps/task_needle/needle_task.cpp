@@ -60,11 +60,12 @@ runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
   touched_s_.fill(-kContactPause);
   entered_vein_ = false;
   picture("start", "Before the needle touches the " + setup_.settings.words.of(Organ::skin));
-  return {status().trial,         now_ns, plan().seed, plan().role, plan().force_feedback,
-          plan().puncture_force_N};
+  return {status().trial,        now_ns,
+          plan().seed,           training::nameOf(plan().role),
+          plan().force_feedback, plan().puncture_force_N};
 }
 
-trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome,
+trial::TrialTask::Conclusion NeedleTask::conclude(training::Outcome outcome,
                                                   const std::string& reason) {
   CompletedTrial trial;
   trial.reason = reason;
@@ -80,7 +81,7 @@ trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome,
     trial.assessment.seed = plan().seed;
     trial.assessment.simulated = setup_.simulated;
     trial.assessment.force_feedback = plan().force_feedback;
-    trial.assessment.values.success = outcome == "success";
+    trial.assessment.values.success = outcome == training::Outcome::success;
     if (setup_.settings.goal) goal_.tell(&trial.assessment);
     trial.assessment.metrics =
         assess::goalMetrics(trial.assessment, samples_, setup_.settings.rules);
@@ -90,12 +91,12 @@ trial::TrialTask::Conclusion NeedleTask::conclude(const std::string& outcome,
   trial.samples = std::move(samples_);
   samples_.clear();
   shown_.blood_flows = false;
-  const bool success = outcome == "success";
+  const bool success = outcome == training::Outcome::success;
   completed_.push_back(std::move(trial));
   const std::string reached = setup_.settings.goal ? "Done: " + setup_.settings.goal->means
                                                    : "Blood flows freely: the vein is reached";
   return {scoresJson(completed_.back().assessment), completed_.back().assessment.summary,
-          !success               ? "Trial ended: " + outcome
+          !success               ? "Trial ended: " + training::nameOf(outcome)
           : setup_.settings.goal ? "Done. Trial ended"
                                  : "Vein reached. Trial ended",
           success ? reached : "The end of the trial"};
@@ -118,14 +119,14 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   in_lumen_s_ = shown_.blood_flows ? in_lumen_s_ + dt : 0;
   if (shown_.blood_flows) shown_.blood = std::min(sample.plunger, shown_.blood + kFillRate * dt);
   if (setup_.settings.goal ? goal_.reached() : in_lumen_s_ >= setup_.settings.rules.dwell_s)
-    return endTrial("success", "", now_ns);
+    return endTrial(training::Outcome::success, "", now_ns);
   if (const int most = plan().most_passes; most > 0 && passes_.passes() > most)
-    return endTrial("passes",
+    return endTrial(training::Outcome::passes,
                     "Ended at needle pass " + std::to_string(most + 1) + ": no more than " +
                         std::to_string(most) + " are allowed",
                     now_ns);
   if (sample.t_s >= setup_.settings.time_limit_s)
-    return endTrial("time", "The time limit was reached", now_ns);
+    return endTrial(training::Outcome::time, "The time limit was reached", now_ns);
 }
 
 /// Events in clinical words, and pictures of the moments that the report shows.

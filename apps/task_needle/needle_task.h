@@ -8,6 +8,7 @@
 #include "apps/assess/needle/phases.h"
 #include "apps/assess/needle/trial_sampler.h"
 #include "apps/task_needle/task_file.h"
+#include "apps/training/trial_words.h"
 #include "apps/trial/trial_status.h"
 #include "apps/trial/trial_task.h"
 #include "calibration/expert_path.h"
@@ -23,7 +24,7 @@ struct TaskStatus : trial::TrialStatus {
 };
 
 struct TrialPlan {
-  std::string role = "scored";
+  training::Role role = training::Role::scored;
   std::uint64_t seed = 1;
   bool force_feedback = true;
   bool augmented = false;         ///< the task's augmentations add force
@@ -71,7 +72,7 @@ class NeedleTask final : public trial::TrialTask {
  private:
   std::string notReady(const haptics::FlightRecord& last) const override;
   runtime::TrialHeader begin(std::int64_t now_ns) override;
-  Conclusion conclude(const std::string& outcome, const std::string& reason) override;
+  Conclusion conclude(training::Outcome outcome, const std::string& reason) override;
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/units.h"
-#include "apps/station/engine.h"
 #include "apps/station/task_sections.h"
+#include "apps/training/engine.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::task_needle {
@@ -161,7 +161,7 @@ TaskSettings readTask(const std::filesystem::path& path) {
 
 TaskSettings readTask(const JsonFile& file, const std::filesystem::path& folder) {
   file.needVersion(1);
-  station::needEngine(file, station::Engine::needle);
+  training::needEngine(file, training::Engine::needle);
   TaskSettings task;
   task.id = file.text("id");
   task.title = file.text("title");

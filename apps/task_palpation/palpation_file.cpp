@@ -5,8 +5,8 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/units.h"
-#include "apps/station/engine.h"
 #include "apps/station/task_sections.h"
+#include "apps/training/engine.h"
 
 namespace palpa::task_palpation {
 namespace {
@@ -169,7 +169,7 @@ void requireInside(const JsonFile& file, const PalpationSettings& settings) {
 PalpationSettings readPalpation(const std::filesystem::path& path) {
   const JsonFile file = station::readTaskFile(path);
   file.needVersion(1);
-  station::needEngine(file, station::Engine::palpation);
+  training::needEngine(file, training::Engine::palpation);
   PalpationSettings settings;
   settings.id = file.text("id");
   settings.title = file.text("title");

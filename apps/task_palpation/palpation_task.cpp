@@ -150,10 +150,10 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   showLumps(nullptr);
   tell(now_ns, "case", caseText(lumpsOf(case_, setup_.settings.library)));
   picture("start", "Before anything was felt");
-  const std::string role = plan().role == "scored" && guidance_.helps(status().trial)
-                               ? "guided"
-                               : plan().role;  // trials without any help are those that count
-  return {status().trial, now_ns, plan().seed, role, plan().force_feedback, 0};
+  const bool guided = plan().role == training::Role::scored && guidance_.helps(status().trial);
+  const training::Role role = guided ? training::Role::guided
+                                     : plan().role;  // trials without any help are those that count
+  return {status().trial, now_ns, plan().seed, training::nameOf(role), plan().force_feedback, 0};
 }
 
 /// While a trial runs only where they may be seen; after it all, found or missed.
@@ -168,7 +168,7 @@ void PalpationTask::showLumps(const assess::PalpationAssessment* judged) {
     shown_.lumps.push_back({piece.p_P, piece.diameter / 2, false, true});
 }
 
-trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome,
+trial::TrialTask::Conclusion PalpationTask::conclude(training::Outcome outcome,
                                                      const std::string& reason) {
   CompletedPalpation trial;
   trial.reason = reason;
@@ -186,7 +186,7 @@ trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome,
       lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
   trial.assessment.doses = doses_.doses();
   trial.samples = listener_.samples();
-  if (outcome == "done" || outcome == "time")
+  if (outcome == training::Outcome::done || outcome == training::Outcome::time)
     guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
   showLumps(&trial.assessment);
   shown_.levels = levelsOf(map_);
@@ -194,7 +194,8 @@ trial::TrialTask::Conclusion PalpationTask::conclude(const std::string& outcome,
   completed_.push_back(std::move(trial));
   const assess::PalpationAssessment& judged = completed_.back().assessment;
   return {scoreJson(judged), judged.summary,
-          outcome == "done" ? judged.summary : "Trial ended: " + outcome,
+          outcome == training::Outcome::done ? judged.summary
+                                             : "Trial ended: " + training::nameOf(outcome),
           "What was felt and marked, and what lies inside"};
 }
 
@@ -219,11 +220,12 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
   shown_.level = levelOf(setup_.settings.scoring.rules.levels, shown_.pressed_N);
   status().elapsed_s = listener_.seconds();
   if (status().elapsed_s >= setup_.settings.time_limit_s)
-    endTrial("time", "The time limit was reached", now_ns);
+    endTrial(training::Outcome::time, "The time limit was reached", now_ns);
 }
 
 void PalpationTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
-  if (request.command == trial::UserCommand::done) return endTrial("done", "", now_ns);
+  if (request.command == trial::UserCommand::done)
+    return endTrial(training::Outcome::done, "", now_ns);
   if (request.command != trial::UserCommand::grade || listener_.marks().empty()) return;
   const trial::Grade grade = trial::gradeOf(request.reason);
   listener_.grade(grade.diameter, grade.hardness, grade.mobility);

@@ -3,8 +3,8 @@
 #include <algorithm>
 
 #include "anatomy/base/error.h"
-#include "apps/station/engine.h"
 #include "apps/station/task_sections.h"
+#include "apps/training/engine.h"
 
 namespace palpa::task_search {
 namespace {
@@ -59,7 +59,7 @@ void needFloor(const JsonFile& file, const haptics::SearchSpec& spec) {
 
 SearchSettings readSearch(const JsonFile& file) {
   file.needVersion(1);
-  station::needEngine(file, station::Engine::search);
+  training::needEngine(file, training::Engine::search);
   SearchSettings s;
   s.id = file.text("id");
   s.title = file.text("title");

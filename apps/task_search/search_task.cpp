@@ -128,14 +128,13 @@ runtime::TrialHeader SearchTask::begin(std::int64_t now_ns) {
   began_ns_ = now_ns;
   listener_.begin(number);
   floors_.prepare(number + 1);
+  const training::Role role = setup_.not_scored.empty() ? setup_.role : training::Role::not_scored;
   tell(now_ns, "case", episodeText(episode()));
   picture("start", "The handle is held over the middle");
-  return {status().trial,        now_ns,
-          episode().seed,        setup_.not_scored.empty() ? setup_.role : "not scored",
-          setup_.force_feedback, 0};
+  return {status().trial, now_ns, episode().seed, training::nameOf(role), setup_.force_feedback, 0};
 }
 
-trial::TrialTask::Conclusion SearchTask::conclude(const std::string& outcome,
+trial::TrialTask::Conclusion SearchTask::conclude(training::Outcome outcome,
                                                   const std::string& reason) {
   assess::SearchTrial facts;
   facts.trial = status().trial;
@@ -147,8 +146,10 @@ trial::TrialTask::Conclusion SearchTask::conclude(const std::string& outcome,
   completed_.push_back({judged(facts, episode(), listener_), reason});
   const assess::SearchTrial& trial = completed_.back().trial;
   const std::string summary = summaryOf(trial);
-  return {scoreJson(trial), summary, outcome == "done" ? summary : "Episode ended: " + outcome,
-          "Where the probe stayed"};
+  return {
+      scoreJson(trial), summary,
+      outcome == training::Outcome::done ? summary : "Episode ended: " + training::nameOf(outcome),
+      "Where the probe stayed"};
 }
 
 /// Once it has been held for a while and is where an episode starts.
@@ -168,9 +169,9 @@ void SearchTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   listener_.add(record, tipOf(setup_.tick, record.reading));
   status().elapsed_s = listener_.seconds();
   if (listener_.chosen() >= 0)
-    endTrial("done", "", now_ns);
+    endTrial(training::Outcome::done, "", now_ns);
   else if (status().elapsed_s >= setup_.settings.time_limit_s)
-    endTrial("time", "The time limit was reached", now_ns);
+    endTrial(training::Outcome::time, "The time limit was reached", now_ns);
 }
 
 void SearchTask::command(haptics::TickCommands& commands) const {

@@ -7,6 +7,7 @@
 #include "apps/assess/search/search_trial.h"
 #include "apps/task_search/floors.h"
 #include "apps/task_search/search_file.h"
+#include "apps/training/trial_words.h"
 #include "apps/trial/trial_task.h"
 
 namespace palpa::task_search {
@@ -72,7 +73,8 @@ class SearchTask final : public trial::TrialTask {
     std::string not_scored;  ///< why; empty: scored
     const std::vector<Episode>& episodes;
     std::vector<runtime::BoardPlace> places;
-    std::string role = "scored";  ///< of the episodes, where nothing speaks against it
+    training::Role role =
+        training::Role::scored;  ///< of the episodes, where nothing speaks against it
   };
   SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus, SearchChannels& channels,
              runtime::Executive& executive);
@@ -82,7 +84,7 @@ class SearchTask final : public trial::TrialTask {
  private:
   std::string notReady(const haptics::FlightRecord& last) const override;
   runtime::TrialHeader begin(std::int64_t now_ns) override;
-  Conclusion conclude(const std::string& outcome, const std::string& reason) override;
+  Conclusion conclude(training::Outcome outcome, const std::string& reason) override;
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;

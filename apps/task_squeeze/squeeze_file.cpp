@@ -5,7 +5,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/random.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 namespace palpa::task_squeeze {
 namespace {
@@ -33,7 +33,7 @@ std::vector<double> factorsIn(const JsonFile& file, const char* property) {
 SqueezeSettings readSqueeze(const std::filesystem::path& path) {
   const JsonFile file(path);
   file.needVersion(1);
-  station::needEngine(file, station::Engine::squeeze);
+  training::needEngine(file, training::Engine::squeeze);
   SqueezeSettings s;
   s.id = file.text("id");
   s.title = file.text("title");

@@ -107,14 +107,13 @@ std::string SqueezeTask::notReady(const haptics::FlightRecord&) const {
 runtime::TrialHeader SqueezeTask::begin(std::int64_t now_ns) {
   thing_ = said_ = 0;
   listener_.begin(static_cast<std::uint32_t>(status().trial), comparison());
+  const training::Role role = setup_.not_scored.empty() ? setup_.role : training::Role::not_scored;
   tell(now_ns, "case", comparisonText(comparison()));
   picture("start", "Before anything was held");
-  return {status().trial,        now_ns,
-          setup_.seed,           setup_.not_scored.empty() ? setup_.role : "not scored",
-          setup_.force_feedback, 0};
+  return {status().trial, now_ns, setup_.seed, training::nameOf(role), setup_.force_feedback, 0};
 }
 
-trial::TrialTask::Conclusion SqueezeTask::conclude(const std::string& outcome,
+trial::TrialTask::Conclusion SqueezeTask::conclude(training::Outcome outcome,
                                                    const std::string& reason) {
   assess::SqueezeTrial facts;
   facts.trial = status().trial;
@@ -126,8 +125,10 @@ trial::TrialTask::Conclusion SqueezeTask::conclude(const std::string& outcome,
   completed_.push_back({judged(facts, comparison(), listener_, said_), reason});
   const assess::SqueezeTrial& trial = completed_.back().trial;
   const std::string summary = summaryOf(trial);
-  return {scoreJson(trial), summary, outcome == "done" ? summary : "Trial ended: " + outcome,
-          "After the answer"};
+  return {
+      scoreJson(trial), summary,
+      outcome == training::Outcome::done ? summary : "Trial ended: " + training::nameOf(outcome),
+      "After the answer"};
 }
 
 void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
@@ -137,7 +138,7 @@ void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns
     picture("held", thing_ == 0 ? "The first thing is held" : "The second thing is held");
   status().elapsed_s = listener_.seconds();
   if (status().elapsed_s >= setup_.settings.time_limit_s)
-    endTrial("time", "The time limit was reached", now_ns);
+    endTrial(training::Outcome::time, "The time limit was reached", now_ns);
 }
 
 void SqueezeTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
@@ -166,7 +167,7 @@ void SqueezeTask::answer(int said, std::int64_t now_ns) {
   }
   said_ = said;
   tell(now_ns, "answer", said == 1 ? "The first one has more" : "The second one has more", said);
-  endTrial("done", "", now_ns);
+  endTrial(training::Outcome::done, "", now_ns);
 }
 
 void SqueezeTask::command(haptics::TickCommands& commands) const {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "apps/task_squeeze/squeeze_file.h"
+#include "apps/training/trial_words.h"
 #include "apps/trial/trial_status.h"
 #include "apps/trial/trial_task.h"
 #include "haptics/flight_record.h"
@@ -72,7 +73,8 @@ class SqueezeTask final : public trial::TrialTask {
     std::uint64_t seed = 1;
     std::vector<Comparison> comparisons;
     std::vector<runtime::BoardPlace> places;
-    std::string role = "scored";  ///< of the comparisons, where nothing speaks against it
+    training::Role role =
+        training::Role::scored;  ///< of the comparisons, where nothing speaks against it
   };
   SqueezeTask(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels,
               runtime::Executive& executive);
@@ -82,7 +84,7 @@ class SqueezeTask final : public trial::TrialTask {
  private:
   std::string notReady(const haptics::FlightRecord& last) const override;
   runtime::TrialHeader begin(std::int64_t now_ns) override;
-  Conclusion conclude(const std::string& outcome, const std::string& reason) override;
+  Conclusion conclude(training::Outcome outcome, const std::string& reason) override;
   void watch(const haptics::FlightRecord& record) override { last_of_[record.tool & 1] = record; }
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
   void command(haptics::TickCommands& commands) const override;

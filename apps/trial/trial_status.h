@@ -4,6 +4,7 @@
 #include <string>
 
 #include "apps/runtime/channels.h"
+#include "apps/training/trial_words.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::trial {
@@ -15,7 +16,7 @@ struct TrialStatus {
   TrialState state = TrialState::checking;
   int trial = 0;
   int trials = 0;
-  std::string role;  ///< "scored", "assessed", "familiarisation", "demonstration"
+  training::Role role = training::Role::none;
   bool force_feedback = true;
   double elapsed_s = 0;
   bool emergency_stop = false;

@@ -109,18 +109,20 @@ void TrialTask::startTrial(std::int64_t now_ns) {
   status_.notice.clear();
   since_ns_ = now_ns;
   const runtime::TrialHeader header = begin(now_ns);
-  status_.role = header.role;
+  status_.role = training::roleNamed(header.role);
   status_.force_feedback = header.force_feedback;
   bus_.task_to_recorder.push(header);
   tell(now_ns, "start", "Trial " + std::to_string(status_.trial) + " starts");
 }
 
-void TrialTask::endTrial(const std::string& outcome, const std::string& reason,
+void TrialTask::endTrial(training::Outcome outcome, const std::string& reason,
                          std::int64_t now_ns) {
   const Conclusion end = conclude(outcome, reason);
-  tell(now_ns, outcome, reason.empty() ? end.sentence : reason);
-  bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, last_.t_ns, outcome, reason,
-                                               outcome == "void" ? "" : end.scores_json});
+  const std::string& name = training::nameOf(outcome);
+  tell(now_ns, name, reason.empty() ? end.sentence : reason);
+  bus_.task_to_recorder.push(
+      runtime::TrialEnd{status_.trial, last_.t_ns, name, reason,
+                        outcome == training::Outcome::voided ? "" : end.scores_json});
   picture("end", end.caption);
   status_.state = TrialState::ended;
   status_.notice = end.notice;
@@ -129,7 +131,7 @@ void TrialTask::endTrial(const std::string& outcome, const std::string& reason,
 
 void TrialTask::hold(const std::string& trouble, std::int64_t now_ns) {
   tell(now_ns, "safety", "Force taken away: " + trouble);
-  if (lead_.automatic) return endTrial("void", trouble, now_ns);
+  if (lead_.automatic) return endTrial(training::Outcome::voided, trouble, now_ns);
   status_.state = TrialState::paused;
   status_.notice = "Paused: " + trouble + ". Then Enter goes on";
   tell(now_ns, "pause", "The trial is paused: " + trouble);
@@ -198,10 +200,11 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       return tell(now_ns, "pause", "The trial is paused");
     case UserCommand::abort:
       if (status_.active())
-        endTrial("aborted", reason.empty() ? "Aborted by the person in charge" : reason, now_ns);
+        endTrial(training::Outcome::aborted,
+                 reason.empty() ? "Aborted by the person in charge" : reason, now_ns);
       return;
     case UserCommand::void_trial:
-      if (status_.active()) endTrial("void", reason, now_ns);
+      if (status_.active()) endTrial(training::Outcome::voided, reason, now_ns);
       return;
     case UserCommand::emergency_stop:
       return stopAll(now_ns);
@@ -224,8 +227,9 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
 /// In practice nobody's failure; from an examination one does not slip away.
 void TrialTask::leave(const std::string& reason, std::int64_t now_ns) {
   if (!status_.active()) return;
-  endTrial(status_.role == "assessed" ? "aborted" : "void",
-           reason.empty() ? "The session was closed" : reason, now_ns);
+  endTrial(
+      training::inAssessment(status_.role) ? training::Outcome::aborted : training::Outcome::voided,
+      reason.empty() ? "The session was closed" : reason, now_ns);
 }
 
 void TrialTask::goOn(std::int64_t now_ns) {

@@ -7,6 +7,7 @@
 #include "apps/runtime/bus.h"
 #include "apps/runtime/camera_trouble.h"
 #include "apps/runtime/executive.h"
+#include "apps/training/trial_words.h"
 #include "apps/trial/trial_status.h"
 
 namespace palpa::trial {
@@ -42,7 +43,7 @@ class TrialTask : public runtime::Activity {
   struct Conclusion {
     std::string scores_json, sentence, notice, caption;
   };
-  virtual Conclusion conclude(const std::string& outcome, const std::string& reason) = 0;
+  virtual Conclusion conclude(training::Outcome outcome, const std::string& reason) = 0;
   /// Every tick, trial or not.
   virtual void watch(const haptics::FlightRecord&) {}
   /// A tick while a trial runs or is paused.
@@ -53,7 +54,7 @@ class TrialTask : public runtime::Activity {
   /// A request that only the task understands.
   virtual void hear(const UserRequest&, std::int64_t) {}
 
-  void endTrial(const std::string& outcome, const std::string& reason, std::int64_t now_ns);
+  void endTrial(training::Outcome outcome, const std::string& reason, std::int64_t now_ns);
   /// What is measured cannot be meant: no more force. Paused until somebody has looked after it;
   /// where nobody is there, the trial is void. `trouble`: a clause.
   void hold(const std::string& trouble, std::int64_t now_ns);

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "anatomy/base/error.h"
+#include "apps/training/trial_words.h"
 #include "tests/assess/motions.h"
 
 namespace palpa::assess::test {
@@ -22,7 +23,7 @@ const Span* spanOf(const TrialAssessment& a, const std::string& label) {
 
 TEST(Assessment, TextbookTrial) {
   const TrialAssessment a = assess(textbook().samples());
-  EXPECT_EQ(a.outcome, "success");
+  EXPECT_EQ(a.outcome, training::Outcome::success);
   EXPECT_EQ(a.skin_punctures, 1);
   EXPECT_EQ(a.redirections, 0);
   // 1 s to the skin, 0.8 s deep, the turn, 2.8 s to the wall, 0.2 s, 0.2 s, 1 s of blood.

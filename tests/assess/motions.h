@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "apps/assess/needle/assess_trial.h"
+#include "apps/training/trial_words.h"
 
 /// Hand-made motions with known answers. The patient has landmarks only; L is parallel to A on the
 /// right side (medial +x, posterior +y, cephalad +z), so numbers can be checked by eye.
@@ -143,8 +144,8 @@ inline Motion textbook(double rate_Hz = 1000) {
 inline TrialFacts facts(const std::string& outcome = "success") {
   TrialFacts f;
   f.trial = 1;
-  f.role = "scored";
-  f.outcome = outcome;
+  f.role = training::Role::scored;
+  f.outcome = training::outcomeNamed(outcome);
   return f;
 }
 

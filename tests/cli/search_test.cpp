@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/assess/search/search_trial.h"
+#include "apps/training/trial_words.h"
 #include "csv_rows.h"
 #include "program.h"
 #include "tests/support/counts.h"
@@ -31,8 +32,8 @@ std::vector<assess::SearchTrial> episodesOf(const std::vector<Row>& rows) {
   for (const Row& row : rows) {
     assess::SearchTrial trial;
     trial.trial = static_cast<int>(trials.size()) + 1;
-    trial.role = "scored";  // the table has no others
-    trial.outcome = row.at("OUTCOME");
+    trial.role = training::Role::scored;  // the table has no others
+    trial.outcome = training::outcomeNamed(row.at("OUTCOME"));
     trial.mode = row.at("MODE") == "real"       ? assess::SearchMode::real
                  : row.at("MODE") == "degraded" ? assess::SearchMode::degraded
                                                 : assess::SearchMode::augmented;

@@ -3,6 +3,7 @@
 #include "apps/assess/palpation/coverage_map.h"
 #include "apps/assess/palpation/palpation_assessment.h"
 #include "apps/assess/palpation/palpation_score.h"
+#include "apps/training/trial_words.h"
 #include "searches.h"
 
 namespace palpa::assess {
@@ -22,7 +23,7 @@ PalpationAssessment assessed(const std::vector<CaseLump>& lumps, const std::vect
                              const Search& search = thorough(),
                              const std::string& outcome = "done") {
   PalpationFacts facts;
-  facts.outcome = outcome;
+  facts.outcome = training::outcomeNamed(outcome);
   return assessPalpation(facts, {}, {}, lumps, search.samples(), marks);
 }
 
@@ -183,8 +184,8 @@ TEST(Judgement, TakesEightCasesThatCount) {
   const PalpationAssessment found = assessed({aLump(0, 0)}, {aMark(0, 0)}),
                             missed = assessed({aLump(0, 0)}, {}), empty = assessed({}, {});
   PalpationAssessment guided = found, interrupted = found;
-  guided.facts.role = "not scored";
-  interrupted.facts.outcome = "void";
+  guided.facts.role = training::Role::not_scored;
+  interrupted.facts.outcome = training::Outcome::voided;
   std::vector<PalpationAssessment> trials(7, found);
   trials.push_back(guided);
   trials.push_back(interrupted);

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/assess/progress/cohort.h"
+#include "apps/training/engine.h"
 #include "practice.h"
 
 namespace palpa::progress {
@@ -19,12 +20,13 @@ Series practice(const std::vector<std::string>& trainees, int each) {
 }
 
 TEST(Errors, EveryKindRestsOnAFigureOfItsEngine) {
-  for (const char* engine : {"needle", "palpation", "search", "squeeze"}) {
+  using training::Engine;
+  for (const Engine engine : {Engine::needle, Engine::palpation, Engine::search, Engine::squeeze}) {
     EXPECT_FALSE(errorKinds(engine).empty());
     for (const ErrorKind& kind : errorKinds(engine)) {
       const metrics::MetricDefinition* definition = metrics::metricNamed(kind.metric);
       ASSERT_NE(definition, nullptr) << kind.metric;
-      EXPECT_TRUE(metrics::belongsTo(*definition, engine)) << kind.metric;
+      EXPECT_TRUE(metrics::belongsTo(*definition, training::nameOf(engine))) << kind.metric;
       EXPECT_EQ(definition->better, kind.below ? metrics::Better::higher : metrics::Better::lower)
           << kind.metric;
     }

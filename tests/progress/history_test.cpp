@@ -2,6 +2,8 @@
 
 #include <cmath>
 
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 #include "practice.h"
 
 namespace palpa::progress {
@@ -32,9 +34,9 @@ TEST(History, WhatDiffersIsNeverInOneSeries) {
 
 TEST(History, WhatDoesNotCountIsNamed) {
   std::vector<PracticeTrial> trials(4, cleanTrial("A", 1));
-  trials[1].role = "familiarisation";
-  trials[2].outcome = "void";
-  trials[3].role = "not scored";
+  trials[1].role = training::Role::familiarisation;
+  trials[2].outcome = training::Outcome::voided;
+  trials[3].role = training::Role::not_scored;
   ASSERT_EQ(seriesOf(trials).size(), 1u);
   EXPECT_EQ(seriesOf(trials)[0].trials.size(), 1u);
   EXPECT_EQ(leftOut(trials), "1 familiarisation, 1 not scored, 1 void");
@@ -66,21 +68,24 @@ TEST(History, WhatHarmsIsAFailure) {
 }
 
 TEST(History, EveryFigureShownIsInTheTable) {
-  for (const char* engine : {"needle", "palpation", "search", "squeeze", "another"})
+  using training::Engine;
+  const std::optional<Engine> unknown;
+  for (const std::optional<Engine> engine :
+       {std::optional(Engine::needle), std::optional(Engine::palpation),
+        std::optional(Engine::search), std::optional(Engine::squeeze), unknown})
     for (const std::string& name : shownFigures(engine)) {
       const metrics::MetricDefinition* definition = metrics::metricNamed(name);
       ASSERT_NE(definition, nullptr) << name;
-      EXPECT_TRUE(engine == std::string("another") || metrics::belongsTo(*definition, engine))
-          << name;
+      EXPECT_TRUE(!engine || metrics::belongsTo(*definition, training::nameOf(*engine))) << name;
     }
 }
 
 TEST(History, AnEngineIsKnownByItsFigures) {
-  EXPECT_EQ(engineOfFigures(cleanTrial("A", 1).metrics), "needle");
-  EXPECT_EQ(engineOfFigures({{"presses", 3}}), "palpation");
-  EXPECT_EQ(engineOfFigures({{"chosen", 1}}), "search");
-  EXPECT_EQ(engineOfFigures({{"grips", 2}}), "squeeze");
-  EXPECT_EQ(engineOfFigures({}), "");
+  EXPECT_EQ(engineOfFigures(cleanTrial("A", 1).metrics), training::Engine::needle);
+  EXPECT_EQ(engineOfFigures({{"presses", 3}}), training::Engine::palpation);
+  EXPECT_EQ(engineOfFigures({{"chosen", 1}}), training::Engine::search);
+  EXPECT_EQ(engineOfFigures({{"grips", 2}}), training::Engine::squeeze);
+  EXPECT_EQ(engineOfFigures({}), std::nullopt);
   EXPECT_TRUE(std::isnan(cleanTrial("A", 1).metric("no such")));
 }
 

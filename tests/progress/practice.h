@@ -1,6 +1,8 @@
 #pragma once
 
 #include "apps/assess/progress/history.h"
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::progress::test {
 
@@ -10,12 +12,12 @@ inline PracticeTrial cleanTrial(const std::string& trainee, int number,
   PracticeTrial t;
   t.trainee = trainee;
   t.task = "paracentesis";
-  t.engine = "needle";
+  t.engine = training::Engine::needle;
   t.started_utc = day;
   t.arrival = 1;
   t.number = number;
-  t.role = "scored";
-  t.outcome = "success";
+  t.role = training::Role::scored;
+  t.outcome = training::Outcome::success;
   t.metrics = {{"success", 1},
                {"time_s", 20},
                {"total", 200 + 2.0 * 5 + 2 * 3 + 20 * 4},

@@ -114,7 +114,7 @@ TEST(Page, TreatsNamesAsTextNeverAsMarkup) {
   report.notes = {{"Software", evil, ""}};
   for (auto& trial : report.trials) {
     auto& a = trial.assessment;
-    a.role = a.outcome = a.summary = evil;
+    a.summary = evil;
     a.penalties = {{evil, evil, evil, 1, 1, 1, {}}};
     a.spans = {{evil, "phase", 0, 9}, {evil, evil, 0, 9}};
     a.moments = {{1, evil, evil}};

@@ -149,7 +149,7 @@ TEST(PalpationPage, TreatsNamesAsTextNeverAsMarkup) {
   report.title = report.trainee = report.when = report.force_note = evil;
   report.taxonomy = report.station = report.notes = {{evil, evil, evil}, {"Software", evil, ""}};
   for (PalpationPage& page : report.trials) {
-    page.assessment.facts.role = page.assessment.facts.outcome = page.assessment.summary = evil;
+    page.assessment.summary = evil;
     page.assessment.advice = {evil};
     page.pictures = {{evil, evil, 3}};
   }

@@ -1,6 +1,8 @@
 #include <gtest/gtest.h>
 
 #include "apps/report/practice/progress_words.h"
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 #include "synthetic_practice.h"
 #include "tests/support/files.h"
 #include "well_formed.h"
@@ -92,8 +94,8 @@ TEST(TraineePage, KindsOfTrialsAreKeptApartAndNamed) {
     if (i % 3 == 1) report.trials[i].simulated = true;
     if (i % 3 == 2) report.trials[i].force_feedback = false;
   }
-  report.trials[0].role = "familiarisation";
-  report.trials[3].outcome = "void";
+  report.trials[0].role = training::Role::familiarisation;
+  report.trials[3].outcome = training::Outcome::voided;
   const std::string page = traineePage(report);
   EXPECT_TRUE(tells(page, "SIMULATED"));
   EXPECT_EQ(occurrences(page, "class=\"card series\""), 3u);
@@ -108,10 +110,11 @@ TEST(TraineePage, PalpationIsLockedBelowEightCases) {
   for (int i = 1; i <= 7; ++i) {
     progress::PracticeTrial t;
     t.trainee = "P";
-    t.task = t.engine = "palpation";
+    t.task = "palpation";
+    t.engine = training::Engine::palpation;
     t.number = i;
-    t.role = "scored";
-    t.outcome = "done";
+    t.role = training::Role::scored;
+    t.outcome = training::Outcome::done;
     t.metrics = {{"success", 1},
                  {"time_s", 100.0 + i},
                  {"sensitivity_pct", 80.0 + i},

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "apps/training/trial_words.h"
 #include "synthetic_search_report.h"
 #include "tests/support/files.h"
 #include "well_formed.h"
@@ -102,10 +103,10 @@ TEST(SearchPage, SaysWhenNothingCanBeToldOfTheCues) {
 TEST(SearchPage, BlocksAndUnscoredEpisodesAreTold) {
   SearchReport report = test::searchedSession();
   for (std::size_t i = 0; i < 6; ++i)
-    report.trials[i].block = "training", report.trials[i].role = "training";
+    report.trials[i].block = "training", report.trials[i].role = training::Role::familiarisation;
   for (std::size_t i = 6; i < 18; ++i) report.trials[i].block = "baseline";
   for (std::size_t i = 18; i < 30; ++i) report.trials[i].block = "evaluation";
-  report.trials[6].outcome = "time";
+  report.trials[6].outcome = training::Outcome::time;
   report.trials[6].chosen = -1;
   report.trials[9].force_feedback = false;
   const std::string page = searchPage(report);
@@ -122,7 +123,7 @@ TEST(SearchPage, BlocksAndUnscoredEpisodesAreTold) {
 
 TEST(SearchPage, SimulatedIsSaidOnTopAndVoidIsNotCounted) {
   SearchReport report = test::searchedSession();
-  for (assess::SearchTrial& trial : report.trials) trial.outcome = "void";
+  for (assess::SearchTrial& trial : report.trials) trial.outcome = training::Outcome::voided;
   report.trials[4].simulated = true;
   const std::string page = searchPage(report);
   EXPECT_TRUE(holds(page, "SIMULATED"));
@@ -159,7 +160,7 @@ TEST(SearchCsv, ARowAnEpisode) {
   assess::SearchTrial first = test::searched(4, SearchMode::augmented, true, 20),
                       second = test::searched(5, SearchMode::real, true, 8);
   first.block = "training";
-  second.outcome = "time";
+  second.outcome = training::Outcome::time;
   second.chosen = -1;
   second.force_feedback = false;
   second.doses.erase(second.doses.begin());

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "apps/report/squeeze/squeeze_report.h"
+#include "apps/training/trial_words.h"
 #include "tests/support/files.h"
 #include "well_formed.h"
 
@@ -11,8 +12,8 @@ assess::SqueezeTrial answered(int trial, assess::SqueezedProperty property, doub
                               int said) {
   assess::SqueezeTrial t;
   t.trial = trial;
-  t.role = "scored";
-  t.outcome = "done";
+  t.role = training::Role::scored;
+  t.outcome = training::Outcome::done;
   t.property = property;
   t.factors = {1, second};
   t.said = said;
@@ -74,7 +75,7 @@ TEST(SqueezePage, AThresholdFarAboveWhatWasAskedIsNotGivenAsAFigure) {
 
 TEST(SqueezePage, SimulatedIsSaidOnTopAndVoidIsNotCounted) {
   SqueezeReport report = someAnswers();
-  for (assess::SqueezeTrial& trial : report.trials) trial.outcome = "void";
+  for (assess::SqueezeTrial& trial : report.trials) trial.outcome = training::Outcome::voided;
   report.simulated = true;
   const std::string page = pageOf(report);
   EXPECT_TRUE(saysPage(page, "SIMULATED"));

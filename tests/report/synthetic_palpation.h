@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "apps/report/palpation/palpation_report.h"
+#include "apps/training/trial_words.h"
 #include "synthetic_report.h"
 
 /// Made-up searches for the tests and for looking at the page.
@@ -34,7 +35,7 @@ inline PalpationPage searchedPage(int trial) {
   facts.trial = trial;
   facts.simulated = true;
   facts.seed = 20240517;
-  facts.outcome = trial == 3 ? "void" : "done";
+  facts.outcome = trial == 3 ? training::Outcome::voided : training::Outcome::done;
   facts.guided = 0.25;
   const std::vector<assess::CaseLump> lumps{{Vec3(0.02, 0.018, -0.012), 0.016, 2, 1},
                                             {Vec3(-0.026, -0.02, -0.018), 0.010, 1, 2}};

@@ -5,6 +5,8 @@
 #include "anatomy/base/random.h"
 #include "apps/report/practice/cohort_report.h"
 #include "apps/report/practice/trainee_report.h"
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::report::test {
 
@@ -16,12 +18,12 @@ inline progress::PracticeTrial madeUpTrial(const std::string& trainee, int n, Ra
   progress::PracticeTrial t;
   t.trainee = trainee;
   t.task = "paracentesis";
-  t.engine = "needle";
+  t.engine = training::Engine::needle;
   t.arrival = 1 + (n - 1) / 5;
   t.number = 1 + (n - 1) % 5;
   t.started_utc = n <= 15 ? "2027-01-1" + std::to_string((n - 1) / 5) + "T09:00:00Z"
                           : "2027-07-1" + std::to_string((n - 1) / 5 % 9) + "T09:00:00Z";
-  t.role = "scored";
+  t.role = training::Role::scored;
   const double time = 20 + 45 * left + 4 * random.openUniform(),
                lung = random.openUniform() < 0.5 * wild ? std::ceil(4 * random.openUniform()) : 0,
                rib = random.openUniform() < wild ? std::ceil(9 * random.openUniform()) : 0;
@@ -30,7 +32,7 @@ inline progress::PracticeTrial madeUpTrial(const std::string& trainee, int n, Ra
                phase_2 = 500 + 900 * wild * random.openUniform(), mean = 2 + 3 * wild,
                variance = 2 + 9 * wild * random.openUniform();
   const bool success = random.openUniform() > 0.6 * wild;
-  t.outcome = success ? "success" : "aborted";
+  t.outcome = success ? training::Outcome::success : training::Outcome::aborted;
   const double direction = phase_2 < 1000 ? 0 : 0.2 * phase_2;
   const double passes = 1 + std::floor(4 * wild * random.openUniform());
   t.metrics = {{"success", success ? 1.0 : 0.0},

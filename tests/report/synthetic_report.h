@@ -5,6 +5,7 @@
 #include <string>
 
 #include "apps/report/needle/session_report.h"
+#include "apps/training/trial_words.h"
 #include "tests/support/files.h"
 
 /// A made-up but plausible session for the tests and for looking at the page.
@@ -41,10 +42,10 @@ inline assess::TrialSample sampleAt(double t) {
 inline assess::TrialAssessment trialWithTrouble() {
   assess::TrialAssessment a;
   a.trial = 1;
-  a.role = "scored";
+  a.role = training::Role::scored;
   a.simulated = true;
   a.seed = 20240517;
-  a.outcome = "success";
+  a.outcome = training::Outcome::success;
   a.summary =
       "The vein was reached and blood aspirated after 31.5 s. On the way the lung was touched "
       "once, for 0.3 s.";
@@ -178,10 +179,12 @@ inline SessionReport syntheticReport(int trials = 1) {
   for (int n = 2; n <= trials; ++n) {
     report.trials.push_back(pageOf(laterTrial(n)));
     auto& a = report.trials.back().assessment;
-    if (n == 2) a.role = "familiarisation";
-    if (n == 4) a.outcome = "void", a.summary = "The board was covered; the trial does not count.";
+    if (n == 2) a.role = training::Role::familiarisation;
+    if (n == 4)
+      a.outcome = training::Outcome::voided,
+      a.summary = "The board was covered; the trial does not count.";
     if (n == 5)
-      a.outcome = "time", a.values.success = false,
+      a.outcome = training::Outcome::time, a.values.success = false,
       a.summary = "The vein was not found within 300 s.";
   }
   report.registration = {

@@ -1,6 +1,7 @@
 #pragma once
 
 #include "apps/report/search/search_report.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::report::test {
 
@@ -8,8 +9,8 @@ inline assess::SearchTrial searched(int trial, assess::SearchMode mode, bool fou
                                     double seconds) {
   assess::SearchTrial t;
   t.trial = trial;
-  t.role = "scored";
-  t.outcome = "done";
+  t.role = training::Role::scored;
+  t.outcome = training::Outcome::done;
   t.seed = static_cast<std::uint64_t>(100 + trial);
   t.mode = mode;
   t.orientation_deg = 37.0 * trial;

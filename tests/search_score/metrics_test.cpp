@@ -1,4 +1,5 @@
 #include "apps/assess/search/search_trial.h"
+#include "apps/training/trial_words.h"
 
 #include <gtest/gtest.h>
 
@@ -16,7 +17,7 @@ double figure(const SearchTrial& trial, const char* name) {
 
 TEST(SearchMetrics, OfAnEpisodeMadeByHand) {
   SearchTrial trial;
-  trial.outcome = "done";
+  trial.outcome = training::Outcome::done;
   trial.target = 2;
   trial.chosen = 2;
   trial.seconds = 20;

@@ -1,6 +1,7 @@
 #include <gtest/gtest.h>
 
 #include "anatomy/base/random.h"
+#include "apps/training/trial_words.h"
 #include "synthetic_search.h"
 
 namespace palpa::assess {
@@ -40,7 +41,7 @@ TEST(Recovery, NeedsAllThreeAndSomethingLost) {
   EXPECT_FALSE(recoveryOf(session(4, 5, 9, 10), 1));
   std::vector<SearchTrial> unscored = session(9, 4, 8, 10);
   for (SearchTrial& trial : unscored)
-    if (trial.mode == SearchMode::real) trial.role = "training";
+    if (trial.mode == SearchMode::real) trial.role = training::Role::familiarisation;
   EXPECT_FALSE(recoveryOf(unscored, 1));
 }
 

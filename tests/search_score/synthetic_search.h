@@ -3,13 +3,14 @@
 #include <vector>
 
 #include "apps/assess/search/search_trial.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::assess::test {
 
 inline SearchTrial episode(SearchMode mode, int target, int chosen, double seconds = 20) {
   SearchTrial trial;
-  trial.role = "scored";
-  trial.outcome = chosen < 0 ? "time" : "done";
+  trial.role = training::Role::scored;
+  trial.outcome = chosen < 0 ? training::Outcome::time : training::Outcome::done;
   trial.mode = mode;
   trial.target = target;
   trial.chosen = chosen;

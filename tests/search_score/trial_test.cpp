@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "apps/assess/statistics/sample.h"
+#include "apps/training/trial_words.h"
 #include "synthetic_search.h"
 
 namespace palpa::assess {
@@ -12,7 +13,7 @@ using namespace test;
 
 SearchTrial endedBy(const std::string& outcome, int chosen) {
   SearchTrial trial = episode(SearchMode::real, 1, chosen, 23.4);
-  trial.outcome = outcome;
+  trial.outcome = training::outcomeNamed(outcome);
   return trial;
 }
 
@@ -63,9 +64,9 @@ TEST(SearchTally, NothingChosenIsNotFoundAndVoidAndUnscoredAreLeftOut) {
   std::vector<SearchTrial> trials{episode(SearchMode::real, 0, 0), episode(SearchMode::real, 0, -1),
                                   episode(SearchMode::real, 0, 0), episode(SearchMode::real, 0, 0),
                                   episode(SearchMode::real, 2, 2)};
-  trials[2].outcome = "void";
-  trials[3].role = "training";
-  trials[4].outcome = "aborted";
+  trials[2].outcome = training::Outcome::voided;
+  trials[3].role = training::Role::familiarisation;
+  trials[4].outcome = training::Outcome::aborted;
   const std::vector<SearchTally> tallies = talliesOf(trials);
   ASSERT_EQ(tallies.size(), 1u);
   EXPECT_EQ(tallies[0].episodes, 3);

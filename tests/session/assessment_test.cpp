@@ -9,6 +9,7 @@
 #include "apps/session/palpation_session.h"
 #include "apps/session/search_session.h"
 #include "apps/session/session_options.h"
+#include "apps/training/trial_words.h"
 
 /// Assessment: no aid adds force in any tick, and a needle's trial ends at the fourth pass.
 namespace palpa::session {
@@ -116,7 +117,7 @@ TEST(Assessment, EveryAidIsRefused) {
   const SessionOptions left = quick(true);
   EXPECT_FALSE(left.navigation);
   EXPECT_FALSE(left.demonstration);
-  EXPECT_EQ(left.role, "assessed");
+  EXPECT_EQ(left.role, training::Role::assessed);
 }
 
 double figureOf(const assess::TrialAssessment& a, const std::string& name) {
@@ -141,9 +142,9 @@ TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
   EXPECT_EQ(shipped.task.most_passes.assessed, 3);
   const assess::TrialAssessment practice = run(false, 0);
   ASSERT_GE(figureOf(practice, "needle_passes"), 2);
-  EXPECT_EQ(practice.outcome, "success");
+  EXPECT_EQ(practice.outcome, training::Outcome::success);
   const assess::TrialAssessment limited = run(true, 1);
-  EXPECT_EQ(limited.outcome, "passes");
+  EXPECT_EQ(limited.outcome, training::Outcome::passes);
   EXPECT_FALSE(limited.values.success);
   EXPECT_EQ(figureOf(limited, "needle_passes"), 2);
   EXPECT_NE(limited.summary.find("a pass too many"), std::string::npos) << limited.summary;

@@ -4,6 +4,7 @@
 
 #include "apps/assess/statistics/tests_of_means.h"
 #include "apps/session/needle_session.h"
+#include "apps/training/trial_words.h"
 #include "tests/support/counts.h"
 
 /// Simulated operators on the virtual bench: do the scores tell experts from novices, and does
@@ -60,7 +61,7 @@ TEST(Cohort, TheExpertOfTheDemonstrationSucceedsOnTheFalconsStation) {
   options.who = OperatorKind::expert;
   options.station = PALPA_SOURCE_DIR "/assets/stations/falcon.json";
   options.seed = 7001;
-  options.role = "demonstration";
+  options.role = training::Role::demonstration;
   options.fast = options.no_views = options.quiet = true;
   options.display = scene::Display::offscreen;
   NeedleWorld world(options);

@@ -1,4 +1,5 @@
 #include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/training/trial_words.h"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +11,7 @@ namespace {
 
 SqueezeTrial answer(double first, double second, int said) {
   SqueezeTrial trial;
-  trial.outcome = "done";
+  trial.outcome = training::Outcome::done;
   trial.factors = {first, second};
   trial.said = said;
   return trial;
@@ -38,7 +39,7 @@ TEST(SqueezeTrial, KnowsWhatIsRight) {
   EXPECT_EQ(summaryOf(answer(1, 1.33, 2)), "Right: the second one was harder, by 33 %.");
   EXPECT_EQ(summaryOf(answer(1, 0.75, 2)), "Wrong: the first one was harder, by 33 %.");
   SqueezeTrial timed = answer(1, 1.33, 2);
-  timed.outcome = "time";
+  timed.outcome = training::Outcome::time;
   EXPECT_FALSE(timed.right());
 }
 

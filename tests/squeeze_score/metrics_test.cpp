@@ -1,4 +1,5 @@
 #include "apps/assess/squeeze/squeeze_trial.h"
+#include "apps/training/trial_words.h"
 
 #include <gtest/gtest.h>
 
@@ -7,7 +8,7 @@ namespace {
 
 TEST(SqueezeMetrics, OfAComparisonMadeByHand) {
   SqueezeTrial trial;
-  trial.outcome = "done";
+  trial.outcome = training::Outcome::done;
   trial.factors = {1.0, 1.25};
   trial.said = 2;
   trial.seconds = 12;

@@ -1,4 +1,6 @@
 #include "apps/study/protocol.h"
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 
 #include "small_protocol.h"
 
@@ -19,9 +21,9 @@ TEST(Protocol, IsReadAsWritten) {
   EXPECT_EQ(train.condition, "");
   EXPECT_EQ(train.rest_after, 2);
   EXPECT_EQ(train.rest_s, 100);
-  EXPECT_EQ(train.engine, station::Engine::needle);
+  EXPECT_EQ(train.engine, training::Engine::needle);
   EXPECT_EQ(train.task, file.parent_path() / "task.json");
-  EXPECT_EQ(p.block(1).role, "familiarisation");
+  EXPECT_EQ(p.block(1).role, training::Role::familiarisation);
   EXPECT_EQ(p.block(3).condition, "plain");
   EXPECT_EQ(p.sessionOf(2), 1);
   EXPECT_EQ(p.sessionOf(3), 2);
@@ -39,7 +41,7 @@ TEST(Protocol, TheShippedOnesAreTheSources) {
   const std::filesystem::path shipped = PALPA_SOURCE_DIR "/assets/protocols";
   const Protocol pilot = readProtocol(shipped / "paracentesis_pilot.json");
   EXPECT_EQ(pilot.groups.size(), 2u);
-  EXPECT_EQ(pilot.block(1).role, "familiarisation");
+  EXPECT_EQ(pilot.block(1).role, training::Role::familiarisation);
   EXPECT_EQ(pilot.block(1).trials, 1);
   EXPECT_EQ(pilot.block(2).trials, 10);
   EXPECT_TRUE(pilot.condition("FF")->shows.force_feedback);

@@ -1,4 +1,5 @@
 #include "apps/task_needle/needle_scene.h"
+#include "apps/training/trial_words.h"
 
 #include <gtest/gtest.h>
 
@@ -89,7 +90,7 @@ TEST(HudText, AssessmentTellsOnlyWhatAPatientWould) {
   status.state = trial::TrialState::running;
   status.trial = status.trials = 1;
   status.step = "phase 2: advance to the vein";
-  status.role = "scored";
+  status.role = training::Role::scored;
   runtime::ToolState tool;
   tool.phase = haptics::NeedlePhase::inserted;
   tool.tissue = Tissue::lung;
@@ -97,7 +98,7 @@ TEST(HudText, AssessmentTellsOnlyWhatAPatientWould) {
   const scene::Hud practice = hudText(status, tool, "", "");
   EXPECT_TRUE(practice.alarm);
   EXPECT_EQ(practice.touched, "LUNG");
-  status.role = "assessed";
+  status.role = training::Role::assessed;
   status.blood_flows = true;
   const scene::Hud exam = hudText(status, tool, "", "");
   EXPECT_FALSE(exam.alarm);

@@ -169,7 +169,7 @@ Verdict judge(const VerdictFacts& facts, const Checklist& checklist, const Figur
   v.items = marked(checklist, figures, checklist_answers);
   v.score = scoreOf(v.items);
   v.level = levelOf(v.score, checklist);
-  if (facts.outcome == "void") {
+  if (facts.outcome == training::Outcome::voided) {
     v.reasons = {"The trial was declared void: it is not judged."};
     return v;
   }

@@ -7,6 +7,7 @@
 
 #include "apps/assess/competence/form.h"
 #include "apps/assess/statistics/cusum.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::competence {
 
@@ -56,8 +57,8 @@ struct Verdict {
 };
 
 struct VerdictFacts {
-  bool assessed = false;  ///< every aid was off
-  std::string outcome;    ///< of the trial; void ones are not judged
+  bool assessed = false;                                ///< every aid was off
+  training::Outcome outcome = training::Outcome::none;  ///< of the trial; void ones are not judged
 };
 
 /// Pass = checklist at the standard AND global rating at its cut-off AND no critical error (11 of

@@ -6,6 +6,7 @@
 #include "anatomy/patient.h"
 #include "anatomy/query/surface_query.h"
 #include "apps/assess/needle/trial_assessment.h"
+#include "apps/training/trial_words.h"
 #include "calibration/expert_path.h"
 
 namespace palpa::assess {
@@ -39,10 +40,10 @@ struct ScoringRules {
 
 struct TrialFacts {
   int trial = 0;
-  std::string role;
+  training::Role role = training::Role::none;
   bool simulated = false, force_feedback = true;
   std::uint64_t seed = 0;
-  std::string outcome;  ///< "success", "aborted", "time", "passes" (one too many), "void"
+  training::Outcome outcome = training::Outcome::none;
 };
 
 /// The score of one trial with its reasons. Reads the record only: `samples` are all ticks of the

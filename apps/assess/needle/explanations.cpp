@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "apps/assess/needle/wording.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::assess {
 namespace {
@@ -127,11 +128,13 @@ std::string injuries(const TrialReview& r) {
 
 std::string outcomeWords(const TrialFacts& facts, const TrialReview& r) {
   if (r.success) return "Vein reached in " + seconds(r.end_s);
-  if (facts.outcome == "time") return "Vein not reached within " + seconds(r.end_s);
-  if (facts.outcome == "passes")
+  if (facts.outcome == training::Outcome::time)
+    return "Vein not reached within " + seconds(r.end_s);
+  if (facts.outcome == training::Outcome::passes)
     return "Vein not reached when a pass too many began, after " + seconds(r.end_s);
-  if (facts.outcome == "aborted") return "Stopped after " + seconds(r.end_s) + ", vein not reached";
-  if (facts.outcome == "void") return "Trial void after " + seconds(r.end_s);
+  if (facts.outcome == training::Outcome::aborted)
+    return "Stopped after " + seconds(r.end_s) + ", vein not reached";
+  if (facts.outcome == training::Outcome::voided) return "Trial void after " + seconds(r.end_s);
   return "Ended after " + seconds(r.end_s) + ", vein not reached";
 }
 

@@ -1,6 +1,7 @@
 #include <algorithm>
 
 #include "apps/assess/needle/wording.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::assess {
 namespace {
@@ -93,10 +94,11 @@ void addFlashes(const TrialReview& r, const ScoringRules& rules, Moments* moment
 
 Moment ending(const TrialFacts& facts, const TrialReview& r) {
   if (r.success) return {r.end_s, "success", "Blood flows freely: vein reached"};
-  if (facts.outcome == "aborted") return {r.end_s, "aborted", "Trial stopped"};
-  if (facts.outcome == "time") return {r.end_s, "time", "Time is over"};
-  if (facts.outcome == "passes") return {r.end_s, "aborted", "A pass too many: the trial ends"};
-  if (facts.outcome == "void") return {r.end_s, "void", "Trial declared void"};
+  if (facts.outcome == training::Outcome::aborted) return {r.end_s, "aborted", "Trial stopped"};
+  if (facts.outcome == training::Outcome::time) return {r.end_s, "time", "Time is over"};
+  if (facts.outcome == training::Outcome::passes)
+    return {r.end_s, "aborted", "A pass too many: the trial ends"};
+  if (facts.outcome == training::Outcome::voided) return {r.end_s, "void", "Trial declared void"};
   return {r.end_s, "end", "Trial ended"};
 }
 

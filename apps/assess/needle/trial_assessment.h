@@ -9,6 +9,7 @@
 #include "apps/assess/metrics/metric_table.h"
 #include "apps/assess/needle/paracentesis_score.h"
 #include "apps/assess/trial.h"
+#include "apps/training/trial_words.h"
 #include "haptics/flight_record.h"
 
 namespace palpa::assess {
@@ -70,11 +71,11 @@ struct Moment {
 
 struct TrialAssessment {
   int trial = 0;
-  std::string role;  ///< "scored", "assessed", "familiarisation", "demonstration"
+  training::Role role = training::Role::none;
   bool simulated = false;
   bool force_feedback = true;
   std::uint64_t seed = 0;
-  std::string outcome;  ///< "success", "aborted", "time", "passes" (one too many), "void"
+  training::Outcome outcome = training::Outcome::none;
   std::string summary;  ///< one or two plain sentences
   ParacentesisValues values;
   double total = 0;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "anatomy/base/error.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::assess {
 namespace {
@@ -156,7 +157,7 @@ TrialReview review(const TrialFacts& facts, Samples all, const anatomy::Landmark
   checkSamples(facts, all);
   checkScale(path, rules);
   TrialReview r;
-  r.success = facts.outcome == "success" && !all.empty();
+  r.success = facts.outcome == training::Outcome::success && !all.empty();
   r.samples = r.success ? all.first(successSample(all, rules) + 1) : all;
   r.end_s = r.samples.empty() ? 0 : r.samples.back().t_s;
   r.history = detectPhases(r.samples);

@@ -3,7 +3,6 @@
 #include <limits>
 
 #include "apps/assess/palpation/palpation_words.h"
-#include "apps/assess/trial.h"
 
 namespace palpa::assess {
 
@@ -16,7 +15,8 @@ PalpationAssessment assessPalpation(const PalpationFacts& facts, const Palpation
   assessment.lumps = lumps;
   assessment.marks = marks;
   assessment.score = scorePalpation(rules, lumps, samples, marks);
-  const bool finished = facts.outcome != "aborted" && facts.outcome != "void";
+  const bool finished =
+      facts.outcome != training::Outcome::aborted && facts.outcome != training::Outcome::voided;
   assessment.passed = finished && assessment.score.sensitivity() >= standard.sensitivity &&
                       assessment.score.coverage[0] >= standard.coverage;
   assessment.summary = palpationSummary(facts, assessment.score);
@@ -26,8 +26,9 @@ PalpationAssessment assessPalpation(const PalpationFacts& facts, const Palpation
 
 bool counts(const PalpationAssessment& trial) {
   const PalpationFacts& facts = trial.facts;
-  return (facts.role.empty() || countsAsScored(facts.role)) && !facts.augmented &&
-         facts.outcome != "void" && !facts.outcome.empty();
+  return (facts.role == training::Role::none || training::countsAsScored(facts.role)) &&
+         !facts.augmented && facts.outcome != training::Outcome::voided &&
+         facts.outcome != training::Outcome::none;
 }
 
 PalpationJudgement judgementOf(const std::vector<PalpationAssessment>& trials,

@@ -7,16 +7,17 @@
 #include "apps/assess/metrics/metric_table.h"
 #include "apps/assess/palpation/palpation_score.h"
 #include "apps/assess/trial.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::assess {
 
 /// Of a palpation before anything is judged.
 struct PalpationFacts {
   int trial = 0;  ///< 1, 2, ...; 0 stands for none
-  std::string role = "scored";
+  training::Role role = training::Role::scored;
   bool simulated = false, force_feedback = true;
   std::uint64_t seed = 1;
-  std::string outcome;     ///< "done", "time", "aborted", "void"
+  training::Outcome outcome = training::Outcome::none;
   double guided = 0;       ///< share of the time in which something on the screen led the hand
   bool augmented = false;  ///< the task's augmentations added force
 };

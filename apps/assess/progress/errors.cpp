@@ -9,8 +9,8 @@ namespace {
 
 constexpr std::size_t kLately = 5;
 
-const std::map<std::string, std::vector<ErrorKind>> kKindsOfEngines{
-    {"needle",
+const std::map<training::Engine, std::vector<ErrorKind>> kKindsOfEngines{
+    {training::Engine::needle,
      {{"col_lung", 0, false, "the pleura was touched",
        "keep the needle flat behind the clavicle and stop at the depth that was taught: the lung "
        "lies behind the vein"},
@@ -34,7 +34,7 @@ const std::map<std::string, std::vector<ErrorKind>> kKindsOfEngines{
        "turn the needle fully toward the sternal end before the advance"},
       {"success", 0.5, true, "the vein was not reached",
        "repeat entry point and direction with the three fixed views before the next trial"}}},
-    {"palpation",
+    {training::Engine::palpation,
      {{"sensitivity_pct", 99.9, true, "a lump was missed",
        "feel every place lightly, then firmly, then deep"},
       {"false_alarms", 0, false, "something was marked where nothing is",
@@ -45,12 +45,12 @@ const std::map<std::string, std::vector<ErrorKind>> kKindsOfEngines{
        "search in overlapping strips from edge to edge"},
       {"too_hard_pct", 5, false, "pressed too hard for more than 5 % of the time",
        "more force than the largest sensible one finds nothing more and hurts"}}},
-    {"search",
+    {training::Engine::search,
      {{"chosen", 0.5, true, "no element was chosen in time",
        "visit each element once before looking closer"},
       {"success", 0.5, true, "the target was not found",
        "cross each element at the same speed and compare before staying in one"}}},
-    {"squeeze",
+    {training::Engine::squeeze,
      {{"success", 0.5, true, "the answer was wrong or missing",
        "squeeze both equally deep and equally fast before answering"}}}};
 
@@ -70,10 +70,9 @@ bool weighsLikeThat(const PracticeTrial& trial, const assess::ScoreWeights& weig
 
 }  // namespace
 
-const std::vector<ErrorKind>& errorKinds(const std::string& engine) {
+const std::vector<ErrorKind>& errorKinds(std::optional<training::Engine> engine) {
   static const std::vector<ErrorKind> kNone;
-  const auto known = kKindsOfEngines.find(engine);
-  return known == kKindsOfEngines.end() ? kNone : known->second;
+  return engine ? kKindsOfEngines.at(*engine) : kNone;
 }
 
 bool happened(const ErrorKind& kind, const PracticeTrial& trial) {

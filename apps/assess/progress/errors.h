@@ -5,6 +5,7 @@
 
 #include "apps/assess/needle/paracentesis_score.h"
 #include "apps/assess/progress/history.h"
+#include "apps/training/engine.h"
 
 namespace palpa::progress {
 
@@ -18,7 +19,7 @@ struct ErrorKind {
 };
 
 /// Those of an engine, the gravest first.
-const std::vector<ErrorKind>& errorKinds(const std::string& engine);
+const std::vector<ErrorKind>& errorKinds(std::optional<training::Engine> engine);
 bool happened(const ErrorKind& kind, const PracticeTrial& trial);
 
 /// How often an error happened in a series.

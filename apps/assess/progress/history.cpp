@@ -5,8 +5,6 @@
 #include <map>
 #include <tuple>
 
-#include "apps/assess/trial.h"
-
 namespace palpa::progress {
 namespace {
 
@@ -26,12 +24,13 @@ double PracticeTrial::metric(const std::string& name) const {
 }
 
 bool counts(const PracticeTrial& trial) {
-  return assess::countsAsScored(trial.role) && trial.outcome != "void" && !trial.metrics.empty();
+  return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided &&
+         !trial.metrics.empty();
 }
 
 bool failed(const PracticeTrial& trial) {
   if (!trial.succeeded()) return true;
-  return trial.engine == "needle" &&
+  return trial.engine == training::Engine::needle &&
          (trial.metric("col_lung") > 0 || trial.metric("col_artery") > 0 ||
           trial.metric("needle_passes") > kMostPasses);
 }
@@ -84,38 +83,38 @@ std::string leftOut(const std::vector<PracticeTrial>& trials) {
   std::map<std::string, int> kinds;
   for (const PracticeTrial& trial : trials)
     if (!counts(trial))
-      ++kinds[trial.outcome == "void"              ? "void"
-              : assess::countsAsScored(trial.role) ? "without figures"
-                                                   : trial.role];
+      ++kinds[trial.outcome == training::Outcome::voided ? "void"
+              : training::countsAsScored(trial.role)     ? "without figures"
+                                                         : training::nameOf(trial.role)];
   std::string words;
   for (const auto& [kind, count] : kinds)
     words += (words.empty() ? "" : ", ") + std::to_string(count) + ' ' + kind;
   return words;
 }
 
-std::string engineOfFigures(const std::vector<metrics::MetricValue>& metrics) {
-  for (const auto& [name, engine] :
-       {std::pair{"tissue_time_s", "needle"}, std::pair{"presses", "palpation"},
-        std::pair{"chosen", "search"}, std::pair{"grips", "squeeze"}})
+std::optional<training::Engine> engineOfFigures(const std::vector<metrics::MetricValue>& metrics) {
+  for (const auto& [name, engine] : {std::pair{"tissue_time_s", training::Engine::needle},
+                                     std::pair{"presses", training::Engine::palpation},
+                                     std::pair{"chosen", training::Engine::search},
+                                     std::pair{"grips", training::Engine::squeeze}})
     if (std::any_of(metrics.begin(), metrics.end(),
                     [&](const metrics::MetricValue& m) { return m.name == name; }))
       return engine;
-  return "";
+  return std::nullopt;
 }
 
-const std::vector<std::string>& shownFigures(const std::string& engine) {
-  static const std::map<std::string, std::vector<std::string>> kShown{
-      {"needle",
+const std::vector<std::string>& shownFigures(std::optional<training::Engine> engine) {
+  static const std::map<training::Engine, std::vector<std::string>> kShown{
+      {training::Engine::needle,
        {"total", "time_s", "success", "closest_pleura_mm", "closest_artery_mm", "needle_passes",
         "first_pass_success", "translational_actions", "rotational_actions", "speed_at_vein_mm_s"}},
-      {"palpation",
+      {training::Engine::palpation,
        {"sensitivity_pct", "specificity_pct", "false_alarms", "coverage_medium_pct",
         "coverage_deep_pct", "time_s", "too_light_pct", "too_hard_pct"}},
-      {"search", {"success", "time_s", "path_length_mm", "peak_force_N"}},
-      {"squeeze", {"success", "time_s", "grips", "peak_force_N"}}};
+      {training::Engine::search, {"success", "time_s", "path_length_mm", "peak_force_N"}},
+      {training::Engine::squeeze, {"success", "time_s", "grips", "peak_force_N"}}};
   static const std::vector<std::string> kAnyTask{"success", "time_s"};
-  const auto known = kShown.find(engine);
-  return known == kShown.end() ? kAnyTask : known->second;
+  return engine ? kShown.at(*engine) : kAnyTask;
 }
 
 }  // namespace palpa::progress

@@ -1,22 +1,26 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "apps/assess/metrics/metric_table.h"
+#include "apps/training/engine.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::progress {
 
 /// A trial as the records keep it, with what its session says of it. Times are UTC, ISO 8601.
 struct PracticeTrial {
   std::string trainee, group;
-  std::string task;          ///< "paracentesis", ...
-  std::string engine;        ///< "needle", "palpation", "search", "squeeze"
-  std::string started_utc;   ///< of its session, as the station's clock had it
+  std::string task;                        ///< "paracentesis", ...
+  std::optional<training::Engine> engine;  ///< none: not known
+  std::string started_utc;                 ///< of its session, as the station's clock had it
   std::int64_t arrival = 0;  ///< of its session, in the order in which this trainee's came
   std::int64_t number = 0;   ///< in its session
-  std::string role, outcome;
+  training::Role role = training::Role::none;
+  training::Outcome outcome = training::Outcome::none;
   bool simulated = false, force_feedback = true;
   std::string condition;  ///< what else differed: "cues on", "guided"; empty: nothing
   std::vector<metrics::MetricValue> metrics;
@@ -34,7 +38,9 @@ bool failed(const PracticeTrial& trial);
 /// Trials that may stand in one figure: of one task and condition, all simulated or none, all with
 /// force feedback or all without; in the order in which they came.
 struct Series {
-  std::string task, engine, condition;
+  std::string task;
+  std::optional<training::Engine> engine;
+  std::string condition;
   bool simulated = false, force_feedback = true;
   std::vector<PracticeTrial> trials;
   std::vector<double> values(
@@ -51,10 +57,10 @@ std::vector<Series> byTrainee(const Series& series);
 /// "3 familiarisation, 1 void": what does not count, by kind; empty: nothing.
 std::string leftOut(const std::vector<PracticeTrial>& trials);
 
-/// The engine that makes such figures.
-std::string engineOfFigures(const std::vector<metrics::MetricValue>& metrics);
+/// The engine that makes such figures; none: no such engine is known.
+std::optional<training::Engine> engineOfFigures(const std::vector<metrics::MetricValue>& metrics);
 
 /// Figures that a page shows of an engine, the most telling first.
-const std::vector<std::string>& shownFigures(const std::string& engine);
+const std::vector<std::string>& shownFigures(std::optional<training::Engine> engine);
 
 }  // namespace palpa::progress

@@ -7,7 +7,6 @@
 #include "anatomy/base/quantile.h"
 #include "anatomy/base/random.h"
 #include "apps/assess/statistics/sample.h"
-#include "apps/assess/trial.h"
 
 namespace palpa::assess {
 
@@ -29,15 +28,19 @@ std::optional<SearchMode> searchModeOf(const std::string& text) {
 }
 
 bool counts(const SearchTrial& trial) {
-  return countsAsScored(trial.role) && trial.outcome != "void";
+  return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided;
 }
 
-bool chose(const SearchTrial& trial) { return trial.outcome == "done" && trial.chosen >= 0; }
+bool chose(const SearchTrial& trial) {
+  return trial.outcome == training::Outcome::done && trial.chosen >= 0;
+}
 
 std::string summaryOf(const SearchTrial& trial) {
-  if (trial.outcome == "void") return "Void: it does not count.";
-  if (trial.outcome == "time") return "The time was over before the probe stayed in a pit.";
-  if (trial.outcome == "aborted") return "Aborted before the probe stayed in a pit.";
+  if (trial.outcome == training::Outcome::voided) return "Void: it does not count.";
+  if (trial.outcome == training::Outcome::time)
+    return "The time was over before the probe stayed in a pit.";
+  if (trial.outcome == training::Outcome::aborted)
+    return "Aborted before the probe stayed in a pit.";
   if (!chose(trial)) return "The probe stayed in no pit.";
   const std::string after = " after " + std::to_string(std::lround(trial.seconds)) + " s.";
   return trial.found() ? "Found: the probe stayed in the target's pit" + after

@@ -9,6 +9,7 @@
 
 #include "apps/assess/metrics/metric_table.h"
 #include "apps/assess/trial.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::assess {
 
@@ -22,11 +23,11 @@ std::optional<SearchMode> searchModeOf(const std::string& name);
 /// texture; in which pit did the probe stay?
 struct SearchTrial {
   int trial = 0;
-  std::string role;  ///< "scored", "not scored", "training"
+  training::Role role = training::Role::none;
   bool simulated = false, force_feedback = true;
   std::uint64_t seed = 0;
-  std::string outcome;  ///< "done", "time", "aborted", "void"
-  std::string block;    ///< "baseline", "training", "evaluation"; empty: none
+  training::Outcome outcome = training::Outcome::none;
+  std::string block;  ///< "baseline", "training", "evaluation"; empty: none
   SearchMode mode = SearchMode::real;
   /// Of the triangle: where element 0 lies, seen from above, counted from x toward y; the next
   /// follow by 120 each

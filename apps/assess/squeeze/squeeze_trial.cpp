@@ -11,10 +11,10 @@ const char* moreOf(SqueezedProperty property) {
 }
 
 std::string summaryOf(const SqueezeTrial& trial) {
-  if (trial.outcome == "void") return "Void";
+  if (trial.outcome == training::Outcome::voided) return "Void";
   if (!trial.answered())
-    return trial.outcome == "time" ? "The time was over before something was said."
-                                   : "Nothing was said.";
+    return trial.outcome == training::Outcome::time ? "The time was over before something was said."
+                                                    : "Nothing was said.";
   const int more = trial.factors[1] > trial.factors[0] ? 2 : 1;
   const std::string which = more == 1 ? "the first one" : "the second one";
   return std::string(trial.right() ? "Right: " : "Wrong: ") + which + " was " +

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/assess/metrics/metric_table.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::assess {
 
@@ -16,10 +17,10 @@ enum class SqueezedProperty { stiffness, weight };
 /// Factors: of the real thing's.
 struct SqueezeTrial {
   int trial = 0;
-  std::string role;  ///< "scored", "not scored"
+  training::Role role = training::Role::none;
   bool simulated = false, force_feedback = true;
   std::uint64_t seed = 0;
-  std::string outcome;  ///< "done", "time", "aborted", "void"
+  training::Outcome outcome = training::Outcome::none;
   SqueezedProperty property = SqueezedProperty::stiffness;
   std::array<double, 2> factors{1, 1};  ///< of the first thing and of the second
   int said = 0;                         ///< which has more: 1 or 2; 0: nothing was said
@@ -27,7 +28,7 @@ struct SqueezeTrial {
   double peak_N = 0;               ///< largest squeezing force that was felt
   std::array<int, 2> grips{0, 0};  ///< how often each was held
 
-  bool answered() const { return outcome == "done" && (said == 1 || said == 2); }
+  bool answered() const { return outcome == training::Outcome::done && (said == 1 || said == 2); }
   bool right() const { return answered() && (said == 2) == (factors[1] > factors[0]); }
   /// Above 1
   double ratio() const {

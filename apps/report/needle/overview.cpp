@@ -1,10 +1,10 @@
 #include "apps/report/needle/trial_sections.h"
+#include "apps/training/trial_words.h"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
-#include "apps/assess/trial.h"
 #include "apps/report/page/numbers.h"
 #include "apps/report/plot/chart_frame.h"
 #include "apps/report/plot/svg_plot.h"
@@ -15,12 +15,13 @@ namespace {
 using assess::TrialAssessment;
 
 bool counts(const TrialAssessment& trial) {
-  return trial.outcome != "void" && !trial.penalties.empty() && std::isfinite(trial.total);
+  return trial.outcome != training::Outcome::voided && !trial.penalties.empty() &&
+         std::isfinite(trial.total);
 }
 
 /// Circle: success; square: with a complication; diamond: no success; hollow: not a scored trial.
 void drawTrial(Html& svg, const TrialAssessment& trial, double x, double y) {
-  const bool scored = trial.role.empty() || assess::countsAsScored(trial.role);
+  const bool scored = trial.role == training::Role::none || training::countsAsScored(trial.role);
   const Tone tone = toneOfOutcome(trial);
   svgPath(svg, std::string("mark ") + cssClass(tone) + (scored ? "" : " hollow"),
           markPath(tone, x, y, 6.5));
@@ -110,9 +111,9 @@ void writeTableHead(Html& html) {
 
 void writeOutcome(Html& html, const TrialAssessment& trial) {
   const auto cell = html.in("td", {{"class", "words"}});
-  const bool scored = trial.role.empty() || assess::countsAsScored(trial.role);
+  const bool scored = trial.role == training::Role::none || training::countsAsScored(trial.role);
   html.element("span", {{"class", std::string("dot ") + cssClass(toneOfOutcome(trial))}},
-               shortOutcome(trial) + (scored ? "" : ", " + trial.role));
+               shortOutcome(trial) + (scored ? "" : ", " + training::nameOf(trial.role)));
 }
 
 void writeRow(Html& html, const TrialAssessment& t) {

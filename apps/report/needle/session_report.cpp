@@ -10,6 +10,7 @@
 #include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/page/subtask_table.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::report {
 namespace {
@@ -92,7 +93,8 @@ void writeTrialSection(Html& html, const TrialPage& page) {
   {
     const auto heading = html.in("h2");
     html.text("Trial " + std::to_string(trial.trial));
-    if (!trial.role.empty()) html.element("span", {{"class", "role"}}, trial.role);
+    if (const std::string& role = training::nameOf(trial.role); !role.empty())
+      html.element("span", {{"class", "role"}}, role);
   }
   writeVerdict(html, trial);
   writeCompetence(html, page);

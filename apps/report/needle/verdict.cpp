@@ -4,6 +4,7 @@
 #include "apps/report/needle/trial_sections.h"
 #include "apps/report/page/numbers.h"
 #include "apps/report/plot/chart_frame.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::report {
 namespace {
@@ -47,7 +48,7 @@ void writeTiles(Html& html, const assess::TrialAssessment& trial) {
 
 void writeTotal(Html& html, const assess::TrialAssessment& trial) {
   const auto box = html.in("div", {{"class", "total"}});
-  if (trial.outcome == "void" || trial.penalties.empty()) {
+  if (trial.outcome == training::Outcome::voided || trial.penalties.empty()) {
     html.element("strong", "–");
     html.element("span", "not scored");
     return;
@@ -64,27 +65,30 @@ bool hasComplication(const assess::TrialAssessment& trial) {
 }
 
 std::string outcomeWords(const assess::TrialAssessment& trial) {
-  const std::string& outcome = trial.outcome;
-  if (outcome == "success") {
+  const training::Outcome outcome = trial.outcome;
+  if (outcome == training::Outcome::success) {
     return hasComplication(trial) ? "Vein reached, with a complication" : "Successful";
   }
-  if (outcome == "aborted") return "Not successful: aborted";
-  if (outcome == "time") return "Not successful: time limit reached";
-  if (outcome == "passes") return "Not successful: too many passes of the needle";
-  if (outcome == "void") return "Void: does not count";
-  return outcome.empty() ? "Not finished" : outcome;
+  if (outcome == training::Outcome::aborted) return "Not successful: aborted";
+  if (outcome == training::Outcome::time) return "Not successful: time limit reached";
+  if (outcome == training::Outcome::passes) return "Not successful: too many passes of the needle";
+  if (outcome == training::Outcome::voided) return "Void: does not count";
+  return outcome == training::Outcome::none ? "Not finished" : training::nameOf(outcome);
 }
 
 std::string shortOutcome(const assess::TrialAssessment& trial) {
-  if (trial.outcome == "success") return hasComplication(trial) ? "complication" : "success";
-  return trial.outcome == "time"     ? "time limit"
-         : trial.outcome == "passes" ? "too many passes"
-                                     : trial.outcome;
+  if (trial.outcome == training::Outcome::success)
+    return hasComplication(trial) ? "complication" : "success";
+  return trial.outcome == training::Outcome::time     ? "time limit"
+         : trial.outcome == training::Outcome::passes ? "too many passes"
+                                                      : training::nameOf(trial.outcome);
 }
 
 Tone toneOfOutcome(const assess::TrialAssessment& trial) {
-  if (trial.outcome == "success") return hasComplication(trial) ? Tone::guide : Tone::good;
-  return trial.outcome == "aborted" || trial.outcome == "time" || trial.outcome == "passes"
+  if (trial.outcome == training::Outcome::success)
+    return hasComplication(trial) ? Tone::guide : Tone::good;
+  return trial.outcome == training::Outcome::aborted || trial.outcome == training::Outcome::time ||
+                 trial.outcome == training::Outcome::passes
              ? Tone::bad
              : Tone::neutral;
 }
@@ -116,7 +120,7 @@ void writeVerdict(Html& html, const assess::TrialAssessment& trial) {
         if (trial.simulated) html.element("span", {{"class", "badge"}}, "simulated");
       }
       html.element("p", trial.summary);
-      if (trial.outcome != "void") html.element("p", largestReasons(trial));
+      if (trial.outcome != training::Outcome::voided) html.element("p", largestReasons(trial));
     }
     if (trial.by_path) writeTotal(html, trial);
   }

@@ -10,6 +10,7 @@
 #include "apps/report/page/page_parts.h"
 #include "apps/report/page/subtask_table.h"
 #include "apps/report/palpation/palpation_sections.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::report {
 namespace {
@@ -116,7 +117,8 @@ std::string palpationRow(const std::string& user_id, const assess::PalpationAsse
   const assess::PalpationScore& s = trial.score;
   std::string line = csvField(user_id) + ',' + std::to_string(facts.trial) + ',' +
                      std::to_string(facts.seed) + (facts.simulated ? ",1" : ",0") +
-                     (facts.force_feedback ? ",1," : ",0,") + csvField(facts.outcome);
+                     (facts.force_feedback ? ",1," : ",0,") +
+                     csvField(training::nameOf(facts.outcome));
   for (const int count : {s.found + s.missed, s.found, s.missed, s.false_alarms, s.repeated,
                           s.clear_quadrants, s.wrong_quadrants})
     line += ',' + std::to_string(count);

@@ -8,6 +8,7 @@
 #include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/palpation/palpation_charts.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::report {
 namespace {
@@ -24,7 +25,7 @@ void drawVerdictSign(Html& html, Tone tone) {
 void writeLumpsFound(Html& html, const assess::PalpationAssessment& trial) {
   const auto box = html.in("div", {{"class", "total"}});
   const int lumps = trial.score.found + trial.score.missed;
-  const bool counts = trial.facts.outcome != "void" && lumps > 0;
+  const bool counts = trial.facts.outcome != training::Outcome::voided && lumps > 0;
   html.element("strong",
                counts ? std::to_string(trial.score.found) + " of " + std::to_string(lumps) : "–");
   html.element("span", counts       ? (lumps == 1 ? "lump found" : "lumps found")
@@ -63,7 +64,7 @@ void writePalpationVerdict(Html& html, const assess::PalpationAssessment& trial)
 }
 
 void writeAdvice(Html& html, const assess::PalpationAssessment& trial) {
-  if (trial.facts.outcome == "void") return;
+  if (trial.facts.outcome == training::Outcome::voided) return;
   html.element("h3", "What to do better");
   if (trial.advice.empty()) {
     html.element("p", "Nothing that these measures show.");
@@ -76,15 +77,16 @@ void writeAdvice(Html& html, const assess::PalpationAssessment& trial) {
 }  // namespace
 
 std::string palpationVerdict(const assess::PalpationAssessment& trial) {
-  const std::string& outcome = trial.facts.outcome;
-  if (outcome == "void") return "Not judged: void";
-  if (outcome.empty()) return "Not judged: not finished";
+  const training::Outcome outcome = trial.facts.outcome;
+  if (outcome == training::Outcome::voided) return "Not judged: void";
+  if (outcome == training::Outcome::none) return "Not judged: not finished";
   if (!assess::counts(trial))
     return "Not counted: " + (trial.facts.augmented ? std::string("cues were added to the forces")
-                                                    : trial.facts.role);
+                                                    : training::nameOf(trial.facts.role));
   if (trial.passed) return "At the standard";
-  if (outcome == "aborted") return "Below the standard: stopped early";
-  return outcome == "time" ? "Below the standard: time limit reached" : "Below the standard";
+  if (outcome == training::Outcome::aborted) return "Below the standard: stopped early";
+  return outcome == training::Outcome::time ? "Below the standard: time limit reached"
+                                            : "Below the standard";
 }
 
 Tone toneOfPalpation(const assess::PalpationAssessment& trial) {
@@ -99,7 +101,8 @@ void writePalpationSection(Html& html, const PalpationPage& page) {
   {
     const auto heading = html.in("h2");
     html.text("Trial " + number);
-    if (!trial.facts.role.empty()) html.element("span", {{"class", "role"}}, trial.facts.role);
+    if (const std::string& role = training::nameOf(trial.facts.role); !role.empty())
+      html.element("span", {{"class", "role"}}, role);
   }
   writePalpationVerdict(html, trial);
   writePalpationTiles(html, trial);

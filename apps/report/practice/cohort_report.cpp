@@ -11,6 +11,7 @@
 #include "apps/report/practice/practice_charts.h"
 #include "apps/report/practice/practice_page.h"
 #include "apps/report/practice/progress_words.h"
+#include "apps/training/engine.h"
 
 namespace palpa::report {
 namespace {
@@ -20,11 +21,11 @@ struct ShownMetrics {
   std::string reliability;
 };
 
-ShownMetrics metricsOf(const std::string& engine) {
-  if (engine == "needle")
+ShownMetrics metricsOf(std::optional<training::Engine> engine) {
+  if (engine == training::Engine::needle)
     return {
         {"total", "time_s", "closest_pleura_mm", "needle_passes"}, {"total", "time_s"}, "total"};
-  if (engine == "palpation")
+  if (engine == training::Engine::palpation)
     return {{"sensitivity_pct", "specificity_pct", "coverage_deep_pct", "time_s"},
             {"sensitivity_pct", "time_s"},
             "sensitivity_pct"};
@@ -117,7 +118,7 @@ void writeCompetences(Html& html, const progress::Series& group,
                       const statistics::CusumRates& rates) {
   const int fewest = statistics::cusumLimits(rates).shortest_clean_run;
   html.element("h3", "Competence");
-  if (group.engine == "palpation" &&
+  if (group.engine == training::Engine::palpation &&
       std::none_of(trainees.begin(), trainees.end(),
                    [](const auto& own) { return own.trials.size() >= progress::kFewestCases; })) {
     html.element("p", "Nobody passes or fails by fewer than eight cases.");
@@ -132,7 +133,8 @@ void writeCompetences(Html& html, const progress::Series& group,
     std::vector<bool> failures;
     for (const progress::PracticeTrial& trial : own.trials)
       failures.push_back(progress::failed(trial));
-    const bool locked = own.engine == "palpation" && own.trials.size() < progress::kFewestCases;
+    const bool locked =
+        own.engine == training::Engine::palpation && own.trials.size() < progress::kFewestCases;
     table.rows.push_back(
         {own.trials.front().trainee, std::to_string(own.trials.size()),
          std::to_string(std::count(failures.begin(), failures.end(), true)),

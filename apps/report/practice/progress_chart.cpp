@@ -1,4 +1,5 @@
 #include "apps/report/practice/practice_charts.h"
+#include "apps/training/engine.h"
 
 #include <algorithm>
 #include <cmath>
@@ -150,7 +151,7 @@ void writeLearningChart(Html& html, const progress::Series& series, const std::s
     const auto figure = html.in("figure", {{"class", "course"}});
     drawLearning(html, series, plot, true);
     drawLearning(html, series, plot, false);
-    const std::string square = series.engine == "needle"
+    const std::string square = series.engine == training::Engine::needle
                                    ? "square: success, but lung or artery was touched or there "
                                      "were more than three passes; "
                                    : "";

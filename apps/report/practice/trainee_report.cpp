@@ -11,6 +11,7 @@
 #include "apps/report/practice/practice_page.h"
 #include "apps/report/practice/progress_words.h"
 #include "apps/report/practice/trainee_sections.h"
+#include "apps/training/engine.h"
 
 namespace palpa::report {
 namespace {
@@ -193,7 +194,7 @@ void writeTraineeSummary(Html& html, const progress::Series& series) {
                                        [](const auto& t) { return t.succeeded(); });
   const auto failures = std::count_if(series.trials.begin(), series.trials.end(), progress::failed);
   std::string counts = std::to_string(successes) + " of " + std::to_string(series.trials.size());
-  if (series.engine == "needle")
+  if (series.engine == training::Engine::needle)
     counts += "; without touching lung or artery and within three passes " +
               std::to_string(static_cast<std::ptrdiff_t>(series.trials.size()) - failures);
   item(html, "Success:", counts + '.');

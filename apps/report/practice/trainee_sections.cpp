@@ -10,6 +10,7 @@
 #include "apps/report/page/page_parts.h"
 #include "apps/report/practice/practice_charts.h"
 #include "apps/report/practice/progress_words.h"
+#include "apps/training/engine.h"
 
 namespace palpa::report {
 namespace {
@@ -28,7 +29,7 @@ progress::Competence competenceIn(const progress::Series& series,
 }
 
 bool locked(const progress::Series& series) {
-  return series.engine == "palpation" && series.trials.size() < kFewestPalpations;
+  return series.engine == training::Engine::palpation && series.trials.size() < kFewestPalpations;
 }
 
 std::string ratesWords(const progress::Competence& c) {
@@ -55,8 +56,9 @@ std::string competenceWords(const progress::Series& series, const progress::Comp
 }
 
 std::vector<std::string> curvesOf(const progress::Series& series) {
-  if (series.engine == "needle") return {"total", "time_s"};
-  if (series.engine == "palpation") return {"sensitivity_pct", "coverage_deep_pct", "time_s"};
+  if (series.engine == training::Engine::needle) return {"total", "time_s"};
+  if (series.engine == training::Engine::palpation)
+    return {"sensitivity_pct", "coverage_deep_pct", "time_s"};
   return {"time_s"};
 }
 

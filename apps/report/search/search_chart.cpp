@@ -1,4 +1,5 @@
 #include "apps/report/search/search_sections.h"
+#include "apps/training/trial_words.h"
 
 #include <algorithm>
 #include <cmath>
@@ -25,7 +26,7 @@ struct EpisodeRow {
 std::vector<EpisodeRow> rowsOf(const std::vector<assess::SearchTrial>& trials) {
   std::vector<EpisodeRow> rows;
   for (const assess::SearchTrial& trial : trials) {
-    if (trial.outcome == "void") continue;
+    if (trial.outcome == training::Outcome::voided) continue;
     auto row = std::find_if(rows.begin(), rows.end(), [&](const EpisodeRow& r) {
       return r.mode == trial.mode && r.block == trial.block;
     });
@@ -152,7 +153,7 @@ void drawTimes(Html& html, const std::vector<EpisodeRow>& rows, const ChartFrame
 }  // namespace
 
 Tone toneOfEpisode(const assess::SearchTrial& trial) {
-  if (trial.outcome == "void") return Tone::neutral;
+  if (trial.outcome == training::Outcome::voided) return Tone::neutral;
   if (!assess::chose(trial)) return Tone::guide;
   return trial.found() ? Tone::good : Tone::bad;
 }

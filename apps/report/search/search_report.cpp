@@ -9,6 +9,7 @@
 #include "apps/report/page/page_parts.h"
 #include "apps/report/page/subtask_table.h"
 #include "apps/report/search/search_sections.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::report {
 namespace {
@@ -95,7 +96,8 @@ namespace {
 std::string episodeFields(const assess::SearchTrial& t) {
   std::string row = ',' + std::to_string(t.trial) + ',' + std::to_string(t.seed) +
                     (t.simulated ? ",1" : ",0") + (t.force_feedback ? ",1," : ",0,") +
-                    csvField(t.outcome) + ',' + csvField(t.block) + ',' + assess::name(t.mode);
+                    csvField(training::nameOf(t.outcome)) + ',' + csvField(t.block) + ',' +
+                    assess::name(t.mode);
   row += ',' + shortest(t.orientation_deg) + ',' + std::to_string(t.target) + ',' +
          std::to_string(t.chosen) + (assess::chose(t) && t.found() ? ",1" : ",0");
   for (const double value : {t.seconds, t.path_m, t.mean_force_N, t.peak_force_N, t.visited_s[0],

@@ -1,4 +1,5 @@
 #include "apps/report/search/search_sections.h"
+#include "apps/training/trial_words.h"
 
 #include <array>
 #include <cmath>
@@ -52,11 +53,11 @@ void drawSignElement(Html& html, const assess::SearchTrial& trial, int element) 
 
 /// "found", "another element", "none: time over", "void".
 std::string resultWords(const assess::SearchTrial& trial) {
-  if (trial.outcome == "void") return "void";
+  if (trial.outcome == training::Outcome::voided) return "void";
   if (assess::chose(trial)) return trial.found() ? "found" : "another element";
-  return trial.outcome == "time"      ? "none: time over"
-         : trial.outcome == "aborted" ? "none: aborted"
-                                      : "none";
+  return trial.outcome == training::Outcome::time      ? "none: time over"
+         : trial.outcome == training::Outcome::aborted ? "none: aborted"
+                                                       : "none";
 }
 
 std::string onTarget(const assess::SearchTrial& trial) {
@@ -145,7 +146,7 @@ void writeDoses(Html& html, const SearchReport& report) {
     std::vector<std::vector<assess::SubtaskDose>> doses;
     double seconds = 0;
     for (const assess::SearchTrial& trial : report.trials) {
-      if (trial.mode != mode || trial.outcome == "void") continue;
+      if (trial.mode != mode || trial.outcome == training::Outcome::voided) continue;
       doses.push_back(trial.doses);
       seconds += trial.seconds;
     }

@@ -7,11 +7,11 @@
 #include "anatomy/base/whole_file.h"
 #include "apps/assess/squeeze/squeeze_trial.h"
 #include "apps/assess/statistics/sample.h"
-#include "apps/assess/trial.h"
 #include "apps/report/page/html.h"
 #include "apps/report/page/numbers.h"
 #include "apps/report/page/page_parts.h"
 #include "apps/report/plot/chart_frame.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::report {
 namespace {
@@ -31,7 +31,7 @@ svg .threshold.level-2{stroke-dasharray:4 4}
 )css";
 
 bool countsIn(const assess::SqueezeTrial& trial) {
-  return assess::countsAsScored(trial.role) && trial.outcome != "void";
+  return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided;
 }
 
 std::vector<assess::SqueezeTrial> counted(const std::vector<assess::SqueezeTrial>& trials) {
@@ -197,7 +197,8 @@ void writeSqueezeCsv(const std::string& user_id, const std::vector<assess::Squee
       "GRIPS_FIRST,GRIPS_SECOND\n";
   for (const assess::SqueezeTrial& t : trials) {
     csv += csvField(user_id) + ',' + std::to_string(t.trial) + ',' + std::to_string(t.seed) +
-           (t.simulated ? ",1" : ",0") + (t.force_feedback ? ",1," : ",0,") + csvField(t.outcome);
+           (t.simulated ? ",1" : ",0") + (t.force_feedback ? ",1," : ",0,") +
+           csvField(training::nameOf(t.outcome));
     csv += t.property == assess::SqueezedProperty::stiffness ? ",stiffness," : ",weight,";
     csv += shortest(t.factors[0]) + ',' + shortest(t.factors[1]) + ',' + std::to_string(t.said) +
            (t.right() ? ",1," : ",0,") + shortest(t.peak_N) + ',' + shortest(t.seconds) + ',' +

@@ -1,6 +1,7 @@
 #include "apps/study/run/participant.h"
 #include "anatomy/base/json_text.h"
 #include "apps/runtime/clock.h"
+#include "apps/training/engine.h"
 
 #include <algorithm>
 #include <set>
@@ -197,7 +198,7 @@ namespace {
 
 void addExpertsOf(const study::Block& block,
                   std::vector<std::pair<std::string, std::string>>* barred) {
-  if (block.engine != station::Engine::needle) return;
+  if (block.engine != training::Engine::needle) return;
   const task_needle::TaskSettings task = task_needle::readTask(block.task);
   if (task.expert_path.empty()) return;
   for (const std::string& expert : calibration::readExpertPath(task.expert_path).experts)

@@ -8,7 +8,7 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/uuid.h"
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 namespace palpa::study {
 namespace {
@@ -34,7 +34,7 @@ session::SessionOptions studySession(const session::SessionOptions& place,
                                      const record::Enrolment& enrolment, const study::Next& next) {
   const study::Block& block = protocol.block(next.step);
   session::SessionOptions o = place;
-  o.command = station::commandOf(block.engine);
+  o.command = training::commandOf(block.engine);
   o.task = block.task.string();
   o.trainee = enrolment.trainee;
   o.role = block.role;

@@ -16,6 +16,7 @@
 #include "apps/study/run/station_copy.h"
 #include "apps/study/run/study_run.h"
 #include "apps/study/run/workers.h"
+#include "apps/training/engine.h"
 
 namespace palpa::study {
 namespace {
@@ -49,7 +50,7 @@ constexpr double kPicturesOfCohort_Hz = 0.8;
 void buildWorlds(Shared& shared) {
   for (const study::Session& session : shared.protocol.sessions)
     for (const study::Block& block : session.blocks) {
-      if (block.engine != station::Engine::needle || shared.needle_worlds.count(block.task))
+      if (block.engine != training::Engine::needle || shared.needle_worlds.count(block.task))
         continue;
       session::SessionOptions options = shared.options.session;
       options.task = block.task.string();
@@ -105,7 +106,7 @@ session::LearnerOptions learnerAt(const Shared& shared, const Subject& subject,
   study::VirtualTrainee trainee(shared.learners, subject.enrolment.group, subject.seed);
   int trials = 0;
   for (const study::DoneTrial& done : participant.done()) {
-    if (done.outcome == "void") continue;
+    if (!done.counts()) continue;
     const std::string& fixed = shared.protocol.block(done.step).condition;
     trainee.practised(fixed.empty() ? subject.enrolment.condition : fixed);
     ++trials;
@@ -120,7 +121,7 @@ session::LearnerOptions learnerAt(const Shared& shared, const Subject& subject,
 
 bool runTrials(const Shared& shared, const session::SessionOptions& session,
                const study::Block& block, const fs::path& folder) {
-  if (block.engine == station::Engine::needle)
+  if (block.engine == training::Engine::needle)
     return !session::runNeedleSession(session, *shared.needle_worlds.at(block.task), folder).quit;
   return !session::runSearch(session, session::SearchWorld(session), folder).quit;
 }

@@ -6,7 +6,7 @@
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
-#include "apps/assess/trial.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::study {
 namespace {
@@ -81,8 +81,8 @@ std::vector<StudyRow> studyRows(record::RecordStore& store, const std::string& s
       session = t.session.uuid;
       ++number;
     }
-    if (!assess::countsAsScored(t.trial.role) || t.trial.outcome == "void" ||
-        t.trial.metrics.empty())
+    if (!training::countsAsScored(training::roleNamed(t.trial.role)) ||
+        training::isVoid(t.trial.outcome) || t.trial.metrics.empty())
       continue;
     rows.push_back(rowOf(t, number));
   }

@@ -92,7 +92,7 @@ session::SessionLeft holdTrials(const StudyOptions& o, const study::Protocol& pr
 
 int countingTrials(const StudyParticipant& participant) {
   int count = 0;
-  for (const study::DoneTrial& trial : participant.done()) count += trial.outcome != "void";
+  for (const study::DoneTrial& trial : participant.done()) count += trial.counts();
   return count;
 }
 

@@ -7,7 +7,7 @@
 
 #include "anatomy/base/json_file.h"
 
-namespace palpa::station {
+namespace palpa::training {
 
 /// What is trained, and by which rules: the field `engine` of a task's file.
 enum class Engine : std::uint8_t { needle, palpation, squeeze, search };
@@ -27,4 +27,4 @@ Engine engineIn(const JsonFile& file);
 /// Throws UsageError where the file is another engine's.
 void needEngine(const JsonFile& file, Engine engine);
 
-}  // namespace palpa::station
+}  // namespace palpa::training

@@ -1,10 +1,10 @@
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 #include <gtest/gtest.h>
 
 #include "anatomy/base/error.h"
 
-namespace palpa::station {
+namespace palpa::training {
 namespace {
 
 TEST(Engine, NamesRoundTripAndTheOldNameIsRead) {
@@ -24,4 +24,4 @@ TEST(Engine, AWrongOneIsRefusedInWords) {
 }
 
 }  // namespace
-}  // namespace palpa::station
+}  // namespace palpa::training

@@ -1,8 +1,8 @@
-#include "apps/station/engine.h"
+#include "apps/training/engine.h"
 
 #include <array>
 
-namespace palpa::station {
+namespace palpa::training {
 namespace {
 
 struct EngineNames {
@@ -42,4 +42,4 @@ void needEngine(const JsonFile& file, Engine engine) {
     file.refuse("engine", "is \"" + file.text("engine") + "\"; here it must be " + nameOf(engine));
 }
 
-}  // namespace palpa::station
+}  // namespace palpa::training
