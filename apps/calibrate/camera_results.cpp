@@ -60,7 +60,7 @@ Result cameraResult(const std::vector<calibration::BoardView>& views, int width,
       calibration::calibrateCamera(views, width, height, {keep_all});
   Result r;
   r.title = "Camera";
-  r.file = begun(origin, "camera", kCameraGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::camera, kCameraGoodFor_days);
   addCamera(r.file, c.model);
   r.file.coordinates.assign(std::begin(kLensNames), std::end(kLensNames));
   r.file.covariance = c.covariance;
@@ -121,7 +121,7 @@ Result latencyResult(const LatencySamples& samples, double camera_latency_s, con
       calibration::estimateClockOffset(samples.camera, samples.device);
   Result r;
   r.title = "Time between camera and device";
-  r.file = begun(origin, "latency", kLatencyGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::latency, kLatencyGoodFor_days);
   r.file.parameters = {{"offset_s", {fit.offset}},
                        {"drift_s_per_s", {fit.drift}},
                        {"at_s", {fit.t_middle}},

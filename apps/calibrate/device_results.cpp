@@ -20,7 +20,7 @@ Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin,
   const calibration::WorkspaceMap map = calibration::mapWorkspace(points);
   Result r;
   r.title = "The device's workspace";
-  r.file = begun(origin, "workspace", kWorkspaceGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::workspace, kWorkspaceGoodFor_days);
   const auto numbers = [](const Vec3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
   r.file.parameters = {{"order", {static_cast<double>(map.order)}},
                        {"centre_m", numbers(map.centre_D)},
@@ -146,7 +146,7 @@ Result toolResult(const ToolSamples& samples, const Pose& X_ET_design, const Ori
   const calibration::TipCalibration tip = calibration::calibrateTip(fitted);
   Result r;
   r.title = "Needle tip";
-  r.file = begun(origin, "tool", kToolGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::tool, kToolGoodFor_days);
   Mat3 R = X_ET_design.rotation();
   Eigen::Matrix<double, 6, 6> covariance = Eigen::Matrix<double, 6, 6>::Zero();
   covariance.bottomRightCorner<3, 3>() = inflation(fitted, tip) * tip.covariance;
@@ -211,7 +211,7 @@ Result forceSensorResult(const std::vector<calibration::StaticReading>& readings
   const calibration::ForceSensorCalibration c = calibration::calibrateForceSensor(fitted, down_D);
   Result r;
   r.title = "Force sensor";
-  r.file = begun(origin, "force-sensor", kForceSensorGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::force_sensor, kForceSensorGoodFor_days);
   const auto numbers = [](const Vec3& v) { return std::vector<double>{v.x(), v.y(), v.z()}; };
   r.file.parameters = {{"bias_force_N", numbers(c.bias_f)},
                        {"bias_torque_Nm", numbers(c.bias_m)},

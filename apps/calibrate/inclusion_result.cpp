@@ -75,7 +75,7 @@ Result inclusionResult(const LumpSamples& samples, double tip_radius, const Orig
   Rendered judged = render(lump, without, samples, tip_radius);
   Result r;
   r.title = "The lump";
-  r.file = begun(origin, "inclusion", kInclusionGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::inclusion, kInclusionGoodFor_days);
   addLaw(r.file, "H_T", found.H_T);
   addLaw(r.file, "G_x", found.G[0]);
   addLaw(r.file, "G_y", found.G[1]);

@@ -184,7 +184,7 @@ Result registrationResult(const std::vector<Touch>& touches, const TagSamples& t
                           const Vec3& tip_W, const Origin& origin) {
   Result r;
   r.title = "Device and board (registration)";
-  r.file = begun(origin, "registration", kRegistrationGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::registration, kRegistrationGoodFor_days);
   Answer answer;
   if (!touches.empty() && !tag.poses.empty()) {
     const Answer by_landmarks = byLandmarks(touches, r), by_tag = byTag(tag, r);

@@ -5,7 +5,8 @@
 
 namespace palpa::calibrate {
 
-station::CalibrationFile begun(const Origin& origin, const std::string& kind, int valid_days) {
+station::CalibrationFile begun(const Origin& origin, station::CalibrationKind kind,
+                               int valid_days) {
   station::CalibrationFile file;
   file.kind = kind;
   file.station = origin.station;
@@ -25,7 +26,7 @@ std::string verdictOf(const std::vector<station::CalibrationFile::Check>& checks
     words += (words.empty() ? "" : "; ") + check.name + " is " + quantity(check.value, check.unit) +
              ", at most " + quantity(check.limit, check.unit) + " is good";
   }
-  return words.empty() ? "pass" : words;
+  return words.empty() ? std::string(station::kPassed) : words;
 }
 
 std::string quantity(double value, const std::string& unit) {

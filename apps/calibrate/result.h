@@ -42,7 +42,7 @@ struct Origin {
 };
 
 /// A file begun with `origin`, of a kind, good for so many days.
-station::CalibrationFile begun(const Origin& origin, const std::string& kind, int valid_days);
+station::CalibrationFile begun(const Origin& origin, station::CalibrationKind kind, int valid_days);
 
 /// "pass", or the checks that did not hold, in words.
 std::string verdictOf(const std::vector<station::CalibrationFile::Check>& checks);

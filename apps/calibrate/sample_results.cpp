@@ -97,7 +97,7 @@ Result materialResult(const FeltSamples& felt, const Origin& origin) {
   const calibration::SoftContact found = calibration::identifySoftContact(fitted);
   Result r;
   r.title = "Softness of the sample";
-  r.file = begun(origin, "material", kMaterialGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::material, kMaterialGoodFor_days);
   r.file.parameters = {{"k_N_per_m_to_the_m", {found.law.k}},
                        {"b_Ns_per_m_to_the_m_plus_1", {found.law.b}},
                        {"m", {found.law.m}},
@@ -191,7 +191,7 @@ Result frictionResult(const FeltSamples& felt, const Origin& origin) {
   const Prediction told = predict(found.law, slidesOf(felt), fitted.size(), felt.dt);
   Result r;
   r.title = "Friction of the sample";
-  r.file = begun(origin, "friction", kFrictionGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::friction, kFrictionGoodFor_days);
   r.file.parameters = {
       {"mu", {found.law.mu}}, {"sigma_N_per_m", {found.law.sigma}}, {"B_Ns_per_m", {found.law.B}}};
   r.file.coordinates = {"mu", "sigma_N_per_m", "B_Ns_per_m"};

@@ -44,20 +44,22 @@ std::vector<calibration::StaticReading> forceReadings(const std::vector<HeldPose
 }  // namespace
 
 void restOn(Result& result, const std::vector<station::AppliedCalibration>& calibrations) {
-  static const std::map<std::string, std::vector<std::string>> kNeeds{
-      {"tool", {"workspace"}},
-      {"registration", {"camera", "workspace", "tool"}},
-      {"latency", {"camera"}}};
+  using station::CalibrationKind;
+  static const std::map<CalibrationKind, std::vector<CalibrationKind>> kNeeds{
+      {CalibrationKind::tool, {CalibrationKind::workspace}},
+      {CalibrationKind::registration,
+       {CalibrationKind::camera, CalibrationKind::workspace, CalibrationKind::tool}},
+      {CalibrationKind::latency, {CalibrationKind::camera}}};
   const auto needs = kNeeds.find(result.file.kind);
   if (needs == kNeeds.end()) return;
-  for (const std::string& kind : needs->second)
+  for (const CalibrationKind kind : needs->second)
     if (const station::AppliedCalibration* other = station::calibrationOf(calibrations, kind))
-      result.file.rests_on.push_back({kind, other->sha256});
+      result.file.rests_on.push_back({nameOf(kind), other->sha256});
 }
 
 station::AppliedCalibration asFile(const Result& result) {
   station::AppliedCalibration kept;
-  kept.path = result.file.kind + ".json";
+  kept.path = nameOf(result.file.kind) + ".json";
   kept.file = result.file;
   kept.sha256 = kept.sha256_wanted = sha256(station::textOf(result.file));
   return kept;

@@ -101,7 +101,7 @@ Result subtaskResult(const SubtaskRecordings& recordings, const SubtaskSegmentat
                      const Origin& origin) {
   Result r;
   r.title = "Parts of the task \"" + recordings.task + "\"";
-  r.file = begun(origin, "subtasks", kSubtasksGoodFor_days);
+  r.file = begun(origin, station::CalibrationKind::subtasks, kSubtasksGoodFor_days);
   addModel(found, &r.file);
   addCurve(found.proposal, &r.file);
   addAgreement(recordings, found, &r.file);

@@ -10,6 +10,7 @@
 namespace palpa::cli {
 
 using namespace calibrate;
+using station::CalibrationKind;
 
 namespace {
 
@@ -115,20 +116,21 @@ LumpSamples collectLump(const Scene& scene, const std::string& mockup) {
 }  // namespace
 
 Result fromFiles(const CalibrateOptions& o, const station::Station& station, const Origin& origin) {
-  if (o.kind == "camera") return fromCameraPictures(o, station, origin);
-  if (o.kind == "tool") return toolResult(toolSamples(o), station.design.X_ET, origin);
-  if (o.kind == "workspace") return workspaceResult(readTouches(o.touches), origin);
-  if (o.kind == "registration") return fromTouchesAndPairs(o, station, origin);
-  if (o.kind == "latency") {
+  if (o.kind == CalibrationKind::camera) return fromCameraPictures(o, station, origin);
+  if (o.kind == CalibrationKind::tool)
+    return toolResult(toolSamples(o), station.design.X_ET, origin);
+  if (o.kind == CalibrationKind::workspace) return workspaceResult(readTouches(o.touches), origin);
+  if (o.kind == CalibrationKind::registration) return fromTouchesAndPairs(o, station, origin);
+  if (o.kind == CalibrationKind::latency) {
     if (o.camera_track.empty() || o.device_track.empty())
       throw UsageError("needs both", "--camera-track and --device-track",
                        "Give the same motion as both saw it");
     return latencyResult({readTrack(o.camera_track), readTrack(o.device_track)},
                          station.camera_latency_s, origin);
   }
-  if (o.kind == "material") return materialResult(readFelt(o.presses), origin);
-  if (o.kind == "friction") return frictionResult(readFelt(o.strokes), origin);
-  if (o.kind == "inclusion")
+  if (o.kind == CalibrationKind::material) return materialResult(readFelt(o.presses), origin);
+  if (o.kind == CalibrationKind::friction) return frictionResult(readFelt(o.strokes), origin);
+  if (o.kind == CalibrationKind::inclusion)
     return inclusionResult(
         lumpSamples(o), station.sample ? station.sample->tip_radius : station::Sample{}.tip_radius,
         origin);
@@ -139,28 +141,31 @@ Result fromFiles(const CalibrateOptions& o, const station::Station& station, con
 /// One routine on the bench: what it needs of the others is taken from the station.
 Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& origin) {
   const station::Station& station = scene.station;
-  if (o.kind == "camera") {
+  if (o.kind == CalibrationKind::camera) {
     calibration::CameraModel camera;
     return cameraResult(collectViews(scene), station.camera.width, station.camera.height, origin,
                         &camera);
   }
-  if (o.kind == "tool") return toolResult(collectTool(scene), station.design.X_ET, origin);
-  if (o.kind == "workspace") return collectedWorkspace(scene, station.X_ET.translation(), origin);
-  if (o.kind == "registration")
+  if (o.kind == CalibrationKind::tool)
+    return toolResult(collectTool(scene), station.design.X_ET, origin);
+  if (o.kind == CalibrationKind::workspace)
+    return collectedWorkspace(scene, station.X_ET.translation(), origin);
+  if (o.kind == CalibrationKind::registration)
     return collectedRegistration(
         scene, station.marker ? collectHeld(scene, station.camera) : std::vector<HeldPose>{},
         station.camera, station.X_ET.translation(), origin);
-  if (o.kind == "latency")
+  if (o.kind == CalibrationKind::latency)
     return collectedLatency(scene, station.camera, markerOf(collectHeld(scene, station.camera)),
                             origin);
-  if (o.kind == "force-sensor")
+  if (o.kind == CalibrationKind::force_sensor)
     return forceSensorOf(scene, collectHeld(scene, station.camera), station.X_WD, origin);
-  if (o.kind == "material")
+  if (o.kind == CalibrationKind::material)
     return materialResult(collectPresses(scene, "", {}, kPressFor_s), origin);
-  if (o.kind == "friction") return frictionResult(collectStrokes(scene, "", kStrokeFor_s), origin);
-  if (o.kind == "inclusion")
+  if (o.kind == CalibrationKind::friction)
+    return frictionResult(collectStrokes(scene, "", kStrokeFor_s), origin);
+  if (o.kind == CalibrationKind::inclusion)
     return inclusionResult(collectLump(scene, o.mockup), station.sample->tip_radius, origin);
-  throw UsageError("is no routine", "palpa calibrate " + o.kind, "See palpa calibrate --help");
+  throw UsageError("is no routine", "palpa calibrate " + o.name(), "See palpa calibrate --help");
 }
 
 }  // namespace palpa::cli

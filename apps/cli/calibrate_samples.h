@@ -1,6 +1,7 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,7 +11,8 @@ namespace palpa::cli {
 
 /// Of `palpa calibrate camera` and its like: every routine has those of its kind.
 struct CalibrateOptions {
-  std::string kind, station, out, watch;
+  std::optional<station::CalibrationKind> kind;  ///< none: all, one after the other
+  std::string station, out, watch;
   std::uint64_t seed = 1;
   bool quiet = false, all_corners = false;
   std::string images, board, pivot, spin, landmarks, pairs, camera_track, device_track, readings,
@@ -19,6 +21,7 @@ struct CalibrateOptions {
   double depth_mm = 0;
   std::vector<double> down{0, 0, -1};
 
+  std::string name() const { return kind ? nameOf(*kind) : "all"; }
   bool recorded() const { return !images.empty() || !tables().empty(); }
   std::vector<std::filesystem::path> tables() const {
     std::vector<std::filesystem::path> given;

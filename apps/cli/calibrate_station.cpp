@@ -21,6 +21,7 @@ namespace palpa::cli {
 namespace {
 
 using namespace calibrate;
+using station::CalibrationKind;
 
 /// On a terminal a line that renews itself, otherwise a line at the beginning and one at the end;
 /// each step's where somebody looks on.
@@ -57,7 +58,9 @@ class TerminalGuide final : public Guide {
 };
 
 station::Station stationOf(const CalibrateOptions& o) {
-  const bool of_sample = o.kind == "material" || o.kind == "friction" || o.kind == "inclusion";
+  const bool of_sample = o.kind == CalibrationKind::material ||
+                         o.kind == CalibrationKind::friction ||
+                         o.kind == CalibrationKind::inclusion;
   return station::readStation(o.station.empty()
                                   ? station::assetFile(of_sample ? "stations/palpation_bench.json"
                                                                  : "stations/virtual_bench.json")
@@ -68,7 +71,7 @@ Origin originOf(const CalibrateOptions& o, const station::Station& station) {
   Origin origin;
   origin.station = station.id;
   origin.command =
-      "palpa calibrate " + o.kind + (o.recorded() ? "" : " --seed " + std::to_string(o.seed));
+      "palpa calibrate " + o.name() + (o.recorded() ? "" : " --seed " + std::to_string(o.seed));
   origin.source = o.recorded() ? "recorded files" : "virtual bench, seed " + std::to_string(o.seed);
   origin.simulated = !o.recorded();
   origin.date = runtime::utcNow();
@@ -82,7 +85,7 @@ Origin originOf(const CalibrateOptions& o, const station::Station& station) {
 /// What was found, on standard output and as a page.
 void leave(const CalibrateOptions& o, const station::Station& station, const SetupResult& setup,
            std::vector<std::string> remarks, const std::string& accuracy) {
-  const std::filesystem::path folder = session::makeOutputFolder(o.out, "calibrate-" + o.kind);
+  const std::filesystem::path folder = session::makeOutputFolder(o.out, "calibrate-" + o.name());
   writeCalibrations(station, setup.calibrations, folder);
   PageHead head{station.title, setup.results.front().file.date,
                 setup.results.front().file.simulated, setup.seconds, std::move(remarks)};
@@ -128,9 +131,9 @@ void calibrateStation(const CalibrateOptions& o) {
     if (watched) watched->see(frame);
   });
   CorrectedRig rig(seen);  // by the station's own calibration, where it has one
-  if (o.kind != "all" && o.kind != "workspace") rig.correctBy(station.workspace);
+  if (o.kind && o.kind != CalibrationKind::workspace) rig.correctBy(station.workspace);
   const Scene scene{station, rig, guide};
-  if (o.kind != "all") {
+  if (o.kind) {
     setup.results.push_back(onBench(o, scene, origin));
     restOn(setup.results.back(), station.calibrations);
     setup.calibrations.push_back(asFile(setup.results.back()));
@@ -143,10 +146,11 @@ void calibrateStation(const CalibrateOptions& o) {
 }
 
 struct Routine {
-  const char *name, *about, *examples;
+  std::optional<CalibrationKind> kind;  ///< none: all
+  const char *about, *examples;
 };
 constexpr Routine kRoutines[] = {
-    {"camera", "The lens: from pictures of a board",
+    {CalibrationKind::camera, "The lens: from pictures of a board",
      "Examples:\n  palpa calibrate camera\n      on the virtual bench: a simulated hand holds the "
      "board\n"
      "  palpa calibrate camera --images 'shots/*.png' --board chessboard:9x6:0.025:11 "
@@ -155,47 +159,50 @@ constexpr Routine kRoutines[] = {
      "their figures\n"
      "  palpa calibrate camera --images 'shots/left*.jpg' --board chessboard:9x6:0.025\n      from "
      "your own pictures"},
-    {"tool", "The needle's tip and direction: pivot and spin",
+    {CalibrationKind::tool, "The needle's tip and direction: pivot and spin",
      "Examples:\n  palpa calibrate tool\n  palpa calibrate tool --pivot pivot.csv --spin spin.csv\n"
      "Tables have a header row: x_mm (or x_m), y_, z_, q_w, q_x, q_y, q_z: the end effector in the "
      "device's base."},
-    {"workspace", "The device's systematic position error, from a touched grid",
+    {CalibrationKind::workspace, "The device's systematic position error, from a touched grid",
      "Examples:\n  palpa calibrate workspace --touches grid.csv\nColumns: known_x_mm, ..., "
      "touched_x_mm, ..., end_x_mm, ... (the end effector, where it is known)"},
-    {"registration",
+    {CalibrationKind::registration,
      "Where the device stands: from touched landmarks, from a tag on the tool, or both",
      "Examples:\n  palpa calibrate registration --landmarks touched.csv\n      columns: name, "
      "known_x_mm, ..., touched_x_mm, ..., for (\"check\": not used to fit)\n"
      "  palpa calibrate registration --pairs samples.json\n      a list of [end effector in base, "
      "tag in camera], 4x4, metres; or a table: device_x_m, ..., tag_x_m, ..."},
-    {"latency", "The time between camera and device, from one motion that both saw",
+    {CalibrationKind::latency, "The time between camera and device, from one motion that both saw",
      "Examples:\n  palpa calibrate latency --camera-track camera.csv --device-track "
      "device.csv\nColumns: t_s, x_mm (or x_m), y_, z_"},
-    {"force-sensor", "Bias and tool weight, from readings in different orientations",
+    {CalibrationKind::force_sensor, "Bias and tool weight, from readings in different orientations",
      "Examples:\n  palpa calibrate force-sensor --readings readings.csv\nColumns: q_w, ..., "
      "force_x_N, ..., torque_x_Nm, ..."},
-    {"material", "How soft a sample is: from presses",
+    {CalibrationKind::material, "How soft a sample is: from presses",
      "Examples:\n  palpa calibrate material\n      on the virtual palpation bench: a simulated "
      "hand presses the silicone\n  palpa calibrate material --presses presses.csv\n"
      "Columns: t_s; x_mm (or x_m), y_, z_ of the tip's lowest point, z up from the sample's top; "
      "force_x_N, ..."},
-    {"friction", "How a sample's surface rubs: from strokes",
+    {CalibrationKind::friction, "How a sample's surface rubs: from strokes",
      "Examples:\n  palpa calibrate friction\n  palpa calibrate friction --strokes "
      "strokes.csv\nColumns as for material"},
-    {"inclusion", "What a lump adds to a sample: from presses of one with it and one without",
+    {CalibrationKind::inclusion,
+     "What a lump adds to a sample: from presses of one with it and one without",
      "Examples:\n  palpa calibrate inclusion --mockup hard\n"
      "  palpa calibrate inclusion --without plain.csv --strokes strokes.csv --above above.csv "
      "--beside beside.csv --check check.csv --depth-mm 15\n"
      "Columns as for material, and lump_x_mm, ...: how far the lump has moved"},
-    {"all", "Everything, one after the other, with a page that says whether the station is ready",
+    {std::nullopt,
+     "Everything, one after the other, with a page that says whether the station is ready",
      "Examples:\n  palpa calibrate all --seed 3 --out station3\n      on the virtual bench; then: "
      "palpa paracentesis --station station3/station.json --seed 3"}};
 
-void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
+void addFiles(CLI::App* command, CalibrateOptions* o) {
+  const std::optional<CalibrationKind> kind = o->kind;
   const auto file = [&](const char* name, std::string* where, const char* about) {
     command->add_option(name, *where, about)->type_name("FILE");
   };
-  if (kind == "camera") {
+  if (kind == CalibrationKind::camera) {
     command->add_option("--images", o->images, "Recorded pictures: a shell pattern, quoted")
         ->type_name("GLOB");
     command->add_option("--board", o->board, "The board in them; otherwise the station's")
@@ -203,22 +210,24 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
     command->add_flag("--all-corners", o->all_corners,
                       "Plain least squares: no corner is left out");
   }
-  if (kind == "tool") {
+  if (kind == CalibrationKind::tool) {
     file("--pivot", &o->pivot, "Recorded poses, the tip in a hole");
     file("--spin", &o->spin, "Recorded poses, the needle spun about its axis");
   }
-  if (kind == "workspace") file("--touches", &o->touches, "Recorded touches of a grid");
-  if (kind == "registration") {
+  if (kind == CalibrationKind::workspace)
+    file("--touches", &o->touches, "Recorded touches of a grid");
+  if (kind == CalibrationKind::registration) {
     file("--landmarks", &o->landmarks, "Recorded touches of landmarks");
     file("--pairs", &o->pairs, "Recorded poses of end effector and tag");
   }
-  if (kind == "latency") {
+  if (kind == CalibrationKind::latency) {
     file("--camera-track", &o->camera_track, "A point's path as the camera saw it");
     file("--device-track", &o->device_track, "The same as the device saw it");
   }
-  if (kind == "material") file("--presses", &o->presses, "Recorded presses");
-  if (kind == "friction") file("--strokes", &o->strokes, "Recorded strokes, to and fro");
-  if (kind == "inclusion") {
+  if (kind == CalibrationKind::material) file("--presses", &o->presses, "Recorded presses");
+  if (kind == CalibrationKind::friction)
+    file("--strokes", &o->strokes, "Recorded strokes, to and fro");
+  if (kind == CalibrationKind::inclusion) {
     file("--without", &o->without, "Recorded presses of the sample without the lump");
     file("--strokes", &o->strokes, "Recorded strokes of it: for a hand that is not quite still");
     file("--above", &o->above, "Recorded presses above the lump");
@@ -229,7 +238,7 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
     command->add_option("--mockup", o->mockup, "Simulated sample on the virtual bench")
         ->type_name("NAME");
   }
-  if (kind == "force-sensor") {
+  if (kind == CalibrationKind::force_sensor) {
     file("--readings", &o->readings, "Recorded static readings");
     command->add_option("--down", o->down, "Where weight pulls, in the device's base")
         ->expected(3)
@@ -241,10 +250,10 @@ void addFiles(CLI::App* command, const std::string& kind, CalibrateOptions* o) {
 
 void addStationCalibrations(CLI::App& calibrate) {
   for (const Routine& routine : kRoutines) {
-    CLI::App* command = calibrate.add_subcommand(routine.name, routine.about);
-    command->footer(routine.examples);
     const auto o = std::make_shared<CalibrateOptions>();
-    o->kind = routine.name;
+    o->kind = routine.kind;
+    CLI::App* command = calibrate.add_subcommand(o->name(), routine.about);
+    command->footer(routine.examples);
     command->add_option("--station", o->station, "Station file; otherwise the virtual bench")
         ->type_name("FILE");
     command->add_option("--seed", o->seed, "Seed of the virtual bench")
@@ -256,7 +265,7 @@ void addStationCalibrations(CLI::App& calibrate) {
                      "Keep in this JPEG what the camera sees, for a page that shows it; and a line "
                      "for each step")
         ->type_name("FILE");
-    addFiles(command, routine.name, o.get());
+    addFiles(command, o.get());
     command->callback([o] { calibrateStation(*o); });
   }
 }

@@ -59,7 +59,7 @@ SetupAccuracy measureAccuracy(const station::Station& before, const station::Sta
     a.predicted_px = predicted->px;
   }
   if (const station::AppliedCalibration* latency =
-          station::calibrationOf(setup.calibrations, "latency")) {
+          station::calibrationOf(setup.calibrations, station::CalibrationKind::latency)) {
     const double t = latency->file.at("at_s", 1)[0];
     const double true_offset =
         before.camera_latency_s - truth.camera_latency_s + truth.clock_drift * t;

@@ -79,7 +79,7 @@ json calibration(Console& c) {
   all["station"] = station.title;
   all["verdict"] = station.calibration_verdict;
   for (const auto& one : station.calibrations)
-    all["calibrations"].push_back({{"name", one.file.kind},
+    all["calibrations"].push_back({{"name", nameOf(one.file.kind)},
                                    {"made_utc", one.file.date},
                                    {"verdict", one.file.verdict},
                                    {"simulated", one.file.simulated}});

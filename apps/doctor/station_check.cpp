@@ -49,7 +49,7 @@ std::optional<station::Station> readStation(const std::filesystem::path& file, F
 Findings judgeCalibrations(const station::Station& station, const std::string& now_utc) {
   Findings findings;
   for (const station::AppliedCalibration& one : station.calibrations) {
-    const std::string subject = one.file.kind + " calibration",
+    const std::string subject = nameOf(one.file.kind) + " calibration",
                       fault = faultIn(station, one, now_utc);
     if (fault.empty())
       findings.push_back({subject, State::well,
@@ -59,7 +59,7 @@ Findings judgeCalibrations(const station::Station& station, const std::string& n
       findings.push_back({subject, State::note, fault, kAnew});
   }
   if (!findings.empty()) return findings;
-  if (station.calibration_verdict == "pass")
+  if (station.calibrated())
     return {{"calibrations", State::well,
              "as the station's file states them" +
                  (station.calibration_date.empty() ? "" : ": " + station.calibration_date)}};
@@ -83,7 +83,7 @@ Finding judgePrint(const station::Station& station, double bar_mm) {
   if (station.camera_setup.driver == station::CameraSetup::Driver::bench)
     return {kPrint, State::well, "simulated, in its true size"};
   const station::AppliedCalibration* registration =
-      station::calibrationOf(station.calibrations, "registration");
+      station::calibrationOf(station.calibrations, station::CalibrationKind::registration);
   if (registration && registration->file.passed())
     for (const station::CalibrationFile::Numbers& numbers : registration->file.parameters)
       if (numbers.name == "X_EM_position_m")

@@ -18,7 +18,7 @@ constexpr std::uint64_t kFamiliarisationSeed = 1'000'000;  // another skin than 
 
 /// Empty: trials count.
 std::string whyNotScored(const SessionOptions& options, const NeedleWorld& world) {
-  if (world.station.calibration_verdict != "pass") return world.station.calibration_verdict;
+  if (!world.station.calibrated()) return world.station.calibration_verdict;
   if (!world.station.device.capabilities.has_orientation)
     return "the device does not measure how the needle is held";
   if (options.guide) return "the guide line to the vein was shown";
@@ -104,7 +104,7 @@ class NeedleSession {
     trial::TrialScene::Stage setup = frame_.stage(head_.view.get());
     for (std::size_t i = 0; i < world_.real_things.size(); ++i)
       setup.things.push_back({&world_.real_things[i], &world_.station.things[i]});
-    if (station::calibrationOf(world_.station.calibrations, "registration"))
+    if (station::calibrationOf(world_.station.calibrations, station::CalibrationKind::registration))
       setup.tip_covariance_A = [this](const Pose& X_DT) { return tipCovariance(X_DT); };
     if (MouseHand* mouse = frame_.devices().mouse(); mouse && setup.input)
       setup.input = [this, mouse](const scene::ViewInput& input, std::int64_t now_ns) {

@@ -169,7 +169,7 @@ namespace {
 
 /// Empty: trials count.
 std::string whyUnscored(const SessionOptions& options, const PalpationWorld& world) {
-  if (world.station.calibration_verdict != "pass") return world.station.calibration_verdict;
+  if (!world.station.calibrated()) return world.station.calibration_verdict;
   if (options.see_through) return "the lumps were shown";
   if (options.who == OperatorKind::person && world.onBench())
     return "led with a mouse: nothing was felt";

@@ -161,8 +161,7 @@ SearchRun runSearch(const SessionOptions& options, const SearchWorld& world,
   task_search::Floors floors(world.task, world.episodes);
   SessionFrame frame(options, {world.station, world.plate, world.X_WA, tick, {}, false, &floors},
                      world.hands(options), channels, folder);
-  const std::string not_scored =
-      world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict;
+  const std::string not_scored = world.station.calibrationProblem();
   task_search::SearchTask task(
       {world.task, tick, world.simulated(options), options.who != OperatorKind::person,
        options.force_feedback, options.fast, not_scored, world.episodes, frame.places(),

@@ -159,8 +159,7 @@ SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
   const haptics::PairConfig pair = world.pairConfig(options);
   SessionFrame frame(options, {world.station, world.object, world.X_WA, pair.tools[0], pair, false},
                      world.hands(options), channels, folder);
-  const std::string not_scored =
-      world.station.calibration_verdict == "pass" ? "" : world.station.calibration_verdict;
+  const std::string not_scored = world.station.calibrationProblem();
   task_squeeze::SqueezeTask task(
       {world.task, true, true, options.force_feedback, not_scored, options.seed,
        task_squeeze::comparisonsOf(world.task, options.seed, options.trials), frame.places(),

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/enum_names.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_file.h"
 #include "anatomy/base/sha256.h"
@@ -18,6 +19,10 @@ using nlohmann::json;
 constexpr int kCalibrationVersion = 1;
 constexpr const char* kCalibrationFormat = "palpa calibration";
 constexpr std::size_t kMostNumbers = 200'000;
+
+const EnumNames<CalibrationKind> kCalibrationKinds{
+    "camera",       "tool",     "workspace", "registration", "latency",
+    "force-sensor", "material", "friction",  "inclusion",    "subtasks"};
 
 std::vector<double> numbersOf(const JsonFile& file, const json& list, const std::string& at) {
   if (!list.is_array() || list.size() > kMostNumbers) file.refuse(at, "must be a list of numbers");
@@ -71,7 +76,7 @@ json bodyOf(const CalibrationFile& c) {
   for (const auto& f : c.data.files) files.push_back({{"name", f.name}, {"sha256", f.sha256}});
   return {{"format", kCalibrationFormat},
           {"version", kCalibrationVersion},
-          {"kind", c.kind},
+          {"kind", nameOf(c.kind)},
           {"station", c.station},
           {"date", c.date},
           {"made_by", c.made_by},
@@ -169,10 +174,10 @@ void readLists(const JsonFile& file, CalibrationFile& c) {
 CalibrationFile read(const JsonFile& file) {
   requireOurs(file);
   CalibrationFile c;
-  c.kind = file.text("kind");
-  if (std::find(kCalibrationKinds.begin(), kCalibrationKinds.end(), c.kind) ==
-      kCalibrationKinds.end())
-    file.refuse("kind", "is \"" + c.kind + "\", which this program does not know");
+  const std::optional<CalibrationKind> kind = calibrationKindNamed(file.text("kind"));
+  if (!kind)
+    file.refuse("kind", "is \"" + file.text("kind") + "\", which this program does not know");
+  c.kind = *kind;
   c.station = file.text("station");
   c.date = file.text("date");
   c.made_by = file.text("made_by");
@@ -198,6 +203,12 @@ CalibrationFile read(const JsonFile& file) {
 
 }  // namespace
 
+const std::string& nameOf(CalibrationKind kind) { return kCalibrationKinds.of(kind); }
+
+std::optional<CalibrationKind> calibrationKindNamed(std::string_view name) {
+  return kCalibrationKinds.named(name);
+}
+
 /// A bad calibration is no mistake in how the program was called: exit code 1.
 CalibrationFile readCalibration(const std::filesystem::path& path) {
   try {
@@ -211,14 +222,14 @@ const std::vector<double>& CalibrationFile::at(const std::string& name, std::siz
   for (const Numbers& p : parameters)
     if (p.name == name && p.values.size() == size) return p.values;
   throw Error("has no \"" + name + "\" of " + std::to_string(size) + " numbers",
-              kind + " calibration", "Calibrate again");
+              nameOf(kind) + " calibration", "Calibrate again");
 }
 
 std::string textOf(const CalibrationFile& calibration) {
   const auto n = static_cast<Eigen::Index>(calibration.coordinates.size());
   if (!allFinite(calibration) || calibration.covariance.rows() != n ||
       !isCovariance(calibration.covariance))
-    throw Error("the result is not finite", calibration.kind + " calibration",
+    throw Error("the result is not finite", nameOf(calibration.kind) + " calibration",
                 "Record the data again");
   json body = bodyOf(calibration);
   body["sha256"] = sha256(body.dump());

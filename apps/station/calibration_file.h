@@ -1,14 +1,40 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "anatomy/geometry/pose.h"
 #include "calibration/camera_model.h"
 
 namespace palpa::station {
+
+/// The verdict of what is good; every other one says what is wrong.
+inline constexpr std::string_view kPassed = "pass";
+
+/// What is calibrated, each by the routine of its name: `palpa calibrate force-sensor`.
+enum class CalibrationKind : std::uint8_t {
+  camera,
+  tool,
+  workspace,
+  registration,
+  latency,
+  force_sensor,
+  material,
+  friction,
+  inclusion,
+  subtasks
+};
+
+/// "camera", ..., "force-sensor", ...: in files, of commands and on pages.
+const std::string& nameOf(CalibrationKind kind);
+
+/// None for an unknown name.
+std::optional<CalibrationKind> calibrationKindNamed(std::string_view name);
 
 /// What a calibration routine leaves behind: parameters, how sure they are, what is left over, from
 /// which data, when, and the verdict. JSON, format "palpa calibration"; the unit is the end of a
@@ -40,10 +66,10 @@ struct CalibrationFile {
     bool passed() const { return value <= limit; }
   };
   struct Rest {
-    std::string kind, sha256;  ///< another calibration that this one was computed with
+    std::string kind, sha256;  ///< another calibration that this one was computed with, as written
   };
 
-  std::string kind;     ///< one of kCalibrationKinds
+  CalibrationKind kind = CalibrationKind::camera;
   std::string station;  ///< its id
   std::string date;     ///< UTC, "2026-03-01T12:30:00Z"
   std::string made_by;  ///< the command
@@ -56,16 +82,12 @@ struct CalibrationFile {
   Data data;
   std::vector<Check> checks;
   std::vector<Rest> rests_on;
-  std::string verdict;  ///< "pass", or what is wrong
+  std::string verdict;  ///< kPassed, or what is wrong
 
-  bool passed() const { return verdict == "pass"; }
+  bool passed() const { return verdict == kPassed; }
   /// Throws Error when there is none of that name and size.
   const std::vector<double>& at(const std::string& name, std::size_t size) const;
 };
-
-inline const std::vector<std::string> kCalibrationKinds{
-    "camera",       "tool",     "workspace", "registration", "latency",
-    "force-sensor", "material", "friction",  "inclusion",    "subtasks"};
 
 /// Throws Error naming file and field: foreign, newer, damaged, changed by hand, or with
 /// invalid figures.

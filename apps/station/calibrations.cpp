@@ -22,7 +22,9 @@ std::optional<std::chrono::sys_days> dayOf(const std::string& utc) {
   return std::chrono::sys_days(date);
 }
 
-std::string nameOf(const AppliedCalibration& c) { return "the " + c.file.kind + " calibration"; }
+std::string titleOf(const AppliedCalibration& c) {
+  return "the " + nameOf(c.file.kind) + " calibration";
+}
 
 Packed3 packedAt(const CalibrationFile& file, const std::string& name) {
   const std::vector<double>& v = file.at(name, 3);
@@ -67,9 +69,9 @@ std::vector<AppliedCalibration> readCalibrations(const JsonFile& file,
     c.sha256_wanted = entry.text("sha256");
     c.file = readCalibration(c.path);
     c.sha256 = sha256OfFile(c.path);
-    if (c.file.kind != entry.text("kind"))
-      entry.refuse("kind", "is \"" + entry.text("kind") + "\", but the file is a " + c.file.kind +
-                               " calibration");
+    if (nameOf(c.file.kind) != entry.text("kind"))
+      entry.refuse("kind", "is \"" + entry.text("kind") + "\", but the file is a " +
+                               nameOf(c.file.kind) + " calibration");
     if (calibrationOf(calibrations, c.file.kind)) entry.refuse("kind", "stands twice");
     calibrations.push_back(std::move(c));
   }
@@ -77,7 +79,7 @@ std::vector<AppliedCalibration> readCalibrations(const JsonFile& file,
 }
 
 const AppliedCalibration* calibrationOf(const std::vector<AppliedCalibration>& calibrations,
-                                        const std::string& kind) {
+                                        CalibrationKind kind) {
   for (const AppliedCalibration& c : calibrations)
     if (c.file.kind == kind) return &c;
   return nullptr;
@@ -87,7 +89,7 @@ nlohmann::json toJson(const std::vector<AppliedCalibration>& calibrations,
                       const std::filesystem::path& folder) {
   nlohmann::json list = nlohmann::json::array();
   for (const AppliedCalibration& c : calibrations)
-    list.push_back({{"kind", c.file.kind},
+    list.push_back({{"kind", nameOf(c.file.kind)},
                     {"path", c.path.lexically_proximate(folder).string()},
                     {"sha256", c.sha256},
                     {"date", c.file.date},
@@ -98,15 +100,16 @@ nlohmann::json toJson(const std::vector<AppliedCalibration>& calibrations,
 std::string faultIn(const AppliedCalibration& c,
                     const std::vector<AppliedCalibration>& calibrations,
                     const std::string& station) {
-  if (!c.file.passed()) return nameOf(c) + " failed: " + c.file.verdict;
+  if (!c.file.passed()) return titleOf(c) + " failed: " + c.file.verdict;
   if (c.file.station != station)
-    return nameOf(c) + " belongs to station \"" + c.file.station + "\"";
+    return titleOf(c) + " belongs to station \"" + c.file.station + "\"";
   if (c.sha256 != c.sha256_wanted)
-    return nameOf(c) + " was replaced after the station's file was written";
+    return titleOf(c) + " was replaced after the station's file was written";
   for (const CalibrationFile::Rest& rest : c.file.rests_on) {
-    const AppliedCalibration* other = calibrationOf(calibrations, rest.kind);
+    const std::optional<CalibrationKind> kind = calibrationKindNamed(rest.kind);
+    const AppliedCalibration* other = kind ? calibrationOf(calibrations, *kind) : nullptr;
     if (!other || other->sha256 != rest.sha256)
-      return nameOf(c) + " is outdated: it was made with another " + rest.kind + " calibration";
+      return titleOf(c) + " is outdated: it was made with another " + rest.kind + " calibration";
   }
   return "";
 }
@@ -123,9 +126,9 @@ std::string outdatedOn(const std::vector<AppliedCalibration>& calibrations,
   const auto today = dayOf(date);
   for (const AppliedCalibration& c : calibrations) {
     const auto made = dayOf(c.file.date);
-    if (!made) return nameOf(c) + " has no date";
+    if (!made) return titleOf(c) + " has no date";
     if (today && (*today - *made).count() > c.file.valid_days)
-      return nameOf(c) + " is outdated: made on " + c.file.date.substr(0, 10) + ", good for " +
+      return titleOf(c) + " is outdated: made on " + c.file.date.substr(0, 10) + ", good for " +
              std::to_string(c.file.valid_days) + " days";
   }
   return "";
@@ -137,15 +140,17 @@ void applyCalibrations(Station& s) {
   for (const AppliedCalibration& c : s.calibrations) {
     if (s.calibration_date.empty() || c.file.date < s.calibration_date)
       s.calibration_date = c.file.date;
-    if (c.file.kind == "camera") s.camera = cameraAt(c.file);
-    if (c.file.kind == "workspace") s.workspace = correctionIn(c.file);
-    if (c.file.kind == "tool") s.X_ET = poseAt(c.file, "X_ET");
-    if (c.file.kind == "registration") s.X_WD = poseAt(c.file, "X_WD");
-    if (c.file.kind == "force-sensor" && s.force_sensor) applyTo(s.force_sensor->filter, c.file);
-    if (c.file.kind == "latency") s.camera_latency_s = c.file.at("camera_latency_s", 1)[0];
+    const CalibrationKind kind = c.file.kind;
+    if (kind == CalibrationKind::camera) s.camera = cameraAt(c.file);
+    if (kind == CalibrationKind::workspace) s.workspace = correctionIn(c.file);
+    if (kind == CalibrationKind::tool) s.X_ET = poseAt(c.file, "X_ET");
+    if (kind == CalibrationKind::registration) s.X_WD = poseAt(c.file, "X_WD");
+    if (kind == CalibrationKind::force_sensor && s.force_sensor)
+      applyTo(s.force_sensor->filter, c.file);
+    if (kind == CalibrationKind::latency) s.camera_latency_s = c.file.at("camera_latency_s", 1)[0];
   }
   const std::string fault = faultOf(s.calibrations, s.id);
-  s.calibration_verdict = fault.empty() ? "pass" : fault;
+  s.calibration_verdict = fault.empty() ? std::string(kPassed) : fault;
 }
 
 Station withCalibrations(const Station& station,
@@ -166,7 +171,7 @@ Station withCalibrations(const Station& station,
 
 void judgeAge(Station& s, const std::string& date) {
   const std::string old = outdatedOn(s.calibrations, date);
-  if (!old.empty() && s.calibration_verdict == "pass") s.calibration_verdict = old;
+  if (!old.empty() && s.calibrated()) s.calibration_verdict = old;
 }
 
 }  // namespace palpa::station

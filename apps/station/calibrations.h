@@ -25,7 +25,7 @@ std::vector<AppliedCalibration> readCalibrations(const JsonFile& file,
 
 /// Of a kind; nullptr when the station has none.
 const AppliedCalibration* calibrationOf(const std::vector<AppliedCalibration>& calibrations,
-                                        const std::string& kind);
+                                        CalibrationKind kind);
 
 /// The same section for a station file that refers to `calibrations`, paths relative to `folder`.
 nlohmann::json toJson(const std::vector<AppliedCalibration>& calibrations,

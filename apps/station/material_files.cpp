@@ -102,16 +102,17 @@ struct PowerRange {
 constexpr PowerRange kSurfacePower{1, 2}, kBedPower{0.5, 3};
 
 /// A calibration that passed.
-CalibrationFile calibrationAt(const JsonFile& list, const std::string& field,
-                              const std::string& kind, const std::filesystem::path& folder) {
+CalibrationFile calibrationAt(const JsonFile& list, const std::string& field, CalibrationKind kind,
+                              const std::filesystem::path& folder) {
   const std::filesystem::path path = folder / list.text(field);
   CalibrationFile file = readCalibration(path);
   if (file.kind != kind)
-    throw Error("is a calibration of \"" + file.kind + "\", not of \"" + kind + "\"", path.string(),
-                "See " + list.name() + ", " + field);
+    throw Error(
+        "is a calibration of \"" + nameOf(file.kind) + "\", not of \"" + nameOf(kind) + "\"",
+        path.string(), "See " + list.name() + ", " + field);
   if (!file.passed())
     throw Error("did not pass: " + file.verdict, path.string(),
-                "Identify it again: palpa calibrate " + kind);
+                "Identify it again: palpa calibrate " + nameOf(kind));
   return file;
 }
 
@@ -158,7 +159,8 @@ int gradeAt(const JsonFile& kind, const std::string& field, const std::string& o
 }
 
 LumpKind kindAt(const JsonFile& entry, const std::filesystem::path& folder, bool* simulated) {
-  const CalibrationFile file = calibrationAt(entry, "identified", "inclusion", folder);
+  const CalibrationFile file =
+      calibrationAt(entry, "identified", CalibrationKind::inclusion, folder);
   const std::string path = (folder / entry.text("identified")).string();
   *simulated = *simulated || file.simulated;
   LumpKind kind;
@@ -183,8 +185,9 @@ LumpLibrary readLumps(const std::filesystem::path& path) {
   file.needVersion(1);
   const std::filesystem::path folder = path.parent_path();
   LumpLibrary library;
-  const CalibrationFile surface = calibrationAt(file, "surface", "material", folder),
-                        friction = calibrationAt(file, "friction", "friction", folder);
+  const CalibrationFile surface = calibrationAt(file, "surface", CalibrationKind::material, folder),
+                        friction =
+                            calibrationAt(file, "friction", CalibrationKind::friction, folder);
   setSoftness(library, surface, (folder / file.text("surface")).string());
   setFriction(library, friction, (folder / file.text("friction")).string());
   library.of_surface = "the library of lumps";
@@ -199,16 +202,16 @@ LumpLibrary readLumps(const std::filesystem::path& path) {
 
 LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>& calibrations) {
   const std::string shipped = library.of_surface;
-  const auto own = [&](const char* kind, void (*set)(LumpLibrary&, const CalibrationFile&,
-                                                     const std::string&)) -> std::string {
+  const auto own = [&](CalibrationKind kind, void (*set)(LumpLibrary&, const CalibrationFile&,
+                                                         const std::string&)) -> std::string {
     const AppliedCalibration* found = calibrationOf(calibrations, kind);
     if (!found) return shipped;
     set(library, found->file, found->path.string());
     library.simulated = library.simulated || found->file.simulated;
     return "this station's calibration of " + found->file.date.substr(0, 10);
   };
-  const std::string softness = own("material", setSoftness),
-                    friction = own("friction", setFriction);
+  const std::string softness = own(CalibrationKind::material, setSoftness),
+                    friction = own(CalibrationKind::friction, setFriction);
   library.of_surface =
       softness == friction ? softness : "softness: " + softness + "; friction: " + friction;
   return library;

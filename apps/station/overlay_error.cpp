@@ -38,8 +38,9 @@ Eigen::Matrix<double, 6, kLensNumbers> poseByLens(const Station& station, const 
 }  // namespace
 
 std::optional<Mat3> predictTipCovariance(const Station& station, const Pose& X_DE) {
-  const AppliedCalibration* tool = calibrationOf(station.calibrations, "tool");
-  const AppliedCalibration* registration = calibrationOf(station.calibrations, "registration");
+  const AppliedCalibration* tool = calibrationOf(station.calibrations, CalibrationKind::tool);
+  const AppliedCalibration* registration =
+      calibrationOf(station.calibrations, CalibrationKind::registration);
   if (!tool || !registration || tool->file.covariance.rows() != 6 ||
       registration->file.covariance.rows() != 6)
     return std::nullopt;
@@ -59,7 +60,7 @@ std::optional<OverlayError> predictOverlayError(const Station& station, const Po
   const Eigen::Matrix<double, 2, 3> J_W = J_p * board.X_CW.rotation();
   const Eigen::Matrix<double, 2, 6> J_b = byPose(station.camera, board.X_CW, tip_W);
   Eigen::Matrix2d S_px = J_W * *S_W * J_W.transpose() + J_b * board.covariance * J_b.transpose();
-  const AppliedCalibration* camera = calibrationOf(station.calibrations, "camera");
+  const AppliedCalibration* camera = calibrationOf(station.calibrations, CalibrationKind::camera);
   if (camera && camera->file.covariance.rows() == kLensNumbers) {
     const Eigen::Matrix<double, 2, kLensNumbers> J_c =
         station.camera.byLens(tip_C) + J_b * poseByLens(station, board.X_CW);

@@ -89,12 +89,16 @@ struct Station {
   haptics::SafetyLimits safety;
   haptics::CouplingLimits coupling;
   haptics::PassivityLimits passivity;  ///< sized from the device's mass and friction
-  std::string calibration_verdict;     ///< "pass", or what is wrong: a session is then "not scored"
-  std::string calibration_date;        ///< of the oldest
+  std::string calibration_verdict;  ///< kPassed, or what is wrong: a session is then "not scored"
+  std::string calibration_date;     ///< of the oldest
   std::vector<AppliedCalibration>
       calibrations;  ///< in the order of the file; what they found stands in the figures above
   Design design;
   JsonFile file;  ///< for parts that only others read (the twin's spreads)
+
+  bool calibrated() const { return calibration_verdict == kPassed; }
+  /// What is wrong with its calibration; empty: nothing.
+  std::string calibrationProblem() const { return calibrated() ? "" : calibration_verdict; }
 };
 
 /// Throws UsageError naming file and field.

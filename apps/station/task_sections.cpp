@@ -97,8 +97,8 @@ JsonFile readTaskFile(const std::filesystem::path& path) {
     return file;
   const std::filesystem::path named = path.parent_path() / file.text(kLearned);
   const CalibrationFile learned = readCalibration(named);
-  if (learned.kind != "subtasks")
-    file.refuse(kLearned, "names a calibration of kind \"" + learned.kind +
+  if (learned.kind != CalibrationKind::subtasks)
+    file.refuse(kLearned, "names a calibration of kind \"" + nameOf(learned.kind) +
                               "\"; palpa calibrate subtasks makes the one that is needed");
   if (!learned.passed()) file.refuse(kLearned, "names parts that did not pass: " + learned.verdict);
   json task = file.json();

@@ -11,7 +11,7 @@ inline bool says(const std::string& text, const std::string& words) {
 /// A tool calibration that is in order.
 inline station::CalibrationFile aCalibration() {
   station::CalibrationFile c;
-  c.kind = "tool";
+  c.kind = station::CalibrationKind::tool;
   c.station = "virtual-bench";
   c.date = "2026-03-01T12:30:00Z";
   c.made_by = "palpa calibrate tool";

@@ -45,11 +45,20 @@ TEST(CalibrationFile, ReadsBackToTheBit) {
   EXPECT_EQ(read.rests_on[0].sha256, "abc");
 }
 
+TEST(CalibrationFile, KindsRoundTrip) {
+  for (int i = 0; i <= static_cast<int>(CalibrationKind::subtasks); ++i) {
+    const auto kind = static_cast<CalibrationKind>(i);
+    EXPECT_EQ(calibrationKindNamed(nameOf(kind)), kind) << nameOf(kind);
+  }
+  EXPECT_EQ(nameOf(CalibrationKind::force_sensor), "force-sensor");
+  EXPECT_FALSE(calibrationKindNamed("force_sensor"));
+}
+
 TEST(CalibrationFile, CameraReadsBack) {
   CalibrationFile c = aCalibration();
   calibration::CameraModel camera{
       640, 480, 602.125, 601.25, 322.5, 237.0625, {-0.21, 0.09, 0.0006, -0.0004, 0.001}, 0};
-  c.kind = "camera";
+  c.kind = CalibrationKind::camera;
   c.parameters.clear();
   addCamera(c, camera);
   const calibration::CameraModel read = cameraAt(c);

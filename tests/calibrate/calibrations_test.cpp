@@ -20,7 +20,7 @@ AppliedCalibration applied(CalibrationFile file, const std::string& sha) {
 
 std::vector<AppliedCalibration> goodSet() {
   CalibrationFile camera = test::aCalibration();
-  camera.kind = "camera";
+  camera.kind = CalibrationKind::camera;
   camera.rests_on.clear();
   return {applied(camera, "abc"), applied(test::aCalibration(), "def")};
 }
@@ -72,7 +72,7 @@ TEST(Calibrations, OfAForceSensorSetItsFilter) {
   Station station = readStation(assetFile("stations/virtual_bench.json"));
   station.force_sensor = station.design.force_sensor = ForceSensorSetup{};
   CalibrationFile sensor = test::aCalibration();
-  sensor.kind = "force-sensor";
+  sensor.kind = CalibrationKind::force_sensor;
   sensor.rests_on.clear();
   sensor.parameters = {{"bias_force_N", {0.1, -0.2, 0.3}},
                        {"bias_torque_Nm", {0.01, 0.02, 0.03}},

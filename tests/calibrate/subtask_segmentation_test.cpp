@@ -133,7 +133,7 @@ TEST(SubtaskSegmentation, TheFileSaysTheModelAndTheWordsSayPlainUnits) {
   const Result r = subtaskResult(recordings, found,
                                  {"search-bench", "palpa calibrate subtasks", "recorded sessions",
                                   "2026-03-01T12:30:00Z", true, recordings.files});
-  EXPECT_EQ(r.file.kind, "subtasks");
+  EXPECT_EQ(r.file.kind, station::CalibrationKind::subtasks);
   EXPECT_EQ(r.file.verdict, "pass");
   EXPECT_TRUE(r.file.simulated);
   EXPECT_EQ(r.file.at("states", 1)[0], 3);

@@ -130,8 +130,9 @@ std::filesystem::path BrokenBench::calibration(
     const std::function<void(station::CalibrationFile&)>& change) {
   station::AppliedCalibration tool;
   station::CalibrationFile& file = tool.file;
-  file.kind = "tool", file.station = "virtual-bench", file.date = "2026-03-01T12:30:00Z",
-  file.made_by = "palpa calibrate tool", file.valid_days = 36'500, file.verdict = "pass";
+  file.kind = station::CalibrationKind::tool, file.station = "virtual-bench",
+  file.date = "2026-03-01T12:30:00Z", file.made_by = "palpa calibrate tool",
+  file.valid_days = 36'500, file.verdict = "pass";
   station::addPose(file, "X_ET", makePose(Mat3::Identity(), Vec3(0, 0, 0.11)));
   for (const char* name :
        {"turn_x_rad", "turn_y_rad", "turn_z_rad", "shift_x_m", "shift_y_m", "shift_z_m"})

@@ -28,7 +28,7 @@ TEST(DoctorsStation, AFileThatCannotBeReadIsNamed) {
 
 station::AppliedCalibration calibration(const std::string& kind) {
   station::AppliedCalibration c;
-  c.file.kind = kind;
+  c.file.kind = station::calibrationKindNamed(kind).value();
   c.file.station = benchStation().id;
   c.file.date = "2026-03-01T12:30:00Z";
   c.file.valid_days = 90;

@@ -56,7 +56,7 @@ void expectRefused(const std::function<void(json*)>& change, const std::string& 
 
 CalibrationFile calibrated() {
   CalibrationFile file;
-  file.kind = "subtasks";
+  file.kind = CalibrationKind::subtasks;
   file.station = "bench";
   file.date = "2026-03-01T12:30:00Z";
   file.made_by = "a test";
@@ -136,7 +136,7 @@ TEST(LearnedModel, RefusesCalibrationsOfOtherThings) {
   writeCalibration(file, task.folder / "parts/calibration.json");
   EXPECT_THROW(task.read(), UsageError);
   file = calibrated();
-  file.kind = "latency";
+  file.kind = CalibrationKind::latency;
   writeCalibration(file, task.folder / "parts/calibration.json");
   EXPECT_THROW(task.read(), UsageError);
 }

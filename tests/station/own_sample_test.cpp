@@ -16,7 +16,7 @@ AppliedCalibration calibration(const std::string& kind,
                                std::vector<CalibrationFile::Numbers> parameters,
                                const std::string& date = "2026-03-01T12:30:00Z") {
   AppliedCalibration c;
-  c.file.kind = kind;
+  c.file.kind = calibrationKindNamed(kind).value();
   c.file.date = date;
   c.file.simulated = true;
   c.file.parameters = std::move(parameters);

@@ -30,7 +30,7 @@ void needCalibrated(const StudyOptions& o) {
   if (o.session.station.empty()) return;
   station::Station station = station::readStation(o.session.station);
   station::judgeAge(station, runtime::utcNow());
-  if (station.calibration_verdict != "pass")
+  if (!station.calibrated())
     throw UsageError(
         "is not calibrated (" + station.calibration_verdict + "), so no trial would count",
         o.session.station, "Calibrate it: palpa calibrate all");
