@@ -156,16 +156,17 @@ void addSearch(CLI::App& program) {
 namespace {
 
 /// An option that means nothing here is a misunderstanding, not a wish.
-void refuseNeedleOptions(const CLI::App& given, const std::string& engine) {
+void refuseNeedleOptions(const CLI::App& given, training::Engine engine) {
   CLI::App known;
   session::SessionOptions unused;
   addRunArguments(known, unused);
-  if (engine == "palpation") addAugmentArgument(known, unused);
+  if (engine == training::Engine::palpation) addAugmentArgument(known, unused);
   for (const CLI::Option* option : given.get_options()) {
     const std::string name = option->get_name();
     if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name))
-      throw UsageError("has no meaning for this task", name,
-                       "Leave it out; palpa " + engine + " --help lists what there is");
+      throw UsageError(
+          "has no meaning for this task", name,
+          "Leave it out; palpa " + training::nameOf(engine) + " --help lists what there is");
   }
 }
 
@@ -183,7 +184,7 @@ void addTrain(CLI::App& program) {
   command->callback([options, command] {
     options->command = "train";
     const training::Engine engine = training::engineIn(JsonFile(options->task));
-    if (engine != training::Engine::needle) refuseNeedleOptions(*command, training::nameOf(engine));
+    if (engine != training::Engine::needle) refuseNeedleOptions(*command, engine);
     session::holdSession(engine, *options);
   });
 }

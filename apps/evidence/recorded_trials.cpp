@@ -34,8 +34,8 @@ Said saidIn(const std::vector<runtime::Event>& events, int trial) {
   Said said;
   for (const runtime::Event& event : events) {
     if (event.trial != trial) continue;
-    if (event.kind == "case") said.lumps = task_palpation::caseOf(event.text);
-    if (event.kind == "grade") said.grades.push_back(event);
+    if (event.is(runtime::EventKind::trial_case)) said.lumps = task_palpation::caseOf(event.text);
+    if (event.is(runtime::EventKind::grade)) said.grades.push_back(event);
   }
   return said;
 }
@@ -104,7 +104,8 @@ task_search::SearchSettings recordedTask(const record::SessionReader& reader) {
 std::map<int, task_search::Episode> recordedEpisodes(const record::SessionReader& reader) {
   std::map<int, task_search::Episode> episodes;
   for (const runtime::Event& event : reader.events())
-    if (event.kind == "case") episodes[event.trial] = task_search::episodeIn(event.text);
+    if (event.is(runtime::EventKind::trial_case))
+      episodes[event.trial] = task_search::episodeIn(event.text);
   return episodes;
 }
 
@@ -192,8 +193,10 @@ SaidOfSqueeze saidOf(const std::vector<runtime::Event>& events, int trial) {
   SaidOfSqueeze said;
   for (const runtime::Event& event : events) {
     if (event.trial != trial) continue;
-    if (event.kind == "case") said.comparison = task_squeeze::comparisonIn(event.text);
-    if (event.kind == "answer") said.answer = event.value == 1 ? 1 : event.value == 2 ? 2 : 0;
+    if (event.is(runtime::EventKind::trial_case))
+      said.comparison = task_squeeze::comparisonIn(event.text);
+    if (event.is(runtime::EventKind::answer))
+      said.answer = event.value == 1 ? 1 : event.value == 2 ? 2 : 0;
   }
   return said;
 }

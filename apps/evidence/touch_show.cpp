@@ -31,11 +31,13 @@ class Marks {
 
  private:
   static std::optional<scene::TickTone> toneOf(const runtime::Event& event) {
-    if (event.kind == "safety" || event.kind == "emergency_stop") return scene::TickTone::bad;
-    if (event.kind == "mark" || event.kind == "let_go" || event.kind == "thing" ||
-        event.kind == "answer")
+    if (event.is(runtime::EventKind::safety) || event.is(runtime::EventKind::emergency_stop))
+      return scene::TickTone::bad;
+    if (event.is(runtime::EventKind::mark) || event.is(runtime::EventKind::let_go) ||
+        event.is(runtime::EventKind::thing) || event.is(runtime::EventKind::answer))
       return scene::TickTone::guide;
-    if (event.kind == "pause" || event.kind == "resume") return scene::TickTone::neutral;
+    if (event.is(runtime::EventKind::pause) || event.is(runtime::EventKind::resume))
+      return scene::TickTone::neutral;
     return std::nullopt;
   }
 
@@ -67,10 +69,10 @@ class TouchShow : public RecordedShow {
 
   const haptics::TickConfig& config() const { return reader_.info().tick_config; }
   JsonFile task() const { return {parseJson(reader_.info().task_json), "the recorded task"}; }
-  std::string eventText(const char* kind) const {
+  std::string eventText(runtime::EventKind kind) const {
     for (const runtime::Event& event : reader_.events())
-      if (event.trial == trial_.number && event.kind == kind) return event.text;
-    throw Error(std::string("says nothing of its \"") + kind + '"',
+      if (event.trial == trial_.number && event.is(kind)) return event.text;
+    throw Error("says nothing of its \"" + nameOf(kind) + '"',
                 file_ + ", trial " + std::to_string(trial_.number),
                 "Restore the file from a backup");
   }
@@ -131,7 +133,8 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
   void showLumps() {
     for (const RecordedPalpation& one : recordedPalpations(reader_)) {
       if (one.recorded.header.trial != trial_.number) continue;
-      const std::vector<assess::CaseLump> lumps = task_palpation::caseOf(eventText("case"));
+      const std::vector<assess::CaseLump> lumps =
+          task_palpation::caseOf(eventText(runtime::EventKind::trial_case));
       for (std::size_t i = 0; i < lumps.size(); ++i)
         trial_.lumps.push_back(
             {lumps[i].p_P, lumps[i].diameter / 2,
@@ -173,7 +176,7 @@ class SqueezeShow final : public TouchShow<replay::SqueezeTrial> {
     trial_.X_AD = anatomy::X_AP() * unpack(tools[0].X_DP).inverse();
     trial_.X_AD2 = anatomy::X_AP() * unpack(tools[1].X_DP).inverse();
     trial_.middle_A = anatomy::X_AP() * Vec3(0, 0, -half);
-    trial_.comparison = task_squeeze::comparisonIn(eventText("case"));
+    trial_.comparison = task_squeeze::comparisonIn(eventText(runtime::EventKind::trial_case));
     shown_ = anatomy::phantomBlock(Vec3::Constant(2 * half), "object");
     replay::SqueezeReader reader(json.number("force/touch_N", 0.02, 5),
                                  {unpack(tools[0].X_ET), unpack(tools[1].X_ET)}, trial_.comparison,

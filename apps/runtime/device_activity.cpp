@@ -25,7 +25,7 @@ std::int64_t FalconActivity::step(std::int64_t now_ns) {
   if (status.state != told_state_ || status.problem != told_problem_) {
     told_state_ = status.state;
     told_problem_ = status.problem;
-    notices_.push({now_ns, 0, "device", words(status), 0});
+    notices_.push({now_ns, 0, nameOf(EventKind::device), words(status), 0});
   }
   return due_ns;
 }

@@ -4,21 +4,23 @@
 #include <string>
 
 #include "anatomy/geometry/local_geometry.h"
+#include "apps/runtime/event_kind.h"
 #include "haptics/flight_record.h"
 #include "haptics/loop/tick.h"
 
 namespace palpa::runtime {
 
-/// Something worth telling, with the moment.
 /// Text of the "safety" event that ends one.
 inline constexpr const char* kForceIsBack = "Force is back";
 
+/// Something worth telling, with the moment.
 struct Event {
   std::int64_t t_ns = 0;  ///< session time
   int trial = 0;          ///< 0: outside a trial
-  std::string kind;       ///< stable identifier: "puncture", "vein_entered", "safety", "note", ...
+  std::string kind;       ///< as it is recorded: an EventKind's name, or how a trial ended
   std::string text;       ///< clinical words
   double value = 0;
+  bool is(EventKind one) const { return kind == nameOf(one); }
 };
 
 struct TrialHeader {

@@ -7,7 +7,8 @@ namespace {
 
 /// "Touched: lung": lung.
 std::string meaning(const runtime::Event& event) {
-  if (event.kind != "touched" && event.kind != "wall") return event.kind;
+  if (!event.is(runtime::EventKind::touched) && !event.is(runtime::EventKind::wall))
+    return event.kind;
   const std::size_t at = event.text.rfind(": ");
   return at == std::string::npos ? event.kind : event.text.substr(at + 2);
 }
@@ -15,8 +16,8 @@ std::string meaning(const runtime::Event& event) {
 }  // namespace
 
 std::string toneOfEvent(const runtime::Event& event) {
-  if (event.kind == "note") return "note";
-  if (event.kind == "safety" && event.text == runtime::kForceIsBack) return "neutral";
+  if (event.is(runtime::EventKind::note)) return "note";
+  if (event.is(runtime::EventKind::safety) && event.text == runtime::kForceIsBack) return "neutral";
   switch (report::toneOfMoment(meaning(event))) {
     case report::Tone::good:
       return "good";

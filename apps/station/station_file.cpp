@@ -1,5 +1,6 @@
 #include "apps/station/station_file.h"
 
+#include "anatomy/base/enum_names.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/units.h"
 #include "anatomy/geometry/pose.h"
@@ -26,15 +27,14 @@ calibration::CameraModel readCamera(const JsonFile& file) {
   return camera;
 }
 
+const EnumNames<CameraSetup::Driver> kCameraDrivers{"bench", "webcam"};
+
 /// What is not there is the bench's.
 CameraSetup readCameraSetup(const JsonFile& file) {
   CameraSetup setup;
   if (!file.has("camera/driver")) return setup;
-  const std::string driver = file.text("camera/driver");
-  if (driver == "bench") return setup;
-  if (driver != "webcam")
-    file.refuse("camera/driver", "is \"" + driver + "\"; known are bench and webcam");
-  setup.driver = CameraSetup::Driver::webcam;
+  setup.driver = kCameraDrivers.in(file, "camera/driver", "known are bench and webcam");
+  if (setup.driver == CameraSetup::Driver::bench) return setup;
   setup.device = file.text("camera/device");
   setup.exposure_ms = file.number("camera/exposure_ms", 0.1, 1000);
   if (file.has("camera/gain")) setup.gain = file.number("camera/gain", 0, 1e6);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "anatomy/base/enum_names.h"
 #include "anatomy/base/units.h"
 #include "anatomy/geometry/pose.h"
 #include "haptics/devices/falcon/falcon_driver.h"
@@ -29,14 +30,8 @@ std::uint32_t readButton(const JsonFile& file, const std::string& at) {
   return file.has(at) ? 1u << file.integer(at, 0, 31) : 0;
 }
 
-DeviceDriver readDriver(const JsonFile& file) {
-  const std::string name = file.text("device/driver");
-  if (name == "virtual") return DeviceDriver::bench;
-  if (name == "falcon") return DeviceDriver::falcon;
-  if (name == "mouse") return DeviceDriver::mouse;
-  if (name == "replay") return DeviceDriver::replay;
-  file.refuse("device/driver", "is \"" + name + "\"; known: virtual, falcon, mouse, replay");
-}
+const EnumNames<DeviceDriver> kDeviceDrivers{"virtual", "falcon", "mouse", "replay"};
+const EnumNames<ForceSensorSetup::Driver> kForceSensorDrivers{"virtual", "net_ft"};
 
 Packed3 readPacked(const JsonFile& file, const std::string& at, double unit) {
   return pack(Vec3(unit * unpack(file.triple(at))));
@@ -65,7 +60,7 @@ Pose readPose(const JsonFile& file, const std::string& at) {
 
 DeviceSetup readDevice(const JsonFile& file, const std::filesystem::path& folder) {
   DeviceSetup device;
-  device.driver = readDriver(file);
+  device.driver = kDeviceDrivers.in(file, "device/driver");
   if (device.driver == DeviceDriver::falcon) {
     device.capabilities = haptics::falconCapabilities();
     readMechanism(file, device.capabilities);
@@ -89,13 +84,8 @@ std::optional<ForceSensorSetup> readForceSensor(const JsonFile& file) {
   if (!file.has("force_sensor")) return std::nullopt;
   ForceSensorSetup sensor;
   haptics::ForceSensorCapabilities& can = sensor.net_ft.capabilities;
-  const std::string driver = file.text("force_sensor/driver");
-  if (driver == "net_ft") {
-    sensor.driver = ForceSensorSetup::Driver::net_ft;
-    readNetFt(file, sensor.net_ft);
-  } else if (driver != "virtual") {
-    file.refuse("force_sensor/driver", "is \"" + driver + "\"; known: virtual, net_ft");
-  }
+  sensor.driver = kForceSensorDrivers.in(file, "force_sensor/driver");
+  if (sensor.driver == ForceSensorSetup::Driver::net_ft) readNetFt(file, sensor.net_ft);
   can.name = file.text("force_sensor/name");
   can.max_force_N = readPacked(file, "force_sensor/max_force_N", 1);
   can.simulated = sensor.driver == ForceSensorSetup::Driver::bench;

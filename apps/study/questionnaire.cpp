@@ -2,6 +2,7 @@
 
 #include <set>
 
+#include "anatomy/base/enum_names.h"
 #include "anatomy/base/json_file.h"
 #include "apps/study/protocol.h"
 
@@ -10,18 +11,15 @@ namespace {
 
 constexpr int kFewestPoints = 2, kMostPoints = 11;
 constexpr std::size_t kLongestAnswer = 2000;
+const EnumNames<Item::Kind> kItemKinds{"likert", "text"};
 
 Item itemIn(const JsonFile& file) {
   Item item;
   item.id = needName(file, "id");
   item.question = file.text("question");
   item.may_be_left = file.flag("may_be_left", false);
-  const std::string kind = file.text("kind");
-  if (kind == "text") {
-    item.kind = Item::Kind::text;
-    return item;
-  }
-  if (kind != "likert") file.refuse("kind", "is \"" + kind + "\"; it must be likert or text");
+  item.kind = kItemKinds.in(file, "kind", "it must be likert or text");
+  if (item.kind == Item::Kind::text) return item;
   item.points = file.integer("points", kFewestPoints, kMostPoints);
   item.low = file.text("low");
   item.high = file.text("high");

@@ -134,26 +134,28 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
   const TaskWords& words = setup_.settings.words;
   if (phases_.phase() != shown_.phase) {
     shown_.phase = phases_.phase();
-    if (!setup_.settings.goal) tell(now_ns, "phase", assess::clinicalName(shown_.phase));
+    if (!setup_.settings.goal)
+      tell(now_ns, runtime::EventKind::phase, assess::clinicalName(shown_.phase));
     if (!setup_.settings.goal && shown_.phase == assess::ProcedurePhase::advance)
       picture("phase-2", "Phase 2 begins: the needle is directed behind the clavicle");
   }
   if (sample.events & haptics::kSkinPunctured) {
     const std::string punctured = "The " + words.of(Organ::skin) + " is punctured";
-    tell(now_ns, "puncture", punctured);
+    tell(now_ns, runtime::EventKind::puncture, punctured);
     picture("puncture", punctured);
   }
   if (sample.events & haptics::kWithdrawn)
-    tell(now_ns, "withdrawn", "The needle is out of the " + words.of(Organ::skin));
+    tell(now_ns, runtime::EventKind::withdrawn,
+         "The needle is out of the " + words.of(Organ::skin));
   if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none)
-    tell(now_ns, "wall", "Wall punctured: " + words.of(sample.wall));
+    tell(now_ns, runtime::EventKind::wall, "Wall punctured: " + words.of(sample.wall));
   Organ touching = sample.bone;
   if (sample.tissue == Tissue::lung || sample.wall == Organ::lung) touching = Organ::lung;
   if (sample.tissue == Tissue::artery_lumen || sample.wall == Organ::artery)
     touching = Organ::artery;
   if (sample.tissue == Tissue::vein_lumen && !entered_vein_) {
     entered_vein_ = true;
-    tell(now_ns, "vein", "The tip is in the vein");
+    tell(now_ns, runtime::EventKind::vein, "The tip is in the vein");
     picture("vein", "The tip enters the vein");
   }
   if (touching == Organ::none) return;
@@ -161,7 +163,7 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
   const bool again = sample.t_s - last_s < kContactPause;  // the same contact, trembling
   last_s = sample.t_s;
   if (again) return;
-  tell(now_ns, "touched", std::string("Touched: ") + palpa::name(touching));
+  tell(now_ns, runtime::EventKind::touched, std::string("Touched: ") + palpa::name(touching));
   if (touching == Organ::lung || touching == Organ::artery ||
       (isBone(touching) && touching != Organ::clavicle))
     picture(palpa::name(touching),

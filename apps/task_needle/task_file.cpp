@@ -43,6 +43,11 @@ TaskWords wordsIn(const JsonFile& task) {
   return words;
 }
 
+assess::Span GoalTrial::spanOf(std::size_t part) const {
+  return {parts_[part], part == goal_.part ? assess::SpanKind::good : assess::SpanKind::guide,
+          since_s_[part], t_s_};
+}
+
 void GoalTrial::add(const assess::TrialSample& sample) {
   const std::uint32_t on = sample.subtasks;
   since_s_.resize(parts_.size());
@@ -54,8 +59,7 @@ void GoalTrial::add(const assess::TrialSample& sample) {
   for (std::size_t i = 0; i < parts_.size(); ++i) {
     const bool is = on >> i & 1u, was = on_ >> i & 1u;
     if (is && !was) since_s_[i] = t_s_;
-    if (was && !is)
-      spans_.push_back({parts_[i], i == goal_.part ? "good" : "guide", since_s_[i], t_s_});
+    if (was && !is) spans_.push_back(spanOf(i));
   }
   on_ = on;
   if (sample.events & haptics::kSkinPunctured) {
@@ -79,8 +83,7 @@ void GoalTrial::tell(assess::TrialAssessment* a) const {
   a->skin_punctures = punctures_;
   a->spans = spans_;
   for (std::size_t i = 0; i < since_s_.size(); ++i)
-    if (on_ >> i & 1u)
-      a->spans.push_back({parts_[i], i == goal_.part ? "good" : "guide", since_s_[i], t_s_});
+    if (on_ >> i & 1u) a->spans.push_back(spanOf(i));
   a->moments = moments_;
   if (a->values.success) a->moments.push_back({t_s_, "success", "Done: " + goal_.means});
   const std::string after = std::to_string(std::lround(t_s_)) + " s",

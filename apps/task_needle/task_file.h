@@ -54,6 +54,8 @@ class GoalTrial {
   void tell(assess::TrialAssessment* assessment) const;
 
  private:
+  assess::Span spanOf(std::size_t part) const;  ///< that ends now
+
   Goal goal_;
   std::vector<std::string> parts_;
   TaskWords words_;

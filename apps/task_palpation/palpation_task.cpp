@@ -148,7 +148,7 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   shown_.levels.clear();
   shown_.marks_P.clear();
   showLumps(nullptr);
-  tell(now_ns, "case", caseText(lumpsOf(case_, setup_.settings.library)));
+  tell(now_ns, runtime::EventKind::trial_case, caseText(lumpsOf(case_, setup_.settings.library)));
   picture("start", "Before anything was felt");
   const bool guided = plan().role == training::Role::scored && guidance_.helps(status().trial);
   const training::Role role = guided ? training::Role::guided
@@ -211,7 +211,7 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
   const bool kept = listener_.add(record);
   if (listener_.marks().size() > marks) {
     shown_.marks_P.push_back(listener_.marks().back().p_P);
-    tell(record.t_ns, "mark", "The trainee marks a lump");
+    tell(record.t_ns, runtime::EventKind::mark, "The trainee marks a lump");
     picture("mark", "Marked: here is one");
   }
   if (!kept) return;
@@ -229,7 +229,8 @@ void PalpationTask::hear(const trial::UserRequest& request, std::int64_t now_ns)
   if (request.command != trial::UserCommand::grade || listener_.marks().empty()) return;
   const trial::Grade grade = trial::gradeOf(request.reason);
   listener_.grade(grade.diameter, grade.hardness, grade.mobility);
-  tell(now_ns, "grade", trial::gradeText(grade.diameter, grade.hardness, grade.mobility),
+  tell(now_ns, runtime::EventKind::grade,
+       trial::gradeText(grade.diameter, grade.hardness, grade.mobility),
        static_cast<double>(listener_.marks().size()));
 }
 

@@ -129,7 +129,7 @@ runtime::TrialHeader SearchTask::begin(std::int64_t now_ns) {
   listener_.begin(number);
   floors_.prepare(number + 1);
   const training::Role role = setup_.not_scored.empty() ? setup_.role : training::Role::not_scored;
-  tell(now_ns, "case", episodeText(episode()));
+  tell(now_ns, runtime::EventKind::trial_case, episodeText(episode()));
   picture("start", "The handle is held over the middle");
   return {status().trial, now_ns, episode().seed, training::nameOf(role), setup_.force_feedback, 0};
 }
@@ -161,7 +161,7 @@ void SearchTask::letGo(const haptics::FlightRecord& record, std::int64_t now_ns)
   const bool there = (p_F / floor.unit - Vec3(0, 0, floor.start_height)).norm() < kNearStart_U;
   if (!there && held_s < setup_.settings.hold_s + kPatience_s) return;
   held_ = false;
-  tell(now_ns, "let_go", "The handle is let go");
+  tell(now_ns, runtime::EventKind::let_go, "The handle is let go");
 }
 
 void SearchTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {

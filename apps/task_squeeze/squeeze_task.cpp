@@ -108,7 +108,7 @@ runtime::TrialHeader SqueezeTask::begin(std::int64_t now_ns) {
   thing_ = said_ = 0;
   listener_.begin(static_cast<std::uint32_t>(status().trial), comparison());
   const training::Role role = setup_.not_scored.empty() ? setup_.role : training::Role::not_scored;
-  tell(now_ns, "case", comparisonText(comparison()));
+  tell(now_ns, runtime::EventKind::trial_case, comparisonText(comparison()));
   picture("start", "Before anything was held");
   return {status().trial, now_ns, setup_.seed, training::nameOf(role), setup_.force_feedback, 0};
 }
@@ -155,8 +155,8 @@ void SqueezeTask::otherThing(std::int64_t now_ns) {
   }
   thing_ = 1 - thing_;
   status().notice.clear();
-  tell(now_ns, "thing", thing_ == 0 ? "The first thing lies there" : "The second thing lies there",
-       thing_ + 1);
+  tell(now_ns, runtime::EventKind::thing,
+       thing_ == 0 ? "The first thing lies there" : "The second thing lies there", thing_ + 1);
 }
 
 void SqueezeTask::answer(int said, std::int64_t now_ns) {
@@ -166,7 +166,8 @@ void SqueezeTask::answer(int said, std::int64_t now_ns) {
     return;
   }
   said_ = said;
-  tell(now_ns, "answer", said == 1 ? "The first one has more" : "The second one has more", said);
+  tell(now_ns, runtime::EventKind::answer,
+       said == 1 ? "The first one has more" : "The second one has more", said);
   endTrial(training::Outcome::done, "", now_ns);
 }
 

@@ -72,9 +72,9 @@ void TrialTask::watchCamera(std::int64_t now_ns) {
   const std::string trouble = sightTrouble(view, now_ns);
   if (trouble == camera_) return;
   if (!trouble.empty())
-    tell(now_ns, "camera", trouble, 1);
+    tell(now_ns, runtime::EventKind::camera, trouble, 1);
   else
-    tell(now_ns, "camera",
+    tell(now_ns, runtime::EventKind::camera,
          view->by_tracker ? "the tracking system sees the camera" : "the camera sees the board", 0);
   camera_ = trouble;
 }
@@ -91,7 +91,7 @@ void TrialTask::checkReady(std::int64_t now_ns) {
     missing = trouble;
   status_.notice = missing.empty() ? "" : "Not ready: " + missing;
   if (missing.empty()) {
-    tell(now_ns, "ready",
+    tell(now_ns, runtime::EventKind::ready,
          lead_.calibration_problem.empty() ? "Ready: device homed, board seen, calibration valid"
                                            : "Ready, but not scored: " + lead_.calibration_problem);
     status_.state = TrialState::waiting;
@@ -112,14 +112,14 @@ void TrialTask::startTrial(std::int64_t now_ns) {
   status_.role = training::roleNamed(header.role);
   status_.force_feedback = header.force_feedback;
   bus_.task_to_recorder.push(header);
-  tell(now_ns, "start", "Trial " + std::to_string(status_.trial) + " starts");
+  tell(now_ns, runtime::EventKind::start, "Trial " + std::to_string(status_.trial) + " starts");
 }
 
 void TrialTask::endTrial(training::Outcome outcome, const std::string& reason,
                          std::int64_t now_ns) {
   const Conclusion end = conclude(outcome, reason);
   const std::string& name = training::nameOf(outcome);
-  tell(now_ns, name, reason.empty() ? end.sentence : reason);
+  note({now_ns, status_.trial, name, reason.empty() ? end.sentence : reason, 0});
   bus_.task_to_recorder.push(
       runtime::TrialEnd{status_.trial, last_.t_ns, name, reason,
                         outcome == training::Outcome::voided ? "" : end.scores_json});
@@ -130,11 +130,11 @@ void TrialTask::endTrial(training::Outcome outcome, const std::string& reason,
 }
 
 void TrialTask::hold(const std::string& trouble, std::int64_t now_ns) {
-  tell(now_ns, "safety", "Force taken away: " + trouble);
+  tell(now_ns, runtime::EventKind::safety, "Force taken away: " + trouble);
   if (lead_.automatic) return endTrial(training::Outcome::voided, trouble, now_ns);
   status_.state = TrialState::paused;
   status_.notice = "Paused: " + trouble + ". Then Enter goes on";
-  tell(now_ns, "pause", "The trial is paused: " + trouble);
+  tell(now_ns, runtime::EventKind::pause, "The trial is paused: " + trouble);
 }
 
 void TrialTask::listen(std::int64_t now_ns) {
@@ -152,23 +152,25 @@ void TrialTask::listen(std::int64_t now_ns) {
 void TrialTask::watchSafety(const haptics::FlightRecord& record) {
   using haptics::SafetyCause;
   if (record.events & haptics::kSafetyTripped) {
-    tell(record.t_ns, "safety", "Force taken away: " + whyText(record.safety));
+    tell(record.t_ns, runtime::EventKind::safety, "Force taken away: " + whyText(record.safety));
     status_.trip = record.safety;
     trip_ns_ = record.t_ns;
   }
-  if (record.events & haptics::kSafetyCleared) tell(record.t_ns, "safety", runtime::kForceIsBack);
+  if (record.events & haptics::kSafetyCleared)
+    tell(record.t_ns, runtime::EventKind::safety, runtime::kForceIsBack);
   if (record.events & haptics::kSnapshotRefused)
-    tell(record.t_ns, "safety", "Damaged geometry was refused");
+    tell(record.t_ns, runtime::EventKind::safety, "Damaged geometry was refused");
   if (record.t_ns - trip_ns_ > kTripShown) status_.trip = SafetyCause::none;
   if (record.safety == SafetyCause::duty) {
     if (warm_ns_ < 0 || record.t_ns - warm_ns_ > kTripShown)
-      tell(record.t_ns, "safety", "The drives are warm: forces are reduced");
+      tell(record.t_ns, runtime::EventKind::safety, "The drives are warm: forces are reduced");
     warm_ns_ = record.t_ns;
   }
   if (status_.state == TrialState::running && last_.reading.homed && !record.reading.homed) {
     status_.state = TrialState::paused;
     status_.notice = "Paused: the device has lost its position. When it is back, Enter goes on";
-    tell(record.t_ns, "pause", "The trial is paused: the device has lost its position");
+    tell(record.t_ns, runtime::EventKind::pause,
+         "The trial is paused: the device has lost its position");
   }
 }
 
@@ -177,7 +179,9 @@ void TrialTask::hearDevice() {
   runtime::Event event;
   while (bus_.device_to_task.pop(&event)) {
     status_.device = event.text;
-    tell(event.t_ns, event.kind, event.text.empty() ? "The haptic device is ready" : event.text);
+    event.trial = status_.trial;
+    if (event.text.empty()) event.text = "The haptic device is ready";
+    note(event);
   }
 }
 
@@ -197,7 +201,7 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       if (status_.state != TrialState::running) return;
       status_.state = TrialState::paused;
       status_.notice = "Paused: Enter goes on";
-      return tell(now_ns, "pause", "The trial is paused");
+      return tell(now_ns, runtime::EventKind::pause, "The trial is paused");
     case UserCommand::abort:
       if (status_.active())
         endTrial(training::Outcome::aborted,
@@ -216,7 +220,7 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       executive_.stop();
       return;
     case UserCommand::note:
-      return tell(now_ns, "note", reason, request.at_s);
+      return tell(now_ns, runtime::EventKind::note, reason, request.at_s);
     case UserCommand::done:
     case UserCommand::grade:
       if (status_.active()) hear(request, now_ns);
@@ -238,7 +242,7 @@ void TrialTask::goOn(std::int64_t now_ns) {
   if (status_.state != TrialState::paused) return;
   status_.state = TrialState::running;
   status_.notice.clear();
-  tell(now_ns, "resume", "The trial goes on");
+  tell(now_ns, runtime::EventKind::resume, "The trial goes on");
 }
 
 void TrialTask::stopAll(std::int64_t now_ns) {
@@ -246,7 +250,7 @@ void TrialTask::stopAll(std::int64_t now_ns) {
   status_.alarm = true;
   status_.notice = "EMERGENCY STOP: forces are off. R re-arms, then Enter goes on";
   if (status_.state == TrialState::running) status_.state = TrialState::paused;
-  tell(now_ns, "emergency_stop", "Emergency stop");
+  tell(now_ns, runtime::EventKind::emergency_stop, "Emergency stop");
 }
 
 void TrialTask::rearm(std::int64_t now_ns) {
@@ -256,13 +260,17 @@ void TrialTask::rearm(std::int64_t now_ns) {
   status_.notice = status_.state == TrialState::paused || status_.state == TrialState::waiting
                        ? "Re-armed: Enter goes on"
                        : "";
-  tell(now_ns, "rearm", "Re-armed");
+  tell(now_ns, runtime::EventKind::rearm, "Re-armed");
 }
 
-void TrialTask::tell(std::int64_t now_ns, const std::string& kind, const std::string& text,
+void TrialTask::tell(std::int64_t now_ns, runtime::EventKind kind, const std::string& text,
                      double value) {
-  const runtime::Event event{now_ns, status_.trial, kind, text, value};
-  if (kind == "safety" || kind == "device" || (kind == "camera" && value > 0))
+  note({now_ns, status_.trial, nameOf(kind), text, value});
+}
+
+void TrialTask::note(const runtime::Event& event) {
+  if (event.is(runtime::EventKind::safety) || event.is(runtime::EventKind::device) ||
+      (event.is(runtime::EventKind::camera) && event.value > 0))
     safety_events_.push_back(event);
   bus_.task_to_recorder.push(event);
 }

@@ -58,13 +58,14 @@ class TrialTask : public runtime::Activity {
   /// What is measured cannot be meant: no more force. Paused until somebody has looked after it;
   /// where nobody is there, the trial is void. `trouble`: a clause.
   void hold(const std::string& trouble, std::int64_t now_ns);
-  void tell(std::int64_t now_ns, const std::string& kind, const std::string& text,
+  void tell(std::int64_t now_ns, runtime::EventKind kind, const std::string& text,
             double value = 0);
   void picture(const std::string& label, const std::string& caption);
   TrialStatus& status() { return status_; }
   const TrialStatus& status() const { return status_; }
 
  private:
+  void note(const runtime::Event& event);
   void apply(std::int64_t now_ns);
   void apply(const UserRequest& request, std::int64_t now_ns);
   void stopAll(std::int64_t now_ns);

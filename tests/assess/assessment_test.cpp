@@ -62,14 +62,14 @@ TEST(Assessment, SpansCoverTheTrialAndNameTheVein) {
   const TrialAssessment a = assess(textbook().samples());
   double end = 0;
   for (const Span& s : a.spans)
-    if (s.kind == "phase") {
+    if (s.kind == SpanKind::phase) {
       EXPECT_EQ(s.from_s, end);
       end = s.to_s;
     }
   EXPECT_NEAR(end, a.values.time_ms / 1000, 1e-12);
   const Span* vein = spanOf(a, "in the vein");
   ASSERT_TRUE(vein);
-  EXPECT_EQ(vein->kind, "good");
+  EXPECT_EQ(vein->kind, SpanKind::good);
   EXPECT_NEAR(vein->to_s - vein->from_s, 1.2, 0.002);
 }
 
@@ -80,7 +80,7 @@ TEST(Assessment, ClavicleIsAGuideBelowTheLimitAndBadAbove) {
     if (s.t_s > 2.6 && s.t_s < 2.8) s.bone_force = 5;
   }
   const TrialAssessment a = assess(samples);
-  EXPECT_EQ(spanOf(a, "clavicle guides")->kind, "guide");
+  EXPECT_EQ(spanOf(a, "clavicle guides")->kind, SpanKind::guide);
   ASSERT_TRUE(spanOf(a, "clavicle above 3.0 N"));
   EXPECT_NEAR(spanOf(a, "clavicle above 3.0 N")->from_s, 2.6, 0.002);
   EXPECT_NE(penalty(a, "COL_RIB").sentence.find("for 0.2 s at 2.6 s (up to 5.0 N)"),

@@ -158,7 +158,7 @@ Layers judgementLayers() {
        .never = {"apps/study/run", "apps/study/analysis", "apps/twin"},
        .libraries = {"Eigen", "JSON"}},
       {.folder = "apps/study/analysis",
-       .ours = {"apps/assess/metrics", "apps/assess/statistics"},
+       .ours = {"apps/training", "apps/assess/metrics", "apps/assess/statistics"},
        .libraries = {"Eigen", "JSON", "Boost"},
        .sealed = true},
       {.folder = "apps/report",

@@ -51,7 +51,7 @@ TEST(Page, StandsWithNothingInIt) {
   auto& odd = report.trials.back();
   odd.assessment.values.time_ms = nan;
   odd.assessment.moments = {{nan, "lung", "never"}, {-3, "vein", "before the start"}};
-  odd.assessment.spans = {{"backwards", "bad", 5, 2}};
+  odd.assessment.spans = {{"backwards", assess::SpanKind::bad, 5, 2}};
   odd.assessment.penalties = {{"X", "t", "s", nan, nan, nan, {nan}}};
   odd.assessment.closest_pleura_mm = nan;
   odd.samples.resize(3);
@@ -116,7 +116,7 @@ TEST(Page, TreatsNamesAsTextNeverAsMarkup) {
     auto& a = trial.assessment;
     a.summary = evil;
     a.penalties = {{evil, evil, evil, 1, 1, 1, {}}};
-    a.spans = {{evil, "phase", 0, 9}, {evil, evil, 0, 9}};
+    a.spans = {{evil, assess::SpanKind::phase, 0, 9}, {evil, assess::SpanKind::bad, 0, 9}};
     a.moments = {{1, evil, evil}};
     trial.pictures = {{evil, evil, 1}};
   }

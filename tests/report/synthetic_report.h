@@ -103,13 +103,13 @@ inline assess::TrialAssessment trialWithTrouble() {
        {}},
       {"TIME", "Time", "The trial took 31.5 s.", 31524, 0.01, 315.24, {}}};
   for (const auto& p : a.penalties) a.total += p.points;
-  a.spans = {{"1 insertion", "phase", 0, 9},
-             {"2 advance", "phase", 9, 26.2},
-             {"aspiration", "phase", 26.2, 31.5},
-             {"clavicle contact", "guide", 13, 15.2},
-             {"clavicle contact", "guide", 16, 16.4},
-             {"in the vein", "good", 26.2, 31.5},
-             {"lung", "bad", 18.3, 18.65}};
+  a.spans = {{"1 insertion", assess::SpanKind::phase, 0, 9},
+             {"2 advance", assess::SpanKind::phase, 9, 26.2},
+             {"aspiration", assess::SpanKind::phase, 26.2, 31.5},
+             {"clavicle contact", assess::SpanKind::guide, 13, 15.2},
+             {"clavicle contact", assess::SpanKind::guide, 16, 16.4},
+             {"in the vein", assess::SpanKind::good, 26.2, 31.5},
+             {"lung", assess::SpanKind::bad, 18.3, 18.65}};
   a.moments = {{6.1, "puncture", "Skin punctured (1.6 N)"},
                {9.0, "reorient", "Needle turned"},
                {13.0, "bone", "Clavicle felt"},
@@ -157,7 +157,7 @@ inline assess::TrialAssessment laterTrial(int n) {
     a.total += p.points;
   }
   a.summary = "The vein was reached and blood aspirated.";
-  std::erase_if(a.spans, [](const auto& s) { return s.kind == "bad"; });
+  std::erase_if(a.spans, [](const auto& s) { return s.kind == assess::SpanKind::bad; });
   std::erase_if(a.moments, [](const auto& m) { return m.kind == "lung" || m.kind == "withdraw"; });
   a.closest_pleura_mm = 2.1 + n;
   return a;

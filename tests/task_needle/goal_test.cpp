@@ -66,7 +66,7 @@ TEST(GoalTrial, TellsItsCourse) {
   EXPECT_EQ(a.spans[0].from_s, 1);
   EXPECT_EQ(a.spans[0].to_s, 3.5);
   EXPECT_EQ(a.spans[1].label, "seat");
-  EXPECT_EQ(a.spans[1].kind, "good");
+  EXPECT_EQ(a.spans[1].kind, assess::SpanKind::good);
   EXPECT_EQ(a.spans[1].from_s, 2);
   ASSERT_EQ(a.moments.size(), 3u);
   EXPECT_EQ(a.moments[0].text, "Through the surface of the bone");

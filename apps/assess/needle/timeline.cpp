@@ -6,7 +6,7 @@
 namespace palpa::assess {
 namespace {
 
-void addSpans(const std::vector<Interval>& stretches, const std::string& label, const char* kind,
+void addSpans(const std::vector<Interval>& stretches, const std::string& label, SpanKind kind,
               std::vector<Span>* spans) {
   for (const Interval& s : stretches) spans->push_back({label, kind, s.from_s, s.to_s});
 }
@@ -16,7 +16,7 @@ void addPhases(const TrialReview& r, std::vector<Span>* spans) {
   for (std::size_t from = 0, i = 1; i <= phases.size(); ++i) {
     if (i < phases.size() && phases[i] == phases[from]) continue;
     const double to_s = i < phases.size() ? r.samples[i].t_s : r.end_s;
-    spans->push_back({clinicalName(phases[from]), "phase", r.samples[from].t_s, to_s});
+    spans->push_back({clinicalName(phases[from]), SpanKind::phase, r.samples[from].t_s, to_s});
     from = i;
   }
 }
@@ -26,19 +26,20 @@ void addPhases(const TrialReview& r, std::vector<Span>* spans) {
 std::vector<Span> timelineSpans(const TrialReview& r, const ScoringRules& rules) {
   std::vector<Span> spans;
   addPhases(r, &spans);
-  addSpans(r.vein_lumen, "in the vein", "good", &spans);
+  addSpans(r.vein_lumen, "in the vein", SpanKind::good, &spans);
   addSpans(intervals(r.samples,
                      [&](const TrialSample& s) {
                        return touchesClavicle(s) && !strikesClavicle(s, rules);
                      }),
-           "clavicle guides", "guide", &spans);
-  addSpans(r.clavicle_struck, "clavicle above " + newtons(rules.clavicle_guide_N), "bad", &spans);
+           "clavicle guides", SpanKind::guide, &spans);
+  addSpans(r.clavicle_struck, "clavicle above " + newtons(rules.clavicle_guide_N), SpanKind::bad,
+           &spans);
   for (const Organ bone : {Organ::rib, Organ::cartilage, Organ::sternum, Organ::scapula})
     addSpans(intervals(r.samples, [bone](const TrialSample& s) { return s.bone == bone; }),
-             name(bone), "bad", &spans);
-  addSpans(r.back_wall, "back wall of the vein", "bad", &spans);
-  addSpans(r.artery, "artery", "bad", &spans);
-  addSpans(r.lung_touched, "lung", "bad", &spans);
+             name(bone), SpanKind::bad, &spans);
+  addSpans(r.back_wall, "back wall of the vein", SpanKind::bad, &spans);
+  addSpans(r.artery, "artery", SpanKind::bad, &spans);
+  addSpans(r.lung_touched, "lung", SpanKind::bad, &spans);
   return spans;
 }
 

@@ -56,10 +56,14 @@ struct TechnicalError {
   int times = 1;
 };
 
+/// What a stretch of the trial means: a phase of the procedure, or what was touched in it. In the
+/// order of the rows of a timeline.
+enum class SpanKind : std::uint8_t { phase, guide, good, bad };
+
 /// A stretch of the trial for the timeline.
 struct Span {
   std::string label;  ///< "phase 1", "in the vein", "clavicle", ...
-  std::string kind;   ///< "phase", "good", "guide", "bad"
+  SpanKind kind = SpanKind::phase;
   double from_s = 0, to_s = 0;
 };
 

@@ -13,9 +13,11 @@ constexpr double kRadius = 9;  // of a numbered mark
 constexpr double kGap = 5;     // between a mark and its words
 constexpr double kApart = 8;   // between neighbours in a row
 
-int rank(const Lane& lane) {
-  const std::string& kind = lane.spans.front().kind;
-  return kind == "phase" ? 0 : kind == "guide" ? 1 : kind == "bad" ? 3 : 2;
+Tone toneOfSpan(assess::SpanKind kind) {
+  return kind == assess::SpanKind::good    ? Tone::good
+         : kind == assess::SpanKind::guide ? Tone::guide
+         : kind == assess::SpanKind::bad   ? Tone::bad
+                                           : Tone::neutral;
 }
 
 bool overlap(const PlacedMark& a, const PlacedMark& b) {
@@ -67,7 +69,7 @@ int rowCount(const std::vector<PlacedMark>& marks) {
 std::vector<Lane> lanesOf(const std::vector<assess::Span>& spans) {
   std::vector<Lane> lanes;
   for (const assess::Span& span : spans) {
-    const std::string label = span.kind == "phase" ? "phases" : span.label;
+    const std::string label = span.kind == assess::SpanKind::phase ? "phases" : span.label;
     const auto lane = std::find_if(lanes.begin(), lanes.end(), [&](const Lane& l) {
       return l.label == label && l.spans.front().kind == span.kind;
     });
@@ -77,8 +79,9 @@ std::vector<Lane> lanesOf(const std::vector<assess::Span>& spans) {
       lane->spans.push_back(span);
     }
   }
-  std::stable_sort(lanes.begin(), lanes.end(),
-                   [](const Lane& a, const Lane& b) { return rank(a) < rank(b); });
+  std::stable_sort(lanes.begin(), lanes.end(), [](const Lane& a, const Lane& b) {
+    return a.spans.front().kind < b.spans.front().kind;
+  });
   return lanes;
 }
 

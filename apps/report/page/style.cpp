@@ -18,12 +18,6 @@ const char* cssClass(Tone tone) {
   return "plain";
 }
 
-Tone toneOfSpan(const std::string& kind) {
-  if (kind == "good") return Tone::good;
-  if (kind == "guide") return Tone::guide;
-  return kind == "bad" ? Tone::bad : Tone::neutral;
-}
-
 Tone toneOfMoment(const std::string& kind) {
   static const std::map<std::string, Tone> kTones{
       {"vein", Tone::good},     {"flash", Tone::good},  {"success", Tone::good},

@@ -25,7 +25,6 @@ namespace palpa::report {
 enum class Tone { neutral, good, guide, bad };
 
 const char* cssClass(Tone tone);
-Tone toneOfSpan(const std::string& kind);  ///< "phase", "good", "guide", "bad"
 Tone toneOfMoment(
     const std::string& kind);  ///< "vein", "lung", "bone", ...; unknown ones are neutral
 

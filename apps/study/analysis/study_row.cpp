@@ -8,6 +8,7 @@
 #include <tuple>
 
 #include "anatomy/base/error.h"
+#include "apps/training/trial_words.h"
 
 namespace palpa::study_analysis {
 namespace {
@@ -251,7 +252,9 @@ std::vector<StudyRow> rowsOfCsv(const std::string& text, const std::string& wher
   std::vector<StudyRow> rows;
   while (reader.next(line)) {
     const Cells cells(header.fields, line, where);
-    if (cells.text("ROLE") == "familiarisation" || cells.text("OUTCOME") == "void") continue;
+    const training::Role role = training::roleNamed(cells.text("ROLE"));
+    if (role == training::Role::familiarisation || training::isVoid(cells.text("OUTCOME")))
+      continue;
     rows.push_back(rowOf(cells));
   }
   if (rows.empty())

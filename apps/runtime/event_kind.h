@@ -1,0 +1,37 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace palpa::runtime {
+
+/// What an event of a session tells; the value that goes with it.
+enum class EventKind : std::uint8_t {
+  ready,  ///< device, board and tool: a trial may start
+  start,  ///< of a trial
+  pause,
+  resume,
+  safety,  ///< force was taken away, or is back
+  emergency_stop,
+  rearm,
+  device,      ///< what its driver has to say
+  camera,      ///< lost (1) or back (0)
+  note,        ///< of somebody who looks on; session time that it is about, s, or 0
+  trial_case,  ///< "case": what the trial is about, as its task writes it down
+  phase,       ///< of the procedure
+  puncture,    ///< of the skin
+  withdrawn,   ///< the needle, out of the skin
+  wall,        ///< an organ's was punctured
+  vein,        ///< the tip is in it
+  touched,     ///< an organ, by the needle
+  mark,        ///< the trainee marks a lump
+  grade,       ///< and grades it; number of the mark
+  let_go,      ///< the handle of a search
+  thing,       ///< that is held now
+  answer       ///< which thing has more, 1 or 2
+};
+
+/// "ready", ..., "case", ...: in records, logs and on the wire.
+const std::string& nameOf(EventKind kind);
+
+}  // namespace palpa::runtime
