@@ -14,6 +14,9 @@
 #include "apps/training/engine.h"
 
 namespace palpa::cli {
+
+using training::Engine;
+
 namespace {
 
 /// Trials without a score are named and left out.
@@ -93,13 +96,13 @@ bool sameSearchScores(const record::SessionReader& reader) {
 
 bool sameScores(const record::SessionReader& reader, const std::string& file) {
   switch (evidence::engineOf(reader)) {
-    case training::Engine::palpation:
+    case Engine::palpation:
       return samePalpationScores(reader);
-    case training::Engine::search:
+    case Engine::search:
       return sameSearchScores(reader);
-    case training::Engine::squeeze:
+    case Engine::squeeze:
       return sameSqueezeScores(reader);
-    case training::Engine::needle:
+    case Engine::needle:
       break;
   }
   return sameNeedleScores(file);

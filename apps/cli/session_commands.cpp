@@ -10,6 +10,9 @@
 #include "apps/training/engine.h"
 
 namespace palpa::cli {
+
+using training::Engine;
+
 namespace {
 
 constexpr const char* kSessionExamples = R"(Examples:
@@ -156,11 +159,11 @@ void addSearch(CLI::App& program) {
 namespace {
 
 /// An option that means nothing here is a misunderstanding, not a wish.
-void refuseNeedleOptions(const CLI::App& given, training::Engine engine) {
+void refuseNeedleOptions(const CLI::App& given, Engine engine) {
   CLI::App known;
   session::SessionOptions unused;
   addRunArguments(known, unused);
-  if (engine == training::Engine::palpation) addAugmentArgument(known, unused);
+  if (engine == Engine::palpation) addAugmentArgument(known, unused);
   for (const CLI::Option* option : given.get_options()) {
     const std::string name = option->get_name();
     if (option->count() > 0 && name != "--task" && !known.get_option_no_throw(name))
@@ -183,8 +186,8 @@ void addTrain(CLI::App& program) {
   addSessionArguments(*command, *options);
   command->callback([options, command] {
     options->command = "train";
-    const training::Engine engine = training::engineIn(JsonFile(options->task));
-    if (engine != training::Engine::needle) refuseNeedleOptions(*command, engine);
+    const Engine engine = training::engineIn(JsonFile(options->task));
+    if (engine != Engine::needle) refuseNeedleOptions(*command, engine);
     session::holdSession(engine, *options);
   });
 }

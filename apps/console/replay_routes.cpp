@@ -11,6 +11,9 @@
 #include "apps/record/session_file.h"
 
 namespace palpa::console {
+
+using runtime::EventKind;
+
 namespace {
 
 namespace fs = std::filesystem;
@@ -43,7 +46,7 @@ json phasesIn(const std::vector<runtime::Event>& events, const record::RecordedT
               double length_s) {
   json all = json::array();
   for (const runtime::Event& event : events) {
-    if (event.trial != trial.header.trial || !event.is(runtime::EventKind::phase)) continue;
+    if (event.trial != trial.header.trial || !event.is(EventKind::phase)) continue;
     const double t_s = rounded(static_cast<double>(event.t_ns - trial.header.t_ns) * 1e-9);
     if (!all.empty()) all.back()["to_s"] = t_s;
     all.push_back({{"from_s", t_s}, {"to_s", rounded(length_s)}, {"name", event.text}});
@@ -55,16 +58,16 @@ json eventsIn(const std::vector<runtime::Event>& events, const record::RecordedT
               const live::ToneOf& tone) {
   json all = json::array();
   for (const runtime::Event& event : events)
-    if (event.trial == trial.header.trial && !event.is(runtime::EventKind::trial_case))
-      all.push_back({{"t_s", rounded(static_cast<double>(
-                                         (event.is(runtime::EventKind::note) && event.value > 0
-                                              ? static_cast<std::int64_t>(event.value * 1e9)
-                                              : event.t_ns) -
-                                         trial.header.t_ns) *
-                                     1e-9)},
-                     {"event", event.kind},
-                     {"text", event.text},
-                     {"tone", tone(event)}});
+    if (event.trial == trial.header.trial && !event.is(EventKind::trial_case))
+      all.push_back(
+          {{"t_s", rounded(static_cast<double>((event.is(EventKind::note) && event.value > 0
+                                                    ? static_cast<std::int64_t>(event.value * 1e9)
+                                                    : event.t_ns) -
+                                               trial.header.t_ns) *
+                           1e-9)},
+           {"event", event.kind},
+           {"text", event.text},
+           {"tone", tone(event)}});
   return all;
 }
 

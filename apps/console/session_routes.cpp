@@ -10,6 +10,9 @@
 #include "apps/training/engine.h"
 
 namespace palpa::console {
+
+using training::Engine;
+
 namespace {
 
 std::string textIn(const nlohmann::json& asked, const char* field, const std::string& otherwise) {
@@ -77,27 +80,26 @@ using nlohmann::json;
 
 struct Task {
   std::string id, title;
-  training::Engine engine;
+  Engine engine;
   fs::path file;
 };
 
 /// What of a task's kind an educator may choose, and what it asks of the trainee.
 struct Kind {
-  training::Engine engine;
+  Engine engine;
   const char* about;
   bool side, person_by_mouse;
 };
 constexpr Kind kKinds[] = {
-    {training::Engine::needle,
-     "Lead a needle to a target that is felt, and seen over the camera's picture.", true, true},
-    {training::Engine::palpation,
+    {Engine::needle, "Lead a needle to a target that is felt, and seen over the camera's picture.",
+     true, true},
+    {Engine::palpation,
      "Search a soft phantom for lumps: they are felt, though the silicone has none.", false, true},
-    {training::Engine::squeeze, "Between two fingers: which is harder, which is heavier?", false,
-     false},
-    {training::Engine::search, "Find the rough one of three hidden things by touch.", false, false},
+    {Engine::squeeze, "Between two fingers: which is harder, which is heavier?", false, false},
+    {Engine::search, "Find the rough one of three hidden things by touch.", false, false},
 };
 
-const Kind& kindOf(training::Engine engine) {
+const Kind& kindOf(Engine engine) {
   return *std::find_if(std::begin(kKinds), std::end(kKinds),
                        [&](const Kind& kind) { return engine == kind.engine; });
 }
@@ -108,7 +110,7 @@ std::vector<Task> tasks() {
     if (entry.path().extension() != ".json") continue;
     const JsonFile file(entry.path());
     if (!file.has("engine") || !file.has("id") || !file.has("title")) continue;
-    const std::optional<training::Engine> engine = training::engineNamed(file.text("engine"));
+    const std::optional<Engine> engine = training::engineNamed(file.text("engine"));
     if (!engine) continue;
     all.push_back({file.text("id"), file.text("title"), *engine, entry.path()});
   }

@@ -18,6 +18,9 @@
 #include "apps/training/trial_words.h"
 
 namespace palpa::evidence {
+
+using training::Engine;
+
 namespace {
 
 using Figures = std::map<int, std::vector<metrics::MetricValue>>;  ///< by trial
@@ -45,17 +48,17 @@ Figures figuresOf(const Trials& trials, Judge judge) {
 
 Figures figuresIn(const record::SessionReader& reader, const std::filesystem::path& evidence) {
   switch (engineOf(reader)) {
-    case training::Engine::palpation:
+    case Engine::palpation:
       return figuresOf(recordedPalpations(reader), [](const RecordedPalpation& t) {
         return assess::palpationMetrics(t.assessment);
       });
-    case training::Engine::search:
+    case Engine::search:
       return figuresOf(recordedSearches(reader),
                        [](const RecordedSearch& t) { return assess::searchMetrics(t.again); });
-    case training::Engine::squeeze:
+    case Engine::squeeze:
       return figuresOf(recordedSqueezes(reader),
                        [](const RecordedSqueeze& t) { return assess::squeezeMetrics(t.again); });
-    case training::Engine::needle:
+    case Engine::needle:
       break;
   }
   return needleFigures(evidence);
@@ -73,8 +76,8 @@ std::vector<record::StoredCalibration> calibrationsIn(const nlohmann::json& stat
 /// What was trained, whichever command led to it: a needle's task by its id, other tasks by the
 /// command of their kind.
 std::string taskOf(const record::SessionReader& reader) {
-  const training::Engine engine = engineOf(reader);
-  if (engine != training::Engine::needle) return training::nameOf(engine);
+  const Engine engine = engineOf(reader);
+  if (engine != Engine::needle) return training::nameOf(engine);
   const nlohmann::json task = parsedOrDiscarded(reader.info().task_json);
   return task.is_object() && task.contains("id") && task["id"].is_string()
              ? task["id"].get<std::string>()

@@ -11,6 +11,10 @@
 #include "apps/training/trial_words.h"
 
 namespace palpa::evidence {
+
+using runtime::EventKind;
+using training::Engine;
+
 namespace {
 
 /// One field of what a record describes; `otherwise` where it has none.
@@ -34,18 +38,18 @@ Said saidIn(const std::vector<runtime::Event>& events, int trial) {
   Said said;
   for (const runtime::Event& event : events) {
     if (event.trial != trial) continue;
-    if (event.is(runtime::EventKind::trial_case)) said.lumps = task_palpation::caseOf(event.text);
-    if (event.is(runtime::EventKind::grade)) said.grades.push_back(event);
+    if (event.is(EventKind::trial_case)) said.lumps = task_palpation::caseOf(event.text);
+    if (event.is(EventKind::grade)) said.grades.push_back(event);
   }
   return said;
 }
 
 }  // namespace
 
-training::Engine engineOf(const record::SessionReader& reader) {
+Engine engineOf(const record::SessionReader& reader) {
   const std::string name =
       fieldOf(reader.info().task_json, "engine", std::string("needle"), "its task");
-  return training::engineNamed(name).value_or(training::Engine::needle);
+  return training::engineNamed(name).value_or(Engine::needle);
 }
 
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
@@ -104,8 +108,7 @@ task_search::SearchSettings recordedTask(const record::SessionReader& reader) {
 std::map<int, task_search::Episode> recordedEpisodes(const record::SessionReader& reader) {
   std::map<int, task_search::Episode> episodes;
   for (const runtime::Event& event : reader.events())
-    if (event.is(runtime::EventKind::trial_case))
-      episodes[event.trial] = task_search::episodeIn(event.text);
+    if (event.is(EventKind::trial_case)) episodes[event.trial] = task_search::episodeIn(event.text);
   return episodes;
 }
 
@@ -174,7 +177,7 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
 
 std::function<const haptics::Floor*(std::uint32_t number)> recordedFloors(
     const record::SessionReader& reader) {
-  if (engineOf(reader) != training::Engine::search) return {};
+  if (engineOf(reader) != Engine::search) return {};
   const auto last = std::make_shared<LastFloor>();
   last->task = recordedTask(reader);
   last->episodes = recordedEpisodes(reader);
@@ -193,10 +196,8 @@ SaidOfSqueeze saidOf(const std::vector<runtime::Event>& events, int trial) {
   SaidOfSqueeze said;
   for (const runtime::Event& event : events) {
     if (event.trial != trial) continue;
-    if (event.is(runtime::EventKind::trial_case))
-      said.comparison = task_squeeze::comparisonIn(event.text);
-    if (event.is(runtime::EventKind::answer))
-      said.answer = event.value == 1 ? 1 : event.value == 2 ? 2 : 0;
+    if (event.is(EventKind::trial_case)) said.comparison = task_squeeze::comparisonIn(event.text);
+    if (event.is(EventKind::answer)) said.answer = event.value == 1 ? 1 : event.value == 2 ? 2 : 0;
   }
   return said;
 }

@@ -10,6 +10,10 @@
 #include "apps/replay/touch_replay.h"
 
 namespace palpa::evidence {
+
+using runtime::EventKind;
+using training::Engine;
+
 namespace {
 
 constexpr double kPlateThick = 0.02;  // m, of the floor as shown
@@ -31,13 +35,12 @@ class Marks {
 
  private:
   static std::optional<scene::TickTone> toneOf(const runtime::Event& event) {
-    if (event.is(runtime::EventKind::safety) || event.is(runtime::EventKind::emergency_stop))
+    if (event.is(EventKind::safety) || event.is(EventKind::emergency_stop))
       return scene::TickTone::bad;
-    if (event.is(runtime::EventKind::mark) || event.is(runtime::EventKind::let_go) ||
-        event.is(runtime::EventKind::thing) || event.is(runtime::EventKind::answer))
+    if (event.is(EventKind::mark) || event.is(EventKind::let_go) || event.is(EventKind::thing) ||
+        event.is(EventKind::answer))
       return scene::TickTone::guide;
-    if (event.is(runtime::EventKind::pause) || event.is(runtime::EventKind::resume))
-      return scene::TickTone::neutral;
+    if (event.is(EventKind::pause) || event.is(EventKind::resume)) return scene::TickTone::neutral;
     return std::nullopt;
   }
 
@@ -69,7 +72,7 @@ class TouchShow : public RecordedShow {
 
   const haptics::TickConfig& config() const { return reader_.info().tick_config; }
   JsonFile task() const { return {parseJson(reader_.info().task_json), "the recorded task"}; }
-  std::string eventText(runtime::EventKind kind) const {
+  std::string eventText(EventKind kind) const {
     for (const runtime::Event& event : reader_.events())
       if (event.trial == trial_.number && event.is(kind)) return event.text;
     throw Error("says nothing of its \"" + nameOf(kind) + '"',
@@ -134,7 +137,7 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
     for (const RecordedPalpation& one : recordedPalpations(reader_)) {
       if (one.recorded.header.trial != trial_.number) continue;
       const std::vector<assess::CaseLump> lumps =
-          task_palpation::caseOf(eventText(runtime::EventKind::trial_case));
+          task_palpation::caseOf(eventText(EventKind::trial_case));
       for (std::size_t i = 0; i < lumps.size(); ++i)
         trial_.lumps.push_back(
             {lumps[i].p_P, lumps[i].diameter / 2,
@@ -176,7 +179,7 @@ class SqueezeShow final : public TouchShow<replay::SqueezeTrial> {
     trial_.X_AD = anatomy::X_AP() * unpack(tools[0].X_DP).inverse();
     trial_.X_AD2 = anatomy::X_AP() * unpack(tools[1].X_DP).inverse();
     trial_.middle_A = anatomy::X_AP() * Vec3(0, 0, -half);
-    trial_.comparison = task_squeeze::comparisonIn(eventText(runtime::EventKind::trial_case));
+    trial_.comparison = task_squeeze::comparisonIn(eventText(EventKind::trial_case));
     shown_ = anatomy::phantomBlock(Vec3::Constant(2 * half), "object");
     replay::SqueezeReader reader(json.number("force/touch_N", 0.02, 5),
                                  {unpack(tools[0].X_ET), unpack(tools[1].X_ET)}, trial_.comparison,
@@ -192,10 +195,10 @@ class SqueezeShow final : public TouchShow<replay::SqueezeTrial> {
 
 }  // namespace
 
-std::unique_ptr<RecordedShow> recordedTouch(const std::filesystem::path& file,
-                                            training::Engine engine, int number) {
-  if (engine == training::Engine::palpation) return std::make_unique<PalpationShow>(file, number);
-  if (engine == training::Engine::search) return std::make_unique<SearchShow>(file, number);
+std::unique_ptr<RecordedShow> recordedTouch(const std::filesystem::path& file, Engine engine,
+                                            int number) {
+  if (engine == Engine::palpation) return std::make_unique<PalpationShow>(file, number);
+  if (engine == Engine::search) return std::make_unique<SearchShow>(file, number);
   return std::make_unique<SqueezeShow>(file, number);
 }
 

@@ -7,6 +7,9 @@
 #include "apps/training/trial_words.h"
 
 namespace palpa::link {
+
+using training::Outcome;
+
 namespace {
 
 using nlohmann::json;
@@ -31,10 +34,9 @@ bool harmed(const record::StoredTrial& t) {
 }
 
 std::string verbOf(const record::StoredTrial& t) {
-  const training::Outcome outcome = training::outcomeNamed(t.outcome);
-  if (outcome == training::Outcome::aborted) return "terminated";
-  if (!training::countsAsScored(training::roleNamed(t.role)) ||
-      outcome == training::Outcome::not_scored)
+  const Outcome outcome = training::outcomeNamed(t.outcome);
+  if (outcome == Outcome::aborted) return "terminated";
+  if (!training::countsAsScored(training::roleNamed(t.role)) || outcome == Outcome::not_scored)
     return "completed";
   return t.success && !harmed(t) ? "passed" : "failed";
 }
@@ -60,7 +62,7 @@ json scoreOf(const record::StoredTrial& t) {
 json resultOf(const record::StoredTrial& t) {
   const double seconds = t.metric("time_s");
   json result{{"success", t.success},
-              {"completion", training::outcomeNamed(t.outcome) != training::Outcome::aborted},
+              {"completion", training::outcomeNamed(t.outcome) != Outcome::aborted},
               {"duration", isoDuration(std::isfinite(seconds)
                                            ? seconds
                                            : 1e-9 * static_cast<double>(t.end_ns - t.start_ns))}};

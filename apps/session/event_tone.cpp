@@ -3,12 +3,14 @@
 #include "apps/report/page/style.h"
 
 namespace palpa::session {
+
+using runtime::EventKind;
+
 namespace {
 
 /// "Touched: lung": lung.
 std::string meaning(const runtime::Event& event) {
-  if (!event.is(runtime::EventKind::touched) && !event.is(runtime::EventKind::wall))
-    return event.kind;
+  if (!event.is(EventKind::touched) && !event.is(EventKind::wall)) return event.kind;
   const std::size_t at = event.text.rfind(": ");
   return at == std::string::npos ? event.kind : event.text.substr(at + 2);
 }
@@ -16,8 +18,8 @@ std::string meaning(const runtime::Event& event) {
 }  // namespace
 
 std::string toneOfEvent(const runtime::Event& event) {
-  if (event.is(runtime::EventKind::note)) return "note";
-  if (event.is(runtime::EventKind::safety) && event.text == runtime::kForceIsBack) return "neutral";
+  if (event.is(EventKind::note)) return "note";
+  if (event.is(EventKind::safety) && event.text == runtime::kForceIsBack) return "neutral";
   switch (report::toneOfMoment(meaning(event))) {
     case report::Tone::good:
       return "good";

@@ -10,6 +10,8 @@
 
 namespace palpa::session {
 
+using training::Engine;
+
 SessionLeft holdNeedleSession(SessionOptions options) {
   settle(options);
   NeedleWorld world(options);
@@ -75,15 +77,15 @@ SessionLeft holdSearch(SessionOptions options) {
   return {folder, run.quit};
 }
 
-SessionLeft holdSession(training::Engine engine, SessionOptions options) {
+SessionLeft holdSession(Engine engine, SessionOptions options) {
   switch (engine) {
-    case training::Engine::palpation:
+    case Engine::palpation:
       return holdPalpation(std::move(options));
-    case training::Engine::search:
+    case Engine::search:
       return holdSearch(std::move(options));
-    case training::Engine::squeeze:
+    case Engine::squeeze:
       return holdSqueeze(std::move(options));
-    case training::Engine::needle:
+    case Engine::needle:
       break;
   }
   return holdNeedleSession(std::move(options));

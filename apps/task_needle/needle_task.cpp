@@ -6,6 +6,10 @@
 #include "apps/assess/needle/needle_metrics.h"
 
 namespace palpa::task_needle {
+
+using runtime::EventKind;
+using training::Outcome;
+
 namespace {
 
 constexpr double kContactPause = 0.5;  // s without contact before the next one is news
@@ -65,8 +69,7 @@ runtime::TrialHeader NeedleTask::begin(std::int64_t now_ns) {
           plan().force_feedback, plan().puncture_force_N};
 }
 
-trial::TrialTask::Conclusion NeedleTask::conclude(training::Outcome outcome,
-                                                  const std::string& reason) {
+trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::string& reason) {
   CompletedTrial trial;
   trial.reason = reason;
   assess::TrialFacts facts{status().trial,        plan().role, setup_.simulated,
@@ -81,7 +84,7 @@ trial::TrialTask::Conclusion NeedleTask::conclude(training::Outcome outcome,
     trial.assessment.seed = plan().seed;
     trial.assessment.simulated = setup_.simulated;
     trial.assessment.force_feedback = plan().force_feedback;
-    trial.assessment.values.success = outcome == training::Outcome::success;
+    trial.assessment.values.success = outcome == Outcome::success;
     if (setup_.settings.goal) goal_.tell(&trial.assessment);
     trial.assessment.metrics =
         assess::goalMetrics(trial.assessment, samples_, setup_.settings.rules);
@@ -91,7 +94,7 @@ trial::TrialTask::Conclusion NeedleTask::conclude(training::Outcome outcome,
   trial.samples = std::move(samples_);
   samples_.clear();
   shown_.blood_flows = false;
-  const bool success = outcome == training::Outcome::success;
+  const bool success = outcome == Outcome::success;
   completed_.push_back(std::move(trial));
   const std::string reached = setup_.settings.goal ? "Done: " + setup_.settings.goal->means
                                                    : "Blood flows freely: the vein is reached";
@@ -119,14 +122,14 @@ void NeedleTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   in_lumen_s_ = shown_.blood_flows ? in_lumen_s_ + dt : 0;
   if (shown_.blood_flows) shown_.blood = std::min(sample.plunger, shown_.blood + kFillRate * dt);
   if (setup_.settings.goal ? goal_.reached() : in_lumen_s_ >= setup_.settings.rules.dwell_s)
-    return endTrial(training::Outcome::success, "", now_ns);
+    return endTrial(Outcome::success, "", now_ns);
   if (const int most = plan().most_passes; most > 0 && passes_.passes() > most)
-    return endTrial(training::Outcome::passes,
+    return endTrial(Outcome::passes,
                     "Ended at needle pass " + std::to_string(most + 1) + ": no more than " +
                         std::to_string(most) + " are allowed",
                     now_ns);
   if (sample.t_s >= setup_.settings.time_limit_s)
-    return endTrial(training::Outcome::time, "The time limit was reached", now_ns);
+    return endTrial(Outcome::time, "The time limit was reached", now_ns);
 }
 
 /// Events in clinical words, and pictures of the moments that the report shows.
@@ -134,28 +137,26 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
   const TaskWords& words = setup_.settings.words;
   if (phases_.phase() != shown_.phase) {
     shown_.phase = phases_.phase();
-    if (!setup_.settings.goal)
-      tell(now_ns, runtime::EventKind::phase, assess::clinicalName(shown_.phase));
+    if (!setup_.settings.goal) tell(now_ns, EventKind::phase, assess::clinicalName(shown_.phase));
     if (!setup_.settings.goal && shown_.phase == assess::ProcedurePhase::advance)
       picture("phase-2", "Phase 2 begins: the needle is directed behind the clavicle");
   }
   if (sample.events & haptics::kSkinPunctured) {
     const std::string punctured = "The " + words.of(Organ::skin) + " is punctured";
-    tell(now_ns, runtime::EventKind::puncture, punctured);
+    tell(now_ns, EventKind::puncture, punctured);
     picture("puncture", punctured);
   }
   if (sample.events & haptics::kWithdrawn)
-    tell(now_ns, runtime::EventKind::withdrawn,
-         "The needle is out of the " + words.of(Organ::skin));
+    tell(now_ns, EventKind::withdrawn, "The needle is out of the " + words.of(Organ::skin));
   if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none)
-    tell(now_ns, runtime::EventKind::wall, "Wall punctured: " + words.of(sample.wall));
+    tell(now_ns, EventKind::wall, "Wall punctured: " + words.of(sample.wall));
   Organ touching = sample.bone;
   if (sample.tissue == Tissue::lung || sample.wall == Organ::lung) touching = Organ::lung;
   if (sample.tissue == Tissue::artery_lumen || sample.wall == Organ::artery)
     touching = Organ::artery;
   if (sample.tissue == Tissue::vein_lumen && !entered_vein_) {
     entered_vein_ = true;
-    tell(now_ns, runtime::EventKind::vein, "The tip is in the vein");
+    tell(now_ns, EventKind::vein, "The tip is in the vein");
     picture("vein", "The tip enters the vein");
   }
   if (touching == Organ::none) return;
@@ -163,7 +164,7 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
   const bool again = sample.t_s - last_s < kContactPause;  // the same contact, trembling
   last_s = sample.t_s;
   if (again) return;
-  tell(now_ns, runtime::EventKind::touched, std::string("Touched: ") + palpa::name(touching));
+  tell(now_ns, EventKind::touched, std::string("Touched: ") + palpa::name(touching));
   if (touching == Organ::lung || touching == Organ::artery ||
       (isBone(touching) && touching != Organ::clavicle))
     picture(palpa::name(touching),

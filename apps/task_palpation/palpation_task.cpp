@@ -8,6 +8,11 @@
 #include "anatomy/base/json_text.h"
 
 namespace palpa::task_palpation {
+
+using runtime::EventKind;
+using training::Outcome;
+using training::Role;
+
 namespace {
 
 constexpr std::int64_t kEvery_ns = 10'000'000;
@@ -148,11 +153,11 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   shown_.levels.clear();
   shown_.marks_P.clear();
   showLumps(nullptr);
-  tell(now_ns, runtime::EventKind::trial_case, caseText(lumpsOf(case_, setup_.settings.library)));
+  tell(now_ns, EventKind::trial_case, caseText(lumpsOf(case_, setup_.settings.library)));
   picture("start", "Before anything was felt");
-  const bool guided = plan().role == training::Role::scored && guidance_.helps(status().trial);
-  const training::Role role = guided ? training::Role::guided
-                                     : plan().role;  // trials without any help are those that count
+  const bool guided = plan().role == Role::scored && guidance_.helps(status().trial);
+  const Role role =
+      guided ? Role::guided : plan().role;  // trials without any help are those that count
   return {status().trial, now_ns, plan().seed, training::nameOf(role), plan().force_feedback, 0};
 }
 
@@ -168,8 +173,7 @@ void PalpationTask::showLumps(const assess::PalpationAssessment* judged) {
     shown_.lumps.push_back({piece.p_P, piece.diameter / 2, false, true});
 }
 
-trial::TrialTask::Conclusion PalpationTask::conclude(training::Outcome outcome,
-                                                     const std::string& reason) {
+trial::TrialTask::Conclusion PalpationTask::conclude(Outcome outcome, const std::string& reason) {
   CompletedPalpation trial;
   trial.reason = reason;
   const double seconds = listener_.seconds();
@@ -186,7 +190,7 @@ trial::TrialTask::Conclusion PalpationTask::conclude(training::Outcome outcome,
       lumpsOf(case_, setup_.settings.library), listener_.samples(), listener_.marks());
   trial.assessment.doses = doses_.doses();
   trial.samples = listener_.samples();
-  if (outcome == training::Outcome::done || outcome == training::Outcome::time)
+  if (outcome == Outcome::done || outcome == Outcome::time)
     guidance_.end(trial.assessment.score.coverage[0] >= setup_.settings.scoring.standard.coverage);
   showLumps(&trial.assessment);
   shown_.levels = levelsOf(map_);
@@ -194,8 +198,7 @@ trial::TrialTask::Conclusion PalpationTask::conclude(training::Outcome outcome,
   completed_.push_back(std::move(trial));
   const assess::PalpationAssessment& judged = completed_.back().assessment;
   return {scoreJson(judged), judged.summary,
-          outcome == training::Outcome::done ? judged.summary
-                                             : "Trial ended: " + training::nameOf(outcome),
+          outcome == Outcome::done ? judged.summary : "Trial ended: " + training::nameOf(outcome),
           "What was felt and marked, and what lies inside"};
 }
 
@@ -211,7 +214,7 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
   const bool kept = listener_.add(record);
   if (listener_.marks().size() > marks) {
     shown_.marks_P.push_back(listener_.marks().back().p_P);
-    tell(record.t_ns, runtime::EventKind::mark, "The trainee marks a lump");
+    tell(record.t_ns, EventKind::mark, "The trainee marks a lump");
     picture("mark", "Marked: here is one");
   }
   if (!kept) return;
@@ -220,17 +223,15 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
   shown_.level = levelOf(setup_.settings.scoring.rules.levels, shown_.pressed_N);
   status().elapsed_s = listener_.seconds();
   if (status().elapsed_s >= setup_.settings.time_limit_s)
-    endTrial(training::Outcome::time, "The time limit was reached", now_ns);
+    endTrial(Outcome::time, "The time limit was reached", now_ns);
 }
 
 void PalpationTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
-  if (request.command == trial::UserCommand::done)
-    return endTrial(training::Outcome::done, "", now_ns);
+  if (request.command == trial::UserCommand::done) return endTrial(Outcome::done, "", now_ns);
   if (request.command != trial::UserCommand::grade || listener_.marks().empty()) return;
   const trial::Grade grade = trial::gradeOf(request.reason);
   listener_.grade(grade.diameter, grade.hardness, grade.mobility);
-  tell(now_ns, runtime::EventKind::grade,
-       trial::gradeText(grade.diameter, grade.hardness, grade.mobility),
+  tell(now_ns, EventKind::grade, trial::gradeText(grade.diameter, grade.hardness, grade.mobility),
        static_cast<double>(listener_.marks().size()));
 }
 

@@ -6,6 +6,9 @@
 #include <nlohmann/json.hpp>
 
 namespace palpa::task_search {
+
+using training::Outcome;
+
 namespace {
 
 constexpr double kLongestGap_s = 0.1;  // longer: it was paused
@@ -134,8 +137,7 @@ runtime::TrialHeader SearchTask::begin(std::int64_t now_ns) {
   return {status().trial, now_ns, episode().seed, training::nameOf(role), setup_.force_feedback, 0};
 }
 
-trial::TrialTask::Conclusion SearchTask::conclude(training::Outcome outcome,
-                                                  const std::string& reason) {
+trial::TrialTask::Conclusion SearchTask::conclude(Outcome outcome, const std::string& reason) {
   assess::SearchTrial facts;
   facts.trial = status().trial;
   facts.role = status().role;
@@ -146,10 +148,9 @@ trial::TrialTask::Conclusion SearchTask::conclude(training::Outcome outcome,
   completed_.push_back({judged(facts, episode(), listener_), reason});
   const assess::SearchTrial& trial = completed_.back().trial;
   const std::string summary = summaryOf(trial);
-  return {
-      scoreJson(trial), summary,
-      outcome == training::Outcome::done ? summary : "Episode ended: " + training::nameOf(outcome),
-      "Where the probe stayed"};
+  return {scoreJson(trial), summary,
+          outcome == Outcome::done ? summary : "Episode ended: " + training::nameOf(outcome),
+          "Where the probe stayed"};
 }
 
 /// Once it has been held for a while and is where an episode starts.
@@ -169,9 +170,9 @@ void SearchTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
   listener_.add(record, tipOf(setup_.tick, record.reading));
   status().elapsed_s = listener_.seconds();
   if (listener_.chosen() >= 0)
-    endTrial(training::Outcome::done, "", now_ns);
+    endTrial(Outcome::done, "", now_ns);
   else if (status().elapsed_s >= setup_.settings.time_limit_s)
-    endTrial(training::Outcome::time, "The time limit was reached", now_ns);
+    endTrial(Outcome::time, "The time limit was reached", now_ns);
 }
 
 void SearchTask::command(haptics::TickCommands& commands) const {

@@ -6,6 +6,10 @@
 #include <nlohmann/json.hpp>
 
 namespace palpa::task_squeeze {
+
+using runtime::EventKind;
+using training::Outcome;
+
 namespace {
 
 constexpr double kLongestGap_s = 0.1,
@@ -108,13 +112,12 @@ runtime::TrialHeader SqueezeTask::begin(std::int64_t now_ns) {
   thing_ = said_ = 0;
   listener_.begin(static_cast<std::uint32_t>(status().trial), comparison());
   const training::Role role = setup_.not_scored.empty() ? setup_.role : training::Role::not_scored;
-  tell(now_ns, runtime::EventKind::trial_case, comparisonText(comparison()));
+  tell(now_ns, EventKind::trial_case, comparisonText(comparison()));
   picture("start", "Before anything was held");
   return {status().trial, now_ns, setup_.seed, training::nameOf(role), setup_.force_feedback, 0};
 }
 
-trial::TrialTask::Conclusion SqueezeTask::conclude(training::Outcome outcome,
-                                                   const std::string& reason) {
+trial::TrialTask::Conclusion SqueezeTask::conclude(Outcome outcome, const std::string& reason) {
   assess::SqueezeTrial facts;
   facts.trial = status().trial;
   facts.role = status().role;
@@ -125,10 +128,9 @@ trial::TrialTask::Conclusion SqueezeTask::conclude(training::Outcome outcome,
   completed_.push_back({judged(facts, comparison(), listener_, said_), reason});
   const assess::SqueezeTrial& trial = completed_.back().trial;
   const std::string summary = summaryOf(trial);
-  return {
-      scoreJson(trial), summary,
-      outcome == training::Outcome::done ? summary : "Trial ended: " + training::nameOf(outcome),
-      "After the answer"};
+  return {scoreJson(trial), summary,
+          outcome == Outcome::done ? summary : "Trial ended: " + training::nameOf(outcome),
+          "After the answer"};
 }
 
 void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
@@ -138,7 +140,7 @@ void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns
     picture("held", thing_ == 0 ? "The first thing is held" : "The second thing is held");
   status().elapsed_s = listener_.seconds();
   if (status().elapsed_s >= setup_.settings.time_limit_s)
-    endTrial(training::Outcome::time, "The time limit was reached", now_ns);
+    endTrial(Outcome::time, "The time limit was reached", now_ns);
 }
 
 void SqueezeTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
@@ -155,7 +157,7 @@ void SqueezeTask::otherThing(std::int64_t now_ns) {
   }
   thing_ = 1 - thing_;
   status().notice.clear();
-  tell(now_ns, runtime::EventKind::thing,
+  tell(now_ns, EventKind::thing,
        thing_ == 0 ? "The first thing lies there" : "The second thing lies there", thing_ + 1);
 }
 
@@ -166,9 +168,9 @@ void SqueezeTask::answer(int said, std::int64_t now_ns) {
     return;
   }
   said_ = said;
-  tell(now_ns, runtime::EventKind::answer,
-       said == 1 ? "The first one has more" : "The second one has more", said);
-  endTrial(training::Outcome::done, "", now_ns);
+  tell(now_ns, EventKind::answer, said == 1 ? "The first one has more" : "The second one has more",
+       said);
+  endTrial(Outcome::done, "", now_ns);
 }
 
 void SqueezeTask::command(haptics::TickCommands& commands) const {

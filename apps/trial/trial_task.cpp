@@ -4,6 +4,10 @@
 #include "apps/trial/trial_scene.h"
 
 namespace palpa::trial {
+
+using runtime::EventKind;
+using training::Outcome;
+
 namespace {
 
 using runtime::kMillisecond;
@@ -72,9 +76,9 @@ void TrialTask::watchCamera(std::int64_t now_ns) {
   const std::string trouble = sightTrouble(view, now_ns);
   if (trouble == camera_) return;
   if (!trouble.empty())
-    tell(now_ns, runtime::EventKind::camera, trouble, 1);
+    tell(now_ns, EventKind::camera, trouble, 1);
   else
-    tell(now_ns, runtime::EventKind::camera,
+    tell(now_ns, EventKind::camera,
          view->by_tracker ? "the tracking system sees the camera" : "the camera sees the board", 0);
   camera_ = trouble;
 }
@@ -91,7 +95,7 @@ void TrialTask::checkReady(std::int64_t now_ns) {
     missing = trouble;
   status_.notice = missing.empty() ? "" : "Not ready: " + missing;
   if (missing.empty()) {
-    tell(now_ns, runtime::EventKind::ready,
+    tell(now_ns, EventKind::ready,
          lead_.calibration_problem.empty() ? "Ready: device homed, board seen, calibration valid"
                                            : "Ready, but not scored: " + lead_.calibration_problem);
     status_.state = TrialState::waiting;
@@ -112,17 +116,15 @@ void TrialTask::startTrial(std::int64_t now_ns) {
   status_.role = training::roleNamed(header.role);
   status_.force_feedback = header.force_feedback;
   bus_.task_to_recorder.push(header);
-  tell(now_ns, runtime::EventKind::start, "Trial " + std::to_string(status_.trial) + " starts");
+  tell(now_ns, EventKind::start, "Trial " + std::to_string(status_.trial) + " starts");
 }
 
-void TrialTask::endTrial(training::Outcome outcome, const std::string& reason,
-                         std::int64_t now_ns) {
+void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_t now_ns) {
   const Conclusion end = conclude(outcome, reason);
   const std::string& name = training::nameOf(outcome);
   note({now_ns, status_.trial, name, reason.empty() ? end.sentence : reason, 0});
-  bus_.task_to_recorder.push(
-      runtime::TrialEnd{status_.trial, last_.t_ns, name, reason,
-                        outcome == training::Outcome::voided ? "" : end.scores_json});
+  bus_.task_to_recorder.push(runtime::TrialEnd{status_.trial, last_.t_ns, name, reason,
+                                               outcome == Outcome::voided ? "" : end.scores_json});
   picture("end", end.caption);
   status_.state = TrialState::ended;
   status_.notice = end.notice;
@@ -130,11 +132,11 @@ void TrialTask::endTrial(training::Outcome outcome, const std::string& reason,
 }
 
 void TrialTask::hold(const std::string& trouble, std::int64_t now_ns) {
-  tell(now_ns, runtime::EventKind::safety, "Force taken away: " + trouble);
-  if (lead_.automatic) return endTrial(training::Outcome::voided, trouble, now_ns);
+  tell(now_ns, EventKind::safety, "Force taken away: " + trouble);
+  if (lead_.automatic) return endTrial(Outcome::voided, trouble, now_ns);
   status_.state = TrialState::paused;
   status_.notice = "Paused: " + trouble + ". Then Enter goes on";
-  tell(now_ns, runtime::EventKind::pause, "The trial is paused: " + trouble);
+  tell(now_ns, EventKind::pause, "The trial is paused: " + trouble);
 }
 
 void TrialTask::listen(std::int64_t now_ns) {
@@ -152,25 +154,24 @@ void TrialTask::listen(std::int64_t now_ns) {
 void TrialTask::watchSafety(const haptics::FlightRecord& record) {
   using haptics::SafetyCause;
   if (record.events & haptics::kSafetyTripped) {
-    tell(record.t_ns, runtime::EventKind::safety, "Force taken away: " + whyText(record.safety));
+    tell(record.t_ns, EventKind::safety, "Force taken away: " + whyText(record.safety));
     status_.trip = record.safety;
     trip_ns_ = record.t_ns;
   }
   if (record.events & haptics::kSafetyCleared)
-    tell(record.t_ns, runtime::EventKind::safety, runtime::kForceIsBack);
+    tell(record.t_ns, EventKind::safety, runtime::kForceIsBack);
   if (record.events & haptics::kSnapshotRefused)
-    tell(record.t_ns, runtime::EventKind::safety, "Damaged geometry was refused");
+    tell(record.t_ns, EventKind::safety, "Damaged geometry was refused");
   if (record.t_ns - trip_ns_ > kTripShown) status_.trip = SafetyCause::none;
   if (record.safety == SafetyCause::duty) {
     if (warm_ns_ < 0 || record.t_ns - warm_ns_ > kTripShown)
-      tell(record.t_ns, runtime::EventKind::safety, "The drives are warm: forces are reduced");
+      tell(record.t_ns, EventKind::safety, "The drives are warm: forces are reduced");
     warm_ns_ = record.t_ns;
   }
   if (status_.state == TrialState::running && last_.reading.homed && !record.reading.homed) {
     status_.state = TrialState::paused;
     status_.notice = "Paused: the device has lost its position. When it is back, Enter goes on";
-    tell(record.t_ns, runtime::EventKind::pause,
-         "The trial is paused: the device has lost its position");
+    tell(record.t_ns, EventKind::pause, "The trial is paused: the device has lost its position");
   }
 }
 
@@ -201,14 +202,14 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       if (status_.state != TrialState::running) return;
       status_.state = TrialState::paused;
       status_.notice = "Paused: Enter goes on";
-      return tell(now_ns, runtime::EventKind::pause, "The trial is paused");
+      return tell(now_ns, EventKind::pause, "The trial is paused");
     case UserCommand::abort:
       if (status_.active())
-        endTrial(training::Outcome::aborted,
-                 reason.empty() ? "Aborted by the person in charge" : reason, now_ns);
+        endTrial(Outcome::aborted, reason.empty() ? "Aborted by the person in charge" : reason,
+                 now_ns);
       return;
     case UserCommand::void_trial:
-      if (status_.active()) endTrial(training::Outcome::voided, reason, now_ns);
+      if (status_.active()) endTrial(Outcome::voided, reason, now_ns);
       return;
     case UserCommand::emergency_stop:
       return stopAll(now_ns);
@@ -220,7 +221,7 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       executive_.stop();
       return;
     case UserCommand::note:
-      return tell(now_ns, runtime::EventKind::note, reason, request.at_s);
+      return tell(now_ns, EventKind::note, reason, request.at_s);
     case UserCommand::done:
     case UserCommand::grade:
       if (status_.active()) hear(request, now_ns);
@@ -231,9 +232,8 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
 /// In practice nobody's failure; from an examination one does not slip away.
 void TrialTask::leave(const std::string& reason, std::int64_t now_ns) {
   if (!status_.active()) return;
-  endTrial(
-      training::inAssessment(status_.role) ? training::Outcome::aborted : training::Outcome::voided,
-      reason.empty() ? "The session was closed" : reason, now_ns);
+  endTrial(training::inAssessment(status_.role) ? Outcome::aborted : Outcome::voided,
+           reason.empty() ? "The session was closed" : reason, now_ns);
 }
 
 void TrialTask::goOn(std::int64_t now_ns) {
@@ -242,7 +242,7 @@ void TrialTask::goOn(std::int64_t now_ns) {
   if (status_.state != TrialState::paused) return;
   status_.state = TrialState::running;
   status_.notice.clear();
-  tell(now_ns, runtime::EventKind::resume, "The trial goes on");
+  tell(now_ns, EventKind::resume, "The trial goes on");
 }
 
 void TrialTask::stopAll(std::int64_t now_ns) {
@@ -250,7 +250,7 @@ void TrialTask::stopAll(std::int64_t now_ns) {
   status_.alarm = true;
   status_.notice = "EMERGENCY STOP: forces are off. R re-arms, then Enter goes on";
   if (status_.state == TrialState::running) status_.state = TrialState::paused;
-  tell(now_ns, runtime::EventKind::emergency_stop, "Emergency stop");
+  tell(now_ns, EventKind::emergency_stop, "Emergency stop");
 }
 
 void TrialTask::rearm(std::int64_t now_ns) {
@@ -260,17 +260,16 @@ void TrialTask::rearm(std::int64_t now_ns) {
   status_.notice = status_.state == TrialState::paused || status_.state == TrialState::waiting
                        ? "Re-armed: Enter goes on"
                        : "";
-  tell(now_ns, runtime::EventKind::rearm, "Re-armed");
+  tell(now_ns, EventKind::rearm, "Re-armed");
 }
 
-void TrialTask::tell(std::int64_t now_ns, runtime::EventKind kind, const std::string& text,
-                     double value) {
+void TrialTask::tell(std::int64_t now_ns, EventKind kind, const std::string& text, double value) {
   note({now_ns, status_.trial, nameOf(kind), text, value});
 }
 
 void TrialTask::note(const runtime::Event& event) {
-  if (event.is(runtime::EventKind::safety) || event.is(runtime::EventKind::device) ||
-      (event.is(runtime::EventKind::camera) && event.value > 0))
+  if (event.is(EventKind::safety) || event.is(EventKind::device) ||
+      (event.is(EventKind::camera) && event.value > 0))
     safety_events_.push_back(event);
   bus_.task_to_recorder.push(event);
 }

@@ -6,6 +6,9 @@
 #include "well_formed.h"
 
 namespace palpa::report {
+
+using training::Outcome;
+
 namespace {
 
 using assess::SearchMode;
@@ -106,7 +109,7 @@ TEST(SearchPage, BlocksAndUnscoredEpisodesAreTold) {
     report.trials[i].block = "training", report.trials[i].role = training::Role::familiarisation;
   for (std::size_t i = 6; i < 18; ++i) report.trials[i].block = "baseline";
   for (std::size_t i = 18; i < 30; ++i) report.trials[i].block = "evaluation";
-  report.trials[6].outcome = training::Outcome::time;
+  report.trials[6].outcome = Outcome::time;
   report.trials[6].chosen = -1;
   report.trials[9].force_feedback = false;
   const std::string page = searchPage(report);
@@ -123,7 +126,7 @@ TEST(SearchPage, BlocksAndUnscoredEpisodesAreTold) {
 
 TEST(SearchPage, SimulatedIsSaidOnTopAndVoidIsNotCounted) {
   SearchReport report = test::searchedSession();
-  for (assess::SearchTrial& trial : report.trials) trial.outcome = training::Outcome::voided;
+  for (assess::SearchTrial& trial : report.trials) trial.outcome = Outcome::voided;
   report.trials[4].simulated = true;
   const std::string page = searchPage(report);
   EXPECT_TRUE(holds(page, "SIMULATED"));
@@ -160,7 +163,7 @@ TEST(SearchCsv, ARowAnEpisode) {
   assess::SearchTrial first = test::searched(4, SearchMode::augmented, true, 20),
                       second = test::searched(5, SearchMode::real, true, 8);
   first.block = "training";
-  second.outcome = training::Outcome::time;
+  second.outcome = Outcome::time;
   second.chosen = -1;
   second.force_feedback = false;
   second.doses.erase(second.doses.begin());

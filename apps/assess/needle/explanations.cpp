@@ -5,6 +5,9 @@
 #include "apps/training/trial_words.h"
 
 namespace palpa::assess {
+
+using training::Outcome;
+
 namespace {
 
 Penalty line(const char* code, const char* title, double value, double weight, std::string sentence,
@@ -128,13 +131,12 @@ std::string injuries(const TrialReview& r) {
 
 std::string outcomeWords(const TrialFacts& facts, const TrialReview& r) {
   if (r.success) return "Vein reached in " + seconds(r.end_s);
-  if (facts.outcome == training::Outcome::time)
-    return "Vein not reached within " + seconds(r.end_s);
-  if (facts.outcome == training::Outcome::passes)
+  if (facts.outcome == Outcome::time) return "Vein not reached within " + seconds(r.end_s);
+  if (facts.outcome == Outcome::passes)
     return "Vein not reached when a pass too many began, after " + seconds(r.end_s);
-  if (facts.outcome == training::Outcome::aborted)
+  if (facts.outcome == Outcome::aborted)
     return "Stopped after " + seconds(r.end_s) + ", vein not reached";
-  if (facts.outcome == training::Outcome::voided) return "Trial void after " + seconds(r.end_s);
+  if (facts.outcome == Outcome::voided) return "Trial void after " + seconds(r.end_s);
   return "Ended after " + seconds(r.end_s) + ", vein not reached";
 }
 

@@ -4,6 +4,9 @@
 #include "apps/training/trial_words.h"
 
 namespace palpa::assess {
+
+using training::Outcome;
+
 namespace {
 
 void addSpans(const std::vector<Interval>& stretches, const std::string& label, SpanKind kind,
@@ -95,11 +98,11 @@ void addFlashes(const TrialReview& r, const ScoringRules& rules, Moments* moment
 
 Moment ending(const TrialFacts& facts, const TrialReview& r) {
   if (r.success) return {r.end_s, "success", "Blood flows freely: vein reached"};
-  if (facts.outcome == training::Outcome::aborted) return {r.end_s, "aborted", "Trial stopped"};
-  if (facts.outcome == training::Outcome::time) return {r.end_s, "time", "Time is over"};
-  if (facts.outcome == training::Outcome::passes)
+  if (facts.outcome == Outcome::aborted) return {r.end_s, "aborted", "Trial stopped"};
+  if (facts.outcome == Outcome::time) return {r.end_s, "time", "Time is over"};
+  if (facts.outcome == Outcome::passes)
     return {r.end_s, "aborted", "A pass too many: the trial ends"};
-  if (facts.outcome == training::Outcome::voided) return {r.end_s, "void", "Trial declared void"};
+  if (facts.outcome == Outcome::voided) return {r.end_s, "void", "Trial declared void"};
   return {r.end_s, "end", "Trial ended"};
 }
 

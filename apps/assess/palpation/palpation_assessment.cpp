@@ -6,6 +6,8 @@
 
 namespace palpa::assess {
 
+using training::Outcome;
+
 PalpationAssessment assessPalpation(const PalpationFacts& facts, const PalpationRules& rules,
                                     const PalpationStandard& standard,
                                     const std::vector<CaseLump>& lumps, PalpationSamples samples,
@@ -15,8 +17,7 @@ PalpationAssessment assessPalpation(const PalpationFacts& facts, const Palpation
   assessment.lumps = lumps;
   assessment.marks = marks;
   assessment.score = scorePalpation(rules, lumps, samples, marks);
-  const bool finished =
-      facts.outcome != training::Outcome::aborted && facts.outcome != training::Outcome::voided;
+  const bool finished = facts.outcome != Outcome::aborted && facts.outcome != Outcome::voided;
   assessment.passed = finished && assessment.score.sensitivity() >= standard.sensitivity &&
                       assessment.score.coverage[0] >= standard.coverage;
   assessment.summary = palpationSummary(facts, assessment.score);
@@ -27,8 +28,7 @@ PalpationAssessment assessPalpation(const PalpationFacts& facts, const Palpation
 bool counts(const PalpationAssessment& trial) {
   const PalpationFacts& facts = trial.facts;
   return (facts.role == training::Role::none || training::countsAsScored(facts.role)) &&
-         !facts.augmented && facts.outcome != training::Outcome::voided &&
-         facts.outcome != training::Outcome::none;
+         !facts.augmented && facts.outcome != Outcome::voided && facts.outcome != Outcome::none;
 }
 
 PalpationJudgement judgementOf(const std::vector<PalpationAssessment>& trials,

@@ -10,6 +10,9 @@
 #include "apps/training/trial_words.h"
 
 namespace palpa::assess {
+
+using training::Outcome;
+
 namespace {
 
 std::string decimalWords(double value, int decimals) {
@@ -40,9 +43,9 @@ std::string withoutLumpsWords(int marked) {
 }
 
 /// How it ended, where that is not by the trainee's own "done".
-std::string endWords(training::Outcome outcome) {
-  if (outcome == training::Outcome::time) return " when time ran out";
-  return outcome == training::Outcome::aborted ? " when the search was stopped early" : "";
+std::string endWords(Outcome outcome) {
+  if (outcome == Outcome::time) return " when time ran out";
+  return outcome == Outcome::aborted ? " when the search was stopped early" : "";
 }
 
 }  // namespace
@@ -60,7 +63,7 @@ std::string joinedWords(const std::vector<std::string>& parts) {
 }
 
 std::string palpationSummary(const PalpationFacts& facts, const PalpationScore& score) {
-  if (facts.outcome == training::Outcome::voided) return "This search is void and does not count.";
+  if (facts.outcome == Outcome::voided) return "This search is void and does not count.";
   const bool none = score.found + score.missed == 0;
   const std::string found =
       none ? withoutLumpsWords(score.false_alarms)
@@ -228,7 +231,7 @@ std::vector<std::string> palpationAdvice(const PalpationAssessment& assessment,
                                          const PalpationRules& rules,
                                          const PalpationStandard& standard,
                                          PalpationSamples samples) {
-  if (assessment.facts.outcome == training::Outcome::voided) return {};
+  if (assessment.facts.outcome == Outcome::voided) return {};
   AdviceSource source{assessment, rules, standard,
                       CoverageMap(rules.area, rules.levels, rules.reach)};
   for (const PalpationSample& sample : samples) source.map.add(sample);

@@ -5,12 +5,15 @@
 #include <map>
 
 namespace palpa::progress {
+
+using training::Engine;
+
 namespace {
 
 constexpr std::size_t kLately = 5;
 
-const std::map<training::Engine, std::vector<ErrorKind>> kKindsOfEngines{
-    {training::Engine::needle,
+const std::map<Engine, std::vector<ErrorKind>> kKindsOfEngines{
+    {Engine::needle,
      {{"col_lung", 0, false, "the pleura was touched",
        "keep the needle flat behind the clavicle and stop at the depth that was taught: the lung "
        "lies behind the vein"},
@@ -34,7 +37,7 @@ const std::map<training::Engine, std::vector<ErrorKind>> kKindsOfEngines{
        "turn the needle fully toward the sternal end before the advance"},
       {"success", 0.5, true, "the vein was not reached",
        "repeat entry point and direction with the three fixed views before the next trial"}}},
-    {training::Engine::palpation,
+    {Engine::palpation,
      {{"sensitivity_pct", 99.9, true, "a lump was missed",
        "feel every place lightly, then firmly, then deep"},
       {"false_alarms", 0, false, "something was marked where nothing is",
@@ -45,12 +48,12 @@ const std::map<training::Engine, std::vector<ErrorKind>> kKindsOfEngines{
        "search in overlapping strips from edge to edge"},
       {"too_hard_pct", 5, false, "pressed too hard for more than 5 % of the time",
        "more force than the largest sensible one finds nothing more and hurts"}}},
-    {training::Engine::search,
+    {Engine::search,
      {{"chosen", 0.5, true, "no element was chosen in time",
        "visit each element once before looking closer"},
       {"success", 0.5, true, "the target was not found",
        "cross each element at the same speed and compare before staying in one"}}},
-    {training::Engine::squeeze,
+    {Engine::squeeze,
      {{"success", 0.5, true, "the answer was wrong or missing",
        "squeeze both equally deep and equally fast before answering"}}}};
 
@@ -70,7 +73,7 @@ bool weighsLikeThat(const PracticeTrial& trial, const assess::ScoreWeights& weig
 
 }  // namespace
 
-const std::vector<ErrorKind>& errorKinds(std::optional<training::Engine> engine) {
+const std::vector<ErrorKind>& errorKinds(std::optional<Engine> engine) {
   static const std::vector<ErrorKind> kNone;
   return engine ? kKindsOfEngines.at(*engine) : kNone;
 }

@@ -6,6 +6,9 @@
 #include <tuple>
 
 namespace palpa::progress {
+
+using training::Engine;
+
 namespace {
 
 constexpr double kMostPasses =
@@ -30,7 +33,7 @@ bool counts(const PracticeTrial& trial) {
 
 bool failed(const PracticeTrial& trial) {
   if (!trial.succeeded()) return true;
-  return trial.engine == training::Engine::needle &&
+  return trial.engine == Engine::needle &&
          (trial.metric("col_lung") > 0 || trial.metric("col_artery") > 0 ||
           trial.metric("needle_passes") > kMostPasses);
 }
@@ -92,27 +95,26 @@ std::string leftOut(const std::vector<PracticeTrial>& trials) {
   return words;
 }
 
-std::optional<training::Engine> engineOfFigures(const std::vector<metrics::MetricValue>& metrics) {
-  for (const auto& [name, engine] : {std::pair{"tissue_time_s", training::Engine::needle},
-                                     std::pair{"presses", training::Engine::palpation},
-                                     std::pair{"chosen", training::Engine::search},
-                                     std::pair{"grips", training::Engine::squeeze}})
+std::optional<Engine> engineOfFigures(const std::vector<metrics::MetricValue>& metrics) {
+  for (const auto& [name, engine] :
+       {std::pair{"tissue_time_s", Engine::needle}, std::pair{"presses", Engine::palpation},
+        std::pair{"chosen", Engine::search}, std::pair{"grips", Engine::squeeze}})
     if (std::any_of(metrics.begin(), metrics.end(),
                     [&](const metrics::MetricValue& m) { return m.name == name; }))
       return engine;
   return std::nullopt;
 }
 
-const std::vector<std::string>& shownFigures(std::optional<training::Engine> engine) {
-  static const std::map<training::Engine, std::vector<std::string>> kShown{
-      {training::Engine::needle,
+const std::vector<std::string>& shownFigures(std::optional<Engine> engine) {
+  static const std::map<Engine, std::vector<std::string>> kShown{
+      {Engine::needle,
        {"total", "time_s", "success", "closest_pleura_mm", "closest_artery_mm", "needle_passes",
         "first_pass_success", "translational_actions", "rotational_actions", "speed_at_vein_mm_s"}},
-      {training::Engine::palpation,
+      {Engine::palpation,
        {"sensitivity_pct", "specificity_pct", "false_alarms", "coverage_medium_pct",
         "coverage_deep_pct", "time_s", "too_light_pct", "too_hard_pct"}},
-      {training::Engine::search, {"success", "time_s", "path_length_mm", "peak_force_N"}},
-      {training::Engine::squeeze, {"success", "time_s", "grips", "peak_force_N"}}};
+      {Engine::search, {"success", "time_s", "path_length_mm", "peak_force_N"}},
+      {Engine::squeeze, {"success", "time_s", "grips", "peak_force_N"}}};
   static const std::vector<std::string> kAnyTask{"success", "time_s"};
   return engine ? kShown.at(*engine) : kAnyTask;
 }

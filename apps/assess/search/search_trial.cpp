@@ -10,6 +10,8 @@
 
 namespace palpa::assess {
 
+using training::Outcome;
+
 const char* name(SearchMode mode) {
   switch (mode) {
     case SearchMode::degraded:
@@ -28,19 +30,15 @@ std::optional<SearchMode> searchModeOf(const std::string& text) {
 }
 
 bool counts(const SearchTrial& trial) {
-  return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided;
+  return training::countsAsScored(trial.role) && trial.outcome != Outcome::voided;
 }
 
-bool chose(const SearchTrial& trial) {
-  return trial.outcome == training::Outcome::done && trial.chosen >= 0;
-}
+bool chose(const SearchTrial& trial) { return trial.outcome == Outcome::done && trial.chosen >= 0; }
 
 std::string summaryOf(const SearchTrial& trial) {
-  if (trial.outcome == training::Outcome::voided) return "Void: it does not count.";
-  if (trial.outcome == training::Outcome::time)
-    return "The time was over before the probe stayed in a pit.";
-  if (trial.outcome == training::Outcome::aborted)
-    return "Aborted before the probe stayed in a pit.";
+  if (trial.outcome == Outcome::voided) return "Void: it does not count.";
+  if (trial.outcome == Outcome::time) return "The time was over before the probe stayed in a pit.";
+  if (trial.outcome == Outcome::aborted) return "Aborted before the probe stayed in a pit.";
   if (!chose(trial)) return "The probe stayed in no pit.";
   const std::string after = " after " + std::to_string(std::lround(trial.seconds)) + " s.";
   return trial.found() ? "Found: the probe stayed in the target's pit" + after

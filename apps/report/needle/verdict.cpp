@@ -7,6 +7,9 @@
 #include "apps/training/trial_words.h"
 
 namespace palpa::report {
+
+using training::Outcome;
+
 namespace {
 
 const char* signPath(Tone tone) {
@@ -48,7 +51,7 @@ void writeTiles(Html& html, const assess::TrialAssessment& trial) {
 
 void writeTotal(Html& html, const assess::TrialAssessment& trial) {
   const auto box = html.in("div", {{"class", "total"}});
-  if (trial.outcome == training::Outcome::voided || trial.penalties.empty()) {
+  if (trial.outcome == Outcome::voided || trial.penalties.empty()) {
     html.element("strong", "–");
     html.element("span", "not scored");
     return;
@@ -65,30 +68,28 @@ bool hasComplication(const assess::TrialAssessment& trial) {
 }
 
 std::string outcomeWords(const assess::TrialAssessment& trial) {
-  const training::Outcome outcome = trial.outcome;
-  if (outcome == training::Outcome::success) {
+  const Outcome outcome = trial.outcome;
+  if (outcome == Outcome::success) {
     return hasComplication(trial) ? "Vein reached, with a complication" : "Successful";
   }
-  if (outcome == training::Outcome::aborted) return "Not successful: aborted";
-  if (outcome == training::Outcome::time) return "Not successful: time limit reached";
-  if (outcome == training::Outcome::passes) return "Not successful: too many passes of the needle";
-  if (outcome == training::Outcome::voided) return "Void: does not count";
-  return outcome == training::Outcome::none ? "Not finished" : training::nameOf(outcome);
+  if (outcome == Outcome::aborted) return "Not successful: aborted";
+  if (outcome == Outcome::time) return "Not successful: time limit reached";
+  if (outcome == Outcome::passes) return "Not successful: too many passes of the needle";
+  if (outcome == Outcome::voided) return "Void: does not count";
+  return outcome == Outcome::none ? "Not finished" : training::nameOf(outcome);
 }
 
 std::string shortOutcome(const assess::TrialAssessment& trial) {
-  if (trial.outcome == training::Outcome::success)
-    return hasComplication(trial) ? "complication" : "success";
-  return trial.outcome == training::Outcome::time     ? "time limit"
-         : trial.outcome == training::Outcome::passes ? "too many passes"
-                                                      : training::nameOf(trial.outcome);
+  if (trial.outcome == Outcome::success) return hasComplication(trial) ? "complication" : "success";
+  return trial.outcome == Outcome::time     ? "time limit"
+         : trial.outcome == Outcome::passes ? "too many passes"
+                                            : training::nameOf(trial.outcome);
 }
 
 Tone toneOfOutcome(const assess::TrialAssessment& trial) {
-  if (trial.outcome == training::Outcome::success)
-    return hasComplication(trial) ? Tone::guide : Tone::good;
-  return trial.outcome == training::Outcome::aborted || trial.outcome == training::Outcome::time ||
-                 trial.outcome == training::Outcome::passes
+  if (trial.outcome == Outcome::success) return hasComplication(trial) ? Tone::guide : Tone::good;
+  return trial.outcome == Outcome::aborted || trial.outcome == Outcome::time ||
+                 trial.outcome == Outcome::passes
              ? Tone::bad
              : Tone::neutral;
 }
@@ -120,7 +121,7 @@ void writeVerdict(Html& html, const assess::TrialAssessment& trial) {
         if (trial.simulated) html.element("span", {{"class", "badge"}}, "simulated");
       }
       html.element("p", trial.summary);
-      if (trial.outcome != training::Outcome::voided) html.element("p", largestReasons(trial));
+      if (trial.outcome != Outcome::voided) html.element("p", largestReasons(trial));
     }
     if (trial.by_path) writeTotal(html, trial);
   }

@@ -11,6 +11,9 @@
 #include "apps/training/trial_words.h"
 
 namespace palpa::report {
+
+using training::Outcome;
+
 namespace {
 
 void drawVerdictSign(Html& html, Tone tone) {
@@ -25,7 +28,7 @@ void drawVerdictSign(Html& html, Tone tone) {
 void writeLumpsFound(Html& html, const assess::PalpationAssessment& trial) {
   const auto box = html.in("div", {{"class", "total"}});
   const int lumps = trial.score.found + trial.score.missed;
-  const bool counts = trial.facts.outcome != training::Outcome::voided && lumps > 0;
+  const bool counts = trial.facts.outcome != Outcome::voided && lumps > 0;
   html.element("strong",
                counts ? std::to_string(trial.score.found) + " of " + std::to_string(lumps) : "–");
   html.element("span", counts       ? (lumps == 1 ? "lump found" : "lumps found")
@@ -64,7 +67,7 @@ void writePalpationVerdict(Html& html, const assess::PalpationAssessment& trial)
 }
 
 void writeAdvice(Html& html, const assess::PalpationAssessment& trial) {
-  if (trial.facts.outcome == training::Outcome::voided) return;
+  if (trial.facts.outcome == Outcome::voided) return;
   html.element("h3", "What to do better");
   if (trial.advice.empty()) {
     html.element("p", "Nothing that these measures show.");
@@ -77,16 +80,15 @@ void writeAdvice(Html& html, const assess::PalpationAssessment& trial) {
 }  // namespace
 
 std::string palpationVerdict(const assess::PalpationAssessment& trial) {
-  const training::Outcome outcome = trial.facts.outcome;
-  if (outcome == training::Outcome::voided) return "Not judged: void";
-  if (outcome == training::Outcome::none) return "Not judged: not finished";
+  const Outcome outcome = trial.facts.outcome;
+  if (outcome == Outcome::voided) return "Not judged: void";
+  if (outcome == Outcome::none) return "Not judged: not finished";
   if (!assess::counts(trial))
     return "Not counted: " + (trial.facts.augmented ? std::string("cues were added to the forces")
                                                     : training::nameOf(trial.facts.role));
   if (trial.passed) return "At the standard";
-  if (outcome == training::Outcome::aborted) return "Below the standard: stopped early";
-  return outcome == training::Outcome::time ? "Below the standard: time limit reached"
-                                            : "Below the standard";
+  if (outcome == Outcome::aborted) return "Below the standard: stopped early";
+  return outcome == Outcome::time ? "Below the standard: time limit reached" : "Below the standard";
 }
 
 Tone toneOfPalpation(const assess::PalpationAssessment& trial) {

@@ -14,6 +14,9 @@
 #include "apps/training/engine.h"
 
 namespace palpa::report {
+
+using training::Engine;
+
 namespace {
 
 struct ShownMetrics {
@@ -21,11 +24,11 @@ struct ShownMetrics {
   std::string reliability;
 };
 
-ShownMetrics metricsOf(std::optional<training::Engine> engine) {
-  if (engine == training::Engine::needle)
+ShownMetrics metricsOf(std::optional<Engine> engine) {
+  if (engine == Engine::needle)
     return {
         {"total", "time_s", "closest_pleura_mm", "needle_passes"}, {"total", "time_s"}, "total"};
-  if (engine == training::Engine::palpation)
+  if (engine == Engine::palpation)
     return {{"sensitivity_pct", "specificity_pct", "coverage_deep_pct", "time_s"},
             {"sensitivity_pct", "time_s"},
             "sensitivity_pct"};
@@ -118,7 +121,7 @@ void writeCompetences(Html& html, const progress::Series& group,
                       const statistics::CusumRates& rates) {
   const int fewest = statistics::cusumLimits(rates).shortest_clean_run;
   html.element("h3", "Competence");
-  if (group.engine == training::Engine::palpation &&
+  if (group.engine == Engine::palpation &&
       std::none_of(trainees.begin(), trainees.end(),
                    [](const auto& own) { return own.trials.size() >= progress::kFewestCases; })) {
     html.element("p", "Nobody passes or fails by fewer than eight cases.");
@@ -134,7 +137,7 @@ void writeCompetences(Html& html, const progress::Series& group,
     for (const progress::PracticeTrial& trial : own.trials)
       failures.push_back(progress::failed(trial));
     const bool locked =
-        own.engine == training::Engine::palpation && own.trials.size() < progress::kFewestCases;
+        own.engine == Engine::palpation && own.trials.size() < progress::kFewestCases;
     table.rows.push_back(
         {own.trials.front().trainee, std::to_string(own.trials.size()),
          std::to_string(std::count(failures.begin(), failures.end(), true)),

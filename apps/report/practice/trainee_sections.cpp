@@ -13,6 +13,9 @@
 #include "apps/training/engine.h"
 
 namespace palpa::report {
+
+using training::Engine;
+
 namespace {
 
 constexpr std::size_t kFewestPalpations =
@@ -29,7 +32,7 @@ progress::Competence competenceIn(const progress::Series& series,
 }
 
 bool locked(const progress::Series& series) {
-  return series.engine == training::Engine::palpation && series.trials.size() < kFewestPalpations;
+  return series.engine == Engine::palpation && series.trials.size() < kFewestPalpations;
 }
 
 std::string ratesWords(const progress::Competence& c) {
@@ -56,9 +59,8 @@ std::string competenceWords(const progress::Series& series, const progress::Comp
 }
 
 std::vector<std::string> curvesOf(const progress::Series& series) {
-  if (series.engine == training::Engine::needle) return {"total", "time_s"};
-  if (series.engine == training::Engine::palpation)
-    return {"sensitivity_pct", "coverage_deep_pct", "time_s"};
+  if (series.engine == Engine::needle) return {"total", "time_s"};
+  if (series.engine == Engine::palpation) return {"sensitivity_pct", "coverage_deep_pct", "time_s"};
   return {"time_s"};
 }
 

@@ -10,6 +10,9 @@
 #include "apps/report/page/style.h"
 
 namespace palpa::report {
+
+using training::Outcome;
+
 namespace {
 
 constexpr double kSignHalf = 24, kSignCircle = 48.0 / 240 * 200 / 3,
@@ -53,11 +56,11 @@ void drawSignElement(Html& html, const assess::SearchTrial& trial, int element) 
 
 /// "found", "another element", "none: time over", "void".
 std::string resultWords(const assess::SearchTrial& trial) {
-  if (trial.outcome == training::Outcome::voided) return "void";
+  if (trial.outcome == Outcome::voided) return "void";
   if (assess::chose(trial)) return trial.found() ? "found" : "another element";
-  return trial.outcome == training::Outcome::time      ? "none: time over"
-         : trial.outcome == training::Outcome::aborted ? "none: aborted"
-                                                       : "none";
+  return trial.outcome == Outcome::time      ? "none: time over"
+         : trial.outcome == Outcome::aborted ? "none: aborted"
+                                             : "none";
 }
 
 std::string onTarget(const assess::SearchTrial& trial) {
@@ -146,7 +149,7 @@ void writeDoses(Html& html, const SearchReport& report) {
     std::vector<std::vector<assess::SubtaskDose>> doses;
     double seconds = 0;
     for (const assess::SearchTrial& trial : report.trials) {
-      if (trial.mode != mode || trial.outcome == training::Outcome::voided) continue;
+      if (trial.mode != mode || trial.outcome == Outcome::voided) continue;
       doses.push_back(trial.doses);
       seconds += trial.seconds;
     }
