@@ -1,7 +1,6 @@
 #include "apps/calibrate/subtask_recordings.h"
 
 #include <algorithm>
-#include <map>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -9,6 +8,7 @@
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/sha256.h"
 #include "apps/record/session_file.h"
+#include "apps/record/trial_walk.h"
 
 namespace palpa::calibrate {
 namespace {
@@ -44,33 +44,27 @@ json conditionsOf(const JsonFile& task) {
 /// added.
 std::vector<SubtaskSequence> sequencesOf(const record::SessionReader& reader,
                                          const std::string& recording, int* augmented) {
-  std::map<std::uint32_t, const record::RecordedTrial*> trials;
-  const std::vector<record::RecordedTrial> recorded = reader.trials();
-  for (const record::RecordedTrial& trial : recorded)
-    trials[static_cast<std::uint32_t>(trial.header.trial)] = &trial;
   std::vector<SubtaskSequence> sequences;
   SubtaskSteps steps(reader.info().tick_config);
-  std::uint32_t current = 0;
+  runtime::TrialHeader header;
   bool cues = false;
-  const auto finish = [&] {
+  const auto begin = [&](const record::RecordedTrial& trial) { header = trial.header; };
+  const auto tick = [&](const haptics::FlightRecord& record) {
+    if (record.commands.trial != static_cast<std::uint32_t>(header.trial) ||
+        record.t_ns < header.t_ns)
+      return;
+    cues = cues || record.commands.augmented;
+    steps.add(record);
+  };
+  const auto finish = [&](const record::RecordedTrial& trial) {
     for (SubtaskSequence& sequence : steps.take()) {
-      sequence.trial = recording + "trial " + std::to_string(current);
+      sequence.trial = recording + "trial " + std::to_string(trial.header.trial);
       sequences.push_back(std::move(sequence));
     }
     *augmented += cues;
     cues = false;
   };
-  reader.ticks([&](const haptics::FlightRecord& record) {
-    if (record.commands.trial != current) finish();
-    current = record.commands.trial;
-    const auto trial = trials.find(current);
-    if (trial == trials.end() || record.t_ns < trial->second->header.t_ns ||
-        (trial->second->ended && record.t_ns > trial->second->end.t_ns))
-      return;
-    cues = cues || record.commands.augmented;
-    steps.add(record);
-  });
-  finish();
+  record::walkTrials(reader, reader.trials(), {begin, tick, finish});
   return sequences;
 }
 

@@ -13,6 +13,7 @@
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
 #include "apps/assess/needle/needle_metrics.h"
+#include "apps/record/trial_walk.h"
 #include "apps/training/trial_words.h"
 
 namespace palpa::evidence {
@@ -51,26 +52,20 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
 void RecordedSession::eachTrial(
     const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const {
   assess::TrialSampler sampler(X_DA_.inverse(), reader_->info().tick_config.X_ET);
-  auto trial = trials_.begin();
   Samples samples;
-  const auto next = [&] {
-    if (trial == trials_.end()) return;
-    samples.clear();
-    sampler.begin(static_cast<std::uint32_t>(trial->header.trial));
-  };
-  next();
-  reader_->ticks([&](const haptics::FlightRecord& record) {
-    while (trial != trials_.end() &&
-           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial)) {
-      visit(*trial, samples);
-      ++trial;
-      next();
-    }
-    assess::TrialSample sample;
-    if (trial == trials_.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
-    if (sampler.add(record, &sample)) samples.push_back(sample);
-  });
-  for (; trial != trials_.end(); ++trial, next()) visit(*trial, samples);
+  record::walkTrials(
+      *reader_, trials_,
+      {.begin =
+           [&](const record::RecordedTrial& trial) {
+             samples.clear();
+             sampler.begin(static_cast<std::uint32_t>(trial.header.trial));
+           },
+       .tick =
+           [&](const haptics::FlightRecord& record) {
+             assess::TrialSample sample;
+             if (sampler.add(record, &sample)) samples.push_back(sample);
+           },
+       .finish = [&](const record::RecordedTrial& trial) { visit(trial, samples); }});
 }
 
 assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& trial,

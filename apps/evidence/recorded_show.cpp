@@ -93,7 +93,7 @@ RecordedNeedleTrial::RecordedNeedleTrial(const std::filesystem::path& file, int 
   trial.mark = session.simulated() ? "REPLAY: SIMULATED" : "REPLAY";
   replay::MomentReader reader(trial.X_AD, session.reader().info().tick_config.X_ET, trial.number);
   session.reader().ticks([&](const haptics::FlightRecord& record) {
-    if (!one.ended || record.t_ns <= one.end.t_ns) reader.add(record);
+    if (!one.isOver(record.t_ns)) reader.add(record);
   });
   trial.moments = reader.moments();
   if (trial.moments.empty())

@@ -7,6 +7,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
+#include "apps/record/trial_walk.h"
 #include "apps/training/engine.h"
 #include "apps/training/trial_words.h"
 
@@ -59,43 +60,31 @@ std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& r
   const std::vector<runtime::Event> events = reader.events();
   std::vector<RecordedPalpation> trials;
   task_palpation::PalpationListener listener(reader.info().tick_config);
-  std::vector<record::RecordedTrial> recorded = reader.trials();
-  auto trial = recorded.begin();
   Said said;
-  const auto begin = [&] {
-    if (trial == recorded.end()) return;
-    said = saidIn(events, trial->header.trial);
-    listener.begin(static_cast<std::uint32_t>(trial->header.trial));
+  const auto begin = [&](const record::RecordedTrial& trial) {
+    said = saidIn(events, trial.header.trial);
+    listener.begin(static_cast<std::uint32_t>(trial.header.trial));
   };
-  const auto finish = [&] {
-    const runtime::TrialHeader& header = trial->header;
+  const auto finish = [&](const record::RecordedTrial& trial) {
+    const runtime::TrialHeader& header = trial.header;
     for (const runtime::Event& grade : said.grades) {
       const trial::Grade told = trial::gradeOf(grade.text);
       if (grade.value >= 1 && grade.value <= static_cast<double>(listener.marks().size()))
         listener.grade(told.diameter, told.hardness, told.mobility,
                        static_cast<std::size_t>(grade.value));
     }
-    const double guided = trial->ended && !trial->end.scores_json.empty()
-                              ? fieldOf(trial->end.scores_json, "GUIDED", 0.0, "a trial's score")
+    const double guided = trial.ended && !trial.end.scores_json.empty()
+                              ? fieldOf(trial.end.scores_json, "GUIDED", 0.0, "a trial's score")
                               : 0;
     const assess::PalpationFacts facts{
-        header.trial, training::roleNamed(header.role),           simulated, header.force_feedback,
-        header.seed,  training::outcomeNamed(trial->end.outcome), guided};
+        header.trial, training::roleNamed(header.role),          simulated, header.force_feedback,
+        header.seed,  training::outcomeNamed(trial.end.outcome), guided};
     trials.push_back(
-        {*trial, assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
-                                         listener.samples(), listener.marks())});
-    ++trial;
-    begin();
+        {trial, assess::assessPalpation(facts, scoring.rules, scoring.standard, said.lumps,
+                                        listener.samples(), listener.marks())});
   };
-  begin();
-  reader.ticks([&](const haptics::FlightRecord& record) {
-    while (trial != recorded.end() &&
-           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial))
-      finish();
-    if (trial == recorded.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
-    listener.add(record);
-  });
-  while (trial != recorded.end()) finish();
+  const auto tick = [&](const haptics::FlightRecord& record) { listener.add(record); };
+  record::walkTrials(reader, reader.trials(), {begin, tick, finish});
   return trials;
 }
 
@@ -137,41 +126,32 @@ struct LastFloor {
 
 std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader) {
   const task_search::SearchSettings task = recordedTask(reader);
-  const haptics::TickConfig& tick = reader.info().tick_config;
+  const haptics::TickConfig& config = reader.info().tick_config;
   const std::map<int, task_search::Episode> episodes = recordedEpisodes(reader);
   const bool simulated = parseJson(reader.info().session_json).value("simulated", true);
-  task_search::SearchListener listener(task, tick.augmentations);
+  task_search::SearchListener listener(task, config.augmentations);
   std::vector<RecordedSearch> trials;
-  const std::vector<record::RecordedTrial> recorded = reader.trials();
-  auto trial = recorded.begin();
-  const auto begin = [&] {
-    if (trial != recorded.end()) listener.begin(static_cast<std::uint32_t>(trial->header.trial));
+  const auto begin = [&](const record::RecordedTrial& trial) {
+    listener.begin(static_cast<std::uint32_t>(trial.header.trial));
   };
-  const auto finish = [&] {
-    const auto episode = episodes.find(trial->header.trial);
+  const auto tick = [&](const haptics::FlightRecord& record) {
+    listener.add(record, task_search::tipOf(config, record.reading));
+  };
+  const auto finish = [&](const record::RecordedTrial& trial) {
+    const auto episode = episodes.find(trial.header.trial);
     if (episode == episodes.end())
-      throw Error("says nothing of episode " + std::to_string(trial->header.trial), "session",
+      throw Error("says nothing of episode " + std::to_string(trial.header.trial), "session",
                   "Restore the file from a backup");
     assess::SearchTrial facts;
-    facts.trial = trial->header.trial;
-    facts.role = training::roleNamed(trial->header.role);
+    facts.trial = trial.header.trial;
+    facts.role = training::roleNamed(trial.header.role);
     facts.simulated = simulated;
-    facts.force_feedback = trial->header.force_feedback;
-    facts.seed = trial->header.seed;
-    facts.outcome = training::outcomeNamed(trial->end.outcome);
-    trials.push_back({*trial, task_search::judged(facts, episode->second, listener)});
-    ++trial;
-    begin();
+    facts.force_feedback = trial.header.force_feedback;
+    facts.seed = trial.header.seed;
+    facts.outcome = training::outcomeNamed(trial.end.outcome);
+    trials.push_back({trial, task_search::judged(facts, episode->second, listener)});
   };
-  begin();
-  reader.ticks([&](const haptics::FlightRecord& record) {
-    while (trial != recorded.end() &&
-           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial))
-      finish();
-    if (trial == recorded.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
-    listener.add(record, task_search::tipOf(tick, record.reading));
-  });
-  while (trial != recorded.end()) finish();
+  record::walkTrials(reader, reader.trials(), {begin, tick, finish});
   return trials;
 }
 
@@ -209,35 +189,23 @@ std::vector<RecordedSqueeze> recordedSqueezes(const record::SessionReader& reade
   task_squeeze::SqueezeListener listener(task.number("force/touch_N", 0.02, 5));
   const std::vector<runtime::Event> events = reader.events();
   std::vector<RecordedSqueeze> trials;
-  const std::vector<record::RecordedTrial> recorded = reader.trials();
-  auto trial = recorded.begin();
   SaidOfSqueeze said;
-  const auto begin = [&] {
-    if (trial == recorded.end()) return;
-    said = saidOf(events, trial->header.trial);
-    listener.begin(static_cast<std::uint32_t>(trial->header.trial), said.comparison);
+  const auto begin = [&](const record::RecordedTrial& trial) {
+    said = saidOf(events, trial.header.trial);
+    listener.begin(static_cast<std::uint32_t>(trial.header.trial), said.comparison);
   };
-  const auto finish = [&] {
+  const auto tick = [&](const haptics::FlightRecord& record) { listener.add(record); };
+  const auto finish = [&](const record::RecordedTrial& trial) {
     assess::SqueezeTrial facts;
-    facts.trial = trial->header.trial;
-    facts.role = training::roleNamed(trial->header.role);
+    facts.trial = trial.header.trial;
+    facts.role = training::roleNamed(trial.header.role);
     facts.simulated = true;
-    facts.force_feedback = trial->header.force_feedback;
-    facts.seed = trial->header.seed;
-    facts.outcome = training::outcomeNamed(trial->end.outcome);
-    trials.push_back({*trial, task_squeeze::judged(facts, said.comparison, listener, said.answer)});
-    ++trial;
-    begin();
+    facts.force_feedback = trial.header.force_feedback;
+    facts.seed = trial.header.seed;
+    facts.outcome = training::outcomeNamed(trial.end.outcome);
+    trials.push_back({trial, task_squeeze::judged(facts, said.comparison, listener, said.answer)});
   };
-  begin();
-  reader.ticks([&](const haptics::FlightRecord& record) {
-    while (trial != recorded.end() &&
-           record.commands.trial > static_cast<std::uint32_t>(trial->header.trial))
-      finish();
-    if (trial == recorded.end() || (trial->ended && record.t_ns > trial->end.t_ns)) return;
-    listener.add(record);
-  });
-  while (trial != recorded.end()) finish();
+  record::walkTrials(reader, reader.trials(), {begin, tick, finish});
   return trials;
 }
 

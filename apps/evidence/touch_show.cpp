@@ -83,7 +83,7 @@ class TouchShow : public RecordedShow {
   template <class Reader, class Seconds>
   void hear(Reader& reader, Seconds seconds) {
     reader_.ticks([&](const haptics::FlightRecord& record) {
-      if (recorded_.ended && record.t_ns > recorded_.end.t_ns) return;
+      if (recorded_.isOver(record.t_ns)) return;
       reader.add(record);
       if (record.commands.trial == static_cast<std::uint32_t>(trial_.number))
         marks_.pass(record.t_ns, seconds());

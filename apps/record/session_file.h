@@ -55,6 +55,9 @@ struct RecordedTrial {
   runtime::TrialHeader header;
   runtime::TrialEnd end;
   bool ended = false;  ///< false: the process stopped in the middle
+
+  /// Whether it had ended before this time; one that the process stopped in has not.
+  bool isOver(std::int64_t t_ns) const { return ended && t_ns > end.t_ns; }
 };
 
 /// Reads a session file; checks application id, version, chunk sizes. Throws Error.
