@@ -128,6 +128,14 @@ void Statement::run() {
   sqlite3_reset(statement_.get());
 }
 
+int Statement::indexOf(const std::string& name) const {
+  return sqlite3_bind_parameter_index(statement_.get(), name.c_str());
+}
+
+void Statement::bindOne(int index, std::monostate) {
+  check(sqlite3_bind_null(statement_.get(), index));
+}
+
 void Statement::bindOne(int index, std::int64_t value) {
   check(sqlite3_bind_int64(statement_.get(), index, value));
 }
@@ -172,6 +180,21 @@ ByteView Statement::blob(int column) const {
 bool Statement::isNull(int column) const {
   return sqlite3_column_type(statement_.get(), column) == SQLITE_NULL;
 }
+
+std::variant<std::monostate, std::int64_t, double, std::string> Statement::value(int column) const {
+  switch (sqlite3_column_type(statement_.get(), column)) {
+    case SQLITE_NULL:
+      return std::monostate{};
+    case SQLITE_INTEGER:
+      return integer(column);
+    case SQLITE_FLOAT:
+      return real(column);
+    default:
+      return text(column);
+  }
+}
+
+int Statement::columns() const { return sqlite3_column_count(statement_.get()); }
 
 Transaction::Transaction(Database& database) : database_(database) {
   database_.exec("BEGIN IMMEDIATE");

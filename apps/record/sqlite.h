@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 #include <string_view>
+#include <variant>
 
 #include "anatomy/base/bytes.h"
 #include "anatomy/base/error.h"
@@ -49,8 +50,8 @@ class Database {
   std::unique_ptr<sqlite3, Close> handle_;
 };
 
-/// A prepared statement. Parameters are bound in order by `bind`, columns are read by number from
-/// 0.
+/// A prepared statement. Parameters are bound in order by `bind` or each by its name, columns are
+/// read by number from 0.
 class Statement {
  public:
   Statement(Database& database, const std::string& sql);
@@ -62,6 +63,11 @@ class Statement {
     (bindOne(++index, values), ...);
     return *this;
   }
+  /// A parameter by its name, "$3"; nothing where the statement does not use it.
+  template <typename Value>
+  void bindNamed(const std::string& name, const Value& value) {
+    if (const int index = indexOf(name); index > 0) bindOne(index, value);
+  }
   bool step();  ///< true: a row is there
   void run();   ///< for statements without rows
 
@@ -70,9 +76,14 @@ class Statement {
   std::string text(int column) const;
   ByteView blob(int column) const;  ///< valid until the next step
   bool isNull(int column) const;
+  int columns() const;
+  /// As it is stored; bytes as a text.
+  std::variant<std::monostate, std::int64_t, double, std::string> value(int column) const;
 
  private:
+  int indexOf(const std::string& name) const;  ///< 0: there is none
   void rewind();
+  void bindOne(int index, std::monostate null);
   void bindOne(int index, std::int64_t value);
   void bindOne(int index, int value) { bindOne(index, static_cast<std::int64_t>(value)); }
   void bindOne(int index, double value);

@@ -1,6 +1,5 @@
 #include <sqlite3.h>
 
-#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <fstream>
@@ -120,16 +119,12 @@ class SqliteConnection final : public SqlConnection {
   }
 
   SqlRows answer(const std::string& sql, const std::vector<SqlValue>& values) {
-    sqlite3_stmt* raw = nullptr;
-    if (sqlite3_prepare_v2(database_.handle(), sql.c_str(), -1, &raw, nullptr) != SQLITE_OK)
-      database_.fail("cannot be read or written");
-    const std::unique_ptr<sqlite3_stmt, int (*)(sqlite3_stmt*)> statement(raw, sqlite3_finalize);
-    bindAll(raw, values);
+    Statement statement(database_, sql);
+    for (std::size_t i = 0; i < values.size(); ++i)
+      std::visit([&](const auto& value) { statement.bindNamed(parameterName(i), value); },
+                 values[i]);
     SqlRows rows;
-    for (int code; (code = sqlite3_step(raw)) != SQLITE_DONE;) {
-      if (code != SQLITE_ROW) database_.fail("cannot be read or written");
-      rows.add(rowOf(raw));
-    }
+    while (statement.step()) rows.add(rowOf(statement));
     return rows;
   }
 
@@ -171,42 +166,13 @@ class SqliteConnection final : public SqlConnection {
     return file;
   }
 
-  void bindAll(sqlite3_stmt* statement, const std::vector<SqlValue>& values) {
-    for (std::size_t i = 0; i < values.size(); ++i) {
-      const int index =
-          sqlite3_bind_parameter_index(statement, ("$" + std::to_string(i + 1)).c_str());
-      if (index == 0) continue;  // given, not used
-      const SqlValue& v = values[i];
-      int code = SQLITE_OK;
-      if (const auto* whole = std::get_if<std::int64_t>(&v))
-        code = sqlite3_bind_int64(statement, index, *whole);
-      else if (const auto* real = std::get_if<double>(&v))
-        code = std::isnan(*real) ? sqlite3_bind_null(statement, index)
-                                 : sqlite3_bind_double(statement, index, *real);
-      else if (const auto* text = std::get_if<std::string>(&v))
-        code = sqlite3_bind_text64(statement, index, text->data(), text->size(), SQLITE_TRANSIENT,
-                                   SQLITE_UTF8);
-      else
-        code = sqlite3_bind_null(statement, index);
-      if (code != SQLITE_OK) database_.fail("cannot be read or written");
-    }
+  static std::string parameterName(std::size_t i) {
+    return std::string(1, '$') += std::to_string(i + 1);
   }
 
-  static std::vector<SqlValue> rowOf(sqlite3_stmt* statement) {
+  static std::vector<SqlValue> rowOf(const Statement& statement) {
     std::vector<SqlValue> row;
-    for (int c = 0; c < sqlite3_column_count(statement); ++c) {
-      const int type = sqlite3_column_type(statement, c);
-      if (type == SQLITE_INTEGER)
-        row.emplace_back(std::int64_t{sqlite3_column_int64(statement, c)});
-      else if (type == SQLITE_FLOAT)
-        row.emplace_back(sqlite3_column_double(statement, c));
-      else if (type == SQLITE_NULL)
-        row.emplace_back(std::monostate{});
-      else
-        row.emplace_back(
-            std::string(reinterpret_cast<const char*>(sqlite3_column_text(statement, c)),
-                        static_cast<std::size_t>(sqlite3_column_bytes(statement, c))));
-    }
+    for (int c = 0; c < statement.columns(); ++c) row.push_back(statement.value(c));
     return row;
   }
 
