@@ -1,10 +1,10 @@
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <memory>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/utc.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/assess/metrics/metric_table.h"
 #include "apps/cli/arguments.h"
@@ -136,17 +136,10 @@ CLI::App* sub(CLI::App* parent, const std::shared_ptr<RecordsOptions>& o, const 
   return command;
 }
 
-std::string whyNoDate(const std::string& d) {
-  int year = 0, month = 0, day = 0, end = 0;
-  const bool written = d.size() == 10 && d.find_first_not_of("0123456789-") == std::string::npos &&
-                       std::sscanf(d.c_str(), "%4d-%2d-%2d%n", &year, &month, &day, &end) == 3 &&
-                       end == 10;
-  const bool date = written && year >= 2000 &&
-                    std::chrono::year_month_day(std::chrono::year(year),
-                                                std::chrono::month(static_cast<unsigned>(month)),
-                                                std::chrono::day(static_cast<unsigned>(day)))
-                        .ok();
-  return date ? "" : "a date is written 2027-03-01";
+std::string whyNoDate(const std::string& written) {
+  const auto date = dateIn(written);
+  const bool good = date && date->year() >= std::chrono::year(2000) && isoDate(*date) == written;
+  return good ? "" : "a date is written 2027-03-01";
 }
 
 void addTraineeOptions(CLI::App* command, RecordsOptions& o) {

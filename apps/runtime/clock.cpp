@@ -2,6 +2,7 @@
 
 #include <ctime>
 
+#include "anatomy/base/utc.h"
 #include "apps/os/system_time.h"
 
 namespace palpa::runtime {
@@ -36,6 +37,8 @@ std::string dateText(const char* pattern, Zone zone) {
   return {text, std::strftime(text, sizeof text, pattern, &parts)};
 }
 
-std::string utcNow() { return dateText("%Y-%m-%dT%H:%M:%SZ"); }
+std::string utcNow() {
+  return isoTime(std::chrono::sys_seconds(std::chrono::seconds(dateNow() / kSecond)));
+}
 
 }  // namespace palpa::runtime

@@ -57,7 +57,7 @@ void rest(std::chrono::nanoseconds time) noexcept;
 enum class Zone { utc, local };
 /// The computer's date now, in strftime's words.
 std::string dateText(const char* pattern, Zone zone = Zone::utc);
-/// "2026-03-01T12:30:00Z": the same in full.
+/// "2026-03-01T12:30:00Z"
 std::string utcNow();
 
 }  // namespace palpa::runtime

@@ -1,26 +1,17 @@
 #include "apps/station/calibrations.h"
 
 #include <algorithm>
-#include <chrono>
-#include <cstdio>
 #include <optional>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/sha256.h"
+#include "anatomy/base/utc.h"
 #include "apps/station/station_file.h"
 
 namespace palpa::station {
 namespace {
 
-std::optional<std::chrono::sys_days> dayOf(const std::string& utc) {
-  int year = 0;
-  unsigned month = 0, day = 0;
-  if (std::sscanf(utc.c_str(), "%4d-%2u-%2u", &year, &month, &day) != 3) return std::nullopt;
-  const std::chrono::year_month_day date{std::chrono::year(year), std::chrono::month(month),
-                                         std::chrono::day(day)};
-  if (!date.ok()) return std::nullopt;
-  return std::chrono::sys_days(date);
-}
+using std::chrono::sys_days;
 
 std::string titleOf(const AppliedCalibration& c) {
   return "the " + nameOf(c.file.kind) + " calibration";
@@ -123,11 +114,11 @@ std::string faultOf(const std::vector<AppliedCalibration>& calibrations,
 
 std::string outdatedOn(const std::vector<AppliedCalibration>& calibrations,
                        const std::string& date) {
-  const auto today = dayOf(date);
+  const auto today = dateIn(date);
   for (const AppliedCalibration& c : calibrations) {
-    const auto made = dayOf(c.file.date);
+    const auto made = dateIn(c.file.date);
     if (!made) return titleOf(c) + " has no date";
-    if (today && (*today - *made).count() > c.file.valid_days)
+    if (today && sys_days(*today) - sys_days(*made) > std::chrono::days(c.file.valid_days))
       return titleOf(c) + " is outdated: made on " + c.file.date.substr(0, 10) + ", good for " +
              std::to_string(c.file.valid_days) + " days";
   }

@@ -32,7 +32,8 @@ std::vector<std::string> clockRemarks(const std::vector<DoneTrial>& trials,
 /// s. A clock that went back makes no rest longer than it is.
 double restDue(const Block& block, const DoneTrial& last, const std::string& now_utc) {
   const double since =
-      static_cast<double>(utcSecondsOf(now_utc) - utcSecondsOf(last.began_utc)) - last.ended_s;
+      std::chrono::duration<double>(utcSecondsOf(now_utc) - utcSecondsOf(last.began_utc)).count() -
+      last.ended_s;
   return std::clamp(block.rest_s - std::max(0.0, since), 0.0, block.rest_s);
 }
 
@@ -53,7 +54,8 @@ double restAfter(const Protocol& protocol, const std::vector<DoneTrial>& trials,
 std::string earliest(const Session& session, const std::vector<DoneTrial>& trials,
                      const std::string& now_utc) {
   if (session.days_after == 0 || trials.empty()) return "";
-  const std::int64_t first = utcDayOf(trials.back().began_utc) + session.days_after;
+  const std::chrono::sys_days first =
+      utcDayOf(trials.back().began_utc) + std::chrono::days(session.days_after);
   return utcDayOf(now_utc) < first ? isoDate(first) : "";
 }
 

@@ -1,10 +1,9 @@
 #include "apps/assess/progress/competence.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
-#include <cstdio>
 
+#include "anatomy/base/utc.h"
 #include "apps/assess/statistics/bootstrap.h"
 #include "apps/assess/statistics/sample.h"
 
@@ -41,15 +40,6 @@ namespace {
 
 constexpr std::size_t kAroundPause =
     3;  // trials on each side: more of them would relearn what was lost
-
-std::optional<std::chrono::year_month_day> dateIn(const std::string& iso) {
-  int year = 0;
-  unsigned month = 0, day = 0;
-  if (std::sscanf(iso.c_str(), "%4d-%2u-%2u", &year, &month, &day) != 3) return std::nullopt;
-  const std::chrono::year_month_day date{std::chrono::year{year}, std::chrono::month{month},
-                                         std::chrono::day{day}};
-  return date.ok() ? std::optional(date) : std::nullopt;
-}
 
 std::vector<double> finite(std::vector<double> values) {
   std::erase_if(values, [](double v) { return !std::isfinite(v); });
@@ -96,10 +86,7 @@ std::string monthsLater(const std::string& date, int months) {
   if (!from) return "";
   std::chrono::year_month_day later = *from + std::chrono::months(months);
   if (!later.ok()) later = later.year() / later.month() / std::chrono::last;
-  char text[32];
-  std::snprintf(text, sizeof text, "%04d-%02u-%02u", static_cast<int>(later.year()),
-                static_cast<unsigned>(later.month()), static_cast<unsigned>(later.day()));
-  return text;
+  return isoDate(later);
 }
 
 std::vector<RetentionGap> retentionGaps(const Series& series, const std::string& metric) {
