@@ -1,10 +1,10 @@
-#include <algorithm>
 #include <nlohmann/json.hpp>
 #include <opencv2/core.hpp>
 #include <opencv2/core/utils/logger.hpp>
 #include <vector>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "anatomy/base/whole_file.h"
 #include "calibration/camera_model.h"
@@ -18,10 +18,13 @@ using nlohmann::json;
 constexpr int kVersion = 1;
 constexpr std::uintmax_t kLargestFile = 4 << 20;  // bytes; a real one has a few thousand
 
+constexpr int kLargestSide = 1 << 30;  // px; what is too large to be a picture is refused later
+constexpr const char* kRemedy =
+    "Give a camera calibration: OpenCV's YAML or XML, or our JSON ('palpa calibrate camera' writes "
+    "one).";
+
 [[noreturn]] void refuse(const fs::path& file, const std::string& what) {
-  throw Error(what, file.string(),
-              "Give a camera calibration: OpenCV's YAML or XML, or our JSON ('palpa calibrate "
-              "camera' writes one).");
+  throw Error(what, file.string(), kRemedy);
 }
 
 std::string textOf(const fs::path& file) {
@@ -114,44 +117,22 @@ CameraModel fromOpenCv(const std::string& text, const fs::path& file) {
   return camera;
 }
 
-template <typename T>
-T field(const json& object, const char* name, const fs::path& file) {
-  const auto found = object.find(name);
-  if (found == object.end()) refuse(file, std::string("field '") + name + "' is missing");
-  const bool fits = std::is_integral_v<T>       ? found->is_number_integer()
-                    : std::is_same_v<T, double> ? found->is_number()
-                                                : true;
-  if (!fits) refuse(file, std::string("field '") + name + "' must be a number");
-  try {
-    return found->get<T>();
-  } catch (const json::exception&) {
-    refuse(file, std::string("field '") + name + "' has the wrong type");
-  }
-}
-
-/// Through 64 bits, so that an absurd size stays absurd instead of wrapping round.
-int size(const json& object, const char* name, const fs::path& file) {
-  return static_cast<int>(
-      std::clamp<std::int64_t>(field<std::int64_t>(object, name, file), 0, 1 << 30));
-}
-
-CameraModel fromJson(const std::string& text, const fs::path& file) {
+CameraModel fromJson(const std::string& text, const fs::path& name) {
   const json root = parsedOrDiscarded(text);
-  if (!root.is_object()) refuse(file, "is damaged: not a JSON object");
-  if (field<std::string>(root, "type", file) != "camera_model")
-    refuse(file, "field 'type' must be \"camera_model\"");
-  if (field<std::int64_t>(root, "version", file) != kVersion)
-    refuse(file, "field 'version' is not 1: made by another version of this program");
-  if (field<std::string>(root, "unit", file) != "px") refuse(file, "field 'unit' must be \"px\"");
+  if (!root.is_object()) refuse(name, "is damaged: not a JSON object");
+  const JsonFile file(root, name.string(), kRemedy);
+  if (file.text("type") != "camera_model") file.refuse("type", "must be \"camera_model\"");
+  file.needVersion(kVersion);
+  if (file.text("unit") != "px") file.refuse("unit", "must be \"px\"");
   CameraModel camera;
-  camera.width = size(root, "width", file);
-  camera.height = size(root, "height", file);
-  camera.fx = field<double>(root, "fx", file);
-  camera.fy = field<double>(root, "fy", file);
-  camera.cx = field<double>(root, "cx", file);
-  camera.cy = field<double>(root, "cy", file);
-  readDistortion(field<std::vector<double>>(root, "distortion", file), &camera, file);
-  camera.rms_px = field<double>(root, "rms_px", file);
+  camera.width = file.integer("width", 0, kLargestSide);
+  camera.height = file.integer("height", 0, kLargestSide);
+  camera.fx = file.number("fx");
+  camera.fy = file.number("fy");
+  camera.cx = file.number("cx");
+  camera.cy = file.number("cy");
+  readDistortion(file.numbers("distortion"), &camera, name);
+  camera.rms_px = file.number("rms_px");
   return camera;
 }
 
@@ -171,7 +152,7 @@ CameraModel parse(const std::string& text, const fs::path& file) {
   const std::size_t start = text.find_first_not_of(" \t\r\n");
   if (start == std::string::npos) refuse(file, "is empty");
   if (text.find('\0') != std::string::npos) refuse(file, "is damaged: binary data inside");
-  if (text[start] == '{') return fromJson(text, file);
+  if (text[start] == '{') return readOwnFile([&] { return fromJson(text, file); });
   if (text.compare(start, 5, "%YAML") != 0 && text.compare(start, 5, "<?xml") != 0)
     refuse(file, "is no calibration: it must start with %YAML, <?xml or {");
   // OpenCV 4.6 reads past the end of XML that is cut within its first line.

@@ -2,7 +2,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
-#include "anatomy/base/json_text.h"
+#include "anatomy/base/json_file.h"
 #include "anatomy/base/units.h"
 #include "anatomy/base/whole_file.h"
 #include "calibration/expert_path.h"
@@ -15,88 +15,22 @@ using Ordered = nlohmann::ordered_json;
 
 constexpr int kPathVersion = 1;
 constexpr const char* kFormat = "palpa expert path";
+constexpr const char* kRemedy = "Calibrate the experts' path again";
 
-/// Reads fields of one file; every complaint names file and field.
-class FieldReader {
- public:
-  FieldReader(const std::string& where, const Json& root) : where_(where), root_(root) {}
-
-  const Json& field(const std::string& key) const {
-    if (!root_.is_object() || !root_.contains(key)) fail(key, "the field is missing");
-    return root_.at(key);
+Vec3 vectorIn(const JsonFile& file, const std::string& field, double most) {
+  const std::array<double, 3> xyz = file.triple(field);
+  const Vec3 v(xyz[0], xyz[1], xyz[2]);
+  if (v.cwiseAbs().maxCoeff() > most) {
+    std::string what = "holds a number beyond ";
+    file.refuse(field, what.append(Json(most).dump()));
   }
-  double number(const std::string& key, double least, double most) const {
-    return checked(field(key), key, least, most);
-  }
-  int count(const std::string& key, int least) const {
-    if (!field(key).is_number_integer() || field(key).get<long long>() < least ||
-        field(key).get<long long>() > 1'000'000)
-      fail(key, "it must be a whole number from " + std::to_string(least));
-    return field(key).get<int>();
-  }
-  Vec3 vector(const std::string& key, double most) const {
-    const Json& value = field(key);
-    if (!value.is_array() || value.size() != 3) fail(key, "it must be three numbers");
-    Vec3 v;
-    for (int i = 0; i < 3; ++i)
-      v[i] = checked(value[static_cast<std::size_t>(i)], key, -most, most);
-    return v;
-  }
-  Vec3 unitVector(const std::string& key) const {
-    const Vec3 v = vector(key, 1.001);
-    if (std::abs(v.norm() - 1) > 1e-3) fail(key, "it must be a unit vector");
-    return v.normalized();
-  }
-  std::string text(const std::string& key) const {
-    if (!field(key).is_string()) fail(key, "it must be a text");
-    return field(key).get<std::string>();
-  }
-  bool flag(const std::string& key) const {
-    if (!field(key).is_boolean()) fail(key, "it must be true or false");
-    return field(key).get<bool>();
-  }
-  std::vector<std::string> texts(const std::string& key) const {
-    const Json& value = field(key);
-    if (!value.is_array()) fail(key, "it must be a list of texts");
-    std::vector<std::string> result;
-    for (const Json& item : value) {
-      if (!item.is_string()) fail(key, "it must be a list of texts");
-      result.push_back(item.get<std::string>());
-    }
-    return result;
-  }
-  [[noreturn]] void fail(const std::string& key, const std::string& what) const {
-    throw Error(what, where_ + ", field \"" + key + "\"", "Calibrate the experts' path again");
-  }
-
- private:
-  double checked(const Json& value, const std::string& key, double least, double most) const {
-    if (!value.is_number() || !std::isfinite(value.get<double>())) fail(key, "it is not a number");
-    const double x = value.get<double>();
-    if (x < least || x > most)
-      fail(key, value.dump() + " is outside " + Json(least).dump() + " to " + Json(most).dump());
-    return x;
-  }
-
-  const std::string& where_;
-  const Json& root_;
-};
-
-Json parse(std::string_view text, const std::string& where) {
-  try {
-    return parseJson(text);
-  } catch (const Json::exception&) {
-    throw Error("this is not a JSON file", where, "Calibrate the experts' path again");
-  }
+  return v;
 }
 
-void checkFormat(const FieldReader& reader) {
-  if (reader.text("format") != kFormat) reader.fail("format", "this is not an expert path");
-  const int version = reader.count("version", 1);
-  if (version > kPathVersion)
-    reader.fail("version", "version " + std::to_string(version) +
-                               " is newer than this program knows (" +
-                               std::to_string(kPathVersion) + "); update the program, or");
+Vec3 unitVectorIn(const JsonFile& file, const std::string& field) {
+  const Vec3 v = vectorIn(file, field, 1.001);
+  if (std::abs(v.norm() - 1) > 1e-3) file.refuse(field, "must be a unit vector");
+  return v.normalized();
 }
 
 Ordered inMm(const Vec3& v) { return {v.x() / kMm, v.y() / kMm, v.z() / kMm}; }
@@ -130,6 +64,31 @@ bool allFinite(const ExpertPath& path) {
                        path.direction_acceptable);
 }
 
+ExpertPath pathIn(const JsonFile& file) {
+  if (file.text("format") != kFormat) file.refuse("format", "is not that of an expert path");
+  file.needVersion(kPathVersion);
+  constexpr double kFar_mm = 500;  // nothing that is taught lies farther from the clavicle
+  constexpr int kMost = 1'000'000;
+  ExpertPath path;
+  path.simulated = file.flag("simulated");
+  path.made_by = file.text("made_by");
+  path.trials = file.integer("trials", 1, kMost);
+  path.left_out = file.integer("left_out", 0, kMost);
+  path.experts = file.texts("experts");
+  path.entry_L = kMm * vectorIn(file, "entry_L_mm", kFar_mm);
+  path.entry_sd = kMm * file.number("entry_sd_mm", 0, 10);
+  path.depth = kMm * file.number("depth_mm", 0, 100);
+  path.depth_sd = kMm * file.number("depth_sd_mm", 0, 10);
+  path.direction_L = unitVectorIn(file, "direction_L");
+  path.direction_sd = kDegree * file.number("direction_sd_deg", 0, 10);
+  path.direction_acceptable = kDegree * file.number("direction_acceptable_deg", 0.1, 45);
+  path.line_from_L = kMm * vectorIn(file, "line_from_L_mm", kFar_mm);
+  path.line_to_L = kMm * vectorIn(file, "line_to_L_mm", kFar_mm);
+  if ((path.line_to_L - path.line_from_L).norm() < 0.001)
+    file.refuse("line_to_L_mm", "makes a line of no length");
+  return path;
+}
+
 }  // namespace
 
 ExpertPath readExpertPath(const std::filesystem::path& file) {
@@ -140,35 +99,14 @@ ExpertPath readExpertPath(const std::filesystem::path& file) {
 }
 
 ExpertPath parseExpertPath(std::string_view text, const std::string& where) {
-  const Json root = parse(text, where);
-  const FieldReader reader(where, root);
-  checkFormat(reader);
-  constexpr double kFar_mm = 500;  // nothing that is taught lies farther from the clavicle
-  ExpertPath path;
+  ExpertPath path = readOwnFile([&] { return pathIn(JsonFile::ofText(text, where, kRemedy)); });
   path.source = text;
-  path.simulated = reader.flag("simulated");
-  path.made_by = reader.text("made_by");
-  path.trials = reader.count("trials", 1);
-  path.left_out = reader.count("left_out", 0);
-  path.experts = reader.texts("experts");
-  path.entry_L = kMm * reader.vector("entry_L_mm", kFar_mm);
-  path.entry_sd = kMm * reader.number("entry_sd_mm", 0, 10);
-  path.depth = kMm * reader.number("depth_mm", 0, 100);
-  path.depth_sd = kMm * reader.number("depth_sd_mm", 0, 10);
-  path.direction_L = reader.unitVector("direction_L");
-  path.direction_sd = kDegree * reader.number("direction_sd_deg", 0, 10);
-  path.direction_acceptable = kDegree * reader.number("direction_acceptable_deg", 0.1, 45);
-  path.line_from_L = kMm * reader.vector("line_from_L_mm", kFar_mm);
-  path.line_to_L = kMm * reader.vector("line_to_L_mm", kFar_mm);
-  if ((path.line_to_L - path.line_from_L).norm() < 0.001)
-    reader.fail("line_to_L_mm", "the line has no length");
   return path;
 }
 
 void writeExpertPath(const ExpertPath& path, const std::filesystem::path& file) {
   if (!allFinite(path))
-    throw Error("the path holds a value that is not a number", file.string(),
-                "Calibrate the experts' path again");
+    throw Error("the path holds a value that is not a number", file.string(), kRemedy);
   writeWhole(file, toJson(path).dump(2) + "\n");
 }
 

@@ -19,4 +19,15 @@ class UsageError : public Error {
   using Error::Error;
 };
 
+/// What `read` gives. Its UsageErrors become Errors: what is wrong in a file that the program
+/// wrote, or that comes with it, is no mistake in how it was called.
+template <typename Read>
+auto readOwnFile(Read read) -> decltype(read()) {
+  try {
+    return read();
+  } catch (const UsageError& e) {
+    throw Error(static_cast<const Error&>(e));
+  }
+}
+
 }  // namespace palpa

@@ -33,15 +33,15 @@ std::string textOf(const std::filesystem::path& file) {
 
 }  // namespace
 
-JsonFile::JsonFile(const std::filesystem::path& file)
-    : JsonFile(ofText(textOf(file), file.string())) {}
+JsonFile::JsonFile(const std::filesystem::path& file, std::string remedy)
+    : JsonFile(ofText(textOf(file), file.string(), std::move(remedy))) {}
 
-JsonFile JsonFile::ofText(std::string_view text, std::string name) {
+JsonFile JsonFile::ofText(std::string_view text, std::string name, std::string remedy) {
   refuseLarge(text.size(), name);
   try {
     nlohmann::json json = parseJson(
         text, kDeepestFile, [&] { throw UsageError("is nested too deep", name, "Restore it"); });
-    return {std::move(json), std::move(name)};
+    return {std::move(json), std::move(name), std::move(remedy)};
   } catch (const nlohmann::json::exception& e) {
     throw UsageError(std::string("is not valid JSON (") + e.what() + ")", name,
                      "Restore it or correct the line named");
@@ -51,7 +51,7 @@ JsonFile JsonFile::ofText(std::string_view text, std::string name) {
 void JsonFile::refuse(const std::string& path, const std::string& what) const {
   throw UsageError(
       "field \"" + path.substr(std::min(path.size(), path.find_first_not_of('/'))) + "\" " + what,
-      name_, "Correct the file");
+      name_, remedy_);
 }
 
 const nlohmann::json* JsonFile::find(const std::string& path) const {
@@ -77,7 +77,8 @@ std::vector<JsonFile> JsonFile::entries(const std::string& list) const {
   if (!items->is_array()) refuse(list, "must be a list");
   std::vector<JsonFile> each;
   for (const nlohmann::json& item : *items)
-    each.emplace_back(item, name_ + ", \"" + list + "\", entry " + std::to_string(each.size() + 1));
+    each.emplace_back(item, name_ + ", \"" + list + "\", entry " + std::to_string(each.size() + 1),
+                      remedy_);
   return each;
 }
 
@@ -141,11 +142,39 @@ std::array<double, 3> JsonFile::triple(const std::string& path) const {
   return xyz;
 }
 
+const nlohmann::json& JsonFile::list(const std::string& path, const char* of) const {
+  const nlohmann::json& value = need(path);
+  if (!value.is_array()) refuse(path, std::string("is not a list of ") + of);
+  return value;
+}
+
+std::vector<double> JsonFile::numbers(const std::string& path) const {
+  std::vector<double> all;
+  for (const nlohmann::json& value : list(path, "numbers")) {
+    if (!value.is_number() || !std::isfinite(value.get<double>()))
+      refuse(path, "is not a list of numbers");
+    all.push_back(value.get<double>());
+  }
+  return all;
+}
+
+std::vector<std::string> JsonFile::texts(const std::string& path) const {
+  std::vector<std::string> all;
+  for (const nlohmann::json& value : list(path, "texts")) {
+    if (!value.is_string()) refuse(path, "is not a list of texts");
+    all.push_back(value.get<std::string>());
+  }
+  return all;
+}
+
+bool JsonFile::flag(const std::string& path) const {
+  const nlohmann::json& value = need(path);
+  if (!value.is_boolean()) refuse(path, "must be true or false");
+  return value.get<bool>();
+}
+
 bool JsonFile::flag(const std::string& path, bool otherwise) const {
-  const nlohmann::json* value = find(path);
-  if (!value) return otherwise;
-  if (!value->is_boolean()) refuse(path, "must be true or false");
-  return value->get<bool>();
+  return has(path) ? flag(path) : otherwise;
 }
 
 }  // namespace palpa

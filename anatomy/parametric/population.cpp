@@ -4,12 +4,9 @@
 #include <cmath>
 #include <numbers>
 
-#include <nlohmann/json.hpp>
-
 #include "anatomy/base/error.h"
-#include "anatomy/base/json_text.h"
+#include "anatomy/base/json_file.h"
 #include "anatomy/base/random.h"
-#include "anatomy/base/whole_file.h"
 #include "anatomy/parametric/build.h"
 #include "anatomy/parametric/feasibility.h"
 #include "anatomy/parametric/parametric_patient.h"
@@ -17,83 +14,52 @@
 namespace palpa::anatomy {
 namespace {
 
-class Reference {
- public:
-  explicit Reference(const std::string& file) : file_(file) {
-    const std::optional<std::string> text = readWhole(file);
-    if (!text) fail("the file cannot be opened", "");
-    try {
-      json_ = parseJson(*text);
-    } catch (const nlohmann::json::exception& e) {
-      fail(std::string("this is not JSON (") + e.what() + ")", "");
-    }
-  }
+double correlationIn(const JsonFile& file, const std::string& entry) {
+  const double r = file.number(entry + "/r");
+  if (!(r > -1 && r < 1)) file.refuse(entry + "/r", "is not between -1 and 1");
+  return r;
+}
 
-  double correlation(const char* key) const {
-    const double r = value(entry(key), "r", key);
-    if (!(r > -1 && r < 1)) fail("r is not between -1 and 1", key);
-    return r;
-  }
+/// `unit`: as the file must state it; `si`: what one of it is.
+Spread spreadIn(const JsonFile& file, const std::string& entry, const std::string& unit = "mm",
+                double si = 1e-3) {
+  if (const std::string stated = file.text(entry + "/unit"); stated != unit)
+    file.refuse(entry + "/unit", "is \"" + stated + "\", not \"" + unit + "\"");
+  const std::vector<double> range = file.numbers(entry + "/range");
+  if (range.size() != 2) file.refuse(entry + "/range", "is not two numbers");
+  const Spread s{si * file.number(entry + "/mean"), si * file.number(entry + "/sd"), si * range[0],
+                 si * range[1]};
+  if (!(s.low <= s.mean && s.mean <= s.high && s.sd >= 0))
+    file.refuse(entry, "has a mean, an sd and a range that contradict each other");
+  return s;
+}
 
-  /// `wanted_unit`: as the file must state it; `si`: what one of it is.
-  Spread spread(const char* key, const char* wanted_unit = "mm", double si = 1e-3) const {
-    const nlohmann::json& found = entry(key);
-    const auto unit = found.find("unit");
-    if (unit == found.end() || *unit != wanted_unit)
-      fail(std::string("the unit is not \"") + wanted_unit + "\"", key);
-    const auto range = found.find("range");
-    if (range == found.end() || !range->is_array() || range->size() != 2)
-      fail("the range is not two numbers", key);
-    const Spread s{si * value(found, "mean", key), si * value(found, "sd", key),
-                   si * number((*range)[0], key), si * number((*range)[1], key)};
-    if (!(s.low <= s.mean && s.mean <= s.high && s.sd >= 0))
-      fail("mean, sd and range contradict each other", key);
-    return s;
-  }
-
- private:
-  [[noreturn]] void fail(const std::string& what, const std::string& key) const {
-    throw Error(what, key.empty() ? file_ : file_ + ", \"" + key + "\"",
-                "Compare with assets/patients/reference.json");
-  }
-  const nlohmann::json& entry(const char* key) const {
-    const auto found = json_.is_object() ? json_.find(key) : json_.end();
-    if (found == json_.end() || !found->is_object()) fail("the entry is missing", key);
-    return *found;
-  }
-  double number(const nlohmann::json& json, const char* key) const {
-    if (!json.is_number()) fail("a value is not a number", key);
-    return json.get<double>();
-  }
-  double value(const nlohmann::json& entry, const char* field, const char* key) const {
-    if (!entry.contains(field)) fail(std::string("\"") + field + "\" is missing", key);
-    return number(entry[field], key);
-  }
-
-  std::string file_;
-  nlohmann::json json_;
-};
+Population populationIn(const JsonFile& file) {
+  Population p;
+  p.height_women = spreadIn(file, "height_women", "m", 1);
+  p.height_men = spreadIn(file, "height_men", "m", 1);
+  p.bmi = spreadIn(file, "bmi", "kg/m2", 1);
+  p.vein_depth = spreadIn(file, "vein_depth");
+  p.vein_diameter = spreadIn(file, "vein_diameter");
+  p.pleura_distance = spreadIn(file, "pleura_distance");
+  p.clavicle_length = spreadIn(file, "clavicle_length");
+  p.clavicle_thickness = spreadIn(file, "clavicle_thickness");
+  p.skin_thickness = spreadIn(file, "skin_thickness");
+  p.fat_share_women = spreadIn(file, "fat_share_women", "percent", 0.01);
+  p.fat_share_men = spreadIn(file, "fat_share_men", "percent", 0.01);
+  p.vein_depth_with_bmi = correlationIn(file, "vein_depth_with_bmi");
+  p.fat_share_with_bmi = correlationIn(file, "fat_share_with_bmi");
+  p.clavicle_length_with_height = correlationIn(file, "clavicle_length_with_height");
+  return p;
+}
 
 }  // namespace
 
 Population readPopulation(const std::string& reference_json) {
-  const Reference r(reference_json);
-  Population p;
-  p.height_women = r.spread("height_women", "m", 1);
-  p.height_men = r.spread("height_men", "m", 1);
-  p.bmi = r.spread("bmi", "kg/m2", 1);
-  p.vein_depth = r.spread("vein_depth");
-  p.vein_diameter = r.spread("vein_diameter");
-  p.pleura_distance = r.spread("pleura_distance");
-  p.clavicle_length = r.spread("clavicle_length");
-  p.clavicle_thickness = r.spread("clavicle_thickness");
-  p.skin_thickness = r.spread("skin_thickness");
-  p.fat_share_women = r.spread("fat_share_women", "percent", 0.01);
-  p.fat_share_men = r.spread("fat_share_men", "percent", 0.01);
-  p.vein_depth_with_bmi = r.correlation("vein_depth_with_bmi");
-  p.fat_share_with_bmi = r.correlation("fat_share_with_bmi");
-  p.clavicle_length_with_height = r.correlation("clavicle_length_with_height");
-  return p;
+  return readOwnFile([&] {
+    return populationIn(JsonFile(std::filesystem::path(reference_json),
+                                 "Compare with assets/patients/reference.json"));
+  });
 }
 
 namespace {

@@ -25,11 +25,7 @@ json parsedText(const std::string& text, const std::string& what, const std::str
 
 /// A set-up mistake in what was recorded is no mistake in the call.
 station::NamedPlan recordedPlan(const JsonFile& task) {
-  try {
-    return station::readPlan(task);
-  } catch (const UsageError& e) {
-    throw Error(static_cast<const Error&>(e));
-  }
+  return readOwnFile([&] { return station::readPlan(task); });
 }
 
 /// By what the parts are told, in order.

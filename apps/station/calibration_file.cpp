@@ -211,11 +211,7 @@ std::optional<CalibrationKind> calibrationKindNamed(std::string_view name) {
 
 /// A bad calibration is no mistake in how the program was called: exit code 1.
 CalibrationFile readCalibration(const std::filesystem::path& path) {
-  try {
-    return read(JsonFile(path));
-  } catch (const UsageError& e) {
-    throw Error(static_cast<const Error&>(e));
-  }
+  return readOwnFile([&] { return read(JsonFile(path)); });
 }
 
 const std::vector<double>& CalibrationFile::at(const std::string& name, std::size_t size) const {

@@ -81,6 +81,40 @@ TEST(JsonFile, NumbersVectorsTextsRoundTrip) {
   EXPECT_TRUE(file.flag("b", false));
   EXPECT_TRUE(file.flag("missing", true));
   EXPECT_THROW(file.flag("n", false), UsageError);
+  EXPECT_TRUE(file.flag("b"));
+  EXPECT_THROW(file.flag("missing"), UsageError);
+}
+
+TEST(JsonFile, ListsAreReadWhole) {
+  const JsonFile file(json{{"n", {1, 2.5}}, {"t", {"a", "b"}}, {"none", json::array()}}, "here");
+  EXPECT_EQ(file.numbers("n"), (std::vector<double>{1, 2.5}));
+  EXPECT_EQ(file.texts("t"), (std::vector<std::string>{"a", "b"}));
+  EXPECT_TRUE(file.numbers("none").empty());
+  EXPECT_THROW(file.numbers("t"), UsageError);
+  EXPECT_THROW(file.texts("n"), UsageError);
+  EXPECT_THROW(file.texts("missing"), UsageError);
+}
+
+TEST(JsonFile, SaysWhatToDo) {
+  const JsonFile file(json{{"list", {{{"x", "a"}}}}}, "here", "Ask the author");
+  try {
+    file.entries("list").at(0).number("x");
+    FAIL();
+  } catch (const UsageError& e) {
+    EXPECT_STREQ(e.what(), "here, \"list\", entry 1: field \"x\" is not a number. Ask the author");
+  }
+}
+
+TEST(ReadOwnFile, AFaultInItIsNoMistakeInTheCall) {
+  EXPECT_EQ(readOwnFile([] { return 7; }), 7);
+  try {
+    readOwnFile([] { JsonFile(json(), "here").number("x"); });
+    FAIL();
+  } catch (const UsageError&) {
+    FAIL();
+  } catch (const Error& e) {
+    EXPECT_STREQ(e.what(), "here: field \"x\" is missing. Correct the file");
+  }
 }
 
 }  // namespace

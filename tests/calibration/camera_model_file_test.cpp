@@ -157,7 +157,7 @@ TEST_F(CameraFile, NamesTheFieldThatIsWrongInJson) {
   } damages[] = {{"\"version\": 1", "\"version\": 2", "version"},
                  {"\"type\": \"camera_model\"", "\"type\": \"station\"", "type"},
                  {"\"unit\": \"px\"", "\"unit\": \"mm\"", "unit"},
-                 {"\"width\": 640", "\"width\": 4294967936", "image_width"},  // 640 in 32 bits
+                 {"\"width\": 640", "\"width\": 4294967936", "width"},  // 640 in 32 bits
                  {"\"width\": 640", "\"width\": \"640\"", "width"},
                  {"\"fx\": 600.0", "\"fx\": null", "fx"},
                  {"\"fx\": 600.0", "\"f\": 600.0", "fx"},

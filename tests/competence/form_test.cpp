@@ -40,24 +40,25 @@ std::string spoilt(const std::string& what, const std::string& with) {
 TEST(Forms, DamagedFilesAreNamedWithTheirField) {
   EXPECT_NE(refusal([] { parseChecklist("{", "list.json"); }).find("list.json: is not JSON"),
             std::string::npos);
-  EXPECT_NE(
-      spoilt("\"version\": 1", "\"version\": 2").find("list.json, version: is of a newer program"),
-      std::string::npos);
-  EXPECT_NE(spoilt("\"metric\": \"error_site\"", "\"metric\": \"error_sight\"")
-                .find("\"error_sight\" is no figure of a trial"),
-            std::string::npos);
-  EXPECT_NE(
-      spoilt("\"id\": \"position\"", "\"id\": \"explained\"").find("\"explained\" is there twice"),
-      std::string::npos);
-  EXPECT_NE(spoilt("\"weight\": \"minor\"", "\"weight\": \"heavy\"").find("must be major or minor"),
-            std::string::npos);
-  EXPECT_NE(spoilt("\"judged_by\": \"rater\"", "\"judged_by\": \"nobody\"")
-                .find("must be simulator or rater"),
-            std::string::npos);
-  EXPECT_NE(spoilt("\"share_pct\": 98", "\"share_pct\": 980").find("share_pct: is out of range"),
-            std::string::npos);
-  EXPECT_NE(spoilt("\"standards\"", "\"standard\"").find("standards: must be a list"),
-            std::string::npos);
+  const std::pair<std::pair<const char*, const char*>, const char*> spoilt_texts[] = {
+      {{"\"version\": 1", "\"version\": 2"}, "list.json: field \"version\" is newer"},
+      {{"\"metric\": \"error_site\"", "\"metric\": \"error_sight\""},
+       "field \"metric\" is \"error_sight\", no figure of a trial"},
+      {{"\"id\": \"position\"", "\"id\": \"explained\""},
+       "list.json, \"items\", entry 2: field \"id\" is \"explained\", which is there twice"},
+      {{"\"weight\": \"minor\"", "\"weight\": \"heavy\""},
+       "is \"heavy\"; it must be \"major\" or \"minor\""},
+      {{"\"judged_by\": \"rater\"", "\"judged_by\": \"nobody\""},
+       "is \"nobody\"; it must be \"rater\" or \"simulator\""},
+      {{"\"share_pct\": 98", "\"share_pct\": 980"}, "field \"share_pct\" is 980, outside 1 to 100"},
+      {{"\"standards\"", "\"standard\""}, "field \"standards\" must be a list"},
+      {{"\"source\": \"Items", "\"sauce\": \"Items"}, "field \"source\" is missing"},
+      {{"\"major\": 17", "\"major\": -17"}, "field \"levels/competent/major\" is -17, outside"}};
+  for (const auto& [change, words] : spoilt_texts) {
+    const std::string said = spoilt(change.first, change.second);
+    EXPECT_NE(said.find(words), std::string::npos) << said;
+    EXPECT_NE(said.find("assets/checklists"), std::string::npos) << said;
+  }
 }
 
 TEST(Answers, AreReadAsTheyAreTypedIn) {

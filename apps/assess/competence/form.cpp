@@ -8,139 +8,119 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "apps/assess/metrics/metric_table.h"
 
 namespace palpa::competence {
 namespace {
 
-using Json = nlohmann::json;
+constexpr const char* kRemedy = "The shipped forms in assets/checklists show how it is written";
 
-/// A form's file; every access names file and field when something is wrong.
-class FormFile {
- public:
-  FormFile(const std::string& text, std::string where) : where_(std::move(where)) {
-    json_ = parsedOrDiscarded(text);
-    if (json_.is_discarded() || !json_.is_object())
-      throw UsageError("is not JSON", where_, "Restore it from the program's assets");
-    if (const double version = number(json_, "version", 1, 1e9); version != 1)
-      refuse("version", "is of a newer program");
-  }
-  const Json& json() const { return json_; }
+JsonFile formIn(const std::string& text, const std::string& where) {
+  nlohmann::json json = parsedOrDiscarded(text);
+  if (!json.is_object())
+    throw UsageError("is not JSON", where, "Restore it from the program's assets");
+  JsonFile file(std::move(json), where, kRemedy);
+  file.needVersion(1);
+  return file;
+}
 
-  [[noreturn]] void refuse(const std::string& field, const std::string& what) const {
-    throw UsageError(what, where_ + ", " + field,
-                     "The shipped forms in assets/checklists show how it is written");
-  }
-  std::string text(const Json& at, const std::string& field) const {
-    if (!at.is_object() || !at.contains(field) || !at.at(field).is_string() ||
-        at.at(field).get<std::string>().empty())
-      refuse(field, "must be a text");
-    return at.at(field).get<std::string>();
-  }
-  double number(const Json& at, const std::string& field, double low, double high) const {
-    if (!at.is_object() || !at.contains(field) || !at.at(field).is_number())
-      refuse(field, "must be a number");
-    const double value = at.at(field).get<double>();
-    if (!(value >= low && value <= high)) refuse(field, "is out of range");
-    return value;
-  }
-  const Json& list(const Json& at, const std::string& field) const {
-    if (!at.is_object() || !at.contains(field) || !at.at(field).is_array() || at.at(field).empty())
-      refuse(field, "must be a list with something in it");
-    return at.at(field);
-  }
-  std::string freshId(const Json& at, std::set<std::string>* taken) const {
-    const std::string id = text(at, "id");
-    if (id.find_first_of(", \"\t\n") != std::string::npos)
-      refuse("id", "\"" + id + "\" must have neither spaces nor commas: it is typed in");
-    if (!taken->insert(id).second) refuse("id", "\"" + id + "\" is there twice");
-    return id;
-  }
+std::string textIn(const JsonFile& file, const std::string& field) {
+  std::string text = file.text(field);
+  if (text.empty()) file.refuse(field, "is empty");
+  return text;
+}
 
- private:
-  std::string where_;
-  Json json_;
-};
+std::vector<JsonFile> someIn(const JsonFile& file, const std::string& list) {
+  std::vector<JsonFile> entries = file.entries(list);
+  if (entries.empty()) file.refuse(list, "must be a list with something in it");
+  return entries;
+}
 
-Rule ruleIn(const FormFile& file, const Json& at) {
+std::string freshId(const JsonFile& file, std::set<std::string>* taken) {
+  const std::string id = textIn(file, "id");
+  if (id.find_first_of(", \"\t\n") != std::string::npos)
+    file.refuse("id", "is \"" + id + "\"; it is typed in: no spaces, no commas");
+  if (!taken->insert(id).second) file.refuse("id", "is \"" + id + "\", which is there twice");
+  return id;
+}
+
+Rule ruleIn(const JsonFile& file) {
   Rule rule;
-  rule.metric = file.text(at, "metric");
+  rule.metric = textIn(file, "metric");
   if (!metrics::metricNamed(rule.metric))
-    file.refuse("metric", "\"" + rule.metric +
-                              "\" is no figure of a trial (palpa records metrics lists them)");
-  const bool applies = at.contains("applies") && at.at("applies") == true;
-  if (!applies && !at.contains("at_least") && !at.contains("at_most"))
-    file.refuse("metric", "\"" + rule.metric + "\" needs \"at_least\", \"at_most\" or \"applies\"");
-  if (at.contains("at_least")) rule.at_least = file.number(at, "at_least", -1e9, 1e9);
-  if (at.contains("at_most")) rule.at_most = file.number(at, "at_most", -1e9, 1e9);
+    file.refuse("metric", "is \"" + rule.metric +
+                              "\", no figure of a trial (palpa records metrics lists them)");
+  const nlohmann::json& json = file.json();
+  const bool applies = json.contains("applies") && json.at("applies") == true;
+  if (!applies && !file.has("at_least") && !file.has("at_most"))
+    file.refuse("metric",
+                "is \"" + rule.metric +
+                    "\", beside which \"at_least\", \"at_most\" or \"applies\" is needed");
+  if (file.has("at_least")) rule.at_least = file.number("at_least", -1e9, 1e9);
+  if (file.has("at_most")) rule.at_most = file.number("at_most", -1e9, 1e9);
   return rule;
 }
 
-Item itemIn(const FormFile& file, const Json& at, std::set<std::string>* taken) {
+/// Which of two words a field holds: whether it is the first.
+bool isFirst(const JsonFile& file, const std::string& field, const std::string& first,
+             const std::string& second) {
+  const std::string word = textIn(file, field);
+  if (word != first && word != second)
+    file.refuse(field, "is \"" + word + "\"; it must be \"" + first + "\" or \"" + second + "\"");
+  return word == first;
+}
+
+Item itemIn(const JsonFile& file, std::set<std::string>* taken) {
   Item item;
-  item.id = file.freshId(at, taken);
-  item.text = file.text(at, "text");
-  const std::string weight = file.text(at, "weight"), by = file.text(at, "judged_by");
-  if (weight != "major" && weight != "minor")
-    file.refuse("weight", "of \"" + item.id + "\" must be major or minor");
-  item.major = weight == "major";
-  if (by != "simulator" && by != "rater")
-    file.refuse("judged_by", "of \"" + item.id + "\" must be simulator or rater");
-  if (by == "rater") return item;
-  for (const Json& rule : file.list(at, "rules")) item.rules.push_back(ruleIn(file, rule));
-  if (!at.contains("without")) return item;
-  const std::string without = file.text(at, "without");
-  if (without != "not done" && without != "did not arise")
-    file.refuse("without", "of \"" + item.id + "\" must be \"not done\" or \"did not arise\"");
-  item.may_not_arise = without == "did not arise";
+  item.id = freshId(file, taken);
+  item.text = textIn(file, "text");
+  item.major = isFirst(file, "weight", "major", "minor");
+  if (isFirst(file, "judged_by", "rater", "simulator")) return item;
+  for (const JsonFile& rule : someIn(file, "rules")) item.rules.push_back(ruleIn(rule));
+  item.may_not_arise = file.has("without") && isFirst(file, "without", "did not arise", "not done");
   return item;
 }
 
-Level levelIn(const FormFile& file, const Json& levels, const char* name) {
-  if (!levels.contains(name)) file.refuse(std::string("levels/") + name, "is missing");
-  return {static_cast<int>(file.number(levels.at(name), "major", 0, 1000)),
-          static_cast<int>(file.number(levels.at(name), "minor", 0, 1000))};
+Level levelIn(const JsonFile& file, const std::string& level) {
+  return {static_cast<int>(file.number(level + "/major", 0, 1000)),
+          static_cast<int>(file.number(level + "/minor", 0, 1000))};
 }
 
 }  // namespace
 
 Checklist parseChecklist(const std::string& text, const std::string& where) {
-  const FormFile file(text, where);
-  const Json& json = file.json();
+  const JsonFile file = formIn(text, where);
   Checklist list;
-  list.id = file.text(json, "id");
-  list.title = file.text(json, "title");
-  list.source = file.text(json, "source");
-  for (const Json& standard : file.list(json, "standards"))
-    list.standards.push_back(file.number(standard, "share_pct", 1, 100) / 100);
-  if (!json.contains("levels")) file.refuse("levels", "is missing");
-  list.competent = levelIn(file, json.at("levels"), "competent");
-  list.borderline = levelIn(file, json.at("levels"), "borderline");
-  list.levels_source = file.text(json.at("levels"), "source");
+  list.id = textIn(file, "id");
+  list.title = textIn(file, "title");
+  list.source = textIn(file, "source");
+  for (const JsonFile& standard : someIn(file, "standards"))
+    list.standards.push_back(standard.number("share_pct", 1, 100) / 100);
+  list.competent = levelIn(file, "levels/competent");
+  list.borderline = levelIn(file, "levels/borderline");
+  list.levels_source = textIn(file, "levels/source");
   std::set<std::string> taken;
-  for (const Json& item : file.list(json, "items"))
-    list.items.push_back(itemIn(file, item, &taken));
-  for (const Json& critical : file.list(json, "critical"))
+  for (const JsonFile& item : someIn(file, "items")) list.items.push_back(itemIn(item, &taken));
+  for (const JsonFile& critical : someIn(file, "critical"))
     list.critical.push_back(
-        {file.freshId(critical, &taken), file.text(critical, "text"), ruleIn(file, critical)});
+        {freshId(critical, &taken), textIn(critical, "text"), ruleIn(critical)});
   return list;
 }
 
 GlobalRating parseGlobalRating(const std::string& text, const std::string& where) {
-  const FormFile file(text, where);
-  const Json& json = file.json();
+  const JsonFile file = formIn(text, where);
   GlobalRating rating;
-  rating.id = file.text(json, "id");
-  rating.title = file.text(json, "title");
-  rating.source = file.text(json, "source");
-  if (!json.contains("pass")) file.refuse("pass", "is missing");
-  rating.mean_at_least = file.number(json.at("pass"), "mean_at_least", 1, kBestGrade);
-  rating.none_below = static_cast<int>(file.number(json.at("pass"), "none_below", 1, kBestGrade));
+  rating.id = textIn(file, "id");
+  rating.title = textIn(file, "title");
+  rating.source = textIn(file, "source");
+  rating.mean_at_least = file.number("pass/mean_at_least", 1, kBestGrade);
+  rating.none_below = static_cast<int>(file.number("pass/none_below", 1, kBestGrade));
   std::set<std::string> taken;
-  for (const Json& item : file.list(json, "items"))
-    rating.items.push_back({file.freshId(item, &taken), file.text(item, "text"),
-                            file.text(item, "1"), file.text(item, "3"), file.text(item, "5")});
+  for (const JsonFile& item : someIn(file, "items"))
+    rating.items.push_back({freshId(item, &taken), textIn(item, "text"), textIn(item, "1"),
+                            textIn(item, "3"), textIn(item, "5")});
   return rating;
 }
 
