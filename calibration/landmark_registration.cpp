@@ -16,13 +16,13 @@ constexpr double kFlat = 0.05;       // of the landmarks' spread: below it they 
 constexpr double kOnePlace = 0.005;  // m: landmarks that all lie within this are one place
 constexpr double kWrongScale = 0.1;
 
-struct Spread {
+struct PointScatter {
   Vec3 mean_A, mean_B;
   Mat3 cross, of_A, of_B;  // weighted covariances
 };
 
-Spread spreadOf(const std::vector<TouchedLandmark>& landmarks) {
-  Spread s{Vec3::Zero(), Vec3::Zero(), Mat3::Zero(), Mat3::Zero(), Mat3::Zero()};
+PointScatter spreadOf(const std::vector<TouchedLandmark>& landmarks) {
+  PointScatter s{Vec3::Zero(), Vec3::Zero(), Mat3::Zero(), Mat3::Zero(), Mat3::Zero()};
   double weights = 0;
   for (const TouchedLandmark& l : landmarks) {
     const double w = 1 / (l.sd * l.sd);
@@ -42,7 +42,7 @@ Spread spreadOf(const std::vector<TouchedLandmark>& landmarks) {
   return s;
 }
 
-void requireSpread(const Spread& s) {
+void requireSpread(const PointScatter& s) {
   const Vec3 sizes = symmetricEigen(s.of_A).values.cwiseMax(0).cwiseSqrt();
   if (sizes[2] < kOnePlace)
     throw Error("the landmarks lie within " +
@@ -59,7 +59,7 @@ void requireSpread(const Spread& s) {
 }
 
 // Sizes may differ by a unit; a mirrored set fits only mirrored.
-void requireLikeness(const Spread& s, double scale) {
+void requireLikeness(const PointScatter& s, double scale) {
   if (std::abs(scale - 1) > kWrongScale) {
     char words[160];
     std::snprintf(words, sizeof words,
@@ -92,7 +92,7 @@ LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landm
   for (const TouchedLandmark& l : landmarks)
     if (!l.p_A.allFinite() || !l.p_B.allFinite() || !(l.sd > 0))
       throw Error("a landmark is not a number", kLandmarks, "Touch it again");
-  const Spread spread = spreadOf(landmarks);
+  const PointScatter spread = spreadOf(landmarks);
   requireSpread(spread);
 
   // Turned and shifted about the landmarks' middle, so that both are nearly independent.
@@ -133,7 +133,7 @@ LandmarkRegistration registerLandmarks(const std::vector<TouchedLandmark>& landm
     ++good;
   }
   result.fre = std::sqrt(squares / good);
-  const Spread of_kept = spreadOf(kept);
+  const PointScatter of_kept = spreadOf(kept);
   result.scale = std::sqrt(of_kept.of_B.trace() / of_kept.of_A.trace());
   requireLikeness(of_kept, result.scale);
   if (result.fre > largest_fre) {

@@ -81,15 +81,15 @@ haptics::HuntCrossley lawOf(std::vector<PressSample> samples, const std::string&
 }
 
 /// What the lump adds to one sample, and where it is seen from.
-struct Added {
+struct LumpForce {
   Vec3 f_T = Vec3::Zero(), line = Vec3::Zero();  ///< N; m, from lump to tip
   double sine = 0;                               ///< of the angle between line and normal
   Vec3 along = Vec3::Zero();  ///< N, f_T by its part along n, where a round tip's force must point
 };
 
-Added addedBy(const LumpSample& s, const SoftContact& without, const Vec3& drag, const Vec3& p_T0,
-              double tip_radius) {
-  Added a;
+LumpForce addedBy(const LumpSample& s, const SoftContact& without, const Vec3& drag,
+                  const Vec3& p_T0, double tip_radius) {
+  LumpForce a;
   a.f_T = s.f_r + drag - haptics::forceOf(without.law, s.x - without.x0, s.rate) * s.n;
   a.line = s.p - p_T0 - s.d;
   const Vec3 to_middle = a.line + tip_radius * s.n;
@@ -100,8 +100,8 @@ Added addedBy(const LumpSample& s, const SoftContact& without, const Vec3& drag,
 
 /// Along one axis: how far the lump was pushed, by what.
 std::vector<PressSample> pushes(const std::vector<LumpSample>& samples,
-                                const std::vector<Added>& added, Vec3 Added::*force, int axis,
-                                double dt) {
+                                const std::vector<LumpForce>& added, Vec3 LumpForce::*force,
+                                int axis, double dt) {
   std::vector<PressSample> pushed;
   for (std::size_t i = 1; i < samples.size(); ++i) {
     const bool tells = axis == 2 ? added[i].sine < kAboveLump : added[i].sine > kBesideLump;
@@ -120,7 +120,7 @@ LumpContact identifyLump(const std::vector<LumpSample>& samples, const SoftConta
                          const haptics::Dahl& friction, const Vec3& p_T0, double tip_radius,
                          double dt) {
   LumpContact found;
-  std::vector<Added> added;
+  std::vector<LumpForce> added;
   haptics::DahlState rubs;
   const LumpSample* before_it = nullptr;
   for (const LumpSample& s : samples) {
@@ -149,14 +149,15 @@ LumpContact identifyLump(const std::vector<LumpSample>& samples, const SoftConta
     all += s.f * s.f;
   }
   found.relative_rms = std::sqrt(off / all);
-  found.G[2] = lawOf(pushes(samples, added, &Added::f_T, 2, dt), "how the lump gives downwards");
+  found.G[2] =
+      lawOf(pushes(samples, added, &LumpForce::f_T, 2, dt), "how the lump gives downwards");
   const auto beside = [&](int axis, const char* what) {
-    const std::vector<PressSample> pushed = pushes(samples, added, &Added::f_T, axis, dt);
+    const std::vector<PressSample> pushed = pushes(samples, added, &LumpForce::f_T, axis, dt);
     if (static_cast<int>(pushed.size()) >= kLeastTouches) {
       try {
         return lawOf(pushed, what);
       } catch (const Error&) {  // a trembling hand rubs more than the lump pushes aside
-        return lawOf(pushes(samples, added, &Added::along, axis, dt), what);
+        return lawOf(pushes(samples, added, &LumpForce::along, axis, dt), what);
       }
     }
     found.advice =

@@ -75,7 +75,7 @@ class GltfSurfaces {
     const auto position = primitive.attributes.find("POSITION");
     if (position == primitive.attributes.end()) refuseMesh("a surface has no points", where_);
     const auto first = static_cast<std::uint32_t>(mesh->points.size());
-    const Block points = block(position->second, TINYGLTF_TYPE_VEC3, 12);
+    const AccessorData points = block(position->second, TINYGLTF_TYPE_VEC3, 12);
     if (points.component != TINYGLTF_COMPONENT_TYPE_FLOAT)
       refuseMesh("its points are not floats", where_);
     for (std::size_t i = 0; i < points.count; ++i) {
@@ -101,13 +101,13 @@ class GltfSurfaces {
       for (std::uint32_t i = 0; i + 2 < count; i += 3) triangle(i, i + 1, i + 2);
       return;
     }
-    const Block indices = block(primitive.indices, TINYGLTF_TYPE_SCALAR, 0);
+    const AccessorData indices = block(primitive.indices, TINYGLTF_TYPE_SCALAR, 0);
     for (std::size_t i = 0; i + 2 < indices.count; i += 3)
       triangle(index(indices, i), index(indices, i + 1), index(indices, i + 2));
   }
 
   /// An accessor's data, after checking that all of it lies inside its buffer.
-  struct Block {
+  struct AccessorData {
     const unsigned char* at = nullptr;
     std::size_t count = 0, stride = 0;
     int component = 0;
@@ -126,7 +126,7 @@ class GltfSurfaces {
     }
   }
 
-  Block block(int index, int type, std::size_t element) const {
+  AccessorData block(int index, int type, std::size_t element) const {
     if (!inRange(index, model_.accessors.size())) refuseMesh("an accessor is missing", where_);
     const tinygltf::Accessor& accessor = model_.accessors[static_cast<std::size_t>(index)];
     if (accessor.type != type || accessor.sparse.isSparse)
@@ -151,7 +151,7 @@ class GltfSurfaces {
             accessor.componentType};
   }
 
-  static std::uint32_t index(const Block& block, std::size_t i) {
+  static std::uint32_t index(const AccessorData& block, std::size_t i) {
     std::uint32_t value = 0;  // glTF and every processor this runs on are little-endian
     std::memcpy(&value, block.at + i * block.stride, bytesOf(block.component));
     return value;

@@ -14,14 +14,14 @@ struct Property {
   Type type = Type::float32;
   std::optional<Type> count;  ///< of a list
 };
-struct Element {
+struct PlyElement {
   std::string name;
   std::size_t count = 0;
   std::vector<Property> properties;
 };
-struct Header {
+struct PlyHeader {
   Coding coding = Coding::text;
-  std::vector<Element> elements;
+  std::vector<PlyElement> elements;
 };
 
 constexpr std::size_t kLargestPolygon = 1000;
@@ -60,9 +60,9 @@ Coding codingOf(const ByteReader& in, std::string_view name) {
   in.fail("its format is none that PLY has");
 }
 
-Header readHeader(ByteReader& in) {
+PlyHeader readHeader(ByteReader& in) {
   if (in.line() != "ply") in.fail("it does not begin with \"ply\"");
-  Header header;
+  PlyHeader header;
   while (true) {
     if (in.done()) in.fail("its header has no end");
     std::string_view line = in.line();
@@ -70,7 +70,7 @@ Header readHeader(ByteReader& in) {
     if (kind == "end_header") return header;
     if (kind == "format") header.coding = codingOf(in, ByteReader::word(line));
     if (kind == "element") {
-      Element element;
+      PlyElement element;
       element.name = std::string(ByteReader::word(line));
       const long long count = in.whole(ByteReader::word(line));
       if (count < 0) in.fail("it claims fewer than no elements");
@@ -116,11 +116,11 @@ std::size_t countOf(ByteReader& in, Coding coding, Type type, std::size_t most) 
   return static_cast<std::size_t>(count);
 }
 
-class Body {
+class PlyBody {
  public:
-  Body(ByteReader& in, Coding coding) : in_(in), coding_(coding) {}
+  PlyBody(ByteReader& in, Coding coding) : in_(in), coding_(coding) {}
 
-  void read(const Element& element, RawMesh* mesh) {
+  void read(const PlyElement& element, RawMesh* mesh) {
     // Every element takes a byte at least: more of them than bytes are a lie.
     if (element.count > in_.left() || element.properties.empty())
       in_.fail("it claims " + std::to_string(element.count) + " of \"" + element.name + "\"");
@@ -133,7 +133,7 @@ class Body {
   }
 
  private:
-  void readPoint(const Element& element, RawMesh* mesh) {
+  void readPoint(const PlyElement& element, RawMesh* mesh) {
     Vec3 p = Vec3::Zero();
     for (const Property& property : element.properties) {
       if (property.count) in_.fail("a point has a list");
@@ -146,7 +146,7 @@ class Body {
   }
 
   /// Faces, and whatever else there may be: read over.
-  void readFace(const Element& element, RawMesh* mesh) {
+  void readFace(const PlyElement& element, RawMesh* mesh) {
     std::vector<std::uint32_t> corners;
     for (const Property& property : element.properties) {
       const std::size_t count =
@@ -172,10 +172,10 @@ class Body {
 
 std::vector<RawMesh> readPly(const std::string& bytes, const std::string& where) {
   ByteReader in(bytes, where, kMeshRemedy);
-  const Header header = readHeader(in);
+  const PlyHeader header = readHeader(in);
   RawMesh mesh;
-  Body body(in, header.coding);
-  for (const Element& element : header.elements) body.read(element, &mesh);
+  PlyBody body(in, header.coding);
+  for (const PlyElement& element : header.elements) body.read(element, &mesh);
   return {std::move(mesh)};
 }
 

@@ -14,11 +14,11 @@ constexpr std::array<Unit, 6> kUnits{{{"m", "metres", 1},
                                       {"in", "inches", 0.0254},
                                       {"ft", "feet", 0.3048}}};
 
-struct Span {
+struct SizeRange {
   double least, most;  // m, of the longest side
 };
 
-Span spanOf(Organ organ) {
+SizeRange spanOf(Organ organ) {
   switch (organ) {
     case Organ::clavicle:
       return {0.10, 0.20};
@@ -63,7 +63,7 @@ std::string knownUnits() {
 }
 
 bool plausibleLength(Organ organ, double longest_m) {
-  const Span span = spanOf(organ);
+  const SizeRange span = spanOf(organ);
   return longest_m >= span.least && longest_m <= span.most;
 }
 

@@ -16,15 +16,15 @@ constexpr double kNever = std::numeric_limits<double>::infinity();
 
 /// Table of least areas: row i, column j stands for the part of the ring from i to j, closed by the
 /// line j - i.
-struct Table {
-  explicit Table(std::size_t size) : n(size), area(size * size, 0), apex(size * size, 0) {}
+struct AreaTable {
+  explicit AreaTable(std::size_t size) : n(size), area(size * size, 0), apex(size * size, 0) {}
   std::size_t at(std::size_t i, std::size_t j) const { return i * n + j; }
   std::size_t n;
   std::vector<double> area;
   std::vector<std::size_t> apex;
 };
 
-void fill(Table* table, const std::vector<Vec3>& points, const std::vector<Corner>& ring,
+void fill(AreaTable* table, const std::vector<Vec3>& points, const std::vector<Corner>& ring,
           const std::function<bool(Corner, Corner)>& taken) {
   const auto place = [&](std::size_t i) { return points[ring[i]]; };
   for (std::size_t length = 2; length < table->n; ++length)
@@ -50,7 +50,7 @@ std::vector<Triangle> closeRing(const std::vector<Vec3>& points, const std::vect
                                 const std::function<bool(Corner, Corner)>& taken) {
   std::vector<Triangle> triangles;
   if (ring.size() < 3) return triangles;
-  Table table(ring.size());
+  AreaTable table(ring.size());
   fill(&table, points, ring, taken);
   if (table.area[table.at(0, table.n - 1)] == kNever) return triangles;
   std::vector<std::pair<std::size_t, std::size_t>> open{{0, table.n - 1}};
@@ -74,7 +74,7 @@ constexpr double kFinestGrid = 1e12;     // cells a side
 constexpr std::size_t kMostInCell = 64;  // border points: more are no seam
 
 /// One use of an edge: its ends and the third corner of the triangle.
-struct Use {
+struct TriangleEdge {
   Corner a, b, third;
 };
 using Pair = std::pair<Corner, Corner>;
@@ -155,13 +155,13 @@ class Welder {
     members_[ra] = std::move(all);
   }
 
-  Vec3 across(const Use& use) const {
+  Vec3 across(const TriangleEdge& use) const {
     const Vec3 along = (mesh_.points[use.b] - mesh_.points[use.a]).normalized();
     const Vec3 to = mesh_.points[use.third] - mesh_.points[use.a];
     return to - to.dot(along) * along;
   }
 
-  bool folded(const Use& one, const Use& other) const {
+  bool folded(const TriangleEdge& one, const TriangleEdge& other) const {
     const Vec3 u = across(one), v = across(other);
     return u.dot(v) > kFolded * u.norm() * v.norm();
   }
@@ -169,11 +169,11 @@ class Welder {
   /// Dissolves clusters that close no edge, or that bring three triangles or two on each other to
   /// one edge.
   bool undoUseless() {
-    std::map<Pair, std::vector<const Use*>> at_edge;
+    std::map<Pair, std::vector<const TriangleEdge*>> at_edge;
     for (const auto& [edge, uses] : uses_) {
       const Corner a = cluster_[edge.first], b = cluster_[edge.second];
       if (!members_.count(a) && !members_.count(b)) continue;
-      for (const Use& use : uses) at_edge[ordered(a, b)].push_back(&use);
+      for (const TriangleEdge& use : uses) at_edge[ordered(a, b)].push_back(&use);
     }
     std::set<Corner> useful, harmful;
     for (const auto& [edge, uses] : at_edge) {
@@ -220,7 +220,7 @@ class Welder {
 
   const RawMesh& mesh_;
   double tolerance_;
-  std::map<Pair, std::vector<Use>> uses_;
+  std::map<Pair, std::vector<TriangleEdge>> uses_;
   std::set<Corner> border_;
   std::vector<Corner> cluster_;                    // of a point: a member of its cluster
   std::map<Corner, std::vector<Corner>> members_;  // of clusters of two and more

@@ -28,23 +28,24 @@ constexpr double kMedially[] = {31, 33, 29,
 // Depth of the target's centre, mm from the usual one, by preference.
 constexpr double kDeeper[] = {0, 2, -2, 4, -4, 6, -6, 8, -8};
 
-struct Range {
+struct MeasuredRange {
   const char* what;
   double value, low, high;
   const char* unit;
 };
 
 void requireRanges(const PatientParameters& p) {
-  for (const Range& r :
-       {Range{"height", p.height, 1.40, 2.10, "m"}, Range{"bmi", p.bmi, 15, 50, "kg/m2"},
-        Range{"vein_depth", 1e3 * p.vein_depth, 4.9, 35.1, "mm"},
-        Range{"vein_diameter", 1e3 * p.vein_diameter, 3.9, 14.1, "mm"},
-        Range{"pleura_distance", 1e3 * p.pleura_distance, 1, 11, "mm"},
-        Range{"clavicle_length", 1e3 * p.clavicle_length, 120, 178, "mm"},
-        Range{"clavicle_thickness", 1e3 * p.clavicle_thickness, 9, 15, "mm"},
-        Range{"layers.skin", 1e3 * p.layers.skin, 1, 4, "mm"},
-        Range{"layers.fat", 1e3 * p.layers.fat, 1, 20, "mm"},
-        Range{"layers.muscle", 1e3 * p.layers.muscle, 2.5, 16, "mm"}})
+  for (const MeasuredRange& r :
+       {MeasuredRange{"height", p.height, 1.40, 2.10, "m"},
+        MeasuredRange{"bmi", p.bmi, 15, 50, "kg/m2"},
+        MeasuredRange{"vein_depth", 1e3 * p.vein_depth, 4.9, 35.1, "mm"},
+        MeasuredRange{"vein_diameter", 1e3 * p.vein_diameter, 3.9, 14.1, "mm"},
+        MeasuredRange{"pleura_distance", 1e3 * p.pleura_distance, 1, 11, "mm"},
+        MeasuredRange{"clavicle_length", 1e3 * p.clavicle_length, 120, 178, "mm"},
+        MeasuredRange{"clavicle_thickness", 1e3 * p.clavicle_thickness, 9, 15, "mm"},
+        MeasuredRange{"layers.skin", 1e3 * p.layers.skin, 1, 4, "mm"},
+        MeasuredRange{"layers.fat", 1e3 * p.layers.fat, 1, 20, "mm"},
+        MeasuredRange{"layers.muscle", 1e3 * p.layers.muscle, 2.5, 16, "mm"}})
     if (!(r.value >= r.low && r.value <= r.high))
       throw Error(std::string(r.what) + " is " + std::to_string(r.value) + " " + r.unit +
                       ", outside " + std::to_string(r.low) + " to " + std::to_string(r.high) + " " +

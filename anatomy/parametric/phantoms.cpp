@@ -38,9 +38,9 @@ std::vector<double> cutsAlong(double side) {
 
 /// The surface of a box's lattice, pushed onto the box with round edges: every point shared, so the
 /// mesh is closed.
-class BlockMesh {
+class BlockSurface {
  public:
-  explicit BlockMesh(const Vec3& size) : flat_(size / 2 - Vec3::Constant(kBlockEdge)) {
+  explicit BlockSurface(const Vec3& size) : flat_(size / 2 - Vec3::Constant(kBlockEdge)) {
     for (int axis = 0; axis < 3; ++axis)
       cuts_[static_cast<std::size_t>(axis)] = cutsAlong(size[axis]);
     for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -90,7 +90,7 @@ class BlockMesh {
 };
 
 TriangleMesh blockMesh(const Vec3& size) {
-  TriangleMesh mesh = BlockMesh(size).mesh;
+  TriangleMesh mesh = BlockSurface(size).mesh;
   for (Vec3& p : mesh.points) p = X_AP() * (p - Vec3(0, 0, size.z() / 2));
   for (Vec3& n : mesh.normals) n = X_AP().linear() * n;
   return mesh;

@@ -10,7 +10,7 @@ namespace palpa::anatomy {
 namespace {
 
 // A point of a vessel for the template's target and window, and how much it moves with either.
-struct Guide {
+struct VesselPoint {
   Vec3 p;
   double with_target, with_window;
   double radius;  // mm, or as a multiple of the vein's
@@ -25,10 +25,10 @@ struct Shifts {
   Vec3 target, window;
 };
 
-TubeField through(const std::vector<Guide>& guides, const Shifts& shifts, double radius_unit,
+TubeField through(const std::vector<VesselPoint>& guides, const Shifts& shifts, double radius_unit,
                   double sign = 1) {
   std::vector<Vec3> points;
-  for (const Guide& g : guides) {
+  for (const VesselPoint& g : guides) {
     Vec3 with_target = g.with_target * shifts.target;
     if (g.p.x() < kTemplateTarget.x() - 3) with_target.x() *= with_target.x() < 0 ? kMedialGive : 1;
     const Vec3 p = g.p + with_target + g.with_window * shifts.window;
@@ -78,18 +78,18 @@ double besideBone(double f, const Field& bones, const Vec3& p, double gap) {
 // patient's right, long and across the midline on his left. `unit`: radius at the target.
 TubeField veinOf(bool right, double unit, const Shifts& shifts, double sign) {
   const double even = (1 + 4.5 / unit) / 2;  // the brachiocephalic veins differ less between people
-  std::vector<Guide> guides{{{122, 54, -26}, 0, 0.5, 1.22}, {{104, 45, -16}, 0, 0.9, 1.2},
-                            {kTemplateWindow, 0, 1, 1.12},  {{64, 31.5, -3}, 0.6, 0.4, 1.03},
-                            {{48, 26.5, 0}, 1, 0, 1},       {kTemplateTarget, 1, 0, 1},
-                            {{24, 26.5, -0.5}, 1, 0, 1.06}};
-  const std::vector<Guide> to_cava = right
-                                         ? std::vector<Guide>{{{19, 29.5, -9}, 0.9, 0, 1.3 * even},
-                                                              {{18.5, 33, -24}, 0.5, 0, 1.5 * even},
-                                                              {{20, 38, -42}, 0.1, 0, 1.7 * even}}
-                                         : std::vector<Guide>{{{15, 28, -8}, 1, 0, 1.25 * even},
-                                                              {{4, 29, -17}, 0.6, 0, 1.4 * even},
-                                                              {{-9, 32, -28}, 0.2, 0, 1.45 * even},
-                                                              {{-20, 38, -44}, 0.1, 0, 1.5 * even}};
+  std::vector<VesselPoint> guides{{{122, 54, -26}, 0, 0.5, 1.22}, {{104, 45, -16}, 0, 0.9, 1.2},
+                                  {kTemplateWindow, 0, 1, 1.12},  {{64, 31.5, -3}, 0.6, 0.4, 1.03},
+                                  {{48, 26.5, 0}, 1, 0, 1},       {kTemplateTarget, 1, 0, 1},
+                                  {{24, 26.5, -0.5}, 1, 0, 1.06}};
+  const std::vector<VesselPoint> to_cava =
+      right ? std::vector<VesselPoint>{{{19, 29.5, -9}, 0.9, 0, 1.3 * even},
+                                       {{18.5, 33, -24}, 0.5, 0, 1.5 * even},
+                                       {{20, 38, -42}, 0.1, 0, 1.7 * even}}
+            : std::vector<VesselPoint>{{{15, 28, -8}, 1, 0, 1.25 * even},
+                                       {{4, 29, -17}, 0.6, 0, 1.4 * even},
+                                       {{-9, 32, -28}, 0.2, 0, 1.45 * even},
+                                       {{-20, 38, -44}, 0.1, 0, 1.5 * even}};
   guides.insert(guides.end(), to_cava.begin(), to_cava.end());
   return through(guides, shifts, unit, sign);
 }
@@ -109,18 +109,19 @@ TubeField subclavianArtery(bool right, double unit, const Shifts& shifts, double
   const double gap = unit + 4 + 4;
   const Vec3 offset = gap * Vec3(-1, 9.3, 8.6).normalized();
   const double wide = std::max(0.0, 1.5 * (unit - 4.5));  // behind wide veins
-  std::vector<Guide> guides{{Vec3(123, 54, -26) + 1.08 * offset, 0, 0.5, 3.4},
-                            {Vec3(104, 45, -16) + 1.08 * offset, 0, 0.9, 3.5},
-                            {Vec3(84, 37.5, -8.5) + 1.08 * offset, 0, 1, 3.7},
-                            {Vec3(64, 31.5, -3) + 1.1 * offset, 0.6, 0.4, 3.9},
-                            {Vec3(48, 27, 0) + 1.2 * offset, 1, 0, 4.0},
-                            {{34, 42 + wide, 13}, 1, 0, 4.1}};
-  const std::vector<Guide> to_arch = right ? std::vector<Guide>{{{22, 46 + wide, 8}, 0.8, 0, 4.4},
-                                                                {{16, 47 + wide, -4}, 0.4, 0, 5.2}}
-                                           : std::vector<Guide>{{{24, 49 + wide, 9}, 0.8, 0, 4.5},
-                                                                {{21, 56 + wide, -10}, 0.4, 0, 5.0},
-                                                                {{20, 62, -34}, 0.1, 0, 5.4},
-                                                                {{19, 64, -50}, 0, 0, 5.8}};
+  std::vector<VesselPoint> guides{{Vec3(123, 54, -26) + 1.08 * offset, 0, 0.5, 3.4},
+                                  {Vec3(104, 45, -16) + 1.08 * offset, 0, 0.9, 3.5},
+                                  {Vec3(84, 37.5, -8.5) + 1.08 * offset, 0, 1, 3.7},
+                                  {Vec3(64, 31.5, -3) + 1.1 * offset, 0.6, 0.4, 3.9},
+                                  {Vec3(48, 27, 0) + 1.2 * offset, 1, 0, 4.0},
+                                  {{34, 42 + wide, 13}, 1, 0, 4.1}};
+  const std::vector<VesselPoint> to_arch =
+      right ? std::vector<VesselPoint>{{{22, 46 + wide, 8}, 0.8, 0, 4.4},
+                                       {{16, 47 + wide, -4}, 0.4, 0, 5.2}}
+            : std::vector<VesselPoint>{{{24, 49 + wide, 9}, 0.8, 0, 4.5},
+                                       {{21, 56 + wide, -10}, 0.4, 0, 5.0},
+                                       {{20, 62, -34}, 0.1, 0, 5.4},
+                                       {{19, 64, -50}, 0, 0, 5.8}};
   guides.insert(guides.end(), to_arch.begin(), to_arch.end());
   return through(guides, shifts, 1, sign);
 }

@@ -71,9 +71,9 @@ namespace {
 constexpr int kBlock = 4;
 constexpr std::uint32_t kNone = ~0u;
 
-class Grid {
+class FieldGrid {
  public:
-  Grid(const Field& field, const Eigen::AlignedBox3d& box, double cell, double slope)
+  FieldGrid(const Field& field, const Eigen::AlignedBox3d& box, double cell, double slope)
       : origin_(box.min()), cell_(cell) {
     for (int axis = 0; axis < 3; ++axis)
       size_[axis] = (static_cast<int>(std::ceil(box.sizes()[axis] / cell)) / kBlock + 1) * kBlock;
@@ -165,7 +165,7 @@ class Grid {
 };
 
 // Mean of the crossings on the cell's twelve edges, in grid units; false where none is crossed.
-bool cellVertex(const Grid& grid, int x, int y, int z, Vec3* vertex) {
+bool cellVertex(const FieldGrid& grid, int x, int y, int z, Vec3* vertex) {
   Vec3 sum = Vec3::Zero();
   int crossings = 0;
   for (int corner = 0; corner < 8; ++corner) {
@@ -185,7 +185,7 @@ bool cellVertex(const Grid& grid, int x, int y, int z, Vec3* vertex) {
   return true;
 }
 
-std::vector<std::uint32_t> addVertices(const Grid& grid, TriangleMesh* mesh) {
+std::vector<std::uint32_t> addVertices(const FieldGrid& grid, TriangleMesh* mesh) {
   std::vector<std::uint32_t> ids(std::size_t(grid.size(0)) * grid.size(1) * grid.size(2), kNone);
   for (int z = 0; z + 1 < grid.size(2); ++z)
     for (int y = 0; y + 1 < grid.size(1); ++y)
@@ -208,7 +208,7 @@ void addQuad(std::array<std::uint32_t, 4> q, bool outward, TriangleMesh* mesh) {
   mesh->triangles.push_back({q[0], q[2], q[3]});
 }
 
-void addQuads(const Grid& grid, const std::vector<std::uint32_t>& ids, TriangleMesh* mesh) {
+void addQuads(const FieldGrid& grid, const std::vector<std::uint32_t>& ids, TriangleMesh* mesh) {
   const auto id = [&](int x, int y, int z) { return ids[grid.index(x, y, z)]; };
   for (int z = 1; z + 1 < grid.size(2); ++z)
     for (int y = 1; y + 1 < grid.size(1); ++y)
@@ -250,7 +250,7 @@ void moveOntoSurface(const Field& field, double cell, TriangleMesh* mesh) {
 TriangleMesh surfaceNets(const Field& field, const Eigen::AlignedBox3d& box, double cell,
                          double slope) {
   TriangleMesh mesh;
-  const Grid grid(field, box, cell, slope);
+  const FieldGrid grid(field, box, cell, slope);
   const std::vector<std::uint32_t> ids = addVertices(grid, &mesh);
   moveOntoSurface(field, cell, &mesh);
   addQuads(grid, ids, &mesh);

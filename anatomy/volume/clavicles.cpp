@@ -15,21 +15,21 @@ constexpr double kSeedReach = 8e-3, kWatershed = 4e-3, kMarrow = 6e-3, kThread =
 constexpr double kRival = 3e-6;    // m^3
 constexpr double kPerStep = 4e-3;  // a lower threshold is worth so much height
 
-struct Shape {
+struct BoneShape {
   std::size_t voxels = 0;
   Vec3 mean = Vec3::Zero(), spread = Vec3::Zero();  // rms along the principal axes, longest first
   Vec3 along = Vec3::Zero();
   Vec3 low = Vec3::Constant(1e9), high = Vec3::Constant(-1e9);
 };
 
-std::vector<Shape> shapesOf(const Scan& scan, const VoxelPieces& pieces) {
-  std::vector<Shape> shapes(pieces.voxels.size());
+std::vector<BoneShape> shapesOf(const Scan& scan, const VoxelPieces& pieces) {
+  std::vector<BoneShape> shapes(pieces.voxels.size());
   std::vector<Mat3> second(shapes.size(), Mat3::Zero());
   for (std::size_t n = 0; n < pieces.label.size(); ++n) {
     const auto piece = static_cast<std::size_t>(pieces.label[n]);
     if (piece == 0) continue;
     const Vec3 p = scan.place(n);
-    Shape& s = shapes[piece];
+    BoneShape& s = shapes[piece];
     ++s.voxels;
     s.mean += p;
     second[piece] += p * p.transpose();
@@ -47,7 +47,7 @@ std::vector<Shape> shapesOf(const Scan& scan, const VoxelPieces& pieces) {
 }
 
 /// Rod-like, lateral, in the body's front half, near the midline at one end.
-bool looksLikeClavicle(const Shape& s, double midline, double body_middle_y) {
+bool looksLikeClavicle(const BoneShape& s, double midline, double body_middle_y) {
   const double side = s.mean.x() < midline ? -1 : 1;
   const double medial = side < 0 ? midline - s.high.x() : s.low.x() - midline;
   const double lateral = side < 0 ? midline - s.low.x() : s.high.x() - midline;
@@ -96,9 +96,9 @@ class Search {
     double most = -1e9;
     for (int step = 0; step < kThresholds; ++step) {
       Choice choice{piecesAt(step), 0};
-      const std::vector<Shape> shapes = shapesOf(scan_, choice.pieces);
+      const std::vector<BoneShape> shapes = shapesOf(scan_, choice.pieces);
       for (std::size_t i = 1; i < shapes.size(); ++i) {
-        const Shape& s = shapes[i];
+        const BoneShape& s = shapes[i];
         if ((s.mean.x() < scan_.midline_x) != (side == Side::right) ||
             !looksLikeClavicle(s, scan_.midline_x, middle_y_))
           continue;
@@ -116,7 +116,8 @@ class Search {
       Choice choice{piecesAt(step), 0};
       choice.piece = pieceNear(choice.pieces, seed_S);
       if (!choice.piece) break;
-      const Shape shape = shapesOf(scan_, choice.pieces)[static_cast<std::size_t>(choice.piece)];
+      const BoneShape shape =
+          shapesOf(scan_, choice.pieces)[static_cast<std::size_t>(choice.piece)];
       if (looksLikeClavicle(shape, scan_.midline_x, middle_y_)) return choice;
       if (!loosest || shape.spread[1] > 0.02)
         loosest = std::move(choice);  // still joined to others: the next one

@@ -142,7 +142,7 @@ class Marker {
   }
 
   /// A straight way from the entry to a place in the vein.
-  struct Way {
+  struct NeedleWay {
     Vec3 to = Vec3::Zero();
     double angle = 0, clearance = 0, length = 0;  // rad to the skin's tangent plane, m
     bool free = false,
@@ -150,11 +150,11 @@ class Marker {
     bool usable() const { return free && taught; }
   };
 
-  Way wayTo(const Vec3& p, const Vec3& entry, const Vec3& normal) const {
+  NeedleWay wayTo(const Vec3& p, const Vec3& entry, const Vec3& normal) const {
     const Vec3 d = (p - entry).normalized();
     const double medially = patient_.side == Side::right ? d.x() : -d.x();
-    Way way{p, std::asin(std::clamp(-d.dot(normal), -1.0, 1.0)), clearance(entry, p),
-            (p - entry).norm()};
+    NeedleWay way{p, std::asin(std::clamp(-d.dot(normal), -1.0, 1.0)), clearance(entry, p),
+                  (p - entry).norm()};
     way.free = way.clearance >= kLeastClearance && meetsVeinFirst(entry, p);
     way.taught = way.length <= kNeedle && medially > kLeastMedial && d.z() > 0;
     return way;
@@ -162,12 +162,12 @@ class Marker {
 
   /// Along the vein's line from lateral to medial: of the ways that are free of bone the one that
   /// lies flattest on the skin.
-  Way flattest(const Vec3& entry) const {
+  NeedleWay flattest(const Vec3& entry) const {
     const Vec3 normal = query_.closest(surface(Organ::skin), entry).n_A;
-    Way best;
+    NeedleWay best;
     double least = std::numeric_limits<double>::infinity();
     for (const Vec3& p : vein_.line_S) {
-      const Way way = wayTo(p, entry, normal);
+      const NeedleWay way = wayTo(p, entry, normal);
       const double worth =
           way.angle + (way.free ? 0 : 3 + std::max(0.0, kLeastClearance - way.clearance) / 1e-3) +
           (way.taught ? 0 : 1 + std::max(0.0, way.length - kNeedle) / 1e-3);
@@ -178,7 +178,7 @@ class Marker {
 
   Vec3 target() {
     const Vec3 entry = patient_.landmarks.at(landmark::kEntry);
-    const Way way = flattest(entry);
+    const NeedleWay way = flattest(entry);
     tell(way);
     if (way.angle > kSteepest || !way.usable()) suggest(entry);
     return way.to;
@@ -188,14 +188,14 @@ class Marker {
   /// enough.
   void suggest(const Vec3& entry) {
     const double laterally = patient_.side == Side::right ? -1 : 1;
-    Way best;
+    NeedleWay best;
     Vec3 from = entry;
     double least = std::numeric_limits<double>::infinity();
     for (int row = -1; row <= 4; ++row)
       for (int column = 0; column <= 8; ++column) {
         const Vec3 p =
             skinInFrontOf(entry + Vec3(laterally * kSuggestStep * column, 0, -kSuggestStep * row));
-        const Way way = flattest(p);
+        const NeedleWay way = flattest(p);
         const double worth = std::max(way.angle, kSteepest) + (p - entry).norm();
         if (way.usable() && worth < least) least = worth, best = way, from = p;
       }
@@ -208,7 +208,7 @@ class Marker {
     remark(words);
   }
 
-  void tell(const Way& way) {
+  void tell(const NeedleWay& way) {
     char words[260];
     const double degrees = way.angle * 180 / std::numbers::pi;
     std::snprintf(words, sizeof words,

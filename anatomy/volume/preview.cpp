@@ -16,15 +16,15 @@ constexpr std::array<std::array<std::uint8_t, 3>, 6> kColours{{{90, 150, 255},
                                                                {220, 220, 90}}};
 
 /// One view: which axes run right and down, and whether down is against the axis.
-struct View {
+struct SliceAxes {
   std::size_t right, down, through;
   bool against;
 };
-constexpr std::array<View, 3> kViews{{{0, 2, 1, true}, {1, 2, 0, true}, {0, 1, 2, false}}};
+constexpr std::array<SliceAxes, 3> kViews{{{0, 2, 1, true}, {1, 2, 0, true}, {0, 1, 2, false}}};
 
 class Panel {
  public:
-  Panel(const Scan& scan, const View& view) : scan_(scan), view_(view) {
+  Panel(const Scan& scan, const SliceAxes& view) : scan_(scan), view_(view) {
     const VoxelGrid& grid = scan.grid;
     columns_ = grid.size[view.right], rows_ = grid.size[view.down];
     width_ = std::max(
@@ -104,7 +104,7 @@ class Panel {
   }
 
   const Scan& scan_;
-  View view_;
+  SliceAxes view_;
   int columns_, rows_, width_, height_;
 };
 
@@ -114,7 +114,7 @@ Picture projections(const Scan& scan, const std::vector<const LabelledOrgan*>& l
                     const Seeds& marks) {
   std::vector<Panel> panels;
   Picture picture;
-  for (const View& view : kViews) {
+  for (const SliceAxes& view : kViews) {
     panels.emplace_back(scan, view);
     picture.width += panels.back().width() + 4;
     picture.height = std::max(picture.height, panels.back().height());

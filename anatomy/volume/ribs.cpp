@@ -17,7 +17,7 @@ constexpr double kAside = 6e-3, kTurn = 0.45;  // an end may lie so far off the 
 constexpr double kAtSpine = 85e-3;             // half width in which ribs begin
 
 /// A piece of a rib, or several: its middle line from behind forward.
-struct Rod {
+struct RibPiece {
   std::vector<std::size_t> voxels;
   std::vector<Vec3> line;
 
@@ -48,7 +48,7 @@ class RibCage {
 
   void add(std::vector<std::size_t> voxels) {
     if (volume(voxels) < kCrumb) return;
-    Rod rod{std::move(voxels), {}};
+    RibPiece rod{std::move(voxels), {}};
     findLine(&rod);
     rods_.push_back(std::move(rod));
   }
@@ -65,7 +65,7 @@ class RibCage {
               gap < std::min(least, kGap))
             least = gap, rear = a, fore = b;
       if (!std::isfinite(least)) return;
-      Rod& whole = rods_[rear];
+      RibPiece& whole = rods_[rear];
       bridge(whole.front(), rods_[fore].back(), &whole.voxels);
       whole.voxels.insert(whole.voxels.end(), rods_[fore].voxels.begin(), rods_[fore].voxels.end());
       whole.line.insert(whole.line.end(), rods_[fore].line.begin(), rods_[fore].line.end());
@@ -74,14 +74,15 @@ class RibCage {
   }
 
   void name(std::vector<LabelledOrgan>* organs) {
-    const auto too_small = [&](const Rod& rod) {
+    const auto too_small = [&](const RibPiece& rod) {
       return volume(rod.voxels) < kLeastRib || rod.length() < kLeastLength;
     };
     std::erase_if(rods_, too_small);
-    std::stable_sort(rods_.begin(), rods_.end(),
-                     [](const Rod& a, const Rod& b) { return a.back().z() > b.back().z(); });
+    std::stable_sort(rods_.begin(), rods_.end(), [](const RibPiece& a, const RibPiece& b) {
+      return a.back().z() > b.back().z();
+    });
     int ribs = 0, pieces = 0;
-    for (const Rod& rod : rods_) {
+    for (const RibPiece& rod : rods_) {
       const bool whole =
           std::abs(rod.back().x() - midline_x_) < kAtSpine && rod.back().y() > middle_.y();
       const std::string id =
@@ -107,7 +108,7 @@ class RibCage {
     return std::atan2(side_ * (p.x() - middle_.x()), p.y() - middle_.y()) + 1.2;
   }
 
-  void findLine(Rod* rod) const {
+  void findLine(RibPiece* rod) const {
     constexpr int kBins = static_cast<int>(2 * std::numbers::pi / kBin) + 1;
     std::vector<Vec3> sum(kBins, Vec3::Zero());
     std::vector<double> count(kBins, 0);
@@ -122,7 +123,7 @@ class RibCage {
   }
 
   /// From `rear`'s front end to `fore`'s back end; infinite where they do not face each other.
-  static double gapBetween(const Rod& rear, const Rod& fore) {
+  static double gapBetween(const RibPiece& rear, const RibPiece& fore) {
     const Vec3 way = fore.back() - rear.front();
     const double gap = way.norm();
     const auto aside = [&](const Vec3& heading, const Vec3& to) {
@@ -155,7 +156,7 @@ class RibCage {
   const Scan& scan_;
   double midline_x_, side_ = 1;
   Vec3 middle_ = Vec3::Zero();
-  std::vector<Rod> rods_;
+  std::vector<RibPiece> rods_;
 };
 
 }  // namespace

@@ -14,12 +14,12 @@ constexpr double kFlattest = 0.5;  // determinant of the unit axes: 1 for square
 constexpr int kLongestSide = 4096;
 
 /// Axis of S that a letter lies on, and which way.
-struct Letter {
+struct AxisLetter {
   int axis;
   double sign;
 };
 
-Letter letterOf(char letter, const std::string& axes) {
+AxisLetter letterOf(char letter, const std::string& axes) {
   switch (letter) {
     case 'L':
       return {0, 1};
@@ -95,7 +95,7 @@ void overrideAxes(const std::string& axes, bool mirrored, Volume* volume) {
   const Vec3 spacing = volume->spacing();
   Mat3 steps = Mat3::Zero();
   for (int a = 0; a < 3; ++a) {
-    const Letter letter = letterOf(axes[static_cast<std::size_t>(a)], axes);
+    const AxisLetter letter = letterOf(axes[static_cast<std::size_t>(a)], axes);
     steps(letter.axis, a) = letter.sign * spacing[a];
   }
   if (steps.determinant() == 0)

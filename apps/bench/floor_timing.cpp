@@ -37,19 +37,20 @@ haptics::TickConfig floorConfig(const task_search::SearchSettings& task,
 }
 
 /// A place and a way through it, U and U/s in F.
-struct Look {
+struct FloorQuery {
   double x = 0, y = 0, z = 0, vx = 0, vy = 0;
   int direction = 0, scale = 0;
 };
 
 /// Anywhere on the floor, or on the textured discs.
-std::vector<Look> drawLooks(const haptics::SearchSurface& surface, bool on_texture, int count) {
+std::vector<FloorQuery> drawLooks(const haptics::SearchSurface& surface, bool on_texture,
+                                  int count) {
   RandomStream random(1, on_texture ? "bench.floor.texture" : "bench.floor");
   const haptics::SearchSpec& spec = surface.spec();
   const double half = 0.5 * spec.side;
-  std::vector<Look> looks;
+  std::vector<FloorQuery> looks;
   while (static_cast<int>(looks.size()) < count) {
-    Look look{random.uniform(-half, half), random.uniform(-half, half)};
+    FloorQuery look{random.uniform(-half, half), random.uniform(-half, half)};
     if (on_texture && !surface.place(look.x, look.y).texture) continue;
     look.z = surface.smoothHeight(look.x, look.y) - random.uniform(0, kDeepestLook);
     const double speed = 100 * std::exp2(random.uniform(0, 5)), way = random.uniform(0, kWholeTurn);
@@ -64,7 +65,7 @@ std::vector<Look> drawLooks(const haptics::SearchSurface& surface, bool on_textu
 
 /// What is found is added up, so that no look can be left out.
 template <class Ask>
-double blockMedian(const std::vector<Look>& looks, Ask ask) {
+double blockMedian(const std::vector<FloorQuery>& looks, Ask ask) {
   const runtime::SteadyClock clock;
   volatile double found = 0;
   std::vector<double> each;
@@ -162,23 +163,25 @@ std::vector<LookUp> timeLookUps(const SearchFloor& floor, int blocks) {
   const double first = floor.task.augmentations.plan.subtasks.each[0].conditions[0].threshold;
   std::vector<LookUp> all;
   for (const bool on_texture : {false, true}) {
-    const std::vector<Look> looks = drawLooks(surface, on_texture, blocks * kBlockOfLooks);
+    const std::vector<FloorQuery> looks = drawLooks(surface, on_texture, blocks * kBlockOfLooks);
     const auto add = [&](const char* name, auto ask) {
       all.push_back({name, on_texture ? "textures" : "anywhere", blockMedian(looks, ask)});
     };
-    add("gabor_lookup_median",
-        [&](const Look& l) { return rises.rises(l.x, l.y, l.direction, l.scale) ? 1.0 : 0.0; });
-    add("gabor_lookup_by_velocity_median", [&](const Look& l) {
+    add("gabor_lookup_median", [&](const FloorQuery& l) {
+      return rises.rises(l.x, l.y, l.direction, l.scale) ? 1.0 : 0.0;
+    });
+    add("gabor_lookup_by_velocity_median", [&](const FloorQuery& l) {
       return rises.rises(l.x, l.y, haptics::GaborTable::directionOf(l.vx, l.vy),
                          haptics::GaborTable::scaleOf(std::hypot(l.vx, l.vy), first))
                  ? 1.0
                  : 0.0;
     });
-    add("valley_lookup_median", [&](const Look& l) { return valleys.nearest(l.x, l.y).distance; });
-    add("closest_free_median", [&](const Look& l) {
+    add("valley_lookup_median",
+        [&](const FloorQuery& l) { return valleys.nearest(l.x, l.y).distance; });
+    add("closest_free_median", [&](const FloorQuery& l) {
       return surface.closestFree({l.x, l.y, l.z}).z();
     });
-    add("footprint_lookup_median", [&](const Look& l) {
+    add("footprint_lookup_median", [&](const FloorQuery& l) {
       return surface.bumpOnWay(l.x - 1e-3 * l.vx, l.y - 1e-3 * l.vy, l.x, l.y);
     });
   }

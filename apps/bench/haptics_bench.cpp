@@ -94,12 +94,12 @@ constexpr double kWarmUp = 0.2;    // s: the first snapshot has to come
 constexpr double kTouching = 0.1;  // N: ratios of smaller forces say nothing
 constexpr double kBoneStiffness = 3000;
 
-struct World {
+struct BenchWorld {
   int triangles;
   anatomy::Patient patient;
   anatomy::SurfaceQuery query;
   anatomy::LocalGeometryBuilder builder;
-  explicit World(int n)
+  explicit BenchWorld(int n)
       : triangles(n), patient(torsoPatient(n)), query(patient), builder(patient, query) {}
 };
 
@@ -115,12 +115,12 @@ Vec3 proxyForce(const StrokeSettings& settings, const anatomy::SurfaceQuery& que
   return s.distance < 0 ? Vec3(settings.stiffness * (s.p_A - p)) : Vec3(Vec3::Zero());
 }
 
-struct Error {
+struct ForceError {
   double rel_rms = 0, ratio_max = 0;
 };
 
 template <class Reference>
-Error compare(const StrokeResult& stroke, Reference reference) {
+ForceError compare(const StrokeResult& stroke, Reference reference) {
   double difference2 = 0, size2 = 0, most = 0;
   for (const haptics::FlightRecord& r : stroke.records) {
     if (static_cast<double>(r.t_ns) * 1e-9 < kWarmUp) continue;
@@ -163,7 +163,8 @@ Jump refreshJump(const StrokeSettings& settings, const StrokeResult& stroke) {
   return jump;
 }
 
-double proxyCost(const StrokeSettings& settings, const World& world, const StrokeResult& stroke) {
+double proxyCost(const StrokeSettings& settings, const BenchWorld& world,
+                 const StrokeResult& stroke) {
   const runtime::SteadyClock clock;
   std::vector<double> each;
   for (std::size_t i = 0; i < stroke.records.size(); i += 7) {
@@ -175,7 +176,7 @@ double proxyCost(const StrokeSettings& settings, const World& world, const Strok
   return quantile(each, 0.5);
 }
 
-nlohmann::json paramsOf(const World& world, const StrokeSettings& s) {
+nlohmann::json paramsOf(const BenchWorld& world, const StrokeSettings& s) {
   return {{"triangles", world.triangles},
           {"stroke_hz", s.stroke_Hz},
           {"geometry_hz", s.geometry_Hz},
@@ -183,18 +184,19 @@ nlohmann::json paramsOf(const World& world, const StrokeSettings& s) {
           {"noise", "none"}};
 }
 
-void printFidelity(const World& world, const StrokeSettings& s, const StrokeResult& stroke) {
+void printFidelity(const BenchWorld& world, const StrokeSettings& s, const StrokeResult& stroke) {
   nlohmann::json params = paramsOf(world, s);
-  const Error truth = compare(stroke, [&](const Vec3& p) { return trueForce(s, p); });
+  const ForceError truth = compare(stroke, [&](const Vec3& p) { return trueForce(s, p); });
   params["reference"] = "analytic surface";
   print("force_error_rel_rms", truth.rel_rms, "1", params);
   print("force_ratio_max", truth.ratio_max, "1", params);
-  const Error mesh = compare(stroke, [&](const Vec3& p) { return proxyForce(s, world.query, p); });
+  const ForceError mesh =
+      compare(stroke, [&](const Vec3& p) { return proxyForce(s, world.query, p); });
   params["reference"] = "facets of the mesh";
   print("force_error_rel_rms_to_facets", mesh.rel_rms, "1", params);
 }
 
-void printJumps(const World& world, StrokeSettings s) {
+void printJumps(const BenchWorld& world, StrokeSettings s) {
   s.geometry_Hz = 30;
   struct Case {
     const char* name;
@@ -213,7 +215,7 @@ void printJumps(const World& world, StrokeSettings s) {
   }
 }
 
-void printCost(const World& world, const StrokeSettings& s, const StrokeResult& stroke,
+void printCost(const BenchWorld& world, const StrokeSettings& s, const StrokeResult& stroke,
                bool quick) {
   const nlohmann::json params = paramsOf(world, s);
   const TickTiming hot = timeHot(s, stroke, quick ? 40'000 : 400'000);
@@ -228,7 +230,7 @@ void printCost(const World& world, const StrokeSettings& s, const StrokeResult& 
 void benchHaptics(const HapticsBenchOptions& options) {
   for (const int triangles : {1'000, 10'000, 100'000, 1'000'000}) {
     if (triangles > options.most_triangles || (options.quick && triangles > 10'000)) continue;
-    const World world(triangles);
+    const BenchWorld world(triangles);
     StrokeSettings settings;
     settings.seconds = options.quick ? 3 : 20;
     for (const double stroke_Hz : {0.2, 1.0}) {

@@ -178,8 +178,8 @@ class Curfew final : public runtime::Activity {
   std::int64_t length_ns_, end_ns_ = 0;
 };
 
-struct Rig {
-  Rig(const LoopSurroundings& around, std::int64_t length_ns, bool tells_geometry)
+struct LoopRig {
+  LoopRig(const LoopSurroundings& around, std::int64_t length_ns, bool tells_geometry)
       : bus(TimeMode::real),
         device({}, TimeMode::real),
         hand(around.stroke, bus, device, tells_geometry),
@@ -204,7 +204,7 @@ struct Rig {
 }  // namespace
 
 OurTimes runOurSegment(const LoopSurroundings& around, std::int64_t length_ns) {
-  const auto rig = std::make_unique<Rig>(around, length_ns, false);
+  const auto rig = std::make_unique<LoopRig>(around, length_ns, false);
   haptics::TickConfig config = strokeConfig(around.stroke);
   config.period_ns = around.period_ns;
   runtime::HapticActivity haptic(rig->bus, rig->device, config);
@@ -216,7 +216,7 @@ OurTimes runOurSegment(const LoopSurroundings& around, std::int64_t length_ns) {
 }
 
 LoopTimes runBareSegment(const LoopSurroundings& around, std::int64_t length_ns) {
-  const auto rig = std::make_unique<Rig>(around, length_ns, true);
+  const auto rig = std::make_unique<LoopRig>(around, length_ns, true);
   LoopTimes times;
   std::thread bare([&] { times = runBareLoop(around.period_ns, length_ns, around.cpu); });
   rig->executive->run();

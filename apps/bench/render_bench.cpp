@@ -37,10 +37,10 @@ std::size_t trianglesOf(const anatomy::Patient& patient) {
 }
 
 /// A session's frame: picture, translucent skin, needle, arrows, words, three fixed views.
-class Frame {
+class SessionPicture {
  public:
-  Frame(scene::GlContextProvider& context, const anatomy::Patient& patient,
-        const RenderBenchOptions& o)
+  SessionPicture(scene::GlContextProvider& context, const anatomy::Patient& patient,
+                 const RenderBenchOptions& o)
       : layout_{o.width, o.height}, window_(*context.window()), view_(context, patient, layout_) {
     entry_A_ = patient.landmark(anatomy::landmark::kEntry);
     state_.picture = &picture_;
@@ -196,7 +196,7 @@ void benchTranslucency(vtkRenderWindow& window, const anatomy::Patient& patient,
 
 void benchFrame(scene::GlContextProvider& context, const anatomy::Patient& patient,
                 const RenderBenchOptions& options, int blocks, const json& params) {
-  Frame frame(context, patient, options);
+  SessionPicture frame(context, patient, options);
   const Ratio ratio = compareQueries(
       blocks, 4, [&](int i) { frame.bare(i); }, [&](int i) { frame.ours(i); });
   print("frame_over_bare_vtk", ratio.median, "1", params);

@@ -19,10 +19,10 @@ using runtime::TimeMode;
 constexpr std::int64_t kTick = 1'000'000;
 
 /// Moves the device, and takes the records off the queues.
-class Hand final : public runtime::Activity {
+class StrokeHand final : public runtime::Activity {
  public:
-  Hand(const StrokeSettings& settings, runtime::Bus& bus, runtime::ChannelDevice& device,
-       StrokeResult& result)
+  StrokeHand(const StrokeSettings& settings, runtime::Bus& bus, runtime::ChannelDevice& device,
+             StrokeResult& result)
       : end_s_(settings.seconds), led_(settings, device), bus_(bus), result_(result) {
     arm(bus);
   }
@@ -85,7 +85,7 @@ StrokeResult runStroke(const StrokeSettings& settings,
   pace.period_ns = std::int64_t(1e9 / settings.geometry_Hz);
   pace.blend_ns = config.blend_ns;
   const auto executive = runtime::makeVirtualExecutive();
-  Hand hand(settings, bus, device, result);
+  StrokeHand hand(settings, bus, device, result);
   runtime::HapticActivity haptic(bus, device, config);
   runtime::GeometryActivity geometry(bus, builder, Pose::Identity(), pace);
   End end(*executive, settings.seconds);
@@ -135,9 +135,9 @@ std::uint64_t drain(runtime::Bus& bus, StrokeResult* result) {
 namespace {
 
 /// Runs the stroke's ticks again, round and round, with its snapshots when they came.
-class Again {
+class StrokeReplay {
  public:
-  Again(const StrokeSettings& settings, const StrokeResult& stroke)
+  StrokeReplay(const StrokeSettings& settings, const StrokeResult& stroke)
       : config_(strokeConfig(settings)),
         stroke_(stroke),
         state_(std::make_unique<haptics::TickState>()) {}
@@ -167,7 +167,7 @@ class Again {
 
 TickTiming timeHot(const StrokeSettings& settings, const StrokeResult& stroke, int ticks) {
   constexpr int kBatch = 16;
-  Again again(settings, stroke);
+  StrokeReplay again(settings, stroke);
   for (int i = 0; i < 2000; ++i) again.step();
   const runtime::SteadyClock clock;
   std::vector<double> each;
@@ -180,7 +180,7 @@ TickTiming timeHot(const StrokeSettings& settings, const StrokeResult& stroke, i
 }
 
 TickTiming timePaced(const StrokeSettings& settings, const StrokeResult& stroke, double seconds) {
-  Again again(settings, stroke);
+  StrokeReplay again(settings, stroke);
   runtime::SteadyClock clock;
   std::vector<double> each;
   std::int64_t due = clock.now();

@@ -53,11 +53,11 @@ class TrackingBench {
   /// all views together.
   void bound() const {
     RandomStream random(o_.seed, "bench.tracking.bound");
-    struct One {
+    struct PoseError {
       Vector6 error;
       Matrix6 information;
     };
-    std::vector<One> all;
+    std::vector<PoseError> all;
     double squares_px = 0, corners = 0;
     for (int i = 0; i < count(200); ++i) {
       const Pose X = scene_.anyView(random, o_.distance, 55 * kDegree);
@@ -73,7 +73,7 @@ class TrackingBench {
     }
     const double sigma = std::sqrt(squares_px / corners);
     double normalised = 0, shift = 0, shift_bound = 0;
-    for (const One& one : all) {
+    for (const PoseError& one : all) {
       const Matrix6 covariance = sigma * sigma * one.information.inverse();
       normalised += one.error.dot(one.information * one.error) / (sigma * sigma);
       shift += one.error.tail<3>().squaredNorm();

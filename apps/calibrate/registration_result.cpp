@@ -20,7 +20,7 @@ constexpr int kRegistrationGoodFor_days = 30;
 constexpr double kTouchSpread = 5e-4;  // m; only its ratio between landmarks matters
 
 /// The device's base in W's inverse: X_DW with the covariance of (turn in W, shift in D).
-struct Answer {
+struct BaseEstimate {
   Pose X_DW = Pose::Identity();
   Matrix6 covariance = Matrix6::Zero();
 };
@@ -33,15 +33,15 @@ Vector6 difference(const Pose& a, const Pose& b) {
   return d;
 }
 
-double chi2(const Answer& a, const Answer& b) {
+double chi2(const BaseEstimate& a, const BaseEstimate& b) {
   const Vector6 d = difference(a.X_DW, b.X_DW);
   return d.dot((a.covariance + b.covariance).ldlt().solve(d));
 }
 
 /// The best of both, weighted by what each knows.
-Answer joined(const Answer& a, const Answer& b) {
+BaseEstimate joined(const BaseEstimate& a, const BaseEstimate& b) {
   const Matrix6 of_a = a.covariance.inverse(), of_b = b.covariance.inverse();
-  Answer both;
+  BaseEstimate both;
   both.covariance = (of_a + of_b).inverse();
   both.covariance = 0.5 * (both.covariance + both.covariance.transpose()).eval();
   both.X_DW =
@@ -60,7 +60,7 @@ double rmsAt(const std::vector<Touch>& touches, const Pose& X_WD) {
   return n ? std::sqrt(squares / n) : -1;
 }
 
-Answer byLandmarks(const std::vector<Touch>& touches, Result& r) {
+BaseEstimate byLandmarks(const std::vector<Touch>& touches, Result& r) {
   std::vector<calibration::TouchedLandmark> landmarks;
   std::vector<std::string> names;
   for (const Touch& t : touches)
@@ -135,7 +135,7 @@ void addPosePlot(const std::vector<calibration::HandEyeSample>& tag,
   r.plots.push_back(plot);
 }
 
-Answer byTag(const TagSamples& tag, Result& r) {
+BaseEstimate byTag(const TagSamples& tag, Result& r) {
   const calibration::HandEye fit = calibration::calibrateHandEye(tag.poses);
   requireScale(tag.poses, fit.X_EM.translation());
   r.file.data.samples += static_cast<int>(tag.poses.size());
@@ -162,8 +162,8 @@ Answer byTag(const TagSamples& tag, Result& r) {
       (corners ? ", fitted to the corners themselves (by the poses: "
                : ", fitted to the tag's poses (by the corners: ") +
       quantity(std::max(refined.left_out_px, refined.left_out_start_px), "px") + ").");
-  return corners ? Answer{refined.X_DW, refined.covariance.bottomRightCorner<6, 6>()}
-                 : Answer{fit.X_DC, fit.covariance.bottomRightCorner<6, 6>()};
+  return corners ? BaseEstimate{refined.X_DW, refined.covariance.bottomRightCorner<6, 6>()}
+                 : BaseEstimate{fit.X_DC, fit.covariance.bottomRightCorner<6, 6>()};
 }
 
 /// Where the board, or whatever the tag was seen from, stands in the device's base.
@@ -185,9 +185,9 @@ Result registrationResult(const std::vector<Touch>& touches, const TagSamples& t
   Result r;
   r.title = "Device and board (registration)";
   r.file = begun(origin, station::CalibrationKind::registration, kRegistrationGoodFor_days);
-  Answer answer;
+  BaseEstimate answer;
   if (!touches.empty() && !tag.poses.empty()) {
-    const Answer by_landmarks = byLandmarks(touches, r), by_tag = byTag(tag, r);
+    const BaseEstimate by_landmarks = byLandmarks(touches, r), by_tag = byTag(tag, r);
     const Vec3 apart = by_landmarks.X_DW * tip_W - by_tag.X_DW * tip_W;
     const double chi = chi2(by_landmarks, by_tag);
     r.file.checks.push_back({"the difference between landmarks and tag at the needle's tip",

@@ -21,12 +21,12 @@ namespace {
 
 constexpr int kPictureQuality = 85;
 
-struct Picture {
+struct ShownSize {
   int width = 0, height = 0;
 };
 
-Picture sizeOf(const std::string& text) {
-  Picture size;
+ShownSize sizeOf(const std::string& text) {
+  ShownSize size;
   char rest = 0;
   if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
       size.width < 160 || size.height < 120 || size.width > 7680 || size.height > 4320 ||
@@ -61,7 +61,8 @@ struct ReplayStage {
   std::unique_ptr<scene::SceneView> view;
 };
 
-ReplayStage stageFor(const evidence::RecordedShow& recorded, scene::Display display, Picture size) {
+ReplayStage stageFor(const evidence::RecordedShow& recorded, scene::Display display,
+                     ShownSize size) {
   ReplayStage stage;
   stage.context = scene::makeGlContext(display, size.width, size.height, "Palpa: replay");
   scene::ViewLayout layout;
@@ -94,7 +95,7 @@ void playInWindow(evidence::RecordedShow& recorded, const Cut& cut, const Replay
 /// Draws picture after picture of the cut.
 void draw(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o,
           const std::function<void(int number, const scene::Image&)>& keep) {
-  const Picture size = sizeOf(o.size);
+  const ShownSize size = sizeOf(o.size);
   const ReplayStage stage = stageFor(recorded, scene::Display::offscreen, size);
   const std::unique_ptr<replay::TrialReplay> shown = recorded.on(*stage.view);
   const int frames = std::max(
@@ -113,7 +114,7 @@ void draw(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOpti
 }
 
 void writeFilm(evidence::RecordedShow& recorded, const Cut& cut, const ReplayViewOptions& o) {
-  const Picture size = sizeOf(o.size);
+  const ShownSize size = sizeOf(o.size);
   replay::codecOf(o.video);  // refused before the scene is made
   replay::Film film(o.video, o.frames_per_second, size.width, size.height);
   draw(recorded, cut, o, [&](int, const scene::Image& picture) { film.add(picture); });

@@ -85,12 +85,12 @@ struct Task {
 };
 
 /// What of a task's kind an educator may choose, and what it asks of the trainee.
-struct Kind {
+struct EngineOptions {
   Engine engine;
   const char* about;
   bool side, person_by_mouse;
 };
-constexpr Kind kKinds[] = {
+constexpr EngineOptions kKinds[] = {
     {Engine::needle, "Lead a needle to a target that is felt, and seen over the camera's picture.",
      true, true},
     {Engine::palpation,
@@ -99,9 +99,9 @@ constexpr Kind kKinds[] = {
     {Engine::search, "Find the rough one of three hidden things by touch.", false, false},
 };
 
-const Kind& kindOf(Engine engine) {
+const EngineOptions& kindOf(Engine engine) {
   return *std::find_if(std::begin(kKinds), std::end(kKinds),
-                       [&](const Kind& kind) { return engine == kind.engine; });
+                       [&](const EngineOptions& kind) { return engine == kind.engine; });
 }
 
 std::vector<Task> tasks() {
@@ -121,7 +121,7 @@ std::vector<Task> tasks() {
 }
 
 json told(const Task& task) {
-  const Kind& kind = kindOf(task.engine);
+  const EngineOptions& kind = kindOf(task.engine);
   json options = json::array({"force_feedback"});
   if (kind.side) options.insert(options.end(), {"side", "patient_seed"});
   return {{"id", task.id},

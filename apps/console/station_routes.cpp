@@ -14,10 +14,10 @@ namespace {
 namespace fs = std::filesystem;
 using nlohmann::json;
 
-struct Step {
+struct CalibrationStep {
   const char *id, *title, *what;
 };
-constexpr Step kSteps[] = {
+constexpr CalibrationStep kSteps[] = {
     {"camera", "Camera",
      "Hold the printed board before the camera, near and far, tilted, in every corner of the "
      "picture, until the picture is covered."},
@@ -73,7 +73,7 @@ json calibration(Console& c) {
   const std::string chosen = stationOf(c.place);
   all["file"] = chosen;
   const station::Station station = stationNow(c);
-  for (const Step& step : kSteps)
+  for (const CalibrationStep& step : kSteps)
     if (station.force_sensor || std::string(step.id) != "force-sensor")
       all["steps"].push_back({{"id", step.id}, {"title", step.title}, {"what", step.what}});
   all["station"] = station.title;
@@ -88,8 +88,9 @@ json calibration(Console& c) {
 
 /// A calibration that left a station file makes it the station in use.
 std::string calibrate(Console& c, const std::string& step) {
-  const Step* const found = std::find_if(std::begin(kSteps), std::end(kSteps),
-                                         [&](const Step& one) { return step == one.id; });
+  const CalibrationStep* const found =
+      std::find_if(std::begin(kSteps), std::end(kSteps),
+                   [&](const CalibrationStep& one) { return step == one.id; });
   if (step != "all" && found == std::end(kSteps))
     throw UsageError("is no calibration step", step.substr(0, 32), "Choose one of the list");
   if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");

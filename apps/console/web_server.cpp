@@ -39,14 +39,14 @@ class LowPriorityPool final : public httplib::TaskQueue {
 };
 
 /// The request that this thread is at.
-struct Turn {
+struct RequestState {
   std::string remote;
   bool admitted = false;  ///< framing and guard let it pass; its body is read then
   bool noted = false;     ///< a refusal, in words
   bool nowhere = false;   ///< no such path
   bool closes = false;
 };
-thread_local Turn turn;
+thread_local RequestState turn;
 
 const char* wordsFor(int status) {
   switch (status) {

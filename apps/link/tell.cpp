@@ -20,7 +20,7 @@ using nlohmann::json;
 
 enum class Fate { stored, present, nothing_to_void, refused, later };
 
-struct Verdict {
+struct ReplyJudgement {
   Fate fate;
   std::string words;
 };
@@ -63,7 +63,7 @@ std::string troubleOf(const LrsAnswer& a) {
 }
 
 /// It has a statement with this id: ours?
-Verdict compared(LrsClient& client, const Letter& letter) {
+ReplyJudgement compared(LrsClient& client, const Letter& letter) {
   for (const bool voided : {false, true}) {
     const LrsAnswer there = client.get(letter.id, voided);
     if (isForLater(there)) return {Fate::later, troubleOf(there)};
@@ -80,7 +80,7 @@ bool hasNothingToVoid(LrsClient& client, const Letter& letter) {
   return there.status == 404 && there.is_lrs && client.get(letter.voids, true).status == 404;
 }
 
-Verdict tell(LrsClient& client, const Endpoint& endpoint, const Letter& letter) {
+ReplyJudgement tell(LrsClient& client, const Endpoint& endpoint, const Letter& letter) {
   if (!letter.voids.empty() && hasNothingToVoid(client, letter)) return {Fate::nothing_to_void, ""};
   const LrsAnswer answer = client.put(letter.id, letter.body);
   if (concernsAll(answer)) fail(answer, endpoint);
@@ -91,11 +91,11 @@ Verdict tell(LrsClient& client, const Endpoint& endpoint, const Letter& letter) 
   return {Fate::refused, troubleOf(answer)};
 }
 
-Verdict tellPatiently(LrsClient& client, const Endpoint& endpoint, const Letter& letter,
-                      const Pace& pace) {
+ReplyJudgement tellPatiently(LrsClient& client, const Endpoint& endpoint, const Letter& letter,
+                             const Pace& pace) {
   std::int64_t pause_ns = pace.pause_ns;
   for (int tries = pace.tries;; pause_ns *= 2) {
-    const Verdict verdict = tell(client, endpoint, letter);
+    const ReplyJudgement verdict = tell(client, endpoint, letter);
     if (verdict.fate != Fate::later || --tries <= 0) return verdict;
     runtime::SteadyClock().sleepUntil(pause_ns);
   }
@@ -106,7 +106,7 @@ Verdict tellPatiently(LrsClient& client, const Endpoint& endpoint, const Letter&
 Sent sendWaiting(Outbox& outbox, const Endpoint& endpoint, LrsClient& client, const Pace& pace) {
   Sent sent;
   for (const Letter& letter : outbox.waiting(endpoint.text())) {
-    const Verdict verdict = tellPatiently(client, endpoint, letter, pace);
+    const ReplyJudgement verdict = tellPatiently(client, endpoint, letter, pace);
     if (verdict.fate == Fate::later) {
       sent.trouble = verdict.words;
       break;

@@ -67,27 +67,27 @@ std::string eventWords(std::uint32_t events) {
   return words;
 }
 
-struct Column {
+struct ExportColumn {
   TickColumn description;
   std::function<std::string(const FlightRecord&)> value;
 };
 
 /// Three or four components of a recorded array under one name: name_x_m, name_y_m, ...
 template <typename Array>
-void addVector(std::vector<Column>& columns, const std::string& prefix, const std::string& unit,
-               const std::string& meaning, Array FlightRecord::*member) {
+void addVector(std::vector<ExportColumn>& columns, const std::string& prefix,
+               const std::string& unit, const std::string& meaning, Array FlightRecord::*member) {
   for (int i = 0; i < 3; ++i) {
     columns.push_back({{prefix + '_' + "xyz"[i] + '_' + unit, meaning},
                        [=](const FlightRecord& r) { return shortest((r.*member)[i]); }});
   }
 }
 
-void addScalar(std::vector<Column>& columns, const char* name, const char* meaning,
+void addScalar(std::vector<ExportColumn>& columns, const char* name, const char* meaning,
                double FlightRecord::*member) {
   columns.push_back({{name, meaning}, [=](const FlightRecord& r) { return shortest(r.*member); }});
 }
 
-void addClock(std::vector<Column>& columns) {
+void addClock(std::vector<ExportColumn>& columns) {
   columns.push_back({{"tick", "number of the tick in the session"},
                      [](const FlightRecord& r) { return std::to_string(r.tick); }});
   columns.push_back({{"tool", "which of two devices, from 0"},
@@ -100,7 +100,7 @@ void addClock(std::vector<Column>& columns) {
                      [](const FlightRecord& r) { return std::to_string(r.commands.trial); }});
 }
 
-void addReading(std::vector<Column>& columns) {
+void addReading(std::vector<ExportColumn>& columns) {
   columns.push_back({{"reading_t_ns", "session time of the device's reading"},
                      [](const FlightRecord& r) { return std::to_string(r.reading.t_ns); }});
   columns.push_back(
@@ -139,7 +139,7 @@ void addReading(std::vector<Column>& columns) {
        [](const FlightRecord& r) { return std::to_string(r.reading.instrumented); }});
 }
 
-void addCommands(std::vector<Column>& columns) {
+void addCommands(std::vector<ExportColumn>& columns) {
   columns.push_back({{"puncture_force_N", "force at which the skin gives way in this trial"},
                      [](const FlightRecord& r) { return shortest(r.commands.puncture_force_N); }});
   columns.push_back({{"force_feedback", "1: forces are rendered"}, [](const FlightRecord& r) {
@@ -168,7 +168,7 @@ Vec3 tip(const PackedPose& X_ET, const FlightRecord& r) {
 
 /// Tip and proxy: where the tip is, and where it would be on what cannot be entered, f = K_c (proxy
 /// - tip).
-void addTip(std::vector<Column>& columns, const haptics::TickConfig& config) {
+void addTip(std::vector<ExportColumn>& columns, const haptics::TickConfig& config) {
   const PackedPose X_ET = config.X_ET;
   const double K_c = config.coupling.stiffness;
   for (int i = 0; i < 3; ++i)
@@ -184,7 +184,7 @@ void addTip(std::vector<Column>& columns, const haptics::TickConfig& config) {
          }});
 }
 
-void addSensed(std::vector<Column>& columns) {
+void addSensed(std::vector<ExportColumn>& columns) {
   for (int i = 0; i < 3; ++i)
     columns.push_back({{std::string("f_sensed_D_") + "xyz"[i] + "_N",
                         "force sensor: of a real object on the tool, device base"},
@@ -205,7 +205,7 @@ void addSensed(std::vector<Column>& columns) {
                      }});
 }
 
-void addContact(std::vector<Column>& columns) {
+void addContact(std::vector<ExportColumn>& columns) {
   addVector(columns, "f_contact_D", "N", "computed contact force on the tool, device base",
             &FlightRecord::f_contact_D);
   addVector(columns, "f_wanted_D", "N",
@@ -225,7 +225,7 @@ void addContact(std::vector<Column>& columns) {
   addScalar(columns, "wall_force_N", "on the wall being deformed", &FlightRecord::wall_force);
 }
 
-void addStates(std::vector<Column>& columns) {
+void addStates(std::vector<ExportColumn>& columns) {
   columns.push_back({{"events", "what happened in this tick, joined by +"},
                      [](const FlightRecord& r) { return eventWords(r.events); }});
   columns.push_back({{"phase", "outside, indenting or inserted"},
@@ -246,8 +246,8 @@ void addStates(std::vector<Column>& columns) {
                      [](const FlightRecord& r) { return std::to_string(r.skin_punctures); }});
 }
 
-std::vector<Column> allColumns(const haptics::TickConfig& config) {
-  std::vector<Column> columns;
+std::vector<ExportColumn> allColumns(const haptics::TickConfig& config) {
+  std::vector<ExportColumn> columns;
   addClock(columns);
   addReading(columns);
   addTip(columns, config);
@@ -262,19 +262,20 @@ std::vector<Column> allColumns(const haptics::TickConfig& config) {
 
 std::vector<TickColumn> tickColumns() {
   std::vector<TickColumn> descriptions;
-  for (const Column& column : allColumns({})) descriptions.push_back(column.description);
+  for (const ExportColumn& column : allColumns({})) descriptions.push_back(column.description);
   return descriptions;
 }
 
 void exportTicks(const SessionReader& reader, const std::filesystem::path& file) {
-  const std::vector<Column> columns = allColumns(reader.info().tick_config);
+  const std::vector<ExportColumn> columns = allColumns(reader.info().tick_config);
   WholeFile out(file);
   std::string line;
-  for (const Column& column : columns) line += (line.empty() ? "" : ",") + column.description.name;
+  for (const ExportColumn& column : columns)
+    line += (line.empty() ? "" : ",") + column.description.name;
   out.write(line + '\n');
   reader.ticks([&](const FlightRecord& record) {
     line.clear();
-    for (const Column& column : columns) {
+    for (const ExportColumn& column : columns) {
       if (!line.empty()) line += ',';
       line += column.value(record);
     }

@@ -55,7 +55,7 @@ class SearchingHand final : public Hand {
   Action act(const Senses& senses, double dt) override {
     look(senses, dt);
     if (!bearings_.taken()) return {senses.X_DE, 0, 0, {}};
-    if (jolts_.feel(v_F_ - way_.v, dt) && step_ == Step::round)
+    if (jolts_.feel(v_F_ - way_.v, dt) && step_ == SearchStep::round)
       angles_.push_back(std::atan2(p_U_.y(), p_U_.x()));
     if (senses.now_ns >= next_ns_) {
       next_ns_ = senses.now_ns + static_cast<std::int64_t>(kDecision_s * 1e9);
@@ -72,7 +72,7 @@ class SearchingHand final : public Hand {
   const HandGrip& grip() const override { return skill_.grip; }
 
  private:
-  enum class Step { rest, wait, descend, reach, round, go, stroke, middle, spiral };
+  enum class SearchStep { rest, wait, descend, reach, round, go, stroke, middle, spiral };
 
   void look(const Senses& senses, double dt) {
     const Pose X_DT = senses.X_DE * X_ET_;
@@ -107,7 +107,7 @@ class SearchingHand final : public Hand {
     return lead_;
   }
 
-  void begin(const Step step, double now_s) {
+  void begin(const SearchStep step, double now_s) {
     step_ = step;
     since_s_ = now_s;
     travelled_ = 0;
@@ -115,15 +115,15 @@ class SearchingHand final : public Hand {
 
   /// On the floor the hand keeps its pressure, whatever lies under it.
   void press(double dt) {
-    if (step_ == Step::rest || step_ == Step::wait) return;
+    if (step_ == SearchStep::rest || step_ == SearchStep::wait) return;
     const double rate =
-        step_ == Step::descend
+        step_ == SearchStep::descend
             ? -kDescent
             : kPressGain * (pressed_N_ - (light() ? skill_.stroke_press : skill_.press));
     goal_U_.z() += rate * dt / floor_.unit;
   }
 
-  bool light() const { return step_ == Step::go || step_ == Step::stroke; }
+  bool light() const { return step_ == SearchStep::go || step_ == SearchStep::stroke; }
 
   Vec3 onCircle(double angle) const {
     return {floor_.circle * std::cos(angle), floor_.circle * std::sin(angle), 0};
@@ -140,26 +140,26 @@ class SearchingHand final : public Hand {
 
   void move(double dt) {
     switch (step_) {
-      case Step::rest:
-      case Step::descend:
+      case SearchStep::rest:
+      case SearchStep::descend:
         return;
-      case Step::wait:
+      case SearchStep::wait:
         goal_U_ += (Vec3(0, 0, floor_.start_height) - goal_U_) * std::min(1.0, dt / 0.2);
         return;
-      case Step::reach:
+      case SearchStep::reach:
         arrived_ = toward(onCircle(orientation_), skill_.scan_speed, dt);
         return;
-      case Step::round: {
+      case SearchStep::round: {
         travelled_ += skill_.scan_speed * dt / floor_.unit / floor_.circle;
         const Vec3 there = onCircle(orientation_ + travelled_);
         goal_U_.head<2>() = there.head<2>();
         return;
       }
-      case Step::go:
+      case SearchStep::go:
         arrived_ =
             toward(onCircle(angleOf(element_)) + kStroke_U * strokeWay(), skill_.scan_speed, dt);
         return;
-      case Step::stroke: {
+      case SearchStep::stroke: {
         travelled_ += skill_.stroke_speed * dt / floor_.unit /
                       kStroke_U;  // of the phase; the peak speed is the stroke's
         const Vec3 there =
@@ -167,14 +167,14 @@ class SearchingHand final : public Hand {
         goal_U_.head<2>() = there.head<2>();
         return;
       }
-      case Step::middle:
+      case SearchStep::middle:
         arrived_ = toward(onCircle(angleOf(element_)),
                           (p_U_ - onCircle(angleOf(element_))).head<2>().norm() > floor_.disc
                               ? skill_.scan_speed
                               : skill_.settle_speed,
                           dt);
         return;
-      case Step::spiral: {
+      case SearchStep::spiral: {
         const double r = kSpiralPitch_U * travelled_ / kFullTurn;
         travelled_ += skill_.settle_speed * dt / floor_.unit / std::max(r, 1.0);
         const Vec3 there =
@@ -193,40 +193,40 @@ class SearchingHand final : public Hand {
     const double now_s = 1e-9 * static_cast<double>(senses.now_ns), been_s = now_s - since_s_;
     if (!senses.seen) return;
     if (!senses.seen->running) {
-      step_ = Step::rest;
+      step_ = SearchStep::rest;
       return;
     }
     if (senses.seen->trial != trial_) {
       trial_ = senses.seen->trial;
-      return begin(Step::wait, now_s);
+      return begin(SearchStep::wait, now_s);
     }
     switch (step_) {
-      case Step::rest:
-        return begin(Step::descend, now_s);  // after a pause
-      case Step::wait:
-        if (been_s > kLetGo_s) begin(Step::descend, now_s);
+      case SearchStep::rest:
+        return begin(SearchStep::descend, now_s);  // after a pause
+      case SearchStep::wait:
+        if (been_s > kLetGo_s) begin(SearchStep::descend, now_s);
         return;
-      case Step::descend:
+      case SearchStep::descend:
         if (pressed_N_ < 0.5 * skill_.press) return;
         return startRounds(now_s);
-      case Step::reach:
-        if (arrived_) begin(Step::round, now_s);
+      case SearchStep::reach:
+        if (arrived_) begin(SearchStep::round, now_s);
         return;
-      case Step::round:
+      case SearchStep::round:
         if (travelled_ >= kFullTurn * (round_ + 1)) afterRound(now_s);
         return;
-      case Step::go:
+      case SearchStep::go:
         if (!arrived_) return;
         jolts_.beginStroke();
-        return begin(Step::stroke, now_s);
-      case Step::stroke:
+        return begin(SearchStep::stroke, now_s);
+      case SearchStep::stroke:
         if (been_s >= skill_.stroke_s) afterStroke(now_s);
         return;
-      case Step::middle:
+      case SearchStep::middle:
         if (!arrived_) since_s_ = now_s;  // the stay counts from there
-        if (been_s > kStay_s) begin(Step::spiral, now_s);
+        if (been_s > kStay_s) begin(SearchStep::spiral, now_s);
         return;
-      case Step::spiral:
+      case SearchStep::spiral:
         if (arrived_) startRounds(now_s);  // not there: all over again
         return;
     }
@@ -236,7 +236,7 @@ class SearchingHand final : public Hand {
     angles_.clear();
     round_ = 0;
     orientation_ = judgement_.uniform(0, kFullTurn);
-    begin(Step::reach, now_s);
+    begin(SearchStep::reach, now_s);
   }
 
   /// Round once more while too little was noticed.
@@ -249,7 +249,7 @@ class SearchingHand final : public Hand {
                                  wrapped(judgement_.uniform(0, kThirdTurn), kThirdTurn));
     element_ = times_ = 0;
     felt_ = {};
-    begin(Step::go, now_s);
+    begin(SearchStep::go, now_s);
   }
 
   /// Every texture so many times, one after the other; what is remembered is the mean of what was
@@ -259,9 +259,9 @@ class SearchingHand final : public Hand {
         std::log(jolts_.roughness()) + skill_.weber_roughness * judgement_.normal();
     element_ = (element_ + 1) % 3;
     if (element_ == 0) ++times_;
-    if (times_ < skill_.strokes) return begin(Step::go, now_s);
+    if (times_ < skill_.strokes) return begin(SearchStep::go, now_s);
     element_ = static_cast<int>(std::max_element(felt_.begin(), felt_.end()) - felt_.begin());
-    begin(Step::middle, now_s);
+    begin(SearchStep::middle, now_s);
   }
 
   const SearchingSkill skill_;
@@ -278,7 +278,7 @@ class SearchingHand final : public Hand {
        lead_ = Vec3::Zero();
   double speed_ = 0, pressed_N_ = 0, since_s_ = 0, travelled_ = 0, orientation_ = 0;
   std::int64_t next_ns_ = 0, last_glance_ns_ = -kOverview_ns;
-  Step step_ = Step::rest;
+  SearchStep step_ = SearchStep::rest;
   int trial_ = 0, element_ = 0, round_ = 0, times_ = 0;
   bool arrived_ = false;
   std::array<double, 3> felt_{};

@@ -10,14 +10,14 @@ constexpr std::size_t kStep = 7;
 constexpr std::int64_t kFrozenFor_ns = 500'000'000;
 constexpr int kFrozenPictures = 5;
 
-struct Samples {
+struct PixelStatistics {
   std::uint64_t fingerprint = 0xcbf29ce484222325ull;  // FNV-1a
   std::array<std::size_t, 256> histogram{};
   std::size_t count = 0;
 };
 
-Samples samplesOf(const cv::Mat& image) {
-  Samples s;
+PixelStatistics samplesOf(const cv::Mat& image) {
+  PixelStatistics s;
   const std::size_t bytes = static_cast<std::size_t>(image.cols) * image.elemSize();
   for (int row = 0; row < image.rows; ++row) {
     const unsigned char* line = image.ptr<unsigned char>(row);
@@ -30,7 +30,7 @@ Samples samplesOf(const cv::Mat& image) {
   return s;
 }
 
-bool isBlack(const Samples& s) {
+bool isBlack(const PixelStatistics& s) {
   std::size_t bright = 0;
   for (std::size_t level = kBlack; level < s.histogram.size(); ++level)
     bright += s.histogram[level];
@@ -41,7 +41,7 @@ bool isBlack(const Samples& s) {
 
 PictureFault PictureHealth::judge(const cv::Mat& image, std::int64_t t_ns) {
   if (image.empty() || image.size() != expected_) return PictureFault::wrong_size;
-  const Samples samples = samplesOf(image);
+  const PixelStatistics samples = samplesOf(image);
   if (same_ == 0 || samples.fingerprint != fingerprint_) {
     fingerprint_ = samples.fingerprint;
     since_ns_ = t_ns;

@@ -15,15 +15,15 @@ namespace {
 
 using calibration::CameraModel;
 
-struct Normal {
+struct NormalEquations {
   Matrix6 A = Matrix6::Zero();  ///< J^T J
   Vector6 b = Vector6::Zero();  ///< J^T residual
   double cost = 0;              ///< sum of squares; not a number when a point is behind the camera
 };
 
-Normal linearise(const Pose& X_CW, const std::vector<BoardPoint>& points,
-                 const CameraModel& camera) {
-  Normal normal;
+NormalEquations linearise(const Pose& X_CW, const std::vector<BoardPoint>& points,
+                          const CameraModel& camera) {
+  NormalEquations normal;
   for (const BoardPoint& point : points) {
     const Vec3 turned = X_CW.linear() * point.p_W;
     Eigen::Matrix<double, 2, 3> d_pixel;
@@ -45,7 +45,7 @@ Normal linearise(const Pose& X_CW, const std::vector<BoardPoint>& points,
 RefinedPose refinePose(const Pose& start, const std::vector<BoardPoint>& points,
                        const CameraModel& camera) {
   Pose X = start;
-  Normal normal = linearise(X, points, camera);
+  NormalEquations normal = linearise(X, points, camera);
   double damping = 1e-4;
   int iterations = 0;
   for (; iterations < 50 && damping < 1e12; ++iterations) {
@@ -53,7 +53,7 @@ RefinedPose refinePose(const Pose& start, const std::vector<BoardPoint>& points,
     A.diagonal() *= 1 + damping;
     const Vector6 step = A.ldlt().solve(normal.b);
     const Pose next = stepped(X, step);
-    const Normal there = linearise(next, points, camera);
+    const NormalEquations there = linearise(next, points, camera);
     const bool better = there.cost <= normal.cost;  // false when not a number
     damping *= better ? 0.1 : 10;
     if (!better) continue;

@@ -13,7 +13,7 @@ constexpr double kStill = 1e-4;  // m/s: below, motion has no direction
 constexpr double kDecayed = 5;   // time constants after which a vibration is over
 
 /// One of them, in this tick.
-struct Part {
+struct ActiveAugmentation {
   const Augmentation& a;
   const AugmentationInput& in;
   AugmentationState& state;
@@ -21,7 +21,7 @@ struct Part {
   double weight() const { return state.weight[i]; }
 };
 
-Vec3 wayOf(const Part& p) noexcept {
+Vec3 wayOf(const ActiveAugmentation& p) noexcept {
   switch (p.a.way) {
     case Augmentation::Way::up:
       return p.in.up;
@@ -38,7 +38,7 @@ Vec3 wayOf(const Part& p) noexcept {
 }
 
 /// What would trigger it is there now; whether that is new says `fires`.
-bool triggerPresent(const Part& p, std::uint32_t parts_begun) noexcept {
+bool triggerPresent(const ActiveAugmentation& p, std::uint32_t parts_begun) noexcept {
   switch (p.a.trigger) {
     case Augmentation::Trigger::none:
       return false;
@@ -55,7 +55,7 @@ bool triggerPresent(const Part& p, std::uint32_t parts_begun) noexcept {
 }
 
 /// A rise lasts for many ticks and counts once; bumps are told once each by themselves.
-bool fires(const Part& p, std::uint32_t parts_begun, bool on) noexcept {
+bool fires(const ActiveAugmentation& p, std::uint32_t parts_begun, bool on) noexcept {
   const bool now = triggerPresent(p, parts_begun);
   const std::uint32_t bit = 1u << p.i;
   const bool before = p.state.was & bit;
@@ -64,12 +64,12 @@ bool fires(const Part& p, std::uint32_t parts_begun, bool on) noexcept {
   return is_new && on;
 }
 
-Vec3 pulse(const Part& p) noexcept {
+Vec3 pulse(const ActiveAugmentation& p) noexcept {
   const double t = p.state.elapsed[p.i];
   return t >= 0 && t < p.a.width_s ? Vec3(p.a.amplitude * wayOf(p)) : Vec3(Vec3::Zero());
 }
 
-Vec3 vibration(const Part& p) noexcept {
+Vec3 vibration(const ActiveAugmentation& p) noexcept {
   double size = p.a.amplitude;
   if (p.a.trigger != Augmentation::Trigger::none) {
     const double t = p.state.elapsed[p.i];
@@ -84,7 +84,7 @@ Vec3 vibration(const Part& p) noexcept {
   return p.weight() * size * std::sin(kTwoPi * way) * wayOf(p);
 }
 
-Vec3 attraction(const Part& p, double steepest) noexcept {
+Vec3 attraction(const ActiveAugmentation& p, double steepest) noexcept {
   const double d = p.in.to_valley.norm();
   if (p.in.valley_radius <= 0 || d <= 0 || p.a.reach <= 0) return Vec3::Zero();
   const double held = steepest * p.a.reach * p.in.valley_radius /
@@ -94,7 +94,7 @@ Vec3 attraction(const Part& p, double steepest) noexcept {
          p.in.to_valley / d;
 }
 
-Vec3 exaggeration(const Part& p) noexcept {
+Vec3 exaggeration(const ActiveAugmentation& p) noexcept {
   const std::uint32_t bit = 1u << p.i;
   const Vec3 before = p.state.started & bit ? unpack(p.state.slow[p.i]) : p.in.f_contact;
   const Vec3 slow = before + (p.in.f_contact - before) * (p.in.dt / (p.a.tau_s + p.in.dt));
@@ -103,7 +103,7 @@ Vec3 exaggeration(const Part& p) noexcept {
   return p.weight() * p.a.amplitude * (p.in.f_contact - slow);
 }
 
-Vec3 forceOf(const Part& p, double steepest) noexcept {
+Vec3 forceOf(const ActiveAugmentation& p, double steepest) noexcept {
   switch (p.a.kind) {
     case Augmentation::Kind::none:
       return Vec3::Zero();
@@ -128,14 +128,14 @@ bool heedsMotion(Augmentation::Kind kind) noexcept {
          kind != Augmentation::Kind::relief;
 }
 
-void advance(const Part& p, bool on) noexcept {
+void advance(const ActiveAugmentation& p, bool on) noexcept {
   const double step = p.a.blend_s > 0 ? p.in.dt / p.a.blend_s : 1;
   p.state.weight[p.i] = std::clamp(p.state.weight[p.i] + (on ? step : -step), 0.0, 1.0);
   if (p.state.elapsed[p.i] >= 0) p.state.elapsed[p.i] += p.in.dt;
 }
 
 /// A pulse that is on is not begun anew: its width is what is felt.
-bool running(const Part& p) noexcept {
+bool running(const ActiveAugmentation& p) noexcept {
   return p.a.kind == Augmentation::Kind::pulse && p.state.elapsed[p.i] >= 0 &&
          p.state.elapsed[p.i] < p.a.width_s;
 }
@@ -162,7 +162,7 @@ Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in,
   }
   Vec3 heedless = Vec3::Zero();
   for (std::size_t i = 0; i < std::min<std::size_t>(plan.count, kMostAugmentations); ++i) {
-    const Part part{plan.each[i], in, *state, i};
+    const ActiveAugmentation part{plan.each[i], in, *state, i};
     const bool on = part.a.subtask == kAnySubtask || (out.subtasks >> part.a.subtask & 1u);
     advance(part, on);
     if (fires(part, begun, on) && !running(part)) {

@@ -37,7 +37,7 @@ double indentationInSeries(const SkinLaw& skin, double K_c, double x) {
   return u;
 }
 
-struct Step {
+struct NeedleTick {
   const NeedleMaterials& materials;
   const CouplingLimits& coupling;
   const LocalGeometry& geometry;
@@ -53,13 +53,13 @@ struct Step {
   }
 };
 
-void decayRelease(Step& s) {
+void decayRelease(NeedleTick& s) {
   const double keep = std::exp(-s.dt / s.materials.skin.release_tau);
   s.state.release_D = pack(Vec3(keep * unpack(s.state.release_D)));
   s.push(unpack(s.state.release_D), s.pose.p_DT);
 }
 
-void puncture(Step& s, const Vec3& n, double x) {
+void puncture(NeedleTick& s, const Vec3& n, double x) {
   const double inserted = x / std::max(-s.pose.a_D.dot(n), kSteepest);
   s.state.phase = NeedlePhase::inserted;
   s.state.entry_D = pack(Vec3(s.pose.p_DT - inserted * s.pose.a_D));
@@ -70,7 +70,7 @@ void puncture(Step& s, const Vec3& n, double x) {
   s.out.events |= kSkinPunctured;
 }
 
-void beforePuncture(Step& s) {
+void beforePuncture(NeedleTick& s) {
   const PatchContact skin = nearestOn(s.geometry.skin, s.pose.p_DT);
   const Vec3 n = skin.normal;
   const double x = -skin.distance;
@@ -97,7 +97,7 @@ void beforePuncture(Step& s) {
 
 /// Stick–slip of cutting and shaft friction: an anchor that yields at the limit of either
 /// direction.
-double axialFriction(Step& s, double insertion, double advancing, double retracting) {
+double axialFriction(NeedleTick& s, double insertion, double advancing, double retracting) {
   const double k = kStickShare * s.coupling.stiffness;
   const double stretch =
       std::clamp(insertion - s.state.friction_anchor, -retracting / k, advancing / k);
@@ -105,7 +105,7 @@ double axialFriction(Step& s, double insertion, double advancing, double retract
   return -k * stretch;
 }
 
-void holdLaterally(Step& s, double insertion) {
+void holdLaterally(NeedleTick& s, double insertion) {
   const Vec3 axis_point = s.pose.p_DT - insertion * s.pose.a_D;
   const double ramp = std::clamp(insertion / kLateralRamp, 0.0, 1.0);
   const double k = ramp * (s.materials.lateral_stiffness +
@@ -114,13 +114,13 @@ void holdLaterally(Step& s, double insertion) {
 }
 
 /// What a wall had stored and now lets go; never more than was felt before it gave way.
-void letGo(Step& s, const Vec3& f) {
+void letGo(NeedleTick& s, const Vec3& f) {
   const Vec3 released = unpack(s.state.release_D) + f;
   const double size = released.norm(), felt = s.out.f_D.norm();
   s.state.release_D = pack(size > felt ? Vec3(released * (felt / size)) : released);
 }
 
-void pushWall(Step& s, const TissueWalk& walk) {
+void pushWall(NeedleTick& s, const TissueWalk& walk) {
   if (walk.wall != s.state.pushed || walk.wall_leaving != bool(s.state.pushed_leaving)) {
     s.state.wall_relaxation = RelaxationState{};
     s.state.pushed = walk.wall;
@@ -144,7 +144,7 @@ void pushWall(Step& s, const TissueWalk& walk) {
   s.out.events |= kWallPunctured;
 }
 
-void withdraw(Step& s) {
+void withdraw(NeedleTick& s) {
   s.state.phase = NeedlePhase::outside;
   s.state.was_outside =
       0;  // behind a flat needle the skin may bulge: it is felt again once the point is clear of it
@@ -154,7 +154,7 @@ void withdraw(Step& s) {
   s.out.events |= kWithdrawn;
 }
 
-void afterPuncture(Step& s) {
+void afterPuncture(NeedleTick& s) {
   const double insertion = (s.pose.p_DT - unpack(s.state.entry_D)).dot(s.pose.a_D);
   if (insertion < -kLeftSkin || nearestOn(s.geometry.skin, s.pose.p_DT).distance > kTornOut)
     return withdraw(s);
@@ -173,7 +173,7 @@ void afterPuncture(Step& s) {
   pushWall(s, walk);
 }
 
-void pushBones(Step& s) {
+void pushBones(NeedleTick& s) {
   const Vec3 hub = s.pose.p_DT - s.materials.needle_length * s.pose.a_D;
   const BoneTouch touch = touchBones(s.geometry, hub, s.pose.p_DT, s.materials.needle_radius,
                                      s.coupling.stiffness, s.state.bone);
@@ -188,7 +188,7 @@ void pushBones(Step& s) {
 NeedleContact needleContact(const NeedleMaterials& materials, const CouplingLimits& coupling,
                             const LocalGeometry& geometry, const NeedlePose& pose,
                             const TickCommands& commands, double dt, NeedleState& state) noexcept {
-  Step step{materials, coupling, geometry, pose, commands, dt, state, {}};
+  NeedleTick step{materials, coupling, geometry, pose, commands, dt, state, {}};
   follow(state.motion, pose.p_DT, coupling.velocity_tau, dt);
   step.out.v_axial = unpack(state.motion.v_D).dot(pose.a_D);
   if (geometry.number == 0) return step.out;

@@ -8,13 +8,13 @@ namespace palpa::haptics {
 namespace {
 
 /// One of the two descriptions of the contact: on the newest snapshot, or on the one before it.
-struct View {
+struct ContactView {
   const LocalGeometry& geometry;
   NeedleState& needle;
   ProbeState& probe;
 };
 
-NeedleContact contactOn(const TickConfig& config, const View& view, const NeedlePose& pose,
+NeedleContact contactOn(const TickConfig& config, const ContactView& view, const NeedlePose& pose,
                         const TickCommands& commands, double dt) {
   if (config.contact_mode == ContactMode::probe)
     return probeContact(config.probe, config.coupling, view.geometry, pose.p_DT, dt, view.probe);
@@ -77,20 +77,21 @@ FlightRecord tick(const TickConfig& config, TickState& state, const DeviceReadin
 namespace {
 
 /// What is added under each tool, in P.
-struct Added {
+struct AddedForces {
   std::array<Vec3, 2> f_d{Vec3::Zero(), Vec3::Zero()};
   std::array<double, 2> x{}, f_n{};
 };
 
-Added pressed(const PairConfig& config, PairState& state, const std::array<ToolTouch, 2>& tools,
-              const PlacedLumps& lumps, double dt) noexcept {
+AddedForces pressed(const PairConfig& config, PairState& state,
+                    const std::array<ToolTouch, 2>& tools, const PlacedLumps& lumps,
+                    double dt) noexcept {
   const AugmentedTouch now = augmentTouch(config.tools[0].touch, lumps, tools, dt, &state.touch);
   return {now.f_d, {now.touch[0].x, now.touch[1].x}, {now.touch[0].f_n, now.touch[1].f_n}};
 }
 
 /// Where one of the tools is not believed it feels nothing: no contact.
-Added squeezed(const PairConfig& config, PairState& state, const std::array<ToolTouch, 2>& tools,
-               const TickCommands& commands) noexcept {
+AddedForces squeezed(const PairConfig& config, PairState& state,
+                     const std::array<ToolTouch, 2>& tools, const TickCommands& commands) noexcept {
   SqueezeModulation law = config.squeeze;
   law.target.factor *= static_cast<double>(commands.squeeze_stiffness);
   law.weight_factor *= static_cast<double>(commands.squeeze_weight);
@@ -117,9 +118,9 @@ std::array<FlightRecord, 2> tickPair(const PairConfig& config, PairState& state,
                           sensed[t]);
     if (frames[t].felt) tools[t] = touchIn(config.tools[t], sensed[t]);
   }
-  const Added added = config.squeezing
-                          ? squeezed(config, state, tools, commands)
-                          : pressed(config, state, tools, commands.lumps, frames[0].input.dt);
+  const AddedForces added = config.squeezing
+                                ? squeezed(config, state, tools, commands)
+                                : pressed(config, state, tools, commands.lumps, frames[0].input.dt);
   std::array<FlightRecord, 2> records;
   for (std::size_t t = 0; t < 2; ++t)
     records[t] =

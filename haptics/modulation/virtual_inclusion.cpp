@@ -39,10 +39,11 @@ struct Balance {
   Mat3 slope = Mat3::Zero();
 };
 
-class Lump {
+class InclusionForces {
  public:
-  Lump(const VirtualInclusion& lump, const Vec3& p_T0, const std::array<InclusionContact, 2>& tools,
-       double dt, const InclusionState& before) noexcept
+  InclusionForces(const VirtualInclusion& lump, const Vec3& p_T0,
+                  const std::array<InclusionContact, 2>& tools, double dt,
+                  const InclusionState& before) noexcept
       : lump_(lump),
         p_T0_(p_T0),
         tools_(tools),
@@ -112,7 +113,7 @@ InclusionAnswer feelInclusion(const VirtualInclusion& lump, const Vec3& p_T0,
     *state = {};
     return answer;
   }
-  const Lump problem(lump, p_T0, tools, dt, *state);
+  const InclusionForces problem(lump, p_T0, tools, dt, *state);
   Vec3 d = unpack(state->d);
   Balance now = problem.at(d);
   while (now.left.norm() > kLumpBalanced && answer.iterations < kMostInclusionIterations) {

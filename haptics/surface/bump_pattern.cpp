@@ -146,17 +146,17 @@ class Balls {
   }
 
  private:
-  struct Ball {
+  struct BumpBall {
     double x = 0, y = 0, far2 = 0;
   };
 
-  const Ball& at(int i) const noexcept { return balls_[static_cast<std::size_t>(i)]; }
-  Ball& at(int i) noexcept { return balls_[static_cast<std::size_t>(i)]; }
+  const BumpBall& at(int i) const noexcept { return balls_[static_cast<std::size_t>(i)]; }
+  BumpBall& at(int i) noexcept { return balls_[static_cast<std::size_t>(i)]; }
 
   /// Nearest first. Where there are too many the farthest falls out, and only what is nearer than
   /// that is known completely.
   void insert(double x, double y) noexcept {
-    const Ball ball{x, y, x * x + y * y};
+    const BumpBall ball{x, y, x * x + y * y};
     if (ball.far2 > complete2_) return;
     if (count_ == kMostBalls) {
       complete2_ = std::max(ball.far2, at(count_ - 1).far2);
@@ -179,7 +179,7 @@ class Balls {
     *best = {x_ + x, y_ + y, z, distance2};
   }
 
-  void onSphere(const Ball& ball, SurfacePoint* best) const noexcept {
+  void onSphere(const BumpBall& ball, SurfacePoint* best) const noexcept {
     const double n2 = ball.far2 + z_ * z_;
     if (n2 >= r2_) return;
     if (n2 <= 0) return offer(ball.x, ball.y, radius_, best);  // from the middle all are as near
@@ -187,7 +187,7 @@ class Balls {
     offer(ball.x - stretch * ball.x, ball.y - stretch * ball.y, stretch * z_, best);
   }
 
-  void onFootprint(const Ball& ball, SurfacePoint* best) const noexcept {
+  void onFootprint(const BumpBall& ball, SurfacePoint* best) const noexcept {
     if (ball.far2 <= 0) return offer(ball.x + radius_, ball.y, 0, best);
     const double stretch = radius_ / std::sqrt(ball.far2);
     offer(ball.x - stretch * ball.x, ball.y - stretch * ball.y, 0, best);
@@ -211,7 +211,7 @@ class Balls {
 
   /// Three equal spheres around points of one plane meet over the middle of those points' circle.
   /// (dx, dy): from the first to the second.
-  void amongThree(const Ball& a, double dx, double dy, double d2, const Ball& c,
+  void amongThree(const BumpBall& a, double dx, double dy, double d2, const BumpBall& c,
                   SurfacePoint* best) const noexcept {
     const double ex = c.x - a.x, ey = c.y - a.y, e2 = ex * ex + ey * ey,
                  area = 2 * (dx * ey - dy * ex);
@@ -223,7 +223,7 @@ class Balls {
 
   const double radius_, r2_, x_, y_, z_;
   double complete2_, within2_ = 0;
-  std::array<Ball, kMostBalls> balls_;
+  std::array<BumpBall, kMostBalls> balls_;
   int count_ = 0;
 };
 

@@ -26,21 +26,21 @@ constexpr std::array<int, 4> kScaleBars_mm{
 constexpr double kBarShare = 0.35;  // of a tile
 constexpr double kRoom = 1.25;      // of the longest side a tile shows
 
-struct Row {
+struct SheetRow {
   SkinStyle style;
   const char* caption;
 };
-constexpr std::array<Row, 3> kRows{{{SkinStyle::solid, "SOLID"},
-                                    {SkinStyle::translucent, "TRANSLUCENT"},
-                                    {SkinStyle::hidden, "BONES AND VESSELS"}}};
+constexpr std::array<SheetRow, 3> kRows{{{SkinStyle::solid, "SOLID"},
+                                         {SkinStyle::translucent, "TRANSLUCENT"},
+                                         {SkinStyle::hidden, "BONES AND VESSELS"}}};
 constexpr std::array<Plane, 3> kColumns{Plane::frontal, Plane::sagittal, Plane::axial};
 
 /// What a row is framed on: all that it shows.
-struct Frame {
+struct Framing {
   Vec3 centre_A;
   double half;
 };
-Frame frameOf(const anatomy::Patient& patient, const Region& region, SkinStyle style) {
+Framing frameOf(const anatomy::Patient& patient, const Region& region, SkinStyle style) {
   Eigen::AlignedBox3d box;
   for (const anatomy::OrganSurface& organ : patient.organs)
     if (!coversOrgans(organ.organ))
@@ -59,14 +59,14 @@ bool hasBones(const anatomy::Patient& patient) {
 class Tile {
  public:
   Tile(vtkRenderWindow& window, const anatomy::Patient& patient, const Region& region,
-       const Row& row, Plane plane, const Rect& where)
+       const SheetRow& row, Plane plane, const Rect& where)
       : window_(window), organs_(*renderer_, patient), plates_(*renderer_) {
     setUpRenderer(*renderer_, colour::kPanel);
     organs_.setStyle(row.style);
     const Aspect aspect = aspectOf(plane, patient.side);
     const double radius = region.whole_radius;
     vtkCamera* camera = renderer_->GetActiveCamera();
-    const Frame frame = frameOf(patient, region, row.style);
+    const Framing frame = frameOf(patient, region, row.style);
     const Vec3 eye = frame.centre_A - 2 * radius * aspect.ahead_A;
     camera->ParallelProjectionOn();
     camera->SetPosition(eye.data());

@@ -11,27 +11,28 @@ namespace {
 
 // GLX and EGL cannot share a process (GLEW's function table belongs to one): the first choice
 // stays.
-enum class Kind { undecided, glx, egl };
-Kind process_kind = Kind::undecided;
+enum class PlatformChoice { undecided, glx, egl };
+PlatformChoice process_kind = PlatformChoice::undecided;
 
-std::unique_ptr<GlContextProvider> remember(Kind kind, std::unique_ptr<GlContextProvider> made) {
+std::unique_ptr<GlContextProvider> remember(PlatformChoice kind,
+                                            std::unique_ptr<GlContextProvider> made) {
   process_kind = kind;
   return made;
 }
 
 std::unique_ptr<GlContextProvider> onX11(int width, int height, const char* title, bool visible) {
-  if (process_kind == Kind::egl)
+  if (process_kind == PlatformChoice::egl)
     throw Error("this process already draws without a display (EGL)", "X11 window",
                 "Open the window in a process of its own");
-  return remember(Kind::glx, makeX11Window(width, height, title, visible));
+  return remember(PlatformChoice::glx, makeX11Window(width, height, title, visible));
 }
 
 std::unique_ptr<GlContextProvider> offscreen(int width, int height, const char* title) {
-  if (process_kind == Kind::glx) return onX11(width, height, title, false);
+  if (process_kind == PlatformChoice::glx) return onX11(width, height, title, false);
   try {
-    return remember(Kind::egl, makeEglWindow(width, height));
+    return remember(PlatformChoice::egl, makeEglWindow(width, height));
   } catch (const Error&) {
-    if (process_kind == Kind::egl || !whyNoX11().empty()) throw;
+    if (process_kind == PlatformChoice::egl || !whyNoX11().empty()) throw;
   }
   return onX11(width, height, title, false);
 }
@@ -49,7 +50,7 @@ std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int
   if (width < 1 || height < 1)
     throw UsageError("a window needs a width and a height of at least 1 pixel", "window size",
                      "Give for example 1280x720");
-  const bool can_show = process_kind != Kind::egl && whyNoX11().empty();
+  const bool can_show = process_kind != PlatformChoice::egl && whyNoX11().empty();
   if (display == Display::window || (display == Display::automatic && can_show))
     return onX11(width, height, title, true);
   return offscreen(width, height, title);

@@ -21,7 +21,7 @@ double farthest(const Curve& a, const Curve& b) {
 }
 
 /// A cell of the alignment's table: its cost and how many pairs led there.
-struct Cell {
+struct AlignmentCell {
   double cost = kFar;
   int pairs = 0;
 };
@@ -71,12 +71,12 @@ double frechet(const Curve& one, const Curve& other) {
 double timeWarped(const Curve& one, const Curve& other) {
   if (one.empty() || other.empty()) return kNoCurve;
   const Curve a = resampled(one), b = resampled(other);
-  std::vector<Cell> before(b.size()), row(b.size());
+  std::vector<AlignmentCell> before(b.size()), row(b.size());
   for (std::size_t i = 0; i < a.size(); ++i) {
     for (std::size_t j = 0; j < b.size(); ++j) {
-      Cell best = i == 0 && j == 0 ? Cell{0, 0} : before[j];
+      AlignmentCell best = i == 0 && j == 0 ? AlignmentCell{0, 0} : before[j];
       if (j > 0)
-        for (const Cell& from : {before[j - 1], row[j - 1]})
+        for (const AlignmentCell& from : {before[j - 1], row[j - 1]})
           if (from.cost < best.cost) best = from;
       row[j] = {best.cost + (a[i] - b[j]).norm(), best.pairs + 1};
     }

@@ -13,7 +13,7 @@
 namespace palpa::metrics {
 namespace {
 
-struct Step {
+struct SampleSum {
   Vec3 tip = Vec3::Zero(), axis = Vec3::Zero();
   double inserted = 0, force = 0;
   int count = 0;
@@ -54,7 +54,7 @@ Motion motionOf(const std::vector<RawSample>& samples) {
   Motion motion;
   if (samples.empty()) return motion;
   const double start = samples.front().t_s;
-  Step step;
+  SampleSum step;
   double before = start;
   for (const RawSample& s : samples) {
     require(s, before);

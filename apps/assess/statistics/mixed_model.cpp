@@ -24,7 +24,7 @@ struct SubjectSums {
   double y = 0, n = 0;
 };
 
-struct Tables {
+struct CrossProducts {
   Eigen::MatrixXd xx;
   Eigen::VectorXd xy;
   double yy = 0, n = 0;
@@ -39,9 +39,9 @@ struct AtRatio {
   double deviance = 0;      ///< -2 log likelihood, restricted
 };
 
-Tables tablesOf(const Eigen::VectorXd& y, const Eigen::MatrixXd& x,
-                const std::vector<int>& subject) {
-  Tables t{
+CrossProducts tablesOf(const Eigen::VectorXd& y, const Eigen::MatrixXd& x,
+                       const std::vector<int>& subject) {
+  CrossProducts t{
       x.transpose() * x, x.transpose() * y, y.squaredNorm(), static_cast<double>(y.size()), {}};
   std::map<int, SubjectSums> sums;
   for (Eigen::Index i = 0; i < y.size(); ++i) {
@@ -55,7 +55,7 @@ Tables tablesOf(const Eigen::VectorXd& y, const Eigen::MatrixXd& x,
   return t;
 }
 
-AtRatio at(const Tables& t, double ratio) {
+AtRatio at(const CrossProducts& t, double ratio) {
   Eigen::MatrixXd a = t.xx;
   Eigen::VectorXd c = t.xy;
   double yy = t.yy, log_det = 0;
@@ -77,7 +77,7 @@ AtRatio at(const Tables& t, double ratio) {
 
 /// The likeliest ratio, on the line of the share s = r / (1 + r): first coarsely, since the
 /// likelihood may have two hills.
-double likeliestRatio(const Tables& t) {
+double likeliestRatio(const CrossProducts& t) {
   const auto deviance = [&](double share) { return at(t, share / (1 - share)).deviance; };
   int best = 0;
   double lowest = deviance(0);
@@ -134,7 +134,7 @@ MixedModel fitMixedModel(const Eigen::VectorXd& y, const Eigen::MatrixXd& x,
                         rest = y - x * plain;
   if (!(rest.norm() > 1e-12 * (1 + y.norm())))
     throw Error("nothing varies beside what is asked", kMixed, "Constant values cannot be tested");
-  const Tables tables = tablesOf(
+  const CrossProducts tables = tablesOf(
       rest, x, subject);  // of what plain least squares leaves: no digits are lost to a large mean
   std::vector<bool> within;
   double inner = 0;

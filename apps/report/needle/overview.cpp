@@ -70,23 +70,24 @@ void writeLegend(Html& html) {
 std::string distance(double mm, double t_s) { return mm == 0 && t_s == 0 ? "–" : fixed(mm, 1); }
 
 /// Columns under a common heading; `names` empty: the heading is the column.
-struct Group {
+struct ColumnGroup {
   const char* heading;
   std::vector<const char*> names;
 };
 
-const std::vector<Group>& groups() {
-  static const std::vector<Group> kGroups{{"Trial", {}},
-                                          {"Outcome", {}},
-                                          {"Force", {}},
-                                          {"Total", {}},
-                                          {"Time", {}},
-                                          {"Contacts, samples", {"lung", "ribs", "artery", "vein"}},
-                                          {"Entry", {}},
-                                          {"Direction", {}},
-                                          {"Path", {"mean", "var."}},
-                                          {"Number", {"skin", "redir."}},
-                                          {"Closest, mm", {"pleura", "artery"}}};
+const std::vector<ColumnGroup>& groups() {
+  static const std::vector<ColumnGroup> kGroups{
+      {"Trial", {}},
+      {"Outcome", {}},
+      {"Force", {}},
+      {"Total", {}},
+      {"Time", {}},
+      {"Contacts, samples", {"lung", "ribs", "artery", "vein"}},
+      {"Entry", {}},
+      {"Direction", {}},
+      {"Path", {"mean", "var."}},
+      {"Number", {"skin", "redir."}},
+      {"Closest, mm", {"pleura", "artery"}}};
   return kGroups;
 }
 
@@ -94,7 +95,7 @@ void writeTableHead(Html& html) {
   const auto head = html.in("thead");
   {
     const auto row = html.in("tr");
-    for (const Group& group : groups()) {
+    for (const ColumnGroup& group : groups()) {
       if (group.names.empty()) {
         html.element("th", {{"scope", "col"}, {"rowspan", "2"}}, group.heading);
       } else {
@@ -104,7 +105,7 @@ void writeTableHead(Html& html) {
     }
   }
   const auto row = html.in("tr");
-  for (const Group& group : groups()) {
+  for (const ColumnGroup& group : groups()) {
     for (const char* name : group.names) html.element("th", {{"scope", "col"}}, name);
   }
 }

@@ -15,22 +15,22 @@ namespace {
 
 constexpr double kPointsPerMm = 72 / 25.4, kFooter_mm = 21, kEdge_mm = 5, kBar_mm = 100;
 
-struct Named {
+struct PaperSize {
   const char* name;
   double short_mm, long_mm;
 };
-constexpr Named kPapers[] = {{"a4", 210, 297}, {"a3", 297, 420},         {"a2", 420, 594},
-                             {"a1", 594, 841}, {"letter", 215.9, 279.4}, {"tabloid", 279.4, 431.8},
-                             {"fit", 0, 0}};
+constexpr PaperSize kPapers[] = {
+    {"a4", 210, 297},         {"a3", 297, 420},          {"a2", 420, 594}, {"a1", 594, 841},
+    {"letter", 215.9, 279.4}, {"tabloid", 279.4, 431.8}, {"fit", 0, 0}};
 
-const Named& paperOf(const std::string& name) {
-  for (const Named& paper : kPapers)
+const PaperSize& paperOf(const std::string& name) {
+  for (const PaperSize& paper : kPapers)
     if (name == paper.name) return paper;
   throw UsageError("is no paper", name, "Choose a4, a3, a2, a1, letter, tabloid or fit");
 }
 
 PageSize sizeOf(const ar::Sheet& sheet, const std::string& name) {
-  const Named& paper = paperOf(name);
+  const PaperSize& paper = paperOf(name);
   const double width = 1e3 * sheet.size.x(), height = 1e3 * sheet.size.y();
   if (!(paper.short_mm > 0))
     return {std::max(width, kBar_mm) + 4 * kEdge_mm,
@@ -161,7 +161,7 @@ std::string pngOf(const ar::Sheet& sheet, const BoardPage& page, const PageSize&
 const std::vector<std::string>& papers() {
   static const std::vector<std::string> names = [] {
     std::vector<std::string> all;
-    for (const Named& paper : kPapers) all.emplace_back(paper.name);
+    for (const PaperSize& paper : kPapers) all.emplace_back(paper.name);
     return all;
   }();
   return names;

@@ -16,14 +16,14 @@ constexpr std::int64_t kLook = 200 * runtime::kMillisecond;
 constexpr std::int64_t kSay = 5 * runtime::kSecond;
 
 /// What the processes share.
-struct Board {
+struct WorkerTally {
   std::atomic<int> next{0}, done{0}, failed{0};
   char message[512] = {};
 };
 
 using Work = std::function<void(int, const std::function<void()>&)>;
 
-void workThrough(Board& board, int items, const Work& work) {
+void workThrough(WorkerTally& board, int items, const Work& work) {
   try {
     for (int item; !board.failed && (item = board.next++) < items;)
       work(item, [&board] { ++board.done; });
@@ -32,12 +32,12 @@ void workThrough(Board& board, int items, const Work& work) {
   }
 }
 
-void say(const Board& board, int steps) {
+void say(const WorkerTally& board, int steps) {
   std::fprintf(stderr, "%d of %d trials\n", board.done.load(), steps);
 }
 
 /// Until all have ended; true: somebody was killed.
-bool watchOver(int children, const Board& board, int steps, bool quiet) {
+bool watchOver(int children, const WorkerTally& board, int steps, bool quiet) {
   runtime::SteadyClock clock;
   std::int64_t said_ns = 0;
   bool killed = false;
@@ -59,8 +59,8 @@ bool watchOver(int children, const Board& board, int steps, bool quiet) {
 }  // namespace
 
 void shareWork(int items, int workers, int steps, bool quiet, const Work& work) {
-  const os::SharedMemory<Board> shared("Use --workers 1");
-  Board& board = *shared;
+  const os::SharedMemory<WorkerTally> shared("Use --workers 1");
+  WorkerTally& board = *shared;
   int children = 0;
   for (int i = 0; i < workers && i < items; ++i)
     children += os::forkWorker([&] { workThrough(board, items, work); });

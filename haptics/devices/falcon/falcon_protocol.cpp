@@ -113,12 +113,12 @@ UsbStatus setLoaderMode(FtdiSerial& serial) {
       .status();
 }
 
-enum class Before { nothing, zeros };  // what may come before an answer
+enum class AnswerPrefix { nothing, zeros };  // what may come before an answer
 
 /// Sends and waits for `wanted` to come back. ok: it came; timeout: something else came, or not
 /// enough.
 UsbStatus ask(FtdiSerial& serial, UploadBytes sent, UploadBytes wanted, int patience,
-              Before before = Before::nothing) {
+              AnswerPrefix before = AnswerPrefix::nothing) {
   if (const UsbStatus status = serial.write(sent); status != UsbStatus::ok) return status;
   std::size_t matched = 0;
   for (int empty = 0; empty < patience;) {
@@ -126,7 +126,7 @@ UsbStatus ask(FtdiSerial& serial, UploadBytes sent, UploadBytes wanted, int pati
     if (const UsbStatus status = serial.read(payload); status != UsbStatus::ok) return status;
     if (payload.size == 0) ++empty;
     for (const std::uint8_t byte : payload.view()) {
-      if (matched == 0 && byte == 0 && before == Before::zeros) continue;
+      if (matched == 0 && byte == 0 && before == AnswerPrefix::zeros) continue;
       if (matched == wanted.size() || byte != wanted[matched]) return UsbStatus::timeout;
       ++matched;
     }
@@ -138,7 +138,7 @@ UsbStatus ask(FtdiSerial& serial, UploadBytes sent, UploadBytes wanted, int pati
 UsbStatus greet(FtdiSerial& serial) {
   UsbStatus status = UsbStatus::timeout;
   for (int i = 0; i < kGreetings && status == UsbStatus::timeout; ++i)
-    status = ask(serial, kGreeting, kGreetingReply, kGreetingPatience, Before::zeros);
+    status = ask(serial, kGreeting, kGreetingReply, kGreetingPatience, AnswerPrefix::zeros);
   return status;
 }
 
