@@ -84,7 +84,7 @@ bool Guard::entered(const std::string& cookie_header) const {
   return token_.empty() || same(valueOf(cookie_header), cookie_);
 }
 
-Verdict Guard::judge(const Asked& asked) {
+GuardVerdict Guard::judge(const Asked& asked) {
   if (std::find(hosts_.begin(), hosts_.end(), asked.host) == hosts_.end())
     return {421, "this console is not called \"" + asked.host.substr(0, 64) +
                      "\": use the address that it says when it starts"};
@@ -99,7 +99,7 @@ Verdict Guard::judge(const Asked& asked) {
       !(asked.fetch_site == "none" && asked.method == "GET") && !page)
     return {403, "asked for by another site"};
   if (asked.method == "POST") {
-    if (Verdict verdict = judgeWrite(asked); verdict.status != 200) return verdict;
+    if (GuardVerdict verdict = judgeWrite(asked); verdict.status != 200) return verdict;
   } else if (asked.method != "GET") {
     return {405, "only GET and POST are understood"};
   }
@@ -108,7 +108,7 @@ Verdict Guard::judge(const Asked& asked) {
   return {};
 }
 
-Verdict Guard::judgeWrite(const Asked& asked) {
+GuardVerdict Guard::judgeWrite(const Asked& asked) {
   if (asked.content_type.rfind("application/json", 0) != 0) return {415, "a write is JSON"};
   if (!same(asked.page_key, page_key_))
     return {403, "not asked for by a page of this console: load the page again"};

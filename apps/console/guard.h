@@ -22,7 +22,7 @@ struct Asked {
       write_id;  ///< of its headers; empty: none
 };
 
-struct Verdict {
+struct GuardVerdict {
   int status = 200;   ///< 200: it may pass
   std::string words;  ///< else why not
 };
@@ -38,7 +38,7 @@ class Guard {
   /// nobody may.
   void answerTo(std::vector<std::string> hosts) { hosts_ = std::move(hosts); }
 
-  Verdict judge(const Asked& asked);
+  GuardVerdict judge(const Asked& asked);
   /// The cookie for whoever gave the right token; empty: wrong, or too many wrong ones came from
   /// there.
   std::string enter(const std::string& remote, const std::string& token);
@@ -47,7 +47,7 @@ class Guard {
 
  private:
   using Clock = runtime::ServingClock;
-  Verdict judgeWrite(const Asked& asked);
+  GuardVerdict judgeWrite(const Asked& asked);
   bool flooding(const std::string& remote);
 
   std::vector<std::string> hosts_;

@@ -99,7 +99,7 @@ std::optional<std::size_t> lengthIn(const std::string& text) {
 
 }  // namespace
 
-Verdict judgeFraming(const httplib::Request& r) {
+GuardVerdict judgeFraming(const httplib::Request& r) {
   for (const char* once :
        {"Host", "Origin", "Content-Length", "Content-Type", "X-Palpa-Page", "X-Palpa-Write"})
     if (r.get_header_value_count(once) > 1) return {400, std::string("says ") + once + " twice"};

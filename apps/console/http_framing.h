@@ -49,6 +49,6 @@ inline constexpr std::size_t kLongestBody = 64u << 10;
 /// is read: a length that can be read in two ways lets one request hide in another, a packed body
 /// grows without bound when it is unpacked, a list of parts makes a small question into a large
 /// answer.
-Verdict judgeFraming(const httplib::Request& request);
+GuardVerdict judgeFraming(const httplib::Request& request);
 
 }  // namespace palpa::console

@@ -53,7 +53,7 @@ Jobs::~Jobs() {
     const std::lock_guard lock(mutex_);
     ending_ = true;
     for (auto& [id, job] : jobs_)
-      if (job.state == State::running) os::askToEnd(job.process);
+      if (job.state == JobState::running) os::askToEnd(job.process);
   }
   changed_.notify_all();
   thread_.join();
@@ -82,7 +82,8 @@ nlohmann::json Jobs::ask(Wish wish) {
 
 std::string Jobs::addLocked(Wish wish) {
   for (const auto& [id, job] : jobs_)
-    if (job.wish.key == wish.key && (job.state == State::waiting || job.state == State::running))
+    if (job.wish.key == wish.key &&
+        (job.state == JobState::waiting || job.state == JobState::running))
       return id;
   const std::string id = newId();
   jobs_[id].wish = std::move(wish);
@@ -125,7 +126,7 @@ void Jobs::perform(const std::string& id) {
         process = {};
       }
     }
-    jobs_[id].state = State::running;
+    jobs_[id].state = JobState::running;
   }
   while (os::runs(process)) runtime::rest(kLook);
   bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() &&
@@ -136,7 +137,7 @@ void Jobs::perform(const std::string& id) {
     good = false;  // a full disk, say: the next command meets it as well, and tells
   }
   const std::lock_guard lock(mutex_);
-  jobs_[id].state = good && !jobs_[id].stopped ? State::done : State::failed;
+  jobs_[id].state = good && !jobs_[id].stopped ? JobState::done : JobState::failed;
 }
 
 nlohmann::json Jobs::one(const std::string& id) {
@@ -150,15 +151,15 @@ nlohmann::json Jobs::one(const std::string& id) {
   std::error_code none;
   nlohmann::json one{{"id", id},
                      {"title", job.wish.title},
-                     {"state", job.state == State::done     ? "done"
-                               : job.state == State::failed ? "failed"
-                                                            : "working"},
+                     {"state", job.state == JobState::done     ? "done"
+                               : job.state == JobState::failed ? "failed"
+                                                               : "working"},
                      {"lines", lines},
-                     {"done", job.state == State::done ? nlohmann::json(1) : fractionOf(lines)},
+                     {"done", job.state == JobState::done ? nlohmann::json(1) : fractionOf(lines)},
                      {"message", ""},
                      {"picture", nullptr},
                      {"page", ""}};
-  if (job.state == State::failed)
+  if (job.state == JobState::failed)
     one["message"] = job.stopped ? "It was stopped." : complaintIn(log);
   if (!job.wish.picture.empty() && fs::exists(place_.jobs() / id / job.wish.picture, none))
     one["picture"] = "/api/jobs/" + id + "/picture";
@@ -196,7 +197,7 @@ std::string Jobs::workingOn(const std::string& prefix) {
   const std::lock_guard lock(mutex_);
   for (const auto& [id, job] : jobs_)
     if (job.wish.key.rfind(prefix, 0) == 0 &&
-        (job.state == State::waiting || job.state == State::running))
+        (job.state == JobState::waiting || job.state == JobState::running))
       return id;
   return "";
 }

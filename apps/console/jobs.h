@@ -15,6 +15,9 @@
 
 namespace palpa::console {
 
+/// How far a job is.
+enum class JobState { waiting, running, done, failed };
+
 /// Work in the background: commands of this program, one after the other, at low priority. Each has
 /// a folder under jobs/ and a log there. Any thread.
 class Jobs {
@@ -49,10 +52,9 @@ class Jobs {
   std::string workingOn(const std::string& prefix);
 
  private:
-  enum class State { waiting, running, done, failed };
   struct Job {
     Wish wish;
-    State state = State::waiting;
+    JobState state = JobState::waiting;
     os::ProcessId process;
     bool stopped = false;
   };

@@ -81,7 +81,7 @@ std::string stateOfRecords(record::RecordStore& store, const std::string& traine
 
 /// What an educator can start now; empty: nothing.
 std::string startable(const study::Next& next) {
-  if (next.kind != study::Next::Kind::trials) return "";
+  if (next.kind != study::NextKind::trials) return "";
   if (!next.not_before.empty() && next.not_before > utcNow()) return "";
   return std::to_string(next.trials) + (next.trials == 1 ? " trial" : " trials");
 }
@@ -89,7 +89,7 @@ std::string startable(const study::Next& next) {
 /// What has to be done elsewhere before a block can be.
 std::string elsewhere(const study::Protocol& protocol, const study::Next& next,
                       const std::string& trainee) {
-  if (next.kind != study::Next::Kind::questionnaire) return "";
+  if (next.kind != study::NextKind::questionnaire) return "";
   return "The questionnaire is answered at the station's terminal: palpa study run --protocol " +
          protocol.id + ".json --trainee " + trainee;
 }
@@ -104,7 +104,7 @@ json enrolled(const study::Protocol& protocol, record::RecordStore& store,
     simulated = simulated || t.session.simulated;
   }
   std::vector<std::pair<int, std::string>> answered;
-  for (const record::Answer& a : record::StudyStore(store).answers(protocol.id, e.trainee))
+  for (const record::ItemAnswer& a : record::StudyStore(store).answers(protocol.id, e.trainee))
     answered.emplace_back(static_cast<int>(a.session), a.item);
   const study::Next next = study::nextOf(protocol, e.condition, trials, answered, utcNow());
   json remarks = next.remarks;
@@ -114,7 +114,7 @@ json enrolled(const study::Protocol& protocol, record::RecordStore& store,
           {"group", e.group},
           {"where", study::whereIs(protocol, next)},
           {"next", startable(next)},
-          {"finished", next.kind == study::Next::Kind::finished},
+          {"finished", next.kind == study::NextKind::finished},
           {"simulated", simulated},
           {"remarks", remarks}};
 }

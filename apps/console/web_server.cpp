@@ -149,7 +149,7 @@ void WebServer::widen() { os::widenBacklog(svr_sock_.load(), kKnocking); }
 
 httplib::Server::HandlerResponse WebServer::admit(const httplib::Request& request,
                                                   httplib::Response& response) {
-  Verdict verdict = judgeFraming(request);
+  GuardVerdict verdict = judgeFraming(request);
   if (verdict.status == 200) verdict = guard_.judge(askedOf(request));
   turn.admitted = verdict.status == 200;
   if (turn.admitted) return HandlerResponse::Unhandled;

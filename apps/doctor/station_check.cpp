@@ -95,20 +95,20 @@ Finding judgePrint(const station::Station& station, double bar_mm) {
 }
 
 Finding askRecords(const std::string& url, std::size_t waiting) {
-  using Kind = record::StoreLook::State;
+  using record::StoreState;
   try {
     const record::StoreLook look = record::lookAtStore(url);
-    if (look.state == Kind::absent)
+    if (look.state == StoreState::absent)
       return {"records", State::well,
               "none so far; the first trainee makes " + url + waitingWords(waiting)};
-    if (look.state == Kind::empty)
+    if (look.state == StoreState::empty)
       return {"records", State::note, look.place + ": is empty" + waitingWords(waiting),
               "If there were trainees in it, restore a backup (palpa records restore); if it is "
               "new, nothing: the first trainee fills it"};
     const std::string verdict = std::to_string(look.trainees) +
                                 (look.trainees == 1 ? " trainee in " : " trainees in ") +
                                 look.place + waitingWords(waiting);
-    if (look.state == Kind::older)
+    if (look.state == StoreState::older)
       return {"records", State::note,
               verdict + "; older (tables " + std::to_string(look.schema) +
                   "): they will be brought to the newest version when a session uses them",

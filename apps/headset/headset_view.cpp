@@ -52,7 +52,7 @@ constexpr double kReach = 0.10;  // m from the hand to the tool's tip
 
 ar::GlBinding bindingOf(const scene::NativeContext& native) {
   ar::GlBinding gl;
-  gl.kind = native.glx ? ar::GlBinding::Kind::glx : ar::GlBinding::Kind::egl;
+  gl.kind = native.glx ? ar::GlPlatform::glx : ar::GlPlatform::egl;
   gl.display = native.display;
   gl.config = native.config;
   gl.context = native.context;
@@ -64,7 +64,7 @@ ar::GlBinding bindingOf(const scene::NativeContext& native) {
 
 }  // namespace
 
-HeadsetView::HeadsetView(const anatomy::Patient& patient, Setup setup)
+HeadsetView::HeadsetView(const anatomy::Patient& patient, HeadsetViewSetup setup)
     : setup_(std::move(setup)),
       context_(scene::makeGlContext(scene::Display::offscreen, 64, 64, "Palpa, headset")) {
   headset_ = ar::openHeadset(bindingOf(context_->native()));
@@ -94,7 +94,7 @@ HeadsetView::~HeadsetView() {
 }
 
 bool HeadsetView::wait(bool may_place) {
-  if (headset_->state() == ar::Headset::State::lost) return false;
+  if (headset_->state() == ar::HeadsetState::lost) return false;
   context_->makeCurrent();
   const std::optional<ar::HeadsetFrame> frame = headset_->begin();
   if (!frame) return false;

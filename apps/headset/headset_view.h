@@ -28,20 +28,22 @@ struct HeldTool {
   bool start = false;            ///< the button was pressed
 };
 
+/// What a headset shows, and to whom.
+struct HeadsetViewSetup {
+  Pose X_WA = Pose::Identity();
+  Vec3 focus_A = Vec3::Zero();  ///< what lies before the person
+  bool left_handed = false;
+  scene::ForceColours force_colours = scene::ForceColours::paper;
+  bool skin_deflection = false;
+};
+
 /// A headset that shows the scene: the patient lies before the person (again whenever they ask for
 /// it, or their system recentres), the tool is in their hand. It has a context and a view of its
 /// own; the desktop's go on beside it.
 class HeadsetView final : public runtime::HeadDisplay {
  public:
-  struct Setup {
-    Pose X_WA = Pose::Identity();
-    Vec3 focus_A = Vec3::Zero();  ///< what lies before the person
-    bool left_handed = false;
-    scene::ForceColours force_colours = scene::ForceColours::paper;
-    bool skin_deflection = false;
-  };
   /// Throws Error where there is no headset.
-  HeadsetView(const anatomy::Patient& patient, Setup setup);
+  HeadsetView(const anatomy::Patient& patient, HeadsetViewSetup setup);
   ~HeadsetView() override;
 
   bool wait(bool may_place) override;
@@ -58,7 +60,7 @@ class HeadsetView final : public runtime::HeadDisplay {
   void tellHeld() const;
   void addView(const anatomy::Patient& patient);
 
-  Setup setup_;
+  HeadsetViewSetup setup_;
   std::unique_ptr<scene::GlContextProvider> context_;
   std::unique_ptr<ar::Headset> headset_;
   std::unique_ptr<scene::SceneView> view_;

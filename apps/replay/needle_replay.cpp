@@ -139,8 +139,8 @@ class NeedleReplay final : public TrialReplay {
   }
 
  private:
-  task_needle::SceneActivity::Setup setup(scene::SceneView& view) {
-    task_needle::SceneActivity::Setup s;
+  task_needle::NeedleSceneSetup setup(scene::SceneView& view) {
+    task_needle::NeedleSceneSetup s;
     s.stage = stage(view);
     s.words = recorded_.words;
     return s;

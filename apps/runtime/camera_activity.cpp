@@ -8,8 +8,8 @@ namespace {
 constexpr std::int64_t kAskAgain = kSecond;  // after a source has failed
 
 std::optional<Pose> poseAt(const ar::PoseTrack& track, std::int64_t t_ns) {
-  const ar::PoseTrack::Answer there = track.at(t_ns);
-  return there.how == ar::PoseTrack::Lookup::none ? std::nullopt : std::optional(there.X);
+  const ar::PoseLookup there = track.at(t_ns);
+  return there.how == ar::Lookup::none ? std::nullopt : std::optional(there.X);
 }
 
 ar::PoseTrack trackOf(const std::optional<CameraActivity::Tracking>& tracked) {

@@ -23,6 +23,15 @@ class FloorSource {
   virtual const haptics::Floor* floor(std::uint32_t number) const noexcept = 0;
 };
 
+/// Of a force sensor on the tool.
+struct ForceSensingSetup {
+  /// Its motion at the device's rate, its low-pass at the loop's; K: the tool's tip, or a round
+  /// tip's middle
+  haptics::WrenchFilter filter;
+  Pose X_WD = Pose::Identity();  ///< which way is down
+  Pose X_ES = Pose::Identity();  ///< the sensor on the end effector
+};
+
 /// A force sensor on the tool, read in the haptic thread: its newest sample, cleared of bias, tool
 /// and noise (WrenchFilter), as the force of a real object on the tool, in D. The tool's motion is
 /// that of the device's readings at their own times, however often the loop asks; unusable until
@@ -33,20 +42,14 @@ class ForceSensing {
  public:
   static constexpr std::int64_t kGoodFor_ns = 10'000'000;  ///< as old as a sample may be
 
-  struct Setup {
-    /// Its motion at the device's rate, its low-pass at the loop's; K: the tool's tip, or a round
-    /// tip's middle
-    haptics::WrenchFilter filter;
-    Pose X_WD = Pose::Identity();  ///< which way is down
-    Pose X_ES = Pose::Identity();  ///< the sensor on the end effector
-  };
-  ForceSensing(haptics::ForceSensor& sensor, const Setup& setup) : sensor_(sensor), setup_(setup) {}
+  ForceSensing(haptics::ForceSensor& sensor, const ForceSensingSetup& setup)
+      : sensor_(sensor), setup_(setup) {}
 
   haptics::SensedForce sense(const haptics::DeviceReading& reading, std::int64_t now_ns) noexcept;
 
  private:
   haptics::ForceSensor& sensor_;
-  Setup setup_;
+  ForceSensingSetup setup_;
   haptics::WrenchFilterState state_;
   haptics::SensedForce last_;  // valid
   std::int64_t last_ns_ = -kGoodFor_ns - 1;

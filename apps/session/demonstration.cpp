@@ -85,7 +85,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
   runtime::Bus bus(executive->mode());
   task_needle::TaskChannels channels(executive->mode());
   Playback playback(recorded.trial.moments, bus, channels, *executive);
-  task_needle::SceneActivity::Setup shown;
+  task_needle::NeedleSceneSetup shown;
   trial::TrialScene::Stage& setup = shown.stage;
   setup.views = trial::TrialScene::Views::continuous;
   setup.view = stage.view.get();

@@ -58,7 +58,8 @@ void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
   }
 }
 
-MouseHand::MouseHand(const Setup& setup, runtime::ChannelDevice& device, trial::Channels& channels)
+MouseHand::MouseHand(const MouseHandSetup& setup, runtime::ChannelDevice& device,
+                     trial::Channels& channels)
     : setup_(setup), device_(device), channels_(channels) {
   wish_.tip_A = pack(setup.anatomy.entry_A);
   wish_.along = -kAboveSkin;
@@ -178,7 +179,9 @@ std::optional<Vec3> pointedAt(const scene::ViewInput& input, const scene::ArGeom
 
 }  // namespace
 
-PointingHand::PointingHand(const Setup& setup) : setup_(setup) { wish_.y = -setup.half_y; }
+PointingHand::PointingHand(const PointingHandSetup& setup) : setup_(setup) {
+  wish_.y = -setup.half_y;
+}
 
 void PointingHand::handle(const scene::ViewInput& input, const scene::ArGeometry& view,
                           std::int64_t now_ns) {

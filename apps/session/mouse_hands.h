@@ -17,18 +17,20 @@ namespace palpa::session {
 /// Keys that every session understands: Enter, P, A, V + 1..4, space, R, Escape.
 void handleKeys(const scene::ViewInput& input, trial::Channels& channels);
 
+/// What a needle led by the mouse moves in.
+struct MouseHandSetup {
+  Pose X_DA, X_ET;
+  twin::VisibleAnatomy anatomy;
+  bool left_handed = false;
+};
+
 /// A person's hand without a haptic device: the mouse, or the controller of a headset, moves the
 /// needle; what it would feel is drawn. Moving the mouse with the left button held shifts the tip
 /// along the frontal plane, the wheel moves along the needle, the arrow keys turn it about its
 /// entry, Z and X (left-handed: period and comma) draw and push the plunger, T changes the skin.
 class MouseHand final : public runtime::Activity {
  public:
-  struct Setup {
-    Pose X_DA, X_ET;
-    twin::VisibleAnatomy anatomy;
-    bool left_handed = false;
-  };
-  MouseHand(const Setup& setup, runtime::ChannelDevice& device, trial::Channels& channels);
+  MouseHand(const MouseHandSetup& setup, runtime::ChannelDevice& device, trial::Channels& channels);
 
   const char* name() const override { return "mouse"; }
   std::int64_t step(std::int64_t now_ns) override;  ///< 1 kHz: publishes the smoothed pose
@@ -53,7 +55,7 @@ class MouseHand final : public runtime::Activity {
         Pose(Pose::Identity()));  ///< of the mouse's needle, since it took over from a controller
   };
   Pose pointedByMouse(const Wish& wish) const;
-  Setup setup_;
+  MouseHandSetup setup_;
   runtime::ChannelDevice& device_;
   trial::Channels& channels_;
   runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
@@ -69,18 +71,20 @@ class MouseHand final : public runtime::Activity {
   std::int64_t due_ns_ = -1;
 };
 
+/// Where a finger led by the mouse may go.
+struct PointingHandSetup {
+  Pose X_DP, X_ET;  ///< as the station knows them: what is pointed at is on the screen
+  Pose X_AP;
+  double half_x = 0, half_y = 0;  ///< m, P: it stays over the area
+  twin::HandGrip grip;
+};
+
 /// A person's finger at the virtual bench, led by the mouse: it hovers over the place of the
 /// phantom's top that is pointed at in the AR view, goes down evenly while the left button is held,
 /// and M marks. Nobody feels with a mouse: what the bench's sensor measures is drawn.
 class PointingHand final : public twin::Hand {
  public:
-  struct Setup {
-    Pose X_DP, X_ET;  ///< as the station knows them: what is pointed at is on the screen
-    Pose X_AP;
-    double half_x = 0, half_y = 0;  ///< m, P: it stays over the area
-    twin::HandGrip grip;
-  };
-  explicit PointingHand(const Setup& setup);
+  explicit PointingHand(const PointingHandSetup& setup);
 
   /// Called by the scene's thread with what the window reports and how it looks.
   void handle(const scene::ViewInput& input, const scene::ArGeometry& view, std::int64_t now_ns);
@@ -96,7 +100,7 @@ class PointingHand final : public twin::Hand {
   };
   void move(const Wish& wish, double dt);
 
-  const Setup setup_;
+  const PointingHandSetup setup_;
   runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
   Wish wish_;  // the scene thread's
   std::int64_t mark_key_ns_ = -1'000'000'000;

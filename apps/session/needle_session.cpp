@@ -72,28 +72,29 @@ class NeedleSession {
   }
 
  private:
-  task_needle::NeedleTask::Setup taskSetup() const {
+  task_needle::NeedleTaskSetup taskSetup() const {
     const bool person = options_.who == OperatorKind::person;
-    return {world_.patient,
-            world_.query,
-            world_.task,
-            world_.expert_path ? &*world_.expert_path : nullptr,
-            world_.X_DA.inverse(),
-            pack(world_.station.X_ET),
-            isSimulated(options_, world_),
-            !person,
-            whyNotScored(options_, world_),
-            plan(options_, world_, person),
-            frame_.places(),
-            world_.tickConfig().augmentations};
+    return {.patient = world_.patient,
+            .query = world_.query,
+            .settings = world_.task,
+            .expert_path = world_.expert_path ? &*world_.expert_path : nullptr,
+            .X_AD = world_.X_DA.inverse(),
+            .X_ET = pack(world_.station.X_ET),
+            .simulated = isSimulated(options_, world_),
+            .automatic = !person,
+            .calibration_problem = whyNotScored(options_, world_),
+            .plan = plan(options_, world_, person),
+            .places = frame_.places(),
+            .augmentations = world_.tickConfig().augmentations};
   }
 
-  task_needle::SceneActivity::Setup sceneSetup() {
-    task_needle::SceneActivity::Setup setup{stageSetup(),
-                                            options_.skin_deflection ? &world_.query : nullptr,
-                                            skinOf(world_.patient),
-                                            {},
-                                            world_.task.words};
+  task_needle::NeedleSceneSetup sceneSetup() {
+    task_needle::NeedleSceneSetup setup{
+        .stage = stageSetup(),
+        .giving_way = options_.skin_deflection ? &world_.query : nullptr,
+        .skin = skinOf(world_.patient),
+        .guide = {},
+        .words = world_.task.words};
     if (options_.guide)
       setup.guide = scene::Guide{world_.patient.landmark(anatomy::landmark::kEntry),
                                  world_.patient.landmark(anatomy::landmark::kVeinTarget)};

@@ -47,19 +47,18 @@ std::unique_ptr<twin::Hand> operatorOf(const SessionOptions& options,
 SessionDevices::Hands needleHands(const SessionOptions& options, const NeedleWorld& world) {
   const twin::OperatorSkill skill = skillOf(options.who);
   const twin::VisibleAnatomy anatomy = world.visible(skill, options.knows_patient);
-  twin::VirtualBench::Setup bench{
-      world.station,
-      operatorOf(options, skill, anatomy, world.station.X_ET),
-      twin::needlePickedUp(world.station, world.X_WA, anatomy.entry_A, options.left_handed),
-      world.X_WA * anatomy.entry_A,
-      world.X_WA.rotation() * anatomy.normal_A,
-      options.benchSeed(),
-      {},
-      nullptr,
-      {}};
-  const MouseHand::Setup mouse{world.X_DA, world.station.X_ET,
-                               world.visible(skillOf(OperatorKind::expert), false),
-                               options.left_handed};
+  twin::VirtualBenchSetup bench{
+      .station = world.station,
+      .hand = operatorOf(options, skill, anatomy, world.station.X_ET),
+      .X_DE_start =
+          twin::needlePickedUp(world.station, world.X_WA, anatomy.entry_A, options.left_handed),
+      .watched_W = world.X_WA * anatomy.entry_A,
+      .normal_W = world.X_WA.rotation() * anatomy.normal_A,
+      .seed = options.benchSeed()};
+  const MouseHandSetup mouse{.X_DA = world.X_DA,
+                             .X_ET = world.station.X_ET,
+                             .anatomy = world.visible(skillOf(OperatorKind::expert), false),
+                             .left_handed = options.left_handed};
   return {std::move(bench), mouse};
 }
 

@@ -100,32 +100,33 @@ SessionDevices::Hands PalpationWorld::hands(const SessionOptions& options) const
                                                              : "operators/palpation_expert.json"));
   const twin::VisiblePhantom seen = visible(task);
   const Pose& X_WP = station.sample->X_WP;
-  auto person = options.who == OperatorKind::person && onBench()
-                    ? std::make_unique<PointingHand>(PointingHand::Setup{
-                          station.X_WD.inverse() * X_WP, station.X_ET, anatomy::X_AP(), seen.half_x,
-                          seen.half_y, skill.grip})
-                    : nullptr;
+  auto person =
+      options.who == OperatorKind::person && onBench()
+          ? std::make_unique<PointingHand>(PointingHandSetup{.X_DP = station.X_WD.inverse() * X_WP,
+                                                             .X_ET = station.X_ET,
+                                                             .X_AP = anatomy::X_AP(),
+                                                             .half_x = seen.half_x,
+                                                             .half_y = seen.half_y,
+                                                             .grip = skill.grip})
+          : nullptr;
   PointingHand* const pointing = person.get();
   std::unique_ptr<twin::Hand> hand = std::move(person);
   if (!hand) hand = std::make_unique<twin::PalpatingHand>(skill, seen, station.X_ET, options.seed);
   const Pose X_WT =
       X_WP * makePose(Eigen::AngleAxisd(std::acos(-1.0), Vec3::UnitX()).toRotationMatrix(),
                       Vec3(0, -task.scoring.rules.area.half_y, kPickedUp));
-  twin::VirtualBench::Setup bench{station,
-                                  std::move(hand),
-                                  station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
-                                  X_WP.translation(),
-                                  X_WP.linear() * Vec3::UnitZ(),
-                                  options.benchSeed(),
-                                  {},
-                                  nullptr,
-                                  {},
-                                  {}};
+  twin::VirtualBenchSetup bench{
+      .station = station,
+      .hand = std::move(hand),
+      .X_DE_start = station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
+      .watched_W = X_WP.translation(),
+      .normal_W = X_WP.linear() * Vec3::UnitZ(),
+      .seed = options.benchSeed()};
   if (onBench()) {
     const auto sample = std::make_shared<twin::SampleTwin>(station, "", options.benchSeed());
     bench.real_thing = [sample](const std::array<Pose, 2>& X_WT_true, double dt) {
-      const twin::SampleTwin::Touch touch = sample->step(X_WT_true[0], dt);
-      return std::array<twin::VirtualBench::Touch, 2>{{{touch.f_W, touch.p_W}, {}}};
+      const twin::SampleTouch touch = sample->step(X_WT_true[0], dt);
+      return std::array<twin::RealTouch, 2>{{{touch.f_W, touch.p_W}, {}}};
     };
   }
   return {std::move(bench), std::nullopt, task.library.tip_radius, pointing};
@@ -197,15 +198,22 @@ PalpationRun runPalpation(const SessionOptions& options, const PalpationWorld& w
   const haptics::TickConfig tick = world.tickConfig(options);
   SessionFrame frame(options, {world.station, world.phantom, world.X_WA, tick},
                      world.hands(options), channels, folder);
-  task_palpation::PalpationTask task(
-      {world.task, tick, world.simulated(options), options.who != OperatorKind::person,
-       options.see_through, options.guidance, whyUnscored(options, world), planOf(options, world),
-       frame.places()},
-      frame.bus(), channels, frame.executive());
-  task_palpation::PalpationScene scene(
-      {frame.stage(), anatomy::X_AP(), world.task.scoring.rules.area, world.task.library.tip_radius,
-       world.forceNote()},
-      frame.bus(), channels);
+  task_palpation::PalpationTask task({.settings = world.task,
+                                      .tick = tick,
+                                      .simulated = world.simulated(options),
+                                      .automatic = options.who != OperatorKind::person,
+                                      .see_through = options.see_through,
+                                      .guided = options.guidance,
+                                      .not_scored = whyUnscored(options, world),
+                                      .plan = planOf(options, world),
+                                      .places = frame.places()},
+                                     frame.bus(), channels, frame.executive());
+  task_palpation::PalpationScene scene({.stage = frame.stage(),
+                                        .X_AP = anatomy::X_AP(),
+                                        .area = world.task.scoring.rules.area,
+                                        .tip_radius = world.task.library.tip_radius,
+                                        .force_note = world.forceNote()},
+                                       frame.bus(), channels);
   PalpationRun run;
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
   run.trials = task.completed();

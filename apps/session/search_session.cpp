@@ -118,16 +118,13 @@ SessionDevices::Hands SearchWorld::hands(const SessionOptions& options) const {
   const Pose X_WF = station.floor->X_WF,
              X_WT =
                  X_WF * makePose(downward(), Vec3(0, 0, rendering.start_height * rendering.unit));
-  twin::VirtualBench::Setup bench{station,
-                                  searchingHandOf(options, seen, station.X_ET),
-                                  station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
-                                  X_WF.translation(),
-                                  X_WF.linear() * Vec3::UnitZ(),
-                                  options.benchSeed(),
-                                  {},
-                                  nullptr,
-                                  {},
-                                  {}};
+  twin::VirtualBenchSetup bench{
+      .station = station,
+      .hand = searchingHandOf(options, seen, station.X_ET),
+      .X_DE_start = station.X_WD.inverse() * X_WT * station.X_ET.inverse(),
+      .watched_W = X_WF.translation(),
+      .normal_W = X_WF.linear() * Vec3::UnitZ(),
+      .seed = options.benchSeed()};
   return {std::move(bench), std::nullopt, 0};
 }
 
@@ -161,16 +158,23 @@ SearchRun runSearch(const SessionOptions& options, const SearchWorld& world,
   task_search::Floors floors(world.task, world.episodes);
   SessionFrame frame(options, {world.station, world.plate, world.X_WA, tick, {}, false, &floors},
                      world.hands(options), channels, folder);
-  const std::string not_scored = world.station.calibrationProblem();
-  task_search::SearchTask task(
-      {world.task, tick, world.simulated(options), options.who != OperatorKind::person,
-       options.force_feedback, options.fast, not_scored, world.episodes, frame.places(),
-       options.role},
-      floors, frame.bus(), channels, frame.executive());
-  task_search::SearchScene scene(
-      {frame.stage(), world.station.floor->X_WF, world.X_AF,
-       world.task.spec.side * world.rendering.unit, world.magnification()},
-      frame.bus(), channels);
+  task_search::SearchTask task({.settings = world.task,
+                                .tick = tick,
+                                .simulated = world.simulated(options),
+                                .automatic = options.who != OperatorKind::person,
+                                .force_feedback = options.force_feedback,
+                                .waits = options.fast,
+                                .not_scored = world.station.calibrationProblem(),
+                                .episodes = world.episodes,
+                                .places = frame.places(),
+                                .role = options.role},
+                               floors, frame.bus(), channels, frame.executive());
+  task_search::SearchScene scene({.stage = frame.stage(),
+                                  .X_WF = world.station.floor->X_WF,
+                                  .X_AF = world.X_AF,
+                                  .side = world.task.spec.side * world.rendering.unit,
+                                  .magnification = world.magnification()},
+                                 frame.bus(), channels);
   SearchRun run;
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));
   run.trials = task.completed();

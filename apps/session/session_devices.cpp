@@ -28,11 +28,10 @@ std::unique_ptr<runtime::ChannelSensor> benchSensor(const station::Station& stat
 }
 
 trial::UserRequest requestOf(const twin::Hand::Word& word) {
-  using Kind = twin::Hand::Word::Kind;
-  if (word.kind == Kind::grade)
+  if (word.kind == twin::Hand::WordKind::grade)
     return {trial::UserCommand::grade,
             trial::gradeText(word.diameter, word.hardness, word.mobility)};
-  if (word.kind == Kind::done) return {trial::UserCommand::done, ""};
+  if (word.kind == twin::Hand::WordKind::done) return {trial::UserCommand::done, ""};
   return {trial::UserCommand::abort, "The simulated operator gave up"};
 }
 
@@ -68,7 +67,7 @@ SessionDevices::SessionDevices(const SessionOptions& options, const station::Sta
 
 SessionDevices::~SessionDevices() = default;
 
-void SessionDevices::makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bus,
+void SessionDevices::makeBench(twin::VirtualBenchSetup setup, runtime::Bus& bus,
                                trial::Channels& channels) {
   setup.sensor = bench_sensor_.get();
   setup.on_word = [&channels](const twin::Hand::Word& word) {
@@ -77,7 +76,7 @@ void SessionDevices::makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bu
   bench_ = std::make_unique<twin::VirtualBench>(std::move(setup), bus, channel_);
 }
 
-void SessionDevices::openDevice(const std::optional<MouseHand::Setup>& mouse, runtime::Bus& bus,
+void SessionDevices::openDevice(const std::optional<MouseHandSetup>& mouse, runtime::Bus& bus,
                                 trial::Channels& channels) {
   const station::DeviceSetup& setup = station_.device;
   haptics::HapticDevice* device = &channel_;
@@ -129,10 +128,10 @@ void SessionDevices::openSensor(const SessionOptions& options, double tip_radius
   sensing_.emplace(*sensor, sensingSetup(options.rate_Hz, tip_radius, station_.X_WD));
 }
 
-runtime::ForceSensing::Setup SessionDevices::sensingSetup(double rate_Hz, double tip_radius,
-                                                          const Pose& X_WD) const {
+runtime::ForceSensingSetup SessionDevices::sensingSetup(double rate_Hz, double tip_radius,
+                                                        const Pose& X_WD) const {
   const ForceSensorSetup& setup = *station_.force_sensor;
-  runtime::ForceSensing::Setup sensing{setup.filter, X_WD, setup.X_ES};
+  runtime::ForceSensingSetup sensing{.filter = setup.filter, .X_WD = X_WD, .X_ES = setup.X_ES};
   sensing.filter.low_pass = haptics::butterworth(setup.cutoff_Hz, rate_Hz);
   sensing.filter.p_SK =
       pack(Vec3(setup.X_ES.inverse() * (station_.X_ET * Vec3(0, 0, -tip_radius))));

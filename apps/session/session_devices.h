@@ -24,9 +24,9 @@ class SessionDevices {
   /// Who may hold the tool: a simulated person on the bench, and somebody with a mouse (none: a
   /// task that must be felt).
   struct Hands {
-    twin::VirtualBench::Setup
+    twin::VirtualBenchSetup
         bench;  ///< what is simulated; sensor and how one gives up are put in here
-    std::optional<MouseHand::Setup> mouse;
+    std::optional<MouseHandSetup> mouse;
     double tip_radius =
         0;  ///< m: the point whose place goes with the sensed force lies so far behind the tip
     PointingHand* pointing = nullptr;  ///< it holds the bench's device, for a person
@@ -60,13 +60,13 @@ class SessionDevices {
   std::vector<Fact> facts() const;  ///< what a driver has counted, for the report
 
  private:
-  void makeBench(twin::VirtualBench::Setup setup, runtime::Bus& bus, trial::Channels& channels);
-  void openDevice(const std::optional<MouseHand::Setup>& mouse, runtime::Bus& bus,
+  void makeBench(twin::VirtualBenchSetup setup, runtime::Bus& bus, trial::Channels& channels);
+  void openDevice(const std::optional<MouseHandSetup>& mouse, runtime::Bus& bus,
                   trial::Channels& channels);
   void openSensor(const SessionOptions& options, double tip_radius, const runtime::Clock& clock,
                   runtime::TimeMode mode);
-  runtime::ForceSensing::Setup sensingSetup(double rate_Hz, double tip_radius,
-                                            const Pose& X_WD) const;
+  runtime::ForceSensingSetup sensingSetup(double rate_Hz, double tip_radius,
+                                          const Pose& X_WD) const;
 
   const station::Station& station_;
   const bool bench_moves_;        // the bench's device is the one that is held

@@ -9,9 +9,9 @@
 namespace palpa::session {
 namespace {
 
-igt::SessionLink::Setup linkOf(const SessionOptions& options, const station::Station& station,
-                               const SessionIgtl::Shown& shown, const runtime::Clock& clock) {
-  igt::SessionLink::Setup setup;
+igt::IgtlLinkSetup linkOf(const SessionOptions& options, const station::Station& station,
+                          const SessionIgtl::Shown& shown, const runtime::Clock& clock) {
+  igt::IgtlLinkSetup setup;
   setup.ipv4 = options.igtl_listen;
   setup.port = static_cast<std::uint16_t>(options.igtl_port);
   setup.utc_start_ns = runtime::dateNow() - clock.now();

@@ -30,7 +30,7 @@ class SessionIgtl {
   std::vector<SessionDevices::Fact> facts() const;  ///< after the session
 
  private:
-  std::optional<igt::SessionLink> link_;
+  std::optional<igt::IgtlLink> link_;
   std::optional<igt::TrackerClient> tracker_;
 };
 

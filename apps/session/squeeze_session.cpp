@@ -45,7 +45,7 @@ station::Station squeezeStation(const SessionOptions& options) {
 Vec3 sizeOf(const task_squeeze::SqueezeSettings& task) { return Vec3::Constant(2 * task.half); }
 
 /// What is held truly is: a mass with sides of simulated silicone.
-twin::VirtualBench::RealThing realObject(const SqueezeWorld& world, std::uint64_t seed) {
+twin::TouchedObject realObject(const SqueezeWorld& world, std::uint64_t seed) {
   const std::string file = "phantoms/" + world.station.file.text("twin/samples");
   const std::vector<twin::Phantom> samples = twin::readSolved(
       station::assetFile(file + ".json"), station::assetFile(file + ".tables.json"));
@@ -60,7 +60,7 @@ twin::VirtualBench::RealThing realObject(const SqueezeWorld& world, std::uint64_
     for (std::size_t t = 0; t < 2; ++t)
       p_O[t] = X_WO.inverse() * (X_WT[t] * Vec3(0, 0, -r)) - (t == 0 ? r : -r) * Vec3::UnitX();
     const std::array<Vec3, 2> f_O = object->step(p_O, dt);
-    return std::array<twin::VirtualBench::Touch, 2>{
+    return std::array<twin::RealTouch, 2>{
         {{X_WO.linear() * f_O[0], X_WO * p_O[0]}, {X_WO.linear() * f_O[1], X_WO * p_O[1]}}};
   };
 }
@@ -113,19 +113,15 @@ SessionDevices::Hands SqueezeWorld::hands(const SessionOptions& options) const {
         X_WO * makePose(rotationWithZ(Vec3(-side, 0, 0)), Vec3(side * kOpenBeside, 0, 0));
     return Pose(X_WD.inverse() * X_WT * station.X_ET.inverse());
   };
-  twin::VirtualBench::Setup bench{station,
-                                  std::move(fingers[0]),
-                                  pickedUp(station.X_WD, 1),
-                                  X_WO.translation(),
-                                  X_WO.linear() * Vec3::UnitZ(),
-                                  options.benchSeed(),
-                                  {},
-                                  nullptr,
-                                  {},
-                                  {}};
-  bench.second =
-      twin::VirtualBench::SecondTool{std::move(fingers[1]), *station.second_X_WD,
-                                     pickedUp(*station.second_X_WD, -1), nullptr, nullptr};
+  twin::VirtualBenchSetup bench{.station = station,
+                                .hand = std::move(fingers[0]),
+                                .X_DE_start = pickedUp(station.X_WD, 1),
+                                .watched_W = X_WO.translation(),
+                                .normal_W = X_WO.linear() * Vec3::UnitZ(),
+                                .seed = options.benchSeed()};
+  bench.second = twin::SecondTool{.hand = std::move(fingers[1]),
+                                  .X_WD = *station.second_X_WD,
+                                  .X_DE_start = pickedUp(*station.second_X_WD, -1)};
   if (isSimulated(options.who)) bench.real_thing = realObject(*this, options.benchSeed());
   return {std::move(bench), std::nullopt, task.library.tip_radius};
 }
@@ -161,12 +157,19 @@ SqueezeRun runSqueeze(const SessionOptions& options, const SqueezeWorld& world,
                      world.hands(options), channels, folder);
   const std::string not_scored = world.station.calibrationProblem();
   task_squeeze::SqueezeTask task(
-      {world.task, true, true, options.force_feedback, not_scored, options.seed,
-       task_squeeze::comparisonsOf(world.task, options.seed, options.trials), frame.places(),
-       options.role},
+      {.settings = world.task,
+       .simulated = true,
+       .automatic = true,
+       .force_feedback = options.force_feedback,
+       .not_scored = not_scored,
+       .seed = options.seed,
+       .comparisons = task_squeeze::comparisonsOf(world.task, options.seed, options.trials),
+       .places = frame.places(),
+       .role = options.role},
       frame.bus(), channels, frame.executive());
-  task_squeeze::SqueezeScene scene({frame.stage(), *world.station.second_X_WD,
-                                    (world.X_WA.inverse() * world.X_WO).translation()},
+  task_squeeze::SqueezeScene scene({.stage = frame.stage(),
+                                    .X_WD2 = *world.station.second_X_WD,
+                                    .middle_A = (world.X_WA.inverse() * world.X_WO).translation()},
                                    frame.bus(), channels);
   SqueezeRun run;
   static_cast<SessionRun&>(run) = frame.run(task, scene, world.info(options));

@@ -33,7 +33,7 @@ HeadStage makeHeadStage(const SessionOptions& options, const anatomy::Patient& p
                         const Pose& X_WA, const Stage& desktop) {
   HeadStage stage;
   if (!options.headset) return stage;
-  headset::HeadsetView::Setup setup;
+  headset::HeadsetViewSetup setup;
   setup.X_WA = X_WA;
   setup.focus_A = patient.landmark(anatomy::landmark::kEntry);
   setup.left_handed = options.left_handed;

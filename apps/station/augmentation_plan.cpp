@@ -110,18 +110,17 @@ void readTrigger(const JsonFile& file, Augmentation* a) {
 }
 
 void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
-  using Kind = Augmentation::Kind;
   constexpr double kStrongest = 50;  // N
   switch (a->kind) {
-    case Kind::none:
+    case AugmentationKind::none:
       return;
-    case Kind::pulse:
+    case AugmentationKind::pulse:
       a->amplitude = file.number("force_N", 0, kStrongest);
       a->width_s = kMilli * file.number("width_ms", 1, 200);
       if (a->trigger == Augmentation::Trigger::none)
         file.refuse("kind", "is \"pulse\": say what triggers it, \"trigger\"");
       return;
-    case Kind::vibration:
+    case AugmentationKind::vibration:
       a->amplitude = file.number("force_N", 0, kStrongest);
       if (file.has("wavelength_mm"))
         a->wavelength = kMilli * file.number("wavelength_mm", 0.01, 100);
@@ -132,39 +131,38 @@ void readShape(const JsonFile& file, Augmentation* a, double* reach_U) {
       else if (file.has("decay_ms"))
         file.refuse("decay_ms", "needs \"trigger\" beside it: after what does it decay?");
       return;
-    case Kind::attraction:
+    case AugmentationKind::attraction:
       a->amplitude = file.number("force_N", 0, kStrongest);
       if (file.has("reach_U"))
         *reach_U = file.number("reach_U", 0.1, 1000);
       else
         a->reach = kMilli * file.number("reach_mm", 0.01, 100);
       return;
-    case Kind::exaggeration:
+    case AugmentationKind::exaggeration:
       a->amplitude = file.number("times", 0, 5);
       a->tau_s = kMilli * file.number("tau_ms", 1, 2000);
       return;
-    case Kind::relief:
+    case AugmentationKind::relief:
       a->amplitude = file.number("force_N", 0, kStrongest);
       if (a->trigger != Augmentation::Trigger::none)
         file.refuse("trigger", "has no meaning for a relief: it is felt wherever a bump is");
       a->trigger = Augmentation::Trigger::bump;
       return;
-    case Kind::fixture:
+    case AugmentationKind::fixture:
       a->amplitude = file.number("stiffness_N_per_m", 0, 1e4);
       return;
   }
 }
 
 Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double* reach_U) {
-  using Kind = Augmentation::Kind;
   using Way = Augmentation::Way;
-  static constexpr std::array<std::pair<const char*, Kind>, 6> kKinds{
-      {{"pulse", Kind::pulse},
-       {"vibration", Kind::vibration},
-       {"attraction", Kind::attraction},
-       {"exaggeration", Kind::exaggeration},
-       {"fixture", Kind::fixture},
-       {"relief", Kind::relief}}};
+  static constexpr std::array<std::pair<const char*, AugmentationKind>, 6> kKinds{
+      {{"pulse", AugmentationKind::pulse},
+       {"vibration", AugmentationKind::vibration},
+       {"attraction", AugmentationKind::attraction},
+       {"exaggeration", AugmentationKind::exaggeration},
+       {"fixture", AugmentationKind::fixture},
+       {"relief", AugmentationKind::relief}}};
   static constexpr std::array<std::pair<const char*, Way>, 4> kWays{
       {{"up", Way::up},
        {"against_motion", Way::against_motion},
@@ -172,8 +170,9 @@ Augmentation augmentationIn(const JsonFile& file, const NamedPlan& named, double
        {"against_tool", Way::against_tool}}};
   Augmentation a;
   a.kind = chosen(file, "kind", kKinds);
-  const bool heeds_way =
-      a.kind == Kind::pulse || a.kind == Kind::vibration || a.kind == Kind::relief;
+  const bool heeds_way = a.kind == AugmentationKind::pulse ||
+                         a.kind == AugmentationKind::vibration ||
+                         a.kind == AugmentationKind::relief;
   if (heeds_way) a.way = chosen(file, "way", kWays);
   const std::string subtask = file.text("subtask");
   for (std::size_t i = 0; i < named.subtasks.size(); ++i)

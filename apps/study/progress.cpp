@@ -63,7 +63,7 @@ Next blockNext(const Protocol& protocol, const std::string& drawn,
                const std::vector<DoneTrial>& trials, const Block& block,
                const std::string& now_utc) {
   Next next;
-  next.kind = Next::Kind::trials;
+  next.kind = NextKind::trials;
   next.session = protocol.sessionOf(block.step);
   next.step = block.step;
   next.condition = block.condition.empty() ? drawn : block.condition;
@@ -111,7 +111,7 @@ Next nextOf(const Protocol& protocol, const std::string& drawn,
     if (!session.questionnaire) continue;
     next.open_items = openItems(*session.questionnaire, number, answered);
     if (next.open_items.empty()) continue;
-    next.kind = Next::Kind::questionnaire;
+    next.kind = NextKind::questionnaire;
     next.session = number;
     return next;
   }
@@ -123,11 +123,11 @@ std::string whereIs(const study::Protocol& protocol, const Next& next) {
   const std::string session =
       "session " + std::to_string(next.session) + " of " + std::to_string(protocol.sessions.size());
   switch (next.kind) {
-    case Next::Kind::finished:
+    case NextKind::finished:
       return "finished";
-    case Next::Kind::questionnaire:
+    case NextKind::questionnaire:
       return session + ", questionnaire: " + std::to_string(next.open_items.size()) + " open";
-    case Next::Kind::trials:
+    case NextKind::trials:
       break;
   }
   const study::Block& block = protocol.block(next.step);

@@ -22,10 +22,12 @@ struct DoneTrial {
 };
 DoneTrial doneTrial(const record::StoredSession& session, const record::StoredTrial& trial);
 
+/// What a trainee is to do.
+enum class NextKind { trials, questionnaire, finished };
+
 /// What an enrolled trainee does next.
 struct Next {
-  enum class Kind { trials, questionnaire, finished };
-  Kind kind = Kind::finished;
+  NextKind kind = NextKind::finished;
   int session = 1;                      ///< of the protocol, 1, 2, ...
   std::int64_t step = 0;                ///< trials: of which block
   std::string condition;                ///< by name

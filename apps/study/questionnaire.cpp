@@ -19,7 +19,7 @@ Item itemIn(const JsonFile& file) {
   item.question = file.text("question");
   item.may_be_left = file.flag("may_be_left", false);
   item.kind = kItemKinds.in(file, "kind", "it must be likert or text");
-  if (item.kind == Item::Kind::text) return item;
+  if (item.kind == ItemKind::text) return item;
   item.points = file.integer("points", kFewestPoints, kMostPoints);
   item.low = file.text("low");
   item.high = file.text("high");
@@ -46,7 +46,7 @@ std::string whyNoAnswer(const Item& item, const std::string& answer) {
   if (answer.empty()) return item.may_be_left ? "" : "an answer is needed";
   if (answer.size() > kLongestAnswer)
     return "the answer is longer than " + std::to_string(kLongestAnswer) + " characters";
-  if (item.kind == Item::Kind::text) return "";
+  if (item.kind == ItemKind::text) return "";
   const bool number =
       answer.size() <= 2 && answer.find_first_not_of("0123456789") == std::string::npos;
   if (number && std::stoi(answer) >= 1 && std::stoi(answer) <= item.points) return "";

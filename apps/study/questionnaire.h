@@ -6,12 +6,14 @@
 
 namespace palpa::study {
 
+/// How a question is answered.
+enum class ItemKind { likert, text };
+
 /// A question to the trainee: a whole number on a scale whose ends have words (Likert), or free
 /// text.
 struct Item {
-  enum class Kind { likert, text };
   std::string id;
-  Kind kind = Kind::likert;
+  ItemKind kind = ItemKind::likert;
   std::string question;
   std::string low, high;     ///< words at the scale's ends
   int points = 5;            ///< of the scale, from 1

@@ -142,7 +142,8 @@ constexpr std::size_t kTrailLongest = 4000;
 
 }  // namespace
 
-SceneActivity::SceneActivity(const Setup& setup, runtime::Bus& bus, TaskChannels& channels)
+SceneActivity::SceneActivity(const NeedleSceneSetup& setup, runtime::Bus& bus,
+                             TaskChannels& channels)
     : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {
   if (setup.giving_way) skin_.emplace(*setup.giving_way, setup.skin);
 }

@@ -46,18 +46,20 @@ class SkinFollower {
   std::int64_t last_ns_ = 0;
 };
 
+/// What a needle's trials are shown with.
+struct NeedleSceneSetup {
+  trial::TrialScene::Stage stage;
+  /// The skin is shown to give way (surface `skin` of this patient); null: it is not.
+  const anatomy::SurfaceQuery* giving_way = nullptr;
+  int skin = 0;
+  std::optional<scene::Guide> guide;
+  TaskWords words;
+};
+
 /// What is seen of a needle's trial: the skin that gives way, the syringe, forces, the tip's way.
 class SceneActivity final : public trial::TrialScene {
  public:
-  struct Setup {
-    Stage stage;
-    /// The skin is shown to give way (surface `skin` of this patient); null: it is not.
-    const anatomy::SurfaceQuery* giving_way = nullptr;
-    int skin = 0;
-    std::optional<scene::Guide> guide;
-    TaskWords words;
-  };
-  SceneActivity(const Setup& setup, runtime::Bus& bus, TaskChannels& channels);
+  SceneActivity(const NeedleSceneSetup& setup, runtime::Bus& bus, TaskChannels& channels);
 
  private:
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
@@ -69,7 +71,7 @@ class SceneActivity final : public trial::TrialScene {
   void showForces(scene::SceneState& state, const runtime::ToolState& tool);
   void leaveTrail(scene::SceneState& state, const runtime::ToolState& tool);
 
-  Setup setup_;
+  NeedleSceneSetup setup_;
   TaskChannels& channels_;
   TaskStatus status_;
   std::optional<SkinFollower> skin_;

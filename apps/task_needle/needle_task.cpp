@@ -31,7 +31,7 @@ bool aspirating(const assess::TrialSample& sample, const assess::ScoringRules& r
 
 }  // namespace
 
-NeedleTask::NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& channels,
+NeedleTask::NeedleTask(const NeedleTaskSetup& setup, runtime::Bus& bus, TaskChannels& channels,
                        runtime::Executive& executive)
     : TrialTask({static_cast<int>(setup.plan.size()), setup.automatic, setup.calibration_problem,
                  setup.places},

@@ -46,25 +46,27 @@ struct TaskChannels : trial::Channels {
   runtime::StateChannel<TaskStatus> status_to_scene;
 };
 
+/// What a needle's trials are made of.
+struct NeedleTaskSetup {
+  const anatomy::Patient& patient;
+  const anatomy::SurfaceQuery& query;
+  const TaskSettings& settings;
+  const calibration::ExpertPath*
+      expert_path;  ///< null: not scored against a path (experts record one)
+  Pose X_AD = Pose::Identity();
+  PackedPose X_ET;
+  bool simulated = false;
+  bool automatic = true;            ///< starts trials by itself
+  std::string calibration_problem;  ///< not empty: sessions are "not scored"
+  std::vector<TrialPlan> plan;
+  std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
+  haptics::AugmentationPlan augmentations;  ///< as on this device
+};
+
 /// The needle's trials: phases, success, time limit, score.
 class NeedleTask final : public trial::TrialTask {
  public:
-  struct Setup {
-    const anatomy::Patient& patient;
-    const anatomy::SurfaceQuery& query;
-    const TaskSettings& settings;
-    const calibration::ExpertPath*
-        expert_path;  ///< null: not scored against a path (experts record one)
-    Pose X_AD = Pose::Identity();
-    PackedPose X_ET;
-    bool simulated = false;
-    bool automatic = true;            ///< starts trials by itself
-    std::string calibration_problem;  ///< not empty: sessions are "not scored"
-    std::vector<TrialPlan> plan;
-    std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
-    haptics::AugmentationPlan augmentations;  ///< as on this device
-  };
-  NeedleTask(const Setup& setup, runtime::Bus& bus, TaskChannels& channels,
+  NeedleTask(const NeedleTaskSetup& setup, runtime::Bus& bus, TaskChannels& channels,
              runtime::Executive& executive);
 
   const std::vector<CompletedTrial>& completed() const { return completed_; }
@@ -81,7 +83,7 @@ class NeedleTask final : public trial::TrialTask {
     return setup_.plan[static_cast<std::size_t>(status().trial - 1)];
   }
 
-  Setup setup_;
+  NeedleTaskSetup setup_;
   TaskChannels& channels_;
   assess::TrialSampler sampler_;
   assess::PhaseDetector phases_;

@@ -32,7 +32,8 @@ std::string lineOf(const char* pattern, Numbers... numbers) {
 
 }  // namespace
 
-PalpationScene::PalpationScene(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels)
+PalpationScene::PalpationScene(const PalpationSceneSetup& setup, runtime::Bus& bus,
+                               PalpationChannels& channels)
     : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {}
 
 const trial::TrialStatus& PalpationScene::readStatus(std::int64_t now_ns) {

@@ -16,18 +16,20 @@ namespace palpa::task_palpation {
 std::vector<scene::ForceArrow> shownForces(const runtime::ToolState& tool, const Mat3& R_AD,
                                            const Pose& X_AT, bool apart);
 
+/// What a palpation is shown with.
+struct PalpationSceneSetup {
+  trial::TrialScene::Stage stage;
+  Pose X_AP = Pose::Identity();
+  assess::SearchArea area;
+  double tip_radius = 0.008;  ///< m
+  std::string force_note;     ///< "scaled force: ..."; empty: the device gives what a patient would
+};
+
 /// What is seen of a palpation: the area and how firmly it was felt, marks, lumps where they may be
 /// seen, the force.
 class PalpationScene final : public trial::TrialScene {
  public:
-  struct Setup {
-    Stage stage;
-    Pose X_AP = Pose::Identity();
-    assess::SearchArea area;
-    double tip_radius = 0.008;  ///< m
-    std::string force_note;  ///< "scaled force: ..."; empty: the device gives what a patient would
-  };
-  PalpationScene(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels);
+  PalpationScene(const PalpationSceneSetup& setup, runtime::Bus& bus, PalpationChannels& channels);
 
  private:
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
@@ -36,7 +38,7 @@ class PalpationScene final : public trial::TrialScene {
   void showFelt(scene::SceneState& state) const;
   scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
 
-  Setup setup_;
+  PalpationSceneSetup setup_;
   PalpationChannels& channels_;
   PalpationStatus status_;
 };

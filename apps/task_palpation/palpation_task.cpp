@@ -113,8 +113,8 @@ std::vector<assess::CaseLump> caseOf(const std::string& text) {
   }
 }
 
-PalpationTask::PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels,
-                             runtime::Executive& executive)
+PalpationTask::PalpationTask(const PalpationTaskSetup& setup, runtime::Bus& bus,
+                             PalpationChannels& channels, runtime::Executive& executive)
     : TrialTask(
           {static_cast<int>(setup.plan.size()), setup.automatic, setup.not_scored, setup.places},
           bus, channels, executive),

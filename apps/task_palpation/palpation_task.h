@@ -86,21 +86,23 @@ struct PalpationChannels : trial::Channels {
   runtime::StateChannel<PalpationStatus> status_to_scene;
 };
 
+/// What a palpation's trials are made of.
+struct PalpationTaskSetup {
+  const PalpationSettings& settings;
+  haptics::TickConfig tick;
+  bool simulated = false, automatic = true;
+  bool see_through = false;  ///< the lumps while a trial runs: a demonstration
+  bool guided = false;
+  std::string not_scored;  ///< why; empty: scored
+  std::vector<PalpationPlan> plan;
+  std::vector<runtime::BoardPlace> places;
+};
+
 /// The palpation's trials: a case each, marks by the button, grades by word, coverage, time limit,
 /// score. The case is told to the loop, and to the scene once the trial is over.
 class PalpationTask final : public trial::TrialTask {
  public:
-  struct Setup {
-    const PalpationSettings& settings;
-    haptics::TickConfig tick;
-    bool simulated = false, automatic = true;
-    bool see_through = false;  ///< the lumps while a trial runs: a demonstration
-    bool guided = false;
-    std::string not_scored;  ///< why; empty: scored
-    std::vector<PalpationPlan> plan;
-    std::vector<runtime::BoardPlace> places;
-  };
-  PalpationTask(const Setup& setup, runtime::Bus& bus, PalpationChannels& channels,
+  PalpationTask(const PalpationTaskSetup& setup, runtime::Bus& bus, PalpationChannels& channels,
                 runtime::Executive& executive);
 
   const std::vector<CompletedPalpation>& completed() const { return completed_; }
@@ -118,7 +120,7 @@ class PalpationTask final : public trial::TrialTask {
     return setup_.plan[static_cast<std::size_t>(status().trial - 1)];
   }
 
-  Setup setup_;
+  PalpationTaskSetup setup_;
   PalpationChannels& channels_;
   PalpationListener listener_;
   assess::TrialDoses doses_;

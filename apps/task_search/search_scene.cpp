@@ -8,7 +8,7 @@ Vec3 shownPoint(const Pose& X_AF, double magnification, const Vec3& p_F) {
   return X_AF * Vec3(magnification * p_F);
 }
 
-SearchScene::SearchScene(const Setup& setup, runtime::Bus& bus, SearchChannels& channels)
+SearchScene::SearchScene(const SearchSceneSetup& setup, runtime::Bus& bus, SearchChannels& channels)
     : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {}
 
 const trial::TrialStatus& SearchScene::readStatus(std::int64_t now_ns) {

@@ -5,18 +5,20 @@
 
 namespace palpa::task_search {
 
+/// What a search is shown with.
+struct SearchSceneSetup {
+  trial::TrialScene::Stage stage;
+  Pose X_WF = Pose::Identity();  ///< the floor in the hand, and on the screen
+  Pose X_AF = Pose::Identity();
+  double side = 0.0144;       ///< m, of the floor in the hand
+  double magnification = 10;  ///< of what is shown
+};
+
 /// What is seen of a search: the floor's outline and the probe, both magnified; nothing of what is
 /// to be felt.
 class SearchScene final : public trial::TrialScene {
  public:
-  struct Setup {
-    Stage stage;
-    Pose X_WF = Pose::Identity();  ///< the floor in the hand, and on the screen
-    Pose X_AF = Pose::Identity();
-    double side = 0.0144;       ///< m, of the floor in the hand
-    double magnification = 10;  ///< of what is shown
-  };
-  SearchScene(const Setup& setup, runtime::Bus& bus, SearchChannels& channels);
+  SearchScene(const SearchSceneSetup& setup, runtime::Bus& bus, SearchChannels& channels);
 
  private:
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
@@ -24,7 +26,7 @@ class SearchScene final : public trial::TrialScene {
                const std::string& trouble) override;
   scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
 
-  Setup setup_;
+  SearchSceneSetup setup_;
   SearchChannels& channels_;
   SearchStatus status_;
 };

@@ -106,7 +106,7 @@ std::string scoreJson(const assess::SearchTrial& trial) {
       .dump();
 }
 
-SearchTask::SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus,
+SearchTask::SearchTask(const SearchTaskSetup& setup, Floors& floors, runtime::Bus& bus,
                        SearchChannels& channels, runtime::Executive& executive)
     : TrialTask({static_cast<int>(setup.episodes.size()), setup.automatic, setup.not_scored,
                  setup.places},

@@ -61,23 +61,25 @@ struct SearchChannels : trial::Channels {
   runtime::StateChannel<SearchStatus> status_to_scene;
 };
 
+/// What a search's episodes are made of.
+struct SearchTaskSetup {
+  const SearchSettings& settings;
+  haptics::TickConfig tick;
+  bool simulated = false, automatic = true, force_feedback = true;
+  bool waits = false;      ///< for a floor that is being made: in virtual time
+  std::string not_scored;  ///< why; empty: scored
+  const std::vector<Episode>& episodes;
+  std::vector<runtime::BoardPlace> places;
+  training::Role role =
+      training::Role::scored;  ///< of the episodes, where nothing speaks against it
+};
+
 /// The search's episodes: the handle is held over the middle, let go, and the episode ends when the
 /// probe has stayed in an element's pit.
 class SearchTask final : public trial::TrialTask {
  public:
-  struct Setup {
-    const SearchSettings& settings;
-    haptics::TickConfig tick;
-    bool simulated = false, automatic = true, force_feedback = true;
-    bool waits = false;      ///< for a floor that is being made: in virtual time
-    std::string not_scored;  ///< why; empty: scored
-    const std::vector<Episode>& episodes;
-    std::vector<runtime::BoardPlace> places;
-    training::Role role =
-        training::Role::scored;  ///< of the episodes, where nothing speaks against it
-  };
-  SearchTask(const Setup& setup, Floors& floors, runtime::Bus& bus, SearchChannels& channels,
-             runtime::Executive& executive);
+  SearchTask(const SearchTaskSetup& setup, Floors& floors, runtime::Bus& bus,
+             SearchChannels& channels, runtime::Executive& executive);
 
   const std::vector<CompletedSearch>& completed() const { return completed_; }
 
@@ -93,7 +95,7 @@ class SearchTask final : public trial::TrialTask {
     return setup_.episodes[static_cast<std::size_t>(status().trial - 1)];
   }
 
-  Setup setup_;
+  SearchTaskSetup setup_;
   Floors& floors_;
   SearchChannels& channels_;
   SearchListener listener_;

@@ -9,7 +9,8 @@ Pose heldPlace(const Vec3& first_A, const Vec3& second_A, const Vec3& middle_A, 
               : Pose::Identity();
 }
 
-SqueezeScene::SqueezeScene(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels)
+SqueezeScene::SqueezeScene(const SqueezeSceneSetup& setup, runtime::Bus& bus,
+                           SqueezeChannels& channels)
     : TrialScene(setup.stage, bus, channels),
       setup_(setup),
       channels_(channels),

@@ -5,16 +5,18 @@
 
 namespace palpa::task_squeeze {
 
+/// What a comparison is shown with.
+struct SqueezeSceneSetup {
+  trial::TrialScene::Stage stage;
+  Pose X_WD2 = Pose::Identity();  ///< the second device's base
+  Vec3 middle_A = Vec3::Zero();   ///< of the object at rest
+};
+
 /// What is seen of a comparison: the object, moving with the fingers that hold it, both tools, what
 /// each finger feels.
 class SqueezeScene final : public trial::TrialScene {
  public:
-  struct Setup {
-    Stage stage;
-    Pose X_WD2 = Pose::Identity();  ///< the second device's base
-    Vec3 middle_A = Vec3::Zero();   ///< of the object at rest
-  };
-  SqueezeScene(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels);
+  SqueezeScene(const SqueezeSceneSetup& setup, runtime::Bus& bus, SqueezeChannels& channels);
 
  private:
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
@@ -23,7 +25,7 @@ class SqueezeScene final : public trial::TrialScene {
   void tell(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
   scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
 
-  Setup setup_;
+  SqueezeSceneSetup setup_;
   SqueezeChannels& channels_;
   runtime::Bus& bus_;
   Pose X_AD2_;

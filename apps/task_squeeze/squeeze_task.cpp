@@ -85,8 +85,8 @@ std::string scoreJson(const assess::SqueezeTrial& trial) {
       .dump();
 }
 
-SqueezeTask::SqueezeTask(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels,
-                         runtime::Executive& executive)
+SqueezeTask::SqueezeTask(const SqueezeTaskSetup& setup, runtime::Bus& bus,
+                         SqueezeChannels& channels, runtime::Executive& executive)
     : TrialTask({static_cast<int>(setup.comparisons.size()), setup.automatic, setup.not_scored,
                  setup.places},
                 bus, channels, executive),

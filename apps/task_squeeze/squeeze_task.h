@@ -62,21 +62,23 @@ struct SqueezeChannels : trial::Channels {
   runtime::StateChannel<SqueezeStatus> status_to_scene;
 };
 
+/// What a comparison's trials are made of.
+struct SqueezeTaskSetup {
+  const SqueezeSettings& settings;
+  bool simulated = false, automatic = true, force_feedback = true;
+  std::string not_scored;  ///< why; empty: scored
+  std::uint64_t seed = 1;
+  std::vector<Comparison> comparisons;
+  std::vector<runtime::BoardPlace> places;
+  training::Role role =
+      training::Role::scored;  ///< of the comparisons, where nothing speaks against it
+};
+
 /// The comparison's trials: two things, one after the other and as often as one likes ("done": the
 /// other one, once the object is let go); then which has more ("grade": 1 or 2).
 class SqueezeTask final : public trial::TrialTask {
  public:
-  struct Setup {
-    const SqueezeSettings& settings;
-    bool simulated = false, automatic = true, force_feedback = true;
-    std::string not_scored;  ///< why; empty: scored
-    std::uint64_t seed = 1;
-    std::vector<Comparison> comparisons;
-    std::vector<runtime::BoardPlace> places;
-    training::Role role =
-        training::Role::scored;  ///< of the comparisons, where nothing speaks against it
-  };
-  SqueezeTask(const Setup& setup, runtime::Bus& bus, SqueezeChannels& channels,
+  SqueezeTask(const SqueezeTaskSetup& setup, runtime::Bus& bus, SqueezeChannels& channels,
               runtime::Executive& executive);
 
   const std::vector<CompletedSqueeze>& completed() const { return completed_; }
@@ -96,7 +98,7 @@ class SqueezeTask final : public trial::TrialTask {
     return setup_.comparisons[static_cast<std::size_t>(status().trial - 1)];
   }
 
-  Setup setup_;
+  SqueezeTaskSetup setup_;
   SqueezeChannels& channels_;
   SqueezeListener listener_;
   std::array<haptics::FlightRecord, 2> last_of_;

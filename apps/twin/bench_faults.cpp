@@ -49,44 +49,44 @@ std::vector<std::pair<std::size_t, Pose>> boardsAt(const station::Station& stati
 
 namespace {
 
-using Kind = CameraFault::Kind;
 constexpr int kCloth = 110, kDark = 30;  // a gray level; by what a covered lens divides the light
 
-constexpr std::pair<const char*, Kind> kCameraFaults[] = {
-    {"hidden", Kind::hidden},         {"black", Kind::black}, {"frozen", Kind::frozen},
-    {"wrong_size", Kind::wrong_size}, {"gone", Kind::gone},   {"ended", Kind::ended}};
+constexpr std::pair<const char*, CameraFaultKind> kCameraFaults[] = {
+    {"hidden", CameraFaultKind::hidden}, {"black", CameraFaultKind::black},
+    {"frozen", CameraFaultKind::frozen}, {"wrong_size", CameraFaultKind::wrong_size},
+    {"gone", CameraFaultKind::gone},     {"ended", CameraFaultKind::ended}};
 
 }  // namespace
 
 std::vector<CameraFault> readCameraFaults(const JsonFile& file) {
   return readFaults<CameraFault>(
       file, "camera_faults", [](const JsonFile& entry, double from, double to) {
-        return CameraFault{faultKind<Kind>(entry, kCameraFaults), from, to};
+        return CameraFault{faultKind<CameraFaultKind>(entry, kCameraFaults), from, to};
       });
 }
 
 const CameraFault* faultAt(const std::vector<CameraFault>& faults, double t) {
   for (const CameraFault& fault : faults)
-    if (t >= fault.from && (t < fault.to || fault.kind == Kind::ended)) return &fault;
+    if (t >= fault.from && (t < fault.to || fault.kind == CameraFaultKind::ended)) return &fault;
   return nullptr;
 }
 
 std::optional<ar::Frame> spoilt(ar::Frame frame, const CameraFault& fault) {
   switch (fault.kind) {
-    case Kind::hidden:
+    case CameraFaultKind::hidden:
       frame.image.setTo(kCloth);
       return frame;
-    case Kind::black:
+    case CameraFaultKind::black:
       frame.image /= kDark;
       return frame;
-    case Kind::wrong_size:
+    case CameraFaultKind::wrong_size:
       cv::resize(frame.image, frame.image, frame.image.size() / 2);
       return frame;
-    case Kind::gone:
+    case CameraFaultKind::gone:
       throw Error("no picture within a second", frame.source, "Look at its cable");
-    case Kind::ended:
+    case CameraFaultKind::ended:
       return std::nullopt;
-    case Kind::frozen:
+    case CameraFaultKind::frozen:
       break;  // the caller shows the same moment again
   }
   return frame;
@@ -94,12 +94,12 @@ std::optional<ar::Frame> spoilt(ar::Frame frame, const CameraFault& fault) {
 
 namespace {
 
-constexpr std::pair<const char*, SensorFault::Kind> kSensorFaults[] = {
-    {"unplugged", SensorFault::Kind::unplugged},
-    {"saturated", SensorFault::Kind::saturated},
-    {"drifting", SensorFault::Kind::drifting},
-    {"reversed", SensorFault::Kind::reversed},
-    {"wrong_scale", SensorFault::Kind::wrong_scale}};
+constexpr std::pair<const char*, SensorFaultKind> kSensorFaults[] = {
+    {"unplugged", SensorFaultKind::unplugged},
+    {"saturated", SensorFaultKind::saturated},
+    {"drifting", SensorFaultKind::drifting},
+    {"reversed", SensorFaultKind::reversed},
+    {"wrong_scale", SensorFaultKind::wrong_scale}};
 
 void scale(double factor, const haptics::Wrench& zero, haptics::WrenchSample* sample) {
   for (std::size_t i = 0; i < 3; ++i) {
@@ -113,10 +113,10 @@ void scale(double factor, const haptics::Wrench& zero, haptics::WrenchSample* sa
 std::vector<SensorFault> readSensorFaults(const JsonFile& file) {
   return readFaults<SensorFault>(
       file, "sensor_faults", [](const JsonFile& entry, double from, double to) {
-        SensorFault fault{faultKind<SensorFault::Kind>(entry, kSensorFaults), from, to, 0};
-        if (fault.kind == SensorFault::Kind::drifting)
+        SensorFault fault{faultKind<SensorFaultKind>(entry, kSensorFaults), from, to, 0};
+        if (fault.kind == SensorFaultKind::drifting)
           fault.amount = entry.number("rate_N_per_s", -10, 10);
-        if (fault.kind == SensorFault::Kind::wrong_scale)
+        if (fault.kind == SensorFaultKind::wrong_scale)
           fault.amount = entry.number("factor", 0, 100);
         return fault;
       });
@@ -127,18 +127,18 @@ bool spoil(const std::vector<SensorFault>& faults, double t, const haptics::Wren
   for (const SensorFault& fault : faults) {
     if (t < fault.from || t >= fault.to) continue;
     switch (fault.kind) {
-      case SensorFault::Kind::unplugged:
+      case SensorFaultKind::unplugged:
         return false;
-      case SensorFault::Kind::saturated:
+      case SensorFaultKind::saturated:
         sample->flags |= haptics::kSaturated;
         break;
-      case SensorFault::Kind::drifting:
+      case SensorFaultKind::drifting:
         sample->f_S[2] += fault.amount * (t - fault.from);
         break;
-      case SensorFault::Kind::reversed:
+      case SensorFaultKind::reversed:
         scale(-1, zero, sample);
         break;
-      case SensorFault::Kind::wrong_scale:
+      case SensorFaultKind::wrong_scale:
         scale(fault.amount, zero, sample);
         break;
     }

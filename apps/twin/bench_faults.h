@@ -61,14 +61,16 @@ std::vector<BoardMove> readBoardMoves(const station::Station& station);
 std::vector<std::pair<std::size_t, Pose>> boardsAt(const station::Station& station,
                                                    const std::vector<BoardMove>& moves, double t);
 
+/// What goes wrong with a camera: see CameraFault.
+enum class CameraFaultKind { hidden, black, frozen, wrong_size, gone, ended };
+
 /// What shall go wrong with the virtual camera, and when: "twin/camera_faults" of a station's file,
 /// a list of {"kind", "from_s", "to_s"}; session time.
 ///   hidden      something lies over the board     black       the lens is covered         frozen
 ///   the same picture over and over wrong_size  pictures of half the size         gone        the
 ///   driver reports an error ended    no more pictures, also afterwards
 struct CameraFault {
-  enum class Kind { hidden, black, frozen, wrong_size, gone, ended };
-  Kind kind = Kind::black;
+  CameraFaultKind kind = CameraFaultKind::black;
   double from = 0, to = 0;  ///< s
 };
 
@@ -81,14 +83,16 @@ const CameraFault* faultAt(const std::vector<CameraFault>& faults, double t);
 /// The picture as the fault leaves it. Throws Error where the camera is gone.
 std::optional<ar::Frame> spoilt(ar::Frame frame, const CameraFault& fault);
 
+/// What goes wrong with a force sensor: see SensorFault.
+enum class SensorFaultKind { unplugged, saturated, drifting, reversed, wrong_scale };
+
 /// What shall go wrong with the virtual force sensor, and when: "twin/sensor_faults" of a station's
 /// file, a list of {"kind", "from_s", "to_s"}; session time.
 ///   unplugged   no samples         saturated     it says that its gauges are    drifting   its
 ///   zero wanders by "rate_N_per_s" reversed    every sign is the other one      wrong_scale forces
 ///   and torques times "factor"
 struct SensorFault {
-  enum class Kind { unplugged, saturated, drifting, reversed, wrong_scale };
-  Kind kind = Kind::unplugged;
+  SensorFaultKind kind = SensorFaultKind::unplugged;
   double from = 0, to = 0;  ///< s
   double amount = 0;        ///< N/s; of the true force
 };

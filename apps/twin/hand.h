@@ -19,10 +19,11 @@ class Hand {
     Vec3 f_fingers_D =
         Vec3::Zero();  ///< of the fingers on the tool: without what moves the hand itself
   };
+  /// What is said; grade: of the lump marked last.
+  enum class WordKind { none, gives_up, done, grade };
   /// What whoever leads the hand says, once.
   struct Word {
-    enum class Kind { none, gives_up, done, grade };
-    Kind kind = Kind::none;
+    WordKind kind = WordKind::none;
     double diameter = 0;             ///< m; of a grade: of the lump marked last
     int hardness = 0, mobility = 0;  ///< 1 soft, 2 hard; 1 fixed, 2 mobile; 0: not said
   };

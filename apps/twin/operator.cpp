@@ -68,8 +68,8 @@ void Operator::feel(const Senses& senses) {
                      senses.seen && senses.seen->blood_flows, senses.seen && senses.seen->injury);
 }
 
-void Operator::begin(Step step, double now_s, double pause_s) {
-  if (step == Step::leave &&
+void Operator::begin(NeedleStep step, double now_s, double pause_s) {
+  if (step == NeedleStep::leave &&
       moving_) {  // a turn that is broken off: out along the needle from where it is
     insertion_ = (tip_A_ - entry_seen_A_).dot(axis_A_);
     moving_ = false;
@@ -95,7 +95,7 @@ void Operator::beginTrial(int trial, double now_s) {
   moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s,
          skill_.travel_speed);
   plunger_wanted_ = 0;
-  begin(Step::approach, now_s, 0);
+  begin(NeedleStep::approach, now_s, 0);
 }
 
 void Operator::moveTo(const Pose& X_AT, double now_s, double speed) {
@@ -141,7 +141,7 @@ void Operator::pushing(double now_s) {
   const bool deep = seenInsertion() >= skill_.first_depth;
   if (lost || deep || insertion_ > kDeepestPush) {
     holdHere();
-    begin(Step::settle, now_s, skill_.pause);
+    begin(NeedleStep::settle, now_s, skill_.pause);
   }
 }
 
@@ -163,12 +163,12 @@ void Operator::advancing(double now_s) {
 void Operator::tryElsewhere(double now_s, double back) {
   if (++passes_ > skill_.redirections) {
     gives_up_ = true;
-    return begin(Step::leave, now_s, skill_.pause);
+    return begin(NeedleStep::leave, now_s, skill_.pause);
   }
   going_back_ = true;
   turn_toward_A_ = Vec3::Zero();
   retreat_to_ = std::max(insertion_ - back, 0.5 * skill_.first_depth);
-  begin(Step::retreat, now_s, 0);
+  begin(NeedleStep::retreat, now_s, 0);
 }
 
 void Operator::retreating(double now_s) {
@@ -190,13 +190,13 @@ void Operator::turnAway(const Vec3& toward_A, double now_s) {
   aimAt((std::cos(angle) * axis_A_ + std::sin(angle) * toward).normalized(), now_s,
         0.5 * skill_.turn_time);
   nudges_ = 0;
-  begin(Step::redirect, now_s, 0);
+  begin(NeedleStep::redirect, now_s, 0);
 }
 
 void Operator::dwell(double now_s) {
   holdHere();
   dwell_since_s_ = dwell_begun_s_ = now_s;
-  begin(Step::dwell, now_s, 0);
+  begin(NeedleStep::dwell, now_s, 0);
 }
 
 void Operator::dwelling(double now_s) {
@@ -213,7 +213,7 @@ void Operator::dwelling(double now_s) {
     going_back_ = false;
     retreat_to_ = insertion_ - 0.5 * skill_.search_margin;
     turn_toward_A_ = Vec3::Zero();
-    begin(Step::retreat, now_s, 0);
+    begin(NeedleStep::retreat, now_s, 0);
   }
 }
 
@@ -223,8 +223,8 @@ void Operator::think(const Senses& senses) {
   if (!senses.seen || !bearings_.taken()) return;
   running_ = senses.seen->running;
   if (running_ && senses.seen->trial != trial_) return beginTrial(senses.seen->trial, now_s);
-  if (!running_ && step_ != Step::rest && step_ != Step::leave)
-    return begin(Step::leave, now_s, skill_.pause);
+  if (!running_ && step_ != NeedleStep::rest && step_ != NeedleStep::leave)
+    return begin(NeedleStep::leave, now_s, skill_.pause);
   if (now_s < ready_s_) return;
   step(now_s);
 }
@@ -232,46 +232,47 @@ void Operator::think(const Senses& senses) {
 void Operator::step(double now_s) {
   const bool arrived = !moving_ || move_.done(now_s);
   switch (step_) {
-    case Step::rest:
+    case NeedleStep::rest:
       return;
-    case Step::approach:
+    case NeedleStep::approach:
       if (!arrived) return;
       moveTo(needleAt(plan_entry_A_ + kHover * plan_normal_A_, -plan_normal_A_), now_s,
              0.25 * skill_.travel_speed);
-      return begin(Step::lower, now_s, 0);
-    case Step::lower:
+      return begin(NeedleStep::lower, now_s, 0);
+    case NeedleStep::lower:
       if (!arrived) return;
       moving_ = false;
       insertion_ = -kHover;
-      return begin(Step::push, now_s, skill_.pause);
-    case Step::push:
+      return begin(NeedleStep::push, now_s, skill_.pause);
+    case NeedleStep::push:
       return pushing(now_s);
-    case Step::settle:
+    case NeedleStep::settle:
       entry_seen_A_ =
           bearings_.X_AT().translation() -
           std::max((bearings_.X_AT().translation() - plan_entry_A_).dot(axis_A_), 0.0) * axis_A_;
-      return begin(Step::deepen, now_s, 0);
-    case Step::deepen:
+      return begin(NeedleStep::deepen, now_s, 0);
+    case NeedleStep::deepen:
       if (seenInsertion() < skill_.first_depth) {
         insertion_ += skill_.push_speed * kThought;
         return;
       }
       holdHere();
       aimAt(firstAim(), now_s + skill_.pause, skill_.turn_time);
-      return begin(Step::turn, now_s, skill_.pause);
-    case Step::turn:
-    case Step::redirect:
+      return begin(NeedleStep::turn, now_s, skill_.pause);
+    case NeedleStep::turn:
+    case NeedleStep::redirect:
       if (!arrived) return;
       moving_ = false;
       plunger_wanted_ = kDrawn;
-      return begin(Step::advance, now_s, step_ == Step::turn ? skill_.pause : 0.5 * skill_.pause);
-    case Step::advance:
+      return begin(NeedleStep::advance, now_s,
+                   step_ == NeedleStep::turn ? skill_.pause : 0.5 * skill_.pause);
+    case NeedleStep::advance:
       return advancing(now_s);
-    case Step::retreat:
+    case NeedleStep::retreat:
       return retreating(now_s);
-    case Step::dwell:
+    case NeedleStep::dwell:
       return dwelling(now_s);
-    case Step::leave:
+    case NeedleStep::leave:
       return leaving(now_s);
   }
 }
@@ -283,7 +284,7 @@ void Operator::leaving(double now_s) {
   // Out of the skin: up and away from it, since behind a flat needle the chest may bulge.
   moveTo(needleAt(plan_entry_A_ + kAbove * plan_normal_A_, -plan_normal_A_), now_s,
          skill_.travel_speed);
-  begin(Step::rest, now_s, 0);
+  begin(NeedleStep::rest, now_s, 0);
 }
 
 Operator::Action Operator::act(const Senses& senses, double dt) {
@@ -305,9 +306,9 @@ Operator::Action Operator::act(const Senses& senses, double dt) {
   if (moving_) {
     const Pose X = move_.at(now_s);
     axis_A_ = X.rotation() * Vec3::UnitZ();
-    const bool turning = step_ == Step::turn || step_ == Step::redirect;
+    const bool turning = step_ == NeedleStep::turn || step_ == NeedleStep::redirect;
     tip_A_ = turning ? Vec3(X.translation() + insertion_ * axis_A_) : Vec3(X.translation());
-  } else if (step_ != Step::rest) {
+  } else if (step_ != NeedleStep::rest) {
     tip_A_ = entry_seen_A_ + insertion_ * axis_A_;
   }
   const Vec3 turn = turn_tremor_.next(dt);
@@ -315,7 +316,7 @@ Operator::Action Operator::act(const Senses& senses, double dt) {
   X_AT.linear() = X_AT.linear() * Eigen::AngleAxisd(turn.norm(), turn.normalized()).matrix();
   X_DH_ = bearings_.X_DA() * X_AT * X_TE_;
   Action action{X_DH_, plunger_, 0, {}};
-  if (gives_up_) action.says.kind = Word::Kind::gives_up;
+  if (gives_up_) action.says.kind = WordKind::gives_up;
   gives_up_ = false;
   return action;
 }

@@ -72,7 +72,7 @@ class Operator final : public Hand {
   const HandGrip& grip() const override { return skill_.grip; }
 
  private:
-  enum class Step {
+  enum class NeedleStep {
     rest,
     approach,
     lower,
@@ -92,7 +92,7 @@ class Operator final : public Hand {
   void think(const Senses& senses);
   void step(double now_s);
   void leaving(double now_s);
-  void begin(Step step, double now_s, double pause_s);
+  void begin(NeedleStep step, double now_s, double pause_s);
   void beginTrial(int trial, double now_s);
   void moveTo(const Pose& X_AT, double now_s, double speed);
   void aimAt(const Vec3& axis_A, double now_s, double duration_s);
@@ -123,7 +123,7 @@ class Operator final : public Hand {
   double depth_error_ = 0;
 
   // What he is doing.
-  Step step_ = Step::rest;
+  NeedleStep step_ = NeedleStep::rest;
   double ready_s_ = 0;  ///< the current step's pause is over
   int trial_ = 0;
   bool running_ = false;

@@ -76,11 +76,11 @@ void PalpatingHand::beginTrial(int trial, double now_s) {
   next(now_s);
 }
 
-void PalpatingHand::goTo(const Vec3& p_P, double now_s, Step next) {
+void PalpatingHand::goTo(const Vec3& p_P, double now_s, PalpationStep next) {
   const Vec3 over(p_P.x(), p_P.y(), p_P.z() + kOverTop);
   move_ = MinJerk(makePose(Mat3::Identity(), tip_P_), makePose(Mat3::Identity(), over), now_s,
                   std::max(0.15, (over - tip_P_).norm() / skill_.travel_speed));
-  step_ = Step::travel;
+  step_ = PalpationStep::travel;
   after_travel_ = next;
 }
 
@@ -104,7 +104,7 @@ void PalpatingHand::pressing(double now_s) {
   const double enough = skill_.pressures.back() * (suspect_P_ ? skill_.closer_force : 1);
   if (resistance < enough && tip_now_P_.z() > -kDeepest) return;
   since_s_ = now_s;
-  step_ = Step::overshoot;  // it goes on for as long as it takes to react
+  step_ = PalpationStep::overshoot;  // it goes on for as long as it takes to react
 }
 
 /// As far as it matters: where nothing of it is felt any more, one place is like another.
@@ -214,7 +214,7 @@ void PalpatingHand::decide(double now_s) {
   suspect_P_.reset();
   marked_P_.push_back(middle);
   word_ = grade(middle, firmest);
-  goTo(Vec3(middle.x(), middle.y(), 0), now_s, Step::mark);
+  goTo(Vec3(middle.x(), middle.y(), 0), now_s, PalpationStep::mark);
 }
 
 void PalpatingHand::dismiss(double now_s) {
@@ -227,7 +227,7 @@ void PalpatingHand::dismiss(double now_s) {
 Hand::Word PalpatingHand::grade(const Vec3& p_P, double firmest) {
   constexpr double kAcross = 3, kSmallest = 0.006, kLargest = 0.035;  // of the spread; m
   Word word;
-  word.kind = Word::Kind::grade;
+  word.kind = WordKind::grade;
   word.diameter = std::clamp(
       kAcross * memory_.spreadAbout(p_P, closer_) * (1 + skill_.size_sd * judgement_.normal()),
       kSmallest, kLargest);
@@ -240,11 +240,11 @@ void PalpatingHand::next(double now_s) {
   if (std::vector<Vec3>& places = suspect_P_ ? closer_places_ : places_; !places.empty()) {
     const Vec3 place = places.back();
     places.pop_back();
-    return goTo(place, now_s, Step::press);
+    return goTo(place, now_s, PalpationStep::press);
   }
   done_ = true;
-  word_ = Word{Word::Kind::done, 0, 0, 0};
-  goTo(Vec3(0, 0, kHome), now_s, Step::rest);
+  word_ = Word{WordKind::done, 0, 0, 0};
+  goTo(Vec3(0, 0, kHome), now_s, PalpationStep::rest);
 }
 
 void PalpatingHand::think(const Senses& senses) {
@@ -255,16 +255,16 @@ void PalpatingHand::think(const Senses& senses) {
   if (!senses.seen) return;
   if (senses.seen->running && senses.seen->trial != trial_)
     return beginTrial(senses.seen->trial, now_s);
-  if (!senses.seen->running && step_ != Step::rest &&
-      step_ != Step::travel) {  // paused or over: away from it
-    return goTo(Vec3(tip_P_.x(), tip_P_.y(), kHome), now_s, Step::rest);
+  if (!senses.seen->running && step_ != PalpationStep::rest &&
+      step_ != PalpationStep::travel) {  // paused or over: away from it
+    return goTo(Vec3(tip_P_.x(), tip_P_.y(), kHome), now_s, PalpationStep::rest);
   }
-  if (senses.seen->running && step_ == Step::rest && trial_ > 0 && !done_)
+  if (senses.seen->running && step_ == PalpationStep::rest && trial_ > 0 && !done_)
     return next(now_s);  // after a pause
   switch (step_) {
-    case Step::rest:
+    case PalpationStep::rest:
       return;
-    case Step::travel:
+    case PalpationStep::travel:
       tip_P_ = move_.at(now_s).translation();
       if (!move_.done(now_s)) return;
       step_ = after_travel_;
@@ -273,20 +273,20 @@ void PalpatingHand::think(const Senses& senses) {
       air_N_ = felt_N_;
       depths_.clear();
       return;
-    case Step::press:
+    case PalpationStep::press:
       return pressing(now_s);
-    case Step::overshoot:
+    case PalpationStep::overshoot:
       tip_P_.z() -= skill_.press_speed * kThink_s;
-      if (now_s - since_s_ >= skill_.reaction) step_ = Step::lift;
+      if (now_s - since_s_ >= skill_.reaction) step_ = PalpationStep::lift;
       return;
-    case Step::lift:
+    case PalpationStep::lift:
       tip_P_.z() += kLift * kThink_s;
       if (tip_P_.z() >= kOverTop) judge(now_s);
       return;
-    case Step::mark:
-      if (now_s - since_s_ >= kMarkFor_s) step_ = Step::release, since_s_ = now_s;
+    case PalpationStep::mark:
+      if (now_s - since_s_ >= kMarkFor_s) step_ = PalpationStep::release, since_s_ = now_s;
       return;
-    case Step::release:
+    case PalpationStep::release:
       if (now_s - since_s_ >= kMarkFor_s) next(now_s);
       return;
   }
@@ -313,10 +313,10 @@ Hand::Action PalpatingHand::act(const Senses& senses, double dt) {
       bearings_.X_DA() * phantom_.X_AP *
       makePose(Eigen::AngleAxisd(std::numbers::pi, Vec3::UnitX()).toRotationMatrix(), tip_P) *
       X_TE_;
-  action.buttons = step_ == Step::mark ? 1u : 0u;
-  const bool says_now =
-      word_.kind == Word::Kind::done ? step_ == Step::travel : step_ == Step::release;
-  if (says_now && word_.kind != Word::Kind::none) std::swap(action.says, word_);
+  action.buttons = step_ == PalpationStep::mark ? 1u : 0u;
+  const bool says_now = word_.kind == WordKind::done ? step_ == PalpationStep::travel
+                                                     : step_ == PalpationStep::release;
+  if (says_now && word_.kind != WordKind::none) std::swap(action.says, word_);
   return action;
 }
 

@@ -115,11 +115,11 @@ class PalpatingHand final : public Hand {
     climb,
     confirm
   };  ///< of a closer look: was it chance, where is it firmest, is it a lump
-  enum class Step { rest, travel, press, overshoot, lift, mark, release };
+  enum class PalpationStep { rest, travel, press, overshoot, lift, mark, release };
   void think(const Senses& senses);
   void beginTrial(int trial, double now_s);
   void planStrips();
-  void goTo(const Vec3& p_P, double now_s, Step next);
+  void goTo(const Vec3& p_P, double now_s, PalpationStep next);
   void pressing(double now_s);
   void judge(double now_s);
   void next(double now_s);
@@ -145,7 +145,7 @@ class PalpatingHand final : public Hand {
   Vec3 p_last_D_ = Vec3::Zero();
   std::int64_t next_thought_ns_ = 0, last_look_ns_ = 0;
 
-  Step step_ = Step::rest, after_travel_ = Step::rest;
+  PalpationStep step_ = PalpationStep::rest, after_travel_ = PalpationStep::rest;
   int trial_ = 0;
   Vec3 tip_P_ = Vec3::Zero(), tip_now_P_ = Vec3::Zero();  ///< wanted, and where it is
   MinJerk move_;

@@ -168,7 +168,7 @@ struct SetupBench::Impl {
   std::optional<VirtualCamera> over_table, at_wall;
   std::optional<SensorTwin> felt;
   std::optional<SampleTwin> sample;  // while one is felt
-  SampleTwin::Touch touched;
+  SampleTouch touched;
   RandomStream imaging;
   Pose X_WT = Pose::Identity(), X_CB = Pose::Identity();
   MinJerk board_way;

@@ -34,7 +34,7 @@ SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
   phantom_.emplace(one->table, SiliconeLaw{});
 }
 
-SampleTwin::Touch SampleTwin::step(const Pose& X_WT, double dt) {
+SampleTouch SampleTwin::step(const Pose& X_WT, double dt) {
   const Vec3 middle_P = X_WP_.inverse() * (X_WT * Vec3(0, 0, -radius_)),
              lowest_P = middle_P - radius_ * Vec3::UnitZ();
   const PhantomTouch touch = phantom_->step(lowest_P, dt);

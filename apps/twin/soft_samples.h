@@ -9,6 +9,12 @@
 
 namespace palpa::twin {
 
+/// Of a soft sample under the tool, in W: the force on the tool, N, and where that acts.
+struct SampleTouch {
+  Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
+  std::optional<Vec3> lump_W;  ///< m, how far its lump has moved; none without one
+};
+
 /// The soft sample on the virtual bench's table, and a round tip on it. W: the world.
 class SampleTwin {
  public:
@@ -17,13 +23,8 @@ class SampleTwin {
   /// none of theirs.
   SampleTwin(const station::Station& station, const std::string& name, std::uint64_t seed);
 
-  /// The tool (z along it, T on its end) is there after another `dt`. Told in W: the force on it,
-  /// and where that acts.
-  struct Touch {
-    Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
-    std::optional<Vec3> lump_W;  ///< m, how far its lump has moved; none without one
-  };
-  Touch step(const Pose& X_WT, double dt);
+  /// The tool (z along it, T on its end) is there after another `dt`.
+  SampleTouch step(const Pose& X_WT, double dt);
 
  private:
   Pose X_WP_;

@@ -56,7 +56,7 @@ class SqueezingMind {
   }
 
  private:
-  enum class Step { rest, come, close, lift, weigh, squeeze, relax, lower, open, think };
+  enum class SqueezeStep { rest, come, close, lift, weigh, squeeze, relax, lower, open, think };
   /// What one thing felt like.
   struct Felt {
     double weight = 0, stiffness = 0;  ///< N; N/m
@@ -94,9 +94,9 @@ class SqueezingMind {
     trial_ = trial;
     thing_ = 0;
     felt_ = {};
-    go(Step::come, now_s);
+    go(SqueezeStep::come, now_s);
   }
-  void go(Step step, double now_s) {
+  void go(SqueezeStep step, double now_s) {
     step_ = step;
     since_s_ = now_s;
     from_in_ = in_;
@@ -128,32 +128,33 @@ class SqueezingMind {
 
   /// The trial is over, or paused.
   void letGo(int trial, double now_s) {
-    if (step_ != Step::rest && step_ != Step::open) {
-      go(Step::open, now_s);
+    if (step_ != SqueezeStep::rest && step_ != SqueezeStep::open) {
+      go(SqueezeStep::open, now_s);
       trial_ = trial;
     }
-    if (step_ == Step::open && moved(now_s, object_.half + kOpen, 0)) step_ = Step::rest;
+    if (step_ == SqueezeStep::open && moved(now_s, object_.half + kOpen, 0))
+      step_ = SqueezeStep::rest;
   }
 
   void step(const runtime::Displayed& seen, double now_s) {
     switch (step_) {
-      case Step::rest:
+      case SqueezeStep::rest:
         return;
-      case Step::come:
+      case SqueezeStep::come:
         air_N_ = 0;
         if (!moved(now_s, object_.half + kOpen, 0)) return;
         air_N_ = pushes();
-        return go(Step::close, now_s);
-      case Step::close:
+        return go(SqueezeStep::close, now_s);
+      case SqueezeStep::close:
         if (!closed(skill_.hold)) return;
         held_N_ = pushes();
         held_apart_ = apart();
-        return go(Step::lift, now_s);
-      case Step::lift:
+        return go(SqueezeStep::lift, now_s);
+      case SqueezeStep::lift:
         if (!moved(now_s, from_in_, kLifted)) return;
         weight_sum_ = weight_count_ = 0;
-        return go(Step::weigh, now_s);
-      case Step::weigh:
+        return go(SqueezeStep::weigh, now_s);
+      case SqueezeStep::weigh:
         weight_sum_ += carries();
         weight_count_ += 1;
         if (now_s - since_s_ < kWeighs_s) return;
@@ -161,30 +162,30 @@ class SqueezingMind {
             weight_sum_ / weight_count_ * std::exp(skill_.weber_weight * judgement_.normal());
         held_N_ = pushes();
         held_apart_ = apart();
-        return go(Step::squeeze, now_s);
-      case Step::squeeze:
+        return go(SqueezeStep::squeeze, now_s);
+      case SqueezeStep::squeeze:
         if (!closed(skill_.squeeze)) return;
         now().stiffness = (pushes() - held_N_) / std::max(held_apart_ - apart(), 1e-4) *
                           std::exp(skill_.weber_stiffness * judgement_.normal());
-        return go(Step::relax, now_s);
-      case Step::relax:
+        return go(SqueezeStep::relax, now_s);
+      case SqueezeStep::relax:
         if (!moved(now_s, held_in(), from_up_)) return;
-        return go(Step::lower, now_s);
-      case Step::lower:
+        return go(SqueezeStep::lower, now_s);
+      case SqueezeStep::lower:
         if (!moved(now_s, from_in_, 0)) return;
-        return go(Step::open, now_s);
-      case Step::open:
+        return go(SqueezeStep::open, now_s);
+      case SqueezeStep::open:
         if (!moved(now_s, object_.half + kOpen, 0)) return;
-        if (thing_ == 0) word_.kind = Hand::Word::Kind::done;  // the other one
-        return go(Step::think, now_s);
-      case Step::think:
+        if (thing_ == 0) word_.kind = Hand::WordKind::done;  // the other one
+        return go(SqueezeStep::think, now_s);
+      case SqueezeStep::think:
         if (now_s - since_s_ < kPause_s) return;
         if (thing_ == 0) {
           thing_ = 1;
-          return go(Step::come, now_s);
+          return go(SqueezeStep::come, now_s);
         }
         say(seen.question == runtime::Displayed::Question::heavier);
-        step_ = Step::rest;
+        step_ = SqueezeStep::rest;
         return;
     }
   }
@@ -194,7 +195,7 @@ class SqueezingMind {
   void say(bool heavier) {
     const bool second =
         heavier ? felt_[1].weight > felt_[0].weight : felt_[1].stiffness > felt_[0].stiffness;
-    word_.kind = Hand::Word::Kind::grade;
+    word_.kind = Hand::WordKind::grade;
     word_.hardness = second ? 2 : 1;
   }
 
@@ -205,7 +206,7 @@ class SqueezingMind {
   std::array<Tremor, 2> tremors_;
   std::array<Finger, 2> fingers_;
   std::int64_t next_thought_ns_ = 0;
-  Step step_ = Step::rest;
+  SqueezeStep step_ = SqueezeStep::rest;
   int trial_ = 0, thing_ = 0;
   double in_,
       up_ = 0;  ///< of each finger's tip from the object's middle; above where it rests: wanted, m

@@ -13,7 +13,7 @@
 
 namespace palpa::twin {
 
-HeldTool::HeldTool(Setup setup)
+HeldTool::HeldTool(HeldToolSetup setup)
     : setup_(std::move(setup)),
       mechanics_(setup_.truth, setup_.X_DE_start),
       cell_noise_(setup_.seed, "bench.force_cells") {
@@ -85,7 +85,7 @@ constexpr double kLongestBenchStep = 0.005;  // s, a late step is not integrated
 }  // namespace
 
 struct VirtualBench::Impl final : public runtime::Activity {
-  Impl(Setup setup, runtime::Bus& bus_in, runtime::ChannelDevice& device_in)
+  Impl(VirtualBenchSetup setup, runtime::Bus& bus_in, runtime::ChannelDevice& device_in)
       : bus(bus_in),
         X_WD_believed(setup.station.X_WD),
         X_ET_believed(setup.station.X_ET),
@@ -120,21 +120,18 @@ struct VirtualBench::Impl final : public runtime::Activity {
     }
   }
 
-  HeldTool::Setup toolSetup(std::unique_ptr<Hand> hand, const Pose& X_DE_start, const Pose& X_WD,
-                            runtime::ChannelDevice& device, runtime::ChannelSensor* sensor,
-                            std::uint64_t seed) const {
-    HeldTool::Setup tool{std::move(hand),
-                         trueDevice(station, seed),
-                         X_WD,
-                         X_ET_true,
-                         X_DE_start,
-                         &device,
-                         sensor,
-                         {},
-                         Pose::Identity(),
-                         {},
-                         readSensorFaults(station.file),
-                         seed};
+  HeldToolSetup toolSetup(std::unique_ptr<Hand> hand, const Pose& X_DE_start, const Pose& X_WD,
+                          runtime::ChannelDevice& device, runtime::ChannelSensor* sensor,
+                          std::uint64_t seed) const {
+    HeldToolSetup tool{.hand = std::move(hand),
+                       .truth = trueDevice(station, seed),
+                       .X_WD = X_WD,
+                       .X_ET = X_ET_true,
+                       .X_DE_start = X_DE_start,
+                       .device = &device,
+                       .sensor = sensor,
+                       .faults = readSensorFaults(station.file),
+                       .seed = seed};
     if (!sensor) return tool;
     tool.sensor_truth = trueSensor(station, seed);
     tool.X_ES = station.force_sensor->X_ES;
@@ -152,7 +149,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
     const runtime::Displayed* seen = bus.scene_to_operator.read(now_ns);
     for (HeldTool& tool : tools) {
       const Hand::Action& action = tool.act(seen, now_ns, dt);
-      if (action.says.kind != Hand::Word::Kind::none && on_word) on_word(action.says);
+      if (action.says.kind != Hand::WordKind::none && on_word) on_word(action.says);
     }
     move(dt);
     for (HeldTool& tool : tools) tool.publish(now_ns, dt);
@@ -173,10 +170,10 @@ struct VirtualBench::Impl final : public runtime::Activity {
   /// Where nothing real lies its touch is none, at the tip.
   void touchAll(double dt) {
     std::array<Pose, 2> X_WT{tools.front().X_WT(), tools.back().X_WT()};
-    const std::array<Touch, 2> touches =
+    const std::array<RealTouch, 2> touches =
         real_thing ? real_thing(X_WT, dt)
-                   : std::array<Touch, 2>{{{Vec3::Zero(), X_WT[0].translation()},
-                                           {Vec3::Zero(), X_WT[1].translation()}}};
+                   : std::array<RealTouch, 2>{{{Vec3::Zero(), X_WT[0].translation()},
+                                               {Vec3::Zero(), X_WT[1].translation()}}};
     for (std::size_t t = 0; t < tools.size(); ++t) tools[t].touch(touches[t]);
   }
 
@@ -197,7 +194,7 @@ struct VirtualBench::Impl final : public runtime::Activity {
   std::vector<BoardMove> board_moves;
   double sway;
   Pose X_CW_boom;
-  RealThing real_thing;
+  TouchedObject real_thing;
   std::function<void(const Hand::Word&)> on_word;
   std::optional<VirtualCamera> camera;
   std::vector<HeldTool> tools;  // one or two
@@ -206,7 +203,8 @@ struct VirtualBench::Impl final : public runtime::Activity {
   std::vector<double> errors_mm;
 };
 
-VirtualBench::VirtualBench(Setup setup, runtime::Bus& bus, runtime::ChannelDevice& device)
+VirtualBench::VirtualBench(VirtualBenchSetup setup, runtime::Bus& bus,
+                           runtime::ChannelDevice& device)
     : impl_(std::make_unique<Impl>(std::move(setup), bus, device)) {}
 VirtualBench::~VirtualBench() = default;
 
@@ -215,7 +213,7 @@ runtime::Activity& VirtualBench::activity() { return *impl_; }
 runtime::CameraActivity::Exposer VirtualBench::exposer() const {
   return [impl = impl_.get()](std::int64_t now_ns, std::uint64_t number) {
     const CameraFault* fault = faultAt(impl->camera_faults, 1e-9 * static_cast<double>(now_ns));
-    const bool frozen = fault && fault->kind == CameraFault::Kind::frozen;
+    const bool frozen = fault && fault->kind == CameraFaultKind::frozen;
     const std::int64_t seen_ns = frozen ? std::llround(1e9 * fault->from) : now_ns;
     const Pose X_CW = impl->X_CW(seen_ns);
     std::vector<PlatePose> plates;

@@ -16,47 +16,50 @@
 
 namespace palpa::twin {
 
+/// A simulated device, as it truly is, and who holds it.
+struct HeldToolSetup {
+  std::unique_ptr<Hand> hand;
+  DeviceTruth truth;
+  Pose X_WD, X_ET;  ///< as they truly are
+  Pose X_DE_start;
+  runtime::ChannelDevice* device = nullptr;
+  runtime::ChannelSensor* sensor = nullptr;  ///< none: nothing measures what is touched
+  SensorTruth sensor_truth = {};
+  Pose X_ES = Pose::Identity();
+  haptics::Wrench zero = {};  ///< what the station takes off as bias
+  std::vector<SensorFault> faults;
+  std::uint64_t seed = 1;
+};
+
+/// Of something real under the tool: its force on it, N, and where that acts. In W.
+struct RealTouch {
+  Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
+};
+
 /// One simulated device on the bench with whoever holds it, its force sensor and two force cells at
 /// the tool. The rest of the program sees what is published: readings and samples.
 class HeldTool {
  public:
-  struct Setup {
-    std::unique_ptr<Hand> hand;
-    DeviceTruth truth;
-    Pose X_WD, X_ET;  ///< as they truly are
-    Pose X_DE_start;
-    runtime::ChannelDevice* device = nullptr;
-    runtime::ChannelSensor* sensor = nullptr;  ///< none: nothing measures what is touched
-    SensorTruth sensor_truth;
-    Pose X_ES = Pose::Identity();
-    haptics::Wrench zero;  ///< what the station takes off as bias
-    std::vector<SensorFault> faults;
-    std::uint64_t seed = 1;
-  };
-  /// Of something real under the tool: its force on it, N, and where that acts. In W.
-  struct Touch {
-    Vec3 f_W = Vec3::Zero(), p_W = Vec3::Zero();
-  };
-  explicit HeldTool(Setup setup);
+  explicit HeldTool(HeldToolSetup setup);
 
   /// What the person does now, by what is seen and felt.
   const Hand::Action& act(const runtime::Displayed* seen, std::int64_t now_ns, double dt);
   /// Hand, drives and mechanics over one of `parts` equal parts of a step.
   void advance(double dt, int parts);
   Pose X_WT() const { return setup_.X_WD * mechanics_.truePose() * setup_.X_ET; }
-  void touch(const Touch& touch) { touch_ = touch; }
+  void touch(const RealTouch& touch) { touch_ = touch; }
   /// Reading and sample at the end of a step of `dt`.
   void publish(std::int64_t now_ns, double dt);
 
  private:
   void measureForces(haptics::DeviceReading& reading);
 
-  Setup setup_;
+  HeldToolSetup setup_;
   DeviceTwin mechanics_;
   RandomStream cell_noise_;
   std::optional<SensorTwin> felt_;
   Hand::Action action_;
-  Touch touch_;
+  RealTouch touch_;
   Vec3 f_command_D_ = Vec3::Zero(), f_hand_D_ = Vec3::Zero(),
        f_device_D_ = Vec3::Zero();  // the last two: means over the step
   std::uint64_t sequence_ = 0;
@@ -71,36 +74,40 @@ struct BenchAccuracy {
   double distance_m = 0;    ///< camera to board
 };
 
+/// Something real under the tools, which truly are at X_WT (the second one as the first where
+/// there is one): its force on each after another `dt`.
+using TouchedObject =
+    std::function<std::array<RealTouch, 2>(const std::array<Pose, 2>& X_WT, double dt)>;
+
+/// Another device of the same make on the same table.
+struct SecondTool {
+  std::unique_ptr<Hand> hand;
+  Pose X_WD, X_DE_start;
+  runtime::ChannelDevice* device = nullptr;
+  runtime::ChannelSensor* sensor = nullptr;
+};
+
+/// What a bench simulates.
+struct VirtualBenchSetup {
+  const station::Station& station;
+  std::unique_ptr<Hand> hand;
+  Pose X_DE_start;  ///< where the tool is picked up
+  /// Where the overlay's accuracy is measured: a point, the surface's outward normal
+  Vec3 watched_W, normal_W;
+  std::uint64_t seed = 1;
+  std::function<void(const Hand::Word&)> on_word = {};  ///< the simulated person says something
+  runtime::ChannelSensor* sensor = nullptr;  ///< where the station has a virtual force sensor
+  TouchedObject real_thing = {};             ///< none: a virtual patient alone
+  std::optional<SecondTool> second = {};
+};
+
 /// One seeded world: where the camera, the board and the device really are, a device with
 /// mechanics, a camera that takes pictures, a person at the device. The rest of the program sees
 /// only pictures and readings. Truth is drawn around the station's figures with the spreads in its
 /// file.
 class VirtualBench {
  public:
-  /// Of something real under the tools, which truly are at X_WT (the second one as the first where
-  /// there is one): its force on each after another `dt`.
-  using Touch = HeldTool::Touch;
-  using RealThing = std::function<std::array<Touch, 2>(const std::array<Pose, 2>& X_WT, double dt)>;
-  /// Another device of the same make on the same table.
-  struct SecondTool {
-    std::unique_ptr<Hand> hand;
-    Pose X_WD, X_DE_start;
-    runtime::ChannelDevice* device = nullptr;
-    runtime::ChannelSensor* sensor = nullptr;
-  };
-  struct Setup {
-    const station::Station& station;
-    std::unique_ptr<Hand> hand;
-    Pose X_DE_start;  ///< where the tool is picked up
-    /// Where the overlay's accuracy is measured: a point, the surface's outward normal
-    Vec3 watched_W, normal_W;
-    std::uint64_t seed = 1;
-    std::function<void(const Hand::Word&)> on_word;  ///< the simulated person says something
-    runtime::ChannelSensor* sensor = nullptr;  ///< where the station has a virtual force sensor
-    RealThing real_thing;                      ///< none: a virtual patient alone
-    std::optional<SecondTool> second = {};
-  };
-  VirtualBench(Setup setup, runtime::Bus& bus, runtime::ChannelDevice& device);
+  VirtualBench(VirtualBenchSetup setup, runtime::Bus& bus, runtime::ChannelDevice& device);
   ~VirtualBench();
 
   runtime::Activity& activity();                     ///< hand and device mechanics, 1 kHz

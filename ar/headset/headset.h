@@ -14,10 +14,13 @@
 /// looks, +y down, as cameras are. G: a hand's controller, +z the way it points.
 namespace palpa::ar {
 
+/// What connects OpenGL to the window system.
+enum class GlPlatform { glx, egl };
+
 /// The OpenGL context that the pictures are drawn in, as GLX or EGL have it. It stays current on
 /// the thread that uses the headset.
 struct GlBinding {
-  enum class Kind { glx, egl } kind = Kind::egl;
+  GlPlatform kind = GlPlatform::egl;
   void* display = nullptr;
   void* config = nullptr;  ///< GLXFBConfig or EGLConfig
   void* context = nullptr;
@@ -60,16 +63,17 @@ struct EyeTexture {
 /// black is clear. alpha: the picture's alpha, premultiplied.
 enum class Blend { opaque, additive, alpha };
 
+enum class HeadsetState {
+  waiting,
+  running,
+  lost
+};  ///< waiting: not on a head yet, or its system shows something else
+
 /// How a frame is made:  begin() waits for its time and says what is to be seen;  end(draw) has
 /// both eyes drawn and shown. What goes wrong with a headset in use is never thrown: its state is
 /// `lost`, `trouble` says why, and whoever uses it goes on without. One thread.
 class Headset {
  public:
-  enum class State {
-    waiting,
-    running,
-    lost
-  };  ///< waiting: not on a head yet, or its system shows something else
   using Draw = std::function<void(std::size_t eye, const EyeTexture& picture)>;
 
   virtual ~Headset() = default;
@@ -79,7 +83,7 @@ class Headset {
   /// After every begin() that gave a frame; an empty `draw` shows nothing.
   virtual void end(const Draw& draw) = 0;
   virtual void vibrate(std::size_t hand, double seconds, double strength) = 0;  ///< strength 0..1
-  virtual State state() const = 0;
+  virtual HeadsetState state() const = 0;
   virtual Blend blend() const = 0;
   virtual const std::array<EyeView, 2>& eyes() const = 0;  ///< sizes are known from the beginning
   virtual std::string describe() const = 0;                ///< the runtime's and the system's names

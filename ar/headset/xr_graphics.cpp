@@ -52,9 +52,9 @@ XrOwnedSession sessionWith(XrInstance instance, XrSystemId system, const void* b
 
 }  // namespace
 
-std::vector<const char*> graphicsExtensions(GlBinding::Kind kind) {
+std::vector<const char*> graphicsExtensions(GlPlatform kind) {
   std::vector<const char*> names{XR_KHR_OPENGL_ENABLE_EXTENSION_NAME};
-  if (kind == GlBinding::Kind::egl) names.push_back(XR_MNDX_EGL_ENABLE_EXTENSION_NAME);
+  if (kind == GlPlatform::egl) names.push_back(XR_MNDX_EGL_ENABLE_EXTENSION_NAME);
   return names;
 }
 
@@ -64,7 +64,7 @@ XrOwnedSession makeSession(XrInstance instance, XrSystemId system, const GlBindi
               instance, "xrGetOpenGLGraphicsRequirementsKHR")(instance, system, &needs),
           "xrGetOpenGLGraphicsRequirementsKHR");
   requireVersion(needs.minApiVersionSupported);
-  if (gl.kind == GlBinding::Kind::egl) {
+  if (gl.kind == GlPlatform::egl) {
     XrGraphicsBindingEGLMNDX binding{XR_TYPE_GRAPHICS_BINDING_EGL_MNDX,
                                      nullptr,
                                      reinterpret_cast<PFNEGLGETPROCADDRESSPROC>(gl.address),

@@ -74,7 +74,7 @@ Blend blendOf(XrEnvironmentBlendMode mode) {
                                                          : Blend::opaque;
 }
 
-XrRuntime openRuntime(GlBinding::Kind kind) try {
+XrRuntime openRuntime(GlPlatform kind) try {
   setenv("XR_LOADER_DEBUG", "none", 0);  // what it would print is said in our words
   XrRuntime runtime;
   runtime.instance = makeInstance(graphicsExtensions(kind));

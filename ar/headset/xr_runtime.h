@@ -23,7 +23,7 @@ struct XrRuntime {
 };
 
 /// Throws Error, in words.
-XrRuntime openRuntime(GlBinding::Kind kind);
+XrRuntime openRuntime(GlPlatform kind);
 
 Blend blendOf(XrEnvironmentBlendMode mode);
 
@@ -33,7 +33,7 @@ Blend blendOf(XrEnvironmentBlendMode mode);
 namespace palpa::ar {
 
 /// Names of the extensions by which a context of this kind is handed over.
-std::vector<const char*> graphicsExtensions(GlBinding::Kind kind);
+std::vector<const char*> graphicsExtensions(GlPlatform kind);
 
 /// Asks for the runtime's requirements, as it must be asked, and makes the session.
 XrOwnedSession makeSession(XrInstance instance, XrSystemId system, const GlBinding& gl);

@@ -44,8 +44,8 @@ BoardTracker::BoardTracker(const Board& board, const calibration::CameraModel& c
       sigma_px_(kSigmaAtFirst_px) {}
 
 cv::Rect BoardTracker::expected(const cv::Size& size, std::int64_t t_ns) const {
-  const PoseTrack::Answer there = track_.at(t_ns);
-  if (there.how == PoseTrack::Lookup::none || extent_.isEmpty()) return {};
+  const PoseLookup there = track_.at(t_ns);
+  if (there.how == Lookup::none || extent_.isEmpty()) return {};
   Eigen::AlignedBox2d box;
   double spread_px = 0;
   for (const auto corner : {Eigen::AlignedBox2d::BottomLeft, Eigen::AlignedBox2d::BottomRight,
@@ -80,8 +80,8 @@ std::optional<BoardPose> BoardTracker::believable(const std::vector<BoardPoint>&
   if (poses.empty()) return std::nullopt;
   const PoseFilter& filter = track_.filter();
   const bool alike = poses.size() > 1 && tellsApart(poses.front(), sigma_px_) < kTellsApart;
-  const PoseTrack::Answer there = track_.at(t_ns);
-  if (there.how != PoseTrack::Lookup::none) {
+  const PoseLookup there = track_.at(t_ns);
+  if (there.how != Lookup::none) {
     if (alike && difference(poses[1].X_CW, there.X).head<3>().norm() <
                      difference(poses[0].X_CW, there.X).head<3>().norm())
       std::swap(poses[0], poses[1]);
@@ -117,7 +117,7 @@ std::optional<BoardPose> BoardTracker::see(const cv::Mat& image, std::int64_t t_
   }
   if (pose && !track_.add(pose->X_CW, scaled(*pose), t_ns)) pose.reset();
   if (pose) learn(points, *pose);
-  const bool predicted = track_.at(t_ns).how != PoseTrack::Lookup::none;
+  const bool predicted = track_.at(t_ns).how != Lookup::none;
   state_ = pose                              ? TrackState::tracked
            : predicted                       ? TrackState::coasting
            : state_ == TrackState::searching ? TrackState::searching

@@ -30,7 +30,7 @@ bool PoseTrack::add(const Pose& X, const Matrix6& covariance, std::int64_t t_ns)
   return true;
 }
 
-PoseTrack::Answer PoseTrack::at(std::int64_t t_ns) const {
+PoseLookup PoseTrack::at(std::int64_t t_ns) const {
   if (past_.empty() || t_ns < past_.front().t_ns) return {};
   const auto after = std::upper_bound(past_.begin(), past_.end(), t_ns,
                                       [](std::int64_t t, const Entry& e) { return t < e.t_ns; });

@@ -7,6 +7,16 @@
 
 namespace palpa::ar {
 
+/// none: before what is remembered, or too long after the last pose.
+enum class Lookup { none, exact, interpolated, predicted };
+
+/// A pose at a time that was asked for, and how it was found.
+struct PoseLookup {
+  Lookup how = Lookup::none;
+  Pose X = Pose::Identity();
+  Matrix6 covariance = Matrix6::Zero();
+};
+
 /// A filtered pose that remembers where it was and tells where it will be.
 class PoseTrack {
  public:
@@ -21,16 +31,9 @@ class PoseTrack {
   /// Takes a measured pose in; false where the filter left it out.
   bool add(const Pose& X, const Matrix6& covariance, std::int64_t t_ns);
 
-  enum class Lookup { none, exact, interpolated, predicted };
-  struct Answer {
-    Lookup how =
-        Lookup::none;  ///< none: before what is remembered, or too long after the last pose
-    Pose X = Pose::Identity();
-    Matrix6 covariance = Matrix6::Zero();
-  };
   /// At any time: as it was filtered then, between two such by Hermite's cubic (poses and rates),
   /// or predicted.
-  Answer at(std::int64_t t_ns) const;
+  PoseLookup at(std::int64_t t_ns) const;
 
   const PoseFilter& filter() const { return filter_; }
   void forget();

@@ -105,27 +105,27 @@ Vec3 exaggeration(const ActiveAugmentation& p) noexcept {
 
 Vec3 forceOf(const ActiveAugmentation& p, double steepest) noexcept {
   switch (p.a.kind) {
-    case Augmentation::Kind::none:
+    case AugmentationKind::none:
       return Vec3::Zero();
-    case Augmentation::Kind::pulse:
+    case AugmentationKind::pulse:
       return pulse(p);
-    case Augmentation::Kind::vibration:
+    case AugmentationKind::vibration:
       return vibration(p);
-    case Augmentation::Kind::attraction:
+    case AugmentationKind::attraction:
       return attraction(p, steepest);
-    case Augmentation::Kind::exaggeration:
+    case AugmentationKind::exaggeration:
       return exaggeration(p);
-    case Augmentation::Kind::relief:
+    case AugmentationKind::relief:
       return p.weight() * p.a.amplitude * p.in.footprint * wayOf(p);
-    case Augmentation::Kind::fixture:
+    case AugmentationKind::fixture:
       return p.weight() * std::min(p.a.amplitude, steepest) * p.in.to_line;
   }
   return Vec3::Zero();
 }
 
-bool heedsMotion(Augmentation::Kind kind) noexcept {
-  return kind != Augmentation::Kind::pulse && kind != Augmentation::Kind::vibration &&
-         kind != Augmentation::Kind::relief;
+bool heedsMotion(AugmentationKind kind) noexcept {
+  return kind != AugmentationKind::pulse && kind != AugmentationKind::vibration &&
+         kind != AugmentationKind::relief;
 }
 
 void advance(const ActiveAugmentation& p, bool on) noexcept {
@@ -136,7 +136,7 @@ void advance(const ActiveAugmentation& p, bool on) noexcept {
 
 /// A pulse that is on is not begun anew: its width is what is felt.
 bool running(const ActiveAugmentation& p) noexcept {
-  return p.a.kind == Augmentation::Kind::pulse && p.state.elapsed[p.i] >= 0 &&
+  return p.a.kind == AugmentationKind::pulse && p.state.elapsed[p.i] >= 0 &&
          p.state.elapsed[p.i] < p.a.width_s;
 }
 

@@ -9,25 +9,27 @@ namespace palpa::haptics {
 inline constexpr int kMostAugmentations = 8;
 inline constexpr std::uint8_t kAnySubtask = 0xff;
 
+/// What is added to the force; A: the amplitude.
+enum class AugmentationKind : std::uint8_t {
+  none,
+  /// A along the way, for `width`, whatever the hand does meanwhile; one ends before the next
+  /// begins
+  pulse,
+  vibration,  ///< A sin(2 pi f t), or A sin(2 pi s / wavelength) of the way s along the surface
+  /// A (1 - cos(2 pi d / reach)) / r toward the nearest valley at the distance d <= reach, r its
+  /// radius of curvature in U: smooth, 0 at both ends, 2 A / r at reach / 2
+  attraction,
+  /// A (f - low-pass f) of the contact force, time constant tau: what changes fast feels stronger
+  exaggeration,
+  fixture,  ///< spring of stiffness A toward a line, across it
+  /// A h / h_max along the way while over a bump of height h, however deep the probe is: a
+  /// texture that the device is too soft for
+  relief
+};
+
 /// What is added to the force while a part of the task is on, so that the cue that matters for it
 /// is felt. Source of the method: Edmunds and Pai, Perceptually augmented simulator design (2012).
 struct Augmentation {
-  enum class Kind : std::uint8_t {
-    none,
-    /// A along the way, for `width`, whatever the hand does meanwhile; one ends before the next
-    /// begins
-    pulse,
-    vibration,  ///< A sin(2 pi f t), or A sin(2 pi s / wavelength) of the way s along the surface
-    /// A (1 - cos(2 pi d / reach)) / r toward the nearest valley at the distance d <= reach, r its
-    /// radius of curvature in U: smooth, 0 at both ends, 2 A / r at reach / 2
-    attraction,
-    /// A (f - low-pass f) of the contact force, time constant tau: what changes fast feels stronger
-    exaggeration,
-    fixture,  ///< spring of stiffness A toward a line, across it
-    /// A h / h_max along the way while over a bump of height h, however deep the probe is: a
-    /// texture that the device is too soft for
-    relief
-  };
   /// When a pulse or a decaying vibration begins; `none`: a vibration goes on as long as its part.
   enum class Trigger : std::uint8_t { none, begin, event, rise, bump };
   enum class Way : std::uint8_t {
@@ -36,7 +38,7 @@ struct Augmentation {
     along_tool,
     against_tool
   };  ///< up: outward from the surface
-  Kind kind = Kind::none;
+  AugmentationKind kind = AugmentationKind::none;
   Trigger trigger = Trigger::none;
   Way way = Way::up;
   std::uint8_t subtask = kAnySubtask;

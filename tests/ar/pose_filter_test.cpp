@@ -165,21 +165,21 @@ TEST(PoseMotion, PredictionIsTheSameInOneStepAsInMany) {
 
 TEST(PoseTrack, RemembersInterpolatesPredictsAndKnowsWhenItDoesNot) {
   PoseTrack track;
-  EXPECT_EQ(track.at(0).how, PoseTrack::Lookup::none);
+  EXPECT_EQ(track.at(0).how, Lookup::none);
   for (int i = 0; i < 60; ++i)
     track.add(reaching(1 + kPeriod * i), noiseCovariance(), ns(1 + kPeriod * i));
   const double last = 1 + kPeriod * 59;
-  EXPECT_EQ(track.at(ns(0.9)).how, PoseTrack::Lookup::none);
-  EXPECT_EQ(track.at(ns(1 + 30 * kPeriod)).how, PoseTrack::Lookup::exact);
+  EXPECT_EQ(track.at(ns(0.9)).how, Lookup::none);
+  EXPECT_EQ(track.at(ns(1 + 30 * kPeriod)).how, Lookup::exact);
   for (const double t : {2.01, 2.02, 2.49}) {
-    const PoseTrack::Answer between = track.at(ns(t));
-    EXPECT_EQ(between.how, PoseTrack::Lookup::interpolated);
+    const PoseLookup between = track.at(ns(t));
+    EXPECT_EQ(between.how, Lookup::interpolated);
     EXPECT_LT(difference(between.X, reaching(t)).tail<3>().norm(), 2e-4) << t;
   }
-  EXPECT_EQ(track.at(ns(last + 0.05)).how, PoseTrack::Lookup::predicted);
+  EXPECT_EQ(track.at(ns(last + 0.05)).how, Lookup::predicted);
   EXPECT_GT(track.at(ns(last + 0.1)).covariance.trace(),
             track.at(ns(last + 0.01)).covariance.trace());
-  EXPECT_EQ(track.at(ns(last + 0.3)).how, PoseTrack::Lookup::none);
+  EXPECT_EQ(track.at(ns(last + 0.3)).how, Lookup::none);
 }
 
 /// At 1 kHz: no step larger than the motion itself makes, though a new pose comes only 30 times a

@@ -20,7 +20,7 @@ AugmentationPlan planOf(const Augmentation& a) {
 
 Augmentation pulseOn(Augmentation::Trigger trigger) {
   Augmentation a;
-  a.kind = Augmentation::Kind::pulse;
+  a.kind = AugmentationKind::pulse;
   a.trigger = trigger;
   a.amplitude = 0.8;
   a.width_s = 0.010;
@@ -126,7 +126,7 @@ TEST(Augmentation, TheAttractionIsTheFormula) {
 
 AugmentationPlan attractionPlan(double steepest) {
   Augmentation a;
-  a.kind = Augmentation::Kind::attraction;
+  a.kind = AugmentationKind::attraction;
   a.amplitude = 10;
   a.reach = 0.3e-3;
   a.blend_s = 0;
@@ -190,7 +190,7 @@ TEST(Augmentation, BlendsInAndOutEvenly) {
 
 TEST(Augmentation, AVibrationFollowsTimeOrPlace) {
   Augmentation a;
-  a.kind = Augmentation::Kind::vibration;
+  a.kind = AugmentationKind::vibration;
   a.amplitude = 0.5;
   a.frequency_Hz = 50;
   a.blend_s = 0;
@@ -214,7 +214,7 @@ TEST(Augmentation, AVibrationFollowsTimeOrPlace) {
 
 TEST(Augmentation, AnExaggerationAddsOnlyWhatChangesFast) {
   Augmentation a;
-  a.kind = Augmentation::Kind::exaggeration;
+  a.kind = AugmentationKind::exaggeration;
   a.amplitude = 2;
   a.tau_s = 0.05;
   a.blend_s = 0;
@@ -231,7 +231,7 @@ TEST(Augmentation, AnExaggerationAddsOnlyWhatChangesFast) {
 
 TEST(Augmentation, AFixturePullsToItsLine) {
   Augmentation a;
-  a.kind = Augmentation::Kind::fixture;
+  a.kind = AugmentationKind::fixture;
   a.amplitude = 300;
   a.blend_s = 0;
   AugmentationPlan plan = planOf(a);
@@ -245,7 +245,7 @@ TEST(Augmentation, AFixturePullsToItsLine) {
 
 Augmentation reliefOf(double blend_s) {
   Augmentation a;
-  a.kind = Augmentation::Kind::relief;
+  a.kind = AugmentationKind::relief;
   a.trigger = Augmentation::Trigger::bump;
   a.amplitude = 0.8;
   a.blend_s = blend_s;

@@ -32,7 +32,7 @@ Findings lookedAt(const std::function<std::optional<ar::Frame>(ar::Frame)>& chan
   return judgePictures(lookAt(grab, count, *board, s.camera), s.camera_rate_Hz, s.camera);
 }
 
-Findings spoiltBy(twin::CameraFault::Kind kind) {
+Findings spoiltBy(twin::CameraFaultKind kind) {
   return lookedAt([kind](ar::Frame frame) {
     return twin::spoilt(std::move(frame), {kind, 0, 1e9});
   });
@@ -46,12 +46,12 @@ TEST(DoctorsPictures, OfAHealthyBenchAreWell) {
 }
 
 TEST(DoctorsPictures, EveryFaultIsNamed) {
-  using Kind = twin::CameraFault::Kind;
-  expectSays(spoiltBy(Kind::black)[0], State::ill, "too dark");
-  expectSays(spoiltBy(Kind::wrong_size)[0], State::ill, "does not give pictures of");
-  expectSays(spoiltBy(Kind::ended)[0], State::ill, "no pictures");
-  EXPECT_EQ(spoiltBy(Kind::gone)[0].state, State::ill);
-  expectSays(spoiltBy(Kind::hidden)[1], State::ill, "is not seen");
+  using twin::CameraFaultKind;
+  expectSays(spoiltBy(CameraFaultKind::black)[0], State::ill, "too dark");
+  expectSays(spoiltBy(CameraFaultKind::wrong_size)[0], State::ill, "does not give pictures of");
+  expectSays(spoiltBy(CameraFaultKind::ended)[0], State::ill, "no pictures");
+  EXPECT_EQ(spoiltBy(CameraFaultKind::gone)[0].state, State::ill);
+  expectSays(spoiltBy(CameraFaultKind::hidden)[1], State::ill, "is not seen");
   std::optional<ar::Frame> first;
   expectSays(lookedAt([&first](ar::Frame frame) {
                if (!first) first = frame;

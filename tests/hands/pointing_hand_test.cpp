@@ -12,15 +12,15 @@ namespace palpa::session {
 namespace {
 
 struct Pointed {
-  PointingHand::Setup setup;
+  PointingHandSetup setup;
   PointingHand hand;
   std::int64_t now_ns = 0;
   Vec3 lies_P = Vec3(0, -0.02, 0.05);  ///< the tip, before anybody takes the tool
   scene::ViewInput input;
   scene::ArGeometry view;
 
-  static PointingHand::Setup standing() {
-    PointingHand::Setup s;
+  static PointingHandSetup standing() {
+    PointingHandSetup s;
     s.X_DP = makePose(Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix(), {0.02, -0.1, 0.05});
     s.X_ET = makePose(Mat3::Identity(), {0, 0, 0.11});
     s.X_AP = makePose(Eigen::AngleAxisd(-0.7, Vec3::UnitY()).toRotationMatrix(), {0.1, 0, 0.2});
@@ -29,7 +29,7 @@ struct Pointed {
     return s;
   }
   /// Seen from 0.4 m above the top, a little from the side.
-  static scene::ArGeometry seen(const PointingHand::Setup& s) {
+  static scene::ArGeometry seen(const PointingHandSetup& s) {
     scene::ArGeometry g;
     g.camera.fx = g.camera.fy = 800;
     g.camera.cx = 320;

@@ -157,21 +157,22 @@ struct FaultyWorld {
  private:
   /// One of every kind, stronger than any device; parts that come and go with the contact.
   void nameCues() {
-    using Kind = Augmentation::Kind;
     AugmentationPlan& plan = config.augmentations;
     plan.subtasks.count = 1;
     plan.subtasks.each[0].count = 1;
     plan.subtasks.each[0].conditions[0] = {
         Cue::contact_force, Condition::Compare::at_least, {}, dice.uniform(0.01, 0.5), 0.05};
-    for (const Kind kind : {Kind::pulse, Kind::vibration, Kind::attraction, Kind::exaggeration,
-                            Kind::fixture, Kind::relief}) {
+    for (const AugmentationKind kind :
+         {AugmentationKind::pulse, AugmentationKind::vibration, AugmentationKind::attraction,
+          AugmentationKind::exaggeration, AugmentationKind::fixture, AugmentationKind::relief}) {
       Augmentation& a = plan.each[plan.count++];
       a.kind = kind;
       a.subtask = dice.chance(0.5) ? kAnySubtask : 0;
-      a.amplitude = kind == Kind::fixture ? dice.uniform(10, 1e5) : dice.uniform(0.1, 50);
-      a.trigger = kind == Kind::pulse    ? Augmentation::Trigger::begin
-                  : kind == Kind::relief ? Augmentation::Trigger::bump
-                                         : Augmentation::Trigger::none;
+      a.amplitude =
+          kind == AugmentationKind::fixture ? dice.uniform(10, 1e5) : dice.uniform(0.1, 50);
+      a.trigger = kind == AugmentationKind::pulse    ? Augmentation::Trigger::begin
+                  : kind == AugmentationKind::relief ? Augmentation::Trigger::bump
+                                                     : Augmentation::Trigger::none;
       a.frequency_Hz = dice.uniform(20, 300);
       a.reach = 0.001;
       a.tau_s = dice.uniform(0.005, 0.1);

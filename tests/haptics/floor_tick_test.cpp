@@ -195,18 +195,18 @@ struct EverythingOn {
                           surface.middle(e)[1] + 30 * std::sin(a), -std::sin(a), std::cos(a), 2});
       }
     valleys = std::make_unique<ValleyMap>(std::move(points), 240, 6);
-    using Kind = Augmentation::Kind;
-    for (const Kind kind : {Kind::pulse, Kind::vibration, Kind::attraction, Kind::exaggeration,
-                            Kind::fixture, Kind::relief}) {
+    for (const AugmentationKind kind :
+         {AugmentationKind::pulse, AugmentationKind::vibration, AugmentationKind::attraction,
+          AugmentationKind::exaggeration, AugmentationKind::fixture, AugmentationKind::relief}) {
       Augmentation& a = plan.each[plan.count++];
       a.kind = kind;
-      a.amplitude = kind == Kind::fixture ? 100 : 0.5;
+      a.amplitude = kind == AugmentationKind::fixture ? 100 : 0.5;
       a.reach = 5 * 60e-6;
       a.tau_s = 0.05;
       a.wavelength = 1e-3;
-      a.trigger = kind == Kind::pulse    ? Augmentation::Trigger::rise
-                  : kind == Kind::relief ? Augmentation::Trigger::bump
-                                         : Augmentation::Trigger::none;
+      a.trigger = kind == AugmentationKind::pulse    ? Augmentation::Trigger::rise
+                  : kind == AugmentationKind::relief ? Augmentation::Trigger::bump
+                                                     : Augmentation::Trigger::none;
     }
     plan.each[plan.count] = plan.each[0];
     plan.each[plan.count].way = Augmentation::Way::against_motion;

@@ -10,7 +10,7 @@
 namespace palpa::headset {
 
 struct Worn {
-  explicit Worn(const std::string& plan, double ball = 0.03, HeadsetView::Setup setup = {})
+  explicit Worn(const std::string& plan, double ball = 0.03, HeadsetViewSetup setup = {})
       : xr(PALPA_TEST_XR_JSON, plan), patient(test::spherePatient(setup.focus_A, ball)) {
     view = std::make_unique<HeadsetView>(patient, std::move(setup));
   }

@@ -24,7 +24,7 @@ TEST(HeadsetValidation, FiveHundredFramesWithoutAnError) {
   setenv("XR_ENABLE_API_LAYERS", "XR_APILAYER_LUNARG_core_validation", 1);
   setenv("XR_CORE_VALIDATION_EXPORT_TYPE", "text", 1);
   setenv("XR_CORE_VALIDATION_FILE_NAME", errors.c_str(), 1);
-  worn.view = std::make_unique<HeadsetView>(worn.patient, HeadsetView::Setup{});
+  worn.view = std::make_unique<HeadsetView>(worn.patient, HeadsetViewSetup{});
   worn.view->onHeld([&](const HeldTool& held) {
     if (held.tracked && held.plunger > 0.5) worn.view->pulse(0.01, 0.5);
   });
@@ -52,7 +52,7 @@ TEST(HeadsetValidation, TheLayerIsThere) {
   const auto desktop = scene::makeGlContext(scene::Display::window, 320, 240, "Palpa headset test");
   desktop->native();  // current
   ar::GlBinding nothing;
-  nothing.kind = ar::GlBinding::Kind::egl;  // which the layer does not know
+  nothing.kind = ar::GlPlatform::egl;  // which the layer does not know
   try {
     ar::openHeadset(nothing);
     FAIL();

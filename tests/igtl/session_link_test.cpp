@@ -25,8 +25,8 @@ const Pose kX_WD =
 const Pose kX_ET =
     makePose(Eigen::AngleAxisd(0.4, Vec3::UnitX()).toRotationMatrix(), Vec3(0, 0, 0.06));
 
-SessionLink::Setup setup() {
-  SessionLink::Setup setup;
+IgtlLinkSetup setup() {
+  IgtlLinkSetup setup;
   setup.utc_start_ns = kStart_ns;
   setup.X_WD = kX_WD;
   setup.X_ET = kX_ET;
@@ -57,7 +57,7 @@ class IgtlSessionLink : public ::testing::Test {
     return client.all();
   }
   runtime::Bus bus_{runtime::TimeMode::real};
-  SessionLink link_{setup(), bus_};
+  IgtlLink link_{setup(), bus_};
 };
 
 TEST_F(IgtlSessionLink, ToolAndForcesAreToldOnTheTable) {
@@ -89,11 +89,11 @@ TEST_F(IgtlSessionLink, ToolAndForcesAreToldOnTheTable) {
 
 TEST(IgtlTwoTools, EachHasItsNamesAndItsDevice) {
   runtime::Bus bus{runtime::TimeMode::real};
-  SessionLink::Setup two = setup();
+  IgtlLinkSetup two = setup();
   two.tool = "Probe";
   two.second_X_WD = makePose(Mat3::Identity(), Vec3(0, 0, 0.4));
   two.X_WP = makePose(Mat3::Identity(), Vec3(0, 0.24, 0.05));
-  SessionLink link(two, bus);
+  IgtlLink link(two, bus);
   LibraryClient client(link.server().port());
   bus.haptic_to_link.publish(toolAt(0), 0);
   bus.second_to_link.publish(toolAt(0), 0);
@@ -195,7 +195,7 @@ TEST(IgtlThreads, SessionIsServedAndFollowsATrackerAtOnce) {
   runtime::Bus bus(runtime::TimeMode::real);
   Loop loop(bus, *executive);
   Taker taker(bus);
-  SessionLink link(setup(), bus);
+  IgtlLink link(setup(), bus);
   // Two sessions in one: it follows the needle that it serves itself.
   TrackerClient tracker({"127.0.0.1", link.server().port(), "NeedleTipToReference",
                          Pose::Identity(), Pose::Identity(), 0, 0},

@@ -180,7 +180,6 @@ TEST(PlaceWords, FarIsAwayFromTheTrainee) {
 }
 
 TEST(Judgement, TakesEightCasesThatCount) {
-  using Verdict = PalpationJudgement::Verdict;
   const PalpationAssessment found = assessed({aLump(0, 0)}, {aMark(0, 0)}),
                             missed = assessed({aLump(0, 0)}, {}), empty = assessed({}, {});
   PalpationAssessment guided = found, interrupted = found;
@@ -189,18 +188,19 @@ TEST(Judgement, TakesEightCasesThatCount) {
   std::vector<PalpationAssessment> trials(7, found);
   trials.push_back(guided);
   trials.push_back(interrupted);
-  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::too_few_cases);
+  EXPECT_EQ(judgementOf(trials, {}).verdict, PalpationVerdict::too_few_cases);
   EXPECT_EQ(judgementOf(trials, {}).cases, 7);
   trials.push_back(found);
-  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::passed);
+  EXPECT_EQ(judgementOf(trials, {}).verdict, PalpationVerdict::passed);
   trials.push_back(missed);
-  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::not_passed) << "8 of 9 are less than 90 %";
+  EXPECT_EQ(judgementOf(trials, {}).verdict, PalpationVerdict::not_passed)
+      << "8 of 9 are less than 90 %";
   trials.push_back(found);
-  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::passed) << "9 of 10";
+  EXPECT_EQ(judgementOf(trials, {}).verdict, PalpationVerdict::passed) << "9 of 10";
   for (PalpationAssessment& trial : trials) trial.score.coverage[0] = 0.94;
-  EXPECT_EQ(judgementOf(trials, {}).verdict, Verdict::not_passed);
+  EXPECT_EQ(judgementOf(trials, {}).verdict, PalpationVerdict::not_passed);
   EXPECT_EQ(judgementOf(std::vector<PalpationAssessment>(9, empty), {}).verdict,
-            Verdict::too_few_cases)
+            PalpationVerdict::too_few_cases)
       << "nothing could be missed";
 }
 

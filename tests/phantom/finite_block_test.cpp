@@ -33,12 +33,12 @@ TEST(FiniteBlock, LightPressingIsHertzs) {
 TEST(FiniteBlock, ForceIsTheSlopeOfTheEnergy) {
   FiniteBlock solid(lumped(), {0.004}, kTool, kCoarse);
   const double h = 0.05e-3;
-  const FiniteBlock::Answer less = solid.press({Vec3(0.004, 0, -4e-3 + h)}),
-                            here = solid.press({Vec3(0.004, 0, -4e-3)}),
-                            more = solid.press({Vec3(0.004, 0, -4e-3 - h)});
+  const BlockResponse less = solid.press({Vec3(0.004, 0, -4e-3 + h)}),
+                      here = solid.press({Vec3(0.004, 0, -4e-3)}),
+                      more = solid.press({Vec3(0.004, 0, -4e-3 - h)});
   EXPECT_NEAR((more.energy - less.energy) / (2 * h), here.f[0].z(), 1e-3 * here.f[0].z());
-  const FiniteBlock::Answer left = solid.press({Vec3(0.004 - h, 0, -4e-3)}),
-                            right = solid.press({Vec3(0.004 + h, 0, -4e-3)});
+  const BlockResponse left = solid.press({Vec3(0.004 - h, 0, -4e-3)}),
+                      right = solid.press({Vec3(0.004 + h, 0, -4e-3)});
   EXPECT_NEAR(-(right.energy - left.energy) / (2 * h), here.f[0].x(), 1e-3 * here.f[0].norm());
 }
 
@@ -46,7 +46,7 @@ TEST(FiniteBlock, ALumpIsFeltAndPushedAndTheWayThereDoesNotMatter) {
   FiniteBlock with(lumped(), {0.006}, kTool, kCoarse),
       without(SoftBlock{}, {0.006}, kTool, kCoarse);
   const Vec3 deep(0.006, 0, -5e-3);
-  const FiniteBlock::Answer felt = with.press({deep}), plain = without.press({deep});
+  const BlockResponse felt = with.press({deep}), plain = without.press({deep});
   EXPECT_GT(felt.f[0].z(), 1.1 * plain.f[0].z());
   EXPECT_GT(felt.f[0].x(), 0);        // the tool is pushed off the lump
   EXPECT_LT(felt.lump.z(), -0.3e-3);  // and the lump down and away
@@ -59,7 +59,7 @@ TEST(FiniteBlock, ALumpIsFeltAndPushedAndTheWayThereDoesNotMatter) {
 
 TEST(FiniteBlock, TwoToolsMirrorEachOther) {
   FiniteBlock solid(lumped(), {-0.012, 0.012}, kTool, kCoarse);
-  const FiniteBlock::Answer both = solid.press({Vec3(-0.012, 0, -4e-3), Vec3(0.012, 0, -4e-3)});
+  const BlockResponse both = solid.press({Vec3(-0.012, 0, -4e-3), Vec3(0.012, 0, -4e-3)});
   EXPECT_NEAR(both.f[0].x(), -both.f[1].x(), 1e-3 * both.f[0].norm());
   EXPECT_NEAR(both.f[0].z(), both.f[1].z(), 1e-3 * both.f[0].norm());
   EXPECT_NEAR(both.lump.x(), 0, 1e-6);

@@ -82,8 +82,8 @@ TEST(PairTable, IsWhatTheElementsSay) {
   both.depths = 3;
   both = tabulatePairs(block, one, both, kRough);
   FiniteBlock solid(block, {-0.005, 0.015}, one.tool_radius, kRough);
-  const FiniteBlock::Answer node = solid.press({Vec3(0.015, 0, -4e-3), Vec3(-0.005, 0, -6e-3)}),
-                            between = solid.press({Vec3(0.015, 0, -5e-3), Vec3(-0.005, 0, -3e-3)});
+  const BlockResponse node = solid.press({Vec3(0.015, 0, -4e-3), Vec3(-0.005, 0, -6e-3)}),
+                      between = solid.press({Vec3(0.015, 0, -5e-3), Vec3(-0.005, 0, -3e-3)});
   const PairCell at_node = both.at(one, 0.005, {4e-3, 6e-3}),
                  mirrored = both.at(one, -0.005, {6e-3, 4e-3}),
                  at_between = both.at(one, 0.005, {5e-3, 3e-3});

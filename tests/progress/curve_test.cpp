@@ -91,9 +91,10 @@ TEST(Change, ItsDirectionIsTheMetrics) {
   EXPECT_NEAR(time->first, 31.0 / 3, 1e-12);
   EXPECT_NEAR(time->last, 12.5 / 3, 1e-12);
   EXPECT_NEAR(time->difference, time->last - time->first, 1e-12);
-  EXPECT_EQ(time->verdict, Change::Verdict::better);
-  EXPECT_EQ(sensitivity->verdict, Change::Verdict::worse);
-  EXPECT_EQ(changeOf("time_s", {5, 9, 1, 4, 8, 2, 6, 3, 9})->verdict, Change::Verdict::unclear);
+  EXPECT_EQ(time->verdict, Change::ChangeVerdict::better);
+  EXPECT_EQ(sensitivity->verdict, Change::ChangeVerdict::worse);
+  EXPECT_EQ(changeOf("time_s", {5, 9, 1, 4, 8, 2, 6, 3, 9})->verdict,
+            Change::ChangeVerdict::unclear);
 }
 
 TEST(Change, WithoutADirectionOrTrialsThereIsNone) {

@@ -177,11 +177,12 @@ TEST(ProgressWords, FiguresHaveTheirUnits) {
   EXPECT_EQ(intervalWords("time_s", std::pair(1.0, 2.5)), " (95 % interval 1 s to 2.5 s)");
   EXPECT_EQ(intervalWords("time_s", std::nullopt), "");
   EXPECT_EQ(fieldOf("success", 1), "yes");
-  progress::Change change{"time_s", 3, 40, 20, -20, -28, -12, progress::Change::Verdict::better};
+  progress::Change change{"time_s", 3,   40,  20,
+                          -20,      -28, -12, progress::Change::ChangeVerdict::better};
   EXPECT_EQ(changeWords(change),
             "time, from 40 s to 20 s (means of the first and the last 3 trials), 20 s less (95 % "
             "interval 12 s to 28 s)");
-  change = {"closest_pleura_mm", 3, 5, 6, 1, -2, 4, progress::Change::Verdict::unclear};
+  change = {"closest_pleura_mm", 3, 5, 6, 1, -2, 4, progress::Change::ChangeVerdict::unclear};
   EXPECT_EQ(changeWords(change),
             "closest to the pleura, from 5 mm to 6 mm (means of the first and the last 3 trials); "
             "the difference's 95 % interval is −2 mm to 4 mm");

@@ -49,7 +49,7 @@ TEST(ChannelSensor, SaysWhenItIsSilent) {
 /// A tool turned on its side, touched: gravity and bias are gone, and the touch is told in D.
 TEST(ForceSensing, IsTheTouchAloneInTheDevicesFrame) {
   ChannelSensor sensor({}, TimeMode::virtual_time);
-  ForceSensing::Setup setup;
+  ForceSensingSetup setup;
   setup.filter.low_pass = haptics::butterworth(100, 1000);
   setup.filter.tool.mass = 0.05;
   setup.filter.bias.f_S = {0.1, 0.2, 0.3};
@@ -87,8 +87,8 @@ class Gaps : public ::testing::Test {
   Gaps() {
     for (int i = 0; i < 20; ++i) tick(1);
   }
-  static ForceSensing::Setup setup() {
-    ForceSensing::Setup s;
+  static ForceSensingSetup setup() {
+    ForceSensingSetup s;
     s.filter.low_pass = haptics::butterworth(100, 1000);
     return s;
   }
@@ -146,7 +146,7 @@ TEST_F(Gaps, AFaultOfTheSensorTakesItAwayAtOnceAndNothingOldComesBack) {
 TEST(ForceSensing, AWordIsGoodForTenMillisecondsWhenTheLoopItselfStood) {
   for (const std::int64_t stood_ms : {7, 11}) {
     ChannelSensor sensor({}, TimeMode::virtual_time);
-    ForceSensing::Setup setup;
+    ForceSensingSetup setup;
     setup.filter.low_pass = haptics::butterworth(100, 1000);
     ForceSensing sensing(sensor, setup);
     haptics::SensedForce sensed;

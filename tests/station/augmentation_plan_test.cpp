@@ -18,7 +18,6 @@ using haptics::Augmentation;
 using haptics::Condition;
 using haptics::Cue;
 using nlohmann::json;
-using Kind = Augmentation::Kind;
 using Trigger = Augmentation::Trigger;
 using Way = Augmentation::Way;
 
@@ -96,15 +95,15 @@ TEST(AugmentationPlan, TheShippedSearchReadsAsItIsStated) {
   }
   const Augmentation &edge = plan.each[0], &valley = plan.each[1], &bump = plan.each[2];
   EXPECT_EQ(named.augmentations[0].name, "edge");
-  EXPECT_EQ(edge.kind, Kind::pulse);
+  EXPECT_EQ(edge.kind, AugmentationKind::pulse);
   EXPECT_EQ(edge.trigger, Trigger::rise);
   EXPECT_EQ(edge.way, Way::up);
   EXPECT_EQ(edge.amplitude, 0.8);
   EXPECT_DOUBLE_EQ(edge.width_s, 0.010);
-  EXPECT_EQ(valley.kind, Kind::attraction);
+  EXPECT_EQ(valley.kind, AugmentationKind::attraction);
   EXPECT_EQ(valley.amplitude, 10);
   EXPECT_EQ(named.reach_U, (std::vector<double>{0, 5, 0}));
-  EXPECT_EQ(bump.kind, Kind::relief);
+  EXPECT_EQ(bump.kind, AugmentationKind::relief);
   EXPECT_EQ(bump.trigger, Trigger::bump);
   EXPECT_EQ(bump.amplitude, 0.8);
   for (std::uint8_t i = 0; i < 3; ++i) EXPECT_EQ(plan.each[i].subtask, i);
@@ -119,14 +118,14 @@ TEST(AugmentationPlan, ATaskWithoutPartsHasNone) {
 TEST(AugmentationPlan, EveryKindWithItsFields) {
   const Augmentation pulse = onlyOne(
       "pulse", {{"trigger", "begin"}, {"width_ms", 12}, {"way", "along_tool"}, {"blend_ms", 5}});
-  EXPECT_EQ(pulse.kind, Kind::pulse);
+  EXPECT_EQ(pulse.kind, AugmentationKind::pulse);
   EXPECT_EQ(pulse.amplitude, 2);
   EXPECT_DOUBLE_EQ(pulse.width_s, 0.012);
   EXPECT_EQ(pulse.way, Way::along_tool);
   EXPECT_DOUBLE_EQ(pulse.blend_s, 0.005);
   EXPECT_EQ(pulse.subtask, 0);
   const Augmentation hum = onlyOne("vibration", {{"frequency_Hz", 80}, {"way", "against_motion"}});
-  EXPECT_EQ(hum.kind, Kind::vibration);
+  EXPECT_EQ(hum.kind, AugmentationKind::vibration);
   EXPECT_EQ(hum.frequency_Hz, 80);
   EXPECT_EQ(hum.wavelength, 0);
   EXPECT_EQ(hum.way, Way::against_motion);
@@ -136,18 +135,18 @@ TEST(AugmentationPlan, EveryKindWithItsFields) {
   EXPECT_DOUBLE_EQ(grating.wavelength, 0.0015);
   EXPECT_DOUBLE_EQ(grating.tau_s, 0.040);
   const Augmentation pull = onlyOne("attraction", {{"reach_mm", 3}});
-  EXPECT_EQ(pull.kind, Kind::attraction);
+  EXPECT_EQ(pull.kind, AugmentationKind::attraction);
   EXPECT_EQ(pull.amplitude, 2);
   EXPECT_DOUBLE_EQ(pull.reach, 0.003);
   const Augmentation more = onlyOne("exaggeration", {{"times", 1.5}, {"tau_ms", 30}});
-  EXPECT_EQ(more.kind, Kind::exaggeration);
+  EXPECT_EQ(more.kind, AugmentationKind::exaggeration);
   EXPECT_EQ(more.amplitude, 1.5);
   EXPECT_DOUBLE_EQ(more.tau_s, 0.030);
   const Augmentation line = onlyOne("fixture", {{"stiffness_N_per_m", 300}});
-  EXPECT_EQ(line.kind, Kind::fixture);
+  EXPECT_EQ(line.kind, AugmentationKind::fixture);
   EXPECT_EQ(line.amplitude, 300);
   const Augmentation relief = onlyOne("relief", {{"way", "against_tool"}, {"subtask", "any"}});
-  EXPECT_EQ(relief.kind, Kind::relief);
+  EXPECT_EQ(relief.kind, AugmentationKind::relief);
   EXPECT_EQ(relief.amplitude, 2);
   EXPECT_EQ(relief.trigger, Trigger::bump);
   EXPECT_EQ(relief.way, Way::against_tool);

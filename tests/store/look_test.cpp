@@ -11,7 +11,6 @@ namespace palpa::record {
 namespace {
 
 namespace fs = std::filesystem;
-using State = StoreLook::State;
 
 /// Every file beside the records, with its bytes; without the log's index, in which readers leave
 /// marks.
@@ -56,9 +55,9 @@ TEST_P(Store, ALookSaysWhichVersionAndChangesNothing) {
     }
     const auto before = bytesIn(folder);
     const StoreLook look = lookAtStore(url);
-    EXPECT_EQ(look.state, version == 0               ? State::empty
-                          : version < newestSchema() ? State::older
-                                                     : State::current)
+    EXPECT_EQ(look.state, version == 0               ? StoreState::empty
+                          : version < newestSchema() ? StoreState::older
+                                                     : StoreState::current)
         << version;
     EXPECT_EQ(look.schema, version);
     EXPECT_EQ(bytesIn(folder), before) << version;
@@ -89,10 +88,10 @@ TEST_P(Store, ALookNamesANewerStore) {
 TEST(Look, AtFilesThatAreNotThereEmptyForeignOrDamaged) {
   const fs::path folder = test::freshFolder("store", "look");
   const std::string file = (folder / "records.sqlite").string();
-  EXPECT_EQ(lookAtStore(file).state, State::absent);
+  EXPECT_EQ(lookAtStore(file).state, StoreState::absent);
   EXPECT_TRUE(fs::is_empty(folder));
   std::ofstream{file};
-  EXPECT_EQ(lookAtStore(file).state, State::empty);
+  EXPECT_EQ(lookAtStore(file).state, StoreState::empty);
   EXPECT_EQ(fs::file_size(file), 0u);
   const auto refused = [&](const std::string& bytes, const std::string& words) {
     std::ofstream(file, std::ios::binary) << bytes;

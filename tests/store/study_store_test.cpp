@@ -114,7 +114,7 @@ TEST_P(Studies, KeepTheFirstAnswer) {
   studies.answer({"pilot", "A", 1, "useful", "q", "4", "2026-03-02T10:00:00Z"});
   studies.answer({"pilot", "A", 1, "useful", "q", "1", "2026-03-02T11:00:00Z"});
   studies.answer({"pilot", "A", 2, "useful", "q", "It's ü", "2026-03-03T10:00:00Z"});
-  const std::vector<Answer> answers = studies.answers("pilot", "A");
+  const std::vector<ItemAnswer> answers = studies.answers("pilot", "A");
   ASSERT_EQ(answers.size(), 2u);
   EXPECT_EQ(answers[0].answer, "4");
   EXPECT_EQ(answers[1].session, 2);

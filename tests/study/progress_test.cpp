@@ -42,12 +42,12 @@ TEST_F(Progress, LeadsThroughEverythingInOrder) {
   EXPECT_EQ(next().not_before, "2026-03-04");
   EXPECT_EQ(next("2026-03-04T00:00:00Z").not_before, "");
   add(3, 2, "2026-03-04T09:00:00Z");
-  ASSERT_EQ(next().kind, Next::Kind::questionnaire);
+  ASSERT_EQ(next().kind, NextKind::questionnaire);
   EXPECT_EQ(next().open_items, (std::vector<std::string>{"useful", "remarks"}));
   answered.emplace_back(2, "useful");
   EXPECT_EQ(next().open_items, std::vector<std::string>{"remarks"});
   answered.emplace_back(2, "remarks");
-  EXPECT_EQ(next().kind, Next::Kind::finished);
+  EXPECT_EQ(next().kind, NextKind::finished);
 }
 
 TEST_F(Progress, VoidTrialsDoNotCountAndABrokenSetGoesOnWhereItStopped) {

@@ -46,8 +46,7 @@ PalpationJudgement judgementOf(const std::vector<PalpationAssessment>& trials,
   if (judgement.cases < kEnoughCases || judgement.lumps == 0) return judgement;
   const bool reached = judgement.found >= standard.sensitivity * judgement.lumps &&
                        judgement.coverage >= standard.coverage;
-  judgement.verdict =
-      reached ? PalpationJudgement::Verdict::passed : PalpationJudgement::Verdict::not_passed;
+  judgement.verdict = reached ? PalpationVerdict::passed : PalpationVerdict::not_passed;
   return judgement;
 }
 

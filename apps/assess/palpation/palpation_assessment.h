@@ -49,10 +49,12 @@ PalpationAssessment assessPalpation(const PalpationFacts& facts, const Palpation
 /// a reliability of 0.35 and -0.41, as few cases do.
 constexpr int kEnoughCases = 8;
 
+/// Whether the standard is reached.
+enum class PalpationVerdict { too_few_cases, passed, not_passed };
+
 /// Of somebody, over all trials that count: scored, and neither void nor unfinished.
 struct PalpationJudgement {
-  enum class Verdict { too_few_cases, passed, not_passed };
-  Verdict verdict = Verdict::too_few_cases;
+  PalpationVerdict verdict = PalpationVerdict::too_few_cases;
   int cases = 0, found = 0, lumps = 0;
   double coverage = 0;  ///< mean share of the area that was felt
 };

@@ -128,7 +128,7 @@ std::optional<Change> changeOf(const std::string& metric, const std::vector<doub
   Change change{metric, std::clamp<std::size_t>(known.size() / 3, 3, 5),
                 0,      0,
                 0,      0,
-                0,      Change::Verdict::unclear};
+                0,      Change::ChangeVerdict::unclear};
   const auto k = static_cast<std::ptrdiff_t>(change.each);
   const std::vector<double> first(known.begin(), known.begin() + k),
       last(known.end() - k, known.end());
@@ -142,8 +142,10 @@ std::optional<Change> changeOf(const std::string& metric, const std::vector<doub
   change.low = interval.low;
   change.high = interval.high;
   const bool lower = definition->better == metrics::Better::lower;
-  if (change.high < 0) change.verdict = lower ? Change::Verdict::better : Change::Verdict::worse;
-  if (change.low > 0) change.verdict = lower ? Change::Verdict::worse : Change::Verdict::better;
+  if (change.high < 0)
+    change.verdict = lower ? Change::ChangeVerdict::better : Change::ChangeVerdict::worse;
+  if (change.low > 0)
+    change.verdict = lower ? Change::ChangeVerdict::worse : Change::ChangeVerdict::better;
   return change;
 }
 

@@ -41,11 +41,11 @@ struct Change {
   double first = 0, last = 0;
   double difference = 0, low = 0,
          high = 0;  ///< last - first; 95 % interval (bootstrap over trials, BCa)
-  enum class Verdict {
+  enum class ChangeVerdict {
     better,
     worse,
     unclear
-  } verdict = Verdict::unclear;  ///< unclear: the interval holds 0
+  } verdict = ChangeVerdict::unclear;  ///< unclear: the interval holds 0
 };
 
 /// None for fewer than six values that are numbers, and for a figure of which neither direction is

@@ -30,14 +30,14 @@ std::string text(const json& value) {
 
 }  // namespace
 
-SessionLink::SessionLink(const Setup& setup, runtime::Bus& bus)
+IgtlLink::IgtlLink(const IgtlLinkSetup& setup, runtime::Bus& bus)
     : setup_(setup), bus_(bus), server_(setup.ipv4, setup.port, setup.X_WA) {
   server_.showAlways(setup_.tool + "Tip", setup_.tool, setup_.X_ET);
   if (setup_.second_X_WD) server_.showAlways(setup_.tool + "2Tip", setup_.tool + "2", setup_.X_ET);
   if (setup_.X_WP) server_.showAlways("Phantom", kReference, *setup_.X_WP);
 }
 
-std::int64_t SessionLink::step(std::int64_t now_ns) {
+std::int64_t IgtlLink::step(std::int64_t now_ns) {
   const Moment moment = momentAt(now_ns);
   tellEvidence();
   if (const runtime::ToolState* tool = bus_.haptic_to_link.read(now_ns))
@@ -50,7 +50,7 @@ std::int64_t SessionLink::step(std::int64_t now_ns) {
   return now_ns + kStep_ns;
 }
 
-Moment SessionLink::momentAt(std::int64_t now_ns) {
+Moment IgtlLink::momentAt(std::int64_t now_ns) {
   Moment moment;
   const runtime::ToolState* tool = bus_.haptic_to_link.read(now_ns);
   moment.utc_ns = utc(tool ? tool->t_ns : now_ns);
@@ -65,8 +65,8 @@ Moment SessionLink::momentAt(std::int64_t now_ns) {
 }
 
 /// Nothing of a tool whose place is not known.
-void SessionLink::addTool(const std::string& tool, const runtime::ToolState& state,
-                          const Pose& X_WD, Moment& moment) const {
+void IgtlLink::addTool(const std::string& tool, const runtime::ToolState& state, const Pose& X_WD,
+                       Moment& moment) const {
   const Pose X_WT = X_WD * unpack(state.X_DT);
   if (!state.homed || !X_WT.matrix().allFinite()) return;
   moment.poses.push_back({tool + "Tip", X_WT, utc(state.t_ns)});
@@ -81,7 +81,7 @@ void SessionLink::addTool(const std::string& tool, const runtime::ToolState& sta
 }
 
 /// Everything that the recorder wrote down.
-void SessionLink::tellEvidence() {
+void IgtlLink::tellEvidence() {
   runtime::EvidenceMessage message;
   while (bus_.recorder_to_link.pop(&message)) {
     if (const auto* event = std::get_if<runtime::Event>(&message))
@@ -103,7 +103,7 @@ void SessionLink::tellEvidence() {
   }
 }
 
-void SessionLink::tellPhase(const runtime::ToolState& tool, std::int64_t utc_ns) {
+void IgtlLink::tellPhase(const runtime::ToolState& tool, std::int64_t utc_ns) {
   const std::string phase = text(
       {{"trial", running_}, {"phase", wordOf(tool.phase)}, {"tissue", palpa::name(tool.tissue)}});
   if (phase == phase_) return;

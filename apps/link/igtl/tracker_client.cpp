@@ -34,12 +34,12 @@ TrackerClient::TrackerClient(const TrackerSettings& settings, const runtime::Clo
 
 std::int64_t TrackerClient::step(std::int64_t now_ns) {
   switch (state_) {
-    case State::apart:
+    case TrackerState::apart:
       if (now_ns < next_try_ns_)
         return std::min(next_try_ns_, now_ns + kWait_ms * runtime::kMillisecond);
       connect(now_ns);
       break;
-    case State::connecting:
+    case TrackerState::connecting:
       if (const auto progress = socket_.connected(kWait_ms);
           progress == os::TcpSocket::Progress::done)
         greet();
@@ -47,7 +47,7 @@ std::int64_t TrackerClient::step(std::int64_t now_ns) {
                now_ns - since_ns_ > kConnectPatience_ns)
         part(now_ns);
       break;
-    case State::together:
+    case TrackerState::together:
       hear(now_ns);
       break;
   }
@@ -58,7 +58,7 @@ void TrackerClient::end() noexcept { socket_.close(); }
 
 void TrackerClient::connect(std::int64_t now_ns) {
   socket_ = os::TcpSocket::connecting(ipv4_, settings_.port);
-  state_ = State::connecting;
+  state_ = TrackerState::connecting;
   since_ns_ = now_ns;
 }
 
@@ -68,13 +68,13 @@ void TrackerClient::part(std::int64_t now_ns) {
   counts_.damaged += stream_.counts().damaged;
   counts_.skipped += stream_.counts().skipped;
   stream_ = MessageStream();
-  state_ = State::apart;
+  state_ = TrackerState::apart;
   next_try_ns_ = now_ns + pause_ns_;
   pause_ns_ = std::min(2 * pause_ns_, kLongestPause_ns);
 }
 
 void TrackerClient::greet() {
-  state_ = State::together;
+  state_ = TrackerState::together;
   since_ns_ = clock_.now();
   ++counts_.connections;
   if (settings_.tracking_ms > 0)

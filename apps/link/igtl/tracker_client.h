@@ -33,6 +33,9 @@ struct TrackerCounts {
   std::uint64_t connections = 0;  ///< 1: the first has held
 };
 
+/// How far the connection to a tracker is.
+enum class TrackerState { apart, connecting, together };
+
 /// DEVICE: reads one transform from a PLUS server (or any that speaks OpenIGTLink), as TRANSFORM or
 /// out of TDATA, and passes X_CW = X_CK X_KR X_RW on to the camera's activity with the session time
 /// at which it was measured (arrival less latency). Real time only; a step lasts until something
@@ -56,7 +59,6 @@ class TrackerClient final : public runtime::Activity {
   TrackerCounts counts() const;  ///< after the last step, or on its thread
 
  private:
-  enum class State { apart, connecting, together };
   void connect(std::int64_t now_ns);
   void part(std::int64_t now_ns);
   void greet();
@@ -69,7 +71,7 @@ class TrackerClient final : public runtime::Activity {
   const std::string ipv4_;
   const runtime::Clock& clock_;
   runtime::EventQueue<runtime::TrackedPose>& poses_;
-  State state_ = State::apart;
+  TrackerState state_ = TrackerState::apart;
   os::TcpSocket socket_;
   MessageStream stream_;
   std::int64_t next_try_ns_ = 0, pause_ns_ = kFirstPause_ns,

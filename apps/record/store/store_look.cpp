@@ -36,16 +36,16 @@ StoreLook lookAtStore(const std::string& url) {
     look.place = "records file " + url;
     std::error_code none;
     if (!fs::exists(url, none)) return look;
-    look.state = StoreLook::State::empty;
+    look.state = StoreState::empty;
     if (fs::is_regular_file(url, none)) requireWritable(url);
     if (isEmpty(url) && isEmpty(url + "-wal")) return look;
   }
   const std::unique_ptr<SqlConnection> connection = connectToRead(url);
   look.place = connection->place();
   look.schema = schemaOf(*connection);
-  look.state = look.schema == 0               ? StoreLook::State::empty
-               : look.schema < newestSchema() ? StoreLook::State::older
-                                              : StoreLook::State::current;
+  look.state = look.schema == 0               ? StoreState::empty
+               : look.schema < newestSchema() ? StoreState::older
+                                              : StoreState::current;
   if (look.schema > 0)
     look.trainees =
         static_cast<std::size_t>(connection->query("SELECT count(*) FROM trainees").integer(0, 0));

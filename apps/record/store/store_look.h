@@ -5,15 +5,17 @@
 
 namespace palpa::record {
 
+/// What is found in the place of a store.
+enum class StoreState {
+  absent,  ///< no such file: the first trainee makes it
+  empty,   ///< a file of no bytes, or a store without tables
+  older,   ///< tables of an older version: the next program that uses it brings them to the newest
+  current
+};
+
 /// What a store is, seen from outside.
 struct StoreLook {
-  enum class State {
-    absent,  ///< no such file: the first trainee makes it
-    empty,   ///< a file of no bytes, or a store without tables
-    older,  ///< tables of an older version: the next program that uses it brings them to the newest
-    current
-  };
-  State state = State::absent;
+  StoreState state = StoreState::absent;
   int schema = 0;  ///< version of its tables
   std::size_t trainees = 0;
   std::string place;  ///< for messages; never a password

@@ -81,19 +81,19 @@ std::int64_t StudyStore::placesGiven(const std::string& study, const std::string
   return rows.empty() ? 0 : rows.integer(0, 0);
 }
 
-void StudyStore::answer(const Answer& a) {
+void StudyStore::answer(const ItemAnswer& a) {
   connection_.query(
       "INSERT INTO answers(" + columnsOf("answers") +
           ") VALUES($1,$2,$3,$4,$5,$6,$7) ON CONFLICT(study,trainee,session,item) DO NOTHING",
       {a.study, a.trainee, a.session, a.item, a.questionnaire, a.answer, a.answered_utc});
 }
 
-std::vector<Answer> StudyStore::answers(const std::string& study, const std::string& trainee) {
+std::vector<ItemAnswer> StudyStore::answers(const std::string& study, const std::string& trainee) {
   const SqlRows rows = connection_.query(
       "SELECT " + columnsOf("answers") +
           " FROM answers WHERE study=$1 AND ($2='' OR trainee=$2) ORDER BY trainee,session,item",
       {study, trainee});
-  std::vector<Answer> all;
+  std::vector<ItemAnswer> all;
   for (std::size_t i = 0; i < rows.size(); ++i)
     all.push_back({rows.text(i, 0), rows.text(i, 1), rows.integer(i, 2), rows.text(i, 3),
                    rows.text(i, 4), rows.text(i, 5), rows.text(i, 6)});

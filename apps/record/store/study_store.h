@@ -29,7 +29,7 @@ struct StudyBeginning {
 };
 
 /// One item of a questionnaire, answered after a session of the protocol (1, 2, ...).
-struct Answer {
+struct ItemAnswer {
   std::string study, trainee;
   std::int64_t session = 1;
   std::string item, questionnaire, answer, answered_utc;
@@ -53,9 +53,9 @@ class StudyStore {
   std::int64_t placesGiven(const std::string& study,
                            const std::string& group);  ///< those of deleted persons among them
 
-  void answer(const Answer& answer);  ///< the first answer to an item stays
-  std::vector<Answer> answers(const std::string& study,
-                              const std::string& trainee = "");  ///< by trainee, session, item
+  void answer(const ItemAnswer& answer);  ///< the first answer to an item stays
+  std::vector<ItemAnswer> answers(const std::string& study,
+                                  const std::string& trainee = "");  ///< by trainee, session, item
 
  private:
   /// Within a transaction; throws UsageError for another protocol

@@ -176,14 +176,14 @@ Fact judgementFact(const std::vector<PalpationPage>& pages,
   std::vector<assess::PalpationAssessment> trials;
   for (const PalpationPage& page : pages) trials.push_back(page.assessment);
   const assess::PalpationJudgement judgement = assess::judgementOf(trials, standard);
-  using Verdict = assess::PalpationJudgement::Verdict;
+  using assess::PalpationVerdict;
   if (judgement.lumps == 0) return {"Passed?", "not judged", "no lump was there to be found"};
-  if (judgement.verdict == Verdict::too_few_cases)
+  if (judgement.verdict == PalpationVerdict::too_few_cases)
     return {"Passed?", "not judged",
             "that takes " + std::to_string(assess::kEnoughCases) + " cases or more; here " +
                 std::to_string(judgement.cases) + ": so few tell little of a person"};
   const auto percent = [](double value) { return fixed(100 * value, 0) + " %"; };
-  return {"Passed?", judgement.verdict == Verdict::passed ? "yes" : "no",
+  return {"Passed?", judgement.verdict == PalpationVerdict::passed ? "yes" : "no",
           percent(standard.sensitivity) + " of the lumps and " + percent(standard.coverage) +
               " of the area are asked for; felt on average: " +
               percent(std::floor(100 * judgement.coverage) / 100)};

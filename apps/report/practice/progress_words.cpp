@@ -16,7 +16,7 @@ std::string amount(double value) { return trimmed(value, std::abs(value) >= 100 
 
 /// "12 s to 30 s less", "−3 s to 8 s" where the sign is open.
 std::string differenceRange(const progress::Change& c) {
-  if (c.verdict == progress::Change::Verdict::unclear)
+  if (c.verdict == progress::Change::ChangeVerdict::unclear)
     return figureOf(c.metric, c.low) + " to " + figureOf(c.metric, c.high);
   const double one = std::abs(c.low), other = std::abs(c.high);
   return figureOf(c.metric, std::min(one, other)) + " to " +
@@ -66,7 +66,7 @@ std::string changeWords(const progress::Change& c) {
                             " to " + figureOf(c.metric, c.last) +
                             " (means of the first and the last " + std::to_string(c.each) +
                             " trials)";
-  if (c.verdict == progress::Change::Verdict::unclear)
+  if (c.verdict == progress::Change::ChangeVerdict::unclear)
     return means + "; the difference's 95 % interval is " + differenceRange(c);
   return means + ", " + figureOf(c.metric, std::abs(c.difference)) +
          (c.difference < 0 ? " less" : " more") + " (95 % interval " + differenceRange(c) + ')';

@@ -85,7 +85,7 @@ std::string titlesOf(const std::vector<Change>& changes) {
 }
 
 /// The most telling ones with their figures, the others by name.
-void writeChangesThat(Html& html, Change::Verdict verdict, const char* head, const char* more,
+void writeChangesThat(Html& html, Change::ChangeVerdict verdict, const char* head, const char* more,
                       const std::vector<Change>& changes) {
   std::vector<Change> others;
   std::size_t said = 0;
@@ -103,11 +103,11 @@ void writeChanges(Html& html, const progress::Series& series) {
   const std::vector<Change> changes = changesIn(series);
   if (changes.empty())
     return item(html, "Change:", "too few trials to say what changed; six or more tell.");
-  writeChangesThat(html, Change::Verdict::better, "Better:", "Also better:", changes);
-  writeChangesThat(html, Change::Verdict::worse, "Worse:", "Also worse:", changes);
+  writeChangesThat(html, Change::ChangeVerdict::better, "Better:", "Also better:", changes);
+  writeChangesThat(html, Change::ChangeVerdict::worse, "Worse:", "Also worse:", changes);
   std::vector<Change> unclear;
   std::copy_if(changes.begin(), changes.end(), std::back_inserter(unclear),
-               [](const Change& c) { return c.verdict == Change::Verdict::unclear; });
+               [](const Change& c) { return c.verdict == Change::ChangeVerdict::unclear; });
   if (unclear.size() == changes.size())
     return item(html, "No clear change:",
                 changeWords(unclear.front()) + (unclear.size() > 1 ? ". Nor in the others." : "."));

@@ -123,7 +123,7 @@ void StudyParticipant::fromRecords() {
   for (KnownAnswer& known : answers_)
     if (!known.sent) studies.answer(known.answer);
   answers_.clear();
-  for (const record::Answer& answer : studies.answers(protocol_.id, trainee_))
+  for (const record::ItemAnswer& answer : studies.answers(protocol_.id, trainee_))
     answers_.push_back({answer, true});
   trials_.clear();
   for (const record::TrialWithSession& t :

@@ -34,7 +34,7 @@ class StudyParticipant {
 
  private:
   struct KnownAnswer {
-    record::Answer answer;
+    record::ItemAnswer answer;
     bool sent = false;
   };
   void fromRecords();

@@ -69,7 +69,7 @@ const study::Item& itemOf(const study::Questionnaire& questionnaire, const std::
 
 void show(const study::Item& item, std::size_t number, std::size_t of) {
   std::printf("\n%zu of %zu. %s\n", number, of, item.question.c_str());
-  if (item.kind == study::Item::Kind::likert)
+  if (item.kind == study::ItemKind::likert)
     std::printf("   1 %s ... %d %s\n", item.low.c_str(), item.points, item.high.c_str());
   if (item.may_be_left) std::printf("   (Enter leaves it out)\n");
 }

@@ -130,7 +130,7 @@ void runSubject(const Shared& shared, const Subject& subject, const std::functio
   const std::string& id = subject.enrolment.trainee;
   StudyParticipant participant(shared.protocol, id, shared.options.url, shared.options.seed);
   for (std::size_t i = 0; i < participant.trials(); ++i) step();
-  for (Next next; (next = participant.next(runtime::utcNow())).kind == Next::Kind::trials;) {
+  for (Next next; (next = participant.next(runtime::utcNow())).kind == NextKind::trials;) {
     session::SessionOptions session =
         studySession(shared.options.session, shared.protocol, subject.enrolment, next);
     session.learner = learnerAt(shared, subject, participant, next);

@@ -69,7 +69,7 @@ void writeStudyCopy(const StudyCopy& copy, const fs::path& file) {
                               {"ended_s", t.ended_s},
                               {"outcome", t.outcome}});
   for (std::size_t i = 0; i < copy.answers.size(); ++i) {
-    const record::Answer& a = copy.answers[i];
+    const record::ItemAnswer& a = copy.answers[i];
     json["answers"].push_back({{"session", a.session},
                                {"item", a.item},
                                {"questionnaire", a.questionnaire},

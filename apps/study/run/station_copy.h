@@ -19,7 +19,7 @@ struct StudyCopy {
   std::string protocol_sha256;
   record::Enrolment enrolment;
   std::vector<study::DoneTrial> trials;
-  std::vector<record::Answer>
+  std::vector<record::ItemAnswer>
       answers;           ///< first those that the records have, their words left out here
   std::size_t sent = 0;  ///< how many those are
 };

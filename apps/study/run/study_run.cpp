@@ -125,7 +125,7 @@ bool answered(const StudyOptions& o, const study::Protocol& protocol, StudyParti
 }
 
 void sayFarewell(const Next& next, const study::Protocol& protocol, int session) {
-  if (next.kind == Next::Kind::finished) {
+  if (next.kind == NextKind::finished) {
     std::printf("\nFinished: all of %s\n", protocol.id.c_str());
     return;
   }
@@ -147,14 +147,14 @@ void runStudySession(const StudyOptions& o) {
   for (;;) {
     const Next next = participant.next(runtime::utcNow());
     for (const std::string& remark : next.remarks) std::printf("Note: %s\n", remark.c_str());
-    if (next.kind == Next::Kind::finished || next.session != session)
+    if (next.kind == NextKind::finished || next.session != session)
       return sayFarewell(next, protocol, session);
     if (!next.not_before.empty())
       throw UsageError("must not begin before " + next.not_before,
                        "session " + std::to_string(next.session) + " of trainee " + o.trainee,
                        "Come back then");
-    const bool done = next.kind == Next::Kind::trials ? trialsHeld(o, protocol, participant, next)
-                                                      : answered(o, protocol, participant, next);
+    const bool done = next.kind == NextKind::trials ? trialsHeld(o, protocol, participant, next)
+                                                    : answered(o, protocol, participant, next);
     if (done) continue;
     std::printf("\nNot finished: the same command goes on from here\n");
     return;
@@ -172,7 +172,7 @@ void tellTrainee(const study::Protocol& protocol, record::RecordStore& store,
        store.trials({.trainee = e.trainee, .study = protocol.id}))
     trials.push_back(study::doneTrial(t.session, t.trial));
   std::vector<std::pair<int, std::string>> answered;
-  for (const record::Answer& a : record::StudyStore(store).answers(protocol.id, e.trainee))
+  for (const record::ItemAnswer& a : record::StudyStore(store).answers(protocol.id, e.trainee))
     answered.emplace_back(static_cast<int>(a.session), a.item);
   const Next next = study::nextOf(protocol, e.condition, trials, answered, runtime::utcNow());
   std::printf("  %-12s %-14s %s%s\n", e.trainee.c_str(), e.group.c_str(),

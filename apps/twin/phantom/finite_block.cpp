@@ -54,7 +54,7 @@ struct FiniteBlock::Model {
     return local;
   }
 
-  struct State {
+  struct BlockState {
     bool possible = true;
     double E = 0;
     Eigen::VectorXd gradient;  // by the unknowns
@@ -82,8 +82,9 @@ struct FiniteBlock::Model {
     }
   }
 
-  State evaluate(const std::vector<Vec3>& at, std::vector<Eigen::Triplet<double>>* tangent) const {
-    State state;
+  BlockState evaluate(const std::vector<Vec3>& at,
+                      std::vector<Eigen::Triplet<double>>* tangent) const {
+    BlockState state;
     state.gradient = Eigen::VectorXd::Zero(count);
     state.f_tips.assign(at.size(), Vec3::Zero());
     Mat24 K;
@@ -100,7 +101,7 @@ struct FiniteBlock::Model {
     return state;
   }
 
-  void touch(const Vec3& tip, std::size_t t, State* state,
+  void touch(const Vec3& tip, std::size_t t, BlockState* state,
              std::vector<Eigen::Triplet<double>>* tangent) const {
     const RoundTip round{tip + Vec3(0, 0, tool_radius), tool_radius};
     for (const std::array<int, 4>& face : mesh.top) {
@@ -172,14 +173,14 @@ struct FiniteBlock::Model {
     return std::nullopt;
   }
 
-  Answer settle(const std::vector<Vec3>& at);
+  BlockResponse settle(const std::vector<Vec3>& at);
 };
 
-FiniteBlock::Answer FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
-  Answer answer;
+BlockResponse FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
+  BlockResponse answer;
   for (; answer.iterations < kMostNewton; ++answer.iterations) {
     std::vector<Eigen::Triplet<double>> tangent;
-    const State here = evaluate(at, &tangent);
+    const BlockState here = evaluate(at, &tangent);
     if (!here.possible) break;
     double force = 1e-3;
     for (const Vec3& f : here.f_tips) force = std::max(force, f.norm());
@@ -197,7 +198,7 @@ FiniteBlock::Answer FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
     double share = 1;
     move(step, share);
     for (int h = 0; h < kMostHalvings; ++h) {
-      const State there = evaluate(at, nullptr);
+      const BlockState there = evaluate(at, nullptr);
       if (there.possible && there.E <= here.E + 1e-4 * share * falls + 1e-12 * std::abs(here.E))
         break;
       move(step, -share / 2);
@@ -237,7 +238,7 @@ FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool
 
 FiniteBlock::~FiniteBlock() = default;
 
-FiniteBlock::Answer FiniteBlock::press(const std::vector<Vec3>& tips) {
+BlockResponse FiniteBlock::press(const std::vector<Vec3>& tips) {
   Model& m = *model_;
   std::vector<Vec3> from = m.tips;
   if (from.size() != tips.size()) {
@@ -248,7 +249,7 @@ FiniteBlock::Answer FiniteBlock::press(const std::vector<Vec3>& tips) {
   for (std::size_t t = 0; t < tips.size(); ++t)
     longest = std::max(longest, (tips[t] - from[t]).norm());
   const int steps = std::max(1, static_cast<int>(std::ceil(longest / kLongestStep)));
-  Answer answer;
+  BlockResponse answer;
   for (int s = 1; s <= steps; ++s) {
     std::vector<Vec3> at = from;
     for (std::size_t t = 0; t < tips.size(); ++t) at[t] += (tips[t] - from[t]) * s / steps;

@@ -28,6 +28,14 @@ struct Fineness {
   double finest = 2e-3, growth = 0.35, coarsest = 12e-3;  ///< m, m/m, m
 };
 
+/// What a block does under its tools.
+struct BlockResponse {
+  std::vector<Vec3> f;       ///< N, of the block on each tool
+  Vec3 lump = Vec3::Zero();  ///< m, how far the lump has moved: mean over its volume
+  double energy = 0;         ///< J
+  int iterations = 0;
+};
+
 /// The block under one or two round, frictionless tool tips that press in its plane y = 0; half of
 /// it is computed. Hexahedra with mean dilatation (Simo, Taylor and Pister 1985), which do not
 /// lock; neo-Hookean; contact by a penalty, integrated over the surface; Newton's method with steps
@@ -39,15 +47,9 @@ class FiniteBlock {
               const Fineness& fineness = {});
   ~FiniteBlock();
 
-  struct Answer {
-    std::vector<Vec3> f;       ///< N, of the block on each tool
-    Vec3 lump = Vec3::Zero();  ///< m, how far the lump has moved: mean over its volume
-    double energy = 0;         ///< J
-    int iterations = 0;
-  };
   /// At rest with the tools' lowest points at `tips`; starts from the last answer. Throws Error
   /// where it finds no equilibrium.
-  Answer press(const std::vector<Vec3>& tips);
+  BlockResponse press(const std::vector<Vec3>& tips);
   void release();  ///< as it was made
 
  private:

@@ -52,7 +52,7 @@ PhantomTable tabulate(const SoftBlock& block, PhantomTable shape, const Fineness
     const double away = a * shape.away_step;
     FiniteBlock solid(block, {away}, shape.tool_radius, fineness);
     for (int d = 1; d <= shape.depths; ++d) {
-      const FiniteBlock::Answer answer = solid.press({Vec3(away, 0, -d * shape.depth_step)});
+      const BlockResponse answer = solid.press({Vec3(away, 0, -d * shape.depth_step)});
       shape.cells.push_back({answer.f[0].x(), answer.f[0].z(), answer.lump.x(), answer.lump.z()});
       if (progress) progress(a * shape.depths + d, shape.aways * shape.depths);
     }
@@ -140,7 +140,7 @@ PairTable tabulatePairs(const SoftBlock& block, const PhantomTable& one, PairTab
     FiniteBlock solid(block, {second, first}, one.tool_radius, fineness);
     for (int i = 1; i <= shape.depths; ++i) {
       for (int j = 1; j <= shape.depths; ++j) {
-        const FiniteBlock::Answer answer = solid.press(
+        const BlockResponse answer = solid.press(
             {Vec3(first, 0, -i * shape.depth_step), Vec3(second, 0, -j * shape.depth_step)});
         const PairFigures both =
             (PairFigures() << answer.f[0].x(), answer.f[0].z(), answer.f[1].x(), answer.f[1].z(),
