@@ -52,7 +52,7 @@ struct Occluder {
 };
 
 /// A line to follow: from where the needle enters to what it shall reach.
-struct Guide {
+struct GuideLine {
   Vec3 from_A = Vec3::Zero(), to_A = Vec3::Zero();
 };
 
@@ -67,7 +67,7 @@ struct CoverageGrid {
 };
 
 /// Something that lies inside, seen through the surface.
-struct Lump {
+struct ShownLump {
   Vec3 p_A = Vec3::Zero();  ///< its middle
   double radius = 0.005;    ///< metres
   bool found = false;
@@ -140,14 +140,14 @@ struct SceneState {
   std::optional<anatomy::SkinPush> skin_push;
   std::vector<ForceArrow> forces;
   std::vector<Vec3> trail_A;  ///< path of the tip so far
-  std::optional<Guide> guide;
+  std::optional<GuideLine> guide;
   std::optional<Mat3>
       tip_covariance_A;  ///< of the drawn tip against the real one, m^2: shown as an ellipse
   std::vector<Occluder> occluders;  ///< hide what is behind them while there is a picture
   Hud hud;
   std::optional<CoverageGrid>
       coverage;  ///< a carpet on the surface; its outline shows what is to be searched
-  std::vector<Lump> lumps;
+  std::vector<ShownLump> lumps;
   std::vector<Vec3>
       marks_A;  ///< where the trainee said "here is one": pins, numbered from 1 in this order
   std::optional<Vec3> lead_A;  ///< where guidance asks the hand to go next: a ring on the surface

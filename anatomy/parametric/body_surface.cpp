@@ -36,7 +36,7 @@ double mirrored(double l) { return std::sqrt(l * l + 16) - 4; }
 TubeField draped(const std::vector<Section>& sections) {
   constexpr int kWindow = 9;
   const int count = static_cast<int>(sections.size());
-  std::vector<TubeField::Station> stations;
+  std::vector<TubeStation> stations;
   for (int i = 0; i < count; i += 2) {
     double sum = 0;
     for (int k = -kWindow; k <= kWindow; ++k) {

@@ -80,7 +80,7 @@ Clavicle makeClavicle(double chord_mm, double thickness_mm) {
     centres.push_back(kSternalCentre + centre_chord * (q.x() * along + q.y() * forward));
 
   std::vector<Section> sections = sectionsAlong(centres, Vec3::UnitZ());
-  std::vector<TubeField::Station> stations;
+  std::vector<TubeStation> stations;
   for (int i = 0; i < kSections; ++i) {
     const double u = double(i) / (kSections - 1);
     sections[i].half_up = thickness_mm / 2 * halfUp()(u);
@@ -244,7 +244,7 @@ Rib makeRib(const Course& course, const std::vector<Vec3>& points, const Vec3& b
                          {0.55, 1.04}, {0.84, 0.92},    {0.93, 0.78}, {1, 0.9}};
   const Spline thickness{{0, 1.40}, {0.6 * j, 1.30}, {j, 1.35},   {j + 0.1, 1.02},
                          {0.55, 1}, {0.80, 1.2},     {0.93, 1.1}, {1, 1.5}};
-  std::vector<TubeField::Station> stations;
+  std::vector<TubeStation> stations;
   for (std::size_t i = 0; i < sections.size(); ++i) {
     const double u = static_cast<double>(i) / static_cast<double>(sections.size() - 1);
     sections[i].half_up = course.broad * broadness(u);

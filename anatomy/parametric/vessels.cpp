@@ -43,7 +43,7 @@ TubeField through(const std::vector<VesselPoint>& guides, const Shifts& shifts, 
   }
   const Spline radius(knots);
   const int stations = std::max(12, static_cast<int>(curve.length() / 2.4));
-  std::vector<TubeField::Station> tube;
+  std::vector<TubeStation> tube;
   for (int i = 0; i < stations; ++i) {
     const double at = curve.length() * i / (stations - 1);
     tube.push_back({curve(at), radius(at)});

@@ -25,7 +25,7 @@ class Checker {
         skin_(surface(Organ::skin)),
         vein_(surface(Organ::vein)) {}
 
-  std::vector<Finding> run() {
+  std::vector<PatientFinding> run() {
     checkLine();
     checkFirstMet();
     checkVein();
@@ -194,7 +194,7 @@ class Checker {
   Vec3 entry_, target_;
   int skin_, vein_;
   std::vector<Eigen::AlignedBox3d> boxes_;  ///< by surface
-  std::vector<Finding> findings_;
+  std::vector<PatientFinding> findings_;
 };
 
 }  // namespace
@@ -220,6 +220,6 @@ void requireForNeedle(const Patient& patient, const std::string& where) {
                 "Add what is missing, or take another patient (palpa patient build)");
 }
 
-std::vector<Finding> checkPatient(const Patient& patient) { return Checker(patient).run(); }
+std::vector<PatientFinding> checkPatient(const Patient& patient) { return Checker(patient).run(); }
 
 }  // namespace palpa::anatomy

@@ -8,7 +8,7 @@
 namespace palpa::anatomy {
 
 /// One measurement on a patient's meshes against what the taught manoeuvre needs.
-struct Finding {
+struct PatientFinding {
   std::string name;
   double value;
   std::string unit;
@@ -20,7 +20,7 @@ struct Finding {
 /// skin, way, clearance from the clavicle, what it crosses first), vein (depth, diameter, distance
 /// to pleura and artery), structures that must not meet, closed surfaces. Needs the landmarks
 /// entry_point and vein_target and the organs of the reference patient; throws Error without.
-std::vector<Finding> checkPatient(const Patient& patient);
+std::vector<PatientFinding> checkPatient(const Patient& patient);
 
 /// Landmarks and organs that the needle task cannot do without and the patient lacks, by name;
 /// empty for a fit patient.

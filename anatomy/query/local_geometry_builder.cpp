@@ -96,7 +96,7 @@ LocalGeometryBuilder::LocalGeometryBuilder(const Patient& patient, const Surface
 }
 
 std::vector<LocalGeometryBuilder::NearBone> LocalGeometryBuilder::bonesNear(
-    const Tool& tool, const Axis& axis) const {
+    const ToolPlacement& tool, const NeedleAxis& axis) const {
   const bool inserted = tool.punctured && axis.s_skin < 0;
   const Vec3 other = inserted ? Vec3(axis.tip + axis.s_skin * axis.direction) : axis.tip;
   std::vector<NearBone> near;
@@ -118,7 +118,7 @@ std::vector<LocalGeometryBuilder::NearBone> LocalGeometryBuilder::bonesNear(
   return near;
 }
 
-void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis,
+void LocalGeometryBuilder::addBones(const ToolPlacement& tool, const NeedleAxis& axis,
                                     LocalGeometry* geometry) const {
   std::vector<NearBone> near = bonesNear(tool, axis);
   int places = LocalGeometry::kMaxBones;
@@ -140,7 +140,7 @@ void LocalGeometryBuilder::addBones(const Tool& tool, const Axis& axis,
     }
 }
 
-void LocalGeometryBuilder::addBoundaries(const Axis& axis, LocalGeometry* geometry) const {
+void LocalGeometryBuilder::addBoundaries(const NeedleAxis& axis, LocalGeometry* geometry) const {
   const double inward = -axis.direction.dot(axis.skin_n);
   if (inward < kTowardSkin || std::abs(axis.s_skin) > 1) return;
   const SoftLayers& layers = patient_.layers;
@@ -181,8 +181,8 @@ void LocalGeometryBuilder::addBoundaries(const Axis& axis, LocalGeometry* geomet
   layersUpTo(length);
 }
 
-LocalGeometry LocalGeometryBuilder::build(std::uint64_t number, std::int64_t t_ns, const Tool& tool,
-                                          const Pose& X_DA) const {
+LocalGeometry LocalGeometryBuilder::build(std::uint64_t number, std::int64_t t_ns,
+                                          const ToolPlacement& tool, const Pose& X_DA) const {
   LocalGeometry geometry;
   geometry.number = number;
   geometry.t_ns = t_ns;
@@ -195,8 +195,8 @@ LocalGeometry LocalGeometryBuilder::build(std::uint64_t number, std::int64_t t_n
 
   const double inward = -direction.dot(skin_n);
   const double height = (tip - skin_p).dot(skin_n);
-  const Axis axis{tip, direction, skin_p, skin_n,
-                  std::abs(inward) > kTowardSkin ? height / inward : 0};
+  const NeedleAxis axis{tip, direction, skin_p, skin_n,
+                        std::abs(inward) > kTowardSkin ? height / inward : 0};
   addBones(tool, axis, &geometry);
   addBoundaries(axis, &geometry);
   expressInD(X_DA, &geometry);

@@ -10,6 +10,13 @@
 
 namespace palpa::anatomy {
 
+/// Where a tool is, and where it went in.
+struct ToolPlacement {
+  Pose X_AT;  ///< tip at the origin of T, needle along +z of T, which points the way it advances
+  bool punctured = false;
+  Vec3 entry_A = Vec3::Zero();  ///< where the skin was punctured
+};
+
 /// Makes the snapshot that the haptic tick reads, around a predicted tool. Pure: same inputs, same
 /// bits. Skin as a curved patch round the tip (before puncture) or round `entry`;
 /// bones within 40 mm of the tip or the inserted shaft as capsules of which one touches the bone's
@@ -25,12 +32,7 @@ class LocalGeometryBuilder {
  public:
   LocalGeometryBuilder(const Patient& patient, const SurfaceQuery& query);
 
-  struct Tool {
-    Pose X_AT;  ///< tip at the origin of T, needle along +z of T, which points the way it advances
-    bool punctured = false;
-    Vec3 entry_A = Vec3::Zero();  ///< where the skin was punctured
-  };
-  LocalGeometry build(std::uint64_t number, std::int64_t t_ns, const Tool& tool,
+  LocalGeometry build(std::uint64_t number, std::int64_t t_ns, const ToolPlacement& tool,
                       const Pose& X_DA) const;
 
  private:
@@ -46,13 +48,13 @@ class LocalGeometryBuilder {
     std::vector<Capsule> capsules;
     std::size_t taken;  ///< so many of them go into the snapshot
   };
-  struct Axis {
+  struct NeedleAxis {
     Vec3 tip, direction, skin_p, skin_n;
     double s_skin;  ///< from the tip to the skin plane along the direction; negative once inside
   };
-  std::vector<NearBone> bonesNear(const Tool& tool, const Axis& axis) const;
-  void addBones(const Tool& tool, const Axis& axis, LocalGeometry* geometry) const;
-  void addBoundaries(const Axis& axis, LocalGeometry* geometry) const;
+  std::vector<NearBone> bonesNear(const ToolPlacement& tool, const NeedleAxis& axis) const;
+  void addBones(const ToolPlacement& tool, const NeedleAxis& axis, LocalGeometry* geometry) const;
+  void addBoundaries(const NeedleAxis& axis, LocalGeometry* geometry) const;
 
   const Patient& patient_;
   const SurfaceQuery& query_;

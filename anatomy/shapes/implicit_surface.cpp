@@ -13,14 +13,14 @@ double smoothMin(double a, double b, double k) {
 
 double smoothMax(double a, double b, double k) { return -smoothMin(-a, -b, k); }
 
-TubeField::TubeField(std::vector<Station> stations) : stations_(std::move(stations)) {
+TubeField::TubeField(std::vector<TubeStation> stations) : stations_(std::move(stations)) {
   constexpr std::size_t kBundle = 8;
-  for (const Station& s : stations_) {
+  for (const TubeStation& s : stations_) {
     box_.extend(Vec3(s.p.array() - s.radius));
     box_.extend(Vec3(s.p.array() + s.radius));
   }
   for (std::size_t i = 0; i + 1 < stations_.size(); ++i) {
-    const Station &a = stations_[i], &b = stations_[i + 1];
+    const TubeStation &a = stations_[i], &b = stations_[i + 1];
     const Vec3 ab = b.p - a.p;
     spans_.push_back({a.p, ab / ab.squaredNorm(), ab, a.radius, b.radius - a.radius});
   }
@@ -40,7 +40,7 @@ double TubeField::operator()(const Vec3& p) const {
     const double enough = best + bundle.reach;
     if (enough <= 0 || (p - bundle.centre).squaredNorm() >= enough * enough) continue;
     for (std::size_t i = bundle.begin; i < bundle.end; ++i) {
-      const Span& span = spans_[i];
+      const TubeSpan& span = spans_[i];
       const Vec3 ap = p - span.from;
       const double t = std::clamp(ap.dot(span.along), 0.0, 1.0);
       best = std::min(best, (ap - t * span.whole).norm() - (span.radius + t * span.growth));

@@ -20,22 +20,24 @@ double smoothMax(double a, double b, double k);
 /// From 0 to 1 about x = 0, half of it within 0.55 `width`.
 inline double softStep(double x, double width) { return 0.5 * (1 + std::tanh(x / width)); }
 
+/// A point of a tube's middle line with the radius there, m.
+struct TubeStation {
+  Vec3 p;
+  double radius;
+};
+
 /// Tube of varying radius along a chain of points. Spans are kept in bundles with a sphere around
 /// each, so that most are never looked at.
 class TubeField {
  public:
-  struct Station {
-    Vec3 p;
-    double radius;
-  };
-  explicit TubeField(std::vector<Station> stations);
+  explicit TubeField(std::vector<TubeStation> stations);
   double operator()(const Vec3& p) const;
   /// No more than the distance there; cheap.
   double atLeast(const Vec3& p) const { return box_.exteriorDistance(p); }
-  const std::vector<Station>& stations() const { return stations_; }
+  const std::vector<TubeStation>& stations() const { return stations_; }
 
  private:
-  struct Span {
+  struct TubeSpan {
     Vec3 from, along;  ///< along: to the next station, divided by its squared length
     Vec3 whole;        ///< to the next station
     double radius, growth;
@@ -45,8 +47,8 @@ class TubeField {
     double reach;  ///< no point of the tube in this bundle lies farther from the centre
     std::size_t begin, end;
   };
-  std::vector<Station> stations_;
-  std::vector<Span> spans_;
+  std::vector<TubeStation> stations_;
+  std::vector<TubeSpan> spans_;
   std::vector<Bundle> bundles_;
   Eigen::AlignedBox3d box_;
 };

@@ -41,7 +41,7 @@ CtPatient buildCtPatient(const Volume& volume, const CtOptions& options,
 void markLandmarks(const Clavicle3& clavicle, const Vein& vein, const Seeds& seeds, CtPatient* ct);
 
 /// Rows from the top, three bytes (red, green, blue) a pixel.
-struct Picture {
+struct RgbPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;
 };
@@ -49,7 +49,7 @@ struct Picture {
 /// The brightest of the scan seen from in front, from the patient's left and from below, as
 /// radiologists hang them (patient's right on the left), 1 mm a pixel, with the outlines of
 /// `labels` and crosses at `marks`.
-Picture projections(const Scan& scan, const std::vector<const LabelledOrgan*>& labels,
-                    const Seeds& marks);
+RgbPicture projections(const Scan& scan, const std::vector<const LabelledOrgan*>& labels,
+                       const Seeds& marks);
 
 }  // namespace palpa::anatomy

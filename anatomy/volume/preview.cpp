@@ -36,7 +36,7 @@ class Panel {
   int height() const { return height_; }
 
   void draw(const std::vector<const LabelledOrgan*>& labels, const Seeds& marks, int left,
-            Picture* picture) const {
+            RgbPicture* picture) const {
     std::vector<float> brightest(
         static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     const double low = scan_.levels.clipped ? 0 : -100, high = 1.2 * scan_.levels.dense;
@@ -71,14 +71,14 @@ class Panel {
                   static_cast<std::size_t>(x * columns_ / width_));
   }
 
-  static void put(Picture* picture, int x, int y, const std::array<std::uint8_t, 3>& colour) {
+  static void put(RgbPicture* picture, int x, int y, const std::array<std::uint8_t, 3>& colour) {
     if (x < 0 || y < 0 || x >= picture->width || y >= picture->height) return;
     std::copy(colour.begin(), colour.end(),
               picture->rgb.begin() + 3 * (static_cast<std::ptrdiff_t>(y) * picture->width + x));
   }
 
   void outline(const Mask& mask, const std::array<std::uint8_t, 3>& colour, int left,
-               Picture* picture) const {
+               RgbPicture* picture) const {
     std::vector<std::uint8_t> shadow(
         static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_), 0);
     for (std::size_t n = 0; n < mask.size(); ++n)
@@ -95,7 +95,7 @@ class Panel {
     });
   }
 
-  void cross(const Vec3& p_S, int left, Picture* picture) const {
+  void cross(const Vec3& p_S, int left, RgbPicture* picture) const {
     const Index3 c = scan_.cellAt(p_S);
     const int row = view_.against ? rows_ - 1 - c[view_.down] : c[view_.down];
     const int x = left + c[view_.right] * width_ / columns_, y = row * height_ / rows_;
@@ -110,10 +110,10 @@ class Panel {
 
 }  // namespace
 
-Picture projections(const Scan& scan, const std::vector<const LabelledOrgan*>& labels,
-                    const Seeds& marks) {
+RgbPicture projections(const Scan& scan, const std::vector<const LabelledOrgan*>& labels,
+                       const Seeds& marks) {
   std::vector<Panel> panels;
-  Picture picture;
+  RgbPicture picture;
   for (const SliceAxes& view : kViews) {
     panels.emplace_back(scan, view);
     picture.width += panels.back().width() + 4;

@@ -100,13 +100,13 @@ std::vector<twin::HandGrip> judgedHands() {
 std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump,
                                 const Vec3& p_T0) {
   const haptics::Dahl real = known.friction.law;
-  struct Change {
+  struct HandChange {
     const char* name;
     double factor;
     haptics::Dahl wanted;
     bool lump, modulated;
   };
-  const Change changes[] = {
+  const HandChange changes[] = {
       {"none", 1, real, false, false},
       {"stiffness x 0.5", 0.5, real, false, true},
       {"stiffness x 2", 2, real, false, true},
@@ -116,7 +116,7 @@ std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchA
       {"lump, stiffness x 2, rougher", 2, {2 * real.mu, real.sigma, 2 * real.B}, true, true}};
   std::vector<HandCase> cases;
   for (const JudgedDevice& device : judgedDevices()) {
-    for (const Change& change : changes) {
+    for (const HandChange& change : changes) {
       for (const twin::HandGrip& grip : judgedHands()) {
         HandCase one{device.name, change.name, device.truth, grip, lump, {}, change.modulated};
         one.law.surface = {feelingOf(known, 0.1), change.wanted};
@@ -211,18 +211,18 @@ GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one) {
 }
 
 std::vector<GripCase> gripCases(const haptics::HuntCrossley& side) {
-  struct Change {
+  struct GripChange {
     const char* name;
     double factor, weight;
     bool modulated;
   };
-  const Change changes[] = {
+  const GripChange changes[] = {
       {"none", 1, 1, false},          {"squeezed, x 0.5", 0.5, 1, true},
       {"squeezed, x 2", 2, 1, true},  {"half as heavy", 1, 0.5, true},
       {"twice as heavy", 1, 2, true}, {"squeezed, x 2, twice as heavy", 2, 2, true}};
   std::vector<GripCase> cases;
   for (const JudgedDevice& device : judgedDevices()) {
-    for (const Change& change : changes) {
+    for (const GripChange& change : changes) {
       for (const twin::HandGrip& grip : judgedHands()) {
         haptics::SqueezeModulation law;
         law.real = side;

@@ -61,7 +61,7 @@ void printLoop(const char* loop, const LoopTimes& times, nlohmann::json params) 
   params["loop"] = loop;
   params["scheduling"] = times.scheduling;
   params["ticks"] = times.late.count();
-  const runtime::Spread late = runtime::spreadOf(times.late);
+  const runtime::TimeSpread late = runtime::spreadOf(times.late);
   print("lateness_median", late.median_us, "us", params);
   print("lateness_p99", late.p99_us, "us", params);
   print("lateness_p999", late.p999_us, "us", params);
@@ -75,7 +75,7 @@ void printRatio(const Measured& all, nlohmann::json params) {
   params["ratios"] = all.ratios;
   params["interval"] = "95 % bootstrap of the median";
   params["resamples"] = kResamples;
-  const Interval interval = bootstrapMedian(all.ratios, kResamples, kBootstrapSeed);
+  const ConfidenceInterval interval = bootstrapMedian(all.ratios, kResamples, kBootstrapSeed);
   print("lateness_ratio_p99", median(all.ratios), "1", params);
   print("lateness_ratio_p99_low", interval.low, "1", params);
   print("lateness_ratio_p99_high", interval.high, "1", params);

@@ -92,7 +92,7 @@ struct LoopSurroundings {
 
 struct OurTimes {
   LoopTimes times;
-  runtime::Spread cost;
+  runtime::TimeSpread cost;
   std::uint64_t contacts = 0;  ///< ticks with a contact force: the step did its work
 };
 

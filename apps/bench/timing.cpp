@@ -15,7 +15,8 @@ std::vector<Turn> abbaOrder(int blocks) {
   return order;
 }
 
-Interval bootstrapMedian(const std::vector<double>& values, int resamples, std::uint64_t seed) {
+ConfidenceInterval bootstrapMedian(const std::vector<double>& values, int resamples,
+                                   std::uint64_t seed) {
   if (values.empty()) return {median({}), median({})};
   RandomStream random(seed, "bench.bootstrap");
   std::vector<double> medians, drawn(values.size());

@@ -12,13 +12,14 @@ enum class Turn { a, b };
 /// A B B A, `blocks` times: within a block a steady drift adds the same to both.
 std::vector<Turn> abbaOrder(int blocks);
 
-struct Interval {
+struct ConfidenceInterval {
   double low = 0, high = 0;
 };
 /// 95 % interval of the median by the percentile bootstrap (Efron 1979): `resamples` times as many
 /// draws with replacement as there are values; the 2.5 % and 97.5 % quantiles of their medians.
 /// Same seed, same interval; NaN for no values.
-Interval bootstrapMedian(const std::vector<double>& values, int resamples, std::uint64_t seed);
+ConfidenceInterval bootstrapMedian(const std::vector<double>& values, int resamples,
+                                   std::uint64_t seed);
 
 struct QueryTiming {
   double median_us = 0, p99_us = 0;
@@ -31,7 +32,7 @@ QueryTiming timeCold(int count, const std::function<void(int)>& ask);
 
 struct Ratio {
   double median = 0;
-  Interval interval;
+  ConfidenceInterval interval;
 };
 /// How many times as long b takes as a over the same queries: A B B A in turn, a ratio of times a
 /// block, their median.

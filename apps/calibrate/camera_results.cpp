@@ -65,7 +65,7 @@ Result cameraResult(const std::vector<calibration::BoardView>& views, int width,
   r.file.coordinates.assign(std::begin(kLensNames), std::end(kLensNames));
   r.file.covariance = c.covariance;
   r.file.residuals = {"px", c.model.rms_px, {}, {}};
-  Plot plot{"How well each view fits", "view", "px", {}};
+  MeasuredPlot plot{"How well each view fits", "view", "px", {}};
   for (std::size_t i = 0; i < c.views.size(); ++i) {
     plot.dots.push_back({static_cast<double>(i + 1), c.views[i].rms_px, !c.views[i].used});
     r.file.residuals.values.push_back(c.views[i].rms_px);
@@ -143,7 +143,7 @@ Result latencyResult(const LatencySamples& samples, double camera_latency_s, con
                      " old when they arrive, known to " + quantity(1e3 * fit.offset_sd, "ms") + ".",
                  "The clocks drift apart by " + quantity(1e6 * fit.drift, "microseconds a second") +
                      " (known to " + quantity(1e6 * fit.drift_sd, "") + ")."};
-  Plot plot{"Camera against device, after the shift in time", "s", "mm", {}};
+  MeasuredPlot plot{"Camera against device, after the shift in time", "s", "mm", {}};
   const int size =
       static_cast<int>(fit.fit.r.size() / static_cast<Eigen::Index>(std::max<std::size_t>(n, 1)));
   for (std::size_t i = 0; i < fit.fit.good.size() && i < n && size > 0; ++i) {

@@ -10,8 +10,8 @@
 namespace palpa::calibrate {
 namespace {
 
-using runtime::Moment;
 using runtime::Request;
+using runtime::RigMoment;
 constexpr std::size_t kTouchReadings = 25;
 constexpr double kMostTremor = 4e-4;      // m rms while a tip rests in its hole
 constexpr double kMostTremorHeld = 1e-3;  // m rms, in the air
@@ -34,7 +34,7 @@ Stretch whilePressed(const Scene& scene, const Request& request, std::size_t rea
   double begun = -1, down_since = 0;
   bool down = false;
   while (stretch.X_DE.size() < readings) {
-    const Moment moment = need(scene.rig, "calibration");
+    const RigMoment moment = need(scene.rig, "calibration");
     if (begun < 0) begun = moment.t;
     if (moment.t - begun > kPatience)
       throw Error("nobody pressed the button for a minute", request.words,
@@ -253,7 +253,7 @@ LatencySamples collectWave(const Scene& scene, const calibration::CameraModel& c
   LatencySamples samples;
   double begun = -1, last = 0;
   for (double first = -1; begun < 0 || last - begun < seconds;) {
-    const Moment moment = need(scene.rig, "calibration of the time");
+    const RigMoment moment = need(scene.rig, "calibration of the time");
     if (first < 0) first = moment.t;
     last = moment.t;
     if (begun < 0 && moment.t - first > kPatience)

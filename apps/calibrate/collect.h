@@ -18,8 +18,8 @@ namespace palpa::calibrate {
 
 inline constexpr double kPatience = 60;  ///< s without an answer: the person has left
 
-inline runtime::Moment need(runtime::Rig& rig, const char* what) {
-  std::optional<runtime::Moment> moment = rig.next();
+inline runtime::RigMoment need(runtime::Rig& rig, const char* what) {
+  std::optional<runtime::RigMoment> moment = rig.next();
   if (!moment) throw Error("the station ended while it was set up", what, "Begin again");
   return *moment;
 }

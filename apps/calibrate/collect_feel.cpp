@@ -11,8 +11,8 @@
 namespace palpa::calibrate {
 namespace {
 
-using runtime::Moment;
 using runtime::Request;
+using runtime::RigMoment;
 constexpr double kCutOff_Hz = 30, kFeltDeep = 7e-3, kStrokeReach = 0.02;  // m
 constexpr std::size_t kShownEvery = 250;                                  // readings
 constexpr std::size_t kShownColumns = 24;
@@ -79,7 +79,7 @@ class Feeling {
     filter_.p_SK =
         pack(Vec3(station.force_sensor->X_ES.inverse() * (station.X_ET * Vec3(0, 0, -radius_))));
   }
-  std::optional<FeltSample> feel(const Moment& moment) {
+  std::optional<FeltSample> feel(const RigMoment& moment) {
     const Pose X_WS = station_.X_WD * poseOf(*moment.reading) * station_.force_sensor->X_ES;
     haptics::WrenchSample silent;
     silent.flags = haptics::kNothingYet;
@@ -121,7 +121,7 @@ FeltSamples collectFelt(const Scene& scene, const Request& request) {
   FeltSamples felt;
   double begun = -1, silent_since = -1;
   while (felt.samples.size() < wanted) {
-    const Moment moment = need(scene.rig, "calibration of a sample");
+    const RigMoment moment = need(scene.rig, "calibration of a sample");
     if (begun < 0) begun = moment.t;
     if (!moment.reading) continue;
     const std::optional<FeltSample> sample = feeling.feel(moment);

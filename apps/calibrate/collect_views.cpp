@@ -7,14 +7,14 @@
 namespace palpa::calibrate {
 namespace {
 
-using runtime::BoardView;
+using runtime::BoardFraming;
 using runtime::Request;
 constexpr double kStill_px = 0.6;        // mean motion of the corners between two pictures
 constexpr double kPatienceForView = 30;  // s
 constexpr std::size_t kLeastCorners = 16;
 constexpr double kLean = 0.5;  // rad
 
-std::string wordsFor(const BoardView& v) {
+std::string wordsFor(const BoardFraming& v) {
   const std::string where = std::string(v.down < -0.2  ? "upper "
                                         : v.down > 0.2 ? "lower "
                                                        : "") +
@@ -33,7 +33,7 @@ std::string wordsFor(const BoardView& v) {
 }
 
 /// Every part of the picture, leaning every way, near and far.
-BoardView planned(int i) {
+BoardFraming planned(int i) {
   static constexpr double kAcross[] = {0, -0.5, 0.5, -0.5, 0.5, 0, -0.55, 0.55, 0};
   static constexpr double kDown[] = {0, -0.45, 0.45, 0.45, -0.45, -0.5, 0, 0, 0.5};
   static constexpr double kLeans[] = {1, -1, 0, 0, 0.8, -0.8};
@@ -64,7 +64,7 @@ double movedSince(const std::vector<ar::BoardPoint>& before,
 std::vector<ar::BoardPoint> stillView(const Scene& scene, const ar::Board& board) {
   std::vector<ar::BoardPoint> before;
   for (double begun = -1;;) {
-    const std::optional<runtime::Moment> moment = scene.rig.next();
+    const std::optional<runtime::RigMoment> moment = scene.rig.next();
     if (!moment) throw Error("the pictures ended", "calibration of the camera", "Begin again");
     if (begun < 0) begun = moment->t;
     if (moment->t - begun > kPatienceForView) return {};

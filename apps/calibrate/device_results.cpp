@@ -29,7 +29,7 @@ Result workspaceResult(const std::vector<Touch>& touches, const Origin& origin,
   for (Eigen::Index i = 0; i < map.coefficients.rows(); ++i)
     for (Eigen::Index j = 0; j < 3; ++j) coefficients.push_back(map.coefficients(i, j));
   r.file.parameters.push_back({"coefficients_m", coefficients});
-  Plot before{"Error at each point, before", "point", "mm", {}},
+  MeasuredPlot before{"Error at each point, before", "point", "mm", {}},
       after{"Error at each point, corrected", "point", "mm", {}};
   const calibration::WorkspaceMap rigid = calibration::mapWorkspace(points, 0);
   for (std::size_t i = 0; i < points.size(); ++i) {
@@ -129,7 +129,7 @@ Mat3 turnCovariance(const calibration::AxisCalibration& axis, const Mat3& R_ET) 
 
 void addDistances(Result& r, const std::vector<Pose>& fitted, const std::vector<std::size_t>& place,
                   const calibration::TipCalibration& tip) {
-  Plot plot{"Distance of the tip from its hole", "sample", "mm", {}};
+  MeasuredPlot plot{"Distance of the tip from its hole", "sample", "mm", {}};
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const double off = (fitted[i] * tip.tip_E - tip.pivot_D).norm();
     r.file.residuals.values.push_back(off);
@@ -221,7 +221,7 @@ Result forceSensorResult(const std::vector<calibration::StaticReading>& readings
                         "bias_z_Nm", "tool_mass_kg", "centre_x_m", "centre_y_m", "centre_z_m"};
   r.file.covariance = c.covariance;
   r.file.residuals = {"N", c.rms_f, {}, {}};
-  Plot plot{"What bias and weight do not explain", "reading", "N", {}};
+  MeasuredPlot plot{"What bias and weight do not explain", "reading", "N", {}};
   for (std::size_t i = 0; i < fitted.size(); ++i) {
     const double off = leftOver(c, {fitted[i]}, down_D);
     r.file.residuals.values.push_back(off);

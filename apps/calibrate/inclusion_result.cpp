@@ -15,7 +15,7 @@ constexpr std::size_t kShownTouches = 500;
 /// errs, in percent of the force, and what not rendering would err.
 struct Rendered {
   double off_percent = 0, unrendered_percent = 0;
-  Plot plot{"Presses beside the lump, at a place not used", "s", "N", {}};
+  MeasuredPlot plot{"Presses beside the lump, at a place not used", "s", "N", {}};
 };
 Rendered render(const haptics::VirtualInclusion& lump, const calibration::SoftContact& without,
                 const LumpSamples& samples, double tip_radius) {

@@ -14,8 +14,8 @@ namespace {
 using namespace report;
 constexpr double kPlotTop = 12, kPlotHeight = 150;
 
-void drawDots(Html& svg, const Plot& plot, const Axis& x, const Axis& y) {
-  for (const Plot::Dot& dot : plot.dots) {
+void drawDots(Html& svg, const MeasuredPlot& plot, const Axis& x, const Axis& y) {
+  for (const MeasuredPlot::Dot& dot : plot.dots) {
     const double px = x.at(dot.x), py = y.at(dot.y);
     if (dot.left_out)
       svgPath(svg, "out", "M" + coordinate(px - 4) + " " + coordinate(py - 4) + "l8 8m0-8l-8 8");
@@ -27,8 +27,8 @@ void drawDots(Html& svg, const Plot& plot, const Axis& x, const Axis& y) {
   }
 }
 
-void drawFramed(Html& html, const ChartFrame& frame, const Plot& plot, double first, double last,
-                double most) {
+void drawFramed(Html& html, const ChartFrame& frame, const MeasuredPlot& plot, double first,
+                double last, double most) {
   const auto svg = openSvg(html, frame, kPlotTop + kPlotHeight + 46, plot.title);
   ChartFrame roomy = frame;
   roomy.left = 84;
@@ -40,7 +40,7 @@ void drawFramed(Html& html, const ChartFrame& frame, const Plot& plot, double fi
   }
   if (!plot.predicted.empty()) {
     std::string way;
-    for (const Plot::Dot& dot : plot.predicted)
+    for (const MeasuredPlot::Dot& dot : plot.predicted)
       way += (way.empty() ? "M" : " L") + coordinate(x.at(dot.x)) + " " + coordinate(y.at(dot.y));
     svgPath(html, "predicted", way);
   }
@@ -50,11 +50,11 @@ void drawFramed(Html& html, const ChartFrame& frame, const Plot& plot, double fi
 
 }  // namespace
 
-void drawPlot(Html& html, const Plot& plot) {
+void drawPlot(Html& html, const MeasuredPlot& plot) {
   if (plot.dots.empty()) return;
   double first = plot.dots.front().x > 10 ? plot.dots.front().x : 0, last = first + 1, most = 1e-9;
   bool any_out = false;
-  for (const Plot::Dot& dot : plot.dots) {
+  for (const MeasuredPlot::Dot& dot : plot.dots) {
     last = std::max(last, dot.x);
     most = std::max(most, dot.y);
     any_out = any_out || dot.left_out;
@@ -216,7 +216,7 @@ void writeResult(Html& html, const Result& r) {
                    std::to_string(r.file.data.used) + " of " + std::to_string(r.file.data.samples) +
                    " samples used, from: " + sourceOf(r.file.data) + ".");
   if (!r.coverage.counts.empty()) drawCoverage(html, r.coverage);
-  for (const Plot& plot : r.plots) drawPlot(html, plot);
+  for (const MeasuredPlot& plot : r.plots) drawPlot(html, plot);
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace palpa::calibrate {
 
 /// Dots over what they were measured at; those left out are crosses, so that more than their colour
 /// differs.
-void drawPlot(report::Html& html, const Plot& plot);
+void drawPlot(report::Html& html, const MeasuredPlot& plot);
 
 /// The picture in cells, darker where more corners were seen; an empty cell is framed in dashes.
 void drawCoverage(report::Html& html, const Coverage& coverage);

@@ -69,7 +69,7 @@ BaseEstimate byLandmarks(const std::vector<Touch>& touches, Result& r) {
       names.push_back(t.name);
     }
   const calibration::LandmarkRegistration fit = calibration::registerLandmarks(landmarks);
-  Plot plot{"How well each landmark fits", "landmark", "mm", {}};
+  MeasuredPlot plot{"How well each landmark fits", "landmark", "mm", {}};
   std::string wrong;
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const double off = (fit.X_BA * landmarks[i].p_A - landmarks[i].p_B).norm();
@@ -123,7 +123,7 @@ void addPosePlot(const std::vector<calibration::HandEyeSample>& tag,
                  const calibration::HandEye& fit, Result& r) {
   r.file.residuals.unit = "m";
   r.file.residuals.rms = fit.rms_shift;
-  Plot plot{"How well each pose fits", "pose", "mm", {}};
+  MeasuredPlot plot{"How well each pose fits", "pose", "mm", {}};
   for (std::size_t i = 0; i < tag.size(); ++i) {
     const double off =
         (fit.X_DC.inverse() * (tag[i].X_DE * fit.X_EM.translation()) - tag[i].X_CM.translation())

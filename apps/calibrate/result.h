@@ -8,7 +8,7 @@
 namespace palpa::calibrate {
 
 /// Points to look at: what was measured, over what it was measured at.
-struct Plot {
+struct MeasuredPlot {
   std::string title, x, y;  ///< axes with units
   struct Dot {
     double x = 0, y = 0;
@@ -30,7 +30,7 @@ struct Result {
   std::string title;                   ///< "Needle tip"
   std::vector<std::string> sentences;  ///< what was found, for an educator
   std::vector<std::string> advice;     ///< what could be better, when to redo it
-  std::vector<Plot> plots;
+  std::vector<MeasuredPlot> plots;
   Coverage coverage;
 };
 

@@ -18,8 +18,8 @@ class CorrectedRig final : public runtime::Rig {
   void correctBy(const calibration::WorkspaceMap& map) { correction_ = asCorrection(map); }
 
   void ask(const runtime::Request& request) override { rig_.ask(request); }
-  std::optional<runtime::Moment> next() override {
-    std::optional<runtime::Moment> moment = rig_.next();
+  std::optional<runtime::RigMoment> next() override {
+    std::optional<runtime::RigMoment> moment = rig_.next();
     if (moment && moment->reading && correction_.order > 0)
       moment->reading->p_DE = haptics::corrected(correction_, moment->reading->p_DE);
     return moment;
@@ -47,8 +47,8 @@ class WatchedRig final : public runtime::Rig {
   WatchedRig(runtime::Rig& rig, See see) : rig_(rig), see_(std::move(see)) {}
 
   void ask(const runtime::Request& request) override { rig_.ask(request); }
-  std::optional<runtime::Moment> next() override {
-    std::optional<runtime::Moment> moment = rig_.next();
+  std::optional<runtime::RigMoment> next() override {
+    std::optional<runtime::RigMoment> moment = rig_.next();
     if (moment && moment->picture)
       moment->picture = [this, take = std::move(moment->picture)] {
         std::optional<ar::Frame> frame = take();

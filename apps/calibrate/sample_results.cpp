@@ -73,9 +73,9 @@ double offBy(const calibration::SoftContact& found,
   return all > 0 ? 100 * std::sqrt(off / all) : 100;
 }
 
-Plot forceOverDepth(const calibration::SoftContact& found,
-                    const std::vector<calibration::PressSample>& presses) {
-  Plot plot{"Force over depth", "depth, mm", "N", {}};
+MeasuredPlot forceOverDepth(const calibration::SoftContact& found,
+                            const std::vector<calibration::PressSample>& presses) {
+  MeasuredPlot plot{"Force over depth", "depth, mm", "N", {}};
   double deepest = 0;
   const std::size_t every = std::max<std::size_t>(1, presses.size() / kShownPresses);
   for (std::size_t i = 0; i < presses.size(); i += every) {
@@ -170,9 +170,9 @@ Prediction predict(const haptics::Dahl& law, const std::vector<calibration::Slid
 }
 
 /// How far it has slid, against how hard it was dragged: sizes, for an axis that begins at zero.
-Plot dragOverTime(const std::vector<calibration::SlideSample>& slides, const Prediction& told,
-                  double dt) {
-  Plot plot{"Friction while stroking", "s", "N", {}};
+MeasuredPlot dragOverTime(const std::vector<calibration::SlideSample>& slides,
+                          const Prediction& told, double dt) {
+  MeasuredPlot plot{"Friction while stroking", "s", "N", {}};
   const std::size_t every = std::max<std::size_t>(1, slides.size() / kShownSlides);
   for (std::size_t i = 0; i < slides.size(); i += every) {
     const double t = dt * static_cast<double>(i);

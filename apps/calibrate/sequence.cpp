@@ -162,7 +162,7 @@ SetupResult setUp(const Scene& raw, const Origin& origin) {
                          origin));
   if (station.marker && station.force_sensor)
     add(forceSensorOf(scene, held, station::poseAt(registration, "X_WD"), origin));
-  if (const std::optional<runtime::Moment> last = scene.rig.next()) setup.seconds = last->t;
+  if (const std::optional<runtime::RigMoment> last = scene.rig.next()) setup.seconds = last->t;
   return setup;
 }
 

@@ -14,8 +14,8 @@ namespace palpa::calibrate {
 inline constexpr int kShortestSequence = 50;  ///< steps: what is shorter than 0.5 s is left out
 
 struct SubtaskRecordings {
-  std::string task, station;                    ///< ids, of the first recording
-  std::vector<station::NamedPlan::Part> parts;  ///< bit i of a label: part i
+  std::string task, station;              ///< ids, of the first recording
+  std::vector<station::NamedPart> parts;  ///< bit i of a label: part i
   std::vector<SubtaskSequence> sequences;
   int left_out = 0;        ///< sequences that are too short
   int augmented = 0;       ///< trials in which cues might be added to the force

@@ -132,8 +132,8 @@ Result fromFiles(const CalibrateOptions& o, const station::Station& station, con
   if (o.kind == CalibrationKind::friction) return frictionResult(readFelt(o.strokes), origin);
   if (o.kind == CalibrationKind::inclusion)
     return inclusionResult(
-        lumpSamples(o), station.sample ? station.sample->tip_radius : station::Sample{}.tip_radius,
-        origin);
+        lumpSamples(o),
+        station.sample ? station.sample->tip_radius : station::SoftSample{}.tip_radius, origin);
   return forceSensorResult(readStaticReadings(o.readings),
                            Vec3(o.down[0], o.down[1], o.down[2]).normalized(), origin);
 }

@@ -117,7 +117,7 @@ void calibrateStation(const CalibrateOptions& o) {
     setup.calibrations.push_back(asFile(setup.results.back()));
     return leave(o, station, setup, {}, "");
   }
-  const bool real_camera = station.camera_setup.driver != station::CameraSetup::Driver::bench;
+  const bool real_camera = station.camera_setup.driver != station::CameraDriver::bench;
   if (real_camera || station.device.driver != station::DeviceDriver::bench)
     throw Error(std::string("cannot be led through a calibration yet: its ") +
                     (real_camera ? "camera" : "device") +

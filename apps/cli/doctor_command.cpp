@@ -38,7 +38,7 @@ std::function<std::optional<ar::Frame>()> benchPictures(const station::Station& 
                                                         std::uint64_t seed) {
   auto bench = std::make_shared<twin::SetupBench>(station, seed);
   return [bench]() -> std::optional<ar::Frame> {
-    for (std::optional<runtime::Moment> moment = bench->next(); moment; moment = bench->next())
+    for (std::optional<runtime::RigMoment> moment = bench->next(); moment; moment = bench->next())
       if (moment->picture) return moment->picture();
     return std::nullopt;
   };
@@ -70,7 +70,7 @@ PictureFacts seenBy(const station::Station& station, const DoctorOptions& o) {
           return std::make_unique<ar::ImageSequence>(o.camera, station.camera_rate_Hz);
         },
         station, *board, nullptr);
-  if (station.camera_setup.driver == station::CameraSetup::Driver::bench)
+  if (station.camera_setup.driver == station::CameraDriver::bench)
     return lookAt(benchPictures(station, o.seed), kPictures, *board, station.camera);
   const station::CameraSetup& setup = station.camera_setup;
   const runtime::SteadyClock clock;

@@ -17,7 +17,7 @@
 namespace palpa::cli {
 namespace {
 
-void writePicture(const anatomy::Picture& picture, const std::filesystem::path& file) {
+void writePicture(const anatomy::RgbPicture& picture, const std::filesystem::path& file) {
   cv::Mat bgr(picture.height, picture.width, CV_8UC3);
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) {
@@ -70,7 +70,7 @@ void tellResult(const anatomy::CtPatient& ct) {
   std::printf("Points (mm in the volume's frame); change one and run again:\n");
   for (const auto& [name, p] : ct.seeds)
     std::printf("  %s\n", anatomy::seedOption(name, p).c_str());
-  for (const anatomy::Finding& finding : anatomy::checkPatient(ct.patient))
+  for (const anatomy::PatientFinding& finding : anatomy::checkPatient(ct.patient))
     if (!finding.ok)
       std::printf("Not as it is taught: %s is %.1f %s, wanted %s.\n", finding.name.c_str(),
                   finding.value, finding.unit.c_str(), finding.wanted.c_str());

@@ -139,7 +139,7 @@ void writePictures(evidence::RecordedShow& recorded, const Cut& cut, const Repla
                       {"pictures_per_second", o.frames_per_second / o.speed},
                       {"pictures", count},
                       {"marks", nlohmann::json::array()}};
-  for (const replay::Mark& mark : recorded.marks())
+  for (const replay::StripMark& mark : recorded.marks())
     told["marks"].push_back({{"t_s", mark.t_s},
                              {"tone", toneName(mark.tone)},
                              {"text", mark.words},

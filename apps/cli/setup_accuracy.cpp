@@ -14,7 +14,7 @@ namespace {
 ar::BoardPose seenBoard(const station::Station& station, twin::SetupBench& bench) {
   const auto board = ar::makeBoard(station.board, station.decimate);
   for (;;) {
-    const std::optional<runtime::Moment> moment = bench.next();
+    const std::optional<runtime::RigMoment> moment = bench.next();
     if (!moment->picture) continue;
     if (const auto pose =
             ar::estimateBoardPose(board->detect(moment->picture()->image), station.camera))

@@ -67,7 +67,7 @@ void addPages(WebServer& server, const Console& c) {
              });
 }
 
-void prepare(const Place& place) {
+void prepare(const ConsolePlace& place) {
   std::error_code none;
   fs::create_directories(place.home, none);
   fs::permissions(place.home, fs::perms::owner_all, none);

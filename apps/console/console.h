@@ -10,7 +10,7 @@
 namespace palpa::console {
 
 struct ConsoleSettings {
-  Place place;
+  ConsolePlace place;
   std::string station;  ///< file of the station in use from now on; empty: as before
   std::string address = "127.0.0.1";
   int port = 0;                    ///< 0: any that is free

@@ -84,7 +84,7 @@ bool Guard::entered(const std::string& cookie_header) const {
   return token_.empty() || same(valueOf(cookie_header), cookie_);
 }
 
-GuardVerdict Guard::judge(const Asked& asked) {
+GuardVerdict Guard::judge(const GuardedRequest& asked) {
   if (std::find(hosts_.begin(), hosts_.end(), asked.host) == hosts_.end())
     return {421, "this console is not called \"" + asked.host.substr(0, 64) +
                      "\": use the address that it says when it starts"};
@@ -108,7 +108,7 @@ GuardVerdict Guard::judge(const Asked& asked) {
   return {};
 }
 
-GuardVerdict Guard::judgeWrite(const Asked& asked) {
+GuardVerdict Guard::judgeWrite(const GuardedRequest& asked) {
   if (asked.content_type.rfind("application/json", 0) != 0) return {415, "a write is JSON"};
   if (!same(asked.page_key, page_key_))
     return {403, "not asked for by a page of this console: load the page again"};

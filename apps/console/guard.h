@@ -15,7 +15,7 @@
 namespace palpa::console {
 
 /// What of a request is judged.
-struct Asked {
+struct GuardedRequest {
   std::string remote;  ///< address it came from
   std::string method, path;
   std::string host, origin, fetch_site, content_type, cookie, page_key,
@@ -38,7 +38,7 @@ class Guard {
   /// nobody may.
   void answerTo(std::vector<std::string> hosts) { hosts_ = std::move(hosts); }
 
-  GuardVerdict judge(const Asked& asked);
+  GuardVerdict judge(const GuardedRequest& asked);
   /// The cookie for whoever gave the right token; empty: wrong, or too many wrong ones came from
   /// there.
   std::string enter(const std::string& remote, const std::string& token);
@@ -47,7 +47,7 @@ class Guard {
 
  private:
   using Clock = runtime::ServingClock;
-  GuardVerdict judgeWrite(const Asked& asked);
+  GuardVerdict judgeWrite(const GuardedRequest& asked);
   bool flooding(const std::string& remote);
 
   std::vector<std::string> hosts_;

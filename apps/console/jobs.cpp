@@ -42,7 +42,7 @@ nlohmann::json fractionOf(const std::vector<std::string>& lines) {
   return nullptr;
 }
 
-Jobs::Jobs(const Place& place) : place_(place) {
+Jobs::Jobs(const ConsolePlace& place) : place_(place) {
   fs::create_directories(place_.jobs());
   clearOld(place_.jobs());
   thread_ = std::thread([this] { run(); });
@@ -59,18 +59,18 @@ Jobs::~Jobs() {
   thread_.join();
 }
 
-std::string Jobs::add(Wish wish) {
+std::string Jobs::add(JobRequest request) {
   const std::lock_guard lock(mutex_);
-  return addLocked(std::move(wish));
+  return addLocked(std::move(request));
 }
 
-nlohmann::json Jobs::ask(Wish wish) {
-  const std::string key = wish.key;
+nlohmann::json Jobs::ask(JobRequest request) {
+  const std::string key = request.key;
   std::string id;
   {
     const std::lock_guard lock(mutex_);
     const auto found = asked_.find(key);
-    id = found != asked_.end() ? found->second : asked_[key] = addLocked(std::move(wish));
+    id = found != asked_.end() ? found->second : asked_[key] = addLocked(std::move(request));
   }
   const nlohmann::json told = one(id);
   if (told["state"] == "failed") {
@@ -80,13 +80,13 @@ nlohmann::json Jobs::ask(Wish wish) {
   return told;
 }
 
-std::string Jobs::addLocked(Wish wish) {
+std::string Jobs::addLocked(JobRequest request) {
   for (const auto& [id, job] : jobs_)
-    if (job.wish.key == wish.key &&
+    if (job.request.key == request.key &&
         (job.state == JobState::waiting || job.state == JobState::running))
       return id;
   const std::string id = newId();
-  jobs_[id].wish = std::move(wish);
+  jobs_[id].request = std::move(request);
   queue_.push_back(id);
   changed_.notify_all();
   return id;
@@ -111,11 +111,11 @@ void Jobs::perform(const std::string& id) {
   std::error_code none;
   fs::create_directories(folder, none);
   os::ProcessId process;
-  Wish wish;
+  JobRequest request;
   {
     const std::lock_guard lock(mutex_);
-    wish = jobs_[id].wish;
-    std::vector<std::string> arguments = wish.arguments;
+    request = jobs_[id].request;
+    std::vector<std::string> arguments = request.arguments;
     for (std::string& argument : arguments)
       if (const std::size_t at = argument.find("{}"); at != std::string::npos)
         argument.replace(at, 2, folder.string());
@@ -130,9 +130,9 @@ void Jobs::perform(const std::string& id) {
   }
   while (os::runs(process)) runtime::rest(kLook);
   bool good = process.pid > 0 && complaintIn(folder / "log.txt").empty() &&
-              (wish.page.empty() || fs::exists(folder / wish.page, none));
+              (request.page.empty() || fs::exists(folder / request.page, none));
   try {
-    if (wish.then) wish.then(folder, good);
+    if (request.then) request.then(folder, good);
   } catch (const std::exception&) {
     good = false;  // a full disk, say: the next command meets it as well, and tells
   }
@@ -150,7 +150,7 @@ nlohmann::json Jobs::one(const std::string& id) {
   const auto lines = lastLines(log, kShownLines);
   std::error_code none;
   nlohmann::json one{{"id", id},
-                     {"title", job.wish.title},
+                     {"title", job.request.title},
                      {"state", job.state == JobState::done     ? "done"
                                : job.state == JobState::failed ? "failed"
                                                                : "working"},
@@ -161,9 +161,9 @@ nlohmann::json Jobs::one(const std::string& id) {
                      {"page", ""}};
   if (job.state == JobState::failed)
     one["message"] = job.stopped ? "It was stopped." : complaintIn(log);
-  if (!job.wish.picture.empty() && fs::exists(place_.jobs() / id / job.wish.picture, none))
+  if (!job.request.picture.empty() && fs::exists(place_.jobs() / id / job.request.picture, none))
     one["picture"] = "/api/jobs/" + id + "/picture";
-  if (!job.wish.page.empty() && fs::exists(place_.jobs() / id / job.wish.page, none))
+  if (!job.request.page.empty() && fs::exists(place_.jobs() / id / job.request.page, none))
     one["page"] = "/api/pages/" + id;
   return one;
 }
@@ -180,23 +180,23 @@ void Jobs::stop(const std::string& id) {
 fs::path Jobs::picture(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = jobs_.find(id);
-  if (found == jobs_.end() || found->second.wish.picture.empty())
+  if (found == jobs_.end() || found->second.request.picture.empty())
     throw UsageError("is not here", "picture of " + id.substr(0, 64), "Load the page again");
-  return place_.jobs() / id / found->second.wish.picture;
+  return place_.jobs() / id / found->second.request.picture;
 }
 
 fs::path Jobs::page(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = jobs_.find(id);
-  if (found == jobs_.end() || found->second.wish.page.empty())
+  if (found == jobs_.end() || found->second.request.page.empty())
     throw UsageError("is not here", "page of " + id.substr(0, 64), "Ask for it again");
-  return place_.jobs() / id / found->second.wish.page;
+  return place_.jobs() / id / found->second.request.page;
 }
 
 std::string Jobs::workingOn(const std::string& prefix) {
   const std::lock_guard lock(mutex_);
   for (const auto& [id, job] : jobs_)
-    if (job.wish.key.rfind(prefix, 0) == 0 &&
+    if (job.request.key.rfind(prefix, 0) == 0 &&
         (job.state == JobState::waiting || job.state == JobState::running))
       return id;
   return "";

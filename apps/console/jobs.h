@@ -18,29 +18,31 @@ namespace palpa::console {
 /// How far a job is.
 enum class JobState { waiting, running, done, failed };
 
+/// A piece of work that is asked for.
+struct JobRequest {
+  std::string key;    ///< the same piece of work has the same key: it is not done twice at once
+  std::string title;  ///< "Camera"
+  std::vector<std::string> arguments;  ///< of the command; "{}" stands for the job's folder
+  /// The file that shows what came out, in the folder or with its whole path; empty: none
+  std::string page;
+  std::function<void(const std::filesystem::path& folder, bool good)>
+      then;  ///< on the jobs' thread
+  std::string picture =
+      "";  ///< the file in the folder that shows what the camera sees meanwhile; empty: none
+};
+
 /// Work in the background: commands of this program, one after the other, at low priority. Each has
 /// a folder under jobs/ and a log there. Any thread.
 class Jobs {
  public:
-  struct Wish {
-    std::string key;    ///< the same piece of work has the same key: it is not done twice at once
-    std::string title;  ///< "Camera"
-    std::vector<std::string> arguments;  ///< of the command; "{}" stands for the job's folder
-    /// The file that shows what came out, in the folder or with its whole path; empty: none
-    std::string page;
-    std::function<void(const std::filesystem::path& folder, bool good)>
-        then;  ///< on the jobs' thread
-    std::string picture =
-        "";  ///< the file in the folder that shows what the camera sees meanwhile; empty: none
-  };
-  explicit Jobs(const Place& place);
+  explicit Jobs(const ConsolePlace& place);
   ~Jobs();  ///< what runs is asked to end
 
   /// The id of the job: the one with this key that waits or runs, else a new one.
-  std::string add(Wish wish);
+  std::string add(JobRequest request);
   /// What becomes of a piece of work that is begun when it is asked for first, as one() tells it. A
   /// failure is told once: whoever asks again begins it anew.
-  nlohmann::json ask(Wish wish);
+  nlohmann::json ask(JobRequest request);
   /// {"state": "working|done|failed", "title", "done", "lines", "page", "message"}; throws
   /// UsageError for an unknown one.
   nlohmann::json one(const std::string& id);
@@ -53,16 +55,16 @@ class Jobs {
 
  private:
   struct Job {
-    Wish wish;
+    JobRequest request;
     JobState state = JobState::waiting;
     os::ProcessId process;
     bool stopped = false;
   };
-  std::string addLocked(Wish wish);
+  std::string addLocked(JobRequest request);
   void run();
   void perform(const std::string& id);
 
-  const Place& place_;
+  const ConsolePlace& place_;
   std::mutex mutex_;
   std::condition_variable changed_;
   std::map<std::string, Job> jobs_;

@@ -69,9 +69,10 @@ json trainees(record::RecordStore& store) {
 /// have changed since.
 json report(Console& c, const std::string& key, const std::string& title,
             std::vector<std::string> arguments, const std::string& page) {
-  Jobs::Wish wish{key, title, std::move(arguments), "report/" + page, {}};
-  wish.arguments.insert(wish.arguments.end(), {"--records", c.place.records, "--out", "{}/report"});
-  return pageOf(c.jobs.ask(std::move(wish)));
+  JobRequest request{key, title, std::move(arguments), "report/" + page, {}};
+  request.arguments.insert(request.arguments.end(),
+                           {"--records", c.place.records, "--out", "{}/report"});
+  return pageOf(c.jobs.ask(std::move(request)));
 }
 
 /// Changes with every trial that comes into the records.

@@ -35,7 +35,7 @@ bool isShown(const std::string& name) {
          plainName(name.substr(0, name.size() - 4));
 }
 
-std::string stationOf(const Place& place) {
+std::string stationOf(const ConsolePlace& place) {
   std::error_code none;
   if (!std::filesystem::exists(place.settings(), none)) return "";
   const JsonFile file(place.settings());
@@ -46,7 +46,7 @@ std::string stationOf(const Place& place) {
   return std::filesystem::exists(chosen, none) ? chosen : "";
 }
 
-void chooseStation(const Place& place, const std::string& file) {
+void chooseStation(const ConsolePlace& place, const std::string& file) {
   writeWhole(place.settings(), nlohmann::json{{"station", file}}.dump(1) + "\n");
 }
 

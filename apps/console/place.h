@@ -8,7 +8,7 @@
 namespace palpa::console {
 
 /// Where the console works: what it keeps, and what it hands to the commands that it starts.
-struct Place {
+struct ConsolePlace {
   std::filesystem::path home;   ///< sessions, jobs, settings, what was refused
   std::filesystem::path pages;  ///< index.html and the rest
   std::string records;          ///< of trainees: a file or a server
@@ -34,7 +34,7 @@ bool isShown(const std::string& name);
 
 /// The station file in use (settings); empty: the virtual bench. And choosing another, kept over
 /// restarts.
-std::string stationOf(const Place& place);
-void chooseStation(const Place& place, const std::string& file);
+std::string stationOf(const ConsolePlace& place);
+void chooseStation(const ConsolePlace& place, const std::string& file);
 
 }  // namespace palpa::console

@@ -25,14 +25,14 @@ double rounded(double value) { return std::isfinite(value) ? std::round(value * 
 
 /// Of one trial, times since it began.
 json curvesOf(const record::SessionReader& reader, const record::RecordedTrial& trial) {
-  live::Curve curve;
+  live::ForceCurve curve;
   reader.ticks([&](const haptics::FlightRecord& record) {
     if (record.tool == 0 && record.t_ns >= trial.header.t_ns && !trial.isOver(record.t_ns))
       curve.add(record);
   });
   const double began_s = static_cast<double>(trial.header.t_ns) * 1e-9;
   json t = json::array(), force = t, depth = t;
-  for (const live::Curve::Point& point : curve.points()) {
+  for (const live::ForceCurve::Point& point : curve.points()) {
     t.push_back(rounded(point.t_s - began_s));
     force.push_back(rounded(point.force_N));
     depth.push_back(rounded(point.depth_mm));

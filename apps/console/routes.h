@@ -16,13 +16,13 @@ namespace palpa::console {
 
 /// What the routes share.
 struct Console {
-  Console(Place where, Guard& the_guard, live::ToneOf tone_of)
+  Console(ConsolePlace where, Guard& the_guard, live::ToneOf tone_of)
       : place(std::move(where)),
         guard(the_guard),
         tone(std::move(tone_of)),
         sessions(place),
         jobs(place) {}
-  const Place place;
+  const ConsolePlace place;
   Guard& guard;
   const live::ToneOf tone;
   Sessions sessions;

@@ -113,7 +113,7 @@ std::string messageOf(const std::string& state, const fs::path& folder) {
 
 }  // namespace
 
-Sessions::Sessions(const Place& place) : place_(place) {
+Sessions::Sessions(const ConsolePlace& place) : place_(place) {
   fs::create_directories(place_.sessions());
   find();
 }

@@ -34,7 +34,7 @@ SessionWish readWish(const nlohmann::json& json);
 /// running ones are found again after a restart. At most one runs. Any thread.
 class Sessions {
  public:
-  explicit Sessions(const Place& place);
+  explicit Sessions(const ConsolePlace& place);
 
   /// Starts one; throws UsageError where one runs already. `arguments`: of the command that holds
   /// it.
@@ -66,7 +66,7 @@ class Sessions {
   std::string stateOf(const std::string& id, const std::filesystem::path& folder);
   std::string socketOf(const std::string& id) const;
 
-  const Place& place_;
+  const ConsolePlace& place_;
   std::mutex mutex_;
   std::map<std::string, Running> running_;
 };

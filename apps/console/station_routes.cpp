@@ -94,21 +94,22 @@ std::string calibrate(Console& c, const std::string& step) {
   if (step != "all" && found == std::end(kSteps))
     throw UsageError("is no calibration step", step.substr(0, 32), "Choose one of the list");
   if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");
-  Jobs::Wish wish;
-  wish.key = "calibrate";
-  wish.title = step == "all" ? "Everything" : found->title;
+  JobRequest request;
+  request.key = "calibrate";
+  request.title = step == "all" ? "Everything" : found->title;
   const fs::path place = c.place.home / "stations" / newId();
-  wish.picture = "camera.jpg";
-  wish.arguments = {"calibrate", step, "--out", place.string(), "--watch", "{}/" + wish.picture};
-  wish.page = (place / "calibration.html").string();
+  request.picture = "camera.jpg";
+  request.arguments = {"calibrate",    step,      "--out",
+                       place.string(), "--watch", "{}/" + request.picture};
+  request.page = (place / "calibration.html").string();
   if (const std::string chosen = stationOf(c.place); !chosen.empty())
-    wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
-  wish.then = [&c, place](const fs::path&, bool good) {
+    request.arguments.insert(request.arguments.end(), {"--station", chosen});
+  request.then = [&c, place](const fs::path&, bool good) {
     std::error_code none;
     if (good && fs::exists(place / "station.json", none))
       chooseStation(c.place, (place / "station.json").string());
   };
-  return c.jobs.add(std::move(wish));
+  return c.jobs.add(std::move(request));
 }
 
 }  // namespace
@@ -138,14 +139,14 @@ json pageOf(const json& job) {
 }
 
 void checkHealth(Console& c) {
-  Jobs::Wish wish;
-  wish.key = "doctor";
-  wish.title = "The station is looked at";
-  wish.arguments = {"doctor",        "--json", "--records",
-                    c.place.records, "--out",  c.place.sessions().string()};
+  JobRequest request;
+  request.key = "doctor";
+  request.title = "The station is looked at";
+  request.arguments = {"doctor",        "--json", "--records",
+                       c.place.records, "--out",  c.place.sessions().string()};
   if (const std::string chosen = stationOf(c.place); !chosen.empty())
-    wish.arguments.insert(wish.arguments.end(), {"--station", chosen});
-  wish.then = [&c](const fs::path& folder, bool) {
+    request.arguments.insert(request.arguments.end(), {"--station", chosen});
+  request.then = [&c](const fs::path& folder, bool) {
     const std::string text = textIn(folder / "log.txt");
     const std::size_t begin = text.find('{'), end = text.rfind('}');
     json found = begin == std::string::npos || end == std::string::npos
@@ -164,7 +165,7 @@ void checkHealth(Console& c) {
     c.health.job.clear();
   };
   const std::lock_guard lock(c.health.mutex);
-  c.health.job = c.jobs.add(std::move(wish));
+  c.health.job = c.jobs.add(std::move(request));
 }
 
 void addStationRoutes(WebServer& server, Console& c) {

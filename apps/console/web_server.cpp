@@ -90,7 +90,7 @@ void linger(int socket) {
   }
 }
 
-Asked askedOf(const httplib::Request& r) {
+GuardedRequest askedOf(const httplib::Request& r) {
   return {r.remote_addr,
           r.method,
           r.path,

@@ -132,7 +132,7 @@ Finding judgeSensor(const SensorFacts& facts) {
 
 Finding askSensor(const station::Station& station) {
   if (!station.force_sensor) return {kSensor, State::absent, "this station has none"};
-  if (station.force_sensor->driver != station::ForceSensorSetup::Driver::net_ft)
+  if (station.force_sensor->driver != station::ForceSensorDriver::net_ft)
     return {kSensor, State::well, "simulated, on the virtual bench"};
   const runtime::SteadyClock clock;
   SensorFacts facts;

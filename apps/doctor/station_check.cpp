@@ -80,7 +80,7 @@ Finding judgePrint(const station::Station& station, double bar_mm) {
             "Print it again at 100 % (\"actual size\", not \"fit to page\"): palpa board print; "
             "measure the bar of 100 mm"};
   if (bar_mm > 0) return {kPrint, State::well, text("its bar of 100 mm measures %.1f mm", bar_mm)};
-  if (station.camera_setup.driver == station::CameraSetup::Driver::bench)
+  if (station.camera_setup.driver == station::CameraDriver::bench)
     return {kPrint, State::well, "simulated, in its true size"};
   const station::AppliedCalibration* registration =
       station::calibrationOf(station.calibrations, station::CalibrationKind::registration);

@@ -28,7 +28,7 @@ RatingForms readForms(const std::string& checklist, const std::string& global) {
                     competence::parseGlobalRating(textOf(rating), rating.string()),
                     sha256OfFile(list), sha256OfFile(rating)};
   for (const competence::RatingItem& aspect : forms.global.items)
-    for (const competence::Item& item : forms.checklist.items)
+    for (const competence::ChecklistItem& item : forms.checklist.items)
       if (item.id == aspect.id)
         throw UsageError("both have \"" + item.id + "\", so that an answer could belong to either",
                          list.string() + ", " + rating.string(), "Rename one of them");

@@ -27,7 +27,7 @@ scene::TickTone tickOf(const std::string& kind) {
   return scene::TickTone::neutral;
 }
 
-void addNearMiss(std::vector<replay::Mark>& marks, double distance_mm, double at_s,
+void addNearMiss(std::vector<replay::StripMark>& marks, double distance_mm, double at_s,
                  const char* organ) {
   if (!std::isfinite(distance_mm) || distance_mm > 1e3 * task_needle::kNearMiss || at_s < 0) return;
   char words[96];
@@ -39,20 +39,21 @@ void addNearMiss(std::vector<replay::Mark>& marks, double distance_mm, double at
                    distance_mm > 0});
 }
 
-std::vector<replay::Mark> marksOf(const assess::TrialAssessment& judged) {
-  std::vector<replay::Mark> marks;
+std::vector<replay::StripMark> marksOf(const assess::TrialAssessment& judged) {
+  std::vector<replay::StripMark> marks;
   for (const assess::Moment& moment : judged.moments)
     marks.push_back({moment.t_s, tickOf(moment.kind), moment.text, false});
   addNearMiss(marks, judged.closest_pleura_mm, judged.closest_pleura_s, "the pleura");
   addNearMiss(marks, judged.closest_artery_mm, judged.closest_artery_s, "an artery");
-  std::stable_sort(marks.begin(), marks.end(),
-                   [](const replay::Mark& a, const replay::Mark& b) { return a.t_s < b.t_s; });
+  std::stable_sort(
+      marks.begin(), marks.end(),
+      [](const replay::StripMark& a, const replay::StripMark& b) { return a.t_s < b.t_s; });
   return marks;
 }
 
 /// Judged again, for the marks; none where it cannot be.
-std::vector<replay::Mark> marksIn(const RecordedSession& session, int number) {
-  std::vector<replay::Mark> marks;
+std::vector<replay::StripMark> marksIn(const RecordedSession& session, int number) {
+  std::vector<replay::StripMark> marks;
   if (!session.hasGoal() && session.reader().info().expert_path_json.empty()) return marks;
   session.eachTrial(
       [&](const record::RecordedTrial& trial, const RecordedSession::Samples& samples) {

@@ -16,7 +16,7 @@ class RecordedShow {
   virtual ~RecordedShow() = default;
   virtual const anatomy::Patient& patient() const = 0;
   virtual double length_s() const = 0;
-  virtual const std::vector<replay::Mark>& marks() const = 0;
+  virtual const std::vector<replay::StripMark>& marks() const = 0;
   virtual bool pictures() const { return false; }    ///< of the camera, beside
   virtual bool fixedViews() const { return false; }  ///< as the session had them
   /// The view and this outlive it.
@@ -32,7 +32,7 @@ struct RecordedNeedleTrial final : RecordedShow {
   RecordedNeedleTrial(const std::filesystem::path& file, int number);
   const anatomy::Patient& patient() const override { return session.patient(); }
   double length_s() const override { return trial.length_s(); }
-  const std::vector<replay::Mark>& marks() const override { return trial.marks; }
+  const std::vector<replay::StripMark>& marks() const override { return trial.marks; }
   bool pictures() const override { return !films.empty(); }
   bool fixedViews() const override { return true; }
   std::unique_ptr<replay::TrialReplay> on(scene::SceneView& view) override {

@@ -168,7 +168,7 @@ namespace {
 
 /// What the record says of a trial besides its ticks.
 struct SaidOfSqueeze {
-  task_squeeze::Comparison comparison;
+  task_squeeze::SqueezeComparison comparison;
   int answer = 0;
 };
 

@@ -31,7 +31,7 @@ class Marks {
     for (; next_ < events_.size() && events_[next_].t_ns <= t_ns; ++next_)
       marks_.push_back({t_s, *toneOf(events_[next_]), events_[next_].text});
   }
-  const std::vector<replay::Mark>& marks() const { return marks_; }
+  const std::vector<replay::StripMark>& marks() const { return marks_; }
 
  private:
   static std::optional<scene::TickTone> toneOf(const runtime::Event& event) {
@@ -46,7 +46,7 @@ class Marks {
 
   std::vector<runtime::Event> events_;
   std::size_t next_ = 0;
-  std::vector<replay::Mark> marks_;
+  std::vector<replay::StripMark> marks_;
 };
 
 /// What the three have in common: the trial, what is shown, the ticks.
@@ -55,7 +55,7 @@ class TouchShow : public RecordedShow {
  public:
   const anatomy::Patient& patient() const override { return *shown_; }
   double length_s() const override { return trial_.length_s(); }
-  const std::vector<replay::Mark>& marks() const override { return trial_.marks; }
+  const std::vector<replay::StripMark>& marks() const override { return trial_.marks; }
 
  protected:
   TouchShow(const std::filesystem::path& file, int number)
@@ -147,7 +147,7 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
   }
 };
 
-class SearchShow final : public TouchShow<replay::SearchTrial> {
+class SearchShow final : public TouchShow<replay::ShownSearch> {
  public:
   SearchShow(const std::filesystem::path& file, int number) : TouchShow(file, number) {
     const task_search::SearchSettings settings = task_search::readSearch(task());
@@ -167,7 +167,7 @@ class SearchShow final : public TouchShow<replay::SearchTrial> {
   }
 };
 
-class SqueezeShow final : public TouchShow<replay::SqueezeTrial> {
+class SqueezeShow final : public TouchShow<replay::ShownSqueeze> {
  public:
   SqueezeShow(const std::filesystem::path& file, int number) : TouchShow(file, number) {
     if (!reader_.info().pair_config)

@@ -21,7 +21,7 @@ scene::Pinhole pinholeOf(const ar::EyeView& eye, int width, int height);
 Pose placeBefore(const std::array<ar::EyeView, 2>& eyes, const Vec3& focus_W);
 
 /// What a controller says, in the patient's frame.
-struct HeldTool {
+struct HeldController {
   bool tracked = false;
   Pose X_AT = Pose::Identity();  ///< the tool's tip, 0.10 m before the hand, where it points
   double plunger = 0;            ///< trigger, 0..1
@@ -52,7 +52,7 @@ class HeadsetView final : public runtime::HeadDisplay {
   std::string trouble() const override;
   std::string describe() const;
   /// Called once a frame
-  void onHeld(std::function<void(const HeldTool&)> action) { held_ = std::move(action); }
+  void onHeld(std::function<void(const HeldController&)> action) { held_ = std::move(action); }
   std::uint64_t frames() const { return frames_; }  ///< shown
 
  private:
@@ -67,7 +67,7 @@ class HeadsetView final : public runtime::HeadDisplay {
   int width_ = 0, height_ = 0;  ///< of one eye's half of the view
   ar::HeadsetFrame frame_;
   bool placed_ = false, asked_ = false;  ///< asked_: to be placed anew, as soon as that may be
-  std::function<void(const HeldTool&)> held_;
+  std::function<void(const HeldController&)> held_;
   Pose X_LA_ = Pose::Identity();
   std::uint64_t frames_ = 0;
 };

@@ -29,7 +29,7 @@ std::string forMarkdown(const json& cell) {
 
 }  // namespace
 
-std::string asCsv(const DataTable& table) {
+std::string asCsv(const ExportTable& table) {
   std::string text;
   const auto line = [&text](std::size_t count, const auto& cell) {
     for (std::size_t i = 0; i < count; ++i) text += (i > 0 ? "," : "") + cell(i);
@@ -41,9 +41,9 @@ std::string asCsv(const DataTable& table) {
   return text;
 }
 
-std::string asJson(const std::vector<DataTable>& tables) {
+std::string asJson(const std::vector<ExportTable>& tables) {
   nlohmann::ordered_json all{{"format", "palpa records"}, {"version", 1}};
-  for (const DataTable& table : tables) {
+  for (const ExportTable& table : tables) {
     auto& rows = all[table.name] = nlohmann::ordered_json::array();
     for (const auto& row : table.rows) {
       nlohmann::ordered_json object = nlohmann::ordered_json::object();
@@ -54,26 +54,26 @@ std::string asJson(const std::vector<DataTable>& tables) {
   return all.dump(1, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
-DataTable dictionaryOf(const std::vector<DataTable>& tables) {
-  DataTable dictionary{"dictionary", "What every column is", {}, {}};
+ExportTable dictionaryOf(const std::vector<ExportTable>& tables) {
+  ExportTable dictionary{"dictionary", "What every column is", {}, {}};
   for (const char* name : {"table", "column", "unit", "meaning", "better", "empty_when"})
     dictionary.columns.push_back({name, "text", "", "", ""});
-  for (const DataTable& table : tables)
-    for (const Column& c : table.columns)
+  for (const ExportTable& table : tables)
+    for (const TableColumn& c : table.columns)
       dictionary.rows.push_back({table.name, c.name, c.unit, c.meaning, c.better, c.missing});
   return dictionary;
 }
 
-std::string dictionaryAsMarkdown(const std::vector<DataTable>& tables) {
+std::string dictionaryAsMarkdown(const std::vector<ExportTable>& tables) {
   std::string text =
       "# Data dictionary\n\nFields are separated by commas, the point is decimal, times are UTC. "
       "An empty field: does not apply. People are known by pseudonym; `simulated` 1 is no person's "
       "performance on a real station.\n";
-  for (const DataTable& table : tables) {
+  for (const ExportTable& table : tables) {
     text +=
         "\n## " + table.name + ".csv\n\n" + table.meaning +
         ".\n\n| column | unit | meaning | better | empty when |\n| --- | --- | --- | --- | --- |\n";
-    for (const Column& c : table.columns) {
+    for (const TableColumn& c : table.columns) {
       text += "|";
       for (const std::string& cell : {c.name, c.unit, c.meaning, c.better, c.missing})
         text += " " + forMarkdown(cell) + " |";
@@ -83,7 +83,7 @@ std::string dictionaryAsMarkdown(const std::vector<DataTable>& tables) {
   return text;
 }
 
-std::vector<std::string> writeTables(const std::vector<DataTable>& tables, DataFormat format,
+std::vector<std::string> writeTables(const std::vector<ExportTable>& tables, DataFormat format,
                                      const std::filesystem::path& folder) {
   std::vector<std::string> written;
   const auto write = [&](const std::string& name, const std::string& text) {
@@ -91,7 +91,7 @@ std::vector<std::string> writeTables(const std::vector<DataTable>& tables, DataF
     written.push_back(name);
   };
   if (format != DataFormat::json)
-    for (const DataTable& table : tables) write(table.name + ".csv", asCsv(table));
+    for (const ExportTable& table : tables) write(table.name + ".csv", asCsv(table));
   if (format != DataFormat::csv) write("records.json", asJson(tables));
   write("dictionary.csv", asCsv(dictionaryOf(tables)));
   write("dictionary.md", dictionaryAsMarkdown(tables));

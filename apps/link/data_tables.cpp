@@ -15,7 +15,7 @@ using nlohmann::json;
 /// A column and how its cells come about: the dictionary cannot name what is not written.
 template <class Row>
 struct Filled {
-  Column column;
+  TableColumn column;
   std::function<json(const Row&)> cell;
 };
 
@@ -23,9 +23,9 @@ template <class Row>
 using Columns = std::vector<Filled<Row>>;
 
 template <class Row>
-DataTable filled(const char* name, const char* meaning, const Columns<Row>& columns,
-                 const std::vector<Row>& rows) {
-  DataTable table{name, meaning, {}, {}};
+ExportTable filled(const char* name, const char* meaning, const Columns<Row>& columns,
+                   const std::vector<Row>& rows) {
+  ExportTable table{name, meaning, {}, {}};
   for (const Filled<Row>& c : columns) table.columns.push_back(c.column);
   for (const Row& row : rows) {
     table.rows.emplace_back();
@@ -52,7 +52,7 @@ json fact(const record::StoredSession& session, const char* pointer) {
                                                                                 : json();
 }
 
-DataTable traineesTable(const Dataset& data) {
+ExportTable traineesTable(const Dataset& data) {
   using T = record::Trainee;
   const Columns<T> columns{
       {{"trainee", "text", "pseudonym", "", ""}, [](const T& t) { return t.id; }},
@@ -74,7 +74,7 @@ DataTable traineesTable(const Dataset& data) {
   return filled("trainees", "One row a person, known by a pseudonym", columns, data.trainees);
 }
 
-DataTable sessionsTable(const Dataset& data, bool with_paths) {
+ExportTable sessionsTable(const Dataset& data, bool with_paths) {
   using S = record::StoredSession;
   const auto of = [](const char* name, const char* unit, const char* meaning, const char* pointer) {
     return Filled<S>{{name, unit, meaning, "", "not of a study, or not said"},
@@ -113,7 +113,7 @@ DataTable sessionsTable(const Dataset& data, bool with_paths) {
   return filled("sessions", "One row a session", columns, data.sessions);
 }
 
-DataTable calibrationsTable(const Dataset& data) {
+ExportTable calibrationsTable(const Dataset& data) {
   using C = std::pair<std::string, record::StoredCalibration>;
   std::vector<C> rows;
   for (const record::StoredSession& s : data.sessions)
@@ -158,7 +158,7 @@ void addFigures(Columns<Trial>& columns, const Dataset& data) {
                        [name](const Trial& t) { return orNothing(t.trial.metric(name)); }});
 }
 
-DataTable trialsTable(const Dataset& data) {
+ExportTable trialsTable(const Dataset& data) {
   Columns<Trial> columns{
       {{"session", "UUID", "of the session", "", ""},
        [](const Trial& t) { return t.session.uuid; }},
@@ -192,7 +192,7 @@ DataTable trialsTable(const Dataset& data) {
   return filled("trials", "One row a trial, with every figure", columns, data.trials);
 }
 
-DataTable eventsTable(const Dataset& data) {
+ExportTable eventsTable(const Dataset& data) {
   struct Happened {
     const Trial* trial;
     const record::StoredEvent* event;
@@ -231,9 +231,9 @@ Dataset datasetOf(record::RecordStore& store, const std::vector<record::Trainee>
   return data;
 }
 
-std::vector<DataTable> tablesOf(const Dataset& data, bool with_paths) {
-  std::vector<DataTable> tables{traineesTable(data), sessionsTable(data, with_paths),
-                                calibrationsTable(data), trialsTable(data), eventsTable(data)};
+std::vector<ExportTable> tablesOf(const Dataset& data, bool with_paths) {
+  std::vector<ExportTable> tables{traineesTable(data), sessionsTable(data, with_paths),
+                                  calibrationsTable(data), trialsTable(data), eventsTable(data)};
   for (const FurtherTable& further : data.further) tables.push_back(asTable(further));
   return tables;
 }

@@ -29,7 +29,7 @@ struct Dataset {
 Dataset datasetOf(record::RecordStore& store, const std::vector<record::Trainee>& who);
 
 /// What a column holds.
-struct Column {
+struct TableColumn {
   std::string name;
   std::string unit;  ///< "text", "UTC", "0 or 1", "JSON"; "1": a plain number
   std::string meaning;
@@ -37,37 +37,37 @@ struct Column {
   std::string missing;  ///< when a cell is empty; empty: never
 };
 
-struct DataTable {
+struct ExportTable {
   std::string name, meaning;
-  std::vector<Column> columns;
+  std::vector<TableColumn> columns;
   std::vector<std::vector<nlohmann::json>> rows;  ///< null: empty
 };
 
 /// trainees, sessions, calibrations, trials (with every figure that this program knows or the
 /// records hold), events. People appear by pseudonym, places of this computer (where evidence lies)
 /// only `with_paths`.
-std::vector<DataTable> tablesOf(const Dataset& data, bool with_paths);
+std::vector<ExportTable> tablesOf(const Dataset& data, bool with_paths);
 
 /// Every table of the store, but those that are exported by name, that says whose each row is: a
 /// person's export has everything, whatever the store learnt to keep.
 std::vector<FurtherTable> furtherTables(record::RecordStore& store,
                                         const std::vector<record::Trainee>& who);
 
-DataTable asTable(const FurtherTable& further);
+ExportTable asTable(const FurtherTable& further);
 
 /// RFC 4180, a header row, lines end with LF; the same in every locale. JSON cells are JSON texts.
-std::string asCsv(const DataTable& table);
+std::string asCsv(const ExportTable& table);
 /// All tables in one object, each a list of rows by column name.
-std::string asJson(const std::vector<DataTable>& tables);
+std::string asJson(const std::vector<ExportTable>& tables);
 /// What every column of every table is: as a table itself, and for people.
-DataTable dictionaryOf(const std::vector<DataTable>& tables);
-std::string dictionaryAsMarkdown(const std::vector<DataTable>& tables);
+ExportTable dictionaryOf(const std::vector<ExportTable>& tables);
+std::string dictionaryAsMarkdown(const std::vector<ExportTable>& tables);
 
 enum class DataFormat { csv, json, both };
 
 /// <table>.csv, records.json; dictionary.csv and dictionary.md beside them. Answers with the files'
 /// names. Throws Error.
-std::vector<std::string> writeTables(const std::vector<DataTable>& tables, DataFormat format,
+std::vector<std::string> writeTables(const std::vector<ExportTable>& tables, DataFormat format,
                                      const std::filesystem::path& folder);
 
 }  // namespace palpa::link

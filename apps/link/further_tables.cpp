@@ -63,8 +63,8 @@ std::vector<FurtherTable> furtherTables(record::RecordStore& store,
   return all;
 }
 
-DataTable asTable(const FurtherTable& further) {
-  DataTable table{further.name, "One row each, as the records keep it", {}, {}};
+ExportTable asTable(const FurtherTable& further) {
+  ExportTable table{further.name, "One row each, as the records keep it", {}, {}};
   for (const std::string& name : further.columns) {
     const auto known = kMeanings.find(name);
     table.columns.push_back(

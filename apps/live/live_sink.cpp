@@ -46,7 +46,7 @@ double feltForce(const haptics::FlightRecord& record) {
   return unpack(record.f_contact_D).norm();
 }
 
-void Curve::add(const haptics::FlightRecord& record) {
+void ForceCurve::add(const haptics::FlightRecord& record) {
   const std::int64_t slot = record.t_ns / kSlot;
   const Point point{static_cast<double>(record.t_ns) * 1e-9, feltForce(record), 1e3 * record.depth};
   if (slot != slot_) {
@@ -59,7 +59,7 @@ void Curve::add(const haptics::FlightRecord& record) {
   trial_ = record.commands.trial;
 }
 
-std::string Curve::take() {
+std::string ForceCurve::take() {
   if (points_.empty()) return "";
   nlohmann::json t = nlohmann::json::array(), force = t, depth = t;
   for (const Point& point : points_) {

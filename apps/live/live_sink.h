@@ -35,7 +35,7 @@ double feltForce(const haptics::FlightRecord& record);
 
 /// Force and depth of a trial, thinned for a picture: of every 20 ms the tick with the greatest
 /// force.
-class Curve {
+class ForceCurve {
  public:
   struct Point {
     double t_s = 0;  ///< session time
@@ -86,7 +86,7 @@ class LiveSink final : public runtime::FlightSink {
   LiveLog& log_;
   NearMiss near_;
   ToneOf tone_;
-  Curve curve_;
+  ForceCurve curve_;
   std::optional<haptics::FlightRecord> last_;
   std::string near_words_;  ///< the last that was told
 };

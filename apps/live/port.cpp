@@ -83,7 +83,7 @@ void Port::run() {
 }
 
 void Port::waitForPeers(int timeout_ms) {
-  std::vector<os::Watched> all{os::Watched{listener_}};
+  std::vector<os::WatchedSocket> all{os::WatchedSocket{listener_}};
   for (const auto& peer : peers_) all.push_back({peer->socket, !peer->waiting.empty()});
   os::waitForAny(all, timeout_ms);
 }

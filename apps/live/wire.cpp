@@ -40,7 +40,7 @@ std::string encoded(FrameKind kind, const std::string& body) {
   return frame + body;
 }
 
-std::optional<Frame> FrameDecoder::next() {
+std::optional<LiveFrame> FrameDecoder::next() {
   if (pending_.size() < kHead) return std::nullopt;
   std::size_t length = 0;
   for (std::size_t i = 0; i < 4; ++i)
@@ -49,7 +49,7 @@ std::optional<Frame> FrameDecoder::next() {
     throw Error("is longer than it may be", "a frame on the local socket of a session",
                 "Console and session are of different versions: start both anew");
   if (pending_.size() < kHead + length) return std::nullopt;
-  Frame frame{static_cast<FrameKind>(pending_[0]), pending_.substr(kHead, length)};
+  LiveFrame frame{static_cast<FrameKind>(pending_[0]), pending_.substr(kHead, length)};
   pending_.erase(0, kHead + length);
   return frame;
 }

@@ -21,7 +21,7 @@ enum class FrameKind : char {
   watch = 'W'     ///< console -> session: "1": pictures are wanted; "0": nobody looks
 };
 
-struct Frame {
+struct LiveFrame {
   FrameKind kind = FrameKind::entry;
   std::string body;
 };
@@ -36,7 +36,7 @@ std::string encoded(FrameKind kind, const std::string& body);
 class FrameDecoder {
  public:
   void feed(const char* bytes, std::size_t count) { pending_.append(bytes, count); }
-  std::optional<Frame> next();
+  std::optional<LiveFrame> next();
 
  private:
   std::string pending_;

@@ -52,9 +52,9 @@ bool readerTakes(int socket, int wait_ms) {
          (one.revents & POLLOUT);
 }
 
-void waitForAny(std::span<const Watched> all, int wait_ms) {
+void waitForAny(std::span<const WatchedSocket> all, int wait_ms) {
   std::vector<pollfd> polled;
-  for (const Watched& one : all)
+  for (const WatchedSocket& one : all)
     polled.push_back({one.socket, one.to_write ? short{POLLIN | POLLOUT} : short{POLLIN}, 0});
   ::poll(polled.data(), polled.size(), wait_ms);
 }

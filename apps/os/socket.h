@@ -15,12 +15,12 @@ bool ready(int socket, Wait wait, int wait_ms);
 /// It takes bytes, and the other side is there to read them: false as soon as it is gone.
 bool readerTakes(int socket, int wait_ms);
 
-struct Watched {
+struct WatchedSocket {
   int socket = -1;
   bool to_write = false;  ///< to read always
 };
 /// Until one of them is ready, at most `wait_ms`.
-void waitForAny(std::span<const Watched> all, int wait_ms);
+void waitForAny(std::span<const WatchedSocket> all, int wait_ms);
 
 /// Bytes sent now; 0: it would have to wait; nothing: the other side is gone. Never waits.
 std::optional<std::size_t> sendSome(int socket, const void* bytes, std::size_t size);

@@ -77,7 +77,7 @@ struct SessionWriter::Impl {
   std::filesystem::path file;
   std::optional<Database> database;
   std::optional<TableWriter> tables;
-  Pending pending;
+  PendingRows pending;
   bool paired = false;                                            ///< two records a tick
   std::map<int, bool> trials;                                     ///< trial -> ended
   std::pair<std::int64_t, std::uint8_t> last_tick{INT64_MIN, 0};  ///< and its tool

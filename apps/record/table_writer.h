@@ -13,7 +13,7 @@ namespace palpa::record {
 
 /// What has been handed over since the last commit. It is kept until a commit has succeeded, so
 /// that a full disk or a lock costs nothing once it is gone.
-struct Pending {
+struct PendingRows {
   std::vector<runtime::TrialHeader> begun;
   std::vector<runtime::TrialEnd> ended;
   std::vector<runtime::Event> events;

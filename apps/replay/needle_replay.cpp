@@ -33,7 +33,7 @@ void MomentReader::add(const haptics::FlightRecord& record) {
   moments_.push_back({sample.t_s, toolIn(record, X_ET_), phases_.phase(), blood_, flows});
 }
 
-task_needle::TaskStatus statusAt(const Moment& moment, int trial, bool force_feedback) {
+task_needle::TaskStatus statusAt(const NeedleMoment& moment, int trial, bool force_feedback) {
   task_needle::TaskStatus status;
   status.state = trial::TrialState::running;
   status.trial = trial;
@@ -130,7 +130,7 @@ class NeedleReplay final : public TrialReplay {
         pictures_(pictures),
         scene_(setup(view), bus_, channels_) {
     Vec3 last = Vec3::Constant(1e9);
-    for (const Moment& moment : recorded_.moments) {
+    for (const NeedleMoment& moment : recorded_.moments) {
       const Vec3 tip = recorded_.X_AD * unpack(moment.tool.X_DT).translation();
       if (moment.tool.phase != haptics::NeedlePhase::outside && (tip - last).norm() > kTrailPoint)
         trail_.push_back(last = tip);
@@ -147,7 +147,7 @@ class NeedleReplay final : public TrialReplay {
   }
 
   void tell(double t_s, std::int64_t now_ns) override {
-    const Moment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
+    const NeedleMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
     bus_.haptic_to_scene.publish(moment.tool, now_ns);
     task_needle::TaskStatus status = statusAt(moment, recorded_.number, recorded_.force_feedback);
     status.elapsed_s = t_s;  // as the strip says it

@@ -19,7 +19,7 @@
 namespace palpa::replay {
 
 /// What was shown at a moment of a recorded needle trial, by its ticks alone.
-struct Moment {
+struct NeedleMoment {
   double t_s = 0;  ///< since the trial's start; pauses do not count
   runtime::ToolState tool;
   assess::ProcedurePhase phase = assess::ProcedurePhase::approach;
@@ -33,18 +33,18 @@ class MomentReader {
  public:
   MomentReader(const Pose& X_AD, const PackedPose& X_ET, int trial);
   void add(const haptics::FlightRecord& record);
-  const std::vector<Moment>& moments() const { return moments_; }
+  const std::vector<NeedleMoment>& moments() const { return moments_; }
 
  private:
   Pose X_ET_;
   assess::TrialSampler sampler_;
   assess::PhaseDetector phases_;
   double blood_ = 0, last_s_ = 0;
-  std::vector<Moment> moments_;
+  std::vector<NeedleMoment> moments_;
 };
 
 /// What the task said of this moment. `trial`: its number and whether forces were felt.
-task_needle::TaskStatus statusAt(const Moment& moment, int trial, bool force_feedback);
+task_needle::TaskStatus statusAt(const NeedleMoment& moment, int trial, bool force_feedback);
 
 /// The camera's pictures that a session left beside its evidence ("camera.mjpeg": JPEG after JPEG;
 /// "camera.mjpeg.csv": when each was taken), any of them at once. Nothing where there is none, or
@@ -70,7 +70,7 @@ class RecordedPictures {
 /// A recorded needle trial, ready to be shown at any moment.
 struct NeedleTrial : ShownTrial {
   task_needle::TaskWords words;
-  std::vector<Moment> moments;  ///< not empty
+  std::vector<NeedleMoment> moments;  ///< not empty
   double length_s() const { return moments.back().t_s; }
 };
 

@@ -86,7 +86,7 @@ constexpr double kLongestGap = 0.1;  // s; longer: it was paused
 
 class SearchReplay final : public TrialReplay {
  public:
-  SearchReplay(const SearchTrial& trial, scene::SceneView& view)
+  SearchReplay(const ShownSearch& trial, scene::SceneView& view)
       : TrialReplay(trial, trial.length_s()),
         recorded_(trial),
         scene_({stage(view), Pose::Identity(), anatomy::X_AP(), trial.side, trial.magnification},
@@ -104,7 +104,7 @@ class SearchReplay final : public TrialReplay {
 
   trial::TrialScene& scene() override { return scene_; }
 
-  const SearchTrial& recorded_;
+  const ShownSearch& recorded_;
   task_search::SearchChannels channels_{runtime::TimeMode::virtual_time};
   task_search::SearchScene scene_;
 };
@@ -130,7 +130,7 @@ void SearchReader::add(const haptics::FlightRecord& record) {
       {seconds_, toolIn(record, unpack(config_.X_ET)), !listener_.released(), listener_.seconds()});
 }
 
-std::unique_ptr<TrialReplay> searchReplay(const SearchTrial& trial, scene::SceneView& view) {
+std::unique_ptr<TrialReplay> searchReplay(const ShownSearch& trial, scene::SceneView& view) {
   return std::make_unique<SearchReplay>(trial, view);
 }
 
@@ -138,7 +138,7 @@ namespace {
 
 class SqueezeReplay final : public TrialReplay {
  public:
-  SqueezeReplay(const SqueezeTrial& trial, scene::SceneView& view)
+  SqueezeReplay(const ShownSqueeze& trial, scene::SceneView& view)
       : TrialReplay(trial, trial.length_s()),
         recorded_(trial),
         scene_({stage(view), trial.X_AD2, trial.middle_A}, bus_, channels_) {}
@@ -159,7 +159,7 @@ class SqueezeReplay final : public TrialReplay {
 
   trial::TrialScene& scene() override { return scene_; }
 
-  const SqueezeTrial& recorded_;
+  const ShownSqueeze& recorded_;
   task_squeeze::SqueezeChannels channels_{runtime::TimeMode::virtual_time};
   task_squeeze::SqueezeScene scene_;
 };
@@ -167,7 +167,7 @@ class SqueezeReplay final : public TrialReplay {
 }  // namespace
 
 SqueezeReader::SqueezeReader(double touch_N, const std::array<Pose, 2>& X_ET,
-                             const task_squeeze::Comparison& comparison, int trial)
+                             const task_squeeze::SqueezeComparison& comparison, int trial)
     : X_ET_(X_ET), listener_(touch_N), trial_(static_cast<std::uint32_t>(trial)) {
   listener_.begin(trial_, comparison);
 }
@@ -188,7 +188,7 @@ void SqueezeReader::add(const haptics::FlightRecord& record) {
                       listener_.held()});
 }
 
-std::unique_ptr<TrialReplay> squeezeReplay(const SqueezeTrial& trial, scene::SceneView& view) {
+std::unique_ptr<TrialReplay> squeezeReplay(const ShownSqueeze& trial, scene::SceneView& view) {
   return std::make_unique<SqueezeReplay>(trial, view);
 }
 

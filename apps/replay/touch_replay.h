@@ -26,7 +26,7 @@ struct PalpationTrial : ShownTrial {
   std::vector<PalpationMoment> moments;  ///< not empty
   std::vector<assess::PalpationSample> samples;
   std::vector<assess::LumpMark> pressed;  ///< the lumps that were marked
-  std::vector<task_palpation::PalpationStatus::Shown> lumps;
+  std::vector<task_palpation::SeenLump> lumps;
   double length_s() const { return moments.back().t_s; }
 };
 
@@ -55,7 +55,7 @@ struct SearchMoment {
 };
 
 /// A recorded episode of a search, ready to be shown at any moment.
-struct SearchTrial : ShownTrial {
+struct ShownSearch : ShownTrial {
   double side = 0.0144;               ///< m, of the floor in the hand
   double magnification = 10;          ///< of what is shown
   std::vector<SearchMoment> moments;  ///< not empty
@@ -80,7 +80,7 @@ class SearchReader {
 };
 
 /// The trial and the view outlive what is answered.
-std::unique_ptr<TrialReplay> searchReplay(const SearchTrial& trial, scene::SceneView& view);
+std::unique_ptr<TrialReplay> searchReplay(const ShownSearch& trial, scene::SceneView& view);
 
 struct SqueezeMoment {
   double t_s = 0;  ///< since the trial's start; pauses do not count
@@ -91,10 +91,10 @@ struct SqueezeMoment {
 };
 
 /// A recorded comparison, ready to be shown at any moment.
-struct SqueezeTrial : ShownTrial {
+struct ShownSqueeze : ShownTrial {
   Pose X_AD2 = Pose::Identity();  ///< the second device's base
   Vec3 middle_A = Vec3::Zero();   ///< of the object at rest
-  task_squeeze::Comparison comparison;
+  task_squeeze::SqueezeComparison comparison;
   std::vector<SqueezeMoment> moments;  ///< not empty
   double length_s() const { return moments.back().t_s; }
 };
@@ -103,7 +103,7 @@ struct SqueezeTrial : ShownTrial {
 class SqueezeReader {
  public:
   SqueezeReader(double touch_N, const std::array<Pose, 2>& X_ET,
-                const task_squeeze::Comparison& comparison, int trial);
+                const task_squeeze::SqueezeComparison& comparison, int trial);
   void add(const haptics::FlightRecord& record);
   const std::vector<SqueezeMoment>& moments() const { return moments_; }
 
@@ -116,6 +116,6 @@ class SqueezeReader {
 };
 
 /// The trial and the view outlive what is answered.
-std::unique_ptr<TrialReplay> squeezeReplay(const SqueezeTrial& trial, scene::SceneView& view);
+std::unique_ptr<TrialReplay> squeezeReplay(const ShownSqueeze& trial, scene::SceneView& view);
 
 }  // namespace palpa::replay

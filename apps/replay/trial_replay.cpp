@@ -28,9 +28,9 @@ runtime::CameraView calmCamera(std::int64_t now_ns) {
 
 }  // namespace
 
-std::string wordsAt(const std::vector<Mark>& marks, double t_s) {
+std::string wordsAt(const std::vector<StripMark>& marks, double t_s) {
   std::string words;
-  for (const Mark& mark : marks)
+  for (const StripMark& mark : marks)
     if (mark.t_s <= t_s && t_s < mark.t_s + kMarkShown) words = mark.words;
   return words;
 }
@@ -65,7 +65,7 @@ void TrialReplay::addStrip(scene::SceneState& state) const {
   scene::Timeline strip;
   const double length = std::max(length_s_, 1e-9);
   strip.at = at_s_ / length;
-  for (const Mark& mark : trial_.marks) strip.ticks.push_back({mark.t_s / length, mark.tone});
+  for (const StripMark& mark : trial_.marks) strip.ticks.push_back({mark.t_s / length, mark.tone});
   strip.time = clockWords(at_s_) + " of " + clockWords(length_s_);
   strip.rate = rate_;
   state.hud.timeline = strip;

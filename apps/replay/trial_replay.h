@@ -11,7 +11,7 @@
 namespace palpa::replay {
 
 /// Something to see on the way: a tick on the strip, words when it happens.
-struct Mark {
+struct StripMark {
   double t_s = 0;
   scene::TickTone tone = scene::TickTone::neutral;
   std::string words;
@@ -25,7 +25,7 @@ inline constexpr double kMarkShown = 1.5;
 inline constexpr double kMomentStep = 0.004;
 
 /// The words of the latest mark that is still to be seen; empty: none.
-std::string wordsAt(const std::vector<Mark>& marks, double t_s);
+std::string wordsAt(const std::vector<StripMark>& marks, double t_s);
 
 /// The last of `moments`, which have a time `t_s` and stand in its order, at or before a time; or
 /// the first.
@@ -41,8 +41,8 @@ struct ShownTrial {
   int number = 1;
   bool force_feedback = true;
   Pose X_AD = Pose::Identity();
-  std::string mark;         ///< "REPLAY: SIMULATED"
-  std::vector<Mark> marks;  ///< in their order
+  std::string mark;              ///< "REPLAY: SIMULATED"
+  std::vector<StripMark> marks;  ///< in their order
 };
 
 /// The tool as a record has it, for the scene.

@@ -50,7 +50,7 @@ double TimeHistogram::quantile(double q) const noexcept {
   return 0;
 }
 
-Spread spreadOf(const TimeHistogram& h) noexcept {
+TimeSpread spreadOf(const TimeHistogram& h) noexcept {
   return {1e-3 * h.quantile(0.5), 1e-3 * h.quantile(0.99), 1e-3 * h.quantile(0.999),
           1e-3 * static_cast<double>(h.max_ns())};
 }
@@ -84,15 +84,15 @@ class VirtualExecutive final : public Executive {
 
  private:
   void endAll() noexcept {
-    for (const Entry& entry : entries_) entry.activity->end();
+    for (const DueActivity& entry : entries_) entry.activity->end();
   }
 
   void steps() {
     stopped_ = false;
     while (!stopped_) {
       // A handful of activities: a scan is simpler than a heap, and the order is plain to see.
-      const auto next =
-          std::min_element(entries_.begin(), entries_.end(), [](const Entry& a, const Entry& b) {
+      const auto next = std::min_element(
+          entries_.begin(), entries_.end(), [](const DueActivity& a, const DueActivity& b) {
             return a.due_ns != b.due_ns ? a.due_ns < b.due_ns : a.priority < b.priority;
           });
       if (next == entries_.end() || next->due_ns == kNever) return;
@@ -101,13 +101,13 @@ class VirtualExecutive final : public Executive {
     }
   }
 
-  struct Entry {
+  struct DueActivity {
     std::int64_t due_ns;
     int priority;
     Activity* activity;
   };
   VirtualClock clock_;
-  std::vector<Entry> entries_;
+  std::vector<DueActivity> entries_;
   bool stopped_ = false;
 };
 
@@ -122,7 +122,7 @@ class RealExecutive final : public Executive {
   TimeMode mode() const override { return TimeMode::real; }
   const Clock& clock() const override { return clock_; }
   void add(Activity& activity, const ThreadPolicy& policy) override {
-    auto entry = std::make_unique<Entry>();
+    auto entry = std::make_unique<ActivityThread>();
     entry->activity = &activity;
     entry->policy = policy;
     entries_.push_back(std::move(entry));
@@ -149,7 +149,7 @@ class RealExecutive final : public Executive {
   std::vector<Lateness> lateness() const override {
     std::vector<Lateness> all;
     for (const auto& e : entries_) {
-      const Spread late = spreadOf(e->late);
+      const TimeSpread late = spreadOf(e->late);
       all.push_back({e->activity->name(), e->late.count(), late.median_us, late.p99_us,
                      late.p999_us, late.max_us, spreadOf(e->cost), e->missed, e->scheduling,
                      e->late});
@@ -158,7 +158,7 @@ class RealExecutive final : public Executive {
   }
 
  private:
-  struct Entry {
+  struct ActivityThread {
     Activity* activity = nullptr;
     ThreadPolicy policy;
     TimeHistogram late, cost;
@@ -166,7 +166,7 @@ class RealExecutive final : public Executive {
     std::string scheduling = "normal priority";
   };
 
-  void loop(Entry& entry) {
+  void loop(ActivityThread& entry) {
     try {
       if (entry.policy.real_time) entry.scheduling = os::becomeRealTime(entry.policy.cpu);
       const std::int64_t period = entry.activity->period_ns();
@@ -190,7 +190,7 @@ class RealExecutive final : public Executive {
   }
 
   SteadyClock clock_;
-  std::vector<std::unique_ptr<Entry>> entries_;
+  std::vector<std::unique_ptr<ActivityThread>> entries_;
   std::atomic<bool> stopped_{false};
   std::mutex failure_mutex_;
   std::exception_ptr failure_;

@@ -39,17 +39,17 @@ class TimeHistogram {
 };
 
 /// What is said of a histogram, in microseconds.
-struct Spread {
+struct TimeSpread {
   double median_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
 };
-Spread spreadOf(const TimeHistogram& histogram) noexcept;
+TimeSpread spreadOf(const TimeHistogram& histogram) noexcept;
 
 /// Lateness of an activity's steps behind their due times, and what a step cost; real time only.
 struct Lateness {
   std::string name;
   std::uint64_t steps = 0;
   double median_us = 0, p99_us = 0, p999_us = 0, max_us = 0;
-  Spread cost;  ///< from the step's beginning to its end, wherever the thread was meanwhile
+  TimeSpread cost;  ///< from the step's beginning to its end, wherever the thread was meanwhile
   std::uint64_t missed_ticks =
       0;                   ///< later than one period; 0 for an activity without a steady period
   std::string scheduling;  ///< "SCHED_FIFO; memory locked", or why not

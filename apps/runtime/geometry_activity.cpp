@@ -25,7 +25,7 @@ std::int64_t GeometryActivity::step(std::int64_t now_ns) {
 }
 
 LocalGeometry GeometryActivity::make(const ToolState& tool, std::int64_t now_ns) {
-  anatomy::LocalGeometryBuilder::Tool near;
+  anatomy::ToolPlacement near;
   near.X_AT = X_AD_ * unpack(tool.X_DT);
   near.punctured = tool.phase == haptics::NeedlePhase::inserted;
   near.entry_A = X_AD_ * unpack(tool.entry_D);

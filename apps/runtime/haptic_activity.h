@@ -98,16 +98,19 @@ class HapticActivity final : public Activity {
   std::int64_t due_ns_ = -1;
 };
 
+/// A device with the sensor on its tool.
+struct SensedTool {
+  haptics::HapticDevice& device;
+  ForceSensing& sensing;
+};
+
 /// HAPTIC where two devices touch one real thing, every `TickConfig::period_ns` of the first: both
 /// devices and their sensors -> tickPair -> both devices. Never allocates (in real time), locks,
 /// logs or throws. Every tick is recorded twice, the first device's record before the second's.
 class HapticPairActivity final : public Activity {
  public:
-  struct Tool {
-    haptics::HapticDevice& device;
-    ForceSensing& sensing;
-  };
-  HapticPairActivity(Bus& bus, const std::array<Tool, 2>& tools, const haptics::PairConfig& config)
+  HapticPairActivity(Bus& bus, const std::array<SensedTool, 2>& tools,
+                     const haptics::PairConfig& config)
       : bus_(bus), tools_(tools), config_(config) {}
   const char* name() const override { return "haptic"; }
   std::int64_t step(std::int64_t now_ns) override;
@@ -115,7 +118,7 @@ class HapticPairActivity final : public Activity {
 
  private:
   Bus& bus_;
-  std::array<Tool, 2> tools_;
+  std::array<SensedTool, 2> tools_;
   const haptics::PairConfig config_;
   haptics::PairState state_;
   std::int64_t due_ns_ = -1;

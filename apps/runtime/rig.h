@@ -14,7 +14,7 @@ namespace palpa::runtime {
 /// How a board is held before the camera: where its middle is in the picture (-1..1 across and
 /// down), how it leans (rad, about the picture's horizontal and vertical), how much of the
 /// picture's width it takes.
-struct BoardView {
+struct BoardFraming {
   double across = 0, down = 0;
   double lean = 0, turn = 0;
   double share = 0.5;
@@ -40,7 +40,7 @@ struct Request {
   std::string words;
   Vec3 p_W = Vec3::Zero();
   Vec3 lean = Vec3::Zero();  ///< rad, of the tool against upright
-  BoardView view;
+  BoardFraming view;
   double seconds = 0;           ///< how long it will be watched; 0: until the button
   std::string sample = {};      ///< which one lies there; empty: the plain one
   double depth = 0, reach = 0;  ///< m
@@ -49,7 +49,7 @@ inline constexpr double kFeltRate_Hz =
     1000;  ///< of the readings while a sample is pressed or stroked
 
 /// What a station shows at one moment: a reading of the device or a picture.
-struct Moment {
+struct RigMoment {
   double t = 0;                                   ///< s since the start, the program's clock
   std::optional<haptics::DeviceReading> reading;  ///< t_ns: the device's own clock
   std::optional<haptics::WrenchSample> wrench;    ///< with a reading, where there is a sensor
@@ -69,7 +69,7 @@ class Rig {
   virtual ~Rig() = default;
   virtual void ask(const Request& request) = 0;
   /// Nothing when the station has ended or the person gave up. Throws Error.
-  virtual std::optional<Moment> next() = 0;
+  virtual std::optional<RigMoment> next() = 0;
 };
 
 }  // namespace palpa::runtime

@@ -20,7 +20,7 @@ constexpr std::int64_t kLinger = 3 * runtime::kSecond;
 /// A recorded trial, told to the scene at the speed at which it happened.
 class Playback final : public runtime::Activity {
  public:
-  Playback(std::vector<replay::Moment> moments, runtime::Bus& bus,
+  Playback(std::vector<replay::NeedleMoment> moments, runtime::Bus& bus,
            task_needle::TaskChannels& channels, runtime::Executive& executive)
       : moments_(std::move(moments)), bus_(bus), channels_(channels), executive_(executive) {}
   const char* name() const override { return "playback"; }
@@ -42,7 +42,7 @@ class Playback final : public runtime::Activity {
   }
 
  private:
-  void publish(const replay::Moment& moment, std::int64_t now_ns) {
+  void publish(const replay::NeedleMoment& moment, std::int64_t now_ns) {
     task_needle::TaskStatus status = replay::statusAt(moment, 1, true);
     status.role = training::Role::demonstration;
     status.notice = "Demonstration by a simulated expert. Enter: your turn";
@@ -50,7 +50,7 @@ class Playback final : public runtime::Activity {
     channels_.status_to_scene.publish(status, now_ns);
   }
 
-  std::vector<replay::Moment> moments_;
+  std::vector<replay::NeedleMoment> moments_;
   runtime::Bus& bus_;
   task_needle::TaskChannels& channels_;
   runtime::Executive& executive_;
@@ -80,7 +80,7 @@ void showDemonstration(const SessionOptions& options, NeedleWorld& world,
     throw Error("was interrupted", "the demonstration", "Start again");
   const evidence::RecordedNeedleTrial recorded(place / "session.palpa", 1);
 
-  const Stage stage = makeStage(options, world.patient, true);
+  const DesktopStage stage = makeStage(options, world.patient, true);
   const auto executive = runtime::makeRealExecutive();
   runtime::Bus bus(executive->mode());
   task_needle::TaskChannels channels(executive->mode());

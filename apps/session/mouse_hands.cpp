@@ -28,42 +28,42 @@ constexpr const char* kGrades[] = {"soft",           "hard",           "fixed",
 constexpr const char* kVoidReasons[] = {"interrupted", "technical fault", "trainee stopped",
                                         "other"};
 
-void request(trial::Channels& channels, UserCommand command, const std::string& reason = "") {
+void send(trial::Channels& channels, UserCommand command, const std::string& reason = "") {
   channels.requests_to_task.push({command, reason});
 }
 
 }  // namespace
 
 void handleKeys(const scene::ViewInput& input, trial::Channels& channels) {
-  if (input.closed) request(channels, UserCommand::quit);
+  if (input.closed) send(channels, UserCommand::quit);
   for (const std::string& key : input.keys) {
     if (key == "Return" || key == "KP_Enter")
-      request(channels, UserCommand::start);
+      send(channels, UserCommand::start);
     else if (key == "p" || key == "P")
-      request(channels, UserCommand::pause);
+      send(channels, UserCommand::pause);
     else if (key == "a" || key == "A")
-      request(channels, UserCommand::abort);
+      send(channels, UserCommand::abort);
     else if (key == "space")
-      request(channels, UserCommand::emergency_stop);
+      send(channels, UserCommand::emergency_stop);
     else if (key == "r" || key == "R")
-      request(channels, UserCommand::rearm);
+      send(channels, UserCommand::rearm);
     else if (key == "Escape")
-      request(channels, UserCommand::quit);
+      send(channels, UserCommand::quit);
     else if (key == "d" || key == "D")
-      request(channels, UserCommand::done);
+      send(channels, UserCommand::done);
     else if (key.size() == 1 && key[0] >= '1' && key[0] <= '8')
-      request(channels, UserCommand::grade, kGrades[key[0] - '1']);
+      send(channels, UserCommand::grade, kGrades[key[0] - '1']);
     else if (key.size() == 2 && (key[0] == 'F') && key[1] >= '1' && key[1] <= '4')
-      request(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);
+      send(channels, UserCommand::void_trial, kVoidReasons[key[1] - '1']);
   }
 }
 
 MouseHand::MouseHand(const MouseHandSetup& setup, runtime::ChannelDevice& device,
                      trial::Channels& channels)
     : setup_(setup), device_(device), channels_(channels) {
-  wish_.tip_A = pack(setup.anatomy.entry_A);
-  wish_.along = -kAboveSkin;
-  X_AT_ = pointedByMouse(wish_);
+  request_.tip_A = pack(setup.anatomy.entry_A);
+  request_.along = -kAboveSkin;
+  X_AT_ = pointedByMouse(request_);
 }
 
 void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
@@ -78,67 +78,69 @@ void MouseHand::handle(const scene::ViewInput& input, std::int64_t now_ns) {
     const double right = (input.mouse_x - mouse_x_) * kMetresPerPixel;
     const double up = -(input.mouse_y - mouse_y_) * kMetresPerPixel;
     // The screen's right is the patient's left in a supine view from the feet.
-    wish_.tip_A = pack(Vec3(unpack(wish_.tip_A) + right * Vec3::UnitX() + up * Vec3::UnitZ()));
+    request_.tip_A =
+        pack(Vec3(unpack(request_.tip_A) + right * Vec3::UnitX() + up * Vec3::UnitZ()));
   }
   dragging_ = input.left_button;
   mouse_x_ = input.mouse_x;
   mouse_y_ = input.mouse_y;
-  wish_.along = std::clamp(wish_.along + kMetresPerNotch * input.wheel, -0.05, 0.07);
+  request_.along = std::clamp(request_.along + kMetresPerNotch * input.wheel, -0.05, 0.07);
   // The free hand is on the keyboard: Z and X for a right-handed trainee, comma and period for a
   // left.
   const std::string draw = setup_.left_handed ? "period" : "z";
   const std::string push = setup_.left_handed ? "comma" : "x";
   for (const std::string& key : input.keys) {
-    if (key == "Left") wish_.turn_medial -= kTurnPerKey;
-    if (key == "Right") wish_.turn_medial += kTurnPerKey;
-    if (key == "Up") wish_.turn_cephalad += kTurnPerKey;
-    if (key == "Down") wish_.turn_cephalad -= kTurnPerKey;
+    if (key == "Left") request_.turn_medial -= kTurnPerKey;
+    if (key == "Right") request_.turn_medial += kTurnPerKey;
+    if (key == "Up") request_.turn_cephalad += kTurnPerKey;
+    if (key == "Down") request_.turn_cephalad -= kTurnPerKey;
     if (key == draw || (key == "Z" && !setup_.left_handed))
-      wish_.plunger = std::min(1.0, wish_.plunger + kPlungerPerKey);
+      request_.plunger = std::min(1.0, request_.plunger + kPlungerPerKey);
     if (key == push || (key == "X" && !setup_.left_handed))
-      wish_.plunger = std::max(0.0, wish_.plunger - kPlungerPerKey);
+      request_.plunger = std::max(0.0, request_.plunger - kPlungerPerKey);
     if ((key == "t" || key == "T") && skin_key_) skin_key_();
   }
-  wish_.turn_medial = std::clamp(wish_.turn_medial, -kSteepestTurn, kSteepestTurn);
-  wish_.turn_cephalad = std::clamp(wish_.turn_cephalad, -kSteepestTurn, kSteepestTurn);
-  wishes_.publish(wish_, now_ns);
+  request_.turn_medial = std::clamp(request_.turn_medial, -kSteepestTurn, kSteepestTurn);
+  request_.turn_cephalad = std::clamp(request_.turn_cephalad, -kSteepestTurn, kSteepestTurn);
+  requests_.publish(request_, now_ns);
 }
 
-void MouseHand::hold(const headset::HeldTool& held, std::int64_t now_ns) {
-  if (held.start) request(channels_, UserCommand::start);
+void MouseHand::hold(const headset::HeldController& held, std::int64_t now_ns) {
+  if (held.start) send(channels_, UserCommand::start);
   if (held.tracked) {
     seen_ns_ = now_ns;
-    wish_.held = true;
-    wish_.plunger = held.plunger;
-    wish_.X_AT = pack(held.X_AT);
+    request_.held = true;
+    request_.plunger = held.plunger;
+    request_.X_AT = pack(held.X_AT);
   }
-  wishes_.publish(wish_, now_ns);
+  requests_.publish(request_, now_ns);
 }
 
 void MouseHand::letGo(std::int64_t now_ns) {
-  if (!std::exchange(wish_.held, false)) return;
-  wish_.off = pack(Pose(unpack(wish_.X_AT) * pointedByMouse(wish_).inverse()));
-  wishes_.publish(wish_, now_ns);
+  if (!std::exchange(request_.held, false)) return;
+  request_.off = pack(Pose(unpack(request_.X_AT) * pointedByMouse(request_).inverse()));
+  requests_.publish(request_, now_ns);
 }
 
-Pose MouseHand::pointedByMouse(const Wish& wish) const {
+Pose MouseHand::pointedByMouse(const MouseRequest& request) const {
   const twin::VisibleAnatomy& a = setup_.anatomy;
   // "Right" turns the tip to the right of the screen, whichever side is punctured.
   const Vec3 screen_right = Vec3::UnitX() - Vec3::UnitX().dot(a.normal_A) * a.normal_A;
-  const Vec3 axis_A = (-a.normal_A + std::tan(wish.turn_medial) * screen_right.normalized() +
-                       std::tan(wish.turn_cephalad) * a.cephalad_A)
+  const Vec3 axis_A = (-a.normal_A + std::tan(request.turn_medial) * screen_right.normalized() +
+                       std::tan(request.turn_cephalad) * a.cephalad_A)
                           .normalized();
-  return makePose(rotationWithZ(axis_A), unpack(wish.tip_A) + wish.along * axis_A);
+  return makePose(rotationWithZ(axis_A), unpack(request.tip_A) + request.along * axis_A);
 }
 
 std::int64_t MouseHand::step(std::int64_t now_ns) {
-  if (const Wish* wish = wishes_.read(now_ns)) {
+  if (const MouseRequest* request = requests_.read(now_ns)) {
     const double share = 1e-3 / kSmoothing;
-    const Pose wanted = wish->held ? unpack(wish->X_AT) : unpack(wish->off) * pointedByMouse(*wish);
+    const Pose wanted =
+        request->held ? unpack(request->X_AT) : unpack(request->off) * pointedByMouse(*request);
     const Quat turned = Quat(X_AT_.rotation()).slerp(share, Quat(wanted.rotation())).normalized();
     X_AT_ = makePose(turned.toRotationMatrix(),
                      X_AT_.translation() + share * (wanted.translation() - X_AT_.translation()));
-    plunger_ += share * (wish->plunger - plunger_);
+    plunger_ += share * (request->plunger - plunger_);
   }
   const Pose X_DE = setup_.X_DA * X_AT_ * setup_.X_ET.inverse();
   haptics::DeviceReading reading;
@@ -180,41 +182,41 @@ std::optional<Vec3> pointedAt(const scene::ViewInput& input, const scene::ArGeom
 }  // namespace
 
 PointingHand::PointingHand(const PointingHandSetup& setup) : setup_(setup) {
-  wish_.y = -setup.half_y;
+  request_.y = -setup.half_y;
 }
 
 void PointingHand::handle(const scene::ViewInput& input, const scene::ArGeometry& view,
                           std::int64_t now_ns) {
   const bool turns_view = input.right_button || input.middle_button;
   if (const std::optional<Vec3> p_P = pointedAt(input, view, setup_.X_AP); p_P && !turns_view) {
-    wish_.x = std::clamp(p_P->x(), -setup_.half_x, setup_.half_x);
-    wish_.y = std::clamp(p_P->y(), -setup_.half_y, setup_.half_y);
+    request_.x = std::clamp(p_P->x(), -setup_.half_x, setup_.half_x);
+    request_.y = std::clamp(p_P->y(), -setup_.half_y, setup_.half_y);
   }
-  wish_.press = input.left_button;
+  request_.press = input.left_button;
   if (std::any_of(input.keys.begin(), input.keys.end(),
                   [](const std::string& key) { return key == "m" || key == "M"; })) {
-    wish_.marks += now_ns - mark_key_ns_ > kRepeats;
+    request_.marks += now_ns - mark_key_ns_ > kRepeats;
     mark_key_ns_ = now_ns;
   }
-  wishes_.publish(wish_, now_ns);
+  requests_.publish(request_, now_ns);
 }
 
-void PointingHand::move(const Wish& wish, double dt) {
-  const Vec3 across(wish.x - tip_P_.x(), wish.y - tip_P_.y(), 0);
+void PointingHand::move(const PointingRequest& request, double dt) {
+  const Vec3 across(request.x - tip_P_.x(), request.y - tip_P_.y(), 0);
   const Vec3 step = std::min(1.0, dt / kFingerSmoothing) * across;
   tip_P_ += std::min(1.0, kAcross * dt / std::max(step.norm(), 1e-12)) * step;
-  const double wanted = wish.press ? -kDeepest : kOver,
-               speed = wish.press && tip_P_.z() <= kOver ? kPress : kLift;
+  const double wanted = request.press ? -kDeepest : kOver,
+               speed = request.press && tip_P_.z() <= kOver ? kPress : kLift;
   tip_P_.z() += std::clamp(wanted - tip_P_.z(), -speed * dt, speed * dt);
 }
 
 twin::Hand::Action PointingHand::act(const Senses& senses, double dt) {
   if (!std::exchange(begun_, true))
     tip_P_ = setup_.X_DP.inverse() * (senses.X_DE * setup_.X_ET).translation();
-  if (const Wish* wish = wishes_.read(senses.now_ns)) {
-    move(*wish, dt);
-    if (wish->marks != marked_) mark_left_s_ = kMarkFor_s;
-    marked_ = wish->marks;
+  if (const PointingRequest* request = requests_.read(senses.now_ns)) {
+    move(*request, dt);
+    if (request->marks != marked_) mark_left_s_ = kMarkFor_s;
+    marked_ = request->marks;
   }
   mark_left_s_ = std::max(0.0, mark_left_s_ - dt);
   Action action;

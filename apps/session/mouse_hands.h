@@ -39,12 +39,12 @@ class MouseHand final : public runtime::Activity {
   /// Called by the scene's thread once a frame of a headset: its controller leads while it is
   /// tracked. One that is not seen any more holds the needle where it was, until the mouse is
   /// moved: from there the mouse leads on.
-  void hold(const headset::HeldTool& held, std::int64_t now_ns);
+  void hold(const headset::HeldController& held, std::int64_t now_ns);
   void letGo(std::int64_t now_ns);  ///< the mouse leads again
   void onSkinKey(std::function<void()> action) { skin_key_ = std::move(action); }
 
  private:
-  struct Wish {
+  struct MouseRequest {
     Packed3 tip_A{};
     double turn_medial = 0, turn_cephalad = 0;  ///< rad, from the skin's normal
     double along = 0;                           ///< m, from the wheel
@@ -54,12 +54,12 @@ class MouseHand final : public runtime::Activity {
     PackedPose off = pack(
         Pose(Pose::Identity()));  ///< of the mouse's needle, since it took over from a controller
   };
-  Pose pointedByMouse(const Wish& wish) const;
+  Pose pointedByMouse(const MouseRequest& request) const;
   MouseHandSetup setup_;
   runtime::ChannelDevice& device_;
   trial::Channels& channels_;
-  runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
-  Wish wish_;  // the scene thread's
+  runtime::StateChannel<MouseRequest> requests_{runtime::TimeMode::real};
+  MouseRequest request_;  // the scene thread's
   double mouse_x_ = 0, mouse_y_ = 0;
   bool dragging_ = false;
   std::int64_t seen_ns_ = 0;  // the controller
@@ -93,16 +93,16 @@ class PointingHand final : public twin::Hand {
   const twin::HandGrip& grip() const override { return setup_.grip; }
 
  private:
-  struct Wish {
+  struct PointingRequest {
     double x = 0, y = 0;  ///< m, P
     bool press = false;
     int marks = 0;  ///< asked for so far
   };
-  void move(const Wish& wish, double dt);
+  void move(const PointingRequest& request, double dt);
 
   const PointingHandSetup setup_;
-  runtime::StateChannel<Wish> wishes_{runtime::TimeMode::real};
-  Wish wish_;  // the scene thread's
+  runtime::StateChannel<PointingRequest> requests_{runtime::TimeMode::real};
+  PointingRequest request_;  // the scene thread's
   std::int64_t mark_key_ns_ = -1'000'000'000;
   Vec3 tip_P_ = Vec3::Zero();  // the bench thread's
   bool begun_ = false;

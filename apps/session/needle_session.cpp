@@ -57,7 +57,7 @@ class NeedleSession {
     MouseHand* mouse = frame_.devices().mouse();
     if (mouse && !options_.assess) mouse->onSkinKey([this] { scene_.cycleSkin(); });
     if (mouse && head_.view)
-      head_.view->onHeld([this, mouse](const headset::HeldTool& held) {
+      head_.view->onHeld([this, mouse](const headset::HeldController& held) {
         mouse->hold(held, frame_.executive().clock().now());
       });
   }
@@ -96,8 +96,8 @@ class NeedleSession {
         .guide = {},
         .words = world_.task.words};
     if (options_.guide)
-      setup.guide = scene::Guide{world_.patient.landmark(anatomy::landmark::kEntry),
-                                 world_.patient.landmark(anatomy::landmark::kVeinTarget)};
+      setup.guide = scene::GuideLine{world_.patient.landmark(anatomy::landmark::kEntry),
+                                     world_.patient.landmark(anatomy::landmark::kVeinTarget)};
     return setup;
   }
 

@@ -38,7 +38,7 @@ station::Station palpationStation(const SessionOptions& options) {
                      "Lumps are added to what is felt of the phantom: that must be measured. "
                      "Describe the sensor");
   if (station.device.driver == station::DeviceDriver::bench &&
-      station.force_sensor->driver != station::ForceSensorSetup::Driver::bench)
+      station.force_sensor->driver != station::ForceSensorDriver::bench)
     station.file.refuse("force_sensor/driver",
                         "is a real sensor, but the device is simulated and touches simulated "
                         "silicone; it must be \"virtual\", too");

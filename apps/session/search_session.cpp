@@ -193,7 +193,7 @@ void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
   page.title = world.task.title;
   page.trainee = whoPerformed(options);
   page.simulated = world.simulated(options);
-  for (const station::NamedPlan::Part& part : world.task.augmentations.subtasks)
+  for (const station::NamedPart& part : world.task.augmentations.subtasks)
     page.subtasks.push_back({part.name, part.means});
   for (const trial::SavedPicture& p : run.pictures)
     page.pictures.push_back({p.file, p.moment.caption, p.moment.t_s});

@@ -22,7 +22,7 @@ std::vector<haptics::RecordedReading> readingsOf(const std::filesystem::path& se
 /// The bench's sensor, where the station has one and it is not a real one.
 std::unique_ptr<runtime::ChannelSensor> benchSensor(const station::Station& station,
                                                     runtime::TimeMode mode) {
-  if (!station.force_sensor || station.force_sensor->driver != ForceSensorSetup::Driver::bench)
+  if (!station.force_sensor || station.force_sensor->driver != ForceSensorDriver::bench)
     return nullptr;
   return std::make_unique<runtime::ChannelSensor>(station.force_sensor->net_ft.capabilities, mode);
 }
@@ -58,8 +58,8 @@ SessionDevices::SessionDevices(const SessionOptions& options, const station::Sta
     second_->sensing.emplace(*second_->sensor, sensingSetup(options.rate_Hz, hands.tip_radius,
                                                             hands.bench.second->X_WD));
   }
-  if (bench_moves_ || (options.camera.empty() &&
-                       station.camera_setup.driver == station::CameraSetup::Driver::bench))
+  if (bench_moves_ ||
+      (options.camera.empty() && station.camera_setup.driver == station::CameraDriver::bench))
     makeBench(std::move(hands.bench), bus, channels);
   openDevice(hands.mouse, bus, channels);
   openSensor(options, hands.tip_radius, clock, mode);
@@ -112,10 +112,10 @@ void SessionDevices::openSensor(const SessionOptions& options, double tip_radius
   if (!station_.force_sensor) return;
   // A simulated operator has no part in what a real sensor measures, nor a real hand in what the
   // bench's does.
-  if (bench_moves_ == (station_.force_sensor->driver == ForceSensorSetup::Driver::net_ft)) return;
+  if (bench_moves_ == (station_.force_sensor->driver == ForceSensorDriver::net_ft)) return;
   const ForceSensorSetup& setup = *station_.force_sensor;
   haptics::ForceSensor* sensor = bench_sensor_.get();
-  if (setup.driver == ForceSensorSetup::Driver::net_ft) {
+  if (setup.driver == ForceSensorDriver::net_ft) {
     if (mode == runtime::TimeMode::virtual_time)
       throw UsageError("needs real time", "force_sensor \"" + setup.net_ft.capabilities.name + "\"",
                        "Leave out --fast");
@@ -147,8 +147,8 @@ void SessionDevices::addTo(runtime::Executive& executive) {
   if (net_ft_activity_) executive.add(*net_ft_activity_, {0, false, false});
 }
 
-std::vector<SessionDevices::Fact> SessionDevices::facts() const {
-  std::vector<Fact> facts;
+std::vector<report::Fact> SessionDevices::facts() const {
+  std::vector<report::Fact> facts;
   if (const std::uint64_t late = channel_.timeouts())
     facts.push_back({"Forces taken away by the device's watchdog", std::to_string(late),
                      "the haptic loop had not commanded for 10 ms"});

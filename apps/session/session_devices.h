@@ -4,6 +4,7 @@
 #include <memory>
 #include <vector>
 
+#include "apps/report/page/page_parts.h"
 #include "apps/runtime/device_activity.h"
 #include "apps/runtime/device_adapters.h"
 #include "apps/runtime/executive.h"
@@ -54,10 +55,7 @@ class SessionDevices {
 
   void addTo(runtime::Executive& executive);  ///< what has to run beside the loop
 
-  struct Fact {
-    std::string name, value, remark;
-  };
-  std::vector<Fact> facts() const;  ///< what a driver has counted, for the report
+  std::vector<report::Fact> facts() const;  ///< what a driver has counted, for the report
 
  private:
   void makeBench(twin::VirtualBenchSetup setup, runtime::Bus& bus, trial::Channels& channels);

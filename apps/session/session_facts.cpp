@@ -85,8 +85,7 @@ std::vector<report::Fact> runNotes(const SessionRun& result) {
                               static_cast<unsigned long long>(late.steps), late.cost.median_us),
                        late.scheduling});
   for (report::Fact& fact : safetyFacts(result.safety_events)) facts.push_back(std::move(fact));
-  for (const SessionDevices::Fact& fact : result.devices)
-    facts.push_back({fact.name, fact.value, fact.remark});
+  facts.insert(facts.end(), result.devices.begin(), result.devices.end());
   for (const std::string& remark : result.camera_remarks)
     facts.push_back({"Camera", remark, "the overlay may shift under a calibration"});
   if (result.video && !result.video->trouble.empty())

@@ -30,7 +30,7 @@ std::vector<report::Fact> runNotes(const SessionRun& run);
 template <typename Trials, typename Of>
 report::SubtaskSection partsOf(const station::NamedPlan& plan, const Trials& trials, Of of) {
   report::SubtaskSection section;
-  for (const station::NamedPlan::Part& part : plan.subtasks)
+  for (const station::NamedPart& part : plan.subtasks)
     section.meanings.emplace_back(part.name, part.means);
   for (const auto& trial : trials) {
     const auto [doses, augmented, seconds] = of(trial);

@@ -36,7 +36,7 @@ SessionFrame::SessionFrame(const SessionOptions& options, const World& world,
       folder_(folder),
       window_(options.display == scene::Display::window && !options.no_views),
       pictures_(options, world.station),
-      stage_(options.no_views ? Stage{}
+      stage_(options.no_views ? DesktopStage{}
                               : makeStage(options, world.patient, window_, world.fixed_views)),
       executive_(options.fast ? runtime::makeVirtualExecutive() : runtime::makeRealExecutive()),
       mode_(executive_->mode()),
@@ -91,11 +91,11 @@ std::unique_ptr<runtime::Activity> SessionFrame::loop(runtime::GeometryActivity*
     return std::make_unique<runtime::HapticActivity>(
         bus_, devices_.device(), world_.tick, devices_.sensing(),
         options_.exact_geometry ? geometry : nullptr, world_.floors);
-  using Tool = runtime::HapticPairActivity::Tool;
+  using runtime::SensedTool;
   return std::make_unique<runtime::HapticPairActivity>(
       bus_,
-      std::array<Tool, 2>{Tool{devices_.device(), *devices_.sensing()},
-                          Tool{devices_.second()->device, *devices_.second()->sensing}},
+      std::array<SensedTool, 2>{SensedTool{devices_.device(), *devices_.sensing()},
+                                SensedTool{devices_.second()->device, *devices_.second()->sensing}},
       *world_.pair);
 }
 
@@ -126,7 +126,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   }
   runtime::RecorderActivity recorder(bus_, told ? static_cast<runtime::FlightSink&>(*told) : writer,
                                      world_.tick.period_ns);
-  Progress progress(options_.quiet);
+  ProgressLine progress(options_.quiet);
   Interrupt interrupt(channels_);
   devices_.addTo(*executive_);
   executive_->add(*haptic, {1, true, false, options_.cpu});
@@ -153,7 +153,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   run.camera_remarks = pictures_.remarks();
   run.board = scene.board();
   run.devices = devices_.facts();
-  for (SessionDevices::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));
+  for (report::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));
   run.safety_events = task.safetyEvents();
   run.dropped = recorder.dropped() + task.lostTicks();
   run.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;

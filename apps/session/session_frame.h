@@ -33,9 +33,9 @@ struct SessionRun {
   std::optional<Video> video;          ///< where one was recorded
   std::optional<ar::BoardPose> board;  ///< as it was seen last
   std::vector<runtime::Event>
-      safety_events;  ///< what took the force away, what a driver had to say
-  std::vector<SessionDevices::Fact> devices;  ///< what their drivers counted
-  std::uint64_t dropped = 0;                  ///< records lost by the recorder
+      safety_events;                  ///< what took the force away, what a driver had to say
+  std::vector<report::Fact> devices;  ///< what their drivers counted
+  std::uint64_t dropped = 0;          ///< records lost by the recorder
   double simulated_s = 0;
   bool quit = false;
 };
@@ -70,7 +70,7 @@ class SessionFrame {
   runtime::Bus& bus() { return bus_; }
   runtime::Executive& executive() { return *executive_; }
   SessionDevices& devices() { return devices_; }
-  const Stage& desktop() const { return stage_; }
+  const DesktopStage& desktop() const { return stage_; }
 
  private:
   std::unique_ptr<runtime::Activity> loop(runtime::GeometryActivity* geometry);
@@ -82,7 +82,7 @@ class SessionFrame {
   const std::filesystem::path folder_;
   const bool window_;
   SessionPictures pictures_;
-  const Stage stage_;
+  const DesktopStage stage_;
   const std::unique_ptr<runtime::Executive> executive_;
   const runtime::TimeMode mode_;
   runtime::Bus bus_;

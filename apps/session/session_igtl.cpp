@@ -60,8 +60,8 @@ void SessionIgtl::finish(std::int64_t now_ns) {
   if (link_) link_->step(now_ns);
 }
 
-std::vector<SessionDevices::Fact> SessionIgtl::facts() const {
-  std::vector<SessionDevices::Fact> facts;
+std::vector<report::Fact> SessionIgtl::facts() const {
+  std::vector<report::Fact> facts;
   if (tracker_) {
     const igt::TrackerCounts c = tracker_->counts();
     facts.push_back({"Poses of the tracking system", std::to_string(c.poses),

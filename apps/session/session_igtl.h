@@ -27,7 +27,7 @@ class SessionIgtl {
   void addTo(runtime::Executive& executive);
   /// After the recorder has finished: what was recorded last is told, too.
   void finish(std::int64_t now_ns);
-  std::vector<SessionDevices::Fact> facts() const;  ///< after the session
+  std::vector<report::Fact> facts() const;  ///< after the session
 
  private:
   std::optional<igt::IgtlLink> link_;

@@ -38,7 +38,7 @@ SessionPictures::SessionPictures(const SessionOptions& options, const station::S
       rate_Hz_(station.camera_rate_Hz) {
   if (!file_.empty())
     source_ = ar::isVideoFile(file_) ? Source::film : Source::photographs;
-  else if (station_.camera_setup.driver == station::CameraSetup::Driver::webcam)
+  else if (station_.camera_setup.driver == station::CameraDriver::webcam)
     source_ = Source::webcam;
   if (source_ == Source::webcam && options.fast)
     throw UsageError("needs real time", "the station's webcam", "Leave out --fast");

@@ -6,8 +6,8 @@
 
 namespace palpa::session {
 
-Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
-                bool fixed_views) {
+DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
+                       bool fixed_views) {
   scene::ViewLayout layout;
   layout.orthographic = fixed_views;
   layout.free_navigation = options.navigation;
@@ -15,14 +15,14 @@ Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, 
   layout.force_colours = options.force_colours;
   layout.stereo = options.stereo;
   layout.inset = options.inset;
-  Stage stage;
+  DesktopStage stage;
   stage.context = scene::makeGlContext(window ? scene::Display::window : scene::Display::offscreen,
                                        layout.width, layout.height, "Palpa");
   stage.view = std::make_unique<scene::SceneView>(*stage.context, patient, layout);
   return stage;
 }
 
-SessionDevices::Fact HeadStage::fact() const {
+report::Fact HeadStage::fact() const {
   if (!view) return {"Headset", "none", refusal};
   return {"Headset", view->describe(),
           std::to_string(view->frames()) + " pictures shown to each eye" +
@@ -30,7 +30,7 @@ SessionDevices::Fact HeadStage::fact() const {
 }
 
 HeadStage makeHeadStage(const SessionOptions& options, const anatomy::Patient& patient,
-                        const Pose& X_WA, const Stage& desktop) {
+                        const Pose& X_WA, const DesktopStage& desktop) {
   HeadStage stage;
   if (!options.headset) return stage;
   headset::HeadsetViewSetup setup;

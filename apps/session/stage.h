@@ -11,26 +11,26 @@
 namespace palpa::session {
 
 /// What the session is shown on; the view goes before its context.
-struct Stage {
+struct DesktopStage {
   std::unique_ptr<scene::GlContextProvider> context;
   std::unique_ptr<scene::SceneView> view;
 };
 
-Stage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
-                bool fixed_views = true);
+DesktopStage makeStage(const SessionOptions& options, const anatomy::Patient& patient, bool window,
+                       bool fixed_views = true);
 
 /// The headset, where one was asked for and is there.
 struct HeadStage {
   std::unique_ptr<headset::HeadsetView> view;  ///< null: none
   std::string refusal;                         ///< why not
 
-  SessionDevices::Fact fact() const;  ///< for the report
+  report::Fact fact() const;  ///< for the report
 };
 
 /// Without a headset the session goes on on the desktop, and standard error says so; throws only
 /// where a person then has nothing to see. The desktop's window decides the kind of context, and
 /// does not wait for its monitor any more.
 HeadStage makeHeadStage(const SessionOptions& options, const anatomy::Patient& patient,
-                        const Pose& X_WA, const Stage& desktop);
+                        const Pose& X_WA, const DesktopStage& desktop);
 
 }  // namespace palpa::session

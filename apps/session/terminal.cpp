@@ -13,13 +13,13 @@ constexpr std::int64_t kTerminal = 200'000'000;  // wall time between lines
 constexpr std::int64_t kPlain = 5'000'000'000;
 }  // namespace
 
-Progress::Progress(bool quiet) : quiet_(quiet), terminal_(os::errorsGoToTerminal()) {}
+ProgressLine::ProgressLine(bool quiet) : quiet_(quiet), terminal_(os::errorsGoToTerminal()) {}
 
-Progress::~Progress() {
+ProgressLine::~ProgressLine() {
   if (!quiet_ && terminal_) std::fputs("\r\033[K", stderr);
 }
 
-std::int64_t Progress::step(std::int64_t now_ns) {
+std::int64_t ProgressLine::step(std::int64_t now_ns) {
   const std::int64_t wall = wall_.now();
   if (!quiet_ && wall - last_wall_ns_ >= (terminal_ ? kTerminal : kPlain)) {
     last_wall_ns_ = wall;

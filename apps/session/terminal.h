@@ -12,10 +12,10 @@ namespace palpa::session {
 
 /// Says on standard error how a session goes: a line that renews itself on a terminal, a line every
 /// five seconds otherwise.
-class Progress final : public runtime::Activity {
+class ProgressLine final : public runtime::Activity {
  public:
-  explicit Progress(bool quiet);
-  ~Progress() override;
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine() override;
   const char* name() const override { return "progress"; }
   std::int64_t step(std::int64_t now_ns) override;
 

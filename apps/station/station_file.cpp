@@ -27,14 +27,14 @@ calibration::CameraModel readCamera(const JsonFile& file) {
   return camera;
 }
 
-const EnumNames<CameraSetup::Driver> kCameraDrivers{"bench", "webcam"};
+const EnumNames<CameraDriver> kCameraDrivers{"bench", "webcam"};
 
 /// What is not there is the bench's.
 CameraSetup readCameraSetup(const JsonFile& file) {
   CameraSetup setup;
   if (!file.has("camera/driver")) return setup;
   setup.driver = kCameraDrivers.in(file, "camera/driver", "known are bench and webcam");
-  if (setup.driver == CameraSetup::Driver::bench) return setup;
+  if (setup.driver == CameraDriver::bench) return setup;
   setup.device = file.text("camera/device");
   setup.exposure_ms = file.number("camera/exposure_ms", 0.1, 1000);
   if (file.has("camera/gain")) setup.gain = file.number("camera/gain", 0, 1e6);
@@ -138,9 +138,8 @@ Station readStation(const std::filesystem::path& path) {
   s.camera_setup = readCameraSetup(file);
   s.tracker = readTracker(file);
   s.camera_rate_Hz = file.number("camera/rate_Hz", 1, 240);
-  const bool on_bench =
-      s.camera_setup.driver ==
-      CameraSetup::Driver::bench;  // where a picture is seen before the next is taken
+  const bool on_bench = s.camera_setup.driver ==
+                        CameraDriver::bench;  // where a picture is seen before the next is taken
   s.camera_latency_s =
       1e-3 * file.number("camera/latency_ms", 0, on_bench ? 1000 / s.camera_rate_Hz : 1000);
   s.simulated = on_bench || s.device.driver == DeviceDriver::bench;
@@ -152,8 +151,8 @@ Station readStation(const std::filesystem::path& path) {
   s.things = readRealThings(file, path.parent_path(), s.boards);
   s.landmarks = readLandmarks(file);
   if (file.has("sample"))
-    s.sample =
-        Sample{readPose(file, "sample/X_WP"), 1e-3 * file.number("sample/tip_radius_mm", 1, 30)};
+    s.sample = SoftSample{readPose(file, "sample/X_WP"),
+                          1e-3 * file.number("sample/tip_radius_mm", 1, 30)};
   if (file.has("floor"))
     s.floor = FloorSetup{readPose(file, "floor/X_WF"), kMm * file.number("floor/unit_mm", 0.01, 2),
                          file.number("floor/handle_weight_N", 0, 10)};

@@ -24,7 +24,7 @@ struct Landmark {
 
 /// A soft sample on the table, and the round tip that feels it. P: origin in the middle of its top,
 /// z up.
-struct Sample {
+struct SoftSample {
   Pose X_WP = Pose::Identity();
   double tip_radius = 0.008;  ///< m
 };
@@ -38,10 +38,12 @@ struct FloorSetup {
   double handle_weight_N = 0;  ///< held up by the device
 };
 
+/// Where pictures come from; bench: simulated.
+enum class CameraDriver { bench, webcam };
+
 /// Whose pictures the station watches.
 struct CameraSetup {
-  enum class Driver { bench, webcam };
-  Driver driver = Driver::bench;
+  CameraDriver driver = CameraDriver::bench;
   std::string device = "/dev/video0";
   double exposure_ms = 10;
   double gain = -1, focus = -1;  ///< the driver's units; negative: as it is
@@ -74,9 +76,9 @@ struct Station {
   std::vector<RealThing> things;   ///< that hide virtual ones in the picture
   std::optional<ar::TagGridSpec>
       marker;  ///< a small grid of tags on the end effector, for registration and latency
-  std::optional<Sample> sample;     ///< what palpation, squeezing and their calibrations touch
-  std::optional<FloorSetup> floor;  ///< what a search explores
-  std::vector<Landmark> landmarks;  ///< known points that a tip can be put on
+  std::optional<SoftSample> sample;  ///< what palpation, squeezing and their calibrations touch
+  std::optional<FloorSetup> floor;   ///< what a search explores
+  std::vector<Landmark> landmarks;   ///< known points that a tip can be put on
   std::vector<Landmark>
       grid;  ///< more of them, evenly through the workspace: for the device's position error
   haptics::WorkspaceCorrection workspace;  ///< of the device's readings

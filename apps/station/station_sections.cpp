@@ -31,7 +31,7 @@ std::uint32_t readButton(const JsonFile& file, const std::string& at) {
 }
 
 const EnumNames<DeviceDriver> kDeviceDrivers{"virtual", "falcon", "mouse", "replay"};
-const EnumNames<ForceSensorSetup::Driver> kForceSensorDrivers{"virtual", "net_ft"};
+const EnumNames<ForceSensorDriver> kForceSensorDrivers{"virtual", "net_ft"};
 
 Packed3 readPacked(const JsonFile& file, const std::string& at, double unit) {
   return pack(Vec3(unit * unpack(file.triple(at))));
@@ -85,10 +85,10 @@ std::optional<ForceSensorSetup> readForceSensor(const JsonFile& file) {
   ForceSensorSetup sensor;
   haptics::ForceSensorCapabilities& can = sensor.net_ft.capabilities;
   sensor.driver = kForceSensorDrivers.in(file, "force_sensor/driver");
-  if (sensor.driver == ForceSensorSetup::Driver::net_ft) readNetFt(file, sensor.net_ft);
+  if (sensor.driver == ForceSensorDriver::net_ft) readNetFt(file, sensor.net_ft);
   can.name = file.text("force_sensor/name");
   can.max_force_N = readPacked(file, "force_sensor/max_force_N", 1);
-  can.simulated = sensor.driver == ForceSensorSetup::Driver::bench;
+  can.simulated = sensor.driver == ForceSensorDriver::bench;
   sensor.X_ES = readPose(file, "force_sensor/X_ES");
   sensor.cutoff_Hz = file.number("force_sensor/cutoff_Hz", 1, 400);
   sensor.filter.tool.mass = 1e-3 * file.number("force_sensor/tool/mass_g", 0, 5000);

@@ -34,11 +34,13 @@ struct DeviceSetup {
 /// Section "device". Relative paths start at `folder`. Throws UsageError.
 DeviceSetup readDevice(const JsonFile& file, const std::filesystem::path& folder);
 
+/// What measures the force; bench: simulated.
+enum class ForceSensorDriver { bench, net_ft };
+
 /// A force sensor between the device's last link and the tool: "virtual" (the bench's), "net_ft"
 /// (ATI Net F/T or Ethernet Axia over UDP).
 struct ForceSensorSetup {
-  enum class Driver { bench, net_ft };
-  Driver driver = Driver::bench;
+  ForceSensorDriver driver = ForceSensorDriver::bench;
   haptics::NetFtSettings net_ft;  ///< its capabilities hold for every driver
   haptics::WrenchFilter
       filter;  ///< bias and tool, as calibrated; its rate and low-pass are the loop's to set

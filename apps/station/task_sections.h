@@ -38,6 +38,11 @@ JsonFile readTaskFile(const std::filesystem::path& path);
 /// No states where the task has no "learned". Throws UsageError naming the field.
 haptics::LearnedModel learnedIn(const JsonFile& task);
 
+/// A part of a task, or what is added in it, by name and in words.
+struct NamedPart {
+  std::string name, means;
+};
+
 /// A task's parts and what is added to the force in each, as its file says it:
 ///   "subtasks": [{"name": "scan", "means": "...", "on": [{"cue": "floor_speed", "at_least":
 ///   468.75}]}]
@@ -55,17 +60,14 @@ haptics::LearnedModel learnedIn(const JsonFile& task);
 ///   "limit_share": 0.5 of the device's force, for all together
 struct NamedPlan {
   haptics::AugmentationPlan plan;  ///< forces as in the file, for no device yet
-  struct Part {
-    std::string name, means;
-  };
-  std::vector<Part> subtasks, augmentations;
+  std::vector<NamedPart> subtasks, augmentations;
   double limit_share = 0.5;
   std::vector<double>
       reach_U;  ///< of each augmentation, where it is given in units of a floor; else 0
   bool empty() const { return subtasks.empty(); }
   std::vector<std::string> subtaskNames() const {
     std::vector<std::string> names;
-    for (const Part& part : subtasks) names.push_back(part.name);
+    for (const NamedPart& part : subtasks) names.push_back(part.name);
     return names;
   }
 };

@@ -31,7 +31,7 @@ void needGroups(const JsonFile& file, const Protocol& protocol, const Learners& 
   for (const auto& [name, ignored] : learners.groups)
     if (!protocol.group(name))
       file.refuse("groups", "has \"" + name + "\", which is no group of " + protocol.file.string());
-  for (const Condition& condition : protocol.conditions)
+  for (const StudyCondition& condition : protocol.conditions)
     if (!learners.rate_times.count(condition.name))
       file.refuse("conditions",
                   "lacks \"" + condition.name + "\", a condition of " + protocol.file.string());

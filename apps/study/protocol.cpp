@@ -24,7 +24,7 @@ const Named* named(const std::vector<Named>& all, const std::string& name) {
 }  // namespace
 
 const Group* Protocol::group(const std::string& name) const { return named(groups, name); }
-const Condition* Protocol::condition(const std::string& name) const {
+const StudyCondition* Protocol::condition(const std::string& name) const {
   return named(conditions, name);
 }
 
@@ -175,7 +175,7 @@ void needAllUsed(const JsonFile& file, const Protocol& protocol) {
     file.refuse("allocation", "is used by no block: none has the condition \"drawn\"");
   if (protocol.allocation)
     used.insert(protocol.allocation->conditions.begin(), protocol.allocation->conditions.end());
-  for (const Condition& condition : protocol.conditions)
+  for (const StudyCondition& condition : protocol.conditions)
     if (!used.count(condition.name))
       file.refuse("conditions",
                   "has \"" + condition.name + "\", which no block and no allocation uses");
@@ -212,11 +212,11 @@ Protocol readProtocol(const std::filesystem::path& path) {
   p.groups = namedIn<Group>(
       file, "groups", [&](const JsonFile& f) { return std::make_from_tuple<Group>(named(f)); });
   const Presentation always = presentationIn(partOf(file, "always"), {});
-  p.conditions = namedIn<Condition>(file, "conditions", [&](const JsonFile& f) {
+  p.conditions = namedIn<StudyCondition>(file, "conditions", [&](const JsonFile& f) {
     if (f.text("name") == kDrawn)
       f.refuse("name", "is \"drawn\", which means the condition that a trainee draws");
-    return Condition{needName(f, "name"), f.text("means"),
-                     presentationIn(partOf(f, "sets"), always)};
+    return StudyCondition{needName(f, "name"), f.text("means"),
+                          presentationIn(partOf(f, "sets"), always)};
   });
   if (file.has("allocation")) p.allocation = allocationIn(partOf(file, "allocation"), p);
   p.sessions =

@@ -27,7 +27,7 @@ struct Presentation {
   std::string mode = "real";     ///< search: real, degraded, augmented
 };
 
-struct Condition {
+struct StudyCondition {
   std::string name, means;
   Presentation shows;
 };
@@ -67,7 +67,7 @@ struct Protocol {
   std::string id, title, source, sha256;
   std::filesystem::path file;
   std::vector<Group> groups;
-  std::vector<Condition> conditions;
+  std::vector<StudyCondition> conditions;
   std::optional<Allocation> allocation;  ///< none: all trainees go the same way
   std::vector<Session> sessions;
   std::uint64_t trial_seed = 1;  ///< of the tasks' chances: the same for all trainees
@@ -77,7 +77,7 @@ struct Protocol {
   std::vector<std::string> barred;  ///< further pseudonyms
 
   const Group* group(const std::string& name) const;  ///< null: none of that name
-  const Condition* condition(const std::string& name) const;
+  const StudyCondition* condition(const std::string& name) const;
   const Block& block(std::int64_t step) const;  ///< throws Error for a step that there is not
   int sessionOf(std::int64_t step) const;       ///< 1, 2, ...
   bool blind() const { return blind_trainee || blind_educator; }

@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kFewestPoints = 2, kMostPoints = 11;
 constexpr std::size_t kLongestAnswer = 2000;
-const EnumNames<Item::Kind> kItemKinds{"likert", "text"};
+const EnumNames<ItemKind> kItemKinds{"likert", "text"};
 
 Item itemIn(const JsonFile& file) {
   Item item;

@@ -52,7 +52,7 @@ struct NeedleSceneSetup {
   /// The skin is shown to give way (surface `skin` of this patient); null: it is not.
   const anatomy::SurfaceQuery* giving_way = nullptr;
   int skin = 0;
-  std::optional<scene::Guide> guide;
+  std::optional<scene::GuideLine> guide;
   TaskWords words;
 };
 

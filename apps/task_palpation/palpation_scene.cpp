@@ -64,7 +64,7 @@ void PalpationScene::showFelt(scene::SceneState& state) const {
     state.coverage = grid;
   }
   state.lumps.clear();
-  for (const PalpationStatus::Shown& lump : status_.lumps)
+  for (const SeenLump& lump : status_.lumps)
     state.lumps.push_back({setup_.X_AP * lump.p_P, lump.radius, lump.found, lump.normal});
   state.marks_A.clear();
   for (const Vec3& p_P : status_.marks_P)

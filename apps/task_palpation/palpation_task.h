@@ -63,20 +63,22 @@ struct CompletedPalpation {
   std::string reason;  ///< why aborted or void
 };
 
+/// A lump that is seen through the surface, in P; m.
+struct SeenLump {
+  Vec3 p_P = Vec3::Zero();
+  double radius = 0;
+  bool found = false;
+  bool normal = false;  ///< belongs there
+};
+
 /// What the task tells the scene.
 struct PalpationStatus : trial::TrialStatus {
   int columns = 0, rows = 0;
   std::vector<std::uint8_t>
       levels;  ///< of the coverage map, row by row from the trainee away; empty: it is not shown
   std::vector<Vec3> marks_P;
-  struct Shown {
-    Vec3 p_P = Vec3::Zero();
-    double radius = 0;
-    bool found = false;
-    bool normal = false;  ///< belongs there
-  };
-  std::vector<Shown> lumps;    ///< seen through the surface
-  std::optional<Vec3> lead_P;  ///< where guidance leads
+  std::vector<SeenLump> lumps;  ///< seen through the surface
+  std::optional<Vec3> lead_P;   ///< where guidance leads
   double pressed_N = 0;
   int level = 0;  ///< of this pressure: 0 to 3
 };

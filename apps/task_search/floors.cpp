@@ -106,7 +106,7 @@ std::unique_ptr<MadeFloor> makeFloor(const SearchSettings& task, const Episode& 
 }
 
 void Floors::prepare(std::uint32_t number) {
-  Slot& s = slot(number);
+  FloorSlot& s = slot(number);
   if (number < 1 || number > episodes_.size() || s.coming == number) return;
   s.number.store(0, std::memory_order_release);
   if (s.making.valid()) s.making.wait();
@@ -116,7 +116,7 @@ void Floors::prepare(std::uint32_t number) {
 }
 
 bool Floors::ready(std::uint32_t number, bool wait) {
-  Slot& s = slot(number);
+  FloorSlot& s = slot(number);
   if (s.number.load(std::memory_order_acquire) == number) return true;
   if (s.coming != number || !s.making.valid()) return false;
   if (!wait && s.making.wait_for(std::chrono::seconds(0)) != std::future_status::ready)
@@ -128,7 +128,7 @@ bool Floors::ready(std::uint32_t number, bool wait) {
 }
 
 const haptics::Floor* Floors::floor(std::uint32_t number) const noexcept {
-  const Slot& s = slots_[number % slots_.size()];
+  const FloorSlot& s = slots_[number % slots_.size()];
   return s.number.load(std::memory_order_acquire) == number ? &s.floor : nullptr;
 }
 

@@ -66,18 +66,18 @@ class Floors final : public runtime::FloorSource {
  private:
   /// Three: the one that is felt, the one before it, which a late tick may still name, and the
   /// next.
-  struct Slot {
+  struct FloorSlot {
     std::atomic<std::uint32_t> number{0};
     std::uint32_t coming = 0;
     std::future<std::unique_ptr<MadeFloor>> making;
     std::unique_ptr<MadeFloor> made;
     haptics::Floor floor;
   };
-  Slot& slot(std::uint32_t number) { return slots_[number % slots_.size()]; }
+  FloorSlot& slot(std::uint32_t number) { return slots_[number % slots_.size()]; }
 
   const SearchSettings& task_;
   const std::vector<Episode>& episodes_;
-  std::array<Slot, 3> slots_;
+  std::array<FloorSlot, 3> slots_;
 };
 
 }  // namespace palpa::task_search

@@ -52,9 +52,9 @@ SqueezeSettings readSqueeze(const std::filesystem::path& path) {
   return s;
 }
 
-std::vector<Comparison> comparisonsOf(const SqueezeSettings& settings, std::uint64_t seed,
-                                      int count) {
-  std::vector<Comparison> round;
+std::vector<SqueezeComparison> comparisonsOf(const SqueezeSettings& settings, std::uint64_t seed,
+                                             int count) {
+  std::vector<SqueezeComparison> round;
   const auto add = [&round](SqueezedProperty property, const std::vector<double>& factors) {
     for (const double factor : factors) {
       round.push_back({property, {1, factor}});
@@ -64,7 +64,7 @@ std::vector<Comparison> comparisonsOf(const SqueezeSettings& settings, std::uint
   add(SqueezedProperty::stiffness, settings.stiffness);
   add(SqueezedProperty::weight, settings.weight);
   RandomStream random(seed, "squeeze.comparisons");
-  std::vector<Comparison> all;
+  std::vector<SqueezeComparison> all;
   while (static_cast<int>(all.size()) < count) {
     for (std::size_t i = round.size(); i > 1; --i)
       std::swap(round[i - 1],
@@ -75,14 +75,14 @@ std::vector<Comparison> comparisonsOf(const SqueezeSettings& settings, std::uint
   return all;
 }
 
-std::string comparisonText(const Comparison& comparison) {
+std::string comparisonText(const SqueezeComparison& comparison) {
   return nlohmann::json{
       {"property", comparison.property == SqueezedProperty::stiffness ? "stiffness" : "weight"},
       {"factors", comparison.factors}}
       .dump();
 }
 
-Comparison comparisonIn(const std::string& text) {
+SqueezeComparison comparisonIn(const std::string& text) {
   try {
     const nlohmann::json said = parseJson(text);
     return {said.at("property").get<std::string>() == "weight" ? SqueezedProperty::weight

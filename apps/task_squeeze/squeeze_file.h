@@ -27,18 +27,18 @@ struct SqueezeSettings {
 SqueezeSettings readSqueeze(const std::filesystem::path& file);
 
 /// Two things that are felt in a trial: of what they differ, and by how much of the real thing's.
-struct Comparison {
+struct SqueezeComparison {
   assess::SqueezedProperty property = assess::SqueezedProperty::stiffness;
   std::array<double, 2> factors{1, 1};
 };
 /// So many, the same for the same seed: every difference as often as every other, the real thing as
 /// often first as second, in no order.
-std::vector<Comparison> comparisonsOf(const SqueezeSettings& settings, std::uint64_t seed,
-                                      int count);
+std::vector<SqueezeComparison> comparisonsOf(const SqueezeSettings& settings, std::uint64_t seed,
+                                             int count);
 
 /// A comparison as its event in the record says it, and read again. Throws Error for words that are
 /// none.
-std::string comparisonText(const Comparison& comparison);
-Comparison comparisonIn(const std::string& text);
+std::string comparisonText(const SqueezeComparison& comparison);
+SqueezeComparison comparisonIn(const std::string& text);
 
 }  // namespace palpa::task_squeeze

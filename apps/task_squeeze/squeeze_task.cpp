@@ -24,14 +24,14 @@ double feltN(const haptics::FlightRecord& r) {
 
 }  // namespace
 
-void tellLoop(const Comparison& comparison, int thing, haptics::TickCommands* commands) {
+void tellLoop(const SqueezeComparison& comparison, int thing, haptics::TickCommands* commands) {
   const auto factor = static_cast<float>(comparison.factors[static_cast<std::size_t>(thing)]);
   commands->squeeze_stiffness =
       comparison.property == assess::SqueezedProperty::stiffness ? factor : 1;
   commands->squeeze_weight = comparison.property == assess::SqueezedProperty::weight ? factor : 1;
 }
 
-void SqueezeListener::begin(std::uint32_t trial, const Comparison& comparison) {
+void SqueezeListener::begin(std::uint32_t trial, const SqueezeComparison& comparison) {
   *this = SqueezeListener(touch_);
   trial_ = trial;
   comparison_ = comparison;
@@ -65,7 +65,7 @@ void SqueezeListener::add(const haptics::FlightRecord& record) {
   peak_ = std::max(peak_, now_N_);
 }
 
-assess::SqueezeTrial judged(assess::SqueezeTrial facts, const Comparison& comparison,
+assess::SqueezeTrial judged(assess::SqueezeTrial facts, const SqueezeComparison& comparison,
                             const SqueezeListener& listener, int said) {
   facts.property = comparison.property;
   facts.factors = comparison.factors;

@@ -18,7 +18,7 @@ namespace palpa::task_squeeze {
 class SqueezeListener {
  public:
   explicit SqueezeListener(double touch) : touch_(touch) {}
-  void begin(std::uint32_t trial, const Comparison& comparison);
+  void begin(std::uint32_t trial, const SqueezeComparison& comparison);
   /// Both tools' records of a tick, the first one's first. Counts while the trial is on and force
   /// may be rendered.
   void add(const haptics::FlightRecord& record);
@@ -34,7 +34,7 @@ class SqueezeListener {
  private:
   double touch_;
   std::uint32_t trial_ = 0;
-  Comparison comparison_;
+  SqueezeComparison comparison_;
   std::int64_t last_ns_ = -1;
   haptics::FlightRecord first_;  ///< of the first tool, in this tick
   double seconds_ = 0, peak_ = 0, now_N_ = 0, held_s_ = 0;
@@ -42,7 +42,7 @@ class SqueezeListener {
 };
 
 /// What the loop is told of one of the two things.
-void tellLoop(const Comparison& comparison, int thing, haptics::TickCommands* commands);
+void tellLoop(const SqueezeComparison& comparison, int thing, haptics::TickCommands* commands);
 
 struct CompletedSqueeze {
   assess::SqueezeTrial trial;
@@ -68,7 +68,7 @@ struct SqueezeTaskSetup {
   bool simulated = false, automatic = true, force_feedback = true;
   std::string not_scored;  ///< why; empty: scored
   std::uint64_t seed = 1;
-  std::vector<Comparison> comparisons;
+  std::vector<SqueezeComparison> comparisons;
   std::vector<runtime::BoardPlace> places;
   training::Role role =
       training::Role::scored;  ///< of the comparisons, where nothing speaks against it
@@ -94,7 +94,7 @@ class SqueezeTask final : public trial::TrialTask {
   void hear(const trial::UserRequest& request, std::int64_t now_ns) override;
   void otherThing(std::int64_t now_ns);
   void answer(int said, std::int64_t now_ns);
-  const Comparison& comparison() const {
+  const SqueezeComparison& comparison() const {
     return setup_.comparisons[static_cast<std::size_t>(status().trial - 1)];
   }
 
@@ -109,7 +109,7 @@ class SqueezeTask final : public trial::TrialTask {
 
 /// What a trial was, from its facts and what was heard of it; the same for a session and for its
 /// replay.
-assess::SqueezeTrial judged(assess::SqueezeTrial facts, const Comparison& comparison,
+assess::SqueezeTrial judged(assess::SqueezeTrial facts, const SqueezeComparison& comparison,
                             const SqueezeListener& listener, int said);
 /// What is recorded of it.
 std::string scoreJson(const assess::SqueezeTrial& trial);

@@ -203,7 +203,7 @@ void TrialScene::showEllipse(bool camera_good) {
 /// Those on a board that is not seen hide nothing.
 void TrialScene::hideBehindRealThings() {
   state_.occluders.clear();
-  for (const RealThing& thing : stage_.things) {
+  for (const PlacedThing& thing : stage_.things) {
     const station::RealThing& place = *thing.place;
     if (place.on == station::RealThing::On::table) {
       state_.occluders.push_back({thing.mesh, stage_.X_WA.inverse() * place.X});

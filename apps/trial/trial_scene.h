@@ -18,7 +18,7 @@ namespace palpa::trial {
 
 /// A real thing in the camera's picture; both outlive the session. Boards: of the camera's other
 /// boards.
-struct RealThing {
+struct PlacedThing {
   const anatomy::TriangleMesh* mesh = nullptr;
   const station::RealThing* place = nullptr;
 };
@@ -48,7 +48,7 @@ class TrialScene : public runtime::Activity {
     /// Covariance in A of the drawn tip against the real one, at X_DT: shown as an ellipse, and
     /// told; empty, or nothing: it is not known.
     std::function<std::optional<Mat3>(const Pose& X_DT)> tip_covariance_A;
-    std::vector<RealThing> things;
+    std::vector<PlacedThing> things;
     std::vector<runtime::BoardPlace> places;  ///< of the boards besides the table's
     std::function<void(scene::SceneState&)>
         more;  ///< adds last what no task shows: a replay's strip

@@ -27,7 +27,7 @@ double spread(const JsonFile& file, const std::string& at, double otherwise, dou
 }
 
 /// The board's middle at a depth at which it takes its share of the picture's width.
-Pose boardPose(const runtime::BoardView& view, const calibration::CameraModel& camera,
+Pose boardPose(const runtime::BoardFraming& view, const calibration::CameraModel& camera,
                const ar::TagGridSpec& board, const SetupHandTruth& hand, RandomStream& random) {
   const double depth =
       camera.fx * sheetSize(board).x() / (view.share * camera.width) * (1 + 0.03 * random.normal());
@@ -63,8 +63,7 @@ struct SetupBench::Impl {
       for (const station::Landmark& landmark : *list)
         holes_W.push_back({landmark.p_W, landmark.p_W + off * normal3(holes)});
     if (s.marker) X_EM = station::readPose(s.file, "twin/X_EM");
-    if (s.design.force_sensor &&
-        s.design.force_sensor->driver == station::ForceSensorSetup::Driver::bench)
+    if (s.design.force_sensor && s.design.force_sensor->driver == station::ForceSensorDriver::bench)
       felt.emplace(trueSensor(s, seed), seed);
     X_WT = makePose(calibration::halfTurnAboutX(), kRestTip_W);
     X_CB = makePose(calibration::halfTurnAboutX(), Vec3(0, 0, 0.5));
@@ -97,8 +96,8 @@ struct SetupBench::Impl {
     return r;
   }
 
-  runtime::Moment readingMoment() {
-    runtime::Moment moment;
+  runtime::RigMoment readingMoment() {
+    runtime::RigMoment moment;
     moment.t = t;
     moment.reading = reading();
     if (felt) {
@@ -139,10 +138,10 @@ struct SetupBench::Impl {
     return frame;
   }
 
-  std::optional<runtime::Moment> next() {
+  std::optional<runtime::RigMoment> next() {
     for (;;) {
       if (!exposures.empty() && exposures.front().t + world.camera_latency_s <= t) {
-        runtime::Moment moment;
+        runtime::RigMoment moment;
         moment.t = t;
         moment.picture = [this, e = exposures.front()]() -> std::optional<ar::Frame> {
           return take(e);
@@ -199,7 +198,7 @@ void SetupBench::ask(const Request& request) {
                  b.station.sample ? b.station.sample->X_WP : Pose::Identity());
 }
 
-std::optional<runtime::Moment> SetupBench::next() { return impl_->next(); }
+std::optional<runtime::RigMoment> SetupBench::next() { return impl_->next(); }
 const DeviceTruth& SetupBench::device() const { return impl_->device; }
 const WorldTruth& SetupBench::truth() const { return impl_->world; }
 const calibration::CameraModel& SetupBench::trueCamera() const {

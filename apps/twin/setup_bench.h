@@ -63,7 +63,7 @@ class SetupBench final : public runtime::Rig {
   ~SetupBench() override;
 
   void ask(const runtime::Request& request) override;
-  std::optional<runtime::Moment> next() override;
+  std::optional<runtime::RigMoment> next() override;
 
   const WorldTruth& truth() const;  ///< for reports on accuracy only
   const calibration::CameraModel& trueCamera() const;

@@ -84,7 +84,7 @@ VirtualCamera::VirtualCamera(const CameraModel& truth, const ar::TagGridSpec& bo
   }
 }
 
-cv::Mat VirtualCamera::lookUp(const picture::Texture& texture, const Mat3& ray_to_plane,
+cv::Mat VirtualCamera::lookUp(const picture::GrayTexture& texture, const Mat3& ray_to_plane,
                               const cv::Rect& region) const {
   const Eigen::Matrix3f H = (picture::toTexel(texture) * ray_to_plane).cast<float>();
   cv::Mat column(region.size(), CV_32F), row(region.size(), CV_32F);

@@ -77,11 +77,11 @@ class VirtualCamera {
  private:
   struct Plate {
     Eigen::Vector2d size;  ///< metres
-    std::vector<picture::Texture> textures;
+    std::vector<picture::GrayTexture> textures;
   };
   struct Layer;
 
-  cv::Mat lookUp(const picture::Texture& texture, const Mat3& ray_to_plane,
+  cv::Mat lookUp(const picture::GrayTexture& texture, const Mat3& ray_to_plane,
                  const cv::Rect& region) const;
   cv::Mat background(const Pose& X_CW) const;
   void expose(std::uint64_t frame_number, cv::Mat* picture) const;
@@ -94,11 +94,11 @@ class VirtualCamera {
   calibration::CameraModel truth_;
   VirtualCameraSettings settings_;
   std::uint64_t seed_;
-  cv::Mat ray_x_, ray_y_;                   ///< at unit depth, for every pixel
-  std::vector<picture::RayBlock> blocks_;   ///< what the rays of each part of the picture span
-  cv::Mat gain_;                            ///< light and exposure, 256 = 1
-  cv::Mat wall_;                            ///< empty where there is a table
-  std::vector<picture::Texture> textures_;  ///< of the table, fine to coarse
+  cv::Mat ray_x_, ray_y_;                       ///< at unit depth, for every pixel
+  std::vector<picture::RayBlock> blocks_;       ///< what the rays of each part of the picture span
+  cv::Mat gain_;                                ///< light and exposure, 256 = 1
+  cv::Mat wall_;                                ///< empty where there is a table
+  std::vector<picture::GrayTexture> textures_;  ///< of the table, fine to coarse
   std::vector<Plate> plates_;
   std::vector<std::int16_t> noise_;  ///< 1/16 gray levels
 };

@@ -71,7 +71,7 @@ inline std::vector<RayBlock> rayBlocks(const cv::Mat& ray_x, const cv::Mat& ray_
   return blocks;
 }
 
-struct Texture {
+struct GrayTexture {
   cv::Mat gray;
   double texel = 0;  ///< metres; the texture's centre is P's origin, +y is up
 };
@@ -83,8 +83,8 @@ inline constexpr double kTexelsPerPixel = 1.25;  // averaging plus interpolation
 /// `draw(texel)` gives the area-averaged picture; fine to coarse, at least one, until a cell of a
 /// tag is less than a texel: no tag left to see.
 template <typename Draw>
-std::vector<Texture> textureSeries(double tag_size, const Draw& draw) {
-  std::vector<Texture> series;
+std::vector<GrayTexture> textureSeries(double tag_size, const Draw& draw) {
+  std::vector<GrayTexture> series;
   for (int i = 0; i < kTextures; ++i) {
     const double texel = kFinestTexel * std::pow(2.0, i / 2.0);
     if (tag_size / texel < 8) break;
@@ -94,18 +94,18 @@ std::vector<Texture> textureSeries(double tag_size, const Draw& draw) {
 }
 
 /// The one whose texels are nearest to a pixel's footprint at P's origin.
-inline const Texture& nearestTexture(const std::vector<Texture>& series, const Pose& X_CP,
-                                     double focal_length_px) {
+inline const GrayTexture& nearestTexture(const std::vector<GrayTexture>& series, const Pose& X_CP,
+                                         double focal_length_px) {
   const double distance = std::max(X_CP.translation().norm(), 1e-3);
   const double wanted = distance / focal_length_px / kTexelsPerPixel;
-  const auto worse = [&](const Texture& a, const Texture& b) {
+  const auto worse = [&](const GrayTexture& a, const GrayTexture& b) {
     return std::abs(std::log(a.texel / wanted)) < std::abs(std::log(b.texel / wanted));
   };
   return *std::min_element(series.begin(), series.end(), worse);
 }
 
 /// Metres on the plane to texels.
-inline Mat3 toTexel(const Texture& texture) {
+inline Mat3 toTexel(const GrayTexture& texture) {
   const double cu = (texture.gray.cols - 1) / 2.0, cv_ = (texture.gray.rows - 1) / 2.0;
   Mat3 to_texel;
   to_texel << 1 / texture.texel, 0, cu, 0, -1 / texture.texel, cv_, 0, 0, 1;

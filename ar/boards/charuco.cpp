@@ -52,7 +52,7 @@ void validate(const CharucoSpec& spec, const std::string& where) {
                  "the dictionary has fewer than " + std::to_string(markers) + " markers", where);
 }
 
-aruco::Board charucoLayout(const CharucoSpec& spec) {
+aruco::CharucoPattern charucoLayout(const CharucoSpec& spec) {
   validate(spec, "ChArUco board");
   return aruco::makeBoard({spec.columns, spec.rows}, float(spec.square), float(spec.marker),
                           dictionaryNamed(spec.dictionary, "ChArUco board"));
@@ -68,7 +68,7 @@ std::vector<cv::Point2d> charucoMarkersBefore46(const CharucoSpec& spec) {
 }
 
 struct CharucoBoard::Layout {
-  aruco::Board board;
+  aruco::CharucoPattern board;
   std::vector<cv::Point2d> middles, middles_before_46;  ///< of the markers, metres, OpenCV's frame
 };
 
@@ -98,8 +98,8 @@ cv::Matx33d markerToPicture(const std::vector<cv::Point3f>& marker,
 /// Moves a corner, as predicted by the markers, to the saddle point; false where there is none with
 /// the colours of this board round it. OpenCV 4.6 has refined its corners already, but leaves them
 /// half a pixel off both ways.
-bool refineCharuco(const cv::Mat& gray, const aruco::Board& board, const Markers& markers, int id,
-                   Eigen::Vector2d* pixel) {
+bool refineCharuco(const cv::Mat& gray, const aruco::CharucoPattern& board, const Markers& markers,
+                   int id, Eigen::Vector2d* pixel) {
   const std::size_t corner = std::size_t(id);
   const std::size_t nearest = std::size_t(board.nearest[corner][0]);
   const auto seen = std::find(markers.ids.begin(), markers.ids.end(), board.ids[nearest]);
@@ -223,7 +223,7 @@ void drawMarker(const cv::Mat& bits, double left, double top, double side, Sheet
 }  // namespace
 
 Sheet sheetOf(const CharucoSpec& spec) {
-  const aruco::Board layout = charucoLayout(spec);
+  const aruco::CharucoPattern layout = charucoLayout(spec);
   const aruco::Dictionary& dictionary = layout.dictionary;
   const Eigen::Vector2d size = Eigen::Vector2d(spec.columns + 2, spec.rows + 2) * spec.square;
   Sheet sheet{"ChArUco board", size, spec.marker / (dictionary.markerSize + 2), {}};

@@ -7,7 +7,7 @@ namespace palpa::ar {
 
 /// OpenCV's own board for a valid spec. Its frame: origin at the upper left corner of the pattern,
 /// x right, y towards the reader, z into the board.
-aruco::Board charucoLayout(const CharucoSpec& spec);
+aruco::CharucoPattern charucoLayout(const CharucoSpec& spec);
 
 /// The middles of the markers by id, metres, in OpenCV's frame, as OpenCV before 4.6 laid them out:
 /// the lower left square black, ids row by row from the upper left all the same.

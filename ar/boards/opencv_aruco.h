@@ -25,7 +25,7 @@ struct Markers {
 };
 
 /// A ChArUco board; lengths in metres, OpenCV's frame.
-struct Board {
+struct CharucoPattern {
   cv::Ptr<cv::aruco::CharucoBoard> opencv;
   Dictionary dictionary;
   std::vector<int> ids;                           ///< of the markers
@@ -38,7 +38,8 @@ struct Board {
 
 inline Dictionary predefined(int name) { return cv::aruco::getPredefinedDictionary(name); }
 
-inline Board makeBoard(cv::Size squares, float square, float marker, const Dictionary& dictionary) {
+inline CharucoPattern makeBoard(cv::Size squares, float square, float marker,
+                                const Dictionary& dictionary) {
   const auto board = cv::makePtr<cv::aruco::CharucoBoard>(squares, square, marker, dictionary);
   return {.opencv = board,
           .dictionary = dictionary,
@@ -55,13 +56,13 @@ inline Markers detectMarkers(const cv::Mat& gray, const Dictionary& dictionary) 
 }
 
 /// The chessboard's corners that have two markers of those seen beside them.
-inline void interpolateCorners(const cv::Mat& gray, const Board& board, Markers seen,
+inline void interpolateCorners(const cv::Mat& gray, const CharucoPattern& board, Markers seen,
                                std::vector<cv::Point2f>* pixels, std::vector<int>* ids) {
   cv::aruco::CharucoDetector(*board.opencv)
       .detectBoard(gray, *pixels, *ids, seen.corners, seen.ids);
 }
 
-inline void draw(const Board& board, cv::Size size, int margin, cv::Mat* to) {
+inline void draw(const CharucoPattern& board, cv::Size size, int margin, cv::Mat* to) {
   board.opencv->generateImage(size, *to, margin);
 }
 
@@ -73,7 +74,8 @@ inline void drawMarker(const Dictionary& dictionary, int id, int side, cv::Mat* 
 
 inline Dictionary predefined(int name) { return *cv::aruco::getPredefinedDictionary(name); }
 
-inline Board makeBoard(cv::Size squares, float square, float marker, const Dictionary& dictionary) {
+inline CharucoPattern makeBoard(cv::Size squares, float square, float marker,
+                                const Dictionary& dictionary) {
   const auto board = cv::aruco::CharucoBoard::create(squares.width, squares.height, square, marker,
                                                      cv::makePtr<Dictionary>(dictionary));
   return {.opencv = board,
@@ -91,12 +93,12 @@ inline Markers detectMarkers(const cv::Mat& gray, const Dictionary& dictionary) 
 }
 
 /// The chessboard's corners that have two markers of those seen beside them.
-inline void interpolateCorners(const cv::Mat& gray, const Board& board, Markers seen,
+inline void interpolateCorners(const cv::Mat& gray, const CharucoPattern& board, Markers seen,
                                std::vector<cv::Point2f>* pixels, std::vector<int>* ids) {
   cv::aruco::interpolateCornersCharuco(seen.corners, seen.ids, gray, board.opencv, *pixels, *ids);
 }
 
-inline void draw(const Board& board, cv::Size size, int margin, cv::Mat* to) {
+inline void draw(const CharucoPattern& board, cv::Size size, int margin, cv::Mat* to) {
   board.opencv->draw(size, *to, margin);
 }
 

@@ -103,12 +103,12 @@ void XrControls::suggest(XrInstance instance) const {
   }
 }
 
-Asked XrControls::read(XrSession session, XrSpace base, XrTime time,
-                       std::array<HandInput, 2>* hands) {
+ButtonPresses XrControls::read(XrSession session, XrSpace base, XrTime time,
+                               std::array<HandInput, 2>* hands) {
   const XrActiveActionSet active{set_.get(), XR_NULL_PATH};
   const XrActionsSyncInfo sync{XR_TYPE_ACTIONS_SYNC_INFO, nullptr, 1, &active};
   for (HandInput& hand : *hands) hand.tracked = false;
-  Asked asked;
+  ButtonPresses asked;
   if (xrCheck(xrSyncActions(session, &sync), "xrSyncActions") == XR_SESSION_NOT_FOCUSED)
     return asked;
   for (std::size_t i = 0; i < 2; ++i) {

@@ -8,7 +8,7 @@
 namespace palpa::ar {
 
 /// What was asked for with a button since the last time.
-struct Asked {
+struct ButtonPresses {
   bool recentre = false, start = false;
 };
 
@@ -20,7 +20,7 @@ class XrControls {
   XrControls(XrInstance instance, XrSession session);
 
   /// Reads all at a time of the runtime's. `base`: the space that poses are in.
-  Asked read(XrSession session, XrSpace base, XrTime time, std::array<HandInput, 2>* hands);
+  ButtonPresses read(XrSession session, XrSpace base, XrTime time, std::array<HandInput, 2>* hands);
   void leave();  ///< gives nothing back
   void vibrate(XrSession session, std::size_t hand, double seconds, double strength);
 

@@ -59,7 +59,8 @@ class XrHeadset final : public Headset {
       time_ = timing.predictedDisplayTime;
       frame_.draw = timing.shouldRender == XR_TRUE;
       locateEyes();
-      const Asked asked = controls_->read(session_.get(), local_.get(), time_, &frame_.hands);
+      const ButtonPresses asked =
+          controls_->read(session_.get(), local_.get(), time_, &frame_.hands);
       const bool moved = moves_at_ && *moves_at_ <= time_;
       if (moved) moves_at_.reset();
       frame_.recentred = moved || first_place_ || asked.recentre;

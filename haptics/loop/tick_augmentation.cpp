@@ -100,7 +100,7 @@ void lookAtFloor(const TickConfig& config, const Floor& floor, const FloorTouch&
         floor.surface->bumpOnWay(before.x(), before.y(), p.x(), p.y()) /
         std::max(floor.surface->spec().target.radius, floor.surface->spec().distractor.radius);
   if (!floor.valleys || !touch.touching) return;
-  const ValleyMap::Nearest valley = floor.valleys->nearest(p.x(), p.y());
+  const NearestValley valley = floor.valleys->nearest(p.x(), p.y());
   if (!valley.found) return;
   in->to_valley = FloorFrame(config).toD(config.floor.unit * Vec3(valley.dx, valley.dy, 0));
   in->valley_radius = valley.radius;

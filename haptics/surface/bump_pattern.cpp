@@ -129,7 +129,7 @@ class Balls {
     within2_ = within > 0 ? within * within : -1;
   }
 
-  void improve(SurfacePoint* best) const noexcept {
+  void improve(PatternPoint* best) const noexcept {
     for (int i = 0; i < count_; ++i) {
       if (z_ >= 0) onSphere(at(i), best);
       onFootprint(at(i), best);
@@ -140,7 +140,7 @@ class Balls {
 
   /// Whether nothing farther across the disc than what was looked at can be nearer: all of the
   /// bumps is at z >= 0.
-  bool decide(const SurfacePoint& best) const noexcept {
+  bool decide(const PatternPoint& best) const noexcept {
     const double below = std::min(z_, 0.0);
     return best.distance2 - below * below <= within2_;
   }
@@ -168,7 +168,7 @@ class Balls {
     at(k) = ball;
   }
 
-  void offer(double x, double y, double z, SurfacePoint* best) const noexcept {
+  void offer(double x, double y, double z, PatternPoint* best) const noexcept {
     const double across2 = x * x + y * y, distance2 = across2 + (z - z_) * (z - z_);
     if (!(distance2 < best->distance2) || across2 > within2_) return;
     const double holds2 = (radius_ - kHolds) * (radius_ - kHolds);
@@ -179,7 +179,7 @@ class Balls {
     *best = {x_ + x, y_ + y, z, distance2};
   }
 
-  void onSphere(const BumpBall& ball, SurfacePoint* best) const noexcept {
+  void onSphere(const BumpBall& ball, PatternPoint* best) const noexcept {
     const double n2 = ball.far2 + z_ * z_;
     if (n2 >= r2_) return;
     if (n2 <= 0) return offer(ball.x, ball.y, radius_, best);  // from the middle all are as near
@@ -187,13 +187,13 @@ class Balls {
     offer(ball.x - stretch * ball.x, ball.y - stretch * ball.y, stretch * z_, best);
   }
 
-  void onFootprint(const BumpBall& ball, SurfacePoint* best) const noexcept {
+  void onFootprint(const BumpBall& ball, PatternPoint* best) const noexcept {
     if (ball.far2 <= 0) return offer(ball.x + radius_, ball.y, 0, best);
     const double stretch = radius_ / std::sqrt(ball.far2);
     offer(ball.x - stretch * ball.x, ball.y - stretch * ball.y, 0, best);
   }
 
-  void betweenTwo(int i, int j, SurfacePoint* best) const noexcept {
+  void betweenTwo(int i, int j, PatternPoint* best) const noexcept {
     const double dx = at(j).x - at(i).x, dy = at(j).y - at(i).y, d2 = dx * dx + dy * dy;
     if (d2 >= 4 * r2_ || d2 < kSameBall * kSameBall) return;
     const double mx = 0.5 * (at(i).x + at(j).x),
@@ -212,7 +212,7 @@ class Balls {
   /// Three equal spheres around points of one plane meet over the middle of those points' circle.
   /// (dx, dy): from the first to the second.
   void amongThree(const BumpBall& a, double dx, double dy, double d2, const BumpBall& c,
-                  SurfacePoint* best) const noexcept {
+                  PatternPoint* best) const noexcept {
     const double ex = c.x - a.x, ey = c.y - a.y, e2 = ex * ex + ey * ey,
                  area = 2 * (dx * ey - dy * ex);
     if (e2 >= 4 * r2_) return;
@@ -230,7 +230,7 @@ class Balls {
 }  // namespace
 
 void closestOnBumps(const BumpPattern& pattern, double x, double y, double z,
-                    SurfacePoint* best) noexcept {
+                    PatternPoint* best) noexcept {
   for (const double look : kLooks) {
     const Balls balls(pattern, x, y, z, look * pattern.spec().radius);
     balls.improve(best);

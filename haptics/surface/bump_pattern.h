@@ -65,7 +65,7 @@ class BumpPattern {
 
 /// The nearest point found so far of a surface, to a point under it. Lengths in U, in the disc's
 /// frame.
-struct SurfacePoint {
+struct PatternPoint {
   double x = 0, y = 0, z = 0;
   double distance2 = 0;  ///< squared
 };
@@ -84,6 +84,6 @@ struct SurfacePoint {
 /// radii of p, or 5 if so much is covered. What is farther is not looked at; what comes out is free
 /// in any case.
 void closestOnBumps(const BumpPattern& pattern, double x, double y, double z,
-                    SurfacePoint* best) noexcept;
+                    PatternPoint* best) noexcept;
 
 }  // namespace palpa::haptics

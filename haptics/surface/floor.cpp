@@ -115,8 +115,8 @@ void ValleyMap::around(double x, double y, Visit visit) const noexcept {
   }
 }
 
-ValleyMap::Extent ValleyMap::gaps(const ValleyPoint& point) const noexcept {
-  Extent gap;
+ValleyMap::ValleyExtent ValleyMap::gaps(const ValleyPoint& point) const noexcept {
+  ValleyExtent gap;
   around(point.x, point.y, [&](std::size_t k) {
     const ValleyPoint& other = points_[k];
     if (std::abs(point.tx * other.tx + point.ty * other.ty) < kSameCourse) return;
@@ -132,18 +132,18 @@ ValleyMap::Extent ValleyMap::gaps(const ValleyPoint& point) const noexcept {
 void ValleyMap::measureExtents() {
   std::vector<double> all;
   for (const ValleyPoint& p : points_) {
-    extents_.push_back(directed(p) ? gaps(p) : Extent{});
+    extents_.push_back(directed(p) ? gaps(p) : ValleyExtent{});
     for (const double gap : {extents_.back().behind, extents_.back().ahead})
       if (gap > 0) all.push_back(gap);
   }
   if (all.empty()) return;
   const double widest = kSameLine * upperMedian(std::move(all));
-  for (Extent& e : extents_)
+  for (ValleyExtent& e : extents_)
     e = {e.behind > widest ? 0 : 0.5 * e.behind, e.ahead > widest ? 0 : 0.5 * e.ahead};
 }
 
-ValleyMap::Nearest ValleyMap::nearest(double x, double y) const noexcept {
-  Nearest best;
+NearestValley ValleyMap::nearest(double x, double y) const noexcept {
+  NearestValley best;
   double best2 = reach_ * reach_;
   around(x, y, [&](std::size_t k) {
     const ValleyPoint& p = points_[k];

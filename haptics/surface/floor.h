@@ -64,6 +64,13 @@ struct ValleyPoint {
   double radius = 0;      ///< of curvature across the valley
 };
 
+/// The valley that is nearest to a point (x, y), in U.
+struct NearestValley {
+  bool found = false;
+  double dx = 0, dy = 0;  ///< from (x, y) to the valley
+  double distance = 0, radius = 0;
+};
+
 /// Valley points in square cells somewhat wider than one looks: the nearest one in constant time.
 /// Between two points of a line it is the line's own: a point with a tangent stands for the piece
 /// of it from half way to the point behind to half way to the point ahead, so the distance does not
@@ -76,23 +83,18 @@ class ValleyMap {
   /// Throws Error for what is not finite, and for tangents that are neither unit nor 0.
   ValleyMap(std::vector<ValleyPoint> points, double side, double reach);
 
-  struct Nearest {
-    bool found = false;
-    double dx = 0, dy = 0;  ///< from (x, y) to the valley
-    double distance = 0, radius = 0;
-  };
-  Nearest nearest(double x, double y) const noexcept;
+  NearestValley nearest(double x, double y) const noexcept;
   double reach() const noexcept { return reach_; }
   const std::vector<ValleyPoint>& points() const noexcept { return points_; }  ///< by cell
 
  private:
-  struct Extent {
+  struct ValleyExtent {
     double behind = 0, ahead = 0;  ///< along the tangent
   };
 
   int cell(double x) const noexcept;
   void sortByCell(const std::vector<ValleyPoint>& points);
-  Extent gaps(
+  ValleyExtent gaps(
       const ValleyPoint& point) const noexcept;  ///< to the next points behind and ahead; 0: none
   void measureExtents();
   /// Calls `visit(k)` for every point in the cells around (x, y).
@@ -102,7 +104,7 @@ class ValleyMap {
   double side_, reach_, width_;  ///< of a cell
   int cells_ = 0;
   std::vector<ValleyPoint> points_;
-  std::vector<Extent> extents_;
+  std::vector<ValleyExtent> extents_;
   std::vector<int> first_;  ///< of each cell in `points_`, and one more
 };
 

@@ -130,7 +130,7 @@ std::array<std::array<double, 2>, SearchSurface::kElements> middlesOf(const Sear
 /// A trough around an element's middle, deepest at the radius `around`, for a point at (x, y, z) in
 /// the element's frame: the nearest lies in the upright plane through the middle and the point.
 void closestOnTrough(const TroughProfile& trough, double around, double x, double y, double z,
-                     SurfacePoint* best) noexcept {
+                     PatternPoint* best) noexcept {
   const double r = std::sqrt(x * x + y * y);
   const double across = std::max(std::abs(r - around) - trough.halfWidth(), 0.0),
                under = std::max(-trough.depth() - z, 0.0);
@@ -138,8 +138,8 @@ void closestOnTrough(const TroughProfile& trough, double around, double x, doubl
   const TroughProfile::Point p = trough.closestInside(r - around, z);
   if (!(p.distance2 < best->distance2)) return;
   const double to = around + p.s;
-  *best = r > 0 ? SurfacePoint{x * to / r, y * to / r, p.z, p.distance2}
-                : SurfacePoint{to, 0, p.z, p.distance2};
+  *best = r > 0 ? PatternPoint{x * to / r, y * to / r, p.z, p.distance2}
+                : PatternPoint{to, 0, p.z, p.distance2};
 }
 
 }  // namespace
@@ -243,7 +243,7 @@ Vec3 SearchSurface::closestOnFloor(const Vec3& p) const noexcept {
   }
   for (int e = 0; e < kElements; ++e) {
     const auto [mx, my] = middles_[static_cast<std::size_t>(e)];
-    SurfacePoint best{0, 0, 0, distance2};
+    PatternPoint best{0, 0, 0, distance2};
     const double x = p.x() - mx, y = p.y() - my;
     closestOnTrough(groove_, spec_.groove, x, y, p.z(), &best);
     closestOnTrough(pit_, 0, x, y, p.z(), &best);

@@ -115,7 +115,7 @@ OrganActors::OrganActors(vtkRenderer& renderer, const anatomy::Patient& patient,
   for (const anatomy::OrganSurface& organ : patient.organs) {
     const vtkSmartPointer<vtkPolyData> surface = polyDataOf(organ.mesh);
     if (!skin_ && organ.organ == Organ::skin) skin_ = surface;
-    Part part{actorOf(organ, surface), surface, organ.organ, false};
+    OrganPart part{actorOf(organ, surface), surface, organ.organ, false};
     // The far side of a translucent surface would blend a second time.
     if (coversOrgans(part.organ)) part.actor->GetProperty()->BackfaceCullingOn();
     renderer.AddActor(part.actor);
@@ -142,11 +142,11 @@ void OrganActors::setPose(const Pose& X_AB) {
   if (!moved_ && X_AB.matrix().isIdentity(0)) return;
   copy(X_AB, *X_AB_);
   if (!moved_)
-    for (Part& part : parts_) part.actor->SetUserMatrix(X_AB_);
+    for (OrganPart& part : parts_) part.actor->SetUserMatrix(X_AB_);
   moved_ = true;
 }
 
-void OrganActors::moveTo(bool glass, Part& part) {
+void OrganActors::moveTo(bool glass, OrganPart& part) {
   if (!glass_ || glass == part.in_glass) return;
   part.in_glass = glass;
   if (glass) {
@@ -159,7 +159,7 @@ void OrganActors::moveTo(bool glass, Part& part) {
 }
 
 void OrganActors::apply() {
-  for (Part& part : parts_) {
+  for (OrganPart& part : parts_) {
     const bool hidden = coversOrgans(part.organ) && style_ == SkinStyle::hidden;
     part.actor->SetVisibility(visible_ && !hidden);
     const double opacity = style_ == SkinStyle::translucent ? translucentOpacity(part.organ) : 1;

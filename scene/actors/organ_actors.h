@@ -43,18 +43,18 @@ class OrganActors {
   vtkPolyData* skin() const { return skin_; }
 
  private:
-  struct Part {
+  struct OrganPart {
     vtkSmartPointer<vtkActor> actor;
     vtkSmartPointer<vtkPolyData> surface;
     Organ organ = Organ::none;
     bool in_glass = false;
   };
   void apply();
-  void moveTo(bool glass, Part& part);
+  void moveTo(bool glass, OrganPart& part);
 
   vtkRenderer& renderer_;
   Glass* glass_;
-  std::vector<Part> parts_;
+  std::vector<OrganPart> parts_;
   vtkSmartPointer<vtkPolyData> skin_;
   SkinStyle style_ = SkinStyle::translucent;
   bool visible_ = true, moved_ = false;

@@ -94,7 +94,7 @@ struct LumpBalls::LumpBall {
   }
   /// The outline of a sphere seen from d away is a circle of r sqrt(1 - r^2 / d^2), r^2 / d before
   /// its middle.
-  void place(const Lump& lump, const Vec3& eye) {
+  void place(const ShownLump& lump, const Vec3& eye) {
     const Vec3 toward = eye - lump.p_A;
     const double d = toward.norm(), r = lump.radius, s = r / d;
     copy(scaledPose(Mat3::Identity(), lump.p_A, r), *X_A_ball);
@@ -123,9 +123,9 @@ LumpBalls::LumpBalls(vtkRenderer& through, vtkRenderer& above, double ring_px)
 
 LumpBalls::~LumpBalls() = default;
 
-void LumpBalls::update(const std::vector<Lump>& lumps, const Sight& sight, bool solid_skin) {
+void LumpBalls::update(const std::vector<ShownLump>& lumps, const Sight& sight, bool solid_skin) {
   shown_ = 0;
-  for (const Lump& lump : lumps) {
+  for (const ShownLump& lump : lumps) {
     if (!(lump.radius > 0)) continue;
     if (shown_ == balls_.size())
       balls_.push_back(std::make_unique<LumpBall>(through_, sphere_, ring_px_));

@@ -49,7 +49,7 @@ class LumpBalls {
   LumpBalls(vtkRenderer& through, vtkRenderer& above, double ring_px);
   ~LumpBalls();
 
-  void update(const std::vector<Lump>& lumps, const Sight& sight, bool solid_skin);
+  void update(const std::vector<ShownLump>& lumps, const Sight& sight, bool solid_skin);
   bool any() const { return shown_ > 0; }
 
  private:

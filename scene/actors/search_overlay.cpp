@@ -187,7 +187,7 @@ void SearchOverlay::update(const SceneState& state, bool visible, const Sight& s
                            double pin_px) {
   balls_above_ = state.skin == SkinStyle::solid;
   carpet_.update(state.coverage, visible);
-  balls_.update(visible ? state.lumps : std::vector<Lump>(), sight, balls_above_);
+  balls_.update(visible ? state.lumps : std::vector<ShownLump>(), sight, balls_above_);
   pins_.update(visible ? state.marks_A : std::vector<Vec3>(), sight, pin_px);
   showLead(state, visible, sight);
 }

@@ -14,7 +14,7 @@ struct Scene {
     direction = (patient.landmark(landmark::kVeinTarget) - entry).normalized();
   }
   /// Needle on the taught line, its tip `depth` along it.
-  LocalGeometryBuilder::Tool tool(double depth) const {
+  ToolPlacement tool(double depth) const {
     return {makePose(rotationWithZ(direction), entry + depth * direction), depth > 0, entry};
   }
   LocalGeometry build(double depth, const Pose& X_DA = Pose::Identity()) const {
@@ -82,7 +82,7 @@ TEST(LocalGeometryBuilder, TaughtLineCrossesTheLayersInOrderWhereRaysSay) {
 
 TEST(LocalGeometryBuilder, MuscleEndsAtItsPlaneAwayFromItsBorder) {
   const Scene scene(Side::right);
-  LocalGeometryBuilder::Tool tool = scene.tool(-0.005);
+  ToolPlacement tool = scene.tool(-0.005);
   const Vec3 n = scene.query.closest(0, scene.entry).n_A;
   tool.X_AT = makePose(rotationWithZ(-n), scene.entry + 0.005 * n);
   const LocalGeometry g = scene.builder.build(1, 0, tool, Pose::Identity());
@@ -233,7 +233,7 @@ TEST(LocalGeometryBuilder, StraightDownMeetsTheLungAfterTheSoftTissue) {
   // 60 mm caudal of the vein the lung lies behind the ribs; aim at its middle.
   const Vec3 aim(-0.055, 0.06, -0.065);
   const Vec3 direction = Vec3(0, 1, 0);
-  LocalGeometryBuilder::Tool tool;
+  ToolPlacement tool;
   tool.X_AT = makePose(rotationWithZ(direction), Vec3(aim.x(), -0.03, aim.z()));
   const LocalGeometry g = scene.builder.build(1, 0, tool, Pose::Identity());
   ASSERT_GE(g.boundary_count, 5);
@@ -244,7 +244,7 @@ TEST(LocalGeometryBuilder, StraightDownMeetsTheLungAfterTheSoftTissue) {
 
 TEST(LocalGeometryBuilder, ANeedleThatPointsAwayHasNoBoundaries) {
   const Scene scene(Side::right);
-  LocalGeometryBuilder::Tool tool = scene.tool(-0.01);
+  ToolPlacement tool = scene.tool(-0.01);
   tool.X_AT.linear() = rotationWithZ(-Vec3::UnitY());
   const LocalGeometry g = scene.builder.build(1, 0, tool, Pose::Identity());
   EXPECT_EQ(g.boundary_count, 0);

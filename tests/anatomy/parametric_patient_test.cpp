@@ -15,8 +15,8 @@
 namespace palpa::anatomy {
 namespace {
 
-double value(const std::vector<Finding>& findings, const std::string& what) {
-  for (const Finding& f : findings)
+double value(const std::vector<PatientFinding>& findings, const std::string& what) {
+  for (const PatientFinding& f : findings)
     if (f.name == what) return f.value;
   ADD_FAILURE() << "no finding " << what;
   return 0;
@@ -25,8 +25,8 @@ double value(const std::vector<Finding>& findings, const std::string& what) {
 /// Everything the taught manoeuvre needs, measured on the meshes.
 void expectTeachable(const PatientParameters& p) {
   const Patient patient = buildPatient(p);
-  const std::vector<Finding> findings = checkPatient(patient);
-  for (const Finding& f : findings)
+  const std::vector<PatientFinding> findings = checkPatient(patient);
+  for (const PatientFinding& f : findings)
     EXPECT_TRUE(f.ok) << patient.name << ": " << f.name << " is " << f.value << " " << f.unit
                       << ", wanted " << f.wanted;
   // The agreed accuracies of the drawn figures on the meshes.

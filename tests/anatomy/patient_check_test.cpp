@@ -9,7 +9,7 @@ namespace palpa::anatomy {
 namespace {
 
 bool ok(const Patient& patient, const std::string& what) {
-  for (const Finding& f : checkPatient(patient))
+  for (const PatientFinding& f : checkPatient(patient))
     if (f.name == what) return f.ok;
   ADD_FAILURE() << "no finding " << what;
   return false;
@@ -36,7 +36,7 @@ TEST(PatientCheck, NoticesAVesselInTheBone) {
       patient.landmark(landmark::kMedialThird) - patient.landmark(landmark::kVeinTarget);
   for (Vec3& p : patient.organs[indexOf(patient, Organ::artery)].mesh.points) p += into;
   bool noticed = false;
-  for (const Finding& f : checkPatient(patient))
+  for (const PatientFinding& f : checkPatient(patient))
     noticed |= f.name.starts_with("gap") && f.name.find("arteries") != std::string::npos && !f.ok;
   EXPECT_TRUE(noticed);
 }

@@ -84,7 +84,7 @@ TEST(Charuco, SeesWhatIsNotCovered) {
 cv::Mat drawnBefore46(const CharucoSpec& spec, double px_per_m) {
   const int square = int(spec.square * px_per_m), marker = int(spec.marker * px_per_m);
   const int gap = (square - marker) / 2;
-  const aruco::Board layout = charucoLayout(spec);
+  const aruco::CharucoPattern layout = charucoLayout(spec);
   cv::Mat sheet((spec.rows + 2) * square, (spec.columns + 2) * square, CV_8U, cv::Scalar(255));
   int id = 0;
   for (int row = 0; row < spec.rows; ++row)

@@ -31,7 +31,7 @@ TEST(Median, IsTheMiddleOrTheMeanOfTheTwoThere) {
 }
 
 TEST(BootstrapMedian, OfEqualValuesIsThatValue) {
-  const Interval i = bootstrapMedian(std::vector<double>(10, 1.25), 2000, 1);
+  const ConfidenceInterval i = bootstrapMedian(std::vector<double>(10, 1.25), 2000, 1);
   EXPECT_EQ(i.low, 1.25);
   EXPECT_EQ(i.high, 1.25);
 }
@@ -39,19 +39,20 @@ TEST(BootstrapMedian, OfEqualValuesIsThatValue) {
 TEST(BootstrapMedian, OfTwoValuesHasTheKnownQuantiles) {
   // Draws of {0, 1}: both 0 with 1/4, both 1 with 1/4, else 0.5. So the 2.5 % quantile is 0,
   // the 97.5 % one 1.
-  const Interval two = bootstrapMedian({0, 1}, 2000, 3);
+  const ConfidenceInterval two = bootstrapMedian({0, 1}, 2000, 3);
   EXPECT_EQ(two.low, 0);
   EXPECT_EQ(two.high, 1);
   // Of one 1 among nine 0 the median of a draw is 1 with P(Bin(9, 1/9) >= 5) = 0.0013: outside the
   // interval.
-  const Interval nine = bootstrapMedian({0, 0, 0, 0, 1, 0, 0, 0, 0}, 2000, 3);
+  const ConfidenceInterval nine = bootstrapMedian({0, 0, 0, 0, 1, 0, 0, 0, 0}, 2000, 3);
   EXPECT_EQ(nine.low, 0);
   EXPECT_EQ(nine.high, 0);
 }
 
 TEST(BootstrapMedian, SameSeedSameIntervalAndNothingGivesNothing) {
   const std::vector<double> values{0.9, 1.1, 1.3, 0.7, 1.0, 1.2, 0.8, 1.05, 0.95, 1.15};
-  const Interval a = bootstrapMedian(values, 2000, 5), b = bootstrapMedian(values, 2000, 5);
+  const ConfidenceInterval a = bootstrapMedian(values, 2000, 5),
+                           b = bootstrapMedian(values, 2000, 5);
   EXPECT_EQ(a.low, b.low);
   EXPECT_EQ(a.high, b.high);
   EXPECT_LT(a.low, median(values));
@@ -69,7 +70,7 @@ TEST(BootstrapMedian, HoldsTheTrueMedianAboutAsOftenAsItSays) {
   for (int trial = 0; trial < kTrials; ++trial) {
     std::vector<double> values(10);
     for (double& v : values) v = random.normal(1, 0.2);
-    const Interval i = bootstrapMedian(values, 400, static_cast<std::uint64_t>(trial));
+    const ConfidenceInterval i = bootstrapMedian(values, 400, static_cast<std::uint64_t>(trial));
     inside += i.low <= 1 && 1 <= i.high;
   }
   EXPECT_GT(inside, 0.917 * kTrials);

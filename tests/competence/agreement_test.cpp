@@ -36,7 +36,7 @@ TEST(RatingAgreement, IsTheIccOfShroutAndFleiss) {
 TEST(RatingAgreement, KappaOfTwoRatersAndOfTheSimulator) {
   // Two raters over four trials of one item: 20 alike of 25 would be the published table; here by
   // hand: both done 2, both not 1, one apart.
-  Item automatic{"a", "automatic", true, {{"success", 1}}, false};
+  ChecklistItem automatic{"a", "automatic", true, {{"success", 1}}, false};
   std::vector<RatedTrial> trials(4);
   const int one[] = {kDone, kDone, kNotDone, kDone}, other[] = {kDone, kDone, kNotDone, kNotDone};
   const Mark simulator[] = {Mark::done, Mark::not_done, Mark::not_done, Mark::open};

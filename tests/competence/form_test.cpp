@@ -11,9 +11,9 @@ namespace {
 TEST(Forms, TheShippedOnesAreWhatTheySay) {
   const Checklist list = shippedChecklist();
   EXPECT_EQ(list.items.size(), 24u);
-  EXPECT_EQ(
-      std::count_if(list.items.begin(), list.items.end(), [](const Item& i) { return i.major; }),
-      18);
+  EXPECT_EQ(std::count_if(list.items.begin(), list.items.end(),
+                          [](const ChecklistItem& i) { return i.major; }),
+            18);
   EXPECT_EQ(list.standards, (std::vector<double>{0.98, 0.90}));
   EXPECT_EQ(list.competent.major, 17);
   EXPECT_EQ(list.borderline.minor, 2);

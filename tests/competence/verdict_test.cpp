@@ -24,7 +24,7 @@ Checklist listOf(int items, int major) {
 
 Answers all(const Checklist& list, int answer) {
   Answers answers;
-  for (const Item& item : list.items) answers[item.id] = answer;
+  for (const ChecklistItem& item : list.items) answers[item.id] = answer;
   return answers;
 }
 
@@ -41,7 +41,7 @@ const VerdictFacts kAssessed{true, "success"};
 /// Every rater's item of the shipped list done.
 Answers ratersItemsDone(const Checklist& list) {
   Answers answers;
-  for (const Item& item : list.items)
+  for (const ChecklistItem& item : list.items)
     if (item.byRater()) answers[item.id] = kDone;
   return answers;
 }
@@ -73,7 +73,7 @@ TEST(Verdict, APleuralOrArterialPunctureFailsWhateverElseWasDone) {
     for (int i = 0; i < palpa::test::counted(5, 100); ++i) {
       Checklist list = shippedChecklist();
       // Every item done, those about pleura and artery among them: by a rater who looked away.
-      for (Item& item : list.items) item.rules.clear();
+      for (ChecklistItem& item : list.items) item.rules.clear();
       Script script;
       script.meets = tissue;
       const Verdict v = verdictOf(script, 90'000 + static_cast<std::uint64_t>(i), list);

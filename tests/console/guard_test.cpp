@@ -20,7 +20,7 @@ struct Door {
   explicit Door(const std::string& token = "") : guard(token) {
     guard.answerTo({kHere, "localhost:8123", "[::1]:8123"});
   }
-  Asked get(const std::string& path = "/api/sessions") const {
+  GuardedRequest get(const std::string& path = "/api/sessions") const {
     return {.remote = "127.0.0.1",
             .method = "GET",
             .path = path,
@@ -32,8 +32,8 @@ struct Door {
             .page_key = {},
             .write_id = {}};
   }
-  Asked post(const std::string& path = "/api/sessions") const {
-    Asked asked = get(path);
+  GuardedRequest post(const std::string& path = "/api/sessions") const {
+    GuardedRequest asked = get(path);
     asked.method = "POST";
     asked.origin.assign("http://").append(kHere);
     asked.fetch_site = "same-origin";
@@ -47,7 +47,7 @@ struct Door {
 
 TEST(Guard, NobodyMayBeforeItKnowsItsNames) {
   Guard guard("");
-  Asked asked = Door().get();
+  GuardedRequest asked = Door().get();
   EXPECT_EQ(guard.judge(asked).status, 421);
   asked.host.clear();
   EXPECT_EQ(guard.judge(asked).status, 421);
@@ -56,7 +56,7 @@ TEST(Guard, NobodyMayBeforeItKnowsItsNames) {
 TEST(Guard, OnlyItsOwnNames) {
   Door door;
   for (const char* host : {kHere, "localhost:8123", "[::1]:8123"}) {
-    Asked asked = door.get();
+    GuardedRequest asked = door.get();
     asked.host = host;
     EXPECT_EQ(door.guard.judge(asked).status, 200) << host;
   }
@@ -65,11 +65,11 @@ TEST(Guard, OnlyItsOwnNames) {
         "evil.example:8123", "localhost.evil.example:8123", "127.0.0.1.evil.example:8123",
         "evil@127.0.0.1:8123", "127.0.0.1:8123, evil", " 127.0.0.1:8123", "127.0.0.1:8123 ",
         "127.1:8123", "2130706433:8123", "0.0.0.0:8123", "::1:8123"}) {
-    Asked asked = door.get("/");
+    GuardedRequest asked = door.get("/");
     asked.host = host;
     EXPECT_EQ(door.guard.judge(asked).status, 421) << host;
   }
-  Asked asked = door.get();
+  GuardedRequest asked = door.get();
   asked.host = std::string(100'000, 'x');
   EXPECT_LT(door.guard.judge(asked).words.size(), 200u);
 }
@@ -80,13 +80,13 @@ TEST(Guard, NoOtherOrigin) {
        {"null", "https://127.0.0.1:8123", "http://evil.example", "http://127.0.0.1",
         "http://127.0.0.1:8124", "http://127.0.0.1:8123/", "HTTP://127.0.0.1:8123",
         "http://127.0.0.1:8123.evil.example", "file://"}) {
-    for (Asked asked : {door.get(), door.get("/"), door.post()}) {
+    for (GuardedRequest asked : {door.get(), door.get("/"), door.post()}) {
       asked.origin = origin;
       EXPECT_EQ(door.guard.judge(asked).status, 403) << origin << ' ' << asked.method << asked.path;
     }
   }
   for (const char* host : {kHere, "localhost:8123", "[::1]:8123"}) {
-    Asked asked = door.post();
+    GuardedRequest asked = door.post();
     asked.origin = std::string("http://") + host;
     EXPECT_EQ(door.guard.judge(asked).status, 200) << host;
   }
@@ -96,15 +96,16 @@ TEST(Guard, NoOtherOrigin) {
 TEST(Guard, WhatABrowserSaysOfTheAskingSite) {
   Door door;
   for (const char* site : {"cross-site", "same-site", "SAME-ORIGIN", "x"}) {
-    for (Asked asked : {door.get(), door.get("/api/me"), door.post(), door.post("/api/enter")}) {
+    for (GuardedRequest asked :
+         {door.get(), door.get("/api/me"), door.post(), door.post("/api/enter")}) {
       asked.fetch_site = site;
       EXPECT_EQ(door.guard.judge(asked).status, 403) << site << ' ' << asked.method << asked.path;
     }
-    Asked page = door.get("/");
+    GuardedRequest page = door.get("/");
     page.fetch_site = site;
     EXPECT_EQ(door.guard.judge(page).status, 200) << site;
   }
-  Asked typed = door.get(), write = door.post();
+  GuardedRequest typed = door.get(), write = door.post();
   typed.fetch_site = write.fetch_site = "none";
   EXPECT_EQ(door.guard.judge(typed).status, 200);
   EXPECT_EQ(door.guard.judge(write).status, 403);
@@ -114,7 +115,7 @@ TEST(Guard, OnlyGetAndPost) {
   Door door;
   for (const char* method :
        {"", "HEAD", "PUT", "DELETE", "OPTIONS", "PATCH", "TRACE", "CONNECT", "PRI", "get"}) {
-    Asked asked = door.get();
+    GuardedRequest asked = door.get();
     asked.method = method;
     EXPECT_EQ(door.guard.judge(asked).status, 405) << method;
   }
@@ -122,18 +123,18 @@ TEST(Guard, OnlyGetAndPost) {
 
 TEST(Guard, AWriteNeedsThePagesKeyAndItsType) {
   Door door;
-  Asked right = door.post();
+  GuardedRequest right = door.post();
   EXPECT_EQ(door.guard.judge(right).status, 200);
   for (const std::string& key : {std::string(), std::string("0"), Door().guard.pageKey(),
                                  door.guard.pageKey() + "0", door.guard.pageKey().substr(1)}) {
-    Asked asked = door.post();
+    GuardedRequest asked = door.post();
     asked.page_key = key;
     EXPECT_EQ(door.guard.judge(asked).status, 403) << key;
   }
   for (const char* type : {"", "text/plain", "application/x-www-form-urlencoded",
                            "multipart/form-data; boundary=application/json", " application/json",
                            "text/plain;application/json"}) {
-    Asked asked = door.post();
+    GuardedRequest asked = door.post();
     asked.content_type = type;
     EXPECT_EQ(door.guard.judge(asked).status, 415) << type;
   }
@@ -141,7 +142,7 @@ TEST(Guard, AWriteNeedsThePagesKeyAndItsType) {
 
 TEST(Guard, ANumberCountsOnce) {
   Door door;
-  Asked asked = door.post();
+  GuardedRequest asked = door.post();
   EXPECT_EQ(door.guard.judge(asked).status, 200);
   EXPECT_EQ(door.guard.judge(asked).status, 409);
   asked.path = "/api/trainees";
@@ -151,7 +152,7 @@ TEST(Guard, ANumberCountsOnce) {
        {std::string(), std::string("1"), std::string(31, 'a'), std::string(33, 'a'),
         std::string(32, 'A'), std::string(32, 'g'), std::string(32, '\0'),
         std::string(1 << 20, 'a')}) {
-    Asked bad = door.post();
+    GuardedRequest bad = door.post();
     bad.write_id = number;
     EXPECT_EQ(door.guard.judge(bad).status, 400) << number.substr(0, 40);
   }
@@ -160,7 +161,7 @@ TEST(Guard, ANumberCountsOnce) {
 /// A refused write uses no number up: the page may try again with the token given.
 TEST(Guard, WhoIsRefusedEarlierUsesNoNumberUp) {
   Door door;
-  Asked asked = door.post();
+  GuardedRequest asked = door.post();
   asked.page_key = "";
   EXPECT_EQ(door.guard.judge(asked).status, 403);
   asked.page_key = door.guard.pageKey();
@@ -178,7 +179,7 @@ TEST(Guard, AFloodOfWritesIsStoppedWhereItComesFrom) {
   EXPECT_EQ(passed + stopped, 300);
   EXPECT_GE(passed, 60);
   EXPECT_GT(stopped, 0);
-  Asked other = door.post();
+  GuardedRequest other = door.post();
   other.remote = "10.0.0.9";
   EXPECT_EQ(door.guard.judge(other).status, 200);
   EXPECT_EQ(door.guard.judge(door.get()).status, 200) << "looking on goes on";
@@ -187,10 +188,10 @@ TEST(Guard, AFloodOfWritesIsStoppedWhereItComesFrom) {
 /// 20,000 numbers are kept, whoever they came from: what is remembered does not grow for ever.
 TEST(Guard, NumbersAreKeptUpToABound) {
   Door door;
-  const Asked first = door.post();
+  const GuardedRequest first = door.post();
   ASSERT_EQ(door.guard.judge(first).status, 200);
   const auto write = [&](int i) {
-    Asked asked = door.post();
+    GuardedRequest asked = door.post();
     asked.remote = "10.0." + std::to_string(i / 50 / 250) + "." + std::to_string(i / 50 % 250);
     return door.guard.judge(asked).status;
   };
@@ -216,7 +217,7 @@ TEST(Guard, TheCookieComesForTheTokenAndOpens) {
   const std::string cookie = door.guard.enter("10.0.0.1", kToken);
   ASSERT_EQ(cookie.size(), 32u);
   EXPECT_EQ(cookie.find(kToken), std::string::npos);
-  Asked asked = door.get();
+  GuardedRequest asked = door.get();
   for (const std::string& header :
        {"palpa=" + cookie, "a=b; palpa=" + cookie, "palpa=" + cookie + "; a=b"}) {
     asked.cookie = header;
@@ -253,7 +254,7 @@ TEST(Guard, AnswersTellNothingOfWhatWouldBeRight) {
   std::set<std::string> words;
   for (const std::string& cookie : {std::string(), std::string("palpa="),
                                     "palpa=" + std::string(32, '0'), std::string(10'000, 'x')}) {
-    Asked asked = door.get();
+    GuardedRequest asked = door.get();
     asked.cookie = cookie;
     words.insert(door.guard.judge(asked).words);
   }
@@ -261,7 +262,7 @@ TEST(Guard, AnswersTellNothingOfWhatWouldBeRight) {
   words.clear();
   for (const std::string& key : {std::string(), std::string("0"), std::string(32, '0'),
                                  door.guard.pageKey().substr(0, 31) + "x"}) {
-    Asked asked = door.post();
+    GuardedRequest asked = door.post();
     asked.page_key = key;
     words.insert(door.guard.judge(asked).words);
   }

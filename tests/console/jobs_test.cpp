@@ -32,21 +32,21 @@ struct Workshop {
     return jobs->one(id)["lines"] == nlohmann::json{line};
   }
   const test::ScratchFolder folder;
-  Place place;
+  ConsolePlace place;
   std::unique_ptr<Jobs> jobs;
 };
 
-Jobs::Wish report(const std::string& key) {
+JobRequest report(const std::string& key) {
   return {key, "Report", {"report", "trainee", "--out", "{}/report"}, "report/trainee.html", {}};
 }
-Jobs::Wish waiting(const std::string& key) { return {key, "Long", {"wait"}, "", {}}; }
+JobRequest waiting(const std::string& key) { return {key, "Long", {"wait"}, "", {}}; }
 
 TEST(Jobs, APageIsMadeAndHandedOut) {
   const Workshop w("jobs-page");
   bool good = false;
-  Jobs::Wish wish = report("a");
-  wish.then = [&](const std::filesystem::path&, bool came) { good = came; };
-  const std::string id = w.jobs->add(std::move(wish));
+  JobRequest request = report("a");
+  request.then = [&](const std::filesystem::path&, bool came) { good = came; };
+  const std::string id = w.jobs->add(std::move(request));
   EXPECT_TRUE(isId(id));
   EXPECT_EQ(w.settled(id), "done");
   EXPECT_TRUE(good);
@@ -68,15 +68,15 @@ TEST(Jobs, WhatFailsSaysWhy) {
 /// try, and the next who asks begins anew.
 TEST(Jobs, WhatIsAskedForIsBegunOnceAndItsFailureToldOnce) {
   const Workshop w("jobs-ask");
-  const auto settled = [&](const Jobs::Wish& wish) {
-    const std::string id = w.jobs->ask(wish)["id"];
+  const auto settled = [&](const JobRequest& request) {
+    const std::string id = w.jobs->ask(request)["id"];
     EXPECT_TRUE(w.settled(id) == "done" || w.settled(id) == "failed");
     return id;
   };
   const std::string page = settled(report("a"));
   EXPECT_EQ(w.jobs->ask(report("a"))["id"], page);  // done long ago: not made again
   EXPECT_EQ(w.jobs->ask(report("a"))["state"], "done");
-  const Jobs::Wish bad{"b", "Nothing", {"nonsense"}, "", {}};
+  const JobRequest bad{"b", "Nothing", {"nonsense"}, "", {}};
   const std::string failed = settled(bad);
   const nlohmann::json told = w.jobs->ask(bad);
   EXPECT_EQ(told["id"], failed);
@@ -115,11 +115,11 @@ TEST(Jobs, WhatWaitsCanBeStopped) {
 /// The disk is full when the result is to be kept: that job fails, the next is done.
 TEST(Jobs, WhatFailsAfterwardsFailsTheJobAlone) {
   const Workshop w("jobs-then");
-  Jobs::Wish wish = report("a");
-  wish.then = [](const std::filesystem::path&, bool) {
+  JobRequest request = report("a");
+  request.then = [](const std::filesystem::path&, bool) {
     throw Error("cannot be written", "settings.json", "Make room");
   };
-  EXPECT_EQ(w.settled(w.jobs->add(std::move(wish))), "failed");
+  EXPECT_EQ(w.settled(w.jobs->add(std::move(request))), "failed");
   EXPECT_EQ(w.settled(w.jobs->add(report("b"))), "done");
 }
 
@@ -142,7 +142,7 @@ TEST(Jobs, UnknownOnesAreRefused) {
 
 TEST(Jobs, OldFoldersGoAndNothingElse) {
   const test::ScratchFolder folder("jobs-old");
-  Place place;
+  ConsolePlace place;
   place.home = folder.path();
   for (int i = 0; i < 250; ++i)
     std::filesystem::create_directories(place.jobs() /

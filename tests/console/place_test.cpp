@@ -58,15 +58,15 @@ TEST(Place, OnlyWhatASessionShowsIsShown) {
   EXPECT_FALSE(isShown("view-" + std::string(10'000, 'a') + ".png"));
 }
 
-Place placeIn(const test::ScratchFolder& folder) {
-  Place place;
+ConsolePlace placeIn(const test::ScratchFolder& folder) {
+  ConsolePlace place;
   place.home = folder.path();
   return place;
 }
 
 TEST(Place, TheChosenStationIsKept) {
   const test::ScratchFolder folder("station");
-  const Place place = placeIn(folder);
+  const ConsolePlace place = placeIn(folder);
   EXPECT_EQ(stationOf(place), "");
   std::ofstream(folder / "my \"station\" \u00e4.json") << "{}";
   chooseStation(place, folder / "my \"station\" \u00e4.json");
@@ -79,7 +79,7 @@ TEST(Place, TheChosenStationIsKept) {
 /// file it is.
 TEST(Place, DamagedSettingsAreSaid) {
   const test::ScratchFolder folder("damaged");
-  const Place place = placeIn(folder);
+  const ConsolePlace place = placeIn(folder);
   for (const std::string text :
        {"", "{", "[]", "null", "1", "{\"station\": 5}", "{\"station\": [\"x\"]}", "\xff\xfe",
         "{\"station\": \"x\"", "not json"}) {

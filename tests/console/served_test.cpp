@@ -176,7 +176,7 @@ std::filesystem::path realStation(const std::filesystem::path& folder) {
 TEST(Served, ItIsSimulatedByWhoPerformsAndByWhere) {
   const test::ScratchFolder folder("simulated");
   const test::ShortFolder sockets;
-  Place place;
+  ConsolePlace place;
   place.home = folder / "home";
   std::filesystem::create_directories(place.home);
   const auto simulated = [&](const std::filesystem::path& station, const std::string& performer) {

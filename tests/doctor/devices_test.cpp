@@ -73,7 +73,7 @@ TEST(DoctorsSensor, SilenceLossAndFaultsAreNamed) {
   station::Station station = benchStation();
   EXPECT_EQ(askSensor(station).state, station.force_sensor ? State::well : State::absent);
   station.force_sensor.emplace();
-  station.force_sensor->driver = station::ForceSensorSetup::Driver::net_ft;
+  station.force_sensor->driver = station::ForceSensorDriver::net_ft;
   station.force_sensor->net_ft.address = "127.0.0.1";  // nobody answers there
   station.force_sensor->net_ft.port = 9;
   station.force_sensor->net_ft.answer_tries = 1;

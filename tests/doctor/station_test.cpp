@@ -104,7 +104,7 @@ TEST(DoctorsBoard, ThePrintIsMeasuredOrHasBeen) {
   expectSays(judgePrint(station, 98.9), State::note, "1.1 % too small");
   expectSays(judgePrint(station, 95.2), State::ill, "4.8 % too small");
   expectSays(judgePrint(station, 103), State::ill, "3.0 % too large");
-  station.camera_setup.driver = station::CameraSetup::Driver::webcam;
+  station.camera_setup.driver = station::CameraDriver::webcam;
   expectSays(judgePrint(station, 0), State::note, "nobody has measured it");
   station.calibrations = {calibration("registration")};
   expectSays(judgePrint(station, 0), State::note, "nobody has measured it");

@@ -34,8 +34,8 @@ TEST(Controller, MovesTheToolToAMillimetre) {
         (makePose(unpack(reading.q_DE).toRotationMatrix(), unpack(reading.p_DE)) * setup.X_ET)
             .translation());
   };
-  HeldTool last;
-  worn.view->onHeld([&](const HeldTool& held) {
+  HeldController last;
+  worn.view->onHeld([&](const HeldController& held) {
     last = held;
     hand.hold(held, now);
   });
@@ -67,7 +67,7 @@ TEST(Controller, EveryKnownKindIsBound) {
     Worn worn(std::string("eyes=64x64,64x64;controller=/interaction_profiles/") + kind);
     bool tracked = false;
     double trigger = 0;
-    worn.view->onHeld([&](const HeldTool& held) {
+    worn.view->onHeld([&](const HeldController& held) {
       tracked = held.tracked;
       trigger = held.plunger;
     });
@@ -84,15 +84,15 @@ TEST(Controller, LeftHandedPeopleHoldItInTheLeft) {
   setup.left_handed = true;
   Worn worn("eyes=64x64,64x64", 0.03, setup);
   bool tracked = false;
-  worn.view->onHeld([&](const HeldTool& held) { tracked |= held.tracked; });
+  worn.view->onHeld([&](const HeldController& held) { tracked |= held.tracked; });
   worn.show(5);
   EXPECT_FALSE(tracked);  // the test runtime has only a right hand
 }
 
-std::vector<HeldTool> toldBy(const std::string& plan, bool may_place = true) {
+std::vector<HeldController> toldBy(const std::string& plan, bool may_place = true) {
   Worn worn("eyes=64x64,64x64;" + plan);
-  std::vector<HeldTool> told;
-  worn.view->onHeld([&](const HeldTool& held) { told.push_back(held); });
+  std::vector<HeldController> told;
+  worn.view->onHeld([&](const HeldController& held) { told.push_back(held); });
   for (int i = 0; i < 16; ++i) {
     EXPECT_TRUE(worn.view->wait(may_place || i < 2));
     worn.view->show(Worn::bare());
@@ -103,7 +103,7 @@ std::vector<HeldTool> toldBy(const std::string& plan, bool may_place = true) {
 
 TEST(Controller, OneThatIsSwitchedOffOrOnlyGuessedIsNotTracked) {
   for (const char* fault : {"controller_off@8", "inferred@8"}) {
-    const std::vector<HeldTool> told = toldBy(std::string("fault=") + fault);
+    const std::vector<HeldController> told = toldBy(std::string("fault=") + fault);
     ASSERT_EQ(told.size(), 16u);
     EXPECT_TRUE(told[5].tracked) << fault;
     EXPECT_FALSE(told[15].tracked) << fault;
@@ -115,7 +115,7 @@ TEST(Controller, OneThatIsSwitchedOffOrOnlyGuessedIsNotTracked) {
 /// is asked.
 TEST(Controller, ThePatientComesWhenAskedAndOnlyWhenHeMay) {
   const auto jump = [](const std::string& fault, bool may_place) {
-    const std::vector<HeldTool> told = toldBy("drift=5;fault=" + fault, may_place);
+    const std::vector<HeldController> told = toldBy("drift=5;fault=" + fault, may_place);
     Vec3 largest = Vec3::Zero();
     for (std::size_t i = 1; i < told.size(); ++i) {
       const Vec3 step = told[i].X_AT.translation() - told[i - 1].X_AT.translation();
@@ -133,10 +133,11 @@ TEST(Controller, ThePatientComesWhenAskedAndOnlyWhenHeMay) {
 }
 
 TEST(Controller, TheStartButtonStarts) {
-  const std::vector<HeldTool> told =
+  const std::vector<HeldController> told =
       toldBy("controller=/interaction_profiles/oculus/touch_controller;fault=start_pressed@8");
-  EXPECT_EQ(
-      std::count_if(told.begin(), told.end(), [](const HeldTool& held) { return held.start; }), 1);
+  EXPECT_EQ(std::count_if(told.begin(), told.end(),
+                          [](const HeldController& held) { return held.start; }),
+            1);
 }
 
 /// A hand that takes over from a controller takes over where the needle is.
@@ -153,7 +154,7 @@ TEST(Controller, TheMouseTakesOverWhereItWas) {
     for (int i = 0; i < 500; ++i) hand.step(now += runtime::kMillisecond);
     return unpack(device.read(now).p_DE);
   };
-  HeldTool held{
+  HeldController held{
       true, makePose(Eigen::AngleAxisd(0.8, Vec3::UnitX()).toRotationMatrix(), {0.05, 0.01, -0.02}),
       0.5, false};
   hand.hold(held, now);

@@ -25,7 +25,7 @@ TEST(HeadsetValidation, FiveHundredFramesWithoutAnError) {
   setenv("XR_CORE_VALIDATION_EXPORT_TYPE", "text", 1);
   setenv("XR_CORE_VALIDATION_FILE_NAME", errors.c_str(), 1);
   worn.view = std::make_unique<HeadsetView>(worn.patient, HeadsetViewSetup{});
-  worn.view->onHeld([&](const HeldTool& held) {
+  worn.view->onHeld([&](const HeldController& held) {
     if (held.tracked && held.plunger > 0.5) worn.view->pulse(0.01, 0.5);
   });
   EXPECT_EQ(worn.show(500), 500);

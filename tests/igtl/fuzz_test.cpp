@@ -139,7 +139,7 @@ TEST(IgtlFuzz, ServerGoesOnForTheOthers) {
   DamageDice dice(4711);
   IgtlServer server("127.0.0.1", 0, kSound);
   igt_test::LibraryClient good(server.port());
-  Moment moment;
+  ShownMoment moment;
   moment.poses = {{"NeedleTip", kSound, 5}};
   std::int64_t now_ns = 0;
   server.serve(moment, now_ns);

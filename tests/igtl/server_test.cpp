@@ -26,8 +26,8 @@ const Pose kX_WA =
 const Pose kX_WT = makePose(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()).toRotationMatrix(),
                             Vec3(0.012, -0.345, 0.678));
 
-Moment momentAt(std::int64_t t_ns) {
-  Moment moment;
+ShownMoment momentAt(std::int64_t t_ns) {
+  ShownMoment moment;
   moment.utc_ns = kUtc + t_ns;
   moment.poses = {{"NeedleTip", kX_WT, kUtc + t_ns}, {"Camera", kX_WA, kUtc + t_ns - 40 * kMs}};
   moment.forces = {{"NeedleContactForce", Vec3(0.5, -1.25, 2)}};
@@ -309,7 +309,7 @@ TEST_F(IgtlServerTest, NoTrackingDataWhereNothingIsKnown) {
   serve();
   asks.all();
   asks.startTracking(10, "");
-  for (int i = 0; i < 5; ++i, now_ns_ += 10 * kMs) server_.serve(Moment{}, now_ns_);
+  for (int i = 0; i < 5; ++i, now_ns_ += 10 * kMs) server_.serve(ShownMoment{}, now_ns_);
   const auto messages = asks.all();
   EXPECT_EQ(countOf(messages, "RTS_TDATA"), 1);
   EXPECT_EQ(countOf(messages, "TDATA"), 0) << "one without tools would be taken for damage";

@@ -30,13 +30,13 @@ class Export : public testing::Test {
     data_ = link::datasetOf(store, store.trainees());
   }
 
-  const link::DataTable& table(const std::string& name) {
+  const link::ExportTable& table(const std::string& name) {
     tables_ = link::tablesOf(data_, false);
     return *std::find_if(tables_.begin(), tables_.end(),
                          [&](const auto& t) { return t.name == name; });
   }
 
-  static json cell(const link::DataTable& table, std::size_t row, const std::string& column) {
+  static json cell(const link::ExportTable& table, std::size_t row, const std::string& column) {
     for (std::size_t i = 0; i < table.columns.size(); ++i)
       if (table.columns[i].name == column) return table.rows.at(row).at(i);
     ADD_FAILURE() << "no column " << column;
@@ -45,11 +45,11 @@ class Export : public testing::Test {
 
   std::filesystem::path folder_;
   link::Dataset data_;
-  std::vector<link::DataTable> tables_;
+  std::vector<link::ExportTable> tables_;
 };
 
 TEST_F(Export, EveryTrialWithEveryFigure) {
-  const link::DataTable& trials = table("trials");
+  const link::ExportTable& trials = table("trials");
   ASSERT_EQ(trials.rows.size(), 4u);
   EXPECT_EQ(cell(trials, 2, "total"), 0.1 * 3);  // to the last bit
   EXPECT_TRUE(cell(trials, 0, "closest_artery_mm").is_null());
@@ -61,7 +61,7 @@ TEST_F(Export, EveryTrialWithEveryFigure) {
 }
 
 TEST_F(Export, SessionsCalibrationsEvents) {
-  const link::DataTable sessions = table("sessions");
+  const link::ExportTable sessions = table("sessions");
   EXPECT_EQ(cell(sessions, 0, "study_condition"), "with");
   EXPECT_EQ(cell(sessions, 0, "operator"), "person");
   EXPECT_EQ(table("calibrations").rows.size(), 2u);
@@ -85,7 +85,7 @@ TEST_F(Export, FilesReadBack) {
 TEST_F(Export, PlacesOfThisComputerOnlyWhenAsked) {
   const auto written = [&](bool with_paths) {
     std::string text = link::asJson(link::tablesOf(data_, with_paths));
-    for (const link::DataTable& t : link::tablesOf(data_, with_paths)) text += link::asCsv(t);
+    for (const link::ExportTable& t : link::tablesOf(data_, with_paths)) text += link::asCsv(t);
     return text;
   };
   EXPECT_EQ(written(false).find("/home/"), std::string::npos);
@@ -94,10 +94,10 @@ TEST_F(Export, PlacesOfThisComputerOnlyWhenAsked) {
 
 TEST_F(Export, TheDictionaryHasEveryColumnOfEveryFile) {
   const auto tables = link::tablesOf(data_, true);
-  const link::DataTable dictionary = link::dictionaryOf(tables);
+  const link::ExportTable dictionary = link::dictionaryOf(tables);
   const std::string markdown = link::dictionaryAsMarkdown(tables);
   std::size_t row = 0;
-  for (const link::DataTable& t : tables) {
+  for (const link::ExportTable& t : tables) {
     std::istringstream csv(link::asCsv(t));
     std::string header;
     std::getline(csv, header);
@@ -117,18 +117,18 @@ TEST_F(Export, TheDictionaryHasEveryColumnOfEveryFile) {
 /// A person's export is everything: also what the store learns to keep later.
 TEST_F(Export, HasEveryTableThatNamesATrainee) {
   std::set<std::string> exported;
-  for (const link::DataTable& t : link::tablesOf(data_, false)) exported.insert(t.name);
+  for (const link::ExportTable& t : link::tablesOf(data_, false)) exported.insert(t.name);
   for (const std::string& name : record::tableNames()) {
     const bool names_one =
         ("," + record::columnsOf(name) + ",").find(",trainee,") != std::string::npos;
     EXPECT_TRUE(!names_one || exported.contains(name)) << name;
   }
-  const link::DataTable answers =
+  const link::ExportTable answers =
       link::asTable({"answers",
                      {"trainee", "answer", "later"},
                      {{std::string("A"), std::int64_t{5}, std::monostate{}}}});
   EXPECT_EQ(link::asCsv(answers), "trainee,answer,later\nA,5,\n");
-  for (const link::Column& c : answers.columns) EXPECT_FALSE(c.meaning.empty());
+  for (const link::TableColumn& c : answers.columns) EXPECT_FALSE(c.meaning.empty());
 }
 
 TEST_F(Export, WhatIsNoTextLosesNoFile) {

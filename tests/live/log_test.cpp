@@ -22,7 +22,7 @@ haptics::FlightRecord tickAt(std::int64_t t_ns, double force_N, std::uint32_t tr
 }
 
 TEST(Curve, OneTickOf20MsStays_TheOneWithTheGreatestForce) {
-  Curve curve;
+  ForceCurve curve;
   for (int ms = 0; ms < 1000; ++ms) curve.add(tickAt(ms * 1'000'000ll, ms % 20 == 7 ? 3 : 1));
   ASSERT_EQ(curve.points().size(), 49u);  // the last 20 ms are not over yet
   for (std::size_t i = 0; i < curve.points().size(); ++i) {
@@ -38,7 +38,7 @@ TEST(Curve, OneTickOf20MsStays_TheOneWithTheGreatestForce) {
 }
 
 TEST(Curve, WhatIsNoNumberIsToldAsNone) {
-  Curve curve;
+  ForceCurve curve;
   for (const double force : {std::nan(""), std::numeric_limits<double>::infinity(), 2.0})
     curve.add(tickAt(static_cast<std::int64_t>(curve.points().size()) * 20'000'000 +
                          (std::isnan(force)   ? 0

@@ -10,8 +10,8 @@
 namespace palpa::live {
 namespace {
 
-std::vector<Frame> framesIn(FrameDecoder& decoder) {
-  std::vector<Frame> all;
+std::vector<LiveFrame> framesIn(FrameDecoder& decoder) {
+  std::vector<LiveFrame> all;
   while (auto frame = decoder.next()) all.push_back(*frame);
   return all;
 }
@@ -60,12 +60,12 @@ TEST(Wire, PiecesOfAnySizeMakeTheSameFrames) {
   }
   for (const std::size_t most : {1, 2, 5, 6, 97, 100'000}) {
     FrameDecoder decoder;
-    std::vector<Frame> all;
+    std::vector<LiveFrame> all;
     for (std::size_t at = 0; at < stream.size();) {
       const std::size_t count = std::min(most == 1 ? 1 : 1 + dice.below(most), stream.size() - at);
       decoder.feed(stream.data() + at, count);
       at += count;
-      for (Frame& frame : framesIn(decoder)) all.push_back(std::move(frame));
+      for (LiveFrame& frame : framesIn(decoder)) all.push_back(std::move(frame));
     }
     ASSERT_EQ(all.size(), bodies.size()) << most;
     for (std::size_t i = 0; i < all.size(); ++i) EXPECT_TRUE(all[i].body == bodies[i]) << i;
@@ -115,7 +115,7 @@ TEST(Wire, DamagedStreamsNeverBreakTheDecoder) {
     try {
       for (std::size_t at = 0; at < stream.size(); ++at) {
         decoder.feed(stream.data() + at, 1);
-        for (const Frame& frame : framesIn(decoder)) got += 5 + frame.body.size();
+        for (const LiveFrame& frame : framesIn(decoder)) got += 5 + frame.body.size();
       }
     } catch (const Error&) {
     }

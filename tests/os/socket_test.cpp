@@ -71,7 +71,7 @@ TEST(Socket, OneSideMayEndWritingAndStillRead) {
 TEST(Socket, WaitsForAnyOfMany) {
   const Pair quiet, loud;
   EXPECT_EQ(sendSome(loud.ends[1], "x", 1), 1u);
-  const Watched all[] = {{quiet.ends[0]}, {loud.ends[0]}};
+  const WatchedSocket all[] = {{quiet.ends[0]}, {loud.ends[0]}};
   waitForAny(all, 60'000);  // at once: one is ready
   EXPECT_TRUE(ready(loud.ends[0], Wait::to_read, 0));
   EXPECT_FALSE(ready(quiet.ends[0], Wait::to_read, 0));

@@ -53,7 +53,7 @@ Brick box() {
   for (int a = 0; a < 8; ++a)
     nodes[static_cast<std::size_t>(a)] = 1e-3 * Eigen::Vector3d(at[a][0], at[a][1], at[a][2]);
   Brick brick = brickOf(nodes);
-  for (Brick::Point& point : brick.points) point.shear = 2400;
+  for (Brick::IntegrationPoint& point : brick.points) point.shear = 2400;
   return brick;
 }
 

@@ -58,8 +58,7 @@ TEST(PairTable, AddsToEachAloneWhatBothDo) {
   for (const double shift : {-0.0093, -0.004, 0.0, 0.0021, 0.01}) {
     const PairCell found = both.at(one, shift, {0.0031, 0.0055}), law = more(shift, 0.0031, 0.0055);
     for (std::size_t t = 0; t < 2; ++t) {
-      const PhantomTable::Cell alone =
-          one.at(shift + (t == 0 ? 0.01 : -0.01), t == 0 ? 0.0031 : 0.0055);
+      const PhantomCell alone = one.at(shift + (t == 0 ? 0.01 : -0.01), t == 0 ? 0.0031 : 0.0055);
       EXPECT_NEAR(found.f[t].x(), law.f[t].x(), 1e-9) << shift;
       EXPECT_NEAR(found.f[t].y(), alone.f_up + law.f[t].y(), 1e-9) << shift;
     }

@@ -107,7 +107,7 @@ TEST(PhantomFile, ShippedTablesAreThoseOfTheShippedPhantoms) {
     const double away = (i % 3) * table.away_step;
     FiniteBlock solid(phantoms[i].block, {away}, table.tool_radius, fineness);
     const Vec3 f = solid.press({Vec3(away, 0, -3 * table.depth_step)}).f[0];
-    const PhantomTable::Cell cell = table.at(away, 3 * table.depth_step);
+    const PhantomCell cell = table.at(away, 3 * table.depth_step);
     EXPECT_NEAR(cell.f_up, f.z(), 1e-4) << phantoms[i].name;
     EXPECT_NEAR(cell.f_out, f.x(), 1e-4) << phantoms[i].name;
     FiniteBlock pressed_twice(phantoms[i].block, {-0.005, 0.015}, table.tool_radius, fineness);

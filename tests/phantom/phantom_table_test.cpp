@@ -10,7 +10,7 @@ namespace palpa::twin {
 namespace {
 
 /// A law that a table should give back between its cells, smooth and even about the axis.
-PhantomTable::Cell lawAt(double away, double depth) {
+PhantomCell lawAt(double away, double depth) {
   const double bump = std::exp(-away * away / (2 * 0.01 * 0.01)),
                f = std::pow(depth, 1.5) * (800 + 5e4 * depth);
   return {f * bump * 20 * away, f * (1 + bump), -0.1 * away * bump * depth, -0.2 * bump * depth};
@@ -30,7 +30,7 @@ TEST(PhantomTable, GivesBackItsLawBetweenTheCells) {
   const PhantomTable table = tableOfLaw();
   for (double away = -0.030; away < 0.030; away += 0.0013) {
     for (double depth = 0.0005; depth < 0.008; depth += 0.00037) {
-      const PhantomTable::Cell found = table.at(away, depth), wanted = lawAt(away, depth);
+      const PhantomCell found = table.at(away, depth), wanted = lawAt(away, depth);
       const double within = depth < table.depth_step
                                 ? 0.04
                                 : 0.015;  // before the first cell the power law alone is known
@@ -78,7 +78,7 @@ TEST(PhantomTwin, DragsAgainstTheMotion) {
   law.relaxes = {0, 0};
   law.load_power = 0;
   PhantomTable table = tableOfLaw();
-  for (PhantomTable::Cell& cell : table.cells) cell.f_out = 0;  // a plain phantom
+  for (PhantomCell& cell : table.cells) cell.f_out = 0;  // a plain phantom
   PhantomTwin twin(table, law);
   PhantomTouch touch;
   for (int i = 0; i < 400; ++i) touch = twin.step(Vec3(-0.03 + 1e-4 * i, 0, -4e-3), 1e-3);

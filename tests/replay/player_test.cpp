@@ -62,8 +62,8 @@ TEST(Player, SpeedStaysWithinItsLimits) {
 }
 
 TEST(Marks, WordsStandForAWhileAndTheLatestWins) {
-  const std::vector<Mark> marks{{1, scene::TickTone::neutral, "Skin punctured"},
-                                {2, scene::TickTone::bad, "Artery"}};
+  const std::vector<StripMark> marks{{1, scene::TickTone::neutral, "Skin punctured"},
+                                     {2, scene::TickTone::bad, "Artery"}};
   EXPECT_EQ(wordsAt(marks, 0.9), "");
   EXPECT_EQ(wordsAt(marks, 1), "Skin punctured");
   EXPECT_EQ(wordsAt(marks, 2.2), "Artery");
@@ -91,7 +91,7 @@ TEST(Moments, TheyAreThoseOfTheTrialAndBloodFillsAQuarterASecond) {
   reader.add(other);
   for (int i = 0; i < 2000; ++i)
     reader.add(tickAt(1 + 1e-3 * i, 0.5, i < 1000 ? Tissue::air : Tissue::vein_lumen));
-  const std::vector<Moment>& moments = reader.moments();
+  const std::vector<NeedleMoment>& moments = reader.moments();
   ASSERT_EQ(moments.size(), 500u);  // every 4 ms
   EXPECT_FALSE(moments[249].blood_flows);
   EXPECT_TRUE(moments[251].blood_flows);

@@ -52,7 +52,7 @@ TEST(RatingForms, TheSheetNamesEveryItemOnce) {
   const std::string sheet = answerSheet(shippedChecklist(), &shippedGlobal());
   EXPECT_TRUE(competence::parseAnswers(sheet, "form.csv", shippedChecklist(), &shippedGlobal())
                   .checklist.empty());
-  for (const competence::Item& item : shippedChecklist().items)
+  for (const competence::ChecklistItem& item : shippedChecklist().items)
     EXPECT_NE(sheet.find("\n" + item.id + ",\n"), std::string::npos) << item.id;
   for (const competence::RatingItem& item : shippedGlobal().items)
     EXPECT_NE(sheet.find("\n" + item.id + ",\n"), std::string::npos) << item.id;

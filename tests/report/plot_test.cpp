@@ -66,7 +66,7 @@ TEST(NiceCeiling, IsCloseAbove) {
 }
 
 TEST(Decimation, KeepsExtremesFirstAndLastOfEveryColumn) {
-  std::vector<Point> points;
+  std::vector<ChartPoint> points;
   for (int i = 0; i < 30000; ++i) {
     points.push_back({i * 0.001, std::sin(i * 0.37) * (i == 12345 ? 50 : 1)});
   }
@@ -76,11 +76,11 @@ TEST(Decimation, KeepsExtremesFirstAndLastOfEveryColumn) {
   const auto& line = lines[0];
   EXPECT_LE(line.size(), 4u * 301);
   EXPECT_TRUE(std::is_sorted(line.begin(), line.end(),
-                             [](const Point& a, const Point& b) { return a.x < b.x; }));
+                             [](const ChartPoint& a, const ChartPoint& b) { return a.x < b.x; }));
   for (int column = 0; column < 300; ++column) {
-    const auto extremes = [&](const std::vector<Point>& all) {
+    const auto extremes = [&](const std::vector<ChartPoint>& all) {
       double low = 1e9, high = -1e9;
-      for (const Point& p : all) {
+      for (const ChartPoint& p : all) {
         if (std::floor(x.at(p.x)) != column) continue;
         low = std::min(low, p.y);
         high = std::max(high, p.y);

@@ -52,7 +52,7 @@ TEST(StudyPage, SentencesComeFirstAndSimulatedIsSaid) {
   people.simulated_trials = 0;
   people.published_words.clear();
   std::erase_if(people.exhibits, [](const study_analysis::Exhibit& e) {
-    return e.part == study_analysis::Part::published;
+    return e.part == study_analysis::ExhibitPart::published;
   });
   const std::string real = studyPage(people, "people");
   for (const char* words : {"SIMULATED", "simulated", "As published", "<script", "<link", "src="})
@@ -123,7 +123,7 @@ TEST(StudyTables, CellsAreQuotedNumberedAndMarked) {
   EXPECT_EQ(studyCell(table.rows[0][1], table.columns[1]), "< 0.001");
   EXPECT_EQ(studyCell(table.rows[0][2], table.columns[2]), "–");
   const auto json = nlohmann::json::parse(
-      studyJson({"id", "t", "c", study_analysis::Part::table, table, {}, {"n"}}, false));
+      studyJson({"id", "t", "c", study_analysis::ExhibitPart::table, table, {}, {"n"}}, false));
   EXPECT_TRUE(json["rows"][0][2].is_null());
   EXPECT_EQ(json["columns"][2]["name"], "p_2");
 }

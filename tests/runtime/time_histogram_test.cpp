@@ -78,7 +78,7 @@ TEST(TimeHistogram, CountsWithoutAllocation) {
 }
 
 TEST(TimeHistogram, OfNothingIsZero) {
-  const Spread s = spreadOf(TimeHistogram());
+  const TimeSpread s = spreadOf(TimeHistogram());
   EXPECT_EQ(s.median_us, 0);
   EXPECT_EQ(s.p999_us, 0);
   EXPECT_EQ(s.max_us, 0);
@@ -87,7 +87,7 @@ TEST(TimeHistogram, OfNothingIsZero) {
 TEST(TimeHistogram, IsSpokenOfInMicroseconds) {
   TimeHistogram h;
   for (int i = 0; i < 1000; ++i) h.add(128'000);
-  const Spread s = spreadOf(h);
+  const TimeSpread s = spreadOf(h);
   EXPECT_NEAR(s.median_us, 128, 0.5);
   EXPECT_EQ(s.max_us, 128);
 }

@@ -151,7 +151,7 @@ TEST_F(Search, TheSameLevelsGiveTheSamePixelsAndOthersOthers) {
 }
 
 TEST_F(Search, LumpsAreSeenThroughEverySkinWhereTheyLie) {
-  const Lump lump{onTop(0.02, -0.01, -0.02), 0.008, true};
+  const ShownLump lump{onTop(0.02, -0.01, -0.02), 0.008, true};
   const Eigen::Vector2d middle = project(state_.camera, state_.X_CA * lump.p_A);
   for (const SkinStyle skin : {SkinStyle::translucent, SkinStyle::solid, SkinStyle::hidden}) {
     state_.skin = skin;

@@ -93,7 +93,7 @@ std::vector<Look> looks() {
       {"forces-paper", with(pushed)},
       {"forces-safe", with(pushed), anatomy::Side::right, safe},
       {"guide-and-ellipse", with([&](SceneState& s) {
-         s.guide = Guide{entry_A, vein_A};
+         s.guide = GuideLine{entry_A, vein_A};
          s.tip_covariance_A = 2e-5 * Mat3::Identity();
        })},
       {"trail", with([&](SceneState& s) {

@@ -150,7 +150,7 @@ TEST(Guide, RunsInDashesFromTheEntryToTheTargetAndIsNeverHidden) {
   const Image picture = plain(320, 240, 90);
   SceneState state = before(picture);
   const Image without = frameOf(aBall(), state);
-  state.guide = Guide{{-0.08, 0, 0}, {0.08, 0, 0}};
+  state.guide = GuideLine{{-0.08, 0, 0}, {0.08, 0, 0}};
   const Image with = frameOf(aBall(), state);
   const Blob line = changed(with, without);
   EXPECT_NEAR(line.left, project(state.camera, state.X_CA * Vec3(-0.08, 0, 0)).x(), 3);

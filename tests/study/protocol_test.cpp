@@ -46,7 +46,7 @@ TEST(Protocol, TheShippedOnesAreTheSources) {
   EXPECT_EQ(pilot.block(2).trials, 10);
   EXPECT_TRUE(pilot.condition("FF")->shows.force_feedback);
   EXPECT_FALSE(pilot.condition("NO")->shows.force_feedback);
-  for (const Condition& c : pilot.conditions)
+  for (const StudyCondition& c : pilot.conditions)
     EXPECT_FALSE(c.shows.navigation || c.shows.skin_deflection || c.shows.augment || c.shows.guide)
         << c.name;
   EXPECT_TRUE(pilot.sessions.at(0).questionnaire);

@@ -268,12 +268,12 @@ TEST(ClosestFree, WhatIsNotFiniteComesBack) {
 /// Bumps where they are wanted; the others of the grid stand in their cells' middles.
 const BumpSpec kWide{2, 10, 10, 5, 45};
 
-SurfacePoint closestOn(const BumpPattern& pattern, double x, double y, double z) {
-  SurfacePoint best{0, 0, 0, std::numeric_limits<double>::infinity()};
+PatternPoint closestOn(const BumpPattern& pattern, double x, double y, double z) {
+  PatternPoint best{0, 0, 0, std::numeric_limits<double>::infinity()};
   closestOnBumps(pattern, x, y, z, &best);
   return best;
 }
-void expectPoint(const SurfacePoint& p, double x, double y, double z) {
+void expectPoint(const PatternPoint& p, double x, double y, double z) {
   EXPECT_NEAR(p.x, x, 1e-9);
   EXPECT_NEAR(p.y, y, 1e-9);
   EXPECT_NEAR(p.z, z, 1e-9);
@@ -344,7 +344,7 @@ TEST(ClosestBump, OfNineIsBeyondAllOfThem) {
     }
   EXPECT_GT(bare2, 2.2 * 2.2);
   for (const double z : {-9.0, -14.0}) {
-    const SurfacePoint p = closestOn(pattern, 4, 0, z);
+    const PatternPoint p = closestOn(pattern, 4, 0, z);
     EXPECT_EQ(p.z, 0);
     EXPECT_LE(p.distance2 - z * z, bare2 + 1e-9);
     EXPECT_NEAR(p.distance2 - z * z, bare2, 5e-3);  // steps of 8.7e-4 U, 2.3 U away

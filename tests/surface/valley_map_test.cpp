@@ -56,7 +56,7 @@ TEST(ValleyMap, OfPitsTakesTheNearest) {
           points.begin(), points.end(),
           [&](const auto& p, const auto& q) { return toPoint(p, x, y) < toPoint(q, x, y); });
       const double distance = toPoint(*by_plain, x, y);
-      const ValleyMap::Nearest nearest = map.nearest(x, y);
+      const NearestValley nearest = map.nearest(x, y);
       ASSERT_EQ(nearest.found, distance <= reach) << x << " " << y << " " << distance;
       if (!nearest.found) continue;
       ++found;
@@ -81,7 +81,7 @@ TEST(ValleyMap, BetweenPointsOfACircleIsTheCircle) {
     const double r = draw.from(20, 40), angle = draw.from(0, kValleyTurn),
                  x = 11 + r * std::cos(angle), y = -7 + r * std::sin(angle);
     const double distance = std::abs(r - 30);
-    const ValleyMap::Nearest nearest = map.nearest(x, y);
+    const NearestValley nearest = map.nearest(x, y);
     if (std::abs(distance - kValleyReach) < error) continue;
     ASSERT_EQ(nearest.found, distance < kValleyReach) << r << " " << angle;
     if (!nearest.found) continue;
@@ -111,7 +111,7 @@ TEST(ValleyMap, UnevenPointsLeaveNoHoles) {
   const ValleyMap map(points, 240, kValleyReach);
   for (int k = 0; k < 3000; ++k) {
     const double angle = draw.from(0.02, kValleyTurn - 0.04);
-    const ValleyMap::Nearest nearest = map.nearest(30 * std::cos(angle), 30 * std::sin(angle));
+    const NearestValley nearest = map.nearest(30 * std::cos(angle), 30 * std::sin(angle));
     ASSERT_TRUE(nearest.found);
     EXPECT_LT(nearest.distance, widest * widest / (8 * 30) * 1.05) << angle;
   }
@@ -123,9 +123,9 @@ TEST(ValleyMap, DistanceNeverJumps) {
   for (int k = 0; k < 200; ++k) {
     const double x = draw.from(-30, 30), y = draw.from(-30, 30), angle = draw.from(0, kValleyTurn),
                  step = 1e-3;
-    ValleyMap::Nearest before = map.nearest(x, y);
+    NearestValley before = map.nearest(x, y);
     for (int n = 1; n < 2000; ++n) {
-      const ValleyMap::Nearest now =
+      const NearestValley now =
           map.nearest(x + n * step * std::cos(angle), y + n * step * std::sin(angle));
       const double change =
           before.found && now.found ? std::abs(now.distance - before.distance) : 0;
@@ -169,8 +169,7 @@ TEST(ValleyMap, ALonePitAttractsFromAllSides) {
   const ValleyMap map({{40, -20, 0, 0, 2}}, 240, 5);
   for (int k = 0; k < 32; ++k) {
     const double angle = k * kValleyTurn / 32, r = 0.15 * k;
-    const ValleyMap::Nearest nearest =
-        map.nearest(40 + r * std::cos(angle), -20 + r * std::sin(angle));
+    const NearestValley nearest = map.nearest(40 + r * std::cos(angle), -20 + r * std::sin(angle));
     ASSERT_TRUE(nearest.found);
     EXPECT_NEAR(nearest.distance, r, 1e-12);
     EXPECT_NEAR(nearest.dx, -r * std::cos(angle), 1e-12);
@@ -185,7 +184,7 @@ TEST(ValleyMap, OnAPointThereIsNothingLeftToGo) {
   points.push_back({3, 4, 0, 0, 2});
   const ValleyMap map(points, 240, 5);
   for (const ValleyPoint& p : points) {
-    const ValleyMap::Nearest nearest = map.nearest(p.x, p.y);
+    const NearestValley nearest = map.nearest(p.x, p.y);
     EXPECT_TRUE(nearest.found);
     EXPECT_EQ(nearest.dx, 0);
     EXPECT_EQ(nearest.dy, 0);

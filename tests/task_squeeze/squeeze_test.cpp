@@ -23,7 +23,7 @@ TEST(SqueezeFile, TheShippedOneIsRead) {
 TEST(SqueezeFile, EveryDifferenceAsOftenAndEveryOrder) {
   const SqueezeSettings s = readSqueeze(kTask);
   std::map<std::pair<int, std::array<double, 2>>, int> times;
-  for (const Comparison& c : comparisonsOf(s, 3, 72))
+  for (const SqueezeComparison& c : comparisonsOf(s, 3, 72))
     ++times[{static_cast<int>(c.property), c.factors}];
   EXPECT_EQ(times.size(), 24u);
   for (const auto& [which, count] : times) EXPECT_EQ(count, 3);
@@ -39,7 +39,7 @@ TEST(SqueezeFile, EveryDifferenceAsOftenAndEveryOrder) {
 }
 
 TEST(SqueezeFile, AComparisonIsWrittenAndReadAgain) {
-  const Comparison c{assess::SqueezedProperty::weight, {1, 1.43}},
+  const SqueezeComparison c{assess::SqueezedProperty::weight, {1, 1.43}},
       again = comparisonIn(comparisonText(c));
   EXPECT_EQ(again.property, c.property);
   EXPECT_EQ(again.factors, c.factors);
@@ -48,8 +48,8 @@ TEST(SqueezeFile, AComparisonIsWrittenAndReadAgain) {
 }
 
 /// What both tools tell of a tick.
-void hear(SqueezeListener& listener, const Comparison& comparison, int thing, std::int64_t t_ms,
-          double real_N, double device_N) {
+void hear(SqueezeListener& listener, const SqueezeComparison& comparison, int thing,
+          std::int64_t t_ms, double real_N, double device_N) {
   haptics::FlightRecord r;
   r.t_ns = t_ms * 1'000'000;
   r.commands.trial = 1;
@@ -66,7 +66,7 @@ void hear(SqueezeListener& listener, const Comparison& comparison, int thing, st
 }
 
 TEST(SqueezeListener, CountsGripsOfEachAndFeelsBothForces) {
-  const Comparison c{assess::SqueezedProperty::stiffness, {1, 1.5}};
+  const SqueezeComparison c{assess::SqueezedProperty::stiffness, {1, 1.5}};
   SqueezeListener listener(0.1);
   listener.begin(1, c);
   std::int64_t t = 0;
@@ -83,7 +83,7 @@ TEST(SqueezeListener, CountsGripsOfEachAndFeelsBothForces) {
 }
 
 TEST(SqueezeListener, OneFingerIsNoGripAndAPauseIsNoTime) {
-  const Comparison c;
+  const SqueezeComparison c;
   SqueezeListener listener(0.1);
   listener.begin(1, c);
   haptics::FlightRecord r;

@@ -13,7 +13,7 @@ PhantomTable softSide() {
   table.aways = 1;
   table.depths = 8;
   for (int i = 1; i <= table.depths; ++i) {
-    PhantomTable::Cell cell;
+    PhantomCell cell;
     cell.f_up = 700 * std::pow(i * table.depth_step, 1.5);
     table.cells.push_back(cell);
   }

@@ -72,8 +72,8 @@ bool isFirst(const JsonFile& file, const std::string& field, const std::string& 
   return word == first;
 }
 
-Item itemIn(const JsonFile& file, std::set<std::string>* taken) {
-  Item item;
+ChecklistItem itemIn(const JsonFile& file, std::set<std::string>* taken) {
+  ChecklistItem item;
   item.id = freshId(file, taken);
   item.text = textIn(file, "text");
   item.major = isFirst(file, "weight", "major", "minor");

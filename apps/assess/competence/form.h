@@ -18,7 +18,7 @@ struct Rule {
 
 /// Something that must be done. Judged from the trial's figures where there are rules (all must
 /// hold), else by a rater.
-struct Item {
+struct ChecklistItem {
   std::string id, text;
   bool major = true;
   std::vector<Rule> rules;
@@ -39,7 +39,7 @@ struct Level {
 
 struct Checklist {
   std::string id, title, source;
-  std::vector<Item> items;
+  std::vector<ChecklistItem> items;
   std::vector<CriticalError> critical;
   std::vector<double>
       standards;  ///< shares of items that may be asked for; the first unless said otherwise

@@ -34,7 +34,7 @@ std::string titleOf(const Rule& rule) {
   return definition ? definition->title : rule.metric;
 }
 
-MarkedItem byFigures(const Item& item, const Figures& figures) {
+MarkedItem byFigures(const ChecklistItem& item, const Figures& figures) {
   MarkedItem marked{&item, Mark::done, ""};
   for (const Rule& rule : item.rules) {
     const std::optional<double> value = figures(rule.metric);
@@ -49,7 +49,7 @@ MarkedItem byFigures(const Item& item, const Figures& figures) {
   return marked;
 }
 
-MarkedItem byRater(const Item& item, const Answers& rater) {
+MarkedItem byRater(const ChecklistItem& item, const Answers& rater) {
   const auto said = rater.find(item.id);
   if (said == rater.end()) return {&item, Mark::open, ""};
   return {&item,
@@ -131,7 +131,7 @@ const char* markWords(Mark mark) {
 std::vector<MarkedItem> marked(const Checklist& checklist, const Figures& figures,
                                const Answers& rater) {
   std::vector<MarkedItem> all;
-  for (const Item& item : checklist.items)
+  for (const ChecklistItem& item : checklist.items)
     all.push_back(item.byRater() ? byRater(item, rater) : byFigures(item, figures));
   return all;
 }

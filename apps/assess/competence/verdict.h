@@ -20,7 +20,7 @@ enum class Mark { done, not_done, did_not_arise, open };  ///< open: nobody has 
 const char* markWords(Mark mark);  ///< "done", "not done", "did not arise", "not judged"
 
 struct MarkedItem {
-  const Item* item = nullptr;  ///< of the checklist that was given
+  const ChecklistItem* item = nullptr;  ///< of the checklist that was given
   Mark mark = Mark::open;
   std::string why;  ///< "28 % (at least 50 %)"; empty: a rater's word, or nobody's
 };

@@ -75,8 +75,9 @@ CollisionCounts countCollisions(Samples samples, const FinalStay& stay, const Sc
   return counts;
 }
 
-NearMiss nearMiss(Samples samples, Organ organ, const OrganDistance& distance, double rate_Hz) {
-  NearMiss closest{std::numeric_limits<double>::infinity()};
+ClosestApproach nearMiss(Samples samples, Organ organ, const OrganDistance& distance,
+                         double rate_Hz) {
+  ClosestApproach closest{std::numeric_limits<double>::infinity()};
   for (const std::size_t i : scoringSamples(samples, rate_Hz)) {
     if (samples[i].phase != haptics::NeedlePhase::inserted) continue;
     const double d = distance(organ, samples[i].tip_A);

@@ -45,10 +45,11 @@ struct CollisionCounts {
 CollisionCounts countCollisions(Samples samples, const FinalStay& stay, const ScoringRules& rules);
 
 /// Closest the tip came to an organ while inserted, looked at `rate_Hz` times a second.
-struct NearMiss {
+struct ClosestApproach {
   double distance;  ///< m; negative: inside; infinite when never inserted or no such organ
   double t_s = -1;
 };
-NearMiss nearMiss(Samples samples, Organ organ, const OrganDistance& distance, double rate_Hz);
+ClosestApproach nearMiss(Samples samples, Organ organ, const OrganDistance& distance,
+                         double rate_Hz);
 
 }  // namespace palpa::assess

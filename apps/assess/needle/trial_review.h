@@ -68,7 +68,7 @@ struct TrialReview {
   Economy economy;
   std::vector<Interval> lung_touched, lung, artery, ribcage, clavicle, clavicle_struck;
   std::vector<Interval> vein_unneeded, vein_lumen, back_wall;
-  NearMiss pleura_miss, artery_miss;
+  ClosestApproach pleura_miss, artery_miss;
   ParacentesisValues values;
 };
 

@@ -87,7 +87,7 @@ void IgtlServer::showAlways(const std::string& from, const std::string& to, cons
   always_[toName(from, to)] = toWire(X);
 }
 
-void IgtlServer::show(const Moment& moment) {
+void IgtlServer::show(const ShownMoment& moment) {
   for (const NamedPose& pose : moment.poses) {
     const std::string name = toName(pose.from, kReference);
     const Bytes message = transformMessage(name, toWire(pose.X_W), pose.utc_ns);
@@ -130,7 +130,7 @@ void IgtlServer::welcome(std::int64_t utc_ns, std::int64_t now_ns) {
   }
 }
 
-void IgtlServer::serve(const Moment& moment, std::int64_t now_ns) {
+void IgtlServer::serve(const ShownMoment& moment, std::int64_t now_ns) {
   welcome(moment.utc_ns, now_ns);
   for (Peer& peer : peers_) {
     for (const Message& request : peer.requests()) answer(peer, request, moment, now_ns);
@@ -153,7 +153,7 @@ void IgtlServer::serve(const Moment& moment, std::int64_t now_ns) {
   }
 }
 
-void IgtlServer::answer(Peer& peer, const Message& request, const Moment& moment,
+void IgtlServer::answer(Peer& peer, const Message& request, const ShownMoment& moment,
                         std::int64_t now_ns) {
   const std::string& type = request.header.type;
   if (type == "GET_STATUS")
@@ -174,7 +174,7 @@ void IgtlServer::answer(Peer& peer, const Message& request, const Moment& moment
 
 /// The instrument's name alone: in which frame says the request. (The library loses names of 20
 /// characters here.)
-std::vector<NamedMatrix> IgtlServer::tools(const Moment& moment,
+std::vector<NamedMatrix> IgtlServer::tools(const ShownMoment& moment,
                                            const std::string& coordinates) const {
   std::vector<NamedMatrix> tools;
   for (const NamedPose& pose : moment.poses)

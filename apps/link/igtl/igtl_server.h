@@ -31,12 +31,12 @@ class Peer {
     return socket_.open() && !stream_.broken() && (idle() || now_ns - moved_ns_ < kPatience_ns);
   }
 
-  struct Tracking {
+  struct TrackingStream {
     bool on = false;
     std::int64_t period_ns = 0, next_ns = 0;
     std::string coordinates;
   };
-  Tracking tracking;  ///< TDATA, where it was asked for
+  TrackingStream tracking;  ///< TDATA, where it was asked for
   std::uint64_t lostEvents() const { return lost_events_; }
 
  private:
@@ -65,7 +65,7 @@ struct NamedForce {
 
 /// What is shown of a moment. What is not known at it is not in it: PLUS' way of saying that a
 /// transform is not to be used, for those who read no metadata.
-struct Moment {
+struct ShownMoment {
   std::int64_t utc_ns = 0;  ///< of forces, lengths and the whole
   std::vector<NamedPose> poses;
   std::vector<NamedForce> forces;
@@ -91,13 +91,13 @@ class IgtlServer {
   /// With every moment: the pose of `from` in `to`, which does not change.
   void showAlways(const std::string& from, const std::string& to, const Pose& X);
   /// The moment as TRANSFORM and SENSOR to all.
-  void show(const Moment& moment);
+  void show(const ShownMoment& moment);
   /// STRING to all; one who connects later hears the last of each device that is `lasting`.
   void say(const std::string& device, const std::string& utf8, std::int64_t utc_ns,
            bool lasting = false);
   /// Accepts, answers, sends TDATA of `moment` where it is due, and what waits; forgets who is
   /// gone.
-  void serve(const Moment& moment, std::int64_t now_ns);
+  void serve(const ShownMoment& moment, std::int64_t now_ns);
 
   std::size_t peers() const { return peers_.size(); }
   std::uint64_t everConnected() const { return ever_; }
@@ -106,8 +106,8 @@ class IgtlServer {
  private:
   void welcome(std::int64_t utc_ns, std::int64_t now_ns);
   void greet(Peer& peer, std::int64_t utc_ns);
-  void answer(Peer& peer, const Message& request, const Moment& moment, std::int64_t now_ns);
-  std::vector<NamedMatrix> tools(const Moment& moment, const std::string& coordinates) const;
+  void answer(Peer& peer, const Message& request, const ShownMoment& moment, std::int64_t now_ns);
+  std::vector<NamedMatrix> tools(const ShownMoment& moment, const std::string& coordinates) const;
 
   os::TcpListener listener_;
   const Pose X_RasW_;  ///< W in the patient's RAS frame

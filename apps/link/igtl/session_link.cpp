@@ -38,7 +38,7 @@ IgtlLink::IgtlLink(const IgtlLinkSetup& setup, runtime::Bus& bus)
 }
 
 std::int64_t IgtlLink::step(std::int64_t now_ns) {
-  const Moment moment = momentAt(now_ns);
+  const ShownMoment moment = momentAt(now_ns);
   tellEvidence();
   if (const runtime::ToolState* tool = bus_.haptic_to_link.read(now_ns))
     tellPhase(*tool, moment.utc_ns);
@@ -50,8 +50,8 @@ std::int64_t IgtlLink::step(std::int64_t now_ns) {
   return now_ns + kStep_ns;
 }
 
-Moment IgtlLink::momentAt(std::int64_t now_ns) {
-  Moment moment;
+ShownMoment IgtlLink::momentAt(std::int64_t now_ns) {
+  ShownMoment moment;
   const runtime::ToolState* tool = bus_.haptic_to_link.read(now_ns);
   moment.utc_ns = utc(tool ? tool->t_ns : now_ns);
   if (tool) addTool(setup_.tool, *tool, setup_.X_WD, moment);
@@ -66,7 +66,7 @@ Moment IgtlLink::momentAt(std::int64_t now_ns) {
 
 /// Nothing of a tool whose place is not known.
 void IgtlLink::addTool(const std::string& tool, const runtime::ToolState& state, const Pose& X_WD,
-                       Moment& moment) const {
+                       ShownMoment& moment) const {
   const Pose X_WT = X_WD * unpack(state.X_DT);
   if (!state.homed || !X_WT.matrix().allFinite()) return;
   moment.poses.push_back({tool + "Tip", X_WT, utc(state.t_ns)});

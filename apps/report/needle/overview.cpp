@@ -36,7 +36,7 @@ void drawTotals(Html& html, const std::vector<TrialPage>& trials, const ChartFra
   const Axis x = frame.across(0.5, static_cast<double>(trials.size()) + 0.5);
   PlotPanel panel{
       frame.wide ? "Total" : "Total penalty", "points", {}, niceCeiling(high), 0, kHeight};
-  Curve curve{"total", "totals", {}, false};
+  PlotCurve curve{"total", "totals", {}, false};
   for (std::size_t i = 0; i < trials.size(); ++i) {
     if (counts(trials[i].assessment)) {
       curve.points.push_back({static_cast<double>(i + 1), trials[i].assessment.total});

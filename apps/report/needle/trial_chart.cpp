@@ -13,18 +13,18 @@ namespace {
 constexpr int kMostMarkRows = 7;
 constexpr double kBetween = 28;  // px between the bands
 
-Curve curveOf(const std::vector<assess::TrialSample>& samples, const char* label, const char* css,
-              double (*value)(const assess::TrialSample&)) {
-  Curve curve{label, css, {}, false};
+PlotCurve curveOf(const std::vector<assess::TrialSample>& samples, const char* label,
+                  const char* css, double (*value)(const assess::TrialSample&)) {
+  PlotCurve curve{label, css, {}, false};
   curve.points.reserve(samples.size());
   for (const auto& sample : samples) curve.points.push_back({sample.t_s, value(sample)});
   return curve;
 }
 
-double largest(const std::vector<Curve>& curves) {
+double largest(const std::vector<PlotCurve>& curves) {
   double high = 0;
-  for (const Curve& curve : curves) {
-    for (const Point& p : curve.points) {
+  for (const PlotCurve& curve : curves) {
+    for (const ChartPoint& p : curve.points) {
       if (std::isfinite(p.y)) high = std::max(high, p.y);
     }
   }

@@ -13,7 +13,7 @@ constexpr double kMarksHeight = 20, kLineOfText = 13;  // px
 
 PlotPanel pressingPanel(const PalpationPage& page, bool wide) {
   PlotPanel panel{"Force", "N", {}, 1, 0, wide ? 190.0 : 170.0};
-  Curve curve{"force", "pressing", {}, true};
+  PlotCurve curve{"force", "pressing", {}, true};
   double high = std::max(page.rules.too_hard, page.rules.levels.back());
   for (const assess::PalpationSample& sample : page.samples) {
     curve.points.push_back({sample.t_s, sample.f_n});

@@ -51,7 +51,7 @@ void writeBox(Html& html) {
   html.element("i", "");
 }
 
-std::string saidBySimulator(const RatingForm& form, const competence::Item& item) {
+std::string saidBySimulator(const RatingForm& form, const competence::ChecklistItem& item) {
   for (const competence::MarkedItem& m : form.marks) {
     if (m.item != &item || item.byRater() || m.mark == competence::Mark::open) continue;
     return std::string("simulator: ") + competence::markWords(m.mark) +
@@ -72,7 +72,7 @@ void writeItems(Html& html, const RatingForm& form) {
     for (const char* title : {"done", "not done", "did not arise"})
       html.element("th", {{"class", "box"}}, title);
   }
-  for (const competence::Item& item : form.checklist->items) {
+  for (const competence::ChecklistItem& item : form.checklist->items) {
     const auto row = html.in("tr");
     {
       const auto cell = html.in("td");
@@ -139,7 +139,7 @@ void writeRatingForm(const RatingForm& form, const std::filesystem::path& file) 
 std::string answerSheet(const competence::Checklist& checklist,
                         const competence::GlobalRating* global) {
   std::string text = "item,value\n# done, not done or did not arise:\n";
-  for (const competence::Item& item : checklist.items) text += item.id + ",\n";
+  for (const competence::ChecklistItem& item : checklist.items) text += item.id + ",\n";
   if (!global) return text;
   text += "# 1 to 5:\n";
   for (const competence::RatingItem& item : global->items) text += item.id + ",\n";

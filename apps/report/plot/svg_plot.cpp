@@ -9,10 +9,11 @@ namespace palpa::report {
 namespace {
 
 /// One column's first, lowest, highest and last points, in the order in which they came.
-void appendColumn(std::vector<Point>& line, const std::vector<Point>& column) {
+void appendColumn(std::vector<ChartPoint>& line, const std::vector<ChartPoint>& column) {
   if (column.empty()) return;
-  const auto [low, high] = std::minmax_element(
-      column.begin(), column.end(), [](const Point& a, const Point& b) { return a.y < b.y; });
+  const auto [low, high] =
+      std::minmax_element(column.begin(), column.end(),
+                          [](const ChartPoint& a, const ChartPoint& b) { return a.y < b.y; });
   std::vector<std::ptrdiff_t> keep{0, low - column.begin(), high - column.begin(),
                                    static_cast<std::ptrdiff_t>(column.size()) - 1};
   std::sort(keep.begin(), keep.end());
@@ -20,9 +21,9 @@ void appendColumn(std::vector<Point>& line, const std::vector<Point>& column) {
   for (const std::ptrdiff_t i : keep) line.push_back(column[static_cast<std::size_t>(i)]);
 }
 
-std::string stroke(const std::vector<Point>& line, const Axis& x, const Axis& y, char first) {
+std::string stroke(const std::vector<ChartPoint>& line, const Axis& x, const Axis& y, char first) {
   std::string d;
-  for (const Point& p : line) {
+  for (const ChartPoint& p : line) {
     d += d.empty() ? first : 'L';
     d += coordinate(x.at(p.x)) + ' ' + coordinate(y.at(p.y));
   }
@@ -31,10 +32,10 @@ std::string stroke(const std::vector<Point>& line, const Axis& x, const Axis& y,
 
 }  // namespace
 
-std::vector<std::vector<Point>> decimated(const std::vector<Point>& points, const Axis& x,
-                                          double column_px) {
-  std::vector<std::vector<Point>> lines;
-  std::vector<Point> line, column;
+std::vector<std::vector<ChartPoint>> decimated(const std::vector<ChartPoint>& points, const Axis& x,
+                                               double column_px) {
+  std::vector<std::vector<ChartPoint>> lines;
+  std::vector<ChartPoint> line, column;
   double current = 0;
   const auto endLine = [&] {
     appendColumn(line, column);
@@ -42,7 +43,7 @@ std::vector<std::vector<Point>> decimated(const std::vector<Point>& points, cons
     if (!line.empty()) lines.push_back(std::move(line));
     line.clear();
   };
-  for (const Point& p : points) {
+  for (const ChartPoint& p : points) {
     if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
       endLine();
       continue;
@@ -59,16 +60,17 @@ std::vector<std::vector<Point>> decimated(const std::vector<Point>& points, cons
   return lines;
 }
 
-std::string linePath(const std::vector<Point>& points, const Axis& x, const Axis& y) {
+std::string linePath(const std::vector<ChartPoint>& points, const Axis& x, const Axis& y) {
   std::string d;
   for (const auto& line : decimated(points, x)) d += stroke(line, x, y, 'M');
   return d;
 }
 
-std::string areaPath(const std::vector<Point>& points, const Axis& x, const Axis& y, double base) {
+std::string areaPath(const std::vector<ChartPoint>& points, const Axis& x, const Axis& y,
+                     double base) {
   std::string d;
   for (const auto& line : decimated(points, x)) {
-    const Point start{line.front().x, base}, end{line.back().x, base};
+    const ChartPoint start{line.front().x, base}, end{line.back().x, base};
     d += stroke({start}, x, y, 'M') + stroke(line, x, y, 'L') + stroke({end}, x, y, 'L') + 'Z';
   }
   return d;
@@ -87,7 +89,7 @@ void drawGrid(Html& svg, const Axis& x, const Axis& y, double height) {
   }
 }
 
-void drawSample(Html& svg, const Curve& curve, double x, double y) {
+void drawSample(Html& svg, const PlotCurve& curve, double x, double y) {
   svgLine(svg, "curve " + curve.css, x, y - 4, x + 24, y - 4);
   svgText(svg, "legend", x + 30, y, curve.label);
 }
@@ -100,13 +102,13 @@ void drawHeading(Html& svg, const ChartFrame& frame, double top, const PlotPanel
     svgText(svg, "label strong", 0, top + 12, title);
     double y = top + 14;
     if (panel.curves.size() < 2) return;
-    for (const Curve& curve : panel.curves) drawSample(svg, curve, 0, y += kLineHeight + 2);
+    for (const PlotCurve& curve : panel.curves) drawSample(svg, curve, 0, y += kLineHeight + 2);
     return;
   }
   svgText(svg, "label strong", 0, top - 9, title);
   double x = 10 + textWidth(title, frame.font + 1);
   if (panel.curves.size() < 2) return;
-  for (const Curve& curve : panel.curves) {
+  for (const PlotCurve& curve : panel.curves) {
     drawSample(svg, curve, x, top - 9);
     x += 44 + textWidth(curve.label, frame.font);
   }
@@ -121,7 +123,7 @@ void drawPanel(Html& svg, const ChartFrame& frame, const Axis& x, double top,
   const Axis y{panel.y_top, panel.y_bottom, top, top + panel.height};
   drawGrid(svg, x, y, panel.height);
   drawHeading(svg, frame, top, panel);
-  for (const Curve& curve : panel.curves) {
+  for (const PlotCurve& curve : panel.curves) {
     if (curve.filled) svgPath(svg, "area " + curve.css, areaPath(curve.points, x, y, 0));
     svgPath(svg, "curve " + curve.css, linePath(curve.points, x, y));
   }

@@ -42,7 +42,9 @@ void fitAxis(RowPlot& plot) {
   plot.from = low < 0 ? -niceCeiling(-low) : 0;
 }
 
-Point pointAt(std::size_t trial, double value) { return {static_cast<double>(trial + 1), value}; }
+ChartPoint pointAt(std::size_t trial, double value) {
+  return {static_cast<double>(trial + 1), value};
+}
 
 /// Upper edge there, lower edge back.
 std::string meanBand(const progress::GroupCurve& curve, double factor, const Axis& x,
@@ -77,12 +79,12 @@ void drawGroupCurve(Html& html, const progress::GroupCurve& curve, const std::st
                            title + " of every trainee, and the group's mean");
   drawPracticePanel(html, frame, x, title, unit.empty() ? "number" : unit, y.from, 0);
   for (const std::vector<double>& own : curve.curves) {
-    std::vector<Point> points;
+    std::vector<ChartPoint> points;
     for (std::size_t i = 0; i < own.size(); ++i) points.push_back(pointAt(i, factor * own[i]));
     svgPath(html, "curve own", linePath(points, x, y));
   }
   if (!curve.mean.empty()) {
-    std::vector<Point> mean;
+    std::vector<ChartPoint> mean;
     for (std::size_t i = 0; i < curve.mean.size(); ++i)
       mean.push_back(pointAt(i, factor * curve.mean[i].mean));
     svgPath(html, "band", meanBand(curve, factor, x, y));

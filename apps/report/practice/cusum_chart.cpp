@@ -27,8 +27,8 @@ const char* wordsOf(CusumVerdict verdict) {
 }
 
 /// From 0 before the first trial, and anew after each verdict.
-std::vector<std::vector<Point>> runsOf(const statistics::Cusum& chart) {
-  std::vector<std::vector<Point>> runs{{{0, 0}}};
+std::vector<std::vector<ChartPoint>> runsOf(const statistics::Cusum& chart) {
+  std::vector<std::vector<ChartPoint>> runs{{{0, 0}}};
   for (std::size_t i = 0; i < chart.sums.size(); ++i) {
     runs.back().push_back({static_cast<double>(i + 1), chart.sums[i]});
     if (chart.verdicts[i] != CusumVerdict::undecided)
@@ -63,7 +63,7 @@ void drawCusum(Html& html, const progress::Series& series, const progress::Compe
             "above: unacceptable failure rate");
   drawLimit(html, "limit accept", x, y.at(-c.limits.h_accept), true,
             "below: acceptable failure rate");
-  for (const std::vector<Point>& run : runsOf(c.chart))
+  for (const std::vector<ChartPoint>& run : runsOf(c.chart))
     if (run.size() > 1) svgPath(html, "curve sum", linePath(run, x, y));
   for (std::size_t i = 0; i < c.chart.sums.size(); ++i) {
     const Tone tone = progress::failed(series.trials[i]) ? Tone::bad : Tone::good;

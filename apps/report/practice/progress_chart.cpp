@@ -18,8 +18,8 @@ namespace {
 constexpr double kPracticeMark = 5.5, kShareRadius = 5.5;  // px
 constexpr std::size_t kManyTrials = 120;  // beyond them marks would cover each other
 
-std::vector<Point> pointsOf(const std::vector<double>& values, double factor) {
-  std::vector<Point> points;
+std::vector<ChartPoint> pointsOf(const std::vector<double>& values, double factor) {
+  std::vector<ChartPoint> points;
   for (std::size_t i = 0; i < values.size(); ++i)
     points.push_back({static_cast<double>(i + 1), factor * values[i]});
   return points;

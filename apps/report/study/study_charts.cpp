@@ -35,8 +35,8 @@ svg .study-mark.family-2{fill:var(--good);stroke:var(--card)}
 svg .study-mark.family-3{fill:var(--card);stroke:var(--plain)}
 )css";
 
-std::vector<Point> pointsOf(const PlotSeries& s, double PlotPoint::*of) {
-  std::vector<Point> points;
+std::vector<ChartPoint> pointsOf(const PlotSeries& s, double PlotPoint::*of) {
+  std::vector<ChartPoint> points;
   for (const PlotPoint& p : s.points) points.push_back({p.x, p.*of});
   return points;
 }

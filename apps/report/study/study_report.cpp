@@ -12,7 +12,7 @@ namespace palpa::report {
 namespace {
 
 using study_analysis::Exhibit;
-using study_analysis::Part;
+using study_analysis::ExhibitPart;
 using study_analysis::StudyResult;
 
 constexpr std::size_t kStudyRowsOpen = 8;  // longer tables behind a figure are folded up
@@ -101,7 +101,7 @@ void writeExhibit(Html& html, const Exhibit& exhibit, bool simulated) {
   writeSentences(html, "doubts", exhibit.notes);
 }
 
-void writeParts(Html& html, const StudyResult& result, Part part, const char* title,
+void writeParts(Html& html, const StudyResult& result, ExhibitPart part, const char* title,
                 const char* css, const std::vector<std::string>& words) {
   bool some = !words.empty();
   for (const Exhibit& e : result.exhibits) some = some || e.part == part;
@@ -127,10 +127,10 @@ void writeStudyMain(Html& html, const StudyPage& page) {
     html.element("h2", "What cannot be said");
     writeSentences(html, "findings", result.cautions);
   }
-  writeParts(html, result, Part::figure, "Figures", "card", {});
-  writeParts(html, result, Part::table, "Tables and tests", "card", {});
-  writeParts(html, result, Part::check, "A second look at the same trials", "card", {});
-  writeParts(html, result, Part::published, "As published", "card published",
+  writeParts(html, result, ExhibitPart::figure, "Figures", "card", {});
+  writeParts(html, result, ExhibitPart::table, "Tables and tests", "card", {});
+  writeParts(html, result, ExhibitPart::check, "A second look at the same trials", "card", {});
+  writeParts(html, result, ExhibitPart::published, "As published", "card published",
              result.published_words);
   std::vector<Fact> facts = page.sources;
   for (const std::string& software : result.software)

@@ -202,10 +202,10 @@ std::vector<Column> cellColumns() {
 
 void addCellRows(Table& table, const std::string& metric, const std::vector<StudyRow>& rows,
                  const StudyDesign& design) {
-  const std::vector<Series> series = seriesOf(rows, metric);
+  const std::vector<SubjectSeries> series = seriesOf(rows, metric);
   for (const std::string& group : groupsOf(rows, design))
     for (const std::string& condition : conditionsOf(rows, design)) {
-      const std::vector<Series> cell = within(series, group, condition);
+      const std::vector<SubjectSeries> cell = within(series, group, condition);
       if (cell.empty()) continue;
       const std::vector<double> means = subjectMeans(cell);
       const statistics::Description d = statistics::describe(means);

@@ -56,14 +56,14 @@ struct Plot {
   std::vector<PlotDivider> dividers;
 };
 
-enum class Part { figure, table, check, published };
+enum class ExhibitPart { figure, table, check, published };
 
 /// A table or figure of the results, with what is to be said of it; a figure has its numbers as a
 /// table, too.
 struct Exhibit {
   std::string id;  ///< "table_3": names its files
   std::string title, caption;
-  Part part = Part::table;
+  ExhibitPart part = ExhibitPart::table;
   Table table;
   std::vector<Plot> plots;
   std::vector<std::string> notes;  ///< assumptions in doubt, who was left out

@@ -36,10 +36,10 @@ Comparison named(Comparison c, const std::string& metric, const std::string& abo
 }
 
 /// Of subjects who did both, in one order.
-bool asPairs(const std::vector<Series>& a, const std::vector<Series>& b, std::vector<double>& of_a,
-             std::vector<double>& of_b) {
-  for (const Series& s : a)
-    for (const Series& other : b)
+bool asPairs(const std::vector<SubjectSeries>& a, const std::vector<SubjectSeries>& b,
+             std::vector<double>& of_a, std::vector<double>& of_b) {
+  for (const SubjectSeries& s : a)
+    for (const SubjectSeries& other : b)
       if (s.subject == other.subject) {
         of_a.push_back(subjectMeans({s})[0]);
         of_b.push_back(subjectMeans({other})[0]);
@@ -47,10 +47,11 @@ bool asPairs(const std::vector<Series>& a, const std::vector<Series>& b, std::ve
   return of_a.size() == a.size() && of_b.size() == b.size() && !of_a.empty();
 }
 
-Comparison betweenConditions(const std::vector<Series>& series, const StudyDesign& design,
+Comparison betweenConditions(const std::vector<SubjectSeries>& series, const StudyDesign& design,
                              const std::string& group, const std::string& condition,
                              const std::string& first) {
-  const std::vector<Series> a = within(series, group, condition), b = within(series, group, first);
+  const std::vector<SubjectSeries> a = within(series, group, condition),
+                                   b = within(series, group, first);
   std::vector<double> of_a, of_b;
   if (asPairs(a, b, of_a, of_b))
     return compare(Test::paired, of_a, of_b, inWords(design, condition), inWords(design, first),
@@ -61,7 +62,7 @@ Comparison betweenConditions(const std::vector<Series>& series, const StudyDesig
 
 std::vector<Comparison> comparisonsOf(const std::vector<StudyRow>& rows, const StudyDesign& design,
                                       const std::string& metric) {
-  const std::vector<Series> series = seriesOf(rows, metric);
+  const std::vector<SubjectSeries> series = seriesOf(rows, metric);
   const std::vector<std::string> groups = groupsOf(rows, design),
                                  conditions = conditionsOf(rows, design);
   std::vector<Comparison> all;
@@ -107,7 +108,7 @@ StudyResult analyseGeneral(const std::vector<StudyRow>& rows, const StudyDesign&
       "by_group_and_condition",
       "By group and condition",
       "Each subject counts once, by the mean of their trials; 95 % interval by Student's t.",
-      Part::table,
+      ExhibitPart::table,
       {cellColumns(), {}},
       {},
       {}};
@@ -131,7 +132,7 @@ StudyResult analyseGeneral(const std::vector<StudyRow>& rows, const StudyDesign&
         {"comparisons",
          "Comparisons",
          "Each subject counts once. Two-sided; Holm's correction is over all rows of this table.",
-         Part::table,
+         ExhibitPart::table,
          comparisonTable(all),
          {},
          notesOf(all)});

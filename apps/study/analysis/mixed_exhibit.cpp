@@ -24,39 +24,39 @@ struct Factor {
 };
 
 /// -1/2 for the first level, +1/2 for the second.
-Factor halves(const std::vector<Series>& series, const std::vector<std::string>& levels,
-              const StudyDesign& design, std::string Series::*of) {
+Factor halves(const std::vector<SubjectSeries>& series, const std::vector<std::string>& levels,
+              const StudyDesign& design, std::string SubjectSeries::*of) {
   Factor factor{inWords(design, levels[1]) + " against " + inWords(design, levels[0]), {}};
-  for (const Series& s : series)
+  for (const SubjectSeries& s : series)
     factor.values.insert(factor.values.end(), s.values.size(), s.*of == levels[1] ? 0.5 : -0.5);
   return factor;
 }
 
-Factor courseOf(const std::vector<Series>& series) {
+Factor courseOf(const std::vector<SubjectSeries>& series) {
   Factor factor{"Each further trial", {}};
   int last = 1;
-  for (const Series& s : series) last = std::max(last, s.trials.back());
-  for (const Series& s : series)
+  for (const SubjectSeries& s : series) last = std::max(last, s.trials.back());
+  for (const SubjectSeries& s : series)
     for (const int trial : s.trials) factor.values.push_back(trial - (1 + last) / 2.0);
   return factor;
 }
 
-std::vector<Factor> factorsOf(const std::vector<Series>& series,
+std::vector<Factor> factorsOf(const std::vector<SubjectSeries>& series,
                               const std::vector<std::string>& groups,
                               const std::vector<std::string>& conditions,
                               const StudyDesign& design) {
   std::vector<Factor> factors;
-  if (groups.size() == 2) factors.push_back(halves(series, groups, design, &Series::group));
+  if (groups.size() == 2) factors.push_back(halves(series, groups, design, &SubjectSeries::group));
   if (conditions.size() == 2)
-    factors.push_back(halves(series, conditions, design, &Series::condition));
+    factors.push_back(halves(series, conditions, design, &SubjectSeries::condition));
   factors.push_back(courseOf(series));
   return factors;
 }
 
-ModelTable tableOf(const std::vector<Series>& series, const std::vector<Factor>& factors) {
+ModelTable tableOf(const std::vector<SubjectSeries>& series, const std::vector<Factor>& factors) {
   ModelTable table;
   std::vector<std::string> subjects;
-  for (const Series& s : series) {
+  for (const SubjectSeries& s : series) {
     const auto known = std::find(subjects.begin(), subjects.end(), s.subject);
     const int id = static_cast<int>(known - subjects.begin());
     if (known == subjects.end()) subjects.push_back(s.subject);
@@ -119,7 +119,7 @@ Exhibit mixedExhibit(const std::vector<StudyRow>& rows, const StudyDesign& desig
                   "(REML), so that trials of one subject are not taken as independent. Effects are "
                   "in the figure's own unit; "
                   "learning is taken as a straight line.",
-                  Part::check,
+                  ExhibitPart::check,
                   {{{"effect", "Effect", 0},
                     {"estimate", "Estimate", 2},
                     {"error", "Standard error", 2},
@@ -132,7 +132,7 @@ Exhibit mixedExhibit(const std::vector<StudyRow>& rows, const StudyDesign& desig
                    {}},
                   {},
                   {}};
-  const std::vector<Series> series = seriesOf(rows, metric);
+  const std::vector<SubjectSeries> series = seriesOf(rows, metric);
   const std::vector<std::string> groups = groupsOf(rows, design),
                                  conditions = conditionsOf(rows, design);
   if (series.empty() || groups.size() > 2 || conditions.size() > 2) {

@@ -32,10 +32,10 @@ statistics::BootstrapInterval rateInterval(const std::vector<Learning>& all, std
   return statistics::bootstrap({numbers}, rate, {2000, 0.95, seed});
 }
 
-LearningCell learningCell(const std::vector<Series>& series, const StudyDesign& design,
+LearningCell learningCell(const std::vector<SubjectSeries>& series, const StudyDesign& design,
                           const std::string& metric, const std::string& group,
                           const std::string& condition) {
-  const std::vector<Series> cell = within(series, group, condition);
+  const std::vector<SubjectSeries> cell = within(series, group, condition);
   const std::vector<Learning> all = learningOf(cell);
   LearningCell learning{
       metric,
@@ -63,11 +63,11 @@ Comparison betweenRates(const StudyDesign& design, const LearningCell& without,
   return c;
 }
 
-Comparison betweenGroups(const std::vector<Series>& series, const StudyDesign& design,
+Comparison betweenGroups(const std::vector<SubjectSeries>& series, const StudyDesign& design,
                          const std::string& metric, const Pilot& pilot,
                          const std::string& condition, bool published) {
-  const std::vector<Series> experts = within(series, pilot.experts, condition),
-                            learners = within(series, pilot.learners, condition);
+  const std::vector<SubjectSeries> experts = within(series, pilot.experts, condition),
+                                   learners = within(series, pilot.learners, condition);
   const std::string a = inWords(design, pilot.experts), b = inWords(design, pilot.learners);
   Comparison c = published ? compareAsPublished(pooledTrials(experts), pooledTrials(learners), a, b)
                            : compare(Test::welch, subjectMeans(experts), subjectMeans(learners), a,
@@ -77,7 +77,7 @@ Comparison betweenGroups(const std::vector<Series>& series, const StudyDesign& d
   return c;
 }
 
-Comparison publishedLearning(const std::vector<Series>& series, const StudyDesign& design,
+Comparison publishedLearning(const std::vector<SubjectSeries>& series, const StudyDesign& design,
                              const std::string& metric, const std::string& group,
                              const std::string& condition) {
   std::vector<double> first, last;
@@ -121,7 +121,7 @@ Pilot pilotOf(const std::vector<StudyRow>& rows, const StudyDesign& design) {
                      "Name the columns so, or use --kind general");
   for (const std::string& condition : pilot.conditions)
     for (const std::string& metric : kPilotMetrics) {
-      const std::vector<Series> series = seriesOf(rows, metric);
+      const std::vector<SubjectSeries> series = seriesOf(rows, metric);
       pilot.learning.push_back(learningCell(series, design, metric, pilot.learners, condition));
       pilot.learning_published.push_back(
           publishedLearning(series, design, metric, pilot.learners, condition));

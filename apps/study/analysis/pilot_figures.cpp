@@ -7,13 +7,13 @@ namespace palpa::study_analysis {
 namespace {
 
 /// Mean over subjects of each trial's number, with its interval.
-PlotSeries curveOf(const std::vector<Series>& cell, const std::string& label, int family) {
+PlotSeries curveOf(const std::vector<SubjectSeries>& cell, const std::string& label, int family) {
   PlotSeries curve{label, family, {}};
   int last = 0;
-  for (const Series& s : cell) last = std::max(last, s.trials.back());
+  for (const SubjectSeries& s : cell) last = std::max(last, s.trials.back());
   for (int trial = 1; trial <= last; ++trial) {
     std::vector<double> values;
-    for (const Series& s : cell)
+    for (const SubjectSeries& s : cell)
       for (std::size_t i = 0; i < s.trials.size(); ++i)
         if (s.trials[i] == trial) values.push_back(s.values[i]);
     if (!values.empty()) curve.points.push_back(meanPoint(trial, values));
@@ -28,7 +28,7 @@ Exhibit curveExhibit(const std::vector<StudyRow>& rows, const StudyDesign& desig
             "Trial by trial: " + metricTitle(metric) + ", " + inWords(design, group),
             "Mean over subjects for each trial, with its 95 % interval (Student's t). Wide bands "
             "come from few subjects.",
-            Part::figure,
+            ExhibitPart::figure,
             {{{"condition", "Condition", 0},
               {"trial", "Trial", 0},
               {"mean", "Mean", 2},
@@ -38,7 +38,7 @@ Exhibit curveExhibit(const std::vector<StudyRow>& rows, const StudyDesign& desig
             {},
             {}};
   Plot plot{PlotKind::curves, "trial", metricTitle(metric), {}, {}, {}, {}};
-  const std::vector<Series> series = seriesOf(rows, metric);
+  const std::vector<SubjectSeries> series = seriesOf(rows, metric);
   for (std::size_t c = 0; c < conditions.size(); ++c) {
     plot.families.push_back(inWords(design, conditions[c]));
     plot.series.push_back(
@@ -53,7 +53,7 @@ Exhibit curveExhibit(const std::vector<StudyRow>& rows, const StudyDesign& desig
 Plot barPlot(const std::vector<StudyRow>& rows, const StudyDesign& design, const Pilot& pilot,
              const std::string& metric, Table& table) {
   Plot plot{PlotKind::bars, "", metricTitle(metric), {}, {}, {}, {}};
-  const std::vector<Series> series = seriesOf(rows, metric);
+  const std::vector<SubjectSeries> series = seriesOf(rows, metric);
   for (const std::string& condition : pilot.conditions)
     plot.x_names.push_back(inWords(design, condition));
   for (const std::string& group : groupsOf(rows, design)) {
@@ -77,7 +77,7 @@ Exhibit barExhibit(const std::vector<StudyRow>& rows, const StudyDesign& design,
   Exhibit e{"figure_6",
             "Groups and conditions",
             "Mean over subjects of all their trials, with its 95 % interval (Student's t).",
-            Part::figure,
+            ExhibitPart::figure,
             {{{"figure", "Figure", 0},
               {"group", "Group", 0},
               {"condition", "Condition", 0},

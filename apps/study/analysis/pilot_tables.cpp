@@ -72,7 +72,7 @@ Exhibit learningTable(const StudyDesign& design, const Pilot& pilot, std::size_t
             "trials. Learning rate: 1 − mean of the last two / mean of the first two; its interval "
             "by Student's t of the fall, over the mean of the first two, and by resampling "
             "subjects (too narrow for so few as five). Test: paired t, two-sided.",
-            Part::table,
+            ExhibitPart::table,
             {learningColumns(), {}},
             {},
             {}};
@@ -95,7 +95,7 @@ Exhibit secondGroup(const std::vector<StudyRow>& rows, const StudyDesign& design
   Exhibit e{"table_5",
             "Overall: " + inWords(design, pilot.experts),
             "Over all trials; each subject counts once, by the mean of their trials.",
-            Part::table,
+            ExhibitPart::table,
             {cellColumns(), {}},
             {},
             {}};
@@ -111,7 +111,7 @@ Exhibit groupTable(const StudyDesign& design, const Pilot& pilot) {
           inWords(design, pilot.experts) + " against " + inWords(design, pilot.learners),
           "Each subject counts once, by the mean of all trials. Welch's t-test, two-sided; Holm's "
           "correction is over all learning and group tests of this page.",
-          Part::table,
+          ExhibitPart::table,
           comparisonTable(pilot.groups),
           {},
           notesOf(pilot.groups)};
@@ -129,7 +129,7 @@ Exhibit betweenTable(const Pilot& pilot) {
           "Does the condition change how much is learned?",
           "Learning rates of the subjects, %, one each; Welch's t-test, two-sided. The paper "
           "compares the rates by eye.",
-          Part::table,
+          ExhibitPart::table,
           comparisonTable(in_percent),
           {},
           notesOf(pilot.learning_between)};
@@ -140,7 +140,7 @@ Exhibit successTable(const std::vector<StudyRow>& rows, const StudyDesign& desig
             "Success",
             "Share of successful trials, over subjects. Times and penalties of failed trials are "
             "in the tables above; where success differs, read them together.",
-            Part::table,
+            ExhibitPart::table,
             {cellColumns(), {}},
             {},
             {}};
@@ -172,7 +172,7 @@ std::vector<Exhibit> pilotPublished(const StudyDesign& design, const Pilot& pilo
               "Learning, as published: " + inWords(design, pilot.learners) + ", " +
                   inWords(design, pilot.conditions[c]),
               "Trials pooled: n = subjects × two trials. Welch's t-test, one-tailed.",
-              Part::published,
+              ExhibitPart::published,
               {publishedLearningColumns(), {}},
               {},
               {}};
@@ -190,7 +190,7 @@ std::vector<Exhibit> pilotPublished(const StudyDesign& design, const Pilot& pilo
   Exhibit five{"table_5_as_published",
                "Overall, as published: " + inWords(design, pilot.experts),
                "Over all trials, pooled.",
-               Part::published,
+               ExhibitPart::published,
                {{{"figure", "Figure", 0},
                  {"condition", "Condition", 0},
                  {"trials", "Trials", 0},
@@ -205,7 +205,7 @@ std::vector<Exhibit> pilotPublished(const StudyDesign& design, const Pilot& pilo
   all.push_back({"table_6_as_published",
                  "Groups, as published",
                  "Trials pooled: n = subjects × trials. Welch's t-test, one-tailed.",
-                 Part::published,
+                 ExhibitPart::published,
                  publishedTable(pilot.groups_published),
                  {},
                  {}});

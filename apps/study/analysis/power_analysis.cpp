@@ -20,12 +20,12 @@ double meanOfTwo(int trial) {
 }
 
 /// A curve through the printed means of trials 1-2 and 9-10.
-LearningCurve through(const char* group, const char* condition, double first, double last) {
+AssumedLearning through(const char* group, const char* condition, double first, double last) {
   const double gain = (first - last) / (meanOfTwo(1) - meanOfTwo(9));
   return {group, condition, last - gain * meanOfTwo(9), gain, kRate};
 }
 
-LearningModel model(const char* metric, std::vector<LearningCurve> curves, double sd) {
+LearningModel model(const char* metric, std::vector<AssumedLearning> curves, double sd) {
   return {metric, std::move(curves), sd * std::sqrt(kOwnShare), sd * std::sqrt(1 - kOwnShare)};
 }
 
@@ -49,7 +49,7 @@ std::vector<LearningModel> pilotModels() {
 std::vector<LearningModel> nullModels() {
   std::vector<LearningModel> models = pilotModels();
   for (LearningModel& m : models)
-    for (LearningCurve& c : m.curves) {
+    for (AssumedLearning& c : m.curves) {
       c.asymptote = m.curves[0].asymptote;
       c.gain = 0;
     }
@@ -81,7 +81,7 @@ std::vector<StudyRow> drawStudy(const std::vector<LearningModel>& models, int su
                      "",
                      {}};
         for (std::size_t m = 0; m < models.size(); ++m) {
-          const LearningCurve& c = models[m].curves.at(cell);
+          const AssumedLearning& c = models[m].curves.at(cell);
           row.metrics[models[m].metric] = c.asymptote + c.gain * std::exp(-c.rate * (trial - 1)) +
                                           own[m] + models[m].residual_sd * random.openNormal();
         }
@@ -94,15 +94,15 @@ std::vector<StudyRow> drawStudy(const std::vector<LearningModel>& models, int su
 namespace {
 
 struct BothGroups {
-  std::vector<Series> learners, experts;
+  std::vector<SubjectSeries> learners, experts;
 };
 
 BothGroups drawnSamples(const LearningModel& model, const DrawnStudies& drawn, int study) {
-  const std::vector<Series> series =
+  const std::vector<SubjectSeries> series =
       seriesOf(drawStudy({model}, drawn.subjects, drawn.trials,
                          drawn.seed + static_cast<std::uint64_t>(study)),
                model.metric);
-  const LearningCurve& last = model.curves.back();
+  const AssumedLearning& last = model.curves.back();
   return {within(series, model.curves.front().group, last.condition),
           within(series, last.group, last.condition)};
 }

@@ -9,7 +9,7 @@
 namespace palpa::study_analysis {
 
 /// How one group does under one condition.
-struct LearningCurve {
+struct AssumedLearning {
   std::string group, condition;
   double asymptote = 0;  ///< after many trials
   double gain = 0;       ///< what the first trial is worse by, at trial 0; 0: nobody learns
@@ -22,7 +22,7 @@ struct LearningCurve {
 /// testing the analyses.
 struct LearningModel {
   std::string metric;
-  std::vector<LearningCurve> curves;
+  std::vector<AssumedLearning> curves;
   double subject_sd = 0, residual_sd = 0;
 };
 

@@ -30,7 +30,7 @@ Exhibit slopes(const StudyDesign& design, const SearchStudy& study, const char* 
   Exhibit e{id,
             title,
             "A line a subject, from baseline to evaluation; a panel a kind of training.",
-            Part::figure,
+            ExhibitPart::figure,
             {{{"subject", "Subject", 0},
               {"training", "Training", 0},
               {"baseline", "Baseline", 2},
@@ -55,7 +55,7 @@ Exhibit scatter(const StudyDesign& design, const SearchStudy& study) {
             "Both improvements together",
             "A mark a subject; each improvement over the standard deviation of all subjects. Right "
             "and up is better.",
-            Part::figure,
+            ExhibitPart::figure,
             {{{"subject", "Subject", 0},
               {"training", "Training", 0},
               {"improvement", "Success, + share", 3},
@@ -141,7 +141,7 @@ Exhibit durations(const std::vector<StudyRow>& rows, const StudyDesign& design,
       "Durations of subject " + subject.subject +
           ", means of four consecutive trials of a block. Of those who trained so, this subject's "
           "summed improvement lies nearest the median: a typical one, not the best.",
-      Part::figure,
+      ExhibitPart::figure,
       {{{"block", "Block", 0},
         {"from_trial", "From trial", 0},
         {"to_trial", "to", 0},
@@ -178,7 +178,7 @@ Exhibit anovaTable(const StudyDesign& design, const SearchStudy& study) {
       "Does the kind of training matter?",
       "One-way analyses of variance between the kinds of training, one value a subject. Sizes of "
       "effects: share of all squares (eta squared), and without its bias (omega squared).",
-      Part::table,
+      ExhibitPart::table,
       {{{"what", "Figure", 0},
         {"f", "F", 2},
         {"df_between", "df", 0},

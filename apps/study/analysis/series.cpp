@@ -10,11 +10,11 @@ namespace palpa::study_analysis {
 
 using statistics::meanOf;
 
-std::vector<Series> seriesOf(const std::vector<StudyRow>& rows, const std::string& metric) {
-  std::vector<Series> all;
+std::vector<SubjectSeries> seriesOf(const std::vector<StudyRow>& rows, const std::string& metric) {
+  std::vector<SubjectSeries> all;
   std::vector<int> counts;
   for (const StudyRow& row : rows) {
-    const auto found = std::find_if(all.begin(), all.end(), [&](const Series& s) {
+    const auto found = std::find_if(all.begin(), all.end(), [&](const SubjectSeries& s) {
       return s.subject == row.subject && s.condition == row.condition;
     });
     const auto at = static_cast<std::size_t>(found - all.begin());
@@ -28,34 +28,35 @@ std::vector<Series> seriesOf(const std::vector<StudyRow>& rows, const std::strin
     all[at].trials.push_back(counts[at]);
     all[at].values.push_back(value);
   }
-  std::erase_if(all, [](const Series& s) { return s.values.empty(); });
+  std::erase_if(all, [](const SubjectSeries& s) { return s.values.empty(); });
   return all;
 }
 
-std::vector<Series> within(const std::vector<Series>& all, const std::string& group,
-                           const std::string& condition) {
-  std::vector<Series> some;
-  for (const Series& s : all)
+std::vector<SubjectSeries> within(const std::vector<SubjectSeries>& all, const std::string& group,
+                                  const std::string& condition) {
+  std::vector<SubjectSeries> some;
+  for (const SubjectSeries& s : all)
     if ((group.empty() || s.group == group) && (condition.empty() || s.condition == condition))
       some.push_back(s);
   return some;
 }
 
-std::vector<double> subjectMeans(const std::vector<Series>& series) {
+std::vector<double> subjectMeans(const std::vector<SubjectSeries>& series) {
   std::vector<double> means;
-  for (const Series& s : series) means.push_back(meanOf(s.values));
+  for (const SubjectSeries& s : series) means.push_back(meanOf(s.values));
   return means;
 }
 
-std::vector<double> pooledTrials(const std::vector<Series>& series) {
+std::vector<double> pooledTrials(const std::vector<SubjectSeries>& series) {
   std::vector<double> values;
-  for (const Series& s : series) values.insert(values.end(), s.values.begin(), s.values.end());
+  for (const SubjectSeries& s : series)
+    values.insert(values.end(), s.values.begin(), s.values.end());
   return values;
 }
 
-std::vector<Learning> learningOf(const std::vector<Series>& series) {
+std::vector<Learning> learningOf(const std::vector<SubjectSeries>& series) {
   std::vector<Learning> all;
-  for (const Series& s : series) {
+  for (const SubjectSeries& s : series) {
     if (s.values.size() < kTrialsToLearn) continue;
     Learning l{s.subject,
                0,

@@ -19,7 +19,7 @@ constexpr double kTipStiffness = 40;
 constexpr double kLongestStep = 1e-3;  // m that tools go at once
 
 /// How much of a Gauss point's eighth of an element lies in the lump. The elements are boxes.
-double shareInLump(const SoftBlock& block, const Brick::Point& point,
+double shareInLump(const SoftBlock& block, const Brick::IntegrationPoint& point,
                    const std::array<Eigen::Vector3d, 8>& nodes) {
   if (!block.lump) return 0;
   constexpr int kEach = 6;
@@ -224,7 +224,7 @@ FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool
     for (int a = 0; a < 8; ++a) at[a] = m.mesh.nodes[nodes[a]];
     Brick brick = brickOf(at);
     double mean = 0;
-    for (Brick::Point& point : brick.points) {
+    for (Brick::IntegrationPoint& point : brick.points) {
       const double inside = shareInLump(block, point, at);
       point.shear = block.shear + inside * (block.lump ? block.lump->shear - block.shear : 0.0);
       mean += point.shear * point.volume / brick.volume;

@@ -60,7 +60,7 @@ Brick brickOf(const std::array<Eigen::Vector3d, 8>& nodes) {
   for (int g = 0; g < 8; ++g) {
     const Eigen::Vector3d xi(at * kCorner[g][0], at * kCorner[g][1], at * kCorner[g][2]);
     Eigen::Matrix<double, 8, 3> slope;
-    Brick::Point& point = brick.points[g];
+    Brick::IntegrationPoint& point = brick.points[g];
     point.p.setZero();
     for (int a = 0; a < 8; ++a) {
       const Eigen::Vector3d c(kCorner[a][0], kCorner[a][1], kCorner[a][2]),
@@ -105,7 +105,7 @@ bool energyOf(const Brick& brick, double bulk, const Vec24& u, double* E, Vec24*
   if (tangent) tangent->setZero();
   Vec24 squeeze = Vec24::Zero();  // d(volume)/du
   for (int g = 0; g < 8; ++g) {
-    const Brick::Point& point = brick.points[g];
+    const Brick::IntegrationPoint& point = brick.points[g];
     const ShapeChange shape = changeOfShape(point.shear, F[g]);
     *E += shape.W * point.volume;
     gradient->noalias() +=

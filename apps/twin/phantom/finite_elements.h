@@ -38,14 +38,14 @@ using Vec24 = Eigen::Matrix<double, 24, 1>;
 /// A hexahedron of eight nodes in its undeformed shape: at its eight Gauss points, how F follows
 /// from the nodes' displacements.
 struct Brick {
-  struct Point {
+  struct IntegrationPoint {
     Eigen::Matrix<double, 9, 24> B;  ///< vec(F) = vec(I) + B u
     double volume = 0;               ///< m^3
     double shear = 0;                ///< Pa
     Eigen::Matrix<double, 8, 1> N;   ///< the nodes' shares here
     Eigen::Vector3d p;               ///< m, undeformed
   };
-  std::array<Point, 8> points;
+  std::array<IntegrationPoint, 8> points;
   double volume = 0;
 };
 Brick brickOf(const std::array<Eigen::Vector3d, 8>& nodes);

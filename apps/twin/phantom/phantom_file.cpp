@@ -25,7 +25,7 @@ SoftBlock::Lump lumpOf(const JsonFile& phantom, const SoftBlock& block) {
 /// Whole micrometres and micronewtons: below what the elements are true to.
 nlohmann::json written(const PhantomTable& table) {
   nlohmann::json cells = nlohmann::json::array();
-  for (const PhantomTable::Cell& c : table.cells)
+  for (const PhantomCell& c : table.cells)
     cells.push_back({std::lround(c.f_out / kMicronewton), std::lround(c.f_up / kMicronewton),
                      std::lround(c.lump_out / kMicrometre), std::lround(c.lump_up / kMicrometre)});
   return cells;

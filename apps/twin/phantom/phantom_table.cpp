@@ -21,8 +21,7 @@ const Figures kOddAbout{-1, 1, -1, 1};
 /// mirror those beyond it.
 Figures scaled(const PhantomTable& table, int away, int depth) {
   const int a = std::min(std::abs(away), table.aways - 1), d = std::clamp(depth, 1, table.depths);
-  const PhantomTable::Cell& cell =
-      table.cells[static_cast<std::size_t>(a) * table.depths + (d - 1)];
+  const PhantomCell& cell = table.cells[static_cast<std::size_t>(a) * table.depths + (d - 1)];
   const Figures figures(cell.f_out, cell.f_up, cell.lump_out, cell.lump_up);
   return figures / std::pow(d * table.depth_step, 1.5) *
          (away < 0 ? kOddAbout : Figures(Figures::Ones()));
@@ -30,7 +29,7 @@ Figures scaled(const PhantomTable& table, int away, int depth) {
 
 }  // namespace
 
-PhantomTable::Cell PhantomTable::at(double away, double depth) const {
+PhantomCell PhantomTable::at(double away, double depth) const {
   if (!(depth > 0)) return {};
   const double a = std::min(std::abs(away) / away_step, aways - 1.0),
                d = std::clamp(depth / depth_step, 1.0, static_cast<double>(depths));
@@ -77,7 +76,7 @@ PairCell alone(const PhantomTable& one, double apart, double shift,
                const std::array<double, 2>& depth) {
   PairCell sum;
   for (std::size_t t = 0; t < 2; ++t) {
-    const PhantomTable::Cell cell = one.at(shift + (t == 0 ? 0.5 : -0.5) * apart, depth[t]);
+    const PhantomCell cell = one.at(shift + (t == 0 ? 0.5 : -0.5) * apart, depth[t]);
     sum.f[t] = {cell.f_out, cell.f_up};
     sum.lump += Eigen::Vector2d(cell.lump_out, cell.lump_up);
   }

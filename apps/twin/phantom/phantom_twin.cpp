@@ -51,7 +51,7 @@ Vec3 SiliconeContact::drag(const PhantomTouch& touch, const Vec3& dp, double dt)
 PhantomTouch PhantomTwin::step(const Vec3& tip, double dt) {
   const double away = tip.head<2>().norm();
   const Vec3 out = away > 0 ? Vec3(tip.x() / away, tip.y() / away, 0) : Vec3(Vec3::UnitX());
-  const PhantomTable::Cell cell = table_.at(away, std::max(0.0, -tip.z()));
+  const PhantomCell cell = table_.at(away, std::max(0.0, -tip.z()));
   PhantomTouch touch = contact_.step(cell.f_out * out + cell.f_up * Vec3::UnitZ(), tip, dt);
   touch.lump = cell.lump_out * out + cell.lump_up * Vec3::UnitZ();
   return touch;
