@@ -11,6 +11,7 @@ namespace {
 constexpr std::size_t kLargestText = 4u << 20;
 constexpr int kDeepest = 16;
 constexpr std::size_t kLongestText = 2000;
+constexpr const char* kSchema = "$schema";  // by which an editor finds what a field means
 
 }  // namespace
 
@@ -108,7 +109,7 @@ std::array<double, 3> JsonFields::triple(const std::string& field, double most) 
 
 void JsonFields::done() const {
   for (const auto& [key, value] : object_.items())
-    if (!asked_.count(key)) {
+    if (!asked_.count(key) && !(path_.empty() && key == kSchema && value.is_string())) {
       std::string known;
       for (const std::string& name : asked_) known += (known.empty() ? "" : ", ") + name;
       throw UsageError("field \"" + pathOf(printable(key)) + "\" is unknown", file_,

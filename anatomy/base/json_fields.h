@@ -10,7 +10,8 @@
 namespace palpa {
 
 /// An object of a JSON file that nobody vouches for: every field is asked for once, `done` refuses
-/// what nobody asked for. Messages name file and field ("entries[3].unit").
+/// what nobody asked for, a text "$schema" of the whole file apart: an editor's. Messages name file
+/// and field ("entries[3].unit").
 class JsonFields {
  public:
   JsonFields(const nlohmann::json& object, std::string file, std::string path);

@@ -21,6 +21,14 @@ TEST(JsonFields, RefuseWhatNobodyAskedFor) {
   fields.done();
 }
 
+TEST(JsonFields, AFileMayNameItsSchema) {
+  const json object{{"$schema", "map.schema.json"}};
+  JsonFields(object, "here", "").done();
+  EXPECT_THROW(JsonFields(object, "here", "entries[0]").done(), UsageError);
+  const json number{{"$schema", 1}};
+  EXPECT_THROW(JsonFields(number, "here", "").done(), UsageError);
+}
+
 TEST(JsonText, IsParsedOrDiscarded) {
   EXPECT_EQ(parseJson("[1, 2]"), json::array({1, 2}));
   EXPECT_THROW(parseJson("[1, 2"), json::exception);
