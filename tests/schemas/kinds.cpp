@@ -241,11 +241,11 @@ std::vector<Kind> patientKinds() {
       {.name = "board",
        .samples = {{"boards/table.json", json::object()}},
        .read = [](const fs::path& file) { ar::readTagGrid(file); },
-       // Enough white round a tag, no tag beyond the family; OpenCV's parser knows no null ...
-       .stricter = {"/(columns|rows|tag_size_m|spacing_m|first_id) .*", "/(name|source) as null"},
-       // ... and takes true for 1.
+       // Enough white round a tag, no tag beyond the family.
+       .stricter = {"/(columns|rows|tag_size_m|spacing_m|first_id) .*"},
+       // OpenCV's parser takes true for 1; whether it knows null depends on its version.
        .forgiving = {"/(version|columns|rows|spacing_m|first_id) as true"},
-       .elsewhere = {}},
+       .elsewhere = {"/(name|source) as null"}},
       {.name = "camera",
        .samples = {{"own/camera.json",
                     {{"type", "camera_model"},
