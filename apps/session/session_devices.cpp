@@ -9,6 +9,7 @@ namespace palpa::session {
 namespace {
 
 using station::DeviceDriver;
+using station::ForceSensorDriver;
 using station::ForceSensorSetup;
 
 std::vector<haptics::RecordedReading> readingsOf(const std::filesystem::path& session) {

@@ -11,6 +11,7 @@ namespace palpa::station {
 namespace {
 
 using haptics::Augmentation;
+using haptics::AugmentationKind;
 using haptics::Condition;
 using haptics::Cue;
 

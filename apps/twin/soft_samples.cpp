@@ -38,7 +38,7 @@ SampleTouch SampleTwin::step(const Pose& X_WT, double dt) {
   const Vec3 middle_P = X_WP_.inverse() * (X_WT * Vec3(0, 0, -radius_)),
              lowest_P = middle_P - radius_ * Vec3::UnitZ();
   const PhantomTouch touch = phantom_->step(lowest_P, dt);
-  Touch told;
+  SampleTouch told;
   told.f_W = X_WP_.linear() * touch.f;
   told.p_W = X_WP_ * lowest_P;
   if (has_lump_) told.lump_W = X_WP_.linear() * touch.lump;

@@ -63,11 +63,8 @@ struct EyeTexture {
 /// black is clear. alpha: the picture's alpha, premultiplied.
 enum class Blend { opaque, additive, alpha };
 
-enum class HeadsetState {
-  waiting,
-  running,
-  lost
-};  ///< waiting: not on a head yet, or its system shows something else
+/// waiting: not on a head yet, or its system shows something else.
+enum class HeadsetState { waiting, running, lost };
 
 /// How a frame is made:  begin() waits for its time and says what is to be seen;  end(draw) has
 /// both eyes drawn and shown. What goes wrong with a headset in use is never thrown: its state is

@@ -40,14 +40,14 @@ class XrHeadset final : public Headset {
   }
 
   ~XrHeadset() override {
-    if (state_ == State::running) endSession();
+    if (state_ == HeadsetState::running) endSession();
     if (!wait_->settled()) leaveAll();
   }
 
   std::optional<HeadsetFrame> begin() override {
     return guarded([&]() -> std::optional<HeadsetFrame> {
       followEvents();
-      if (state_ != State::running) return std::nullopt;
+      if (state_ != HeadsetState::running) return std::nullopt;
       const std::optional<XrFrameState> waited = wait_->next();
       if (!waited) {
         if (++unanswered_ >= kMostUnanswered) lose("the headset does not answer");
@@ -71,7 +71,7 @@ class XrHeadset final : public Headset {
 
   void end(const Draw& draw) override {
     guarded([&]() -> std::optional<HeadsetFrame> {
-      if (state_ == State::lost) return std::nullopt;
+      if (state_ == HeadsetState::lost) return std::nullopt;
       const bool shown = draw && frame_.draw && ever_located_;
       std::array<XrCompositionLayerProjectionView, 2> seen;
       for (std::size_t i = 0; i < 2 && shown; ++i) {
@@ -95,12 +95,13 @@ class XrHeadset final : public Headset {
 
   void vibrate(std::size_t hand, double seconds, double strength) override {
     guarded([&]() -> std::optional<HeadsetFrame> {
-      if (state_ == State::running) controls_->vibrate(session_.get(), hand, seconds, strength);
+      if (state_ == HeadsetState::running)
+        controls_->vibrate(session_.get(), hand, seconds, strength);
       return std::nullopt;
     });
   }
 
-  State state() const override { return state_; }
+  HeadsetState state() const override { return state_; }
   Blend blend() const override { return blendOf(runtime_.blend); }
   const std::array<EyeView, 2>& eyes() const override { return frame_.eyes; }
   std::string describe() const override { return runtime_.name; }
@@ -121,13 +122,13 @@ class XrHeadset final : public Headset {
   }
 
   void lose(const std::string& why) {
-    state_ = State::lost;
+    state_ = HeadsetState::lost;
     trouble_ = why;
   }
 
   void followEvents() {
     XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER, nullptr, {}};
-    while (state_ != State::lost &&
+    while (state_ != HeadsetState::lost &&
            xrCheck(xrPollEvent(runtime_.instance.get(), &event), "xrPollEvent") == XR_SUCCESS) {
       const auto* const base = reinterpret_cast<const XrEventDataBaseHeader*>(&event);
       if (base->type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING)
@@ -150,11 +151,11 @@ class XrHeadset final : public Headset {
       case XR_SESSION_STATE_READY: {
         const XrSessionBeginInfo info{XR_TYPE_SESSION_BEGIN_INFO, nullptr, kTwoEyes};
         xrCheck(xrBeginSession(session_.get(), &info), "xrBeginSession");
-        state_ = State::running;
+        state_ = HeadsetState::running;
         break;
       }
       case XR_SESSION_STATE_STOPPING:
-        state_ = State::waiting;
+        state_ = HeadsetState::waiting;
         xrCheck(xrEndSession(session_.get()), "xrEndSession");
         wait_->forget();  // it may still have been waited for
         break;
@@ -213,9 +214,9 @@ class XrHeadset final : public Headset {
   void endSession() {
     guarded([&]() -> std::optional<HeadsetFrame> {
       xrCheck(xrRequestExitSession(session_.get()), "xrRequestExitSession");
-      for (int i = 0; i < kPollsAtEnd && state_ == State::running; ++i) {
+      for (int i = 0; i < kPollsAtEnd && state_ == HeadsetState::running; ++i) {
         followEvents();
-        if (state_ != State::running) break;
+        if (state_ != HeadsetState::running) break;
         if (const auto frame = begin()) {  // a runtime may wait for frames before it stops
           frame_.draw = false;
           end({});
@@ -247,7 +248,7 @@ class XrHeadset final : public Headset {
   std::optional<XrFrameWait> wait_;
   int unanswered_ = 0;
   std::optional<XrControls> controls_;
-  State state_ = State::waiting;
+  HeadsetState state_ = HeadsetState::waiting;
   bool ever_located_ = false, ever_placed_ = false, first_place_ = false;
   XrTime time_ = 0;
   std::optional<XrTime> moves_at_;  // when L will be somewhere else

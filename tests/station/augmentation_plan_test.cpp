@@ -15,6 +15,7 @@ namespace palpa::station {
 namespace {
 
 using haptics::Augmentation;
+using haptics::AugmentationKind;
 using haptics::Condition;
 using haptics::Cue;
 using nlohmann::json;
