@@ -19,7 +19,7 @@ constexpr double kLeastCorrelation = 0.4, kRival = 0.95;
 constexpr double kLeastMotion = 0.01;  // m rms
 constexpr double kRoom = 0.05;         // s: so far the fit may move from the start
 constexpr double kApart = 0.1;         // s: from one stroke of a motion to another
-constexpr double kTells = 2;           // how much worse paths must fit at a rival lag
+constexpr double kDecisive = 2;        // how much worse paths must fit at a rival lag
 
 /// A path through samples.
 class Path {
@@ -267,7 +267,7 @@ ClockOffset estimateClockOffset(const std::vector<TimedPoint>& camera,
             [](const ClockOffset& a, const ClockOffset& b) { return a.fit.sigma < b.fit.sigma; });
   for (std::size_t i = 1; i < fits.size(); ++i)
     if (std::abs(fits[i].offset - fits[0].offset) > kApart / 2 &&
-        fits[i].fit.sigma < kTells * fits[0].fit.sigma)
+        fits[i].fit.sigma < kDecisive * fits[0].fit.sigma)
       throw Error("the motion repeats itself, so that several offsets fit alike", kClock,
                   "Move unsteadily: faster, slower, with stops");
   return fits.front();

@@ -10,8 +10,8 @@ namespace palpa::calibration {
 namespace {
 
 constexpr char kLumpWhere[] = "lump identification";
-constexpr double kTelling = 0.05;   // of the largest force: smaller ones are left out
-constexpr int kLeastTouches = 100;  // samples that tell
+constexpr double kInformative = 0.05;  // of the largest force: smaller ones are left out
+constexpr int kLeastTouches = 100;     // samples that tell
 constexpr double kAboveLump = 0.3,
                  kBesideLump =
                      0.2;         // sine of the angle from the lump to the tool: at most, at least
@@ -66,7 +66,7 @@ haptics::HuntCrossley lawOf(std::vector<PressSample> samples, const std::string&
   double largest = 0;
   for (const PressSample& s : samples) largest = std::max(largest, s.f);
   std::erase_if(samples, [&](const PressSample& s) {
-    return !(s.f > kTelling * largest) || !(s.x > kTrifle);
+    return !(s.f > kInformative * largest) || !(s.x > kTrifle);
   });
   if (static_cast<int>(samples.size()) < kLeastTouches)
     throw Error("too few samples tell " + what + " (" + std::to_string(samples.size()) + ", " +

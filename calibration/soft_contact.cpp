@@ -17,7 +17,7 @@ constexpr double kCutOff = 1e-3,
                  kMostCutOff = 0.05;  // so near to the largest force; share of samples that may be
 constexpr double kLeastSpeed =
     0.01;  // m/s: slower, relaxation looks like damping [chosen; hands press at 0.02 to 0.2]
-constexpr double kToldWithin =
+constexpr double kDeterminedWithin =
     0.1;  // 95 % half-widths: of k relative, of m; of b by what it changes k with
 
 std::vector<PressSample> inContact(const std::vector<PressSample>& samples, double largest) {
@@ -56,7 +56,7 @@ double fastest(const std::vector<PressSample>& samples) {
 }
 
 /// What can be seen before anything is fitted.
-void requireTelling(const std::vector<PressSample>& pressed, double largest) {
+void requireInformative(const std::vector<PressSample>& pressed, double largest) {
   if (static_cast<int>(pressed.size()) < kLeastPressed)
     throw Error(std::to_string(pressed.size()) + " samples in contact are too few, " +
                     std::to_string(kLeastPressed) + " are needed",
@@ -123,7 +123,7 @@ class PressFit {
   Eigen::Vector4d p_;
 };
 
-void requireTold(const SoftContact& found, double speed) {
+void requireDetermined(const SoftContact& found, double speed) {
   const HuntCrossley& law = found.law;
   const Eigen::Vector4d half = 1.96 * found.covariance.diagonal().cwiseSqrt();
   if (!found.covariance.allFinite() || half[0] > 0.5 * law.k || half[2] > 0.5)
@@ -165,7 +165,7 @@ SoftContact identifySoftContact(const std::vector<PressSample>& samples) {
   SoftContact found;
   found.largest_f = largestForce(samples);
   const std::vector<PressSample> pressed = inContact(samples, found.largest_f);
-  requireTelling(pressed, found.largest_f);
+  requireInformative(pressed, found.largest_f);
   PressEstimator start;
   for (const PressSample& s : pressed) start.add(s);
   HuntCrossley guess = start.law();
@@ -177,7 +177,7 @@ SoftContact identifySoftContact(const std::vector<PressSample>& samples) {
   // all err to one side.
   const std::vector<PressSample> chosen =
       inContact(samples, first.law(), first.x0(), found.largest_f);
-  requireTelling(chosen, found.largest_f);
+  requireInformative(chosen, found.largest_f);
   PressFit fit(chosen, first.law(), first.x0());
   found.fit = fit.run();
   found.law = fit.law();
@@ -189,12 +189,12 @@ SoftContact identifySoftContact(const std::vector<PressSample>& samples) {
   for (const PressSample& s : chosen) squares += s.f * s.f / static_cast<double>(chosen.size());
   found.relative_rms = found.rms / std::sqrt(squares);
   const double speed = fastest(chosen);
-  requireTold(found, speed);
+  requireDetermined(found, speed);
   const Eigen::Vector4d half = 1.96 * found.covariance.diagonal().cwiseSqrt();
-  if (half[0] > kToldWithin * found.law.k || half[2] > kToldWithin)
+  if (half[0] > kDeterminedWithin * found.law.k || half[2] > kDeterminedWithin)
     found.advice = "Press deeper once or twice: the law's shape is told within " +
                    std::to_string(half[2]) + " only.";
-  else if (half[1] * speed > kToldWithin * found.law.k)
+  else if (half[1] * speed > kDeterminedWithin * found.law.k)
     found.advice = "Press faster once or twice: the damping is hardly told.";
   found.law.b = std::max(found.law.b, 0.0);
   return found;

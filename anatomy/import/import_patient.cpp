@@ -225,7 +225,7 @@ std::string joinedWords(const std::vector<std::string>& parts, const std::string
   return all.empty() ? otherwise : all;
 }
 
-void tellOf(const SurfaceReport& s, std::vector<std::string>* lines) {
+void describe(const SurfaceReport& s, std::vector<std::string>* lines) {
   lines->push_back(s.id + ", " + name(s.organ) + ", " + lengthText(s.longest) + " long, from " +
                    s.file + " (in " + s.unit + ")");
   lines->push_back("    found: " + std::to_string(s.before.triangles) + " triangles, " +
@@ -250,7 +250,7 @@ std::vector<std::string> words(const ImportReport& report) {
   std::size_t before = 0, after = 0, open = 0, welded = 0, holes = 0;
   double farthest_weld = 0, farthest = 0;
   for (const SurfaceReport& s : report.surfaces) {
-    tellOf(s, &lines);
+    describe(s, &lines);
     before += s.before.triangles;
     after += s.decimation.after;
     open += !s.after.sound();

@@ -223,21 +223,21 @@ RawMesh repaired(const RawMesh& mesh, RepairReport* report, double tolerance) {
 
 std::vector<std::string> words(const RepairReport& report, double metres) {
   std::vector<std::string> all;
-  const auto tell = [&](std::size_t count, const char* one, const char* many) {
+  const auto note = [&](std::size_t count, const char* one, const char* many) {
     if (count > 0)
       all.push_back(count == 1 ? std::string(one) : std::to_string(count) + " " + many);
   };
-  tell(report.joined_points, "one repeated point joined", "repeated points joined");
+  note(report.joined_points, "one repeated point joined", "repeated points joined");
   if (report.welded_points > 0)
     all.push_back(
         std::to_string(report.welded_points) + (report.welded_points == 1 ? " point" : " points") +
         " of seams joined, none moved by more than " + lengthText(metres * report.farthest_weld));
-  tell(report.dropped_triangles, "one triangle dropped that was nothing or there twice",
+  note(report.dropped_triangles, "one triangle dropped that was nothing or there twice",
        "triangles dropped that were nothing or there twice");
-  tell(report.scraps, "one loose triangle dropped", "loose triangles dropped");
-  tell(report.turned_triangles, "one triangle turned", "triangles turned");
-  tell(report.closed_holes, "one hole closed", "holes closed");
-  tell(report.left_holes, "one opening left", "openings left");
+  note(report.scraps, "one loose triangle dropped", "loose triangles dropped");
+  note(report.turned_triangles, "one triangle turned", "triangles turned");
+  note(report.closed_holes, "one hole closed", "holes closed");
+  note(report.left_holes, "one opening left", "openings left");
   return all;
 }
 

@@ -140,18 +140,18 @@ SurfaceCheck checkSurface(const RawMesh& mesh) {
 
 std::vector<std::string> findings(const SurfaceCheck& check) {
   std::vector<std::string> words;
-  const auto tell = [&](std::size_t count, const char* one, const char* many) {
+  const auto note = [&](std::size_t count, const char* one, const char* many) {
     if (count > 0)
       words.push_back(count == 1 ? std::string(one) : std::to_string(count) + " " + many);
   };
-  tell(check.holes, "one hole", "holes");
-  tell(check.crowded_edges, "one edge with more than two triangles",
+  note(check.holes, "one hole", "holes");
+  note(check.crowded_edges, "one edge with more than two triangles",
        "edges with more than two triangles");
-  tell(check.turned_edges, "one edge whose triangles look to different sides",
+  note(check.turned_edges, "one edge whose triangles look to different sides",
        "edges whose triangles look to different sides");
   if (check.inside_out) words.push_back("inside out");
-  tell(check.degenerate, "one triangle without an area", "triangles without an area");
-  tell(check.repeated_triangles, "one triangle twice", "triangles twice");
+  note(check.degenerate, "one triangle without an area", "triangles without an area");
+  note(check.repeated_triangles, "one triangle twice", "triangles twice");
   return words;
 }
 

@@ -179,7 +179,7 @@ class Marker {
   Vec3 target() {
     const Vec3 entry = patient_.landmarks.at(landmark::kEntry);
     const NeedleWay way = flattest(entry);
-    tell(way);
+    report(way);
     if (way.angle > kSteepest || !way.usable()) suggest(entry);
     return way.to;
   }
@@ -208,7 +208,7 @@ class Marker {
     remark(words);
   }
 
-  void tell(const NeedleWay& way) {
+  void report(const NeedleWay& way) {
     char words[260];
     const double degrees = way.angle * 180 / std::numbers::pi;
     std::snprintf(words, sizeof words,

@@ -35,14 +35,14 @@ class Builder {
       : options_(options), progress_(progress) {}
 
   CtPatient run(const Volume& volume) {
-    tell("body", 0);
+    report("body", 0);
     Levels levels = levelsOf(volume);
     if (options_.bone_level) levels.bone = *options_.bone_level;
     if (options_.dense_level) levels.dense = *options_.dense_level;
     ct_.scan = prepareScan(volume, levels);
     segment();
     mesh();
-    tell("landmarks", 0.9);
+    report("landmarks", 0.9);
     remarkOnData();
     ct_.patient.side = vein_.side;
     markLandmarks(*(vein_.side == Side::right ? clavicles_.right : clavicles_.left), vein_,
@@ -52,13 +52,13 @@ class Builder {
   }
 
  private:
-  void tell(const char* step, double done) const {
+  void report(const char* step, double done) const {
     if (progress_) progress_(step, done);
   }
 
   void segment() {
     const Scan& scan = ct_.scan;
-    tell("vein", 0.15);
+    report("vein", 0.15);
     std::optional<Vein> vein = findVein(scan, options_.seeds);
     if (!vein || vein->line_S.size() < 4)
       throw Error(
@@ -67,7 +67,7 @@ class Builder {
     vein_ = std::move(*vein);
     ct_.seeds = vein_.seeds;
     if (options_.side) vein_.side = *options_.side;
-    tell("clavicles", 0.25);
+    report("clavicles", 0.25);
     taken_ = dilated(scan.grid, vein_.mask, kVeinSleeve);
     clavicles_ = findClavicles(scan, taken_, options_.seeds);
     const std::optional<Clavicle3>& own =
@@ -77,7 +77,7 @@ class Builder {
                   "CT volume",
                   std::string("Give --seed-point clavicle_") + name(vein_.side) +
                       "=x,y,z (mm), check --ct-axes, or set --bone-level");
-    tell("lungs, ribs, sternum", 0.5);
+    report("lungs, ribs, sternum", 0.5);
     const double middle = midline();
     ct_.labels.push_back(
         {std::string("vein_") + name(vein_.side), Organ::vein, vein_.mask, false, 1.2e-3, 1.5e-3});
@@ -135,7 +135,7 @@ class Builder {
   }
 
   void mesh() {
-    tell("surfaces", 0.7);
+    report("surfaces", 0.7);
     const Scan& scan = ct_.scan;
     const bool guessed = scan.levels.clipped;
     const double over = guessed ? options_.layers.skin + options_.layers.fat : 0;

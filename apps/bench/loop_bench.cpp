@@ -81,7 +81,8 @@ void printRatio(const Measured& all, nlohmann::json params) {
   print("lateness_ratio_p99_high", interval.high, "1", params);
 }
 
-void tell(const LoopSurroundings& around, const LoopBenchOptions& options, nlohmann::json params) {
+void report(const LoopSurroundings& around, const LoopBenchOptions& options,
+            nlohmann::json params) {
   const int before = around.scene ? around.scene->frames() : 0;
   const Measured all = measure(around, std::llround(1e9 * options.seconds / (4 * kBlocks)));
   if (around.scene) params["frames"] = around.scene->frames() - before;
@@ -115,7 +116,7 @@ void benchLoop(const LoopBenchOptions& options) {
                               {"scene", drawn},
                               {"geometry_hz", 60},
                               {"noise", "none"}};
-  tell(around, options, params);
+  report(around, options, params);
   if (options.pages == 0) return;
   if (!scene)
     throw palpa::Error("there is no picture to look on at (" + drawn + ")", "--pages",
@@ -124,7 +125,7 @@ void benchLoop(const LoopBenchOptions& options) {
   scene->showTo(&onlookers);
   nlohmann::json watched = params;
   watched["pages"] = options.pages;
-  tell(around, options, watched);
+  report(around, options, watched);
   scene->showTo(nullptr);
   print("pictures_to_each_page",
         static_cast<double>(onlookers.pictures()) / options.pages / options.seconds, "1/s",

@@ -127,8 +127,8 @@ using runtime::TimeMode;
 class Leader final : public runtime::Activity {
  public:
   Leader(const StrokeSettings& stroke, runtime::Bus& bus, runtime::ChannelDevice& device,
-         bool tells_geometry)
-      : led_(stroke, device), bus_(bus), tells_geometry_(tells_geometry) {
+         bool publishes_geometry)
+      : led_(stroke, device), bus_(bus), publishes_geometry_(publishes_geometry) {
     arm(bus);
   }
   const char* name() const override { return "device"; }
@@ -136,14 +136,14 @@ class Leader final : public runtime::Activity {
     runtime::ToolState tool;
     tool.t_ns = now_ns;
     tool.X_DT.p = led_.lead(now_ns).p_DE;
-    if (tells_geometry_) bus_.haptic_to_geometry.publish(tool, now_ns);
+    if (publishes_geometry_) bus_.haptic_to_geometry.publish(tool, now_ns);
     return now_ns + kMillisecond;
   }
 
  private:
   LedDevice led_;
   runtime::Bus& bus_;
-  bool tells_geometry_;
+  bool publishes_geometry_;
 };
 
 /// Takes off what the recorder and the task would.
@@ -179,10 +179,10 @@ class Curfew final : public runtime::Activity {
 };
 
 struct LoopRig {
-  LoopRig(const LoopSurroundings& around, std::int64_t length_ns, bool tells_geometry)
+  LoopRig(const LoopSurroundings& around, std::int64_t length_ns, bool publishes_geometry)
       : bus(TimeMode::real),
         device({}, TimeMode::real),
-        hand(around.stroke, bus, device, tells_geometry),
+        hand(around.stroke, bus, device, publishes_geometry),
         geometry(bus, around.builder, Pose::Identity()),
         drain(bus),
         curfew(*executive, length_ns) {

@@ -47,7 +47,7 @@ anatomy::Patient build(const PatientOptions& o) {
       o.side == "left" ? anatomy::Side::left : anatomy::Side::right, o.seed, personOf(o)));
 }
 
-void tell(const anatomy::Patient& patient) {
+void printPatient(const anatomy::Patient& patient) {
   std::printf("%s, %s side\n", patient.name.c_str(), anatomy::name(patient.side));
   std::size_t triangles = 0;
   for (const anatomy::OrganSurface& organ : patient.organs) {
@@ -98,7 +98,7 @@ void checkLength(const CheckedSurface& surface, const PatientOptions& o, Organ o
 }
 
 /// Whether it can be mended, and what would be done.
-void tellRepair(const anatomy::RawMesh& mesh, double metres) {
+void printRepair(const anatomy::RawMesh& mesh, double metres) {
   anatomy::RepairReport report;
   const bool sound =
       anatomy::checkSurface(anatomy::repaired(mesh, &report, anatomy::kWeldTolerance / metres))
@@ -111,7 +111,7 @@ void tellRepair(const anatomy::RawMesh& mesh, double metres) {
 }
 
 /// What a surface is worth, in plain words.
-void tellSurface(const CheckedSurface& surface, const PatientOptions& o) {
+void printSurface(const CheckedSurface& surface, const PatientOptions& o) {
   const auto& [mesh, check] = surface;
   const Vec3 size = unitOf(o).metres * (check.high - check.low);
   std::printf("  %-40s %8zu triangles  %s x %s x %s  %s\n", mesh.name.c_str(), check.triangles,
@@ -120,11 +120,11 @@ void tellSurface(const CheckedSurface& surface, const PatientOptions& o) {
   if (check.pieces > 1) std::printf("      in %zu pieces\n", check.pieces);
   for (const std::string& finding : anatomy::findings(check))
     std::printf("      %s\n", finding.c_str());
-  if (!check.sound()) tellRepair(mesh, unitOf(o).metres);
+  if (!check.sound()) printRepair(mesh, unitOf(o).metres);
 }
 
 /// Surfaces of a file that is no patient of ours (yet).
-void tellSurfaces(const PatientOptions& o) {
+void printSurfaces(const PatientOptions& o) {
   const Organ organ = o.organ.empty() ? Organ::none : organFromName(o.organ.c_str());
   if (!o.organ.empty() && organ == Organ::none)
     throw UsageError("is \"" + o.organ + "\"", "--organ",
@@ -140,16 +140,16 @@ void tellSurfaces(const PatientOptions& o) {
   std::printf("%zu surface%s, lengths read as %s%s\n", surfaces.size(),
               surfaces.size() == 1 ? "" : "s", unit.words,
               o.unit.empty() ? " (say --unit mm and the like where they are not)" : "");
-  for (const CheckedSurface& surface : surfaces) tellSurface(surface, o);
+  for (const CheckedSurface& surface : surfaces) printSurface(surface, o);
 }
 
 /// A patient of ours says so in its file; anything else is a set of surfaces.
 void info(const PatientOptions& o) {
-  if (o.file.empty()) return tell(build(o));
+  if (o.file.empty()) return printPatient(build(o));
   const bool other = anatomy::meshFormat(o.file) != anatomy::MeshFormat::gltf || !o.unit.empty() ||
                      !o.organ.empty();
-  if (other || !anatomy::isPatientFile(o.file)) return tellSurfaces(o);
-  tell(anatomy::readPatient(o.file));
+  if (other || !anatomy::isPatientFile(o.file)) return printSurfaces(o);
+  printPatient(anatomy::readPatient(o.file));
 }
 
 /// A patient of many files, told file by file.

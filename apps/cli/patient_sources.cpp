@@ -57,14 +57,14 @@ void writePreviews(const anatomy::CtPatient& ct, const std::filesystem::path& fo
   std::printf("Previews: %s (red crosses: the points below)\n", folder.string().c_str());
 }
 
-void tellStep(const std::string& step, double done) {
+void printStep(const std::string& step, double done) {
   const bool terminal = os::errorsGoToTerminal();
   std::fprintf(stderr, terminal ? "\r%3.0f %%  %s \033[K" : "%3.0f %%  %s\n", 100 * done,
                step.c_str());
   std::fflush(stderr);
 }
 
-void tellResult(const anatomy::CtPatient& ct) {
+void printResult(const anatomy::CtPatient& ct) {
   if (os::errorsGoToTerminal()) std::fputs("\r\033[K", stderr);
   for (const std::string& words : ct.remarks) std::printf("%s.\n", words.c_str());
   std::printf("Points (mm in the volume's frame); change one and run again:\n");
@@ -119,7 +119,7 @@ std::shared_ptr<CtArguments> addCtOptions(CLI::App& command) {
 }
 
 anatomy::Patient buildFromCt(const CtArguments& a, const std::string& side) {
-  tellStep("reading", 0);
+  printStep("reading", 0);
   anatomy::Volume volume = anatomy::readVolume(a.ct, a.series);
   if (!a.axes.empty()) anatomy::overrideAxes(a.axes, a.mirrored, &volume);
   anatomy::CtOptions options;
@@ -130,9 +130,9 @@ anatomy::Patient buildFromCt(const CtArguments& a, const std::string& side) {
   if (a.dense_given->count()) options.dense_level = a.dense;
   const std::string flip = anatomy::probableFlip(volume, anatomy::levelsOf(volume));
   if (!flip.empty()) std::fprintf(stderr, "%s.\n", flip.c_str());
-  anatomy::CtPatient ct = anatomy::buildCtPatient(volume, options, tellStep);
+  anatomy::CtPatient ct = anatomy::buildCtPatient(volume, options, printStep);
   if (!a.previews.empty()) writePreviews(ct, a.previews);
-  tellResult(ct);
+  printResult(ct);
   if (!a.seeds.empty()) {
     anatomy::writeSeeds(ct.seeds, a.seeds);
     std::printf("Written: %s\n", a.seeds.c_str());

@@ -159,7 +159,7 @@ void print(const competence::Agreement& a) {
   for (const std::string& text : a.missing) std::printf("%s\n", text.c_str());
 }
 
-void tellAgreement(const RateOptions& o) {
+void reportAgreement(const RateOptions& o) {
   const evidence::RatingForms forms = evidence::readForms(o.checklist, o.global);
   record::RecordStore store(o.records);
   int other_editions = 0;
@@ -214,7 +214,7 @@ void addRate(CLI::App& program) {
       ->required()
       ->type_name("FILE");
   sub(command, o, "agreement", "Agreement of raters with each other and with the simulator",
-      tellAgreement);
+      reportAgreement);
 }
 
 }  // namespace palpa::cli

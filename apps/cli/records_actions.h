@@ -34,7 +34,7 @@ void listOverdue(const RecordsOptions& o);
 void deletePerson(const RecordsOptions& o);
 
 void exportRecords(const RecordsOptions& o);
-void tellRecords(const RecordsOptions& o);  ///< xAPI
+void sendRecords(const RecordsOptions& o);  ///< xAPI
 
 /// "1 trial", "2 trials".
 std::string counted(std::size_t count, const std::string& what);

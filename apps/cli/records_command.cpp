@@ -231,7 +231,7 @@ void addData(CLI::App* command, const std::shared_ptr<RecordsOptions>& o) {
   CLI::App* tell = sub(command, o, "xapi",
                        "Report trials to a learning record store (xAPI); what cannot be sent now "
                        "waits and is sent next time",
-                       tellRecords);
+                       sendRecords);
   tell->add_option("--to", o->to, "Its address, without user and password")
       ->required()
       ->type_name("URL");

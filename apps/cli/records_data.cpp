@@ -8,8 +8,8 @@
 #include "apps/cli/records_actions.h"
 #include "apps/evidence/evidence_records.h"
 #include "apps/link/data_tables.h"
+#include "apps/link/outbox.h"
 #include "apps/link/statement.h"
-#include "apps/link/tell.h"
 #include "apps/os/child_process.h"
 #include "apps/os/file_access.h"
 #include "apps/record/store/migrations.h"
@@ -138,7 +138,7 @@ void queue(const RecordsOptions& o, const link::Route& route, link::Outbox& outb
     std::printf("%s taken back: deleted people, void trials\n",
                 counted(static_cast<std::size_t>(back), "statement").c_str());
   if (!o.all && o.trainee.id.empty()) return;  // what waits is sent
-  link::TellFilter filter{
+  link::StatementFilter filter{
       chosen(store, o), o.simulated,
       o.home_page.empty() ? std::string(link::kNames) + "/trainees" : o.home_page};
   keepAgreed(filter.who, &record::Trainee::consent_utc, "keeping training records");
@@ -164,7 +164,7 @@ void exportRecords(const RecordsOptions& o) {
   for (const std::string& name : written) std::printf("  %s\n", name.c_str());
 }
 
-void tellRecords(const RecordsOptions& o) {
+void sendRecords(const RecordsOptions& o) {
   const link::Endpoint endpoint = link::endpointOf(o.to, o.insecure);
   const link::Login login = link::loginFor(endpoint.host, o.user);
   link::Outbox outbox(link::Outbox::usualFile());

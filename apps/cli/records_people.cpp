@@ -6,7 +6,7 @@
 #include "apps/cli/arguments.h"
 #include "apps/cli/records_actions.h"
 #include "apps/evidence/evidence_records.h"
-#include "apps/link/tell.h"
+#include "apps/link/outbox.h"
 #include "apps/record/session_file.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/output_folder.h"

@@ -108,7 +108,7 @@ bool sameScores(const record::SessionReader& reader, const std::string& file) {
   return sameNeedleScores(file);
 }
 
-void tellForces(const record::SessionReader& reader) {
+void printForces(const record::SessionReader& reader) {
   const std::optional<assess::ForceBalance> balance = evidence::recordedBalance(reader);
   if (!balance) return;
   std::printf(
@@ -131,7 +131,7 @@ void replay(const std::string& file) {
             (check.first_difference >= 0 ? " from tick " + std::to_string(check.first_difference)
                                          : ""),
         file, "It was made by another version or processor, or was changed");
-  tellForces(reader);
+  printForces(reader);
   std::printf("The replay equals the record: same forces, same score\n");
 }
 

@@ -98,7 +98,7 @@ void addStudy(CLI::App& program) {
   CLI::App* status = study->add_subcommand(
       "status", "Who is enrolled, who is next, how far everybody is; never a condition");
   addProtocol(*status, *o);
-  status->callback([o] { study::tellStudy(*o); });
+  status->callback([o] { study::reportStudy(*o); });
   addStudyAnalyse(*study);
   addStudyPlan(*study);
 }

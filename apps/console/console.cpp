@@ -37,7 +37,7 @@ class OnlyOne {
     std::error_code none;
     fs::remove(url_, none);
   }
-  void tell(const std::string& url) { writeWhole(url_, url + "\n"); }
+  void announce(const std::string& url) { writeWhole(url_, url + "\n"); }
 
  private:
   const fs::path url_;
@@ -117,7 +117,7 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
   });
   const std::string url = "http://" + bracketed(s.address == "0.0.0.0" ? "127.0.0.1" : s.address) +
                           ":" + std::to_string(port) + "/";
-  only.tell(url);
+  only.announce(url);
   ready(url);
   while (!interrupt.noted()) {
     runtime::rest(kRound);

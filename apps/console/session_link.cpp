@@ -82,11 +82,11 @@ void SessionLink::speak(int socket) {
       commands_.clear();
     }
     if (!out.empty() && !sendAll(socket, out)) return;
-    if (os::ready(socket, os::Wait::to_read, kLook_ms) && !hear(socket, reader)) return;
+    if (os::ready(socket, os::Wait::to_read, kLook_ms) && !receive(socket, reader)) return;
   }
 }
 
-bool SessionLink::hear(int socket, LinkReader& reader) {
+bool SessionLink::receive(int socket, LinkReader& reader) {
   char bytes[65536];
   const std::optional<std::size_t> count = os::receiveSome(socket, bytes, sizeof bytes);
   if (count.value_or(0) == 0) return count.has_value();
@@ -155,7 +155,7 @@ void SessionLink::close(const std::string& last) {
   changed_.notify_all();
 }
 
-bool SessionLink::told() const {
+bool SessionLink::hasReported() const {
   const std::lock_guard lock(mutex_);
   return !entries_.empty();
 }

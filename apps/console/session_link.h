@@ -42,12 +42,12 @@ class SessionLink {
   bool send(const std::string& command);
   /// The session has ended: `last` becomes the log's last entry.
   void close(const std::string& last);
-  bool told() const;  ///< it has said something
+  bool hasReported() const;  ///< it has said something
 
  private:
   void run();
   void speak(int socket);
-  bool hear(int socket, class LinkReader& reader);
+  bool receive(int socket, class LinkReader& reader);
   void take(const std::string& entry);
   bool watched() const;
   bool caughtUp() const { return over_ || passed_ >= known_; }

@@ -120,7 +120,7 @@ std::vector<Task> tasks() {
   return all;
 }
 
-json told(const Task& task) {
+json described(const Task& task) {
   const EngineOptions& kind = kindOf(task.engine);
   json options = json::array({"force_feedback"});
   if (kind.side) options.insert(options.end(), {"side", "patient_seed"});
@@ -181,7 +181,7 @@ void command(Console& c, const std::string& id, const httplib::Request& request,
 void addSessionRoutes(WebServer& server, Console& c) {
   server.Get("/api/tasks", [](const httplib::Request&, httplib::Response& r) {
     json all = json::array();
-    for (const Task& task : tasks()) all.push_back(told(task));
+    for (const Task& task : tasks()) all.push_back(described(task));
     answer(r, all);
   });
   server.Get("/api/sessions",

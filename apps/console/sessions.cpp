@@ -190,14 +190,14 @@ void Sessions::look() {
 /// With the mutex held, or of a session that does not run.
 std::string Sessions::stateOf(const std::string& id, const fs::path& folder) {
   if (const auto found = running_.find(id); found != running_.end() && !found->second.over)
-    return found->second.link->told() ? "running" : "starting";
+    return found->second.link->hasReported() ? "running" : "starting";
   std::error_code none;
   const fs::path results = resultsIn(folder);
   if (fs::exists(results / "report.html", none)) return "finished";
   return fs::exists(results / "session.palpa", none) ? "interrupted" : "failed";
 }
 
-json Sessions::told(const std::string& id, const fs::path& folder) {
+json Sessions::described(const std::string& id, const fs::path& folder) {
   const json facts = factsOf(folder);
   const std::string state = stateOf(id, folder);
   json one{{"id", id},
@@ -221,7 +221,7 @@ json Sessions::list() {
       ids.push_back(entry.path().filename().string());
   std::sort(ids.rbegin(), ids.rend());
   json all = json::array();
-  for (const std::string& id : ids) all.push_back(told(id, place_.sessions() / id));
+  for (const std::string& id : ids) all.push_back(described(id, place_.sessions() / id));
   return all;
 }
 
@@ -231,7 +231,7 @@ json Sessions::one(const std::string& id) {
   json one;
   {
     const std::lock_guard lock(mutex_);
-    one = told(id, here);
+    one = described(id, here);
   }
   const fs::path results = resultsIn(here);
   const bool blind = one["blind"] == true;

@@ -62,7 +62,7 @@ class Sessions {
     bool over = false;
   };
   void find();
-  nlohmann::json told(const std::string& id, const std::filesystem::path& folder);
+  nlohmann::json described(const std::string& id, const std::filesystem::path& folder);
   std::string stateOf(const std::string& id, const std::filesystem::path& folder);
   std::string socketOf(const std::string& id) const;
 

@@ -226,7 +226,7 @@ TrackerFacts listen(const station::TrackerSetup& setup, double wait_s) {
   igt::TrackerClient client({setup.host, setup.port, setup.transform, setup.X_CK, setup.X_RW,
                              setup.ask_tdata_ms, setup.latency_s},
                             clock, poses);
-  const auto heard = [&] {
+  const auto received = [&] {
     return client.counts().poses + client.counts().unusable + client.counts().not_rigid;
   };
   std::int64_t begun = clock.now(), end = begun + std::llround(1e9 * wait_s);
@@ -236,7 +236,7 @@ TrackerFacts listen(const station::TrackerSetup& setup, double wait_s) {
     if (next > now) clock.sleepUntil(std::min(next, end));
     for (runtime::TrackedPose pose; poses.pop(&pose);) {
     }
-    if (!waited || heard() == 0) continue;
+    if (!waited || received() == 0) continue;
     waited = false;
     begun = now;
     end = now + runtime::kSecond;

@@ -76,7 +76,7 @@ assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& tr
     assess::TrialAssessment again;
     again.trial = trial.header.trial;
     again.outcome = training::outcomeNamed(trial.end.outcome);
-    goal.tell(&again);
+    goal.describe(&again);
     again.metrics = assess::goalMetrics(again, samples, task_.rules);
     return again;
   }

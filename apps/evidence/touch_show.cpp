@@ -81,7 +81,7 @@ class TouchShow : public RecordedShow {
   }
   /// Hands the trial's ticks to a reader; `seconds` tells the trial's time.
   template <class Reader, class Seconds>
-  void hear(Reader& reader, Seconds seconds) {
+  void receive(Reader& reader, Seconds seconds) {
     reader_.ticks([&](const haptics::FlightRecord& record) {
       if (recorded_.isOver(record.t_ns)) return;
       reader.add(record);
@@ -122,7 +122,7 @@ class PalpationShow final : public TouchShow<replay::PalpationTrial> {
                                                json.number("phantom/high_mm", 5, 300)),
                                    "phantom");
     replay::PalpationReader reader(config(), trial_.number);
-    hear(reader, [&] { return reader.seconds(); });
+    receive(reader, [&] { return reader.seconds(); });
     reader.into(trial_);
     need(!trial_.moments.empty());
     showLumps();
@@ -158,7 +158,7 @@ class SearchShow final : public TouchShow<replay::ShownSearch> {
     const double side = settings.spec.side * settings.shown_per_U;
     shown_ = anatomy::phantomBlock({side, side, kPlateThick}, settings.title);
     replay::SearchReader reader(settings, config(), trial_.number);
-    hear(reader, [&] { return lastOf(reader.moments()); });
+    receive(reader, [&] { return lastOf(reader.moments()); });
     trial_.moments = reader.moments();
     need(!trial_.moments.empty());
   }
@@ -184,7 +184,7 @@ class SqueezeShow final : public TouchShow<replay::ShownSqueeze> {
     replay::SqueezeReader reader(json.number("force/touch_N", 0.02, 5),
                                  {unpack(tools[0].X_ET), unpack(tools[1].X_ET)}, trial_.comparison,
                                  trial_.number);
-    hear(reader, [&] { return lastOf(reader.moments()); });
+    receive(reader, [&] { return lastOf(reader.moments()); });
     trial_.moments = reader.moments();
     need(!trial_.moments.empty());
   }

@@ -105,11 +105,11 @@ bool HeadsetView::wait(bool may_place) {
     placed_ = true;
     asked_ = false;
   }
-  tellHeld();
+  reportHeld();
   return true;
 }
 
-void HeadsetView::tellHeld() const {
+void HeadsetView::reportHeld() const {
   if (!held_ || !placed_) return;
   const ar::HandInput& hand_now = frame_.hands[hand()];
   const Pose X_GT = makePose(Mat3::Identity(), Vec3(0, 0, kReach));

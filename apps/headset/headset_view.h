@@ -57,7 +57,7 @@ class HeadsetView final : public runtime::HeadDisplay {
 
  private:
   std::size_t hand() const { return setup_.left_handed ? 0 : 1; }
-  void tellHeld() const;
+  void reportHeld() const;
   void addView(const anatomy::Patient& patient);
 
   HeadsetViewSetup setup_;

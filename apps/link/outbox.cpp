@@ -1,4 +1,4 @@
-#include "apps/link/tell.h"
+#include "apps/link/outbox.h"
 
 #include <fstream>
 
@@ -107,7 +107,7 @@ std::vector<std::string> Outbox::endpoints(const std::string& records) {
   return all;
 }
 
-std::vector<Letter> Outbox::told(const Route& route) {
+std::vector<Letter> Outbox::sent(const Route& route) {
   record::Statement statement(
       database_,
       std::string("SELECT ") + kColumns +

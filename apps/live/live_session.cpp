@@ -10,7 +10,7 @@ namespace palpa::live {
 namespace {
 
 constexpr std::int64_t kWords = 200'000'000, kPicture = 66'000'000;  // ns
-constexpr int kToldRefusals = 1000;
+constexpr int kLoggedRefusals = 1000;
 
 const char* nameOf(trial::TrialState state) {
   using trial::TrialState;
@@ -50,8 +50,8 @@ LiveLog& beginWith(LiveLog& log, const Hello& hello) {
 
 LiveSession::LiveSession(const std::string& socket, const Hello& hello, trial::Channels& channels)
     : channels_(channels),
-      port_(socket, beginWith(log_, hello), [this](const std::string& command) { hear(command); }) {
-}
+      port_(socket, beginWith(log_, hello),
+            [this](const std::string& command) { receive(command); }) {}
 
 void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
                        std::int64_t now_ns) {
@@ -72,8 +72,8 @@ void LiveSession::show(const scene::Hud& hud, const trial::TrialStatus& status,
       {"touched", hud.touched},
       {"elapsed_s", static_cast<double>(static_cast<int>(10 * status.elapsed_s)) / 10}};
   std::string now = entryOf(words);
-  if (now == told_) return;
-  told_ = std::move(now);
+  if (now == published_) return;
+  published_ = std::move(now);
   words["t_s"] = secondsOf(now_ns);
   log_.addCurve(entryOf(words));
 }
@@ -83,11 +83,11 @@ void LiveSession::picture(scene::Image picture, std::int64_t now_ns) {
   port_.offer(std::move(picture));
 }
 
-void LiveSession::hear(const std::string& command) {
+void LiveSession::receive(const std::string& command) {
   try {
     channels_.console_to_task.push(parseSteering(command));
   } catch (const Error& e) {
-    if (++refused_ <= kToldRefusals) log_.add(entryOf({{"kind", "refused"}, {"text", e.what()}}));
+    if (++refused_ <= kLoggedRefusals) log_.add(entryOf({{"kind", "refused"}, {"text", e.what()}}));
   }
 }
 

@@ -31,12 +31,12 @@ class LiveSession {
   void picture(scene::Image picture, std::int64_t now_ns);
 
  private:
-  void hear(const std::string& command);
+  void receive(const std::string& command);
 
   LiveLog log_;
   trial::Channels& channels_;
-  std::string told_;  ///< the last status, without its time
-  int refused_ = 0;   ///< told: a peer that sends nonsense for hours shall not fill the memory
+  std::string published_;  ///< the last status, without its time
+  int refused_ = 0;        ///< told: a peer that sends nonsense for hours shall not fill the memory
   std::int64_t next_words_ns_ = 0, next_picture_ns_ = 0;
   Port port_;  ///< last: its thread uses the rest
 };

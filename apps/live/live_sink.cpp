@@ -112,10 +112,10 @@ void LiveSink::endTrial(const runtime::TrialEnd& end) {
 void LiveSink::commit() {
   evidence_.commit();
   if (std::string entry = curve_.take(); !entry.empty()) log_.addCurve(std::move(entry));
-  tellNear();
+  publishNear();
 }
 
-void LiveSink::tellNear() {
+void LiveSink::publishNear() {
   if (!near_ || !last_ || !last_->commands.armed) return;
   const std::string words = near_(*last_);
   if (!words.empty() && words != near_words_)

@@ -80,7 +80,7 @@ class LiveSink final : public runtime::FlightSink {
   void commit() override;
 
  private:
-  void tellNear();
+  void publishNear();
 
   runtime::FlightSink& evidence_;
   LiveLog& log_;

@@ -30,16 +30,17 @@ struct Port::Peer {
   const int socket;
   FrameDecoder decoder;
   std::string waiting;   ///< to be written
-  std::size_t told = 0;  ///< entries of the log
+  std::size_t sent = 0;  ///< entries of the log
   bool watches = false, lost = false;
   runtime::ServingClock::time_point took =
       runtime::ServingClock::now();  ///< when it took something off, or nothing waited
 };
 
-Port::Port(std::string path, const LiveLog& log, Heard heard, std::chrono::milliseconds patience)
+Port::Port(std::string path, const LiveLog& log, Received received,
+           std::chrono::milliseconds patience)
     : path_(std::move(path)),
       log_(log),
-      heard_(std::move(heard)),
+      received_(std::move(received)),
       patience_(patience),
       listener_(os::listenAt(path_, "Give a folder that can be written to, or leave out --live")) {
   thread_ = std::thread([this] { run(); });
@@ -78,7 +79,7 @@ void Port::run() {
     if (!ending_.load()) continue;
     const auto now = runtime::ServingClock::now();
     if (leave == runtime::ServingClock::time_point{}) leave = now + kFarewell;
-    if (allTold() || now > leave) return;
+    if (allSent() || now > leave) return;
   }
 }
 
@@ -115,24 +116,24 @@ void Port::apply(Peer& peer) {
   try {
     while (const auto frame = peer.decoder.next()) {
       if (frame->kind == FrameKind::watch) peer.watches = frame->body == "1";
-      if (frame->kind == FrameKind::command) heard_(frame->body);
+      if (frame->kind == FrameKind::command) received_(frame->body);
     }
   } catch (const Error&) {
     peer.lost = true;  // it does not speak our language
   }
 }
 
-void Port::tell(Peer& peer) {
+void Port::sendTo(Peer& peer) {
   if (peer.waiting.size() >= kEnoughWaiting) return;
-  for (const std::string& entry : log_.since(peer.told, kEntriesAtOnce)) {
+  for (const std::string& entry : log_.since(peer.sent, kEntriesAtOnce)) {
     peer.waiting += encoded(FrameKind::entry, entry);
-    ++peer.told;
+    ++peer.sent;
     if (peer.waiting.size() >= kEnoughWaiting) return;
   }
 }
 
 void Port::write(Peer& peer) {
-  tell(peer);
+  sendTo(peer);
   const auto now = runtime::ServingClock::now();
   while (!peer.waiting.empty()) {
     const std::optional<std::size_t> count =
@@ -169,9 +170,9 @@ void Port::leaveLost() {
       peers_.end());
 }
 
-bool Port::allTold() const {
+bool Port::allSent() const {
   return std::all_of(peers_.begin(), peers_.end(), [this](const auto& peer) {
-    return peer->waiting.empty() && peer->told == log_.size();
+    return peer->waiting.empty() && peer->sent == log_.size();
   });
 }
 

@@ -18,15 +18,15 @@ namespace palpa::live {
 /// The session's end of the local socket: tells its log and its pictures to up to eight who look
 /// on, hears what they ask. A thread of its own at low priority; whoever is slow gets fewer
 /// pictures, who takes nothing is left, and nobody who looks on can hold the session up. Only
-/// processes of the same user are heard.
+/// processes of the same user are accepted.
 class Port {
  public:
   /// Called on the port's thread with the body of a command.
-  using Heard = std::function<void(const std::string& command)>;
+  using Received = std::function<void(const std::string& command)>;
   /// Throws Error where there can be no socket at `path`.
   /// `patience`: whoever has taken nothing off for so long while something waits is left; he may
   /// come again.
-  Port(std::string path, const LiveLog& log, Heard heard,
+  Port(std::string path, const LiveLog& log, Received received,
        std::chrono::milliseconds patience = std::chrono::seconds(10));
   ~Port();  ///< tells what is left, for at most half a second
 
@@ -45,14 +45,14 @@ class Port {
   void read(Peer& peer);
   void apply(Peer& peer);
   void write(Peer& peer);
-  void tell(Peer& peer);
+  void sendTo(Peer& peer);
   void encodePicture();
   void leaveLost();
-  bool allTold() const;
+  bool allSent() const;
 
   const std::string path_;
   const LiveLog& log_;
-  const Heard heard_;
+  const Received received_;
   const std::chrono::milliseconds patience_;
   int listener_ = -1;
   std::vector<std::unique_ptr<Peer>> peers_;

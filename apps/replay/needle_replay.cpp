@@ -146,7 +146,7 @@ class NeedleReplay final : public TrialReplay {
     return s;
   }
 
-  void tell(double t_s, std::int64_t now_ns) override {
+  void showAt(double t_s, std::int64_t now_ns) override {
     const NeedleMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
     bus_.haptic_to_scene.publish(moment.tool, now_ns);
     task_needle::TaskStatus status = statusAt(moment, recorded_.number, recorded_.force_feedback);

@@ -31,7 +31,7 @@ class PalpationReplay final : public TrialReplay {
     for (; felt_ < samples; ++felt_) map_.add(recorded_.samples[felt_]);
   }
 
-  void tell(double t_s, std::int64_t now_ns) override {
+  void showAt(double t_s, std::int64_t now_ns) override {
     const PalpationMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
     feelUpTo(moment.samples);
     task_palpation::PalpationStatus status;
@@ -93,7 +93,7 @@ class SearchReplay final : public TrialReplay {
                bus_, channels_) {}
 
  private:
-  void tell(double t_s, std::int64_t now_ns) override {
+  void showAt(double t_s, std::int64_t now_ns) override {
     const SearchMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
     task_search::SearchStatus status;
     fill(status, moment.searched_s);
@@ -144,7 +144,7 @@ class SqueezeReplay final : public TrialReplay {
         scene_({stage(view), trial.X_AD2, trial.middle_A}, bus_, channels_) {}
 
  private:
-  void tell(double t_s, std::int64_t now_ns) override {
+  void showAt(double t_s, std::int64_t now_ns) override {
     const SqueezeMoment& moment = recorded_.moments[momentAt(recorded_.moments, t_s)];
     task_squeeze::SqueezeStatus status;
     fill(status, t_s);

@@ -87,7 +87,7 @@ void TrialReplay::show(double t_s, const std::string& rate) {
   rate_ = rate;
   now_ns_ += kFramePeriod_ns;
   bus_.camera_to_scene.publish(calmCamera(now_ns_), now_ns_);
-  tell(t_s, now_ns_);
+  showAt(t_s, now_ns_);
   scene().step(now_ns_);
 }
 

@@ -68,7 +68,7 @@ class TrialReplay {
   /// For the task's scene; W is A here.
   trial::TrialScene::Stage stage(scene::SceneView& view);
   /// Tells the scene tool and status of this moment.
-  virtual void tell(double t_s, std::int64_t now_ns) = 0;
+  virtual void showAt(double t_s, std::int64_t now_ns) = 0;
   virtual trial::TrialScene& scene() = 0;
   /// What only this task's replay shows.
   virtual void add(scene::SceneState&, double) {}

@@ -22,9 +22,9 @@ std::int64_t FalconActivity::step(std::int64_t now_ns) {
   opened_ = true;
   const std::int64_t due_ns = driver_.step(now_ns);
   const haptics::FalconStatus status = driver_.status();
-  if (status.state != told_state_ || status.problem != told_problem_) {
-    told_state_ = status.state;
-    told_problem_ = status.problem;
+  if (status.state != reported_state_ || status.problem != reported_problem_) {
+    reported_state_ = status.state;
+    reported_problem_ = status.problem;
     notices_.push({now_ns, 0, nameOf(EventKind::device), words(status), 0});
   }
   return due_ns;

@@ -22,8 +22,8 @@ class FalconActivity final : public Activity {
  private:
   haptics::FalconDriver& driver_;
   EventQueue<Event>& notices_;
-  haptics::FalconState told_state_ = haptics::FalconState::closed;
-  haptics::FalconProblem told_problem_ = haptics::FalconProblem::none;
+  haptics::FalconState reported_state_ = haptics::FalconState::closed;
+  haptics::FalconProblem reported_problem_ = haptics::FalconProblem::none;
   bool opened_ = false;
 };
 

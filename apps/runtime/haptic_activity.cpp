@@ -73,7 +73,7 @@ std::int64_t HapticActivity::step(std::int64_t now_ns) {
       haptics::tick(config_, state_, reading, latest, told, now_ns, sensed, floor);
   device_.command(now_ns, record.f_command_D);
   record.late_ns = due_ns_ < 0 ? 0 : now_ns - due_ns_;
-  tell(record, now_ns);
+  publish(record, now_ns);
   // Ticks stay on the grid; a tick that is late by more than a period does not cause a burst.
   due_ns_ = std::max((due_ns_ < 0 ? now_ns : due_ns_) + config_.period_ns, now_ns);
   return due_ns_;
@@ -91,7 +91,7 @@ const LocalGeometry* HapticActivity::geometryFor(const haptics::DeviceReading& r
   return &made_;
 }
 
-void HapticActivity::tell(const haptics::FlightRecord& record, std::int64_t now_ns) {
+void HapticActivity::publish(const haptics::FlightRecord& record, std::int64_t now_ns) {
   bus_.haptic_to_recorder.push(record);
   bus_.haptic_to_task.push(record);
   const ToolState tool = toolStateOf(config_, state_, record, now_ns);

@@ -84,7 +84,7 @@ class HapticActivity final : public Activity {
   std::int64_t period_ns() const override { return config_.period_ns; }
 
  private:
-  void tell(const haptics::FlightRecord& record, std::int64_t now_ns);
+  void publish(const haptics::FlightRecord& record, std::int64_t now_ns);
   const LocalGeometry* geometryFor(const haptics::DeviceReading& reading, std::int64_t now_ns);
 
   Bus& bus_;

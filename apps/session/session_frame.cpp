@@ -66,7 +66,7 @@ trial::TrialScene::Stage SessionFrame::stage(runtime::HeadDisplay* head) {
   stage.places = places();
   if (!options_.live.empty())
     stage.watch = [this](const scene::SceneState& state, const trial::TrialStatus& status,
-                         std::int64_t now_ns) { tell(state, status, now_ns); };
+                         std::int64_t now_ns) { publish(state, status, now_ns); };
   if (!window_) return stage;
   stage.input = [this](const scene::ViewInput& input, std::int64_t now_ns) {
     handleKeys(input, channels_);
@@ -77,8 +77,8 @@ trial::TrialScene::Stage SessionFrame::stage(runtime::HeadDisplay* head) {
 }
 
 /// To whoever looks on; without views, in words only.
-void SessionFrame::tell(const scene::SceneState& state, const trial::TrialStatus& status,
-                        std::int64_t now_ns) {
+void SessionFrame::publish(const scene::SceneState& state, const trial::TrialStatus& status,
+                           std::int64_t now_ns) {
   if (!live_) return;
   live_->show(state.hud, status, now_ns);
   if (stage_.view && !options_.fast && live_->wantsPicture(now_ns))

@@ -74,7 +74,8 @@ class SessionFrame {
 
  private:
   std::unique_ptr<runtime::Activity> loop(runtime::GeometryActivity* geometry);
-  void tell(const scene::SceneState& state, const trial::TrialStatus& status, std::int64_t now_ns);
+  void publish(const scene::SceneState& state, const trial::TrialStatus& status,
+               std::int64_t now_ns);
 
   const SessionOptions& options_;
   const World world_;

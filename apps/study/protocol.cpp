@@ -228,7 +228,7 @@ Protocol readProtocol(const std::filesystem::path& path) {
   p.trial_seed = static_cast<std::uint64_t>(file.integer("trial_seed", 0, 1'000'000'000));
   readBlindness(file, &p);
   p.bars_experts = file.flag("bars_experts", true);
-  p.barred = textsIn(file, "barred");
+  p.excluded = textsIn(file, "barred");
   return p;
 }
 

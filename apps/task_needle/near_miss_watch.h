@@ -26,7 +26,7 @@ class NearMissWatch {
   struct Watched {
     int surface;
     const char* words;
-    double told;  ///< whole millimetres that were told last
+    double reported;  ///< whole millimetres that were told last
   };
   const anatomy::SurfaceQuery& query_;
   std::vector<Watched> watched_;

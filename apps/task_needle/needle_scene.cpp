@@ -205,7 +205,7 @@ void SceneActivity::leaveTrail(scene::SceneState& state, const runtime::ToolStat
     state.trail_A.push_back(tip);
 }
 
-void SceneActivity::tell(runtime::Displayed& displayed, const runtime::ToolState& tool) {
+void SceneActivity::addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) {
   displayed.blood_flows = status_.blood_flows;
   displayed.injury = displayed.running && injury(tool);
 }

@@ -65,7 +65,7 @@ class SceneActivity final : public trial::TrialScene {
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
   void compose(scene::SceneState& state, const runtime::ToolState& tool,
                const std::string& trouble) override;
-  void tell(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
+  void addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
   void pulse(runtime::HeadDisplay& head, const runtime::ToolState& tool) override;
   bool mayWait(const runtime::ToolState& tool) const override;
   void showForces(scene::SceneState& state, const runtime::ToolState& tool);

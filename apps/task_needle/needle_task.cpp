@@ -85,7 +85,7 @@ trial::TrialTask::Conclusion NeedleTask::conclude(Outcome outcome, const std::st
     trial.assessment.simulated = setup_.simulated;
     trial.assessment.force_feedback = plan().force_feedback;
     trial.assessment.values.success = outcome == Outcome::success;
-    if (setup_.settings.goal) goal_.tell(&trial.assessment);
+    if (setup_.settings.goal) goal_.describe(&trial.assessment);
     trial.assessment.metrics =
         assess::goalMetrics(trial.assessment, samples_, setup_.settings.rules);
   }
@@ -137,26 +137,26 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
   const TaskWords& words = setup_.settings.words;
   if (phases_.phase() != shown_.phase) {
     shown_.phase = phases_.phase();
-    if (!setup_.settings.goal) tell(now_ns, EventKind::phase, assess::clinicalName(shown_.phase));
+    if (!setup_.settings.goal) report(now_ns, EventKind::phase, assess::clinicalName(shown_.phase));
     if (!setup_.settings.goal && shown_.phase == assess::ProcedurePhase::advance)
       picture("phase-2", "Phase 2 begins: the needle is directed behind the clavicle");
   }
   if (sample.events & haptics::kSkinPunctured) {
     const std::string punctured = "The " + words.of(Organ::skin) + " is punctured";
-    tell(now_ns, EventKind::puncture, punctured);
+    report(now_ns, EventKind::puncture, punctured);
     picture("puncture", punctured);
   }
   if (sample.events & haptics::kWithdrawn)
-    tell(now_ns, EventKind::withdrawn, "The needle is out of the " + words.of(Organ::skin));
+    report(now_ns, EventKind::withdrawn, "The needle is out of the " + words.of(Organ::skin));
   if (sample.events & haptics::kWallPunctured && sample.wall != Organ::none)
-    tell(now_ns, EventKind::wall, "Wall punctured: " + words.of(sample.wall));
+    report(now_ns, EventKind::wall, "Wall punctured: " + words.of(sample.wall));
   Organ touching = sample.bone;
   if (sample.tissue == Tissue::lung || sample.wall == Organ::lung) touching = Organ::lung;
   if (sample.tissue == Tissue::artery_lumen || sample.wall == Organ::artery)
     touching = Organ::artery;
   if (sample.tissue == Tissue::vein_lumen && !entered_vein_) {
     entered_vein_ = true;
-    tell(now_ns, EventKind::vein, "The tip is in the vein");
+    report(now_ns, EventKind::vein, "The tip is in the vein");
     picture("vein", "The tip enters the vein");
   }
   if (touching == Organ::none) return;
@@ -164,7 +164,7 @@ void NeedleTask::announce(const assess::TrialSample& sample, std::int64_t now_ns
   const bool again = sample.t_s - last_s < kContactPause;  // the same contact, trembling
   last_s = sample.t_s;
   if (again) return;
-  tell(now_ns, EventKind::touched, std::string("Touched: ") + palpa::name(touching));
+  report(now_ns, EventKind::touched, std::string("Touched: ") + palpa::name(touching));
   if (touching == Organ::lung || touching == Organ::artery ||
       (isBone(touching) && touching != Organ::clavicle))
     picture(palpa::name(touching),

@@ -76,7 +76,7 @@ std::string GoalTrial::step() const {
   return {};
 }
 
-void GoalTrial::tell(assess::TrialAssessment* a) const {
+void GoalTrial::describe(assess::TrialAssessment* a) const {
   a->by_path = false;
   a->values.success = reached();
   a->values.time_ms = std::round(1e3 * t_s_);

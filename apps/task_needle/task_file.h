@@ -51,7 +51,7 @@ class GoalTrial {
   /// Of the parts that are on the last in the file; empty: none is.
   std::string step() const;
   /// Success and time, course, summary.
-  void tell(assess::TrialAssessment* assessment) const;
+  void describe(assess::TrialAssessment* assessment) const;
 
  private:
   assess::Span spanOf(std::size_t part) const;  ///< that ends now

@@ -153,7 +153,7 @@ runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {
   shown_.levels.clear();
   shown_.marks_P.clear();
   showLumps(nullptr);
-  tell(now_ns, EventKind::trial_case, caseText(lumpsOf(case_, setup_.settings.library)));
+  report(now_ns, EventKind::trial_case, caseText(lumpsOf(case_, setup_.settings.library)));
   picture("start", "Before anything was felt");
   const bool guided = plan().role == Role::scored && guidance_.helps(status().trial);
   const Role role =
@@ -214,7 +214,7 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
   const bool kept = listener_.add(record);
   if (listener_.marks().size() > marks) {
     shown_.marks_P.push_back(listener_.marks().back().p_P);
-    tell(record.t_ns, EventKind::mark, "The trainee marks a lump");
+    report(record.t_ns, EventKind::mark, "The trainee marks a lump");
     picture("mark", "Marked: here is one");
   }
   if (!kept) return;
@@ -226,13 +226,13 @@ void PalpationTask::judge(const haptics::FlightRecord& record, std::int64_t now_
     endTrial(Outcome::time, "The time limit was reached", now_ns);
 }
 
-void PalpationTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
+void PalpationTask::receive(const trial::UserRequest& request, std::int64_t now_ns) {
   if (request.command == trial::UserCommand::done) return endTrial(Outcome::done, "", now_ns);
   if (request.command != trial::UserCommand::grade || listener_.marks().empty()) return;
   const trial::Grade grade = trial::gradeOf(request.reason);
   listener_.grade(grade.diameter, grade.hardness, grade.mobility);
-  tell(now_ns, EventKind::grade, trial::gradeText(grade.diameter, grade.hardness, grade.mobility),
-       static_cast<double>(listener_.marks().size()));
+  report(now_ns, EventKind::grade, trial::gradeText(grade.diameter, grade.hardness, grade.mobility),
+         static_cast<double>(listener_.marks().size()));
 }
 
 void PalpationTask::command(haptics::TickCommands& commands) const {

@@ -116,7 +116,7 @@ class PalpationTask final : public trial::TrialTask {
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;
-  void hear(const trial::UserRequest& request, std::int64_t now_ns) override;
+  void receive(const trial::UserRequest& request, std::int64_t now_ns) override;
   void showLumps(const assess::PalpationAssessment* judged);
   const PalpationPlan& plan() const {
     return setup_.plan[static_cast<std::size_t>(status().trial - 1)];

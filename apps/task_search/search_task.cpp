@@ -51,7 +51,7 @@ void SearchListener::add(const haptics::FlightRecord& record, const Vec3& p_DT) 
   if (chosen_ < 0 && dwell_s_ >= task_->dwell_s) chosen_ = element;
 }
 
-assess::SearchTrial SearchListener::heard(assess::SearchTrial facts) const {
+assess::SearchTrial SearchListener::observed(assess::SearchTrial facts) const {
   facts.chosen = chosen_;
   facts.seconds = seconds_;
   facts.path_m = path_;
@@ -73,7 +73,7 @@ Vec3 tipOf(const haptics::TickConfig& config, const haptics::DeviceReading& read
   return unpack(reading.p_DE) + unpack(reading.q_DE).normalized() * unpack(config.X_ET.p);
 }
 
-void tellLoop(const Episode& episode, haptics::TickCommands* commands) {
+void commandLoop(const Episode& episode, haptics::TickCommands* commands) {
   commands->floor = commands->trial;
   commands->degraded = episode.mode != assess::SearchMode::real;
   commands->augmented = episode.mode == assess::SearchMode::augmented;
@@ -85,7 +85,7 @@ assess::SearchTrial judged(assess::SearchTrial facts, const Episode& episode,
   facts.mode = episode.mode;
   facts.orientation_deg = episode.stimulus.orientation * 180 / std::numbers::pi;
   facts.target = episode.stimulus.target;
-  return listener.heard(std::move(facts));
+  return listener.observed(std::move(facts));
 }
 
 std::string scoreJson(const assess::SearchTrial& trial) {
@@ -132,7 +132,7 @@ runtime::TrialHeader SearchTask::begin(std::int64_t now_ns) {
   listener_.begin(number);
   floors_.prepare(number + 1);
   const training::Role role = setup_.not_scored.empty() ? setup_.role : training::Role::not_scored;
-  tell(now_ns, runtime::EventKind::trial_case, episodeText(episode()));
+  report(now_ns, runtime::EventKind::trial_case, episodeText(episode()));
   picture("start", "The handle is held over the middle");
   return {status().trial, now_ns, episode().seed, training::nameOf(role), setup_.force_feedback, 0};
 }
@@ -162,7 +162,7 @@ void SearchTask::letGo(const haptics::FlightRecord& record, std::int64_t now_ns)
   const bool there = (p_F / floor.unit - Vec3(0, 0, floor.start_height)).norm() < kNearStart_U;
   if (!there && held_s < setup_.settings.hold_s + kPatience_s) return;
   held_ = false;
-  tell(now_ns, runtime::EventKind::let_go, "The handle is let go");
+  report(now_ns, runtime::EventKind::let_go, "The handle is let go");
 }
 
 void SearchTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns) {
@@ -176,7 +176,7 @@ void SearchTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns)
 }
 
 void SearchTask::command(haptics::TickCommands& commands) const {
-  tellLoop(episode(), &commands);
+  commandLoop(episode(), &commands);
   commands.held = held_;
 }
 

@@ -28,7 +28,7 @@ class SearchListener {
   int chosen() const { return chosen_; }
   std::uint8_t subtasks() const { return subtasks_; }  ///< bits, of the last tick
   /// What was heard, into a trial's facts.
-  assess::SearchTrial heard(assess::SearchTrial facts) const;
+  assess::SearchTrial observed(assess::SearchTrial facts) const;
 
  private:
   const SearchSettings* task_;
@@ -108,7 +108,7 @@ class SearchTask final : public trial::TrialTask {
 /// Where the tip is, in D, by a reading of a device that turns.
 Vec3 tipOf(const haptics::TickConfig& config, const haptics::DeviceReading& reading);
 /// What the loop is told of an episode.
-void tellLoop(const Episode& episode, haptics::TickCommands* commands);
+void commandLoop(const Episode& episode, haptics::TickCommands* commands);
 /// What a trial was, from its facts and what was heard of it; the same for a session and for its
 /// replay.
 assess::SearchTrial judged(assess::SearchTrial facts, const Episode& episode,

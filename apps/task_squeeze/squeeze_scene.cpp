@@ -42,7 +42,7 @@ void SqueezeScene::compose(scene::SceneState& state, const runtime::ToolState& t
   show(second_, X_AD2_, *state.second_X_AT);
 }
 
-void SqueezeScene::tell(runtime::Displayed& displayed, const runtime::ToolState&) {
+void SqueezeScene::addTo(runtime::Displayed& displayed, const runtime::ToolState&) {
   displayed.second_X_AT = X_AD2_ * unpack(second_.X_DT);
   displayed.question = status_.property == assess::SqueezedProperty::stiffness
                            ? runtime::Displayed::Question::harder

@@ -22,7 +22,7 @@ class SqueezeScene final : public trial::TrialScene {
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
   void compose(scene::SceneState& state, const runtime::ToolState& tool,
                const std::string& trouble) override;
-  void tell(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
+  void addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
   scene::Hud words(const runtime::ToolState& tool, const std::string& trouble) const;
 
   SqueezeSceneSetup setup_;

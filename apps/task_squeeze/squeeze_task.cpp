@@ -24,7 +24,7 @@ double feltN(const haptics::FlightRecord& r) {
 
 }  // namespace
 
-void tellLoop(const SqueezeComparison& comparison, int thing, haptics::TickCommands* commands) {
+void commandLoop(const SqueezeComparison& comparison, int thing, haptics::TickCommands* commands) {
   const auto factor = static_cast<float>(comparison.factors[static_cast<std::size_t>(thing)]);
   commands->squeeze_stiffness =
       comparison.property == assess::SqueezedProperty::stiffness ? factor : 1;
@@ -39,7 +39,7 @@ void SqueezeListener::begin(std::uint32_t trial, const SqueezeComparison& compar
 
 int SqueezeListener::thing(const haptics::TickCommands& commands) const {
   haptics::TickCommands second;
-  tellLoop(comparison_, 1, &second);
+  commandLoop(comparison_, 1, &second);
   return commands.squeeze_stiffness == second.squeeze_stiffness &&
                  commands.squeeze_weight == second.squeeze_weight
              ? 1
@@ -112,7 +112,7 @@ runtime::TrialHeader SqueezeTask::begin(std::int64_t now_ns) {
   thing_ = said_ = 0;
   listener_.begin(static_cast<std::uint32_t>(status().trial), comparison());
   const training::Role role = setup_.not_scored.empty() ? setup_.role : training::Role::not_scored;
-  tell(now_ns, EventKind::trial_case, comparisonText(comparison()));
+  report(now_ns, EventKind::trial_case, comparisonText(comparison()));
   picture("start", "Before anything was held");
   return {status().trial, now_ns, setup_.seed, training::nameOf(role), setup_.force_feedback, 0};
 }
@@ -143,7 +143,7 @@ void SqueezeTask::judge(const haptics::FlightRecord& record, std::int64_t now_ns
     endTrial(Outcome::time, "The time limit was reached", now_ns);
 }
 
-void SqueezeTask::hear(const trial::UserRequest& request, std::int64_t now_ns) {
+void SqueezeTask::receive(const trial::UserRequest& request, std::int64_t now_ns) {
   if (request.command == trial::UserCommand::done) return otherThing(now_ns);
   if (request.command == trial::UserCommand::grade)
     answer(trial::gradeOf(request.reason).hardness, now_ns);
@@ -157,8 +157,8 @@ void SqueezeTask::otherThing(std::int64_t now_ns) {
   }
   thing_ = 1 - thing_;
   status().notice.clear();
-  tell(now_ns, EventKind::thing,
-       thing_ == 0 ? "The first thing lies there" : "The second thing lies there", thing_ + 1);
+  report(now_ns, EventKind::thing,
+         thing_ == 0 ? "The first thing lies there" : "The second thing lies there", thing_ + 1);
 }
 
 void SqueezeTask::answer(int said, std::int64_t now_ns) {
@@ -168,13 +168,13 @@ void SqueezeTask::answer(int said, std::int64_t now_ns) {
     return;
   }
   said_ = said;
-  tell(now_ns, EventKind::answer, said == 1 ? "The first one has more" : "The second one has more",
-       said);
+  report(now_ns, EventKind::answer,
+         said == 1 ? "The first one has more" : "The second one has more", said);
   endTrial(Outcome::done, "", now_ns);
 }
 
 void SqueezeTask::command(haptics::TickCommands& commands) const {
-  tellLoop(comparison(), thing_, &commands);
+  commandLoop(comparison(), thing_, &commands);
 }
 
 void SqueezeTask::publishStatus(std::int64_t now_ns) {

@@ -42,7 +42,7 @@ class SqueezeListener {
 };
 
 /// What the loop is told of one of the two things.
-void tellLoop(const SqueezeComparison& comparison, int thing, haptics::TickCommands* commands);
+void commandLoop(const SqueezeComparison& comparison, int thing, haptics::TickCommands* commands);
 
 struct CompletedSqueeze {
   assess::SqueezeTrial trial;
@@ -91,7 +91,7 @@ class SqueezeTask final : public trial::TrialTask {
   void judge(const haptics::FlightRecord& record, std::int64_t now_ns) override;
   void command(haptics::TickCommands& commands) const override;
   void publishStatus(std::int64_t now_ns) override;
-  void hear(const trial::UserRequest& request, std::int64_t now_ns) override;
+  void receive(const trial::UserRequest& request, std::int64_t now_ns) override;
   void otherThing(std::int64_t now_ns);
   void answer(int said, std::int64_t now_ns);
   const SqueezeComparison& comparison() const {

@@ -139,7 +139,7 @@ std::int64_t TrialScene::step(std::int64_t now_ns) {
   const bool worn = stage_.head && stage_.head->wait(mayWait(tool_));
   follow(now_ns);
   composeAll();
-  tellOperator(now_ns);
+  informOperator(now_ns);
   if (worn) {
     stage_.head->show(state_);
     pulse(*stage_.head, tool_);
@@ -220,13 +220,13 @@ void TrialScene::hideBehindRealThings() {
   }
 }
 
-void TrialScene::tellOperator(std::int64_t now_ns) {
+void TrialScene::informOperator(std::int64_t now_ns) {
   runtime::Displayed displayed;
   displayed.t_ns = now_ns;
   displayed.X_AT = state_.X_AT;
   displayed.trial = status_->trial;
   displayed.running = status_->state == TrialState::running;
-  tell(displayed, tool_);
+  addTo(displayed, tool_);
   bus_.scene_to_operator.publish(displayed, now_ns + stage_.display_latency_ns);
 }
 

@@ -77,7 +77,7 @@ class TrialScene : public runtime::Activity {
   virtual void compose(scene::SceneState& state, const runtime::ToolState& tool,
                        const std::string& trouble) = 0;
   /// Adds to what a simulated person sees.
-  virtual void tell(runtime::Displayed&, const runtime::ToolState&) {}
+  virtual void addTo(runtime::Displayed&, const runtime::ToolState&) {}
   /// What a controller of a headset can make felt.
   virtual void pulse(runtime::HeadDisplay&, const runtime::ToolState&) {}
   /// A headset's frame may be waited for.
@@ -96,7 +96,7 @@ class TrialScene : public runtime::Activity {
   void render();
   void keepPictures();
   void save(const std::string& stem, const PictureRequest& moment);
-  void tellOperator(std::int64_t now_ns);
+  void informOperator(std::int64_t now_ns);
 
   Stage stage_;
   runtime::Bus& bus_;

@@ -27,7 +27,7 @@ TrialTask::TrialTask(const Lead& lead, runtime::Bus& bus, Channels& channels,
 
 std::int64_t TrialTask::step(std::int64_t now_ns) {
   apply(now_ns);
-  hearDevice();
+  receiveDevice();
   watchCamera(now_ns);
   listen(now_ns);
   switch (status_.state) {
@@ -76,10 +76,11 @@ void TrialTask::watchCamera(std::int64_t now_ns) {
   const std::string trouble = sightTrouble(view, now_ns);
   if (trouble == camera_) return;
   if (!trouble.empty())
-    tell(now_ns, EventKind::camera, trouble, 1);
+    report(now_ns, EventKind::camera, trouble, 1);
   else
-    tell(now_ns, EventKind::camera,
-         view->by_tracker ? "the tracking system sees the camera" : "the camera sees the board", 0);
+    report(now_ns, EventKind::camera,
+           view->by_tracker ? "the tracking system sees the camera" : "the camera sees the board",
+           0);
   camera_ = trouble;
 }
 
@@ -95,9 +96,10 @@ void TrialTask::checkReady(std::int64_t now_ns) {
     missing = trouble;
   status_.notice = missing.empty() ? "" : "Not ready: " + missing;
   if (missing.empty()) {
-    tell(now_ns, EventKind::ready,
-         lead_.calibration_problem.empty() ? "Ready: device homed, board seen, calibration valid"
-                                           : "Ready, but not scored: " + lead_.calibration_problem);
+    report(now_ns, EventKind::ready,
+           lead_.calibration_problem.empty()
+               ? "Ready: device homed, board seen, calibration valid"
+               : "Ready, but not scored: " + lead_.calibration_problem);
     status_.state = TrialState::waiting;
     since_ns_ = now_ns;
     if (!lead_.automatic) status_.notice = "Press Enter to start";
@@ -116,7 +118,7 @@ void TrialTask::startTrial(std::int64_t now_ns) {
   status_.role = training::roleNamed(header.role);
   status_.force_feedback = header.force_feedback;
   bus_.task_to_recorder.push(header);
-  tell(now_ns, EventKind::start, "Trial " + std::to_string(status_.trial) + " starts");
+  report(now_ns, EventKind::start, "Trial " + std::to_string(status_.trial) + " starts");
 }
 
 void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_t now_ns) {
@@ -132,11 +134,11 @@ void TrialTask::endTrial(Outcome outcome, const std::string& reason, std::int64_
 }
 
 void TrialTask::hold(const std::string& trouble, std::int64_t now_ns) {
-  tell(now_ns, EventKind::safety, "Force taken away: " + trouble);
+  report(now_ns, EventKind::safety, "Force taken away: " + trouble);
   if (lead_.automatic) return endTrial(Outcome::voided, trouble, now_ns);
   status_.state = TrialState::paused;
   status_.notice = "Paused: " + trouble + ". Then Enter goes on";
-  tell(now_ns, EventKind::pause, "The trial is paused: " + trouble);
+  report(now_ns, EventKind::pause, "The trial is paused: " + trouble);
 }
 
 void TrialTask::listen(std::int64_t now_ns) {
@@ -154,29 +156,29 @@ void TrialTask::listen(std::int64_t now_ns) {
 void TrialTask::watchSafety(const haptics::FlightRecord& record) {
   using haptics::SafetyCause;
   if (record.events & haptics::kSafetyTripped) {
-    tell(record.t_ns, EventKind::safety, "Force taken away: " + whyText(record.safety));
+    report(record.t_ns, EventKind::safety, "Force taken away: " + whyText(record.safety));
     status_.trip = record.safety;
     trip_ns_ = record.t_ns;
   }
   if (record.events & haptics::kSafetyCleared)
-    tell(record.t_ns, EventKind::safety, runtime::kForceIsBack);
+    report(record.t_ns, EventKind::safety, runtime::kForceIsBack);
   if (record.events & haptics::kSnapshotRefused)
-    tell(record.t_ns, EventKind::safety, "Damaged geometry was refused");
+    report(record.t_ns, EventKind::safety, "Damaged geometry was refused");
   if (record.t_ns - trip_ns_ > kTripShown) status_.trip = SafetyCause::none;
   if (record.safety == SafetyCause::duty) {
     if (warm_ns_ < 0 || record.t_ns - warm_ns_ > kTripShown)
-      tell(record.t_ns, EventKind::safety, "The drives are warm: forces are reduced");
+      report(record.t_ns, EventKind::safety, "The drives are warm: forces are reduced");
     warm_ns_ = record.t_ns;
   }
   if (status_.state == TrialState::running && last_.reading.homed && !record.reading.homed) {
     status_.state = TrialState::paused;
     status_.notice = "Paused: the device has lost its position. When it is back, Enter goes on";
-    tell(record.t_ns, EventKind::pause, "The trial is paused: the device has lost its position");
+    report(record.t_ns, EventKind::pause, "The trial is paused: the device has lost its position");
   }
 }
 
 /// What a driver has to say stays on the screen until it is over.
-void TrialTask::hearDevice() {
+void TrialTask::receiveDevice() {
   runtime::Event event;
   while (bus_.device_to_task.pop(&event)) {
     status_.device = event.text;
@@ -202,7 +204,7 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       if (status_.state != TrialState::running) return;
       status_.state = TrialState::paused;
       status_.notice = "Paused: Enter goes on";
-      return tell(now_ns, EventKind::pause, "The trial is paused");
+      return report(now_ns, EventKind::pause, "The trial is paused");
     case UserCommand::abort:
       if (status_.active())
         endTrial(Outcome::aborted, reason.empty() ? "Aborted by the person in charge" : reason,
@@ -221,10 +223,10 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
       executive_.stop();
       return;
     case UserCommand::note:
-      return tell(now_ns, EventKind::note, reason, request.at_s);
+      return report(now_ns, EventKind::note, reason, request.at_s);
     case UserCommand::done:
     case UserCommand::grade:
-      if (status_.active()) hear(request, now_ns);
+      if (status_.active()) receive(request, now_ns);
       return;
   }
 }
@@ -242,7 +244,7 @@ void TrialTask::goOn(std::int64_t now_ns) {
   if (status_.state != TrialState::paused) return;
   status_.state = TrialState::running;
   status_.notice.clear();
-  tell(now_ns, EventKind::resume, "The trial goes on");
+  report(now_ns, EventKind::resume, "The trial goes on");
 }
 
 void TrialTask::stopAll(std::int64_t now_ns) {
@@ -250,7 +252,7 @@ void TrialTask::stopAll(std::int64_t now_ns) {
   status_.alarm = true;
   status_.notice = "EMERGENCY STOP: forces are off. R re-arms, then Enter goes on";
   if (status_.state == TrialState::running) status_.state = TrialState::paused;
-  tell(now_ns, EventKind::emergency_stop, "Emergency stop");
+  report(now_ns, EventKind::emergency_stop, "Emergency stop");
 }
 
 void TrialTask::rearm(std::int64_t now_ns) {
@@ -260,10 +262,10 @@ void TrialTask::rearm(std::int64_t now_ns) {
   status_.notice = status_.state == TrialState::paused || status_.state == TrialState::waiting
                        ? "Re-armed: Enter goes on"
                        : "";
-  tell(now_ns, EventKind::rearm, "Re-armed");
+  report(now_ns, EventKind::rearm, "Re-armed");
 }
 
-void TrialTask::tell(std::int64_t now_ns, EventKind kind, const std::string& text, double value) {
+void TrialTask::report(std::int64_t now_ns, EventKind kind, const std::string& text, double value) {
   note({now_ns, status_.trial, nameOf(kind), text, value});
 }
 

@@ -52,14 +52,14 @@ class TrialTask : public runtime::Activity {
   virtual void command(haptics::TickCommands& commands) const = 0;
   virtual void publishStatus(std::int64_t now_ns) = 0;
   /// A request that only the task understands.
-  virtual void hear(const UserRequest&, std::int64_t) {}
+  virtual void receive(const UserRequest&, std::int64_t) {}
 
   void endTrial(training::Outcome outcome, const std::string& reason, std::int64_t now_ns);
   /// What is measured cannot be meant: no more force. Paused until somebody has looked after it;
   /// where nobody is there, the trial is void. `trouble`: a clause.
   void hold(const std::string& trouble, std::int64_t now_ns);
-  void tell(std::int64_t now_ns, runtime::EventKind kind, const std::string& text,
-            double value = 0);
+  void report(std::int64_t now_ns, runtime::EventKind kind, const std::string& text,
+              double value = 0);
   void picture(const std::string& label, const std::string& caption);
   TrialStatus& status() { return status_; }
   const TrialStatus& status() const { return status_; }
@@ -73,7 +73,7 @@ class TrialTask : public runtime::Activity {
   void leave(const std::string& reason, std::int64_t now_ns);
   void goOn(std::int64_t now_ns);
   void listen(std::int64_t now_ns);
-  void hearDevice();
+  void receiveDevice();
   void watchCamera(std::int64_t now_ns);
   std::string sightTrouble(const runtime::CameraView* view, std::int64_t now_ns);
   void watchSafety(const haptics::FlightRecord& record);

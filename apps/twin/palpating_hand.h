@@ -34,7 +34,7 @@ class TouchMemory {
  public:
   /// With several pressures the first one only says where the surface is: when it was touched is
   /// told badly.
-  explicit TouchMemory(std::size_t pressures) : first_told_(pressures > 1 ? 1 : 0) {}
+  explicit TouchMemory(std::size_t pressures) : first_reported_(pressures > 1 ? 1 : 0) {}
 
   void forget() { presses_.clear(); }
   void add(const FeltPress& press) { presses_.push_back(press); }
@@ -54,7 +54,7 @@ class TouchMemory {
 
  private:
   std::vector<double> ordinaryAbout(const FeltPress& press, std::size_t pressure) const;
-  std::size_t first_told_;
+  std::size_t first_reported_;
   std::vector<FeltPress> presses_;
 };
 

@@ -33,7 +33,7 @@ std::vector<double> TouchMemory::ordinaryAbout(const FeltPress& press, std::size
 double TouchMemory::firmness(const FeltPress& press) const {
   double sum = 0;
   int count = 0;
-  for (std::size_t l = first_told_; l < press.depths.size(); ++l) {
+  for (std::size_t l = first_reported_; l < press.depths.size(); ++l) {
     const std::vector<double> around = ordinaryAbout(press, l);
     if (around.size() < kFewest) continue;
     sum += std::log(upperMedian(around) / std::max(press.depths[l], 1e-4));

@@ -13,7 +13,7 @@ constexpr double kMargin = 0.12;  // of the board's width and height in the pict
 constexpr double kMargin_px = 12, kSpreads = 4;
 // [chosen] of real boards: 0.1 to 0.4 px, blurred and bent ones to 1; what is no board fits by tens
 constexpr double kWorstFit_px = 2.5;
-constexpr double kTellsApart =
+constexpr double kSeparate =
     16;  // chi-squared by which one planar solution must fit better than the other
 constexpr double kSigmaAtFirst_px = 0.2, kLeastSigma_px = 0.03, kLearns = 0.05;
 
@@ -28,7 +28,7 @@ cv::Rect onTiles(const Eigen::AlignedBox2d& box, const cv::Size& size) {
 }
 
 /// How much better the first solution fits, in units of chi-squared.
-double tellsApart(const BoardPose& pose, double sigma_px) {
+double separation(const BoardPose& pose, double sigma_px) {
   return pose.points * (pose.rms_other_px * pose.rms_other_px - pose.rms_px * pose.rms_px) /
          (sigma_px * sigma_px);
 }
@@ -79,7 +79,7 @@ std::optional<BoardPose> BoardTracker::believable(const std::vector<BoardPoint>&
   });
   if (poses.empty()) return std::nullopt;
   const PoseFilter& filter = track_.filter();
-  const bool alike = poses.size() > 1 && tellsApart(poses.front(), sigma_px_) < kTellsApart;
+  const bool alike = poses.size() > 1 && separation(poses.front(), sigma_px_) < kSeparate;
   const PoseLookup there = track_.at(t_ns);
   if (there.how != Lookup::none) {
     if (alike && difference(poses[1].X_CW, there.X).head<3>().norm() <

@@ -215,7 +215,7 @@ bool isTrip(SafetyCause cause) {
 }
 
 /// The limiter's cause, or that the geometry has faded; and the events when it changes.
-void tellCause(FlightRecord& record, TickState& state, double fresh) {
+void reportCause(FlightRecord& record, TickState& state, double fresh) {
   SafetyCause cause = state.safety.cause;
   if (rendered(cause) && fresh < 1)
     cause = state.refused ? SafetyCause::corrupt_geometry : SafetyCause::stale_geometry;
@@ -295,7 +295,7 @@ const FlightRecord& finishTick(const TickConfig& config, TickState& state,
   state.passivity.f_last_D =  // what the hand really gets, beside what carries the handle
       pack(Vec3(unpack(record.f_command_D) - heldBack(record, frame) +
                 objectForce(config, record.sensed)));
-  tellCause(record, state, frame.fresh);
+  reportCause(record, state, frame.fresh);
   return record;
 }
 

@@ -18,8 +18,8 @@ Vec3 limitRise(const Vec3& f, const Vec3& last, double largest_step, bool* limit
   return *limited ? Vec3(base + rise * (largest_step / size)) : f;
 }
 
-/// Time that goes back neither makes a device heard nor silent.
-bool heard(const SafetyLimits& limits, SafetyState& state, const SafetyInput& in) {
+/// Time that goes back makes a device neither answer nor fall silent.
+bool answers(const SafetyLimits& limits, SafetyState& state, const SafetyInput& in) {
   const double elapsed = static_cast<double>(in.now_ns) - static_cast<double>(state.t_ns);
   state.silence_ns += std::max(elapsed, 0.0);
   state.t_ns = in.now_ns;
@@ -66,7 +66,7 @@ bool believed(const SafetyInput& in) {
 }
 
 SafetyCause reasonForZero(const SafetyLimits& limits, SafetyState& state, const SafetyInput& in) {
-  const bool device_heard = heard(limits, state, in);
+  const bool device_answers = answers(limits, state, in);
   if (in.emergency_stop) return stop(state, SafetyCause::emergency_stop);
   if (!in.armed) state.stopped = 0;
   if (in.fault != SafetyCause::none) return in.fault;
@@ -76,7 +76,7 @@ SafetyCause reasonForZero(const SafetyLimits& limits, SafetyState& state, const 
   if (!in.armed || !in.homed) return SafetyCause::not_ready;
   if (state.energy_J > limits.max_energy_J) return stop(state, SafetyCause::energy);
   if (limits.deadman_button && !(in.buttons & limits.deadman_button)) return SafetyCause::deadman;
-  return device_heard ? SafetyCause::none : SafetyCause::silent_device;
+  return device_answers ? SafetyCause::none : SafetyCause::silent_device;
 }
 
 }  // namespace

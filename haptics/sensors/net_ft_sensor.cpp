@@ -46,7 +46,7 @@ void NetFtSensor::step() noexcept {
   if (bias_wanted_.exchange(false, std::memory_order_relaxed)) ask(kRdtSoftwareBias);
   receive(settings_.wait_ms);
   const std::int64_t now_ns = now_();
-  if (now_ns - heard_ns_ <= settings_.restart_ns) return;
+  if (now_ns - received_ns_ <= settings_.restart_ns) return;
   add(NetFtCount::restarts);
   askForStream(now_ns);
 }
@@ -70,7 +70,7 @@ void NetFtSensor::askForStream(std::int64_t now_ns) noexcept {
   ask(settings_.start_code);
   asked_ = true;
   sequence_.known = false;
-  heard_ns_ = now_ns;
+  received_ns_ = now_ns;
 }
 
 /// One datagram: 0 when it held something new, else the error number (EPROTO: no RDT).
@@ -117,7 +117,7 @@ void NetFtSensor::publish(const RdtRecord& record, std::int64_t now_ns) noexcept
   if (record.status & settings_.saturation_bits) sample.flags |= kSaturated;
   sample.flags |= overloadFlag(settings_.capabilities, sample);
   latest_.write(sample);
-  heard_ns_ = now_ns;
+  received_ns_ = now_ns;
 }
 
 void NetFtSensor::add(NetFtCount what, std::uint64_t n) noexcept {

@@ -85,7 +85,7 @@ class NetFtSensor final : public ForceSensor {
   UdpSocket socket_;
   std::array<std::uint8_t, kRdtDatagramBytes> datagram_{};
   RdtSequence sequence_;
-  std::int64_t heard_ns_ = 0;  ///< when a fresh record came, or the stream was asked for
+  std::int64_t received_ns_ = 0;  ///< when a fresh record came, or the stream was asked for
   bool asked_ = false;
   LatestValue<WrenchSample> latest_;
   std::atomic<bool> bias_wanted_{false};

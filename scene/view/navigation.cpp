@@ -81,7 +81,7 @@ struct WindowInput::Events {
   vtkNew<vtkCallbackCommand> listener;
   ViewInput now;
 
-  static void hear(vtkObject*, unsigned long event, void* self, void*) {
+  static void receive(vtkObject*, unsigned long event, void* self, void*) {
     static_cast<Events*>(self)->take(event);
   }
   void take(unsigned long event);
@@ -140,7 +140,7 @@ void WindowInput::Events::take(unsigned long event) {
 
 WindowInput::WindowInput(vtkRenderWindow& window) : events_(std::make_unique<Events>()) {
   events_->listener->SetClientData(events_.get());
-  events_->listener->SetCallback(&Events::hear);
+  events_->listener->SetCallback(&Events::receive);
   auto& interactor = *events_->interactor;
   interactor.SetRenderWindow(&window);
   interactor.SetInteractorStyle(nullptr);

@@ -194,7 +194,7 @@ TEST(SessionLink, NonsenseAtTheOtherEndHurtsNothing) {
     }
     ::close(listener);
   }
-  EXPECT_FALSE(link.told());
+  EXPECT_FALSE(link.hasReported());
   Session session(here / "s");
   session.tell(0, 10);
   EXPECT_EQ(read(link, 0, 11), session.log.since(0, 100));

@@ -1,6 +1,6 @@
 // From the records to a learning record store, whatever happens in between: every statement there
 // exactly once.
-#include "apps/link/tell.h"
+#include "apps/link/outbox.h"
 
 #include <gtest/gtest.h>
 #include <signal.h>

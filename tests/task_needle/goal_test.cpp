@@ -56,7 +56,7 @@ TEST(GoalTrial, TellsItsCourse) {
   sample.wall = Organ::fascia;
   trial.add(sample);
   assess::TrialAssessment a;
-  trial.tell(&a);
+  trial.describe(&a);
   EXPECT_FALSE(a.by_path);
   EXPECT_TRUE(a.values.success);
   EXPECT_EQ(a.values.time_ms, 3500);
@@ -74,7 +74,7 @@ TEST(GoalTrial, TellsItsCourse) {
   EXPECT_EQ(a.moments[2].text, "Done: it sits");
   EXPECT_EQ(a.summary, "Done after 4 s: it sits. It went 12 mm deep at most.");
   assess::TrialAssessment none;
-  trialOf({kFirst, kFirst}).tell(&none);
+  trialOf({kFirst, kFirst}).describe(&none);
   EXPECT_EQ(none.summary, "Not done after 2 s; the goal: it sits. It went 4 mm deep at most.");
 }
 

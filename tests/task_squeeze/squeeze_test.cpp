@@ -54,7 +54,7 @@ void hear(SqueezeListener& listener, const SqueezeComparison& comparison, int th
   r.t_ns = t_ms * 1'000'000;
   r.commands.trial = 1;
   r.commands.armed = 1;
-  tellLoop(comparison, thing, &r.commands);
+  commandLoop(comparison, thing, &r.commands);
   r.sensed.state = haptics::SensorState::valid;
   for (const std::uint8_t tool : {0, 1}) {
     r.tool = tool;

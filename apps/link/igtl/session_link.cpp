@@ -39,9 +39,9 @@ IgtlLink::IgtlLink(const IgtlLinkSetup& setup, runtime::Bus& bus)
 
 std::int64_t IgtlLink::step(std::int64_t now_ns) {
   const ShownMoment moment = momentAt(now_ns);
-  tellEvidence();
+  sendEvidence();
   if (const runtime::ToolState* tool = bus_.haptic_to_link.read(now_ns))
-    tellPhase(*tool, moment.utc_ns);
+    sendPhase(*tool, moment.utc_ns);
   if (now_ns >= next_show_ns_) {
     server_.show(moment);
     next_show_ns_ = now_ns + kShow_ns;
@@ -81,7 +81,7 @@ void IgtlLink::addTool(const std::string& tool, const runtime::ToolState& state,
 }
 
 /// Everything that the recorder wrote down.
-void IgtlLink::tellEvidence() {
+void IgtlLink::sendEvidence() {
   runtime::EvidenceMessage message;
   while (bus_.recorder_to_link.pop(&message)) {
     if (const auto* event = std::get_if<runtime::Event>(&message))
@@ -103,7 +103,7 @@ void IgtlLink::tellEvidence() {
   }
 }
 
-void IgtlLink::tellPhase(const runtime::ToolState& tool, std::int64_t utc_ns) {
+void IgtlLink::sendPhase(const runtime::ToolState& tool, std::int64_t utc_ns) {
   const std::string phase = text(
       {{"trial", running_}, {"phase", wordOf(tool.phase)}, {"tissue", palpa::name(tool.tissue)}});
   if (phase == phase_) return;

@@ -38,8 +38,8 @@ class IgtlLink final : public runtime::Activity {
  private:
   void addTool(const std::string& tool, const runtime::ToolState& state, const Pose& X_WD,
                ShownMoment& moment) const;
-  void tellEvidence();
-  void tellPhase(const runtime::ToolState& tool, std::int64_t utc_ns);
+  void sendEvidence();
+  void sendPhase(const runtime::ToolState& tool, std::int64_t utc_ns);
   ShownMoment momentAt(std::int64_t now_ns);
   std::int64_t utc(std::int64_t t_ns) const { return setup_.utc_start_ns + t_ns; }
 

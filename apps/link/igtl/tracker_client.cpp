@@ -48,7 +48,7 @@ std::int64_t TrackerClient::step(std::int64_t now_ns) {
         part(now_ns);
       break;
     case TrackerState::together:
-      hear(now_ns);
+      receive(now_ns);
       break;
   }
   return now_ns;
@@ -81,7 +81,7 @@ void TrackerClient::greet() {
     socket_.send(startTrackingMessage("Palpa", {settings_.tracking_ms, ""}, 0));
 }
 
-void TrackerClient::hear(std::int64_t now_ns) {
+void TrackerClient::receive(std::int64_t now_ns) {
   std::array<std::uint8_t, 16384> buffer;
   int wait_ms = kWait_ms;
   for (std::size_t total = 0; total < kMostBytes; wait_ms = 0) {

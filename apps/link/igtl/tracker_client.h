@@ -62,7 +62,7 @@ class TrackerClient final : public runtime::Activity {
   void connect(std::int64_t now_ns);
   void part(std::int64_t now_ns);
   void greet();
-  void hear(std::int64_t now_ns);
+  void receive(std::int64_t now_ns);
   void take(const Message& message);
   void take(const std::string& name, const Mat4& X_mm,
             const std::map<std::string, std::string>& metadata, bool among_others);

@@ -26,8 +26,8 @@ namespace fs = std::filesystem;
 /// Throws UsageError for somebody who cannot take part.
 void needFit(const record::Trainee& trainee, const study::Protocol& protocol, bool enrolled) {
   const std::string who = "trainee " + trainee.id;
-  for (const auto& [barred, why] : barredFrom(protocol))
-    if (barred == trainee.id)
+  for (const auto& [excluded, why] : excludedFrom(protocol))
+    if (excluded == trainee.id)
       throw UsageError(why, who, "Experts who calibrate take no part; enrol somebody else");
   if (trainee.research_utc.empty() && trainee.experience != kSimulatedExperience)
     throw UsageError("has not agreed to studies", who,
@@ -197,25 +197,25 @@ void StudyParticipant::writeCopy() const {
 namespace {
 
 void addExpertsOf(const study::Block& block,
-                  std::vector<std::pair<std::string, std::string>>* barred) {
+                  std::vector<std::pair<std::string, std::string>>* excluded) {
   if (block.engine != training::Engine::needle) return;
   const task_needle::TaskSettings task = task_needle::readTask(block.task);
   if (task.expert_path.empty()) return;
   for (const std::string& expert : calibration::readExpertPath(task.expert_path).experts)
-    barred->emplace_back(expert, "made the optimal path that this study is judged by (" +
-                                     task.expert_path.string() + ")");
+    excluded->emplace_back(expert, "made the optimal path that this study is judged by (" +
+                                       task.expert_path.string() + ")");
 }
 
 }  // namespace
 
-std::vector<std::pair<std::string, std::string>> barredFrom(const study::Protocol& protocol) {
-  std::vector<std::pair<std::string, std::string>> barred;
-  for (const std::string& trainee : protocol.barred)
-    barred.emplace_back(trainee, "is barred by the protocol");
-  if (!protocol.bars_experts) return barred;
+std::vector<std::pair<std::string, std::string>> excludedFrom(const study::Protocol& protocol) {
+  std::vector<std::pair<std::string, std::string>> excluded;
+  for (const std::string& trainee : protocol.excluded)
+    excluded.emplace_back(trainee, "is excluded by the protocol");
+  if (!protocol.bars_experts) return excluded;
   for (const study::Session& session : protocol.sessions)
-    for (const study::Block& block : session.blocks) addExpertsOf(block, &barred);
-  return barred;
+    for (const study::Block& block : session.blocks) addExpertsOf(block, &excluded);
+  return excluded;
 }
 
 }  // namespace palpa::study

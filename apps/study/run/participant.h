@@ -17,8 +17,8 @@ class StudyParticipant {
  public:
   /// Enrols, or goes on; whoever is simulated needs no consent. `seed`: of the study, where it
   /// begins with this one. Throws UsageError for a trainee who is not in the records, has not
-  /// agreed to studies, is in none of the groups, or is barred; StoreUnreachable where this station
-  /// knows nothing of him either.
+  /// agreed to studies, is in none of the groups, or is excluded; StoreUnreachable where this
+  /// station knows nothing of him either.
   StudyParticipant(const study::Protocol& protocol, const std::string& trainee,
                    const std::string& url, std::uint64_t seed);
 
@@ -55,6 +55,6 @@ class StudyParticipant {
 
 /// Who takes no part, and why: the protocol's own list, and the experts whose trials made the
 /// optimal path of one of its tasks.
-std::vector<std::pair<std::string, std::string>> barredFrom(const study::Protocol& protocol);
+std::vector<std::pair<std::string, std::string>> excludedFrom(const study::Protocol& protocol);
 
 }  // namespace palpa::study

@@ -75,7 +75,7 @@ void show(const study::Item& item, std::size_t number, std::size_t of) {
 }
 
 /// None at the input's end.
-std::optional<std::string> heard(const study::Item& item) {
+std::optional<std::string> readAnswer(const study::Item& item) {
   for (std::string line;;) {
     std::printf("> ");
     std::fflush(stdout);
@@ -99,7 +99,7 @@ bool askQuestions(const study::Questionnaire& questionnaire, const study::Next& 
     const study::Item& item = itemOf(questionnaire, id);
     show(item, static_cast<std::size_t>(&item - questionnaire.items.data()) + 1,
          questionnaire.items.size());
-    const std::optional<std::string> answer = heard(item);
+    const std::optional<std::string> answer = readAnswer(item);
     if (!answer) return false;
     participant.answer(next.session, id, *answer);
   }

@@ -14,14 +14,14 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::json;
 
-constexpr std::size_t kTellApart = 12;  // digits of a digest
+constexpr std::size_t kDigestLength = 12;  // digits of a digest
 
 }  // namespace
 
 fs::path studyCopyFile(const std::string& study, const std::string& trainee,
                        const std::string& url) {
   return record::PendingList::usualFolder().parent_path() / "studies" /
-         (study + "-" + trainee + "-" + sha256(url).substr(0, kTellApart) + ".json");
+         (study + "-" + trainee + "-" + sha256(url).substr(0, kDigestLength) + ".json");
 }
 
 std::optional<StudyCopy> readStudyCopy(const fs::path& file) {

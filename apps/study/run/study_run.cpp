@@ -165,8 +165,8 @@ namespace {
 
 using study::Next;
 
-void tellTrainee(const study::Protocol& protocol, record::RecordStore& store,
-                 const record::Enrolment& e) {
+void reportTrainee(const study::Protocol& protocol, record::RecordStore& store,
+                   const record::Enrolment& e) {
   std::vector<study::DoneTrial> trials;
   for (const record::TrialWithSession& t :
        store.trials({.trainee = e.trainee, .study = protocol.id}))
@@ -181,8 +181,8 @@ void tellTrainee(const study::Protocol& protocol, record::RecordStore& store,
 }
 
 /// Counts of a group alone: those of conditions would tell who is next.
-void tellGroup(const study::Protocol& protocol, record::StudyStore& studies,
-               const std::string& group) {
+void reportGroup(const study::Protocol& protocol, record::StudyStore& studies,
+                 const std::string& group) {
   const std::int64_t given = studies.placesGiven(protocol.id, group);
   std::printf("  %-14s %lld place%s given", group.c_str(), static_cast<long long>(given),
               given == 1 ? "" : "s");
@@ -196,15 +196,15 @@ void tellGroup(const study::Protocol& protocol, record::StudyStore& studies,
 
 }  // namespace
 
-void tellStudy(const StudyOptions& o) {
+void reportStudy(const StudyOptions& o) {
   const study::Protocol protocol = study::readProtocol(o.protocol);
   record::RecordStore store(o.url);
   record::StudyStore studies(store);
   std::printf("%s (%s)\n", protocol.title.c_str(), protocol.id.c_str());
-  for (const study::Group& group : protocol.groups) tellGroup(protocol, studies, group.name);
+  for (const study::Group& group : protocol.groups) reportGroup(protocol, studies, group.name);
   const std::vector<record::Enrolment> enrolled = studies.enrolments(protocol.id);
   std::printf("%zu enrolled\n", enrolled.size());
-  for (const record::Enrolment& e : enrolled) tellTrainee(protocol, store, e);
+  for (const record::Enrolment& e : enrolled) reportTrainee(protocol, store, e);
 }
 
 }  // namespace palpa::study

@@ -28,6 +28,6 @@ void simulateStudy(const StudyOptions& options);
 
 /// Who is enrolled, who is next, how far everybody is; nothing that tells a condition before it is
 /// used, nor where the protocol is blind. Throws Error.
-void tellStudy(const StudyOptions& options);
+void reportStudy(const StudyOptions& options);
 
 }  // namespace palpa::study

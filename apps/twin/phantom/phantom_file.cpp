@@ -113,14 +113,14 @@ void solvePhantoms(const std::filesystem::path& name, const std::filesystem::pat
   for (const Phantom& phantom : file.phantoms) {
     const int ones = phantom.table.aways * phantom.table.depths,
               all = ones + phantom.both.shifts * phantom.both.depths * phantom.both.depths;
-    const auto tell = [&](int done) {
+    const auto report = [&](int done) {
       if (progress) progress(phantom.name, done, all);
     };
     const PhantomTable one =
-        tabulate(phantom.block, phantom.table, file.fineness, [&](int done, int) { tell(done); });
+        tabulate(phantom.block, phantom.table, file.fineness, [&](int done, int) { report(done); });
     tables.push_back(written(one));
     pairs.push_back(written(tabulatePairs(phantom.block, one, phantom.both, file.fineness,
-                                          [&](int done, int) { tell(ones + done); })));
+                                          [&](int done, int) { report(ones + done); })));
   }
   const nlohmann::json all{{"version", 1},
                            {"made_of", JsonFile(name).json()},

@@ -2,7 +2,7 @@
 #include <exception>
 #include <string>
 
-#include "apps/link/tell.h"
+#include "apps/link/outbox.h"
 
 /// palpa_test_sender OUTBOX URL: sends what waits, patiently.
 int main(int argc, char** argv) {

@@ -44,7 +44,7 @@ class Outbox {
   std::vector<std::string> endpoints(
       const std::string& records);  ///< that anything of these records went to
   /// Of trials, not taken back yet: told, or about to be.
-  std::vector<Letter> told(const Route& route);
+  std::vector<Letter> sent(const Route& route);
   /// Puts in `voiding` for a statement; its own text, if it still waits, is thrown away unsent.
   void takeBack(const Route& route, const std::string& id, const Letter& voiding);
 
@@ -55,7 +55,7 @@ class Outbox {
 };
 
 /// What is to be told of one person or of all.
-struct TellFilter {
+struct StatementFilter {
   std::vector<record::Trainee> who;
   bool simulated = false;  ///< sessions that were simulated as well
   std::string home_page;   ///< of the accounts
@@ -68,7 +68,7 @@ struct Queued {
 
 /// Puts a statement of every trial into the outbox; whoever has not agreed to training records is
 /// not to be in `who`.
-Queued queueTrials(record::RecordStore& store, const Route& route, const TellFilter& filter,
+Queued queueTrials(record::RecordStore& store, const Route& route, const StatementFilter& filter,
                    Outbox& outbox);
 
 /// Takes back what was told of people who were deleted from these records since, and of trials that

@@ -1,4 +1,4 @@
-#include "apps/link/tell.h"
+#include "apps/link/outbox.h"
 
 #include <map>
 #include <set>
@@ -80,7 +80,7 @@ bool hasNothingToVoid(LrsClient& client, const Letter& letter) {
   return there.status == 404 && there.is_lrs && client.get(letter.voids, true).status == 404;
 }
 
-ReplyJudgement tell(LrsClient& client, const Endpoint& endpoint, const Letter& letter) {
+ReplyJudgement send(LrsClient& client, const Endpoint& endpoint, const Letter& letter) {
   if (!letter.voids.empty() && hasNothingToVoid(client, letter)) return {Fate::nothing_to_void, ""};
   const LrsAnswer answer = client.put(letter.id, letter.body);
   if (concernsAll(answer)) fail(answer, endpoint);
@@ -91,11 +91,11 @@ ReplyJudgement tell(LrsClient& client, const Endpoint& endpoint, const Letter& l
   return {Fate::refused, troubleOf(answer)};
 }
 
-ReplyJudgement tellPatiently(LrsClient& client, const Endpoint& endpoint, const Letter& letter,
+ReplyJudgement sendPatiently(LrsClient& client, const Endpoint& endpoint, const Letter& letter,
                              const Pace& pace) {
   std::int64_t pause_ns = pace.pause_ns;
   for (int tries = pace.tries;; pause_ns *= 2) {
-    const ReplyJudgement verdict = tell(client, endpoint, letter);
+    const ReplyJudgement verdict = send(client, endpoint, letter);
     if (verdict.fate != Fate::later || --tries <= 0) return verdict;
     runtime::SteadyClock().sleepUntil(pause_ns);
   }
@@ -106,7 +106,7 @@ ReplyJudgement tellPatiently(LrsClient& client, const Endpoint& endpoint, const 
 Sent sendWaiting(Outbox& outbox, const Endpoint& endpoint, LrsClient& client, const Pace& pace) {
   Sent sent;
   for (const Letter& letter : outbox.waiting(endpoint.text())) {
-    const ReplyJudgement verdict = tellPatiently(client, endpoint, letter, pace);
+    const ReplyJudgement verdict = sendPatiently(client, endpoint, letter, pace);
     if (verdict.fate == Fate::later) {
       sent.trouble = verdict.words;
       break;
@@ -130,8 +130,8 @@ std::string textOf(const nlohmann::json& statement) {
   return statement.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
 }
 
-void queueTrial(const record::TrialWithSession& t, const Route& route, const TellFilter& filter,
-                Outbox& outbox, Queued& queued) {
+void queueTrial(const record::TrialWithSession& t, const Route& route,
+                const StatementFilter& filter, Outbox& outbox, Queued& queued) {
   if (t.session.simulated && !filter.simulated)
     ++queued.simulated;
   else if (training::isVoid(t.trial.outcome))
@@ -149,7 +149,7 @@ void queueTrial(const record::TrialWithSession& t, const Route& route, const Tel
 
 }  // namespace
 
-Queued queueTrials(record::RecordStore& store, const Route& route, const TellFilter& filter,
+Queued queueTrials(record::RecordStore& store, const Route& route, const StatementFilter& filter,
                    Outbox& outbox) {
   Queued queued;
   for (const record::Trainee& person : filter.who)
@@ -165,7 +165,7 @@ int takeBackDeleted(record::RecordStore& store, const Route& route, Outbox& outb
     return known != deleted.end() ? known->second
                                   : deleted.emplace(person, store.wasDeleted(person)).first->second;
   };
-  const std::vector<Letter> told = outbox.told(route);
+  const std::vector<Letter> told = outbox.sent(route);
   std::set<std::pair<std::string, std::int64_t>> void_now;
   if (!told.empty())
     for (const record::TrialWithSession& t : store.trials())
