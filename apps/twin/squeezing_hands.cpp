@@ -192,7 +192,7 @@ class SqueezingMind {
 
   double held_in() const { return std::min(object_.half, held_apart_); }
 
-  void answer(bool heavier) {
+  void say(bool heavier) {
     const bool second =
         heavier ? felt_[1].weight > felt_[0].weight : felt_[1].stiffness > felt_[0].stiffness;
     word_.kind = Hand::WordKind::grade;

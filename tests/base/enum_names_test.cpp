@@ -11,7 +11,9 @@ enum class Colour { red, green };
 
 const EnumNames<Colour> kColours{"red", "bright green"};
 
-JsonFile paint(const char* colour) { return JsonFile({{"colour", colour}}, "a paint"); }
+JsonFile paint(const char* colour) {
+  return {nlohmann::json::object({{"colour", colour}}), "a paint"};
+}
 
 std::string refusal(const char* colour) {
   try {

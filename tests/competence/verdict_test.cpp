@@ -36,7 +36,7 @@ Answers grades(const GlobalRating& rating, int grade) {
 
 std::optional<double> noFigures(const std::string&) { return std::nullopt; }
 
-const VerdictFacts kAssessed{true, "success"};
+const VerdictFacts kAssessed{true, training::Outcome::success};
 
 /// Every rater's item of the shipped list done.
 Answers ratersItemsDone(const Checklist& list) {
@@ -126,10 +126,14 @@ TEST(Verdict, NobodyPassesWithoutARaterOrInPractice) {
   EXPECT_EQ(alone.reasons[0], "Checklist: 15 of 23 items done; 8 need a rater; 98 % is asked for.");
   EXPECT_EQ(alone.reasons[1], "No global rating was given.");
   EXPECT_EQ(judgedWith(kAssessed, ratersItemsDone(list), {}).status, Status::not_certified);
-  EXPECT_EQ(judgedWith({false, "success"}, ratersItemsDone(list), grades(global, 5)).status,
-            Status::not_certified);
-  EXPECT_EQ(judgedWith({true, "void"}, ratersItemsDone(list), grades(global, 5)).status,
-            Status::not_certified);
+  EXPECT_EQ(
+      judgedWith({false, training::Outcome::success}, ratersItemsDone(list), grades(global, 5))
+          .status,
+      Status::not_certified);
+  EXPECT_EQ(
+      judgedWith({true, training::Outcome::voided}, ratersItemsDone(list), grades(global, 5))
+          .status,
+      Status::not_certified);
   Answers gap = grades(global, 5);
   gap.erase("feel");
   EXPECT_EQ(judgedWith(kAssessed, ratersItemsDone(list), gap).status, Status::not_certified);

@@ -37,7 +37,7 @@ inline SessionReport judgedReport() {
        14, 10, "deg", 1},
       {"left_vein", "Needle left the vein", "Blood had come for 0.6 s.", 24, 0.6, 1, "s", 2}};
   page.verdict =
-      competence::judge({true, "success"}, shippedChecklist(), madeUpFigure,
+      competence::judge({true, training::Outcome::success}, shippedChecklist(), madeUpFigure,
                         {{"sterile", competence::kDone}}, &shippedGlobal(), {{"plan", 3}}, 0.98);
   page.certification = competence::whatCannotBeCertified(1);
   page.beside = {"expert", "The dash-dotted line is an expert's.", page.samples};

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "apps/runtime/clock.h"
 #include "apps/runtime/device_adapters.h"
 #include "apps/runtime/haptic_activity.h"
 

@@ -1,5 +1,6 @@
 #include <gtest/gtest.h>
 
+#include "apps/runtime/clock.h"
 #include "apps/runtime/device_adapters.h"
 #include "apps/runtime/haptic_activity.h"
 #include "tests/support/allocation_count.h"

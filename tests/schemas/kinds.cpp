@@ -47,8 +47,7 @@ void readTwin(const station::Station& station) {
   twin::readCameraFaults(station.file);
   twin::readSensorFaults(station.file);
   if (station.sample) twin::trueSample(station, kSeed);
-  if (station.force_sensor &&
-      station.force_sensor->driver == station::ForceSensorSetup::Driver::bench)
+  if (station.force_sensor && station.force_sensor->driver == station::ForceSensorDriver::bench)
     twin::trueSensor(station, kSeed);
 }
 

@@ -16,7 +16,9 @@ TEST(Engine, NamesRoundTripAndTheOldNameIsRead) {
 }
 
 TEST(Engine, AWrongOneIsRefusedInWords) {
-  const auto task = [](const char* engine) { return JsonFile({{"engine", engine}}, "a task"); };
+  const auto task = [](const char* engine) {
+    return JsonFile(nlohmann::json::object({{"engine", engine}}), "a task");
+  };
   EXPECT_EQ(engineIn(task("surface")), Engine::search);
   EXPECT_NO_THROW(needEngine(task("search"), Engine::search));
   EXPECT_THROW(needEngine(task("search"), Engine::needle), UsageError);
