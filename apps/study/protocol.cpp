@@ -108,6 +108,11 @@ std::vector<std::string> textsIn(const JsonFile& file, const std::string& list) 
   return all;
 }
 
+/// A field's name, or the one that it had before 2026-12, where a file still has that.
+std::string known(const JsonFile& file, const char* name, const char* old_name) {
+  return file.has(old_name) ? old_name : name;
+}
+
 std::filesystem::path besides(const Protocol& protocol, const std::string& relative) {
   return (protocol.file.parent_path() / relative).lexically_normal();
 }
@@ -227,8 +232,8 @@ Protocol readProtocol(const std::filesystem::path& path) {
   needAllUsed(file, p);
   p.trial_seed = static_cast<std::uint64_t>(file.integer("trial_seed", 0, 1'000'000'000));
   readBlindness(file, &p);
-  p.bars_experts = file.flag("bars_experts", true);
-  p.excluded = textsIn(file, "barred");
+  p.excludes_experts = file.flag(known(file, "excludes_experts", "bars_experts"), true);
+  p.excluded = textsIn(file, known(file, "excluded", "barred"));
   return p;
 }
 

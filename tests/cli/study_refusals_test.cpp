@@ -31,9 +31,9 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
                 .exit_code,
             0);
   json text = protocolText();
-  text["barred"] = json::array({"T001"});
+  text["excluded"] = json::array({"T001"});
   here.file("protocol.json", text.dump());
-  refused("barred by the protocol");
+  refused("excluded by the protocol");
   // An expert whose trials made the task's optimal path.
   json path = json::parse(contentOf(kShipped + "/tasks/paracentesis_expert_path.json")),
        task = json::parse(contentOf(kShipped + "/tasks/paracentesis.json"));

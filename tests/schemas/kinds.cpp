@@ -297,7 +297,7 @@ std::vector<Kind> studyKinds() {
   return {
       {.name = "protocol",
        .samples = {{"protocols/search_study.json",
-                    {{"always", {{"guide", false}, {"mode", "real"}}}, {"barred", {"T001"}}}},
+                    {{"always", {{"guide", false}, {"mode", "real"}}}, {"excluded", {"T001"}}}},
                    {"protocols/paracentesis_pilot.json", json::object()}},
        .read = readWholeProtocol,
        // Conditions are asked for by name, none in vain; tasks and questionnaires must exist; a

@@ -32,9 +32,18 @@ TEST(Protocol, IsReadAsWritten) {
   EXPECT_FALSE(p.condition("B")->shows.force_feedback);
   EXPECT_FALSE(p.condition("B")->shows.navigation);  // always so
   EXPECT_TRUE(p.condition("plain")->shows.force_feedback);
-  EXPECT_TRUE(p.bars_experts);
+  EXPECT_TRUE(p.excludes_experts);
   EXPECT_FALSE(p.blind());
   EXPECT_THROW(p.block(4), Error);
+}
+
+TEST(Protocol, TheFormerNamesOfFieldsAreRead) {
+  json former = smallProtocol();
+  former["bars_experts"] = false;
+  former["barred"] = json::array({"T007"});
+  const Protocol p = readProtocol(written(former));
+  EXPECT_FALSE(p.excludes_experts);
+  EXPECT_EQ(p.excluded, std::vector<std::string>{"T007"});
 }
 
 TEST(Protocol, TheShippedOnesAreTheSources) {
@@ -144,7 +153,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"NoSession", [](json& p) { p.erase("sessions"); }, "\"sessions\" must be"},
         Damage{"BlindToWhom", [](json& p) { p["blind"] = json::array({"everybody"}); },
                "must be one of educator, trainee"},
-        Damage{"BarredOne", [](json& p) { p["barred"] = json::array({7}); },
+        Damage{"ExcludedOne", [](json& p) { p["excluded"] = json::array({7}); },
                "must be a list of texts"},
         Damage{"NoTask", [](json& p) { block(p, 1)["task"] = "none.json"; }, "cannot be read"}),
     [](const auto& p) { return std::string(p.param.name); });

@@ -212,7 +212,7 @@ std::vector<std::pair<std::string, std::string>> excludedFrom(const study::Proto
   std::vector<std::pair<std::string, std::string>> excluded;
   for (const std::string& trainee : protocol.excluded)
     excluded.emplace_back(trainee, "is excluded by the protocol");
-  if (!protocol.bars_experts) return excluded;
+  if (!protocol.excludes_experts) return excluded;
   for (const study::Session& session : protocol.sessions)
     for (const study::Block& block : session.blocks) addExpertsOf(block, &excluded);
   return excluded;
