@@ -130,10 +130,9 @@ TEST(Verdict, NobodyPassesWithoutARaterOrInPractice) {
       judgedWith({false, training::Outcome::success}, ratersItemsDone(list), grades(global, 5))
           .status,
       Status::not_certified);
-  EXPECT_EQ(
-      judgedWith({true, training::Outcome::voided}, ratersItemsDone(list), grades(global, 5))
-          .status,
-      Status::not_certified);
+  EXPECT_EQ(judgedWith({true, training::Outcome::voided}, ratersItemsDone(list), grades(global, 5))
+                .status,
+            Status::not_certified);
   Answers gap = grades(global, 5);
   gap.erase("feel");
   EXPECT_EQ(judgedWith(kAssessed, ratersItemsDone(list), gap).status, Status::not_certified);
