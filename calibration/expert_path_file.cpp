@@ -94,7 +94,7 @@ ExpertPath pathIn(const JsonFile& file) {
 ExpertPath readExpertPath(const std::filesystem::path& file) {
   const std::optional<std::string> text = readWhole(file);
   if (!text)
-    throw Error("the file cannot be opened", file.string(), "Check the path, or calibrate first");
+    throw Error("cannot be read", file.string(), "Check the path, or calibrate first");
   return parseExpertPath(*text, file.string());
 }
 

@@ -27,6 +27,8 @@ constexpr Named kFiles[] = {
 
 constexpr Named kVariables[] = {
     {"PALPA_ASSETS", "another folder with the program's data"},
+    {"PALPA_CACHE",
+     "a folder where patients that were built are kept, so that the next session starts sooner"},
     {"PALPA_RECORDS",
      "the records of trainees: a file, or postgresql://user@host/database (the password in "
      "~/.pgpass)"},

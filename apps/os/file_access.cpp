@@ -61,6 +61,14 @@ fs::path stateFolder(const fs::path& homeless) {
   return folderOf("XDG_STATE_HOME", ".local/state", homeless);
 }
 
+std::string programStamp() {
+  std::error_code none;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", none);
+  const auto written = std::filesystem::last_write_time(program, none).time_since_epoch();
+  return program.string() + ' ' + std::to_string(std::filesystem::file_size(program, none)) + ' ' +
+         std::to_string(written.count());
+}
+
 bool errorsGoToTerminal() { return ::isatty(STDERR_FILENO) != 0; }
 
 }  // namespace palpa::os

@@ -42,6 +42,9 @@ std::filesystem::path dataFolder(const std::filesystem::path& homeless);
 /// For what a program remembers between its runs: $XDG_STATE_HOME, else ~/.local/state.
 std::filesystem::path stateFolder(const std::filesystem::path& homeless);
 
+/// Tells builds of a program apart: where the running one lies, its size, when it was last written.
+std::string programStamp();
+
 /// Standard error is a terminal: a line may renew itself there.
 bool errorsGoToTerminal();
 

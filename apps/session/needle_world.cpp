@@ -10,10 +10,10 @@
 #include "anatomy/base/random.h"
 #include "anatomy/import/decimate.h"
 #include "anatomy/import/mesh_file.h"
-#include "anatomy/parametric/parametric_patient.h"
 #include "anatomy/parametric/phantoms.h"
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/patient/patient_file.h"
+#include "apps/session/kept_patient.h"
 #include "apps/session/output_folder.h"
 #include "apps/station/assets.h"
 
@@ -51,7 +51,7 @@ anatomy::Patient makePatient(const SessionOptions& options, const task_needle::T
       anatomy::readPopulation(station::assetFile("patients/reference.json").string()), options.side,
       options.patient_seed);
   parameters.extent = anatomy::Extent::bust;  // as the phantom that lies behind the board
-  return anatomy::buildPatient(parameters);
+  return keptPatient(parameters);
 }
 
 task_needle::TaskSettings makeTask(const SessionOptions& options) {

@@ -86,8 +86,8 @@ TEST_F(ExpertPathFile, ItsTextGivesTheSamePath) {
   EXPECT_EQ(same.line_to_L, file.line_to_L);
   EXPECT_EQ(same.direction_acceptable, file.direction_acceptable);
   EXPECT_EQ(same.experts, file.experts);
-  for (const auto& [wrong, where] : {std::pair{"{}", "the record, field \"format\": "},
-                                     {"{", "the record: this is not a JSON file"}})
+  for (const auto& [wrong, where] : {std::pair{"{}", "the record: field \"format\" is missing"},
+                                     {"{", "the record: is not valid JSON"}})
     try {
       parseExpertPath(wrong, "the record");
       ADD_FAILURE() << wrong;

@@ -52,7 +52,8 @@ TEST_F(DamagedSession, NamesTheFileAndThePart) {
   EXPECT_EQ(complaint().rfind(partNamed("task: "), 0), 0u) << complaint();
   info = whole;
   info.expert_path_json = "{}";
-  EXPECT_EQ(complaint().rfind(partNamed("optimal path, field \"format\": "), 0), 0u) << complaint();
+  EXPECT_EQ(complaint().rfind(partNamed("optimal path: field \"format\" is missing"), 0), 0u)
+      << complaint();
 }
 
 TEST_F(DamagedSession, NeedsNoPlaceForTemporaryFiles) {
