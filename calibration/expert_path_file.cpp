@@ -93,8 +93,7 @@ ExpertPath pathIn(const JsonFile& file) {
 
 ExpertPath readExpertPath(const std::filesystem::path& file) {
   const std::optional<std::string> text = readWhole(file);
-  if (!text)
-    throw Error("cannot be read", file.string(), "Check the path, or calibrate first");
+  if (!text) throw Error("cannot be read", file.string(), "Check the path, or calibrate first");
   return parseExpertPath(*text, file.string());
 }
 
