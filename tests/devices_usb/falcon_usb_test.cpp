@@ -116,34 +116,36 @@ TEST_F(FalconOnUsb, TwoAtOnceAreTwo) {
   test::FalconTwin other_twin{test::someImage()};
   test::EmulatedUsb other_usb(other_twin, 2);
   test::FalconRig other(std::make_unique<PatientUsb>(), other_twin, test::someImage());
+  // Whichever device it gets, it is closed before that is taken away.
+  const std::unique_ptr<test::FalconRig> one = std::move(rig);
   twin.startFirmware();
   other_twin.startFirmware();
   for (int i = 0;
-       i < 200 && (rig->state() != FalconState::ready || other.state() != FalconState::ready);
+       i < 200 && (one->state() != FalconState::ready || other.state() != FalconState::ready);
        ++i) {
-    rig->step();
+    one->step();
     other.step();
   }
-  ASSERT_EQ(rig->state(), FalconState::ready);
+  ASSERT_EQ(one->state(), FalconState::ready);
   ASSERT_EQ(other.state(), FalconState::ready);
   // Whichever driver has got which device: grips apart, forces against each other, nothing mixed
   // up.
   const bool crossed = other_usb.claims == 1 && usb->claims == 1 && [&] {
     other.holdGripAt(kFalconCentre + Vec3(0.02, 0, 0));
-    rig->holdGripAt(kFalconCentre - Vec3(0.02, 0, 0));
-    rig->step();
-    return unpack(rig->driver.read(rig->now_ns).p_DE).x() > 0;
+    one->holdGripAt(kFalconCentre - Vec3(0.02, 0, 0));
+    one->step();
+    return unpack(one->driver.read(one->now_ns).p_DE).x() > 0;
   }();
-  rig->f_D = {2, 0, 0};
+  one->f_D = {2, 0, 0};
   other.f_D = {-2, 0, 0};
   for (int i = 0; i < 50; ++i) {
-    rig->step();
+    one->step();
     other.step();
   }
   test::FalconTwin& of_rig = crossed ? other_twin : twin;
   test::FalconTwin& of_other = crossed ? twin : other_twin;
   const double side = crossed ? -1 : 1;
-  EXPECT_NEAR(unpack(rig->driver.read(rig->now_ns).p_DE).x(), -0.02 * side, 1e-4);
+  EXPECT_NEAR(unpack(one->driver.read(one->now_ns).p_DE).x(), -0.02 * side, 1e-4);
   EXPECT_NEAR(unpack(other.driver.read(other.now_ns).p_DE).x(), 0.02 * side, 1e-4);
   ASSERT_TRUE(of_rig.commands.back().pushes());
   ASSERT_TRUE(of_other.commands.back().pushes());
