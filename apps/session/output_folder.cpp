@@ -1,5 +1,7 @@
 #include "apps/session/output_folder.h"
 
+#include "apps/runtime/clock.h"
+
 #include <fstream>
 
 #include "anatomy/base/error.h"
