@@ -50,7 +50,7 @@ std::string deviationWords(const DirectionError& d) {
 
 Penalty direction(const TrialReview& r, const calibration::ExpertPath& path,
                   const ScoringRules& rules) {
-  const double weight = rules.weights.phase_2(r.values.phase_2);
+  const double weight = rules.weights.phase2Weight(r.values.phase_2);
   Penalty p{"PHASE_2", "Direction of the needle", "", r.values.phase_2,
             weight,    weight * r.values.phase_2, {}};
   const bool within = r.values.phase_2 < 1000;

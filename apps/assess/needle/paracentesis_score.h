@@ -23,7 +23,7 @@ struct ScoreWeights {
          phase_2_high = 0.4;  ///< below 1000, below 2000, from 2000
   double econ_mean = 2, econ_var = 20, time = 0.01;
 
-  double phase_2(double value) const {
+  double phase2Weight(double value) const {
     return value < 1000 ? phase_2_low : value < 2000 ? phase_2_middle : phase_2_high;
   }
 };

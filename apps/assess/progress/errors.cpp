@@ -113,7 +113,7 @@ std::vector<Cost> costsLately(const Series& series, const assess::ScoreWeights& 
     const assess::ParacentesisValues v = valuesOf(trial);
     const double points[] = {
         w.lung * v.col_lung,       w.rib * v.col_rib,       w.artery * v.col_art,
-        w.vein * v.col_vein,       w.phase_1 * v.phase_1,   w.phase_2(v.phase_2) * v.phase_2,
+        w.vein * v.col_vein,       w.phase_1 * v.phase_1,   w.phase2Weight(v.phase_2) * v.phase_2,
         w.econ_mean * v.econ_mean, w.econ_var * v.econ_var, w.time * v.time_ms};
     for (std::size_t c = 0; c < costs.size(); ++c)
       costs[c].points += points[c] / static_cast<double>(n);
