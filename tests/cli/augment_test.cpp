@@ -13,11 +13,11 @@ namespace {
 
 Row only(const std::vector<std::string>& arguments, const Folder& here, const std::string& out) {
   std::vector<std::string> all = arguments;
-  for (const char* word :
-       {"--fast", "--no-views", "--quiet", "--operator", "expert", "--seed", "3", "--out"})
+  for (const std::string& word :
+       {std::string("--operator"), std::string("expert"), std::string("--seed"), std::string("3"),
+        std::string("--out"), out})
     all.push_back(word);
-  all.push_back(out);
-  const Outcome outcome = palpa(all, here.path());
+  const Outcome outcome = palpa(quickly(all), here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::vector<Row> rows =
       outcome.exit_code == 0 ? rowsOf(contentOf(here / (out + "/trials.csv"))) : std::vector<Row>{};
@@ -46,13 +46,22 @@ std::string withoutParts(const std::string& name, const Folder& here) {
   return here.file(name, task.dump());
 }
 
+/// The needle as a task file among others, a palpation as its own command.
+std::vector<std::string> ofTask(const std::string& file) {
+  if (!says(file, "paracentesis")) return {"palpation", "--task", file};
+  return {"train", "--task", file, "--station", quickStation("virtual_bench.json")};
+}
+
+std::string shipped(const std::string& task) {
+  return std::string(PALPA_SOURCE_DIR) + "/assets/tasks/" + task;
+}
+
 /// Off, the parts are told and nothing is added: all else is as in a task that has none, to the
 /// last digit.
-void offIsAsIfTheyWereNot(const std::string& command, const std::string& task) {
+void offIsAsIfTheyWereNot(const std::string& task) {
   const Folder here;
-  const Row off = only({command, "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/" + task},
-                       here, "off");
-  const Row bare = only({command, "--task", withoutParts(task, here)}, here, "bare");
+  const Row off = only(ofTask(shipped(task)), here, "off"),
+            bare = only(ofTask(withoutParts(task, here)), here, "bare");
   EXPECT_EQ(off.at("AUGMENTED"), "0");
   EXPECT_EQ(added(off), 0);
   EXPECT_FALSE(bare.empty());
@@ -60,11 +69,10 @@ void offIsAsIfTheyWereNot(const std::string& command, const std::string& task) {
   EXPECT_GT(off.size(), bare.size());
 }
 
-void onIsFeltAndRepeats(const std::string& command, const std::string& task) {
-  const Folder here;
-  const Row on = only({command, "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/" + task,
-                       "--augment", "on"},
-                      here, "on");
+void onIsFeltAndRepeats(const std::string& task, const Folder& here) {
+  std::vector<std::string> arguments = ofTask(shipped(task));
+  arguments.insert(arguments.end(), {"--augment", "on"});
+  const Row on = only(arguments, here, "on");
   EXPECT_EQ(on.at("AUGMENTED"), "1");
   EXPECT_GT(added(on), 0.05);
   EXPECT_TRUE(
@@ -74,16 +82,16 @@ void onIsFeltAndRepeats(const std::string& command, const std::string& task) {
   EXPECT_TRUE(says(replay.out, "The replay equals the record")) << replay.out;
 }
 
-TEST(Augment, OffTheNeedleFeelsAsEver) { offIsAsIfTheyWereNot("train", "paracentesis.json"); }
-TEST(Augment, OnTheNeedleFeelsMore) { onIsFeltAndRepeats("train", "paracentesis.json"); }
-TEST(Augment, OffAPalpationFeelsAsEver) {
-  offIsAsIfTheyWereNot("palpation", "palpation_prostate.json");
-}
-TEST(Augment, OnAPalpationFeelsMore) { onIsFeltAndRepeats("palpation", "palpation_prostate.json"); }
-
-TEST(Augment, OneTrialWithCuesCountsForNoStandard) {
+TEST(Augment, OffTheNeedleFeelsAsEver) { offIsAsIfTheyWereNot("paracentesis.json"); }
+TEST(Augment, OnTheNeedleFeelsMore) {
   const Folder here;
-  only({"palpation", "--preset", "prostate", "--augment", "on"}, here, "on");
+  onIsFeltAndRepeats("paracentesis.json", here);
+}
+TEST(Augment, OffAPalpationFeelsAsEver) { offIsAsIfTheyWereNot("palpation_prostate.json"); }
+
+TEST(Augment, OnAPalpationFeelsMoreAndCountsForNoStandard) {
+  const Folder here;
+  onIsFeltAndRepeats("palpation_prostate.json", here);
   EXPECT_TRUE(says(contentOf(here / "on/report.html"), "Not counted"))
       << "with cues more is felt than the tissue's own";
 }

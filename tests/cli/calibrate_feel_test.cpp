@@ -55,10 +55,8 @@ TEST(CalibrateFeel, SessionsGoByTheStationsOwnSample) {
   ASSERT_FALSE(
       found("friction", {"--seed", "2", "--station", "material/station.json"}, here).is_null());
   const auto report = [&here](const std::string& out, std::vector<std::string> more) {
-    std::vector<std::string> arguments{"squeeze",    "--operator", "expert", "--fast",
-                                       "--no-views", "--quiet",    "--out",  out};
-    arguments.insert(arguments.end(), more.begin(), more.end());
-    const Outcome outcome = palpa(arguments, here.path());
+    more.insert(more.begin(), {"squeeze", "--operator", "expert", "--out", out});
+    const Outcome outcome = palpa(quickly(more), here.path());
     EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
     return contentOf(here / (out + "/report.html"));
   };

@@ -14,10 +14,9 @@ using nlohmann::json;
 
 TEST(CalibrateSubtasks, FromARecordedSearch) {
   const Folder here;
-  const Outcome search =
-      palpa({"search", "--operator", "expert", "--mode", "real", "--trials", "3", "--seed", "70001",
-             "--fast", "--no-views", "--quiet", "--out", "search"},
-            here.path());
+  const Outcome search = palpa(quickly({"search", "--operator", "expert", "--mode", "real",
+                                        "--trials", "3", "--seed", "70001", "--out", "search"}),
+                               here.path());
   ASSERT_EQ(search.exit_code, 0) << search.err;
   const auto proposed = [&](const std::string& out) {
     return palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "4", "--seed", "3",
@@ -49,11 +48,11 @@ TEST(CalibrateSubtasks, ATaskMayAskForWhatWasLearned) {
   const Folder here;
   const auto search = [&](const std::string& trials, const std::string& out,
                           const std::string& task) {
-    std::vector<std::string> arguments{"search",     "--operator", "expert", "--mode", "real",
-                                       "--trials",   trials,       "--seed", "70001",  "--fast",
-                                       "--no-views", "--quiet",    "--out",  out};
+    std::vector<std::string> arguments{"search", "--operator", "expert", "--mode",
+                                       "real",   "--trials",   trials,   "--seed",
+                                       "70001",  "--out",      out};
     if (!task.empty()) arguments.insert(arguments.end(), {"--task", task});
-    return palpa(arguments, here.path());
+    return palpa(quickly(arguments), here.path());
   };
   ASSERT_EQ(search("3", "search", "").exit_code, 0);
   ASSERT_EQ(palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "2", "--seed", "3",
@@ -95,14 +94,14 @@ TEST(CalibrateSubtasks, RefusesWhatHasNoPartsOrTooFewTrials) {
   here.file("text.palpa", "a text that is long enough to be looked at");
   refused({"text.palpa"}, "text.palpa: is no session file");
   refused({"none.palpa"}, "none.palpa: no such file");
-  ASSERT_EQ(palpa({"search", "--operator", "expert", "--mode", "real", "--trials", "1", "--seed",
-                   "70001", "--fast", "--no-views", "--quiet", "--out", "one"},
+  ASSERT_EQ(palpa(quickly({"search", "--operator", "expert", "--mode", "real", "--trials", "1",
+                           "--seed", "70001", "--out", "one"}),
                   here.path())
                 .exit_code,
             0);
   refused({"one/session.palpa"}, "1 trial is too few");
-  ASSERT_EQ(palpa({"squeeze", "--operator", "expert", "--trials", "1", "--seed", "70001", "--fast",
-                   "--no-views", "--quiet", "--out", "squeeze"},
+  ASSERT_EQ(palpa(quickly({"squeeze", "--operator", "expert", "--trials", "1", "--seed", "70001",
+                           "--out", "squeeze"}),
                   here.path())
                 .exit_code,
             0);

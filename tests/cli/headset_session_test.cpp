@@ -14,8 +14,11 @@ namespace palpa::cli_test {
 namespace {
 
 std::vector<std::string> onHeadset(std::vector<std::string> more) {
-  std::vector<std::string> all{"paracentesis", "--display", "openxr", "--quiet",
-                               "--seed",       "3",         "--out",  "A"};
+  std::vector<std::string> all{"paracentesis", "--display",
+                               "openxr",       "--quiet",
+                               "--station",    quickStation("virtual_bench.json"),
+                               "--seed",       kShortTrial,
+                               "--out",        "A"};
   all.insert(all.end(), more.begin(), more.end());
   return all;
 }

@@ -1,7 +1,6 @@
 #include <gtest/gtest.h>
 #include <poll.h>
 
-#include <fstream>
 #include <functional>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -102,8 +101,8 @@ TEST(Igtl, WhatIsToldIsWhatIsRecordedAndListeningChangesNothing) {
     const auto client = connectWhenThere(port);
     while (auto got = client ? client->next(5000) : std::nullopt) heard.push_back(std::move(*got));
   });
-  const Outcome told =
-      palpa(session({"--seed", "1", "--out", "A", "--igtl", std::to_string(port)}), here.path());
+  const Outcome told = palpa(
+      session({"--seed", kShortTrial, "--out", "A", "--igtl", std::to_string(port)}), here.path());
   slicer.join();
   ASSERT_EQ(told.exit_code, 0) << told.err;
   const WrittenDown recorded(here / "A/session.palpa");
@@ -112,7 +111,7 @@ TEST(Igtl, WhatIsToldIsWhatIsRecordedAndListeningChangesNothing) {
   EXPECT_EQ(eventOf(*igt_test::lastOf(heard, "PalpaEvent")).at("kind"), "trial_end")
       << "what is recorded last is told as well";
   EXPECT_TRUE(says(contentOf(here / "A/report.html"), "Listeners by OpenIGTLink"));
-  const Outcome alone = palpa(session({"--seed", "1", "--out", "B"}), here.path());
+  const Outcome alone = palpa(session({"--seed", kShortTrial, "--out", "B"}), here.path());
   ASSERT_EQ(alone.exit_code, 0) << alone.err;
   EXPECT_EQ(contentOf(here / "A/trials.csv"), contentOf(here / "B/trials.csv"));
 }
@@ -139,8 +138,7 @@ TEST(Igtl, WrongPortsAndAddressesAreToldInOneLine) {
 }
 
 std::string stationWithTracker(int port, const std::string& transform = "ReferenceToCamera") {
-  std::ifstream shipped(std::string(PALPA_SOURCE_DIR) + "/assets/stations/virtual_bench.json");
-  nlohmann::json station = nlohmann::json::parse(shipped);
+  nlohmann::json station = nlohmann::json::parse(contentOf(quickStation("virtual_bench.json")));
   const nlohmann::json nowhere{{"position_mm", {0, 0, 0}}, {"rotation_vector_deg", {0, 0, 0}}};
   station["tracker"] = {{"driver", "plus"},
                         {"host", "127.0.0.1"},

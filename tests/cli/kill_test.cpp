@@ -50,7 +50,7 @@ bool same(const FlightRecord& a, const FlightRecord& b) {
          a.depth == b.depth && a.tissue == b.tissue && a.safety == b.safety;
 }
 
-std::vector<std::string> arguments() { return session({"--seed", "1", "--out", "A"}); }
+std::vector<std::string> arguments() { return session({"--seed", kShortTrial, "--out", "A"}); }
 
 void isPrefix(const std::vector<FlightRecord>& left, const std::vector<FlightRecord>& whole) {
   ASSERT_LE(left.size(), whole.size());

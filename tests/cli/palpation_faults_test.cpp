@@ -10,7 +10,7 @@ namespace palpa::cli_test {
 namespace {
 
 nlohmann::json palpationStation() {
-  return nlohmann::json::parse(contentOf(PALPA_SOURCE_DIR "/assets/stations/palpation_bench.json"));
+  return nlohmann::json::parse(contentOf(quickStation("palpation_bench.json")));
 }
 
 struct SensorFailure {
@@ -30,10 +30,10 @@ TEST_P(PalpationFault, IsNamedAndTakesTheForceAway) {
   fault["from_s"] = 6;
   fault["to_s"] = GetParam().ends ? 1000 : 8;
   station["twin"]["sensor_faults"] = {fault};
-  const Outcome outcome = palpa({"palpation", "--fast", "--no-views", "--quiet", "--operator",
-                                 "expert", "--preset", "prostate", "--seed", "3", "--station",
-                                 here.file("faulty.json", station.dump()), "--out", "A"},
-                                here.path());
+  const Outcome outcome =
+      palpa(quickly({"palpation", "--operator", "expert", "--preset", "prostate", "--seed", "3",
+                     "--station", here.file("faulty.json", station.dump()), "--out", "A"}),
+            here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const record::SessionReader reader(here / "A/session.palpa");
   std::int64_t off_ns = -1, back_ns = -1;

@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <nlohmann/json.hpp>
 #include <stdexcept>
 
 namespace palpa::cli_test {
@@ -141,11 +142,34 @@ std::string contentOf(const fs::path& file) {
   return {std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>()};
 }
 
-std::vector<std::string> session(std::vector<std::string> more) {
-  std::vector<std::string> all{"paracentesis", "--operator", "expert",
-                               "--fast",       "--no-views", "--quiet"};
-  for (std::string& argument : more) all.push_back(std::move(argument));
-  return all;
+std::string quickStation(const std::string& shipped) {
+  static const Folder here;
+  if (!fs::exists(here / shipped)) {
+    nlohmann::json station =
+        nlohmann::json::parse(contentOf(fs::path(PALPA_SOURCE_DIR) / "assets/stations" / shipped));
+    station["camera"]["rate_Hz"] = 2;
+    here.file(shipped, station.dump());
+  }
+  return (here / shipped).string();
+}
+
+std::vector<std::string> quickly(std::vector<std::string> words) {
+  const std::string command = words.front();
+  std::vector<std::string> more{"--fast", "--no-views", "--quiet"};
+  if (command != "train" && std::find(words.begin(), words.end(), "--station") == words.end()) {
+    const std::string station = command == "paracentesis" ? "virtual_bench.json"
+                                : command == "search"     ? "search_bench.json"
+                                                          : "palpation_bench.json";
+    more.insert(more.end(), {"--station", quickStation(station)});
+  }
+  words.insert(words.begin() + 1, more.begin(), more.end());
+  return words;
+}
+
+std::vector<std::string> session(const std::vector<std::string>& more) {
+  std::vector<std::string> all{"paracentesis", "--operator", "expert"};
+  all.insert(all.end(), more.begin(), more.end());
+  return quickly(all);
 }
 
 }  // namespace palpa::cli_test

@@ -60,7 +60,20 @@ inline bool says(const std::string& text, const std::string& words) {
 
 std::string contentOf(const std::filesystem::path& file);
 
-/// The arguments of a quick session: virtual time, no views, no progress.
-std::vector<std::string> session(std::vector<std::string> more);
+/// A trial's seed with which the simulated expert is done soon, in 14 s of session time; so he is
+/// with the one before.
+inline constexpr const char* kShortTrial = "14";
+
+/// The file of a shipped station ("virtual_bench.json") whose camera takes two pictures a second:
+/// to draw and to read them is most of a session's computing, and changes no score.
+std::string quickStation(const std::string& shipped);
+
+/// The arguments of a quick session of `words`, a command and its options: virtual time, no views,
+/// no progress, and few pictures, where they name no station. (`train` may be of any task, and is
+/// given none.)
+std::vector<std::string> quickly(std::vector<std::string> words);
+
+/// The same of a simulated expert with a needle.
+std::vector<std::string> session(const std::vector<std::string>& more);
 
 }  // namespace palpa::cli_test

@@ -27,9 +27,8 @@ std::string filledIn(const Folder& here, const std::string& item, const std::str
 TEST(Rate, FromTheFormToTheVerdict) {
   const Folder here;
   ASSERT_EQ(inHere({"records", "trainee", "add", "--id", "T001"}, here).exit_code, 0);
-  const Outcome run = palpa({"paracentesis", "--assess", "--operator", "expert", "--fast",
-                             "--no-views", "--seed", "801", "--trainee", "T001", "--out", "A"},
-                            here.path());
+  const Outcome run =
+      palpa(session({"--assess", "--seed", "801", "--trainee", "T001", "--out", "A"}), here.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(says(run.out, "Assessment: every aid is off")) << run.out;
   EXPECT_TRUE(says(contentOf(here / "A/report.html"), "Not certified (simulated)"));
@@ -93,7 +92,7 @@ TEST(Rate, MistakesAreSaid) {
            "--records", "r.sqlite"},
           "bad.csv, line 2: names \"steril\"");
   refused({"rate", "form", "--checklist", "bad.json", "--records", "r.sqlite"},
-          "bad.json, version: must be a number");
+          "bad.json: field \"version\" is missing");
   here.file("filled.csv", "item,value\nsterile,done\n");
   refused({"rate", "form", "--out", "filled.html", "--records", "r.sqlite"}, "may hold answers");
   refused({"rate", "form", "--out", "filled.csv", "--records", "r.sqlite"}, "must end with .html");

@@ -174,8 +174,8 @@ TEST_F(RecordsKept, ALearningRecordStoreIsTold) {
 
 /// The task that computes fastest.
 std::vector<std::string> quick(std::vector<std::string> more) {
-  more.insert(more.begin(), {"squeeze", "--operator", "expert", "--fast", "--no-views", "--quiet"});
-  return more;
+  more.insert(more.begin(), {"squeeze", "--operator", "expert"});
+  return quickly(more);
 }
 
 class SessionIntoRecords : public testing::Test {
@@ -209,11 +209,11 @@ TEST_F(SessionIntoRecords, OfEveryTask) {
   tasks.resize(test::counted(2u, 3u));
   std::size_t sessions = 0;
   for (std::vector<std::string> words : tasks) {
-    for (const char* word : {"--operator", "expert", "--fast", "--no-views", "--quiet", "--trainee",
-                             "T007", "--records", "records.sqlite", "--out", "A"})
+    for (const char* word : {"--operator", "expert", "--seed", kShortTrial, "--trainee", "T007",
+                             "--records", "records.sqlite", "--out", "A"})
       words.emplace_back(word);
     words.back() += words.front();
-    const Outcome done = palpa(words, here_.path());
+    const Outcome done = palpa(quickly(words), here_.path());
     EXPECT_EQ(done.exit_code, 0) << done.err;
     EXPECT_EQ(record::RecordStore(file()).sessions("T007").size(), ++sessions)
         << words.front() << done.err;

@@ -23,8 +23,8 @@ TEST(Records, ASessionComesInOnceWithEveryFigure) {
       {"trainee", "add", "--id", "T007", "--group", "novice", "--experience", "3rd year"}, here);
   EXPECT_EQ(added.exit_code, 0) << added.err;
   EXPECT_TRUE(says(added.out, "Consent to keeping training records is not noted")) << added.out;
-  ASSERT_EQ(palpa({"paracentesis", "--operator", "novice", "--fast", "--no-views", "--quiet",
-                   "--trials", "2", "--seed", "5", "--trainee", "T007", "--out", "A"},
+  ASSERT_EQ(palpa(quickly({"paracentesis", "--operator", "expert", "--trials", "2", "--seed", "13",
+                           "--trainee", "T007", "--out", "A"}),
                   here.path())
                 .exit_code,
             0);
@@ -58,7 +58,9 @@ TEST(Records, APersonIsDeletedWithTheEvidence) {
       records({"trainee", "add", "--id", "T007", "--consent", "--keep-until", "2030-01-01"}, here)
           .exit_code,
       0);
-  ASSERT_EQ(palpa(session({"--trainee", "T007", "--out", "A"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa(session({"--seed", kShortTrial, "--trainee", "T007", "--out", "A"}), here.path())
+                .exit_code,
+            0);
   ASSERT_EQ(records({"add", "A"}, here).exit_code, 0);
   EXPECT_TRUE(says(records({"trainee", "list"}, here).out, "1 session"));
   const Outcome asked = records({"delete", "--id", "T007"}, here);
@@ -75,7 +77,9 @@ TEST(Records, APersonIsDeletedWithTheEvidence) {
 TEST(Records, WhatCannotBeSentNowIsSentLater) {
   const Folder here;
   ::setenv("XDG_STATE_HOME", here.path().c_str(), 1);
-  ASSERT_EQ(palpa(session({"--trainee", "T007", "--out", "A"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa(session({"--seed", kShortTrial, "--trainee", "T007", "--out", "A"}), here.path())
+                .exit_code,
+            0);
   // A server that is not there: noted. Then the note is pointed at a file, as if the server were
   // back under that address.
   const Outcome away = palpa(
@@ -99,8 +103,12 @@ TEST(Records, WhatCannotBeSentNowIsSentLater) {
 TEST(Records, AnotherSessionsEvidenceIsNotDeleted) {
   const Folder here;
   ASSERT_EQ(records({"trainee", "add", "--id", "T007"}, here).exit_code, 0);
-  ASSERT_EQ(palpa(session({"--trainee", "T007", "--out", "A"}), here.path()).exit_code, 0);
-  ASSERT_EQ(palpa(session({"--trainee", "T008", "--out", "B"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa(session({"--seed", kShortTrial, "--trainee", "T007", "--out", "A"}), here.path())
+                .exit_code,
+            0);
+  ASSERT_EQ(palpa(session({"--seed", kShortTrial, "--trainee", "T008", "--out", "B"}), here.path())
+                .exit_code,
+            0);
   ASSERT_EQ(records({"add", "A"}, here).exit_code, 0);
   std::filesystem::rename(here / "A/session.palpa", here / "moved.palpa");
   std::filesystem::rename(here / "B/session.palpa", here / "A/session.palpa");

@@ -11,7 +11,7 @@ namespace {
 
 const Folder& recordedNeedle() {
   static const Folder here;
-  static const Outcome outcome = palpa(session({"--seed", "1", "--out", "A"}), here.path());
+  static const Outcome outcome = palpa(session({"--seed", kShortTrial, "--out", "A"}), here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   return here;
 }
@@ -73,9 +73,9 @@ TEST(ReplayView, EveryTaskIsSeenAgain) {
         {"squeeze"}}) {
     const Folder here;
     std::vector<std::string> arguments = task;
-    arguments.insert(arguments.end(), {"--operator", "expert", "--seed", "3", "--trials", "1",
-                                       "--fast", "--no-views", "--quiet", "--out", "A"});
-    ASSERT_EQ(palpa(arguments, here.path()).exit_code, 0) << task[0];
+    arguments.insert(arguments.end(),
+                     {"--operator", "expert", "--seed", "3", "--trials", "1", "--out", "A"});
+    ASSERT_EQ(palpa(quickly(arguments), here.path()).exit_code, 0) << task[0];
     const Outcome outcome = palpa({"replay", "A/session.palpa", "--video", "a.avi", "--from", "2",
                                    "--to", "6", "--speed", "4", "--size", "320x240"},
                                   here.path());

@@ -14,9 +14,8 @@ namespace palpa::cli_test {
 namespace {
 
 std::vector<std::string> search(std::vector<std::string> more) {
-  std::vector<std::string> all{"search", "--fast", "--no-views", "--quiet"};
-  all.insert(all.end(), more.begin(), more.end());
-  return all;
+  more.insert(more.begin(), "search");
+  return quickly(more);
 }
 
 std::vector<Row> episodes(const std::vector<std::string>& more, const Folder& here) {
@@ -58,7 +57,7 @@ double foundShare(const std::vector<Row>& rows, const std::string& mode) {
 /// 20001 to 60099 served to choose them, 910001 to 910100 to find an error).
 TEST(Search, ADegradedFloorLosesTheTargetAndCuesGiveItBack) {
   const Folder here;
-  const int trials = test::counted(5, 100);
+  const int trials = test::counted(4, 100);
   const std::vector<Row> rows =
       episodes({"--operator", "expert", "--mode", "all", "--seed", "920001", "--trials",
                 std::to_string(trials), "--out", "A"},
@@ -159,8 +158,8 @@ TEST(Search, ATaskFileIsEnough) {
   ASSERT_EQ(
       palpa(search({"--operator", "novice", "--seed", "5", "--out", "A"}), here.path()).exit_code,
       0);
-  ASSERT_EQ(palpa({"train", "--task", task, "--fast", "--no-views", "--quiet", "--operator",
-                   "novice", "--seed", "5", "--out", "B"},
+  ASSERT_EQ(palpa(quickly({"train", "--task", task, "--operator", "novice", "--seed", "5",
+                           "--station", quickStation("search_bench.json"), "--out", "B"}),
                   here.path())
                 .exit_code,
             0);

@@ -24,29 +24,12 @@ struct Recorded {
 };
 
 Recorded& first() {
-  static Recorded recorded({"--seed", "1", "--trainee", "T042"});
+  static Recorded recorded({"--seed", kShortTrial, "--trainee", "T042"});
   return recorded;
 }
 
-TEST(Session, LeavesItsFilesAndSaysSo) {
-  const Recorded& s = first();
-  ASSERT_EQ(s.outcome.exit_code, 0) << s.outcome.err;
-  EXPECT_EQ(s.outcome.err, "") << "--quiet";
-  EXPECT_EQ(s.here.files(),
-            (std::vector<std::string>{"A/report.html", "A/session.palpa", "A/trials.csv"}))
-      << "no partial and no temporary file";
-  for (const char* file : {"report.html", "trials.csv", "session.palpa"})
-    EXPECT_NE(s.outcome.out.find(file), std::string::npos) << file;
-}
-
-TEST(Session, SkinThatIsShownToGiveWayChangesNoScore) {
-  const Recorded shown({"--seed", "1", "--trainee", "T042", "--skin-deflection", "on"});
-  ASSERT_EQ(shown.outcome.exit_code, 0) << shown.outcome.err;
-  EXPECT_EQ(shown.csv(), first().csv());
-}
-
-TEST(Session, TableHasARowATrialAndCallsItSimulated) {
-  const std::vector<Row> rows = rowsOf(first().csv());
+void expectTable(const std::string& csv) {
+  const std::vector<Row> rows = rowsOf(csv);
   ASSERT_EQ(rows.size(), 1u);
   EXPECT_EQ(rows[0].at("SIMULATED"), "1");
   EXPECT_EQ(rows[0].at("TRIAL"), "1");
@@ -57,17 +40,38 @@ TEST(Session, TableHasARowATrialAndCallsItSimulated) {
     EXPECT_TRUE(rows[0].count(column)) << column;
 }
 
-TEST(Session, ReportSaysSimulatedAndNeedsNoNetwork) {
-  const std::string page = first().report();
-  EXPECT_TRUE(page.find("simulated") != std::string::npos ||
-              page.find("SIMULATED") != std::string::npos);
+void expectPage(const std::string& page) {
+  EXPECT_TRUE(says(page, "simulated") || says(page, "SIMULATED"));
   for (const char* outside : {"src=\"http", "href=\"http", "@import", "url(http"})
-    EXPECT_EQ(page.find(outside), std::string::npos) << outside;
-  EXPECT_NE(page.find("</html>"), std::string::npos);
+    EXPECT_FALSE(says(page, outside)) << outside << ": no network is needed";
+  EXPECT_TRUE(says(page, "</html>"));
+}
+
+/// Shipped station and patient, every option as it is by itself.
+TEST(Session, LeavesItsFilesWhichCallItSimulatedAndSaysSo) {
+  const Folder here;
+  const Outcome outcome = palpa(
+      {"paracentesis", "--operator", "expert", "--fast", "--no-views", "--quiet", "--out", "A"},
+      here.path());
+  ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
+  EXPECT_EQ(outcome.err, "") << "--quiet";
+  EXPECT_EQ(here.files(),
+            (std::vector<std::string>{"A/report.html", "A/session.palpa", "A/trials.csv"}))
+      << "no partial and no temporary file";
+  for (const char* file : {"report.html", "trials.csv", "session.palpa"})
+    EXPECT_TRUE(says(outcome.out, file)) << file;
+  expectTable(contentOf(here / "A/trials.csv"));
+  expectPage(contentOf(here / "A/report.html"));
+}
+
+TEST(Session, SkinThatIsShownToGiveWayChangesNoScore) {
+  const Recorded shown({"--seed", kShortTrial, "--trainee", "T042", "--skin-deflection", "on"});
+  ASSERT_EQ(shown.outcome.exit_code, 0) << shown.outcome.err;
+  EXPECT_EQ(shown.csv(), first().csv());
 }
 
 TEST(Session, SameSeedGivesTheSameTableAndTheSameTicks) {
-  const Recorded again({"--seed", "1", "--trainee", "T042"});
+  const Recorded again({"--seed", kShortTrial, "--trainee", "T042"});
   ASSERT_EQ(again.outcome.exit_code, 0) << again.outcome.err;
   EXPECT_EQ(again.csv(), first().csv());
   for (const Folder* here : {&again.here, &std::as_const(first().here)})
@@ -90,7 +94,7 @@ TEST(Session, ReplayEqualsTheRecord) {
 
 TEST(Session, NothingIsWrittenOnlyToBeReadAgain) {
   const test::Setting nowhere("PALPA_TEST_TMPDIR", "/nowhere");
-  const Recorded again({"--seed", "1", "--trainee", "T042"});
+  const Recorded again({"--seed", kShortTrial, "--trainee", "T042"});
   ASSERT_EQ(again.outcome.exit_code, 0) << again.outcome.err;
   EXPECT_EQ(again.csv(), first().csv());
   const Outcome replay = palpa({"replay", "A/session.palpa"}, again.here.path()),
@@ -103,7 +107,7 @@ TEST(Session, NothingIsWrittenOnlyToBeReadAgain) {
 TEST(Session, ViewsChangeNoScore) {
   const Folder here;
   const Outcome outcome = palpa({"paracentesis", "--operator", "expert", "--fast", "--quiet",
-                                 "--seed", "1", "--trainee", "T042", "--out", "A"},
+                                 "--seed", kShortTrial, "--trainee", "T042", "--out", "A"},
                                 here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   EXPECT_EQ(contentOf(here / "A/trials.csv"), first().csv());
@@ -115,11 +119,11 @@ TEST(Session, ViewsChangeNoScore) {
 
 TEST(Session, AnotherSeedTheLeftSideAndNoForceFeedbackWork) {
   const Recorded other(
-      {"--seed", "2", "--side", "left", "--handedness", "left", "--force-feedback", "off"});
+      {"--seed", "13", "--side", "left", "--handedness", "left", "--force-feedback", "off"});
   ASSERT_EQ(other.outcome.exit_code, 0) << other.outcome.err;
   const std::vector<Row> rows = rowsOf(other.csv());
   ASSERT_EQ(rows.size(), 1u);
-  EXPECT_EQ(rows[0].at("SEED"), "2");
+  EXPECT_EQ(rows[0].at("SEED"), "13");
   EXPECT_EQ(rows[0].at("SIMULATED"), "1");
   EXPECT_NE(other.csv(), first().csv());
   EXPECT_NE(other.report().find("left side"), std::string::npos);
@@ -130,15 +134,15 @@ TEST(Session, TaskFileAndSavedPatientGiveWhatTheShippedOnesGive) {
   const Folder here;
   ASSERT_EQ(palpa({"patient", "build", "--out", "p.glb"}, here.path()).exit_code, 0);
   const Outcome outcome =
-      palpa({"train", "--task", PALPA_SOURCE_DIR "/assets/tasks/paracentesis.json", "--operator",
-             "expert", "--fast", "--no-views", "--quiet", "--patient", "p.glb", "--trials", "2",
-             "--out", "A"},
+      palpa(quickly({"train", "--task", PALPA_SOURCE_DIR "/assets/tasks/paracentesis.json",
+                     "--operator", "expert", "--station", quickStation("virtual_bench.json"),
+                     "--patient", "p.glb", "--seed", "13", "--trials", "2", "--out", "A"}),
             here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::vector<Row> rows = rowsOf(contentOf(here / "A/trials.csv"));
   ASSERT_EQ(rows.size(), 2u);
-  EXPECT_EQ(rows[0].at("SEED"), "1");
-  EXPECT_EQ(rows[1].at("SEED"), "2");
+  EXPECT_EQ(rows[0].at("SEED"), "13");
+  EXPECT_EQ(rows[1].at("SEED"), "14");
   EXPECT_EQ(palpa({"replay", "A/session.palpa"}, here.path()).exit_code, 0);
 }
 

@@ -11,9 +11,8 @@ namespace palpa::cli_test {
 namespace {
 
 Outcome squeeze(std::vector<std::string> more, const Folder& here) {
-  std::vector<std::string> all{"squeeze", "--fast", "--no-views", "--quiet"};
-  all.insert(all.end(), more.begin(), more.end());
-  return palpa(all, here.path());
+  more.insert(more.begin(), "squeeze");
+  return palpa(quickly(more), here.path());
 }
 
 int rightIn(const std::vector<Row>& rows) {

@@ -25,7 +25,7 @@ inline nlohmann::json protocolText() {
        {{{"name", "FF"}, {"means", "felt"}},
         {{"name", "NO"}, {"means", "not felt"}, {"sets", {{"force_feedback", false}}}}}},
       {"allocation", {{"conditions", {"FF", "NO"}}, {"block", 2}}},
-      {"trial_seed", 100},
+      {"trial_seed", 13},  // that and the next are short trials
       {"sessions",
        {{{"name", "only"},
          {"blocks", {{{"name", "trials"}, {"task", task}, {"trials", 2}, {"condition", "drawn"}}}},
@@ -38,8 +38,9 @@ class Study : public testing::Test {
   ~Study() override { ::unsetenv("XDG_STATE_HOME"); }
 
   Outcome run(const std::vector<std::string>& more, const std::string& records = "records.sqlite") {
-    std::vector<std::string> words{"study",     "run",   "--protocol", "protocol.json",
-                                   "--records", records, "--out",      "out"};
+    std::vector<std::string> words{
+        "study", "run",   "--protocol", "protocol.json", "--records",
+        records, "--out", "out",        "--station",     quickStation("virtual_bench.json")};
     words.insert(words.end(), more.begin(), more.end());
     return palpa(words, here.path());
   }

@@ -18,7 +18,7 @@ TEST_F(Study, VirtualTraineesFillAProtocol) {
                             const std::string& workers, const std::string& out) {
     return palpa({"study", "run", "--protocol", "protocol.json", "--simulate", each, "--learning",
                   "learners.json", "--seed", "3", "--workers", workers, "--records", records,
-                  "--out", out, "--quiet"},
+                  "--station", quickStation("virtual_bench.json"), "--out", out, "--quiet"},
                  here.path());
   };
   const auto group = [](const char* name, double start) {

@@ -56,7 +56,9 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
 
 /// The path's file keeps the pseudonyms of those who made it.
 TEST_F(Study, ExpertsAreKnownByTheirPseudonyms) {
-  ASSERT_EQ(palpa(session({"--trainee", "E01", "--out", "E"}), here.path()).exit_code, 0);
+  ASSERT_EQ(palpa(session({"--seed", kShortTrial, "--trainee", "E01", "--out", "E"}), here.path())
+                .exit_code,
+            0);
   const Outcome made =
       palpa({"calibrate", "experts", "--from", "E/session.palpa", "E/session.palpa",
              "E/session.palpa", "--least", "3", "--out", "path.json"},

@@ -60,10 +60,10 @@ TEST_F(Study, GoesOnWhereItWasKilled) {
   addTrainee("T001", "novice");
   runtime::SteadyClock clock;
   for (int tries = 0; tries < 3; ++tries) {
-    Running running(
-        {"study", "run", "--protocol", "protocol.json", "--records", "records.sqlite", "--out",
-         "out", "--trainee", "T001", "--operator", "novice", "--fast", "--no-views", "--quiet"},
-        here.path());
+    Running running({"study", "run", "--protocol", "protocol.json", "--records", "records.sqlite",
+                     "--out", "out", "--station", quickStation("virtual_bench.json"), "--trainee",
+                     "T001", "--operator", "novice", "--fast", "--no-views", "--quiet"},
+                    here.path());
     const auto evidence = here / "out/T001";
     for (int wait = 0; wait < 600 && !running.ended(); ++wait) {
       clock.sleepUntil(clock.now() + 10 * runtime::kMillisecond);
