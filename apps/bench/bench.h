@@ -54,7 +54,7 @@ struct LoopBenchOptions {
 void benchLoop(const LoopBenchOptions& options);
 
 struct MaterialBenchOptions {
-  bool quick = false;  ///< without noise only, and three of the mock-ups
+  bool quick = false;  ///< without noise only, three of the mock-ups and two of the hands
 };
 
 /// How true haptic augmented reality is on simulated phantoms, whose forces come from finite

@@ -97,8 +97,10 @@ std::vector<twin::HandGrip> judgedHands() {
   return hands;
 }
 
+std::vector<twin::HandGrip> ringingHands() { return {{100, 2, 0.2}, {1000, 2, 0.2}}; }
+
 std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump,
-                                const Vec3& p_T0) {
+                                const Vec3& p_T0, const std::vector<twin::HandGrip>& hands) {
   const haptics::Dahl real = known.friction.law;
   struct HandChange {
     const char* name;
@@ -117,7 +119,7 @@ std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchA
   std::vector<HandCase> cases;
   for (const JudgedDevice& device : judgedDevices()) {
     for (const HandChange& change : changes) {
-      for (const twin::HandGrip& grip : judgedHands()) {
+      for (const twin::HandGrip& grip : hands) {
         HandCase one{device.name, change.name, device.truth, grip, lump, {}, change.modulated};
         one.law.surface = {feelingOf(known, 0.1), change.wanted};
         one.law.surface.contact.target.factor = change.factor;
@@ -210,7 +212,8 @@ GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one) {
   return figures;
 }
 
-std::vector<GripCase> gripCases(const haptics::HuntCrossley& side) {
+std::vector<GripCase> gripCases(const haptics::HuntCrossley& side,
+                                const std::vector<twin::HandGrip>& hands) {
   struct GripChange {
     const char* name;
     double factor, weight;
@@ -223,7 +226,7 @@ std::vector<GripCase> gripCases(const haptics::HuntCrossley& side) {
   std::vector<GripCase> cases;
   for (const JudgedDevice& device : judgedDevices()) {
     for (const GripChange& change : changes) {
-      for (const twin::HandGrip& grip : judgedHands()) {
+      for (const twin::HandGrip& grip : hands) {
         haptics::SqueezeModulation law;
         law.real = side;
         law.target.factor = change.factor;

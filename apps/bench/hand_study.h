@@ -36,11 +36,13 @@ struct JudgedDevice {
 };
 std::vector<JudgedDevice> judgedDevices();
 std::vector<twin::HandGrip> judgedHands();
+/// Of these the heavy ones that damp least, which ring longest: one soft, one stiff.
+std::vector<twin::HandGrip> ringingHands();
 
-/// Every modulation of a single contact with every device and hand; `lump`: as identified, at its
-/// place `p_T0` in the phantom, m.
+/// Every modulation of a single contact with every device and each of `hands`; `lump`: as
+/// identified, at its place `p_T0` in the phantom, m.
 std::vector<HandCase> handCases(const KnownPhantom& known, const haptics::TouchAugmentation& lump,
-                                const Vec3& p_T0);
+                                const Vec3& p_T0, const std::vector<twin::HandGrip>& hands);
 
 /// Watches a hand-held thing: calm while it is held still, energy from the hand.
 class HandWatch {
@@ -72,7 +74,8 @@ struct GripFigures {
 };
 GripFigures gripFigures(const twin::PhantomTable& side, const GripCase& one);
 
-/// Harder, softer, heavier, lighter and all at once, with every device and hand.
-std::vector<GripCase> gripCases(const haptics::HuntCrossley& side);
+/// Harder, softer, heavier, lighter and all at once, with every device and each of `hands`.
+std::vector<GripCase> gripCases(const haptics::HuntCrossley& side,
+                                const std::vector<twin::HandGrip>& hands);
 
 }  // namespace palpa::bench

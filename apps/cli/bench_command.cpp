@@ -64,7 +64,8 @@ void addMaterial(CLI::App& bench) {
   material->footer(
       "Example:\n  palpa bench material > material.jsonl\n  palpa bench material --quick");
   const auto options = std::make_shared<bench::MaterialBenchOptions>();
-  material->add_flag("--quick", options->quick, "Without noise only, and three of the mock-ups");
+  material->add_flag("--quick", options->quick,
+                     "Without noise only, three of the mock-ups and two of the hands");
   material->callback([options] { bench::benchMaterial(*options); });
 }
 
