@@ -12,12 +12,17 @@ namespace {
 
 using nlohmann::json;
 
-TEST(CalibrateSubtasks, FromARecordedSearch) {
-  const Folder here;
-  const Outcome search = palpa(quickly({"search", "--operator", "expert", "--mode", "real",
-                                        "--trials", "3", "--seed", "70001", "--out", "search"}),
-                               here.path());
-  ASSERT_EQ(search.exit_code, 0) << search.err;
+/// An expert's searches; recorded in `out`.
+Outcome recordedSearch(const std::string& trials, const std::string& out, const Folder& here,
+                       const std::vector<std::string>& more = {}) {
+  std::vector<std::string> arguments{"search", "--operator", "expert", "--mode", "real", "--trials",
+                                     trials,   "--seed",     "70001",  "--out",  out};
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return palpa(quickly(arguments), here.path());
+}
+
+/// What is proposed of two searches, in words and as a file, and that it is the same again.
+void expectProposed(const Folder& here) {
   const auto proposed = [&](const std::string& out) {
     return palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "4", "--seed", "3",
                   "--quiet", "--out", out},
@@ -31,7 +36,7 @@ TEST(CalibrateSubtasks, FromARecordedSearch) {
     EXPECT_TRUE(says(outcome.out, words)) << words << "\n" << outcome.out;
   const std::string page = contentOf(here / "parts/calibration.html");
   for (const char* words :
-       {"SIMULATED", "How many states?", "Cohen&#39;s kappa", "state 4", "identify", "trial 3"})
+       {"SIMULATED", "How many states?", "Cohen&#39;s kappa", "state 4", "identify", "trial 2"})
     EXPECT_TRUE(says(page, words)) << words;
   for (const char* words : {"src=\"http", "href=\"http", "<script", "url("})
     EXPECT_FALSE(says(page, words)) << words;  // one file
@@ -44,38 +49,26 @@ TEST(CalibrateSubtasks, FromARecordedSearch) {
             file["parameters"]);
 }
 
-TEST(CalibrateSubtasks, ATaskMayAskForWhatWasLearned) {
+TEST(CalibrateSubtasks, FromARecordedSearchAndATaskMayAskForThem) {
   const Folder here;
-  const auto search = [&](const std::string& trials, const std::string& out,
-                          const std::string& task) {
-    std::vector<std::string> arguments{"search", "--operator", "expert", "--mode",
-                                       "real",   "--trials",   trials,   "--seed",
-                                       "70001",  "--out",      out};
-    if (!task.empty()) arguments.insert(arguments.end(), {"--task", task});
-    return palpa(quickly(arguments), here.path());
-  };
-  ASSERT_EQ(search("3", "search", "").exit_code, 0);
-  ASSERT_EQ(palpa({"calibrate", "subtasks", "search/session.palpa", "--states", "2", "--seed", "3",
-                   "--quiet", "--out", "parts"},
-                  here.path())
-                .exit_code,
-            0);
+  ASSERT_EQ(recordedSearch("2", "search", here).exit_code, 0);
+  ASSERT_NO_FATAL_FAILURE(expectProposed(here));
   json task =
       json::parse(contentOf(std::filesystem::path(PALPA_SOURCE_DIR) / "assets/tasks/search.json"));
   task["learned"] = "parts/calibration.json";
-  for (int state : {1, 2})
+  for (int state : {1, 2, 3, 4})
     task["subtasks"].push_back({{"name", "learned " + std::to_string(state)},
                                 {"means", "as learned"},
                                 {"on", {{{"cue", "learned"}, {"is", state}}}}});
   here.file("task.json", task.dump());
-  const Outcome learned = search("1", "learned", "task.json");
+  const Outcome learned = recordedSearch("1", "learned", here, {"--task", "task.json"});
   ASSERT_EQ(learned.exit_code, 0) << learned.err;
   EXPECT_TRUE(says(contentOf(here / "learned/report.html"), "learned 2"));
   std::filesystem::remove_all(here / "parts");  // the recording has the model itself
   const Outcome again = palpa({"replay", "learned/session.palpa"}, here.path());
   EXPECT_EQ(again.exit_code, 0) << again.err;
   EXPECT_TRUE(says(again.out, "equals the record")) << again.out;
-  const Outcome gone = search("1", "gone", "task.json");
+  const Outcome gone = recordedSearch("1", "gone", here, {"--task", "task.json"});
   EXPECT_NE(gone.exit_code, 0);
   EXPECT_TRUE(says(gone.err, "parts/calibration.json")) << gone.err;
 }
@@ -94,11 +87,7 @@ TEST(CalibrateSubtasks, RefusesWhatHasNoPartsOrTooFewTrials) {
   here.file("text.palpa", "a text that is long enough to be looked at");
   refused({"text.palpa"}, "text.palpa: is no session file");
   refused({"none.palpa"}, "none.palpa: no such file");
-  ASSERT_EQ(palpa(quickly({"search", "--operator", "expert", "--mode", "real", "--trials", "1",
-                           "--seed", "70001", "--out", "one"}),
-                  here.path())
-                .exit_code,
-            0);
+  ASSERT_EQ(recordedSearch("1", "one", here).exit_code, 0);
   refused({"one/session.palpa"}, "1 trial is too few");
   ASSERT_EQ(palpa(quickly({"squeeze", "--operator", "expert", "--trials", "1", "--seed", "70001",
                            "--out", "squeeze"}),
