@@ -27,8 +27,10 @@ std::string filledIn(const Folder& here, const std::string& item, const std::str
 TEST(Rate, FromTheFormToTheVerdict) {
   const Folder here;
   ASSERT_EQ(inHere({"records", "trainee", "add", "--id", "T001"}, here).exit_code, 0);
-  const Outcome run =
-      palpa(session({"--assess", "--seed", "801", "--trainee", "T001", "--out", "A"}), here.path());
+  const Outcome run = palpa(
+      {"paracentesis", "--assess", "--operator", "expert", "--fast", "--no-views", "--station",
+       quickStation("virtual_bench.json"), "--seed", "801", "--trainee", "T001", "--out", "A"},
+      here.path());
   ASSERT_EQ(run.exit_code, 0) << run.err;
   EXPECT_TRUE(says(run.out, "Assessment: every aid is off")) << run.out;
   EXPECT_TRUE(says(contentOf(here / "A/report.html"), "Not certified (simulated)"));

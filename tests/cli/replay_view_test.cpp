@@ -11,7 +11,7 @@ namespace {
 
 const Folder& recordedNeedle() {
   static const Folder here;
-  static const Outcome outcome = palpa(session({"--seed", kShortTrial, "--out", "A"}), here.path());
+  static const Outcome outcome = palpa(session({"--seed", "1", "--out", "A"}), here.path());
   EXPECT_EQ(outcome.exit_code, 0) << outcome.err;
   return here;
 }

@@ -15,7 +15,7 @@ TEST(Report, PagesOfPracticeComeFromTheRecords) {
   ASSERT_EQ(run({"records", "trainee", "add", "--id", "T017", "--group", "novice", "--consent"})
                 .exit_code,
             0);
-  ASSERT_EQ(palpa(session({"--trainee", "T017", "--seed", "13", "--trials", "2", "--out", "A"}),
+  ASSERT_EQ(palpa(session({"--trainee", "T017", "--seed", "40", "--trials", "2", "--out", "A"}),
                   here.path())
                 .exit_code,
             0);

@@ -25,7 +25,7 @@ inline nlohmann::json protocolText() {
        {{{"name", "FF"}, {"means", "felt"}},
         {{"name", "NO"}, {"means", "not felt"}, {"sets", {{"force_feedback", false}}}}}},
       {"allocation", {{"conditions", {"FF", "NO"}}, {"block", 2}}},
-      {"trial_seed", 13},  // that and the next are short trials
+      {"trial_seed", 40},  // that and the next are short trials
       {"sessions",
        {{{"name", "only"},
          {"blocks", {{{"name", "trials"}, {"task", task}, {"trials", 2}, {"condition", "drawn"}}}},
