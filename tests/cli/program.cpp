@@ -78,8 +78,9 @@ int Outcome::errLines() const {
   return static_cast<int>(ends) + (!err.empty() && err.back() != '\n');
 }
 
-Running::Running(const std::vector<std::string>& arguments, const fs::path& folder)
-    : child_(start(arguments, folder, "/dev/null", "/dev/null")) {}
+Running::Running(const std::vector<std::string>& arguments, const fs::path& folder,
+                 const fs::path& err)
+    : child_(start(arguments, folder, "/dev/null", err)) {}
 
 Running::~Running() { kill(); }
 

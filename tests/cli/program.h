@@ -18,10 +18,11 @@ struct Outcome {
 Outcome palpa(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
 
 /// A run of `palpa` that goes on while the test does; killed at the end of its life, if it still
-/// runs.
+/// runs. Its standard error goes to the file `err`.
 class Running {
  public:
-  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder);
+  Running(const std::vector<std::string>& arguments, const std::filesystem::path& folder,
+          const std::filesystem::path& err = "/dev/null");
   ~Running();
   Running(const Running&) = delete;
   Running& operator=(const Running&) = delete;
