@@ -312,8 +312,8 @@ TEST_P(DoctorFault, IsNamedWithWhatToDoAndNothingElse) {
   for (const nlohmann::json& finding : answer["findings"]) {
     ill |= finding["state"] == "ill";
     if (finding["subject"] != fault.subject) {
-      const bool expected =
-          std::count(fault.also.begin(), fault.also.end(), finding["subject"]) > 0;
+      const bool expected = std::count(fault.also.begin(), fault.also.end(),
+                                       finding["subject"].get<std::string>()) > 0;
       EXPECT_TRUE(expected || finding["state"] == "well" || finding["state"] == "none")
           << finding.dump(1);
       continue;

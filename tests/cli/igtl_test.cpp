@@ -63,7 +63,7 @@ std::int64_t startOf(const std::vector<Got>& heard, const WrittenDown& recorded)
     if (m.device != "PalpaEvent") continue;
     const nlohmann::json told = eventOf(m);
     for (const runtime::Event& event : recorded.events)
-      if (event.kind == told.at("kind") && event.text == told.at("text"))
+      if (told.at("kind") == event.kind && told.at("text") == event.text)
         return m.utc_ns - event.t_ns;
   }
   return 0;
