@@ -1,6 +1,6 @@
 // clang-tidy over what changed, or over everything; results are kept by content.
 //
-//   node cmake/tidy.mjs            sources that differ from the commit before (or from origin/main)
+//   node cmake/tidy.mjs            sources that differ from the commit before, on a branch from main
 //   node cmake/tidy.mjs --all      every source
 //   node cmake/tidy.mjs FILE...    these
 //   --minutes N                    starts no further batch after N minutes, and says what is left
@@ -35,11 +35,12 @@ function known(revision) {
   }
 }
 
-// The main branch's last commit as others have it; on the main branch itself the commit before.
+// On a branch of its own, what differs from the main branch; on the main branch, from the commit
+// before.
 function base() {
-  const head = known("HEAD");
-  const main = known("origin/main");
-  if (main && main !== head) return git("merge-base", main, head)[0];
+  const [branch] = git("branch", "--show-current");
+  const main = known("main");
+  if (branch && branch !== "main" && main) return git("merge-base", main, "HEAD")[0];
   return known("HEAD~1");
 }
 
