@@ -1,6 +1,6 @@
 // clang-tidy over what changed, or over everything; results are kept by content.
 //
-//   node cmake/tidy.mjs            sources that differ from the commit before, on a branch from main
+//   node cmake/tidy.mjs            what differs from the commit before; on a branch: from main
 //   node cmake/tidy.mjs --all      every source
 //   node cmake/tidy.mjs FILE...    these
 //   --minutes N                    starts no further batch after N minutes, and says what is left
