@@ -1,5 +1,6 @@
 #include "scene/window/gl_context.h"
 
+#include <vtkLogger.h>
 #include <vtkOpenGLRenderWindow.h>
 
 #include "anatomy/base/error.h"
@@ -50,6 +51,8 @@ std::unique_ptr<GlContextProvider> makeGlContext(Display display, int width, int
   if (width < 1 || height < 1)
     throw UsageError("a window needs a width and a height of at least 1 pixel", "window size",
                      "Give for example 1280x720");
+  // From 9.3 on VTK writes there what it does, between the program's own lines.
+  vtkLogger::SetStderrVerbosity(vtkLogger::VERBOSITY_ERROR);
   const bool can_show = process_kind != PlatformChoice::egl && whyNoX11().empty();
   if (display == Display::window || (display == Display::automatic && can_show))
     return onX11(width, height, title, true);
