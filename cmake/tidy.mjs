@@ -135,7 +135,9 @@ async function look(batch, count) {
     count.done += 1;
     count.kept += 1;
   }
-  for (const finding of readFileSync(batch.result, "utf8").split(/^(?=\S+:\d+:\d+: )/m)) {
+  for (const finding of readFileSync(batch.result, "utf8").split(
+    /^(?=\S+:\d+:\d+: (?:warning|error): )/m,
+  )) {
     if (finding.trim()) count.findings.add(finding);
   }
 }

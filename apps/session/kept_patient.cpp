@@ -17,7 +17,7 @@ constexpr std::size_t kDigest = 64;  // hexadecimal digits; a line's end follows
 
 /// All that a patient is built from, to the bit.
 std::string textOf(const anatomy::PatientParameters& p) {
-  static_assert(sizeof(p) == 13 * 8, "A new parameter must be part of the text, too");
+  static_assert(sizeof(p) == 13 * sizeof(double), "A new parameter must be part of the text, too");
   std::ostringstream text;
   text << std::hexfloat << static_cast<int>(p.side) << ' ' << p.seed << ' '
        << static_cast<int>(p.extent) << ' ' << static_cast<int>(p.sex);
