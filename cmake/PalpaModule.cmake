@@ -7,7 +7,13 @@ function(palpa_module NAME)
   list(TRANSFORM ARG_ROOMS PREPEND ${CMAKE_CURRENT_SOURCE_DIR}/ OUTPUT_VARIABLE folders)
   list(TRANSFORM folders APPEND /*.cpp)
   file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_CURRENT_SOURCE_DIR}/*.cpp ${folders})
-  if(sources)
+  if(sources AND PALPA_PREBUILT AND NOT NAME IN_LIST PALPA_SANITIZED)
+    file(WRITE ${CMAKE_CURRENT_BINARY_DIR}/linked_only.cpp "")
+    add_library(palpa_${NAME} STATIC ${CMAKE_CURRENT_BINARY_DIR}/linked_only.cpp)
+    target_include_directories(palpa_${NAME} PUBLIC ${PROJECT_SOURCE_DIR})
+    palpa_linked_only(${NAME})
+    target_link_libraries(palpa_${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
+  elseif(sources)
     add_library(palpa_${NAME} STATIC ${sources})
     target_include_directories(palpa_${NAME} PUBLIC ${PROJECT_SOURCE_DIR})
     target_link_libraries(palpa_${NAME} PUBLIC ${ARG_PUBLIC} PRIVATE ${ARG_PRIVATE})
@@ -19,11 +25,10 @@ function(palpa_module NAME)
   endif()
 endfunction()
 
-# palpa_linked_only(NAME): under AddressSanitizer and UndefinedBehaviorSanitizer this module is only
-# linked, not looked into, unless PALPA_SANITIZE_WHOLE (./check --full): compiling its templates
-# takes ten minutes there.
+# palpa_linked_only(NAME): the module is not compiled, but linked from PALPA_PREBUILT. Or only these
+# sources of it: palpa_linked_only(NAME SOURCE...).
 function(palpa_linked_only NAME)
-  if(PALPA_SANITIZE MATCHES "address" AND NOT PALPA_SANITIZE_WHOLE)
-    target_compile_options(palpa_${NAME} PRIVATE -fno-sanitize=all -g0)
-  endif()
+  file(RELATIVE_PATH folder ${PROJECT_SOURCE_DIR} ${CMAKE_CURRENT_SOURCE_DIR})
+  target_link_libraries(palpa_${NAME} PUBLIC ${PALPA_PREBUILT}/${folder}/libpalpa_${NAME}.a)
+  set_source_files_properties(${ARGN} PROPERTIES HEADER_FILE_ONLY ON)
 endfunction()

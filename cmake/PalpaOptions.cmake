@@ -8,7 +8,9 @@ set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
 option(PALPA_TESTS "Build the tests" ON)
 option(PALPA_WERROR "Treat warnings as errors" OFF)
 set(PALPA_SANITIZE "" CACHE STRING "Sanitizers, e.g. address,undefined or thread")
-option(PALPA_SANITIZE_WHOLE "Look also into modules that are linked only" OFF)
+set(PALPA_PREBUILT "" CACHE PATH
+  "A build without sanitizers: modules not in PALPA_SANITIZED are linked from it, not compiled")
+set(PALPA_SANITIZED "" CACHE STRING "Modules that the sanitizers look into, where PALPA_PREBUILT")
 
 if(NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
@@ -36,11 +38,15 @@ if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND PALPA_COMPILER_HEAP_MB)
   add_compile_options("SHELL:--param ggc-min-heapsize=${heap_kB}")
 endif()
 # Eigen picks its allocator by whether a source is looked into: what one source allocates, the
-# next would free in another way.
+# next would free in another way. So it is the one that Eigen has without sanitizers.
 if(PALPA_SANITIZE)
-  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=0)
+  add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
   add_compile_options(-fsanitize=${PALPA_SANITIZE} -fno-omit-frame-pointer -g1)
   add_link_options(-fsanitize=${PALPA_SANITIZE})
+endif()
+# Where not everything is looked into, in half the time: a null pointer stops the program as well.
+if(PALPA_SANITIZE MATCHES "undefined" AND PALPA_PREBUILT)
+  add_compile_options(-fno-sanitize=null,alignment)
 endif()
 
 find_program(CCACHE_PROGRAM ccache)

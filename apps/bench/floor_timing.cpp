@@ -8,6 +8,7 @@
 #include "anatomy/base/random.h"
 #include "apps/runtime/clock.h"
 #include "apps/station/assets.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::bench {
 namespace {

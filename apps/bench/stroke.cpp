@@ -11,6 +11,7 @@
 #include "apps/runtime/executive.h"
 #include "apps/runtime/geometry_activity.h"
 #include "apps/runtime/haptic_activity.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include "anatomy/query/local_geometry_builder.h"
 #include "apps/runtime/bus.h"
 #include "apps/runtime/device_adapters.h"
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_config.h"
 
 namespace palpa::bench {
 

@@ -9,6 +9,7 @@
 #include "anatomy/base/quantile.h"
 #include "anatomy/base/random.h"
 #include "apps/twin/device_twin.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::bench {
 namespace {

@@ -7,7 +7,7 @@
 
 #include "haptics/augmentation/learned_part.h"
 #include "haptics/contact/contact_parts.h"
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_config.h"
 
 /// Recorded ticks as steps of what was felt and done, with the hand-written parts of the task
 /// beside them.

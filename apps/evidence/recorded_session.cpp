@@ -15,6 +15,7 @@
 #include "apps/assess/needle/needle_metrics.h"
 #include "apps/record/trial_walk.h"
 #include "apps/training/trial_words.h"
+#include "haptics/loop/tick.h"
 
 namespace palpa::evidence {
 namespace {

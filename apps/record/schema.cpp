@@ -3,7 +3,8 @@
 #include <bit>
 
 #include "haptics/flight_record.h"
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_config.h"
+#include "haptics/loop/tick_state.h"
 
 namespace palpa::record {
 

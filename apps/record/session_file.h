@@ -8,7 +8,8 @@
 #include <vector>
 
 #include "apps/runtime/flight_sink.h"
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_config.h"
+#include "haptics/loop/tick_state.h"
 
 namespace palpa::record {
 

@@ -8,7 +8,7 @@
 #include "apps/runtime/flight_sink.h"
 #include "ar/cameras/camera.h"
 #include "ar/tracking/board_tracker.h"
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_state.h"
 
 namespace palpa::runtime {
 

@@ -6,7 +6,7 @@
 #include "anatomy/geometry/local_geometry.h"
 #include "apps/runtime/event_kind.h"
 #include "haptics/flight_record.h"
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_state.h"
 
 namespace palpa::runtime {
 

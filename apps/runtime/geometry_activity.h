@@ -3,6 +3,7 @@
 #include "anatomy/query/local_geometry_builder.h"
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
+#include "haptics/loop/tick_config.h"
 
 namespace palpa::runtime {
 

@@ -1,4 +1,5 @@
 #include "apps/runtime/haptic_activity.h"
+#include "haptics/loop/tick.h"
 
 #include <algorithm>
 

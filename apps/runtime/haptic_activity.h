@@ -8,7 +8,8 @@
 #include "apps/runtime/geometry_activity.h"
 #include "haptics/device.h"
 #include "haptics/flight_record.h"
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_config.h"
+#include "haptics/loop/tick_state.h"
 #include "haptics/sensors/wrench_filter.h"
 #include "haptics/surface/floor.h"
 

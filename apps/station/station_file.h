@@ -9,8 +9,10 @@
 #include "apps/station/station_sections.h"
 #include "ar/boards/board.h"
 #include "calibration/camera_model.h"
-#include "haptics/loop/tick.h"
+#include "haptics/contact/contact_parts.h"
 #include "haptics/loop/workspace_correction.h"
+#include "haptics/safety/passivity.h"
+#include "haptics/safety/safety_limiter.h"
 
 namespace palpa::station {
 

@@ -11,7 +11,7 @@
 #include "apps/training/trial_words.h"
 #include "apps/trial/trial_status.h"
 #include "apps/trial/trial_task.h"
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_config.h"
 
 namespace palpa::task_palpation {
 

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_config.h"
 
 namespace palpa::task_palpation {
 

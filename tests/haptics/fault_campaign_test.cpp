@@ -4,6 +4,7 @@
 #include <string>
 
 #include "fault_judge.h"
+#include "haptics/loop/tick.h"
 #include "tests/support/counts.h"
 
 /// Random faults on the whole tick, one after the other and one into the other, while a tool is

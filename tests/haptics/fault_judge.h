@@ -3,6 +3,8 @@
 #include <gtest/gtest.h>
 
 #include "fault_world.h"
+#include "haptics/loop/tick_config.h"
+#include "haptics/loop/tick_state.h"
 
 namespace palpa::haptics {
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <random>
 
-#include "haptics/loop/tick.h"
+#include "haptics/loop/tick_config.h"
 #include "needle_bench.h"
 #include "tests/surface/surface_bench.h"
 

@@ -10,6 +10,7 @@
 #include "apps/runtime/device_adapters.h"
 #include "apps/runtime/haptic_activity.h"
 #include "apps/runtime/recorders.h"
+#include "haptics/loop/tick.h"
 #include "tests/haptics/needle_bench.h"
 
 /// The haptic and the recorder activity with all threads, and what the recorder got: run again, the

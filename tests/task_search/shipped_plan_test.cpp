@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "haptics/loop/tick.h"
 #include "tests/surface/surface_bench.h"
 #include "tests/task_search/shipped_search.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 
 #include "apps/assess/needle/trial_assessment.h"
-#include "haptics/loop/tick.h"
+#include "haptics/flight_record.h"
 
 namespace palpa::assess {
 
