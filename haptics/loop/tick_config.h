@@ -11,7 +11,7 @@
 #include "haptics/safety/passivity.h"
 #include "haptics/safety/safety_limiter.h"
 
-/// What a tick is given once, before a session. Who configures or records it need not know the tick.
+/// What a tick is given once, before a session. Who configures or records it needs no tick.
 namespace palpa::haptics {
 
 /// What the tool touches: a virtual patient, as a needle or a probe, a real thing with a force
