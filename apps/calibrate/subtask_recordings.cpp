@@ -15,12 +15,17 @@ namespace {
 
 using nlohmann::json;
 
-json parsedText(const std::string& text, const std::string& what, const std::string& file) {
-  const json parsed = parsedOrDiscarded(text);
+/// What a recording says of its task, station or session.
+JsonFile descriptionOf(const std::string& text, const std::string& what, const std::string& file) {
+  json parsed = parsedOrDiscarded(text);
   if (!parsed.is_object())
     throw Error("the description of its " + what + " is damaged", file,
                 "Restore the file from a backup");
-  return parsed;
+  return {std::move(parsed), file + ", its " + what, "Restore the file from a backup"};
+}
+
+std::string idOf(const JsonFile& described) {
+  return described.has("id") ? described.text("id") : "?";
 }
 
 /// A set-up mistake in what was recorded is no mistake in the call.
@@ -82,12 +87,11 @@ struct RecordedTask {
 
 RecordedTask recordedTaskOf(const record::SessionReader& reader, const std::string& file) {
   RecordedTask task;
-  task.file = JsonFile(parsedText(reader.info().task_json, "task", file), file + ", its task");
+  task.file = descriptionOf(reader.info().task_json, "task", file);
   task.plan = recordedPlan(task.file);
   if (task.plan.empty())
     throw Error(
-        "its task \"" + task.file.json().value("id", "?") + "\" names no parts (\"subtasks\")",
-        file,
+        "its task \"" + idOf(task.file) + "\" names no parts (\"subtasks\")", file,
         "Record a task whose file names its parts, as the search, the palpations and paracentesis "
         "do");
   task.conditions = conditionsOf(task.file);
@@ -123,13 +127,13 @@ SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>
     const RecordedTask recorded = recordedTaskOf(reader, file);
     if (i == 0) {
       first = recorded.conditions;
-      all.task = recorded.file.json().value("id", "?");
-      all.station = parsedText(reader.info().station_json, "station", file).value("id", "?");
+      all.task = idOf(recorded.file);
+      all.station = idOf(descriptionOf(reader.info().station_json, "station", file));
       all.parts = recorded.plan.subtasks;
     }
     requireSameParts(recorded.conditions, first, file, files.front().string());
     all.simulated =
-        parsedText(reader.info().session_json, "session", file).value("simulated", true) ||
+        descriptionOf(reader.info().session_json, "session", file).flag("simulated", true) ||
         all.simulated;
     for (SubtaskSequence& sequence : sequencesOf(reader, recordingName(files, i), &all.augmented)) {
       if (sequence.labels.size() < kShortestSequence)
@@ -151,7 +155,7 @@ SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>
         "parts were told",
         task.string(), "Leave --task out, or record the sessions again with this task");
   all.parts = plan.subtasks;
-  all.task = named.json().value("id", "?");
+  all.task = idOf(named);
   return all;
 }
 

@@ -200,7 +200,7 @@ class Together {
 
 std::optional<assess::ForceBalance> recordedBalance(const record::SessionReader& reader) {
   constexpr std::size_t kPart = 200'000;  // ticks: what is held in memory at once
-  const double mass = JsonFile(parseJson(reader.info().station_json), "the recorded station")
+  const double mass = JsonFile::ofText(reader.info().station_json, "the recorded station")
                           .number("device/apparent_mass_kg", 0, 5);
   Together together;
   std::array<std::vector<haptics::FlightRecord>, 2> parts;  // of each tool

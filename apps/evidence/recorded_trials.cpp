@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_file.h"
 #include "anatomy/base/json_text.h"
 #include "apps/record/trial_walk.h"
 #include "apps/training/engine.h"
@@ -55,7 +56,7 @@ Engine engineOf(const record::SessionReader& reader) {
 
 std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& reader) {
   const task_palpation::Scoring scoring =
-      task_palpation::scoringOf(JsonFile(parseJson(reader.info().task_json), "the recorded task"));
+      task_palpation::scoringOf(JsonFile::ofText(reader.info().task_json, "the recorded task"));
   const bool simulated = fieldOf(reader.info().session_json, "simulated", false, "its session");
   const std::vector<runtime::Event> events = reader.events();
   std::vector<RecordedPalpation> trials;
@@ -91,7 +92,7 @@ std::vector<RecordedPalpation> recordedPalpations(const record::SessionReader& r
 namespace {
 
 task_search::SearchSettings recordedTask(const record::SessionReader& reader) {
-  return task_search::readSearch(JsonFile(parseJson(reader.info().task_json), "the recorded task"));
+  return task_search::readSearch(JsonFile::ofText(reader.info().task_json, "the recorded task"));
 }
 
 std::map<int, task_search::Episode> recordedEpisodes(const record::SessionReader& reader) {
@@ -128,7 +129,8 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
   const task_search::SearchSettings task = recordedTask(reader);
   const haptics::TickConfig& config = reader.info().tick_config;
   const std::map<int, task_search::Episode> episodes = recordedEpisodes(reader);
-  const bool simulated = parseJson(reader.info().session_json).value("simulated", true);
+  const bool simulated =
+      JsonFile::ofText(reader.info().session_json, "the recorded session").flag("simulated", true);
   task_search::SearchListener listener(task, config.augmentations);
   std::vector<RecordedSearch> trials;
   const auto begin = [&](const record::RecordedTrial& trial) {
@@ -185,7 +187,7 @@ SaidOfSqueeze saidOf(const std::vector<runtime::Event>& events, int trial) {
 }  // namespace
 
 std::vector<RecordedSqueeze> recordedSqueezes(const record::SessionReader& reader) {
-  const JsonFile task(parseJson(reader.info().task_json), "the recorded task");
+  const JsonFile task = JsonFile::ofText(reader.info().task_json, "the recorded task");
   task_squeeze::SqueezeListener listener(task.number("force/touch_N", 0.02, 5));
   const std::vector<runtime::Event> events = reader.events();
   std::vector<RecordedSqueeze> trials;

@@ -1,4 +1,4 @@
-#include "anatomy/base/json_text.h"
+#include "anatomy/base/json_file.h"
 #include "apps/evidence/recorded_show.h"
 #include "apps/training/engine.h"
 
@@ -65,13 +65,14 @@ class TouchShow : public RecordedShow {
         file_(file.string()) {
     trial_.number = recorded_.header.trial;
     trial_.force_feedback = recorded_.header.force_feedback;
-    trial_.mark = parseJson(reader_.info().session_json).value("simulated", true)
+    trial_.mark = JsonFile::ofText(reader_.info().session_json, "the recorded session")
+                          .flag("simulated", true)
                       ? "REPLAY: SIMULATED"
                       : "REPLAY";
   }
 
   const haptics::TickConfig& config() const { return reader_.info().tick_config; }
-  JsonFile task() const { return {parseJson(reader_.info().task_json), "the recorded task"}; }
+  JsonFile task() const { return JsonFile::ofText(reader_.info().task_json, "the recorded task"); }
   std::string eventText(EventKind kind) const {
     for (const runtime::Event& event : reader_.events())
       if (event.trial == trial_.number && event.is(kind)) return event.text;

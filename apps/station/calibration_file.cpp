@@ -181,7 +181,7 @@ CalibrationFile read(const JsonFile& file) {
   c.station = file.text("station");
   c.date = file.text("date");
   c.made_by = file.text("made_by");
-  c.simulated = file.json().value("simulated", false);
+  c.simulated = file.flag("simulated", false);
   c.valid_days = file.integer("valid_days", 0, 100'000);
   const json& parameters = file.json().value("parameters", json());
   if (!parameters.is_object()) file.refuse("parameters", "must be an object");

@@ -16,15 +16,11 @@ std::vector<double> factorsIn(const JsonFile& file, const char* property) {
   constexpr double kLeast = 0.3,
                    kMost = 3;  // beyond, neither the device nor what was identified follows
   const std::string place = std::string("compare/") + property;
-  std::vector<double> factors;
-  for (const nlohmann::json& factor : file.json()
-                                          .value("compare", nlohmann::json::object())
-                                          .value(property, nlohmann::json::array())) {
-    if (!factor.is_number() || factor.get<double>() < kLeast || factor.get<double>() > kMost ||
-        std::abs(factor.get<double>() - 1) < 1e-3)
+  if (!file.has(place)) return {};
+  std::vector<double> factors = file.numbers(place);
+  for (const double factor : factors)
+    if (factor < kLeast || factor > kMost || std::abs(factor - 1) < 1e-3)
       file.refuse(place, "must hold numbers from 0.3 to 3, but not 1");
-    factors.push_back(factor.get<double>());
-  }
   return factors;
 }
 

@@ -6,6 +6,8 @@
 
 #include "a_calibration.h"
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
+#include "anatomy/base/sha256.h"
 #include "tests/support/counts.h"
 #include "tests/support/damage.h"
 #include "tests/support/scratch_folder.h"
@@ -88,6 +90,18 @@ TEST(CalibrationFile, ForeignNewerEditedAndCutFilesAreTold) {
   write(file, "");
   EXPECT_TRUE(says(whyRefused(file), "not valid JSON"));
   EXPECT_TRUE(says(whyRefused(folder / "none.json"), "cannot be read"));
+}
+
+TEST(CalibrationFile, AFieldOfAnotherTypeIsNamed) {
+  const test::ScratchFolder folder("calibration_file_type");
+  const std::filesystem::path file = folder / "tool.json";
+  nlohmann::json body = parseJson(textOf(aCalibration()));
+  body["simulated"] = "no";
+  body.erase("sha256");
+  body["sha256"] = sha256(body.dump());
+  write(file, body.dump());
+  EXPECT_TRUE(says(whyRefused(file), "field \"simulated\" must be true or false"))
+      << whyRefused(file);
 }
 
 TEST(CalibrationFile, WhatIsNoResultIsNotWritten) {

@@ -125,6 +125,10 @@ TEST(SubtaskRecordings, WhatIsNoSuchRecordingIsNamed) {
   EXPECT_TRUE(
       says(complaintOf({file, other}), "its task tells its parts by other conditions than"));
   EXPECT_TRUE(says(complaintOf({damaged}), "the description of its task is damaged"));
+  const std::filesystem::path worded =
+      recorded("worded", taskOf(kSlowPart), R"({"simulated": "yes"})");
+  EXPECT_TRUE(
+      says(complaintOf({worded}), "its session: field \"simulated\" must be true or false"));
   EXPECT_TRUE(says(complaintOf({file.parent_path() / "none.palpa"}), "no such file"));
   std::ofstream(file.parent_path() / "text.palpa") << "a text that is long enough to be looked at";
   EXPECT_TRUE(says(complaintOf({file.parent_path() / "text.palpa"}), "is no session file"));

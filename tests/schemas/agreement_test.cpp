@@ -4,6 +4,7 @@
 #include <regex>
 #include <set>
 
+#include "anatomy/base/error.h"
 #include "damages.h"
 #include "kinds.h"
 #include "schema_files.h"
@@ -54,15 +55,19 @@ class Agreement : public testing::TestWithParam<Kind> {
     std::ofstream(file, std::ios::binary) << document.dump();
   }
 
-  /// What the reader says against a document; empty: nothing.
+  /// What the reader says against a document; empty: nothing. An error that is not the program's
+  /// own fails: whoever wrote the file could not act on it.
   std::string readersFault(const Sample& sample, json document) const {
     if (kind().seal) kind().seal(&document);
     put(sample.asset, document);
     try {
       kind().read(folder_ / sample.asset);
       return "";
-    } catch (const std::exception& e) {
+    } catch (const Error& e) {
       return std::string("refused: ") + e.what();
+    } catch (const std::exception& e) {
+      ADD_FAILURE() << document.dump() << ": an error in no one's words: " << e.what();
+      return "refused in no one's words";
     }
   }
 

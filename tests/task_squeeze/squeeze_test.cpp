@@ -1,8 +1,10 @@
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <map>
 
 #include "anatomy/base/error.h"
+#include "anatomy/base/json_text.h"
 #include "apps/task_squeeze/squeeze_scene.h"
 #include "tests/support/files.h"
 
@@ -18,6 +20,34 @@ TEST(SqueezeFile, TheShippedOneIsRead) {
   EXPECT_NEAR(s.mass, 0.02, 1e-12);
   EXPECT_FALSE(s.taxonomy.haptic.empty());
   EXPECT_GT(s.library.surface.k, 0);
+}
+
+std::string whyRefused(const nlohmann::json& change) {
+  const std::filesystem::path folder = test::freshFolder("task_squeeze", "refused");
+  nlohmann::json task = parseJson(test::slurp(kTask));
+  task["lumps"] = (std::filesystem::path(kTask).parent_path() / task["lumps"]).string();
+  task.merge_patch(change);
+  std::ofstream(folder / "task.json") << task.dump();
+  try {
+    readSqueeze(folder / "task.json");
+  } catch (const UsageError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST(SqueezeFile, WhatIsNoComparisonIsRefusedByName) {
+  const auto expectRefused = [](const nlohmann::json& compare, const std::string& words) {
+    const std::string why = whyRefused({{"compare", compare}});
+    EXPECT_NE(why.find(words), std::string::npos) << compare << ": " << why;
+  };
+  EXPECT_EQ(whyRefused(nlohmann::json::object()), "");
+  for (const nlohmann::json& none :
+       {nlohmann::json(7), nlohmann::json("text"), nlohmann::json(true)})
+    expectRefused(none, "field \"compare\" must hold \"stiffness\" or \"weight\"");
+  for (const nlohmann::json& wrong : {nlohmann::json(2), nlohmann::json::array({"2"})})
+    expectRefused({{"weight", wrong}}, "field \"compare/weight\" is not a list of numbers");
+  expectRefused({{"weight", {1}}}, "field \"compare/weight\" must hold numbers from 0.3 to 3");
 }
 
 TEST(SqueezeFile, EveryDifferenceAsOftenAndEveryOrder) {
