@@ -3,6 +3,7 @@
 #include <map>
 #include <set>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/import/surface_topology.h"
 #include "anatomy/import/units_and_axes.h"
 #include "anatomy/import/weld.h"
@@ -229,9 +230,9 @@ std::vector<std::string> words(const RepairReport& report, double metres) {
   };
   note(report.joined_points, "one repeated point joined", "repeated points joined");
   if (report.welded_points > 0)
-    all.push_back(
-        std::to_string(report.welded_points) + (report.welded_points == 1 ? " point" : " points") +
-        " of seams joined, none moved by more than " + lengthText(metres * report.farthest_weld));
+    all.push_back(counted(report.welded_points, "point") +
+                  " of seams joined, none moved by more than " +
+                  lengthText(metres * report.farthest_weld));
   note(report.dropped_triangles, "one triangle dropped that was nothing or there twice",
        "triangles dropped that were nothing or there twice");
   note(report.scraps, "one loose triangle dropped", "loose triangles dropped");

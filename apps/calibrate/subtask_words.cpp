@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "anatomy/base/counted.h"
 #include "apps/report/page/numbers.h"
 
 namespace palpa::calibrate {
@@ -18,9 +19,6 @@ constexpr double kBusy_s =
 
 std::string percent(double share) {
   return fixed(100 * share, share > 0.0005 && share < 0.0095 ? 1 : 0) + " %";
-}
-std::string many(std::size_t n, const std::string& one) {
-  return std::to_string(n) + " " + one + (n == 1 ? "" : "s");
 }
 std::string quoted(const std::string& words) { return "\"" + words + "\""; }
 std::string atLeast(double value, double least, double unit, const std::string& name,
@@ -43,7 +41,7 @@ std::string pace(int changes, double seconds) {
   if (changes == 0) return "never";
   const double each = seconds / changes;
   return "every " + (each < 1 ? fixed(1e3 * each, 0) + " ms" : fixed(each, 1) + " s") + " (" +
-         (changes == 1 ? "once" : std::to_string(changes) + " times") + ")";
+         howOften(static_cast<std::size_t>(changes)) + ")";
 }
 
 struct Difference {
@@ -87,12 +85,12 @@ Sentences howMany(const SubtaskRecordings& recordings, const SubtaskSegmentation
   const calibration::StatesProposal& p = found.proposal;
   Sentences s;
   s.push_back(
-      many(recordings.sequences.size(), "trial") + ", " + fixed(secondsOf(recordings), 0) +
+      counted(recordings.sequences.size(), "trial") + ", " + fixed(secondsOf(recordings), 0) +
       " s in all. " +
       (found.states == std::min(p.states, p.repeatable) ? "Proposed: " : "Taken, as asked: ") +
-      many(static_cast<std::size_t>(found.states), "state") + ".");
+      counted(static_cast<std::size_t>(found.states), "state") + ".");
   s.push_back("Trials that were held out are predicted best by " +
-              many(static_cast<std::size_t>(p.best), "state") +
+              counted(static_cast<std::size_t>(p.best), "state") +
               "; as well within one standard error by " + std::to_string(p.states) +
               ". Fits to two halves of the trials find the same for up to " +
               std::to_string(p.repeatable) +
@@ -180,7 +178,7 @@ Sentences whatToMind(const SubtaskRecordings& recordings, const SubtaskSegmentat
         " ms apart still tell each other (correlation " + fixed(found.neighbours, 2) +
         "): by held-out trials too many states look good; more and longer trials would tell.");
   if (recordings.sequences.size() < kFewTrials)
-    s.push_back("With " + many(recordings.sequences.size(), "trial") +
+    s.push_back("With " + counted(recordings.sequences.size(), "trial") +
                 " the number of states is uncertain: give " + std::to_string(kFewTrials) +
                 " or more, better of several experts.");
   if (found.features.size() < kSubtaskFeatures) {
@@ -191,12 +189,12 @@ Sentences whatToMind(const SubtaskRecordings& recordings, const SubtaskSegmentat
     s.push_back("Not used, because it hardly changes: " + unused + ".");
   }
   if (recordings.augmented > 0)
-    s.push_back("In " + many(static_cast<std::size_t>(recordings.augmented), "trial") +
+    s.push_back("In " + counted(static_cast<std::size_t>(recordings.augmented), "trial") +
                 " cues might be added to the force in each hand-written part: hands that answer "
                 "them follow these parts.");
   if (recordings.left_out > 0)
     s.push_back("Left out, shorter than 0.5 s: " +
-                many(static_cast<std::size_t>(recordings.left_out), "stretch") + ".");
+                counted(static_cast<std::size_t>(recordings.left_out), "stretch") + ".");
   return s;
 }
 

@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
@@ -141,8 +142,7 @@ void print(const Findings& findings) {
   if (ill > 0)
     std::printf("\nNo session can start: see to what is ill (%zu).\n", ill);
   else if (notes > 0)
-    std::printf("\nA session can start; %zu thing%s should be seen to.\n", notes,
-                notes == 1 ? "" : "s");
+    std::printf("\nA session can start; %s should be seen to.\n", counted(notes, "thing").c_str());
   else
     std::printf("\nThe station is well.\n");
 }

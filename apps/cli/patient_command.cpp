@@ -1,6 +1,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/import/import_patient.h"
 #include "anatomy/import/repair.h"
@@ -137,8 +138,7 @@ void printSurfaces(const PatientOptions& o) {
     surfaces.push_back({std::move(mesh), check});
     if (organ != Organ::none) checkLength(surfaces.back(), o, organ);
   }
-  std::printf("%zu surface%s, lengths read as %s%s\n", surfaces.size(),
-              surfaces.size() == 1 ? "" : "s", unit.words,
+  std::printf("%s, lengths read as %s%s\n", counted(surfaces.size(), "surface").c_str(), unit.words,
               o.unit.empty() ? " (say --unit mm and the like where they are not)" : "");
   for (const CheckedSurface& surface : surfaces) printSurface(surface, o);
 }

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <memory>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/assess/competence/rating_agreement.h"
@@ -166,10 +167,11 @@ void reportAgreement(const RateOptions& o) {
   bool simulated = false;
   const std::vector<competence::RatedTrial> trials =
       ratedTrials(store, forms, &other_editions, &simulated);
-  std::printf("%zu rated trial%s in the %s%s\n", trials.size(), trials.size() == 1 ? "" : "s",
+  std::printf("%s in the %s%s\n", counted(trials.size(), "rated trial").c_str(),
               store.place().c_str(), simulated ? "; simulated trials are among them" : "");
   if (other_editions)
-    std::printf("%d ratings on other editions of these forms were left out\n", other_editions);
+    std::printf("Left out: %s on other editions of these forms\n",
+                counted(static_cast<std::size_t>(other_editions), "rating").c_str());
   print(competence::agreementOf(trials));
 }
 

@@ -37,7 +37,6 @@ void exportRecords(const RecordsOptions& o);
 void sendRecords(const RecordsOptions& o);  ///< xAPI
 
 /// "1 trial", "2 trials".
-std::string counted(std::size_t count, const std::string& what);
 record::Trainee traineeIn(record::RecordStore& store,
                           const std::string& id);  ///< throws UsageError
 

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/utc.h"
 #include "anatomy/base/whole_file.h"
@@ -63,8 +64,7 @@ void changeTrainee(const RecordsOptions& o) {
 void listTrainees(const RecordsOptions& o) {
   record::RecordStore store(o.url);
   const std::vector<record::Trainee> all = store.trainees();
-  std::printf("%zu trainee%s in the %s\n", all.size(), all.size() == 1 ? "" : "s",
-              store.place().c_str());
+  std::printf("%s in the %s\n", counted(all.size(), "trainee").c_str(), store.place().c_str());
   for (const record::Trainee& t : all) print(t, store.sessions(t.id).size());
 }
 

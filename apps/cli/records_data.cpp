@@ -3,6 +3,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/records_actions.h"

@@ -2,6 +2,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/records_actions.h"
@@ -89,10 +90,6 @@ void printSession(const record::StoredSession& s) {
 }
 
 }  // namespace
-
-std::string counted(std::size_t count, const std::string& what) {
-  return std::to_string(count) + " " + what + (count == 1 ? "" : "s");
-}
 
 record::Trainee traineeIn(record::RecordStore& store, const std::string& id) {
   const std::optional<record::Trainee> t = store.trainee(id);

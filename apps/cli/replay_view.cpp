@@ -5,6 +5,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/evidence/recorded_show.h"
@@ -119,7 +120,8 @@ void writeFilm(evidence::RecordedShow& recorded, const Cut& cut, const ReplayVie
   replay::Film film(o.video, o.frames_per_second, size.width, size.height);
   draw(recorded, cut, o, [&](int, const scene::Image& picture) { film.add(picture); });
   film.finish();
-  std::printf("Written: %s (%d pictures, %.1f s)\n", o.video.c_str(), film.frames(),
+  std::printf("Written: %s (%s, %.1f s)\n", o.video.c_str(),
+              counted(static_cast<std::size_t>(film.frames()), "picture").c_str(),
               film.frames() / o.frames_per_second);
 }
 
@@ -145,8 +147,8 @@ void writePictures(evidence::RecordedShow& recorded, const Cut& cut, const Repla
                              {"text", mark.words},
                              {"near_miss", mark.near_miss}});
   writeWhole(folder / "pictures.json", told.dump(1) + "\n");
-  std::printf("Written: %s (%d pictures, and pictures.json: what happened when)\n", folder.c_str(),
-              count);
+  std::printf("Written: %s (%s, and pictures.json: what happened when)\n", folder.c_str(),
+              counted(static_cast<std::size_t>(count), "picture").c_str());
 }
 
 }  // namespace

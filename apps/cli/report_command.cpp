@@ -3,6 +3,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/json_text.h"
 #include "apps/cli/arguments.h"
@@ -203,8 +204,8 @@ void reportTrainee(const ReportOptions& o) {
   const std::filesystem::path file =
       session::makeOutputFolder(o.out, "report-" + trainee->id) / "trainee.html";
   report::writeTraineeReport(page, file);
-  std::printf("Written: %s (%zu trial%s)\n", file.string().c_str(), page.trials.size(),
-              page.trials.size() == 1 ? "" : "s");
+  std::printf("Written: %s (%s)\n", file.string().c_str(),
+              counted(page.trials.size(), "trial").c_str());
 }
 
 void reportCohort(const ReportOptions& o) {
@@ -221,7 +222,8 @@ void reportCohort(const ReportOptions& o) {
   const std::filesystem::path file =
       session::makeOutputFolder(o.out, "report-cohort") / "cohort.html";
   report::writeCohortReport(page, file);
-  std::printf("Written: %s (%zu trials)\n", file.string().c_str(), page.trials.size());
+  std::printf("Written: %s (%s)\n", file.string().c_str(),
+              counted(page.trials.size(), "trial").c_str());
 }
 
 void addPageArguments(CLI::App& command, ReportOptions& o) {

@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <memory>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/cli/arguments.h"
 #include "apps/cli/commands.h"
@@ -166,8 +167,9 @@ void printDetections(const char* what, const study_analysis::Detections& found) 
 void planStudy(const PlanOptions& o) {
   std::printf(
       "SIMULATED: %d studies drawn from a learning model, figure %s, %d subjects in each group and "
-      "condition, %d trials each, level %g\n",
-      o.drawn.studies, o.metric.c_str(), o.drawn.subjects, o.drawn.trials, o.drawn.level);
+      "condition, %s each, level %g\n",
+      o.drawn.studies, o.metric.c_str(), o.drawn.subjects,
+      counted(static_cast<std::size_t>(o.drawn.trials), "trial").c_str(), o.drawn.level);
   printDetections("Studies that find the effects of Tzafestas 2008 (power):",
                   detectionsIn(modelOf(study_analysis::pilotModels(), o.metric), o.drawn));
   printDetections("Studies that find effects where there is none (false positives):",

@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <map>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/console/routes.h"
 #include "apps/record/store/record_store.h"
@@ -84,7 +85,7 @@ std::string stateOfRecords(record::RecordStore& store, const std::string& traine
 std::string startable(const study::Next& next) {
   if (next.kind != study::NextKind::trials) return "";
   if (!next.not_before.empty() && next.not_before > utcNow()) return "";
-  return std::to_string(next.trials) + (next.trials == 1 ? " trial" : " trials");
+  return counted(static_cast<std::size_t>(next.trials), "trial");
 }
 
 /// What has to be done elsewhere before a block can be.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/evidence/recorded_trials.h"
 #include "apps/report/page/style.h"
@@ -74,7 +75,7 @@ const record::RecordedTrial& chosenTrial(const std::vector<record::RecordedTrial
   if (found == trials.end())
     throw UsageError(
         number == 0 ? "has no finished trial" : "has no trial " + std::to_string(number),
-        file.string(), "It has " + std::to_string(trials.size()) + " trials, numbered from 1");
+        file.string(), "It has " + counted(trials.size(), "trial") + ", numbered from 1");
   return *found;
 }
 

@@ -7,6 +7,7 @@
 #include <sstream>
 #include <tuple>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/evidence/rating_forms.h"
@@ -168,7 +169,8 @@ void writeOutcome(const SessionOptions& options, const NeedleWorld& world,
         "and where the board was\n",
         static_cast<unsigned long long>(result.video->pictures));
   if (!result.pictures.empty())
-    std::printf("  view-*.png      %zu pictures of the marked moments\n", result.pictures.size());
+    std::printf("  view-*.png      %s of the marked moments\n",
+                counted(result.pictures.size(), "picture").c_str());
 }
 
 }  // namespace palpa::session

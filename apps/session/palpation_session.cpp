@@ -10,6 +10,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/counted.h"
 #include "apps/report/palpation/palpation_report.h"
 #include "apps/session/mouse_hands.h"
 #include "apps/session/output_folder.h"
@@ -290,7 +291,8 @@ void writePalpationOutcome(const SessionOptions& options, const PalpationWorld& 
         "and where the board was\n",
         static_cast<unsigned long long>(run.video->pictures));
   if (!run.pictures.empty())
-    std::printf("  view-*.png      %zu pictures of the marked moments\n", run.pictures.size());
+    std::printf("  view-*.png      %s of the marked moments\n",
+                counted(run.pictures.size(), "picture").c_str());
 }
 
 }  // namespace palpa::session

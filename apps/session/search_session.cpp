@@ -6,6 +6,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/parametric/phantoms.h"
 #include "apps/report/search/search_report.h"
@@ -223,7 +224,8 @@ void writeSearchOutcome(const SessionOptions& options, const SearchWorld& world,
       "  trials.csv      one row a scored episode\n  session.palpa   the evidence: every tick, for "
       "replay\n");
   if (!run.pictures.empty())
-    std::printf("  view-*.png      %zu pictures of the marked moments\n", run.pictures.size());
+    std::printf("  view-*.png      %s of the marked moments\n",
+                counted(run.pictures.size(), "picture").c_str());
 }
 
 }  // namespace palpa::session

@@ -1,5 +1,6 @@
 #include "apps/session/session_devices.h"
 
+#include "anatomy/base/counted.h"
 #include "apps/record/session_file.h"
 #include "apps/trial/trial_status.h"
 #include "haptics/devices/falcon/falcon_protocol.h"
@@ -157,7 +158,7 @@ std::vector<report::Fact> SessionDevices::facts() const {
     const haptics::FalconStatus status = falcon_->status();
     facts.push_back({"Packets exchanged with the Falcon", std::to_string(status.exchanges),
                      std::to_string(status.missed) + " without an answer; opened " +
-                         std::to_string(status.opened) + " times"});
+                         howOften(static_cast<std::size_t>(status.opened))});
   }
   if (net_ft_) {
     using haptics::NetFtCount;

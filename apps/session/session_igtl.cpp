@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/parametric/phantoms.h"
 #include "apps/os/socket.h"
@@ -68,7 +69,7 @@ std::vector<report::Fact> SessionIgtl::facts() const {
                      std::to_string(c.unusable) + " more that it called unusable, " +
                          std::to_string(c.not_rigid) + " that were no pose, " +
                          std::to_string(c.damaged) + " damaged messages; connected " +
-                         std::to_string(c.connections) + " times"});
+                         howOften(static_cast<std::size_t>(c.connections))});
   }
   if (link_)
     facts.push_back({"Listeners by OpenIGTLink", std::to_string(link_->server().everConnected()),

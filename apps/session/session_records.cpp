@@ -2,6 +2,7 @@
 
 #include <cstdio>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/evidence/evidence_records.h"
 
@@ -53,9 +54,8 @@ void deliverSession(const SessionOptions& o, const std::filesystem::path& folder
   try {
     const evidence::EvidenceDelivery done =
         evidence::deliverEvidence(folder / "session.palpa", o.records, kBriefly);
-    const int all = done.trials.added + done.trials.present;
-    std::printf("In the records of %s: %d trial%s\n", done.trainee.c_str(), all,
-                all == 1 ? "" : "s");
+    const auto all = static_cast<std::size_t>(done.trials.added + done.trials.present);
+    std::printf("In the records of %s: %s\n", done.trainee.c_str(), counted(all, "trial").c_str());
   } catch (const std::exception& e) {
     const std::string what = e.what();
     std::fprintf(stderr,

@@ -7,6 +7,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/parametric/phantoms.h"
 #include "apps/report/squeeze/squeeze_report.h"
 #include "apps/session/output_folder.h"
@@ -210,7 +211,8 @@ void writeSqueezeOutcome(const SessionOptions& options, const SqueezeWorld& worl
       "  trials.csv      one row a scored trial\n  session.palpa   the evidence: every tick of "
       "both tools, for replay\n");
   if (!run.pictures.empty())
-    std::printf("  view-*.png      %zu pictures of the marked moments\n", run.pictures.size());
+    std::printf("  view-*.png      %s of the marked moments\n",
+                counted(run.pictures.size(), "picture").c_str());
 }
 
 }  // namespace palpa::session

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "anatomy/base/counted.h"
 #include "apps/assess/metrics/metric_table.h"
 
 namespace palpa::competence {
@@ -219,7 +220,7 @@ std::string whatCannotBeCertified(int trials) {
     (c.limits.shortest_clean_run <= trials ? within : beyond) +=
         (((c.limits.shortest_clean_run <= trials ? within : beyond).empty()) ? "" : ", ") +
         clause(c);
-  const std::string count = std::to_string(trials) + (trials == 1 ? " trial" : " trials");
+  const std::string count = counted(static_cast<std::size_t>(trials), "trial");
   if (beyond.empty())
     return count + " without a failure are enough for every rate shown (" + within + ").";
   return count +

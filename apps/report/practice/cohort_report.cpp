@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/whole_file.h"
 #include "apps/assess/progress/cohort.h"
 #include "apps/assess/progress/competence.h"

@@ -72,8 +72,4 @@ std::string changeWords(const progress::Change& c) {
          (c.difference < 0 ? " less" : " more") + " (95 % interval " + differenceRange(c) + ')';
 }
 
-std::string counted(std::size_t count, const std::string& what) {
-  return std::to_string(count) + ' ' + what + (count == 1 ? "" : "s");
-}
-
 }  // namespace palpa::report

@@ -29,7 +29,4 @@ std::string intervalWords(const std::string& metric,
 /// s to 30 s)"; where it is unclear the interval has its sign.
 std::string changeWords(const progress::Change& change);
 
-/// "1 trial", "3 trials"
-std::string counted(std::size_t count, const std::string& what);
-
 }  // namespace palpa::report

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "anatomy/base/counted.h"
 #include "apps/assess/progress/competence.h"
 #include "apps/assess/progress/errors.h"
 #include "apps/assess/progress/learning_curve.h"

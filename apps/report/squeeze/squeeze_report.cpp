@@ -34,7 +34,7 @@ bool countsIn(const assess::SqueezeTrial& trial) {
   return training::countsAsScored(trial.role) && trial.outcome != training::Outcome::voided;
 }
 
-std::vector<assess::SqueezeTrial> counted(const std::vector<assess::SqueezeTrial>& trials) {
+std::vector<assess::SqueezeTrial> thatCount(const std::vector<assess::SqueezeTrial>& trials) {
   std::vector<assess::SqueezeTrial> all;
   std::copy_if(trials.begin(), trials.end(), std::back_inserter(all), countsIn);
   return all;
@@ -113,7 +113,7 @@ std::string squeezeHtml(const SqueezeReport& report) {
     writeSqueezeHeader(html, report);
     {
       const auto main = html.in("main");
-      const std::vector<assess::SqueezeTrial> trials = counted(report.trials);
+      const std::vector<assess::SqueezeTrial> trials = thatCount(report.trials);
       if (trials.empty()) html.element("p", "No trial counts: none was both scored and finished.");
       writeProperty(html, trials, SqueezedProperty::stiffness);
       writeProperty(html, trials, SqueezedProperty::weight);

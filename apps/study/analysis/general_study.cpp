@@ -4,6 +4,7 @@
 #include <cmath>
 #include <set>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/study/analysis/comparison.h"
 #include "apps/study/analysis/exhibit.h"

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 #include <algorithm>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "apps/assess/statistics/mixed_model.h"
 #include "apps/study/analysis/exhibit.h"

@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "anatomy/base/counted.h"
 #include "apps/study/analysis/comparison.h"
 #include "apps/study/analysis/exhibit.h"
 #include "apps/study/analysis/pilot.h"

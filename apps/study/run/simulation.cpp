@@ -2,6 +2,7 @@
 #include <map>
 #include <memory>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/random.h"
 #include "apps/evidence/evidence_records.h"
@@ -170,14 +171,17 @@ void simulateStudy(const StudyOptions& given) {
   buildWorlds(shared);
   const std::vector<Subject> subjects = enrolAll(o, protocol, learners);
   const int count = static_cast<int>(subjects.size());
-  std::printf("%s\n%d simulated trainees (%s). Planted: %s\n", protocol.title.c_str(), count,
-              learners.id.c_str(), learners.planted.c_str());
+  std::printf("%s\n%s (%s). Planted: %s\n", protocol.title.c_str(),
+              counted(subjects.size(), "simulated trainee").c_str(), learners.id.c_str(),
+              learners.planted.c_str());
   shareWork(count, o.workers, count * trialsOf(protocol), given.session.quiet,
             [&](int item, const std::function<void()>& step) {
               runSubject(shared, subjects[static_cast<std::size_t>(item)], step);
             });
-  std::printf("Simulated: %d trainees with %d trials each, in the records %s\n", count,
-              trialsOf(protocol), o.url.c_str());
+  const auto trials = static_cast<std::size_t>(trialsOf(protocol));
+  std::printf("Simulated: %s with %s each, in the records %s\n",
+              counted(subjects.size(), "trainee").c_str(), counted(trials, "trial").c_str(),
+              o.url.c_str());
   std::printf("Evidence: %s\nVirtual trainees answer no questionnaires\n", o.session.out.c_str());
 }
 
