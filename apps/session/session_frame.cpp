@@ -144,6 +144,13 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   igtl.finish(executive_->clock().now());
   writer.close();
   live_.reset();
+  SessionRun run = leftBy(task, scene);
+  for (report::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));
+  run.dropped = recorder.dropped() + task.lostTicks();
+  return run;
+}
+
+SessionRun SessionFrame::leftBy(const trial::TrialTask& task, const trial::TrialScene& scene) {
   SessionRun run;
   run.pictures = scene.pictures();
   run.lateness = executive_->lateness();
@@ -153,9 +160,7 @@ SessionRun SessionFrame::run(trial::TrialTask& task, trial::TrialScene& scene,
   run.camera_remarks = pictures_.remarks();
   run.board = scene.board();
   run.devices = devices_.facts();
-  for (report::Fact& fact : igtl.facts()) run.devices.push_back(std::move(fact));
   run.safety_events = task.safetyEvents();
-  run.dropped = recorder.dropped() + task.lostTicks();
   run.simulated_s = static_cast<double>(executive_->clock().now()) * 1e-9;
   run.quit = task.quit();
   return run;

@@ -74,6 +74,8 @@ class SessionFrame {
 
  private:
   std::unique_ptr<runtime::Activity> loop(runtime::GeometryActivity* geometry);
+  /// After the run, apart from what was recorded and what OpenIGTLink's links say.
+  SessionRun leftBy(const trial::TrialTask& task, const trial::TrialScene& scene);
   void publish(const scene::SceneState& state, const trial::TrialStatus& status,
                std::int64_t now_ns);
 
