@@ -20,8 +20,8 @@ struct TriangleMesh {
   std::vector<std::array<float, 2>> uvs;  ///< one a point, v down the picture (glTF); or none
 };
 
-/// A picture to be laid over a surface by its `uvs`; rows from the top, sRGB.
-struct Texture {
+/// Rows from the top, sRGB.
+struct RgbPicture {
   int width = 0, height = 0;
   std::vector<std::uint8_t> rgb;  ///< 3 a pixel; empty: none
 };
@@ -33,7 +33,7 @@ struct OrganSurface {
   std::array<float, 4> rgba{1, 1, 1, 1};
   std::string licence{};  ///< of this surface, where it is not the patient's
   std::string source{};   ///< who made it, as its licence asks to be named
-  Texture texture{};      ///< multiplied by rgba
+  RgbPicture texture{};   ///< laid over it by its uvs, multiplied by rgba
 };
 
 /// What a surface encloses; air where it says nothing of it.

@@ -234,10 +234,10 @@ std::array<float, 3> skinTone(std::uint64_t seed) {
   return tone;
 }
 
-Texture paintSkin(const TriangleMesh& skin_B_mm, const Build& build, std::uint64_t seed) {
+RgbPicture paintSkin(const TriangleMesh& skin_B_mm, const Build& build, std::uint64_t seed) {
   const SkinMap map = mapOfSkin(skin_B_mm, kPicture, kPicture);
   const SkinPainter painter(build, seed);
-  Texture texture{map.width, map.height, {}};
+  RgbPicture texture{map.width, map.height, {}};
   texture.rgb.reserve(3 * map.points.size());
   for (const std::array<float, 3>& p : map.points)
     for (const float c : painter.at(p))

@@ -39,7 +39,7 @@ void checkPngHeader(const unsigned char* bytes, std::size_t size, const std::str
 
 }  // namespace
 
-std::vector<unsigned char> pngOf(const Texture& texture, const std::string& where) {
+std::vector<unsigned char> pngOf(const RgbPicture& texture, const std::string& where) {
   if (texture.width < 1 || texture.height < 1 ||
       texture.rgb.size() != std::size_t{3} * texture.width * texture.height)
     refusePicture("does not have as many bytes as its pixels need", where);
@@ -55,7 +55,7 @@ std::vector<unsigned char> pngOf(const Texture& texture, const std::string& wher
   return png;
 }
 
-Texture textureOfPng(const unsigned char* bytes, std::size_t size, const std::string& where) {
+RgbPicture textureOfPng(const unsigned char* bytes, std::size_t size, const std::string& where) {
   checkPngHeader(bytes, size, where);
   tinygltf::Image image;
   if (!tinygltf::LoadImageData(&image, 0, nullptr, nullptr, 0, 0, bytes, static_cast<int>(size),
@@ -64,7 +64,7 @@ Texture textureOfPng(const unsigned char* bytes, std::size_t size, const std::st
   const std::size_t pixels = std::size_t(image.width) * image.height;
   if (image.component != 4 || image.bits != 8 || image.image.size() != 4 * pixels)
     refusePicture("was decoded to something else", where);
-  Texture texture{image.width, image.height, std::vector<std::uint8_t>(3 * pixels)};
+  RgbPicture texture{image.width, image.height, std::vector<std::uint8_t>(3 * pixels)};
   for (std::size_t i = 0; i < pixels; ++i) std::memcpy(&texture.rgb[3 * i], &image.image[4 * i], 3);
   return texture;
 }

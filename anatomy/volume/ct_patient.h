@@ -40,12 +40,6 @@ CtPatient buildCtPatient(const Volume& volume, const CtOptions& options,
 /// would not be. Seeds "suprasternal_notch", "entry_point", "vein_target" overrule.
 void markLandmarks(const Clavicle3& clavicle, const Vein& vein, const Seeds& seeds, CtPatient* ct);
 
-/// Rows from the top, three bytes (red, green, blue) a pixel.
-struct RgbPicture {
-  int width = 0, height = 0;
-  std::vector<std::uint8_t> rgb;
-};
-
 /// The brightest of the scan seen from in front, from the patient's left and from below, as
 /// radiologists hang them (patient's right on the left), 1 mm a pixel, with the outlines of
 /// `labels` and crosses at `marks`.

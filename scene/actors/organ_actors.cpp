@@ -35,7 +35,7 @@ bool isPlainWhite(const std::array<float, 4>& rgba) {
 }
 
 bool hasPicture(const anatomy::OrganSurface& organ) {
-  const anatomy::Texture& texture = organ.texture;
+  const anatomy::RgbPicture& texture = organ.texture;
   return texture.width > 0 && texture.height > 0 &&
          organ.mesh.uvs.size() == organ.mesh.points.size() &&
          texture.rgb.size() == std::size_t{3} * texture.width * texture.height;
@@ -48,7 +48,7 @@ Rgb colourOf(const anatomy::OrganSurface& organ) {
 }
 
 // Both count rows in the direction of v, so that the first row lies at v = 0.
-vtkSmartPointer<vtkTexture> textureOf(const anatomy::Texture& picture) {
+vtkSmartPointer<vtkTexture> textureOf(const anatomy::RgbPicture& picture) {
   vtkNew<vtkImageData> image;
   image->SetDimensions(picture.width, picture.height, 1);
   image->AllocateScalars(VTK_UNSIGNED_CHAR, 3);

@@ -11,7 +11,7 @@
 namespace palpa::anatomy {
 namespace {
 
-std::array<int, 3> pixelAt(const Texture& texture, const std::array<float, 2>& uv) {
+std::array<int, 3> pixelAt(const RgbPicture& texture, const std::array<float, 2>& uv) {
   const auto pick = [](float t, int size) {
     return std::min(size - 1, static_cast<int>(t * static_cast<float>(size)));
   };
@@ -91,8 +91,8 @@ TEST(SkinTexture, MapFindsTheVerticesAgain) {
 TEST(SkinTexture, SameSeedSameBytesAnotherSeedAnotherTone) {
   TriangleMesh skin = sphereMesh(100, 12);
   layPicture(&skin);
-  const Texture one = paintSkin(skin, Build{}, 7), again = paintSkin(skin, Build{}, 7),
-                other = paintSkin(skin, Build{}, 8);
+  const RgbPicture one = paintSkin(skin, Build{}, 7), again = paintSkin(skin, Build{}, 7),
+                   other = paintSkin(skin, Build{}, 8);
   EXPECT_EQ(one.rgb, again.rgb);
   EXPECT_NE(one.rgb, other.rgb);
   float darkest = 1, lightest = 0;
@@ -127,20 +127,20 @@ TEST(SkinTexture, AreolaeAreDarkerThanTheSkinRoundThemAndLipsAreRedder) {
   }
 }
 
-Texture smallPicture() {
-  Texture texture{5, 3, {}};
+RgbPicture smallPicture() {
+  RgbPicture texture{5, 3, {}};
   for (int i = 0; i < 45; ++i) texture.rgb.push_back(static_cast<std::uint8_t>(37 * i));
   return texture;
 }
 
 TEST(Picture, ComesBackFromPngAsItWas) {
-  const Texture written = smallPicture();
+  const RgbPicture written = smallPicture();
   const auto png = pngOf(written, "test");
-  const Texture read = textureOfPng(png.data(), png.size(), "test");
+  const RgbPicture read = textureOfPng(png.data(), png.size(), "test");
   EXPECT_EQ(read.width, 5);
   EXPECT_EQ(read.height, 3);
   EXPECT_EQ(read.rgb, written.rgb);
-  Texture wrong = written;
+  RgbPicture wrong = written;
   wrong.rgb.pop_back();
   EXPECT_THROW(pngOf(wrong, "test"), Error);
 }

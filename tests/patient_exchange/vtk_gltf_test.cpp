@@ -72,7 +72,7 @@ TEST(PatientElsewhere, VtkFindsThePictureOnTheSkin) {
   ASSERT_TRUE(picture.Image);
   int size[3];
   picture.Image->GetDimensions(size);
-  const Texture& written = patient.organ(Organ::skin).texture;
+  const RgbPicture& written = patient.organ(Organ::skin).texture;
   EXPECT_EQ(size[0], written.width);
   EXPECT_EQ(size[1], written.height);
   const auto surfaces = surfacesOf(file);
