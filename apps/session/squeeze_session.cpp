@@ -14,8 +14,6 @@
 #include "apps/session/session_facts.h"
 #include "apps/station/assets.h"
 #include "apps/task_squeeze/squeeze_scene.h"
-#include "apps/twin/bench_truth.h"
-#include "apps/twin/phantom/phantom_file.h"
 #include "apps/twin/soft_samples.h"
 #include "apps/twin/squeezing_hands.h"
 
@@ -44,27 +42,6 @@ station::Station squeezeStation(const SessionOptions& options) {
 }
 
 Vec3 sizeOf(const task_squeeze::SqueezeSettings& task) { return Vec3::Constant(2 * task.half); }
-
-/// What is held truly is: a mass with sides of simulated silicone.
-twin::TouchedObject realObject(const SqueezeWorld& world, std::uint64_t seed) {
-  const std::string file = "phantoms/" + world.station.file.text("twin/samples");
-  const std::vector<twin::Phantom> samples = twin::readSolved(
-      station::assetFile(file + ".json"), station::assetFile(file + ".tables.json"));
-  const auto object =
-      std::make_shared<twin::HeldObject>(twin::HeldObject::Shape{world.task.half, world.task.mass},
-                                         samples.front().table, twin::SiliconeLaw{});
-  const Pose X_WO =
-      twin::trueSample(world.station, seed) * world.station.sample->X_WP.inverse() * world.X_WO;
-  return [object, X_WO, r = world.station.sample->tip_radius](const std::array<Pose, 2>& X_WT,
-                                                              double dt) {
-    std::array<Vec3, 2> p_O;
-    for (std::size_t t = 0; t < 2; ++t)
-      p_O[t] = X_WO.inverse() * (X_WT[t] * Vec3(0, 0, -r)) - (t == 0 ? r : -r) * Vec3::UnitX();
-    const std::array<Vec3, 2> f_O = object->step(p_O, dt);
-    return std::array<twin::RealTouch, 2>{
-        {{X_WO.linear() * f_O[0], X_WO * p_O[0]}, {X_WO.linear() * f_O[1], X_WO * p_O[1]}}};
-  };
-}
 
 }  // namespace
 
@@ -123,7 +100,15 @@ SessionDevices::Hands SqueezeWorld::hands(const SessionOptions& options) const {
   bench.second = twin::SecondTool{.hand = std::move(fingers[1]),
                                   .X_WD = *station.second_X_WD,
                                   .X_DE_start = pickedUp(*station.second_X_WD, -1)};
-  if (isSimulated(options.who)) bench.real_thing = realObject(*this, options.benchSeed());
+  if (isSimulated(options.who)) {
+    const auto held = std::make_shared<twin::HeldObjectTwin>(
+        station, twin::HeldObject::Shape{task.half, task.mass}, X_WO, options.benchSeed());
+    bench.real_thing = [held](const std::array<Pose, 2>& X_WT_true, double dt) {
+      const std::array<twin::SampleTouch, 2> touches = held->step(X_WT_true, dt);
+      return std::array<twin::RealTouch, 2>{
+          {{touches[0].f_W, touches[0].p_W}, {touches[1].f_W, touches[1].p_W}}};
+    };
+  }
   return {std::move(bench), std::nullopt, task.library.tip_radius};
 }
 

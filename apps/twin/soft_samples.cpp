@@ -9,6 +9,14 @@
 #include "apps/twin/phantom/phantom_file.h"
 
 namespace palpa::twin {
+namespace {
+
+std::vector<Phantom> samplesOf(const station::Station& station) {
+  const std::string file = "phantoms/" + station.file.text("twin/samples");
+  return readSolved(station::assetFile(file + ".json"), station::assetFile(file + ".tables.json"));
+}
+
+}  // namespace
 
 SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
                        std::uint64_t seed) {
@@ -17,9 +25,7 @@ SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
                      "Say where it lies: sample/X_WP, sample/tip_radius_mm");
   X_WP_ = trueSample(station, seed);
   radius_ = station.sample->tip_radius;
-  const std::string file = "phantoms/" + station.file.text("twin/samples");
-  const std::vector<Phantom> samples =
-      readSolved(station::assetFile(file + ".json"), station::assetFile(file + ".tables.json"));
+  const std::vector<Phantom> samples = samplesOf(station);
   const auto one = name.empty() ? samples.begin()
                                 : std::find_if(samples.begin(), samples.end(),
                                                [&](const Phantom& p) { return p.name == name; });
@@ -79,6 +85,26 @@ std::array<Vec3, 2> HeldObject::step(const std::array<Vec3, 2>& p_O, double dt, 
   v_ += (on_object + onStand()) / shape_.mass * dt;
   p_ += v_ * dt;
   return f;
+}
+
+HeldObjectTwin::HeldObjectTwin(const station::Station& station, const HeldObject::Shape& shape,
+                               const Pose& X_WO, std::uint64_t seed)
+    : X_WO_(trueSample(station, seed) * station.sample->X_WP.inverse() * X_WO),
+      radius_(station.sample->tip_radius),
+      object_(shape, samplesOf(station).front().table, SiliconeLaw{}) {}
+
+std::array<SampleTouch, 2> HeldObjectTwin::step(const std::array<Pose, 2>& X_WT, double dt) {
+  const double r = radius_;
+  std::array<Vec3, 2> p_O;
+  for (std::size_t t = 0; t < 2; ++t)
+    p_O[t] = X_WO_.inverse() * (X_WT[t] * Vec3(0, 0, -r)) - (t == 0 ? r : -r) * Vec3::UnitX();
+  const std::array<Vec3, 2> f_O = object_.step(p_O, dt);
+  std::array<SampleTouch, 2> touches;
+  for (std::size_t t = 0; t < 2; ++t) {
+    touches[t].f_W = X_WO_.linear() * f_O[t];
+    touches[t].p_W = X_WO_ * p_O[t];
+  }
+  return touches;
 }
 
 }  // namespace palpa::twin

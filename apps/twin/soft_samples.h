@@ -57,4 +57,22 @@ class HeldObject {
   Vec3 p_ = Vec3::Zero(), v_ = Vec3::Zero();
 };
 
+/// That object on the virtual bench's stand, which truly stands where the sample truly lies,
+/// between two tools with round tips. Its sides are made of the station's first simulated sample.
+/// W: the world.
+class HeldObjectTwin {
+ public:
+  /// `X_WO`: where the stand is thought to be. For a station with a sample.
+  HeldObjectTwin(const station::Station& station, const HeldObject::Shape& shape, const Pose& X_WO,
+                 std::uint64_t seed);
+
+  /// Both tools (z along them, T on their ends) are there after another `dt`.
+  std::array<SampleTouch, 2> step(const std::array<Pose, 2>& X_WT, double dt);
+
+ private:
+  Pose X_WO_;  ///< as it truly is
+  double radius_ = 0;
+  HeldObject object_;
+};
+
 }  // namespace palpa::twin
