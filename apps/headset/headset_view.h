@@ -4,8 +4,8 @@
 #include <functional>
 #include <memory>
 
-#include "apps/runtime/head_display.h"
 #include "ar/headset/headset.h"
+#include "scene/head_display.h"
 #include "scene/scene_state.h"
 #include "scene/view/scene_view.h"
 
@@ -40,7 +40,7 @@ struct HeadsetViewSetup {
 /// A headset that shows the scene: the patient lies before the person (again whenever they ask for
 /// it, or their system recentres), the tool is in their hand. It has a context and a view of its
 /// own; the desktop's go on beside it.
-class HeadsetView final : public runtime::HeadDisplay {
+class HeadsetView final : public scene::HeadDisplay {
  public:
   /// Throws Error where there is no headset.
   HeadsetView(const anatomy::Patient& patient, HeadsetViewSetup setup);

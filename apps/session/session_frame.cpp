@@ -51,7 +51,7 @@ std::vector<runtime::BoardPlace> SessionFrame::places() const {
   return all;
 }
 
-trial::TrialScene::Stage SessionFrame::stage(runtime::HeadDisplay* head) {
+trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
   using Views = trial::TrialScene::Views;
   trial::TrialScene::Stage stage;
   stage.views = !stage_.view ? Views::none : options_.fast ? Views::pictures : Views::continuous;

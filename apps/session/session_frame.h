@@ -64,7 +64,7 @@ class SessionFrame {
                  runtime::GeometryActivity* geometry = nullptr);
 
   /// Where and how the scene shows; with a window its keys are obeyed.
-  trial::TrialScene::Stage stage(runtime::HeadDisplay* head = nullptr);
+  trial::TrialScene::Stage stage(scene::HeadDisplay* head = nullptr);
   std::vector<runtime::BoardPlace> places() const;
 
   runtime::Bus& bus() { return bus_; }

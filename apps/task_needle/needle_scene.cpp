@@ -158,7 +158,7 @@ bool SceneActivity::mayWait(const runtime::ToolState& tool) const {
 }
 
 /// Tells the hand what a controller can: a layer punctured, bone.
-void SceneActivity::pulse(runtime::HeadDisplay& head, const runtime::ToolState& tool) {
+void SceneActivity::pulse(scene::HeadDisplay& head, const runtime::ToolState& tool) {
   const bool inserted = tool.phase == haptics::NeedlePhase::inserted;
   const bool punctured = inserted && (felt_.phase != haptics::NeedlePhase::inserted ||
                                       (felt_.tissue != tool.tissue && tool.depth > felt_.depth));

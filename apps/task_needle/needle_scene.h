@@ -66,7 +66,7 @@ class SceneActivity final : public trial::TrialScene {
   void compose(scene::SceneState& state, const runtime::ToolState& tool,
                const std::string& trouble) override;
   void addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) override;
-  void pulse(runtime::HeadDisplay& head, const runtime::ToolState& tool) override;
+  void pulse(scene::HeadDisplay& head, const runtime::ToolState& tool) override;
   bool mayWait(const runtime::ToolState& tool) const override;
   void showForces(scene::SceneState& state, const runtime::ToolState& tool);
   void leaveTrail(scene::SceneState& state, const runtime::ToolState& tool);

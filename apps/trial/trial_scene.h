@@ -8,10 +8,10 @@
 #include "apps/runtime/activity.h"
 #include "apps/runtime/bus.h"
 #include "apps/runtime/camera_trouble.h"
-#include "apps/runtime/head_display.h"
 #include "apps/station/station_sections.h"
 #include "apps/trial/trial_status.h"
 #include "ar/cameras/undistort.h"
+#include "scene/head_display.h"
 #include "scene/view/scene_view.h"
 
 namespace palpa::trial {
@@ -37,7 +37,7 @@ class TrialScene : public runtime::Activity {
   struct Stage {
     Views views = Views::none;
     scene::SceneView* view = nullptr;  ///< null without views
-    runtime::HeadDisplay* head =
+    scene::HeadDisplay* head =
         nullptr;  ///< null without one; while it shows, its frames set the pace
     calibration::CameraModel camera;
     Pose X_WA = Pose::Identity(), X_WD = Pose::Identity();
@@ -79,7 +79,7 @@ class TrialScene : public runtime::Activity {
   /// Adds to what a simulated person sees.
   virtual void addTo(runtime::Displayed&, const runtime::ToolState&) {}
   /// What a controller of a headset can make felt.
-  virtual void pulse(runtime::HeadDisplay&, const runtime::ToolState&) {}
+  virtual void pulse(scene::HeadDisplay&, const runtime::ToolState&) {}
   /// A headset's frame may be waited for.
   virtual bool mayWait(const runtime::ToolState&) const { return true; }
 

@@ -100,7 +100,7 @@ Layers platformLayers() {
       {.folder = "apps/os", .sealed = true},
       {.folder = "apps/training", .libraries = {"JSON"}, .sealed = true},
       {.folder = "apps/runtime",
-       .ours = librariesAnd({"apps/os"}),
+       .ours = {"anatomy", "haptics", "calibration", "ar", "apps/os"},
        .never = {"apps/twin"},
        .libraries = {"Eigen", "OpenCV", "JSON"}},
       {.folder = "apps/headset",

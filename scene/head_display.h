@@ -4,7 +4,7 @@
 
 #include "scene/scene_state.h"
 
-namespace palpa::runtime {
+namespace palpa::scene {
 
 /// A display on the head, beside the desktop's view. Used by the thread of the scene alone.
 class HeadDisplay {
@@ -16,10 +16,10 @@ class HeadDisplay {
   virtual bool wait(bool may_place) = 0;
   /// Draws it and shows it; after every wait() that was true. The camera's picture and pose are not
   /// used: the patient lies before the person.
-  virtual void show(const scene::SceneState& state) = 0;
+  virtual void show(const SceneState& state) = 0;
   /// In the hand that holds the tool: `strength` 0..1.
   virtual void pulse(double seconds, double strength) = 0;
   virtual std::string trouble() const = 0;  ///< why it has ended, in words; empty: it has not
 };
 
-}  // namespace palpa::runtime
+}  // namespace palpa::scene
