@@ -4,13 +4,13 @@
 #include "anatomy/base/error.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/whole_file.h"
+#include "apps/bench/setup_accuracy.h"
 #include "apps/calibrate/page.h"
 #include "apps/calibrate/rig_adapters.h"
 #include "apps/calibrate/sequence.h"
 #include "apps/calibrate/watched_picture.h"
 #include "apps/cli/calibrate_samples.h"
 #include "apps/cli/commands.h"
-#include "apps/cli/setup_accuracy.h"
 #include "apps/os/file_access.h"
 #include "apps/runtime/clock.h"
 #include "apps/session/output_folder.h"
@@ -140,7 +140,7 @@ void calibrateStation(const CalibrateOptions& o) {
     return leave(o, station, setup, {}, "");
   }
   setup = setUp(scene, origin);
-  const SetupAccuracy accuracy = measureAccuracy(
+  const bench::SetupAccuracy accuracy = bench::measureAccuracy(
       station, station::withCalibrations(station, setup.calibrations), setup, bench);
   leave(o, station, setup, inWords(accuracy), inJson(accuracy));
 }

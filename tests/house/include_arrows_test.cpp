@@ -98,7 +98,7 @@ TEST(IncludeArrows, OnlyTwinBenchAndProgramSeeTheTruth) {
         "apps/doctor/station_check.cpp", "apps/console/place.cpp", "apps/live/port.cpp"})
     EXPECT_EQ(wrong(blind, truth), 1u) << blind;
   for (const char* seeing : {"apps/twin/operator.cpp", "apps/bench/loop_bench.cpp",
-                             "apps/session/needle_session.h", "apps/cli/setup_accuracy.h"})
+                             "apps/session/needle_session.h", "apps/bench/setup_accuracy.h"})
     EXPECT_EQ(wrong(seeing, truth), 0u) << seeing;
 }
 

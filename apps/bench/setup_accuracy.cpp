@@ -1,4 +1,4 @@
-#include "apps/cli/setup_accuracy.h"
+#include "apps/bench/setup_accuracy.h"
 
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -7,7 +7,7 @@
 #include "apps/station/overlay_error.h"
 #include "calibration/rotation.h"
 
-namespace palpa::cli {
+namespace palpa::bench {
 namespace {
 
 /// The board as the calibrated station sees it in the bench's next picture.
@@ -91,4 +91,4 @@ std::string inJson(const SetupAccuracy& a) {
       .dump();
 }
 
-}  // namespace palpa::cli
+}  // namespace palpa::bench

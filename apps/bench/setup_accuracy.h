@@ -6,7 +6,7 @@
 #include "apps/calibrate/sequence.h"
 #include "apps/twin/setup_bench.h"
 
-namespace palpa::cli {
+namespace palpa::bench {
 
 /// How far a set-up on the virtual bench is from the simulated truth, and how far it thought it
 /// was. For reports and tests only: nothing of it flows back.
@@ -25,4 +25,4 @@ SetupAccuracy measureAccuracy(const station::Station& before, const station::Sta
 std::vector<std::string> inWords(const SetupAccuracy& accuracy);
 std::string inJson(const SetupAccuracy& accuracy);
 
-}  // namespace palpa::cli
+}  // namespace palpa::bench
