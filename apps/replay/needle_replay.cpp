@@ -169,7 +169,7 @@ class NeedleReplay final : public TrialReplay {
   std::vector<Vec3> trail_;
   std::vector<std::size_t> trail_length_;  ///< up to each moment
   task_needle::TaskChannels channels_{runtime::TimeMode::virtual_time};
-  task_needle::SceneActivity scene_;
+  task_needle::NeedleScene scene_;
 };
 
 }  // namespace

@@ -150,7 +150,7 @@ class NeedleSession {
   const HeadStage head_ = makeHeadStage(options_, world_.patient, world_.X_WA, frame_.desktop());
   runtime::GeometryActivity geometry_{frame_.bus(), world_.geometry, world_.X_DA};
   task_needle::NeedleTask task_{taskSetup(), frame_.bus(), channels_, frame_.executive()};
-  task_needle::SceneActivity scene_{sceneSetup(), frame_.bus(), channels_};
+  task_needle::NeedleScene scene_{sceneSetup(), frame_.bus(), channels_};
 };
 
 }  // namespace

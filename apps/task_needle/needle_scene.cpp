@@ -142,23 +142,22 @@ constexpr std::size_t kTrailLongest = 4000;
 
 }  // namespace
 
-SceneActivity::SceneActivity(const NeedleSceneSetup& setup, runtime::Bus& bus,
-                             TaskChannels& channels)
+NeedleScene::NeedleScene(const NeedleSceneSetup& setup, runtime::Bus& bus, TaskChannels& channels)
     : TrialScene(setup.stage, bus, channels), setup_(setup), channels_(channels) {
   if (setup.giving_way) skin_.emplace(*setup.giving_way, setup.skin);
 }
 
-const trial::TrialStatus& SceneActivity::readStatus(std::int64_t now_ns) {
+const trial::TrialStatus& NeedleScene::readStatus(std::int64_t now_ns) {
   if (const TaskStatus* status = channels_.status_to_scene.read(now_ns)) status_ = *status;
   return status_;
 }
 
-bool SceneActivity::mayWait(const runtime::ToolState& tool) const {
+bool NeedleScene::mayWait(const runtime::ToolState& tool) const {
   return tool.phase == haptics::NeedlePhase::outside;
 }
 
 /// Tells the hand what a controller can: a layer punctured, bone.
-void SceneActivity::pulse(scene::HeadDisplay& head, const runtime::ToolState& tool) {
+void NeedleScene::pulse(scene::HeadDisplay& head, const runtime::ToolState& tool) {
   const bool inserted = tool.phase == haptics::NeedlePhase::inserted;
   const bool punctured = inserted && (felt_.phase != haptics::NeedlePhase::inserted ||
                                       (felt_.tissue != tool.tissue && tool.depth > felt_.depth));
@@ -169,8 +168,8 @@ void SceneActivity::pulse(scene::HeadDisplay& head, const runtime::ToolState& to
   felt_ = tool;
 }
 
-void SceneActivity::compose(scene::SceneState& state, const runtime::ToolState& tool,
-                            const std::string& trouble) {
+void NeedleScene::compose(scene::SceneState& state, const runtime::ToolState& tool,
+                          const std::string& trouble) {
   state.guide = setup_.guide;
   if (skin_) state.skin_push = skin_->follow(tool, X_AD(), now_ns());
   state.plunger = tool.plunger;
@@ -180,7 +179,7 @@ void SceneActivity::compose(scene::SceneState& state, const runtime::ToolState& 
   leaveTrail(state, tool);
 }
 
-void SceneActivity::showForces(scene::SceneState& state, const runtime::ToolState& tool) {
+void NeedleScene::showForces(scene::SceneState& state, const runtime::ToolState& tool) {
   state.forces.clear();
   const Vec3 f_A = X_AD().rotation() * unpack(tool.f_contact_D);
   if (f_A.norm() > 0.05) {
@@ -193,7 +192,7 @@ void SceneActivity::showForces(scene::SceneState& state, const runtime::ToolStat
   }
 }
 
-void SceneActivity::leaveTrail(scene::SceneState& state, const runtime::ToolState& tool) {
+void NeedleScene::leaveTrail(scene::SceneState& state, const runtime::ToolState& tool) {
   if (status_.trial != trail_trial_) {
     trail_trial_ = status_.trial;
     state.trail_A.clear();
@@ -205,7 +204,7 @@ void SceneActivity::leaveTrail(scene::SceneState& state, const runtime::ToolStat
     state.trail_A.push_back(tip);
 }
 
-void SceneActivity::addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) {
+void NeedleScene::addTo(runtime::Displayed& displayed, const runtime::ToolState& tool) {
   displayed.blood_flows = status_.blood_flows;
   displayed.injury = displayed.running && injury(tool);
 }

@@ -57,9 +57,9 @@ struct NeedleSceneSetup {
 };
 
 /// What is seen of a needle's trial: the skin that gives way, the syringe, forces, the tip's way.
-class SceneActivity final : public trial::TrialScene {
+class NeedleScene final : public trial::TrialScene {
  public:
-  SceneActivity(const NeedleSceneSetup& setup, runtime::Bus& bus, TaskChannels& channels);
+  NeedleScene(const NeedleSceneSetup& setup, runtime::Bus& bus, TaskChannels& channels);
 
  private:
   const trial::TrialStatus& readStatus(std::int64_t now_ns) override;
