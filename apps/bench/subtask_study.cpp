@@ -101,7 +101,7 @@ SpeedPart speedPart(const SearchFloor& floor, const std::string& name) {
   const auto& named = floor.task.augmentations;
   for (std::size_t i = 0; i < named.subtasks.size(); ++i) {
     const haptics::Condition& c = floor.config.augmentations.subtasks.each[i].conditions[0];
-    if (named.subtasks[i].name == name && c.cue == haptics::Cue::floor_speed)
+    if (named.subtasks[i].name == name && c.signal == haptics::Signal::floor_speed)
       return {floor.config, static_cast<int>(i), floor.config.floor.unit * c.threshold,
               c.hysteresis};
   }

@@ -13,7 +13,7 @@ namespace {
 using haptics::Augmentation;
 using haptics::AugmentationKind;
 using haptics::Condition;
-using haptics::Cue;
+using haptics::Signal;
 
 constexpr double kMilli = 1e-3;
 
@@ -29,29 +29,30 @@ Value chosen(const JsonFile& file, const std::string& at,
   file.refuse(at, "is \"" + said + "\"; known: " + all);
 }
 
-Cue cueIn(const JsonFile& file) {
+Signal signalIn(const JsonFile& file) {
   const std::string said = file.text("cue");
   std::string all;
-  for (int i = 1; i < haptics::kCues; ++i) {
-    const Cue cue = static_cast<Cue>(i);
-    if (said == haptics::cueName(cue).name) return cue;
-    all += (all.empty() ? "" : ", ") + std::string(haptics::cueName(cue).name);
+  for (int i = 1; i < haptics::kSignals; ++i) {
+    const Signal signal = static_cast<Signal>(i);
+    if (said == haptics::signalName(signal).name) return signal;
+    all += (all.empty() ? "" : ", ") + std::string(haptics::signalName(signal).name);
   }
   file.refuse("cue", "is \"" + said + "\"; known: " + all);
 }
 
 /// "inserted" of the phases, "muscle" of the tissues: its number.
-double countedIn(const JsonFile& file, Cue cue) {
+double countedIn(const JsonFile& file, Signal signal) {
   if (!file.json().at("is").is_string()) return file.number("is", 0, 255);
   const std::string said = file.text("is");
   static constexpr std::array<const char*, 3> kPhases{"outside", "indenting", "inserted"};
-  if (cue == Cue::phase)
+  if (signal == Signal::phase)
     for (std::size_t i = 0; i < kPhases.size(); ++i)
       if (said == kPhases[i]) return static_cast<double>(i);
-  if (cue == Cue::tissue)
+  if (signal == Signal::tissue)
     for (int i = 0; i < kTissueCount; ++i)
       if (said == palpa::name(static_cast<Tissue>(i))) return i;
-  file.refuse("is", "is \"" + said + "\", which \"" + haptics::cueName(cue).name + "\" never is");
+  file.refuse("is",
+              "is \"" + said + "\", which \"" + haptics::signalName(signal).name + "\" never is");
 }
 
 /// A learned state that there is.
@@ -68,19 +69,19 @@ void needState(const JsonFile& file, const Condition& c, std::uint32_t states) {
 Condition conditionIn(const JsonFile& file, double hysteresis, std::uint32_t states) {
   constexpr double kLargest = 1e6;
   Condition c;
-  c.cue = cueIn(file);
+  c.signal = signalIn(file);
   c.hysteresis = hysteresis;
-  const double unit = haptics::cueName(c.cue).si;
+  const double unit = haptics::signalName(c.signal).si;
   if (file.has("at_least"))
     c.threshold = unit * file.number("at_least", -kLargest, kLargest);
   else if (file.has("below"))
     c.compare = Condition::Compare::below,
     c.threshold = unit * file.number("below", -kLargest, kLargest);
   else if (file.has("is"))
-    c.compare = Condition::Compare::equal, c.threshold = countedIn(file, c.cue);
+    c.compare = Condition::Compare::equal, c.threshold = countedIn(file, c.signal);
   else
     file.refuse("cue", "needs \"at_least\", \"below\" or \"is\" beside it");
-  if (c.cue == Cue::learned) needState(file, c, states);
+  if (c.signal == Signal::learned) needState(file, c, states);
   return c;
 }
 

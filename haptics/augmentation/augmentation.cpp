@@ -149,7 +149,7 @@ double attractionForce(double amplitude, double d, double d_max, double radius) 
 Augmented augment(const AugmentationPlan& plan, const AugmentationInput& in,
                   AugmentationState* state) noexcept {
   Augmented out;
-  const std::uint32_t begun = detect(plan.subtasks, in.cues, in.now_ns, &state->subtasks);
+  const std::uint32_t begun = detect(plan.subtasks, in.signals, in.now_ns, &state->subtasks);
   out.subtasks = state->subtasks.on;
   if (!(state->started & kElapsedStarted)) state->elapsed.fill(-1);
   state->started |= kElapsedStarted;

@@ -63,13 +63,13 @@ struct AugmentationPlan {
   double steepest =
       1000;  ///< N/m: attraction and fixture rise no steeper, so that the device can hold them
   double speed_tau = 0.005;  ///< s, of the speed that parts are told by
-  LearnedModel learned;      ///< by which Cue::learned tells
+  LearnedModel learned;      ///< by which Signal::learned tells
 };
 static_assert(std::is_trivially_copyable_v<AugmentationPlan>);
 
 /// What the augmentations need to know of a tick; D, SI units.
 struct AugmentationInput {
-  CueValues cues;
+  SignalValues signals;
   std::uint32_t events = 0;
   bool allowed = true;              ///< false: this session or trial goes without
   bool rise = false, bump = false;  ///< a rise, a bump that the probe's way enters

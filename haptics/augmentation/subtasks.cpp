@@ -5,8 +5,8 @@
 
 namespace palpa::haptics {
 
-const CueName& cueName(Cue cue) noexcept {
-  static constexpr CueName kNames[kCues] = {
+const SignalName& signalName(Signal signal) noexcept {
+  static constexpr SignalName kNames[kSignals] = {
       {"none", "", 1},           {"speed", "mm/s", 1e-3},     {"advance", "mm/s", 1e-3},
       {"contact_force", "N", 1}, {"skin_force", "N", 1},      {"wall_force", "N", 1},
       {"bone_force", "N", 1},    {"indentation", "mm", 1e-3}, {"depth", "mm", 1e-3},
@@ -14,8 +14,8 @@ const CueName& cueName(Cue cue) noexcept {
       {"lump_edge", "mm", 1e-3}, {"floor_contact", "", 1},    {"floor_texture", "", 1},
       {"floor_speed", "U/s", 1}, {"learned", "", 1},
   };
-  const auto index = static_cast<std::size_t>(cue);
-  return kNames[index < kCues ? index : 0];
+  const auto index = static_cast<std::size_t>(signal);
+  return kNames[index < kSignals ? index : 0];
 }
 
 namespace {
@@ -35,7 +35,7 @@ bool holds(const Condition& c, double value, bool before) noexcept {
 
 }  // namespace
 
-std::uint32_t detect(const Subtasks& subtasks, const CueValues& cues, std::int64_t now_ns,
+std::uint32_t detect(const Subtasks& subtasks, const SignalValues& signals, std::int64_t now_ns,
                      SubtaskState* state) noexcept {
   std::uint32_t began = 0;
   const std::uint32_t count = std::min<std::uint32_t>(subtasks.count, kMostSubtasks);
@@ -45,7 +45,7 @@ std::uint32_t detect(const Subtasks& subtasks, const CueValues& cues, std::int64
     const bool before = state->on & bit;
     bool on = true;
     for (std::uint32_t k = 0; k < std::min<std::uint32_t>(subtask.count, kMostConditions); ++k)
-      on = holds(subtask.conditions[k], cues[subtask.conditions[k].cue], before) && on;
+      on = holds(subtask.conditions[k], signals[subtask.conditions[k].signal], before) && on;
     if (on == before) continue;
     state->on ^= bit;
     state->since_ns[i] = now_ns;

@@ -6,9 +6,9 @@
 
 namespace palpa::haptics {
 
-/// What a task's parts are told by: one number each, computed in every tick. Names and units stand
-/// in `cueName`.
-enum class Cue : std::uint8_t {
+/// What a task's parts are told by ("cue" in its file): one number each, computed in every tick.
+/// Names and units stand in `signalName`.
+enum class Signal : std::uint8_t {
   none,
   speed,          ///< of the tip
   advance,        ///< of the tip into the tissue, along the needle
@@ -30,31 +30,31 @@ enum class Cue : std::uint8_t {
   learned,
   count
 };
-inline constexpr int kCues = static_cast<int>(Cue::count);
+inline constexpr int kSignals = static_cast<int>(Signal::count);
 
-struct CueName {
+struct SignalName {
   const char* name;
   const char* unit;  ///< as in a task's file; empty: a plain number
   double si;         ///< a unit, in SI
 };
-/// For every cue but `none`.
-const CueName& cueName(Cue cue) noexcept;
+/// For every signal but `none`.
+const SignalName& signalName(Signal signal) noexcept;
 
-struct CueValues {
-  std::array<double, kCues> of{};
-  double& operator[](Cue cue) noexcept { return of[static_cast<std::size_t>(cue)]; }
-  double operator[](Cue cue) const noexcept { return of[static_cast<std::size_t>(cue)]; }
+struct SignalValues {
+  std::array<double, kSignals> of{};
+  double& operator[](Signal signal) noexcept { return of[static_cast<std::size_t>(signal)]; }
+  double operator[](Signal signal) const noexcept { return of[static_cast<std::size_t>(signal)]; }
 };
 
 inline constexpr int kMostSubtasks = 8, kMostConditions = 4;
 
-/// A cue against a figure. It begins to hold at its threshold and ceases a share of it beyond:
+/// A signal against a figure. It begins to hold at its threshold and ceases a share of it beyond:
 ///   at_least   on: c >= t     off: c < t - h |t|
 ///   below      on: c < t      off: c >= t + h |t|
 ///   equal      |c - t| < 1/2, for what is counted
 struct Condition {
   enum class Compare : std::uint8_t { at_least, below, equal };
-  Cue cue = Cue::none;
+  Signal signal = Signal::none;
   Compare compare = Compare::at_least;
   std::uint8_t reserved[6]{};
   double threshold = 0;      ///< t, SI (U/s for floor_speed)
@@ -83,7 +83,7 @@ static_assert(std::is_trivially_copyable_v<Subtasks> && std::is_trivially_copyab
 
 /// Which parts are on now; bits in `state->on`. Returns the bits of those that came on in this
 /// tick. Never allocates, never throws.
-std::uint32_t detect(const Subtasks& subtasks, const CueValues& cues, std::int64_t now_ns,
+std::uint32_t detect(const Subtasks& subtasks, const SignalValues& signals, std::int64_t now_ns,
                      SubtaskState* state) noexcept;
 
 }  // namespace palpa::haptics

@@ -57,31 +57,32 @@ void believeLearned(const TickConfig& config, TickState& state, const Vec3& f,
                  static_cast<std::int64_t>(1e9 * frame.input.dt + 0.5), &learned);
 }
 
-CueValues cuesOf(const TickConfig& config, const TickState& state, const NeedleContact& contact,
-                 const FloorTouch* touch, const TickFrame& frame) noexcept {
-  CueValues cues;
+SignalValues signalsOf(const TickConfig& config, const TickState& state,
+                       const NeedleContact& contact, const FloorTouch* touch,
+                       const TickFrame& frame) noexcept {
+  SignalValues signals;
   const FlightRecord& record = frame.record;
-  cues[Cue::speed] = unpack(state.tip.v_D).norm();
-  cues[Cue::advance] = contact.v_axial;
+  signals[Signal::speed] = unpack(state.tip.v_D).norm();
+  signals[Signal::advance] = contact.v_axial;
   const bool sensed = config.contact_mode == ContactMode::sensed_object &&
                       record.sensed.state == SensorState::valid;
-  cues[Cue::contact_force] = feltForce(config, contact, record.sensed).norm();
-  cues[Cue::skin_force] = contact.skin_force;
-  cues[Cue::wall_force] = contact.wall_force;
-  cues[Cue::bone_force] = contact.bone_force;
-  cues[Cue::indentation] = contact.indentation;
-  cues[Cue::depth] = contact.depth;
-  cues[Cue::phase] = static_cast<double>(state.contact.phase);
-  cues[Cue::tissue] = static_cast<double>(contact.tissue);
-  cues[Cue::part] = record.commands.subtask;
-  cues[Cue::learned] = 1 + state.augmentation.learned.state;
-  cues[Cue::lump_edge] = sensed ? lumpEdge(config, frame) : kFarAway;
-  if (!touch) return cues;
-  cues[Cue::floor_contact] = touch->touching;
-  cues[Cue::floor_texture] = touch->place.texture;
+  signals[Signal::contact_force] = feltForce(config, contact, record.sensed).norm();
+  signals[Signal::skin_force] = contact.skin_force;
+  signals[Signal::wall_force] = contact.wall_force;
+  signals[Signal::bone_force] = contact.bone_force;
+  signals[Signal::indentation] = contact.indentation;
+  signals[Signal::depth] = contact.depth;
+  signals[Signal::phase] = static_cast<double>(state.contact.phase);
+  signals[Signal::tissue] = static_cast<double>(contact.tissue);
+  signals[Signal::part] = record.commands.subtask;
+  signals[Signal::learned] = 1 + state.augmentation.learned.state;
+  signals[Signal::lump_edge] = sensed ? lumpEdge(config, frame) : kFarAway;
+  if (!touch) return signals;
+  signals[Signal::floor_contact] = touch->touching;
+  signals[Signal::floor_texture] = touch->place.texture;
   const Vec3 v_F = FloorFrame(config).toF(unpack(state.tip.v_D));
-  cues[Cue::floor_speed] = std::hypot(v_F.x(), v_F.y()) / config.floor.unit;
-  return cues;
+  signals[Signal::floor_speed] = std::hypot(v_F.x(), v_F.y()) / config.floor.unit;
+  return signals;
 }
 
 /// What the floor itself tells: rises and bumps under the probe's way, the valley nearby.
@@ -89,7 +90,7 @@ void lookAtFloor(const TickConfig& config, const Floor& floor, const FloorTouch&
                  const Vec3& dp_F, AugmentationInput* in) noexcept {
   const Vec3 p = touch.p_U, before = p - dp_F / config.floor.unit,
              v_F = FloorFrame(config).toF(in->v);
-  const double speed = in->cues[Cue::floor_speed];
+  const double speed = in->signals[Signal::floor_speed];
   if (floor.rises && touch.touching && speed > 0)
     in->rise = floor.rises->rises(
         p.x(), p.y(), GaborTable::directionOf(v_F.x(), v_F.y()),
@@ -161,7 +162,7 @@ void addAugmentations(const TickConfig& config, TickState& state, const NeedleCo
   if (state.tip.started) in.dp = p_D - unpack(state.tip.p_D);
   follow(state.tip, p_D, plan.speed_tau, frame->input.dt);
   believeLearned(config, state, feltForce(config, contact, frame->record.sensed), *frame);
-  in.cues = cuesOf(config, state, contact, touch, *frame);
+  in.signals = signalsOf(config, state, contact, touch, *frame);
   in.events = contact.events;
   in.allowed = frame->record.commands.augmented;
   in.f_contact = contact.f_D;

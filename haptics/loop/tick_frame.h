@@ -51,7 +51,7 @@ namespace palpa::haptics {
 NeedleContact floorContact(const TickConfig& config, TickState& state, const Floor* floor,
                            TickFrame* frame, FloorTouch* touch) noexcept;
 
-/// Cues, parts and augmentations of this tick into the record. `touch`: of a floor, else null.
+/// Signals, parts and augmentations of this tick into the record. `touch`: of a floor, else null.
 void addAugmentations(const TickConfig& config, TickState& state, const NeedleContact& contact,
                       const Floor* floor, const FloorTouch* touch, TickFrame* frame) noexcept;
 

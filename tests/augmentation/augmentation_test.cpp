@@ -79,12 +79,12 @@ TEST(Augmentation, APulseBelongsToItsPart) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+      Signal::floor_texture, Condition::Compare::at_least, {}, 1, 0};
   EXPECT_EQ(felt(plan, 50, [](int i, AugmentationInput& in) { in.bump = i == 5; }), 0);
   EXPECT_EQ(felt(plan, 50,
                  [](int i, AugmentationInput& in) {
                    in.bump = i == 5;
-                   in.cues[Cue::floor_texture] = 1;
+                   in.signals[Signal::floor_texture] = 1;
                  }),
             10);
 }
@@ -95,10 +95,10 @@ TEST(Augmentation, APulseOfAPartsBeginning) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Cue::bone_force, Condition::Compare::at_least, {}, 0.5, 0.05};
+      Signal::bone_force, Condition::Compare::at_least, {}, 0.5, 0.05};
   EXPECT_EQ(felt(plan, 100,
                  [](int i, AugmentationInput& in) {
-                   in.cues[Cue::bone_force] = i > 30 && i < 60 ? 1 : 0;
+                   in.signals[Signal::bone_force] = i > 30 && i < 60 ? 1 : 0;
                  }),
             10);
 }
@@ -167,14 +167,14 @@ TEST(Augmentation, BlendsInAndOutEvenly) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Cue::floor_contact, Condition::Compare::at_least, {}, 1, 0};
+      Signal::floor_contact, Condition::Compare::at_least, {}, 1, 0};
   AugmentationState state;
   double last = 0, jump = 0;
   for (int i = 0; i < 200; ++i) {
     AugmentationInput in = upward();
     in.to_valley = Vec3(0.15e-3, 0, 0);
     in.valley_radius = 2;
-    in.cues[Cue::floor_contact] = i >= 50 && i < 120;
+    in.signals[Signal::floor_contact] = i >= 50 && i < 120;
     const double f = augment(plan, in, &state).f.norm();
     jump = std::max(jump, std::abs(f - last));
     last = f;
@@ -289,12 +289,12 @@ TEST(Augmentation, AReliefBlendsInAndOutWithItsPart) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+      Signal::floor_texture, Condition::Compare::at_least, {}, 1, 0};
   AugmentationState state;
   for (int i = 0; i < 100; ++i) {
     AugmentationInput in = upward();
     in.footprint = 0.5;
-    in.cues[Cue::floor_texture] = i >= 10 && i < 60;
+    in.signals[Signal::floor_texture] = i >= 10 && i < 60;
     const double weight = i < 10   ? 0
                           : i < 60 ? std::min(1.0, (i - 9) / 20.0)
                                    : std::max(0.0, 1 - (i - 59) / 20.0);
@@ -308,11 +308,11 @@ TEST(Augmentation, AReliefBeginsOnEachBumpThatIsEntered) {
   plan.subtasks.count = 1;
   plan.subtasks.each[0].count = 1;
   plan.subtasks.each[0].conditions[0] = {
-      Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+      Signal::floor_texture, Condition::Compare::at_least, {}, 1, 0};
   AugmentationState state;
   for (int i = 0; i < 60; ++i) {
     AugmentationInput in = upward();
-    in.cues[Cue::floor_texture] = i >= 20;
+    in.signals[Signal::floor_texture] = i >= 20;
     in.footprint = 1;
     in.bump = i == 5 || i == 30 || i == 33;
     EXPECT_EQ(augment(plan, in, &state).began, i == 30 || i == 33 ? 1u : 0u) << i;

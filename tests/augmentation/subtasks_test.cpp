@@ -16,14 +16,14 @@ Subtasks one(const Condition& c) {
   return s;
 }
 
-CueValues speed(double v) {
-  CueValues cues;
-  cues[Cue::floor_speed] = v;
-  return cues;
+SignalValues speed(double v) {
+  SignalValues signals;
+  signals[Signal::floor_speed] = v;
+  return signals;
 }
 
 TEST(Subtasks, OnAtItsThresholdOffFivePercentBelow) {
-  const Subtasks s = one({Cue::floor_speed, Condition::Compare::at_least, {}, 468.75, 0.05});
+  const Subtasks s = one({Signal::floor_speed, Condition::Compare::at_least, {}, 468.75, 0.05});
   SubtaskState state;
   EXPECT_EQ(detect(s, speed(468.74), 1, &state), 0u);
   EXPECT_EQ(state.on, 0u);
@@ -39,7 +39,7 @@ TEST(Subtasks, OnAtItsThresholdOffFivePercentBelow) {
 }
 
 TEST(Subtasks, BelowIsTheMirrorImage) {
-  const Subtasks s = one({Cue::floor_speed, Condition::Compare::below, {}, 100, 0.05});
+  const Subtasks s = one({Signal::floor_speed, Condition::Compare::below, {}, 100, 0.05});
   SubtaskState state;
   detect(s, speed(100), 1, &state);
   EXPECT_EQ(state.on, 0u);
@@ -52,43 +52,43 @@ TEST(Subtasks, BelowIsTheMirrorImage) {
 }
 
 TEST(Subtasks, HysteresisOfANegativeThresholdGoesTheRightWay) {
-  CueValues cues;
-  const Subtasks s = one({Cue::lump_edge, Condition::Compare::at_least, {}, -0.004, 0.1});
+  SignalValues signals;
+  const Subtasks s = one({Signal::lump_edge, Condition::Compare::at_least, {}, -0.004, 0.1});
   SubtaskState state;
-  cues[Cue::lump_edge] = -0.0039;
-  detect(s, cues, 1, &state);
+  signals[Signal::lump_edge] = -0.0039;
+  detect(s, signals, 1, &state);
   EXPECT_EQ(state.on, 1u);
-  cues[Cue::lump_edge] = -0.0043;
-  detect(s, cues, 2, &state);
+  signals[Signal::lump_edge] = -0.0043;
+  detect(s, signals, 2, &state);
   EXPECT_EQ(state.on, 1u);
-  cues[Cue::lump_edge] = -0.0045;
-  detect(s, cues, 3, &state);
+  signals[Signal::lump_edge] = -0.0045;
+  detect(s, signals, 3, &state);
   EXPECT_EQ(state.on, 0u);
 }
 
 TEST(Subtasks, AllConditionsMustHoldAndPartsMayOverlap) {
-  Subtasks s = one({Cue::floor_contact, Condition::Compare::at_least, {}, 1, 0});
-  s.each[0].conditions[1] = {Cue::floor_texture, Condition::Compare::at_least, {}, 1, 0};
+  Subtasks s = one({Signal::floor_contact, Condition::Compare::at_least, {}, 1, 0});
+  s.each[0].conditions[1] = {Signal::floor_texture, Condition::Compare::at_least, {}, 1, 0};
   s.each[0].count = 2;
-  s.each[1].conditions[0] = {Cue::phase, Condition::Compare::equal, {}, 2, 0};
+  s.each[1].conditions[0] = {Signal::phase, Condition::Compare::equal, {}, 2, 0};
   s.each[1].count = 1;
   s.count = 2;
   SubtaskState state;
-  CueValues cues;
-  cues[Cue::floor_contact] = 1;
-  EXPECT_EQ(detect(s, cues, 1, &state), 0u);
-  cues[Cue::floor_texture] = 1;
-  EXPECT_EQ(detect(s, cues, 2, &state), 1u);
-  cues[Cue::phase] = 2;
-  EXPECT_EQ(detect(s, cues, 3, &state), 2u);
+  SignalValues signals;
+  signals[Signal::floor_contact] = 1;
+  EXPECT_EQ(detect(s, signals, 1, &state), 0u);
+  signals[Signal::floor_texture] = 1;
+  EXPECT_EQ(detect(s, signals, 2, &state), 1u);
+  signals[Signal::phase] = 2;
+  EXPECT_EQ(detect(s, signals, 3, &state), 2u);
   EXPECT_EQ(state.on, 3u);
-  cues[Cue::floor_contact] = 0;
-  detect(s, cues, 4, &state);
+  signals[Signal::floor_contact] = 0;
+  detect(s, signals, 4, &state);
   EXPECT_EQ(state.on, 2u);
 }
 
 TEST(Subtasks, ASpeedThatTremblesAboutItsThresholdDoesNotChatter) {
-  const Subtasks s = one({Cue::floor_speed, Condition::Compare::at_least, {}, 468.75, 0.05});
+  const Subtasks s = one({Signal::floor_speed, Condition::Compare::at_least, {}, 468.75, 0.05});
   SubtaskState state;
   int switches = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -99,11 +99,11 @@ TEST(Subtasks, ASpeedThatTremblesAboutItsThresholdDoesNotChatter) {
   EXPECT_EQ(switches, 1);
 }
 
-TEST(Cues, EveryOneHasANameOfItsOwn) {
+TEST(Signals, EveryOneHasANameOfItsOwn) {
   std::set<std::string> names;
-  for (int i = 0; i < kCues; ++i)
-    EXPECT_TRUE(names.insert(cueName(static_cast<Cue>(i)).name).second) << i;
-  EXPECT_EQ(cueName(static_cast<Cue>(200)).name, std::string("none"));
+  for (int i = 0; i < kSignals; ++i)
+    EXPECT_TRUE(names.insert(signalName(static_cast<Signal>(i)).name).second) << i;
+  EXPECT_EQ(signalName(static_cast<Signal>(200)).name, std::string("none"));
 }
 
 }  // namespace

@@ -17,7 +17,7 @@ namespace {
 using haptics::Augmentation;
 using haptics::AugmentationKind;
 using haptics::Condition;
-using haptics::Cue;
+using haptics::Signal;
 using nlohmann::json;
 using Trigger = Augmentation::Trigger;
 using Way = Augmentation::Way;
@@ -74,21 +74,21 @@ TEST(AugmentationPlan, TheShippedSearchReadsAsItIsStated) {
   };
   constexpr auto kAtLeast = Condition::Compare::at_least;
   const std::vector<Stated> stated{
-      {"scan", {{Cue::floor_speed, kAtLeast, {}, 468.75, 0.05}}},
+      {"scan", {{Signal::floor_speed, kAtLeast, {}, 468.75, 0.05}}},
       {"shape",
-       {{Cue::floor_speed, Condition::Compare::below, {}, 468.75, 0.05},
-        {Cue::floor_contact, kAtLeast, {}, 1, 0.05}}},
+       {{Signal::floor_speed, Condition::Compare::below, {}, 468.75, 0.05},
+        {Signal::floor_contact, kAtLeast, {}, 1, 0.05}}},
       {"identify",
-       {{Cue::floor_contact, kAtLeast, {}, 1, 0.05},
-        {Cue::floor_texture, kAtLeast, {}, 1, 0.05},
-        {Cue::floor_speed, kAtLeast, {}, 400, 0.05}}}};
+       {{Signal::floor_contact, kAtLeast, {}, 1, 0.05},
+        {Signal::floor_texture, kAtLeast, {}, 1, 0.05},
+        {Signal::floor_speed, kAtLeast, {}, 400, 0.05}}}};
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_EQ(named.subtasks[i].name, stated[i].part);
     EXPECT_FALSE(named.subtasks[i].means.empty());
     ASSERT_EQ(plan.subtasks.each[i].count, stated[i].on.size());
     for (std::size_t k = 0; k < stated[i].on.size(); ++k) {
       const Condition &read = plan.subtasks.each[i].conditions[k], &want = stated[i].on[k];
-      EXPECT_EQ(read.cue, want.cue) << i << k;
+      EXPECT_EQ(read.signal, want.signal) << i << k;
       EXPECT_EQ(read.compare, want.compare) << i << k;
       EXPECT_EQ(read.threshold, want.threshold) << i << k;
       EXPECT_EQ(read.hysteresis, want.hysteresis) << i << k;
@@ -174,7 +174,7 @@ TEST(AugmentationPlan, EveryTriggerByItsName) {
 
 TEST(AugmentationPlan, ConditionsAreInTheUnitsOfTheirCues) {
   const Condition edge = onlyCondition(conditionOf("lump_edge", "below", -4));
-  EXPECT_EQ(edge.cue, Cue::lump_edge);
+  EXPECT_EQ(edge.signal, Signal::lump_edge);
   EXPECT_EQ(edge.compare, Condition::Compare::below);
   EXPECT_DOUBLE_EQ(edge.threshold, -0.004);
   EXPECT_EQ(edge.hysteresis, 0.05);

@@ -93,7 +93,7 @@ TEST(LearnedModel, ReadsWhatTheTickNeeds) {
   for (const int unused : {haptics::kLogForce, haptics::kInContact, haptics::kLogShaking})
     EXPECT_EQ(m.mean[0][static_cast<std::size_t>(unused)],
               m.mean[1][static_cast<std::size_t>(unused)]);
-  EXPECT_EQ(plan.subtasks.each[0].conditions[0].cue, haptics::Cue::learned);
+  EXPECT_EQ(plan.subtasks.each[0].conditions[0].signal, haptics::Signal::learned);
   EXPECT_EQ(plan.subtasks.each[0].conditions[0].threshold, 2);
   EXPECT_EQ(learnedIn(JsonFile(taskWith(nullptr), "task.json")).states, 0u);
 }
