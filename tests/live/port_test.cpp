@@ -8,6 +8,7 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <opencv2/imgcodecs.hpp>
+#include <optional>
 
 #include "apps/live/live_session.h"
 #include "peer.h"
@@ -227,11 +228,13 @@ TEST(Port, WhoLeavesInTheMiddleOfAFrameAsksForNothing) {
       Peer peer(told.path);
       return peer.sendAll(command.substr(0, cut));
     }));
-  Peer whole(told.path);
-  ASSERT_TRUE(
-      eventually([&] { return !whole.known.empty() || !whole.read() || !whole.connected(); }));
-  if (whole.known.empty()) GTEST_FAIL() << "nobody is served any more";
-  ASSERT_TRUE(whole.sendAll(command));
+  std::optional<Peer> whole;
+  ASSERT_TRUE(eventually([&] {
+    whole.emplace(told.path);
+    return eventually([&] { return !whole->read() || !whole->known.empty(); }) &&
+           !whole->known.empty();
+  })) << "nobody is served any more";
+  ASSERT_TRUE(whole->sendAll(command));
   ASSERT_TRUE(eventually([&] { return told.heardCount() >= 1; }));
   EXPECT_EQ(told.heardCount(), 1u);
 }
