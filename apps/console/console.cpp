@@ -31,7 +31,7 @@ class OnlyOne {
     std::string url;
     std::getline(std::ifstream(url_), url);
     throw Error("runs already", "a console of this user" + (url.empty() ? "" : " (" + url + ")"),
-                "Use that one, or give another place with --home");
+                "Use that one, or choose another folder with --home");
   }
   ~OnlyOne() {
     std::error_code none;
@@ -73,7 +73,7 @@ void prepare(const ConsolePlace& place) {
   fs::permissions(place.home, fs::perms::owner_all, none);
   if (none)
     throw Error("cannot be used (" + none.message() + ")", place.home.string(),
-                "Give another place with --home");
+                "Choose another folder with --home");
 }
 
 }  // namespace
@@ -98,9 +98,9 @@ void serveConsole(const ConsoleSettings& s, const std::function<void(const std::
                    : server.bind_to_port(s.address, s.port) ? s.port
                                                             : -1;
   if (port <= 0)
-    throw Error("cannot be listened at",
+    throw Error("cannot be opened for listening",
                 s.address + (s.port ? ", port " + std::to_string(s.port) : ""),
-                "Another program uses it, perhaps: choose another with --port");
+                "Perhaps another program uses it: choose another with --port");
   server.widen();
   guard.answerTo(hostsOf(s, port));
   Console console(s.place, guard, s.tone);

@@ -87,17 +87,17 @@ bool Guard::entered(const std::string& cookie_header) const {
 GuardVerdict Guard::judge(const GuardedRequest& asked) {
   if (std::find(hosts_.begin(), hosts_.end(), asked.host) == hosts_.end())
     return {421, "this console is not called \"" + asked.host.substr(0, 64) +
-                     "\": use the address that it says when it starts"};
+                     "\": use the address that it prints when it starts"};
   const bool own = asked.origin.empty() ||
                    std::any_of(hosts_.begin(), hosts_.end(), [&](const std::string& host) {
                      return asked.origin == "http://" + host;
                    });
-  if (!own) return {403, "asked for by another site"};
+  if (!own) return {403, "requested by another site"};
   const bool page =
       asked.method == "GET" && (asked.path == "/" || asked.path.rfind("/static/", 0) == 0);
   if (!asked.fetch_site.empty() && asked.fetch_site != "same-origin" &&
       !(asked.fetch_site == "none" && asked.method == "GET") && !page)
-    return {403, "asked for by another site"};
+    return {403, "requested by another site"};
   if (asked.method == "POST") {
     if (GuardVerdict verdict = judgeWrite(asked); verdict.status != 200) return verdict;
   } else if (asked.method != "GET") {
@@ -109,13 +109,13 @@ GuardVerdict Guard::judge(const GuardedRequest& asked) {
 }
 
 GuardVerdict Guard::judgeWrite(const GuardedRequest& asked) {
-  if (asked.content_type.rfind("application/json", 0) != 0) return {415, "a write is JSON"};
+  if (asked.content_type.rfind("application/json", 0) != 0) return {415, "a write must be JSON"};
   if (!same(asked.page_key, page_key_))
-    return {403, "not asked for by a page of this console: load the page again"};
+    return {403, "not requested by a page of this console: load the page again"};
   if (!isNumber(asked.write_id)) return {400, "a write needs a number of its own"};
   const std::lock_guard lock(mutex_);
   if (flooding(asked.remote)) return {429, "too many writes: wait a few seconds"};
-  if (!written_.insert(asked.write_id).second) return {409, "this was asked for before"};
+  if (!written_.insert(asked.write_id).second) return {409, "this was requested before"};
   order_.push_back(asked.write_id);
   if (order_.size() > kKeptNumbers) {
     written_.erase(order_.front());

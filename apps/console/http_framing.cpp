@@ -102,15 +102,15 @@ std::optional<std::size_t> lengthIn(const std::string& text) {
 GuardVerdict judgeFraming(const httplib::Request& r) {
   for (const char* once :
        {"Host", "Origin", "Content-Length", "Content-Type", "X-Palpa-Page", "X-Palpa-Write"})
-    if (r.get_header_value_count(once) > 1) return {400, std::string("says ") + once + " twice"};
-  if (r.has_header("Transfer-Encoding")) return {411, "a body is sent with its length"};
-  if (r.has_header("Content-Encoding")) return {415, "a body is not packed"};
-  if (r.has_header("Range")) return {416, "parts of an answer are not to be had"};
+    if (r.get_header_value_count(once) > 1) return {400, std::string("has ") + once + " twice"};
+  if (r.has_header("Transfer-Encoding")) return {411, "a body must state its length"};
+  if (r.has_header("Content-Encoding")) return {415, "a body must not be compressed"};
+  if (r.has_header("Range")) return {416, "parts of an answer cannot be requested"};
   const bool stated = r.has_header("Content-Length");
   const std::optional<std::size_t> length =
       stated ? lengthIn(r.get_header_value("Content-Length")) : std::size_t{0};
-  if (!length) return {400, "the body's length is no number"};
-  if (r.method == "POST" && !stated) return {411, "a body is sent with its length"};
+  if (!length) return {400, "the body's length is not a number"};
+  if (r.method == "POST" && !stated) return {411, "a body must state its length"};
   if (r.method != "POST" && *length > 0) return {400, "only a POST has a body"};
   if (*length > kLongestBody) return {413, "is longer than 64 KiB"};
   return {};

@@ -172,7 +172,7 @@ void Jobs::stop(const std::string& id) {
   const std::lock_guard lock(mutex_);
   const auto found = jobs_.find(id);
   if (found == jobs_.end())
-    throw UsageError("is not known", "job " + id.substr(0, 64), "It is over already");
+    throw UsageError("is not known", "job " + id.substr(0, 64), "It has already ended");
   found->second.stopped = true;
   os::askToEnd(found->second.process);
 }

@@ -18,7 +18,7 @@ constexpr std::size_t kLongestWords = 80;
 
 std::string wordsIn(const json& body, const char* field) {
   if (!body.contains(field)) return "";
-  if (!body[field].is_string()) throw UsageError("is no text", field, "Load the page again");
+  if (!body[field].is_string()) throw UsageError("is not text", field, "Load the page again");
   const std::string text = body[field];
   if (text.size() > kLongestWords)
     throw UsageError("is longer than 80 characters", field, "Shorten it");
@@ -31,7 +31,7 @@ record::Trainee traineeIn(const json& body) {
   record::Trainee one;
   one.id = wordsIn(body, "id");
   if (const std::string why = record::whyNoPseudonym(one.id); !why.empty())
-    throw UsageError(why, "pseudonym", "Take letters, digits, - and _");
+    throw UsageError(why, "pseudonym", "Use letters, digits, - and _");
   one.group = wordsIn(body, "group");
   one.experience = wordsIn(body, "experience");
   if (const std::string hand = wordsIn(body, "handedness"); !hand.empty()) one.handedness = hand;
@@ -132,7 +132,7 @@ std::vector<fs::path> protocolFiles() {
 fs::path protocolFile(const std::string& id) {
   for (const fs::path& file : protocolFiles())
     if (study::readProtocol(file).id == id) return file;
-  throw UsageError("is not here", "study " + id.substr(0, 64), "Choose one of the list");
+  throw UsageError("is not here", "study " + id.substr(0, 64), "Choose one from the list");
 }
 
 json studies(Console& c) {
@@ -167,10 +167,10 @@ std::string runStudy(Console& c, const std::string& id, const json& body) {
   wish.task = id;
   wish.trainee = wordsIn(body, "trainee");
   if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty())
-    throw UsageError(why, "trainee", "Choose one of the list");
+    throw UsageError(why, "trainee", "Choose one from the list");
   wish.performer = wordsIn(body, "operator");
   if (wish.performer != "person" && wish.performer != "expert" && wish.performer != "novice")
-    throw UsageError("is none of person, expert, novice", "who performs", "Choose one of them");
+    throw UsageError("is not person, expert or novice", "who performs", "Choose one of them");
   wish.simulated = isSimulated(c, wish.performer);
   std::vector<std::string> arguments{"study",     "run",          "--protocol", wish.protocol,
                                      "--trainee", wish.trainee,   "--operator", wish.performer,
@@ -209,7 +209,7 @@ void addPeopleRoutes(WebServer& server, Console& c) {
     const auto all = store.trainees();
     if (!group.empty() && std::none_of(all.begin(), all.end(),
                                        [&](const record::Trainee& t) { return t.group == group; }))
-      return refuse(r, 404, "nobody in the records is of this group");
+      return refuse(r, 404, "the records hold nobody of this group");
     std::vector<std::string> arguments{"report", "cohort"};
     if (!group.empty()) arguments.push_back("--group=" + group);
     answer(r, report(c, "cohort " + group + " " + stateOfRecords(store, ""), "Report of the cohort",

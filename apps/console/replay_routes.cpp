@@ -147,7 +147,7 @@ class ReadTrials {
       return kept_.front().second;
     }
     throw UsageError("is not in the session", "trial " + std::to_string(number),
-                     "Choose one of the list");
+                     "Choose one from the list");
   }
 
  private:

@@ -17,7 +17,7 @@ namespace {
 
 std::string textIn(const nlohmann::json& asked, const char* field, const std::string& otherwise) {
   if (!asked.contains(field)) return otherwise;
-  if (!asked[field].is_string()) throw UsageError("is no text", field, "Load the page again");
+  if (!asked[field].is_string()) throw UsageError("is not text", field, "Load the page again");
   return asked[field];
 }
 
@@ -35,8 +35,8 @@ std::uint64_t numberIn(const nlohmann::json& asked, const char* field, std::uint
   if (!value.is_number_unsigned() || value.get<std::uint64_t>() < least ||
       value.get<std::uint64_t>() > most)
     throw UsageError(
-        "is no whole number from " + std::to_string(least) + " to " + std::to_string(most), field,
-        "Change it");
+        "is not a whole number from " + std::to_string(least) + " to " + std::to_string(most),
+        field, "Change it");
   return value;
 }
 
@@ -47,7 +47,7 @@ void requireOneOf(const std::string& value, const char* field,
     if (value == name) return;
     names += names.empty() ? name : std::string(", ") + name;
   }
-  throw UsageError("is none of " + names, field, "Choose one of them");
+  throw UsageError("is not one of " + names, field, "Choose one of them");
 }
 
 }  // namespace
@@ -60,7 +60,7 @@ SessionWish readWish(const nlohmann::json& asked) {
   wish.trainee = textIn(asked, "trainee", "");
   if (!wish.trainee.empty())
     if (const std::string why = record::whyNoPseudonym(wish.trainee); !why.empty())
-      throw UsageError(why, "trainee", "Choose one of the list");
+      throw UsageError(why, "trainee", "Choose one from the list");
   wish.performer = textIn(asked, "operator", "person");
   requireOneOf(wish.performer, "operator", {"person", "expert", "novice"});
   wish.side = textIn(asked, "side", "right");
@@ -91,12 +91,14 @@ struct EngineOptions {
   bool side, person_by_mouse;
 };
 constexpr EngineOptions kKinds[] = {
-    {Engine::needle, "Lead a needle to a target that is felt, and seen over the camera's picture.",
+    {Engine::needle, "Guide a needle to a target that is felt, and seen over the camera's picture.",
      true, true},
     {Engine::palpation,
-     "Search a soft phantom for lumps: they are felt, though the silicone has none.", false, true},
-    {Engine::squeeze, "Between two fingers: which is harder, which is heavier?", false, false},
-    {Engine::search, "Find the rough one of three hidden things by touch.", false, false},
+     "Search a soft phantom for lumps: they are felt, although the silicone has none.", false,
+     true},
+    {Engine::squeeze, "Compare two things between two fingers: which is harder, which is heavier?",
+     false, false},
+    {Engine::search, "Find the rough one of three hidden discs by feel.", false, false},
 };
 
 const EngineOptions& kindOf(Engine engine) {
@@ -138,7 +140,7 @@ std::vector<std::string> argumentsOf(const Console& c, const SessionWish& wish) 
   const auto task =
       std::find_if(all.begin(), all.end(), [&](const Task& one) { return one.id == wish.task; });
   if (task == all.end())
-    throw UsageError("is not here", "task " + wish.task, "Choose one of the list");
+    throw UsageError("is not here", "task " + wish.task, "Choose one from the list");
   if (wish.performer == "person" && !c.place.display && stationOf(c.place).empty())
     throw UsageError("needs a window at the station, and there is no display",
                      "a person on the virtual bench", "Choose a simulated expert or novice");
@@ -267,7 +269,7 @@ std::shared_ptr<SessionLink> linkFor(WebServer& server, Console& c, const std::s
     return nullptr;
   }
   if (server.enterStream()) return link;
-  refuse(response, 503, "too many pages look on at once: close some");
+  refuse(response, 503, "too many pages watch at once: close some");
   return nullptr;
 }
 

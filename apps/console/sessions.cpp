@@ -105,10 +105,10 @@ std::string messageOf(const std::string& state, const fs::path& folder) {
   if (state != "failed" && state != "interrupted") return "";
   const std::string complaint = complaintIn(folder / kLog);
   if (!complaint.empty()) return complaint;
-  return state == "failed" ? "The session ended before it began, without a word: it was killed, or "
-                             "the computer stopped. Begin it again"
-                           : "The session ended without a word: it was killed, or the computer "
-                             "stopped. What was recorded until then is kept";
+  return state == "failed" ? "The session ended before it had started and left no message: it was "
+                             "killed, or the computer stopped. Start it again"
+                           : "The session ended and left no message: it was killed, or the "
+                             "computer stopped. What was recorded until then is kept";
 }
 
 }  // namespace
@@ -125,7 +125,7 @@ std::string Sessions::socketOf(const std::string& id) const {
 fs::path Sessions::folder(const std::string& id) const {
   std::error_code none;
   if (!isId(id) || !fs::is_regular_file(place_.sessions() / id / kFacts, none))
-    throw UsageError("is not here", "session " + id.substr(0, 64), "Choose one of the list");
+    throw UsageError("is not here", "session " + id.substr(0, 64), "Choose one from the list");
   return place_.sessions() / id;
 }
 

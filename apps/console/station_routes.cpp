@@ -92,7 +92,7 @@ std::string calibrate(Console& c, const std::string& step) {
       std::find_if(std::begin(kSteps), std::end(kSteps),
                    [&](const CalibrationStep& one) { return step == one.id; });
   if (step != "all" && found == std::end(kSteps))
-    throw UsageError("is no calibration step", step.substr(0, 32), "Choose one of the list");
+    throw UsageError("is not a calibration step", step.substr(0, 32), "Choose one from the list");
   if (c.sessions.oneRuns()) throw UsageError("runs", "a session", "Calibrate when it is over");
   JobRequest request;
   request.key = "calibrate";
@@ -141,7 +141,7 @@ json pageOf(const json& job) {
 void checkHealth(Console& c) {
   JobRequest request;
   request.key = "doctor";
-  request.title = "The station is looked at";
+  request.title = "Check of the station";
   request.arguments = {"doctor",        "--json", "--records",
                        c.place.records, "--out",  c.place.sessions().string()};
   if (const std::string chosen = stationOf(c.place); !chosen.empty())

@@ -59,7 +59,7 @@ const char* wordsFor(int status) {
     case 414:
       return "a path too long";
     case 422:
-      return "what was asked for cannot be";
+      return "cannot be done as requested";
     case 500:
       return "went wrong";
     default:
@@ -243,7 +243,7 @@ void answer(httplib::Response& response, const nlohmann::json& json, int status)
 nlohmann::json bodyOf(const httplib::Request& request) {
   nlohmann::json body = parsedOrDiscarded(request.body);
   if (!body.is_object())
-    throw UsageError("is no JSON object", "what was sent", "Load the page again");
+    throw UsageError("is not a JSON object", "what was sent", "Load the page again");
   return body;
 }
 

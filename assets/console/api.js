@@ -51,10 +51,10 @@ async function sentence(response) {
     /* no JSON: the status must do */
   }
   if (response.status === 404)
-    return "The console knows nothing of this. It may have been removed; go back and choose again.";
+    return "The console does not have this. It may have been removed; go back and choose again.";
   return (
     `The console could not do this (answer ${response.status}). ` +
-    "Try again; if it stays so, look at the Station page."
+    "Try again; if that does not help, look at the Station page."
   );
 }
 
@@ -76,7 +76,7 @@ async function send(method, path, body) {
     reportConnection(false);
     throw new Trouble(
       "No connection to the console. What you asked for has not been confirmed; " +
-        "it is tried again only when you ask again.",
+        "it is not sent again until you ask again.",
     );
   }
   reportConnection(true);
@@ -90,10 +90,7 @@ async function answerOf(response) {
   try {
     return JSON.parse(text);
   } catch {
-    throw new Trouble(
-      "The console answered something that cannot be read. Reload this page.",
-      response.status,
-    );
+    throw new Trouble("The console's answer cannot be read. Reload this page.", response.status);
   }
 }
 

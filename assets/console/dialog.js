@@ -9,8 +9,12 @@ const kReasons = [
     "Interrupted",
     "Somebody came in, the telephone rang, the trainee was called away.",
   ],
-  ["technical fault", "Technical fault", "Camera, device or program did not do what they should."],
-  ["trainee stopped", "The trainee stopped", "The trainee wished not to go on."],
+  [
+    "technical fault",
+    "Technical fault",
+    "The camera, the device or the program did not work as it should.",
+  ],
+  ["trainee stopped", "The trainee stopped", "The trainee did not want to continue."],
   ["other", "Something else", ""],
 ];
 

@@ -34,7 +34,7 @@ export class LiveControls {
       if (
         await confirmed(
           "End the session?",
-          "What was recorded until now is kept. A trial that is under way ends too: " +
+          "What has been recorded so far is kept. A trial that is running ends, too: " +
             "in practice it becomes void, an assessed one counts as aborted.",
           "End the session",
         )

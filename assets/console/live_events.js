@@ -138,7 +138,7 @@ export class LiveEvents {
       at_s = Number(this.at_s.toFixed(2));
     if (!text) {
       this.text.focus();
-      throw new Error("Write a word or two, or leave it.");
+      throw new Error("Write a word or two, or choose Leave it.");
     }
     await post(this.path, { command: "note", reason: text, at_s });
     announce("The note is saved.");

@@ -82,7 +82,7 @@ async function follow(life, job, place, done) {
           { class: "card" },
           notice(
             good ? "good" : "bad",
-            now.message || (good ? "Done." : "It did not work; nothing was changed."),
+            now.message || (good ? "Done." : "It failed; nothing was changed."),
           ),
           now.page ? reportFrame(now.page, "Result of the calibration") : null,
         ),
@@ -93,7 +93,7 @@ async function follow(life, job, place, done) {
     }
     put(
       bar,
-      progress("How far the calibration is", now.done),
+      progress("Progress of the calibration", now.done),
       h(
         "span",
         { class: "muted" },

@@ -30,12 +30,12 @@ export async function show({ root, open }) {
           during(go, said, enter);
         },
       },
-      h("p", {}, "This station keeps training records of people, so it asks who comes in."),
+      h("p", {}, "This station keeps training records of people, so it asks for a token."),
       field(
         "Token",
         token,
-        "It stands in the window in which the console was started. " +
-          "Whoever runs the station can read it to you.",
+        "It is in the file that was named when the console was started. " +
+          "Whoever runs the station can tell you.",
       ),
       said,
       h("div", { class: "row" }, go),

@@ -266,7 +266,7 @@ function build({ root, life, id, n, replay, options }) {
         field(
           "Another trial",
           select,
-          "Both begin at their start. A good one to choose is an expert's.",
+          "Both start at the same moment. An expert's is a good choice.",
         ),
         problems,
       ),

@@ -160,7 +160,7 @@ export async function show({ root, params: [id], open }) {
         "note",
         "This session belongs to a study whose educators are blind: " +
           "report, figures and replay are not shown here. " +
-          "They are read with the study's, when it is over.",
+          "They can be read with the study's results when it is over.",
       ),
     );
     return;

@@ -61,7 +61,7 @@ function form(tasks, trainees, me, chosenTrainee) {
         "a person",
         me.display ? "" : "This station has no display: a person cannot train here now.",
       ],
-      ["expert", "simulated expert", "Shows how it goes; marked as simulated."],
+      ["expert", "simulated expert", "Shows how it is done; marked as simulated."],
       ["novice", "simulated novice", "Makes the common errors; marked as simulated."],
     ],
     me.display ? "person" : "expert",
@@ -73,7 +73,7 @@ function form(tasks, trainees, me, chosenTrainee) {
   const patientField = field(
     "Patient",
     patient,
-    "0 is the average patient; any other number is another one, always the same.",
+    "0 is the average patient; each other number is another patient, always the same one.",
   );
   const follow = () => {
     const now = tasks.find((t) => t.id === task.value()),
@@ -162,6 +162,6 @@ export async function show({ root, open, me, query }) {
   root.append(
     tasks.length
       ? form(tasks, trainees, me, query.get("trainee") || "")
-      : notice("bad", "The station knows no task. Look at the Station page."),
+      : notice("bad", "The station has no task. Look at the Station page."),
   );
 }

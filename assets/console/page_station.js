@@ -28,7 +28,7 @@ function sentence(health) {
       "The station needs you first.",
       ill.length > 0
         ? ill.map((f) => f.fix || f.verdict).join(" ")
-        : "No session can start; what was found stands below.",
+        : "No session can start; what was found is listed below.",
     ];
   if (notes.length > 0)
     return [

@@ -35,14 +35,14 @@ function nextBlock(study, trainees, me) {
   const fresh = trainees.filter((t) => !known.has(t.id) && (study.groups || []).includes(t.group));
   const options = [
     ...waiting.map((e) => [e.trainee, `${e.trainee}: ${e.next}`]),
-    ...fresh.map((t) => [t.id, `${t.id}, ${t.group}: not enrolled yet, is enrolled by this`]),
+    ...fresh.map((t) => [t.id, `${t.id}, ${t.group}: not enrolled yet, will be enrolled by this`]),
   ];
   if (options.length === 0)
     return h(
       "p",
       { class: "muted" },
-      "Nobody can begin a block now. Somebody new is enrolled by the first block: " +
-        `add a trainee of the group ${(study.groups || []).join(" or ")} on the page Trainees.`,
+      "Nobody can start a block now. The first block enrols a new trainee: " +
+        `add one of the group ${(study.groups || []).join(" or ")} on the page Trainees.`,
     );
   const trainee = choice(options),
     operator = choice(kOperators, me.display ? "person" : "expert");
@@ -92,7 +92,7 @@ export async function show({ root, open }) {
     h(
       "p",
       { class: "lead" },
-      "What a trainee was allocated to is not shown here, so that nobody who teaches knows it.",
+      "The condition that a trainee drew is not shown here, so that nobody who teaches knows it.",
     ),
   );
   if (studies.length === 0)
@@ -104,7 +104,7 @@ export async function show({ root, open }) {
     );
   for (const study of studies) {
     const places = (study.places || [])
-      .map((p) => `${p.group}: ${plural(Number(p.given) || 0, "place")} given`)
+      .map((p) => `${p.group}: ${plural(Number(p.given) || 0, "slot")} assigned`)
       .join(" · ");
     root.append(
       h(

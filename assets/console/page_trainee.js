@@ -64,7 +64,7 @@ export async function show({ root, life, params: [id], open }) {
           "p",
           { class: "muted" },
           Number(trainee.sessions) > 0
-            ? "None that was started from this console; the report below counts all."
+            ? "None was started from this console; the report below counts all sessions."
             : "No session yet.",
         ),
   );

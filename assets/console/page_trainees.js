@@ -52,9 +52,9 @@ function form(trainees, groups, done) {
     { required: true },
   );
   const research = tick(
-    "The trainee also agrees to the use for research",
+    "The trainee also agrees to use in research",
     false,
-    "Separate and free: training does not depend on it.",
+    "Separate and voluntary: training does not depend on it.",
   );
   const said = h("div", { class: "said" }),
     go = h("button", { type: "submit", class: "primary" }, "Add the trainee");
@@ -62,13 +62,13 @@ function form(trainees, groups, done) {
     const pseudonym = id.value.trim();
     if (!/^[A-Za-z0-9_-]{1,64}$/.test(pseudonym)) {
       id.focus();
-      throw new Error("A pseudonym is made of letters, digits, - and _, at most 64.");
+      throw new Error("A pseudonym has at most 64 letters, digits, - and _.");
     }
     if (!consent.box.checked) {
       consent.box.focus();
       throw new Error(
         "Tick the agreement to keeping records; without it the trainee cannot be added. " +
-          "A session can still be held with nobody as trainee.",
+          "A session without a trainee is still possible.",
       );
     }
     await post("/api/trainees", {
@@ -106,7 +106,7 @@ function form(trainees, groups, done) {
       field(
         "Experience",
         experience,
-        'In a few words, such as "two simple injections". Nothing that tells who it is.',
+        'In a few words, such as "two simple injections". Nothing that shows who it is.',
       ),
       hand.node,
     ),
@@ -143,7 +143,7 @@ export async function show({ root, open }) {
             "p",
             { class: "lead" },
             "Nobody has been added yet. " +
-              "A first try needs nobody: start a session without a trainee.",
+              "You can try the station without one: start a session without a trainee.",
           ),
     );
     put(

@@ -60,7 +60,7 @@ export function reportFrame(path, title) {
     h(
       "p",
       { class: "only-print" },
-      `The report itself is printed apart: "Print the report" on its page of the console.`,
+      `The report is printed separately: "Print the report" on its page of the console.`,
     ),
   );
 }

@@ -33,16 +33,16 @@ TEST_F(Strangers, WhoIsNotItsPageIsRefusedNotedAndChangesNothing) {
       {"Host", "evil.example", 421, 421, "421 this console is not called"},
       {"Host", "-", 421, 421, "421 this console is not called"},
       {"Host", "127.0.0.1:1", 421, 421, "421 this console is not called"},
-      {"Origin", "http://evil.example", 403, 403, "403 asked for by another site"},
-      {"Origin", "null", 403, 403, "403 asked for by another site"},
-      {"Sec-Fetch-Site", "cross-site", 403, 403, "403 asked for by another site"},
-      {"Sec-Fetch-Site", "same-site", 403, 403, "403 asked for by another site"},
+      {"Origin", "http://evil.example", 403, 403, "403 requested by another site"},
+      {"Origin", "null", 403, 403, "403 requested by another site"},
+      {"Sec-Fetch-Site", "cross-site", 403, 403, "403 requested by another site"},
+      {"Sec-Fetch-Site", "same-site", 403, 403, "403 requested by another site"},
       {"X-Palpa-Page", "-", 200, 403, "403 not asked for by a page"},
       {"X-Palpa-Page", "00000000000000000000000000000000", 200, 403, "403 not asked for by a page"},
       {"X-Palpa-Write", "-", 200, 400, "400 a write needs a number"},
       {"X-Palpa-Write", "1", 200, 400, "400 a write needs a number"},
-      {"Content-Type", "text/plain", 200, 415, "415 a write is JSON"},
-      {"Content-Type", "application/x-www-form-urlencoded", 200, 415, "415 a write is JSON"}};
+      {"Content-Type", "text/plain", 200, 415, "415 a write must be JSON"},
+      {"Content-Type", "application/x-www-form-urlencoded", 200, 415, "415 a write must be JSON"}};
   const std::string stop = "{\"command\":\"stop\"}",
                     path = "/api/sessions/" + session() + "/command";
   for (const Try& one : tries) {
@@ -66,7 +66,7 @@ TEST_F(Strangers, AWriteThatIsSentAgainIsRefused) {
                                         console().writeHeaders(body), body);
   EXPECT_EQ(console().raw(request).status, 202);
   for (int i = 0; i < 3; ++i) EXPECT_EQ(console().raw(request).status, 409);
-  EXPECT_TRUE(isNoted("409 this was asked for before"));
+  EXPECT_TRUE(isNoted("409 this was requested before"));
   const std::string other = "{\"command\":\"note\",\"reason\":\"last\"}";
   EXPECT_EQ(console()
                 .post("/api/sessions/" + session() + "/command",
