@@ -128,7 +128,7 @@ TEST(StudyAnalyse, SaysInOneLineWhatIsWrong) {
           "line 2: column total");
   refused({"--csv", here.file("b.csv", "SUBJECT,GROUP,CONDITION,BLOCK,TRIAL,total\nA,g,c,b,1,4\n"),
            "--kind", "pilot"},
-          "is no kind of analysis");
+          "is not a kind of analysis");
   refused({"--protocol", here.file("p.json", "{\"id\": \"p\", \"analysis\": \"other\"}")},
           "field analysis");
   EXPECT_FALSE(std::filesystem::exists(here / "out"));

@@ -60,7 +60,7 @@ TEST(StudyCsv, SaysWhatItCannotRead) {
            {header + "A,g,c,b,-1,2\n", "column TRIAL must be a whole number from 1"},
            {header + ",g,c,b,1,2\n", "has no subject"},
            {header + "A,g,c,b,,2\n", "has no trial number"},
-           {header + "A,g,c,b,1,2\nA,g,c,b,1,3\n", "subject A: trial 1 of block b is there twice"},
+           {header + "A,g,c,b,1,2\nA,g,c,b,1,3\n", "subject A: trial 1 of block b occurs twice"},
            {header + "A,g,c,b,1,2\nA,h,c,b,2,3\n", "is in two groups, \"g\" and \"h\""},
            {header + "\"A,g,c,b,1,2\n", "a quoted text has no end"},
            {header + "\"A\"x,g,c,b,1,2\n", "something follows a quoted text"}})

@@ -114,7 +114,8 @@ void checkScale(const calibration::ExpertPath& path, const ScoringRules& rules) 
     throw Error("the path has no direction, line or acceptable deviation", "expert path",
                 "Calibrate it with experts' trials");
   if (!(rules.sample_rate_Hz > 0))
-    throw UsageError("sample_rate_Hz must be positive", "scoring rules", "The paper's rate is 20");
+    throw UsageError("sample_rate_Hz must be positive", "scoring rules",
+                     "Tzafestas et al. 2008 used 20");
 }
 
 void findContacts(const ScoringRules& rules, TrialReview* r) {

@@ -128,8 +128,8 @@ Exhibit betweenTable(const Pilot& pilot) {
   }
   return {"learning_by_condition",
           "Does the condition change how much is learned?",
-          "Learning rates of the subjects, %, one each; Welch's t-test, two-sided. The paper "
-          "compares the rates by eye.",
+          "Learning rates of the subjects, %, one each; Welch's t-test, two-sided. Tzafestas et "
+          "al. 2008 compare the rates by eye.",
           ExhibitPart::table,
           comparisonTable(in_percent),
           {},

@@ -145,8 +145,8 @@ StudyResult analyseSearchStudy(const std::vector<StudyRow>& rows, const StudyDes
   result.cautions = cautionsOf(result, smallest);
   result.cautions.push_back(
       "Sum and larger of the two improvements are made of the same figures as the first two "
-      "analyses; the paper chose the last after it had seen the scatter. Only Holm's p-values "
-      "allow for looking four times.");
+      "analyses; Edmunds and Pai 2012 chose the last after they had seen the scatter. Only Holm's "
+      "p-values allow for looking four times.");
   if (!study.left_out.empty())
     result.cautions.push_back("Left out, since baseline, training or evaluation is missing: " +
                               joined(study.left_out) + ".");

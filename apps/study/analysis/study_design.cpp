@@ -28,7 +28,7 @@ StudyKind studyKindNamed(const std::string& name, const std::string& where) {
   if (name.empty() || name == "general") return StudyKind::general;
   if (name == "paracentesis pilot") return StudyKind::paracentesis_pilot;
   if (name == "search study") return StudyKind::search_study;
-  throw UsageError("\"" + name + "\" is no kind of analysis", where,
+  throw UsageError("\"" + name + "\" is not a kind of analysis", where,
                    "There are: general, paracentesis pilot, search study");
 }
 
@@ -105,14 +105,15 @@ std::vector<std::string> cautionsOf(const StudyResult& result, std::size_t small
 
 std::vector<std::string> publishedWords() {
   return {
-      "The paper's tests take every trial as if it came from another person: n = subjects × "
-      "trials. Trials of one subject are alike, so there are fewer independent values than that.",
-      "Between groups this counts too many degrees of freedom: differences of a few people pass "
-      "for certain, and chance is called an effect far more often than one time in twenty.",
+      "The tests of Tzafestas et al. 2008 take every trial as if it came from another person: n = "
+      "subjects × trials. Trials of one subject are alike, so there are fewer independent values "
+      "than that.",
+      "Between groups this counts too many degrees of freedom: differences between a few people "
+      "pass for certain, and chance is called an effect far more often than one time in twenty.",
       "Within subjects it forgets that the same people are compared with themselves: the "
       "differences between them stay in the error, and learning that is there is missed. So the "
-      "learning test is too timid, the group test too bold; the "
-      "p-values here serve to compare with the paper, not to decide."};
+      "learning test is too timid, the group test too bold; the p-values here serve to compare "
+      "with that publication, not to decide."};
 }
 
 double smallestVisibleEffect(std::size_t n, double power) {

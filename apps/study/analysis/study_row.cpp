@@ -51,7 +51,7 @@ void requireOnce(const std::vector<StudyRow>& rows, const std::vector<Place>& pl
     if (!seen.insert(places[i]).second)
       throw UsageError("trial " + std::to_string(rows[i].trial) +
                            (rows[i].block.empty() ? "" : " of block " + rows[i].block) +
-                           " is there twice",
+                           " occurs twice",
                        where + ", subject " + rows[i].subject, "Leave one of them out");
 }
 
