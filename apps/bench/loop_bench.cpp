@@ -119,8 +119,7 @@ void benchLoop(const LoopBenchOptions& options) {
   report(around, options, params);
   if (options.pages == 0) return;
   if (!scene)
-    throw palpa::Error("there is no picture to look on at (" + drawn + ")", "--pages",
-                       "Leave it out");
+    throw palpa::Error("there is no picture to show (" + drawn + ")", "--pages", "Leave it out");
   Onlookers onlookers(options.pages);
   scene->showTo(&onlookers);
   nlohmann::json watched = params;

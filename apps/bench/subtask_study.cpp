@@ -105,7 +105,7 @@ SpeedPart speedPart(const SearchFloor& floor, const std::string& name) {
       return {floor.config, static_cast<int>(i), floor.config.floor.unit * c.threshold,
               c.hysteresis};
   }
-  throw Error("has no part \"" + name + "\" that is told by speed", floor.task.id,
+  throw Error("has no part \"" + name + "\" that is recognised by speed", floor.task.id,
               "Use the task that was shipped");
 }
 

@@ -22,7 +22,7 @@ constexpr std::size_t kLiveEvery = 40;  // readings
 void requireSample(const station::Station& station) {
   if (!station.force_sensor)
     throw UsageError("has no \"force_sensor\"", station.file.name(),
-                     "What a sample is made of is told by force: describe the sensor");
+                     "A sample's material is identified by its forces: describe the sensor");
   if (!station.sample)
     throw UsageError("has no \"sample\"", station.file.name(),
                      "Say where it lies: sample/X_WP, sample/tip_radius_mm");
@@ -135,7 +135,7 @@ FeltSamples collectFelt(const Scene& scene, const Request& request) {
     if (!sample) {
       if (silent_since < 0) silent_since = moment.t;
       if (moment.t - silent_since > 1)
-        throw Error("says nothing that can be used", "force sensor",
+        throw Error("gives no reading that can be used", "force sensor",
                     "Look at its cable; is it overloaded?");
       felt.samples.clear();  // after a gap the times would not be even
       continue;

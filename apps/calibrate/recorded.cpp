@@ -114,7 +114,7 @@ Quat SampleTable::turn(std::size_t row, const std::string& prefix) const {
                y = number(row, prefix + "q_y"), z = number(row, prefix + "q_z");
   const Quat q(w, x, y, z);
   if (std::abs(q.norm() - 1) > 1e-3)
-    refuse(row, prefix + "q_w", "the four numbers are no unit quaternion");
+    refuse(row, prefix + "q_w", "the four numbers are not a unit quaternion");
   return q.normalized();
 }
 
@@ -146,7 +146,7 @@ Pose matrixAt(const json& m, const std::filesystem::path& file, std::size_t entr
   const std::string where = file.string() + ", entry " + std::to_string(entry + 1);
   Eigen::Matrix4d matrix;
   const auto bad = [&]() {
-    return Error("is no 4x4 matrix of numbers", where, "Give rows of a pose, in metres");
+    return Error("is not a 4x4 matrix of numbers", where, "Give rows of a pose, in metres");
   };
   if (!m.is_array() || m.size() != 4) throw bad();
   for (std::size_t i = 0; i < 4; ++i) {
@@ -187,7 +187,7 @@ std::vector<calibration::HandEyeSample> readPosePairs(const std::filesystem::pat
     const json list = listIn(file);
     for (std::size_t i = 0; i < list.size(); ++i) {
       if (!list[i].is_array() || list[i].size() != 2)
-        throw Error("is no pair of matrices", file.string() + ", entry " + std::to_string(i + 1),
+        throw Error("is not a pair of matrices", file.string() + ", entry " + std::to_string(i + 1),
                     "Give [end effector in base, tag in camera]");
       pairs.push_back({matrixAt(list[i][0], file, i), matrixAt(list[i][1], file, i)});
     }

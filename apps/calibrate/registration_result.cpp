@@ -113,7 +113,7 @@ void requireScale(const std::vector<calibration::HandEyeSample>& tag, const Vec3
   const double scale = seenScale(tag, p_EM);
   if (std::abs(scale - 1) > kScaleOff)
     throw Error("the camera sees the tool move " + quantity(100 * (scale - 1), "%") +
-                    " further than the device says",
+                    " further than the device reports",
                 "registration by a tag",
                 "Measure the printed squares or tags of board and marker, and correct their size "
                 "in the station's file");

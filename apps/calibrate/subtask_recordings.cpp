@@ -101,7 +101,7 @@ RecordedTask recordedTaskOf(const record::SessionReader& reader, const std::stri
 void requireSameParts(const json& conditions, const json& first, const std::string& file,
                       const std::string& other) {
   if (conditions != first)
-    throw Error("its task tells its parts by other conditions than " + other, file,
+    throw Error("its task recognises its parts by other conditions than " + other, file,
                 "Give recordings of one task, made with the same parts");
 }
 
@@ -150,10 +150,9 @@ SubtaskRecordings readSubtaskRecordings(const std::vector<std::filesystem::path>
     throw UsageError("names no parts (\"subtasks\")", task.string(),
                      "Give the file of the task that was recorded");
   if (conditionsOf(named) != first)
-    throw UsageError(
-        "tells its parts by other conditions than the recordings' own task, by which the recorded "
-        "parts were told",
-        task.string(), "Leave --task out, or record the sessions again with this task");
+    throw UsageError("recognises its parts by other conditions than the task that was recorded",
+                     task.string(),
+                     "Leave --task out, or record the sessions again with this task");
   all.parts = plan.subtasks;
   all.task = idOf(named);
   return all;

@@ -138,7 +138,7 @@ SubtaskSegmentation segment(const std::vector<SubtaskSequence>& sequences,
   if (sequences.size() < 2)
     throw Error(std::to_string(sequences.size()) +
                     (sequences.size() == 1 ? " trial is" : " trials are") +
-                    " too few: some must be held out to judge by, 2 are needed",
+                    " too few: 2 are needed, because some must be held out to judge by",
                 kSubtasksWhere, "Give a recording of more trials, or more recordings");
   for (const SubtaskSequence& q : sequences)
     if (q.features.cols() != kSubtaskFeatures ||

@@ -23,7 +23,7 @@ Result fromCameraPictures(const CalibrateOptions& o, const station::Station& sta
     throw Error("the board (" + board->describe() + ") was found in " +
                     std::to_string(recorded.views.size()) + " of " +
                     std::to_string(recorded.views.size() + recorded.unseen.size()) + " pictures",
-                o.images, "Is it the board that --board says?");
+                o.images, "Is it the board that --board names?");
   calibration::CameraModel camera;
   Result result =
       cameraResult(recorded.views, recorded.width, recorded.height, origin, &camera, o.all_corners);
@@ -92,7 +92,7 @@ double lumpDepthOf(const station::Station& station, const std::string& mockup) {
   for (const twin::Phantom& phantom : file.phantoms)
     if (phantom.name == mockup && phantom.block.lump) return -phantom.block.lump->centre.z();
   throw UsageError(
-      "is no simulated sample with a lump", "\"" + mockup + "\"",
+      "is not a simulated sample with a lump", "\"" + mockup + "\"",
       "See " +
           station::assetFile("phantoms/" + station.file.text("twin/samples") + ".json").string());
 }
@@ -165,7 +165,8 @@ Result onBench(const CalibrateOptions& o, const Scene& scene, const Origin& orig
     return frictionResult(collectStrokes(scene, "", kStrokeFor_s), origin);
   if (o.kind == CalibrationKind::inclusion)
     return inclusionResult(collectLump(scene, o.mockup), station.sample->tip_radius, origin);
-  throw UsageError("is no routine", "palpa calibrate " + o.name(), "See palpa calibrate --help");
+  throw UsageError("is not a calibration routine", "palpa calibrate " + o.name(),
+                   "See palpa calibrate --help");
 }
 
 }  // namespace palpa::cli

@@ -159,7 +159,7 @@ void examine(DoctorOptions o) {
   for (const Finding& f : findings)
     if (f.state == State::ill) named += (named.empty() ? "" : ", ") + f.subject;
   throw Error("no session can start (" + named + ")", "doctor",
-              "Do what stands beside what is ill, then ask again");
+              "Follow the advice beside each fault, then run it again");
 }
 
 }  // namespace

@@ -95,7 +95,7 @@ void checkLength(const CheckedSurface& surface, const PatientOptions& o, Organ o
                    o.file + ", \"" + mesh.name + "\"",
                    likely ? "It was probably written in " + std::string(likely->words) +
                                 ": add --unit " + likely->name
-                          : "In no unit that is known would it be one");
+                          : "It would not be one in any known unit");
 }
 
 /// Whether it can be mended, and what would be done.

@@ -168,7 +168,7 @@ anatomy::Patient buildPhantom(const PhantomOptions& o) {
   spec.kind = o.kind == "breast" ? anatomy::PhantomKind::breast : anatomy::PhantomKind::abdomen;
   if (spec.kind == anatomy::PhantomKind::abdomen && (o.left_mm != 0 || o.up_mm != 0))
     throw UsageError("are for the breast", "--left-mm and --up-mm",
-                     "The liver's edge has its place");
+                     "The liver's edge has a fixed place");
   if (o.inclusion_mm > 0)
     spec.inclusion = anatomy::PhantomInclusion{1e-3 * o.inclusion_mm, 1e-3 * o.depth_mm,
                                                1e-3 * o.left_mm, 1e-3 * o.up_mm};

@@ -58,7 +58,7 @@ std::filesystem::path sheetFor(const std::string& page, const std::string& blank
                      "The sheet to fill in lies beside it and ends with .csv");
   std::filesystem::path sheet = std::filesystem::path(page).replace_extension("csv");
   if (std::filesystem::exists(sheet) && evidence::textOf(sheet.string()) != blank)
-    throw UsageError("is there already and may hold answers", sheet.string(), "Give another --out");
+    throw UsageError("already exists and may hold answers", sheet.string(), "Give another --out");
   return sheet;
 }
 
@@ -90,7 +90,7 @@ void enter(const RateOptions& o) {
   const competence::FormAnswers answers = competence::parseAnswers(
       evidence::textOf(o.answers), o.answers, forms.checklist, &forms.global);
   if (answers.checklist.empty() && answers.global.empty())
-    throw UsageError("answers nothing", o.answers, "Fill in the values");
+    throw UsageError("holds no answers", o.answers, "Fill in the values");
   record::RecordStore store(o.records);
   const std::string uuid = uuidOf(o.session), now = runtime::utcNow();
   const auto sheet = [&](const competence::Answers& said, const std::string& form,

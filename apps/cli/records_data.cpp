@@ -52,7 +52,7 @@ void backUpRecords(const RecordsOptions& o) {
     throw UsageError("is a server; a backup is a file", "--out",
                      "Give a file; palpa records restore brings it to a server");
   if (fs::exists(o.out))
-    throw UsageError("is there already, and a backup never overwrites", o.out,
+    throw UsageError("already exists, and a backup never overwrites", o.out,
                      "Give another name, such as one with today's date");
   const PassingFile beside(o.out + "." + std::to_string(os::processNumber()) + ".part");
   const std::size_t rows = copied(o.url, beside.name());
@@ -66,7 +66,7 @@ void backUpRecords(const RecordsOptions& o) {
 /// From a copy, so that the backup stays as it is, even on a medium that cannot be written.
 void restoreRecords(const RecordsOptions& o) {
   if (!fs::is_regular_file(o.from))
-    throw UsageError("is no file", o.from, "Give a backup that palpa records backup wrote");
+    throw UsageError("is not a file", o.from, "Give a backup that palpa records backup wrote");
   requireRecords(o.from);
   const os::TemporaryFolder folder("palpa-restore-");
   if (!folder.made())
@@ -100,7 +100,7 @@ using People = std::vector<record::Trainee>;
 
 People chosen(record::RecordStore& store, const RecordsOptions& o) {
   if (o.trainee.id.empty() != o.all)
-    throw UsageError("says whose records are meant", "--id or --all", "Give one of them");
+    throw UsageError("states whose records are meant", "--id or --all", "Give one of them");
   return o.all ? store.trainees() : People{traineeIn(store, o.trainee.id)};
 }
 
@@ -176,12 +176,12 @@ void sendRecords(const RecordsOptions& o) {
               counted(static_cast<std::size_t>(sent.delivered), "statement").c_str(), sent.present,
               sent.left);
   if (!sent.trouble.empty())
-    throw Error("cannot be told now (" + sent.trouble + ")", endpoint.text(),
+    throw Error("cannot take statements now (" + sent.trouble + ")", endpoint.text(),
                 "What waits is kept on this station; the same command sends it later");
   if (!sent.refused.empty())
-    throw Error("does not take " + counted(sent.refused.size(), "statement") + " (" +
-                    sent.refused.front() + ")",
-                endpoint.text(), "Everything else was delivered; ask whoever runs it");
+    throw Error(
+        "refuses " + counted(sent.refused.size(), "statement") + " (" + sent.refused.front() + ")",
+        endpoint.text(), "Everything else was delivered; ask whoever runs it");
 }
 
 }  // namespace palpa::cli

@@ -95,7 +95,7 @@ record::Trainee traineeIn(record::RecordStore& store, const std::string& id) {
   const std::optional<record::Trainee> t = store.trainee(id);
   if (!t)
     throw UsageError("is not in the records", "trainee " + id,
-                     "palpa records trainee list shows who is");
+                     "palpa records trainee list shows who is in them");
   return *t;
 }
 

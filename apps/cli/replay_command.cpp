@@ -155,7 +155,7 @@ void addReplay(CLI::App& program) {
       throw UsageError("do not go together", "--view, --video and --pictures", "Give one of them");
     for (const char* option : {"--trial", "--speed", "--from", "--to", "--fps", "--size"})
       if (!seen->wanted() && command->count(option) > 0)
-        throw UsageError("is for a trial that is seen again", option,
+        throw UsageError("has an effect only when a trial is shown again", option,
                          "Add --view, --video FILE or --pictures DIR");
     if (seen->wanted())
       viewReplay(*file, *seen);

@@ -32,7 +32,7 @@ ShownSize sizeOf(const std::string& text) {
   if (std::sscanf(text.c_str(), "%dx%d%c", &size.width, &size.height, &rest) != 2 ||
       size.width < 160 || size.height < 120 || size.width > 7680 || size.height > 4320 ||
       size.width % 2 || size.height % 2)
-    throw UsageError("is no size of a film", "--size " + text,
+    throw UsageError("is not a film size", "--size " + text,
                      "Write it as 1280x720: even numbers, 160x120 to 7680x4320");
   return size;
 }

@@ -79,7 +79,7 @@ competence::FormAnswers answersFor(const TrialReportOptions& o, const evidence::
   const competence::FormAnswers answers =
       evidence::answersIn(record::ratingsIn(store, uuid), o.trial, o.rater, forms);
   if (answers.checklist.empty() && answers.global.empty())
-    throw UsageError("has rated nothing of this trial", "rater " + o.rater,
+    throw UsageError("has not rated this trial", "rater " + o.rater,
                      "Enter the form first: palpa rate enter");
   return answers;
 }
@@ -186,7 +186,7 @@ void reportTrainee(const ReportOptions& o) {
   const std::optional<record::Trainee> trainee = store.trainee(o.choice.trainee);
   if (!trainee)
     throw UsageError("is not in the records", "trainee " + o.choice.trainee,
-                     "palpa records trainee list shows who is");
+                     "palpa records trainee list shows who is in them");
   const report::TraineeReport page{trainee->id,
                                    trainee->group,
                                    trainee->experience,

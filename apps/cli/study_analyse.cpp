@@ -80,7 +80,7 @@ void requireNames(const std::vector<std::string>& names, const std::vector<Study
 void analyse(const AnalyseOptions& o) {
   if (o.protocol.empty() && o.study.empty() && o.csv.empty())
     throw UsageError("needs --protocol, --study or --csv", "palpa study analyse",
-                     "Say what is to be analysed");
+                     "Say what to analyse");
   AnalyseInput input = inputOf(o);
   requireNames(o.groups, input.rows, "--groups", [](const StudyRow& row) { return row.group; });
   requireNames(o.conditions, input.rows, "--conditions",

@@ -28,10 +28,9 @@ void run(study::StudyOptions o) {
   o.url = fromAnywhere(o.url);
   if (o.simulate) {
     if (!o.trainee.empty())
-      throw UsageError("go with one of them only", "--trainee, --simulate",
-                       "Leave one of them out");
+      throw UsageError("exclude each other", "--trainee, --simulate", "Leave one of them out");
     if (o.learners.empty())
-      throw UsageError("needs --learning: who learns how", "--simulate",
+      throw UsageError("needs --learning, which says how they learn", "--simulate",
                        "E.g. --learning assets/protocols/learners/paracentesis_learners.json");
     return study::simulateStudy(o);
   }

@@ -238,9 +238,10 @@ Finding judgeClocks(const ClockFacts& f, const PictureFacts& pictures, bool shar
              1e-6 * static_cast<double>(f.resolution_ns)),
         "Use a kernel with high-resolution timers; in a virtual machine give it the host's clock");
   if (pictures.backward > 0)
-    return note(text("the camera's times go back in %d of %d pictures", pictures.backward,
-                     pictures.pictures),
-                "Unplug the camera and plug it in again; if it stays so, use another camera");
+    return note(
+        text("the camera's times go back in %d of %d pictures", pictures.backward,
+             pictures.pictures),
+        "Unplug the camera and plug it in again; if that does not help, use another camera");
   if (pictures.undated > 0)
     return note(
         text("the camera dates %d of %d pictures by another clock: their time of arrival is taken",

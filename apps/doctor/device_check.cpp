@@ -119,8 +119,8 @@ Finding judgeSensor(const SensorFacts& facts) {
     return {kSensor, State::ill,
             "says that it is overloaded or broken in " + count(facts.faults) + " of " +
                 count(facts.records) + " samples",
-            "Take the load off the tool; if it stays so, the sensor's page in a browser says which "
-            "gauge"};
+            "Take the load off the tool; if that does not help, the sensor's page in a browser "
+            "says which gauge"};
   if (facts.lost * 50 > facts.records)
     return {kSensor, State::note,
             count(facts.lost) + " samples were lost beside " + count(facts.records) + " that came",
@@ -261,7 +261,7 @@ Finding judgeTracker(const TrackerFacts& facts, const station::TrackerSetup& set
             "tracker/ask_tdata_ms"};
   if (c.poses == 0 && c.not_rigid > 0)
     return {kTracker, State::ill,
-            setup.transform + " is no pose: it scales, mirrors or is not finite",
+            setup.transform + " is not a pose: it scales, mirrors or is not finite",
             "Let its server send a rigid transform in millimetres"};
   if (c.poses == 0)
     return {kTracker, State::note, "does not see the camera's marker or the table's",

@@ -42,7 +42,7 @@ double standardOf(const competence::Checklist& checklist, double percent) {
     if (std::abs(100 * standard - percent) < 1e-6) return standard;
     known += (known.empty() ? "" : ", ") + std::to_string(std::lround(100 * standard));
   }
-  throw UsageError("is no standard of this checklist", "--standard", "Known: " + known);
+  throw UsageError("is not a standard of this checklist", "--standard", "Known: " + known);
 }
 
 competence::FormAnswers answersIn(const std::vector<record::Rating>& ratings, std::int64_t trial,

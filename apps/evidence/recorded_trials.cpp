@@ -114,8 +114,8 @@ struct LastFloor {
     if (asked == number) return &floor;
     const auto episode = episodes.find(static_cast<int>(asked));
     if (episode == episodes.end())
-      throw Error("names floor " + std::to_string(asked) + ", of which nothing is said", "session",
-                  "Restore the file from a backup");
+      throw Error("names floor " + std::to_string(asked) + ", which it does not describe",
+                  "session", "Restore the file from a backup");
     made = makeFloor(task, episode->second);
     floor = made->floor();
     number = asked;
@@ -142,7 +142,7 @@ std::vector<RecordedSearch> recordedSearches(const record::SessionReader& reader
   const auto finish = [&](const record::RecordedTrial& trial) {
     const auto episode = episodes.find(trial.header.trial);
     if (episode == episodes.end())
-      throw Error("says nothing of episode " + std::to_string(trial.header.trial), "session",
+      throw Error("does not describe episode " + std::to_string(trial.header.trial), "session",
                   "Restore the file from a backup");
     assess::SearchTrial facts;
     facts.trial = trial.header.trial;

@@ -76,7 +76,7 @@ class TouchShow : public RecordedShow {
   std::string eventText(EventKind kind) const {
     for (const runtime::Event& event : reader_.events())
       if (event.trial == trial_.number && event.is(kind)) return event.text;
-    throw Error("says nothing of its \"" + nameOf(kind) + '"',
+    throw Error("does not describe its \"" + nameOf(kind) + '"',
                 file_ + ", trial " + std::to_string(trial_.number),
                 "Restore the file from a backup");
   }

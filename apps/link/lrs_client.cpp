@@ -47,7 +47,7 @@ fs::path netrcFile() {
 
 Endpoint endpointOf(const std::string& url, bool insecure) {
   const bool tls = url.starts_with("https://");
-  if (!tls && !url.starts_with("http://")) throw noAddress("is no http or https address");
+  if (!tls && !url.starts_with("http://")) throw noAddress("is not an http or https address");
   const std::size_t start = tls ? 8 : 7;
   const std::size_t slash = std::min(url.find('/', start), url.size());
   const std::string authority = url.substr(start, slash - start);

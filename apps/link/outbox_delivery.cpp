@@ -41,7 +41,7 @@ std::string firstWords(const std::string& body) {
     throw Error("refuses user or password", endpoint.text(),
                 "Check --user, and the password in PALPA_XAPI_PASSWORD or ~/.netrc; statements are "
                 "kept and sent later");
-  throw Error("is no learning record store (it answers " + std::to_string(answer.status) + ")",
+  throw Error("is not a learning record store (it answers " + std::to_string(answer.status) + ")",
               endpoint.text(),
               "Check the address: it ends before /statements; statements are kept and sent later");
 }
@@ -58,7 +58,7 @@ bool isForLater(const LrsAnswer& a) {
 
 std::string troubleOf(const LrsAnswer& a) {
   return a.status == 0 ? a.trouble
-         : !a.is_lrs   ? "the answer is no learning record store's"
+         : !a.is_lrs   ? "the answer does not come from a learning record store"
                        : "it answers " + std::to_string(a.status) + " (" + firstWords(a.body) + ")";
 }
 
@@ -71,7 +71,7 @@ ReplyJudgement compared(LrsClient& client, const Letter& letter) {
     if (saysTheSame(parsedOrDiscarded(letter.body), parsedBody(there))) return {Fate::present, ""};
     return {Fate::refused, "another statement has this id already"};
   }
-  return {Fate::refused, "the store says that it has it and does not show it"};
+  return {Fate::refused, "the store reports that it has the statement but does not return it"};
 }
 
 /// A statement that never arrived need not be taken back, and a store may refuse to.

@@ -27,8 +27,8 @@ std::size_t longest(char kind) {
     case FrameKind::watch:
       return 1;
   }
-  throw Error("is no kind of frame", "local socket of a session",
-              "Console and session are of different versions: start both anew");
+  throw Error("is not a known kind of frame", "local socket of a session",
+              "Console and session have different versions: restart both");
 }
 
 }  // namespace
@@ -47,7 +47,7 @@ std::optional<LiveFrame> FrameDecoder::next() {
     length |= static_cast<std::size_t>(static_cast<std::uint8_t>(pending_[1 + i])) << (8 * i);
   if (length > longest(pending_[0]))
     throw Error("is longer than it may be", "a frame on the local socket of a session",
-                "Console and session are of different versions: start both anew");
+                "Console and session have different versions: restart both");
   if (pending_.size() < kHead + length) return std::nullopt;
   LiveFrame frame{static_cast<FrameKind>(pending_[0]), pending_.substr(kHead, length)};
   pending_.erase(0, kHead + length);
@@ -75,7 +75,7 @@ std::size_t characters(const std::string& text) {
 
 std::string textIn(const nlohmann::json& json, const char* field) {
   if (!json.contains(field)) return "";
-  if (!json[field].is_string()) throw UsageError("is no text", field, "Send it as a text");
+  if (!json[field].is_string()) throw UsageError("is not text", field, "Send it as a text");
   const std::string text = json[field];
   if (characters(text) > kLongestReason)
     throw UsageError("is longer than 500 characters", field, "Shorten it");
@@ -87,8 +87,8 @@ std::string textIn(const nlohmann::json& json, const char* field) {
 double momentIn(const nlohmann::json& at) {
   const double seconds = at.is_number() ? at.get<double>() : -1;
   if (!(seconds >= 0 && seconds <= kLongestSession_s))
-    throw UsageError("is no second of a session", "at_s",
-                     "Send the session's second, or leave it out");
+    throw UsageError("is not a time in the session", "at_s",
+                     "Send seconds since the session began, or leave it out");
   return seconds;
 }
 
@@ -97,18 +97,18 @@ double momentIn(const nlohmann::json& at) {
 trial::UserRequest parseSteering(const std::string& text) {
   const nlohmann::json json = parsedOrDiscarded(text);
   if (!json.is_object())
-    throw UsageError("is no JSON object", "command to the session", "Send {\"command\": ...}");
+    throw UsageError("is not a JSON object", "command to the session", "Send {\"command\": ...}");
   const std::string name = textIn(json, "command");
   const auto found = kCommands.find(name);
   if (found == kCommands.end())
-    throw UsageError("is none that a session knows", "command \"" + name.substr(0, 32) + "\"",
-                     "start, pause, abort, void, stop, rearm, leave, note");
+    throw UsageError("is unknown", "command \"" + name.substr(0, 32) + "\"",
+                     "Known: start, pause, abort, void, stop, rearm, leave, note");
   trial::UserRequest request{found->second, textIn(json, "reason"), 0};
   if (request.reason.empty() &&
       (request.command == UserCommand::void_trial || request.command == UserCommand::note))
-    throw UsageError("needs words", "command \"" + name + "\"",
+    throw UsageError("needs a text", "command \"" + name + "\"",
                      request.command == UserCommand::note ? "Write what is to be noted"
-                                                          : "Say why the trial shall not count");
+                                                          : "Say why the trial should not count");
   if (json.contains("at_s")) request.at_s = momentIn(json["at_s"]);
   return request;
 }

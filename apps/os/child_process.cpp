@@ -76,7 +76,7 @@ ProcessId start(const std::vector<std::string>& arguments, const std::filesystem
   if (const int error = posix_spawn(&pid, "/proc/self/exe", &how.files, &how.attributes,
                                     pointersTo(words).data(), environ))
     throw Error(std::string("cannot be started (") + std::strerror(error) + ")",
-                "palpa " + arguments.front(), "Look for memory and disk space");
+                "palpa " + arguments.front(), "Check memory and disk space");
   if (gives_way) ::setpriority(PRIO_PROCESS, static_cast<id_t>(pid), kNice);
   return {pid, beganAt(pid)};
 }

@@ -88,7 +88,7 @@ std::string socketFolder() {
   struct stat facts {};
   if (::lstat(folder.c_str(), &facts) != 0 || !S_ISDIR(facts.st_mode) ||
       facts.st_uid != ::geteuid() || (facts.st_mode & 0077) != 0)
-    throw Error("is not a folder of this user's alone", folder,
+    throw Error("is not a folder for this user alone", folder,
                 "Remove it, or set XDG_RUNTIME_DIR to a folder of yours");
   return folder;
 }

@@ -85,7 +85,7 @@ TcpListener::TcpListener(const std::string& ipv4, std::uint16_t port, const std:
   const auto address = addressOf(ipv4, port);
   if (!address)
     throw UsageError(
-        "is no network address of this computer", "\"" + ipv4 + "\"",
+        "is not a network address of this computer", "\"" + ipv4 + "\"",
         "Write it in figures: 127.0.0.1 for this computer only, 0.0.0.0 for every network");
   fd_ = socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0);
   reuseAddress(fd_);
@@ -115,7 +115,7 @@ std::string ipv4Of(const std::string& host, const std::string& where) {
   hints.ai_socktype = SOCK_STREAM;
   if (const int error = getaddrinfo(host.c_str(), nullptr, &hints, &found); error != 0 || !found)
     throw UsageError("\"" + host + "\" is not known (" + gai_strerror(error) + ")", where,
-                     "Write its address in figures, as 192.168.1.1, or mend the name");
+                     "Write its address in figures, such as 192.168.1.1, or correct the name");
   char text[INET_ADDRSTRLEN] = "";
   inet_ntop(AF_INET, &reinterpret_cast<const sockaddr_in*>(found->ai_addr)->sin_addr, text,
             sizeof text);

@@ -28,7 +28,7 @@ void checkLooksLikeSqlite(const fs::path& file) {
     throw Error("is empty", file.string(), "Restore it from a backup");
   }
   if (stream.gcount() != sizeof(start) || std::memcmp(start, "SQLite format 3", 16) != 0) {
-    throw Error("is no session file", file.string(),
+    throw Error("is not a session file", file.string(),
                 "Give the session.palpa of a session's folder");
   }
 }

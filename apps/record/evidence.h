@@ -17,7 +17,7 @@ namespace palpa::record {
 ///   2. no log there and the folder cannot be written to: read only and immutable.
 ///   3. a log there and the folder cannot be written to: a private copy of both in the temporary
 ///      folder, removed afterwards.
-/// Throws Error for what is no session file, or one of a newer version.
+/// Throws Error for what is not a session file, or one of a newer version.
 class Evidence {
  public:
   explicit Evidence(const std::filesystem::path& file);

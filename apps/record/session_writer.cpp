@@ -16,7 +16,7 @@ namespace {
 void createEmpty(const std::filesystem::path& file) {
   if (const std::error_code problem = os::createNew(file)) {
     throw Error(problem == std::errc::file_exists
-                    ? "a file of this name is there already; evidence is never overwritten"
+                    ? "a file of this name already exists; evidence is never overwritten"
                     : "cannot be created: " + problem.message(),
                 file.string(), "Choose another folder with --out");
   }
@@ -71,7 +71,7 @@ struct SessionWriter::Impl {
     if (!tables) refuse("is closed already");
   }
   [[noreturn]] void refuse(const std::string& what) const {
-    throw Error(what, file.string(), "This is a fault of the program that records: report it");
+    throw Error(what, file.string(), "This is a fault of the program: report it");
   }
 
   std::filesystem::path file;

@@ -23,7 +23,7 @@ int countedFrames(const std::filesystem::path& file) {
 int codecOf(const std::filesystem::path& file) {
   if (file.extension() == ".avi") return cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
   if (file.extension() == ".mp4") return cv::VideoWriter::fourcc('m', 'p', '4', 'v');
-  throw UsageError("is no kind of video that is written", file.string(),
+  throw UsageError("is not a kind of video that can be written", file.string(),
                    "End its name in .mp4 or .avi");
 }
 

@@ -22,7 +22,7 @@ std::filesystem::path makeOutputFolder(const std::string& given, const std::stri
   std::filesystem::remove(probe, error);
   if (!written)
     throw Error("cannot be written to", folder.string(),
-                "Choose another folder with --out, or mend its permissions");
+                "Choose another folder with --out, or correct its permissions");
   return folder;
 }
 

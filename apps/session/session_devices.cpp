@@ -51,10 +51,10 @@ SessionDevices::SessionDevices(const SessionOptions& options, const station::Sta
     second_ = std::make_unique<Second>(station.device.capabilities, mode);
     second_->sensor = benchSensor(station, mode);
     if (!bench_moves_ || !second_->sensor)
-      throw UsageError("has no two devices with force sensors that this program can drive",
+      throw UsageError("does not have two devices with force sensors that this program can drive",
                        station.file.name(),
-                       "Two tools are simulated only, so far: leave out --station, take --operator "
-                       "expert or novice");
+                       "So far, two tools can only be simulated: leave out --station, take "
+                       "--operator expert or novice");
     hands.bench.second->device = &second_->device;
     hands.bench.second->sensor = second_->sensor.get();
     second_->sensing.emplace(*second_->sensor, sensingSetup(options.rate_Hz, hands.tip_radius,
@@ -99,7 +99,7 @@ void SessionDevices::openDevice(const std::optional<MouseHandSetup>& mouse, runt
     mouse_ = std::make_unique<MouseHand>(*mouse, channel_, channels);
   } else {
     throw UsageError(
-        "is no device that could feel anything", station_.file.name() + ", device",
+        "cannot feel anything", station_.file.name() + ", device",
         "Give a station with a haptic device, or one whose device/driver is \"virtual\"");
   }
   if (station_.workspace.order > 0) {

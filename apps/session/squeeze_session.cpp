@@ -33,7 +33,7 @@ station::Station squeezeStation(const SessionOptions& options) {
                      "sample/tip_radius_mm");
   if (!station.force_sensor)
     throw UsageError("has no \"force_sensor\"", station.file.name(),
-                     "What is held must be felt by the station: describe the sensor");
+                     "The station must measure the force on what is held: describe the sensor");
   if (!station.second_X_WD)
     throw UsageError("has no \"second_device\"", station.file.name(),
                      "It takes two tools to hold something: say where the other device stands, "

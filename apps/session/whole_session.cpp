@@ -45,7 +45,7 @@ SessionLeft holdSqueeze(SessionOptions options) {
   settle(options);
   if (!isSimulated(options.who))
     throw UsageError("cannot hold something with one device", "--operator",
-                     "Two devices are simulated only, so far: --operator expert or novice");
+                     "So far, two devices can only be simulated: --operator expert or novice");
   if (options.headset)
     throw UsageError("does not show squeezing yet", "--display openxr",
                      "Choose window or offscreen");

@@ -113,7 +113,7 @@ bool allFinite(const CalibrationFile& c) {
 void requireOurs(const JsonFile& file) {
   if (!file.json().is_object() || !file.json().contains("format") ||
       file.json().at("format") != kCalibrationFormat)
-    throw UsageError("is no calibration of this program", file.name(),
+    throw UsageError("is not a calibration made by this program", file.name(),
                      "Give a file that `palpa calibrate` has written");
   file.needVersion(kCalibrationVersion);
   json body = file.json();
@@ -142,7 +142,7 @@ void readCovariance(const JsonFile& file, CalibrationFile& c) {
     if (row.size() != c.coordinates.size()) file.refuse("covariance/matrix", "must be square");
     for (Eigen::Index j = 0; j < n; ++j) c.covariance(i, j) = row[static_cast<std::size_t>(j)];
   }
-  if (!isCovariance(c.covariance)) file.refuse("covariance/matrix", "is no covariance");
+  if (!isCovariance(c.covariance)) file.refuse("covariance/matrix", "is not a covariance");
 }
 
 void readResiduals(const JsonFile& file, CalibrationFile& c) {

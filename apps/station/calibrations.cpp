@@ -63,7 +63,7 @@ std::vector<AppliedCalibration> readCalibrations(const JsonFile& file,
     if (nameOf(c.file.kind) != entry.text("kind"))
       entry.refuse("kind", "is \"" + entry.text("kind") + "\", but the file is a " +
                                nameOf(c.file.kind) + " calibration");
-    if (calibrationOf(calibrations, c.file.kind)) entry.refuse("kind", "stands twice");
+    if (calibrationOf(calibrations, c.file.kind)) entry.refuse("kind", "occurs twice");
     calibrations.push_back(std::move(c));
   }
   return calibrations;

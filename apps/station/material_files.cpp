@@ -124,7 +124,7 @@ haptics::HuntCrossley lawAt(const CalibrationFile& file, const std::string& name
                                   file.at(name + "m", 1)[0]};
   const auto refuse = [&](const std::string& what, double value) {
     throw Error("has " + name + what + " = " + std::to_string(value), path,
-                "No soft thing is like that: identify it again");
+                "No soft material behaves like that: identify it again");
   };
   if (law.k < 0) refuse("k below zero,", law.k);
   if (law.b < 0) refuse("b below zero,", law.b);
@@ -146,7 +146,7 @@ void setFriction(LumpLibrary& library, const CalibrationFile& file, const std::s
   const haptics::Dahl& law = library.friction;
   if (!(law.mu >= 0 && law.sigma > 0 && law.B >= 0))
     throw Error("has mu or B below zero, or no sigma", path,
-                "Nothing rubs like that: identify it again");
+                "No surface rubs like that: identify it again");
 }
 
 /// A word for one of two grades, from 1.

@@ -106,8 +106,9 @@ std::optional<TrackerSetup> readTracker(const JsonFile& file) {
   tracker.transform = file.text("tracker/transform");
   if (const std::size_t to = tracker.transform.find("To");
       to == 0 || to == std::string::npos || to + 2 == tracker.transform.size())
-    file.refuse("tracker/transform", "is \"" + tracker.transform +
-                                         "\": a name as ReferenceToCamera says which pose it is");
+    file.refuse("tracker/transform",
+                "is \"" + tracker.transform +
+                    "\": a name such as ReferenceToCamera states which pose it is");
   if (file.has("tracker/host")) tracker.host = file.text("tracker/host");
   if (file.has("tracker/port"))
     tracker.port = static_cast<std::uint16_t>(file.integer("tracker/port", 1, 65'535));
@@ -167,7 +168,7 @@ std::vector<OtherBoard> readOtherBoards(const JsonFile& file,
     const bool taken = board.name == "table" || board.name == "tool" ||
                        std::any_of(boards.begin(), boards.end(),
                                    [&](const OtherBoard& b) { return b.name == board.name; });
-    if (taken) entry.refuse("name", "is \"" + board.name + "\", which is another's name");
+    if (taken) entry.refuse("name", "is \"" + board.name + "\", which another board has, too");
     if (std::any_of(known.begin(), known.end(),
                     [&](const ar::TagGridSpec& grid) { return shareTags(grid, board.grid); }))
       entry.refuse("first_id", "makes tags that another board has, too");

@@ -109,10 +109,10 @@ JsonFile readTaskFile(const std::filesystem::path& path) {
 LearnedModel learnedIn(const JsonFile& task) {
   LearnedModel model;
   if (!task.has(kLearned)) return model;
-  if (!task.json().at(kLearned).is_object()) task.refuse(kLearned, "is no model");
+  if (!task.json().at(kLearned).is_object()) task.refuse(kLearned, "is not a model");
   for (const auto& [name, value] : kSteps)
     if (std::abs(task.number(fieldOf(name)) / value - 1) > 1e-9)
-      task.refuse(fieldOf(name), "is another than this program's: learn the parts anew");
+      task.refuse(fieldOf(name), "differs from this program's: learn the parts again");
   model.states =
       static_cast<std::uint32_t>(task.integer(fieldOf("states"), 2, haptics::kMostLearnedStates));
   const auto fill = [](const std::vector<double>& from,

@@ -30,7 +30,8 @@ void needGroups(const JsonFile& file, const Protocol& protocol, const Learners& 
       file.refuse("groups", "lacks \"" + group.name + "\", a group of " + protocol.file.string());
   for (const auto& [name, ignored] : learners.groups)
     if (!protocol.group(name))
-      file.refuse("groups", "has \"" + name + "\", which is no group of " + protocol.file.string());
+      file.refuse("groups",
+                  "has \"" + name + "\", which is not a group of " + protocol.file.string());
   for (const StudyCondition& condition : protocol.conditions)
     if (!learners.rate_times.count(condition.name))
       file.refuse("conditions",
@@ -38,7 +39,7 @@ void needGroups(const JsonFile& file, const Protocol& protocol, const Learners& 
   for (const auto& [name, ignored] : learners.rate_times)
     if (!protocol.condition(name))
       file.refuse("conditions",
-                  "has \"" + name + "\", which is no condition of " + protocol.file.string());
+                  "has \"" + name + "\", which is not a condition of " + protocol.file.string());
 }
 
 }  // namespace

@@ -93,7 +93,7 @@ std::vector<Named> namedIn(const JsonFile& file, const std::string& list, Read r
   for (const JsonFile& entry : file.entries(list)) {
     all.push_back(read(entry));
     if (!names.insert(all.back().name).second)
-      entry.refuse("name", "is \"" + all.back().name + "\", as that of another one");
+      entry.refuse("name", "is \"" + all.back().name + "\", which another one has, too");
   }
   if (all.empty()) file.refuse(list, "must be a list of at least one");
   return all;
@@ -135,7 +135,7 @@ Block blockIn(const JsonFile& file, const Protocol& protocol) {
     file.refuse("condition", "is \"drawn\", but the protocol has no \"allocation\"");
   if (condition != kDrawn && !protocol.condition(condition))
     file.refuse("condition",
-                "is \"" + condition + "\", which is none of the protocol's conditions");
+                "is \"" + condition + "\", which is not one of the protocol's conditions");
   block.condition = condition == kDrawn ? "" : condition;
   return block;
 }
@@ -157,7 +157,8 @@ Allocation allocationIn(const JsonFile& file, const Protocol& protocol) {
     file.refuse("conditions", "must name at least two conditions, one of which is drawn");
   for (const std::string& name : a.conditions) {
     if (!protocol.condition(name))
-      file.refuse("conditions", "has \"" + name + "\", which is none of the protocol's conditions");
+      file.refuse("conditions",
+                  "has \"" + name + "\", which is not one of the protocol's conditions");
     if (std::count(a.conditions.begin(), a.conditions.end(), name) > 1)
       file.refuse("conditions", "has \"" + name + "\" twice");
   }

@@ -36,7 +36,7 @@ Questionnaire readQuestionnaire(const std::filesystem::path& path) {
   for (const JsonFile& entry : file.entries("items")) {
     q.items.push_back(itemIn(entry));
     if (!ids.insert(q.items.back().id).second)
-      entry.refuse("id", "is \"" + q.items.back().id + "\", as that of another item");
+      entry.refuse("id", "is \"" + q.items.back().id + "\", which another item has, too");
   }
   if (q.items.empty()) file.refuse("items", "must be a list of at least one item");
   return q;

@@ -19,7 +19,7 @@ void readNames(const JsonFile& task, const std::string& group, std::array<std::s
   for (const auto& [key, value] : task.json().at("words").at(group).items()) {
     std::size_t i = 0;
     while (i < N && key != name(static_cast<Thing>(i))) ++i;
-    if (i == N) task.refuse("words/" + group + "/" + key, "names what there is not");
+    if (i == N) task.refuse("words/" + group + "/" + key, "names something that does not exist");
     (*words)[i] = task.text("words/" + group + "/" + key);
   }
 }

@@ -230,7 +230,7 @@ Case placeLumps(const PalpationSettings& settings, std::size_t count, RandomStre
   for (int tried = 0, anew = 0; drawn.size() < count; ++tried) {
     if (tried == kPlacesTried) {  // the first ones stand in the way of the rest
       if (++anew == kBegunAnew)
-        throw Error("lumps so far apart find no room in the area",
+        throw Error("there is no room in the area for lumps so far apart",
                     "\"" + settings.id + "\", " + std::to_string(count) + " lumps",
                     "Make cases/apart_mm or the number of lumps smaller");
       drawn.clear();

@@ -51,7 +51,7 @@ void needFloor(const JsonFile& file, const haptics::SearchSpec& spec) {
   try {
     haptics::SearchSurface(spec, {}, [] { return 0.5; });
   } catch (const Error& e) {
-    file.refuse("stimulus", std::string("is no floor: ") + e.what());
+    file.refuse("stimulus", std::string("is not a floor: ") + e.what());
   }
 }
 

@@ -26,7 +26,7 @@ std::vector<BoardMove> readBoardMoves(const station::Station& station) {
     while (move.board < station.boards.size() && station.boards[move.board].name != name)
       ++move.board;
     if (move.board == station.boards.size() || !station.boards[move.board].X_WB)
-      entry.refuse("board", "is \"" + name + "\", which is no board with an X_WB");
+      entry.refuse("board", "is \"" + name + "\", which is not a board with an X_WB");
     move.from = entry.number("from_s", 0, kLongest_s);
     move.by = kMm * unpack(entry.triple("by_mm"));
     moves.push_back(move);

@@ -32,7 +32,8 @@ SampleTwin::SampleTwin(const station::Station& station, const std::string& name,
   if (one == samples.end()) {
     std::string known;
     for (const Phantom& p : samples) known += (known.empty() ? "" : ", ") + p.name;
-    throw UsageError("is none of the simulated samples", "\"" + name + "\"", "Known are " + known);
+    throw UsageError("is not one of the simulated samples", "\"" + name + "\"",
+                     "Known are " + known);
   }
   if (std::abs(one->table.tool_radius - radius_) > 1e-6)
     station.file.refuse("sample/tip_radius_mm", "is not that of the simulated samples");

@@ -81,7 +81,7 @@ TEST(CalibrationFile, ForeignNewerEditedAndCutFilesAreTold) {
     return whyRefused(file);
   };
   EXPECT_TRUE(says(replaced("palpa calibration", "another program's"),
-                   "is no calibration of this program"));
+                   "is not a calibration made by this program"));
   EXPECT_TRUE(says(replaced("\"version\": 1", "\"version\": 9"), "version"));
   EXPECT_TRUE(says(replaced("\"verdict\": \"pass\"", "\"verdict\": \"good\""), "checksum"));
   EXPECT_TRUE(says(replaced("0.11", "0.12"), "checksum"));

@@ -55,13 +55,13 @@ TEST_F(SampleTables, WhatIsWrongIsToldWithItsPlace) {
       says(poses("x_m,y_m,z_m,q_w,q_x,q_y,q_z\n1,2,nan,1,0,0,0\n"), "line 2, column \"z_m\""));
   EXPECT_TRUE(says(poses("x_m,y_m,z_m,q_w,q_x,q_y,q_z\n1,2,3,1,0,0\n"),
                    "has 6 cells where the header has 7"));
-  EXPECT_TRUE(says(poses("x_m,y_m,z_m,q_w,q_x,q_y,q_z\n1,2,3,2,0,0,0\n"), "no unit quaternion"));
+  EXPECT_TRUE(says(poses("x_m,y_m,z_m,q_w,q_x,q_y,q_z\n1,2,3,2,0,0,0\n"), "not a unit quaternion"));
   EXPECT_TRUE(says(poses("x_m,y_m,q_w,q_x,q_y,q_z\n1,2,1,0,0,0\n"), "has no column \"z_m\""));
   EXPECT_TRUE(says(poses("x_m,y_m,z_m,q_w,q_x,q_y,q_z\n"), "holds no samples"));
   EXPECT_TRUE(says(poses(""), "holds no samples"));
   EXPECT_TRUE(says(whyRefused([&] { readPoses(folder_ / "none.csv"); }), "cannot be read"));
   EXPECT_TRUE(
-      says(whyRefused([&] { readPosePairs(file("[[1,2]]", "pairs.json")); }), "no 4x4 matrix"));
+      says(whyRefused([&] { readPosePairs(file("[[1,2]]", "pairs.json")); }), "not a 4x4 matrix"));
   EXPECT_TRUE(says(whyRefused([&] { readPosePairs(file("{}", "pairs.json")); }), "holds no list"));
 }
 

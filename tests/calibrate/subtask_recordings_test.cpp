@@ -101,7 +101,7 @@ TEST(SubtaskRecordings, PartsMayBeNamedByATaskFileThatTellsThemAlike) {
   EXPECT_EQ(named.wordsOf(3), "creep + fast");
   EXPECT_TRUE(says(
       complaint([&] { readSubtaskRecordings({file}, written("other.json", taskOf(kFastPart))); }),
-      "tells its parts by other conditions than the recordings"));
+      "recognises its parts by other conditions than the task that was recorded"));
   EXPECT_TRUE(says(complaint([&] {
                      readSubtaskRecordings({file},
                                            written("none.json", R"({"version": 1, "id": "x"})"));
@@ -123,7 +123,7 @@ TEST(SubtaskRecordings, WhatIsNoSuchRecordingIsNamed) {
       "its task \"hold\" names no parts (\"subtasks\"). Record a task whose file names its parts"))
       << complaintOf({bare});
   EXPECT_TRUE(
-      says(complaintOf({file, other}), "its task tells its parts by other conditions than"));
+      says(complaintOf({file, other}), "its task recognises its parts by other conditions than"));
   EXPECT_TRUE(says(complaintOf({damaged}), "the description of its task is damaged"));
   const std::filesystem::path worded =
       recorded("worded", taskOf(kSlowPart), R"({"simulated": "yes"})");
@@ -131,7 +131,7 @@ TEST(SubtaskRecordings, WhatIsNoSuchRecordingIsNamed) {
       says(complaintOf({worded}), "its session: field \"simulated\" must be true or false"));
   EXPECT_TRUE(says(complaintOf({file.parent_path() / "none.palpa"}), "no such file"));
   std::ofstream(file.parent_path() / "text.palpa") << "a text that is long enough to be looked at";
-  EXPECT_TRUE(says(complaintOf({file.parent_path() / "text.palpa"}), "is no session file"));
+  EXPECT_TRUE(says(complaintOf({file.parent_path() / "text.palpa"}), "is not a session file"));
 }
 
 }  // namespace

@@ -158,8 +158,8 @@ TEST(SubtaskSegmentation, TheFileSaysTheModelAndTheWordsSayPlainUnits) {
 TEST(SubtaskSegmentation, WhatCannotBeCutIsNamed) {
   const std::vector<SubtaskSequence> good = plantedSequences(4, 200, 6);
   EXPECT_TRUE(says(complaint([&] { segment({good[0]}); }),
-                   "1 trial is too few: some must be held out to judge by, 2 are needed. Give a "
-                   "recording of more trials, or more recordings"));
+                   "1 trial is too few: 2 are needed, because some must be held out to judge by. "
+                   "Give a recording of more trials, or more recordings"));
   EXPECT_TRUE(says(complaint([&] { segment({}); }), "0 trials are too few"));
   EXPECT_TRUE(says(complaint([&] { segment(plantedSequences(2, 10, 1)); }),
                    "too short or too much alike for 2 states: 20 steps of 10 ms"));

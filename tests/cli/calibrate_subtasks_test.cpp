@@ -85,7 +85,7 @@ TEST(CalibrateSubtasks, RefusesWhatHasNoPartsOrTooFewTrials) {
     EXPECT_TRUE(says(outcome.err, words)) << outcome.err;
   };
   here.file("text.palpa", "a text that is long enough to be looked at");
-  refused({"text.palpa"}, "text.palpa: is no session file");
+  refused({"text.palpa"}, "text.palpa: is not a session file");
   refused({"none.palpa"}, "none.palpa: no such file");
   ASSERT_EQ(recordedSearch("1", "one", here).exit_code, 0);
   refused({"one/session.palpa"}, "1 trial is too few");

@@ -285,7 +285,7 @@ TEST(Calibrate, RealRobotWithATagOnItsHand) {
         m[0][3] = nullptr;
         return m;
       },
-      same, "no 4x4 matrix");
+      same, "not a 4x4 matrix");
 }
 
 /// What `all` says of itself against the bench's truth, at the limits that the product promises.

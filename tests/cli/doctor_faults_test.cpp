@@ -241,7 +241,7 @@ const std::vector<Fault>& computerFaults() {
              "config/openxr/1/active_runtime.json",
              R"({"file_format_version": "1.0.0", "runtime": {"library_path": "./libgone.so"}})");
        }},
-      {"DamagedRecords", "records", "note", "is no records file", "backup",
+      {"DamagedRecords", "records", "note", "is not a records file", "backup",
        [](BrokenBench& b) {
          records(b, "this is no database, and long enough to be told from one");
        }},

@@ -137,7 +137,7 @@ TEST(Records, WrongUsageIsNamed) {
   const Outcome other =
       palpa({"records", "trainee", "list", "--records", "other.sqlite"}, here.path());
   EXPECT_EQ(other.exit_code, 1);
-  EXPECT_TRUE(says(other.err, "is no records file")) << other.err;
+  EXPECT_TRUE(says(other.err, "is not a records file")) << other.err;
   const Outcome secret = palpa(
       {"records", "trainee", "list", "--records", "postgresql://me:geheim@host/db"}, here.path());
   EXPECT_EQ(secret.exit_code, 2);

@@ -176,7 +176,8 @@ TEST(Search, WrongUsageIsNamed) {
   nlohmann::json task =
       nlohmann::json::parse(contentOf(std::string(PALPA_SOURCE_DIR) + "/assets/tasks/search.json"));
   task["stimulus"]["groove_U"]["value"] = 10;
-  refused({"--task", here.file("groove.json", task.dump()), "--operator", "expert"}, "is no floor");
+  refused({"--task", here.file("groove.json", task.dump()), "--operator", "expert"},
+          "is not a floor");
 }
 
 }  // namespace

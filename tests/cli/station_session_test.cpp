@@ -189,12 +189,12 @@ TEST(StationSession, BoardsAndThingsThatCannotBeAreRefused) {
   using nlohmann::json;
   refused("plate.obj", [](json&) {});  // is not there
   refused("another board has", [](json& s) { s["boards"][0]["first_id"] = 20; });
-  refused("another's name", [](json& s) { s["boards"][0]["name"] = "table"; });
+  refused("which another board has, too", [](json& s) { s["boards"][0]["name"] = "table"; });
   refused("known are table, tool", [](json& s) { s["real_things"][0]["on"] = "shelf"; });
   refused("known are m, cm, mm", [](json& s) { s["real_things"][0]["unit"] = "inch"; });
   refused("must be a list", [](json& s) { s["boards"] = 3; });
   refused("tolerance_mm", [](json& s) { s["boards"][0]["tolerance_mm"] = 0; });
-  refused("is no board with an X_WB", [](json& s) {
+  refused("is not a board with an X_WB", [](json& s) {
     s["real_things"] = json::array();
     s["twin"]["board_moves"] = {{{"board", "lid"}, {"from_s", 1}, {"by_mm", {1, 0, 0}}}};
   });

@@ -24,7 +24,7 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
                   here.path())
                 .exit_code,
             0);
-  refused("none of the study's");
+  refused("not one of the study's");
   ASSERT_EQ(palpa({"records", "trainee", "change", "--id", "T001", "--group", "novice", "--records",
                    "records.sqlite"},
                   here.path())
@@ -47,7 +47,7 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
   refused("made the optimal path");
   text["conditions"][0]["name"] = "GG";
   here.file("protocol.json", text.dump());
-  refused("\"FF\", which is none of the protocol's conditions");
+  refused("\"FF\", which is not one of the protocol's conditions");
   EXPECT_TRUE(
       record::StudyStore(*std::make_unique<record::RecordStore>((here / "records.sqlite").string()))
           .enrolments("small")
@@ -77,7 +77,7 @@ TEST_F(Study, AChangedProtocolIsAnotherStudy) {
   here.file("protocol.json", text.dump());
   const Outcome changed = runTrainee();
   EXPECT_EQ(changed.exit_code, 2);
-  EXPECT_TRUE(says(changed.err, "by another protocol file")) << changed.err;
+  EXPECT_TRUE(says(changed.err, "with another protocol file")) << changed.err;
 }
 
 TEST_F(Study, TellsNoConditionWhereItIsBlind) {
@@ -92,7 +92,7 @@ TEST_F(Study, TellsNoConditionWhereItIsBlind) {
   ASSERT_EQ(blind.exit_code, 0) << blind.err;
   for (const std::string& said : {blind.out, status().out})
     EXPECT_FALSE(says(said, "secret") || says(said, "FF") || says(said, "NO ")) << said;
-  EXPECT_TRUE(says(status().out, "novice         1 place given; balanced again after 1 more"))
+  EXPECT_TRUE(says(status().out, "novice         1 slot assigned; balanced again after 1 more"))
       << status().out;
 }
 
@@ -106,7 +106,7 @@ TEST_F(Study, WrongUsageIsNamed) {
   complains({}, "needs --trainee or --simulate");
   complains({"--simulate"}, "needs --learning");
   complains({"--trainee", "T001", "--learning", "x.json"}, "goes with --simulate only");
-  complains({"--trainee", "T001", "--simulate", "2"}, "one of them only");
+  complains({"--trainee", "T001", "--simulate", "2"}, "exclude each other");
   complains({"--trainee", "Dr. Smith"}, "pseudonym");
   complains({"--simulate", "2", "--learning", "none.json"}, "cannot be read");
 }

@@ -19,7 +19,7 @@ TEST_F(Study, LeadsThroughASessionAndItsQuestions) {
   const Outcome first = runTrainee();
   ASSERT_EQ(first.exit_code, 0) << first.err;
   EXPECT_TRUE(says(first.out, "2 trials kept in the records")) << first.out;
-  EXPECT_TRUE(says(first.out, "Not finished: the same command goes on"))
+  EXPECT_TRUE(says(first.out, "Not finished: the same command continues"))
       << first.out;  // nobody answers
   EXPECT_TRUE(says(status().out, "questionnaire: 8 open")) << status().out;
 
@@ -43,7 +43,7 @@ TEST_F(Study, LeadsThroughASessionAndItsQuestions) {
   const Outcome wrong = runTrainee({"--answers", "wrong.json"});
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_TRUE(
-      says(wrong.err, "\"useful\" cannot be taken: the answer is a whole number from 1 to 5"))
+      says(wrong.err, "\"useful\" cannot be accepted: the answer is a whole number from 1 to 5"))
       << wrong.err;
   here.file("some.json", R"({"useful": 4})");
   EXPECT_TRUE(says(runTrainee({"--answers", "some.json"}).out, "Not finished"));

@@ -45,7 +45,7 @@ TEST(Forms, DamagedFilesAreNamedWithTheirField) {
       {{"\"metric\": \"error_site\"", "\"metric\": \"error_sight\""},
        "field \"metric\" is \"error_sight\", no figure of a trial"},
       {{"\"id\": \"position\"", "\"id\": \"explained\""},
-       "list.json, \"items\", entry 2: field \"id\" is \"explained\", which is there twice"},
+       "list.json, \"items\", entry 2: field \"id\" is \"explained\", which occurs twice"},
       {{"\"weight\": \"minor\"", "\"weight\": \"heavy\""},
        "is \"heavy\"; it must be \"major\" or \"minor\""},
       {{"\"judged_by\": \"rater\"", "\"judged_by\": \"nobody\""},
@@ -81,8 +81,8 @@ TEST(Answers, MistakesAreNamedWithTheirLine) {
   };
   EXPECT_NE(refused("sterile,done\nsteril,done").find("a.csv, line 2: names \"steril\""),
             std::string::npos);
-  EXPECT_NE(refused("sterile,4").find("\"4\" is no answer to \"sterile\""), std::string::npos);
-  EXPECT_NE(refused("plan,6").find("\"6\" is no answer to \"plan\""), std::string::npos);
+  EXPECT_NE(refused("sterile,4").find("\"4\" is not an answer to \"sterile\""), std::string::npos);
+  EXPECT_NE(refused("plan,6").find("\"6\" is not an answer to \"plan\""), std::string::npos);
   EXPECT_NE(refused("plan,4\nplan,5").find("answers \"plan\" again"), std::string::npos);
   EXPECT_NE(refused("sterile done").find("has no comma"), std::string::npos);
   EXPECT_NE(refusal([&] { parseAnswers("plan,4", "a.csv", list, nullptr); }).find("names \"plan\""),

@@ -74,7 +74,7 @@ TEST(DoctorsRecords, WhatIsWrongWithThemIsNamedAndNothingIsMade) {
   expectSays(askRecords(file, 2), State::note, "2 sessions wait");
   std::ofstream(folder / "damaged.sqlite") << "this is no database at all";
   expectSays(askRecords((folder / "damaged.sqlite").string(), 0), State::note,
-             "is no records file");
+             "is not a records file");
   expectSays(askRecords("postgresql://nobody@127.0.0.1:9/none", 0), State::note, "127.0.0.1");
 }
 

@@ -30,7 +30,7 @@ TEST(DoctorsTracker, EachTroubleIsNamed) {
              "does not answer at 127.0.0.1, port 18944");
   expectSays(judgeTracker(factsOf(0, 0, 0), setup), State::note, "sends no CameraMarkerToTable");
   expectSays(judgeTracker(factsOf(0, 40, 0), setup), State::note, "does not see");
-  expectSays(judgeTracker(factsOf(0, 0, 40), setup), State::ill, "is no pose");
+  expectSays(judgeTracker(factsOf(0, 0, 40), setup), State::ill, "is not a pose");
   expectSays(judgeTracker(factsOf(15, 0, 0), setup), State::note, "15 poses a second");
   expectSays(judgeTracker(factsOf(60, 3, 0), setup), State::well, "60 poses a second");
   expectSays(judgeTracker({{}, 0, "\"nowhere\" is not known. Mend the name"}, setup), State::ill,

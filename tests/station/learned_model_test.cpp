@@ -107,8 +107,8 @@ TEST(LearnedModel, RefusesWhatCannotBe) {
   expectRefused([](json* m) { (*m)["variance_log_speed"] = {0.5, 0}; }, "which cannot be");
   expectRefused([](json* m) { (*m)["mean_log_speed"] = {0.5, "much"}; }, "which cannot be");
   expectRefused([](json* m) { m->erase("variance_log_speed"); }, "go together");
-  expectRefused([](json* m) { (*m)["step_s"] = 0.02; }, "another than this program's");
-  expectRefused([](json* m) { *m = 3; }, "is no model");
+  expectRefused([](json* m) { (*m)["step_s"] = 0.02; }, "differs from this program's");
+  expectRefused([](json* m) { *m = 3; }, "is not a model");
   EXPECT_NE(refusal(taskWith(nullptr)).find("has no \"learned\""), std::string::npos);
   EXPECT_NE(refusal(taskWith(twoStates(), {{"cue", "learned"}, {"is", 3}})).find("1 to 2"),
             std::string::npos);

@@ -99,7 +99,7 @@ TEST(Look, AtFilesThatAreNotThereEmptyForeignOrDamaged) {
     EXPECT_TRUE(tells(message, words)) << message;
     EXPECT_EQ(bytesIn(folder), (std::map<std::string, std::string>{{"records.sqlite", bytes}}));
   };
-  refused("this is no database, but long enough", "is no records file");
+  refused("this is no database, but long enough", "is not a records file");
   fs::remove(file);
   {
     RecordStore store(file);

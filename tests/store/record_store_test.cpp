@@ -205,7 +205,7 @@ TEST(DamagedFile, IsNamedAndLeftAlone) {
   const auto folder = test::freshFolder("store", "damaged");
   const std::string file = (folder / "records.sqlite").string();
   std::ofstream(file) << "this is no database, but long enough";
-  EXPECT_TRUE(says(messageOf([&] { RecordStore store(file); }), "is no records file"));
+  EXPECT_TRUE(says(messageOf([&] { RecordStore store(file); }), "is not a records file"));
   std::filesystem::remove(file);
   {
     RecordStore store(file);

@@ -100,7 +100,7 @@ TEST(Learning, SaysWhatIsWrong) {
   EXPECT_TRUE(has(complaint([](json& l) {
                     l["conditions"].push_back({{"name", "C"}, {"rate_times", 1}});
                   }),
-                  "\"C\", which is no condition"));
+                  "\"C\", which is not a condition"));
   EXPECT_TRUE(has(complaint([](json& l) { l["groups"][0]["start"] = 1.5; }), "\"start\" is 1.5"));
   EXPECT_TRUE(has(complaint([](json& l) { l["groups"][0]["subjects"] = 0; }), "\"subjects\" is 0"));
   EXPECT_TRUE(has(complaint([](json& l) { l["groups"][0].erase("rate_per_trial"); }),

@@ -25,7 +25,7 @@ TEST(Questionnaire, SaysWhatIsWrong) {
   EXPECT_TRUE(
       has(complaintAbout([](json& q) { q["items"] = json::array(); }), "at least one item"));
   EXPECT_TRUE(has(complaintAbout([](json& q) { q["items"][1]["id"] = "useful"; }),
-                  "as that of another item"));
+                  "which another item has, too"));
   EXPECT_TRUE(
       has(complaintAbout([](json& q) { q["items"][0]["kind"] = "stars"; }), "likert or text"));
   EXPECT_TRUE(has(complaintAbout([](json& q) { q["items"][0]["points"] = 1; }), "\"points\" is 1"));

@@ -34,7 +34,7 @@ std::string textIn(const JsonFile& file, const std::string& field) {
 
 std::vector<JsonFile> someIn(const JsonFile& file, const std::string& list) {
   std::vector<JsonFile> entries = file.entries(list);
-  if (entries.empty()) file.refuse(list, "must be a list with something in it");
+  if (entries.empty()) file.refuse(list, "must be a list that is not empty");
   return entries;
 }
 
@@ -42,7 +42,7 @@ std::string freshId(const JsonFile& file, std::set<std::string>* taken) {
   const std::string id = textIn(file, "id");
   if (id.find_first_of(", \"\t\n") != std::string::npos)
     file.refuse("id", "is \"" + id + "\"; it is typed in: no spaces, no commas");
-  if (!taken->insert(id).second) file.refuse("id", "is \"" + id + "\", which is there twice");
+  if (!taken->insert(id).second) file.refuse("id", "is \"" + id + "\", which occurs twice");
   return id;
 }
 
@@ -50,14 +50,14 @@ Rule ruleIn(const JsonFile& file) {
   Rule rule;
   rule.metric = textIn(file, "metric");
   if (!metrics::metricNamed(rule.metric))
-    file.refuse("metric", "is \"" + rule.metric +
-                              "\", no figure of a trial (palpa records metrics lists them)");
+    file.refuse("metric",
+                "is \"" + rule.metric +
+                    "\", which is not a figure of a trial (palpa records metrics lists them)");
   const nlohmann::json& json = file.json();
   const bool applies = json.contains("applies") && json.at("applies") == true;
   if (!applies && !file.has("at_least") && !file.has("at_most"))
-    file.refuse("metric",
-                "is \"" + rule.metric +
-                    "\", beside which \"at_least\", \"at_most\" or \"applies\" is needed");
+    file.refuse("metric", "is \"" + rule.metric +
+                              "\", which needs \"at_least\", \"at_most\" or \"applies\" beside it");
   if (file.has("at_least")) rule.at_least = file.number("at_least", -1e9, 1e9);
   if (file.has("at_most")) rule.at_most = file.number("at_most", -1e9, 1e9);
   return rule;
@@ -174,7 +174,7 @@ FormAnswers parseAnswers(const std::string& text, const std::string& where,
     if (!of_list && !(global && has(global->items, id)))
       refuse("names \"" + id + "\", which the form does not have");
     const std::optional<int> value = of_list ? doneIn(word) : gradeIn(word);
-    if (!value) refuse("\"" + word + "\" is no answer to \"" + id + "\"");
+    if (!value) refuse("\"" + word + "\" is not an answer to \"" + id + "\"");
     if (!(of_list ? answers.checklist : answers.global).emplace(id, *value).second)
       refuse("answers \"" + id + "\" again");
   }

@@ -111,7 +111,7 @@ void requireTables(const Eigen::VectorXd& y, const Eigen::MatrixXd& x,
   if (y.size() <= x.cols())
     throw Error("there are fewer trials than questions", kMixed, "Collect more trials");
   if (Eigen::ColPivHouseholderQR<Eigen::MatrixXd>(x).rank() < x.cols())
-    throw Error("two of the questions say the same", kMixed, "Leave one of them out");
+    throw Error("two of the questions are the same", kMixed, "Leave one of them out");
 }
 
 FixedEffect effectOf(const std::string& name, double estimate, double error, double degrees,

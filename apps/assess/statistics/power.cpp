@@ -30,7 +30,7 @@ double powerOf(double shift, double degrees, double level, Tails tails) {
 void requirePower(double effect, double power, double level) {
   requireLevel(level);
   if (!(std::abs(effect) > 0))
-    throw Error("without an effect no number of subjects will do", kPlanning,
+    throw Error("without an effect no number of subjects is enough", kPlanning,
                 "Say how large a difference matters");
   if (!(power > level && power < 1))
     throw Error("the power must lie between the level and 1", kPlanning, "0.8 or 0.9 is usual");

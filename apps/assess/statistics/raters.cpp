@@ -99,13 +99,13 @@ RaterAgreement raterAgreement(const Eigen::MatrixXd& ratings) {
 double kappa(const std::vector<int>& one, const std::vector<int>& other, int categories,
              KappaWeights weights) {
   if (one.empty() || one.size() != other.size())
-    throw Error("needs as many ratings of the one as of the other", kRaters,
+    throw Error("needs the same number of ratings from both raters", kRaters,
                 "Leave out what only one has rated");
   Eigen::MatrixXd seen = Eigen::MatrixXd::Zero(categories, categories);
   for (std::size_t i = 0; i < one.size(); ++i) {
     if (std::min(one[i], other[i]) < 0 || std::max(one[i], other[i]) >= categories)
-      throw Error("a rating is none of the " + std::to_string(categories) + " categories", kRaters,
-                  "Check the form");
+      throw Error("a rating is not one of the " + std::to_string(categories) + " categories",
+                  kRaters, "Check the form");
     seen(one[i], other[i]) += 1 / static_cast<double>(one.size());
   }
   double observed = 0, expected = 0;

@@ -71,7 +71,7 @@ TTest pooledFromMoments(const Moments& a, const Moments& b) {
 TTest paired(const std::vector<double>& a, const std::vector<double>& b) {
   if (a.size() != b.size())
     throw Error("the samples are not pairs", kTTest,
-                "Leave out whoever lacks one of the two values");
+                "Leave out subjects who lack one of the two values");
   std::vector<double> differences(a.size());
   for (std::size_t i = 0; i < a.size(); ++i) differences[i] = a[i] - b[i];
   const Moments d = momentsOf(differences, kTTest);

@@ -29,7 +29,7 @@ TrackerClient::TrackerClient(const TrackerSettings& settings, const runtime::Clo
       poses_(poses) {
   if (settings_.transform.empty())
     throw UsageError("has no name", "the tracker's transform",
-                     "Name one that its server sends, as ReferenceToCamera");
+                     "Name one that its server sends, such as ReferenceToCamera");
 }
 
 std::int64_t TrackerClient::step(std::int64_t now_ns) {

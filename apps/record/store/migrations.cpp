@@ -192,7 +192,7 @@ const std::vector<std::string>& tableNames() {
 const std::string& columnsOf(const std::string& name) {
   static const std::map<std::string, std::string> all(kTables.begin(), kTables.end());
   const auto found = all.find(name);
-  if (found == all.end()) throw Error("is no table of the records", name, "Report this");
+  if (found == all.end()) throw Error("is not a table of the records", name, "Report this");
   return found->second;
 }
 
@@ -200,7 +200,7 @@ int schemaOf(SqlConnection& connection) {
   if (!connection.hasTable("palpa_schema")) return 0;
   const SqlRows rows = connection.query("SELECT version FROM palpa_schema");
   if (rows.size() != 1)
-    throw Error("does not say its version once", connection.place(),
+    throw Error("does not state its version exactly once", connection.place(),
                 "It is damaged or was changed by hand: restore a backup");
   const std::int64_t version = rows.integer(0, 0);
   if (version > kNewest)

@@ -147,7 +147,7 @@ class PostgresConnection final : public SqlConnection {
                              remedyFor(""));
     } catch (const pqxx::transaction_rollback& e) {
       throw StoreUnreachable(
-          "was asked for the same by another station (" + firstLine(e.what()) + ")", place(),
+          "received the same request from another station (" + firstLine(e.what()) + ")", place(),
           "It is tried again");
     } catch (const pqxx::disk_full& e) {
       throw StoreUnreachable("has a full disk (" + firstLine(e.what()) + ")", place(),

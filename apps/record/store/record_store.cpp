@@ -41,7 +41,7 @@ std::uint64_t seedOf(const std::string& digits, const SqlConnection& store) {
   std::uint64_t seed = 0;
   const auto [end, problem] = std::from_chars(digits.data(), digits.data() + digits.size(), seed);
   if (problem != std::errc() || end != digits.data() + digits.size())
-    throw Error("is damaged (a seed is no number)", store.place(),
+    throw Error("is damaged (a seed is not a number)", store.place(),
                 "Restore a backup: palpa records restore");
   return seed;
 }
@@ -136,7 +136,7 @@ void RecordStore::requireSession(const StoredSession& s) {
           .empty()) {
     if (wasDeleted(sha256(s.trainee)))
       throw PersonDeleted("was deleted on request; the trial is refused", "trainee " + s.trainee,
-                          "Its evidence is to be removed, too");
+                          "Remove its evidence, too");
     throw UsageError("is not in the records", "trainee " + s.trainee,
                      "Add it: palpa records trainee add --id " + s.trainee);
   }
@@ -145,7 +145,7 @@ void RecordStore::requireSession(const StoredSession& s) {
     insertSession(s);
   else if (owner.text(0, 0) != s.trainee)
     throw UsageError("belongs to another trainee", "session " + s.uuid,
-                     "Two people cannot share a session; give each one of his own");
+                     "Two people cannot share a session; give each of them one");
 }
 
 void RecordStore::insertSession(const StoredSession& s) {
@@ -277,7 +277,7 @@ std::vector<StoredSession> RecordStore::deletePerson(const std::string& id,
   SqlTransaction transaction(*connection_);
   if (connection_->query("UPDATE trainees SET id=id WHERE id=$1 RETURNING id", {id}).empty())
     throw UsageError("is not in the records", "trainee " + id,
-                     "palpa records trainee list shows who is");
+                     "palpa records trainee list shows who is in them");
   const std::vector<StoredSession> theirs = sessions(id);
   for (const StoredSession& s : theirs)
     connection_->query(

@@ -42,7 +42,7 @@ void checkKind(const std::string& file) {
   stream.read(start, sizeof start);
   if (stream.gcount() == 0) return;  // new
   if (stream.gcount() < 16 || std::memcmp(start, "SQLite format 3", 16) != 0)
-    throw Error("is no records file", "records file " + file,
+    throw Error("is not a records file", "records file " + file,
                 "Give the right file, or restore it from a backup");
   checkWhole(file, start);
 }

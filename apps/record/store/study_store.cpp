@@ -22,7 +22,7 @@ std::uint64_t StudyStore::seedOf(const StudyBeginning& b) {
   const SqlRows rows = connection_.query(
       "SELECT protocol_sha256,seed,began_utc FROM studies WHERE study=$1", {b.study});
   if (rows.text(0, 0) != b.protocol_sha256)
-    throw UsageError("began on " + rows.text(0, 2).substr(0, 10) + " by another protocol file",
+    throw UsageError("began on " + rows.text(0, 2).substr(0, 10) + " with another protocol file",
                      "study " + b.study,
                      "Give the file as it was, or give the changed one another id");
   return std::stoull(rows.text(0, 1));

@@ -26,7 +26,7 @@ constexpr PaperSize kPapers[] = {
 const PaperSize& paperOf(const std::string& name) {
   for (const PaperSize& paper : kPapers)
     if (name == paper.name) return paper;
-  throw UsageError("is no paper", name, "Choose a4, a3, a2, a1, letter, tabloid or fit");
+  throw UsageError("is not a paper size", name, "Choose a4, a3, a2, a1, letter, tabloid or fit");
 }
 
 PageSize sizeOf(const ar::Sheet& sheet, const std::string& name) {
@@ -142,17 +142,17 @@ std::string pngOf(const ar::Sheet& sheet, const BoardPage& page, const PageSize&
   const auto pixels = [&](double mm) { return static_cast<int>(std::lround(mm * px_per_mm)); };
   if (std::max(pixels(size.width_mm), pixels(size.height_mm)) > 30'000)
     throw UsageError("makes a picture of more than 30000 pixels a side", "--dpi",
-                     "Choose fewer dots an inch, or a PDF");
+                     "Choose fewer dots per inch, or a PDF");
   if (1e3 * sheet.smallest * px_per_mm < 2)
     throw UsageError("leaves less than two pixels for a cell of the board", "--dpi",
-                     "Choose more dots an inch, or a PDF");
+                     "Choose more dots per inch, or a PDF");
   std::string bytes;
   const Surface surface(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, pixels(size.width_mm), pixels(size.height_mm)),
       &cairo_surface_destroy);
   draw(surface.get(), px_per_mm, sheet, page, size);
   if (cairo_surface_write_to_png_stream(surface.get(), append, &bytes) != CAIRO_STATUS_SUCCESS)
-    throw Error("the picture cannot be made", sheet.what, "Choose fewer dots an inch, or a PDF");
+    throw Error("the picture cannot be made", sheet.what, "Choose fewer dots per inch, or a PDF");
   return bytes;
 }
 

@@ -31,11 +31,11 @@ void needFit(const record::Trainee& trainee, const study::Protocol& protocol, bo
       throw UsageError(why, who, "Experts who calibrate take no part; enrol somebody else");
   if (trainee.research_utc.empty() && trainee.experience != kSimulatedExperience)
     throw UsageError("has not agreed to studies", who,
-                     "Note the consent once it is given: palpa records trainee change --id " +
+                     "Record the consent once it is given: palpa records trainee change --id " +
                          trainee.id + " --research");
   if (!enrolled && !protocol.group(trainee.group))
     throw UsageError(
-        "is in the group \"" + trainee.group + "\", which is none of the study's", who,
+        "is in the group \"" + trainee.group + "\", which is not one of the study's", who,
         "Correct it: palpa records trainee change --id " + trainee.id + " --group ...");
 }
 

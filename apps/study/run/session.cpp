@@ -114,9 +114,9 @@ bool takeAnswers(const std::string& path, const study::Questionnaire& questionna
     const auto item = std::find_if(questionnaire.items.begin(), questionnaire.items.end(),
                                    [&](const study::Item& i) { return i.id == id; });
     if (item == questionnaire.items.end())
-      file.refuse(id, "is no item of the questionnaire \"" + questionnaire.id + "\"");
+      file.refuse(id, "is not an item of the questionnaire \"" + questionnaire.id + "\"");
     if (const std::string why = study::whyNoAnswer(*item, textOf(answer)); !why.empty())
-      file.refuse(id, "cannot be taken: " + why);
+      file.refuse(id, "cannot be accepted: " + why);
   }
   std::size_t taken = 0;
   for (const std::string& id : next.open_items)

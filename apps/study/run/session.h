@@ -24,7 +24,7 @@ std::filesystem::path studyFolder(const std::string& out, const study::Protocol&
                                   const std::string& trainee, const study::Next& next);
 
 /// Asks what is still open of a session's questionnaire, item by item, on the terminal; every
-/// answer is kept at once. False: left before the end; the same command goes on there.
+/// answer is kept at once. False: left before the end; the same command continues there.
 bool askQuestions(const study::Questionnaire& questionnaire, const study::Next& next,
                   StudyParticipant& participant);
 

@@ -139,7 +139,7 @@ void runSubject(const Shared& shared, const Subject& subject, const std::functio
         studyFolder(shared.options.session.out, shared.protocol, id, next).string(), "");
     const std::size_t before = participant.trials();
     if (!runTrials(shared, session, shared.protocol.block(next.step), folder))
-      throw Error("was interrupted", id, "The same command goes on");
+      throw Error("was interrupted", id, "The same command continues");
     evidence::deliverEvidence(folder / "session.palpa", shared.options.url);
     participant.refresh();
     if (participant.trials() == before)

@@ -21,7 +21,7 @@ nlohmann::json studyFacts(const record::StoredSession& session) {
       return facts.at("study");
   } catch (const nlohmann::json::exception&) {  // said below
   }
-  throw Error("the session's description is damaged or says nothing of the study",
+  throw Error("the session's description is damaged or does not name the study",
               "session " + session.uuid, "Bring it into the records again: palpa records add");
 }
 
@@ -30,7 +30,7 @@ std::string wordIn(const nlohmann::json& study, const char* field,
   const auto found = study.find(field);
   if (found == study.end()) return "";
   if (!found->is_string())
-    throw Error(std::string("the study's ") + field + " is no text", "session " + session.uuid,
+    throw Error(std::string("the study's ") + field + " is not text", "session " + session.uuid,
                 "Bring it into the records again: palpa records add");
   return found->get<std::string>();
 }

@@ -11,7 +11,7 @@ namespace palpa::study {
 /// Scored trials of a study as its records tell them: group, condition and block from what each
 /// session says of the study; sessions in the order of their arrival. Familiarisation, void trials
 /// and those without figures are left out. Throws UsageError for a study without trials, Error for
-/// a session whose description is damaged or says nothing of the study.
+/// a session whose description is damaged or does not name the study.
 std::vector<study_analysis::StudyRow> studyRows(record::RecordStore& store,
                                                 const std::string& study);
 

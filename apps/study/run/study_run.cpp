@@ -53,7 +53,7 @@ void greet(const study::Protocol& protocol, const StudyParticipant& participant)
 void rest(const Next& next, bool fast) {
   const int seconds = static_cast<int>(std::lround(next.rest_s));
   if (fast || seconds <= 0) return;
-  std::printf("Rest: %d s (Ctrl-C leaves; the same command goes on)\n", seconds);
+  std::printf("Rest: %d s (Ctrl-C leaves; the same command continues)\n", seconds);
   std::fflush(stdout);
   runtime::SteadyClock().sleepUntil(seconds * runtime::kSecond);
 }
@@ -112,7 +112,7 @@ bool trialsHeld(const StudyOptions& o, const study::Protocol& protocol,
   if (left.quit) return false;
   if (counted == 0)
     throw Error("no trial of this session counts", left.folder.string(),
-                "See why in its report, then start again: the same command goes on");
+                "See why in its report, then start again: the same command continues");
   return true;
 }
 
@@ -156,7 +156,7 @@ void runStudySession(const StudyOptions& o) {
     const bool done = next.kind == NextKind::trials ? trialsHeld(o, protocol, participant, next)
                                                     : answered(o, protocol, participant, next);
     if (done) continue;
-    std::printf("\nNot finished: the same command goes on from here\n");
+    std::printf("\nNot finished: the same command continues from here\n");
     return;
   }
 }
@@ -184,7 +184,7 @@ void reportTrainee(const study::Protocol& protocol, record::RecordStore& store,
 void reportGroup(const study::Protocol& protocol, record::StudyStore& studies,
                  const std::string& group) {
   const std::int64_t given = studies.placesGiven(protocol.id, group);
-  std::printf("  %-14s %lld place%s given", group.c_str(), static_cast<long long>(given),
+  std::printf("  %-14s %lld slot%s assigned", group.c_str(), static_cast<long long>(given),
               given == 1 ? "" : "s");
   if (protocol.allocation)
     std::printf(

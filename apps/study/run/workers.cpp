@@ -69,10 +69,10 @@ void shareWork(int items, int workers, int steps, bool quiet, const Work& work) 
   if (!quiet) say(board, steps);
   if (board.failed)
     throw Error(board.message, "a virtual trainee",
-                "Start again: what is done is kept, the same command goes on");
+                "Start again: what is done is kept, the same command continues");
   if (killed)
     throw Error("was killed", "a process of the simulation",
-                "Start again: what is done is kept, the same command goes on");
+                "Start again: what is done is kept, the same command continues");
 }
 
 }  // namespace palpa::study

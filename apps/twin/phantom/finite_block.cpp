@@ -206,7 +206,7 @@ BlockResponse FiniteBlock::Model::settle(const std::vector<Vec3>& at) {
     }
   }
   throw Error("no equilibrium of the block under the tools", "phantom",
-              "press less deep, or use finer elements");
+              "press less deeply, or use finer elements");
 }
 
 FiniteBlock::FiniteBlock(const SoftBlock& block, const std::vector<double>& tool_x,
