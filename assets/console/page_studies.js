@@ -104,7 +104,7 @@ export async function show({ root, open }) {
     );
   for (const study of studies) {
     const places = (study.places || [])
-      .map((p) => `${p.group}: ${plural(Number(p.given) || 0, "slot")} assigned`)
+      .map((p) => `${p.group}: ${plural(Number(p.given) || 0, "place")} assigned`)
       .join(" · ");
     root.append(
       h(

@@ -92,7 +92,7 @@ TEST_F(Study, TellsNoConditionWhereItIsBlind) {
   ASSERT_EQ(blind.exit_code, 0) << blind.err;
   for (const std::string& said : {blind.out, status().out})
     EXPECT_FALSE(says(said, "secret") || says(said, "FF") || says(said, "NO ")) << said;
-  EXPECT_TRUE(says(status().out, "novice         1 slot assigned; balanced again after 1 more"))
+  EXPECT_TRUE(says(status().out, "novice         1 place assigned; balanced again after 1 more"))
       << status().out;
 }
 

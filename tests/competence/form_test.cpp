@@ -43,7 +43,7 @@ TEST(Forms, DamagedFilesAreNamedWithTheirField) {
   const std::pair<std::pair<const char*, const char*>, const char*> spoilt_texts[] = {
       {{"\"version\": 1", "\"version\": 2"}, "list.json: field \"version\" is newer"},
       {{"\"metric\": \"error_site\"", "\"metric\": \"error_sight\""},
-       "field \"metric\" is \"error_sight\", no figure of a trial"},
+       "field \"metric\" is \"error_sight\", which is not a figure of a trial"},
       {{"\"id\": \"position\"", "\"id\": \"explained\""},
        "list.json, \"items\", entry 2: field \"id\" is \"explained\", which occurs twice"},
       {{"\"weight\": \"minor\"", "\"weight\": \"heavy\""},

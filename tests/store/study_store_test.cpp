@@ -67,7 +67,7 @@ TEST_P(Studies, TheSeedIsOfTheFirstAndTheFileMustStay) {
             "18364758544493064720 even");
   const std::string complaint =
       complaintOf([&] { StudyStore(store).enrol(beginning("other"), wanted("B"), draw); });
-  EXPECT_NE(complaint.find("began on 2026-03-01 by another protocol"), std::string::npos)
+  EXPECT_NE(complaint.find("began on 2026-03-01 with another protocol"), std::string::npos)
       << complaint;
   EXPECT_NE(complaintOf([&] { enrol(store, "Z"); }).find("is not in the records"),
             std::string::npos);

@@ -184,7 +184,7 @@ void reportTrainee(const study::Protocol& protocol, record::RecordStore& store,
 void reportGroup(const study::Protocol& protocol, record::StudyStore& studies,
                  const std::string& group) {
   const std::int64_t given = studies.placesGiven(protocol.id, group);
-  std::printf("  %-14s %lld slot%s assigned", group.c_str(), static_cast<long long>(given),
+  std::printf("  %-14s %lld place%s assigned", group.c_str(), static_cast<long long>(given),
               given == 1 ? "" : "s");
   if (protocol.allocation)
     std::printf(

@@ -41,7 +41,11 @@ unset DISPLAY PALPA_RECORDS XDG_DATA_HOME XDG_STATE_HOME
 # begin.sh [--port N]: starts the console and waits until it is there. Kills the one before, as a
 # power cut would.
 cat >"$work/begin.sh" <<BEGIN
-[ -f "$work/pid" ] && kill -KILL \$(cat "$work/pid")
+if [ -f "$work/pid" ]; then
+  before=\$(cat "$work/pid")
+  kill -KILL "\$before"
+  while grep -qv ') Z ' "/proc/\$before/stat" 2>/dev/null; do sleep 0.05; done
+fi
 setsid "$palpa" console --no-open --home "$work/home" --records "$work/records.sqlite" "\$@" \\
   >"$work/console.txt" 2>&1 </dev/null &
 echo \$! >"$work/pid"
