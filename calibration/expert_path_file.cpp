@@ -19,7 +19,7 @@ constexpr const char* kRemedy = "Calibrate the experts' path again";
 
 Vec3 vectorIn(const JsonFile& file, const std::string& field, double most) {
   const std::array<double, 3> xyz = file.triple(field);
-  const Vec3 v(xyz[0], xyz[1], xyz[2]);
+  Vec3 v(xyz[0], xyz[1], xyz[2]);
   if (v.cwiseAbs().maxCoeff() > most) {
     std::string what = "holds a number beyond ";
     file.refuse(field, what.append(Json(most).dump()));

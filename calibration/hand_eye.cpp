@@ -52,7 +52,9 @@ Both byKroneckerProduct(const std::vector<HandEyeSample>& samples) {
       for (int j = 0; j < 3; ++j) K.block<3, 3>(3 * i, 3 * j) += B(i, j) * A;
   }
   const SingularValues<9> singular = singularValues(K);
-  const auto rotation = [](Mat3 m) { return nearestRotation(m.determinant() < 0 ? Mat3(-m) : m); };
+  const auto rotation = [](const Mat3& m) {
+    return nearestRotation(m.determinant() < 0 ? Mat3(-m) : m);
+  };
   Both both{Pose::Identity(), Pose::Identity()};
   both.X.linear() = rotation(
       Eigen::Map<const Mat3>(Eigen::Matrix<double, 9, 1>(singular.V.col(0)).data()).eval());

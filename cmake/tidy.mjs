@@ -92,7 +92,8 @@ function prepare(batch, tool) {
   const name = createHash("sha256").update(text).digest("hex").slice(0, 16);
   batch.file = join(build, "batches", `${name}.cpp`);
   if (!existsSync(batch.file)) writeFileSync(batch.file, text);
-  const options = batch.flags.replaceAll('\\"', '"').split(/\s+/).concat(`-I${top}`);
+  const words = batch.flags.replaceAll('\\"', '"').split(/\s+/);
+  const options = words.filter((word) => !/^-O/.test(word)).concat(`-I${top}`);
   const rule = execFileSync("g++", [...options, "-MM", batch.file], {
     cwd: build,
     encoding: "utf8",
@@ -102,7 +103,7 @@ function prepare(batch, tool) {
   for (const read of rule.replace(/\\\n/g, " ").split(/\s+/).slice(1).filter(Boolean)) {
     hash.update(readFileSync(resolve(build, read)));
   }
-  batch.options = options.filter((word) => !/^--param|^ggc-/.test(word));
+  batch.options = options.filter((word) => !/^--param|^ggc-|^-fvect-cost-model/.test(word));
   batch.result = join(build, "results", hash.digest("hex"));
 }
 

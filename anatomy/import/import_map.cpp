@@ -52,17 +52,17 @@ FileAxes axesField(JsonFields& fields, const Inherited& inherited) {
             "\", not three letters for where +x, +y, +z point: one of L R, one of A P, one of S I");
   const bool left_handed =
       fields.flagOr("left_handed", !fields.find("axes") && inherited.left_handed);
-  if (!axes->right_handed() && !left_handed)
+  if (!axes->rightHanded() && !left_handed)
     fields.refuse("axes", "is \"" + given +
                               "\", a left-handed set: the patient would be mirrored. If the file "
                               "really counts so, say \"left_handed\": true");
-  if (axes->right_handed() && left_handed)
+  if (axes->rightHanded() && left_handed)
     fields.refuse("left_handed", "is true, but the axes \"" + given + "\" are right-handed");
   return *axes;
 }
 
 std::filesystem::path fileField(JsonFields& fields) {
-  const std::filesystem::path file = fields.text("file");
+  std::filesystem::path file = fields.text("file");
   bool leaves = file.is_absolute();
   for (const auto& part : file) leaves = leaves || part == "..";
   if (leaves) fields.refuse("file", "leads out of the folder");

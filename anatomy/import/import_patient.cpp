@@ -74,7 +74,7 @@ TriangleMesh placed(const RawMesh& mesh, const MapEntry& entry, const std::strin
   TriangleMesh result;
   constexpr Corner kUnused = 0xffffffffu;
   std::vector<Corner> number(mesh.points.size(), kUnused);
-  const bool mirrored = !entry.axes.right_handed();
+  const bool mirrored = !entry.axes.rightHanded();
   for (const Triangle& t : mesh.triangles) {
     Triangle n{};
     for (std::size_t k = 0; k < 3; ++k) {

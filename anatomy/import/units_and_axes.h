@@ -36,7 +36,7 @@ std::string lengthText(double metres);
 struct FileAxes {
   Mat3 A_from_file =
       Mat3::Identity();  ///< v_A = A_from_file * v_file; a turn, or a turn and a mirror
-  bool right_handed() const { return A_from_file.determinant() > 0; }
+  bool rightHanded() const { return A_from_file.determinant() > 0; }
 };
 
 /// Nothing unless the letters name three different directions, one of each pair.

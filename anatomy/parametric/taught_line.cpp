@@ -97,12 +97,12 @@ TaughtLine TaughtLineSearch::find(double l, double centre_depth, double vein_rad
   // Higher targets lie closer to the bone. Wanted: the axis at the clearance, and the vein's wall
   // not in the bone.
   const auto excess = [&](double z) {
-    const TaughtLine line = lineTo(l, z, centre_depth);
+    TaughtLine line = lineTo(l, z, centre_depth);
     return std::min(line.clearance - limits.clearance,
                     line.target_to_bone - vein_radius - limits.vein_to_bone);
   };
   const double z = findRoot(excess, entry_.z() - 8, entry_.z() + 22, 0.01);
-  const TaughtLine line = lineTo(l, z, centre_depth);
+  TaughtLine line = lineTo(l, z, centre_depth);
   const std::string reason = violated(line, limits);
   if (!reason.empty())
     throw Error(reason, "parametric patient, taught line",

@@ -48,8 +48,7 @@ Pose drawnPose(Random& random, const CameraModel& camera) {
                  tilt = 45 * kDegree * std::sqrt(random.uniform()), z = random.uniform(0.25, 0.4);
     const Mat3 R = rotationOf(tilt * Vec3(std::cos(around), std::sin(around), 0)) *
                    rotationOf(random.uniform(-0.3, 0.3) * Vec3::UnitZ());
-    const Pose X_CW =
-        makePose(R, z * Vec3(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), 1));
+    Pose X_CW = makePose(R, z * Vec3(random.uniform(-0.5, 0.5), random.uniform(-0.4, 0.4), 1));
     bool seen = true;
     for (int i = 0; i < kCorners && seen; ++i) {
       const Eigen::Vector2d p = camera.project(X_CW * cornerAt(i));

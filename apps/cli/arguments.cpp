@@ -211,7 +211,7 @@ std::string usualRecords() {
 }
 
 std::string usualRecordsMade() {
-  const std::string url = usualRecords();
+  std::string url = usualRecords();
   makeFolderOf(url);
   return url;
 }

@@ -86,7 +86,7 @@ anatomy::Seeds seedsFrom(const CtArguments& a) {
 }  // namespace
 
 std::shared_ptr<CtArguments> addCtOptions(CLI::App& command) {
-  const auto a = std::make_shared<CtArguments>();
+  auto a = std::make_shared<CtArguments>();
   CLI::Option* ct = command
                         .add_option("--ct", a->ct,
                                     "Build from a contrast CT: .mha, .mhd, .nii, .nii.gz, or a "

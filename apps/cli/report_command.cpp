@@ -76,7 +76,7 @@ competence::FormAnswers answersFor(const TrialReportOptions& o, const evidence::
   const std::string records = o.records.empty() ? usualRecords() : o.records;
   requireRecords(records);
   record::RecordStore store(records);
-  const competence::FormAnswers answers =
+  competence::FormAnswers answers =
       evidence::answersIn(record::ratingsIn(store, uuid), o.trial, o.rater, forms);
   if (answers.checklist.empty() && answers.global.empty())
     throw UsageError("has not rated this trial", "rater " + o.rater,

@@ -72,7 +72,7 @@ nlohmann::json Jobs::ask(JobRequest request) {
     const auto found = asked_.find(key);
     id = found != asked_.end() ? found->second : asked_[key] = addLocked(std::move(request));
   }
-  const nlohmann::json told = one(id);
+  nlohmann::json told = one(id);
   if (told["state"] == "failed") {
     const std::lock_guard lock(mutex_);
     asked_.erase(key);
@@ -85,7 +85,7 @@ std::string Jobs::addLocked(JobRequest request) {
     if (job.request.key == request.key &&
         (job.state == JobState::waiting || job.state == JobState::running))
       return id;
-  const std::string id = newId();
+  std::string id = newId();
   jobs_[id].request = std::move(request);
   queue_.push_back(id);
   changed_.notify_all();

@@ -19,7 +19,7 @@ constexpr std::size_t kLongestWords = 80;
 std::string wordsIn(const json& body, const char* field) {
   if (!body.contains(field)) return "";
   if (!body[field].is_string()) throw UsageError("is not text", field, "Load the page again");
-  const std::string text = body[field];
+  std::string text = body[field];
   if (text.size() > kLongestWords)
     throw UsageError("is longer than 80 characters", field, "Shorten it");
   if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))

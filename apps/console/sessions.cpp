@@ -103,7 +103,7 @@ json filesIn(const fs::path& folder) {
 /// Why it ended as it did; empty: as it should.
 std::string messageOf(const std::string& state, const fs::path& folder) {
   if (state != "failed" && state != "interrupted") return "";
-  const std::string complaint = complaintIn(folder / kLog);
+  std::string complaint = complaintIn(folder / kLog);
   if (!complaint.empty()) return complaint;
   return state == "failed" ? "The session ended before it had started and left no message: it was "
                              "killed, or the computer stopped. Start it again"
@@ -142,7 +142,7 @@ fs::path Sessions::shown(const std::string& id) const {
 void Sessions::find() {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator(place_.sessions(), none)) {
-    const std::string id = entry.path().filename().string();
+    std::string id = entry.path().filename().string();
     const os::ProcessId process = processOf(factsOf(entry.path()));
     if (isId(id) && os::runs(process))
       running_[id] = {process, std::make_shared<SessionLink>(socketOf(id)), false};
@@ -155,8 +155,8 @@ std::string Sessions::begin(const SessionWish& wish, std::vector<std::string> ar
   if (std::any_of(running_.begin(), running_.end(),
                   [](const auto& one) { return !one.second.over; }))
     throw UsageError("is running already", "a session", "End it first, or wait until it is over");
-  const std::string id = newId();
-  const fs::path folder = place_.sessions() / id;
+  std::string id = newId();
+  fs::path folder = place_.sessions() / id;
   fs::create_directories(folder);
   for (const std::string& more :
        {std::string("--live"), socketOf(id), std::string("--out"), folder.string()})

@@ -120,7 +120,7 @@ WebServer::WebServer(Guard& guard, Refusals& refusals) : guard_(guard), refusals
   set_exception_handler(
       [](const httplib::Request&, httplib::Response& response, std::exception_ptr thrown) {
         try {
-          std::rethrow_exception(thrown);
+          std::rethrow_exception(std::move(thrown));
         } catch (const UsageError& e) {
           refuse(response, 422, e.what());
         } catch (const std::exception& e) {

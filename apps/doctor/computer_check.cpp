@@ -142,7 +142,7 @@ fs::path headsetRuntime() {
   std::error_code none;
   for (const fs::path& folder : {fs::path(config.empty() ? home + "/.config" : config),
                                  fs::path("/etc/xdg"), fs::path("/etc"), fs::path("/usr/share")})
-    if (const fs::path file = folder / "openxr/1/active_runtime.json"; fs::exists(file, none))
+    if (fs::path file = folder / "openxr/1/active_runtime.json"; fs::exists(file, none))
       return file;
   return {};
 }

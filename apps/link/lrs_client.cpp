@@ -27,8 +27,8 @@ UsageError noAddress(const std::string& why) {
 std::string hostIn(const std::string& authority) {
   const bool bracketed = authority.starts_with("[");
   const std::size_t end = bracketed ? authority.find(']') : authority.find(':');
-  const std::string host = bracketed ? authority.substr(1, end == std::string::npos ? end : end - 1)
-                                     : authority.substr(0, end);
+  std::string host = bracketed ? authority.substr(1, end == std::string::npos ? end : end - 1)
+                               : authority.substr(0, end);
   const std::size_t colon =
       bracketed ? (end == std::string::npos ? end : authority.find(':', end)) : end;
   const std::string port = colon == std::string::npos ? "" : authority.substr(colon + 1);
@@ -95,7 +95,7 @@ Login loginFor(const std::string& host, const std::string& user) {
   const fs::path file = netrcFile();
   std::error_code none;
   if (fs::exists(file, none)) {
-    const Login found = loginIn(file, host, user);
+    Login found = loginIn(file, host, user);
     const bool open_to_others = (fs::status(file, none).permissions() &
                                  (fs::perms::group_all | fs::perms::others_all)) != fs::perms::none;
     if (!found.user.empty() && open_to_others)

@@ -95,7 +95,7 @@ ReplyJudgement sendPatiently(LrsClient& client, const Endpoint& endpoint, const 
                              const Pace& pace) {
   std::int64_t pause_ns = pace.pause_ns;
   for (int tries = pace.tries;; pause_ns *= 2) {
-    const ReplyJudgement verdict = send(client, endpoint, letter);
+    ReplyJudgement verdict = send(client, endpoint, letter);
     if (verdict.fate != Fate::later || --tries <= 0) return verdict;
     runtime::SteadyClock().sleepUntil(pause_ns);
   }

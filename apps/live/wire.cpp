@@ -76,7 +76,7 @@ std::size_t characters(const std::string& text) {
 std::string textIn(const nlohmann::json& json, const char* field) {
   if (!json.contains(field)) return "";
   if (!json[field].is_string()) throw UsageError("is not text", field, "Send it as a text");
-  const std::string text = json[field];
+  std::string text = json[field];
   if (characters(text) > kLongestReason)
     throw UsageError("is longer than 500 characters", field, "Shorten it");
   if (std::any_of(text.begin(), text.end(), [](unsigned char c) { return c < 0x20 || c == 0x7f; }))

@@ -78,7 +78,7 @@ std::string socketFolder() {
   const char* runtime = std::getenv("XDG_RUNTIME_DIR");
   std::error_code none;
   const std::filesystem::path temporary = std::filesystem::temp_directory_path(none);
-  const std::string folder =
+  std::string folder =
       runtime && *runtime == '/'
           ? std::string(runtime) + "/palpa"
           : ((none ? "/tmp" : temporary) / ("palpa-" + std::to_string(::geteuid()))).string();

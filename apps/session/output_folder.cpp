@@ -8,7 +8,7 @@
 
 namespace palpa::session {
 std::filesystem::path makeOutputFolder(const std::string& given, const std::string& command) {
-  const std::filesystem::path folder =
+  std::filesystem::path folder =
       given.empty() ? std::filesystem::path("out") /
                           (command + "-" + runtime::dateText("%Y%m%d-%H%M%S", runtime::Zone::local))
                     : std::filesystem::path(given);

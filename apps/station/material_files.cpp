@@ -201,7 +201,7 @@ LumpLibrary readLumps(const std::filesystem::path& path) {
 }
 
 LumpLibrary onStation(LumpLibrary library, const std::vector<AppliedCalibration>& calibrations) {
-  const std::string shipped = library.of_surface;
+  std::string shipped = library.of_surface;
   const auto own = [&](CalibrationKind kind, void (*set)(LumpLibrary&, const CalibrationFile&,
                                                          const std::string&)) -> std::string {
     const AppliedCalibration* found = calibrationOf(calibrations, kind);

@@ -91,7 +91,7 @@ void readFeature(const JsonFile& task, std::size_t feature, LearnedModel* model)
 }  // namespace
 
 JsonFile readTaskFile(const std::filesystem::path& path) {
-  const JsonFile file(path);
+  JsonFile file(path);
   if (!file.json().is_object() || !file.json().contains(kLearned) ||
       !file.json().at(kLearned).is_string())
     return file;

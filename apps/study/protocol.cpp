@@ -68,7 +68,7 @@ Presentation presentationIn(const JsonFile& file, Presentation before) {
   static const std::set<std::string> kKnown{
       "force_feedback", "augment", "skin_deflection", "guide", "guidance", "navigation", "mode"};
   for (const auto& [field, ignored] : file.json().items()) needOneOf(file, field, field, kKnown);
-  Presentation p = before;
+  Presentation p = std::move(before);
   p.force_feedback = file.flag("force_feedback", p.force_feedback);
   p.augment = file.flag("augment", p.augment);
   p.skin_deflection = file.flag("skin_deflection", p.skin_deflection);
@@ -197,7 +197,7 @@ void readBlindness(const JsonFile& file, Protocol* protocol) {
 }  // namespace
 
 std::string needName(const JsonFile& file, const std::string& field) {
-  const std::string name = file.text(field);
+  std::string name = file.text(field);
   if (!record::whyNoPseudonym(name).empty())
     file.refuse(field, "is \"" + name + "\"; a name here has 1 to 32 letters, digits, - or _");
   return name;
@@ -212,11 +212,9 @@ Protocol readProtocol(const std::filesystem::path& path) {
   p.id = needName(file, "id");
   p.title = file.text("title");
   p.source = file.text("source");
-  const auto named = [](const JsonFile& f) {
-    return std::pair{needName(f, "name"), f.text("means")};
-  };
-  p.groups = namedIn<Group>(
-      file, "groups", [&](const JsonFile& f) { return std::make_from_tuple<Group>(named(f)); });
+  p.groups = namedIn<Group>(file, "groups", [](const JsonFile& f) {
+    return Group{needName(f, "name"), f.text("means")};
+  });
   const Presentation always = presentationIn(partOf(file, "always"), {});
   p.conditions = namedIn<StudyCondition>(file, "conditions", [&](const JsonFile& f) {
     if (f.text("name") == kDrawn)

@@ -40,7 +40,7 @@ std::optional<Vec3> Guidance::lead(const assess::CoverageMap& map, double t_s) {
   const double dt = t_s - last_s_;
   last_s_ = t_s;
   if (t_s - felt_at_s_ < kWait_s / amount_) return std::nullopt;
-  const std::optional<Vec3> next = nextInStrips(map);
+  std::optional<Vec3> next = nextInStrips(map);
   if (next) shown_s_ += dt;
   return next;
 }

@@ -175,7 +175,7 @@ void TrialScene::follow(std::int64_t now_ns) {
 
 /// Of the camera or of a board that is displaced.
 std::string TrialScene::trouble() {
-  const std::string words = runtime::cameraTrouble(camera_ ? &*camera_ : nullptr, now_ns_);
+  std::string words = runtime::cameraTrouble(camera_ ? &*camera_ : nullptr, now_ns_);
   if (!words.empty()) return words;
   const auto displaced = runtime::displacedBoard(*camera_, stage_.places, displaced_);
   displaced_ = displaced ? std::optional(displaced->board) : std::nullopt;

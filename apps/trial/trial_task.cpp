@@ -58,7 +58,7 @@ std::int64_t TrialTask::step(std::int64_t now_ns) {
 /// What is wrong with what the camera sees; of a board that is displaced the words stay the same
 /// while it moves on.
 std::string TrialTask::sightTrouble(const runtime::CameraView* view, std::int64_t now_ns) {
-  const std::string trouble = runtime::cameraTrouble(view, now_ns);
+  std::string trouble = runtime::cameraTrouble(view, now_ns);
   if (!trouble.empty()) {
     displaced_.reset();
     return trouble;

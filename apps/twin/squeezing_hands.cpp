@@ -169,7 +169,7 @@ class SqueezingMind {
                           std::exp(skill_.weber_stiffness * judgement_.normal());
         return go(SqueezeStep::relax, now_s);
       case SqueezeStep::relax:
-        if (!moved(now_s, held_in(), from_up_)) return;
+        if (!moved(now_s, heldHalf(), from_up_)) return;
         return go(SqueezeStep::lower, now_s);
       case SqueezeStep::lower:
         if (!moved(now_s, from_in_, 0)) return;
@@ -190,7 +190,7 @@ class SqueezingMind {
     }
   }
 
-  double held_in() const { return std::min(object_.half, held_apart_); }
+  double heldHalf() const { return std::min(object_.half, held_apart_); }
 
   void say(bool heavier) {
     const bool second =

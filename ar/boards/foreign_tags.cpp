@@ -46,9 +46,9 @@ cv::Mat drawForeignTag(const std::string& name, int id) {
                                                                                   known.destroy);
     if (id < 0 || id >= static_cast<int>(family->ncodes)) break;
     image_u8_t* drawn = apriltag_to_image(family.get(), static_cast<unsigned>(id));
-    const cv::Mat tag = cv::Mat(drawn->height, drawn->width, CV_8U, drawn->buf,
-                                static_cast<std::size_t>(drawn->stride))
-                            .clone();
+    cv::Mat tag = cv::Mat(drawn->height, drawn->width, CV_8U, drawn->buf,
+                          static_cast<std::size_t>(drawn->stride))
+                      .clone();
     std::free(drawn->buf);
     std::free(drawn);
     return tag;

@@ -56,8 +56,9 @@ inline Markers detectMarkers(const cv::Mat& gray, const Dictionary& dictionary) 
 }
 
 /// The chessboard's corners that have two markers of those seen beside them.
-inline void interpolateCorners(const cv::Mat& gray, const CharucoPattern& board, Markers seen,
-                               std::vector<cv::Point2f>* pixels, std::vector<int>* ids) {
+inline void interpolateCorners(const cv::Mat& gray, const CharucoPattern& board,
+                               const Markers& seen, std::vector<cv::Point2f>* pixels,
+                               std::vector<int>* ids) {
   cv::aruco::CharucoDetector(*board.opencv)
       .detectBoard(gray, *pixels, *ids, seen.corners, seen.ids);
 }
@@ -93,8 +94,9 @@ inline Markers detectMarkers(const cv::Mat& gray, const Dictionary& dictionary) 
 }
 
 /// The chessboard's corners that have two markers of those seen beside them.
-inline void interpolateCorners(const cv::Mat& gray, const CharucoPattern& board, Markers seen,
-                               std::vector<cv::Point2f>* pixels, std::vector<int>* ids) {
+inline void interpolateCorners(const cv::Mat& gray, const CharucoPattern& board,
+                               const Markers& seen, std::vector<cv::Point2f>* pixels,
+                               std::vector<int>* ids) {
   cv::aruco::interpolateCornersCharuco(seen.corners, seen.ids, gray, board.opencv, *pixels, *ids);
 }
 

@@ -158,7 +158,7 @@ Vec3 passiveForce(const TickConfig& config, TickState& state, const TickFrame& f
   port.declared_J = fresh * frame.work_J;
   port.fresh = in.sequence != state.passivity.sequence;
   port.dt = in.dt;
-  const Vec3 f_passive_D = keepPassive(config.passivity, state.passivity, port);
+  Vec3 f_passive_D = keepPassive(config.passivity, state.passivity, port);
   state.passivity.sequence = in.sequence;
   return f_passive_D;
 }

@@ -43,7 +43,7 @@ Vec3 keepPassive(const PassivityLimits& limits, PassivityState& state,
     state.injecting = 1;
   }
   settle(limits, state, f_port.norm(), dt);
-  const Vec3 f = in.f_D + added;
+  Vec3 f = in.f_D + added;
   state.added_D = pack(added);
   state.f_last_D = pack(Vec3(f + in.f_object_D));
   state.p_last_D = pack(in.p_DE);

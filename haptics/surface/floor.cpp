@@ -76,7 +76,7 @@ bool directed(const ValleyPoint& p) noexcept { return p.tx * p.tx + p.ty * p.ty 
 
 }  // namespace
 
-ValleyMap::ValleyMap(std::vector<ValleyPoint> points, double side, double reach)
+ValleyMap::ValleyMap(const std::vector<ValleyPoint>& points, double side, double reach)
     : side_(side), reach_(reach), width_(std::max(kCellOfReach * reach, side / kMostValleyCells)) {
   checkValleys(points, side, reach);
   cells_ = std::clamp(static_cast<int>(std::ceil(side / width_)), 1, kMostValleyCells);

@@ -81,7 +81,7 @@ class ValleyMap {
  public:
   /// `side` of the square floor around the origin; nothing farther than `reach` is ever found.
   /// Throws Error for what is not finite, and for tangents that are neither unit nor 0.
-  ValleyMap(std::vector<ValleyPoint> points, double side, double reach);
+  ValleyMap(const std::vector<ValleyPoint>& points, double side, double reach);
 
   NearestValley nearest(double x, double y) const noexcept;
   double reach() const noexcept { return reach_; }

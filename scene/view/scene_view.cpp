@@ -182,7 +182,7 @@ void SceneView::copyEye(std::size_t eye, const TextureTarget& target) const {
 
 ViewInput SceneView::poll() {
   if (!impl_->input) return {};
-  const ViewInput input = impl_->input->poll();
+  ViewInput input = impl_->input->poll();
   if (impl_->layout.free_navigation && impl_->ar.isVirtual())
     impl_->navigation.apply(input, impl_->ar.picture(), impl_->size[1], impl_->ar.orbit());
   return input;

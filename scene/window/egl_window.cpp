@@ -176,8 +176,11 @@ class EglProvider : public GlContextProvider {
     window_->SetReadyForRendering(true);
   }
   ~EglProvider() override {
-    context_.makeCurrent();
-    window_->Finalize();
+    try {
+      context_.makeCurrent();
+      window_->Finalize();
+    } catch (const Error&) {  // the context is lost, and all that it held
+    }
     window_ = nullptr;  // before its context goes
   }
 

@@ -24,8 +24,8 @@ TEST(Axes, OfTheFortyEightTripletsHalfAreRightHanded) {
         }
         const Mat3& R = axes->A_from_file;
         EXPECT_LT((R * R.transpose() - Mat3::Identity()).norm(), 1e-15) << name;
-        EXPECT_EQ(axes->right_handed(), R.col(0).cross(R.col(1)).dot(R.col(2)) > 0) << name;
-        ++(axes->right_handed() ? right : left);
+        EXPECT_EQ(axes->rightHanded(), R.col(0).cross(R.col(1)).dot(R.col(2)) > 0) << name;
+        ++(axes->rightHanded() ? right : left);
       }
   EXPECT_EQ(right, 24);
   EXPECT_EQ(left, 24);
@@ -119,8 +119,8 @@ TEST(ImportMap, ALeftHandedFileSaysSo) {
   std::string text = kWhole;
   text.replace(text.find(R"("axes":"LPS")"), 12, R"("axes":"RPS","left_handed":true)");
   const ImportMap map = parseImportMap(text, "map");
-  EXPECT_FALSE(map.entries[0].axes.right_handed());
-  EXPECT_TRUE(map.entries[1].axes.right_handed()) << "its own axes, which are not";
+  EXPECT_FALSE(map.entries[0].axes.rightHanded());
+  EXPECT_TRUE(map.entries[1].axes.rightHanded()) << "its own axes, which are not";
 }
 
 }  // namespace

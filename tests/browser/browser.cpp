@@ -113,7 +113,7 @@ json Browser::post(const std::string& what, const json& body) {
   const auto answer = client_->Post("/session" + (session_.empty() ? "" : "/" + session_) + what,
                                     body.dump(), "application/json");
   if (!answer) throw std::runtime_error("the browser does not answer (" + what + ")");
-  const json value = json::parse(answer->body).at("value");
+  json value = json::parse(answer->body).at("value");
   if (answer->status != 200) throw std::runtime_error(what + ": " + value.dump());
   return value;
 }

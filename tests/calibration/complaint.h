@@ -14,7 +14,7 @@ std::string complaint(F f) {
   try {
     f();
   } catch (const Error& error) {
-    const std::string words = error.what();
+    std::string words = error.what();
     EXPECT_EQ(words.find('\n'), std::string::npos) << words;
     return words;
   }

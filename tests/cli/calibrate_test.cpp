@@ -63,7 +63,7 @@ V everyWay(int i) {
   return {0.4 * std::cos(0.9 * i), 0.4 * std::sin(0.9 * i), 0.2 * std::sin(0.37 * i)};
 }
 
-std::string replaceLine(std::string table, int line, const std::string& text) {
+std::string replaceLine(const std::string& table, int line, const std::string& text) {
   std::istringstream in(table);
   std::ostringstream out;
   int n = 0;

@@ -34,7 +34,7 @@ int playedColumns(const cv::Mat& frame) {
   for (int u = 0; u < frame.cols * 7 / 10; ++u) {
     bool blue = false;
     for (int v = frame.rows - 34; v < frame.rows - 6; ++v) {
-      const cv::Vec3b p = frame.at<cv::Vec3b>(v, u);
+      const cv::Vec3b& p = frame.at<cv::Vec3b>(v, u);
       blue = blue || (p[0] > 150 && p[0] > p[2] + 60 && p[1] > p[2] + 25);
     }
     columns += blue ? 1 : 0;

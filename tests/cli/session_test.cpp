@@ -17,7 +17,7 @@ struct Recorded {
   Outcome outcome;
   explicit Recorded(std::vector<std::string> more) {
     more.insert(more.end(), {"--out", "A"});
-    outcome = palpa(session(std::move(more)), here.path());
+    outcome = palpa(session(more), here.path());
   }
   std::string csv() const { return contentOf(here / "A/trials.csv"); }
   std::string report() const { return contentOf(here / "A/report.html"); }
@@ -133,11 +133,11 @@ TEST(Session, AnotherSeedTheLeftSideAndNoForceFeedbackWork) {
 TEST(Session, TaskFileAndSavedPatientGiveWhatTheShippedOnesGive) {
   const Folder here;
   ASSERT_EQ(palpa({"patient", "build", "--out", "p.glb"}, here.path()).exit_code, 0);
-  const Outcome outcome =
-      palpa(quickly({"train", "--task", PALPA_SOURCE_DIR "/assets/tasks/paracentesis.json",
-                     "--operator", "expert", "--station", quickStation("virtual_bench.json"),
-                     "--patient", "p.glb", "--seed", "13", "--out", "A"}),
-            here.path());
+  const Outcome outcome = palpa(
+      quickly({"train", "--task", std::string(PALPA_SOURCE_DIR) + "/assets/tasks/paracentesis.json",
+               "--operator", "expert", "--station", quickStation("virtual_bench.json"), "--patient",
+               "p.glb", "--seed", "13", "--out", "A"}),
+      here.path());
   ASSERT_EQ(outcome.exit_code, 0) << outcome.err;
   const std::vector<Row> rows = rowsOf(contentOf(here / "A/trials.csv"));
   ASSERT_EQ(rows.size(), 1u);

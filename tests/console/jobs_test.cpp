@@ -69,7 +69,7 @@ TEST(Jobs, WhatFailsSaysWhy) {
 TEST(Jobs, WhatIsAskedForIsBegunOnceAndItsFailureToldOnce) {
   const Workshop w("jobs-ask");
   const auto settled = [&](const JobRequest& request) {
-    const std::string id = w.jobs->ask(request)["id"];
+    std::string id = w.jobs->ask(request)["id"];
     EXPECT_TRUE(w.settled(id) == "done" || w.settled(id) == "failed");
     return id;
   };

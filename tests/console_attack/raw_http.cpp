@@ -33,8 +33,10 @@ int untilOver(Clock::time_point until) {
 Wire::Wire(int port, const std::string& from)
     : socket_(::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0)) {
   const sockaddr_in there = addressOf("127.0.0.1", port), here = addressOf(from, 0);
-  if (!from.empty()) ::bind(socket_, reinterpret_cast<const sockaddr*>(&here), sizeof here);
-  if (::connect(socket_, reinterpret_cast<const sockaddr*>(&there), sizeof there) != 0) leave();
+  const bool bound =
+      from.empty() || ::bind(socket_, reinterpret_cast<const sockaddr*>(&here), sizeof here) == 0;
+  if (!bound || ::connect(socket_, reinterpret_cast<const sockaddr*>(&there), sizeof there) != 0)
+    leave();
 }
 
 Wire::~Wire() { leave(); }

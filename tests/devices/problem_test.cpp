@@ -51,8 +51,7 @@ TEST(FalconProblems, TheRuleThatIsNamedExistsAndIsForThisDevice) {
 class FirmwareFile : public testing::Test {
  protected:
   fs::path write(std::size_t bytes) {
-    const fs::path path =
-        fs::path(PALPA_BUILD_DIR) / ("firmware-" + std::to_string(bytes) + ".bin");
+    fs::path path = fs::path(PALPA_BUILD_DIR) / ("firmware-" + std::to_string(bytes) + ".bin");
     std::ofstream(path, std::ios::binary) << std::string(bytes, 'F');
     return path;
   }

@@ -217,7 +217,7 @@ int EmulatedUsb::discard(UMockdevIoctlData* argument) {
   return EINVAL;
 }
 
-void EmulatedUsb::giveBack(std::deque<Request>::iterator request) {
+void EmulatedUsb::giveBack(const std::deque<Request>::iterator& request) {
   umockdev_ioctl_data_unref(request->bytes);
   umockdev_ioctl_data_unref(request->urb);
   requests_.erase(request);

@@ -51,7 +51,7 @@ class EmulatedUsb {
   int reap(UMockdevIoctlData* argument);
   int discard(UMockdevIoctlData* argument);
   void carryOut(Request& request);
-  void giveBack(std::deque<Request>::iterator request);
+  void giveBack(const std::deque<Request>::iterator& request);
 
   FalconTwin& twin_;
   std::string node_, sys_path_, description_;

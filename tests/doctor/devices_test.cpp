@@ -58,7 +58,7 @@ TEST(DoctorsDevice, TheRuleOfUdevIsLookedForWhereUdevLooks) {
   expectSays(askUdevRule(folders), State::note, "there is none");
   fs::copy(station::assetFile("udev/60-palpa-falcon.rules"), lib);
   expectSays(askUdevRule(folders), State::well, (lib / "60-palpa-falcon.rules").string());
-  std::ofstream{etc / "60-palpa-falcon.rules"};
+  std::ofstream(etc / "60-palpa-falcon.rules").close();
   expectSays(askUdevRule(folders), State::note, "there is none");
   std::ofstream(etc / "60-palpa-falcon.rules")
       << "ATTR{idVendor}==\"0403\", ATTR{idProduct}==\"cb48\", MODE=\"0600\"\n";

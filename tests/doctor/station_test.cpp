@@ -82,7 +82,7 @@ TEST(DoctorsRecords, WhatIsWrongWithThemIsNamedAndNothingIsMade) {
 TEST(DoctorsRecords, AreLookedAtAndNotUsed) {
   const fs::path folder = test::freshFolder("doctor", "looked_at");
   const std::string file = (folder / "records.sqlite").string();
-  std::ofstream{file};
+  std::ofstream(file).close();
   expectSays(askRecords(file, 0), State::note, "is empty");
   EXPECT_EQ(fs::file_size(file), 0u);
   {

@@ -24,7 +24,7 @@ struct Drop {
     PassivityLimits limits;
     if (controlled) limits.max_damping = 0.2 * mass / kPeriod;
     PassivityState state;
-    double x = -height, v = 0, before = x, peak = 0;
+    double x = -height, v = 0, before, peak = 0;
     bool inside = false;
     const int ticks = int(seconds / kPeriod);
     for (int k = 0; k < ticks; ++k) {

@@ -29,17 +29,15 @@ bool isOfTheSystem(const std::string& header) {
 
 /// Calls of Linux that come with the language's own headers, or with those above.
 bool isACall(const std::string& name) {
-  static const std::set<std::string> kCalls{
-      "clock_"
-      "gettime",
-      "clock_nanosleep",
-      "mkdtemp",
-      "mkstemps",
-      "flock",
-      "isatty",
-      "getpid",
-      "geteuid",
-      "waitpid"};
+  static const std::set<std::string> kCalls{std::string("clock_") + "gettime",
+                                            "clock_nanosleep",
+                                            "mkdtemp",
+                                            "mkstemps",
+                                            "flock",
+                                            "isatty",
+                                            "getpid",
+                                            "geteuid",
+                                            "waitpid"};
   return kCalls.count(name) > 0;
 }
 

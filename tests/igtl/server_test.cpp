@@ -138,7 +138,7 @@ TEST_F(IgtlServerTest, TrackingDataComeFromStartToStopAtTheirResolution) {
   EXPECT_EQ(countOf(started, "RTS_TDATA"), 1);
   EXPECT_GE(countOf(started, "TDATA"), 9);
   EXPECT_LE(countOf(started, "TDATA"), 10) << "no more often than every 50 ms";
-  const auto both = started.back();
+  const auto& both = started.back();
   ASSERT_EQ(both.tools.size(), 2u) << "several tools in one message";
   expectPose(both.tools.at("NeedleTip"), kX_WT, "tip");
   EXPECT_EQ(countOf(listens.all(), "TDATA"), 0) << "another client, who has not asked";

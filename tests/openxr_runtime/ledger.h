@@ -16,7 +16,7 @@ class Ledger {
   template <class Handle>
   Handle opened(const std::string& kind) {
     open_[++last_] = kind;
-    return reinterpret_cast<Handle>(last_);
+    return reinterpret_cast<Handle>(last_);  // NOLINT(performance-no-int-to-ptr): a number
   }
   template <class Handle>
   bool holds(Handle handle) const {

@@ -68,7 +68,7 @@ void addInstanceFunctions(std::map<std::string, PFN_xrVoidFunction>* all);
 void addSessionFunctions(std::map<std::string, PFN_xrVoidFunction>* all);
 void addInputFunctions(std::map<std::string, PFN_xrVoidFunction>* all);
 
-#define PALPA_XR(name) all->emplace("xr" #name, reinterpret_cast<PFN_xrVoidFunction>(&name))
+#define PALPA_XR(name) all->emplace("xr" #name, reinterpret_cast<PFN_xrVoidFunction>(&(name)))
 
 /// Lists as OpenXR hands them over: asked for their length first.
 template <class T>

@@ -19,7 +19,7 @@ constexpr char kSmall[] = R"({"version": 1, "tool_radius_mm": 8,
   "phantoms": [{"name": "plain"}, {"name": "one", "lump": {"depth_mm": 14, "diameter_mm": 16, "times_stiffer": 10}}]})";
 
 struct Written {
-  explicit Written(std::string text = kSmall)
+  explicit Written(const std::string& text = kSmall)
       : folder("phantoms"), file(folder / "small.json"), tables(folder / "small.tables.json") {
     std::ofstream(file) << text;
   }

@@ -16,7 +16,7 @@ std::filesystem::path recorded(
     const std::string& name,
     const std::vector<std::pair<runtime::TrialHeader, std::int64_t>>& trials_with_end_ms,
     const std::vector<std::uint32_t>& numbers) {
-  const std::filesystem::path file = freshFolder(name) / "session.palpa";
+  std::filesystem::path file = freshFolder(name) / "session.palpa";
   SessionWriter writer(file, syntheticInfo());
   for (const auto& [header, end_ms] : trials_with_end_ms) {
     writer.beginTrial(header);

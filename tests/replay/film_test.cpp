@@ -49,7 +49,7 @@ TEST(Film, WhatIsNotFinishedLeavesNothing) {
 }
 
 TEST(Film, WrongWishesAreNamed) {
-  const auto folder = palpa::test::freshFolder("replay", "wrong");
+  auto folder = palpa::test::freshFolder("replay", "wrong");
   EXPECT_THROW(codecOf("a.gif"), UsageError);
   EXPECT_THROW(Film(folder / "no" / "such" / "a.avi", 25, 160, 120), Error);
   Film film(folder / "a.avi", 25, 160, 120);
@@ -58,7 +58,7 @@ TEST(Film, WrongWishesAreNamed) {
 
 /// Three JPEGs one after the other, of which each is a brightness of its own.
 std::filesystem::path threePictures() {
-  const auto folder = palpa::test::freshFolder("replay", "pictures");
+  auto folder = palpa::test::freshFolder("replay", "pictures");
   std::ofstream film(folder / "camera.mjpeg", std::ios::binary), table(folder / "camera.mjpeg.csv");
   table << "number,t_exposure_ns,source\n";
   for (int i = 0; i < 3; ++i) {

@@ -14,7 +14,7 @@ template <class Write>
 std::string practicePage(const char* name, Write write) {
   const std::filesystem::path file = palpa::test::freshFolder("report", name) / "page.html";
   write(file);
-  const std::string page = palpa::test::slurp(file);
+  std::string page = palpa::test::slurp(file);
   EXPECT_EQ(test::faultOf(page), "");
   return page;
 }

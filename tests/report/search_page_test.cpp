@@ -17,7 +17,7 @@ std::string searchPage(const SearchReport& report, const std::string& name = "pa
   const std::filesystem::path file =
       palpa::test::freshFolder("report", "search_" + name) / "report.html";
   writeSearchReport(report, file);
-  const std::string page = palpa::test::slurp(file);
+  std::string page = palpa::test::slurp(file);
   EXPECT_EQ(test::faultOf(page), "");
   return page;
 }

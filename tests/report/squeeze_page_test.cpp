@@ -43,7 +43,7 @@ SqueezeReport someAnswers() {
 std::string pageOf(const SqueezeReport& report) {
   const std::filesystem::path file = palpa::test::freshFolder("report", "squeeze") / "report.html";
   writeSqueezeReport(report, file);
-  const std::string page = palpa::test::slurp(file);
+  std::string page = palpa::test::slurp(file);
   EXPECT_EQ(test::faultOf(page), "");
   return page;
 }

@@ -21,7 +21,7 @@ std::string studyPage(const StudyResult& result, const std::string& name) {
   const std::filesystem::path file =
       palpa::test::freshFolder("report", "study_" + name) / "report.html";
   writeStudyReport({result, {{"Protocol", name + ".json", ""}}}, file);
-  const std::string page = palpa::test::slurp(file);
+  std::string page = palpa::test::slurp(file);
   EXPECT_EQ(test::faultOf(page), "");
   return page;
 }

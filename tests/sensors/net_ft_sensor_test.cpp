@@ -28,11 +28,11 @@ struct Bench {
   std::atomic<std::int64_t> now{kMs};
   NetFtSensor sensor;
 
-  explicit Bench(int wait_ms = 5000, NetFtSettings more = {})
-      : sensor(completed(std::move(more), wait_ms), [this] { return now.load(); }) {
+  explicit Bench(int wait_ms = 5000, const NetFtSettings& more = {})
+      : sensor(completed(more, wait_ms), [this] { return now.load(); }) {
     sensor.start();
   }
-  NetFtSettings completed(NetFtSettings more, int wait_ms) const {
+  NetFtSettings completed(const NetFtSettings& more, int wait_ms) const {
     NetFtSettings s = settingsFor(server);
     s.wait_ms = wait_ms;
     s.saturation_bits = more.saturation_bits;

@@ -41,7 +41,7 @@ TEST(ReplaySensor, RecordedFlagsComeBack) {
 
 TEST(ReplaySensor, SamplesThatGoBackAreRefusedByNumber) {
   try {
-    ReplaySensor({}, {at(10, 1), at(20, 2), at(15, 3)});
+    const ReplaySensor never({}, {at(10, 1), at(20, 2), at(15, 3)});
     FAIL();
   } catch (const UsageError& error) {
     EXPECT_NE(std::string(error.what()).find("sample 2"), std::string::npos) << error.what();

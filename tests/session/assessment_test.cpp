@@ -27,8 +27,7 @@ SessionOptions quick(bool assess, std::uint64_t seed = 3) {
 }
 
 std::filesystem::path freshPlace(const std::string& name) {
-  const std::filesystem::path folder =
-      std::filesystem::path(PALPA_BUILD_DIR) / "tests/session" / name;
+  std::filesystem::path folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests/session" / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;
@@ -64,7 +63,7 @@ void expectNoAid(const Aids& aids) {
   EXPECT_EQ(aids.roles, std::vector<std::string>{"assessed"});
 }
 
-Aids ofNeedle(SessionOptions options, const std::string& name) {
+Aids ofNeedle(const SessionOptions& options, const std::string& name) {
   const std::filesystem::path folder = freshPlace(name);
   NeedleWorld world(options);
   world.station.camera_rate_Hz = 2;

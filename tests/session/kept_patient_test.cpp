@@ -3,11 +3,14 @@
 #include <gtest/gtest.h>
 
 #include <fstream>
+#include <span>
+#include <vector>
 
 #include "anatomy/base/whole_file.h"
 #include "anatomy/patient/patient_file.h"
 #include "apps/os/file_access.h"
 #include "apps/station/assets.h"
+#include "tests/support/counts.h"
 #include "tests/support/setting.h"
 
 namespace palpa::session {

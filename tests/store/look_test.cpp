@@ -90,7 +90,7 @@ TEST(Look, AtFilesThatAreNotThereEmptyForeignOrDamaged) {
   const std::string file = (folder / "records.sqlite").string();
   EXPECT_EQ(lookAtStore(file).state, StoreState::absent);
   EXPECT_TRUE(fs::is_empty(folder));
-  std::ofstream{file};
+  std::ofstream(file).close();
   EXPECT_EQ(lookAtStore(file).state, StoreState::empty);
   EXPECT_EQ(fs::file_size(file), 0u);
   const auto refused = [&](const std::string& bytes, const std::string& words) {

@@ -11,7 +11,7 @@ std::string complaintAbout(const std::function<void(json&)>& change) {
   json q = smallQuestionnaire();
   change(q);
   const auto file = written(smallProtocol(), q).parent_path() / "questions.json";
-  const std::string complaint = complaintOf([&] { readQuestionnaire(file); });
+  std::string complaint = complaintOf([&] { readQuestionnaire(file); });
   EXPECT_NE(complaint.find(file.string()), std::string::npos) << complaint;
   return complaint;
 }

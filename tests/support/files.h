@@ -18,8 +18,7 @@ inline std::filesystem::path freshFolder(const std::string& suite, const std::st
   std::string whose = test ? std::string(test->test_suite_name()) + "." + test->name()
                            : "process-" + std::to_string(::getpid());
   std::replace(whose.begin(), whose.end(), '/', '-');  // of tests with parameters
-  const auto folder =
-      std::filesystem::path(PALPA_BUILD_DIR) / "tests" / suite / "tmp" / whose / name;
+  auto folder = std::filesystem::path(PALPA_BUILD_DIR) / "tests" / suite / "tmp" / whose / name;
   std::filesystem::remove_all(folder);
   std::filesystem::create_directories(folder);
   return folder;

@@ -39,7 +39,7 @@ std::vector<JsonFile> someIn(const JsonFile& file, const std::string& list) {
 }
 
 std::string freshId(const JsonFile& file, std::set<std::string>* taken) {
-  const std::string id = textIn(file, "id");
+  std::string id = textIn(file, "id");
   if (id.find_first_of(", \"\t\n") != std::string::npos)
     file.refuse("id", "is \"" + id + "\"; it is typed in: no spaces, no commas");
   if (!taken->insert(id).second) file.refuse("id", "is \"" + id + "\", which occurs twice");

@@ -96,12 +96,14 @@ std::string leftOut(const std::vector<PracticeTrial>& trials) {
 }
 
 std::optional<Engine> engineOfFigures(const std::vector<metrics::MetricValue>& metrics) {
+  const auto has = [&](const char* name) {
+    return std::any_of(metrics.begin(), metrics.end(),
+                       [&](const metrics::MetricValue& m) { return m.name == name; });
+  };
   for (const auto& [name, engine] :
        {std::pair{"tissue_time_s", Engine::needle}, std::pair{"presses", Engine::palpation},
         std::pair{"chosen", Engine::search}, std::pair{"grips", Engine::squeeze}})
-    if (std::any_of(metrics.begin(), metrics.end(),
-                    [&](const metrics::MetricValue& m) { return m.name == name; }))
-      return engine;
+    if (has(name)) return engine;
   return std::nullopt;
 }
 

@@ -278,7 +278,7 @@ std::vector<StoredSession> RecordStore::deletePerson(const std::string& id,
   if (connection_->query("UPDATE trainees SET id=id WHERE id=$1 RETURNING id", {id}).empty())
     throw UsageError("is not in the records", "trainee " + id,
                      "palpa records trainee list shows who is in them");
-  const std::vector<StoredSession> theirs = sessions(id);
+  std::vector<StoredSession> theirs = sessions(id);
   for (const StoredSession& s : theirs)
     connection_->query(
         "INSERT INTO deleted_evidence(session,evidence) VALUES($1,$2) ON CONFLICT(session) DO "

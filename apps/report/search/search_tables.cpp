@@ -42,11 +42,11 @@ std::string placeWordsOf(const assess::SearchTrial& trial) {
 }
 
 void drawSignElement(Html& html, const assess::SearchTrial& trial, int element) {
-  const auto [x, y] = elementAt(trial, element);
+  const std::pair<double, double> at = elementAt(trial, element);
   const auto disc = [&](const char* css, double radius) {
     html.empty("circle", {{"class", css},
-                          {"cx", coordinate(kSignHalf + x)},
-                          {"cy", coordinate(kSignHalf - y)},
+                          {"cx", coordinate(kSignHalf + at.first)},
+                          {"cy", coordinate(kSignHalf - at.second)},
                           {"r", coordinate(radius)}});
   };
   disc(element == trial.target ? "element target" : "element", kSignElement);

@@ -110,7 +110,9 @@ bool takeAnswers(const std::string& path, const study::Questionnaire& questionna
                  const study::Next& next, StudyParticipant& participant) {
   const JsonFile file(path);
   if (!file.json().is_object()) file.refuse("", "must be items and answers");
-  for (const auto& [id, answer] : file.json().items()) {
+  for (const auto& field : file.json().items()) {
+    const std::string& id = field.key();
+    const nlohmann::json& answer = field.value();
     const auto item = std::find_if(questionnaire.items.begin(), questionnaire.items.end(),
                                    [&](const study::Item& i) { return i.id == id; });
     if (item == questionnaire.items.end())

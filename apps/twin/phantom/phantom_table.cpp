@@ -113,7 +113,7 @@ std::vector<double> lagrange(double t, int low, int high) {
 
 PairCell PairTable::at(const PhantomTable& one, double shift,
                        const std::array<double, 2>& depth) const {
-  const PairCell each = alone(one, apart, shift, depth);
+  PairCell each = alone(one, apart, shift, depth);
   if (!(depth[0] > 0 && depth[1] > 0)) return each;
   const int far = shifts - 1;
   const auto ws = lagrange(std::clamp(shift / shift_step, -1.0 * far, 1.0 * far), -far, far);
