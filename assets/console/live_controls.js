@@ -130,12 +130,12 @@ export class LiveControls {
       Number(status.trials) > 1
         ? `Start trial ${status.trial} of ${status.trials}`
         : "Start the trial";
-    say(this.go, state === "running" ? "Pause" : state === "paused" ? "Go on" : next);
+    say(this.go, state === "running" ? "Pause" : state === "paused" ? "Continue" : next);
     this.#may(this.go, !stopped && ["waiting", "running", "paused"].includes(state));
     this.#may(this.abort, on);
     this.#may(this.void, on);
     this.#may(this.leave, state !== "finished");
-    this.rearm.hidden = !stopped; // in the place of "Go on": nothing moves under the hand
+    this.rearm.hidden = !stopped; // in the place of "Continue": nothing moves under the hand
     this.go.hidden = stopped;
   }
 

@@ -64,11 +64,11 @@ function showConnection() {
   banner.hidden = !since;
   if (since) {
     const seconds = Math.round((Date.now() - since) / 1000);
-    const goesOn = document.body.dataset.sessionOn === "yes" ? "; the session goes on" : "";
+    const continues = document.body.dataset.sessionOn === "yes" ? "; the session continues" : "";
     put(
       banner,
       mark("note"),
-      h("span", {}, `No connection to the console for ${seconds} s${goesOn}. Trying again…`),
+      h("span", {}, `No connection to the console for ${seconds} s${continues}. Trying again…`),
     );
   }
   if (was && since) announce("No connection to the console. Trying again.");

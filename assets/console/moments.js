@@ -11,7 +11,7 @@ function words(off) {
       : `Force taken away, ${off.times} times in a row: ${off.cause}`;
   return off.times === 1
     ? `Force was off for ${seconds}: ${off.cause}`
-    : `Force was off ${off.times} times, ${seconds} together: ${off.cause}`;
+    : `Force was off ${off.times} times, ${seconds} in all: ${off.cause}`;
 }
 
 const withWords = (moment, off) => ({ ...moment, off, text: words(off) });

@@ -167,7 +167,7 @@ export async function show({ root, life, params: [id], open }) {
       put(state, badge(tone, word + of), s.notice && !s.alarm ? h("span", {}, s.notice) : null);
     }
     const cry = s.emergency_stop
-      ? "EMERGENCY STOP: forces are off. Re-arm when hands are clear of the device, then go on."
+      ? "EMERGENCY STOP: forces are off. Re-arm when hands are clear of the device, then continue."
       : s.alarm
         ? s.notice || "Alarm."
         : "";

@@ -166,7 +166,7 @@ const key = (beside) =>
     "p",
     { class: "key" },
     h("span", {}, line(false), "this trial"),
-    beside ? h("span", {}, line(true), "the trial beside (dashed)") : null,
+    beside ? h("span", {}, line(true), "the other trial (dashed)") : null,
     ["good", "bad", "near", "note"].map((tone) => h("span", {}, mark(tone), kWords[tone])),
   );
 
@@ -222,7 +222,7 @@ function build({ root, life, id, n, replay, options }) {
       return;
     }
     const second = view(
-        "Picture of the trial beside at the same time after its start",
+        "Picture of the other trial at the same time after its start",
         select.selectedOptions[0].textContent,
       ),
       [oid, on] = [select.value.slice(0, at), Number(select.value.slice(at + 1))];
@@ -266,7 +266,7 @@ function build({ root, life, id, n, replay, options }) {
         field(
           "Another trial",
           select,
-          "Both start at the same moment. An expert's is a good choice.",
+          "Both are shown from their start. An expert's is a good choice.",
         ),
         problems,
       ),

@@ -142,7 +142,7 @@ function form(tasks, trainees, me, chosenTrainee) {
       "div",
       { class: "row" },
       go,
-      h("span", { class: "muted" }, "You watch and lead it from the next page."),
+      h("span", { class: "muted" }, "You watch and control it on the next page."),
     ),
   );
 }

@@ -62,14 +62,14 @@ async function startAssessed(trainee, trials) {
   return id;
 }
 
-/** The page says that it hears nothing and that the session goes on; then it catches up. */
+/** The page says that it hears nothing and that the session continues; then it catches up. */
 async function withoutNetwork() {
   await e.cut();
   try {
     await page
       .locator("#lost", { hasText: "No connection to the console for" })
       .waitFor({ timeout: 15_000 });
-    assert.match(await page.locator("#lost").textContent(), /the session goes on\. Trying again/);
+    assert.match(await page.locator("#lost").textContent(), /the session continues\. Trying again/);
     await e.picture("no-connection");
   } finally {
     await e.context.setOffline(false);

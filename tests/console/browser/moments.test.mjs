@@ -33,7 +33,7 @@ test("several of one cause in a row are one; the moment stays the first", () => 
   assert.equal(all[0].tone, "bad");
   assert.equal(all[0].text, "Force taken away, 3 times in a row: the device was silent");
   assert.deepEqual(texts([away(1), back(1.2), away(2), back(2.3)]), [
-    "Force was off 2 times, 0.5 s together: the device was silent",
+    "Force was off 2 times, 0.5 s in all: the device was silent",
   ]);
 });
 
