@@ -20,7 +20,7 @@ void addLoop(CLI::App& bench) {
       "loop", "Lateness of the haptic loop beside a bare timer loop, under load");
   loop->footer(
       "Example:\n  palpa bench loop > loop.jsonl\n  palpa bench loop --rate 4000 --cpu 1\n  palpa "
-      "bench loop --pages 2\n      the same again while two pages of the console look on");
+      "bench loop --pages 2\n      the same again while two pages of the console watch");
   const auto options = std::make_shared<bench::LoopBenchOptions>();
   loop->add_option("--seconds", options->seconds, "Duration of the measurement, in 40 segments")
       ->check(CLI::Range(1.0, 3600.0));

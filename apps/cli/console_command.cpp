@@ -78,7 +78,7 @@ void serve(const ConsoleOptions& o) {
     std::printf("The console: %s\n", url.c_str());
     if (!settings.token.empty()) std::printf("It asks for the token in %s\n", o.token_file.c_str());
     std::printf(
-        "Ctrl-C ends it; a session that runs goes on, and is found again when the console is "
+        "Ctrl-C ends it; a running session continues, and is found again when the console is "
         "back\n");
     std::fflush(stdout);
     if (o.open && settings.place.display) openInBrowser(url);

@@ -107,7 +107,7 @@ void printRepair(const anatomy::RawMesh& mesh, double metres) {
   std::string done;
   for (const std::string& word : anatomy::words(report, metres))
     done += (done.empty() ? "" : ", ") + word;
-  std::printf("      %s: %s\n", sound ? "can be mended" : "cannot be mended wholly",
+  std::printf("      %s: %s\n", sound ? "can be repaired" : "cannot be repaired entirely",
               done.empty() ? "nothing helps" : done.c_str());
 }
 

@@ -123,7 +123,7 @@ void sayQueued(const link::Queued& q) {
   std::printf("%s queued, %d known already\n",
               counted(static_cast<std::size_t>(q.added), "statement").c_str(), q.known);
   if (q.simulated > 0)
-    std::printf("Left out: %s of simulated sessions (--simulated tells of them, too)\n",
+    std::printf("Left out: %s of simulated sessions (--simulated includes them)\n",
                 counted(static_cast<std::size_t>(q.simulated), "trial").c_str());
   if (q.void_trials > 0)
     std::printf("Left out: %s that do not count (void)\n",

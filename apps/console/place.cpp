@@ -41,7 +41,7 @@ std::string stationOf(const ConsolePlace& place) {
   const JsonFile file(place.settings());
   if (!file.json().is_object())
     throw UsageError("holds no settings", place.settings().string(),
-                     "Restore it, or remove it and calibrate anew");
+                     "Restore it, or remove it and calibrate again");
   const std::string chosen = file.has("station") ? file.text("station") : "";
   return std::filesystem::exists(chosen, none) ? chosen : "";
 }

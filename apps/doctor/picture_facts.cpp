@@ -150,7 +150,7 @@ Finding judgeCamera(const PictureFacts& f, double rate_Hz, const calibration::Ca
     return {"camera", State::note,
             text("pictures are out of focus (edges are %.1f pixels wide)", f.edge_px),
             "Turn the lens's focus, or set camera/focus in the station's file; then calibrate the "
-            "camera anew"};
+            "camera again"};
   if (rate < kSlow * rate_Hz)
     return {"camera", State::note,
             text("gives %.1f pictures a second where %.1f are asked for", rate, rate_Hz),
@@ -176,7 +176,7 @@ Finding judgeBoard(const PictureFacts& f) {
   if (f.rms_px > kPoorFit_px)
     return {"board", State::ill, text("does not fit (its points are off by %.1f pixels)", f.rms_px),
             "Is it the board that the station's file describes, flat and undamaged? Else calibrate "
-            "the camera anew"};
+            "the camera again"};
   if (f.seen < kOftenSeen * fit)
     return {"board", State::note, text("is seen in %d of %d pictures only", f.seen, fit),
             "Move what hides it, and lamps that shine on it"};

@@ -11,7 +11,7 @@ namespace palpa::doctor {
 namespace {
 
 constexpr const char* kAnew =
-    "Calibrate it anew: palpa calibrate all; until then sessions are not scored";
+    "Calibrate it again: palpa calibrate all; until then sessions are not scored";
 
 std::string waitingWords(std::size_t waiting) {
   if (waiting == 0) return "";

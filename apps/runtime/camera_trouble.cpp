@@ -66,11 +66,11 @@ std::optional<Displaced> displacedBoard(const CameraView& view,
     if (moved <= most && turned * kEdge <= most) continue;
     char words[160];
     if (moved > most)
-      std::snprintf(words, sizeof words, " has moved by %.0f mm: put it back, or calibrate anew",
+      std::snprintf(words, sizeof words, " has moved by %.0f mm: put it back, or calibrate again",
                     1e3 * moved);
     else
       std::snprintf(words, sizeof words,
-                    " is turned by %.1f degrees: turn it back, or calibrate anew",
+                    " is turned by %.1f degrees: turn it back, or calibrate again",
                     turned * 57.29578);
     return Displaced{i, "the " + place.name + words};
   }

@@ -44,7 +44,7 @@ anatomy::Patient makePatient(const SessionOptions& options, const task_needle::T
     if (options.side == anatomy::Side::left &&
         patient.side != options.side)  // right is what is meant where nothing is said
       throw UsageError("is left, and this patient was built for the right side", "--side",
-                       "Leave it out, or build the patient anew: palpa patient build --side left");
+                       "Leave it out, or build the patient again: palpa patient build --side left");
     return patient;
   }
   anatomy::PatientParameters parameters = anatomy::drawParameters(

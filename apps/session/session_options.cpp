@@ -36,7 +36,7 @@ void settleAssessment(SessionOptions& o) {
   o.navigation = o.demonstration = false;
   if (!o.quiet)
     std::puts(
-        "Assessment: every aid is off: the view stays fixed, the screen tells neither tissue nor "
+        "Assessment: every aid is off: the view stays fixed, the screen shows neither tissue nor "
         "force, no demonstration");
 }
 

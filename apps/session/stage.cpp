@@ -45,7 +45,7 @@ HeadStage makeHeadStage(const SessionOptions& options, const anatomy::Patient& p
   } catch (const Error& error) {
     if (options.who == OperatorKind::person && options.display != scene::Display::window) throw;
     stage.refusal = error.what();
-    std::fprintf(stderr, "palpa: %s; the session goes on on the desktop\n", error.what());
+    std::fprintf(stderr, "palpa: %s; the session continues on the desktop\n", error.what());
   }
   return stage;
 }

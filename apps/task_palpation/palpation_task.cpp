@@ -133,11 +133,11 @@ PalpationTask::PalpationTask(const PalpationTaskSetup& setup, runtime::Bus& bus,
 
 std::string PalpationTask::notReady(const haptics::FlightRecord& last) const {
   if (last.sensed.state != haptics::SensorState::valid)
-    return "the force sensor says nothing that could be used";
+    return "the force sensor gives no reading that can be used";
   if (unpack(last.sensed.f_D).norm() < setup_.settings.scoring.rules.touch) return "";
   if (sensor_.inTheAir(last) == 0) return "the tool touches something: lift it";
   return "the force sensor shows a force though nothing is touched: it has drifted, or its scale "
-         "is wrong. Take its zero anew";
+         "is wrong. Zero it again";
 }
 
 runtime::TrialHeader PalpationTask::begin(std::int64_t now_ns) {

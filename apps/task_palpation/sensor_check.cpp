@@ -73,7 +73,7 @@ std::string SensorCheck::add(const haptics::FlightRecord& record) {
   if (air_s_ > kAir_s)
     return with(
         "the force sensor shows %.1f N though nothing is touched: it has drifted, or its scale is "
-        "wrong. Take its zero anew",
+        "wrong. Zero it again",
         now.f_P.norm());
   reversed_s_ = now.height < kBelow && now.f_P.z() < -least_N_ ? reversed_s_ + dt : 0;
   if (reversed_s_ > kReversed_s)

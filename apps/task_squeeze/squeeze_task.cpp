@@ -101,7 +101,7 @@ std::string SqueezeTask::notReady(const haptics::FlightRecord&) const {
     const std::string which = t == 0 ? "the first" : "the second";
     if (!last_of_[t].reading.homed) return which + " device is not homed";
     if (last_of_[t].sensed.state != haptics::SensorState::valid)
-      return which + " force sensor says nothing that could be used";
+      return which + " force sensor gives no reading that can be used";
     if (unpack(last_of_[t].sensed.f_D).norm() >= setup_.settings.touch)
       return which + " tool touches something: let go";
   }

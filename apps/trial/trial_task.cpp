@@ -137,7 +137,7 @@ void TrialTask::hold(const std::string& trouble, std::int64_t now_ns) {
   report(now_ns, EventKind::safety, "Force taken away: " + trouble);
   if (lead_.automatic) return endTrial(Outcome::voided, trouble, now_ns);
   status_.state = TrialState::paused;
-  status_.notice = "Paused: " + trouble + ". Then Enter goes on";
+  status_.notice = "Paused: " + trouble + ". Then Enter continues";
   report(now_ns, EventKind::pause, "The trial is paused: " + trouble);
 }
 
@@ -172,7 +172,7 @@ void TrialTask::watchSafety(const haptics::FlightRecord& record) {
   }
   if (status_.state == TrialState::running && last_.reading.homed && !record.reading.homed) {
     status_.state = TrialState::paused;
-    status_.notice = "Paused: the device has lost its position. When it is back, Enter goes on";
+    status_.notice = "Paused: the device has lost its position. When it is back, Enter continues";
     report(record.t_ns, EventKind::pause, "The trial is paused: the device has lost its position");
   }
 }
@@ -203,7 +203,7 @@ void TrialTask::apply(const UserRequest& request, std::int64_t now_ns) {
     case UserCommand::pause:
       if (status_.state != TrialState::running) return;
       status_.state = TrialState::paused;
-      status_.notice = "Paused: Enter goes on";
+      status_.notice = "Paused: Enter continues";
       return report(now_ns, EventKind::pause, "The trial is paused");
     case UserCommand::abort:
       if (status_.active())
@@ -244,13 +244,13 @@ void TrialTask::goOn(std::int64_t now_ns) {
   if (status_.state != TrialState::paused) return;
   status_.state = TrialState::running;
   status_.notice.clear();
-  report(now_ns, EventKind::resume, "The trial goes on");
+  report(now_ns, EventKind::resume, "The trial continues");
 }
 
 void TrialTask::stopAll(std::int64_t now_ns) {
   status_.emergency_stop = true;
   status_.alarm = true;
-  status_.notice = "EMERGENCY STOP: forces are off. R re-arms, then Enter goes on";
+  status_.notice = "EMERGENCY STOP: forces are off. R re-arms, then Enter continues";
   if (status_.state == TrialState::running) status_.state = TrialState::paused;
   report(now_ns, EventKind::emergency_stop, "Emergency stop");
 }
@@ -260,7 +260,7 @@ void TrialTask::rearm(std::int64_t now_ns) {
   if (status_.state == TrialState::running)
     status_.state = TrialState::paused;  // disarms: clears a trip
   status_.notice = status_.state == TrialState::paused || status_.state == TrialState::waiting
-                       ? "Re-armed: Enter goes on"
+                       ? "Re-armed: Enter continues"
                        : "";
   report(now_ns, EventKind::rearm, "Re-armed");
 }

@@ -65,7 +65,7 @@ TEST(HeadsetSession, WithoutARuntimeTheDesktopViewGoesOnAndOneLineSaysSo) {
   const Outcome outcome{0, "", contentOf(here / "err")};
   EXPECT_EQ(outcome.errLines(), 1) << outcome.err;
   EXPECT_TRUE(says(outcome.err, "no OpenXR runtime is there")) << outcome.err;
-  EXPECT_TRUE(says(outcome.err, "goes on on the desktop")) << outcome.err;
+  EXPECT_TRUE(says(outcome.err, "continues on the desktop")) << outcome.err;
   EXPECT_TRUE(std::filesystem::exists(here / "A/report.html"));
 }
 

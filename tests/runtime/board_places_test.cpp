@@ -28,9 +28,9 @@ TEST(BoardPlaces, WhatIsElsewhereIsToldWithHowFar) {
   EXPECT_EQ(told(Pose::Identity()), "");
   EXPECT_EQ(told(turnedAt(0.02, {0.0015, 0.001, 0})), "");
   EXPECT_EQ(told(turnedAt(0, {0.006, 0, 0.008})),
-            "the phantom has moved by 10 mm: put it back, or calibrate anew");
+            "the phantom has moved by 10 mm: put it back, or calibrate again");
   EXPECT_EQ(told(turnedAt(0.0873, Vec3::Zero())),
-            "the phantom is turned by 5.0 degrees: turn it back, or calibrate anew");
+            "the phantom is turned by 5.0 degrees: turn it back, or calibrate again");
   EXPECT_EQ(told(turnedAt(0, {0.006, 0, 0.008}), 0.02), "");
   EXPECT_EQ(told(turnedAt(0, {0.0025, 0, 0})), "");
   EXPECT_NE(told(turnedAt(0, {0.0025, 0, 0}), 0.003, 1), "")

@@ -40,7 +40,7 @@ void greet(const study::Protocol& protocol, const StudyParticipant& participant)
   const record::Enrolment& e = participant.enrolment();
   std::printf("%s\nTrainee %s, group %s%s%s\n", protocol.title.c_str(), e.trainee.c_str(),
               e.group.c_str(), e.simulated ? ", simulated" : "",
-              participant.trials() ? ": goes on" : ": begins");
+              participant.trials() ? ": continues" : ": begins");
   if (!protocol.blind() && !e.condition.empty())
     std::printf("Condition: %s, %s\n", e.condition.c_str(),
                 protocol.condition(e.condition)->means.c_str());

@@ -140,7 +140,7 @@ std::vector<Phantom> readSolved(const std::filesystem::path& name,
   const JsonFile tables(tables_name);
   tables.needVersion(1);
   if (!tables.has("made_of") || tables.json()["made_of"] != JsonFile(name).json())
-    tables.refuse("made_of", "is not " + name.string() + " (solve it anew: palpa phantom solve)");
+    tables.refuse("made_of", "is not " + name.string() + " (solve it again: palpa phantom solve)");
   for (const char* list : {"tables", "pairs"}) {
     if (!tables.has(list) || !tables.json()[list].is_array() ||
         tables.json()[list].size() != file.phantoms.size())
