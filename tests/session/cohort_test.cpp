@@ -19,7 +19,7 @@ struct Cohort {
 
 /// Twelve: with the twenty seeds' own scatter the test of 5 % then tells the groups in nine of ten
 /// draws (in three of four with eight).
-int seeds() { return palpa::test::counted(10, 20); }
+int seeds() { return palpa::test::counted(12, 20); }
 
 Cohort cohort(OperatorKind who, bool force_feedback, int seeds) {
   Cohort result;

@@ -31,11 +31,10 @@ inline std::vector<double> valuesWith(double mean, double sd, int n) {
   return z;
 }
 
-inline const Exhibit& exhibit(const StudyResult& result, const std::string& id) {
+inline Exhibit exhibit(const StudyResult& result, const std::string& id) {
   for (const Exhibit& e : result.exhibits)
     if (e.id == id) return e;
-  static const Exhibit none{};
-  return none;
+  return {};
 }
 
 /// The number in a column of a row; not a number where there is none.
