@@ -41,7 +41,7 @@ std::string pace(int changes, double seconds) {
   if (changes == 0) return "never";
   const double each = seconds / changes;
   return "every " + (each < 1 ? fixed(1e3 * each, 0) + " ms" : fixed(each, 1) + " s") + " (" +
-         howOften(static_cast<std::size_t>(changes)) + ")";
+         howOften(changes) + ")";
 }
 
 struct Difference {
@@ -88,9 +88,8 @@ Sentences howMany(const SubtaskRecordings& recordings, const SubtaskSegmentation
       counted(recordings.sequences.size(), "trial") + ", " + fixed(secondsOf(recordings), 0) +
       " s in all. " +
       (found.states == std::min(p.states, p.repeatable) ? "Proposed: " : "Taken, as asked: ") +
-      counted(static_cast<std::size_t>(found.states), "state") + ".");
-  s.push_back("Trials that were held out are predicted best by " +
-              counted(static_cast<std::size_t>(p.best), "state") +
+      counted(found.states, "state") + ".");
+  s.push_back("Trials that were held out are predicted best by " + counted(p.best, "state") +
               "; as well within one standard error by " + std::to_string(p.states) +
               ". Fits to two halves of the trials find the same for up to " +
               std::to_string(p.repeatable) +
@@ -189,12 +188,11 @@ Sentences whatToMind(const SubtaskRecordings& recordings, const SubtaskSegmentat
     s.push_back("Not used, because it hardly changes: " + unused + ".");
   }
   if (recordings.augmented > 0)
-    s.push_back("In " + counted(static_cast<std::size_t>(recordings.augmented), "trial") +
+    s.push_back("In " + counted(recordings.augmented, "trial") +
                 " cues might be added to the force in each hand-written part: hands that answer "
                 "them follow these parts.");
   if (recordings.left_out > 0)
-    s.push_back("Left out, shorter than 0.5 s: " +
-                counted(static_cast<std::size_t>(recordings.left_out), "stretch") + ".");
+    s.push_back("Left out, shorter than 0.5 s: " + counted(recordings.left_out, "stretch") + ".");
   return s;
 }
 

@@ -128,8 +128,7 @@ std::vector<std::string> simulateExperts(const ExpertOptions& o) {
     world.station.camera_rate_Hz = 2;  // pictures serve the ready check only: fewer save time
     const std::filesystem::path place =
         session::makeOutputFolder((folder / session.trainee).string(), "");
-    std::fprintf(stderr, "%s: %s\n", session.trainee.c_str(),
-                 counted(static_cast<std::size_t>(o.simulate), "trial").c_str());
+    std::fprintf(stderr, "%s: %s\n", session.trainee.c_str(), counted(o.simulate, "trial").c_str());
     if (session::runNeedleSession(session, world, place).quit)
       throw Error("was interrupted", "palpa calibrate experts", "Start it again");
     files.push_back((place / "session.palpa").string());

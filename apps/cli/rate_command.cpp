@@ -171,7 +171,7 @@ void reportAgreement(const RateOptions& o) {
               store.place().c_str(), simulated ? "; simulated trials are among them" : "");
   if (other_editions)
     std::printf("Left out: %s on other editions of these forms\n",
-                counted(static_cast<std::size_t>(other_editions), "rating").c_str());
+                counted(other_editions, "rating").c_str());
   print(competence::agreementOf(trials));
 }
 

@@ -72,8 +72,7 @@ void bring(const fs::path& file, const std::string& url) {
   try {
     const evidence::EvidenceDelivery done = evidence::deliverEvidence(file, url);
     std::printf("%s: trainee %s, %s added, %d there already%s\n", file.string().c_str(),
-                done.trainee.c_str(),
-                counted(static_cast<std::size_t>(done.trials.added), "trial").c_str(),
+                done.trainee.c_str(), counted(done.trials.added, "trial").c_str(),
                 done.trials.present, done.unfinished ? ", one unfinished left out" : "");
   } catch (const record::StoreUnreachable&) {
     std::printf("%s: noted; palpa records deliver sends it\n", file.string().c_str());

@@ -120,24 +120,20 @@ link::DataFormat formatOf(const std::string& name) {
 }
 
 void sayQueued(const link::Queued& q) {
-  std::printf("%s queued, %d known already\n",
-              counted(static_cast<std::size_t>(q.added), "statement").c_str(), q.known);
+  std::printf("%s queued, %d known already\n", counted(q.added, "statement").c_str(), q.known);
   if (q.simulated > 0)
     std::printf("Left out: %s of simulated sessions (--simulated includes them)\n",
-                counted(static_cast<std::size_t>(q.simulated), "trial").c_str());
+                counted(q.simulated, "trial").c_str());
   if (q.void_trials > 0)
-    std::printf("Left out: %s that do not count (void)\n",
-                counted(static_cast<std::size_t>(q.void_trials), "trial").c_str());
+    std::printf("Left out: %s that do not count (void)\n", counted(q.void_trials, "trial").c_str());
   if (q.no_uuid > 0)
-    std::printf("Left out: %s of sessions without a UUID\n",
-                counted(static_cast<std::size_t>(q.no_uuid), "trial").c_str());
+    std::printf("Left out: %s of sessions without a UUID\n", counted(q.no_uuid, "trial").c_str());
 }
 
 void queue(const RecordsOptions& o, const link::Route& route, link::Outbox& outbox) {
   record::RecordStore store(o.url);
   if (const int back = link::takeBackDeleted(store, route, outbox); back > 0)
-    std::printf("%s taken back: deleted people, void trials\n",
-                counted(static_cast<std::size_t>(back), "statement").c_str());
+    std::printf("%s taken back: deleted people, void trials\n", counted(back, "statement").c_str());
   if (!o.all && o.trainee.id.empty()) return;  // what waits is sent
   link::StatementFilter filter{
       chosen(store, o), o.simulated,
@@ -173,8 +169,7 @@ void sendRecords(const RecordsOptions& o) {
   link::LrsClient client(endpoint, login);
   const link::Sent sent = link::sendWaiting(outbox, endpoint, client);
   std::printf("%s: %s delivered, %d there already, %zu waiting\n", endpoint.text().c_str(),
-              counted(static_cast<std::size_t>(sent.delivered), "statement").c_str(), sent.present,
-              sent.left);
+              counted(sent.delivered, "statement").c_str(), sent.present, sent.left);
   if (!sent.trouble.empty())
     throw Error("cannot take statements now (" + sent.trouble + ")", endpoint.text(),
                 "What waits is kept on this station; the same command sends it later");

@@ -39,7 +39,7 @@ void takeBack(record::RecordStore& store, const std::string& url) {
   for (const std::string& endpoint : outbox.endpoints(records))
     if (const int count = link::takeBackDeleted(store, {endpoint, records}, outbox); count > 0)
       std::printf("%s will be taken back there by: palpa records xapi --to %s\n",
-                  counted(static_cast<std::size_t>(count), "statement").c_str(), endpoint.c_str());
+                  counted(count, "statement").c_str(), endpoint.c_str());
 }
 
 void deleteOne(record::RecordStore& store, const std::string& id) {

@@ -121,8 +121,7 @@ void writeFilm(evidence::RecordedShow& recorded, const Cut& cut, const ReplayVie
   draw(recorded, cut, o, [&](int, const scene::Image& picture) { film.add(picture); });
   film.finish();
   std::printf("Written: %s (%s, %.1f s)\n", o.video.c_str(),
-              counted(static_cast<std::size_t>(film.frames()), "picture").c_str(),
-              film.frames() / o.frames_per_second);
+              counted(film.frames(), "picture").c_str(), film.frames() / o.frames_per_second);
 }
 
 /// Beside the pictures stands what they show: length, rate, and what happened when. It comes last:
@@ -148,7 +147,7 @@ void writePictures(evidence::RecordedShow& recorded, const Cut& cut, const Repla
                              {"near_miss", mark.near_miss}});
   writeWhole(folder / "pictures.json", told.dump(1) + "\n");
   std::printf("Written: %s (%s, and pictures.json: what happened when)\n", folder.c_str(),
-              counted(static_cast<std::size_t>(count), "picture").c_str());
+              counted(count, "picture").c_str());
 }
 
 }  // namespace

@@ -168,8 +168,8 @@ void planStudy(const PlanOptions& o) {
   std::printf(
       "SIMULATED: %d studies drawn from a learning model, figure %s, %d subjects in each group and "
       "condition, %s each, level %g\n",
-      o.drawn.studies, o.metric.c_str(), o.drawn.subjects,
-      counted(static_cast<std::size_t>(o.drawn.trials), "trial").c_str(), o.drawn.level);
+      o.drawn.studies, o.metric.c_str(), o.drawn.subjects, counted(o.drawn.trials, "trial").c_str(),
+      o.drawn.level);
   printDetections("Studies that find the effects of Tzafestas 2008 (power):",
                   detectionsIn(modelOf(study_analysis::pilotModels(), o.metric), o.drawn));
   printDetections("Studies that find effects where there is none (false positives):",

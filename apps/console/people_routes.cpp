@@ -85,7 +85,7 @@ std::string stateOfRecords(record::RecordStore& store, const std::string& traine
 std::string startable(const study::Next& next) {
   if (next.kind != study::NextKind::trials) return "";
   if (!next.not_before.empty() && next.not_before > utcNow()) return "";
-  return counted(static_cast<std::size_t>(next.trials), "trial");
+  return counted(next.trials, "trial");
 }
 
 /// What has to be done elsewhere before a block can be.

@@ -26,7 +26,7 @@ struct Console {
   Guard& guard;
   const live::ToneOf tone;
   Sessions sessions;
-  struct Health {
+  struct Health {  // NOLINT(bugprone-exception-escape): JSON, of which it is made, throws none
     std::mutex mutex;
     nlohmann::json findings;  ///< as `palpa doctor --json` wrote it; null: not yet
     std::string checked_utc, job;

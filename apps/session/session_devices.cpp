@@ -156,9 +156,9 @@ std::vector<report::Fact> SessionDevices::facts() const {
                      "the haptic loop had not commanded for 10 ms"});
   if (falcon_) {
     const haptics::FalconStatus status = falcon_->status();
-    facts.push_back({"Packets exchanged with the Falcon", std::to_string(status.exchanges),
-                     std::to_string(status.missed) + " without an answer; opened " +
-                         howOften(static_cast<std::size_t>(status.opened))});
+    facts.push_back(
+        {"Packets exchanged with the Falcon", std::to_string(status.exchanges),
+         std::to_string(status.missed) + " without an answer; opened " + howOften(status.opened)});
   }
   if (net_ft_) {
     using haptics::NetFtCount;

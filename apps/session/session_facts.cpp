@@ -20,7 +20,7 @@ std::vector<report::Fact> safetyFacts(const std::vector<runtime::Event>& events)
   for (const auto& [text, times] : by_text) {
     const auto& [count, first] = times;
     facts.push_back(
-        {text, howOften(static_cast<std::size_t>(count)),
+        {text, howOften(count),
          format("first %.1f s after the session's start", 1e-9 * static_cast<double>(first->t_ns)) +
              (first->trial > 0 ? format(", in trial %d", first->trial) : "")});
   }

@@ -69,7 +69,7 @@ std::vector<report::Fact> SessionIgtl::facts() const {
                      std::to_string(c.unusable) + " more that it called unusable, " +
                          std::to_string(c.not_rigid) + " that were no pose, " +
                          std::to_string(c.damaged) + " damaged messages; connected " +
-                         howOften(static_cast<std::size_t>(c.connections))});
+                         howOften(c.connections)});
   }
   if (link_)
     facts.push_back({"Listeners by OpenIGTLink", std::to_string(link_->server().everConnected()),

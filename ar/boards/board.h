@@ -82,8 +82,8 @@ std::unique_ptr<Board> makeBoard(const std::string& spec, double decimate = 2.0)
 /// A single detected tag, for pictures without a grid.
 struct Tag {
   int id;
-  std::array<Eigen::Vector2d, 4>
-      corners;  ///< OpenCV pixel coordinates, order of the AprilTag library
+  /// OpenCV pixel coordinates, order of the AprilTag library
+  std::array<Eigen::Vector2d, 4> corners;
 };
 std::vector<Tag> detectTags(const cv::Mat& gray, double decimate = 1.0);
 

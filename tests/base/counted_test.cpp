@@ -12,6 +12,7 @@ TEST(Counted, OneIsSingular) {
   EXPECT_EQ(howOften(0), "0 times");
   EXPECT_EQ(howOften(1), "once");
   EXPECT_EQ(howOften(2), "2 times");
+  EXPECT_EQ(counted(-1, "trial"), "-1 trials") << "as signed as it is";
 }
 
 }  // namespace

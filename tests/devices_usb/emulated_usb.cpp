@@ -74,7 +74,8 @@ EmulatedUsb::EmulatedUsb(FalconTwin& twin, int place)
   plugIn();
 }
 
-EmulatedUsb::~EmulatedUsb() {
+// A fault of the emulation ends the test program.
+EmulatedUsb::~EmulatedUsb() {  // NOLINT(bugprone-exception-escape)
   if (plugged_) unplug();
   testbed_.reset();
   while (!requests_.empty()) giveBack(requests_.begin());

@@ -22,7 +22,7 @@ class EmulatedUsb {
 
   /// `place`: 1, 2, ...: which port it is plugged into.
   explicit EmulatedUsb(FalconTwin& twin, int place = 1);
-  ~EmulatedUsb();
+  ~EmulatedUsb();  // NOLINT(bugprone-exception-escape)
   EmulatedUsb(const EmulatedUsb&) = delete;
   EmulatedUsb& operator=(const EmulatedUsb&) = delete;
 

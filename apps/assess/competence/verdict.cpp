@@ -220,7 +220,7 @@ std::string whatCannotBeCertified(int trials) {
     (c.limits.shortest_clean_run <= trials ? within : beyond) +=
         (((c.limits.shortest_clean_run <= trials ? within : beyond).empty()) ? "" : ", ") +
         clause(c);
-  const std::string count = counted(static_cast<std::size_t>(trials), "trial");
+  const std::string count = counted(trials, "trial");
   if (beyond.empty())
     return count + " without a failure are enough for every rate shown (" + within + ").";
   return count +

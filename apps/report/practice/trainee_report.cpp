@@ -183,8 +183,7 @@ std::string extentOf(const progress::Series& series) {
   if (from.empty()) return words;
   if (from == to) return words + ", on " + from;
   return words + ", " + from + " to " + to + " (" +
-         counted(static_cast<std::size_t>(progress::daysBetween(from, to).value_or(0)), "day") +
-         ')';
+         counted(progress::daysBetween(from, to).value_or(0), "day") + ')';
 }
 
 void writeTraineeSummary(Html& html, const progress::Series& series) {

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "anatomy/base/counted.h"
 #include "anatomy/base/error.h"
 #include "anatomy/base/sha256.h"
 #include "anatomy/base/uuid.h"
@@ -184,8 +185,7 @@ void reportTrainee(const study::Protocol& protocol, record::RecordStore& store,
 void reportGroup(const study::Protocol& protocol, record::StudyStore& studies,
                  const std::string& group) {
   const std::int64_t given = studies.placesGiven(protocol.id, group);
-  std::printf("  %-14s %lld place%s assigned", group.c_str(), static_cast<long long>(given),
-              given == 1 ? "" : "s");
+  std::printf("  %-14s %s assigned", group.c_str(), counted(given, "place").c_str());
   if (protocol.allocation)
     std::printf(
         given % protocol.allocation->block ? "; balanced again after %lld more"
