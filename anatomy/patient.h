@@ -31,9 +31,10 @@ struct OrganSurface {
   Organ organ = Organ::none;
   TriangleMesh mesh;
   std::array<float, 4> rgba{1, 1, 1, 1};
-  std::string licence{};  ///< of this surface, where it is not the patient's
-  std::string source{};   ///< who made it, as its licence asks to be named
-  RgbPicture texture{};   ///< laid over it by its uvs, multiplied by rgba
+  std::string licence{};                     ///< of this surface, where it is not the patient's
+  std::string source{};                      ///< who made it, as its licence asks to be named
+  RgbPicture texture{};                      ///< laid over it by its uvs, multiplied by rgba
+  std::vector<unsigned char> texture_png{};  ///< as a file held it, to be written so again; or none
 };
 
 /// What a surface encloses; air where it says nothing of it.

@@ -53,7 +53,7 @@ void requireTrialOf(const HiddenMarkov& m, const Eigen::MatrixXd& trial) {
                     std::to_string(m.mean.cols()),
                 kHmmWhere, "Compute the features that the model was fitted to");
   if (!trial.allFinite())
-    throw Error("the trial holds a value that is no number", kHmmWhere, "Remove its step");
+    throw Error("the trial holds a value that is not a number", kHmmWhere, "Remove its step");
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ Eigen::VectorXd filtered(const HiddenMarkov& model, const Eigen::VectorXd& belie
     throw Error("belief or row is not of the model's size", kHmmWhere,
                 "Give what the model was fitted to");
   if (!first && !(belief.minCoeff() >= 0 && belief.sum() > 0 && belief.allFinite()))
-    throw Error("the belief is none", kHmmWhere,
+    throw Error("the belief is not a distribution", kHmmWhere,
                 "Give the answer of the step before, or nothing at the first step");
   const Eigen::VectorXd predicted =
       first ? model.start : Eigen::VectorXd(model.transition.transpose() * (belief / belief.sum()));

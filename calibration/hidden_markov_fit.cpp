@@ -49,7 +49,7 @@ void requireSequences(const Sequences& trials) {
                       std::to_string(trials.front().cols()),
                   kHmmWhere, "Compute the same features for each");
     if (!trials[i].allFinite())
-      throw Error(trial + " holds a value that is no number", kHmmWhere,
+      throw Error(trial + " holds a value that is not a number", kHmmWhere,
                   "Remove its step or the trial");
   }
 }

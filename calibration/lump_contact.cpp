@@ -74,9 +74,8 @@ haptics::HuntCrossley lawOf(std::vector<PressSample> samples, const std::string&
                 kLumpWhere, "Press deeper, above the lump and beside it");
   const haptics::HuntCrossley law = LawFit(std::move(samples)).run();
   if (!(law.m >= 0.5 && law.m <= 4))
-    throw Error(
-        "the exponent " + std::to_string(law.m) + " of " + what + " is that of no soft thing",
-        kLumpWhere, "Is the lump where it is said to be?");
+    throw Error("the exponent " + std::to_string(law.m) + " of " + what + " fits no soft body",
+                kLumpWhere, "Is the lump where it is said to be?");
   return law;
 }
 
@@ -126,7 +125,7 @@ LumpContact identifyLump(const std::vector<LumpSample>& samples, const SoftConta
   for (const LumpSample& s : samples) {
     if (!s.p.allFinite() || !s.f_r.allFinite() || !s.d.allFinite() || !std::isfinite(s.x) ||
         !std::isfinite(s.rate))
-      throw Error("a sample is no number", kLumpWhere, "Record anew");
+      throw Error("a sample is not a number", kLumpWhere, "Record again");
     const Vec3 dp = before_it ? Vec3(s.p - before_it->p) : Vec3(Vec3::Zero());
     before_it = &s;
     added.push_back(addedBy(

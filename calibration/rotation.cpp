@@ -29,7 +29,8 @@ void requirePose(const Pose& X, const std::string& where) {
   if (!X.matrix().allFinite()) throw Error("a pose is not a number", where, "Record again");
   const Mat3 R = X.linear();
   if ((R.transpose() * R - Mat3::Identity()).norm() > 1e-3 || R.determinant() < 0)
-    throw Error("a pose's rotation is none (its columns are no right-handed unit vectors)", where,
+    throw Error("a pose's rotation is not one (its columns are not right-handed unit vectors)",
+                where,
                 "Look whether the file holds quaternions, angles or another order of its numbers");
 }
 

@@ -39,12 +39,12 @@ double largestForce(const std::vector<PressSample>& samples) {
   double largest = 0, least = 0;
   for (const PressSample& s : samples) {
     if (!std::isfinite(s.x) || !std::isfinite(s.rate) || !std::isfinite(s.f))
-      throw Error("a sample is no number", kPressWhere, "Record anew");
+      throw Error("a sample is not a number", kPressWhere, "Record again");
     largest = std::max(largest, s.f);
     least = std::min(least, s.f);
   }
   if (-least > largest)
-    throw Error("what is pressed pulls: the force's sign is turned round", kPressWhere,
+    throw Error("what is pressed pulls: the force has the wrong sign", kPressWhere,
                 "Look at how the sensor is mounted, and which way the depth is counted");
   return largest;
 }
@@ -133,8 +133,8 @@ void requireDetermined(const SoftContact& found, double speed) {
     throw Error("the speeds are too alike to tell the damping", kPressWhere,
                 "Press slowly and fast");
   if (!(law.m >= 0.5 && law.m <= 4))
-    throw Error("the exponent " + std::to_string(law.m) + " is that of no soft thing", kPressWhere,
-                "Press along the normal, on one place, and record anew");
+    throw Error("the exponent " + std::to_string(law.m) + " fits no soft body", kPressWhere,
+                "Press along the normal, on one place, and record again");
   if (law.b < -half[1])
     throw Error("it gives back more than was put in", kPressWhere,
                 "Is the sign of the force, or the time between force and position, right?");

@@ -35,8 +35,8 @@ void requireNumbers(const std::vector<SlideSample>& samples, double dt) {
     good = good && s.p.allFinite() && s.drag.allFinite() && std::isfinite(s.f_n) &&
            std::abs(s.n.norm() - 1) < 1e-6;
   if (!good)
-    throw Error("a sample is no number, or a normal not of length 1", kFrictionWhere,
-                "Record anew");
+    throw Error("a sample is not a number, or a normal is not of length 1", kFrictionWhere,
+                "Record again");
 }
 
 std::vector<Stroke> strokesOf(const std::vector<SlideSample>& samples, double dt) {

@@ -15,6 +15,7 @@ add_custom_target(palpa_manual ALL
   DEPENDS ${made}/palpa.1.gz ${made}/palpa.bash ${made}/changelog.gz)
 
 install(TARGETS palpa RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR})
+install(TARGETS palpa_opencv_codecs LIBRARY DESTINATION ${PALPA_LOADED_INSTALLED})
 install(DIRECTORY assets/ DESTINATION ${CMAKE_INSTALL_DATADIR}/palpa/assets
   PATTERN pictures EXCLUDE
   PATTERN "*.sh" EXCLUDE)

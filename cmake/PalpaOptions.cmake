@@ -4,6 +4,11 @@ set(CMAKE_CXX_STANDARD_REQUIRED ON)
 set(CMAKE_CXX_EXTENSIONS OFF)
 set(CMAKE_POSITION_INDEPENDENT_CODE ON)
 set(CMAKE_EXPORT_COMPILE_COMMANDS ON)
+# Where programs find what they load when it is first needed: built, and installed.
+set(PALPA_LOADED_FROM ${PROJECT_BINARY_DIR}/lib)
+set(CMAKE_BUILD_RPATH ${PALPA_LOADED_FROM})
+set(PALPA_LOADED_INSTALLED lib/palpa)
+set(CMAKE_INSTALL_RPATH $ORIGIN/../${PALPA_LOADED_INSTALLED})
 
 option(PALPA_TESTS "Build the tests" ON)
 option(PALPA_WERROR "Treat warnings as errors" OFF)

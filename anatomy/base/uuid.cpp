@@ -39,7 +39,7 @@ std::string newUuid() {
 
 std::string uuidOfName(const std::string& name_space, const std::string& name) {
   if (!isUuid(name_space))
-    throw Error("is no UUID", "\"" + name_space + "\"",
+    throw Error("is not a UUID", "\"" + name_space + "\"",
                 "The evidence is damaged or was made by another program: leave this session out");
   const boost::uuids::name_generator_sha1 named(boost::uuids::string_generator()(name_space));
   return to_string(named(name));

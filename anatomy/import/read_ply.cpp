@@ -57,7 +57,7 @@ Coding codingOf(const ByteReader& in, std::string_view name) {
   if (name == "ascii") return Coding::text;
   if (name == "binary_little_endian") return Coding::little;
   if (name == "binary_big_endian") return Coding::big;
-  in.fail("its format is none that PLY has");
+  in.fail("its format is not one of PLY's");
 }
 
 PlyHeader readHeader(ByteReader& in) {
@@ -73,7 +73,7 @@ PlyHeader readHeader(ByteReader& in) {
       PlyElement element;
       element.name = std::string(ByteReader::word(line));
       const long long count = in.whole(ByteReader::word(line));
-      if (count < 0) in.fail("it claims fewer than no elements");
+      if (count < 0) in.fail("it claims a negative number of elements");
       element.count = static_cast<std::size_t>(count);
       header.elements.push_back(std::move(element));
     }

@@ -270,8 +270,9 @@ class PatientReader {
     if (info.texCoord != 0 || surface->mesh.uvs.empty())
       fail("the surface \"" + surface->id + "\" has a picture but no TEXCOORD_0");
     const tinygltf::BufferView& view = viewOf(model_.images[source].bufferView);
-    surface->texture = textureOfPng(model_.buffers[view.buffer].data.data() + view.byteOffset,
-                                    view.byteLength, where_);
+    const unsigned char* png = model_.buffers[view.buffer].data.data() + view.byteOffset;
+    surface->texture = textureOfPng(png, view.byteLength, where_);
+    surface->texture_png.assign(png, png + view.byteLength);
   }
 
   std::string where_;

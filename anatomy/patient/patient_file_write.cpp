@@ -116,7 +116,8 @@ class ModelWriter {
 
   // The picture stays in the one buffer, packed, so that the patient is one file.
   int addPicture(const OrganSurface& surface) {
-    const std::vector<unsigned char> png = pngOf(surface.texture, where_);
+    const std::vector<unsigned char> png =
+        surface.texture_png.empty() ? pngOf(surface.texture, where_) : surface.texture_png;
     tinygltf::Image image;
     image.name = surface.id;
     image.mimeType = "image/png";

@@ -32,7 +32,7 @@ std::string knownNames() {
 Seeds readSeeds(const std::filesystem::path& file) {
   const nlohmann::json json = parsedOrDiscarded(readWhole(file).value_or(""));
   const auto fail = [&](const std::string& what) {
-    throw Error(what, file.string(), "Write it anew by a run with another --seeds name");
+    throw Error(what, file.string(), "Let a run write a new one: give another name to --seeds");
   };
   if (!json.is_object() || json.value("format", nlohmann::json()) != "palpa-seeds" ||
       !json.contains("points") || !json["points"].is_object())

@@ -6,6 +6,7 @@
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
+#include "ar/codecs/codecs.h"
 
 namespace palpa::cli {
 namespace {
@@ -57,8 +58,7 @@ void WatchedPicture::write() const {
   for (const ar::BoardPoint& point : points_)
     cv::circle(shown, cv::Point(cvRound(point.pixel.x()), cvRound(point.pixel.y())), 4, kRing, 2,
                cv::LINE_AA);
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", shown, bytes, {cv::IMWRITE_JPEG_QUALITY, 85});
+  const std::vector<std::uint8_t> bytes = ar::encode(".jpg", shown, {cv::IMWRITE_JPEG_QUALITY, 85});
   try {
     writeWhole(file_, {reinterpret_cast<const char*>(bytes.data()), bytes.size()});
   } catch (const Error&) {

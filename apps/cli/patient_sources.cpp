@@ -4,9 +4,9 @@
 #include <cstdio>
 #include <filesystem>
 
-#include <opencv2/imgcodecs.hpp>
-
 #include "anatomy/base/error.h"
+#include "anatomy/base/whole_file.h"
+#include "anatomy/patient/gltf_picture.h"
 #include "anatomy/patient/patient_check.h"
 #include "anatomy/volume/ct_patient.h"
 #include "anatomy/volume/scan.h"
@@ -18,19 +18,8 @@ namespace palpa::cli {
 namespace {
 
 void writePicture(const anatomy::RgbPicture& picture, const std::filesystem::path& file) {
-  cv::Mat bgr(picture.height, picture.width, CV_8UC3);
-  for (int y = 0; y < picture.height; ++y)
-    for (int x = 0; x < picture.width; ++x) {
-      const std::uint8_t* p =
-          &picture.rgb[3 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(picture.width) +
-                            static_cast<std::size_t>(x))];
-      bgr.at<cv::Vec3b>(y, x) = {p[2], p[1], p[0]};
-    }
-  std::filesystem::path beside = file;
-  beside.replace_extension(".part.png");
-  if (!cv::imwrite(beside.string(), bgr))
-    throw Error("cannot be written", file.string(), "Check that the folder may be written to");
-  std::filesystem::rename(beside, file);
+  const std::vector<unsigned char> png = anatomy::pngOf(picture, file.string());
+  writeWhole(file, {reinterpret_cast<const char*>(png.data()), png.size()});
 }
 
 /// One picture a step: what was found, over the brightest of the scan.

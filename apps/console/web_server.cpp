@@ -199,8 +199,9 @@ void WebServer::serve(DeadlineStream& stream) {
     bool closed = false;
     turn = {.remote = stream.remote()};
     const auto whole = [](httplib::Request& request) {
-      request.ranges.clear();
-    };  // parts are refused; the refusal is no answer in parts either
+      request.ranges.clear();  // parts are refused; the refusal is not an answer in parts either
+      request.headers.erase("Accept-Encoding");  // packing costs more than a near network gains
+    };
     if (!processRequest(stream, count == kRequestsAConnection, closed, whole) || closed ||
         stream.cut())
       return;

@@ -3,6 +3,8 @@
 #include <opencv2/imgcodecs.hpp>
 #include <opencv2/imgproc.hpp>
 
+#include "ar/codecs/codecs.h"
+
 namespace palpa::live {
 
 std::string jpegOf(const scene::Image& image, int quality, int widest) {
@@ -12,8 +14,8 @@ std::string jpegOf(const scene::Image& image, int quality, int widest) {
   cv::cvtColor(shown, bgr, cv::COLOR_RGB2BGR);
   if (widest > 0 && bgr.cols > widest)
     cv::resize(bgr, bgr, {widest, bgr.rows * widest / bgr.cols}, 0, 0, cv::INTER_AREA);
-  std::vector<std::uint8_t> bytes;
-  cv::imencode(".jpg", bgr, bytes, {cv::IMWRITE_JPEG_QUALITY, quality});
+  const std::vector<std::uint8_t> bytes =
+      ar::encode(".jpg", bgr, {cv::IMWRITE_JPEG_QUALITY, quality});
   return {bytes.begin(), bytes.end()};
 }
 

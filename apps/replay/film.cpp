@@ -12,17 +12,18 @@ std::filesystem::path besideOf(const std::filesystem::path& file) {
 }
 
 int countedFrames(const std::filesystem::path& file) {
-  cv::VideoCapture again(file.string());
+  const std::unique_ptr<cv::VideoCapture> again = ar::makeVideoCapture();
   int frames = 0;
-  while (again.isOpened() && again.grab()) ++frames;
+  again->open(file.string());
+  while (again->isOpened() && again->grab()) ++frames;
   return frames;
 }
 
 }  // namespace
 
 int codecOf(const std::filesystem::path& file) {
-  if (file.extension() == ".avi") return cv::VideoWriter::fourcc('M', 'J', 'P', 'G');
-  if (file.extension() == ".mp4") return cv::VideoWriter::fourcc('m', 'p', '4', 'v');
+  if (file.extension() == ".avi") return ar::fourcc("MJPG");
+  if (file.extension() == ".mp4") return ar::fourcc("mp4v");
   throw UsageError("is not a kind of video that can be written", file.string(),
                    "End its name in .mp4 or .avi");
 }
@@ -30,16 +31,16 @@ int codecOf(const std::filesystem::path& file) {
 Film::Film(const std::filesystem::path& file, double frames_per_second, int width, int height)
     : file_(file),
       beside_(besideOf(file)),
-      writer_(beside_.string(), codecOf(file), frames_per_second, cv::Size(width, height)),
+      writer_(ar::makeVideoWriter()),
       width_(width),
       height_(height) {
-  if (!writer_.isOpened())
+  if (!writer_->open(beside_.string(), codecOf(file), frames_per_second, {width, height}))
     throw Error("cannot be written", file.string(),
                 "Choose another place or --size, or try the ending .avi");
 }
 
 Film::~Film() {
-  writer_.release();
+  writer_->release();
   std::error_code ignored;
   if (!finished_) std::filesystem::remove(beside_, ignored);
 }
@@ -52,12 +53,12 @@ void Film::add(const scene::Image& picture) {
                     const_cast<std::uint8_t*>(picture.pixels.data()));
   cv::Mat bgr;
   cv::cvtColor(rgb, bgr, cv::COLOR_RGB2BGR);
-  writer_.write(bgr);
+  writer_->write(bgr);
   ++frames_;
 }
 
 void Film::finish() {
-  writer_.release();
+  writer_->release();
   if (const int there = countedFrames(beside_); there != frames_)
     throw Error("only " + std::to_string(there) + " of " + std::to_string(frames_) +
                     " pictures can be read again",

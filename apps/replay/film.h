@@ -1,8 +1,8 @@
 #pragma once
 
 #include <filesystem>
-#include <opencv2/videoio.hpp>
 
+#include "ar/codecs/codecs.h"
 #include "scene/scene_state.h"
 
 namespace palpa::replay {
@@ -23,7 +23,7 @@ class Film {
 
  private:
   std::filesystem::path file_, beside_;
-  cv::VideoWriter writer_;
+  std::unique_ptr<cv::VideoWriter> writer_;
   int frames_ = 0, width_, height_;
   bool finished_ = false;
 };

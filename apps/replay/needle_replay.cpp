@@ -9,6 +9,7 @@
 
 #include "apps/replay/trial_replay.h"
 #include "apps/task_needle/needle_scene.h"
+#include "ar/codecs/codecs.h"
 
 namespace palpa::replay {
 namespace {
@@ -102,7 +103,7 @@ void RecordedPictures::read(std::size_t number) {
   film_.seekg(begins_[number]);
   film_.read(jpeg.data(), static_cast<std::streamsize>(jpeg.size()));
   film_.clear();
-  const cv::Mat picture = cv::imdecode(jpeg, cv::IMREAD_COLOR);
+  const cv::Mat picture = ar::decode(jpeg, cv::IMREAD_COLOR);
   if (picture.empty()) return;
   cv::Mat rgb;
   cv::cvtColor(picture, rgb, cv::COLOR_BGR2RGB);

@@ -6,6 +6,7 @@
 #include <opencv2/imgcodecs.hpp>
 
 #include "anatomy/base/error.h"
+#include "ar/codecs/codecs.h"
 
 namespace palpa::runtime {
 
@@ -82,8 +83,8 @@ VideoRecorder::VideoRecorder(const std::filesystem::path& folder)
 
 void VideoRecorder::add(const CameraView& view) {
   if (!trouble_.empty() || !view.picture || view.picture->empty()) return;
-  std::vector<unsigned char> jpeg;
-  cv::imencode(".jpg", *view.picture, jpeg, {cv::IMWRITE_JPEG_QUALITY, kQuality});
+  const std::vector<std::uint8_t> jpeg =
+      ar::encode(".jpg", *view.picture, {cv::IMWRITE_JPEG_QUALITY, kQuality});
   pictures_file_.write(reinterpret_cast<const char*>(jpeg.data()),
                        static_cast<std::streamsize>(jpeg.size()));
   table_ << pictures_ << ',' << view.t_exposure_ns << ",\"" << view.source << "\","

@@ -54,7 +54,12 @@ std::vector<runtime::BoardPlace> SessionFrame::places() const {
 trial::TrialScene::Stage SessionFrame::stage(scene::HeadDisplay* head) {
   using Views = trial::TrialScene::Views;
   trial::TrialScene::Stage stage;
-  stage.views = !stage_.view ? Views::none : options_.fast ? Views::pictures : Views::continuous;
+  stage.views = !stage_.view                ? Views::none
+                : window_ && !options_.fast ? Views::continuous
+                                            : Views::pictures;
+  stage.wanted = [this](std::int64_t now_ns) {
+    return picture_wanted_ = live_ && !options_.fast && live_->wantsPicture(now_ns);
+  };
   stage.view = stage_.view.get();
   stage.head = head;
   stage.camera = pictures_.camera();
@@ -81,8 +86,7 @@ void SessionFrame::publish(const scene::SceneState& state, const trial::TrialSta
                            std::int64_t now_ns) {
   if (!live_) return;
   live_->show(state.hud, status, now_ns);
-  if (stage_.view && !options_.fast && live_->wantsPicture(now_ns))
-    live_->picture(stage_.view->capture(), now_ns);
+  if (stage_.view && picture_wanted_) live_->picture(stage_.view->capture(), now_ns);
 }
 
 /// HAPTIC, for one device or for two.

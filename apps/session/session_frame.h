@@ -92,6 +92,7 @@ class SessionFrame {
   SessionDevices devices_;
   std::optional<runtime::VideoRecorder> video_;
   std::unique_ptr<live::LiveSession> live_;  ///< while somebody may look on
+  bool picture_wanted_ = false;              ///< by one of them, of this frame
 };
 
 /// Words on the picture that say what is not a person on a real station.

@@ -146,7 +146,8 @@ std::int64_t TrialScene::step(std::int64_t now_ns) {
   }
   if (worn && now_ns < next_frame_ns_) return now_ns;
   next_frame_ns_ = now_ns + (worn ? kBesideHeadset : kFramePeriod);
-  if (stage_.views == Views::continuous) render();
+  const bool wanted = stage_.wanted && stage_.wanted(now_ns);
+  if (stage_.views == Views::continuous || (stage_.views == Views::pictures && wanted)) render();
   if (stage_.views != Views::none) keepPictures();
   if (stage_.watch) stage_.watch(state_, *status_, now_ns);
   return worn ? now_ns : next_frame_ns_;

@@ -36,6 +36,8 @@ class TrialScene : public runtime::Activity {
   enum class Views { none, pictures, continuous };
   struct Stage {
     Views views = Views::none;
+    /// Whether somebody wants to see this frame, asked before each; empty: nobody.
+    std::function<bool(std::int64_t now_ns)> wanted;
     scene::SceneView* view = nullptr;  ///< null without views
     scene::HeadDisplay* head =
         nullptr;  ///< null without one; while it shows, its frames set the pace

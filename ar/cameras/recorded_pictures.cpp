@@ -10,10 +10,10 @@
 #include <vector>
 
 #include <opencv2/imgcodecs.hpp>
-#include <opencv2/videoio.hpp>
 
 #include "anatomy/base/error.h"
 #include "anatomy/base/whole_file.h"
+#include "ar/codecs/codecs.h"
 
 namespace palpa::ar {
 namespace {
@@ -45,15 +45,15 @@ bool isCutShort(const std::string& bytes) {
 
 cv::Mat load(const fs::path& file) {
   if (!fs::is_regular_file(file))
-    throw Error("the picture has gone since the sequence was opened", file.string(),
+    throw Error("the picture was there when the sequence was opened, and is gone", file.string(),
                 "Put it back, or open the sequence again.");
   const std::string bytes = readWhole(file).value_or("");
   if (isCutShort(bytes))
     throw Error("is cut short", file.string(), "Copy the picture again, or narrow the pattern.");
   cv::Mat image;
   try {
-    image = cv::imdecode(std::vector<char>(bytes.begin(), bytes.end()),
-                         cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
+    image =
+        decode({bytes.begin(), bytes.end()}, cv::IMREAD_ANYCOLOR | cv::IMREAD_IGNORE_ORIENTATION);
   } catch (const cv::Exception&) {  // an absurd header: treated like any damage
   }
   if (image.empty())
@@ -117,9 +117,11 @@ std::vector<std::int64_t> timesBeside(const std::filesystem::path& film) {
 
 struct VideoFile::Impl {
   explicit Impl(const std::filesystem::path& file)
-      : path(file), film(file.string(), cv::CAP_FFMPEG), times(timesBeside(file)) {}
+      : path(file), film(makeVideoCapture()), times(timesBeside(file)) {
+    film->open(file.string(), cv::CAP_FFMPEG);
+  }
   std::filesystem::path path;
-  cv::VideoCapture film;
+  std::unique_ptr<cv::VideoCapture> film;
   std::vector<std::int64_t> times;
   double rate = kUsualRate;
   std::uint64_t next = 0;
@@ -128,9 +130,9 @@ struct VideoFile::Impl {
 VideoFile::VideoFile(const std::filesystem::path& file) try : impl_(std::make_unique<Impl>(file)) {
   if (!std::filesystem::is_regular_file(file))
     throw Error("there is no such film", file.string(), "Check the name");
-  if (!impl_->film.isOpened())
+  if (!impl_->film->isOpened())
     throw Error("cannot be read as a film", file.string(), "Convert it to MP4 or to Motion JPEG");
-  const double rate = impl_->film.get(cv::CAP_PROP_FPS);
+  const double rate = impl_->film->get(cv::CAP_PROP_FPS);
   if (std::isfinite(rate) && rate >= 1 && rate <= 1000) impl_->rate = rate;
 } catch (const cv::Exception&) {
   throw Error("cannot be read as a film", file.string(), "Convert it to MP4 or to Motion JPEG");
@@ -147,7 +149,7 @@ double VideoFile::rate_Hz() const {
 
 std::optional<Frame> VideoFile::grab() {
   Frame frame;
-  if (!impl_->film.read(frame.image) || frame.image.empty()) {
+  if (!impl_->film->read(frame.image) || frame.image.empty()) {
     if (impl_->next == 0)
       throw Error("holds no picture that can be read", impl_->path.string(),
                   "Convert it to MP4 or to Motion JPEG");

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <opencv2/videoio.hpp>
 
 #include "anatomy/base/error.h"
+#include "ar/codecs/codecs.h"
 
 namespace palpa::ar {
 namespace {
@@ -21,10 +21,10 @@ std::string sizeText(int width, int height) {
 
 struct Webcam::Impl {
   WebcamSettings settings;
-  cv::VideoCapture camera;
+  std::unique_ptr<cv::VideoCapture> camera = makeVideoCapture();
   std::uint64_t next = 0;
 
-  bool set(int property, double value) { return camera.set(property, value); }
+  bool set(int property, double value) { return camera->set(property, value); }
 };
 
 Webcam::Webcam(const WebcamSettings& settings) : impl_(std::make_unique<Impl>()) {
@@ -32,13 +32,12 @@ Webcam::Webcam(const WebcamSettings& settings) : impl_(std::make_unique<Impl>())
   if (!std::filesystem::exists(settings.device))
     throw Error("there is no such camera", settings.device,
                 "Plug it in, and look which /dev/video* it is");
-  cv::VideoCapture& camera = impl_->camera;
+  cv::VideoCapture& camera = *impl_->camera;
   if (!camera.open(settings.device, cv::CAP_V4L2))
     throw Error("cannot be opened", settings.device,
                 "Close other programs that use the camera; your user must be in the group video");
-  impl_->set(cv::CAP_PROP_FOURCC,
-             cv::VideoWriter::fourcc('M', 'J', 'P',
-                                     'G'));  // raw pictures are too many for USB 2 beyond 640x480
+  // Raw pictures are too many for USB 2 beyond 640x480.
+  impl_->set(cv::CAP_PROP_FOURCC, fourcc("MJPG"));
   impl_->set(cv::CAP_PROP_FRAME_WIDTH, settings.width);
   impl_->set(cv::CAP_PROP_FRAME_HEIGHT, settings.height);
   impl_->set(cv::CAP_PROP_FPS, settings.rate_Hz);
@@ -70,12 +69,12 @@ std::optional<Frame> Webcam::grab() {
   Frame frame;
   bool read = false;
   try {
-    read = impl_->camera.read(frame.image);
+    read = impl_->camera->read(frame.image);
   } catch (const cv::Exception&) {
   }
   if (!read || frame.image.empty())
     throw Error("gives no pictures any more", impl_->settings.device, "Look at its cable");
-  frame.t_exposure_ns = std::llround(1e6 * impl_->camera.get(cv::CAP_PROP_POS_MSEC));
+  frame.t_exposure_ns = std::llround(1e6 * impl_->camera->get(cv::CAP_PROP_POS_MSEC));
   frame.number = impl_->next++;
   frame.source = impl_->settings.device;
   return frame;

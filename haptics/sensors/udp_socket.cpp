@@ -23,7 +23,7 @@ sockaddr_in ipv4(in_addr host, std::uint16_t port) {
 in_addr hostOf(const std::string& where, const std::string& address) {
   in_addr host{};
   if (inet_pton(AF_INET, address.c_str(), &host) != 1)
-    throw UsageError("\"" + address + "\" is no network address", where,
+    throw UsageError("\"" + address + "\" is not a network address", where,
                      "Write it in figures, as 192.168.1.1.");
   return host;
 }

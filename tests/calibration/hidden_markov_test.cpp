@@ -234,7 +234,7 @@ TEST(HiddenMarkov, WhatTheTrialsCannotTellIsNamed) {
   EXPECT_TRUE(says(with(good[2].leftCols(1)), "trial 3 has 1 features, trial 1 has 2"));
   Eigen::MatrixXd bad = good[2];
   bad(7, 1) = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(says(with(bad), "trial 3 holds a value that is no number"));
+  EXPECT_TRUE(says(with(bad), "trial 3 holds a value that is not a number"));
   bad(7, 1) = 1e300;
   EXPECT_TRUE(says(with(bad), "feature 2 is too large"));
   auto still = good;
@@ -249,12 +249,12 @@ TEST(HiddenMarkov, WhatTheTrialsCannotTellIsNamed) {
       says(complaint([&] { mostLikely(m, good[0].leftCols(1)); }), "1 features, the model 2"));
   EXPECT_TRUE(
       says(complaint([&] { logLikelihood(m, bad * std::numeric_limits<double>::infinity()); }),
-           "no number"));
+           "not a number"));
   EXPECT_TRUE(says(complaint([&] { filtered(m, {}, Eigen::Vector3d::Zero()); }),
                    "not of the model's size"));
   EXPECT_TRUE(
       says(complaint([&] { filtered(m, Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()); }),
-           "the belief is none"));
+           "the belief is not a distribution"));
 }
 
 }  // namespace

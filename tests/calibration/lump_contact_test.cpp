@@ -96,7 +96,7 @@ TEST(LumpContact, DataThatCannotTellAreRefused) {
   EXPECT_NE(lumpRefusal({}).find("too few"), std::string::npos);
   std::vector<LumpSample> samples = recorded();
   samples[100].f_r.x() = NAN;
-  EXPECT_NE(lumpRefusal(samples).find("no number"), std::string::npos);
+  EXPECT_NE(lumpRefusal(samples).find("not a number"), std::string::npos);
   samples = recorded();
   for (LumpSample& s : samples)
     s.f_r = haptics::forceOf(kBedOfLump, s.x, s.rate) * s.n;  // no lump at all

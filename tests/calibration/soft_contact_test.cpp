@@ -125,7 +125,7 @@ TEST(SoftContact, DataThatCannotTellAreRefusedInWords) {
   for (PressSample s : good) cut.push_back((s.f = std::min(s.f, 1.5), s));
   EXPECT_TRUE(says(refusal(cut), "saturated"));
   none[100].f = std::nan("");
-  EXPECT_TRUE(says(refusal(none), "no number"));
+  EXPECT_TRUE(says(refusal(none), "not a number"));
   std::mt19937 random(2);
   std::normal_distribution<double> normal;
   for (int i = 0; i < 2000; ++i) {

@@ -106,7 +106,7 @@ TEST(SurfaceFriction, DataThatCannotTellAreRefusedInWords) {
   EXPECT_TRUE(says(refusalOf(wrong), "drags along the motion"));
   std::vector<SlideSample> none = stroked(kRubber, {});
   none[7].drag.x() = std::nan("");
-  EXPECT_TRUE(says(refusalOf(none), "no number"));
+  EXPECT_TRUE(says(refusalOf(none), "not a number"));
 }
 
 }  // namespace

@@ -10,11 +10,14 @@
 namespace palpa::house {
 namespace {
 
-/// What the operating system is asked stands in one folder; the drivers, and two adapters that load
-/// foreign libraries, lie below it and may not include it.
+/// What the operating system is asked stands in one folder; the drivers, and three adapters that
+/// load foreign libraries, lie below it and may not include it.
 bool mayAskTheSystem(const std::string& path) {
-  const std::string asking[] = {"apps/os/", "haptics/devices/", "haptics/sensors/",
+  const std::string asking[] = {"apps/os/",
+                                "haptics/devices/",
+                                "haptics/sensors/",
                                 "ar/headset/xr_frame_wait.cpp",
+                                "ar/codecs/codecs.cpp",
                                 "scene/window/glew_without_glx.cpp"};
   return std::any_of(std::begin(asking), std::end(asking),
                      [&](const std::string& place) { return path.rfind(place, 0) == 0; });

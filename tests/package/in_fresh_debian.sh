@@ -34,7 +34,8 @@ packages_came=$(($(dpkg-query -W | wc -l) - packages_before))
 files_came=$(($(files | wc -l) - $(wc -l </opt/before)))
 echo "      $packages_came packages came with it, $files_came files"
 expect "no package is broken" bash -c '[ -z "$(dpkg --audit)" ]'
-expect "no library is missing" bash -c '! ldd /usr/bin/palpa | grep "not found"'
+expect "no library is missing" bash -c \
+  '! ldd /usr/bin/palpa /usr/lib/palpa/*.so | grep "not found"'
 
 timed "palpa --version" as_user palpa --version
 expect "  says the package's version" [ "$answer" = "palpa $(dpkg-deb -f "$deb" Version)" ]

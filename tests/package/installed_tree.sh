@@ -19,6 +19,12 @@ expect "its data are those beside it" grep -qF "\"$tree/share/palpa/assets\"" <<
 # All data are there, none of the pictures of the README.
 expect "data are complete" \
   diff -rq -x pictures -x '*.sh' "$source/assets" "$tree/share/palpa/assets"
+pictures() { "$palpa" calibrate camera --images shot.png --board chessboard:9x6:0.025 2>&1; }
+echo words >shot.png
+expect "its codecs are those beside it" grep -qF "cannot be read as a picture" <<<"$(pictures)"
+mv "$tree/lib/palpa" "$tree/lib/elsewhere"
+expect "without them it says so" grep -qF "libpalpa_opencv_codecs.so: cannot" <<<"$(pictures)"
+mv "$tree/lib/elsewhere" "$tree/lib/palpa"
 expect "wrong PALPA_ASSETS is refused" bash -c "! PALPA_ASSETS=$work/home '$palpa' patient info"
 
 page=$tree/share/man/man1/palpa.1.gz

@@ -85,7 +85,7 @@ void writeCusumChart(Html& html, const progress::Series& series, const progress:
                                    fixed(c.limits.s, 3) +
                                    " away (circle). Limits: " + fixed(c.limits.h_accept, 2) +
                                    " below and " + fixed(c.limits.h_reject, 2) +
-                                   " above 0; after a limit was crossed the sum begins anew. "
+                                   " above 0; after a limit was crossed the sum begins again. "
                                    "Sequential test of Wald (1947), chances of error 0.1 each.");
   }
   DataTable table{"The figures of this plot", {"Trial", "Failure", "Sum", "So far"}, {}};
