@@ -18,7 +18,7 @@ struct ExpertTrial {
   std::string expert;       ///< pseudonym
 };
 
-/// Mean and acceptable deviation of the taught path (after Tzafestas et al. 2008, section 3.1).
+/// Mean and acceptable deviation of the expert path (after Tzafestas et al. 2008, section 3.1).
 struct ExpertPath {
   int version = 1;
   bool simulated = false;
@@ -37,7 +37,7 @@ struct ExpertPath {
   std::string source;  ///< the file's text, for the evidence; empty where there is none
 };
 
-/// Fits the taught path. With the component-wise median as centre and r a trial's distance from it,
+/// Fits the expert path. With the component-wise median as centre and r a trial's distance from it,
 /// a trial is left out (and counted) when, in any of entry, direction, start or end of the line,
 ///   r > 3 median(r)                      0.2 % of a two-dimensional normal distribution
 /// or in depth |d - median| > 3 x 1.4826 median |d - median|     0.3 % of a normal one;

@@ -184,7 +184,7 @@ void addSessionArguments(CLI::App& command, session::SessionOptions& o) {
   command.add_flag_callback(
       "--no-familiarisation", [&o] { o.familiarisation = false; },
       "A person starts without a first unscored trial");
-  command.add_option("--expert-path", o.expert_path, "Optimal path; default: the task's")
+  command.add_option("--expert-path", o.expert_path, "Expert path; default: the task's")
       ->type_name("FILE");
   choice(
       command, "--geometry", o.exact_geometry, kGeometries,

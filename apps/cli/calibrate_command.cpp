@@ -99,7 +99,7 @@ namespace {
 
 constexpr const char* kExpertExamples = R"(Examples:
   palpa calibrate experts --from out/expert-a/session.palpa out/expert-b/session.palpa --out path.json
-      the optimal path from experts' recorded trials
+      the expert path from experts' recorded trials
   palpa calibrate experts --simulate 50 --experts 3 --seed 900001 --out assets/tasks/paracentesis_expert_path.json
       the shipped path, made again: three simulated experts, fifty trials each
 Experts who calibrate must not take part in a study that uses the path.)";
@@ -192,7 +192,7 @@ void addCalibrate(CLI::App& program) {
   addStationCalibrations(*calibrate);
   addSubtaskCalibration(*calibrate);
   CLI::App* experts =
-      calibrate->add_subcommand("experts", "The optimal path from experts' recorded trials");
+      calibrate->add_subcommand("experts", "The expert path from experts' recorded trials");
   experts->footer(kExpertExamples);
   const auto o = std::make_shared<ExpertOptions>();
   experts->add_option("--from", o->from, "Recorded sessions of experts")->type_name("FILE...");

@@ -100,7 +100,7 @@ report::BesideTrial besideOf(const TrialReportOptions& o) {
 
 void needsPath(const evidence::RecordedSession& session, const std::string& file) {
   if (session.hasGoal() || session.reader().info().expert_path_json.empty())
-    throw UsageError("has no taught path: there is no technique to judge", file,
+    throw UsageError("has no expert path: there is no technique to judge", file,
                      "Choose a session of paracentesis");
 }
 

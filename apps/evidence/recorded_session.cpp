@@ -46,7 +46,7 @@ RecordedSession::RecordedSession(const std::filesystem::path& file)
   if (!task_.block) anatomy::requireForNeedle(patient_, patient);
   if (!info.expert_path_json.empty())
     expert_path_ = std::make_unique<calibration::ExpertPath>(
-        calibration::parseExpertPath(info.expert_path_json, file.string() + ", its optimal path"));
+        calibration::parseExpertPath(info.expert_path_json, file.string() + ", its expert path"));
   trials_ = reader_->trials();
 }
 
@@ -82,7 +82,7 @@ assess::TrialAssessment RecordedSession::rescore(const record::RecordedTrial& tr
     return again;
   }
   if (!expert_path_)
-    throw Error("no optimal path was recorded", "session",
+    throw Error("no expert path was recorded", "session",
                 "It was made to calibrate experts, not to be scored");
   const assess::TrialFacts facts{trial.header.trial, training::roleNamed(trial.header.role),
                                  simulated_,         trial.header.force_feedback,

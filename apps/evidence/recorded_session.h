@@ -35,7 +35,7 @@ class RecordedSession {
   /// Calls `visit` with every trial and all its judged ticks, in A: one pass over the record.
   void eachTrial(
       const std::function<void(const record::RecordedTrial&, const Samples&)>& visit) const;
-  bool hasGoal() const { return task_.goal.has_value(); }  ///< else the vein, by an optimal path
+  bool hasGoal() const { return task_.goal.has_value(); }  ///< else the vein, by an expert path
   /// The trial scored again, from the evidence alone: of a task with a goal of its own success,
   /// time and course. Throws Error when no expert path was recorded.
   assess::TrialAssessment rescore(const record::RecordedTrial& trial, const Samples& samples) const;

@@ -93,7 +93,7 @@ std::vector<report::Fact> stationFacts(const SessionOptions& options, const Need
     facts.insert(facts.begin() + 3, {"Patient", world.patient.name,
                                      std::string(anatomy::name(world.patient.side)) + " side"});
   if (world.expert_path)
-    facts.push_back({"Optimal path", format("from %d expert trials", world.expert_path->trials),
+    facts.push_back({"Expert path", format("from %d expert trials", world.expert_path->trials),
                      world.expert_path->simulated ? "simulated experts" : ""});
   return facts;
 }

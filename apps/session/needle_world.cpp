@@ -60,7 +60,7 @@ task_needle::TaskSettings makeTask(const SessionOptions& options) {
                                                  : std::filesystem::path(options.task));
   if (options.expert_path.empty()) return task;
   if (task.goal)
-    throw UsageError("has no meaning for this task: it has a goal of its own, no optimal path",
+    throw UsageError("has no meaning for this task: it has a goal of its own, no expert path",
                      "--expert-path", "Leave it out");
   task.expert_path = options.expert_path;
   return task;

@@ -73,7 +73,7 @@ struct Protocol {
   std::uint64_t trial_seed = 1;  ///< of the tasks' chances: the same for all trainees
   bool blind_trainee = false,
        blind_educator = false;        ///< must not be told the condition that was drawn
-  bool excludes_experts = true;       ///< who made the optimal path of a task takes no part
+  bool excludes_experts = true;       ///< who made the expert path of a task takes no part
   std::vector<std::string> excluded;  ///< further pseudonyms
 
   const Group* group(const std::string& name) const;  ///< null: none of that name

@@ -178,7 +178,7 @@ TaskSettings readTask(const JsonFile& file, const std::filesystem::path& folder)
   task.words = wordsIn(file);
   if (file.has("phantom")) task.block = blockIn(file);
   if (task.block && !file.has("goal"))
-    file.refuse("phantom", "needs \"goal\" beside it: no optimal path leads through a block");
+    file.refuse("phantom", "needs \"goal\" beside it: no expert path leads through a block");
   if (file.has("goal")) {
     task.goal = goalIn(file, task.augmentations);
   } else {

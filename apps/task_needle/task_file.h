@@ -30,7 +30,7 @@ struct TaskWords {
 /// Throws UsageError for tissues and organs that there are not.
 TaskWords wordsIn(const JsonFile& task);
 
-/// What a trial is for, where no optimal path is known: a part of the task to be in for a while.
+/// What a trial is for, where no expert path is known: a part of the task to be in for a while.
 ///   "goal": {"part": "seated", "for_s": 1, "means": "the pin is seated in cancellous bone"}
 struct Goal {
   std::size_t part = 0;  ///< of the task's subtasks
@@ -81,13 +81,13 @@ struct PassLimit {
 };
 
 /// A needle task as its file says it (assets/tasks/*.json). A new site needs a file, not code. It
-/// has an optimal path ("expert_path", "scoring") or a goal of its own ("goal").
+/// has an expert path ("expert_path", "scoring") or a goal of its own ("goal").
 struct TaskSettings {
   std::string id, title;
   double time_limit_s = 300;
   PassLimit most_passes;
   assess::ScoringRules rules;
-  std::filesystem::path expert_path;  ///< where the optimal path is; empty: there is none
+  std::filesystem::path expert_path;  ///< where the expert path is; empty: there is none
   std::filesystem::path materials;
   std::string source;  ///< the file's text, for the evidence
   station::Taxonomy taxonomy;

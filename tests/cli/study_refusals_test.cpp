@@ -34,7 +34,7 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
   text["excluded"] = json::array({"T001"});
   here.file("protocol.json", text.dump());
   refused("excluded by the protocol");
-  // An expert whose trials made the task's optimal path.
+  // An expert whose trials made the task's expert path.
   json path = json::parse(contentOf(kShipped + "/tasks/paracentesis_expert_path.json")),
        task = json::parse(contentOf(kShipped + "/tasks/paracentesis.json"));
   path["experts"].push_back("T001");
@@ -44,7 +44,7 @@ TEST_F(Study, RefusesWhoCannotTakePart) {
   text = protocolText();
   text["sessions"][0]["blocks"][0]["task"] = "task.json";
   here.file("protocol.json", text.dump());
-  refused("made the optimal path");
+  refused("made the expert path");
   text["conditions"][0]["name"] = "GG";
   here.file("protocol.json", text.dump());
   refused("\"FF\", which is not one of the protocol's conditions");

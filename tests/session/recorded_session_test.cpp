@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 
 class DamagedSession : public ::testing::Test {
  protected:
-  /// Of a task without an optimal path, at a block.
+  /// Of a task without an expert path, at a block.
   DamagedSession() : info(record::test::syntheticInfo()) {
     info.session_json = R"({"X_DA": {"p_m": [0, 0, 0], "q_wxyz": [1, 0, 0, 0]},)"
                         R"( "simulated": true, "operator": "expert"})";
@@ -52,7 +52,7 @@ TEST_F(DamagedSession, NamesTheFileAndThePart) {
   EXPECT_EQ(complaint().rfind(partNamed("task: "), 0), 0u) << complaint();
   info = whole;
   info.expert_path_json = "{}";
-  EXPECT_EQ(complaint().rfind(partNamed("optimal path: field \"format\" is missing"), 0), 0u)
+  EXPECT_EQ(complaint().rfind(partNamed("expert path: field \"format\" is missing"), 0), 0u)
       << complaint();
 }
 

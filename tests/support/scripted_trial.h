@@ -7,7 +7,7 @@
 #include "anatomy/patient.h"
 #include "tests/assess/motions.h"
 
-/// Hand-made needle trials on a patient's landmarks, as the taught path has them, with one thing
+/// Hand-made needle trials on a patient's landmarks, as the expert path has them, with one thing
 /// wrong and everything else as a good trial scatters. Nobody performed them.
 namespace palpa::test {
 

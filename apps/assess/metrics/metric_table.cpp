@@ -5,7 +5,7 @@ namespace {
 
 constexpr char kNeverInserted[] = "the needle was never inserted";
 constexpr char kNoContact[] = "nothing was touched";
-constexpr char kNoPath[] = "the task has no taught path";
+constexpr char kNoPath[] = "the task has no expert path";
 
 using enum Better;
 
@@ -105,10 +105,10 @@ constexpr MetricDefinition kMetrics[] = {
      "times the tip went out of the vein through its far wall", ""},
     {"entry_along_mm", "Puncture along the clavicle", "mm", neither, "needle",
      "from the taught entry toward the breastbone (negative: toward the shoulder), scored pass",
-     "the skin was never punctured, or the task has no taught path"},
+     "the skin was never punctured, or the task has no expert path"},
     {"entry_across_mm", "Puncture across the clavicle", "mm", neither, "needle",
      "from the taught entry toward the clavicle (negative: away from it), scored pass",
-     "the skin was never punctured, or the task has no taught path"},
+     "the skin was never punctured, or the task has no expert path"},
     {"aim_steeper_deg", "Aim toward the back", "deg", neither, "needle",
      "steeper (positive) or flatter than taught, when the advance begins", "there was no advance"},
     {"aim_cephalad_deg", "Aim toward the head", "deg", neither, "needle",

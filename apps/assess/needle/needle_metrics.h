@@ -17,11 +17,11 @@ std::vector<metrics::MetricValue> techniqueMetrics(const TrialReview& review,
                                                    const calibration::ExpertPath& path,
                                                    const ScoringRules& rules);
 
-/// Figures of a needle's motion and force that need no taught path; samples up to the end that is
+/// Figures of a needle's motion and force that need no expert path; samples up to the end that is
 /// judged.
 std::vector<metrics::MetricValue> motionMetrics(Samples samples, const ScoringRules& rules);
 
-/// All figures of a trial with a taught path, as metric_table defines them. `assessment`: of the
+/// All figures of a trial with an expert path, as metric_table defines them. `assessment`: of the
 /// same review.
 std::vector<metrics::MetricValue> needleMetrics(const TrialReview& review,
                                                 const TrialAssessment& assessment,
@@ -29,7 +29,7 @@ std::vector<metrics::MetricValue> needleMetrics(const TrialReview& review,
                                                 const calibration::ExpertPath& path,
                                                 const ScoringRules& rules);
 
-/// The figures of a trial without a taught path: success, time and motion; from its outcome and
+/// The figures of a trial without an expert path: success, time and motion; from its outcome and
 /// values.
 std::vector<metrics::MetricValue> goalMetrics(const TrialAssessment& assessment, Samples samples,
                                               const ScoringRules& rules);

@@ -42,7 +42,7 @@ void writeNearMisses(Html& html, const assess::TrialAssessment& assessment);
 
 /// Which of the six common errors were made, when, and why that matters; then pass or fail with its
 /// reasons, and the checklist with what was done, not done, did not arise, or nobody has judged.
-/// Nothing for a trial that was judged by no taught path.
+/// Nothing for a trial that was judged by no expert path.
 void writeCompetence(Html& html, const TrialPage& page);
 
 std::string_view competenceStyle();

@@ -202,7 +202,7 @@ void addExpertsOf(const study::Block& block,
   const task_needle::TaskSettings task = task_needle::readTask(block.task);
   if (task.expert_path.empty()) return;
   for (const std::string& expert : calibration::readExpertPath(task.expert_path).experts)
-    excluded->emplace_back(expert, "made the optimal path that this study is judged by (" +
+    excluded->emplace_back(expert, "made the expert path that this study is judged by (" +
                                        task.expert_path.string() + ")");
 }
 

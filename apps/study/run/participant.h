@@ -54,7 +54,7 @@ class StudyParticipant {
 };
 
 /// Who takes no part, and why: the protocol's own list, and the experts whose trials made the
-/// optimal path of one of its tasks.
+/// expert path of one of its tasks.
 std::vector<std::pair<std::string, std::string>> excludedFrom(const study::Protocol& protocol);
 
 }  // namespace palpa::study
