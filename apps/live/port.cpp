@@ -9,6 +9,7 @@
 #include "apps/os/real_time.h"
 #include "apps/os/socket.h"
 #include "apps/runtime/clock.h"
+#include "ar/codecs/codecs.h"
 
 namespace palpa::live {
 namespace {
@@ -43,6 +44,7 @@ Port::Port(std::string path, const LiveLog& log, Received received,
       received_(std::move(received)),
       patience_(patience),
       listener_(os::listenAt(path_, "Give a folder that can be written to, or leave out --live")) {
+  ar::loadCodecs();
   thread_ = std::thread([this] { run(); });
 }
 

@@ -77,6 +77,7 @@ VideoRecorder::VideoRecorder(const std::filesystem::path& folder)
       table_(film_.string() + ".csv") {
   if (!pictures_file_ || !table_)
     throw Error("cannot be written", film_.string(), "Choose another --out");
+  ar::loadCodecs();
   table_ << "number,t_exposure_ns,source,fault,tracking,points,rms_px,t_x_m,t_y_m,t_z_m,q_w,q_x,q_"
             "y,q_z\n";
 }

@@ -30,6 +30,8 @@ const LoadedCodecs& codecs() {
 
 }  // namespace
 
+void loadCodecs() { codecs(); }
+
 std::vector<std::uint8_t> encode(const char* ending, const cv::Mat& picture,
                                  const std::vector<int>& parameters) {
   std::vector<std::uint8_t> bytes;

@@ -12,6 +12,9 @@
 /// shared libraries that the program would start with. All throw Error where they are missing.
 namespace palpa::ar {
 
+/// Now, so that nothing is left to fail or to take its time later.
+void loadCodecs();
+
 /// `picture` (BGR or gray) as the bytes of a file with this ending (".jpg", ".png"); empty where it
 /// has no pixels or the format cannot hold it. `parameters`: pairs, cv::ImwriteFlags.
 std::vector<std::uint8_t> encode(const char* ending, const cv::Mat& picture,
