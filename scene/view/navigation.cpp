@@ -155,7 +155,18 @@ WindowInput::WindowInput(vtkRenderWindow& window) : events_(std::make_unique<Eve
   interactor.Initialize();
 }
 
-WindowInput::~WindowInput() { events_->interactor->RemoveObserver(events_->listener); }
+/// VTK keeps every interactor in a list until its loop has ended, and asks all of them for events:
+/// this one too, when its window is gone. The window itself is not ours to close.
+WindowInput::~WindowInput() {
+  vtkRenderWindowInteractor& interactor = *events_->interactor;
+  interactor.RemoveObserver(events_->listener);
+  interactor.ProcessEvents();  // what is left is of this window
+  vtkRenderWindow& window = *interactor.GetRenderWindow();
+  interactor.SetRenderWindow(nullptr);
+  window.SetInteractor(nullptr);
+  interactor.SetDone(true);
+  interactor.ProcessEvents();
+}
 
 ViewInput WindowInput::poll() {
   events_->interactor->ProcessEvents();
