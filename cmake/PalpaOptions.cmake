@@ -47,7 +47,8 @@ endif()
 if(PALPA_SANITIZE)
   add_compile_definitions(EIGEN_MALLOC_ALREADY_ALIGNED=1)
   add_compile_options(-fsanitize=${PALPA_SANITIZE} -fno-omit-frame-pointer -g1)
-  add_link_options(-fsanitize=${PALPA_SANITIZE})
+  # They open libraries in the program's place: for that only a run path of the old kind counts.
+  add_link_options(-fsanitize=${PALPA_SANITIZE} -Wl,--disable-new-dtags)
 endif()
 # Where not everything is looked into, in half the time: a null pointer stops the program as well.
 if(PALPA_SANITIZE MATCHES "undefined" AND PALPA_PREBUILT)
