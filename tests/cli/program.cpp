@@ -148,7 +148,7 @@ std::string quickStation(const std::string& shipped) {
   if (!fs::exists(here / shipped)) {
     nlohmann::json station =
         nlohmann::json::parse(contentOf(fs::path(PALPA_SOURCE_DIR) / "assets/stations" / shipped));
-    station["camera"]["rate_Hz"] = 2;
+    station["camera"]["rate_Hz"] = 1;
     here.file(shipped, station.dump());
   }
   return (here / shipped).string();

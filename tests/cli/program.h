@@ -65,7 +65,7 @@ std::string contentOf(const std::filesystem::path& file);
 /// with the one before.
 inline constexpr const char* kShortTrial = "41";
 
-/// The file of a shipped station ("virtual_bench.json") whose camera takes two pictures a second:
+/// The file of a shipped station ("virtual_bench.json") whose camera takes one picture a second:
 /// to draw and to read them is most of a session's computing, and changes no score.
 std::string quickStation(const std::string& shipped);
 

@@ -66,7 +66,7 @@ void expectNoAid(const Aids& aids) {
 Aids ofNeedle(const SessionOptions& options, const std::string& name) {
   const std::filesystem::path folder = freshPlace(name);
   NeedleWorld world(options);
-  world.station.camera_rate_Hz = 2;
+  world.station.camera_rate_Hz = 1;
   runNeedleSession(options, world, folder);
   return aidsIn(folder);
 }
@@ -85,7 +85,8 @@ TEST(Assessment, NoAidAddsForceToANeedle) {
 TEST(Assessment, NoAidAddsForceToAPalpation) {
   const SessionOptions options = quick(true);
   const std::filesystem::path folder = freshPlace("assessed_palpation");
-  const PalpationWorld world(options);
+  PalpationWorld world(options);
+  world.station.camera_rate_Hz = 1;
   runPalpation(options, world, folder);
   expectNoAid(aidsIn(folder));
 }
@@ -93,7 +94,8 @@ TEST(Assessment, NoAidAddsForceToAPalpation) {
 TEST(Assessment, NoAidAddsForceToASearch) {
   const SessionOptions options = quick(true);
   const std::filesystem::path folder = freshPlace("assessed_search");
-  const SearchWorld world(options);
+  SearchWorld world(options);
+  world.station.camera_rate_Hz = 1;
   runSearch(options, world, folder);
   expectNoAid(aidsIn(folder));
 }
@@ -132,7 +134,7 @@ TEST(Assessment, ThePassAfterTheLastEndsTheTrial) {
   const auto run = [&](bool assess, int most) {
     const SessionOptions options = quick(assess, 601);
     NeedleWorld world(options);
-    world.station.camera_rate_Hz = 2;
+    world.station.camera_rate_Hz = 1;
     if (most > 0) world.task.most_passes.assessed = most;
     EXPECT_EQ(world.task.most_passes.practice, 0);
     return runNeedleSession(options, world, freshPlace("passes")).trials.at(0).assessment;

@@ -76,7 +76,7 @@ TEST(Rescore, RecordedTrialsHaveTheirStoredScoresExactly) {
     options.display = scene::Display::offscreen;
     options.trials = each;
     NeedleWorld world(options);
-    world.station.camera_rate_Hz = 2;  // pictures change no score; the ready check needs some
+    world.station.camera_rate_Hz = 1;  // pictures change no score; the ready check needs some
     int kind = 0;
     for (const OperatorKind who : {OperatorKind::expert, OperatorKind::novice})
       for (const bool felt : {true, false}) {
