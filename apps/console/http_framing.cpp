@@ -32,7 +32,7 @@ DeadlineStream::DeadlineStream(int socket) : socket_(socket) {
 
 void DeadlineStream::begin(Clock::time_point deadline, std::size_t most) {
   deadline_ = deadline;
-  left_ = most;
+  most_ = most;
 }
 
 bool DeadlineStream::waits(std::chrono::milliseconds time) const {
@@ -49,15 +49,16 @@ bool DeadlineStream::is_readable() const {
 bool DeadlineStream::is_writable() const { return os::readerTakes(socket_, kWrite_ms); }
 
 bool DeadlineStream::fill() {
-  if (left_ == 0 || !is_readable()) {
+  if (most_ == 0 || !is_readable()) {
     cut_ = true;
     return false;
   }
   char bytes[4096];
   const std::size_t count =
-      os::receiveSome(socket_, bytes, std::min(sizeof bytes, left_)).value_or(0);
-  if (count == 0) return false;
-  left_ -= count;
+      os::receiveSome(socket_, bytes, std::min(sizeof bytes, most_)).value_or(0);
+  left_ = count == 0;
+  if (left_) return false;
+  most_ -= count;
   buffer_.assign(bytes, count);
   at_ = 0;
   return true;

@@ -29,17 +29,18 @@ class DeadlineStream final : public httplib::Stream {
   void get_local_ip_and_port(std::string& ip, int& port) const override;
   socket_t socket() const override { return socket_; }
   const std::string& remote() const { return remote_; }
-  bool cut() const { return cut_; }  ///< it was too slow or too long
+  bool cut() const { return cut_; }    ///< it was too slow or too long
+  bool left() const { return left_; }  ///< the other side ended it
 
  private:
   bool fill();
   const int socket_;
   std::string remote_;
   Clock::time_point deadline_;
-  std::size_t left_ = 0;
+  std::size_t most_ = 0;  ///< bytes that may still come
   std::string buffer_;
   std::size_t at_ = 0;
-  bool cut_ = false;
+  bool cut_ = false, left_ = false;
 };
 
 inline constexpr std::size_t kLongestBody = 64u << 10;

@@ -42,8 +42,9 @@ class LowPriorityPool final : public httplib::TaskQueue {
 struct RequestState {
   std::string remote;
   bool admitted = false;  ///< framing and guard let it pass; its body is read then
-  bool noted = false;     ///< a refusal, in words
-  bool nowhere = false;   ///< no such path
+  bool answered = false;
+  bool noted = false;    ///< a refusal, in words
+  bool nowhere = false;  ///< no such path
   bool closes = false;
 };
 thread_local RequestState turn;
@@ -161,6 +162,7 @@ httplib::Server::HandlerResponse WebServer::admit(const httplib::Request& reques
 
 /// Every answer passes here, also to what could not be read as a request.
 void WebServer::finish(const httplib::Request& request, httplib::Response& response) {
+  turn.answered = true;
   setSafeHeaders(request, response);
   const bool refused =
       response.status >= 400 && response.status != 409 && (response.status != 404 || turn.nowhere);
@@ -179,8 +181,6 @@ bool WebServer::process_and_close_socket(socket_t socket) {
   if (connections_.fetch_add(1) < kMostConnections) {
     DeadlineStream stream(socket);
     serve(stream);
-    if (stream.cut())
-      refusals_.note(stream.remote(), "-", "-", 408, "a request was too slow or too long");
   } else {
     os::sendSome(socket, kFull, sizeof kFull - 1);
     refusals_.note("-", "-", "-", 503, "too many connections");
@@ -202,9 +202,11 @@ void WebServer::serve(DeadlineStream& stream) {
       request.ranges.clear();  // parts are refused; the refusal is not an answer in parts either
       request.headers.erase("Accept-Encoding");  // packing costs more than a near network gains
     };
-    if (!processRequest(stream, count == kRequestsAConnection, closed, whole) || closed ||
-        stream.cut())
-      return;
+    const bool processed = processRequest(stream, count == kRequestsAConnection, closed, whole);
+    // The library has a bound of its own for a line: neither answered nor ended by the other side.
+    if (stream.cut() || !(processed || turn.answered || stream.left()))
+      return refusals_.note(turn.remote, "-", "-", 408, "a request was too slow or too long");
+    if (!processed || closed) return;
     if (turn.closes) return linger(stream.socket());
   }
 }

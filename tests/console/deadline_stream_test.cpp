@@ -46,7 +46,8 @@ TEST(DeadlineStream, GivesWhatCameInPiecesOfAnySize) {
     line.leave();
     stream.begin(Clock::now() + 30s, 1 << 20);
     EXPECT_EQ(readAll(stream, piece), said);
-    EXPECT_FALSE(stream.cut()) << "the other side ended it";
+    EXPECT_FALSE(stream.cut());
+    EXPECT_TRUE(stream.left());
   }
 }
 
@@ -58,6 +59,7 @@ TEST(DeadlineStream, EndsAtItsSize) {
     stream.begin(Clock::now() + 30s, most);
     EXPECT_EQ(readAll(stream, 777).size(), most);
     EXPECT_TRUE(stream.cut());
+    EXPECT_FALSE(stream.left());
   }
 }
 
