@@ -18,8 +18,8 @@ const top = resolve(dirname(fileURLToPath(import.meta.url)), "..");
 const build = join(top, "build", "tidy");
 const batchSize = 8;
 const wanted = 14;
-// Headers of X11 and OpenGL, and the resolver's, define everyday words as macros.
-const aloneIn = /<(X11|EGL|GL|resolv)|openxr_platform|glew|GLEW/;
+// Headers of X11 and OpenGL, and the resolver's (httplib's), define everyday words as macros.
+const aloneIn = /<(X11|EGL|GL|resolv|httplib)|openxr_platform|glew|GLEW/;
 
 function git(...words) {
   return execFileSync("git", ["-C", top, ...words], { encoding: "utf8" })

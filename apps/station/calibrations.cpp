@@ -108,7 +108,7 @@ std::string faultIn(const AppliedCalibration& c,
 std::string faultOf(const std::vector<AppliedCalibration>& calibrations,
                     const std::string& station) {
   for (const AppliedCalibration& c : calibrations)
-    if (const std::string fault = faultIn(c, calibrations, station); !fault.empty()) return fault;
+    if (std::string fault = faultIn(c, calibrations, station); !fault.empty()) return fault;
   return "";
 }
 

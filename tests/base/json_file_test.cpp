@@ -58,7 +58,7 @@ TEST(JsonFile, TextIsReadAsItsFileIs) {
 
 TEST(JsonFile, WhatIsNoFileIsRefused) {
   EXPECT_THROW(JsonFile("/nowhere/at.json"), UsageError);
-  EXPECT_THROW(JsonFile(std::filesystem::temp_directory_path()), UsageError);
+  EXPECT_THROW(JsonFile{std::filesystem::temp_directory_path()}, UsageError);
   EXPECT_THROW(JsonFile("/dev/zero"), UsageError);
 }
 

@@ -34,7 +34,7 @@ std::string heardOf(const Shown& shown, int presses) {
                 pack(Vec3(X_DP * Vec3(0, 0, height + 0.008))),
                 haptics::SensorState::valid,
                 {}};
-    if (const std::string words = check.add(r); !words.empty()) return words;
+    if (std::string words = check.add(r); !words.empty()) return words;
   }
   return "";
 }
